@@ -1,0 +1,54 @@
+// Arithmetic expressions: parsed once into a safe program, evaluated with exact derivatives.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pintle {
+
+/// Exponents of metre, kilogram, second, radian. `any` marks a bare number, which fits every dimension.
+struct Dimension {
+  std::array<std::int8_t, 4> exponents{0, 0, 0, 0};
+  bool any = false;
+  friend bool operator==(const Dimension&, const Dimension&) = default;
+};
+
+/// A number in SI units with its dimension.
+struct Quantity {
+  double si = 0;
+  Dimension dimension;
+};
+
+/// A parsed expression of named variables. Immutable; cheap to copy (shares its program); never throws on evaluation:
+/// a division by zero or a bad argument gives a NaN or infinity, which callers check.
+class Expression {
+ public:
+  Expression();                           ///< the constant 0
+  static Expression constant(double si);  ///< a constant
+
+  const std::string& text() const { return text_; }                          ///< as the user wrote it
+  const std::vector<std::string>& variables() const { return variables_; }   ///< e.g. {"t", "angle", "rate", "A.slide"}
+  bool is_constant() const;
+
+  /// Value at `values` (one per variable, SI).
+  double value(std::span<const double> values) const;
+  /// Value and all first derivatives (exact). `gradient` has one entry per variable.
+  double gradient(std::span<const double> values, std::span<double> gradient) const;
+  /// Value, first and second derivative with respect to variable `index`, the others held (exact).
+  std::array<double, 3> second_order(std::span<const double> values, std::size_t index) const;
+
+  struct Program;
+
+ private:
+  friend class ExpressionParser;
+  std::string text_ = "0";
+  std::vector<std::string> variables_;
+  std::shared_ptr<const Program> program_;
+};
+
+}  // namespace pintle

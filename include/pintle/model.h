@@ -1,0 +1,124 @@
+// The model: values and names, as the user stated them. It knows no indices, files or solvers.
+// Everything is SI and radians. A planar quantity uses x and y; angles turn about +z, counter-clockwise.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pintle/expression.h"
+
+namespace pintle {
+
+using Vec2 = std::array<double, 2>;
+
+/// A point and an axis fixed in a body (body axes, origin at the centre of mass) or in the ground.
+struct Marker {
+  std::string name;
+  Vec2 position{0, 0};  ///< [m]
+  double axis = 0;      ///< direction of the marker's x axis in body axes [rad]
+  friend bool operator==(const Marker&, const Marker&) = default;
+};
+
+/// A rigid body. Positions and velocities are of the centre of mass; absent values are found by assembly.
+struct Body {
+  std::string name;
+  double mass = 1;     ///< [kg]
+  double inertia = 1;  ///< about the centre of mass [kg*m^2]
+  std::optional<Vec2> position;  ///< guess [m]
+  std::optional<double> angle;   ///< guess [rad]
+  std::optional<Vec2> velocity;  ///< [m/s]
+  std::optional<double> spin;    ///< [rad/s]
+  std::array<bool, 3> hold{false, false, false};  ///< x, y, angle: assembly must not move these
+  std::vector<Marker> markers;
+  friend bool operator==(const Body&, const Body&) = default;
+};
+
+/// "body.marker"; the body "ground" is the world.
+struct MarkerRef {
+  std::string body;
+  std::string marker;
+  friend bool operator==(const MarkerRef&, const MarkerRef&) = default;
+};
+
+/// A joint law by its word in the catalog, with its parameters by name; a list has one value per gap component it covers.
+struct LawChoice {
+  std::string word = "linear";
+  std::map<std::string, std::vector<double>> values;
+  friend bool operator==(const LawChoice&, const LawChoice&) = default;
+};
+
+/// A joint: a probe (its `type`) between two markers and a law. F is on the first marker, M on the second.
+struct Joint {
+  std::string name;
+  std::string type;  ///< revolute, prismatic, fixed, slot, rod, rope, gear, rack
+  MarkerRef first, second;
+  std::map<std::string, double> geometry;  ///< rod, rope: length [m] (absent: as assembled); gear: radius_first, radius_second [m], internal (0 or 1); rack: radius [m]
+  LawChoice law;
+  friend bool operator==(const Joint&, const Joint&) = default;
+};
+
+/// A spring-damper along the line between two markers, or (torsion) in the angle between them.
+struct Spring {
+  std::string name;
+  bool torsion = false;
+  MarkerRef first, second;
+  double stiffness = 0;  ///< [N/m] or [N*m/rad]
+  double damping = 0;    ///< [N*s/m] or [N*m*s/rad]
+  std::optional<double> free_length;  ///< [m] or [rad]; absent: as assembled
+  std::optional<double> preload;      ///< tension at the assembled length [N], or moment on the second body towards smaller angles [N*m]
+  friend bool operator==(const Spring&, const Spring&) = default;
+};
+
+/// A force and a torque on a body at a marker, functions of t.
+struct AppliedForce {
+  std::string name;
+  MarkerRef on;
+  std::array<Expression, 2> force;  ///< [N]
+  Expression torque;                ///< [N*m]
+  bool body_axes = false;
+};
+
+enum class MotorKind { kEffort, kSpeed, kPosition };
+
+/// A motor in a joint's free coordinate. kEffort: torque or force = expression of t, the coordinate ("angle" or
+/// "slide"), "rate", and "J.angle", "J.slide", "J.rate" of other joints. kSpeed: a constant, coordinate(0) + speed*t is
+/// held by a servo. kPosition: expression of t, followed by a servo.
+struct Motor {
+  std::string name;
+  std::string joint;
+  MotorKind kind = MotorKind::kEffort;
+  Expression law;
+  double stiffness = 1e6;  ///< servo [N*m/rad] or [N/m]
+  double damping = 1e3;    ///< servo [N*m*s/rad] or [N*s/m]
+};
+
+enum class Start { kAssembled, kUnloaded, kRaw };
+
+/// How to run it.
+struct SimulateSettings {
+  double duration = 0;       ///< [s]; 0: not stated
+  double output_step = 0;    ///< [s]; 0: duration / 500
+  double tolerance = 1e-5;   ///< of the peak force of each joint [-]
+  std::string method = "auto";  ///< auto, radau, dopri5
+  Start start = Start::kAssembled;
+  double max_step = 0;       ///< [s]; 0: none
+};
+
+struct Model {
+  std::string name;
+  std::string description;
+  std::string space = "planar";
+  Vec2 gravity{0, -9.80665};  ///< [m/s^2]
+  SimulateSettings simulate;
+  std::vector<Marker> ground;
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  std::vector<Spring> springs;
+  std::vector<AppliedForce> forces;
+  std::vector<Motor> motors;
+};
+
+}  // namespace pintle

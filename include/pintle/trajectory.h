@@ -1,0 +1,77 @@
+// What a run gives: columns with name, unit and meaning; the energy account; the accuracy of every joint force; counters.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pintle {
+
+/// One column of the table. Joint forces are named `joint.<name>.on_<body>.fx[world]` and the like, so that body, axes and
+/// sign cannot be mistaken; `about` says the same in a sentence.
+struct Column {
+  std::string name;
+  std::string unit;
+  std::string about;
+};
+
+/// What one joint (or motor, or spring) carried, over the whole run. Magnitudes of the force [N] on the second body, and
+/// of the couple [N*m] about the second marker where the joint transmits one (`has_moment`).
+struct LoadSummary {
+  std::string name;
+  std::string type;
+  std::string first_body, second_body;
+  double peak = 0, rms = 0, mean = 0;  ///< of the magnitude
+  double peak_time = 0;                ///< [s]
+  bool has_moment = false;
+  double peak_moment = 0, rms_moment = 0, mean_moment = 0;
+  double error_estimate = 0;           ///< largest error of any component over the run, same unit as the component
+  double relative_error_estimate = 0;  ///< the same over the joint's peak [-]
+};
+
+/// A motor: peak, RMS and mean effort [N*m or N] and power [W].
+struct MotorSummary {
+  std::string name, joint, unit;
+  double peak_effort = 0, rms_effort = 0, mean_effort = 0;
+  double peak_power = 0, mean_power = 0, work = 0;
+};
+
+/// kinetic + potential + dissipated - supplied stays constant: `drift` is its largest departure [J].
+struct EnergyAccount {
+  double kinetic_start = 0, kinetic_end = 0, kinetic_peak = 0;
+  double potential_start = 0, potential_end = 0;  ///< gravity, springs and joints
+  double dissipated = 0;                          ///< in joints, dampers
+  double supplied = 0;                            ///< by motors and applied forces
+  double drift = 0;
+};
+
+struct Counters {
+  std::uint64_t steps = 0, rejected = 0, newton_iterations = 0, newton_failures = 0;
+  std::uint64_t evaluations = 0, factorizations = 0, passes = 0;
+};
+
+enum class Outcome { kCompleted, kToleranceNotMet, kInterrupted, kFailed };
+
+struct Trajectory {
+  std::vector<Column> columns;    ///< the first is the time
+  std::vector<double> values;     ///< row-major, n_rows x columns.size()
+  std::size_t n_rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }
+  double at(std::size_t row, std::size_t column) const { return values[row * columns.size() + column]; }
+  int column(const std::string& name) const;  ///< index, or -1
+
+  std::vector<LoadSummary> joints;
+  std::vector<LoadSummary> springs;
+  std::vector<MotorSummary> motors;
+  EnergyAccount energy;
+  Counters counters;
+  std::string method;        ///< the one used
+  double tolerance = 0;      ///< asked for
+  double wall_seconds = 0;   ///< assembly and integration
+  Outcome outcome = Outcome::kCompleted;
+  double t_end = 0;          ///< time reached [s]
+  std::string message;       ///< why it stopped early: time, step, the worst joints
+  std::vector<std::string> notes;  ///< what was assumed: assembled positions, opened distances, free lengths
+};
+
+}  // namespace pintle
