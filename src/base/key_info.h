@@ -1,0 +1,19 @@
+// One key of the model file that a law or a joint type brings along: the reader, the schema and the manual page read it.
+#pragma once
+
+#include <string_view>
+
+namespace pintle {
+
+struct KeyInfo {
+  std::string_view key;
+  std::string_view unit;           // "N/m"; "" for a pure number
+  double fallback = 0;             // value when absent
+  double minimum = 0;              // smallest value allowed
+  bool minimum_exclusive = false;  // the minimum itself is refused
+  bool required = false;
+  bool per_component = false;      // may be a list, one value per gap component it covers
+  std::string_view meaning;        // one line
+};
+
+}  // namespace pintle
