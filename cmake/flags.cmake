@@ -1,0 +1,23 @@
+# What every translation unit of Pintle is compiled with. The target is linked PRIVATE and never installed.
+add_library(pintle_flags INTERFACE)
+target_compile_features(pintle_flags INTERFACE cxx_std_20)
+target_include_directories(pintle_flags INTERFACE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
+target_compile_definitions(pintle_flags INTERFACE FMT_HEADER_ONLY=1 PINTLE_VERSION="${PROJECT_VERSION}")
+target_compile_options(pintle_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow
+  -ffp-contract=off)  # the same bits from every compiler that keeps to IEEE 754
+if(PINTLE_WERROR)
+  target_compile_options(pintle_flags INTERFACE -Werror)
+endif()
+if(PINTLE_NATIVE)
+  target_compile_options(pintle_flags INTERFACE -march=native)
+endif()
+if(PINTLE_SANITIZE)
+  target_compile_options(pintle_flags INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_definitions(pintle_flags INTERFACE _GLIBCXX_ASSERTIONS PINTLE_SANITIZED=1)
+  target_link_options(pintle_flags INTERFACE -fsanitize=address,undefined)
+endif()
+if(PINTLE_FUZZ)
+  target_compile_options(pintle_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()

@@ -1,0 +1,17 @@
+# Asks the test PROGRAM for its suites and writes one add_test for each into OUTPUT (run after the program is linked).
+execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listing RESULT_VARIABLE failed)
+if(failed)
+  file(REMOVE ${PROGRAM})
+  message(FATAL_ERROR "${PROGRAM} does not list its tests")
+endif()
+string(REPLACE ";" " " listing "${listing}")
+string(REPLACE "\n" ";" lines "${listing}")
+set(text "")
+foreach(line IN LISTS lines)
+  if(line MATCHES "^([A-Za-z0-9_/]+)\\.")
+    set(suite ${CMAKE_MATCH_1})
+    string(APPEND text "add_test(\"${suite}\" \"${PROGRAM}\" --gtest_brief=1 \"--gtest_filter=${suite}.*\")\n"
+      "set_tests_properties(\"${suite}\" PROPERTIES TIMEOUT 600 WORKING_DIRECTORY \"${FOLDER}\")\n")
+  endif()
+endforeach()
+file(WRITE ${OUTPUT} "${text}")

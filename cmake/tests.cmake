@@ -1,0 +1,61 @@
+# Tests. All of them are in one program, pintle_tests; ctest sees one entry per test suite. For work on a single room,
+# pintle_<room>_tests holds that room's tests only and compiles nothing on its right.
+set(PINTLE_SUITES_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/list_suites.cmake)
+
+function(pintle_test_program name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE pintle_flags ${arg_LINK} GTest::gtest GTest::gtest_main)
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_include_directories(${name} SYSTEM PRIVATE ${PINTLE_TOMLPP_INCLUDE})
+  target_compile_definitions(${name} PRIVATE TOML_HEADER_ONLY=1
+    PINTLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PINTLE_BINARY="${PROJECT_BINARY_DIR}/bin/pintle")
+endfunction()
+
+# One ctest entry per suite, listed by the program itself after each build.
+function(pintle_register_suites name)
+  set(list ${PROJECT_BINARY_DIR}/${name}_suites.cmake)
+  if(NOT EXISTS ${list})
+    file(WRITE ${list} "")
+  endif()
+  add_custom_command(TARGET ${name} POST_BUILD
+    COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${name}> -DOUTPUT=${list} -DFOLDER=${PROJECT_BINARY_DIR}
+            -P ${PINTLE_SUITES_SCRIPT}
+    BYPRODUCTS ${list} VERBATIM)
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${list})
+endfunction()
+
+function(pintle_add_tests)
+  find_package(GTest REQUIRED)
+  set(all "")
+  foreach(room IN LISTS PINTLE_ROOMS)
+    file(GLOB tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${room}/*_test.cpp)
+    if(tests)
+      pintle_test_program(pintle_${room}_tests SOURCES ${tests} LINK pintle_${room})
+      set_target_properties(pintle_${room}_tests PROPERTIES EXCLUDE_FROM_ALL ON)
+      list(APPEND all ${tests})
+    endif()
+  endforeach()
+  file(GLOB tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/*.cpp ${PROJECT_SOURCE_DIR}/cli/*_test.cpp)
+  list(APPEND all ${tests})
+  if(NOT all)
+    return()
+  endif()
+  pintle_test_program(pintle_tests SOURCES ${all} LINK $<TARGET_NAME_IF_EXISTS:pintle_verbs> pintle_io)
+  if(TARGET pintle_cli)
+    add_dependencies(pintle_tests pintle_cli)
+  endif()
+  pintle_register_suites(pintle_tests)
+endfunction()
+
+# tests/fuzz/<name>_fuzz.cpp becomes <name>_fuzz.
+function(pintle_add_fuzzers)
+  file(GLOB fuzzers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/fuzz/*_fuzz.cpp)
+  foreach(source IN LISTS fuzzers)
+    get_filename_component(name ${source} NAME_WE)
+    add_executable(${name} ${source})
+    target_link_libraries(${name} PRIVATE pintle_flags pintle_io)
+    target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/fuzz)
+  endforeach()
+endfunction()
