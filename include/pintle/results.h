@@ -1,0 +1,58 @@
+// A run on disk and on the console: the run folder (series.csv, summary.json), its table, and reading it back.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include "pintle/trajectory.h"
+
+namespace pintle {
+
+/// Where a run came from.
+struct RunStamp {
+  std::string model_name;
+  std::string model_path;
+  std::string input_hash;  ///< "sha256:..." of the model file's bytes
+  std::string version;     ///< of the program that ran it
+  std::string command_line;
+};
+
+struct RunRecord {
+  RunStamp stamp;
+  Trajectory trajectory;
+};
+
+/// A file or folder that cannot be read or written: which one, why, what to try.
+class FileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What write_run may replace. In either case only series.csv and summary.json are: other files in the folder stay.
+enum class Overwrite {
+  kRunFolder,  ///< nothing but an earlier run, or an empty folder
+  kAnyFolder,  ///< any folder
+};
+
+/// Throws FileError if write_run() would refuse `folder`: asked before a long run rather than after it.
+void check_run_folder(const std::filesystem::path& folder, Overwrite overwrite = Overwrite::kRunFolder);
+
+/// Writes the run folder. It is made under another name beside `folder`, synced and then renamed, so that `folder` is
+/// at every moment either as it was or complete. Throws FileError, having removed what it began.
+void write_run(const Trajectory& trajectory, const RunStamp& stamp, const std::filesystem::path& folder,
+               Overwrite overwrite = Overwrite::kRunFolder);
+
+/// Reads a run folder back. Throws FileError where it is damaged.
+RunRecord read_run(const std::filesystem::path& folder);
+
+/// The text of summary.json: everything in the trajectory but the values.
+std::string summary_json(const Trajectory& trajectory, const RunStamp& stamp);
+
+/// The same for people: joints, springs, motors, energy account, counters. `colour` adds terminal escapes.
+std::string summary_text(const Trajectory& trajectory, const RunStamp& stamp, bool colour = false);
+
+/// "completed", "tolerance_not_met", "interrupted" or "failed".
+std::string to_text(Outcome outcome);
+
+}  // namespace pintle

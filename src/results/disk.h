@@ -1,0 +1,70 @@
+// Writing to disk so that a reader sees the old content or the new, never a half: temporary sibling, sync, rename.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "pintle/results.h"
+
+namespace pintle {
+
+/// The system calls that can fail when a disk is full or broken; tests put failing ones here.
+struct DiskCalls {
+  std::function<ssize_t(int, const void*, size_t)> write;  ///< as write(2)
+  std::function<int(int)> sync;                            ///< as fsync(2)
+  DiskCalls();
+};
+
+/// A FileError that names the path, the system's reason and what to try.
+FileError file_error(const std::filesystem::path& path, std::string_view doing, int error_number);
+
+/// A new file, buffered. Nothing is promised until close() has returned.
+class NewFile {
+ public:
+  NewFile(const std::filesystem::path& path, const DiskCalls& calls);
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+  ~NewFile();
+
+  void append(std::string_view text);
+  void close();  ///< flushes and syncs
+
+ private:
+  void flush();
+
+  std::filesystem::path path_;
+  const DiskCalls& calls_;
+  std::string buffer_;
+  int descriptor_ = -1;
+};
+
+/// A folder that is filled under a temporary name and appears under its own by publish(). Destroyed before that, it
+/// leaves no trace.
+class NewFolder {
+ public:
+  NewFolder(const std::filesystem::path& target, const DiskCalls& calls);
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+  ~NewFolder();
+
+  const std::filesystem::path& path() const { return path_; }  ///< the temporary one, to write files into
+  /// Takes the target's place; entries of the old target that the new folder does not have are moved over.
+  void publish();
+
+ private:
+  std::filesystem::path target_, path_;
+  const DiskCalls& calls_;
+  bool published_ = false;
+};
+
+/// Writes `text` to `path` in one atomic replacement; straight through where `path` is a pipe or a device.
+void write_file(const std::filesystem::path& path, std::string_view text, const DiskCalls& calls = {});
+
+/// The whole file. Throws FileError.
+std::string read_file(const std::filesystem::path& path);
+
+}  // namespace pintle

@@ -1,0 +1,84 @@
+#include "results/run_folder.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "results/series_csv.h"
+#include "results/summary_json.h"
+
+namespace pintle {
+namespace fs = std::filesystem;
+namespace {
+
+bool holds_a_run(const fs::path& folder) {
+  try {
+    return is_summary(read_file(folder / kSummaryFile));
+  } catch (const FileError&) {
+    return false;
+  }
+}
+
+/// The summary has what each column is about; names and units must agree with the series.
+void check_columns(const std::vector<Column>& promised, const std::vector<Column>& found, const fs::path& series) {
+  if (promised.size() != found.size())
+    throw FileError(fmt::format("{}:1:1: found {} columns: {} lists {}.", series.string(), found.size(), kSummaryFile,
+                                promised.size()));
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (promised[i].name != found[i].name || promised[i].unit != found[i].unit)
+      throw FileError(fmt::format("{}:1: found column {} \"{}\" [{}]: {} calls it \"{}\" [{}].", series.string(), i + 1,
+                                  found[i].name, found[i].unit, kSummaryFile, promised[i].name, promised[i].unit));
+}
+
+}  // namespace
+
+void check_run_folder(const fs::path& folder, Overwrite overwrite) {
+  std::error_code error;
+  const fs::file_status status = fs::status(folder, error);
+  if (!fs::exists(status)) return;
+  if (!fs::is_directory(status))
+    throw FileError(fmt::format("{}: it is a file, and a run needs a folder.\n    Choose another place with --out.",
+                                folder.string()));
+  const bool empty = fs::is_empty(folder, error);
+  if (error) throw file_error(folder, "look into", error.value());
+  if (overwrite == Overwrite::kAnyFolder || empty || holds_a_run(folder)) return;
+  throw FileError(
+      fmt::format("{}: this folder exists and is not an earlier run (it has no {} of ours).\n    Choose another place "
+                  "with --out, or put the run among its files with --force.",
+                  folder.string(), kSummaryFile));
+}
+
+void write_run(const Trajectory& trajectory, const RunStamp& stamp, const fs::path& folder, Overwrite overwrite,
+               const DiskCalls& calls) {
+  check_run_folder(folder, overwrite);
+  NewFolder fresh(folder, calls);
+  NewFile series(fresh.path() / kSeriesFile, calls);
+  write_series(trajectory, [&series](std::string_view text) { series.append(text); });
+  series.close();
+  NewFile summary(fresh.path() / kSummaryFile, calls);
+  summary.append(summary_json(trajectory, stamp));
+  summary.close();
+  fresh.publish();
+}
+
+void write_run(const Trajectory& trajectory, const RunStamp& stamp, const fs::path& folder, Overwrite overwrite) {
+  write_run(trajectory, stamp, folder, overwrite, DiskCalls());
+}
+
+RunRecord read_run(const fs::path& folder) {
+  if (!fs::is_directory(folder))
+    throw FileError(fmt::format("{}: there is no such run folder.\n    Make one with pintle run.", folder.string()));
+  Summary summary = parse_summary(read_file(folder / kSummaryFile), folder / kSummaryFile);
+  RunRecord run = std::move(summary.run);
+  std::vector<Column> promised = std::move(run.trajectory.columns);
+  const fs::path series = folder / kSeriesFile;
+  read_series(read_file(series), series, run.trajectory);
+  check_columns(promised, run.trajectory.columns, series);
+  run.trajectory.columns = std::move(promised);
+  if (run.trajectory.n_rows() != summary.n_rows)
+    throw FileError(fmt::format("{}: found {} rows: {} promises {}.", series.string(), run.trajectory.n_rows(),
+                                kSummaryFile, summary.n_rows));
+  return run;
+}
+
+}  // namespace pintle

@@ -1,0 +1,170 @@
+#include "results/series_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <version>
+
+namespace pintle {
+namespace {
+
+constexpr std::string_view kLineEnd = "\r\n";  // RFC 4180, section 2.1
+
+std::string as_field(std::string_view field) {
+  if (field.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(field);
+  std::string text = "\"";
+  for (const char c : field) {
+    if (c == '"') text += '"';
+    text += c;
+  }
+  return text + '"';
+}
+
+std::string header_row(const Trajectory& trajectory, std::string Column::*entry) {
+  std::string row;
+  for (const Column& column : trajectory.columns) {
+    if (&column != trajectory.columns.data()) row += ',';
+    row += as_field(column.*entry);
+  }
+  return row.append(kLineEnd);
+}
+
+std::optional<double> number(std::string_view field) {
+  double value = 0;
+#ifdef __cpp_lib_to_chars
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  const bool whole = error == std::errc{} && end == field.data() + field.size();
+#else
+  const std::string copy(field);
+  char* end = nullptr;
+  value = std::strtod(copy.c_str(), &end);
+  const bool whole = !copy.empty() && end == copy.c_str() + copy.size();
+#endif
+  return whole ? std::optional(value) : std::nullopt;
+}
+
+/// Walks through the fields of a table and knows where it is.
+class FieldReader {
+ public:
+  FieldReader(std::string_view text, const std::filesystem::path& path) : rest_(text), path_(path) {}
+
+  bool at_end() const { return rest_.empty(); }
+
+  /// The next field of this row; after the row's last one `row_done()` is true.
+  std::string next() {
+    row_done_ = false;
+    field_line_ = line_;
+    field_column_ = column_;
+    std::string field = !rest_.empty() && rest_.front() == '"' ? take_quoted() : take_plain();
+    finish_field();
+    return field;
+  }
+
+  bool row_done() const { return row_done_; }
+
+  [[noreturn]] void fail(std::string_view found, std::string_view because) const {
+    throw FileError(
+        fmt::format("{}:{}:{}: series\n    found {}: {}.", path_.string(), field_line_, field_column_, found, because));
+  }
+
+ private:
+  std::string take_plain() {
+    const std::size_t n = std::min(rest_.find_first_of(",\r\n"), rest_.size());
+    const std::string field(rest_.substr(0, n));
+    drop(n);
+    return field;
+  }
+
+  std::string take_quoted() {
+    std::string field;
+    drop(1);
+    while (!rest_.empty()) {
+      const char c = rest_.front();
+      drop(1);
+      if (c == '\n') next_line();
+      if (c != '"') {
+        field += c;
+      } else if (!rest_.empty() && rest_.front() == '"') {
+        field += '"';
+        drop(1);
+      } else {
+        return field;
+      }
+    }
+    fail("a quote", "it is never closed");
+  }
+
+  void finish_field() {
+    if (!rest_.empty() && rest_.front() == ',') return drop(1);
+    if (rest_.substr(0, 2) == kLineEnd) drop(1);
+    if (!rest_.empty() && rest_.front() != '\n')
+      fail("text after a quoted field", "a comma or the line's end belongs here");
+    if (!rest_.empty()) drop(1);
+    next_line();
+    row_done_ = true;
+  }
+
+  void drop(std::size_t n) {
+    rest_.remove_prefix(n);
+    column_ += n;
+  }
+
+  void next_line() {
+    ++line_;
+    column_ = 1;
+  }
+
+  std::string_view rest_;
+  const std::filesystem::path& path_;
+  std::size_t line_ = 1, column_ = 1, field_line_ = 1, field_column_ = 1;
+  bool row_done_ = false;
+};
+
+}  // namespace
+
+void write_series(const Trajectory& trajectory, const std::function<void(std::string_view)>& append) {
+  append(header_row(trajectory, &Column::name));
+  append(header_row(trajectory, &Column::unit));
+  fmt::memory_buffer row;
+  const std::size_t n_columns = trajectory.columns.size();
+  for (std::size_t i = 0; i < trajectory.n_rows(); ++i) {
+    row.clear();
+    for (std::size_t j = 0; j < n_columns; ++j) {
+      if (j > 0) row.push_back(',');
+      fmt::format_to(std::back_inserter(row), "{}", trajectory.at(i, j));
+    }
+    row.append(kLineEnd);
+    append({row.data(), row.size()});
+  }
+}
+
+void read_series(std::string_view text, const std::filesystem::path& path, Trajectory& trajectory) {
+  FieldReader reader(text, path);
+  trajectory.columns.clear();
+  trajectory.values.clear();
+  if (reader.at_end()) reader.fail("an empty file", "a header row of column names is expected");
+  do {
+    trajectory.columns.push_back({reader.next(), {}, {}});
+  } while (!reader.row_done());
+  const std::size_t n_columns = trajectory.columns.size();
+  for (std::size_t row = 0; row == 0 || !reader.at_end(); ++row) {
+    if (reader.at_end()) reader.fail("no second row", "a header row of units is expected");
+    for (std::size_t i = 0; i < n_columns; ++i) {
+      std::string field = reader.next();
+      const std::optional<double> value = row == 0 ? 0 : number(field);
+      if (!value) reader.fail(fmt::format("\"{}\"", field), "it is not a number");
+      if (row == 0) trajectory.columns[i].unit = std::move(field);
+      if (row > 0) trajectory.values.push_back(*value);
+      if (reader.row_done() != (i + 1 == n_columns))
+        reader.fail(fmt::format("{} {} fields", reader.row_done() ? "only" : "more than", i + 1),
+                    fmt::format("the header row has {}", n_columns));
+    }
+  }
+}
+
+}  // namespace pintle

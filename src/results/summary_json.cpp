@@ -1,0 +1,227 @@
+#include "results/summary_json.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace pintle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kMarker = "pintle_run";  // its value is the format's number
+constexpr int kFormat = 1;
+
+constexpr std::array<std::pair<Outcome, const char*>, 4> kOutcomes{{
+    {Outcome::kCompleted, "completed"},
+    {Outcome::kToleranceNotMet, "tolerance_not_met"},
+    {Outcome::kInterrupted, "interrupted"},
+    {Outcome::kFailed, "failed"},
+}};
+
+// One text per structure serves both directions: `visit(key, member)` stores into JSON or loads from it.
+
+template <class Load, class Visit>
+void for_each_entry(Load& load, const Visit& visit) requires requires {
+  load.peak_moment;
+}
+{
+  visit("name", load.name);
+  visit("type", load.type);
+  visit("first_body", load.first_body);
+  visit("second_body", load.second_body);
+  visit("peak", load.peak);
+  visit("peak_time", load.peak_time);
+  visit("rms", load.rms);
+  visit("mean", load.mean);
+  visit("has_moment", load.has_moment);
+  visit("peak_moment", load.peak_moment);
+  visit("rms_moment", load.rms_moment);
+  visit("mean_moment", load.mean_moment);
+  visit("error_estimate", load.error_estimate);
+  visit("relative_error_estimate", load.relative_error_estimate);
+}
+
+template <class Motor, class Visit>
+void for_each_entry(Motor& motor, const Visit& visit) requires requires {
+  motor.peak_effort;
+}
+{
+  visit("name", motor.name);
+  visit("joint", motor.joint);
+  visit("unit", motor.unit);
+  visit("peak_effort", motor.peak_effort);
+  visit("rms_effort", motor.rms_effort);
+  visit("mean_effort", motor.mean_effort);
+  visit("peak_power", motor.peak_power);
+  visit("mean_power", motor.mean_power);
+  visit("work", motor.work);
+}
+
+template <class Energy, class Visit>
+void for_each_entry(Energy& energy, const Visit& visit) requires requires {
+  energy.dissipated;
+}
+{
+  visit("kinetic_start", energy.kinetic_start);
+  visit("kinetic_end", energy.kinetic_end);
+  visit("kinetic_peak", energy.kinetic_peak);
+  visit("potential_start", energy.potential_start);
+  visit("potential_end", energy.potential_end);
+  visit("dissipated", energy.dissipated);
+  visit("supplied", energy.supplied);
+  visit("drift", energy.drift);
+}
+
+template <class Counts, class Visit>
+void for_each_entry(Counts& counts, const Visit& visit) requires requires {
+  counts.newton_iterations;
+}
+{
+  visit("steps", counts.steps);
+  visit("rejected", counts.rejected);
+  visit("newton_iterations", counts.newton_iterations);
+  visit("newton_failures", counts.newton_failures);
+  visit("evaluations", counts.evaluations);
+  visit("factorizations", counts.factorizations);
+  visit("passes", counts.passes);
+}
+
+template <class Named, class Visit>
+void for_each_entry(Named& column, const Visit& visit) requires requires {
+  column.about;
+}
+{
+  visit("name", column.name);
+  visit("unit", column.unit);
+  visit("about", column.about);
+}
+
+template <class Stamp, class Visit>
+void for_each_entry(Stamp& stamp, const Visit& visit) requires requires {
+  stamp.model_path;
+}
+{
+  visit("version", stamp.version);
+  visit("model", stamp.model_name);
+  visit("model_path", stamp.model_path);
+  visit("input_hash", stamp.input_hash);
+  visit("command_line", stamp.command_line);
+}
+
+template <class T>
+Json to_json(const T& structure) {
+  Json json = Json::object();
+  for_each_entry(structure, [&json](const char* key, const auto& member) { json[key] = member; });
+  return json;
+}
+
+template <class T>
+Json to_json(const std::vector<T>& list) {
+  Json json = Json::array();
+  for (const T& entry : list) json.push_back(to_json(entry));
+  return json;
+}
+
+void load(const Json& json, double& value) {
+  value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();  // JSON has no NaN, infinity
+}
+
+template <class T>
+void load(const Json& json, T& value) {
+  json.get_to(value);
+}
+
+template <class T>
+void from_json(const Json& json, T& structure) {
+  for_each_entry(structure, [&json](const char* key, auto& member) { load(json.at(key), member); });
+}
+
+template <class T>
+void from_json(const Json& json, std::vector<T>& list) {
+  for (const Json& entry : json) from_json(entry, list.emplace_back());
+}
+
+Json units() {
+  return {{"force", "N"}, {"moment", "N*m"}, {"time", "s"}, {"energy", "J"}, {"power", "W"}};
+}
+
+Outcome outcome_from(const std::string& word) {
+  for (const auto& [outcome, text] : kOutcomes)
+    if (word == text) return outcome;
+  throw std::invalid_argument(fmt::format("unknown outcome \"{}\"", word));
+}
+
+Summary summary_from(const Json& json) {
+  if (const int format = json.at(kMarker).get<int>(); format != kFormat)
+    throw std::invalid_argument(
+        fmt::format("run format {} is not known to this version, which reads {}", format, kFormat));
+  Summary summary;
+  Trajectory& trajectory = summary.run.trajectory;
+  from_json(json, summary.run.stamp);
+  trajectory.outcome = outcome_from(json.at("outcome").get<std::string>());
+  load(json.at("message"), trajectory.message);
+  load(json.at("notes"), trajectory.notes);
+  load(json.at("method"), trajectory.method);
+  load(json.at("tolerance"), trajectory.tolerance);
+  load(json.at("t_end"), trajectory.t_end);
+  load(json.at("wall_seconds"), trajectory.wall_seconds);
+  load(json.at("rows"), summary.n_rows);
+  from_json(json.at("joints"), trajectory.joints);
+  from_json(json.at("springs"), trajectory.springs);
+  from_json(json.at("motors"), trajectory.motors);
+  from_json(json.at("energy"), trajectory.energy);
+  from_json(json.at("counters"), trajectory.counters);
+  from_json(json.at("columns"), trajectory.columns);
+  return summary;
+}
+
+}  // namespace
+
+std::string to_text(Outcome outcome) {
+  for (const auto& [value, text] : kOutcomes)
+    if (value == outcome) return text;
+  return "failed";
+}
+
+std::string summary_json(const Trajectory& trajectory, const RunStamp& stamp) {
+  Json json = {{kMarker, kFormat}};
+  json.update(to_json(stamp));
+  json["outcome"] = to_text(trajectory.outcome);
+  json["message"] = trajectory.message;
+  json["notes"] = trajectory.notes;
+  json["method"] = trajectory.method;
+  json["tolerance"] = trajectory.tolerance;
+  json["t_end"] = trajectory.t_end;
+  json["wall_seconds"] = trajectory.wall_seconds;
+  json["units"] = units();
+  json["joints"] = to_json(trajectory.joints);
+  json["springs"] = to_json(trajectory.springs);
+  json["motors"] = to_json(trajectory.motors);
+  json["energy"] = to_json(trajectory.energy);
+  json["counters"] = to_json(trajectory.counters);
+  json["rows"] = trajectory.n_rows();
+  json["columns"] = to_json(trajectory.columns);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Summary parse_summary(std::string_view text, const std::filesystem::path& path) {
+  try {
+    return summary_from(Json::parse(text));
+  } catch (const Json::exception& error) {
+    throw FileError(fmt::format("{}: it is not a summary that pintle run wrote: {}.", path.string(), error.what()));
+  } catch (const std::invalid_argument& error) {
+    throw FileError(fmt::format("{}: {}.", path.string(), error.what()));
+  }
+}
+
+bool is_summary(std::string_view text) {
+  const Json json = Json::parse(text, nullptr, false);
+  return json.is_object() && json.contains(kMarker);
+}
+
+}  // namespace pintle

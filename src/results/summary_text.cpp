@@ -1,0 +1,154 @@
+// The summary for people.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "pintle/results.h"
+#include "results/text_table.h"
+
+namespace pintle {
+namespace {
+
+using Align = TextTable::Align;
+
+struct Style {
+  std::string bold, warn, plain;
+  explicit Style(bool colour)
+      : bold(colour ? "\x1b[1m" : ""), warn(colour ? "\x1b[1;31m" : ""), plain(colour ? "\x1b[0m" : "") {}
+};
+
+/// Seconds with the prefix that suits them.
+std::string duration_text(double seconds) {
+  if (seconds < 1e-3) return fmt::format("{:.3g} us", seconds * 1e6);
+  if (seconds < 1) return fmt::format("{:.3g} ms", seconds * 1e3);
+  if (seconds < 120) return fmt::format("{:.3g} s", seconds);
+  return fmt::format("{:.1f} min", seconds / 60);
+}
+
+std::string heading(const Trajectory& trajectory, const RunStamp& stamp, const Style& style) {
+  const bool good = trajectory.outcome == Outcome::kCompleted;
+  std::string word = to_text(trajectory.outcome);
+  std::replace(word.begin(), word.end(), '_', ' ');
+  const std::string name = stamp.model_name.empty() ? stamp.model_path : stamp.model_name;
+  std::string text = fmt::format("{}{}{}\n{}{}{}: {:.6g} s of model time in {}, {} output rows\n", style.bold, name,
+                                 style.plain, good ? "" : style.warn, word, style.plain, trajectory.t_end,
+                                 duration_text(trajectory.wall_seconds), trajectory.n_rows());
+  if (!trajectory.message.empty()) text += fmt::format("  {}\n", trajectory.message);
+  return text;
+}
+
+std::string section(const std::string& title, const TextTable& table, const Style& style) {
+  return table.empty() ? "" : fmt::format("\n{}\n{}", title, table.text(style.bold, style.plain));
+}
+
+bool too_inaccurate(const LoadSummary& load, double tolerance) {
+  return tolerance > 0 && !(load.relative_error_estimate <= tolerance);  // a NaN is too inaccurate as well
+}
+
+std::string joint_section(const Trajectory& trajectory, const Style& style) {
+  TextTable table;
+  for (const char* head : {"joint", "type", "on", "by"}) table.add_column(head, Align::kLeft);
+  table.add_column("peak", Align::kNumber, "N");
+  table.add_column("at t", Align::kNumber, "s");
+  table.add_column("RMS", Align::kNumber, "N");
+  table.add_column("error est.", Align::kNumber, "N");
+  table.add_column("of peak", Align::kNumber, "-");
+  table.add_column("", Align::kLeft);
+  bool any_marked = false;
+  for (const LoadSummary& load : trajectory.joints) {
+    const bool marked = too_inaccurate(load, trajectory.tolerance);
+    any_marked = any_marked || marked;
+    table.add_row({load.name, load.type, load.second_body, load.first_body, engineering(load.peak),
+                   engineering(load.peak_time), engineering(load.rms), exponent(load.error_estimate),
+                   exponent(load.relative_error_estimate), marked ? style.warn + "<" + style.plain : ""});
+  }
+  std::string text = section("Joint forces (magnitude)", table, style);
+  if (any_marked)
+    text += fmt::format("  {}<{} the estimate exceeds the tolerance of {:g} of the peak\n", style.warn, style.plain,
+                        trajectory.tolerance);
+  return text;
+}
+
+std::string moment_section(const Trajectory& trajectory, const Style& style) {
+  TextTable table;
+  for (const char* head : {"joint", "on", "by"}) table.add_column(head, Align::kLeft);
+  for (const char* head : {"peak", "RMS", "mean"}) table.add_column(head, Align::kNumber, "N*m");
+  for (const LoadSummary& load : trajectory.joints)
+    if (load.has_moment)
+      table.add_row({load.name, load.second_body, load.first_body, engineering(load.peak_moment),
+                     engineering(load.rms_moment), engineering(load.mean_moment)});
+  return section("Joint couples about the second marker (magnitude)", table, style);
+}
+
+std::string spring_section(const Trajectory& trajectory, const Style& style) {
+  TextTable table;
+  for (const char* head : {"spring", "on", "by"}) table.add_column(head, Align::kLeft);
+  for (const char* head : {"peak", "RMS", "mean"}) table.add_column(head, Align::kNumber);
+  table.add_column("unit", Align::kLeft);
+  for (const LoadSummary& load : trajectory.springs) {
+    const bool turns = load.has_moment;
+    table.add_row({load.name, load.second_body, load.first_body, engineering(turns ? load.peak_moment : load.peak),
+                   engineering(turns ? load.rms_moment : load.rms), engineering(turns ? load.mean_moment : load.mean),
+                   turns ? "N*m" : "N"});
+  }
+  return section("Springs (magnitude)", table, style);
+}
+
+std::string motor_section(const Trajectory& trajectory, const Style& style) {
+  TextTable table;
+  for (const char* head : {"motor", "joint"}) table.add_column(head, Align::kLeft);
+  for (const char* head : {"peak", "RMS", "mean"}) table.add_column(head, Align::kNumber);
+  table.add_column("unit", Align::kLeft);
+  for (const char* head : {"peak power", "mean power"}) table.add_column(head, Align::kNumber, "W");
+  table.add_column("work", Align::kNumber, "J");
+  for (const MotorSummary& motor : trajectory.motors)
+    table.add_row({motor.name, motor.joint, engineering(motor.peak_effort), engineering(motor.rms_effort),
+                   engineering(motor.mean_effort), motor.unit, engineering(motor.peak_power),
+                   engineering(motor.mean_power), engineering(motor.work)});
+  return section("Motors", table, style);
+}
+
+std::string energy_section(const EnergyAccount& energy, const Style& style) {
+  TextTable table;
+  table.add_column("", Align::kLeft);
+  for (const char* head : {"kinetic", "potential", "dissipated", "supplied"})
+    table.add_column(head, Align::kNumber, "J");
+  table.add_row({"start", engineering(energy.kinetic_start), engineering(energy.potential_start), "0", "0"});
+  table.add_row({"end", engineering(energy.kinetic_end), engineering(energy.potential_end),
+                 engineering(energy.dissipated), engineering(energy.supplied)});
+  std::string text = section("Energy account", table, style);
+  text += fmt::format("  kinetic + potential + dissipated - supplied drifts by {} J", exponent(energy.drift));
+  if (energy.kinetic_peak > 0)
+    text += fmt::format(" ({} of the peak kinetic energy)", exponent(energy.drift / energy.kinetic_peak));
+  return text + "\n";
+}
+
+std::string work_section(const Trajectory& trajectory) {
+  const Counters& n = trajectory.counters;
+  return fmt::format(
+      "\nMethod {}, tolerance {:g}: {} steps ({} rejected), {} Newton iterations ({} failures), {} evaluations, {} "
+      "factorizations, {} {}\n",
+      trajectory.method, trajectory.tolerance, n.steps, n.rejected, n.newton_iterations, n.newton_failures,
+      n.evaluations, n.factorizations, n.passes, n.passes == 1 ? "pass" : "passes");
+}
+
+}  // namespace
+
+std::string summary_text(const Trajectory& trajectory, const RunStamp& stamp, bool colour) {
+  const Style style(colour);
+  std::string text = heading(trajectory, stamp, style);
+  text += joint_section(trajectory, style);
+  text += moment_section(trajectory, style);
+  text += spring_section(trajectory, style);
+  text += motor_section(trajectory, style);
+  text += energy_section(trajectory.energy, style);
+  text += work_section(trajectory);
+  if (!trajectory.notes.empty()) text += "\nNotes\n";
+  for (const std::string& note : trajectory.notes) text += fmt::format("  {}\n", note);
+  return text;
+}
+
+}  // namespace pintle

@@ -1,0 +1,62 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "results/sample_run_for_tests.h"
+#include "results/text_table.h"
+
+namespace pintle {
+namespace {
+
+TEST(Engineering, FiveDigitsFixedWhereReadable) {
+  EXPECT_EQ(engineering(0), "0");
+  EXPECT_EQ(engineering(312.25), "312.25");
+  EXPECT_EQ(engineering(-31225.4), "-31225");
+  EXPECT_EQ(engineering(0.00123456), "0.0012346");
+  EXPECT_EQ(engineering(999999), "999999");
+  EXPECT_EQ(engineering(999999.7), "1.0000e+06");
+  EXPECT_EQ(engineering(1.5e-7), "1.5000e-07");
+  EXPECT_EQ(engineering(std::numeric_limits<double>::infinity()), "inf");
+  EXPECT_EQ(engineering(std::nan("")), "nan");
+}
+
+TEST(TextTable, AlignsAtTheDecimalPoint) {
+  TextTable table;
+  table.add_column("joint", TextTable::Align::kLeft);
+  table.add_column("peak", TextTable::Align::kNumber, "N");
+  table.add_row({"A", "312.25"});
+  table.add_row({"crank", "8.5"});
+  table.add_row({"über", "31225"});
+  EXPECT_EQ(table.text(),
+            "  joint   peak [N]\n"
+            "  A         312.25\n"
+            "  crank       8.5\n"
+            "  über    31225\n");
+}
+
+TEST(SummaryText, SaysWhatADesignerLooksFor) {
+  const std::string text = summary_text(sample::trajectory(), sample::stamp());
+  for (const char* expected : {"Four-bar, section 8", "completed: 0.5 s of model time in 350 us", "312.25", "0.123",
+                               "1.5e-04", "4.8e-07", "revolute", "rocker", "N*m", "18 steps (2 rejected)", "2 passes",
+                               "rocker was moved by 0.2 mm", "drifts by 2.0e-05 J"})
+    EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  EXPECT_NE(summary_text(sample::trajectory(), sample::stamp(), true).find('\x1b'), std::string::npos);
+}
+
+TEST(SummaryText, MarksJointsBeyondTheTolerance) {
+  Trajectory trajectory = sample::trajectory();
+  EXPECT_NE(summary_text(trajectory, {}).find("exceeds the tolerance"), std::string::npos);
+  trajectory.joints[1].relative_error_estimate = 9e-6;
+  EXPECT_EQ(summary_text(trajectory, {}).find("exceeds the tolerance"), std::string::npos);
+  trajectory.joints[1].relative_error_estimate = std::nan("");
+  EXPECT_NE(summary_text(trajectory, {}).find("exceeds the tolerance"), std::string::npos);
+}
+
+TEST(SummaryText, EmptyTrajectoryIsNoAccident) {
+  EXPECT_NE(summary_text({}, {}).find("completed"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pintle
