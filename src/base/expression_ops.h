@@ -1,0 +1,87 @@
+// The operations of expression programs, and their values. Derivatives: jet.h.
+//
+// At kinks: abs and sign have slope 0 at 0; min and max follow their first argument where both are equal; step is 1 at
+// 0; smoothstep is flat at both ends; a comparison, step and sign have slope 0 everywhere. NaN goes through everything.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace pintle {
+
+enum class Op : unsigned char {
+  // nothing on the stack
+  kConstant,
+  kVariable,
+  // one operand
+  kNegate,
+  kSin,
+  kCos,
+  kTan,
+  kAsin,
+  kAcos,
+  kAtan,
+  kSinh,
+  kCosh,
+  kTanh,
+  kExp,
+  kLog,
+  kSqrt,
+  kAbs,
+  kSign,
+  kStep,
+  // two operands
+  kAdd,
+  kSubtract,
+  kMultiply,
+  kDivide,
+  kPower,
+  kAtan2,
+  kMin,
+  kMax,
+  kLess,
+  kGreater,
+  kLessEqual,
+  kGreaterEqual,
+  // three operands
+  kSmoothstep,
+  kIf,
+};
+
+/// Number of operands.
+constexpr int arity(Op op) {
+  if (op <= Op::kVariable) return 0;
+  if (op <= Op::kStep) return 1;
+  return op <= Op::kGreaterEqual ? 2 : 3;
+}
+
+/// How a function treats dimensions.
+enum class FunctionRule {
+  kPureToPure,    // sin, exp: numbers or angles in, a number out
+  kPureToAngle,   // asin
+  kSignToPure,    // sign, step: only the sign of the argument matters
+  kKeep,          // abs
+  kSquareRoot,    // sqrt
+  kAlikeKeep,     // min, max
+  kAlikeToAngle,  // atan2
+  kAlikeToPure,   // smoothstep
+  kPower,         // pow
+  kChoose,        // if
+};
+
+struct FunctionInfo {
+  std::string_view name;
+  Op op;
+  FunctionRule rule;
+  std::string_view usage;  // "atan2(y, x)"
+};
+
+/// Every function, in the manual's order.
+std::span<const FunctionInfo> function_catalog();
+const FunctionInfo* find_function(std::string_view name);
+
+double apply(Op op, double a);
+double apply(Op op, double a, double b);
+double apply(Op op, double a, double b, double c);
+
+}  // namespace pintle

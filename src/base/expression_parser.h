@@ -1,0 +1,58 @@
+// From text to expression: "2*crank + 5 mm", "5 N*m - 0.1*rate".
+//
+// A unit belongs to the number, the pi or the closing parenthesis before it and binds tighter than any operator, so
+// that "1/2 m" is 1/(2 m). It goes on as long as units follow * or /: "3 N*s/m". A variable is never a unit.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "pintle/expression.h"
+
+namespace pintle {
+
+/// The longest text and the deepest nesting that are read.
+inline constexpr std::size_t kLongestExpression = 4096;
+inline constexpr int kDeepestExpression = 200;
+
+/// The names that an expression may use beside functions, units, pi and e.
+struct ParseScope {
+  /// A constant by name. A NaN stands for a constant that has been complained about already: what is made of it is NaN
+  /// of any dimension, without further problems.
+  std::function<std::optional<Quantity>(std::string_view)> constant;
+  std::vector<std::string> constant_names;  // for did-you-mean only
+  /// Variables; a name is letters, digits and _, or has one dot and then - too before it: "hip-pin.angle". A dotted
+  /// name wins over what its parts could mean.
+  std::vector<std::pair<std::string, Dimension>> variables;
+};
+
+/// What is wrong, at a byte offset of the text. `found` and `suggestion` may be empty.
+struct ParseProblem {
+  std::size_t offset = 0;
+  std::string found;
+  std::string because;
+  std::string suggestion;
+};
+
+struct ParsedExpression {
+  Expression expression;  // its variables: those that occur, in order of appearance
+  Dimension dimension;
+};
+
+std::variant<ParsedExpression, ParseProblem> parse_expression(std::string_view text, const ParseScope& scope);
+
+/// The same without variables: a constant.
+std::variant<Quantity, ParseProblem> parse_quantity(std::string_view text, const ParseScope& scope = {});
+
+/// Words that cannot name a parameter: functions, unit symbols, pi and e.
+bool is_reserved_name(std::string_view word);
+/// Could this be written as a name in an expression: a letter or _, then letters, digits, _?
+bool is_identifier(std::string_view word);
+
+}  // namespace pintle

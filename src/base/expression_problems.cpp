@@ -1,0 +1,108 @@
+#include "base/expression_problems.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/did_you_mean.h"
+#include "base/expression_ops.h"
+#include "base/text_scanner.h"
+#include "base/units.h"
+#include "base/utf8.h"
+
+namespace pintle {
+namespace {
+
+struct Alias {
+  std::string_view word;
+  std::string_view unit;
+};
+
+// What people write for units that go by another symbol here.
+constexpr std::array<Alias, 20> kAliases{{
+    {"sec", "s"},      {"second", "s"},    {"seconds", "s"},   {"hour", "h"},      {"hr", "h"},
+    {"meter", "m"},    {"metre", "m"},     {"meters", "m"},    {"metres", "m"},    {"inch", "in"},
+    {"degree", "deg"}, {"degrees", "deg"}, {"radian", "rad"},  {"radians", "rad"}, {"lbs", "lb"},
+    {"Pa", "N/m^2"},   {"MPa", "N/mm^2"},  {"GPa", "kN/mm^2"}, {"turn", "rev"},    {"turns", "rev"},
+}};
+
+std::string quoted(std::string_view text) {
+  return '"' + printable(text) + '"';
+}
+
+// "Nm" -> "N*m", if both halves are units.
+std::optional<std::string> split_unit(std::string_view word) {
+  for (std::size_t i = 1; i < word.size(); ++i) {
+    if (is_unit_symbol(word.substr(0, i)) && is_unit_symbol(word.substr(i)))
+      return std::string(word.substr(0, i)) + "*" + std::string(word.substr(i));
+  }
+  return std::nullopt;
+}
+
+ParseProblem missing_operator(std::size_t at, std::string_view what, bool is_unit) {
+  const std::string suggestion = "*" + std::string(what) + (is_unit ? " or /" + std::string(what) : "");
+  return {at, quoted(what), "an operator is missing before it", suggestion};
+}
+
+ParseProblem unexpected_comma(std::string_view text, std::size_t at) {
+  const bool between_digits = at > 0 && is_digit(text[at - 1]) && at + 1 < text.size() && is_digit(text[at + 1]);
+  return {at, "a comma", "commas only separate the arguments of a function",
+          between_digits ? "write decimals with a point" : ""};
+}
+
+}  // namespace
+
+bool is_known_name(std::string_view word, const ParseScope& scope) {
+  const bool is_variable = std::any_of(scope.variables.begin(), scope.variables.end(),
+                                       [&](const auto& variable) { return variable.first == word; });
+  const auto& names = scope.constant_names;
+  return is_variable || find_function(word) || word == "pi" || word == "e" ||
+         std::find(names.begin(), names.end(), word) != names.end();
+}
+
+ParseProblem unexpected_after_operand(std::string_view text, std::size_t at, const ParseScope& scope) {
+  const char c = text[at];
+  const std::string_view character = character_at(text, at);
+  if (c == ')') return {at, "a closing parenthesis", "no parenthesis is open here", ""};
+  if (c == ',') return unexpected_comma(text, at);
+  if (c == '=') return {at, quoted("="), "an expression cannot be an equation", "compare with <= or >="};
+  if (c == '(' || is_digit(c)) return missing_operator(at, c == '(' ? character : number_at(text, at), false);
+  const std::string_view symbol = symbol_at(text, at);
+  if (is_known_name(symbol, scope)) return missing_operator(at, symbol, false);
+  if (is_unit_symbol(symbol)) return missing_operator(at, symbol, true);
+  if (!symbol.empty() && is_word_start(c)) return unknown_name(symbol, at, scope);
+  return {at, quoted(character), "this has no meaning in an expression", ""};
+}
+
+ParseProblem no_operand(std::string_view text, std::size_t at) {
+  constexpr std::string_view kWanted = "a number, a name or a parenthesis is missing here";
+  if (at >= text.size()) return {at, "the end of the text", std::string(kWanted), ""};
+  const std::optional<OperatorAt> found = operator_at(text, at);
+  if (!found) return {at, quoted(character_at(text, at)), std::string(kWanted), ""};
+  const bool is_double_star = found->symbol == '*' && at > 0 && text[at - 1] == '*';
+  return {at, quoted(text.substr(at, found->length)), std::string(kWanted), is_double_star ? "^ for a power" : ""};
+}
+
+ParseProblem unknown_name(std::string_view word, std::size_t at, const ParseScope& scope) {
+  if (is_unit_symbol(word)) return {at, quoted(word), "a unit needs a number in front of it", "1 " + std::string(word)};
+  std::vector<std::string_view> names(scope.constant_names.begin(), scope.constant_names.end());
+  for (const auto& variable : scope.variables) names.push_back(variable.first);
+  for (const FunctionInfo& function : function_catalog()) names.push_back(function.name);
+  names.push_back("pi");
+  const std::optional<std::string> guess = did_you_mean(word, names);
+  return {at, quoted(word), "there is no such name here", guess ? "did you mean " + quoted(*guess) + "?" : ""};
+}
+
+ParseProblem unknown_unit(std::string_view word, std::size_t at) {
+  ParseProblem problem{at, quoted(word), "no unit has this symbol", ""};
+  const auto alias = std::find_if(kAliases.begin(), kAliases.end(), [&](const Alias& a) { return a.word == word; });
+  if (alias != kAliases.end()) {
+    problem.suggestion = alias->unit;
+  } else if (const std::optional<std::string> product = split_unit(word)) {
+    problem.suggestion = *product;
+  } else if (const std::optional<std::string> guess = did_you_mean(word, unit_symbols())) {
+    problem.suggestion = "did you mean " + quoted(*guess) + "?";
+  }
+  return problem;
+}
+
+}  // namespace pintle

@@ -1,0 +1,29 @@
+// Finds the unit that follows a number, and where it ends.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "base/units.h"
+
+namespace pintle {
+
+/// Says of a word whether it is a name of the expression's own (a variable), which then is no unit.
+using IsTaken = std::function<bool(std::string_view)>;
+
+/// What stands at an offset: a unit up to `end`; no unit (`found` false, no `problem`); or a unit with a fault.
+struct UnitScan {
+  bool found = false;
+  Unit unit;
+  std::size_t end = 0;
+  std::string problem;  ///< why it is wrong; empty if it is not
+  std::size_t problem_offset = 0;
+};
+
+/// Reads symbol (('*' | '/') symbol)* with whole exponents, as far as units go: in "10 N*sin(2*t)" it stops before the
+/// '*', and so it does in "3 m/2". A parenthesis counts if nothing but units is in it.
+UnitScan scan_unit(std::string_view text, std::size_t at, const IsTaken& is_taken);
+
+}  // namespace pintle
