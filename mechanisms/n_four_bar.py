@@ -10,14 +10,14 @@ import argparse
 HEADER = """\
 # {title}: {cranks} upright cranks joined by {n} level coupler{s}. Made by n_four_bar.py {n}.
 #
-# Look at: the top of crank0 keeps to its circle and all cranks stay parallel, although every pass through the horizontal
-# (all bars in line) is singular: there the ideal equations lose rank, with 1 degree of freedom becoming {cranks}.
-# The crank's angle follows J*theta'' = -9.81*S*cos(theta) with J = (N + 1)/3 + N and S = (N + 1)/2 + N; the energy
-# about y = 0 stays at J/2 + 9.81*S = {energy:.6f} J.
+# Look at: the top of crank0 keeps to its circle and all cranks stay parallel, although every pass through the
+# horizontal (all bars in line) is singular: there the ideal equations lose rank, with 1 degree of freedom becoming
+# {cranks}. The crank's angle follows J*theta'' = -9.81*S*cos(theta) with J = (N + 1)/3 + N and S = (N + 1)/2 + N; the
+# energy about y = 0 stays at J/2 + 9.81*S = {energy:.6f} J.
 #
 # Numbers: problem A02 of the IFToMM library of computational benchmark problems (M. Gonzalez et al., Multibody System
-# Dynamics 16, 2006, 179-190), for N = {n}. Positions and velocities are exact. The library's joints are ideal; these have
-# the stiffness and damping of rolling-element bearings.
+# Dynamics 16, 2006, 179-190), for N = {n}. Positions and velocities are exact. The library's joints are ideal; these
+# have the stiffness and damping of rolling-element bearings.
 format = 1
 name = "N-four-bar, N = {n}"
 gravity = [0, "-9.81 m/s^2"]
@@ -50,8 +50,8 @@ def ground(n):
 def bodies(n):
     yield "\n[body]"
     for i in range(n + 1):
-        yield (f'crank{i} = {{ {BAR}, position = [{i}, 0.5], angle = "90 deg", velocity = [0.5, 0], spin = "spin", '
-               'markers = { A = ["-half", 0], B = ["half", 0] } }')
+        yield (f'crank{i} = {{ {BAR}, position = [{i}, 0.5], angle = "90 deg", velocity = [0.5, 0], '
+               'spin = "spin", markers = { A = ["-half", 0], B = ["half", 0] } }')
     for i in range(n):
         yield (f"coupler{i} = {{ {BAR}, position = [{i}.5, 1], angle = 0, velocity = [1, 0], spin = 0, "
                'markers = { left = ["-half", 0], right = ["half", 0] } }')
