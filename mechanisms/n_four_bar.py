@@ -50,8 +50,8 @@ def ground(n):
 def bodies(n):
     yield "\n[body]"
     for i in range(n + 1):
-        yield (f'crank{i} = {{ {BAR}, position = [{i}, 0.5], angle = "90 deg", velocity = [0.5, 0], '
-               'spin = "spin", markers = { A = ["-half", 0], B = ["half", 0] } }')
+        yield (f'crank{i} = {{ {BAR}, position = [{i}, 0.5], angle = "90 deg", '
+               'velocity = [0.5, 0], spin = "spin", markers = { A = ["-half", 0], B = ["half", 0] } }')
     for i in range(n):
         yield (f"coupler{i} = {{ {BAR}, position = [{i}.5, 1], angle = 0, velocity = [1, 0], spin = 0, "
                'markers = { left = ["-half", 0], right = ["half", 0] } }')
