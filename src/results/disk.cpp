@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -220,18 +221,27 @@ void write_file(const fs::path& path, std::string_view text, const DiskCalls& ca
   sync_folder(parent_of(target), calls);
 }
 
-std::string read_file(const fs::path& path) {
-  if (fs::is_directory(path)) throw file_error(path, "read", EISDIR);
+std::string read_file(const fs::path& path, std::size_t at_most) {
+  check_readable(path);
   std::FILE* file = std::fopen(path.c_str(), "rbe");
   if (file == nullptr) throw file_error(path, "read", errno);
   std::string text;
   std::string chunk(kBufferSize, '\0');
-  while (const std::size_t n = std::fread(chunk.data(), 1, chunk.size(), file)) text.append(chunk, 0, n);
+  while (text.size() < at_most) {
+    const std::size_t n = std::fread(chunk.data(), 1, std::min(chunk.size(), at_most - text.size()), file);
+    if (n == 0) break;
+    text.append(chunk, 0, n);
+  }
   const bool failed = std::ferror(file) != 0;
   const int why = errno;
   std::fclose(file);
   if (failed) throw file_error(path, "read", why);
   return text;
+}
+
+void check_readable(const fs::path& path) {
+  if (::access(path.c_str(), R_OK) != 0) throw file_error(path, "read", errno);
+  if (fs::is_directory(path)) throw file_error(path, "read", EISDIR);
 }
 
 }  // namespace pintle

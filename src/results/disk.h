@@ -64,7 +64,10 @@ class NewFolder {
 /// Writes `text` to `path` in one atomic replacement; straight through where `path` is a pipe or a device.
 void write_file(const std::filesystem::path& path, std::string_view text, const DiskCalls& calls = {});
 
-/// The whole file. Throws FileError.
-std::string read_file(const std::filesystem::path& path);
+/// The file, or its first `at_most` bytes. Throws FileError.
+std::string read_file(const std::filesystem::path& path, std::size_t at_most = std::string::npos);
+
+/// Throws FileError if `path` cannot be opened for reading.
+void check_readable(const std::filesystem::path& path);
 
 }  // namespace pintle

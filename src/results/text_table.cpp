@@ -6,14 +6,10 @@
 #include <cmath>
 #include <utility>
 
+#include "base/utf8.h"
+
 namespace pintle {
 namespace {
-
-/// Characters as the eye counts them: UTF-8 continuation bytes have no width.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
 
 std::string blanks(std::size_t n) {
   return std::string(n, ' ');
@@ -53,19 +49,19 @@ std::vector<std::string> TextTable::padded_cells(std::size_t column) const {
   const TableColumn& about = columns_[column];
   std::vector<std::string> cells;
   for (const auto& row : rows_) cells.push_back(row[column]);
-  std::size_t widest = width(about.head);
+  std::size_t widest = count_characters(about.head);
   if (about.align == Align::kNumber) {
     std::size_t before = 0;
     for (const std::string& cell : cells) before = std::max(before, point(cell));
     for (std::string& cell : cells) cell.insert(0, blanks(before - point(cell)));
     std::size_t longest = 0;
-    for (const std::string& cell : cells) longest = std::max(longest, width(cell));
-    for (std::string& cell : cells) cell += blanks(longest - width(cell));
+    for (const std::string& cell : cells) longest = std::max(longest, count_characters(cell));
+    for (std::string& cell : cells) cell += blanks(longest - count_characters(cell));
   }
-  for (const std::string& cell : cells) widest = std::max(widest, width(cell));
+  for (const std::string& cell : cells) widest = std::max(widest, count_characters(cell));
   cells.insert(cells.begin(), about.head);
   for (std::string& cell : cells) {
-    const std::string padding = blanks(widest - width(cell));
+    const std::string padding = blanks(widest - count_characters(cell));
     cell = about.align == Align::kNumber ? padding + cell : cell + padding;
   }
   return cells;

@@ -1,0 +1,20 @@
+// The command line as it was typed, and what is wrong with it.
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
+
+namespace pintle::cli {
+
+/// Kept for the record of a run: main() stores it, quoted so that a shell would read the same words.
+void remember_command_line(int n_words, const char* const* words);
+const std::string& command_line();
+
+/// What is wrong, with the verb or option that was probably meant.
+std::string explain(const CLI::App& app, const CLI::ParseError& error);
+
+}  // namespace pintle::cli

@@ -1,0 +1,31 @@
+// What the program says to the shell. docs/reference/exit-codes.md explains each.
+#pragma once
+
+namespace pintle::cli {
+
+enum ExitCode : int {
+  kOk = 0,
+  kInternalError = 1,
+  kCommandLineError = 2,
+  kModelError = 3,
+  kAssemblyFailed = 4,
+  kIntegrationFailed = 5,
+  kFileError = 6,
+  kToleranceMissed = 7,
+  kStoppedBySignal = 130,
+};
+
+/// The same for --help.
+inline constexpr const char* kExitCodeHelp =
+    "Exit codes:\n"
+    "  0  all is well\n"
+    "  1  internal error, please report it\n"
+    "  2  the command line is wrong\n"
+    "  3  the model file has errors\n"
+    "  4  the mechanism cannot be assembled\n"
+    "  5  the integration failed; results up to there are kept\n"
+    "  6  a file or folder cannot be read or written\n"
+    "  7  finished, but some joint's force missed the tolerance; results are kept\n"
+    "  130  stopped by Ctrl-C or a termination signal; results up to there are kept\n";
+
+}  // namespace pintle::cli

@@ -1,0 +1,41 @@
+// How far a run has come, on standard error: a line that rewrites itself, or one JSON object per line, or nothing.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "pintle/simulate.h"
+
+namespace pintle::cli {
+
+enum class ProgressStyle { kNone, kLine, kJson };
+
+class ProgressReport {
+ public:
+  explicit ProgressReport(ProgressStyle style) : style_(style) {}
+  ProgressReport(const ProgressReport&) = delete;
+  ProgressReport& operator=(const ProgressReport&) = delete;
+  ~ProgressReport() { clear(); }
+
+  void show(const Progress& progress);
+  /// Wipes the line, so that other output may follow.
+  void clear();
+  /// The last JSON object: how it ended and where the results are.
+  void finish(const Trajectory& trajectory, const std::filesystem::path& folder);
+
+ private:
+  /// Model seconds per second in this pass; 0 while unknown.
+  double speed(const Progress& progress);
+
+  ProgressStyle style_;
+  Progress pass_start_{0, 0, 0, 0};
+  bool shown_ = false;
+};
+
+/// The line without its control characters: "0.312 s of 0.63 s   49 %   pass 2   1200 s/s   0.3 s to go".
+std::string progress_line(const Progress& progress, double speed);
+
+/// The JSON object without its line end.
+std::string progress_json(const Progress& progress, double speed);
+
+}  // namespace pintle::cli

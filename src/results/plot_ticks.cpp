@@ -1,0 +1,98 @@
+#include "results/plot_ticks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace pintle {
+namespace {
+
+/// The nearest of 1, 2, 5, 10 times a power of ten, not below `x`.
+double round_step(double x) {
+  const double power = std::pow(10.0, std::floor(std::log10(x)));
+  for (const double digit : {1.0, 2.0, 5.0})
+    if (x <= digit * power * (1 + 1e-9)) return digit * power;
+  return 10 * power;
+}
+
+struct Prefix {
+  int exponent;
+  const char* text;
+};
+constexpr std::array<Prefix, 7> kPrefixes{{{-9, "n"}, {-6, "µ"}, {-3, "m"}, {0, ""}, {3, "k"}, {6, "M"}, {9, "G"}}};
+
+bool takes_prefix(std::string_view unit) {
+  constexpr std::array<std::string_view, 6> kUnits{"N", "N*m", "W", "J", "m", "m/s"};
+  return std::find(kUnits.begin(), kUnits.end(), unit) != kUnits.end();
+}
+
+void replace_all(std::string& text, std::string_view old, std::string_view fresh) {
+  for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + fresh.size()))
+    text.replace(at, old.size(), fresh);
+}
+
+}  // namespace
+
+std::vector<double> Axis::ticks() const {
+  std::vector<double> result;
+  const double slack = 1e-9 * (high - low);
+  const auto first = std::ceil((low - slack) / step), last = std::floor((high + slack) / step);
+  for (double i = first; i <= last; ++i) result.push_back(i * step);
+  return result;
+}
+
+Axis make_axis(double low, double high, int n_ticks, bool tight) {
+  const double size = std::max(std::abs(low), std::abs(high));
+  if (high - low <= 1e-12 * size || high == low) {
+    const double margin = size > 0 ? 0.1 * size : 1;
+    low -= margin;
+    high += margin;
+  }
+  const double step = round_step((high - low) / n_ticks);
+  if (tight) return {low, high, step};
+  return {std::floor(low / step + 1e-9) * step, std::ceil(high / step - 1e-9) * step, step};
+}
+
+AxisScale scale_for(double largest, const std::string& unit) {
+  if (!(largest > 0) || !std::isfinite(largest) || (largest < 1e4 && largest >= 0.1)) return {1, printed_unit(unit)};
+  const int exponent = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
+  const int shown = std::clamp(exponent, -9, 9);
+  if (takes_prefix(unit)) {
+    const auto prefix =
+        std::find_if(kPrefixes.begin(), kPrefixes.end(), [&](const Prefix& p) { return p.exponent == shown; });
+    return {std::pow(10.0, shown), prefix->text + printed_unit(unit)};
+  }
+  if (exponent == 0) return {1, printed_unit(unit)};
+  return {std::pow(10.0, exponent), printed_unit(fmt::format("10^{} {}", exponent, unit))};
+}
+
+std::string tick_text(double value, double step) {
+  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+  if (decimals > 8) return fmt::format("{:g}", value);
+  std::string text = fmt::format("{:.{}f}", std::abs(value) < 1e-9 * step ? 0.0 : std::abs(value), decimals);
+  return value < -1e-9 * step ? "−" + text : text;
+}
+
+std::string printed_unit(const std::string& unit) {
+  std::string text;
+  bool raised = false;
+  constexpr std::array<const char*, 10> kRaised{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  for (const char c : unit) {
+    const bool digit = c >= '0' && c <= '9';
+    if (c == '^') {
+      raised = true;
+    } else if (raised && (digit || c == '-')) {
+      text += digit ? kRaised[static_cast<std::size_t>(c - '0')] : "⁻";
+    } else {
+      raised = false;
+      text += c;
+    }
+  }
+  replace_all(text, "*", "·");
+  return text;
+}
+
+}  // namespace pintle

@@ -1,0 +1,35 @@
+// Where the ticks of an axis stand, and how its numbers read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pintle {
+
+/// A range that ends on ticks (or just covers the data), with a step of 1, 2 or 5 times a power of ten.
+struct Axis {
+  double low = 0, high = 1, step = 1;
+
+  std::vector<double> ticks() const;  ///< those within [low, high]
+};
+
+/// The axis for data in [low, high] with about `n_ticks` ticks. `tight`: ends where the data end. A range without width
+/// is widened.
+Axis make_axis(double low, double high, int n_ticks, bool tight);
+
+/// Numbers of an axis divided by `factor`, so that they are short; the unit's name then has the prefix.
+struct AxisScale {
+  double factor = 1;
+  std::string unit;  ///< "kN", "10^6 rad/s"
+};
+
+/// `largest` is the largest magnitude on the axis, in `unit`.
+AxisScale scale_for(double largest, const std::string& unit);
+
+/// Tick label with as many decimals as the step needs, with a true minus sign.
+std::string tick_text(double value, double step);
+
+/// "N*m/s^2" as it is printed: "N·m/s²".
+std::string printed_unit(const std::string& unit);
+
+}  // namespace pintle

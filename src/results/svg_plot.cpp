@@ -1,0 +1,277 @@
+#include "results/svg_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string_view>
+
+#include "base/utf8.h"
+#include "results/plot_ticks.h"
+#include "results/thin_line.h"
+
+namespace pintle {
+namespace {
+
+// Colours that stay apart for colour-blind readers: M. Okabe and K. Ito, Color Universal Design (2008).
+constexpr std::array<const char*, 7> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                              "#e69f00", "#56b4e9", "#222222"};
+constexpr std::array<const char*, 4> kDashes{"", "7 3", "2 2.5", "9 3 2 3"};  // once the colours are used up
+
+constexpr const char* kFont = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
+constexpr double kTitleSize = 16, kTextSize = 12.5, kTickSize = 12;  // [px]
+constexpr double kRight = 22, kLegendRow = 20, kSample = 26;
+constexpr double kColumnWidth = 0.5;  // what the eye can tell apart on screen and in print [px]
+
+/// How wide a text is, about [px].
+double text_width(std::string_view text, double size) {
+  return 0.56 * size * static_cast<double>(count_characters(text));
+}
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : printable(text)) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+
+  void cover(const std::vector<double>& values) {
+    for (const double value : values) {
+      if (!std::isfinite(value)) continue;
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  bool empty() const { return low > high; }
+  double largest() const { return empty() ? 1 : std::max(std::abs(low), std::abs(high)); }
+  Axis axis(double factor, int n_ticks, bool tight) const {
+    return empty() ? make_axis(0, 1, n_ticks, tight) : make_axis(low / factor, high / factor, n_ticks, tight);
+  }
+};
+
+std::string axis_title(const std::string& quantity, const std::string& unit) {
+  if (unit.empty()) return quantity;
+  return fmt::format("{} [{}]", quantity, unit);
+}
+
+/// Where one entry of a legend stands, relative to the panel's left edge and the legend's first row.
+struct LegendEntry {
+  double x = 0;
+  int row = 0;
+};
+
+std::vector<LegendEntry> lay_out_legend(const Panel& panel, double width) {
+  std::vector<LegendEntry> entries;
+  LegendEntry next;
+  for (const Curve& curve : panel.curves) {
+    const double entry_width = kSample + 26 + text_width(curve.label, kTextSize) + text_width(curve.subscript, 9);
+    if (next.x > 0 && next.x + entry_width > width) next = {0, next.row + 1};
+    entries.push_back(next);
+    next.x += entry_width;
+  }
+  return entries;
+}
+
+bool needs_legend(const Panel& panel) {
+  return panel.curves.size() > 1;
+}
+
+/// One panel with everything that its drawing needs.
+struct Frame {
+  explicit Frame(const Panel& whose) : panel(whose) {}
+
+  const Panel& panel;
+  double left = 0, top = 0, width = 0, height = 0;  // of the axes [px]
+  Axis x, y;
+  AxisScale x_scale, y_scale;
+  std::vector<LegendEntry> legend;
+
+  double px(double value) const { return left + width * (value - x.low) / (x.high - x.low); }
+  double py(double value) const { return top + height * (y.high - value) / (y.high - y.low); }
+};
+
+class Picture {
+ public:
+  explicit Picture(const Plot& plot) : plot_(plot) { lay_out(); }
+  std::string text();
+
+ private:
+  void lay_out();
+  void draw_titles();
+  void draw_grid(const Frame& frame);
+  void draw_y_axis(const Frame& frame);
+  void draw_x_axis(const Frame& frame);
+  void draw_legend(const Frame& frame);
+  void draw_curve(const Frame& frame, std::size_t index);
+  std::string stroke(std::size_t index) const;
+
+  template <class... Args>
+  void put(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
+  }
+
+  const Plot& plot_;
+  std::vector<Frame> frames_;
+  double left_ = 0, height_ = 0;
+  std::string out_;
+};
+
+void Picture::lay_out() {
+  Range x_range;
+  x_range.cover(plot_.x);
+  const AxisScale x_scale = scale_for(x_range.largest(), plot_.x_unit);
+  double label_width = 0;
+  for (const Panel& panel : plot_.panels) {
+    Range range;
+    for (const Curve& curve : panel.curves) range.cover(curve.y);
+    Frame frame(panel);
+    frame.x = x_range.axis(x_scale.factor, 8, true);
+    frame.x_scale = x_scale;
+    frame.y_scale = scale_for(range.largest(), panel.unit);
+    frame.y = range.axis(frame.y_scale.factor, 6, false);
+    for (const double tick : frame.y.ticks())
+      label_width = std::max(label_width, text_width(tick_text(tick, frame.y.step), kTickSize));
+    frames_.push_back(std::move(frame));
+  }
+  left_ = 46 + label_width;
+  double top = plot_.title.empty() ? 8 : plot_.subtitle.empty() ? 38 : 56;
+  for (Frame& frame : frames_) {
+    frame.left = left_;
+    frame.width = plot_.width - left_ - kRight;
+    frame.height = plot_.panel_height;
+    if (needs_legend(frame.panel)) frame.legend = lay_out_legend(frame.panel, frame.width);
+    top += frame.legend.empty() ? 8 : kLegendRow * (frame.legend.back().row + 1) + 6;
+    frame.top = top;
+    top += frame.height + 14;
+  }
+  height_ = top + 38;
+}
+
+void Picture::draw_titles() {
+  if (!plot_.title.empty())
+    put("<text x=\"{:.1f}\" y=\"26\" font-size=\"{}\" font-weight=\"bold\">{}</text>\n", left_, kTitleSize,
+        escaped(plot_.title));
+  if (!plot_.subtitle.empty())
+    put("<text x=\"{:.1f}\" y=\"45\" font-size=\"{}\" fill=\"#555\">{}</text>\n", left_, kTextSize,
+        escaped(plot_.subtitle));
+}
+
+void Picture::draw_grid(const Frame& frame) {
+  put("<g stroke=\"#e2e2e2\" stroke-width=\"1\">\n");
+  for (const double tick : frame.x.ticks())
+    put("<path d=\"M{0:.2f} {1:.2f}V{2:.2f}\"/>\n", frame.px(tick), frame.top, frame.top + frame.height);
+  for (const double tick : frame.y.ticks())
+    put("<path d=\"M{0:.2f} {1:.2f}H{2:.2f}\"/>\n", frame.left, frame.py(tick), frame.left + frame.width);
+  put("</g>\n");
+  if (frame.y.low < 0 && frame.y.high > 0)
+    put("<path d=\"M{:.2f} {:.2f}H{:.2f}\" stroke=\"#999\"/>\n", frame.left, frame.py(0), frame.left + frame.width);
+}
+
+void Picture::draw_y_axis(const Frame& frame) {
+  put("<g text-anchor=\"end\" font-size=\"{}\">\n", kTickSize);
+  for (const double tick : frame.y.ticks())
+    put("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.left - 8, frame.py(tick) + 0.35 * kTickSize,
+        tick_text(tick, frame.y.step));
+  put("</g>\n");
+  const double middle = frame.top + frame.height / 2;
+  put("<text x=\"18\" y=\"{0:.1f}\" font-size=\"{1}\" text-anchor=\"middle\" transform=\"rotate(-90 18 "
+      "{0:.1f})\">{2}</text>\n",
+      middle, kTextSize, escaped(axis_title(frame.panel.quantity, frame.y_scale.unit)));
+}
+
+void Picture::draw_x_axis(const Frame& frame) {
+  const double bottom = frame.top + frame.height;
+  put("<path d=\"M{0:.2f} {1:.2f}V{2:.2f}H{3:.2f}\" fill=\"none\" stroke=\"#333\"/>\n", frame.left, frame.top, bottom,
+      frame.left + frame.width);
+  put("<g stroke=\"#333\">\n");
+  for (const double tick : frame.x.ticks()) put("<path d=\"M{:.2f} {:.2f}v4\"/>\n", frame.px(tick), bottom);
+  put("</g>\n");
+  if (&frame != &frames_.back()) return;
+  put("<g text-anchor=\"middle\" font-size=\"{}\">\n", kTickSize);
+  for (const double tick : frame.x.ticks())
+    put("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.px(tick), bottom + 18, tick_text(tick, frame.x.step));
+  put("</g>\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" text-anchor=\"middle\">{}</text>\n",
+      frame.left + frame.width / 2, bottom + 40, kTextSize, escaped(axis_title(plot_.x_quantity, frame.x_scale.unit)));
+}
+
+std::string Picture::stroke(std::size_t index) const {
+  const std::string colour = kColours[index % kColours.size()];
+  const std::string dash = kDashes[index / kColours.size() % kDashes.size()];
+  return fmt::format("stroke=\"{}\"{}", colour, dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", dash));
+}
+
+void Picture::draw_legend(const Frame& frame) {
+  const double first_row = frame.top - 12 - kLegendRow * (frame.legend.empty() ? 0 : frame.legend.back().row);
+  for (std::size_t i = 0; i < frame.legend.size(); ++i) {
+    const Curve& curve = frame.panel.curves[i];
+    const double x = frame.left + frame.legend[i].x, y = first_row + kLegendRow * frame.legend[i].row;
+    put("<path d=\"M{:.1f} {:.1f}h{}\" {} stroke-width=\"2.2\"/>\n", x, y - 4, kSample, stroke(i));
+    put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">{}", x + kSample + 6, y, kTextSize, escaped(curve.label));
+    if (!curve.subscript.empty()) put("<tspan dy=\"3\" font-size=\"9.5\">{}</tspan>", escaped(curve.subscript));
+    put("</text>\n");
+  }
+}
+
+void Picture::draw_curve(const Frame& frame, std::size_t index) {
+  const std::vector<double>& y = frame.panel.curves[index].y;
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < std::min(plot_.x.size(), y.size()); ++i)
+    points.push_back({frame.px(plot_.x[i] / frame.x_scale.factor), frame.py(y[i] / frame.y_scale.factor)});
+  put("<path fill=\"none\" {} stroke-width=\"1.6\" stroke-linejoin=\"round\" stroke-linecap=\"round\" d=\"",
+      stroke(index));
+  bool pen_up = true;
+  for (const Point& point : thin_line(points, kColumnWidth)) {
+    const bool there = std::isfinite(point.x) && std::isfinite(point.y);
+    if (there) put("{}{:.2f} {:.2f}", pen_up ? "M" : "L", point.x, point.y);
+    pen_up = !there;
+  }
+  put("\"/>\n");
+}
+
+std::string Picture::text() {
+  put("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+      "role=\"img\" font-family=\"{2}\" fill=\"#222\">\n",
+      plot_.width, height_, kFont);
+  put("<title>{}</title>\n", escaped(plot_.title));
+  put("<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n");
+  draw_titles();
+  for (const Frame& frame : frames_) {
+    draw_grid(frame);
+    draw_x_axis(frame);
+    draw_y_axis(frame);
+    draw_legend(frame);
+    for (std::size_t i = frame.panel.curves.size(); i-- > 0;) draw_curve(frame, i);
+  }
+  put("</svg>\n");
+  return std::move(out_);
+}
+
+}  // namespace
+
+std::string to_svg(const Plot& plot) {
+  return Picture(plot).text();
+}
+
+}  // namespace pintle
