@@ -2,7 +2,7 @@
 """Prints the N-four-bar model: n_four_bar.py 40 > n_four_bar_40.toml
 
 N + 1 upright cranks with ground pins A0..AN at (i, 0) and upper pins B0..BN at (i, 1), joined by N level couplers. All
-bars are uniform and slender, 1 m and 1 kg. Where two couplers meet a crank, each has a pin of its own on the common axis.
+bars are uniform and slender, 1 m and 1 kg. Where two couplers meet a crank, each has a pin of its own on the same axis.
 """
 
 import argparse
