@@ -1,0 +1,20 @@
+// From a model file to a model.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pintle/complaint.h"
+#include "pintle/model.h"
+
+namespace pintle {
+
+/// Reads a model file, TOML or JSON. Each override, "joint.A.stiffness=2e8", replaces or adds one value before anything
+/// is checked. Throws InputError with everything that is wrong; a file that cannot be opened is std::system_error.
+Model read_model(const std::string& path, const std::vector<std::string>& overrides = {});
+
+/// The same from a text; `file_name` is for messages, and its ending (.toml or .json) tells the form.
+Model parse_model(std::string_view text, std::string_view file_name, const std::vector<std::string>& overrides = {});
+
+}  // namespace pintle

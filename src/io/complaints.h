@@ -1,0 +1,36 @@
+// Collects everything that is wrong with a document, with suggestions, and throws it together.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/document.h"
+
+namespace pintle {
+
+class Complaints {
+ public:
+  explicit Complaints(const Document& document) : document_(document) {}
+
+  void add(Spot spot, std::string path, std::string found, std::string because, std::string suggestion = {});
+
+  /// The candidate nearest to `word`, or "" if none is near. Big models with many mistakes get this for the first ones
+  /// only: each costs a look at every candidate.
+  std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
+
+  bool empty() const { return complaints_.empty(); }
+  std::size_t size() const { return complaints_.size(); }
+  const Document& document() const { return document_; }
+
+  /// Throws InputError with all complaints in the order of the text, if there is any.
+  void throw_if_any();
+
+ private:
+  const Document& document_;
+  std::vector<std::pair<Spot, Complaint>> complaints_;
+  int suggestions_left_ = 100;
+};
+
+}  // namespace pintle

@@ -1,0 +1,54 @@
+// The steps from a document to a model. Each reads one part of the file and complains about what is wrong with it.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "io/complaints.h"
+#include "io/record.h"
+#include "io/schema.h"
+#include "pintle/model.h"
+
+namespace pintle {
+
+/// What the steps share.
+struct Reading {
+  explicit Reading(const Document& document)
+      : root(*document.root.table()), complaints(document), records(complaints) {}
+
+  const Table& root;
+  Complaints complaints;
+  RecordReader records;
+  Model model;
+  std::map<std::string, std::set<std::string>, std::less<>> markers_of;   // by body, "ground" among them
+  std::map<std::string, std::string, std::less<>> type_of_joint;          // by joint, also of joints with faults
+  std::map<std::string, TableSpec, std::less<>> specs;                    // assembled ones, by path and kind
+
+  /// The assembled table of the schema, made once.
+  const TableSpec& spec(const std::string& path, const std::string& when = {}, const std::string& law = {});
+};
+
+void read_settings(Reading& reading);    // the file's head, [simulate]
+void read_parameters(Reading& reading);  // first: every other value may use them
+void read_bodies(Reading& reading);      // [ground], [body]
+void read_joints(Reading& reading);      // [defaults.joint], [joint]
+void read_loads(Reading& reading);       // [spring], [torsion_spring], [force]
+void read_motors(Reading& reading);      // [motor]
+
+/// The table `key` of the document, or an empty one; complains if it is something else.
+const Table& section(Reading& reading, std::string_view key);
+
+/// Names of things are letters, digits, _ and -. Complains if this is none.
+void check_name(Reading& reading, const Entry& entry, const std::string& path);
+
+/// The marker that `text` names: "crank.A". Complains, with `node` as the place, if there is none.
+MarkerRef read_marker_ref(Reading& reading, const Node& node, const std::string& path);
+
+/// The two markers of `between`; they must be on different bodies. `thing` is what connects them, for the message.
+void read_between(Reading& reading, const Record& record, const std::string& thing, MarkerRef& first, MarkerRef& second);
+
+}  // namespace pintle

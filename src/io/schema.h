@@ -1,0 +1,90 @@
+// The model format as schema/model.schema.toml and the catalogs of laws and joint types state it.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/key_info.h"
+#include "io/document.h"
+#include "pintle/expression.h"
+
+namespace pintle {
+
+enum class ValueType {
+  kInteger,
+  kText,
+  kWord,
+  kWords,
+  kNumber,
+  kQuantity,
+  kQuantities,
+  kExpression,
+  kExpressions,
+  kMarker,
+  kMarkerName,
+  kMarkerNames,
+  kJointName,
+};
+
+/// One key of a table.
+struct KeySpec {
+  std::string key;
+  ValueType type = ValueType::kText;
+  std::string type_word;               ///< the type as the schema calls it
+  std::string unit;                    ///< "" for a pure number, "any" for parameters
+  Dimension dimension;                 ///< of the unit; `any` for "any"
+  std::string meaning;
+  std::string otherwise;               ///< what an absent key means, in words
+  std::optional<Node> fallback;        ///< value of an absent key
+  std::optional<double> minimum;
+  std::optional<double> maximum;
+  bool minimum_exclusive = false;
+  bool required = false;
+  bool per_component = false;          ///< a list is allowed: one entry per linear gap component
+  std::size_t count = 0;               ///< entries of a list; 0: any number
+  std::vector<std::string> words;      ///< allowed words; empty: any
+  std::vector<std::string> variables;  ///< of expressions
+};
+
+/// One table. `path` has * where the user chooses the name: "body.*.markers".
+struct TableSpec {
+  std::string path;
+  std::string when;  ///< for things of this kind only; "": for all
+  std::string meaning;
+  std::vector<KeySpec> keys;
+  std::optional<KeySpec> entries;  ///< a table of names that the user chooses, each with a value like this
+  bool law_keys = false;
+  bool joint_type_keys = false;
+
+  const KeySpec* find(std::string_view key) const;
+};
+
+class Schema {
+ public:
+  /// The format of this program, read once.
+  static const Schema& model();
+
+  const std::vector<TableSpec>& tables() const { return tables_; }
+
+  /// Everything that may stand at `path` in a thing of kind `when`: the keys for all, those of this kind, and those of the
+  /// catalogs (of all laws when `law` is empty). The table must exist.
+  TableSpec assemble(std::string_view path, std::string_view when = {}, std::string_view law = {}) const;
+
+  /// The tables that may stand in the table at `path`, by key; "*" for names that the user chooses.
+  std::vector<std::string> children(std::string_view path) const;
+
+  /// The kinds (`when`) of things at `path` that have `key`.
+  std::vector<std::string> kinds_with(std::string_view path, std::string_view key) const;
+
+ private:
+  explicit Schema(const Document& document);
+  std::vector<TableSpec> tables_;
+};
+
+/// A key of a catalog as a key of the format.
+KeySpec spec_of(const KeyInfo& info);
+
+}  // namespace pintle
