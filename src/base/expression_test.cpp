@@ -70,7 +70,7 @@ TEST(ExpressionValue, NumbersWithUnits) {
       {"400 N/mm", 4e5, kStiffness},
       {"3 m/2", 1.5, kLength},
       {"(1/3) m", 1.0 / 3, kLength},
-      {"(1 + 1) m/s", 2, kSpeed},
+      {"(1 + 1) m/s", 2, kLinearSpeed},
       {"pi rad/s", kPi, kAngularSpeed},
       {"5 min", 300, kTime},
       {"90\xC2\xB0", kPi / 2, kAngle},
@@ -80,7 +80,7 @@ TEST(ExpressionValue, NumbersWithUnits) {
        "3",
        -6, kBareNumber},
       {"1 in", 0.0254, kLength},
-      {"6 km/(2 h)", 6000.0 / 7200, kSpeed},
+      {"6 km/(2 h)", 6000.0 / 7200, kLinearSpeed},
   };
   expect_values(cases);
 }

@@ -81,7 +81,7 @@ constexpr std::array kNames{
     DimensionName{kTime, "a time", "s"},
     DimensionName{{{2, 0, 0, 0}, false}, "an area", "m^2"},
     DimensionName{{{3, 0, 0, 0}, false}, "a volume", "m^3"},
-    DimensionName{kSpeed, "a speed", "m/s"},
+    DimensionName{kLinearSpeed, "a speed", "m/s"},
     DimensionName{kAcceleration, "an acceleration", "m/s^2"},
     DimensionName{kPerTime, "a frequency", "1/s"},
     DimensionName{kAngularSpeed, "an angular speed", "rad/s"},

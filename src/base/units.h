@@ -25,7 +25,7 @@ inline constexpr Dimension kLength{{1, 0, 0, 0}, false};
 inline constexpr Dimension kMass{{0, 1, 0, 0}, false};
 inline constexpr Dimension kTime{{0, 0, 1, 0}, false};
 inline constexpr Dimension kAngle{{0, 0, 0, 1}, false};
-inline constexpr Dimension kSpeed{{1, 0, -1, 0}, false};
+inline constexpr Dimension kLinearSpeed{{1, 0, -1, 0}, false};
 inline constexpr Dimension kAcceleration{{1, 0, -2, 0}, false};
 inline constexpr Dimension kAngularSpeed{{0, 0, -1, 1}, false};
 inline constexpr Dimension kInertia{{2, 1, 0, 0}, false};

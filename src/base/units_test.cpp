@@ -50,7 +50,7 @@ TEST(Units, KnownValues) {
       {"m*s^-2", 1, kAcceleration},
       {"kg*m/(s*s)", 1, kForce},
       {"(kg*m)/(s^2)", 1, kForce},
-      {"km/h", 1 / 3.6, kSpeed},
+      {"km/h", 1 / 3.6, kLinearSpeed},
       {"1/s", 1, {{0, 0, -1, 0}, false}},
       {"Hz", 1, {{0, 0, -1, 0}, false}},
       {"W", 1, {{2, 1, -3, 0}, false}},
@@ -87,7 +87,7 @@ TEST(Units, EverySymbolIsListedOnceAndParses) {
 
 TEST(Units, EveryNameReadsBackAsItsDimension) {
   for (const Dimension& dimension :
-       {kPureNumber, kLength, kMass, kTime, kAngle, kSpeed, kAcceleration, kAngularSpeed, kInertia, kForce, kTorque,
+       {kPureNumber, kLength, kMass, kTime, kAngle, kLinearSpeed, kAcceleration, kAngularSpeed, kInertia, kForce, kTorque,
         kStiffness, kDamping, kAngularStiffness, kAngularDamping, Dimension{{3, -2, 1, -1}, false},
         Dimension{{-1, 2, -3, 4}, false}}) {
     const std::optional<Unit> unit = parse_unit(to_unit_text(dimension));
