@@ -384,8 +384,9 @@ std::variant<ParsedExpression, ParseProblem> parse_expression(std::string_view t
 }
 
 std::variant<Quantity, ParseProblem> parse_quantity(std::string_view text, const ParseScope& scope) {
-  const ParseScope constants{scope.constant, scope.constant_names, {}};
-  const auto parsed = parse_expression(text, constants);
+  const auto parsed = scope.variables.empty()
+                          ? parse_expression(text, scope)
+                          : parse_expression(text, ParseScope{scope.constant, scope.constant_names, {}});
   if (const auto* problem = std::get_if<ParseProblem>(&parsed)) return *problem;
   const auto& found = std::get<ParsedExpression>(parsed);
   return Quantity{found.expression.value({}), found.dimension};

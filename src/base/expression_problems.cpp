@@ -39,7 +39,9 @@ std::optional<std::string> split_unit(std::string_view word) {
 }
 
 ParseProblem missing_operator(std::size_t at, std::string_view what, bool is_unit) {
-  const std::string suggestion = "*" + std::string(what) + (is_unit ? " or /" + std::string(what) : "");
+  std::string suggestion("*");
+  suggestion.append(what);
+  if (is_unit) suggestion.append(" or /").append(what);
   return {at, quoted(what), "an operator is missing before it", suggestion};
 }
 

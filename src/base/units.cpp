@@ -114,8 +114,9 @@ std::optional<Dimension> combined(const Dimension& a, const Dimension& b, int ti
   return result;
 }
 
-std::string raised(std::string_view symbol, int exponent) {
-  return std::string(symbol) + (exponent == 1 ? "" : "^" + std::to_string(exponent));
+void append_power(std::string& text, std::string_view joint, std::string_view symbol, int exponent) {
+  text.append(joint).append(symbol);
+  if (exponent != 1) text.append("^").append(std::to_string(exponent));
 }
 
 // From base units: numerator, then one divisor after another.
@@ -126,8 +127,8 @@ std::string spelled_out(const Dimension& dimension) {
   std::string below;
   for (const std::size_t i : kOrder) {
     const int exponent = dimension.exponents[i];
-    if (exponent > 0) above += (above.empty() ? "" : "*") + raised(kBase[i], exponent);
-    if (exponent < 0) below += "/" + raised(kBase[i], -exponent);
+    if (exponent > 0) append_power(above, above.empty() ? "" : "*", kBase[i], exponent);
+    if (exponent < 0) append_power(below, "/", kBase[i], -exponent);
   }
   return (above.empty() ? "1" : above) + below;
 }
