@@ -1,0 +1,108 @@
+# Pintle from a fresh checkout: `make demo` and `make test` install what is missing, build, and run.
+JOBS   ?= $(shell nproc)
+PREFIX ?= /usr/local
+# Seconds that each fuzzer runs.
+FUZZ_SECONDS ?= 60
+
+CONFIGURE := cmake -G Ninja -S .
+BUILD     := cmake --build
+CLANG     := clang++-14
+say        = @printf '\n=== %s\n' "$(1)"
+
+.PHONY: help setup build demo test install bench fuzz web-check format clean
+.PHONY: check-sources test-release test-package test-sanitized test-clang
+
+help:
+	@echo "make demo       install what is missing, build, run the paper's four-bar"
+	@echo "make test       install what is missing, build and run every test and check"
+	@echo "make build      the optimised program, build/release/bin/pintle"
+	@echo "make install    library, headers and program to PREFIX (now $(PREFIX))"
+	@echo "make bench      benchmarks beside SUNDIALS, build/bench/bin/pintle-bench"
+	@echo "make fuzz       fuzz the reader for FUZZ_SECONDS (now $(FUZZ_SECONDS)) per fuzzer"
+	@echo "make web-check  compile the library with emscripten"
+	@echo "make format     clang-format every source"
+	@echo "make clean      remove build/ and out/"
+
+setup:
+	@tools/setup.sh build
+
+build: setup
+	@$(CONFIGURE) -B build/release -DPINTLE_TESTS=OFF >/dev/null
+	@$(BUILD) build/release -j $(JOBS)
+
+demo: build
+	@mkdir -p out
+	@build/release/bin/pintle run mechanisms/four_bar.toml --out out/four-bar --force
+	@echo "The results are in out/four-bar: $$(ls out/four-bar | paste -sd ' ')"
+
+# Everything below runs one after the other, so that the log reads in order and memory suffices.
+test:
+	@tools/setup.sh build test
+	@$(MAKE) --no-print-directory check-sources
+	@$(MAKE) --no-print-directory test-release
+	@$(MAKE) --no-print-directory test-package
+	@$(MAKE) --no-print-directory test-clang FUZZ_SECONDS=20
+	@$(MAKE) --no-print-directory test-sanitized
+	@if command -v em++ >/dev/null; then tools/web_check.sh; else echo "web-check skipped: no em++ (make web-check installs it)"; fi
+	$(call say,all tests passed)
+
+check-sources:
+	$(call say,order of rooms and habits)
+	@bash -n tools/setup.sh tools/web_check.sh
+	@python3 tools/check_sources.py
+
+test-release:
+	$(call say,release build and all tests)
+	@$(CONFIGURE) -B build/test -DPINTLE_WERROR=ON >/dev/null
+	@$(BUILD) build/test -j $(JOBS)
+	@ctest --test-dir build/test -j $(JOBS) --output-on-failure --no-tests=error
+
+test-package: | build/test
+	$(call say,the installed package and a program outside the tree)
+	@rm -rf build/prefix build/outside
+	@cmake --install build/test --prefix build/prefix >/dev/null
+	@$(CONFIGURE)/examples/outside -B build/outside -DCMAKE_PREFIX_PATH=$(CURDIR)/build/prefix >/dev/null
+	@$(BUILD) build/outside
+	@build/outside/pendulum
+
+build/test:
+	@$(MAKE) --no-print-directory test-release
+
+# clang: warnings are errors, and the fuzzers run for a moment.
+test-clang: fuzz
+
+# Suites with Slow in their name are left to the release build.
+test-sanitized:
+	$(call say,tests under the address and undefined-behaviour sanitizers)
+	@$(CONFIGURE) -B build/sanitized -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
+	  -DPINTLE_SANITIZE=ON -DPINTLE_WERROR=ON >/dev/null
+	@$(BUILD) build/sanitized -j $(JOBS)
+	@ctest --test-dir build/sanitized -j $(JOBS) --output-on-failure --no-tests=error -E Slow
+
+fuzz:
+	@tools/setup.sh build test
+	$(call say,$(CLANG) build without warnings; fuzzers)
+	@$(CONFIGURE) -B build/clang -DCMAKE_CXX_COMPILER=$(CLANG) -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
+	  -DPINTLE_SANITIZE=ON -DPINTLE_FUZZ=ON -DPINTLE_TESTS=OFF -DPINTLE_WERROR=ON >/dev/null
+	@$(BUILD) build/clang -j $(JOBS)
+	@tools/fuzz.sh build/clang $(FUZZ_SECONDS)
+
+bench:
+	@tools/setup.sh build bench
+	@$(CONFIGURE) -B build/bench -DPINTLE_TESTS=OFF -DPINTLE_BENCH=ON >/dev/null
+	@$(BUILD) build/bench -j $(JOBS)
+	@build/bench/bin/pintle-bench
+
+web-check:
+	@tools/setup.sh web build
+	@tools/web_check.sh
+
+install: build
+	cmake --install build/release --prefix $(PREFIX)
+
+format:
+	@command -v clang-format >/dev/null || { echo "clang-format is missing (apt-get install clang-format)"; exit 1; }
+	find include src cli tests bench examples -name '*.h' -o -name '*.cpp' | xargs clang-format -i
+
+clean:
+	rm -rf build out

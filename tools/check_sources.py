@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""Checks the order of the rooms and the habits that a compiler does not see; prints every breach and exits with 1.
+
+  - a file in src/<room> includes nothing of a room on its right; laws and probes do not see each other;
+  - nothing in src/ includes the program, tests or benchmarks; a public header includes public headers only;
+  - no file has more than 500 lines, no function more than 100;
+  - no vague names in files and types; no notes to self.
+"""
+import pathlib
+import re
+import sys
+
+ROOMS = "base space model laws probes solve system integrators analyses results io".split()
+# The leftmost room that may use a public header; others count as model.
+PUBLIC_HEADERS = {
+    "complaint.h": "base",
+    "expression.h": "base",
+    "model.h": "model",
+    "trajectory.h": "integrators",
+    "simulate.h": "analyses",
+}
+OUTER = {"cli", "tests", "bench", "examples"}
+FOLDERS = ["include", "src", "cli", "tests", "bench", "examples", "tools", "cmake"]
+SUFFIXES = {".h", ".cpp", ".py", ".sh", ".cmake"}
+MAX_FILE, MAX_FUNCTION = 500, 100
+VAGUE = {"manager", "handler", "util", "utils", "helper", "helpers", "misc", "data2", "tmp"}
+NOTE = re.compile(r"\b(" + "TO" + "DO|FIX" + "ME|XX" + r"X)\b")
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
+TYPE = re.compile(r"^\s*(?:class|struct|enum class|enum|namespace)\s+(\w+)")
+FUNCTION = re.compile(r"^(?!namespace|class|struct|enum|union|extern|template|#|//|})\S.*\)[^;=]*\{$")
+
+
+def words(name):
+    """The words of a file's or a type's name, in lower case."""
+    return {word.lower() for word in re.findall(r"[A-Z]?[a-z0-9]+|[A-Z]+", name)}
+
+
+def room_may_include(room, target):
+    """Why `room` may not include `target`, or an empty string."""
+    head, _, rest = target.partition("/")
+    if head == "pintle":
+        leftmost = PUBLIC_HEADERS.get(rest, "model")
+        return "" if ROOMS.index(room) >= ROOMS.index(leftmost) else f"{target} is for {leftmost} and rooms on its right"
+    if head in OUTER:
+        return f"{target} is outside the library"
+    if head not in ROOMS:
+        return f"{target} names no room: write \"room/file.h\" or \"pintle/file.h\""
+    if ROOMS.index(head) > ROOMS.index(room):
+        return f"{target} is on the right of {room}"
+    if {room, head} == {"laws", "probes"}:
+        return "laws and probes do not see each other"
+    return ""
+
+
+def include_breach(path, target):
+    parts = path.parts
+    if parts[0] == "include" and not target.startswith("pintle/"):
+        return f"a public header includes the internal {target}"
+    if parts[0] == "src" and len(parts) > 2:
+        return room_may_include(parts[1], target)
+    return ""
+
+
+def function_breaches(lines):
+    """(line, message) of every function that begins and ends in the first column and is too long."""
+    start = None
+    for number, line in enumerate(lines, 1):
+        if start is None and FUNCTION.match(line):
+            start = number
+        elif start is not None and line.startswith("}"):
+            if number - start + 1 > MAX_FUNCTION:
+                yield start, f"a function of {number - start + 1} lines (at most {MAX_FUNCTION})"
+            start = None
+
+
+def breaches(root, path):
+    lines = (root / path).read_text(encoding="utf-8").splitlines()
+    if len(lines) > MAX_FILE:
+        yield 1, f"{len(lines)} lines (at most {MAX_FILE})"
+    for word in sorted(words(path.stem) & VAGUE):
+        yield 1, f"the file's name says '{word}': name what it does"
+    if path.suffix in {".h", ".cpp"}:
+        yield from function_breaches(lines)
+    for number, line in enumerate(lines, 1):
+        if NOTE.search(line):
+            yield number, "a note to self: do it, or leave it out"
+        if path.suffix not in {".h", ".cpp"}:
+            continue
+        if include := INCLUDE.match(line):
+            if breach := include_breach(path, include[1]):
+                yield number, breach
+        if (named := TYPE.match(line)) and (vague := words(named[1]) & VAGUE):
+            yield number, f"the name {named[1]} says '{', '.join(sorted(vague))}': name what it is"
+
+
+def main():
+    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent).resolve()
+    count, files = 0, 0
+    for folder in FOLDERS:
+        for file in sorted((root / folder).rglob("*")):
+            path = file.relative_to(root)
+            if not file.is_file() or file.suffix not in SUFFIXES:
+                continue
+            files += 1
+            for line, message in breaches(root, path):
+                print(f"{path}:{line}: {message}")
+                count += 1
+    print(f"check_sources: {files} files, {count} breach{'' if count == 1 else 'es'}")
+    return 1 if count else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
