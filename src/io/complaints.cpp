@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "base/did_you_mean.h"
+#include "io/text.h"
 
 namespace pintle {
 
@@ -12,10 +13,15 @@ void Complaints::add(Spot spot, std::string path, std::string found, std::string
                                                      std::move(suggestion)));
 }
 
-std::string Complaints::did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+std::string Complaints::nearest(std::string_view word, const std::vector<std::string>& candidates) {
   if (suggestions_left_ <= 0) return {};
   --suggestions_left_;
   return pintle::did_you_mean(word, candidates).value_or("");
+}
+
+std::string Complaints::did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::string near = nearest(word, candidates);
+  return near.empty() ? near : "did you mean " + quoted(near) + "?";
 }
 
 void Complaints::throw_if_any() {

@@ -18,6 +18,9 @@ class Complaints {
 
   /// The candidate nearest to `word`, or "" if none is near. Big models with many mistakes get this for the first ones
   /// only: each costs a look at every candidate.
+  std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+  /// The nearest candidate as a question, or "".
   std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
 
   bool empty() const { return complaints_.empty(); }

@@ -1,7 +1,7 @@
 // Markers: a point and an axis, in Cartesian or in the paper's polar form.
 
 #include <cmath>
-#include <initializer_list>
+#include <numbers>
 
 #include "base/units.h"
 #include "io/record.h"
@@ -26,6 +26,15 @@ const KeySpec* find_part(std::string_view key) {
     if (spec.key == key) return &spec;
   }
   return nullptr;
+}
+
+// The unit vector at an angle; at whole quarter turns it is exact, as "180 deg" is meant.
+Vec2 direction(double angle) {
+  constexpr double kQuarter = std::numbers::pi / 2;
+  const double quarters = std::round(angle / kQuarter);
+  if (std::abs(quarters) > 1000 || angle != quarters * kQuarter) return {std::cos(angle), std::sin(angle)};
+  constexpr std::array<Vec2, 4> kExact{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  return kExact[static_cast<std::size_t>(static_cast<int>(quarters) & 3)];
 }
 
 constexpr const char* kForms = "[x, y], [x, y, axis], { x = 0, y = 0, axis = 0 } or { r = 1, xi = 0, axis = 0 }";
@@ -88,7 +97,8 @@ bool RecordReader::read_marker_table(const Table& table, const Entry& entry, con
   }
   marker.axis = parts["axis"];
   if (polar) {
-    marker.position = {parts["r"] * std::cos(parts["xi"]), parts["r"] * std::sin(parts["xi"])};
+    const Vec2 along = direction(parts["xi"]);
+    marker.position = {parts["r"] * along[0], parts["r"] * along[1]};
   } else {
     marker.position = {parts["x"], parts["y"]};
   }

@@ -1,24 +1,12 @@
-#include <cerrno>
-#include <fstream>
 #include <utility>
-#include <system_error>
 
 #include "io/model_reading.h"
 #include "io/overrides.h"
 #include "pintle/read_model.h"
+#include "results/disk.h"
 
 namespace pintle {
 namespace {
-
-std::string text_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::system_error(errno, std::generic_category(), path);
-  std::string text(kMaxFileBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad()) throw std::system_error(errno, std::generic_category(), path);
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return text;
-}
 
 Model model_of(const Document& document) {
   Reading reading(document);
@@ -41,7 +29,7 @@ Model parse_model(std::string_view text, std::string_view file_name, const std::
 }
 
 Model read_model(const std::string& path, const std::vector<std::string>& overrides) {
-  return parse_model(text_of_file(path), path, overrides);
+  return parse_model(read_file(path, kMaxFileBytes + 1), path, overrides);
 }
 
 }  // namespace pintle

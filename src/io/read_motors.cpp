@@ -19,7 +19,7 @@ void add_joint(const std::string& name, const std::string& type_word, Variables&
   for (const ComponentInfo& coordinate : type->free) {
     variables.emplace_back(name + "." + std::string(coordinate.name), coordinate.angular ? kAngle : kLength);
   }
-  variables.emplace_back(name + ".rate", type->free.front().angular ? kAngularSpeed : kSpeed);
+  variables.emplace_back(name + ".rate", type->free.front().angular ? kAngularSpeed : kLinearSpeed);
 }
 
 // Every name before a dot in the text. Big models have many joints, so only those that are mentioned become variables.
@@ -110,7 +110,7 @@ void read_motor(Reading& reading, const Entry& entry, std::map<std::string, std:
   const std::string effort = coordinate == "slide" ? "force" : "torque";
   const std::string when = coordinate.empty() ? "angle" : coordinate;
   const Record record = reading.records.read(reading.spec("motor.*", when), entry.value, entry.key_spot, path,
-                                             "in a joint that leaves the " + when + " free");
+                                             when == "angle" ? "a motor in a revolute joint" : "a motor in a sliding joint");
   check_choice(reading, entry, path, effort);
   Motor motor;
   motor.name = entry.key;

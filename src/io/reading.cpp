@@ -43,16 +43,16 @@ MarkerRef read_marker_ref(Reading& reading, const Node& node, const std::string&
   const MarkerRef ref{text.substr(0, dot), text.substr(dot + 1)};
   const auto body = reading.markers_of.find(ref.body);
   if (body == reading.markers_of.end()) {
-    const std::string near = reading.complaints.did_you_mean(ref.body, keys_of(reading.markers_of));
+    const std::string near = reading.complaints.nearest(ref.body, keys_of(reading.markers_of));
     reading.complaints.add(node.spot, path, quoted(text), "there is no body " + quoted(ref.body),
-                           near.empty() ? "" : near + "." + ref.marker);
+                           near.empty() ? "" : "did you mean " + quoted(near + "." + ref.marker) + "?");
   } else if (body->second.count(ref.marker) == 0) {
     const std::vector<std::string> names(body->second.begin(), body->second.end());
-    const std::string near = reading.complaints.did_you_mean(ref.marker, names);
+    const std::string near = reading.complaints.nearest(ref.marker, names);
     reading.complaints.add(reading.complaints.document().inside(node, dot + 1), path, quoted(text),
                            (ref.body == "ground" ? "the ground" : "body " + ref.body) + " has no marker " +
                                quoted(ref.marker),
-                           near.empty() ? "" : ref.body + "." + near);
+                           near.empty() ? "" : "did you mean " + quoted(ref.body + "." + near) + "?");
   }
   return ref;
 }

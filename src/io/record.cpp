@@ -100,7 +100,7 @@ void RecordReader::complain_of_key(const TableSpec& spec, const Entry& entry, co
   std::vector<std::string> candidates = Schema::model().children(spec.path);
   for (const KeySpec& key : spec.keys) candidates.push_back(key.key);
   std::string near = complaints_.did_you_mean(entry.key, candidates);
-  if (near.empty() && candidates.size() <= 12) {
+  if (near.empty()) {
     for (const std::string& candidate : candidates) {
       if (candidate != "*") near += (near.empty() ? "one of " : ", ") + candidate;
     }

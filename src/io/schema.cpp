@@ -99,6 +99,7 @@ TableSpec read_table(const Table& table) {
   TableSpec spec;
   spec.path = text_of(table, "path");
   spec.when = text_of(table, "when");
+  spec.called = text_of(table, "called");
   spec.meaning = text_of(table, "meaning");
   if (const Node* keys = table.find("keys")) {
     for (const Entry& entry : keys->table()->entries()) spec.keys.push_back(read_key(entry.key, *entry.value.table()));
@@ -196,11 +197,11 @@ std::vector<std::string> Schema::kinds_with(std::string_view path, std::string_v
   std::vector<std::string> kinds;
   for (const TableSpec& table : tables_) {
     if (table.path != path) continue;
-    if (!table.when.empty() && table.find(key) != nullptr) kinds.push_back(table.when);
+    if (!table.when.empty() && table.find(key) != nullptr) kinds.push_back(table.called);
     if (!table.joint_type_keys) continue;
     for (const JointTypeInfo& type : joint_type_catalog()) {
       const auto has = [&](const KeyInfo& info) { return info.key == key; };
-      if (std::any_of(type.keys.begin(), type.keys.end(), has)) kinds.emplace_back(type.word);
+      if (std::any_of(type.keys.begin(), type.keys.end(), has)) kinds.push_back(std::string(type.word) + " joints");
     }
   }
   return kinds;

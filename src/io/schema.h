@@ -53,6 +53,7 @@ struct KeySpec {
 struct TableSpec {
   std::string path;
   std::string when;  ///< for things of this kind only; "": for all
+  std::string called;  ///< such things in words: "gear joints"
   std::string meaning;
   std::vector<KeySpec> keys;
   std::optional<KeySpec> entries;  ///< a table of names that the user chooses, each with a value like this
@@ -76,7 +77,7 @@ class Schema {
   /// The tables that may stand in the table at `path`, by key; "*" for names that the user chooses.
   std::vector<std::string> children(std::string_view path) const;
 
-  /// The kinds (`when`) of things at `path` that have `key`.
+  /// The kinds of things at `path` that alone have `key`, in words: "gear joints".
   std::vector<std::string> kinds_with(std::string_view path, std::string_view key) const;
 
  private:

@@ -29,14 +29,12 @@ std::string short_number(double number) { return fmt::format("{}", number); }
 
 std::string range_problem(double number, const KeySpec& spec) {
   const std::string unit = spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit;
+  const bool feeds = spec.key.find("damping") != std::string::npos || spec.key.find("stiffness") != std::string::npos;
+  if (feeds && number < 0) return "a negative " + spec.key + " feeds energy into the mechanism";
   if (spec.minimum && spec.minimum_exclusive && number <= *spec.minimum) {
     return "this must be greater than " + short_number(*spec.minimum) + unit;
   }
-  if (spec.minimum && number < *spec.minimum) {
-    const bool passive = spec.key.find("damping") != std::string::npos || spec.key.find("stiffness") != std::string::npos;
-    if (passive) return "a negative " + spec.key + " feeds energy into the mechanism";
-    return "this must be at least " + short_number(*spec.minimum) + unit;
-  }
+  if (spec.minimum && number < *spec.minimum) return "this must be at least " + short_number(*spec.minimum) + unit;
   if (spec.maximum && number > *spec.maximum) return "this must be at most " + short_number(*spec.maximum) + unit;
   return {};
 }
@@ -166,7 +164,8 @@ bool RecordReader::read_numbers(const Node& node, const KeySpec& spec, const std
   }
   if (list == nullptr || list->size() != spec.count) {
     complaints_.add(node.spot, path, describe(node),
-                    "a list of " + std::to_string(spec.count) + " numbers is wanted here",
+                    "a list of " + std::to_string(spec.count) + (spec.count == 1 ? " number" : " numbers") +
+                        " is wanted here",
                     spec.per_component ? "one number for each linear gap component, or one for all" : "[0, 0]");
     return false;
   }
@@ -189,7 +188,7 @@ void RecordReader::set_variables(const KeySpec& spec, std::string_view text) {
   }
   const bool has_rate = std::find(spec.variables.begin(), spec.variables.end(), "rate") != spec.variables.end();
   const bool slides = std::find(spec.variables.begin(), spec.variables.end(), "slide") != spec.variables.end();
-  if (has_rate) scope.variables.emplace_back("rate", slides ? kSpeed : kAngularSpeed);
+  if (has_rate) scope.variables.emplace_back("rate", slides ? kLinearSpeed : kAngularSpeed);
 }
 
 bool RecordReader::read_expression(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
