@@ -9,6 +9,7 @@
 #include "cli/console.h"
 #include "cli/exit_codes.h"
 #include "cli/verbs.h"
+#include "io/document.h"
 #include "pintle/read_model.h"
 #include "results/disk.h"
 
@@ -30,8 +31,8 @@ std::string counted(std::size_t n, const char* one, const char* many) {
 }
 
 void check(const CheckOptions& options) {
-  check_readable(options.model);
-  const Model model = read_model(options.model, options.overrides);
+  const std::string text = read_file(options.model, kMaxFileBytes + 1);
+  const Model model = parse_model(text, options.model, options.overrides);
   print_out(fmt::format(
       "{}: in order: {}, {}, {}, {}, {}\n", options.model, counted(model.bodies.size(), "moving body", "moving bodies"),
       counted(model.joints.size(), "joint", "joints"), counted(model.springs.size(), "spring", "springs"),

@@ -15,6 +15,7 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
+#include "io/document.h"
 #include "pintle/read_model.h"
 #include "pintle/results.h"
 #include "pintle/simulate.h"
@@ -95,11 +96,10 @@ void print_results(const Trajectory& trajectory, const RunStamp& stamp, const Ru
 ExitCode run(const RunOptions& options) {
   const std::filesystem::path folder = run_folder(options);
   const Overwrite overwrite = options.force ? Overwrite::kAnyFolder : Overwrite::kRunFolder;
-  check_readable(options.model);
-  const Model model = read_model(options.model, all_overrides(options));
+  const std::string text = read_file(options.model, kMaxFileBytes + 1);
+  const Model model = parse_model(text, options.model, all_overrides(options));
   check_run_folder(folder, overwrite);
-  const RunStamp stamp{model.name, options.model, "sha256:" + sha256(read_file(options.model)), PINTLE_VERSION,
-                       command_line()};
+  const RunStamp stamp{model.name, options.model, "sha256:" + sha256(text), PINTLE_VERSION, command_line()};
 
   catch_interrupts();
   ProgressReport report(progress_style(options));

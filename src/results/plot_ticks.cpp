@@ -10,13 +10,14 @@
 namespace pintle {
 namespace {
 
-/// The nearest of 1, 2, 5, 10 times a power of ten, not below `x`.
+/// The nearest of 1, 2, 5, 10 times a power of ten.
 double round_step(double x) {
   const double power = std::pow(10.0, std::floor(std::log10(x)));
-  for (const double digit : {1.0, 2.0, 5.0})
-    if (x <= digit * power * (1 + 1e-9)) return digit * power;
-  return 10 * power;
+  const double digit = x / power;
+  return power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
 }
+
+constexpr double kMargin = 0.05;  // free room above and below the data, of their range
 
 struct Prefix {
   int exponent;
@@ -24,9 +25,9 @@ struct Prefix {
 };
 constexpr std::array<Prefix, 7> kPrefixes{{{-9, "n"}, {-6, "µ"}, {-3, "m"}, {0, ""}, {3, "k"}, {6, "M"}, {9, "G"}}};
 
-bool takes_prefix(std::string_view unit) {
+bool takes_prefix(std::string_view unit, int exponent) {
   constexpr std::array<std::string_view, 6> kUnits{"N", "N*m", "W", "J", "m", "m/s"};
-  return std::find(kUnits.begin(), kUnits.end(), unit) != kUnits.end();
+  return (unit == "s" && exponent < 0) || std::find(kUnits.begin(), kUnits.end(), unit) != kUnits.end();
 }
 
 void replace_all(std::string& text, std::string_view old, std::string_view fresh) {
@@ -53,14 +54,16 @@ Axis make_axis(double low, double high, int n_ticks, bool tight) {
   }
   const double step = round_step((high - low) / n_ticks);
   if (tight) return {low, high, step};
-  return {std::floor(low / step + 1e-9) * step, std::ceil(high / step - 1e-9) * step, step};
+  const double margin = kMargin * (high - low);
+  const bool from_zero = low >= 0 && low < margin, to_zero = high <= 0 && high > -margin;
+  return {from_zero ? 0 : low - margin, to_zero ? 0 : high + margin, step};
 }
 
 AxisScale scale_for(double largest, const std::string& unit) {
   if (!(largest > 0) || !std::isfinite(largest) || (largest < 1e4 && largest >= 0.1)) return {1, printed_unit(unit)};
   const int exponent = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
   const int shown = std::clamp(exponent, -9, 9);
-  if (takes_prefix(unit)) {
+  if (takes_prefix(unit, exponent)) {
     const auto prefix =
         std::find_if(kPrefixes.begin(), kPrefixes.end(), [&](const Prefix& p) { return p.exponent == shown; });
     return {std::pow(10.0, shown), prefix->text + printed_unit(unit)};

@@ -6,15 +6,15 @@
 
 namespace pintle {
 
-/// A range that ends on ticks (or just covers the data), with a step of 1, 2 or 5 times a power of ten.
+/// A range with ticks at multiples of 1, 2 or 5 times a power of ten.
 struct Axis {
   double low = 0, high = 1, step = 1;
 
   std::vector<double> ticks() const;  ///< those within [low, high]
 };
 
-/// The axis for data in [low, high] with about `n_ticks` ticks. `tight`: ends where the data end. A range without width
-/// is widened.
+/// The axis for data in [low, high] with about `n_ticks` ticks. `tight`: ends where the data end; else with some room,
+/// but not beyond a zero that the data almost reach. A range without width is widened.
 Axis make_axis(double low, double high, int n_ticks, bool tight);
 
 /// Numbers of an axis divided by `factor`, so that they are short; the unit's name then has the prefix.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <string_view>
 
 #include "base/did_you_mean.h"
@@ -115,19 +116,34 @@ class PlotMaker {
   }
 
   void add_joint(const LoadSummary& joint) {
-    const std::string prefix = fmt::format("joint.{}.on_{}.", joint.name, body_on(joint, request_));
+    const std::string body = body_on(joint, request_);
+    const std::string prefix = fmt::format("joint.{}.on_{}.", joint.name, body);
+    const bool alone = request_.joints.size() == 1;
     const auto column = [&](std::string_view name) {
       return values_of(run_.trajectory, find_column(run_.trajectory, prefix + std::string(name)));
     };
     for (const std::string& word : request_.components) {
       const ComponentName& component = find_component(word);
       const bool moment = component.word == "moment";
-      const std::string whose = request_.joints.size() > 1 ? joint.name + ": " : "";
-      Curve curve{whose + component.label, component.subscript, {}};
+      const std::string on = alone ? " on " + body : "";
+      Curve curve{
+          (alone ? "" : fmt::format("{} on {}: ", joint.name, body)) + component.label, component.subscript, {}};
       curve.y =
           component.column.empty() ? magnitude(column("fx[world]"), column("fy[world]")) : column(component.column);
-      panel_for(moment ? "N*m" : "N", moment ? "Couple" : "Force").curves.push_back(std::move(curve));
+      panel_for(moment ? "N*m" : "N", moment ? "Couple" + on : "Force" + on + axes())
+          .curves.push_back(std::move(curve));
     }
+  }
+
+  /// Which axes the force components are along, if it is one kind of axes.
+  std::string axes() const {
+    const auto any_of = [this](std::initializer_list<std::string_view> words) {
+      return std::any_of(request_.components.begin(), request_.components.end(), [&](const std::string& component) {
+        return std::find(words.begin(), words.end(), component) != words.end();
+      });
+    };
+    const bool world = any_of({"x", "y"}), joint = any_of({"1", "2"});
+    return world == joint ? "" : world ? ", world axes" : ", joint axes";
   }
 
   void add_column(const std::string& name) {

@@ -129,10 +129,10 @@ std::string energy_section(const EnergyAccount& energy, const Style& style) {
 std::string work_section(const Trajectory& trajectory) {
   const Counters& n = trajectory.counters;
   return fmt::format(
-      "\nMethod {}, tolerance {:g}: {} steps ({} rejected), {} Newton iterations ({} failures), {} evaluations, {} "
-      "factorizations, {} {}\n",
-      trajectory.method, trajectory.tolerance, n.steps, n.rejected, n.newton_iterations, n.newton_failures,
-      n.evaluations, n.factorizations, n.passes, n.passes == 1 ? "pass" : "passes");
+      "\nMethod {}, tolerance {:g}: {} steps ({} rejected) in {} {}\n"
+      "  {} Newton iterations ({} failures), {} evaluations, {} factorizations\n",
+      trajectory.method, trajectory.tolerance, n.steps, n.rejected, n.passes, n.passes == 1 ? "pass" : "passes",
+      n.newton_iterations, n.newton_failures, n.evaluations, n.factorizations);
 }
 
 }  // namespace

@@ -142,12 +142,13 @@ void Picture::lay_out() {
   Range x_range;
   x_range.cover(plot_.x);
   const AxisScale x_scale = scale_for(x_range.largest(), plot_.x_unit);
+  const bool rising = std::is_sorted(plot_.x.begin(), plot_.x.end());
   double label_width = 0;
   for (const Panel& panel : plot_.panels) {
     Range range;
     for (const Curve& curve : panel.curves) range.cover(curve.y);
     Frame frame(panel);
-    frame.x = x_range.axis(x_scale.factor, 8, true);
+    frame.x = x_range.axis(x_scale.factor, 8, rising);
     frame.x_scale = x_scale;
     frame.y_scale = scale_for(range.largest(), panel.unit);
     frame.y = range.axis(frame.y_scale.factor, 6, false);

@@ -1,0 +1,48 @@
+// A folder to run the program in, and what it answered: for the tests of the command line.
+#pragma once
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "results/disk.h"
+#include "results/sample_run_for_tests.h"
+
+namespace pintle::sample {
+
+struct Answer {
+  int exit_code = -1;
+  std::string out, error;
+};
+
+class Sandbox {
+ public:
+  /// Runs a shell command in the folder; $PINTLE is the program.
+  Answer shell(const std::string& command) {
+    const std::string line = fmt::format("cd '{}' && PINTLE='{}' && export TERM=xterm && {{ {} ; }} > .out 2> .error",
+                                         folder_.path().string(), PINTLE_BINARY, command);
+    const int status = std::system(line.c_str());
+    Answer answer;
+    answer.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    answer.out = read_file(folder_ / ".out");
+    answer.error = read_file(folder_ / ".error");
+    return answer;
+  }
+  Answer pintle(const std::string& words) { return shell("\"$PINTLE\" " + words); }
+
+  void write(const std::string& name, std::string_view text) { write_file(folder_ / name, text); }
+  std::string read(const std::string& name) const { return read_file(folder_ / name); }
+  bool has(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
+
+ private:
+  ScratchFolder folder_;
+};
+
+inline bool holds(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace pintle::sample

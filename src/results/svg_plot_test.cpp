@@ -1,0 +1,139 @@
+#include "results/svg_plot.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "results/plot_ticks.h"
+#include "results/run_plot.h"
+#include "results/sample_run_for_tests.h"
+#include "results/thin_line.h"
+
+namespace pintle {
+namespace {
+
+bool holds(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+PlotRequest request_for(std::vector<std::string> joints, std::vector<std::string> columns, const std::string& on = "") {
+  PlotRequest request;
+  request.joints = std::move(joints);
+  request.columns = std::move(columns);
+  request.on = on;
+  return request;
+}
+
+TEST(PlotTicks, StepsAreRoundAndCoverTheData) {
+  for (const double size : {1e-9, 0.37, 1.0, 63.0, 4.4e7})
+    for (const double offset : {-3.0, -0.5, 0.0, 0.01, 100.0}) {
+      const double low = size * offset, high = low + size;
+      const Axis axis = make_axis(low, high, 6, false);
+      EXPECT_LE(axis.low, low);
+      EXPECT_GE(axis.high, high);
+      EXPECT_GE(axis.ticks().size(), 4U) << low << " " << high;
+      EXPECT_LE(axis.ticks().size(), 11U) << low << " " << high;
+      const double digit = axis.step / std::pow(10, std::floor(std::log10(axis.step) + 1e-9));
+      EXPECT_TRUE(std::abs(digit - 1) < 1e-9 || std::abs(digit - 2) < 1e-9 || std::abs(digit - 5) < 1e-9) << digit;
+    }
+}
+
+TEST(PlotTicks, ConstantDataGetRoom) {
+  for (const double value : {0.0, 5.0, -1e-12, 1e300}) {
+    const Axis axis = make_axis(value, value, 6, true);
+    EXPECT_LT(axis.low, value);
+    EXPECT_GT(axis.high, value);
+    EXPECT_LT(axis.ticks().size(), 12U);
+  }
+}
+
+TEST(PlotTicks, LabelsShowWhatTheStepNeeds) {
+  EXPECT_EQ(tick_text(0.3, 0.1), "0.3");
+  EXPECT_EQ(tick_text(-0.25, 0.05), "−0.25");
+  EXPECT_EQ(tick_text(1e-17, 0.1), "0.0");
+  EXPECT_EQ(tick_text(200, 100), "200");
+}
+
+TEST(PlotTicks, BigAndSmallNumbersGetAPrefix) {
+  EXPECT_EQ(scale_for(300, "N").unit, "N");
+  EXPECT_EQ(scale_for(3e4, "N").unit, "kN");
+  EXPECT_EQ(scale_for(3e4, "N").factor, 1e3);
+  EXPECT_EQ(scale_for(2e-3, "m").unit, "mm");
+  EXPECT_EQ(scale_for(0.02, "s").unit, "ms");
+  EXPECT_EQ(scale_for(2e4, "s").unit, "10³ s");
+  EXPECT_EQ(scale_for(2e5, "rad/s").unit, "10³ rad/s");
+  EXPECT_EQ(scale_for(0, "N").factor, 1);
+  EXPECT_EQ(printed_unit("kg*m^2*s^-1"), "kg·m²·s⁻¹");
+}
+
+TEST(ThinLine, KeepsEveryPeakOfALongSeries) {
+  std::vector<Point> points;
+  for (int i = 0; i < 100000; ++i) points.push_back({i * 0.007, std::sin(0.3 * i)});
+  points[54321].y = 50;
+  points[77777].y = -50;
+  const std::vector<Point> kept = thin_line(points, 0.5);
+  EXPECT_LT(kept.size(), 4 * 1402U);
+  const auto [low, high] = std::minmax_element(kept.begin(), kept.end(), [](auto& a, auto& b) { return a.y < b.y; });
+  EXPECT_EQ(high->x, points[54321].x);
+  EXPECT_EQ(low->x, points[77777].x);
+  EXPECT_EQ(kept.front().x, points.front().x);
+  EXPECT_EQ(kept.back().x, points.back().x);
+}
+
+TEST(ThinLine, StaysCloseToAWanderingLine) {
+  std::vector<Point> points;
+  for (int i = 0; i < 10000; ++i) points.push_back({100 * std::cos(1e-3 * i), 100 * std::sin(1e-3 * i)});
+  const std::vector<Point> kept = thin_line(points, 0.5);
+  EXPECT_LT(kept.size(), 2001U);
+  EXPECT_GT(kept.size(), 1000U);
+}
+
+TEST(ThinLine, GapsStayGaps) {
+  const double nan = std::nan("");
+  for (const double turn : {1.0, -1.0}) {  // rising and wandering
+    const std::vector<Point> points{{0, 0}, {1, 1}, {2, nan}, {3, nan}, {4, 1}, {4 + turn, 2}};
+    const std::vector<Point> kept = thin_line(points, 0.1);
+    ASSERT_EQ(kept.size(), 5U);
+    EXPECT_TRUE(std::isnan(kept[2].y));
+  }
+  EXPECT_TRUE(thin_line({}, 0.5).empty());
+}
+
+TEST(SvgPlot, EscapesNamesAndSurvivesEmptyAndBadData) {
+  Plot plot;
+  plot.title = "A & <B>";
+  plot.subtitle = "\"q\"\x01";
+  EXPECT_TRUE(holds(to_svg(plot), "A &amp; &lt;B&gt;"));
+  EXPECT_FALSE(holds(to_svg(plot), "\x01"));
+  const double inf = std::numeric_limits<double>::infinity();
+  plot.x = {0, 1, 2, 3};
+  plot.panels = {{"F", "N", {{"F", "x", {1, std::nan(""), inf, 2}}}}, {"empty", "", {{"e", "", {}}}}};
+  const std::string svg = to_svg(plot);
+  EXPECT_FALSE(holds(svg, "nan"));
+  EXPECT_FALSE(holds(svg, "inf"));
+  EXPECT_TRUE(holds(svg, "F [N]"));
+}
+
+TEST(RunPlot, ForcesOfOneJointNameBodyAndAxes) {
+  const RunRecord run{sample::stamp(), sample::trajectory()};
+  const Plot plot = make_plot(run, request_for({"O4"}, {}, "ground"));
+  EXPECT_EQ(plot.title, "Joint O4: force on ground");
+  ASSERT_EQ(plot.panels.size(), 1U);
+  EXPECT_EQ(plot.panels[0].quantity, "Force on ground, world axes");
+  ASSERT_EQ(plot.panels[0].curves.size(), 3U);
+  EXPECT_EQ(plot.panels[0].curves[0].y[7], -run.trajectory.at(7, 1));
+  EXPECT_EQ(plot.panels[0].curves[2].y[7], std::hypot(run.trajectory.at(7, 3), run.trajectory.at(7, 4)));
+}
+
+TEST(RunPlot, UnitsShareOrSplitPanels) {
+  const RunRecord run{sample::stamp(), sample::trajectory()};
+  const Plot plot = make_plot(run, request_for({"O4"}, {"joint.O4.angle", "joint.O4.on_ground.fx[world]"}));
+  ASSERT_EQ(plot.panels.size(), 2U);
+  EXPECT_EQ(plot.panels[0].curves.size(), 4U);
+  EXPECT_EQ(plot.panels[1].unit, "rad");
+}
+
+}  // namespace
+}  // namespace pintle
