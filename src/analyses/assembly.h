@@ -1,0 +1,21 @@
+// Finds a state to start from: positions that close every loop, velocities of the joints' free motion, joint preload.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pintle/model.h"
+#include "system/state.h"
+
+namespace pintle {
+
+struct Assembly {
+  State state;                     // t = 0
+  std::vector<std::string> notes;  // what was assumed
+  double largest_move = 0;         // of a centre of mass that was stated [m]
+};
+
+/// Assembles `model`; settles `system` (made by build_system from it). Throws AssemblyError when a loop cannot close.
+Assembly assemble(const Model& model, System& system);
+
+}  // namespace pintle

@@ -1,0 +1,158 @@
+#include "analyses/slow_start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrators/gap_projector.h"
+#include "integrators/radau_stepper.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+constexpr int kPasses = 6;
+
+// The slowest frequency that a joint's stiffness gives to the two bodies it connects, over all joints.
+double slowest_joint(const System& system, const std::vector<Reading>& r) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const JointData& joint = system.joints[j];
+    const S::Vec k = respond(joint.law, S::Vec(1e-9, 0, 0), S::Vec::Zero()).stiffness.diagonal();
+    for (int c = 0; c < 3; ++c) {
+      if (!(k[c] > 0)) continue;
+      double mobility = 0;
+      if (joint.at.a != kGround) mobility += r[j].GA.row(c).cwiseAbs2().dot(system.bodies[joint.at.a].mass.cwiseInverse());
+      if (joint.at.b != kGround) mobility += r[j].GB.row(c).cwiseAbs2().dot(system.bodies[joint.at.b].mass.cwiseInverse());
+      if (mobility > 0) slowest = std::min(slowest, std::sqrt(k[c] * mobility));
+    }
+  }
+  return slowest;
+}
+
+void plain_start(const System& system, State& state) {
+  std::vector<S::Motion> m;
+  std::vector<Reading> r;
+  system.motions(state.q, state.v, m);
+  system.readings(state.t, m, r);
+  system.accelerations(state.t, state.q, state.v, state.a);
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const Placement& at = system.joints[j].at;
+    state.gap[j] = r[j].gap;
+    state.gap_rate[j] = r[j].rate;
+    state.force[j] = law_force(system.joints[j].law, r[j].gap, r[j].rate);
+    state.gap_accel[j] = r[j].bias;
+    if (at.a != kGround) state.gap_accel[j] += r[j].GA * state.a[at.a];
+    if (at.b != kGround) state.gap_accel[j] += r[j].GB * state.a[at.b];
+  }
+}
+
+// Forces that give the gaps the accelerations state.gap_accel, and the gaps that carry them; bodies follow. Eqs. (3.1)-(3.4).
+class Preload {
+ public:
+  Preload(const System& system, State& state) : system_(system), state_(state), projector_(system) {}
+
+  bool pass() {
+    system_.motions(state_.q, state_.v, m_);
+    system_.readings(state_.t, m_, r_);
+    const double mu = 0.02 * slowest_joint(system_, r_);
+    if (!std::isfinite(mu) || !(mu > 0)) return false;
+    if (!projector_.prepare(state_.t, m_, mu, state_.gap, state_.gap_rate)) return false;
+    system_.external(state_.t, m_, Q_);
+    find_accelerations();
+    for (int i = 0; i < 4; ++i) projector_.improve_forces(Q_, state_.a, state_.force);
+    for (int j = 0; j < system_.n_joints(); ++j) carry(j);
+    move_bodies();
+    return true;
+  }
+
+ private:
+  S::Vec from_bodies(int j, const Vecs& x) const {
+    const Placement& at = system_.joints[j].at;
+    S::Vec y = S::Vec::Zero();
+    if (at.a != kGround) y += r_[j].GA * x[at.a];
+    if (at.b != kGround) y += r_[j].GB * x[at.b];
+    return y;
+  }
+
+  void find_accelerations() {
+    // Free bodies' accelerations first; then what the joints ask for.
+    for (int i = 0; i < system_.n_bodies(); ++i) state_.a[i] = Q_[i].cwiseQuotient(system_.bodies[i].mass);
+    Vecs wanted(r_.size());
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < system_.n_joints(); ++j) wanted[j] = state_.gap_accel[j] - r_[j].bias - from_bodies(j, state_.a);
+      projector_.close(wanted, state_.a);
+    }
+  }
+
+  // The gap at which the law gives the force: Newton on the law's own tangent; nothing in free components.
+  void carry(int j) {
+    for (int i = 0; i < 20; ++i) {
+      const Response now = respond(system_.joints[j].law, state_.gap[j], state_.gap_rate[j]);
+      const S::Vec miss = state_.force[j] - now.force;
+      bool moved = false;
+      for (int k = 0; k < 3; ++k) {
+        if (!(now.stiffness(k, k) > 0)) continue;
+        const double step = -miss[k] / now.stiffness(k, k);
+        state_.gap[j][k] += step;
+        moved = moved || std::abs(step) > 1e-15 * std::abs(state_.gap[j][k]);
+      }
+      if (!moved) break;
+    }
+  }
+
+  void move_bodies() {
+    Vecs wanted(r_.size());
+    for (int i = 0; i < 4; ++i) {
+      system_.motions(state_.q, state_.v, m_);
+      system_.readings(state_.t, m_, r_);
+      for (int j = 0; j < system_.n_joints(); ++j) wanted[j] = state_.gap[j] - r_[j].gap;
+      projector_.close(wanted, state_.q);
+    }
+    system_.motions(state_.q, state_.v, m_);
+    system_.readings(state_.t, m_, r_);
+    Vecs dv(state_.v.size(), S::Vec::Zero());
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < system_.n_joints(); ++j) wanted[j] = state_.gap_rate[j] - r_[j].rate - from_bodies(j, dv);
+      projector_.close(wanted, dv);
+    }
+    for (std::size_t i = 0; i < dv.size(); ++i) state_.v[i] += dv[i];
+  }
+
+  const System& system_;
+  State& state_;
+  GapProjector projector_;
+  std::vector<S::Motion> m_;
+  std::vector<Reading> r_;
+  Vecs Q_;
+};
+
+}  // namespace
+
+void start_forces(const System& system, bool preload, State& state) {
+  const std::size_t n = system.bodies.size(), joints = system.joints.size();
+  state.a.assign(n, S::Vec::Zero());
+  state.gap = state.gap_rate = state.gap_accel = state.force = Vecs(joints, S::Vec::Zero());
+  plain_start(system, state);
+  if (!preload || joints == 0) return;
+  for (auto& x : state.gap_rate) x.setZero();
+  for (auto& x : state.gap_accel) x.setZero();
+  Preload start(system, state);
+  for (int pass = 0; pass < kPasses; ++pass)
+    if (!start.pass()) break;
+  // What carries no stiffness (free components) follows the bodies.
+  const State carried = state;
+  plain_start(system, state);
+  for (std::size_t j = 0; j < joints; ++j)
+    for (int k = 0; k < 3; ++k)
+      if (respond(system.joints[j].law, carried.gap[j], carried.gap_rate[j]).stiffness(k, k) > 0) {
+        state.gap[j][k] = carried.gap[j][k];
+        state.force[j][k] = carried.force[j][k];
+        state.gap_rate[j][k] = carried.gap_rate[j][k];
+        state.gap_accel[j][k] = carried.gap_accel[j][k];
+      }
+  state.a = carried.a;
+}
+
+}  // namespace pintle

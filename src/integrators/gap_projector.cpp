@@ -1,0 +1,81 @@
+#include "integrators/gap_projector.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+void add_block(Block<double, S::kDof>& block, const S::Mat& m) {
+  for (int i = 0; i < S::kDof; ++i)
+    for (int j = 0; j < S::kDof; ++j) block(i, j) += m(i, j);
+}
+
+}  // namespace
+
+GapProjector::GapProjector(const System& system)
+    : system_(system), lu_(system.pattern()), readings_(system.joints.size()), weight_(system.joints.size()),
+      slots_(system.joints.size()), work_(system.bodies.size()), body_(system.bodies.size()) {
+  for (std::size_t j = 0; j < slots_.size(); ++j) {
+    const Placement& at = system.joints[j].at;
+    if (at.a != kGround && at.b != kGround) slots_[j] = system.pattern().slot(at.a, at.b);
+  }
+}
+
+bool GapProjector::prepare(double t, const std::vector<S::Motion>& m, double mu, const Vecs& gap_at, const Vecs& rate_at) {
+  system_.readings(t, m, readings_);
+  lu_.set_zero();
+  for (int i = 0; i < system_.n_bodies(); ++i)
+    add_block(lu_.diagonal(i), S::Mat((mu * mu * system_.bodies[i].mass).asDiagonal()));
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const Placement& at = system_.joints[j].at;
+    const Reading& r = readings_[j];
+    const Response response = respond(system_.joints[j].law, gap_at[j], rate_at[j]);
+    weight_[j] = response.stiffness + mu * response.damping;
+    const S::Mat WA = weight_[j] * r.GA, WB = weight_[j] * r.GB;
+    if (at.a != kGround) add_block(lu_.diagonal(at.a), r.GA.transpose() * WA);
+    if (at.b != kGround) add_block(lu_.diagonal(at.b), r.GB.transpose() * WB);
+    if (at.a == kGround || at.b == kGround) continue;
+    BlockPattern::Slot ab = slots_[j];
+    add_block(lu_.off_diagonal(ab), r.GA.transpose() * WB);
+    ab.upper = !ab.upper;
+    add_block(lu_.off_diagonal(ab), r.GB.transpose() * WA);
+  }
+  return lu_.factorize();
+}
+
+void GapProjector::solve(Vecs& x) {
+  for (std::size_t i = 0; i < x.size(); ++i) work_[i] = {{x[i][0], x[i][1], x[i][2]}};
+  lu_.solve(work_);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = S::Vec(work_[i][0], work_[i][1], work_[i][2]);
+}
+
+void GapProjector::close(const Vecs& wanted, Vecs& x) {
+  for (auto& b : body_) b.setZero();
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const Placement& at = system_.joints[j].at;
+    const S::Vec f = weight_[j] * wanted[j];
+    if (at.a != kGround) body_[at.a] += readings_[j].GA.transpose() * f;
+    if (at.b != kGround) body_[at.b] += readings_[j].GB.transpose() * f;
+  }
+  solve(body_);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += body_[i];
+}
+
+void GapProjector::improve_forces(const Vecs& Q, const Vecs& a, Vecs& force) {
+  for (int i = 0; i < system_.n_bodies(); ++i) body_[i] = Q[i] - system_.bodies[i].mass.cwiseProduct(a[i]);
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const Placement& at = system_.joints[j].at;
+    if (at.a != kGround) body_[at.a] += readings_[j].GA.transpose() * force[j];
+    if (at.b != kGround) body_[at.b] += readings_[j].GB.transpose() * force[j];
+  }
+  solve(body_);
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const Placement& at = system_.joints[j].at;
+    S::Vec gap = S::Vec::Zero();
+    if (at.a != kGround) gap += readings_[j].GA * body_[at.a];
+    if (at.b != kGround) gap += readings_[j].GB * body_[at.b];
+    force[j] -= weight_[j] * gap;
+  }
+}
+
+}  // namespace pintle

@@ -1,0 +1,38 @@
+// Moves a state so that stiff joints have the gaps, rates and accelerations asked for, and finds the joint forces that
+// go with them, theory/time section 4. "Stiff" is by degree: a mode of frequency w is moved by w^2 / (w^2 + mu^2) each
+// time, so that soft joints keep what they have, and directions that no motion can close (redundant joints) stay as the
+// geometry has them. One factorisation serves all four questions.
+#pragma once
+
+#include "solve/block_lu.h"
+#include "system/system.h"
+
+namespace pintle {
+
+class GapProjector {
+ public:
+  explicit GapProjector(const System& system);
+
+  /// Factorises mu^2 M + G' (K + mu C) G at the configuration of `m`. False when singular.
+  bool prepare(double t, const std::vector<Planar::Motion>& m, double mu, const Vecs& gap_at, const Vecs& rate_at);
+
+  /// x += the smallest displacement (in the mass norm) whose gap change is `wanted`, one pass.
+  void close(const Vecs& wanted, Vecs& x);
+  /// Joint forces improved so that M a = Q + G' f in the stiff modes, one pass; `a` has the wanted gap accelerations.
+  void improve_forces(const Vecs& Q, const Vecs& a, Vecs& force);
+
+  const std::vector<Reading>& readings() const { return readings_; }
+
+ private:
+  void solve(Vecs& x);
+
+  const System& system_;
+  BlockLu<double, Planar::kDof> lu_;
+  std::vector<Reading> readings_;
+  std::vector<Planar::Mat> weight_;  // K + mu C per joint
+  std::vector<BlockPattern::Slot> slots_;
+  std::vector<BlockVec<double, Planar::kDof>> work_;
+  Vecs body_;
+};
+
+}  // namespace pintle

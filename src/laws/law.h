@@ -1,0 +1,20 @@
+// Any law of the catalog, by value.
+#pragma once
+
+#include <variant>
+
+#include "laws/linear.h"
+#include "laws/tension.h"
+
+namespace pintle {
+
+using Law = std::variant<LinearLaw, TensionLaw>;
+
+inline Planar::Vec law_force(const Law& law, const Planar::Vec& gap, const Planar::Vec& rate) {
+  return std::visit([&](const auto& l) { return l.force(gap, rate); }, law);
+}
+inline Response respond(const Law& law, const Planar::Vec& gap, const Planar::Vec& rate) {
+  return std::visit([&](const auto& l) { return l.respond(gap, rate); }, law);
+}
+
+}  // namespace pintle

@@ -1,0 +1,82 @@
+// Scalar gaps that are functions of the relative pose z = (x, y, angle) of M in F: value, gradient, second derivative.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "space/planar.h"
+
+namespace pintle {
+
+struct GapFunction {
+  double gap = 0;
+  Planar::Vec gradient = Planar::Vec::Zero();
+  Planar::Mat hessian = Planar::Mat::Zero();
+};
+
+/// Rod and rope: the distance of the two points less the length. theory/joints Eq. (2.11). Undefined at zero distance;
+/// there the direction is taken along F's x axis.
+struct Distance {
+  double length = 1;  // [m]
+
+  GapFunction operator()(const Planar::Vec& z) const {
+    GapFunction g;
+    const double distance = std::hypot(z[0], z[1]);
+    g.gap = distance - length;
+    if (distance < 1e-300) {
+      g.gradient[0] = 1;
+      return g;
+    }
+    const double nx = z[0] / distance, ny = z[1] / distance;
+    g.gradient << nx, ny, 0;
+    g.hessian(0, 0) = ny * ny / distance;
+    g.hessian(1, 1) = nx * nx / distance;
+    g.hessian(0, 1) = g.hessian(1, 0) = -nx * ny / distance;
+    return g;
+  }
+};
+
+/// Two gears in mesh, centred on F and M: how far their pitch circles have slipped. Eq. (2.12).
+///   gap = sign r2 angle - (r1 + sign r2) direction of the line of centres + phase, sign = +1 external, -1 internal
+struct Mesh {
+  double radius_first = 1, radius_second = 1;  // pitch radii [m]
+  double sign = 1;
+  double phase = 0;                            // makes the gap zero as assembled [m]
+
+  GapFunction operator()(const Planar::Vec& z) const {
+    GapFunction g;
+    const double r2 = sign * radius_second, sum = radius_first + r2;
+    const double d2 = z[0] * z[0] + z[1] * z[1];
+    g.gap = r2 * z[2] - sum * std::atan2(z[1], z[0]) + phase;
+    const double turn = 2 * std::numbers::pi * std::abs(sum);  // the direction is known up to full turns
+    if (turn > 0) g.gap -= turn * std::round(g.gap / turn);
+    g.gradient << sum * z[1] / d2, -sum * z[0] / d2, r2;
+    const double a = sum / (d2 * d2);
+    g.hessian(0, 0) = -2 * a * z[0] * z[1];
+    g.hessian(1, 1) = 2 * a * z[0] * z[1];
+    g.hessian(0, 1) = g.hessian(1, 0) = a * (z[0] * z[0] - z[1] * z[1]);
+    return g;
+  }
+};
+
+/// A pinion centred on F that rolls along the x axis of M: how far it has slipped. Eq. (2.13).
+///   gap = -(x cos angle + y sin angle) - side radius angle + phase; side = +1 with the pinion on the rack's +y side
+struct RackMesh {
+  double radius = 1;  // [m]
+  double side = 1;
+  double phase = 0;   // [m]
+
+  GapFunction operator()(const Planar::Vec& z) const {
+    GapFunction g;
+    const double c = std::cos(z[2]), s = std::sin(z[2]);
+    const double along = z[0] * c + z[1] * s, across = -z[0] * s + z[1] * c;
+    g.gap = -along - side * radius * z[2] + phase;
+    g.gradient << -c, -s, -across - side * radius;
+    g.hessian(2, 2) = along;
+    g.hessian(0, 2) = g.hessian(2, 0) = s;
+    g.hessian(1, 2) = g.hessian(2, 1) = -c;
+    return g;
+  }
+};
+
+}  // namespace pintle

@@ -1,0 +1,262 @@
+#include "system/build.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+
+#include "laws/catalog.h"
+#include "probes/catalog.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+class Builder {
+ public:
+  explicit Builder(const Model& model) : model_(model) {
+    for (std::size_t i = 0; i < model.bodies.size(); ++i) body_index_[model.bodies[i].name] = static_cast<int>(i);
+    for (std::size_t j = 0; j < model.joints.size(); ++j) joint_index_[model.joints[j].name] = static_cast<int>(j);
+  }
+
+  System build() {
+    for (const Body& body : model_.bodies) add_body(body);
+    for (const Joint& joint : model_.joints) add_joint(joint);
+    for (const Motor& motor : model_.motors) add_motor(motor);
+    for (const Spring& spring : model_.springs) add_spring(spring);
+    for (const AppliedForce& force : model_.forces) add_force(force);
+    system_.finish();
+    return std::move(system_);
+  }
+
+ private:
+  [[noreturn]] static void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+  void add_body(const Body& body) {
+    if (!(body.mass > 0) || !(body.inertia > 0)) refuse(fmt::format("body {}: mass and inertia must be positive", body.name));
+    system_.bodies.push_back({body.name, {body.mass, body.mass, body.inertia},
+                              {body.mass * model_.gravity[0], body.mass * model_.gravity[1], 0}});
+  }
+
+  const std::vector<Marker>& markers(const std::string& body) const {
+    if (body == "ground") return model_.ground;
+    const auto it = body_index_.find(body);
+    if (it == body_index_.end()) refuse(fmt::format("there is no body '{}'", body));
+    return model_.bodies[it->second].markers;
+  }
+  int body(const MarkerRef& ref) const { return ref.body == "ground" ? kGround : body_index_.at(ref.body); }
+  S::Frame frame(const MarkerRef& ref) const {
+    for (const Marker& marker : markers(ref.body))
+      if (marker.name == ref.marker) return S::Frame::at({marker.position[0], marker.position[1]}, marker.axis);
+    refuse(fmt::format("body {} has no marker '{}'", ref.body, ref.marker));
+  }
+  Placement place(const MarkerRef& first, const MarkerRef& second) const {
+    Placement at;
+    at.F = frame(first);
+    at.M = frame(second);
+    at.a = body(first);
+    at.b = body(second);
+    if (at.a == at.b) refuse(fmt::format("{} and {} are on the same body", first.marker, second.marker));
+    return at;
+  }
+
+  static double number(const Joint& joint, const char* key, std::size_t component = 0) {
+    const auto it = joint.law.values.find(key);
+    if (it != joint.law.values.end() && !it->second.empty()) return it->second[std::min(component, it->second.size() - 1)];
+    for (const KeyInfo& info : find_law("linear")->keys)
+      if (info.key == key) return info.fallback;
+    return 0;
+  }
+  // Components of z that the type's gap covers; scalar gaps stand in component 0.
+  static std::array<bool, 3> forbids(const std::string& type) {
+    if (type == "revolute") return {true, true, false};
+    if (type == "prismatic") return {false, true, true};
+    if (type == "fixed") return {true, true, true};
+    if (type == "slot") return {false, true, false};
+    return {true, false, false};
+  }
+  static Law make_law(const Joint& joint) {
+    if (joint.law.word != LinearLaw::kWord) refuse(fmt::format("joint {}: there is no law '{}'", joint.name, joint.law.word));
+    if (joint.type == "rope") return TensionLaw{number(joint, "stiffness"), number(joint, "damping")};
+    LinearLaw law;
+    const auto covered = forbids(joint.type);
+    std::size_t component = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (!covered[k]) continue;
+      law.k[k] = k == 2 ? number(joint, "angular_stiffness") : number(joint, "stiffness", component);
+      law.c[k] = k == 2 ? number(joint, "angular_damping") : number(joint, "damping", component);
+      ++component;
+    }
+    return law;
+  }
+  static double geometry(const Joint& joint, const char* key, double fallback) {
+    const auto it = joint.geometry.find(key);
+    return it == joint.geometry.end() ? fallback : it->second;
+  }
+  static Probe make_probe(const Joint& joint) {
+    if (joint.type == "rod" || joint.type == "rope") return Distance{geometry(joint, "length", 0)};
+    if (joint.type == "gear")
+      return Mesh{geometry(joint, "radius_first", 1), geometry(joint, "radius_second", 1), geometry(joint, "internal", 0) > 0 ? -1.0 : 1.0, 0};
+    if (joint.type == "rack") return RackMesh{geometry(joint, "radius", 1), 1, 0};
+    return Selection{};
+  }
+  void add_joint(const Joint& joint) {
+    const JointTypeInfo* info = find_joint_type(joint.type);
+    if (!info) refuse(fmt::format("joint {}: there is no type '{}'", joint.name, joint.type));
+    JointData data;
+    data.name = joint.name;
+    data.type = joint.type;
+    data.at = place(joint.first, joint.second);
+    data.probe = make_probe(joint);
+    data.law = make_law(joint);
+    for (const ComponentInfo& free : info->free) data.free_mask[free.angular ? 2 : 0] = 1;
+    system_.joints.push_back(std::move(data));
+  }
+
+  int joint(const std::string& name) const {
+    const auto it = joint_index_.find(name);
+    if (it == joint_index_.end()) refuse(fmt::format("there is no joint '{}'", name));
+    return it->second;
+  }
+  void add_motor(const Motor& motor) {
+    const JointData& driven = system_.joints[joint(motor.joint)];
+    const int component = driven.free_mask[0] > 0 ? 0 : 2;
+    if (driven.free_mask[component] == 0) refuse(fmt::format("motor {}: joint {} leaves nothing free", motor.name, motor.joint));
+    if (motor.kind == MotorKind::kEffort) {
+      system_.loads.push_back(effort(motor, driven, component));
+      return;
+    }
+    JointData servo;
+    servo.name = motor.name;
+    servo.type = "motor";
+    servo.at = driven.at;
+    servo.servo = component;
+    LinearLaw law;
+    law.k[component] = motor.stiffness;
+    law.c[component] = motor.damping;
+    servo.law = law;
+    servo.probe = Selection{};
+    if (motor.kind == MotorKind::kSpeed) servo.speed = motor.law.value({});
+    else servo.target = motor.law;
+    system_.joints.push_back(std::move(servo));
+  }
+  LoadData effort(const Motor& motor, const JointData& driven, int component) const {
+    LoadData load;
+    load.name = motor.name;
+    load.kind = LoadKind::kEffort;
+    load.at = driven.at;
+    load.component = component;
+    load.law = motor.law;
+    if (motor.law.variables().size() > 16) refuse(fmt::format("motor {}: an expression may read 16 signals at most", motor.name));
+    for (const std::string& variable : motor.law.variables()) load.signals.push_back(signal(motor, variable, component));
+    return load;
+  }
+  Signal signal(const Motor& motor, const std::string& variable, int component) const {
+    if (variable == "t") return {};
+    const auto dot = variable.rfind('.');
+    const std::string word = dot == std::string::npos ? variable : variable.substr(dot + 1);
+    const int of = joint(dot == std::string::npos ? motor.joint : variable.substr(0, dot));
+    const int own = dot == std::string::npos ? component : system_.joints[of].free_mask[0] > 0 ? 0 : 2;
+    if (word == "angle") return {of, 2, false};
+    if (word == "slide") return {of, 0, false};
+    if (word == "rate") return {of, own, true};
+    refuse(fmt::format("motor {}: '{}' is not a coordinate of a joint", motor.name, variable));
+  }
+
+  void add_spring(const Spring& spring) {
+    LoadData load;
+    load.name = spring.name;
+    load.kind = spring.torsion ? LoadKind::kTorsionSpring : LoadKind::kSpring;
+    load.at = place(spring.first, spring.second);
+    load.component = spring.torsion ? 2 : 0;
+    load.k = spring.stiffness;
+    load.c = spring.damping;
+    load.free = spring.free_length.value_or(0);
+    system_.loads.push_back(std::move(load));
+  }
+  void add_force(const AppliedForce& force) {
+    const int on = body(force.on);
+    if (on == kGround) refuse(fmt::format("force {} acts on the ground", force.name));
+    system_.applied.push_back({force.name, on, frame(force.on), force.force[0], force.force[1], force.torque, force.body_axes});
+  }
+
+  const Model& model_;
+  std::map<std::string, int> body_index_, joint_index_;
+  System system_;
+};
+
+const Joint* model_joint(const Model& model, std::size_t j) { return j < model.joints.size() ? &model.joints[j] : nullptr; }
+
+// The motor that joint j of the system stands for; servos follow the model's joints, in the motors' order.
+const Motor& servo_motor(const Model& model, std::size_t j) {
+  std::size_t left = j - model.joints.size();
+  for (const Motor& motor : model.motors)
+    if (motor.kind != MotorKind::kEffort && left-- == 0) return motor;
+  throw std::logic_error("no such servo");
+}
+
+void settle_joint(const Joint& joint, const RelativePose& pose, Probe& probe, std::vector<std::string>& notes) {
+  if (auto* distance = std::get_if<Distance>(&probe); distance && !joint.geometry.contains("length")) {
+    distance->length = std::hypot(pose.z[0], pose.z[1]);
+    notes.push_back(fmt::format("joint {}: length {:.9g} m, as assembled", joint.name, distance->length));
+  }
+  if (auto* mesh = std::get_if<Mesh>(&probe)) mesh->phase -= (*mesh)(pose.z).gap;
+  if (auto* rack = std::get_if<RackMesh>(&probe)) {
+    // The pinion's centre in the rack's axes: minus the rack's place in the pinion's, turned.
+    const double across = pose.z[0] * std::sin(pose.z[2]) - pose.z[1] * std::cos(pose.z[2]);
+    rack->side = across >= 0 ? 1 : -1;
+    rack->phase -= (*rack)(pose.z).gap;
+  }
+}
+
+}  // namespace
+
+System build_system(const Model& model) { return Builder(model).build(); }
+
+bool is_open(const Model& model, const System& system, int j) {
+  const JointData& data = system.joints[j];
+  if (data.servo >= 0) return servo_motor(model, j).kind == MotorKind::kSpeed;
+  return data.type == "gear" || data.type == "rack" ||
+         (std::holds_alternative<Distance>(data.probe) && !model.joints[j].geometry.contains("length"));
+}
+
+void unwind(const Vecs& q, System& system) {
+  std::vector<S::Motion> m;
+  system.motions(q, Vecs(q.size(), S::Vec::Zero()), m);
+  const double turn = 2 * std::numbers::pi;
+  for (JointData& joint : system.joints) {
+    auto* selection = std::get_if<Selection>(&joint.probe);
+    if (!selection || joint.servo >= 0 || (joint.type != "prismatic" && joint.type != "fixed")) continue;
+    selection->offset[2] = turn * std::round(system.pose(joint.at, m).z[2] / turn);
+  }
+}
+
+void settle(const Model& model, const Vecs& q, System& system, std::vector<std::string>& notes) {
+  unwind(q, system);
+  std::vector<S::Motion> m;
+  system.motions(q, Vecs(q.size(), S::Vec::Zero()), m);
+  for (std::size_t j = 0; j < system.joints.size(); ++j) {
+    JointData& data = system.joints[j];
+    const RelativePose pose = system.pose(data.at, m);
+    if (const Joint* joint = model_joint(model, j)) {
+      settle_joint(*joint, pose, data.probe, notes);
+    } else if (servo_motor(model, j).kind == MotorKind::kSpeed) {
+      data.start = pose.z[data.servo];
+    }
+  }
+  for (std::size_t s = 0; s < model.springs.size(); ++s) {
+    const Spring& spring = model.springs[s];
+    if (spring.free_length) continue;
+    LoadData& load = system.loads[system.loads.size() - model.springs.size() + s];
+    const RelativePose pose = system.pose(load.at, m);
+    const double now = spring.torsion ? pose.z[2] : std::hypot(pose.z[0], pose.z[1]);
+    load.free = now - spring.preload.value_or(0) / spring.stiffness;
+    notes.push_back(fmt::format("{} {}: free {} {:.9g} {}, from the assembled position", spring.torsion ? "torsion_spring" : "spring",
+                                spring.name, spring.torsion ? "angle" : "length", load.free, spring.torsion ? "rad" : "m"));
+  }
+}
+
+}  // namespace pintle

@@ -1,0 +1,23 @@
+// From a model to a system: names become indices, law words become laws.
+#pragma once
+
+#include "pintle/model.h"
+#include "system/system.h"
+
+namespace pintle {
+
+/// The system of a model. What depends on the assembled positions (a rod without a stated length, gear phases, free
+/// lengths, where a constant-speed drive starts) is still open: `settle` fixes it. Throws std::invalid_argument on names
+/// that do not exist; models from files have been checked before.
+System build_system(const Model& model);
+
+/// Is the gap of joint j known before assembly? Not so for rods without length, gears, racks and constant-speed drives.
+bool is_open(const Model& model, const System& system, int j);
+
+/// Fixes what depends on the assembled positions q. `notes` receives a line for each value that was assumed.
+void settle(const Model& model, const Vecs& q, System& system, std::vector<std::string>& notes);
+
+/// Turns welds and sliders by whole turns so that their angle is within half a turn of zero at q.
+void unwind(const Vecs& q, System& system);
+
+}  // namespace pintle

@@ -1,0 +1,19 @@
+// One instant of a system: what an integrator advances.
+#pragma once
+
+#include "system/system.h"
+
+namespace pintle {
+
+/// Positions and velocities per body; gap, its rate and acceleration, and the force per joint. The gap is carried beside
+/// the positions it belongs to: k times the rounding of a position would show in the force otherwise.
+struct State {
+  double t = 0;
+  Vecs q, v, a;                    // bodies [m, m, rad] and derivatives
+  Vecs gap, gap_rate, gap_accel;   // joints
+  Vecs force;                      // joints, on the second body, conjugate to the gap
+  double dissipated = 0, supplied = 0;        // since the start [J]
+  double loss_power = 0, supply_power = 0;    // their rates [W]
+};
+
+}  // namespace pintle

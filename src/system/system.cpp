@@ -1,0 +1,82 @@
+#include "system/system.h"
+
+#include <array>
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+const S::Motion kStill{};
+
+const S::Motion& motion(int body, const std::vector<S::Motion>& m) { return body == kGround ? kStill : m[body]; }
+
+void take_off_target(const JointData& joint, double t, Reading& r) {
+  const std::array<double, 1> time{t};
+  const auto target = joint.target.variables().empty() ? std::array<double, 3>{joint.target.value({}), 0, 0}
+                                                       : joint.target.second_order(time, 0);
+  r.gap[joint.servo] -= joint.start + joint.speed * t + target[0];
+  r.rate[joint.servo] -= joint.speed + target[1];
+  r.bias[joint.servo] -= target[2];
+}
+
+}  // namespace
+
+void System::finish() {
+  std::vector<std::pair<int, int>> pairs;
+  const auto couple = [&pairs](int a, int b) {
+    if (a != kGround && b != kGround && a != b) pairs.emplace_back(a, b);
+  };
+  for (const JointData& joint : joints) couple(joint.at.a, joint.at.b);
+  for (const LoadData& load : loads) {
+    couple(load.at.a, load.at.b);
+    for (const Signal& signal : load.signals) {
+      if (signal.joint < 0) continue;
+      for (const int i : {load.at.a, load.at.b})
+        for (const int j : {joints[signal.joint].at.a, joints[signal.joint].at.b}) couple(i, j);
+    }
+  }
+  pattern_ = BlockPattern(n_bodies(), pairs);
+}
+
+void System::motions(const Vecs& q, const Vecs& v, std::vector<S::Motion>& out) const {
+  out.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) out[i] = S::Motion::of(q[i], v[i]);
+}
+
+RelativePose System::pose(const Placement& at, const std::vector<S::Motion>& m) const {
+  return RelativePose::between(motion(at.a, m), at.F, motion(at.b, m), at.M);
+}
+
+Reading System::reading(int j, double t, const std::vector<S::Motion>& m) const {
+  const JointData& joint = joints[j];
+  Reading r = read(joint.probe, pose(joint.at, m));
+  if (joint.servo >= 0) take_off_target(joint, t, r);
+  return r;
+}
+
+void System::readings(double t, const std::vector<S::Motion>& m, std::vector<Reading>& out) const {
+  out.resize(joints.size());
+  for (int j = 0; j < n_joints(); ++j) out[j] = reading(j, t, m);
+}
+
+void System::accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a) const {
+  thread_local std::vector<S::Motion> m;
+  motions(q, v, m);
+  external(t, m, a);
+  for (int j = 0; j < n_joints(); ++j) {
+    const Reading r = reading(j, t, m);
+    const Vec f = law_force(joints[j].law, r.gap, r.rate);
+    if (joints[j].at.a != kGround) a[joints[j].at.a] += r.GA.transpose() * f;
+    if (joints[j].at.b != kGround) a[joints[j].at.b] += r.GB.transpose() * f;
+  }
+  for (int i = 0; i < n_bodies(); ++i) a[i] = a[i].cwiseQuotient(bodies[i].mass);
+}
+
+double System::kinetic(const Vecs& v) const {
+  double twice = 0;
+  for (int i = 0; i < n_bodies(); ++i) twice += v[i].dot(bodies[i].mass.cwiseProduct(v[i]));
+  return 0.5 * twice;
+}
+
+}  // namespace pintle

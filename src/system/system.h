@@ -1,0 +1,152 @@
+// The mechanism as integrators see it: bodies and joints by index, forces, Jacobians, the pattern of their couplings.
+// It knows no files and no integrator. Immutable once it is settled (src/system/build.h makes it from a Model).
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "laws/law.h"
+#include "pintle/expression.h"
+#include "probes/probe.h"
+#include "solve/block_pattern.h"
+
+namespace pintle {
+
+using Vecs = std::vector<Planar::Vec>;  // one entry per body, or per joint
+
+constexpr int kGround = -1;
+
+struct BodyData {
+  std::string name;
+  Planar::Vec mass;     // (m, m, I) [kg, kg, kg*m^2]
+  Planar::Vec gravity;  // weight [N, N, N*m]
+};
+
+/// A pair of frames on two bodies; kGround is the world.
+struct Placement {
+  int a = kGround, b = kGround;
+  Planar::Frame F, M;
+};
+
+/// A gap with a law: a joint of the model, or the servo of a motor (then `target` says what its coordinate follows).
+struct JointData {
+  std::string name;
+  std::string type;
+  Placement at;
+  Probe probe;
+  Law law;
+  int servo = -1;              // component that a servo drives, -1: not a servo
+  double start = 0;            // constant-speed servo: coordinate as assembled
+  double speed = 0;            // constant-speed servo [rad/s or m/s]
+  Expression target;           // servo that follows a function of t; the coordinate is start + speed t + target(t)
+  Planar::Vec free_mask = Planar::Vec::Zero();  // 1 in components that are free coordinates
+};
+
+/// What an effort motor's expression reads: the time, or a coordinate (or rate) of a joint.
+struct Signal {
+  int joint = -1;  // -1: the time
+  int component = 0;
+  bool rate = false;
+};
+
+enum class LoadKind { kSpring, kTorsionSpring, kEffort };
+
+/// A force along one coordinate between two bodies that is not a joint's: springs, dampers, motors with a torque law.
+struct LoadData {
+  std::string name;
+  LoadKind kind = LoadKind::kSpring;
+  Placement at;
+  int component = 0;     // of z: torsion springs 2; motors 2 or 0
+  double k = 0, c = 0;   // [N/m, N*s/m] or [N*m/rad, N*m*s/rad]
+  double free = 0;       // length or angle without force
+  Expression law;        // motors: effort on the second body
+  std::vector<Signal> signals;
+};
+
+/// A force on one body at a point, functions of t.
+struct AppliedData {
+  std::string name;
+  int body = 0;
+  Planar::Frame at;
+  Expression fx, fy, torque;
+  bool body_axes = false;
+};
+
+/// Forces that are not a joint's, and their energy bookkeeping.
+struct ExternalWork {
+  double potential = 0;  // gravity and springs [J]
+  double supplied = 0;   // power of motors and applied forces [W]
+  double lost = 0;       // power lost in dampers [W]
+};
+
+class System {
+ public:
+  using S = Planar;
+  static constexpr int kDof = S::kDof;
+  using Vec = S::Vec;
+  using Mat = S::Mat;
+
+  std::vector<BodyData> bodies;
+  std::vector<JointData> joints;
+  std::vector<LoadData> loads;
+  std::vector<AppliedData> applied;
+
+  int n_bodies() const { return static_cast<int>(bodies.size()); }
+  int n_joints() const { return static_cast<int>(joints.size()); }
+  const BlockPattern& pattern() const { return pattern_; }
+  /// Fixes the pattern; call when bodies, joints and loads are complete.
+  void finish();
+
+  /// Where the bodies are and how they move.
+  void motions(const Vecs& q, const Vecs& v, std::vector<S::Motion>& out) const;
+  /// The relative pose of a placement.
+  RelativePose pose(const Placement& at, const std::vector<S::Motion>& m) const;
+  /// Gap, rate, Jacobians and convective term of joint j at time t (a servo's target taken off).
+  Reading reading(int j, double t, const std::vector<S::Motion>& m) const;
+  void readings(double t, const std::vector<S::Motion>& m, std::vector<Reading>& out) const;
+  /// Gravity, springs, applied forces and effort motors: the generalised force on every body.
+  void external(double t, const std::vector<S::Motion>& m, Vecs& Q) const;
+  ExternalWork external_work(double t, const Vecs& q, const std::vector<S::Motion>& m) const;
+  /// Force (spring: tension; motor: effort) of a load.
+  double load_effort(const LoadData& load, double t, const std::vector<S::Motion>& m) const;
+
+  /// Calls add(i, j, dQ_i/dq_j, dQ_i/dv_j) for every block of the external forces' tangents.
+  template <class Add>
+  void external_tangents(double t, const std::vector<S::Motion>& m, Add&& add) const;
+
+  /// M a = Q + G' law(gap, rate): the equations of motion as they stand (for explicit methods and tests).
+  void accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a) const;
+
+  /// Kinetic energy [J].
+  double kinetic(const Vecs& v) const;
+
+ private:
+  struct LoadState;
+  LoadState load_state(const LoadData& load, double t, const std::vector<S::Motion>& m) const;
+  struct Tangent {
+    int i, j;
+    Mat dq, dv;
+  };
+  void load_tangents(const LoadData& load, double t, const std::vector<S::Motion>& m, std::vector<Tangent>& out) const;
+  void applied_tangents(const AppliedData& force, double t, const std::vector<S::Motion>& m, std::vector<Tangent>& out) const;
+
+  BlockPattern pattern_;
+  mutable std::vector<Tangent> tangents_;  // reused so that steps do not allocate
+};
+
+template <class Add>
+void System::external_tangents(double t, const std::vector<S::Motion>& m, Add&& add) const {
+  for (const LoadData& load : loads) {
+    tangents_.clear();
+    load_tangents(load, t, m, tangents_);
+    for (const Tangent& k : tangents_) add(k.i, k.j, k.dq, k.dv);
+  }
+  for (const AppliedData& force : applied) {
+    tangents_.clear();
+    applied_tangents(force, t, m, tangents_);
+    for (const Tangent& k : tangents_) add(k.i, k.j, k.dq, k.dv);
+  }
+}
+
+}  // namespace pintle
