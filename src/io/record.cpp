@@ -78,10 +78,9 @@ Record RecordReader::read(const TableSpec& spec, const Node& table_node, Spot ke
 }
 
 void RecordReader::check_keys(const TableSpec& spec, const Table& table, const Record& record, const std::string& kind) {
-  const std::vector<std::string> children = Schema::model().children(spec.path);
   for (const Entry& entry : table.entries()) {
     const bool known = spec.find(entry.key) != nullptr ||
-                       std::find(children.begin(), children.end(), entry.key) != children.end();
+                       std::find(spec.children.begin(), spec.children.end(), entry.key) != spec.children.end();
     if (!known) complain_of_key(spec, entry, record, kind);
   }
 }
@@ -97,7 +96,7 @@ void RecordReader::complain_of_key(const TableSpec& spec, const Entry& entry, co
                     "delete it");
     return;
   }
-  std::vector<std::string> candidates = Schema::model().children(spec.path);
+  std::vector<std::string> candidates = spec.children;
   for (const KeySpec& key : spec.keys) candidates.push_back(key.key);
   std::string near = complaints_.did_you_mean(entry.key, candidates);
   if (near.empty()) {

@@ -169,6 +169,7 @@ TableSpec Schema::assemble(std::string_view path, std::string_view when, std::st
     found = true;
   }
   if (!found) schema_fault("no table " + std::string(path));
+  out.children = children(path);
   if (const JointTypeInfo* type = out.joint_type_keys ? find_joint_type(when) : nullptr) {
     for (const KeyInfo& key : type->keys) {
       out.keys.push_back(spec_of(key));

@@ -57,6 +57,7 @@ struct TableSpec {
   std::string meaning;
   std::vector<KeySpec> keys;
   std::optional<KeySpec> entries;  ///< a table of names that the user chooses, each with a value like this
+  std::vector<std::string> children;  ///< keys of the tables in it, "*" for names that the user chooses (if assembled)
   bool law_keys = false;
   bool joint_type_keys = false;
 

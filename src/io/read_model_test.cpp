@@ -1,0 +1,173 @@
+#include "pintle/read_model.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <numbers>
+
+#include "io/test_models.h"
+#include "io/writers.h"
+#include "pintle/results.h"
+
+namespace pintle {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Model full() { return parse_model(kFullModel, "full.toml"); }
+
+TEST(ReadModel, HeadAndSettings) {
+  const Model model = full();
+  EXPECT_EQ(model.name, "Four-bar");
+  EXPECT_EQ(model.description, "Two\nlines");
+  EXPECT_EQ(model.space, "planar");
+  EXPECT_EQ(model.gravity, (Vec2{0, -1.5}));
+  EXPECT_EQ(model.simulate.duration, 0.5);
+  EXPECT_DOUBLE_EQ(model.simulate.output_step, 2e-3);
+  EXPECT_EQ(model.simulate.tolerance, 1e-6);
+  EXPECT_EQ(model.simulate.method, "radau");
+  EXPECT_EQ(model.simulate.start, Start::kUnloaded);
+  EXPECT_EQ(model.simulate.max_step, 1);
+}
+
+TEST(ReadModel, Defaults) {
+  const Model model = parse_model("format = 1\nbody.a = { mass = 1, inertia = 1 }", "x.toml");
+  EXPECT_EQ(model.gravity, (Vec2{0, -9.80665}));
+  EXPECT_EQ(model.simulate.duration, 0);
+  EXPECT_EQ(model.simulate.tolerance, 1e-5);
+  EXPECT_EQ(model.simulate.method, "auto");
+  EXPECT_EQ(model.simulate.start, Start::kAssembled);
+  EXPECT_FALSE(model.bodies[0].position || model.bodies[0].angle || model.bodies[0].velocity || model.bodies[0].spin);
+}
+
+TEST(ReadModel, BodiesAndMarkers) {
+  const Model model = full();
+  ASSERT_EQ(model.bodies.size(), 3U);
+  const Body& crank = model.bodies[0];
+  EXPECT_EQ(crank.name, "crank");
+  EXPECT_EQ(crank.mass, 1);
+  EXPECT_EQ(crank.inertia, 1e5);
+  EXPECT_DOUBLE_EQ((*crank.position)[1], std::sqrt(3.0) / 4);
+  EXPECT_DOUBLE_EQ(*crank.angle, kPi / 3);
+  EXPECT_EQ((*crank.velocity)[1], 2);
+  EXPECT_EQ(*crank.spin, 10);
+  EXPECT_EQ(crank.hold, (std::array<bool, 3>{false, true, true}));
+  ASSERT_EQ(crank.markers.size(), 2U);
+  EXPECT_EQ(crank.markers[0].position, (Vec2{-0.5, 0}));
+  EXPECT_DOUBLE_EQ(crank.markers[1].axis, kPi / 4);
+}
+
+TEST(ReadModel, PolarAndCartesianMarkersOfTheGround) {
+  const Model model = full();
+  ASSERT_EQ(model.ground.size(), 3U);
+  EXPECT_EQ(model.ground[1].position, (Vec2{6, 0}));
+  EXPECT_DOUBLE_EQ(model.ground[1].axis, kPi / 2);
+  EXPECT_EQ(model.ground[2].position, (Vec2{1, 3}));
+}
+
+TEST(ReadModel, JointsTakeTheirOwnValuesThenDefaultsThenTheCatalogs) {
+  const Model model = full();
+  ASSERT_EQ(model.joints.size(), 6U);
+  const auto& values = [&](std::size_t i, const char* key) { return model.joints[i].law.values.at(key); };
+  EXPECT_EQ(model.joints[0].first, (MarkerRef{"ground", "O2"}));
+  EXPECT_EQ(model.joints[0].second, (MarkerRef{"crank", "O2"}));
+  EXPECT_EQ(values(0, "stiffness"), std::vector<double>{2e8});
+  EXPECT_EQ(values(0, "damping"), std::vector<double>{3e3});
+  EXPECT_EQ(values(1, "stiffness"), (std::vector<double>{1e6, 2e6}));
+  EXPECT_EQ(values(1, "damping"), std::vector<double>{3500});
+  EXPECT_EQ(values(2, "angular_stiffness"), std::vector<double>{5e5});
+  EXPECT_EQ(values(2, "angular_damping"), std::vector<double>{7});
+}
+
+TEST(ReadModel, GeometryOfJoints) {
+  const Model model = full();
+  EXPECT_EQ(model.joints[3].geometry.at("radius_first"), 0.02);
+  EXPECT_EQ(model.joints[3].geometry.at("radius_second"), 0.04);
+  EXPECT_EQ(model.joints[3].geometry.at("internal"), 1);
+  EXPECT_EQ(model.joints[4].geometry.at("length"), 1);
+  EXPECT_EQ(model.joints[5].geometry.at("radius"), 0.03);
+  const std::vector<std::string> external{"joint.O4.mesh=external"};
+  EXPECT_EQ(parse_model(kFullModel, "x.toml", external).joints[3].geometry.at("internal"), 0);
+}
+
+TEST(ReadModel, SpringsAndForces) {
+  const Model model = full();
+  ASSERT_EQ(model.springs.size(), 2U);
+  EXPECT_EQ(model.springs[0].stiffness, 10);
+  EXPECT_EQ(model.springs[0].damping, 1);
+  EXPECT_EQ(model.springs[0].free_length, 0.5);
+  EXPECT_FALSE(model.springs[0].torsion || model.springs[0].preload);
+  EXPECT_TRUE(model.springs[1].torsion);
+  EXPECT_EQ(model.springs[1].preload, 2);
+  ASSERT_EQ(model.forces.size(), 1U);
+  EXPECT_TRUE(model.forces[0].body_axes);
+  const double t = 0.25;
+  EXPECT_DOUBLE_EQ(model.forces[0].force[0].value(std::span(&t, 1)), 10 * std::sin(0.5));
+  EXPECT_EQ(model.forces[0].torque.value({}), 3);
+}
+
+TEST(ReadModel, Motors) {
+  const Model model = full();
+  ASSERT_EQ(model.motors.size(), 3U);
+  EXPECT_EQ(model.motors[0].kind, MotorKind::kEffort);
+  EXPECT_EQ(model.motors[0].law.variables(), (std::vector<std::string>{"rate", "B.slide"}));
+  EXPECT_EQ(model.motors[1].kind, MotorKind::kSpeed);
+  EXPECT_EQ(model.motors[1].law.value({}), 0.1);
+  EXPECT_EQ(model.motors[1].stiffness, 1e5);
+  EXPECT_EQ(model.motors[1].damping, 100);
+  EXPECT_EQ(model.motors[2].kind, MotorKind::kPosition);
+  EXPECT_EQ(model.motors[2].stiffness, 1e6);
+}
+
+TEST(ReadModel, OverridesAreReadAsTomlOrAsStrings) {
+  const Model model = parse_model(kFullModel, "x.toml",
+                                  {"joint.A.stiffness=2e8", "simulate.duration=0.7 s", "gravity=[0, \"-1 m/s^2\"]",
+                                   "parameters.crank=2*count", "simulate.start=\"raw\"", "body.crank.mass=3"});
+  EXPECT_EQ(model.joints[1].law.values.at("stiffness"), std::vector<double>{2e8});
+  EXPECT_EQ(model.simulate.duration, 0.7);
+  EXPECT_EQ(model.gravity[1], -1);
+  EXPECT_EQ(model.bodies[0].markers[1].position[0], 3);
+  EXPECT_EQ(model.simulate.start, Start::kRaw);
+  EXPECT_EQ(model.bodies[0].mass, 3);
+}
+
+TEST(ReadModel, OverridesMayAddSections) {
+  const Model model = parse_model("format = 1\nbody.a = { mass = 1, inertia = 1 }", "x.toml", {"simulate.duration=2"});
+  EXPECT_EQ(model.simulate.duration, 2);
+}
+
+TEST(ReadModel, TheJsonTwinGivesTheSameModel) {
+  const std::string json = to_json(parse_document(kFullModel, "full.toml"));
+  const Model a = full();
+  const Model b = parse_model(json, "full.json");
+  EXPECT_EQ(a.bodies, b.bodies);
+  EXPECT_EQ(a.joints, b.joints);
+  EXPECT_EQ(a.springs, b.springs);
+  EXPECT_EQ(a.ground, b.ground);
+  EXPECT_EQ(a.motors.size(), b.motors.size());
+}
+
+TEST(ReadModel, AFileThatIsNotThere) { EXPECT_THROW(read_model("/nowhere/model.toml"), FileError); }
+
+TEST(ReadModel, LongChainsOfParametersNeedNoDeepStack) {
+  std::string text = "format = 1\nbody.a = { mass = \"p20000\", inertia = 1 }\n[parameters]\np0 = 1\n";
+  for (int i = 20000; i > 0; --i) text += "p" + std::to_string(i) + " = \"p" + std::to_string(i - 1) + "\"\n";
+  EXPECT_EQ(parse_model(text, "x.toml").bodies[0].mass, 1);
+}
+
+TEST(ReadModel, TenThousandBodiesInNoTime) {
+  std::string text = "format = 1\n[ground.markers]\nO = [0, 0]\n";
+  for (int i = 0; i < 10000; ++i) {
+    const std::string name = "b" + std::to_string(i);
+    text += "[body." + name + "]\nmass = \"2 kg\"\ninertia = 1\nmarkers.a = [\"-1/2\", 0]\nmarkers.b = { r = 1 }\n";
+    text += "[joint." + name + "]\ntype = \"revolute\"\nbetween = [\"" +
+            (i == 0 ? std::string("ground.O") : "b" + std::to_string(i - 1) + ".b") + "\", \"" + name + ".a\"]\n";
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(parse_model(text, "x.toml").joints.size(), 10000U);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(seconds.count(), 30) << "far from linear";  // 0.4 s in a release build; sanitizers and busy machines are slow
+}
+
+}  // namespace
+}  // namespace pintle
