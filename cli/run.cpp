@@ -90,7 +90,8 @@ void print_results(const Trajectory& trajectory, const RunStamp& stamp, const Ru
     print_out(fmt::format("\nResults in {}/ (series.csv, summary.json)\n", folder.string()));
   }
   if (options.quiet && trajectory.outcome != Outcome::kCompleted)
-    print_error(fmt::format("{}: {}: {}\n", options.model, to_text(trajectory.outcome), trajectory.message));
+    print_error(fmt::format("{}: {}{}{}\n", options.model, to_text(trajectory.outcome),
+                            trajectory.message.empty() ? "" : ": ", trajectory.message));
 }
 
 ExitCode run(const RunOptions& options) {

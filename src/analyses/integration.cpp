@@ -4,12 +4,17 @@
 #include <cmath>
 
 #include "integrators/dense_output.h"
+#include "integrators/dopri5.h"
 
 namespace pintle {
 
-Integration integrate_radau(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder) {
+namespace {
+
+// Steps to the end and records the output times; `mu` is the frequency above which a step of size h averages.
+template <class Stepper>
+Integration run(Stepper& stepper, const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder,
+                double mu_times_h) {
   Integration out;
-  RadauStepper stepper(system, plan.tolerance);
   stepper.set_max_step(plan.max_step);
   if (plan.scale) stepper.set_load_scale(*plan.scale);
   stepper.start(start, plan.first_step);
@@ -24,8 +29,9 @@ Integration integrate_radau(const System& system, const State& start, const Inte
       break;
     }
     const State &begin = stepper.previous(), &now = stepper.state();
-    const double mu = stepper.table().real_eigenvalue / (now.t - begin.t);
-    for (double t = static_cast<double>(row) * plan.output_step; t <= now.t && t < almost; t = static_cast<double>(++row) * plan.output_step)
+    const double mu = mu_times_h / (now.t - begin.t);
+    for (double t = static_cast<double>(row) * plan.output_step; t <= now.t && t < almost;
+         t = static_cast<double>(++row) * plan.output_step)
       recorder.add(dense.at(t, begin, now, mu));
     if (plan.keep_going && !plan.keep_going(now.t)) {
       out.ended = Ended::kStopped;
@@ -37,6 +43,20 @@ Integration integrate_radau(const System& system, const State& start, const Inte
   out.counters = stepper.counters();
   out.scale = stepper.load_scale();
   return out;
+}
+
+constexpr double kExplicit = 1e3;  // an explicit step resolves every vibration: the law's own force is the truth
+
+}  // namespace
+
+Integration integrate_radau(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder) {
+  RadauStepper stepper(system, plan.tolerance);
+  return run(stepper, system, start, plan, recorder, stepper.table().real_eigenvalue);
+}
+
+Integration integrate_dopri5(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder) {
+  Dopri5 stepper(system, plan.tolerance);
+  return run(stepper, system, start, plan, recorder, kExplicit);
 }
 
 }  // namespace pintle

@@ -38,7 +38,7 @@ TEST(Document, TomlKeepsTheOrderOfKeys) {
 }
 
 TEST(Document, TomlValuesKnowTheirPlaces) {
-  const Document document = parse_document("é = \"ü m\"\nb = [1,  'two']\nc = { d = true }\n", "x.toml");
+  const Document document = parse_document("\"é\" = \"ü m\"\nb = [1, 'two']\nc = { d = true }\n", "x.toml");
   expect_spot(at(document, {"b"}).spot, 2, 5);
   expect_spot((*at(document, {"b"}).array())[1].spot, 2, 10);
   expect_spot(at(document, {"c", "d"}).spot, 3, 11);
@@ -83,8 +83,11 @@ TEST(Document, BigTablesFindTheirKeys) {
 TEST(Document, UnreadableTextIsLocated) {
   EXPECT_EQ(first_complaint("", "x.toml"), "1:1 an empty file");
   EXPECT_EQ(first_complaint("a = 1\nb = \"é\xff\"", "x.toml"), "2:7 a byte that is not UTF-8");
-  EXPECT_EQ(first_complaint("a = 1\na = 2\n", "x.toml").substr(0, 6), "2:1 a ");
+  EXPECT_EQ(first_complaint("a = 1\na = 2\n", "x.toml").substr(0, 6), "2:5 a ");
   EXPECT_EQ(first_complaint("a = 25 mm\n", "x.toml"), "1:8 text that is not TOML");
+  EXPECT_EQ(first_complaint("# é\na.é = 1\n", "x.toml"), "2:3 \"é\"");
+  EXPECT_EQ(first_complaint("b = 1\n[ = ]\n", "x.toml"), "2:3 a header without a name");
+  EXPECT_EQ(first_complaint("[[\n", "x.toml"), "1:3 a header without a name");
   EXPECT_EQ(first_complaint("a = 1979-05-27\n", "x.toml"), "1:5 a date or a time");
   EXPECT_EQ(first_complaint("a = nan\n", "x.toml"), "1:5 nan");
   EXPECT_EQ(first_complaint("{\"a\": 1e999}", "x.json"), "1:7 1e999");

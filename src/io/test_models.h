@@ -4,7 +4,7 @@
 namespace pintle {
 
 /// The four-bar of section 8 of the paper, with one of everything else.
-inline constexpr const char* kFullModel = R"(format = 1
+inline constexpr const char* kFullModel = R"toml(format = 1
 name = "Four-bar"  # with extras
 description = """
 Two
@@ -37,7 +37,7 @@ P = { x = "1 m", y = "count * 1 m" }
 [body.crank]
 mass = "1 kg"
 inertia = "1e5 kg*m^2"
-position = [0.25, "sqrt(3)/4 m"]
+position = [0.25, "(sqrt(3)/4) m"]
 angle = "60 deg"
 velocity = [0, "2 m/s"]
 spin = "10 rad/s"
@@ -119,6 +119,6 @@ damping = "1e2 N*s/m"
 [motor.W]
 joint = "A"
 position = "0.2*sin(3*t)"
-)";
+)toml";
 
 }  // namespace pintle

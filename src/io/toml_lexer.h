@@ -1,7 +1,8 @@
-// TOML text cut into pieces, none lost: what the formatter moves about, and the guard against endless dotted keys.
+// TOML text cut into pieces, none lost: what the formatter moves about, and a guard in front of the parser.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,7 +21,15 @@ struct Token {
 /// Cuts `text` without checking its grammar; the pieces joined are `text`.
 std::vector<Token> cut_toml(std::string_view text);
 
-/// Where a key of more than kMaxDepth dotted parts starts, if there is one. (The parser would nest that many tables.)
-std::optional<Spot> first_deep_key(std::string_view text);
+/// What is wrong with a text before its grammar is looked at.
+struct LexicalProblem {
+  Spot spot;
+  std::string found;
+  std::string because;
+};
+
+/// The first thing that must not reach toml++ 3.3, which takes it for granted rather than refusing it: a key of more than
+/// kMaxDepth dotted parts, a character outside strings and comments that TOML has no use for there, a header without a key.
+std::optional<LexicalProblem> first_lexical_problem(std::string_view text);
 
 }  // namespace pintle

@@ -13,6 +13,8 @@
 namespace pintle {
 namespace {
 
+constexpr const char* kTomlHint = "strings with units need quotes, keys are followed by =, lists stand in [ ]";
+
 class TomlConverter {
  public:
   explicit TomlConverter(const Document& document) : document_(document) {}
@@ -101,7 +103,7 @@ Complaint syntax_complaint(const Document& document, const toml::parse_error& er
                               "rename it, or delete one of the two");
   }
   return document.complaint(spot, "", "text that is not TOML", std::string(words),
-                            "strings with units need quotes, keys are followed by `=`, lists stand in [ ]");
+                            kTomlHint);
 }
 
 }  // namespace
@@ -109,8 +111,8 @@ Complaint syntax_complaint(const Document& document, const toml::parse_error& er
 Document parse_toml(std::string_view text, std::string_view file_name) {
   Document document;
   document.sources.emplace_back(std::string(file_name), std::string(text));
-  if (const std::optional<Spot> spot = first_deep_key(text)) {
-    throw InputError({document.complaint(*spot, "", "a key of too many dotted parts", "at most 64 levels are read")});
+  if (const std::optional<LexicalProblem> problem = first_lexical_problem(text)) {
+    throw InputError({document.complaint(problem->spot, "", problem->found, problem->because, kTomlHint)});
   }
   try {
     const toml::table table = toml::parse(text, file_name);

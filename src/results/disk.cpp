@@ -93,14 +93,15 @@ void exchange_in_steps(const fs::path& fresh, const fs::path& target) {
 
 /// Moves what only the old folder has into the new one. False if something had to stay behind.
 bool move_strangers(const fs::path& from, const fs::path& to) {
+  std::error_code unreadable;
   bool all = true;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(from, error)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(from, unreadable)) {
     const fs::path destination = to / entry.path().filename();
-    if (fs::exists(fs::symlink_status(destination, error))) continue;
+    std::error_code absent;
+    if (fs::exists(fs::symlink_status(destination, absent))) continue;
     all = std::rename(entry.path().c_str(), destination.c_str()) == 0 && all;
   }
-  return all && !error;
+  return all && !unreadable;
 }
 
 /// Pipes, terminals and devices cannot be replaced by renaming: write into them.

@@ -125,6 +125,15 @@ TEST(RunFolder, RefusesAStrangersFolderUnlessToldSo) {
   EXPECT_EQ(sample::n_entries(scratch.path()), 1U);
 }
 
+TEST(RunFolder, KeepsALoneStranger) {
+  const sample::ScratchFolder scratch;
+  fs::create_directories(scratch / "thesis");
+  write_file(scratch / "thesis/chapter.tex", "text");
+  write_run(sample::trajectory(), {}, scratch / "thesis", Overwrite::kAnyFolder);
+  EXPECT_EQ(sample::n_entries(scratch / "thesis"), 3U);
+  EXPECT_EQ(sample::n_entries(scratch.path()), 1U);
+}
+
 TEST(RunFolder, RefusesAFileEvenIfForced) {
   const sample::ScratchFolder scratch;
   write_file(scratch / "run", "a file");

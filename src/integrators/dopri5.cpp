@@ -1,0 +1,155 @@
+#include "integrators/dopri5.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+constexpr double kA[7][6] = {{},
+                             {1.0 / 5},
+                             {3.0 / 40, 9.0 / 40},
+                             {44.0 / 45, -56.0 / 15, 32.0 / 9},
+                             {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
+                             {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
+                             {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
+constexpr double kC[7] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
+constexpr double kE[7] = {71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+
+}  // namespace
+
+Dopri5::Dopri5(const System& system, double tolerance)
+    : system_(system), tolerance_(tolerance), q_(system.bodies.size()), v_(system.bodies.size()), dq_(system.bodies.size()),
+      dv_(system.bodies.size()) {
+  for (auto* k : {&kq_, &kv_})
+    for (auto& x : *k) x.resize(system.bodies.size());
+  scale_.body.assign(system.bodies.size(), S::Vec::Zero());
+}
+
+void Dopri5::complete(State& state) {
+  system_.motions(state.q, state.v, m_);
+  system_.readings(state.t, m_, r_);
+  system_.accelerations(state.t, state.q, state.v, state.a);
+  const ExternalWork work = system_.external_work(state.t, state.q, m_);
+  state.supply_power = work.supplied;
+  state.loss_power = work.lost;
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const JointData& joint = system_.joints[j];
+    state.gap[j] = r_[j].gap;
+    state.gap_rate[j] = r_[j].rate;
+    state.gap_accel[j] = r_[j].bias;
+    if (joint.at.a != kGround) state.gap_accel[j] += r_[j].GA * state.a[joint.at.a];
+    if (joint.at.b != kGround) state.gap_accel[j] += r_[j].GB * state.a[joint.at.b];
+    const Response response = respond(joint.law, r_[j].gap, r_[j].rate);
+    state.force[j] = response.force;
+    if (joint.servo >= 0) state.supply_power += response.force[joint.servo] * system_.pose(joint.at, m_).rate[joint.servo];
+    else state.loss_power += response.loss;
+  }
+}
+
+void Dopri5::start(const State& state, double h) {
+  begin_ = end_ = state;
+  h_ = h;
+  complete(end_);
+  grow_scale();
+}
+
+bool Dopri5::step(double t_end) {
+  begin_ = end_;
+  double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
+  kq_[0] = begin_.v;
+  kv_[0] = begin_.a;
+  while (true) {
+    h = std::min(h, t_end - begin_.t);
+    if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
+      failure_ = fmt::format("the step size has shrunk to nothing at t = {:.9g} s", begin_.t);
+      return false;
+    }
+    for (int s = 1; s < 7; ++s) {
+      for (std::size_t i = 0; i < q_.size(); ++i) {
+        q_[i].setZero();
+        v_[i].setZero();
+        for (int k = 0; k < s; ++k) {
+          q_[i] += kA[s][k] * kq_[k][i];
+          v_[i] += kA[s][k] * kv_[k][i];
+        }
+        q_[i] = begin_.q[i] + h * q_[i];
+        v_[i] = begin_.v[i] + h * v_[i];
+      }
+      kq_[s] = v_;
+      system_.accelerations(begin_.t + kC[s] * h, q_, v_, kv_[s]);
+      ++counters_.evaluations;
+    }
+    const double e = error(h) / tolerance_;
+    const double factor = std::isfinite(e) ? std::clamp(0.9 * std::pow(std::max(e, 1e-10), -0.2), 0.2, 5.0) : 0.1;
+    if (e <= 1) {
+      end_.t = t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h;
+      end_.q = q_;
+      end_.v = v_;
+      complete(end_);
+      end_.dissipated = begin_.dissipated + 0.5 * h * (begin_.loss_power + end_.loss_power);
+      end_.supplied = begin_.supplied + 0.5 * h * (begin_.supply_power + end_.supply_power);
+      grow_scale();
+      ++counters_.steps;
+      h_ = h * factor;
+      return true;
+    }
+    ++counters_.rejected;
+    h *= std::min(factor, 0.8);
+  }
+}
+
+// The embedded error as joint force: what the error of positions and velocities makes of the laws' forces, over the loads.
+double Dopri5::error(double h) {
+  for (std::size_t i = 0; i < q_.size(); ++i) {
+    dq_[i].setZero();
+    dv_[i].setZero();
+    for (int s = 0; s < 7; ++s) {
+      dq_[i] += kE[s] * h * kq_[s][i];
+      dv_[i] += kE[s] * h * kv_[s][i];
+    }
+  }
+  system_.motions(q_, v_, m_);
+  system_.readings(begin_.t + h, m_, r_);
+  double worst = 0;
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const JointData& joint = system_.joints[j];
+    S::Vec de = S::Vec::Zero(), dr = S::Vec::Zero();
+    double load = 0;
+    for (const auto& [body, G] : {std::pair{joint.at.a, &r_[j].GA}, std::pair{joint.at.b, &r_[j].GB}}) {
+      if (body == kGround) continue;
+      de += *G * dq_[body];
+      dr += *G * dv_[body];
+      load = std::max(load, scale_.body[body][0]);
+    }
+    const Response response = respond(joint.law, r_[j].gap, r_[j].rate);
+    const S::Vec df = response.stiffness * de + response.damping * dr;
+    worst = std::max(worst, df.head<2>().norm() / load);
+    if (!std::isfinite(df.sum())) return std::numeric_limits<double>::infinity();
+  }
+  for (int i = 0; i < system_.n_bodies(); ++i) {
+    const S::Vec d = system_.bodies[i].mass.cwiseProduct(dv_[i]).cwiseAbs().cwiseQuotient(scale_.body[i]) / h;
+    worst = std::max(worst, d.maxCoeff());
+  }
+  return worst;
+}
+
+void Dopri5::grow_scale() {
+  for (int i = 0; i < system_.n_bodies(); ++i) {
+    const S::Vec& mass = system_.bodies[i].mass;
+    const double radius = std::sqrt(mass[2] / mass[0]);
+    const S::Vec load = mass.cwiseProduct(end_.a[i]).cwiseAbs() + system_.bodies[i].gravity.cwiseAbs();
+    double force = std::max({scale_.body[i][0], load[0], load[1], 1e-9 * mass[0]});
+    for (int j = 0; j < system_.n_joints(); ++j)
+      if (system_.joints[j].at.a == i || system_.joints[j].at.b == i) force = std::max(force, end_.force[j].head<2>().norm());
+    const double moment = std::max({scale_.body[i][2], load[2], 1e-3 * force * radius});
+    scale_.body[i] << force, force, moment;
+  }
+}
+
+}  // namespace pintle

@@ -1,0 +1,204 @@
+// Every kind of mistake in a model file is found, at its line and column, with its path and a reason.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "io/test_models.h"
+#include "pintle/read_model.h"
+
+namespace pintle {
+namespace {
+
+// A piece of the full model is replaced; @ in the replacement stands before the character that is to be blamed.
+struct Mistake {
+  const char* piece;
+  const char* replacement;
+  const char* path;
+  const char* because;         // part of the reason
+  const char* suggestion = "";  // part of it
+};
+
+std::vector<Complaint> complaints_about(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    parse_model(text, "m.toml", overrides);
+  } catch (const InputError& error) {
+    return error.complaints();
+  }
+  return {};
+}
+
+const std::vector<Mistake> kMistakes{
+    {"format = 1\n", "@name2 = 1\nformat = 1\n", "name2", "no such key", "did you mean \"name\"?"},
+    {"format = 1\n", "format = @2\n", "format", "newer than the program"},
+    {"format = 1\n", "format = @0\n", "format", "at least 1"},
+    {"format = 1\n", "format = \"@1\"\n", "format", "whole number"},
+    {"format = 1\nname", "@name", "format", "required"},
+    {"name = \"Four-bar\"", "name = @3", "name", "a string is wanted"},
+    {"space = \"planar\"", "space = \"@spatial\"", "space", "not available yet"},
+    {"space = \"planar\"", "space = \"@plana\"", "space", "none of planar, spatial", "did you mean \"planar\"?"},
+    {"gravity = [0, \"-1.5 m/s^2\"]", "gravity = @9.81", "gravity", "a list of 2 numbers"},
+    {"gravity = [0, \"-1.5 m/s^2\"]", "gravity = [0, \"@-1.5 m/s\"]", "gravity", "an acceleration [m/s^2] is wanted"},
+    {"[parameters]\n", "[parameters]\n@kN = 3\n", "parameters.kN", "name of a unit"},
+    {"[parameters]\n", "[parameters]\n@sin = 3\n", "parameters.sin", "name of a unit, a function"},
+    {"[parameters]\n", "[parameters]\n@pi = 3\n", "parameters.pi", "constant"},
+    {"[parameters]\n", "[parameters]\n@a-b = 3\n", "parameters.a-b", "a letter, then letters, digits"},
+    {"half = \"crank/2\"\ncrank = \"1 m\"", "half = \"@crank/2\"\ncrank = \"2*half\"", "parameters.half",
+     "half -> crank -> half"},
+    {"crank = \"1 m\"", "crank = \"@crank\"", "parameters.crank", "crank -> crank"},
+    {"crank = \"1 m\"", "crank = \"1 m @+ 2 s\"", "parameters.crank", ""},
+    {"crank = \"1 m\"", "crank = \"1 m@/0\"", "parameters.crank", "finite"},
+    {"crank = \"1 m\"", "crank = \"1 @mn\"", "parameters.crank", "unit"},
+    {"crank = \"1 m\"", "crank = \"1 m*(@\"", "parameters.crank", ""},
+    {"crank = \"1 m\"", "crank = @true", "parameters.crank", "a number is wanted"},
+    {"count = 3", "count = @inf", "parameters.count", "finite"},
+    {"duration = \"0.5 s\"", "duration = @0", "simulate.duration", "greater than 0"},
+    {"duration = \"0.5 s\"", "duration = \"@1 kg\"", "simulate.duration", "a time [s] is wanted"},
+    {"duration = \"0.5 s\"", "@duratoin = 1", "simulate.duratoin", "no such key", "duration"},
+    {"output_step = \"2 ms\"", "output_step = \"@2 s\"", "simulate.output_step", "longer than the duration"},
+    {"output_step = \"2 ms\"", "output_step = @1e-9", "simulate.output_step", "10 million rows"},
+    {"tolerance = 1e-6", "tolerance = @1", "simulate.tolerance", "at most 0.1"},
+    {"tolerance = 1e-6", "tolerance = @1e-12", "simulate.tolerance", "at least"},
+    {"method = \"radau\"", "method = \"@rk4\"", "simulate.method", "none of auto, radau, dopri5"},
+    {"stiffness = \"2e8 N/m\"", "@length = 3", "defaults.joint.length", "no such key"},
+    {"stiffness = \"2e8 N/m\"", "stiffness = @[1, 2]", "defaults.joint.stiffness", "a number is wanted"},
+    {"[defaults.joint]\n", "[defaults]\n@spring = 1\n[defaults.joint]\n", "defaults.spring", "no such key"},
+    {"O2 = [0, 0]", "O2 = @[0, 0, 0, 0]", "ground.markers.O2", "two or three numbers"},
+    {"O2 = [0, 0]", "O2 = @3", "ground.markers.O2", "not a marker"},
+    {"O2 = [0, 0]", "@O2 = { x = 1 }", "ground.markers.O2", "x and y, or r and xi"},
+    {"O2 = [0, 0]", "@O2 = { x = 1, y = 2, r = 3 }", "ground.markers.O2", "x and y, or r and xi"},
+    {"O2 = [0, 0]", "O2 = { x = 1, y = 2, @z = 3 }", "ground.markers.O2.z", "no such key"},
+    {"O2 = [0, 0]", "O2 = [0, \"@3 deg\"]", "ground.markers.O2", "a length [m] is wanted"},
+    {"mass = \"1 kg\"", "mass = \"@-1 kg\"", "body.crank.mass", "greater than 0"},
+    {"mass = \"1 kg\"", "mass = \"1 @kgg\"", "body.crank.mass", "unit"},
+    {"[body.crank]\nmass = \"1 kg\"\n", "[body.@crank]\n", "body.crank.mass", "required"},
+    {"inertia = \"1e5 kg*m^2\"", "inertia = @0", "body.crank.inertia", "greater than 0"},
+    {"angle = \"60 deg\"", "angle = \"@60 mm\"", "body.crank.angle", "an angle [rad] is wanted"},
+    {"angle = \"60 deg\"\n", "", "body.crank.hold", "must be stated"},
+    {"hold = [\"y\", \"angle\"]", "hold = [\"@z\"]", "body.crank.hold", "none of x, y, angle"},
+    {"markers.A = [\"half\"", "markers.A = [\"@haf\"", "body.crank.markers.A", "", "half"},
+    {"[body.crank]", "[body.@\"a b\"]\nmass = 1\ninertia = 1\n[body.crank]", "body.a b", "letters, digits, _ and -"},
+    {"[body.crank]", "[body.@ground]\nmass = 1\ninertia = 1\n[body.crank]", "body.ground", "belongs to the world"},
+    {"[body.crank]\n", "[body]\nextra = @3\n[body.crank]\n", "body.extra", "a table is wanted"},
+    {"[joint.O2]\ntype = \"revolute\"", "[joint.O2]\ntype = \"@revolut\"", "joint.O2.type", "none of", "revolute"},
+    {"[joint.O2]\ntype = \"revolute\"", "[joint.@O2]", "joint.O2.type", "required"},
+    {"law = \"linear\"", "law = \"@linaer\"", "joint.A.law", "none of", "linear"},
+    {"[\"crank.A\", \"coupler.A\"]\nst", "[\"crank.A\", \"@copler.A\"]\nst", "joint.A.between", "no body \"copler\"", "coupler.A"},
+    {"[\"crank.A\", \"coupler.A\"]\nst", "[\"crank.@O\", \"coupler.A\"]\nst", "joint.A.between", "no marker \"O\""},
+    {"[\"crank.A\", \"coupler.A\"]\nst", "[\"@crank\", \"coupler.A\"]\nst", "joint.A.between", "body.marker"},
+    {"[\"crank.A\", \"coupler.A\"]\nst", "@[\"crank.A\", \"crank.O2\"]\nst", "joint.A.between", "and itself"},
+    {"[\"crank.A\", \"coupler.A\"]\nst", "@[\"ground.O2\", \"ground.P\"]\nst", "joint.A.between", "both ends are on the ground"},
+    {"[\"crank.A\", \"coupler.A\"]\nst", "@[\"crank.A\"]\nst", "joint.A.between", "a list of 2"},
+    {"[\"1e6 N/m\", \"2e6 N/m\"]", "@[1e6, 1e6, 1e6]", "joint.A.stiffness", "a list of 2 numbers"},
+    {"[\"1e6 N/m\", \"2e6 N/m\"]", "[1e6, @-5]", "joint.A.stiffness", "feeds energy"},
+    {"damping = \"3500 N*s/m\"", "damping = \"@3500 N/m\"", "joint.A.damping", "is wanted"},
+    {"damping = \"3500 N*s/m\"", "@length = 1", "joint.A.length", "rod joints, rope joints only"},
+    {"damping = \"3500 N*s/m\"", "angular_stiffness = @1", "joint.A.angular_stiffness", "forbids no angle"},
+    {"radii = [\"20 mm\", \"40 mm\"]\n", "radii = @[\"20 mm\"]\n", "joint.O4.radii", "a list of 2 numbers"},
+    {"radii = [\"20 mm\", \"40 mm\"]\n", "radii = @[2, 2]\n", "joint.O4.radii", "inside one of its own size"},
+    {"length = \"1 m\"", "length = @0", "joint.R.length", "greater than 0"},
+    {"radius = \"30 mm\"\n", "", "joint.K.radius", "required"},
+    {"free_length = \"0.5 m\"", "free_length = 1\npreload = @2", "spring.S.preload", "follows from the other"},
+    {"[torsion_spring.T]", "[torsion_spring.@S]", "torsion_spring.S", "could not tell them apart"},
+    {"[spring.S]", "[spring.@Z]\nbetween = [\"ground.P\", \"crank.A\"]\n[spring.S]", "spring.Z", "does nothing"},
+    {"on = \"crank.A\"", "on = \"@ground.P\"", "force.F.on", "moves nothing"},
+    {"[\"10 N*sin(2*t)\", 0]", "[\"10 N*sin(2*@u)\", 0]", "force.F.force", ""},
+    {"[\"10 N*sin(2*t)\", 0]", "[\"@1/t\", 0]", "force.F.force", "not a finite number at t = 0"},
+    {"[\"10 N*sin(2*t)\", 0]", "\"@10 N\"", "force.F.force", "a list of 2"},
+    {"axes = \"body\"", "axes = \"@boddy\"", "force.F.axes", "none of", "body"},
+    {"joint = \"O2\"", "joint = \"@O3\"", "motor.M.joint", "no such joint", "O2"},
+    {"joint = \"O2\"", "joint = \"@R\"", "motor.M.joint", "no coordinate free"},
+    {"torque = \"5 N*m - 0.1*rate + B.slide*2 N\"\n", "", "motor.M", "states one of them"},
+    {"torque = \"5 N*m - 0.1*rate + B.slide*2 N\"", "torque = 1\n@speed = 2", "motor.M.speed", "exactly one"},
+    {"torque = \"5 N*m - 0.1*rate + B.slide*2 N\"", "torque = 1\n@damping = 2", "motor.M.damping", "only servos"},
+    {"torque = \"5 N*m - 0.1*rate + B.slide*2 N\"", "@force = 1", "motor.M.force", "sliding joints only"},
+    {"torque = \"5 N*m - 0.1*rate + B.slide*2 N\"", "torque = \"@B.slyde*2 N\"", "motor.M.torque", "", "B.slide"},
+    {"speed = \"0.1 m/s\"", "speed = \"@10 rpm\"", "motor.V.speed", "is wanted"},
+    {"joint = \"A\"\n", "joint = \"@B\"\n", "motor.W.joint", "already is a servo"},
+};
+
+class MistakeTest : public testing::TestWithParam<Mistake> {};
+
+TEST_P(MistakeTest, IsLocatedAndExplained) {
+  const Mistake& mistake = GetParam();
+  std::string text = kFullModel;
+  const std::size_t start = text.find(mistake.piece);
+  ASSERT_NE(start, std::string::npos);
+  text.replace(start, std::string(mistake.piece).size(), mistake.replacement);
+  const std::size_t mark = text.find('@');
+  int line = 0;
+  int column = 0;
+  if (mark != std::string::npos) {
+    text.erase(mark, 1);
+    line = 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(mark), '\n'));
+    column = static_cast<int>(mark - (text.rfind('\n', mark == 0 ? 0 : mark - 1) + 1)) + 1;
+    if (text.find('\n') > mark) column = static_cast<int>(mark) + 1;
+  }
+  const std::vector<Complaint> complaints = complaints_about(text);
+  std::string all;
+  for (const Complaint& complaint : complaints) all += to_text(complaint) + "\n";
+  const auto matches = [&](const Complaint& complaint) {
+    const bool here = line == 0 || (complaint.place.line == line && complaint.place.column == column);
+    return here && complaint.place.file == "m.toml" && complaint.path.starts_with(mistake.path) &&
+           complaint.because.find(mistake.because) != std::string::npos &&
+           complaint.suggestion.find(mistake.suggestion) != std::string::npos && !complaint.because.empty();
+  };
+  EXPECT_TRUE(std::any_of(complaints.begin(), complaints.end(), matches))
+      << "wanted " << line << ":" << column << " " << mistake.path << ": " << mistake.because << "\ngot\n" << all;
+  EXPECT_LE(complaints.size(), 3U) << all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MistakeTest, testing::ValuesIn(kMistakes));
+
+TEST(Mistakes, TheFullModelHasNone) { EXPECT_TRUE(complaints_about(kFullModel).empty()); }
+
+TEST(Mistakes, AllAreCollectedInTheOrderOfTheFile) {
+  const auto complaints = complaints_about("format = 1\n[body.a]\nmass = -1\ninertia = 0\n[joint.j]\ntyp = 1\n[parameters]\nm = 1\n");
+  ASSERT_EQ(complaints.size(), 6U);
+  for (std::size_t i = 1; i < complaints.size(); ++i) EXPECT_LE(complaints[i - 1].place.line, complaints[i].place.line);
+}
+
+TEST(Mistakes, AModelNeedsABody) { EXPECT_EQ(complaints_about("format = 1\n").at(0).path, "body"); }
+
+TEST(Mistakes, AFaultyParameterIsBlamedOnce) {
+  const auto complaints = complaints_about(
+      "format = 1\n[parameters]\na = \"1/0\"\nb = \"2*a\"\n[body.c]\nmass = \"b\"\ninertia = 1\n");
+  ASSERT_EQ(complaints.size(), 1U);
+  EXPECT_EQ(complaints[0].path, "parameters.a");
+}
+
+TEST(Mistakes, OverridesHaveTheirOwnPlaces) {
+  const auto at = [](const std::string& override) {
+    const auto complaints = complaints_about(kFullModel, {"simulate.duration=1", override});
+    if (complaints.empty()) return std::string("none");
+    const Complaint& first = complaints.front();
+    EXPECT_EQ(first.source_line, override);
+    return first.place.file + ":" + std::to_string(first.place.column) + " " + first.path;
+  };
+  EXPECT_EQ(at("joint.A.stifness=2"), "--set:9 joint.A.stifness");
+  EXPECT_EQ(at("joint.Z.stiffness=2"), "--set:7 joint.Z");
+  EXPECT_EQ(at("body.crank.mass=-2"), "--set:17 body.crank.mass");
+  EXPECT_EQ(at("body.crank.mass=2 + 1/0"), "--set:22 body.crank.mass");
+  EXPECT_EQ(at("body.crank.mass.x=2"), "--set:12 mass");
+  EXPECT_EQ(at("body.crank.mass"), "--set:1 ");
+  EXPECT_EQ(at("body..mass=1"), "--set:1 ");
+  EXPECT_EQ(at("simulat.duration=1"), "--set:1 simulat");
+  EXPECT_EQ(at("body.crank.mass="), "--set:17 body.crank.mass");
+}
+
+TEST(Mistakes, JsonIsLocatedToo) {
+  try {
+    parse_model("{\"format\": 1,\n \"body\": {\"a\": {\"mass\": \"2 kgs\",\n  \"inertia\": 1}}}", "m.json");
+    FAIL();
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.complaints().size(), 1U);
+    EXPECT_EQ(error.complaints()[0].place.line, 2);
+    EXPECT_EQ(error.complaints()[0].place.column, 28);
+  }
+}
+
+}  // namespace
+}  // namespace pintle
