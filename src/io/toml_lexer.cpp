@@ -43,7 +43,7 @@ Token next_token(std::string_view text) {
   switch (text.front()) {
     case ' ':
     case '\t': return piece(TokenKind::kSpace, std::min(text.find_first_not_of(" \t"), text.size()));
-    case '\r': return text.starts_with("\r\n") ? piece(TokenKind::kNewline, 2) : piece(TokenKind::kSpace, 1);
+    case '\r': return text.starts_with("\r\n") ? piece(TokenKind::kNewline, 2) : piece(TokenKind::kBare, 1);
     case '\n': return piece(TokenKind::kNewline, 1);
     case '#': return piece(TokenKind::kComment, run_length(text, "\r\n"));
     case '"':
