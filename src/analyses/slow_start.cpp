@@ -128,6 +128,35 @@ class Preload {
   Vecs Q_;
 };
 
+// Accelerations that the joint forces really give at the state's gaps, and the gap accelerations that go with them; gaps
+// that carry no stiffness are those of the positions.
+void balance(const System& system, State& state) {
+  std::vector<S::Motion> m;
+  std::vector<Reading> r;
+  system.motions(state.q, state.v, m);
+  system.readings(state.t, m, r);
+  system.external(state.t, m, state.a);
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const JointData& joint = system.joints[j];
+    const Response response = respond(joint.law, state.gap[j], state.gap_rate[j]);
+    for (int k = 0; k < S::kDof; ++k) {
+      if (response.stiffness(k, k) > 0) continue;
+      state.gap[j][k] = r[j].gap[k];
+      state.gap_rate[j][k] = r[j].rate[k];
+    }
+    state.force[j] = law_force(joint.law, state.gap[j], state.gap_rate[j]);
+    if (joint.at.a != kGround) state.a[joint.at.a] += r[j].GA.transpose() * state.force[j];
+    if (joint.at.b != kGround) state.a[joint.at.b] += r[j].GB.transpose() * state.force[j];
+  }
+  for (int i = 0; i < system.n_bodies(); ++i) state.a[i] = state.a[i].cwiseQuotient(system.bodies[i].mass);
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const Placement& at = system.joints[j].at;
+    state.gap_accel[j] = r[j].bias;
+    if (at.a != kGround) state.gap_accel[j] += r[j].GA * state.a[at.a];
+    if (at.b != kGround) state.gap_accel[j] += r[j].GB * state.a[at.b];
+  }
+}
+
 }  // namespace
 
 void start_forces(const System& system, bool preload, State& state) {
@@ -141,18 +170,7 @@ void start_forces(const System& system, bool preload, State& state) {
   Preload start(system, state);
   for (int pass = 0; pass < kPasses; ++pass)
     if (!start.pass()) break;
-  // What carries no stiffness (free components) follows the bodies.
-  const State carried = state;
-  plain_start(system, state);
-  for (std::size_t j = 0; j < joints; ++j)
-    for (int k = 0; k < 3; ++k)
-      if (respond(system.joints[j].law, carried.gap[j], carried.gap_rate[j]).stiffness(k, k) > 0) {
-        state.gap[j][k] = carried.gap[j][k];
-        state.force[j][k] = carried.force[j][k];
-        state.gap_rate[j][k] = carried.gap_rate[j][k];
-        state.gap_accel[j][k] = carried.gap_accel[j][k];
-      }
-  state.a = carried.a;
+  balance(system, state);
 }
 
 }  // namespace pintle
