@@ -12,6 +12,7 @@ namespace {
 using S = Planar;
 
 constexpr int kMaxRetries = 60;
+constexpr double kShortest = 1e-11;  // of the run: the shortest step that is refused for its error
 constexpr double kErrorFactor = 1.0;  // the spectral tail over the step's force error, from the four-bar at k = 1e6..1e12
 
 // Legendre coefficients on [0, 1] of the cubic through values at {0, c1, c2, 1}.
@@ -79,8 +80,11 @@ bool RadauStepper::step(double t_end) {
       continue;
     }
     const double error = error_estimate() / tolerance_;
-    const double factor = std::clamp(0.9 * std::pow(std::max(error, 1e-12), -0.2), 0.15, 4.0);
-    if (error > 1) {
+    double factor = std::clamp(0.9 * std::pow(std::max(error, 1e-12), -0.2), 0.15, 4.0);
+    // A force that jumps cannot be resolved by any step: one that is this short passes over the jump.
+    const bool jump = error > 1 && h <= kShortest * std::abs(t_end);
+    if (jump) factor = 4;
+    if (error > 1 && !jump) {
       ++counters_.rejected;
       h *= std::min(factor, 0.7);
       continue;

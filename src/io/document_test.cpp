@@ -86,8 +86,13 @@ TEST(Document, UnreadableTextIsLocated) {
   EXPECT_EQ(first_complaint("a = 1\na = 2\n", "x.toml").substr(0, 6), "2:5 a ");
   EXPECT_EQ(first_complaint("a = 25 mm\n", "x.toml"), "1:8 text that is not TOML");
   EXPECT_EQ(first_complaint("# é\na.é = 1\n", "x.toml"), "2:3 \"é\"");
-  EXPECT_EQ(first_complaint("b = 1\n[ = ]\n", "x.toml"), "2:3 a header without a name");
-  EXPECT_EQ(first_complaint("[[\n", "x.toml"), "1:3 a header without a name");
+  EXPECT_EQ(first_complaint("b = 1\n[ = ]\n", "x.toml"), "2:3 \"=\"");
+  EXPECT_EQ(first_complaint("b = [1, }\n", "x.toml"), "1:9 \"}\"");
+  EXPECT_EQ(first_complaint("b = { c = 1,\n d = 2 }\n", "x.toml"), "1:13 the end of the line");
+  EXPECT_EQ(first_complaint("b = \n", "x.toml"), "1:5 the end of the line");
+  EXPECT_EQ(first_complaint("b\n", "x.toml"), "1:2 the end of the line");
+  EXPECT_EQ(first_complaint("b = [1", "x.toml"), "1:7 the end of the file");
+  EXPECT_EQ(first_complaint("[[\n", "x.toml"), "1:3 the end of the line");
   EXPECT_EQ(first_complaint("a = 1979-05-27\n", "x.toml"), "1:5 a date or a time");
   EXPECT_EQ(first_complaint("a = nan\n", "x.toml"), "1:5 nan");
   EXPECT_EQ(first_complaint("{\"a\": 1e999}", "x.json"), "1:7 1e999");

@@ -1,12 +1,8 @@
-// TOML text cut into pieces, none lost: what the formatter moves about, and a guard in front of the parser.
+// TOML text cut into pieces, none lost: for the formatter and for the guard in front of the parser.
 #pragma once
 
-#include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
-
-#include "io/document.h"
 
 namespace pintle {
 
@@ -20,16 +16,5 @@ struct Token {
 
 /// Cuts `text` without checking its grammar; the pieces joined are `text`.
 std::vector<Token> cut_toml(std::string_view text);
-
-/// What is wrong with a text before its grammar is looked at.
-struct LexicalProblem {
-  Spot spot;
-  std::string found;
-  std::string because;
-};
-
-/// The first thing that must not reach toml++ 3.3, which takes it for granted rather than refusing it: a key of more than
-/// kMaxDepth dotted parts, a character outside strings and comments that TOML has no use for there, a header without a key.
-std::optional<LexicalProblem> first_lexical_problem(std::string_view text);
 
 }  // namespace pintle

@@ -8,7 +8,7 @@
 
 #include "io/document.h"
 #include "io/text.h"
-#include "io/toml_lexer.h"
+#include "io/toml_guard.h"
 
 namespace pintle {
 namespace {
@@ -111,7 +111,7 @@ Complaint syntax_complaint(const Document& document, const toml::parse_error& er
 Document parse_toml(std::string_view text, std::string_view file_name) {
   Document document;
   document.sources.emplace_back(std::string(file_name), std::string(text));
-  if (const std::optional<LexicalProblem> problem = first_lexical_problem(text)) {
+  if (const std::optional<TomlProblem> problem = first_toml_problem(text)) {
     throw InputError({document.complaint(problem->spot, "", problem->found, problem->because, kTomlHint)});
   }
   try {
