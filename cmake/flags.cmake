@@ -24,3 +24,7 @@ endif()
 if(PINTLE_FUZZ)
   target_compile_options(pintle_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
+
+# For code whose speed does not matter: quick to build even in Release.
+add_library(pintle_quick_build INTERFACE)
+target_compile_options(pintle_quick_build INTERFACE $<$<CONFIG:Release>:-O1>)

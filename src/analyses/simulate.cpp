@@ -11,6 +11,7 @@
 
 #include "analyses/assembly.h"
 #include "analyses/integration.h"
+#include "analyses/slow_motion.h"
 #include "system/build.h"
 
 namespace pintle {
@@ -69,6 +70,7 @@ class Run {
     system_ = build_system(model_);
     Assembly assembly = assemble(model_, system_);
     start_ = std::move(assembly.state);
+    if (model_.simulate.start == Start::kAssembled) settle_start();
     out_.notes = std::move(assembly.notes);
     out_.tolerance = model_.simulate.tolerance;
     explicit_ = model_.simulate.method == "dopri5";
@@ -79,6 +81,16 @@ class Run {
   }
 
  private:
+  // The stretch over which the start is made smooth is a step that a rough integration would take.
+  void settle_start() {
+    if (system_.joints.empty()) return;
+    RadauStepper scout(system_, 1e-3);
+    scout.start(start_, 1e-3 * model_.simulate.duration);
+    for (int i = 0; i < 3; ++i)
+      if (!scout.step(model_.simulate.duration)) return;
+    settle_on_slow_motion(system_, 0.5 * (scout.state().t - scout.previous().t), start_);
+  }
+
   IntegrationPlan plan(double tolerance) {
     IntegrationPlan p;
     p.duration = model_.simulate.duration;

@@ -48,89 +48,11 @@ void plain_start(const System& system, State& state) {
   }
 }
 
-// Forces that give the gaps the accelerations state.gap_accel, and the gaps that carry them; bodies follow. Eqs. (3.1)-(3.4).
-class Preload {
- public:
-  Preload(const System& system, State& state) : system_(system), state_(state), projector_(system) {}
-
-  bool pass() {
-    system_.motions(state_.q, state_.v, m_);
-    system_.readings(state_.t, m_, r_);
-    const double mu = 0.02 * slowest_joint(system_, r_);
-    if (!std::isfinite(mu) || !(mu > 0)) return false;
-    if (!projector_.prepare(state_.t, m_, mu, state_.gap, state_.gap_rate)) return false;
-    system_.external(state_.t, m_, Q_);
-    find_accelerations();
-    for (int i = 0; i < 4; ++i) projector_.improve_forces(Q_, state_.a, state_.force);
-    for (int j = 0; j < system_.n_joints(); ++j) carry(j);
-    move_bodies();
-    return true;
-  }
-
- private:
-  S::Vec from_bodies(int j, const Vecs& x) const {
-    const Placement& at = system_.joints[j].at;
-    S::Vec y = S::Vec::Zero();
-    if (at.a != kGround) y += r_[j].GA * x[at.a];
-    if (at.b != kGround) y += r_[j].GB * x[at.b];
-    return y;
-  }
-
-  void find_accelerations() {
-    // Free bodies' accelerations first; then what the joints ask for.
-    for (int i = 0; i < system_.n_bodies(); ++i) state_.a[i] = Q_[i].cwiseQuotient(system_.bodies[i].mass);
-    Vecs wanted(r_.size());
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < system_.n_joints(); ++j) wanted[j] = state_.gap_accel[j] - r_[j].bias - from_bodies(j, state_.a);
-      projector_.close(wanted, state_.a);
-    }
-  }
-
-  // The gap at which the law gives the force: Newton on the law's own tangent; nothing in free components.
-  void carry(int j) {
-    for (int i = 0; i < 20; ++i) {
-      const Response now = respond(system_.joints[j].law, state_.gap[j], state_.gap_rate[j]);
-      const S::Vec miss = state_.force[j] - now.force;
-      bool moved = false;
-      for (int k = 0; k < 3; ++k) {
-        if (!(now.stiffness(k, k) > 0)) continue;
-        const double step = -miss[k] / now.stiffness(k, k);
-        state_.gap[j][k] += step;
-        moved = moved || std::abs(step) > 1e-15 * std::abs(state_.gap[j][k]);
-      }
-      if (!moved) break;
-    }
-  }
-
-  void move_bodies() {
-    Vecs wanted(r_.size());
-    for (int i = 0; i < 4; ++i) {
-      system_.motions(state_.q, state_.v, m_);
-      system_.readings(state_.t, m_, r_);
-      for (int j = 0; j < system_.n_joints(); ++j) wanted[j] = state_.gap[j] - r_[j].gap;
-      projector_.close(wanted, state_.q);
-    }
-    system_.motions(state_.q, state_.v, m_);
-    system_.readings(state_.t, m_, r_);
-    Vecs dv(state_.v.size(), S::Vec::Zero());
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < system_.n_joints(); ++j) wanted[j] = state_.gap_rate[j] - r_[j].rate - from_bodies(j, dv);
-      projector_.close(wanted, dv);
-    }
-    for (std::size_t i = 0; i < dv.size(); ++i) state_.v[i] += dv[i];
-  }
-
-  const System& system_;
-  State& state_;
-  GapProjector projector_;
-  std::vector<S::Motion> m_;
-  std::vector<Reading> r_;
-  Vecs Q_;
-};
-
 // Accelerations that the joint forces really give at the state's gaps, and the gap accelerations that go with them; gaps
 // that carry no stiffness are those of the positions.
-void balance(const System& system, State& state) {
+}  // namespace
+
+void balance_start(const System& system, State& state) {
   std::vector<S::Motion> m;
   std::vector<Reading> r;
   system.motions(state.q, state.v, m);
@@ -157,7 +79,70 @@ void balance(const System& system, State& state) {
   }
 }
 
-}  // namespace
+ForcesOfMotion::ForcesOfMotion(const System& system) : system_(system), projector_(system), wanted_(system.joints.size()) {}
+
+S::Vec ForcesOfMotion::from_bodies(int j, const Vecs& x) const {
+  const Placement& at = system_.joints[j].at;
+  S::Vec y = S::Vec::Zero();
+  if (at.a != kGround) y += r_[j].GA * x[at.a];
+  if (at.b != kGround) y += r_[j].GB * x[at.b];
+  return y;
+}
+
+// theory/assembly Eqs. (3.1), (3.2): first the free bodies' accelerations, then what the joints ask for, then the forces.
+bool ForcesOfMotion::find(State& state) {
+  system_.motions(state.q, state.v, m_);
+  system_.readings(state.t, m_, r_);
+  const double mu = 0.02 * slowest_joint(system_, r_);
+  if (!std::isfinite(mu) || !(mu > 0)) return false;
+  if (!projector_.prepare(state.t, m_, mu, state.gap, state.gap_rate)) return false;
+  system_.external(state.t, m_, Q_);
+  for (int i = 0; i < system_.n_bodies(); ++i) state.a[i] = Q_[i].cwiseQuotient(system_.bodies[i].mass);
+  for (int pass = 0; pass < 4; ++pass) {
+    for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap_accel[j] - r_[j].bias - from_bodies(j, state.a);
+    projector_.close(wanted_, state.a);
+  }
+  for (int pass = 0; pass < 4; ++pass) projector_.improve_forces(Q_, state.a, state.force);
+  return true;
+}
+
+// Newton on each law's own tangent; nothing in free components. Eq. (3.3).
+void ForcesOfMotion::carry(State& state) const {
+  for (int j = 0; j < system_.n_joints(); ++j)
+    for (int i = 0; i < 20; ++i) {
+      const Response now = respond(system_.joints[j].law, state.gap[j], state.gap_rate[j]);
+      bool moved = false;
+      for (int k = 0; k < S::kDof; ++k) {
+        if (!(now.stiffness(k, k) > 0)) continue;
+        const double step = (now.force[k] - state.force[j][k]) / now.stiffness(k, k);
+        state.gap[j][k] += step;
+        moved = moved || std::abs(step) > 1e-15 * std::abs(state.gap[j][k]);
+      }
+      if (!moved) break;
+    }
+}
+
+// Eq. (3.4).
+void ForcesOfMotion::move_onto_gaps(State& state) {
+  for (int pass = 0; pass < 4; ++pass) {
+    system_.motions(state.q, state.v, m_);
+    system_.readings(state.t, m_, r_);
+    if (pass == 0) {
+      const double mu = 0.02 * slowest_joint(system_, r_);
+      if (!std::isfinite(mu) || !projector_.prepare(state.t, m_, mu, state.gap, state.gap_rate)) return;
+    }
+    for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap[j] - r_[j].gap;
+    projector_.close(wanted_, state.q);
+  }
+  system_.motions(state.q, state.v, m_);
+  system_.readings(state.t, m_, r_);
+  Vecs dv(state.v.size(), S::Vec::Zero());
+  for (int pass = 0; pass < 4; ++pass) {
+    for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap_rate[j] - r_[j].rate - from_bodies(j, dv);
+    projector_.close(wanted_, dv);
+  }
+  for (std::size_t i = 0; i < dv.size(); ++i) state.v[i] += dv[i];
+}
 
 void start_forces(const System& system, bool preload, State& state) {
   const std::size_t n = system.bodies.size(), joints = system.joints.size();
@@ -167,10 +152,13 @@ void start_forces(const System& system, bool preload, State& state) {
   if (!preload || joints == 0) return;
   for (auto& x : state.gap_rate) x.setZero();
   for (auto& x : state.gap_accel) x.setZero();
-  Preload start(system, state);
-  for (int pass = 0; pass < kPasses; ++pass)
-    if (!start.pass()) break;
-  balance(system, state);
+  ForcesOfMotion forces(system);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    if (!forces.find(state)) break;
+    forces.carry(state);
+    forces.move_onto_gaps(state);
+  }
+  balance_start(system, state);
 }
 
 }  // namespace pintle

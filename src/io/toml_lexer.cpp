@@ -33,7 +33,9 @@ std::size_t run_length(std::string_view text, std::string_view stops) {
   return std::max<std::size_t>(1, std::min(text.find_first_of(stops), text.size()));
 }
 
-Token next_token(std::string_view text) {
+}  // namespace
+
+Token next_toml_token(std::string_view text) {
   const auto piece = [&](TokenKind kind, std::size_t length) { return Token{kind, text.substr(0, length)}; };
   switch (text.front()) {
     case ' ':
@@ -53,12 +55,10 @@ Token next_token(std::string_view text) {
   }
 }
 
-}  // namespace
-
 std::vector<Token> cut_toml(std::string_view text) {
   std::vector<Token> tokens;
   while (!text.empty()) {
-    tokens.push_back(next_token(text));
+    tokens.push_back(next_toml_token(text));
     text.remove_prefix(tokens.back().text.size());
   }
   return tokens;

@@ -14,6 +14,9 @@ struct Token {
   std::string_view text;
 };
 
+/// The piece at the head of `text`, which must not be empty.
+Token next_toml_token(std::string_view text);
+
 /// Cuts `text` without checking its grammar; the pieces joined are `text`.
 std::vector<Token> cut_toml(std::string_view text);
 
