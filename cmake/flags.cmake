@@ -28,3 +28,6 @@ endif()
 # For code whose speed does not matter: quick to build even in Release.
 add_library(pintle_quick_build INTERFACE)
 target_compile_options(pintle_quick_build INTERFACE $<$<CONFIG:Release>:-O1>)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
+  target_compile_options(pintle_quick_build INTERFACE -Wno-array-bounds -Wno-stringop-overread)  # as -Wno-restrict
+endif()
