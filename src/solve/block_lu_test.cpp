@@ -1,0 +1,254 @@
+// The block factorisation against dense matrices, on chains, loops, grids, stars and random graphs.
+#include "solve/block_lu.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <complex>
+#include <limits>
+#include <set>
+
+#include "base/random_for_tests.h"
+
+namespace pintle {
+namespace {
+
+using sample::Random;
+using Pairs = std::vector<std::pair<int, int>>;
+
+struct Graph {
+  const char* name;
+  int n;
+  Pairs pairs;
+};
+
+Graph chain(int n) {
+  Graph g{"chain", n, {}};
+  for (int i = 0; i + 1 < n; ++i) g.pairs.emplace_back(i, i + 1);
+  return g;
+}
+Graph loop(int n) {
+  Graph g = chain(n);
+  g.name = "loop";
+  g.pairs.emplace_back(n - 1, 0);
+  return g;
+}
+Graph star(int n) {
+  Graph g{"star", n, {}};
+  for (int i = 1; i < n; ++i) g.pairs.emplace_back(0, i);
+  return g;
+}
+Graph grid(int rows, int columns) {
+  Graph g{"grid", rows * columns, {}};
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < columns; ++j) {
+      if (j + 1 < columns) g.pairs.emplace_back(i * columns + j, i * columns + j + 1);
+      if (i + 1 < rows) g.pairs.emplace_back((i + 1) * columns + j, i * columns + j);
+    }
+  return g;
+}
+Graph random_graph(Random& random, int n, int edges) {
+  Graph g{"random", n, {}};
+  while (static_cast<int>(g.pairs.size()) < edges) {
+    const int i = random.below(n), j = random.below(n);
+    if (i != j) g.pairs.emplace_back(i, j);
+  }
+  return g;
+}
+
+std::vector<Graph> graphs() {
+  Random random(11);
+  std::vector<Graph> all{{"one", 1, {}}, {"apart", 4, {}}, chain(2), chain(17), loop(3), loop(20), star(12), grid(4, 5), grid(7, 7)};
+  for (int i = 0; i < 12; ++i) all.push_back(random_graph(random, 3 + random.below(20), 2 + random.below(40)));
+  return all;
+}
+
+std::complex<double> to_std(double x) { return x; }
+std::complex<double> to_std(const Complex& x) { return {x.re, x.im}; }
+void put_random(Random& random, double& x) { x = random.uniform(-1, 1); }
+void put_random(Random& random, Complex& x) { x = {random.uniform(-1, 1), random.uniform(-1, 1)}; }
+
+template <class T>
+void compare_with_dense(const Graph& g, Random& random) {
+  constexpr int N = 3;
+  const BlockPattern pattern(g.n, g.pairs);
+  BlockLu<T, N> lu(pattern);
+  lu.set_zero();
+  Eigen::MatrixXcd dense = Eigen::MatrixXcd::Zero(N * g.n, N * g.n);
+  const auto fill = [&](Block<T, N>& block, int i, int j) {
+    for (int r = 0; r < N; ++r)
+      for (int c = 0; c < N; ++c) {
+        T x{};
+        put_random(random, x);
+        block(r, c) += x;
+        dense(N * i + r, N * j + c) += to_std(x);
+        if (i == j && r == c) {
+          block(r, c) += T(20.0);
+          dense(N * i + r, N * j + c) += 20.0;
+        }
+      }
+  };
+  for (int i = 0; i < g.n; ++i) fill(lu.diagonal(i), i, i);
+  for (const auto& [i, j] : g.pairs) {
+    fill(lu.off_diagonal(pattern.slot(i, j)), i, j);
+    fill(lu.off_diagonal(pattern.slot(j, i)), j, i);
+  }
+  std::vector<BlockVec<T, N>> x(g.n);
+  Eigen::VectorXcd rhs(N * g.n);
+  for (int i = 0; i < g.n; ++i)
+    for (int k = 0; k < N; ++k) {
+      put_random(random, x[i][k]);
+      rhs[N * i + k] = to_std(x[i][k]);
+    }
+  const Eigen::VectorXcd expected = dense.partialPivLu().solve(rhs);
+  ASSERT_TRUE(lu.factorize()) << g.name;
+  for (int again = 0; again < 2; ++again) {  // one factorisation serves any number of right-hand sides
+    auto y = x;
+    lu.solve(y);
+    double worst = 0;
+    for (int i = 0; i < g.n; ++i)
+      for (int k = 0; k < N; ++k) worst = std::max(worst, std::abs(to_std(y[i][k]) - expected[N * i + k]));
+    EXPECT_LT(worst, 1e-12 * (1 + expected.cwiseAbs().maxCoeff())) << g.name << " of " << g.n;
+  }
+}
+
+TEST(BlockLu, RealSolutionsAreTheDenseOnes) {
+  Random random(1);
+  for (const Graph& g : graphs()) compare_with_dense<double>(g, random);
+}
+
+TEST(BlockLu, ComplexSolutionsAreTheDenseOnes) {
+  Random random(2);
+  for (const Graph& g : graphs()) compare_with_dense<Complex>(g, random);
+}
+
+TEST(BlockLu, SingularMatrixIsReported) {
+  for (const Graph& g : graphs()) {
+    const BlockPattern pattern(g.n, g.pairs);
+    BlockLu<double, 3> lu(pattern);
+    lu.set_zero();
+    EXPECT_FALSE(lu.factorize()) << g.name;
+    lu.set_zero();
+    for (int i = 0; i < g.n; ++i)
+      for (int k = 0; k < 3; ++k) lu.diagonal(i)(k, k) = 1;
+    lu.diagonal(g.n - 1)(2, 2) = 0;
+    EXPECT_FALSE(lu.factorize()) << g.name;
+  }
+}
+
+// Two rows that say the same become a zero pivot block during the elimination.
+TEST(BlockLu, DependentRowsAreReported) {
+  const BlockPattern pattern(2, {{0, 1}});
+  BlockLu<double, 3> lu(pattern);
+  lu.set_zero();
+  for (int k = 0; k < 3; ++k) {
+    lu.diagonal(0)(k, k) = lu.diagonal(1)(k, k) = 1;
+    lu.off_diagonal(pattern.slot(0, 1))(k, k) = lu.off_diagonal(pattern.slot(1, 0))(k, k) = -1;
+  }
+  EXPECT_FALSE(lu.factorize());
+}
+
+TEST(BlockLu, ValuesThatAreNotNumbersAreReported) {
+  const BlockPattern pattern(1, {});
+  BlockLu<double, 3> lu(pattern);
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    lu.set_zero();
+    for (int k = 0; k < 3; ++k) lu.diagonal(0)(k, k) = bad;
+    EXPECT_FALSE(lu.factorize());
+  }
+}
+
+TEST(Block, InversePivotsWithinTheBlock) {
+  Block<double, 3> m;
+  m(0, 1) = 2;
+  m(1, 2) = 4;
+  m(2, 0) = 8;
+  const Block<double, 3> before = m;
+  ASSERT_TRUE(invert(m));
+  const Block<double, 3> one = product(before, m);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) EXPECT_EQ(one(i, j), i == j ? 1 : 0);
+}
+
+TEST(Block, ComplexArithmeticIsThatOfTheStandardLibrary) {
+  Random random(3);
+  for (int i = 0; i < 100; ++i) {
+    Complex a, b;
+    put_random(random, a);
+    put_random(random, b);
+    const auto sa = to_std(a), sb = to_std(b);
+    EXPECT_LT(std::abs(to_std(a * b) - sa * sb), 1e-15);
+    EXPECT_LT(std::abs(to_std(a / b) - sa / sb), 1e-14 * std::abs(sa / sb));
+    EXPECT_LT(std::abs(to_std(a - b) - (sa - sb)), 1e-15);
+    EXPECT_LT(std::abs(to_std(3.0 * a) - 3.0 * sa), 1e-15);
+  }
+}
+
+// Elimination done on sets: neighbours of an eliminated row become neighbours of each other.
+TEST(BlockPattern, HoldsExactlyTheFillOfItsOrder) {
+  for (const Graph& g : graphs()) {
+    const BlockPattern p(g.n, g.pairs);
+    std::vector<std::set<int>> later(g.n);
+    for (const auto& [i, j] : g.pairs) later[std::min(p.position(i), p.position(j))].insert(std::max(p.position(i), p.position(j)));
+    int count = 0;
+    for (int k = 0; k < g.n; ++k) {
+      for (const int a : later[k])
+        for (const int b : later[k])
+          if (a < b) later[a].insert(b);
+      const std::set<int> found = [&] {
+        std::set<int> s;
+        for (int a = p.first(k); a < p.first(k + 1); ++a) s.insert(p.column(a));
+        return s;
+      }();
+      EXPECT_EQ(found, later[k]) << g.name << " pivot " << k;
+      count += static_cast<int>(found.size());
+    }
+    EXPECT_EQ(count, p.n_off_diagonal());
+  }
+}
+
+TEST(BlockPattern, OrderIsAPermutation) {
+  for (const Graph& g : graphs()) {
+    const BlockPattern p(g.n, g.pairs);
+    std::set<int> rows;
+    for (int k = 0; k < g.n; ++k) {
+      rows.insert(p.row_at(k));
+      EXPECT_EQ(p.position(p.row_at(k)), k);
+    }
+    EXPECT_EQ(static_cast<int>(rows.size()), g.n);
+  }
+}
+
+TEST(BlockPattern, ChainsAndStarsMakeNoFill) {
+  for (const Graph& g : {chain(2), chain(30), star(30)})
+    EXPECT_EQ(BlockPattern(g.n, g.pairs).n_off_diagonal(), static_cast<int>(g.pairs.size())) << g.name;
+  EXPECT_EQ(BlockPattern(30, loop(30).pairs).n_off_diagonal(), 30 + 27);  // a loop: one block per row but the last three
+}
+
+TEST(BlockPattern, DoesNotDependOnHowThePairsAreWritten) {
+  for (const Graph& g : graphs()) {
+    Pairs written = g.pairs;
+    std::reverse(written.begin(), written.end());
+    for (auto& [i, j] : written) std::swap(i, j);
+    written.insert(written.end(), g.pairs.begin(), g.pairs.end());  // every pair twice
+    const BlockPattern p(g.n, g.pairs), q(g.n, written);
+    for (int i = 0; i < g.n; ++i) EXPECT_EQ(p.position(i), q.position(i)) << g.name;
+    EXPECT_EQ(p.n_off_diagonal(), q.n_off_diagonal());
+  }
+}
+
+TEST(BlockPattern, SlotsOfBothTrianglesShareAnIndex) {
+  const Graph g = grid(4, 4);
+  const BlockPattern p(g.n, g.pairs);
+  std::set<int> indices;
+  for (const auto& [i, j] : g.pairs) {
+    const auto ij = p.slot(i, j), ji = p.slot(j, i);
+    EXPECT_EQ(ij.index, ji.index);
+    EXPECT_NE(ij.upper, ji.upper);
+    EXPECT_TRUE(indices.insert(ij.index).second);
+  }
+}
+
+}  // namespace
+}  // namespace pintle
