@@ -74,7 +74,7 @@ TEST_P(MechanismFile, ExplainsItself) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Collection, MechanismFile, testing::ValuesIn(mechanism_names()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& file) { return file.param; });
 
 }  // namespace
 }  // namespace pintle

@@ -167,8 +167,6 @@ class Builder {
   }
 
   void add_spring(const Spring& spring) {
-    if (!(spring.stiffness > 0) && spring.preload.value_or(0) != 0)
-      refuse(fmt::format("spring {}: without stiffness it cannot carry a preload", spring.name));
     LoadData load;
     load.name = spring.name;
     load.kind = spring.torsion ? LoadKind::kTorsionSpring : LoadKind::kSpring;
@@ -255,7 +253,10 @@ void settle(const Model& model, const Vecs& q, System& system, std::vector<std::
     LoadData& load = system.loads[system.loads.size() - model.springs.size() + s];
     const RelativePose pose = system.pose(load.at, m);
     const double now = spring.torsion ? pose.z[2] : std::hypot(pose.z[0], pose.z[1]);
-    load.free = now - (spring.stiffness > 0 ? spring.preload.value_or(0) / spring.stiffness : 0);
+    const bool elastic = spring.stiffness > 0;
+    load.free = elastic ? now - spring.preload.value_or(0) / spring.stiffness : now;
+    load.constant = elastic ? 0 : spring.preload.value_or(0);
+    if (!elastic) continue;
     notes.push_back(fmt::format("{} {}: free {} {:.9g} {}, from the assembled position", spring.torsion ? "torsion_spring" : "spring",
                                 spring.name, spring.torsion ? "angle" : "length", load.free, spring.torsion ? "rad" : "m"));
   }

@@ -206,8 +206,21 @@ TEST(Settle, ADamperWithoutStiffnessHasNoForceAtRest) {
   system.motions({{0.5, 0, 0}}, {{0, 3, 0}}, m);
   EXPECT_NEAR(system.load_effort(system.loads[0], 0, m), 3, 1e-12);  // shortens at 3 m/s: it pushes
   EXPECT_EQ(system.external_work(0, {{0.5, 0, 0}}, m).potential, 0);
+}
+
+TEST(Settle, APreloadWithoutStiffnessPullsAtAnyLength) {
+  std::vector<std::string> notes;
+  Model model = hanging();
+  model.springs[0].stiffness = model.springs[0].damping = 0;
   model.springs[0].preload = 30;
-  expect_refused(model, "preload");
+  const System system = settled(model, notes);
+  std::vector<S::Motion> m;
+  for (const double lift : {0.0, 0.5, -1.0}) {
+    system.motions({{0.5, lift, 0}}, {{0, 3, 0}}, m);
+    EXPECT_EQ(system.load_effort(system.loads[0], 0, m), -30);
+    // With its own weight: lifting by the spring's pull stores less in the spring.
+    EXPECT_NEAR(system.external_work(0, {{0.5, lift, 0}}, m).potential, (9.81 - 30) * lift, 1e-12);
+  }
 }
 
 TEST(Settle, TorsionPreloadTurnsTowardsSmallerAngles) {

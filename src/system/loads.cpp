@@ -71,7 +71,7 @@ System::LoadState System::load_state(const LoadData& load, double t, const std::
     const std::size_t n = load.signals.size();
     state.effort = load.law.gradient(std::span(values).first(n), std::span(state.df_dsignal).first(n));
   } else {
-    state.effort = -(load.k * state.reading.gap[state.slot] + load.c * state.reading.rate[state.slot]);
+    state.effort = -(load.constant + load.k * state.reading.gap[state.slot] + load.c * state.reading.rate[state.slot]);
     state.df_dgap = -load.k;
     state.df_drate = -load.c;
   }
@@ -106,7 +106,7 @@ ExternalWork System::external_work(double t, const Vecs& q, const std::vector<S:
     if (load.kind == LoadKind::kEffort) {
       work.supplied += s.effort * rate;
     } else {
-      work.potential += 0.5 * load.k * gap * gap;
+      work.potential += (load.constant + 0.5 * load.k * gap) * gap;
       work.lost += load.c * rate * rate;
     }
   }

@@ -156,6 +156,8 @@ inline Model everything(bool free = false) {
   if (!free) model.springs.push_back(spring("G", false, {"ground", "Q"}, {"f", "P"}, 15, 1));
   if (!free) model.springs.push_back(spring("U", true, {"c", "P"}, {"ground", "Q"}, 12, 0.5));
   for (Spring& s : model.springs) s.free_length = 0.6;
+  model.springs.push_back(spring("C", false, {"c", "Q"}, {"e", "P"}, 0, 0));
+  model.springs.back().preload = 25;
   model.motors = {
       motor("E", "r", MotorKind::kEffort, expression("5*sin(t) - 0.4*rate + angle^2 + 2*p.slide - s.rate", {"t", "rate", "angle", "p.slide", "s.rate"})),
       motor("L", "p", MotorKind::kEffort, expression("3 - slide*r.angle - 0.2*rate", {"slide", "r.angle", "rate"})),

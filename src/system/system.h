@@ -59,7 +59,8 @@ struct LoadData {
   Placement at;
   int component = 0;     // of z: torsion springs 2; motors 2 or 0
   double k = 0, c = 0;   // [N/m, N*s/m] or [N*m/rad, N*m*s/rad]
-  double free = 0;       // length or angle without force
+  double free = 0;       // length or angle without elastic force
+  double constant = 0;   // a spring without stiffness: its preload at any length [N] or [N*m]
   Expression law;        // motors: effort on the second body
   std::vector<Signal> signals;
 };
