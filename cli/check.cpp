@@ -1,5 +1,6 @@
-// pintle check: is the model file in order?
+// pintle check: is the model file in order, how can it move, how fast does it vibrate, do its formulas agree?
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -10,7 +11,9 @@
 #include "cli/exit_codes.h"
 #include "cli/verbs.h"
 #include "io/document.h"
+#include "pintle/check.h"
 #include "pintle/read_model.h"
+#include "results/check_report.h"
 #include "results/disk.h"
 
 namespace pintle::cli {
@@ -19,41 +22,47 @@ namespace {
 constexpr const char* kFooter =
     "Examples:\n"
     "  pintle check four_bar.toml\n"
-    "  pintle check four_bar.toml --set crank='0.8 m'\n\n";
+    "  pintle check four_bar.toml --set parameters.theta='90 deg' --details\n"
+    "  pintle check four_bar.toml --json | jq .mobility\n\n";
 
 struct CheckOptions {
   std::string model;
   std::vector<std::string> overrides;
+  bool json = false, details = false, quiet = false;
 };
 
-std::string counted(std::size_t n, const char* one, const char* many) {
-  return fmt::format("{} {}", n, n == 1 ? one : many);
-}
-
-void check(const CheckOptions& options) {
+ExitCode check(const CheckOptions& options) {
   const std::string text = read_file(options.model, kMaxFileBytes + 1);
   const Model model = parse_model(text, options.model, options.overrides);
-  print_out(fmt::format(
-      "{}: in order: {}, {}, {}, {}, {}\n", options.model, counted(model.bodies.size(), "moving body", "moving bodies"),
-      counted(model.joints.size(), "joint", "joints"), counted(model.springs.size(), "spring", "springs"),
-      counted(model.forces.size(), "force", "forces"), counted(model.motors.size(), "motor", "motors")));
+  const CheckReport report = check_model(model);
+  if (options.json) {
+    print_out(check_json(report, model.name, options.model));
+  } else if (!options.quiet) {
+    print_out(check_text(report, model.name.empty() ? options.model : model.name, options.details,
+                         wants_colour(STDOUT_FILENO)));
+  }
+  if (report.passed()) return kOk;
+  print_error(fmt::format("{}: a formula disagrees with its own differences, or the energy account does not close\n",
+                          options.model));
+  return kCheckFailed;
 }
 
 }  // namespace
 
 void add_check(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("check", "Check a model file without running it");
+  CLI::App* verb =
+      app.add_subcommand("check", "Check a model without running it: mobility, loops, frequencies, formulas");
   const auto options = std::make_shared<CheckOptions>();
   verb->add_option("MODEL", options->model, "model file (.toml or .json)")->required();
   verb->add_option("--set", options->overrides,
                    "change one value of the model, e.g. joint.A.stiffness=2e8 (repeatable)")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
+  verb->add_flag("--details", options->details, "list every mode, joint component and comparison");
+  verb->add_flag("--json", options->json, "print the report as JSON");
+  verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
   verb->footer(std::string(kFooter) + kExitCodeHelp);
-  verb->callback([options, &exit_code] {
-    check(*options);
-    exit_code = kOk;
-  });
+  verb->callback([options, &exit_code] { exit_code = check(*options); });
 }
 
 }  // namespace pintle::cli

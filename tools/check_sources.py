@@ -18,6 +18,7 @@ PUBLIC_HEADERS = {
     "model.h": "model",
     "trajectory.h": "integrators",
     "simulate.h": "analyses",
+    "check.h": "analyses",
 }
 OUTER = {"cli", "tests", "bench", "examples"}
 FOLDERS = ["include", "src", "cli", "tests", "bench", "examples", "tools", "cmake"]

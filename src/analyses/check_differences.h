@@ -1,0 +1,49 @@
+// Slopes against central differences, and a tally of how well they agree.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "pintle/check.h"
+
+namespace pintle {
+
+/// Where a comparison is made.
+struct CheckPlace {
+  std::string_view kind, name;  // "joint", "A"
+  int state = 0;                // 0: as assembled
+};
+
+/// Comparisons of one kind; the worst is kept with its place.
+class Comparisons {
+ public:
+  Comparisons(std::string what, double tolerance) { item_.what = std::move(what), item_.tolerance = tolerance; }
+
+  using Curve = std::function<Eigen::VectorXd(double)>;
+  /// Is `slope` the derivative of `curve` at 0? Mismatch relative to `scale` or to the slope, whichever is larger.
+  /// Starts with differences of fourth order over steps of `step`; shrinks them while they disagree, so that a sharp
+  /// bend is not taken for a mistake. Where the slopes on both sides differ for good, the curve has a kink, and nothing
+  /// is said.
+  void slope(const Eigen::VectorXd& slope, const Curve& curve, double step, double scale, const CheckPlace& place);
+  /// Columns of `slopes` against curve(column, s); all have the matrix's scale, or `floor` if that is larger.
+  template <class CurveOfColumn>
+  void slopes(const Eigen::MatrixXd& slopes, CurveOfColumn&& curve, const Eigen::VectorXd& steps, double floor,
+              const CheckPlace& place) {
+    const double scale = slopes.size() > 0 ? std::max(floor, slopes.cwiseAbs().maxCoeff()) : floor;
+    for (int c = 0; c < slopes.cols(); ++c)
+      slope(
+          slopes.col(c), [&](double s) -> Eigen::VectorXd { return curve(c, s); }, steps[c], scale, place);
+  }
+  /// `error` should be zero, relative to `scale`.
+  void vanishes(double error, double scale, const CheckPlace& place);
+
+  const CheckItem& item() const { return item_; }
+
+ private:
+  void count(double mismatch, const CheckPlace& place);
+  CheckItem item_;
+};
+
+}  // namespace pintle

@@ -1,0 +1,16 @@
+// The fast frequencies that the joints' stiffness makes, and their damping. theory/checks.
+#pragma once
+
+#include "pintle/check.h"
+#include "system/state.h"
+
+namespace pintle {
+
+/// `n_free`: motions that no joint or servo resists; as many of the slowest modes are not vibrations and are left out.
+/// Negative: not known, then only the fastest mode is looked for.
+CheckFrequencies check_frequencies(const System& system, const State& assembled, int n_free);
+
+/// The longest stable step of Dormand-Prince 5(4) for y'' + 2 ratio frequency y' + frequency^2 y = 0 [s].
+double dormand_prince_step(double frequency, double damping_ratio);
+
+}  // namespace pintle

@@ -1,0 +1,19 @@
+// Mobility by Gruebler's count and by true rank, and the constraints that say the same thing twice. theory/checks.
+#pragma once
+
+#include <vector>
+
+#include "pintle/check.h"
+#include "system/system.h"
+
+namespace pintle {
+
+struct MobilityCheck {
+  CheckMobility counts;
+  std::vector<CheckRedundancy> redundancies;
+};
+
+/// `q`: assembled positions, the joints as little strained as they can be.
+MobilityCheck check_mobility(const System& system, const Vecs& q);
+
+}  // namespace pintle
