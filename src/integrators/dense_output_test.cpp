@@ -1,0 +1,103 @@
+// States inside a step: they meet those at its ends, and are as good as these in between.
+#include "integrators/dense_output.h"
+
+#include <gtest/gtest.h>
+
+#include "integrators/radau_stepper.h"
+#include "integrators/start_states_for_tests.h"
+
+namespace pintle {
+namespace {
+
+using sample::follow;
+using sample::largest_difference;
+
+// One step of h from a settled start.
+struct OneStep {
+  System system;
+  State start;
+  RadauStepper stepper;
+  DenseOutput dense;
+  double h, mu;
+
+  OneStep(const Model& model, double step)
+      : system(build_system(model)), start(sample::settled_start(model, system, 0.05)), stepper(system, 1e-10), dense(system), h(step),
+        mu(stepper.table().real_eigenvalue / step) {
+    stepper.start(start, h);
+    EXPECT_TRUE(stepper.trial(h));
+  }
+  const State& at(double share) { return dense.at(start.t + share * h, stepper.previous(), stepper.state(), mu); }
+};
+
+struct Case {
+  Model model;
+  double step;
+};
+std::vector<Case> cases() { return {{sample::pendulum(1e8, 3500), 0.05}, {sample::four_bar(1e8, 3000), 0.0125}, {sample::four_bar(1e11, 9e4), 0.0125}}; }
+
+TEST(DenseOutput, MeetsTheEndsOfTheStep) {
+  for (const Case& c : cases()) {
+    OneStep step(c.model, c.step);
+    EXPECT_EQ(step.at(0).q, step.start.q);
+    EXPECT_EQ(step.dense.at(step.stepper.state().t, step.stepper.previous(), step.stepper.state(), step.mu).force, step.stepper.state().force);
+    const double size = largest_difference(step.start.force, Vecs(step.start.force.size(), Planar::Vec::Zero()));
+    for (const double share : {1e-7, 1 - 1e-7}) {
+      const State inside = step.at(share);
+      const State& end = share < 0.5 ? step.start : step.stepper.state();
+      EXPECT_LT(largest_difference(inside.q, end.q), 1e-7);
+      EXPECT_LT(largest_difference(inside.v, end.v), 1e-6);
+      EXPECT_LT(largest_difference(inside.force, end.force), 1e-6 * size);
+      EXPECT_NEAR(inside.dissipated, end.dissipated, 1e-9);
+      EXPECT_NEAR(inside.supplied, end.supplied, 1e-9);
+    }
+  }
+}
+
+// Measured on the pendulum: order 6 in positions, 5 in velocities and forces.
+TEST(DenseOutput, ConvergesInsideTheStep) {
+  std::vector<double> q, v, force;
+  for (const double h : {0.05, 0.025, 0.0125}) {
+    OneStep step(sample::pendulum(1e8, 3500), h);
+    double worst_q = 0, worst_v = 0, worst_force = 0;
+    for (const double share : {0.25, 0.5, 0.75}) {
+      const State reference = follow(step.system, step.start, share * h, 32);
+      const State& inside = step.at(share);
+      worst_q = std::max(worst_q, largest_difference(inside.q, reference.q));
+      worst_v = std::max(worst_v, largest_difference(inside.v, reference.v));
+      worst_force = std::max(worst_force, largest_difference(inside.force, reference.force));
+    }
+    q.push_back(worst_q);
+    v.push_back(worst_v);
+    force.push_back(worst_force);
+  }
+  EXPECT_GT(sample::measured_order(q), 5);
+  EXPECT_GT(sample::measured_order(v), 4.3);
+  EXPECT_GT(sample::measured_order(force), 4);
+}
+
+TEST(DenseOutput, ForcesInsideAreAsGoodAsAtTheEnds) {
+  for (const Case& c : cases()) {
+    OneStep step(c.model, c.step);
+    const double size = largest_difference(step.start.force, Vecs(step.start.force.size(), Planar::Vec::Zero()));
+    for (const double share : {0.1, 0.3, 0.6, 0.9}) {
+      const State reference = follow(step.system, step.start, share * c.step, 32);
+      EXPECT_LT(largest_difference(step.at(share).force, reference.force), 1e-5 * size) << share;
+    }
+  }
+}
+
+TEST(DenseOutput, InterpolatedVelocitiesLeaveTheGapsInPlace) {
+  for (const Case& c : cases()) {
+    OneStep step(c.model, c.step);
+    const State& inside = step.at(0.4);
+    std::vector<Planar::Motion> m;
+    step.system.motions(inside.q, inside.v, m);
+    for (int j = 0; j < step.system.n_joints(); ++j) {
+      const Reading r = step.system.reading(j, inside.t, m);
+      EXPECT_LT((r.rate - inside.gap_rate[j]).head<2>().norm(), 1e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pintle
