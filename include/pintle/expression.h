@@ -39,6 +39,10 @@ class Expression {
   double value(std::span<const double> values) const;
   /// Value and all first derivatives (exact). `gradient` has one entry per variable.
   double gradient(std::span<const double> values, std::span<double> gradient) const;
+  /// Which side of its kinks and jumps the expression is on at `values` (min, max, abs, comparisons ..): a number that
+  /// changes where a side does. 0 for an expression without any.
+  std::uint64_t branches(std::span<const double> values) const;
+  bool has_branches() const;
   /// Value, first and second derivative with respect to variable `index`, the others held (exact).
   std::array<double, 3> second_order(std::span<const double> values, std::size_t index) const;
 

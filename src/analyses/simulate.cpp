@@ -9,9 +9,8 @@
 #include <cmath>
 #include <memory>
 
-#include "analyses/assembly.h"
 #include "analyses/integration.h"
-#include "analyses/slow_motion.h"
+#include "analyses/start.h"
 #include "system/build.h"
 
 namespace pintle {
@@ -68,9 +67,8 @@ class Run {
 
   Trajectory go() {
     system_ = build_system(model_);
-    Assembly assembly = assemble(model_, system_);
+    Assembly assembly = start_of_run(model_, system_);
     start_ = std::move(assembly.state);
-    if (model_.simulate.start == Start::kAssembled) settle_start();
     out_.notes = std::move(assembly.notes);
     out_.tolerance = model_.simulate.tolerance;
     explicit_ = model_.simulate.method == "dopri5";
@@ -81,16 +79,6 @@ class Run {
   }
 
  private:
-  // The stretch over which the start is made smooth is a step that a rough integration would take.
-  void settle_start() {
-    if (system_.joints.empty()) return;
-    RadauStepper scout(system_, 1e-3);
-    scout.start(start_, 1e-3 * model_.simulate.duration);
-    for (int i = 0; i < 3; ++i)
-      if (!scout.step(model_.simulate.duration)) return;
-    settle_on_slow_motion(system_, 0.5 * (scout.state().t - scout.previous().t), start_);
-  }
-
   IntegrationPlan plan(double tolerance) {
     IntegrationPlan p;
     p.duration = model_.simulate.duration;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "analyses/slow_start.h"
 
@@ -15,6 +17,7 @@ using S = Planar;
 
 constexpr int kNodes = 7;
 constexpr int kSweeps = 5;
+constexpr double kDiverged = 1e300, kConverged = 1e-10;  // relative change of a sweep
 
 // Chebyshev-Gauss-Lobatto nodes on [0, 1] and the matrix that differentiates polynomials there.
 struct Nodes {
@@ -73,10 +76,12 @@ class SlowMotion {
       if (node > 0) follow(at, nodes_.x[node - 1], nodes_.x[node]);
       set_accel(at, nodes_.x[node]);
       at.gap_rate = rate_[node];
-      if (!forces_.find(at)) return 1e300;
+      if (!forces_.find(at)) return kDiverged;
       forces_.carry(at);
       for (std::size_t j = 0; j < at.gap.size(); ++j) {
-        change = std::max(change, (weighted(j, at.gap[j]) - weighted(j, gap_[node][j])).norm());
+        const double moved = (weighted(j, at.gap[j]) - weighted(j, gap_[node][j])).norm();
+        if (!std::isfinite(moved)) return kDiverged;
+        change = std::max(change, moved);
         size = std::max(size, weighted(j, at.gap[j]).norm());
         next_[node].resize(at.gap.size());
         next_[node][j] = at.gap[j];
@@ -153,26 +158,32 @@ class SlowMotion {
   bool swept_ = false;
 };
 
+bool is_finite(const State& state) {
+  const auto finite = [](const Vecs& x) { return std::all_of(x.begin(), x.end(), [](const S::Vec& y) { return y.allFinite(); }); };
+  return finite(state.q) && finite(state.v) && finite(state.a) && finite(state.gap) && finite(state.force);
+}
+
 }  // namespace
 
 double settle_on_slow_motion(const System& system, double span, State& state) {
   SlowMotion motion(system, span, state);
-  ForcesOfMotion forces(system);
-  double last = 1e300;
-  State best = state;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+  double last = kDiverged;
+  std::optional<State> best;
+  for (int sweep = 0; sweep < kSweeps && last > kConverged; ++sweep) {
     const double change = motion.sweep();
-    if (!std::isfinite(change) || (sweep > 1 && change > 0.5 * last)) break;
+    if (sweep > 0 && !(change < 0.5 * last)) break;
     if (sweep > 0) {
-      best = state;
-      motion.take(best);
-      forces.move_onto_gaps(best);
+      State next = state;
+      motion.take(next);
+      ForcesOfMotion(system).move_onto_gaps(next);
+      balance_start(system, next);
+      if (!is_finite(next)) break;
+      best = std::move(next);
     }
     last = change;
-    if (change < 1e-10) break;
   }
-  state = best;
-  balance_start(system, state);
+  if (!best) return kDiverged;
+  state = std::move(*best);
   return last;
 }
 

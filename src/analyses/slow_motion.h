@@ -8,7 +8,7 @@ namespace pintle {
 
 /// Given positions, velocities and the forces of `start_forces`, finds gap rates and accelerations at the start by
 /// following the motion over `span` seconds, and moves the state onto them. Returns the last relative change of the gaps;
-/// the state is left as it was when the iteration does not shrink it (soft joints have no slow motion of their own).
+/// a large number, and the state as it was, when the iteration does not shrink it (a soft joint, a kink, a long span).
 double settle_on_slow_motion(const System& system, double span, State& state);
 
 }  // namespace pintle

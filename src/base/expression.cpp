@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -81,6 +82,31 @@ double Expression::gradient(std::span<const double> values, std::span<double> gr
     gradient[i] = jet.first;
   }
   return result;
+}
+
+bool Expression::has_branches() const {
+  if (!program_) return false;
+  const auto& code = program_->code;
+  return std::any_of(code.begin(), code.end(), [](const Instruction& step) { return pintle::has_branches(step.op); });
+}
+
+std::uint64_t Expression::branches(std::span<const double> values) const {
+  if (!program_) return 0;
+  std::uint64_t sides = 0;
+  std::array<double, kStackSize> stack;
+  std::size_t top = 0;
+  for (const Instruction& step : program_->code) {
+    const std::size_t n = static_cast<std::size_t>(arity(step.op));
+    if (n == 0) {
+      stack[top++] = step.op == Op::kConstant ? step.constant : values[step.variable];
+      continue;
+    }
+    top -= n;
+    const double a = stack[top], b = n > 1 ? stack[top + 1] : 0, c = n > 2 ? stack[top + 2] : 0;
+    if (pintle::has_branches(step.op)) sides = sides * 0x9E3779B97F4A7C15U + 1 + branch(step.op, a, b, c);
+    stack[top++] = n == 1 ? apply(step.op, a) : n == 2 ? apply(step.op, a, b) : apply(step.op, a, b, c);
+  }
+  return sides;
 }
 
 std::array<double, 3> Expression::second_order(std::span<const double> values, std::size_t index) const {

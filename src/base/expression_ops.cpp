@@ -63,6 +63,45 @@ const FunctionInfo* find_function(std::string_view name) {
   return it == all.end() ? nullptr : &*it;
 }
 
+bool has_branches(Op op) {
+  switch (op) {
+    case Op::kAbs:
+    case Op::kSign:
+    case Op::kStep:
+    case Op::kMin:
+    case Op::kMax:
+    case Op::kLess:
+    case Op::kGreater:
+    case Op::kLessEqual:
+    case Op::kGreaterEqual:
+    case Op::kSmoothstep:
+      return true;
+    default:
+      return false;  // `if` follows its condition
+  }
+}
+
+unsigned branch(Op op, double a, double b, double c) {
+  switch (op) {
+    case Op::kAbs:
+    case Op::kSign:
+    case Op::kStep:
+      return a >= 0 ? 1 : 0;
+    case Op::kMin:
+    case Op::kMax:
+    case Op::kLess:
+    case Op::kGreaterEqual:
+      return a < b ? 1 : 0;
+    case Op::kGreater:
+    case Op::kLessEqual:
+      return a > b ? 1 : 0;
+    case Op::kSmoothstep:
+      return (c >= a ? 1U : 0U) + (c >= b ? 1U : 0U);
+    default:
+      return 0;
+  }
+}
+
 double apply(Op op, double a) {
   switch (op) {
     case Op::kNegate:

@@ -80,6 +80,11 @@ struct FunctionInfo {
 std::span<const FunctionInfo> function_catalog();
 const FunctionInfo* find_function(std::string_view name);
 
+/// True for an operation with a kink or a jump inside its range.
+bool has_branches(Op op);
+/// On which side of them the operands are (unused ones are 0).
+unsigned branch(Op op, double a, double b, double c);
+
 double apply(Op op, double a);
 double apply(Op op, double a, double b);
 double apply(Op op, double a, double b, double c);

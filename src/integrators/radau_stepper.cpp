@@ -13,6 +13,7 @@ using S = Planar;
 
 constexpr int kMaxRetries = 60;
 constexpr double kShortest = 1e-11;  // of the run: the shortest step that is refused for its error
+constexpr double kProjectionShare = 0.01;  // of the step's own frequency: every mode that a step does not resolve to the full is moved
 constexpr double kErrorFactor = 1.0;  // the spectral tail over the step's force error, from the four-bar at k = 1e6..1e12
 
 // Legendre coefficients on [0, 1] of the cubic through values at {0, c1, c2, 1}.
@@ -147,7 +148,7 @@ bool RadauStepper::finish_step(double h) {
   end_.v = last.v;
   end_.a = last.a;
   end_.gap_accel = last.gap_accel;
-  const double mu = table_.real_eigenvalue / std::abs(h);
+  const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!projector_.prepare(end_.t, last.m, mu, last.gap, last.gap_rate)) return false;
   for (int pass = 0; pass < 2; ++pass) {
     const std::vector<Reading>& r = pass == 0 ? projector_.readings() : end_r_;

@@ -17,4 +17,12 @@ inline Response respond(const Law& law, const Planar::Vec& gap, const Planar::Ve
   return std::visit([&](const auto& l) { return l.respond(gap, rate); }, law);
 }
 
+/// Laws with kinks say which side of them they are on, so that integrators can stop there.
+inline bool has_branches(const Law& law) {
+  return std::visit([](const auto& l) { return l.kHasBranches; }, law);
+}
+inline unsigned branch(const Law& law, const Planar::Vec& gap, const Planar::Vec& rate) {
+  return std::visit([&](const auto& l) { return l.branch(gap, rate); }, law);
+}
+
 }  // namespace pintle

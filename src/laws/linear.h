@@ -22,6 +22,8 @@ struct LinearLaw {
   Planar::Vec force(const Planar::Vec& gap, const Planar::Vec& rate) const {
     return -(k.cwiseProduct(gap) + c.cwiseProduct(rate));                                // (3.1)
   }
+  static constexpr bool kHasBranches = false;
+  unsigned branch(const Planar::Vec&, const Planar::Vec&) const { return 0; }
   Response respond(const Planar::Vec& gap, const Planar::Vec& rate) const {
     Response r;
     r.force = force(gap, rate);

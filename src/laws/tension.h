@@ -25,6 +25,9 @@ struct TensionLaw {
   Planar::Vec force(const Planar::Vec& gap, const Planar::Vec& rate) const {
     return {pulls(gap, rate) ? -(k * gap[0] + c * rate[0]) : 0.0, 0, 0};                 // (3.4)
   }
+  static constexpr bool kHasBranches = true;
+  /// Which side of its kinks the law is on.
+  unsigned branch(const Planar::Vec& gap, const Planar::Vec& rate) const { return pulls(gap, rate) ? 1 : 0; }
   Response respond(const Planar::Vec& gap, const Planar::Vec& rate) const {
     Response r;
     const double e = std::max(0.0, gap[0]);

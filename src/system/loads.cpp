@@ -118,6 +118,25 @@ ExternalWork System::external_work(double t, const Vecs& q, const std::vector<S:
   return work;
 }
 
+std::uint64_t System::branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate) const {
+  std::uint64_t sides = 0;
+  const auto add = [&sides](std::uint64_t side) { sides = sides * 0x9E3779B97F4A7C15U + 1 + side; };
+  const std::array<double, 1> time{t};
+  const auto add_at_t = [&](const Expression& e) { add(e.branches(std::span(time).first(e.variables().size()))); };
+  for (int j = 0; j < n_joints(); ++j) {
+    add(branch(joints[j].law, gap[j], rate[j]));
+    if (joints[j].servo >= 0) add_at_t(joints[j].target);
+  }
+  for (const LoadData& load : loads) {
+    if (load.kind != LoadKind::kEffort || !load.law.has_branches()) continue;
+    const auto values = signal_values(*this, load, t, m);
+    add(load.law.branches(std::span(values).first(load.signals.size())));
+  }
+  for (const AppliedData& force : applied)
+    for (const Expression* e : {&force.fx, &force.fy, &force.torque}) add_at_t(*e);
+  return sides;
+}
+
 void System::load_tangents(const LoadData& load, double t, const std::vector<S::Motion>& m, std::vector<Tangent>& out) const {
   const LoadState s = load_state(load, t, m);
   const std::array<int, 2> body{load.at.a, load.at.b};

@@ -1,5 +1,6 @@
 #include "system/system.h"
 
+#include <algorithm>
 #include <array>
 
 namespace pintle {
@@ -37,6 +38,12 @@ void System::finish() {
     }
   }
   pattern_ = BlockPattern(n_bodies(), pairs);
+  has_branches_ =
+      std::any_of(joints.begin(), joints.end(), [](const JointData& j) { return pintle::has_branches(j.law) || j.target.has_branches(); }) ||
+      std::any_of(loads.begin(), loads.end(), [](const LoadData& load) { return load.law.has_branches(); }) ||
+      std::any_of(applied.begin(), applied.end(), [](const AppliedData& f) {
+        return f.fx.has_branches() || f.fy.has_branches() || f.torque.has_branches();
+      });
 }
 
 void System::motions(const Vecs& q, const Vecs& v, std::vector<S::Motion>& out) const {

@@ -2,6 +2,7 @@
 // It knows no files and no integrator. Immutable once it is settled (src/system/build.h makes it from a Model).
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -112,6 +113,11 @@ class System {
   /// Force (spring: tension; motor: effort) of a load.
   double load_effort(const LoadData& load, double t, const std::vector<S::Motion>& m) const;
 
+  /// Whether any law, load or servo has kinks or jumps.
+  bool has_branches() const { return has_branches_; }
+  /// Which side of them everything is on: a number that changes where a side does. Gaps and rates are the joints'.
+  std::uint64_t branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate) const;
+
   /// Calls add(i, j, dQ_i/dq_j, dQ_i/dv_j) for every block of the external forces' tangents.
   template <class Add>
   void external_tangents(double t, const std::vector<S::Motion>& m, Add&& add) const;
@@ -133,6 +139,7 @@ class System {
   void applied_tangents(const AppliedData& force, double t, const std::vector<S::Motion>& m, std::vector<Tangent>& out) const;
 
   BlockPattern pattern_;
+  bool has_branches_ = false;
   mutable std::vector<Tangent> tangents_;  // reused so that steps do not allocate
 };
 
