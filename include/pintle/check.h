@@ -37,7 +37,7 @@ struct CheckMobility {
   double rank_tolerance = 0;   ///< singular values below this, relative to the largest, count as zero [-]
   double smallest_kept = 0;    ///< smallest relative singular value that counts [-]; 0: not determined
   double largest_dropped = 0;  ///< largest relative singular value that does not count [-]
-  std::string method;          ///< "singular values" or "sparse QR"
+  std::string method;          ///< "singular values" or "sparse factors"
   std::string remark;
   bool singular_position() const { return rank >= 0 && rank_nearby > rank; }
 };
@@ -48,7 +48,7 @@ struct CheckRedundancy {
   struct Member {
     std::string joint;
     std::string component;
-    double share = 0;  ///< of the degree; the shares of a group add up to it [-]; 0 when ranks come from sparse QR
+    double share = 0;  ///< of the degree; the shares of a group add up to it [-]; 0 when ranks come from sparse factors
   };
   std::vector<Member> members;  ///< largest share first
 };

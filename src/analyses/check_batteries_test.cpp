@@ -88,12 +88,14 @@ TEST_P(EveryType, PassesBothBatteries) {
   const CheckReport report = check_model(model);
   EXPECT_EQ(failures(report), "");
   for (const CheckItem& item : report.jacobians.items)
-    if (item.what == "gap Jacobians") EXPECT_GT(item.comparisons, 40);
+    if (item.what == "gap Jacobians") {
+      EXPECT_GT(item.comparisons, 40);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Joints, EveryType,
                          testing::Values("revolute", "prismatic", "fixed", "slot", "rod", "rope", "gear", "rack"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& type) { return type.param; });
 
 // A rope exactly at its length: force and tangent jump there, and nobody is to blame.
 TEST(CheckBatteries, RopeAtItsKink) {

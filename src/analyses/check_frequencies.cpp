@@ -140,7 +140,7 @@ double dormand_prince_step(double frequency, double damping_ratio) {
   const auto growth = [](std::complex<double> z) {
     return std::abs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0 * (1.0 + z / 5.0 * (1.0 + z / 5.0))))));
   };
-  constexpr double kMargin = 1e-3;  // its boundary on the imaginary axis is crossed by less
+  constexpr double kMargin = 1e-6;  // for rounding
   const std::complex<double> root = std::sqrt(std::complex<double>(damping_ratio * damping_ratio - 1, 0));
   double shortest = std::numeric_limits<double>::infinity();
   for (const double sign : {1.0, -1.0}) {

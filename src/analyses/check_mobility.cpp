@@ -14,7 +14,7 @@ namespace {
 
 using S = Planar;
 
-constexpr int kDenseFreedoms = 450;      // singular values up to here, sparse QR beyond
+constexpr int kDenseFreedoms = 450;      // singular values up to here, sparse factors beyond
 constexpr int kNearbyFreedoms = 300;     // nearby positions are tried up to here
 constexpr int kSparseFreedoms = 200000;  // no rank beyond
 constexpr double kNearby = 0.05;         // how far off, of the arm's length [-]
@@ -64,11 +64,17 @@ class MobilityCount {
 
   void sparse() {
     CheckMobility& counts = out_.counts;
-    counts.method = "sparse QR";
+    counts.method = "sparse factors";
     counts.remark =
         fmt::format("more than {} freedoms: no singular values, and no look at nearby positions", kDenseFreedoms);
     const SparseRank rank = sparse_rank(joints_, system_, length_, counts.rank_tolerance);
     counts.rank = counts.mobility_driven = rank.rank;
+    if (rank.rank < 0) {
+      counts.remark = "the factorisation failed";
+      return;
+    }
+    // The pivots' own limit is coarser: squares are taken.
+    counts.rank_tolerance = std::max(counts.rank_tolerance, 1e-4);
     if (counts.servos > 0) counts.mobility_driven = sparse_rank(driven_, system_, length_, counts.rank_tolerance).rank;
     counts.mobility_driven = counts.freedoms - counts.mobility_driven;
     out_.redundancies = redundancies(system_, joints_, rank);

@@ -132,7 +132,7 @@ TEST(CheckMobility, LargeMechanismsAgreeWithSmallOnes) {
       model.joints.push_back(joint);
     }
   const CheckReport report = check_model(model);
-  EXPECT_EQ(report.mobility.method, "sparse QR");
+  EXPECT_EQ(report.mobility.method, "sparse factors");
   EXPECT_EQ(report.mobility.mobility, 40);
   EXPECT_EQ(report.mobility.redundant, 40);
   EXPECT_EQ(report.mobility.mobility_driven, 39);

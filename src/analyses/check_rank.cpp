@@ -1,9 +1,8 @@
 #include "analyses/check_rank.h"
 
-#include <Eigen/OrderingMethods>
 #include <Eigen/SVD>
+#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
-#include <Eigen/SparseQR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -71,30 +70,39 @@ Eigen::VectorXd DenseRank::closing_motion() const {
 }
 
 SparseRank sparse_rank(const std::vector<ConstraintRow>& rows, const System& system, double length, double tolerance) {
-  constexpr double kPartOfDependency = 1e-6;  // smaller coefficients are rounding
+  constexpr double kShift = 1e-11;            // lifts the pivots of dependent rows clear of rounding
+  constexpr double kSmallestPivot = 1e-8;     // well above what the shift makes of a dependent row
+  constexpr double kPartOfDependency = 1e-3;  // smaller coefficients are rounding over the shift
   constexpr int kMaxListed = 100;
   SparseRank out;
   const int n_rows = static_cast<int>(rows.size());
+  if (n_rows == 0) return out;
   std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < n_rows; ++i)
     for_each_entry(rows[i], system, length, [&](int column, double value) { entries.emplace_back(column, i, value); });
-  Eigen::SparseMatrix<double> columns(S::kDof * system.n_bodies(), n_rows);  // a row of the Jacobian is a column here
-  columns.setFromTriplets(entries.begin(), entries.end());
-  columns.makeCompressed();
-  Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr;
-  qr.setPivotThreshold(tolerance);
-  qr.compute(columns);
-  out.rank = static_cast<int>(qr.rank());
-  const Eigen::SparseMatrix<double> R = qr.matrixR();
-  const auto upper = R.topLeftCorner(out.rank, out.rank).template triangularView<Eigen::Upper>();
-  const auto& order = qr.colsPermutation().indices();  // column c of the factor is row order[c]
-  for (int c = out.rank; c < std::min(n_rows, out.rank + kMaxListed); ++c) {
-    const Eigen::VectorXd dependent = R.col(c).head(out.rank);
-    const Eigen::VectorXd x = upper.solve(dependent);
+  Eigen::SparseMatrix<double> columns(S::kDof * system.n_bodies(), n_rows), shift(n_rows, n_rows);
+  columns.setFromTriplets(entries.begin(), entries.end());  // a row of the Jacobian is a column here
+  shift.setIdentity();
+  const Eigen::SparseMatrix<double> transposed = columns.transpose();
+  const Eigen::SparseMatrix<double> gram = transposed * columns + kShift * shift;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(gram);
+  if (factors.info() != Eigen::Success) {
+    out.rank = -1;
+    return out;
+  }
+  const Eigen::VectorXd pivots = factors.vectorD();
+  const double smallest = std::max(kSmallestPivot, tolerance * tolerance);
+  for (int i = 0; i < n_rows; ++i) {
+    if (pivots[i] > smallest) {
+      ++out.rank;
+      continue;
+    }
+    if (static_cast<int>(out.dependencies.size()) == kMaxListed) continue;
+    const Eigen::VectorXd ordered = factors.matrixU().solve(Eigen::VectorXd(Eigen::VectorXd::Unit(n_rows, i)));
+    const Eigen::VectorXd dependency = factors.permutationPinv() * ordered;
     std::vector<int>& group = out.dependencies.emplace_back();
-    group.push_back(order[c]);
-    for (int i = 0; i < out.rank; ++i)
-      if (std::abs(x[i]) > kPartOfDependency) group.push_back(order[i]);
+    for (int row = 0; row < n_rows; ++row)
+      if (std::abs(dependency[row]) > kPartOfDependency) group.push_back(row);
   }
   return out;
 }

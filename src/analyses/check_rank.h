@@ -32,7 +32,7 @@ class DenseRank {
   int n_rows_ = 0, rank_ = 0;
 };
 
-/// By sparse QR factorisation with a pivot threshold: for large mechanisms.
+/// By the pivots of G G' (L D L', sparse): for large mechanisms. -1: the factorisation failed.
 struct SparseRank {
   int rank = 0;
   std::vector<std::vector<int>> dependencies;  // groups of rows that are bound by one dependency each; the first 100
