@@ -257,5 +257,30 @@ TEST(System, AppliedForceInBodyAxesTurnsWithTheBody) {
   }
 }
 
+// The side number changes where a rope goes taut or an expression jumps, and nowhere else.
+TEST(System, SaysOnWhichSideOfItsKinksItIs) {
+  Model model = sample::pendulum(1e6, 0);
+  EXPECT_FALSE(build_system(model).has_branches());
+  model.joints.push_back(sample::joint("rope", "rope", {"ground", "O"}, {"rod", "O"}, 1e4, 0));
+  model.joints.back().geometry = {{"length", 0.2}};
+  model.motors = {sample::motor("M", "pin", MotorKind::kEffort, sample::expression("if(t > 1, 2, 3)"))};
+  const System system = build_system(model);
+  ASSERT_TRUE(system.has_branches());
+  const auto sides = [&system](double t, double lift) {
+    const auto m = motions(system, {{0.5, lift, 0}}, {{0, 0, 0}});
+    Vecs gap, rate;
+    for (int j = 0; j < system.n_joints(); ++j) {
+      const Reading r = system.reading(j, t, m);
+      gap.push_back(r.gap);
+      rate.push_back(r.rate);
+    }
+    return system.branches(t, m, gap, rate);
+  };
+  EXPECT_EQ(sides(0, 0.1), sides(0.9, 0.19));
+  EXPECT_NE(sides(0, 0.1), sides(0, 0.21));
+  EXPECT_NE(sides(0.9, 0.1), sides(1.1, 0.1));
+  EXPECT_NE(sides(1.1, 0.1), sides(0.9, 0.21));
+}
+
 }  // namespace
 }  // namespace pintle
