@@ -35,6 +35,11 @@ constexpr const char* kFooter =
     "the\n"
     "results up to there; a second Ctrl-C kills it.\n\n";
 
+constexpr const char* kFailureAdvice =
+    "    try: look at the loads and motors that act at that time (do they stay finite, do they feed energy?), or at "
+    "the\n"
+    "    results up to there, which are kept\n";
+
 struct RunOptions {
   std::string model;
   std::vector<std::string> overrides;
@@ -62,6 +67,16 @@ std::vector<std::string> all_overrides(const RunOptions& options) {
   return overrides;
 }
 
+/// A model may leave its duration to the command line; a run may not.
+void check_duration(const Model& model, const std::string& text, const RunOptions& options) {
+  if (model.simulate.duration > 0) return;
+  const Document document = parse_document(text, options.model);
+  const Entry* simulate = document.root.table()->find_entry("simulate");
+  throw InputError({document.complaint(simulate == nullptr ? Spot{0, 1, 1} : simulate->key_spot, "simulate.duration",
+                                       "no duration", "a run needs to know how long it lasts",
+                                       "duration = \"1 s\" under [simulate], or --duration '1 s'")});
+}
+
 std::filesystem::path run_folder(const RunOptions& options) {
   if (!options.out.empty()) return options.out;
   return std::filesystem::path(options.model).stem().string() + "-run";
@@ -81,6 +96,15 @@ ExitCode exit_code_of(Outcome outcome) {
   return kInternalError;
 }
 
+/// An assembly's message with the file's name before it.
+Trajectory simulate_file(const Model& model, const std::string& file, const Observer& observer) {
+  try {
+    return simulate(model, observer);
+  } catch (const AssemblyError& error) {
+    throw AssemblyError(fmt::format("{}: {}", file, error.what()));
+  }
+}
+
 void print_results(const Trajectory& trajectory, const RunStamp& stamp, const RunOptions& options,
                    const std::filesystem::path& folder) {
   if (options.json) {
@@ -89,9 +113,10 @@ void print_results(const Trajectory& trajectory, const RunStamp& stamp, const Ru
     print_out(summary_text(trajectory, stamp, wants_colour(STDOUT_FILENO)));
     print_out(fmt::format("\nResults in {}/ (series.csv, summary.json)\n", folder.string()));
   }
-  if (options.quiet && trajectory.outcome != Outcome::kCompleted)
-    print_error(fmt::format("{}: {}{}{}\n", options.model, to_text(trajectory.outcome),
-                            trajectory.message.empty() ? "" : ": ", trajectory.message));
+  const bool failed = trajectory.outcome == Outcome::kFailed;
+  if (failed || (options.quiet && trajectory.outcome != Outcome::kCompleted))
+    print_error(fmt::format("{}: {}{}{}\n{}", options.model, to_text(trajectory.outcome),
+                            trajectory.message.empty() ? "" : ": ", trajectory.message, failed ? kFailureAdvice : ""));
 }
 
 ExitCode run(const RunOptions& options) {
@@ -99,12 +124,13 @@ ExitCode run(const RunOptions& options) {
   const Overwrite overwrite = options.force ? Overwrite::kAnyFolder : Overwrite::kRunFolder;
   const std::string text = read_file(options.model, kMaxFileBytes + 1);
   const Model model = parse_model(text, options.model, all_overrides(options));
+  check_duration(model, text, options);
   check_run_folder(folder, overwrite);
   const RunStamp stamp{model.name, options.model, "sha256:" + sha256(text), PINTLE_VERSION, command_line()};
 
   catch_interrupts();
   ProgressReport report(progress_style(options));
-  const Trajectory trajectory = simulate(model, [&report](const Progress& progress) {
+  const Trajectory trajectory = simulate_file(model, options.model, [&report](const Progress& progress) {
     report.show(progress);
     return !interrupted();
   });

@@ -10,6 +10,11 @@ for fuzzer in "$build"/fuzz/*_fuzz; do
   name=$(basename "$fuzzer" _fuzz)
   mkdir -p "$build/fuzz/found-$name" "tests/fuzz/$name"
   echo "fuzz: $name for $seconds s"
-  "$fuzzer" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 -verbosity=0 \
-    -artifact_prefix="$build/fuzz/$name-" "$build/fuzz/found-$name" "tests/fuzz/$name" mechanisms
+  case $name in
+    model_toml) models=(tests/broken mechanisms) ;;
+    model_json) models=(tests/broken) ;;
+    *) models=() ;;
+  esac
+  "$fuzzer" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -max_len=4000 -print_final_stats=1 -verbosity=0 \
+    -artifact_prefix="$build/fuzz/$name-" "$build/fuzz/found-$name" "tests/fuzz/$name" "${models[@]}"
 done

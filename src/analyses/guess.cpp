@@ -105,7 +105,7 @@ std::string loop_through(const System& system, const std::string& text) {
     const int at = queue.front();
     queue.pop_front();
     for (int j = 0; j < system.n_joints(); ++j) {
-      if (j == start) continue;
+      if (j == start || system.joints[j].servo >= 0) continue;  // a servo acts along its joint, it closes nothing
       const int a = node(system.joints[j].at.a), b = node(system.joints[j].at.b);
       if ((a != at && b != at) || by[a == at ? b : a] >= 0) continue;
       by[a == at ? b : a] = j;

@@ -56,6 +56,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> did_you_mean(std::string_view word, std::span<const std::string_view> words) {
   if (word.empty() || word.size() > kLongest) return std::nullopt;
+  if (word.ends_with("ies")) {
+    std::string singular(word.substr(0, word.size() - 2));
+    singular.back() = 'y';
+    if (std::find(words.begin(), words.end(), singular) != words.end()) return singular;
+  }
   std::optional<std::string> best;
   std::size_t best_cost = 0;
   for (const std::string_view candidate : words) {

@@ -25,7 +25,7 @@ CombinedOperand product_or_quotient(const Operand& a, const Operand& b, bool div
   const Dimension right = b.dimension.any ? kPureNumber : b.dimension;
   const std::optional<Dimension> dimension = divides ? quotient(left, right) : product(left, right);
   if (dimension) return {joined(a, b, *dimension, false), {}};
-  return {a, {to_words(left), "the exponents of its units become too large here", ""}};
+  return {a, {to_words(left), "the exponents of its units become too large here", "smaller powers"}};
 }
 
 // The dimension to the power `exponent`; nothing if metre, kilogram or second get a fractional or huge exponent.
@@ -46,14 +46,17 @@ CombinedOperand raised(const Operand& a, double exponent, const std::string& fou
   const std::optional<Dimension> dimension = raised(a.dimension, exponent);
   if (dimension) return {{*dimension, false, a.varies, 0, a.offset}, {}};
   if (a.varies) return {{kBareNumber, false, true, 0, a.offset}, {}};
-  return {a, {found, "its units would get a fractional or huge exponent", ""}};
+  return {a,
+          {found, "its units would get a fractional or huge exponent",
+           "divide by a quantity of the same kind first, such as (x/1 m)"}};
 }
 
 }  // namespace
 
 DimensionProblem check_pure(const Operand& operand, const std::string& name) {
   if (is_pure(operand.dimension)) return {};
-  DimensionProblem problem{to_words(operand.dimension), name + " wants a number or an angle", ""};
+  DimensionProblem problem{to_words(operand.dimension), name + " wants a number or an angle",
+                           "divide by a quantity of the same kind, such as (x/1 m)"};
   if (fits(operand.dimension, kTime)) problem.suggestion = "multiply the time by an angular speed, such as 1 rad/s";
   return problem;
 }
@@ -61,7 +64,7 @@ DimensionProblem check_pure(const Operand& operand, const std::string& name) {
 CombinedOperand alike(const Operand& a, const Operand& b, const std::string& between) {
   if (!fits(a.dimension, b.dimension)) {
     const std::string found = to_words(a.dimension) + " " + between + " " + to_words(b.dimension);
-    return {a, {found, "both must be of the same kind", ""}};
+    return {a, {found, "both must be of the same kind", "quantities of one kind; a bare number fits every kind"}};
   }
   const Dimension& dimension = a.dimension.any ? b.dimension : a.dimension;
   return {joined(a, b, dimension, a.is_number && b.is_number), {}};
@@ -80,7 +83,10 @@ CombinedOperand power_of(const Operand& a, const Operand& exponent) {
   if (a.dimension.any) return {joined(a, exponent, kBareNumber, a.is_number), {}};
   if (is_pure(a.dimension)) return {joined(a, exponent, kPureNumber, false), {}};
   const std::string found = to_words(a.dimension) + " to a power";
-  if (exponent.varies) return {exponent, {found, "the exponent of a quantity with units must be a constant", ""}};
+  if (exponent.varies)
+    return {exponent,
+            {found, "the exponent of a quantity with units must be a constant",
+             "divide by a quantity of the same kind first, such as (x/1 m)"}};
   if (std::isnan(exponent.constant)) return {{kBareNumber, false, a.varies, 0, a.offset}, {}};
   return raised(a, exponent.constant, found);
 }

@@ -88,12 +88,16 @@ class ExpressionParser {
 
  private:
   Operand parse_whole() {
-    if (text_.size() > kLongestExpression) throw ParseProblem{0, "", "the expression is too long", ""};
+    if (text_.size() > kLongestExpression)
+      throw ParseProblem{0, "", "the expression is longer than 4096 bytes", "parts of it as [parameters]"};
     skip();
-    if (at_ == text_.size()) throw ParseProblem{0, "an empty text", "a number or an expression is wanted", ""};
+    if (at_ == text_.size())
+      throw ParseProblem{0, "an empty text", "a number or an expression is wanted", "0, or delete the key"};
     const Operand whole = parse_sum(0);
     if (at_ != text_.size()) throw unexpected_after_operand(text_, at_, scope_);
-    if (code_.overflows_stack()) throw ParseProblem{0, "", "the expression is nested too deeply", ""};
+    if (code_.overflows_stack())
+      throw ParseProblem{0, "", "the expression is nested too deeply",
+                         "fewer parentheses, or parts of it as [parameters]"};
     return whole;
   }
 
@@ -107,7 +111,9 @@ class ExpressionParser {
 
   // Operands joined by operators that grip at least as strongly as `least`.
   Operand parse_sum(int least) {
-    if (++depth_ > kDeepestExpression) throw ParseProblem{at_, "", "the expression is nested too deeply", ""};
+    if (++depth_ > kDeepestExpression)
+      throw ParseProblem{at_, "", "the expression is nested too deeply",
+                         "fewer parentheses, or parts of it as [parameters]"};
     Operand left = parse_operand();
     bool is_comparison = false;
     for (skip();; skip()) {
@@ -158,7 +164,9 @@ class ExpressionParser {
   // Writes `op`; `at` is what to blame if constants give no finite number.
   Operand emit(Op op, Operand operand, std::size_t at) {
     code_.apply_op(op, operand.varies);
-    if (code_.went_out_of_range()) throw ParseProblem{at, "", "this does not give a finite number", ""};
+    if (code_.went_out_of_range())
+      throw ParseProblem{at, "", "this does not give a finite number",
+                         "look for a division by 0, or a root or logarithm outside its range"};
     operand.constant = operand.varies ? 0 : code_.top_constant();
     return operand;
   }
@@ -200,7 +208,8 @@ class ExpressionParser {
     if (number.empty()) throw no_operand(text_, start);
     at_ += number.size();
     const double value = to_number(number);
-    if (!std::isfinite(value)) throw ParseProblem{start, std::string(number), "the number is too large", ""};
+    if (!std::isfinite(value))
+      throw ParseProblem{start, std::string(number), "the number is too large", "a number below 1e308"};
     const Operand operand = with_unit(constant({value, kBareNumber}, true, start));
     refuse_unknown_unit();
     return operand;
@@ -212,7 +221,7 @@ class ExpressionParser {
     if (symbol_at(text_, at_).empty()) return operand;
     const UnitScan scan =
         scan_unit(text_, at_, [this](std::string_view word) { return find_variable(word) != nullptr; });
-    if (!scan.problem.empty()) throw ParseProblem{scan.problem_offset, "", scan.problem, ""};
+    if (!scan.problem.empty()) throw ParseProblem{scan.problem_offset, "", scan.problem, "units as in \"1 N*m*s/rad\""};
     if (!scan.found) return operand;
     const std::size_t at = std::exchange(at_, scan.end);
     const Operand unit = constant({scan.unit.factor, scan.unit.dimension}, false, at);

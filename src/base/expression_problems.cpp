@@ -29,10 +29,28 @@ std::string quoted(std::string_view text) {
   return '"' + printable(text) + '"';
 }
 
-// "Nm" -> "N*m", if both halves are units.
+// What people write for functions that go by another name here.
+constexpr std::array<Alias, 12> kFunctionAliases{{
+    {"sinus", "sin"},
+    {"cosinus", "cos"},
+    {"tg", "tan"},
+    {"arcsin", "asin"},
+    {"arccos", "acos"},
+    {"arctan", "atan"},
+    {"ln", "log"},
+    {"fabs", "abs"},
+    {"power", "pow"},
+    {"heaviside", "step"},
+    {"sgn", "sign"},
+    {"squareroot", "sqrt"},
+}};
+
+// "Nm" -> "N*m", if both halves are units, and not of the same kind: "kgg" is a slip for "kg".
 std::optional<std::string> split_unit(std::string_view word) {
   for (std::size_t i = 1; i < word.size(); ++i) {
-    if (is_unit_symbol(word.substr(0, i)) && is_unit_symbol(word.substr(i)))
+    const std::optional<Unit> first = find_unit(word.substr(0, i));
+    const std::optional<Unit> second = find_unit(word.substr(i));
+    if (first && second && first->dimension != second->dimension)
       return std::string(word.substr(0, i)) + "*" + std::string(word.substr(i));
   }
   return std::nullopt;
@@ -48,7 +66,19 @@ ParseProblem missing_operator(std::size_t at, std::string_view what, bool is_uni
 ParseProblem unexpected_comma(std::string_view text, std::size_t at) {
   const bool between_digits = at > 0 && is_digit(text[at - 1]) && at + 1 < text.size() && is_digit(text[at + 1]);
   return {at, "a comma", "commas only separate the arguments of a function",
-          between_digits ? "write decimals with a point" : ""};
+          between_digits ? "write decimals with a point" : "one expression for each value"};
+}
+
+// The first few names that may stand here.
+std::string known_names(const ParseScope& scope) {
+  constexpr std::size_t kShown = 8;
+  std::vector<std::string> names;
+  for (const auto& variable : scope.variables) names.push_back(variable.first);
+  names.insert(names.end(), scope.constant_names.begin(), scope.constant_names.end());
+  if (names.empty()) return "state it under [parameters]; functions are sin, cos, sqrt, if and others";
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i) list += (i == 0 ? "" : ", ") + names[i];
+  return "one of " + list + (names.size() > kShown ? ", ..." : "") + ", or state it under [parameters]";
 }
 
 }  // namespace
@@ -64,7 +94,7 @@ bool is_known_name(std::string_view word, const ParseScope& scope) {
 ParseProblem unexpected_after_operand(std::string_view text, std::size_t at, const ParseScope& scope) {
   const char c = text[at];
   const std::string_view character = character_at(text, at);
-  if (c == ')') return {at, "a closing parenthesis", "no parenthesis is open here", ""};
+  if (c == ')') return {at, "a closing parenthesis", "no parenthesis is open here", "delete it, or open one with ("};
   if (c == ',') return unexpected_comma(text, at);
   if (c == '=') return {at, quoted("="), "an expression cannot be an equation", "compare with <= or >="};
   if (c == '(' || is_digit(c)) return missing_operator(at, c == '(' ? character : number_at(text, at), false);
@@ -72,26 +102,37 @@ ParseProblem unexpected_after_operand(std::string_view text, std::size_t at, con
   if (is_known_name(symbol, scope)) return missing_operator(at, symbol, false);
   if (is_unit_symbol(symbol)) return missing_operator(at, symbol, true);
   if (!symbol.empty() && is_word_start(c)) return unknown_name(symbol, at, scope);
-  return {at, quoted(character), "this has no meaning in an expression", ""};
+  return {at, quoted(character), "this has no meaning in an expression", "+ - * / ^ ( ) < > <= >="};
 }
 
 ParseProblem no_operand(std::string_view text, std::size_t at) {
   constexpr std::string_view kWanted = "a number, a name or a parenthesis is missing here";
-  if (at >= text.size()) return {at, "the end of the text", std::string(kWanted), ""};
+  if (at >= text.size())
+    return {at, "the end of the text", std::string(kWanted), "a number, or delete what asks for one"};
   const std::optional<OperatorAt> found = operator_at(text, at);
-  if (!found) return {at, quoted(character_at(text, at)), std::string(kWanted), ""};
+  if (!found)
+    return {at, quoted(character_at(text, at)), std::string(kWanted), "a number, or delete what asks for one"};
   const bool is_double_star = found->symbol == '*' && at > 0 && text[at - 1] == '*';
-  return {at, quoted(text.substr(at, found->length)), std::string(kWanted), is_double_star ? "^ for a power" : ""};
+  return {at, quoted(text.substr(at, found->length)), std::string(kWanted),
+          is_double_star ? "^ for a power" : "a number, or delete what asks for one"};
 }
 
 ParseProblem unknown_name(std::string_view word, std::size_t at, const ParseScope& scope) {
+  if (word == "t" && scope.variables.empty())
+    return {at, quoted(word), "time is known in forces, torques and motors only; this is a constant",
+            "a number, or 1 t for a tonne"};
   if (is_unit_symbol(word)) return {at, quoted(word), "a unit needs a number in front of it", "1 " + std::string(word)};
   std::vector<std::string_view> names(scope.constant_names.begin(), scope.constant_names.end());
   for (const auto& variable : scope.variables) names.push_back(variable.first);
   for (const FunctionInfo& function : function_catalog()) names.push_back(function.name);
   names.push_back("pi");
   const std::optional<std::string> guess = did_you_mean(word, names);
-  return {at, quoted(word), "there is no such name here", guess ? "did you mean " + quoted(*guess) + "?" : ""};
+  const auto alias =
+      std::find_if(kFunctionAliases.begin(), kFunctionAliases.end(), [&](const Alias& a) { return a.word == word; });
+  if (alias != kFunctionAliases.end())
+    return {at, quoted(word), "there is no such name here", "did you mean " + quoted(alias->unit) + "?"};
+  return {at, quoted(word), "there is no such name here",
+          guess ? "did you mean " + quoted(*guess) + "?" : known_names(scope)};
 }
 
 ParseProblem unknown_unit(std::string_view word, std::size_t at) {
@@ -103,6 +144,8 @@ ParseProblem unknown_unit(std::string_view word, std::size_t at) {
     problem.suggestion = *product;
   } else if (const std::optional<std::string> guess = did_you_mean(word, unit_symbols())) {
     problem.suggestion = "did you mean " + quoted(*guess) + "?";
+  } else {
+    problem.suggestion = "units are made of m, mm, kg, s, N, rad, deg and others, joined by * and /";
   }
   return problem;
 }

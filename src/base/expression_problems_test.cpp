@@ -135,7 +135,7 @@ TEST(ExpressionProblem, Limits) {
   expect_problem({nested("-", 300, "t", ""), 200, "", "too deeply", ""});
   expect_problem({nested("2^", 300, "t", ""), 400, "", "too deeply", ""});
   expect_problem({nested("max(t, ", 190, "t", ")"), 0, "", "too deeply", ""});  // too many operands wait
-  expect_problem({std::string(5000, ' '), 0, "", "too long", ""});
+  expect_problem({std::string(5000, ' '), 0, "", "longer than", ""});
   EXPECT_FALSE(std::holds_alternative<ParseProblem>(parse_expression(nested("t + ", 900, "t", ""), scope())));
 }
 

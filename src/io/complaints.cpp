@@ -9,8 +9,8 @@
 namespace pintle {
 
 void Complaints::add(Spot spot, std::string path, std::string found, std::string because, std::string suggestion) {
-  complaints_.emplace_back(spot, document_.complaint(spot, std::move(path), std::move(found), std::move(because),
-                                                     std::move(suggestion)));
+  complaints_.emplace_back(
+      spot, document_.complaint(spot, std::move(path), std::move(found), std::move(because), std::move(suggestion)));
 }
 
 std::string Complaints::nearest(std::string_view word, const std::vector<std::string>& candidates) {
@@ -20,8 +20,19 @@ std::string Complaints::nearest(std::string_view word, const std::vector<std::st
 }
 
 std::string Complaints::did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
-  const std::string near = nearest(word, candidates);
-  return near.empty() ? near : "did you mean " + quoted(near) + "?";
+  return advice(nearest(word, candidates), candidates);
+}
+
+std::string advice(const std::string& near, const std::vector<std::string>& names) {
+  constexpr std::size_t kShown = 16;
+  if (!near.empty()) return "did you mean " + quoted(near) + "?";
+  std::string list;
+  std::size_t n_shown = 0;
+  for (const std::string& name : names) {
+    if (name == "*" || ++n_shown > kShown) continue;
+    list += (list.empty() ? "one of " : ", ") + name;
+  }
+  return list + (n_shown > kShown ? ", ..." : "");
 }
 
 void Complaints::throw_if_any() {

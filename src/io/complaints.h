@@ -10,6 +10,9 @@
 
 namespace pintle {
 
+/// "did you mean ...?" if `near` is not empty, else "one of" the first of `names`.
+std::string advice(const std::string& near, const std::vector<std::string>& names);
+
 class Complaints {
  public:
   explicit Complaints(const Document& document) : document_(document) {}
@@ -20,7 +23,7 @@ class Complaints {
   /// only: each costs a look at every candidate.
   std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
-  /// The nearest candidate as a question, or "".
+  /// The nearest candidate as a question, or a list of them.
   std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
 
   bool empty() const { return complaints_.empty(); }

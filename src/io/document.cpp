@@ -11,8 +11,8 @@
 namespace pintle {
 namespace {
 
-constexpr std::size_t kSmall = 8;           // tables up to this size are searched by walking
-constexpr std::size_t kLongestLine = 300;   // longer lines are not quoted in complaints [bytes]
+constexpr std::size_t kSmall = 8;          // tables up to this size are searched by walking
+constexpr std::size_t kLongestLine = 300;  // longer lines are not quoted in complaints [bytes]
 
 bool is_json(std::string_view text, std::string_view file_name) {
   if (file_name.ends_with(".json")) return true;
@@ -116,7 +116,9 @@ const Node* Table::find(std::string_view key) const {
   return entry == nullptr ? nullptr : &entry->value;
 }
 
-Node* Table::find(std::string_view key) { return const_cast<Node*>(std::as_const(*this).find(key)); }
+Node* Table::find(std::string_view key) {
+  return const_cast<Node*>(std::as_const(*this).find(key));
+}
 
 Node& Table::append(std::string key, Spot key_spot, Node value) {
   entries_.push_back({std::move(key), key_spot, std::move(value)});
@@ -180,8 +182,9 @@ void check_text(std::string_view text, std::string_view file_name) {
                                            "start from a file of the folder mechanisms/")});
   }
   if (const std::optional<std::size_t> bad = first_invalid_utf8(text)) {
-    Complaint complaint = whole_file_complaint(file_name, "a byte that is not UTF-8", "model files are UTF-8 text",
-                                               "save the file as UTF-8");
+    const bool is_utf16 = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+    Complaint complaint = whole_file_complaint(file_name, is_utf16 ? "UTF-16 text" : "a byte that is not UTF-8",
+                                               "model files are UTF-8 text", "save the file as UTF-8");
     const std::string_view before = text.substr(0, *bad);
     complaint.place.line = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
     const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 == 0

@@ -69,7 +69,7 @@ struct Source {
   std::vector<std::size_t> line_starts;  // byte offset of each line
 
   Source(std::string source_name, std::string source_text);
-  std::string_view line(int number) const;             // without its end; empty when there is no such line
+  std::string_view line(int number) const;              // without its end; empty when there is no such line
   std::size_t offset_of(int number, int column) const;  // byte offset of a spot
 };
 
@@ -102,6 +102,5 @@ bool same_tree(const Node& a, const Node& b);
 
 /// A value as the user would recognise it in a message, at most about 60 characters.
 std::string describe(const Node& node);
-
 
 }  // namespace pintle

@@ -18,10 +18,12 @@ class JsonReader {
 
   void read_all() {
     skip_space();
-    if (peek() != '{') fail("text that does not start with {", "a model is one JSON object");
+    if (peek() != '{') fail("text that does not start with {", "a model is one JSON object", "{ \"format\": 1, ... }");
     document_.root = read_value("", 0);
     skip_space();
-    if (at_ < text_.size()) fail("text after the closing brace", "a model is one JSON object");
+    if (at_ < text_.size())
+      fail("text after the closing brace", "a model is one JSON object",
+           "delete it, or look for a brace that closes too early");
     if (!complaints_.empty()) throw InputError(std::move(complaints_));
   }
 
@@ -48,33 +50,47 @@ class JsonReader {
   }
 
   [[noreturn]] void fail(std::string found, std::string because, std::string suggestion = {}) {
-    complaints_.push_back(
-        document_.complaint(spot(), "", std::move(found), std::move(because), std::move(suggestion)));
+    complaints_.push_back(document_.complaint(spot(), "", std::move(found), std::move(because), std::move(suggestion)));
     throw InputError(std::move(complaints_));
+  }
+
+  [[noreturn]] void fail_at_key() {
+    const char c = peek();
+    if (at_ >= text_.size()) fail("the end of the file", "an object is not closed", "close it with }");
+    if (c == '}') fail("a comma before }", "no comma ends the list of an object", "delete the comma");
+    if (c == '/' || c == '#') fail("a comment", "JSON has no comments", "delete it, or write the model as TOML");
+    if (c == '\'') fail("a key in single quotes", "keys of a JSON object stand in double quotes", "\" in place of '");
+    fail("a key without quotes", "keys of a JSON object are strings", "\"key\": value");
   }
 
   void expect(char wanted, const char* where) {
     skip_space();
     if (peek() != wanted) {
       fail(at_ < text_.size() ? quoted(text_.substr(at_, 1)) : "the end of the file",
-           std::string("expected ") + wanted + " " + where);
+           std::string("expected ") + wanted + " " + where,
+           wanted == ':' ? "\"key\": value" : "look for a missing comma, bracket or brace");
     }
     step();
   }
 
   Node read_value(const std::string& path, int depth) {
     skip_space();
-    if (depth > kMaxDepth) fail("objects or lists nested too deeply", "at most 64 levels are read");
+    if (depth > kMaxDepth) fail("objects or lists nested too deeply", "at most 64 levels are read", "a flatter model");
     Node node;
     node.spot = spot();
     switch (peek()) {
-      case '{': node.value = read_object(path, depth); break;
-      case '[': node.value = read_array(path, depth); break;
+      case '{':
+        node.value = read_object(path, depth);
+        break;
+      case '[':
+        node.value = read_array(path, depth);
+        break;
       case '"':
         node.spot.column += 1;
         node.value = read_string();
         break;
-      default: read_word(path, node);
+      default:
+        read_word(path, node);
     }
     return node;
   }
@@ -90,7 +106,7 @@ class JsonReader {
     while (true) {
       skip_space();
       const Spot key_spot = spot();
-      if (peek() != '"') fail("a key without quotes", "keys of a JSON object are strings, and no comma ends the list");
+      if (peek() != '"') fail_at_key();
       std::string key = read_string();
       expect(':', "after a key");
       const std::string inner = path.empty() ? key : path + "." + key;
@@ -132,8 +148,10 @@ class JsonReader {
     step();
     while (true) {
       const char c = peek();
-      if (at_ >= text_.size() || c == '\n') fail("a string without closing quotes", "strings end on their line");
-      if (static_cast<unsigned char>(c) < 0x20U) fail("a control character in a string", "write it as an escape");
+      if (at_ >= text_.size() || c == '\n')
+        fail("a string without closing quotes", "strings end on their line", "close it with \"");
+      if (static_cast<unsigned char>(c) < 0x20U)
+        fail("a control character in a string", "these must be escaped", "\\n for a line end, \\t for a tab");
       if (c == '"') break;
       if (c == '\\') {
         read_escape(value);
@@ -165,14 +183,16 @@ class JsonReader {
     const bool high = first >= 0xD800U && first <= 0xDBFFU;
     if (!high && (first < 0xDC00U || first > 0xDFFFU)) return first;
     const std::uint32_t second = high ? read_hex_escape() : 0;
-    if (second < 0xDC00U || second > 0xDFFFU) fail("half a surrogate pair", "it is no character");
+    if (second < 0xDC00U || second > 0xDFFFU)
+      fail("half a surrogate pair", "it is no character", "the character itself");
     return 0x10000U + ((first - 0xD800U) << 10U) + (second - 0xDC00U);
   }
 
   std::uint32_t read_hex_escape() {
     const std::string_view rest = text_.substr(at_);
     const std::optional<std::uint32_t> value = rest.starts_with("\\u") ? hex_value(rest.substr(2, 4)) : std::nullopt;
-    if (!value || rest.size() < 6) fail("an unknown escape", "JSON knows \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\uXXXX");
+    if (!value || rest.size() < 6)
+      fail("an unknown escape", "JSON knows \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\uXXXX", "\\\\ for a backslash");
     step(6);
     return *value;
   }
@@ -190,7 +210,8 @@ class JsonReader {
       fail(word.empty() ? "no value" : quoted(word), "expected a JSON value", "strings with units need double quotes");
     }
     if (node.real() != nullptr && !std::isfinite(*node.real())) {
-      complaints_.push_back(document_.complaint(spot(), path, std::string(word), "numbers must be finite"));
+      complaints_.push_back(
+          document_.complaint(spot(), path, std::string(word), "numbers must be finite", "a number below 1e308"));
     }
     step(word.size());
   }

@@ -1,5 +1,5 @@
-// The format as a JSON Schema for editors: what completion and hints need, less strict than the reader where the kinds of
-// joints and motors differ.
+// The format as a JSON Schema for editors: what completion and hints need, less strict than the reader where the kinds
+// of joints and motors differ.
 
 #include <fmt/format.h>
 
@@ -84,13 +84,18 @@ Json type_schema(const KeySpec& spec) {
     case ValueType::kText:
     case ValueType::kWord:
     case ValueType::kMarkerName:
-    case ValueType::kJointName: return word_schema(spec);
+    case ValueType::kJointName:
+      return word_schema(spec);
     case ValueType::kWords:
-    case ValueType::kMarkerNames: return list_schema(word_schema(spec), spec.count, spec.count);
+    case ValueType::kMarkerNames:
+      return list_schema(word_schema(spec), spec.count, spec.count);
     case ValueType::kQuantities:
-    case ValueType::kExpressions: return list_schema(number_schema(spec), spec.count, spec.count);
-    case ValueType::kMarker: return marker_schema();
-    default: break;
+    case ValueType::kExpressions:
+      return list_schema(number_schema(spec), spec.count, spec.count);
+    case ValueType::kMarker:
+      return marker_schema();
+    default:
+      break;
   }
   Json schema = number_schema(spec);
   if (spec.per_component) {

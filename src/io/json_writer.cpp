@@ -8,7 +8,9 @@
 namespace pintle {
 namespace {
 
-bool is_scalar(const Node& node) { return node.table() == nullptr && node.array() == nullptr; }
+bool is_scalar(const Node& node) {
+  return node.table() == nullptr && node.array() == nullptr;
+}
 
 class JsonWriter {
  public:

@@ -79,7 +79,8 @@ bool RecordReader::read_marker_table(const Table& table, const Entry& entry, con
     const std::string inner_path = path + "." + inner.key;
     const KeySpec* spec = find_part(inner.key);
     if (spec == nullptr) {
-      complaints_.add(inner.key_spot, inner_path, "unknown key " + quoted(inner.key), "markers have no such key", kForms);
+      complaints_.add(inner.key_spot, inner_path, "unknown key " + quoted(inner.key), "markers have no such key",
+                      kForms);
       good = false;
     } else {
       const std::optional<double> number = read_number(inner.value, *spec, inner_path);
@@ -91,7 +92,8 @@ bool RecordReader::read_marker_table(const Table& table, const Entry& entry, con
   const bool cartesian = parts.count("x") + parts.count("y") > 0;
   const bool complete = polar ? parts.count("r") == 1 : parts.count("x") + parts.count("y") == 2;
   if (good && (polar == cartesian || !complete)) {
-    complaints_.add(entry.key_spot, path, polar && cartesian ? "polar and Cartesian keys together" : "an incomplete marker",
+    complaints_.add(entry.key_spot, path,
+                    polar && cartesian ? "polar and Cartesian keys together" : "an incomplete marker",
                     "a marker has x and y, or r and xi", kForms);
     return false;
   }

@@ -18,7 +18,7 @@ struct Mistake {
   const char* piece;
   const char* replacement;
   const char* path;
-  const char* because;         // part of the reason
+  const char* because;          // part of the reason
   const char* suggestion = "";  // part of it
 };
 
@@ -86,11 +86,13 @@ const std::vector<Mistake> kMistakes{
     {"[joint.O2]\ntype = \"revolute\"", "[joint.O2]\ntype = \"@revolut\"", "joint.O2.type", "none of", "revolute"},
     {"[joint.O2]\ntype = \"revolute\"", "[joint.@O2]", "joint.O2.type", "required"},
     {"law = \"linear\"", "law = \"@linaer\"", "joint.A.law", "none of", "linear"},
-    {"[\"crank.A\", \"coupler.A\"]\nst", "[\"crank.A\", \"@copler.A\"]\nst", "joint.A.between", "no body \"copler\"", "coupler.A"},
+    {"[\"crank.A\", \"coupler.A\"]\nst", "[\"crank.A\", \"@copler.A\"]\nst", "joint.A.between", "no body \"copler\"",
+     "coupler.A"},
     {"[\"crank.A\", \"coupler.A\"]\nst", "[\"crank.@O\", \"coupler.A\"]\nst", "joint.A.between", "no marker \"O\""},
     {"[\"crank.A\", \"coupler.A\"]\nst", "[\"@crank\", \"coupler.A\"]\nst", "joint.A.between", "body.marker"},
     {"[\"crank.A\", \"coupler.A\"]\nst", "@[\"crank.A\", \"crank.O2\"]\nst", "joint.A.between", "and itself"},
-    {"[\"crank.A\", \"coupler.A\"]\nst", "@[\"ground.O2\", \"ground.P\"]\nst", "joint.A.between", "both ends are on the ground"},
+    {"[\"crank.A\", \"coupler.A\"]\nst", "@[\"ground.O2\", \"ground.P\"]\nst", "joint.A.between",
+     "both ends are on the ground"},
     {"[\"crank.A\", \"coupler.A\"]\nst", "@[\"crank.A\"]\nst", "joint.A.between", "a list of 2"},
     {"[\"1e6 N/m\", \"2e6 N/m\"]", "@[1e6, 1e6, 1e6]", "joint.A.stiffness", "a list of 2 numbers"},
     {"[\"1e6 N/m\", \"2e6 N/m\"]", "[1e6, @-5]", "joint.A.stiffness", "feeds energy"},
@@ -147,25 +149,31 @@ TEST_P(MistakeTest, IsLocatedAndExplained) {
            complaint.suggestion.find(mistake.suggestion) != std::string::npos && !complaint.because.empty();
   };
   EXPECT_TRUE(std::any_of(complaints.begin(), complaints.end(), matches))
-      << "wanted " << line << ":" << column << " " << mistake.path << ": " << mistake.because << "\ngot\n" << all;
+      << "wanted " << line << ":" << column << " " << mistake.path << ": " << mistake.because << "\ngot\n"
+      << all;
   EXPECT_LE(complaints.size(), 3U) << all;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MistakeTest, testing::ValuesIn(kMistakes));
 
-TEST(Mistakes, TheFullModelHasNone) { EXPECT_TRUE(complaints_about(kFullModel).empty()); }
+TEST(Mistakes, TheFullModelHasNone) {
+  EXPECT_TRUE(complaints_about(kFullModel).empty());
+}
 
 TEST(Mistakes, AllAreCollectedInTheOrderOfTheFile) {
-  const auto complaints = complaints_about("format = 1\n[body.a]\nmass = -1\ninertia = 0\n[joint.j]\ntyp = 1\n[parameters]\nm = 1\n");
+  const auto complaints =
+      complaints_about("format = 1\n[body.a]\nmass = -1\ninertia = 0\n[joint.j]\ntyp = 1\n[parameters]\nm = 1\n");
   ASSERT_EQ(complaints.size(), 6U);
   for (std::size_t i = 1; i < complaints.size(); ++i) EXPECT_LE(complaints[i - 1].place.line, complaints[i].place.line);
 }
 
-TEST(Mistakes, AModelNeedsABody) { EXPECT_EQ(complaints_about("format = 1\n").at(0).path, "body"); }
+TEST(Mistakes, AModelNeedsABody) {
+  EXPECT_EQ(complaints_about("format = 1\n").at(0).path, "body");
+}
 
 TEST(Mistakes, AFaultyParameterIsBlamedOnce) {
-  const auto complaints = complaints_about(
-      "format = 1\n[parameters]\na = \"1/0\"\nb = \"2*a\"\n[body.c]\nmass = \"b\"\ninertia = 1\n");
+  const auto complaints =
+      complaints_about("format = 1\n[parameters]\na = \"1/0\"\nb = \"2*a\"\n[body.c]\nmass = \"b\"\ninertia = 1\n");
   ASSERT_EQ(complaints.size(), 1U);
   EXPECT_EQ(complaints[0].path, "parameters.a");
 }

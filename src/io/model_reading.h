@@ -24,9 +24,9 @@ struct Reading {
   Complaints complaints;
   RecordReader records;
   Model model;
-  std::map<std::string, std::set<std::string>, std::less<>> markers_of;   // by body, "ground" among them
-  std::map<std::string, std::string, std::less<>> type_of_joint;          // by joint, also of joints with faults
-  std::map<std::string, TableSpec, std::less<>> specs;                    // assembled ones, by path and kind
+  std::map<std::string, std::set<std::string>, std::less<>> markers_of;  // by body, "ground" among them
+  std::map<std::string, std::string, std::less<>> type_of_joint;         // by joint, also of joints with faults
+  std::map<std::string, TableSpec, std::less<>> specs;                   // assembled ones, by path and kind
 
   /// The assembled table of the schema, made once.
   const TableSpec& spec(const std::string& path, const std::string& when = {}, const std::string& law = {});
@@ -49,6 +49,7 @@ void check_name(Reading& reading, const Entry& entry, const std::string& path);
 MarkerRef read_marker_ref(Reading& reading, const Node& node, const std::string& path);
 
 /// The two markers of `between`; they must be on different bodies. `thing` is what connects them, for the message.
-void read_between(Reading& reading, const Record& record, const std::string& thing, MarkerRef& first, MarkerRef& second);
+void read_between(Reading& reading, const Record& record, const std::string& thing, MarkerRef& first,
+                  MarkerRef& second);
 
 }  // namespace pintle

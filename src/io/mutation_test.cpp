@@ -15,22 +15,74 @@ namespace {
 
 using Random = std::mt19937_64;
 
-std::size_t below(Random& random, std::size_t n) { return static_cast<std::size_t>(random() % n); }
+std::size_t below(Random& random, std::size_t n) {
+  return static_cast<std::size_t>(random() % n);
+}
 
-const std::vector<std::string> kPieces{
-    "\"", "\"\"\"", "'", "[", "]", "{", "}", "=", ".", ",", "#", "\n", "\\", "\\u00", "-", "1e999", "nan", "0", "9999999999999999999",
-    "t", "rate", "A.angle", "ground.", "^", "^-9", "/0", "(", ")", "if(", "min(", " m", "°", "\xff", "\xc3", std::string(1, '\0'),
-    "crank", "half", "true", "null", ":", "[[joint]]", "[body.crank]", "inf", "0x1F", "1979-05-27"};
+const std::vector<std::string> kPieces{"\"",
+                                       "\"\"\"",
+                                       "'",
+                                       "[",
+                                       "]",
+                                       "{",
+                                       "}",
+                                       "=",
+                                       ".",
+                                       ",",
+                                       "#",
+                                       "\n",
+                                       "\\",
+                                       "\\u00",
+                                       "-",
+                                       "1e999",
+                                       "nan",
+                                       "0",
+                                       "9999999999999999999",
+                                       "t",
+                                       "rate",
+                                       "A.angle",
+                                       "ground.",
+                                       "^",
+                                       "^-9",
+                                       "/0",
+                                       "(",
+                                       ")",
+                                       "if(",
+                                       "min(",
+                                       " m",
+                                       "°",
+                                       "\xff",
+                                       "\xc3",
+                                       std::string(1, '\0'),
+                                       "crank",
+                                       "half",
+                                       "true",
+                                       "null",
+                                       ":",
+                                       "[[joint]]",
+                                       "[body.crank]",
+                                       "inf",
+                                       "0x1F",
+                                       "1979-05-27"};
 
 void mutate(std::string& text, Random& random) {
   const std::size_t at = below(random, text.size());
   const std::size_t length = 1 + below(random, 12);
   switch (below(random, 5)) {
-    case 0: text.erase(at, length); break;
-    case 1: text.insert(at, kPieces[below(random, kPieces.size())]); break;
-    case 2: text.insert(at, text.substr(below(random, text.size()), 4 * length)); break;
-    case 3: text[at] = static_cast<char>(random() & 0xFFU); break;
-    default: text.replace(at, length, kPieces[below(random, kPieces.size())]);
+    case 0:
+      text.erase(at, length);
+      break;
+    case 1:
+      text.insert(at, kPieces[below(random, kPieces.size())]);
+      break;
+    case 2:
+      text.insert(at, text.substr(below(random, text.size()), 4 * length));
+      break;
+    case 3:
+      text[at] = static_cast<char>(random() & 0xFFU);
+      break;
+    default:
+      text.replace(at, length, kPieces[below(random, kPieces.size())]);
   }
   if (text.empty()) text = "x";
 }

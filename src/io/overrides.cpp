@@ -70,7 +70,9 @@ bool chooses_names(const std::string& section) {
 class Override {
  public:
   Override(Document& document, int source, Complaints& complaints)
-      : document_(document), source_(source), complaints_(complaints),
+      : document_(document),
+        source_(source),
+        complaints_(complaints),
         text_(document.sources[static_cast<std::size_t>(source)].text) {}
 
   void apply() {
@@ -113,7 +115,8 @@ class Override {
       node = &table.append(parts[i], spot_, std::move(empty));
     }
     if (node->table() == nullptr) {
-      complaints_.add(spot_, parts[i], describe(*node), "this is a value, there are no keys in it", "");
+      complaints_.add(spot_, parts[i], describe(*node), "this is a value, there are no keys in it",
+                      "the path up to here");
     }
     return node->table();
   }
@@ -132,7 +135,8 @@ void apply_overrides(Document& document, const std::vector<std::string>& overrid
   Complaints complaints(document);
   for (std::size_t i = 0; i < overrides.size(); ++i) {
     if (overrides[i].size() > kMaxFileBytes || first_invalid_utf8(overrides[i])) {
-      complaints.add({static_cast<int>(i) + 1, 1, 1}, "", "a byte that is not UTF-8", "overrides are UTF-8 text");
+      complaints.add({static_cast<int>(i) + 1, 1, 1}, "", "a byte that is not UTF-8", "overrides are UTF-8 text",
+                     "plain letters");
       continue;
     }
     Override(document, static_cast<int>(i) + 1, complaints).apply();

@@ -6,7 +6,8 @@
 namespace pintle {
 namespace {
 
-std::vector<Marker> read_markers(Reading& reading, const Entry& owner, const std::string& path, std::set<std::string>& names) {
+std::vector<Marker> read_markers(Reading& reading, const Entry& owner, const std::string& path,
+                                 std::set<std::string>& names) {
   std::vector<Marker> markers;
   if (owner.value.table() == nullptr) return markers;  // complained about by whoever reads the owner
   const Node* node = owner.value.table()->find("markers");
@@ -42,7 +43,8 @@ void read_body(Reading& reading, const Entry& entry) {
   const std::string path = "body." + entry.key;
   check_name(reading, entry, path);
   if (entry.key == "ground") {
-    reading.complaints.add(entry.key_spot, path, "\"ground\"", "this name belongs to the world", "[ground.markers], or another name");
+    reading.complaints.add(entry.key_spot, path, "\"ground\"", "this name belongs to the world",
+                           "[ground.markers], or another name");
   }
   const Record record = reading.records.read(reading.spec("body.*"), entry.value, entry.key_spot, path);
   Body body;
@@ -68,7 +70,8 @@ void read_bodies(Reading& reading) {
   }
   for (const Entry& entry : section(reading, "body").entries()) read_body(reading, entry);
   if (reading.model.bodies.empty()) {
-    reading.complaints.add({0, 1, 1}, "body", "no bodies", "a model has at least one", "[body.crank] with mass and inertia");
+    reading.complaints.add({0, 1, 1}, "body", "no bodies", "a model has at least one",
+                           "[body.crank] with mass and inertia");
   }
 }
 

@@ -12,7 +12,9 @@ namespace {
 
 constexpr std::string_view kAngularPrefix = "angular_";
 
-bool is_angular(const KeyInfo& key) { return key.key.starts_with(kAngularPrefix); }
+bool is_angular(const KeyInfo& key) {
+  return key.key.starts_with(kAngularPrefix);
+}
 
 std::size_t linear_components(const JointTypeInfo& type) {
   const auto linear = [](const ComponentInfo& component) { return !component.angular; };
@@ -71,7 +73,8 @@ void check_gear(Reading& reading, const Record& record, const Joint& joint) {
   const auto radii = record.maybe_pair("radii");
   if (joint.type != "gear" || !radii || (*radii)[0] != (*radii)[1] || record.word("mesh") != "internal") return;
   reading.complaints.add(record.spot("radii"), record.path + ".radii", "two equal radii",
-                         "a gear cannot turn inside one of its own size", "mesh = \"external\", or two different radii");
+                         "a gear cannot turn inside one of its own size",
+                         "mesh = \"external\", or two different radii");
 }
 
 void read_law(Reading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record,
@@ -82,7 +85,8 @@ void read_law(Reading& reading, const JointTypeInfo& type, const LawInfo& law, c
     const bool stated = record.states(key.key);
     if (stated && is_angular(key) && !has_angle) {
       reading.complaints.add(record.spot(key.key), record.path + "." + std::string(key.key), std::string(key.key),
-                             "a " + std::string(type.word) + " joint forbids no angle, so this would do nothing", "delete it");
+                             "a " + std::string(type.word) + " joint forbids no angle, so this would do nothing",
+                             "delete it");
     }
     const Value* value = stated || !defaults.states(key.key) ? record.find(key.key) : defaults.find(key.key);
     if (value != nullptr) choice.values[std::string(key.key)] = value->numbers;
@@ -101,8 +105,7 @@ void read_joint(Reading& reading, const Entry& entry, const Record& defaults) {
     return;
   }
   const std::string kind = "a " + std::string(type->word) + " joint";
-  const Record record =
-      reading.records.read(joint_spec(reading, type, law), entry.value, entry.key_spot, path, kind);
+  const Record record = reading.records.read(joint_spec(reading, type, law), entry.value, entry.key_spot, path, kind);
   Joint joint;
   joint.name = entry.key;
   joint.type = type->word;

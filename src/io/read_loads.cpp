@@ -15,7 +15,8 @@ void check_preload(Reading& reading, const Record& record, const std::string& fr
 void check_spring_does_something(Reading& reading, const Record& record, const Spring& spring) {
   if (record.states("stiffness") || record.states("damping") || spring.preload) return;
   reading.complaints.add(record.table_spot, record.path, "neither stiffness nor damping nor preload",
-                         "such a spring does nothing", spring.torsion ? "stiffness = \"10 N*m/rad\"" : "stiffness = \"1e3 N/m\"");
+                         "such a spring does nothing",
+                         spring.torsion ? "stiffness = \"10 N*m/rad\"" : "stiffness = \"1e3 N/m\"");
 }
 
 void read_spring(Reading& reading, const Entry& entry, bool torsion) {

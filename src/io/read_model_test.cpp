@@ -15,7 +15,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Model full() { return parse_model(kFullModel, "full.toml"); }
+Model full() {
+  return parse_model(kFullModel, "full.toml");
+}
 
 TEST(ReadModel, HeadAndSettings) {
   const Model model = full();
@@ -148,7 +150,9 @@ TEST(ReadModel, TheJsonTwinGivesTheSameModel) {
   EXPECT_EQ(a.motors.size(), b.motors.size());
 }
 
-TEST(ReadModel, AFileThatIsNotThere) { EXPECT_THROW(read_model("/nowhere/model.toml"), FileError); }
+TEST(ReadModel, AFileThatIsNotThere) {
+  EXPECT_THROW(read_model("/nowhere/model.toml"), FileError);
+}
 
 TEST(ReadModel, LongChainsOfParametersNeedNoDeepStack) {
   std::string text = "format = 1\nbody.a = { mass = \"p20000\", inertia = 1 }\n[parameters]\np0 = 1\n";
@@ -167,7 +171,8 @@ TEST(ReadModel, TenThousandBodiesInNoTime) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(parse_model(text, "x.toml").joints.size(), 10000U);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  EXPECT_LT(seconds.count(), 30) << "far from linear";  // 0.4 s in a release build; sanitizers and busy machines are slow
+  EXPECT_LT(seconds.count(), 30)
+      << "far from linear";  // 0.4 s in a release build; sanitizers and busy machines are slow
 }
 
 }  // namespace

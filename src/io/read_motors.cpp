@@ -86,7 +86,8 @@ void check_choice(Reading& reading, const Entry& entry, const std::string& path,
   for (const char* key : {"stiffness", "damping"}) {
     const Entry* found = entry.value.table()->find_entry(key);
     if (servo || found == nullptr) continue;
-    reading.complaints.add(found->key_spot, path + "." + key, key, "only servos (speed, position) have it", "delete it");
+    reading.complaints.add(found->key_spot, path + "." + key, key, "only servos (speed, position) have it",
+                           "delete it");
   }
 }
 
@@ -109,8 +110,9 @@ void read_motor(Reading& reading, const Entry& entry, std::map<std::string, std:
   }
   const std::string effort = coordinate == "slide" ? "force" : "torque";
   const std::string when = coordinate.empty() ? "angle" : coordinate;
-  const Record record = reading.records.read(reading.spec("motor.*", when), entry.value, entry.key_spot, path,
-                                             when == "angle" ? "a motor in a revolute joint" : "a motor in a sliding joint");
+  const Record record =
+      reading.records.read(reading.spec("motor.*", when), entry.value, entry.key_spot, path,
+                           when == "angle" ? "a motor in a revolute joint" : "a motor in a sliding joint");
   check_choice(reading, entry, path, effort);
   Motor motor;
   motor.name = entry.key;

@@ -1,5 +1,7 @@
 // The head of the file, [simulate] and [parameters].
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <memory>
@@ -20,11 +22,11 @@ void check_times(Reading& reading, const Record& record) {
   if (simulate.duration <= 0 || simulate.output_step <= 0) return;
   const Spot spot = record.spot("output_step");
   if (simulate.output_step > simulate.duration) {
-    reading.complaints.add(spot, "simulate.output_step", number_text(simulate.output_step) + " s",
-                           "this is longer than the duration, " + number_text(simulate.duration) + " s",
+    reading.complaints.add(spot, "simulate.output_step", fmt::format("{} s", simulate.output_step),
+                           "this is longer than the duration, " + fmt::format("{} s", simulate.duration),
                            "a small part of the duration");
   } else if (simulate.duration / simulate.output_step > kMostRows) {
-    reading.complaints.add(spot, "simulate.output_step", number_text(simulate.output_step) + " s",
+    reading.complaints.add(spot, "simulate.output_step", fmt::format("{} s", simulate.output_step),
                            "this would give more than 10 million rows of results", "a longer step");
   }
 }
@@ -110,11 +112,11 @@ class ParameterReader {
     const std::string path = "parameters." + entry.key;
     Quantity value{kFaulty, {}};
     if (is_reserved_name(entry.key)) {
-      reading_.complaints.add(entry.key_spot, path, quoted(entry.key), "this is the name of a unit, a function or a constant",
-                              entry.key + "_value");
+      reading_.complaints.add(entry.key_spot, path, quoted(entry.key),
+                              "this is the name of a unit, a function or a constant", entry.key + "_value");
     } else if (!is_identifier(entry.key)) {
       reading_.complaints.add(entry.key_spot, path, quoted(entry.key),
-                              "a parameter's name is a letter, then letters, digits and _", "");
+                              "a parameter's name is a letter, then letters, digits and _", "no other character in it");
     } else if (const auto read = reading_.records.read_quantity(entry.value, path)) {
       value = *read;
     }
@@ -184,7 +186,7 @@ void read_settings(Reading& reading) {
   const Record record = reading.records.read(reading.spec(""), root, {0, 1, 1}, "");
   Model& model = reading.model;
   if (record.number("format", 1) > kNewestFormat) {
-    reading.complaints.add(record.spot("format"), "format", number_text(record.number("format")),
+    reading.complaints.add(record.spot("format"), "format", fmt::format("{}", record.number("format")),
                            "this file is newer than the program, which reads format 1", "a newer pintle");
   }
   model.name = record.word("name");

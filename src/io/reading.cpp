@@ -6,6 +6,15 @@
 namespace pintle {
 namespace {
 
+// The name with everything that cannot stand in it as _.
+std::string usable_name(std::string_view name) {
+  std::string usable;
+  for (const char c : name.substr(0, 60)) {
+    if (!is_continuation_byte(c)) usable += is_bare_key({&c, 1}) ? c : '_';
+  }
+  return usable.empty() ? "a" : usable;
+}
+
 std::vector<std::string> keys_of(const std::map<std::string, std::set<std::string>, std::less<>>& map) {
   std::vector<std::string> keys;
   for (const auto& [key, value] : map) keys.push_back(key);
@@ -30,7 +39,8 @@ const Table& section(Reading& reading, std::string_view key) {
 
 void check_name(Reading& reading, const Entry& entry, const std::string& path) {
   if (is_bare_key(entry.key)) return;
-  reading.complaints.add(entry.key_spot, path, quoted(entry.key), "names are made of letters, digits, _ and -");
+  reading.complaints.add(entry.key_spot, path, quoted(entry.key), "names are made of letters, digits, _ and -",
+                         usable_name(entry.key));
 }
 
 MarkerRef read_marker_ref(Reading& reading, const Node& node, const std::string& path) {
@@ -43,16 +53,19 @@ MarkerRef read_marker_ref(Reading& reading, const Node& node, const std::string&
   const MarkerRef ref{text.substr(0, dot), text.substr(dot + 1)};
   const auto body = reading.markers_of.find(ref.body);
   if (body == reading.markers_of.end()) {
-    const std::string near = reading.complaints.nearest(ref.body, keys_of(reading.markers_of));
+    const std::vector<std::string> bodies = keys_of(reading.markers_of);
+    const std::string near = reading.complaints.nearest(ref.body, bodies);
     reading.complaints.add(node.spot, path, quoted(text), "there is no body " + quoted(ref.body),
-                           near.empty() ? "" : "did you mean " + quoted(near + "." + ref.marker) + "?");
+                           advice(near.empty() ? near : near + "." + ref.marker, bodies));
   } else if (body->second.count(ref.marker) == 0) {
+    const std::string owner = ref.body == "ground" ? ref.body : "body." + ref.body;
     const std::vector<std::string> names(body->second.begin(), body->second.end());
     const std::string near = reading.complaints.nearest(ref.marker, names);
-    reading.complaints.add(reading.complaints.document().inside(node, dot + 1), path, quoted(text),
-                           (ref.body == "ground" ? "the ground" : "body " + ref.body) + " has no marker " +
-                               quoted(ref.marker),
-                           near.empty() ? "" : "did you mean " + quoted(ref.body + "." + near) + "?");
+    reading.complaints.add(
+        reading.complaints.document().inside(node, dot + 1), path, quoted(text),
+        (ref.body == "ground" ? "the ground" : "body " + ref.body) + " has no marker " + quoted(ref.marker),
+        names.empty() ? owner + ".markers." + ref.marker + " = [0, 0]"
+                      : advice(near.empty() ? near : ref.body + "." + near, names));
   }
   return ref;
 }

@@ -5,6 +5,29 @@
 #include "io/text.h"
 
 namespace pintle {
+namespace {
+
+// How a required key might be stated.
+std::string example_line(const KeySpec& key) {
+  const std::string start = key.key + " = ";
+  const std::string number = key.unit.empty() || key.unit == "any" ? "1" : "\"1 " + key.unit + "\"";
+  switch (key.type) {
+    case ValueType::kWord:
+      return start + quoted(key.words.empty() ? "word" : key.words.front());
+    case ValueType::kMarkerName:
+      return start + "\"crank.A\"";
+    case ValueType::kMarkerNames:
+      return start + "[\"ground.A\", \"crank.A\"]";
+    case ValueType::kJointName:
+      return start + "\"O2\", the name of a joint";
+    case ValueType::kQuantities:
+      return start + "[" + number + ", " + number + "]";
+    default:
+      return start + number;
+  }
+}
+
+}  // namespace
 
 const Value* Record::find(std::string_view key) const {
   const auto it = values.find(key);
@@ -22,7 +45,9 @@ std::optional<double> Record::maybe_number(std::string_view key) const {
   return value->numbers.front();
 }
 
-double Record::number(std::string_view key, double otherwise) const { return maybe_number(key).value_or(otherwise); }
+double Record::number(std::string_view key, double otherwise) const {
+  return maybe_number(key).value_or(otherwise);
+}
 
 std::optional<Vec2> Record::maybe_pair(std::string_view key) const {
   const Value* value = find(key);
@@ -52,7 +77,7 @@ bool RecordReader::is_table(const Node& node, const std::string& path) {
 }
 
 Record RecordReader::read(const TableSpec& spec, const Node& table_node, Spot key_spot, const std::string& path,
-                           const std::string& kind) {
+                          const std::string& kind) {
   Record record;
   record.table_spot = key_spot;
   record.path = path;
@@ -63,8 +88,7 @@ Record RecordReader::read(const TableSpec& spec, const Node& table_node, Spot ke
     const std::string key_path = path.empty() ? key.key : path + "." + key.key;
     const Node* node = table.find(key.key);
     if (node == nullptr && key.required) {
-      complaints_.add(key_spot, key_path, "no " + key.key, "this key is required: " + key.meaning,
-                      "see the reference page of the model file");
+      complaints_.add(key_spot, key_path, "no " + key.key, "this key is required: " + key.meaning, example_line(key));
     }
     const bool is_default = node == nullptr;
     if (is_default && key.fallback) node = &*key.fallback;
@@ -77,7 +101,8 @@ Record RecordReader::read(const TableSpec& spec, const Node& table_node, Spot ke
   return record;
 }
 
-void RecordReader::check_keys(const TableSpec& spec, const Table& table, const Record& record, const std::string& kind) {
+void RecordReader::check_keys(const TableSpec& spec, const Table& table, const Record& record,
+                              const std::string& kind) {
   for (const Entry& entry : table.entries()) {
     const bool known = spec.find(entry.key) != nullptr ||
                        std::find(spec.children.begin(), spec.children.end(), entry.key) != spec.children.end();
@@ -98,14 +123,9 @@ void RecordReader::complain_of_key(const TableSpec& spec, const Entry& entry, co
   }
   std::vector<std::string> candidates = spec.children;
   for (const KeySpec& key : spec.keys) candidates.push_back(key.key);
-  std::string near = complaints_.did_you_mean(entry.key, candidates);
-  if (near.empty()) {
-    for (const std::string& candidate : candidates) {
-      if (candidate != "*") near += (near.empty() ? "one of " : ", ") + candidate;
-    }
-  }
   complaints_.add(entry.key_spot, path, "unknown key " + quoted(entry.key),
-                  record.path.empty() ? "models have no such key" : "there is no such key here", near);
+                  record.path.empty() ? "models have no such key" : "there is no such key here",
+                  complaints_.did_you_mean(entry.key, candidates));
 }
 
 }  // namespace pintle

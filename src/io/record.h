@@ -52,7 +52,8 @@ class RecordReader {
   /// Variables of expressions beyond the schema's own; called with the expression's text for those "of joints".
   std::function<void(std::string_view text, std::vector<std::pair<std::string, Dimension>>& variables)> joint_variables;
 
-  /// All values of the table `node`, which stands at `path`, its key at `key_spot`. `kind` is its kind in words for messages ("a gear").
+  /// All values of the table `node`, which stands at `path`, its key at `key_spot`. `kind` is its kind in words for
+  /// messages ("a gear").
   Record read(const TableSpec& spec, const Node& node, Spot key_spot, const std::string& path,
               const std::string& kind = {});
 

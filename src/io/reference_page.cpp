@@ -42,7 +42,9 @@ A marker is a point and the direction of its axis, in one of the forms
 Lengths are in m, angles in rad; `axis` is 0 if it is not stated. A joint names its markers as `body.marker`.
 )";
 
-std::string code(std::string_view text) { return text.empty() ? std::string() : fmt::format("`{}`", text); }
+std::string code(std::string_view text) {
+  return text.empty() ? std::string() : fmt::format("`{}`", text);
+}
 
 std::string node_text(const Node& node) {
   if (const Array* array = node.array()) {
@@ -63,18 +65,30 @@ std::string list_of(const std::vector<std::string>& words, std::string_view betw
 
 std::string type_text(const KeySpec& spec) {
   switch (spec.type) {
-    case ValueType::kInteger: return "whole number";
-    case ValueType::kText: return "text";
-    case ValueType::kWord: return list_of(spec.words, " or ");
-    case ValueType::kWords: return "list of " + list_of(spec.words, ", ");
-    case ValueType::kQuantities: return fmt::format("list of {} numbers", spec.count);
-    case ValueType::kExpression: return "expression of " + list_of(spec.variables, ", ");
-    case ValueType::kExpressions: return fmt::format("list of {} expressions of {}", spec.count, list_of(spec.variables, ", "));
-    case ValueType::kMarker: return "marker";
-    case ValueType::kMarkerName: return "`\"body.marker\"`";
-    case ValueType::kMarkerNames: return "list of two `\"body.marker\"`";
-    case ValueType::kJointName: return "name of a joint";
-    default: return spec.per_component ? "number, or a list with one for each linear gap component" : "number";
+    case ValueType::kInteger:
+      return "whole number";
+    case ValueType::kText:
+      return "text";
+    case ValueType::kWord:
+      return list_of(spec.words, " or ");
+    case ValueType::kWords:
+      return "list of " + list_of(spec.words, ", ");
+    case ValueType::kQuantities:
+      return fmt::format("list of {} numbers", spec.count);
+    case ValueType::kExpression:
+      return "expression of " + list_of(spec.variables, ", ");
+    case ValueType::kExpressions:
+      return fmt::format("list of {} expressions of {}", spec.count, list_of(spec.variables, ", "));
+    case ValueType::kMarker:
+      return "marker";
+    case ValueType::kMarkerName:
+      return "`\"body.marker\"`";
+    case ValueType::kMarkerNames:
+      return "list of two `\"body.marker\"`";
+    case ValueType::kJointName:
+      return "name of a joint";
+    default:
+      return spec.per_component ? "number, or a list with one for each linear gap component" : "number";
   }
 }
 
@@ -142,7 +156,8 @@ std::string components_text(std::span<const ComponentInfo> components) {
 
 std::string joint_types_text() {
   std::string text =
-      "\n## Joint types\n\nThe gap is what a joint forbids, in the frame F of its first marker; its law resists it. What it "
+      "\n## Joint types\n\nThe gap is what a joint forbids, in the frame F of its first marker; its law resists it. "
+      "What it "
       "leaves free\nis for motors, plots and expressions.\n\n| type | is | gap | free |\n| --- | --- | --- | --- |\n";
   for (const JointTypeInfo& type : joint_type_catalog()) {
     text += fmt::format("| {} | {} | {} | {} |\n", code(type.word), type.meaning, components_text(type.gap),

@@ -31,7 +31,9 @@ constexpr std::array<std::pair<std::string_view, ValueType>, 13> kTypes{{
     {"joint_name", ValueType::kJointName},
 }};
 
-[[noreturn]] void schema_fault(const std::string& what) { throw std::logic_error("model.schema.toml: " + what); }
+[[noreturn]] void schema_fault(const std::string& what) {
+  throw std::logic_error("model.schema.toml: " + what);
+}
 
 std::string text_of(const Table& table, std::string_view key) {
   const Node* node = table.find(key);

@@ -33,12 +33,12 @@ enum class ValueType {
 struct KeySpec {
   std::string key;
   ValueType type = ValueType::kText;
-  std::string type_word;               ///< the type as the schema calls it
-  std::string unit;                    ///< "" for a pure number, "any" for parameters
-  Dimension dimension;                 ///< of the unit; `any` for "any"
+  std::string type_word;  ///< the type as the schema calls it
+  std::string unit;       ///< "" for a pure number, "any" for parameters
+  Dimension dimension;    ///< of the unit; `any` for "any"
   std::string meaning;
-  std::string otherwise;               ///< what an absent key means, in words
-  std::optional<Node> fallback;        ///< value of an absent key
+  std::string otherwise;         ///< what an absent key means, in words
+  std::optional<Node> fallback;  ///< value of an absent key
   std::optional<double> minimum;
   std::optional<double> maximum;
   bool minimum_exclusive = false;
@@ -52,11 +52,11 @@ struct KeySpec {
 /// One table. `path` has * where the user chooses the name: "body.*.markers".
 struct TableSpec {
   std::string path;
-  std::string when;  ///< for things of this kind only; "": for all
+  std::string when;    ///< for things of this kind only; "": for all
   std::string called;  ///< such things in words: "gear joints"
   std::string meaning;
   std::vector<KeySpec> keys;
-  std::optional<KeySpec> entries;  ///< a table of names that the user chooses, each with a value like this
+  std::optional<KeySpec> entries;     ///< a table of names that the user chooses, each with a value like this
   std::vector<std::string> children;  ///< keys of the tables in it, "*" for names that the user chooses (if assembled)
   bool law_keys = false;
   bool joint_type_keys = false;
@@ -71,8 +71,8 @@ class Schema {
 
   const std::vector<TableSpec>& tables() const { return tables_; }
 
-  /// Everything that may stand at `path` in a thing of kind `when`: the keys for all, those of this kind, and those of the
-  /// catalogs (of all laws when `law` is empty). The table must exist.
+  /// Everything that may stand at `path` in a thing of kind `when`: the keys for all, those of this kind, and those of
+  /// the catalogs (of all laws when `law` is empty). The table must exist.
   TableSpec assemble(std::string_view path, std::string_view when = {}, std::string_view law = {}) const;
 
   /// The tables that may stand in the table at `path`, by key; "*" for names that the user chooses.

@@ -11,7 +11,9 @@ namespace pintle {
 
 struct Node;
 
-inline bool is_continuation_byte(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+inline bool is_continuation_byte(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
 
 /// Byte offset of the first byte that is not well-formed UTF-8, if any.
 std::optional<std::size_t> first_invalid_utf8(std::string_view text);

@@ -22,7 +22,9 @@ struct Line {
   std::string comment;
 };
 
-bool is_space(const Token& token) { return token.kind == TokenKind::kSpace; }
+bool is_space(const Token& token) {
+  return token.kind == TokenKind::kSpace;
+}
 
 int depth_change(const Token& token) {
   return token.kind == TokenKind::kOpen ? 1 : token.kind == TokenKind::kClose ? -1 : 0;
@@ -54,10 +56,16 @@ class ValueText {
 
   void add(const Token& token) {
     switch (token.kind) {
-      case TokenKind::kSpace: return;
-      case TokenKind::kNewline: newlines_ = std::min(newlines_ + 1, 2); return;
-      case TokenKind::kComment: add_comment(token); return;
-      default: break;
+      case TokenKind::kSpace:
+        return;
+      case TokenKind::kNewline:
+        newlines_ = std::min(newlines_ + 1, 2);
+        return;
+      case TokenKind::kComment:
+        add_comment(token);
+        return;
+      default:
+        break;
     }
     const bool closes = token.kind == TokenKind::kClose;
     if (closes) --depth_;

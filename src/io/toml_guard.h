@@ -14,6 +14,7 @@ struct TomlProblem {
   Spot spot;
   std::string found;
   std::string because;
+  std::string suggestion;
 };
 
 /// The first thing in `text` that no TOML parser needs to see. What is left to the parser: the inside of values and

@@ -39,19 +39,29 @@ Token next_toml_token(std::string_view text) {
   const auto piece = [&](TokenKind kind, std::size_t length) { return Token{kind, text.substr(0, length)}; };
   switch (text.front()) {
     case ' ':
-    case '\t': return piece(TokenKind::kSpace, std::min(text.find_first_not_of(" \t"), text.size()));
-    case '\r': return text.starts_with("\r\n") ? piece(TokenKind::kNewline, 2) : piece(TokenKind::kBare, 1);
-    case '\n': return piece(TokenKind::kNewline, 1);
-    case '#': return piece(TokenKind::kComment, run_length(text, "\r\n"));
+    case '\t':
+      return piece(TokenKind::kSpace, std::min(text.find_first_not_of(" \t"), text.size()));
+    case '\r':
+      return text.starts_with("\r\n") ? piece(TokenKind::kNewline, 2) : piece(TokenKind::kBare, 1);
+    case '\n':
+      return piece(TokenKind::kNewline, 1);
+    case '#':
+      return piece(TokenKind::kComment, run_length(text, "\r\n"));
     case '"':
-    case '\'': return piece(TokenKind::kString, string_length(text));
+    case '\'':
+      return piece(TokenKind::kString, string_length(text));
     case '[':
-    case '{': return piece(TokenKind::kOpen, 1);
+    case '{':
+      return piece(TokenKind::kOpen, 1);
     case ']':
-    case '}': return piece(TokenKind::kClose, 1);
-    case '=': return piece(TokenKind::kEquals, 1);
-    case ',': return piece(TokenKind::kComma, 1);
-    default: return piece(TokenKind::kBare, run_length(text, " \t\r\n#\"'[]{}=,"));
+    case '}':
+      return piece(TokenKind::kClose, 1);
+    case '=':
+      return piece(TokenKind::kEquals, 1);
+    case ',':
+      return piece(TokenKind::kComma, 1);
+    default:
+      return piece(TokenKind::kBare, run_length(text, " \t\r\n#\"'[]{}=,"));
   }
 }
 

@@ -10,7 +10,9 @@ namespace {
 
 constexpr int kSectionLevels = 2;  // [body.crank] is a section, its markers are dotted keys
 
-std::string key_text(const std::string& key) { return is_bare_key(key) ? key : quoted_exactly(key); }
+std::string key_text(const std::string& key) {
+  return is_bare_key(key) ? key : quoted_exactly(key);
+}
 
 bool holds_structure(const Table& table) {
   return std::any_of(table.entries().begin(), table.entries().end(), [](const Entry& entry) {

@@ -25,7 +25,9 @@ std::string example_of(const KeySpec& spec) {
   return "a number in SI, or a string such as \"1 " + spec.unit + "\"";
 }
 
-std::string short_number(double number) { return fmt::format("{}", number); }
+std::string short_number(double number) {
+  return fmt::format("{}", number);
+}
 
 std::string range_problem(double number, const KeySpec& spec) {
   const std::string unit = spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit;
@@ -37,6 +39,24 @@ std::string range_problem(double number, const KeySpec& spec) {
   if (spec.minimum && number < *spec.minimum) return "this must be at least " + short_number(*spec.minimum) + unit;
   if (spec.maximum && number > *spec.maximum) return "this must be at most " + short_number(*spec.maximum) + unit;
   return {};
+}
+
+std::string range_example(double number, const KeySpec& spec) {
+  const bool needs_positive = spec.minimum && *spec.minimum == 0 && number <= 0;
+  const std::string unit = spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit;
+  if (needs_positive && number < 0 && !unit.empty()) return "turn the sign: \"" + short_number(-number) + unit + "\"";
+  if (needs_positive) return unit.empty() ? "1" : "a small positive value, such as \"1e-3" + unit + "\"";
+  if (spec.minimum && spec.maximum) return short_number(*spec.minimum) + " to " + short_number(*spec.maximum);
+  return spec.minimum ? short_number(*spec.minimum) + " or more" : example_of(spec);
+}
+
+std::string list_example(const KeySpec& spec) {
+  if (spec.per_component) return "one number for each linear gap component, or one for all";
+  if (!spec.fallback || spec.fallback->array() == nullptr) return "[0, 0]";
+  std::string text;
+  for (const Node& item : *spec.fallback->array())
+    text += (text.empty() ? "" : ", ") + (item.real() != nullptr ? short_number(*item.real()) : describe(item));
+  return "[" + text + "]";
 }
 
 }  // namespace
@@ -52,7 +72,8 @@ std::optional<Quantity> RecordReader::read_quantity(const Node& node, const std:
   if (const double* real = node.real()) return Quantity{*real, kBareNumber};
   const std::string* string = node.string();
   if (string == nullptr) {
-    complaints_.add(node.spot, path, describe(node), "a number is wanted here", "a number, or a string such as \"25 mm\"");
+    complaints_.add(node.spot, path, describe(node), "a number is wanted here",
+                    "a number, or a string such as \"25 mm\"");
     return std::nullopt;
   }
   auto result = parse_quantity(*string, scope);
@@ -63,7 +84,8 @@ std::optional<Quantity> RecordReader::read_quantity(const Node& node, const std:
   const Quantity quantity = std::get<Quantity>(result);
   if (std::isnan(quantity.si)) return std::nullopt;  // made of a constant that was complained about
   if (std::isfinite(quantity.si)) return quantity;
-  complaints_.add(node.spot, path, describe(node), "this does not give a finite number");
+  complaints_.add(node.spot, path, describe(node), "this does not give a finite number",
+                  "look for a division by 0, or a root or logarithm outside its range");
   return std::nullopt;
 }
 
@@ -74,7 +96,7 @@ std::optional<std::string> RecordReader::wrong_dimension(const Dimension& found,
 bool RecordReader::in_range(double number, const Node& node, const KeySpec& spec, const std::string& path) {
   std::string problem = range_problem(number, spec);
   if (problem.empty()) return true;
-  complaints_.add(node.spot, path, describe(node), std::move(problem));
+  complaints_.add(node.spot, path, describe(node), std::move(problem), range_example(number, spec));
   return false;
 }
 
@@ -98,19 +120,32 @@ std::optional<Value> RecordReader::read_value(const Node& node, const KeySpec& s
   Value value;
   bool good = false;
   switch (spec.type) {
-    case ValueType::kInteger: good = read_integer(node, spec, path, value); break;
+    case ValueType::kInteger:
+      good = read_integer(node, spec, path, value);
+      break;
     case ValueType::kText:
     case ValueType::kWord:
     case ValueType::kMarkerName:
-    case ValueType::kJointName: good = read_word(node, spec, path, value); break;
+    case ValueType::kJointName:
+      good = read_word(node, spec, path, value);
+      break;
     case ValueType::kWords:
-    case ValueType::kMarkerNames: good = read_words(node, spec, path, value); break;
+    case ValueType::kMarkerNames:
+      good = read_words(node, spec, path, value);
+      break;
     case ValueType::kNumber:
     case ValueType::kQuantity:
-    case ValueType::kQuantities: good = read_numbers(node, spec, path, value); break;
-    case ValueType::kExpression: good = read_expression(node, spec, path, value); break;
-    case ValueType::kExpressions: good = read_list(node, spec, path, value); break;
-    case ValueType::kMarker: break;  // markers stand in tables of their own: read_marker
+    case ValueType::kQuantities:
+      good = read_numbers(node, spec, path, value);
+      break;
+    case ValueType::kExpression:
+      good = read_expression(node, spec, path, value);
+      break;
+    case ValueType::kExpressions:
+      good = read_list(node, spec, path, value);
+      break;
+    case ValueType::kMarker:
+      break;  // markers stand in tables of their own: read_marker
   }
   if (!good) return std::nullopt;
   return value;
@@ -133,8 +168,8 @@ bool RecordReader::read_word(const Node& node, const KeySpec& spec, const std::s
     return false;
   }
   if (!spec.words.empty() && std::find(spec.words.begin(), spec.words.end(), *word) == spec.words.end()) {
-    const std::string near = complaints_.did_you_mean(*word, spec.words);
-    complaints_.add(node.spot, path, quoted(*word), "it is none of " + joined(spec.words), near);
+    complaints_.add(node.spot, path, quoted(*word), "it is none of " + joined(spec.words),
+                    complaints_.did_you_mean(*word, spec.words));
     return false;
   }
   value.words.push_back(*word);
@@ -145,8 +180,9 @@ bool RecordReader::read_words(const Node& node, const KeySpec& spec, const std::
   const Array* list = node.array();
   if (list == nullptr || (spec.count != 0 && list->size() != spec.count)) {
     const std::string wanted = spec.count == 0 ? "a list" : "a list of " + std::to_string(spec.count);
-    complaints_.add(node.spot, path, describe(node), wanted + " strings is wanted here",
-                    spec.type == ValueType::kMarkerNames ? "[\"ground.A\", \"crank.A\"]" : "[\"" + joined(spec.words) + "\"]");
+    complaints_.add(
+        node.spot, path, describe(node), wanted + " strings is wanted here",
+        spec.type == ValueType::kMarkerNames ? "[\"ground.A\", \"crank.A\"]" : "[\"" + joined(spec.words) + "\"]");
     return false;
   }
   bool good = true;
@@ -163,10 +199,10 @@ bool RecordReader::read_numbers(const Node& node, const KeySpec& spec, const std
     return number.has_value();
   }
   if (list == nullptr || list->size() != spec.count) {
-    complaints_.add(node.spot, path, describe(node),
-                    "a list of " + std::to_string(spec.count) + (spec.count == 1 ? " number" : " numbers") +
-                        " is wanted here",
-                    spec.per_component ? "one number for each linear gap component, or one for all" : "[0, 0]");
+    complaints_.add(
+        node.spot, path, describe(node),
+        "a list of " + std::to_string(spec.count) + (spec.count == 1 ? " number" : " numbers") + " is wanted here",
+        list_example(spec));
     return false;
   }
   bool good = true;

@@ -26,7 +26,9 @@ void expect_round_trips(const std::string& text, const std::string& name) {
   EXPECT_TRUE(nlohmann::json::accept(json)) << json;
 }
 
-TEST(Writers, ATreeComesBackTheSame) { expect_round_trips(kFullModel, "full.toml"); }
+TEST(Writers, ATreeComesBackTheSame) {
+  expect_round_trips(kFullModel, "full.toml");
+}
 
 TEST(Writers, OddTreesComeBackToo) {
   expect_round_trips(R"toml("a b" = 1
@@ -54,7 +56,8 @@ TEST(Writers, JsonScalarsAfterObjectsStayAtTheirLevel) {
 }
 
 TEST(Writers, TheCollectionComesBackAndFormatsStably) {
-  for (const auto& file : std::filesystem::directory_iterator(std::filesystem::path(PINTLE_SOURCE_DIR) / "mechanisms")) {
+  for (const auto& file :
+       std::filesystem::directory_iterator(std::filesystem::path(PINTLE_SOURCE_DIR) / "mechanisms")) {
     if (file.path().extension() != ".toml") continue;
     const std::string text = read_file(file.path());
     expect_round_trips(text, file.path().string());
@@ -82,9 +85,13 @@ TEST(Format, KeepsEveryComment) {
   EXPECT_EQ(format_toml(formatted, "x.toml"), formatted);
 }
 
-TEST(Format, WindowsLineEndsBecomePlain) { EXPECT_EQ(format_toml("a=1\r\n\r\nb=2 # c\r\n", "x.toml"), "a = 1\n\nb = 2  # c\n"); }
+TEST(Format, WindowsLineEndsBecomePlain) {
+  EXPECT_EQ(format_toml("a=1\r\n\r\nb=2 # c\r\n", "x.toml"), "a = 1\n\nb = 2  # c\n");
+}
 
-TEST(Format, RefusesWhatIsNotToml) { EXPECT_THROW(format_toml("a = = 1", "x.toml"), InputError); }
+TEST(Format, RefusesWhatIsNotToml) {
+  EXPECT_THROW(format_toml("a = = 1", "x.toml"), InputError);
+}
 
 // Every key of the schema and the catalogs.
 std::vector<std::string> all_keys() {

@@ -1,0 +1,120 @@
+// Runs that are stopped from outside: signals and full disks. What the run folder held before, or holds now, is valid.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/sandbox_for_tests.h"
+
+namespace pintle::sample {
+namespace {
+
+constexpr const char* kPendulum = R"(format = 1
+name = "Pendulum"
+[simulate]
+duration = "0.2 s"
+output_step = "10 ms"
+[ground.markers]
+O = [0, 0]
+[body.bob]
+mass = "1 kg"
+inertia = "0.1 kg*m^2"
+position = [1, 0]
+angle = 0
+markers.O = [-1, 0]
+[joint.pin]
+type = "revolute"
+between = ["ground.O", "bob.O"]
+)";
+
+// A run of many hours.
+constexpr const char* kLong =
+    "\"$PINTLE\" run pendulum.toml --duration 1e6 --set simulate.output_step=1e3 --method dopri5 ";
+
+class StoppedRun : public testing::Test {
+ protected:
+  StoppedRun() { sandbox_.write("pendulum.toml", kPendulum); }
+  std::string stopped_by(const char* signal) {
+    return fmt::format("timeout --preserve-status -s {} 2 {}", signal, kLong);
+  }
+  /// Nothing is left beside the run folder: no temporary folder, no half a file.
+  std::string others() { return sandbox_.shell("ls -A | grep -v -e pendulum -e '^[.]out$' -e '^[.]error$'").out; }
+  Sandbox sandbox_;
+};
+
+TEST_F(StoppedRun, InterruptKeepsTheResults) {
+  const Answer answer = sandbox_.shell(stopped_by("INT") + "--json");
+  EXPECT_EQ(answer.exit_code, 130) << answer.error;
+  const Trajectory trajectory = read_run(sandbox_ / "pendulum-run").trajectory;
+  EXPECT_EQ(trajectory.outcome, Outcome::kInterrupted);
+  EXPECT_GT(trajectory.n_rows(), 0U);
+  EXPECT_LT(trajectory.t_end, 1e6);
+  EXPECT_EQ(nlohmann::json::parse(answer.out)["outcome"], "interrupted");
+  EXPECT_EQ(answer.out, sandbox_.read("pendulum-run/summary.json"));
+  EXPECT_EQ(others(), "");
+}
+
+TEST_F(StoppedRun, AnInterruptedRunCanBePlotted) {
+  ASSERT_EQ(sandbox_.shell(stopped_by("INT") + "--quiet").exit_code, 130);
+  EXPECT_EQ(sandbox_.pintle("plot pendulum-run --joint pin --out pendulum.svg").exit_code, 0);
+}
+
+TEST_F(StoppedRun, AKilledRunLeavesTheOldOne) {
+  ASSERT_EQ(sandbox_.pintle("run pendulum.toml").exit_code, 0);
+  const std::string old = sandbox_.read("pendulum-run/summary.json");
+  EXPECT_EQ(sandbox_.shell(stopped_by("KILL")).exit_code, 137);
+  EXPECT_EQ(sandbox_.read("pendulum-run/summary.json"), old);
+  EXPECT_EQ(read_run(sandbox_ / "pendulum-run").trajectory.n_rows(), 21U);
+}
+
+TEST_F(StoppedRun, AFullDiskLeavesNoHalfRun) {
+  const Answer answer =
+      sandbox_.shell("trap '' XFSZ; ulimit -f 4; \"$PINTLE\" run pendulum.toml --set simulate.output_step=1e-5");
+  EXPECT_EQ(answer.exit_code, 6) << answer.error;
+  EXPECT_TRUE(holds(answer.error, "series.csv")) << answer.error;
+  EXPECT_FALSE(sandbox_.has("pendulum-run"));
+  EXPECT_EQ(others(), "");
+}
+
+// Root may mount a small disk; elsewhere the test above stands for it.
+TEST_F(StoppedRun, ASmallDisk) {
+  std::filesystem::create_directory(sandbox_ / "pendulum-disk");
+  if (sandbox_.shell("mount -t tmpfs -o size=64k tmpfs pendulum-disk").exit_code != 0) GTEST_SKIP() << "cannot mount";
+  const Answer first = sandbox_.pintle("run pendulum.toml --out pendulum-disk/run");
+  const Answer second = sandbox_.pintle("run pendulum.toml --set simulate.output_step=1e-5 --out pendulum-disk/run");
+  const std::string left = sandbox_.shell("ls -A pendulum-disk").out;
+  const std::size_t n_rows = first.exit_code == 0 ? read_run(sandbox_ / "pendulum-disk/run").trajectory.n_rows() : 0;
+  sandbox_.shell("umount pendulum-disk");
+  EXPECT_EQ(first.exit_code, 0) << first.error;
+  EXPECT_EQ(second.exit_code, 6) << second.error;
+  EXPECT_TRUE(holds(second.error, "space")) << second.error;
+  EXPECT_EQ(n_rows, 21U);
+  EXPECT_EQ(left, "run\n");
+}
+
+TEST_F(StoppedRun, AFullStandardOutputIsAnError) {
+  for (const char* words : {"run pendulum.toml", "run pendulum.toml --json", "convert pendulum.toml", "schema"}) {
+    const Answer answer = sandbox_.shell(fmt::format("\"$PINTLE\" {} > /dev/full", words));
+    EXPECT_EQ(answer.exit_code, 6) << words << answer.error;
+    EXPECT_FALSE(answer.error.empty()) << words;
+  }
+  EXPECT_EQ(read_run(sandbox_ / "pendulum-run").trajectory.n_rows(), 21U);  // it was written before
+}
+
+TEST_F(StoppedRun, AFullOutputFileIsAnError) {
+  ASSERT_EQ(sandbox_.pintle("run pendulum.toml").exit_code, 0);
+  for (const char* words : {"convert pendulum.toml --out /dev/full", "schema --out /dev/full",
+                            "plot pendulum-run --joint pin --out /dev/full"}) {
+    const Answer answer = sandbox_.pintle(words);
+    EXPECT_EQ(answer.exit_code, 6) << words << answer.error;
+    EXPECT_TRUE(holds(answer.error, "/dev/full")) << words << answer.error;
+  }
+}
+
+// A reader that has seen enough, as in `pintle schema | head`, is no reason to complain.
+TEST_F(StoppedRun, AClosedPipeEndsQuietly) {
+  const Answer answer = sandbox_.shell("\"$PINTLE\" schema | head -n 1");
+  EXPECT_EQ(answer.error, "");
+}
+
+}  // namespace
+}  // namespace pintle::sample
