@@ -10,6 +10,13 @@ namespace pintle {
 
 namespace {
 
+const State& inside(DenseOutput& dense, const RadauStepper& stepper, double t, double mu) {
+  return dense.at(t, stepper.previous(), stepper.state(), mu, stepper.nodes());
+}
+const State& inside(DenseOutput& dense, const Dopri5& stepper, double t, double mu) {
+  return dense.at(t, stepper.previous(), stepper.state(), mu);
+}
+
 // Steps to the end and records the output times; `mu` is the frequency above which a step of size h averages.
 template <class Stepper>
 Integration run(Stepper& stepper, const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder,
@@ -32,7 +39,7 @@ Integration run(Stepper& stepper, const System& system, const State& start, cons
     const double mu = mu_times_h / (now.t - begin.t);
     for (double t = static_cast<double>(row) * plan.output_step; t <= now.t && t < almost;
          t = static_cast<double>(++row) * plan.output_step)
-      recorder.add(dense.at(t, begin, now, mu));
+      recorder.add(inside(dense, stepper, t, mu));
     if (plan.keep_going && !plan.keep_going(now.t)) {
       out.ended = Ended::kStopped;
       break;
@@ -50,7 +57,7 @@ constexpr double kExplicit = 1e3;  // an explicit step resolves every vibration:
 }  // namespace
 
 Integration integrate_radau(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder) {
-  RadauStepper stepper(system, plan.tolerance);
+  RadauStepper stepper(system, plan.tolerance, plan.stages);
   return run(stepper, system, start, plan, recorder, stepper.table().real_eigenvalue);
 }
 

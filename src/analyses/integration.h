@@ -15,6 +15,7 @@ struct IntegrationPlan {
   double max_step = 0;
   double tolerance = 1e-5;           // of the stepper
   double first_step = 0;
+  int stages = 3;                    // of the implicit method, 3 or 5
   const LoadScale* scale = nullptr;  // from an earlier pass
   std::function<bool(double t)> keep_going;  // called after each step; false stops
 };

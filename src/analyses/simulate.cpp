@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "analyses/integration.h"
 #include "analyses/start.h"
@@ -17,8 +18,13 @@ namespace pintle {
 namespace {
 
 constexpr int kMaxPasses = 6;
-constexpr double kTighten = 0.1;        // tolerance of a pass over that of the one before
-constexpr double kShareOfDifference = 1.0 / 3;  // of |pass - pass before| that is stated as the error of the finer one
+constexpr double kPilot = 3, kReported = 0.3;  // tolerances of the first two passes over the one asked for
+constexpr double kTight = 3e-7;  // a tolerance below it is met by order 9
+constexpr double kEasy = 3;      // Newton iterations per step: fewer say that steps are short, and order 9 makes them longer
+constexpr double kLeastTolerance = 1e-13;
+// The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
+constexpr double kSharePower = 0.75, kShareOfEqual = 2;
+constexpr double kNegligible = 1e-4;  // a joint is measured at least by this part of the mechanism's largest force
 
 class Clock {
  public:
@@ -49,17 +55,9 @@ Comparison compare(const ForceTable& coarse, const ForceTable& fine, std::size_t
   return c;
 }
 
-double relative(double error, double peak, double largest) { return error / std::max({peak, 1e-6 * largest, 1e-300}); }
+double relative(double error, double peak, double largest) { return error / std::max({peak, kNegligible * largest, 1e-300}); }
 
-// The largest error estimate of any joint over its peak force; joints that carry next to nothing are measured by the
-// millionth part of the largest force of the mechanism.
-double worst(const Comparison& c) {
-  const double largest = c.peak.empty() ? 0 : *std::max_element(c.peak.begin(), c.peak.end());
-  double ratio = 0;
-  for (std::size_t j = 0; j < c.force.size(); ++j)
-    ratio = std::max(ratio, kShareOfDifference * relative(c.force[j], c.peak[j], largest));
-  return ratio;
-}
+double largest_of(const std::vector<double>& x) { return x.empty() ? 0 : *std::max_element(x.begin(), x.end()); }
 
 class Run {
  public:
@@ -85,6 +83,7 @@ class Run {
     p.output_step = model_.simulate.output_step > 0 ? model_.simulate.output_step : p.duration / 500;
     p.max_step = model_.simulate.max_step;
     p.tolerance = tolerance;
+    p.stages = stages_;
     p.first_step = 1e-4 * p.duration;
     if (!last_.scale.body.empty()) p.scale = &last_.scale;
     p.keep_going = [this](double t) { return report(t); };
@@ -98,60 +97,104 @@ class Run {
     return observer_({t, model_.simulate.duration, static_cast<int>(out_.counters.passes) + 1, now});
   }
 
-  void run_pass(double tolerance) {
-    coarse_ = std::move(fine_);
-    fine_ = std::make_unique<Recorder>(model_, system_);
+  // False when it did not reach the end: then the passes before it stand, unless it is the first.
+  bool run_pass(double tolerance) {
+    auto recorder = std::make_unique<Recorder>(model_, system_);
     const IntegrationPlan p = plan(tolerance);
-    Integration done = explicit_ ? integrate_dopri5(system_, start_, p, *fine_) : integrate_radau(system_, start_, p, *fine_);
-    Counters& c = out_.counters;
-    c.steps += done.counters.steps;
-    c.rejected += done.counters.rejected;
-    c.newton_iterations += done.counters.newton_iterations;
-    c.newton_failures += done.counters.newton_failures;
-    c.evaluations += done.counters.evaluations;
-    c.factorizations += done.counters.factorizations;
-    ++c.passes;
-    if (last_scale_kept_) done.scale = last_.scale;
+    Integration done = explicit_ ? integrate_dopri5(system_, start_, p, *recorder) : integrate_radau(system_, start_, p, *recorder);
+    count(done.counters);
+    const bool complete = done.ended == Ended::kAtEnd;
+    if (!complete) interrupted_ = {done.ended, done.message};
+    if (!complete && fine_) return false;
+    coarse_ = std::move(fine_);
+    fine_ = std::move(recorder);
+    fine_tolerance_ = tolerance;
     last_ = std::move(done);
-    last_scale_kept_ = last_.ended == Ended::kAtEnd;
+    return complete;
   }
 
+  void count(const Counters& done) {
+    Counters& c = out_.counters;
+    c.steps += done.steps;
+    c.rejected += done.rejected;
+    c.newton_iterations += done.newton_iterations;
+    c.newton_failures += done.newton_failures;
+    c.evaluations += done.evaluations;
+    c.factorizations += done.factorizations;
+    ++c.passes;
+  }
+
+  // theory/time Eqs. (6.1)-(6.3).
   void integrate() {
     const double wanted = model_.simulate.tolerance;
-    double tolerance = wanted;
-    run_pass(tolerance);
     Comparison difference;
-    double error = 0;
-    while (last_.ended == Ended::kAtEnd) {
-      tolerance *= kTighten;
-      run_pass(tolerance);
-      difference = compare(coarse_->forces(), fine_->forces(), system_.joints.size());
-      error = worst(difference);
-      if (error <= wanted || out_.counters.passes >= kMaxPasses || tolerance < 1e-13) break;
+    double share = 1, error = 0;
+    stages_ = wanted < kTight ? 5 : 3;
+    bool complete = run_pass(kPilot * wanted);
+    const Counters& pilot = last_.counters;
+    if (complete && !explicit_ && stages_ == 3 && static_cast<double>(pilot.newton_iterations) < kEasy * static_cast<double>(pilot.steps)) {
+      stages_ = 5;
+      fine_.reset();
+      complete = run_pass(kPilot * wanted);
     }
-    finish(difference, error);
+    if (complete) {
+      double tolerance = kReported * wanted;
+      while (true) {
+        const double before = fine_tolerance_;
+        if (!run_pass(tolerance)) break;
+        difference = compare(coarse_->forces(), fine_->forces(), system_.joints.size());
+        share = std::min(1.0, kShareOfEqual * std::pow(tolerance / before, kSharePower));
+        error = share * largest_of(relative_differences(difference));
+        if (error <= wanted || out_.counters.passes >= kMaxPasses || tolerance <= kLeastTolerance) break;
+        const double shrink = 0.5 * std::pow(wanted / error, 1 / kSharePower);
+        tolerance = std::max(kLeastTolerance, tolerance * std::clamp(shrink, 1e-3, 0.1));
+      }
+    }
+    finish(difference, share, error);
   }
 
-  void finish(const Comparison& difference, double error) {
+  // Each joint's largest difference over its peak force or couple. Joints that carry next to nothing are measured by a
+  // small part of the largest of the mechanism; couples at least by that of the largest force at a radius of gyration.
+  std::vector<double> relative_differences(const Comparison& c) const {
+    const double force = largest_of(c.peak);
+    double radius = 0;
+    for (const BodyData& body : system_.bodies) radius = std::max(radius, std::sqrt(body.mass[2] / body.mass[0]));
+    const double couple = std::max(largest_of(c.peak_couple), force * radius);
+    std::vector<double> out(c.force.size());
+    for (std::size_t j = 0; j < out.size(); ++j)
+      out[j] = std::max(relative(c.force[j], c.peak[j], force), relative(c.couple[j], c.peak_couple[j], couple));
+    return out;
+  }
+
+  void finish(const Comparison& difference, double share, double error) {
     fine_->fill(out_);
     out_.t_end = last_.t;
-    out_.message = last_.message;
-    const double largest = difference.peak.empty() ? 0 : *std::max_element(difference.peak.begin(), difference.peak.end());
+    const std::vector<double> relative_difference = relative_differences(difference);
     std::size_t row = 0;
     for (std::size_t j = 0; j < system_.joints.size(); ++j) {
       if (system_.joints[j].servo >= 0) continue;
       LoadSummary& joint = out_.joints[row++];
       if (difference.force.empty()) continue;
-      joint.error_estimate = kShareOfDifference * difference.force[j];
-      joint.relative_error_estimate = relative(joint.error_estimate, difference.peak[j], largest);
+      joint.error_estimate = share * difference.force[j];
+      joint.relative_error_estimate = share * relative_difference[j];
     }
-    if (last_.ended == Ended::kFailed) out_.outcome = Outcome::kFailed;
-    else if (last_.ended == Ended::kStopped) out_.outcome = Outcome::kInterrupted;
-    else if (error > model_.simulate.tolerance) out_.outcome = Outcome::kToleranceNotMet;
-    if (difference.force.empty()) out_.notes.push_back("stopped before a second integration: the joint forces carry no error estimate");
-    if (out_.outcome == Outcome::kToleranceNotMet)
+    judge(difference.force.empty(), error);
+  }
+
+  // How it ended; a pass that broke off leaves the results of the one before it.
+  void judge(bool no_estimate, double error) {
+    const auto& [ended, message] = interrupted_;
+    const bool whole = last_.ended == Ended::kAtEnd;
+    if (ended == Ended::kStopped) out_.outcome = Outcome::kInterrupted;
+    else if (ended == Ended::kFailed && !whole) out_.outcome = Outcome::kFailed;
+    else if (ended == Ended::kFailed || error > model_.simulate.tolerance) out_.outcome = Outcome::kToleranceNotMet;
+    if (no_estimate) out_.notes.push_back("stopped before a second integration: the joint forces carry no error estimate");
+    if (whole && ended != Ended::kAtEnd)
+      out_.notes.push_back("a finer integration did not reach the end; the results are those of the one before it");
+    if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)
       out_.message = fmt::format("the largest joint-force error is estimated at {:.2g} of the joint's peak force, {:.2g} was asked for", error,
                                  model_.simulate.tolerance);
+    if (!message.empty()) out_.message += (out_.message.empty() ? "" : "; ") + message;
   }
 
   const Model& model_;
@@ -160,9 +203,12 @@ class Run {
   System system_;
   State start_;
   Trajectory out_;
-  bool explicit_ = false, last_scale_kept_ = false;
+  bool explicit_ = false;
   std::unique_ptr<Recorder> coarse_, fine_;
+  int stages_ = 3;
+  double fine_tolerance_ = 0;
   Integration last_;
+  std::pair<Ended, std::string> interrupted_{Ended::kAtEnd, ""};
   double reported_ = 0;
 };
 

@@ -13,6 +13,9 @@ namespace {
 using S = Planar;
 
 constexpr int kPasses = 6;
+// The frequency above which modes are held, over the slowest of the joints by themselves: chains of joints and lever ratios
+// make modes a hundred times slower than that.
+constexpr double kSlow = 5e-4;
 
 // The slowest frequency that a joint's stiffness gives to the two bodies it connects, over all joints.
 double slowest_joint(const System& system, const std::vector<Reading>& r) {
@@ -93,7 +96,7 @@ S::Vec ForcesOfMotion::from_bodies(int j, const Vecs& x) const {
 bool ForcesOfMotion::find(State& state) {
   system_.motions(state.q, state.v, m_);
   system_.readings(state.t, m_, r_);
-  const double mu = 0.02 * slowest_joint(system_, r_);
+  const double mu = kSlow * slowest_joint(system_, r_);
   if (!std::isfinite(mu) || !(mu > 0)) return false;
   if (!projector_.prepare(state.t, m_, mu, state.gap, state.gap_rate)) return false;
   system_.external(state.t, m_, Q_);
@@ -128,7 +131,7 @@ void ForcesOfMotion::move_onto_gaps(State& state) {
     system_.motions(state.q, state.v, m_);
     system_.readings(state.t, m_, r_);
     if (pass == 0) {
-      const double mu = 0.02 * slowest_joint(system_, r_);
+      const double mu = kSlow * slowest_joint(system_, r_);
       if (!std::isfinite(mu) || !projector_.prepare(state.t, m_, mu, state.gap, state.gap_rate)) return;
     }
     for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap[j] - r_[j].gap;

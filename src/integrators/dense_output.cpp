@@ -36,6 +36,46 @@ void interpolate(const Hermite& H, double h, const Vecs& x0, const Vecs& v0, con
   }
 }
 
+// Weights of the values at the nodes in a curve, its first and its second integral, at x.
+struct NodeWeights {
+  RadauTable::Vec value, first, second;
+  NodeWeights(const RadauTable& table, double x) {
+    const int n = table.n + 1;
+    value = first = second = RadauTable::Vec::Zero(n);
+    for (int i = 0; i < n; ++i) {
+      double power = 1;
+      for (int k = 0; k < n; ++k, power *= x) {
+        const double c = table.to_powers(k, i) * power;
+        value[i] += c;
+        first[i] += c * x / (k + 1);
+        second[i] += c * x * x / ((k + 1) * (k + 2));
+      }
+    }
+  }
+};
+
+// The curve whose second derivative goes through `nodes`, bent by rounding-sized amounts to meet the far end.
+void integrate(const NodeWeights& at, const NodeWeights& end, double s, double h, const std::vector<Vecs>& nodes, const Vecs& x0,
+               const Vecs& v0, const Vecs& x1, const Vecs& v1, Vecs& x, Vecs& v, Vecs& a) {
+  x.resize(x0.size());
+  v.resize(x0.size());
+  a.resize(x0.size());
+  for (std::size_t i = 0; i < x0.size(); ++i) {
+    S::Vec value = S::Vec::Zero(), first = value, second = value, first_end = value, second_end = value;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const S::Vec& node = nodes[k][i];
+      value += at.value[k] * node;
+      first += at.first[k] * node;
+      second += at.second[k] * node;
+      first_end += end.first[k] * node;
+      second_end += end.second[k] * node;
+    }
+    a[i] = value;
+    v[i] = v0[i] + h * first + s * (v1[i] - v0[i] - h * first_end);
+    x[i] = x0[i] + s * h * v0[i] + h * h * second + s * s * (3 - 2 * s) * (x1[i] - x0[i] - h * v0[i] - h * h * second_end);
+  }
+}
+
 double cubic(double s, double h, double x0, double v0, double x1, double v1) {
   const double r = 1 - s;
   return x0 + s * s * (3 - 2 * s) * (x1 - x0) + h * s * r * (r * v0 - s * v1);
@@ -57,10 +97,38 @@ const State& DenseOutput::at(double t, const State& begin, const State& end, dou
   out_.t = t;
   out_.dissipated = cubic(s, h, begin.dissipated, begin.loss_power, end.dissipated, end.loss_power);
   out_.supplied = cubic(s, h, begin.supplied, begin.supply_power, end.supplied, end.supply_power);
+  find_forces(mu);
+  return out_;
+}
+
+const State& DenseOutput::at(double t, const State& begin, const State& end, double mu, const StepNodes& nodes) {
+  if (t == end.t) return end;
+  if (t == begin.t) return begin;
+  const double h = end.t - begin.t, s = (t - begin.t) / h;
+  const NodeWeights here(*nodes.table, s), far(*nodes.table, 1);
+  integrate(here, far, s, h, nodes.a, begin.q, begin.v, end.q, end.v, out_.q, out_.v, out_.a);
+  integrate(here, far, s, h, nodes.gap_accel, begin.gap, begin.gap_rate, end.gap, end.gap_rate, out_.gap, out_.gap_rate,
+            out_.gap_accel);
+  out_.t = t;
+  double supplied = 0, lost = 0, supplied_end = 0, lost_end = 0;
+  for (int k = 0; k <= nodes.table->n; ++k) {
+    supplied += here.first[k] * nodes.power[k][0];
+    lost += here.first[k] * nodes.power[k][1];
+    supplied_end += far.first[k] * nodes.power[k][0];
+    lost_end += far.first[k] * nodes.power[k][1];
+  }
+  out_.supplied = begin.supplied + h * supplied + s * (end.supplied - begin.supplied - h * supplied_end);
+  out_.dissipated = begin.dissipated + h * lost + s * (end.dissipated - begin.dissipated - h * lost_end);
+  find_forces(mu);
+  return out_;
+}
+
+// theory/time section 5.
+void DenseOutput::find_forces(double mu) {
   out_.force.resize(system_.joints.size());
   for (int j = 0; j < system_.n_joints(); ++j) out_.force[j] = law_force(system_.joints[j].law, out_.gap[j], out_.gap_rate[j]);
   system_.motions(out_.q, out_.v, m_);
-  if (!projector_.prepare(t, m_, mu, out_.gap, out_.gap_rate)) return out_;
+  if (!projector_.prepare(out_.t, m_, mu, out_.gap, out_.gap_rate)) return;
   const std::vector<Reading>& r = projector_.readings();
   const auto from_bodies = [&](int j, const Vecs& x) {
     const Placement& at = system_.joints[j].at;
@@ -79,12 +147,11 @@ const State& DenseOutput::at(double t, const State& begin, const State& end, dou
   system_.motions(out_.q, out_.v, m_);
   for (int pass = 0; pass < 2; ++pass) {
     for (int j = 0; j < system_.n_joints(); ++j)
-      wanted_[j] = out_.gap_accel[j] - system_.reading(j, t, m_).bias - from_bodies(j, out_.a);
+      wanted_[j] = out_.gap_accel[j] - system_.reading(j, out_.t, m_).bias - from_bodies(j, out_.a);
     projector_.close(wanted_, out_.a);
   }
-  system_.external(t, m_, Q_);
+  system_.external(out_.t, m_, Q_);
   for (int pass = 0; pass < 3; ++pass) projector_.improve_forces(Q_, out_.a, out_.force);
-  return out_;
 }
 
 }  // namespace pintle

@@ -12,25 +12,15 @@ using S = Planar;
 constexpr int kMaxIterations = 14;
 constexpr double kNewtonShare = 0.02;  // of the tolerance, left to the iteration
 
-// Lagrange weights at x of the cubic through nodes {0, c1, c2, 1}.
-std::array<double, 4> lagrange(const Eigen::Vector3d& c, double x) {
-  const std::array<double, 4> n{0, c[0], c[1], c[2]};
-  std::array<double, 4> w{1, 1, 1, 1};
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j)
-      if (i != j) w[i] *= (x - n[j]) / (n[i] - n[j]);
-  return w;
-}
-
 }  // namespace
 
 bool RadauStepper::attempt(double h) {
   predict(h);
   double previous = 0;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    for (int i = 0; i < kStages; ++i) evaluate_stage(i, h);
+    for (int i = 0; i < n_; ++i) evaluate_stage(i, h);
     if (iteration == 0) {
-      linearize();
+      linearize(h);
       if (!factorize(h)) return false;
     }
     solve_correction(h);
@@ -45,7 +35,7 @@ bool RadauStepper::attempt(double h) {
     }
     previous = size;
     if (rate < 1 && rate / (1 - rate) * size < kNewtonShare) {
-      for (int i = 0; i < kStages; ++i) evaluate_stage(i, h);
+      for (int i = 0; i < n_; ++i) evaluate_stage(i, h);
       return true;
     }
   }
@@ -53,17 +43,20 @@ bool RadauStepper::attempt(double h) {
 }
 
 void RadauStepper::predict(double h) {
-  for (int s = 0; s < kStages; ++s) {
+  for (int s = 0; s < n_; ++s) {
+    Stage& stage = stage_[s];
     if (!have_history_) {
-      stage_[s].a = begin_.a;
-      stage_[s].gap_accel = begin_.gap_accel;
+      stage.a = begin_.a;
+      stage.gap_accel = begin_.gap_accel;
       continue;
     }
-    const auto w = lagrange(table_.c, 1 + table_.c[s] * h / last_h_);
-    for (std::size_t i = 0; i < system_.bodies.size(); ++i)
-      stage_[s].a[i] = w[0] * history_a_[0][i] + w[1] * history_a_[1][i] + w[2] * history_a_[2][i] + w[3] * history_a_[3][i];
-    for (std::size_t j = 0; j < system_.joints.size(); ++j)
-      stage_[s].gap_accel[j] = w[0] * history_gap_[0][j] + w[1] * history_gap_[1][j] + w[2] * history_gap_[2][j] + w[3] * history_gap_[3][j];
+    const RadauTable::Vec w = table_.weights(1 + table_.c[s] * h / last_h_);
+    for (auto& x : stage.a) x.setZero();
+    for (auto& x : stage.gap_accel) x.setZero();
+    for (int k = 0; k <= n_; ++k) {
+      for (std::size_t i = 0; i < stage.a.size(); ++i) stage.a[i] += w[k] * nodes_.a[k][i];
+      for (std::size_t j = 0; j < stage.gap_accel.size(); ++j) stage.gap_accel[j] += w[k] * nodes_.gap_accel[k][j];
+    }
   }
 }
 
@@ -71,10 +64,19 @@ void RadauStepper::predict(double h) {
 void RadauStepper::evaluate_stage(int i, double h) {
   Stage& s = stage_[i];
   const double t = begin_.t + table_.c[i] * h, hc = h * table_.c[i];
-  const Eigen::RowVector3d A = h * table_.A.row(i), A2 = h * h * table_.A2.row(i);
+  std::array<double, RadauTable::kMaxStages> A, A2;
+  for (int k = 0; k < n_; ++k) {
+    A[k] = h * table_.A(i, k);
+    A2[k] = h * h * table_.A2(i, k);
+  }
   for (std::size_t b = 0; b < system_.bodies.size(); ++b) {
-    s.v[b] = begin_.v[b] + A[0] * stage_[0].a[b] + A[1] * stage_[1].a[b] + A[2] * stage_[2].a[b];
-    s.q[b] = begin_.q[b] + hc * begin_.v[b] + A2[0] * stage_[0].a[b] + A2[1] * stage_[1].a[b] + A2[2] * stage_[2].a[b];
+    S::Vec v = begin_.v[b], q = begin_.q[b] + hc * begin_.v[b];
+    for (int k = 0; k < n_; ++k) {
+      v += A[k] * stage_[k].a[b];
+      q += A2[k] * stage_[k].a[b];
+    }
+    s.v[b] = v;
+    s.q[b] = q;
   }
   system_.motions(s.q, s.v, s.m);
   system_.readings(t, s.m, s.r);
@@ -83,8 +85,13 @@ void RadauStepper::evaluate_stage(int i, double h) {
   for (std::size_t j = 0; j < system_.joints.size(); ++j) {
     const JointData& joint = system_.joints[j];
     const Reading& r = s.r[j];
-    s.gap_rate[j] = begin_.gap_rate[j] + A[0] * stage_[0].gap_accel[j] + A[1] * stage_[1].gap_accel[j] + A[2] * stage_[2].gap_accel[j];
-    s.gap[j] = begin_.gap[j] + hc * begin_.gap_rate[j] + A2[0] * stage_[0].gap_accel[j] + A2[1] * stage_[1].gap_accel[j] + A2[2] * stage_[2].gap_accel[j];
+    S::Vec rate = begin_.gap_rate[j], gap = begin_.gap[j] + hc * begin_.gap_rate[j];
+    for (int k = 0; k < n_; ++k) {
+      rate += A[k] * stage_[k].gap_accel[j];
+      gap += A2[k] * stage_[k].gap_accel[j];
+    }
+    s.gap_rate[j] = rate;
+    s.gap[j] = gap;
     s.force[j] = law_force(joint.law, s.gap[j], s.gap_rate[j]);
     s.re[j] = s.gap_accel[j] - r.bias;
     if (joint.at.a != kGround) {
@@ -100,8 +107,9 @@ void RadauStepper::evaluate_stage(int i, double h) {
 }
 
 // Tangents at the predicted middle stage: joints' G'KG and G'CG with the geometric stiffness, loads' slopes. Eq. (3.8).
-void RadauStepper::linearize() {
-  const Stage& s = stage_[1];
+void RadauStepper::linearize(double h) {
+  const int middle = n_ / 2;
+  const Stage& s = stage_[middle];
   frozen_ = s.r;
   for (std::size_t j = 0; j < blocks_.size(); ++j) {
     const JointData& joint = system_.joints[j];
@@ -118,7 +126,7 @@ void RadauStepper::linearize() {
       }
   }
   load_blocks_.clear();
-  system_.external_tangents(begin_.t, s.m, [this](int i, int j, const S::Mat& dq, const S::Mat& dv) {
+  system_.external_tangents(begin_.t + table_.c[middle] * h, s.m, [this](int i, int j, const S::Mat& dq, const S::Mat& dv) {
     load_blocks_.push_back({i, j, dq, dv});
   });
 }
@@ -150,88 +158,137 @@ void RadauStepper::assemble(BlockLu<T, 3>& lu, const T& mu) const {
 
 bool RadauStepper::factorize(double h) {
   assemble(real_lu_, table_.real_eigenvalue / h);
-  assemble(complex_lu_, Complex(table_.eigenvalue.real() / h, table_.eigenvalue.imag() / h));
-  counters_.factorizations += 2;
-  return real_lu_.factorize() && complex_lu_.factorize();
+  ++counters_.factorizations;
+  if (!real_lu_.factorize()) return false;
+  for (int p = 0; p < table_.pairs; ++p) {
+    assemble(pairs_[p].lu, Complex(table_.eigenvalue[p].real() / h, table_.eigenvalue[p].imag() / h));
+    ++counters_.factorizations;
+    if (!pairs_[p].lu.factorize()) return false;
+  }
+  return true;
 }
 
-// One Newton correction: into the diagonal frame, two solves, back. Eqs. (3.9)-(3.11).
+// One Newton correction: into the diagonal frame, the solves, back. Eqs. (3.9)-(3.11).
 void RadauStepper::solve_correction(double h) {
-  const double mu = table_.real_eigenvalue / h;
-  const Complex nu(table_.eigenvalue.real() / h, table_.eigenvalue.imag() / h), nu2 = nu * nu, inverse_nu2 = Complex(1) / nu2;
-  const Eigen::RowVector3d& p = table_.inverse_real;
-  const Eigen::RowVector3d pr = table_.inverse_complex.real(), pi = table_.inverse_complex.imag();
-  for (std::size_t b = 0; b < real_rhs_.size(); ++b) {
-    const S::Vec &x = stage_[0].ra[b], &y = stage_[1].ra[b], &z = stage_[2].ra[b];
-    for (int k = 0; k < 3; ++k) {
-      real_rhs_[b][k] = -(p[0] * x[k] + p[1] * y[k] + p[2] * z[k]);
-      complex_rhs_[b][k] = {-(pr[0] * x[k] + pr[1] * y[k] + pr[2] * z[k]), -(pi[0] * x[k] + pi[1] * y[k] + pi[2] * z[k])};
-    }
-  }
-  const std::vector<Reading>& frozen = frozen_;
-  for (std::size_t j = 0; j < real_re_.size(); ++j) {
-    const S::Vec &x = stage_[0].re[j], &y = stage_[1].re[j], &z = stage_[2].re[j];
-    const JointBlocks& b = blocks_[j];
-    const Placement& at = system_.joints[j].at;
-    real_re_[j] = p[0] * x + p[1] * y + p[2] * z;
-    complex_re_[j] = {pr[0] * x + pr[1] * y + pr[2] * z, pi[0] * x + pi[1] * y + pi[2] * z};
-    // mu^-2 (K + mu C) times the residual, real and complex
-    const S::Vec wr = (b.K * real_re_[j]) / (mu * mu) + (b.C * real_re_[j]) / mu;
-    const Complex inverse_nu = Complex(1) / nu;
-    const S::Vec Kr = b.K * complex_re_[j].re, Ki = b.K * complex_re_[j].im, Cr = b.C * complex_re_[j].re, Ci = b.C * complex_re_[j].im;
-    const S::Vec wre = inverse_nu2.re * Kr - inverse_nu2.im * Ki + inverse_nu.re * Cr - inverse_nu.im * Ci;
-    const S::Vec wim = inverse_nu2.re * Ki + inverse_nu2.im * Kr + inverse_nu.re * Ci + inverse_nu.im * Cr;
-    const auto push = [&](int body, const S::Mat& G) {
-      if (body == kGround) return;
-      const S::Vec gr = G.transpose() * wr, gre = G.transpose() * wre, gim = G.transpose() * wim;
-      for (int k = 0; k < 3; ++k) {
-        real_rhs_[body][k] += gr[k];
-        complex_rhs_[body][k] += Complex(gre[k], gim[k]);
-      }
-    };
-    push(at.a, frozen[j].GA);
-    push(at.b, frozen[j].GB);
-  }
+  transform_residuals(h);
   real_lu_.solve(real_rhs_);
-  complex_lu_.solve(complex_rhs_);
-  const Eigen::Vector3d& T = table_.T_real;
-  const Eigen::Vector3d Tr = 2 * table_.T_complex.real(), Ti = 2 * table_.T_complex.imag();
-  for (std::size_t b = 0; b < real_rhs_.size(); ++b)
-    for (int k = 0; k < 3; ++k) {
-      const double x = mu * mu * real_rhs_[b][k];
-      const Complex y = nu2 * complex_rhs_[b][k];
-      for (int s = 0; s < kStages; ++s) delta_a_[s][b][k] = T[s] * x + Tr[s] * y.re - Ti[s] * y.im;
-    }
-  for (std::size_t j = 0; j < real_re_.size(); ++j) {
-    const Placement& at = system_.joints[j].at;
-    const Reading& r = frozen[j];
-    S::Vec x = -real_re_[j], yr = -complex_re_[j].re, yi = -complex_re_[j].im;
-    const auto pull = [&](int body, const S::Mat& G) {
-      if (body == kGround) return;
-      S::Vec zr, cr, ci;
-      for (int k = 0; k < 3; ++k) {
-        zr[k] = mu * mu * real_rhs_[body][k];
-        const Complex y = nu2 * complex_rhs_[body][k];
-        cr[k] = y.re;
-        ci[k] = y.im;
-      }
-      x += G * zr;
-      yr += G * cr;
-      yi += G * ci;
-    };
-    pull(at.a, r.GA);
-    pull(at.b, r.GB);
-    for (int s = 0; s < kStages; ++s) delta_gap_[s][j] = T[s] * x + Tr[s] * yr - Ti[s] * yi;
-  }
-  for (int s = 0; s < kStages; ++s) {
+  for (Pair& pair : pairs_) pair.lu.solve(pair.rhs);
+  back_to_stages(h);
+  for (int s = 0; s < n_; ++s) {
     for (std::size_t b = 0; b < real_rhs_.size(); ++b) stage_[s].a[b] += delta_a_[s][b];
     for (std::size_t j = 0; j < real_re_.size(); ++j) stage_[s].gap_accel[j] += delta_gap_[s][j];
   }
 }
 
+void RadauStepper::transform_residuals(double h) {
+  const double mu = table_.real_eigenvalue / h;
+  const RadauTable::Vec& w = table_.inverse_real;
+  for (std::size_t b = 0; b < real_rhs_.size(); ++b) {
+    S::Vec sum = S::Vec::Zero();
+    for (int s = 0; s < n_; ++s) sum -= w[s] * stage_[s].ra[b];
+    for (int k = 0; k < 3; ++k) real_rhs_[b][k] = sum[k];
+  }
+  const auto push = [](auto& rhs, int body, const S::Mat& G, const auto& put) {
+    if (body != kGround) put(rhs[body], G);
+  };
+  for (std::size_t j = 0; j < real_re_.size(); ++j) {
+    const JointBlocks& b = blocks_[j];
+    const Placement& at = system_.joints[j].at;
+    S::Vec& e = real_re_[j];
+    e.setZero();
+    for (int s = 0; s < n_; ++s) e += w[s] * stage_[s].re[j];
+    // mu^-2 (K + mu C) times the residual
+    const S::Vec f = (b.K * e) / (mu * mu) + (b.C * e) / mu;
+    const auto put = [&f](BlockVec<double, 3>& rhs, const S::Mat& G) {
+      const S::Vec g = G.transpose() * f;
+      for (int k = 0; k < 3; ++k) rhs[k] += g[k];
+    };
+    push(real_rhs_, at.a, frozen_[j].GA, put);
+    push(real_rhs_, at.b, frozen_[j].GB, put);
+  }
+  for (int p = 0; p < table_.pairs; ++p) {
+    Pair& pair = pairs_[p];
+    const Complex nu(table_.eigenvalue[p].real() / h, table_.eigenvalue[p].imag() / h);
+    const Complex i1 = Complex(1) / nu, i2 = i1 * i1;
+    std::array<double, RadauTable::kMaxStages> re, im;
+    for (int s = 0; s < n_; ++s) {
+      re[s] = table_.inverse_complex[p][s].real();
+      im[s] = table_.inverse_complex[p][s].imag();
+    }
+    for (std::size_t b = 0; b < pair.rhs.size(); ++b) {
+      S::Vec x = S::Vec::Zero(), y = S::Vec::Zero();
+      for (int s = 0; s < n_; ++s) {
+        x -= re[s] * stage_[s].ra[b];
+        y -= im[s] * stage_[s].ra[b];
+      }
+      for (int k = 0; k < 3; ++k) pair.rhs[b][k] = {x[k], y[k]};
+    }
+    for (std::size_t j = 0; j < pair.re.size(); ++j) {
+      const JointBlocks& b = blocks_[j];
+      const Placement& at = system_.joints[j].at;
+      ComplexVec& e = pair.re[j];
+      e.re.setZero();
+      e.im.setZero();
+      for (int s = 0; s < n_; ++s) {
+        e.re += re[s] * stage_[s].re[j];
+        e.im += im[s] * stage_[s].re[j];
+      }
+      const S::Vec Kr = b.K * e.re, Ki = b.K * e.im, Cr = b.C * e.re, Ci = b.C * e.im;
+      const S::Vec fr = i2.re * Kr - i2.im * Ki + i1.re * Cr - i1.im * Ci;
+      const S::Vec fi = i2.re * Ki + i2.im * Kr + i1.re * Ci + i1.im * Cr;
+      const auto put = [&fr, &fi](BlockVec<Complex, 3>& rhs, const S::Mat& G) {
+        const S::Vec gr = G.transpose() * fr, gi = G.transpose() * fi;
+        for (int k = 0; k < 3; ++k) rhs[k] += Complex(gr[k], gi[k]);
+      };
+      push(pair.rhs, at.a, frozen_[j].GA, put);
+      push(pair.rhs, at.b, frozen_[j].GB, put);
+    }
+  }
+}
+
+void RadauStepper::back_to_stages(double h) {
+  const double mu2 = std::pow(table_.real_eigenvalue / h, 2);
+  for (std::size_t b = 0; b < real_rhs_.size(); ++b) {
+    const S::Vec x = mu2 * S::Vec(real_rhs_[b][0], real_rhs_[b][1], real_rhs_[b][2]);
+    for (int s = 0; s < n_; ++s) delta_a_[s][b] = table_.T_real[s] * x;
+    real_rhs_[b] = {{x[0], x[1], x[2]}};
+  }
+  const auto gap_of = [this](std::size_t j, const auto& at_body) {
+    const Placement& at = system_.joints[j].at;
+    S::Vec e = S::Vec::Zero();
+    if (at.a != kGround) e += frozen_[j].GA * at_body(at.a);
+    if (at.b != kGround) e += frozen_[j].GB * at_body(at.b);
+    return e;
+  };
+  for (std::size_t j = 0; j < real_re_.size(); ++j) {
+    const S::Vec e = gap_of(j, [this](int i) { return S::Vec(real_rhs_[i][0], real_rhs_[i][1], real_rhs_[i][2]); }) - real_re_[j];
+    for (int s = 0; s < n_; ++s) delta_gap_[s][j] = table_.T_real[s] * e;
+  }
+  for (int p = 0; p < table_.pairs; ++p) {
+    Pair& pair = pairs_[p];
+    const Complex nu(table_.eigenvalue[p].real() / h, table_.eigenvalue[p].imag() / h), nu2 = nu * nu;
+    std::array<double, RadauTable::kMaxStages> Tr, Ti;
+    for (int s = 0; s < n_; ++s) {
+      Tr[s] = 2 * table_.T_complex[p][s].real();
+      Ti[s] = 2 * table_.T_complex[p][s].imag();
+    }
+    for (std::size_t b = 0; b < pair.rhs.size(); ++b) {
+      for (int k = 0; k < 3; ++k) pair.rhs[b][k] = nu2 * pair.rhs[b][k];
+      for (int s = 0; s < n_; ++s)
+        for (int k = 0; k < 3; ++k) delta_a_[s][b][k] += Tr[s] * pair.rhs[b][k].re - Ti[s] * pair.rhs[b][k].im;
+    }
+    for (std::size_t j = 0; j < pair.re.size(); ++j) {
+      const auto& x = pair.rhs;
+      const S::Vec er = gap_of(j, [&x](int i) { return S::Vec(x[i][0].re, x[i][1].re, x[i][2].re); }) - pair.re[j].re;
+      const S::Vec ei = gap_of(j, [&x](int i) { return S::Vec(x[i][0].im, x[i][1].im, x[i][2].im); }) - pair.re[j].im;
+      for (int s = 0; s < n_; ++s) delta_gap_[s][j] += Tr[s] * er - Ti[s] * ei;
+    }
+  }
+}
+
 double RadauStepper::correction_size() const {
   double size = 0;
-  for (int s = 0; s < kStages; ++s)
+  for (int s = 0; s < n_; ++s)
     for (int b = 0; b < system_.n_bodies(); ++b)
       size = std::max(size, system_.bodies[b].mass.cwiseProduct(delta_a_[s][b]).cwiseAbs().cwiseQuotient(scale_.body[b]).maxCoeff());
   return size;

@@ -1,19 +1,23 @@
-// The force-accurate implicit method: Radau IIA of order 5 on positions, velocities AND joint gaps, theory/time section 3.
+// The force-accurate implicit method: Radau IIA of order 5 or 9 on positions, velocities AND joint gaps, theory/time
+// section 3.
 //
 // Every joint carries its gap e as a state of its own, driven by what the bodies' accelerations make of it:
 //     M v' = Q + G' f,    q' = v,    e'' = G v' + (convective term),    f = law(e, e')
 // On a stiff joint the stage equations then say G M^-1 (Q + G' f) + convective = small, as if the constraint had been
 // differentiated twice: the force comes out with the order of the method, at any stiffness, instead of as k times the
 // difference of nearly equal positions. On a soft joint they are its plain equations of motion. After every step the
-// positions and velocities are moved onto the gaps (GapProjector), so that nothing drifts.
+// positions and velocities are moved onto the gaps (GapProjector), so that nothing drifts. Steps end at the kinks and
+// jumps of laws and loads.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "integrators/gap_projector.h"
 #include "integrators/radau_table.h"
+#include "integrators/step_nodes.h"
 #include "pintle/trajectory.h"
 #include "system/state.h"
 
@@ -26,7 +30,8 @@ struct LoadScale {
 
 class RadauStepper {
  public:
-  RadauStepper(const System& system, double tolerance);
+  /// `stages` is 3 (order 5) or 5 (order 9).
+  RadauStepper(const System& system, double tolerance, int stages = 3);
 
   void set_max_step(double h) { max_step_ = h; }
   /// Loads known from an earlier run; otherwise the largest so far is used.
@@ -37,22 +42,21 @@ class RadauStepper {
   void start(const State& state, double h);
   /// One accepted step, not beyond t_end. False when no step could be made; `failure` says why.
   bool step(double t_end);
-  /// One step of exactly h without error control (negative: backwards); false when Newton fails. For start values.
+  /// One step of exactly h without error control (negative: backwards); false when Newton fails.
   bool trial(double h);
-  /// Restarts extrapolation, after a kink.
-  void forget_history() { have_history_ = false; }
 
   const State& state() const { return end_; }
   const State& previous() const { return begin_; }
+  /// The inside of the last step, for dense output.
+  const StepNodes& nodes() const { return nodes_; }
   double next_step() const { return h_; }
   const Counters& counters() const { return counters_; }
   const std::string& failure() const { return failure_; }
-  /// Forces and their times at the stages of the last step.
+  /// Joint forces at stage i of the last step.
   const Vecs& stage_force(int i) const { return stage_[i].force; }
   const RadauTable& table() const { return table_; }
 
  private:
-  static constexpr int kStages = RadauTable::kStages;
   struct Stage {
     Vecs q, v, a, Q, gap, gap_rate, gap_accel, force, ra, re;
     std::vector<Planar::Motion> m;
@@ -64,44 +68,71 @@ class RadauStepper {
     BlockPattern::Slot ab{0, true};
   };
   struct ComplexVec { Planar::Vec re, im; };
+  // One of the systems in the diagonal frame.
+  struct Pair {
+    explicit Pair(const System& system);
+    BlockLu<Complex, 3> lu;
+    std::vector<BlockVec<Complex, 3>> rhs;
+    std::vector<ComplexVec> re;               // transformed gap residuals
+  };
 
+  // radau_newton.cpp: the stage equations
   bool attempt(double h);                     // solves the stages from begin_
   void predict(double h);
   void evaluate_stage(int i, double h);
-  void linearize();                           // at the middle stage
+  void linearize(double h);                   // at the middle stage
   bool factorize(double h);
   void solve_correction(double h);
+  void transform_residuals(double h);
+  void back_to_stages(double h);
   double correction_size() const;
-  bool finish_step(double h);                 // project, fill end_
-  double error_estimate() const;
-  void grow_scale();
-  void note_failure(double h, const char* why);
   template <class T> void assemble(BlockLu<T, 3>& lu, const T& mu) const;
+
+  // radau_end.cpp: the error of a step and its end
+  bool error_estimate(double h, double& error);
+  double body_tail() const;
+  double gap_tail();
+  void finish_step(double h);                 // project, fill end_
+  void move_onto_gaps();
+  void take_gaps();
+  void add_work(double h);
+  std::array<double, 2> power(double t, const Vecs& q, const std::vector<Planar::Motion>& m, const Vecs& gap,
+                              const Vecs& gap_rate, const Vecs& force) const;
+  void grow_scale();
+
+  // radau_kinks.cpp: steps that end where a force has a kink
+  struct Kink { double before = 2, after = 2; };  // shares of the step; 2: none
+  Kink first_kink(double h);
+  std::uint64_t sides(double x, double h);
+  void cross_kink(double distance);
+  void balance_end();
+
+  void note_failure(double h, const char* why);
 
   const System& system_;
   const RadauTable& table_;
+  const int n_;                               // stages
   double tolerance_;
   double max_step_ = 0;
   State begin_, end_;
-  double h_ = 0, last_h_ = 0;
+  double h_ = 0, last_h_ = 0, usual_h_ = 0;   // the next step; the last; what it was before a kink
   bool have_history_ = false;
   double contraction_ = 0.5;
-  std::array<Stage, kStages> stage_;
-  std::array<Vecs, 4> history_a_, history_gap_;   // accelerations at {0, c1, c2, 1} of the last step
+  std::uint64_t side_ = 0;                    // of kinks, at end_
+  std::vector<Stage> stage_;
+  StepNodes nodes_;
   std::vector<JointBlocks> blocks_;
   struct LoadBlock { int i, j; Planar::Mat dq, dv; };
   std::vector<LoadBlock> load_blocks_;
   BlockLu<double, 3> real_lu_;
-  BlockLu<Complex, 3> complex_lu_;
   std::vector<BlockVec<double, 3>> real_rhs_;
-  std::vector<BlockVec<Complex, 3>> complex_rhs_;
-  std::vector<Planar::Vec> real_re_;              // transformed gap residuals
-  std::vector<ComplexVec> complex_re_;
-  std::array<Vecs, kStages> delta_a_, delta_gap_;
+  std::vector<Planar::Vec> real_re_;
+  std::vector<Pair> pairs_;
+  std::vector<Vecs> delta_a_, delta_gap_;
   GapProjector projector_;
-  Vecs wanted_, move_;
-  std::vector<Reading> end_r_, frozen_;           // frozen: Jacobians of the correction
-  std::vector<Planar::Motion> end_m_;
+  Vecs wanted_, move_, inside_q_, inside_v_, inside_gap_, inside_rate_;
+  std::vector<Reading> end_r_, frozen_;       // frozen: Jacobians of the correction
+  std::vector<Planar::Motion> end_m_, inside_m_;
   LoadScale scale_;
   Counters counters_;
   std::string failure_;

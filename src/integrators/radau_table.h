@@ -1,30 +1,44 @@
-// Radau IIA with three stages, order 5, stiffly accurate: the table, and its inverse brought to diagonal form.
-// Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.5 and IV.8.
+// Radau IIA with three or five stages, order 5 or 9, stiffly accurate: the table, its inverse brought to diagonal form, and
+// what turns values at the nodes {0, c_1 .. c_n = 1} of a step into curves. Hairer and Wanner, Solving Ordinary
+// Differential Equations II, sections IV.5 and IV.8; theory/time Eqs. (3.1)-(3.4).
 #pragma once
 
-#include <Eigen/Eigenvalues>
-#include <cmath>
+#include <Eigen/Core>
+#include <array>
+#include <complex>
 
 namespace pintle {
 
 struct RadauTable {
-  static constexpr int kStages = 3;
-  using Mat = Eigen::Matrix3d;
-  Mat A, A2;              // Runge-Kutta matrix and its square
-  Eigen::Vector3d c, b;   // stage times; weights (the last row of A)
-  double real_eigenvalue;             // of the inverse of A
-  std::complex<double> eigenvalue;    // the complex one with positive imaginary part
-  // inverse(A) = T diag(real, complex, conj) inverse(T); stage i of x is T(i,0) w0 + 2 Re(T(i,1) w1).
-  Eigen::Vector3d T_real;
-  Eigen::Vector3cd T_complex;
-  Eigen::RowVector3d inverse_real;
-  Eigen::RowVector3cd inverse_complex;
+  static constexpr int kMaxStages = 5, kMaxPairs = 2, kMaxNodes = kMaxStages + 1;
+  // Sized at run time without the heap.
+  using Mat = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxNodes, kMaxNodes>;
+  using Vec = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxNodes, 1>;
+  using ComplexVec = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, 1, 0, kMaxNodes, 1>;
 
-  RadauTable();
-  static const RadauTable& get() {
-    static const RadauTable table;
-    return table;
-  }
+  int n = 3;      // stages
+  int pairs = 1;  // of complex eigenvalues
+  Mat A, A2;      // Runge-Kutta matrix and its square
+  Vec c, b;       // stage times; weights (the last row of A)
+  // inverse(A) = T diag(real, complex, conj ..) inverse(T); stage i of x is T_real(i) w0 + 2 Re sum_p T_complex[p](i) w_p.
+  double real_eigenvalue = 0;
+  Vec T_real, inverse_real;
+  std::array<std::complex<double>, kMaxPairs> eigenvalue;  // with positive imaginary part
+  std::array<ComplexVec, kMaxPairs> T_complex, inverse_complex;
+  Vec nodes;        // {0, c_1 .. c_n}
+  Mat to_legendre;  // values at the nodes -> coefficients of the Legendre polynomials on [0, 1]
+  Mat to_powers;    // values at the nodes -> coefficients of 1, x, x^2 ..
+  Mat stages_to_powers, stages_to_legendre;  // the same from values at {c_1 .. c_n}
+
+  /// Lagrange weights of the nodes at x.
+  Vec weights(double x) const;
+
+  /// The table with 3 or 5 stages.
+  static const RadauTable& of(int stages);
+
+ private:
+  explicit RadauTable(int stages);
+  void diagonalize();
 };
 
 }  // namespace pintle

@@ -1,0 +1,179 @@
+// The error of a step, and its end: moved onto its gaps, with the work done on the way.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrators/radau_stepper.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+constexpr double kProjectionShare = 0.01;  // of the step's own frequency: every mode that a step does not resolve to the full is moved
+constexpr double kGapError = 3;  // error of a gap's acceleration over its last coefficient
+
+// What the next coefficients of a series will be like: its last ones fall off by this ratio, at most 1.
+double fall_off(double last, double before, double before_that) {
+  return std::min(1.0, std::max(last / before, std::sqrt(last / before_that)));
+}
+
+}  // namespace
+
+// How much of the forces the step's polynomials leave unresolved, over the load scale. theory/time Eqs. (3.12), (3.13).
+bool RadauStepper::error_estimate(double h, double& error) {
+  const Stage& last = stage_[n_ - 1];
+  const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
+  if (!projector_.prepare(begin_.t + h, last.m, mu, last.gap, last.gap_rate)) return false;
+  error = std::max(body_tail(), gap_tail());
+  return std::isfinite(error);
+}
+
+// Legendre coefficients of the body forces M a fall off by a ratio where the motion is smooth (then the next one is that
+// much smaller than the last) and do not where it vibrates.
+double RadauStepper::body_tail() const {
+  std::array<double, RadauTable::kMaxNodes> size{};
+  for (int i = 0; i < system_.n_bodies(); ++i) {
+    const S::Vec over = system_.bodies[i].mass.cwiseQuotient(scale_.body[i]);
+    for (int k = n_ - 2; k <= n_; ++k) {
+      S::Vec coefficient = table_.to_legendre(k, 0) * begin_.a[i];
+      for (int s = 0; s < n_; ++s) coefficient += table_.to_legendre(k, s + 1) * stage_[s].a[i];
+      const double relative = coefficient.cwiseProduct(over).cwiseAbs().maxCoeff();
+      if (!std::isfinite(relative)) return relative;
+      size[k] = std::max(size[k], relative);
+    }
+  }
+  if (!(size[n_] > 0)) return 0;
+  return size[n_] * fall_off(size[n_], size[n_ - 1], size[n_ - 2]);
+}
+
+// The gaps' own accelerations come out of the stages as second differences of what the forces demand; where a joint is
+// neither stiff nor soft for this step, their error is the force's. As forces: through the projector.
+double RadauStepper::gap_tail() {
+  if (system_.joints.empty()) return 0;
+  double size[3] = {0, 0, 0};
+  for (int back = 0; back < 3; ++back) {
+    for (std::size_t j = 0; j < wanted_.size(); ++j) {
+      wanted_[j].setZero();  // without the start of the step, whose error is the last step's
+      for (int s = 0; s < n_; ++s) wanted_[j] += table_.stages_to_legendre(n_ - 1 - back, s) * stage_[s].gap_accel[j];
+    }
+    for (auto& x : move_) x.setZero();
+    projector_.close(wanted_, move_);
+    for (int i = 0; i < system_.n_bodies(); ++i)
+      size[back] = std::max(size[back], system_.bodies[i].mass.cwiseProduct(move_[i]).cwiseAbs().cwiseQuotient(scale_.body[i]).maxCoeff());
+    if (!(size[0] > 0)) return 0;
+  }
+  return kGapError * size[0] * fall_off(size[0], size[1], size[2]);
+}
+
+// theory/time Eqs. (4.1)-(4.3).
+void RadauStepper::finish_step(double h) {
+  const Stage& last = stage_[n_ - 1];
+  nodes_.a[0] = begin_.a;
+  nodes_.gap_accel[0] = begin_.gap_accel;
+  for (int s = 0; s < n_; ++s) {
+    nodes_.a[s + 1] = stage_[s].a;
+    nodes_.gap_accel[s + 1] = stage_[s].gap_accel;
+  }
+  end_.t = begin_.t + h;
+  end_.q = last.q;
+  end_.v = last.v;
+  end_.a = last.a;
+  end_.gap_accel = last.gap_accel;
+  move_onto_gaps();
+  take_gaps();
+  add_work(h);
+  if (system_.has_branches()) side_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate);
+  grow_scale();
+  last_h_ = h;
+  have_history_ = true;
+}
+
+// Positions in two passes, velocities in two passes of one linear question.
+void RadauStepper::move_onto_gaps() {
+  const Stage& last = stage_[n_ - 1];
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::vector<Reading>& r = pass == 0 ? projector_.readings() : end_r_;
+    for (std::size_t j = 0; j < wanted_.size(); ++j) wanted_[j] = last.gap[j] - r[j].gap;
+    projector_.close(wanted_, end_.q);
+    system_.motions(end_.q, end_.v, end_m_);
+    system_.readings(end_.t, end_m_, end_r_);
+  }
+  for (auto& x : move_) x.setZero();
+  for (int pass = 0; pass < 2; ++pass) {
+    for (std::size_t j = 0; j < wanted_.size(); ++j) {
+      const Placement& at = system_.joints[j].at;
+      wanted_[j] = last.gap_rate[j] - end_r_[j].rate;
+      if (at.a != kGround) wanted_[j] -= end_r_[j].GA * move_[at.a];
+      if (at.b != kGround) wanted_[j] -= end_r_[j].GB * move_[at.b];
+    }
+    projector_.close(wanted_, move_);
+  }
+  for (std::size_t i = 0; i < end_.v.size(); ++i) end_.v[i] += move_[i];
+  system_.motions(end_.q, end_.v, end_m_);
+  system_.readings(end_.t, end_m_, end_r_);
+}
+
+// The carried gap, but the geometry's where no motion could bring it there (redundant joints).
+void RadauStepper::take_gaps() {
+  const Stage& last = stage_[n_ - 1];
+  double size = 1e-3;
+  for (const auto& q : end_.q) size = std::max(size, std::max(std::abs(q[0]), std::abs(q[1])));
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() * size;
+  for (std::size_t j = 0; j < wanted_.size(); ++j) {
+    const S::Vec difference = end_r_[j].gap - last.gap[j];
+    end_.gap[j] = last.gap[j];
+    for (int k = 0; k < S::kDof; ++k)
+      if (std::abs(difference[k]) > rounding) end_.gap[j][k] = end_r_[j].gap[k];
+    end_.gap_rate[j] = end_r_[j].rate;
+    end_.force[j] = law_force(system_.joints[j].law, end_.gap[j], end_.gap_rate[j]);
+  }
+}
+
+void RadauStepper::add_work(double h) {
+  nodes_.power[0] = {begin_.supply_power, begin_.loss_power};
+  end_.supplied = begin_.supplied;
+  end_.dissipated = begin_.dissipated;
+  for (int s = 0; s < n_; ++s) {
+    const Stage& stage = stage_[s];
+    nodes_.power[s + 1] = power(begin_.t + h * table_.c[s], stage.q, stage.m, stage.gap, stage.gap_rate, stage.force);
+    end_.supplied += h * table_.b[s] * nodes_.power[s + 1][0];
+    end_.dissipated += h * table_.b[s] * nodes_.power[s + 1][1];
+  }
+  end_.supply_power = nodes_.power[n_][0];
+  end_.loss_power = nodes_.power[n_][1];
+}
+
+std::array<double, 2> RadauStepper::power(double t, const Vecs& q, const std::vector<S::Motion>& m, const Vecs& gap,
+                                          const Vecs& gap_rate, const Vecs& force) const {
+  const ExternalWork work = system_.external_work(t, q, m);
+  std::array<double, 2> out{work.supplied, work.lost};
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const JointData& joint = system_.joints[j];
+    if (joint.servo >= 0) out[0] += force[j][joint.servo] * system_.pose(joint.at, m).rate[joint.servo];
+    else out[1] += respond(joint.law, gap[j], gap_rate[j]).loss;
+  }
+  return out;
+}
+
+void RadauStepper::grow_scale() {
+  const Vecs& Q = stage_[n_ - 1].Q;
+  Vecs& load = move_;
+  for (int i = 0; i < system_.n_bodies(); ++i) load[i] = Q[i].cwiseAbs() + system_.bodies[i].mass.cwiseProduct(end_.a[i]).cwiseAbs();
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const Placement& at = system_.joints[j].at;
+    if (at.a != kGround) load[at.a] += (end_r_[j].GA.transpose() * end_.force[j]).cwiseAbs();
+    if (at.b != kGround) load[at.b] += (end_r_[j].GB.transpose() * end_.force[j]).cwiseAbs();
+  }
+  for (int i = 0; i < system_.n_bodies(); ++i) {
+    const S::Vec& mass = system_.bodies[i].mass;
+    const double radius = std::sqrt(mass[2] / mass[0]);
+    double force = std::max({scale_.body[i][0], load[i][0], load[i][1], 1e-9 * mass[0]});
+    double moment = std::max(scale_.body[i][2], load[i][2]);
+    force = std::max(force, 1e-3 * moment / radius);
+    moment = std::max(moment, 1e-3 * force * radius);
+    scale_.body[i] << force, force, moment;
+  }
+}
+
+}  // namespace pintle
