@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analyses/guess.h"
 #include "analyses/slow_start.h"
@@ -117,6 +118,7 @@ class PositionSearch {
   void run(Vecs& q) {
     const Vecs still(q.size(), S::Vec::Zero());
     readings_at(system_, 0, q, still, m_, r_);
+    keep_held();
     double now = energy(system_, weight_, r_), damping = 1e-3;
     const Vecs body = body_weights(q);
     for (int iteration = 0; iteration < 500; ++iteration) {
@@ -140,8 +142,10 @@ class PositionSearch {
         now = next;
         damping = std::max(damping * 0.1, 1e-12);
         if (settled) return;
+        keep_held();
       } else {
         readings_at(system_, 0, q, still, m_, r_);
+        keep_held();
         damping *= 10;
         if (damping > 1e12 || step < 1e-15) return;
       }
@@ -149,7 +153,15 @@ class PositionSearch {
   }
 
  private:
-  // How much a coordinate resists being moved: what the user stated more than what he left open, what is held for ever.
+  // No gap reacts to a coordinate that is held, so that nothing moves it.
+  void keep_held() {
+    for (std::size_t j = 0; j < r_.size(); ++j)
+      for (auto [body, G] : {std::pair{system_.joints[j].at.a, &r_[j].GA}, std::pair{system_.joints[j].at.b, &r_[j].GB}})
+        for (int k = 0; k < S::kDof && body != kGround; ++k)
+          if (model_.bodies[body].hold[k]) G->col(k).setZero();
+  }
+
+  // How much a coordinate resists being moved: what the user stated more than what he left open.
   Vecs body_weights(const Vecs& q) const {
     double stiffest = 0;
     for (const auto& w : weight_) stiffest = std::max(stiffest, w.maxCoeff());
@@ -160,8 +172,6 @@ class PositionSearch {
       const Body& body = model_.bodies[i];
       const double place = body.position ? 1 : 1e-3, turn = body.angle ? 1 : 1e-3;
       weights[i] = stiffest * S::Vec(place, place, turn * size * size);
-      for (int k = 0; k < 3; ++k)
-        if (body.hold[k]) weights[i][k] = 1e15 * stiffest * std::max(1.0, size * size);
     }
     return weights;
   }

@@ -56,7 +56,23 @@ void Dopri5::start(const State& state, double h) {
   begin_ = end_ = state;
   h_ = h;
   complete(end_);
+  find_rounding();
   grow_scale();
+}
+
+// The load below which the rounding of positions, as joint force, would be seen as an error.
+void Dopri5::find_rounding() {
+  double size = 1e-3;
+  for (const auto& q : end_.q) size = std::max({size, std::abs(q[0]), std::abs(q[1])});
+  rounding_.assign(system_.bodies.size(), 0.0);
+  for (std::size_t i = 0; i < rounding_.size(); ++i) rounding_[i] = 1e-9 * system_.bodies[i].mass[0];
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const JointData& joint = system_.joints[j];
+    const double k = respond(joint.law, end_.gap[j], end_.gap_rate[j]).stiffness.diagonal().head<2>().maxCoeff();
+    const double least = 30 * std::numeric_limits<double>::epsilon() * size * k / tolerance_;
+    for (const int body : {joint.at.a, joint.at.b})
+      if (body != kGround) rounding_[body] = std::max(rounding_[body], least);
+  }
 }
 
 bool Dopri5::step(double t_end) {
@@ -120,16 +136,17 @@ double Dopri5::error(double h) {
   for (int j = 0; j < system_.n_joints(); ++j) {
     const JointData& joint = system_.joints[j];
     S::Vec de = S::Vec::Zero(), dr = S::Vec::Zero();
-    double load = 0;
+    double load = 0, couple = 0;
     for (const auto& [body, G] : {std::pair{joint.at.a, &r_[j].GA}, std::pair{joint.at.b, &r_[j].GB}}) {
       if (body == kGround) continue;
       de += *G * dq_[body];
       dr += *G * dv_[body];
       load = std::max(load, scale_.body[body][0]);
+      couple = std::max(couple, scale_.body[body][2]);
     }
     const Response response = respond(joint.law, r_[j].gap, r_[j].rate);
     const S::Vec df = response.stiffness * de + response.damping * dr;
-    worst = std::max(worst, df.head<2>().norm() / load);
+    worst = std::max({worst, df.head<2>().norm() / load, std::abs(df[2]) / couple});
     if (!std::isfinite(df.sum())) return std::numeric_limits<double>::infinity();
   }
   for (int i = 0; i < system_.n_bodies(); ++i) {
@@ -144,10 +161,12 @@ void Dopri5::grow_scale() {
     const S::Vec& mass = system_.bodies[i].mass;
     const double radius = std::sqrt(mass[2] / mass[0]);
     const S::Vec load = mass.cwiseProduct(end_.a[i]).cwiseAbs() + system_.bodies[i].gravity.cwiseAbs();
-    double force = std::max({scale_.body[i][0], load[0], load[1], 1e-9 * mass[0]});
+    double force = std::max({scale_.body[i][0], load[0], load[1], rounding_[i]});
     for (int j = 0; j < system_.n_joints(); ++j)
       if (system_.joints[j].at.a == i || system_.joints[j].at.b == i) force = std::max(force, end_.force[j].head<2>().norm());
-    const double moment = std::max({scale_.body[i][2], load[2], 1e-3 * force * radius});
+    double moment = std::max({scale_.body[i][2], load[2], 1e-3 * force * radius});
+    for (int j = 0; j < system_.n_joints(); ++j)
+      if (system_.joints[j].at.a == i || system_.joints[j].at.b == i) moment = std::max(moment, std::abs(end_.force[j][2]));
     scale_.body[i] << force, force, moment;
   }
 }

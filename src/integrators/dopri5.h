@@ -28,6 +28,7 @@ class Dopri5 {
 
  private:
   double error(double h);
+  void find_rounding();
   void grow_scale();
 
   const System& system_;
@@ -38,6 +39,7 @@ class Dopri5 {
   std::vector<Planar::Motion> m_;
   std::vector<Reading> r_;
   LoadScale scale_;
+  std::vector<double> rounding_;  // per body [N]
   Counters counters_;
   std::string failure_;
 };
