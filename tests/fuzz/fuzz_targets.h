@@ -4,8 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -102,14 +105,18 @@ inline std::string expression(std::string_view text) {
   return {};
 }
 
-/// The name of a unit that is read is read as the same unit (but for names without numerator, "1/m/s").
+/// The name of a unit that is read is read as the same unit (but for names without numerator, "1/m/s", and
+/// products of larger exponents than may be written).
+inline constexpr int kLargestUnitExponent = 20;
 inline std::string unit(std::string_view text) {
   const std::optional<Unit> found = parse_unit(text);
   if (!found) return {};
   if (std::isnan(found->factor)) return "a factor that is no number";
   const std::string name = to_unit_text(found->dimension);
   const std::optional<Unit> again = parse_unit(name);
-  if (!name.starts_with('1') && (!again || !fits(again->dimension, found->dimension)))
+  const auto large = [](std::int8_t exponent) { return std::abs(exponent) > kLargestUnitExponent; };
+  const bool readable = std::none_of(found->dimension.exponents.begin(), found->dimension.exponents.end(), large);
+  if (readable && !name.starts_with('1') && (!again || !fits(again->dimension, found->dimension)))
     return fmt::format("its name {} is not read back", name);
   return {};
 }
