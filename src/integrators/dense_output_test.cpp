@@ -12,21 +12,30 @@ namespace {
 using sample::follow;
 using sample::largest_difference;
 
+// What the curves go through.
+enum class Through { kEnds, kThreeNodes, kFiveNodes };
+constexpr Through kAll[] = {Through::kEnds, Through::kThreeNodes, Through::kFiveNodes};
+
 // One step of h from a settled start.
 struct OneStep {
+  Through through;
   System system;
   State start;
   RadauStepper stepper;
   DenseOutput dense;
   double h, mu;
 
-  OneStep(const Model& model, double step)
-      : system(build_system(model)), start(sample::settled_start(model, system, 0.05)), stepper(system, 1e-10), dense(system), h(step),
-        mu(stepper.table().real_eigenvalue / step) {
+  OneStep(const Model& model, double step, Through curves)
+      : through(curves), system(build_system(model)), start(sample::settled_start(model, system, 0.05)),
+        stepper(system, 1e-10, curves == Through::kFiveNodes ? 5 : 3), dense(system), h(step), mu(stepper.table().real_eigenvalue / step) {
     stepper.start(start, h);
     EXPECT_TRUE(stepper.trial(h));
   }
-  const State& at(double share) { return dense.at(start.t + share * h, stepper.previous(), stepper.state(), mu); }
+  const State& at(double share) {
+    const double t = start.t + share * h;
+    if (through == Through::kEnds) return dense.at(t, stepper.previous(), stepper.state(), mu);
+    return dense.at(t, stepper.previous(), stepper.state(), mu, stepper.nodes());
+  }
 };
 
 struct Case {
@@ -35,9 +44,16 @@ struct Case {
 };
 std::vector<Case> cases() { return {{sample::pendulum(1e8, 3500), 0.05}, {sample::four_bar(1e8, 3000), 0.0125}, {sample::four_bar(1e11, 9e4), 0.0125}}; }
 
+std::vector<std::pair<Case, Through>> all_cases() {
+  std::vector<std::pair<Case, Through>> all;
+  for (const Case& c : cases())
+    for (const Through through : kAll) all.emplace_back(c, through);
+  return all;
+}
+
 TEST(DenseOutput, MeetsTheEndsOfTheStep) {
-  for (const Case& c : cases()) {
-    OneStep step(c.model, c.step);
+  for (const auto& [c, through] : all_cases()) {
+    OneStep step(c.model, c.step, through);
     EXPECT_EQ(step.at(0).q, step.start.q);
     EXPECT_EQ(step.dense.at(step.stepper.state().t, step.stepper.previous(), step.stepper.state(), step.mu).force, step.stepper.state().force);
     const double size = largest_difference(step.start.force, Vecs(step.start.force.size(), Planar::Vec::Zero()));
@@ -53,11 +69,14 @@ TEST(DenseOutput, MeetsTheEndsOfTheStep) {
   }
 }
 
-// Measured on the pendulum: order 6 in positions, 5 in velocities and forces.
-TEST(DenseOutput, ConvergesInsideTheStep) {
+// Measured errors of positions, velocities and forces inside steps of 50, 25 and 12.5 ms of the pendulum.
+struct Orders {
+  double q, v, force;
+};
+Orders orders_inside(Through through, std::initializer_list<double> steps) {
   std::vector<double> q, v, force;
-  for (const double h : {0.05, 0.025, 0.0125}) {
-    OneStep step(sample::pendulum(1e8, 3500), h);
+  for (const double h : steps) {
+    OneStep step(sample::pendulum(1e8, 3500), h, through);
     double worst_q = 0, worst_v = 0, worst_force = 0;
     for (const double share : {0.25, 0.5, 0.75}) {
       const State reference = follow(step.system, step.start, share * h, 32);
@@ -70,14 +89,27 @@ TEST(DenseOutput, ConvergesInsideTheStep) {
     v.push_back(worst_v);
     force.push_back(worst_force);
   }
-  EXPECT_GT(sample::measured_order(q), 5);
-  EXPECT_GT(sample::measured_order(v), 4.3);
-  EXPECT_GT(sample::measured_order(force), 4);
+  return {sample::measured_order(q), sample::measured_order(v), sample::measured_order(force)};
+}
+
+TEST(DenseOutput, ConvergesInsideTheStep) {
+  const Orders ends = orders_inside(Through::kEnds, {0.05, 0.025, 0.0125});
+  EXPECT_GT(ends.q, 5);
+  EXPECT_GT(ends.v, 4.3);
+  EXPECT_GT(ends.force, 4);
+  const Orders three = orders_inside(Through::kThreeNodes, {0.05, 0.025, 0.0125});
+  EXPECT_GT(three.q, 4.7);
+  EXPECT_GT(three.v, 4);
+  EXPECT_GT(three.force, 3.3);
+  const Orders five = orders_inside(Through::kFiveNodes, {0.1, 0.05});
+  EXPECT_GT(five.q, 6);
+  EXPECT_GT(five.v, 6);
+  EXPECT_GT(five.force, 5);
 }
 
 TEST(DenseOutput, ForcesInsideAreAsGoodAsAtTheEnds) {
-  for (const Case& c : cases()) {
-    OneStep step(c.model, c.step);
+  for (const auto& [c, through] : all_cases()) {
+    OneStep step(c.model, c.step, through);
     const double size = largest_difference(step.start.force, Vecs(step.start.force.size(), Planar::Vec::Zero()));
     for (const double share : {0.1, 0.3, 0.6, 0.9}) {
       const State reference = follow(step.system, step.start, share * c.step, 32);
@@ -87,8 +119,8 @@ TEST(DenseOutput, ForcesInsideAreAsGoodAsAtTheEnds) {
 }
 
 TEST(DenseOutput, InterpolatedVelocitiesLeaveTheGapsInPlace) {
-  for (const Case& c : cases()) {
-    OneStep step(c.model, c.step);
+  for (const auto& [c, through] : all_cases()) {
+    OneStep step(c.model, c.step, through);
     const State& inside = step.at(0.4);
     std::vector<Planar::Motion> m;
     step.system.motions(inside.q, inside.v, m);

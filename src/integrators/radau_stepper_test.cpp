@@ -20,14 +20,14 @@ struct Errors {
   std::vector<double> q, v, force;
 };
 
-// Errors after `duration` with the given numbers of equal steps, against 512 of them.
-Errors errors_of_fixed_steps(const Model& model, double duration, std::initializer_list<int> counts) {
+// Errors after `duration` with the given numbers of equal steps, against 512 of three stages.
+Errors errors_of_fixed_steps(const Model& model, double duration, std::initializer_list<int> counts, int stages = 3) {
   const System system = build_system(model);
   const State start = sample::settled_start(model, system, 0.05);
   const State reference = follow(system, start, duration, 512);
   Errors errors;
   for (const int n : counts) {
-    const State end = follow(system, start, duration, n);
+    const State end = follow(system, start, duration, n, stages);
     errors.q.push_back(largest_difference(end.q, reference.q));
     errors.v.push_back(largest_difference(end.v, reference.v));
     errors.force.push_back(largest_difference(end.force, reference.force));
@@ -35,16 +35,30 @@ Errors errors_of_fixed_steps(const Model& model, double duration, std::initializ
   return errors;
 }
 
-TEST(RadauStepper, IsOfOrderFiveWithoutJoints) {
+TEST(RadauStepper, IsOfOrderFiveOrNineWithoutJoints) {
   const Model model = sample::oscillator();
   const System system = build_system(model);
-  std::vector<double> errors;
-  for (const int n : {20, 40, 80}) {
-    const State end = follow(system, sample::plain_start(model, system), 2, n);
-    const auto [x, v] = sample::oscillator_at(2);
-    errors.push_back(std::hypot(end.q[0][0] - x, (end.v[0][0] - v) / 5));
+  const auto order = [&](int stages, std::initializer_list<int> counts) {
+    std::vector<double> errors;
+    for (const int n : counts) {
+      const State end = follow(system, sample::plain_start(model, system), 2, n, stages);
+      const auto [x, v] = sample::oscillator_at(2);
+      errors.push_back(std::hypot(end.q[0][0] - x, (end.v[0][0] - v) / 5));
+    }
+    return measured_order(errors);
+  };
+  EXPECT_GT(order(3, {20, 40, 80}), 4.7);
+  EXPECT_GT(order(5, {4, 8, 16}), 8);
+}
+
+// Measured: order 9.7 in positions; the forces are at rounding after 8 steps (3e-11 to 1e-10 N of 25 N, 2e-9 of 500 N).
+TEST(RadauStepper, FiveStagesReachForcesThatThreeDoNot) {
+  for (const double k : {1e10, 1e12}) {
+    const Errors e = errors_of_fixed_steps(sample::pendulum(k, matching_damping(k)), 0.4, {8, 16}, 5);
+    EXPECT_GT(measured_order(e.q), 8) << k;
+    EXPECT_LT(e.force.front(), 1e-9) << k;
   }
-  EXPECT_GT(measured_order(errors), 4.7);
+  EXPECT_LT(errors_of_fixed_steps(sample::four_bar(1e12, matching_damping(1e12)), 0.1, {8}, 5).force.front(), 2e-8);
 }
 
 // Measured: 4.9 in motion; in force 4.9 from 1e10 N/m on, 4.0 at 1e8 N/m where the step comes near the vibration.
@@ -60,9 +74,9 @@ TEST(RadauStepper, PendulumForcesConvergeLikeItsMotion) {
 
 // Rigid four-bar: order 5 in the forces as well. Soft (1e6 N/m): every vibration is resolved, the same order.
 TEST(RadauStepper, FourBarForcesConvergeWithOrderFiveSoftAndRigid) {
-  const Errors rigid = errors_of_fixed_steps(sample::four_bar(1e12, matching_damping(1e12)), 0.1, {8, 16, 32});
+  const Errors rigid = errors_of_fixed_steps(sample::four_bar(1e12, matching_damping(1e12)), 0.1, {8, 16});
   EXPECT_GT(measured_order(rigid.force), 4);
-  EXPECT_LT(rigid.force.front(), 1e-5);  // of about 500 N
+  EXPECT_LT(rigid.force.front(), 2e-6);  // of about 500 N; 32 steps are at rounding, 2e-9 N
   const Errors soft = errors_of_fixed_steps(sample::four_bar(1e6, matching_damping(1e6)), 0.1, {16, 32, 64});
   EXPECT_GT(measured_order(soft.q), 4.3);
   EXPECT_GT(measured_order(soft.force), 4.3);
@@ -111,27 +125,34 @@ Count count_to(double end, const System& system, const State& start, double tole
   return {stepper.counters().steps, stepper.counters().newton_iterations};
 }
 
-// Half a second of the four-bar, about 0.8 turns of the crank. Measured: 24 to 37 steps, 175 to 211 iterations.
+// Half a second of the four-bar, about 0.8 turns of the crank. Measured: 38 steps, 162 to 171 iterations.
 TEST(RadauStepper, StepsDoNotGrowWithStiffness) {
-  Count at_1e8{};
-  for (const double k : {1e8, 1e6, 1e7, 1e9, 1e10, 1e11, 1e12}) {
+  for (const double k : {1e8, 1e9, 1e10, 1e11, 1e12}) {
     const Model model = sample::four_bar(k, matching_damping(k));
     const System system = build_system(model);
     const Count count = count_to(0.6, system, sample::settled_start(model, system, 0.1), 1e-5);
-    if (k == 1e8) at_1e8 = count;
-    EXPECT_LE(count.steps, 60u) << k;
-    EXPECT_LE(count.newton, 350u) << k;
-    if (k > 1e8) { EXPECT_LE(count.steps, at_1e8.steps * 3 / 2) << k; }
+    EXPECT_LE(count.steps, 45u) << k;
+    EXPECT_LE(count.newton, 210u) << k;
   }
 }
 
-// The same from a start whose gap rates are not yet those of the motion, c = 3000 N s/m at every stiffness. Measured: 30 to
-// 50 steps.
-TEST(RadauStepper, StepsDoNotGrowWithStiffnessAtLightDamping) {
+// Soft joints still ring after 0.1 s, at 1000 to 4000 rad/s, and that is followed. Measured: 275 and 100 steps.
+TEST(RadauStepper, VibrationOfSoftJointsIsFollowed) {
+  for (const double k : {1e6, 1e7}) {
+    const Model model = sample::four_bar(k, matching_damping(k));
+    const System system = build_system(model);
+    EXPECT_LE(count_to(0.6, system, sample::settled_start(model, system, 0.1), 1e-5).steps, 330u) << k;
+  }
+}
+
+// From a start whose gap rates are not yet those of the motion, c = 3000 N s/m at every stiffness: the vibration that this
+// excites has sqrt(m / k) times the rate of the forces as amplitude, and falls below the tolerance at 1e11 N/m. Above it, its
+// decay is followed. Measured: 112 to 546 steps, then 41 to 43.
+TEST(RadauStepper, VibrationBelowTheToleranceCostsNothing) {
   for (const double k : {1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12}) {
     const Model model = sample::four_bar(k, 3000);
     const System system = build_system(model);
-    EXPECT_LE(count_to(0.6, system, sample::loaded_start(model, system), 1e-5).steps, 80u) << k;
+    EXPECT_LE(count_to(0.6, system, sample::loaded_start(model, system), 1e-5).steps, k < 5e10 ? 650u : 50u) << k;
   }
 }
 
@@ -142,7 +163,6 @@ TEST(RadauStepper, TrialStepsBackwardsReturn) {
   RadauStepper stepper(system, 1e-11);
   stepper.start(start, 1e-3);
   ASSERT_TRUE(stepper.trial(1e-3));
-  stepper.forget_history();
   ASSERT_TRUE(stepper.trial(-1e-3));
   EXPECT_NEAR(stepper.state().t, start.t, 1e-15);
   EXPECT_LT(largest_difference(stepper.state().q, start.q), 1e-12);

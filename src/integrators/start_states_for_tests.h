@@ -121,8 +121,8 @@ inline State settled_start(const Model& model, const System& system, double t) {
 }
 
 /// n equal steps without error control.
-inline State follow(const System& system, const State& from, double duration, int n) {
-  RadauStepper stepper(system, 1e-11);
+inline State follow(const System& system, const State& from, double duration, int n, int stages = 3) {
+  RadauStepper stepper(system, 1e-11, stages);
   stepper.start(from, duration / n);
   for (int i = 0; i < n; ++i)
     if (!stepper.trial(duration / n)) throw std::runtime_error("the stage equations were not solved");
