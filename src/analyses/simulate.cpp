@@ -18,7 +18,7 @@ namespace pintle {
 namespace {
 
 constexpr int kMaxPasses = 6;
-constexpr double kPilot = 3, kReported = 0.3;  // tolerances of the first two passes over the one asked for
+constexpr double kPilot = 10, kReported = 1;  // tolerances of the first two passes over the one asked for
 constexpr double kTight = 3e-7;  // a tolerance below it is met by order 9
 constexpr double kEasy = 3;      // Newton iterations per step: fewer say that steps are short, and order 9 makes them longer
 constexpr double kLeastTolerance = 1e-13;
