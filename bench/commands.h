@@ -1,0 +1,35 @@
+// The sub-commands: each prints its tables and returns them as JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace pintle::bench {
+
+struct PeerOptions {
+  int repetitions = 9;
+  bool all_methods = true;  // otherwise the best few
+};
+nlohmann::ordered_json compare_peers(const PeerOptions& options);
+
+struct StiffnessOptions {
+  std::vector<double> stiffness{1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
+  std::vector<double> damping{0, 3e3, 1e5};
+  double tolerance = 1e-5;
+  int repetitions = 5;
+};
+nlohmann::ordered_json study_stiffness(const StiffnessOptions& options);
+
+struct ForceOptions {
+  std::vector<std::string> models;  // empty: the whole collection
+  std::vector<double> tolerances{1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
+  double cap = 60;  // seconds for each run
+  bool every_joint = false;
+};
+nlohmann::ordered_json study_forces(const ForceOptions& options);
+
+/// Google Benchmark; `filter` is a regular expression. An empty `json_file` writes none.
+void run_micro(const std::string& filter, double min_time, const std::string& json_file);
+
+}  // namespace pintle::bench

@@ -1,0 +1,63 @@
+#include "bench/joint_errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pintle::bench {
+namespace {
+
+constexpr double kNegligible = 1e-6;  // a joint is measured at least by this part of the mechanism's largest force
+
+struct Difference {
+  double force = 0, couple = 0, peak = 0, peak_couple = 0;
+};
+
+Difference compare(const Trajectory& run, const Trajectory& reference, const LoadSummary& joint) {
+  const std::string prefix = "joint." + joint.name + ".on_" + joint.second_body + ".";
+  const int fx = run.column(prefix + "fx[world]"), fy = run.column(prefix + "fy[world]"),
+            m = run.column(prefix + "m[world]");
+  Difference d;
+  for (std::size_t i = 0; i < reference.n_rows(); ++i) {
+    const double x = reference.at(i, fx), y = reference.at(i, fy);
+    d.peak = std::max(d.peak, std::hypot(x, y));
+    d.force = std::max(d.force, std::hypot(run.at(i, fx) - x, run.at(i, fy) - y));
+    if (m < 0) continue;
+    d.peak_couple = std::max(d.peak_couple, std::abs(reference.at(i, m)));
+    d.couple = std::max(d.couple, std::abs(run.at(i, m) - reference.at(i, m)));
+  }
+  return d;
+}
+
+double relative(double error, double peak, double largest) {
+  return error / std::max({peak, kNegligible * largest, 1e-300});
+}
+
+}  // namespace
+
+std::vector<JointError> joint_errors(const Trajectory& run, const Trajectory& reference) {
+  if (run.n_rows() != reference.n_rows()) return {};
+  std::vector<Difference> differences;
+  double force = 0, couple = 0;
+  for (const LoadSummary& joint : run.joints) {
+    differences.push_back(compare(run, reference, joint));
+    force = std::max(force, differences.back().peak);
+    couple = std::max(couple, differences.back().peak_couple);
+  }
+  for (const MotorSummary& motor : run.motors)  // a servo's effort counts among the largest
+    (motor.unit == "N" ? force : couple) = std::max(motor.unit == "N" ? force : couple, std::abs(motor.peak_effort));
+  std::vector<JointError> errors;
+  for (std::size_t j = 0; j < differences.size(); ++j) {
+    const Difference& d = differences[j];
+    const double of_force = relative(d.force, d.peak, force), of_couple = relative(d.couple, d.peak_couple, couple);
+    errors.push_back({run.joints[j].name, std::max(of_force, of_couple), of_force, of_couple > of_force,
+                      run.joints[j].relative_error_estimate});
+  }
+  return errors;
+}
+
+const JointError& worst_of(const std::vector<JointError>& joints) {
+  return *std::max_element(joints.begin(), joints.end(),
+                           [](const JointError& a, const JointError& b) { return a.error < b.error; });
+}
+
+}  // namespace pintle::bench

@@ -1,0 +1,26 @@
+// The true error of a run's joint forces, against a much tighter run, beside the error that it states.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pintle/trajectory.h"
+
+namespace pintle::bench {
+
+struct JointError {
+  std::string joint;
+  double error = 0;     // largest over the output times, of the joint's peak force or couple [-]
+  double of_force = 0;  // the part of the force alone [-]
+  bool couple = false;  // whether it is the couple that is worse
+  double estimate = 0;  // as stated by the run [-]
+  double ratio() const { return estimate / error; }
+};
+
+/// One entry per joint. Empty when the two do not have the same rows.
+std::vector<JointError> joint_errors(const Trajectory& run, const Trajectory& reference);
+
+/// The entry with the largest error.
+const JointError& worst_of(const std::vector<JointError>& joints);
+
+}  // namespace pintle::bench

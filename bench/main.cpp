@@ -1,0 +1,106 @@
+// pintle-bench: what the forces are worth, and what they cost, here and elsewhere.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+
+#include "bench/commands.h"
+
+namespace pintle::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string json_file;
+  PeerOptions peers;
+  StiffnessOptions stiffness;
+  ForceOptions forces;
+  std::string micro_filter = ".";
+  double micro_time = 0.2;
+};
+
+void add_peers(CLI::App& app, Options& o, Json& out) {
+  CLI::App* verb = app.add_subcommand("peers", "one turn of the four-bar: work and precision beside SUNDIALS");
+  verb->add_option("--repetitions", o.peers.repetitions, "rounds; every method once in each")->capture_default_str();
+  verb->callback([&] { out["peers"] = compare_peers(o.peers); });
+}
+
+void add_stiffness(CLI::App& app, Options& o, Json& out) {
+  CLI::App* verb = app.add_subcommand("stiffness", "the four-bar's steps for joints from soft to very stiff");
+  verb->add_option("--stiffness", o.stiffness.stiffness, "N/m")->delimiter(',');
+  verb->add_option("--damping", o.stiffness.damping, "N*s/m")->delimiter(',');
+  verb->add_option("--tolerance", o.stiffness.tolerance, "of the peak force")->capture_default_str();
+  verb->add_option("--repetitions", o.stiffness.repetitions)->capture_default_str();
+  verb->callback([&] { out["stiffness"] = study_stiffness(o.stiffness); });
+}
+
+void add_forces(CLI::App& app, Options& o, Json& out) {
+  CLI::App* verb = app.add_subcommand("forces", "true and stated force errors of every model of the collection");
+  verb->add_option("--models", o.forces.models, "names without .toml; all if absent")->delimiter(',');
+  verb->add_option("--tolerances", o.forces.tolerances)->delimiter(',');
+  verb->add_option("--cap", o.forces.cap, "seconds that any run may take")->capture_default_str();
+  verb->add_flag("--joints", o.forces.every_joint, "print every joint, not only the worst of each model");
+  verb->callback([&] { out["forces"] = study_forces(o.forces); });
+}
+
+void add_micro(CLI::App& app, Options& o) {
+  CLI::App* verb = app.add_subcommand("micro", "laws, probes, systems, factorisation and single steps");
+  verb->add_option("--filter", o.micro_filter, "a regular expression")->capture_default_str();
+  verb->add_option("--min-time", o.micro_time, "seconds for each")->capture_default_str();
+  verb->callback([&] { run_micro(o.micro_filter, o.micro_time, o.json_file); });
+}
+
+// Everything in about a minute.
+Json run_short() {
+  Json out;
+  run_micro(".", 0.02, "");
+  PeerOptions peers;
+  peers.repetitions = 3;
+  peers.all_methods = false;
+  out["peers"] = compare_peers(peers);
+  StiffnessOptions stiffness;
+  stiffness.stiffness = {1e6, 1e8, 1e10, 1e12};
+  stiffness.repetitions = 3;
+  out["stiffness"] = study_stiffness(stiffness);
+  ForceOptions forces;
+  forces.tolerances = {1e-3, 1e-5};
+  forces.cap = 10;
+  out["forces"] = study_forces(forces);
+  return out;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app("Benchmarks of Pintle. Without a sub-command: a short version of all of them.", "pintle-bench");
+  Options options;
+  Json out;
+  app.add_option("--json", options.json_file, "write the tables to this file as well");
+  app.fallthrough();
+  app.require_subcommand(0, 1);
+  add_peers(app, options, out);
+  add_stiffness(app, options, out);
+  add_forces(app, options, out);
+  add_micro(app, options);
+  CLI11_PARSE(app, argc, argv);
+  if (app.get_subcommands().empty()) out = run_short();
+  if (!options.json_file.empty() && !out.empty()) {
+    std::ofstream file(options.json_file);
+    file << out.dump(1) << '\n';
+    if (!file.flush()) throw std::runtime_error("cannot write " + options.json_file);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace pintle::bench
+
+int main(int argc, char** argv) {
+  try {
+    return pintle::bench::run_program(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "pintle-bench: {}\n", error.what());
+    return 1;
+  }
+}

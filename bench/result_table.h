@@ -1,0 +1,43 @@
+// A table of results that is printed for people and written as JSON for programs.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pintle::bench {
+
+/// One cell: what is printed, and the value behind it.
+struct Cell {
+  std::string text;
+  nlohmann::ordered_json value;
+};
+
+Cell text(std::string words);
+/// `format` is fmt's for a double, e.g. "{:.2e}"; not a number prints as "-".
+Cell number(double value, const char* format);
+Cell count(double value);
+
+class ResultTable {
+ public:
+  struct Column {
+    std::string head;  // printed
+    std::string key;   // in JSON
+    bool is_text = false;
+  };
+  ResultTable(std::string title, std::vector<Column> columns);
+
+  void add_row(std::vector<Cell> cells);
+  bool empty() const { return rows_.empty(); }
+  void print() const;
+  /// An array with one object per row.
+  nlohmann::ordered_json json() const;
+
+ private:
+  std::string title_;
+  std::vector<Column> columns_;
+  std::vector<std::vector<Cell>> rows_;
+};
+
+}  // namespace pintle::bench
