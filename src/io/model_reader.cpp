@@ -9,7 +9,7 @@ namespace pintle {
 namespace {
 
 Model model_of(const Document& document) {
-  Reading reading(document);
+  ModelReading reading(document);
   read_parameters(reading);
   read_settings(reading);
   read_bodies(reading);

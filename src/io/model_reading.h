@@ -16,8 +16,8 @@
 namespace pintle {
 
 /// What the steps share.
-struct Reading {
-  explicit Reading(const Document& document)
+struct ModelReading {
+  explicit ModelReading(const Document& document)
       : root(*document.root.table()), complaints(document), records(complaints) {}
 
   const Table& root;
@@ -32,24 +32,24 @@ struct Reading {
   const TableSpec& spec(const std::string& path, const std::string& when = {}, const std::string& law = {});
 };
 
-void read_settings(Reading& reading);    // the file's head, [simulate]
-void read_parameters(Reading& reading);  // first: every other value may use them
-void read_bodies(Reading& reading);      // [ground], [body]
-void read_joints(Reading& reading);      // [defaults.joint], [joint]
-void read_loads(Reading& reading);       // [spring], [torsion_spring], [force]
-void read_motors(Reading& reading);      // [motor]
+void read_settings(ModelReading& reading);    // the file's head, [simulate]
+void read_parameters(ModelReading& reading);  // first: every other value may use them
+void read_bodies(ModelReading& reading);      // [ground], [body]
+void read_joints(ModelReading& reading);      // [defaults.joint], [joint]
+void read_loads(ModelReading& reading);       // [spring], [torsion_spring], [force]
+void read_motors(ModelReading& reading);      // [motor]
 
 /// The table `key` of the document, or an empty one; complains if it is something else.
-const Table& section(Reading& reading, std::string_view key);
+const Table& section(ModelReading& reading, std::string_view key);
 
 /// Names of things are letters, digits, _ and -. Complains if this is none.
-void check_name(Reading& reading, const Entry& entry, const std::string& path);
+void check_name(ModelReading& reading, const Entry& entry, const std::string& path);
 
 /// The marker that `text` names: "crank.A". Complains, with `node` as the place, if there is none.
-MarkerRef read_marker_ref(Reading& reading, const Node& node, const std::string& path);
+MarkerRef read_marker_ref(ModelReading& reading, const Node& node, const std::string& path);
 
 /// The two markers of `between`; they must be on different bodies. `thing` is what connects them, for the message.
-void read_between(Reading& reading, const Record& record, const std::string& thing, MarkerRef& first,
+void read_between(ModelReading& reading, const Record& record, const std::string& thing, MarkerRef& first,
                   MarkerRef& second);
 
 }  // namespace pintle

@@ -6,7 +6,7 @@
 namespace pintle {
 namespace {
 
-std::vector<Marker> read_markers(Reading& reading, const Entry& owner, const std::string& path,
+std::vector<Marker> read_markers(ModelReading& reading, const Entry& owner, const std::string& path,
                                  std::set<std::string>& names) {
   std::vector<Marker> markers;
   if (owner.value.table() == nullptr) return markers;  // complained about by whoever reads the owner
@@ -24,7 +24,7 @@ std::vector<Marker> read_markers(Reading& reading, const Entry& owner, const std
 }
 
 // "x" and "y" need the position, "angle" the angle: there is nothing to hold otherwise.
-void read_hold(Reading& reading, const Record& record, Body& body) {
+void read_hold(ModelReading& reading, const Record& record, Body& body) {
   const Value* hold = record.find("hold");
   if (hold == nullptr || hold->node == nullptr) return;
   for (std::size_t i = 0; i < hold->words.size(); ++i) {
@@ -39,7 +39,7 @@ void read_hold(Reading& reading, const Record& record, Body& body) {
   }
 }
 
-void read_body(Reading& reading, const Entry& entry) {
+void read_body(ModelReading& reading, const Entry& entry) {
   const std::string path = "body." + entry.key;
   check_name(reading, entry, path);
   if (entry.key == "ground") {
@@ -62,7 +62,7 @@ void read_body(Reading& reading, const Entry& entry) {
 
 }  // namespace
 
-void read_bodies(Reading& reading) {
+void read_bodies(ModelReading& reading) {
   std::set<std::string>& ground = reading.markers_of["ground"];
   if (const Entry* entry = reading.root.find_entry("ground")) {
     reading.records.read(reading.spec("ground"), entry->value, entry->key_spot, "ground");

@@ -27,7 +27,7 @@ std::string word_ahead(const Node& joint, std::string_view key) {
   return node == nullptr || node->string() == nullptr ? std::string() : *node->string();
 }
 
-TableSpec& joint_spec(Reading& reading, const JointTypeInfo* type, const LawInfo* law) {
+TableSpec& joint_spec(ModelReading& reading, const JointTypeInfo* type, const LawInfo* law) {
   const std::string type_word(type == nullptr ? "" : type->word);
   const std::string law_word(law == nullptr ? "" : law->word);
   // The specs are made by spec() and belong to `reading`, so they may be completed here: how many entries lists have.
@@ -39,7 +39,7 @@ TableSpec& joint_spec(Reading& reading, const JointTypeInfo* type, const LawInfo
 }
 
 // A joint of a wrong type or law: its keys cannot be judged, but what belongs to all joints can.
-void read_faulty_joint(Reading& reading, const Entry& entry, const std::string& path) {
+void read_faulty_joint(ModelReading& reading, const Entry& entry, const std::string& path) {
   TableSpec spec = reading.spec("joint.*");
   if (entry.value.table() != nullptr) {
     for (const Entry& inner : entry.value.table()->entries()) {
@@ -69,7 +69,7 @@ void read_geometry(const JointTypeInfo& type, const Record& record, Joint& joint
   joint.geometry["internal"] = record.word("mesh") == "internal" ? 1 : 0;
 }
 
-void check_gear(Reading& reading, const Record& record, const Joint& joint) {
+void check_gear(ModelReading& reading, const Record& record, const Joint& joint) {
   const auto radii = record.maybe_pair("radii");
   if (joint.type != "gear" || !radii || (*radii)[0] != (*radii)[1] || record.word("mesh") != "internal") return;
   reading.complaints.add(record.spot("radii"), record.path + ".radii", "two equal radii",
@@ -77,7 +77,7 @@ void check_gear(Reading& reading, const Record& record, const Joint& joint) {
                          "mesh = \"external\", or two different radii");
 }
 
-void read_law(Reading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record,
+void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record,
               const Record& defaults, LawChoice& choice) {
   choice.word = law.word;
   const bool has_angle = std::any_of(type.gap.begin(), type.gap.end(), [](const auto& c) { return c.angular; });
@@ -93,7 +93,7 @@ void read_law(Reading& reading, const JointTypeInfo& type, const LawInfo& law, c
   }
 }
 
-void read_joint(Reading& reading, const Entry& entry, const Record& defaults) {
+void read_joint(ModelReading& reading, const Entry& entry, const Record& defaults) {
   const std::string path = "joint." + entry.key;
   check_name(reading, entry, path);
   const std::string law_word = word_ahead(entry.value, "law");
@@ -116,7 +116,7 @@ void read_joint(Reading& reading, const Entry& entry, const Record& defaults) {
   reading.model.joints.push_back(std::move(joint));
 }
 
-Record read_defaults(Reading& reading) {
+Record read_defaults(ModelReading& reading) {
   const Entry* defaults = reading.root.find_entry("defaults");
   if (defaults == nullptr) return {};
   reading.records.read(reading.spec("defaults"), defaults->value, defaults->key_spot, "defaults");
@@ -129,7 +129,7 @@ Record read_defaults(Reading& reading) {
 
 }  // namespace
 
-void read_joints(Reading& reading) {
+void read_joints(ModelReading& reading) {
   const Record defaults = read_defaults(reading);
   for (const Entry& entry : section(reading, "joint").entries()) read_joint(reading, entry, defaults);
 }

@@ -6,20 +6,20 @@
 namespace pintle {
 namespace {
 
-void check_preload(Reading& reading, const Record& record, const std::string& free_key) {
+void check_preload(ModelReading& reading, const Record& record, const std::string& free_key) {
   if (!record.states("preload") || !record.states(free_key)) return;
   reading.complaints.add(record.spot("preload"), record.path + ".preload", "preload and " + free_key,
                          "each of them follows from the other", "delete one of them");
 }
 
-void check_spring_does_something(Reading& reading, const Record& record, const Spring& spring) {
+void check_spring_does_something(ModelReading& reading, const Record& record, const Spring& spring) {
   if (record.states("stiffness") || record.states("damping") || spring.preload) return;
   reading.complaints.add(record.table_spot, record.path, "neither stiffness nor damping nor preload",
                          "such a spring does nothing",
                          spring.torsion ? "stiffness = \"10 N*m/rad\"" : "stiffness = \"1e3 N/m\"");
 }
 
-void read_spring(Reading& reading, const Entry& entry, bool torsion) {
+void read_spring(ModelReading& reading, const Entry& entry, bool torsion) {
   const std::string section_key = torsion ? "torsion_spring" : "spring";
   const std::string free_key = torsion ? "free_angle" : "free_length";
   const std::string path = section_key + "." + entry.key;
@@ -38,7 +38,7 @@ void read_spring(Reading& reading, const Entry& entry, bool torsion) {
   reading.model.springs.push_back(std::move(spring));
 }
 
-void read_force(Reading& reading, const Entry& entry) {
+void read_force(ModelReading& reading, const Entry& entry) {
   const std::string path = "force." + entry.key;
   check_name(reading, entry, path);
   const Record record = reading.records.read(reading.spec("force.*"), entry.value, entry.key_spot, path);
@@ -57,7 +57,7 @@ void read_force(Reading& reading, const Entry& entry) {
 
 }  // namespace
 
-void read_loads(Reading& reading) {
+void read_loads(ModelReading& reading) {
   const Table& springs = section(reading, "spring");
   const Table& torsion_springs = section(reading, "torsion_spring");
   for (const Entry& entry : springs.entries()) read_spring(reading, entry, false);

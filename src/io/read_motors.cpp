@@ -36,7 +36,7 @@ std::set<std::string> names_before_dots(std::string_view text) {
   return names;
 }
 
-void add_mentioned_joints(const Reading& reading, std::string_view text, Variables& variables) {
+void add_mentioned_joints(const ModelReading& reading, std::string_view text, Variables& variables) {
   constexpr std::size_t kFew = 100;
   if (reading.type_of_joint.size() <= kFew) {  // all of them: suggestions for misspelt ones then work
     for (const auto& [name, type] : reading.type_of_joint) add_joint(name, type, variables);
@@ -49,7 +49,7 @@ void add_mentioned_joints(const Reading& reading, std::string_view text, Variabl
 }
 
 // The free coordinate that the motor acts on, "angle" or "slide"; "" after a complaint.
-std::string coordinate_of(Reading& reading, const Entry& entry, const std::string& path) {
+std::string coordinate_of(ModelReading& reading, const Entry& entry, const std::string& path) {
   const Node* joint = entry.value.table() == nullptr ? nullptr : entry.value.table()->find("joint");
   if (joint == nullptr || joint->string() == nullptr) return {};
   const auto it = reading.type_of_joint.find(*joint->string());
@@ -70,7 +70,7 @@ std::string coordinate_of(Reading& reading, const Entry& entry, const std::strin
 }
 
 // Exactly one of the three must be stated (a faulty one counts).
-void check_choice(Reading& reading, const Entry& entry, const std::string& path, const std::string& effort) {
+void check_choice(ModelReading& reading, const Entry& entry, const std::string& path, const std::string& effort) {
   std::vector<const Entry*> stated;
   for (const std::string& key : {effort, std::string("speed"), std::string("position")}) {
     if (const Entry* found = entry.value.table()->find_entry(key)) stated.push_back(found);
@@ -91,7 +91,7 @@ void check_choice(Reading& reading, const Entry& entry, const std::string& path,
   }
 }
 
-void check_servos(Reading& reading, const Motor& motor, Spot spot, std::map<std::string, std::string>& servo_of) {
+void check_servos(ModelReading& reading, const Motor& motor, Spot spot, std::map<std::string, std::string>& servo_of) {
   if (motor.kind == MotorKind::kEffort || motor.joint.empty()) return;
   const auto [it, is_new] = servo_of.emplace(motor.joint, motor.name);
   if (is_new) return;
@@ -99,7 +99,7 @@ void check_servos(Reading& reading, const Motor& motor, Spot spot, std::map<std:
                          "motor " + it->second + " already is a servo in this joint: they would fight", "one of them");
 }
 
-void read_motor(Reading& reading, const Entry& entry, std::map<std::string, std::string>& servo_of) {
+void read_motor(ModelReading& reading, const Entry& entry, std::map<std::string, std::string>& servo_of) {
   const std::string path = "motor." + entry.key;
   check_name(reading, entry, path);
   if (!reading.records.is_table(entry.value, path)) return;
@@ -132,7 +132,7 @@ void read_motor(Reading& reading, const Entry& entry, std::map<std::string, std:
 
 }  // namespace
 
-void read_motors(Reading& reading) {
+void read_motors(ModelReading& reading) {
   reading.records.joint_variables = [&reading](std::string_view text, Variables& variables) {
     add_mentioned_joints(reading, text, variables);
   };

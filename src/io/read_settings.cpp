@@ -17,7 +17,7 @@ namespace {
 constexpr int kNewestFormat = 1;
 constexpr double kMostRows = 1e7;
 
-void check_times(Reading& reading, const Record& record) {
+void check_times(ModelReading& reading, const Record& record) {
   const SimulateSettings& simulate = reading.model.simulate;
   if (simulate.duration <= 0 || simulate.output_step <= 0) return;
   const Spot spot = record.spot("output_step");
@@ -31,7 +31,7 @@ void check_times(Reading& reading, const Record& record) {
   }
 }
 
-void read_simulate(Reading& reading) {
+void read_simulate(ModelReading& reading) {
   const Entry* entry = reading.root.find_entry("simulate");
   if (entry == nullptr) return;
   const Record record = reading.records.read(reading.spec("simulate"), entry->value, entry->key_spot, "simulate");
@@ -63,7 +63,7 @@ class ParameterReader {
  public:
   using Values = std::unordered_map<std::string, Quantity>;
 
-  ParameterReader(Reading& reading, const Table& table, Values& values)
+  ParameterReader(ModelReading& reading, const Table& table, Values& values)
       : reading_(reading), table_(table), values_(values) {
     for (std::size_t i = 0; i < entries().size(); ++i) index_.emplace(entries()[i].key, i);
   }
@@ -158,7 +158,7 @@ class ParameterReader {
                             "state one of them as a number");
   }
 
-  Reading& reading_;
+  ModelReading& reading_;
   const Table& table_;
   std::map<std::string, std::size_t, std::less<>> index_;
   std::vector<std::vector<std::size_t>> users_;
@@ -169,7 +169,7 @@ class ParameterReader {
 
 }  // namespace
 
-void read_parameters(Reading& reading) {
+void read_parameters(ModelReading& reading) {
   const Table& table = section(reading, "parameters");
   auto parameters = std::make_shared<std::unordered_map<std::string, Quantity>>();
   reading.records.scope.constant = [parameters](std::string_view name) -> std::optional<Quantity> {
@@ -181,7 +181,7 @@ void read_parameters(Reading& reading) {
   ParameterReader(reading, table, *parameters).read_all();
 }
 
-void read_settings(Reading& reading) {
+void read_settings(ModelReading& reading) {
   const Node& root = reading.complaints.document().root;
   const Record record = reading.records.read(reading.spec(""), root, {0, 1, 1}, "");
   Model& model = reading.model;

@@ -23,27 +23,27 @@ std::vector<std::string> keys_of(const std::map<std::string, std::set<std::strin
 
 }  // namespace
 
-const TableSpec& Reading::spec(const std::string& path, const std::string& when, const std::string& law) {
+const TableSpec& ModelReading::spec(const std::string& path, const std::string& when, const std::string& law) {
   const std::string key = path + ' ' + when + ' ' + law;
   const auto it = specs.find(key);
   if (it != specs.end()) return it->second;
   return specs.emplace(key, Schema::model().assemble(path, when, law)).first->second;
 }
 
-const Table& section(Reading& reading, std::string_view key) {
+const Table& section(ModelReading& reading, std::string_view key) {
   static const Table kEmpty;
   const Node* node = reading.root.find(key);
   if (node == nullptr || !reading.records.is_table(*node, std::string(key))) return kEmpty;
   return *node->table();
 }
 
-void check_name(Reading& reading, const Entry& entry, const std::string& path) {
+void check_name(ModelReading& reading, const Entry& entry, const std::string& path) {
   if (is_bare_key(entry.key)) return;
   reading.complaints.add(entry.key_spot, path, quoted(entry.key), "names are made of letters, digits, _ and -",
                          usable_name(entry.key));
 }
 
-MarkerRef read_marker_ref(Reading& reading, const Node& node, const std::string& path) {
+MarkerRef read_marker_ref(ModelReading& reading, const Node& node, const std::string& path) {
   const std::string& text = *node.string();
   const std::size_t dot = text.find('.');
   if (dot == std::string::npos || text.find('.', dot + 1) != std::string::npos) {
@@ -70,7 +70,7 @@ MarkerRef read_marker_ref(Reading& reading, const Node& node, const std::string&
   return ref;
 }
 
-void read_between(Reading& reading, const Record& record, const std::string& thing, MarkerRef& first,
+void read_between(ModelReading& reading, const Record& record, const std::string& thing, MarkerRef& first,
                   MarkerRef& second) {
   const Value* value = record.find("between");
   if (value == nullptr) return;
