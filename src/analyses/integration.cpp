@@ -1,5 +1,7 @@
 #include "analyses/integration.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +19,26 @@ const State& inside(DenseOutput& dense, const Dopri5& stepper, double t, double 
   return dense.at(t, stepper.previous(), stepper.state(), mu);
 }
 
+// Notices a motion that needs ever shorter steps: one that blows up without end.
+class Standstill {
+ public:
+  explicit Standstill(double duration) : least_(kLeastShare * duration) {}
+  // Call once per step.
+  bool reached(double t) {
+    if (++steps_ < kSteps) return false;
+    const bool still = t - since_ < least_;
+    steps_ = 0;
+    since_ = t;
+    return still;
+  }
+
+ private:
+  static constexpr int kSteps = 20000;
+  static constexpr double kLeastShare = 1e-6;  // of the duration, in that many steps
+  double least_, since_ = 0;
+  int steps_ = 0;
+};
+
 // Steps to the end and records the output times; `mu` is the frequency above which a step of size h averages.
 template <class Stepper>
 Integration run(Stepper& stepper, const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder,
@@ -29,6 +51,7 @@ Integration run(Stepper& stepper, const System& system, const State& start, cons
   recorder.add(start);
   std::size_t row = 1;
   const double end = plan.duration, almost = end * (1 - 1e-12);
+  Standstill standstill(end);
   while (stepper.state().t < almost) {
     if (!stepper.step(end)) {
       out.ended = Ended::kFailed;
@@ -40,6 +63,11 @@ Integration run(Stepper& stepper, const System& system, const State& start, cons
     for (double t = static_cast<double>(row) * plan.output_step; t <= now.t && t < almost;
          t = static_cast<double>(++row) * plan.output_step)
       recorder.add(inside(dense, stepper, t, mu));
+    if (standstill.reached(now.t)) {
+      out.ended = Ended::kFailed;
+      out.message = fmt::format("the motion blows up: steps of {:.3g} s at t = {:.9g} s, ever shorter", now.t - begin.t, now.t);
+      break;
+    }
     if (plan.keep_going && !plan.keep_going(now.t)) {
       out.ended = Ended::kStopped;
       break;

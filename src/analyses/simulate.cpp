@@ -188,7 +188,7 @@ class Run {
     if (ended == Ended::kStopped) out_.outcome = Outcome::kInterrupted;
     else if (ended == Ended::kFailed && !whole) out_.outcome = Outcome::kFailed;
     else if (ended == Ended::kFailed || error > model_.simulate.tolerance) out_.outcome = Outcome::kToleranceNotMet;
-    if (no_estimate) out_.notes.push_back("stopped before a second integration: the joint forces carry no error estimate");
+    if (no_estimate && !system_.joints.empty()) out_.notes.push_back("stopped before a second integration: the joint forces carry no error estimate");
     if (whole && ended != Ended::kAtEnd)
       out_.notes.push_back("a finer integration did not reach the end; the results are those of the one before it");
     if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)
