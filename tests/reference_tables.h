@@ -1,0 +1,118 @@
+// Known solutions, tests/reference/*.csv, and runs to compare with them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "analyses/integration.h"
+#include "analyses/start.h"
+#include "pintle/read_model.h"
+#include "pintle/simulate.h"
+#include "system/build.h"
+
+namespace pintle::reference {
+
+/// A table with named columns.
+struct Table {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> rows;
+
+  double at(std::size_t row, const std::string& name) const {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) throw std::logic_error("no column " + name);
+    return rows.at(row)[static_cast<std::size_t>(found - names.begin())];
+  }
+  double peak(const std::string& name) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) largest = std::max(largest, std::abs(at(i, name)));
+    return largest;
+  }
+  double peak(const std::string& x, const std::string& y) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) largest = std::max(largest, std::hypot(at(i, x), at(i, y)));
+    return largest;
+  }
+};
+
+inline Table read_table(const std::string& name) {
+  std::ifstream in(std::string(PINTLE_SOURCE_DIR) + "/tests/reference/" + name + ".csv");
+  Table table;
+  std::string line, cell;
+  while (std::getline(in, line)) {
+    if (line.empty() || line[0] == '#') continue;
+    std::istringstream cells(line);
+    if (table.names.empty()) {
+      while (std::getline(cells, cell, ',')) table.names.push_back(cell);
+      continue;
+    }
+    table.rows.emplace_back();
+    while (std::getline(cells, cell, ',')) table.rows.back().push_back(std::stod(cell));
+    if (table.rows.back().size() != table.names.size()) throw std::logic_error(name + ": " + line);
+  }
+  if (table.rows.empty()) throw std::logic_error("no table " + name);
+  return table;
+}
+
+/// A mechanism of the collection.
+inline Model mechanism(const std::string& name, const std::vector<std::string>& overrides = {}) {
+  return read_model(std::string(PINTLE_SOURCE_DIR) + "/mechanisms/" + name + ".toml", overrides);
+}
+
+inline void set_joints(Model& model, double stiffness, double damping) {
+  for (Joint& joint : model.joints) {
+    joint.law.values["stiffness"] = {stiffness};
+    joint.law.values["damping"] = {damping};
+  }
+}
+
+inline double value(const Trajectory& run, std::size_t row, const std::string& column) {
+  const int c = run.column(column);
+  if (c < 0) throw std::logic_error("no column " + column);
+  return run.at(row, static_cast<std::size_t>(c));
+}
+
+/// The row of time t.
+inline std::size_t row_at(const Trajectory& run, double t) {
+  for (std::size_t i = 0; i < run.n_rows(); ++i)
+    if (std::abs(run.at(i, 0) - t) < 1e-9 * std::max(1.0, t)) return i;
+  throw std::logic_error("no row at t = " + std::to_string(t));
+}
+
+/// How far the force columns `joint`.fx, .fy[world] are from (x, y).
+inline double force_error(const Trajectory& run, std::size_t row, const std::string& joint, double x, double y) {
+  return std::hypot(value(run, row, "joint." + joint + ".fx[world]") - x, value(run, row, "joint." + joint + ".fy[world]") - y);
+}
+
+/// One integration of the model from its start; `stages` 0: the explicit method.
+inline Integration integrate_once(const Model& model, double tolerance, int stages, const LoadScale* scale, Trajectory* out = nullptr) {
+  System system = build_system(model);
+  const State start = start_of_run(model, system).state;
+  IntegrationPlan plan;
+  plan.duration = model.simulate.duration;
+  plan.output_step = model.simulate.output_step > 0 ? model.simulate.output_step : plan.duration / 500;
+  plan.max_step = model.simulate.max_step;
+  plan.tolerance = tolerance;
+  plan.first_step = 1e-4 * plan.duration;
+  plan.stages = stages;
+  plan.scale = scale;
+  Recorder recorder(model, system);
+  Integration done = stages == 0 ? integrate_dopri5(system, start, plan, recorder) : integrate_radau(system, start, plan, recorder);
+  if (out) recorder.fill(*out);
+  return done;
+}
+
+/// Counters of the second, reported pass of a run: a pilot with three times the tolerance before it; five stages where the
+/// pilot's Newton iterations say that its steps are short.
+inline Counters reported_pass(const Model& model) {
+  Integration pilot = integrate_once(model, 3 * model.simulate.tolerance, 3, nullptr);
+  const int stages = pilot.counters.newton_iterations < 3 * pilot.counters.steps ? 5 : 3;
+  if (stages == 5) pilot = integrate_once(model, 3 * model.simulate.tolerance, stages, nullptr);
+  return integrate_once(model, 0.3 * model.simulate.tolerance, stages, &pilot.scale).counters;
+}
+
+}  // namespace pintle::reference
