@@ -51,10 +51,9 @@ void plain_start(const System& system, State& state) {
   }
 }
 
-// Accelerations that the joint forces really give at the state's gaps, and the gap accelerations that go with them; gaps
-// that carry no stiffness are those of the positions.
 }  // namespace
 
+// Gaps that carry no stiffness are those of the positions.
 void balance_start(const System& system, State& state) {
   std::vector<S::Motion> m;
   std::vector<Reading> r;
