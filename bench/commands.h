@@ -24,7 +24,8 @@ nlohmann::ordered_json study_stiffness(const StiffnessOptions& options);
 struct ForceOptions {
   std::vector<std::string> models;  // empty: the whole collection
   std::vector<double> tolerances{1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
-  double cap = 60;  // seconds for each run
+  double cap = 60;           // seconds for each run
+  double negligible = 1e-4;  // of the largest force: a joint with less is measured by this
   bool every_joint = false;
 };
 nlohmann::ordered_json study_forces(const ForceOptions& options);

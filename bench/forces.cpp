@@ -46,6 +46,8 @@ class Runs {
  public:
   Runs(std::string name, double cap) : model_(collection_model(name)), cap_(cap) {}
 
+  const Model& model() const { return model_; }
+
   const Trajectory& at(double tolerance) {
     const int key = static_cast<int>(std::lround(-10 * std::log10(tolerance)));
     if (const auto known = runs_.find(key); known != runs_.end()) return known->second;
@@ -98,7 +100,8 @@ class Study {
       }
       const Trajectory& reference = runs.at(kReferenceShare * tolerance);
       const bool usable = reference.outcome == Outcome::kCompleted || reference.outcome == Outcome::kToleranceNotMet;
-      const std::vector<JointError> errors = usable ? joint_errors(run, reference) : std::vector<JointError>{};
+      const std::vector<JointError> errors =
+          usable ? joint_errors(runs.model(), run, reference, options_.negligible) : std::vector<JointError>{};
       if (errors.empty())
         skip(name, tolerance, run, fmt::format("reference {}", outcome_word(reference)));
       else

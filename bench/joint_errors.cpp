@@ -6,8 +6,6 @@
 namespace pintle::bench {
 namespace {
 
-constexpr double kNegligible = 1e-6;  // a joint is measured at least by this part of the mechanism's largest force
-
 struct Difference {
   double force = 0, couple = 0, peak = 0, peak_couple = 0;
 };
@@ -28,13 +26,20 @@ Difference compare(const Trajectory& run, const Trajectory& reference, const Loa
   return d;
 }
 
-double relative(double error, double peak, double largest) {
-  return error / std::max({peak, kNegligible * largest, 1e-300});
+double relative(double error, double peak, double least) {
+  return error / std::max({peak, least, 1e-300});
+}
+
+double radius_of_gyration(const Model& model) {
+  double radius = 0;
+  for (const Body& body : model.bodies) radius = std::max(radius, std::sqrt(body.inertia / body.mass));
+  return radius;
 }
 
 }  // namespace
 
-std::vector<JointError> joint_errors(const Trajectory& run, const Trajectory& reference) {
+std::vector<JointError> joint_errors(const Model& model, const Trajectory& run, const Trajectory& reference,
+                                     double negligible) {
   if (run.n_rows() != reference.n_rows()) return {};
   std::vector<Difference> differences;
   double force = 0, couple = 0;
@@ -43,12 +48,12 @@ std::vector<JointError> joint_errors(const Trajectory& run, const Trajectory& re
     force = std::max(force, differences.back().peak);
     couple = std::max(couple, differences.back().peak_couple);
   }
-  for (const MotorSummary& motor : run.motors)  // a servo's effort counts among the largest
-    (motor.unit == "N" ? force : couple) = std::max(motor.unit == "N" ? force : couple, std::abs(motor.peak_effort));
+  couple = std::max(couple, force * radius_of_gyration(model));
   std::vector<JointError> errors;
   for (std::size_t j = 0; j < differences.size(); ++j) {
     const Difference& d = differences[j];
-    const double of_force = relative(d.force, d.peak, force), of_couple = relative(d.couple, d.peak_couple, couple);
+    const double of_force = relative(d.force, d.peak, negligible * force);
+    const double of_couple = relative(d.couple, d.peak_couple, negligible * couple);
     errors.push_back({run.joints[j].name, std::max(of_force, of_couple), of_force, of_couple > of_force,
                       run.joints[j].relative_error_estimate});
   }

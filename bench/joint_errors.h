@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pintle/model.h"
 #include "pintle/trajectory.h"
 
 namespace pintle::bench {
@@ -17,8 +18,11 @@ struct JointError {
   double ratio() const { return estimate / error; }
 };
 
-/// One entry per joint. Empty when the two do not have the same rows.
-std::vector<JointError> joint_errors(const Trajectory& run, const Trajectory& reference);
+/// One entry per joint. A joint that carries less than the share `negligible` of the largest force of the mechanism is
+/// measured by that share; couples likewise, by the largest couple or force times radius of gyration, theory/time
+/// (6.1). Empty when the two runs do not have the same rows.
+std::vector<JointError> joint_errors(const Model& model, const Trajectory& run, const Trajectory& reference,
+                                     double negligible);
 
 /// The entry with the largest error.
 const JointError& worst_of(const std::vector<JointError>& joints);

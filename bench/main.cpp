@@ -42,6 +42,9 @@ void add_forces(CLI::App& app, Options& o, Json& out) {
   verb->add_option("--models", o.forces.models, "names without .toml; all if absent")->delimiter(',');
   verb->add_option("--tolerances", o.forces.tolerances)->delimiter(',');
   verb->add_option("--cap", o.forces.cap, "seconds that any run may take")->capture_default_str();
+  verb->add_option("--negligible", o.forces.negligible,
+                   "share of the largest force that any joint is measured by at least")
+      ->capture_default_str();
   verb->add_flag("--joints", o.forces.every_joint, "print every joint, not only the worst of each model");
   verb->callback([&] { out["forces"] = study_forces(o.forces); });
 }
@@ -53,7 +56,7 @@ void add_micro(CLI::App& app, Options& o) {
   verb->callback([&] { run_micro(o.micro_filter, o.micro_time, o.json_file); });
 }
 
-// Everything in about a minute.
+// Everything in a few minutes.
 Json run_short() {
   Json out;
   run_micro(".", 0.02, "");
@@ -67,7 +70,7 @@ Json run_short() {
   out["stiffness"] = study_stiffness(stiffness);
   ForceOptions forces;
   forces.tolerances = {1e-3, 1e-5};
-  forces.cap = 10;
+  forces.cap = 5;
   out["forces"] = study_forces(forces);
   return out;
 }

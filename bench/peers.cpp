@@ -187,16 +187,20 @@ ResultTable one_turn(const ReadyModel& ready, const Problem& problem, const Forc
                      {"force error", "force_error"},
                      {"ms", "milliseconds"},
                      {"+- %", "spread_percent"}});
-  Times start, alone, pilot, reported, whole;
+  Problem only_end = problem;
+  only_end.outputs = {problem.outputs.back()};
+  Times start, bare, alone, pilot, reported, whole;
   for (int i = 0; i <= 5 * repetitions; ++i) {
     const Stopwatch watch;
     const ReadyModel fresh(ready.model);
     const double seconds = watch.seconds();
+    const double steps_only = run_radau(only_end, 3, kAsked).seconds;
     const double single = run_radau(problem, 3, kAsked).seconds;
     const RunPasses passes = run_passes(problem, kAsked);
     const double all = whole_run(ready.model, ready.system, kAsked).seconds;
     if (i == 0) continue;  // for the caches
     start.add(seconds);
+    bare.add(steps_only);
     alone.add(single);
     pilot.add(passes.pilot.seconds);
     reported.add(passes.reported.seconds);
@@ -211,7 +215,10 @@ ResultTable one_turn(const ReadyModel& ready, const Problem& problem, const Forc
         run.samples.error(reference), times);
   };
   row("assembly and start", NAN, NAN, NAN, start);
-  row_of("RadauStepper alone at this tolerance", run_radau(problem, 3, kAsked), alone);
+  const PintleRun steps_only = run_radau(only_end, 3, kAsked);
+  row("RadauStepper, nothing between steps", static_cast<double>(steps_only.counters.steps),
+      static_cast<double>(steps_only.counters.newton_iterations), NAN, bare);
+  row_of("RadauStepper with dense output", run_radau(problem, 3, kAsked), alone);
   const RunPasses passes = run_passes(problem, kAsked);
   row_of("pilot integration", passes.pilot, pilot);
   row_of("reported integration", passes.reported, reported);

@@ -12,13 +12,10 @@
 namespace pintle::bench {
 namespace {
 
-// As simulate() chooses them: tolerances of its two first passes over the one asked for.
-constexpr double kPilot = 3, kReported = 0.3;
-constexpr double kTight = 3e-7, kVeryTight = 1e-8;
-
-int stages_for(double asked, double of_pass) {
-  return asked < kTight || of_pass < kVeryTight ? 5 : 3;
-}
+// As simulate() chooses them, theory/time section 6.
+constexpr double kPilot = 10;    // tolerance of the pilot over the one asked for
+constexpr double kTight = 3e-7;  // below it five stages at once
+constexpr double kEasy = 3;      // Newton iterations per step of the pilot: with fewer it is repeated with five
 
 }  // namespace
 
@@ -48,9 +45,16 @@ PintleRun run_radau(const Problem& problem, int stages, double tolerance, const 
 }
 
 RunPasses run_passes(const Problem& problem, double tolerance) {
-  PintleRun pilot = run_radau(problem, stages_for(tolerance, kPilot * tolerance), kPilot * tolerance);
-  PintleRun reported =
-      run_radau(problem, stages_for(tolerance, kReported * tolerance), kReported * tolerance, &pilot.scale);
+  int stages = tolerance < kTight ? 5 : 3;
+  PintleRun pilot = run_radau(problem, stages, kPilot * tolerance);
+  const Counters& c = pilot.counters;
+  if (stages == 3 && static_cast<double>(c.newton_iterations) < kEasy * static_cast<double>(c.steps)) {
+    stages = 5;
+    const double spent = pilot.seconds;
+    pilot = run_radau(problem, stages, kPilot * tolerance, &pilot.scale);
+    pilot.seconds += spent;
+  }
+  PintleRun reported = run_radau(problem, stages, tolerance, &pilot.scale);
   return {std::move(pilot), std::move(reported)};
 }
 
