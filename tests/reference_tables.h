@@ -106,13 +106,13 @@ inline Integration integrate_once(const Model& model, double tolerance, int stag
   return done;
 }
 
-/// Counters of the second, reported pass of a run: a pilot with three times the tolerance before it; five stages where the
+/// Counters of the second, reported pass of a run: a pilot with ten times the tolerance before it; five stages where the
 /// pilot's Newton iterations say that its steps are short.
 inline Counters reported_pass(const Model& model) {
-  Integration pilot = integrate_once(model, 3 * model.simulate.tolerance, 3, nullptr);
+  Integration pilot = integrate_once(model, 10 * model.simulate.tolerance, 3, nullptr);
   const int stages = pilot.counters.newton_iterations < 3 * pilot.counters.steps ? 5 : 3;
-  if (stages == 5) pilot = integrate_once(model, 3 * model.simulate.tolerance, stages, nullptr);
-  return integrate_once(model, 0.3 * model.simulate.tolerance, stages, &pilot.scale).counters;
+  if (stages == 5) pilot = integrate_once(model, 10 * model.simulate.tolerance, stages, nullptr);
+  return integrate_once(model, model.simulate.tolerance, stages, &pilot.scale).counters;
 }
 
 }  // namespace pintle::reference
