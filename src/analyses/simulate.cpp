@@ -18,12 +18,13 @@ namespace pintle {
 namespace {
 
 constexpr int kMaxPasses = 6;
-constexpr double kPilot = 10, kReported = 1;  // tolerances of the first two passes over the one asked for
+constexpr double kPilot = 10;       // tolerance of the first pass over that of the second
+constexpr double kLoosest = 1e-4;   // of the second pass: above it steps are bounded by other things, and two passes are alike
 constexpr double kTight = 3e-7;  // a tolerance below it is met by order 9
 constexpr double kEasy = 3;      // Newton iterations per step: fewer say that steps are short, and order 9 makes them longer
 constexpr double kLeastTolerance = 1e-13;
 // The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
-constexpr double kSharePower = 0.75, kShareOfEqual = 2;
+constexpr double kSharePower = 0.75, kShareOfEqual = 3;
 constexpr double kNegligible = 1e-4;  // a joint is measured at least by this part of the mechanism's largest force
 
 class Clock {
@@ -130,15 +131,15 @@ class Run {
     Comparison difference;
     double share = 1, error = 0;
     stages_ = wanted < kTight ? 5 : 3;
-    bool complete = run_pass(kPilot * wanted);
+    double tolerance = std::min(wanted, kLoosest);
+    bool complete = run_pass(kPilot * tolerance);
     const Counters& pilot = last_.counters;
     if (complete && !explicit_ && stages_ == 3 && static_cast<double>(pilot.newton_iterations) < kEasy * static_cast<double>(pilot.steps)) {
       stages_ = 5;
       fine_.reset();
-      complete = run_pass(kPilot * wanted);
+      complete = run_pass(kPilot * tolerance);
     }
     if (complete) {
-      double tolerance = kReported * wanted;
       while (true) {
         const double before = fine_tolerance_;
         if (!run_pass(tolerance)) break;

@@ -59,8 +59,11 @@ double RadauStepper::gap_tail() {
     }
     for (auto& x : move_) x.setZero();
     projector_.close(wanted_, move_);
-    for (int i = 0; i < system_.n_bodies(); ++i)
-      size[back] = std::max(size[back], system_.bodies[i].mass.cwiseProduct(move_[i]).cwiseAbs().cwiseQuotient(scale_.body[i]).maxCoeff());
+    for (int i = 0; i < system_.n_bodies(); ++i) {
+      const S::Vec relative = system_.bodies[i].mass.cwiseProduct(move_[i]).cwiseQuotient(scale_.body[i]);
+      if (!relative.allFinite()) return std::numeric_limits<double>::infinity();
+      size[back] = std::max(size[back], relative.cwiseAbs().maxCoeff());
+    }
     if (!(size[0] > 0)) return 0;
   }
   return kGapError * size[0] * fall_off(size[0], size[1], size[2]);

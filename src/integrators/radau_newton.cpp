@@ -1,6 +1,8 @@
 // The stage equations of one step, solved by simplified Newton: one real and one complex block factorisation per step.
 // theory/time Eqs. (3.5)-(3.11).
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "integrators/radau_stepper.h"
 
@@ -289,8 +291,11 @@ void RadauStepper::back_to_stages(double h) {
 double RadauStepper::correction_size() const {
   double size = 0;
   for (int s = 0; s < n_; ++s)
-    for (int b = 0; b < system_.n_bodies(); ++b)
-      size = std::max(size, system_.bodies[b].mass.cwiseProduct(delta_a_[s][b]).cwiseAbs().cwiseQuotient(scale_.body[b]).maxCoeff());
+    for (int b = 0; b < system_.n_bodies(); ++b) {
+      const S::Vec relative = system_.bodies[b].mass.cwiseProduct(delta_a_[s][b]).cwiseQuotient(scale_.body[b]);
+      if (!relative.allFinite()) return std::numeric_limits<double>::infinity();
+      size = std::max(size, relative.cwiseAbs().maxCoeff());
+    }
   return size;
 }
 
