@@ -29,5 +29,5 @@ endif()
 add_library(pintle_quick_build INTERFACE)
 target_compile_options(pintle_quick_build INTERFACE $<$<CONFIG:Release>:-O1>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
-  target_compile_options(pintle_quick_build INTERFACE -Wno-array-bounds -Wno-stringop-overread)  # as -Wno-restrict
+  target_compile_options(pintle_quick_build INTERFACE -Wno-array-bounds -Wno-stringop-overread -Wno-stringop-overflow)  # as -Wno-restrict
 endif()
