@@ -16,7 +16,9 @@ void expect_regular_branch(const Trajectory& run, int n, double tolerance) {
     const double first = value(run, row, "body.crank0.angle");
     for (int i = 1; i <= n; ++i) ASSERT_NEAR(value(run, row, "body.crank" + std::to_string(i) + ".angle"), first, tolerance) << run.at(row, 0);
     for (int i = 0; i < n; ++i) ASSERT_NEAR(value(run, row, "body.coupler" + std::to_string(i) + ".angle"), 0, tolerance) << run.at(row, 0);
-    if (row > 0) ASSERT_LT(first, value(run, row - 1, "body.crank0.angle"));  // keeps turning
+    if (row > 0) {
+      ASSERT_LT(first, value(run, row - 1, "body.crank0.angle"));  // keeps turning
+    }
   }
 }
 
