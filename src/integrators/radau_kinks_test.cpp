@@ -160,5 +160,20 @@ TEST(RadauKinks, OneWayDragIsThatOfASplitRun) {
   }
 }
 
+// Where there is no kink none is crossed, however much a step falls short of the first guess.
+TEST(RadauKinks, AFirstStepFarTooLongIsOnlyShortened) {
+  const Model model = sample::pendulum(1e8, 10);  // starts without its load: vibrates at 20 000 rad/s
+  const System system = build_system(model);
+  const State start = sample::plain_start(model, system), exact = run_to(system, start, 1e-3, 1e-9, 5);
+  for (const double first_step : {1e-2, 1.0, 100.0}) {
+    RadauStepper stepper(system, 1e-4);
+    stepper.start(start, first_step);
+    bool going = true;
+    while (going && stepper.state().t < 1e-3) going = stepper.step(1e-3 + (stepper.counters().steps == 0 ? 1e4 : 0));
+    ASSERT_TRUE(going) << stepper.failure();
+    EXPECT_LT(sample::largest_difference(stepper.state().force, exact.force), 20 * 1e-4 * 10) << first_step;
+  }
+}
+
 }  // namespace
 }  // namespace pintle
