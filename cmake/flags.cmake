@@ -27,7 +27,7 @@ endif()
 
 # For code whose speed does not matter: quick to build even in Release.
 add_library(pintle_quick_build INTERFACE)
-target_compile_options(pintle_quick_build INTERFACE $<$<CONFIG:Release>:-O1>)
+target_compile_options(pintle_quick_build INTERFACE $<$<CONFIG:Release>:-O1> $<$<CONFIG:Debug>:-O0>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
   target_compile_options(pintle_quick_build INTERFACE -Wno-array-bounds -Wno-stringop-overread -Wno-stringop-overflow)  # as -Wno-restrict
 endif()

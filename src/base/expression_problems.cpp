@@ -25,7 +25,7 @@ constexpr std::array<Alias, 20> kAliases{{
     {"Pa", "N/m^2"},   {"MPa", "N/mm^2"},  {"GPa", "kN/mm^2"}, {"turn", "rev"},    {"turns", "rev"},
 }};
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   return '"' + printable(text) + '"';
 }
 
@@ -60,7 +60,7 @@ ParseProblem missing_operator(std::size_t at, std::string_view what, bool is_uni
   std::string suggestion("*");
   suggestion.append(what);
   if (is_unit) suggestion.append(" or /").append(what);
-  return {at, quoted(what), "an operator is missing before it", suggestion};
+  return {at, in_quotes(what), "an operator is missing before it", suggestion};
 }
 
 ParseProblem unexpected_comma(std::string_view text, std::size_t at) {
@@ -96,13 +96,13 @@ ParseProblem unexpected_after_operand(std::string_view text, std::size_t at, con
   const std::string_view character = character_at(text, at);
   if (c == ')') return {at, "a closing parenthesis", "no parenthesis is open here", "delete it, or open one with ("};
   if (c == ',') return unexpected_comma(text, at);
-  if (c == '=') return {at, quoted("="), "an expression cannot be an equation", "compare with <= or >="};
+  if (c == '=') return {at, in_quotes("="), "an expression cannot be an equation", "compare with <= or >="};
   if (c == '(' || is_digit(c)) return missing_operator(at, c == '(' ? character : number_at(text, at), false);
   const std::string_view symbol = symbol_at(text, at);
   if (is_known_name(symbol, scope)) return missing_operator(at, symbol, false);
   if (is_unit_symbol(symbol)) return missing_operator(at, symbol, true);
   if (!symbol.empty() && is_word_start(c)) return unknown_name(symbol, at, scope);
-  return {at, quoted(character), "this has no meaning in an expression", "+ - * / ^ ( ) < > <= >="};
+  return {at, in_quotes(character), "this has no meaning in an expression", "+ - * / ^ ( ) < > <= >="};
 }
 
 ParseProblem no_operand(std::string_view text, std::size_t at) {
@@ -111,17 +111,17 @@ ParseProblem no_operand(std::string_view text, std::size_t at) {
     return {at, "the end of the text", std::string(kWanted), "a number, or delete what asks for one"};
   const std::optional<OperatorAt> found = operator_at(text, at);
   if (!found)
-    return {at, quoted(character_at(text, at)), std::string(kWanted), "a number, or delete what asks for one"};
+    return {at, in_quotes(character_at(text, at)), std::string(kWanted), "a number, or delete what asks for one"};
   const bool is_double_star = found->symbol == '*' && at > 0 && text[at - 1] == '*';
-  return {at, quoted(text.substr(at, found->length)), std::string(kWanted),
+  return {at, in_quotes(text.substr(at, found->length)), std::string(kWanted),
           is_double_star ? "^ for a power" : "a number, or delete what asks for one"};
 }
 
 ParseProblem unknown_name(std::string_view word, std::size_t at, const ParseScope& scope) {
   if (word == "t" && scope.variables.empty())
-    return {at, quoted(word), "time is known in forces, torques and motors only; this is a constant",
+    return {at, in_quotes(word), "time is known in forces, torques and motors only; this is a constant",
             "a number, or 1 t for a tonne"};
-  if (is_unit_symbol(word)) return {at, quoted(word), "a unit needs a number in front of it", "1 " + std::string(word)};
+  if (is_unit_symbol(word)) return {at, in_quotes(word), "a unit needs a number in front of it", "1 " + std::string(word)};
   std::vector<std::string_view> names(scope.constant_names.begin(), scope.constant_names.end());
   for (const auto& variable : scope.variables) names.push_back(variable.first);
   for (const FunctionInfo& function : function_catalog()) names.push_back(function.name);
@@ -130,20 +130,20 @@ ParseProblem unknown_name(std::string_view word, std::size_t at, const ParseScop
   const auto alias =
       std::find_if(kFunctionAliases.begin(), kFunctionAliases.end(), [&](const Alias& a) { return a.word == word; });
   if (alias != kFunctionAliases.end())
-    return {at, quoted(word), "there is no such name here", "did you mean " + quoted(alias->unit) + "?"};
-  return {at, quoted(word), "there is no such name here",
-          guess ? "did you mean " + quoted(*guess) + "?" : known_names(scope)};
+    return {at, in_quotes(word), "there is no such name here", "did you mean " + in_quotes(alias->unit) + "?"};
+  return {at, in_quotes(word), "there is no such name here",
+          guess ? "did you mean " + in_quotes(*guess) + "?" : known_names(scope)};
 }
 
 ParseProblem unknown_unit(std::string_view word, std::size_t at) {
-  ParseProblem problem{at, quoted(word), "no unit has this symbol", ""};
+  ParseProblem problem{at, in_quotes(word), "no unit has this symbol", ""};
   const auto alias = std::find_if(kAliases.begin(), kAliases.end(), [&](const Alias& a) { return a.word == word; });
   if (alias != kAliases.end()) {
     problem.suggestion = alias->unit;
   } else if (const std::optional<std::string> product = split_unit(word)) {
     problem.suggestion = *product;
   } else if (const std::optional<std::string> guess = did_you_mean(word, unit_symbols())) {
-    problem.suggestion = "did you mean " + quoted(*guess) + "?";
+    problem.suggestion = "did you mean " + in_quotes(*guess) + "?";
   } else {
     problem.suggestion = "units are made of m, mm, kg, s, N, rad, deg and others, joined by * and /";
   }

@@ -83,7 +83,7 @@ bool RadauStepper::step(double t_end) {
       continue;
     }
     const Kink kink = system_.has_branches() ? first_kink(h) : Kink{};
-    if (kink.before * h < kKinkAtStart * usual_h_) {
+    if (kink.before < 1 && kink.before * h < kKinkAtStart * usual_h_) {
       cross_kink(kink.before * h);
       begin_ = end_;
       h = std::max(h, kAfterKink * usual_h_);

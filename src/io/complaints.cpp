@@ -25,7 +25,7 @@ std::string Complaints::did_you_mean(std::string_view word, const std::vector<st
 
 std::string advice(const std::string& near, const std::vector<std::string>& names) {
   constexpr std::size_t kShown = 16;
-  if (!near.empty()) return "did you mean " + quoted(near) + "?";
+  if (!near.empty()) return "did you mean " + in_quotes(near) + "?";
   std::string list;
   std::size_t n_shown = 0;
   for (const std::string& name : names) {

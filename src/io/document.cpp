@@ -217,7 +217,7 @@ std::string describe(const Node& node) {
   if (const Array* array = node.array()) {
     return "a list of " + std::to_string(array->size()) + (array->size() == 1 ? " entry" : " entries");
   }
-  if (const std::string* string = node.string()) return quoted(*string);
+  if (const std::string* string = node.string()) return in_quotes(*string);
   if (const bool* truth = node.truth()) return *truth ? "true" : "false";
   return number_text(node);
 }

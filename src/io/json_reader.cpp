@@ -66,7 +66,7 @@ class JsonReader {
   void expect(char wanted, const char* where) {
     skip_space();
     if (peek() != wanted) {
-      fail(at_ < text_.size() ? quoted(text_.substr(at_, 1)) : "the end of the file",
+      fail(at_ < text_.size() ? in_quotes(text_.substr(at_, 1)) : "the end of the file",
            std::string("expected ") + wanted + " " + where,
            wanted == ':' ? "\"key\": value" : "look for a missing comma, bracket or brace");
     }
@@ -207,7 +207,7 @@ class JsonReader {
                                                 "leave the key out to take its default"));
       node.value = std::int64_t{0};
     } else if (!read_number(word, node)) {
-      fail(word.empty() ? "no value" : quoted(word), "expected a JSON value", "strings with units need double quotes");
+      fail(word.empty() ? "no value" : in_quotes(word), "expected a JSON value", "strings with units need double quotes");
     }
     if (node.real() != nullptr && !std::isfinite(*node.real())) {
       complaints_.push_back(

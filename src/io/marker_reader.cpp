@@ -79,7 +79,7 @@ bool RecordReader::read_marker_table(const Table& table, const Entry& entry, con
     const std::string inner_path = path + "." + inner.key;
     const KeySpec* spec = find_part(inner.key);
     if (spec == nullptr) {
-      complaints_.add(inner.key_spot, inner_path, "unknown key " + quoted(inner.key), "markers have no such key",
+      complaints_.add(inner.key_spot, inner_path, "unknown key " + in_quotes(inner.key), "markers have no such key",
                       kForms);
       good = false;
     } else {

@@ -81,7 +81,7 @@ class Override {
     const std::vector<std::string> parts = split_path(path);
     const bool good_path = std::all_of(parts.begin(), parts.end(), [](const auto& part) { return is_bare_key(part); });
     if (equals == std::string::npos || !good_path || parts.size() > kMaxDepth) {
-      complaints_.add(spot_, "", quoted(text_), "an override is path.to.key=value", "simulate.duration=2");
+      complaints_.add(spot_, "", in_quotes(text_), "an override is path.to.key=value", "simulate.duration=2");
       return;
     }
     Table* table = document_.root.table();
@@ -106,7 +106,7 @@ class Override {
       std::vector<std::string> names;
       for (const Entry& entry : table.entries()) names.push_back(entry.key);
       const std::string near = complaints_.did_you_mean(parts[1], names);
-      complaints_.add(spot_, parts[0] + "." + parts[1], quoted(parts[1]), "the model has no such " + parts[0], near);
+      complaints_.add(spot_, parts[0] + "." + parts[1], in_quotes(parts[1]), "the model has no such " + parts[0], near);
       return nullptr;
     }
     if (node == nullptr) {

@@ -46,7 +46,7 @@ void read_force(ModelReading& reading, const Entry& entry) {
   force.name = entry.key;
   if (const Value* on = record.find("on")) force.on = read_marker_ref(reading, *on->node, path + ".on");
   if (force.on.body == "ground") {
-    reading.complaints.add(record.spot("on"), path + ".on", quoted(record.word("on")),
+    reading.complaints.add(record.spot("on"), path + ".on", in_quotes(record.word("on")),
                            "a force on the ground moves nothing", "a marker of a body");
   }
   force.force = {record.expression("force", 0), record.expression("force", 1)};
@@ -64,7 +64,7 @@ void read_loads(ModelReading& reading) {
   for (const Entry& entry : torsion_springs.entries()) {
     read_spring(reading, entry, true);
     if (springs.find(entry.key) == nullptr) continue;
-    reading.complaints.add(entry.key_spot, "torsion_spring." + entry.key, quoted(entry.key),
+    reading.complaints.add(entry.key_spot, "torsion_spring." + entry.key, in_quotes(entry.key),
                            "there is a spring of this name, and results could not tell them apart", "another name");
   }
   for (const Entry& entry : section(reading, "force").entries()) read_force(reading, entry);

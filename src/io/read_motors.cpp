@@ -56,14 +56,14 @@ std::string coordinate_of(ModelReading& reading, const Entry& entry, const std::
   if (it == reading.type_of_joint.end()) {
     std::vector<std::string> names;
     for (const auto& [name, type] : reading.type_of_joint) names.push_back(name);
-    reading.complaints.add(joint->spot, path + ".joint", quoted(*joint->string()), "there is no such joint",
+    reading.complaints.add(joint->spot, path + ".joint", in_quotes(*joint->string()), "there is no such joint",
                            reading.complaints.did_you_mean(*joint->string(), names));
     return {};
   }
   const JointTypeInfo* type = find_joint_type(it->second);
   if (type == nullptr) return {};
   if (!type->free.empty()) return std::string(type->free.front().name);
-  reading.complaints.add(joint->spot, path + ".joint", quoted(*joint->string()),
+  reading.complaints.add(joint->spot, path + ".joint", in_quotes(*joint->string()),
                          "a " + it->second + " joint leaves no coordinate free for a motor",
                          "a revolute, prismatic or slot joint");
   return {};
@@ -95,7 +95,7 @@ void check_servos(ModelReading& reading, const Motor& motor, Spot spot, std::map
   if (motor.kind == MotorKind::kEffort || motor.joint.empty()) return;
   const auto [it, is_new] = servo_of.emplace(motor.joint, motor.name);
   if (is_new) return;
-  reading.complaints.add(spot, "motor." + motor.name + ".joint", quoted(motor.joint),
+  reading.complaints.add(spot, "motor." + motor.name + ".joint", in_quotes(motor.joint),
                          "motor " + it->second + " already is a servo in this joint: they would fight", "one of them");
 }
 

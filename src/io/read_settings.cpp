@@ -112,10 +112,10 @@ class ParameterReader {
     const std::string path = "parameters." + entry.key;
     Quantity value{kFaulty, {}};
     if (is_reserved_name(entry.key)) {
-      reading_.complaints.add(entry.key_spot, path, quoted(entry.key),
+      reading_.complaints.add(entry.key_spot, path, in_quotes(entry.key),
                               "this is the name of a unit, a function or a constant", entry.key + "_value");
     } else if (!is_identifier(entry.key)) {
-      reading_.complaints.add(entry.key_spot, path, quoted(entry.key),
+      reading_.complaints.add(entry.key_spot, path, in_quotes(entry.key),
                               "a parameter's name is a letter, then letters, digits and _", "no other character in it");
     } else if (const auto read = reading_.records.read_quantity(entry.value, path)) {
       value = *read;

@@ -39,7 +39,7 @@ const Table& section(ModelReading& reading, std::string_view key) {
 
 void check_name(ModelReading& reading, const Entry& entry, const std::string& path) {
   if (is_bare_key(entry.key)) return;
-  reading.complaints.add(entry.key_spot, path, quoted(entry.key), "names are made of letters, digits, _ and -",
+  reading.complaints.add(entry.key_spot, path, in_quotes(entry.key), "names are made of letters, digits, _ and -",
                          usable_name(entry.key));
 }
 
@@ -47,7 +47,7 @@ MarkerRef read_marker_ref(ModelReading& reading, const Node& node, const std::st
   const std::string& text = *node.string();
   const std::size_t dot = text.find('.');
   if (dot == std::string::npos || text.find('.', dot + 1) != std::string::npos) {
-    reading.complaints.add(node.spot, path, quoted(text), "a marker is named as body.marker", "\"ground.A\"");
+    reading.complaints.add(node.spot, path, in_quotes(text), "a marker is named as body.marker", "\"ground.A\"");
     return {};
   }
   const MarkerRef ref{text.substr(0, dot), text.substr(dot + 1)};
@@ -55,15 +55,15 @@ MarkerRef read_marker_ref(ModelReading& reading, const Node& node, const std::st
   if (body == reading.markers_of.end()) {
     const std::vector<std::string> bodies = keys_of(reading.markers_of);
     const std::string near = reading.complaints.nearest(ref.body, bodies);
-    reading.complaints.add(node.spot, path, quoted(text), "there is no body " + quoted(ref.body),
+    reading.complaints.add(node.spot, path, in_quotes(text), "there is no body " + in_quotes(ref.body),
                            advice(near.empty() ? near : near + "." + ref.marker, bodies));
   } else if (body->second.count(ref.marker) == 0) {
     const std::string owner = ref.body == "ground" ? ref.body : "body." + ref.body;
     const std::vector<std::string> names(body->second.begin(), body->second.end());
     const std::string near = reading.complaints.nearest(ref.marker, names);
     reading.complaints.add(
-        reading.complaints.document().inside(node, dot + 1), path, quoted(text),
-        (ref.body == "ground" ? "the ground" : "body " + ref.body) + " has no marker " + quoted(ref.marker),
+        reading.complaints.document().inside(node, dot + 1), path, in_quotes(text),
+        (ref.body == "ground" ? "the ground" : "body " + ref.body) + " has no marker " + in_quotes(ref.marker),
         names.empty() ? owner + ".markers." + ref.marker + " = [0, 0]"
                       : advice(near.empty() ? near : ref.body + "." + near, names));
   }
@@ -80,7 +80,7 @@ void read_between(ModelReading& reading, const Record& record, const std::string
   second = read_marker_ref(reading, list[1], path);
   if (first.body.empty() || first.body != second.body) return;
   const bool on_ground = first.body == "ground";
-  reading.complaints.add(record.spot("between"), path, quoted(*list[0].string()) + " and " + quoted(*list[1].string()),
+  reading.complaints.add(record.spot("between"), path, in_quotes(*list[0].string()) + " and " + in_quotes(*list[1].string()),
                          on_ground ? "both ends are on the ground, which does not move"
                                    : "a " + thing + " between body " + first.body + " and itself does nothing",
                          "markers of two different bodies");

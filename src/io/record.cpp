@@ -13,7 +13,7 @@ std::string example_line(const KeySpec& key) {
   const std::string number = key.unit.empty() || key.unit == "any" ? "1" : "\"1 " + key.unit + "\"";
   switch (key.type) {
     case ValueType::kWord:
-      return start + quoted(key.words.empty() ? "word" : key.words.front());
+      return start + in_quotes(key.words.empty() ? "word" : key.words.front());
     case ValueType::kMarkerName:
       return start + "\"crank.A\"";
     case ValueType::kMarkerNames:
@@ -123,7 +123,7 @@ void RecordReader::complain_of_key(const TableSpec& spec, const Entry& entry, co
   }
   std::vector<std::string> candidates = spec.children;
   for (const KeySpec& key : spec.keys) candidates.push_back(key.key);
-  complaints_.add(entry.key_spot, path, "unknown key " + quoted(entry.key),
+  complaints_.add(entry.key_spot, path, "unknown key " + in_quotes(entry.key),
                   record.path.empty() ? "models have no such key" : "there is no such key here",
                   complaints_.did_you_mean(entry.key, candidates));
 }

@@ -75,7 +75,7 @@ std::size_t utf8_length_of_hex(std::string_view digits) {
   return value < 0x80U ? 1 : value < 0x800U ? 2 : value < 0x10000U ? 3 : 4;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 60;
   std::size_t length = std::min(text.size(), kLongest);
   while (length < text.size() && length > 0 && is_continuation_byte(text[length])) --length;

@@ -28,7 +28,7 @@ std::size_t utf8_length_of_hex(std::string_view digits);
 std::optional<std::uint32_t> hex_value(std::string_view digits);
 
 /// In double quotes, line ends shown as \n, cut after 60 bytes.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// In double quotes with escapes that TOML and JSON share.
 std::string quoted_exactly(std::string_view text);

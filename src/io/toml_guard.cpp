@@ -127,14 +127,14 @@ class Guard {
     const Spot spot{0, spot_.line, spot_.column + static_cast<int>(before)};  // what stands before is ASCII
     const std::string_view found = character_at(token.text, before);
     if (in_key() && found == ":")
-      return TomlProblem{spot, quoted(found), "= stands between a key and its value", "key = value"};
+      return TomlProblem{spot, in_quotes(found), "= stands between a key and its value", "key = value"};
     if (token.text.starts_with("<<<<<<<") || token.text.starts_with(">>>>>>>"))
       return TomlProblem{spot, "a mark of an unfinished merge", "two versions of the file stand here",
                          "keep one of them"};
     if (kCurlyQuotes.find(found) != std::string_view::npos)
-      return TomlProblem{spot, quoted(found), "strings stand in straight quotes",
+      return TomlProblem{spot, in_quotes(found), "strings stand in straight quotes",
                          "\" in place of " + std::string(found)};
-    return TomlProblem{spot, quoted(found), "this character must stand in quotes", "delete it, or \"text in quotes\""};
+    return TomlProblem{spot, in_quotes(found), "this character must stand in quotes", "delete it, or \"text in quotes\""};
   }
 
   std::optional<TomlProblem> deep_key(const Token& token) {
@@ -149,7 +149,7 @@ class Guard {
   }
 
   std::optional<TomlProblem> misplaced(const Token& token) {
-    const TomlProblem problem{spot_, token.kind == TokenKind::kNewline ? "the end of the line" : quoted(token.text),
+    const TomlProblem problem{spot_, token.kind == TokenKind::kNewline ? "the end of the line" : in_quotes(token.text),
                               "expected " + wanted(), hint()};
     if (std::optional<TomlProblem> bare = missing_quotes(token)) return bare;
     if (!accept(token)) return problem;
@@ -167,12 +167,12 @@ class Guard {
     const bool is_word = std::isalpha(static_cast<unsigned char>(token.text.front())) != 0;
     const bool same_line = previous_.find('\n') == std::string_view::npos && !previous_.starts_with('#');
     if (expect_ == Expect::kAfterValue && is_word && same_line)
-      return TomlProblem{spot_, quoted(token.text), "a number with a unit stands in quotes",
-                         quoted(std::string(previous_) + " " + std::string(token.text))};
+      return TomlProblem{spot_, in_quotes(token.text), "a number with a unit stands in quotes",
+                         in_quotes(std::string(previous_) + " " + std::string(token.text))};
     constexpr std::array<std::string_view, 4> kWords{"true", "false", "inf", "nan"};
     const bool known = std::find(kWords.begin(), kWords.end(), token.text) != kWords.end();
     if (expect_ == Expect::kValue && is_word && !known)
-      return TomlProblem{spot_, quoted(token.text), "text stands in quotes", quoted(token.text)};
+      return TomlProblem{spot_, in_quotes(token.text), "text stands in quotes", in_quotes(token.text)};
     return std::nullopt;
   }
 

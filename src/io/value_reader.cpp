@@ -168,7 +168,7 @@ bool RecordReader::read_word(const Node& node, const KeySpec& spec, const std::s
     return false;
   }
   if (!spec.words.empty() && std::find(spec.words.begin(), spec.words.end(), *word) == spec.words.end()) {
-    complaints_.add(node.spot, path, quoted(*word), "it is none of " + joined(spec.words),
+    complaints_.add(node.spot, path, in_quotes(*word), "it is none of " + joined(spec.words),
                     complaints_.did_you_mean(*word, spec.words));
     return false;
   }
