@@ -6,7 +6,7 @@ function(pintle_test_program name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE pintle_flags pintle_quick_build ${arg_LINK} GTest::gtest GTest::gtest_main)
-  target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <Eigen/Dense> <fmt/format.h>)
+  target_precompile_headers(${name} PRIVATE <gtest/gtest.h>)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_include_directories(${name} SYSTEM PRIVATE ${PINTLE_TOMLPP_INCLUDE})
   target_compile_definitions(${name} PRIVATE TOML_HEADER_ONLY=1
