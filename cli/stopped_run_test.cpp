@@ -33,8 +33,9 @@ constexpr const char* kLong =
 class StoppedRun : public testing::Test {
  protected:
   StoppedRun() { sandbox_.write("pendulum.toml", kPendulum); }
+  // In the foreground: otherwise the run gets the signal twice, from timeout and with its group.
   std::string stopped_by(const char* signal) {
-    return fmt::format("timeout --preserve-status -s {} 2 {}", signal, kLong);
+    return fmt::format("timeout --foreground --preserve-status -s {} 2 {}", signal, kLong);
   }
   /// Nothing is left beside the run folder: no temporary folder, no half a file.
   std::string others() { return sandbox_.shell("ls -A | grep -v -e pendulum -e '^[.]out$' -e '^[.]error$'").out; }
