@@ -7,6 +7,7 @@ FUZZ_SECONDS ?= 60
 CONFIGURE := cmake -G Ninja -S .
 BUILD     := cmake --build
 CLANG     := clang++-14
+LONG := Slow|Radau|Dopri5|Allocations|DenseOutput|Simulate|Reference|Accuracy|System|Start|Assembl|Stopped|Check|Kink
 say        = @printf '\n=== %s\n' "$(1)"
 
 .PHONY: help setup build demo test install bench fuzz web-check format clean
@@ -41,7 +42,7 @@ test:
 	@$(MAKE) --no-print-directory check-sources
 	@$(MAKE) --no-print-directory test-release
 	@$(MAKE) --no-print-directory test-package
-	@$(MAKE) --no-print-directory test-clang FUZZ_SECONDS=15
+	@$(MAKE) --no-print-directory test-clang FUZZ_SECONDS=5
 	@if command -v em++ >/dev/null; then tools/web_check.sh; else echo "web-check skipped: no em++ (make web-check installs it)"; fi
 	$(call say,all tests passed)
 
@@ -68,14 +69,19 @@ build/test:
 	@$(MAKE) --no-print-directory test-release
 
 # The second compiler: warnings are errors, tests under the address and undefined-behaviour sanitizers, and the fuzzers
-# for a moment. Suites with Slow in their name are left to the release build.
+# for a moment. Suites that integrate for long are left to the release build; make test-sanitized runs them all.
 test-clang:
 	$(call say,$(CLANG) without warnings; tests under the sanitizers; fuzzers)
 	@$(MAKE) --no-print-directory build/clang
-	@ctest --test-dir build/clang -j $(JOBS) --output-on-failure --no-tests=error -E Slow
+	@ctest --test-dir build/clang -j $(JOBS) --output-on-failure --no-tests=error -E '$(LONG)'
 	@tools/fuzz.sh build/clang $(FUZZ_SECONDS)
 
-.PHONY: build/clang
+test-sanitized:
+	@tools/setup.sh build test
+	@$(MAKE) --no-print-directory build/clang
+	@ctest --test-dir build/clang -j $(JOBS) --output-on-failure --no-tests=error
+
+.PHONY: build/clang test-sanitized
 build/clang:
 	@$(CONFIGURE) -B build/clang -DCMAKE_CXX_COMPILER=$(CLANG) -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
 	  -DPINTLE_SANITIZE=ON -DPINTLE_FUZZ=ON -DPINTLE_WERROR=ON >/dev/null
