@@ -30,10 +30,9 @@ PintleRun run_radau(const Problem& problem, int stages, double tolerance, const 
   std::size_t row = 0;
   while (row < problem.outputs.size() && stepper.step(end)) {
     const State &begin = stepper.previous(), &now = stepper.state();
-    const double mu = stepper.table().real_eigenvalue / (now.t - begin.t);
     for (; row < problem.outputs.size() && problem.outputs[row] <= now.t; ++row) {
       const double t = problem.outputs[row];
-      const State& at = t < now.t ? dense.at(t, begin, now, mu, stepper.nodes()) : now;
+      const State& at = t < now.t ? dense.at(t, begin, now, stepper.nodes()) : now;
       run.samples.add(t, at.q, at.v, at.force);
     }
   }

@@ -12,8 +12,8 @@ namespace pintle {
 
 namespace {
 
-const State& inside(DenseOutput& dense, const RadauStepper& stepper, double t, double mu) {
-  return dense.at(t, stepper.previous(), stepper.state(), mu, stepper.nodes());
+const State& inside(DenseOutput& dense, const RadauStepper& stepper, double t, double) {
+  return dense.at(t, stepper.previous(), stepper.state(), stepper.nodes());
 }
 const State& inside(DenseOutput& dense, const Dopri5& stepper, double t, double mu) {
   return dense.at(t, stepper.previous(), stepper.state(), mu);

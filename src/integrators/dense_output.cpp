@@ -25,54 +25,11 @@ struct Hermite {
 // Curve through (x, x', x'') at both ends: written so that only the increment is interpolated.
 void interpolate(const Hermite& H, double h, const Vecs& x0, const Vecs& v0, const Vecs& a0, const Vecs& x1, const Vecs& v1,
                  const Vecs& a1, Vecs& x, Vecs& v, Vecs& a) {
-  x.resize(x0.size());
-  v.resize(x0.size());
-  a.resize(x0.size());
   for (std::size_t i = 0; i < x0.size(); ++i) {
     const S::Vec d = x1[i] - x0[i], hv0 = h * v0[i], hv1 = h * v1[i], ha0 = h * h * a0[i], ha1 = h * h * a1[i];
     x[i] = x0[i] + H.f[3] * d + H.f[1] * hv0 + H.f[4] * hv1 + H.f[2] * ha0 + H.f[5] * ha1;
     v[i] = (H.df[3] * d + H.df[1] * hv0 + H.df[4] * hv1 + H.df[2] * ha0 + H.df[5] * ha1) / h;
     a[i] = (H.ddf[3] * d + H.ddf[1] * hv0 + H.ddf[4] * hv1 + H.ddf[2] * ha0 + H.ddf[5] * ha1) / (h * h);
-  }
-}
-
-// Weights of the values at the nodes in a curve, its first and its second integral, at x.
-struct NodeWeights {
-  RadauTable::Vec value, first, second;
-  NodeWeights(const RadauTable& table, double x) {
-    const int n = table.n + 1;
-    value = first = second = RadauTable::Vec::Zero(n);
-    for (int i = 0; i < n; ++i) {
-      double power = 1;
-      for (int k = 0; k < n; ++k, power *= x) {
-        const double c = table.to_powers(k, i) * power;
-        value[i] += c;
-        first[i] += c * x / (k + 1);
-        second[i] += c * x * x / ((k + 1) * (k + 2));
-      }
-    }
-  }
-};
-
-// The curve whose second derivative goes through `nodes`, bent by rounding-sized amounts to meet the far end.
-void integrate(const NodeWeights& at, const NodeWeights& end, double s, double h, const std::vector<Vecs>& nodes, const Vecs& x0,
-               const Vecs& v0, const Vecs& x1, const Vecs& v1, Vecs& x, Vecs& v, Vecs& a) {
-  x.resize(x0.size());
-  v.resize(x0.size());
-  a.resize(x0.size());
-  for (std::size_t i = 0; i < x0.size(); ++i) {
-    S::Vec value = S::Vec::Zero(), first = value, second = value, first_end = value, second_end = value;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      const S::Vec& node = nodes[k][i];
-      value += at.value[k] * node;
-      first += at.first[k] * node;
-      second += at.second[k] * node;
-      first_end += end.first[k] * node;
-      second_end += end.second[k] * node;
-    }
-    a[i] = value;
-    v[i] = v0[i] + h * first + s * (v1[i] - v0[i] - h * first_end);
-    x[i] = x0[i] + s * h * v0[i] + h * h * second + s * s * (3 - 2 * s) * (x1[i] - x0[i] - h * v0[i] - h * h * second_end);
   }
 }
 
@@ -84,7 +41,11 @@ double cubic(double s, double h, double x0, double v0, double x1, double v1) {
 }  // namespace
 
 DenseOutput::DenseOutput(const System& system)
-    : system_(system), projector_(system), wanted_(system.joints.size()), move_(system.bodies.size()) {}
+    : system_(system), projector_(system), wanted_(system.joints.size()), move_(system.bodies.size()), body_(system.bodies.size()),
+      gap_(system.joints.size()), force_(system.joints.size()) {
+  out_.q = out_.v = out_.a = Vecs(system.bodies.size(), S::Vec::Zero());
+  out_.gap = out_.gap_rate = out_.gap_accel = out_.force = Vecs(system.joints.size(), S::Vec::Zero());
+}
 
 const State& DenseOutput::at(double t, const State& begin, const State& end, double mu) {
   if (t == end.t) return end;
@@ -101,31 +62,88 @@ const State& DenseOutput::at(double t, const State& begin, const State& end, dou
   return out_;
 }
 
-const State& DenseOutput::at(double t, const State& begin, const State& end, double mu, const StepNodes& nodes) {
+const State& DenseOutput::at(double t, const State& begin, const State& end, const StepNodes& nodes) {
   if (t == end.t) return end;
   if (t == begin.t) return begin;
-  const double h = end.t - begin.t, s = (t - begin.t) / h;
-  const NodeWeights here(*nodes.table, s), far(*nodes.table, 1);
-  integrate(here, far, s, h, nodes.a, begin.q, begin.v, end.q, end.v, out_.q, out_.v, out_.a);
-  integrate(here, far, s, h, nodes.gap_accel, begin.gap, begin.gap_rate, end.gap, end.gap_rate, out_.gap, out_.gap_rate,
-            out_.gap_accel);
-  out_.t = t;
-  double supplied = 0, lost = 0, supplied_end = 0, lost_end = 0;
-  for (int k = 0; k <= nodes.table->n; ++k) {
-    supplied += here.first[k] * nodes.power[k][0];
-    lost += here.first[k] * nodes.power[k][1];
-    supplied_end += far.first[k] * nodes.power[k][0];
-    lost_end += far.first[k] * nodes.power[k][1];
+  if (begin.t != curves_from_ || end.t != curves_to_) find_curves(begin, end, nodes);
+  const double h = end.t - begin.t, x = (t - begin.t) / h;
+  std::array<double, RadauTable::kMaxNodes> value, first, second;  // weights of the coefficients
+  double power = 1;
+  for (int k = 0; k < n_; ++k, power *= x) {
+    value[k] = power;
+    first[k] = h * power * x / (k + 1);
+    second[k] = first[k] * h * x / (k + 2);
   }
-  out_.supplied = begin.supplied + h * supplied + s * (end.supplied - begin.supplied - h * supplied_end);
-  out_.dissipated = begin.dissipated + h * lost + s * (end.dissipated - begin.dissipated - h * lost_end);
-  find_forces(mu);
+  const double hermite = x * x * (3 - 2 * x);
+  const auto follow = [&](const std::vector<Curve>& curves, const Vecs& x0, const Vecs& v0, Vecs& position, Vecs& rate, Vecs& accel) {
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      const Curve& curve = curves[i];
+      S::Vec a = curve.c[0], v = v0[i] + x * curve.bend_v + first[0] * a, q = x0[i] + x * h * v0[i] + hermite * curve.bend_q + second[0] * a;
+      for (int k = 1; k < n_; ++k) {
+        a += value[k] * curve.c[k];
+        v += first[k] * curve.c[k];
+        q += second[k] * curve.c[k];
+      }
+      accel[i] = a;
+      rate[i] = v;
+      position[i] = q;
+    }
+  };
+  out_.t = t;
+  follow(body_, begin.q, begin.v, out_.q, out_.v, out_.a);
+  follow(gap_, begin.gap, begin.gap_rate, out_.gap, out_.gap_rate, out_.gap_accel);
+  for (std::size_t j = 0; j < force_.size(); ++j) {
+    S::Vec f = force_[j][0];
+    for (int k = 1; k < n_; ++k) f += value[k] * force_[j][k];
+    out_.force[j] = f;
+  }
+  std::array<double, 2> work = {x * bend_work_[0], x * bend_work_[1]};
+  for (int k = 0; k < n_; ++k)
+    for (int i = 0; i < 2; ++i) work[i] += first[k] * power_[k][i];
+  out_.supplied = begin.supplied + work[0];
+  out_.dissipated = begin.dissipated + work[1];
   return out_;
+}
+
+// Powers of x from values at the nodes; what is left at the far end goes into bends.
+void DenseOutput::find_curves(const State& begin, const State& end, const StepNodes& nodes) {
+  const RadauTable& table = *nodes.table;
+  n_ = table.n + 1;
+  curves_from_ = begin.t;
+  curves_to_ = end.t;
+  const double h = end.t - begin.t;
+  const auto coefficient = [&](int k, const std::vector<Vecs>& values, std::size_t i) {
+    S::Vec c = S::Vec::Zero();
+    for (int node = 0; node < n_; ++node) c += table.to_powers(k, node) * values[node][i];
+    return c;
+  };
+  const auto find = [&](std::vector<Curve>& curves, const std::vector<Vecs>& a, const Vecs& x0, const Vecs& v0, const Vecs& x1, const Vecs& v1) {
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      Curve& curve = curves[i];
+      curve.bend_v = v1[i] - v0[i];
+      curve.bend_q = x1[i] - x0[i] - h * v0[i];
+      for (int k = 0; k < n_; ++k) {
+        curve.c[k] = coefficient(k, a, i);
+        curve.bend_v -= h / (k + 1) * curve.c[k];
+        curve.bend_q -= h * h / ((k + 1) * (k + 2)) * curve.c[k];
+      }
+    }
+  };
+  find(body_, nodes.a, begin.q, begin.v, end.q, end.v);
+  find(gap_, nodes.gap_accel, begin.gap, begin.gap_rate, end.gap, end.gap_rate);
+  bend_work_ = {end.supplied - begin.supplied, end.dissipated - begin.dissipated};
+  for (int k = 0; k < n_; ++k) {
+    for (std::size_t j = 0; j < force_.size(); ++j) force_[j][k] = coefficient(k, nodes.force, j);
+    for (int i = 0; i < 2; ++i) {
+      power_[k][i] = 0;
+      for (int node = 0; node < n_; ++node) power_[k][i] += table.to_powers(k, node) * nodes.power[node][i];
+      bend_work_[i] -= h / (k + 1) * power_[k][i];
+    }
+  }
 }
 
 // theory/time section 5.
 void DenseOutput::find_forces(double mu) {
-  out_.force.resize(system_.joints.size());
   for (int j = 0; j < system_.n_joints(); ++j) out_.force[j] = law_force(system_.joints[j].law, out_.gap[j], out_.gap_rate[j]);
   system_.motions(out_.q, out_.v, m_);
   if (!projector_.prepare(out_.t, m_, mu, out_.gap, out_.gap_rate)) return;

@@ -34,7 +34,7 @@ struct OneStep {
   const State& at(double share) {
     const double t = start.t + share * h;
     if (through == Through::kEnds) return dense.at(t, stepper.previous(), stepper.state(), mu);
-    return dense.at(t, stepper.previous(), stepper.state(), mu, stepper.nodes());
+    return dense.at(t, stepper.previous(), stepper.state(), stepper.nodes());
   }
 };
 

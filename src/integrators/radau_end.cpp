@@ -74,9 +74,11 @@ void RadauStepper::finish_step(double h) {
   const Stage& last = stage_[n_ - 1];
   nodes_.a[0] = begin_.a;
   nodes_.gap_accel[0] = begin_.gap_accel;
+  nodes_.force[0] = begin_.force;
   for (int s = 0; s < n_; ++s) {
     nodes_.a[s + 1] = stage_[s].a;
     nodes_.gap_accel[s + 1] = stage_[s].gap_accel;
+    nodes_.force[s + 1] = stage_[s].force;
   }
   end_.t = begin_.t + h;
   end_.q = last.q;
@@ -85,6 +87,7 @@ void RadauStepper::finish_step(double h) {
   end_.gap_accel = last.gap_accel;
   move_onto_gaps();
   take_gaps();
+  nodes_.force[n_] = end_.force;
   add_work(h);
   if (system_.has_branches()) side_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate);
   grow_scale();

@@ -20,7 +20,10 @@ bool RadauStepper::attempt(double h) {
   predict(h);
   double previous = 0;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    for (int i = 0; i < n_; ++i) evaluate_stage(i, h);
+    for (int i = 0; i < n_; ++i) {
+      place_stage(i, h);
+      find_residuals(i, h);
+    }
     if (iteration == 0) {
       linearize(h);
       if (!factorize(h)) return false;
@@ -37,7 +40,7 @@ bool RadauStepper::attempt(double h) {
     }
     previous = size;
     if (rate < 1 && rate / (1 - rate) * size < kNewtonShare) {
-      for (int i = 0; i < n_; ++i) evaluate_stage(i, h);
+      for (int i = 0; i < n_; ++i) place_stage(i, h);
       return true;
     }
   }
@@ -62,10 +65,10 @@ void RadauStepper::predict(double h) {
   }
 }
 
-// Collocation and residuals of one stage from the accelerations of all. Eqs. (3.5), (3.6).
-void RadauStepper::evaluate_stage(int i, double h) {
+// Where one stage is, and its joint forces, from the accelerations of all. Eq. (3.5).
+void RadauStepper::place_stage(int i, double h) {
   Stage& s = stage_[i];
-  const double t = begin_.t + table_.c[i] * h, hc = h * table_.c[i];
+  const double hc = h * table_.c[i];
   std::array<double, RadauTable::kMaxStages> A, A2;
   for (int k = 0; k < n_; ++k) {
     A[k] = h * table_.A(i, k);
@@ -81,12 +84,7 @@ void RadauStepper::evaluate_stage(int i, double h) {
     s.q[b] = q;
   }
   system_.motions(s.q, s.v, s.m);
-  system_.readings(t, s.m, s.r);
-  system_.external(t, s.m, s.Q);
-  for (std::size_t b = 0; b < system_.bodies.size(); ++b) s.ra[b] = system_.bodies[b].mass.cwiseProduct(s.a[b]) - s.Q[b];
   for (std::size_t j = 0; j < system_.joints.size(); ++j) {
-    const JointData& joint = system_.joints[j];
-    const Reading& r = s.r[j];
     S::Vec rate = begin_.gap_rate[j], gap = begin_.gap[j] + hc * begin_.gap_rate[j];
     for (int k = 0; k < n_; ++k) {
       rate += A[k] * stage_[k].gap_accel[j];
@@ -94,7 +92,20 @@ void RadauStepper::evaluate_stage(int i, double h) {
     }
     s.gap_rate[j] = rate;
     s.gap[j] = gap;
-    s.force[j] = law_force(joint.law, s.gap[j], s.gap_rate[j]);
+    s.force[j] = law_force(system_.joints[j].law, gap, rate);
+  }
+}
+
+// What is missing in the equations of one stage. Eq. (3.6).
+void RadauStepper::find_residuals(int i, double h) {
+  Stage& s = stage_[i];
+  const double t = begin_.t + table_.c[i] * h;
+  system_.readings(t, s.m, s.r);
+  system_.external(t, s.m, s.Q);
+  for (std::size_t b = 0; b < system_.bodies.size(); ++b) s.ra[b] = system_.bodies[b].mass.cwiseProduct(s.a[b]) - s.Q[b];
+  for (std::size_t j = 0; j < system_.joints.size(); ++j) {
+    const JointData& joint = system_.joints[j];
+    const Reading& r = s.r[j];
     s.re[j] = s.gap_accel[j] - r.bias;
     if (joint.at.a != kGround) {
       s.ra[joint.at.a] -= r.GA.transpose() * s.force[j];

@@ -38,6 +38,7 @@ RadauStepper::RadauStepper(const System& system, double tolerance, int stages)
   delta_a_.assign(n_, Vecs(n, S::Vec::Zero()));
   delta_gap_.assign(n_, Vecs(m, S::Vec::Zero()));
   nodes_ = {&table_, std::vector<Vecs>(n_ + 1, Vecs(n, S::Vec::Zero())), std::vector<Vecs>(n_ + 1, Vecs(m, S::Vec::Zero())),
+            std::vector<Vecs>(n_ + 1, Vecs(m, S::Vec::Zero())),
             std::vector<std::array<double, 2>>(n_ + 1)};
   for (int p = 0; p < table_.pairs; ++p) pairs_.emplace_back(system);
   inside_q_ = inside_v_ = Vecs(n, S::Vec::Zero());

@@ -79,7 +79,8 @@ class RadauStepper {
   // radau_newton.cpp: the stage equations
   bool attempt(double h);                     // solves the stages from begin_
   void predict(double h);
-  void evaluate_stage(int i, double h);
+  void place_stage(int i, double h);
+  void find_residuals(int i, double h);
   void linearize(double h);                   // at the middle stage
   bool factorize(double h);
   void solve_correction(double h);

@@ -9,10 +9,10 @@
 
 namespace pintle {
 
-/// Accelerations and powers at the nodes {0, c_1 .. c_n} of the last step.
+/// Accelerations, joint forces and powers at the nodes {0, c_1 .. c_n} of the last step.
 struct StepNodes {
   const RadauTable* table = nullptr;
-  std::vector<Vecs> a, gap_accel;
+  std::vector<Vecs> a, gap_accel, force;
   std::vector<std::array<double, 2>> power;  // supplied, lost [W]
 };
 
