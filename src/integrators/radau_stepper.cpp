@@ -20,41 +20,34 @@ constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4;
 
 }  // namespace
 
-RadauStepper::Pair::Pair(const System& system)
-    : lu(system.pattern()), rhs(system.bodies.size()), re(system.joints.size()) {}
-
 RadauStepper::RadauStepper(const System& system, double tolerance, int stages)
-    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), stage_(table_.n),
-      blocks_(system.joints.size()), real_lu_(system.pattern()), real_rhs_(system.bodies.size()), real_re_(system.joints.size()),
-      projector_(system), wanted_(system.joints.size()), move_(system.bodies.size()), end_r_(system.joints.size()),
-      end_m_(system.bodies.size()) {
+    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance),
+      solver_(make_stage_solver(system, table_, tolerance)), stage_(table_.n), projector_(system), wanted_(system.joints.size()),
+      move_(system.bodies.size()), end_r_(system.joints.size()), end_m_(system.bodies.size()) {
   const std::size_t n = system.bodies.size(), m = system.joints.size();
+  const Vecs bodies(n, S::Vec::Zero()), joints(m, S::Vec::Zero());
   for (Stage& s : stage_) {
-    s.q = s.v = s.a = s.Q = s.ra = Vecs(n, S::Vec::Zero());
-    s.gap = s.gap_rate = s.gap_accel = s.force = s.re = Vecs(m, S::Vec::Zero());
+    s.q = s.v = s.a = s.Q = bodies;
+    s.gap = s.gap_rate = s.gap_accel = s.force = joints;
     s.m.resize(n);
-    s.r.resize(m);
   }
-  delta_a_.assign(n_, Vecs(n, S::Vec::Zero()));
-  delta_gap_.assign(n_, Vecs(m, S::Vec::Zero()));
-  nodes_ = {&table_, std::vector<Vecs>(n_ + 1, Vecs(n, S::Vec::Zero())), std::vector<Vecs>(n_ + 1, Vecs(m, S::Vec::Zero())),
-            std::vector<Vecs>(n_ + 1, Vecs(m, S::Vec::Zero())),
+  nodes_ = {&table_, std::vector<Vecs>(n_ + 1, bodies), std::vector<Vecs>(n_ + 1, joints), std::vector<Vecs>(n_ + 1, joints),
             std::vector<std::array<double, 2>>(n_ + 1)};
-  for (int p = 0; p < table_.pairs; ++p) pairs_.emplace_back(system);
-  inside_q_ = inside_v_ = Vecs(n, S::Vec::Zero());
-  inside_gap_ = inside_rate_ = Vecs(m, S::Vec::Zero());
-  scale_.body.assign(n, S::Vec::Zero());
-  for (std::size_t j = 0; j < m; ++j) {
-    const Placement& at = system.joints[j].at;
-    if (at.a != kGround && at.b != kGround) blocks_[j].ab = system.pattern().slot(at.a, at.b);
-  }
+  inside_q_ = inside_v_ = bodies;
+  inside_gap_ = inside_rate_ = joints;
+  scale_.body = bodies;
+}
+
+bool RadauStepper::attempt(double h) {
+  if (!solver_->solve(begin_, h, have_history_ ? &nodes_ : nullptr, last_h_, scale_, counters_)) return false;
+  solver_->write(stage_);
+  return true;
 }
 
 void RadauStepper::start(const State& state, double h) {
   begin_ = end_ = state;
   h_ = usual_h_ = h;
   have_history_ = false;
-  contraction_ = 0.5;
   system_.motions(end_.q, end_.v, end_m_);
   system_.readings(end_.t, end_m_, end_r_);
   Stage& last = stage_[n_ - 1];
@@ -134,7 +127,7 @@ bool RadauStepper::trial(double h) {
 void RadauStepper::note_failure(double h, const char* why) {
   std::array<std::pair<double, int>, 3> worst{{{0, -1}, {0, -1}, {0, -1}}};
   for (int j = 0; j < system_.n_joints(); ++j) {
-    const double size = stage_[n_ - 1].re[j].norm();
+    const double size = solver_->residual(j);
     for (auto& w : worst)
       if (w.second < 0 || size > w.first || !std::isfinite(size)) {
         std::move_backward(&w, worst.end() - 1, worst.end());

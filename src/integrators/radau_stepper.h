@@ -12,21 +12,14 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "integrators/gap_projector.h"
-#include "integrators/radau_table.h"
-#include "integrators/step_nodes.h"
-#include "pintle/trajectory.h"
-#include "system/state.h"
+#include "integrators/stage_solver.h"
 
 namespace pintle {
-
-/// How large the forces are that a relative tolerance refers to: per body the sum of the magnitudes of the loads on it.
-struct LoadScale {
-  Vecs body;  // [N, N, N*m]
-};
 
 class RadauStepper {
  public:
@@ -57,37 +50,7 @@ class RadauStepper {
   const RadauTable& table() const { return table_; }
 
  private:
-  struct Stage {
-    Vecs q, v, a, Q, gap, gap_rate, gap_accel, force, ra, re;
-    std::vector<Planar::Motion> m;
-    std::vector<Reading> r;
-  };
-  struct JointBlocks {
-    Planar::Mat K, C;                         // tangents
-    std::array<Planar::Mat, 4> SK, SC;        // AA, AB, BA, BB of G'KG - geometric, G'CG
-    BlockPattern::Slot ab{0, true};
-  };
-  struct ComplexVec { Planar::Vec re, im; };
-  // One of the systems in the diagonal frame.
-  struct Pair {
-    explicit Pair(const System& system);
-    BlockLu<Complex, 3> lu;
-    std::vector<BlockVec<Complex, 3>> rhs;
-    std::vector<ComplexVec> re;               // transformed gap residuals
-  };
-
-  // radau_newton.cpp: the stage equations
   bool attempt(double h);                     // solves the stages from begin_
-  void predict(double h);
-  void place_stage(int i, double h);
-  void find_residuals(int i, double h);
-  void linearize(double h);                   // at the middle stage
-  bool factorize(double h);
-  void solve_correction(double h);
-  void transform_residuals(double h);
-  void back_to_stages(double h);
-  double correction_size() const;
-  template <class T> void assemble(BlockLu<T, 3>& lu, const T& mu) const;
 
   // radau_end.cpp: the error of a step and its end
   bool error_estimate(double h, double& error);
@@ -118,21 +81,13 @@ class RadauStepper {
   State begin_, end_;
   double h_ = 0, last_h_ = 0, usual_h_ = 0;   // the next step; the last; what it was before a kink
   bool have_history_ = false;
-  double contraction_ = 0.5;
   std::uint64_t side_ = 0;                    // of kinks, at end_
+  std::unique_ptr<StageSolver> solver_;
   std::vector<Stage> stage_;
   StepNodes nodes_;
-  std::vector<JointBlocks> blocks_;
-  struct LoadBlock { int i, j; Planar::Mat dq, dv; };
-  std::vector<LoadBlock> load_blocks_;
-  BlockLu<double, 3> real_lu_;
-  std::vector<BlockVec<double, 3>> real_rhs_;
-  std::vector<Planar::Vec> real_re_;
-  std::vector<Pair> pairs_;
-  std::vector<Vecs> delta_a_, delta_gap_;
   GapProjector projector_;
   Vecs wanted_, move_, inside_q_, inside_v_, inside_gap_, inside_rate_;
-  std::vector<Reading> end_r_, frozen_;       // frozen: Jacobians of the correction
+  std::vector<Reading> end_r_;
   std::vector<Planar::Motion> end_m_, inside_m_;
   LoadScale scale_;
   Counters counters_;

@@ -6,6 +6,20 @@
 
 namespace pintle {
 
+/// What z, z' and z'' are made of, in world axes unless it says otherwise; T is a number, or one number per stage of a step.
+template <class T>
+struct PoseGeometry {
+  T c, s;            // F's axes in the world
+  T dx, dy;          // from F to M [m]
+  T rx, ry;          // its rate [m/s]
+  T ax, ay, bx, by;  // arms: from A's, from B's centre of mass to M [m]
+  T bias_x, bias_y;  // convective acceleration, in F's axes [m/s^2]
+
+  /// A and B: anything with x, y, its sine s and cosine c, and rates vx, vy, w.
+  template <class Body>
+  static PoseGeometry between(const Body& A, const Planar::Frame& F, const Body& B, const Planar::Frame& M);
+};
+
 /// z and its derivatives. Lengths in F's axes [m], angle of M against F [rad].
 ///   z' = GA vA + GB vB,   z'' = GA aA + GB aB + bias
 struct RelativePose {
@@ -26,25 +40,45 @@ struct RelativePose {
   Eigen::Matrix<double, 3, 6> rate_gradient(const S::Motion& A, const S::Motion& B) const;
 };
 
+template <class T>
+template <class Body>
+inline PoseGeometry<T> PoseGeometry<T>::between(const Body& A, const Planar::Frame& F, const Body& B, const Planar::Frame& M) {
+  PoseGeometry g;
+  const T ux = A.c * F.p.x() - A.s * F.p.y(), uy = A.s * F.p.x() + A.c * F.p.y();
+  g.bx = B.c * M.p.x() - B.s * M.p.y();
+  g.by = B.s * M.p.x() + B.c * M.p.y();
+  g.dx = B.x + g.bx - A.x - ux;                                                     // p_FM_W
+  g.dy = B.y + g.by - A.y - uy;
+  g.rx = B.vx - A.vx - B.w * g.by + A.w * uy;
+  g.ry = B.vy - A.vy + B.w * g.bx - A.w * ux;
+  g.ax = ux + g.dx;
+  g.ay = uy + g.dy;
+  g.c = A.c * F.c - A.s * F.s;
+  g.s = A.s * F.c + A.c * F.s;
+  const T wa2 = A.w * A.w, wb2 = B.w * B.w, wa = 2 * A.w;
+  const T x = wa2 * (ux - g.dx) - wb2 * g.bx + wa * g.ry, y = wa2 * (uy - g.dy) - wb2 * g.by - wa * g.rx;
+  g.bias_x = g.c * x + g.s * y;                                                     // (2.3)
+  g.bias_y = g.c * y - g.s * x;
+  return g;
+}
+
 inline RelativePose RelativePose::between(const S::Motion& A, const S::Frame& F, const S::Motion& B, const S::Frame& M) {
+  struct View {
+    double x, y, c, s, vx, vy, w;
+    explicit View(const S::Motion& m) : x(m.p.x()), y(m.p.y()), c(m.c), s(m.s), vx(m.v.x()), vy(m.v.y()), w(m.w) {}
+  };
+  const auto g = PoseGeometry<double>::between(View(A), F, View(B), M);
   RelativePose r;
-  const S::Point u = A.turned(F.p), w = B.turned(M.p);
-  const S::Point d = B.p + w - A.p - u;                                             // p_FM_W
-  const S::Point d_rate = B.v - A.v + B.w * S::perp(w) - A.w * S::perp(u);
-  r.c = A.c * F.c - A.s * F.s;
-  r.s = A.s * F.c + A.c * F.s;
-  r.arm_a = u + d;
-  r.arm_b = w;
-  const auto to_F = [&r](const S::Point& x) { return S::Point(r.c * x.x() + r.s * x.y(), -r.s * x.x() + r.c * x.y()); };
-  const S::Point e = to_F(d);                                                       // (2.1)
-  const S::Point e_rate = to_F(d_rate - A.w * S::perp(d));                          // (2.2)
-  const S::Point e_bias = to_F(-B.w * B.w * w + A.w * A.w * (u - d) - 2 * A.w * S::perp(d_rate));  // (2.3)
-  const S::Point turn_a = to_F(-S::perp(r.arm_a)), turn_b = to_F(S::perp(r.arm_b));
-  r.z << e.x(), e.y(), B.angle + M.angle - A.angle - F.angle;                       // (2.4)
-  r.rate << e_rate.x(), e_rate.y(), B.w - A.w;
-  r.bias << e_bias.x(), e_bias.y(), 0;
-  r.GA << -r.c, -r.s, turn_a.x(), r.s, -r.c, turn_a.y(), 0, 0, -1;                  // (2.5)
-  r.GB << r.c, r.s, turn_b.x(), -r.s, r.c, turn_b.y(), 0, 0, 1;                     // (2.6)
+  r.c = g.c;
+  r.s = g.s;
+  r.arm_a << g.ax, g.ay;
+  r.arm_b << g.bx, g.by;
+  const double rx = g.rx + A.w * g.dy, ry = g.ry - A.w * g.dx;
+  r.z << g.c * g.dx + g.s * g.dy, g.c * g.dy - g.s * g.dx, B.angle + M.angle - A.angle - F.angle;  // (2.1), (2.4)
+  r.rate << g.c * rx + g.s * ry, g.c * ry - g.s * rx, B.w - A.w;                    // (2.2)
+  r.bias << g.bias_x, g.bias_y, 0;
+  r.GA << -g.c, -g.s, g.c * g.ay - g.s * g.ax, g.s, -g.c, -g.s * g.ay - g.c * g.ax, 0, 0, -1;  // (2.5)
+  r.GB << g.c, g.s, g.s * g.bx - g.c * g.by, -g.s, g.c, g.c * g.bx + g.s * g.by, 0, 0, 1;      // (2.6)
   return r;
 }
 

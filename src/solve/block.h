@@ -18,14 +18,20 @@ struct Complex {
   friend Complex operator-(Complex a, const Complex& b) { return a -= b; }
   friend Complex operator*(const Complex& a, const Complex& b) { return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re}; }
   friend Complex operator*(double a, const Complex& b) { return {a * b.re, a * b.im}; }
-  friend Complex operator/(const Complex& a, const Complex& b) {
-    const double d = 1 / (b.re * b.re + b.im * b.im);
-    return {(a.re * b.re + a.im * b.im) * d, (a.im * b.re - a.re * b.im) * d};
+  friend Complex reciprocal(const Complex& a) {
+    const double d = 1 / (a.re * a.re + a.im * a.im);
+    return {a.re * d, -a.im * d};
   }
 };
 
+inline double reciprocal(double a) { return 1 / a; }
+
 inline double magnitude(double a) { return std::abs(a); }
 inline double magnitude(const Complex& a) { return std::abs(a.re) + std::abs(a.im); }
+
+/// Whether blocks of T are inverted with row pivoting.
+template <class T>
+inline constexpr bool kPivots = true;
 
 template <class T, int N>
 struct BlockVec {
@@ -80,15 +86,16 @@ inline BlockVec<T, N> product(const Block<T, N>& A, const BlockVec<T, N>& x) {
   return y;
 }
 
-/// The inverse by Gauss-Jordan elimination with row pivoting; false when a pivot is exactly zero or not finite.
+/// The inverse by Gauss-Jordan elimination; false when a pivot is exactly zero or not finite.
 template <class T, int N>
 inline bool invert(Block<T, N>& m) {
   Block<T, N> inverse;
   for (int i = 0; i < N; ++i) inverse(i, i) = T(1);
   for (int c = 0; c < N; ++c) {
     int pivot = c;
-    for (int r = c + 1; r < N; ++r)
-      if (magnitude(m(r, c)) > magnitude(m(pivot, c))) pivot = r;
+    if constexpr (kPivots<T>)
+      for (int r = c + 1; r < N; ++r)
+        if (magnitude(m(r, c)) > magnitude(m(pivot, c))) pivot = r;
     const double size = magnitude(m(pivot, c));
     if (!(size > 0) || !std::isfinite(size)) return false;
     if (pivot != c)
@@ -96,7 +103,7 @@ inline bool invert(Block<T, N>& m) {
         std::swap(m(pivot, j), m(c, j));
         std::swap(inverse(pivot, j), inverse(c, j));
       }
-    const T scale = T(1) / m(c, c);
+    const T scale = reciprocal(m(c, c));
     for (int j = 0; j < N; ++j) {
       m(c, j) = scale * m(c, j);
       inverse(c, j) = scale * inverse(c, j);

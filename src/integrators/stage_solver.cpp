@@ -1,0 +1,431 @@
+// Simplified Newton on all stages at once: they stand side by side in the lanes of Lanes<N>, and so do the real and complex
+// systems into which their equations fall apart.
+#include "integrators/stage_solver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "integrators/stage_lanes.h"
+#include "solve/block_lu.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+constexpr int kMaxIterations = 14;
+constexpr double kNewtonShare = 0.02;  // of the tolerance, left to the iteration
+
+template <int N>
+class LaneSolver final : public StageSolver {
+ public:
+  LaneSolver(const System& system, const RadauTable& table, double tolerance);
+
+  bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override;
+  void write(std::vector<Stage>& stages) const override;
+  double residual(int j) const override;
+
+ private:
+  using L = Lanes<N>;
+  using X = Spectrum<N>;
+  static constexpr int kMiddle = N / 2;  // the stage where the equations are linearised
+
+  // Bodies by index; the ground stands behind the last one and never moves.
+  std::size_t body(int index) const { return index == kGround ? bodies_.size() - 1 : static_cast<std::size_t>(index); }
+  std::size_t n_bodies() const { return bodies_.size() - 1; }
+
+  void predict(const State& begin, double h, const StepNodes* before, double last_h);
+  void find_targets(double t, double h);
+  void place(const State& begin, double h);
+  void find_forces();
+  void find_residuals(double t, double h);
+  void find_loads(double t, double h);
+  void find_map(std::size_t j);
+  L find_gradient(const JointData& joint, const PoseGeometry<L>& pose, JointLanes<N>& lanes) const;
+  void linearize(double t);
+  bool factorize(double h);
+  double correct(const LoadScale& scale);
+
+  const System& system_;
+  const RadauTable& table_;
+  const StageMatrices<N> matrices_;
+  double tolerance_;
+  double contraction_ = 0.5;
+  bool loads_;                                // there is more than weight
+  std::vector<BodyLanes<N>> bodies_;
+  std::vector<JointLanes<N>> joints_;
+  std::array<Vecs, N> Q_;
+  std::vector<S::Motion> motions_;
+  struct JointBlocks { std::array<S::Mat, 4> K, C; BlockPattern::Slot ab{0, true}; };  // AA, AB, BA, BB of (3.8)
+  struct LoadBlock { int i, j; S::Mat dq, dv; };
+  std::vector<JointBlocks> blocks_;
+  std::vector<LoadBlock> load_blocks_;
+  X mu2_;
+  BlockLu<X, 3> lu_;
+  std::vector<BlockVec<X, 3>> rhs_;           // and the ground's
+};
+
+template <int N>
+LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double tolerance)
+    : system_(system), table_(table), matrices_(table), tolerance_(tolerance), loads_(!system.loads.empty() || !system.applied.empty()),
+      bodies_(system.bodies.size() + 1), joints_(system.joints.size()), motions_(system.bodies.size()), blocks_(system.joints.size()),
+      lu_(system.pattern()), rhs_(system.bodies.size() + 1) {
+  bodies_.back().c = L::all(1);
+  for (Vecs& Q : Q_) {
+    Q.reserve(system.bodies.size());
+    for (const BodyData& b : system.bodies) Q.push_back(b.gravity);
+  }
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const JointData& joint = system.joints[j];
+    joints_[j].map.function = joints_[j].frozen.function = !std::holds_alternative<Selection>(joint.probe);
+    joints_[j].diagonal = std::holds_alternative<LinearLaw>(joint.law);
+    if (joint.at.a != kGround && joint.at.b != kGround) blocks_[j].ab = system.pattern().slot(joint.at.a, joint.at.b);
+  }
+}
+
+template <int N>
+bool LaneSolver<N>::solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale,
+                          Counters& counters) {
+  predict(begin, h, before, last_h);
+  find_targets(begin.t, h);
+  double previous = 0;
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+    place(begin, h);
+    find_residuals(begin.t, h);
+    counters.evaluations += N;
+    if (iteration == 0) {
+      linearize(begin.t + table_.c[kMiddle] * h);
+      counters.factorizations += 1 + N / 2;
+      if (!factorize(h)) return false;
+    }
+    const double size = correct(scale) / tolerance_;
+    ++counters.newton_iterations;
+    if (!std::isfinite(size)) return false;
+    double rate = std::pow(std::clamp(contraction_, 1e-3, 1.0), 0.8);
+    if (iteration > 0) {
+      rate = size / previous;
+      contraction_ = rate;
+      if (rate > 2 || (rate > 0.95 && iteration > 2)) return false;
+    }
+    previous = size;
+    if (rate < 1 && rate / (1 - rate) * size < kNewtonShare) {
+      place(begin, h);
+      return true;
+    }
+  }
+  return false;
+}
+
+template <int N>
+void LaneSolver<N>::predict(const State& begin, double h, const StepNodes* before, double last_h) {
+  std::array<L, RadauTable::kMaxNodes> weight;
+  if (before)
+    for (int s = 0; s < N; ++s) {
+      const RadauTable::Vec w = table_.weights(1 + table_.c[s] * h / last_h);
+      for (int k = 0; k <= N; ++k) weight[k].set(s, w[k]);
+    }
+  const auto continued = [&](std::size_t i, int k, const std::vector<Vecs>& nodes, const Vecs& start) {
+    if (!before) return L::all(start[i][k]);
+    L x = nodes[0][i][k] * weight[0];
+    for (int node = 1; node <= N; ++node) x += nodes[node][i][k] * weight[node];
+    return x;
+  };
+  static const std::vector<Vecs> kNone;
+  for (std::size_t b = 0; b < n_bodies(); ++b)
+    for (int k = 0; k < 3; ++k) bodies_[b].a[k] = continued(b, k, before ? before->a : kNone, begin.a);
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    for (int k = 0; k < 3; ++k) joints_[j].accel[k] = continued(j, k, before ? before->gap_accel : kNone, begin.gap_accel);
+}
+
+// The accelerations that servos are to follow.
+template <int N>
+void LaneSolver<N>::find_targets(double t, double h) {
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const JointData& joint = system_.joints[j];
+    if (joint.servo < 0 || joint.target.variables().empty()) continue;
+    for (int s = 0; s < N; ++s) joints_[j].target_accel.set(s, joint.target.second_order(std::array{t + table_.c[s] * h}, 0)[2]);
+  }
+}
+
+// Where the stages are, and their joint forces, from their accelerations. Eq. (3.5).
+template <int N>
+void LaneSolver<N>::place(const State& begin, double h) {
+  LaneMatrix<N> A, A2;
+  for (int i = 0; i < N; ++i) {
+    A.column[i] = h * matrices_.A.column[i];
+    A2.column[i] = (h * h) * matrices_.A2.column[i];
+  }
+  const L hc = h * matrices_.c;
+  const auto integrate = [&](const L& a, double x0, double v0, L& x, L& v) {
+    L first = L::all(v0), second = L::all(x0) + v0 * hc;
+    for (int i = 0; i < N; ++i) {
+      first += a[i] * A.column[i];
+      second += a[i] * A2.column[i];
+    }
+    v = first;
+    x = second;
+  };
+  for (std::size_t b = 0; b < n_bodies(); ++b) {
+    BodyLanes<N>& body = bodies_[b];
+    for (int k = 0; k < 3; ++k) integrate(body.a[k], begin.q[b][k], begin.v[b][k], body.q[k], body.v[k]);
+    sine_and_cosine(body.q[2], body.s, body.c);
+  }
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    JointLanes<N>& joint = joints_[j];
+    for (int k = 0; k < 3; ++k) integrate(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], joint.gap[k], joint.rate[k]);
+  }
+  find_forces();
+}
+
+template <int N>
+void LaneSolver<N>::find_forces() {
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    JointLanes<N>& joint = joints_[j];
+    if (const auto* linear = std::get_if<LinearLaw>(&system_.joints[j].law)) {
+      for (int k = 0; k < 3; ++k) joint.force[k] = -(linear->k[k] * joint.gap[k] + linear->c[k] * joint.rate[k]);
+      continue;
+    }
+    for (int s = 0; s < N; ++s) {
+      const S::Vec f = law_force(system_.joints[j].law, {joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]},
+                                 {joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]});
+      for (int k = 0; k < 3; ++k) joint.force[k].set(s, f[k]);
+    }
+  }
+}
+
+// What is missing in the equations. Eq. (3.6).
+template <int N>
+void LaneSolver<N>::find_residuals(double t, double h) {
+  if (loads_) find_loads(t, h);
+  for (std::size_t b = 0; b < n_bodies(); ++b)
+    for (int k = 0; k < 3; ++k) {
+      L Q = L::all(0);
+      for (int s = 0; s < N; ++s) Q.set(s, Q_[s][b][k]);
+      bodies_[b].residual[k] = system_.bodies[b].mass[k] * bodies_[b].a[k] - Q;
+    }
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    JointLanes<N>& joint = joints_[j];
+    find_map(j);
+    const Placement& at = system_.joints[j].at;
+    BodyLanes<N>&A = bodies_[body(at.a)], &B = bodies_[body(at.b)];
+    const auto f = joint.map.spread(joint.force);
+    A.residual[0] += f.fx;
+    A.residual[1] += f.fy;
+    A.residual[2] -= f.ma;
+    B.residual[0] -= f.fx;
+    B.residual[1] -= f.fy;
+    B.residual[2] -= f.mb;
+    L e[3];
+    joint.map.gather(A.a, B.a, e);
+    for (int k = 0; k < 3; ++k) joint.residual[k] += joint.accel[k] - e[k];
+  }
+}
+
+template <int N>
+void LaneSolver<N>::find_loads(double t, double h) {
+  for (int s = 0; s < N; ++s) {
+    for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(s);
+    system_.external(t + table_.c[s] * h, motions_, Q_[s]);
+  }
+}
+
+// The map of joint j and, in its residual, minus the convective acceleration.
+template <int N>
+void LaneSolver<N>::find_map(std::size_t j) {
+  const JointData& data = system_.joints[j];
+  JointLanes<N>& joint = joints_[j];
+  const auto pose = PoseGeometry<L>::between(bodies_[body(data.at.a)].view(), data.at.F, bodies_[body(data.at.b)].view(), data.at.M);
+  GapMap<L>& map = joint.map;
+  map.c = pose.c;
+  map.s = pose.s;
+  map.ax = pose.ax;
+  map.ay = pose.ay;
+  map.bx = pose.bx;
+  map.by = pose.by;
+  joint.residual[0] = -pose.bias_x;
+  joint.residual[1] = -pose.bias_y;
+  joint.residual[2] = L::all(0);
+  if (map.function) {
+    joint.residual[0] = -find_gradient(data, pose, joint);
+    joint.residual[1] = L::all(0);
+  }
+  if (data.servo >= 0 && !data.target.variables().empty()) joint.residual[data.servo] += joint.target_accel;
+}
+
+// A gap that is a function of the pose: its gradient into the map; its convective acceleration is returned. theory/joints
+// Eq. (2.14).
+template <int N>
+Lanes<N> LaneSolver<N>::find_gradient(const JointData& joint, const PoseGeometry<L>& pose, JointLanes<N>& lanes) const {
+  const BodyLanes<N>&A = bodies_[body(joint.at.a)], &B = bodies_[body(joint.at.b)];
+  L bias;
+  for (int s = 0; s < N; ++s) {
+    const RelativePose z = RelativePose::between(A.motion(s), joint.at.F, B.motion(s), joint.at.M);
+    std::visit(
+        [&](const auto& probe) {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(probe)>, Selection>) {
+            const GapFunction g = probe(z.z);
+            for (int k = 0; k < 3; ++k) lanes.map.gradient[k].set(s, g.gradient[k]);
+            bias.set(s, g.gradient[0] * pose.bias_x[s] + g.gradient[1] * pose.bias_y[s] + z.rate.dot(g.hessian * z.rate));
+          }
+        },
+        joint.probe);
+  }
+  return bias;
+}
+
+// Joints' G'KG and G'CG with the geometric stiffness, and loads' slopes, at the predicted middle stage. Eq. (3.8).
+template <int N>
+void LaneSolver<N>::linearize(double t) {
+  const int i = kMiddle;
+  for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(i);
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const JointData& data = system_.joints[j];
+    JointLanes<N>& joint = joints_[j];
+    const GapMap<L>& map = joint.map;
+    joint.frozen.c = map.c[i];
+    joint.frozen.s = map.s[i];
+    joint.frozen.ax = map.ax[i];
+    joint.frozen.ay = map.ay[i];
+    joint.frozen.bx = map.bx[i];
+    joint.frozen.by = map.by[i];
+    if (map.function)
+      for (int k = 0; k < 3; ++k) joint.frozen.gradient[k] = map.gradient[k][i];
+    const Response response = respond(data.law, {joint.gap[0][i], joint.gap[1][i], joint.gap[2][i]},
+                                      {joint.rate[0][i], joint.rate[1][i], joint.rate[2][i]});
+    joint.K = response.stiffness;
+    joint.C = response.damping;
+    const RelativePose pose = system_.pose(data.at, motions_);
+    const Reading r = read(data.probe, pose);
+    const auto geometric = geometric_stiffness(data.probe, pose, response.force);
+    const S::Mat KA = joint.K * r.GA, KB = joint.K * r.GB, CA = joint.C * r.GA, CB = joint.C * r.GB;
+    JointBlocks& b = blocks_[j];
+    b.K = {r.GA.transpose() * KA - geometric.template block<3, 3>(0, 0), r.GA.transpose() * KB - geometric.template block<3, 3>(0, 3),
+           r.GB.transpose() * KA - geometric.template block<3, 3>(3, 0), r.GB.transpose() * KB - geometric.template block<3, 3>(3, 3)};
+    b.C = {r.GA.transpose() * CA, r.GA.transpose() * CB, r.GB.transpose() * CA, r.GB.transpose() * CB};
+  }
+  load_blocks_.clear();
+  system_.external_tangents(t, motions_, [this](int a, int b, const S::Mat& dq, const S::Mat& dv) {
+    load_blocks_.push_back({a, b, dq, dv});
+  });
+}
+
+// Z(mu) of Eq. (3.8) at every eigenvalue, and the weights of (3.10).
+template <int N>
+bool LaneSolver<N>::factorize(double h) {
+  const X mu = (1 / h) * matrices_.eigenvalue, once = reciprocal(mu), twice = once * once;
+  mu2_ = mu * mu;
+  const X one(1.0);
+  const auto add = [&](Block<X, 3>& block, const S::Mat& K, const S::Mat& C, double sign) {
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) block(r, c) += (sign * K(r, c)) * one + (sign * C(r, c)) * mu;
+  };
+  lu_.set_zero();
+  for (int i = 0; i < system_.n_bodies(); ++i)
+    for (int r = 0; r < 3; ++r) lu_.diagonal(i)(r, r) = system_.bodies[i].mass[r] * mu2_;
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    JointLanes<N>& joint = joints_[j];
+    if (joint.diagonal) {
+      for (int k = 0; k < 3; ++k) joint.weight[k] = joint.K(k, k) * twice + joint.C(k, k) * once;
+    } else {
+      for (int k = 0; k < 9; ++k) joint.weight[k] = joint.K(k / 3, k % 3) * twice + joint.C(k / 3, k % 3) * once;
+    }
+    const Placement& at = system_.joints[j].at;
+    const JointBlocks& b = blocks_[j];
+    if (at.a != kGround) add(lu_.diagonal(at.a), b.K[0], b.C[0], 1);
+    if (at.b != kGround) add(lu_.diagonal(at.b), b.K[3], b.C[3], 1);
+    if (at.a == kGround || at.b == kGround) continue;
+    BlockPattern::Slot slot = b.ab;
+    add(lu_.off_diagonal(slot), b.K[1], b.C[1], 1);
+    slot.upper = !slot.upper;
+    add(lu_.off_diagonal(slot), b.K[2], b.C[2], 1);
+  }
+  for (const LoadBlock& b : load_blocks_)
+    add(b.i == b.j ? lu_.diagonal(b.i) : lu_.off_diagonal(system_.pattern().slot(b.i, b.j)), b.dq, b.dv, -1);
+  return lu_.factorize();
+}
+
+// One Newton correction: into the diagonal frame, the solve, back. Eqs. (3.9)-(3.11). Its size as body forces over the scale.
+template <int N>
+double LaneSolver<N>::correct(const LoadScale& scale) {
+  for (std::size_t b = 0; b < n_bodies(); ++b)
+    for (int k = 0; k < 3; ++k) rhs_[b][k] = X(-(matrices_.T_inverse * bodies_[b].residual[k]));
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    JointLanes<N>& joint = joints_[j];
+    X f[3];
+    for (int k = 0; k < 3; ++k) joint.e[k] = X(matrices_.T_inverse * joint.residual[k]);
+    for (int k = 0; k < 3; ++k)
+      f[k] = joint.diagonal ? joint.weight[k] * joint.e[k]
+                            : joint.weight[3 * k] * joint.e[0] + joint.weight[3 * k + 1] * joint.e[1] + joint.weight[3 * k + 2] * joint.e[2];
+    const auto g = joint.frozen.spread(f);
+    const Placement& at = system_.joints[j].at;
+    BlockVec<X, 3>&A = rhs_[body(at.a)], &B = rhs_[body(at.b)];
+    A[0] -= g.fx;
+    A[1] -= g.fy;
+    A[2] += g.ma;
+    B[0] += g.fx;
+    B[1] += g.fy;
+    B[2] += g.mb;
+  }
+  lu_.solve(rhs_);
+  rhs_.back() = {};
+  L worst = L::all(0), sum = L::all(0);
+  for (std::size_t b = 0; b < n_bodies(); ++b)
+    for (int k = 0; k < 3; ++k) {
+      rhs_[b][k] = mu2_ * rhs_[b][k];
+      const L delta = matrices_.T * rhs_[b][k].x, relative = (system_.bodies[b].mass[k] / scale.body[b][k]) * delta;
+      bodies_[b].a[k] += delta;
+      worst = larger_size(worst, relative);
+      sum += relative;
+    }
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    JointLanes<N>& joint = joints_[j];
+    const Placement& at = system_.joints[j].at;
+    X e[3];
+    joint.frozen.gather(&rhs_[body(at.a)][0], &rhs_[body(at.b)][0], e);
+    for (int k = 0; k < 3; ++k) joint.accel[k] += matrices_.T * (e[k] - joint.e[k]).x;
+  }
+  double size = 0;
+  for (int s = 0; s < N; ++s) {
+    if (!std::isfinite(sum[s])) return std::numeric_limits<double>::infinity();
+    size = std::max(size, worst[s]);
+  }
+  return size;
+}
+
+template <int N>
+void LaneSolver<N>::write(std::vector<Stage>& stages) const {
+  for (int s = 0; s < N; ++s) {
+    Stage& stage = stages[s];
+    const auto copy = [s](const L* from, S::Vec& to) { to << from[0][s], from[1][s], from[2][s]; };
+    for (std::size_t b = 0; b < n_bodies(); ++b) {
+      copy(bodies_[b].q, stage.q[b]);
+      copy(bodies_[b].v, stage.v[b]);
+      copy(bodies_[b].a, stage.a[b]);
+      stage.m[b] = bodies_[b].motion(s);
+      stage.Q[b] = Q_[s][b];
+    }
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      copy(joints_[j].gap, stage.gap[j]);
+      copy(joints_[j].rate, stage.gap_rate[j]);
+      copy(joints_[j].accel, stage.gap_accel[j]);
+      copy(joints_[j].force, stage.force[j]);
+    }
+  }
+}
+
+template <int N>
+double LaneSolver<N>::residual(int j) const {
+  const L* r = joints_[j].residual;
+  return std::hypot(r[0][N - 1], r[1][N - 1], r[2][N - 1]);
+}
+
+}  // namespace
+
+std::unique_ptr<StageSolver> make_stage_solver(const System& system, const RadauTable& table, double tolerance) {
+  if (table.n == 5) return std::make_unique<LaneSolver<5>>(system, table, tolerance);
+  return std::make_unique<LaneSolver<3>>(system, table, tolerance);
+}
+
+}  // namespace pintle

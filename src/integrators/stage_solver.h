@@ -1,0 +1,42 @@
+// The stage equations of one implicit step. theory/time Eqs. (3.5)-(3.11).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "integrators/radau_table.h"
+#include "integrators/step_nodes.h"
+#include "pintle/trajectory.h"
+#include "system/state.h"
+
+namespace pintle {
+
+/// How large the forces are that a relative tolerance refers to: per body the sum of the magnitudes of the loads on it.
+struct LoadScale {
+  Vecs body;  // [N, N, N*m]
+};
+
+/// One stage of a step: where everything is, and the forces.
+struct Stage {
+  Vecs q, v, a, Q;                            // bodies
+  Vecs gap, gap_rate, gap_accel, force;       // joints
+  std::vector<Planar::Motion> m;
+};
+
+class StageSolver {
+ public:
+  virtual ~StageSolver() = default;
+
+  /// Solves the step of h from `begin`; the prediction is `before`, the step before it of last_h, where there is one.
+  /// False when the iteration fails.
+  virtual bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) = 0;
+  /// What has been found, one entry per stage.
+  virtual void write(std::vector<Stage>& stages) const = 0;
+  /// What is missing in joint j's equation at the end of the step [m/s^2 or rad/s^2].
+  virtual double residual(int j) const = 0;
+};
+
+/// The solver with the stages of `table`.
+std::unique_ptr<StageSolver> make_stage_solver(const System& system, const RadauTable& table, double tolerance);
+
+}  // namespace pintle
