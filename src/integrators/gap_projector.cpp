@@ -1,5 +1,7 @@
 #include "integrators/gap_projector.h"
 
+#include <algorithm>
+
 namespace pintle {
 namespace {
 
@@ -59,6 +61,23 @@ void GapProjector::close(const Vecs& wanted, Vecs& x) {
   }
   solve(body_);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += body_[i];
+}
+
+void GapProjector::close(const std::vector<Three>& wanted, std::vector<Three>& x) const {
+  std::fill(x.begin(), x.end(), Three{});
+  const auto push = [](const S::Mat& G, const Three& f, Three& on) {
+    for (int r = 0; r < S::kDof; ++r)
+      for (int k = 0; k < S::kDof; ++k) on[k] += G(r, k) * f[r];
+  };
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const Placement& at = system_.joints[j].at;
+    Three f{};
+    for (int r = 0; r < S::kDof; ++r)
+      for (int k = 0; k < S::kDof; ++k) f[r] += weight_[j](r, k) * wanted[j][k];
+    if (at.a != kGround) push(readings_[j].GA, f, x[at.a]);
+    if (at.b != kGround) push(readings_[j].GB, f, x[at.b]);
+  }
+  lu_.solve(x);
 }
 
 void GapProjector::improve_forces(const Vecs& Q, const Vecs& a, Vecs& force) {

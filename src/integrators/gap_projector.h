@@ -5,6 +5,7 @@
 #pragma once
 
 #include "solve/block_lu.h"
+#include "solve/lanes.h"
 #include "system/system.h"
 
 namespace pintle {
@@ -18,6 +19,9 @@ class GapProjector {
 
   /// x += the smallest displacement (in the mass norm) whose gap change is `wanted`, one pass.
   void close(const Vecs& wanted, Vecs& x);
+  /// The same from rest for three wanted changes side by side.
+  using Three = BlockVec<Lanes<3>, Planar::kDof>;
+  void close(const std::vector<Three>& wanted, std::vector<Three>& x) const;
   /// Joint forces improved so that M a = Q + G' f in the stiff modes, one pass; `a` has the wanted gap accelerations.
   void improve_forces(const Vecs& Q, const Vecs& a, Vecs& force);
 

@@ -51,21 +51,23 @@ double RadauStepper::body_tail() const {
 // neither stiff nor soft for this step, their error is the force's. As forces: through the projector.
 double RadauStepper::gap_tail() {
   if (system_.joints.empty()) return 0;
-  double size[3] = {0, 0, 0};
-  for (int back = 0; back < 3; ++back) {
-    for (std::size_t j = 0; j < wanted_.size(); ++j) {
-      wanted_[j].setZero();  // without the start of the step, whose error is the last step's
-      for (int s = 0; s < n_; ++s) wanted_[j] += table_.stages_to_legendre(n_ - 1 - back, s) * stage_[s].gap_accel[j];
+  for (std::size_t j = 0; j < tail_.size(); ++j)
+    for (int k = 0; k < S::kDof; ++k)
+      for (int back = 0; back < 3; ++back) {
+        double coefficient = 0;  // without the start of the step, whose error is the last step's
+        for (int s = 0; s < n_; ++s) coefficient += table_.stages_to_legendre(n_ - 1 - back, s) * stage_[s].gap_accel[j][k];
+        tail_[j][k].set(back, coefficient);
+      }
+  projector_.close(tail_, tail_move_);
+  Lanes<3> size = Lanes<3>::all(0), sum = size;
+  for (int i = 0; i < system_.n_bodies(); ++i)
+    for (int k = 0; k < S::kDof; ++k) {
+      const Lanes<3> relative = (system_.bodies[i].mass[k] / scale_.body[i][k]) * tail_move_[i][k];
+      size = larger_size(size, relative);
+      sum += relative;
     }
-    for (auto& x : move_) x.setZero();
-    projector_.close(wanted_, move_);
-    for (int i = 0; i < system_.n_bodies(); ++i) {
-      const S::Vec relative = system_.bodies[i].mass.cwiseProduct(move_[i]).cwiseQuotient(scale_.body[i]);
-      if (!relative.allFinite()) return std::numeric_limits<double>::infinity();
-      size[back] = std::max(size[back], relative.cwiseAbs().maxCoeff());
-    }
-    if (!(size[0] > 0)) return 0;
-  }
+  if (!std::isfinite(sum[0] + sum[1] + sum[2])) return std::numeric_limits<double>::infinity();
+  if (!(size[0] > 0)) return 0;
   return kGapError * size[0] * fall_off(size[0], size[1], size[2]);
 }
 
@@ -95,12 +97,30 @@ void RadauStepper::finish_step(double h) {
   have_history_ = true;
 }
 
-// Positions in two passes, velocities in two passes of one linear question.
+// What the rounding of positions leaves of a gap, or that of velocities of its rate.
+double RadauStepper::rounding_of(const Vecs& x) {
+  double size = 1e-3;
+  for (const auto& xi : x) size = std::max(size, std::max(std::abs(xi[0]), std::abs(xi[1])));
+  return 16 * std::numeric_limits<double>::epsilon() * size;
+}
+
+// What is asked of the joints, where they forbid anything.
+double RadauStepper::largest_wanted() const {
+  double size = 0;
+  for (std::size_t j = 0; j < wanted_.size(); ++j)
+    for (int k = 0; k < S::kDof; ++k)
+      if (system_.joints[j].free_mask[k] == 0) size = std::max(size, std::abs(wanted_[j][k]));
+  return size;
+}
+
+// Positions and velocities, each in one pass, and a second where the first has left more than rounding.
 void RadauStepper::move_onto_gaps() {
   const Stage& last = stage_[n_ - 1];
+  const double rounding = rounding_of(end_.q), rounding_of_rate = rounding_of(end_.v);
   for (int pass = 0; pass < 2; ++pass) {
     const std::vector<Reading>& r = pass == 0 ? projector_.readings() : end_r_;
     for (std::size_t j = 0; j < wanted_.size(); ++j) wanted_[j] = last.gap[j] - r[j].gap;
+    if (pass > 0 && largest_wanted() < rounding) break;
     projector_.close(wanted_, end_.q);
     system_.motions(end_.q, end_.v, end_m_);
     system_.readings(end_.t, end_m_, end_r_);
@@ -113,6 +133,7 @@ void RadauStepper::move_onto_gaps() {
       if (at.a != kGround) wanted_[j] -= end_r_[j].GA * move_[at.a];
       if (at.b != kGround) wanted_[j] -= end_r_[j].GB * move_[at.b];
     }
+    if (pass > 0 && largest_wanted() < rounding_of_rate) break;
     projector_.close(wanted_, move_);
   }
   for (std::size_t i = 0; i < end_.v.size(); ++i) end_.v[i] += move_[i];
@@ -123,9 +144,7 @@ void RadauStepper::move_onto_gaps() {
 // The carried gap, but the geometry's where no motion could bring it there (redundant joints).
 void RadauStepper::take_gaps() {
   const Stage& last = stage_[n_ - 1];
-  double size = 1e-3;
-  for (const auto& q : end_.q) size = std::max(size, std::max(std::abs(q[0]), std::abs(q[1])));
-  const double rounding = 16 * std::numeric_limits<double>::epsilon() * size;
+  const double rounding = rounding_of(end_.q);
   for (std::size_t j = 0; j < wanted_.size(); ++j) {
     const S::Vec difference = end_r_[j].gap - last.gap[j];
     end_.gap[j] = last.gap[j];

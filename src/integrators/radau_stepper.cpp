@@ -22,7 +22,8 @@ constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4;
 
 RadauStepper::RadauStepper(const System& system, double tolerance, int stages)
     : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance),
-      solver_(make_stage_solver(system, table_, tolerance)), stage_(table_.n), projector_(system), wanted_(system.joints.size()),
+      solver_(make_stage_solver(system, table_, tolerance)), stage_(table_.n), projector_(system), tail_(system.joints.size()),
+      tail_move_(system.bodies.size()), wanted_(system.joints.size()),
       move_(system.bodies.size()), end_r_(system.joints.size()), end_m_(system.bodies.size()) {
   const std::size_t n = system.bodies.size(), m = system.joints.size();
   const Vecs bodies(n, S::Vec::Zero()), joints(m, S::Vec::Zero());

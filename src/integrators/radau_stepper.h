@@ -57,6 +57,8 @@ class RadauStepper {
   double body_tail() const;
   double gap_tail();
   void finish_step(double h);                 // project, fill end_
+  static double rounding_of(const Vecs& x);
+  double largest_wanted() const;
   void move_onto_gaps();
   void take_gaps();
   void add_work(double h);
@@ -86,6 +88,7 @@ class RadauStepper {
   std::vector<Stage> stage_;
   StepNodes nodes_;
   GapProjector projector_;
+  std::vector<GapProjector::Three> tail_, tail_move_;
   Vecs wanted_, move_, inside_q_, inside_v_, inside_gap_, inside_rate_;
   std::vector<Reading> end_r_;
   std::vector<Planar::Motion> end_m_, inside_m_;

@@ -103,8 +103,10 @@ bool LaneSolver<N>::solve(const State& begin, double h, const StepNodes* before,
     const double size = correct(scale) / tolerance_;
     ++counters.newton_iterations;
     if (!std::isfinite(size)) return false;
-    double rate = std::pow(std::clamp(contraction_, 1e-3, 1.0), 0.8);
-    if (iteration > 0) {
+    double rate = 0;
+    if (iteration == 0) {
+      rate = std::pow(std::clamp(contraction_, 1e-3, 1.0), 0.8);
+    } else {
       rate = size / previous;
       contraction_ = rate;
       if (rate > 2 || (rate > 0.95 && iteration > 2)) return false;

@@ -71,16 +71,16 @@ inline Block<T, N> product(const Block<T, N>& A, const Block<T, N>& B) {
 }
 
 /// y -= A x.
-template <class T, int N>
-inline void subtract_product(BlockVec<T, N>& y, const Block<T, N>& A, const BlockVec<T, N>& x) {
+template <class T, class U, int N>
+inline void subtract_product(BlockVec<U, N>& y, const Block<T, N>& A, const BlockVec<U, N>& x) {
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j) y[i] -= A(i, j) * x[j];
 }
 
 /// A x.
-template <class T, int N>
-inline BlockVec<T, N> product(const Block<T, N>& A, const BlockVec<T, N>& x) {
-  BlockVec<T, N> y;
+template <class T, class U, int N>
+inline BlockVec<U, N> product(const Block<T, N>& A, const BlockVec<U, N>& x) {
+  BlockVec<U, N> y;
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j) y[i] += A(i, j) * x[j];
   return y;

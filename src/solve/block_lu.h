@@ -14,8 +14,7 @@ class BlockLu {
  public:
   BlockLu() = default;
   explicit BlockLu(const BlockPattern& pattern)
-      : pattern_(&pattern), diagonal_(pattern.n()), upper_(pattern.n_off_diagonal()), lower_(pattern.n_off_diagonal()),
-        work_(pattern.n()) {}
+      : pattern_(&pattern), diagonal_(pattern.n()), upper_(pattern.n_off_diagonal()), lower_(pattern.n_off_diagonal()) {}
 
   void set_zero() {
     diagonal_.assign(diagonal_.size(), {});
@@ -50,23 +49,24 @@ class BlockLu {
     return true;
   }
 
-  /// Solves for one right-hand side, in place, rows in the user's numbering.
-  void solve(std::vector<BlockVec<T, N>>& x) const {
+  /// Solves in place, rows in the user's numbering. U is T, or several numbers side by side for as many right-hand sides.
+  template <class U>
+  void solve(std::vector<BlockVec<U, N>>& x) const {
     const BlockPattern& p = *pattern_;
-    for (int k = 0; k < p.n(); ++k) work_[k] = x[p.row_at(k)];
-    for (int k = 0; k < p.n(); ++k)
-      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(work_[p.column(a)], lower_[a], work_[k]);
-    for (int k = p.n() - 1; k >= 0; --k) {
-      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(work_[k], upper_[a], work_[p.column(a)]);
-      work_[k] = product(diagonal_[k], work_[k]);
+    for (int k = 0; k < p.n(); ++k) {
+      const BlockVec<U, N>& done = x[p.row_at(k)];
+      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(x[p.row_at(p.column(a))], lower_[a], done);
     }
-    for (int k = 0; k < p.n(); ++k) x[p.row_at(k)] = work_[k];
+    for (int k = p.n() - 1; k >= 0; --k) {
+      BlockVec<U, N>& here = x[p.row_at(k)];
+      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(here, upper_[a], x[p.row_at(p.column(a))]);
+      here = product(diagonal_[k], here);
+    }
   }
 
  private:
   const BlockPattern* pattern_ = nullptr;
   std::vector<Block<T, N>> diagonal_, upper_, lower_;
-  mutable std::vector<BlockVec<T, N>> work_;
 };
 
 }  // namespace pintle
