@@ -16,7 +16,18 @@ namespace {
 using S = Planar;
 
 constexpr int kMaxIterations = 14;
-constexpr double kNewtonShare = 0.02;  // of the tolerance, left to the iteration
+constexpr double kNewtonShare = 0.05;  // of the tolerance, left to the iteration
+
+// The largest lane; infinity where the sum of what it came from is not finite.
+template <int N>
+double largest(const Lanes<N>& size, const Lanes<N>& sum) {
+  double worst = 0;
+  for (int s = 0; s < N; ++s) {
+    if (!std::isfinite(sum[s])) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, size[s]);
+  }
+  return worst;
+}
 
 template <int N>
 class LaneSolver final : public StageSolver {
@@ -39,7 +50,7 @@ class LaneSolver final : public StageSolver {
   void predict(const State& begin, double h, const StepNodes* before, double last_h);
   void find_targets(double t, double h);
   void place(const State& begin, double h);
-  void find_forces();
+  double find_forces(const LoadScale& scale);
   void find_residuals(double t, double h);
   void find_loads(double t, double h);
   void find_map(std::size_t j);
@@ -90,9 +101,10 @@ bool LaneSolver<N>::solve(const State& begin, double h, const StepNodes* before,
                           Counters& counters) {
   predict(begin, h, before, last_h);
   find_targets(begin.t, h);
-  double previous = 0;
+  place(begin, h);
+  find_forces(scale);
+  double last = 0, before_last = 0;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    place(begin, h);
     find_residuals(begin.t, h);
     counters.evaluations += N;
     if (iteration == 0) {
@@ -100,22 +112,20 @@ bool LaneSolver<N>::solve(const State& begin, double h, const StepNodes* before,
       counters.factorizations += 1 + N / 2;
       if (!factorize(h)) return false;
     }
-    const double size = correct(scale) / tolerance_;
+    const double of_bodies = correct(scale);
+    place(begin, h);
+    const double size = std::max(of_bodies, find_forces(scale)) / tolerance_;
     ++counters.newton_iterations;
     if (!std::isfinite(size)) return false;
+    // The contraction of one iteration, and of two: frozen Jacobians make good and bad ones alternate.
     double rate = 0;
-    if (iteration == 0) {
-      rate = std::pow(std::clamp(contraction_, 1e-3, 1.0), 0.8);
-    } else {
-      rate = size / previous;
-      contraction_ = rate;
-      if (rate > 2 || (rate > 0.95 && iteration > 2)) return false;
-    }
-    previous = size;
-    if (rate < 1 && rate / (1 - rate) * size < kNewtonShare) {
-      place(begin, h);
-      return true;
-    }
+    if (iteration == 0) rate = std::pow(std::clamp(contraction_, 1e-3, 1.0), 0.8);
+    if (iteration > 0) contraction_ = rate = size / last;
+    if (iteration > 1) rate = std::max(rate, std::sqrt(size / before_last));
+    if (rate > 2 || (rate > 0.95 && iteration > 2)) return false;
+    before_last = last;
+    last = size;
+    if (rate < 1 && rate / (1 - rate) * size < kNewtonShare) return true;
   }
   return false;
 }
@@ -151,7 +161,7 @@ void LaneSolver<N>::find_targets(double t, double h) {
   }
 }
 
-// Where the stages are, and their joint forces, from their accelerations. Eq. (3.5).
+// Where the stages are, from their accelerations. Eq. (3.5).
 template <int N>
 void LaneSolver<N>::place(const State& begin, double h) {
   LaneMatrix<N> A, A2;
@@ -178,23 +188,35 @@ void LaneSolver<N>::place(const State& begin, double h) {
     JointLanes<N>& joint = joints_[j];
     for (int k = 0; k < 3; ++k) integrate(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], joint.gap[k], joint.rate[k]);
   }
-  find_forces();
 }
 
+// Joint forces from gaps and rates. How much they have changed, over the scale of the bodies that they act on.
 template <int N>
-void LaneSolver<N>::find_forces() {
+double LaneSolver<N>::find_forces(const LoadScale& scale) {
+  L worst = L::all(0), sum = worst;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     JointLanes<N>& joint = joints_[j];
-    if (const auto* linear = std::get_if<LinearLaw>(&system_.joints[j].law)) {
-      for (int k = 0; k < 3; ++k) joint.force[k] = -(linear->k[k] * joint.gap[k] + linear->c[k] * joint.rate[k]);
-      continue;
+    const JointData& data = system_.joints[j];
+    L force[3];
+    if (const auto* linear = std::get_if<LinearLaw>(&data.law)) {
+      for (int k = 0; k < 3; ++k) force[k] = -(linear->k[k] * joint.gap[k] + linear->c[k] * joint.rate[k]);
+    } else {
+      for (int s = 0; s < N; ++s) {
+        const S::Vec f = law_force(data.law, {joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]},
+                                   {joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]});
+        for (int k = 0; k < 3; ++k) force[k].set(s, f[k]);
+      }
     }
-    for (int s = 0; s < N; ++s) {
-      const S::Vec f = law_force(system_.joints[j].law, {joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]},
-                                 {joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]});
-      for (int k = 0; k < 3; ++k) joint.force[k].set(s, f[k]);
+    for (int k = 0; k < 3; ++k) {
+      const S::Vec& on = scale.body[data.at.a == kGround ? data.at.b : data.at.a];
+      const S::Vec& beside = scale.body[data.at.b == kGround ? data.at.a : data.at.b];
+      const L change = (1 / std::max(on[k], beside[k])) * (force[k] - joint.force[k]);
+      worst = larger_size(worst, change);
+      sum += change;
+      joint.force[k] = force[k];
     }
   }
+  return largest(worst, sum);
 }
 
 // What is missing in the equations. Eq. (3.6).
@@ -388,12 +410,7 @@ double LaneSolver<N>::correct(const LoadScale& scale) {
     joint.frozen.gather(&rhs_[body(at.a)][0], &rhs_[body(at.b)][0], e);
     for (int k = 0; k < 3; ++k) joint.accel[k] += matrices_.T * (e[k] - joint.e[k]).x;
   }
-  double size = 0;
-  for (int s = 0; s < N; ++s) {
-    if (!std::isfinite(sum[s])) return std::numeric_limits<double>::infinity();
-    size = std::max(size, worst[s]);
-  }
-  return size;
+  return largest(worst, sum);
 }
 
 template <int N>
