@@ -12,11 +12,11 @@ namespace pintle {
 
 namespace {
 
-const State& inside(DenseOutput& dense, const RadauStepper& stepper, double t, double) {
+const State& inside(DenseOutput& dense, const RadauStepper& stepper, double t) {
   return dense.at(t, stepper.previous(), stepper.state(), stepper.nodes());
 }
-const State& inside(DenseOutput& dense, const Dopri5& stepper, double t, double mu) {
-  return dense.at(t, stepper.previous(), stepper.state(), mu);
+const State& inside(DenseOutput& dense, const Dopri5& stepper, double t) {
+  return dense.at(t, stepper.previous(), stepper.state());
 }
 
 // Notices a motion that needs ever shorter steps: one that blows up without end.
@@ -39,10 +39,9 @@ class Standstill {
   int steps_ = 0;
 };
 
-// Steps to the end and records the output times; `mu` is the frequency above which a step of size h averages.
+// Steps to the end and records the output times.
 template <class Stepper>
-Integration run(Stepper& stepper, const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder,
-                double mu_times_h) {
+Integration run(Stepper& stepper, const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder) {
   Integration out;
   stepper.set_max_step(plan.max_step);
   if (plan.scale) stepper.set_load_scale(*plan.scale);
@@ -59,10 +58,9 @@ Integration run(Stepper& stepper, const System& system, const State& start, cons
       break;
     }
     const State &begin = stepper.previous(), &now = stepper.state();
-    const double mu = mu_times_h / (now.t - begin.t);
     for (double t = static_cast<double>(row) * plan.output_step; t <= now.t && t < almost;
          t = static_cast<double>(++row) * plan.output_step)
-      recorder.add(inside(dense, stepper, t, mu));
+      recorder.add(inside(dense, stepper, t));
     if (standstill.reached(now.t)) {
       out.ended = Ended::kFailed;
       out.message = fmt::format("the motion blows up: steps of {:.3g} s at t = {:.9g} s, ever shorter", now.t - begin.t, now.t);
@@ -80,18 +78,16 @@ Integration run(Stepper& stepper, const System& system, const State& start, cons
   return out;
 }
 
-constexpr double kExplicit = 1e3;  // an explicit step resolves every vibration: the law's own force is the truth
-
 }  // namespace
 
 Integration integrate_radau(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder) {
   RadauStepper stepper(system, plan.tolerance, plan.stages);
-  return run(stepper, system, start, plan, recorder, stepper.table().real_eigenvalue);
+  return run(stepper, system, start, plan, recorder);
 }
 
 Integration integrate_dopri5(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder) {
   Dopri5 stepper(system, plan.tolerance);
-  return run(stepper, system, start, plan, recorder, kExplicit);
+  return run(stepper, system, start, plan, recorder);
 }
 
 }  // namespace pintle

@@ -1,6 +1,9 @@
 #include "integrators/dense_output.h"
 
+#include <Eigen/LU>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 namespace pintle {
 namespace {
@@ -38,16 +41,29 @@ double cubic(double s, double h, double x0, double v0, double x1, double v1) {
   return x0 + s * s * (3 - 2 * s) * (x1 - x0) + h * s * r * (r * v0 - s * v1);
 }
 
+// Where forces are found inside a step: with both ends, the extrema of a Chebyshev polynomial on [0, 1].
+constexpr int kSamples = 5;
+double sample_point(int i) { return 0.5 * (1 - std::cos(std::numbers::pi * i / (kSamples + 1))); }
+
+// Values at the samples and the ends -> coefficients of powers.
+Eigen::MatrixXd to_powers() {
+  Eigen::MatrixXd at(kSamples + 2, kSamples + 2);
+  for (int i = 0; i < at.rows(); ++i)
+    for (int k = 0; k < at.cols(); ++k) at(i, k) = std::pow(sample_point(i), k);
+  return at.inverse();
+}
+
 }  // namespace
 
 DenseOutput::DenseOutput(const System& system)
-    : system_(system), projector_(system), wanted_(system.joints.size()), move_(system.bodies.size()), body_(system.bodies.size()),
+    : system_(system), projector_(system), motions_(system.bodies.size()), Q_(system.bodies.size()),
+      wanted_(system.joints.size()), body_(system.bodies.size()),
       gap_(system.joints.size()), force_(system.joints.size()) {
   out_.q = out_.v = out_.a = Vecs(system.bodies.size(), S::Vec::Zero());
   out_.gap = out_.gap_rate = out_.gap_accel = out_.force = Vecs(system.joints.size(), S::Vec::Zero());
 }
 
-const State& DenseOutput::at(double t, const State& begin, const State& end, double mu) {
+const State& DenseOutput::at(double t, const State& begin, const State& end) {
   if (t == end.t) return end;
   if (t == begin.t) return begin;
   const double h = end.t - begin.t, s = (t - begin.t) / h;
@@ -58,24 +74,33 @@ const State& DenseOutput::at(double t, const State& begin, const State& end, dou
   out_.t = t;
   out_.dissipated = cubic(s, h, begin.dissipated, begin.loss_power, end.dissipated, end.loss_power);
   out_.supplied = cubic(s, h, begin.supplied, begin.supply_power, end.supplied, end.supply_power);
-  find_forces(mu);
+  for (int j = 0; j < system_.n_joints(); ++j) out_.force[j] = law_force(system_.joints[j].law, out_.gap[j], out_.gap_rate[j]);
   return out_;
 }
 
 const State& DenseOutput::at(double t, const State& begin, const State& end, const StepNodes& nodes) {
   if (t == end.t) return end;
   if (t == begin.t) return begin;
-  if (begin.t != curves_from_ || end.t != curves_to_) find_curves(begin, end, nodes);
+  if (begin.t != curves_from_ || end.t != curves_to_) {
+    find_curves(begin, end, nodes);
+    find_forces(begin, end, nodes);
+  }
+  follow(t, begin, end);
+  return out_;
+}
+
+// The state on the curves, at time t.
+void DenseOutput::follow(double t, const State& begin, const State& end) {
   const double h = end.t - begin.t, x = (t - begin.t) / h;
-  std::array<double, RadauTable::kMaxNodes> value, first, second;  // weights of the coefficients
+  Powers value, first, second;  // weights of the coefficients
   double power = 1;
-  for (int k = 0; k < n_; ++k, power *= x) {
+  for (int k = 0; k < kMost; ++k, power *= x) {
     value[k] = power;
     first[k] = h * power * x / (k + 1);
     second[k] = first[k] * h * x / (k + 2);
   }
   const double hermite = x * x * (3 - 2 * x);
-  const auto follow = [&](const std::vector<Curve>& curves, const Vecs& x0, const Vecs& v0, Vecs& position, Vecs& rate, Vecs& accel) {
+  const auto along = [&](const std::vector<Curve>& curves, const Vecs& x0, const Vecs& v0, Vecs& position, Vecs& rate, Vecs& accel) {
     for (std::size_t i = 0; i < curves.size(); ++i) {
       const Curve& curve = curves[i];
       S::Vec a = curve.c[0], v = v0[i] + x * curve.bend_v + first[0] * a, q = x0[i] + x * h * v0[i] + hermite * curve.bend_q + second[0] * a;
@@ -90,11 +115,11 @@ const State& DenseOutput::at(double t, const State& begin, const State& end, con
     }
   };
   out_.t = t;
-  follow(body_, begin.q, begin.v, out_.q, out_.v, out_.a);
-  follow(gap_, begin.gap, begin.gap_rate, out_.gap, out_.gap_rate, out_.gap_accel);
+  along(body_, begin.q, begin.v, out_.q, out_.v, out_.a);
+  along(gap_, begin.gap, begin.gap_rate, out_.gap, out_.gap_rate, out_.gap_accel);
   for (std::size_t j = 0; j < force_.size(); ++j) {
     S::Vec f = force_[j][0];
-    for (int k = 1; k < n_; ++k) f += value[k] * force_[j][k];
+    for (int k = 1; k < n_force_; ++k) f += value[k] * force_[j][k];
     out_.force[j] = f;
   }
   std::array<double, 2> work = {x * bend_work_[0], x * bend_work_[1]};
@@ -102,13 +127,12 @@ const State& DenseOutput::at(double t, const State& begin, const State& end, con
     for (int i = 0; i < 2; ++i) work[i] += first[k] * power_[k][i];
   out_.supplied = begin.supplied + work[0];
   out_.dissipated = begin.dissipated + work[1];
-  return out_;
 }
 
 // Powers of x from values at the nodes; what is left at the far end goes into bends.
 void DenseOutput::find_curves(const State& begin, const State& end, const StepNodes& nodes) {
   const RadauTable& table = *nodes.table;
-  n_ = table.n + 1;
+  n_ = n_force_ = table.n + 1;
   curves_from_ = begin.t;
   curves_to_ = end.t;
   const double h = end.t - begin.t;
@@ -142,34 +166,32 @@ void DenseOutput::find_curves(const State& begin, const State& end, const StepNo
   }
 }
 
-// theory/time section 5.
-void DenseOutput::find_forces(double mu) {
-  for (int j = 0; j < system_.n_joints(); ++j) out_.force[j] = law_force(system_.joints[j].law, out_.gap[j], out_.gap_rate[j]);
-  system_.motions(out_.q, out_.v, m_);
-  if (!projector_.prepare(out_.t, m_, mu, out_.gap, out_.gap_rate)) return;
-  const std::vector<Reading>& r = projector_.readings();
-  const auto from_bodies = [&](int j, const Vecs& x) {
-    const Placement& at = system_.joints[j].at;
-    S::Vec y = S::Vec::Zero();
-    if (at.a != kGround) y += r[j].GA * x[at.a];
-    if (at.b != kGround) y += r[j].GB * x[at.b];
-    return y;
-  };
-  for (auto& x : move_) x.setZero();
-  for (int pass = 0; pass < 2; ++pass) {
-    for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = out_.gap_rate[j] - r[j].rate - from_bodies(j, move_);
-    projector_.close(wanted_, move_);
+// The forces' own curves: through the ends and samples inside. There velocities are moved onto the gaps' rates and the
+// forces balanced with the gaps' accelerations. theory/time section 5.
+void DenseOutput::find_forces(const State& begin, const State& end, const StepNodes& nodes) {
+  static const Eigen::MatrixXd powers = to_powers();
+  const double h = end.t - begin.t, mu = nodes.table->real_eigenvalue / h;
+  sampled_.front() = begin.force;
+  for (int i = 1; i <= kSamples; ++i) {
+    follow(begin.t + sample_point(i) * h, begin, end);
+    system_.motions(out_.q, out_.v, motions_);
+    if (projector_.prepare(out_.t, motions_, mu, out_.gap, out_.gap_rate)) {
+      for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = out_.gap_rate[j] - projector_.readings()[j].rate;
+      projector_.close(wanted_, out_.v);
+      system_.motions(out_.q, out_.v, motions_);
+      projector_.read(out_.t, motions_);
+      system_.external(out_.t, motions_, Q_);
+      projector_.balance(Q_, out_.gap_accel, out_.force);
+    }
+    sampled_[i] = out_.force;
   }
-  for (std::size_t i = 0; i < move_.size(); ++i) out_.v[i] += move_[i];
-  // The convective term at the corrected velocities; the Jacobians stay.
-  system_.motions(out_.q, out_.v, m_);
-  for (int pass = 0; pass < 2; ++pass) {
-    for (int j = 0; j < system_.n_joints(); ++j)
-      wanted_[j] = out_.gap_accel[j] - system_.reading(j, out_.t, m_).bias - from_bodies(j, out_.a);
-    projector_.close(wanted_, out_.a);
-  }
-  system_.external(out_.t, m_, Q_);
-  for (int pass = 0; pass < 3; ++pass) projector_.improve_forces(Q_, out_.a, out_.force);
+  sampled_[kSamples + 1] = end.force;
+  n_force_ = kSamples + 2;
+  for (std::size_t j = 0; j < force_.size(); ++j)
+    for (int k = 0; k < n_force_; ++k) {
+      force_[j][k].setZero();
+      for (int i = 0; i < n_force_; ++i) force_[j][k] += powers(k, i) * sampled_[i][j];
+    }
 }
 
 }  // namespace pintle

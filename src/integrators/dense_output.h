@@ -16,32 +16,35 @@ class DenseOutput {
  public:
   explicit DenseOutput(const System& system);
 
-  /// The state at time t between `begin` and `end`; mu > 0 is the frequency that separates resolved joint vibration from
-  /// what the step has averaged.
-  const State& at(double t, const State& begin, const State& end, double mu);
-  /// The same with what the step knows at its nodes.
+  /// The state at time t between `begin` and `end`, of a method that resolves every vibration.
+  const State& at(double t, const State& begin, const State& end);
+  /// The same with what an implicit step knows at its nodes.
   const State& at(double t, const State& begin, const State& end, const StepNodes& nodes);
 
  private:
-  using Coefficients = std::array<Planar::Vec, RadauTable::kMaxNodes>;  // of powers of the share of the step
+  static constexpr int kMost = 7;                               // coefficients at most
+  using Powers = std::array<double, kMost>;
+  using Coefficients = std::array<Planar::Vec, kMost>;          // of powers of the share of the step
   struct Curve {
     Coefficients c;              // of the acceleration
     Planar::Vec bend_q, bend_v;  // what its integrals miss the far end by
   };
-  void find_forces(double mu);
   void find_curves(const State& begin, const State& end, const StepNodes& nodes);
+  void find_forces(const State& begin, const State& end, const StepNodes& nodes);
+  void follow(double t, const State& begin, const State& end);
 
   const System& system_;
   GapProjector projector_;
   State out_;
-  std::vector<Planar::Motion> m_;
-  Vecs wanted_, move_, Q_;
+  std::vector<Planar::Motion> motions_;
+  Vecs Q_, wanted_;
+  std::array<Vecs, kMost> sampled_;
   // The last step's curves, found when they are first asked for.
   double curves_from_ = 0, curves_to_ = 0;
-  int n_ = 0;  // coefficients
+  int n_ = 0, n_force_ = 0;  // coefficients of accelerations, of forces
   std::vector<Curve> body_, gap_;
   std::vector<Coefficients> force_;
-  std::array<std::array<double, 2>, RadauTable::kMaxNodes> power_{};  // supplied, lost
+  std::array<std::array<double, 2>, kMost> power_{};  // supplied, lost
   std::array<double, 2> bend_work_{};
 };
 

@@ -16,7 +16,8 @@ void add_block(Block<double, S::kDof>& block, const S::Mat& m) {
 
 GapProjector::GapProjector(const System& system)
     : system_(system), lu_(system.pattern()), readings_(system.joints.size()), weight_(system.joints.size()),
-      slots_(system.joints.size()), work_(system.bodies.size()), body_(system.bodies.size()) {
+      slots_(system.joints.size()), work_(system.bodies.size()), body_(system.bodies.size()),
+      accel_(system.bodies.size()), missing_(system.joints.size()) {
   for (std::size_t j = 0; j < slots_.size(); ++j) {
     const Placement& at = system.joints[j].at;
     if (at.a != kGround && at.b != kGround) slots_[j] = system.pattern().slot(at.a, at.b);
@@ -24,6 +25,7 @@ GapProjector::GapProjector(const System& system)
 }
 
 bool GapProjector::prepare(double t, const std::vector<S::Motion>& m, double mu, const Vecs& gap_at, const Vecs& rate_at) {
+  mu_ = mu;
   system_.readings(t, m, readings_);
   lu_.set_zero();
   for (int i = 0; i < system_.n_bodies(); ++i)
@@ -80,6 +82,7 @@ void GapProjector::close(const std::vector<Three>& wanted, std::vector<Three>& x
   lu_.solve(x);
 }
 
+// theory/time Eq. (4.4).
 void GapProjector::improve_forces(const Vecs& Q, const Vecs& a, Vecs& force) {
   for (int i = 0; i < system_.n_bodies(); ++i) body_[i] = Q[i] - system_.bodies[i].mass.cwiseProduct(a[i]);
   for (int j = 0; j < system_.n_joints(); ++j) {
@@ -95,6 +98,30 @@ void GapProjector::improve_forces(const Vecs& Q, const Vecs& a, Vecs& force) {
     if (at.b != kGround) gap += readings_[j].GB * body_[at.b];
     force[j] -= weight_[j] * gap;
   }
+}
+
+// theory/time Eq. (4.5).
+void GapProjector::balance(const Vecs& Q, const Vecs& gap_accel, Vecs& force) {
+  accel_ = Q;
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const Placement& at = system_.joints[j].at;
+    if (at.a != kGround) accel_[at.a] += readings_[j].GA.transpose() * force[j];
+    if (at.b != kGround) accel_[at.b] += readings_[j].GB.transpose() * force[j];
+  }
+  for (int i = 0; i < system_.n_bodies(); ++i) accel_[i] = accel_[i].cwiseQuotient(system_.bodies[i].mass);
+  const auto take_off = [&](const Vecs& a) {
+    for (int j = 0; j < system_.n_joints(); ++j) {
+      const Placement& at = system_.joints[j].at;
+      if (at.a != kGround) missing_[j] -= readings_[j].GA * a[at.a];
+      if (at.b != kGround) missing_[j] -= readings_[j].GB * a[at.b];
+    }
+  };
+  for (int j = 0; j < system_.n_joints(); ++j) missing_[j] = gap_accel[j] - readings_[j].bias;
+  take_off(accel_);
+  for (auto& x : accel_) x.setZero();
+  close(missing_, accel_);
+  take_off(accel_);
+  for (int j = 0; j < system_.n_joints(); ++j) force[j] += weight_[j] * missing_[j] / (mu_ * mu_);
 }
 
 }  // namespace pintle

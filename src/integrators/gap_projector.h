@@ -17,6 +17,9 @@ class GapProjector {
   /// Factorises mu^2 M + G' (K + mu C) G at the configuration of `m`. False when singular.
   bool prepare(double t, const std::vector<Planar::Motion>& m, double mu, const Vecs& gap_at, const Vecs& rate_at);
 
+  /// Gaps, rates, Jacobians and convective terms of `m`; the factorisation stays.
+  void read(double t, const std::vector<Planar::Motion>& m) { system_.readings(t, m, readings_); }
+
   /// x += the smallest displacement (in the mass norm) whose gap change is `wanted`, one pass.
   void close(const Vecs& wanted, Vecs& x);
   /// The same from rest for three wanted changes side by side.
@@ -24,6 +27,8 @@ class GapProjector {
   void close(const std::vector<Three>& wanted, std::vector<Three>& x) const;
   /// Joint forces improved so that M a = Q + G' f in the stiff modes, one pass; `a` has the wanted gap accelerations.
   void improve_forces(const Vecs& Q, const Vecs& a, Vecs& force);
+  /// Joint forces improved so that in the stiff modes the accelerations M^-1 (Q + G' f) give the gaps' own, one pass.
+  void balance(const Vecs& Q, const Vecs& gap_accel, Vecs& force);
 
   const std::vector<Reading>& readings() const { return readings_; }
 
@@ -36,7 +41,8 @@ class GapProjector {
   std::vector<Planar::Mat> weight_;  // K + mu C per joint
   std::vector<BlockPattern::Slot> slots_;
   std::vector<BlockVec<double, Planar::kDof>> work_;
-  Vecs body_;
+  Vecs body_, accel_, missing_;
+  double mu_ = 0;
 };
 
 }  // namespace pintle

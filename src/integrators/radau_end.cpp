@@ -89,6 +89,7 @@ void RadauStepper::finish_step(double h) {
   end_.gap_accel = last.gap_accel;
   move_onto_gaps();
   take_gaps();
+  balance_forces();
   nodes_.force[n_] = end_.force;
   add_work(h);
   if (system_.has_branches()) side_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate);
@@ -153,6 +154,20 @@ void RadauStepper::take_gaps() {
     end_.gap_rate[j] = end_r_[j].rate;
     end_.force[j] = law_force(system_.joints[j].law, end_.gap[j], end_.gap_rate[j]);
   }
+}
+
+// At the end of the step positions and velocities are better than anywhere inside: so are the forces that balance them.
+void RadauStepper::balance_forces() {
+  const Stage& last = stage_[n_ - 1];
+  move_ = last.a;
+  for (std::size_t j = 0; j < wanted_.size(); ++j) {
+    const Placement& at = system_.joints[j].at;
+    wanted_[j] = last.gap_accel[j] - end_r_[j].bias;
+    if (at.a != kGround) wanted_[j] -= end_r_[j].GA * move_[at.a];
+    if (at.b != kGround) wanted_[j] -= end_r_[j].GB * move_[at.b];
+  }
+  projector_.close(wanted_, move_);
+  projector_.improve_forces(last.Q, move_, end_.force);
 }
 
 void RadauStepper::add_work(double h) {

@@ -16,7 +16,7 @@ constexpr double kShortest = 1e-11;  // of the run: the shortest step that is re
 constexpr double kKinkAtStart = 1e-5;  // of the usual step: a kink this close to its start is crossed
 constexpr double kShrink = 0.35;     // after Newton failed
 constexpr double kAfterKink = 0.3;   // of the usual step
-constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4;
+constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;
 
 }  // namespace
 
@@ -97,7 +97,7 @@ bool RadauStepper::step(double t_end) {
       continue;
     }
     error /= tolerance_;
-    double factor = std::clamp(kSafety * std::pow(std::max(error, 1e-14), -1.0 / (n_ + 1)), kLeast, kMost);
+    double factor = std::clamp(kSafety * std::pow(std::max(error, 1e-14), -1.0 / (n_ + 1)), kLeast, counters_.steps == 0 ? kMostAtFirst : kMost);
     // A force that jumps cannot be resolved by any step: one that is this short passes over the jump.
     const bool jump = error > 1 && h <= kShortest * std::abs(t_end);
     if (jump) factor = kMost;

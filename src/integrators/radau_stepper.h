@@ -61,6 +61,7 @@ class RadauStepper {
   double largest_wanted() const;
   void move_onto_gaps();
   void take_gaps();
+  void balance_forces();
   void add_work(double h);
   std::array<double, 2> power(double t, const Vecs& q, const std::vector<Planar::Motion>& m, const Vecs& gap,
                               const Vecs& gap_rate, const Vecs& force) const;

@@ -117,11 +117,11 @@ bool LaneSolver<N>::solve(const State& begin, double h, const StepNodes* before,
     const double size = std::max(of_bodies, find_forces(scale)) / tolerance_;
     ++counters.newton_iterations;
     if (!std::isfinite(size)) return false;
-    // The contraction of one iteration, and of two: frozen Jacobians make good and bad ones alternate.
-    double rate = 0;
-    if (iteration == 0) rate = std::pow(std::clamp(contraction_, 1e-3, 1.0), 0.8);
-    if (iteration > 0) contraction_ = rate = size / last;
+    // Frozen Jacobians make good iterations and bad ones alternate: two of them, or the last step's, tell the contraction.
+    double rate = iteration == 0 ? std::pow(std::clamp(contraction_, 1e-3, 1.0), 0.8) : size / last;
+    if (iteration == 1) rate = std::max(rate, std::min(contraction_, std::sqrt(rate)));
     if (iteration > 1) rate = std::max(rate, std::sqrt(size / before_last));
+    if (iteration > 0) contraction_ = rate;
     if (rate > 2 || (rate > 0.95 && iteration > 2)) return false;
     before_last = last;
     last = size;
