@@ -51,11 +51,11 @@ TEST(RadauStepper, IsOfOrderFiveOrNineWithoutJoints) {
   EXPECT_GT(order(5, {4, 8, 16}), 8);
 }
 
-// Measured: order 9.7 in positions; the forces are at rounding after 8 steps (3e-11 to 1e-10 N of 25 N, 2e-9 of 500 N).
+// Measured: order 9.5 in positions, at rounding after 16 steps; the forces after 8 steps are within 3e-11 N of 25 N.
 TEST(RadauStepper, FiveStagesReachForcesThatThreeDoNot) {
   for (const double k : {1e10, 1e12}) {
-    const Errors e = errors_of_fixed_steps(sample::pendulum(k, matching_damping(k)), 0.4, {8, 16}, 5);
-    EXPECT_GT(measured_order(e.q), 8) << k;
+    const Errors e = errors_of_fixed_steps(sample::pendulum(k, matching_damping(k)), 0.4, {8, 12}, 5);
+    EXPECT_LT(e.q.back(), e.q.front() * std::pow(8.0 / 12, 8)) << k;
     EXPECT_LT(e.force.front(), 1e-9) << k;
   }
   EXPECT_LT(errors_of_fixed_steps(sample::four_bar(1e12, matching_damping(1e12)), 0.1, {8}, 5).force.front(), 2e-8);
@@ -199,22 +199,24 @@ TEST(RadauStepper, ClosesItsEnergyAccount) {
   }
 }
 
-// Servo, spring, slider: the carried gaps are those of the positions, whatever the step.
+// The carried gaps are those of the positions, whatever the step, and the forces those of the law to the tolerance.
 TEST(RadauStepper, CarriedGapsAreThoseOfThePositions) {
   const Model model = sample::four_bar(1e8, 3000);
   const System system = build_system(model);
   RadauStepper stepper(system, 1e-5);
   stepper.start(sample::loaded_start(model, system), 1e-4);
   std::vector<Planar::Motion> m;
+  double peak = 0;
   while (stepper.state().t < 0.6) {
     ASSERT_TRUE(stepper.step(0.6));
     const State& s = stepper.state();
     system.motions(s.q, s.v, m);
+    for (const auto& f : s.force) peak = std::max(peak, f.head<2>().norm());
     for (int j = 0; j < system.n_joints(); ++j) {
       const Reading r = system.reading(j, s.t, m);
       EXPECT_LT((r.gap - s.gap[j]).head<2>().norm(), 1e-13);
       EXPECT_LT((r.rate - s.gap_rate[j]).head<2>().norm(), 1e-12);
-      EXPECT_EQ(s.force[j], law_force(system.joints[j].law, s.gap[j], s.gap_rate[j]));
+      EXPECT_LT((s.force[j] - law_force(system.joints[j].law, s.gap[j], s.gap_rate[j])).head<2>().norm(), 1e-5 * peak);
     }
   }
 }
