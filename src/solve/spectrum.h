@@ -63,8 +63,8 @@ inline double magnitude(const Spectrum<N>& a) {
   return std::isfinite(sum) ? least : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Each number would have a pivot of its own. None is needed: mass, damping and stiffness keep every one of them, turned by
-/// a common angle, in the right half plane, where elimination in any order is stable. theory/time section 3.3.
+/// Each number would want a pivot of its own. None is needed: mass, damping and stiffness keep every one of them, turned by a
+/// common angle, in the right half plane, and so does elimination in any order. theory/time section 3.3.
 template <int N>
 inline constexpr bool kPivots<Spectrum<N>> = false;
 
