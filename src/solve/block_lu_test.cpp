@@ -10,6 +10,7 @@
 #include <set>
 
 #include "base/random_for_tests.h"
+#include "solve/spectrum.h"
 
 namespace pintle {
 namespace {
@@ -64,10 +65,23 @@ std::vector<Graph> graphs() {
   return all;
 }
 
-std::complex<double> to_std(double x) { return x; }
-std::complex<double> to_std(const Complex& x) { return {x.re, x.im}; }
+// The systems that one matrix of T stands for: one real, or those of a spectrum.
+template <class T>
+constexpr int kSystems = 1;
+template <int N>
+constexpr int kSystems<Spectrum<N>> = N / 2 + 1;
+
+std::complex<double> to_std(double x, int) { return x; }
+template <int N>
+std::complex<double> to_std(const Spectrum<N>& x, int system) {
+  if (system == N / 2) return x.x[N - 1];
+  return {x.x[2 * system], x.x[2 * system + 1]};
+}
 void put_random(Random& random, double& x) { x = random.uniform(-1, 1); }
-void put_random(Random& random, Complex& x) { x = {random.uniform(-1, 1), random.uniform(-1, 1)}; }
+template <int N>
+void put_random(Random& random, Spectrum<N>& x) {
+  for (int i = 0; i < N; ++i) x.x.set(i, random.uniform(-1, 1));
+}
 
 template <class T>
 void compare_with_dense(const Graph& g, Random& random) {
@@ -75,18 +89,15 @@ void compare_with_dense(const Graph& g, Random& random) {
   const BlockPattern pattern(g.n, g.pairs);
   BlockLu<T, N> lu(pattern);
   lu.set_zero();
-  Eigen::MatrixXcd dense = Eigen::MatrixXcd::Zero(N * g.n, N * g.n);
+  std::vector<Eigen::MatrixXcd> dense(kSystems<T>, Eigen::MatrixXcd::Zero(N * g.n, N * g.n));
   const auto fill = [&](Block<T, N>& block, int i, int j) {
     for (int r = 0; r < N; ++r)
       for (int c = 0; c < N; ++c) {
         T x{};
         put_random(random, x);
+        if (i == j && r == c) x += T(20.0);
         block(r, c) += x;
-        dense(N * i + r, N * j + c) += to_std(x);
-        if (i == j && r == c) {
-          block(r, c) += T(20.0);
-          dense(N * i + r, N * j + c) += 20.0;
-        }
+        for (int s = 0; s < kSystems<T>; ++s) dense[s](N * i + r, N * j + c) += to_std(x, s);
       }
   };
   for (int i = 0; i < g.n; ++i) fill(lu.diagonal(i), i, i);
@@ -95,21 +106,23 @@ void compare_with_dense(const Graph& g, Random& random) {
     fill(lu.off_diagonal(pattern.slot(j, i)), j, i);
   }
   std::vector<BlockVec<T, N>> x(g.n);
-  Eigen::VectorXcd rhs(N * g.n);
+  std::vector<Eigen::VectorXcd> expected(kSystems<T>, Eigen::VectorXcd(N * g.n));
   for (int i = 0; i < g.n; ++i)
     for (int k = 0; k < N; ++k) {
       put_random(random, x[i][k]);
-      rhs[N * i + k] = to_std(x[i][k]);
+      for (int s = 0; s < kSystems<T>; ++s) expected[s][N * i + k] = to_std(x[i][k], s);
     }
-  const Eigen::VectorXcd expected = dense.partialPivLu().solve(rhs);
+  for (int s = 0; s < kSystems<T>; ++s) expected[s] = dense[s].partialPivLu().solve(Eigen::VectorXcd(expected[s]));
   ASSERT_TRUE(lu.factorize()) << g.name;
   for (int again = 0; again < 2; ++again) {  // one factorisation serves any number of right-hand sides
     auto y = x;
     lu.solve(y);
-    double worst = 0;
-    for (int i = 0; i < g.n; ++i)
-      for (int k = 0; k < N; ++k) worst = std::max(worst, std::abs(to_std(y[i][k]) - expected[N * i + k]));
-    EXPECT_LT(worst, 1e-12 * (1 + expected.cwiseAbs().maxCoeff())) << g.name << " of " << g.n;
+    for (int s = 0; s < kSystems<T>; ++s) {
+      double worst = 0;
+      for (int i = 0; i < g.n; ++i)
+        for (int k = 0; k < N; ++k) worst = std::max(worst, std::abs(to_std(y[i][k], s) - expected[s][N * i + k]));
+      EXPECT_LT(worst, 1e-12 * (1 + expected[s].cwiseAbs().maxCoeff())) << g.name << " of " << g.n << ", system " << s;
+    }
   }
 }
 
@@ -118,9 +131,75 @@ TEST(BlockLu, RealSolutionsAreTheDenseOnes) {
   for (const Graph& g : graphs()) compare_with_dense<double>(g, random);
 }
 
-TEST(BlockLu, ComplexSolutionsAreTheDenseOnes) {
+TEST(BlockLu, EverySolutionOfASpectrumIsTheDenseOne) {
   Random random(2);
-  for (const Graph& g : graphs()) compare_with_dense<Complex>(g, random);
+  for (const Graph& g : graphs()) {
+    compare_with_dense<Spectrum<3>>(g, random);
+    compare_with_dense<Spectrum<5>>(g, random);
+  }
+}
+
+// Right-hand sides in lanes are solved as if each were alone.
+TEST(BlockLu, SolvesRightHandSidesSideBySide) {
+  constexpr int N = 3;
+  Random random(3);
+  for (const Graph& g : graphs()) {
+    const BlockPattern pattern(g.n, g.pairs);
+    BlockLu<double, N> lu(pattern);
+    lu.set_zero();
+    const auto fill = [&](Block<double, N>& block, double diagonal) {
+      for (int r = 0; r < N; ++r)
+        for (int c = 0; c < N; ++c) block(r, c) += random.uniform(-1, 1) + (r == c ? diagonal : 0);
+    };
+    for (int i = 0; i < g.n; ++i) fill(lu.diagonal(i), 20);
+    for (const auto& [i, j] : g.pairs) {
+      fill(lu.off_diagonal(pattern.slot(i, j)), 0);
+      fill(lu.off_diagonal(pattern.slot(j, i)), 0);
+    }
+    ASSERT_TRUE(lu.factorize()) << g.name;
+    std::vector<std::vector<BlockVec<double, N>>> single(3, std::vector<BlockVec<double, N>>(g.n));
+    std::vector<BlockVec<Lanes<3>, N>> together(g.n);
+    for (int i = 0; i < g.n; ++i)
+      for (int k = 0; k < N; ++k)
+        for (int lane = 0; lane < 3; ++lane) {
+          put_random(random, single[lane][i][k]);
+          together[i][k].set(lane, single[lane][i][k]);
+        }
+    lu.solve(together);
+    for (int lane = 0; lane < 3; ++lane) {
+      lu.solve(single[lane]);
+      for (int i = 0; i < g.n; ++i)
+        for (int k = 0; k < N; ++k) EXPECT_NEAR(together[i][k][lane], single[lane][i][k], 1e-15) << g.name;
+    }
+  }
+}
+
+// One of its systems is singular, or holds what is not a number: that is enough.
+template <int M>
+void expect_one_bad_system_is_reported() {
+  using X = Spectrum<M>;
+  for (const Graph& g : graphs()) {
+    const BlockPattern pattern(g.n, g.pairs);
+    BlockLu<X, 3> lu(pattern);
+    const auto set_to_one = [&] {
+      lu.set_zero();
+      for (int i = 0; i < g.n; ++i)
+        for (int k = 0; k < 3; ++k) lu.diagonal(i)(k, k) = X(1.0);
+    };
+    set_to_one();
+    EXPECT_TRUE(lu.factorize()) << g.name;
+    for (int s = 0; s < kSystems<X>; ++s)
+      for (const double bad : {0.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        set_to_one();
+        lu.diagonal(g.n - 1)(2, 2).x.set(2 * s, bad);
+        EXPECT_FALSE(lu.factorize()) << g.name << ", system " << s << " with " << bad;
+      }
+  }
+}
+
+TEST(BlockLu, OneBadSystemOfASpectrumIsReported) {
+  expect_one_bad_system_is_reported<3>();
+  expect_one_bad_system_is_reported<5>();
 }
 
 TEST(BlockLu, SingularMatrixIsReported) {
@@ -169,20 +248,6 @@ TEST(Block, InversePivotsWithinTheBlock) {
   const Block<double, 3> one = product(before, m);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) EXPECT_EQ(one(i, j), i == j ? 1 : 0);
-}
-
-TEST(Block, ComplexArithmeticIsThatOfTheStandardLibrary) {
-  Random random(3);
-  for (int i = 0; i < 100; ++i) {
-    Complex a, b;
-    put_random(random, a);
-    put_random(random, b);
-    const auto sa = to_std(a), sb = to_std(b);
-    EXPECT_LT(std::abs(to_std(a * b) - sa * sb), 1e-15);
-    EXPECT_LT(std::abs(to_std(a / b) - sa / sb), 1e-14 * std::abs(sa / sb));
-    EXPECT_LT(std::abs(to_std(a - b) - (sa - sb)), 1e-15);
-    EXPECT_LT(std::abs(to_std(3.0 * a) - 3.0 * sa), 1e-15);
-  }
 }
 
 // Elimination done on sets: neighbours of an eliminated row become neighbours of each other.
