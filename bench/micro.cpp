@@ -10,6 +10,7 @@
 #include "laws/law.h"
 #include "probes/probe.h"
 #include "solve/block_lu.h"
+#include "solve/spectrum.h"
 
 namespace pintle::bench {
 namespace {
@@ -151,9 +152,9 @@ void register_all() {
   for (const char* name : {"four_bar", "n_four_bar_40"}) {
     RegisterBenchmark(fmt::format("accelerations/{}", name).c_str(), accelerations, name);
     RegisterBenchmark(fmt::format("factorise/real/{}", name).c_str(), factorise<double>, name);
-    RegisterBenchmark(fmt::format("factorise/complex/{}", name).c_str(), factorise<Complex>, name);
+    RegisterBenchmark(fmt::format("factorise/order_5/{}", name).c_str(), factorise<Spectrum<3>>, name);
     RegisterBenchmark(fmt::format("solve/real/{}", name).c_str(), solve<double>, name);
-    RegisterBenchmark(fmt::format("solve/complex/{}", name).c_str(), solve<Complex>, name);
+    RegisterBenchmark(fmt::format("solve/order_5/{}", name).c_str(), solve<Spectrum<3>>, name);
     RegisterBenchmark(fmt::format("start/{}", name).c_str(), whole_run_start, name);
   }
   for (const int stages : {3, 5}) {

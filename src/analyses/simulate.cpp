@@ -24,7 +24,8 @@ constexpr double kTight = 3e-7;  // a tolerance below it is met by order 9
 constexpr double kEasy = 3;      // Newton iterations per step: fewer say that steps are short, and order 9 makes them longer
 constexpr double kLeastTolerance = 1e-13;
 // The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
-constexpr double kSharePower = 0.75, kShareOfEqual = 3;
+constexpr double kSharePower = 0.9, kShareOfEqual = 3;
+constexpr double kAlike = 1.25;  // steps of the finer pass over those of the coarser: with fewer the difference itself is the estimate
 constexpr double kNegligible = 1e-4;  // a joint is measured at least by this part of the mechanism's largest force
 
 class Clock {
@@ -141,10 +142,11 @@ class Run {
     }
     if (complete) {
       while (true) {
-        const double before = fine_tolerance_;
+        const double before = fine_tolerance_, steps_before = static_cast<double>(last_.counters.steps);
         if (!run_pass(tolerance)) break;
         difference = compare(coarse_->forces(), fine_->forces(), system_.joints.size());
-        share = std::min(1.0, kShareOfEqual * std::pow(tolerance / before, kSharePower));
+        const bool alike = static_cast<double>(last_.counters.steps) < kAlike * steps_before;
+        share = alike ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(tolerance / before, kSharePower));
         error = share * largest_of(relative_differences(difference));
         if (error <= wanted || out_.counters.passes >= kMaxPasses || tolerance <= kLeastTolerance) break;
         const double shrink = 0.5 * std::pow(wanted / error, 1 / kSharePower);
