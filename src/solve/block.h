@@ -7,27 +7,9 @@
 
 namespace pintle {
 
-/// A complex number whose product is four multiplications and nothing else (std::complex guards against infinities).
-struct Complex {
-  double re = 0, im = 0;
-  Complex() = default;
-  Complex(double real, double imaginary = 0) : re(real), im(imaginary) {}
-  Complex& operator+=(const Complex& b) { re += b.re; im += b.im; return *this; }
-  Complex& operator-=(const Complex& b) { re -= b.re; im -= b.im; return *this; }
-  friend Complex operator+(Complex a, const Complex& b) { return a += b; }
-  friend Complex operator-(Complex a, const Complex& b) { return a -= b; }
-  friend Complex operator*(const Complex& a, const Complex& b) { return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re}; }
-  friend Complex operator*(double a, const Complex& b) { return {a * b.re, a * b.im}; }
-  friend Complex reciprocal(const Complex& a) {
-    const double d = 1 / (a.re * a.re + a.im * a.im);
-    return {a.re * d, -a.im * d};
-  }
-};
-
 inline double reciprocal(double a) { return 1 / a; }
 
 inline double magnitude(double a) { return std::abs(a); }
-inline double magnitude(const Complex& a) { return std::abs(a.re) + std::abs(a.im); }
 
 /// Whether blocks of T are inverted with row pivoting.
 template <class T>
