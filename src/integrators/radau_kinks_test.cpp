@@ -175,5 +175,20 @@ TEST(RadauKinks, AFirstStepFarTooLongIsOnlyShortened) {
   }
 }
 
+// A rod in free fall until its rope is taut, again and again: every attempt across that fails, and the shorter one, which is all
+// fall, needs no correction at all.
+TEST(RadauKinks, ARopePassesFromSlackToTaut) {
+  Model model = sample::pendulum(1e6, 200);
+  model.ground[0].position = {0, 1.5};
+  model.joints[0].type = "rope";
+  model.joints[0].geometry = {{"length", 2}};
+  const System system = build_system(model);
+  for (const int stages : {3, 5}) {
+    RadauStepper stepper(system, 1e-5, stages);
+    stepper.start(sample::plain_start(model, system), 1e-3);
+    while (stepper.state().t < 2) ASSERT_TRUE(stepper.step(2)) << stages << " stages: " << stepper.failure();
+  }
+}
+
 }  // namespace
 }  // namespace pintle

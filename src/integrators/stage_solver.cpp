@@ -17,6 +17,8 @@ using S = Planar;
 
 constexpr int kMaxIterations = 14;
 constexpr double kNewtonShare = 0.05;  // of the tolerance, left to the iteration
+constexpr double kRounding = 1e-15;    // of the loads: no correction
+constexpr double kSlow = 0.9;          // contraction expected at most of a first iteration, after one that failed
 
 // The largest lane; infinity where the sum of what it came from is not finite.
 template <int N>
@@ -83,7 +85,7 @@ LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double 
     : system_(system), table_(table), matrices_(table), tolerance_(tolerance), loads_(!system.loads.empty() || !system.applied.empty()),
       bodies_(system.bodies.size() + 1), joints_(system.joints.size()), motions_(system.bodies.size()), blocks_(system.joints.size()),
       lu_(system.pattern()), rhs_(system.bodies.size() + 1) {
-  bodies_.back().c = L::all(1);
+  bodies_.back().c = L::all(1);  // the ground; what falls on it is not looked at
   for (Vecs& Q : Q_) {
     Q.reserve(system.bodies.size());
     for (const BodyData& b : system.bodies) Q.push_back(b.gravity);
@@ -118,7 +120,8 @@ bool LaneSolver<N>::solve(const State& begin, double h, const StepNodes* before,
     ++counters.newton_iterations;
     if (!std::isfinite(size)) return false;
     // Frozen Jacobians make good iterations and bad ones alternate: two of them, or the last step's, tell the contraction.
-    double rate = iteration == 0 ? std::pow(std::clamp(contraction_, 1e-3, 1.0), 0.8) : size / last;
+    if (size * tolerance_ < kRounding) return true;
+    double rate = iteration == 0 ? std::pow(std::clamp(contraction_, 1e-3, kSlow), 0.8) : size / last;
     if (iteration == 1) rate = std::max(rate, std::min(contraction_, std::sqrt(rate)));
     if (iteration > 1) rate = std::max(rate, std::sqrt(size / before_last));
     if (iteration > 0) contraction_ = rate;
