@@ -24,7 +24,7 @@ constexpr double kTight = 3e-7;  // a tolerance below it is met by order 9
 constexpr double kEasy = 3;      // Newton iterations per step: fewer say that steps are short, and order 9 makes them longer
 constexpr double kLeastTolerance = 1e-13;
 // The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
-constexpr double kSharePower = 0.9, kShareOfEqual = 3;
+constexpr double kSharePower = 0.8, kShareOfEqual = 3;
 constexpr double kAlike = 1.25;  // steps of the finer pass over those of the coarser: with fewer the difference itself is the estimate
 constexpr double kNegligible = 1e-4;  // a joint is measured at least by this part of the mechanism's largest force
 
