@@ -63,7 +63,7 @@ Integration run(Stepper& stepper, const System& system, const State& start, cons
       recorder.add(inside(dense, stepper, t));
     if (standstill.reached(now.t)) {
       out.ended = Ended::kFailed;
-      out.message = fmt::format("the motion blows up: steps of {:.3g} s at t = {:.9g} s, ever shorter", now.t - begin.t, now.t);
+      out.message = fmt::format("the motion blows up, or the tolerance is below the rounding of its forces: steps of {:.3g} s at t = {:.9g} s", now.t - begin.t, now.t);
       break;
     }
     if (plan.keep_going && !plan.keep_going(now.t)) {
