@@ -25,7 +25,7 @@ constexpr double kEasy = 3;      // Newton iterations per step: fewer say that s
 constexpr double kLeastTolerance = 1e-13;
 // The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
 constexpr double kSharePower = 0.8, kShareOfEqual = 3;
-constexpr double kAlike = 1.25;  // steps of the finer pass over those of the coarser: with fewer the difference itself is the estimate
+constexpr double kAlike = 1.25;  // steps of the finer pass over those of the coarser: with fewer the two say little
 constexpr double kNegligible = 1e-4;  // a joint is measured at least by this part of the mechanism's largest force
 
 class Clock {
@@ -131,6 +131,7 @@ class Run {
     const double wanted = model_.simulate.tolerance;
     Comparison difference;
     double share = 1, error = 0;
+    bool doubted = false;  // a pass has been made because two were alike
     stages_ = wanted < kTight ? 5 : 3;
     double tolerance = std::min(wanted, kLoosest);
     bool complete = run_pass(kPilot * tolerance);
@@ -148,6 +149,11 @@ class Run {
         const bool alike = static_cast<double>(last_.counters.steps) < kAlike * steps_before;
         share = alike ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(tolerance / before, kSharePower));
         error = share * largest_of(relative_differences(difference));
+        if (alike && !doubted && out_.counters.passes < kMaxPasses) {
+          doubted = true;
+          tolerance = std::max(kLeastTolerance, 0.1 * tolerance);
+          continue;
+        }
         if (error <= wanted || out_.counters.passes >= kMaxPasses || tolerance <= kLeastTolerance) break;
         const double shrink = 0.5 * std::pow(wanted / error, 1 / kSharePower);
         tolerance = std::max(kLeastTolerance, tolerance * std::clamp(shrink, 1e-3, 0.1));

@@ -188,6 +188,8 @@ TEST(Mistakes, OverridesHaveTheirOwnPlaces) {
   };
   EXPECT_EQ(at("joint.A.stifness=2"), "--set:9 joint.A.stifness");
   EXPECT_EQ(at("joint.Z.stiffness=2"), "--set:7 joint.Z");
+  EXPECT_EQ(at("parameters.crnk=2"), "--set:12 parameters.crnk");
+  EXPECT_EQ(at("joint.Z=2"), "--set:7 joint.Z");
   EXPECT_EQ(at("body.crank.mass=-2"), "--set:17 body.crank.mass");
   EXPECT_EQ(at("body.crank.mass=2 + 1/0"), "--set:22 body.crank.mass");
   EXPECT_EQ(at("body.crank.mass.x=2"), "--set:12 mass");

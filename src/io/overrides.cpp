@@ -62,7 +62,9 @@ std::vector<std::string> split_path(std::string_view path) {
   return parts;
 }
 
+// Whether the names below a section are the model's own.
 bool chooses_names(const std::string& section) {
+  if (section == "parameters") return true;
   const std::vector<std::string> children = Schema::model().children(section);
   return std::find(children.begin(), children.end(), "*") != children.end();
 }
@@ -94,21 +96,26 @@ class Override {
     Node value = read_override_value(text_.substr(equals + 1), source_, value_column);
     if (Node* old = table->find(parts.back())) {
       *old = std::move(value);
-    } else {
+    } else if (!refuse_new_name(*table, parts, parts.size() - 1)) {
       table->append(parts.back(), spot_, std::move(value));
     }
   }
 
  private:
+  // An override changes what the file has: a new body, joint or parameter would be a misspelt one.
+  bool refuse_new_name(const Table& table, const std::vector<std::string>& parts, std::size_t i) {
+    if (i != 1 || !chooses_names(parts[0])) return false;
+    std::vector<std::string> names;
+    for (const Entry& entry : table.entries()) names.push_back(entry.key);
+    const std::string near = complaints_.did_you_mean(parts[1], names);
+    const std::string kind = parts[0] == "parameters" ? "parameter" : parts[0];
+    complaints_.add(spot_, parts[0] + "." + parts[1], in_quotes(parts[1]), "the model has no such " + kind, near);
+    return true;
+  }
+
   Table* step_into(Table& table, const std::vector<std::string>& parts, std::size_t i) {
     Node* node = table.find(parts[i]);
-    if (node == nullptr && i == 1 && chooses_names(parts[0])) {
-      std::vector<std::string> names;
-      for (const Entry& entry : table.entries()) names.push_back(entry.key);
-      const std::string near = complaints_.did_you_mean(parts[1], names);
-      complaints_.add(spot_, parts[0] + "." + parts[1], in_quotes(parts[1]), "the model has no such " + parts[0], near);
-      return nullptr;
-    }
+    if (node == nullptr && refuse_new_name(table, parts, i)) return nullptr;
     if (node == nullptr) {
       Node empty;
       empty.spot = spot_;
