@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analyses/passes.h"
 #include "analyses/start.h"
 #include "bench/stopwatch.h"
 #include "integrators/dense_output.h"
@@ -10,15 +11,6 @@
 #include "system/build.h"
 
 namespace pintle::bench {
-namespace {
-
-// As simulate() chooses them, theory/time section 6.
-constexpr double kPilot = 10;    // tolerance of the pilot over the one asked for
-constexpr double kTight = 3e-7;  // below it five stages at once
-constexpr double kEasy = 3;      // Newton iterations per step of the pilot: with fewer it is repeated with five
-
-}  // namespace
-
 PintleRun run_radau(const Problem& problem, int stages, double tolerance, const LoadScale* scale) {
   PintleRun run{false, 0, {}, {}, ForceSamples(*problem.system)};
   const Stopwatch watch;

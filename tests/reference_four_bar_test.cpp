@@ -8,6 +8,7 @@
 namespace pintle {
 namespace {
 
+using reference::expect_body;
 using reference::value;
 
 struct Force {
@@ -21,18 +22,7 @@ constexpr Force kForces[] = {{"O2.on_crank", "F12x", "F12y"},
                              {"O4.on_follower", "F14x", "F14y"}};
 
 // Two pins in a row give way by 6 micrometres each, and by ten times that per second.
-// Centre of mass and its velocity for a bar of half length r, one end at (x, y) with velocity (vx, vy).
-void expect_bar(const Trajectory& run, std::size_t row, const std::string& name, double x, double y, double vx, double vy, double r,
-                double angle, double omega) {
-  const double c = r * std::cos(angle), s = r * std::sin(angle);
-  const std::string body = "body." + name + ".";
-  EXPECT_NEAR(value(run, row, body + "x"), x + c, 1.5e-5) << name << " " << row;
-  EXPECT_NEAR(value(run, row, body + "y"), y + s, 1.5e-5) << name << " " << row;
-  EXPECT_NEAR(value(run, row, body + "angle"), angle, 5e-6) << name << " " << row;
-  EXPECT_NEAR(value(run, row, body + "vx"), vx - omega * s, 2e-4) << name << " " << row;
-  EXPECT_NEAR(value(run, row, body + "vy"), vy + omega * c, 2e-4) << name << " " << row;
-  EXPECT_NEAR(value(run, row, body + "spin"), omega, 5e-5) << name << " " << row;
-}
+constexpr reference::Limits kLimits{1.5e-5, 5e-6, 2e-4, 5e-5};
 
 TEST(ReferenceFourBar, ForcesAreThoseOfIdealJointsOverTheWholeTurn) {
   const Trajectory run = simulate(reference::mechanism("four_bar"));
@@ -54,9 +44,9 @@ TEST(ReferenceFourBar, AllEighteenStatesAreThoseOfIdealJoints) {
   for (std::size_t i = 0; i < ideal.rows.size(); ++i) {
     const std::size_t row = reference::row_at(run, ideal.at(i, "t"));
     const double theta = ideal.at(i, "theta2"), omega = ideal.at(i, "omega2"), ax = std::cos(theta), ay = std::sin(theta);
-    expect_bar(run, row, "crank", 0, 0, 0, 0, 0.5, theta, omega);
-    expect_bar(run, row, "coupler", ax, ay, -omega * ay, omega * ax, 2, ideal.at(i, "theta3"), ideal.at(i, "omega3"));
-    expect_bar(run, row, "follower", 6, 0, 0, 0, 2, ideal.at(i, "theta4"), ideal.at(i, "omega4"));
+    expect_body(run, row, "crank", {0, 0, 0, 0, theta, omega}, -0.5, 0, kLimits);
+    expect_body(run, row, "coupler", {ax, ay, -omega * ay, omega * ax, ideal.at(i, "theta3"), ideal.at(i, "omega3")}, -2, 0, kLimits);
+    expect_body(run, row, "follower", {6, 0, 0, 0, ideal.at(i, "theta4"), ideal.at(i, "omega4")}, -2, 0, kLimits);
   }
 }
 

@@ -7,6 +7,7 @@
 namespace pintle {
 namespace {
 
+using reference::expect_body;
 using reference::value;
 
 constexpr int kSamples = 37;
@@ -77,18 +78,7 @@ TEST(ReferenceInvertedSliderCrank, CompliantForcesAreThoseOfAnExplicitRun) {
   }
 }
 
-// Centre of mass and velocity of a body whose point (px, py), in its own axes, is at (x, y) with velocity (vx, vy).
-void expect_body(const Trajectory& run, std::size_t row, const std::string& name, double x, double y, double vx, double vy, double px,
-                 double py, double angle, double omega) {
-  const double c = std::cos(angle), s = std::sin(angle), dx = -(c * px - s * py), dy = -(s * px + c * py);
-  const std::string body = "body." + name + ".";
-  EXPECT_NEAR(value(run, row, body + "x"), x + dx, 5e-6) << name << " " << row;
-  EXPECT_NEAR(value(run, row, body + "y"), y + dy, 5e-6) << name << " " << row;
-  EXPECT_NEAR(value(run, row, body + "angle"), angle, 5e-6) << name << " " << row;
-  EXPECT_NEAR(value(run, row, body + "vx"), vx - omega * dy, 1e-4) << name << " " << row;
-  EXPECT_NEAR(value(run, row, body + "vy"), vy + omega * dx, 1e-4) << name << " " << row;
-  EXPECT_NEAR(value(run, row, body + "spin"), omega, 5e-4) << name << " " << row;
-}
+constexpr reference::Limits kLimits{5e-6, 5e-6, 1e-4, 5e-4};
 
 // With joints of 1e10 N/m, which give way by 20 nanometres.
 TEST(ReferenceInvertedSliderCrank, AllEighteenStates) {
@@ -98,9 +88,9 @@ TEST(ReferenceInvertedSliderCrank, AllEighteenStates) {
     const std::size_t row = reference::row_at(run, ideal.at(i, "t"));
     const double theta = ideal.at(i, "theta2"), omega = ideal.at(i, "omega2"), guide = ideal.at(i, "theta4"), spin = ideal.at(i, "omega4");
     const double ax = 0.1 * std::cos(theta), ay = 0.1 * std::sin(theta);
-    expect_body(run, row, "crank", 0, 0, 0, 0, -0.05, 0, theta, omega);
-    expect_body(run, row, "block", ax, ay, -omega * ay, omega * ax, -0.02, 0, guide, spin);
-    expect_body(run, row, "guide", 0.25, 0, 0, 0, -0.18, 0.02, guide, spin);
+    expect_body(run, row, "crank", {0, 0, 0, 0, theta, omega}, -0.05, 0, kLimits);
+    expect_body(run, row, "block", {ax, ay, -omega * ay, omega * ax, guide, spin}, -0.02, 0, kLimits);
+    expect_body(run, row, "guide", {0.25, 0, 0, 0, guide, spin}, -0.18, 0.02, kLimits);
     EXPECT_NEAR(value(run, row, "joint.P.slide") + 0.16, ideal.at(i, "s"), 5e-6) << i;
   }
 }

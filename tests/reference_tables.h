@@ -1,6 +1,8 @@
 // Known solutions, tests/reference/*.csv, and runs to compare with them.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "analyses/integration.h"
+#include "analyses/passes.h"
 #include "analyses/start.h"
 #include "pintle/read_model.h"
 #include "pintle/simulate.h"
@@ -88,6 +91,28 @@ inline double force_error(const Trajectory& run, std::size_t row, const std::str
   return std::hypot(value(run, row, "joint." + joint + ".fx[world]") - x, value(run, row, "joint." + joint + ".fy[world]") - y);
 }
 
+/// A point of a body and how it moves, the body's angle and spin [m, m, m/s, m/s, rad, rad/s].
+struct PointMotion {
+  double x, y, vx, vy, angle, omega;
+};
+/// Allowed differences [m, rad, m/s, rad/s].
+struct Limits {
+  double position, angle, velocity, spin;
+};
+
+/// Centre of mass and motion of a body whose point (px, py), in its own axes, moves as `point` says.
+inline void expect_body(const Trajectory& run, std::size_t row, const std::string& name, const PointMotion& point, double px, double py,
+                        const Limits& limits) {
+  const double c = std::cos(point.angle), s = std::sin(point.angle), dx = -(c * px - s * py), dy = -(s * px + c * py);
+  const std::string body = "body." + name + ".";
+  EXPECT_NEAR(value(run, row, body + "x"), point.x + dx, limits.position) << name << " " << row;
+  EXPECT_NEAR(value(run, row, body + "y"), point.y + dy, limits.position) << name << " " << row;
+  EXPECT_NEAR(value(run, row, body + "angle"), point.angle, limits.angle) << name << " " << row;
+  EXPECT_NEAR(value(run, row, body + "vx"), point.vx - point.omega * dy, limits.velocity) << name << " " << row;
+  EXPECT_NEAR(value(run, row, body + "vy"), point.vy + point.omega * dx, limits.velocity) << name << " " << row;
+  EXPECT_NEAR(value(run, row, body + "spin"), point.omega, limits.spin) << name << " " << row;
+}
+
 /// One integration of the model from its start; `stages` 0: the explicit method.
 inline Integration integrate_once(const Model& model, double tolerance, int stages, const LoadScale* scale, Trajectory* out = nullptr) {
   System system = build_system(model);
@@ -109,9 +134,10 @@ inline Integration integrate_once(const Model& model, double tolerance, int stag
 /// Counters of the second, reported pass of a run: a pilot with ten times the tolerance before it; five stages where the
 /// pilot's Newton iterations say that its steps are short.
 inline Counters reported_pass(const Model& model) {
-  Integration pilot = integrate_once(model, 10 * model.simulate.tolerance, 3, nullptr);
-  const int stages = pilot.counters.newton_iterations < 3 * pilot.counters.steps ? 5 : 3;
-  if (stages == 5) pilot = integrate_once(model, 10 * model.simulate.tolerance, stages, nullptr);
+  Integration pilot = integrate_once(model, kPilot * model.simulate.tolerance, 3, nullptr);
+  const Counters& c = pilot.counters;
+  const int stages = static_cast<double>(c.newton_iterations) < kEasy * static_cast<double>(c.steps) ? 5 : 3;
+  if (stages == 5) pilot = integrate_once(model, kPilot * model.simulate.tolerance, stages, nullptr);
   return integrate_once(model, model.simulate.tolerance, stages, &pilot.scale).counters;
 }
 

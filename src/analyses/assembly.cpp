@@ -47,10 +47,8 @@ class LeastSquares {
   Vecs pull(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& gap) const {
     Vecs f(system_.bodies.size(), S::Vec::Zero());
     for (int j = 0; j < system_.n_joints(); ++j) {
-      const Placement& at = system_.joints[j].at;
       const S::Vec w = joint_weight[j].cwiseProduct(gap[j]);
-      if (at.a != kGround) f[at.a] += r[j].GA.transpose() * w;
-      if (at.b != kGround) f[at.b] += r[j].GB.transpose() * w;
+      add_force(system_.joints[j].at, r[j], w, f);
     }
     return f;
   }
@@ -226,10 +224,8 @@ void assemble_velocities(const Model& model, const System& system, const Vecs& q
     }
     x = next;
     for (std::size_t j = 0; j < r.size(); ++j) {
-      const Placement& at = system.joints[j].at;
       S::Vec rate = r[j].rate;
-      if (at.a != kGround) rate += r[j].GA * x[at.a];
-      if (at.b != kGround) rate += r[j].GB * x[at.b];
+      add_gap(system.joints[j].at, r[j], x, rate);
       multiplier[j] -= rate;
     }
     if (change < 1e-15 * size) break;

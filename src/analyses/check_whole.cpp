@@ -25,10 +25,7 @@ class Forces {
     system_.external(state_.t, m_, Q_);
     for (int j = 0; j < system_.n_joints(); ++j) {
       const Reading r = system_.reading(j, state_.t, m_);
-      const Placement& at = system_.joints[j].at;
-      const S::Vec f = law_force(system_.joints[j].law, r.gap, r.rate);
-      if (at.a != kGround) Q_[at.a] += r.GA.transpose() * f;
-      if (at.b != kGround) Q_[at.b] += r.GB.transpose() * f;
+      add_force(system_.joints[j].at, r, law_force(system_.joints[j].law, r.gap, r.rate), Q_);
     }
     return flat(Q_);
   }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "analyses/integration.h"
+#include "analyses/passes.h"
 #include "analyses/start.h"
 #include "system/build.h"
 
@@ -18,10 +19,7 @@ namespace pintle {
 namespace {
 
 constexpr int kMaxPasses = 6;
-constexpr double kPilot = 10;       // tolerance of the first pass over that of the second
 constexpr double kLoosest = 1e-4;   // of the second pass: above it steps are bounded by other things, and two passes are alike
-constexpr double kTight = 3e-7;  // a tolerance below it is met by order 9
-constexpr double kEasy = 3;      // Newton iterations per step: fewer say that steps are short, and order 9 makes them longer
 constexpr double kLeastTolerance = 1e-13;
 // The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
 constexpr double kSharePower = 0.8, kShareOfEqual = 3;

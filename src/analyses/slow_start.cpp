@@ -41,14 +41,11 @@ void plain_start(const System& system, State& state) {
   system.readings(state.t, m, r);
   system.accelerations(state.t, state.q, state.v, state.a);
   for (int j = 0; j < system.n_joints(); ++j) {
-    const Placement& at = system.joints[j].at;
     state.gap[j] = r[j].gap;
     state.gap_rate[j] = r[j].rate;
     state.force[j] = law_force(system.joints[j].law, r[j].gap, r[j].rate);
-    state.gap_accel[j] = r[j].bias;
-    if (at.a != kGround) state.gap_accel[j] += r[j].GA * state.a[at.a];
-    if (at.b != kGround) state.gap_accel[j] += r[j].GB * state.a[at.b];
   }
+  find_gap_accelerations(system, r, state);
 }
 
 }  // namespace
@@ -59,7 +56,6 @@ void balance_start(const System& system, State& state) {
   std::vector<Reading> r;
   system.motions(state.q, state.v, m);
   system.readings(state.t, m, r);
-  system.external(state.t, m, state.a);
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& joint = system.joints[j];
     const Response response = respond(joint.law, state.gap[j], state.gap_rate[j]);
@@ -69,25 +65,15 @@ void balance_start(const System& system, State& state) {
       state.gap_rate[j][k] = r[j].rate[k];
     }
     state.force[j] = law_force(joint.law, state.gap[j], state.gap_rate[j]);
-    if (joint.at.a != kGround) state.a[joint.at.a] += r[j].GA.transpose() * state.force[j];
-    if (joint.at.b != kGround) state.a[joint.at.b] += r[j].GB.transpose() * state.force[j];
   }
-  for (int i = 0; i < system.n_bodies(); ++i) state.a[i] = state.a[i].cwiseQuotient(system.bodies[i].mass);
-  for (int j = 0; j < system.n_joints(); ++j) {
-    const Placement& at = system.joints[j].at;
-    state.gap_accel[j] = r[j].bias;
-    if (at.a != kGround) state.gap_accel[j] += r[j].GA * state.a[at.a];
-    if (at.b != kGround) state.gap_accel[j] += r[j].GB * state.a[at.b];
-  }
+  find_accelerations(system, m, r, state);
 }
 
 ForcesOfMotion::ForcesOfMotion(const System& system) : system_(system), projector_(system), wanted_(system.joints.size()) {}
 
 S::Vec ForcesOfMotion::from_bodies(int j, const Vecs& x) const {
-  const Placement& at = system_.joints[j].at;
   S::Vec y = S::Vec::Zero();
-  if (at.a != kGround) y += r_[j].GA * x[at.a];
-  if (at.b != kGround) y += r_[j].GB * x[at.b];
+  add_gap(system_.joints[j].at, r_[j], x, y);
   return y;
 }
 

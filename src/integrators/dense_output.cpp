@@ -42,14 +42,13 @@ double cubic(double s, double h, double x0, double v0, double x1, double v1) {
 }
 
 // Where forces are found inside a step: with both ends, the extrema of a Chebyshev polynomial on [0, 1].
-constexpr int kSamples = 5;
-double sample_point(int i) { return 0.5 * (1 - std::cos(std::numbers::pi * i / (kSamples + 1))); }
+double sample_point(int i, int samples) { return 0.5 * (1 - std::cos(std::numbers::pi * i / (samples + 1))); }
 
 // Values at the samples and the ends -> coefficients of powers.
-Eigen::MatrixXd to_powers() {
-  Eigen::MatrixXd at(kSamples + 2, kSamples + 2);
+Eigen::MatrixXd to_powers(int samples) {
+  Eigen::MatrixXd at(samples + 2, samples + 2);
   for (int i = 0; i < at.rows(); ++i)
-    for (int k = 0; k < at.cols(); ++k) at(i, k) = std::pow(sample_point(i), k);
+    for (int k = 0; k < at.cols(); ++k) at(i, k) = std::pow(sample_point(i, samples), k);
   return at.inverse();
 }
 
@@ -169,11 +168,11 @@ void DenseOutput::find_curves(const State& begin, const State& end, const StepNo
 // The forces' own curves: through the ends and samples inside. There velocities are moved onto the gaps' rates and the
 // forces balanced with the gaps' accelerations. theory/time section 5.
 void DenseOutput::find_forces(const State& begin, const State& end, const StepNodes& nodes) {
-  static const Eigen::MatrixXd powers = to_powers();
+  static const Eigen::MatrixXd powers = to_powers(kSamples);
   const double h = end.t - begin.t, mu = nodes.table->real_eigenvalue / h;
   sampled_.front() = begin.force;
   for (int i = 1; i <= kSamples; ++i) {
-    follow(begin.t + sample_point(i) * h, begin, end);
+    follow(begin.t + sample_point(i, kSamples) * h, begin, end);
     system_.motions(out_.q, out_.v, motions_);
     if (projector_.prepare(out_.t, motions_, mu, out_.gap, out_.gap_rate)) {
       for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = out_.gap_rate[j] - projector_.readings()[j].rate;

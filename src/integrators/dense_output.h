@@ -22,7 +22,9 @@ class DenseOutput {
   const State& at(double t, const State& begin, const State& end, const StepNodes& nodes);
 
  private:
-  static constexpr int kMost = 7;                               // coefficients at most
+  static constexpr int kSamples = 5;                            // of the forces inside a step
+  static constexpr int kMost = kSamples + 2;                    // coefficients at most
+  static_assert(kMost >= RadauTable::kMaxNodes);
   using Powers = std::array<double, kMost>;
   using Coefficients = std::array<Planar::Vec, kMost>;          // of powers of the share of the step
   struct Curve {

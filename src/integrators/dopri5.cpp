@@ -35,6 +35,7 @@ void Dopri5::complete(State& state) {
   system_.motions(state.q, state.v, m_);
   system_.readings(state.t, m_, r_);
   system_.accelerations(state.t, state.q, state.v, state.a);
+  find_gap_accelerations(system_, r_, state);
   const ExternalWork work = system_.external_work(state.t, state.q, m_);
   state.supply_power = work.supplied;
   state.loss_power = work.lost;
@@ -42,9 +43,6 @@ void Dopri5::complete(State& state) {
     const JointData& joint = system_.joints[j];
     state.gap[j] = r_[j].gap;
     state.gap_rate[j] = r_[j].rate;
-    state.gap_accel[j] = r_[j].bias;
-    if (joint.at.a != kGround) state.gap_accel[j] += r_[j].GA * state.a[joint.at.a];
-    if (joint.at.b != kGround) state.gap_accel[j] += r_[j].GB * state.a[joint.at.b];
     const Response response = respond(joint.law, r_[j].gap, r_[j].rate);
     state.force[j] = response.force;
     if (joint.servo >= 0) state.supply_power += response.force[joint.servo] * system_.pose(joint.at, m_).rate[joint.servo];
@@ -62,8 +60,7 @@ void Dopri5::start(const State& state, double h) {
 
 // The load below which the rounding of positions, as joint force, would be seen as an error.
 void Dopri5::find_rounding() {
-  double size = 1e-3;
-  for (const auto& q : end_.q) size = std::max({size, std::abs(q[0]), std::abs(q[1])});
+  const double size = largest_coordinate(end_.q);
   rounding_.assign(system_.bodies.size(), 0.0);
   for (std::size_t i = 0; i < rounding_.size(); ++i) rounding_[i] = 1e-9 * system_.bodies[i].mass[0];
   for (int j = 0; j < system_.n_joints(); ++j) {

@@ -56,10 +56,8 @@ void GapProjector::solve(Vecs& x) {
 void GapProjector::close(const Vecs& wanted, Vecs& x) {
   for (auto& b : body_) b.setZero();
   for (int j = 0; j < system_.n_joints(); ++j) {
-    const Placement& at = system_.joints[j].at;
     const S::Vec f = weight_[j] * wanted[j];
-    if (at.a != kGround) body_[at.a] += readings_[j].GA.transpose() * f;
-    if (at.b != kGround) body_[at.b] += readings_[j].GB.transpose() * f;
+    add_force(system_.joints[j].at, readings_[j], f, body_);
   }
   solve(body_);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += body_[i];
@@ -85,17 +83,11 @@ void GapProjector::close(const std::vector<Three>& wanted, std::vector<Three>& x
 // theory/time Eq. (4.4).
 void GapProjector::improve_forces(const Vecs& Q, const Vecs& a, Vecs& force) {
   for (int i = 0; i < system_.n_bodies(); ++i) body_[i] = Q[i] - system_.bodies[i].mass.cwiseProduct(a[i]);
-  for (int j = 0; j < system_.n_joints(); ++j) {
-    const Placement& at = system_.joints[j].at;
-    if (at.a != kGround) body_[at.a] += readings_[j].GA.transpose() * force[j];
-    if (at.b != kGround) body_[at.b] += readings_[j].GB.transpose() * force[j];
-  }
+  for (int j = 0; j < system_.n_joints(); ++j) add_force(system_.joints[j].at, readings_[j], force[j], body_);
   solve(body_);
   for (int j = 0; j < system_.n_joints(); ++j) {
-    const Placement& at = system_.joints[j].at;
     S::Vec gap = S::Vec::Zero();
-    if (at.a != kGround) gap += readings_[j].GA * body_[at.a];
-    if (at.b != kGround) gap += readings_[j].GB * body_[at.b];
+    add_gap(system_.joints[j].at, readings_[j], body_, gap);
     force[j] -= weight_[j] * gap;
   }
 }
@@ -103,18 +95,10 @@ void GapProjector::improve_forces(const Vecs& Q, const Vecs& a, Vecs& force) {
 // theory/time Eq. (4.5).
 void GapProjector::balance(const Vecs& Q, const Vecs& gap_accel, Vecs& force) {
   accel_ = Q;
-  for (int j = 0; j < system_.n_joints(); ++j) {
-    const Placement& at = system_.joints[j].at;
-    if (at.a != kGround) accel_[at.a] += readings_[j].GA.transpose() * force[j];
-    if (at.b != kGround) accel_[at.b] += readings_[j].GB.transpose() * force[j];
-  }
+  for (int j = 0; j < system_.n_joints(); ++j) add_force(system_.joints[j].at, readings_[j], force[j], accel_);
   for (int i = 0; i < system_.n_bodies(); ++i) accel_[i] = accel_[i].cwiseQuotient(system_.bodies[i].mass);
   const auto take_off = [&](const Vecs& a) {
-    for (int j = 0; j < system_.n_joints(); ++j) {
-      const Placement& at = system_.joints[j].at;
-      if (at.a != kGround) missing_[j] -= readings_[j].GA * a[at.a];
-      if (at.b != kGround) missing_[j] -= readings_[j].GB * a[at.b];
-    }
+    for (int j = 0; j < system_.n_joints(); ++j) subtract_gap(system_.joints[j].at, readings_[j], a, missing_[j]);
   };
   for (int j = 0; j < system_.n_joints(); ++j) missing_[j] = gap_accel[j] - readings_[j].bias;
   take_off(accel_);

@@ -100,9 +100,7 @@ void RadauStepper::finish_step(double h) {
 
 // What the rounding of positions leaves of a gap, or that of velocities of its rate.
 double RadauStepper::rounding_of(const Vecs& x) {
-  double size = 1e-3;
-  for (const auto& xi : x) size = std::max(size, std::max(std::abs(xi[0]), std::abs(xi[1])));
-  return 16 * std::numeric_limits<double>::epsilon() * size;
+  return 16 * std::numeric_limits<double>::epsilon() * largest_coordinate(x);
 }
 
 // What is asked of the joints, where they forbid anything.
@@ -129,10 +127,8 @@ void RadauStepper::move_onto_gaps() {
   for (auto& x : move_) x.setZero();
   for (int pass = 0; pass < 2; ++pass) {
     for (std::size_t j = 0; j < wanted_.size(); ++j) {
-      const Placement& at = system_.joints[j].at;
       wanted_[j] = last.gap_rate[j] - end_r_[j].rate;
-      if (at.a != kGround) wanted_[j] -= end_r_[j].GA * move_[at.a];
-      if (at.b != kGround) wanted_[j] -= end_r_[j].GB * move_[at.b];
+      subtract_gap(system_.joints[j].at, end_r_[j], move_, wanted_[j]);
     }
     if (pass > 0 && largest_wanted() < rounding_of_rate) break;
     projector_.close(wanted_, move_);
@@ -161,10 +157,8 @@ void RadauStepper::balance_forces() {
   const Stage& last = stage_[n_ - 1];
   move_ = last.a;
   for (std::size_t j = 0; j < wanted_.size(); ++j) {
-    const Placement& at = system_.joints[j].at;
     wanted_[j] = last.gap_accel[j] - end_r_[j].bias;
-    if (at.a != kGround) wanted_[j] -= end_r_[j].GA * move_[at.a];
-    if (at.b != kGround) wanted_[j] -= end_r_[j].GB * move_[at.b];
+    subtract_gap(system_.joints[j].at, end_r_[j], move_, wanted_[j]);
   }
   projector_.close(wanted_, move_);
   projector_.improve_forces(last.Q, move_, end_.force);

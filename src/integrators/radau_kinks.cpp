@@ -92,20 +92,8 @@ void RadauStepper::cross_kink(double distance) {
 // What the laws and loads really give at end_.
 void RadauStepper::balance_end() {
   system_.readings(end_.t, end_m_, end_r_);
-  system_.external(end_.t, end_m_, end_.a);
-  for (int j = 0; j < system_.n_joints(); ++j) {
-    const Placement& at = system_.joints[j].at;
-    end_.force[j] = law_force(system_.joints[j].law, end_.gap[j], end_.gap_rate[j]);
-    if (at.a != kGround) end_.a[at.a] += end_r_[j].GA.transpose() * end_.force[j];
-    if (at.b != kGround) end_.a[at.b] += end_r_[j].GB.transpose() * end_.force[j];
-  }
-  for (std::size_t b = 0; b < end_.a.size(); ++b) end_.a[b] = end_.a[b].cwiseQuotient(system_.bodies[b].mass);
-  for (int j = 0; j < system_.n_joints(); ++j) {
-    const Placement& at = system_.joints[j].at;
-    end_.gap_accel[j] = end_r_[j].bias;
-    if (at.a != kGround) end_.gap_accel[j] += end_r_[j].GA * end_.a[at.a];
-    if (at.b != kGround) end_.gap_accel[j] += end_r_[j].GB * end_.a[at.b];
-  }
+  for (int j = 0; j < system_.n_joints(); ++j) end_.force[j] = law_force(system_.joints[j].law, end_.gap[j], end_.gap_rate[j]);
+  find_accelerations(system_, end_m_, end_r_, end_);
   const auto [supplied, lost] = power(end_.t, end_.q, end_m_, end_.gap, end_.gap_rate, end_.force);
   end_.supply_power = supplied;
   end_.loss_power = lost;

@@ -45,8 +45,6 @@ class RadauStepper {
   double next_step() const { return h_; }
   const Counters& counters() const { return counters_; }
   const std::string& failure() const { return failure_; }
-  /// Joint forces at stage i of the last step.
-  const Vecs& stage_force(int i) const { return stage_[i].force; }
   const RadauTable& table() const { return table_; }
 
  private:

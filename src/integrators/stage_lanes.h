@@ -12,6 +12,7 @@ struct BodyLanes {
   using L = Lanes<N>;
   L q[3], v[3], a[3];
   L c, s;         // cosine and sine of the angle
+  L Q[3];         // what is not a joint's force [N, N, N*m]
   L residual[3];  // of its equation of motion [N, N, N*m]
 
   struct View { const L &x, &y, &c, &s, &vx, &vy, &w; };
@@ -26,6 +27,19 @@ struct GapMap {
   T c, s, ax, ay, bx, by;  // as in PoseGeometry
   T gradient[3];           // of a gap that is a function
   bool function = false;
+
+  void take(const PoseGeometry<T>& pose) {
+    c = pose.c;
+    s = pose.s;
+    ax = pose.ax;
+    ay = pose.ay;
+    bx = pose.bx;
+    by = pose.by;
+  }
+  /// The map of one lane.
+  GapMap<double> lane(int i) const {
+    return {c[i], s[i], ax[i], ay[i], bx[i], by[i], {gradient[0][i], gradient[1][i], gradient[2][i]}, function};
+  }
 
   template <class U>
   struct OnBodies { U fx, fy, ma, mb; };  // force on B (on A the opposite), moments on A and B

@@ -29,12 +29,7 @@ void put(BodyLanes<N>& body, int lane, const Vec& q, const Vec& v) {
 template <class T>
 GapMap<T> map_of(const PoseGeometry<T>& pose) {
   GapMap<T> map;
-  map.c = pose.c;
-  map.s = pose.s;
-  map.ax = pose.ax;
-  map.ay = pose.ay;
-  map.bx = pose.bx;
-  map.by = pose.by;
+  map.take(pose);
   return map;
 }
 

@@ -69,7 +69,7 @@ class LaneSolver final : public StageSolver {
   bool loads_;                                // there is more than weight
   std::vector<BodyLanes<N>> bodies_;
   std::vector<JointLanes<N>> joints_;
-  std::array<Vecs, N> Q_;
+  Vecs Q_;                                    // of one stage
   std::vector<S::Motion> motions_;
   struct JointBlocks { std::array<S::Mat, 4> K, C; BlockPattern::Slot ab{0, true}; };  // AA, AB, BA, BB of (3.8)
   struct LoadBlock { int i, j; S::Mat dq, dv; };
@@ -83,16 +83,14 @@ class LaneSolver final : public StageSolver {
 template <int N>
 LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double tolerance)
     : system_(system), table_(table), matrices_(table), tolerance_(tolerance), loads_(!system.loads.empty() || !system.applied.empty()),
-      bodies_(system.bodies.size() + 1), joints_(system.joints.size()), motions_(system.bodies.size()), blocks_(system.joints.size()),
+      bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), motions_(system.bodies.size()), blocks_(system.joints.size()),
       lu_(system.pattern()), rhs_(system.bodies.size() + 1) {
   bodies_.back().c = L::all(1);  // the ground; what falls on it is not looked at
-  for (Vecs& Q : Q_) {
-    Q.reserve(system.bodies.size());
-    for (const BodyData& b : system.bodies) Q.push_back(b.gravity);
-  }
+  for (std::size_t b = 0; b < n_bodies(); ++b)
+    for (int k = 0; k < 3; ++k) bodies_[b].Q[k] = L::all(system.bodies[b].gravity[k]);
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const JointData& joint = system.joints[j];
-    joints_[j].map.function = joints_[j].frozen.function = !std::holds_alternative<Selection>(joint.probe);
+    joints_[j].map.function = !std::holds_alternative<Selection>(joint.probe);
     joints_[j].diagonal = std::holds_alternative<LinearLaw>(joint.law);
     if (joint.at.a != kGround && joint.at.b != kGround) blocks_[j].ab = system.pattern().slot(joint.at.a, joint.at.b);
   }
@@ -227,11 +225,7 @@ template <int N>
 void LaneSolver<N>::find_residuals(double t, double h) {
   if (loads_) find_loads(t, h);
   for (std::size_t b = 0; b < n_bodies(); ++b)
-    for (int k = 0; k < 3; ++k) {
-      L Q = L::all(0);
-      for (int s = 0; s < N; ++s) Q.set(s, Q_[s][b][k]);
-      bodies_[b].residual[k] = system_.bodies[b].mass[k] * bodies_[b].a[k] - Q;
-    }
+    for (int k = 0; k < 3; ++k) bodies_[b].residual[k] = system_.bodies[b].mass[k] * bodies_[b].a[k] - bodies_[b].Q[k];
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     JointLanes<N>& joint = joints_[j];
     find_map(j);
@@ -254,7 +248,9 @@ template <int N>
 void LaneSolver<N>::find_loads(double t, double h) {
   for (int s = 0; s < N; ++s) {
     for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(s);
-    system_.external(t + table_.c[s] * h, motions_, Q_[s]);
+    system_.external(t + table_.c[s] * h, motions_, Q_);
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < 3; ++k) bodies_[b].Q[k].set(s, Q_[b][k]);
   }
 }
 
@@ -265,12 +261,7 @@ void LaneSolver<N>::find_map(std::size_t j) {
   JointLanes<N>& joint = joints_[j];
   const auto pose = PoseGeometry<L>::between(bodies_[body(data.at.a)].view(), data.at.F, bodies_[body(data.at.b)].view(), data.at.M);
   GapMap<L>& map = joint.map;
-  map.c = pose.c;
-  map.s = pose.s;
-  map.ax = pose.ax;
-  map.ay = pose.ay;
-  map.bx = pose.bx;
-  map.by = pose.by;
+  map.take(pose);
   joint.residual[0] = -pose.bias_x;
   joint.residual[1] = -pose.bias_y;
   joint.residual[2] = L::all(0);
@@ -278,7 +269,7 @@ void LaneSolver<N>::find_map(std::size_t j) {
     joint.residual[0] = -find_gradient(data, pose, joint);
     joint.residual[1] = L::all(0);
   }
-  if (data.servo >= 0 && !data.target.variables().empty()) joint.residual[data.servo] += joint.target_accel;
+  if (data.servo >= 0) joint.residual[data.servo] += joint.target_accel;
 }
 
 // A gap that is a function of the pose: its gradient into the map; its convective acceleration is returned. theory/joints
@@ -310,15 +301,7 @@ void LaneSolver<N>::linearize(double t) {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const JointData& data = system_.joints[j];
     JointLanes<N>& joint = joints_[j];
-    const GapMap<L>& map = joint.map;
-    joint.frozen.c = map.c[i];
-    joint.frozen.s = map.s[i];
-    joint.frozen.ax = map.ax[i];
-    joint.frozen.ay = map.ay[i];
-    joint.frozen.bx = map.bx[i];
-    joint.frozen.by = map.by[i];
-    if (map.function)
-      for (int k = 0; k < 3; ++k) joint.frozen.gradient[k] = map.gradient[k][i];
+    joint.frozen = joint.map.lane(i);
     const Response response = respond(data.law, {joint.gap[0][i], joint.gap[1][i], joint.gap[2][i]},
                                       {joint.rate[0][i], joint.rate[1][i], joint.rate[2][i]});
     joint.K = response.stiffness;
@@ -426,7 +409,7 @@ void LaneSolver<N>::write(std::vector<Stage>& stages) const {
       copy(bodies_[b].v, stage.v[b]);
       copy(bodies_[b].a, stage.a[b]);
       stage.m[b] = bodies_[b].motion(s);
-      stage.Q[b] = Q_[s][b];
+      copy(bodies_[b].Q, stage.Q[b]);
     }
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       copy(joints_[j].gap, stage.gap[j]);

@@ -74,8 +74,7 @@ void System::accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a) cons
   for (int j = 0; j < n_joints(); ++j) {
     const Reading r = reading(j, t, m);
     const Vec f = law_force(joints[j].law, r.gap, r.rate);
-    if (joints[j].at.a != kGround) a[joints[j].at.a] += r.GA.transpose() * f;
-    if (joints[j].at.b != kGround) a[joints[j].at.b] += r.GB.transpose() * f;
+    add_force(joints[j].at, r, f, a);
   }
   for (int i = 0; i < n_bodies(); ++i) a[i] = a[i].cwiseQuotient(bodies[i].mass);
 }

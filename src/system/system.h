@@ -75,6 +75,22 @@ struct AppliedData {
   bool body_axes = false;
 };
 
+/// gap += G x: what the bodies' rates, accelerations or small displacements x make of a gap.
+inline void add_gap(const Placement& at, const Reading& r, const Vecs& x, Planar::Vec& gap) {
+  if (at.a != kGround) gap += r.GA * x[at.a];
+  if (at.b != kGround) gap += r.GB * x[at.b];
+}
+/// gap -= G x.
+inline void subtract_gap(const Placement& at, const Reading& r, const Vecs& x, Planar::Vec& gap) {
+  if (at.a != kGround) gap -= r.GA * x[at.a];
+  if (at.b != kGround) gap -= r.GB * x[at.b];
+}
+/// on_bodies += G' f: a gap's force as forces on its bodies.
+inline void add_force(const Placement& at, const Reading& r, const Planar::Vec& f, Vecs& on_bodies) {
+  if (at.a != kGround) on_bodies[at.a] += r.GA.transpose() * f;
+  if (at.b != kGround) on_bodies[at.b] += r.GB.transpose() * f;
+}
+
 /// Forces that are not a joint's, and their energy bookkeeping.
 struct ExternalWork {
   double potential = 0;  // gravity and springs [J]

@@ -1,0 +1,28 @@
+#include "system/state.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pintle {
+
+void find_gap_accelerations(const System& system, const std::vector<Reading>& r, State& state) {
+  for (int j = 0; j < system.n_joints(); ++j) {
+    state.gap_accel[j] = r[j].bias;
+    add_gap(system.joints[j].at, r[j], state.a, state.gap_accel[j]);
+  }
+}
+
+void find_accelerations(const System& system, const std::vector<Planar::Motion>& m, const std::vector<Reading>& r, State& state) {
+  system.external(state.t, m, state.a);
+  for (int j = 0; j < system.n_joints(); ++j) add_force(system.joints[j].at, r[j], state.force[j], state.a);
+  for (int i = 0; i < system.n_bodies(); ++i) state.a[i] = state.a[i].cwiseQuotient(system.bodies[i].mass);
+  find_gap_accelerations(system, r, state);
+}
+
+double largest_coordinate(const Vecs& x) {
+  double size = 1e-3;
+  for (const auto& xi : x) size = std::max({size, std::abs(xi[0]), std::abs(xi[1])});
+  return size;
+}
+
+}  // namespace pintle
