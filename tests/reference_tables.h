@@ -123,10 +123,10 @@ inline Integration integrate_once(const Model& model, double tolerance, int stag
   plan.max_step = model.simulate.max_step;
   plan.tolerance = tolerance;
   plan.first_step = 1e-4 * plan.duration;
-  plan.stages = stages;
+  plan.choice = {Equations::kNewtonian, stages == 0 ? "dopri5" : "radau", stages};
   plan.scale = scale;
   Recorder recorder(model, system);
-  Integration done = stages == 0 ? integrate_dopri5(system, start, plan, recorder) : integrate_radau(system, start, plan, recorder);
+  Integration done = integrate(system, start, plan, recorder);
   if (out) recorder.fill(*out);
   return done;
 }

@@ -57,6 +57,7 @@ struct Joint {
   MarkerRef first, second;
   std::map<std::string, double> geometry;  ///< rod, rope: length [m] (absent: as assembled); gear: radius_first, radius_second [m], internal (0 or 1); rack: radius [m]
   LawChoice law;
+  bool ideal = false;  ///< with Equations::kLagrangian: no force law, the coordinates obey it
   friend bool operator==(const Joint&, const Joint&) = default;
 };
 
@@ -97,12 +98,18 @@ struct Motor {
 
 enum class Start { kAssembled, kUnloaded, kRaw };
 
+/// The equations of motion. kNewtonian: every joint is a force law. kLagrangian: joints marked `ideal` are obeyed by
+/// relative coordinates over a spanning tree, every other joint is a force law. kIdeal: every joint with a linear law is a
+/// constraint with Lagrange multipliers.
+enum class Equations { kNewtonian, kLagrangian, kIdeal };
+
 /// How to run it.
 struct SimulateSettings {
   double duration = 0;       ///< [s]; 0: not stated
   double output_step = 0;    ///< [s]; 0: duration / 500
   double tolerance = 1e-5;   ///< of the peak force of each joint [-]
-  std::string method = "auto";  ///< auto, radau, dopri5
+  std::string method = "auto";  ///< auto, radau, dopri5, ode45, ode23t, ode15s, ode113, hht, generalised_alpha
+  Equations equations = Equations::kNewtonian;
   Start start = Start::kAssembled;
   double max_step = 0;       ///< [s]; 0: none
 };

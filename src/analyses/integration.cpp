@@ -4,20 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
-#include "integrators/dense_output.h"
-#include "integrators/dopri5.h"
+#include "integrators/methods.h"
 
 namespace pintle {
 
 namespace {
-
-const State& inside(DenseOutput& dense, const RadauStepper& stepper, double t) {
-  return dense.at(t, stepper.previous(), stepper.state(), stepper.nodes());
-}
-const State& inside(DenseOutput& dense, const Dopri5& stepper, double t) {
-  return dense.at(t, stepper.previous(), stepper.state());
-}
 
 // Notices a motion that needs ever shorter steps: one that blows up without end.
 class Standstill {
@@ -39,14 +32,15 @@ class Standstill {
   int steps_ = 0;
 };
 
-// Steps to the end and records the output times.
-template <class Stepper>
-Integration run(Stepper& stepper, const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder) {
+}  // namespace
+
+Integration integrate(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder) {
+  const std::unique_ptr<Stepper> method = make_stepper(system, plan.choice, plan.tolerance);
+  Stepper& stepper = *method;
   Integration out;
   stepper.set_max_step(plan.max_step);
   if (plan.scale) stepper.set_load_scale(*plan.scale);
   stepper.start(start, plan.first_step);
-  DenseOutput dense(system);
   recorder.add(start);
   std::size_t row = 1;
   const double end = plan.duration, almost = end * (1 - 1e-12);
@@ -57,13 +51,13 @@ Integration run(Stepper& stepper, const System& system, const State& start, cons
       out.message = stepper.failure();
       break;
     }
-    const State &begin = stepper.previous(), &now = stepper.state();
+    const State& now = stepper.state();
     for (double t = static_cast<double>(row) * plan.output_step; t <= now.t && t < almost;
          t = static_cast<double>(++row) * plan.output_step)
-      recorder.add(inside(dense, stepper, t));
+      recorder.add(stepper.inside(t));
     if (standstill.reached(now.t)) {
       out.ended = Ended::kFailed;
-      out.message = fmt::format("the motion blows up, or the tolerance is below the rounding of its forces: steps of {:.3g} s at t = {:.9g} s", now.t - begin.t, now.t);
+      out.message = fmt::format("the motion blows up, or the tolerance is below the rounding of its forces: steps of {:.3g} s at t = {:.9g} s", now.t - stepper.previous().t, now.t);
       break;
     }
     if (plan.keep_going && !plan.keep_going(now.t)) {
@@ -75,19 +69,8 @@ Integration run(Stepper& stepper, const System& system, const State& start, cons
   out.t = stepper.state().t;
   out.counters = stepper.counters();
   out.scale = stepper.load_scale();
+  out.remarks = stepper.remarks();
   return out;
-}
-
-}  // namespace
-
-Integration integrate_radau(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder) {
-  RadauStepper stepper(system, plan.tolerance, plan.stages);
-  return run(stepper, system, start, plan, recorder);
-}
-
-Integration integrate_dopri5(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder) {
-  Dopri5 stepper(system, plan.tolerance);
-  return run(stepper, system, start, plan, recorder);
 }
 
 }  // namespace pintle

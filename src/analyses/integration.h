@@ -3,9 +3,10 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "analyses/recorder.h"
-#include "integrators/radau_stepper.h"
+#include "integrators/methods.h"
 
 namespace pintle {
 
@@ -15,7 +16,7 @@ struct IntegrationPlan {
   double max_step = 0;
   double tolerance = 1e-5;           // of the stepper
   double first_step = 0;
-  int stages = 3;                    // of the implicit method, 3 or 5
+  MethodChoice choice;
   const LoadScale* scale = nullptr;  // from an earlier pass
   std::function<bool(double t)> keep_going;  // called after each step; false stops
 };
@@ -28,12 +29,10 @@ struct Integration {
   std::string message;
   Counters counters;
   LoadScale scale;
+  std::vector<std::string> remarks;  // what the method noticed
 };
 
-/// Integrates with the force-accurate implicit method; rows go to `recorder`.
-Integration integrate_radau(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder);
-
-/// The same with the explicit Dormand-Prince 5(4) pair on the equations as they stand.
-Integration integrate_dopri5(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder);
+/// Integrates by the plan's method; rows go to `recorder`.
+Integration integrate(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder);
 
 }  // namespace pintle

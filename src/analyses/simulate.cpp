@@ -69,9 +69,10 @@ class Run {
     start_ = std::move(assembly.state);
     out_.notes = std::move(assembly.notes);
     out_.tolerance = model_.simulate.tolerance;
-    explicit_ = model_.simulate.method == "dopri5";
-    out_.method = explicit_ ? "dopri5" : "radau";
-    integrate();
+    choice_.equations = model_.simulate.equations;
+    choice_.method = model_.simulate.method == "auto" ? usual_method(choice_.equations) : model_.simulate.method;
+    out_.method = choice_.method;
+    make_passes();
     out_.wall_seconds = clock_.seconds();
     return std::move(out_);
   }
@@ -83,7 +84,7 @@ class Run {
     p.output_step = model_.simulate.output_step > 0 ? model_.simulate.output_step : p.duration / 500;
     p.max_step = model_.simulate.max_step;
     p.tolerance = tolerance;
-    p.stages = stages_;
+    p.choice = choice_;
     p.first_step = 1e-4 * p.duration;
     if (!last_.scale.body.empty()) p.scale = &last_.scale;
     p.keep_going = [this](double t) { return report(t); };
@@ -101,7 +102,7 @@ class Run {
   bool run_pass(double tolerance) {
     auto recorder = std::make_unique<Recorder>(model_, system_);
     const IntegrationPlan p = plan(tolerance);
-    Integration done = explicit_ ? integrate_dopri5(system_, start_, p, *recorder) : integrate_radau(system_, start_, p, *recorder);
+    Integration done = integrate(system_, start_, p, *recorder);
     count(done.counters);
     const bool complete = done.ended == Ended::kAtEnd;
     if (!complete) interrupted_ = {done.ended, done.message};
@@ -125,17 +126,17 @@ class Run {
   }
 
   // theory/time Eqs. (6.1)-(6.3).
-  void integrate() {
+  void make_passes() {
     const double wanted = model_.simulate.tolerance;
     Comparison difference;
     double share = 1, error = 0;
     bool doubted = false;  // a pass has been made because two were alike
-    stages_ = wanted < kTight ? 5 : 3;
+    choice_.stages = wanted < kTight ? 5 : 3;
     double tolerance = std::min(wanted, kLoosest);
     bool complete = run_pass(kPilot * tolerance);
     const Counters& pilot = last_.counters;
-    if (complete && !explicit_ && stages_ == 3 && static_cast<double>(pilot.newton_iterations) < kEasy * static_cast<double>(pilot.steps)) {
-      stages_ = 5;
+    if (complete && choice_.method == "radau" && choice_.stages == 3 && static_cast<double>(pilot.newton_iterations) < kEasy * static_cast<double>(pilot.steps)) {
+      choice_.stages = 5;
       fine_.reset();
       complete = run_pass(kPilot * tolerance);
     }
@@ -176,6 +177,7 @@ class Run {
   void finish(const Comparison& difference, double share, double error) {
     fine_->fill(out_);
     out_.t_end = last_.t;
+    out_.notes.insert(out_.notes.end(), last_.remarks.begin(), last_.remarks.end());
     const std::vector<double> relative_difference = relative_differences(difference);
     std::size_t row = 0;
     for (std::size_t j = 0; j < system_.joints.size(); ++j) {
@@ -210,9 +212,8 @@ class Run {
   System system_;
   State start_;
   Trajectory out_;
-  bool explicit_ = false;
+  MethodChoice choice_;
   std::unique_ptr<Recorder> coarse_, fine_;
-  int stages_ = 3;
   double fine_tolerance_ = 0;
   Integration last_;
   std::pair<Ended, std::string> interrupted_{Ended::kAtEnd, ""};

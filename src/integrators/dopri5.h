@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "pintle/trajectory.h"
 #include "integrators/radau_stepper.h"
+#include "pintle/trajectory.h"
 #include "system/state.h"
 
 namespace pintle {

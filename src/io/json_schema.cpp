@@ -81,6 +81,8 @@ Json type_schema(const KeySpec& spec) {
       schema["type"] = "integer";
       return schema;
     }
+    case ValueType::kTruth:
+      return Json{{"type", "boolean"}};
     case ValueType::kText:
     case ValueType::kWord:
     case ValueType::kMarkerName:

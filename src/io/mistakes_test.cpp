@@ -62,7 +62,7 @@ const std::vector<Mistake> kMistakes{
     {"output_step = \"2 ms\"", "output_step = @1e-9", "simulate.output_step", "10 million rows"},
     {"tolerance = 1e-6", "tolerance = @1", "simulate.tolerance", "at most 0.1"},
     {"tolerance = 1e-6", "tolerance = @1e-12", "simulate.tolerance", "at least"},
-    {"method = \"radau\"", "method = \"@rk4\"", "simulate.method", "none of auto, radau, dopri5"},
+    {"method = \"radau\"", "method = \"@rk4\"", "simulate.method", "none of auto, radau, dopri5, ode45"},
     {"stiffness = \"2e8 N/m\"", "@length = 3", "defaults.joint.length", "no such key"},
     {"stiffness = \"2e8 N/m\"", "stiffness = @[1, 2]", "defaults.joint.stiffness", "a number is wanted"},
     {"[defaults.joint]\n", "[defaults]\n@spring = 1\n[defaults.joint]\n", "defaults.spring", "no such key"},

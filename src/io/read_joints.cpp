@@ -113,6 +113,7 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   read_geometry(*type, record, joint);
   check_gear(reading, record, joint);
   read_law(reading, *type, *law, record, defaults, joint.law);
+  joint.ideal = record.number("ideal") > 0;
   reading.model.joints.push_back(std::move(joint));
 }
 

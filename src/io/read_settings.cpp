@@ -41,6 +41,10 @@ void read_simulate(ModelReading& reading) {
   simulate.tolerance = record.number("tolerance", simulate.tolerance);
   simulate.max_step = record.number("max_step");
   if (const std::string method = record.word("method"); !method.empty()) simulate.method = method;
+  const std::string equations = record.word("equations");
+  simulate.equations = equations == "ideal"        ? Equations::kIdeal
+                       : equations == "lagrangian" ? Equations::kLagrangian
+                                                   : Equations::kNewtonian;
   const std::string start = record.word("start");
   simulate.start = start == "raw" ? Start::kRaw : start == "unloaded" ? Start::kUnloaded : Start::kAssembled;
   check_times(reading, record);

@@ -73,6 +73,7 @@ class RecordReader {
   std::optional<Value> read_value(const Node& node, const KeySpec& spec, const std::string& path);
   bool read_words(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
   bool read_word(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
+  bool read_truth(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
   bool read_integer(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
   bool read_numbers(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
   bool read_expression(const Node& node, const KeySpec& spec, const std::string& path, Value& value);

@@ -53,6 +53,7 @@ std::string node_text(const Node& node) {
     return "[" + text + "]";
   }
   if (const std::string* string = node.string()) return quoted_exactly(*string);
+  if (const bool* truth = node.truth()) return *truth ? "true" : "false";
   if (const double* real = node.real()) return fmt::format("{}", *real);
   return number_text(node);
 }
@@ -79,6 +80,8 @@ std::string type_text(const KeySpec& spec) {
       return "expression of " + list_of(spec.variables, ", ");
     case ValueType::kExpressions:
       return fmt::format("list of {} expressions of {}", spec.count, list_of(spec.variables, ", "));
+    case ValueType::kTruth:
+      return "`true` or `false`";
     case ValueType::kMarker:
       return "marker";
     case ValueType::kMarkerName:

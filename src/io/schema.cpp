@@ -15,7 +15,7 @@ extern const char* const kModelToml;  // schema/model.schema.toml
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, ValueType>, 13> kTypes{{
+constexpr std::array<std::pair<std::string_view, ValueType>, 14> kTypes{{
     {"integer", ValueType::kInteger},
     {"text", ValueType::kText},
     {"word", ValueType::kWord},
@@ -25,6 +25,7 @@ constexpr std::array<std::pair<std::string_view, ValueType>, 13> kTypes{{
     {"quantities", ValueType::kQuantities},
     {"expression", ValueType::kExpression},
     {"expressions", ValueType::kExpressions},
+    {"truth", ValueType::kTruth},
     {"marker", ValueType::kMarker},
     {"marker_name", ValueType::kMarkerName},
     {"marker_names", ValueType::kMarkerNames},

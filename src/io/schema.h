@@ -23,6 +23,7 @@ enum class ValueType {
   kQuantities,
   kExpression,
   kExpressions,
+  kTruth,
   kMarker,
   kMarkerName,
   kMarkerNames,

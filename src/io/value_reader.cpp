@@ -144,6 +144,9 @@ std::optional<Value> RecordReader::read_value(const Node& node, const KeySpec& s
     case ValueType::kExpressions:
       good = read_list(node, spec, path, value);
       break;
+    case ValueType::kTruth:
+      good = read_truth(node, spec, path, value);
+      break;
     case ValueType::kMarker:
       break;  // markers stand in tables of their own: read_marker
   }
@@ -158,6 +161,15 @@ bool RecordReader::read_integer(const Node& node, const KeySpec& spec, const std
   }
   value.numbers.push_back(static_cast<double>(*node.integer()));
   return in_range(value.numbers.back(), node, spec, path);
+}
+
+bool RecordReader::read_truth(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
+  if (node.truth() == nullptr) {
+    complaints_.add(node.spot, path, describe(node), "true or false is wanted here, without quotes", spec.key + " = true");
+    return false;
+  }
+  value.numbers.push_back(*node.truth() ? 1 : 0);
+  return true;
 }
 
 bool RecordReader::read_word(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {

@@ -37,6 +37,7 @@ struct JointData {
   Placement at;
   Probe probe;
   Law law;
+  bool ideal = false;          // its gap is kept at zero by the equations, its law is not asked
   int servo = -1;              // component that a servo drives, -1: not a servo
   double start = 0;            // constant-speed servo: coordinate as assembled
   double speed = 0;            // constant-speed servo [rad/s or m/s]

@@ -1,0 +1,37 @@
+// One integration method under way: what every method offers to a run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "integrators/stage_solver.h"
+#include "pintle/trajectory.h"
+#include "system/state.h"
+
+namespace pintle {
+
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+
+  virtual void set_max_step(double h) = 0;
+  /// Loads known from an earlier integration, for methods that measure errors by them.
+  virtual void set_load_scale(const LoadScale& scale) = 0;
+  virtual const LoadScale& load_scale() const = 0;
+
+  /// Starts at `state` (all of it filled in) with a first step of about h.
+  virtual void start(const State& state, double h) = 0;
+  /// One accepted step, not beyond t_end. False when no step could be made; `failure` says why.
+  virtual bool step(double t_end) = 0;
+
+  virtual const State& state() const = 0;
+  virtual const State& previous() const = 0;
+  /// The state at a time inside the last step.
+  virtual const State& inside(double t) = 0;
+  virtual const Counters& counters() const = 0;
+  virtual const std::string& failure() const = 0;
+  /// What the method noticed on its way, for the user.
+  virtual std::vector<std::string> remarks() const { return {}; }
+};
+
+}  // namespace pintle
