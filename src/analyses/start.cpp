@@ -1,5 +1,6 @@
 #include "analyses/start.h"
 
+#include <cmath>
 #include <utility>
 
 #include "analyses/ideal_rows.h"
@@ -14,13 +15,16 @@ constexpr int kScoutSteps = 3;
 constexpr int kSpans = 4;         // tried, each a quarter of the one before
 constexpr double kSettled = 0.1;  // relative change of the gaps in the last sweep that is taken for convergence
 
-// A step that a rough integration takes, once it is under way: the gaps are smooth over about that time.
-double natural_step(const System& system, const State& start, double duration) {
+// Half a step that a rough integration takes, once it is under way: the gaps are smooth over about that time. Rounded to a
+// part of the duration, so that it does not change with every slight change of the model: where a joint is as slow as the
+// motion, what is called its slow motion depends on the span.
+double smooth_span(const System& system, const State& start, double duration) {
   RadauStepper scout(system, kScoutTolerance);
   scout.start(start, 1e-3 * duration);
   for (int i = 0; i < kScoutSteps; ++i)
     if (!scout.step(duration)) return 0;
-  return scout.state().t - scout.previous().t;
+  const double half = 0.5 * (scout.state().t - scout.previous().t);
+  return half > 0 ? duration * std::exp2(std::floor(std::log2(half / duration))) : 0;
 }
 
 // Ideal joints carry no preload: the loops are closed as they are.
@@ -40,7 +44,7 @@ Assembly start_of_run(const Model& model, System& system) {
   if (model.simulate.equations == Equations::kIdeal) return ideal_start(model, system);
   Assembly assembly = assemble(model, system);
   if (model.simulate.start != Start::kAssembled || system.joints.empty()) return assembly;
-  double span = 0.5 * natural_step(system, assembly.state, model.simulate.duration);
+  double span = smooth_span(system, assembly.state, model.simulate.duration);
   for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25)
     if (settle_on_slow_motion(system, span, assembly.state) < kSettled) break;
   return assembly;

@@ -26,6 +26,8 @@ constexpr double kTenfold = 10;
 constexpr double kOwnError = 0.05;        // of the wanted agreement: tolerance of each run
 constexpr std::size_t kMostInfluences = 24;  // joints; more are not tried one by one
 constexpr double kGrowth = 5;             // of a peak per tenfold stiffness: it goes with the stiffness itself
+constexpr const char* kInterrupted = "interrupted";
+constexpr double kStiffEnough = 1e9;      // to see what a soft joint does, where no stiffness was found [N/m]
 constexpr double kStill = 0.5;            // of the change per step: no longer falling
 
 double wanted_agreement(const StiffenRequest& request) { return 0.5 * std::pow(10.0, -request.digits); }
@@ -59,8 +61,10 @@ class Procedure {
     check_names();
     measure_mechanism();
     raise();
-    if (out_.found) recommend();
+    if (out_.found) relax();
+    else if (out_.steps.size() < 2) out_.reason += out_.reason.empty() ? "no two stiffnesses could be run" : "";
     else if (out_.reason.empty()) explain();
+    if (out_.steps.size() > 1 && out_.reason != kInterrupted) weigh_kept();
     return std::move(out_);
   }
 
@@ -131,7 +135,7 @@ class Procedure {
   // False when there is nothing to go on with; the reason then says why.
   bool run(const std::vector<StiffenJoint>& joints, double stiffness, Trajectory& out) {
     out = simulate(stiffened(model_, joints), observer_);
-    if (out.outcome == Outcome::kInterrupted) out_.reason = "interrupted";
+    if (out.outcome == Outcome::kInterrupted) out_.reason = kInterrupted;
     if (out.outcome == Outcome::kFailed) out_.reason = fmt::format("the run with {:.0e} N/m failed: {}", stiffness, out.message);
     return out_.reason.empty();
   }
@@ -140,7 +144,11 @@ class Procedure {
     Trajectory before, now;
     for (double k = request().first; k <= request().last * 1.001; k *= kTenfold) {
       set_all(k);
-      if (!run(out_.joints, k, now)) return;
+      if (!run(out_.joints, k, now)) {
+        if (!out_.steps.empty() || out_.reason == kInterrupted) return;
+        out_.notes.push_back(std::exchange(out_.reason, ""));  // too soft for this mechanism: go on
+        continue;
+      }
       add_step(k, out_.steps.empty() ? now : before, now);
       find_limits();
       out_.stiffness = k;
@@ -149,8 +157,16 @@ class Procedure {
         out_.found = true;
         return;
       }
+      if (no_longer_falls()) return;
       before = std::move(now);
     }
+  }
+
+  // Two steps in a row that changed nearly as much as the one before each.
+  bool no_longer_falls() const {
+    const std::size_t n = out_.steps.size();
+    const auto still = [this](std::size_t i) { return out_.steps[i].change > kStill * out_.steps[i - 1].change; };
+    return n > 3 && still(n - 1) && still(n - 2);
   }
 
   void add_step(double stiffness, const Trajectory& before, const Trajectory& now) {
@@ -204,11 +220,6 @@ class Procedure {
     return worst;
   }
 
-  void recommend() {
-    relax();
-    weigh_kept();
-  }
-
   // Joints whose compliance matters little may be softer. Each joint's influence goes as 1 / its stiffness.
   void relax() {
     const double k = out_.stiffness;
@@ -248,8 +259,8 @@ class Procedure {
   }
 
   void give_up_relaxing() {
-    if (out_.reason != "interrupted") out_.reason.clear();
-    out_.notes.push_back("the joints could not be judged one by one: the same stiffness is recommended for all");
+    if (out_.reason != kInterrupted) out_.reason.clear();
+    out_.notes.push_back("with the joints softened one by one the digits would not agree: the same stiffness is recommended for all");
   }
 
   // What it would change if the joints that are soft by intention were stiff as well.
@@ -259,12 +270,15 @@ class Procedure {
     for (StiffenJoint& joint : stiff) {
       if (!joint.kept || joint.type == "rope") continue;
       names += (names.empty() ? "" : ", ") + joint.name;
-      set(joint, out_.stiffness);
+      joint.kept = false;
     }
     if (names.empty()) return;
-    const std::string before = out_.reason;
+    const double stiffness = out_.found ? out_.stiffness : std::min(out_.stiffness, kStiffEnough);
+    for (StiffenJoint& joint : stiff)
+      if (!joint.kept) set(joint, stiffness);
+    const std::string before = std::exchange(out_.reason, "");
     Trajectory all_stiff;
-    if (!run(stiff, out_.stiffness, all_stiff)) {
+    if (!run(stiff, stiffness, all_stiff)) {
       out_.notes.push_back("with " + names + " stiff as well: " + out_.reason);
       out_.reason = before;
       return;
@@ -272,10 +286,11 @@ class Procedure {
     const auto [change, where] = difference(all_stiff, stiffest_);
     out_.kept_influence = change;
     out_.kept_where = where;
-    out_.reason = change <= wanted_agreement(request())
+    const std::string verdict = change <= wanted_agreement(request())
                       ? fmt::format("{}: softer than the procedure starts from, left as stated; it does not show in the chosen quantities", names)
                       : fmt::format("{}: its own flexibility decides. Made stiff as well, {} would change by {:.2g} of its peak: its stiffness has to be known, no larger one may stand for it",
                                     names, where, change);
+    out_.reason = before.empty() ? verdict : before + "; " + verdict;
   }
 
   // Why no stiffness was enough.
@@ -303,7 +318,9 @@ class Procedure {
       out_.notes.push_back(note);
       singular = singular || note.find("singular") != std::string::npos;
     }
-    if (singular) out_.reason += "; the mechanism passes singular positions, where forces depend on the joints' compliance";
+    if (last.change < before.change / 5)
+      out_.reason += fmt::format("; the change falls as 1/stiffness, so that {:.0e} N/m is within {:.1g} of the limit, and the limit below is closer", last.stiffness, last.change / (kTenfold - 1));
+    else if (singular) out_.reason += "; the mechanism passes singular positions, where forces depend on the joints' compliance";
     else if (last.change > kStill * before.change) out_.reason += "; the change no longer falls: look for vibration, impact or slack, or ask for fewer digits";
   }
 

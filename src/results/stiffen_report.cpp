@@ -65,6 +65,12 @@ std::string joints_text(const Stiffening& s) {
   return table.text();
 }
 
+// Whether the changes fall, so that there is a limit to extrapolate to.
+bool converges(const Stiffening& s) {
+  const std::size_t n = s.steps.size();
+  return s.found || (n > 2 && s.steps[n - 1].change < 0.2 * s.steps[n - 2].change);
+}
+
 std::string chosen(const StiffenRequest& request) {
   if (request.motion_only) return "coordinates";
   if (request.joints.empty()) return "all joint forces";
@@ -84,7 +90,7 @@ std::string stiffen_text(const Stiffening& s, const std::string& title, bool col
   else text += "\nNo answer.\n";
   if (!s.reason.empty()) text += "  " + s.reason + "\n";
   for (const std::string& note : s.notes) text += "  " + note + "\n";
-  if (s.steps.size() > 1) text += "\nLimit of stiff joints, extrapolated in 1/stiffness (peaks over the run)\n" + limits_text(s);
+  if (converges(s)) text += "\nLimit of stiff joints, extrapolated in 1/stiffness (peaks over the run)\n" + limits_text(s);
   if (s.found) text += "\nRecommended\n" + joints_text(s);
   return text;
 }

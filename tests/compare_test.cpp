@@ -1,0 +1,135 @@
+// Compliant joints beside ideal ones, and how stiff they have to be.
+#include "pintle/compare.h"
+
+#include <gtest/gtest.h>
+
+#include "pintle/stiffen.h"
+#include "tests/reference_tables.h"
+
+namespace pintle {
+namespace {
+
+TEST(Compare, DigitsAreSignificantFigures) {
+  EXPECT_EQ(agreeing_digits(0.5), 0);
+  EXPECT_EQ(agreeing_digits(5e-5), 4);
+  EXPECT_EQ(agreeing_digits(5.1e-5), 3);
+  EXPECT_EQ(agreeing_digits(0), 15);
+  EXPECT_EQ(agreeing_digits(std::nan("")), 0);
+}
+
+TEST(Compare, DifferenceOfStiffJointsIsPhysicalAndGoesAsTheCompliance) {
+  const Comparison one = compare(reference::mechanism("four_bar", {"simulate.tolerance=1e-7"}), Equations::kIdeal);
+  Model stiffer = reference::mechanism("four_bar", {"simulate.tolerance=1e-7"});
+  reference::set_joints(stiffer, 1e9, 1e4);
+  const Comparison ten = compare(stiffer, Equations::kIdeal);
+  ASSERT_EQ(one.forces.size(), 4u);
+  for (std::size_t j = 0; j < 4; ++j) {
+    EXPECT_EQ(one.forces[j].cause, Cause::kPhysical) << one.forces[j].name;
+    EXPECT_NEAR(one.forces[j].largest / ten.forces[j].largest, 10, 0.5) << one.forces[j].name;
+    EXPECT_GE(one.forces[j].rms, 0);
+    EXPECT_LE(one.forces[j].rms, one.forces[j].largest);
+  }
+}
+
+TEST(Compare, DifferenceWithinTheErrorsIsNumerical) {
+  Model model = reference::mechanism("four_bar", {"simulate.tolerance=1e-4"});
+  reference::set_joints(model, 1e12, 3e5);
+  for (const Difference& force : compare(model, Equations::kIdeal).forces) EXPECT_EQ(force.cause, Cause::kNumerical) << force.name;
+}
+
+TEST(Compare, NamesTheSoftJoint) {
+  const Comparison c = compare(reference::mechanism("four_bar", {"joint.B.stiffness=1e6"}), Equations::kIdeal);
+  EXPECT_EQ(c.softness.front().joint, "B");
+  EXPECT_GT(c.softness.front().share, 0.5);
+}
+
+TEST(Compare, RedundantReactionsAreNotUnique) {
+  const Comparison c = compare(reference::mechanism("five_bar_parallelogram", {"simulate.duration=0.2"}), Equations::kIdeal);
+  for (const Difference& force : c.forces) EXPECT_EQ(force.cause, Cause::kNotUnique) << force.name;
+}
+
+// By hand: the middle crank, too long by e, and the two outer ones are springs (two pins of k in a row each) on a stiff
+// coupler: the middle one is pressed with k e / 3, the outer ones pulled with half of that.
+TEST(Compare, CompliantJointsShareTheLoadOfAMisfit) {
+  Model model = reference::mechanism("five_bar_parallelogram");
+  reference::set_joints(model, 1e9, 3e4);
+  const Trajectory run = simulate(model);
+  const double squeeze = 1e9 * 10e-6 / 3;
+  // Along the middle crank; the coupler's inertia, shared equally, is 15.8 N.
+  const double c = std::cos(reference::value(run, 0, "body.crank2.angle")), s = std::sin(reference::value(run, 0, "body.crank2.angle"));
+  const auto along = [&](const std::string& joint) {
+    return c * reference::value(run, 0, "joint." + joint + ".on_coupler.fx[world]") + s * reference::value(run, 0, "joint." + joint + ".on_coupler.fy[world]");
+  };
+  const double inertia = -6 * 0.2 * std::pow(2 * std::numbers::pi, 2) / 3;
+  EXPECT_NEAR(along("A2"), squeeze + inertia, 1e-3 * squeeze);
+  EXPECT_NEAR(along("A1"), -squeeze / 2 + inertia, 1e-3 * squeeze);
+  EXPECT_NEAR(along("A3"), -squeeze / 2 + inertia, 1e-3 * squeeze);
+}
+
+double peak_of(const Trajectory& run, const std::string& joint) {
+  for (const LoadSummary& load : run.joints)
+    if (load.name == joint) return load.peak;
+  throw std::logic_error("no joint " + joint);
+}
+
+TEST(Stiffen, FindsTheFourBarsStiffnessAndItsLimit) {
+  const Model model = reference::mechanism("four_bar");
+  const Stiffening s = stiffen(model, {});
+  ASSERT_TRUE(s.found) << s.reason;
+  Model ideal = model;
+  ideal.simulate.equations = Equations::kIdeal;
+  ideal.simulate.tolerance = 1e-8;
+  const Trajectory exact = simulate(ideal);
+  for (const StiffenLimit& limit : s.limits) {
+    const double peak = peak_of(exact, limit.name), of_run = std::abs(limit.peak - peak);
+    EXPECT_LT(of_run, 0.5e-4 * peak) << limit.name;
+    EXPECT_LE(std::abs(limit.limit - peak), limit.error) << limit.name;
+    EXPECT_LT(limit.error, 1e-6 * peak) << limit.name;
+  }
+  // With what is recommended joint by joint the digits agree with ideal joints.
+  const Comparison c = compare(stiffened(model, s.joints), Equations::kIdeal);
+  for (const Difference& force : c.forces) EXPECT_GE(force.digits, 4) << force.name;
+}
+
+// Two decades below the stiffest run's own difference: the limit, where the runs' errors are smaller still.
+TEST(Stiffen, TheLimitIsTwoDigitsBetterThanTheStiffestRun) {
+  StiffenRequest request;
+  request.digits = 8;
+  request.last = 1e9;
+  request.damping_ratio = 0.3;
+  const Model model = reference::mechanism("four_bar", {"simulate.tolerance=1e-9"});
+  const Stiffening s = stiffen(model, request);
+  EXPECT_FALSE(s.found);
+  EXPECT_FALSE(s.reason.empty());
+  Model ideal = model;
+  ideal.simulate.equations = Equations::kIdeal;
+  const Trajectory exact = simulate(ideal);
+  for (const StiffenLimit& limit : s.limits) {
+    const double peak = peak_of(exact, limit.name);
+    EXPECT_LT(std::abs(limit.limit - peak), 1e-2 * std::abs(limit.peak - peak)) << limit.name;
+  }
+}
+
+TEST(Stiffen, ASoftJointDecidesForItself) {
+  const Stiffening s = stiffen(reference::mechanism("four_bar", {"joint.B.stiffness=2e5"}), {});
+  EXPECT_NE(s.reason.find("B: its own flexibility decides"), std::string::npos) << s.reason;
+  EXPECT_TRUE(s.joints[2].kept);
+  EXPECT_GT(s.kept_influence, 1e-3);
+}
+
+TEST(Stiffen, AMisfitHasNoLimit) {
+  const Stiffening s = stiffen(reference::mechanism("five_bar_parallelogram", {"simulate.duration=0.1"}), {});
+  EXPECT_FALSE(s.found);
+  EXPECT_NE(s.reason.find("misfit"), std::string::npos) << s.reason;
+  ASSERT_FALSE(s.notes.empty());
+  EXPECT_NE(s.notes.front().find("redundant"), std::string::npos);
+}
+
+TEST(Stiffen, AnUnknownJointIsRefused) {
+  StiffenRequest request;
+  request.joints = {"O5"};
+  EXPECT_THROW(stiffen(reference::mechanism("four_bar"), request), InputError);
+}
+
+}  // namespace
+}  // namespace pintle
