@@ -5,6 +5,7 @@
 
 #include "integrators/dense_output.h"
 #include "integrators/dopri5.h"
+#include "integrators/tree_radau.h"
 
 namespace pintle {
 namespace {
@@ -47,6 +48,9 @@ std::unique_ptr<Stepper> make_stepper(const System& system, const MethodChoice& 
     if (choice.method == "radau")
       return std::make_unique<BodyStepper<RadauStepper>>(system, RadauStepper(system, tolerance, choice.stages));
     if (choice.method == "dopri5") return std::make_unique<BodyStepper<Dopri5>>(system, Dopri5(system, tolerance));
+  }
+  if (choice.equations == Equations::kLagrangian) {
+    if (choice.method == "radau") return std::make_unique<TreeRadau>(system, tolerance, choice.stages);
   }
   throw std::invalid_argument("there is no method " + choice.method + " for these equations");
 }
