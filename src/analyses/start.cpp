@@ -21,20 +21,16 @@ double natural_step(const System& system, const State& start, double duration) {
   return scout.state().t - scout.previous().t;
 }
 
-Assembly start_of_free_bodies(const Model& model, System& system) {
+}  // namespace
+
+Assembly start_of_run(const Model& model, System& system) {
+  if (model.simulate.equations == Equations::kLagrangian) return start_over_tree(model, system);
   Assembly assembly = assemble(model, system);
   if (model.simulate.start != Start::kAssembled || system.joints.empty()) return assembly;
   double span = 0.5 * natural_step(system, assembly.state, model.simulate.duration);
   for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25)
     if (settle_on_slow_motion(system, span, assembly.state) < kSettled) break;
   return assembly;
-}
-
-}  // namespace
-
-Assembly start_of_run(const Model& model, System& system) {
-  if (model.simulate.equations == Equations::kLagrangian) return start_over_tree(model, system, start_of_free_bodies);
-  return start_of_free_bodies(model, system);
 }
 
 }  // namespace pintle

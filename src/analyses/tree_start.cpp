@@ -1,9 +1,9 @@
 #include "analyses/tree_start.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "integrators/tree_projector.h"
+#include "analyses/tree_slow_start.h"
+#include "integrators/tree_radau.h"
 
 namespace pintle {
 namespace {
@@ -11,14 +11,16 @@ namespace {
 using S = Planar;
 using Eigen::VectorXd;
 
-constexpr double kStiffer = 1e4, kStiffAtLeast = 1e12;  // over the stiffest other joint; [N/m]
-constexpr double kRelaxation = 1e-5;                    // damping over stiffness of a tree joint's law [s]
-constexpr double kSlow = 1e-2;                          // [1/s]: modes above are moved onto their gaps
-constexpr int kPasses = 4;
+constexpr double kStiffAtLeast = 1e12;    // of a tree joint's law while it is assembled, and at least that of every other [N/m]
+constexpr double kRelaxation = 1e-5;      // its damping over its stiffness [s]
+constexpr double kScoutTolerance = 1e-3;  // of the rough integration that finds a natural step
+constexpr int kScoutSteps = 3;
+constexpr int kSpans = 4;                 // tried, each a quarter of the one before
+constexpr double kSettled = 0.1;          // relative change of the gaps in the last sweep that is taken for convergence
 
 // Laws for the tree's joints so stiff that they give way by nothing that matters.
 void stiffen(const JointTree& tree, System& system) {
-  double stiffest = kStiffAtLeast / kStiffer, size = 0;
+  double stiffest = kStiffAtLeast, size = 0;
   for (const int j : tree.laws())
     stiffest = std::max(stiffest, respond(system.joints[j].law, S::Vec::UnitX(), S::Vec::Zero()).stiffness.diagonal().head<2>().maxCoeff());
   for (const BodyData& body : system.bodies) size = std::max(size, body.mass[2] / body.mass[0]);
@@ -26,66 +28,54 @@ void stiffen(const JointTree& tree, System& system) {
     if (!tree.in_tree(j)) continue;
     JointData& joint = system.joints[j];
     LinearLaw law;
-    law.k = kStiffer * stiffest * S::Vec(1, 1, size).cwiseProduct(S::Vec::Ones() - joint.free_mask);
+    law.k = stiffest * S::Vec(1, 1, size).cwiseProduct(S::Vec::Ones() - joint.free_mask);
     law.c = kRelaxation * law.k;
     joint.law = law;
   }
 }
 
-// Coordinates and rates moved until the bodies have the carried gaps; what no motion can close is taken from the bodies.
-void move_onto_gaps(TreeInstant& at, TreeProjector& projector, TreeState& state) {
-  const double rounding = 16 * std::numeric_limits<double>::epsilon() * largest_coordinate(at.pose().q);
-  VectorXd now;
-  for (int pass = 0; pass < kPasses; ++pass) {
-    if (!projector.prepare(at, kSlow, state.gap, state.rate)) return;
-    at.gaps(now);
-    state.y += projector.close(state.gap - now);
-    at.place(state.t, state.y, state.u);
-    at.rates(now);
-    state.u += projector.close(state.rate - now);
-    at.place(state.t, state.y, state.u);
-  }
-  at.gaps(now);
-  for (Eigen::Index i = 0; i < now.size(); ++i)
-    if (std::abs(now[i] - state.gap[i]) > rounding) state.gap[i] = now[i];
-  at.rates(state.rate);
+void write(TreeForcesOfMotion& forces, const TreeState& from, State& to) {
+  forces.instant().place(from.t, from.y, from.u);
+  forces.instant().write(from, from.w, to);
 }
 
-void take_over(const JointTree& tree, const System& system, bool preloaded, State& state) {
-  TreeState carried;
-  TreeInstant at(system, tree);
-  TreeProjector projector;
+// A step that a rough integration takes, once it is under way: the gaps are smooth over about that time.
+double natural_step(const System& system, const State& start, double duration) {
+  TreeRadau scout(system, kScoutTolerance);
+  scout.start(start, 1e-3 * duration);
+  for (int i = 0; i < kScoutSteps; ++i)
+    if (!scout.step(duration)) return 0;
+  return scout.state().t - scout.previous().t;
+}
+
+void take_over(const JointTree& tree, const System& system, const SimulateSettings& settings, State& state) {
+  TreeState start;
+  TreeForcesOfMotion forces(system, tree);
   TreePose pose;
-  carried.t = state.t;
-  tree.read_positions(state.q, carried.y);
-  tree.place(carried.y, VectorXd::Zero(tree.n()), pose);
-  tree.read_rates(pose, state.v, carried.u);
-  take_carried(tree, state, carried);
-  at.place(carried.t, carried.y, carried.u);
-  if (preloaded) {
-    move_onto_gaps(at, projector, carried);
-  } else {
-    at.gaps(carried.gap);
-    at.rates(carried.rate);
-  }
-  at.forces(carried.gap, carried.rate, carried.force);
-  if (!projector.prepare(at, kSlow, carried.gap, carried.rate)) return;
-  projector.accelerations(at, carried.force, carried.w);
-  at.accelerate(carried.w);
-  at.gap_accelerations(carried.accel);
-  at.write(carried, carried.w, state);
+  start.t = state.t;
+  tree.read_positions(state.q, start.y);
+  tree.place(start.y, VectorXd::Zero(tree.n()), pose);
+  tree.read_rates(pose, state.v, start.u);
+  const bool preload = settings.start == Start::kAssembled && !tree.laws().empty();
+  start_tree_forces(forces, preload, start);
+  write(forces, start, state);
+  if (!preload) return;
+  double span = 0.5 * natural_step(system, state, settings.duration);
+  for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25)
+    if (settle_tree_on_slow_motion(system, tree, span, start) < kSettled) break;
+  write(forces, start, state);
 }
 
 }  // namespace
 
-Assembly start_over_tree(const Model& model, System& system, const std::function<Assembly(const Model&, System&)>& free_bodies) {
+Assembly start_over_tree(const Model& model, System& system) {
   const JointTree tree(system);
   System stiff = system;
   stiffen(tree, stiff);
-  Assembly assembly = free_bodies(model, stiff);
+  Assembly assembly = assemble(model, stiff);
   for (int j = 0; j < system.n_joints(); ++j) stiff.joints[j].law = system.joints[j].law;
   system = std::move(stiff);
-  take_over(tree, system, model.simulate.start == Start::kAssembled, assembly.state);
+  take_over(tree, system, model.simulate, assembly.state);
   for (std::string& line : tree.notes()) assembly.notes.push_back(std::move(line));
   return assembly;
 }
