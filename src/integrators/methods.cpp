@@ -5,6 +5,7 @@
 
 #include "integrators/dense_output.h"
 #include "integrators/dopri5.h"
+#include "integrators/tree_dopri5.h"
 #include "integrators/tree_radau.h"
 
 namespace pintle {
@@ -51,6 +52,7 @@ std::unique_ptr<Stepper> make_stepper(const System& system, const MethodChoice& 
   }
   if (choice.equations == Equations::kLagrangian) {
     if (choice.method == "radau") return std::make_unique<TreeRadau>(system, tolerance, choice.stages);
+    if (choice.method == "dopri5") return std::make_unique<TreeDopri5>(system, tolerance);
   }
   throw std::invalid_argument("there is no method " + choice.method + " for these equations");
 }
