@@ -78,13 +78,13 @@ void JointTree::open_the_rest() {
     const JointData& joint = system_.joints[j];
     if (!joint.ideal || in_tree_[j]) continue;
     if (carries_coordinates(joint))
-      opened_.push_back(fmt::format("joint {} is opened: with it the ideal joints {} close a loop; its force law acts", joint.name, loop_of(j)));
+      opened_.push_back(fmt::format("joint {} is opened: with it the ideal {} a loop; its force law acts", joint.name, loop_of(j)));
     else
-      opened_.push_back(fmt::format("joint {} is opened: a {} does not leave single coordinates free; its force law acts", joint.name, joint.type));
+      opened_.push_back(fmt::format("joint {} is opened: a {} leaves no single coordinates free; its force law acts", joint.name, joint.type));
   }
 }
 
-// The tree's joints between both bodies of a joint, named from its first body to its second.
+// The tree's joints between both bodies of a joint, named from its first body to its second, with their verb.
 std::string JointTree::loop_of(int joint) const {
   std::array<std::vector<int>, 2> path;  // bodies from each end to the root
   const Placement& at = system_.joints[joint].at;
@@ -98,7 +98,8 @@ std::string JointTree::loop_of(int joint) const {
   std::string names;
   for (const auto& part : path)
     for (const int b : part) names += (names.empty() ? "" : ", ") + system_.joints[link_[b].joint].name;
-  return names;
+  const bool one = path[0].size() + path[1].size() == 1;
+  return fmt::format("{} {} {}", one ? "joint" : "joints", names, one ? "closes" : "close");
 }
 
 std::vector<std::string> JointTree::notes() const {
