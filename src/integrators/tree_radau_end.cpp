@@ -49,7 +49,7 @@ double TreeRadau::body_tail() const {
   for (int k = n_ - 2; k <= n_; ++k) {
     for (int i = 0; i < system_.n_bodies(); ++i) {
       S::Vec a = table_.to_legendre(k, 0) * begin_state_.a[i];
-      for (int s = 0; s < n_; ++s) a += table_.to_legendre(k, s + 1) * const_cast<TreeStages&>(stages_).instant(s).a()[i];
+      for (int s = 0; s < n_; ++s) a += table_.to_legendre(k, s + 1) * stages_.instant(s).a()[i];
       coefficient.segment<3>(3 * i) = a;
     }
     size[k] = over_scale(coefficient);

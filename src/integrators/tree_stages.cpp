@@ -42,7 +42,7 @@ bool TreeStages::solve(const TreeState& begin, double h, const TreeNodes* before
       counters.factorizations += 1 + n_ / 2;
       if (!factorize(h)) return false;
     }
-    const double of_bodies = correct(h, scale);
+    const double of_bodies = correct(scale);
     place(begin, h);
     const double size = std::max(of_bodies, find_forces(scale)) / tolerance_;
     ++counters.newton_iterations;
@@ -196,7 +196,7 @@ bool TreeStages::factorize(double h) {
 }
 
 // One Newton correction: into the diagonal frame, the solve, back. Eq. (5.6). Its size as body forces over the scale.
-double TreeStages::correct(double, const LoadScale& scale) {
+double TreeStages::correct(const LoadScale& scale) {
   if (tree_.n() == 0) return 0;
   const Index n = tree_.n(), m = at_[0].n_gaps();
   VectorXd balance = VectorXd::Zero(n), gaps = VectorXd::Zero(m);

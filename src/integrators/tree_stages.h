@@ -25,6 +25,7 @@ class TreeStages {
 
   const std::vector<TreeState>& states() const { return state_; }
   TreeInstant& instant(int stage) { return at_[stage]; }
+  const TreeInstant& instant(int stage) const { return at_[stage]; }
   /// What is missing in joint j's equation at the end of the step [m/s^2 or rad/s^2].
   double residual(int j) const;
 
@@ -36,7 +37,7 @@ class TreeStages {
   void linearize();
   void differentiate(int k, bool of_rate, const Eigen::VectorXd& balance, const Eigen::VectorXd& accel, std::uint64_t side);
   bool factorize(double h);
-  double correct(double h, const LoadScale& scale);
+  double correct(const LoadScale& scale);
 
   template <class Scalar>
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
