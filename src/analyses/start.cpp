@@ -3,6 +3,7 @@
 #include "analyses/slow_motion.h"
 #include "analyses/tree_start.h"
 #include "integrators/radau_stepper.h"
+#include "system/tree.h"
 
 namespace pintle {
 namespace {
@@ -21,15 +22,22 @@ double natural_step(const System& system, const State& start, double duration) {
   return scout.state().t - scout.previous().t;
 }
 
-}  // namespace
-
-Assembly start_of_run(const Model& model, System& system) {
-  if (model.simulate.equations == Equations::kLagrangian) return start_over_tree(model, system);
+Assembly start_of_free_bodies(const Model& model, System& system) {
   Assembly assembly = assemble(model, system);
   if (model.simulate.start != Start::kAssembled || system.joints.empty()) return assembly;
   double span = 0.5 * natural_step(system, assembly.state, model.simulate.duration);
   for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25)
     if (settle_on_slow_motion(system, span, assembly.state) < kSettled) break;
+  return assembly;
+}
+
+}  // namespace
+
+Assembly start_of_run(const Model& model, System& system) {
+  if (model.simulate.equations != Equations::kLagrangian) return start_of_free_bodies(model, system);
+  const JointTree tree(system);
+  Assembly assembly = tree.all_free() ? start_of_free_bodies(model, system) : start_over_tree(model, system);
+  for (std::string& line : tree.notes()) assembly.notes.push_back(std::move(line));
   return assembly;
 }
 

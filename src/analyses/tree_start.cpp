@@ -76,7 +76,6 @@ Assembly start_over_tree(const Model& model, System& system) {
   for (int j = 0; j < system.n_joints(); ++j) stiff.joints[j].law = system.joints[j].law;
   system = std::move(stiff);
   take_over(tree, system, model.simulate, assembly.state);
-  for (std::string& line : tree.notes()) assembly.notes.push_back(std::move(line));
   return assembly;
 }
 

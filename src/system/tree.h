@@ -36,6 +36,8 @@ class JointTree {
   /// The joints that stay force laws, servos among them, by index.
   const std::vector<int>& laws() const { return laws_; }
   bool in_tree(int joint) const { return in_tree_[joint]; }
+  /// No joint is obeyed by coordinates: the bodies' own are all there are.
+  bool all_free() const { return laws_.size() == in_tree_.size(); }
   /// A line for each ideal joint that has been opened, with its loop or the reason; one for the joints that coordinates obey.
   std::vector<std::string> notes() const;
 
