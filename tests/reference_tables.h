@@ -123,7 +123,7 @@ inline Integration integrate_once(const Model& model, double tolerance, int stag
   plan.max_step = model.simulate.max_step;
   plan.tolerance = tolerance;
   plan.first_step = 1e-4 * plan.duration;
-  plan.choice = {Equations::kNewtonian, stages == 0 ? "dopri5" : "radau", stages};
+  plan.choice = {model.simulate.equations, stages == 0 ? "dopri5" : "radau", stages};
   plan.scale = scale;
   Recorder recorder(model, system);
   Integration done = integrate(system, start, plan, recorder);

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "analyses/curve_nodes.h"
 #include "analyses/slow_start.h"
 
 namespace pintle {
@@ -15,43 +15,11 @@ namespace {
 
 using S = Planar;
 
-constexpr int kNodes = 7;
+constexpr int kNodes = CurveNodes::kN;
 constexpr int kSweeps = 5;
 constexpr double kDiverged = 1e300, kConverged = 1e-10;  // relative change of a sweep
 
-// Chebyshev-Gauss-Lobatto nodes on [0, 1] and the matrix that differentiates polynomials there.
-struct Nodes {
-  std::array<double, kNodes> x;
-  Eigen::Matrix<double, kNodes, kNodes> D;
-
-  Nodes() {
-    for (int i = 0; i < kNodes; ++i) x[i] = 0.5 * (1 - std::cos(std::numbers::pi * i / (kNodes - 1)));
-    std::array<double, kNodes> w;
-    for (int i = 0; i < kNodes; ++i) {
-      w[i] = 1;
-      for (int j = 0; j < kNodes; ++j)
-        if (j != i) w[i] /= x[i] - x[j];
-    }
-    D.setZero();
-    for (int i = 0; i < kNodes; ++i)
-      for (int j = 0; j < kNodes; ++j) {
-        if (i == j) continue;
-        D(i, j) = w[j] / w[i] / (x[i] - x[j]);
-        D(i, i) -= D(i, j);
-      }
-  }
-  // Lagrange weights of the nodes at s.
-  Eigen::Matrix<double, kNodes, 1> weights(double s) const {
-    Eigen::Matrix<double, kNodes, 1> v;
-    for (int i = 0; i < kNodes; ++i) {
-      v[i] = 1;
-      for (int j = 0; j < kNodes; ++j)
-        if (j != i) v[i] *= (s - x[j]) / (x[i] - x[j]);
-    }
-    return v;
-  }
-};
-
+using Nodes = CurveNodes;
 using Curve = std::array<Vecs, kNodes>;  // one value per joint at every node
 
 class SlowMotion {

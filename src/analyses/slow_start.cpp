@@ -50,6 +50,21 @@ void plain_start(const System& system, State& state) {
 
 }  // namespace
 
+// Newton on the law's own tangent; nothing in free components.
+void carry_force(const Law& law, const S::Vec& force, const S::Vec& rate, S::Vec& gap) {
+  for (int i = 0; i < 20; ++i) {
+    const Response now = respond(law, gap, rate);
+    bool moved = false;
+    for (int k = 0; k < S::kDof; ++k) {
+      if (!(now.stiffness(k, k) > 0)) continue;
+      const double step = (now.force[k] - force[k]) / now.stiffness(k, k);
+      gap[k] += step;
+      moved = moved || std::abs(step) > 1e-15 * std::abs(gap[k]);
+    }
+    if (!moved) break;
+  }
+}
+
 // Gaps that carry no stiffness are those of the positions.
 void balance_start(const System& system, State& state) {
   std::vector<S::Motion> m;
@@ -94,20 +109,8 @@ bool ForcesOfMotion::find(State& state) {
   return true;
 }
 
-// Newton on each law's own tangent; nothing in free components. Eq. (3.3).
 void ForcesOfMotion::carry(State& state) const {
-  for (int j = 0; j < system_.n_joints(); ++j)
-    for (int i = 0; i < 20; ++i) {
-      const Response now = respond(system_.joints[j].law, state.gap[j], state.gap_rate[j]);
-      bool moved = false;
-      for (int k = 0; k < S::kDof; ++k) {
-        if (!(now.stiffness(k, k) > 0)) continue;
-        const double step = (now.force[k] - state.force[j][k]) / now.stiffness(k, k);
-        state.gap[j][k] += step;
-        moved = moved || std::abs(step) > 1e-15 * std::abs(state.gap[j][k]);
-      }
-      if (!moved) break;
-    }
+  for (int j = 0; j < system_.n_joints(); ++j) carry_force(system_.joints[j].law, state.force[j], state.gap_rate[j], state.gap[j]);
 }
 
 // Eq. (3.4).

@@ -7,6 +7,9 @@
 
 namespace pintle {
 
+/// The gap at which a law gives `force` at `rate`; components without stiffness stay. theory/assembly Eq. (3.3).
+void carry_force(const Law& law, const Planar::Vec& force, const Planar::Vec& rate, Planar::Vec& gap);
+
 /// The joint forces that a given motion takes, and the gaps that carry them.
 class ForcesOfMotion {
  public:

@@ -5,7 +5,9 @@
 
 #include "analyses/ideal_rows.h"
 #include "analyses/slow_motion.h"
+#include "analyses/tree_start.h"
 #include "integrators/radau_stepper.h"
+#include "system/tree.h"
 
 namespace pintle {
 namespace {
@@ -38,15 +40,23 @@ Assembly ideal_start(Model model, System& system) {
   return assembly;
 }
 
-}  // namespace
-
-Assembly start_of_run(const Model& model, System& system) {
-  if (model.simulate.equations == Equations::kIdeal) return ideal_start(model, system);
+Assembly start_of_free_bodies(const Model& model, System& system) {
   Assembly assembly = assemble(model, system);
   if (model.simulate.start != Start::kAssembled || system.joints.empty()) return assembly;
   double span = smooth_span(system, assembly.state, model.simulate.duration);
   for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25)
     if (settle_on_slow_motion(system, span, assembly.state) < kSettled) break;
+  return assembly;
+}
+
+}  // namespace
+
+Assembly start_of_run(const Model& model, System& system) {
+  if (model.simulate.equations == Equations::kIdeal) return ideal_start(model, system);
+  if (model.simulate.equations != Equations::kLagrangian) return start_of_free_bodies(model, system);
+  const JointTree tree(system);
+  Assembly assembly = tree.all_free() ? start_of_free_bodies(model, system) : start_over_tree(model, system);
+  for (std::string& line : tree.notes()) assembly.notes.push_back(std::move(line));
   return assembly;
 }
 

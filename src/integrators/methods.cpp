@@ -6,6 +6,8 @@
 #include "integrators/dense_output.h"
 #include "integrators/dopri5.h"
 #include "integrators/ideal_stepper.h"
+#include "integrators/tree_dopri5.h"
+#include "integrators/tree_radau.h"
 
 namespace pintle {
 namespace {
@@ -50,6 +52,10 @@ std::unique_ptr<Stepper> make_stepper(const System& system, const MethodChoice& 
     if (choice.method == "dopri5") return std::make_unique<BodyStepper<Dopri5>>(system, Dopri5(system, tolerance));
   }
   if (choice.equations == Equations::kIdeal && choice.method == "dopri5") return std::make_unique<IdealStepper>(system, tolerance);
+  if (choice.equations == Equations::kLagrangian) {
+    if (choice.method == "radau") return std::make_unique<TreeRadau>(system, tolerance, choice.stages);
+    if (choice.method == "dopri5") return std::make_unique<TreeDopri5>(system, tolerance);
+  }
   throw std::invalid_argument("there is no method " + choice.method + " for these equations");
 }
 

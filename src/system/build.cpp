@@ -112,6 +112,7 @@ class Builder {
     data.at = place(joint.first, joint.second);
     data.probe = make_probe(joint);
     data.law = make_law(joint);
+    data.ideal = joint.ideal && model_.simulate.equations == Equations::kLagrangian;
     for (const ComponentInfo& free : info->free) data.free_mask[free.angular ? 2 : 0] = 1;
     system_.joints.push_back(std::move(data));
   }

@@ -1,0 +1,285 @@
+#include "system/tree.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+const S::Motion kStill{};
+
+bool carries_coordinates(const JointData& joint) {
+  return joint.servo < 0 && (joint.type == "revolute" || joint.type == "prismatic" || joint.type == "fixed" || joint.type == "slot");
+}
+
+double offset(const JointData& joint, int component) { return std::get<Selection>(joint.probe).offset[component]; }
+
+// How a rigid motion of the parent moves a body `arm` away. Eq. (2.2).
+S::Vec carried(const S::Point& arm, const S::Vec& x) { return {x[0] - arm.y() * x[2], x[1] + arm.x() * x[2], x[2]}; }
+// The same force and moment about a point `arm` before. Transpose of `carried`.
+S::Vec about_parent(const S::Point& arm, const S::Vec& f) { return {f[0], f[1], f[2] + S::cross(arm, {f[0], f[1]})}; }
+
+}  // namespace
+
+JointTree::JointTree(const System& system)
+    : system_(system), link_(system.bodies.size()), reached_(system.bodies.size(), false), in_tree_(system.joints.size(), false) {
+  std::vector<std::vector<int>> ideal_at(system.bodies.size() + 1);  // the ground's last
+  const auto at = [&](int body) -> std::vector<int>& { return body == kGround ? ideal_at.back() : ideal_at[body]; };
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const JointData& joint = system.joints[j];
+    if (!joint.ideal || !carries_coordinates(joint)) continue;
+    at(joint.at.a).push_back(j);
+    at(joint.at.b).push_back(j);
+  }
+  grow(kGround, ideal_at);
+  for (int body = 0; body < system.n_bodies(); ++body) {
+    if (reached_[body]) continue;
+    reached_[body] = true;
+    link_[body].first = n_;
+    n_ += 3;
+    order_.push_back(body);
+    grow(body, ideal_at);
+  }
+  for (int j = 0; j < system.n_joints(); ++j)
+    if (!in_tree_[j]) laws_.push_back(j);
+  open_the_rest();
+}
+
+// The nearest bodies first, so that branches stay short and a loop is opened opposite to where it starts.
+void JointTree::grow(int from, const std::vector<std::vector<int>>& ideal_at) {
+  std::vector<int> queue{from};
+  for (std::size_t next = 0; next < queue.size(); ++next) {
+    const int parent = queue[next];
+    for (const int j : parent == kGround ? ideal_at.back() : ideal_at[parent]) {
+      const JointData& joint = system_.joints[j];
+      const bool forward = joint.at.a == parent;
+      const int body = forward ? joint.at.b : joint.at.a;
+      if (body == kGround || reached_[body]) continue;
+      reached_[body] = true;
+      in_tree_[j] = true;
+      Link link{parent, j, n_, 0, forward, -1, -1};
+      if (joint.free_mask[0] > 0) link.slide = link.count++;
+      if (joint.free_mask[2] > 0) link.turn = link.count++;
+      n_ += link.count;
+      link_[body] = link;
+      order_.push_back(body);
+      queue.push_back(body);
+    }
+  }
+}
+
+void JointTree::open_the_rest() {
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const JointData& joint = system_.joints[j];
+    if (!joint.ideal || in_tree_[j]) continue;
+    if (carries_coordinates(joint))
+      opened_.push_back(fmt::format("joint {} is opened: with it the ideal {} a loop; its force law acts", joint.name, loop_of(j)));
+    else
+      opened_.push_back(fmt::format("joint {} is opened: a {} leaves no single coordinates free; its force law acts", joint.name, joint.type));
+  }
+}
+
+// The tree's joints between both bodies of a joint, named from its first body to its second, with their verb.
+std::string JointTree::loop_of(int joint) const {
+  std::array<std::vector<int>, 2> path;  // bodies from each end to the root
+  const Placement& at = system_.joints[joint].at;
+  for (const auto& [body, to] : {std::pair{at.a, &path[0]}, std::pair{at.b, &path[1]}})
+    for (int b = body; b != kGround; b = link_[b].parent) to->push_back(b);
+  while (!path[0].empty() && !path[1].empty() && path[0].back() == path[1].back()) {
+    path[0].pop_back();
+    path[1].pop_back();
+  }
+  std::reverse(path[1].begin(), path[1].end());
+  std::string names;
+  for (const auto& part : path)
+    for (const int b : part) names += (names.empty() ? "" : ", ") + system_.joints[link_[b].joint].name;
+  const bool one = path[0].size() + path[1].size() == 1;
+  return fmt::format("{} {} {}", one ? "joint" : "joints", names, one ? "closes" : "close");
+}
+
+std::vector<std::string> JointTree::notes() const {
+  std::vector<std::string> out = opened_;
+  std::string names;
+  int free = 0;
+  for (const int body : order_) {
+    const int j = link_[body].joint;
+    if (j >= 0) names += (names.empty() ? "" : ", ") + system_.joints[j].name;
+    else ++free;
+  }
+  std::string line = names.empty() ? fmt::format("no joint is obeyed by coordinates: {} coordinates", n_)
+                                   : fmt::format("joints obeyed by coordinates: {}; {} coordinate{}", names, n_, n_ == 1 ? "" : "s");
+  if (free > 0) line += fmt::format(", among them all three of {} {}", free, free == 1 ? "body" : "bodies");
+  out.push_back(std::move(line));
+  return out;
+}
+
+void JointTree::read_positions(const Vecs& q, Eigen::VectorXd& y) const {
+  y.resize(n_);
+  std::vector<S::Motion> m;
+  system_.motions(q, Vecs(q.size(), S::Vec::Zero()), m);
+  for (const int body : order_) {
+    const Link& link = link_[body];
+    if (link.joint < 0) {
+      y.segment<3>(link.first) = q[body];
+      continue;
+    }
+    const RelativePose pose = system_.pose(system_.joints[link.joint].at, m);
+    if (link.slide >= 0) y[link.first + link.slide] = pose.z[0];
+    if (link.turn >= 0) y[link.first + link.turn] = pose.z[2];
+  }
+}
+
+void JointTree::read_rates(const TreePose& pose, const Vecs& v, Eigen::VectorXd& u) const {
+  Eigen::MatrixXd H;
+  mass(pose, H);
+  Vecs momentum(v.size());
+  for (std::size_t i = 0; i < v.size(); ++i) momentum[i] = system_.bodies[i].mass.cwiseProduct(v[i]);
+  gather(pose, momentum, u);
+  u = H.llt().solve(u);
+}
+
+void JointTree::place(const Eigen::VectorXd& y, const Eigen::VectorXd& u, TreePose& pose) const {
+  const std::size_t bodies = system_.bodies.size();
+  pose.q.resize(bodies);
+  pose.v.resize(bodies);
+  pose.m.resize(bodies);
+  pose.arm.resize(bodies);
+  pose.S.resize(bodies);
+  pose.c.resize(bodies);
+  for (const int body : order_) {
+    const Link& link = link_[body];
+    if (link.joint >= 0) {
+      place_on_parent(body, y, u, pose);
+      continue;
+    }
+    pose.q[body] = y.segment<3>(link.first);
+    pose.v[body] = u.segment<3>(link.first);
+    pose.m[body] = S::Motion::of(pose.q[body], pose.v[body]);
+    pose.arm[body].setZero();
+    pose.S[body].setIdentity();
+    pose.c[body].setZero();
+  }
+}
+
+void JointTree::place_on_parent(int body, const Eigen::VectorXd& y, const Eigen::VectorXd& u, TreePose& pose) const {
+  const Link& link = link_[body];
+  const JointData& joint = system_.joints[link.joint];
+  const S::Motion& P = link.parent == kGround ? kStill : pose.m[link.parent];
+  const S::Frame &F = joint.at.F, &M = joint.at.M;
+  const auto coordinate = [&link](const Eigen::VectorXd& x, int column) { return column < 0 ? 0.0 : x[link.first + column]; };
+  const double slide = link.slide < 0 ? offset(joint, 0) : y[link.first + link.slide];
+  const double turn = link.turn < 0 ? offset(joint, 2) : y[link.first + link.turn];
+  const double sign = link.forward ? 1 : -1;
+  // Eq. (1.3): the angle first, then the place.
+  S::Motion B;
+  B.angle = P.angle + sign * (F.angle + turn - M.angle);
+  B.c = std::cos(B.angle);
+  B.s = std::sin(B.angle);
+  const S::Motion& first = link.forward ? P : B;
+  const S::Point axis = first.turned({F.c, F.s});
+  const S::Point d = slide * axis + offset(joint, 1) * S::perp(axis);
+  const S::Point pivot = link.forward ? S::Point(P.p + P.turned(F.p) + d) : S::Point(P.p + P.turned(M.p));  // M's origin
+  B.p = link.forward ? S::Point(pivot - B.turned(M.p)) : S::Point(pivot - d - B.turned(F.p));
+  const S::Point arm = B.p - P.p, lever = B.p - pivot;
+  S::Mat& columns = pose.S[body];
+  columns.setZero();
+  if (link.slide >= 0) columns.col(link.slide) << sign * axis, 0;
+  if (link.turn >= 0) columns.col(link.turn) << sign * S::perp(lever), sign;
+  S::Vec v = carried(arm, {P.v.x(), P.v.y(), P.w});
+  for (int k = 0; k < link.count; ++k) v += columns.col(k) * u[link.first + k];  // (2.1)
+  B.v << v[0], v[1];
+  B.w = v[2];
+  // Eq. (2.4).
+  const S::Point pivot_rate = link.forward ? S::Point(B.v - B.w * S::perp(lever)) : S::Point(P.v + P.w * S::perp(pivot - P.p));
+  const S::Point c = P.w * S::perp(B.v - P.v) + sign * coordinate(u, link.turn) * S::perp(B.v - pivot_rate) +
+                     sign * coordinate(u, link.slide) * (link.forward ? P.w : B.w) * S::perp(axis);
+  pose.q[body] << B.p, B.angle;
+  pose.v[body] = v;
+  pose.m[body] = B;
+  pose.arm[body] = arm;
+  pose.c[body] << c, 0;
+}
+
+void JointTree::accelerate(const TreePose& pose, const Eigen::VectorXd& w, Vecs& a) const {
+  a.resize(system_.bodies.size());
+  for (const int body : order_) {
+    const Link& link = link_[body];
+    S::Vec x = pose.c[body];
+    if (link.parent != kGround) x += carried(pose.arm[body], a[link.parent]);
+    for (int k = 0; k < link.count; ++k) x += pose.S[body].col(k) * w[link.first + k];
+    a[body] = x;
+  }
+}
+
+void JointTree::gather(const TreePose& pose, Vecs& on_bodies, Eigen::VectorXd& on_coordinates) const {
+  on_coordinates.resize(n_);
+  for (auto body = order_.rbegin(); body != order_.rend(); ++body) {
+    const Link& link = link_[*body];
+    for (int k = 0; k < link.count; ++k) on_coordinates[link.first + k] = pose.S[*body].col(k).dot(on_bodies[*body]);
+    if (link.parent != kGround) on_bodies[link.parent] += about_parent(pose.arm[*body], on_bodies[*body]);
+  }
+}
+
+void JointTree::mass(const TreePose& pose, Eigen::MatrixXd& H) const {
+  H.setZero(n_, n_);
+  std::vector<S::Mat> composite(system_.bodies.size());
+  for (std::size_t i = 0; i < composite.size(); ++i) composite[i] = system_.bodies[i].mass.asDiagonal();
+  for (auto body = order_.rbegin(); body != order_.rend(); ++body) {
+    const Link& link = link_[*body];
+    for (int k = 0; k < link.count; ++k) {
+      const int row = link.first + k;
+      S::Vec force = composite[*body] * pose.S[*body].col(k);  // (3.3)
+      for (int b = *body; b != kGround; b = link_[b].parent) {
+        const Link& at = link_[b];
+        for (int i = 0; i < at.count; ++i) H(row, at.first + i) = H(at.first + i, row) = pose.S[b].col(i).dot(force);
+        force = about_parent(pose.arm[b], force);
+      }
+    }
+    if (link.parent == kGround) continue;
+    S::Mat T = S::Mat::Identity();  // (2.2), (3.2)
+    T(0, 2) = -pose.arm[*body].y();
+    T(1, 2) = pose.arm[*body].x();
+    composite[link.parent] += T.transpose() * composite[*body] * T;
+  }
+}
+
+void JointTree::jacobian(const TreePose& pose, Eigen::MatrixXd& J) const {
+  J.setZero(3 * static_cast<Eigen::Index>(link_.size()), n_);
+  for (const int body : order_) {
+    const Link& link = link_[body];
+    auto rows = J.middleRows<3>(3 * body);
+    if (link.parent != kGround) {
+      rows = J.middleRows<3>(3 * link.parent);
+      rows.row(0) -= pose.arm[body].y() * rows.row(2);
+      rows.row(1) += pose.arm[body].x() * rows.row(2);
+    }
+    for (int k = 0; k < link.count; ++k) rows.col(link.first + k) += pose.S[body].col(k);
+  }
+}
+
+void JointTree::reactions(const TreePose& pose, const Vecs& a, const Vecs& Q, Vecs& force) const {
+  Vecs needed(Q.size());
+  for (std::size_t i = 0; i < Q.size(); ++i) needed[i] = system_.bodies[i].mass.cwiseProduct(a[i]) - Q[i];  // (4.1)
+  for (auto body = order_.rbegin(); body != order_.rend(); ++body) {
+    const Link& link = link_[*body];
+    if (link.parent != kGround) needed[link.parent] += about_parent(pose.arm[*body], needed[*body]);
+    if (link.joint < 0) continue;
+    // Eq. (4.2): with G the pose's Jacobian of the carried body, G' f = what it needs; nothing in free components.
+    const JointData& joint = system_.joints[link.joint];
+    const RelativePose z = system_.pose(joint.at, pose.m);
+    const S::Point world = link.forward ? S::Point(needed[*body].head<2>()) : S::Point(-needed[*body].head<2>());
+    const S::Point arm = link.forward ? z.arm_b : z.arm_a;
+    const double moment = (link.forward ? needed[*body][2] : -needed[*body][2]) - S::cross(arm, world);
+    S::Vec f(z.c * world.x() + z.s * world.y(), z.c * world.y() - z.s * world.x(), moment);
+    for (int k = 0; k < 3; ++k)
+      if (joint.free_mask[k] > 0) f[k] = 0;
+    force[link.joint] = f;
+  }
+}
+
+}  // namespace pintle
