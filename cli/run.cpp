@@ -155,8 +155,8 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->add_option("--tolerance", options->tolerance, "wanted error of each joint force, relative to its peak")
       ->type_name("NUMBER");
   verb->add_option("--method", options->method, "integration method")
-      ->check(CLI::IsMember({"auto", "radau", "dopri5"}))
-      ->type_name("auto|radau|dopri5");
+      ->check(CLI::IsMember({"auto", "radau", "dopri5", "ode45", "ode23t", "ode15s", "ode113", "hht", "generalised_alpha"}))
+      ->type_name("auto|radau|dopri5|ode45|ode23t|ode15s|ode113|hht|generalised_alpha");
   verb->add_option("-o,--out", options->out, "run folder (default: <name of the model file>-run)")->type_name("FOLDER");
   verb->add_flag("--force", options->force, "write into a folder that is not an earlier run; its files stay");
   verb->add_option("--progress", options->progress, "on standard error: a line on a terminal, nothing, or JSON lines")

@@ -11,6 +11,7 @@ namespace pintle::cli {
 void add_run(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_plot(CLI::App& app, int& exit_code);
+void add_solvers(CLI::App& app, int& exit_code);
 void add_convert(CLI::App& app, int& exit_code);
 void add_fmt(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);

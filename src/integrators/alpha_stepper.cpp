@@ -28,17 +28,22 @@ double AlphaWeights::velocity_error() const {
 AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance)
     : system_(system), weights_(weights), beta_(weights.beta()), gamma_(weights.gamma()), tolerance_(tolerance),
       newton_tolerance_(std::min(tolerance, kLoosestNewton)), states_(system), tangents_(system), lu_(system.pattern()),
-      begin_(zero_state(system)), end_(begin_), between_(begin_), q_(begin_.q), v_(begin_.q), a_(begin_.q), F_begin_(begin_.q),
+      begin_(zero_state(system)), end_(begin_), between_(begin_), a_before_(begin_.q), a_now_(begin_.q), q_(begin_.q), v_(begin_.q), a_(begin_.q), F_begin_(begin_.q),
       F_(begin_.q), work_(system.bodies.size()) {
-  before_ = now_ = {begin_.q, begin_.q};
+  before_ = now_ = {begin_.q, begin_.q, begin_.q, 0};
 }
 
 void AlphaStepper::start(const State& state, double h) {
   begin_ = end_ = state;
   states_.complete(end_);
-  now_ = {end_.v, end_.a};
+  now_ = {end_.v, end_.a, end_.a, 0};
   h_ = h;
-  last_h_ = 0;
+}
+
+// theory/solvers Eq. (3.7): the lag of the accelerations goes with the step; here it becomes that of a step of h.
+void AlphaStepper::set_lag(double h, const Knot& knot, Vecs& a) const {
+  const double share = weights_.lag() != 0 && knot.h > 0 ? h / knot.h : 1;
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = share == 1 ? knot.a[i] : knot.law[i] + share * (knot.a[i] - knot.law[i]);
 }
 
 // F = Q + G' law(gap, rate).
@@ -51,8 +56,8 @@ void AlphaStepper::forces(double t, const Vecs& q, const Vecs& v, Vecs& F) {
 // theory/solvers Eq. (3.2): where the accelerations a_ take positions and velocities.
 void AlphaStepper::place(double h) {
   for (std::size_t i = 0; i < q_.size(); ++i) {
-    q_[i] = begin_.q[i] + h * begin_.v[i] + h * h * ((0.5 - beta_) * now_.a[i] + beta_ * a_[i]);
-    v_[i] = begin_.v[i] + h * ((1 - gamma_) * now_.a[i] + gamma_ * a_[i]);
+    q_[i] = begin_.q[i] + h * begin_.v[i] + h * h * ((0.5 - beta_) * a_now_[i] + beta_ * a_[i]);
+    v_[i] = begin_.v[i] + h * ((1 - gamma_) * a_now_[i] + gamma_ * a_[i]);
   }
 }
 
@@ -71,7 +76,7 @@ double AlphaStepper::correct(double h) {
   if (!lu_.factorize()) return std::numeric_limits<double>::infinity();
   for (int i = 0; i < system_.n_bodies(); ++i) {
     const S::Vec rest = new_F * F_[i] + weights_.forces * F_begin_[i] -
-                        system_.bodies[i].mass.cwiseProduct(new_a * a_[i] + weights_.accelerations * now_.a[i]);
+                        system_.bodies[i].mass.cwiseProduct(new_a * a_[i] + weights_.accelerations * a_now_[i]);
     work_[i] = {{rest[0], rest[1], rest[2]}};
   }
   lu_.solve(work_);
@@ -89,7 +94,7 @@ double AlphaStepper::correct(double h) {
 }
 
 bool AlphaStepper::solve(double h) {
-  a_ = now_.a;
+  a_ = a_now_;
   place(h);
   const double enough = kNewtonShare * newton_tolerance_ / tolerance_.relative;
   double last = std::numeric_limits<double>::infinity();
@@ -108,11 +113,11 @@ double AlphaStepper::error(double h) {
   double worst = 0, sum = 0;
   for (std::size_t i = 0; i < a_.size(); ++i)
     for (int k = 0; k < S::kDof; ++k) {
-      const double slope_v = (v_[i][k] - begin_.v[i][k]) / h, slope_a = (a_[i][k] - now_.a[i][k]) / h;
+      const double slope_v = (v_[i][k] - begin_.v[i][k]) / h, slope_a = (a_[i][k] - a_now_[i][k]) / h;
       double q3 = slope_a, v3 = slope_a / h;  // a first step knows no more: too large a guess
-      if (last_h_ > 0) {
-        q3 = 2 * (slope_v - (begin_.v[i][k] - before_.v[i][k]) / last_h_) / (h + last_h_);
-        v3 = 2 * (slope_a - (now_.a[i][k] - before_.a[i][k]) / last_h_) / (h + last_h_);
+      if (now_.h > 0) {
+        q3 = 2 * (slope_v - (begin_.v[i][k] - before_.v[i][k]) / now_.h) / (h + now_.h);
+        v3 = 2 * (slope_a - (a_now_[i][k] - a_before_[i][k]) / now_.h) / (h + now_.h);
       }
       sum += q3 + v3;
       worst = std::max({worst, e_q * std::abs(q3) / weight(begin_.q[i][k], q_[i][k], largest_q_),
@@ -126,7 +131,7 @@ bool AlphaStepper::step(double t_end) {
   largest_q_ = largest_coordinate(begin_.q);
   largest_v_ = largest_coordinate(begin_.v);
   forces(begin_.t, begin_.q, begin_.v, F_begin_);
-  const Vecs own = now_.a;
+  double most = 5;  // by which the next step may be longer
   double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
   while (true) {
     h = std::min(h, t_end - begin_.t);
@@ -134,11 +139,11 @@ bool AlphaStepper::step(double t_end) {
       failure_ = fmt::format("the step size has shrunk to nothing at t = {:.9g} s", begin_.t);
       return false;
     }
-    // theory/solvers Eq. (3.7): the lag of the accelerations goes with the step.
-    if (last_h_ > 0 && weights_.lag() != 0)
-      for (std::size_t i = 0; i < own.size(); ++i) now_.a[i] = begin_.a[i] + h / last_h_ * (own[i] - begin_.a[i]);
+    set_lag(h, now_, a_now_);
+    set_lag(h, before_, a_before_);
     if (!solve(h)) {
       ++counters_.newton_failures;
+      most = 1;
       h *= 0.25;
       continue;
     }
@@ -146,10 +151,11 @@ bool AlphaStepper::step(double t_end) {
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
     if (e <= 1) {
       finish(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
-      h_ = h * factor;
+      h_ = h * std::min(factor, most);
       return true;
     }
     ++counters_.rejected;
+    most = 1;
     h *= std::min(factor, 0.8);
   }
 }
@@ -165,7 +171,8 @@ void AlphaStepper::finish(double t, double h) {
   std::swap(before_, now_);
   now_.v = v_;
   now_.a = a_;
-  last_h_ = h;
+  now_.law = end_.a;
+  now_.h = h;
   ++counters_.steps;
 }
 

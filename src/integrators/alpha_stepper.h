@@ -46,9 +46,11 @@ class AlphaStepper final : public Stepper {
   const std::string& failure() const override { return failure_; }
 
  private:
-  struct Knot {  // a time that has been reached
-    Vecs v, a;
+  struct Knot {     // a time that has been reached
+    Vecs v, a, law;  // accelerations: the method's own, and those that the laws give
+    double h = 0;    // of the step that led there
   };
+  void set_lag(double h, const Knot& knot, Vecs& a) const;
   bool solve(double h);
   void place(double h);
   void forces(double t, const Vecs& q, const Vecs& v, Vecs& F);
@@ -61,13 +63,14 @@ class AlphaStepper final : public Stepper {
   AlphaWeights weights_;
   double beta_, gamma_;
   UsualTolerance tolerance_;
-  double newton_tolerance_, max_step_ = 0, h_ = 0, last_h_ = 0;
+  double newton_tolerance_, max_step_ = 0, h_ = 0;
   LawStates states_;
   ForceTangents tangents_;
   BlockLu<double, Planar::kDof> lu_;
   State begin_, end_, between_;
-  Knot before_, now_;          // the begin of the step before, of this one; accelerations are the method's own
-  Vecs q_, v_, a_, F_begin_, F_;
+  Knot before_, now_;                   // begins of the step before and of this one
+  Vecs a_before_, a_now_;               // their accelerations with the lag of this step
+  Vecs q_, v_, a_, F_begin_, F_;        // the end that is sought
   std::vector<BlockVec<double, Planar::kDof>> work_;
   double largest_q_ = 1, largest_v_ = 1;
   LoadScale no_scale_;
