@@ -27,7 +27,7 @@ struct SolverRun {
   std::string message;        ///< why it did not reach the end
   double t_end = 0;           ///< time reached [s]
   double steps = 0, rejected = 0, evaluations = 0, newton_iterations = 0, factorizations = 0;
-  double seconds = 0;         ///< wall time, recording at the output times included
+  double seconds = 0;         ///< wall time, recording at the output times included; the least of five where short
   double force_error = 0;     ///< of a joint's force (or couple), over that joint's peak [-]
   std::string worst_joint;    ///< where
   double position_error = 0;  ///< of a centre of mass [m]

@@ -25,6 +25,8 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kWindowSteps = 20, kWindowPeriods = 3;  // of the running mean
 constexpr double kWindowMost = 0.25;                     // of the duration
 constexpr double kAboveTruth = 10, kTooCoarse = 0.3;     // errors between these say something of the order
+constexpr int kRepetitions = 5;
+constexpr double kShort = 0.05;                          // a run that is repeated, at most [s]
 constexpr double kStepsRatio = 2;                        // between the runs that it is taken from, at least
 
 class Clock {
@@ -144,7 +146,19 @@ class Study {
     Trajectory trajectory;
     recorder.fill(trajectory);
     judge(trajectory, run);
+    if (run.end == SolverEnd::kCompleted) find_least_time(method, tolerance, run);
     return run;
+  }
+
+  // Short runs are repeated, and the least time counts: what else the machine does only adds to it.
+  void find_least_time(const std::string& method, double tolerance, SolverRun& run) const {
+    const double first = run.seconds;
+    for (int i = 1; i < kRepetitions && first < kShort; ++i) {
+      Recorder recorder(model_, system_);
+      const Clock clock;
+      integrate(system_, start_, plan(method, tolerance), recorder);
+      run.seconds = std::min(run.seconds, clock.seconds());
+    }
   }
 
   void judge(const Trajectory& trajectory, SolverRun& run) const {
