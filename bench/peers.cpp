@@ -77,8 +77,8 @@ std::vector<Contestant> our_methods(const ReadyModel& ready, const Problem& prob
 PeerMethod runge_kutta(const char* name, Family family, int table, Weights weights) {
   PeerMethod m;
   m.name = name;
-  m.family = family;
-  m.table = table;
+  m.code.family = family;
+  m.code.table = table;
   m.weights = weights;
   m.stop_at_outputs = true;
   return m;
@@ -87,14 +87,14 @@ PeerMethod runge_kutta(const char* name, Family family, int table, Weights weigh
 PeerMethod multistep(const char* name, Family family, Weights weights) {
   PeerMethod m;
   m.name = name;
-  m.family = family;
+  m.code.family = family;
   m.weights = weights;
   return m;
 }
 
 PeerMethod bdf(const char* name, int max_order, Weights weights) {
   PeerMethod m = multistep(name, Family::kBdf, weights);
-  m.max_order = max_order;
+  m.code.max_order = max_order;
   return m;
 }
 
@@ -114,11 +114,11 @@ PeerLadders peer_ladders(bool all) {
   };
   if (!all) return list;
   PeerMethod limited = bdf("CVODE BDF, dense, stability limit, plain weights", 5, plain);
-  limited.limit_unstable = true;
+  limited.code.limit_unstable = true;
   PeerMethod sparse_bdf = bdf("CVODE BDF, KLU, plain weights", 5, plain);
   PeerMethod sparse_rk =
       runge_kutta("ARKODE ESDIRK 5 (7 stages), KLU", implicit_rk, ARKODE_ESDIRK547L2SA2_7_4_5, force);
-  sparse_bdf.solver = sparse_rk.solver = LinearSolver::kKlu;
+  sparse_bdf.code.solver = sparse_rk.code.solver = LinearSolver::kKlu;
   const PeerLadders more{
       {sparse_bdf, decades(-6, -11)},
       {limited, decades(-6, -11)},

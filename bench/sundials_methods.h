@@ -1,17 +1,17 @@
-// The integrators of SUNDIALS on a mechanism: CVODE (BDF, Adams) and ARKODE (explicit and diagonally implicit
-// Runge-Kutta), each on the equations as they stand, with joint forces read from the laws at the output times.
+// The integrators of SUNDIALS on a mechanism, each on the equations as they stand, with joint forces read from the laws at
+// the output times.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "bench/flat_equations.h"
 #include "bench/force_samples.h"
+#include "integrators/sundials_code.h"
 
 namespace pintle::bench {
 
-enum class Family { kBdf, kAdams, kExplicitRungeKutta, kImplicitRungeKutta };
-enum class LinearSolver { kDense, kKlu };
+using Family = SundialsChoice::Family;
+using LinearSolver = SundialsChoice::LinearSolver;
 
 /// What a relative tolerance refers to.
 enum class Weights {
@@ -21,11 +21,7 @@ enum class Weights {
 
 struct PeerMethod {
   std::string name;
-  Family family = Family::kBdf;
-  int table = 0;                // ARKODE's Butcher table
-  int max_order = 5;            // BDF
-  bool limit_unstable = false;  // BDF: stability limit detection
-  LinearSolver solver = LinearSolver::kDense;
+  SundialsChoice code;
   Weights weights = Weights::kPlain;
   bool stop_at_outputs = false;  // end steps at output times rather than interpolate
 };

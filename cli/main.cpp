@@ -65,6 +65,7 @@ int run_program(int argc, char** argv) {
   add_compare(app, exit_code);
   add_stiffen(app, exit_code);
   add_plot(app, exit_code);
+  add_solvers(app, exit_code);
   add_convert(app, exit_code);
   add_fmt(app, exit_code);
   add_schema(app, exit_code);

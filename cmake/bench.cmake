@@ -5,11 +5,9 @@ if(NOT sources)
   return()
 endif()
 find_package(benchmark REQUIRED)
-find_package(SUNDIALS REQUIRED)
 add_executable(pintle_bench ${sources})
 set_target_properties(pintle_bench PROPERTIES
   OUTPUT_NAME pintle-bench RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 target_compile_definitions(pintle_bench PRIVATE PINTLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 target_include_directories(pintle_bench PRIVATE ${PROJECT_SOURCE_DIR})
-target_link_libraries(pintle_bench PRIVATE pintle_flags pintle_io benchmark::benchmark
-  SUNDIALS::cvode SUNDIALS::arkode SUNDIALS::nvecserial SUNDIALS::sunmatrixsparse SUNDIALS::sunlinsolklu)
+target_link_libraries(pintle_bench PRIVATE pintle_flags pintle_io benchmark::benchmark)

@@ -19,6 +19,7 @@ PUBLIC_HEADERS = {
     "trajectory.h": "integrators",
     "simulate.h": "analyses",
     "check.h": "analyses",
+    "solvers.h": "analyses",
 }
 OUTER = {"cli", "tests", "bench", "examples"}
 FOLDERS = ["include", "src", "cli", "tests", "bench", "examples", "tools", "cmake"]

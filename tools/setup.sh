@@ -15,9 +15,10 @@ fail() {
 
 packages_of() {
   case "$1" in
-    build) echo g++ cmake ninja-build pkg-config libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libgtest-dev ;;
+    build) echo g++ cmake ninja-build pkg-config libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libgtest-dev \
+      libsundials-dev libsuitesparse-dev ;;
     test) echo clang-14 libclang-rt-14-dev python3 ;;
-    bench) echo libbenchmark-dev libsundials-dev libsuitesparse-dev ;;
+    bench) echo libbenchmark-dev ;;
     web) echo emscripten node-acorn ;;
     *) fail "unknown group '$1' (build, test, bench, web)" ;;
   esac

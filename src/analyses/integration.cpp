@@ -12,6 +12,8 @@ namespace pintle {
 
 namespace {
 
+constexpr std::uint64_t kMaxSteps = 20'000'000;  // of one integration
+
 // Notices a motion that needs ever shorter steps: one that blows up without end.
 class Standstill {
  public:
@@ -58,6 +60,12 @@ Integration integrate(const System& system, const State& start, const Integratio
     if (standstill.reached(now.t)) {
       out.ended = Ended::kFailed;
       out.message = fmt::format("the motion blows up, or the tolerance is below the rounding of its forces: steps of {:.3g} s at t = {:.9g} s", now.t - stepper.previous().t, now.t);
+      break;
+    }
+    if (stepper.counters().steps >= kMaxSteps) {
+      out.ended = Ended::kFailed;
+      out.message = fmt::format("more than {} steps before t = {:.9g} s: this method needs steps of {:.3g} s here; choose radau, or a larger tolerance",
+                                kMaxSteps, now.t, now.t - stepper.previous().t);
       break;
     }
     if (plan.keep_going && !plan.keep_going(now.t)) {

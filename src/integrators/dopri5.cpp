@@ -18,30 +18,11 @@ using namespace dormand_prince;
 }  // namespace
 
 Dopri5::Dopri5(const System& system, double tolerance)
-    : system_(system), tolerance_(tolerance), q_(system.bodies.size()), v_(system.bodies.size()), dq_(system.bodies.size()),
+    : system_(system), states_(system), tolerance_(tolerance), q_(system.bodies.size()), v_(system.bodies.size()), dq_(system.bodies.size()),
       dv_(system.bodies.size()) {
   for (auto* k : {&kq_, &kv_})
     for (auto& x : *k) x.resize(system.bodies.size());
   scale_.body.assign(system.bodies.size(), S::Vec::Zero());
-}
-
-void Dopri5::complete(State& state) {
-  system_.motions(state.q, state.v, m_);
-  system_.readings(state.t, m_, r_);
-  system_.accelerations(state.t, state.q, state.v, state.a);
-  find_gap_accelerations(system_, r_, state);
-  const ExternalWork work = system_.external_work(state.t, state.q, m_);
-  state.supply_power = work.supplied;
-  state.loss_power = work.lost;
-  for (int j = 0; j < system_.n_joints(); ++j) {
-    const JointData& joint = system_.joints[j];
-    state.gap[j] = r_[j].gap;
-    state.gap_rate[j] = r_[j].rate;
-    const Response response = respond(joint.law, r_[j].gap, r_[j].rate);
-    state.force[j] = response.force;
-    if (joint.servo >= 0) state.supply_power += response.force[joint.servo] * system_.pose(joint.at, m_).rate[joint.servo];
-    else state.loss_power += response.loss;
-  }
 }
 
 void Dopri5::start(const State& state, double h) {

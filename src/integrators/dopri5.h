@@ -4,7 +4,8 @@
 
 #include <array>
 
-#include "integrators/radau_stepper.h"
+#include "integrators/law_states.h"
+#include "integrators/stage_solver.h"
 #include "pintle/trajectory.h"
 #include "system/state.h"
 
@@ -24,7 +25,7 @@ class Dopri5 {
   const std::string& failure() const { return failure_; }
 
   /// Gaps, forces, accelerations and powers that belong to state.q, state.v.
-  void complete(State& state);
+  void complete(State& state) { states_.complete(state); }
 
  private:
   double error(double h);
@@ -32,6 +33,7 @@ class Dopri5 {
   void grow_scale();
 
   const System& system_;
+  LawStates states_;
   double tolerance_, max_step_ = 0, h_ = 0;
   State begin_, end_;
   std::array<Vecs, 7> kq_, kv_;

@@ -1,11 +1,19 @@
 #include "integrators/methods.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
+#include "integrators/alpha_stepper.h"
 #include "integrators/dense_output.h"
 #include "integrators/dopri5.h"
 #include "integrators/ideal_stepper.h"
+#include "integrators/radau_stepper.h"
+#include "integrators/sundials_stepper.h"
 #include "integrators/tree_dopri5.h"
 #include "integrators/tree_radau.h"
 
@@ -41,22 +49,54 @@ class BodyStepper final : public Stepper {
   DenseOutput dense_;
 };
 
+constexpr double kHhtAlpha = -0.05;
+constexpr double kKeptVibration = 0.9;  // generalised-alpha's factor per step at very high frequencies
+
+constexpr std::array<std::string_view, 3> kFromSundials{"ode45", "ode15s", "ode113"};
+constexpr std::array<std::string_view, 3> kAlphaFamily{"ode23t", "hht", "generalised_alpha"};
+
+template <class List>
+bool is_in(const List& list, std::string_view word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+AlphaWeights alpha_weights(std::string_view method) {
+  return method == "hht"                 ? AlphaWeights::hht(kHhtAlpha)
+         : method == "generalised_alpha" ? AlphaWeights::generalised(kKeptVibration)
+                                         : AlphaWeights::trapezoidal();
+}
+
 }  // namespace
 
 std::string usual_method(Equations equations) { return equations == Equations::kIdeal ? "dopri5" : "radau"; }
 
+std::string why_not(const MethodChoice& choice) {
+  const bool sundials = is_in(kFromSundials, choice.method), alpha = is_in(kAlphaFamily, choice.method);
+  const bool ours = choice.method == "dopri5" || (choice.method == "radau" && choice.equations != Equations::kIdeal);
+  if (ours) return "";
+  if (choice.equations != Equations::kNewtonian)
+    return sundials || alpha
+               ? fmt::format("method {} needs joints that are force laws (equations = \"newtonian\")", choice.method)
+               : fmt::format("there is no method {} for these equations", choice.method);
+  if (sundials && !has_sundials())
+    return fmt::format("method {}: this build has no SUNDIALS; install libsundials-dev and libsuitesparse-dev and build again, or choose "
+                       "another method (radau, dopri5, ode23t, hht, generalised_alpha)",
+                       choice.method);
+  if (sundials || alpha) return "";
+  return fmt::format("there is no method {} for these equations", choice.method);
+}
+
 std::unique_ptr<Stepper> make_stepper(const System& system, const MethodChoice& choice, double tolerance) {
-  if (choice.equations == Equations::kNewtonian) {
-    if (choice.method == "radau")
-      return std::make_unique<BodyStepper<RadauStepper>>(system, RadauStepper(system, tolerance, choice.stages));
-    if (choice.method == "dopri5") return std::make_unique<BodyStepper<Dopri5>>(system, Dopri5(system, tolerance));
-  }
-  if (choice.equations == Equations::kIdeal && choice.method == "dopri5") return std::make_unique<IdealStepper>(system, tolerance);
+  if (const std::string reason = why_not(choice); !reason.empty()) throw std::invalid_argument(reason);
+  if (choice.equations == Equations::kIdeal) return std::make_unique<IdealStepper>(system, tolerance);
   if (choice.equations == Equations::kLagrangian) {
     if (choice.method == "radau") return std::make_unique<TreeRadau>(system, tolerance, choice.stages);
-    if (choice.method == "dopri5") return std::make_unique<TreeDopri5>(system, tolerance);
+    return std::make_unique<TreeDopri5>(system, tolerance);
   }
-  throw std::invalid_argument("there is no method " + choice.method + " for these equations");
+  if (choice.method == "radau") return std::make_unique<BodyStepper<RadauStepper>>(system, RadauStepper(system, tolerance, choice.stages));
+  if (choice.method == "dopri5") return std::make_unique<BodyStepper<Dopri5>>(system, Dopri5(system, tolerance));
+  if (is_in(kAlphaFamily, choice.method)) return std::make_unique<AlphaStepper>(system, alpha_weights(choice.method), tolerance);
+  return make_sundials_stepper(system, choice.method, tolerance);
 }
 
 }  // namespace pintle

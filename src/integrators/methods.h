@@ -18,7 +18,10 @@ struct MethodChoice {
 /// What "auto" stands for.
 std::string usual_method(Equations equations);
 
-/// A stepper on `system`, which must outlive it. Throws std::invalid_argument for a method that these equations do not have.
+/// Why there is no such method, for the user: not with these equations, or not in this build. Empty: there is.
+std::string why_not(const MethodChoice& choice);
+
+/// A stepper on `system`, which must outlive it. Throws std::invalid_argument with the text of `why_not`.
 std::unique_ptr<Stepper> make_stepper(const System& system, const MethodChoice& choice, double tolerance);
 
 }  // namespace pintle

@@ -76,6 +76,12 @@ std::string axis_title(const std::string& quantity, const std::string& unit) {
   return fmt::format("{} [{}]", quantity, unit);
 }
 
+/// 10 to the power of `exponent`.
+std::string power_of_ten(double exponent) {
+  const std::string digits = tick_text(exponent, 1);
+  return exponent == 0 ? "1" : fmt::format("10<tspan dy=\"-5\" font-size=\"9\">{}</tspan>", digits);
+}
+
 /// Where one entry of a legend stands, relative to the panel's left edge and the legend's first row.
 struct LegendEntry {
   double x = 0;
@@ -98,9 +104,17 @@ bool needs_legend(const Panel& panel) {
   return panel.curves.size() > 1;
 }
 
-/// One panel with everything that its drawing needs.
+/// One panel with everything that its drawing needs. On logarithmic axes everything is in powers of ten.
 struct Frame {
   explicit Frame(const Panel& whose) : panel(whose) {}
+
+  bool own_x() const { return !panel.x_quantity.empty(); }
+  double scaled(double value, const AxisScale& scale) const {
+    return panel.logarithmic ? (value > 0 ? std::log10(value) : NAN) : value / scale.factor;
+  }
+  std::string tick(double value, const Axis& axis) const {
+    return panel.logarithmic ? power_of_ten(value) : tick_text(value, axis.step);
+  }
 
   const Panel& panel;
   double left = 0, top = 0, width = 0, height = 0;  // of the axes [px]
@@ -119,12 +133,14 @@ class Picture {
 
  private:
   void lay_out();
+  void scale_axes(Frame& frame, const Range& common_x, bool rising);
   void draw_titles();
   void draw_grid(const Frame& frame);
   void draw_y_axis(const Frame& frame);
   void draw_x_axis(const Frame& frame);
   void draw_legend(const Frame& frame);
   void draw_curve(const Frame& frame, std::size_t index);
+  void draw_dots(const std::vector<Point>& points, std::size_t index);
   std::string stroke(std::size_t index) const;
 
   template <class... Args>
@@ -138,22 +154,52 @@ class Picture {
   std::string out_;
 };
 
+/// The range of values on logarithmic axes, a part of a power of ten beyond them.
+Axis powers_of_ten(const std::vector<const std::vector<double>*>& values) {
+  Range range;
+  for (const std::vector<double>* list : values)
+    for (const double value : *list)
+      if (value > 0) range.cover({std::log10(value)});
+  if (range.empty()) return {-1, 0, 1};
+  const double step = std::max(1.0, std::ceil((range.high - range.low) / 9));
+  return {range.low - 0.15, std::max(range.high, range.low + 1) + 0.15, step};
+}
+
+void Picture::scale_axes(Frame& frame, const Range& common_x, bool rising) {
+  Range y_range, x_range = common_x;
+  std::vector<const std::vector<double>*> x_values, y_values;
+  for (const Curve& curve : frame.panel.curves) {
+    y_range.cover(curve.y);
+    x_values.push_back(&curve.x);
+    y_values.push_back(&curve.y);
+  }
+  if (frame.panel.logarithmic) {
+    frame.x = powers_of_ten(x_values);
+    frame.y = powers_of_ten(y_values);
+    frame.x_scale.unit = printed_unit(frame.panel.x_unit);
+    frame.y_scale.unit = printed_unit(frame.panel.unit);
+    return;
+  }
+  if (frame.own_x()) {
+    x_range = Range();
+    for (const std::vector<double>* x : x_values) x_range.cover(*x);
+  }
+  frame.x_scale = scale_for(x_range.largest(), frame.own_x() ? frame.panel.x_unit : plot_.x_unit);
+  frame.x = x_range.axis(frame.x_scale.factor, 8, rising && !frame.own_x());
+  frame.y_scale = scale_for(y_range.largest(), frame.panel.unit);
+  frame.y = y_range.axis(frame.y_scale.factor, 6, false);
+}
+
 void Picture::lay_out() {
   Range x_range;
   x_range.cover(plot_.x);
-  const AxisScale x_scale = scale_for(x_range.largest(), plot_.x_unit);
   const bool rising = std::is_sorted(plot_.x.begin(), plot_.x.end());
   double label_width = 0;
   for (const Panel& panel : plot_.panels) {
-    Range range;
-    for (const Curve& curve : panel.curves) range.cover(curve.y);
     Frame frame(panel);
-    frame.x = x_range.axis(x_scale.factor, 8, rising);
-    frame.x_scale = x_scale;
-    frame.y_scale = scale_for(range.largest(), panel.unit);
-    frame.y = range.axis(frame.y_scale.factor, 6, false);
+    scale_axes(frame, x_range, rising);
     for (const double tick : frame.y.ticks())
-      label_width = std::max(label_width, text_width(tick_text(tick, frame.y.step), kTickSize));
+      label_width = std::max(label_width, panel.logarithmic ? 2.6 * kTickSize : text_width(tick_text(tick, frame.y.step), kTickSize));
     frames_.push_back(std::move(frame));
   }
   left_ = 46 + label_width;
@@ -166,6 +212,7 @@ void Picture::lay_out() {
     top += frame.legend.empty() ? 8 : kLegendRow * (frame.legend.back().row + 1) + 6;
     frame.top = top;
     top += frame.height + 14;
+    if (frame.own_x() && &frame != &frames_.back()) top += 38;
   }
   height_ = top + 38;
 }
@@ -186,7 +233,7 @@ void Picture::draw_grid(const Frame& frame) {
   for (const double tick : frame.y.ticks())
     put("<path d=\"M{0:.2f} {1:.2f}H{2:.2f}\"/>\n", frame.left, frame.py(tick), frame.left + frame.width);
   put("</g>\n");
-  if (frame.y.low < 0 && frame.y.high > 0)
+  if (frame.y.low < 0 && frame.y.high > 0 && !frame.panel.logarithmic)
     put("<path d=\"M{:.2f} {:.2f}H{:.2f}\" stroke=\"#999\"/>\n", frame.left, frame.py(0), frame.left + frame.width);
 }
 
@@ -194,7 +241,7 @@ void Picture::draw_y_axis(const Frame& frame) {
   put("<g text-anchor=\"end\" font-size=\"{}\">\n", kTickSize);
   for (const double tick : frame.y.ticks())
     put("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.left - 8, frame.py(tick) + 0.35 * kTickSize,
-        tick_text(tick, frame.y.step));
+        frame.tick(tick, frame.y));
   put("</g>\n");
   const double middle = frame.top + frame.height / 2;
   put("<text x=\"18\" y=\"{0:.1f}\" font-size=\"{1}\" text-anchor=\"middle\" transform=\"rotate(-90 18 "
@@ -209,12 +256,12 @@ void Picture::draw_x_axis(const Frame& frame) {
   put("<g stroke=\"#333\">\n");
   for (const double tick : frame.x.ticks()) put("<path d=\"M{:.2f} {:.2f}v4\"/>\n", frame.px(tick), bottom);
   put("</g>\n");
-  if (&frame != &frames_.back()) return;
+  if (&frame != &frames_.back() && !frame.own_x()) return;
   put("<g text-anchor=\"middle\" font-size=\"{}\">\n", kTickSize);
   for (const double tick : frame.x.ticks())
-    put("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.px(tick), bottom + 18, tick_text(tick, frame.x.step));
+    put("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.px(tick), bottom + 18, frame.tick(tick, frame.x));
   put("</g>\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" text-anchor=\"middle\">{}</text>\n",
-      frame.left + frame.width / 2, bottom + 40, kTextSize, escaped(axis_title(plot_.x_quantity, frame.x_scale.unit)));
+      frame.left + frame.width / 2, bottom + 40, kTextSize, escaped(axis_title(frame.own_x() ? frame.panel.x_quantity : plot_.x_quantity, frame.x_scale.unit)));
 }
 
 std::string Picture::stroke(std::size_t index) const {
@@ -237,9 +284,10 @@ void Picture::draw_legend(const Frame& frame) {
 
 void Picture::draw_curve(const Frame& frame, std::size_t index) {
   const std::vector<double>& y = frame.panel.curves[index].y;
+  const std::vector<double>& x = frame.own_x() ? frame.panel.curves[index].x : plot_.x;
   std::vector<Point> points;
-  for (std::size_t i = 0; i < std::min(plot_.x.size(), y.size()); ++i)
-    points.push_back({frame.px(plot_.x[i] / frame.x_scale.factor), frame.py(y[i] / frame.y_scale.factor)});
+  for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
+    points.push_back({frame.px(frame.scaled(x[i], frame.x_scale)), frame.py(frame.scaled(y[i], frame.y_scale))});
   put("<path fill=\"none\" {} stroke-width=\"1.6\" stroke-linejoin=\"round\" stroke-linecap=\"round\" d=\"",
       stroke(index));
   bool pen_up = true;
@@ -249,6 +297,14 @@ void Picture::draw_curve(const Frame& frame, std::size_t index) {
     pen_up = !there;
   }
   put("\"/>\n");
+  if (frame.panel.logarithmic) draw_dots(points, index);
+}
+
+void Picture::draw_dots(const std::vector<Point>& points, std::size_t index) {
+  put("<g fill=\"{}\">\n", kColours[index % kColours.size()]);
+  for (const Point& point : points)
+    if (std::isfinite(point.x) && std::isfinite(point.y)) put("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3\"/>\n", point.x, point.y);
+  put("</g>\n");
 }
 
 std::string Picture::text() {

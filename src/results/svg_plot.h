@@ -10,6 +10,7 @@ namespace pintle {
 struct Curve {
   std::string label, subscript;
   std::vector<double> y;  ///< one per x; a NaN interrupts the line
+  std::vector<double> x{};  ///< in a panel with an x axis of its own
 };
 
 /// One set of axes; all its curves share the unit.
@@ -17,6 +18,8 @@ struct Panel {
   std::string quantity;  ///< "Force on rocker"
   std::string unit;      ///< "N"; may get a prefix
   std::vector<Curve> curves;
+  std::string x_quantity{}, x_unit{};  ///< given: an x axis of its own, and every curve brings its x
+  bool logarithmic = false;        ///< both axes, with such an x axis; every value is marked by a dot
 };
 
 struct Plot {
@@ -28,7 +31,7 @@ struct Plot {
   double panel_height = 300;  ///< of the axes' frame [px]
 };
 
-/// The picture. Long series are thinned to what can be seen, every minimum and maximum kept.
+/// The picture. On logarithmic axes values that are not positive are left out. Long series are thinned to what can be seen, every minimum and maximum kept.
 std::string to_svg(const Plot& plot);
 
 }  // namespace pintle
