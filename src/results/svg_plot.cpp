@@ -23,7 +23,7 @@ constexpr std::array<const char*, 4> kDashes{"", "7 3", "2 2.5", "9 3 2 3"};  //
 
 constexpr const char* kFont = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 constexpr double kTitleSize = 16, kTextSize = 12.5, kTickSize = 12;  // [px]
-constexpr double kRight = 22, kLegendRow = 20, kSample = 26;
+constexpr double kRight = 22, kLegendRow = 20, kSample = 26, kDotRadius = 2.8;
 constexpr double kColumnWidth = 0.5;  // what the eye can tell apart on screen and in print [px]
 
 /// How wide a text is, about [px].
@@ -57,19 +57,24 @@ std::string escaped(std::string_view text) {
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 
-  void cover(const std::vector<double>& values) {
+  void cover(const std::vector<double>& values, bool positive) {
     for (const double value : values) {
-      if (!std::isfinite(value)) continue;
+      if (!std::isfinite(value) || (positive && value <= 0)) continue;
       low = std::min(low, value);
       high = std::max(high, value);
     }
   }
   bool empty() const { return low > high; }
   double largest() const { return empty() ? 1 : std::max(std::abs(low), std::abs(high)); }
+  Axis log_axis(int n_ticks) const { return empty() ? make_log_axis(1, 10, n_ticks) : make_log_axis(low, high, n_ticks); }
   Axis axis(double factor, int n_ticks, bool tight) const {
     return empty() ? make_axis(0, 1, n_ticks, tight) : make_axis(low / factor, high / factor, n_ticks, tight);
   }
 };
+
+AxisScale plain_scale(const std::string& unit) {
+  return {1, printed_unit(unit)};
+}
 
 std::string axis_title(const std::string& quantity, const std::string& unit) {
   if (unit.empty()) return quantity;
@@ -108,8 +113,11 @@ struct Frame {
   AxisScale x_scale, y_scale;
   std::vector<LegendEntry> legend;
 
-  double px(double value) const { return left + width * (value - x.low) / (x.high - x.low); }
-  double py(double value) const { return top + height * (y.high - value) / (y.high - y.low); }
+  // Of a value, and of a tick.
+  double px(double value) const { return left + width * x.share(value); }
+  double py(double value) const { return top + height * (1 - y.share(value)); }
+  double tick_px(double tick) const { return left + width * (tick - x.low) / (x.high - x.low); }
+  double tick_py(double tick) const { return top + height * (y.high - tick) / (y.high - y.low); }
 };
 
 class Picture {
@@ -125,6 +133,7 @@ class Picture {
   void draw_x_axis(const Frame& frame);
   void draw_legend(const Frame& frame);
   void draw_curve(const Frame& frame, std::size_t index);
+  void draw_dots(const std::vector<Point>& points, std::size_t index);
   std::string stroke(std::size_t index) const;
 
   template <class... Args>
@@ -140,20 +149,20 @@ class Picture {
 
 void Picture::lay_out() {
   Range x_range;
-  x_range.cover(plot_.x);
-  const AxisScale x_scale = scale_for(x_range.largest(), plot_.x_unit);
+  x_range.cover(plot_.x, plot_.log_x);
+  const AxisScale x_scale = plot_.log_x ? plain_scale(plot_.x_unit) : scale_for(x_range.largest(), plot_.x_unit);
   const bool rising = std::is_sorted(plot_.x.begin(), plot_.x.end());
   double label_width = 0;
   for (const Panel& panel : plot_.panels) {
     Range range;
-    for (const Curve& curve : panel.curves) range.cover(curve.y);
+    for (const Curve& curve : panel.curves) range.cover(curve.y, panel.log_y);
     Frame frame(panel);
-    frame.x = x_range.axis(x_scale.factor, 8, rising);
+    frame.x = plot_.log_x ? x_range.log_axis(10) : x_range.axis(x_scale.factor, 8, rising);
     frame.x_scale = x_scale;
-    frame.y_scale = scale_for(range.largest(), panel.unit);
-    frame.y = range.axis(frame.y_scale.factor, 6, false);
+    frame.y_scale = panel.log_y ? plain_scale(panel.unit) : scale_for(range.largest(), panel.unit);
+    frame.y = panel.log_y ? range.log_axis(8) : range.axis(frame.y_scale.factor, 6, false);
     for (const double tick : frame.y.ticks())
-      label_width = std::max(label_width, text_width(tick_text(tick, frame.y.step), kTickSize));
+      label_width = std::max(label_width, text_width(frame.y.label(tick), kTickSize));
     frames_.push_back(std::move(frame));
   }
   left_ = 46 + label_width;
@@ -182,19 +191,19 @@ void Picture::draw_titles() {
 void Picture::draw_grid(const Frame& frame) {
   put("<g stroke=\"#e2e2e2\" stroke-width=\"1\">\n");
   for (const double tick : frame.x.ticks())
-    put("<path d=\"M{0:.2f} {1:.2f}V{2:.2f}\"/>\n", frame.px(tick), frame.top, frame.top + frame.height);
+    put("<path d=\"M{0:.2f} {1:.2f}V{2:.2f}\"/>\n", frame.tick_px(tick), frame.top, frame.top + frame.height);
   for (const double tick : frame.y.ticks())
-    put("<path d=\"M{0:.2f} {1:.2f}H{2:.2f}\"/>\n", frame.left, frame.py(tick), frame.left + frame.width);
+    put("<path d=\"M{0:.2f} {1:.2f}H{2:.2f}\"/>\n", frame.left, frame.tick_py(tick), frame.left + frame.width);
   put("</g>\n");
-  if (frame.y.low < 0 && frame.y.high > 0)
+  if (!frame.y.log && frame.y.low < 0 && frame.y.high > 0)
     put("<path d=\"M{:.2f} {:.2f}H{:.2f}\" stroke=\"#999\"/>\n", frame.left, frame.py(0), frame.left + frame.width);
 }
 
 void Picture::draw_y_axis(const Frame& frame) {
   put("<g text-anchor=\"end\" font-size=\"{}\">\n", kTickSize);
   for (const double tick : frame.y.ticks())
-    put("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.left - 8, frame.py(tick) + 0.35 * kTickSize,
-        tick_text(tick, frame.y.step));
+    put("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.left - 8, frame.tick_py(tick) + 0.35 * kTickSize,
+        frame.y.label(tick));
   put("</g>\n");
   const double middle = frame.top + frame.height / 2;
   put("<text x=\"18\" y=\"{0:.1f}\" font-size=\"{1}\" text-anchor=\"middle\" transform=\"rotate(-90 18 "
@@ -207,12 +216,12 @@ void Picture::draw_x_axis(const Frame& frame) {
   put("<path d=\"M{0:.2f} {1:.2f}V{2:.2f}H{3:.2f}\" fill=\"none\" stroke=\"#333\"/>\n", frame.left, frame.top, bottom,
       frame.left + frame.width);
   put("<g stroke=\"#333\">\n");
-  for (const double tick : frame.x.ticks()) put("<path d=\"M{:.2f} {:.2f}v4\"/>\n", frame.px(tick), bottom);
+  for (const double tick : frame.x.ticks()) put("<path d=\"M{:.2f} {:.2f}v4\"/>\n", frame.tick_px(tick), bottom);
   put("</g>\n");
   if (&frame != &frames_.back()) return;
   put("<g text-anchor=\"middle\" font-size=\"{}\">\n", kTickSize);
   for (const double tick : frame.x.ticks())
-    put("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.px(tick), bottom + 18, tick_text(tick, frame.x.step));
+    put("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.tick_px(tick), bottom + 18, frame.x.label(tick));
   put("</g>\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" text-anchor=\"middle\">{}</text>\n",
       frame.left + frame.width / 2, bottom + 40, kTextSize, escaped(axis_title(plot_.x_quantity, frame.x_scale.unit)));
 }
@@ -228,11 +237,23 @@ void Picture::draw_legend(const Frame& frame) {
   for (std::size_t i = 0; i < frame.legend.size(); ++i) {
     const Curve& curve = frame.panel.curves[i];
     const double x = frame.left + frame.legend[i].x, y = first_row + kLegendRow * frame.legend[i].row;
-    put("<path d=\"M{:.1f} {:.1f}h{}\" {} stroke-width=\"2.2\"/>\n", x, y - 4, kSample, stroke(i));
+    if (curve.dots)
+      draw_dots({{x + kSample / 2, y - 4}}, i);
+    else
+      put("<path d=\"M{:.1f} {:.1f}h{}\" {} stroke-width=\"2.2\"/>\n", x, y - 4, kSample, stroke(i));
     put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">{}", x + kSample + 6, y, kTextSize, escaped(curve.label));
     if (!curve.subscript.empty()) put("<tspan dy=\"3\" font-size=\"9.5\">{}</tspan>", escaped(curve.subscript));
     put("</text>\n");
   }
+}
+
+// Circles, so that a line beneath shows through.
+void Picture::draw_dots(const std::vector<Point>& points, std::size_t index) {
+  put("<g fill=\"none\" {} stroke-width=\"1.2\">\n", stroke(index));
+  for (const Point& point : points)
+    if (std::isfinite(point.x) && std::isfinite(point.y))
+      put("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\"/>\n", point.x, point.y, kDotRadius);
+  put("</g>\n");
 }
 
 void Picture::draw_curve(const Frame& frame, std::size_t index) {
@@ -240,6 +261,7 @@ void Picture::draw_curve(const Frame& frame, std::size_t index) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < std::min(plot_.x.size(), y.size()); ++i)
     points.push_back({frame.px(plot_.x[i] / frame.x_scale.factor), frame.py(y[i] / frame.y_scale.factor)});
+  if (frame.panel.curves[index].dots) return draw_dots(points, index);
   put("<path fill=\"none\" {} stroke-width=\"1.6\" stroke-linejoin=\"round\" stroke-linecap=\"round\" d=\"",
       stroke(index));
   bool pen_up = true;

@@ -10,6 +10,7 @@ namespace pintle {
 struct Curve {
   std::string label, subscript;
   std::vector<double> y;  ///< one per x; a NaN interrupts the line
+  bool dots = false;      ///< a dot at every point instead of a line
 };
 
 /// One set of axes; all its curves share the unit.
@@ -17,12 +18,14 @@ struct Panel {
   std::string quantity;  ///< "Force on rocker"
   std::string unit;      ///< "N"; may get a prefix
   std::vector<Curve> curves;
+  bool log_y = false;    ///< decades; what is not positive is left out
 };
 
 struct Plot {
   std::string title, subtitle;
   std::string x_quantity, x_unit;
   std::vector<double> x;
+  bool log_x = false;
   std::vector<Panel> panels;
   double width = 760;         ///< [px]
   double panel_height = 300;  ///< of the axes' frame [px]
