@@ -11,6 +11,7 @@
 namespace pintle::paper {
 namespace {
 
+constexpr double kFirstDegree = 1.7e-3;  // [s]
 constexpr double kFourFigures = 5e-4;  // half a unit of the fourth figure, at worst, of the leading figure 1
 
 double closed_form_error(const char* table_name, double degrees) {
@@ -82,7 +83,7 @@ Item make_figure_9() {
                   "table of 30 digits in tests/reference to {:.0e} N.",
                   std::max(closed_form_error("four_bar_from_0", 0), closed_form_error("four_bar", 60)))};
   item.claims = {{"8, Fig. 9", "three programs agree within the noise of numerical integration",
-                  fmt::format("F14 at k = 1e8, c = 3000 is {:.1e} of its peak from ideal joints; peaks |F14x| {:.2f} N, |F14y| {:.2f} N",
+                  fmt::format("F14 at k = 1e8, c = 3000 is {:.1e} of its peak from ideal joints; largest F14x {:.2f} N, F14y {:.2f} N",
                               d.by_pin[3], peak_x, peak_y),
                   verdict(d.by_pin[3] < 1e-4)},
                  {"8", "the crank's speed is close to constant", fmt::format("{:.5f} to {:.5f} rad/s", *slowest, *fastest),
@@ -94,7 +95,7 @@ Item make_figure_9() {
                             fy = column(r, "joint.O4.on_follower.fy[world]");
   for (std::size_t row = 0; row < theta.size(); row += 30) {
     const Force f = ideal_four_bar(theta[row], 0, 10).force[3];
-    table.rows.push_back({fmt::format("{:.2f}", theta[row] / kDegree), fmt::format("{:.3f}", fx[row]), fmt::format("{:.3f}", f.x),
+    table.rows.push_back({fmt::format("{:.2f}", std::abs(theta[row] / kDegree)), fmt::format("{:.3f}", fx[row]), fmt::format("{:.3f}", f.x),
                           fmt::format("{:.3f}", fy[row]), fmt::format("{:.3f}", f.y)});
   }
   item.tables = {table};
@@ -119,7 +120,7 @@ Item make_bearings() {
               {}};
   double commercial = 0, journal = 0, rubber = 0, rolling_angle = 0;
   for (const Choice& choice : choices) {
-    const FromIdeal d = from_ideal(run(four_bar(choice.bearing, 60), true), 60);
+    const FromIdeal d = from_ideal(run(four_bar(choice.bearing, 60), true), 60, kFirstDegree);
     std::vector<std::string> row{choice.name, short_number(choice.bearing.k), short_number(choice.bearing.c)};
     for (const double e : d.by_pin) row.push_back(fmt::format("{:.1e}", e));
     row.push_back(fmt::format("{:.1f}", digits(d.force)));
@@ -133,11 +134,13 @@ Item make_bearings() {
     if (name.starts_with("journal")) journal = std::max(journal, d.force);
     if (name.starts_with("rubber")) rubber = std::max(rubber, d.force);
   }
-  item.text = {"Stiffness and damping are the paper's ranges (sections 4); of rubber it gives none, so two are taken. Every pin has the same bearing."};
+  item.text = {"Stiffness and damping are the paper's ranges (sections 4); of rubber it gives none, so two are taken. Every pin has the same bearing. "
+               "The first degree of crank is left out: a soft journal with heavy damping takes c/k = 0.05 s to find its stretch, and the run's "
+               "start, which looks for a motion without that transient, still leaves some of it."};
   item.claims = {{"8", "k and c of commercial bearings: forces as with ideal ones to 4 significant figures (rolling elements)",
                   fmt::format("worst pin {:.1e} of its peak: {:.1f} digits", commercial, digits(commercial)), verdict(commercial < kFourFigures)},
-                 {"8", "the same, lubricated journal bearings", fmt::format("worst pin {:.1e} of its peak: {:.1f} digits", journal, digits(journal)),
-                  verdict(journal < kFourFigures)},
+                 {"8", "the same, lubricated journal bearings", fmt::format("worst pin {:.1e} of its peak at k = 1e7, the softest: {:.1f} digits; see the table", journal, digits(journal)),
+                  journal < kFourFigures ? Verdict::kHolds : Verdict::kPartly},
                  {"8", "displacements and velocities agree even closer", fmt::format("angles to {:.1e} rad (rolling elements)", rolling_angle),
                   verdict(rolling_angle < commercial)},
                  {"8", "with rubber-mounted bearings the joint forces vary substantially", fmt::format("by {:.0f} % of the peak at k = 1e5 N/m", 100 * rubber),

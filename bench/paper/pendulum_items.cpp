@@ -15,6 +15,7 @@ namespace pintle::paper {
 namespace {
 
 constexpr double kStep = 1e-3;   // between output times [s]
+constexpr double kFine = 1e-4;   // the same where a start's shock is timed [s]
 constexpr double kBound = 5e-5;  // of Figure 7 [N], [rad]
 
 Model pendulum(Start start) {
@@ -29,8 +30,10 @@ struct Swing {
   std::vector<double> t, fx, fy, theta;
 };
 
-Swing compliant(Start start) {
-  const Trajectory r = run(pendulum(start));
+Swing compliant(Start start, bool fine) {
+  Model model = pendulum(start);
+  if (fine) model.simulate.output_step = kFine;
+  const Trajectory r = run(model);
   return {column(r, "t"), column(r, "joint.pin.on_rod.fx[world]"), column(r, "joint.pin.on_rod.fy[world]"),
           column(r, "body.rod.angle")};
 }
@@ -107,7 +110,7 @@ Plot figure_7(const Swing& unloaded, const Swing& preloaded) {
 
 Item make_figure_6() {
   Item item{"figure-6", "Figure 6: the pendulum", {}, {}, {}, {}, {}};
-  const Swing c = compliant(Start::kAssembled), i = ideal(c.t), d = difference(c, i);
+  const Swing c = compliant(Start::kAssembled, false), i = ideal(c.t), d = difference(c, i);
   item.text = {
       "A rod of 1 kg and 1 m is let go from 90°; x points down, g = 9.81 m/s² (the paper does not print it). The ideal pin is the "
       "closed form of (21)-(23) in Jacobi's elliptic functions."};
@@ -133,7 +136,7 @@ Item make_figure_6() {
 
 Item make_figure_7() {
   Item item{"figure-7", "Figure 7: compliant less ideal", {}, {}, {}, {}, {}};
-  const Swing unloaded = compliant(Start::kUnloaded), preloaded = compliant(Start::kAssembled), i = ideal(unloaded.t);
+  const Swing unloaded = compliant(Start::kUnloaded, true), preloaded = compliant(Start::kAssembled, true), i = ideal(unloaded.t);
   const Swing du = difference(unloaded, i), dp = difference(preloaded, i);
   item.text = {
       "The ideal pin carries a quarter of the weight, 2.4525 N, at the instant of release. A compliant pin that starts "
@@ -141,7 +144,7 @@ Item make_figure_7() {
       "if the pin is stretched beforehand by what it has to carry, and from some milliseconds on if not."};
   item.claims = {
       {"7, Fig. 7", "difference below 5e-5 throughout, from the printed start (an unstretched pin)",
-       fmt::format("{:.4f} N at t = 0; above 5e-5 until {:.0f} ms; {:.1e} afterwards", du.fx[0], 1e3 * settled_after(du), worst(dp)),
+       fmt::format("{:.4f} N at t = 0; above 5e-5 until {:.1f} ms", du.fx[0], 1e3 * settled_after(du)),
        verdict(worst(du) < kBound)},
       {"7, Fig. 7", "the same from a pin that carries its load at the start",
        fmt::format("{:.1e} N in Fx, {:.1e} N in Fy, {:.1e} rad", largest(dp.fx), largest(dp.fy), largest(dp.theta)),
@@ -157,7 +160,7 @@ Item make_figure_7() {
     const Trajectory r = run(model, true);
     const Swing s{column(r, "t"), column(r, "joint.pin.on_rod.fx[world]"), column(r, "joint.pin.on_rod.fy[world]"),
                   column(r, "body.rod.angle")};
-    const Swing d = difference(s, i);
+    const Swing d = difference(s, ideal(s.t));
     table.rows.push_back({short_number(k), fmt::format("{:.1e}", largest(d.fx)), fmt::format("{:.1e}", largest(d.fy)),
                           fmt::format("{:.1e}", largest(d.theta))});
   }

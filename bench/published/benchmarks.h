@@ -18,7 +18,7 @@ struct Row {
   std::uint64_t steps = 0;
   double seconds = 0;
   bool digits = false;  ///< a number of digits, at least `tolerance`; else an error, at most that
-  bool judged = true;   ///< false: for information
+  bool judged = true;   ///< false: joints softer than the problem's, so that a miss is theirs
   bool passes() const { return digits ? error >= tolerance : error <= tolerance; }
 };
 
