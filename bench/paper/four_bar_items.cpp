@@ -134,7 +134,7 @@ Item make_bearings() {
     if (name.starts_with("journal")) journal = std::max(journal, d.force);
     if (name.starts_with("rubber")) rubber = std::max(rubber, d.force);
   }
-  item.text = {"Stiffness and damping are the paper's ranges (sections 4); of rubber it gives none, so two are taken. Every pin has the same bearing. "
+  item.text = {"Stiffness and damping are the paper's ranges (section 4); of rubber it gives none, so two are taken. Every pin has the same bearing. "
                "The first degree of crank is left out: a soft journal with heavy damping takes c/k = 0.05 s to find its stretch, and the run's "
                "start, which looks for a motion without that transient, still leaves some of it."};
   item.claims = {{"8", "k and c of commercial bearings: forces as with ideal ones to 4 significant figures (rolling elements)",

@@ -114,11 +114,12 @@ class Study {
     return all;
   }
 
-  void claim(const std::string& text, const Measured& m, bool holds) {
+  void claim(const std::string& text, const Measured& m, bool holds) { claim(text, m, verdict(holds)); }
+  void claim(const std::string& text, const Measured& m, Verdict found) {
     item_.claims.push_back({"7", text,
                             m.trouble.empty() ? fmt::format("error {} of the peak, ripple {} N", number(m.error / kPeak), number(m.ripple))
                                               : m.trouble,
-                            verdict(holds)});
+                            found});
   }
 
   void finish() { item_.tables.push_back(std::move(table_)); }
@@ -156,7 +157,8 @@ Item make_solvers() {
     study.claim("ode113, c = 0: accurate, vibration of about 1e-5 N", m[3], m[3].ripple < 3e-5 && m[3].ripple > 3e-6);
   study.measure_all("dopri5", kExplicit);
   if (const auto m = study.measure_all("radau", kImplicit); !m.empty())
-    study.claim("stiff solvers do worse on this problem than non-stiff ones (`radau` here, c = 0)", m[1], m[1].error / kPeak > 1e-5);
+    study.claim("the stiff solvers do worse on this problem than the non-stiff ones (not so `radau`, c = 0)", m[1],
+                m[1].error / kPeak > 1e-5 ? Verdict::kHolds : Verdict::kPartly);
   study.finish();
   return item;
 }

@@ -94,7 +94,7 @@ Item make_start() {
                   fmt::format("right to 1 % after {:.1f} degrees", lightest), verdict(lightest < kFew)},
                  {"8", "the same with the most damped rolling bearing (c = 1e4)", fmt::format("right to 1 % after {:.1f} degrees", rolling),
                   verdict(rolling < kFew)}};
-  item.pictures = {{"start.svg", "Damped vibrations decay as exp(-c t / 2m); more damping than critical takes longer again.", plot}};
+  item.pictures = {{"start.svg", "The rate of decay goes as c, until damping is critical; beyond that it takes longer again.", plot}};
   item.tables = {table};
   return item;
 }
