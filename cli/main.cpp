@@ -62,6 +62,8 @@ int run_program(int argc, char** argv) {
   int exit_code = kOk;
   add_run(app, exit_code);
   add_check(app, exit_code);
+  add_compare(app, exit_code);
+  add_stiffen(app, exit_code);
   add_plot(app, exit_code);
   add_convert(app, exit_code);
   add_fmt(app, exit_code);

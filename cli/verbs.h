@@ -10,6 +10,8 @@ namespace pintle::cli {
 
 void add_run(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
+void add_compare(CLI::App& app, int& exit_code);
+void add_stiffen(CLI::App& app, int& exit_code);
 void add_plot(CLI::App& app, int& exit_code);
 void add_convert(CLI::App& app, int& exit_code);
 void add_fmt(CLI::App& app, int& exit_code);

@@ -28,6 +28,7 @@ struct LoadSummary {
   double peak_moment = 0, rms_moment = 0, mean_moment = 0;
   double error_estimate = 0;           ///< largest error of any component over the run, same unit as the component
   double relative_error_estimate = 0;  ///< the same over the joint's peak [-]
+  bool unique = true;                  ///< false: redundant ideal constraints leave its force undetermined; one of many is given
 };
 
 /// A motor: peak, RMS and mean effort [N*m or N] and power [W].

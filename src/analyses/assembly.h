@@ -12,6 +12,7 @@ namespace pintle {
 struct Assembly {
   State state;                     // t = 0
   std::vector<std::string> notes;  // what was assumed
+  std::vector<std::string> not_unique;  // ideal equations: joints whose reactions they do not determine
   double largest_move = 0;         // of a centre of mass that was stated [m]
 };
 

@@ -32,6 +32,7 @@ class MobilityCount {
 
   MobilityCheck run() {
     CheckMobility& counts = out_.counts;
+    out_.regular = q_;
     counts.freedoms = S::kDof * system_.n_bodies();
     counts.constraints = static_cast<int>(joints_.size());
     counts.servos = static_cast<int>(driven_.size() - joints_.size());
@@ -103,8 +104,10 @@ class MobilityCount {
       if (!move_away(here, random, q)) continue;
       const auto rows = joint_rows(q);
       const DenseRank there(rows, system_, length_, out_.counts.rank_tolerance);
-      if (there.rank() > std::max(out_.counts.rank_nearby, here.rank()))
+      if (there.rank() > std::max(out_.counts.rank_nearby, here.rank())) {
         out_.redundancies = redundancies(system_, rows, there);
+        out_.regular = q;
+      }
       out_.counts.rank_nearby = std::max(out_.counts.rank_nearby, there.rank());
     }
   }

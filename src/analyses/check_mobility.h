@@ -11,6 +11,7 @@ namespace pintle {
 struct MobilityCheck {
   CheckMobility counts;
   std::vector<CheckRedundancy> redundancies;
+  Vecs regular;  // an assembled position of the highest rank found
 };
 
 /// `q`: assembled positions, the joints as little strained as they can be.

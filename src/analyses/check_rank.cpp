@@ -1,5 +1,6 @@
 #include "analyses/check_rank.h"
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
@@ -55,6 +56,15 @@ DenseRank::DenseRank(const std::vector<ConstraintRow>& rows, const System& syste
   while (rank_ < values_.size() && values_[rank_] > tolerance * values_[0]) ++rank_;
   left_ = svd.matrixU().leftCols(rank_);
   right_ = svd.matrixV().leftCols(rank_);
+  jacobian_ = std::move(G);
+}
+
+std::vector<int> DenseRank::independent_rows() const {
+  std::vector<int> rows;
+  if (rank_ == 0) return rows;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(jacobian_.transpose());
+  for (int i = 0; i < rank_; ++i) rows.push_back(static_cast<int>(factors.colsPermutation().indices()[i]));
+  return rows;
 }
 
 Eigen::MatrixXd DenseRank::dependencies() const {

@@ -21,12 +21,15 @@ class DenseRank {
   double largest_dropped() const { return rank_ < values_.size() && values_[0] > 0 ? values_[rank_] / values_[0] : 0; }
   /// Projector onto the rows' dependencies (left null space); its diagonal adds up to the number of redundant rows.
   Eigen::MatrixXd dependencies() const;
+  /// As many independent rows as the rank, the most independent ones first.
+  std::vector<int> independent_rows() const;
   /// The part of a motion that no row resists. Scaled columns.
   Eigen::VectorXd free_part(const Eigen::VectorXd& motion) const;
   /// The shortest motion that closes the rows' gaps. Scaled columns.
   Eigen::VectorXd closing_motion() const;
 
  private:
+  Eigen::MatrixXd jacobian_;      // scaled
   Eigen::MatrixXd left_, right_;  // singular vectors that count
   Eigen::VectorXd values_, gaps_;
   int n_rows_ = 0, rank_ = 0;

@@ -41,7 +41,7 @@ Integration integrate(const System& system, const State& start, const Integratio
   stepper.set_max_step(plan.max_step);
   if (plan.scale) stepper.set_load_scale(*plan.scale);
   stepper.start(start, plan.first_step);
-  recorder.add(start);
+  recorder.add(stepper.state());
   std::size_t row = 1;
   const double end = plan.duration, almost = end * (1 - 1e-12);
   Standstill standstill(end);

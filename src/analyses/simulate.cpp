@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kMaxPasses = 6;
 constexpr double kLoosest = 1e-4;   // of the second pass: above it steps are bounded by other things, and two passes are alike
+constexpr double kLoosestIdeal = 1e-8;  // ideal joints are a reference, and cheap
 constexpr double kLeastTolerance = 1e-13;
 // The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
 constexpr double kSharePower = 0.8, kShareOfEqual = 3;
@@ -68,6 +69,7 @@ class Run {
     Assembly assembly = start_of_run(model_, system_);
     start_ = std::move(assembly.state);
     out_.notes = std::move(assembly.notes);
+    not_unique_ = std::move(assembly.not_unique);
     out_.tolerance = model_.simulate.tolerance;
     choice_.equations = model_.simulate.equations;
     choice_.method = model_.simulate.method == "auto" ? usual_method(choice_.equations) : model_.simulate.method;
@@ -132,7 +134,7 @@ class Run {
     double share = 1, error = 0;
     bool doubted = false;  // a pass has been made because two were alike
     choice_.stages = wanted < kTight ? 5 : 3;
-    double tolerance = std::min(wanted, kLoosest);
+    double tolerance = std::min(wanted, choice_.equations == Equations::kIdeal ? kLoosestIdeal : kLoosest);
     bool complete = run_pass(kPilot * tolerance);
     const Counters& pilot = last_.counters;
     if (complete && choice_.method == "radau" && choice_.stages == 3 && static_cast<double>(pilot.newton_iterations) < kEasy * static_cast<double>(pilot.steps)) {
@@ -183,6 +185,7 @@ class Run {
     for (std::size_t j = 0; j < system_.joints.size(); ++j) {
       if (system_.joints[j].servo >= 0) continue;
       LoadSummary& joint = out_.joints[row++];
+      joint.unique = std::find(not_unique_.begin(), not_unique_.end(), joint.name) == not_unique_.end();
       if (difference.force.empty()) continue;
       joint.error_estimate = share * difference.force[j];
       joint.relative_error_estimate = share * relative_difference[j];
@@ -212,6 +215,7 @@ class Run {
   System system_;
   State start_;
   Trajectory out_;
+  std::vector<std::string> not_unique_;
   MethodChoice choice_;
   std::unique_ptr<Recorder> coarse_, fine_;
   double fine_tolerance_ = 0;

@@ -1,5 +1,8 @@
 #include "analyses/start.h"
 
+#include <utility>
+
+#include "analyses/ideal_rows.h"
 #include "analyses/slow_motion.h"
 #include "integrators/radau_stepper.h"
 
@@ -20,9 +23,21 @@ double natural_step(const System& system, const State& start, double duration) {
   return scout.state().t - scout.previous().t;
 }
 
+// Ideal joints carry no preload: the loops are closed as they are.
+Assembly ideal_start(Model model, System& system) {
+  if (model.simulate.start == Start::kAssembled) model.simulate.start = Start::kUnloaded;
+  Assembly assembly = assemble(model, system);
+  make_ideal(system);
+  IdealRows rows = choose_ideal_rows(system, assembly.state.q);
+  assembly.notes.insert(assembly.notes.end(), rows.notes.begin(), rows.notes.end());
+  assembly.not_unique = std::move(rows.not_unique);
+  return assembly;
+}
+
 }  // namespace
 
 Assembly start_of_run(const Model& model, System& system) {
+  if (model.simulate.equations == Equations::kIdeal) return ideal_start(model, system);
   Assembly assembly = assemble(model, system);
   if (model.simulate.start != Start::kAssembled || system.joints.empty()) return assembly;
   double span = 0.5 * natural_step(system, assembly.state, model.simulate.duration);

@@ -5,6 +5,7 @@
 
 #include "integrators/dense_output.h"
 #include "integrators/dopri5.h"
+#include "integrators/ideal_stepper.h"
 
 namespace pintle {
 namespace {
@@ -48,6 +49,7 @@ std::unique_ptr<Stepper> make_stepper(const System& system, const MethodChoice& 
       return std::make_unique<BodyStepper<RadauStepper>>(system, RadauStepper(system, tolerance, choice.stages));
     if (choice.method == "dopri5") return std::make_unique<BodyStepper<Dopri5>>(system, Dopri5(system, tolerance));
   }
+  if (choice.equations == Equations::kIdeal && choice.method == "dopri5") return std::make_unique<IdealStepper>(system, tolerance);
   throw std::invalid_argument("there is no method " + choice.method + " for these equations");
 }
 

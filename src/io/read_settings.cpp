@@ -31,6 +31,15 @@ void check_times(ModelReading& reading, const Record& record) {
   }
 }
 
+// Which methods solve which equations.
+void check_method(ModelReading& reading, const Record& record, const std::string& equations) {
+  const std::string& method = reading.model.simulate.method;
+  const bool fits = method == "auto" || method == "dopri5" || equations == "newtonian" || (equations == "lagrangian" && method == "radau");
+  if (fits) return;
+  reading.complaints.add(record.spot("method"), "simulate.method", in_quotes(method), "this method does not solve the " + equations + " equations",
+                         equations == "ideal" ? "method = \"auto\"" : "\"auto\", \"radau\" or \"dopri5\"");
+}
+
 void read_simulate(ModelReading& reading) {
   const Entry* entry = reading.root.find_entry("simulate");
   if (entry == nullptr) return;
@@ -45,6 +54,7 @@ void read_simulate(ModelReading& reading) {
   simulate.equations = equations == "ideal"        ? Equations::kIdeal
                        : equations == "lagrangian" ? Equations::kLagrangian
                                                    : Equations::kNewtonian;
+  check_method(reading, record, equations);
   const std::string start = record.word("start");
   simulate.start = start == "raw" ? Start::kRaw : start == "unloaded" ? Start::kUnloaded : Start::kAssembled;
   check_times(reading, record);

@@ -44,6 +44,7 @@ void for_each_entry(Load& load, const Visit& visit) requires requires {
   visit("mean_moment", load.mean_moment);
   visit("error_estimate", load.error_estimate);
   visit("relative_error_estimate", load.relative_error_estimate);
+  visit("unique", load.unique);
 }
 
 template <class Motor, class Visit>
@@ -138,7 +139,10 @@ void load(const Json& json, T& value) {
 
 template <class T>
 void from_json(const Json& json, T& structure) {
-  for_each_entry(structure, [&json](const char* key, auto& member) { load(json.at(key), member); });
+  for_each_entry(structure, [&json](const char* key, auto& member) {
+    const bool newer = std::string_view(key) == "unique" && !json.contains(key);  // runs of version 0.1 before ideal joints
+    if (!newer) load(json.at(key), member);
+  });
 }
 
 template <class T>

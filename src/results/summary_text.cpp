@@ -63,7 +63,7 @@ std::string joint_section(const Trajectory& trajectory, const Style& style) {
     any_marked = any_marked || marked;
     table.add_row({load.name, load.type, load.second_body, load.first_body, engineering(load.peak),
                    engineering(load.peak_time), engineering(load.rms), exponent(load.error_estimate),
-                   exponent(load.relative_error_estimate), marked ? style.warn + "<" + style.plain : ""});
+                   exponent(load.relative_error_estimate), (marked ? style.warn + "<" + style.plain : "") + (load.unique ? "" : " not unique")});
   }
   std::string text = section("Joint forces (magnitude)", table, style);
   if (any_marked)

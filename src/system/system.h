@@ -2,6 +2,7 @@
 // It knows no files and no integrator. Immutable once it is settled (src/system/build.h makes it from a Model).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -38,6 +39,7 @@ struct JointData {
   Probe probe;
   Law law;
   bool ideal = false;          // its gap is kept at zero by the equations, its law is not asked
+  std::array<bool, 3> redundant{};  // components of an ideal joint that other ideal joints keep already
   int servo = -1;              // component that a servo drives, -1: not a servo
   double start = 0;            // constant-speed servo: coordinate as assembled
   double speed = 0;            // constant-speed servo [rad/s or m/s]

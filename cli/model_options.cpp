@@ -1,0 +1,57 @@
+#include "cli/model_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "io/document.h"
+#include "pintle/read_model.h"
+#include "results/disk.h"
+
+namespace pintle::cli {
+namespace {
+
+/// A model may leave its duration to the command line; a run may not.
+void check_duration(const Model& model, const std::string& text, const std::string& file) {
+  if (model.simulate.duration > 0) return;
+  const Document document = parse_document(text, file);
+  const Entry* simulate = document.root.table()->find_entry("simulate");
+  throw InputError({document.complaint(simulate == nullptr ? Spot{0, 1, 1} : simulate->key_spot, "simulate.duration",
+                                       "no duration", "a run needs to know how long it lasts",
+                                       "duration = \"1 s\" under [simulate], or --duration '1 s'")});
+}
+
+}  // namespace
+
+void add_model_options(CLI::App& verb, ModelOptions& options) {
+  verb.add_option("MODEL", options.model, "model file (.toml or .json)")->required();
+  verb.add_option("--set", options.overrides,
+                  "change one value of the model, e.g. joint.A.stiffness=2e8 (repeatable)")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  verb.add_option("--duration", options.duration, "model time to run, e.g. 2 or '500 ms'")->type_name("TIME");
+  verb.add_option("--tolerance", options.tolerance, "wanted error of each joint force, relative to its peak")
+      ->type_name("NUMBER");
+}
+
+std::vector<std::string> all_overrides(const ModelOptions& options) {
+  std::vector<std::string> overrides = options.overrides;
+  const auto add = [&overrides](const char* key, const std::string& value) {
+    if (!value.empty()) overrides.push_back(fmt::format("simulate.{}={}", key, value));
+  };
+  add("duration", options.duration);
+  add("tolerance", options.tolerance);
+  add("method", options.method);
+  add("equations", options.equations);
+  return overrides;
+}
+
+ReadModel read_model_to_run(const ModelOptions& options) {
+  ReadModel read;
+  read.text = read_file(options.model, kMaxFileBytes + 1);
+  read.model = parse_model(read.text, options.model, all_overrides(options));
+  check_duration(read.model, read.text, options.model);
+  return read;
+}
+
+}  // namespace pintle::cli

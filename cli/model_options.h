@@ -1,0 +1,45 @@
+// What every verb that runs a model asks for: the file, changes to it, duration, tolerance.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pintle/model.h"
+#include "pintle/simulate.h"
+
+namespace CLI {
+class App;
+}
+
+namespace pintle::cli {
+
+struct ModelOptions {
+  std::string model;
+  std::vector<std::string> overrides;
+  std::string duration, tolerance, method, equations;
+};
+
+/// MODEL, --set, --duration, --tolerance.
+void add_model_options(CLI::App& verb, ModelOptions& options);
+
+/// --duration and its kin are --set simulate.duration and its kin.
+std::vector<std::string> all_overrides(const ModelOptions& options);
+
+/// The file's text and the model in it, ready to run. Throws InputError, FileError.
+struct ReadModel {
+  std::string text;
+  Model model;
+};
+ReadModel read_model_to_run(const ModelOptions& options);
+
+/// Calls `run`, and puts the file's name before an assembly's message.
+template <class F>
+auto with_file_name(const std::string& file, F&& run) {
+  try {
+    return run();
+  } catch (const AssemblyError& error) {
+    throw AssemblyError(file + ": " + error.what());
+  }
+}
+
+}  // namespace pintle::cli

@@ -1,0 +1,165 @@
+#include "pintle/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace pintle {
+namespace {
+
+constexpr double kNegligible = 1e-4;  // a quantity is measured at least by this part of the largest of its unit
+constexpr double kBeyond = 2;         // times the error estimates: more is physical
+constexpr int kMostDigits = 15;
+
+// The columns of one quantity: components whose differences count together.
+struct Quantity {
+  std::string name, unit;
+  std::vector<std::pair<std::size_t, std::size_t>> columns;  // in the first and the second run
+};
+
+bool add_column(const Comparison& c, const std::string& name, Quantity& quantity) {
+  const int a = c.first.column(name), b = c.second.column(name);
+  if (a < 0 || b < 0) return false;
+  quantity.columns.emplace_back(a, b);
+  quantity.unit = c.first.columns[static_cast<std::size_t>(a)].unit;
+  return true;
+}
+
+// Rows of both runs at the same time.
+std::vector<std::pair<std::size_t, std::size_t>> common_rows(const Trajectory& a, const Trajectory& b) {
+  std::vector<std::pair<std::size_t, std::size_t>> rows;
+  for (std::size_t i = 0, j = 0; i < a.n_rows() && j < b.n_rows();) {
+    const double ta = a.at(i, 0), tb = b.at(j, 0), close = 1e-12 * std::max(std::abs(ta), std::abs(tb));
+    if (std::abs(ta - tb) <= close) rows.emplace_back(i++, j++);
+    else if (ta < tb) ++i;
+    else ++j;
+  }
+  return rows;
+}
+
+Difference measure(const Comparison& c, const Quantity& quantity, const std::vector<std::pair<std::size_t, std::size_t>>& rows) {
+  Difference d;
+  d.name = quantity.name;
+  d.unit = quantity.unit;
+  double square = 0;
+  for (const auto& [i, j] : rows) {
+    double size = 0, gap = 0;
+    for (const auto& [a, b] : quantity.columns) {
+      size = std::hypot(size, c.second.at(j, b));
+      gap = std::hypot(gap, c.first.at(i, a) - c.second.at(j, b));
+    }
+    d.peak = std::max(d.peak, size);
+    square += gap * gap;
+    if (gap > d.largest) {
+      d.largest = gap;
+      d.largest_time = c.first.at(i, 0);
+    }
+  }
+  d.rms = rows.empty() ? 0 : std::sqrt(square / static_cast<double>(rows.size()));
+  return d;
+}
+
+// Relative to the peak; what is next to nothing, to a part of the largest of its unit.
+void relate(std::vector<Difference>& list) {
+  std::map<std::string, double> largest;
+  for (const Difference& d : list) largest[d.unit] = std::max(largest[d.unit], d.peak);
+  for (Difference& d : list) {
+    const double base = std::max({d.peak, kNegligible * largest[d.unit], 1e-300});
+    d.relative = d.largest / base;
+    d.relative_rms = d.rms / base;
+    d.digits = agreeing_digits(d.relative);
+  }
+}
+
+void judge(const LoadSummary& a, const LoadSummary& b, Difference& d) {
+  d.error_estimate = a.error_estimate + b.error_estimate;
+  d.cause = !a.unique || !b.unique ? Cause::kNotUnique : d.largest <= kBeyond * d.error_estimate ? Cause::kNumerical : Cause::kPhysical;
+}
+
+void add_joints(Comparison& c, const std::vector<std::pair<std::size_t, std::size_t>>& rows) {
+  for (std::size_t j = 0; j < std::min(c.first.joints.size(), c.second.joints.size()); ++j) {
+    const LoadSummary &a = c.first.joints[j], &b = c.second.joints[j];
+    const std::string path = "joint." + a.name + ".on_" + a.second_body + ".";
+    Quantity force{a.name, "", {}}, couple{a.name, "", {}};
+    if (add_column(c, path + "fx[world]", force) && add_column(c, path + "fy[world]", force)) {
+      c.forces.push_back(measure(c, force, rows));
+      judge(a, b, c.forces.back());
+    }
+    if (a.has_moment && add_column(c, path + "m[world]", couple)) {
+      c.couples.push_back(measure(c, couple, rows));
+      judge(a, b, c.couples.back());
+    }
+  }
+  relate(c.forces);
+  relate(c.couples);
+}
+
+void add_coordinates(Comparison& c, const std::vector<std::pair<std::size_t, std::size_t>>& rows) {
+  const auto is_coordinate = [](const std::string& name) {
+    const auto dot = name.rfind('.');
+    const std::string word = dot == std::string::npos ? "" : name.substr(dot + 1);
+    const bool of_body = name.starts_with("body.") && (word == "x" || word == "y" || word == "angle");
+    return of_body || (name.starts_with("joint.") && (word == "angle" || word == "slide"));
+  };
+  for (const Column& column : c.first.columns) {
+    Quantity quantity{column.name, "", {}};
+    if (is_coordinate(column.name) && add_column(c, column.name, quantity)) c.coordinates.push_back(measure(c, quantity, rows));
+  }
+  relate(c.coordinates);
+}
+
+// The least stiffness of a linear law's components [N/m], or of its angle [N*m/rad].
+double least(const LawChoice& law, const char* key, double otherwise) {
+  const auto it = law.values.find(key);
+  return it == law.values.end() || it->second.empty() ? otherwise : *std::min_element(it->second.begin(), it->second.end());
+}
+
+void find_softness(const Model& model, Comparison& c) {
+  double all = 0;
+  for (const Joint& joint : model.joints) {
+    const auto load = std::find_if(c.first.joints.begin(), c.first.joints.end(), [&](const LoadSummary& l) { return l.name == joint.name; });
+    if (load == c.first.joints.end() || joint.law.word != "linear") continue;
+    double energy = load->peak * load->peak / (2 * least(joint.law, "stiffness", 1e8));
+    if (load->has_moment) energy += load->peak_moment * load->peak_moment / (2 * least(joint.law, "angular_stiffness", 1e6));
+    all += energy;
+    c.softness.push_back({joint.name, energy});
+  }
+  for (Softness& s : c.softness) s.share = all > 0 ? s.share / all : 0;
+  std::stable_sort(c.softness.begin(), c.softness.end(), [](const Softness& a, const Softness& b) { return a.share > b.share; });
+}
+
+}  // namespace
+
+int agreeing_digits(double relative_difference) {
+  if (!(relative_difference < 0.5)) return 0;
+  const double digits = -std::log10(2 * std::max(relative_difference, 1e-300));
+  return std::clamp(static_cast<int>(std::floor(digits + 1e-12)), 0, kMostDigits);
+}
+
+Comparison compare(const Model& model, Trajectory first, Trajectory second, Equations against) {
+  Comparison c;
+  c.first = std::move(first);
+  c.second = std::move(second);
+  c.against = against;
+  const auto rows = common_rows(c.first, c.second);
+  add_joints(c, rows);
+  add_coordinates(c, rows);
+  find_softness(model, c);
+  return c;
+}
+
+Comparison compare(const Model& model, Equations against, const Observer& observer) {
+  Model compliant = model, other = model;
+  compliant.simulate.equations = Equations::kNewtonian;
+  other.simulate.equations = against;
+  other.simulate.method = "auto";
+  Trajectory first = simulate(compliant, observer);
+  if (first.outcome == Outcome::kInterrupted) return compare(model, first, first, against);
+  Trajectory second = simulate(other, observer);
+  return compare(model, std::move(first), std::move(second), against);
+}
+
+}  // namespace pintle

@@ -1,0 +1,23 @@
+// Which gap components the ideal equations keep: all of the ideal joints' but those that the others keep already.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "system/system.h"
+
+namespace pintle {
+
+struct IdealRows {
+  std::vector<std::string> notes;       // what is redundant and what was left out
+  std::vector<std::string> not_unique;  // joints whose reactions the ideal equations do not determine
+};
+
+/// Marks every joint of a linear law, and every servo, as ideal.
+void make_ideal(System& system);
+
+/// Sets JointData::redundant at the assembled positions q. Reactions of the components left out are zero. theory/ideal
+/// section 3.
+IdealRows choose_ideal_rows(System& system, const Vecs& q);
+
+}  // namespace pintle

@@ -1,0 +1,144 @@
+// Ideal joints with multipliers, against closed forms and one-coordinate solutions; what is said of redundant constraints and of
+// singular positions.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/reference_tables.h"
+
+namespace pintle {
+namespace {
+
+using reference::value;
+
+constexpr double kNineDigits = 1e-9;
+
+Trajectory ideal_run(const std::string& mechanism, std::vector<std::string> overrides = {}) {
+  overrides.push_back("simulate.equations=\"ideal\"");
+  const Trajectory run = simulate(reference::mechanism(mechanism, overrides));
+  EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+  EXPECT_EQ(run.method, "dopri5");
+  return run;
+}
+
+bool mentions(const Trajectory& run, const std::string& what) {
+  for (const std::string& note : run.notes)
+    if (note.find(what) != std::string::npos) return true;
+  return false;
+}
+
+struct Pin {
+  const char *column, *x, *y;
+};
+
+void expect_pins(const Trajectory& run, const reference::Table& exact, std::initializer_list<Pin> pins) {
+  for (const Pin& pin : pins)
+    for (std::size_t i = 0; i < exact.rows.size(); ++i) {
+      const std::size_t row = reference::row_at(run, exact.at(i, "t"));
+      EXPECT_LT(reference::force_error(run, row, pin.column, exact.at(i, pin.x), exact.at(i, pin.y)), kNineDigits * exact.peak(pin.x, pin.y))
+          << pin.column << " " << i;
+    }
+}
+
+TEST(Ideal, FourBarHasNineDigits) {
+  const Trajectory run = ideal_run("four_bar", {"simulate.tolerance=1e-9"});
+  const reference::Table exact = reference::read_table("four_bar");
+  expect_pins(run, exact, {{"O2.on_crank", "F12x", "F12y"}, {"A.on_coupler", "F23x", "F23y"}, {"B.on_follower", "F34x", "F34y"}, {"O4.on_follower", "F14x", "F14y"}});
+  for (std::size_t i = 0; i < exact.rows.size(); ++i) {
+    const std::size_t row = reference::row_at(run, exact.at(i, "t"));
+    EXPECT_NEAR(value(run, row, "body.follower.angle"), exact.at(i, "theta4"), kNineDigits);
+    EXPECT_NEAR(value(run, row, "body.follower.spin"), exact.at(i, "omega4"), 10 * kNineDigits);
+  }
+  EXPECT_LT(run.energy.drift, 1e-11 * run.energy.kinetic_peak);
+}
+
+TEST(Ideal, InvertedSliderCrankHasNineDigits) {
+  const Trajectory run = ideal_run("inverted_slider_crank", {"simulate.tolerance=1e-9", "simulate.duration=pi/10"});
+  const reference::Table exact = reference::read_table("inverted_slider_crank");
+  reference::Table turn = exact;
+  turn.rows.resize(37);
+  expect_pins(run, turn, {{"O2.on_crank", "F12x", "F12y"}, {"A.on_block", "F23x", "F23y"}, {"O4.on_guide", "F14x", "F14y"}});
+  for (std::size_t i = 0; i < turn.rows.size(); ++i) {
+    const std::size_t row = reference::row_at(run, turn.at(i, "t"));
+    EXPECT_NEAR(value(run, row, "joint.P.on_block.f2[joint]"), turn.at(i, "N43"), kNineDigits * turn.peak("N43"));
+    EXPECT_NEAR(value(run, row, "joint.P.on_block.m[world]"), turn.at(i, "M43"), kNineDigits * turn.peak("M43"));
+  }
+}
+
+TEST(Ideal, PendulumIsTheEllipticFunction) {
+  const Trajectory run = ideal_run("pendulum", {"simulate.tolerance=1e-9"});
+  const reference::Table exact = reference::read_table("pendulum");
+  expect_pins(run, exact, {{"pin.on_rod", "Fx", "Fy"}});
+  for (std::size_t i = 0; i < exact.rows.size(); ++i)
+    EXPECT_NEAR(value(run, reference::row_at(run, exact.at(i, "t")), "body.rod.angle"), exact.at(i, "theta"), kNineDigits);
+}
+
+// Compliant joints of 1e10 N/m give the forces of ideal ones to six digits.
+TEST(Ideal, StiffJointsTendToIt) {
+  const Trajectory ideal = ideal_run("four_bar", {"simulate.tolerance=1e-8"});
+  Model model = reference::mechanism("four_bar", {"simulate.tolerance=1e-7"});
+  reference::set_joints(model, 1e10, 3e4);
+  const Trajectory stiff = simulate(model);
+  ASSERT_EQ(stiff.n_rows(), ideal.n_rows());
+  for (const LoadSummary& joint : ideal.joints) {
+    const std::string column = joint.name + ".on_" + joint.second_body, path = "joint." + column;
+    for (std::size_t row = 0; row < ideal.n_rows(); ++row)
+      EXPECT_LT(reference::force_error(stiff, row, column, value(ideal, row, path + ".fx[world]"), value(ideal, row, path + ".fy[world]")), 1e-6 * joint.peak);
+  }
+}
+
+// Two four-bars in a row pass through positions where all bars are in line; the exact motion goes straight on.
+TEST(Ideal, GoesThroughSingularPositionsAndNamesThem) {
+  const Trajectory run = ideal_run("n_four_bar_2", {"simulate.duration=4"});
+  const reference::Table exact = reference::read_table("n_four_bar_2");
+  for (std::size_t i = 0; i < exact.rows.size() && exact.at(i, "t") <= 4; ++i) {
+    const std::size_t row = reference::row_at(run, exact.at(i, "t"));
+    EXPECT_NEAR(value(run, row, "body.crank0.angle"), exact.at(i, "theta"), 1e-6) << exact.at(i, "t");
+    EXPECT_NEAR(value(run, row, "body.crank2.angle"), exact.at(i, "theta"), 1e-6) << exact.at(i, "t");
+  }
+  // All bars are horizontal after a quarter of a turn: by the energy of cranks and couplers, spin^2 = 1 + 2 g S/J (1 - sin angle).
+  const double fall = 2 * 9.81 * 3.5 / 3, quarter = std::numbers::pi / 2;
+  double t = 0;
+  const int n = 2000;
+  for (int i = 0; i <= n; ++i)
+    t += (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * quarter / (3 * n) / std::sqrt(1 + fall * (1 - std::sin(quarter * i / n)));
+  int named = 0;
+  for (const std::string& note : run.notes) {
+    const auto at = note.find("singular position at t = ");
+    if (at == std::string::npos) continue;
+    if (named++ == 0) {
+      EXPECT_NEAR(std::stod(note.substr(at + 25)), t, 1e-5);
+    }
+    EXPECT_NE(note.find(" along x"), std::string::npos) << note;  // the bars' own direction
+  }
+  EXPECT_GE(named, 3);
+  EXPECT_LT(run.energy.drift, 1e-8 * run.energy.kinetic_peak);
+}
+
+TEST(Ideal, NamesRedundantJointsAndStillMoves) {
+  const Trajectory run = ideal_run("five_bar_parallelogram", {"simulate.duration=0.3"});
+  EXPECT_TRUE(mentions(run, "1 constraint too many"));
+  for (const LoadSummary& joint : run.joints) EXPECT_FALSE(joint.unique) << joint.name;
+  const std::size_t last = run.n_rows() - 1;
+  const double turned = 2 * std::numbers::pi * 0.3;
+  for (const char* crank : {"crank1", "crank2", "crank3"})
+    EXPECT_NEAR(value(run, last, std::string("body.") + crank + ".angle") - value(run, 0, std::string("body.") + crank + ".angle"), turned, 2e-4) << crank;
+}
+
+TEST(Ideal, UniqueReactionsAreCalledUnique) {
+  for (const LoadSummary& joint : ideal_run("four_bar").joints) EXPECT_TRUE(joint.unique) << joint.name;
+}
+
+// Velocities that do not fit together are made to fit by an impulse in the joints, which takes kinetic energy.
+TEST(Ideal, InconsistentVelocitiesAreAnImpulse) {
+  const Trajectory run = ideal_run("four_bar", {"simulate.start=\"raw\""});
+  EXPECT_TRUE(mentions(run, "an impulse"));
+  EXPECT_EQ(run.outcome, Outcome::kCompleted);
+}
+
+TEST(Ideal, OtherMethodsAreRefusedWhereTheyStand) {
+  EXPECT_THROW(reference::mechanism("four_bar", {"simulate.equations=\"ideal\"", "simulate.method=\"radau\""}), InputError);
+}
+
+}  // namespace
+}  // namespace pintle
