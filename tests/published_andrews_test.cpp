@@ -46,6 +46,15 @@ TEST(PublishedAndrews, StiffPinsTendToThePublishedEnd) {
   EXPECT_LT(difference(limit, exact, 21, 27), 1e-4);
 }
 
+TEST(PublishedAndrews, IdealPinsGiveAllComponents) {
+  const std::vector<double> exact = facts("ivp_andrews")["exact"];
+  Model model = andrews(1e8);
+  model.simulate.equations = Equations::kIdeal;
+  const Components y = published::end_of(model, 1e-10).y;
+  EXPECT_LT(difference(y, exact, 0, 7), 1e-8);
+  EXPECT_LT(difference(y, exact, 7, 27), 1e-6);
+}
+
 double force_error(const Trajectory& run, const Model& model, const nlohmann::json& forces) {
   double worst = 0;
   for (std::size_t j = 0; j < forces["joints"].size(); ++j) {

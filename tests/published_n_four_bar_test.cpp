@@ -54,5 +54,20 @@ TEST(PublishedNFourBar, TwoLoopsKeepTheirEnergyThroughEightPassages) {
   }
 }
 
+// Ten seconds to the class of high precision, through some twenty singular positions.
+TEST(PublishedNFourBar, IdealLoopsFollowTheExactMotion) {
+  Model model = reference::mechanism("n_four_bar_2");
+  model.simulate.equations = Equations::kIdeal;
+  const Trajectory run = simulate(model);
+  ASSERT_NE(run.outcome, Outcome::kFailed) << run.message;
+  const nlohmann::json known = facts();
+  for (const auto& at : known["exact_2"]["rows"]) {
+    const std::size_t row = reference::row_at(run, at[0]);
+    EXPECT_NEAR(2 * value(run, row, "body.crank0.x"), at[1].get<double>(), 1e-3);
+    EXPECT_NEAR(2 * value(run, row, "body.crank0.y"), at[2].get<double>(), 1e-3);
+  }
+  EXPECT_LT(energy_error(run), 1e-3);
+}
+
 }  // namespace
 }  // namespace pintle

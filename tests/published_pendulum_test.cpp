@@ -53,6 +53,16 @@ TEST(PublishedPendulum, TensionIsThatOfTheMotion) {
   }
 }
 
+TEST(PublishedPendulum, IdealRodGivesThePublishedMotion) {
+  Model model = read_model(std::string(PINTLE_SOURCE_DIR) + "/bench/published/simple_pendulum.toml");
+  model.simulate.equations = Equations::kIdeal;
+  const Trajectory run = simulate(model);
+  ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+  const nlohmann::json known = facts();
+  EXPECT_LT(largest_difference(run, known["exact"]["rows"]), 1e-7);
+  EXPECT_LT(largest_difference(run, known["published"]["rows"]), 1e-6);
+}
+
 TEST(PublishedPendulum, TheRodsComplianceIsAllTheDifference) {
   const nlohmann::json exact = facts()["exact"]["rows"];
   const double soft = largest_difference(swing(1e7), exact), stiff = largest_difference(swing(1e8), exact);

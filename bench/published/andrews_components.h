@@ -53,6 +53,8 @@ inline End end_of(const Model& model, double tolerance) {
   System system = build_system(model);
   const State start = start_of_run(model, system).state;
   MethodChoice choice;
+  choice.equations = model.simulate.equations;
+  choice.method = usual_method(choice.equations);
   choice.stages = 5;
   const auto stepper = make_stepper(system, choice, tolerance);
   const double end = model.simulate.duration;

@@ -13,7 +13,7 @@ struct Joints {
   double k;
   bool ideal;
 };
-constexpr Joints kStiffest{1e12, false}, kIdeal{0, true};
+constexpr Joints kStiffest{1e12, false}, kIdeal{1e12, true};  // ideal: what has stiffness is a constraint
 
 // Rows t, x, y of B0 with N loops on the regular branch: a rotating pendulum, by the classical Runge-Kutta method.
 nlohmann::json exact_rows(int n) {
@@ -45,7 +45,7 @@ void measure_a01(Report& report) {
   const double high = facts["tolerance"]["high precision [m]"], energy = facts["tolerance"]["energy [J]"];
   for (const double end : {10.0, 100.0, 2000.0})
     for (const Joints& joints : {Joints{1e8, false}, kStiffest, kIdeal}) {
-      if (end > 100 && joints.k == 1e8) continue;
+      if (end > 100 && (joints.ideal || joints.k == 1e8)) continue;
       Model model = model_of("bench/published/simple_pendulum");
       set_joints(model, joints.k, 3000 * joints.k / 1e10);
       model.simulate.duration = end;
@@ -74,9 +74,11 @@ void measure_a02(Report& report) {
       const auto known = facts.find(fmt::format("exact_{}", n));
       const nlohmann::json rows = known != facts.end() ? (*known)["rows"] : exact_rows(n);
       add(report, problem, joints, r, "B0 until 2 s, high [m]", high, point_error(r, rows, "body.crank0", 2, 2));
-      add(report, problem, joints, r, "B0 until 10 s, low [m]", low, point_error(r, rows, "body.crank0", 2, 10));
+      const char* const whole = joints.ideal ? "B0 until 10 s, high [m]" : "B0 until 10 s, low [m]";
+      const double allowed = joints.ideal ? high : low;
+      add(report, problem, joints, r, whole, allowed, point_error(r, rows, "body.crank0", 2, 10));
       if (n == 40)
-        add(report, problem, joints, r, "B0, published [m]", low, point_error(r, facts["published"]["rows"], "body.crank0", 2, 10));
+        add(report, problem, joints, r, "B0, published [m]", allowed, point_error(r, facts["published"]["rows"], "body.crank0", 2, 10));
       add(report, problem, joints, r, "energy [J]", energy, energy_error(r));
     }
 }
