@@ -11,6 +11,7 @@ LONG := Slow|Radau|StageSolver|Dopri5|Allocations|DenseOutput|Simulate|Reference
 say        = @printf '\n=== %s\n' "$(1)"
 
 .PHONY: help setup build demo test install bench fuzz web-check format clean
+.PHONY: paper figure9 published
 .PHONY: check-sources test-release test-package test-clang
 
 help:
@@ -19,6 +20,9 @@ help:
 	@echo "make build      the optimised program, build/release/bin/pintle"
 	@echo "make install    library, headers and program to PREFIX (now $(PREFIX))"
 	@echo "make bench      benchmarks beside SUNDIALS, build/bench/bin/pintle-bench"
+	@echo "make paper      the paper's numbered results: docs/paper/README.md and its pictures"
+	@echo "make figure9    the paper's Figure 9 only"
+	@echo "make published  published benchmark problems, measured as their sources do"
 	@echo "make fuzz       fuzz the reader for FUZZ_SECONDS (now $(FUZZ_SECONDS)) per fuzzer"
 	@echo "make web-check  compile the library with emscripten"
 	@echo "make format     clang-format every source"
@@ -97,6 +101,20 @@ bench:
 	@$(CONFIGURE) -B build/bench -DPINTLE_TESTS=OFF -DPINTLE_BENCH=ON >/dev/null
 	@$(BUILD) build/bench -j $(JOBS)
 	@build/bench/bin/pintle-bench
+
+# Both programs need nothing beyond what the program itself needs.
+build/release/bin/%: setup
+	@$(CONFIGURE) -B build/release -DPINTLE_TESTS=OFF >/dev/null
+	@$(BUILD) build/release -j $(JOBS) --target $(subst -,_,$*)
+
+paper: build/release/bin/pintle-paper
+	@build/release/bin/pintle-paper
+
+figure9: build/release/bin/pintle-paper
+	@build/release/bin/pintle-paper --only figure-9
+
+published: build/release/bin/pintle-published
+	@build/release/bin/pintle-published
 
 web-check:
 	@tools/setup.sh web build

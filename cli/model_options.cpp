@@ -23,13 +23,14 @@ void check_duration(const Model& model, const std::string& text, const std::stri
 
 }  // namespace
 
-void add_model_options(CLI::App& verb, ModelOptions& options) {
+void add_model_options(CLI::App& verb, ModelOptions& options, bool tolerance) {
   verb.add_option("MODEL", options.model, "model file (.toml or .json)")->required();
   verb.add_option("--set", options.overrides,
                   "change one value of the model, e.g. joint.A.stiffness=2e8 (repeatable)")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
   verb.add_option("--duration", options.duration, "model time to run, e.g. 2 or '500 ms'")->type_name("TIME");
+  if (!tolerance) return;
   verb.add_option("--tolerance", options.tolerance, "wanted error of each joint force, relative to its peak")
       ->type_name("NUMBER");
 }
@@ -43,6 +44,7 @@ std::vector<std::string> all_overrides(const ModelOptions& options) {
   add("tolerance", options.tolerance);
   add("method", options.method);
   add("equations", options.equations);
+  add("max_step", options.max_step);
   return overrides;
 }
 

@@ -16,11 +16,11 @@ namespace pintle::cli {
 struct ModelOptions {
   std::string model;
   std::vector<std::string> overrides;
-  std::string duration, tolerance, method, equations;
+  std::string duration, tolerance, method, equations, max_step;
 };
 
-/// MODEL, --set, --duration, --tolerance.
-void add_model_options(CLI::App& verb, ModelOptions& options);
+/// MODEL, --set, --duration and, where the verb has one tolerance, --tolerance.
+void add_model_options(CLI::App& verb, ModelOptions& options, bool tolerance = true);
 
 /// --duration and its kin are --set simulate.duration and its kin.
 std::vector<std::string> all_overrides(const ModelOptions& options);

@@ -11,10 +11,8 @@
 #include "cli/console.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
+#include "cli/model_options.h"
 #include "cli/verbs.h"
-#include "io/document.h"
-#include "pintle/read_model.h"
-#include "pintle/simulate.h"
 #include "pintle/solvers.h"
 #include "results/disk.h"
 #include "results/solvers_report.h"
@@ -40,20 +38,11 @@ constexpr const char* kFooter =
     "velocities, as general integrators do: ode45 (Dormand-Prince), ode23t (trapezoidal rule), ode15s (BDF), ode113\n"
     "(Adams), hht (alpha = -0.05), generalised_alpha (spectral radius 0.9).\n\n";
 
-struct SolversOptions {
-  std::string model;
-  std::vector<std::string> overrides;
-  std::string duration, max_step, plot;
+struct SolversOptions : ModelOptions {
+  std::string plot;
   SolverStudyOptions study;
   bool json = false, quiet = false;
 };
-
-std::vector<std::string> all_overrides(const SolversOptions& options) {
-  std::vector<std::string> overrides = options.overrides;
-  if (!options.duration.empty()) overrides.push_back("simulate.duration=" + options.duration);
-  if (!options.max_step.empty()) overrides.push_back("simulate.max_step=" + options.max_step);
-  return overrides;
-}
 
 ExitCode exit_code_of(const SolverStudy& study) {
   if (study.interrupted) return kStoppedBySignal;
@@ -62,21 +51,14 @@ ExitCode exit_code_of(const SolverStudy& study) {
 }
 
 ExitCode solvers(const SolversOptions& options) {
-  const std::string text = read_file(options.model, kMaxFileBytes + 1);
-  const Model model = parse_model(text, options.model, all_overrides(options));
-  if (!(model.simulate.duration > 0)) {
-    print_error(fmt::format("pintle solvers: {} states no duration; give one, as in --duration '1 s'\n", options.model));
-    return kCommandLineError;
-  }
+  const Model model = read_model_to_run(options).model;
   catch_interrupts();
   SolverStudy study;
   try {
-    study = compare_solvers(model, options.study, [] { return !interrupted(); });
+    study = with_file_name(options.model, [&] { return compare_solvers(model, options.study, [] { return !interrupted(); }); });
   } catch (const std::invalid_argument& error) {
     print_error(fmt::format("pintle solvers: {}\n", error.what()));
     return kCommandLineError;
-  } catch (const AssemblyError& error) {
-    throw AssemblyError(fmt::format("{}: {}", options.model, error.what()));
   }
   const std::string title = model.name.empty() ? options.model : model.name;
   if (options.json) print_out(solvers_json(study, model.name, options.model));
@@ -93,10 +75,7 @@ void add_solvers(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("solvers", "Compare the integration methods on a model: cost, joint-force error, vibration");
   const auto options = std::make_shared<SolversOptions>();
   const std::vector<std::string> known = options->study.methods;
-  verb->add_option("MODEL", options->model, "model file (.toml or .json)")->required();
-  verb->add_option("--set", options->overrides, "change one value of the model, e.g. joint.A.stiffness=2e8 (repeatable)")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
+  add_model_options(*verb, *options, false);
   verb->add_option("--methods", options->study.methods, "which methods")
       ->type_name("LIST")
       ->delimiter(',')
@@ -113,7 +92,6 @@ void add_solvers(CLI::App& app, int& exit_code) {
   verb->add_option("--time-limit", options->study.time_limit, "seconds for each integration; longer ones are stopped (10)")
       ->type_name("SECONDS")
       ->check(CLI::PositiveNumber);
-  verb->add_option("--duration", options->duration, "model time to run, e.g. 2 or '500 ms'")->type_name("TIME");
   verb->add_option("--max-step", options->max_step, "longest step of every method, e.g. '1 ms'")->type_name("TIME");
   verb->add_option("--plot", options->plot, "draw force error over time and over evaluations")->type_name("FILE.svg");
   verb->add_flag("--json", options->json, "print everything as JSON");

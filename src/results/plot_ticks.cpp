@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 namespace pintle {
@@ -45,6 +46,22 @@ std::vector<double> Axis::ticks() const {
   return result;
 }
 
+double Axis::share(double value) const {
+  if (!log) return (value - low) / (high - low);
+  return value > 0 ? (std::log10(value) - low) / (high - low) : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string Axis::label(double tick) const {
+  return log ? printed_unit(fmt::format("10^{:.0f}", tick)) : tick_text(tick, step);
+}
+
+Axis make_log_axis(double low, double high, int n_ticks) {
+  constexpr double kSlack = 1e-9;
+  double first = std::floor(std::log10(low) + kSlack), last = std::ceil(std::log10(high) - kSlack);
+  if (last <= first) last = first + 1;
+  return {first, last, std::ceil((last - first) / n_ticks), true};
+}
+
 Axis make_axis(double low, double high, int n_ticks, bool tight) {
   const double size = std::max(std::abs(low), std::abs(high));
   if (high - low <= 1e-12 * size || high == low) {
@@ -53,10 +70,10 @@ Axis make_axis(double low, double high, int n_ticks, bool tight) {
     high += margin;
   }
   const double step = round_step((high - low) / n_ticks);
-  if (tight) return {low, high, step};
+  if (tight) return {low, high, step, false};
   const double margin = kMargin * (high - low);
   const bool from_zero = low >= 0 && low < margin, to_zero = high <= 0 && high > -margin;
-  return {from_zero ? 0 : low - margin, to_zero ? 0 : high + margin, step};
+  return {from_zero ? 0 : low - margin, to_zero ? 0 : high + margin, step, false};
 }
 
 AxisScale scale_for(double largest, const std::string& unit) {

@@ -6,16 +6,23 @@
 
 namespace pintle {
 
-/// A range with ticks at multiples of 1, 2 or 5 times a power of ten.
+/// A range with ticks at multiples of 1, 2 or 5 times a power of ten. On an axis of decades (`log`) low, high, step and ticks
+/// are exponents of ten.
 struct Axis {
   double low = 0, high = 1, step = 1;
+  bool log = false;
 
-  std::vector<double> ticks() const;  ///< those within [low, high]
+  std::vector<double> ticks() const;           ///< those within [low, high]
+  double share(double value) const;            ///< where a value stands, from 0 at low to 1 at high; NaN: nowhere
+  std::string label(double tick) const;        ///< how a tick reads
 };
 
 /// The axis for data in [low, high] with about `n_ticks` ticks. `tight`: ends where the data end; else with some room,
 /// but not beyond a zero that the data almost reach. A range without width is widened.
 Axis make_axis(double low, double high, int n_ticks, bool tight);
+
+/// Whole decades around positive data in [low, high], with at most n_ticks + 1 ticks.
+Axis make_log_axis(double low, double high, int n_ticks);
 
 /// Numbers of an axis divided by `factor`, so that they are short; the unit's name then has the prefix.
 struct AxisScale {

@@ -11,9 +11,13 @@ Panel panel(const SolverStudy& study, const char* quantity, const char* unit, do
   out.quantity = "Joint-force error, of the joint's peak";
   out.x_quantity = quantity;
   out.x_unit = unit;
-  out.logarithmic = true;
+  out.log_x = out.log_y = true;
   for (const SolverRun& run : study.runs) {
-    if (out.curves.empty() || out.curves.back().label != run.method) out.curves.push_back({run.method, "", {}, {}});
+    if (out.curves.empty() || out.curves.back().label != run.method) {
+      Curve curve{run.method, "", {}};
+      curve.dots = curve.joined = true;
+      out.curves.push_back(std::move(curve));
+    }
     out.curves.back().x.push_back(cost(run));
     out.curves.back().y.push_back(run.force_error);
   }

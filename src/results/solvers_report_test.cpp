@@ -68,7 +68,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 TEST(SolversReport, PictureHasLogarithmicAxes) {
   const std::string svg = to_svg(solvers_plot(small_study(), "Four-bar"));
   EXPECT_EQ(count(svg, "<circle"), 4U);  // two runs with an error, in two panels
-  EXPECT_TRUE(holds(svg, ">10<tspan"));
+  EXPECT_TRUE(holds(svg, ">10\u207b\u00b9<"));
   EXPECT_TRUE(holds(svg, "Wall time [ms]"));
   EXPECT_TRUE(holds(svg, "Evaluations"));
   EXPECT_FALSE(holds(svg, "nan"));

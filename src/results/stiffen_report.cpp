@@ -124,16 +124,19 @@ Plot stiffen_plot(const Stiffening& s, const std::string& title) {
   Plot plot;
   plot.title = title;
   plot.subtitle = s.found ? fmt::format("{} digits agree at {:.0e} N/m", s.request.digits, s.stiffness) : "no stiffness was enough";
-  plot.x_quantity = "Stiffness, power of ten of";
+  plot.x_quantity = "Stiffness";
   plot.x_unit = "N/m";
-  for (const StiffenStep& step : s.steps) plot.x.push_back(std::log10(step.stiffness));
-  Panel peaks{"Peak over its limit", "", {}}, changes{"Change against the step before, power of ten", "", {}};
+  plot.log_x = true;
+  for (const StiffenStep& step : s.steps) plot.x.push_back(step.stiffness);
+  Panel peaks{"Peak over its limit", "", {}}, changes{"Change against the step before", "", {}};
+  changes.log_y = true;
   for (std::size_t i = 0; i < std::min(kMostShown, s.limits.size()); ++i) {
     Curve peak{s.limits[i].name, "", {}}, change = peak;
     for (const StiffenStep& step : s.steps) {
       peak.y.push_back(s.limits[i].limit != 0 ? step.peaks[i] / s.limits[i].limit : std::nan(""));
-      change.y.push_back(std::isnan(step.change) || step.changes[i] <= 0 ? std::nan("") : std::log10(step.changes[i]));
+      change.y.push_back(std::isnan(step.change) ? std::nan("") : step.changes[i]);
     }
+    change.dots = change.joined = peak.dots = peak.joined = true;
     peaks.curves.push_back(std::move(peak));
     changes.curves.push_back(std::move(change));
   }

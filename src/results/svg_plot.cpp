@@ -23,7 +23,7 @@ constexpr std::array<const char*, 4> kDashes{"", "7 3", "2 2.5", "9 3 2 3"};  //
 
 constexpr const char* kFont = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 constexpr double kTitleSize = 16, kTextSize = 12.5, kTickSize = 12;  // [px]
-constexpr double kRight = 22, kLegendRow = 20, kSample = 26;
+constexpr double kRight = 22, kLegendRow = 20, kSample = 26, kDotRadius = 2.8;
 constexpr double kColumnWidth = 0.5;  // what the eye can tell apart on screen and in print [px]
 
 /// How wide a text is, about [px].
@@ -57,29 +57,28 @@ std::string escaped(std::string_view text) {
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 
-  void cover(const std::vector<double>& values) {
+  void cover(const std::vector<double>& values, bool positive) {
     for (const double value : values) {
-      if (!std::isfinite(value)) continue;
+      if (!std::isfinite(value) || (positive && value <= 0)) continue;
       low = std::min(low, value);
       high = std::max(high, value);
     }
   }
   bool empty() const { return low > high; }
   double largest() const { return empty() ? 1 : std::max(std::abs(low), std::abs(high)); }
+  Axis log_axis(int n_ticks) const { return empty() ? make_log_axis(1, 10, n_ticks) : make_log_axis(low, high, n_ticks); }
   Axis axis(double factor, int n_ticks, bool tight) const {
     return empty() ? make_axis(0, 1, n_ticks, tight) : make_axis(low / factor, high / factor, n_ticks, tight);
   }
 };
 
+AxisScale plain_scale(const std::string& unit) {
+  return {1, printed_unit(unit)};
+}
+
 std::string axis_title(const std::string& quantity, const std::string& unit) {
   if (unit.empty()) return quantity;
   return fmt::format("{} [{}]", quantity, unit);
-}
-
-/// 10 to the power of `exponent`.
-std::string power_of_ten(double exponent) {
-  const std::string digits = tick_text(exponent, 1);
-  return exponent == 0 ? "1" : fmt::format("10<tspan dy=\"-5\" font-size=\"9\">{}</tspan>", digits);
 }
 
 /// Where one entry of a legend stands, relative to the panel's left edge and the legend's first row.
@@ -104,17 +103,9 @@ bool needs_legend(const Panel& panel) {
   return panel.curves.size() > 1;
 }
 
-/// One panel with everything that its drawing needs. On logarithmic axes everything is in powers of ten.
+/// One panel with everything that its drawing needs.
 struct Frame {
   explicit Frame(const Panel& whose) : panel(whose) {}
-
-  bool own_x() const { return !panel.x_quantity.empty(); }
-  double scaled(double value, const AxisScale& scale) const {
-    return panel.logarithmic ? (value > 0 ? std::log10(value) : NAN) : value / scale.factor;
-  }
-  std::string tick(double value, const Axis& axis) const {
-    return panel.logarithmic ? power_of_ten(value) : tick_text(value, axis.step);
-  }
 
   const Panel& panel;
   double left = 0, top = 0, width = 0, height = 0;  // of the axes [px]
@@ -122,8 +113,12 @@ struct Frame {
   AxisScale x_scale, y_scale;
   std::vector<LegendEntry> legend;
 
-  double px(double value) const { return left + width * (value - x.low) / (x.high - x.low); }
-  double py(double value) const { return top + height * (y.high - value) / (y.high - y.low); }
+  bool own_x() const { return !panel.x_quantity.empty(); }
+  // Of a value, and of a tick.
+  double px(double value) const { return left + width * x.share(value); }
+  double py(double value) const { return top + height * (1 - y.share(value)); }
+  double tick_px(double tick) const { return left + width * (tick - x.low) / (x.high - x.low); }
+  double tick_py(double tick) const { return top + height * (y.high - tick) / (y.high - y.low); }
 };
 
 class Picture {
@@ -133,7 +128,7 @@ class Picture {
 
  private:
   void lay_out();
-  void scale_axes(Frame& frame, const Range& common_x, bool rising);
+  void scale_x(Frame& frame) const;
   void draw_titles();
   void draw_grid(const Frame& frame);
   void draw_y_axis(const Frame& frame);
@@ -154,52 +149,28 @@ class Picture {
   std::string out_;
 };
 
-/// The range of values on logarithmic axes, a part of a power of ten beyond them.
-Axis powers_of_ten(const std::vector<const std::vector<double>*>& values) {
+void Picture::scale_x(Frame& frame) const {
+  const bool own = frame.own_x(), log = own ? frame.panel.log_x : plot_.log_x;
+  const std::string& unit = own ? frame.panel.x_unit : plot_.x_unit;
   Range range;
-  for (const std::vector<double>* list : values)
-    for (const double value : *list)
-      if (value > 0) range.cover({std::log10(value)});
-  if (range.empty()) return {-1, 0, 1};
-  const double step = std::max(1.0, std::ceil((range.high - range.low) / 9));
-  return {range.low - 0.15, std::max(range.high, range.low + 1) + 0.15, step};
-}
-
-void Picture::scale_axes(Frame& frame, const Range& common_x, bool rising) {
-  Range y_range, x_range = common_x;
-  std::vector<const std::vector<double>*> x_values, y_values;
-  for (const Curve& curve : frame.panel.curves) {
-    y_range.cover(curve.y);
-    x_values.push_back(&curve.x);
-    y_values.push_back(&curve.y);
-  }
-  if (frame.panel.logarithmic) {
-    frame.x = powers_of_ten(x_values);
-    frame.y = powers_of_ten(y_values);
-    frame.x_scale.unit = printed_unit(frame.panel.x_unit);
-    frame.y_scale.unit = printed_unit(frame.panel.unit);
-    return;
-  }
-  if (frame.own_x()) {
-    x_range = Range();
-    for (const std::vector<double>* x : x_values) x_range.cover(*x);
-  }
-  frame.x_scale = scale_for(x_range.largest(), frame.own_x() ? frame.panel.x_unit : plot_.x_unit);
-  frame.x = x_range.axis(frame.x_scale.factor, 8, rising && !frame.own_x());
-  frame.y_scale = scale_for(y_range.largest(), frame.panel.unit);
-  frame.y = y_range.axis(frame.y_scale.factor, 6, false);
+  if (!own) range.cover(plot_.x, log);
+  for (const Curve& curve : frame.panel.curves) range.cover(curve.x, log);
+  const bool rising = !own && std::is_sorted(plot_.x.begin(), plot_.x.end());
+  frame.x_scale = log ? plain_scale(unit) : scale_for(range.largest(), unit);
+  frame.x = log ? range.log_axis(10) : range.axis(frame.x_scale.factor, 8, rising);
 }
 
 void Picture::lay_out() {
-  Range x_range;
-  x_range.cover(plot_.x);
-  const bool rising = std::is_sorted(plot_.x.begin(), plot_.x.end());
   double label_width = 0;
   for (const Panel& panel : plot_.panels) {
+    Range range;
+    for (const Curve& curve : panel.curves) range.cover(curve.y, panel.log_y);
     Frame frame(panel);
-    scale_axes(frame, x_range, rising);
+    scale_x(frame);
+    frame.y_scale = panel.log_y ? plain_scale(panel.unit) : scale_for(range.largest(), panel.unit);
+    frame.y = panel.log_y ? range.log_axis(8) : range.axis(frame.y_scale.factor, 6, false);
     for (const double tick : frame.y.ticks())
-      label_width = std::max(label_width, panel.logarithmic ? 2.6 * kTickSize : text_width(tick_text(tick, frame.y.step), kTickSize));
+      label_width = std::max(label_width, text_width(frame.y.label(tick), kTickSize));
     frames_.push_back(std::move(frame));
   }
   left_ = 46 + label_width;
@@ -211,8 +182,7 @@ void Picture::lay_out() {
     if (needs_legend(frame.panel)) frame.legend = lay_out_legend(frame.panel, frame.width);
     top += frame.legend.empty() ? 8 : kLegendRow * (frame.legend.back().row + 1) + 6;
     frame.top = top;
-    top += frame.height + 14;
-    if (frame.own_x() && &frame != &frames_.back()) top += 38;
+    top += frame.height + 14 + (frame.own_x() && &frame != &frames_.back() ? 38 : 0);
   }
   height_ = top + 38;
 }
@@ -229,19 +199,19 @@ void Picture::draw_titles() {
 void Picture::draw_grid(const Frame& frame) {
   put("<g stroke=\"#e2e2e2\" stroke-width=\"1\">\n");
   for (const double tick : frame.x.ticks())
-    put("<path d=\"M{0:.2f} {1:.2f}V{2:.2f}\"/>\n", frame.px(tick), frame.top, frame.top + frame.height);
+    put("<path d=\"M{0:.2f} {1:.2f}V{2:.2f}\"/>\n", frame.tick_px(tick), frame.top, frame.top + frame.height);
   for (const double tick : frame.y.ticks())
-    put("<path d=\"M{0:.2f} {1:.2f}H{2:.2f}\"/>\n", frame.left, frame.py(tick), frame.left + frame.width);
+    put("<path d=\"M{0:.2f} {1:.2f}H{2:.2f}\"/>\n", frame.left, frame.tick_py(tick), frame.left + frame.width);
   put("</g>\n");
-  if (frame.y.low < 0 && frame.y.high > 0 && !frame.panel.logarithmic)
+  if (!frame.y.log && frame.y.low < 0 && frame.y.high > 0)
     put("<path d=\"M{:.2f} {:.2f}H{:.2f}\" stroke=\"#999\"/>\n", frame.left, frame.py(0), frame.left + frame.width);
 }
 
 void Picture::draw_y_axis(const Frame& frame) {
   put("<g text-anchor=\"end\" font-size=\"{}\">\n", kTickSize);
   for (const double tick : frame.y.ticks())
-    put("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.left - 8, frame.py(tick) + 0.35 * kTickSize,
-        frame.tick(tick, frame.y));
+    put("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.left - 8, frame.tick_py(tick) + 0.35 * kTickSize,
+        frame.y.label(tick));
   put("</g>\n");
   const double middle = frame.top + frame.height / 2;
   put("<text x=\"18\" y=\"{0:.1f}\" font-size=\"{1}\" text-anchor=\"middle\" transform=\"rotate(-90 18 "
@@ -254,12 +224,12 @@ void Picture::draw_x_axis(const Frame& frame) {
   put("<path d=\"M{0:.2f} {1:.2f}V{2:.2f}H{3:.2f}\" fill=\"none\" stroke=\"#333\"/>\n", frame.left, frame.top, bottom,
       frame.left + frame.width);
   put("<g stroke=\"#333\">\n");
-  for (const double tick : frame.x.ticks()) put("<path d=\"M{:.2f} {:.2f}v4\"/>\n", frame.px(tick), bottom);
+  for (const double tick : frame.x.ticks()) put("<path d=\"M{:.2f} {:.2f}v4\"/>\n", frame.tick_px(tick), bottom);
   put("</g>\n");
   if (&frame != &frames_.back() && !frame.own_x()) return;
   put("<g text-anchor=\"middle\" font-size=\"{}\">\n", kTickSize);
   for (const double tick : frame.x.ticks())
-    put("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.px(tick), bottom + 18, frame.tick(tick, frame.x));
+    put("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.tick_px(tick), bottom + 18, frame.x.label(tick));
   put("</g>\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" text-anchor=\"middle\">{}</text>\n",
       frame.left + frame.width / 2, bottom + 40, kTextSize, escaped(axis_title(frame.own_x() ? frame.panel.x_quantity : plot_.x_quantity, frame.x_scale.unit)));
 }
@@ -275,19 +245,33 @@ void Picture::draw_legend(const Frame& frame) {
   for (std::size_t i = 0; i < frame.legend.size(); ++i) {
     const Curve& curve = frame.panel.curves[i];
     const double x = frame.left + frame.legend[i].x, y = first_row + kLegendRow * frame.legend[i].row;
-    put("<path d=\"M{:.1f} {:.1f}h{}\" {} stroke-width=\"2.2\"/>\n", x, y - 4, kSample, stroke(i));
+    if (curve.dots && !curve.joined)
+      draw_dots({{x + kSample / 2, y - 4}}, i);
+    else
+      put("<path d=\"M{:.1f} {:.1f}h{}\" {} stroke-width=\"2.2\"/>\n", x, y - 4, kSample, stroke(i));
     put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">{}", x + kSample + 6, y, kTextSize, escaped(curve.label));
     if (!curve.subscript.empty()) put("<tspan dy=\"3\" font-size=\"9.5\">{}</tspan>", escaped(curve.subscript));
     put("</text>\n");
   }
 }
 
+// Circles, so that a line beneath shows through.
+void Picture::draw_dots(const std::vector<Point>& points, std::size_t index) {
+  put("<g fill=\"none\" {} stroke-width=\"1.2\">\n", stroke(index));
+  for (const Point& point : points)
+    if (std::isfinite(point.x) && std::isfinite(point.y))
+      put("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\"/>\n", point.x, point.y, kDotRadius);
+  put("</g>\n");
+}
+
 void Picture::draw_curve(const Frame& frame, std::size_t index) {
-  const std::vector<double>& y = frame.panel.curves[index].y;
-  const std::vector<double>& x = frame.own_x() ? frame.panel.curves[index].x : plot_.x;
+  const Curve& curve = frame.panel.curves[index];
+  const std::vector<double>&x = frame.own_x() ? curve.x : plot_.x, &y = curve.y;
   std::vector<Point> points;
   for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
-    points.push_back({frame.px(frame.scaled(x[i], frame.x_scale)), frame.py(frame.scaled(y[i], frame.y_scale))});
+    points.push_back({frame.px(x[i] / frame.x_scale.factor), frame.py(y[i] / frame.y_scale.factor)});
+  if (curve.dots) draw_dots(points, index);
+  if (curve.dots && !curve.joined) return;
   put("<path fill=\"none\" {} stroke-width=\"1.6\" stroke-linejoin=\"round\" stroke-linecap=\"round\" d=\"",
       stroke(index));
   bool pen_up = true;
@@ -297,14 +281,6 @@ void Picture::draw_curve(const Frame& frame, std::size_t index) {
     pen_up = !there;
   }
   put("\"/>\n");
-  if (frame.panel.logarithmic) draw_dots(points, index);
-}
-
-void Picture::draw_dots(const std::vector<Point>& points, std::size_t index) {
-  put("<g fill=\"{}\">\n", kColours[index % kColours.size()]);
-  for (const Point& point : points)
-    if (std::isfinite(point.x) && std::isfinite(point.y)) put("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3\"/>\n", point.x, point.y);
-  put("</g>\n");
 }
 
 std::string Picture::text() {

@@ -10,6 +10,8 @@ namespace pintle {
 struct Curve {
   std::string label, subscript;
   std::vector<double> y;  ///< one per x; a NaN interrupts the line
+  bool dots = false;      ///< a dot at every point instead of a line ...
+  bool joined = false;    ///< ... and the line too
   std::vector<double> x{};  ///< in a panel with an x axis of its own
 };
 
@@ -18,20 +20,22 @@ struct Panel {
   std::string quantity;  ///< "Force on rocker"
   std::string unit;      ///< "N"; may get a prefix
   std::vector<Curve> curves;
+  bool log_y = false;    ///< decades; what is not positive is left out
   std::string x_quantity{}, x_unit{};  ///< given: an x axis of its own, and every curve brings its x
-  bool logarithmic = false;        ///< both axes, with such an x axis; every value is marked by a dot
+  bool log_x = false;    ///< of the own x axis
 };
 
 struct Plot {
   std::string title, subtitle;
   std::string x_quantity, x_unit;
   std::vector<double> x;
+  bool log_x = false;
   std::vector<Panel> panels;
   double width = 760;         ///< [px]
   double panel_height = 300;  ///< of the axes' frame [px]
 };
 
-/// The picture. On logarithmic axes values that are not positive are left out. Long series are thinned to what can be seen, every minimum and maximum kept.
+/// The picture. Long series are thinned to what can be seen, every minimum and maximum kept.
 std::string to_svg(const Plot& plot);
 
 }  // namespace pintle

@@ -49,6 +49,23 @@ TEST(PlotTicks, ConstantDataGetRoom) {
   }
 }
 
+TEST(PlotTicks, DecadesCoverTheData) {
+  const Axis axis = make_log_axis(3e-7, 2e4, 8);
+  EXPECT_EQ(axis.low, -7);
+  EXPECT_EQ(axis.high, 5);
+  EXPECT_LE(axis.ticks().size(), 9U);
+  EXPECT_EQ(axis.label(-3), "10⁻³");
+  EXPECT_DOUBLE_EQ(axis.share(1e-7), 0);
+  EXPECT_DOUBLE_EQ(axis.share(1e-1), 0.5);
+  EXPECT_DOUBLE_EQ(axis.share(1e5), 1);
+  for (const double value : {0.0, -1.0}) EXPECT_TRUE(std::isnan(axis.share(value)));
+  for (const double whole : {1e-3, 1.0, 1e8}) {
+    const Axis one = make_log_axis(whole, whole, 8);
+    EXPECT_EQ(one.low, std::log10(whole));
+    EXPECT_EQ(one.ticks().size(), 2U);
+  }
+}
+
 TEST(PlotTicks, LabelsShowWhatTheStepNeeds) {
   EXPECT_EQ(tick_text(0.3, 0.1), "0.3");
   EXPECT_EQ(tick_text(-0.25, 0.05), "−0.25");
@@ -114,6 +131,24 @@ TEST(SvgPlot, EscapesNamesAndSurvivesEmptyAndBadData) {
   EXPECT_FALSE(holds(svg, "nan"));
   EXPECT_FALSE(holds(svg, "inf"));
   EXPECT_TRUE(holds(svg, "F [N]"));
+}
+
+TEST(SvgPlot, PowersOfTenLieOnAStraightLineOfLogAxes) {
+  Plot plot;
+  plot.log_x = true;
+  plot.x = {1, 10, 100, 1000};
+  plot.panels = {{"F", "N", {{"F", "x", {1e-2, 1, 1e2, -1}, true}}, true}};  // the last has no place
+  std::vector<double> x, y;
+  const std::string svg = to_svg(plot);
+  for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) {
+    x.push_back(std::stod(svg.substr(svg.find("cx=\"", at) + 4)));
+    y.push_back(std::stod(svg.substr(svg.find("cy=\"", at) + 4)));
+  }
+  ASSERT_EQ(x.size(), 3U);
+  EXPECT_NEAR(x[1] - x[0], x[2] - x[1], 0.011);
+  EXPECT_NEAR(y[1] - y[0], y[2] - y[1], 0.011);
+  EXPECT_LT(y[2], y[0]);
+  EXPECT_TRUE(holds(svg, "10²"));
 }
 
 TEST(RunPlot, ForcesOfOneJointNameBodyAndAxes) {

@@ -1,0 +1,16 @@
+# pintle-paper and pintle-published: built on request only, from what the program itself needs.
+function(pintle_study name folder)
+  pintle_sources(sources ${PROJECT_SOURCE_DIR}/bench/${folder})
+  add_executable(${name} EXCLUDE_FROM_ALL ${sources})
+  string(REPLACE "_" "-" output ${name})
+  set_target_properties(${name} PROPERTIES OUTPUT_NAME ${output} RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  target_compile_definitions(${name} PRIVATE PINTLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE pintle_flags pintle_quick_build pintle_io CLI11::CLI11)
+endfunction()
+
+find_package(CLI11 QUIET)
+if(CLI11_FOUND)
+  pintle_study(pintle_paper paper)
+  pintle_study(pintle_published published)
+endif()
