@@ -26,7 +26,7 @@ inline constexpr const char* kExitCodeHelp =
     "  4  the mechanism cannot be assembled\n"
     "  5  the integration failed; results up to there are kept\n"
     "  6  a file or folder cannot be read or written\n"
-    "  7  finished, but some joint's force missed the tolerance; results are kept\n"
+    "  7  finished, but some joint's force missed the tolerance; results are kept; stiffen: no stiffness was enough\n"
     "  8  pintle check: a formula disagrees with its differences, or energy is not kept\n"
     "  130  stopped by Ctrl-C or a termination signal; results up to there are kept\n";
 

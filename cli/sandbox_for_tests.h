@@ -41,6 +41,28 @@ class Sandbox {
   ScratchFolder folder_;
 };
 
+/// A bob of 1 kg, 1 m from its pin, level at the start; the comment is for those who look for it.
+inline std::string pendulum_toml(const std::string& duration, const std::string& output_step) {
+  return fmt::format(R"(format = 1
+name = "Pendulum"
+[simulate]
+duration = "{}"
+output_step = "{}"
+[ground.markers]
+O = [0, 0]
+[body.bob]
+mass = "1 kg"
+inertia = "0.1 kg*m^2"
+position = [1, 0]
+angle = 0
+markers.O = [-1, 0]
+[joint.pin]  # its bearing
+type = "revolute"
+between = ["ground.O", "bob.O"]
+)",
+                     duration, output_step);
+}
+
 inline bool holds(const std::string& text, std::string_view part) {
   return text.find(part) != std::string::npos;
 }

@@ -9,23 +9,7 @@
 namespace pintle::sample {
 namespace {
 
-constexpr const char* kPendulum = R"(format = 1
-name = "Pendulum"
-[simulate]
-duration = "0.1 s"
-output_step = "1 ms"
-[ground.markers]
-O = [0, 0]
-[body.bob]
-mass = "1 kg"
-inertia = "0.1 kg*m^2"
-position = [1, 0]
-angle = 0
-markers.O = [-1, 0]
-[joint.pin]
-type = "revolute"
-between = ["ground.O", "bob.O"]
-)";
+const std::string kPendulum = pendulum_toml("0.1 s", "1 ms");
 
 class SolversVerb : public testing::Test {
  protected:

@@ -8,23 +8,7 @@
 namespace pintle::sample {
 namespace {
 
-constexpr const char* kPendulum = R"(format = 1
-name = "Pendulum"
-[simulate]
-duration = "0.2 s"
-output_step = "10 ms"
-[ground.markers]
-O = [0, 0]
-[body.bob]
-mass = "1 kg"
-inertia = "0.1 kg*m^2"
-position = [1, 0]
-angle = 0
-markers.O = [-1, 0]
-[joint.pin]
-type = "revolute"
-between = ["ground.O", "bob.O"]
-)";
+const std::string kPendulum = pendulum_toml("0.2 s", "10 ms");
 
 // A run of many hours.
 constexpr const char* kLong =

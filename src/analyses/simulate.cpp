@@ -36,12 +36,12 @@ class Clock {
 };
 
 // Largest difference of each joint's force (and couple) between two passes, and the peaks of the finer one.
-struct Comparison {
+struct PassDifference {
   std::vector<double> force, couple, peak, peak_couple;
 };
 
-Comparison compare(const ForceTable& coarse, const ForceTable& fine, std::size_t joints) {
-  Comparison c;
+PassDifference difference_of_passes(const ForceTable& coarse, const ForceTable& fine, std::size_t joints) {
+  PassDifference c;
   for (auto* x : {&c.force, &c.couple, &c.peak, &c.peak_couple}) x->assign(joints, 0.0);
   const std::size_t rows = std::min(coarse.t.size(), fine.t.size());
   for (std::size_t i = 0; i < rows; ++i)
@@ -130,7 +130,7 @@ class Run {
   // theory/time Eqs. (6.1)-(6.3).
   void make_passes() {
     const double wanted = model_.simulate.tolerance;
-    Comparison difference;
+    PassDifference difference;
     double share = 1, error = 0;
     bool doubted = false;  // a pass has been made because two were alike
     choice_.stages = wanted < kTight ? 5 : 3;
@@ -146,7 +146,7 @@ class Run {
       while (true) {
         const double before = fine_tolerance_, steps_before = static_cast<double>(last_.counters.steps);
         if (!run_pass(tolerance)) break;
-        difference = compare(coarse_->forces(), fine_->forces(), system_.joints.size());
+        difference = difference_of_passes(coarse_->forces(), fine_->forces(), system_.joints.size());
         const bool alike = static_cast<double>(last_.counters.steps) < kAlike * steps_before;
         share = alike ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(tolerance / before, kSharePower));
         error = share * largest_of(relative_differences(difference));
@@ -165,7 +165,7 @@ class Run {
 
   // Each joint's largest difference over its peak force or couple. Joints that carry next to nothing are measured by a
   // small part of the largest of the mechanism; couples at least by that of the largest force at a radius of gyration.
-  std::vector<double> relative_differences(const Comparison& c) const {
+  std::vector<double> relative_differences(const PassDifference& c) const {
     const double force = largest_of(c.peak);
     double radius = 0;
     for (const BodyData& body : system_.bodies) radius = std::max(radius, std::sqrt(body.mass[2] / body.mass[0]));
@@ -176,7 +176,7 @@ class Run {
     return out;
   }
 
-  void finish(const Comparison& difference, double share, double error) {
+  void finish(const PassDifference& difference, double share, double error) {
     fine_->fill(out_);
     out_.t_end = last_.t;
     out_.notes.insert(out_.notes.end(), last_.remarks.begin(), last_.remarks.end());

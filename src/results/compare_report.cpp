@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Align = TextTable::Align;
 
-constexpr std::size_t kMostPlotted = 3;
+constexpr std::size_t kMostPlotted = 3, kDots = 40;
 constexpr double kMainShare = 0.5;  // of the elastic energy: then one joint decides
 
 std::string word(Cause cause) {
@@ -100,6 +100,14 @@ std::vector<double> magnitude(const Trajectory& run, const std::string& path, co
   return out;
 }
 
+// A few of many values, for dots on a line.
+std::vector<double> sparse(std::vector<double> y) {
+  const std::size_t step = std::max<std::size_t>(1, y.size() / kDots);
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (i % step != 0) y[i] = std::nan("");
+  return y;
+}
+
 }  // namespace
 
 std::string to_text(Equations equations) {
@@ -150,7 +158,7 @@ Plot compare_plot(const Comparison& c, const std::string& title) {
     if (plot.panels.size() == kMostPlotted) break;
     const LoadSummary& joint = c.first.joints[j];
     const std::string path = "joint." + joint.name + ".on_" + joint.second_body + ".";
-    plot.panels.push_back({"Force at " + joint.name, "N", {{"compliant", "", magnitude(c.first, path, plot.x)}, {to_text(c.against), "", magnitude(c.second, path, plot.x)}}});
+    plot.panels.push_back({"Force at " + joint.name, "N", {{"compliant", "", magnitude(c.first, path, plot.x)}, {to_text(c.against), "", sparse(magnitude(c.second, path, plot.x)), true}}});
     Curve gap{joint.name, "", std::vector<double>(plot.x.size(), 0)};
     for (const char* component : {"fx[world]", "fy[world]"}) {
       const int a = c.first.column(path + component), b = c.second.column(path + component);
