@@ -60,6 +60,7 @@ class Procedure {
   Stiffening go() {
     check_names();
     measure_mechanism();
+    ask_ideal_joints();
     raise();
     if (out_.found) relax();
     else if (out_.steps.size() < 2) out_.reason += out_.reason.empty() ? "no two stiffnesses could be run" : "";
@@ -108,6 +109,18 @@ class Procedure {
       j.damping = stated(joint, "damping", 3e3);
       j.angular_stiffness = has_angle(joint) ? stated(joint, "angular_stiffness", 1e6) : 0;
       j.angular_damping = has_angle(joint) ? stated(joint, "angular_damping", 30) : 0;
+    }
+  }
+
+  // What ideal joints say of the motion: where it passes singular positions forces need not have a limit.
+  void ask_ideal_joints() {
+    Model ideal = model_;
+    ideal.simulate.equations = Equations::kIdeal;
+    ideal.simulate.tolerance = std::max(ideal.simulate.tolerance, 1e-6);
+    for (const std::string& note : simulate(ideal, observer_).notes) {
+      if (!note.starts_with("ideal joints:")) continue;
+      ideal_notes_.push_back(note);
+      singular_ = singular_ || note.find("singular") != std::string::npos;
     }
   }
 
@@ -162,11 +175,11 @@ class Procedure {
     }
   }
 
-  // Two steps in a row that changed nearly as much as the one before each.
+  // Two steps in a row that changed nearly as much as the one before each; one where the motion is known to be singular.
   bool no_longer_falls() const {
     const std::size_t n = out_.steps.size();
     const auto still = [this](std::size_t i) { return out_.steps[i].change > kStill * out_.steps[i - 1].change; };
-    return n > 3 && still(n - 1) && still(n - 2);
+    return singular_ ? n > 2 && still(n - 1) : n > 3 && still(n - 1) && still(n - 2);
   }
 
   void add_step(double stiffness, const Trajectory& before, const Trajectory& now) {
@@ -308,19 +321,10 @@ class Procedure {
       }
       return;
     }
-    Model ideal = model_;
-    ideal.simulate.equations = Equations::kIdeal;
-    ideal.simulate.tolerance = std::max(ideal.simulate.tolerance, 1e-6);
-    const Trajectory run = simulate(ideal, observer_);
-    bool singular = false;
-    for (const std::string& note : run.notes) {
-      if (!note.starts_with("ideal joints:")) continue;
-      out_.notes.push_back(note);
-      singular = singular || note.find("singular") != std::string::npos;
-    }
+    out_.notes.insert(out_.notes.end(), ideal_notes_.begin(), ideal_notes_.end());
     if (last.change < before.change / 5)
       out_.reason += fmt::format("; the change falls as 1/stiffness, so that {:.0e} N/m is within {:.1g} of the limit, and the limit below is closer", last.stiffness, last.change / (kTenfold - 1));
-    else if (singular) out_.reason += "; the mechanism passes singular positions, where forces depend on the joints' compliance";
+    else if (singular_) out_.reason += "; the mechanism passes singular positions, where forces depend on the joints' compliance";
     else if (last.change > kStill * before.change) out_.reason += "; the change no longer falls: look for vibration, impact or slack, or ask for fewer digits";
   }
 
@@ -331,6 +335,8 @@ class Procedure {
   double length_ = 1;
   std::map<std::string, double> mass_;  // effective, by joint and by "joint.angle" [kg], [kg*m^2]
   std::vector<CheckRedundancy> redundancies_;
+  std::vector<std::string> ideal_notes_;
+  bool singular_ = false;
 };
 
 }  // namespace
