@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "analyses/ideal_rows.h"
+#include "analyses/joint_paces.h"
 #include "analyses/slow_motion.h"
 #include "analyses/tree_start.h"
 #include "integrators/radau_stepper.h"
@@ -43,9 +44,20 @@ Assembly ideal_start(Model model, System& system) {
 Assembly start_of_free_bodies(const Model& model, System& system) {
   Assembly assembly = assemble(model, system);
   if (model.simulate.start != Start::kAssembled || system.joints.empty()) return assembly;
-  double span = smooth_span(system, assembly.state, model.simulate.duration);
-  for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25)
-    if (settle_on_slow_motion(system, span, assembly.state) < kSettled) break;
+  double span = span_of_motion(system, assembly.state, 4 * model.simulate.duration);
+  if (std::getenv("PSPAN")) span *= std::atof(std::getenv("PSPAN"));
+  const JointPaces paces = measure_paces(system, assembly.state, span);
+  if (std::getenv("PSPAN")) std::fprintf(stderr, "motion span %g scout %g\n", span, smooth_span(system, assembly.state, model.simulate.duration));
+  if (std::getenv("PSPAN")) for (int j = 0; j < system.n_joints(); ++j) std::fprintf(stderr, "  %s creeping %g %g %g lively %g %g %g slow %g %g %g\n", system.joints[j].name.c_str(), paces.creeping[j][0], paces.creeping[j][1], paces.creeping[j][2], paces.lively[j][0], paces.lively[j][1], paces.lively[j][2], paces.slow_rate[j][0], paces.slow_rate[j][1], paces.slow_rate[j][2]);
+  if (paces.any_soft()) place_soft_joints(system, paces, 2 * span, assembly.state);
+  if (!paces.any_soft()) span = smooth_span(system, assembly.state, model.simulate.duration);
+  for (int i = 0; i < kSpans; ++i, span *= 0.25) {
+    State settled = assembly.state;
+    const double change = settle_on_slow_motion(system, paces, span, settled);
+    if (std::getenv("PSPAN")) std::fprintf(stderr, "span %g change %g soft %d\n", span, change, paces.any_soft());
+    if (!paces.any_soft() || change < kSettled) assembly.state = std::move(settled);
+    if (change < kSettled) break;
+  }
   return assembly;
 }
 
