@@ -35,9 +35,13 @@ bool any(const Vecs& x) {
 bool JointPaces::any_soft() const { return any(creeping) || any(lively); }
 bool JointPaces::any_lively() const { return any(lively); }
 
+JointPaces all_fast(const System& system) {
+  const Vecs none(system.joints.size(), S::Vec::Zero());
+  return {none, none, none};
+}
+
 JointPaces measure_paces(const System& system, const State& state, double span) {
-  JointPaces paces;
-  paces.creeping = paces.lively = paces.slow_rate = Vecs(system.joints.size(), S::Vec::Zero());
+  JointPaces paces = all_fast(system);
   const GapMasses masses = ForcesOfMotion(system).masses_on_gaps(state);
   for (std::size_t j = 0; j < masses.closed.size(); ++j) {
     const Response response = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]);

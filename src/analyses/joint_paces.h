@@ -20,6 +20,9 @@ struct JointPaces {
   bool any_lively() const;
 };
 
+/// No joint is soft.
+JointPaces all_fast(const System& system);
+
 /// Measures the components of all gaps at `state`, with the bodies that they move while other gaps stay closed.
 JointPaces measure_paces(const System& system, const State& state, double span);
 

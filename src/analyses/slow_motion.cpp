@@ -18,7 +18,7 @@ using S = Planar;
 
 constexpr int kNodes = CurveNodes::kN;
 constexpr int kSweeps = 5;
-constexpr int kOrders = 3;  // sweeps in which soft joints go with the motion
+constexpr int kOrders = 6;  // sweeps in which soft joints go with the motion
 constexpr double kSmallForce = 0.05;  // of the largest: by this at least is the change of a force measured
 constexpr int kHalvings = 30;
 constexpr double kResolved = 1e-4;       // of the forces: what the last coefficients of a resolved curve may be
@@ -174,7 +174,7 @@ class SlowMotion {
   // Short steps where lively joints follow their laws.
   void follow(State& at, double s0, double s1) {
     const double eager = let_go_ ? paces_.fastest * span_ * (s1 - s0) / kEager : 0;
-    const int steps = static_cast<int>(std::clamp(std::ceil(eager), 1.0, 100.0));
+    const int steps = static_cast<int>(std::clamp(std::ceil(eager), 1.0, 300.0));
     for (int i = 0; i < steps; ++i) runge_kutta(at, s0 + (s1 - s0) * i / steps, s0 + (s1 - s0) * (i + 1) / steps);
   }
 
@@ -253,7 +253,7 @@ Vecs shares(const JointPaces& paces, const SlowMotion& motion, const System& sys
     };
     const S::Vec &own = paces.slow_rate[j], soft = paces.creeping[j] + paces.lively[j];
     for (int i = 0; i < S::kDof; ++i) {
-      share[j][i] = 0;
+      share[j][i] = 1;
       if (soft[i] == 0) continue;
       share[j][i] = i < 2 ? share_of(force[j].head<2>().norm(), largest, change.head<2>().norm(), own[i])
                           : share_of(std::abs(force[j][2]), largest_couple, std::abs(change[2]), own[i]);
@@ -265,14 +265,11 @@ Vecs shares(const JointPaces& paces, const SlowMotion& motion, const System& sys
 }  // namespace
 
 double span_of_motion(const System& system, const State& state, double longest) {
-  const Vecs none(system.joints.size(), S::Vec::Zero());
-  const JointPaces all_fast{none, none, none};
+  const JointPaces paces = all_fast(system);
   double span = std::exp2(std::ceil(std::log2(longest)));
   for (int i = 0; i < kHalvings; ++i, span *= 0.5) {
-    SlowMotion motion(system, span, state, all_fast);
-    const double ch = motion.sweep();
-    if (std::getenv("PSPAN")) std::fprintf(stderr, "  try %g: %g %g\n", span, ch, motion.unresolved());
-    if (ch < kDiverged && motion.unresolved() < kResolved) return kShortOfMotion * span;
+    SlowMotion motion(system, span, state, paces);
+    if (motion.sweep() < kDiverged && motion.unresolved() < kResolved) return kShortOfMotion * span;
   }
   return 0;
 }
@@ -283,17 +280,20 @@ SoftStart place_soft_joints(const System& system, const JointPaces& paces, doubl
   if (motion.sweep() >= kDiverged) return out;
   out.share = shares(paces, motion, system);
   motion.go_with_the_motion(out.share);
-  for (int i = 0; i < kOrders; ++i) {
-    const double ch = motion.sweep();
-    if (std::getenv("PSPAN")) std::fprintf(stderr, "   place %d change %g\n", i, ch);
-    if (ch >= kDiverged) return out;
+  std::optional<State> best;
+  for (int sweep = 0; sweep < kOrders && out.change > kConverged; ++sweep) {
+    const double change = motion.sweep();
+    if (!(change < 0.5 * out.change)) break;
+    State next = state;
+    motion.take_carrying(next);
+    ForcesOfMotion(system).move_onto_gaps(next);
+    balance_start(system, next);
+    if (!is_finite(next)) break;
+    best = std::move(next);
+    out.change = change;
   }
-  State next = state;
-  motion.take_carrying(next);
-  ForcesOfMotion(system).move_onto_gaps(next);
-  balance_start(system, next);
-  out.placed = is_finite(next);
-  if (out.placed) state = std::move(next);
+  out.placed = best.has_value();
+  if (best) state = std::move(*best);
   return out;
 }
 
@@ -304,7 +304,7 @@ double settle_on_slow_motion(const System& system, const JointPaces& paces, doub
   std::optional<State> best;
   for (int sweep = 0; sweep < kSweeps && last > kConverged; ++sweep) {
     const double change = motion.sweep();
-    if (std::getenv("PSPAN")) std::fprintf(stderr, "   sweep %d change %g\n", sweep, change);
+    if (change == 0) return 0;  // nothing to carry
     if (sweep > 0 && !(change < 0.5 * last)) break;
     if (sweep > 0) {
       State next = state;

@@ -12,8 +12,9 @@ namespace pintle {
 double span_of_motion(const System& system, const State& state, double longest);
 
 struct SoftStart {
-  bool placed = false;  // false: the state is as it was
-  Vecs share;           // per component: how far it goes with the motion, 1 entirely, 0 not at all (and for fast ones)
+  bool placed = false;    // false: the state is as it was
+  double change = 1e300;  // relative, of the gaps in the last sweep
+  Vecs share;             // per component: how far it goes with the motion, 1 entirely, 0 not at all (and for fast ones)
 };
 
 /// Moves soft joints to where the motion would take them if it were slow against them: gaps that carry the forces, with
