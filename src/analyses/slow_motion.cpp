@@ -244,6 +244,7 @@ Vecs shares(const JointPaces& paces, const SlowMotion& motion, const System& sys
     largest = std::max(largest, f.head<2>().norm());
     largest_couple = std::max(largest_couple, std::abs(f[2]));
   }
+  for (const BodyData& body : system.bodies) largest_couple = std::max(largest_couple, largest * std::sqrt(body.mass[2] / body.mass[0]));
   for (std::size_t j = 0; j < share.size(); ++j) {
     const S::Mat K = respond(system.joints[j].law, gap[j], S::Vec::Zero()).stiffness;
     const S::Vec change = K * rate[j];

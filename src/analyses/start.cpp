@@ -22,7 +22,7 @@ constexpr double kSettled = 0.1;  // relative change of the gaps in the last swe
 constexpr double kExact = 1e-6;   // the same, with nothing left to settle
 constexpr double kEntirely = 0.99;  // of its slow motion: with this share a soft joint counts as going with the motion
 constexpr const char* kNotSettled =
-    "the joints' slow motion at the start was not found: joints may ring from the start on. Both integrations start alike, so the stated "
+    "the joints' slow motion at the start was not found (a force that jumps there, for one): joints may ring from the start on. Both integrations start alike, so the stated "
     "errors do not include it";
 
 // Half a step that a rough integration takes, once it is under way: the gaps are smooth over about that time. Rounded to a
@@ -84,6 +84,7 @@ void settle_soft_joints(const System& system, const JointPaces& paces, double sp
 }
 
 void settle(const System& system, double duration, Assembly& assembly) {
+  if (!(duration > 0)) return;
   State& state = assembly.state;
   const double span = span_of_motion(system, state, 4 * duration);
   const JointPaces paces = measure_paces(system, state, span);
