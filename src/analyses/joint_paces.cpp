@@ -10,7 +10,7 @@ namespace {
 
 using S = Planar;
 
-// A gap is fast when its slower rate is this many times 1/span: then sweeps of section 4 gain digits, and what they leave
+// theory/assembly Eq. (5.3). A gap is fast when its slower rate is this many times 1/span: then sweeps of section 4 gain digits, and what they leave
 // out is below (span/kFast)^2 of the force's curvature. Damping settles a rate at once when the faster one is kSettles times.
 constexpr double kFast = 20, kSettles = 100;
 
