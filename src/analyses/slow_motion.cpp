@@ -18,12 +18,13 @@ using S = Planar;
 
 constexpr int kNodes = CurveNodes::kN;
 constexpr int kSweeps = 5;
-constexpr int kOrders = 6;  // sweeps in which soft joints go with the motion
-constexpr double kSmallForce = 0.05;  // of the largest: by this at least is the change of a force measured
-constexpr int kHalvings = 30;
+constexpr int kOrders = 6;               // sweeps in which soft joints go with the motion
+constexpr double kSmallForce = 0.05;     // of the largest: the change of a force is measured by this at least
+constexpr int kHalvings = 30;            // of the stretch that the forces' curves may need
 constexpr double kResolved = 1e-4;       // of the forces: what the last coefficients of a resolved curve may be
 constexpr double kShortOfMotion = 0.25;  // of a stretch that is just resolved
-constexpr double kEager = 0.7;  // of a step of the motion, over the time constant of the fastest lively joint
+constexpr double kEager = 0.7;           // of a step of the motion, over the time constant of the fastest lively joint
+constexpr double kMostSteps = 300;       // from one node to the next
 constexpr double kDiverged = 1e300, kConverged = 1e-10;  // relative change of a sweep
 
 using Nodes = CurveNodes;
@@ -38,7 +39,7 @@ class SlowMotion {
     share_.assign(system.joints.size(), S::Vec::Ones());
   }
 
-  // Fast joints stay closed; soft ones go with the motion, each as far as `share` says.
+  // All joints go with the motion, each as far as `share` says.
   void go_with_the_motion(const Vecs& share) {
     share_ = share;
     differentiate();
@@ -174,7 +175,7 @@ class SlowMotion {
   // Short steps where lively joints follow their laws.
   void follow(State& at, double s0, double s1) {
     const double eager = let_go_ ? paces_.fastest * span_ * (s1 - s0) / kEager : 0;
-    const int steps = static_cast<int>(std::clamp(std::ceil(eager), 1.0, 300.0));
+    const int steps = static_cast<int>(std::clamp(std::ceil(eager), 1.0, kMostSteps));
     for (int i = 0; i < steps; ++i) runge_kutta(at, s0 + (s1 - s0) * i / steps, s0 + (s1 - s0) * (i + 1) / steps);
   }
 
@@ -235,7 +236,7 @@ bool is_finite(const State& state) {
 }
 
 // How far soft joints may go with the motion, theory/assembly Eq. (5.4): all the way where their own dynamics is faster
-// than what their force does, not at all where it is slower. Fast joints stay.
+// than what their force does, not at all where it is slower. Fast ones go all the way.
 Vecs shares(const JointPaces& paces, const SlowMotion& motion, const System& system) {
   const Vecs &force = motion.force(0), &gap = motion.gap(0), &rate = motion.rate();
   Vecs share(force.size());

@@ -14,12 +14,11 @@ double span_of_motion(const System& system, const State& state, double longest);
 struct SoftStart {
   bool placed = false;    // false: the state is as it was
   double change = 1e300;  // relative, of the gaps in the last sweep
-  Vecs share;             // per component: how far it goes with the motion, 1 entirely, 0 not at all (and for fast ones)
+  Vecs share;             // per component: how far it goes with the motion, 1 entirely (fast ones do), 0 not at all
 };
 
 /// Moves soft joints to where the motion would take them if it were slow against them: gaps that carry the forces, with
-/// the rates that go with them as far as that makes sense. Fast joints are taken as closed meanwhile; `span` is only the
-/// time over which derivatives are found.
+/// the rates that go with them as far as that makes sense. `span` is only the time over which derivatives are found.
 SoftStart place_soft_joints(const System& system, const JointPaces& paces, double span, State& state);
 
 /// Given positions, velocities and forces of `start_forces`, finds gap rates and accelerations of the fast joints at the

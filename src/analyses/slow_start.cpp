@@ -16,6 +16,7 @@ constexpr int kPasses = 6;
 // The frequency above which modes are held, over the slowest of the joints by themselves: chains of joints and lever ratios
 // make modes a hundred times slower than that.
 constexpr double kSlow = 5e-4;
+constexpr int kMostJoints = 300;  // whose masses with closed joints are asked for: the cost grows with the square
 
 // What a force of a joint does to its own two bodies: the acceleration of the gap per unit of force, component by component.
 S::Vec own_mobility(const System& system, const Placement& at, const Reading& r) {
@@ -150,6 +151,8 @@ GapMasses ForcesOfMotion::masses_on_gaps(const State& state) {
   for (int j = 0; j < system_.n_joints(); ++j) {
     const S::Vec mobility = own_mobility(system_, system_.joints[j].at, r_[j]);
     for (int c = 0; c < S::kDof; ++c) {
+      masses.closed[j][c] = masses.alone[j][c] = mobility[c] > 0 ? 1 / mobility[c] : 0;
+      if (system_.n_joints() > kMostJoints) continue;
       a = no_load;
       force.assign(system_.joints.size(), S::Vec::Zero());
       for (int pass = 0; pass < 4; ++pass) {
@@ -158,8 +161,7 @@ GapMasses ForcesOfMotion::masses_on_gaps(const State& state) {
         projector_.close(wanted_, a);
       }
       for (int pass = 0; pass < 4; ++pass) projector_.improve_forces(no_load, a, force);
-      masses.alone[j][c] = mobility[c] > 0 ? 1 / mobility[c] : 0;
-      masses.closed[j][c] = std::max(masses.alone[j][c], force[j][c]);  // where no motion can change it alone, the force is 0
+      masses.closed[j][c] = std::max(masses.closed[j][c], force[j][c]);  // where no motion can change it alone, the force is 0
     }
   }
   return masses;

@@ -13,7 +13,7 @@ void carry_force(const Law& law, const Planar::Vec& force, const Planar::Vec& ra
 /// What a force on a component of a gap has to accelerate, per joint and component [kg or kg*m^2]. Empty when no joint has
 /// a stiffness.
 struct GapMasses {
-  Vecs closed;  // while all other gaps stay as they are
+  Vecs closed;  // while all other gaps stay as they are; in mechanisms of hundreds of joints as `alone`
   Vecs alone;   // of the joint's own two bodies; 0 where they do not move the gap
 };
 
