@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -17,6 +18,13 @@ using S = Planar;
 
 constexpr int kNodes = CurveNodes::kN;
 constexpr int kSweeps = 5;
+constexpr int kOrders = 6;               // sweeps in which soft joints go with the motion
+constexpr double kSmallForce = 0.05;     // of the largest: the change of a force is measured by this at least
+constexpr int kHalvings = 30;            // of the stretch that the forces' curves may need
+constexpr double kResolved = 1e-4;       // of the forces: what the last coefficients of a resolved curve may be
+constexpr double kShortOfMotion = 0.25;  // of a stretch that is just resolved
+constexpr double kEager = 0.7;           // of a step of the motion, over the time constant of the fastest lively joint
+constexpr double kMostSteps = 300;       // from one node to the next
 constexpr double kDiverged = 1e300, kConverged = 1e-10;  // relative change of a sweep
 
 using Nodes = CurveNodes;
@@ -24,50 +32,107 @@ using Curve = std::array<Vecs, kNodes>;  // one value per joint at every node
 
 class SlowMotion {
  public:
-  SlowMotion(const System& system, double span, const State& start)
-      : system_(system), span_(span), start_(start), forces_(system) {
+  SlowMotion(const System& system, double span, const State& start, const JointPaces& paces)
+      : system_(system), span_(span), start_(start), paces_(paces), soft_(paces.any_soft()), forces_(system) {
     for (auto* c : {&gap_, &rate_, &accel_})
       for (auto& x : *c) x.assign(system.joints.size(), S::Vec::Zero());
+    share_.assign(system.joints.size(), S::Vec::Ones());
+  }
+
+  // All joints go with the motion, each as far as `share` says.
+  void go_with_the_motion(const Vecs& share) {
+    share_ = share;
+    differentiate();
+  }
+
+  // Soft joints go from where they start: creeping ones as their damping lets them, lively ones by their laws.
+  void let_go() {
+    if (!soft_) return;
+    let_go_ = true;
+    if (paces_.any_lively()) forces_.leave_to_laws(paces_.lively);
+    for (auto& gap : gap_)
+      for (std::size_t j = 0; j < gap.size(); ++j) gap[j] = soft(j).cwiseProduct(start_.gap[j]);
+    differentiate();
+    swept_ = true;
+    for (std::size_t j = 0; j < start_.gap.size(); ++j) rate_[0][j] += paces_.creeping[j].cwiseProduct(start_.gap_rate[j]);
   }
 
   // One sweep: follow the motion with the present gap accelerations; gaps from the forces that it takes. Relative change.
   double sweep() {
     State at = start_;
-    for (std::size_t j = 0; j < at.gap.size(); ++j) {
-      at.gap[j] = gap_[0][j];
-      at.gap_rate[j] = rate_[0][j];
-      at.gap_accel[j] = accel_[0][j];
-    }
+    put(0, at);
     if (swept_) forces_.move_onto_gaps(at);
-    double change = 0, size = 1e-300;
     for (int node = 0; node < kNodes; ++node) {
       if (node > 0) follow(at, nodes_.x[node - 1], nodes_.x[node]);
       set_accel(at, nodes_.x[node]);
       at.gap_rate = rate_[node];
       if (!forces_.find(at)) return kDiverged;
       forces_.carry(at);
+      next_[node] = at.gap;
+      force_[node] = at.force;
+    }
+    if (let_go_) creep();
+    double change = 0, size = 1e-300;
+    for (int node = 0; node < kNodes; ++node)
       for (std::size_t j = 0; j < at.gap.size(); ++j) {
-        const double moved = (weighted(j, at.gap[j]) - weighted(j, gap_[node][j])).norm();
+        const double moved = (weighted(j, next_[node][j]) - weighted(j, gap_[node][j])).norm();
         if (!std::isfinite(moved)) return kDiverged;
         change = std::max(change, moved);
-        size = std::max(size, weighted(j, at.gap[j]).norm());
-        next_[node].resize(at.gap.size());
-        next_[node][j] = at.gap[j];
+        size = std::max(size, weighted(j, next_[node][j]).norm());
       }
-    }
     gap_ = next_;
+    carried_rate_ = rate_[0];
     differentiate();
     swept_ = true;
     return change / size;
   }
 
+  // The start that the sweeps have found. Where a creeping joint starts is given: its rate carries the force.
   void take(State& state) const {
-    state.gap = gap_[0];
-    state.gap_rate = rate_[0];
-    state.gap_accel = accel_[0];
+    put(0, state);
+    for (std::size_t j = 0; let_go_ && j < state.gap.size(); ++j)
+      for (int i = 0; i < S::kDof; ++i) {
+        if (paces_.creeping[j][i] == 0) continue;
+        const Response now = respond(system_.joints[j].law, state.gap[j], state.gap_rate[j]);
+        if (now.damping(i, i) > 0) state.gap_rate[j][i] += (now.force[i] - force_[0][j][i]) / now.damping(i, i);
+      }
   }
 
+  // The gaps at the start and the rates with which they carry its forces.
+  void take_carrying(State& state) const {
+    put(0, state);
+    state.gap_rate = carried_rate_;
+  }
+
+  // Share of the forces' curves that the last two of their Chebyshev coefficients make up.
+  double unresolved() const {
+    double tail = 0, size = 1e-300;
+    for (std::size_t j = 0; j < system_.joints.size(); ++j)
+      for (const int end : {kNodes - 1, kNodes - 2}) {
+        S::Vec sum = S::Vec::Zero();
+        for (int n = 0; n < kNodes; ++n) {
+          const double w = n == 0 || n == kNodes - 1 ? 0.5 : 1;
+          sum += w * std::cos(std::numbers::pi * n * end / (kNodes - 1)) * force_[n][j];
+          size = std::max(size, force_[n][j].head<2>().norm());
+        }
+        tail = std::max(tail, 2.0 / (kNodes - 1) * sum.head<2>().norm());
+      }
+    return tail / size;
+  }
+
+  const Vecs& gap(int node) const { return gap_[node]; }
+  const Vecs& force(int node) const { return force_[node]; }
+  const Vecs& rate() const { return rate_[0]; }
+
  private:
+  S::Vec soft(std::size_t j) const { return paces_.creeping[j] + paces_.lively[j]; }
+
+  void put(int node, State& at) const {
+    at.gap = gap_[node];
+    at.gap_rate = rate_[node];
+    at.gap_accel = accel_[node];
+  }
+
   // A gap as the force it makes.
   S::Vec weighted(std::size_t j, const S::Vec& gap) const {
     return respond(system_.joints[j].law, start_.gap[j], start_.gap_rate[j]).stiffness * gap;
@@ -81,8 +146,41 @@ class SlowMotion {
     }
   }
 
-  // One classical Runge-Kutta step of the motion whose gap accelerations are given.
+  // theory/assembly Eq. (5.6): creeping gaps from where they start, by collocation at the other nodes.
+  void creep() {
+    for (std::size_t j = 0; j < system_.joints.size(); ++j) {
+      std::array<Response, kNodes> now;
+      for (int n = 0; n < kNodes; ++n) now[n] = respond(system_.joints[j].law, gap_[n][j], rate_[n][j]);
+      for (int i = 0; i < S::kDof; ++i) {
+        if (paces_.lively[j][i] != 0)
+          for (auto& gap : next_) gap[j][i] = start_.gap[j][i];
+        if (paces_.creeping[j][i] == 0) continue;
+        Eigen::Matrix<double, kNodes, kNodes> A = nodes_.D / span_;
+        Eigen::Matrix<double, kNodes, 1> b;
+        for (int n = 0; n < kNodes; ++n) {
+          const double k = now[n].stiffness(i, i), c = now[n].damping(i, i);
+          A.row(n) *= c;
+          A(n, n) += k;
+          b[n] = k * gap_[n][j][i] + c * rate_[n][j][i] + now[n].force[i] - force_[n][j][i];
+        }
+        A.row(0).setZero();
+        A(0, 0) = 1;
+        b[0] = start_.gap[j][i];
+        b = A.partialPivLu().solve(b).eval();
+        for (int n = 0; n < kNodes; ++n) next_[n][j][i] = b[n];
+      }
+    }
+  }
+
+  // Short steps where lively joints follow their laws.
   void follow(State& at, double s0, double s1) {
+    const double eager = let_go_ ? paces_.fastest * span_ * (s1 - s0) / kEager : 0;
+    const int steps = static_cast<int>(std::clamp(std::ceil(eager), 1.0, kMostSteps));
+    for (int i = 0; i < steps; ++i) runge_kutta(at, s0 + (s1 - s0) * i / steps, s0 + (s1 - s0) * (i + 1) / steps);
+  }
+
+  // One classical Runge-Kutta step of the motion whose gap accelerations are given.
+  void runge_kutta(State& at, double s0, double s1) {
     const double h = span_ * (s1 - s0);
     const State begin = at;
     std::array<Vecs, 4> kq, kv;
@@ -108,21 +206,27 @@ class SlowMotion {
   }
 
   void differentiate() {
-    for (std::size_t j = 0; j < system_.joints.size(); ++j)
+    for (std::size_t j = 0; j < system_.joints.size(); ++j) {
       for (const auto& [from, to] : {std::pair{&gap_, &rate_}, std::pair{&rate_, &accel_}})
         for (int i = 0; i < kNodes; ++i) {
           S::Vec sum = S::Vec::Zero();
           for (int k = 0; k < kNodes; ++k) sum += nodes_.D(i, k) * (*from)[k][j];
-          (*to)[i][j] = sum / span_;
+          (*to)[i][j] = share_[j].cwiseProduct(sum) / span_;
         }
+      if (!let_go_) continue;
+      for (auto& rate : rate_) rate[j] += paces_.lively[j].cwiseProduct(start_.gap_rate[j]);
+    }
   }
 
   const System& system_;
   double span_;
   const State& start_;
+  const JointPaces& paces_;
+  bool soft_, let_go_ = false;
   ForcesOfMotion forces_;
   Nodes nodes_;
-  Curve gap_, rate_, accel_, next_;
+  Curve gap_, rate_, accel_, next_, force_;
+  Vecs share_, carried_rate_;
   bool swept_ = false;
 };
 
@@ -131,14 +235,78 @@ bool is_finite(const State& state) {
   return finite(state.q) && finite(state.v) && finite(state.a) && finite(state.gap) && finite(state.force);
 }
 
+// How far soft joints may go with the motion, theory/assembly Eq. (5.4): all the way where their own dynamics is faster
+// than what their force does, not at all where it is slower. Fast ones go all the way.
+Vecs shares(const JointPaces& paces, const SlowMotion& motion, const System& system) {
+  const Vecs &force = motion.force(0), &gap = motion.gap(0), &rate = motion.rate();
+  Vecs share(force.size());
+  double largest = 0, largest_couple = 0;
+  for (const S::Vec& f : force) {
+    largest = std::max(largest, f.head<2>().norm());
+    largest_couple = std::max(largest_couple, std::abs(f[2]));
+  }
+  for (const BodyData& body : system.bodies) largest_couple = std::max(largest_couple, largest * std::sqrt(body.mass[2] / body.mass[0]));
+  for (std::size_t j = 0; j < share.size(); ++j) {
+    const S::Mat K = respond(system.joints[j].law, gap[j], S::Vec::Zero()).stiffness;
+    const S::Vec change = K * rate[j];
+    const auto share_of = [&](double now, double least, double per_second, double own) {
+      const double x = per_second / (own * std::max({now, kSmallForce * least, 1e-300}));
+      return 1 / (1 + x * x * x * x);
+    };
+    const S::Vec &own = paces.slow_rate[j], soft = paces.creeping[j] + paces.lively[j];
+    for (int i = 0; i < S::kDof; ++i) {
+      share[j][i] = 1;
+      if (soft[i] == 0) continue;
+      share[j][i] = i < 2 ? share_of(force[j].head<2>().norm(), largest, change.head<2>().norm(), own[i])
+                          : share_of(std::abs(force[j][2]), largest_couple, std::abs(change[2]), own[i]);
+    }
+  }
+  return share;
+}
+
 }  // namespace
 
-double settle_on_slow_motion(const System& system, double span, State& state) {
-  SlowMotion motion(system, span, state);
+double span_of_motion(const System& system, const State& state, double longest) {
+  const JointPaces paces = all_fast(system);
+  double span = std::exp2(std::ceil(std::log2(longest)));
+  for (int i = 0; i < kHalvings; ++i, span *= 0.5) {
+    SlowMotion motion(system, span, state, paces);
+    if (motion.sweep() < kDiverged && motion.unresolved() < kResolved) return kShortOfMotion * span;
+  }
+  return 0;
+}
+
+SoftStart place_soft_joints(const System& system, const JointPaces& paces, double span, State& state) {
+  SlowMotion motion(system, span, state, paces);
+  SoftStart out;
+  if (motion.sweep() >= kDiverged) return out;
+  out.share = shares(paces, motion, system);
+  motion.go_with_the_motion(out.share);
+  std::optional<State> best;
+  for (int sweep = 0; sweep < kOrders && out.change > kConverged; ++sweep) {
+    const double change = motion.sweep();
+    if (!(change < 0.5 * out.change)) break;
+    State next = state;
+    motion.take_carrying(next);
+    ForcesOfMotion(system).move_onto_gaps(next);
+    balance_start(system, next);
+    if (!is_finite(next)) break;
+    best = std::move(next);
+    out.change = change;
+  }
+  out.placed = best.has_value();
+  if (best) state = std::move(*best);
+  return out;
+}
+
+double settle_on_slow_motion(const System& system, const JointPaces& paces, double span, State& state) {
+  SlowMotion motion(system, span, state, paces);
+  motion.let_go();
   double last = kDiverged;
   std::optional<State> best;
   for (int sweep = 0; sweep < kSweeps && last > kConverged; ++sweep) {
     const double change = motion.sweep();
+    if (change == 0) return 0;  // nothing to carry
     if (sweep > 0 && !(change < 0.5 * last)) break;
     if (sweep > 0) {
       State next = state;

@@ -16,19 +16,29 @@ constexpr int kPasses = 6;
 // The frequency above which modes are held, over the slowest of the joints by themselves: chains of joints and lever ratios
 // make modes a hundred times slower than that.
 constexpr double kSlow = 5e-4;
+constexpr int kMostJoints = 300;  // whose masses with closed joints are asked for: the cost grows with the square
 
-// The slowest frequency that a joint's stiffness gives to the two bodies it connects, over all joints.
-double slowest_joint(const System& system, const std::vector<Reading>& r) {
+// What a force of a joint does to its own two bodies: the acceleration of the gap per unit of force, component by component.
+S::Vec own_mobility(const System& system, const Placement& at, const Reading& r) {
+  S::Vec mobility = S::Vec::Zero();
+  for (int c = 0; c < S::kDof; ++c) {
+    if (at.a != kGround) mobility[c] += r.GA.row(c).cwiseAbs2().dot(system.bodies[at.a].mass.cwiseInverse());
+    if (at.b != kGround) mobility[c] += r.GB.row(c).cwiseAbs2().dot(system.bodies[at.b].mass.cwiseInverse());
+  }
+  return mobility;
+}
+
+// The slowest frequency that a joint's stiffness gives to the two bodies it connects, over all joints (of components with
+// `moved`, when given).
+double slowest_joint(const System& system, const std::vector<Reading>& r, const Vecs* moved = nullptr) {
   double slowest = std::numeric_limits<double>::infinity();
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& joint = system.joints[j];
     const S::Vec k = respond(joint.law, S::Vec(1e-9, 0, 0), S::Vec::Zero()).stiffness.diagonal();
+    const S::Vec mobility = own_mobility(system, joint.at, r[j]);
     for (int c = 0; c < 3; ++c) {
-      if (!(k[c] > 0)) continue;
-      double mobility = 0;
-      if (joint.at.a != kGround) mobility += r[j].GA.row(c).cwiseAbs2().dot(system.bodies[joint.at.a].mass.cwiseInverse());
-      if (joint.at.b != kGround) mobility += r[j].GB.row(c).cwiseAbs2().dot(system.bodies[joint.at.b].mass.cwiseInverse());
-      if (mobility > 0) slowest = std::min(slowest, std::sqrt(k[c] * mobility));
+      if (!(k[c] > 0) || (moved && (*moved)[j][c] == 0)) continue;
+      if (mobility[c] > 0) slowest = std::min(slowest, std::sqrt(k[c] * mobility[c]));
     }
   }
   return slowest;
@@ -92,21 +102,69 @@ S::Vec ForcesOfMotion::from_bodies(int j, const Vecs& x) const {
   return y;
 }
 
+void ForcesOfMotion::leave_to_laws(const Vecs& components) {
+  by_law_ = components;
+  moved_.resize(components.size());
+  for (std::size_t j = 0; j < components.size(); ++j) moved_[j] = S::Vec::Ones() - components[j];
+}
+
+// theory/assembly Eq. (5.7): what follows its law pushes as a load does.
+void ForcesOfMotion::push_by_laws(State& state) {
+  for (std::size_t j = 0; j < by_law_.size(); ++j) {
+    if (by_law_[j].isZero()) continue;
+    const S::Vec force = law_force(system_.joints[j].law, r_[j].gap, r_[j].rate);
+    const S::Vec pushing = by_law_[j].cwiseProduct(force);
+    state.force[j] = pushing + moved_[j].cwiseProduct(state.force[j]);
+    add_force(system_.joints[j].at, r_[j], pushing, state.a);
+  }
+}
+
 // theory/assembly Eqs. (3.1), (3.2): first the free bodies' accelerations, then what the joints ask for, then the forces.
 bool ForcesOfMotion::find(State& state) {
   system_.motions(state.q, state.v, m_);
   system_.readings(state.t, m_, r_);
-  const double mu = kSlow * slowest_joint(system_, r_);
+  const Vecs* moved = moved_.empty() ? nullptr : &moved_;
+  const double mu = kSlow * slowest_joint(system_, r_, moved);
   if (!std::isfinite(mu) || !(mu > 0)) return false;
-  if (!projector_.prepare(state.t, m_, mu, state.gap, state.gap_rate)) return false;
+  if (!projector_.prepare(state.t, m_, mu, state.gap, state.gap_rate, moved)) return false;
   system_.external(state.t, m_, Q_);
-  for (int i = 0; i < system_.n_bodies(); ++i) state.a[i] = Q_[i].cwiseQuotient(system_.bodies[i].mass);
+  state.a = Q_;
+  if (moved) push_by_laws(state);
+  for (int i = 0; i < system_.n_bodies(); ++i) state.a[i] = state.a[i].cwiseQuotient(system_.bodies[i].mass);
   for (int pass = 0; pass < 4; ++pass) {
     for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap_accel[j] - r_[j].bias - from_bodies(j, state.a);
     projector_.close(wanted_, state.a);
   }
   for (int pass = 0; pass < 4; ++pass) projector_.improve_forces(Q_, state.a, state.force);
   return true;
+}
+
+// theory/assembly Eq. (5.1).
+GapMasses ForcesOfMotion::masses_on_gaps(const State& state) {
+  system_.motions(state.q, state.v, m_);
+  system_.readings(state.t, m_, r_);
+  const double mu = kSlow * slowest_joint(system_, r_);
+  if (!std::isfinite(mu) || !(mu > 0) || !projector_.prepare(state.t, m_, mu, state.gap, state.gap_rate)) return {};
+  const Vecs no_load(system_.bodies.size(), S::Vec::Zero());
+  GapMasses masses{Vecs(system_.joints.size(), S::Vec::Zero()), Vecs(system_.joints.size(), S::Vec::Zero())};
+  Vecs a, force;
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const S::Vec mobility = own_mobility(system_, system_.joints[j].at, r_[j]);
+    for (int c = 0; c < S::kDof; ++c) {
+      masses.closed[j][c] = masses.alone[j][c] = mobility[c] > 0 ? 1 / mobility[c] : 0;
+      if (system_.n_joints() > kMostJoints) continue;
+      a = no_load;
+      force.assign(system_.joints.size(), S::Vec::Zero());
+      for (int pass = 0; pass < 4; ++pass) {
+        for (int i = 0; i < system_.n_joints(); ++i) wanted_[i] = -from_bodies(i, a);
+        wanted_[j][c] += 1;
+        projector_.close(wanted_, a);
+      }
+      for (int pass = 0; pass < 4; ++pass) projector_.improve_forces(no_load, a, force);
+      masses.closed[j][c] = std::max(masses.closed[j][c], force[j][c]);  // where no motion can change it alone, the force is 0
+    }
+  }
+  return masses;
 }
 
 void ForcesOfMotion::carry(State& state) const {

@@ -10,10 +10,21 @@ namespace pintle {
 /// The gap at which a law gives `force` at `rate`; components without stiffness stay. theory/assembly Eq. (3.3).
 void carry_force(const Law& law, const Planar::Vec& force, const Planar::Vec& rate, Planar::Vec& gap);
 
+/// What a force on a component of a gap has to accelerate, per joint and component [kg or kg*m^2]. Empty when no joint has
+/// a stiffness.
+struct GapMasses {
+  Vecs closed;  // while all other gaps stay as they are; in mechanisms of hundreds of joints as `alone`
+  Vecs alone;   // of the joint's own two bodies; 0 where they do not move the gap
+};
+
 /// The joint forces that a given motion takes, and the gaps that carry them.
 class ForcesOfMotion {
  public:
   explicit ForcesOfMotion(const System& system);
+
+  /// The components (1, others 0) that `find` leaves to their laws: their forces are those of the gaps and rates that the
+  /// bodies have, and their gaps accelerate as they may.
+  void leave_to_laws(const Vecs& components);
 
   /// Accelerations and joint forces at state.q, state.v for which the gaps accelerate as state.gap_accel says; what no
   /// motion can close stays as state.force has it. False when there is no stiff joint or the equations are singular.
@@ -22,15 +33,17 @@ class ForcesOfMotion {
   void carry(State& state) const;
   /// Moves q and v so that the joints have the gaps and rates of the state. Call after `find` near that state.
   void move_onto_gaps(State& state);
+  GapMasses masses_on_gaps(const State& state);
 
  private:
   Planar::Vec from_bodies(int j, const Vecs& x) const;
+  void push_by_laws(State& state);
 
   const System& system_;
   GapProjector projector_;
   std::vector<Planar::Motion> m_;
   std::vector<Reading> r_;
-  Vecs Q_, wanted_;
+  Vecs Q_, wanted_, by_law_, moved_;
 };
 
 /// Accelerations that the joint forces really give at the state's gaps, and the gap accelerations that go with them.

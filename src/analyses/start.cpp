@@ -1,9 +1,12 @@
 #include "analyses/start.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <utility>
 
 #include "analyses/ideal_rows.h"
+#include "analyses/joint_paces.h"
 #include "analyses/slow_motion.h"
 #include "analyses/tree_start.h"
 #include "integrators/radau_stepper.h"
@@ -16,6 +19,11 @@ constexpr double kScoutTolerance = 1e-3;
 constexpr int kScoutSteps = 3;
 constexpr int kSpans = 4;         // tried, each a quarter of the one before
 constexpr double kSettled = 0.1;  // relative change of the gaps in the last sweep that is taken for convergence
+constexpr double kExact = 1e-6;   // the same, with nothing left to settle
+constexpr double kEntirely = 0.99;  // of its slow motion: with this share a soft joint counts as going with the motion
+constexpr const char* kNotSettled =
+    "the joints' slow motion at the start was not found (a force that jumps there, for one): joints may ring from the start on. Both integrations start alike, so the stated "
+    "errors do not include it";
 
 // Half a step that a rough integration takes, once it is under way: the gaps are smooth over about that time. Rounded to a
 // part of the duration, so that it does not change with every slight change of the model: where a joint is as slow as the
@@ -40,12 +48,54 @@ Assembly ideal_start(Model model, System& system) {
   return assembly;
 }
 
+// Fast joints ride their slow motion; where that is not found the state stays, or with `keep_best` is the best attempt. True when found.
+bool settle_fast_joints(const System& system, const JointPaces& paces, double span, bool keep_best, State& state) {
+  for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25) {
+    State attempt = state;
+    const double change = settle_on_slow_motion(system, paces, span, attempt);
+    if (change < kSettled || keep_best) state = std::move(attempt);
+    if (change < kSettled) return true;
+  }
+  return false;
+}
+
+// Says which joints start on a motion of their own. True when there are none.
+bool note_lively_joints(const System& system, const JointPaces& paces, const SoftStart& soft, std::vector<std::string>& notes) {
+  bool none = true;
+  for (std::size_t j = 0; j < soft.share.size(); ++j) {
+    Eigen::Index slowest = 0;
+    const double share = soft.share[j].minCoeff(&slowest);
+    if (share > kEntirely) continue;
+    none = false;
+    notes.push_back(fmt::format("{} {}: its own rate of {:.3g} 1/s is slow against the change of its force; it starts at the gap that carries the load, "
+                                "with {:.0f} % of the rate that goes with it, and what it does from there is part of the answer",
+                                system.joints[j].servo < 0 ? "joint" : "motor", system.joints[j].name, paces.slow_rate[j][slowest], 100 * share));
+  }
+  return none;
+}
+
+// theory/assembly section 5: soft joints first, then the others around them.
+void settle_soft_joints(const System& system, const JointPaces& paces, double span, Assembly& assembly) {
+  const SoftStart soft = place_soft_joints(system, paces, 2 * span, assembly.state);
+  const bool along = note_lively_joints(system, paces, soft, assembly.notes);
+  if (soft.placed && along && soft.change < kExact) return;
+  if (settle_fast_joints(system, paces, span, false, assembly.state)) return;
+  if (!soft.placed || soft.change >= kSettled) assembly.notes.push_back(kNotSettled);
+}
+
+void settle(const System& system, double duration, Assembly& assembly) {
+  if (!(duration > 0)) return;
+  State& state = assembly.state;
+  const double span = span_of_motion(system, state, 4 * duration);
+  const JointPaces paces = measure_paces(system, state, span);
+  if (span > 0 && paces.any_soft()) return settle_soft_joints(system, paces, span, assembly);
+  if (!settle_fast_joints(system, all_fast(system), smooth_span(system, state, duration), true, state)) assembly.notes.push_back(kNotSettled);
+}
+
 Assembly start_of_free_bodies(const Model& model, System& system) {
   Assembly assembly = assemble(model, system);
   if (model.simulate.start != Start::kAssembled || system.joints.empty()) return assembly;
-  double span = smooth_span(system, assembly.state, model.simulate.duration);
-  for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25)
-    if (settle_on_slow_motion(system, span, assembly.state) < kSettled) break;
+  settle(system, model.simulate.duration, assembly);
   return assembly;
 }
 

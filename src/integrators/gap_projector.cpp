@@ -24,7 +24,8 @@ GapProjector::GapProjector(const System& system)
   }
 }
 
-bool GapProjector::prepare(double t, const std::vector<S::Motion>& m, double mu, const Vecs& gap_at, const Vecs& rate_at) {
+bool GapProjector::prepare(double t, const std::vector<S::Motion>& m, double mu, const Vecs& gap_at, const Vecs& rate_at,
+                           const Vecs* moved) {
   mu_ = mu;
   system_.readings(t, m, readings_);
   lu_.set_zero();
@@ -35,6 +36,7 @@ bool GapProjector::prepare(double t, const std::vector<S::Motion>& m, double mu,
     const Reading& r = readings_[j];
     const Response response = respond(system_.joints[j].law, gap_at[j], rate_at[j]);
     weight_[j] = response.stiffness + mu * response.damping;
+    if (moved) weight_[j] = (*moved)[j].asDiagonal() * weight_[j] * (*moved)[j].asDiagonal();
     const S::Mat WA = weight_[j] * r.GA, WB = weight_[j] * r.GB;
     if (at.a != kGround) add_block(lu_.diagonal(at.a), r.GA.transpose() * WA);
     if (at.b != kGround) add_block(lu_.diagonal(at.b), r.GB.transpose() * WB);

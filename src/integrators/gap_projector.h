@@ -14,8 +14,10 @@ class GapProjector {
  public:
   explicit GapProjector(const System& system);
 
-  /// Factorises mu^2 M + G' (K + mu C) G at the configuration of `m`. False when singular.
-  bool prepare(double t, const std::vector<Planar::Motion>& m, double mu, const Vecs& gap_at, const Vecs& rate_at);
+  /// Factorises mu^2 M + G' (K + mu C) G at the configuration of `m`. False when singular. With `moved` (1 or 0 for every
+  /// component of every gap) the components with 0 are left alone, as if they had no law.
+  bool prepare(double t, const std::vector<Planar::Motion>& m, double mu, const Vecs& gap_at, const Vecs& rate_at,
+               const Vecs* moved = nullptr);
 
   /// Gaps, rates, Jacobians and convective terms of `m`; the factorisation stays.
   void read(double t, const std::vector<Planar::Motion>& m) { system_.readings(t, m, readings_); }
