@@ -61,6 +61,11 @@ bool TreeStages::solve(const TreeState& begin, double h, const TreeNodes* before
   return false;
 }
 
+void TreeStages::hold(const std::vector<HeldJump>& held) {
+  for (TreeInstant& at : at_) at.hold(held);
+  beside_.hold(held);
+}
+
 void TreeStages::predict(const TreeState& begin, double h, const TreeNodes* before, double last_h) {
   for (int s = 0; s < n_; ++s) {
     TreeState& state = state_[s];
