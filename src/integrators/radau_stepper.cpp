@@ -78,7 +78,7 @@ bool RadauStepper::step(double t_end) {
       ++counters_.newton_failures;
       have_history_ = have_history_ && retry == 0;
     }
-    const Kink kink = find_kink(h, solved);  // unsolved it may be for a jump on the way
+    const Kink kink = solved || retry > 0 ? find_kink(h, solved) : Kink{};  // twice unsolved: for a jump on the way?
     if (kink.before < 1 && kink.before * h < kKinkAtStart * usual_h_) {
       cross_kink(kink.before * h);
       begin_ = end_;
