@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,9 +40,24 @@ class Expression {
   double value(std::span<const double> values) const;
   /// Value and all first derivatives (exact). `gradient` has one entry per variable.
   double gradient(std::span<const double> values, std::span<double> gradient) const;
+  /// A jump (a comparison, sign or step) passed on a straight ramp: a share of the value above it, the rest of that below.
+  struct Ramp {
+    std::size_t jump = 0;     // which, as `jump_between` gives it
+    double share = 0;         // at margin `at`
+    double slope = 0, at = 0; // share per unit of the margin
+    double share_at(double margin) const { return share + slope * (margin - at); }
+  };
+  /// By how much the jump's argument is above it (left side less right side of a comparison).
+  double margin(std::size_t jump, std::span<const double> values) const;
+  /// A jump that lies between two points.
+  std::optional<std::size_t> jump_between(std::span<const double> from, std::span<const double> to) const;
+  /// Value and first derivatives with one jump on a ramp, which goes on beyond both sides.
+  double gradient(std::span<const double> values, std::span<double> gradient, const Ramp& ramp) const;
+
   /// Which side of its kinks and jumps the expression is on at `values` (min, max, abs, comparisons ..): a number that
   /// changes where a side does. 0 for an expression without any.
-  std::uint64_t branches(std::span<const double> values) const;
+  /// With a ramp: whether its share is below 0, within, or above 1.
+  std::uint64_t branches(std::span<const double> values, const Ramp* ramp = nullptr) const;
   bool has_branches() const;
   /// Value, first and second derivative with respect to variable `index`, the others held (exact).
   std::array<double, 3> second_order(std::span<const double> values, std::size_t index) const;

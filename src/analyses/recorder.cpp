@@ -156,7 +156,7 @@ void Recorder::add(const State& state) {
     double effort = 0, power = 0;
     for (const LoadData& load : system_.loads)
       if (load.kind == LoadKind::kEffort && load.name == motor.name) {
-        effort = system_.load_effort(load, state.t, m_);
+        effort = system_.load_effort(load, state.t, m_, state.held);
         power = effort * system_.pose(load.at, m_).rate[load.component];
       }
     for (int j = 0; j < system_.n_joints(); ++j) {

@@ -7,48 +7,12 @@
 #include <cassert>
 #include <cstddef>
 
-#include "base/expression_program.h"
-#include "base/jet.h"
+#include "base/expression_run.h"
 
 namespace pintle {
 namespace {
 
-// Runs `program` on numbers or jets. `constant` and `variable` make a T of a value and of a variable's index.
-template <class T, class MakeConstant, class MakeVariable>
-T run(const Expression::Program& program, const MakeConstant& constant, const MakeVariable& variable) {
-  std::array<T, kStackSize> stack;
-  std::size_t top = 0;
-  for (const Instruction& step : program.code) {
-    switch (arity(step.op)) {
-      case 0:
-        stack[top++] = step.op == Op::kConstant ? constant(step.constant) : variable(step.variable);
-        break;
-      case 1:
-        stack[top - 1] = apply(step.op, stack[top - 1]);
-        break;
-      case 2:
-        stack[top - 2] = apply(step.op, stack[top - 2], stack[top - 1]);
-        top -= 1;
-        break;
-      default:
-        stack[top - 3] = apply(step.op, stack[top - 3], stack[top - 2], stack[top - 1]);
-        top -= 2;
-    }
-  }
-  return stack[0];
-}
-
-// Along variable `index`, the others held.
-Jet run_along(const Expression::Program& program, std::span<const double> values, std::size_t index) {
-  return run<Jet>(
-      program,
-      [](double c) {
-        return Jet{c, 0, 0};
-      },
-      [&](std::uint32_t i) {
-        return Jet{values[i], i == index ? 1.0 : 0.0, 0};
-      });
-}
+constexpr auto kAsIs = [](std::size_t, auto, auto&) {};
 
 }  // namespace
 
@@ -68,8 +32,7 @@ bool Expression::is_constant() const {
 double Expression::value(std::span<const double> values) const {
   if (!program_) return 0;
   assert(values.size() >= variables_.size());
-  return run<double>(
-      *program_, [](double c) { return c; }, [&](std::uint32_t i) { return values[i]; });
+  return run_at(*program_, values, kAsIs);
 }
 
 double Expression::gradient(std::span<const double> values, std::span<double> gradient) const {
@@ -77,7 +40,7 @@ double Expression::gradient(std::span<const double> values, std::span<double> gr
   if (variables_.empty()) return value(values);
   double result = 0;
   for (std::size_t i = 0; i < variables_.size(); ++i) {
-    const Jet jet = run_along(*program_, values, i);
+    const Jet jet = run_along(*program_, values, i, kAsIs);
     result = jet.value;
     gradient[i] = jet.first;
   }
@@ -90,28 +53,9 @@ bool Expression::has_branches() const {
   return std::any_of(code.begin(), code.end(), [](const Instruction& step) { return pintle::has_branches(step.op); });
 }
 
-std::uint64_t Expression::branches(std::span<const double> values) const {
-  if (!program_) return 0;
-  std::uint64_t sides = 0;
-  std::array<double, kStackSize> stack;
-  std::size_t top = 0;
-  for (const Instruction& step : program_->code) {
-    const std::size_t n = static_cast<std::size_t>(arity(step.op));
-    if (n == 0) {
-      stack[top++] = step.op == Op::kConstant ? step.constant : values[step.variable];
-      continue;
-    }
-    top -= n;
-    const double a = stack[top], b = n > 1 ? stack[top + 1] : 0, c = n > 2 ? stack[top + 2] : 0;
-    if (pintle::has_branches(step.op)) sides = sides * 0x9E3779B97F4A7C15U + 1 + branch(step.op, a, b, c);
-    stack[top++] = n == 1 ? apply(step.op, a) : n == 2 ? apply(step.op, a, b) : apply(step.op, a, b, c);
-  }
-  return sides;
-}
-
 std::array<double, 3> Expression::second_order(std::span<const double> values, std::size_t index) const {
   if (variables_.empty()) return {value(values), 0, 0};
-  const Jet jet = run_along(*program_, values, index);
+  const Jet jet = run_along(*program_, values, index, kAsIs);
   return {jet.value, jet.first, jet.second};
 }
 

@@ -71,6 +71,7 @@ const State& DenseOutput::at(double t, const State& begin, const State& end) {
   interpolate(H, h, begin.gap, begin.gap_rate, begin.gap_accel, end.gap, end.gap_rate, end.gap_accel, out_.gap, out_.gap_rate,
               out_.gap_accel);
   out_.t = t;
+  out_.held = begin.held;
   out_.dissipated = cubic(s, h, begin.dissipated, begin.loss_power, end.dissipated, end.loss_power);
   out_.supplied = cubic(s, h, begin.supplied, begin.supply_power, end.supplied, end.supply_power);
   for (int j = 0; j < system_.n_joints(); ++j) out_.force[j] = law_force(system_.joints[j].law, out_.gap[j], out_.gap_rate[j]);
@@ -114,6 +115,7 @@ void DenseOutput::follow(double t, const State& begin, const State& end) {
     }
   };
   out_.t = t;
+  out_.held = begin.held;
   along(body_, begin.q, begin.v, out_.q, out_.v, out_.a);
   along(gap_, begin.gap, begin.gap_rate, out_.gap, out_.gap_rate, out_.gap_accel);
   for (std::size_t j = 0; j < force_.size(); ++j) {
@@ -179,7 +181,7 @@ void DenseOutput::find_forces(const State& begin, const State& end, const StepNo
       projector_.close(wanted_, out_.v);
       system_.motions(out_.q, out_.v, motions_);
       projector_.read(out_.t, motions_);
-      system_.external(out_.t, motions_, Q_);
+      system_.external(out_.t, motions_, Q_, begin.held);
       projector_.balance(Q_, out_.gap_accel, out_.force);
     }
     sampled_[i] = out_.force;

@@ -5,7 +5,7 @@ namespace pintle {
 void LawStates::complete(State& state) {
   system_.motions(state.q, state.v, m_);
   system_.readings(state.t, m_, r_);
-  const ExternalWork work = system_.external_work(state.t, state.q, m_);
+  const ExternalWork work = system_.external_work(state.t, state.q, m_, state.held);
   state.supply_power = work.supplied;
   state.loss_power = work.lost;
   for (int j = 0; j < system_.n_joints(); ++j) {

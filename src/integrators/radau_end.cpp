@@ -92,10 +92,10 @@ void RadauStepper::finish_step(double h) {
   balance_forces();
   nodes_.force[n_] = end_.force;
   add_work(h);
-  if (system_.has_branches()) side_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate);
+  have_history_ = true;
+  if (system_.has_branches()) see_sides();
   grow_scale();
   last_h_ = h;
-  have_history_ = true;
 }
 
 // What the rounding of positions leaves of a gap, or that of velocities of its rate.
@@ -180,7 +180,7 @@ void RadauStepper::add_work(double h) {
 
 std::array<double, 2> RadauStepper::power(double t, const Vecs& q, const std::vector<S::Motion>& m, const Vecs& gap,
                                           const Vecs& gap_rate, const Vecs& force) const {
-  const ExternalWork work = system_.external_work(t, q, m);
+  const ExternalWork work = system_.external_work(t, q, m, end_.held);
   std::array<double, 2> out{work.supplied, work.lost};
   for (int j = 0; j < system_.n_joints(); ++j) {
     const JointData& joint = system_.joints[j];

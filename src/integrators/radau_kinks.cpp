@@ -10,9 +10,10 @@ namespace {
 
 using S = Planar;
 
-constexpr int kHalvings = 46;
 constexpr double kCrossing = 1e-9;  // of the usual step: the least that is gone to cross
 constexpr int kCrossings = 5;       // each ten times longer, until the side has changed
+constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
+constexpr double kMoment = 1e-6;    // of the usual step: to see where accelerations lead
 
 }  // namespace
 
@@ -44,29 +45,31 @@ std::uint64_t RadauStepper::sides(double x, double h) {
     }
   }
   system_.motions(inside_q_, inside_v_, inside_m_);
-  return system_.branches(begin_.t + x * h, inside_m_, inside_gap_, inside_rate_);
+  return system_.branches(begin_.t + x * h, inside_m_, inside_gap_, inside_rate_, begin_.held);
 }
 
-RadauStepper::Kink RadauStepper::first_kink(double h) {
-  double before = 0;
-  for (int i = 0; i < 2 * n_; ++i) {
-    const double x = i % 2 == 0 ? 0.5 * (table_.nodes[i / 2] + table_.nodes[i / 2 + 1]) : table_.nodes[i / 2 + 1];
-    if (sides(x, h) == side_) {
-      before = x;
-      continue;
-    }
-    double after = x;
-    for (int k = 0; k < kHalvings; ++k) {
-      const double middle = 0.5 * (before + after);
-      (sides(middle, h) == side_ ? before : after) = middle;
-    }
-    return {before, after};
+// The sides a time d ahead of the start, by Taylor's series: all there is to go by when the stages are not solved.
+std::uint64_t RadauStepper::sides_ahead(double d) {
+  const double half = 0.5 * d * d;
+  for (std::size_t b = 0; b < end_.q.size(); ++b) {
+    inside_q_[b] = begin_.q[b] + d * begin_.v[b] + half * begin_.a[b];
+    inside_v_[b] = begin_.v[b] + d * begin_.a[b];
   }
-  return {};
+  for (std::size_t j = 0; j < end_.gap.size(); ++j) {
+    inside_gap_[j] = begin_.gap[j] + d * begin_.gap_rate[j] + half * begin_.gap_accel[j];
+    inside_rate_[j] = begin_.gap_rate[j] + d * begin_.gap_accel[j];
+  }
+  system_.motions(inside_q_, inside_v_, inside_m_);
+  return system_.branches(begin_.t + d, inside_m_, inside_gap_, inside_rate_, begin_.held);
 }
 
-// Moves end_ over the kink that it stands just before, by Taylor's series, and renews its accelerations there.
-void RadauStepper::cross_kink(double distance) {
+Kink RadauStepper::find_kink(double h, bool solved) {
+  if (!system_.has_branches()) return {};
+  return first_kink(table_, side_, [&](double x) { return solved ? sides(x, h) : sides_ahead(x * h); });
+}
+
+// Moves end_ over the kink that it stands just before, by Taylor's series; false when the side stays the same.
+bool RadauStepper::move_over_kink(double distance) {
   double beyond = std::max(kCrossing * usual_h_, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
   for (int i = 0; i < kCrossings; ++i, beyond *= 10) {
     const double d = (i == 0 ? distance : 0) + beyond, half = 0.5 * d * d;
@@ -80,13 +83,48 @@ void RadauStepper::cross_kink(double distance) {
       end_.gap_rate[j] += d * end_.gap_accel[j];
     }
     system_.motions(end_.q, end_.v, end_m_);
-    const std::uint64_t now = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate);
+    const std::uint64_t now = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.held);
     if (now == side_) continue;
     side_ = now;
-    break;
+    return true;
   }
+  return false;
+}
+
+// Over the kink; forces and accelerations renewed there. A jump that comes back at once is held.
+void RadauStepper::cross_kink(double distance) {
+  const double before = end_.t;
+  inside_m_ = end_m_;
+  move_over_kink(distance);
+  release_jumps(system_, end_.t, end_m_, end_.held);
   balance_end();
+  if (const auto jump = jumps_.crossed(system_, before, inside_m_, end_.t, end_m_, kAtOnce * usual_h_)) {
+    const double margin = system_.margin(*jump, end_.t, end_m_);
+    hold_jump(*jump, margin, ramp_size(system_, *jump, end_, usual_h_, tolerance_), end_.held, [this] { balance_end(); },
+              [&] { return margin_rate(*jump); });
+  }
+  side_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.held);
   have_history_ = false;
+}
+
+// How fast the argument of a jump changes at end_, by what it is a moment later.
+double RadauStepper::margin_rate(const HeldJump& jump) {
+  const double d = kMoment * usual_h_;
+  for (std::size_t b = 0; b < end_.q.size(); ++b) {
+    inside_q_[b] = end_.q[b] + d * end_.v[b];
+    inside_v_[b] = end_.v[b] + d * end_.a[b];
+  }
+  system_.motions(inside_q_, inside_v_, inside_m_);
+  return (system_.margin(jump, end_.t + d, inside_m_) - system_.margin(jump, end_.t, end_m_)) / d;
+}
+
+// The sides at the end of a step; a ramp that the last bits have left is let go.
+void RadauStepper::see_sides() {
+  if (release_jumps(system_, end_.t, end_m_, end_.held)) {
+    balance_end();
+    have_history_ = false;
+  }
+  side_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.held);
 }
 
 // What the laws and loads really give at end_.

@@ -15,6 +15,7 @@ constexpr int kMaxRetries = 80;
 constexpr double kShortest = 1e-11;  // of the run: the shortest step that is refused for its error
 constexpr double kKinkAtStart = 1e-5;  // of the usual step: a kink this close to its start is crossed
 constexpr double kShrink = 0.35;     // after Newton failed
+constexpr double kShort = 0.9;        // of the way to a kink that is only guessed at
 constexpr double kAfterKink = 0.3;   // of the usual step
 constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;
 
@@ -53,11 +54,12 @@ void RadauStepper::start(const State& state, double h) {
   system_.readings(end_.t, end_m_, end_r_);
   Stage& last = stage_[n_ - 1];
   last.Q.assign(system_.bodies.size(), S::Vec::Zero());
-  system_.external(end_.t, end_m_, last.Q);
+  system_.external(end_.t, end_m_, last.Q, end_.held);
   const auto [supplied, lost] = power(end_.t, end_.q, end_m_, end_.gap, end_.gap_rate, end_.force);
   end_.supply_power = supplied;
   end_.loss_power = lost;
-  side_ = system_.has_branches() ? system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate) : 0;
+  jumps_.forget();
+  side_ = system_.has_branches() ? system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.held) : 0;
   grow_scale();
 }
 
@@ -71,13 +73,12 @@ bool RadauStepper::step(double t_end) {
     if (h > left || left - h < 1e-3 * h) h = left;
     else if (!up_to_kink && left < 1.7 * h) h = 0.5 * left;
     if (h <= 16 * std::numeric_limits<double>::epsilon() * std::max(std::abs(begin_.t), std::abs(t_end))) break;
-    if (!attempt(h)) {
+    const bool solved = attempt(h);
+    if (!solved) {
       ++counters_.newton_failures;
-      h *= kShrink;
       have_history_ = have_history_ && retry == 0;
-      continue;
     }
-    const Kink kink = system_.has_branches() ? first_kink(h) : Kink{};
+    const Kink kink = solved || retry > 0 ? find_kink(h, solved) : Kink{};  // twice unsolved: for a jump on the way?
     if (kink.before < 1 && kink.before * h < kKinkAtStart * usual_h_) {
       cross_kink(kink.before * h);
       begin_ = end_;
@@ -86,8 +87,12 @@ bool RadauStepper::step(double t_end) {
     }
     if (kink.after < 1) {
       up_to_kink = true;
-      h *= kink.before * (1 - 0.1 * kKinkAtStart);  // so that the last stage is not on it
-      ++counters_.rejected;
+      h *= kink.before * (solved ? 1 - 0.1 * kKinkAtStart : kShort);  // so that the last stage is not on it
+      if (solved) ++counters_.rejected;
+      continue;
+    }
+    if (!solved) {
+      h *= kShrink;
       continue;
     }
     double error = 0;

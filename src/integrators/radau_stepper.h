@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "integrators/gap_projector.h"
+#include "integrators/held_jumps.h"
+#include "integrators/kink_search.h"
 #include "integrators/stage_solver.h"
 
 namespace pintle {
@@ -66,10 +68,13 @@ class RadauStepper {
   void grow_scale();
 
   // radau_kinks.cpp: steps that end where a force has a kink
-  struct Kink { double before = 2, after = 2; };  // shares of the step; 2: none
-  Kink first_kink(double h);
+  Kink find_kink(double h, bool solved);
   std::uint64_t sides(double x, double h);
+  std::uint64_t sides_ahead(double d);
   void cross_kink(double distance);
+  bool move_over_kink(double distance);
+  void see_sides();
+  double margin_rate(const HeldJump& jump);
   void balance_end();
 
   void note_failure(double h, const char* why);
@@ -83,6 +88,7 @@ class RadauStepper {
   double h_ = 0, last_h_ = 0, usual_h_ = 0;   // the next step; the last; what it was before a kink
   bool have_history_ = false;
   std::uint64_t side_ = 0;                    // of kinks, at end_
+  JumpWatch jumps_;
   std::unique_ptr<StageSolver> solver_;
   std::vector<Stage> stage_;
   StepNodes nodes_;

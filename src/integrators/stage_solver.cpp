@@ -53,11 +53,11 @@ class LaneSolver final : public StageSolver {
   void find_targets(double t, double h);
   void place(const State& begin, double h);
   double find_forces(const LoadScale& scale);
-  void find_residuals(double t, double h);
-  void find_loads(double t, double h);
+  void find_residuals(const State& begin, double h);
+  void find_loads(const State& begin, double h);
   void find_map(std::size_t j);
   L find_gradient(const JointData& joint, const PoseGeometry<L>& pose, JointLanes<N>& lanes) const;
-  void linearize(double t);
+  void linearize(double t, HeldJumps held);
   bool factorize(double h);
   double correct(const LoadScale& scale);
 
@@ -105,10 +105,10 @@ bool LaneSolver<N>::solve(const State& begin, double h, const StepNodes* before,
   find_forces(scale);
   double last = 0, before_last = 0;
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    find_residuals(begin.t, h);
+    find_residuals(begin, h);
     counters.evaluations += N;
     if (iteration == 0) {
-      linearize(begin.t + table_.c[kMiddle] * h);
+      linearize(begin.t + table_.c[kMiddle] * h, begin.held);
       counters.factorizations += 1 + N / 2;
       if (!factorize(h)) return false;
     }
@@ -222,8 +222,8 @@ double LaneSolver<N>::find_forces(const LoadScale& scale) {
 
 // What is missing in the equations. Eq. (3.6).
 template <int N>
-void LaneSolver<N>::find_residuals(double t, double h) {
-  if (loads_) find_loads(t, h);
+void LaneSolver<N>::find_residuals(const State& begin, double h) {
+  if (loads_) find_loads(begin, h);
   for (std::size_t b = 0; b < n_bodies(); ++b)
     for (int k = 0; k < 3; ++k) bodies_[b].residual[k] = system_.bodies[b].mass[k] * bodies_[b].a[k] - bodies_[b].Q[k];
   for (std::size_t j = 0; j < joints_.size(); ++j) {
@@ -245,10 +245,10 @@ void LaneSolver<N>::find_residuals(double t, double h) {
 }
 
 template <int N>
-void LaneSolver<N>::find_loads(double t, double h) {
+void LaneSolver<N>::find_loads(const State& begin, double h) {
   for (int s = 0; s < N; ++s) {
     for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(s);
-    system_.external(t + table_.c[s] * h, motions_, Q_);
+    system_.external(begin.t + table_.c[s] * h, motions_, Q_, begin.held);
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < 3; ++k) bodies_[b].Q[k].set(s, Q_[b][k]);
   }
@@ -295,7 +295,7 @@ Lanes<N> LaneSolver<N>::find_gradient(const JointData& joint, const PoseGeometry
 
 // Joints' G'KG and G'CG with the geometric stiffness, and loads' slopes, at the predicted middle stage. Eq. (3.8).
 template <int N>
-void LaneSolver<N>::linearize(double t) {
+void LaneSolver<N>::linearize(double t, HeldJumps held) {
   const int i = kMiddle;
   for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(i);
   for (std::size_t j = 0; j < joints_.size(); ++j) {
@@ -318,7 +318,7 @@ void LaneSolver<N>::linearize(double t) {
   load_blocks_.clear();
   system_.external_tangents(t, motions_, [this](int a, int b, const S::Mat& dq, const S::Mat& dv) {
     load_blocks_.push_back({a, b, dq, dv});
-  });
+  }, held);
 }
 
 // Z(mu) of Eq. (3.8) at every eigenvalue, and the weights of (3.10).

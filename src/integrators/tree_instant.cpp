@@ -20,7 +20,7 @@ void TreeInstant::place_only(double t, const VectorXd& y, const VectorXd& u) {
 
 void TreeInstant::place(double t, const VectorXd& y, const VectorXd& u) {
   place_only(t, y, u);
-  system_.external(t, pose_.m, Q_);
+  system_.external(t, pose_.m, Q_, held());
 }
 
 void TreeInstant::gap_accelerations(VectorXd& out) const {
@@ -76,7 +76,7 @@ void TreeInstant::forces(const VectorXd& gap, const VectorXd& rate, VectorXd& f)
 }
 
 std::array<double, 2> TreeInstant::power(const VectorXd& gap, const VectorXd& rate, const VectorXd& f) const {
-  const ExternalWork work = system_.external_work(t_, pose_.q, pose_.m);
+  const ExternalWork work = system_.external_work(t_, pose_.q, pose_.m, held());
   std::array<double, 2> out{work.supplied, work.lost};
   for (std::size_t l = 0; l < r_.size(); ++l) {
     const JointData& joint = system_.joints[tree_.laws()[l]];
@@ -94,13 +94,14 @@ std::uint64_t TreeInstant::branches(const VectorXd& gap, const VectorXd& rate) {
     gap_[tree_.laws()[l]] = gap.segment<3>(i);
     rate_[tree_.laws()[l]] = rate.segment<3>(i);
   }
-  return system_.branches(t_, pose_.m, gap_, rate_);
+  return system_.branches(t_, pose_.m, gap_, rate_, held());
 }
 
 void TreeInstant::write(const TreeState& at, const VectorXd& w, State& state) {
   const std::size_t joints = system_.joints.size();
   for (Vecs* x : {&state.gap, &state.gap_rate, &state.gap_accel, &state.force}) x->resize(joints, S::Vec::Zero());
   state.t = at.t;
+  state.held.assign(held().begin(), held().end());
   state.q = pose_.q;
   state.v = pose_.v;
   accelerate(w);

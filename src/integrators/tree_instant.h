@@ -27,6 +27,10 @@ class TreeInstant {
   int n() const { return tree_.n(); }
   int n_gaps() const { return 3 * static_cast<int>(tree_.laws().size()); }
 
+  /// Motors that stand at a jump of theirs, from now on; none at first. The list stays the caller's and may change.
+  void hold(const std::vector<HeldJump>& held) { held_ = &held; }
+  HeldJumps held() const { return held_ ? HeldJumps(*held_) : HeldJumps(); }
+
   /// Bodies, readings and external forces.
   void place(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& u);
   /// The same without the external forces.
@@ -67,6 +71,7 @@ class TreeInstant {
  private:
   const System& system_;
   const JointTree& tree_;
+  const std::vector<HeldJump>* held_ = nullptr;
   double t_ = 0;
   TreePose pose_;
   std::vector<Reading> r_;  // of the joints that stay laws

@@ -19,6 +19,7 @@ constexpr int kMaxRetries = 80;
 constexpr double kShortest = 1e-11;    // of the run: the shortest step that is refused for its error
 constexpr double kKinkAtStart = 1e-5;  // of the usual step: a kink this close to its start is crossed
 constexpr double kShrink = 0.35;       // after Newton failed
+constexpr double kShort = 0.9;        // of the way to a kink that is only guessed at
 constexpr double kAfterKink = 0.3;     // of the usual step
 constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;
 
@@ -28,6 +29,8 @@ TreeRadau::TreeRadau(const System& system, double tolerance, int stages)
     : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance),
       tree_(std::make_unique<JointTree>(system)), stages_(system, *tree_, table_, tolerance), end_at_(system, *tree_), inside_at_(end_at_) {
   scale_.body.assign(system.bodies.size(), S::Vec::Zero());
+  for (TreeInstant* at : {&end_at_, &inside_at_}) at->hold(held_);
+  stages_.hold(held_);
   const int n = tree_->n(), m = end_at_.n_gaps();
   nodes_ = {Eigen::MatrixXd::Zero(n, n_ + 1), Eigen::MatrixXd::Zero(m, n_ + 1), Eigen::MatrixXd::Zero(m, n_ + 1), Eigen::MatrixXd::Zero(2, n_ + 1)};
 }
@@ -41,6 +44,8 @@ void TreeRadau::start(const State& state, double h) {
   end_state_ = state;
   h_ = usual_h_ = h;
   have_history_ = false;
+  held_ = state.held;
+  jumps_.forget();
   end_.t = state.t;
   tree_->read_positions(state.q, end_.y);
   TreePose pose;
@@ -57,6 +62,10 @@ void TreeRadau::start(const State& state, double h) {
 }
 
 bool TreeRadau::step(double t_end) {
+  if (release_jumps(system_, end_.t, end_at_.pose().m, held_)) {
+    balance_end();
+    have_history_ = false;
+  }
   begin_ = end_;
   begin_state_ = end_state_;
   double h = h_;
@@ -67,13 +76,12 @@ bool TreeRadau::step(double t_end) {
     if (h > left || left - h < 1e-3 * h) h = left;
     else if (!up_to_kink && left < 1.7 * h) h = 0.5 * left;
     if (h <= 16 * std::numeric_limits<double>::epsilon() * std::max(std::abs(begin_.t), std::abs(t_end))) break;
-    if (!attempt(h)) {
+    const bool solved = attempt(h);
+    if (!solved) {
       ++counters_.newton_failures;
-      h *= kShrink;
       have_history_ = have_history_ && retry == 0;
-      continue;
     }
-    const Kink kink = system_.has_branches() ? first_kink(h) : Kink{};
+    const Kink kink = solved || retry > 0 ? find_kink(h, solved) : Kink{};  // twice unsolved: for a jump on the way?
     if (kink.before < 1 && kink.before * h < kKinkAtStart * usual_h_) {
       cross_kink(kink.before * h);
       begin_ = end_;
@@ -83,8 +91,12 @@ bool TreeRadau::step(double t_end) {
     }
     if (kink.after < 1) {
       up_to_kink = true;
-      h *= kink.before * (1 - 0.1 * kKinkAtStart);  // so that the last stage is not on it
-      ++counters_.rejected;
+      h *= kink.before * (solved ? 1 - 0.1 * kKinkAtStart : kShort);  // so that the last stage is not on it
+      if (solved) ++counters_.rejected;
+      continue;
+    }
+    if (!solved) {
+      h *= kShrink;
       continue;
     }
     double error = 0;

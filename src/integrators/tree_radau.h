@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "integrators/held_jumps.h"
+#include "integrators/kink_search.h"
 #include "integrators/stepper.h"
 #include "integrators/tree_projector.h"
 #include "integrators/tree_stages.h"
@@ -47,10 +49,12 @@ class TreeRadau final : public Stepper {
   void follow(double x, TreeState& out) const;
 
   // tree_radau_kinks.cpp
-  struct Kink { double before = 2, after = 2; };  // shares of the step; 2: none
-  Kink first_kink(double h);
+  Kink find_kink(double h, bool solved);
   std::uint64_t sides(double x, double h);
+  std::uint64_t sides_ahead(double d);
   void cross_kink(double distance);
+  bool move_over_kink(double distance);
+  double margin_rate(const HeldJump& jump);
   void balance_end();
 
   void note_failure(double h);
@@ -63,6 +67,8 @@ class TreeRadau final : public Stepper {
   double h_ = 0, last_h_ = 0, usual_h_ = 0;  // the next step; the last; what it was before a kink
   bool have_history_ = false;
   std::uint64_t side_ = 0;                   // of kinks, at the end
+  JumpWatch jumps_;
+  std::vector<HeldJump> held_;
   std::unique_ptr<JointTree> tree_;
   TreeStages stages_;
   TreeProjector projector_;

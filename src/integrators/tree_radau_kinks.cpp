@@ -7,9 +7,10 @@
 namespace pintle {
 namespace {
 
-constexpr int kHalvings = 46;
 constexpr double kCrossing = 1e-9;  // of the usual step: the least that is gone to cross
 constexpr int kCrossings = 5;       // each ten times longer, until the side has changed
+constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
+constexpr double kMoment = 1e-6;    // of the usual step: to see where accelerations lead
 
 }  // namespace
 
@@ -36,26 +37,20 @@ std::uint64_t TreeRadau::sides(double x, double h) {
   return inside_at_.branches(at.gap, at.rate);
 }
 
-TreeRadau::Kink TreeRadau::first_kink(double h) {
-  double before = 0;
-  for (int i = 0; i < 2 * n_; ++i) {
-    const double x = i % 2 == 0 ? 0.5 * (table_.nodes[i / 2] + table_.nodes[i / 2 + 1]) : table_.nodes[i / 2 + 1];
-    if (sides(x, h) == side_) {
-      before = x;
-      continue;
-    }
-    double after = x;
-    for (int k = 0; k < kHalvings; ++k) {
-      const double middle = 0.5 * (before + after);
-      (sides(middle, h) == side_ ? before : after) = middle;
-    }
-    return {before, after};
-  }
-  return {};
+// The sides a time d ahead of the start, by Taylor's series: all there is to go by when the stages are not solved.
+std::uint64_t TreeRadau::sides_ahead(double d) {
+  const double half = 0.5 * d * d;
+  inside_at_.place_only(begin_.t + d, begin_.y + d * begin_.u + half * begin_.w, begin_.u + d * begin_.w);
+  return inside_at_.branches(begin_.gap + d * begin_.rate + half * begin_.accel, begin_.rate + d * begin_.accel);
 }
 
-// Moves the end over the kink that it stands just before, by Taylor's series, and renews its accelerations there.
-void TreeRadau::cross_kink(double distance) {
+Kink TreeRadau::find_kink(double h, bool solved) {
+  if (!system_.has_branches()) return {};
+  return first_kink(table_, side_, [&](double x) { return solved ? sides(x, h) : sides_ahead(x * h); });
+}
+
+// Moves the end over the kink that it stands just before, by Taylor's series; false when the side stays the same.
+bool TreeRadau::move_over_kink(double distance) {
   double beyond = std::max(kCrossing * usual_h_, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
   for (int i = 0; i < kCrossings; ++i, beyond *= 10) {
     const double d = (i == 0 ? distance : 0) + beyond, half = 0.5 * d * d;
@@ -65,17 +60,36 @@ void TreeRadau::cross_kink(double distance) {
     end_.gap += d * end_.rate + half * end_.accel;
     end_.rate += d * end_.accel;
     end_at_.place(end_.t, end_.y, end_.u);
-    const std::uint64_t now = end_at_.branches(end_.gap, end_.rate);
-    if (now == side_) continue;
-    side_ = now;
-    break;
+    if (end_at_.branches(end_.gap, end_.rate) != side_) return true;
   }
+  return false;
+}
+
+// Over the kink; forces and accelerations renewed there. A jump that comes back at once is held.
+void TreeRadau::cross_kink(double distance) {
+  const double before = end_.t;
+  const std::vector<Planar::Motion> motions_before = end_at_.pose().m;
+  move_over_kink(distance);
+  release_jumps(system_, end_.t, end_at_.pose().m, held_);
   balance_end();
+  if (const auto jump = jumps_.crossed(system_, before, motions_before, end_.t, end_at_.pose().m, kAtOnce * usual_h_)) {
+    const double margin = system_.margin(*jump, end_.t, end_at_.pose().m);
+    hold_jump(*jump, margin, ramp_size(system_, *jump, end_state_, usual_h_, tolerance_), held_, [this] { balance_end(); },
+              [&] { return margin_rate(*jump); });
+  }
   have_history_ = false;
+}
+
+// How fast the argument of a jump changes at the end, by what it is a moment later.
+double TreeRadau::margin_rate(const HeldJump& jump) {
+  const double d = kMoment * usual_h_;
+  inside_at_.place_only(end_.t + d, end_.y + d * end_.u, end_.u + d * end_.w);
+  return (system_.margin(jump, inside_at_.t(), inside_at_.pose().m) - system_.margin(jump, end_.t, end_at_.pose().m)) / d;
 }
 
 // What the laws and loads really give at the end.
 void TreeRadau::balance_end() {
+  end_at_.place(end_.t, end_.y, end_.u);
   end_at_.forces(end_.gap, end_.rate, end_.force);
   if (projector_.prepare(end_at_, 1, end_.gap, end_.rate)) projector_.accelerations(end_at_, end_.force, end_.w);
   end_at_.accelerate(end_.w);

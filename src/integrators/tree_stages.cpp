@@ -61,6 +61,11 @@ bool TreeStages::solve(const TreeState& begin, double h, const TreeNodes* before
   return false;
 }
 
+void TreeStages::hold(const std::vector<HeldJump>& held) {
+  for (TreeInstant& at : at_) at.hold(held);
+  beside_.hold(held);
+}
+
 void TreeStages::predict(const TreeState& begin, double h, const TreeNodes* before, double last_h) {
   for (int s = 0; s < n_; ++s) {
     TreeState& state = state_[s];
@@ -155,7 +160,8 @@ void TreeStages::differentiate(int k, bool of_rate, const VectorXd& balance, con
     u_ = state.u;
     (of_rate ? u_ : y_)[k] += step;
     beside_.place(state.t, y_, u_);
-    if (system_.has_branches() && beside_.branches(state.gap, state.rate) != side) continue;
+    // A ramp is narrower than the difference, but goes on beyond its ends.
+    if (system_.has_branches() && beside_.held().empty() && beside_.branches(state.gap, state.rate) != side) continue;
     beside_.accelerate(state.w);
     beside_.imbalance(state.force, balance_);
     (of_rate ? Du_ : Dy_).col(k) = (balance_ - balance) / step;

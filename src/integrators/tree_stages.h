@@ -23,6 +23,9 @@ class TreeStages {
   /// Solves the step of h from `begin`; the prediction continues `before`, the step before it of last_h, where there is one.
   bool solve(const TreeState& begin, double h, const TreeNodes* before, double last_h, const LoadScale& scale, Counters& counters);
 
+  /// Motors that stand at a jump; see TreeInstant.
+  void hold(const std::vector<HeldJump>& held);
+
   const std::vector<TreeState>& states() const { return state_; }
   TreeInstant& instant(int stage) { return at_[stage]; }
   const TreeInstant& instant(int stage) const { return at_[stage]; }

@@ -60,7 +60,13 @@ struct System::LoadState {
   std::array<double, kMaxSignals> df_dsignal{};
 };
 
-System::LoadState System::load_state(const LoadData& load, double t, const std::vector<S::Motion>& m) const {
+const Expression::Ramp* System::ramp_of(const LoadData& load, HeldJumps held) const {
+  for (const HeldJump& jump : held)
+    if (&loads[jump.load] == &load) return &jump.ramp;
+  return nullptr;
+}
+
+System::LoadState System::load_state(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held) const {
   LoadState state;
   state.probe = probe_of(load);
   state.pose = pose(load.at, m);
@@ -69,7 +75,10 @@ System::LoadState System::load_state(const LoadData& load, double t, const std::
   if (load.kind == LoadKind::kEffort) {
     const auto values = signal_values(*this, load, t, m);
     const std::size_t n = load.signals.size();
-    state.effort = load.law.gradient(std::span(values).first(n), std::span(state.df_dsignal).first(n));
+    const auto at = std::span(values).first(n);
+    const auto slopes = std::span(state.df_dsignal).first(n);
+    const Expression::Ramp* ramp = ramp_of(load, held);
+    state.effort = ramp ? load.law.gradient(at, slopes, *ramp) : load.law.gradient(at, slopes);
   } else {
     state.effort = -(load.constant + load.k * state.reading.gap[state.slot] + load.c * state.reading.rate[state.slot]);
     state.df_dgap = -load.k;
@@ -78,15 +87,15 @@ System::LoadState System::load_state(const LoadData& load, double t, const std::
   return state;
 }
 
-double System::load_effort(const LoadData& load, double t, const std::vector<S::Motion>& m) const {
-  return load_state(load, t, m).effort;
+double System::load_effort(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held) const {
+  return load_state(load, t, m, held).effort;
 }
 
-void System::external(double t, const std::vector<S::Motion>& m, Vecs& Q) const {
+void System::external(double t, const std::vector<S::Motion>& m, Vecs& Q, HeldJumps held) const {
   Q.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) Q[i] = bodies[i].gravity;
   for (const LoadData& load : loads) {
-    const LoadState s = load_state(load, t, m);
+    const LoadState s = load_state(load, t, m, held);
     if (load.at.a != kGround) Q[load.at.a] += s.reading.GA.row(s.slot).transpose() * s.effort;
     if (load.at.b != kGround) Q[load.at.b] += s.reading.GB.row(s.slot).transpose() * s.effort;
   }
@@ -97,11 +106,11 @@ void System::external(double t, const std::vector<S::Motion>& m, Vecs& Q) const 
   }
 }
 
-ExternalWork System::external_work(double t, const Vecs& q, const std::vector<S::Motion>& m) const {
+ExternalWork System::external_work(double t, const Vecs& q, const std::vector<S::Motion>& m, HeldJumps held) const {
   ExternalWork work;
   for (std::size_t i = 0; i < bodies.size(); ++i) work.potential -= bodies[i].gravity.dot(q[i]);
   for (const LoadData& load : loads) {
-    const LoadState s = load_state(load, t, m);
+    const LoadState s = load_state(load, t, m, held);
     const double gap = s.reading.gap[s.slot], rate = s.reading.rate[s.slot];
     if (load.kind == LoadKind::kEffort) {
       work.supplied += s.effort * rate;
@@ -118,7 +127,7 @@ ExternalWork System::external_work(double t, const Vecs& q, const std::vector<S:
   return work;
 }
 
-std::uint64_t System::branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate) const {
+std::uint64_t System::branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate, HeldJumps held) const {
   std::uint64_t sides = 0;
   const auto add = [&sides](std::uint64_t side) { sides = sides * 0x9E3779B97F4A7C15U + 1 + side; };
   const std::array<double, 1> time{t};
@@ -130,15 +139,32 @@ std::uint64_t System::branches(double t, const std::vector<S::Motion>& m, const 
   for (const LoadData& load : loads) {
     if (load.kind != LoadKind::kEffort || !load.law.has_branches()) continue;
     const auto values = signal_values(*this, load, t, m);
-    add(load.law.branches(std::span(values).first(load.signals.size())));
+    add(load.law.branches(std::span(values).first(load.signals.size()), ramp_of(load, held)));
   }
   for (const AppliedData& force : applied)
     for (const Expression* e : {&force.fx, &force.fy, &force.torque}) add_at_t(*e);
   return sides;
 }
 
-void System::load_tangents(const LoadData& load, double t, const std::vector<S::Motion>& m, std::vector<Tangent>& out) const {
-  const LoadState s = load_state(load, t, m);
+std::optional<HeldJump> System::jump_between(double t0, const std::vector<S::Motion>& m0, double t1, const std::vector<S::Motion>& m1) const {
+  for (const LoadData& load : loads) {
+    if (load.kind != LoadKind::kEffort || !load.law.has_branches()) continue;
+    const auto from = signal_values(*this, load, t0, m0), to = signal_values(*this, load, t1, m1);
+    const std::size_t n = load.signals.size();
+    if (const auto jump = load.law.jump_between(std::span(from).first(n), std::span(to).first(n)))
+      return HeldJump{static_cast<int>(&load - loads.data()), {*jump}};
+  }
+  return {};
+}
+
+double System::margin(const HeldJump& jump, double t, const std::vector<S::Motion>& m) const {
+  const LoadData& load = loads[jump.load];
+  const auto values = signal_values(*this, load, t, m);
+  return load.law.margin(jump.ramp.jump, std::span(values).first(load.signals.size()));
+}
+
+void System::load_tangents(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held, std::vector<Tangent>& out) const {
+  const LoadState s = load_state(load, t, m, held);
   const std::array<int, 2> body{load.at.a, load.at.b};
   const std::array<Eigen::RowVector3d, 2> G{s.reading.GA.row(s.slot), s.reading.GB.row(s.slot)};
   const auto geometric = geometric_stiffness(s.probe, s.pose, Vec::Unit(s.slot) * s.effort);

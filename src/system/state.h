@@ -12,6 +12,7 @@ struct State {
   Vecs q, v, a;                    // bodies [m, m, rad] and derivatives
   Vecs gap, gap_rate, gap_accel;   // joints
   Vecs force;                      // joints, on the second body, conjugate to the gap
+  std::vector<HeldJump> held;      // motors that stand at a jump of theirs
   double dissipated = 0, supplied = 0;        // since the start [J]
   double loss_power = 0, supply_power = 0;    // their rates [W]
 };

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,6 +71,13 @@ struct LoadData {
   std::vector<Signal> signals;
 };
 
+/// A motor's effort kept at one of its jumps: on a ramp between the efforts of both sides.
+struct HeldJump {
+  int load = 0;
+  Expression::Ramp ramp;
+};
+using HeldJumps = std::span<const HeldJump>;
+
 /// A force on one body at a point, functions of t.
 struct AppliedData {
   std::string name;
@@ -126,20 +135,24 @@ class System {
   /// Gap, rate, Jacobians and convective term of joint j at time t (a servo's target taken off).
   Reading reading(int j, double t, const std::vector<S::Motion>& m) const;
   void readings(double t, const std::vector<S::Motion>& m, std::vector<Reading>& out) const;
-  /// Gravity, springs, applied forces and effort motors: the generalised force on every body.
-  void external(double t, const std::vector<S::Motion>& m, Vecs& Q) const;
-  ExternalWork external_work(double t, const Vecs& q, const std::vector<S::Motion>& m) const;
+  /// Gravity, springs, applied forces and effort motors: the generalised force on every body. Motors in `held` stand at a jump.
+  void external(double t, const std::vector<S::Motion>& m, Vecs& Q, HeldJumps held = {}) const;
+  ExternalWork external_work(double t, const Vecs& q, const std::vector<S::Motion>& m, HeldJumps held = {}) const;
   /// Force (spring: tension; motor: effort) of a load.
-  double load_effort(const LoadData& load, double t, const std::vector<S::Motion>& m) const;
+  double load_effort(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held = {}) const;
 
   /// Whether any law, load or servo has kinks or jumps.
   bool has_branches() const { return has_branches_; }
   /// Which side of them everything is on: a number that changes where a side does. Gaps and rates are the joints'.
-  std::uint64_t branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate) const;
+  std::uint64_t branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate, HeldJumps held = {}) const;
+  /// A jump of a motor's effort between two instants, as a ramp still to be given its share.
+  std::optional<HeldJump> jump_between(double t0, const std::vector<S::Motion>& m0, double t1, const std::vector<S::Motion>& m1) const;
+  /// How far the argument of a jump is above it.
+  double margin(const HeldJump& jump, double t, const std::vector<S::Motion>& m) const;
 
   /// Calls add(i, j, dQ_i/dq_j, dQ_i/dv_j) for every block of the external forces' tangents.
   template <class Add>
-  void external_tangents(double t, const std::vector<S::Motion>& m, Add&& add) const;
+  void external_tangents(double t, const std::vector<S::Motion>& m, Add&& add, HeldJumps held = {}) const;
 
   /// M a = Q + G' law(gap, rate): the equations of motion as they stand (for explicit methods and tests).
   void accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a) const;
@@ -149,12 +162,13 @@ class System {
 
  private:
   struct LoadState;
-  LoadState load_state(const LoadData& load, double t, const std::vector<S::Motion>& m) const;
+  LoadState load_state(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held) const;
+  const Expression::Ramp* ramp_of(const LoadData& load, HeldJumps held) const;
   struct Tangent {
     int i, j;
     Mat dq, dv;
   };
-  void load_tangents(const LoadData& load, double t, const std::vector<S::Motion>& m, std::vector<Tangent>& out) const;
+  void load_tangents(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held, std::vector<Tangent>& out) const;
   void applied_tangents(const AppliedData& force, double t, const std::vector<S::Motion>& m, std::vector<Tangent>& out) const;
 
   BlockPattern pattern_;
@@ -163,10 +177,10 @@ class System {
 };
 
 template <class Add>
-void System::external_tangents(double t, const std::vector<S::Motion>& m, Add&& add) const {
+void System::external_tangents(double t, const std::vector<S::Motion>& m, Add&& add, HeldJumps held) const {
   for (const LoadData& load : loads) {
     tangents_.clear();
-    load_tangents(load, t, m, tangents_);
+    load_tangents(load, t, m, held, tangents_);
     for (const Tangent& k : tangents_) add(k.i, k.j, k.dq, k.dv);
   }
   for (const AppliedData& force : applied) {
