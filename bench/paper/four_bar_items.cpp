@@ -11,7 +11,6 @@
 namespace pintle::paper {
 namespace {
 
-constexpr double kFirstDegree = 1.7e-3;  // [s]
 constexpr double kFourFigures = 5e-4;  // half a unit of the fourth figure, at worst, of the leading figure 1
 
 double closed_form_error(const char* table_name, double degrees) {
@@ -120,7 +119,7 @@ Item make_bearings() {
               {}};
   double commercial = 0, journal = 0, rubber = 0, rolling_angle = 0;
   for (const Choice& choice : choices) {
-    const FromIdeal d = from_ideal(run(four_bar(choice.bearing, 60), true), 60, kFirstDegree);
+    const FromIdeal d = from_ideal(run(four_bar(choice.bearing, 60), true), 60);
     std::vector<std::string> row{choice.name, short_number(choice.bearing.k), short_number(choice.bearing.c)};
     for (const double e : d.by_pin) row.push_back(fmt::format("{:.1e}", e));
     row.push_back(fmt::format("{:.1f}", digits(d.force)));
@@ -134,9 +133,7 @@ Item make_bearings() {
     if (name.starts_with("journal")) journal = std::max(journal, d.force);
     if (name.starts_with("rubber")) rubber = std::max(rubber, d.force);
   }
-  item.text = {"Stiffness and damping are the paper's ranges (section 4); of rubber it gives none, so two are taken. Every pin has the same bearing. "
-               "The first degree of crank is left out: a soft journal with heavy damping takes c/k = 0.05 s to find its stretch, and the run's "
-               "start, which looks for a motion without that transient, still leaves some of it."};
+  item.text = {"Stiffness and damping are the paper's ranges (section 4); of rubber it gives none, so two are taken. Every pin has the same bearing."};
   item.claims = {{"8", "k and c of commercial bearings: forces as with ideal ones to 4 significant figures (rolling elements)",
                   fmt::format("worst pin {:.1e} of its peak: {:.1f} digits", commercial, digits(commercial)), verdict(commercial < kFourFigures)},
                  {"8", "the same, lubricated journal bearings", fmt::format("worst pin {:.1e} of its peak at k = 1e7, the softest: {:.1f} digits; see the table", journal, digits(journal)),
