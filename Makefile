@@ -76,7 +76,7 @@ build/test:
 # for a moment. Suites that integrate for long are left to the release build; make test-sanitized runs them all.
 test-clang:
 	$(call say,$(CLANG) without warnings; tests under the sanitizers; fuzzers)
-	@$(MAKE) --no-print-directory build/clang
+	@$(MAKE) --no-print-directory build/clang WHOLE=OFF
 	@ctest --test-dir build/clang -j $(JOBS) --output-on-failure --no-tests=error -E '$(LONG)'
 	@tools/fuzz.sh build/clang $(FUZZ_SECONDS)
 
@@ -88,7 +88,7 @@ test-sanitized:
 .PHONY: build/clang test-sanitized
 build/clang:
 	@$(CONFIGURE) -B build/clang -DCMAKE_CXX_COMPILER=$(CLANG) -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
-	  -DPINTLE_SANITIZE=ON -DPINTLE_FUZZ=ON -DPINTLE_WERROR=ON >/dev/null
+	  -DPINTLE_WHOLE_RUN_TESTS=$(or $(WHOLE),ON) -DPINTLE_SANITIZE=ON -DPINTLE_FUZZ=ON -DPINTLE_WERROR=ON >/dev/null
 	@$(BUILD) build/clang -j $(JOBS)
 
 fuzz:
