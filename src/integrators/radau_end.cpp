@@ -92,10 +92,10 @@ void RadauStepper::finish_step(double h) {
   balance_forces();
   nodes_.force[n_] = end_.force;
   add_work(h);
-  have_history_ = true;
+  control_.have_history = true;
   if (system_.has_branches()) see_sides();
   grow_scale();
-  last_h_ = h;
+  control_.last = h;
 }
 
 // What the rounding of positions leaves of a gap, or that of velocities of its rate.
@@ -190,24 +190,6 @@ std::array<double, 2> RadauStepper::power(double t, const Vecs& q, const std::ve
   return out;
 }
 
-void RadauStepper::grow_scale() {
-  const Vecs& Q = stage_[n_ - 1].Q;
-  Vecs& load = move_;
-  for (int i = 0; i < system_.n_bodies(); ++i) load[i] = Q[i].cwiseAbs() + system_.bodies[i].mass.cwiseProduct(end_.a[i]).cwiseAbs();
-  for (int j = 0; j < system_.n_joints(); ++j) {
-    const Placement& at = system_.joints[j].at;
-    if (at.a != kGround) load[at.a] += (end_r_[j].GA.transpose() * end_.force[j]).cwiseAbs();
-    if (at.b != kGround) load[at.b] += (end_r_[j].GB.transpose() * end_.force[j]).cwiseAbs();
-  }
-  for (int i = 0; i < system_.n_bodies(); ++i) {
-    const S::Vec& mass = system_.bodies[i].mass;
-    const double radius = std::sqrt(mass[2] / mass[0]);
-    double force = std::max({scale_.body[i][0], load[i][0], load[i][1], 1e-9 * mass[0]});
-    double moment = std::max(scale_.body[i][2], load[i][2]);
-    force = std::max(force, 1e-3 * moment / radius);
-    moment = std::max(moment, 1e-3 * force * radius);
-    scale_.body[i] << force, force, moment;
-  }
-}
+void RadauStepper::grow_scale() { grow_load_scale(system_, end_r_, stage_[n_ - 1].Q, end_, move_, scale_); }
 
 }  // namespace pintle

@@ -70,7 +70,7 @@ Kink RadauStepper::find_kink(double h, bool solved) {
 
 // Moves end_ over the kink that it stands just before, by Taylor's series; false when the side stays the same.
 bool RadauStepper::move_over_kink(double distance) {
-  double beyond = std::max(kCrossing * usual_h_, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
+  double beyond = std::max(kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
   for (int i = 0; i < kCrossings; ++i, beyond *= 10) {
     const double d = (i == 0 ? distance : 0) + beyond, half = 0.5 * d * d;
     end_.t += d;
@@ -98,18 +98,18 @@ void RadauStepper::cross_kink(double distance) {
   move_over_kink(distance);
   release_jumps(system_, end_.t, end_m_, end_.held);
   balance_end();
-  if (const auto jump = jumps_.crossed(system_, before, inside_m_, end_.t, end_m_, kAtOnce * usual_h_)) {
+  if (const auto jump = jumps_.crossed(system_, before, inside_m_, end_.t, end_m_, kAtOnce * control_.usual)) {
     const double margin = system_.margin(*jump, end_.t, end_m_);
-    hold_jump(*jump, margin, ramp_size(system_, *jump, end_, usual_h_, tolerance_), end_.held, [this] { balance_end(); },
+    hold_jump(*jump, margin, ramp_size(system_, *jump, end_, control_.usual, tolerance_), end_.held, [this] { balance_end(); },
               [&] { return margin_rate(*jump); });
   }
   side_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.held);
-  have_history_ = false;
+  control_.have_history = false;
 }
 
 // How fast the argument of a jump changes at end_, by what it is a moment later.
 double RadauStepper::margin_rate(const HeldJump& jump) {
-  const double d = kMoment * usual_h_;
+  const double d = kMoment * control_.usual;
   for (std::size_t b = 0; b < end_.q.size(); ++b) {
     inside_q_[b] = end_.q[b] + d * end_.v[b];
     inside_v_[b] = end_.v[b] + d * end_.a[b];
@@ -122,7 +122,7 @@ double RadauStepper::margin_rate(const HeldJump& jump) {
 void RadauStepper::see_sides() {
   if (release_jumps(system_, end_.t, end_m_, end_.held)) {
     balance_end();
-    have_history_ = false;
+    control_.have_history = false;
   }
   side_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.held);
 }

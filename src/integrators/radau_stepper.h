@@ -18,7 +18,7 @@
 
 #include "integrators/gap_projector.h"
 #include "integrators/held_jumps.h"
-#include "integrators/kink_search.h"
+#include "integrators/radau_control.h"
 #include "integrators/stage_solver.h"
 
 namespace pintle {
@@ -28,7 +28,7 @@ class RadauStepper {
   /// `stages` is 3 (order 5) or 5 (order 9).
   RadauStepper(const System& system, double tolerance, int stages = 3);
 
-  void set_max_step(double h) { max_step_ = h; }
+  void set_max_step(double h) { control_.longest = h; }
   /// Loads known from an earlier run; otherwise the largest so far is used.
   void set_load_scale(const LoadScale& scale) { scale_ = scale; }
   const LoadScale& load_scale() const { return scale_; }
@@ -44,12 +44,15 @@ class RadauStepper {
   const State& previous() const { return begin_; }
   /// The inside of the last step, for dense output.
   const StepNodes& nodes() const { return nodes_; }
-  double next_step() const { return h_; }
+  double next_step() const { return control_.next; }
   const Counters& counters() const { return counters_; }
   const std::string& failure() const { return failure_; }
   const RadauTable& table() const { return table_; }
 
  private:
+  friend class RadauControl;  // which calls what follows, up to finish_step
+  double t() const { return begin_.t; }
+  void begin_at_end() { begin_ = end_; }
   bool attempt(double h);                     // solves the stages from begin_
 
   // radau_end.cpp: the error of a step and its end
@@ -77,16 +80,12 @@ class RadauStepper {
   double margin_rate(const HeldJump& jump);
   void balance_end();
 
-  void note_failure(double h, const char* why);
-
   const System& system_;
   const RadauTable& table_;
   const int n_;                               // stages
   double tolerance_;
-  double max_step_ = 0;
   State begin_, end_;
-  double h_ = 0, last_h_ = 0, usual_h_ = 0;   // the next step; the last; what it was before a kink
-  bool have_history_ = false;
+  RadauControl control_;
   std::uint64_t side_ = 0;                    // of kinks, at end_
   JumpWatch jumps_;
   std::unique_ptr<StageSolver> solver_;

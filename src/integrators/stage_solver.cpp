@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "integrators/newton_contraction.h"
 #include "integrators/stage_lanes.h"
 #include "solve/block_lu.h"
 
@@ -14,11 +15,6 @@ namespace pintle {
 namespace {
 
 using S = Planar;
-
-constexpr int kMaxIterations = 14;
-constexpr double kNewtonShare = 0.05;  // of the tolerance, left to the iteration
-constexpr double kRounding = 1e-15;    // of the loads: no correction
-constexpr double kSlow = 0.9;          // contraction expected at most of a first iteration, after one that failed
 
 // The largest lane; infinity where the sum of what it came from is not finite.
 template <int N>
@@ -65,7 +61,7 @@ class LaneSolver final : public StageSolver {
   const RadauTable& table_;
   const StageMatrices<N> matrices_;
   double tolerance_;
-  double contraction_ = 0.5;
+  NewtonContraction contraction_;
   bool loads_;                                // there is more than weight
   std::vector<BodyLanes<N>> bodies_;
   std::vector<JointLanes<N>> joints_;
@@ -103,8 +99,8 @@ bool LaneSolver<N>::solve(const State& begin, double h, const StepNodes* before,
   find_targets(begin.t, h);
   place(begin, h);
   find_forces(scale);
-  double last = 0, before_last = 0;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+  contraction_.start();
+  for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
     find_residuals(begin, h);
     counters.evaluations += N;
     if (iteration == 0) {
@@ -114,19 +110,9 @@ bool LaneSolver<N>::solve(const State& begin, double h, const StepNodes* before,
     }
     const double of_bodies = correct(scale);
     place(begin, h);
-    const double size = std::max(of_bodies, find_forces(scale)) / tolerance_;
     ++counters.newton_iterations;
-    if (!std::isfinite(size)) return false;
-    // Frozen Jacobians make good iterations and bad ones alternate: two of them, or the last step's, tell the contraction.
-    if (size * tolerance_ < kRounding) return true;
-    double rate = iteration == 0 ? std::pow(std::clamp(contraction_, 1e-3, kSlow), 0.8) : size / last;
-    if (iteration == 1) rate = std::max(rate, std::min(contraction_, std::sqrt(rate)));
-    if (iteration > 1) rate = std::max(rate, std::sqrt(size / before_last));
-    if (iteration > 0) contraction_ = rate;
-    if (rate > 2 || (rate > 0.95 && iteration > 2)) return false;
-    before_last = last;
-    last = size;
-    if (rate < 1 && rate / (1 - rate) * size < kNewtonShare) return true;
+    const auto verdict = contraction_.judge(iteration, std::max(of_bodies, find_forces(scale)), tolerance_);
+    if (verdict != NewtonContraction::Verdict::kGoOn) return verdict == NewtonContraction::Verdict::kDone;
   }
   return false;
 }

@@ -4,17 +4,13 @@
 #include <memory>
 #include <vector>
 
+#include "integrators/load_scale.h"
 #include "integrators/radau_table.h"
 #include "integrators/step_nodes.h"
 #include "pintle/trajectory.h"
 #include "system/state.h"
 
 namespace pintle {
-
-/// How large the forces are that a relative tolerance refers to: per body the sum of the magnitudes of the loads on it.
-struct LoadScale {
-  Vecs body;  // [N, N, N*m]
-};
 
 /// One stage of a step: where everything is, and the forces.
 struct Stage {

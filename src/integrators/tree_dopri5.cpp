@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "integrators/dormand_prince.h"
-#include "integrators/tree_load_scale.h"
+#include "integrators/load_scale.h"
 
 namespace pintle {
 namespace {

@@ -1,27 +1,14 @@
-// The step loop: predict, solve, estimate, accept or shrink. As RadauStepper's.
 #include "integrators/tree_radau.h"
 
-#include <fmt/format.h>
+#include <utility>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "integrators/tree_load_scale.h"
+#include "integrators/load_scale.h"
 
 namespace pintle {
 namespace {
 
 using S = Planar;
 using Eigen::VectorXd;
-
-constexpr int kMaxRetries = 80;
-constexpr double kShortest = 1e-11;    // of the run: the shortest step that is refused for its error
-constexpr double kKinkAtStart = 1e-5;  // of the usual step: a kink this close to its start is crossed
-constexpr double kShrink = 0.35;       // after Newton failed
-constexpr double kShort = 0.9;        // of the way to a kink that is only guessed at
-constexpr double kAfterKink = 0.3;     // of the usual step
-constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;
 
 }  // namespace
 
@@ -36,14 +23,13 @@ TreeRadau::TreeRadau(const System& system, double tolerance, int stages)
 }
 
 bool TreeRadau::attempt(double h) {
-  return stages_.solve(begin_, h, have_history_ ? &nodes_ : nullptr, last_h_, scale_, counters_);
+  return stages_.solve(begin_, h, control_.have_history ? &nodes_ : nullptr, control_.last, scale_, counters_);
 }
 
 // The tree takes positions and rates from the bodies; gaps and forces of the joints that stay laws are the state's.
 void TreeRadau::start(const State& state, double h) {
   end_state_ = state;
-  h_ = usual_h_ = h;
-  have_history_ = false;
+  control_.start(h);
   held_ = state.held;
   jumps_.forget();
   end_.t = state.t;
@@ -64,74 +50,18 @@ void TreeRadau::start(const State& state, double h) {
 bool TreeRadau::step(double t_end) {
   if (release_jumps(system_, end_.t, end_at_.pose().m, held_)) {
     balance_end();
-    have_history_ = false;
+    control_.have_history = false;
   }
-  begin_ = end_;
-  begin_state_ = end_state_;
-  double h = h_;
-  bool up_to_kink = false;
-  if (max_step_ > 0) h = std::min(h, max_step_);
-  for (int retry = 0; retry < kMaxRetries; ++retry) {
-    const double left = t_end - begin_.t;
-    if (h > left || left - h < 1e-3 * h) h = left;
-    else if (!up_to_kink && left < 1.7 * h) h = 0.5 * left;
-    if (h <= 16 * std::numeric_limits<double>::epsilon() * std::max(std::abs(begin_.t), std::abs(t_end))) break;
-    const bool solved = attempt(h);
-    if (!solved) {
-      ++counters_.newton_failures;
-      have_history_ = have_history_ && retry == 0;
-    }
-    const Kink kink = solved || retry > 0 ? find_kink(h, solved) : Kink{};  // twice unsolved: for a jump on the way?
-    if (kink.before < 1 && kink.before * h < kKinkAtStart * usual_h_) {
-      cross_kink(kink.before * h);
-      begin_ = end_;
-      begin_state_ = end_state_;
-      h = std::max(h, kAfterKink * usual_h_);
-      continue;
-    }
-    if (kink.after < 1) {
-      up_to_kink = true;
-      h *= kink.before * (solved ? 1 - 0.1 * kKinkAtStart : kShort);  // so that the last stage is not on it
-      if (solved) ++counters_.rejected;
-      continue;
-    }
-    if (!solved) {
-      h *= kShrink;
-      continue;
-    }
-    double error = 0;
-    if (!error_estimate(h, error)) {
-      ++counters_.newton_failures;
-      h *= kShrink;
-      continue;
-    }
-    error /= tolerance_;
-    double factor = std::clamp(kSafety * std::pow(std::max(error, 1e-14), -1.0 / (n_ + 1)), kLeast, counters_.steps == 0 ? kMostAtFirst : kMost);
-    const bool jump = error > 1 && h <= kShortest * std::abs(t_end);
-    if (jump) factor = kMost;
-    if (error > 1 && !jump) {
-      ++counters_.rejected;
-      h *= std::min(factor, 0.7);
-      continue;
-    }
-    finish_step(h);
-    ++counters_.steps;
-    h_ = h * factor;
-    if (up_to_kink) h_ = std::max(h_, kAfterKink * usual_h_);  // a better guess than this stump
-    else usual_h_ = h_;
-    return true;
-  }
-  note_failure(h);
+  if (control_.advance(*this, t_end, tolerance_, n_ + 1, counters_)) return true;
+  std::vector<std::pair<double, int>> residuals;
+  for (const int j : tree_->laws()) residuals.emplace_back(stages_.residual(j), j);
+  failure_ = no_step_message(system_, begin_.t, control_.next, std::move(residuals));
   return false;
 }
 
-void TreeRadau::note_failure(double h) {
-  failure_ = fmt::format("the step size has shrunk to nothing at t = {:.9g} s, step {:.3g} s", begin_.t, h);
-  std::vector<std::pair<double, int>> worst;
-  for (const int j : tree_->laws()) worst.emplace_back(-stages_.residual(j), j);
-  std::sort(worst.begin(), worst.end());
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, worst.size()); ++i)
-    failure_ += fmt::format("; joint {} (residual {:.3g} m/s^2)", system_.joints[worst[i].second].name, -worst[i].first);
+void TreeRadau::begin_at_end() {
+  begin_ = end_;
+  begin_state_ = end_state_;
 }
 
 // What the state of the bodies says about the end, with reactions that go with u' = w.

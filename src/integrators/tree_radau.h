@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "integrators/held_jumps.h"
-#include "integrators/kink_search.h"
+#include "integrators/radau_control.h"
 #include "integrators/stepper.h"
 #include "integrators/tree_projector.h"
 #include "integrators/tree_stages.h"
@@ -19,7 +19,7 @@ class TreeRadau final : public Stepper {
   /// `stages` is 3 (order 5) or 5 (order 9).
   TreeRadau(const System& system, double tolerance, int stages = 3);
 
-  void set_max_step(double h) override { max_step_ = h; }
+  void set_max_step(double h) override { control_.longest = h; }
   void set_load_scale(const LoadScale& scale) override { scale_ = scale; }
   const LoadScale& load_scale() const override { return scale_; }
   void start(const State& state, double h) override;
@@ -33,6 +33,9 @@ class TreeRadau final : public Stepper {
   const JointTree& tree() const { return *tree_; }
 
  private:
+  friend class RadauControl;  // which calls what follows, up to finish_step
+  double t() const { return begin_.t; }
+  void begin_at_end();
   bool attempt(double h);
 
   // tree_radau_end.cpp: the error of a step, its end and its inside
@@ -57,15 +60,11 @@ class TreeRadau final : public Stepper {
   double margin_rate(const HeldJump& jump);
   void balance_end();
 
-  void note_failure(double h);
-
   const System& system_;
   const RadauTable& table_;
   const int n_;  // stages
   double tolerance_;
-  double max_step_ = 0;
-  double h_ = 0, last_h_ = 0, usual_h_ = 0;  // the next step; the last; what it was before a kink
-  bool have_history_ = false;
+  RadauControl control_;
   std::uint64_t side_ = 0;                   // of kinks, at the end
   JumpWatch jumps_;
   std::vector<HeldJump> held_;

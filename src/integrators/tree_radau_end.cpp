@@ -92,8 +92,8 @@ void TreeRadau::finish_step(double h) {
   projector_.balance(end_at_, last.accel, true, end_.force, w);
   nodes_.force.col(n_) = end_.force;
   finish_end(w);
-  last_h_ = h;
-  have_history_ = true;
+  control_.last = h;
+  control_.have_history = true;
 }
 
 // Coordinates and rates, each in one pass, and a second where the first has left more than rounding. Eq. (6.2).

@@ -51,7 +51,7 @@ Kink TreeRadau::find_kink(double h, bool solved) {
 
 // Moves the end over the kink that it stands just before, by Taylor's series; false when the side stays the same.
 bool TreeRadau::move_over_kink(double distance) {
-  double beyond = std::max(kCrossing * usual_h_, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
+  double beyond = std::max(kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
   for (int i = 0; i < kCrossings; ++i, beyond *= 10) {
     const double d = (i == 0 ? distance : 0) + beyond, half = 0.5 * d * d;
     end_.t += d;
@@ -72,17 +72,17 @@ void TreeRadau::cross_kink(double distance) {
   move_over_kink(distance);
   release_jumps(system_, end_.t, end_at_.pose().m, held_);
   balance_end();
-  if (const auto jump = jumps_.crossed(system_, before, motions_before, end_.t, end_at_.pose().m, kAtOnce * usual_h_)) {
+  if (const auto jump = jumps_.crossed(system_, before, motions_before, end_.t, end_at_.pose().m, kAtOnce * control_.usual)) {
     const double margin = system_.margin(*jump, end_.t, end_at_.pose().m);
-    hold_jump(*jump, margin, ramp_size(system_, *jump, end_state_, usual_h_, tolerance_), held_, [this] { balance_end(); },
+    hold_jump(*jump, margin, ramp_size(system_, *jump, end_state_, control_.usual, tolerance_), held_, [this] { balance_end(); },
               [&] { return margin_rate(*jump); });
   }
-  have_history_ = false;
+  control_.have_history = false;
 }
 
 // How fast the argument of a jump changes at the end, by what it is a moment later.
 double TreeRadau::margin_rate(const HeldJump& jump) {
-  const double d = kMoment * usual_h_;
+  const double d = kMoment * control_.usual;
   inside_at_.place_only(end_.t + d, end_.y + d * end_.u, end_.u + d * end_.w);
   return (system_.margin(jump, inside_at_.t(), inside_at_.pose().m) - system_.margin(jump, end_.t, end_at_.pose().m)) / d;
 }

@@ -12,10 +12,6 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using S = Planar;
 
-constexpr int kMaxIterations = 14;
-constexpr double kNewtonShare = 0.05;  // of the tolerance, left to the iteration
-constexpr double kRounding = 1e-15;    // of the loads: no correction
-constexpr double kSlow = 0.9;          // contraction expected at most of a first iteration
 constexpr double kDifference = 1e-7;   // step of the differences, of a coordinate's size and at least of 1
 
 const S::Vec& on(const LoadScale& scale, int body, int other) { return scale.body[body == kGround ? other : body]; }
@@ -33,8 +29,8 @@ bool TreeStages::solve(const TreeState& begin, double h, const TreeNodes* before
   predict(begin, h, before, last_h);
   place(begin, h);
   find_forces(scale);
-  double last = 0, before_last = 0;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+  contraction_.start();
+  for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
     find_residuals();
     counters.evaluations += n_;
     if (iteration == 0) {
@@ -44,19 +40,9 @@ bool TreeStages::solve(const TreeState& begin, double h, const TreeNodes* before
     }
     const double of_bodies = correct(scale);
     place(begin, h);
-    const double size = std::max(of_bodies, find_forces(scale)) / tolerance_;
     ++counters.newton_iterations;
-    if (!std::isfinite(size)) return false;
-    if (size * tolerance_ < kRounding) return true;
-    // As in LaneSolver: two iterations, or the last step's, tell the contraction.
-    double rate = iteration == 0 ? std::pow(std::clamp(contraction_, 1e-3, kSlow), 0.8) : size / last;
-    if (iteration == 1) rate = std::max(rate, std::min(contraction_, std::sqrt(rate)));
-    if (iteration > 1) rate = std::max(rate, std::sqrt(size / before_last));
-    if (iteration > 0) contraction_ = rate;
-    if (rate > 2 || (rate > 0.95 && iteration > 2)) return false;
-    before_last = last;
-    last = size;
-    if (rate < 1 && rate / (1 - rate) * size < kNewtonShare) return true;
+    const auto verdict = contraction_.judge(iteration, std::max(of_bodies, find_forces(scale)), tolerance_);
+    if (verdict != NewtonContraction::Verdict::kGoOn) return verdict == NewtonContraction::Verdict::kDone;
   }
   return false;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <vector>
 
+#include "integrators/newton_contraction.h"
 #include "integrators/radau_table.h"
 #include "integrators/stage_solver.h"
 #include "integrators/tree_instant.h"
@@ -60,7 +61,7 @@ class TreeStages {
   const RadauTable& table_;
   const int n_;
   double tolerance_;
-  double contraction_ = 0.5;
+  NewtonContraction contraction_;
   std::vector<TreeState> state_;
   std::vector<TreeInstant> at_;
   TreeInstant beside_;                          // for differences

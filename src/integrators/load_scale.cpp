@@ -1,4 +1,4 @@
-#include "integrators/tree_load_scale.h"
+#include "integrators/load_scale.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,14 +7,12 @@ namespace pintle {
 
 using S = Planar;
 
-void grow_load_scale(const System& system, const std::vector<S::Motion>& m, const Vecs& Q, const State& state, LoadScale& scale) {
-  Vecs load(system.bodies.size());
+void grow_load_scale(const System& system, const std::vector<Reading>& r, const Vecs& Q, const State& state, Vecs& load, LoadScale& scale) {
   for (std::size_t i = 0; i < load.size(); ++i) load[i] = Q[i].cwiseAbs() + system.bodies[i].mass.cwiseProduct(state.a[i]).cwiseAbs();
   for (int j = 0; j < system.n_joints(); ++j) {
     const Placement& at = system.joints[j].at;
-    const Reading r = system.reading(j, state.t, m);
-    if (at.a != kGround) load[at.a] += (r.GA.transpose() * state.force[j]).cwiseAbs();
-    if (at.b != kGround) load[at.b] += (r.GB.transpose() * state.force[j]).cwiseAbs();
+    if (at.a != kGround) load[at.a] += (r[j].GA.transpose() * state.force[j]).cwiseAbs();
+    if (at.b != kGround) load[at.b] += (r[j].GB.transpose() * state.force[j]).cwiseAbs();
   }
   for (std::size_t i = 0; i < load.size(); ++i) {
     const S::Vec& mass = system.bodies[i].mass;
@@ -25,6 +23,13 @@ void grow_load_scale(const System& system, const std::vector<S::Motion>& m, cons
     moment = std::max(moment, 1e-3 * force * radius);
     scale.body[i] << force, force, moment;
   }
+}
+
+void grow_load_scale(const System& system, const std::vector<S::Motion>& m, const Vecs& Q, const State& state, LoadScale& scale) {
+  std::vector<Reading> r;
+  system.readings(state.t, m, r);
+  Vecs load(system.bodies.size());
+  grow_load_scale(system, r, Q, state, load, scale);
 }
 
 }  // namespace pintle

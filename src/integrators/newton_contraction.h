@@ -1,0 +1,41 @@
+// When Newton's iteration on the stage equations has done enough, or never will. theory/time section 3.4.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace pintle {
+
+/// Frozen Jacobians make good iterations and bad ones alternate: two of them, or the last step's, tell the contraction.
+class NewtonContraction {
+ public:
+  enum class Verdict { kGoOn, kDone, kHopeless };
+  static constexpr int kMaxIterations = 14;
+
+  /// Before a step's first iteration.
+  void start() { last_ = before_last_ = 0; }
+
+  /// After iteration number `iteration`, from 0: the size of its correction, over the loads, against the tolerance.
+  Verdict judge(int iteration, double correction, double tolerance) {
+    const double size = correction / tolerance;
+    if (!std::isfinite(size)) return Verdict::kHopeless;
+    if (size * tolerance < kRounding) return Verdict::kDone;
+    double rate = iteration == 0 ? std::pow(std::clamp(contraction_, 1e-3, kSlow), 0.8) : size / last_;
+    if (iteration == 1) rate = std::max(rate, std::min(contraction_, std::sqrt(rate)));
+    if (iteration > 1) rate = std::max(rate, std::sqrt(size / before_last_));
+    if (iteration > 0) contraction_ = rate;
+    if (rate > 2 || (rate > 0.95 && iteration > 2)) return Verdict::kHopeless;
+    before_last_ = last_;
+    last_ = size;
+    return rate < 1 && rate / (1 - rate) * size < kShare ? Verdict::kDone : Verdict::kGoOn;
+  }
+
+ private:
+  static constexpr double kShare = 0.05;      // of the tolerance, left to the iteration
+  static constexpr double kRounding = 1e-15;  // of the loads: no correction
+  static constexpr double kSlow = 0.9;        // contraction expected at most of a first iteration, after one that failed
+
+  double last_ = 0, before_last_ = 0, contraction_ = 0.5;
+};
+
+}  // namespace pintle

@@ -1,0 +1,108 @@
+// How the implicit methods choose their steps: predict, solve, estimate, accept or shrink; steps end at kinks. The same for
+// free bodies and over a joint tree. theory/time sections 3.5 and 7.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "integrators/kink_search.h"
+#include "pintle/trajectory.h"
+#include "system/system.h"
+
+namespace pintle {
+
+class RadauControl {
+ public:
+  double next = 0, last = 0, usual = 0;  // steps: the next; the last; what it was before a kink [s]
+  double longest = 0;                    // [s]; 0: no limit
+  bool have_history = false;             // the last step's curve goes on into the next one
+
+  void start(double h) {
+    next = usual = h;
+    have_history = false;
+  }
+
+  /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
+  /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), find_kink(h, solved),
+  /// cross_kink(distance), error_estimate(h, error) and finish_step(h).
+  template <class Method>
+  bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
+
+ private:
+  static constexpr int kMaxRetries = 80;
+  static constexpr double kShortest = 1e-11;    // of the run: the shortest step that is refused for its error
+  static constexpr double kKinkAtStart = 1e-5;  // of the usual step: a kink this close to its start is crossed
+  static constexpr double kShrink = 0.35;       // after Newton failed
+  static constexpr double kShort = 0.9;         // of the way to a kink that is only guessed at
+  static constexpr double kAfterKink = 0.3;     // of the usual step
+  static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;
+
+  void accept(double h, double factor, bool up_to_kink) {
+    next = h * factor;
+    if (up_to_kink) next = std::max(next, kAfterKink * usual);  // a better guess than this stump
+    else usual = next;
+  }
+};
+
+template <class Method>
+bool RadauControl::advance(Method& method, double t_end, double tolerance, int order, Counters& counters) {
+  method.begin_at_end();
+  double h = longest > 0 ? std::min(next, longest) : next;
+  bool up_to_kink = false;
+  for (int retry = 0; retry < kMaxRetries; ++retry) {
+    const double left = t_end - method.t();
+    if (h > left || left - h < 1e-3 * h) h = left;
+    else if (!up_to_kink && left < 1.7 * h) h = 0.5 * left;
+    if (h <= 16 * std::numeric_limits<double>::epsilon() * std::max(std::abs(method.t()), std::abs(t_end))) break;
+    const bool solved = method.attempt(h);
+    if (!solved) {
+      ++counters.newton_failures;
+      have_history = have_history && retry == 0;
+    }
+    const Kink kink = solved || retry > 0 ? method.find_kink(h, solved) : Kink{};  // twice unsolved: for a jump on the way?
+    if (kink.before < 1 && kink.before * h < kKinkAtStart * usual) {
+      method.cross_kink(kink.before * h);
+      method.begin_at_end();
+      h = std::max(h, kAfterKink * usual);
+      continue;
+    }
+    if (kink.after < 1) {
+      up_to_kink = true;
+      h *= kink.before * (solved ? 1 - 0.1 * kKinkAtStart : kShort);  // so that the last stage is not on it
+      if (solved) ++counters.rejected;
+      continue;
+    }
+    double error = 0;
+    if (!solved || !method.error_estimate(h, error)) {
+      if (solved) ++counters.newton_failures;
+      h *= kShrink;
+      continue;
+    }
+    error /= tolerance;
+    double factor = std::clamp(kSafety * std::pow(std::max(error, 1e-14), -1.0 / order), kLeast, counters.steps == 0 ? kMostAtFirst : kMost);
+    // A force that jumps cannot be resolved by any step: one that is this short passes over the jump.
+    const bool jump = error > 1 && h <= kShortest * std::abs(t_end);
+    if (jump) factor = kMost;
+    if (error > 1 && !jump) {
+      ++counters.rejected;
+      h *= std::min(factor, 0.7);
+      continue;
+    }
+    method.finish_step(h);
+    ++counters.steps;
+    accept(h, factor, up_to_kink);
+    return true;
+  }
+  next = h;
+  return false;
+}
+
+/// When and how small the last step was, and the joints with the largest residuals: (residual [m/s^2], joint) each.
+std::string no_step_message(const System& system, double t, double h, std::vector<std::pair<double, int>> residuals);
+
+}  // namespace pintle
