@@ -34,6 +34,7 @@ class RadauControl {
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
 
  private:
+  double last_error_ = 0;
   static constexpr int kMaxRetries = 80;
   static constexpr double kShortest = 1e-11;    // of the run: the shortest step that is refused for its error
   static constexpr double kKinkAtStart = 1e-5;  // of the usual step: a kink this close to its start is crossed
@@ -93,6 +94,9 @@ bool RadauControl::advance(Method& method, double t_end, double tolerance, int o
       h *= std::min(factor, 0.7);
       continue;
     }
+    if (have_history && last > 0 && last_error_ > 0 && error > 1e-6)
+      factor = std::min(factor, std::max(kLeast, factor * (h / last) * std::pow(last_error_ / error, 1.0 / order)));
+    last_error_ = error;
     method.finish_step(h);
     ++counters.steps;
     accept(h, factor, up_to_kink);

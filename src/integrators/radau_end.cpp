@@ -25,7 +25,7 @@ bool RadauStepper::error_estimate(double h, double& error) {
   const Stage& last = stage_[n_ - 1];
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!projector_.prepare(begin_.t + h, last.m, mu, last.gap, last.gap_rate)) return false;
-  error = std::max(body_tail(), gap_tail());
+  error = motion_ ? motion_tail() : std::max(body_tail(), gap_tail());
   return std::isfinite(error);
 }
 
@@ -45,6 +45,43 @@ double RadauStepper::body_tail() const {
   }
   if (!(size[n_] > 0)) return 0;
   return size[n_] * fall_off(size[n_], size[n_ - 1], size[n_ - 2]);
+}
+
+double RadauStepper::motion_tail() {
+  yield_.resize(begin_.a.size());
+  for (int i = 0; i < system_.n_bodies(); ++i) {
+    for (int back = 0; back < 3; ++back) {
+      const int k = n_ - back;
+      S::Vec coefficient = table_.to_legendre(k, 0) * begin_.a[i];
+      for (int s = 0; s < n_; ++s) coefficient += table_.to_legendre(k, s + 1) * stage_[s].a[i];
+      for (int c = 0; c < 3; ++c) yield_[i][c].set(back, coefficient[c] * system_.bodies[i].mass[c]);
+    }
+  }
+  solver_->yield_to(yield_);
+  Lanes<3> size = Lanes<3>::all(0);
+  for (int i = 0; i < system_.n_bodies(); ++i)
+    for (int k = 0; k < S::kDof; ++k) size = larger_size(size, (system_.bodies[i].mass[k] / step_scale_.body[i][k]) * yield_[i][k]);
+  if (!std::isfinite(size[0] + size[1] + size[2])) return std::numeric_limits<double>::infinity();
+  if (!(size[0] > 0)) return 0;
+  return size[0] * fall_off(size[0], size[1], size[2]);
+}
+
+void RadauStepper::set_step_scale(double h) {
+  double accel = 0;
+  for (int i = 0; i < system_.n_bodies(); ++i) {
+    const S::Vec& mass = system_.bodies[i].mass;
+    const double radius = std::sqrt(mass[2] / mass[0]);
+    const auto size = [&](const S::Vec& x) { return std::max(std::hypot(x[0], x[1]), radius * std::abs(x[2])); };
+    speed_ = std::max(speed_, size(begin_.v[i]));
+    accel = std::max(accel, size(begin_.a[i]));
+  }
+  const double force = std::max({speed_, 1e-9}) / h;
+  step_scale_.body.resize(begin_.a.size());
+  for (int i = 0; i < system_.n_bodies(); ++i) {
+    const S::Vec& mass = system_.bodies[i].mass;
+    const double f = mass[0] * force;
+    step_scale_.body[i] << f, f, f * std::sqrt(mass[2] / mass[0]);
+  }
 }
 
 // The gaps' own accelerations come out of the stages as second differences of what the forces demand; where a joint is

@@ -29,7 +29,8 @@ RadauStepper::RadauStepper(const System& system, double tolerance, int stages)
 }
 
 bool RadauStepper::attempt(double h) {
-  if (!solver_->solve(begin_, h, control_.have_history ? &nodes_ : nullptr, control_.last, scale_, counters_)) return false;
+  if (motion_) set_step_scale(h);
+  if (!solver_->solve(begin_, h, control_.have_history ? &nodes_ : nullptr, control_.last, motion_ ? step_scale_ : scale_, counters_)) return false;
   solver_->write(stage_);
   return true;
 }

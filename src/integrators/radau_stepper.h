@@ -32,6 +32,7 @@ class RadauStepper {
   /// Loads known from an earlier run; otherwise the largest so far is used.
   void set_load_scale(const LoadScale& scale) { scale_ = scale; }
   const LoadScale& load_scale() const { return scale_; }
+  void control_motion() { motion_ = true; }
 
   /// Starts at `state` (all of it filled in) with a first step of about h.
   void start(const State& state, double h);
@@ -58,6 +59,7 @@ class RadauStepper {
   // radau_end.cpp: the error of a step and its end
   bool error_estimate(double h, double& error);
   double body_tail() const;
+  double motion_tail();
   double gap_tail();
   void finish_step(double h);                 // project, fill end_
   static double rounding_of(const Vecs& x);
@@ -84,6 +86,11 @@ class RadauStepper {
   const RadauTable& table_;
   const int n_;                               // stages
   double tolerance_;
+  bool motion_ = false;
+  double speed_ = 0;
+  LoadScale step_scale_;
+  std::vector<StageSolver::Three> yield_;
+  void set_step_scale(double h);
   State begin_, end_;
   RadauControl control_;
   std::uint64_t side_ = 0;                    // of kinks, at end_

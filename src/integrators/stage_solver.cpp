@@ -10,6 +10,7 @@
 #include "integrators/newton_contraction.h"
 #include "integrators/stage_lanes.h"
 #include "solve/block_lu.h"
+#include "solve/wide.h"
 
 namespace pintle {
 namespace {
@@ -28,13 +29,16 @@ double largest(const Lanes<N>& size, const Lanes<N>& sum) {
 }
 
 template <int N>
-class LaneSolver final : public StageSolver {
+class LaneSolver : public StageSolver {
  public:
   LaneSolver(const System& system, const RadauTable& table, double tolerance);
 
-  bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override;
   void write(std::vector<Stage>& stages) const override;
   double residual(int j) const override;
+
+ protected:
+  bool solve_stages(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters);
+  void find_yield(std::vector<Three>& forces) const;
 
  private:
   using L = Lanes<N>;
@@ -93,8 +97,8 @@ LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double 
 }
 
 template <int N>
-bool LaneSolver<N>::solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale,
-                          Counters& counters) {
+bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale,
+                                 Counters& counters) {
   predict(begin, h, before, last_h);
   find_targets(begin.t, h);
   place(begin, h);
@@ -412,11 +416,62 @@ double LaneSolver<N>::residual(int j) const {
   return std::hypot(r[0][N - 1], r[1][N - 1], r[2][N - 1]);
 }
 
+// Three numbers that the real part of a spectrum multiplies.
+template <int N>
+struct RealThree {
+  Lanes<3> x;
+  RealThree& operator+=(const RealThree& b) { x += b.x; return *this; }
+  RealThree& operator-=(const RealThree& b) { x -= b.x; return *this; }
+  friend RealThree operator*(const Spectrum<N>& a, const RealThree& b) { return {a.x[N - 1] * b.x}; }
+};
+
+template <int N>
+void LaneSolver<N>::find_yield(std::vector<Three>& forces) const {
+  std::vector<BlockVec<RealThree<N>, 3>> x(forces.size());
+  for (std::size_t b = 0; b < x.size(); ++b)
+    for (int k = 0; k < 3; ++k) x[b][k].x = forces[b][k];
+  lu_.solve(x);
+  const double mu2 = mu2_.x[N - 1];
+  for (std::size_t b = 0; b < x.size(); ++b)
+    for (int k = 0; k < 3; ++k) forces[b][k] = mu2 * x[b][k].x;
+}
+
+// The same text twice, for registers of two widths: everything that is made of lanes is inlined into these functions.
+template <int N>
+class NarrowSolver final : public LaneSolver<N> {
+ public:
+  using LaneSolver<N>::LaneSolver;
+  bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override {
+    return this->solve_stages(begin, h, before, last_h, scale, counters);
+  }
+  void yield_to(std::vector<StageSolver::Three>& forces) const override { this->find_yield(forces); }
+};
+
+#ifdef PINTLE_WIDE
+template <int N>
+class WideSolver final : public LaneSolver<N> {
+ public:
+  using LaneSolver<N>::LaneSolver;
+  PINTLE_WIDE bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override {
+    return this->solve_stages(begin, h, before, last_h, scale, counters);
+  }
+  PINTLE_WIDE void yield_to(std::vector<StageSolver::Three>& forces) const override { this->find_yield(forces); }
+};
+#endif
+
+template <int N>
+std::unique_ptr<StageSolver> make_solver(const System& system, const RadauTable& table, double tolerance) {
+#ifdef PINTLE_WIDE
+  if (has_wide_registers()) return std::make_unique<WideSolver<N>>(system, table, tolerance);
+#endif
+  return std::make_unique<NarrowSolver<N>>(system, table, tolerance);
+}
+
 }  // namespace
 
 std::unique_ptr<StageSolver> make_stage_solver(const System& system, const RadauTable& table, double tolerance) {
-  if (table.n == 5) return std::make_unique<LaneSolver<5>>(system, table, tolerance);
-  return std::make_unique<LaneSolver<3>>(system, table, tolerance);
+  if (table.n == 5) return make_solver<5>(system, table, tolerance);
+  return make_solver<3>(system, table, tolerance);
 }
 
 }  // namespace pintle
