@@ -44,7 +44,7 @@ class RadauControl {
   static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;
 
   void accept(double h, double factor, bool up_to_kink) {
-    next = h * factor;
+    next = factor > 0.95 && factor < 1.2 ? h : h * factor;  // the same step needs no new factorisation
     if (up_to_kink) next = std::max(next, kAfterKink * usual);  // a better guess than this stump
     else usual = next;
   }

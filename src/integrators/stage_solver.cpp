@@ -66,6 +66,8 @@ class LaneSolver : public StageSolver {
   const StageMatrices<N> matrices_;
   double tolerance_;
   NewtonContraction contraction_;
+  static constexpr double kStillGood = 0.15, kTooSlow = 0.4;
+  double factorized_for_ = 0;
   bool loads_;                                // there is more than weight
   std::vector<BodyLanes<N>> bodies_;
   std::vector<JointLanes<N>> joints_;
@@ -104,19 +106,31 @@ bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* 
   place(begin, h);
   find_forces(scale);
   contraction_.start();
+  bool fresh = h != factorized_for_ || contraction_.rate() > kStillGood;
+  bool stale = fresh;
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
     find_residuals(begin, h);
     counters.evaluations += N;
-    if (iteration == 0) {
+    if (stale) {
       linearize(begin.t + table_.c[kMiddle] * h, begin.held);
       counters.factorizations += 1 + N / 2;
+      factorized_for_ = 0;
       if (!factorize(h)) return false;
+      factorized_for_ = h;
+      stale = false;
     }
     const double of_bodies = correct(scale);
     place(begin, h);
     ++counters.newton_iterations;
     const auto verdict = contraction_.judge(iteration, std::max(of_bodies, find_forces(scale)), tolerance_);
-    if (verdict != NewtonContraction::Verdict::kGoOn) return verdict == NewtonContraction::Verdict::kDone;
+    if (verdict == NewtonContraction::Verdict::kDone) return true;
+    if (!fresh && (verdict == NewtonContraction::Verdict::kHopeless || (iteration > 0 && contraction_.rate() > kTooSlow))) {
+      fresh = stale = true;
+      contraction_.start();
+      iteration = -1;
+      continue;
+    }
+    if (verdict == NewtonContraction::Verdict::kHopeless) return false;
   }
   return false;
 }
