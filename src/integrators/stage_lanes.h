@@ -77,7 +77,8 @@ struct JointLanes {
   L residual[3];          // of the gap's acceleration [m/s^2, m/s^2, rad/s^2]
   GapMap<L> map;
   GapMap<double> frozen;  // at the stage where the equations are linearised
-  Planar::Mat K, C;       // the law's tangents there
+  Planar::Vec frozen_force;                                                // there
+  Planar::Mat K = Planar::Mat::Zero(), C = Planar::Mat::Zero();  // the law's tangents there
   bool diagonal = false;  // they are
   Spectrum<N> weight[9];  // (K + mu C) / mu^2; the first three when diagonal
   Spectrum<N> e[3];       // the residual in the diagonal frame

@@ -59,6 +59,9 @@ class LaneSolver : public StageSolver {
   L find_gradient(const JointData& joint, const PoseGeometry<L>& pose, JointLanes<N>& lanes) const;
   void linearize(double t, HeldJumps held);
   bool factorize(double h);
+  void add_joint(std::size_t j, const X& mu);
+  void add_pose_joint(std::size_t j, const X& mu);
+  static void add_block(Block<X, 3>& block, const S::Mat& K, const S::Mat& C, const X& mu, double sign);
   double correct(const LoadScale& scale);
 
   const System& system_;
@@ -73,9 +76,8 @@ class LaneSolver : public StageSolver {
   std::vector<JointLanes<N>> joints_;
   Vecs Q_;                                    // of one stage
   std::vector<S::Motion> motions_;
-  struct JointBlocks { std::array<S::Mat, 4> K, C; BlockPattern::Slot ab{0, true}; };  // AA, AB, BA, BB of (3.8)
   struct LoadBlock { int i, j; S::Mat dq, dv; };
-  std::vector<JointBlocks> blocks_;
+  std::vector<BlockPattern::Slot> slots_;     // of each joint's bodies, A before B
   std::vector<LoadBlock> load_blocks_;
   X mu2_;
   BlockLu<X, 3> lu_;
@@ -85,7 +87,7 @@ class LaneSolver : public StageSolver {
 template <int N>
 LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double tolerance)
     : system_(system), table_(table), matrices_(table), tolerance_(tolerance), loads_(!system.loads.empty() || !system.applied.empty()),
-      bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), motions_(system.bodies.size()), blocks_(system.joints.size()),
+      bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), motions_(system.bodies.size()), slots_(system.joints.size()),
       lu_(system.pattern()), rhs_(system.bodies.size() + 1) {
   bodies_.back().c = L::all(1);  // the ground; what falls on it is not looked at
   for (std::size_t b = 0; b < n_bodies(); ++b)
@@ -94,7 +96,7 @@ LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double 
     const JointData& joint = system.joints[j];
     joints_[j].map.function = !std::holds_alternative<Selection>(joint.probe);
     joints_[j].diagonal = std::holds_alternative<LinearLaw>(joint.law);
-    if (joint.at.a != kGround && joint.at.b != kGround) blocks_[j].ab = system.pattern().slot(joint.at.a, joint.at.b);
+    if (joint.at.a != kGround && joint.at.b != kGround) slots_[j] = system.pattern().slot(joint.at.a, joint.at.b);
   }
 }
 
@@ -297,7 +299,7 @@ Lanes<N> LaneSolver<N>::find_gradient(const JointData& joint, const PoseGeometry
   return bias;
 }
 
-// Joints' G'KG and G'CG with the geometric stiffness, and loads' slopes, at the predicted middle stage. Eq. (3.8).
+// The joints' tangents and loads' slopes at the predicted middle stage.
 template <int N>
 void LaneSolver<N>::linearize(double t, HeldJumps held) {
   const int i = kMiddle;
@@ -306,18 +308,19 @@ void LaneSolver<N>::linearize(double t, HeldJumps held) {
     const JointData& data = system_.joints[j];
     JointLanes<N>& joint = joints_[j];
     joint.frozen = joint.map.lane(i);
-    const Response response = respond(data.law, {joint.gap[0][i], joint.gap[1][i], joint.gap[2][i]},
-                                      {joint.rate[0][i], joint.rate[1][i], joint.rate[2][i]});
-    joint.K = response.stiffness;
-    joint.C = response.damping;
-    const RelativePose pose = system_.pose(data.at, motions_);
-    const Reading r = read(data.probe, pose);
-    const auto geometric = geometric_stiffness(data.probe, pose, response.force);
-    const S::Mat KA = joint.K * r.GA, KB = joint.K * r.GB, CA = joint.C * r.GA, CB = joint.C * r.GB;
-    JointBlocks& b = blocks_[j];
-    b.K = {r.GA.transpose() * KA - geometric.template block<3, 3>(0, 0), r.GA.transpose() * KB - geometric.template block<3, 3>(0, 3),
-           r.GB.transpose() * KA - geometric.template block<3, 3>(3, 0), r.GB.transpose() * KB - geometric.template block<3, 3>(3, 3)};
-    b.C = {r.GA.transpose() * CA, r.GA.transpose() * CB, r.GB.transpose() * CA, r.GB.transpose() * CB};
+    if (const auto* linear = std::get_if<LinearLaw>(&data.law)) {
+      for (int k = 0; k < 3; ++k) {
+        joint.K(k, k) = linear->k[k];
+        joint.C(k, k) = linear->c[k];
+        joint.frozen_force[k] = joint.force[k][i];
+      }
+    } else {
+      const Response response = respond(data.law, {joint.gap[0][i], joint.gap[1][i], joint.gap[2][i]},
+                                        {joint.rate[0][i], joint.rate[1][i], joint.rate[2][i]});
+      joint.K = response.stiffness;
+      joint.C = response.damping;
+      joint.frozen_force = response.force;
+    }
   }
   load_blocks_.clear();
   system_.external_tangents(t, motions_, [this](int a, int b, const S::Mat& dq, const S::Mat& dv) {
@@ -330,34 +333,90 @@ template <int N>
 bool LaneSolver<N>::factorize(double h) {
   const X mu = (1 / h) * matrices_.eigenvalue, once = reciprocal(mu), twice = once * once;
   mu2_ = mu * mu;
-  const X one(1.0);
-  const auto add = [&](Block<X, 3>& block, const S::Mat& K, const S::Mat& C, double sign) {
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) block(r, c) += (sign * K(r, c)) * one + (sign * C(r, c)) * mu;
-  };
   lu_.set_zero();
   for (int i = 0; i < system_.n_bodies(); ++i)
     for (int r = 0; r < 3; ++r) lu_.diagonal(i)(r, r) = system_.bodies[i].mass[r] * mu2_;
-  for (int j = 0; j < system_.n_joints(); ++j) {
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
     JointLanes<N>& joint = joints_[j];
     if (joint.diagonal) {
       for (int k = 0; k < 3; ++k) joint.weight[k] = joint.K(k, k) * twice + joint.C(k, k) * once;
     } else {
       for (int k = 0; k < 9; ++k) joint.weight[k] = joint.K(k / 3, k % 3) * twice + joint.C(k / 3, k % 3) * once;
     }
-    const Placement& at = system_.joints[j].at;
-    const JointBlocks& b = blocks_[j];
-    if (at.a != kGround) add(lu_.diagonal(at.a), b.K[0], b.C[0], 1);
-    if (at.b != kGround) add(lu_.diagonal(at.b), b.K[3], b.C[3], 1);
-    if (at.a == kGround || at.b == kGround) continue;
-    BlockPattern::Slot slot = b.ab;
-    add(lu_.off_diagonal(slot), b.K[1], b.C[1], 1);
-    slot.upper = !slot.upper;
-    add(lu_.off_diagonal(slot), b.K[2], b.C[2], 1);
+    if (joint.diagonal && !joint.map.function) add_pose_joint(j, mu);
+    else add_joint(j, mu);
   }
   for (const LoadBlock& b : load_blocks_)
-    add(b.i == b.j ? lu_.diagonal(b.i) : lu_.off_diagonal(system_.pattern().slot(b.i, b.j)), b.dq, b.dv, -1);
+    add_block(b.i == b.j ? lu_.diagonal(b.i) : lu_.off_diagonal(system_.pattern().slot(b.i, b.j)), b.dq, b.dv, mu, -1);
   return lu_.factorize();
+}
+
+template <int N>
+void LaneSolver<N>::add_block(Block<X, 3>& block, const S::Mat& K, const S::Mat& C, const X& mu, double sign) {
+  const X one(1.0);
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) block(r, c) += (sign * K(r, c)) * one + (sign * C(r, c)) * mu;
+}
+
+// G' (K + mu C) G - N of one joint, of any kind.
+template <int N>
+void LaneSolver<N>::add_joint(std::size_t j, const X& mu) {
+  const JointData& data = system_.joints[j];
+  const JointLanes<N>& joint = joints_[j];
+  const Placement& at = data.at;
+  const RelativePose pose = system_.pose(at, motions_);
+  const Reading r = read(data.probe, pose);
+  const auto geometric = geometric_stiffness(data.probe, pose, joint.frozen_force);
+  const S::Mat KA = joint.K * r.GA, KB = joint.K * r.GB, CA = joint.C * r.GA, CB = joint.C * r.GB;
+  const S::Mat At = r.GA.transpose(), Bt = r.GB.transpose();
+  if (at.a != kGround) add_block(lu_.diagonal(at.a), At * KA - geometric.template block<3, 3>(0, 0), At * CA, mu, 1);
+  if (at.b != kGround) add_block(lu_.diagonal(at.b), Bt * KB - geometric.template block<3, 3>(3, 3), Bt * CB, mu, 1);
+  if (at.a == kGround || at.b == kGround) return;
+  BlockPattern::Slot slot = slots_[j];
+  add_block(lu_.off_diagonal(slot), At * KB - geometric.template block<3, 3>(0, 3), At * CB, mu, 1);
+  slot.upper = !slot.upper;
+  add_block(lu_.off_diagonal(slot), Bt * KA - geometric.template block<3, 3>(3, 0), Bt * CA, mu, 1);
+}
+
+// The same where the gap is the relative pose and its law has a spring and a damper in each component: a stiffness S at the
+// joint's point, in world axes, acts at the arms of both bodies. Geometric stiffness: joints (2.9).
+template <int N>
+void LaneSolver<N>::add_pose_joint(std::size_t j, const X& mu) {
+  const JointLanes<N>& joint = joints_[j];
+  const Placement& at = system_.joints[j].at;
+  const GapMap<double>& g = joint.frozen;
+  const double fx = g.c * joint.frozen_force[0] - g.s * joint.frozen_force[1], fy = g.s * joint.frozen_force[0] + g.c * joint.frozen_force[1];
+  const X one(1.0), w0 = joint.K(0, 0) * one + joint.C(0, 0) * mu, w1 = joint.K(1, 1) * one + joint.C(1, 1) * mu,
+          turn = joint.K(2, 2) * one + joint.C(2, 2) * mu;
+  const X xx = (g.c * g.c) * w0 + (g.s * g.s) * w1, xy = (g.c * g.s) * (w0 - w1), yy = (g.s * g.s) * w0 + (g.c * g.c) * w1;
+  const X ua = g.ax * xy - g.ay * xx, va = g.ax * yy - g.ay * xy;  // S at A's arm
+  const X ub = g.bx * xy - g.by * xx, vb = g.bx * yy - g.by * xy;  // at B's
+  const X Fx = fx * one, Fy = fy * one;
+  if (at.a != kGround) {
+    Block<X, 3>& AA = lu_.diagonal(at.a);
+    const X tx = ua - Fy, ty = va + Fx;
+    AA(0, 0) += xx; AA(0, 1) += xy; AA(0, 2) += tx;
+    AA(1, 0) += xy; AA(1, 1) += yy; AA(1, 2) += ty;
+    AA(2, 0) += tx; AA(2, 1) += ty; AA(2, 2) += turn + g.ax * ty - g.ay * tx;
+  }
+  if (at.b != kGround) {
+    Block<X, 3>& BB = lu_.diagonal(at.b);
+    BB(0, 0) += xx; BB(0, 1) += xy; BB(0, 2) += ub;
+    BB(1, 0) += xy; BB(1, 1) += yy; BB(1, 2) += vb;
+    BB(2, 0) += ub; BB(2, 1) += vb; BB(2, 2) += turn + g.bx * (vb + Fx) - g.by * (ub - Fy);
+  }
+  if (at.a == kGround || at.b == kGround) return;
+  const X tx = ua - Fy, ty = va + Fx, both = turn + g.bx * ty - g.by * tx;
+  BlockPattern::Slot slot = slots_[j];
+  Block<X, 3>& AB = lu_.off_diagonal(slot);
+  AB(0, 0) -= xx; AB(0, 1) -= xy; AB(0, 2) -= ub;
+  AB(1, 0) -= xy; AB(1, 1) -= yy; AB(1, 2) -= vb;
+  AB(2, 0) -= tx; AB(2, 1) -= ty; AB(2, 2) -= both;
+  slot.upper = !slot.upper;
+  Block<X, 3>& BA = lu_.off_diagonal(slot);
+  BA(0, 0) -= xx; BA(0, 1) -= xy; BA(0, 2) -= tx;
+  BA(1, 0) -= xy; BA(1, 1) -= yy; BA(1, 2) -= ty;
+  BA(2, 0) -= ub; BA(2, 1) -= vb; BA(2, 2) -= both;
 }
 
 // One Newton correction: into the diagonal frame, the solve, back. Eqs. (3.9)-(3.11). Its size as body forces over the scale.
