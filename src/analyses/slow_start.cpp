@@ -22,8 +22,8 @@ constexpr int kMostJoints = 300;  // whose masses with closed joints are asked f
 S::Vec own_mobility(const System& system, const Placement& at, const Reading& r) {
   S::Vec mobility = S::Vec::Zero();
   for (int c = 0; c < S::kDof; ++c) {
-    if (at.a != kGround) mobility[c] += r.GA.row(c).cwiseAbs2().dot(system.bodies[at.a].mass.cwiseInverse());
-    if (at.b != kGround) mobility[c] += r.GB.row(c).cwiseAbs2().dot(system.bodies[at.b].mass.cwiseInverse());
+    if (at.a != kGround) mobility[c] += r.GA().row(c).cwiseAbs2().dot(system.bodies[at.a].mass.cwiseInverse());
+    if (at.b != kGround) mobility[c] += r.GB().row(c).cwiseAbs2().dot(system.bodies[at.b].mass.cwiseInverse());
   }
   return mobility;
 }

@@ -35,12 +35,15 @@ class GapProjector {
   const std::vector<Reading>& readings() const { return readings_; }
 
  private:
+  void add_joint(int j);
+  Planar::Vec weigh(int j, const Planar::Vec& gap) const;
   void solve(Vecs& x);
 
   const System& system_;
   BlockLu<double, Planar::kDof> lu_;
   std::vector<Reading> readings_;
   std::vector<Planar::Mat> weight_;  // K + mu C per joint
+  std::vector<char> diagonal_;       // it is
   std::vector<BlockPattern::Slot> slots_;
   std::vector<BlockVec<double, Planar::kDof>> work_;
   Vecs body_, accel_, missing_;

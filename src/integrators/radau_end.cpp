@@ -222,7 +222,7 @@ std::array<double, 2> RadauStepper::power(double t, const Vecs& q, const std::ve
   for (int j = 0; j < system_.n_joints(); ++j) {
     const JointData& joint = system_.joints[j];
     if (joint.servo >= 0) out[0] += force[j][joint.servo] * system_.pose(joint.at, m).rate[joint.servo];
-    else out[1] += respond(joint.law, gap[j], gap_rate[j]).loss;
+    else out[1] += law_loss(joint.law, gap[j], gap_rate[j]);
   }
   return out;
 }

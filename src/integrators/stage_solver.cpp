@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "integrators/newton_contraction.h"
+#include "integrators/pose_blocks.h"
 #include "integrators/stage_lanes.h"
 #include "solve/block_lu.h"
 #include "solve/wide.h"
@@ -204,7 +205,7 @@ double LaneSolver<N>::find_forces(const LoadScale& scale) {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     JointLanes<N>& joint = joints_[j];
     const JointData& data = system_.joints[j];
-    L force[3];
+    L force[3] = {L::all(0), L::all(0), L::all(0)};
     if (const auto* linear = std::get_if<LinearLaw>(&data.law)) {
       for (int k = 0; k < 3; ++k) force[k] = -(linear->k[k] * joint.gap[k] + linear->c[k] * joint.rate[k]);
     } else {
@@ -367,8 +368,8 @@ void LaneSolver<N>::add_joint(std::size_t j, const X& mu) {
   const RelativePose pose = system_.pose(at, motions_);
   const Reading r = read(data.probe, pose);
   const auto geometric = geometric_stiffness(data.probe, pose, joint.frozen_force);
-  const S::Mat KA = joint.K * r.GA, KB = joint.K * r.GB, CA = joint.C * r.GA, CB = joint.C * r.GB;
-  const S::Mat At = r.GA.transpose(), Bt = r.GB.transpose();
+  const S::Mat KA = joint.K * r.GA(), KB = joint.K * r.GB(), CA = joint.C * r.GA(), CB = joint.C * r.GB();
+  const S::Mat At = r.GA().transpose(), Bt = r.GB().transpose();
   if (at.a != kGround) add_block(lu_.diagonal(at.a), At * KA - geometric.template block<3, 3>(0, 0), At * CA, mu, 1);
   if (at.b != kGround) add_block(lu_.diagonal(at.b), Bt * KB - geometric.template block<3, 3>(3, 3), Bt * CB, mu, 1);
   if (at.a == kGround || at.b == kGround) return;
@@ -378,45 +379,14 @@ void LaneSolver<N>::add_joint(std::size_t j, const X& mu) {
   add_block(lu_.off_diagonal(slot), Bt * KA - geometric.template block<3, 3>(3, 0), Bt * CA, mu, 1);
 }
 
-// The same where the gap is the relative pose and its law has a spring and a damper in each component: a stiffness S at the
-// joint's point, in world axes, acts at the arms of both bodies. Geometric stiffness: joints (2.9).
+// The same where the gap is the relative pose and its law has a spring and a damper in each component.
 template <int N>
 void LaneSolver<N>::add_pose_joint(std::size_t j, const X& mu) {
   const JointLanes<N>& joint = joints_[j];
-  const Placement& at = system_.joints[j].at;
-  const GapMap<double>& g = joint.frozen;
-  const double fx = g.c * joint.frozen_force[0] - g.s * joint.frozen_force[1], fy = g.s * joint.frozen_force[0] + g.c * joint.frozen_force[1];
-  const X one(1.0), w0 = joint.K(0, 0) * one + joint.C(0, 0) * mu, w1 = joint.K(1, 1) * one + joint.C(1, 1) * mu,
-          turn = joint.K(2, 2) * one + joint.C(2, 2) * mu;
-  const X xx = (g.c * g.c) * w0 + (g.s * g.s) * w1, xy = (g.c * g.s) * (w0 - w1), yy = (g.s * g.s) * w0 + (g.c * g.c) * w1;
-  const X ua = g.ax * xy - g.ay * xx, va = g.ax * yy - g.ay * xy;  // S at A's arm
-  const X ub = g.bx * xy - g.by * xx, vb = g.bx * yy - g.by * xy;  // at B's
-  const X Fx = fx * one, Fy = fy * one;
-  if (at.a != kGround) {
-    Block<X, 3>& AA = lu_.diagonal(at.a);
-    const X tx = ua - Fy, ty = va + Fx;
-    AA(0, 0) += xx; AA(0, 1) += xy; AA(0, 2) += tx;
-    AA(1, 0) += xy; AA(1, 1) += yy; AA(1, 2) += ty;
-    AA(2, 0) += tx; AA(2, 1) += ty; AA(2, 2) += turn + g.ax * ty - g.ay * tx;
-  }
-  if (at.b != kGround) {
-    Block<X, 3>& BB = lu_.diagonal(at.b);
-    BB(0, 0) += xx; BB(0, 1) += xy; BB(0, 2) += ub;
-    BB(1, 0) += xy; BB(1, 1) += yy; BB(1, 2) += vb;
-    BB(2, 0) += ub; BB(2, 1) += vb; BB(2, 2) += turn + g.bx * (vb + Fx) - g.by * (ub - Fy);
-  }
-  if (at.a == kGround || at.b == kGround) return;
-  const X tx = ua - Fy, ty = va + Fx, both = turn + g.bx * ty - g.by * tx;
-  BlockPattern::Slot slot = slots_[j];
-  Block<X, 3>& AB = lu_.off_diagonal(slot);
-  AB(0, 0) -= xx; AB(0, 1) -= xy; AB(0, 2) -= ub;
-  AB(1, 0) -= xy; AB(1, 1) -= yy; AB(1, 2) -= vb;
-  AB(2, 0) -= tx; AB(2, 1) -= ty; AB(2, 2) -= both;
-  slot.upper = !slot.upper;
-  Block<X, 3>& BA = lu_.off_diagonal(slot);
-  BA(0, 0) -= xx; BA(0, 1) -= xy; BA(0, 2) -= tx;
-  BA(1, 0) -= xy; BA(1, 1) -= yy; BA(1, 2) -= ty;
-  BA(2, 0) -= ub; BA(2, 1) -= vb; BA(2, 2) -= both;
+  const X one(1.0);
+  X w[3];
+  for (int k = 0; k < 3; ++k) w[k] = joint.K(k, k) * one + joint.C(k, k) * mu;
+  add_pose_blocks(lu_, system_.joints[j].at, slots_[j], joint.frozen, w, joint.frozen_force);
 }
 
 // One Newton correction: into the diagonal frame, the solve, back. Eqs. (3.9)-(3.11). Its size as body forces over the scale.

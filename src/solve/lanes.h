@@ -32,9 +32,7 @@ struct Lanes {
   alignas(kWidth < 4 ? 16 : 32) Register v;  // as wide registers want it, also where they are not used
 
   PINTLE_LANES static Lanes all(double x) {
-    Lanes r;
-    for (int i = 0; i < kWidth; ++i) r.v[i] = x;
-    return r;
+    return {x - Register{}};
   }
   PINTLE_LANES double operator[](int i) const { return v[i]; }
   PINTLE_LANES void set(int i, double x) {
