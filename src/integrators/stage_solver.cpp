@@ -205,23 +205,21 @@ double LaneSolver<N>::find_forces(const LoadScale& scale) {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     JointLanes<N>& joint = joints_[j];
     const JointData& data = system_.joints[j];
-    L force[3] = {L::all(0), L::all(0), L::all(0)};
-    if (const auto* linear = std::get_if<LinearLaw>(&data.law)) {
-      for (int k = 0; k < 3; ++k) force[k] = -(linear->k[k] * joint.gap[k] + linear->c[k] * joint.rate[k]);
-    } else {
-      for (int s = 0; s < N; ++s) {
-        const S::Vec f = law_force(data.law, {joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]},
-                                   {joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]});
-        for (int k = 0; k < 3; ++k) force[k].set(s, f[k]);
-      }
+    double at[3][N];  // of laws that are asked stage by stage
+    const auto* linear = std::get_if<LinearLaw>(&data.law);
+    for (int s = 0; s < N && !linear; ++s) {
+      const S::Vec f = law_force(data.law, {joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]},
+                                 {joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]});
+      for (int k = 0; k < 3; ++k) at[k][s] = f[k];
     }
     for (int k = 0; k < 3; ++k) {
       const S::Vec& on = scale.body[data.at.a == kGround ? data.at.b : data.at.a];
       const S::Vec& beside = scale.body[data.at.b == kGround ? data.at.a : data.at.b];
-      const L change = (1 / std::max(on[k], beside[k])) * (force[k] - joint.force[k]);
+      const L force = linear ? -(linear->k[k] * joint.gap[k] + linear->c[k] * joint.rate[k]) : L::of(at[k]);
+      const L change = (1 / std::max(on[k], beside[k])) * (force - joint.force[k]);
       worst = larger_size(worst, change);
       sum += change;
-      joint.force[k] = force[k];
+      joint.force[k] = force;
     }
   }
   return largest(worst, sum);

@@ -34,6 +34,11 @@ struct Lanes {
   PINTLE_LANES static Lanes all(double x) {
     return {x - Register{}};
   }
+  PINTLE_LANES static Lanes of(const double (&x)[N]) {
+    Lanes r = all(x[N - 1]);
+    for (int i = 0; i < N - 1; ++i) r.v[i] = x[i];
+    return r;
+  }
   PINTLE_LANES double operator[](int i) const { return v[i]; }
   PINTLE_LANES void set(int i, double x) {
     v[i] = x;
