@@ -147,16 +147,16 @@ void Recorder::add(const State& state) {
 
 // Once the forces of the row are in their table.
 void Recorder::put_row(const State& state) {
-  const double* load = forces_.world.data() + forces_.world.size() - 3 * system_.joints.size();
+  const double* world = forces_.world.data() + forces_.world.size() - 3 * system_.joints.size();
   put(state.t);
   for (int i = 0; i < system_.n_bodies(); ++i) {
     for (int k = 0; k < 3; ++k) put(state.q[i][k]);
     for (int k = 0; k < 3; ++k) put(state.v[i][k]);
   }
   double stored = 0;
-  for (int j = 0; j < system_.n_joints(); ++j, load += 3) {
+  for (int j = 0; j < system_.n_joints(); ++j, world += 3) {
     if (is_servo(system_.joints[j])) continue;
-    put_joint(j, state, {load[0], load[1], load[2]});
+    put_joint(j, state, {world[0], world[1], world[2]});
     stored += respond(system_.joints[j].law, state.gap[j], state.gap_rate[j]).energy;
   }
   for (const LoadData& load : system_.loads)
