@@ -57,6 +57,7 @@ class Collection {
         const std::uint64_t sample = batch.batch * kSamplesPerBatch + k;
         if (!journal_.has(sample)) journal_.add(sample, batch.results[k]);
       }
+    if (!finished.empty()) journal_.flush(false);  // a kill costs nothing that is finished
   }
 
   void sync_now_and_then() {
