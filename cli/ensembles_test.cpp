@@ -55,8 +55,10 @@ TEST_F(SweepVerb, SaysWhatIsWrong) {
   EXPECT_EQ(sandbox_.pintle("sweep pendulum.toml --sample 3 --out no/such/folder.h5").exit_code, 6);
 }
 
+using SlowSweepVerb = SweepVerb;
+
 // SIGKILL now and then, at times of nobody's choosing; in the end the file is that of an undisturbed sweep.
-TEST_F(SweepVerb, SlowKilledSweepsGoOn) {
+TEST_F(SlowSweepVerb, KilledSweepsGoOn) {
   const std::string words = "sweep pendulum.toml --sample 1500 --quiet --out ";
   ASSERT_EQ(sandbox_.pintle(words + "whole.h5").exit_code, 0);
   for (int i = 0; i < 3; ++i) sandbox_.shell(fmt::format("timeout -s KILL 0.{} \"$PINTLE\" {} killed.h5", 2 + i, words));
@@ -68,7 +70,7 @@ TEST_F(SweepVerb, SlowKilledSweepsGoOn) {
   EXPECT_EQ(sandbox_.read("killed.h5"), sandbox_.read("whole.h5"));
 }
 
-TEST_F(SweepVerb, SlowProcessesOfMpiGiveTheSameFile) {
+TEST_F(SlowSweepVerb, ProcessesOfMpiGiveTheSameFile) {
   const std::string mpirun = "mpirun -n 3 --oversubscribe --allow-run-as-root ";
   if (sandbox_.shell("mpirun --version && ldd \"$PINTLE\"-sweep | grep -q libmpi").exit_code != 0) GTEST_SKIP() << "no mpirun";
   const std::string words = "sweep pendulum.toml --sample 300 --quiet --threads 2 --out ";

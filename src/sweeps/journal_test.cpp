@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 #include "results/sample_run_for_tests.h"
@@ -41,6 +42,17 @@ void expect_same(const SampleResult& a, const SampleResult& b) {
   }
 }
 
+// As a disk that is done at once.
+DiskCalls quick_disk() {
+  DiskCalls calls;
+  calls.sync = [](int) { return 0; };
+  return calls;
+}
+
+void put_file(const std::filesystem::path& path, std::string_view bytes) {
+  std::ofstream(path, std::ios::binary | std::ios::trunc).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
 class JournalOfTwelve : public testing::Test {
  protected:
   JournalOfTwelve() {
@@ -53,7 +65,7 @@ class JournalOfTwelve : public testing::Test {
   void expect_usable() {
     std::uint64_t before = 0;
     {
-      Journal journal(path_, "plan", kSamples, false);
+      Journal journal(path_, "plan", kSamples, false, quick_disk());
       before = journal.n_done();
       std::uint64_t found = 0;
       for (std::uint64_t i = 0; i < kSamples; ++i) {
@@ -67,7 +79,7 @@ class JournalOfTwelve : public testing::Test {
       EXPECT_EQ(found, before);
       journal.flush(false);
     }
-    Journal again(path_, "plan", kSamples, false);
+    const Journal again(path_, "plan", kSamples, false, quick_disk());
     EXPECT_EQ(again.n_done(), kSamples);
     EXPECT_EQ(again.n_troubled(), 1u);
     for (std::uint64_t i = 0; i < kSamples; ++i) expect_same(again.read(i), result_of(i));
@@ -84,7 +96,7 @@ TEST_F(JournalOfTwelve, GoesOnWhereItWas) {
 
 TEST_F(JournalOfTwelve, MayBeCutOffAtEveryByte) {
   for (std::size_t size = 0; size <= whole_.size(); ++size) {
-    write_file(path_, std::string_view(whole_).substr(0, size));
+    put_file(path_, std::string_view(whole_).substr(0, size));
     expect_usable();
   }
 }
@@ -94,7 +106,7 @@ TEST_F(JournalOfTwelve, ADamagedByteCostsOnlyWhatFollows) {
   for (std::size_t at = head; at < whole_.size(); at += 3) {
     std::string damaged = whole_;
     damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
-    write_file(path_, damaged);
+    put_file(path_, damaged);
     expect_usable();
   }
 }

@@ -49,6 +49,6 @@ to = "1500 mm"
   return r;
 }
 
-inline bool holds(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+inline bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
 }  // namespace pintle::sample

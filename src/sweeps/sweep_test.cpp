@@ -113,10 +113,10 @@ TEST_F(SlowSweep, SamplesThatFailAreResults) {
   EXPECT_EQ(static_cast<SampleStatus>(table.status[1]), SampleStatus::kNotAssembled);
   EXPECT_EQ(static_cast<SampleStatus>(table.status[2]), SampleStatus::kModelError);
   EXPECT_EQ(table.troubled, (std::vector<std::uint64_t>{1, 2}));
-  EXPECT_TRUE(sample::holds(table.messages[1], "body.bob.mass")) << table.messages[1];
+  EXPECT_TRUE(sample::contains(table.messages[1], "body.bob.mass")) << table.messages[1];
   EXPECT_TRUE(std::isnan(table.force[1]));
   const std::string text = sweep_text(table, "Pendulum", false);
-  EXPECT_TRUE(sample::holds(text, "2 of 3 samples are not completed: 1 not_assembled, 1 model_error")) << text;
+  EXPECT_TRUE(sample::contains(text, "2 of 3 samples are not completed: 1 not_assembled, 1 model_error")) << text;
 }
 
 SweepTable table_of(std::size_t n) {
@@ -151,7 +151,7 @@ TEST(SweepReport, StatisticsAreThoseOfTheSamples) {
 TEST(SweepReport, PlotsOneOrTwoVaryingValues) {
   SweepTable table = table_of(60);
   ASSERT_TRUE(sweep_plot(table, "Pendulum"));
-  EXPECT_TRUE(sample::holds(to_svg(*sweep_plot(table, "Pendulum")), "joint.pin.stiffness"));
+  EXPECT_TRUE(sample::contains(to_svg(*sweep_plot(table, "Pendulum")), "joint.pin.stiffness"));
   table.paths.push_back("body.bob.mass");
   table.units.push_back("kg");
   std::vector<double> both;
