@@ -100,15 +100,14 @@ std::optional<SweepOutcome> run_everywhere(SweepOptions& options, const SweepObs
 void print_results(const SweepOptions& options, const SweepOutcome& outcome) {
   if (options.quiet && !options.json && options.plot.empty()) return;
   const SweepTable table = read_sweep(options.run.out);
-  const std::string title = std::filesystem::path(options.model).stem().string();
   if (!options.plot.empty()) {
-    const auto plot = sweep_plot(table, title);
+    const auto plot = sweep_plot(table);
     if (plot) write_file(options.plot, to_svg(*plot));
     else print_error("pintle sweep: no plot: it takes one varying value, or two of which one has at most eight\n");
   }
   if (options.json) return print_out(sweep_json(table, options.run.out.string()));
   if (options.quiet) return;
-  print_out(sweep_text(table, title, wants_colour(STDOUT_FILENO)));
+  print_out(sweep_text(table, wants_colour(STDOUT_FILENO)));
   if (outcome.end == SweepEnd::kFinishedBefore) print_out(fmt::format("\n{} was finished before; --force computes it again\n", options.run.out.string()));
   else print_out(fmt::format("\nResults in {} ({} samples in {})\n", options.run.out.string(), outcome.progress.done - outcome.progress.resumed, clock_text(outcome.progress.wall_seconds)));
 }

@@ -47,7 +47,10 @@ using SweepObserver = std::function<bool(const SweepProgress&)>;
 
 /// What the file holds, series left out. Row-major.
 struct SweepTable {
-  std::string model_name, command, plan;   ///< the plan's hash
+  std::string model_name;  ///< the file's
+  std::string title;       ///< the model's own name, or the file's
+  std::string command;
+  std::string plan;        ///< its hash
   std::vector<std::string> paths, units;   ///< of the values
   std::vector<std::string> joints;
   std::vector<double> values;              ///< [samples x paths], SI

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,6 +24,10 @@ std::string head_of(const std::string& plan, std::uint64_t n_samples) {
 }
 
 std::string read_at(int descriptor, std::uint64_t offset, std::size_t size, const fs::path& path) {
+  struct stat file {};
+  if (::fstat(descriptor, &file) != 0) throw file_error(path, "read", errno);
+  const auto end = static_cast<std::uint64_t>(file.st_size);
+  size = end > offset ? std::min<std::uint64_t>(size, end - offset) : 0;
   std::string bytes(size, '\0');
   std::size_t have = 0;
   while (have < size) {

@@ -48,6 +48,7 @@ void write_origin(hid_t file, const SweepOrigin& origin) {
   write_texts(file, "model", {origin.model_text});
   const Hdf5 model(H5Dopen2(file, "model", H5P_DEFAULT), H5Dclose, "model");
   write_attribute(model, "name", origin.model_name);
+  write_attribute(model, "title", origin.title);
 }
 
 // The tables of the file, and a block of rows of each on the way to them.
@@ -189,6 +190,7 @@ SweepTable read_sweep(const fs::path& file) {
   const Hdf5 model(H5Dopen2(opened, "model", H5P_DEFAULT), H5Dclose, "model");
   SweepTable out;
   out.model_name = read_text_attribute(model, "name");
+  out.title = read_text_attribute(model, "title");
   out.command = read_text_attribute(settings, "command");
   out.plan = read_text_attribute(settings, "plan");
   out.paths = read_texts(samples, "paths");

@@ -20,7 +20,7 @@ inline constexpr const char* kNoHdf5 =
 
 /// What is not a result but says where the results come from. Nothing in it depends on how the work was spread.
 struct SweepOrigin {
-  std::string model_text, model_name, command, plan, version;
+  std::string model_text, model_name, title, command, plan, version;
   std::uint64_t seed = 0, check_every = 1;
   double tolerance = 0, output_step = 0;
   std::size_t n_times = 0;

@@ -84,8 +84,8 @@ std::vector<PeakStatistics> peak_statistics(const SweepTable& table) {
   return out;
 }
 
-std::string sweep_text(const SweepTable& table, const std::string& title, bool colour) {
-  std::string text = fmt::format("{}\n{} samples of {}\n\nPeak force over the samples\n", title, table.n_samples(), fmt::join(table.paths, ", "));
+std::string sweep_text(const SweepTable& table, bool colour) {
+  std::string text = fmt::format("{}\n{} samples of {}\n\nPeak force over the samples\n", table.title, table.n_samples(), fmt::join(table.paths, ", "));
   std::vector<PeakStatistics> joints = peak_statistics(table);
   const bool cut = joints.size() > kMostJoints;
   if (cut) {
@@ -119,7 +119,7 @@ std::string sweep_json(const SweepTable& table, const std::string& file) {
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::optional<Plot> sweep_plot(const SweepTable& table, const std::string& title) {
+std::optional<Plot> sweep_plot(const SweepTable& table) {
   const std::size_t n_paths = table.paths.size(), n_joints = table.joints.size();
   if (n_paths < 1 || n_paths > 2 || table.n_samples() < 2) return std::nullopt;
   std::array<std::set<double>, 2> seen;
@@ -150,7 +150,7 @@ std::optional<Plot> sweep_plot(const SweepTable& table, const std::string& title
     return out;
   };
   Plot plot;
-  plot.title = title;
+  plot.title = table.title;
   plot.subtitle = "Peak of each joint's force over the run";
   if (n_paths == 1) plot.panels.push_back(panel("Peak force"));
   for (std::size_t j = 0; j < std::min(n_joints, n_paths == 1 ? kMostCurves : kMostPanels); ++j) {

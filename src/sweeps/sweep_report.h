@@ -19,10 +19,10 @@ struct PeakStatistics {
 };
 std::vector<PeakStatistics> peak_statistics(const SweepTable& table);
 
-std::string sweep_text(const SweepTable& table, const std::string& title, bool colour);
+std::string sweep_text(const SweepTable& table, bool colour);
 std::string sweep_json(const SweepTable& table, const std::string& file);
 
 /// Peak forces against the value that varies; of two, one curve for each value of the one with fewer. Nothing for more than two.
-std::optional<Plot> sweep_plot(const SweepTable& table, const std::string& title);
+std::optional<Plot> sweep_plot(const SweepTable& table);
 
 }  // namespace pintle

@@ -115,7 +115,7 @@ TEST_F(SlowSweep, SamplesThatFailAreResults) {
   EXPECT_EQ(table.troubled, (std::vector<std::uint64_t>{1, 2}));
   EXPECT_TRUE(sample::contains(table.messages[1], "body.bob.mass")) << table.messages[1];
   EXPECT_TRUE(std::isnan(table.force[1]));
-  const std::string text = sweep_text(table, "Pendulum", false);
+  const std::string text = sweep_text(table, false);
   EXPECT_TRUE(sample::contains(text, "2 of 3 samples are not completed: 1 not_assembled, 1 model_error")) << text;
 }
 
@@ -150,15 +150,15 @@ TEST(SweepReport, StatisticsAreThoseOfTheSamples) {
 
 TEST(SweepReport, PlotsOneOrTwoVaryingValues) {
   SweepTable table = table_of(60);
-  ASSERT_TRUE(sweep_plot(table, "Pendulum"));
-  EXPECT_TRUE(sample::contains(to_svg(*sweep_plot(table, "Pendulum")), "joint.pin.stiffness"));
+  ASSERT_TRUE(sweep_plot(table));
+  EXPECT_TRUE(sample::contains(to_svg(*sweep_plot(table)), "joint.pin.stiffness"));
   table.paths.push_back("body.bob.mass");
   table.units.push_back("kg");
   std::vector<double> both;
   for (std::size_t i = 0; i < 60; ++i) both.insert(both.end(), {table.values[i], static_cast<double>(i % 3)});
   table.values = both;
-  ASSERT_TRUE(sweep_plot(table, "Pendulum"));
-  EXPECT_EQ(sweep_plot(table, "Pendulum")->panels[0].curves.size(), 3u);
+  ASSERT_TRUE(sweep_plot(table));
+  EXPECT_EQ(sweep_plot(table)->panels[0].curves.size(), 3u);
 }
 
 }  // namespace
