@@ -152,6 +152,7 @@ std::optional<Plot> sweep_plot(const SweepTable& table) {
   Plot plot;
   plot.title = table.title;
   plot.subtitle = "Peak of each joint's force over the run";
+  if (n_paths == 2) plot.subtitle += ", one curve for each value of " + table.paths[other];
   if (n_paths == 1) plot.panels.push_back(panel("Peak force"));
   for (std::size_t j = 0; j < std::min(n_joints, n_paths == 1 ? kMostCurves : kMostPanels); ++j) {
     if (n_paths == 1) {
