@@ -147,7 +147,7 @@ void add_sweep(CLI::App& app, int& exit_code) {
   verb->add_option("--seed", request.seed, "of the random numbers")->type_name("NUMBER")->capture_default_str();
   verb->add_flag("--latin", request.latin, "Latin hypercube: the samples fill each value's range evenly");
   verb->add_option("--series", request.series, "keep this column of series.csv at all output times (repeatable)")->type_name("COLUMN")->allow_extra_args(false);
-  verb->add_option("--check-every", request.check_every, "estimate the errors of one sample in so many; the others are integrated once, with the same tolerance")
+  verb->add_option("--check-every", request.check_every, "estimate the errors of one sample in so many; the others are integrated once, as the model as it stands needs it")
       ->type_name("COUNT")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
       ->capture_default_str();

@@ -1,4 +1,4 @@
-// An ensemble from a program: the largest pin force of a bob of 1 kg on threads of three lengths, and the file that holds it.
+// An ensemble from a program: the largest pin force of a bob of 1 kg on arms of three lengths, and the file that holds it.
 //
 // Let go from the horizontal, the pin carries m g + 2 m g / (1 + I / (m r^2)) at the bottom. The program prints both and
 // fails if they differ by more than the distance of two output times and the pin's compliance explain.

@@ -25,7 +25,7 @@ struct SweepRequest {
   std::uint64_t seed = 1;
   bool latin = false;                   ///< a Latin hypercube: every value's range evenly filled
   std::vector<std::string> series;      ///< columns to keep at all output times, named as in series.csv
-  std::uint64_t check_every = 1;        ///< one sample in so many gets an error estimate and meets the tolerance by it
+  std::uint64_t check_every = 1;        ///< one sample in so many gets an error estimate and meets the tolerance by it; the others are integrated once, as the base needs it
 };
 
 struct SweepRun {

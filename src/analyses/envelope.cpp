@@ -7,7 +7,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "analyses/lean_run.h"
 #include "base/did_you_mean.h"
 #include "system/build.h"
 
@@ -75,6 +74,16 @@ EnvelopeEngine::EnvelopeEngine(const Model& base, EnvelopeRequest request) : req
     columns_.push_back(static_cast<int>(found - columns.begin()));
     units_.push_back(found->unit);
   }
+  if (request_.unchecked) learn(base);
+}
+
+// A base that cannot be run teaches nothing; its variants perhaps can.
+void EnvelopeEngine::learn(const Model& base) {
+  try {
+    lean_run(base, {Recorded::kForces, true, nullptr, &lesson_});
+  } catch (const AssemblyError&) {
+    lesson_ = {};
+  }
 }
 
 std::vector<SampleResult> EnvelopeEngine::run(std::span<const Variant> variants, const std::function<bool()>& keep_going) const {
@@ -83,7 +92,7 @@ std::vector<SampleResult> EnvelopeEngine::run(std::span<const Variant> variants,
   const Observer observer = [&](const Progress&) { return keep_going(); };
   for (const Variant& variant : variants) {
     if (!keep_going()) return {};
-    const RunShape shape{columns_.empty() ? Recorded::kForces : Recorded::kColumns, variant.checked};
+    const RunShape shape{columns_.empty() ? Recorded::kForces : Recorded::kColumns, variant.checked, &lesson_, nullptr};
     try {
       const Trajectory run = lean_run(variant.model, shape, observer);
       if (run.outcome == Outcome::kInterrupted) return {};

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analyses/lean_run.h"
 #include "pintle/model.h"
 #include "pintle/sweep.h"
 
@@ -36,6 +37,7 @@ struct SampleResult {
 
 struct EnvelopeRequest {
   std::vector<std::string> series;  ///< names of columns as in series.csv
+  bool unchecked = false;           ///< some variants will not be checked: the base is run once to see how they are to be integrated
 };
 
 class EnvelopeEngine {
@@ -53,10 +55,13 @@ class EnvelopeEngine {
   const std::vector<std::string>& series_units() const { return units_; }
 
  private:
+  void learn(const Model& base);
+
   EnvelopeRequest request_;
   std::vector<std::string> joints_, units_;
   std::vector<int> columns_;
   std::size_t n_times_ = 0;
+  RunLesson lesson_;  // of the base
 };
 
 /// How many rows a run of the model records.

@@ -137,7 +137,7 @@ class Run {
     choice_.stages = wanted < kTight ? 5 : 3;
     double tolerance = std::min(wanted, choice_.equations == Equations::kIdeal ? kLoosestIdeal : kLoosest);
     if (!shape_.checked) {
-      run_pass(tolerance);
+      run_pass(tolerance_by_lesson(tolerance));
       return finish(difference, share, error);
     }
     bool complete = run_pass(kPilot * tolerance);
@@ -165,7 +165,17 @@ class Run {
         tolerance = std::max(kLeastTolerance, tolerance * std::clamp(shrink, 1e-3, 0.1));
       }
     }
+    if (shape_.learned != nullptr) *shape_.learned = {wanted, fine_tolerance_, choice_.stages, last_.scale};
     finish(difference, share, error);
+  }
+
+  // Of the only pass: that of the second one, or what was enough for the run that the lesson is from.
+  double tolerance_by_lesson(double second) {
+    const RunLesson* lesson = shape_.lesson;
+    if (lesson == nullptr || !(lesson->wanted > 0)) return second;
+    choice_.stages = lesson->stages;
+    last_.scale = lesson->scale;
+    return std::clamp(lesson->tolerance * model_.simulate.tolerance / lesson->wanted, kLeastTolerance, second);
   }
 
   // Each joint's largest difference over its peak force or couple. Joints that carry next to nothing are measured by a

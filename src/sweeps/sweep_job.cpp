@@ -55,7 +55,7 @@ SweepJob::SweepJob(const SweepRequest& request) {
   const Model& base = reading.model;
   if (base.simulate.duration <= 0) refuse(document, "simulate.duration", "no duration", "a run needs to know how long it lasts", "duration = \"1 s\" under [simulate], or --duration '1 s'");
   try {
-    engine_ = std::make_unique<EnvelopeEngine>(base, EnvelopeRequest{request.series});
+    engine_ = std::make_unique<EnvelopeEngine>(base, EnvelopeRequest{request.series, request.check_every > 1});
   } catch (const std::invalid_argument& error) {
     refuse(document, "--series", "a column that is not there", error.what(), "");
   }
