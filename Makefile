@@ -68,6 +68,7 @@ test-package: | build/test
 	@$(CONFIGURE)/examples/outside -B build/outside -DCMAKE_PREFIX_PATH=$(CURDIR)/build/prefix >/dev/null
 	@$(BUILD) build/outside
 	@build/outside/pendulum
+	@cd build/outside && ./sweep
 
 build/test:
 	@$(MAKE) --no-print-directory test-release

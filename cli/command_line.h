@@ -14,6 +14,9 @@ namespace pintle::cli {
 void remember_command_line(int n_words, const char* const* words);
 const std::string& command_line();
 
+/// The word so that a shell would read it as one.
+std::string shell_word(const std::string& word);
+
 /// What is wrong, with the verb or option that was probably meant.
 std::string explain(const CLI::App& app, const CLI::ParseError& error);
 

@@ -1,81 +1,10 @@
-// The program: hands over to one verb, turns what it throws into a message and an exit code.
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <exception>
-#include <new>
-
-#include "cli/command_line.h"
-#include "cli/console.h"
-#include "cli/exit_codes.h"
+// The program and its verbs. `sweep` is a program of its own beside it.
+#include "cli/program.h"
+#include "cli/sweep_program.h"
 #include "cli/verbs.h"
-#include "pintle/complaint.h"
-#include "pintle/results.h"
-#include "pintle/simulate.h"
-
-namespace pintle::cli {
-namespace {
-
-constexpr const char* kAbout =
-    "Planar mechanism dynamics where joints are force laws, and every joint force is a result.";
-constexpr const char* kFooter =
-    "Example:\n"
-    "  pintle run mechanisms/four_bar.toml\n"
-    "  pintle plot four_bar-run --joint O4 --out O4.svg\n"
-    "\n"
-    "Each verb has its own --help.\n";
-
-ExitCode complain(const std::string& text, ExitCode code) {
-  print_error(text.empty() || text.back() != '\n' ? text + "\n" : text);
-  return code;
-}
-
-/// Parses the command line, which calls the verb.
-int dispatch(CLI::App& app, int argc, char** argv, const int& exit_code) {
-  try {
-    app.parse(argc, argv);
-    return exit_code;
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    return complain(explain(app, error), kCommandLineError);
-  } catch (const InputError& error) {
-    return complain(error.what(), kModelError);
-  } catch (const AssemblyError& error) {
-    return complain(error.what(), kAssemblyFailed);
-  } catch (const FileError& error) {
-    return complain(error.what(), kFileError);
-  } catch (const std::bad_alloc&) {
-    return complain("pintle: out of memory. A larger output_step gives fewer rows.", kInternalError);
-  } catch (const std::exception& error) {
-    return complain(fmt::format("pintle: internal error: {}. Please report it with the model file.", error.what()),
-                    kInternalError);
-  }
-}
-
-int run_program(int argc, char** argv) {
-  remember_command_line(argc, argv);
-  CLI::App app(kAbout, "pintle");
-  app.footer(kFooter);
-  app.set_version_flag("--version", "pintle " PINTLE_VERSION);
-  app.require_subcommand(1);
-  int exit_code = kOk;
-  add_run(app, exit_code);
-  add_check(app, exit_code);
-  add_compare(app, exit_code);
-  add_stiffen(app, exit_code);
-  add_plot(app, exit_code);
-  add_solvers(app, exit_code);
-  add_convert(app, exit_code);
-  add_fmt(app, exit_code);
-  add_schema(app, exit_code);
-  add_version(app, exit_code);
-  return dispatch(app, argc, argv, exit_code);
-}
-
-}  // namespace
-}  // namespace pintle::cli
 
 int main(int argc, char** argv) {
-  return pintle::cli::run_program(argc, argv);
+  using namespace pintle::cli;
+  if (wants_sweep(argc, argv)) become_sweep_program(argv);
+  return run_program(argc, argv, {add_run, add_check, add_compare, add_stiffen, add_plot, add_solvers, add_sweep_program, add_convert, add_fmt, add_schema, add_version});
 }

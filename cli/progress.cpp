@@ -22,12 +22,6 @@ double to_go(const Progress& progress, double speed) {
   return std::max(0.0, progress.duration - progress.t) / speed;
 }
 
-std::string clock_text(double seconds) {
-  if (seconds < 100) return fmt::format("{:.1f} s", seconds);
-  if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
-  return fmt::format("{:.1f} h", seconds / 3600);
-}
-
 std::string dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -62,6 +56,12 @@ void ProgressReport::finish(const Trajectory& trajectory, const std::filesystem:
                     {"wall_seconds", trajectory.wall_seconds},
                     {"folder", folder.string()}}) +
               "\n");
+}
+
+std::string clock_text(double seconds) {
+  if (seconds < 100) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
 }
 
 std::string progress_line(const Progress& progress, double speed) {

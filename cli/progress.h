@@ -32,6 +32,9 @@ class ProgressReport {
   bool shown_ = false;
 };
 
+/// "12.3 s", "4 min", "1.5 h".
+std::string clock_text(double seconds);
+
 /// The line without its control characters: "0.312 s of 0.63 s   49 %   pass 2   1200 s/s   0.3 s to go".
 std::string progress_line(const Progress& progress, double speed);
 

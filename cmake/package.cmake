@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 set(PINTLE_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Pintle)
 
-install(TARGETS pintle EXPORT PintleTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS pintle pintle_ensembles EXPORT PintleTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY include/pintle DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(EXPORT PintleTargets NAMESPACE Pintle:: DESTINATION ${PINTLE_PACKAGE_DIR})
 configure_package_config_file(cmake/PintleConfig.cmake.in ${PROJECT_BINARY_DIR}/PintleConfig.cmake

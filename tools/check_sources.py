@@ -10,7 +10,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = "base space model laws probes solve system integrators analyses results io".split()
+ROOMS = "base space model laws probes solve system integrators analyses results io sweeps".split()
 # The leftmost room that may use a public header; others count as model.
 PUBLIC_HEADERS = {
     "complaint.h": "base",
@@ -20,6 +20,7 @@ PUBLIC_HEADERS = {
     "simulate.h": "analyses",
     "check.h": "analyses",
     "solvers.h": "analyses",
+    "sweep.h": "analyses",
 }
 OUTER = {"cli", "tests", "bench", "examples"}
 FOLDERS = ["include", "src", "cli", "tests", "bench", "examples", "tools", "cmake"]

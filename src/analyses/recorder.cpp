@@ -56,7 +56,9 @@ JointLoad joint_load(const System& system, int j, double, const std::vector<S::M
   return {world.x(), world.y(), f[2]};
 }
 
-Recorder::Recorder(const Model& model, const System& system) : model_(model), system_(system) { make_columns(); }
+Recorder::Recorder(const Model& model, const System& system, Recorded what) : model_(model), system_(system), what_(what) {
+  if (what_ == Recorded::kColumns) make_columns();
+}
 
 void Recorder::clear() {
   values_.clear();
@@ -135,18 +137,26 @@ void Recorder::put_joint(int j, const State& state, const JointLoad& load) {
 
 void Recorder::add(const State& state) {
   system_.motions(state.q, state.v, m_);
+  forces_.t.push_back(state.t);
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const JointLoad load = joint_load(system_, j, state.t, m_, state.force[j]);
+    for (const double x : {load.fx, load.fy, load.couple}) forces_.world.push_back(x);
+  }
+  if (what_ == Recorded::kColumns) put_row(state);
+}
+
+// Once the forces of the row are in their table.
+void Recorder::put_row(const State& state) {
+  const double* world = forces_.world.data() + forces_.world.size() - 3 * system_.joints.size();
   put(state.t);
   for (int i = 0; i < system_.n_bodies(); ++i) {
     for (int k = 0; k < 3; ++k) put(state.q[i][k]);
     for (int k = 0; k < 3; ++k) put(state.v[i][k]);
   }
-  forces_.t.push_back(state.t);
   double stored = 0;
-  for (int j = 0; j < system_.n_joints(); ++j) {
-    const JointLoad load = joint_load(system_, j, state.t, m_, state.force[j]);
-    for (const double x : {load.fx, load.fy, load.couple}) forces_.world.push_back(x);
+  for (int j = 0; j < system_.n_joints(); ++j, world += 3) {
     if (is_servo(system_.joints[j])) continue;
-    put_joint(j, state, load);
+    put_joint(j, state, {world[0], world[1], world[2]});
     stored += respond(system_.joints[j].law, state.gap[j], state.gap_rate[j]).energy;
   }
   for (const LoadData& load : system_.loads)
@@ -206,6 +216,7 @@ void Recorder::fill(Trajectory& out) const {
     }
     out.joints.push_back(s);
   }
+  if (what_ == Recorded::kForces) return;
   const auto column_sums = [&](const std::string& name) {
     Sums sums;
     const int c = out.column(name);

@@ -24,24 +24,32 @@ JointLoad joint_load(const System& system, int j, double t, const std::vector<Pl
 /// True if the joint's law can pass on a couple.
 bool transmits_couple(const JointData& joint);
 
+enum class Recorded {
+  kColumns,  ///< every column, every row
+  kForces,   ///< the joint forces only: summaries of the joints, no columns, springs, motors, energies
+};
+
 class Recorder {
  public:
-  Recorder(const Model& model, const System& system);
+  Recorder(const Model& model, const System& system, Recorded what = Recorded::kColumns);
 
   /// Adds a row. Called in the order of time.
   void add(const State& state);
   void clear();
   const ForceTable& forces() const { return forces_; }
+  const std::vector<Column>& columns() const { return columns_; }
   /// The table without rows' owner changing hands: columns, values, summaries.
   void fill(Trajectory& trajectory) const;
 
  private:
   void make_columns();
   void put(double x) { values_.push_back(x); }
+  void put_row(const State& state);
   void put_joint(int j, const State& state, const JointLoad& load);
 
   const Model& model_;
   const System& system_;
+  Recorded what_;
   std::vector<Column> columns_;
   std::vector<double> values_;
   ForceTable forces_;

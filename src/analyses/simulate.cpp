@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "analyses/integration.h"
+#include "analyses/lean_run.h"
 #include "analyses/passes.h"
 #include "analyses/start.h"
 #include "system/build.h"
@@ -62,7 +63,7 @@ double largest_of(const std::vector<double>& x) { return x.empty() ? 0 : *std::m
 
 class Run {
  public:
-  Run(const Model& model, const Observer& observer) : model_(model), observer_(observer) {}
+  Run(const Model& model, const Observer& observer, const RunShape& shape) : model_(model), observer_(observer), shape_(shape) {}
 
   Trajectory go() {
     system_ = build_system(model_);
@@ -102,7 +103,7 @@ class Run {
 
   // False when it did not reach the end: then the passes before it stand, unless it is the first.
   bool run_pass(double tolerance) {
-    auto recorder = std::make_unique<Recorder>(model_, system_);
+    auto recorder = std::make_unique<Recorder>(model_, system_, shape_.recorded);
     const IntegrationPlan p = plan(tolerance);
     Integration done = integrate(system_, start_, p, *recorder);
     count(done.counters);
@@ -135,6 +136,10 @@ class Run {
     bool doubted = false;  // a pass has been made because two were alike
     choice_.stages = wanted < kTight ? 5 : 3;
     double tolerance = std::min(wanted, choice_.equations == Equations::kIdeal ? kLoosestIdeal : kLoosest);
+    if (!shape_.checked) {
+      run_pass(tolerance_by_lesson(tolerance));
+      return finish(difference, share, error);
+    }
     bool complete = run_pass(kPilot * tolerance);
     const Counters& pilot = last_.counters;
     if (complete && choice_.method == "radau" && choice_.stages == 3 && static_cast<double>(pilot.newton_iterations) < kEasy * static_cast<double>(pilot.steps)) {
@@ -160,7 +165,17 @@ class Run {
         tolerance = std::max(kLeastTolerance, tolerance * std::clamp(shrink, 1e-3, 0.1));
       }
     }
+    if (shape_.learned != nullptr) *shape_.learned = {wanted, fine_tolerance_, choice_.stages, last_.scale};
     finish(difference, share, error);
+  }
+
+  // Of the only pass: that of the second one, or what was enough for the run that the lesson is from.
+  double tolerance_by_lesson(double second) {
+    const RunLesson* lesson = shape_.lesson;
+    if (lesson == nullptr || !(lesson->wanted > 0)) return second;
+    choice_.stages = lesson->stages;
+    last_.scale = lesson->scale;
+    return std::clamp(lesson->tolerance * model_.simulate.tolerance / lesson->wanted, kLeastTolerance, second);
   }
 
   // Each joint's largest difference over its peak force or couple. Joints that carry next to nothing are measured by a
@@ -200,7 +215,7 @@ class Run {
     if (ended == Ended::kStopped) out_.outcome = Outcome::kInterrupted;
     else if (ended == Ended::kFailed && !whole) out_.outcome = Outcome::kFailed;
     else if (ended == Ended::kFailed || error > model_.simulate.tolerance) out_.outcome = Outcome::kToleranceNotMet;
-    if (no_estimate && !system_.joints.empty()) out_.notes.push_back("stopped before a second integration: the joint forces carry no error estimate");
+    if (no_estimate && shape_.checked && !system_.joints.empty()) out_.notes.push_back("stopped before a second integration: the joint forces carry no error estimate");
     if (whole && ended != Ended::kAtEnd)
       out_.notes.push_back("a finer integration did not reach the end; the results are those of the one before it");
     if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)
@@ -211,6 +226,7 @@ class Run {
 
   const Model& model_;
   const Observer& observer_;
+  RunShape shape_;
   Clock clock_;
   System system_;
   State start_;
@@ -226,6 +242,8 @@ class Run {
 
 }  // namespace
 
-Trajectory simulate(const Model& model, const Observer& observer) { return Run(model, observer).go(); }
+Trajectory simulate(const Model& model, const Observer& observer) { return Run(model, observer, {}).go(); }
+
+Trajectory lean_run(const Model& model, const RunShape& shape, const Observer& observer) { return Run(model, observer, shape).go(); }
 
 }  // namespace pintle

@@ -2,6 +2,7 @@
 
 #include "io/model_reading.h"
 #include "io/overrides.h"
+#include "io/variations.h"
 #include "pintle/read_model.h"
 #include "results/disk.h"
 
@@ -10,17 +11,22 @@ namespace {
 
 Model model_of(const Document& document) {
   ModelReading reading(document);
+  read_all(reading);
+  read_variations(reading);
+  reading.complaints.throw_if_any();
+  return std::move(reading.model);
+}
+
+}  // namespace
+
+void read_all(ModelReading& reading) {
   read_parameters(reading);
   read_settings(reading);
   read_bodies(reading);
   read_joints(reading);
   read_loads(reading);
   read_motors(reading);
-  reading.complaints.throw_if_any();
-  return std::move(reading.model);
 }
-
-}  // namespace
 
 Model parse_model(std::string_view text, std::string_view file_name, const std::vector<std::string>& overrides) {
   Document document = parse_document(text, file_name);

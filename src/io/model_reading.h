@@ -39,6 +39,9 @@ void read_joints(ModelReading& reading);      // [defaults.joint], [joint]
 void read_loads(ModelReading& reading);       // [spring], [torsion_spring], [force]
 void read_motors(ModelReading& reading);      // [motor]
 
+/// All of these in their order, but for [variation]; complaints are collected.
+void read_all(ModelReading& reading);
+
 /// The table `key` of the document, or an empty one; complains if it is something else.
 const Table& section(ModelReading& reading, std::string_view key);
 

@@ -1,0 +1,17 @@
+// What every program of Pintle's does around its verbs: the command line, messages, exit codes.
+#pragma once
+
+#include <initializer_list>
+
+namespace CLI {
+class App;
+}
+
+namespace pintle::cli {
+
+using AddVerb = void (*)(CLI::App& app, int& exit_code);
+
+/// Parses the command line, calls the chosen verb, and turns what it throws into a message and an exit code.
+int run_program(int argc, char** argv, std::initializer_list<AddVerb> verbs);
+
+}  // namespace pintle::cli

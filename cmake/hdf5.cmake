@@ -1,0 +1,13 @@
+# Finds HDF5 (the serial C library) for the files of `pintle sweep`. PINTLE_HDF5_LIBRARIES stays empty without it.
+set(PINTLE_HDF5_LIBRARIES "")
+if(PINTLE_HDF5)
+  find_path(PINTLE_HDF5_INCLUDE hdf5.h PATH_SUFFIXES hdf5/serial)
+  find_library(PINTLE_HDF5_LIBRARY NAMES hdf5_serial hdf5 PATH_SUFFIXES hdf5/serial)
+  if(PINTLE_HDF5_INCLUDE AND PINTLE_HDF5_LIBRARY)
+    set(PINTLE_HDF5_LIBRARIES ${PINTLE_HDF5_LIBRARY})
+  elseif(PINTLE_HDF5 STREQUAL "AUTO")
+    message(STATUS "HDF5 is absent: pintle sweep is built without files (libhdf5-dev has it)")
+  else()
+    message(FATAL_ERROR "PINTLE_HDF5 is ON, and there is no HDF5 (libhdf5-dev has it)")
+  endif()
+endif()

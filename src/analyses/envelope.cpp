@@ -1,0 +1,111 @@
+#include "analyses/envelope.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "base/did_you_mean.h"
+#include "system/build.h"
+
+namespace pintle {
+namespace {
+
+constexpr double kNotEstimated = std::numeric_limits<double>::quiet_NaN();
+
+SampleStatus status_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kCompleted:
+      return SampleStatus::kCompleted;
+    case Outcome::kToleranceNotMet:
+      return SampleStatus::kToleranceNotMet;
+    default:
+      return SampleStatus::kFailed;
+  }
+}
+
+SampleResult result_of(const Trajectory& run, bool checked) {
+  SampleResult out;
+  out.status = status_of(run.outcome);
+  out.message = run.message;
+  out.steps = run.counters.steps;
+  out.passes = run.counters.passes;
+  // Without a second integration there is no estimate, also where a checked run broke off before it.
+  const bool estimated = checked && run.counters.passes > 1;
+  out.joints.reserve(run.joints.size());
+  for (const LoadSummary& joint : run.joints)
+    out.joints.push_back({joint.peak, joint.peak_time, joint.peak_moment, estimated ? joint.error_estimate : kNotEstimated});
+  return out;
+}
+
+void copy_series(const Trajectory& run, const std::vector<int>& columns, std::size_t n_times, std::vector<double>& out) {
+  out.assign(columns.size() * n_times, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    for (std::size_t i = 0; i < std::min(n_times, run.n_rows()); ++i) out[k * n_times + i] = run.at(i, static_cast<std::size_t>(columns[k]));
+}
+
+}  // namespace
+
+std::size_t output_rows(const SimulateSettings& settings) {
+  const double step = settings.output_step > 0 ? settings.output_step : settings.duration / 500, almost = settings.duration * (1 - 1e-12);
+  std::size_t row = static_cast<std::size_t>(almost / step);  // at least the last row before the end, or its neighbour
+  while (row > 0 && static_cast<double>(row) * step >= almost) --row;
+  while (static_cast<double>(row + 1) * step < almost) ++row;
+  return row + 2;
+}
+
+EnvelopeEngine::EnvelopeEngine(const Model& base, EnvelopeRequest request) : request_(std::move(request)), n_times_(output_rows(base.simulate)) {
+  const System system = build_system(base);
+  for (const JointData& joint : system.joints)
+    if (joint.servo < 0) joints_.push_back(joint.name);
+  const Recorder recorder(base, system);
+  const std::vector<Column>& columns = recorder.columns();
+  for (const std::string& name : request_.series) {
+    const auto found = std::find_if(columns.begin(), columns.end(), [&](const Column& column) { return column.name == name; });
+    if (found == columns.end()) {
+      std::vector<std::string> names;
+      for (const Column& column : columns) names.push_back(column.name);
+      const auto near = did_you_mean(name, names);
+      throw std::invalid_argument(fmt::format("a run has no column \"{}\"; {}", name,
+                                              near ? "did you mean " + *near + "?" : "the first row of series.csv of a run names them"));
+    }
+    columns_.push_back(static_cast<int>(found - columns.begin()));
+    units_.push_back(found->unit);
+  }
+  if (request_.unchecked) learn(base);
+}
+
+// A base that cannot be run teaches nothing; its variants perhaps can.
+void EnvelopeEngine::learn(const Model& base) {
+  try {
+    lean_run(base, {Recorded::kForces, true, nullptr, &lesson_});
+  } catch (const AssemblyError&) {
+    lesson_ = {};
+  }
+}
+
+std::vector<SampleResult> EnvelopeEngine::run(std::span<const Variant> variants, const std::function<bool()>& keep_going) const {
+  std::vector<SampleResult> out;
+  out.reserve(variants.size());
+  const Observer observer = [&](const Progress&) { return keep_going(); };
+  for (const Variant& variant : variants) {
+    if (!keep_going()) return {};
+    const RunShape shape{columns_.empty() ? Recorded::kForces : Recorded::kColumns, variant.checked, &lesson_, nullptr};
+    try {
+      const Trajectory run = lean_run(variant.model, shape, observer);
+      if (run.outcome == Outcome::kInterrupted) return {};
+      out.push_back(result_of(run, variant.checked));
+      if (!columns_.empty()) copy_series(run, columns_, n_times_, out.back().series);
+    } catch (const AssemblyError& error) {
+      SampleResult refused;
+      refused.status = SampleStatus::kNotAssembled;
+      refused.message = error.what();
+      out.push_back(std::move(refused));
+    }
+  }
+  return out;
+}
+
+}  // namespace pintle

@@ -1,0 +1,14 @@
+// Quantiles: what makes a number between 0 and 1 into a value of a distribution.
+#pragma once
+
+#include "io/variations.h"
+
+namespace pintle {
+
+/// Inverse of the standard normal distribution function, for 0 < p < 1, to rounding (Wichura's algorithm AS 241).
+double normal_quantile(double p);
+
+/// The value below which the share `u` of the distribution lies, cut off at its ends: 0 < u < 1.
+double quantile(const Variation& variation, double u);
+
+}  // namespace pintle

@@ -1,0 +1,123 @@
+// Samples that are missing are computed and go to the journal; when it has all, the file is made of it.
+#include "pintle/sweep.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "sweeps/run_sweep.h"
+
+namespace pintle {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kBetweenReports = 0.1;  // [s]
+constexpr double kBetweenSyncs = 1;      // [s] of work that a power cut may cost
+constexpr double kShortWait = 1e-3, kLongWait = 5e-2;  // [s] with other processes to serve, and without
+
+class Collection {
+ public:
+  Collection(const SweepJob& job, Journal& journal, const SweepObserver& observer, Remote* remote)
+      : job_(job), journal_(journal), observer_(observer), remote_(remote), resumed_(journal.n_done()),
+        queue_(job.plan().size(), [&journal](std::uint64_t i) { return journal.has(i); }) {}
+
+  /// True when the journal has every sample.
+  bool run(int threads) {
+    Crew crew(job_, threads, [this] { return queue_.next(); });
+    while (true) {
+      if (remote_ != nullptr) keep(remote_->serve(queue_));
+      keep(crew.take(remote_ != nullptr ? kShortWait : kLongWait));
+      sync_now_and_then();
+      if (!go_on()) {
+        queue_.close();
+        crew.stop();
+      }
+      if (!crew.idle()) continue;
+      if (remote_ == nullptr || !remote_->busy()) break;
+      std::this_thread::sleep_for(std::chrono::duration<double>(kShortWait));  // for the others
+    }
+    journal_.flush(true);
+    report();
+    return journal_.n_done() == journal_.n_samples();
+  }
+
+  SweepProgress progress() const { return {journal_.n_done(), journal_.n_samples(), resumed_, journal_.n_troubled(), seconds()}; }
+
+ private:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+  // A batch is computed as a whole; of one that was cut in two by a kill, only the missing samples are added.
+  void keep(const std::vector<FinishedBatch>& finished) {
+    for (const FinishedBatch& batch : finished)
+      for (std::size_t k = 0; k < batch.results.size(); ++k) {
+        const std::uint64_t sample = batch.batch * kSamplesPerBatch + k;
+        if (!journal_.has(sample)) journal_.add(sample, batch.results[k]);
+      }
+    if (!finished.empty()) journal_.flush(false);  // a kill costs nothing that is finished
+  }
+
+  void sync_now_and_then() {
+    if (seconds() - synced_ < kBetweenSyncs) return;
+    synced_ = seconds();
+    journal_.flush(true);
+  }
+
+  bool report() { return !observer_ || observer_(progress()); }
+
+  bool go_on() {
+    if (stopped_ || seconds() - reported_ < kBetweenReports) return !stopped_;
+    reported_ = seconds();
+    stopped_ = !report();
+    return !stopped_;
+  }
+
+  const SweepJob& job_;
+  Journal& journal_;
+  const SweepObserver& observer_;
+  Remote* remote_;
+  std::uint64_t resumed_;
+  BatchQueue queue_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double reported_ = 0, synced_ = 0;
+  bool stopped_ = false;
+};
+
+// Whether `file` already is what was asked for. Throws if it is something else.
+bool finished_before(const fs::path& file, const std::string& plan, bool force) {
+  if (force || !fs::exists(file)) return false;
+  if (fs::is_directory(file)) throw file_error(file, "write", EISDIR);
+  const std::string found = plan_of_sweep_file(file);
+  if (found == plan) return true;
+  throw FileError(fmt::format("{}: {}.\n    try: another --out, or --force to replace it", file.string(),
+                              found.empty() ? "this is not the file of a sweep, or it is damaged"
+                                            : "this is the file of another sweep, with other values, another model or other options"));
+}
+
+}  // namespace
+
+SweepOutcome run_sweep(const SweepRequest& request, const SweepRun& run, const SweepObserver& observer, Remote* remote) {
+  if (!has_hdf5()) throw FileError(run.out.string() + ": " + kNoHdf5);
+  const SweepJob job(request);
+  const fs::path journal_path = run.out.string() + ".part";
+  const std::uint64_t n = job.plan().size();
+  if (finished_before(run.out, job.hash(), run.force)) {
+    std::error_code ignored;
+    fs::remove(journal_path, ignored);  // killed between the two
+    return {SweepEnd::kFinishedBefore, {n, n, n, 0, 0}};
+  }
+  Journal journal(journal_path, job.hash(), n, run.force);
+  Collection collection(job, journal, observer, remote);
+  const bool all = collection.run(usable_threads(run.threads));
+  if (!all) return {SweepEnd::kInterrupted, collection.progress()};
+  write_sweep_file(run.out, job.origin(run.command), job.plan(), journal);
+  journal.remove();
+  return {SweepEnd::kFinished, collection.progress()};
+}
+
+SweepOutcome sweep(const SweepRequest& request, const SweepRun& run, const SweepObserver& observer) { return run_sweep(request, run, observer, nullptr); }
+
+}  // namespace pintle

@@ -1,0 +1,75 @@
+#include "sweeps/sweep_job.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "io/overrides.h"
+#include "results/sha256.h"
+
+namespace pintle {
+namespace {
+
+std::string hash_of(const SweepRequest& r) {
+  std::string text = fmt::format("{} {} {} {} {} {}", PINTLE_VERSION, r.zip, r.samples, r.seed, r.latin, r.check_every);
+  const auto add = [&text](const std::string& part) { text += fmt::format("\n{} {}", part.size(), part); };
+  add(r.model_text);
+  for (const auto* list : {&r.overrides, &r.vary, &r.series}) {
+    add(fmt::format("{}", list->size()));
+    for (const std::string& part : *list) add(part);
+  }
+  return sha256(text);
+}
+
+[[noreturn]] void refuse(const Document& document, std::string path, std::string found, std::string because, std::string suggestion) {
+  throw InputError({document.complaint({0, 1, 1}, std::move(path), std::move(found), std::move(because), std::move(suggestion))});
+}
+
+// Series need the same output times in every sample. Both ends of what varies are tried.
+void check_times(const Document& document, const SweepPlan& plan, const Model& base, ModelVariants variants) {
+  for (const std::uint64_t sample : {std::uint64_t{0}, plan.size() - 1}) {
+    SimulateSettings other;
+    try {
+      other = variants.at(plan.values(sample)).simulate;
+    } catch (const InputError&) {
+      continue;  // will be a result of its own
+    }
+    if (other.duration != base.simulate.duration || other.output_step != base.simulate.output_step)
+      refuse(document, "simulate", fmt::format("sample {} lasts {:g} s", sample, other.duration),
+             "duration and output times change with what varies, and series need the same ones in every sample", "--set simulate.duration=... and simulate.output_step=..., or no --series");
+  }
+}
+
+}  // namespace
+
+SweepJob::SweepJob(const SweepRequest& request) {
+  Document document = parse_document(request.model_text, request.model_name);
+  apply_overrides(document, request.overrides);
+  const int first_source = static_cast<int>(document.sources.size());
+  for (const std::string& text : request.vary) document.sources.emplace_back("--vary", text);
+  ModelReading reading(document);
+  read_all(reading);
+  reading.complaints.throw_if_any();
+  plan_ = SweepPlan(request, reading, first_source);
+  reading.complaints.throw_if_any();
+  const Model& base = reading.model;
+  if (base.simulate.duration <= 0) refuse(document, "simulate.duration", "no duration", "a run needs to know how long it lasts", "duration = \"1 s\" under [simulate], or --duration '1 s'");
+  try {
+    engine_ = std::make_unique<EnvelopeEngine>(base, EnvelopeRequest{request.series, request.check_every > 1});
+  } catch (const std::invalid_argument& error) {
+    refuse(document, "--series", "a column that is not there", error.what(), "");
+  }
+  variants_ = std::make_unique<ModelVariants>(document, plan_.paths());
+  if (!request.series.empty()) check_times(document, plan_, base, *variants_);
+  origin_ = {request.model_text, request.model_name, base.name.empty() ? request.model_name : base.name, "", hash_of(request), PINTLE_VERSION, request.seed, std::max<std::uint64_t>(1, request.check_every),
+             base.simulate.tolerance, base.simulate.output_step > 0 ? base.simulate.output_step : base.simulate.duration / 500, engine_->n_times(),
+             engine_->joints(), request.series, engine_->series_units()};
+}
+
+SweepOrigin SweepJob::origin(const std::string& command) const {
+  SweepOrigin out = origin_;
+  out.command = command;
+  return out;
+}
+
+}  // namespace pintle
