@@ -22,6 +22,7 @@ namespace {
 constexpr int kMaxPasses = 6;
 constexpr double kLoosest = 1e-4;   // of the second pass: above it steps are bounded by other things, and two passes are alike
 constexpr double kLoosestIdeal = 1e-8;  // ideal joints are a reference, and cheap
+constexpr double kLoosestOfMotion = 1e-3;
 constexpr double kLeastTolerance = 1e-13;
 // The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
 constexpr double kSharePower = 0.8, kShareOfEqual = 3;
@@ -57,6 +58,25 @@ PassDifference difference_of_passes(const ForceTable& coarse, const ForceTable& 
   return c;
 }
 
+double distance(const double* a, const double* b, double radius) {
+  return std::max(std::hypot(a[0] - b[0], a[1] - b[1]), 2 * radius * std::abs(std::sin(0.5 * (a[2] - b[2]))));
+}
+
+// Largest difference of a body's place between two passes, over the longest way that one has gone from its start; of centres
+// and of points at the radius of gyration. theory/time Eq. (6.4).
+double motion_difference(const System& system, const ForceTable& coarse, const ForceTable& fine) {
+  const std::size_t bodies = system.bodies.size(), rows = std::min(coarse.t.size(), fine.t.size());
+  double difference = 0, way = 0;
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t i = 0; i < bodies; ++i) {
+      const double radius = std::sqrt(system.bodies[i].mass[2] / system.bodies[i].mass[0]);
+      const double* here = &fine.place[3 * (row * bodies + i)];
+      way = std::max(way, distance(here, &fine.place[3 * i], radius));
+      if (coarse.t[row] == fine.t[row]) difference = std::max(difference, distance(here, &coarse.place[3 * (row * bodies + i)], radius));
+    }
+  return way > 0 ? difference / way : 0;
+}
+
 double relative(double error, double peak, double largest) { return error / std::max({peak, kNegligible * largest, 1e-300}); }
 
 double largest_of(const std::vector<double>& x) { return x.empty() ? 0 : *std::max_element(x.begin(), x.end()); }
@@ -75,6 +95,8 @@ class Run {
     choice_.equations = model_.simulate.equations;
     choice_.method = model_.simulate.method == "auto" ? usual_method(choice_.equations) : model_.simulate.method;
     out_.method = choice_.method;
+    choice_.tolerance_of = model_.simulate.tolerance_of;
+    out_.of_motion = choice_.tolerance_of == ToleranceOf::kMotion;
     make_passes();
     out_.wall_seconds = clock_.seconds();
     return std::move(out_);
@@ -135,7 +157,7 @@ class Run {
     double share = 1, error = 0;
     bool doubted = false;  // a pass has been made because two were alike
     choice_.stages = wanted < kTight ? 5 : 3;
-    double tolerance = std::min(wanted, choice_.equations == Equations::kIdeal ? kLoosestIdeal : kLoosest);
+    double tolerance = std::min(wanted, out_.of_motion ? kLoosestOfMotion : choice_.equations == Equations::kIdeal ? kLoosestIdeal : kLoosest);
     if (!shape_.checked) {
       run_pass(tolerance_by_lesson(tolerance));
       return finish(difference, share, error);
@@ -154,7 +176,8 @@ class Run {
         difference = difference_of_passes(coarse_->forces(), fine_->forces(), system_.joints.size());
         const bool alike = static_cast<double>(last_.counters.steps) < kAlike * steps_before;
         share = alike ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(tolerance / before, kSharePower));
-        error = share * largest_of(relative_differences(difference));
+        out_.motion_error = out_.of_motion ? share * motion_difference(system_, coarse_->forces(), fine_->forces()) : 0;
+        error = out_.of_motion ? out_.motion_error : share * largest_of(relative_differences(difference));
         if (alike && !doubted && out_.counters.passes < kMaxPasses) {
           doubted = true;
           tolerance = std::max(kLeastTolerance, 0.1 * tolerance);
@@ -219,8 +242,9 @@ class Run {
     if (whole && ended != Ended::kAtEnd)
       out_.notes.push_back("a finer integration did not reach the end; the results are those of the one before it");
     if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)
-      out_.message = fmt::format("the largest joint-force error is estimated at {:.2g} of the joint's peak force, {:.2g} was asked for", error,
-                                 model_.simulate.tolerance);
+      out_.message = fmt::format("{} is estimated at {:.2g} of {}, {:.2g} was asked for",
+                                 out_.of_motion ? "the largest error of a body's place" : "the largest joint-force error", error,
+                                 out_.of_motion ? "the longest way that one has gone" : "the joint's peak force", model_.simulate.tolerance);
     if (!message.empty()) out_.message += (out_.message.empty() ? "" : "; ") + message;
   }
 

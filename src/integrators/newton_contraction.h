@@ -30,6 +30,7 @@ class NewtonContraction {
     return rate < 1 && rate / (1 - rate) * size < kShare ? Verdict::kDone : Verdict::kGoOn;
   }
 
+  /// The contraction that the last steps have shown.
   double rate() const { return contraction_; }
 
  private:

@@ -34,7 +34,6 @@ class RadauControl {
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
 
  private:
-  double last_error_ = 0;
   static constexpr int kMaxRetries = 80;
   static constexpr double kShortest = 1e-11;    // of the run: the shortest step that is refused for its error
   static constexpr double kKinkAtStart = 1e-5;  // of the usual step: a kink this close to its start is crossed
@@ -43,8 +42,12 @@ class RadauControl {
   static constexpr double kAfterKink = 0.3;     // of the usual step
   static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;
 
+  static constexpr double kSame = 0.95, kSameAbove = 1.2;  // a factor near 1 keeps the step, and with it the factorised Jacobians
+
+  double last_error_ = 0;  // over the tolerance
+
   void accept(double h, double factor, bool up_to_kink) {
-    next = factor > 0.95 && factor < 1.2 ? h : h * factor;  // the same step needs no new factorisation
+    next = factor > kSame && factor < kSameAbove ? h : h * factor;
     if (up_to_kink) next = std::max(next, kAfterKink * usual);  // a better guess than this stump
     else usual = next;
   }
@@ -94,8 +97,8 @@ bool RadauControl::advance(Method& method, double t_end, double tolerance, int o
       h *= std::min(factor, 0.7);
       continue;
     }
-    if (have_history && last > 0 && last_error_ > 0 && error > 1e-6)
-      factor = std::min(factor, std::max(kLeast, factor * (h / last) * std::pow(last_error_ / error, 1.0 / order)));
+    if (have_history && last > 0 && last_error_ > 0 && error > 0)  // an error that grows goes on growing: K. Gustafsson's predictive controller
+      factor = std::clamp(factor * (h / last) * std::pow(last_error_ / error, 1.0 / order), kLeast, factor);
     last_error_ = error;
     method.finish_step(h);
     ++counters.steps;

@@ -25,7 +25,7 @@ bool RadauStepper::error_estimate(double h, double& error) {
   const Stage& last = stage_[n_ - 1];
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!projector_.prepare(begin_.t + h, last.m, mu, last.gap, last.gap_rate)) return false;
-  error = motion_ ? motion_tail() : std::max(body_tail(), gap_tail());
+  error = of_motion_ ? motion_tail() : std::max(body_tail(), gap_tail());
   return std::isfinite(error);
 }
 
@@ -47,41 +47,33 @@ double RadauStepper::body_tail() const {
   return size[n_] * fall_off(size[n_], size[n_ - 1], size[n_ - 2]);
 }
 
+// The same coefficients as accelerations that the bodies can yield to within the step: stiff joints hold back the rest, and
+// what a step does not resolve of their vibration is damped by it. theory/time Eq. (3.14).
 double RadauStepper::motion_tail() {
-  yield_.resize(begin_.a.size());
-  for (int i = 0; i < system_.n_bodies(); ++i) {
+  for (int i = 0; i < system_.n_bodies(); ++i)
     for (int back = 0; back < 3; ++back) {
       const int k = n_ - back;
-      S::Vec coefficient = table_.to_legendre(k, 0) * begin_.a[i];
-      for (int s = 0; s < n_; ++s) coefficient += table_.to_legendre(k, s + 1) * stage_[s].a[i];
-      for (int c = 0; c < 3; ++c) yield_[i][c].set(back, coefficient[c] * system_.bodies[i].mass[c]);
+      S::Vec force = table_.to_legendre(k, 0) * begin_.a[i];
+      for (int s = 0; s < n_; ++s) force += table_.to_legendre(k, s + 1) * stage_[s].a[i];
+      force = force.cwiseProduct(system_.bodies[i].mass);
+      for (int c = 0; c < S::kDof; ++c) tail_move_[i][c].set(back, force[c]);
     }
-  }
-  solver_->yield_to(yield_);
-  Lanes<3> size = Lanes<3>::all(0);
-  for (int i = 0; i < system_.n_bodies(); ++i)
-    for (int k = 0; k < S::kDof; ++k) size = larger_size(size, (system_.bodies[i].mass[k] / step_scale_.body[i][k]) * yield_[i][k]);
-  if (!std::isfinite(size[0] + size[1] + size[2])) return std::numeric_limits<double>::infinity();
-  if (!(size[0] > 0)) return 0;
-  return size[0] * fall_off(size[0], size[1], size[2]);
+  solver_->yield_to(tail_move_);
+  return tail_size(motion_scale_.loads(), 1);
 }
 
-void RadauStepper::set_step_scale(double h) {
-  double accel = 0;
-  for (int i = 0; i < system_.n_bodies(); ++i) {
-    const S::Vec& mass = system_.bodies[i].mass;
-    const double radius = std::sqrt(mass[2] / mass[0]);
-    const auto size = [&](const S::Vec& x) { return std::max(std::hypot(x[0], x[1]), radius * std::abs(x[2])); };
-    speed_ = std::max(speed_, size(begin_.v[i]));
-    accel = std::max(accel, size(begin_.a[i]));
-  }
-  const double force = std::max({speed_, 1e-9}) / h;
-  step_scale_.body.resize(begin_.a.size());
-  for (int i = 0; i < system_.n_bodies(); ++i) {
-    const S::Vec& mass = system_.bodies[i].mass;
-    const double f = mass[0] * force;
-    step_scale_.body[i] << f, f, f * std::sqrt(mass[2] / mass[0]);
-  }
+// The size of the last of three coefficients on the bodies, with what the next one will be like.
+double RadauStepper::tail_size(const LoadScale& scale, double factor) const {
+  Lanes<3> size = Lanes<3>::all(0), sum = size;
+  for (int i = 0; i < system_.n_bodies(); ++i)
+    for (int k = 0; k < S::kDof; ++k) {
+      const Lanes<3> relative = (system_.bodies[i].mass[k] / scale.body[i][k]) * tail_move_[i][k];
+      size = larger_size(size, relative);
+      sum += relative;
+    }
+  if (!std::isfinite(sum[0] + sum[1] + sum[2])) return std::numeric_limits<double>::infinity();
+  if (!(size[0] > 0)) return 0;
+  return factor * size[0] * fall_off(size[0], size[1], size[2]);
 }
 
 // The gaps' own accelerations come out of the stages as second differences of what the forces demand; where a joint is
@@ -96,16 +88,7 @@ double RadauStepper::gap_tail() {
         tail_[j][k].set(back, coefficient);
       }
   projector_.close(tail_, tail_move_);
-  Lanes<3> size = Lanes<3>::all(0), sum = size;
-  for (int i = 0; i < system_.n_bodies(); ++i)
-    for (int k = 0; k < S::kDof; ++k) {
-      const Lanes<3> relative = (system_.bodies[i].mass[k] / scale_.body[i][k]) * tail_move_[i][k];
-      size = larger_size(size, relative);
-      sum += relative;
-    }
-  if (!std::isfinite(sum[0] + sum[1] + sum[2])) return std::numeric_limits<double>::infinity();
-  if (!(size[0] > 0)) return 0;
-  return kGapError * size[0] * fall_off(size[0], size[1], size[2]);
+  return tail_size(scale_, kGapError);
 }
 
 // theory/time Eqs. (4.1)-(4.3).

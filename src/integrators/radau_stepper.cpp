@@ -3,14 +3,11 @@
 #include <utility>
 
 namespace pintle {
-namespace {
 
 using S = Planar;
 
-}  // namespace
-
-RadauStepper::RadauStepper(const System& system, double tolerance, int stages)
-    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance),
+RadauStepper::RadauStepper(const System& system, double tolerance, int stages, ToleranceOf tolerance_of)
+    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion),
       solver_(make_stage_solver(system, table_, tolerance)), stage_(table_.n), projector_(system), tail_(system.joints.size()),
       tail_move_(system.bodies.size()), wanted_(system.joints.size()),
       move_(system.bodies.size()), end_r_(system.joints.size()), end_m_(system.bodies.size()) {
@@ -29,8 +26,9 @@ RadauStepper::RadauStepper(const System& system, double tolerance, int stages)
 }
 
 bool RadauStepper::attempt(double h) {
-  if (motion_) set_step_scale(h);
-  if (!solver_->solve(begin_, h, control_.have_history ? &nodes_ : nullptr, control_.last, motion_ ? step_scale_ : scale_, counters_)) return false;
+  if (of_motion_) motion_scale_.take(system_, begin_, h);
+  const LoadScale& scale = of_motion_ ? motion_scale_.loads() : scale_;
+  if (!solver_->solve(begin_, h, control_.have_history ? &nodes_ : nullptr, control_.last, scale, counters_)) return false;
   solver_->write(stage_);
   return true;
 }

@@ -59,6 +59,7 @@ class LaneSolver : public StageSolver {
   void find_map(std::size_t j);
   L find_gradient(const JointData& joint, const PoseGeometry<L>& pose, JointLanes<N>& lanes) const;
   void linearize(double t, HeldJumps held);
+  bool renew(const State& begin, double h, Counters& counters);
   bool factorize(double h);
   void add_joint(std::size_t j, const X& mu);
   void add_pose_joint(std::size_t j, const X& mu);
@@ -70,8 +71,8 @@ class LaneSolver : public StageSolver {
   const StageMatrices<N> matrices_;
   double tolerance_;
   NewtonContraction contraction_;
-  static constexpr double kStillGood = 0.15, kTooSlow = 0.4;
-  double factorized_for_ = 0;
+  static constexpr double kGood = 0.15, kSlow = 0.4;  // contractions: Jacobians serve the next step; they do not serve this one
+  double factorized_for_ = 0;                 // the step; 0: none
   bool loads_;                                // there is more than weight
   std::vector<BodyLanes<N>> bodies_;
   std::vector<JointLanes<N>> joints_;
@@ -109,33 +110,37 @@ bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* 
   place(begin, h);
   find_forces(scale);
   contraction_.start();
-  bool fresh = h != factorized_for_ || contraction_.rate() > kStillGood;
-  bool stale = fresh;
+  bool fresh = h != factorized_for_ || contraction_.rate() > kGood, wanted = fresh;  // a factorisation
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
     find_residuals(begin, h);
     counters.evaluations += N;
-    if (stale) {
-      linearize(begin.t + table_.c[kMiddle] * h, begin.held);
-      counters.factorizations += 1 + N / 2;
-      factorized_for_ = 0;
-      if (!factorize(h)) return false;
-      factorized_for_ = h;
-      stale = false;
+    if (wanted) {
+      if (!renew(begin, h, counters)) return false;
+      wanted = false;
     }
     const double of_bodies = correct(scale);
     place(begin, h);
     ++counters.newton_iterations;
     const auto verdict = contraction_.judge(iteration, std::max(of_bodies, find_forces(scale)), tolerance_);
     if (verdict == NewtonContraction::Verdict::kDone) return true;
-    if (!fresh && (verdict == NewtonContraction::Verdict::kHopeless || (iteration > 0 && contraction_.rate() > kTooSlow))) {
-      fresh = stale = true;
+    const bool hopeless = verdict == NewtonContraction::Verdict::kHopeless;
+    if (hopeless && fresh) return false;
+    if (hopeless || (!fresh && iteration > 0 && contraction_.rate() > kSlow)) {
+      fresh = wanted = true;
       contraction_.start();
       iteration = -1;
-      continue;
     }
-    if (verdict == NewtonContraction::Verdict::kHopeless) return false;
   }
   return false;
+}
+
+// Jacobians of this step, factorised.
+template <int N>
+bool LaneSolver<N>::renew(const State& begin, double h, Counters& counters) {
+  linearize(begin.t + table_.c[kMiddle] * h, begin.held);
+  counters.factorizations += 1 + N / 2;
+  factorized_for_ = factorize(h) ? h : 0;
+  return factorized_for_ > 0;
 }
 
 template <int N>
@@ -457,24 +462,12 @@ double LaneSolver<N>::residual(int j) const {
   return std::hypot(r[0][N - 1], r[1][N - 1], r[2][N - 1]);
 }
 
-// Three numbers that the real part of a spectrum multiplies.
-template <int N>
-struct RealThree {
-  Lanes<3> x;
-  RealThree& operator+=(const RealThree& b) { x += b.x; return *this; }
-  RealThree& operator-=(const RealThree& b) { x -= b.x; return *this; }
-  friend RealThree operator*(const Spectrum<N>& a, const RealThree& b) { return {a.x[N - 1] * b.x}; }
-};
-
 template <int N>
 void LaneSolver<N>::find_yield(std::vector<Three>& forces) const {
-  std::vector<BlockVec<RealThree<N>, 3>> x(forces.size());
-  for (std::size_t b = 0; b < x.size(); ++b)
-    for (int k = 0; k < 3; ++k) x[b][k].x = forces[b][k];
-  lu_.solve(x);
+  lu_.solve(forces);
   const double mu2 = mu2_.x[N - 1];
-  for (std::size_t b = 0; b < x.size(); ++b)
-    for (int k = 0; k < 3; ++k) forces[b][k] = mu2 * x[b][k].x;
+  for (Three& x : forces)
+    for (int k = 0; k < 3; ++k) x[k] = mu2 * x[k];
 }
 
 // The same text twice, for registers of two widths: everything that is made of lanes is inlined into these functions.

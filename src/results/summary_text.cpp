@@ -59,7 +59,7 @@ std::string joint_section(const Trajectory& trajectory, const Style& style) {
   table.add_column("", Align::kLeft);
   bool any_marked = false;
   for (const LoadSummary& load : trajectory.joints) {
-    const bool marked = too_inaccurate(load, trajectory.tolerance);
+    const bool marked = !trajectory.of_motion && too_inaccurate(load, trajectory.tolerance);
     any_marked = any_marked || marked;
     table.add_row({load.name, load.type, load.second_body, load.first_body, engineering(load.peak),
                    engineering(load.peak_time), engineering(load.rms), exponent(load.error_estimate),
@@ -128,10 +128,11 @@ std::string energy_section(const EnergyAccount& energy, const Style& style) {
 
 std::string work_section(const Trajectory& trajectory) {
   const Counters& n = trajectory.counters;
+  const std::string motion = !trajectory.of_motion ? "" : fmt::format(" of the motion (error {} of the longest way)", exponent(trajectory.motion_error));
   return fmt::format(
-      "\nMethod {}, tolerance {:g}: {} steps ({} rejected) in {} {}\n"
+      "\nMethod {}, tolerance {:g}{}: {} steps ({} rejected) in {} {}\n"
       "  {} Newton iterations ({} failures), {} evaluations, {} factorizations\n",
-      trajectory.method, trajectory.tolerance, n.steps, n.rejected, n.passes, n.passes == 1 ? "pass" : "passes",
+      trajectory.method, trajectory.tolerance, motion, n.steps, n.rejected, n.passes, n.passes == 1 ? "pass" : "passes",
       n.newton_iterations, n.newton_failures, n.evaluations, n.factorizations);
 }
 

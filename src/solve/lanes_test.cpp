@@ -28,11 +28,11 @@ class AnyLanes : public testing::Test {
     for (int i = 0; i < N; ++i) x.set(i, random_.of_any_size(1e-3, 1e3));
     return x;
   }
-  // Lane by lane, and in the half register that belongs to no lane.
+  // Lane by lane, and in what of the register belongs to no lane.
   template <class F>
   static void expect_lanes(const L& found, F&& expected) {
     for (int i = 0; i < N; ++i) EXPECT_EQ(found[i], expected(i)) << i;
-    EXPECT_EQ(found.p[L::kPairs - 1][1], expected(N - 1));
+    for (int i = N; i < L::kWidth; ++i) EXPECT_EQ(found.v[i], expected(N - 1)) << i;
   }
 };
 using Sizes = testing::Types<std::integral_constant<int, 1>, std::integral_constant<int, 3>, std::integral_constant<int, 5>>;

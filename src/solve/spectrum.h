@@ -65,6 +65,12 @@ struct Spectrum {
   }
 };
 
+/// The real number alone, times three numbers: for solving the real system with several right-hand sides.
+template <int N>
+PINTLE_LANES Lanes<3> operator*(const Spectrum<N>& a, const Lanes<3>& b) {
+  return a.x[N - 1] * b;
+}
+
 template <int N>
 PINTLE_LANES bool is_finite(const Spectrum<N>& a) {
   double nothing = 0;
