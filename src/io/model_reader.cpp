@@ -16,6 +16,7 @@ Model model_of(const Document& document) {
   read_joints(reading);
   read_loads(reading);
   read_motors(reading);
+  check_record(reading);
   reading.complaints.throw_if_any();
   return std::move(reading.model);
 }

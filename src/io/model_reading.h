@@ -38,6 +38,7 @@ void read_bodies(ModelReading& reading);      // [ground], [body]
 void read_joints(ModelReading& reading);      // [defaults.joint], [joint]
 void read_loads(ModelReading& reading);       // [spring], [torsion_spring], [force]
 void read_motors(ModelReading& reading);      // [motor]
+void check_record(ModelReading& reading);     // simulate.record, once bodies and joints are known
 
 /// The table `key` of the document, or an empty one; complains if it is something else.
 const Table& section(ModelReading& reading, std::string_view key);
