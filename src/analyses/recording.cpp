@@ -13,7 +13,7 @@ namespace {
 constexpr double kRows = 500;
 constexpr double kMostForces = 1e7;        // joints times rows, where the output step is not stated: 480 MB for two passes
 constexpr std::size_t kSmall = 1000;       // bodies and joints: with fewer everything is kept
-constexpr double kMostNumbers = 2e7;       // in the table that is kept unasked
+constexpr double kMostNumbers = 2e7, kMostColumns = 1e5;  // in the table that is kept unasked
 constexpr double kPerBody = 6, kPerJoint = 8;  // columns, about
 
 }  // namespace
@@ -31,10 +31,11 @@ Recording choose_recording(const Model& model, const System& system) {
   if (std::find(wanted.begin(), wanted.end(), "all") != wanted.end()) return out;
   if (wanted.empty()) {
     const double step = output_step_of(model.simulate, n_joints);
-    const double numbers = (kPerBody * static_cast<double>(n_bodies) + kPerJoint * static_cast<double>(n_joints)) * model.simulate.duration / step;
-    if (n_bodies + n_joints <= kSmall || !(numbers > kMostNumbers)) return out;
-    out.note = fmt::format("series.csv leaves out the columns of {} bodies and {} joints, {:.2g} numbers: name those wanted in simulate.record; "
-                           "summary.json has peak, mean, RMS and error of every joint", n_bodies, n_joints, numbers);
+    const double columns = kPerBody * static_cast<double>(n_bodies) + kPerJoint * static_cast<double>(n_joints);
+    const bool many = columns > kMostColumns || columns * model.simulate.duration / step > kMostNumbers;
+    if (n_bodies + n_joints <= kSmall || !many) return out;
+    out.note = fmt::format("series.csv leaves out the columns of {} bodies and {} joints: name those wanted in simulate.record; "
+                           "summary.json has peak, mean, RMS and error of every joint", n_bodies, n_joints);
   }
   const NamePatterns chosen(wanted);
   for (std::size_t i = 0; i < n_bodies; ++i) out.body[i] = chosen.match("body." + system.bodies[i].name);

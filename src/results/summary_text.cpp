@@ -84,20 +84,25 @@ std::string joint_section(const Trajectory& trajectory, const Style& style) {
   table.add_column("error est.", Align::kNumber, "N");
   table.add_column("of peak", Align::kNumber, "-");
   table.add_column("", Align::kLeft);
-  bool any_marked = false;
+  const LoadSummary* worst = nullptr;
+  std::size_t n_marked = 0;
   const auto joints = pointers(trajectory.joints);
   for (const LoadSummary* one : shown(joints, [](const LoadSummary& load) { return load.peak; })) {
     const LoadSummary& load = *one;
     const bool marked = too_inaccurate(load, trajectory.tolerance);
-    any_marked = any_marked || marked;
     table.add_row({load.name, load.type, load.second_body, load.first_body, engineering(load.peak),
                    engineering(load.peak_time), engineering(load.rms), exponent(load.error_estimate),
                    exponent(load.relative_error_estimate), (marked ? style.warn + "<" + style.plain : "") + (load.unique ? "" : " not unique")});
   }
   std::string text = section("Joint forces (magnitude)", table, style) + rest_line(joints.size());
-  if (any_marked)
-    text += fmt::format("  {}<{} the estimate exceeds the tolerance of {:g} of the peak\n", style.warn, style.plain,
-                        trajectory.tolerance);
+  for (const LoadSummary* load : joints) {
+    if (!too_inaccurate(*load, trajectory.tolerance)) continue;
+    ++n_marked;
+    if (!worst || load->relative_error_estimate > worst->relative_error_estimate) worst = load;
+  }
+  if (worst)
+    text += fmt::format("  {}<{} the estimate exceeds the tolerance of {:g} of the peak{}\n", style.warn, style.plain, trajectory.tolerance,
+                        joints.size() > kFull ? fmt::format(": {} joints, the worst is {}", n_marked, worst->name) : "");
   return text;
 }
 
