@@ -141,7 +141,9 @@ nlohmann::ordered_json study_scale(const ScaleOptions& options) {
     for (const int size : shape == "grid" ? options.grid_sizes : options.sizes) {
       rows.push_back(measure(kShapes.at(shape)(size), size, options.steps));
       add_row(table, shape, rows.back());
-      if (options.verbose) fmt::print(stderr, "{} {} done\n", shape, size);
+      const Costs& c = rows.back();
+      if (options.verbose)
+        fmt::print(stderr, "{} {}: read {:.3g} s, start {:.3g} s, step {:.3g} s\n", shape, size, c.read, c.build + c.assemble + c.start, c.step);
     }
     if (rows.size() < 2) continue;
     const double read = exponent(rows, &Costs::read), assembly = exponent(rows, &Costs::assemble),
