@@ -30,6 +30,15 @@ struct ForceOptions {
 };
 nlohmann::ordered_json study_forces(const ForceOptions& options);
 
+struct ScaleOptions {
+  std::vector<std::string> shapes{"ladder"};  // chain, tree, ladder, grid
+  std::vector<int> sizes{40, 400, 4000, 40000};
+  std::vector<int> grid_sizes{10, 20, 50};
+  int steps = 20;
+  bool verbose = false;  // a line on standard error after each model
+};
+nlohmann::ordered_json study_scale(const ScaleOptions& options);
+
 /// Google Benchmark; `filter` is a regular expression. An empty `json_file` writes none.
 void run_micro(const std::string& filter, double min_time, const std::string& json_file);
 

@@ -18,6 +18,7 @@ struct Options {
   PeerOptions peers;
   StiffnessOptions stiffness;
   ForceOptions forces;
+  ScaleOptions scale;
   std::string micro_filter = ".";
   double micro_time = 0.2;
 };
@@ -47,6 +48,16 @@ void add_forces(CLI::App& app, Options& o, Json& out) {
       ->capture_default_str();
   verb->add_flag("--joints", o.forces.every_joint, "print every joint, not only the worst of each model");
   verb->callback([&] { out["forces"] = study_forces(o.forces); });
+}
+
+void add_scale(CLI::App& app, Options& o, Json& out) {
+  CLI::App* verb = app.add_subcommand("scale", "time and memory against the number of bodies");
+  verb->add_option("--shapes", o.scale.shapes, "chain, tree, ladder, grid")->delimiter(',')->check(CLI::IsMember({"chain", "tree", "ladder", "grid"}))->capture_default_str();
+  verb->add_option("--sizes", o.scale.sizes, "bars; of a ladder loops")->delimiter(',')->capture_default_str();
+  verb->add_option("--grid-sizes", o.scale.grid_sizes, "parallelograms along an edge")->delimiter(',')->capture_default_str();
+  verb->add_option("--steps", o.scale.steps, "steps timed")->capture_default_str();
+  verb->add_flag("--verbose", o.scale.verbose, "say when a model is done");
+  verb->callback([&] { out["scale"] = study_scale(o.scale); });
 }
 
 void add_micro(CLI::App& app, Options& o) {
@@ -85,6 +96,7 @@ int run_program(int argc, char** argv) {
   add_peers(app, options, out);
   add_stiffness(app, options, out);
   add_forces(app, options, out);
+  add_scale(app, options, out);
   add_micro(app, options);
   CLI11_PARSE(app, argc, argv);
   if (app.get_subcommands().empty()) out = run_short();

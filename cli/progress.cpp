@@ -65,6 +65,7 @@ std::string clock_text(double seconds) {
 }
 
 std::string progress_line(const Progress& progress, double speed) {
+  if (progress.pass == 0) return "assembling";
   std::string line = fmt::format("{:.4g} s of {:.4g} s  {:3.0f} %   pass {}", progress.t, progress.duration,
                                  100 * fraction(progress), progress.pass);
   if (speed > 0) line += fmt::format("   {:.3g} s/s   {} to go", speed, clock_text(to_go(progress, speed)));

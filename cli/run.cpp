@@ -1,5 +1,6 @@
 // pintle run: model file -> run folder and a table.
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -71,13 +72,26 @@ ExitCode exit_code_of(Outcome outcome) {
   return kInternalError;
 }
 
+/// Said where it may matter to somebody; "" elsewhere.
+std::string memory_text() {
+  constexpr double kWorthSaying = 100;
+  rusage use{};
+  getrusage(RUSAGE_SELF, &use);
+#ifdef __APPLE__
+  const double megabytes = static_cast<double>(use.ru_maxrss) / 1048576;
+#else
+  const double megabytes = static_cast<double>(use.ru_maxrss) / 1024;
+#endif
+  return megabytes < kWorthSaying ? "" : fmt::format("; peak memory {:.0f} MB", megabytes);
+}
+
 void print_results(const Trajectory& trajectory, const RunStamp& stamp, const RunOptions& options,
                    const std::filesystem::path& folder) {
   if (options.json) {
     print_out(summary_json(trajectory, stamp));
   } else if (!options.quiet) {
     print_out(summary_text(trajectory, stamp, wants_colour(STDOUT_FILENO)));
-    print_out(fmt::format("\nResults in {}/ (series.csv, summary.json)\n", folder.string()));
+    print_out(fmt::format("\nResults in {}/ (series.csv, summary.json){}\n", folder.string(), memory_text()));
   }
   const bool failed = trajectory.outcome == Outcome::kFailed;
   if (failed || (options.quiet && trajectory.outcome != Outcome::kCompleted))

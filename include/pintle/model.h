@@ -111,13 +111,15 @@ enum class ToleranceOf { kForces, kMotion };
 /// How to run it.
 struct SimulateSettings {
   double duration = 0;       ///< [s]; 0: not stated
-  double output_step = 0;    ///< [s]; 0: duration / 500
+  double output_step = 0;    ///< [s]; 0: duration / 500, longer beyond 20,000 joints
   double tolerance = 1e-5;   ///< of what tolerance_of says [-]
   ToleranceOf tolerance_of = ToleranceOf::kForces;
   std::string method = "auto";  ///< auto, radau, dopri5, ode45, ode23t, ode15s, ode113, hht, generalised_alpha
   Equations equations = Equations::kNewtonian;
   Start start = Start::kAssembled;
   double max_step = 0;       ///< [s]; 0: none
+  /// Bodies and joints whose columns the results keep: "joint.pin", "body.*", "all". Empty: all, unless there are very many.
+  std::vector<std::string> record;
 };
 
 struct Model {

@@ -10,7 +10,8 @@
 
 namespace pintle {
 
-/// Passed to the observer now and then. `pass` counts the integrations of one run: the pilot (1) and the reported one.
+/// Passed to the observer now and then. `pass` counts the integrations of one run: the pilot (1) and the reported one;
+/// 0 while a large mechanism is assembled.
 struct Progress {
   double t = 0;         ///< model time reached [s]
   double duration = 0;  ///< [s]

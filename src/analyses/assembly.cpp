@@ -237,6 +237,8 @@ void demand_closed(const System& system, const Vecs& q, const std::vector<bool>&
   std::vector<Reading> r;
   readings_at(system, 0, q, Vecs(q.size(), S::Vec::Zero()), m, r);
   const double size = mechanism_size(system, q);
+  constexpr int kMostListed = 20;
+  int n_broken = 0;
   std::string broken;
   for (std::size_t j = 0; j < r.size(); ++j) {
     if (open[j]) continue;
@@ -247,12 +249,14 @@ void demand_closed(const System& system, const Vecs& q, const std::vector<bool>&
       if (stiff[k] == 0) gap[k] = 0;
     const double length = gap.head<2>().norm(), angle = std::abs(gap[2]);
     if (length > 2e-3 * size || angle > 0.02) {
+      if (++n_broken > kMostListed) continue;
       broken += fmt::format("\n  joint {} ({}) stays {} apart", joint.name, joint.type,
                             length > 2e-3 * size ? fmt::format("{:.4g} m", length) : fmt::format("{:.4g} rad", angle));
     } else if (length > 1e-9 * size || angle > 1e-9) {
       notes.push_back(fmt::format("joint {}: misfit of {:.3g} m, {:.3g} rad as assembled; it is preloaded by it", joint.name, length, angle));
     }
   }
+  if (n_broken > kMostListed) broken += fmt::format("\n  and {} more", n_broken - kMostListed);
   if (!broken.empty())
     throw AssemblyError("the mechanism cannot be assembled from the stated positions:" + broken + "\n  loop: " + loop_through(system, broken) +
                         "\n  Try lengths that close, or angles nearer to the position that is meant.");

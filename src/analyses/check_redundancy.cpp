@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
+#include <utility>
 
 namespace pintle {
 namespace {
@@ -67,13 +69,12 @@ std::vector<CheckRedundancy> redundancies(const System& system, const std::vecto
   for (const auto& dependency : rank.dependencies)
     for (const int i : dependency) groups.join(i, dependency.front());
   std::map<int, CheckRedundancy> by_root;
+  std::set<std::pair<int, int>> taken;  // rows stand in several dependencies of their group
   for (const auto& dependency : rank.dependencies) {
     CheckRedundancy& group = by_root[groups.find(dependency.front())];
     group.degree = group.members.empty() ? 1 : group.degree + 1;
     for (const int i : dependency) {
-      const auto added = member(system, rows[i], 0);
-      const auto same = [&added](const auto& m) { return m.joint == added.joint && m.component == added.component; };
-      if (std::none_of(group.members.begin(), group.members.end(), same)) group.members.push_back(added);
+      if (taken.emplace(rows[i].joint, rows[i].component).second) group.members.push_back(member(system, rows[i], 0));
     }
   }
   std::vector<CheckRedundancy> out;

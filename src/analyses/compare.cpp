@@ -153,6 +153,7 @@ Comparison compare(const Model& model, Trajectory first, Trajectory second, Equa
 
 Comparison compare(const Model& model, Equations against, const Observer& observer) {
   Model compliant = model, other = model;
+  compliant.simulate.record = other.simulate.record = {"all"};
   compliant.simulate.equations = Equations::kNewtonian;
   other.simulate.equations = against;
   other.simulate.method = "auto";

@@ -64,6 +64,7 @@ Vecs guess_positions(const Model& model, const System& system) {
       queue.push_back(i);
     }
   std::vector<S::Motion> m;
+  system.motions(q, Vecs(q.size(), S::Vec::Zero()), m);
   const auto spread = [&] {
     while (!queue.empty()) {
       const int at = queue.front();
@@ -73,8 +74,8 @@ Vecs guess_positions(const Model& model, const System& system) {
         const int a = joint.at.a == kGround ? n : joint.at.a, b = joint.at.b == kGround ? n : joint.at.b;
         const int next = a == at ? b : a;
         if (placed[next] || !joins_points(joint)) continue;
-        system.motions(q, Vecs(q.size(), S::Vec::Zero()), m);
         put(joint, next, model, m, q);
+        m[next] = S::Motion::of(q[next], S::Vec::Zero());
         placed[next] = true;
         queue.push_back(next);
       }
@@ -97,6 +98,10 @@ std::string loop_through(const System& system, const std::string& text) {
     if (text.find(fmt::format("joint {} ", system.joints[j].name)) != std::string::npos) start = j;
   if (start < 0) return "-";
   const auto node = [n](int body) { return body == kGround ? n : body; };
+  std::vector<std::vector<int>> joints_of(n + 1);
+  for (int j = 0; j < system.n_joints(); ++j)
+    if (system.joints[j].servo < 0)  // a servo acts along its joint, it closes nothing
+      for (const int b : {system.joints[j].at.a, system.joints[j].at.b}) joints_of[node(b)].push_back(j);
   std::vector<int> by(n + 1, -1);  // joint by which a body was reached
   std::deque<int> queue{node(system.joints[start].at.a)};
   by[queue.front()] = start;
@@ -104,10 +109,10 @@ std::string loop_through(const System& system, const std::string& text) {
   while (!queue.empty()) {
     const int at = queue.front();
     queue.pop_front();
-    for (int j = 0; j < system.n_joints(); ++j) {
-      if (j == start || system.joints[j].servo >= 0) continue;  // a servo acts along its joint, it closes nothing
+    for (const int j : joints_of[at]) {
+      if (j == start) continue;
       const int a = node(system.joints[j].at.a), b = node(system.joints[j].at.b);
-      if ((a != at && b != at) || by[a == at ? b : a] >= 0) continue;
+      if (by[a == at ? b : a] >= 0) continue;
       by[a == at ? b : a] = j;
       queue.push_back(a == at ? b : a);
     }

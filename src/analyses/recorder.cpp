@@ -56,8 +56,18 @@ JointLoad joint_load(const System& system, int j, double, const std::vector<S::M
   return {world.x(), world.y(), f[2]};
 }
 
-Recorder::Recorder(const Model& model, const System& system, Recorded what) : model_(model), system_(system), what_(what) {
-  if (what_ == Recorded::kColumns) make_columns();
+Recorder::Recorder(const Model& model, const System& system, Recorded what)
+    : model_(model), system_(system), what_(what), recording_(choose_recording(model, system)) {
+  find_drives();
+}
+
+// Servos and efforts stand in the system in the order of the motors.
+void Recorder::find_drives() {
+  std::size_t servo = model_.joints.size(), load = 0;
+  for (const Motor& motor : model_.motors) {
+    const bool effort = motor.kind == MotorKind::kEffort;
+    drives_.push_back(effort ? Drive{-1, static_cast<int>(load++)} : Drive{static_cast<int>(servo++), -1});
+  }
 }
 
 void Recorder::clear() {
@@ -65,12 +75,20 @@ void Recorder::clear() {
   forces_ = {};
 }
 
-void Recorder::make_columns() {
-  const auto column = [this](std::string name, const char* unit, std::string about) {
-    columns_.push_back({std::move(name), unit, std::move(about)});
+void Recorder::keep_forces_only() {
+  values_.clear();
+  values_.shrink_to_fit();
+}
+
+std::vector<Column> Recorder::columns() const {
+  std::vector<Column> columns;
+  const auto column = [&columns](std::string name, const char* unit, std::string about) {
+    columns.push_back({std::move(name), unit, std::move(about)});
   };
   column("t", "s", "time");
-  for (const BodyData& body : system_.bodies) {
+  for (std::size_t i = 0; i < system_.bodies.size(); ++i) {
+    if (!recording_.body[i]) continue;
+    const BodyData& body = system_.bodies[i];
     const std::string p = "body." + body.name + ".";
     column(p + "x", "m", "centre of mass of " + body.name + ", world x");
     column(p + "y", "m", "centre of mass of " + body.name + ", world y");
@@ -79,15 +97,16 @@ void Recorder::make_columns() {
     column(p + "vy", "m/s", "velocity of the centre of mass of " + body.name + ", world y");
     column(p + "spin", "rad/s", "angular velocity of " + body.name);
   }
-  for (const JointData& joint : system_.joints) {
-    if (is_servo(joint)) continue;
+  for (std::size_t j = 0; j < system_.joints.size(); ++j) {
+    const JointData& joint = system_.joints[j];
+    if (is_servo(joint) || !recording_.joint[j]) continue;
     const std::string second = body_name(system_, joint.at.b), first = body_name(system_, joint.at.a);
     const std::string p = "joint." + joint.name + ".";
     const std::string what = "force that joint " + joint.name + " exerts on ";
     column(p + "on_" + second + ".fx[world]", "N", what + second + ", world x");
     column(p + "on_" + second + ".fy[world]", "N", what + second + ", world y");
     const bool couple = transmits_couple(joint) || joint.type == "gear" || joint.type == "rack";
-    if (couple) column(p + "on_" + second + ".m[world]", "N*m", "couple that joint " + joint.name + " exerts on " + second + ", about its marker " + (&joint - system_.joints.data() < static_cast<long>(model_.joints.size()) ? model_.joints[&joint - system_.joints.data()].second.marker : ""));
+    if (couple) column(p + "on_" + second + ".m[world]", "N*m", "couple that joint " + joint.name + " exerts on " + second + ", about its marker " + (j < model_.joints.size() ? model_.joints[j].second.marker : ""));
     column(p + "on_" + second + ".f1[joint]", "N", what + second + ", along x of the joint's frame on " + first);
     column(p + "on_" + second + ".f2[joint]", "N", what + second + ", along y of the joint's frame on " + first);
     column(p + "on_" + first + ".fx[world]", "N", what + first + ", world x");
@@ -103,8 +122,9 @@ void Recorder::make_columns() {
     if (load.kind == LoadKind::kSpring) column("spring." + load.name + ".force", "N", "tension in spring " + load.name);
     else column("spring." + load.name + ".moment", "N*m", "moment of torsion spring " + load.name + " on the second body");
   }
-  for (const Motor& motor : model_.motors) {
-    const bool linear = std::any_of(system_.joints.begin(), system_.joints.end(), [&](const JointData& j) { return j.name == motor.joint && j.free_mask[0] > 0; });
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const Motor& motor = model_.motors[i];
+    const bool linear = component(drives_[i]) == 0;
     column("motor." + motor.name + ".effort", linear ? "N" : "N*m", "what motor " + motor.name + " exerts on the second body of joint " + motor.joint);
     column("motor." + motor.name + ".power", "W", "power that motor " + motor.name + " delivers");
   }
@@ -112,9 +132,10 @@ void Recorder::make_columns() {
   column("energy.potential", "J", "potential energy of gravity, springs and joints");
   column("energy.dissipated", "J", "turned into heat in joints and dampers since the start");
   column("energy.supplied", "J", "delivered by motors and applied forces since the start");
+  return columns;
 }
 
-void Recorder::put_joint(int j, const State& state, const JointLoad& load) {
+void Recorder::put_joint(int j, const JointLoad& load) {
   const JointData& joint = system_.joints[j];
   const RelativePose pose = system_.pose(joint.at, m_);
   const bool couple = transmits_couple(joint) || joint.type == "gear" || joint.type == "rack";
@@ -132,7 +153,6 @@ void Recorder::put_joint(int j, const State& state, const JointLoad& load) {
   if (joint.free_mask[2] > 0) put(pose.z[2]);
   if (joint.free_mask[0] > 0) put(pose.rate[0]);
   else if (joint.free_mask[2] > 0) put(pose.rate[2]);
-  (void)state;
 }
 
 void Recorder::add(const State& state) {
@@ -152,33 +172,26 @@ void Recorder::put_row(const State& state) {
   const double* world = forces_.world.data() + forces_.world.size() - 3 * system_.joints.size();
   put(state.t);
   for (int i = 0; i < system_.n_bodies(); ++i) {
+    if (!recording_.body[i]) continue;
     for (int k = 0; k < 3; ++k) put(state.q[i][k]);
     for (int k = 0; k < 3; ++k) put(state.v[i][k]);
   }
   double stored = 0;
   for (int j = 0; j < system_.n_joints(); ++j, world += 3) {
     if (is_servo(system_.joints[j])) continue;
-    put_joint(j, state, {world[0], world[1], world[2]});
+    if (recording_.joint[j]) put_joint(j, {world[0], world[1], world[2]});
     stored += respond(system_.joints[j].law, state.gap[j], state.gap_rate[j]).energy;
   }
   for (const LoadData& load : system_.loads)
     if (load.kind == LoadKind::kSpring) put(-system_.load_effort(load, state.t, m_));
     else if (load.kind == LoadKind::kTorsionSpring) put(system_.load_effort(load, state.t, m_));
-  for (const Motor& motor : model_.motors) {
-    double effort = 0, power = 0;
-    for (const LoadData& load : system_.loads)
-      if (load.kind == LoadKind::kEffort && load.name == motor.name) {
-        effort = system_.load_effort(load, state.t, m_, state.held);
-        power = effort * system_.pose(load.at, m_).rate[load.component];
-      }
-    for (int j = 0; j < system_.n_joints(); ++j) {
-      const JointData& joint = system_.joints[j];
-      if (!is_servo(joint) || joint.name != motor.name) continue;
-      effort = state.force[j][joint.servo];
-      power = effort * system_.pose(joint.at, m_).rate[joint.servo];
-    }
+  for (const Drive& drive : drives_) {
+    const bool servo = drive.joint >= 0;
+    const double effort = servo ? state.force[drive.joint][component(drive)]
+                                : system_.load_effort(system_.loads[drive.load], state.t, m_, state.held);
+    const Placement& at = servo ? system_.joints[drive.joint].at : system_.loads[drive.load].at;
     put(effort);
-    put(power);
+    put(effort * system_.pose(at, m_).rate[component(drive)]);
   }
   put(system_.kinetic(state.v));
   put(system_.external_work(state.t, state.q, m_).potential + stored);
@@ -186,9 +199,10 @@ void Recorder::put_row(const State& state) {
   put(state.supplied);
 }
 
-void Recorder::fill(Trajectory& out) const {
-  out.columns = columns_;
-  out.values = values_;
+void Recorder::fill(Trajectory& out) {
+  if (what_ == Recorded::kColumns) out.columns = columns();
+  out.values = std::move(values_);
+  if (!recording_.note.empty()) out.notes.push_back(recording_.note);
   const std::size_t rows = forces_.t.size(), n = system_.joints.size();
   const std::vector<double> weight = time_weights(forces_.t);
   out.joints.clear();

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "analyses/recording.h"
 #include "pintle/model.h"
 #include "pintle/trajectory.h"
 #include "system/state.h"
@@ -38,20 +39,29 @@ class Recorder {
   void add(const State& state);
   void clear();
   const ForceTable& forces() const { return forces_; }
-  const std::vector<Column>& columns() const { return columns_; }
-  /// The table without rows' owner changing hands: columns, values, summaries.
-  void fill(Trajectory& trajectory) const;
+  /// Of what is recorded.
+  std::vector<Column> columns() const;
+  /// Forgets the rows, keeps the forces.
+  void keep_forces_only();
+  /// Columns, values, summaries. The rows change hands.
+  void fill(Trajectory& trajectory);
 
  private:
-  void make_columns();
+  // What a motor is in the system: a servo among the joints, or a load.
+  struct Drive {
+    int joint, load;
+  };
+  int component(const Drive& d) const { return d.joint >= 0 ? system_.joints[d.joint].servo : system_.loads[d.load].component; }
+  void find_drives();
   void put(double x) { values_.push_back(x); }
   void put_row(const State& state);
-  void put_joint(int j, const State& state, const JointLoad& load);
+  void put_joint(int j, const JointLoad& load);
 
   const Model& model_;
   const System& system_;
   Recorded what_;
-  std::vector<Column> columns_;
+  std::vector<Drive> drives_;
+  Recording recording_;
   std::vector<double> values_;
   ForceTable forces_;
   std::vector<Planar::Motion> m_;

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <unordered_set>
 #include <utility>
 
 #include "analyses/integration.h"
@@ -27,6 +28,7 @@ constexpr double kLeastTolerance = 1e-13;
 // The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
 constexpr double kSharePower = 0.8, kShareOfEqual = 3;
 constexpr double kAlike = 1.25;  // steps of the finer pass over those of the coarser: with fewer the two say little
+constexpr std::size_t kManyBodies = 1000;
 constexpr double kNegligible = 1e-4;  // a joint is measured at least by this part of the mechanism's largest force
 
 class Clock {
@@ -86,6 +88,7 @@ class Run {
   Run(const Model& model, const Observer& observer, const RunShape& shape) : model_(model), observer_(observer), shape_(shape) {}
 
   Trajectory go() {
+    announce_assembly();
     system_ = build_system(model_);
     Assembly assembly = start_of_run(model_, system_);
     start_ = std::move(assembly.state);
@@ -106,7 +109,7 @@ class Run {
   IntegrationPlan plan(double tolerance) {
     IntegrationPlan p;
     p.duration = model_.simulate.duration;
-    p.output_step = model_.simulate.output_step > 0 ? model_.simulate.output_step : p.duration / 500;
+    p.output_step = output_step_of(model_.simulate, system_.joints.size());
     p.max_step = model_.simulate.max_step;
     p.tolerance = tolerance;
     p.choice = choice_;
@@ -114,6 +117,11 @@ class Run {
     if (!last_.scale.body.empty()) p.scale = &last_.scale;
     p.keep_going = [this](double t) { return report(t); };
     return p;
+  }
+
+  // Of a large mechanism it takes long enough to say so.
+  void announce_assembly() {
+    if (observer_ && model_.bodies.size() > kManyBodies) observer_({0, model_.simulate.duration, 0, clock_.seconds()});
   }
 
   bool report(double t) {
@@ -133,6 +141,7 @@ class Run {
     if (!complete) interrupted_ = {done.ended, done.message};
     if (!complete && fine_) return false;
     coarse_ = std::move(fine_);
+    if (coarse_) coarse_->keep_forces_only();
     fine_ = std::move(recorder);
     fine_tolerance_ = tolerance;
     last_ = std::move(done);
@@ -219,11 +228,12 @@ class Run {
     out_.t_end = last_.t;
     out_.notes.insert(out_.notes.end(), last_.remarks.begin(), last_.remarks.end());
     const std::vector<double> relative_difference = relative_differences(difference);
+    const std::unordered_set<std::string> not_unique(not_unique_.begin(), not_unique_.end());
     std::size_t row = 0;
     for (std::size_t j = 0; j < system_.joints.size(); ++j) {
       if (system_.joints[j].servo >= 0) continue;
       LoadSummary& joint = out_.joints[row++];
-      joint.unique = std::find(not_unique_.begin(), not_unique_.end(), joint.name) == not_unique_.end();
+      joint.unique = !not_unique.contains(joint.name);
       if (difference.force.empty()) continue;
       joint.error_estimate = share * difference.force[j];
       joint.relative_error_estimate = share * relative_difference[j];

@@ -182,11 +182,11 @@ class SlowMotion {
   // One classical Runge-Kutta step of the motion whose gap accelerations are given.
   void runge_kutta(State& at, double s0, double s1) {
     const double h = span_ * (s1 - s0);
-    const State begin = at;
-    std::array<Vecs, 4> kq, kv;
+    auto& [begin, now, kq, kv] = work_;
+    begin = at;
     constexpr std::array<double, 4> c{0, 0.5, 0.5, 1};
     for (int stage = 0; stage < 4; ++stage) {
-      State now = begin;
+      now = begin;
       now.t = start_.t + span_ * s0 + c[stage] * h;
       if (stage > 0)
         for (std::size_t i = 0; i < now.q.size(); ++i) {
@@ -227,6 +227,10 @@ class SlowMotion {
   Nodes nodes_;
   Curve gap_, rate_, accel_, next_, force_;
   Vecs share_, carried_rate_;
+  struct {
+    State begin, now;
+    std::array<Vecs, 4> kq, kv;
+  } work_;  // of one step: at 100,000 bodies fresh memory costs as much as the step
   bool swept_ = false;
 };
 

@@ -60,6 +60,7 @@ class Study {
 
   SolverStudy go() {
     check_options(model_, options_);
+    model_.simulate.record = {"all"};
     if (!(model_.simulate.output_step > 0)) model_.simulate.output_step = model_.simulate.duration / 500;
     out_.duration = model_.simulate.duration;
     out_.output_step = model_.simulate.output_step;

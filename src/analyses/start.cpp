@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -19,6 +20,7 @@ constexpr double kScoutTolerance = 1e-3;
 constexpr int kScoutSteps = 3;
 constexpr int kSpans = 4;         // tried, each a quarter of the one before
 constexpr double kSettled = 0.1;  // relative change of the gaps in the last sweep that is taken for convergence
+constexpr double kMostGrowth = 2;  // of the largest joint force, by an attempt that has not converged
 constexpr double kExact = 1e-6;   // the same, with nothing left to settle
 constexpr double kEntirely = 0.99;  // of its slow motion: with this share a soft joint counts as going with the motion
 constexpr const char* kNotSettled =
@@ -48,12 +50,24 @@ Assembly ideal_start(Model model, System& system) {
   return assembly;
 }
 
+double largest_force(const State& state) {
+  double most = 0;
+  for (const auto& force : state.force) most = std::max(most, force.head<2>().norm());
+  return most;
+}
+
+// Whether sweeps that have not converged came near. Forces far above those of the given state are no attempt at all: in a chain of
+// thousands of joints, each of them fast, their compliances add up to modes slower than the motion, and what the sweeps then
+// approach is not where it starts.
+bool is_near(const State& attempt, double usual_force) { return largest_force(attempt) <= kMostGrowth * usual_force; }
+
 // Fast joints ride their slow motion; where that is not found the state stays, or with `keep_best` is the best attempt. True when found.
 bool settle_fast_joints(const System& system, const JointPaces& paces, double span, bool keep_best, State& state) {
+  const double usual = largest_force(state);
   for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25) {
     State attempt = state;
     const double change = settle_on_slow_motion(system, paces, span, attempt);
-    if (change < kSettled || keep_best) state = std::move(attempt);
+    if (change < kSettled || (keep_best && is_near(attempt, usual))) state = std::move(attempt);
     if (change < kSettled) return true;
   }
   return false;
@@ -76,7 +90,9 @@ bool note_lively_joints(const System& system, const JointPaces& paces, const Sof
 
 // theory/assembly section 5: soft joints first, then the others around them.
 void settle_soft_joints(const System& system, const JointPaces& paces, double span, Assembly& assembly) {
-  const SoftStart soft = place_soft_joints(system, paces, 2 * span, assembly.state);
+  State attempt = assembly.state;
+  const SoftStart soft = place_soft_joints(system, paces, 2 * span, attempt);
+  if (soft.change < kSettled || is_near(attempt, largest_force(assembly.state))) assembly.state = std::move(attempt);
   const bool along = note_lively_joints(system, paces, soft, assembly.notes);
   if (soft.placed && along && soft.change < kExact) return;
   if (settle_fast_joints(system, paces, span, false, assembly.state)) return;

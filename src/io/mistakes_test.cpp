@@ -59,6 +59,8 @@ const std::vector<Mistake> kMistakes{
     {"duration = \"0.5 s\"", "duration = \"@1 kg\"", "simulate.duration", "a time [s] is wanted"},
     {"duration = \"0.5 s\"", "@duratoin = 1", "simulate.duratoin", "no such key", "duration"},
     {"output_step = \"2 ms\"", "output_step = \"@2 s\"", "simulate.output_step", "longer than the duration"},
+    {"output_step = \"2 ms\"", "record = [\"joint.*\", \"@joint.O22\"]", "simulate.record", "no body or joint", "joint.O2"},
+    {"output_step = \"2 ms\"", "record = [\"@crank.*\"]", "simulate.record", "joint.NAME is wanted", "joint.*"},
     {"output_step = \"2 ms\"", "output_step = @1e-9", "simulate.output_step", "10 million rows"},
     {"tolerance = 1e-6", "tolerance = @1", "simulate.tolerance", "at most 0.1"},
     {"tolerance = 1e-6", "tolerance = @1e-12", "simulate.tolerance", "at least"},

@@ -26,6 +26,7 @@ void read_all(ModelReading& reading) {
   read_joints(reading);
   read_loads(reading);
   read_motors(reading);
+  check_record(reading);
 }
 
 Model parse_model(std::string_view text, std::string_view file_name, const std::vector<std::string>& overrides) {

@@ -38,6 +38,7 @@ void read_bodies(ModelReading& reading);      // [ground], [body]
 void read_joints(ModelReading& reading);      // [defaults.joint], [joint]
 void read_loads(ModelReading& reading);       // [spring], [torsion_spring], [force]
 void read_motors(ModelReading& reading);      // [motor]
+void check_record(ModelReading& reading);     // simulate.record, once bodies and joints are known
 
 /// All of these in their order, but for [variation]; complaints are collected.
 void read_all(ModelReading& reading);

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <unordered_set>
 #include <utility>
 
+#include "base/name_patterns.h"
 #include "base/text_scanner.h"
 #include "io/model_reading.h"
 #include "io/text.h"
@@ -69,6 +71,7 @@ void read_simulate(ModelReading& reading) {
   check_tolerance_of(reading, record);
   const std::string start = record.word("start");
   simulate.start = start == "raw" ? Start::kRaw : start == "unloaded" ? Start::kUnloaded : Start::kAssembled;
+  if (const Value* names = record.find("record")) simulate.record = names->words;
   check_times(reading, record);
 }
 
@@ -223,6 +226,26 @@ void read_settings(ModelReading& reading) {
                            "\"planar\"");
   }
   read_simulate(reading);
+}
+
+// A pattern that matches nothing is a slip, and would be found out only after the run.
+void check_record(ModelReading& reading) {
+  const Model& model = reading.model;
+  std::vector<std::string> names{"all"};
+  for (const Body& body : model.bodies) names.push_back("body." + body.name);
+  for (const Joint& joint : model.joints) names.push_back("joint." + joint.name);
+  const std::unordered_set<std::string_view> known(names.begin(), names.end());
+  const Node* simulate = reading.root.find("simulate");
+  for (std::size_t i = 0; i < model.simulate.record.size(); ++i) {
+    const std::string& entry = model.simulate.record[i];
+    const bool wild = entry.find('*') != std::string::npos;
+    const bool found = wild ? std::any_of(names.begin(), names.end(), [&entry](const std::string& name) { return matches_pattern(entry, name); })
+                            : known.contains(entry);
+    if (found) continue;
+    const Node* list = simulate->table()->find("record");
+    reading.complaints.add((*list->array())[i].spot, "simulate.record", in_quotes(entry), "no body or joint is called that: body.NAME or joint.NAME is wanted",
+                           wild ? "\"joint.*\"" : reading.complaints.did_you_mean(entry, names));
+  }
 }
 
 }  // namespace pintle

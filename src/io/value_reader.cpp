@@ -194,7 +194,7 @@ bool RecordReader::read_words(const Node& node, const KeySpec& spec, const std::
     const std::string wanted = spec.count == 0 ? "a list" : "a list of " + std::to_string(spec.count);
     complaints_.add(
         node.spot, path, describe(node), wanted + " strings is wanted here",
-        spec.type == ValueType::kMarkerNames ? "[\"ground.A\", \"crank.A\"]" : "[\"" + joined(spec.words) + "\"]");
+        spec.type == ValueType::kMarkerNames ? "[\"ground.A\", \"crank.A\"]" : "[\"" + (spec.words.empty() ? "text" : joined(spec.words)) + "\"]");
     return false;
   }
   bool good = true;

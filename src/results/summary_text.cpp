@@ -20,6 +20,33 @@ struct Style {
       : bold(colour ? "\x1b[1m" : ""), warn(colour ? "\x1b[1;31m" : ""), plain(colour ? "\x1b[0m" : "") {}
 };
 
+constexpr std::size_t kFull = 200;  // a longer list is cut to its largest entries
+constexpr std::size_t kCut = 20;
+
+/// The entries to print, in their order: all, or of a long list the largest by `size`.
+template <class Entry, class Size>
+std::vector<const Entry*> shown(const std::vector<const Entry*>& all, const Size& size) {
+  if (all.size() <= kFull) return all;
+  std::vector<const Entry*> largest = all;
+  const auto larger = [&size](const Entry* a, const Entry* b) { return size(*a) > size(*b); };
+  std::stable_sort(largest.begin(), largest.end(), larger);
+  largest.resize(kCut);
+  return largest;
+}
+
+template <class Entry>
+std::vector<const Entry*> pointers(const std::vector<Entry>& entries) {
+  std::vector<const Entry*> out;
+  for (const Entry& entry : entries) out.push_back(&entry);
+  return out;
+}
+
+std::string rest_line(std::size_t n) {
+  return n > kFull ? fmt::format("  the largest {} of {}; summary.json has all\n", kCut, n) : "";
+}
+
+double size_of(const LoadSummary& load) { return std::max(std::abs(load.peak), std::abs(load.peak_moment)); }
+
 /// Seconds with the prefix that suits them.
 std::string duration_text(double seconds) {
   if (seconds < 1e-3) return fmt::format("{:.3g} us", seconds * 1e6);
@@ -44,8 +71,9 @@ std::string section(const std::string& title, const TextTable& table, const Styl
   return table.empty() ? "" : fmt::format("\n{}\n{}", title, table.text(style.bold, style.plain));
 }
 
-bool too_inaccurate(const LoadSummary& load, double tolerance) {
-  return tolerance > 0 && !(load.relative_error_estimate <= tolerance);  // a NaN is too inaccurate as well
+bool too_inaccurate(const LoadSummary& load, const Trajectory& run) {
+  if (run.of_motion || !(run.tolerance > 0)) return false;
+  return !(load.relative_error_estimate <= run.tolerance);  // a NaN is too inaccurate as well
 }
 
 std::string joint_section(const Trajectory& trajectory, const Style& style) {
@@ -57,18 +85,25 @@ std::string joint_section(const Trajectory& trajectory, const Style& style) {
   table.add_column("error est.", Align::kNumber, "N");
   table.add_column("of peak", Align::kNumber, "-");
   table.add_column("", Align::kLeft);
-  bool any_marked = false;
-  for (const LoadSummary& load : trajectory.joints) {
-    const bool marked = !trajectory.of_motion && too_inaccurate(load, trajectory.tolerance);
-    any_marked = any_marked || marked;
+  const LoadSummary* worst = nullptr;
+  std::size_t n_marked = 0;
+  const auto joints = pointers(trajectory.joints);
+  for (const LoadSummary* one : shown(joints, [](const LoadSummary& load) { return load.peak; })) {
+    const LoadSummary& load = *one;
+    const bool marked = too_inaccurate(load, trajectory);
     table.add_row({load.name, load.type, load.second_body, load.first_body, engineering(load.peak),
                    engineering(load.peak_time), engineering(load.rms), exponent(load.error_estimate),
                    exponent(load.relative_error_estimate), (marked ? style.warn + "<" + style.plain : "") + (load.unique ? "" : " not unique")});
   }
-  std::string text = section("Joint forces (magnitude)", table, style);
-  if (any_marked)
-    text += fmt::format("  {}<{} the estimate exceeds the tolerance of {:g} of the peak\n", style.warn, style.plain,
-                        trajectory.tolerance);
+  std::string text = section("Joint forces (magnitude)", table, style) + rest_line(joints.size());
+  for (const LoadSummary* load : joints) {
+    if (!too_inaccurate(*load, trajectory)) continue;
+    ++n_marked;
+    if (!worst || load->relative_error_estimate > worst->relative_error_estimate) worst = load;
+  }
+  if (worst)
+    text += fmt::format("  {}<{} the estimate exceeds the tolerance of {:g} of the peak{}\n", style.warn, style.plain, trajectory.tolerance,
+                        joints.size() > kFull ? fmt::format(": {} joints, the worst is {}", n_marked, worst->name) : "");
   return text;
 }
 
@@ -76,11 +111,12 @@ std::string moment_section(const Trajectory& trajectory, const Style& style) {
   TextTable table;
   for (const char* head : {"joint", "on", "by"}) table.add_column(head, Align::kLeft);
   for (const char* head : {"peak", "RMS", "mean"}) table.add_column(head, Align::kNumber, "N*m");
-  for (const LoadSummary& load : trajectory.joints)
-    if (load.has_moment)
-      table.add_row({load.name, load.second_body, load.first_body, engineering(load.peak_moment),
-                     engineering(load.rms_moment), engineering(load.mean_moment)});
-  return section("Joint couples about the second marker (magnitude)", table, style);
+  std::vector<const LoadSummary*> joints = pointers(trajectory.joints);
+  std::erase_if(joints, [](const LoadSummary* load) { return !load->has_moment; });
+  for (const LoadSummary* load : shown(joints, [](const LoadSummary& one) { return one.peak_moment; }))
+    table.add_row({load->name, load->second_body, load->first_body, engineering(load->peak_moment),
+                   engineering(load->rms_moment), engineering(load->mean_moment)});
+  return section("Joint couples about the second marker (magnitude)", table, style) + rest_line(joints.size());
 }
 
 std::string spring_section(const Trajectory& trajectory, const Style& style) {
@@ -88,13 +124,15 @@ std::string spring_section(const Trajectory& trajectory, const Style& style) {
   for (const char* head : {"spring", "on", "by"}) table.add_column(head, Align::kLeft);
   for (const char* head : {"peak", "RMS", "mean"}) table.add_column(head, Align::kNumber);
   table.add_column("unit", Align::kLeft);
-  for (const LoadSummary& load : trajectory.springs) {
+  const auto springs = pointers(trajectory.springs);
+  for (const LoadSummary* one : shown(springs, size_of)) {
+    const LoadSummary& load = *one;
     const bool turns = load.has_moment;
     table.add_row({load.name, load.second_body, load.first_body, engineering(turns ? load.peak_moment : load.peak),
                    engineering(turns ? load.rms_moment : load.rms), engineering(turns ? load.mean_moment : load.mean),
                    turns ? "N*m" : "N"});
   }
-  return section("Springs (magnitude)", table, style);
+  return section("Springs (magnitude)", table, style) + rest_line(springs.size());
 }
 
 std::string motor_section(const Trajectory& trajectory, const Style& style) {
@@ -104,11 +142,12 @@ std::string motor_section(const Trajectory& trajectory, const Style& style) {
   table.add_column("unit", Align::kLeft);
   for (const char* head : {"peak power", "mean power"}) table.add_column(head, Align::kNumber, "W");
   table.add_column("work", Align::kNumber, "J");
-  for (const MotorSummary& motor : trajectory.motors)
-    table.add_row({motor.name, motor.joint, engineering(motor.peak_effort), engineering(motor.rms_effort),
-                   engineering(motor.mean_effort), motor.unit, engineering(motor.peak_power),
-                   engineering(motor.mean_power), engineering(motor.work)});
-  return section("Motors", table, style);
+  const auto motors = pointers(trajectory.motors);
+  for (const MotorSummary* motor : shown(motors, [](const MotorSummary& one) { return std::abs(one.peak_power); }))
+    table.add_row({motor->name, motor->joint, engineering(motor->peak_effort), engineering(motor->rms_effort),
+                   engineering(motor->mean_effort), motor->unit, engineering(motor->peak_power),
+                   engineering(motor->mean_power), engineering(motor->work)});
+  return section("Motors", table, style) + rest_line(motors.size());
 }
 
 std::string energy_section(const EnergyAccount& energy, const Style& style) {
@@ -147,8 +186,10 @@ std::string summary_text(const Trajectory& trajectory, const RunStamp& stamp, bo
   text += motor_section(trajectory, style);
   text += energy_section(trajectory.energy, style);
   text += work_section(trajectory);
-  if (!trajectory.notes.empty()) text += "\nNotes\n";
-  for (const std::string& note : trajectory.notes) text += fmt::format("  {}\n", note);
+  const std::size_t n_notes = trajectory.notes.size(), n_shown = n_notes > kFull ? kCut : n_notes;
+  if (n_notes > 0) text += "\nNotes\n";
+  for (std::size_t i = 0; i < n_shown; ++i) text += fmt::format("  {}\n", trajectory.notes[i]);
+  if (n_shown < n_notes) text += fmt::format("  and {} more; summary.json has all\n", n_notes - n_shown);
   return text;
 }
 

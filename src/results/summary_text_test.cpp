@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 #include <cmath>
 #include <limits>
 
@@ -56,6 +59,25 @@ TEST(SummaryText, MarksJointsBeyondTheTolerance) {
 
 TEST(SummaryText, EmptyTrajectoryIsNoAccident) {
   EXPECT_NE(summary_text({}, {}).find("completed"), std::string::npos);
+}
+
+TEST(SummaryText, ALongListIsCutToItsLargest) {
+  Trajectory trajectory;
+  trajectory.tolerance = 1e-3;
+  for (int j = 0; j < 300; ++j) {
+    LoadSummary& load = trajectory.joints.emplace_back();
+    load.name = "pin" + std::to_string(j);
+    load.peak = (j * 7) % 300;
+    if (j == 1) load.relative_error_estimate = 0.1;  // not among the largest
+    trajectory.notes.push_back("note of " + load.name + ".");
+  }
+  const std::string text = summary_text(trajectory, {});
+  EXPECT_NE(text.find("the largest 20 of 300"), std::string::npos);
+  EXPECT_NE(text.find("1 joints, the worst is pin1"), std::string::npos);
+  EXPECT_NE(text.find("  pin257 "), std::string::npos);  // 257 * 7 = 299 modulo 300
+  EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 70);
+  trajectory.joints.resize(150);
+  EXPECT_NE(summary_text(trajectory, {}).find("  pin0 "), std::string::npos);
 }
 
 }  // namespace

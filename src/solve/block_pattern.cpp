@@ -6,6 +6,11 @@
 #include <cassert>
 
 namespace pintle {
+namespace {
+
+constexpr int kSmall = 200;  // rows up to which minimum degree alone decides
+
+}  // namespace
 
 BlockPattern::BlockPattern(int n, const std::vector<std::pair<int, int>>& pairs) : n_(n) {
   order_rows(pairs);
@@ -14,22 +19,60 @@ BlockPattern::BlockPattern(int n, const std::vector<std::pair<int, int>>& pairs)
 }
 
 void BlockPattern::order_rows(const std::vector<std::pair<int, int>>& pairs) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int i = 0; i < n_; ++i) entries.emplace_back(i, i, 1.0);
+  position_.assign(n_, -1);
+  if (n_ > kSmall) peel(pairs);
+  order_core(pairs);
+  for (int k = 0; k < n_; ++k) position_[order_[k]] = k;
+}
+
+// Rows with one neighbour left, or none, go first: they make no fill. Trees and chains are ordered by this alone, and
+// minimum degree, which may merge siblings, is left with what holds loops.
+void BlockPattern::peel(const std::vector<std::pair<int, int>>& pairs) {
+  std::vector<std::vector<int>> neighbours(n_);
   for (const auto& [i, j] : pairs) {
-    entries.emplace_back(i, j, 1.0);
-    entries.emplace_back(j, i, 1.0);
+    neighbours[i].push_back(j);
+    neighbours[j].push_back(i);
   }
-  Eigen::SparseMatrix<double> graph(n_, n_);
+  std::vector<int> left(n_);
+  for (int i = 0; i < n_; ++i) {
+    auto& row = neighbours[i];
+    std::sort(row.begin(), row.end());
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    left[i] = static_cast<int>(row.size());
+  }
+  const auto take = [&](int i) {
+    position_[i] = static_cast<int>(order_.size());
+    order_.push_back(i);
+  };
+  for (int i = 0; i < n_; ++i)
+    if (left[i] <= 1) take(i);
+  for (std::size_t k = 0; k < order_.size(); ++k)
+    for (const int j : neighbours[order_[k]])
+      if (position_[j] < 0 && --left[j] <= 1) take(j);
+}
+
+// The rows that have no place yet, by approximate minimum degree.
+void BlockPattern::order_core(const std::vector<std::pair<int, int>>& pairs) {
+  std::vector<int> core, index(n_, -1);
+  for (int i = 0; i < n_; ++i)
+    if (position_[i] < 0) {
+      index[i] = static_cast<int>(core.size());
+      core.push_back(i);
+    }
+  if (core.empty()) return;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < core.size(); ++i) entries.emplace_back(i, i, 1.0);
+  for (const auto& [i, j] : pairs) {
+    if (index[i] < 0 || index[j] < 0) continue;
+    entries.emplace_back(index[i], index[j], 1.0);
+    entries.emplace_back(index[j], index[i], 1.0);
+  }
+  const auto n = static_cast<Eigen::Index>(core.size());
+  Eigen::SparseMatrix<double> graph(n, n);
   graph.setFromTriplets(entries.begin(), entries.end());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
-  if (n_ > 0) Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Upper>(), permutation);
-  order_.resize(n_);
-  position_.resize(n_);
-  for (int k = 0; k < n_; ++k) {
-    order_[k] = permutation.indices()[k];
-    position_[order_[k]] = k;
-  }
+  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Upper>(), permutation);
+  for (Eigen::Index k = 0; k < n; ++k) order_.push_back(core[permutation.indices()[k]]);
 }
 
 // Row k's fill pattern is its own couplings plus what it inherits from the rows whose first later neighbour it is.

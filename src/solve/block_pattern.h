@@ -36,6 +36,8 @@ class BlockPattern {
  private:
   int find_upper(int row, int column) const;
   void order_rows(const std::vector<std::pair<int, int>>& pairs);
+  void peel(const std::vector<std::pair<int, int>>& pairs);
+  void order_core(const std::vector<std::pair<int, int>>& pairs);
   void find_fill(const std::vector<std::pair<int, int>>& pairs);
   void list_updates();
 

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <stdexcept>
+#include <string_view>
+#include <unordered_map>
 
 #include "laws/catalog.h"
 #include "probes/catalog.h"
@@ -49,9 +51,22 @@ class Builder {
   }
   int body(const MarkerRef& ref) const { return ref.body == "ground" ? kGround : body_index_.at(ref.body); }
   S::Frame frame(const MarkerRef& ref) const {
-    for (const Marker& marker : markers(ref.body))
-      if (marker.name == ref.marker) return S::Frame::at({marker.position[0], marker.position[1]}, marker.axis);
-    refuse(fmt::format("body {} has no marker '{}'", ref.body, ref.marker));
+    const Marker* marker = find_marker(markers(ref.body), ref.marker);
+    if (!marker) refuse(fmt::format("body {} has no marker '{}'", ref.body, ref.marker));
+    return S::Frame::at({marker->position[0], marker->position[1]}, marker->axis);
+  }
+  // A long row of markers, such as the ground's of many mechanisms, is indexed when it is first asked.
+  const Marker* find_marker(const std::vector<Marker>& row, const std::string& name) const {
+    constexpr std::size_t kFew = 16;
+    if (row.size() <= kFew) {
+      const auto it = std::find_if(row.begin(), row.end(), [&name](const Marker& marker) { return marker.name == name; });
+      return it == row.end() ? nullptr : &*it;
+    }
+    auto& index = marker_index_[&row];
+    if (index.empty())
+      for (const Marker& marker : row) index.emplace(marker.name, &marker);
+    const auto it = index.find(name);
+    return it == index.end() ? nullptr : it->second;
   }
   Placement place(const MarkerRef& first, const MarkerRef& second) const {
     Placement at;
@@ -140,7 +155,8 @@ class Builder {
     law.c[component] = motor.damping;
     servo.law = law;
     servo.probe = Selection{};
-    if (motor.kind == MotorKind::kSpeed) servo.speed = motor.law.value({});
+    servo.keeps_speed = motor.kind == MotorKind::kSpeed;
+    if (servo.keeps_speed) servo.speed = motor.law.value({});
     else servo.target = motor.law;
     system_.joints.push_back(std::move(servo));
   }
@@ -185,19 +201,12 @@ class Builder {
   }
 
   const Model& model_;
-  std::map<std::string, int> body_index_, joint_index_;
+  std::unordered_map<std::string_view, int> body_index_, joint_index_;
+  mutable std::unordered_map<const std::vector<Marker>*, std::unordered_map<std::string_view, const Marker*>> marker_index_;
   System system_;
 };
 
 const Joint* model_joint(const Model& model, std::size_t j) { return j < model.joints.size() ? &model.joints[j] : nullptr; }
-
-// The motor that joint j of the system stands for; servos follow the model's joints, in the motors' order.
-const Motor& servo_motor(const Model& model, std::size_t j) {
-  std::size_t left = j - model.joints.size();
-  for (const Motor& motor : model.motors)
-    if (motor.kind != MotorKind::kEffort && left-- == 0) return motor;
-  throw std::logic_error("no such servo");
-}
 
 void settle_joint(const Joint& joint, const RelativePose& pose, Probe& probe, std::vector<std::string>& notes) {
   if (auto* distance = std::get_if<Distance>(&probe); distance && !joint.geometry.contains("length")) {
@@ -219,7 +228,7 @@ System build_system(const Model& model) { return Builder(model).build(); }
 
 bool is_open(const Model& model, const System& system, int j) {
   const JointData& data = system.joints[j];
-  if (data.servo >= 0) return servo_motor(model, j).kind == MotorKind::kSpeed;
+  if (data.servo >= 0) return data.keeps_speed;
   return data.type == "gear" || data.type == "rack" ||
          (std::holds_alternative<Distance>(data.probe) && !model.joints[j].geometry.contains("length"));
 }
@@ -244,7 +253,7 @@ void settle(const Model& model, const Vecs& q, System& system, std::vector<std::
     const RelativePose pose = system.pose(data.at, m);
     if (const Joint* joint = model_joint(model, j)) {
       settle_joint(*joint, pose, data.probe, notes);
-    } else if (servo_motor(model, j).kind == MotorKind::kSpeed) {
+    } else if (data.keeps_speed) {
       data.start = pose.z[data.servo];
     }
   }

@@ -43,6 +43,7 @@ struct JointData {
   bool ideal = false;          // its gap is kept at zero by the equations, its law is not asked
   std::array<bool, 3> redundant{};  // components of an ideal joint that other ideal joints keep already
   int servo = -1;              // component that a servo drives, -1: not a servo
+  bool keeps_speed = false;    // servo of a constant speed
   double start = 0;            // constant-speed servo: coordinate as assembled
   double speed = 0;            // constant-speed servo [rad/s or m/s]
   Expression target;           // servo that follows a function of t; the coordinate is start + speed t + target(t)

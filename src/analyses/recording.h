@@ -1,0 +1,22 @@
+// What a run keeps over time: of which bodies and joints, and how often. Whatever is left out here, every joint's forces are
+// compared and summed up.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pintle/model.h"
+#include "system/system.h"
+
+namespace pintle {
+
+struct Recording {
+  std::vector<bool> body, joint;  // whether its columns are kept; joints of the system
+  std::string note;               // what was left out unasked; empty: nothing
+};
+Recording choose_recording(const Model& model, const System& system);
+
+/// The time between two rows: as stated, else a part of the duration that keeps the tables of forces bounded [s].
+double output_step_of(const SimulateSettings& settings, std::size_t n_joints);
+
+}  // namespace pintle
