@@ -90,8 +90,9 @@ class Run {
   Trajectory go() {
     announce_assembly();
     system_ = build_system(model_);
-    Assembly assembly = start_of_run(model_, system_);
+    Assembly assembly = start_of_run(model_, system_, shape_.lesson != nullptr && !shape_.checked ? shape_.lesson->span : 0);
     start_ = std::move(assembly.state);
+    span_ = assembly.span;
     out_.notes = std::move(assembly.notes);
     not_unique_ = std::move(assembly.not_unique);
     out_.tolerance = model_.simulate.tolerance;
@@ -197,7 +198,7 @@ class Run {
         tolerance = std::max(kLeastTolerance, tolerance * std::clamp(shrink, 1e-3, 0.1));
       }
     }
-    if (shape_.learned != nullptr) *shape_.learned = {wanted, fine_tolerance_, choice_.stages, last_.scale};
+    if (shape_.learned != nullptr) *shape_.learned = {wanted, fine_tolerance_, choice_.stages, span_, last_.scale};
     finish(difference, share, error);
   }
 
@@ -268,7 +269,7 @@ class Run {
   std::vector<std::string> not_unique_;
   MethodChoice choice_;
   std::unique_ptr<Recorder> coarse_, fine_;
-  double fine_tolerance_ = 0;
+  double fine_tolerance_ = 0, span_ = 0;
   Integration last_;
   std::pair<Ended, std::string> interrupted_{Ended::kAtEnd, ""};
   double reported_ = 0;

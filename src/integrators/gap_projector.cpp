@@ -29,8 +29,17 @@ GapProjector::GapProjector(const System& system)
 
 bool GapProjector::prepare(double t, const std::vector<S::Motion>& m, double mu, const Vecs& gap_at, const Vecs& rate_at,
                            const Vecs* moved) {
-  mu_ = mu;
   system_.readings(t, m, readings_);
+  return factorize(mu, gap_at, rate_at, moved);
+}
+
+bool GapProjector::prepare(const std::vector<Reading>& readings, double mu, const Vecs& gap_at, const Vecs& rate_at, const Vecs* moved) {
+  readings_ = readings;
+  return factorize(mu, gap_at, rate_at, moved);
+}
+
+bool GapProjector::factorize(double mu, const Vecs& gap_at, const Vecs& rate_at, const Vecs* moved) {
+  mu_ = mu;
   lu_.set_zero();
   for (int i = 0; i < system_.n_bodies(); ++i)
     add_block(lu_.diagonal(i), S::Mat((mu * mu * system_.bodies[i].mass).asDiagonal()));

@@ -19,6 +19,9 @@ class GapProjector {
   bool prepare(double t, const std::vector<Planar::Motion>& m, double mu, const Vecs& gap_at, const Vecs& rate_at,
                const Vecs* moved = nullptr);
 
+  /// The same where the joints have been read already.
+  bool prepare(const std::vector<Reading>& readings, double mu, const Vecs& gap_at, const Vecs& rate_at, const Vecs* moved = nullptr);
+
   /// Gaps, rates, Jacobians and convective terms of `m`; the factorisation stays.
   void read(double t, const std::vector<Planar::Motion>& m) { system_.readings(t, m, readings_); }
 
@@ -35,6 +38,7 @@ class GapProjector {
   const std::vector<Reading>& readings() const { return readings_; }
 
  private:
+  bool factorize(double mu, const Vecs& gap_at, const Vecs& rate_at, const Vecs* moved);
   void add_joint(int j);
   Planar::Vec weigh(int j, const Planar::Vec& gap) const;
   void solve(Vecs& x);
