@@ -13,6 +13,14 @@ struct PeerOptions {
 };
 nlohmann::ordered_json compare_peers(const PeerOptions& options);
 
+struct CurveOptions {
+  std::vector<std::string> problems;  // empty: all
+  bool quick = false;
+  int rounds = 5;
+  double cap = 10;  // seconds for any run
+};
+nlohmann::ordered_json measure_curves(const CurveOptions& options);
+
 struct StiffnessOptions {
   std::vector<double> stiffness{1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
   std::vector<double> damping{0, 3e3, 1e5};

@@ -15,12 +15,22 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string json_file;
+  CurveOptions curves;
   PeerOptions peers;
   StiffnessOptions stiffness;
   ForceOptions forces;
   std::string micro_filter = ".";
   double micro_time = 0.2;
 };
+
+void add_curves(CLI::App& app, Options& o, Json& out) {
+  CLI::App* verb = app.add_subcommand("curves", "work and precision beside the peers, on every problem");
+  verb->add_option("--problems", o.curves.problems, "names; all if absent")->delimiter(',');
+  verb->add_option("--rounds", o.curves.rounds, "every method once in each")->capture_default_str();
+  verb->add_option("--cap", o.curves.cap, "seconds that any run may take")->capture_default_str();
+  verb->add_flag("--quick", o.curves.quick, "about a minute");
+  verb->callback([&] { out["curves"] = measure_curves(o.curves); });
+}
 
 void add_peers(CLI::App& app, Options& o, Json& out) {
   CLI::App* verb = app.add_subcommand("peers", "one turn of the four-bar: work and precision beside SUNDIALS");
@@ -82,6 +92,7 @@ int run_program(int argc, char** argv) {
   app.add_option("--json", options.json_file, "write the tables to this file as well");
   app.fallthrough();
   app.require_subcommand(0, 1);
+  add_curves(app, options, out);
   add_peers(app, options, out);
   add_stiffness(app, options, out);
   add_forces(app, options, out);

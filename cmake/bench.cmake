@@ -11,3 +11,4 @@ set_target_properties(pintle_bench PROPERTIES
 target_compile_definitions(pintle_bench PRIVATE PINTLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 target_include_directories(pintle_bench PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(pintle_bench PRIVATE pintle_flags pintle_io benchmark::benchmark)
+include(cmake/peers.cmake)
