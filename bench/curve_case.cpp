@@ -17,7 +17,7 @@
 namespace pintle::bench {
 namespace {
 
-constexpr int kOutputs = 200;
+constexpr int kOutputs = 100;
 constexpr double kTightest = 1e-9;    // of the compliant truth
 constexpr double kIdealTruth = 1e-12;
 constexpr int kDenseBodies = 25;      // more: dense matrices are hopeless
