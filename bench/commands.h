@@ -15,9 +15,11 @@ nlohmann::ordered_json compare_peers(const PeerOptions& options);
 
 struct CurveOptions {
   std::vector<std::string> problems;  // empty: all
-  bool quick = false;
+  bool quick = false;    // fewer problems and rounds, a smaller cap: about a minute
+  bool details = false;  // print every run
   int rounds = 5;
-  double cap = 10;  // seconds for any run
+  double cap = 5;        // seconds for any run
+  std::string folder;    // for pictures and the page; empty: none are written
 };
 nlohmann::ordered_json measure_curves(const CurveOptions& options);
 

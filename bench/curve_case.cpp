@@ -79,8 +79,19 @@ void CurveCase::find_ideal_truth() {
   Samples exact(ideal_->system, ideal_problem_.point);
   const auto tops = n_four_bar_tops(about_.loops, ideal_problem_.outputs.back(), kOutputs);
   for (std::size_t i = 1; i < tops.size(); ++i) exact.add_place({tops[i].x, tops[i].y});
-  fmt::print("  ideal joints: {} is within {:.1e} m of the exact motion\n", ideal_truth_.method,
-             ideal_truth_.samples ? ideal_truth_.samples->place_error(exact) : NAN);
+  if (ideal_truth_.samples) ideal_truth_.method += fmt::format(", {:.1e} m from the exact motion", ideal_truth_.samples->place_error(exact));
+}
+
+std::string CurveCase::truths() const {
+  std::string out;
+  for (const std::string& equations : {kCompliant, kIdeal}) {
+    const Truth& t = truth(equations);
+    if (!t.samples) continue;
+    out += fmt::format("- Truth of {} joints: {}; ", equations, t.method);
+    if (t.samples->has_forces()) out += fmt::format("forces within {:.0e} and ", t.force_doubt);
+    out += fmt::format("places within {:.0e} m of the run before it.\n", t.place_doubt);
+  }
+  return out;
 }
 
 std::vector<Contestant> CurveCase::contestants() const {
@@ -95,27 +106,27 @@ std::vector<Contestant> CurveCase::contestants() const {
 
 // A further method, or another measure of its error, is one more entry here.
 void CurveCase::add_own(std::vector<Contestant>& list) const {
-  const auto own = [&](const char* name, Equations equations, const char* method, int stages, std::vector<double> ladder) {
+  const auto own = [&](const char* name, const std::string& group, Equations equations, const char* method, int stages, std::vector<double> ladder) {
     const bool ideal = equations == Equations::kIdeal;
     const Problem* const problem = ideal ? &ideal_problem_ : &compliant_problem_;
     const auto run = [=](double tolerance) { return run_stepper(*problem, {equations, method, stages}, tolerance).measured(); };
     const std::string& solves = ideal ? kIdeal : kCompliant;
-    list.push_back({name, "Pintle", solves, run, std::move(ladder), truth(solves).samples.get()});
+    list.push_back({name, group, solves, run, std::move(ladder), truth(solves).samples.get()});
   };
-  own("Pintle, order 5", Equations::kNewtonian, "radau", 3, decades(-1, -7, 2));
-  own("Pintle, order 9", Equations::kNewtonian, "radau", 5, decades(-2, -9));
-  own("Pintle, dopri5", Equations::kNewtonian, "dopri5", 3, decades(-2, -6));
-  own("Pintle, ideal joints", Equations::kIdeal, "dopri5", 3, decades(-3, -10));
+  own("Pintle, order 5", group::kPintle, Equations::kNewtonian, "radau", 3, decades(-1, -7, 2));
+  own("Pintle, order 9", group::kPintle, Equations::kNewtonian, "radau", 5, decades(-2, -9));
+  own("Pintle, dopri5", group::kExplicit, Equations::kNewtonian, "dopri5", 3, decades(-2, -6));
+  own("Pintle, ideal joints", group::kPintleIdeal, Equations::kIdeal, "dopri5", 3, decades(-3, -10));
   if (about_.small)
-    list.push_back({"Pintle, whole run", "Pintle, start to report", kCompliant,
+    list.push_back({"Pintle, whole run", group::kWholeRun, kCompliant,
                     [this](double tolerance) { return whole_run(*compliant_, compliant_problem_, tolerance); }, decades(-2, -6),
                     compliant_truth_.samples.get()});
 }
 
 void CurveCase::add_sundials(std::vector<Contestant>& list) const {
-  for (const auto& [method, ladder] : peer_ladders(false)) {
+  for (const auto& [method, ladder] : peer_ladders(about_.all_peers && !options_.quick)) {
     if (method.code.solver == LinearSolver::kDense && n_bodies() > kDenseBodies) continue;
-    list.push_back({method.name, "SUNDIALS", kCompliant,
+    list.push_back({method.name, group::kSundials, kCompliant,
                     [this, peer = method](double tolerance) { return run_sundials(peer, compliant_problem_, tolerance); }, ladder,
                     compliant_truth_.samples.get()});
   }
@@ -133,7 +144,7 @@ void CurveCase::add_simbody(std::vector<Contestant>& list) const {
   for (const Method& method : methods) {
     const bool ideal = method.joints == Method::Joints::kTree;
     const Problem* const problem = ideal ? &ideal_problem_ : &compliant_problem_;
-    list.push_back({method.name, "Simbody", ideal ? kIdeal : kCompliant, [problem, method](double accuracy) { return run_simbody(method, *problem, accuracy); },
+    list.push_back({method.name, ideal ? group::kSimbodyIdeal : group::kSimbodyBushings, ideal ? kIdeal : kCompliant, [problem, method](double accuracy) { return run_simbody(method, *problem, accuracy); },
                     decades(-2, -9), truth(ideal ? kIdeal : kCompliant).samples.get()});
   }
 }
@@ -147,7 +158,7 @@ void CurveCase::add_mujoco(std::vector<Contestant>& list) const {
   std::vector<double> steps;
   for (const double n : {1e3, 3e3, 1e4, 3e4, 1e5, 3e5, 1e6}) steps.push_back(end / n);
   for (const MujocoMethod& method : {MujocoMethod{"MuJoCo, implicit", "implicit"}, MujocoMethod{"MuJoCo, RK4", "RK4"}, MujocoMethod{"MuJoCo, Euler", "Euler"}})
-    list.push_back({method.name, "MuJoCo", kIdeal, [this, method](double step) { return run_mujoco(method, ideal_problem_, step); }, steps,
+    list.push_back({method.name, group::kMujoco, kIdeal, [this, method](double step) { return run_mujoco(method, ideal_problem_, step); }, steps,
                     ideal_truth_.samples.get()});
 }
 #else

@@ -6,13 +6,11 @@
 #include <vector>
 
 #include "bench/curve_problems.h"
+#include "bench/groups.h"
 #include "bench/pintle_methods.h"
 #include "bench/work_precision.h"
 
 namespace pintle::bench {
-
-/// The equations that a contestant solves.
-inline const std::string kCompliant = "compliant", kIdeal = "ideal";
 
 struct CaseOptions {
   bool quick = false;
@@ -33,6 +31,8 @@ class CurveCase {
   const CurveProblem& about() const { return about_; }
   const Truth& truth(const std::string& equations) const { return equations == kIdeal ? ideal_truth_ : compliant_truth_; }
   std::vector<Contestant> contestants() const;
+  /// Both truths and how far each is from the run before it, in Markdown.
+  std::string truths() const;
   int n_bodies() const { return compliant_->system.n_bodies(); }
 
  private:

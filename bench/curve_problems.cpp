@@ -14,6 +14,7 @@ std::vector<CurveProblem> curve_problems() {
   std::vector<CurveProblem> list;
   list.push_back({"pendulum", "Pendulum, 10 s", of_collection("pendulum", {"simulate.duration=10"}), {"rod", "tip"}});
   list.push_back({"four_bar", "Four-bar, one turn of the crank", of_collection("four_bar"), {"coupler", "B"}});
+  list.back().all_peers = true;
   list.push_back({"slider_crank", "Slider-crank compressor, 0.2 s", of_collection("slider_crank", {"simulate.duration=0.2"}), {"piston", "pin"},
                   "from rest to the fourth compression"});
   for (const int n : {1, 2, 10, 40, 400}) {

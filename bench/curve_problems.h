@@ -18,6 +18,7 @@ struct CurveProblem {
   std::string remark{};  // what differs from the model of the collection
   int loops = 0;         // of the N-four-bar; 0: another mechanism
   bool ideal = true;     // ideal joints have an answer
+  bool all_peers = false;  // every method of SUNDIALS that has a chance, not only the best few
   bool small = true;     // whole runs and dense peers are worth while
 };
 

@@ -1,35 +1,111 @@
-// Work and precision of every method on every mechanism of the curves.
+// Work and precision of every method on every mechanism of the curves: tables, pictures, a page.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <stdexcept>
 
 #include "bench/commands.h"
 #include "bench/curve_case.h"
+#include "bench/curve_report.h"
 
 namespace pintle::bench {
+namespace {
 
-nlohmann::ordered_json measure_curves(const CurveOptions& options) {
-  nlohmann::ordered_json out;
-  CaseOptions with;
-  with.quick = options.quick;
-  with.cap = options.cap;
-  for (const CurveProblem& problem : curve_problems()) {
-    if (!options.problems.empty() && std::find(options.problems.begin(), options.problems.end(), problem.name) == options.problems.end()) continue;
+const std::vector<std::string> kQuick{"pendulum", "four_bar", "a02_1", "a02_40", "andrews"};
+constexpr double kQuickCap = 0.5;
+constexpr int kQuickRounds = 2;
+
+std::vector<CurveProblem> chosen(const CurveOptions& options) {
+  const std::vector<std::string>& names = options.problems.empty() && options.quick ? kQuick : options.problems;
+  std::vector<CurveProblem> list = curve_problems();
+  for (const std::string& name : names)
+    if (std::none_of(list.begin(), list.end(), [&](const CurveProblem& p) { return p.name == name; })) throw std::invalid_argument("there is no problem " + name);
+  std::erase_if(list, [&](const CurveProblem& p) { return !names.empty() && std::find(names.begin(), names.end(), p.name) == names.end(); });
+  return list;
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
+}
+
+class Study {
+ public:
+  explicit Study(const CurveOptions& options) : options_(options) {
+    if (!options.quick) return;
+    options_.cap = std::min(options.cap, kQuickCap);
+    options_.rounds = std::min(options.rounds, kQuickRounds);
+  }
+
+  nlohmann::ordered_json run() {
+    const nlohmann::ordered_json machine = describe_machine();
+    for (const auto& [key, value] : machine.items()) fmt::print("{}: {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    fmt::print("A run that would take more than {:g} s is given up, and so are the finer ones of its method.\n", options_.cap);
+    out_["machine"] = machine;
+    for (const CurveProblem& problem : chosen(options_)) measure(problem);
+    const bool all = options_.problems.empty();
+    if (all) scaling_ = measure_scaling(options_.quick ? std::vector{40, 400} : std::vector{40, 400, 4000, 40000}, options_.quick ? 2 : 3);
+    if (all) keep("scaling", scaling_.table());
+    std::map<std::string, const WorkPrecision*> works;
+    for (const auto& [name, work] : works_) works[name] = work.get();
+    const ResultTable targets = judge_targets(works, options_.cap, all ? &scaling_ : nullptr);
+    keep("targets", targets);
+    if (!options_.folder.empty()) write_text(std::filesystem::path(options_.folder) / "README.md", curves_page(reports_, targets, machine));
+    return std::move(out_);
+  }
+
+ private:
+  void keep(const std::string& key, const ResultTable& table) {
+    table.print();
+    out_[key] = table.json();
+  }
+
+  void measure(const CurveProblem& problem) {
     fmt::print("\n{}\n", problem.title);
     std::fflush(stdout);
-    const CurveCase one(problem, with);
-    for (const std::string& equations : {kCompliant, kIdeal}) {
-      const Truth& truth = one.truth(equations);
-      if (truth.samples) fmt::print("  {} joints: {}; {:.1e} of forces, {:.1e} m from the run before it\n", equations, truth.method, truth.force_doubt, truth.place_doubt);
+    const CurveCase one(problem, {options_.quick, options_.cap});
+    fmt::print("{}", one.truths());
+    auto work = std::make_unique<WorkPrecision>(one.contestants());
+    work->measure({options_.rounds, 0.1, options_.cap / 4});
+    const ResultTable runs = work->table("Every run");
+    if (options_.details) runs.print();
+    ProblemReport report{problem, one.truths(), {}};
+    nlohmann::ordered_json& json = out_["problems"][problem.name];
+    json["runs"] = runs.json();
+    for (const auto& [measure, key, title] : {std::tuple{Measure::kForce, "forces", "Milliseconds for an error of the joint forces, of their peaks"},
+                                              std::tuple{Measure::kPlace, "places", "Milliseconds for an error of the point's place [m]"},
+                                              std::tuple{Measure::kEnd, "end", "Milliseconds for an error of the point's place at the end [m]"}}) {
+      if (measure == Measure::kEnd && problem.loops == 0) continue;
+      const ResultTable prices = price_table(*work, measure, title);
+      if (prices.n_columns() < 2) continue;
+      prices.print();
+      json[key] = prices.json();
+      report.tables.push_back(prices);
     }
-    WorkPrecision work(one.contestants());
-    work.measure({options.rounds, 0.3, options.cap / 4});
-    const ResultTable table = work.table(problem.title);
-    table.print();
-    out[problem.name] = table.json();
+    if (!options_.folder.empty()) {
+      std::filesystem::create_directories(options_.folder);
+      write_text(std::filesystem::path(options_.folder) / (problem.name + ".svg"),
+                 picture(*work, problem.title, "Best of each group of methods; compliant joints unless it says ideal"));
+    }
+    reports_.push_back(std::move(report));
+    works_[problem.name] = std::move(work);
   }
-  return out;
-}
+
+  CurveOptions options_;
+  nlohmann::ordered_json out_;
+  std::map<std::string, std::unique_ptr<WorkPrecision>> works_;
+  std::vector<ProblemReport> reports_;
+  Scaling scaling_;
+};
+
+}  // namespace
+
+nlohmann::ordered_json measure_curves(const CurveOptions& options) { return Study(options).run(); }
 
 }  // namespace pintle::bench

@@ -28,7 +28,9 @@ void add_curves(CLI::App& app, Options& o, Json& out) {
   verb->add_option("--problems", o.curves.problems, "names; all if absent")->delimiter(',');
   verb->add_option("--rounds", o.curves.rounds, "every method once in each")->capture_default_str();
   verb->add_option("--cap", o.curves.cap, "seconds that any run may take")->capture_default_str();
-  verb->add_flag("--quick", o.curves.quick, "about a minute");
+  verb->add_flag("--quick", o.curves.quick, "about a minute: fewer problems and rounds, a smaller cap");
+  verb->add_flag("--details", o.curves.details, "print every run");
+  verb->add_option("--write", o.curves.folder, "folder for the pictures and their page, README.md");
   verb->callback([&] { out["curves"] = measure_curves(o.curves); });
 }
 

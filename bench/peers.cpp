@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "bench/commands.h"
+#include "bench/groups.h"
 #include "bench/pintle_methods.h"
 #include "bench/result_table.h"
 #include "bench/sundials_methods.h"
@@ -19,7 +20,6 @@ constexpr double kReferenceTolerance = 1e-11;
 constexpr double kTightExplicit = 1e-13;
 constexpr double kAsked = 1e-5;
 const std::string kOurs = "Pintle", kPeers = "SUNDIALS", kWholeRun = "Pintle, whole run";
-const std::string kCompliant = "compliant";
 
 std::vector<Contestant> our_methods(const ReadyModel& ready, const Problem& problem, const Samples& truth) {
   std::vector<Contestant> list;

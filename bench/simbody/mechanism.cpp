@@ -147,7 +147,7 @@ std::unique_ptr<SimTK::Integrator> make_integrator(bool bdf, const SimTK::Multib
   return std::make_unique<SimTK::RungeKuttaMersonIntegrator>(system);
 }
 
-constexpr int kLook = 200;  // steps between two looks at the clock
+constexpr int kLook = 5000;  // steps between two looks at the clock
 
 }  // namespace
 
