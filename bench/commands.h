@@ -23,6 +23,9 @@ struct CurveOptions {
 };
 nlohmann::ordered_json measure_curves(const CurveOptions& options);
 
+/// Computes bench/truths anew.
+void store_truths(const std::vector<std::string>& problems, double tolerance);
+
 struct StiffnessOptions {
   std::vector<double> stiffness{1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
   std::vector<double> damping{0, 3e3, 1e5};

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <stdexcept>
 
 #include "bench/rotating_pendulum.h"
+#include "bench/stored_truths.h"
 #include "bench/sundials_methods.h"
 #ifdef PINTLE_HAS_SIMBODY
 #include "bench/simbody_methods.h"
@@ -20,6 +23,7 @@ namespace {
 constexpr int kOutputs = 100;
 constexpr double kTightest = 1e-9;    // of the compliant truth
 constexpr double kIdealTruth = 1e-12;
+constexpr int kStoredLoops = 40;      // N-four-bars with as many or more have a stored truth
 constexpr int kDenseBodies = 25;      // more: dense matrices are hopeless
 constexpr int kTreeBodies = 150;      // more: Simbody's constraints, which it solves densely, are
 
@@ -32,7 +36,7 @@ std::unique_ptr<ReadyModel> ready(Model model, Equations equations) {
 Truth settle_truth(const Problem& problem, const MethodChoice& choice, double from, double to) {
   Truth truth;
   double spent = 0;
-  for (double tolerance = from; tolerance > 0.5 * to && spent < problem.cap; tolerance *= 0.1) {
+  for (double tolerance = from; tolerance > 0.5 * to && !(spent > problem.cap); tolerance *= 0.1) {
     PintleRun run = run_stepper(problem, choice, tolerance);
     spent += run.seconds;
     if (!run.completed) break;
@@ -47,19 +51,29 @@ Truth settle_truth(const Problem& problem, const MethodChoice& choice, double fr
   return truth;
 }
 
+Problem problem_of(const ReadyModel& model, const MarkerRef& point) {
+  Problem problem = model.problem(kOutputs);
+  problem.point = model.point(point);
+  return problem;
+}
+
 }  // namespace
+
+void store_truth(const CurveProblem& about, double tolerance) {
+  const auto model = ready(about.model(), Equations::kNewtonian);
+  const Problem problem = problem_of(*model, about.point);
+  const Truth truth = settle_truth(problem, {Equations::kNewtonian, "radau", 5}, 10 * tolerance, tolerance);
+  if (!truth.samples) throw std::runtime_error("no truth of " + about.name);
+  fmt::print("{}: {}; places within {:.1e} m of the run before it\n", about.name, truth.method, truth.place_doubt);
+  write_truth(about.name, problem, {truth.method, truth.place_doubt, *truth.samples});
+}
 
 CurveCase::CurveCase(CurveProblem problem, const CaseOptions& options) : about_(std::move(problem)), options_(options) {
   compliant_ = ready(about_.model(), Equations::kNewtonian);
-  const auto problem_of = [&](const ReadyModel& model) {
-    Problem p = model.problem(kOutputs);
-    p.point = model.point(about_.point);
-    return p;
-  };
-  compliant_problem_ = problem_of(*compliant_);
+  compliant_problem_ = problem_of(*compliant_, about_.point);
   if (about_.ideal) {
     ideal_ = ready(about_.model(), Equations::kIdeal);
-    ideal_problem_ = problem_of(*ideal_);
+    ideal_problem_ = problem_of(*ideal_, about_.point);
   }
   find_compliant_truth();
   if (about_.ideal) find_ideal_truth();
@@ -67,6 +81,14 @@ CurveCase::CurveCase(CurveProblem problem, const CaseOptions& options) : about_(
 }
 
 void CurveCase::find_compliant_truth() {
+  if (about_.loops >= kStoredLoops) {
+    if (std::optional<StoredTruth> stored = read_truth(about_.name, compliant_problem_)) {
+      compliant_truth_.method = std::move(stored->method);
+      compliant_truth_.place_doubt = stored->place_doubt;
+      compliant_truth_.samples = std::make_unique<Samples>(std::move(stored->places));
+    }
+    return;
+  }
   compliant_problem_.cap = 3 * options_.cap;
   compliant_truth_ = settle_truth(compliant_problem_, {Equations::kNewtonian, "radau", 5}, 1e-4, kTightest);
   if (compliant_truth_.samples) compliant_problem_.force = compliant_truth_.samples->largest_force();

@@ -24,6 +24,9 @@ struct Truth {
   double force_doubt = 0, place_doubt = 0;  // difference from the run before it, a tenth of the tolerance [-, m]
 };
 
+/// Computes the truth of a problem at a tolerance, and at ten times that, and stores it where CurveCase finds it.
+void store_truth(const CurveProblem& about, double tolerance);
+
 class CurveCase {
  public:
   CurveCase(CurveProblem problem, const CaseOptions& options);

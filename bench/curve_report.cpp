@@ -44,8 +44,12 @@ Panel panel(const WorkPrecision& work, Measure measure, const char* quantity, co
   out.x_quantity = "Processor time";
   out.x_unit = "ms";
   out.log_x = out.log_y = true;
-  for (const std::string& group : group::kAll)
-    if (Curve curve = front_of(work, group, measure); !curve.x.empty()) out.curves.push_back(std::move(curve));
+  for (std::size_t i = 0; i < group::kAll.size(); ++i) {
+    Curve curve = front_of(work, group::kAll[i], measure);
+    if (curve.x.empty()) continue;
+    curve.style = group::kStyle[i];
+    out.curves.push_back(std::move(curve));
+  }
   return out;
 }
 

@@ -20,8 +20,7 @@ const std::vector<std::string> kQuick{"pendulum", "four_bar", "a02_1", "a02_40",
 constexpr double kQuickCap = 0.5;
 constexpr int kQuickRounds = 2;
 
-std::vector<CurveProblem> chosen(const CurveOptions& options) {
-  const std::vector<std::string>& names = options.problems.empty() && options.quick ? kQuick : options.problems;
+std::vector<CurveProblem> chosen(const std::vector<std::string>& names) {
   std::vector<CurveProblem> list = curve_problems();
   for (const std::string& name : names)
     if (std::none_of(list.begin(), list.end(), [&](const CurveProblem& p) { return p.name == name; })) throw std::invalid_argument("there is no problem " + name);
@@ -48,7 +47,7 @@ class Study {
     for (const auto& [key, value] : machine.items()) fmt::print("{}: {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
     fmt::print("A run that would take more than {:g} s is given up, and so are the finer ones of its method.\n", options_.cap);
     out_["machine"] = machine;
-    for (const CurveProblem& problem : chosen(options_)) measure(problem);
+    for (const CurveProblem& problem : chosen(options_.problems.empty() && options_.quick ? kQuick : options_.problems)) measure(problem);
     const bool all = options_.problems.empty();
     if (all) scaling_ = measure_scaling(options_.quick ? std::vector{40, 400} : std::vector{40, 400, 4000, 40000}, options_.quick ? 2 : 3);
     if (all) keep("scaling", scaling_.table());
@@ -105,6 +104,10 @@ class Study {
 };
 
 }  // namespace
+
+void store_truths(const std::vector<std::string>& problems, double tolerance) {
+  for (const CurveProblem& problem : chosen(problems)) store_truth(problem, tolerance);
+}
 
 nlohmann::ordered_json measure_curves(const CurveOptions& options) { return Study(options).run(); }
 

@@ -13,6 +13,8 @@ inline const std::string kPintle = "Pintle", kWholeRun = "Pintle, whole run", kE
                          kSimbodyBushings = "Simbody, bushings", kPintleIdeal = "Pintle, ideal joints", kSimbodyIdeal = "Simbody, ideal joints",
                          kMujoco = "MuJoCo, ideal joints";
 inline const std::array<std::string, 8> kAll{kPintle, kWholeRun, kExplicit, kSundials, kSimbodyBushings, kPintleIdeal, kSimbodyIdeal, kMujoco};
+/// Of the picture's line: a colour for each program, dashed for ideal joints.
+inline const std::array<int, 8> kStyle{0, 1, 2, 3, 4, 7, 11, 12};
 }  // namespace group
 
 }  // namespace pintle::bench

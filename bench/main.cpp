@@ -16,6 +16,8 @@ using Json = nlohmann::ordered_json;
 struct Options {
   std::string json_file;
   CurveOptions curves;
+  std::vector<std::string> truth_problems{"a02_40", "a02_400"};
+  double truth_tolerance = 1e-6;
   PeerOptions peers;
   StiffnessOptions stiffness;
   ForceOptions forces;
@@ -32,6 +34,13 @@ void add_curves(CLI::App& app, Options& o, Json& out) {
   verb->add_flag("--details", o.curves.details, "print every run");
   verb->add_option("--write", o.curves.folder, "folder for the pictures and their page, README.md");
   verb->callback([&] { out["curves"] = measure_curves(o.curves); });
+}
+
+void add_truths(CLI::App& app, Options& o) {
+  CLI::App* verb = app.add_subcommand("truths", "compute bench/truths anew: what large mechanisms do, for the curves; an hour");
+  verb->add_option("--problems", o.truth_problems)->delimiter(',')->capture_default_str();
+  verb->add_option("--tolerance", o.truth_tolerance)->capture_default_str();
+  verb->callback([&] { store_truths(o.truth_problems, o.truth_tolerance); });
 }
 
 void add_peers(CLI::App& app, Options& o, Json& out) {
@@ -95,6 +104,7 @@ int run_program(int argc, char** argv) {
   app.fallthrough();
   app.require_subcommand(0, 1);
   add_curves(app, options, out);
+  add_truths(app, options);
   add_peers(app, options, out);
   add_stiffness(app, options, out);
   add_forces(app, options, out);
