@@ -26,6 +26,9 @@ nlohmann::ordered_json measure_curves(const CurveOptions& options);
 /// Computes bench/truths anew.
 void store_truths(const std::vector<std::string>& problems, double tolerance);
 
+/// Beside the last release recorded; `record_as` a version adds to the record.
+nlohmann::ordered_json count_instructions(const std::string& record_as);
+
 struct StiffnessOptions {
   std::vector<double> stiffness{1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
   std::vector<double> damping{0, 3e3, 1e5};

@@ -18,6 +18,7 @@ struct Options {
   CurveOptions curves;
   std::vector<std::string> truth_problems{"a02_40", "a02_400"};
   double truth_tolerance = 1e-6;
+  std::string record_as;
   PeerOptions peers;
   StiffnessOptions stiffness;
   ForceOptions forces;
@@ -41,6 +42,12 @@ void add_truths(CLI::App& app, Options& o) {
   verb->add_option("--problems", o.truth_problems)->delimiter(',')->capture_default_str();
   verb->add_option("--tolerance", o.truth_tolerance)->capture_default_str();
   verb->callback([&] { store_truths(o.truth_problems, o.truth_tolerance); });
+}
+
+void add_instructions(CLI::App& app, Options& o, Json& out) {
+  CLI::App* verb = app.add_subcommand("instructions", "instructions that fixed commands take, beside the last release");
+  verb->add_option("--record", o.record_as, "the version to write to bench/instructions.json");
+  verb->callback([&] { out["instructions"] = count_instructions(o.record_as); });
 }
 
 void add_peers(CLI::App& app, Options& o, Json& out) {
@@ -97,7 +104,7 @@ Json run_short() {
 }
 
 int run_program(int argc, char** argv) {
-  CLI::App app("Benchmarks of Pintle. Without a sub-command: a short version of all of them.", "pintle-bench");
+  CLI::App app("Benchmarks of Pintle. Without a sub-command: the curves.", "pintle-bench");
   Options options;
   Json out;
   app.add_option("--json", options.json_file, "write the tables to this file as well");
@@ -105,12 +112,14 @@ int run_program(int argc, char** argv) {
   app.require_subcommand(0, 1);
   add_curves(app, options, out);
   add_truths(app, options);
+  add_instructions(app, options, out);
   add_peers(app, options, out);
   add_stiffness(app, options, out);
   add_forces(app, options, out);
   add_micro(app, options);
+  app.add_subcommand("short", "a short version of peers, stiffness, forces and micro")->callback([&] { out = run_short(); });
   CLI11_PARSE(app, argc, argv);
-  if (app.get_subcommands().empty()) out = run_short();
+  if (app.get_subcommands().empty()) out["curves"] = measure_curves(options.curves);
   if (!options.json_file.empty() && !out.empty()) {
     std::ofstream file(options.json_file);
     file << out.dump(1) << '\n';
