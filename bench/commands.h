@@ -17,8 +17,8 @@ struct CurveOptions {
   std::vector<std::string> problems;  // empty: all
   bool quick = false;    // fewer problems and rounds, a smaller cap: about a minute
   bool details = false;  // print every run
-  int rounds = 5;
-  double cap = 5;        // seconds for any run
+  int rounds = 3;
+  double cap = 10;       // seconds for any run
   std::string folder;    // for pictures and the page; empty: none are written
 };
 nlohmann::ordered_json measure_curves(const CurveOptions& options);

@@ -16,6 +16,8 @@ namespace {
 
 using Point = Planar::Point;
 
+constexpr int kSmall = 150;  // bodies for which MuJoCo's own guess of the memory suffices
+
 // The world axes are those of every body where it starts, so that hinges start at angle zero and places are plain differences.
 class Document {
  public:
@@ -25,8 +27,8 @@ class Document {
     const double gx = system_.bodies[0].gravity[0] / system_.bodies[0].mass[0], gy = system_.bodies[0].gravity[1] / system_.bodies[0].mass[1];
     text_ = fmt::format(
         "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\"/><option timestep=\"{:.17g}\" integrator=\"{}\" "
-        "gravity=\"{:.17g} {:.17g} 0\" solver=\"Newton\" iterations=\"100\" tolerance=\"1e-14\"><flag contact=\"disable\"/></option><worldbody>\n",
-        step, method.integrator, gx, gy);
+        "gravity=\"{:.17g} {:.17g} 0\" solver=\"Newton\" iterations=\"100\" tolerance=\"1e-14\"><flag contact=\"disable\"/></option>{}<worldbody>\n",
+        step, method.integrator, gx, gy, system_.n_bodies() > kSmall ? "<size nstack=\"40000000\"/>" : "");
     for (const TreeLink& link : tree_.links)
       if (link.parent == kGround) add_body(link);
     text_ += "</worldbody><equality>\n";

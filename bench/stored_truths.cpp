@@ -9,6 +9,11 @@
 namespace pintle::bench {
 namespace {
 
+constexpr double kSameStart = 1e-9;
+
+// Kinetic energy at the start: another start has another truth [J].
+double energy_of(const Problem& problem) { return problem.system->kinetic(problem.start->v); }
+
 std::filesystem::path file_of(const std::string& name) { return std::filesystem::path(PINTLE_SOURCE_DIR) / "bench" / "truths" / (name + ".json"); }
 
 }  // namespace
@@ -18,7 +23,8 @@ std::optional<StoredTruth> read_truth(const std::string& name, const Problem& pr
   if (!file) return std::nullopt;
   const nlohmann::json stored = nlohmann::json::parse(file);
   const auto& rows = stored.at("t, x, y");
-  if (rows.size() != problem.outputs.size()) return std::nullopt;
+  const double energy = energy_of(problem);
+  if (rows.size() != problem.outputs.size() || std::abs(stored.at("kinetic energy at the start [J]").get<double>() - energy) > kSameStart * energy) return std::nullopt;
   StoredTruth truth{stored.at("method"), stored.at("difference [m]"), Samples(*problem.system, problem.point)};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (std::abs(rows[i][0].get<double>() - problem.outputs[i]) > 1e-9 * problem.outputs.back()) return std::nullopt;
@@ -35,7 +41,7 @@ void write_truth(const std::string& name, const Problem& problem, const StoredTr
   }
   std::filesystem::create_directories(file_of(name).parent_path());
   std::ofstream file(file_of(name));
-  file << "{\n\"method\": " << nlohmann::json(truth.method) << ",\n\"difference [m]\": " << truth.place_doubt << ",\n\"t, x, y\": [\n";
+  file << "{\n\"method\": " << nlohmann::json(truth.method) << ",\n\"difference [m]\": " << truth.place_doubt << ",\n\"kinetic energy at the start [J]\": " << nlohmann::json(energy_of(problem)) << ",\n\"t, x, y\": [\n";
   for (std::size_t i = 0; i < rows.size(); ++i) file << rows[i].dump() << (i + 1 < rows.size() ? ",\n" : "\n");
   file << "]\n}\n";
   if (!file.flush()) throw std::runtime_error("cannot write " + file_of(name).string());

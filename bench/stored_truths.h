@@ -14,7 +14,7 @@ struct StoredTruth {
   Samples places;          // no forces
 };
 
-/// None when there is no file, or it has other output times.
+/// None when there is no file, or it is of other output times or another start.
 std::optional<StoredTruth> read_truth(const std::string& name, const Problem& problem);
 void write_truth(const std::string& name, const Problem& problem, const StoredTruth& truth);
 

@@ -11,6 +11,6 @@
 namespace pintle::bench {
 
 /// Of the problems that were measured; others are not judged.
-ResultTable judge_targets(const std::map<std::string, const WorkPrecision*>& works, double cap, const Scaling* scaling);
+ResultTable judge_targets(const std::map<std::string, const WorkPrecision*>& works, const Scaling* scaling);
 
 }  // namespace pintle::bench

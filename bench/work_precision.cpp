@@ -1,10 +1,27 @@
 #include "bench/work_precision.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 namespace pintle::bench {
+namespace {
+
+// A program that refuses the problem has not completed it.
+MethodRun run_or_refuse(const Contestant& contestant, double setting) {
+  try {
+    return contestant.run(setting);
+  } catch (const std::exception& error) {
+    fmt::print("  {}: {}\n", contestant.name, error.what());
+    return {false, 0, 0, 0, *contestant.truth};
+  }
+}
+
+}  // namespace
+
 double Rung::error(Measure measure) const {
   return measure == Measure::kForce ? force_error : measure == Measure::kPlace ? place_error : end_error;
 }
@@ -33,7 +50,7 @@ void WorkPrecision::first_look(Rung& rung, const Effort& effort) {
     if (&coarser < &rung && coarser.contestant == rung.contestant && (coarser.skipped || coarser.times.median() > effort.hopeless))
       rung.skipped = true;
   if (rung.skipped) return;
-  const MethodRun run = contestant.run(rung.tolerance);
+  const MethodRun run = run_or_refuse(contestant, rung.tolerance);
   rung.times.add(run.seconds);
   rung.completed = run.completed;
   rung.steps = run.steps;
