@@ -101,7 +101,12 @@ void CurveCase::find_ideal_truth() {
   Samples exact(ideal_->system, ideal_problem_.point);
   const auto tops = n_four_bar_tops(about_.loops, ideal_problem_.outputs.back(), kOutputs);
   for (std::size_t i = 1; i < tops.size(); ++i) exact.add_place({tops[i].x, tops[i].y});
-  if (ideal_truth_.samples) ideal_truth_.method += fmt::format(", {:.1e} m from the exact motion", ideal_truth_.samples->place_error(exact));
+  if (ideal_truth_.samples) {
+    ideal_truth_.method += fmt::format(", {:.1e} m from the exact motion", ideal_truth_.samples->place_error(exact));
+  } else {
+    ideal_truth_.method = "the exact motion";
+    ideal_truth_.samples = std::make_unique<Samples>(std::move(exact));
+  }
 }
 
 std::string CurveCase::truths() const {

@@ -100,7 +100,7 @@ std::vector<LegendEntry> lay_out_legend(const Panel& panel, double width) {
 }
 
 bool needs_legend(const Panel& panel) {
-  return panel.curves.size() > 1;
+  return panel.curves.size() > 1 || (panel.curves.size() == 1 && panel.curves[0].style >= 0);
 }
 
 /// One panel with everything that its drawing needs.
