@@ -44,7 +44,8 @@ class Study {
   }
 
   nlohmann::ordered_json run() {
-    const nlohmann::ordered_json machine = describe_machine();
+    nlohmann::ordered_json machine = describe_machine();
+    machine["kind of run"] = options_.quick ? "--quick: some problems, small caps" : options_.problems.empty() ? "full" : "chosen problems";
     for (const auto& [key, value] : machine.items()) fmt::print("{}: {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
     fmt::print("A run that would take more than {:g} s ({:g} s in large mechanisms) is given up, and so are the finer ones of its method.\n",
                kSmallShare * options_.cap, options_.cap);
