@@ -75,7 +75,7 @@ class Study {
     const CurveCase one(problem, {options_.quick, cap});
     fmt::print("{}", one.truths());
     auto work = std::make_unique<WorkPrecision>(one.contestants());
-    work->measure({options_.rounds, 0.1, cap / 4});
+    work->measure({options_.rounds, 0.1, cap / 2});
     const ResultTable runs = work->table("Every run");
     if (options_.details) runs.print();
     ProblemReport report{problem, one.truths(), {}};
