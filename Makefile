@@ -19,7 +19,7 @@ help:
 	@echo "make test       install what is missing, build and run every test and check"
 	@echo "make build      the optimised program, build/release/bin/pintle"
 	@echo "make install    library, headers and program to PREFIX (now $(PREFIX))"
-	@echo "make bench      benchmarks beside SUNDIALS, build/bench/bin/pintle-bench"
+	@echo "make bench      work and precision beside SUNDIALS, Simbody and MuJoCo, ten minutes; QUICK=1: one minute"
 	@echo "make paper      the paper's numbered results: docs/paper/README.md and its pictures"
 	@echo "make figure9    the paper's Figure 9 only"
 	@echo "make published  published benchmark problems, measured as their sources do"
@@ -101,7 +101,9 @@ bench:
 	@tools/setup.sh build bench
 	@$(CONFIGURE) -B build/bench -DPINTLE_TESTS=OFF -DPINTLE_BENCH=ON >/dev/null
 	@$(BUILD) build/bench -j $(JOBS)
-	@build/bench/bin/pintle-bench
+	@mkdir -p out/bench
+	@build/bench/bin/pintle-bench --json out/bench/curves.json curves --write out/bench $(if $(QUICK),--quick)
+	@echo "Pictures, a page and every number are in out/bench."
 
 # Both programs need nothing beyond what the program itself needs.
 build/release/bin/%: setup

@@ -13,6 +13,22 @@ struct PeerOptions {
 };
 nlohmann::ordered_json compare_peers(const PeerOptions& options);
 
+struct CurveOptions {
+  std::vector<std::string> problems;  // empty: all
+  bool quick = false;    // fewer problems and rounds, a smaller cap: about a minute
+  bool details = false;  // print every run
+  int rounds = 3;
+  double cap = 10;       // seconds for any run
+  std::string folder;    // for pictures and the page; empty: none are written
+};
+nlohmann::ordered_json measure_curves(const CurveOptions& options);
+
+/// Computes bench/truths anew.
+void store_truths(const std::vector<std::string>& problems, double tolerance);
+
+/// Beside the last release recorded; `record_as` a version adds to the record.
+nlohmann::ordered_json count_instructions(const std::string& record_as);
+
 struct StiffnessOptions {
   std::vector<double> stiffness{1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
   std::vector<double> damping{0, 3e3, 1e5};

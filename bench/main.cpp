@@ -15,6 +15,10 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string json_file;
+  CurveOptions curves;
+  std::vector<std::string> truth_problems{"a02_40", "a02_400"};
+  double truth_tolerance = 1e-6;
+  std::string record_as;
   PeerOptions peers;
   StiffnessOptions stiffness;
   ForceOptions forces;
@@ -22,6 +26,30 @@ struct Options {
   std::string micro_filter = ".";
   double micro_time = 0.2;
 };
+
+void add_curves(CLI::App& app, Options& o, Json& out) {
+  CLI::App* verb = app.add_subcommand("curves", "work and precision beside the peers, on every problem");
+  verb->add_option("--problems", o.curves.problems, "names; all if absent")->delimiter(',');
+  verb->add_option("--rounds", o.curves.rounds, "every method once in each")->capture_default_str();
+  verb->add_option("--cap", o.curves.cap, "seconds that any run may take")->capture_default_str();
+  verb->add_flag("--quick", o.curves.quick, "about a minute: fewer problems and rounds, a smaller cap");
+  verb->add_flag("--details", o.curves.details, "print every run");
+  verb->add_option("--write", o.curves.folder, "folder for the pictures and their page, README.md");
+  verb->callback([&] { out["curves"] = measure_curves(o.curves); });
+}
+
+void add_truths(CLI::App& app, Options& o) {
+  CLI::App* verb = app.add_subcommand("truths", "compute bench/truths anew: what large mechanisms do, for the curves; an hour");
+  verb->add_option("--problems", o.truth_problems)->delimiter(',')->capture_default_str();
+  verb->add_option("--tolerance", o.truth_tolerance)->capture_default_str();
+  verb->callback([&] { store_truths(o.truth_problems, o.truth_tolerance); });
+}
+
+void add_instructions(CLI::App& app, Options& o, Json& out) {
+  CLI::App* verb = app.add_subcommand("instructions", "instructions that fixed commands take, beside the last release");
+  verb->add_option("--record", o.record_as, "the version to write to bench/instructions.json");
+  verb->callback([&] { out["instructions"] = count_instructions(o.record_as); });
+}
 
 void add_peers(CLI::App& app, Options& o, Json& out) {
   CLI::App* verb = app.add_subcommand("peers", "one turn of the four-bar: work and precision beside SUNDIALS");
@@ -87,19 +115,23 @@ Json run_short() {
 }
 
 int run_program(int argc, char** argv) {
-  CLI::App app("Benchmarks of Pintle. Without a sub-command: a short version of all of them.", "pintle-bench");
+  CLI::App app("Benchmarks of Pintle. Without a sub-command: the curves.", "pintle-bench");
   Options options;
   Json out;
   app.add_option("--json", options.json_file, "write the tables to this file as well");
   app.fallthrough();
   app.require_subcommand(0, 1);
+  add_curves(app, options, out);
+  add_truths(app, options);
+  add_instructions(app, options, out);
   add_peers(app, options, out);
   add_stiffness(app, options, out);
   add_forces(app, options, out);
   add_scale(app, options, out);
   add_micro(app, options);
+  app.add_subcommand("short", "a short version of peers, stiffness, forces and micro")->callback([&] { out = run_short(); });
   CLI11_PARSE(app, argc, argv);
-  if (app.get_subcommands().empty()) out = run_short();
+  if (app.get_subcommands().empty()) out["curves"] = measure_curves(options.curves);
   if (!options.json_file.empty() && !out.empty()) {
     std::ofstream file(options.json_file);
     file << out.dump(1) << '\n';

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "bench/commands.h"
+#include "bench/generated_models.h"
 #include "bench/pintle_methods.h"
 #include "integrators/radau_stepper.h"
 #include "laws/law.h"
@@ -16,33 +17,6 @@ namespace pintle::bench {
 namespace {
 
 using S = Planar;
-
-// A chain of n links that hangs from the ground and starts level.
-Model chain(int n) {
-  Model model;
-  model.simulate.duration = 10;
-  model.ground = {{"P", {0, 0}, 0}};
-  for (int i = 0; i < n; ++i) {
-    Body link;
-    link.name = fmt::format("link{}", i);
-    link.mass = 1;
-    link.inertia = 1.0 / 12;
-    link.position = Vec2{i + 0.5, 0};
-    link.angle = 0;
-    link.velocity = Vec2{0, 0};
-    link.spin = 0;
-    link.markers = {{"left", {-0.5, 0}, 0}, {"right", {0.5, 0}, 0}};
-    Joint pin;
-    pin.name = fmt::format("pin{}", i);
-    pin.type = "revolute";
-    pin.first = i == 0 ? MarkerRef{"ground", "P"} : MarkerRef{model.bodies.back().name, "right"};
-    pin.second = {link.name, "left"};
-    pin.law.values = {{"stiffness", {1e8}}, {"damping", {3e3}}};
-    model.bodies.push_back(std::move(link));
-    model.joints.push_back(std::move(pin));
-  }
-  return model;
-}
 
 void count_bodies(benchmark::State& state, int bodies) {
   state.counters["per_body"] = benchmark::Counter(static_cast<double>(state.iterations()) * bodies,

@@ -1,9 +1,8 @@
 // Pintle's own integrator on the problem that the peers solve, and one turn as a run makes it.
 #pragma once
 
-#include "bench/force_samples.h"
-#include "bench/sundials_methods.h"
-#include "integrators/radau_stepper.h"
+#include "bench/problem.h"
+#include "integrators/methods.h"
 #include "pintle/model.h"
 
 namespace pintle::bench {
@@ -13,10 +12,14 @@ struct PintleRun {
   double seconds = 0;
   Counters counters;
   LoadScale scale;
-  ForceSamples samples;
+  Samples samples;
+  /// Without what only Pintle knows.
+  MethodRun measured() const;
 };
 
 /// The stepper alone, with dense output; `scale` from an earlier integration, if any.
+PintleRun run_stepper(const Problem& problem, const MethodChoice& choice, double tolerance, const LoadScale* scale = nullptr);
+/// The same, of the force-accurate method.
 PintleRun run_radau(const Problem& problem, int stages, double tolerance, const LoadScale* scale = nullptr);
 
 /// The two integrations that a run makes when its first estimate is good enough: the pilot and the reported one.
@@ -35,7 +38,12 @@ struct ReadyModel {
   System system;
   State start;
   Problem problem(int outputs) const;
+  /// The marker "body.marker".
+  FollowedPoint point(const MarkerRef& marker) const;
 };
+
+/// Everything that `simulate` does, from the model to the table of results; the problem's cap ends it.
+MethodRun whole_run(const ReadyModel& ready, const Problem& problem, double tolerance);
 
 /// mechanisms/<name>.toml with overrides.
 Model collection_model(const std::string& name, const std::vector<std::string>& overrides = {});

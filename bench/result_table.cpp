@@ -42,6 +42,21 @@ void ResultTable::print() const {
   std::fflush(stdout);
 }
 
+std::string ResultTable::markdown() const {
+  std::string out = "|", rule = "|";
+  for (const Column& column : columns_) {
+    out += fmt::format(" {} |", column.head);
+    rule += column.is_text ? " --- |" : " ---: |";
+  }
+  out += "\n" + rule + "\n";
+  for (const auto& row : rows_) {
+    out += "|";
+    for (const Cell& cell : row) out += fmt::format(" {} |", cell.text);
+    out += "\n";
+  }
+  return out;
+}
+
 nlohmann::ordered_json ResultTable::json() const {
   auto rows = nlohmann::ordered_json::array();
   for (const auto& row : rows_) {

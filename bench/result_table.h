@@ -30,7 +30,11 @@ class ResultTable {
 
   void add_row(std::vector<Cell> cells);
   bool empty() const { return rows_.empty(); }
+  std::size_t n_columns() const { return columns_.size(); }
+  const std::string& title() const { return title_; }
   void print() const;
+  /// The rows as a table of Markdown, without the title.
+  std::string markdown() const;
   /// An array with one object per row.
   nlohmann::ordered_json json() const;
 

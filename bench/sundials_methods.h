@@ -3,9 +3,10 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "bench/force_samples.h"
+#include "bench/problem.h"
 #include "integrators/sundials_code.h"
 
 namespace pintle::bench {
@@ -26,21 +27,16 @@ struct PeerMethod {
   bool stop_at_outputs = false;  // end steps at output times rather than interpolate
 };
 
-/// The problem that every method solves.
-struct Problem {
-  const System* system = nullptr;
-  const State* start = nullptr;
-  std::vector<double> outputs;
-  double force = 1, stiffness = 1, impedance = 1;  // for Weights::kForce [N, N/m, N*s/m]
-};
+/// A method with the tolerances that are worth trying.
+using PeerLadder = std::pair<PeerMethod, std::vector<double>>;
+/// The best few, or everything that has a chance.
+std::vector<PeerLadder> peer_ladders(bool all);
+/// An explicit method of order 8, for references.
+PeerMethod explicit_witness();
 
-struct PeerRun {
-  bool completed = false;
-  double seconds = 0;
-  long steps = 0, evaluations = 0;
-  ForceSamples samples;
-};
+/// Tolerances 10^from to 10^to, falling.
+std::vector<double> decades(int from, int to, int per_decade = 1);
 
-PeerRun run_sundials(const PeerMethod& method, const Problem& problem, double tolerance);
+MethodRun run_sundials(const PeerMethod& method, const Problem& problem, double tolerance);
 
 }  // namespace pintle::bench

@@ -18,7 +18,7 @@ packages_of() {
     build) echo g++ cmake ninja-build pkg-config libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libgtest-dev \
       libsundials-dev libsuitesparse-dev libhdf5-dev ;;
     test) echo clang-14 libclang-rt-14-dev python3 libopenmpi-dev openmpi-bin ;;
-    bench) echo libbenchmark-dev ;;
+    bench) echo libbenchmark-dev libsimbody-dev libmujoco-dev valgrind ;;
     web) echo emscripten node-acorn ;;
     *) fail "unknown group '$1' (build, test, bench, web)" ;;
   esac
@@ -60,13 +60,14 @@ refresh_lists() {
   done
 }
 
-# What the distribution offers of the packages named. Some put the sanitizer runtime into another package.
+# What the distribution offers of the packages named. Some put the sanitizer runtime into another package; the peers of the
+# benchmarks may be absent, which go without them then.
 offered_of() {
   local package
   for package in "$@"; do
     if is_offered "$package"; then
       echo "$package"
-    elif [ "$package" != libclang-rt-14-dev ]; then
+    elif [[ ! " libclang-rt-14-dev libsimbody-dev libmujoco-dev " =~ " $package " ]]; then
       fail "this distribution has no package $package; Pintle is built on Debian 12 or Ubuntu 24.04 and later"
     fi
   done

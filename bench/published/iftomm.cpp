@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "bench/published/benchmarks.h"
+#include "bench/rotating_pendulum.h"
 
 namespace pintle::published {
 namespace {
@@ -15,21 +15,10 @@ struct Joints {
 };
 constexpr Joints kStiffest{1e12, false}, kIdeal{1e12, true};  // ideal: what has stiffness is a constraint
 
-// Rows t, x, y of B0 with N loops on the regular branch: a rotating pendulum, by the classical Runge-Kutta method.
+// Rows t, x, y of B0 with N loops on the regular branch.
 nlohmann::json exact_rows(int n) {
-  const double J = (n + 1) / 3.0 + n, S = (n + 1) / 2.0 + n, h = 1e-4;
-  const auto accel = [&](double angle) { return -9.81 * S / J * std::cos(angle); };
-  double angle = std::numbers::pi / 2, spin = -1;
-  nlohmann::json rows = nlohmann::json::array({{0.0, 0.0, 1.0}});
-  for (int row = 1; row <= 100; ++row) {
-    for (int i = 0; i < 1000; ++i) {
-      const double a1 = accel(angle), s1 = spin, a2 = accel(angle + h / 2 * s1), s2 = spin + h / 2 * a1, a3 = accel(angle + h / 2 * s2),
-                   s3 = spin + h / 2 * a2, a4 = accel(angle + h * s3), s4 = spin + h * a3;
-      angle += h / 6 * (s1 + 2 * s2 + 2 * s3 + s4);
-      spin += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
-    }
-    rows.push_back({0.1 * row, std::cos(angle), std::sin(angle)});
-  }
+  nlohmann::json rows = nlohmann::json::array();
+  for (const bench::CrankTop& top : bench::n_four_bar_tops(n, 10, 100)) rows.push_back({top.t, top.x, top.y});
   return rows;
 }
 

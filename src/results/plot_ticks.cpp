@@ -42,7 +42,7 @@ std::vector<double> Axis::ticks() const {
   std::vector<double> result;
   const double slack = 1e-9 * (high - low);
   const auto first = std::ceil((low - slack) / step), last = std::floor((high + slack) / step);
-  for (double i = first; i <= last; ++i) result.push_back(i * step);
+  for (double i = first; i <= last; ++i) result.push_back(i * step + 0.0);  // never -0
   return result;
 }
 

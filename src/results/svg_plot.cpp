@@ -100,7 +100,7 @@ std::vector<LegendEntry> lay_out_legend(const Panel& panel, double width) {
 }
 
 bool needs_legend(const Panel& panel) {
-  return panel.curves.size() > 1;
+  return panel.curves.size() > 1 || (panel.curves.size() == 1 && panel.curves[0].style >= 0);
 }
 
 /// One panel with everything that its drawing needs.
@@ -121,6 +121,20 @@ struct Frame {
   double tick_py(double tick) const { return top + height * (y.high - tick) / (y.high - y.low); }
 };
 
+std::size_t style_of(const Panel& panel, std::size_t place) {
+  const int style = panel.curves[place].style;
+  return style < 0 ? place : static_cast<std::size_t>(style);
+}
+
+std::string colour(const Frame& frame, std::size_t place) {
+  return fmt::format("stroke=\"{}\"", kColours[style_of(frame.panel, place) % kColours.size()]);
+}
+
+std::string stroke(const Frame& frame, std::size_t place) {
+  const std::string dash = kDashes[style_of(frame.panel, place) / kColours.size() % kDashes.size()];
+  return colour(frame, place) + (dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", dash));
+}
+
 class Picture {
  public:
   explicit Picture(const Plot& plot) : plot_(plot) { lay_out(); }
@@ -135,8 +149,7 @@ class Picture {
   void draw_x_axis(const Frame& frame);
   void draw_legend(const Frame& frame);
   void draw_curve(const Frame& frame, std::size_t index);
-  void draw_dots(const std::vector<Point>& points, std::size_t index);
-  std::string stroke(std::size_t index) const;
+  void draw_dots(const Frame& frame, const std::vector<Point>& points, std::size_t index);
 
   template <class... Args>
   void put(fmt::format_string<Args...> format, Args&&... args) {
@@ -234,21 +247,15 @@ void Picture::draw_x_axis(const Frame& frame) {
       frame.left + frame.width / 2, bottom + 40, kTextSize, escaped(axis_title(frame.own_x() ? frame.panel.x_quantity : plot_.x_quantity, frame.x_scale.unit)));
 }
 
-std::string Picture::stroke(std::size_t index) const {
-  const std::string colour = kColours[index % kColours.size()];
-  const std::string dash = kDashes[index / kColours.size() % kDashes.size()];
-  return fmt::format("stroke=\"{}\"{}", colour, dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", dash));
-}
-
 void Picture::draw_legend(const Frame& frame) {
   const double first_row = frame.top - 12 - kLegendRow * (frame.legend.empty() ? 0 : frame.legend.back().row);
   for (std::size_t i = 0; i < frame.legend.size(); ++i) {
     const Curve& curve = frame.panel.curves[i];
     const double x = frame.left + frame.legend[i].x, y = first_row + kLegendRow * frame.legend[i].row;
     if (curve.dots && !curve.joined)
-      draw_dots({{x + kSample / 2, y - 4}}, i);
+      draw_dots(frame, {{x + kSample / 2, y - 4}}, i);
     else
-      put("<path d=\"M{:.1f} {:.1f}h{}\" {} stroke-width=\"2.2\"/>\n", x, y - 4, kSample, stroke(i));
+      put("<path d=\"M{:.1f} {:.1f}h{}\" {} stroke-width=\"2.2\"/>\n", x, y - 4, kSample, stroke(frame, i));
     put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">{}", x + kSample + 6, y, kTextSize, escaped(curve.label));
     if (!curve.subscript.empty()) put("<tspan dy=\"3\" font-size=\"9.5\">{}</tspan>", escaped(curve.subscript));
     put("</text>\n");
@@ -256,8 +263,8 @@ void Picture::draw_legend(const Frame& frame) {
 }
 
 // Circles, so that a line beneath shows through.
-void Picture::draw_dots(const std::vector<Point>& points, std::size_t index) {
-  put("<g fill=\"none\" {} stroke-width=\"1.2\">\n", stroke(index));
+void Picture::draw_dots(const Frame& frame, const std::vector<Point>& points, std::size_t index) {
+  put("<g fill=\"none\" {} stroke-width=\"1.2\">\n", colour(frame, index));
   for (const Point& point : points)
     if (std::isfinite(point.x) && std::isfinite(point.y))
       put("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\"/>\n", point.x, point.y, kDotRadius);
@@ -270,10 +277,10 @@ void Picture::draw_curve(const Frame& frame, std::size_t index) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
     points.push_back({frame.px(x[i] / frame.x_scale.factor), frame.py(y[i] / frame.y_scale.factor)});
-  if (curve.dots) draw_dots(points, index);
+  if (curve.dots) draw_dots(frame, points, index);
   if (curve.dots && !curve.joined) return;
   put("<path fill=\"none\" {} stroke-width=\"1.6\" stroke-linejoin=\"round\" stroke-linecap=\"round\" d=\"",
-      stroke(index));
+      stroke(frame, index));
   bool pen_up = true;
   for (const Point& point : thin_line(points, kColumnWidth)) {
     const bool there = std::isfinite(point.x) && std::isfinite(point.y);

@@ -151,6 +151,18 @@ TEST(SvgPlot, PowersOfTenLieOnAStraightLineOfLogAxes) {
   EXPECT_TRUE(holds(svg, "10²"));
 }
 
+TEST(SvgPlot, ACurveMayChooseItsLine) {
+  Plot plot;
+  plot.x = {1, 2};
+  plot.panels = {{"F", "N", {{"A", "", {1, 2}}, {"B", "", {2, 3}}}}};
+  const auto colours = [](const std::string& svg) { return std::pair{holds(svg, "#0072b2"), holds(svg, "#d55e00")}; };
+  EXPECT_EQ(colours(to_svg(plot)), std::pair(true, true));
+  EXPECT_FALSE(holds(to_svg(plot), "dasharray"));
+  plot.panels[0].curves[1].style = 7;  // the first colour again, dashed
+  EXPECT_EQ(colours(to_svg(plot)), std::pair(true, false));
+  EXPECT_TRUE(holds(to_svg(plot), "dasharray"));
+}
+
 TEST(RunPlot, ForcesOfOneJointNameBodyAndAxes) {
   const RunRecord run{sample::stamp(), sample::trajectory()};
   const Plot plot = make_plot(run, request_for({"O4"}, {}, "ground"));

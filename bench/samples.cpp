@@ -1,4 +1,4 @@
-#include "bench/force_samples.h"
+#include "bench/samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,16 +19,17 @@ std::vector<double> output_times(double duration, int count) {
   return times;
 }
 
-void ForceSamples::add(double t, const Vecs& q, const Vecs& v, const Vecs& force) {
+void Samples::add(double t, const Vecs& q, const Vecs& v, const Vecs& force) {
   system_->motions(q, v, motions_);
   for (int j = 0; j < system_->n_joints(); ++j) {
     const JointLoad load = joint_load(*system_, j, t, motions_, force[j]);
     values_.insert(values_.end(), {load.fx, load.fy, load.couple});
   }
   ++rows_;
+  if (point_.body != kGround) add_place(motions_[point_.body].p + motions_[point_.body].turned(point_.at));
 }
 
-void ForceSamples::add_by_laws(double t, const Vecs& q, const Vecs& v) {
+void Samples::add_by_laws(double t, const Vecs& q, const Vecs& v) {
   system_->motions(q, v, motions_);
   force_.resize(system_->joints.size());
   for (int j = 0; j < system_->n_joints(); ++j) {
@@ -38,24 +39,25 @@ void ForceSamples::add_by_laws(double t, const Vecs& q, const Vecs& v) {
   add(t, q, v, force_);
 }
 
-void ForceSamples::add_loads(const std::vector<double>& loads) {
+void Samples::add_loads(const std::vector<double>& loads) {
   values_.insert(values_.end(), loads.begin(), loads.end());
   ++rows_;
 }
 
-std::vector<double> ForceSamples::peaks() const {
+std::vector<double> Samples::peaks() const {
   std::vector<double> peak(system_->joints.size(), 0.0);
   for (std::size_t i = 0; i < rows_; ++i)
     for (int j = 0; j < system_->n_joints(); ++j) peak[j] = std::max(peak[j], std::hypot(at(i, j)[0], at(i, j)[1]));
   return peak;
 }
 
-double ForceSamples::largest_force() const {
+double Samples::largest_force() const {
   const std::vector<double> peak = peaks();
   return *std::max_element(peak.begin(), peak.end());
 }
 
-double ForceSamples::error(const ForceSamples& reference) const {
+double Samples::error(const Samples& reference) const {
+  if (rows_ == 0 || reference.rows_ == 0) return std::numeric_limits<double>::quiet_NaN();
   if (rows_ != reference.rows_) return std::numeric_limits<double>::infinity();
   const std::vector<double> peak = reference.peaks();
   const double least = kNegligible * *std::max_element(peak.begin(), peak.end());
@@ -67,6 +69,23 @@ double ForceSamples::error(const ForceSamples& reference) const {
       if (!(difference <= worst)) worst = difference;
     }
   return worst;
+}
+
+double Samples::place_error(const Samples& reference) const {
+  if (!has_places() || !reference.has_places()) return std::numeric_limits<double>::quiet_NaN();
+  if (places_.size() != reference.places_.size()) return std::numeric_limits<double>::infinity();
+  double worst = 0;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const double distance = (places_[i] - reference.places_[i]).norm();
+    if (!(distance <= worst)) worst = distance;
+  }
+  return worst;
+}
+
+double Samples::end_error(const Samples& reference) const {
+  if (!has_places() || !reference.has_places()) return std::numeric_limits<double>::quiet_NaN();
+  if (places_.size() != reference.places_.size()) return std::numeric_limits<double>::infinity();
+  return (places_.back() - reference.places_.back()).norm();
 }
 
 }  // namespace pintle::bench

@@ -1,0 +1,31 @@
+// The curves as tables, pictures and a page.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/curve_problems.h"
+#include "bench/machine.h"
+#include "bench/result_table.h"
+#include "bench/targets.h"
+#include "bench/work_precision.h"
+
+namespace pintle::bench {
+
+/// Milliseconds that each group of methods needs for a given error.
+ResultTable price_table(const WorkPrecision& work, Measure measure, const std::string& title);
+
+/// Force error and place error over time, each group's best as a curve.
+std::string picture(const WorkPrecision& work, const std::string& title, const std::string& subtitle);
+
+/// What one problem has come to.
+struct ProblemReport {
+  CurveProblem problem;
+  std::string truths;  // which, and how sure
+  std::vector<ResultTable> tables;
+};
+
+/// The page for docs/benchmarks, pictures beside it as <name>.svg.
+std::string curves_page(const std::vector<ProblemReport>& problems, const ResultTable& targets, const nlohmann::ordered_json& machine);
+
+}  // namespace pintle::bench

@@ -1,0 +1,20 @@
+// The groups of methods that the tables and pictures set side by side: each is judged by the best of its methods at every error.
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace pintle::bench {
+
+inline const std::string kCompliant = "compliant", kIdeal = "ideal";  // the equations that a method solves
+
+namespace group {
+inline const std::string kPintle = "Pintle", kWholeRun = "Pintle, whole run", kExplicit = "Pintle, dopri5", kSundials = "SUNDIALS",
+                         kSimbodyBushings = "Simbody, bushings", kPintleIdeal = "Pintle, ideal joints", kSimbodyIdeal = "Simbody, ideal joints",
+                         kMujoco = "MuJoCo, ideal joints";
+inline const std::array<std::string, 8> kAll{kPintle, kWholeRun, kExplicit, kSundials, kSimbodyBushings, kPintleIdeal, kSimbodyIdeal, kMujoco};
+/// Of the picture's line: a colour for each program, dashed for ideal joints.
+inline const std::array<int, 8> kStyle{0, 1, 2, 3, 4, 7, 11, 12};
+}  // namespace group
+
+}  // namespace pintle::bench
