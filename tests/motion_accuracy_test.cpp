@@ -51,7 +51,7 @@ TEST_P(MotionAccuracy, IsAsAskedForAndAsStated) {
 INSTANTIATE_TEST_SUITE_P(Mechanisms, MotionAccuracy,
                          testing::Values(Case{"pendulum", "body.rod.x", 4}, Case{"four_bar", "body.coupler.x", 1}, Case{"n_four_bar_1", "body.crank0.x", 2},
                                          Case{"inverted_slider_crank", "body.crank.x", 1}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& one) { return std::string(one.param.name); });
 
 TEST(MotionAccuracySteps, AreThoseOfTheMotion) {
   const Case many{"n_four_bar_10", "body.crank0.x", 4};

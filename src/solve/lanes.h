@@ -29,7 +29,7 @@ template <int N>
 struct Lanes {
   using Register = typename Registers<N>::Reals;
   static constexpr int kWidth = sizeof(Register) / sizeof(double);
-  alignas(kWidth < 4 ? 16 : 32) Register v;  // as wide registers want it, also where they are not used
+  alignas(sizeof(Register)) Register v;  // as wide registers want it, also where they are not used
 
   PINTLE_LANES static Lanes all(double x) {
     return {x - Register{}};
