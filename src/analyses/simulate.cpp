@@ -185,11 +185,12 @@ class Run {
         if (!run_pass(tolerance)) break;
         difference = difference_of_passes(coarse_->forces(), fine_->forces(), system_.joints.size());
         const bool alike = static_cast<double>(last_.counters.steps) < kAlike * steps_before;
-        share = alike ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(tolerance / before, kSharePower));
+        share = alike || out_.of_motion ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(tolerance / before, kSharePower));
         out_.motion_error = out_.of_motion ? share * motion_difference(system_, coarse_->forces(), fine_->forces()) : 0;
         error = out_.of_motion ? out_.motion_error : share * largest_of(relative_differences(difference));
         if (alike && !doubted && out_.counters.passes < kMaxPasses) {
           doubted = true;
+          if (out_.of_motion) choice_.stages = 5;  // long steps are alike at any tolerance: another order tells
           tolerance = std::max(kLeastTolerance, 0.1 * tolerance);
           continue;
         }

@@ -72,6 +72,7 @@ class LaneSolver : public StageSolver {
   double tolerance_;
   NewtonContraction contraction_;
   static constexpr double kGood = 0.15, kSlow = 0.4;  // contractions: Jacobians serve the next step; they do not serve this one
+  static constexpr int kMostWithOld = 4;      // iterations
   double factorized_for_ = 0;                 // the step; 0: none
   bool loads_;                                // there is more than weight
   std::vector<BodyLanes<N>> bodies_;
@@ -125,7 +126,7 @@ bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* 
     if (verdict == NewtonContraction::Verdict::kDone) return true;
     const bool hopeless = verdict == NewtonContraction::Verdict::kHopeless;
     if (hopeless && fresh) return false;
-    if (hopeless || (!fresh && iteration > 0 && contraction_.rate() > kSlow)) {
+    if (hopeless || (!fresh && iteration > 0 && (contraction_.rate() > kSlow || iteration > kMostWithOld))) {
       fresh = wanted = true;
       contraction_.start();
       iteration = -1;
@@ -140,7 +141,7 @@ bool LaneSolver<N>::renew(const State& begin, double h, Counters& counters) {
   linearize(begin.t + table_.c[kMiddle] * h, begin.held);
   counters.factorizations += 1 + N / 2;
   factorized_for_ = factorize(h) ? h : 0;
-  return factorized_for_ > 0;
+  return factorized_for_ != 0;
 }
 
 template <int N>
