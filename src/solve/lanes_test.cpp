@@ -5,11 +5,13 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numbers>
 #include <vector>
 
 #include "base/random_for_tests.h"
+#include "solve/wide.h"
 
 namespace pintle {
 namespace {
@@ -78,6 +80,34 @@ TYPED_TEST(AnyLanes, LargerSizeIsTheLargestMagnitude) {
     this->expect_lanes(size, [&](int i) { return std::max({std::abs(a[i]), std::abs(b[i]), std::abs(c[i])}); });
   }
 }
+
+#ifdef PINTLE_WIDE
+template <int N>
+using Four = std::array<Lanes<N>, 4>;
+
+template <int N>
+PINTLE_LANES void use(const Lanes<N>& a, const Lanes<N>& b, Four<N>& out) {
+  out[0] = a * b - 3.5 * a + b;
+  out[1] = larger_size(larger_size(Lanes<N>::all(0), a), b);
+  sine_and_cosine(a, out[2], out[3]);
+}
+template <int N>
+PINTLE_WIDE void use_wide(const Lanes<N>& a, const Lanes<N>& b, Four<N>& out) {
+  use(a, b, out);
+}
+
+// Whatever registers there are, the bits are the same.
+TYPED_TEST(AnyLanes, WideRegistersMakeNoDifference) {
+  if (!has_wide_registers()) GTEST_SKIP() << "this processor has none";
+  for (int again = 0; again < 1000; ++again) {
+    const auto a = this->at_random(), b = this->at_random();
+    Four<TestFixture::N> narrow, wide;
+    use(a, b, narrow);
+    use_wide(a, b, wide);
+    for (int k = 0; k < 4; ++k) this->expect_lanes(wide[k], [&](int i) { return narrow[k][i]; });
+  }
+}
+#endif
 
 TYPED_TEST(AnyLanes, MatricesAreThoseOfEigen) {
   constexpr int n = TestFixture::N;
