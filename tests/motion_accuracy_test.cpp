@@ -71,6 +71,7 @@ TEST(MotionAccuracySteps, StiffnessDoesNotMatter) {
     model.simulate.tolerance = 1e-3;
     const Trajectory run = simulate(model);
     ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+    std::printf("  k = %.0e: %d steps\n", k, static_cast<int>(run.counters.steps));
     least = least == 0 ? run.counters.steps : std::min(least, run.counters.steps);
     most = std::max(most, run.counters.steps);
   }

@@ -28,6 +28,7 @@ constexpr double kLeastTolerance = 1e-13;
 // The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
 constexpr double kSharePower = 0.8, kShareOfEqual = 3;
 constexpr double kAlike = 1.25;  // steps of the finer pass over those of the coarser: with fewer the two say little
+constexpr double kSurest = 0.1;  // of the tolerance of the steps: no error of the motion is stated as smaller
 constexpr std::size_t kManyBodies = 1000;
 constexpr double kNegligible = 1e-4;  // a joint is measured at least by this part of the mechanism's largest force
 
@@ -186,7 +187,7 @@ class Run {
         difference = difference_of_passes(coarse_->forces(), fine_->forces(), system_.joints.size());
         const bool alike = static_cast<double>(last_.counters.steps) < kAlike * steps_before;
         share = alike || out_.of_motion ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(tolerance / before, kSharePower));
-        out_.motion_error = out_.of_motion ? share * motion_difference(system_, coarse_->forces(), fine_->forces()) : 0;
+        out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse_->forces(), fine_->forces()), kSurest * fine_tolerance_) : 0;
         error = out_.of_motion ? out_.motion_error : share * largest_of(relative_differences(difference));
         if (alike && !doubted && out_.counters.passes < kMaxPasses) {
           doubted = true;

@@ -42,7 +42,7 @@ class RadauControl {
   static constexpr double kAfterKink = 0.3;     // of the usual step
   static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;
 
-  static constexpr double kSame = 0.95, kSameAbove = 1.2;  // a factor near 1 keeps the step, and with it the factorised Jacobians
+  static constexpr double kSame = 0.95, kSameAbove = 1.1;  // a factor near 1 keeps the step, and with it the factorised Jacobians
 
   static constexpr double kLeastError = 0.01;  // over the tolerance: a smaller one says nothing about its growth
 

@@ -56,6 +56,8 @@ class RadauStepper {
   double t() const { return begin_.t; }
   void begin_at_end() { begin_ = end_; }
   bool attempt(double h);                     // solves the stages from begin_
+  bool unloaded() const;
+  void foresee_loads(double h);
 
   // radau_end.cpp: the error of a step and its end
   bool error_estimate(double h, double& error);

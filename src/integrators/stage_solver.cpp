@@ -497,9 +497,7 @@ class WideSolver final : public LaneSolver<N> {
 template <int N>
 std::unique_ptr<StageSolver> make_solver(const System& system, const RadauTable& table, double tolerance) {
 #ifdef PINTLE_WIDE
-  // Five stages are eight numbers: g++ 12 gets them wrong with registers for four.
-  if constexpr (N == 3)
-    if (has_wide_registers()) return std::make_unique<WideSolver<N>>(system, table, tolerance);
+  if (has_wide_registers()) return std::make_unique<WideSolver<N>>(system, table, tolerance);
 #endif
   return std::make_unique<NarrowSolver<N>>(system, table, tolerance);
 }

@@ -66,19 +66,11 @@ struct Lanes {
   PINTLE_LANES friend Lanes operator*(const Lanes& a, double x) { return {x * a.v}; }
 };
 
-/// The larger of the sizes, lane by lane. Registers of eight are compared by halves: g++ 12 selects wrongly among eight numbers
-/// where it has registers for four.
+/// The larger of the sizes, lane by lane.
 template <int N>
 PINTLE_LANES Lanes<N> larger_size(const Lanes<N>& a, const Lanes<N>& b) {
-  if constexpr (N == 5) {
-    Lanes<3> low{__builtin_shufflevector(a.v, a.v, 0, 1, 2, 3)}, high{__builtin_shufflevector(a.v, a.v, 4, 5, 6, 7)};
-    low = larger_size(low, Lanes<3>{__builtin_shufflevector(b.v, b.v, 0, 1, 2, 3)});
-    high = larger_size(high, Lanes<3>{__builtin_shufflevector(b.v, b.v, 4, 5, 6, 7)});
-    return {__builtin_shufflevector(low.v, high.v, 0, 1, 2, 3, 4, 5, 6, 7)};
-  } else {
-    const auto size = b.v < -b.v ? -b.v : b.v;
-    return {size > a.v ? size : a.v};
-  }
+  const auto size = b.v < -b.v ? -b.v : b.v;
+  return {size > a.v ? size : a.v};
 }
 
 /// Sine and cosine, to 1.2e-16 up to kLargestAngle, beyond it the standard library's. The angle is reduced to an eighth of a
