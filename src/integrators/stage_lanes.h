@@ -1,6 +1,10 @@
 // A body and a joint at every stage of a step at once, one stage per lane; and the matrices that mix the stages.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "integrators/radau_table.h"
 #include "probes/gap_map.h"
 #include "solve/spectrum.h"
@@ -67,5 +71,16 @@ struct StageMatrices {
     }
   }
 };
+
+/// The largest lane; infinity where the sum of what it came from is not finite.
+template <int N>
+double largest(const Lanes<N>& size, const Lanes<N>& sum) {
+  double worst = 0;
+  for (int s = 0; s < N; ++s) {
+    if (!std::isfinite(sum[s])) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, size[s]);
+  }
+  return worst;
+}
 
 }  // namespace pintle

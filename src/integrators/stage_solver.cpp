@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "integrators/newton_contraction.h"
 #include "integrators/pose_blocks.h"
@@ -17,17 +16,6 @@ namespace pintle {
 namespace {
 
 using S = Planar;
-
-// The largest lane; infinity where the sum of what it came from is not finite.
-template <int N>
-double largest(const Lanes<N>& size, const Lanes<N>& sum) {
-  double worst = 0;
-  for (int s = 0; s < N; ++s) {
-    if (!std::isfinite(sum[s])) return std::numeric_limits<double>::infinity();
-    worst = std::max(worst, size[s]);
-  }
-  return worst;
-}
 
 template <int N>
 class LaneSolver : public StageSolver {
