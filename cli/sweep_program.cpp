@@ -26,7 +26,7 @@ void become_sweep_program(char** argv) {
 }
 
 void add_sweep_program(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("sweep", "Run a model with many sets of values, in a grid or by chance; peaks of every joint force");
+  CLI::App* verb = app.add_subcommand("sweep", kSweepDescription);
   verb->prefix_command();
   verb->callback([&exit_code] {
     print_error("pintle sweep is the program pintle-sweep, which is neither beside pintle nor on the path.\n    try: build and install both\n");

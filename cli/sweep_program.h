@@ -7,6 +7,8 @@ class App;
 
 namespace pintle::cli {
 
+inline constexpr const char* kSweepDescription = "Run a model with many sets of values, in a grid or by chance; peaks of every joint force";
+
 bool wants_sweep(int argc, char** argv);
 
 /// Puts pintle-sweep, from beside this program or from the path, in the place of this process. Returns only if there is none.

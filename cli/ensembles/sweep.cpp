@@ -14,6 +14,7 @@
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/model_options.h"
+#include "cli/sweep_program.h"
 #include "io/document.h"
 #include "results/disk.h"
 #include "sweeps/run_sweep.h"
@@ -137,7 +138,7 @@ ExitCode sweep_model(SweepOptions& options) {
 }  // namespace
 
 void add_sweep(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("sweep", "Run a model with many sets of values, in a grid or by chance; peaks of every joint force");
+  CLI::App* verb = app.add_subcommand("sweep", kSweepDescription);
   const auto options = std::make_shared<SweepOptions>();
   SweepRequest& request = options->request;
   add_model_options(*verb, *options);

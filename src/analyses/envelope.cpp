@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analyses/recording.h"
 #include "base/did_you_mean.h"
 #include "system/build.h"
 
@@ -46,18 +47,21 @@ void copy_series(const Trajectory& run, const std::vector<int>& columns, std::si
     for (std::size_t i = 0; i < std::min(n_times, run.n_rows()); ++i) out[k * n_times + i] = run.at(i, static_cast<std::size_t>(columns[k]));
 }
 
-}  // namespace
-
-std::size_t output_rows(const SimulateSettings& settings) {
-  const double step = settings.output_step > 0 ? settings.output_step : settings.duration / 500, almost = settings.duration * (1 - 1e-12);
+// How many rows a run records.
+std::size_t output_rows(double duration, double step) {
+  const double almost = duration * (1 - 1e-12);
   std::size_t row = static_cast<std::size_t>(almost / step);  // at least the last row before the end, or its neighbour
   while (row > 0 && static_cast<double>(row) * step >= almost) --row;
   while (static_cast<double>(row + 1) * step < almost) ++row;
   return row + 2;
 }
 
-EnvelopeEngine::EnvelopeEngine(const Model& base, EnvelopeRequest request) : request_(std::move(request)), n_times_(output_rows(base.simulate)) {
+}  // namespace
+
+EnvelopeEngine::EnvelopeEngine(const Model& base, EnvelopeRequest request) : request_(std::move(request)) {
   const System system = build_system(base);
+  output_step_ = output_step_of(base.simulate, system.joints.size());
+  n_times_ = output_rows(base.simulate.duration, output_step_);
   for (const JointData& joint : system.joints)
     if (joint.servo < 0) joints_.push_back(joint.name);
   const Recorder recorder(base, system);

@@ -50,6 +50,7 @@ class EnvelopeEngine {
   std::vector<SampleResult> run(std::span<const Variant> variants, const std::function<bool()>& keep_going) const;
 
   const std::vector<std::string>& joints() const { return joints_; }
+  double output_step() const { return output_step_; }  // [s]
   std::size_t n_times() const { return n_times_; }
   std::size_t n_series() const { return request_.series.size(); }
   const std::vector<std::string>& series_units() const { return units_; }
@@ -60,11 +61,9 @@ class EnvelopeEngine {
   EnvelopeRequest request_;
   std::vector<std::string> joints_, units_;
   std::vector<int> columns_;
+  double output_step_ = 0;
   std::size_t n_times_ = 0;
   RunLesson lesson_;  // of the base
 };
-
-/// How many rows a run of the model records.
-std::size_t output_rows(const SimulateSettings& settings);
 
 }  // namespace pintle

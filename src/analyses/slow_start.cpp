@@ -16,6 +16,8 @@ constexpr int kPasses = 6;
 // The frequency above which modes are held, over the slowest of the joints by themselves: chains of joints and lever ratios
 // make modes a hundred times slower than that.
 constexpr double kSlow = 5e-4;
+constexpr int kClosing = 4;        // passes of a projection
+constexpr double kClosed = 1e-11;  // of what the first pass found: the next one finds nothing
 constexpr int kMostJoints = 300;  // whose masses with closed joints are asked for: the cost grows with the square
 
 // What a force of a joint does to its own two bodies: the acceleration of the gap per unit of force, component by component.
@@ -117,6 +119,15 @@ void ForcesOfMotion::push_by_laws(State& state) {
   }
 }
 
+// Over the components that a law holds.
+double ForcesOfMotion::largest_held(const Vecs& gap) const {
+  double largest = 0;
+  for (int j = 0; j < system_.n_joints(); ++j)
+    for (int k = 0; k < S::kDof; ++k)
+      if (system_.joints[j].free_mask[k] == 0 && (moved_.empty() || moved_[j][k] != 0)) largest = std::max(largest, std::abs(gap[j][k]));
+  return largest;
+}
+
 // theory/assembly Eqs. (3.1), (3.2): first the free bodies' accelerations, then what the joints ask for, then the forces.
 bool ForcesOfMotion::find(State& state) {
   system_.motions(state.q, state.v, m_);
@@ -129,11 +140,20 @@ bool ForcesOfMotion::find(State& state) {
   state.a = Q_;
   if (moved) push_by_laws(state);
   for (int i = 0; i < system_.n_bodies(); ++i) state.a[i] = state.a[i].cwiseQuotient(system_.bodies[i].mass);
-  for (int pass = 0; pass < 4; ++pass) {
+  double first = 0;
+  for (int pass = 0; pass < kClosing; ++pass) {
     for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap_accel[j] - r_[j].bias - from_bodies(j, state.a);
+    const double missing = largest_held(wanted_);
+    if (pass == 0) first = missing;
+    else if (missing <= kClosed * first) break;
     projector_.close(wanted_, state.a);
   }
-  for (int pass = 0; pass < 4; ++pass) projector_.improve_forces(Q_, state.a, state.force);
+  for (int pass = 0; pass < kClosing; ++pass) {
+    const double change = projector_.improve_forces(Q_, state.a, state.force);
+    double largest = 0;
+    for (const S::Vec& force : state.force) largest = std::max(largest, force.head<2>().norm());
+    if (change <= kClosed * largest) break;
+  }
   return true;
 }
 

@@ -37,6 +37,7 @@ class ForcesOfMotion {
 
  private:
   Planar::Vec from_bodies(int j, const Vecs& x) const;
+  double largest_held(const Vecs& gap) const;
   void push_by_laws(State& state);
 
   const System& system_;

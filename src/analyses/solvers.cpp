@@ -14,6 +14,7 @@
 #include "analyses/integration.h"
 #include "analyses/joint_errors.h"
 #include "analyses/passes.h"
+#include "analyses/recording.h"
 #include "analyses/start.h"
 #include "pintle/simulate.h"
 #include "system/build.h"
@@ -61,10 +62,10 @@ class Study {
   SolverStudy go() {
     check_options(model_, options_);
     model_.simulate.record = {"all"};
-    if (!(model_.simulate.output_step > 0)) model_.simulate.output_step = model_.simulate.duration / 500;
+    system_ = build_system(model_);
+    model_.simulate.output_step = output_step_of(model_.simulate, system_.joints.size());
     out_.duration = model_.simulate.duration;
     out_.output_step = model_.simulate.output_step;
-    system_ = build_system(model_);
     start_ = start_of_run(model_, system_).state;
     find_truth();
     if (!out_.truth.complete) return std::move(out_);

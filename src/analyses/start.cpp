@@ -21,10 +21,12 @@ constexpr int kScoutSteps = 3;
 constexpr int kSpans = 4;         // tried, each a quarter of the one before
 constexpr double kSettled = 0.1;  // relative change of the gaps in the last sweep that is taken for convergence
 constexpr double kMostGrowth = 2;  // of the largest joint force, by an attempt that has not converged
+// Change of a body's speed, over the largest speed and over the largest rate of a gap: beyond both it is not the joints' giving way.
+constexpr double kMostHaste = 1e-3, kMostLever = 30;
 constexpr double kExact = 1e-6;   // the same, with nothing left to settle
 constexpr double kEntirely = 0.99;  // of its slow motion: with this share a soft joint counts as going with the motion
 constexpr const char* kNotSettled =
-    "the joints' slow motion at the start was not found (a force that jumps there, for one): joints may ring from the start on. Both integrations start alike, so the stated "
+    "the joints' slow motion at the start was not found (a force that jumps there, or a chain so long that it sways slower than it moves): joints may ring from the start on. Both integrations start alike, so the stated "
     "errors do not include it";
 
 // Half a step that a rough integration takes, once it is under way: the gaps are smooth over about that time. Rounded to a
@@ -56,18 +58,42 @@ double largest_force(const State& state) {
   return most;
 }
 
-// Whether sweeps that have not converged came near. Forces far above those of the given state are no attempt at all: in a chain of
-// thousands of joints, each of them fast, their compliances add up to modes slower than the motion, and what the sweeps then
-// approach is not where it starts.
-bool is_near(const State& attempt, double usual_force) { return largest_force(attempt) <= kMostGrowth * usual_force; }
+double largest_speed(const System& system, const Vecs& v) {
+  double largest = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const double radius = std::sqrt(system.bodies[i].mass[2] / system.bodies[i].mass[0]);
+    largest = std::max({largest, v[i].head<2>().norm(), radius * std::abs(v[i][2])});
+  }
+  return largest;
+}
+
+double largest_gap_rate(const System& system, const State& state) {
+  double largest = 0;
+  for (std::size_t j = 0; j < state.gap_rate.size(); ++j)
+    for (int k = 0; k < 2; ++k)
+      if (system.joints[j].free_mask[k] == 0) largest = std::max(largest, std::abs(state.gap_rate[j][k]));
+  return largest;
+}
+
+// In a chain of hundreds of joints, each of them fast, their compliances add up to modes slower than the motion. What the sweeps
+// then approach is not where it starts: all joints give way a little, one after the other, and the ends get speeds of their own.
+bool is_runaway(const System& system, const State& attempt, const State& given) {
+  Vecs change = attempt.v;
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] -= given.v[i];
+  return largest_speed(system, change) > std::max(kMostHaste * largest_speed(system, given.v), kMostLever * largest_gap_rate(system, attempt));
+}
+
+// Whether sweeps that have not converged came near. Forces far above those of the given state are no attempt at all.
+bool is_near(const State& attempt, const State& given) { return largest_force(attempt) <= kMostGrowth * largest_force(given); }
 
 // Fast joints ride their slow motion; where that is not found the state stays, or with `keep_best` is the best attempt. True when found.
 bool settle_fast_joints(const System& system, const JointPaces& paces, double span, bool keep_best, State& state) {
-  const double usual = largest_force(state);
+  const State given = state;
   for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25) {
     State attempt = state;
     const double change = settle_on_slow_motion(system, paces, span, attempt);
-    if (change < kSettled || (keep_best && is_near(attempt, usual))) state = std::move(attempt);
+    if (is_runaway(system, attempt, given)) continue;
+    if (change < kSettled || (keep_best && is_near(attempt, given))) state = std::move(attempt);
     if (change < kSettled) return true;
   }
   return false;
@@ -92,7 +118,7 @@ bool note_lively_joints(const System& system, const JointPaces& paces, const Sof
 void settle_soft_joints(const System& system, const JointPaces& paces, double span, Assembly& assembly) {
   State attempt = assembly.state;
   const SoftStart soft = place_soft_joints(system, paces, 2 * span, attempt);
-  if (soft.change < kSettled || is_near(attempt, largest_force(assembly.state))) assembly.state = std::move(attempt);
+  if (soft.change < kSettled || is_near(attempt, assembly.state)) assembly.state = std::move(attempt);
   const bool along = note_lively_joints(system, paces, soft, assembly.notes);
   if (soft.placed && along && soft.change < kExact) return;
   if (settle_fast_joints(system, paces, span, false, assembly.state)) return;

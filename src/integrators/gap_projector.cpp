@@ -120,13 +120,17 @@ void GapProjector::close(const std::vector<Three>& wanted, std::vector<Three>& x
 }
 
 // theory/time Eq. (4.4).
-void GapProjector::improve_forces(const Vecs& Q, const Vecs& a, Vecs& force) {
+double GapProjector::improve_forces(const Vecs& Q, const Vecs& a, Vecs& force) {
   for (int i = 0; i < system_.n_bodies(); ++i) body_[i] = Q[i] - system_.bodies[i].mass.cwiseProduct(a[i]);
   for (int j = 0; j < system_.n_joints(); ++j) add_force(system_.joints[j].at, readings_[j], force[j], body_);
   solve(body_);
+  double largest = 0;
   for (int j = 0; j < system_.n_joints(); ++j) {
-    force[j] -= weigh(j, gap_change(system_.joints[j].at, readings_[j], body_));
+    const S::Vec change = weigh(j, gap_change(system_.joints[j].at, readings_[j], body_));
+    largest = std::max(largest, change.head<2>().norm());
+    force[j] -= change;
   }
+  return largest;
 }
 
 // theory/time Eq. (4.5).

@@ -31,7 +31,8 @@ class GapProjector {
   using Three = BlockVec<Lanes<3>, Planar::kDof>;
   void close(const std::vector<Three>& wanted, std::vector<Three>& x) const;
   /// Joint forces improved so that M a = Q + G' f in the stiff modes, one pass; `a` has the wanted gap accelerations.
-  void improve_forces(const Vecs& Q, const Vecs& a, Vecs& force);
+  /// The largest change of a joint's force is returned, over the stiff components.
+  double improve_forces(const Vecs& Q, const Vecs& a, Vecs& force);
   /// Joint forces improved so that in the stiff modes the accelerations M^-1 (Q + G' f) give the gaps' own, one pass.
   void balance(const Vecs& Q, const Vecs& gap_accel, Vecs& force);
 

@@ -5,12 +5,9 @@
 #include "integrators/load_scale.h"
 
 namespace pintle {
-namespace {
 
 using S = Planar;
 using Eigen::VectorXd;
-
-}  // namespace
 
 TreeRadau::TreeRadau(const System& system, double tolerance, int stages)
     : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance),

@@ -62,7 +62,7 @@ SweepJob::SweepJob(const SweepRequest& request) {
   variants_ = std::make_unique<ModelVariants>(document, plan_.paths());
   if (!request.series.empty()) check_times(document, plan_, base, *variants_);
   origin_ = {request.model_text, request.model_name, base.name.empty() ? request.model_name : base.name, "", hash_of(request), PINTLE_VERSION, request.seed, std::max<std::uint64_t>(1, request.check_every),
-             base.simulate.tolerance, base.simulate.output_step > 0 ? base.simulate.output_step : base.simulate.duration / 500, engine_->n_times(),
+             base.simulate.tolerance, engine_->output_step(), engine_->n_times(),
              engine_->joints(), request.series, engine_->series_units()};
 }
 
