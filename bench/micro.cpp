@@ -5,13 +5,13 @@
 #include <memory>
 
 #include "bench/commands.h"
-#include "bench/generated_models.h"
 #include "bench/pintle_methods.h"
 #include "integrators/radau_stepper.h"
 #include "laws/law.h"
 #include "probes/probe.h"
 #include "solve/block_lu.h"
 #include "solve/spectrum.h"
+#include "tests/large_models.h"
 
 namespace pintle::bench {
 namespace {
@@ -136,7 +136,7 @@ void register_all() {
       RegisterBenchmark(fmt::format("step/{}/order_{}", name, 2 * stages - 1).c_str(), step, collection_model(name),
                         stages);
     for (const int links : {10, 100, 1000})
-      RegisterBenchmark(fmt::format("step/chain_{}/order_{}", links, 2 * stages - 1).c_str(), step, chain(links),
+      RegisterBenchmark(fmt::format("step/chain_{}/order_{}", links, 2 * stages - 1).c_str(), step, sample::chain_model(links),
                         stages);
   }
 }

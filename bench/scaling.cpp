@@ -3,9 +3,9 @@
 #include <cmath>
 #include <memory>
 
-#include "bench/generated_models.h"
 #include "bench/pintle_methods.h"
 #include "bench/stopwatch.h"
+#include "tests/large_models.h"
 
 namespace pintle::bench {
 
@@ -38,7 +38,7 @@ ResultTable Scaling::table() const {
 Scaling measure_scaling(const std::vector<int>& loops, int rounds, double duration, double tolerance) {
   Scaling out;
   for (const int n : loops) {
-    Model model = n_four_bar(n);
+    Model model = sample::ladder_model(n);
     model.simulate.duration = duration;
     const Stopwatch watch;
     const ReadyModel ready(model);

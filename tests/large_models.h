@@ -23,7 +23,7 @@ class LargeModel {
     model_.simulate.tolerance = 1e-3;
   }
 
-  void add_ground(const std::string& marker, double x, double y) { model_.ground.push_back({marker, {x, y}, 0}); }
+  void add_ground(const std::string& marker, double x, double y, double angle = 0) { model_.ground.push_back({marker, {x, y}, angle}); }
   /// Its markers are A and B, half a metre either way of the middle.
   Body& add_bar(const std::string& name, double x, double y, double angle) {
     Body bar;
@@ -35,14 +35,14 @@ class LargeModel {
     bar.markers = {{"A", {-0.5, 0}, 0}, {"B", {0.5, 0}, 0}};
     return model_.bodies.emplace_back(std::move(bar));
   }
-  void add_pin(const std::string& name, const MarkerRef& first, const MarkerRef& second) {
+  Joint& add_pin(const std::string& name, const MarkerRef& first, const MarkerRef& second) {
     Joint pin;
     pin.name = name;
     pin.type = "revolute";
     pin.first = first;
     pin.second = second;
     pin.law.values = {{"stiffness", {stiffness_}}, {"damping", {3000.0}}};
-    model_.joints.push_back(std::move(pin));
+    return model_.joints.emplace_back(std::move(pin));
   }
   Model model() && { return std::move(model_); }
 
