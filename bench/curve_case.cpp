@@ -133,15 +133,18 @@ std::vector<Contestant> CurveCase::contestants() const {
 
 // A further method, or another measure of its error, is one more entry here.
 void CurveCase::add_own(std::vector<Contestant>& list) const {
-  const auto own = [&](const char* name, const std::string& group, Equations equations, const char* method, int stages, std::vector<double> ladder) {
+  const auto own = [&](const char* name, const std::string& group, Equations equations, const char* method, int stages, std::vector<double> ladder,
+                       ToleranceOf tolerance_of = ToleranceOf::kForces) {
     const bool ideal = equations == Equations::kIdeal;
     const Problem* const problem = ideal ? &ideal_problem_ : &compliant_problem_;
-    const auto run = [=](double tolerance) { return run_stepper(*problem, {equations, method, stages}, tolerance).measured(); };
+    const auto run = [=](double tolerance) { return run_stepper(*problem, {equations, method, stages, tolerance_of}, tolerance).measured(); };
     const std::string& solves = ideal ? kIdeal : kCompliant;
     list.push_back({name, group, solves, run, std::move(ladder), truth(solves).samples.get()});
   };
   own("Pintle, order 5", group::kPintle, Equations::kNewtonian, "radau", 3, decades(-1, -7, 2));
   own("Pintle, order 9", group::kPintle, Equations::kNewtonian, "radau", 5, decades(-2, -9));
+  own("Pintle, order 5 of motion", group::kPintle, Equations::kNewtonian, "radau", 3, decades(-1, -7, 2), ToleranceOf::kMotion);
+  own("Pintle, order 9 of motion", group::kPintle, Equations::kNewtonian, "radau", 5, decades(-1, -9), ToleranceOf::kMotion);
   own("Pintle, dopri5", group::kExplicit, Equations::kNewtonian, "dopri5", 3, decades(-2, -6));
   own("Pintle, ideal joints", group::kPintleIdeal, Equations::kIdeal, "dopri5", 3, decades(-3, -10));
   if (about_.small)

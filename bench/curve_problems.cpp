@@ -7,6 +7,7 @@
 #include "tests/large_models.h"
 
 namespace pintle::bench {
+
 std::vector<CurveProblem> curve_problems() {
   const auto of_collection = [](std::string name, std::vector<std::string> overrides = {}) {
     return [name, overrides] { return collection_model(name, overrides); };

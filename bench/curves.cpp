@@ -12,6 +12,7 @@
 #include "bench/commands.h"
 #include "bench/curve_case.h"
 #include "bench/curve_report.h"
+#include "bench/sweep_rate.h"
 
 namespace pintle::bench {
 namespace {
@@ -20,6 +21,7 @@ const std::vector<std::string> kQuick{"pendulum", "four_bar", "a02_1", "a02_40",
 constexpr double kQuickCap = 2;
 constexpr double kSmallShare = 0.3;  // of the cap, for runs of small mechanisms
 constexpr int kQuickRounds = 2;
+constexpr int kTurns = 1000;
 
 std::vector<CurveProblem> chosen(const std::vector<std::string>& names) {
   std::vector<CurveProblem> list = curve_problems();
@@ -56,7 +58,7 @@ class Study {
     if (all) keep("scaling", scaling_.table());
     std::map<std::string, const WorkPrecision*> works;
     for (const auto& [name, work] : works_) works[name] = work.get();
-    const ResultTable targets = judge_targets(works, all ? &scaling_ : nullptr);
+    const ResultTable targets = judge_targets(works, all ? &scaling_ : nullptr, all ? turns_per_second(kTurns) : 0);
     keep("targets", targets);
     if (!options_.folder.empty()) write_text(std::filesystem::path(options_.folder) / "README.md", curves_page(reports_, targets, machine));
     return std::move(out_);

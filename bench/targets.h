@@ -10,7 +10,7 @@
 
 namespace pintle::bench {
 
-/// Of the problems that were measured; others are not judged.
-ResultTable judge_targets(const std::map<std::string, const WorkPrecision*>& works, const Scaling* scaling);
+/// Of the problems that were measured; others are not judged. No scaling: null; no turns: 0.
+ResultTable judge_targets(const std::map<std::string, const WorkPrecision*>& works, const Scaling* scaling, double turns_per_second);
 
 }  // namespace pintle::bench
