@@ -33,6 +33,7 @@ export class Draft {
   private readonly replacements: Replacement[] = [];
   private readonly fresh = new Map<string, { path: string[]; lines: Map<string, string> }>();
   private readonly removed: string[] = [];
+  private readonly headers = new Map<string, string>();
 
   constructor(source: string | Document) {
     this.document = typeof source === "string" ? parseToml(source) : source;
@@ -59,6 +60,16 @@ export class Draft {
     if (!found?.statement) return this;
     const place = this.remarkSpan(found.statement.to);
     this.replace(place.from, place.to, remark ? `  # ${remark}` : "");
+    return this;
+  }
+
+  /** The comment behind a body's header that says its shape. */
+  shape(body: string, words: string): this {
+    const found = nodeAt(this.document.root, ["body", body]);
+    if (found?.kind === "table" && found.form === "header") {
+      const place = this.remarkSpan(found.to);
+      this.replace(place.from, place.to, words ? `  # ${words}` : "");
+    } else this.headers.set(`body\u0000${body}`, words);
     return this;
   }
 
@@ -180,7 +191,7 @@ export class Draft {
     ordered.sort((a, b) => b.from - a.from || b.order - a.order);
     for (const one of ordered) text = text.slice(0, one.from) + one.text + text.slice(one.to);
     const fresh = [...this.fresh.values()].sort((a, b) => rank(a.path) - rank(b.path));
-    for (const { path, lines } of fresh) text = addSection(text, path, lines);
+    for (const { path, lines } of fresh) text = addSection(text, path, lines, this.headers.get(path.join("\u0000")));
     return text;
   }
 }
@@ -193,9 +204,9 @@ function rank(path: readonly string[]): number {
 }
 
 // A new table goes behind the last table whose kind comes no later than its own.
-function addSection(text: string, path: readonly string[], lines: Map<string, string>): string {
+function addSection(text: string, path: readonly string[], lines: Map<string, string>, remark?: string): string {
   const body = [...lines].map(([key, value]) => `${key} = ${value}\n`).join("");
-  const block = `[${path.map(writeKey).join(".")}]\n${body}`;
+  const block = `[${path.map(writeKey).join(".")}]${remark ? `  # ${remark}` : ""}\n${body}`;
   const { sections } = parseToml(text);
   let before = sections.find((section) => rank(section.path) > rank(path));
   if (before && sections.some((section) => section.from > before!.from && rank(section.path) <= rank(path))) before = undefined;
