@@ -1,0 +1,32 @@
+// A dialog: the browser's own, which keeps the focus inside and closes on Escape.
+import { type ReactNode, useEffect, useRef } from "react";
+import { studio } from "../state";
+import { Icon } from "./icons";
+
+export function Dialog({ title, wide = false, children }: { title: string; wide?: boolean; children: ReactNode }) {
+  const element = useRef<HTMLDialogElement>(null);
+  useEffect(() => {
+    if (element.current && !element.current.open) element.current.showModal();
+  }, []);
+  const close = () => studio.set({ dialog: null });
+  return (
+    <dialog
+      ref={element}
+      className={wide ? "dialog wide" : "dialog"}
+      aria-label={title}
+      onClose={close}
+      onCancel={close}
+      onPointerDown={(event) => event.target === element.current && close()}
+    >
+      <div className="dialog-body">
+        <header className="dialog-head">
+          <h2>{title}</h2>
+          <button className="icon-button" aria-label="Close" onClick={close}>
+            <Icon name="close" />
+          </button>
+        </header>
+        {children}
+      </div>
+    </dialog>
+  );
+}
