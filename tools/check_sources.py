@@ -18,6 +18,7 @@ PUBLIC_HEADERS = {
     "model.h": "model",
     "trajectory.h": "integrators",
     "simulate.h": "analyses",
+    "live.h": "analyses",
     "check.h": "analyses",
     "solvers.h": "analyses",
     "sweep.h": "analyses",

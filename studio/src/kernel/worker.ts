@@ -22,11 +22,17 @@ function isCancelled(goOn: string | undefined): boolean {
   }
 }
 
+/** The module; another one in place of one that broke down or could not be loaded. */
+async function ready(url: string): Promise<KernelModule> {
+  if (kernel && (await kernel.catch(() => undefined))?.broken !== false) kernel = undefined;
+  kernel ??= loadKernel(url);
+  return kernel;
+}
+
 self.onmessage = async (event: MessageEvent<ToWorker>) => {
   const { id, call, args, goOn, kernelUrl } = event.data;
   try {
-    kernel ??= loadKernel(kernelUrl);
-    const module = await kernel;
+    const module = await ready(kernelUrl);
     const { value, arrays } = module.call(call, args, (progress) => {
       send({ id, progress });
       return !isCancelled(goOn);
