@@ -1,7 +1,7 @@
 // How each body and joint of a model is drawn, as a textbook would: bars with rounded ends, plates, discs, blocks on guides.
 // Decided once for each model; in metres and body axes, so that drawing and picking agree.
 import { type Point, distance } from "../model/geometry";
-import { type Body, type End, GROUND, type Joint, type Marker, type Model, markerOf } from "../model/model";
+import { type Body, type End, GROUND, type Joint, type Marker, type Model, type Poses, markerOf, worldPoint } from "../model/model";
 
 export type BodyLook =
   /** The rounded hull of these points. */
@@ -43,16 +43,25 @@ export function guideEnds(joint: Joint): { guide: End; runner: End } {
   return { guide: joint.first, runner: joint.second };
 }
 
-export function looksOf(model: Model, size: number): Looks {
+// A guide of the ground is drawn where its runner is: its marker may be far away on the same line.
+function alongAxis([x, y]: Point, axis: number, [u, v]: Point): Point {
+  const c = Math.cos(axis);
+  const s = Math.sin(axis);
+  const slide = (u - x) * c + (v - y) * s;
+  return [x + slide * c, y + slide * s];
+}
+
+export function looksOf(model: Model, size: number, poses?: Poses): Looks {
   const gears = gearsOf(model);
   const guides: GuideLook[] = [];
   for (const joint of model.joints) {
     if (joint.type !== "prismatic" && joint.type !== "slot") continue;
-    const { guide } = guideEnds(joint);
+    const { guide, runner } = guideEnds(joint);
     const marker = markerOf(model, guide);
     const carrier = model.body.get(guide.body);
     const own = carrier ? Math.max(...carrier.markers.map((m) => distance(m.at, marker?.at ?? [0, 0])), 0) : 0;
-    guides.push({ joint: joint.name, on: guide.body, at: marker?.at ?? [0, 0], axis: marker?.axis ?? 0, slot: joint.type === "slot", reach: own || size * 0.3 });
+    const at = carrier ? (marker?.at ?? [0, 0]) : alongAxis(marker?.at ?? [0, 0], marker?.axis ?? 0, worldPoint(model, runner, poses));
+    guides.push({ joint: joint.name, on: guide.body, at, axis: marker?.axis ?? 0, slot: joint.type === "slot", reach: own || size * 0.3 });
   }
   const bodies = new Map(model.bodies.map((body) => [body.name, lookOf(model, body, gears, size)]));
   return { bodies, gears, guides };

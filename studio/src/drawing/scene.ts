@@ -156,7 +156,7 @@ export class Scene {
     this.register("joint", guide.joint, one);
     this.follow(one, guide.on, guide.at, guide.axis);
     const reach = Math.max(guide.reach * this.scale, 40);
-    if (guide.slot) path(slot(onGround ? reach : reach - PIN, PIN + 3), "hollow", one);
+    if (guide.slot) path(slot(onGround ? reach : Math.max(reach - 20, 12), onGround ? PIN + 2 : PIN), "hollow", one);
     else if (onGround) path(groundGuide(reach, 12), "line", one);
     else path(`M${-reach} 0H${reach}`, "axis", one);
   }

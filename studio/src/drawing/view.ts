@@ -112,7 +112,7 @@ export class View {
     const forceScale = player.forceScale;
     const again =
       shown.model !== now.model || shown.show !== now.show || shown.scale !== this.camera.scale || Math.abs((shown.forceScale ?? 0) - forceScale) > 0.3 * forceScale;
-    if (shown.model !== now.model || (shown.poses === null && now.poses)) this.looks = looksOf(now.model, extent(now.model, now.poses ?? undefined).size);
+    if (shown.model !== now.model || (shown.poses === null && now.poses)) this.looks = looksOf(now.model, extent(now.model, now.poses ?? undefined).size, now.poses ?? undefined);
     if (again || (shown.poses === null && now.poses)) {
       this.scene.show(now.model, this.looks, this.camera, { labels: now.show.labels, forces: now.show.forces, centres: now.show.centres, forceScale });
       this.ghost = this.scene.ghost(now.model, now.ghost.answer ? this.looks : null);

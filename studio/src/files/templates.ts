@@ -21,7 +21,7 @@ export const TEMPLATES: readonly Template[] = Object.entries(files)
     return {
       file,
       name: /^name = "(.*)"$/m.exec(text)?.[1] ?? file,
-      about: (/^.*?[.:](?=\s)/.exec(head)?.[0] ?? head).trim().replace(/:$/, "."),
+      about: (/^.*?\.(?=\s)/.exec(head)?.[0] ?? head).trim(),
       text,
     };
   })

@@ -6,12 +6,16 @@ import { Icon } from "./icons";
 export function Dialog({ title, wide = false, children }: { title: string; wide?: boolean; children: ReactNode }) {
   const element = useRef<HTMLDialogElement>(null);
   useEffect(() => {
-    if (element.current && !element.current.open) element.current.showModal();
+    const dialog = element.current;
+    if (!dialog || dialog.open) return;
+    dialog.showModal();
+    (dialog.querySelector<HTMLElement>("input") ?? dialog).focus();
   }, []);
   const close = () => studio.set({ dialog: null });
   return (
     <dialog
       ref={element}
+      tabIndex={-1}
       className={wide ? "dialog wide" : "dialog"}
       aria-label={title}
       onClose={close}

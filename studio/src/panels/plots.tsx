@@ -19,7 +19,7 @@ export function PlotsPanel() {
     const found = plotted.map((id) => all.find((one) => one.id === id)).filter((one): one is Series => one !== undefined);
     return found.length > 0 || !answer ? found : firstSeries(answer).map((id) => all.find((one) => one.id === id)!).filter(Boolean);
   }, [all, plotted, answer]);
-  if (!answer || answer.values.length === 0) return <Nothing />;
+  if (!answer || (answer.values[0]?.length ?? 0) < 2) return <Nothing />;
   const toggle = (id: string) => {
     const ids = chosen.map((one) => one.id);
     studio.set({ plotted: ids.includes(id) ? ids.filter((one) => one !== id) : [...ids, id] });

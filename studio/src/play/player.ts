@@ -86,7 +86,7 @@ class Player {
     const { run, ghost } = studio.get();
     if (run.serial !== this.serial) {
       this.serial = run.serial;
-      this.replay = run.answer && run.answer.values.length > 0 ? new Replay(run.answer) : null;
+      this.replay = run.answer && (run.answer.values[0]?.length ?? 0) > 1 ? new Replay(run.answer) : null;
       this.forceScale = this.replay?.typicalForce ?? 0;
       if (this.replay && this.t > this.replay.end) this.t = this.replay.end;
     }
