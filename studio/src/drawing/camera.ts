@@ -40,9 +40,9 @@ export function fitTo(box: { min: Point; max: Point }, size: Size, margin = 0.16
   };
 }
 
-/** The grid's step [m]: 1, 2 or 5 times a power of ten, drawn 16 to 40 pixels apart. */
+/** The grid's step [m]: 1, 2 or 5 times a power of ten, drawn 12 to 30 pixels apart. */
 export function gridStep(camera: Camera): number {
-  const raw = 16 / camera.scale;
+  const raw = 12 / camera.scale;
   const power = 10 ** Math.floor(Math.log10(raw));
   const digit = raw / power;
   return (digit <= 1 ? 1 : digit <= 2 ? 2 : digit <= 5 ? 5 : 10) * power;

@@ -34,7 +34,8 @@ type Gesture =
   | { kind: "reshape"; end: End; label: string; moved: boolean; key: string }
   | { kind: "drag"; drag: KinematicDrag; moved: boolean; before: Poses | null; at: Point }
   | { kind: "pull"; body: string; point: [number, number] }
-  | { kind: "tool"; pressed: Point };
+  /** `first`: this press set the first point. */
+  | { kind: "tool"; pressed: Point; first: boolean };
 
 export class Gestures {
   private gesture: Gesture | null = null;
@@ -209,7 +210,7 @@ export class Gestures {
     this.gesture = null;
     this.view.svg.classList.remove("panning");
     if (!gesture) return;
-    if (gesture.kind === "tool") return this.toolUp(gesture.pressed, at, event);
+    if (gesture.kind === "tool") return this.toolUp(gesture, at, event);
     this.view.show(null);
     if (gesture.kind === "pan" && !gesture.moved && event.button === 0 && !event.shiftKey) select([]);
     if (gesture.kind === "pull") player.setPull(null);
@@ -244,20 +245,19 @@ export class Gestures {
     const target = this.target(at, event);
     if (tool.asks === "point") return this.finish([target]);
     if (tool.asks === "many" && this.targets.length > 2 && distance(this.targets[0]!.at, target.at) < this.view.metres(8)) return this.finish(this.targets);
-    this.gesture = { kind: "tool", pressed: at };
+    this.gesture = { kind: "tool", pressed: at, first: this.targets.length === 0 };
     if (this.targets.length === 0 || tool.asks === "many") this.targets.push(target);
     this.previewTool(at, event);
   }
 
-  private toolUp(pressed: Point, at: Point, event: PointerEvent): void {
+  private toolUp({ pressed, first }: { pressed: Point; first: boolean }, at: Point, event: PointerEvent): void {
     const { asks } = toolOf(studio.get().tool);
     if (asks === "many") return;
     const dragged = distance(pressed, at) > 6;
     const from = this.targets[0];
     if (!from) return;
-    const second = distance(this.view.toScreen(from.at), pressed) > 14 || dragged;
     if (asks === "ray") this.finish([from, this.target(at, event)]);
-    else if (second) this.finish([from, this.exact(this.target(at, event))]);
+    else if (dragged || !first) this.finish([from, this.exact(this.target(at, event))]);
   }
 
   // The typed length and angle go before the pointer's.

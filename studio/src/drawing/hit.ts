@@ -148,7 +148,10 @@ export function snap(model: Model, looks: Looks, at: Point, reach: number, grid:
   if (end) return { at: worldPoint(model, end, poses), end, body: end.body };
   const hit = hitBody(model, looks, at, reach * 0.6, poses);
   if (hit?.body) return { at: onAxis(model, hit.body, at, reach, poses), end: null, body: hit.body };
-  return { at: [roundTo(at[0], grid), roundTo(at[1], grid)], end: null, body: null };
+  const rounded: Point = [roundTo(at[0], grid), roundTo(at[1], grid)];
+  // The grid may lead to a point that is there.
+  const there = nearestMarker(model, rounded, reach * 0.2, poses);
+  return { at: rounded, end: there, body: there?.body ?? null };
 }
 
 // On a bar the point goes to its line.
