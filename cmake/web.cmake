@@ -19,5 +19,5 @@ list(REMOVE_ITEM PINTLE_ROOMS sweeps)  # threads and files
 
 # Exceptions of WebAssembly itself: those by way of JavaScript cost every call of the innermost loops.
 set(CMAKE_POSITION_INDEPENDENT_CODE OFF)
-add_compile_options(-fwasm-exceptions -msimd128)
+add_compile_options(-fwasm-exceptions)
 add_link_options(-fwasm-exceptions)
