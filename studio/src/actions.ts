@@ -23,8 +23,10 @@ function follow(text: string): Partial<StudioState> {
   const read = readModel(text);
   const faulty = read.document.faults.length > 0;
   const before = studio.get();
-  if (faulty) return { stale: true, complaints: localComplaints(read.document) };
-  return { model: read, stale: false, poses: followPoses(before.model, read, before.poses), selection: before.selection.filter((thing) => exists(read, thing)) };
+  if (faulty) return { stale: true, run: { ...before.run, status: "none", progress: null }, complaints: localComplaints(read.document) };
+  // The run is of the text before, until there is another.
+  const run = { ...before.run, status: read.bodies.length > 0 && before.kernelState !== "missing" ? ("running" as const) : ("none" as const), progress: null, fault: null };
+  return { model: read, stale: false, run, poses: followPoses(before.model, read, before.poses), selection: before.selection.filter((thing) => exists(read, thing)) };
 }
 
 // Assembled poses stay until the kernel has new ones, but for bodies that the text has moved.

@@ -83,7 +83,7 @@ export const tests = {
     await page.mouse.down();
     const waits = [];
     for (let i = 1; i <= 20; i++) {
-      const angle = Math.PI / 3 + i * 0.06;
+      const angle = Math.PI / 3 + i * 0.2;
       const target = await onPage(page, 0.25 * Math.cos(angle), 0.25 * Math.sin(angle));
       const before = await pose(page);
       const begin = performance.now();
@@ -129,8 +129,10 @@ export const tests = {
     await openTemplate(page, "slider_crank.toml");
     await settled(page);
     await page.keyboard.press(".");
+    await page.waitForTimeout(60);
     const one = await page.locator(".clock").textContent();
     await page.keyboard.press(".");
+    await page.waitForTimeout(60);
     assert.notEqual(await page.locator(".clock").textContent(), one);
     await page.keyboard.press("h");
     await page.waitForFunction(() => window.pintleStudio.get().ghost.answer !== null, null, { timeout: 60_000 });

@@ -169,8 +169,7 @@ export class Gestures {
     if (gesture.kind === "box") return this.view.show({ lines: [], box: [gesture.from, this.view.toWorld(at)] });
     const world = this.view.toWorld(at);
     if (gesture.kind === "pull") {
-      player.setPull({ body: gesture.body, point: gesture.point, target: [...world] });
-      return this.view.show({ lines: [], pull: [toWorld(player.frame().pose(gesture.body), gesture.point), world] });
+      return player.setPull({ body: gesture.body, point: gesture.point, target: [...world] });
     }
     if (gesture.kind === "reshape") return this.reshape(gesture, at, event);
     if (!gesture.moved && distance(at, gesture.at) < 4) return;

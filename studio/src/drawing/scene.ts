@@ -52,7 +52,9 @@ export class Scene {
     this.pan(camera);
     for (const guide of looks.guides) this.drawGuide(guide);
     for (const gear of looks.gears) this.drawGear(gear);
-    model.bodies.forEach((body, i) => this.drawBody(body.name, looks.bodies.get(body.name) ?? { kind: "mass" }, i));
+    // Blocks and discs lie under the bars that are pinned to them.
+    const looked = model.bodies.map((body, i) => ({ name: body.name, look: looks.bodies.get(body.name) ?? ({ kind: "mass" } as BodyLook), i }));
+    for (const under of [true, false]) for (const { name, look, i } of looked) if ((look.kind !== "bar") === under) this.drawBody(name, look, i);
     for (const body of model.bodies) this.drawMarkers(body.name, body.markers, options);
     for (const joint of model.joints) this.drawJoint(model, joint);
     for (const spring of model.springs) this.drawSpring(model, spring);
@@ -243,7 +245,7 @@ export class Scene {
     for (const joint of model.joints) {
       const end = joint.second.body === GROUND ? joint.first : joint.second;
       const marker = markerOf(model, end);
-      if (!marker || joint.type === "gear" || joint.type === "rack") continue;
+      if (!marker || ["gear", "rack", "rod", "rope"].includes(joint.type)) continue;
       const word = make("text", { class: "label", dx: 10, dy: -10 }, this.layers.labels);
       word.textContent = joint.name;
       const key = `${end.body}.${end.marker}`;

@@ -1,7 +1,7 @@
 // The canvas: a scene, a camera, and what is drawn over them while a tool is used. It follows the page's state by itself;
 // in the animation loop React takes no part.
 import { onOpened } from "../actions";
-import { type Point, distance } from "../model/geometry";
+import { type Point, distance, toWorld } from "../model/geometry";
 import { type Model, extent } from "../model/model";
 import { player } from "../play/player";
 import { type StudioState, studio } from "../state";
@@ -18,8 +18,6 @@ export interface Preview {
   /** The point that a click would take, and whether something is there to join. */
   snap?: { at: Point; joins: boolean };
   box?: [Point, Point];
-  /** A spring from a body's point to the pointer. */
-  pull?: [Point, Point];
 }
 
 export class View {
@@ -125,8 +123,12 @@ export class View {
     const ghostFrame = this.ghost ? player.ghostFrame() : null;
     if (ghostFrame && this.ghost) this.ghost(ghostFrame);
     this.shown = { ...now, forceScale: again ? forceScale : shown.forceScale, scale: this.camera.scale };
-    if (this.preview) this.drawPreview();
+    const pulling = player.pulling !== null;
+    if (this.preview || pulling || this.wasPulling) this.drawPreview();
+    this.wasPulling = pulling;
   }
+
+  private wasPulling = false;
 
   private gridShown = "";
 
@@ -154,17 +156,19 @@ export class View {
   private drawPreview(): void {
     const layer = this.scene.layers.overlay;
     layer.replaceChildren();
-    const { preview } = this;
-    if (!preview) return;
     const px = ([x, y]: Point): Point => [x * this.camera.scale, -y * this.camera.scale];
+    const { preview } = this;
+    const pull = player.pulling;
+    if (pull) {
+      // A spring from the body's point to the pointer.
+      const end = px(pull.target);
+      path(polyline([px(toWorld(player.frame().pose(pull.body), pull.point)), end]), "pull", layer);
+      path(circle(...end, 5), "pull-end", layer);
+    }
+    if (!preview) return;
     for (const line of preview.lines) path(polyline(line.map(px)), "rubber", layer);
     if (preview.circle) path(circle(...px(preview.circle.centre), Math.max(preview.circle.radius * this.camera.scale, 1)), "rubber", layer);
     if (preview.snap) path(circle(...px(preview.snap.at), preview.snap.joins ? 8 : 3.5), preview.snap.joins ? "snap joins" : "snap", layer);
-    if (preview.pull) {
-      const [a, b] = preview.pull.map(px) as [Point, Point];
-      path(polyline([a, b]), "pull", layer);
-      path(circle(...b, 5), "pull-end", layer);
-    }
     if (preview.box) {
       const [a, b] = preview.box.map(px) as [Point, Point];
       make("rect", { x: Math.min(a[0], b[0]), y: Math.min(a[1], b[1]), width: Math.abs(a[0] - b[0]), height: Math.abs(a[1] - b[1]), class: "lasso" }, layer);

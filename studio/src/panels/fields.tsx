@@ -126,8 +126,8 @@ export function Quantity({ label, unit, literal, fallback, meaning, variables, r
             ))}
           </select>
         )}
-        {parts.expression && <span className="worth">{value === null ? prettyUnit(unit) : `= ${shortNumber(value)} ${prettyUnit(unit)}`}</span>}
       </span>
+      {parts.expression && <span className="worth">{value === null ? `in ${prettyUnit(unit)}` : `= ${shortNumber(value)} ${prettyUnit(unit)}`}</span>}
       {wrong && (
         <p className="field-wrong" id={`${id}-wrong`} role="alert">
           {wrong}

@@ -118,7 +118,7 @@ function makePlot(element: HTMLElement, series: readonly Series[], time: Float64
   const options: uPlot.Options = {
     ...sizeOf(element),
     legend: { show: false },
-    padding: [10, 12, 0, 4],
+    padding: [10, 20, 0, 4],
     scales: { x: { time: false } },
     cursor: { drag: { x: true, y: false, dist: 8 }, points: { size: 7 }, bind: { dblclick: (plot) => () => (plot.setData(data), null) } },
     series: [{ label: "t" }, ...lines],

@@ -63,7 +63,7 @@ async function refresh(text: string): Promise<void> {
 
 function complain(fault: Fault): void {
   const missing = /kernel (is not built|cannot|stopped)/i.test(fault.message);
-  studio.set({ obstacle: fault, ...(missing ? { kernelState: "missing" as const } : {}) });
+  studio.set({ run: { ...studio.get().run, status: "failed", progress: null }, obstacle: fault, ...(missing ? { kernelState: "missing" as const } : {}) });
 }
 
 async function assemble(text: string, current: () => boolean): Promise<void> {
@@ -89,7 +89,7 @@ async function check(text: string, current: () => boolean): Promise<void> {
 function startRun(text: string, current: () => boolean): void {
   const { model, run, ghost } = studio.get();
   if (model.bodies.length === 0) return;
-  if (model.duration === null) return studio.set({ run: { ...NO_RUN, serial: run.serial, fault: { message: "The model says no duration.", hint: "Set one in Model, Simulation." } } });
+  if (model.duration === null) return studio.set({ run: { ...NO_RUN, status: "failed", serial: run.serial, fault: { message: "The model says no duration.", hint: "Set one in Model, Simulation." } } });
   studio.set({ run: { ...run, status: "running", progress: null, fault: null } });
   const handle = kernel.run(text, {
     onProgress: (progress) => {
