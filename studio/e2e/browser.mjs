@@ -34,6 +34,11 @@ export async function startBrowser() {
     async visit(options = {}) {
       const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, acceptDownloads: true, ...options });
       const page = await context.newPage();
+      // Without the system's file dialogs, saving is a download.
+      await page.addInitScript(() => {
+        delete window.showSaveFilePicker;
+        delete window.showOpenFilePicker;
+      });
       page.faults = [];
       page.on("pageerror", (error) => page.faults.push(`${error.message}\n${error.stack ?? ""}`));
       page.on("console", (message) => message.type() === "error" && !/favicon/.test(message.location().url ?? "") && page.faults.push(message.text()));

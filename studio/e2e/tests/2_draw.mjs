@@ -7,7 +7,7 @@ import { drag, onPage, pintle, settled, shot, state } from "../browser.mjs";
 
 async function drawFourBar(page) {
   const at = {};
-  for (const [name, x, y] of [["A", -0.1, -0.04], ["B", -0.06, 0.03], ["C", 0.08, 0.08], ["D", 0.1, -0.04]]) at[name] = await onPage(page, x, y);
+  for (const [name, x, y] of [["A", -0.1, -0.04], ["B", -0.09, 0], ["C", 0.08, 0.09], ["D", 0.1, -0.04]]) at[name] = await onPage(page, x, y);
   await page.keyboard.press("l");
   await drag(page, at.A, at.B);
   await drag(page, at.B, at.C);

@@ -2,11 +2,11 @@
 // in the animation loop React takes no part.
 import { onOpened } from "../actions";
 import { type Point, distance, toWorld } from "../model/geometry";
-import { type Model, extent } from "../model/model";
+import { GROUND, type Model, extent, markerOf } from "../model/model";
 import { player } from "../play/player";
 import { type StudioState, studio } from "../state";
 import { type Camera, type Size, fitTo, fromScreen, gridStep, toScreen, zoomAt } from "./camera";
-import { type Looks, looksOf } from "./looks";
+import { type Looks, guideEnds, looksOf } from "./looks";
 import { Scene } from "./scene";
 import { make, path } from "./svg";
 import { circle, polyline } from "./symbols";
@@ -111,12 +111,14 @@ export class View {
     const again =
       shown.model !== now.model || shown.show !== now.show || shown.scale !== this.camera.scale || Math.abs((shown.forceScale ?? 0) - forceScale) > 0.3 * forceScale;
     if (shown.model !== now.model || (shown.poses === null && now.poses)) this.looks = looksOf(now.model, extent(now.model, now.poses ?? undefined).size, now.poses ?? undefined);
-    if (again || (shown.poses === null && now.poses)) {
+    const ran = shown.run?.serial !== now.run.serial && this.stretchGuides(now.model);
+    if (again || ran || (shown.poses === null && now.poses)) {
+      if (again) this.stretchGuides(now.model);
       this.scene.show(now.model, this.looks, this.camera, { labels: now.show.labels, forces: now.show.forces, centres: now.show.centres, forceScale });
       this.ghost = this.scene.ghost(now.model, now.ghost.answer ? this.looks : null);
     } else if (shown.ghost !== now.ghost) this.ghost = this.scene.ghost(now.model, now.ghost.answer ? this.looks : null);
     if (again || shown.run?.serial !== now.run.serial) this.scene.traces(now.show.traces ? player.curves() : []);
-    if (again || shown.selection !== now.selection || shown.hover !== now.hover) this.scene.mark(now.selection, now.hover);
+    if (again || ran || shown.selection !== now.selection || shown.hover !== now.hover) this.scene.mark(now.selection, now.hover);
     this.scene.pan(this.camera);
     this.drawGrid(now.show.grid);
     this.scene.place(player.frame());
@@ -126,6 +128,23 @@ export class View {
     const pulling = player.pulling !== null;
     if (this.preview || pulling || this.wasPulling) this.drawPreview();
     this.wasPulling = pulling;
+  }
+
+  // A guide of the ground is as long as the run needs it.
+  private stretchGuides(model: Model): boolean {
+    let changed = false;
+    for (const guide of this.looks.guides) {
+      const range = guide.on === GROUND ? player.slides(guide.joint) : null;
+      const joint = model.joints.find((one) => one.name === guide.joint);
+      const marker = joint ? markerOf(model, guideEnds(joint).guide) : null;
+      if (!range || !marker || joint?.second.body === GROUND) continue;
+      const half = (range[1] - range[0]) / 2 + 34 / this.camera.scale;
+      const middle = (range[0] + range[1]) / 2;
+      guide.at = [marker.at[0] + middle * Math.cos(marker.axis), marker.at[1] + middle * Math.sin(marker.axis)];
+      guide.reach = Math.min(half, 50 * this.size.width / this.camera.scale);
+      changed = true;
+    }
+    return changed;
   }
 
   private wasPulling = false;

@@ -10,7 +10,7 @@ export function EmptyDrawing() {
   if (!empty || dialog === "gallery") return null;
   return (
     <section className="empty" aria-label="How to begin">
-      <h1>Draw a mechanism. Press play. Trust the forces.</h1>
+      <h2>Draw a mechanism. Press play. Trust the forces.</h2>
       <ol>
         <li>
           <kbd>L</kbd> draws a <b>link</b>: drag from end to end. Begin the next one on its end, and a pin joins them.

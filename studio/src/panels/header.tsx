@@ -13,14 +13,14 @@ export function Header() {
   const theme = useStudio((now) => now.theme);
   return (
     <header className="head">
-      <span className="brand" aria-label="Pintle Studio">
+      <h1 className="brand">
         <svg width="26" height="26" viewBox="0 0 26 26" aria-hidden="true">
           <path className="brand-bar" d="M5.500 20.500L20.500 5.500" />
           <circle className="brand-pin" cx="6" cy="20" r="3.600" />
           <circle className="brand-pin" cx="20" cy="6" r="3.600" />
         </svg>
-        Pintle
-      </span>
+        Pintle<span className="visually-hidden"> Studio</span>
+      </h1>
       <Name />
       <div className="head-group" role="group" aria-label="File">
         <button className="text-button" onClick={() => runCommand("gallery")}>

@@ -92,13 +92,13 @@ function makePlot(element: HTMLElement, series: readonly Series[], time: Float64
   const grid = style.getPropertyValue("--line").trim();
   const units = [...new Set(series.map((one) => one.unit))];
   const data: uPlot.AlignedData = [time, ...series.map((one) => one.values())] as uPlot.AlignedData;
-  const lines: uPlot.Series[] = series.map((one, i) => ({ label: one.label, scale: one.unit, stroke: colours[i % 6], width: 1.6, points: { show: false } }));
+  const lines: uPlot.Series[] = series.map((one, i) => ({ label: one.label, scale: one.unit, stroke: colours[i % 6], width: 1.6, pxAlign: 0, points: { show: false } }));
   if (kept) {
     series.forEach((one, i) => {
       const other = kept.series.find((candidate) => candidate.id === one.id);
       if (!other) return;
       (data as unknown[]).push(resample(kept.time, other.values(), time));
-      lines.push({ label: `${one.label}, kept`, scale: one.unit, stroke: colours[i % 6], width: 1.4, dash: [5, 4], points: { show: false } });
+      lines.push({ label: `${one.label}, kept`, scale: one.unit, stroke: colours[i % 6], width: 1.4, dash: [5, 4], pxAlign: 0, points: { show: false } });
     });
   }
   const font = "11px system-ui, sans-serif";

@@ -20,7 +20,7 @@ export function Transport() {
   const show = useStudio((now) => now.show);
   const ready = useStudio((now) => now.model.bodies.length > 0);
   return (
-    <div className="transport" role="group" aria-label="Play">
+    <section className="transport" aria-label="Play">
       <button className="play" aria-label={playing ? "Pause" : "Play"} data-tip="Play or pause  Space" disabled={!ready} onClick={() => player.toggle()}>
         <Icon name={playing ? "pause" : "play"} size={22} />
       </button>
@@ -54,7 +54,7 @@ export function Transport() {
       <button className="icon-button" aria-label="Fit" data-tip="Fit to the window  0" onClick={() => runCommand("fit")}>
         <Icon name="fit" />
       </button>
-    </div>
+    </section>
   );
 }
 
@@ -83,7 +83,7 @@ function Scale() {
         range.current.value = String(Math.round(part * 1000));
         range.current.style.setProperty("--part", `${part * 100}%`);
         range.current.setAttribute("aria-valuetext", `${t.toFixed(3)} seconds`);
-        clock.current.textContent = `${t.toFixed(3)} s`;
+        clock.current.textContent = `${t.toFixed(player.digits)} s`;
       }),
     [],
   );

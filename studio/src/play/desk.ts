@@ -3,7 +3,7 @@
 import { asFault, localComplaints } from "../actions";
 import { type DragSession, type Kernel, type RunHandle, startKernel } from "../kernel/kernel";
 import type { Catalog, Fault, RunAnswer } from "../kernel/protocol";
-import type { Pose } from "../model/geometry";
+import { type Pose, distance, toWorld } from "../model/geometry";
 import type { Poses } from "../model/model";
 import { NO_RUN, studio } from "../state";
 
@@ -130,6 +130,7 @@ export class KinematicDrag {
   private busy = false;
   private waiting: [number, number] | null = null;
   private last: Float64Array | undefined;
+  private left = Number.POSITIVE_INFINITY;
   poses: Poses | null = null;
 
   constructor(
@@ -154,11 +155,15 @@ export class KinematicDrag {
       this.waiting = null;
       const answer = await session.assemble({ body: this.body, point: this.point, target }, this.last).catch(() => null);
       if (!answer) break;
-      if (answer.ok || answer.poses.length > 0) {
-        this.last = answer.poses.slice();
-        this.poses = posesFrom(session.bodies, answer.poses);
-        studio.set({ poses: this.poses });
-      }
+      if (answer.poses.length === 0) continue;
+      this.last = answer.poses.slice();
+      this.poses = posesFrom(session.bodies, answer.poses);
+      studio.set({ poses: this.poses });
+      // The hold is soft: it is asked again while the point still comes nearer.
+      const pose = this.poses.get(this.body);
+      const left = pose ? distance(toWorld(pose, this.point), target) : 0;
+      if (!this.waiting && left < 0.98 * this.left && left > 1e-6) this.waiting = target;
+      this.left = this.waiting === target ? left : Number.POSITIVE_INFINITY;
     }
     this.busy = false;
   }

@@ -78,6 +78,12 @@ class Player {
     return this.live?.frames[0]?.t ?? 0;
   }
 
+  /** Decimals of the clock: as many as tell two frames apart, three at least. */
+  get digits(): number {
+    const step = this.live ? 0.01 : (this.current()?.step ?? 0.01);
+    return Math.min(Math.max(3, Math.ceil(-Math.log10(step) - 1e-9)), 7);
+  }
+
   get behind(): boolean {
     return this.live?.frames[this.live.frames.length - 1]?.behind ?? false;
   }
@@ -250,6 +256,11 @@ class Player {
     this.current();
     const { mode, model } = studio.get();
     return this.ghostReplay ? this.ghostReplay.frame(mode === "edit" ? 0 : this.t, model, (name) => poseOf(model, name)) : null;
+  }
+
+  /** Between which slides a sliding joint moves in the run [m]. */
+  slides(joint: string): [number, number] | null {
+    return this.current()?.range(joint, "slide") ?? null;
   }
 
   /** Paths of the traced points over the whole run. */

@@ -88,6 +88,19 @@ export class Replay {
     return path;
   }
 
+  /** Smallest and largest value of a joint's column. */
+  range(joint: string, quantity: string): [number, number] | null {
+    const values = this.answer.values[this.answer.columns.findIndex((one) => one.kind === "joint" && one.of === joint && one.quantity === quantity)];
+    if (!values || values.length === 0) return null;
+    let low = values[0]!;
+    let high = low;
+    for (const value of values) {
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+    return Number.isFinite(low + high) ? [low, high] : null;
+  }
+
   valueAt(column: number, t: number): number {
     const values = this.answer.values[column];
     return values ? this.at(t)(t, values) : Number.NaN;
