@@ -28,6 +28,7 @@ export function Dock() {
       </TabList>
       {tab && (
         <div id="dock-panel" className="dock-body" role="tabpanel" tabIndex={0} aria-label={tabs.find((one) => one.id === tab)?.label}>
+          <h2 className="visually-hidden">{tabs.find((one) => one.id === tab)?.label}</h2>
           <Fence of="panel" key={tab}>
             {tab === "plots" && (
               <Suspense fallback={<p className="quiet">The plots are loading…</p>}>

@@ -163,7 +163,7 @@ function Chooser({ all, chosen, onToggle }: { all: readonly Series[]; chosen: re
       <div className="chooser-list" tabIndex={0} role="group" aria-label="Quantities">
         {groups.map((group) => (
           <section key={group}>
-            <h4>{group}</h4>
+            <h3>{group}</h3>
             {found
               .filter((one) => one.group === group)
               .map((one) => (

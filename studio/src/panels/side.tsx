@@ -21,6 +21,7 @@ export function Side() {
       <TabList label="Side panel" tabs={TABS} active={tab} panel="side-panel" onChoose={(side) => studio.set({ side })} onClose={() => studio.set({ side: null })} />
       {tab && (
         <div id="side-panel" className="side-body" role="tabpanel" tabIndex={0} aria-label={TABS.find((one) => one.id === tab)?.label}>
+          <h2 className="visually-hidden">{TABS.find((one) => one.id === tab)?.label}</h2>
           <Fence of="panel" key={tab}>
             {tab === "properties" && <Properties />}
             {tab === "model" && <ModelPanel />}
