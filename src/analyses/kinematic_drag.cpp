@@ -13,10 +13,12 @@ namespace {
 
 using S = Planar;
 
-constexpr double kSoft = 1e-4;      // of the stiffest joint: the hold, which gives way to every joint
-constexpr double kClosed = 1e-6;    // of the mechanism's size
-constexpr double kLongestMove = 0.1;  // of the mechanism's size, in one search
-constexpr int kMostMoves = 12;
+constexpr double kSoft = 1e-2;         // of the stiffest joint: the hold, which gives way to every joint
+constexpr double kClosed = 1e-5;       // of the mechanism's size
+constexpr double kLongestMove = 0.05;  // of the mechanism's size, in one search
+constexpr double kReached = 1e-7;      // of the mechanism's size
+constexpr double kWorthwhile = 1e-3;   // of a move: how far the point goes
+constexpr int kMostMoves = 24;
 constexpr int kHoldIterations = 30, kCloseIterations = 100;
 
 // Everything that the user states about positions is a place to start from, not one to keep.
@@ -103,22 +105,30 @@ class KinematicDrag::Linkage {
     return {q[0] + c * hold.point[0] - s * hold.point[1], q[1] + s * hold.point[0] + c * hold.point[1]};
   }
 
-  // Towards the target in moves short enough that the linkage does not turn over.
+  // Towards the target in moves short enough that the linkage does not turn over, as long as they bring the point nearer.
   void follow(const Hold& hold) {
     if (hold.body < 0 || hold.body >= system_.n_bodies()) return;
     Placement& at = system_.joints.back().at;
     at.b = hold.body;
     at.M = S::Frame::at({hold.point[0], hold.point[1]}, 0);
-    const S::Point from = point_now(hold), way = S::Point(hold.target[0], hold.target[1]) - from;
-    const double longest = kLongestMove * mechanism_size(system_, q_);
-    const int n = std::clamp(static_cast<int>(std::ceil(way.norm() / longest)), 1, kMostMoves);
-    open_.back() = false;
-    for (int i = 1; i <= n; ++i) {
-      const S::Point to = from + (static_cast<double>(i) / n) * way;
+    const S::Point target(hold.target[0], hold.target[1]);
+    const double size = mechanism_size(system_, q_);
+    double left = (target - point_now(hold)).norm();
+    for (int i = 0; i < kMostMoves && left > kReached * size; ++i) {
+      const double move = std::min(left, kLongestMove * size);
+      const S::Point from = point_now(hold), to = from + (move / left) * (target - from);
       at.F = S::Frame::at({to.x(), to.y()}, 0);
+      const Vecs before = q_;
+      open_.back() = false;
       PositionSearch(model_, system_, open_).run(q_, kHoldIterations);
+      open_.back() = true;
+      close();
+      const S::Point reached = point_now(hold);
+      const double now = (target - reached).norm();
+      if (now > left) q_ = before;
+      if (now > left || (reached - from).norm() < kWorthwhile * move) break;
+      left = now;
     }
-    open_.back() = true;
   }
 
   void close() { PositionSearch(model_, system_, open_).run(q_, kCloseIterations); }

@@ -23,6 +23,7 @@ constexpr double kTolerance = 1e-4;
 constexpr double kFirstStep = 1e-4;      // [s]
 constexpr double kStretch = 1.01;         // of what is left of a frame
 constexpr double kPullRate = 9;          // natural frequency of the mechanism on the pull [rad/s]
+constexpr double kSoftest = 1e-3;         // of the stiffest joint: the stiffest pull that is chosen
 constexpr double kPullDamping = 0.7;     // of critical
 constexpr std::size_t kMostJoints = 120;         // whose masses with closed joints are asked for
 
@@ -103,8 +104,7 @@ class LiveMotion::Motion {
   Energies energies() const {
     std::vector<S::Motion> m;
     system_.motions(state_.q, state_.v, m);
-    Energies out{system_.kinetic(state_.v), system_.external_work(state_.t, state_.q, m).potential + pull_energy(), state_.dissipated,
-                 state_.supplied + given_};
+    Energies out{system_.kinetic(state_.v), system_.external_work(state_.t, state_.q, m).potential, state_.dissipated, state_.supplied};
     for (std::size_t j = 0; j < n_own_; ++j)
       if (system_.joints[j].servo < 0) out.potential += respond(system_.joints[j].law, state_.gap[j], state_.gap_rate[j]).energy;
     return out;
@@ -160,7 +160,7 @@ class LiveMotion::Motion {
   void hold(const Pull& pull) {
     const S::Point at = point_in_world(pull);
     const double mass = mass_at(pull);
-    const double k = pull.stiffness > 0 ? pull.stiffness : kPullRate * kPullRate * mass;
+    const double k = pull.stiffness > 0 ? pull.stiffness : std::min(kPullRate * kPullRate * mass, kSoftest * stiffest());
     const double c = 2 * kPullDamping * std::sqrt(k * mass);
     for (int i = 0; i < kPullJoints; ++i) {
       JointData joint = soft_pin(pull);
@@ -180,7 +180,6 @@ class LiveMotion::Motion {
 
   void release() {
     if (!pull_) return;
-    given_ -= pull_energy();
     pull_.reset();
     system_.joints.resize(n_own_);
     for (Vecs* x : {&state_.gap, &state_.gap_rate, &state_.gap_accel, &state_.force}) x->resize(n_own_);
@@ -214,13 +213,6 @@ class LiveMotion::Motion {
     }
   }
 
-  // What the springs of the pull store.
-  double pull_energy() const {
-    double energy = 0;
-    for (std::size_t j = n_own_; j < system_.joints.size(); ++j) energy += respond(system_.joints[j].law, state_.gap[j], state_.gap_rate[j]).energy;
-    return energy;
-  }
-
   static JointData soft_pin(const Pull& pull) {
     JointData joint;
     joint.name = "pull";
@@ -236,6 +228,14 @@ class LiveMotion::Motion {
     const S::Vec& q = state_.q[pull.body];
     const double c = std::cos(q[2]), s = std::sin(q[2]);
     return {q[0] + c * pull.point[0] - s * pull.point[1], q[1] + s * pull.point[0] + c * pull.point[1]};
+  }
+
+  // Of all joints, along x or y.
+  double stiffest() const {
+    double most = 0;
+    for (std::size_t j = 0; j < n_own_; ++j)
+      most = std::max(most, respond(system_.joints[j].law, S::Vec(1, 0, 0), S::Vec::Zero()).stiffness.diagonal().head<2>().maxCoeff());
+    return most > 0 ? most : 1e300;
   }
 
   // What a force at the held point has to move, in the direction in which it moves most easily.
@@ -263,7 +263,7 @@ class LiveMotion::Motion {
   std::unique_ptr<Stepper> stepper_;
   std::optional<Pull> pull_;
   bool changed_ = false;
-  double last_step_ = kFirstStep, given_ = 0;
+  double last_step_ = kFirstStep;
   std::uint64_t steps_ = 0;
   std::string failure_;
   std::vector<std::string> notes_;

@@ -1,21 +1,14 @@
 // The page's side of the kernel: typed calls that answer with promises. Three workers, made when they are first needed: one
 // for quick questions, one for the motion while it plays, one for runs; so that a long run holds up neither drawing nor play.
+import { KernelFault } from "./fault";
 import type { FromWorker, ToWorker } from "./messages";
+import { findNativeServer, type NativeServer } from "./native";
 import type {
   AssemblyAnswer, Catalog, CheckReport, Fault, Hold, LiveFrame, LiveStart, ModelTree, Pull, ReadAnswer, RunAnswer, RunProgress,
   TextAnswer, TreeValue,
 } from "./protocol";
 
-/** What every rejected promise of the kernel carries. */
-export class KernelFault extends Error {
-  constructor(readonly fault: Fault) {
-    super(fault.message);
-    this.name = "KernelFault";
-  }
-  get hint() {
-    return this.fault.hint;
-  }
-}
+export { KernelFault };
 
 export interface RunOptions {
   /** "native": by the server of `pintle studio`, where the page comes from it. */
@@ -65,6 +58,8 @@ export interface Kernel {
   openDrag(text: string): Promise<DragSession>;
   openLive(text: string, options?: LiveOptions): Promise<LiveSession>;
   run(text: string, options?: RunOptions): RunHandle;
+  /** The server of `pintle studio`: files of its folder, native runs. Null where the page comes from another server. */
+  native(): Promise<NativeServer | null>;
   /** Ends the workers. */
   stop(): void;
 }
@@ -152,7 +147,28 @@ export function startKernel(place: KernelPlace = {}): Kernel {
   const line = (role: Role) => (lines[role] ??= new Line(makeWorker, kernelUrl));
   const ask = <T>(role: Role, name: string, args: unknown, options?: CallOptions) => line(role).call(name, args, options) as Promise<T>;
 
+  let server: Promise<NativeServer | null> | undefined;
+  const native = () => (server ??= findNativeServer());
+
+  function runNative(text: string, options: RunOptions): RunHandle {
+    let handle: RunHandle | undefined, cancelled = false;
+    const result = native().then((found) => {
+      if (!found) throw new KernelFault({ message: "This page does not come from pintle studio.", hint: "Run it in the browser." });
+      handle = found.run(text, options.set ?? {}, options.onProgress);
+      if (cancelled) handle.cancel();
+      return handle.result;
+    });
+    return {
+      result,
+      cancel: () => {
+        cancelled = true;
+        handle?.cancel();
+      },
+    };
+  }
+
   function run(text: string, options: RunOptions = {}): RunHandle {
+    if (options.where === "native") return runNative(text, options);
     const goOn = URL.createObjectURL(new Blob(["go on"]));
     let ended = false;
     const result = ask<RunAnswer>("run", "run", { text, set: options.set ?? {} }, { onProgress: options.onProgress, goOn }).finally(() => {
@@ -203,6 +219,7 @@ export function startKernel(place: KernelPlace = {}): Kernel {
     openDrag,
     openLive,
     run,
+    native,
     stop: () => {
       for (const each of Object.values(lines)) each.abandon({ message: "The kernel was stopped.", hint: "" });
     },

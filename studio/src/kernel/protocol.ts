@@ -116,6 +116,8 @@ export interface Catalog {
     meaning: string;
     /** Free coordinates: "angle", "slide". */
     free: string[];
+    /** What it forbids, in the order of a law's components. */
+    gap: string[];
     geometry: CatalogKey[];
     laws: string[];
   }[];
@@ -249,6 +251,8 @@ export interface RunAnswer {
   wall_seconds: number;
   t_end: number;
   notes: string[];
+  /** Why the outcome is not "completed". */
+  message: string;
   /** Why it ended early, and the joints that the reason names. Everything before it is in `values`. */
   stopped?: { time: number; joints: string[]; reason: string; hint: string };
 }
