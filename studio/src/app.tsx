@@ -15,6 +15,7 @@ import { useStudio } from "./state";
 
 const Gallery = lazy(() => import("./panels/gallery").then((module) => ({ default: module.Gallery })));
 const Palette = lazy(() => import("./panels/palette").then((module) => ({ default: module.Palette })));
+const FolderDialog = lazy(() => import("./panels/folder").then((module) => ({ default: module.FolderDialog })));
 const Help = lazy(() => import("./panels/help").then((module) => ({ default: module.Help })));
 
 export function App() {
@@ -52,6 +53,7 @@ export function App() {
         {dialog === "gallery" && <Gallery />}
         {dialog === "palette" && <Palette />}
         {dialog === "help" && <Help />}
+        {dialog === "folder" && <FolderDialog />}
       </Suspense>
     </div>
   );

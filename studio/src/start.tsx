@@ -4,6 +4,7 @@ import { edit, openText } from "./actions";
 import { App } from "./app";
 import { theView } from "./drawing/canvas";
 import { restore, startAutosave } from "./files/autosave";
+import { startFolder } from "./files/folder";
 import { openFromAddress } from "./files/share";
 import { Fence } from "./panels/fence";
 import { startDesk } from "./play/desk";
@@ -27,5 +28,8 @@ if (root) {
   );
 }
 player.start();
-void openFromAddress().then(startDesk);
+void openFromAddress().then((opened) => {
+  startDesk();
+  if (!opened) void startFolder();
+});
 window.addEventListener("hashchange", () => void openFromAddress());

@@ -10,7 +10,7 @@ export const TOOLS = [
 ] as const;
 export type ToolName = (typeof TOOLS)[number];
 
-export type Dialog = "gallery" | "palette" | "help" | "export" | null;
+export type Dialog = "gallery" | "palette" | "help" | "folder" | null;
 export type DockTab = "plots" | "forces" | "energy" | "problems";
 export type SideTab = "properties" | "model" | "text";
 
@@ -62,6 +62,8 @@ export interface StudioState {
   plotted: string[];
   toasts: Toast[];
   savedText: string;
+  /** Of `pintle studio`, where the page comes from it. */
+  folder: { name: string; models: { path: string; size: number }[] } | null;
 }
 
 const model = readModel(EMPTY_MODEL);
@@ -97,6 +99,7 @@ export const studio = createStore<StudioState>({
   plotted: [],
   toasts: [],
   savedText: EMPTY_MODEL,
+  folder: null,
 });
 
 export function useStudio<P>(part: (now: StudioState) => P): P {

@@ -23,6 +23,9 @@ export interface SceneOptions {
   forceScale: number;
 }
 
+/** With more joints letters hide the mechanism, and cost half of a frame where no graphics card draws them. */
+const MOST_LABELS = 60;
+
 type Mover = (frame: Frame) => void;
 
 /** Layers from back to front. */
@@ -60,7 +63,7 @@ export class Scene {
     for (const spring of model.springs) this.drawSpring(model, spring);
     this.drawRacks(model);
     drawLoads(this, model);
-    if (options.labels) this.drawLabels(model);
+    if (options.labels && model.joints.length <= MOST_LABELS) this.drawLabels(model);
     this.arrows = options.forces ? new ForceArrows(this.layers.forces, model, options.forceScale) : null;
   }
 

@@ -1,7 +1,9 @@
 // Opening, saving and dropping of files. Where the browser can write a file in place, saving does; else it downloads.
 import { openText, say } from "../actions";
 import { readModel } from "../model/model";
+import { kernel } from "../play/desk";
 import { studio } from "../state";
+import { inFolder, saveToFolder, showFolder } from "./folder";
 
 interface WritableHandle {
   name: string;
@@ -20,6 +22,11 @@ let handle: WritableHandle | null = null;
 const pickers = window as unknown as PickerWindow;
 
 export async function openFile(): Promise<void> {
+  return inFolder() ? showFolder() : pickFile();
+}
+
+/** A file of the visitor's computer. */
+export async function pickFile(): Promise<void> {
   if (pickers.showOpenFilePicker) {
     const picked = await pickers.showOpenFilePicker({ types: TYPES }).catch(() => null);
     const first = picked?.[0];
@@ -49,7 +56,6 @@ export async function take(file: File, keepHandle = false): Promise<void> {
 }
 
 async function fromJson(text: string): Promise<string> {
-  const { kernel } = await import("../play/desk");
   try {
     const answer = await kernel.write(JSON.parse(text));
     return answer.text ?? text;
@@ -59,6 +65,7 @@ async function fromJson(text: string): Promise<string> {
 }
 
 export async function saveFile(): Promise<void> {
+  if (inFolder()) return saveToFolder();
   const { history, fileName } = studio.get();
   try {
     if (pickers.showSaveFilePicker) {

@@ -7,6 +7,7 @@ import { Scene } from "../drawing/scene";
 import type { Template } from "../files/templates";
 import { extent, poseOf, readModel } from "../model/model";
 import { EMPTY_MODEL } from "../model/operations";
+import type { RunHandle } from "../kernel/kernel";
 import { kernel } from "../play/desk";
 import { Replay } from "../play/replay";
 import { studio } from "../state";
@@ -76,6 +77,7 @@ class Picture {
   private readonly model;
   private readonly scene;
   private wanted = false;
+  private computing: RunHandle | null = null;
 
   constructor(svg: SVGSVGElement, private readonly text: string) {
     this.model = readModel(text);
@@ -93,8 +95,10 @@ class Picture {
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
     let replay = replays.get(this.text);
     if (!replay) {
-      const answer = await kernel.run(this.text, { set: { "simulate.tolerance": "1e-3" } }).result.catch(() => null);
-      if (!answer || answer.values.length === 0) return;
+      this.computing = kernel.run(this.text, { set: { "simulate.tolerance": "1e-3" } });
+      const answer = await this.computing.result.catch(() => null);
+      this.computing = null;
+      if (!answer || answer.outcome === "interrupted" || answer.values.length === 0) return;
       replay = new Replay(answer);
       replays.set(this.text, replay);
     }
@@ -111,6 +115,7 @@ class Picture {
 
   stop(): void {
     this.wanted = false;
+    this.computing?.cancel();
     this.scene.place({ pose: (name) => poseOf(this.model, name), forces: null });
   }
 }

@@ -2,7 +2,7 @@
 // for an older text is forgotten when it answers.
 import { asFault, localComplaints } from "../actions";
 import { type DragSession, type Kernel, type RunHandle, startKernel } from "../kernel/kernel";
-import type { Catalog, Fault, RunAnswer } from "../kernel/protocol";
+import type { Catalog, Fault, RunAnswer, RunProgress } from "../kernel/protocol";
 import { type Pose, distance, toWorld } from "../model/geometry";
 import type { Poses } from "../model/model";
 import { NO_RUN, studio } from "../state";
@@ -91,10 +91,8 @@ function startRun(text: string, current: () => boolean): void {
   if (model.bodies.length === 0) return;
   if (model.duration === null) return studio.set({ run: { ...NO_RUN, status: "failed", serial: run.serial, fault: { message: "The model says no duration.", hint: "Set one in Model, Simulation." } } });
   studio.set({ run: { ...run, status: "running", progress: null, fault: null } });
-  const handle = kernel.run(text, {
-    onProgress: (progress) => {
-      if (current()) studio.set((now) => ({ run: { ...now.run, progress } }));
-    },
+  const handle = runWhereFastest(text, (progress) => {
+    if (current()) studio.set((now) => ({ run: { ...now.run, progress } }));
   });
   running = handle;
   handle.result
@@ -107,6 +105,28 @@ function startRun(text: string, current: () => boolean): void {
     .catch((error: unknown) => {
       if (current()) studio.set((now) => ({ run: { ...NO_RUN, status: "failed", fault: asFault(error), serial: now.run.serial + 1 } }));
     });
+}
+
+/** From here on a run goes to the native kernel, where there is one [s]. */
+const LONG = 3;
+
+// Begins in the browser, which answers short runs before a server could; a long run moves to the native kernel.
+function runWhereFastest(text: string, onProgress: (progress: RunProgress) => void): RunHandle {
+  let native: RunHandle | null = null;
+  let moveOver: ((result: Promise<RunAnswer>) => void) | null = null;
+  const moved = new Promise<RunAnswer>((resolve) => (moveOver = resolve));
+  const here = kernel.run(text, {
+    onProgress: (progress) => {
+      if (native) return;
+      onProgress(progress);
+      if (!studio.get().folder || (progress.seconds_left ?? 0) < LONG || progress.wall_seconds < 0.5) return;
+      native = kernel.run(text, { where: "native", onProgress });
+      moveOver?.(native.result);
+      here.cancel();
+    },
+  });
+  const first = here.result.then((answer) => (native ? moved : answer), (error: unknown) => (native ? moved : Promise.reject(error)));
+  return { result: first, cancel: () => (native ?? here).cancel() };
 }
 
 async function runGhost(text: string, current: () => boolean): Promise<void> {
