@@ -176,6 +176,7 @@ export function listenToKeys(): () => void {
 
 /** "Ctrl Z" as it is printed on a key. */
 export function printChord(chord: string): string {
+  if (chord === "+") return chord;
   const mac = /Mac/.test(navigator.platform);
   return chord
     .split("+")

@@ -79,7 +79,7 @@ export class View {
   fit(): void {
     const { model, poses } = studio.get();
     const box = extent(model, poses ?? undefined);
-    this.setCamera(fitTo(model.bodies.length > 0 ? widened(model, box) : box, this.size));
+    this.setCamera(fitTo(model.bodies.length > 0 ? withGuides(widened(model, box), this.looks) : box, this.size));
   }
 
   /** What so many pixels are [m]. */
@@ -102,15 +102,16 @@ export class View {
 
   private draw(): void {
     const now = studio.get();
+    const { shown } = this;
+    if (shown.model !== now.model) this.looks = looksOf(now.model, extent(now.model, now.poses ?? undefined).size, now.poses ?? undefined);
     if (!this.fitted && (now.poses || now.model.bodies.length === 0 || now.kernelState !== "starting")) {
       this.fitted = true;
       this.fit();
     }
-    const { shown } = this;
     const forceScale = player.forceScale;
     const again =
       shown.model !== now.model || shown.show !== now.show || shown.scale !== this.camera.scale || Math.abs((shown.forceScale ?? 0) - forceScale) > 0.3 * forceScale;
-    if (shown.model !== now.model || (shown.poses === null && now.poses)) this.looks = looksOf(now.model, extent(now.model, now.poses ?? undefined).size, now.poses ?? undefined);
+    if (shown.poses === null && now.poses) this.looks = looksOf(now.model, extent(now.model, now.poses ?? undefined).size, now.poses ?? undefined);
     const ran = shown.run?.serial !== now.run.serial && this.stretchGuides(now.model);
     if (again || ran || (shown.poses === null && now.poses)) {
       if (again) this.stretchGuides(now.model);
@@ -193,6 +194,18 @@ export class View {
       make("rect", { x: Math.min(a[0], b[0]), y: Math.min(a[1], b[1]), width: Math.abs(a[0] - b[0]), height: Math.abs(a[1] - b[1]), class: "lasso" }, layer);
     }
   }
+}
+
+function withGuides(box: { min: Point; max: Point }, looks: Looks): { min: Point; max: Point } {
+  let { min, max } = box;
+  for (const guide of looks.guides) {
+    if (guide.on !== GROUND) continue;
+    const dx = Math.abs(guide.reach * Math.cos(guide.axis));
+    const dy = Math.abs(guide.reach * Math.sin(guide.axis));
+    min = [Math.min(min[0], guide.at[0] - dx), Math.min(min[1], guide.at[1] - dy)];
+    max = [Math.max(max[0], guide.at[0] + dx), Math.max(max[1], guide.at[1] + dy)];
+  }
+  return { min, max };
 }
 
 // Room for what swings: links reach around the pins that they hang on.

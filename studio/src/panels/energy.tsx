@@ -15,7 +15,7 @@ export function EnergyPanel() {
         <caption className="visually-hidden">Energy account</caption>
         <thead>
           <tr>
-            <th scope="col"> </th>
+            <td />
             <th scope="col" className="right" data-tip="Of motion">
               Kinetic
             </th>

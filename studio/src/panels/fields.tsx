@@ -70,15 +70,18 @@ export function Quantity({ label, unit, literal, fallback, meaning, variables, r
     setTyped(shown);
     setWrong("");
   }, [shown, parts.unit]);
-  const choices = [...new Set([...(parts.unit && parts.unit !== "" ? [parts.unit] : []), ...(CHOICES[unit] ?? (unit ? [unit] : []))])];
-  const now = parts.unit || choices[0] || "";
+  const usual = partsOf(fallback, unit);
+  const own = parts.unit || (literal === undefined && !usual.expression ? usual.unit : "");
+  const family = CHOICES[unit] ?? Object.values(CHOICES).find((list) => own !== "" && list.includes(own)) ?? (unit ? [unit] : []);
+  const choices = [...new Set([...(own ? [own] : []), ...family])];
+  const now = own || (unit ? (choices[0] ?? "") : "");
 
   const commit = (text: string) => {
     const value = text.trim();
     if (value === shown.trim()) return setWrong("");
     if (value === "") return required ? setTyped(shown) : onChange(null);
     const simple = SIMPLE.exec(value);
-    if (simple && !simple[2]) return onChange(now && unit ? `${simple[1]} ${now}` : Number(simple[1]));
+    if (simple && !simple[2]) return onChange(now ? `${simple[1]} ${now}` : Number(simple[1]));
     if (!variables && numberIn(value) === null) return setWrong(`"${value}" is no number and no expression of the model's parameters.`);
     setWrong("");
     onChange(value);
@@ -100,7 +103,7 @@ export function Quantity({ label, unit, literal, fallback, meaning, variables, r
         <input
           id={id}
           value={typed}
-          placeholder={fallback ?? (required ? "required" : "–")}
+          placeholder={fallback !== undefined ? (usual.expression ? fallback : usual.number) : required ? "required" : "–"}
           spellCheck={false}
           aria-invalid={wrong !== ""}
           aria-describedby={wrong ? `${id}-wrong` : undefined}
@@ -117,7 +120,7 @@ export function Quantity({ label, unit, literal, fallback, meaning, variables, r
             }
           }}
         />
-        {unit && !parts.expression && (
+        {now && !parts.expression && (
           <select aria-label={`Unit of ${label}`} value={now} onChange={(event) => convert(event.target.value)}>
             {choices.map((one) => (
               <option key={one} value={one}>
