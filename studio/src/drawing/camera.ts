@@ -28,7 +28,9 @@ export function zoomAt(camera: Camera, at: Point, factor: number): Camera {
   return { scale, x: at[0] - (at[0] - camera.x) * real, y: at[1] - (at[1] - camera.y) * real };
 }
 
-export function fitTo(box: { min: Point; max: Point }, size: Size, margin = 0.16): Camera {
+/** `foot`: pixels at the lower edge that stay free. */
+export function fitTo(box: { min: Point; max: Point }, whole: Size, margin = 0.16, foot = 0): Camera {
+  const size = { width: whole.width, height: Math.max(whole.height - foot, 1) };
   const width = Math.max(box.max[0] - box.min[0], 1e-6);
   const height = Math.max(box.max[1] - box.min[1], 1e-6);
   const least = Math.max(width, height) * 0.4;

@@ -79,7 +79,7 @@ export class View {
   fit(): void {
     const { model, poses } = studio.get();
     const box = extent(model, poses ?? undefined);
-    this.setCamera(fitTo(model.bodies.length > 0 ? withGuides(widened(model, box), this.looks) : box, this.size));
+    this.setCamera(fitTo(model.bodies.length > 0 ? withGuides(widened(model, box), this.looks) : box, this.size, 0.13, 30));
   }
 
   /** What so many pixels are [m]. */

@@ -94,7 +94,7 @@ function start(home: HTMLElement): EditorView {
         syntaxHighlighting(colours),
         autocompletion({ override: [(context: CompletionContext) => complete(context)] }),
         keymap.of([...history, ...completionKeymap, ...searchKeymap, ...defaultKeymap, indentWithTab]),
-        EditorView.contentAttributes.of({ "aria-label": "Text of the model", spellcheck: "false" }),
+        EditorView.contentAttributes.of({ "aria-label": "Text of the model", spellcheck: "false", tabindex: "0" }),
         EditorView.updateListener.of((update) => {
           if (!update.docChanged || update.transactions.some((one) => one.annotation(FromDrawing))) return;
           edit(update.state.doc.toString(), "Edit the text", "typing");
