@@ -36,8 +36,8 @@ void assemble_velocities(const Model& model, const System& system, const Vecs& q
     for (int k = 0; k < 3; ++k) {
       if (!(stiff[k] > 0)) continue;
       double mobility = 0;
-      if (joint.at.a != kGround) mobility += r[j].GA.row(k).cwiseAbs2().dot(system.bodies[joint.at.a].mass.cwiseInverse());
-      if (joint.at.b != kGround) mobility += r[j].GB.row(k).cwiseAbs2().dot(system.bodies[joint.at.b].mass.cwiseInverse());
+      if (joint.at.a != kGround) mobility += r[j].GA().row(k).cwiseAbs2().dot(system.bodies[joint.at.a].mass.cwiseInverse());
+      if (joint.at.b != kGround) mobility += r[j].GB().row(k).cwiseAbs2().dot(system.bodies[joint.at.b].mass.cwiseInverse());
       joint_weight[j][k] = mobility > 0 ? 1e5 / mobility : 0;
     }
   }

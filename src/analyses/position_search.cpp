@@ -32,7 +32,8 @@ double energy(const System& system, const Vecs& w, const std::vector<Reading>& r
 
 }  // namespace
 
-LeastSquares::LeastSquares(const System& system) : system_(system), lu_(system.pattern()), x_(system.bodies.size()) {}
+LeastSquares::LeastSquares(const System& system)
+    : system_(system), free_(system.bodies.size(), S::Vec::Ones()), lu_(system.pattern()), x_(system.bodies.size()) {}
 
 bool LeastSquares::prepare(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& body_weight) {
   lu_.set_zero();
@@ -41,11 +42,13 @@ bool LeastSquares::prepare(const std::vector<Reading>& r, const Vecs& joint_weig
   for (int j = 0; j < system_.n_joints(); ++j) {
     const Placement& at = system_.joints[j].at;
     const std::array<int, 2> body{at.a, at.b};
-    const std::array<const S::Mat*, 2> G{&r[j].GA, &r[j].GB};
+    std::array<S::Mat, 2> G{r[j].GA(), r[j].GB()};
+    for (int x = 0; x < 2; ++x)
+      if (body[x] != kGround) G[x] = G[x] * free_[body[x]].asDiagonal();
     for (int x = 0; x < 2; ++x)
       for (int y = 0; y < 2; ++y) {
         if (body[x] == kGround || body[y] == kGround) continue;
-        const S::Mat block = G[x]->transpose() * joint_weight[j].asDiagonal() * *G[y];
+        const S::Mat block = G[x].transpose() * joint_weight[j].asDiagonal() * G[y];
         auto& target = x == y ? lu_.diagonal(body[x]) : lu_.off_diagonal(system_.pattern().slot(body[x], body[y]));
         for (int a = 0; a < S::kDof; ++a)
           for (int b = 0; b < S::kDof; ++b) target(a, b) += block(a, b);
@@ -60,6 +63,7 @@ Vecs LeastSquares::pull(const std::vector<Reading>& r, const Vecs& joint_weight,
     const S::Vec w = joint_weight[j].cwiseProduct(gap[j]);
     add_force(system_.joints[j].at, r[j], w, f);
   }
+  for (std::size_t i = 0; i < f.size(); ++i) f[i] = f[i].cwiseProduct(free_[i]);
   return f;
 }
 
@@ -90,12 +94,15 @@ double mechanism_size(const System& system, const Vecs& q) {
 }
 
 PositionSearch::PositionSearch(const Model& model, const System& system, const std::vector<bool>& open)
-    : model_(model), system_(system), equations_(system), weight_(joint_weights(system, open)) {}
+    : model_(model), system_(system), equations_(system), weight_(joint_weights(system, open)) {
+  for (int i = 0; i < system.n_bodies(); ++i)
+    for (int k = 0; k < S::kDof; ++k)
+      if (model.bodies[i].hold[k]) equations_.hold(i, k);
+}
 
 void PositionSearch::run(Vecs& q, int max_iterations) {
   const Vecs still(q.size(), S::Vec::Zero());
   readings_at(system_, 0, q, still, m_, r_);
-  keep_held();
   double now = energy(system_, weight_, r_), damping = 1e-3;
   const Vecs body = body_weights(q);
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
@@ -119,22 +126,12 @@ void PositionSearch::run(Vecs& q, int max_iterations) {
       now = next;
       damping = std::max(damping * 0.1, 1e-12);
       if (settled) return;
-      keep_held();
-    } else {
+      } else {
       readings_at(system_, 0, q, still, m_, r_);
-      keep_held();
-      damping *= 10;
+        damping *= 10;
       if (damping > 1e12 || step < 1e-15) return;
     }
   }
-}
-
-// No gap reacts to a coordinate that is held, so that nothing moves it.
-void PositionSearch::keep_held() {
-  for (std::size_t j = 0; j < r_.size(); ++j)
-    for (auto [body, G] : {std::pair{system_.joints[j].at.a, &r_[j].GA}, std::pair{system_.joints[j].at.b, &r_[j].GB}})
-      for (int k = 0; k < S::kDof && body != kGround; ++k)
-        if (model_.bodies[body].hold[k]) G->col(k).setZero();
 }
 
 // How much a coordinate resists being moved: what the user stated more than what he left open.

@@ -14,6 +14,8 @@ class LeastSquares {
  public:
   explicit LeastSquares(const System& system);
 
+  void hold(int body, int coordinate) { free_[body][coordinate] = 0; }
+
   bool prepare(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& body_weight);
   /// G' W gap
   Vecs pull(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& gap) const;
@@ -22,6 +24,7 @@ class LeastSquares {
  private:
   using Row = BlockVec<double, Planar::kDof>;
   const System& system_;
+  Vecs free_;  // 0 where a coordinate is held: no gap reacts to it, so that nothing moves it
   BlockLu<double, Planar::kDof> lu_;
   std::vector<Row> x_;
 };
@@ -44,7 +47,6 @@ class PositionSearch {
   void run(Vecs& q, int max_iterations = 500);
 
  private:
-  void keep_held();
   Vecs body_weights(const Vecs& q) const;
 
   const Model& model_;
