@@ -1,10 +1,15 @@
-// A GIF of few colours: drawings have a paper, some lines and some fills. 216 colours of a cube and 39 greys; LZW.
+// A GIF of few colours: drawings have a paper, some lines and some fills. The colours are those of the first picture; LZW.
 
-const LEVELS = [0, 51, 102, 153, 204, 255];
+/** Two colours nearer than this (squared distance) are one. */
+const SAME = 48;
+/** What the film needs later and the first picture may lack: the reds of force arrows. */
+const ALWAYS = [0xcf2e2e, 0xe68080, 0xff6b63, 0x7f3531];
 
 export class GifWriter {
   private readonly bytes: number[] = [];
   private before: Uint8Array | null = null;
+  private colours: number[] = [];
+  private readonly nearest = new Map<number, number>();
 
   constructor(
     private readonly width: number,
@@ -15,10 +20,29 @@ export class GifWriter {
     this.text("GIF89a");
     this.short(width);
     this.short(height);
-    this.bytes.push(0xf7, 0, 0, ...palette());
+    this.bytes.push(0xf7, 0, 0);
+  }
+
+  private begin(rgba: Uint8ClampedArray): void {
+    this.colours = commonColours(rgba);
+    for (let i = 0; i < 256; i++) {
+      const colour = this.colours[i] ?? 0;
+      this.bytes.push(colour >> 16, (colour >> 8) & 255, colour & 255);
+    }
     this.bytes.push(0x21, 0xff, 11);
     this.text("NETSCAPE2.0");
     this.bytes.push(3, 1, 0, 0, 0); // for ever
+  }
+
+  private indexOf(colour: number): number {
+    const known = this.nearest.get(colour);
+    if (known !== undefined) return known;
+    let best = 0;
+    this.colours.forEach((one, i) => {
+      if (difference(one, colour) < difference(this.colours[best]!, colour)) best = i;
+    });
+    this.nearest.set(colour, best);
+    return best;
   }
 
   private text(text: string): void {
@@ -31,8 +55,9 @@ export class GifWriter {
 
   /** Adds a picture: RGBA, row by row. Pixels that did not change are left out. */
   add(rgba: Uint8ClampedArray): void {
+    if (this.colours.length === 0) this.begin(rgba);
     const indices = new Uint8Array(this.width * this.height);
-    for (let i = 0; i < indices.length; i++) indices[i] = nearestColour(rgba[4 * i]!, rgba[4 * i + 1]!, rgba[4 * i + 2]!);
+    for (let i = 0; i < indices.length; i++) indices[i] = this.indexOf((rgba[4 * i]! << 16) | (rgba[4 * i + 1]! << 8) | rgba[4 * i + 2]!);
     const shown = indices.slice();
     const { before } = this;
     if (before) for (let i = 0; i < shown.length; i++) if (shown[i] === before[i]) shown[i] = 255;
@@ -57,21 +82,23 @@ export class GifWriter {
   }
 }
 
-function palette(): number[] {
-  const colours: number[] = [];
-  for (const r of LEVELS) for (const g of LEVELS) for (const b of LEVELS) colours.push(r, g, b);
-  for (let i = 0; i < 40; i++) {
-    const grey = Math.round((i * 255) / 39);
-    colours.push(grey, grey, grey);
-  }
-  return colours;
+function difference(a: number, b: number): number {
+  return ((a >> 16) - (b >> 16)) ** 2 + (((a >> 8) & 255) - ((b >> 8) & 255)) ** 2 + ((a & 255) - (b & 255)) ** 2;
 }
 
-// Index 255 stands for "as before", so greys end at 254.
-function nearestColour(r: number, g: number, b: number): number {
-  const spread = Math.max(r, g, b) - Math.min(r, g, b);
-  if (spread < 14) return 216 + Math.min(Math.round((((r + g + b) / 3) * 39) / 255), 38);
-  return 36 * Math.round(r / 51) + 6 * Math.round(g / 51) + Math.round(b / 51);
+// At most 255, the commonest first: index 255 stands for "as before".
+function commonColours(rgba: Uint8ClampedArray): number[] {
+  const counts = new Map<number, number>();
+  for (let i = 0; i + 3 < rgba.length; i += 4) {
+    const colour = (rgba[i]! << 16) | (rgba[i + 1]! << 8) | rgba[i + 2]!;
+    counts.set(colour, (counts.get(colour) ?? 0) + 1);
+  }
+  const colours = [...ALWAYS];
+  for (const [colour] of [...counts].sort((a, b) => b[1] - a[1])) {
+    if (colours.length === 255) break;
+    if (colours.every((one) => difference(one, colour) >= SAME)) colours.push(colour);
+  }
+  return colours;
 }
 
 /** Codes of variable width from 9 bits up, packed from the lowest bit. */
