@@ -63,7 +63,7 @@ export function looksOf(model: Model, size: number, poses?: Poses): Looks {
     const at = carrier ? (marker?.at ?? [0, 0]) : alongAxis(marker?.at ?? [0, 0], marker?.axis ?? 0, worldPoint(model, runner, poses));
     guides.push({ joint: joint.name, on: guide.body, at, axis: marker?.axis ?? 0, slot: joint.type === "slot", reach: own || size * 0.3 });
   }
-  const bodies = new Map(model.bodies.map((body) => [body.name, lookOf(model, body, gears, size)]));
+  const bodies = new Map(model.bodies.map((body) => [body.name, lookOf(model, body, gears, guides, size)]));
   return { bodies, gears, guides };
 }
 
@@ -83,10 +83,17 @@ function gearsOf(model: Model): GearLook[] {
   return gears;
 }
 
-function lookOf(model: Model, body: Body, gears: readonly GearLook[], size: number): BodyLook {
+// A body with a slot reaches from end to end of it.
+function slotEnds(body: Body, guides: readonly GuideLook[]): Point[] {
+  return guides
+    .filter((guide) => guide.slot && guide.on === body.name)
+    .flatMap(({ at, axis, reach }): Point[] => [1, -1].map((side) => [at[0] + side * reach * Math.cos(axis), at[1] + side * reach * Math.sin(axis)]));
+}
+
+function lookOf(model: Model, body: Body, gears: readonly GearLook[], guides: readonly GuideLook[], size: number): BodyLook {
   const { shape } = body;
   if (shape?.kind === "disc") return { kind: "disc", radius: shape.width / 2, spokes: true };
-  const points = distinct(body.markers.map((marker) => marker.at), size);
+  const points = distinct([...body.markers.map((marker) => marker.at), ...slotEnds(body, guides)], size);
   const runner = runnerOf(model, body);
   if (points.length <= 1) {
     const at = points[0] ?? [0, 0];
