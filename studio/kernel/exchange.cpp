@@ -43,7 +43,8 @@ Json input_fault(const InputError& error) {
   if (complaints.empty()) return fault(error.what(), "");
   const Json first = to_json(complaints.front());
   const std::string more = complaints.size() > 1 ? fmt::format(" (and {} more)", complaints.size() - 1) : "";
-  Json out = fault(fmt::format("{}: {}{}", first["key"].get<std::string>(), first["message"].get<std::string>(), more), first["hint"]);
+  const std::string& key = complaints.front().path;
+  Json out = fault(fmt::format("{}{}{}{}", key, key.empty() ? "" : ": ", first["message"].get<std::string>(), more), first["hint"]);
   out["where"] = {{"line", first["line"]}, {"column", first["column"]}, {"key", first["key"]}};
   out["complaints"] = to_json(complaints);
   return out;
