@@ -1,6 +1,6 @@
 // What a user can do to the whole: edit, undo, select, open. Every change of the text goes through `edit`.
 import { type Complaint, type Fault } from "./kernel/protocol";
-import { change, newHistory, redo as redoStep, undo as undoStep } from "./model/history";
+import { type History, change, redo as redoStep, undo as undoStep } from "./model/history";
 import { type Model, type Poses, readModel } from "./model/model";
 import { EMPTY_MODEL, type Made, type Thing } from "./model/operations";
 import { copyThings, pasteThings, removeThings } from "./model/removal";
@@ -74,14 +74,24 @@ export function drawn(made: Made, label: string): void {
 }
 
 export function undo(): void {
-  const history = undoStep(studio.get().history);
-  if (history !== studio.get().history) studio.set({ history, ...follow(history.text) });
+  const { history } = studio.get();
+  goTo(undoStep(history), history.past[history.past.length - 1]?.key ?? "", 0);
 }
 
 export function redo(): void {
-  const history = redoStep(studio.get().history);
-  if (history !== studio.get().history) studio.set({ history, ...follow(history.text) });
+  const { history } = studio.get();
+  goTo(redoStep(history), history.future[0]?.key ?? "", 1);
 }
+
+// A step that opened another file has both names in its key: the text and its name go together.
+function goTo(history: History, key: string, side: 0 | 1): void {
+  if (history === studio.get().history) return;
+  const names = key.startsWith(OPENED) ? key.slice(OPENED.length).split("\u0000") : null;
+  studio.set({ history, ...(names ? { ...NOTHING_OPEN, fileName: names[side] ?? "" } : {}), ...follow(history.text) });
+  if (names) for (const listener of openedListeners) listener();
+}
+
+const OPENED = "open:";
 
 export function select(things: Thing[]): void {
   studio.set({ selection: things });
@@ -91,27 +101,23 @@ export function chooseTool(tool: ToolName): void {
   studio.set(tool === "select" ? { tool } : { tool, mode: "edit", playing: false });
 }
 
-/** Another model in place of this one; undo does not lead back into the other file. */
+/** What belongs to one model only. */
+const NOTHING_OPEN: Partial<StudioState> = { poses: null, obstacle: null, report: null, selection: [], kept: null, mode: "edit", playing: false, plotted: [], tool: "select" };
+
+/** Another model in place of this one, which undo brings back. */
 export function openText(text: string, fileName: string): void {
   const read = readModel(text);
   const faulty = read.document.faults.length > 0;
+  const before = studio.get();
   studio.set({
-    history: newHistory(text),
+    ...NOTHING_OPEN,
+    history: change(before.history, text, `Open ${fileName}`, `${OPENED}${before.fileName}\u0000${fileName}`),
     fileName,
     model: faulty && read.bodies.length === 0 ? readModel(EMPTY_MODEL) : read,
     stale: faulty,
     complaints: localComplaints(read.document),
-    poses: null,
-    obstacle: null,
-    report: null,
-    selection: [],
-    run: { ...NO_RUN, serial: studio.get().run.serial + 1 },
-    ghost: { ...studio.get().ghost, answer: null },
-    kept: null,
-    mode: "edit",
-    playing: false,
-    plotted: [],
-    tool: "select",
+    run: { ...NO_RUN, serial: before.run.serial + 1 },
+    ghost: { ...before.ghost, answer: null },
     savedText: text,
   });
   for (const listener of openedListeners) listener();

@@ -85,6 +85,19 @@ export const tests = {
     await page.context().close();
   },
 
+  async "another model that is opened does not lose the one before"(world) {
+    const page = await world.visit();
+    await openTemplate(page, "trammel.toml");
+    await replaceText(page, 'name = "Trammel of Archimedes"', 'name = "Mine"');
+    await openTemplate(page, "pendulum.toml");
+    await page.locator(".scene").first().focus();
+    await page.keyboard.press("Control+z");
+    assert.equal(await state(page, "(now) => now.fileName + ' ' + now.model.name"), "trammel.toml Mine");
+    await page.keyboard.press("Control+Shift+z");
+    assert.equal(await state(page, "(now) => now.fileName + ' ' + now.model.name"), "pendulum.toml Pendulum");
+    await page.context().close();
+  },
+
   async "files that are no models never show a blank page"(world) {
     const page = await world.visit();
     const drop = (name, text) =>

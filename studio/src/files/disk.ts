@@ -47,12 +47,10 @@ export async function take(file: File, keepHandle = false): Promise<void> {
   if (file.size > LARGEST) return say(`${file.name} has ${Math.round(file.size / 1e6)} MB: that is no model.`);
   const text = await file.text();
   if (text.includes("\u0000")) return say(`${file.name} is not a text.`);
-  const before = studio.get().history.text;
-  const name = studio.get().fileName;
   const toml = file.name.endsWith(".json") ? await fromJson(text) : text;
   openText(toml, file.name.replace(/\.json$/, ".toml"));
   if (readModel(toml).document.faults.length > 0) studio.set({ side: "text", dock: "problems" });
-  say(`Opened ${file.name}.`, { label: "Back to the model before", run: () => openText(before, name) });
+  say(`Opened ${file.name}. Undo leads back to the model before.`);
 }
 
 async function fromJson(text: string): Promise<string> {
@@ -69,6 +67,7 @@ export async function saveFile(): Promise<void> {
   const { history, fileName } = studio.get();
   try {
     if (pickers.showSaveFilePicker) {
+      if (handle?.name !== fileName) handle = null;
       handle ??= await pickers.showSaveFilePicker({ suggestedName: fileName, types: TYPES });
       const stream = await handle.createWritable();
       await stream.write(history.text);

@@ -1,5 +1,6 @@
 // A link that holds the whole model: compressed, in the part of the address that is never sent to a server.
 import { openText, say } from "../actions";
+import { EMPTY_MODEL } from "../model/operations";
 import { studio } from "../state";
 
 const MARK = "#m=";
@@ -61,6 +62,8 @@ export async function openFromAddress(): Promise<boolean> {
     say("The link's model cannot be read: it may have been cut off. Ask for it again, whole.");
     return false;
   }
+  const mine = studio.get().history.text;
   openText(text, "shared.toml");
+  if (mine !== text && mine !== EMPTY_MODEL) say("This is the link's model. Undo leads back to yours.");
   return true;
 }

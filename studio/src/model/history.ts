@@ -14,6 +14,8 @@ export interface History {
   readonly text: string;
   readonly past: readonly Change[];
   readonly future: readonly Change[];
+  /** The last step has been undone and redone: what comes now is a step of its own. */
+  readonly closed?: boolean;
 }
 
 export function newHistory(text: string): History {
@@ -33,7 +35,7 @@ function difference(before: string, after: string, label: string, key: string): 
 export function change(history: History, text: string, label: string, key = ""): History {
   if (text === history.text) return history;
   const last = history.past[history.past.length - 1];
-  if (key && last?.key === key && history.future.length === 0) {
+  if (key && last?.key === key && !history.closed && history.future.length === 0) {
     const before = back(history.text, last);
     const past = history.past.slice(0, -1);
     return { text, past: before === text ? past : [...past, difference(before, text, label, key)], future: [] };
@@ -58,5 +60,5 @@ export function undo(history: History): History {
 export function redo(history: History): History {
   const [step, ...rest] = history.future;
   if (!step) return history;
-  return { text: forth(history.text, step), past: [...history.past, { ...step, key: "" }], future: rest };
+  return { text: forth(history.text, step), past: [...history.past, step], future: rest, closed: true };
 }

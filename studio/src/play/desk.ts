@@ -82,7 +82,8 @@ async function assemble(text: string, current: () => boolean): Promise<void> {
 
 async function check(text: string, current: () => boolean): Promise<void> {
   if (studio.get().model.bodies.length === 0) return;
-  const report = await kernel.check(text).catch(() => null);
+  const ask = () => kernel.check(text);
+  const report = await ask().catch((error: unknown) => (wasEnded(error) ? ask() : null)).catch(() => null);
   if (current()) studio.set({ report });
 }
 
@@ -103,7 +104,10 @@ function startRun(text: string, current: () => boolean): void {
       if (ghost.on) void runGhost(text, current);
     })
     .catch((error: unknown) => {
-      if (current()) studio.set((now) => ({ run: { ...NO_RUN, status: "failed", fault: asFault(error), serial: now.run.serial + 1 } }));
+      if (!current()) return;
+      // Ended along with another run that did not stop in time, and not by the user: asked again.
+      if (running === handle && wasEnded(error)) return startRun(text, current);
+      studio.set((now) => ({ run: { ...NO_RUN, status: "failed", fault: asFault(error), serial: now.run.serial + 1 } }));
     });
 }
 
@@ -143,7 +147,10 @@ export function setGhost(on: boolean): void {
 
 export function cancelRun(): void {
   running?.cancel();
+  running = null;
 }
+
+const wasEnded = (error: unknown): boolean => /cancelled before/.test(asFault(error).message);
 
 /** Drags a point of a body while nothing runs: one question at a time, the newest target wins. */
 export class KinematicDrag {
