@@ -29,6 +29,9 @@ export class View {
   private ghost: ((frame: ReturnType<typeof player.frame>) => void) | null = null;
   private preview: Preview | null = null;
   private fitted = false;
+  /** The camera as it was set by itself: until a visitor moves it, the first run of a model may set it again. */
+  private own: Camera | null = null;
+  private ranOnce = false;
   private readonly ends: (() => void)[] = [];
   private readonly cameraListeners = new Set<() => void>();
 
@@ -41,6 +44,7 @@ export class View {
       player.onFrame(() => this.draw()),
       onOpened(() => {
         this.fitted = false;
+        this.ranOnce = false;
         player.touch();
       }),
     );
@@ -79,7 +83,12 @@ export class View {
   fit(): void {
     const { model, poses } = studio.get();
     const box = extent(model, poses ?? undefined);
-    this.setCamera(fitTo(model.bodies.length > 0 ? withGuides(widened(model, box), this.looks) : box, this.size, 0.13, 30));
+    const run = player.reachOfRun();
+    // A motion that goes far away would leave the mechanism a dot.
+    const near = run && Math.max(run.max[0] - run.min[0], run.max[1] - run.min[1]) < 4 * box.size;
+    const motion = near ? joined(box, run) : widened(model, box);
+    this.setCamera(fitTo(model.bodies.length > 0 ? withGuides(motion, this.looks) : box, this.size, 0.13, 30));
+    this.own = this.camera;
   }
 
   /** What so many pixels are [m]. */
@@ -109,6 +118,11 @@ export class View {
       this.fit();
     }
     const forceScale = player.forceScale;
+    if (!this.ranOnce && now.run.status === "done" && now.run.serial !== shown.run?.serial && now.model.bodies.length > 0) {
+      this.ranOnce = true;
+      this.stretchGuides(now.model);
+      if (this.own === this.camera && now.history.past[now.history.past.length - 1]?.key.startsWith("open:") !== false) this.fit();
+    }
     const again =
       shown.model !== now.model || shown.show !== now.show || shown.scale !== this.camera.scale || Math.abs((shown.forceScale ?? 0) - forceScale) > 0.3 * forceScale;
     if (shown.poses === null && now.poses) this.looks = looksOf(now.model, extent(now.model, now.poses ?? undefined).size, now.poses ?? undefined);
@@ -194,6 +208,10 @@ export class View {
       make("rect", { x: Math.min(a[0], b[0]), y: Math.min(a[1], b[1]), width: Math.abs(a[0] - b[0]), height: Math.abs(a[1] - b[1]), class: "lasso" }, layer);
     }
   }
+}
+
+function joined(a: { min: Point; max: Point }, b: { min: Point; max: Point }): { min: Point; max: Point } {
+  return { min: [Math.min(a.min[0], b.min[0]), Math.min(a.min[1], b.min[1])], max: [Math.max(a.max[0], b.max[0]), Math.max(a.max[1], b.max[1])] };
 }
 
 function withGuides(box: { min: Point; max: Point }, looks: Looks): { min: Point; max: Point } {

@@ -4,7 +4,7 @@ import { asFault, say } from "../actions";
 import type { Frame } from "../drawing/scene";
 import type { LiveSession } from "../kernel/kernel";
 import type { LiveFrame, Pull } from "../kernel/protocol";
-import { ORIGIN, type Pose } from "../model/geometry";
+import { ORIGIN, type Point, type Pose } from "../model/geometry";
 import { poseOf } from "../model/model";
 import { studio } from "../state";
 import { kernel } from "./desk";
@@ -256,6 +256,11 @@ class Player {
     this.current();
     const { mode, model } = studio.get();
     return this.ghostReplay ? this.ghostReplay.frame(mode === "edit" ? 0 : this.t, model, (name) => poseOf(model, name)) : null;
+  }
+
+  /** What the mechanism passes over in the run. */
+  reachOfRun(): { min: Point; max: Point } | null {
+    return this.current()?.box(studio.get().model) ?? null;
   }
 
   /** Between which slides a sliding joint moves in the run [m]. */

@@ -1,7 +1,7 @@
 // A finished run as something to look at: poses and joint forces at any time of it.
 import type { Frame } from "../drawing/scene";
 import type { Column, RunAnswer } from "../kernel/protocol";
-import type { Point, Pose } from "../model/geometry";
+import { type Point, type Pose, toWorld } from "../model/geometry";
 import type { Model } from "../model/model";
 
 type Lookup = (t: number, values: Float64Array) => number;
@@ -86,6 +86,26 @@ export class Replay {
       path[2 * i + 1] = y[i]! + s * px + c * py;
     }
     return path;
+  }
+
+  /** What all points of the bodies pass over in the run, from some fifty of its instants. */
+  box(model: Model): { min: Point; max: Point } | null {
+    let [left, bottom, right, top] = [Infinity, Infinity, -Infinity, -Infinity];
+    const stride = Math.max(1, Math.floor(this.time.length / 50));
+    for (const body of model.bodies) {
+      const columns = this.bodies.get(body.name);
+      if (!columns) continue;
+      for (let i = 0; i < this.time.length; i += stride) {
+        const pose = { x: columns[0][i]!, y: columns[1][i]!, angle: columns[2][i]! };
+        for (const [x, y] of [[pose.x, pose.y] as Point, ...body.markers.map((marker) => toWorld(pose, marker.at))]) {
+          left = Math.min(left, x);
+          right = Math.max(right, x);
+          bottom = Math.min(bottom, y);
+          top = Math.max(top, y);
+        }
+      }
+    }
+    return Number.isFinite(left + right + bottom + top) ? { min: [left, bottom], max: [right, top] } : null;
   }
 
   /** Smallest and largest value of a joint's column. */
