@@ -7,7 +7,7 @@ FUZZ_SECONDS ?= 60
 CONFIGURE := cmake -G Ninja -S .
 BUILD     := cmake --build
 CLANG     := clang++-14
-LONG := Slow|Radau|StageSolver|Dopri5|Allocations|DenseOutput|Simulate|Reference|Accuracy|System|Start|Assembl|Stopped|Check|Kink|Methods|AlphaStepper|CompareSolvers|SolversVerb|Lagrangian|Published|Stiffen|Compare$$
+LONG := Slow|Live|Radau|StageSolver|Dopri5|Allocations|DenseOutput|Simulate|Reference|Accuracy|System|Start|Assembl|Stopped|Check|Kink|Methods|AlphaStepper|CompareSolvers|SolversVerb|Lagrangian|Published|Stiffen|Compare$$
 say        = @printf '\n=== %s\n' "$(1)"
 
 .PHONY: help setup build demo test install bench fuzz web-check studio studio-test studio-browser-test format clean
