@@ -127,9 +127,9 @@ export const tests = {
       return (performance.now() - begin) / 100;
     });
     await page.context().close();
-    // Without a graphics card most of a frame is the browser's painting; what is the page's own must leave it room.
-    assert(cost < 6, `${cost.toFixed(1)} ms of a frame`);
-    assert(rate > 20, `${rate.toFixed(0)} frames a second`);
+    // The page's own part of a frame of 16.7 ms. The rest is the browser's painting, which here has no graphics card and shares
+    // its processor with whatever else runs: that rate is told, not judged.
+    assert(cost < 4, `${cost.toFixed(1)} ms of a frame`);
     return `${cost.toFixed(1)} ms of each frame, ${rate.toFixed(0)} frames a second painted without a graphics card`;
   },
 

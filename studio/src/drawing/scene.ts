@@ -58,7 +58,8 @@ export class Scene {
     // Blocks and discs lie under the bars that are pinned to them.
     const looked = model.bodies.map((body, i) => ({ name: body.name, look: looks.bodies.get(body.name) ?? ({ kind: "mass" } as BodyLook), i }));
     for (const under of [true, false]) for (const { name, look, i } of looked) if ((look.kind !== "bar") === under) this.drawBody(name, look, i);
-    for (const body of model.bodies) this.drawMarkers(body.name, body.markers, options);
+    const pinned = new Set(model.joints.filter((joint) => joint.type === "revolute" || joint.type === "fixed").flatMap((joint) => [joint.first, joint.second]).map((end) => `${end.body}.${end.marker}`));
+    for (const body of model.bodies) this.drawMarkers(body.name, body.markers, pinned, options);
     for (const joint of model.joints) this.drawJoint(model, joint);
     for (const spring of model.springs) this.drawSpring(model, spring);
     this.drawRacks(model);
@@ -166,8 +167,10 @@ export class Scene {
     else path(`M${-reach} 0H${reach}`, "axis", one);
   }
 
-  private drawMarkers(body: string, markers: Model["ground"], options: SceneOptions): void {
+  // A point under a pin needs no dot of its own.
+  private drawMarkers(body: string, markers: Model["ground"], pinned: ReadonlySet<string>, options: SceneOptions): void {
     for (const marker of markers) {
+      if (pinned.has(`${body}.${marker.name}`) && !marker.traced) continue;
       const dot = path(circle(0, 0, marker.traced ? 4 : 2.5), marker.traced ? "marker traced" : "marker", this.layers.links);
       this.register("marker", `${body}.${marker.name}`, dot);
       this.follow(dot, body, marker.at, 0, false);
