@@ -7,10 +7,10 @@ FUZZ_SECONDS ?= 60
 CONFIGURE := cmake -G Ninja -S .
 BUILD     := cmake --build
 CLANG     := clang++-14
-LONG := Slow|Radau|StageSolver|Dopri5|Allocations|DenseOutput|Simulate|Reference|Accuracy|System|Start|Assembl|Stopped|Check|Kink|Methods|AlphaStepper|CompareSolvers|SolversVerb|Lagrangian|Published|Stiffen|Compare$$
+LONG := Slow|Live|Radau|StageSolver|Dopri5|Allocations|DenseOutput|Simulate|Reference|Accuracy|System|Start|Assembl|Stopped|Check|Kink|Methods|AlphaStepper|CompareSolvers|SolversVerb|Lagrangian|Published|Stiffen|Compare$$
 say        = @printf '\n=== %s\n' "$(1)"
 
-.PHONY: help setup build demo test install bench fuzz web-check format clean
+.PHONY: help setup build demo test install bench fuzz web-check studio studio-test studio-browser-test format clean
 .PHONY: paper figure9 published
 .PHONY: check-sources test-release test-package test-clang
 
@@ -24,6 +24,9 @@ help:
 	@echo "make figure9    the paper's Figure 9 only"
 	@echo "make published  published benchmark problems, measured as their sources do"
 	@echo "make fuzz       fuzz the reader for FUZZ_SECONDS (now $(FUZZ_SECONDS)) per fuzzer"
+	@echo "make studio     the studio: its kernel as WebAssembly, its pages, and pintle studio that serves them"
+	@echo "make studio-test  the studio's tests in Node; the WebAssembly kernel gives the native one's numbers"
+	@echo "make studio-browser-test  the built studio in chromium: drawing, every template, broken models, axe, sizes"
 	@echo "make web-check  compile the library with emscripten"
 	@echo "make format     clang-format every source"
 	@echo "make clean      remove build/ and out/"
@@ -52,7 +55,7 @@ test:
 
 check-sources:
 	$(call say,order of rooms and habits)
-	@bash -n tools/setup.sh tools/web_check.sh
+	@bash -n tools/setup.sh tools/web_check.sh tools/studio.sh
 	@python3 tools/check_sources.py
 
 test-release:
@@ -118,6 +121,21 @@ figure9: build/release/bin/pintle-paper
 
 published: build/release/bin/pintle-published
 	@build/release/bin/pintle-published
+
+studio: build
+	@tools/setup.sh web
+	@tools/studio.sh
+	@echo "build/studio works from any web server; build/release/bin/pintle studio serves it with this folder's models."
+
+studio-test:
+	@tools/setup.sh build test web
+	@tools/studio.sh kernel
+	@$(CONFIGURE) -B build/test -DPINTLE_WERROR=ON >/dev/null
+	@$(BUILD) build/test -j $(JOBS) --target pintle_answers
+	@PINTLE_ANSWERS=$(CURDIR)/build/test/bin/pintle-answers tools/studio.sh test
+
+studio-browser-test: studio
+	@PINTLE=$(CURDIR)/build/release/bin/pintle tools/studio.sh browser
 
 web-check:
 	@tools/setup.sh web build

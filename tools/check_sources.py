@@ -18,13 +18,14 @@ PUBLIC_HEADERS = {
     "model.h": "model",
     "trajectory.h": "integrators",
     "simulate.h": "analyses",
+    "live.h": "analyses",
     "check.h": "analyses",
     "solvers.h": "analyses",
     "sweep.h": "analyses",
 }
-OUTER = {"cli", "tests", "bench", "examples"}
-FOLDERS = ["include", "src", "cli", "tests", "bench", "examples", "tools", "cmake"]
-SUFFIXES = {".h", ".cpp", ".py", ".sh", ".cmake"}
+OUTER = {"cli", "studio", "tests", "bench", "examples"}
+FOLDERS = ["include", "src", "cli", "studio/kernel", "studio/server", "studio/src", "studio/tests", "tests", "bench", "examples", "tools", "cmake"]
+SUFFIXES = {".h", ".cpp", ".py", ".sh", ".cmake", ".ts", ".tsx"}
 MAX_FILE, MAX_FUNCTION = 500, 100
 VAGUE = {"manager", "handler", "util", "utils", "helper", "helpers", "misc", "data2", "tmp"}
 NOTE = re.compile(r"\b(" + "TO" + "DO|FIX" + "ME|XX" + r"X)\b")

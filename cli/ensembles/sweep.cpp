@@ -14,7 +14,7 @@
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/model_options.h"
-#include "cli/sweep_program.h"
+#include "cli/companions.h"
 #include "io/document.h"
 #include "results/disk.h"
 #include "sweeps/run_sweep.h"

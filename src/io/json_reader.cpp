@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
+#include "base/decimal.h"
 #include "io/document.h"
 #include "io/text.h"
 
@@ -229,11 +229,9 @@ class JsonReader {
         return true;
       }
     }
-    double real = 0;
-    const auto result = std::from_chars(word.data(), end, real);
-    if (result.ptr != end) return false;
-    if (result.ec == std::errc::result_out_of_range) real = std::strtod(std::string(word).c_str(), nullptr);
-    node.value = real;
+    const Decimal real = read_decimal(word);
+    if (!real.whole) return false;
+    node.value = real.value;
     return true;
   }
 

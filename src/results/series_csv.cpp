@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cstdlib>
 #include <iterator>
 #include <optional>
 #include <string>
-#include <version>
+
+#include "base/decimal.h"
 
 namespace pintle {
 namespace {
@@ -35,17 +34,8 @@ std::string header_row(const Trajectory& trajectory, std::string Column::*entry)
 }
 
 std::optional<double> number(std::string_view field) {
-  double value = 0;
-#ifdef __cpp_lib_to_chars
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  const bool whole = error == std::errc{} && end == field.data() + field.size();
-#else
-  const std::string copy(field);
-  char* end = nullptr;
-  value = std::strtod(copy.c_str(), &end);
-  const bool whole = !copy.empty() && end == copy.c_str() + copy.size();
-#endif
-  return whole ? std::optional(value) : std::nullopt;
+  const Decimal read = read_decimal(field);
+  return read.whole && read.in_range ? std::optional(read.value) : std::nullopt;
 }
 
 /// Walks through the fields of a table and knows where it is.

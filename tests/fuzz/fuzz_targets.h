@@ -9,6 +9,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -19,8 +23,10 @@
 #include "io/document.h"
 #include "io/writers.h"
 #include "pintle/read_model.h"
+#include "results/disk.h"
 #include "results/series_csv.h"
 #include "results/summary_json.h"
+#include "studio/server/desk.h"
 
 namespace pintle::fuzz {
 
@@ -144,16 +150,81 @@ inline std::string summary(std::string_view text) {
   return {};
 }
 
+/// A call of the studio's kernel: its name on the first line, then its arguments. The answer is a value or a fault with a message.
+inline std::string studio_call(std::string_view text) {
+  static constexpr std::array<std::string_view, 6> kQuick{"read", "write", "edit", "format", "open_drag", "drag"};
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view name = text.substr(0, end);
+  if (std::find(kQuick.begin(), kQuick.end(), name) == kQuick.end()) return {};
+  const auto answer = nlohmann::json::parse(studio::Kernel().call(name, text.substr(std::min(end + 1, text.size()))).text);
+  if (answer.contains("value") == answer.contains("fault")) return "neither a value nor a fault";
+  if (answer.contains("fault") && answer["fault"].at("message").get<std::string>().empty()) return "a fault without a message";
+  return {};
+}
+
+/// A folder with a model and a page, and one beside it that nobody may read.
+class FuzzedDesk {
+ public:
+  FuzzedDesk() {
+    namespace fs = std::filesystem;
+    std::string name = (fs::temp_directory_path() / "pintle-fuzz-XXXXXX").string();
+    root_ = mkdtemp(name.data());
+    for (const char* folder : {"pages", "models/sub", "outside"}) fs::create_directories(root_ / folder);
+    write_file(root_ / "pages/index.html", "page");
+    write_file(root_ / "models/a.toml", "format = 1\n");
+    write_file(root_ / "outside/s.toml", kSecret);
+    fs::create_symlink(root_ / "outside", root_ / "models/way");
+    desk_ = std::make_unique<studio::Desk>(studio::DeskSettings{root_ / "pages", root_ / "models", "", 1, "t"});
+  }
+  ~FuzzedDesk() { std::filesystem::remove_all(root_); }
+  studio::Reply answer(const studio::Request& request) { return desk_->answer(request); }
+  bool is_touched() const { return read_file(root_ / "outside/s.toml") != kSecret || std::distance(std::filesystem::directory_iterator(root_ / "outside"), {}) != 1; }
+  static constexpr const char* kSecret = "dont-read-me";
+
+ private:
+  std::filesystem::path root_;
+  std::unique_ptr<studio::Desk> desk_;
+};
+
+/// A request to the studio's server: method and target on the first line, then headers if they are not the page's own, an empty
+/// line, the body. Nothing outside its folder is read or written; what is refused says why.
+inline std::string studio_request(std::string_view text) {
+  static FuzzedDesk desk;
+  const auto line = [&text] {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view out = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    return out;
+  };
+  const std::string_view first = line();
+  const std::size_t space = std::min(first.find(' '), first.size());
+  studio::Request request{std::string(first.substr(0, space)), std::string(first.substr(std::min(space + 1, first.size()))), {}, ""};
+  for (std::string_view header = line(); !header.empty(); header = line()) {
+    const std::size_t colon = std::min(header.find(':'), header.size());
+    request.headers.emplace(header.substr(0, colon), header.substr(std::min(colon + 1, header.size())));
+  }
+  if (request.headers.empty()) request.headers = {{"host", "127.0.0.1:1"}, {"x-pintle-token", "t"}};
+  request.body = text;
+  if (request.target.starts_with("/api/runs") && request.method == "POST") return {};  // takes as long as the model says
+  const studio::Reply reply = desk.answer(request);
+  if (reply.body.find(FuzzedDesk::kSecret) != std::string::npos || desk.is_touched()) return "a file outside the folder";
+  if (reply.status < 200 || reply.status > 599) return "a status that is none";
+  if (reply.status >= 400 && nlohmann::json::parse(reply.body).at("fault").at("message").get<std::string>().empty()) return "refused without a reason";
+  return {};
+}
+
 struct Target {
   const char* name;
   std::string (*run)(std::string_view);
 };
 
-inline constexpr std::array<Target, 6> kTargets{{{"model_toml", model_toml},
+inline constexpr std::array<Target, 8> kTargets{{{"model_toml", model_toml},
                                                  {"model_json", model_json},
                                                  {"expression", expression},
                                                  {"unit", unit},
                                                  {"series", series},
-                                                 {"summary", summary}}};
+                                                 {"summary", summary},
+                                                 {"studio_call", studio_call},
+                                                 {"studio_request", studio_request}}};
 
 }  // namespace pintle::fuzz

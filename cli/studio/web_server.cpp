@@ -1,0 +1,72 @@
+#include "cli/studio/web_server.h"
+
+#include <httplib.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "pintle/results.h"
+
+namespace pintle::cli {
+namespace {
+
+constexpr const char* kAddress = "127.0.0.1";
+constexpr std::size_t kLargestBody = std::size_t{96} << 20U;  // the largest model, as JSON text
+constexpr int kPatience = 5;                                  // of a connection that says nothing [s]
+
+studio::Request request_of(const httplib::Request& from) {
+  studio::Request request{from.method, from.target, {}, from.body};
+  for (const auto& [name, value] : from.headers) {
+    std::string lower = name;
+    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    request.headers.emplace(std::move(lower), value);
+  }
+  return request;
+}
+
+}  // namespace
+
+struct WebServer::Sockets {
+  httplib::Server server;
+};
+
+WebServer::WebServer(int port) : sockets_(std::make_unique<Sockets>()) {
+  httplib::Server& server = sockets_->server;
+  // Without SO_REUSEPORT, so that no other program can listen at the same port.
+  server.set_socket_options([](int socket) {
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
+  server.set_payload_max_length(kLargestBody);
+  server.set_read_timeout(kPatience);
+  server.set_write_timeout(kPatience);
+  server.set_keep_alive_timeout(kPatience);
+  server.set_keep_alive_max_count(1000);
+  if (port > 0 && server.bind_to_port(kAddress, port)) port_ = port;
+  else port_ = server.bind_to_any_port(kAddress);
+  if (port_ <= 0) throw FileError("pintle studio finds no free port on 127.0.0.1");
+}
+
+WebServer::~WebServer() = default;
+
+void WebServer::serve(studio::Desk& desk, const std::function<bool()>& goes_on) {
+  httplib::Server& server = sockets_->server;
+  const auto answer = [&desk](const httplib::Request& from, httplib::Response& to) {
+    studio::Reply reply = desk.answer(request_of(from));
+    to.status = reply.status;
+    for (const auto& [name, value] : reply.headers) to.set_header(name.c_str(), value);
+    to.set_content(std::move(reply.body), reply.type.c_str());
+  };
+  // [^] rather than a dot: a dot leaves out line ends.
+  constexpr const char* kAnything = R"([\s\S]*)";
+  server.Get(kAnything, answer).Post(kAnything, answer).Put(kAnything, answer).Delete(kAnything, answer).Patch(kAnything, answer).Options(kAnything, answer);
+  std::thread watch([&] {
+    while (goes_on()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    server.stop();
+  });
+  server.listen_after_bind();
+  watch.join();
+}
+
+}  // namespace pintle::cli

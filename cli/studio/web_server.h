@@ -1,0 +1,27 @@
+// The sockets of the studio's server. On this machine only: 127.0.0.1.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "studio/server/desk.h"
+
+namespace pintle::cli {
+
+class WebServer {
+ public:
+  /// Listens at `port`, or at any free one if that is taken or 0. Throws FileError when there is none.
+  explicit WebServer(int port);
+  ~WebServer();
+  int port() const { return port_; }
+
+  /// Answers until `goes_on` says no; it is asked about ten times a second.
+  void serve(studio::Desk& desk, const std::function<bool()>& goes_on);
+
+ private:
+  struct Sockets;
+  std::unique_ptr<Sockets> sockets_;
+  int port_ = 0;
+};
+
+}  // namespace pintle::cli

@@ -1,0 +1,13 @@
+# Finds cpp-httplib for `pintle studio`. PINTLE_HTTPLIB_FOUND says whether it is there.
+set(PINTLE_HTTPLIB_FOUND OFF)
+if(PINTLE_STUDIO)
+  find_path(PINTLE_HTTPLIB_INCLUDE httplib.h)
+  find_library(PINTLE_HTTPLIB_LIBRARY cpp-httplib)
+  if(PINTLE_HTTPLIB_INCLUDE AND PINTLE_HTTPLIB_LIBRARY)
+    set(PINTLE_HTTPLIB_FOUND ON)
+  elseif(PINTLE_STUDIO STREQUAL "AUTO")
+    message(STATUS "cpp-httplib is absent: pintle studio is not built (libcpp-httplib-dev has it)")
+  else()
+    message(FATAL_ERROR "PINTLE_STUDIO is ON, and there is no cpp-httplib (libcpp-httplib-dev has it)")
+  endif()
+endif()

@@ -1,0 +1,93 @@
+// A mechanism in motion, advanced a little at a time and pulled at while it moves; and one at rest, moved by hand.
+// theory/live.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pintle/model.h"
+
+namespace pintle {
+
+using PlanarPose = std::array<double, 3>;  ///< x, y of the centre of mass [m], angle [rad]
+
+/// A soft spring between a point of a body and a point of the world.
+struct Pull {
+  int body = 0;           ///< index into Model::bodies
+  Vec2 point{0, 0};       ///< in body axes, from the centre of mass [m]
+  Vec2 target{0, 0};      ///< in the world [m]
+  double stiffness = 0;   ///< [N/m]; 0: so that the mechanism follows within about half a second
+};
+
+/// What a joint exerts on its second body: force in world axes and couple about the second marker [N, N, N*m].
+using JointForce = std::array<double, 3>;
+
+/// The motion of a model from its start on, at the speed of whoever asks for it. Every joint is a force law here, whatever
+/// the model's `equations` say.
+class LiveMotion {
+ public:
+  /// Throws AssemblyError when the mechanism cannot be assembled, std::invalid_argument for names that do not exist.
+  explicit LiveMotion(const Model& model);
+  ~LiveMotion();
+  LiveMotion(LiveMotion&&) noexcept;
+  LiveMotion& operator=(LiveMotion&&) noexcept;
+
+  /// What pulls from now on; nothing: released.
+  void pull(const std::optional<Pull>& pull);
+  /// Advances by dt [s], or as far as `budget` seconds of wall time reach (0: no limit). False when no step could be made:
+  /// the mechanism stays where it was, `failure` says why, and the next call tries again.
+  bool advance(double dt, double budget = 0);
+  const std::string& failure() const;
+
+  double time() const;
+  std::vector<PlanarPose> poses() const;
+  std::vector<PlanarPose> velocities() const;
+  /// Of the model's joints in their order.
+  std::vector<JointForce> joint_forces() const;
+  struct Energies {
+    double kinetic = 0, potential = 0, dissipated = 0, supplied = 0;  ///< [J]; what the pull gives is in `supplied`
+  };
+  Energies energies() const;
+  /// Steps taken so far.
+  std::uint64_t steps() const;
+  const std::vector<std::string>& notes() const;
+
+ private:
+  class Motion;
+  std::unique_ptr<Motion> motion_;
+};
+
+/// A model without masses, forces and motors: joints closed, a body held at a point and moved with it.
+class KinematicDrag {
+ public:
+  /// Throws std::invalid_argument for names that do not exist. Whether the joints close is said by `assemble`.
+  explicit KinematicDrag(const Model& model);
+  ~KinematicDrag();
+  KinematicDrag(KinematicDrag&&) noexcept;
+  KinematicDrag& operator=(KinematicDrag&&) noexcept;
+
+  struct Hold {
+    int body = 0;
+    Vec2 point{0, 0};   ///< in body axes, from the centre of mass [m]
+    Vec2 target{0, 0};  ///< in the world [m]
+  };
+  /// Closes every joint with the held point as near to its target as they allow, near the last poses. False when a joint
+  /// stays open: the poses are then the last that were closed, or the best there are.
+  bool assemble(const std::optional<Hold>& hold = {});
+  void set_poses(const std::vector<PlanarPose>& poses);
+
+  std::vector<PlanarPose> poses() const;
+  /// How far each joint stays open [m]; an angle counts times the size of the mechanism.
+  const std::vector<double>& gaps() const;
+  /// Names of the joints that stay open.
+  std::vector<std::string> open_joints() const;
+
+ private:
+  class Linkage;
+  std::unique_ptr<Linkage> linkage_;
+};
+
+}  // namespace pintle

@@ -1,0 +1,152 @@
+#include "analyses/position_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+// The stiffness of each gap component, 0 where a joint is open or free.
+Vecs joint_weights(const System& system, const std::vector<bool>& open) {
+  Vecs w(system.joints.size(), S::Vec::Zero());
+  for (std::size_t j = 0; j < w.size(); ++j) {
+    if (open[j]) continue;
+    S::Vec probe_gap = S::Vec::Zero();
+    if (system.joints[j].type == "rope") probe_gap[0] = 1;  // a rope is taut while it is assembled
+    w[j] = respond(system.joints[j].law, probe_gap, S::Vec::Zero()).stiffness.diagonal();
+  }
+  return w;
+}
+
+double energy(const System& system, const Vecs& w, const std::vector<Reading>& r) {
+  double sum = 0;
+  for (std::size_t j = 0; j < w.size(); ++j) {
+    const S::Vec gap = gap_to_close(system.joints[j], r[j]);
+    sum += 0.5 * gap.dot(w[j].cwiseProduct(gap));
+  }
+  return sum;
+}
+
+}  // namespace
+
+LeastSquares::LeastSquares(const System& system)
+    : system_(system), free_(system.bodies.size(), S::Vec::Ones()), lu_(system.pattern()), x_(system.bodies.size()) {}
+
+bool LeastSquares::prepare(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& body_weight) {
+  lu_.set_zero();
+  for (int i = 0; i < system_.n_bodies(); ++i)
+    for (int k = 0; k < S::kDof; ++k) lu_.diagonal(i)(k, k) = body_weight[i][k];
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const Placement& at = system_.joints[j].at;
+    const std::array<int, 2> body{at.a, at.b};
+    std::array<S::Mat, 2> G{r[j].GA(), r[j].GB()};
+    for (int x = 0; x < 2; ++x)
+      if (body[x] != kGround) G[x] = G[x] * free_[body[x]].asDiagonal();
+    for (int x = 0; x < 2; ++x)
+      for (int y = 0; y < 2; ++y) {
+        if (body[x] == kGround || body[y] == kGround) continue;
+        const S::Mat block = G[x].transpose() * joint_weight[j].asDiagonal() * G[y];
+        auto& target = x == y ? lu_.diagonal(body[x]) : lu_.off_diagonal(system_.pattern().slot(body[x], body[y]));
+        for (int a = 0; a < S::kDof; ++a)
+          for (int b = 0; b < S::kDof; ++b) target(a, b) += block(a, b);
+      }
+  }
+  return lu_.factorize();
+}
+
+Vecs LeastSquares::pull(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& gap) const {
+  Vecs f(system_.bodies.size(), S::Vec::Zero());
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const S::Vec w = joint_weight[j].cwiseProduct(gap[j]);
+    add_force(system_.joints[j].at, r[j], w, f);
+  }
+  for (std::size_t i = 0; i < f.size(); ++i) f[i] = f[i].cwiseProduct(free_[i]);
+  return f;
+}
+
+Vecs LeastSquares::solve(const Vecs& rhs) {
+  for (std::size_t i = 0; i < rhs.size(); ++i) x_[i] = {{rhs[i][0], rhs[i][1], rhs[i][2]}};
+  lu_.solve(x_);
+  Vecs out(rhs.size());
+  for (std::size_t i = 0; i < rhs.size(); ++i) out[i] = S::Vec(x_[i][0], x_[i][1], x_[i][2]);
+  return out;
+}
+
+void readings_at(const System& system, double t, const Vecs& q, const Vecs& v, std::vector<S::Motion>& m, std::vector<Reading>& r) {
+  system.motions(q, v, m);
+  system.readings(t, m, r);
+}
+
+S::Vec gap_to_close(const JointData& joint, const Reading& r) {
+  S::Vec gap = r.gap;
+  if (joint.type == "rope") gap[0] = std::max(gap[0], 0.0);
+  return gap;
+}
+
+double mechanism_size(const System& system, const Vecs& q) {
+  double size = 1e-6;
+  for (const auto& x : q) size = std::max({size, std::abs(x[0]), std::abs(x[1])});
+  for (const JointData& joint : system.joints) size = std::max({size, joint.at.F.p.norm(), joint.at.M.p.norm()});
+  return size;
+}
+
+PositionSearch::PositionSearch(const Model& model, const System& system, const std::vector<bool>& open)
+    : model_(model), system_(system), equations_(system), weight_(joint_weights(system, open)) {
+  for (int i = 0; i < system.n_bodies(); ++i)
+    for (int k = 0; k < S::kDof; ++k)
+      if (model.bodies[i].hold[k]) equations_.hold(i, k);
+}
+
+void PositionSearch::run(Vecs& q, int max_iterations) {
+  const Vecs still(q.size(), S::Vec::Zero());
+  readings_at(system_, 0, q, still, m_, r_);
+  double now = energy(system_, weight_, r_), damping = 1e-3;
+  const Vecs body = body_weights(q);
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    Vecs gaps(r_.size());
+    for (std::size_t j = 0; j < gaps.size(); ++j) gaps[j] = -gap_to_close(system_.joints[j], r_[j]);
+    Vecs damped = body;
+    for (auto& d : damped) d *= damping;
+    if (!equations_.prepare(r_, weight_, damped)) { damping *= 10; continue; }
+    const Vecs move = equations_.solve(equations_.pull(r_, weight_, gaps));
+    Vecs trial = q;
+    double step = 0;
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      trial[i] += move[i];
+      step = std::max(step, move[i].cwiseAbs().maxCoeff());
+    }
+    readings_at(system_, 0, trial, still, m_, r_);
+    const double next = energy(system_, weight_, r_);
+    if (next <= now && std::isfinite(next)) {
+      q = trial;
+      const bool settled = step < 1e-15 * mechanism_size(system_, q) || (now - next <= 1e-14 * now && step < 1e-10);
+      now = next;
+      damping = std::max(damping * 0.1, 1e-12);
+      if (settled) return;
+      } else {
+      readings_at(system_, 0, q, still, m_, r_);
+        damping *= 10;
+      if (damping > 1e12 || step < 1e-15) return;
+    }
+  }
+}
+
+// How much a coordinate resists being moved: what the user stated more than what he left open.
+Vecs PositionSearch::body_weights(const Vecs& q) const {
+  double stiffest = 0;
+  for (const auto& w : weight_) stiffest = std::max(stiffest, w.maxCoeff());
+  if (!(stiffest > 0)) stiffest = 1;
+  const double size = mechanism_size(system_, q);
+  Vecs weights(q.size());
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    const Body& body = model_.bodies[i];
+    const double place = body.position ? 1 : 1e-3, turn = body.angle ? 1 : 1e-3;
+    weights[i] = stiffest * S::Vec(place, place, turn * size * size);
+  }
+  return weights;
+}
+
+}  // namespace pintle

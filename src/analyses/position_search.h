@@ -1,0 +1,60 @@
+// Positions that close the joints, from a guess: the minimum of the joints' potential energy. theory/assembly section 1.
+#pragma once
+
+#include <vector>
+
+#include "pintle/model.h"
+#include "solve/block_lu.h"
+#include "system/system.h"
+
+namespace pintle {
+
+/// Normal equations G' W G + D on the joint graph, D and W diagonal. One object serves positions and velocities.
+class LeastSquares {
+ public:
+  explicit LeastSquares(const System& system);
+
+  void hold(int body, int coordinate) { free_[body][coordinate] = 0; }
+
+  bool prepare(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& body_weight);
+  /// G' W gap
+  Vecs pull(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& gap) const;
+  Vecs solve(const Vecs& rhs);
+
+ private:
+  using Row = BlockVec<double, Planar::kDof>;
+  const System& system_;
+  Vecs free_;  // 0 where a coordinate is held: no gap reacts to it, so that nothing moves it
+  BlockLu<double, Planar::kDof> lu_;
+  std::vector<Row> x_;
+};
+
+/// Readings of all joints at q, v.
+void readings_at(const System& system, double t, const Vecs& q, const Vecs& v, std::vector<Planar::Motion>& m, std::vector<Reading>& r);
+
+/// The gap that assembly closes: a rope that hangs loose needs no closing.
+Planar::Vec gap_to_close(const JointData& joint, const Reading& r);
+
+/// The largest coordinate that the mechanism has [m].
+double mechanism_size(const System& system, const Vecs& q);
+
+/// The minimum of the joints' potential energy nearest to the guess, by Levenberg-Marquardt. theory/assembly Eqs. (1.1)-(1.4).
+class PositionSearch {
+ public:
+  /// Joints in `open` are left out.
+  PositionSearch(const Model& model, const System& system, const std::vector<bool>& open);
+
+  void run(Vecs& q, int max_iterations = 500);
+
+ private:
+  Vecs body_weights(const Vecs& q) const;
+
+  const Model& model_;
+  const System& system_;
+  LeastSquares equations_;
+  Vecs weight_;
+  std::vector<Planar::Motion> m_;
+  std::vector<Reading> r_;
+};
+
+}  // namespace pintle

@@ -1,0 +1,69 @@
+// A link that holds the whole model: compressed, in the part of the address that is never sent to a server.
+import { openText, say } from "../actions";
+import { EMPTY_MODEL } from "../model/operations";
+import { studio } from "../state";
+
+const MARK = "#m=";
+
+async function through(bytes: Uint8Array, stream: CompressionStream | DecompressionStream, most = Number.POSITIVE_INFINITY): Promise<Uint8Array> {
+  const reader = new Blob([bytes as BlobPart]).stream().pipeThrough(stream).getReader();
+  const parts: Uint8Array[] = [];
+  let size = 0;
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) break;
+    size += value.length;
+    if (size > most) throw new Error("too long");
+    parts.push(value);
+  }
+  const whole = new Uint8Array(size);
+  let at = 0;
+  for (const part of parts) {
+    whole.set(part, at);
+    at += part.length;
+  }
+  return whole;
+}
+
+export async function encodeModel(text: string): Promise<string> {
+  const packed = await through(new TextEncoder().encode(text), new CompressionStream("deflate-raw"));
+  let binary = "";
+  for (const byte of packed) binary += String.fromCharCode(byte);
+  return btoa(binary).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
+}
+
+/** Null where it is not a model that was packed here. */
+export async function decodeModel(code: string): Promise<string | null> {
+  try {
+    const binary = atob(code.replace(/-/g, "+").replace(/_/g, "/"));
+    const bytes = Uint8Array.from(binary, (char) => char.charCodeAt(0));
+    return new TextDecoder("utf-8", { fatal: true }).decode(await through(bytes, new DecompressionStream("deflate-raw"), 20e6));
+  } catch {
+    return null;
+  }
+}
+
+export async function shareLink(): Promise<void> {
+  const { history } = studio.get();
+  const link = `${location.href.replace(/#.*$/, "")}${MARK}${await encodeModel(history.text)}`;
+  window.history.replaceState(null, "", link);
+  const copied = await navigator.clipboard?.writeText(link).then(
+    () => true,
+    () => false,
+  );
+  say(copied ? "The link is copied. Whoever opens it sees this model." : "The link is in the address bar: copy it from there.");
+}
+
+/** Opens the model of the page's address, if there is one. */
+export async function openFromAddress(): Promise<boolean> {
+  if (!location.hash.startsWith(MARK)) return false;
+  const text = await decodeModel(location.hash.slice(MARK.length));
+  if (text === null) {
+    say("The link's model cannot be read: it may have been cut off. Ask for it again, whole.");
+    return false;
+  }
+  const mine = studio.get().history.text;
+  openText(text, "shared.toml");
+  if (mine !== text && mine !== EMPTY_MODEL) say("This is the link's model. Undo leads back to yours.");
+  return true;
+}

@@ -1,0 +1,33 @@
+// The collection: every mechanism of the repository, as a text.
+const files = import.meta.glob("../../../mechanisms/*.toml", { query: "?raw", import: "default", eager: true }) as Record<string, string>;
+
+export interface Template {
+  file: string;
+  name: string;
+  /** Its first sentence. */
+  about: string;
+  text: string;
+}
+
+const ORDER = [
+  "four_bar", "slider_crank", "pendulum", "quick_return", "gear_train", "crane_bushing", "six_bar", "toggle_press", "scissor_lift", "trammel", "two_loop_engine",
+  "inverted_slider_crank", "robot_arm", "andrews", "five_bar_parallelogram", "rope_pendulum", "weld_beam",
+];
+
+export const TEMPLATES: readonly Template[] = Object.entries(files)
+  .map(([path, text]) => {
+    const file = path.replace(/^.*\//, "");
+    const head = /^(?:#.*\n)+/.exec(text)?.[0].replace(/^#\s?/gm, "").replace(/\n/g, " ") ?? "";
+    return {
+      file,
+      name: /^name = "(.*)"$/m.exec(text)?.[1] ?? file,
+      about: (/^.*?\.(?=\s)/.exec(head)?.[0] ?? head).trim(),
+      text,
+    };
+  })
+  .sort((a, b) => rank(a.file) - rank(b.file) || a.file.localeCompare(b.file, "en", { numeric: true }));
+
+function rank(file: string): number {
+  const at = ORDER.indexOf(file.replace(/\.toml$/, ""));
+  return at < 0 ? ORDER.length : at;
+}

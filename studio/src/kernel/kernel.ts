@@ -1,0 +1,227 @@
+// The page's side of the kernel: typed calls that answer with promises. Three workers, made when they are first needed: one
+// for quick questions, one for the motion while it plays, one for runs; so that a long run holds up neither drawing nor play.
+import { KernelFault } from "./fault";
+import type { FromWorker, ToWorker } from "./messages";
+import { findNativeServer, type NativeServer } from "./native";
+import type {
+  AssemblyAnswer, Catalog, CheckReport, Fault, Hold, LiveFrame, LiveStart, ModelTree, Pull, ReadAnswer, RunAnswer, RunProgress,
+  TextAnswer, TreeValue,
+} from "./protocol";
+
+export { KernelFault };
+
+export interface RunOptions {
+  /** "native": by the server of `pintle studio`, where the page comes from it. */
+  where?: "browser" | "native";
+  onProgress?: (progress: RunProgress) => void;
+  /** Other settings than the model's, by path: {"simulate.tolerance": "1e-3"}. */
+  set?: Record<string, string>;
+}
+
+export interface RunHandle {
+  result: Promise<RunAnswer>;
+  /** Ends the run; `result` gives what was computed until then, outcome "interrupted". */
+  cancel(): void;
+}
+
+/** Kinematic drag: the model is read once, then assembled in every frame. */
+export interface DragSession {
+  bodies: string[];
+  joints: string[];
+  /** Poses that close every loop, with the held point as near to its target as they allow; starts from the last answer. */
+  assemble(hold?: Hold, from?: Float64Array): Promise<AssemblyAnswer>;
+  close(): void;
+}
+
+export interface LiveSession {
+  start: LiveStart;
+  /** Advances by dt of model time [s]; `budget` is the wall time it may take [s]. */
+  advance(dt: number, pull?: Pull | null, budget?: number): Promise<LiveFrame>;
+  close(): void;
+}
+
+export interface LiveOptions {
+  /** Begin where another session of (about) the same model stands: bodies are matched by name. */
+  like?: LiveSession;
+}
+
+export interface Kernel {
+  schema(): Promise<Record<string, unknown>>;
+  catalog(): Promise<Catalog>;
+  read(text: string): Promise<ReadAnswer>;
+  /** The tree as TOML. Comments are not in the tree. */
+  write(model: ModelTree): Promise<TextAnswer>;
+  /** `text` with one value changed or added, everything else as it was: edit(text, ["joint", "A", "stiffness"], "2e8 N/m"). */
+  edit(text: string, path: string[], value: TreeValue): Promise<TextAnswer>;
+  format(text: string): Promise<TextAnswer>;
+  check(text: string): Promise<CheckReport>;
+  openDrag(text: string): Promise<DragSession>;
+  openLive(text: string, options?: LiveOptions): Promise<LiveSession>;
+  run(text: string, options?: RunOptions): RunHandle;
+  /** The server of `pintle studio`: files of its folder, native runs. Null where the page comes from another server. */
+  native(): Promise<NativeServer | null>;
+  /** Ends the workers. */
+  stop(): void;
+}
+
+type Role = "desk" | "live" | "run";
+
+interface Pending {
+  resolve(value: unknown): void;
+  reject(error: KernelFault): void;
+  onProgress?: (progress: RunProgress) => void;
+}
+
+export interface CallOptions {
+  onProgress?: (progress: RunProgress) => void;
+  goOn?: string;
+}
+
+/** One worker and the calls it has not answered. A worker that dies is replaced; its calls are rejected. */
+class Line {
+  private worker: Worker | undefined;
+  private pending = new Map<number, Pending>();
+  private next = 1;
+
+  constructor(private readonly makeWorker: () => Worker, private readonly kernelUrl: string) {}
+
+  call(name: string, args: unknown, options: CallOptions = {}): Promise<unknown> {
+    const id = this.next++;
+    return new Promise((resolve, reject) => {
+      this.pending.set(id, { resolve, reject, onProgress: options.onProgress });
+      try {
+        this.start().postMessage({ id, call: name, args, kernelUrl: this.kernelUrl, goOn: options.goOn } satisfies ToWorker);
+      } catch (error) {
+        this.pending.delete(id);
+        reject(new KernelFault({ message: `The kernel cannot be asked: ${String(error)}`, hint: "Reload the page." }));
+      }
+    });
+  }
+
+  /** Ends the worker; the next call starts another one. */
+  abandon(fault: Fault) {
+    this.worker?.terminate();
+    this.worker = undefined;
+    const lost = [...this.pending.values()];
+    this.pending.clear();
+    for (const call of lost) call.reject(new KernelFault(fault));
+  }
+
+  private start(): Worker {
+    if (this.worker) return this.worker;
+    const worker = this.makeWorker();
+    worker.onmessage = (event: MessageEvent<FromWorker>) => this.take(event.data);
+    worker.onerror = (event) => {
+      event.preventDefault?.();
+      this.abandon({
+        message: `The kernel stopped: ${event.message || "its worker could not be started"}.`,
+        hint: "It is started again by itself. If it stops at the same place, keep the model and report it.",
+      });
+    };
+    this.worker = worker;
+    return worker;
+  }
+
+  private take(message: FromWorker) {
+    const call = this.pending.get(message.id);
+    if (!call) return;
+    if (message.progress) return call.onProgress?.(message.progress);
+    this.pending.delete(message.id);
+    if (message.fault) call.reject(new KernelFault(message.fault));
+    else call.resolve(message.value);
+  }
+}
+
+/** How long a run that was told to stop may take to hand over what it has [ms]. */
+const kGrace = 3000;
+
+export interface KernelPlace {
+  makeWorker?: () => Worker;
+  kernelUrl?: string;
+}
+
+export function startKernel(place: KernelPlace = {}): Kernel {
+  const makeWorker = place.makeWorker ?? (() => new Worker(new URL("./worker.ts", import.meta.url), { type: "module" }));
+  const kernelUrl = place.kernelUrl ?? new URL("kernel/pintle.wasm", document.baseURI).href;
+  const lines: Partial<Record<Role, Line>> = {};
+  const line = (role: Role) => (lines[role] ??= new Line(makeWorker, kernelUrl));
+  const ask = <T>(role: Role, name: string, args: unknown, options?: CallOptions) => line(role).call(name, args, options) as Promise<T>;
+
+  let server: Promise<NativeServer | null> | undefined;
+  const native = () => (server ??= findNativeServer());
+
+  function runNative(text: string, options: RunOptions): RunHandle {
+    let handle: RunHandle | undefined, cancelled = false;
+    const result = native().then((found) => {
+      if (!found) throw new KernelFault({ message: "This page does not come from pintle studio.", hint: "Run it in the browser." });
+      handle = found.run(text, options.set ?? {}, options.onProgress);
+      if (cancelled) handle.cancel();
+      return handle.result;
+    });
+    return {
+      result,
+      cancel: () => {
+        cancelled = true;
+        handle?.cancel();
+      },
+    };
+  }
+
+  function run(text: string, options: RunOptions = {}): RunHandle {
+    if (options.where === "native") return runNative(text, options);
+    const goOn = URL.createObjectURL(new Blob(["go on"]));
+    let ended = false;
+    const result = ask<RunAnswer>("run", "run", { text, set: options.set ?? {} }, { onProgress: options.onProgress, goOn }).finally(() => {
+      ended = true;
+      URL.revokeObjectURL(goOn);
+    });
+    const cancel = () => {
+      URL.revokeObjectURL(goOn);
+      setTimeout(() => {
+        if (!ended) line("run").abandon({ message: "The run was cancelled before it had results.", hint: "" });
+      }, kGrace);
+    };
+    return { result, cancel };
+  }
+
+  async function openDrag(text: string): Promise<DragSession> {
+    const opened = await ask<{ id: number; bodies: string[]; joints: string[] }>("desk", "open_drag", { text });
+    return {
+      bodies: opened.bodies,
+      joints: opened.joints,
+      assemble: (hold, from) => ask("desk", "drag", { id: opened.id, hold: hold ?? null, from: from ? [...from] : null }),
+      close: () => void ask("desk", "close_drag", { id: opened.id }).catch(() => undefined),
+    };
+  }
+
+  const liveIds = new WeakMap<LiveSession, number>();
+
+  async function openLive(text: string, options: LiveOptions = {}): Promise<LiveSession> {
+    const like = (options.like && liveIds.get(options.like)) ?? 0;
+    const opened = await ask<LiveStart & { id: number }>("live", "open_live", { text, like });
+    const session: LiveSession = {
+      start: opened,
+      advance: (dt, pull, budget) => ask("live", "advance", { id: opened.id, dt, pull: pull ?? null, budget: budget ?? 0 }),
+      close: () => void ask("live", "close_live", { id: opened.id }).catch(() => undefined),
+    };
+    liveIds.set(session, opened.id);
+    return session;
+  }
+
+  return {
+    schema: () => ask("desk", "schema", {}),
+    catalog: () => ask("desk", "catalog", {}),
+    read: (text) => ask("desk", "read", { text }),
+    write: (model) => ask("desk", "write", { model }),
+    edit: (text, path, value) => ask("desk", "edit", { text, path, value }),
+    format: (text) => ask("desk", "format", { text }),
+    check: (text) => ask("run", "check", { text }),
+    openDrag,
+    openLive,
+    run,
+    native,
+    stop: () => {
+      for (const each of Object.values(lines)) each.abandon({ message: "The kernel was stopped.", hint: "" });
+    },
+  };
+}

@@ -1,0 +1,18 @@
+// What goes between the page and a worker.
+import type { Fault, RunProgress } from "./protocol";
+
+export interface ToWorker {
+  id: number;
+  call: string;
+  args: unknown;
+  kernelUrl: string;
+  /** An address that can be read as long as the call should go on. */
+  goOn?: string;
+}
+
+export interface FromWorker {
+  id: number;
+  value?: unknown;
+  fault?: Fault;
+  progress?: RunProgress;
+}

@@ -1,0 +1,304 @@
+// What the page and the kernel in its worker say to each other. Keys in JSON are as the C++ writes them; SI and radians
+// throughout. Version 1.
+
+/** An error that the user can read: what is wrong, what to try, and where. */
+export interface Fault {
+  message: string;
+  hint: string;
+  where?: { line: number; column: number; key: string };
+  /** All complaints about the model, where it was the model. */
+  complaints?: Complaint[];
+  /** Joints that have part in it. */
+  joints?: string[];
+}
+
+/** Something to say about a place in a text. Line and column count from 1 (characters, not bytes); 0: unknown. */
+export interface Complaint {
+  severity: "error" | "warning";
+  line: number;
+  column: number;
+  /** Characters from the column on that are meant; at least 1. */
+  length: number;
+  /** The key in the model: "joint.A.stiffness". */
+  key: string;
+  /** What was found, and why it is wrong. */
+  message: string;
+  /** What to try; may be empty. */
+  hint: string;
+}
+
+/** The model as a tree, as `pintle convert --to json` writes it: quantities may be strings with units. */
+export type ModelTree = { [key: string]: TreeValue };
+export type TreeValue = string | number | boolean | TreeValue[] | { [key: string]: TreeValue };
+
+export interface Marker {
+  name: string;
+  /** In body axes, from the centre of mass [m]. */
+  position: [number, number];
+  /** Direction of the marker's x axis in body axes [rad]. */
+  axis: number;
+}
+
+/** The same model with every expression evaluated: what a drawing needs. Poses are where the model states them. */
+export interface ResolvedModel {
+  name: string;
+  description: string;
+  gravity: [number, number];
+  duration: number;
+  output_step: number;
+  tolerance: number;
+  method: string;
+  equations: string;
+  start: string;
+  ground: Marker[];
+  bodies: {
+    name: string;
+    mass: number;
+    inertia: number;
+    position: [number, number] | null;
+    angle: number | null;
+    markers: Marker[];
+  }[];
+  joints: {
+    name: string;
+    type: string;
+    first: { body: string; marker: string };
+    second: { body: string; marker: string };
+    geometry: Record<string, number>;
+    law: { word: string; values: Record<string, number[]> };
+    ideal: boolean;
+  }[];
+  springs: {
+    name: string;
+    torsion: boolean;
+    first: { body: string; marker: string };
+    second: { body: string; marker: string };
+    stiffness: number;
+    damping: number;
+    free_length: number | null;
+    preload: number | null;
+  }[];
+  forces: { name: string; on: { body: string; marker: string }; force: [string, string]; torque: string; body_axes: boolean }[];
+  motors: { name: string; joint: string; kind: "effort" | "speed" | "position"; law: string; stiffness: number; damping: number }[];
+}
+
+export interface ReadAnswer {
+  ok: boolean;
+  /** The tree, where the text is TOML or JSON at all. */
+  model?: ModelTree;
+  /** Where the model is valid. */
+  resolved?: ResolvedModel;
+  complaints: Complaint[];
+}
+
+export interface TextAnswer {
+  ok: boolean;
+  text?: string;
+  complaints: Complaint[];
+}
+
+/** One key of the model format. */
+export interface CatalogKey {
+  name: string;
+  /** SI unit of the value: "N/m", "-" for a pure number. */
+  unit: string;
+  meaning: string;
+  /** Absent: the key must be stated, or is found otherwise. */
+  default?: number;
+  /** Smallest value that is taken. */
+  minimum?: number;
+}
+
+/** Joint types and laws, with what a form needs. */
+export interface Catalog {
+  joint_types: {
+    word: string;
+    meaning: string;
+    /** Free coordinates: "angle", "slide". */
+    free: string[];
+    /** What it forbids, in the order of a law's components. */
+    gap: string[];
+    geometry: CatalogKey[];
+    laws: string[];
+  }[];
+  laws: { word: string; meaning: string; keys: CatalogKey[] }[];
+  methods: string[];
+}
+
+/** What `pintle check --json` prints, with what to do about it. */
+export interface CheckReport {
+  passed: boolean;
+  bodies: number;
+  joints: number;
+  total_mass: number;
+  mass_centre: [number, number];
+  topology: { n_loops: number; loops: string[][]; floating: string[][] };
+  mobility: {
+    freedoms: number;
+    constraints: number;
+    gruebler: number;
+    rank: number;
+    rank_nearby: number;
+    mobility: number;
+    redundant: number;
+    servos: number;
+    mobility_driven: number;
+    singular_position: boolean;
+    remark: string;
+    [key: string]: unknown;
+  };
+  redundancies: { degree: number; members: { joint: string; component: string; share: number }[] }[];
+  notes: string[];
+  /** For the warning panel. */
+  warnings: Warning[];
+  [key: string]: unknown;
+}
+
+export interface Warning {
+  kind: "immobile" | "redundant" | "singular" | "floating" | "formula" | "driven" | "note";
+  message: string;
+  hint: string;
+  joints: string[];
+  bodies: string[];
+}
+
+/** Bodies in the order of the model; `poses` has x, y [m] and angle [rad] of each. */
+export interface AssemblyAnswer {
+  ok: boolean;
+  poses: Float64Array;
+  /** Distance that each joint stays open [m], in the order of the model. */
+  gaps: Float64Array;
+  /** Why it does not close. */
+  reason?: Fault;
+}
+
+/** A point of a body (body axes, from the centre of mass) that should be at `target` (world) [m]. */
+export interface Hold {
+  body: string;
+  point: [number, number];
+  target: [number, number];
+}
+
+export interface Column {
+  name: string;
+  unit: string;
+  about: string;
+  kind: "time" | "body" | "joint" | "spring" | "motor" | "energy";
+  /** The body, joint, spring or motor; empty for time and energy. */
+  of: string;
+  /** "x", "angle", "fx", "m", "effort", ... */
+  quantity: string;
+  /** "world" or "joint" where a force has axes, else "". */
+  frame: string;
+  /** The body that feels the force, else "". */
+  feels: string;
+}
+
+export interface PeakForce {
+  name: string;
+  type: string;
+  first_body: string;
+  second_body: string;
+  peak: number;
+  peak_time: number;
+  rms: number;
+  mean: number;
+  has_moment: boolean;
+  peak_moment: number;
+  rms_moment: number;
+  mean_moment: number;
+  error_estimate: number;
+  relative_error_estimate: number;
+  /** false: redundant ideal joints leave this force undetermined. */
+  unique: boolean;
+}
+
+export interface MotorWork {
+  name: string;
+  joint: string;
+  unit: string;
+  peak_effort: number;
+  rms_effort: number;
+  mean_effort: number;
+  peak_power: number;
+  mean_power: number;
+  work: number;
+}
+
+export interface EnergyAccount {
+  kinetic_start: number;
+  kinetic_end: number;
+  kinetic_peak: number;
+  potential_start: number;
+  potential_end: number;
+  dissipated: number;
+  supplied: number;
+  drift: number;
+}
+
+export interface RunAnswer {
+  outcome: "completed" | "tolerance_not_met" | "interrupted" | "failed";
+  columns: Column[];
+  /** One array per column. */
+  values: Float64Array[];
+  joints: PeakForce[];
+  springs: PeakForce[];
+  motors: MotorWork[];
+  energy: EnergyAccount;
+  counters: Record<string, number>;
+  method: string;
+  tolerance: number;
+  wall_seconds: number;
+  t_end: number;
+  notes: string[];
+  /** Why the outcome is not "completed". */
+  message: string;
+  /** Why it ended early, and the joints that the reason names. Everything before it is in `values`. */
+  stopped?: { time: number; joints: string[]; reason: string; hint: string };
+}
+
+export interface RunProgress {
+  /** Of the whole run, estimated; never falls. */
+  fraction: number;
+  /** Model time [s] reached in this integration. */
+  t: number;
+  duration: number;
+  /** Integrations of one run: the pilot (1), the reported one (2), finer ones; 0 while it is assembled. */
+  pass: number;
+  wall_seconds: number;
+  seconds_left: number | null;
+}
+
+/** A soft spring between a point of a body and a point of the world. Stiffness 0 or absent: chosen from the model. */
+export interface Pull {
+  body: string;
+  point: [number, number];
+  target: [number, number];
+  stiffness?: number;
+}
+
+export interface LiveStart {
+  bodies: string[];
+  joints: string[];
+  poses: Float64Array;
+  /** A typical force of the mechanism at its start, for the length of arrows [N]. */
+  force_scale: number;
+  notes: string[];
+}
+
+export interface LiveFrame {
+  t: number;
+  /** 3 per body: x, y [m], angle [rad]. */
+  poses: Float64Array;
+  /** 3 per body: vx, vy [m/s], spin [rad/s]. */
+  velocities: Float64Array;
+  /** 3 per joint: fx, fy [N] (world axes) and couple [N*m] about the second marker, on the second body. */
+  joint_forces: Float64Array;
+  energy: { kinetic: number; potential: number; dissipated: number; supplied: number };
+  /** True when the wall time allowed did not suffice for dt: the motion is slower than asked. */
+  behind: boolean;
+  /** Wall time of the kernel in this call [s]. */
+  cost: number;
+  /** The motion stands still because no step could be made. It goes on when the pull is released or changed. */
+  error: Fault | null;
+}

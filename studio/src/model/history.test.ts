@@ -1,0 +1,30 @@
+import { expect, it } from "vitest";
+import { change, newHistory, redo, undo } from "./history";
+
+it("undoes and redoes any number of steps exactly", () => {
+  let history = newHistory("start");
+  const texts = ["start"];
+  let seed = 7;
+  for (let i = 0; i < 300; i++) {
+    seed = (seed * 48271) % 2147483647;
+    const now = texts[texts.length - 1]!;
+    const at = seed % (now.length + 1);
+    const next = now.slice(0, at) + "abcdefgh".slice(0, (seed % 7) + 1) + now.slice(at + (seed % 4));
+    if (next === now) continue; // no step
+    texts.push(next);
+    history = change(history, texts[texts.length - 1]!, "step");
+  }
+  for (let i = texts.length - 2; i >= 0; i--) expect((history = undo(history)).text).toBe(texts[i]);
+  expect(undo(history)).toBe(history);
+  for (let i = 1; i < texts.length; i++) expect((history = redo(history)).text).toBe(texts[i]);
+});
+
+it("joins steps with one key, and a new step ends redo", () => {
+  let history = change(newHistory("a"), "ab", "type", "k");
+  history = change(history, "abc", "type", "k");
+  expect(history.past).toHaveLength(1);
+  history = undo(history);
+  expect(history.text).toBe("a");
+  history = change(history, "x", "other");
+  expect(redo(history).text).toBe("x");
+});

@@ -1,0 +1,64 @@
+// Undo without limit: each step keeps only what it changed, so that a thousand edits of a large model take little memory.
+
+interface Change {
+  at: number;
+  removed: string;
+  inserted: string;
+  /** What the step was, for the menu: "Add link". */
+  label: string;
+  /** Steps with the same key in a row are one: typing, dragging. */
+  key: string;
+}
+
+export interface History {
+  readonly text: string;
+  readonly past: readonly Change[];
+  readonly future: readonly Change[];
+  /** The last step has been undone and redone: what comes now is a step of its own. */
+  readonly closed?: boolean;
+}
+
+export function newHistory(text: string): History {
+  return { text, past: [], future: [] };
+}
+
+function difference(before: string, after: string, label: string, key: string): Change {
+  let start = 0;
+  const shorter = Math.min(before.length, after.length);
+  while (start < shorter && before.charCodeAt(start) === after.charCodeAt(start)) start++;
+  let end = 0;
+  while (end < shorter - start && before.charCodeAt(before.length - 1 - end) === after.charCodeAt(after.length - 1 - end)) end++;
+  return { at: start, removed: before.slice(start, before.length - end), inserted: after.slice(start, after.length - end), label, key };
+}
+
+/** A step. With a key that the last step has too, both become one. */
+export function change(history: History, text: string, label: string, key = ""): History {
+  if (text === history.text) return history;
+  const last = history.past[history.past.length - 1];
+  if (key && last?.key === key && !history.closed && history.future.length === 0) {
+    const before = back(history.text, last);
+    const past = history.past.slice(0, -1);
+    return { text, past: before === text ? past : [...past, difference(before, text, label, key)], future: [] };
+  }
+  return { text, past: [...history.past, difference(history.text, text, label, key)], future: [] };
+}
+
+function back(text: string, step: Change): string {
+  return text.slice(0, step.at) + step.removed + text.slice(step.at + step.inserted.length);
+}
+
+function forth(text: string, step: Change): string {
+  return text.slice(0, step.at) + step.inserted + text.slice(step.at + step.removed.length);
+}
+
+export function undo(history: History): History {
+  const step = history.past[history.past.length - 1];
+  if (!step) return history;
+  return { text: back(history.text, step), past: history.past.slice(0, -1), future: [step, ...history.future] };
+}
+
+export function redo(history: History): History {
+  const [step, ...rest] = history.future;
+  if (!step) return history;
+  return { text: forth(history.text, step), past: [...history.past, step], future: rest, closed: true };
+}

@@ -1,0 +1,308 @@
+// What a text says as a mechanism: bodies, markers, joints and loads with their numbers. A view, made anew from every
+// text; operations change the text.
+import { evaluate, namesIn } from "./expression";
+import { type Point, type Pose, ORIGIN, toWorld } from "./geometry";
+import { FROM_SHAPE, type Shape, readShape } from "./shape";
+import { type Document, type Node, type TableNode, nodeAt, parseToml } from "./toml";
+
+export interface Marker {
+  name: string;
+  at: Point;
+  axis: number;
+  /** Its path is to be drawn. */
+  traced: boolean;
+}
+
+export interface Body {
+  name: string;
+  mass: number;
+  inertia: number;
+  /** Absent entries are found by assembly. */
+  pose: Pose;
+  stated: boolean;
+  markers: Marker[];
+  shape: Shape | null;
+  massFromShape: boolean;
+  inertiaFromShape: boolean;
+  /** Position or angle is written with names of parameters. */
+  parametric: boolean;
+}
+
+export interface End {
+  body: string;
+  marker: string;
+}
+
+export interface Joint {
+  name: string;
+  type: string;
+  first: End;
+  second: End;
+  law: string;
+  /** Numbers of the joint's own: radii, radius, length. */
+  radii: [number, number] | null;
+  radius: number | null;
+  internal: boolean;
+}
+
+export interface Spring {
+  name: string;
+  torsion: boolean;
+  first: End;
+  second: End;
+  stiffness: number;
+  damping: number;
+}
+
+export interface Load {
+  name: string;
+  on: End;
+  force: Point;
+  torque: number;
+  bodyAxes: boolean;
+  /** Depends on time. */
+  varies: boolean;
+}
+
+export interface Motor {
+  name: string;
+  joint: string;
+  kind: "effort" | "speed" | "position";
+}
+
+export interface Model {
+  document: Document;
+  name: string;
+  gravity: Point;
+  duration: number | null;
+  parameters: Map<string, number>;
+  ground: Marker[];
+  bodies: Body[];
+  joints: Joint[];
+  springs: Spring[];
+  loads: Load[];
+  motors: Motor[];
+  body: ReadonlyMap<string, Body>;
+}
+
+export const TRACE = "trace";
+export const GROUND = "ground";
+
+type Reading = (node: Node | undefined) => number | null;
+
+export function readModel(source: string | Document): Model {
+  const document = typeof source === "string" ? parseToml(source) : source;
+  const { root } = document;
+  const parameters = readParameters(tableAt(root, "parameters"));
+  const number: Reading = (node) => {
+    if (node?.kind === "number") return node.value;
+    return node?.kind === "text" ? evaluate(node.value, (name) => parameters.get(name)) : null;
+  };
+  const bodies = children(root, "body").map(([name, table]) => readBody(document, name, table, number, parameters));
+  const gravity = point(root.entries.get("gravity"), number);
+  return {
+    document,
+    name: textOf(root.entries.get("name")) ?? "",
+    gravity: gravity ?? [0, -9.80665],
+    duration: number(nodeAt(root, ["simulate", "duration"])),
+    parameters,
+    ground: readMarkers(document, nodeAt(root, ["ground", "markers"]), number),
+    bodies,
+    joints: children(root, "joint").map(([name, table]) => readJoint(name, table, number)),
+    springs: [
+      ...children(root, "spring").map(([name, table]) => readSpring(name, table, number, false)),
+      ...children(root, "torsion_spring").map(([name, table]) => readSpring(name, table, number, true)),
+    ],
+    loads: children(root, "force").map(([name, table]) => readLoad(name, table, number, parameters)),
+    motors: children(root, "motor").map(([name, table]) => readMotor(name, table)),
+    body: new Map(bodies.map((body) => [body.name, body])),
+  };
+}
+
+function tableAt(root: TableNode, key: string): TableNode | null {
+  const found = root.entries.get(key);
+  return found?.kind === "table" ? found : null;
+}
+
+function children(root: TableNode, key: string): [string, TableNode][] {
+  return [...(tableAt(root, key)?.entries ?? [])].filter((entry): entry is [string, TableNode] => entry[1].kind === "table");
+}
+
+function textOf(node: Node | undefined): string | null {
+  return node?.kind === "text" ? node.value : null;
+}
+
+// Parameters may refer to each other in any order; one that refers to itself has no value.
+function readParameters(table: TableNode | null): Map<string, number> {
+  const values = new Map<string, number>();
+  const open = new Set<string>();
+  const find = (name: string): number | undefined => {
+    const known = values.get(name);
+    if (known !== undefined || open.has(name)) return known;
+    const node = table?.entries.get(name);
+    open.add(name);
+    const value = node?.kind === "number" ? node.value : node?.kind === "text" ? evaluate(node.value, find) : null;
+    open.delete(name);
+    if (value === null) return undefined;
+    values.set(name, value);
+    return value;
+  };
+  for (const name of table?.entries.keys() ?? []) find(name);
+  return values;
+}
+
+function point(node: Node | undefined, number: Reading): Point | null {
+  if (node?.kind !== "list" || node.items.length < 2) return null;
+  const x = number(node.items[0]);
+  const y = number(node.items[1]);
+  return x === null || y === null ? null : [x, y];
+}
+
+/** The comment at the end of the line on which `offset` stands. */
+export function remarkAt(document: Document, offset: number): string {
+  const end = document.text.indexOf("\n", offset);
+  const rest = document.text.slice(offset, end < 0 ? undefined : end);
+  return /^[^"#]*#\s?(.*)$/.exec(rest)?.[1]?.trim() ?? "";
+}
+
+function remarkOf(document: Document, node: Node | undefined): string {
+  return node?.statement ? remarkAt(document, node.statement.to) : "";
+}
+
+function readMarkers(document: Document, node: Node | undefined, number: Reading): Marker[] {
+  if (node?.kind !== "table") return [];
+  return [...node.entries].map(([name, value]) => readMarker(document, name, value, number));
+}
+
+function readMarker(document: Document, name: string, node: Node, number: Reading): Marker {
+  const traced = remarkOf(document, node) === TRACE;
+  if (node.kind === "list") {
+    const at = point(node, number) ?? [0, 0];
+    return { name, at, axis: number(node.items[2]) ?? 0, traced };
+  }
+  if (node.kind !== "table") return { name, at: [0, 0], axis: 0, traced };
+  const part = (key: string) => number(node.entries.get(key));
+  const axis = part("axis") ?? 0;
+  const r = part("r");
+  if (r === null) return { name, at: [part("x") ?? 0, part("y") ?? 0], axis, traced };
+  const xi = part("xi") ?? 0;
+  return { name, at: [r * Math.cos(xi), r * Math.sin(xi)], axis, traced };
+}
+
+function readBody(document: Document, name: string, table: TableNode, number: Reading, parameters: Map<string, number>): Body {
+  const position = point(table.entries.get("position"), number);
+  const angle = number(table.entries.get("angle"));
+  const header = table.form === "header" ? remarkAt(document, table.to) : "";
+  const known = new Set(parameters.keys());
+  const named = (node: Node | undefined): boolean =>
+    node?.kind === "list" ? node.items.some(named) : node?.kind === "text" && namesIn(node.value, known).length > 0;
+  return {
+    name,
+    mass: number(table.entries.get("mass")) ?? 0,
+    inertia: number(table.entries.get("inertia")) ?? 0,
+    pose: { x: position?.[0] ?? 0, y: position?.[1] ?? 0, angle: angle ?? 0 },
+    stated: position !== null && angle !== null,
+    markers: readMarkers(document, table.entries.get("markers"), number),
+    shape: readShape(header),
+    massFromShape: remarkOf(document, table.entries.get("mass")) === FROM_SHAPE,
+    inertiaFromShape: remarkOf(document, table.entries.get("inertia")) === FROM_SHAPE,
+    parametric: named(table.entries.get("position")) || named(table.entries.get("angle")),
+  };
+}
+
+function endOf(node: Node | undefined): End {
+  const [body = "", marker = ""] = (textOf(node) ?? "").split(".");
+  return { body, marker };
+}
+
+function ends(table: TableNode): { first: End; second: End } {
+  const between = table.entries.get("between");
+  const items = between?.kind === "list" ? between.items : [];
+  return { first: endOf(items[0]), second: endOf(items[1]) };
+}
+
+function readJoint(name: string, table: TableNode, number: Reading): Joint {
+  return {
+    name,
+    type: textOf(table.entries.get("type")) ?? "",
+    ...ends(table),
+    law: textOf(table.entries.get("law")) ?? "linear",
+    radii: point(table.entries.get("radii"), number) as [number, number] | null,
+    radius: number(table.entries.get("radius")),
+    internal: textOf(table.entries.get("mesh")) === "internal",
+  };
+}
+
+function readSpring(name: string, table: TableNode, number: Reading, torsion: boolean): Spring {
+  return {
+    name,
+    torsion,
+    ...ends(table),
+    stiffness: number(table.entries.get("stiffness")) ?? 0,
+    damping: number(table.entries.get("damping")) ?? 0,
+  };
+}
+
+function readLoad(name: string, table: TableNode, number: Reading, parameters: Map<string, number>): Load {
+  const at = (t: number): Reading => (node) => {
+    if (node?.kind === "number") return node.value;
+    return node?.kind === "text" ? evaluate(node.value, (word) => (word === "t" ? t : parameters.get(word))) : null;
+  };
+  const force = table.entries.get("force");
+  const now = point(force, at(0)) ?? [0, 0];
+  const later = point(force, at(0.1234)) ?? now;
+  return {
+    name,
+    on: endOf(table.entries.get("on")),
+    force: now,
+    torque: at(0)(table.entries.get("torque")) ?? 0,
+    bodyAxes: textOf(table.entries.get("axes")) === "body",
+    varies: now[0] !== later[0] || now[1] !== later[1],
+  };
+}
+
+function readMotor(name: string, table: TableNode): Motor {
+  const kind = table.entries.has("speed") ? "speed" : table.entries.has("position") ? "position" : "effort";
+  return { name, joint: textOf(table.entries.get("joint")) ?? "", kind };
+}
+
+/** Start poses by body; what assembly found goes before what the text states. */
+export type Poses = ReadonlyMap<string, Pose>;
+
+export function poseOf(model: Model, name: string, poses?: Poses): Pose {
+  if (name === GROUND) return ORIGIN;
+  return poses?.get(name) ?? model.body.get(name)?.pose ?? ORIGIN;
+}
+
+export function markerOf(model: Model, end: End): Marker | null {
+  const list = end.body === GROUND ? model.ground : (model.body.get(end.body)?.markers ?? []);
+  return list.find((marker) => marker.name === end.marker) ?? null;
+}
+
+export function worldPoint(model: Model, end: End, poses?: Poses): Point {
+  return toWorld(poseOf(model, end.body, poses), markerOf(model, end)?.at ?? [0, 0]);
+}
+
+export function worldAxis(model: Model, end: End, poses?: Poses): number {
+  return poseOf(model, end.body, poses).angle + (markerOf(model, end)?.axis ?? 0);
+}
+
+/** Length of the mechanism: what sizes of symbols and grids are chosen from. */
+export function extent(model: Model, poses?: Poses): { min: Point; max: Point; size: number } {
+  const points: Point[] = model.ground.map((marker) => marker.at);
+  for (const body of model.bodies) {
+    const pose = poseOf(model, body.name, poses);
+    points.push([pose.x, pose.y], ...body.markers.map((marker) => toWorld(pose, marker.at)));
+  }
+  for (const joint of model.joints) {
+    for (const [end, radius] of [[joint.first, joint.radii?.[0] ?? joint.radius], [joint.second, joint.radii?.[1]]] as const) {
+      if (!radius) continue;
+      const [x, y] = worldPoint(model, end, poses);
+      points.push([x - radius, y - radius], [x + radius, y + radius]);
+    }
+  }
+  if (points.length === 0) return { min: [-0.15, -0.1], max: [0.15, 0.1], size: 0.3 };
+  const min: Point = [Math.min(...points.map((p) => p[0])), Math.min(...points.map((p) => p[1]))];
+  const max: Point = [Math.max(...points.map((p) => p[0])), Math.max(...points.map((p) => p[1]))];
+  return { min, max, size: Math.max(max[0] - min[0], max[1] - min[1], 1e-3) };
+}

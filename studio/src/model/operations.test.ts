@@ -1,0 +1,120 @@
+import { readFileSync, readdirSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+import { describe, expect, it } from "vitest";
+import { distance } from "./geometry";
+import { type Model, readModel, worldPoint } from "./model";
+import { EMPTY_MODEL, type Target, addBar, addConnector, addDisc, addForce, addGroundPin, addMotor, addPin, addSlider, addSlot, toggleTrace } from "./operations";
+import { copyThings, pasteThings, removeThings, renameThing } from "./removal";
+import { keepPoses, movePoint, setBarLength } from "./reshape";
+import { massProperties } from "./shape";
+
+const free = (x: number, y: number): Target => ({ at: [x, y], end: null, body: null });
+const on = (model: Model, body: string, marker: string): Target => ({ at: worldPoint(model, { body, marker }), end: { body, marker }, body });
+
+function fourBar(): Model {
+  let model = readModel(EMPTY_MODEL);
+  model = readModel(addBar(model, free(0, 0), free(0.05, 0.1)).text);
+  model = readModel(addBar(model, on(model, "link1", "B"), free(0.3, 0.2)).text);
+  model = readModel(addBar(model, on(model, "link2", "C"), free(0.3, 0)).text);
+  model = readModel(addGroundPin(model, on(model, "link1", "A"), "revolute").text);
+  model = readModel(addGroundPin(model, on(model, "link3", "D"), "revolute").text);
+  return readModel(addMotor(model, "A").text);
+}
+
+/** The largest distance between the two ends of a pin. */
+const openness = (model: Model) => Math.max(...model.joints.map((joint) => distance(worldPoint(model, joint.first), worldPoint(model, joint.second))));
+
+describe("drawing", () => {
+  it("makes a closed four-bar with letters at its points", () => {
+    const model = fourBar();
+    expect(model.document.faults).toEqual([]);
+    expect(model.joints.map((joint) => joint.name).sort()).toEqual(["A", "B", "C", "D"]);
+    expect(openness(model)).toBeLessThan(1e-6);
+    expect(model.motors).toEqual([{ name: "motor1", joint: "A", kind: "speed" }]);
+  });
+
+  it("gives bars the mass of their shape", () => {
+    const body = fourBar().body.get("link1")!;
+    const { mass, inertia } = massProperties(body.shape!, [[0, 0], [0.05, 0.1]]);
+    expect(body.mass).toBeCloseTo(mass, 5);
+    expect(body.inertia / inertia).toBeCloseTo(1, 4);
+    const { width: w, thickness } = body.shape!;
+    const length = Math.hypot(0.05, 0.1);
+    expect(mass / (7850 * thickness * (length * w + (Math.PI * w * w) / 4))).toBeCloseTo(1, 2);
+  });
+
+  it("moves a point with all bodies there, and keeps the rest closed", () => {
+    const model = readModel(movePoint(fourBar(), { body: "link1", marker: "B" }, [0.07, 0.12]));
+    expect(worldPoint(model, { body: "link2", marker: "B" })[0]).toBeCloseTo(0.07, 6);
+    expect(openness(model)).toBeLessThan(1e-6);
+  });
+
+  it("sets a bar's length exactly", () => {
+    const model = readModel(setBarLength(fourBar(), "link1", 0.25));
+    const [a, b] = model.body.get("link1")!.markers;
+    expect(distance(a!.at, b!.at)).toBeCloseTo(0.25, 9);
+  });
+
+  it("adds sliders, slots, discs, springs, forces and traces", () => {
+    let model = fourBar();
+    model = readModel(addSlider(model, on(model, "link2", "C"), 0, "ground", 0.3).text);
+    model = readModel(addSlot(model, { at: [0.1, 0.12], end: null, body: "link2" }, 0.3, "ground").text);
+    model = readModel(addDisc(model, free(0.5, 0), 0.1, null).text);
+    model = readModel(addDisc(model, free(0.65, 0), 0.05, "gear1").text);
+    model = readModel(addConnector(model, "spring", free(0.1, 0.4), on(model, "link2", "C")).text);
+    model = readModel(addForce(model, { at: [0.2, 0.15], end: null, body: "link2" }, [3, -4]).text);
+    model = readModel(toggleTrace(model, on(model, "link2", "C")).text);
+    model = readModel(addPin(model, { at: [0.1, 0.1], end: null, body: "link1" }, { at: [0.1, 0.1], end: null, body: "link3" }, "fixed").text);
+    expect(model.document.faults).toEqual([]);
+    expect(model.joints.map((joint) => joint.type).sort()).toEqual(["fixed", "gear", "prismatic", "revolute", "revolute", "revolute", "revolute", "revolute", "revolute", "revolute", "slot"]);
+    expect(model.joints.find((joint) => joint.type === "gear")?.radii).toEqual([0.1, 0.05]);
+    expect(model.body.get("link2")!.markers.find((marker) => marker.name === "C")?.traced).toBe(true);
+    expect(openness({ ...model, joints: model.joints.filter((joint) => joint.type === "revolute" && joint.first.body !== "slider1") })).toBeLessThan(1e-5);
+  });
+});
+
+describe("removing, renaming, copying", () => {
+  it("takes along what cannot be without it", () => {
+    const model = readModel(removeThings(fourBar(), [{ kind: "body", name: "link1" }]));
+    expect(model.joints.map((joint) => joint.name)).toEqual(["C", "D"]);
+    expect(model.motors).toEqual([]);
+    expect(model.ground.map((marker) => marker.name)).not.toContain("E");
+  });
+
+  it("renames with all references", () => {
+    const model = readModel(renameThing(renameThingOnce(fourBar()), "joint", "A", "drive"));
+    expect(model.motors[0]!.joint).toBe("drive");
+    expect(model.joints.every((joint) => [joint.first, joint.second].every((end) => end.body === "ground" || model.body.has(end.body)))).toBe(true);
+  });
+
+  it("pastes a copy under fresh names, closed again", () => {
+    const model = fourBar();
+    const copied = copyThings(model, model.bodies.map((body) => ({ kind: "body" as const, name: body.name })));
+    const twice = readModel(pasteThings(model, copied, [0.1, 0.1]).text);
+    expect(twice.document.faults).toEqual([]);
+    expect(twice.bodies).toHaveLength(6);
+    expect(twice.joints).toHaveLength(8);
+    expect(openness(twice)).toBeLessThan(1e-5);
+  });
+});
+
+const renameThingOnce = (model: Model) => readModel(renameThing(model, "body", "link1", "crank"));
+
+describe("the collection", () => {
+  const folder = fileURLToPath(new URL("../../../mechanisms/", import.meta.url));
+  const files = readdirSync(folder).filter((name) => name.endsWith(".toml"));
+  it.each(files)("%s is read whole, and edits keep its comments", (file) => {
+    const text = readFileSync(folder + file, "utf8");
+    const model = readModel(text);
+    expect(model.document.faults).toEqual([]);
+    expect(model.bodies.length).toBeGreaterThan(0);
+    for (const body of model.bodies) {
+      expect(body.mass).toBeGreaterThan(0);
+      expect(body.inertia).toBeGreaterThan(0);
+    }
+    for (const joint of model.joints) for (const end of [joint.first, joint.second]) expect(worldPoint(model, end).every(Number.isFinite)).toBe(true);
+    const moved = readModel(keepPoses(model, new Map(model.bodies.map((body) => [body.name, { ...body.pose, x: body.pose.x + 1 }]))));
+    expect(moved.document.text.match(/^#.*$/gm)).toEqual(text.match(/^#.*$/gm));
+    moved.bodies.forEach((body, i) => expect(body.pose.x).toBeCloseTo(model.bodies[i]!.pose.x + 1, 5));
+  });
+});

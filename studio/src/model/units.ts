@@ -1,0 +1,141 @@
+// Units as people write them, and numbers as people read them. Inside everything is in SI and radians.
+
+/** Exponents of m, kg, s, rad. */
+export type Dimension = readonly [number, number, number, number];
+
+export interface Unit {
+  factor: number;
+  dimension: Dimension;
+}
+
+const L: Dimension = [1, 0, 0, 0];
+const M: Dimension = [0, 1, 0, 0];
+const T: Dimension = [0, 0, 1, 0];
+const ANGLE: Dimension = [0, 0, 0, 1];
+const FORCE: Dimension = [1, 1, -2, 0];
+const ENERGY: Dimension = [2, 1, -2, 0];
+const POWER: Dimension = [2, 1, -3, 0];
+const INCH = 0.0254;
+const TURN = 2 * Math.PI;
+
+export const UNITS: Readonly<Record<string, Unit>> = {
+  m: { factor: 1, dimension: L },
+  mm: { factor: 1e-3, dimension: L },
+  cm: { factor: 1e-2, dimension: L },
+  dm: { factor: 1e-1, dimension: L },
+  km: { factor: 1e3, dimension: L },
+  um: { factor: 1e-6, dimension: L },
+  µm: { factor: 1e-6, dimension: L },
+  in: { factor: INCH, dimension: L },
+  ft: { factor: 12 * INCH, dimension: L },
+  kg: { factor: 1, dimension: M },
+  g: { factor: 1e-3, dimension: M },
+  mg: { factor: 1e-6, dimension: M },
+  t: { factor: 1e3, dimension: M },
+  lb: { factor: 0.45359237, dimension: M },
+  s: { factor: 1, dimension: T },
+  ms: { factor: 1e-3, dimension: T },
+  us: { factor: 1e-6, dimension: T },
+  µs: { factor: 1e-6, dimension: T },
+  min: { factor: 60, dimension: T },
+  h: { factor: 3600, dimension: T },
+  N: { factor: 1, dimension: FORCE },
+  kN: { factor: 1e3, dimension: FORCE },
+  MN: { factor: 1e6, dimension: FORCE },
+  mN: { factor: 1e-3, dimension: FORCE },
+  J: { factor: 1, dimension: ENERGY },
+  kJ: { factor: 1e3, dimension: ENERGY },
+  W: { factor: 1, dimension: POWER },
+  kW: { factor: 1e3, dimension: POWER },
+  Hz: { factor: 1, dimension: [0, 0, -1, 0] },
+  kHz: { factor: 1e3, dimension: [0, 0, -1, 0] },
+  rad: { factor: 1, dimension: ANGLE },
+  mrad: { factor: 1e-3, dimension: ANGLE },
+  deg: { factor: TURN / 360, dimension: ANGLE },
+  "°": { factor: TURN / 360, dimension: ANGLE },
+  rev: { factor: TURN, dimension: ANGLE },
+  rpm: { factor: TURN / 60, dimension: [0, 0, -1, 1] },
+};
+
+/** What people like to choose from in a field of this SI unit; the first is used for what the studio writes. */
+export const CHOICES: Readonly<Record<string, readonly string[]>> = {
+  m: ["mm", "m", "cm", "in"],
+  rad: ["deg", "rad"],
+  kg: ["kg", "g", "lb"],
+  "kg*m^2": ["kg*m^2", "kg*mm^2"],
+  "N/m": ["N/m", "N/mm", "kN/mm"],
+  "N*s/m": ["N*s/m", "N*s/mm"],
+  "N*m/rad": ["N*m/rad", "N*m/deg"],
+  "N*m*s/rad": ["N*m*s/rad"],
+  "rad/s": ["rpm", "rad/s", "deg/s"],
+  "m/s": ["m/s", "mm/s"],
+  N: ["N", "kN", "mN"],
+  "N*m": ["N*m", "kN*m"],
+  s: ["s", "ms", "min"],
+  "m/s^2": ["m/s^2"],
+};
+
+/** The factor of "N*m/rad" and the like; null if a word in it is no unit. */
+export function unitFactor(text: string): number | null {
+  let factor = 1;
+  for (const part of text.split(/(?=[*/])/)) {
+    const divides = part.startsWith("/");
+    const [word, exponent] = part.replace(/^[*/]/, "").trim().split("^");
+    const unit = UNITS[word ?? ""];
+    if (!unit) return null;
+    factor *= unit.factor ** ((divides ? -1 : 1) * Number(exponent ?? 1));
+  }
+  return factor;
+}
+
+/** Few digits, no trailing zeros, thousands left alone: what a person would write. */
+export function shortNumber(value: number, digits = 4): string {
+  if (!Number.isFinite(value)) return value > 0 ? "∞" : value < 0 ? "−∞" : "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e6 || size < 1e-4) {
+    const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
+    return `${Number(mantissa)}e${Number(exponent)}`;
+  }
+  return String(Number(value.toPrecision(digits)));
+}
+
+const PREFIXED: Readonly<Record<string, readonly [number, string][]>> = {
+  N: [[1e6, "MN"], [1e3, "kN"], [1, "N"], [1e-3, "mN"]],
+  m: [[1, "m"], [1e-3, "mm"], [1e-6, "µm"]],
+  "N*m": [[1e3, "kN·m"], [1, "N·m"], [1e-3, "mN·m"]],
+  J: [[1e6, "MJ"], [1e3, "kJ"], [1, "J"], [1e-3, "mJ"]],
+  W: [[1e3, "kW"], [1, "W"], [1e-3, "mW"]],
+  s: [[1, "s"], [1e-3, "ms"], [1e-6, "µs"]],
+  kg: [[1, "kg"], [1e-3, "g"]],
+};
+
+/** "1.234 kN": a quantity with the prefix that fits its size. */
+export function quantity(value: number, unit: string, digits = 4): string {
+  const steps = PREFIXED[unit];
+  if (!steps || value === 0) return `${shortNumber(value, digits)} ${prettyUnit(unit)}`.trim();
+  const size = Math.abs(value);
+  const [factor, name] = steps.find(([least]) => size >= least * 0.9999) ?? steps[steps.length - 1]!;
+  return `${shortNumber(value / factor, digits)} ${name}`;
+}
+
+/** "N*m*s/rad" as it is printed: "N·m·s/rad". */
+export function prettyUnit(unit: string): string {
+  return unit.replace(/\*/g, "·").replace("^2", "²").replace(/^-$/, "");
+}
+
+export function roundTo(value: number, step: number): number {
+  return step > 0 ? Number((Math.round(value / step) * step).toPrecision(12)) : value;
+}
+
+/** A length as the studio writes it into a model: to a hundredth of a millimetre, in mm below ten metres. */
+export function writeLength(metres: number): string | number {
+  const mm = Number((metres * 1e3).toFixed(3));
+  if (mm === 0) return 0;
+  return Math.abs(mm) < 1e4 ? `${mm} mm` : `${Number(metres.toFixed(6))} m`;
+}
+
+export function writeAngle(radians: number): string | number {
+  const degrees = Number(((radians * 180) / Math.PI).toFixed(4));
+  return degrees === 0 ? 0 : `${degrees} deg`;
+}

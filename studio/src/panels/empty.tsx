@@ -1,0 +1,38 @@
+// What an empty drawing says: three ways to begin.
+import { chooseTool } from "../actions";
+import { runCommand } from "../commands";
+import { useStudio } from "../state";
+import { Icon } from "./icons";
+
+export function EmptyDrawing() {
+  const empty = useStudio((now) => now.model.bodies.length === 0 && now.model.ground.length === 0 && now.tool === "select");
+  const dialog = useStudio((now) => now.dialog);
+  if (!empty || dialog === "gallery") return null;
+  return (
+    <section className="empty" aria-label="How to begin">
+      <h2>Draw a mechanism. Press play. Trust the forces.</h2>
+      <ol>
+        <li>
+          <kbd>L</kbd> draws a <b>link</b>: drag from end to end. Begin the next one on its end, and a pin joins them.
+        </li>
+        <li>
+          <kbd>G</kbd> pins a point to the <b>ground</b>; <kbd>M</kbd> puts a <b>motor</b> on a pin.
+        </li>
+        <li>
+          <kbd>Space</kbd> <b>plays</b> it. Every joint shows its force; pull at a link while it runs.
+        </li>
+      </ol>
+      <div className="empty-buttons">
+        <button className="button primary" onClick={() => chooseTool("link")}>
+          <Icon name="link" /> Draw a link
+        </button>
+        <button className="button" onClick={() => runCommand("gallery")}>
+          <Icon name="gallery" /> Begin with a template
+        </button>
+        <button className="button" onClick={() => runCommand("open")}>
+          <Icon name="open" /> Open a file
+        </button>
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,216 @@
+// Fields with units. A number keeps the unit that its author chose; an expression stays an expression and shows its value.
+import { useEffect, useId, useState } from "react";
+import { edit } from "../actions";
+import { Draft, type Literal } from "../model/edit";
+import { evaluate } from "../model/expression";
+import { type Plain, nodeAt, plain } from "../model/toml";
+import { CHOICES, prettyUnit, shortNumber, unitFactor } from "../model/units";
+import { studio, useStudio } from "../state";
+
+/** The literal at a path: what stands in the text, or undefined. A key, so that React sees when it changes. */
+export function useLiteral(path: readonly string[]): Plain | undefined {
+  const key = useStudio((now) => {
+    const node = nodeAt(now.model.document.root, path);
+    return node ? JSON.stringify(plain(node)) : undefined;
+  });
+  return key === undefined ? undefined : (JSON.parse(key) as Plain);
+}
+
+export function setLiteral(path: readonly string[], value: Literal | null, label: string): void {
+  const { model } = studio.get();
+  const draft = new Draft(model.document);
+  if (value === null) draft.remove(path);
+  else draft.set(path, value);
+  // A value that is typed is no longer the one that follows from a shape.
+  if (path[0] === "body" && (path[2] === "mass" || path[2] === "inertia")) draft.remark(path, "");
+  edit(draft.apply(), label);
+}
+
+const SIMPLE = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([A-Za-zµ°][\w*/^°·-]*)?\s*$/;
+
+interface Parts {
+  number: string;
+  unit: string;
+  /** More than a number with a unit. */
+  expression: boolean;
+}
+
+function partsOf(literal: Plain | undefined, si: string): Parts {
+  if (literal === undefined) return { number: "", unit: "", expression: false };
+  const text = String(literal);
+  const simple = SIMPLE.exec(text);
+  if (!simple) return { number: text, unit: "", expression: true };
+  return { number: simple[1]!, unit: simple[2] ?? si, expression: false };
+}
+
+function numberIn(text: string): number | null {
+  return evaluate(text, (name) => studio.get().model.parameters.get(name));
+}
+
+interface QuantityProps {
+  label: string;
+  unit: string;
+  literal: Plain | undefined;
+  fallback?: string;
+  meaning?: string;
+  /** Names beyond the parameters that may be used: t, angle, rate. */
+  variables?: boolean;
+  required?: boolean;
+  note?: React.ReactNode;
+  onChange: (literal: Literal | null) => void;
+}
+
+export function Quantity({ label, unit, literal, fallback, meaning, variables, required, note, onChange }: QuantityProps) {
+  const id = useId();
+  const parts = partsOf(literal, unit);
+  const [typed, setTyped] = useState(parts.number);
+  const [wrong, setWrong] = useState("");
+  const shown = parts.number;
+  useEffect(() => {
+    setTyped(shown);
+    setWrong("");
+  }, [shown, parts.unit]);
+  const usual = partsOf(fallback, unit);
+  const own = parts.unit || (literal === undefined && !usual.expression ? usual.unit : "");
+  const family = CHOICES[unit] ?? Object.values(CHOICES).find((list) => own !== "" && list.includes(own)) ?? (unit ? [unit] : []);
+  const choices = [...new Set([...(own ? [own] : []), ...family])];
+  const now = own || (unit ? (choices[0] ?? "") : "");
+
+  const commit = (text: string) => {
+    const value = text.trim();
+    if (value === shown.trim()) return setWrong("");
+    if (value === "") return required ? setTyped(shown) : onChange(null);
+    const simple = SIMPLE.exec(value);
+    if (simple && !simple[2]) return onChange(now ? `${simple[1]} ${now}` : Number(simple[1]));
+    if (!variables && numberIn(value) === null) return setWrong(`"${value}" is no number and no expression of the model's parameters.`);
+    setWrong("");
+    onChange(value);
+  };
+  const convert = (to: string) => {
+    const from = unitFactor(now);
+    const factor = unitFactor(to);
+    if (literal === undefined || parts.expression || from === null || factor === null) return;
+    onChange(`${Number(((Number(parts.number) * from) / factor).toPrecision(10))} ${to}`);
+  };
+  const value = parts.expression && !variables ? numberIn(shown) : null;
+  return (
+    <div className="field">
+      <label htmlFor={id} data-tip={meaning}>
+        {label}
+        {note}
+      </label>
+      <span className={wrong ? "quantity wrong" : "quantity"}>
+        <input
+          id={id}
+          value={typed}
+          placeholder={fallback !== undefined ? (usual.expression ? fallback : usual.number) : required ? "required" : "–"}
+          spellCheck={false}
+          aria-invalid={wrong !== ""}
+          aria-describedby={wrong ? `${id}-wrong` : undefined}
+          onChange={(event) => setTyped(event.target.value)}
+          onBlur={(event) => commit(event.target.value)}
+          onKeyDown={(event) => {
+            if (event.key === "Enter") commit(event.currentTarget.value);
+            else if (event.key === "Escape") setTyped(shown);
+            else if ((event.key === "ArrowUp" || event.key === "ArrowDown") && SIMPLE.test(typed)) {
+              event.preventDefault();
+              const next = stepped(Number(SIMPLE.exec(typed)![1]), event.key === "ArrowUp" ? 1 : -1);
+              setTyped(next);
+              commit(next);
+            }
+          }}
+        />
+        {now && !parts.expression && (
+          <select aria-label={`Unit of ${label}`} value={now} onChange={(event) => convert(event.target.value)}>
+            {choices.map((one) => (
+              <option key={one} value={one}>
+                {prettyUnit(one)}
+              </option>
+            ))}
+          </select>
+        )}
+      </span>
+      {parts.expression && <span className="worth">{value === null ? `in ${prettyUnit(unit)}` : `= ${shortNumber(value)} ${prettyUnit(unit)}`}</span>}
+      {wrong && (
+        <p className="field-wrong" id={`${id}-wrong`} role="alert">
+          {wrong}
+        </p>
+      )}
+    </div>
+  );
+}
+
+// Up and down by one of the second digit.
+function stepped(value: number, direction: number): string {
+  const power = value === 0 ? 1 : 10 ** (Math.floor(Math.log10(Math.abs(value))) - 1);
+  return String(Number((value + direction * power).toPrecision(10)));
+}
+
+/** A quantity of the model's text. */
+export function TextQuantity(props: Omit<QuantityProps, "literal" | "onChange"> & { path: readonly string[] }) {
+  const { path, ...rest } = props;
+  const literal = useLiteral(path);
+  return <Quantity {...rest} literal={Array.isArray(literal) ? literal.map(String).join(", ") : literal} onChange={(value) => setLiteral(path, value, `Set ${props.label.toLowerCase()}`)} />;
+}
+
+/** Two quantities in a list: gravity, a force, radii, a position. */
+export function Pair({ label, unit, path, names, meaning, fallback, variables }: { label: string; unit: string; path: readonly string[]; names: readonly [string, string]; meaning?: string; fallback?: readonly [number, number]; variables?: boolean }) {
+  const literal = useLiteral(path);
+  const list = Array.isArray(literal) ? literal : [];
+  const set = (i: number) => (value: Literal | null) => {
+    const next: Literal[] = [0, 1].map((k) => (list[k] as Literal) ?? fallback?.[k] ?? 0);
+    next[i] = value ?? 0;
+    setLiteral(path, next, `Set ${label.toLowerCase()}`);
+  };
+  return (
+    <fieldset className="pair">
+      <legend data-tip={meaning}>{label}</legend>
+      {names.map((name, i) => (
+        <Quantity key={name} label={name} unit={unit} literal={list[i]} fallback={fallback ? String(fallback[i]) : "0"} variables={variables} onChange={set(i)} />
+      ))}
+    </fieldset>
+  );
+}
+
+export function Choice({ label, value, options, meaning, onChange }: { label: string; value: string; options: readonly (string | { value: string; label: string })[]; meaning?: string; onChange: (value: string) => void }) {
+  const id = useId();
+  return (
+    <div className="field">
+      <label htmlFor={id} data-tip={meaning}>
+        {label}
+      </label>
+      <select id={id} className="choice" value={value} onChange={(event) => onChange(event.target.value)}>
+        {options.map((one) => {
+          const option = typeof one === "string" ? { value: one, label: one } : one;
+          return (
+            <option key={option.value} value={option.value}>
+              {option.label}
+            </option>
+          );
+        })}
+      </select>
+    </div>
+  );
+}
+
+/** A name that can be changed. */
+export function NameField({ value, label, check, onChange }: { value: string; label: string; check: (name: string) => string; onChange: (name: string) => void }) {
+  const id = useId();
+  const [typed, setTyped] = useState(value);
+  useEffect(() => setTyped(value), [value]);
+  const wrong = typed === value ? "" : check(typed);
+  const commit = () => {
+    if (typed === value) return;
+    if (wrong) setTyped(value);
+    else onChange(typed);
+  };
+  return (
+    <div className="field">
+      <label htmlFor={id}>{label}</label>
+      <span className={wrong ? "quantity wrong" : "quantity"}>
+        <input id={id} value={typed} spellCheck={false} onChange={(event) => setTyped(event.target.value)} onBlur={commit} onKeyDown={(event) => event.key === "Enter" && commit()} />
+      </span>
+      {wrong && <p className="field-wrong">{wrong}</p>}
+    </div>
+  );
+}

@@ -1,0 +1,88 @@
+// The fields of a form, from the schema of the model format and the kernel's catalog: names, units, meanings, defaults.
+import { useEffect, useState } from "react";
+import type { Catalog } from "../kernel/protocol";
+import { catalog, schema } from "../play/desk";
+
+export interface Field {
+  name: string;
+  unit: string;
+  meaning: string;
+  kind: "quantity" | "expression" | "pair" | "word" | "words" | "truth" | "text" | "name";
+  words?: string[];
+  fallback?: string;
+  required: boolean;
+}
+
+interface SchemaProperty {
+  type?: string | string[];
+  description?: string;
+  enum?: string[];
+  default?: unknown;
+  items?: unknown;
+  minItems?: number;
+}
+
+interface SchemaTable {
+  properties?: Record<string, SchemaProperty & SchemaTable>;
+  additionalProperties?: SchemaTable | boolean;
+  required?: string[];
+}
+
+/** Keys of a table of the schema: ["spring"] for [spring.NAME], ["simulate"]. `slides` picks the sliding of two meanings. */
+export function fieldsOf(root: Record<string, unknown> | null, table: string, slides = false): Field[] {
+  const at = (root as SchemaTable | null)?.properties?.[table];
+  const home: SchemaTable | undefined = typeof at?.additionalProperties === "object" ? at.additionalProperties : at;
+  return Object.entries(home?.properties ?? {}).map(([name, property]) => fieldOf(name, property, (home?.required ?? []).includes(name), slides));
+}
+
+function fieldOf(name: string, property: SchemaProperty, required: boolean, slides: boolean): Field {
+  const meanings = (property.description ?? "").split(/; or: /);
+  const meaning = (slides ? meanings[meanings.length - 1] : meanings[0]) ?? "";
+  const unit = /\[([^\]]+)\]/.exec(meaning)?.[1] ?? "";
+  const types = Array.isArray(property.type) ? property.type : [property.type ?? ""];
+  const otherwise = /when absent: (.*)$/.exec(meaning)?.[1];
+  const kind: Field["kind"] = property.enum
+    ? "word"
+    : types.includes("boolean")
+      ? "truth"
+      : types[0] === "array"
+        ? unit
+          ? "pair"
+          : "words"
+        : types.includes("number")
+          ? /expression of/.test(meaning)
+            ? "expression"
+            : "quantity"
+          : "text";
+  return {
+    name,
+    unit,
+    meaning: meaning.replace(/\s*\[[^\]]*\]/, "").replace(/; when absent: .*$/, ""),
+    kind,
+    words: property.enum,
+    fallback: property.default !== undefined ? String(property.default) : otherwise,
+    required,
+  };
+}
+
+export function useSchema(): Record<string, unknown> | null {
+  const [answer, setAnswer] = useState<Record<string, unknown> | null>(null);
+  useEffect(() => {
+    void schema().then(setAnswer, () => undefined);
+  }, []);
+  return answer;
+}
+
+export function useCatalog(): Catalog | null {
+  const [answer, setAnswer] = useState<Catalog | null>(null);
+  useEffect(() => {
+    void catalog().then(setAnswer, () => undefined);
+  }, []);
+  return answer;
+}
+
+/** "free_length" as a label. */
+export function labelOf(name: string): string {
+  const words = name.replace(/_/g, " ");
+  return words.charAt(0).toUpperCase() + words.slice(1);
+}

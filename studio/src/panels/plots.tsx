@@ -1,0 +1,181 @@
+// Plots of any quantity over time: an axis for each unit, values under the cursor, a click leads the mechanism there.
+import { useEffect, useMemo, useRef, useState } from "react";
+import uPlot from "uplot";
+import "uplot/dist/uPlot.min.css";
+import { prettyUnit, shortNumber } from "../model/units";
+import { player } from "../play/player";
+import { studio, useStudio } from "../state";
+import { Nothing } from "./forces";
+import { Icon } from "./icons";
+import { type Series, firstSeries, resample, seriesOf } from "./series";
+
+export function PlotsPanel() {
+  const answer = useStudio((now) => now.run.answer);
+  const kept = useStudio((now) => now.kept);
+  const plotted = useStudio((now) => now.plotted);
+  const theme = useStudio((now) => now.theme);
+  const all = useMemo(() => (answer ? seriesOf(answer) : []), [answer]);
+  const chosen = useMemo(() => {
+    const found = plotted.map((id) => all.find((one) => one.id === id)).filter((one): one is Series => one !== undefined);
+    return found.length > 0 || !answer ? found : firstSeries(answer).map((id) => all.find((one) => one.id === id)!).filter(Boolean);
+  }, [all, plotted, answer]);
+  if (!answer || (answer.values[0]?.length ?? 0) < 2) return <Nothing />;
+  const toggle = (id: string) => {
+    const ids = chosen.map((one) => one.id);
+    studio.set({ plotted: ids.includes(id) ? ids.filter((one) => one !== id) : [...ids, id] });
+  };
+  return (
+    <div className="plots">
+      <Plot key={theme} series={chosen} time={answer.values[0]!} kept={kept ? { time: kept.answer.values[0]!, series: seriesOf(kept.answer) } : null} />
+      <Legend series={chosen} onRemove={toggle} />
+      <Chooser all={all} chosen={chosen} onToggle={toggle} />
+    </div>
+  );
+}
+
+interface PlotProps {
+  series: readonly Series[];
+  time: Float64Array;
+  kept: { time: Float64Array; series: Series[] } | null;
+}
+
+/** Colours of series, read from the theme. */
+function tones(element: Element): string[] {
+  const style = getComputedStyle(element);
+  return [0, 1, 2, 3, 4, 5].map((i) => style.getPropertyValue(`--tone${i}`).trim());
+}
+
+function Plot({ series, time, kept }: PlotProps) {
+  const home = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const element = home.current;
+    if (!element) return;
+    const plot = makePlot(element, series, time, kept);
+    const observer = new ResizeObserver(() => plot.setSize(sizeOf(element)));
+    observer.observe(element);
+    const line = document.createElement("div");
+    line.className = "now-line";
+    plot.over.appendChild(line);
+    const end = player.onFrame(() => {
+      const at = plot.valToPos(studio.get().mode === "edit" ? 0 : player.t, "x");
+      line.style.transform = `translateX(${at}px)`;
+      line.hidden = studio.get().mode === "live";
+      const texts = document.querySelectorAll<HTMLElement>("[data-now]");
+      const { mode } = studio.get();
+      texts.forEach((text, i) => {
+        const values = plot.data[i + 1];
+        const index = plot.cursor.idx ?? (mode === "edit" ? 0 : nearest(time, player.t));
+        const value = values?.[index];
+        text.textContent = typeof value === "number" ? shortNumber(value, 5) : "–";
+      });
+    });
+    return () => {
+      end();
+      observer.disconnect();
+      plot.destroy();
+    };
+  }, [series, time, kept]);
+  return <div className="plot" ref={home} role="img" aria-label={`Plot of ${series.map((one) => one.label).join(", ") || "nothing"} over time`} />;
+}
+
+function nearest(time: Float64Array, t: number): number {
+  const span = (time[time.length - 1] ?? 1) / Math.max(time.length - 1, 1);
+  return Math.min(Math.max(Math.round(t / span), 0), time.length - 1);
+}
+
+const sizeOf = (element: Element) => ({ width: Math.max(element.clientWidth, 200), height: Math.max(element.clientHeight, 100) });
+
+function makePlot(element: HTMLElement, series: readonly Series[], time: Float64Array, kept: PlotProps["kept"]): uPlot {
+  const colours = tones(element);
+  const style = getComputedStyle(element);
+  const ink = style.getPropertyValue("--ink-soft").trim();
+  const grid = style.getPropertyValue("--line").trim();
+  const units = [...new Set(series.map((one) => one.unit))];
+  const data: uPlot.AlignedData = [time, ...series.map((one) => one.values())] as uPlot.AlignedData;
+  const lines: uPlot.Series[] = series.map((one, i) => ({ label: one.label, scale: one.unit, stroke: colours[i % 6], width: 1.6, pxAlign: 0, points: { show: false } }));
+  if (kept) {
+    series.forEach((one, i) => {
+      const other = kept.series.find((candidate) => candidate.id === one.id);
+      if (!other) return;
+      (data as unknown[]).push(resample(kept.time, other.values(), time));
+      lines.push({ label: `${one.label}, kept`, scale: one.unit, stroke: colours[i % 6], width: 1.4, dash: [5, 4], pxAlign: 0, points: { show: false } });
+    });
+  }
+  const font = "11px system-ui, sans-serif";
+  const axis = (unit: string, i: number): uPlot.Axis => ({
+    scale: unit,
+    side: i % 2 === 0 ? 3 : 1,
+    label: prettyUnit(unit) || "–",
+    labelFont: font,
+    labelSize: 16,
+    size: 56,
+    font,
+    stroke: ink,
+    grid: { show: i === 0, stroke: grid, width: 1 },
+    ticks: { stroke: grid, width: 1, size: 4 },
+    values: (_, splits) => splits.map((value) => shortNumber(value, 6)),
+  });
+  const options: uPlot.Options = {
+    ...sizeOf(element),
+    legend: { show: false },
+    padding: [10, 20, 0, 4],
+    scales: { x: { time: false } },
+    cursor: { drag: { x: true, y: false, dist: 8 }, points: { size: 7 }, bind: { dblclick: (plot) => () => (plot.setData(data), null) } },
+    series: [{ label: "t" }, ...lines],
+    axes: [{ font, stroke: ink, size: 30, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid, width: 1, size: 4 }, values: (_, splits) => splits.map((value) => `${shortNumber(value, 5)} s`) }, ...(units.length > 0 ? units : [""]).slice(0, 4).map(axis)],
+  };
+  const plot = new uPlot(options, data, element);
+  plot.over.addEventListener("click", () => plot.cursor.left !== undefined && plot.cursor.left >= 0 && player.seek(plot.posToVal(plot.cursor.left, "x")));
+  plot.over.addEventListener("pointermove", () => player.touch());
+  plot.over.addEventListener("pointerleave", () => player.touch());
+  return plot;
+}
+
+function Legend({ series, onRemove }: { series: readonly Series[]; onRemove: (id: string) => void }) {
+  return (
+    <ul className="legend" aria-label="Plotted">
+      {series.map((one, i) => (
+        <li key={one.id}>
+          <span className={`swatch tone${i % 6}`} />
+          <span className="legend-label" data-tip={one.about}>
+            {one.label}
+          </span>
+          <span className="legend-value">
+            <span data-now={one.id}>–</span> {prettyUnit(one.unit)}
+          </span>
+          <button className="icon-button tiny" aria-label={`Take ${one.label} off the plot`} onClick={() => onRemove(one.id)}>
+            <Icon name="close" size={13} />
+          </button>
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+function Chooser({ all, chosen, onToggle }: { all: readonly Series[]; chosen: readonly Series[]; onToggle: (id: string) => void }) {
+  const [sought, setSought] = useState("");
+  const words = sought.toLowerCase().split(/\s+/).filter(Boolean);
+  const found = all.filter((one) => words.every((word) => `${one.group} ${one.label} ${one.id}`.toLowerCase().includes(word))).slice(0, 120);
+  const groups = [...new Set(found.map((one) => one.group))];
+  return (
+    <div className="chooser">
+      <input type="search" aria-label="Find a quantity" placeholder="Add a quantity…" value={sought} onChange={(event) => setSought(event.target.value)} />
+      <div className="chooser-list" tabIndex={0} role="group" aria-label="Quantities">
+        {groups.map((group) => (
+          <section key={group}>
+            <h3>{group}</h3>
+            {found
+              .filter((one) => one.group === group)
+              .map((one) => (
+                <label key={one.id} className="check" title={one.about}>
+                  <input type="checkbox" checked={chosen.some((other) => other.id === one.id)} onChange={() => onToggle(one.id)} />
+                  <span>{one.label}</span>
+                </label>
+              ))}
+          </section>
+        ))}
+        {found.length === 0 && <p className="quiet">No quantity has these words.</p>}
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,70 @@
+// What can be plotted: the run's columns, and the size of each joint's force, which is what one asks for first.
+import type { RunAnswer } from "../kernel/protocol";
+
+export interface Series {
+  id: string;
+  label: string;
+  unit: string;
+  group: string;
+  about: string;
+  values: () => Float64Array;
+}
+
+const WORDS: Record<string, string> = {
+  x: "x", y: "y", angle: "angle", vx: "velocity x", vy: "velocity y", spin: "spin", fx: "force x", fy: "force y", f1: "force along x of the joint", f2: "force along y of the joint",
+  m: "moment", slide: "slide", rate: "rate", effort: "effort", power: "power",
+};
+
+export function seriesOf(answer: RunAnswer): Series[] {
+  const list: Series[] = [];
+  for (const joint of answer.joints) {
+    const at = (quantity: string) => answer.columns.findIndex((one) => one.kind === "joint" && one.of === joint.name && one.quantity === quantity && one.frame === "world" && one.feels === joint.second_body);
+    const fx = answer.values[at("fx")];
+    const fy = answer.values[at("fy")];
+    if (!fx || !fy) continue;
+    list.push({
+      id: `joint.${joint.name}.|F|`,
+      label: `|F| at ${joint.name}`,
+      unit: "N",
+      group: `Joint ${joint.name}`,
+      about: `Size of the force in joint ${joint.name}`,
+      values: () => fx.map((value, i) => Math.hypot(value, fy[i]!)),
+    });
+  }
+  answer.columns.forEach((column, i) => {
+    if (column.kind === "time") return;
+    const word = WORDS[column.quantity] ?? column.quantity;
+    const group = column.kind === "energy" ? "Energy" : `${column.kind === "body" ? "Link" : column.kind.charAt(0).toUpperCase() + column.kind.slice(1)} ${column.of}`;
+    list.push({
+      id: column.name,
+      label: column.kind === "energy" ? `${column.name.replace("energy.", "")} energy` : `${column.of} ${word}${column.feels ? ` on ${column.feels}` : ""}`,
+      unit: column.unit,
+      group,
+      about: column.about,
+      values: () => answer.values[i]!,
+    });
+  });
+  return list;
+}
+
+/** The largest forces: what a plot shows before one has chosen. */
+export function firstSeries(answer: RunAnswer): string[] {
+  return [...answer.joints]
+    .sort((a, b) => b.peak - a.peak)
+    .slice(0, 4)
+    .map((joint) => `joint.${joint.name}.|F|`);
+}
+
+/** Values at other times, for two runs in one plot; outside of the run there are none. */
+export function resample(time: Float64Array, values: Float64Array, at: Float64Array): (number | null)[] {
+  const result: (number | null)[] = [];
+  let i = 0;
+  const end = time[time.length - 1] ?? 0;
+  for (const t of at) {
+    while (i < time.length - 2 && time[i + 1]! < t) i++;
+    const span = (time[i + 1] ?? 0) - (time[i] ?? 0);
+    if (t > end * (1 + 1e-9) || span <= 0) result.push(null);
+    else result.push(values[i]! + ((values[i + 1]! - values[i]!) * (t - time[i]!)) / span);
+  }
+  return result;
+}

@@ -1,0 +1,35 @@
+// Begins the page: brings back what was there, starts kernel and clock, and draws.
+import { createRoot } from "react-dom/client";
+import { edit, openText } from "./actions";
+import { App } from "./app";
+import { theView } from "./drawing/canvas";
+import { restore, startAutosave } from "./files/autosave";
+import { startFolder } from "./files/folder";
+import { openFromAddress } from "./files/share";
+import { Fence } from "./panels/fence";
+import { startDesk } from "./play/desk";
+import { studio } from "./state";
+import { player } from "./play/player";
+import "./styles/base.css";
+import "./styles/layout.css";
+import "./styles/panels.css";
+import "./styles/scene.css";
+
+// For the browser tests, and for whoever is curious in the console.
+Object.assign(window, { pintleStudio: studio, pintleView: theView, pintleEdit: edit, pintleOpen: openText });
+restore();
+startAutosave();
+const root = document.getElementById("root");
+if (root) {
+  createRoot(root).render(
+    <Fence of="page">
+      <App />
+    </Fence>,
+  );
+}
+player.start();
+void openFromAddress().then((opened) => {
+  startDesk();
+  if (!opened) void startFolder();
+});
+window.addEventListener("hashchange", () => void openFromAddress());

@@ -1,0 +1,107 @@
+// All that the page knows, in one place. The text is the model; everything else about the mechanism follows from it.
+import type { CheckReport, Complaint, Fault, RunAnswer, RunProgress } from "./kernel/protocol";
+import { type History, newHistory } from "./model/history";
+import { type Model, type Poses, readModel } from "./model/model";
+import { EMPTY_MODEL, type Thing } from "./model/operations";
+import { createStore, useStore } from "./store";
+
+export const TOOLS = [
+  "select", "link", "plate", "pin", "ground", "slider", "slot", "weld", "disc", "spring", "damper", "torsion", "rod", "rope", "motor", "force", "torque", "trace",
+] as const;
+export type ToolName = (typeof TOOLS)[number];
+
+export type Dialog = "gallery" | "palette" | "help" | "folder" | null;
+export type DockTab = "plots" | "forces" | "energy" | "problems";
+export type SideTab = "properties" | "model" | "text";
+
+export interface RunState {
+  status: "none" | "running" | "done" | "failed";
+  answer: RunAnswer | null;
+  progress: RunProgress | null;
+  fault: Fault | null;
+  /** Counts answers, so that whoever draws one knows that it is another. */
+  serial: number;
+}
+
+export interface Toast {
+  id: number;
+  text: string;
+  action?: { label: string; run: () => void };
+}
+
+export interface StudioState {
+  history: History;
+  fileName: string;
+  model: Model;
+  /** The text has faults; the drawing shows the last model that could be read. */
+  stale: boolean;
+  /** Poses at the start, as assembled; of the bodies that the text has. */
+  poses: Poses | null;
+  complaints: Complaint[];
+  /** Why it could not be assembled or run. */
+  obstacle: Fault | null;
+  report: CheckReport | null;
+  kernelState: "starting" | "ready" | "missing";
+  selection: Thing[];
+  hover: Thing | null;
+  tool: ToolName;
+  run: RunState;
+  ghost: { on: boolean; answer: RunAnswer | null };
+  kept: { answer: RunAnswer; label: string } | null;
+  mode: "edit" | "replay" | "live";
+  playing: boolean;
+  speed: number;
+  loop: boolean;
+  dialog: Dialog;
+  dock: DockTab | null;
+  side: SideTab | null;
+  theme: "light" | "dark";
+  show: { labels: boolean; forces: boolean; grid: boolean; traces: boolean; centres: boolean };
+  snapping: boolean;
+  /** Columns on the plot, by name. */
+  plotted: string[];
+  toasts: Toast[];
+  savedText: string;
+  /** Of `pintle studio`, where the page comes from it. */
+  folder: { name: string; models: { path: string; size: number }[] } | null;
+}
+
+const model = readModel(EMPTY_MODEL);
+
+export const NO_RUN: RunState = { status: "none", answer: null, progress: null, fault: null, serial: 0 };
+
+export const studio = createStore<StudioState>({
+  history: newHistory(EMPTY_MODEL),
+  fileName: "untitled.toml",
+  model,
+  stale: false,
+  poses: null,
+  complaints: [],
+  obstacle: null,
+  report: null,
+  kernelState: "starting",
+  selection: [],
+  hover: null,
+  tool: "select",
+  run: NO_RUN,
+  ghost: { on: false, answer: null },
+  kept: null,
+  mode: "edit",
+  playing: false,
+  speed: 1,
+  loop: true,
+  dialog: null,
+  dock: "plots",
+  side: "properties",
+  theme: "light",
+  show: { labels: true, forces: true, grid: true, traces: true, centres: false },
+  snapping: true,
+  plotted: [],
+  toasts: [],
+  savedText: EMPTY_MODEL,
+  folder: null,
+});
+
+export function useStudio<P>(part: (now: StudioState) => P): P {
+  return useStore(studio, part);
+}

@@ -1,0 +1,3 @@
+#include "tests/fuzz/libfuzzer.h"
+
+PINTLE_FUZZ_TARGET(pintle::fuzz::studio_request)
