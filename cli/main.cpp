@@ -6,5 +6,5 @@
 int main(int argc, char** argv) {
   using namespace pintle::cli;
   if (wants_sweep(argc, argv)) become_sweep_program(argv);
-  return run_program(argc, argv, {add_run, add_check, add_compare, add_stiffen, add_plot, add_solvers, add_sweep_program, add_convert, add_fmt, add_schema, add_version});
+  return run_program(argc, argv, {add_run, add_check, add_compare, add_stiffen, add_plot, add_report, add_solvers, add_sweep_program, add_convert, add_fmt, add_schema, add_version});
 }

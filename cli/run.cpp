@@ -104,7 +104,8 @@ ExitCode run(const RunOptions& options) {
   const Overwrite overwrite = options.force ? Overwrite::kAnyFolder : Overwrite::kRunFolder;
   const auto [text, model] = read_model_to_run(options);
   check_run_folder(folder, overwrite);
-  const RunStamp stamp{model.name, options.model, "sha256:" + sha256(text), PINTLE_VERSION, command_line()};
+  const RunStamp stamp{model.name, options.model, "sha256:" + sha256(text), PINTLE_VERSION, command_line(),
+                       all_overrides(options), text};
 
   catch_interrupts();
   ProgressReport report(progress_style(options));

@@ -12,6 +12,7 @@ void add_run(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
 void add_stiffen(CLI::App& app, int& exit_code);
+void add_report(CLI::App& app, int& exit_code);
 void add_plot(CLI::App& app, int& exit_code);
 void add_solvers(CLI::App& app, int& exit_code);
 void add_convert(CLI::App& app, int& exit_code);

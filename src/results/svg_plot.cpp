@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "base/utf8.h"
+#include "results/markup.h"
 #include "results/plot_ticks.h"
 #include "results/thin_line.h"
 
@@ -29,29 +30,6 @@ constexpr double kColumnWidth = 0.5;  // what the eye can tell apart on screen a
 /// How wide a text is, about [px].
 double text_width(std::string_view text, double size) {
   return 0.56 * size * static_cast<double>(count_characters(text));
-}
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : printable(text)) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
 }
 
 struct Range {
@@ -203,10 +181,10 @@ void Picture::lay_out() {
 void Picture::draw_titles() {
   if (!plot_.title.empty())
     put("<text x=\"{:.1f}\" y=\"26\" font-size=\"{}\" font-weight=\"bold\">{}</text>\n", left_, kTitleSize,
-        escaped(plot_.title));
+        escaped_markup(plot_.title));
   if (!plot_.subtitle.empty())
     put("<text x=\"{:.1f}\" y=\"45\" font-size=\"{}\" fill=\"#555\">{}</text>\n", left_, kTextSize,
-        escaped(plot_.subtitle));
+        escaped_markup(plot_.subtitle));
 }
 
 void Picture::draw_grid(const Frame& frame) {
@@ -229,7 +207,7 @@ void Picture::draw_y_axis(const Frame& frame) {
   const double middle = frame.top + frame.height / 2;
   put("<text x=\"18\" y=\"{0:.1f}\" font-size=\"{1}\" text-anchor=\"middle\" transform=\"rotate(-90 18 "
       "{0:.1f})\">{2}</text>\n",
-      middle, kTextSize, escaped(axis_title(frame.panel.quantity, frame.y_scale.unit)));
+      middle, kTextSize, escaped_markup(axis_title(frame.panel.quantity, frame.y_scale.unit)));
 }
 
 void Picture::draw_x_axis(const Frame& frame) {
@@ -244,7 +222,7 @@ void Picture::draw_x_axis(const Frame& frame) {
   for (const double tick : frame.x.ticks())
     put("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.tick_px(tick), bottom + 18, frame.x.label(tick));
   put("</g>\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" text-anchor=\"middle\">{}</text>\n",
-      frame.left + frame.width / 2, bottom + 40, kTextSize, escaped(axis_title(frame.own_x() ? frame.panel.x_quantity : plot_.x_quantity, frame.x_scale.unit)));
+      frame.left + frame.width / 2, bottom + 40, kTextSize, escaped_markup(axis_title(frame.own_x() ? frame.panel.x_quantity : plot_.x_quantity, frame.x_scale.unit)));
 }
 
 void Picture::draw_legend(const Frame& frame) {
@@ -256,8 +234,8 @@ void Picture::draw_legend(const Frame& frame) {
       draw_dots(frame, {{x + kSample / 2, y - 4}}, i);
     else
       put("<path d=\"M{:.1f} {:.1f}h{}\" {} stroke-width=\"2.2\"/>\n", x, y - 4, kSample, stroke(frame, i));
-    put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">{}", x + kSample + 6, y, kTextSize, escaped(curve.label));
-    if (!curve.subscript.empty()) put("<tspan dy=\"3\" font-size=\"9.5\">{}</tspan>", escaped(curve.subscript));
+    put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">{}", x + kSample + 6, y, kTextSize, escaped_markup(curve.label));
+    if (!curve.subscript.empty()) put("<tspan dy=\"3\" font-size=\"9.5\">{}</tspan>", escaped_markup(curve.subscript));
     put("</text>\n");
   }
 }
@@ -294,7 +272,7 @@ std::string Picture::text() {
   put("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
       "role=\"img\" font-family=\"{2}\" fill=\"#222\">\n",
       plot_.width, height_, kFont);
-  put("<title>{}</title>\n", escaped(plot_.title));
+  put("<title>{}</title>\n", escaped_markup(plot_.title));
   put("<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n");
   draw_titles();
   for (const Frame& frame : frames_) {
