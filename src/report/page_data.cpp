@@ -157,9 +157,14 @@ class PageData {
 
   Json point(const Vec2& p) const { return {rounded(p[0], grain_), rounded(p[1], grain_)}; }
   Json anchor(const Anchor& at) const { return {{"body", at.body}, {"point", point(at.point)}}; }
+  Json spot(const Spot& at) const {
+    Json json = anchor(at.at);
+    if (at.share != 0) json.update({{"toward", anchor(at.toward)}, {"share", at.share}});
+    return json;
+  }
   Json named(const std::vector<NamedPoint>& points) const {
     Json list = Json::array();
-    for (const NamedPoint& one : points) list.push_back({{"name", one.name}, {"at", anchor(one.at)}});
+    for (const NamedPoint& one : points) list.push_back({{"name", one.name}, {"at", spot(one.at)}});
     return list;
   }
 
@@ -185,7 +190,7 @@ class PageData {
                             {"to", anchor(connector.to)}, {"line", std::move(line)}});
     }
     for (const ForceArrow& arrow : scene_.arrows)
-      arrows.push_back({{"joint", arrow.joint}, {"on", arrow.on}, {"at", anchor(arrow.at)}, {"fx", kept(arrow.fx)}, {"fy", kept(arrow.fy)}});
+      arrows.push_back({{"joint", arrow.joint}, {"on", arrow.on}, {"at", spot(arrow.at)}, {"fx", kept(arrow.fx)}, {"fy", kept(arrow.fy)}});
     return {{"box", {scene_.box.low[0], scene_.box.low[1], scene_.box.high[0], scene_.box.high[1]}},
             {"unit", scene_.unit}, {"arrow_length", scene_.arrow_length}, {"arrow_force", scene_.arrow_force},
             {"bodies", bodies}, {"shapes", shapes}, {"connectors", connectors}, {"arrows", arrows},

@@ -23,6 +23,15 @@ std::string number(const std::string& text) {
   const int power = std::stoi(text.substr(e + 1));
   return fmt::format("{}·10<sup>{}{}</sup>", number(text.substr(0, e)), power < 0 ? "−" : "", std::abs(power));
 }
+/// The same as plain text: "1·10⁻⁵".
+std::string plain(const std::string& text) {
+  const std::size_t e = text.find('e');
+  return e == std::string::npos ? text : fmt::format("{}·{}", text.substr(0, e), printed_unit(fmt::format("10^{}", std::stoi(text.substr(e + 1)))));
+}
+std::string plain_tolerance(double x) {
+  const std::string text = plain(fmt::format("{:g}", x));
+  return text.starts_with("1·") ? text.substr(std::string_view("1·").size()) : text;
+}
 std::string value(double x) { return number(engineering(x)); }
 std::string estimate(double x) { return number(exponent(x)); }
 
@@ -90,14 +99,14 @@ Verdict verdict_on(const Trajectory& trajectory) {
     if (!worst || !(joint.relative_error_estimate <= worst->relative_error_estimate)) worst = &joint;
   }
   if (!worst) return {Verdict::kGood, "Completed; there are no joints."};
-  const std::string at = fmt::format("{:.1e} of its peak at {}", worst->relative_error_estimate, worst->name);
+  const std::string at = fmt::format("{} of its peak, at {}", plain(fmt::format("{:.1e}", worst->relative_error_estimate)), worst->name);
   const std::string more = n_ambiguous ? fmt::format(" Forces of {} are not unique.", count(n_ambiguous, "joint", "joints")) : "";
   if (n_missed || trajectory.outcome == Outcome::kToleranceNotMet)
-    return {Verdict::kDoubtful, fmt::format("{} the tolerance of {:g} of the peak; largest estimated error: {}.{}",
+    return {Verdict::kDoubtful, fmt::format("{} the tolerance of {} of the peak; largest estimated error: {}.{}",
                                             n_missed == 1 ? "1 joint force misses" : fmt::format("{} joint forces miss", n_missed),
-                                            trajectory.tolerance, at, more)};
+                                            plain_tolerance(trajectory.tolerance), at, more)};
   return {n_ambiguous ? Verdict::kDoubtful : Verdict::kGood,
-          fmt::format("Every joint force is within {:g} of its peak; largest estimated error: {}.{}", trajectory.tolerance, at, more)};
+          fmt::format("Every joint force is accurate to {} of its peak; largest estimated error: {}.{}", plain_tolerance(trajectory.tolerance), at, more)};
 }
 
 std::string facts_line(const Model& model, const Trajectory& trajectory) {
@@ -133,15 +142,17 @@ std::string force_table(const Trajectory& trajectory) {
     table.number(joint.peak_time, jump_button(joint));
     table.number(joint.rms);
     table.number(joint.mean);
-    table.number(joint.error_estimate, estimate(joint.error_estimate));
-    table.number(joint.relative_error_estimate, estimate(joint.relative_error_estimate) + (missed ? " <strong title=\"misses the tolerance\">!</strong>" : ""));
+    // A run that stopped early has no second pass to compare with.
+    const bool known = joint.error_estimate > 0 || trajectory.outcome == Outcome::kCompleted;
+    table.number(joint.error_estimate, known ? estimate(joint.error_estimate) : "–");
+    table.number(joint.relative_error_estimate, (known ? estimate(joint.relative_error_estimate) : "–") + (missed ? " <strong title=\"misses the tolerance\">!</strong>" : ""));
     table.end_row();
   }
   std::string html = table.html();
   if (joints.size() < trajectory.joints.size())
     html += fmt::format("<p class=\"note\">The largest {} of {} joints; summary.json has all.</p>\n", joints.size(), trajectory.joints.size());
   if (any_missed)
-    html += fmt::format("<p class=\"note\"><strong>!</strong> the estimate exceeds the tolerance of {:g} of the peak</p>\n", trajectory.tolerance);
+    html += fmt::format("<p class=\"note\"><strong>!</strong> the estimate exceeds the tolerance of {} of the peak</p>\n", plain_tolerance(trajectory.tolerance));
   if (any_ambiguous)
     html += "<p class=\"note\">† redundant ideal constraints leave this force undetermined; one of many is given</p>\n";
   return html;
@@ -236,7 +247,7 @@ std::string assumption_list(const Model& model, const Trajectory& trajectory) {
     case Start::kRaw: item("The start is taken as stated, without preload; a shock is part of the result."); break;
   }
   item(fmt::format("Gravity is {:g}, {:g} m/s² along x and y.", model.gravity[0], model.gravity[1]));
-  item(fmt::format("Tolerance: {:g} of each joint's peak force, at every output time.", trajectory.tolerance));
+  item(fmt::format("Tolerance: {} of each joint's peak force, at every output time.", plain_tolerance(trajectory.tolerance)));
   item("Peaks are those at the output times; a shock between two of them is seen only with a shorter output step.");
   for (const std::string& note : trajectory.notes) item(escaped_markup(note));
   return html + "</ul>\n";

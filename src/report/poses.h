@@ -28,6 +28,12 @@ struct Instant {
   Vec2 place(const Anchor& anchor) const {
     return anchor.body == kWorld ? anchor.point : poses[static_cast<std::size_t>(anchor.body)].world(anchor.point);
   }
+  Vec2 place(const Spot& spot) const {
+    const Vec2 a = place(spot.at);
+    if (spot.share == 0) return a;
+    const Vec2 b = place(spot.toward);
+    return {a[0] + spot.share * (b[0] - a[0]), a[1] + spot.share * (b[1] - a[1])};
+  }
 };
 
 /// At time t [s], straight between the rows beside it. The trajectory has at least one row.

@@ -77,8 +77,14 @@ Pose SceneMaker::pose(int body, std::size_t row) const {
   return body == kWorld ? Pose{} : pose_of(scene_.bodies[static_cast<std::size_t>(body)], trajectory_, row);
 }
 
+// A failed run may end in a motion without bounds, which must not decide what is in the picture.
+std::size_t SceneMaker::drawable_rows() const {
+  const std::size_t n = trajectory_.n_rows();
+  return trajectory_.outcome == Outcome::kFailed && n > 3 ? n - 1 - n / 50 : n;
+}
+
 std::vector<std::size_t> SceneMaker::sample_rows(std::size_t most) const {
-  const std::size_t n = trajectory_.n_rows(), step = std::max<std::size_t>(1, n / std::max<std::size_t>(1, most));
+  const std::size_t n = drawable_rows(), step = std::max<std::size_t>(1, n / std::max<std::size_t>(1, most));
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < n; i += step) rows.push_back(i);
   if (rows.back() + 1 != n) rows.push_back(n - 1);
@@ -90,7 +96,7 @@ void SceneMaker::add_points() {
     if (!scene_.bodies[i].recorded()) continue;
     std::vector<Vec2>& points = sketches_[i].points;
     for (const Marker& marker : model_.bodies[i].markers) {
-      scene_.points.push_back({model_.bodies[i].name + "." + marker.name, {static_cast<int>(i), marker.position, marker.axis}});
+      scene_.points.push_back({model_.bodies[i].name + "." + marker.name, {{static_cast<int>(i), marker.position, marker.axis}}});
       points.push_back(marker.position);
     }
     const double near = 1e-6 * span(points);
@@ -166,6 +172,22 @@ void SceneMaker::add_connectors() {
   }
 }
 
+// A mesh acts where the pitch circles touch, everything else at the second marker.
+std::optional<Spot> SceneMaker::spot_of(const Joint& joint) const {
+  const auto first = find(joint.first), second = find(joint.second);
+  if (!second) return first ? std::optional(Spot{*first}) : std::nullopt;
+  if (joint.type != "gear" || !first) return Spot{*second};
+  const double a = joint.geometry.at("radius_first"), b = joint.geometry.at("radius_second");
+  const bool internal = joint.geometry.contains("internal") && joint.geometry.at("internal") > 0;
+  const double apart = internal ? a - b : a + b;
+  return apart == 0 ? Spot{*second} : Spot{*first, *second, a / apart};
+}
+
+Vec2 SceneMaker::place(const Spot& spot, std::size_t row) const {
+  const Vec2 a = pose(spot.at.body, row).world(spot.at.point), b = pose(spot.toward.body, row).world(spot.toward.point);
+  return {a[0] + spot.share * (b[0] - a[0]), a[1] + spot.share * (b[1] - a[1])};
+}
+
 // Joints in one place share a label.
 void SceneMaker::add_labels() {
   const std::size_t middle = trajectory_.n_rows() / 2;
@@ -174,11 +196,9 @@ void SceneMaker::add_labels() {
   };
   std::vector<Known> known;
   for (const Joint& joint : model_.joints) {
-    auto at = find(joint.second);
-    if (!at || joint.type == "gear") at = find(joint.first);
-    if (!at) continue;
-    if (joint.type == "rod" || joint.type == "rope") continue;
-    const Known here{pose(at->body, 0).world(at->point), pose(at->body, middle).world(at->point)};
+    const auto at = spot_of(joint);
+    if (!at || joint.type == "rod" || joint.type == "rope") continue;
+    const Known here{place(*at, 0), place(*at, middle)};
     const auto same = std::find_if(known.begin(), known.end(), [&](const Known& other) {
       return distance(here.start, other.start) < scene_.unit && distance(here.middle, other.middle) < scene_.unit;
     });
@@ -193,8 +213,7 @@ void SceneMaker::add_labels() {
 
 void SceneMaker::add_arrows() {
   for (const Joint& joint : model_.joints) {
-    auto at = find(joint.second);
-    if (!at) at = find(joint.first);
+    const auto at = spot_of(joint);
     const std::string p = "joint." + joint.name + ".on_" + joint.second.body + ".";
     const int fx = columns_.find(p + "fx[world]"), fy = columns_.find(p + "fy[world]");
     if (at && fx >= 0 && fy >= 0) scene_.arrows.push_back({joint.name, joint.second.body, *at, fx, fy});
@@ -211,6 +230,15 @@ void SceneMaker::scale_arrows() {
   }
   scene_.arrow_force = std::min(peak, kPeakOfRms * rms);
   scene_.arrow_length = kArrowOfBox * std::sqrt(std::max(scene_.box.width() * scene_.box.height(), 1e-18));
+  if (!(scene_.arrow_force > 0)) return;
+  for (const std::size_t row : sample_rows(400)) {
+    for (const ForceArrow& arrow : scene_.arrows) {
+      const Vec2 at = place(arrow.at, row);
+      const double fx = trajectory_.at(row, static_cast<std::size_t>(arrow.fx)), fy = trajectory_.at(row, static_cast<std::size_t>(arrow.fy));
+      const double force = std::hypot(fx, fy), size = std::min(force / scene_.arrow_force, Scene::kLongestArrow) * scene_.arrow_length;
+      if (std::isfinite(force) && force > 0) cover(scene_.box, {at[0] + size * fx / force, at[1] + size * fy / force});
+    }
+  }
 }
 
 Scene make_scene(const Model& model, const Trajectory& trajectory) {

@@ -20,6 +20,13 @@ struct Anchor {
   double axis = 0;   ///< [rad]
 };
 
+/// A place that moves: an anchor, or on the line from it to another one, at a share of the way.
+struct Spot {
+  Anchor at;
+  Anchor toward{};
+  double share = 0;
+};
+
 /// What a shape stands for; paints.h says how each looks.
 enum class Paint { kGround, kHatch, kGuide, kLink, kGear, kPitch, kHole, kBlock, kWeld, kPin, kMass, kMassLight, kSpring, kRod, kRope, kMotor };
 
@@ -49,13 +56,13 @@ struct Connector {
 
 struct NamedPoint {
   std::string name;  ///< "coupler.B", or the names of the joints there
-  Anchor at;
+  Spot at;
 };
 
 /// The force on the second body of a joint; columns of the trajectory.
 struct ForceArrow {
   std::string joint, on;
-  Anchor at;
+  Spot at;
   int fx = -1, fy = -1;
 };
 
@@ -79,10 +86,11 @@ struct Scene {
   std::vector<NamedPoint> points;  ///< that a trace can follow
   std::vector<NamedPoint> labels;
   std::vector<ForceArrow> arrows;
-  Box box;                   ///< what the mechanism covers during the run [m]
+  Box box;                   ///< what the mechanism and its arrows cover during the run [m]
   double unit = 1;           ///< size of a symbol [m]; a link is 1.5 units wide
   double arrow_length = 0;   ///< of the force `arrow_force` [m]
   double arrow_force = 0;    ///< [N]; 0: nothing to draw
+  static constexpr double kLongestArrow = 1.25;  ///< of arrow_length; a longer one is cut there and gets a second head
   std::size_t n_unseen = 0;  ///< bodies that the run did not record
 };
 

@@ -86,8 +86,8 @@ void SceneMaker::add_joint(const Joint& joint) {
   if (!first || !second) return;
   const double u = scene_.unit;
   if (joint.type == "revolute") {
-    if (first->body == kWorld) add_ground_pin(first->point);
-    else if (second->body == kWorld) add_ground_pin(second->point);
+    if (first->body == kWorld) add_ground_pin(first->point, second->body);
+    else if (second->body == kWorld) add_ground_pin(second->point, first->body);
     put(kPins, {Form::kCircle, Paint::kPin, second->body == kWorld ? first->body : second->body,
                 {{second->body == kWorld ? first->point : second->point}}, 0.5 * u});
   } else if (joint.type == "slot") {
@@ -121,11 +121,26 @@ void SceneMaker::hatch(const Vec2& from, const Vec2& to, const Vec2& side) {
   put(kBack, {Form::kLine, Paint::kGround, kWorld, {{from, to}}});
 }
 
-// A support: triangle under the pin, standing on hatched ground; "down" is where gravity points.
-void SceneMaker::add_ground_pin(const Vec2& at) {
+/// Which way a body lies from a point of the ground, on average: of length 1 if always the same way.
+Vec2 SceneMaker::usual_way(const Vec2& from, int body) const {
+  Vec2 sum{0, 0};
+  const std::vector<std::size_t> rows = sample_rows(60);
+  for (const std::size_t row : rows) {
+    const Pose at = pose(body, row);
+    if (const Vec2 d = Vec2{at.x, at.y} - from; length(d) > 0.1 * scene_.unit) sum = sum + 1.0 / static_cast<double>(rows.size()) * unit(d);
+  }
+  return sum;
+}
+
+// A support: triangle under the pin, standing on hatched ground where gravity points; above it what hangs from the pin.
+void SceneMaker::add_ground_pin(const Vec2& at, int body) {
   if (!first_at(at, ground_pins_)) return;
+  constexpr double kHangs = 0.35;
   const double u = scene_.unit;
-  const Vec2 g = model_.gravity, down = length(g) > 0 ? unit(g) : Vec2{0, -1}, across = normal(down);
+  const Vec2 g = model_.gravity;
+  Vec2 down = length(g) > 0 ? unit(g) : Vec2{0, -1};
+  if (dot(usual_way(at, body), down) > kHangs) down = -1.0 * down;
+  const Vec2 across = normal(down);
   const Vec2 base = at + 2.1 * u * down;
   put(kBack, {Form::kArea, Paint::kGround, kWorld, {{at, base + 1.25 * u * across, base - 1.25 * u * across}}});
   hatch(base - 1.9 * u * across, base + 1.9 * u * across, down);

@@ -50,7 +50,10 @@ class SceneMaker {
   void scale_arrows();
   std::optional<Anchor> find(const MarkerRef& ref) const;  ///< absent: its body was not recorded
   Pose pose(int body, std::size_t row) const;
+  std::optional<Spot> spot_of(const Joint& joint) const;  ///< where its force acts
+  Vec2 place(const Spot& spot, std::size_t row) const;
   void put(Layer layer, Shape shape) { layers_[layer].push_back(std::move(shape)); }
+  std::size_t drawable_rows() const;
   std::vector<std::size_t> sample_rows(std::size_t most) const;
 
   // scene_bodies.cpp
@@ -69,7 +72,8 @@ class SceneMaker {
   void sketch_slider(const Joint& joint, const Anchor& first, const Anchor& second);
   void sketch_rack(const Joint& joint, const Anchor& first, const Anchor& second);
   void add_joint(const Joint& joint);
-  void add_ground_pin(const Vec2& at);
+  void add_ground_pin(const Vec2& at, int body);
+  Vec2 usual_way(const Vec2& from, int body) const;
   void add_ground_ways(const Track& track);
   void add_ground_slots();
   void add_ground_end(const Anchor& end, const Anchor& other);

@@ -19,7 +19,6 @@ namespace {
 
 constexpr const char* kFont = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 constexpr double kHead = 10, kHeadHalf = 4, kArrowWidth = 2.2;  // [px]
-constexpr double kLongestArrow = 1.25;  // of the scale's own; beyond that an arrow is cut and gets a second head
 
 class Drawing {
  public:
@@ -62,7 +61,7 @@ class Drawing {
     std::string d;
     for (const std::vector<Vec2>& path : shape.paths) {
       std::vector<Vec2> points;
-      for (const Vec2& p : path) points.push_back(px(instant_.place({shape.body, p})));
+      for (const Vec2& p : path) points.push_back(px(instant_.place(Anchor{shape.body, p})));
       d += path_text(points, closed);
     }
     return d;
@@ -96,7 +95,7 @@ class Drawing {
         break;
       case Form::kCircle:
         for (const std::vector<Vec2>& path : shape.paths) {
-          const Vec2 c = px(instant_.place({shape.body, path.front()}));
+          const Vec2 c = px(instant_.place(Anchor{shape.body, path.front()}));
           put("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" {}{}/>\n", c[0], c[1], size, pen(style, shape.body), filled);
         }
     }
@@ -141,7 +140,7 @@ class Drawing {
     const double per_newton = scene_.arrow_length / scene_.arrow_force;
     for (std::size_t i = 0; i < scene_.arrows.size(); ++i) {
       const Vec2 at = instant_.place(scene_.arrows[i].at), force = instant_.forces[i];
-      const double size = length(force) * per_newton, most = kLongestArrow * scene_.arrow_length;
+      const double size = length(force) * per_newton, most = Scene::kLongestArrow * scene_.arrow_length;
       if (!std::isfinite(size) || size * frame_.scale < 1) continue;
       draw_arrow(px(at), px(at + std::min(size, most) * unit(force)), size > most);
     }
@@ -188,11 +187,9 @@ class Drawing {
 }  // namespace
 
 StillFrame frame_for(const Scene& scene, const StillOptions& options) {
-  // Room for the arrows, and at the bottom for scale and clock.
-  constexpr double kFoot = 24;
-  const double room = options.forces && scene.arrow_force > 0 ? 0.45 * scene.arrow_length : 0;
+  constexpr double kFoot = 24;  // for scale and clock
   const double foot = options.clock || options.forces ? kFoot : 0;
-  const double w = scene.box.width() + 2 * room, h = scene.box.height() + 2 * room;
+  const double w = scene.box.width(), h = scene.box.height();
   StillFrame frame;
   frame.scale = std::min(options.width / w, std::max(options.most_height - foot, 40.0) / h);
   const auto even = [](double x) { return 2 * std::max(std::round(x / 2), 16.0); };
@@ -200,7 +197,7 @@ StillFrame frame_for(const Scene& scene, const StillOptions& options) {
   frame.width = even(narrow ? std::max(w * frame.scale, 260.0) : options.width);
   frame.height = even(h * frame.scale + foot);
   const double spare = std::max(0.0, frame.width / frame.scale - w) / 2;
-  frame.corner = {scene.box.low[0] - room - spare, scene.box.low[1] - room - foot / frame.scale};
+  frame.corner = {scene.box.low[0] - spare, scene.box.low[1] - foot / frame.scale};
   return frame;
 }
 
@@ -215,7 +212,7 @@ Trace make_trace(const Scene& scene, const Trajectory& trajectory, const std::st
     if (known.name != point) continue;
     Trace trace{point, {}};
     for (std::size_t row = 0; row < trajectory.n_rows(); ++row)
-      trace.points.push_back(pose_of(scene.bodies[static_cast<std::size_t>(known.at.body)], trajectory, row).world(known.at.point));
+      trace.points.push_back(pose_of(scene.bodies[static_cast<std::size_t>(known.at.at.body)], trajectory, row).world(known.at.at.point));
     return trace;
   }
   std::string list;

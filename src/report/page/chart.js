@@ -29,7 +29,7 @@ class Chart {
     this.svg = drawn("svg", { role: "img" });
     this.legend = made("ul", { className: "legend" });
     this.figure = made("figure", { className: "chart" }, this.head, this.svg, this.legend);
-    this.height = 190;
+    this.height = 196;
     this.content = { title: "", unit: "", curves: [] };
     this.clip = `clip${Chart.count = (Chart.count ?? 0) + 1}`;
     clock.onChange(() => this.moveCursor());
@@ -77,10 +77,11 @@ class Chart {
     this.width = width;
     const [low, high] = this.range(), largest = Math.max(Math.abs(low), Math.abs(high));
     this.scale = scaleFor(largest / 1.06, unit);
+    this.decimals = Math.min(9, Math.max(0, 3 - Math.floor(Math.log10(largest / this.scale.factor || 1))));
     this.timeScale = scaleFor(this.clock.last, "s");
     const ticks = ticksIn(low / this.scale.factor, high / this.scale.factor, 5), labels = ticks.list.map(ticks.text);
     this.left = 22 + 7.2 * Math.max(...labels.map((text) => text.length), 2);
-    this.top = 10;
+    this.top = 20;
     this.plotWidth = Math.max(60, width - this.left - 10);
     this.plotHeight = this.height - this.top - 36;
     const span = this.clock.last - this.clock.first || 1;
@@ -114,7 +115,7 @@ class Chart {
     }
     svg.append(drawn("path", { class: "axis", d: `M${left} ${top}V${bottom}H${left + plotWidth}` }));
     svg.append(drawn("text", { x: left + plotWidth, y: bottom + 31, "text-anchor": "end" }, `time [${this.timeScale.unit}]`));
-    svg.append(drawn("text", { x: left, y: bottom + 31 }, this.scale.unit ? `[${this.scale.unit}]` : ""));
+    svg.append(drawn("text", { x: 0, y: 11 }, this.scale.unit ? `[${this.scale.unit}]` : ""));
   }
 
   /** Each column of half a pixel keeps its first, lowest, highest and last value. */
@@ -166,7 +167,7 @@ class Chart {
     this.cursor.setAttribute("d", `M${x.toFixed(1)} ${this.top}v${this.plotHeight}`);
     this.content.curves.forEach((curve, i) => {
       const y = valueAt(curve.values, this.clock.place);
-      this.values[i].textContent = withUnit(y, this.content.unit);
+      this.values[i].textContent = isFinite(y) ? `${fixed(y / this.scale.factor, this.decimals)} ${this.scale.unit}` : "–";
       this.dots[i].setAttribute("cx", x.toFixed(1));
       this.dots[i].setAttribute("cy", isFinite(y) ? this.py(y).toFixed(1) : -99);
     });

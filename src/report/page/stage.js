@@ -29,8 +29,7 @@ class Stage {
       }
     }
     const [x0, y0, x1, y1] = run.scene.box;
-    const room = run.scene.arrow_force > 0 ? 0.45 * run.scene.arrow_length : 0;
-    this.box = { x: (x0 + x1) / 2, y: (y0 + y1) / 2, width: x1 - x0 + 2 * room, height: y1 - y0 + 2 * room };
+    this.box = { x: (x0 + x1) / 2, y: (y0 + y1) / 2, width: x1 - x0, height: y1 - y0 };
   }
 
   watch() {
@@ -113,8 +112,10 @@ class Stage {
 
   placeOf(at, poses) {
     const p = poses ? poses[at.body + 1] : this.pose(at.body);
-    const [x, y] = at.point;
-    return [p.x + p.c * x - p.s * y, p.y + p.s * x + p.c * y];
+    const [x, y] = at.point, place = [p.x + p.c * x - p.s * y, p.y + p.s * x + p.c * y];
+    if (!at.share) return place;
+    const other = this.placeOf(at.toward, poses); // on the line to another point
+    return place.map((a, k) => a + at.share * (other[k] - a));
   }
 
   shade(entry, body) {
@@ -192,7 +193,7 @@ class Stage {
 
   /** Points that are followed: "" none, "joints", or the name of one. */
   tracedPoints() {
-    if (this.traced === "joints") return run.scene.labels.filter((point) => point.at.body >= 0);
+    if (this.traced === "joints") return run.scene.labels.filter((point) => point.at.body >= 0 && !point.at.share);
     return run.scene.points.filter((point) => point.name === this.traced);
   }
 

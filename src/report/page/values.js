@@ -66,10 +66,4 @@ function digits(x) {
   return fixed(x, size === 0 ? 1 : Math.max(0, 4 - Math.floor(Math.log10(size))));
 }
 
-/** With the unit, prefixed where that is shorter. */
-function withUnit(x, unit) {
-  const scale = scaleFor(Math.abs(x), unit);
-  return `${digits(x / scale.factor)} ${scale.unit}`.trim();
-}
-
 const dark = matchMedia("(prefers-color-scheme: dark)");
