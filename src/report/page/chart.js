@@ -23,6 +23,8 @@ const curveColour = (i) => `var(--c${i % 7})`;
 const curveDash = (i) => ["", "7 3", "2 3"][Math.floor(i / 7) % 3];
 
 class Chart {
+  static all = [];
+
   constructor(clock) {
     this.clock = clock;
     this.head = made("div", { className: "chart-head" });
@@ -31,7 +33,7 @@ class Chart {
     this.figure = made("figure", { className: "chart" }, this.head, this.svg, this.legend);
     this.height = 196;
     this.content = { title: "", unit: "", curves: [] };
-    this.clip = `clip${Chart.count = (Chart.count ?? 0) + 1}`;
+    Chart.all.push(this);
     clock.onChange(() => this.moveCursor());
     new ResizeObserver(() => this.fitWidth()).observe(this.figure);
     for (const kind of ["pointerdown", "pointermove"]) this.svg.addEventListener(kind, (event) => this.seek(event));

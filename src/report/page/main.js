@@ -270,8 +270,10 @@ function makeSortable(table) {
 function setUpPrint() {
   const most = 24;
   let host = null;
+  addEventListener("afterprint", () => Chart.all.forEach((chart) => chart.fitWidth()));
   addEventListener("beforeprint", () => {
     clock.pause();
+    for (const chart of Chart.all) chart.draw(chart.figure.parentElement?.id === "energy" ? 760 : 380);
     if (host || largestFirst.length < 2) return;
     host = made("div", { id: "all-forces" });
     const section = made("section", { className: "print-only" }, made("h2", { textContent: "Forces of the joints" }), host);
@@ -281,6 +283,7 @@ function setUpPrint() {
       chart.head.append(made("span", { className: "title", textContent: content.title }));
       host.append(chart.figure);
       chart.show(content);
+      chart.draw(380);
     }
   });
 }
