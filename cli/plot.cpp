@@ -8,6 +8,7 @@
 
 #include "cli/console.h"
 #include "cli/exit_codes.h"
+#include "cli/run_sources.h"
 #include "cli/verbs.h"
 #include "results/disk.h"
 #include "results/run_plot.h"
@@ -20,12 +21,14 @@ constexpr const char* kFooter =
     "  pintle plot four_bar-run --joint O4\n"
     "  pintle plot four_bar-run --joint O2 --joint O4 --components magnitude --out forces.svg\n"
     "  pintle plot four_bar-run --column body.rocker.angle --column body.rocker.spin --x joint.O2.angle\n"
+    "  pintle plot four_bar-run --with softer-run --joint O4 --components magnitude\n"
     "  pintle plot four_bar-run --joint O4 --out O4.png --width 500 --dpi 300\n"
     "\n"
     "Columns of different units stand in panels one above the other. The head of series.csv lists all columns.\n";
 
 struct PlotOptions {
   std::string run, out;
+  std::vector<std::string> others;
   PlotRequest request;
   double width = 0, dots_per_inch = 192;
 
@@ -34,9 +37,7 @@ struct PlotOptions {
 
 std::filesystem::path plot_file(const PlotOptions& options) {
   if (!options.out.empty()) return options.out;
-  std::filesystem::path folder = std::filesystem::absolute(options.run).lexically_normal();
-  if (!folder.has_filename()) folder = folder.parent_path();
-  std::string name = folder.filename().string();
+  std::string name = folder_name(options.run);
   for (const std::string& joint : options.request.joints) name += "-" + joint;
   if (options.request.joints.empty()) name += "-" + options.request.columns.front();
   return name + ".svg";
@@ -49,6 +50,11 @@ ExitCode plot(const PlotOptions& options, const WritePng& write_png) {
   std::string picture;
   try {
     Plot made = make_plot(run, options.request);
+    if (!options.others.empty()) {
+      std::vector<NamedPlot> plots{{folder_name(options.run), std::move(made)}};
+      for (const std::string& other : options.others) plots.push_back({folder_name(other), make_plot(read_run(other), options.request)});
+      made = overlay(plots);
+    }
     if (options.width > 0) made.width = options.width;
     picture = to_svg(made);
   } catch (const PlotRequestError& error) {
@@ -86,6 +92,7 @@ void add_plot(CLI::App& app, int& exit_code, const WritePng& write_png) {
   verb->add_option("--column", request.columns, "any column of series.csv (repeatable)")
       ->type_name("NAME")
       ->allow_extra_args(false);
+  verb->add_option("--with", options->others, "the same of another run in the same plot (repeatable)")->type_name("RUN")->allow_extra_args(false);
   verb->add_option("--x", request.x, "column along the horizontal axis")->type_name("COLUMN")->capture_default_str();
   verb->add_option("--title", request.title, "title of the plot")->type_name("TEXT");
   verb->add_option("-o,--out", options->out, "file to write, .svg or .png, - for SVG on standard output (default: <run>-<what>.svg)")

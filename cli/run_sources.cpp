@@ -17,11 +17,14 @@ DrawnRun read_drawn_run(const std::string& folder) {
   return drawn;
 }
 
+std::string folder_name(const std::string& folder) {
+  fs::path path = fs::absolute(folder).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  return path.filename().string();
+}
+
 fs::path picture_file(const std::string& chosen, const std::string& run, const std::string& ending) {
-  if (!chosen.empty()) return chosen;
-  fs::path folder = fs::absolute(run).lexically_normal();
-  if (!folder.has_filename()) folder = folder.parent_path();
-  return folder.filename().string() + ending;
+  return chosen.empty() ? fs::path(folder_name(run) + ending) : fs::path(chosen);
 }
 
 void check_replaceable(const fs::path& path, std::string_view mark, bool force) {

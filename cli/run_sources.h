@@ -17,6 +17,9 @@ struct DrawnRun {
 /// Throws FileError, with the place, where the folder is damaged.
 DrawnRun read_drawn_run(const std::string& folder);
 
+/// The last part of a folder's path.
+std::string folder_name(const std::string& folder);
+
 /// "<run><ending>" in the current folder, unless the user chose a file.
 std::filesystem::path picture_file(const std::string& chosen, const std::string& run, const std::string& ending);
 

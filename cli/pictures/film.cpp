@@ -67,6 +67,7 @@ class FilmMaker {
     if (scene_.n_unseen == scene_.bodies.size())
       throw FileError(options.run + ": the run did not record any body.\n    Run it again with record = [\"all\"] in [simulate].");
     look_.width = options.width;
+    look_.most_height = 1.1 * options.width;
     look_.forces = options.forces;
     look_.names = options.names;
     look_.masses = options.masses;

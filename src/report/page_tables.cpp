@@ -23,15 +23,6 @@ std::string number(const std::string& text) {
   const int power = std::stoi(text.substr(e + 1));
   return fmt::format("{}·10<sup>{}{}</sup>", number(text.substr(0, e)), power < 0 ? "−" : "", std::abs(power));
 }
-/// The same as plain text: "1·10⁻⁵".
-std::string plain(const std::string& text) {
-  const std::size_t e = text.find('e');
-  return e == std::string::npos ? text : fmt::format("{}·{}", text.substr(0, e), printed_unit(fmt::format("10^{}", std::stoi(text.substr(e + 1)))));
-}
-std::string plain_tolerance(double x) {
-  const std::string text = plain(fmt::format("{:g}", x));
-  return text.starts_with("1·") ? text.substr(std::string_view("1·").size()) : text;
-}
 std::string value(double x) { return number(engineering(x)); }
 std::string estimate(double x) { return number(exponent(x)); }
 
@@ -99,14 +90,14 @@ Verdict verdict_on(const Trajectory& trajectory) {
     if (!worst || !(joint.relative_error_estimate <= worst->relative_error_estimate)) worst = &joint;
   }
   if (!worst) return {Verdict::kGood, "Completed; there are no joints."};
-  const std::string at = fmt::format("{} of its peak, at {}", plain(fmt::format("{:.1e}", worst->relative_error_estimate)), worst->name);
+  const std::string at = fmt::format("{} of its peak, at {}", printed_number(exponent(worst->relative_error_estimate)), worst->name);
   const std::string more = n_ambiguous ? fmt::format(" Forces of {} are not unique.", count(n_ambiguous, "joint", "joints")) : "";
   if (n_missed || trajectory.outcome == Outcome::kToleranceNotMet)
     return {Verdict::kDoubtful, fmt::format("{} the tolerance of {} of the peak; largest estimated error: {}.{}",
                                             n_missed == 1 ? "1 joint force misses" : fmt::format("{} joint forces miss", n_missed),
-                                            plain_tolerance(trajectory.tolerance), at, more)};
+                                            printed_number(fmt::format("{:g}", trajectory.tolerance)), at, more)};
   return {n_ambiguous ? Verdict::kDoubtful : Verdict::kGood,
-          fmt::format("Every joint force is accurate to {} of its peak; largest estimated error: {}.{}", plain_tolerance(trajectory.tolerance), at, more)};
+          fmt::format("Every joint force is accurate to {} of its peak; largest estimated error: {}.{}", printed_number(fmt::format("{:g}", trajectory.tolerance)), at, more)};
 }
 
 std::string facts_line(const Model& model, const Trajectory& trajectory) {
@@ -152,7 +143,7 @@ std::string force_table(const Trajectory& trajectory) {
   if (joints.size() < trajectory.joints.size())
     html += fmt::format("<p class=\"note\">The largest {} of {} joints; summary.json has all.</p>\n", joints.size(), trajectory.joints.size());
   if (any_missed)
-    html += fmt::format("<p class=\"note\"><strong>!</strong> the estimate exceeds the tolerance of {} of the peak</p>\n", plain_tolerance(trajectory.tolerance));
+    html += fmt::format("<p class=\"note\"><strong>!</strong> the estimate exceeds the tolerance of {} of the peak</p>\n", printed_number(fmt::format("{:g}", trajectory.tolerance)));
   if (any_ambiguous)
     html += "<p class=\"note\">† redundant ideal constraints leave this force undetermined; one of many is given</p>\n";
   return html;
@@ -247,7 +238,7 @@ std::string assumption_list(const Model& model, const Trajectory& trajectory) {
     case Start::kRaw: item("The start is taken as stated, without preload; a shock is part of the result."); break;
   }
   item(fmt::format("Gravity is {:g}, {:g} m/s² along x and y.", model.gravity[0], model.gravity[1]));
-  item(fmt::format("Tolerance: {} of each joint's peak force, at every output time.", plain_tolerance(trajectory.tolerance)));
+  item(fmt::format("Tolerance: {} of each joint's peak force, at every output time.", printed_number(fmt::format("{:g}", trajectory.tolerance))));
   item("Peaks are those at the output times; a shock between two of them is seen only with a shorter output step.");
   for (const std::string& note : trajectory.notes) item(escaped_markup(note));
   return html + "</ul>\n";

@@ -22,15 +22,15 @@ double span(const std::vector<Vec2>& points) {
   return largest;
 }
 
-void cover(Box& box, const Vec2& p) {
+}  // namespace
+
+void Box::cover(const Vec2& p, double around) {
   for (std::size_t k = 0; k < 2; ++k) {
     if (!std::isfinite(p[k])) continue;
-    box.low[k] = std::min(box.low[k], p[k]);
-    box.high[k] = std::max(box.high[k], p[k]);
+    low[k] = std::min(low[k], p[k] - around);
+    high[k] = std::max(high[k], p[k] + around);
   }
 }
-
-}  // namespace
 
 SceneMaker::SceneMaker(const Model& model, const Trajectory& trajectory)
     : model_(model), trajectory_(trajectory), columns_(trajectory.columns), layers_(kLayers) {
@@ -112,10 +112,10 @@ void SceneMaker::measure() {
   Box box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
   for (const Joint& joint : model_.joints)
     for (const MarkerRef* ref : {&joint.first, &joint.second})
-      if (const auto at = find(*ref); at && at->body == kWorld) cover(box, at->point);
+      if (const auto at = find(*ref); at && at->body == kWorld) box.cover(at->point);
   for (const Spring& spring : model_.springs)
     for (const MarkerRef* ref : {&spring.first, &spring.second})
-      if (const auto at = find(*ref); at && at->body == kWorld) cover(box, at->point);
+      if (const auto at = find(*ref); at && at->body == kWorld) box.cover(at->point);
   std::vector<double> spans;
   for (std::size_t i = 0; i < sketches_.size(); ++i) {
     if (!scene_.bodies[i].recorded()) continue;
@@ -123,8 +123,8 @@ void SceneMaker::measure() {
     if (const double s = span(points); s > 0) spans.push_back(s);
     for (const std::size_t row : sample_rows(400)) {
       const Pose at = pose(static_cast<int>(i), row);
-      for (const Vec2& p : points) cover(box, at.world(p));
-      if (points.size() < 2) cover(box, {at.x, at.y});
+      for (const Vec2& p : points) box.cover(at.world(p));
+      if (points.size() < 2) box.cover({at.x, at.y});
     }
   }
   for (const Joint& joint : model_.joints) {
@@ -134,8 +134,8 @@ void SceneMaker::measure() {
       if (!at || !joint.geometry.contains(key)) continue;
       const double r = joint.geometry.at(key);
       const Vec2 c = pose(at->body, 0).world(at->point);
-      cover(box, {c[0] - r, c[1] - r});
-      cover(box, {c[0] + r, c[1] + r});
+      box.cover({c[0] - r, c[1] - r});
+      box.cover({c[0] + r, c[1] + r});
     }
   }
   if (!(box.low[0] <= box.high[0] && box.low[1] <= box.high[1])) box = {{-0.5, -0.5}, {0.5, 0.5}};
@@ -236,7 +236,7 @@ void SceneMaker::scale_arrows() {
       const Vec2 at = place(arrow.at, row);
       const double fx = trajectory_.at(row, static_cast<std::size_t>(arrow.fx)), fy = trajectory_.at(row, static_cast<std::size_t>(arrow.fy));
       const double force = std::hypot(fx, fy), size = std::min(force / scene_.arrow_force, Scene::kLongestArrow) * scene_.arrow_length;
-      if (std::isfinite(force) && force > 0) cover(scene_.box, {at[0] + size * fx / force, at[1] + size * fy / force});
+      if (std::isfinite(force) && force > 0) scene_.box.cover({at[0] + size * fx / force, at[1] + size * fy / force});
     }
   }
 }

@@ -75,6 +75,7 @@ struct BodyTrack {
 
 struct Box {
   Vec2 low{0, 0}, high{0, 0};
+  void cover(const Vec2& p, double around = 0);  ///< grows to hold p, if p is finite
   double width() const { return high[0] - low[0]; }
   double height() const { return high[1] - low[1]; }
 };

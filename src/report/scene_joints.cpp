@@ -64,7 +64,14 @@ void SceneMaker::sketch_slider(const Joint& joint, const Anchor& first, const An
   track.to = track.to + room * along;
   track.kind = slot ? Track::kSlot : Track::kGuide;
   (guide.body == kWorld ? ground_ : sketches_[static_cast<std::size_t>(guide.body)]).tracks.push_back(track);
+  show(guide.body, track);
   if (!slot && block.body != kWorld) sketches_[static_cast<std::size_t>(block.body)].blocks.push_back(block);
+}
+
+/// The picture holds the track wherever its body goes.
+void SceneMaker::show(int body, const Track& track) {
+  for (const std::size_t row : sample_rows(100))
+    for (const Vec2& end : {track.from, track.to}) scene_.box.cover(pose(body, row).world(end), 2.5 * scene_.unit);
 }
 
 void SceneMaker::sketch_rack(const Joint& joint, const Anchor& first, const Anchor& second) {
@@ -78,6 +85,7 @@ void SceneMaker::sketch_rack(const Joint& joint, const Anchor& first, const Anch
   track.other_side = normal(along);
   if (dot(pinion - second.point, track.other_side) > 0) track.other_side = -1.0 * track.other_side;
   (second.body == kWorld ? ground_ : sketches_[static_cast<std::size_t>(second.body)]).tracks.push_back(track);
+  show(second.body, track);
   if (first.body != kWorld) sketches_[static_cast<std::size_t>(first.body)].wheels.push_back({first.point, radius, false});
 }
 

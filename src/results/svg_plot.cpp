@@ -24,7 +24,7 @@ constexpr std::array<const char*, 4> kDashes{"", "7 3", "2 2.5", "9 3 2 3"};  //
 
 constexpr const char* kFont = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 constexpr double kTitleSize = 16, kTextSize = 12.5, kTickSize = 12;  // [px]
-constexpr double kRight = 22, kLegendRow = 20, kSample = 26, kDotRadius = 2.8;
+constexpr double kRight = 22, kLegendRow = 20, kSample = 26, kDotRadius = 2.8, kNarrowestBand = 1.2;
 constexpr double kColumnWidth = 0.5;  // what the eye can tell apart on screen and in print [px]
 
 /// How wide a text is, about [px].
@@ -41,6 +41,12 @@ struct Range {
       low = std::min(low, value);
       high = std::max(high, value);
     }
+  }
+  /// Room for a band, if it is not far wider than the data.
+  void widen(double band) {
+    if (empty() || !(band < high - low)) return;
+    low -= band;
+    high += band;
   }
   bool empty() const { return low > high; }
   double largest() const { return empty() ? 1 : std::max(std::abs(low), std::abs(high)); }
@@ -127,6 +133,8 @@ class Picture {
   void draw_x_axis(const Frame& frame);
   void draw_legend(const Frame& frame);
   void draw_curve(const Frame& frame, std::size_t index);
+  void draw_band(const Frame& frame, std::size_t index);
+  std::vector<Point> points_of(const Frame& frame, const Curve& curve, double shift = 0) const;
   void draw_dots(const Frame& frame, const std::vector<Point>& points, std::size_t index);
 
   template <class... Args>
@@ -146,7 +154,8 @@ void Picture::scale_x(Frame& frame) const {
   Range range;
   if (!own) range.cover(plot_.x, log);
   for (const Curve& curve : frame.panel.curves) range.cover(curve.x, log);
-  const bool rising = !own && std::is_sorted(plot_.x.begin(), plot_.x.end());
+  const auto is_line = [](const Curve& curve) { return !curve.dots && std::is_sorted(curve.x.begin(), curve.x.end()); };
+  const bool rising = own ? std::all_of(frame.panel.curves.begin(), frame.panel.curves.end(), is_line) : std::is_sorted(plot_.x.begin(), plot_.x.end());
   frame.x_scale = log ? plain_scale(unit) : scale_for(range.largest(), unit);
   frame.x = log ? range.log_axis(10) : range.axis(frame.x_scale.factor, 8, rising);
 }
@@ -155,7 +164,10 @@ void Picture::lay_out() {
   double label_width = 0;
   for (const Panel& panel : plot_.panels) {
     Range range;
-    for (const Curve& curve : panel.curves) range.cover(curve.y, panel.log_y);
+    for (const Curve& curve : panel.curves) {
+      range.cover(curve.y, panel.log_y);
+      range.widen(curve.band);
+    }
     Frame frame(panel);
     scale_x(frame);
     frame.y_scale = panel.log_y ? plain_scale(panel.unit) : scale_for(range.largest(), panel.unit);
@@ -249,12 +261,35 @@ void Picture::draw_dots(const Frame& frame, const std::vector<Point>& points, st
   put("</g>\n");
 }
 
-void Picture::draw_curve(const Frame& frame, std::size_t index) {
-  const Curve& curve = frame.panel.curves[index];
+std::vector<Point> Picture::points_of(const Frame& frame, const Curve& curve, double shift) const {
   const std::vector<double>&x = frame.own_x() ? curve.x : plot_.x, &y = curve.y;
   std::vector<Point> points;
   for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
-    points.push_back({frame.px(x[i] / frame.x_scale.factor), frame.py(y[i] / frame.y_scale.factor)});
+    points.push_back({frame.px(x[i] / frame.x_scale.factor), frame.py((y[i] + shift) / frame.y_scale.factor)});
+  return points;
+}
+
+// Only where it is wider than the line that it lies around.
+void Picture::draw_band(const Frame& frame, std::size_t index) {
+  const Curve& curve = frame.panel.curves[index];
+  if (frame.y.log || !(curve.band > 0) || !std::isfinite(curve.band)) return;
+  if (frame.height * curve.band / frame.y_scale.factor / (frame.y.high - frame.y.low) < kNarrowestBand) return;
+  std::vector<Point> edge = thin_line(points_of(frame, curve, curve.band), kColumnWidth);
+  const std::vector<Point> lower = thin_line(points_of(frame, curve, -curve.band), kColumnWidth);
+  edge.insert(edge.end(), lower.rbegin(), lower.rend());
+  put("<path fill=\"{}\" fill-opacity=\"0.2\" d=\"", kColours[style_of(frame.panel, index) % kColours.size()]);
+  const char* pen = "M";
+  for (const Point& point : edge) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
+    put("{}{:.2f} {:.2f}", pen, point.x, point.y);
+    pen = "L";
+  }
+  put("Z\"/>\n");
+}
+
+void Picture::draw_curve(const Frame& frame, std::size_t index) {
+  const Curve& curve = frame.panel.curves[index];
+  const std::vector<Point> points = points_of(frame, curve);
   if (curve.dots) draw_dots(frame, points, index);
   if (curve.dots && !curve.joined) return;
   put("<path fill=\"none\" {} stroke-width=\"1.6\" stroke-linejoin=\"round\" stroke-linecap=\"round\" d=\"",
@@ -280,6 +315,7 @@ std::string Picture::text() {
     draw_x_axis(frame);
     draw_y_axis(frame);
     draw_legend(frame);
+    for (std::size_t i = frame.panel.curves.size(); i-- > 0;) draw_band(frame, i);
     for (std::size_t i = frame.panel.curves.size(); i-- > 0;) draw_curve(frame, i);
   }
   put("</svg>\n");
