@@ -73,6 +73,7 @@ TEST_F(PlotVerb, PngHasTheSizeAskedFor) {
   EXPECT_EQ(number_at(png, 16), 1000u);
   EXPECT_EQ(png.substr(37, 4), "pHYs");
   EXPECT_EQ(number_at(png, 41), 9449u);  // 240 to the inch, to the metre
+  EXPECT_EQ(number_at(png, 50), 0x5024e7f8u);  // zlib's crc32 of the chunk
 }
 
 TEST_F(PlotVerb, SvgHasTheWidthAskedFor) {

@@ -59,8 +59,8 @@ std::string seconds(double s) {
 }
 
 std::string jump_button(const LoadSummary& joint) {
-  return fmt::format("<button class=\"jump\" data-t=\"{}\" aria-label=\"Go to the peak of {} at {:.5g} s\">{}</button>", joint.peak_time,
-                     escaped_markup(joint.name), joint.peak_time, value(joint.peak_time));
+  return fmt::format("<button class=\"jump\" data-t=\"{}\" title=\"Go to the peak of {}\">{}</button>", joint.peak_time,
+                     escaped_markup(joint.name), value(joint.peak_time));
 }
 
 std::string count(std::size_t n, const char* one, const char* many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
@@ -208,7 +208,7 @@ std::string drive_tables(const Trajectory& trajectory) {
 
 std::string energy_table(const EnergyAccount& energy) {
   HtmlTable table("");
-  table.head("", "", false);
+  table.head("at the", "", false);
   for (const char* head : {"kinetic", "potential", "dissipated", "supplied"}) table.head(head, "J");
   table.begin_row();
   table.name("start");

@@ -45,6 +45,8 @@ SceneMaker::SceneMaker(const Model& model, const Trajectory& trajectory)
 
 Scene SceneMaker::make() {
   if (trajectory_.n_rows() == 0) return std::move(scene_);
+  const double span = trajectory_.at(trajectory_.n_rows() - 1, 0) - trajectory_.at(0, 0), step = span / static_cast<double>(trajectory_.n_rows());
+  if (step > 0) scene_.time_decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(step))), 2, 9);
   add_points();
   measure();
   sketch_joints();

@@ -92,6 +92,7 @@ struct Scene {
   double arrow_length = 0;   ///< of the force `arrow_force` [m]
   double arrow_force = 0;    ///< [N]; 0: nothing to draw
   static constexpr double kLongestArrow = 1.25;  ///< of arrow_length; a longer one is cut there and gets a second head
+  int time_decimals = 4;     ///< that tell one row from the next
   std::size_t n_unseen = 0;  ///< bodies that the run did not record
 };
 

@@ -162,8 +162,8 @@ class Drawing {
   }
 
   void draw_clock() {
-    put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"12.5\" text-anchor=\"end\" fill=\"{}\">t = {:.4f} s</text>\n", frame_.width - 12,
-        frame_.height - 12, kNote[options_.dark], instant_.t);
+    put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"12.5\" text-anchor=\"end\" fill=\"{}\">t = {:.{}f} s</text>\n", frame_.width - 12,
+        frame_.height - 12, kNote[options_.dark], instant_.t, scene_.time_decimals);
   }
 
   /// The largest of 1, 2, 5 times a power of ten that is not above it.

@@ -22,7 +22,7 @@ function setUpStage() {
   byId("back").addEventListener("click", () => clock.step(-1));
   byId("on").addEventListener("click", () => clock.step(1));
   clock.onChange(() => {
-    const text = `${digits(clock.t)} s`;
+    const text = timeText(clock.t);
     play.textContent = clock.playing ? "Pause" : "Play";
     play.setAttribute("aria-pressed", clock.playing);
     slider.value = clock.place.row;

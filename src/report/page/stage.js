@@ -144,7 +144,7 @@ class Stage {
     g.fillStyle = this.colour("note");
     g.font = "12.5px system-ui, Helvetica, Arial, sans-serif";
     g.textAlign = "right";
-    g.fillText(`t = ${digits(this.clock.t)} s`, this.width - 10, this.height - 10);
+    g.fillText(`t = ${timeText(this.clock.t)}`, this.width - 10, this.height - 10);
   }
 
   enter(g, pose) {

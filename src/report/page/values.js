@@ -66,4 +66,7 @@ function digits(x) {
   return fixed(x, size === 0 ? 1 : Math.max(0, 4 - Math.floor(Math.log10(size))));
 }
 
+/** A time as the clock shows it: with as many decimals as tell one row from the next. */
+const timeText = (t) => `${fixed(t, run.scene.time_decimals)} s`;
+
 const dark = matchMedia("(prefers-color-scheme: dark)");
