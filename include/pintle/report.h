@@ -11,7 +11,8 @@ namespace pintle {
 
 struct ReportOptions {
   /// Numbers that the page may carry for its pictures (eight bytes each, a third more as text). A run with more is thinned
-  /// in time, and the page says so; the tables and the rows where a joint has its peak always stay.
+  /// in time, and the page says so; the tables and the
+  /// moments of the largest joint forces always stay.
   std::size_t most_values = 750'000;
 };
 

@@ -18,6 +18,7 @@ class Stage {
   prepare() {
     for (const shape of run.scene.shapes) {
       shape.path = new Path2D();
+      shape.reach = Math.max(...shape.paths.flat().map(([x, y]) => Math.hypot(x, y)), 0) + 2 * shape.size + run.scene.unit;
       for (const points of shape.paths) {
         if (shape.form === "circle") {
           shape.path.moveTo(points[0][0] + shape.size, points[0][1]);
@@ -156,12 +157,16 @@ class Stage {
 
   drawShape(g, shape, pose) {
     if (!this.shown.masses && shape.paint.startsWith("mass")) return;
+    const v = this.now, thin = run.scene.unit * v.scale < 0.7; // symbols smaller than a pixel
+    if (thin && shape.form !== "bar" && shape.paint !== "gear") return;
+    if (Math.abs(pose.x - v.x) > shape.reach + this.width / 2 / v.scale || Math.abs(pose.y - v.y) > shape.reach + this.height / 2 / v.scale) return;
     const style = run.paints.styles[shape.paint], pixel = this.enter(g, pose);
     const fill = this.shade(style.fill[+dark.matches], shape.body), line = this.shade(style.line[+dark.matches], shape.body);
     if (shape.form === "bar") {
       g.strokeStyle = line;
       g.lineWidth = shape.size + 2 * style.width * pixel;
       g.stroke(shape.path);
+      if (thin) return;
       g.strokeStyle = g.fillStyle = fill;
       g.lineWidth = shape.size;
       g.stroke(shape.path);
