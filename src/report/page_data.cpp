@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -245,7 +245,8 @@ std::string base64(const std::vector<double>& values) {
   std::string bytes;
   bytes.reserve(8 * values.size() + 2);
   for (const double value : values) {
-    const auto bits = std::bit_cast<std::uint64_t>(value);
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
     for (int shift = 0; shift < 64; shift += 8) bytes += static_cast<char>((bits >> shift) & 0xff);
   }
   const std::size_t n_padding = (3 - bytes.size() % 3) % 3;

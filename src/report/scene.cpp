@@ -129,17 +129,6 @@ void SceneMaker::measure() {
       if (points.size() < 2) box.cover({at.x, at.y});
     }
   }
-  for (const Joint& joint : model_.joints) {
-    if (joint.type != "gear") continue;
-    for (const auto& [ref, key] : {std::pair(&joint.first, "radius_first"), std::pair(&joint.second, "radius_second")}) {
-      const auto at = find(*ref);
-      if (!at || !joint.geometry.contains(key)) continue;
-      const double r = joint.geometry.at(key);
-      const Vec2 c = pose(at->body, 0).world(at->point);
-      box.cover({c[0] - r, c[1] - r});
-      box.cover({c[0] + r, c[1] + r});
-    }
-  }
   if (!(box.low[0] <= box.high[0] && box.low[1] <= box.high[1])) box = {{-0.5, -0.5}, {0.5, 0.5}};
   const double size = std::max({box.width(), box.height(), 1e-9});
   double unit = kSymbolOfBox * size;

@@ -66,6 +66,7 @@ void SceneMaker::add_link(int body, const BodySketch& sketch) {
   } else if (!covered) {
     const double radius = std::clamp(std::numbers::sqrt2 * gyration(body), 1.3 * u, 4 * u);
     put(kWheels, {Form::kCircle, Paint::kLink, body, {{{0, 0}}}, radius});
+    show(body, {0, 0}, radius);
   }
 }
 
@@ -75,11 +76,13 @@ void SceneMaker::add_lone_link(int body, const Vec2& pin) {
   const Vec2 away = -1 / arm * pin;
   if (rod > 0.8 * arm && rod < 1.4 * arm) {
     put(kBars, {Form::kBar, Paint::kLink, body, {{pin, rod * away}}, kLinkWidth * u});
+    show(body, rod * away, kLinkWidth * u);
     return;
   }
   const double radius = std::clamp(std::numbers::sqrt2 * gyration(body), 1.6 * u, std::max(1.6 * u, 0.5 * arm));
   put(kBars, {Form::kBar, Paint::kLink, body, {{pin, {0, 0}}}, kRodWidth * u});
   put(kBars, {Form::kCircle, Paint::kLink, body, {{{0, 0}}}, radius});
+  show(body, {0, 0}, radius);
 }
 
 void SceneMaker::add_wheels(int body, const BodySketch& sketch) {
@@ -88,6 +91,7 @@ void SceneMaker::add_wheels(int body, const BodySketch& sketch) {
   std::sort(wheels.begin(), wheels.end(), [](const Wheel& a, const Wheel& b) { return a.radius > b.radius; });
   for (const Wheel& wheel : wheels) {
     const double tooth = std::min(0.45 * u, 0.12 * wheel.radius);
+    show(body, wheel.centre, wheel.radius + (wheel.ring ? 1.6 * u : tooth));
     if (wheel.ring) {
       put(kBack, {Form::kCircle, Paint::kGear, body, {{wheel.centre}}, wheel.radius + 1.6 * u});
       put(kBack, {Form::kCircle, Paint::kHole, body, {{wheel.centre}}, wheel.radius - tooth});

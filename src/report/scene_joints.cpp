@@ -74,6 +74,10 @@ void SceneMaker::show(int body, const Track& track) {
     for (const Vec2& end : {track.from, track.to}) scene_.box.cover(pose(body, row).world(end), 2.5 * scene_.unit);
 }
 
+void SceneMaker::show(int body, const Vec2& centre, double radius) {
+  for (const std::size_t row : sample_rows(100)) scene_.box.cover(pose(body, row).world(centre), radius + scene_.unit);
+}
+
 void SceneMaker::sketch_rack(const Joint& joint, const Anchor& first, const Anchor& second) {
   Track track = slide_range(second, first);
   const double radius = joint.geometry.contains("radius") ? joint.geometry.at("radius") : 0;

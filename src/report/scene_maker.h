@@ -72,6 +72,7 @@ class SceneMaker {
   void sketch_slider(const Joint& joint, const Anchor& first, const Anchor& second);
   void sketch_rack(const Joint& joint, const Anchor& first, const Anchor& second);
   void show(int body, const Track& track);
+  void show(int body, const Vec2& centre, double radius);
   void add_joint(const Joint& joint);
   void add_ground_pin(const Vec2& at, int body);
   Vec2 usual_way(const Vec2& from, int body) const;

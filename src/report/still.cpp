@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "base/did_you_mean.h"
+#include "base/utf8.h"
 #include "report/outline.h"
 #include "report/paints.h"
 #include "results/markup.h"
@@ -154,7 +155,8 @@ class Drawing {
     for (const NamedPoint& label : scene_.labels) {
       const Vec2 at = px(instant_.place(label.at));
       const double off = std::max(0.9 * scene_.unit * frame_.scale, 5.0);
-      const bool left = at[0] < middle[0];
+      const double wide = 6.6 * static_cast<double>(count_characters(label.name)) + off + 4;  // about
+      const bool left = at[0] < middle[0] ? at[0] > wide : at[0] + wide > frame_.width;
       put("<text x=\"{0:.1f}\" y=\"{1:.1f}\" font-size=\"12.5\" font-style=\"italic\" text-anchor=\"{2}\" fill=\"{3}\" stroke=\"{4}\" "
           "stroke-width=\"3\" paint-order=\"stroke\">{5}</text>\n",
           at[0] + (left ? -off : off), at[1] - off, left ? "end" : "start", kInk[options_.dark], kPaper[options_.dark], escaped_markup(label.name));

@@ -288,7 +288,8 @@ class Stage {
     g.strokeStyle = this.colour("paper");
     g.fillStyle = this.colour("ink");
     for (const label of run.scene.labels) {
-      const [x, y] = this.toPixels(this.placeOf(label.at, poses)), left = x < this.width / 2;
+      const [x, y] = this.toPixels(this.placeOf(label.at, poses)), wide = g.measureText(label.name).width + off + 4;
+      const left = x < this.width / 2 ? x > wide : x + wide > this.width;
       g.textAlign = left ? "right" : "left";
       g.strokeText(label.name, x + (left ? -off : off), y - off);
       g.fillText(label.name, x + (left ? -off : off), y - off);
