@@ -1,7 +1,14 @@
 // pintle report, on runs made for it.
+#include "pintle/report.h"
+
 #include <gtest/gtest.h>
 
+#include <array>
+#include <random>
+
+#include "cli/run_sources.h"
 #include "cli/sandbox_for_tests.h"
+#include "pintle/complaint.h"
 
 namespace pintle::sample {
 namespace {
@@ -68,6 +75,50 @@ TEST_F(ReportVerb, DamagedRunsAreRefusedWithTheirPlace) {
   for (std::size_t cut = 7; cut < summary.size(); cut += summary.size() / 9)
     EXPECT_TRUE(holds(answer_with("summary.json", summary.substr(0, cut)), "summary.json")) << cut;
   EXPECT_FALSE(sandbox_.has("bob-run.html"));
+}
+
+// Bytes changed by chance anywhere in the folder: a page, or an error that names what is wrong. Nothing else, and no crash.
+TEST_F(ReportVerb, AnyDamageIsAnErrorOrAPage) {
+  const std::array<const char*, 3> files{"summary.json", "series.csv", "model-as-run.toml"};
+  const std::string folder = (sandbox_ / "bob-run").string();
+  std::mt19937 random(20080803);
+  std::size_t n_errors = 0;
+  for (int i = 0; i < 400; ++i) {
+    const std::string file = std::string("bob-run/") + files[random() % files.size()], whole = sandbox_.read(file);
+    std::string damaged = whole;
+    for (unsigned k = 0; k <= random() % 3; ++k) {
+      const std::size_t at = random() % damaged.size();
+      if (random() % 3 == 0) damaged.erase(at, 1 + random() % 20);
+      else damaged[at] = "0129-.eE\"{}[],:nullx\n"[random() % 20];
+    }
+    sandbox_.write(file, damaged);
+    try {
+      const cli::DrawnRun drawn = cli::read_drawn_run(folder);
+      EXPECT_TRUE(holds(report_html(drawn.model, drawn.run), "</html>"));
+    } catch (const FileError&) {
+      ++n_errors;
+    } catch (const InputError&) {
+      ++n_errors;
+    }
+    sandbox_.write(file, whole);
+  }
+  EXPECT_GT(n_errors, 200u);
+}
+
+// The page's script, run by a browser where there is one: it goes to the largest peak and shows the table's number.
+using ReportInBrowserSlow = ReportVerb;
+
+TEST_F(ReportInBrowserSlow, ShowsThePeak) {
+  ASSERT_EQ(sandbox_.pintle("report bob-run").exit_code, 0);
+  if (sandbox_.shell("command -v chromium").exit_code != 0) GTEST_SKIP() << "there is no chromium";
+  const Answer page = sandbox_.shell(
+      "timeout 100 chromium --headless --no-sandbox --disable-gpu --user-data-dir=profile --virtual-time-budget=3000 --dump-dom \"file://$PWD/bob-run.html\"");
+  ASSERT_EQ(page.exit_code, 0) << page.error;
+  const RunRecord run = read_run(sandbox_ / "bob-run");
+  const LoadSummary& pin = run.trajectory.joints.at(0);
+  EXPECT_TRUE(holds(page.out, "<html lang=\"en\" class=\"js\">"));
+  EXPECT_TRUE(holds(page.out, fmt::format("<b>{:.2f} N</b>", pin.peak))) << pin.peak;
+  EXPECT_TRUE(holds(page.out, fmt::format("aria-valuetext=\"{:.3f} s\"", pin.peak_time))) << pin.peak_time;
 }
 
 TEST_F(ReportVerb, RunThatWasStoppedIsReported) {
