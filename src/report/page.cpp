@@ -92,6 +92,7 @@ std::string motion(const Scene& scene, const RunRecord& run, const PageContent& 
   }
   html += kStage;
   html += still(scene, trajectory);
+  if (!scene.loads.empty()) html += "<p class=\"note\">Red arrows are joint forces on the second body of each joint, orange ones applied forces.</p>\n";
   if (scene.n_unseen > 0) html += fmt::format("<p class=\"note\">{} of {} bodies were not recorded and are not drawn.</p>\n", scene.n_unseen, scene.bodies.size());
   if (content.rows.size() < trajectory.n_rows())
     html += fmt::format("<p class=\"note\">Pictures and plots show {} of {} rows; the tables come from all of them, and the moments of the largest joint forces are among those shown.</p>\n",

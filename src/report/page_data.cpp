@@ -168,6 +168,22 @@ class PageData {
     return list;
   }
 
+  /// Applied forces, row by row in world axes.
+  Json loads() const {
+    Json list = Json::array();
+    for (const LoadArrow& load : scene_.loads) {
+      std::vector<double> fx, fy;
+      for (const std::size_t row : content_.rows) {
+        const Pose pose = load.at.body == kWorld ? Pose{} : pose_of(scene_.bodies[static_cast<std::size_t>(load.at.body)], trajectory_, row);
+        const Vec2 force = force_of(load, trajectory_.at(row, 0), pose);
+        fx.push_back(force[0]);
+        fy.push_back(force[1]);
+      }
+      list.push_back({{"name", load.name}, {"at", anchor(load.at)}, {"fx", base64(fx)}, {"fy", base64(fy)}});
+    }
+    return list;
+  }
+
   Json scene() const {
     static constexpr std::array<const char*, 4> kForms{"bar", "line", "area", "circle"};
     Json bodies = Json::array(), shapes = Json::array(), connectors = Json::array(), arrows = Json::array();
@@ -193,7 +209,7 @@ class PageData {
       arrows.push_back({{"joint", arrow.joint}, {"on", arrow.on}, {"at", spot(arrow.at)}, {"fx", kept(arrow.fx)}, {"fy", kept(arrow.fy)}});
     return {{"time_decimals", scene_.time_decimals}, {"box", {scene_.box.low[0], scene_.box.low[1], scene_.box.high[0], scene_.box.high[1]}},
             {"unit", scene_.unit}, {"arrow_length", scene_.arrow_length}, {"arrow_force", scene_.arrow_force},
-            {"bodies", bodies}, {"shapes", shapes}, {"connectors", connectors}, {"arrows", arrows},
+            {"bodies", bodies}, {"shapes", shapes}, {"connectors", connectors}, {"arrows", arrows}, {"loads", loads()},
             {"points", named(scene_.points)}, {"labels", named(scene_.labels)}};
   }
 
@@ -201,7 +217,7 @@ class PageData {
     Json styles = Json::object();
     for (const PaintStyle& style : all_paints())
       styles[style.name] = {{"fill", style.fill}, {"line", style.line}, {"width", style.line_width}, {"dash", style.dash}};
-    return {{"styles", styles}, {"tints", kTints}, {"paper", kPaper}, {"ink", kInk}, {"force", kForce}, {"trace", kTrace}, {"note", kNote}};
+    return {{"styles", styles}, {"tints", kTints}, {"paper", kPaper}, {"ink", kInk}, {"force", kForce}, {"load", kLoad}, {"trace", kTrace}, {"note", kNote}};
   }
 
   const Scene& scene_;

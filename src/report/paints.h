@@ -35,6 +35,7 @@ inline constexpr std::array<Shades, 8> kTints{{{"#c7dcf2", "#34557a"},
 inline constexpr Shades kPaper{"#ffffff", "#14181d"};
 inline constexpr Shades kInk{"#1f2933", "#dce3ea"};
 inline constexpr Shades kForce{"#c8102e", "#ff6b6b"};
+inline constexpr Shades kLoad{"#b35900", "#ffab4a"};  ///< applied forces
 inline constexpr Shades kTrace{"#2563a8", "#7db4f0"};
 inline constexpr Shades kNote{"#5b6570", "#9aa5b1"};
 

@@ -21,6 +21,12 @@ Pose pose_of(const BodyTrack& track, const Trajectory& trajectory, std::size_t r
           std::cos(angle), std::sin(angle)};
 }
 
+Vec2 force_of(const LoadArrow& load, double t, const Pose& pose) {
+  const std::array<double, 1> time{t};
+  const Vec2 force{load.force[0].value(time), load.force[1].value(time)};
+  return load.body_axes ? pose.turned(force) : force;
+}
+
 Instant instant_at(const Scene& scene, const Trajectory& trajectory, double t) {
   const std::size_t n = trajectory.n_rows();
   std::size_t low = 0, high = n;  // the last row that is not after t
@@ -44,6 +50,8 @@ Instant instant_at(const Scene& scene, const Trajectory& trajectory, double t) {
   }
   for (const ForceArrow& arrow : scene.arrows)
     instant.forces.push_back({between(trajectory, low, share, arrow.fx), between(trajectory, low, share, arrow.fy)});
+  for (const LoadArrow& load : scene.loads)
+    instant.loads.push_back(force_of(load, instant.t, load.at.body == kWorld ? Pose{} : instant.poses[static_cast<std::size_t>(load.at.body)]));
   return instant;
 }
 

@@ -24,6 +24,7 @@ struct Instant {
   double t = 0;
   std::vector<Pose> poses;   ///< per body of the scene
   std::vector<Vec2> forces;  ///< per arrow of the scene [N]
+  std::vector<Vec2> loads;   ///< per load of the scene, world axes [N]
 
   Vec2 place(const Anchor& anchor) const {
     return anchor.body == kWorld ? anchor.point : poses[static_cast<std::size_t>(anchor.body)].world(anchor.point);
@@ -35,6 +36,9 @@ struct Instant {
     return {a[0] + spot.share * (b[0] - a[0]), a[1] + spot.share * (b[1] - a[1])};
   }
 };
+
+/// In world axes [N], on a body that is at `pose` at time t.
+Vec2 force_of(const LoadArrow& load, double t, const Pose& pose);
 
 /// At time t [s], straight between the rows beside it. The trajectory has at least one row.
 Instant instant_at(const Scene& scene, const Trajectory& trajectory, double t);

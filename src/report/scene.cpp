@@ -148,8 +148,8 @@ void SceneMaker::add_connectors() {
     const double apart = distance(pose(a->body, 0).world(a->point), pose(b->body, 0).world(b->point));
     const int teeth = paint == Paint::kSpring ? std::clamp(static_cast<int>(apart / (0.55 * scene_.unit)), 8, 24) : 0;
     scene_.connectors.push_back({name, paint, *a, *b, teeth});
-    if (paint != Paint::kSpring)
-      for (const auto& end : {*a, *b}) put(kPins, {Form::kCircle, Paint::kPin, end.body, {{end.point}}, 0.36 * scene_.unit});
+    const double pin = (paint == Paint::kSpring ? 0.24 : 0.36) * scene_.unit;
+    for (const auto& end : {*a, *b}) put(kPins, {Form::kCircle, Paint::kPin, end.body, {{end.point}}, pin});
     if (a->body == kWorld) add_ground_end(*a, *b);
     if (b->body == kWorld) add_ground_end(*b, *a);
   };
@@ -209,6 +209,8 @@ void SceneMaker::add_arrows() {
     const int fx = columns_.find(p + "fx[world]"), fy = columns_.find(p + "fy[world]");
     if (at && fx >= 0 && fy >= 0) scene_.arrows.push_back({joint.name, joint.second.body, *at, fx, fy});
   }
+  for (const AppliedForce& load : model_.forces)
+    if (const auto at = find(load.on)) scene_.loads.push_back({load.name, *at, load.force, load.body_axes});
 }
 
 // A shock of a moment must not shrink the arrows of the whole run: the scale follows the RMS where the peak is far above it.
@@ -222,12 +224,16 @@ void SceneMaker::scale_arrows() {
   scene_.arrow_force = std::min(peak, kPeakOfRms * rms);
   scene_.arrow_length = kArrowOfBox * std::sqrt(std::max(scene_.box.width() * scene_.box.height(), 1e-18));
   if (!(scene_.arrow_force > 0)) return;
+  const auto show_tip = [this](const Vec2& at, const Vec2& f) {
+    const double force = std::hypot(f[0], f[1]), size = std::min(force / scene_.arrow_force, Scene::kLongestArrow) * scene_.arrow_length;
+    if (std::isfinite(force) && force > 0) scene_.box.cover({at[0] + size * f[0] / force, at[1] + size * f[1] / force});
+  };
   for (const std::size_t row : sample_rows(400)) {
-    for (const ForceArrow& arrow : scene_.arrows) {
-      const Vec2 at = place(arrow.at, row);
-      const double fx = trajectory_.at(row, static_cast<std::size_t>(arrow.fx)), fy = trajectory_.at(row, static_cast<std::size_t>(arrow.fy));
-      const double force = std::hypot(fx, fy), size = std::min(force / scene_.arrow_force, Scene::kLongestArrow) * scene_.arrow_length;
-      if (std::isfinite(force) && force > 0) scene_.box.cover({at[0] + size * fx / force, at[1] + size * fy / force});
+    for (const ForceArrow& arrow : scene_.arrows)
+      show_tip(place(arrow.at, row), {trajectory_.at(row, static_cast<std::size_t>(arrow.fx)), trajectory_.at(row, static_cast<std::size_t>(arrow.fy))});
+    for (const LoadArrow& load : scene_.loads) {
+      const Pose at = pose(load.at.body, row);
+      show_tip(at.world(load.at.point), force_of(load, trajectory_.at(row, 0), at));
     }
   }
 }

@@ -2,6 +2,7 @@
 // run; pictures, films and the page of a report are all drawn from it. World axes, metres, y upwards.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -66,6 +67,14 @@ struct ForceArrow {
   int fx = -1, fy = -1;
 };
 
+/// An applied force, a function of time.
+struct LoadArrow {
+  std::string name;
+  Anchor at;
+  std::array<Expression, 2> force;  ///< of t [N]
+  bool body_axes = false;
+};
+
 /// Columns of a body's pose; -1: the run did not record them, and the body is not drawn.
 struct BodyTrack {
   std::string name;
@@ -87,6 +96,7 @@ struct Scene {
   std::vector<NamedPoint> points;  ///< that a trace can follow
   std::vector<NamedPoint> labels;
   std::vector<ForceArrow> arrows;
+  std::vector<LoadArrow> loads;
   Box box;                   ///< what the mechanism and its arrows cover during the run [m]
   double unit = 1;           ///< size of a symbol [m]; a link is 1.5 units wide
   double arrow_length = 0;   ///< of the force `arrow_force` [m]

@@ -129,6 +129,20 @@ TEST(Scene, SpringsRodsAndRopesAreConnectors) {
   EXPECT_EQ(pendulum.connectors[1].paint, Paint::kRod);
 }
 
+TEST(Scene, AppliedForcesTurnWithTheirBody) {
+  auto [model, run] = run_of_mechanism("pendulum");
+  model.forces.push_back({"push", {"rod", model.bodies[0].markers[0].name}, {Expression::constant(3), Expression::constant(4)}, Expression(), true});
+  const Scene scene = make_scene(model, run.trajectory);
+  ASSERT_EQ(scene.loads.size(), 1u);
+  const auto angle = static_cast<std::size_t>(run.trajectory.column("body.rod.angle"));
+  for (const std::size_t row : {std::size_t{0}, std::size_t{100}}) {
+    const Vec2 force = instant_at(scene, run.trajectory, run.trajectory.at(row, 0)).loads[0];
+    const double a = run.trajectory.at(row, angle);
+    EXPECT_NEAR(force[0], 3 * std::cos(a) - 4 * std::sin(a), 1e-12);
+    EXPECT_NEAR(force[1], 3 * std::sin(a) + 4 * std::cos(a), 1e-12);
+  }
+}
+
 TEST(Scene, WhatWasNotRecordedIsNotDrawn) {
   auto [model, run] = run_of_mechanism("four_bar");
   model.simulate.record = {"body.crank", "joint.*"};

@@ -121,15 +121,15 @@ class Drawing {
     put("<path d=\"{}\" stroke=\"{}\" stroke-width=\"1.4\" stroke-opacity=\"0.75\"/>\n", path_text(kept, false), kTrace[options_.dark]);
   }
 
-  void draw_arrow(const Vec2& tail, const Vec2& tip, bool cut) {
+  void draw_arrow(const Vec2& tail, const Vec2& tip, bool cut, const char* colour) {
     const Vec2 d = tip - tail, along = unit(d), across = normal(along);
     const double size = std::min(1.0, length(d) / (1.6 * kHead));
     const Vec2 neck = tip - kHead * size * along;
-    put("<path d=\"{}\" stroke-width=\"{:.2f}\"/>", path_text({tail, neck}, false), kArrowWidth * std::max(size, 0.5));
+    put("<path d=\"{}\" stroke=\"{}\" stroke-width=\"{:.2f}\"/>", path_text({tail, neck}, false), colour, kArrowWidth * std::max(size, 0.5));
     const auto head = [&](const Vec2& at) {
       const Vec2 back = at - kHead * size * along;
       put("<path d=\"{}\" stroke=\"none\" fill=\"{}\"/>\n", path_text({at, back + kHeadHalf * size * across, back - kHeadHalf * size * across}, true),
-          kForce[options_.dark]);
+          colour);
     };
     head(tip);
     if (cut) head(neck);
@@ -137,16 +137,17 @@ class Drawing {
 
   void draw_forces() {
     if (!(scene_.arrow_force > 0)) return;
-    put("<g stroke=\"{}\" stroke-linecap=\"butt\">\n", kForce[options_.dark]);
+    put("<g stroke-linecap=\"butt\">\n");
     const double per_newton = scene_.arrow_length / scene_.arrow_force;
-    for (std::size_t i = 0; i < scene_.arrows.size(); ++i) {
-      const Vec2 at = instant_.place(scene_.arrows[i].at), force = instant_.forces[i];
+    const auto draw = [&](const Vec2& at, const Vec2& force, const char* colour) {
       const double size = length(force) * per_newton, most = Scene::kLongestArrow * scene_.arrow_length;
-      if (!std::isfinite(size) || size * frame_.scale < 1) continue;
-      draw_arrow(px(at), px(at + std::min(size, most) * unit(force)), size > most);
-    }
+      if (!std::isfinite(size) || size * frame_.scale < 1) return;
+      draw_arrow(px(at), px(at + std::min(size, most) * unit(force)), size > most, colour);
+    };
+    for (std::size_t i = 0; i < scene_.loads.size(); ++i) draw(instant_.place(scene_.loads[i].at), instant_.loads[i], kLoad[options_.dark]);
+    for (std::size_t i = 0; i < scene_.arrows.size(); ++i) draw(instant_.place(scene_.arrows[i].at), instant_.forces[i], kForce[options_.dark]);
     const double nice = scale_force(scene_.arrow_force), bar = nice * per_newton * frame_.scale;
-    draw_arrow({14, frame_.height - 16}, {14 + bar, frame_.height - 16}, false);
+    draw_arrow({14, frame_.height - 16}, {14 + bar, frame_.height - 16}, false, kForce[options_.dark]);
     put("</g>\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"12\" fill=\"{}\">{}</text>\n", 22 + bar, frame_.height - 12, kInk[options_.dark], scale_text(nice));
   }
 

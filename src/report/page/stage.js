@@ -242,17 +242,18 @@ class Stage {
     if (!(force > 0)) return;
     const zoom = this.now.scale / this.fitting.scale; // arrows grow with the zoom, but slower
     const perNewton = (length * this.fitting.scale * Math.sqrt(zoom) * this.arrowFactor) / force, most = 1.25 * perNewton * force;
-    for (const arrow of arrows) {
-      if (arrow.fx < 0 || arrow.fy < 0) continue;
-      const fx = valueAt(run.columns[arrow.fx].values, this.clock.place), fy = valueAt(run.columns[arrow.fy].values, this.clock.place);
-      const size = Math.hypot(fx, fy) * perNewton;
-      if (!(size >= 1)) continue;
-      const shown = Math.min(size, most), k = shown / Math.hypot(fx, fy), [x, y] = this.toPixels(this.placeOf(arrow.at, poses));
-      this.drawArrow(g, x, y, x + k * fx, y - k * fy, size > most);
-    }
+    const show = (at, xs, ys, colour) => {
+      const fx = valueAt(xs, this.clock.place), fy = valueAt(ys, this.clock.place), size = Math.hypot(fx, fy) * perNewton;
+      if (!(size >= 1)) return;
+      const k = Math.min(size, most) / Math.hypot(fx, fy), [x, y] = this.toPixels(this.placeOf(at, poses));
+      this.drawArrow(g, x, y, x + k * fx, y - k * fy, size > most, colour);
+    };
+    for (const load of run.scene.loads) show(load.at, load.fx, load.fy, "load");
+    for (const arrow of arrows)
+      if (arrow.fx >= 0 && arrow.fy >= 0) show(arrow.at, run.columns[arrow.fx].values, run.columns[arrow.fy].values, "force");
     const power = 10 ** Math.floor(Math.log10(force / this.arrowFactor)), digit = force / this.arrowFactor / power;
     const nice = power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
-    this.drawArrow(g, 12, this.height - 14, 12 + nice * perNewton, this.height - 14, false);
+    this.drawArrow(g, 12, this.height - 14, 12 + nice * perNewton, this.height - 14, false, "force");
     g.fillStyle = this.colour("ink");
     g.font = "12.5px system-ui, Helvetica, Arial, sans-serif";
     g.textAlign = "left";
@@ -261,9 +262,9 @@ class Stage {
   }
 
   /** `cut`: it would be longer, and gets a second head. */
-  drawArrow(g, x0, y0, x1, y1, cut) {
+  drawArrow(g, x0, y0, x1, y1, cut, colour) {
     const l = Math.hypot(x1 - x0, y1 - y0), ux = (x1 - x0) / l, uy = (y1 - y0) / l, size = Math.min(1, l / 16), head = 10 * size, half = 4 * size;
-    g.strokeStyle = g.fillStyle = this.colour("force");
+    g.strokeStyle = g.fillStyle = this.colour(colour);
     g.lineWidth = 2.2 * Math.max(size, 0.5);
     g.lineCap = "butt";
     g.beginPath();

@@ -1,11 +1,12 @@
 // The numbers of the run, and how numbers read.
 
 const run = JSON.parse(document.getElementById("run").textContent);
+const decoded = (text) => new Float64Array(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
 for (const column of run.columns) {
-  const bytes = Uint8Array.from(atob(column.data), (c) => c.charCodeAt(0));
-  column.values = new Float64Array(bytes.buffer);
+  column.values = decoded(column.data);
   column.data = null;
 }
+for (const load of run.scene.loads) [load.fx, load.fy] = [decoded(load.fx), decoded(load.fy)];
 const times = run.columns[0].values;
 
 /** The value between two rows; `place` is that of the clock. */
