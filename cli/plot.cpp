@@ -45,7 +45,7 @@ std::filesystem::path plot_file(const PlotOptions& options) {
 
 ExitCode plot(const PlotOptions& options, const WritePng& write_png) {
   if (options.png() && !write_png)
-    throw FileError(options.out + ": this program was built without librsvg, which PNG needs.\n    Install librsvg2-dev and build again, or choose .svg.");
+    throw FileError(options.out + ": PNG is drawn by pintle-pictures, which was built without librsvg or is not beside pintle.\n    Install librsvg2-dev and build again, or choose .svg.");
   const RunRecord run = read_run(options.run);
   std::string picture;
   try {

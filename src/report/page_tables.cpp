@@ -42,7 +42,7 @@ class HtmlTable {
   void end_row() { rows_ += "</tr>\n"; }
 
   std::string html() const {
-    return fmt::format("<div class=\"wide\"><table{}>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n", attributes_, heads_, rows_);
+    return fmt::format("<div class=\"scroller\" tabindex=\"0\"><table{}>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody></table></div>\n", attributes_, heads_, rows_);
   }
 
  private:

@@ -14,7 +14,8 @@ function drawn(name, attributes = {}, text) {
 }
 
 function made(name, properties = {}, ...children) {
-  const element = Object.assign(document.createElement(name), properties);
+  const { ariaLabel, ...others } = properties, element = Object.assign(document.createElement(name), others);
+  if (ariaLabel) element.setAttribute("aria-label", ariaLabel);
   element.append(...children);
   return element;
 }

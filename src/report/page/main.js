@@ -257,7 +257,7 @@ function makeSortable(table) {
     button.append(...head.childNodes);
     head.append(button);
     button.addEventListener("click", () => {
-      const down = head.ariaSort !== "descending", key = (row) => row.cells[i].dataset.v ?? row.cells[i].textContent;
+      const down = head.getAttribute("aria-sort") !== "descending", key = (row) => row.cells[i].dataset.v ?? row.cells[i].textContent;
       for (const other of table.tHead.rows[0].cells) other.removeAttribute("aria-sort");
       head.setAttribute("aria-sort", down ? "descending" : "ascending");
       const order = (a, b) => (isNaN(key(a)) || isNaN(key(b)) ? key(b).localeCompare(key(a)) : key(b) - key(a));
