@@ -103,6 +103,7 @@ class FilmMaker {
       encoder.add(i == 0 ? start : even(pixels_of(frame(first + i * per_frame), scale)));
       show(i + 1, n, std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
     }
+    if (watched_) print_error("\rencoding\x1b[K");
     encoder.finish();
     wipe();
     return kOk;
