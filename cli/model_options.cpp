@@ -42,6 +42,7 @@ std::vector<std::string> all_overrides(const ModelOptions& options) {
   };
   add("duration", options.duration);
   add("tolerance", options.tolerance);
+  add("tolerance_of", options.tolerance_of);
   add("method", options.method);
   add("equations", options.equations);
   add("max_step", options.max_step);

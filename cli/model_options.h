@@ -16,7 +16,7 @@ namespace pintle::cli {
 struct ModelOptions {
   std::string model;
   std::vector<std::string> overrides;
-  std::string duration, tolerance, method, equations, max_step;
+  std::string duration, tolerance, tolerance_of, method, equations, max_step;
 };
 
 /// MODEL, --set, --duration and, where the verb has one tolerance, --tolerance.

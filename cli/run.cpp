@@ -127,6 +127,9 @@ void add_run(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("run", "Run a model; write series.csv and summary.json, print joint forces");
   const auto options = std::make_shared<RunOptions>();
   add_model_options(*verb, *options);
+  verb->add_option("--tolerance-of", options->tolerance_of, "what the tolerance is of: every joint force (default), or every body's place")
+      ->check(CLI::IsMember({"forces", "motion"}))
+      ->type_name("forces|motion");
   verb->add_option("--method", options->method, "integration method")
       ->check(CLI::IsMember(Schema::model().assemble("simulate").find("method")->words))
       ->type_name("NAME");

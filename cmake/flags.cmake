@@ -9,6 +9,9 @@ target_compile_options(pintle_flags INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
   target_compile_options(pintle_flags INTERFACE -Wno-restrict)  # false alarms on std::string in g++ 12 and 13
 endif()
+if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+  target_compile_options(pintle_flags INTERFACE -Wno-psabi)  # lanes wider than the registers are never passed: they are inlined
+endif()
 if(PINTLE_WERROR)
   target_compile_options(pintle_flags INTERFACE -Werror)
 endif()

@@ -68,6 +68,8 @@ struct Trajectory {
   Counters counters;
   std::string method;        ///< the one used
   double tolerance = 0;      ///< asked for
+  bool of_motion = false;    ///< it was of the motion, not of the joint forces
+  double motion_error = 0;   ///< then: largest error of a body's place, estimated, over the longest way that one has gone [-]
   double wall_seconds = 0;   ///< assembly and integration
   Outcome outcome = Outcome::kCompleted;
   double t_end = 0;          ///< time reached [s]

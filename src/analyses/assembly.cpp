@@ -21,7 +21,9 @@ using Row = BlockVec<double, S::kDof>;
 // Normal equations G' W G + D on the joint graph, D and W diagonal. One object serves positions and velocities.
 class LeastSquares {
  public:
-  explicit LeastSquares(const System& system) : system_(system), lu_(system.pattern()), x_(system.bodies.size()) {}
+  explicit LeastSquares(const System& system) : system_(system), free_(system.bodies.size(), S::Vec::Ones()), lu_(system.pattern()), x_(system.bodies.size()) {}
+
+  void hold(int body, int coordinate) { free_[body][coordinate] = 0; }
 
   bool prepare(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& body_weight) {
     lu_.set_zero();
@@ -30,11 +32,13 @@ class LeastSquares {
     for (int j = 0; j < system_.n_joints(); ++j) {
       const Placement& at = system_.joints[j].at;
       const std::array<int, 2> body{at.a, at.b};
-      const std::array<const S::Mat*, 2> G{&r[j].GA, &r[j].GB};
+      std::array<S::Mat, 2> G{r[j].GA(), r[j].GB()};
+      for (int x = 0; x < 2; ++x)
+        if (body[x] != kGround) G[x] = G[x] * free_[body[x]].asDiagonal();
       for (int x = 0; x < 2; ++x)
         for (int y = 0; y < 2; ++y) {
           if (body[x] == kGround || body[y] == kGround) continue;
-          const S::Mat block = G[x]->transpose() * joint_weight[j].asDiagonal() * *G[y];
+          const S::Mat block = G[x].transpose() * joint_weight[j].asDiagonal() * G[y];
           auto& target = x == y ? lu_.diagonal(body[x]) : lu_.off_diagonal(system_.pattern().slot(body[x], body[y]));
           for (int a = 0; a < S::kDof; ++a)
             for (int b = 0; b < S::kDof; ++b) target(a, b) += block(a, b);
@@ -50,6 +54,7 @@ class LeastSquares {
       const S::Vec w = joint_weight[j].cwiseProduct(gap[j]);
       add_force(system_.joints[j].at, r[j], w, f);
     }
+    for (std::size_t i = 0; i < f.size(); ++i) f[i] = f[i].cwiseProduct(free_[i]);
     return f;
   }
 
@@ -63,6 +68,7 @@ class LeastSquares {
 
  private:
   const System& system_;
+  Vecs free_;  // 0 where a coordinate is held: no gap reacts to it, so that nothing moves it
   BlockLu<double, S::kDof> lu_;
   std::vector<Row> x_;
 };
@@ -111,12 +117,15 @@ double mechanism_size(const System& system, const Vecs& q) {
 class PositionSearch {
  public:
   PositionSearch(const Model& model, const System& system, const std::vector<bool>& open)
-      : model_(model), system_(system), equations_(system), weight_(joint_weights(system, open)) {}
+      : model_(model), system_(system), equations_(system), weight_(joint_weights(system, open)) {
+    for (int i = 0; i < system.n_bodies(); ++i)
+      for (int k = 0; k < S::kDof; ++k)
+        if (model.bodies[i].hold[k]) equations_.hold(i, k);
+  }
 
   void run(Vecs& q) {
     const Vecs still(q.size(), S::Vec::Zero());
     readings_at(system_, 0, q, still, m_, r_);
-    keep_held();
     double now = energy(system_, weight_, r_), damping = 1e-3;
     const Vecs body = body_weights(q);
     for (int iteration = 0; iteration < 500; ++iteration) {
@@ -140,10 +149,8 @@ class PositionSearch {
         now = next;
         damping = std::max(damping * 0.1, 1e-12);
         if (settled) return;
-        keep_held();
       } else {
         readings_at(system_, 0, q, still, m_, r_);
-        keep_held();
         damping *= 10;
         if (damping > 1e12 || step < 1e-15) return;
       }
@@ -151,14 +158,6 @@ class PositionSearch {
   }
 
  private:
-  // No gap reacts to a coordinate that is held, so that nothing moves it.
-  void keep_held() {
-    for (std::size_t j = 0; j < r_.size(); ++j)
-      for (auto [body, G] : {std::pair{system_.joints[j].at.a, &r_[j].GA}, std::pair{system_.joints[j].at.b, &r_[j].GB}})
-        for (int k = 0; k < S::kDof && body != kGround; ++k)
-          if (model_.bodies[body].hold[k]) G->col(k).setZero();
-  }
-
   // How much a coordinate resists being moved: what the user stated more than what he left open.
   Vecs body_weights(const Vecs& q) const {
     double stiffest = 0;
@@ -201,8 +200,8 @@ void assemble_velocities(const Model& model, const System& system, const Vecs& q
     for (int k = 0; k < 3; ++k) {
       if (!(stiff[k] > 0)) continue;
       double mobility = 0;
-      if (joint.at.a != kGround) mobility += r[j].GA.row(k).cwiseAbs2().dot(system.bodies[joint.at.a].mass.cwiseInverse());
-      if (joint.at.b != kGround) mobility += r[j].GB.row(k).cwiseAbs2().dot(system.bodies[joint.at.b].mass.cwiseInverse());
+      if (joint.at.a != kGround) mobility += r[j].GA().row(k).cwiseAbs2().dot(system.bodies[joint.at.a].mass.cwiseInverse());
+      if (joint.at.b != kGround) mobility += r[j].GB().row(k).cwiseAbs2().dot(system.bodies[joint.at.b].mass.cwiseInverse());
       joint_weight[j][k] = mobility > 0 ? 1e5 / mobility : 0;
     }
   }

@@ -13,6 +13,7 @@ struct Assembly {
   State state;                     // t = 0
   std::vector<std::string> notes;  // what was assumed
   std::vector<std::string> not_unique;  // ideal equations: joints whose reactions they do not determine
+  double span = 0;                 // over which the joints are smooth, where it was looked for [s]
   double largest_move = 0;         // of a centre of mass that was stated [m]
 };
 

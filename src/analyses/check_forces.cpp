@@ -48,7 +48,7 @@ class LinkForces {
                        const CheckState& state, const CheckPlace& place) {
     const S::Vec f =
         std::holds_alternative<Selection>(link.probe) ? S::Vec(0.9, -0.6, 0.3 * state.length) : S::Vec(1.2, 0, 0);
-    const S::Vec on_a = r.GA.transpose() * f, on_b = r.GB.transpose() * f;
+    const S::Vec on_a = r.GA().transpose() * f, on_b = r.GB().transpose() * f;
     force_.vanishes((on_a + on_b).head<2>().norm(), on_a.head<2>().norm() + on_b.head<2>().norm() + f.norm(), place);
     const S::Point about(0.3 * state.length, -0.7 * state.length);
     const double moment_a = on_a[2] + S::cross(A.p - about, on_a.head<2>()),
@@ -67,7 +67,7 @@ class LinkForces {
     rigid_.vanishes((moved.gap - r.gap).norm(), reach + 10, place);
     rigid_.vanishes((moved.rate - r.rate).norm(), speed + (std::abs(A.w) + std::abs(B.w)), place);
     const auto swept = [](const S::Motion& m) { return S::Vec(0.4 - 0.9 * m.p.y(), -0.2 + 0.9 * m.p.x(), 0.9); };
-    rigid_.vanishes((r.GA * swept(A) + r.GB * swept(B)).norm(), reach + 1 + r.GA.norm() + r.GB.norm(), place);
+    rigid_.vanishes((r.GA() * swept(A) + r.GB() * swept(B)).norm(), reach + 1 + r.GA().norm() + r.GB().norm(), place);
   }
 
   Comparisons force_{"forces opposite on both bodies", kIdentityTolerance},

@@ -118,8 +118,8 @@ class MobilityCount {
     std::vector<ConstraintRow> rows = joints_;
     for (ConstraintRow& row : rows) {
       const Reading& r = readings[row.joint];
-      row.on_a = r.GA.row(row.component);
-      row.on_b = r.GB.row(row.component);
+      row.on_a = r.GA().row(row.component);
+      row.on_b = r.GB().row(row.component);
       row.gap = r.gap[row.component];
     }
     return rows;

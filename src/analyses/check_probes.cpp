@@ -27,7 +27,7 @@ class ProbeSlopes {
     Vec6 step;
     step << steps.length, steps.length, steps.angle, steps.length, steps.length, steps.angle;
     Mat36 G;
-    G << here.GA, here.GB;
+    G << here.GA(), here.GB();
     look_at_gap(bodies, G, step, place);
     look_at_rates(bodies, here, G, steps, place);
     look_at_rate_gradient(bodies, link, state, pose, here, G, step, place);
@@ -87,7 +87,7 @@ class ProbeSlopes {
         [&](int c, double s) {
           const Reading r = bodies.reading(s * Vec6::Unit(c));
           Vec6 Q;
-          Q << r.GA.transpose() * f, r.GB.transpose() * f;
+          Q << r.GA().transpose() * f, r.GB().transpose() * f;
           return Q;
         },
         step, f.norm(), place);

@@ -30,7 +30,7 @@ std::vector<ConstraintRow> constraint_rows(const System& system, const std::vect
     for (int k = 0; k < S::kDof; ++k) {
       if (!(law.stiffness(k, k) > 0)) continue;
       rows.push_back(
-          {j, k, joint.servo >= 0, r.GA.row(k), r.GB.row(k), r.gap[k], law.stiffness(k, k), law.damping(k, k)});
+          {j, k, joint.servo >= 0, r.GA().row(k), r.GB().row(k), r.gap[k], law.stiffness(k, k), law.damping(k, k)});
     }
   }
   return rows;
@@ -42,8 +42,8 @@ double arm_length(const System& system, const std::vector<Reading>& readings) {
   for (int j = 0; j < system.n_joints(); ++j) {
     const Placement& at = system.joints[j].at;
     for (int k = 0; k < 2; ++k)
-      for (const auto& [body, G] : {std::pair{at.a, &readings[j].GA}, std::pair{at.b, &readings[j].GB}}) {
-        const double arm = (*G)(k, 2);
+      for (const auto& [body, G] : {std::pair{at.a, readings[j].GA()}, std::pair{at.b, readings[j].GB()}}) {
+        const double arm = G(k, 2);
         if (body == kGround || std::abs(arm) < 1e-12) continue;
         sum += arm * arm;
         ++count;

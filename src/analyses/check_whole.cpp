@@ -57,7 +57,7 @@ class Forces {
     if (a != kGround) q.head<3>() = dq_[a], v.head<3>() = dv_[a];
     if (b != kGround) q.tail<3>() = dq_[b], v.tail<3>() = dv_[b];
     Eigen::Matrix<double, 3, 6> G;
-    G << r.GA, r.GB;
+    G << r.GA(), r.GB();
     const auto slope =
         rate_gradient(joint.probe, pose, a == kGround ? kStill : state_.m[a], b == kGround ? kStill : state_.m[b]);
     const S::Vec df = -(law.stiffness * (G * q) + law.damping * (slope * q + G * v));
@@ -103,8 +103,8 @@ class PowerAccount {
       const Placement& at = system_.joints[j].at;
       const Response law = respond(system_.joints[j].law, r.gap, r.rate);
       double on_bodies = 0;
-      if (at.a != kGround) on_bodies += (r.GA.transpose() * law.force).dot(state_.v[at.a]);
-      if (at.b != kGround) on_bodies += (r.GB.transpose() * law.force).dot(state_.v[at.b]);
+      if (at.a != kGround) on_bodies += (r.GA().transpose() * law.force).dot(state_.v[at.a]);
+      if (at.b != kGround) on_bodies += (r.GB().transpose() * law.force).dot(state_.v[at.b]);
       const double drive = on_bodies - law.force.dot(r.rate);  // a servo's target moves
       power += -on_bodies + drive - law.loss;
       size += std::abs(on_bodies) + std::abs(drive) + law.loss;

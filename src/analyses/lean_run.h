@@ -12,6 +12,7 @@ struct RunLesson {
   double wanted = 0;     // tolerance of the forces
   double tolerance = 0;  // of the stepper that met it
   int stages = 0;
+  double span = 0;       // over which joints are smooth at the start [s]; 0: not found
   LoadScale scale;
 };
 

@@ -158,6 +158,8 @@ void Recorder::put_joint(int j, const JointLoad& load) {
 void Recorder::add(const State& state) {
   system_.motions(state.q, state.v, m_);
   forces_.t.push_back(state.t);
+  if (model_.simulate.tolerance_of == ToleranceOf::kMotion)
+    for (const S::Vec& q : state.q) forces_.place.insert(forces_.place.end(), q.data(), q.data() + S::kDof);
   for (int j = 0; j < system_.n_joints(); ++j) {
     const JointLoad load = joint_load(system_, j, state.t, m_, state.force[j]);
     for (const double x : {load.fx, load.fy, load.couple}) forces_.world.push_back(x);

@@ -13,6 +13,7 @@ namespace pintle {
 /// One integration's output: joint forces at the output times, for comparison with another integration.
 struct ForceTable {
   std::vector<double> t;
+  std::vector<double> place;  // row-major: per time, per body: x, y [m], angle [rad]; where the tolerance is of the motion
   std::vector<double> world;  // row-major: per time, per joint: fx, fy [N] (world axes), couple [N*m] on the second body
 };
 

@@ -23,10 +23,12 @@ namespace {
 constexpr int kMaxPasses = 6;
 constexpr double kLoosest = 1e-4;   // of the second pass: above it steps are bounded by other things, and two passes are alike
 constexpr double kLoosestIdeal = 1e-8;  // ideal joints are a reference, and cheap
+constexpr double kLoosestOfMotion = 1e-3;
 constexpr double kLeastTolerance = 1e-13;
 // The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
 constexpr double kSharePower = 0.8, kShareOfEqual = 3;
 constexpr double kAlike = 1.25;  // steps of the finer pass over those of the coarser: with fewer the two say little
+constexpr double kSurest = 0.1;  // of the tolerance of the steps: no error of the motion is stated as smaller
 constexpr std::size_t kManyBodies = 1000;
 constexpr double kNegligible = 1e-4;  // a joint is measured at least by this part of the mechanism's largest force
 
@@ -59,6 +61,25 @@ PassDifference difference_of_passes(const ForceTable& coarse, const ForceTable& 
   return c;
 }
 
+double distance(const double* a, const double* b, double radius) {
+  return std::max(std::hypot(a[0] - b[0], a[1] - b[1]), 2 * radius * std::abs(std::sin(0.5 * (a[2] - b[2]))));
+}
+
+// Largest difference of a body's place between two passes, over the longest way that one has gone from its start; of centres
+// and of points at the radius of gyration. theory/time Eq. (6.4).
+double motion_difference(const System& system, const ForceTable& coarse, const ForceTable& fine) {
+  const std::size_t bodies = system.bodies.size(), rows = std::min(coarse.t.size(), fine.t.size());
+  double difference = 0, way = 0;
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t i = 0; i < bodies; ++i) {
+      const double radius = std::sqrt(system.bodies[i].mass[2] / system.bodies[i].mass[0]);
+      const double* here = &fine.place[3 * (row * bodies + i)];
+      way = std::max(way, distance(here, &fine.place[3 * i], radius));
+      if (coarse.t[row] == fine.t[row]) difference = std::max(difference, distance(here, &coarse.place[3 * (row * bodies + i)], radius));
+    }
+  return way > 0 ? difference / way : 0;
+}
+
 double relative(double error, double peak, double largest) { return error / std::max({peak, kNegligible * largest, 1e-300}); }
 
 double largest_of(const std::vector<double>& x) { return x.empty() ? 0 : *std::max_element(x.begin(), x.end()); }
@@ -70,14 +91,17 @@ class Run {
   Trajectory go() {
     announce_assembly();
     system_ = build_system(model_);
-    Assembly assembly = start_of_run(model_, system_);
+    Assembly assembly = start_of_run(model_, system_, shape_.lesson != nullptr && !shape_.checked ? shape_.lesson->span : 0);
     start_ = std::move(assembly.state);
+    span_ = assembly.span;
     out_.notes = std::move(assembly.notes);
     not_unique_ = std::move(assembly.not_unique);
     out_.tolerance = model_.simulate.tolerance;
     choice_.equations = model_.simulate.equations;
     choice_.method = model_.simulate.method == "auto" ? usual_method(choice_.equations) : model_.simulate.method;
     out_.method = choice_.method;
+    choice_.tolerance_of = model_.simulate.tolerance_of;
+    out_.of_motion = choice_.tolerance_of == ToleranceOf::kMotion;
     make_passes();
     out_.wall_seconds = clock_.seconds();
     return std::move(out_);
@@ -144,7 +168,7 @@ class Run {
     double share = 1, error = 0;
     bool doubted = false;  // a pass has been made because two were alike
     choice_.stages = wanted < kTight ? 5 : 3;
-    double tolerance = std::min(wanted, choice_.equations == Equations::kIdeal ? kLoosestIdeal : kLoosest);
+    double tolerance = std::min(wanted, out_.of_motion ? kLoosestOfMotion : choice_.equations == Equations::kIdeal ? kLoosestIdeal : kLoosest);
     if (!shape_.checked) {
       run_pass(tolerance_by_lesson(tolerance));
       return finish(difference, share, error);
@@ -162,10 +186,12 @@ class Run {
         if (!run_pass(tolerance)) break;
         difference = difference_of_passes(coarse_->forces(), fine_->forces(), system_.joints.size());
         const bool alike = static_cast<double>(last_.counters.steps) < kAlike * steps_before;
-        share = alike ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(tolerance / before, kSharePower));
-        error = share * largest_of(relative_differences(difference));
+        share = alike || out_.of_motion ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(tolerance / before, kSharePower));
+        out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse_->forces(), fine_->forces()), kSurest * fine_tolerance_) : 0;
+        error = out_.of_motion ? out_.motion_error : share * largest_of(relative_differences(difference));
         if (alike && !doubted && out_.counters.passes < kMaxPasses) {
           doubted = true;
+          if (out_.of_motion) choice_.stages = 5;  // long steps are alike at any tolerance: another order tells
           tolerance = std::max(kLeastTolerance, 0.1 * tolerance);
           continue;
         }
@@ -174,7 +200,7 @@ class Run {
         tolerance = std::max(kLeastTolerance, tolerance * std::clamp(shrink, 1e-3, 0.1));
       }
     }
-    if (shape_.learned != nullptr) *shape_.learned = {wanted, fine_tolerance_, choice_.stages, last_.scale};
+    if (shape_.learned != nullptr) *shape_.learned = {wanted, fine_tolerance_, choice_.stages, span_, last_.scale};
     finish(difference, share, error);
   }
 
@@ -229,8 +255,9 @@ class Run {
     if (whole && ended != Ended::kAtEnd)
       out_.notes.push_back("a finer integration did not reach the end; the results are those of the one before it");
     if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)
-      out_.message = fmt::format("the largest joint-force error is estimated at {:.2g} of the joint's peak force, {:.2g} was asked for", error,
-                                 model_.simulate.tolerance);
+      out_.message = fmt::format("{} is estimated at {:.2g} of {}, {:.2g} was asked for",
+                                 out_.of_motion ? "the largest error of a body's place" : "the largest joint-force error", error,
+                                 out_.of_motion ? "the longest way that one has gone" : "the joint's peak force", model_.simulate.tolerance);
     if (!message.empty()) out_.message += (out_.message.empty() ? "" : "; ") + message;
   }
 
@@ -244,7 +271,7 @@ class Run {
   std::vector<std::string> not_unique_;
   MethodChoice choice_;
   std::unique_ptr<Recorder> coarse_, fine_;
-  double fine_tolerance_ = 0;
+  double fine_tolerance_ = 0, span_ = 0;
   Integration last_;
   std::pair<Ended, std::string> interrupted_{Ended::kAtEnd, ""};
   double reported_ = 0;

@@ -21,10 +21,8 @@ constexpr int kMostJoints = 300;  // whose masses with closed joints are asked f
 // What a force of a joint does to its own two bodies: the acceleration of the gap per unit of force, component by component.
 S::Vec own_mobility(const System& system, const Placement& at, const Reading& r) {
   S::Vec mobility = S::Vec::Zero();
-  for (int c = 0; c < S::kDof; ++c) {
-    if (at.a != kGround) mobility[c] += r.GA.row(c).cwiseAbs2().dot(system.bodies[at.a].mass.cwiseInverse());
-    if (at.b != kGround) mobility[c] += r.GB.row(c).cwiseAbs2().dot(system.bodies[at.b].mass.cwiseInverse());
-  }
+  if (at.a != kGround) mobility += r.GA().cwiseAbs2() * system.bodies[at.a].mass.cwiseInverse();
+  if (at.b != kGround) mobility += r.GB().cwiseAbs2() * system.bodies[at.b].mass.cwiseInverse();
   return mobility;
 }
 
@@ -126,7 +124,7 @@ bool ForcesOfMotion::find(State& state) {
   const Vecs* moved = moved_.empty() ? nullptr : &moved_;
   const double mu = kSlow * slowest_joint(system_, r_, moved);
   if (!std::isfinite(mu) || !(mu > 0)) return false;
-  if (!projector_.prepare(state.t, m_, mu, state.gap, state.gap_rate, moved)) return false;
+  if (!projector_.prepare(r_, mu, state.gap, state.gap_rate, moved)) return false;
   system_.external(state.t, m_, Q_);
   state.a = Q_;
   if (moved) push_by_laws(state);
@@ -144,7 +142,7 @@ GapMasses ForcesOfMotion::masses_on_gaps(const State& state) {
   system_.motions(state.q, state.v, m_);
   system_.readings(state.t, m_, r_);
   const double mu = kSlow * slowest_joint(system_, r_);
-  if (!std::isfinite(mu) || !(mu > 0) || !projector_.prepare(state.t, m_, mu, state.gap, state.gap_rate)) return {};
+  if (!std::isfinite(mu) || !(mu > 0) || !projector_.prepare(r_, mu, state.gap, state.gap_rate)) return {};
   const Vecs no_load(system_.bodies.size(), S::Vec::Zero());
   GapMasses masses{Vecs(system_.joints.size(), S::Vec::Zero()), Vecs(system_.joints.size(), S::Vec::Zero())};
   Vecs a, force;
@@ -178,7 +176,7 @@ void ForcesOfMotion::move_onto_gaps(State& state) {
     system_.readings(state.t, m_, r_);
     if (pass == 0) {
       const double mu = kSlow * slowest_joint(system_, r_);
-      if (!std::isfinite(mu) || !projector_.prepare(state.t, m_, mu, state.gap, state.gap_rate)) return;
+      if (!std::isfinite(mu) || !projector_.prepare(r_, mu, state.gap, state.gap_rate)) return;
     }
     for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap[j] - r_[j].gap;
     projector_.close(wanted_, state.q);

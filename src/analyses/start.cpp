@@ -99,29 +99,30 @@ void settle_soft_joints(const System& system, const JointPaces& paces, double sp
   if (!soft.placed || soft.change >= kSettled) assembly.notes.push_back(kNotSettled);
 }
 
-void settle(const System& system, double duration, Assembly& assembly) {
+void settle(const System& system, double duration, double known_span, Assembly& assembly) {
   if (!(duration > 0)) return;
   State& state = assembly.state;
-  const double span = span_of_motion(system, state, 4 * duration);
+  const double span = known_span > 0 ? known_span : span_of_motion(system, state, 4 * duration);
+  assembly.span = span;
   const JointPaces paces = measure_paces(system, state, span);
   if (span > 0 && paces.any_soft()) return settle_soft_joints(system, paces, span, assembly);
   if (!settle_fast_joints(system, all_fast(system), smooth_span(system, state, duration), true, state)) assembly.notes.push_back(kNotSettled);
 }
 
-Assembly start_of_free_bodies(const Model& model, System& system) {
+Assembly start_of_free_bodies(const Model& model, System& system, double known_span) {
   Assembly assembly = assemble(model, system);
   if (model.simulate.start != Start::kAssembled || system.joints.empty()) return assembly;
-  settle(system, model.simulate.duration, assembly);
+  settle(system, model.simulate.duration, known_span, assembly);
   return assembly;
 }
 
 }  // namespace
 
-Assembly start_of_run(const Model& model, System& system) {
+Assembly start_of_run(const Model& model, System& system, double known_span) {
   if (model.simulate.equations == Equations::kIdeal) return ideal_start(model, system);
-  if (model.simulate.equations != Equations::kLagrangian) return start_of_free_bodies(model, system);
+  if (model.simulate.equations != Equations::kLagrangian) return start_of_free_bodies(model, system, known_span);
   const JointTree tree(system);
-  Assembly assembly = tree.all_free() ? start_of_free_bodies(model, system) : start_over_tree(model, system);
+  Assembly assembly = tree.all_free() ? start_of_free_bodies(model, system, known_span) : start_over_tree(model, system);
   for (std::string& line : tree.notes()) assembly.notes.push_back(std::move(line));
   return assembly;
 }

@@ -109,10 +109,10 @@ double Dopri5::error(double h) {
     const JointData& joint = system_.joints[j];
     S::Vec de = S::Vec::Zero(), dr = S::Vec::Zero();
     double load = 0, couple = 0;
-    for (const auto& [body, G] : {std::pair{joint.at.a, &r_[j].GA}, std::pair{joint.at.b, &r_[j].GB}}) {
+    for (const auto& [body, G] : {std::pair{joint.at.a, r_[j].GA()}, std::pair{joint.at.b, r_[j].GB()}}) {
       if (body == kGround) continue;
-      de += *G * dq_[body];
-      dr += *G * dv_[body];
+      de += G * dq_[body];
+      dr += G * dv_[body];
       load = std::max(load, scale_.body[body][0]);
       couple = std::max(couple, scale_.body[body][2]);
     }

@@ -38,14 +38,14 @@ void ForceTangents::add_joint(int j, double t) {
   const Response law = respond(joint.law, r.gap, r.rate);
   const auto geometric = geometric_stiffness(joint.probe, pose, law.force);
   const auto rate_by_q = rate_gradient(joint.probe, pose, A, B);
-  const std::array<const S::Mat*, 2> G{&r.GA, &r.GB};
+  const std::array<S::Mat, 2> G{r.GA(), r.GB()};
   for (int row = 0; row < 2; ++row)
     for (int column = 0; column < 2; ++column) {
       const int at = joint_places_[j][2 * row + column];
       if (at < 0) continue;
-      const S::Mat force_by_q = -law.stiffness * *G[column] - law.damping * rate_by_q.block<3, 3>(0, 3 * column);
-      by_q_[at] += geometric.block<3, 3>(3 * row, 3 * column) + G[row]->transpose() * force_by_q;
-      by_v_[at] -= G[row]->transpose() * law.damping * *G[column];
+      const S::Mat force_by_q = -law.stiffness * G[column] - law.damping * rate_by_q.block<3, 3>(0, 3 * column);
+      by_q_[at] += geometric.block<3, 3>(3 * row, 3 * column) + G[row].transpose() * force_by_q;
+      by_v_[at] -= G[row].transpose() * law.damping * G[column];
     }
 }
 

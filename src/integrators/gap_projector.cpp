@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "integrators/pose_blocks.h"
+
 namespace pintle {
 namespace {
 
@@ -15,38 +17,65 @@ void add_block(Block<double, S::kDof>& block, const S::Mat& m) {
 }  // namespace
 
 GapProjector::GapProjector(const System& system)
-    : system_(system), lu_(system.pattern()), readings_(system.joints.size()), weight_(system.joints.size()),
+    : system_(system), lu_(system.pattern()), readings_(system.joints.size()), weight_(system.joints.size(), S::Mat::Zero()), diagonal_(system.joints.size()),
       slots_(system.joints.size()), work_(system.bodies.size()), body_(system.bodies.size()),
       accel_(system.bodies.size()), missing_(system.joints.size()) {
   for (std::size_t j = 0; j < slots_.size(); ++j) {
     const Placement& at = system.joints[j].at;
+    diagonal_[j] = std::holds_alternative<LinearLaw>(system.joints[j].law);
     if (at.a != kGround && at.b != kGround) slots_[j] = system.pattern().slot(at.a, at.b);
   }
 }
 
 bool GapProjector::prepare(double t, const std::vector<S::Motion>& m, double mu, const Vecs& gap_at, const Vecs& rate_at,
                            const Vecs* moved) {
-  mu_ = mu;
   system_.readings(t, m, readings_);
+  return factorize(mu, gap_at, rate_at, moved);
+}
+
+bool GapProjector::prepare(const std::vector<Reading>& readings, double mu, const Vecs& gap_at, const Vecs& rate_at, const Vecs* moved) {
+  readings_ = readings;
+  return factorize(mu, gap_at, rate_at, moved);
+}
+
+bool GapProjector::factorize(double mu, const Vecs& gap_at, const Vecs& rate_at, const Vecs* moved) {
+  mu_ = mu;
   lu_.set_zero();
   for (int i = 0; i < system_.n_bodies(); ++i)
     add_block(lu_.diagonal(i), S::Mat((mu * mu * system_.bodies[i].mass).asDiagonal()));
   for (int j = 0; j < system_.n_joints(); ++j) {
-    const Placement& at = system_.joints[j].at;
-    const Reading& r = readings_[j];
-    const Response response = respond(system_.joints[j].law, gap_at[j], rate_at[j]);
-    weight_[j] = response.stiffness + mu * response.damping;
+    const Law& law = system_.joints[j].law;
+    const auto* linear = std::get_if<LinearLaw>(&law);
+    if (linear) {
+      weight_[j].diagonal() = linear->k + mu * linear->c;
+    } else {
+      const Response response = respond(law, gap_at[j], rate_at[j]);
+      weight_[j] = response.stiffness + mu * response.damping;
+    }
     if (moved) weight_[j] = (*moved)[j].asDiagonal() * weight_[j] * (*moved)[j].asDiagonal();
-    const S::Mat WA = weight_[j] * r.GA, WB = weight_[j] * r.GB;
-    if (at.a != kGround) add_block(lu_.diagonal(at.a), r.GA.transpose() * WA);
-    if (at.b != kGround) add_block(lu_.diagonal(at.b), r.GB.transpose() * WB);
-    if (at.a == kGround || at.b == kGround) continue;
-    BlockPattern::Slot ab = slots_[j];
-    add_block(lu_.off_diagonal(ab), r.GA.transpose() * WB);
-    ab.upper = !ab.upper;
-    add_block(lu_.off_diagonal(ab), r.GB.transpose() * WA);
+    if (linear && !readings_[j].map.function)
+      add_pose_blocks(lu_, system_.joints[j].at, slots_[j], readings_[j].map, S::Vec(weight_[j].diagonal()).data(), S::Vec::Zero());
+    else add_joint(j);
   }
   return lu_.factorize();
+}
+
+// G' w G of one joint, of any kind.
+void GapProjector::add_joint(int j) {
+  const Placement& at = system_.joints[j].at;
+  const S::Mat GA = readings_[j].GA(), GB = readings_[j].GB(), WA = weight_[j] * GA, WB = weight_[j] * GB;
+  if (at.a != kGround) add_block(lu_.diagonal(at.a), GA.transpose() * WA);
+  if (at.b != kGround) add_block(lu_.diagonal(at.b), GB.transpose() * WB);
+  if (at.a == kGround || at.b == kGround) return;
+  BlockPattern::Slot ab = slots_[j];
+  add_block(lu_.off_diagonal(ab), GA.transpose() * WB);
+  ab.upper = !ab.upper;
+  add_block(lu_.off_diagonal(ab), GB.transpose() * WA);
+}
+
+S::Vec GapProjector::weigh(int j, const S::Vec& gap) const {
+  if (diagonal_[j]) return weight_[j].diagonal().cwiseProduct(gap);
+  return weight_[j] * gap;
 }
 
 void GapProjector::solve(Vecs& x) {
@@ -58,7 +87,7 @@ void GapProjector::solve(Vecs& x) {
 void GapProjector::close(const Vecs& wanted, Vecs& x) {
   for (auto& b : body_) b.setZero();
   for (int j = 0; j < system_.n_joints(); ++j) {
-    const S::Vec f = weight_[j] * wanted[j];
+    const S::Vec f = weigh(j, wanted[j]);
     add_force(system_.joints[j].at, readings_[j], f, body_);
   }
   solve(body_);
@@ -67,17 +96,25 @@ void GapProjector::close(const Vecs& wanted, Vecs& x) {
 
 void GapProjector::close(const std::vector<Three>& wanted, std::vector<Three>& x) const {
   std::fill(x.begin(), x.end(), Three{});
-  const auto push = [](const S::Mat& G, const Three& f, Three& on) {
-    for (int r = 0; r < S::kDof; ++r)
-      for (int k = 0; k < S::kDof; ++k) on[k] += G(r, k) * f[r];
-  };
   for (int j = 0; j < system_.n_joints(); ++j) {
     const Placement& at = system_.joints[j].at;
     Three f{};
-    for (int r = 0; r < S::kDof; ++r)
-      for (int k = 0; k < S::kDof; ++k) f[r] += weight_[j](r, k) * wanted[j][k];
-    if (at.a != kGround) push(readings_[j].GA, f, x[at.a]);
-    if (at.b != kGround) push(readings_[j].GB, f, x[at.b]);
+    for (int r = 0; r < S::kDof; ++r) {
+      if (diagonal_[j]) f[r] = weight_[j](r, r) * wanted[j][r];
+      else
+        for (int k = 0; k < S::kDof; ++k) f[r] += weight_[j](r, k) * wanted[j][k];
+    }
+    const auto on = readings_[j].map.spread(f.a.data());
+    if (at.a != kGround) {
+      x[at.a][0] -= on.fx;
+      x[at.a][1] -= on.fy;
+      x[at.a][2] += on.ma;
+    }
+    if (at.b != kGround) {
+      x[at.b][0] += on.fx;
+      x[at.b][1] += on.fy;
+      x[at.b][2] += on.mb;
+    }
   }
   lu_.solve(x);
 }
@@ -88,9 +125,7 @@ void GapProjector::improve_forces(const Vecs& Q, const Vecs& a, Vecs& force) {
   for (int j = 0; j < system_.n_joints(); ++j) add_force(system_.joints[j].at, readings_[j], force[j], body_);
   solve(body_);
   for (int j = 0; j < system_.n_joints(); ++j) {
-    S::Vec gap = S::Vec::Zero();
-    add_gap(system_.joints[j].at, readings_[j], body_, gap);
-    force[j] -= weight_[j] * gap;
+    force[j] -= weigh(j, gap_change(system_.joints[j].at, readings_[j], body_));
   }
 }
 

@@ -19,6 +19,9 @@ class GapProjector {
   bool prepare(double t, const std::vector<Planar::Motion>& m, double mu, const Vecs& gap_at, const Vecs& rate_at,
                const Vecs* moved = nullptr);
 
+  /// The same where the joints have been read already.
+  bool prepare(const std::vector<Reading>& readings, double mu, const Vecs& gap_at, const Vecs& rate_at, const Vecs* moved = nullptr);
+
   /// Gaps, rates, Jacobians and convective terms of `m`; the factorisation stays.
   void read(double t, const std::vector<Planar::Motion>& m) { system_.readings(t, m, readings_); }
 
@@ -35,12 +38,16 @@ class GapProjector {
   const std::vector<Reading>& readings() const { return readings_; }
 
  private:
+  bool factorize(double mu, const Vecs& gap_at, const Vecs& rate_at, const Vecs* moved);
+  void add_joint(int j);
+  Planar::Vec weigh(int j, const Planar::Vec& gap) const;
   void solve(Vecs& x);
 
   const System& system_;
   BlockLu<double, Planar::kDof> lu_;
   std::vector<Reading> readings_;
   std::vector<Planar::Mat> weight_;  // K + mu C per joint
+  std::vector<char> diagonal_;       // it is
   std::vector<BlockPattern::Slot> slots_;
   std::vector<BlockVec<double, Planar::kDof>> work_;
   Vecs body_, accel_, missing_;

@@ -74,8 +74,8 @@ void IdealEquations::read(double t, const Vecs& q, const Vecs& v) {
   size_ = largest_coordinate(q);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Reading& r = r_[rows_[i].joint];
-    jacobian_[2 * i] = r.GA.row(rows_[i].component);
-    jacobian_[2 * i + 1] = r.GB.row(rows_[i].component);
+    jacobian_[2 * i] = r.GA().row(rows_[i].component);
+    jacobian_[2 * i + 1] = r.GB().row(rows_[i].component);
   }
 }
 

@@ -11,13 +11,15 @@ void grow_load_scale(const System& system, const std::vector<Reading>& r, const 
   for (std::size_t i = 0; i < load.size(); ++i) load[i] = Q[i].cwiseAbs() + system.bodies[i].mass.cwiseProduct(state.a[i]).cwiseAbs();
   for (int j = 0; j < system.n_joints(); ++j) {
     const Placement& at = system.joints[j].at;
-    if (at.a != kGround) load[at.a] += (r[j].GA.transpose() * state.force[j]).cwiseAbs();
-    if (at.b != kGround) load[at.b] += (r[j].GB.transpose() * state.force[j]).cwiseAbs();
+    const auto on = r[j].map.spread(state.force[j].data());
+    const double fx = std::abs(on.fx), fy = std::abs(on.fy);
+    if (at.a != kGround) load[at.a] += S::Vec(fx, fy, std::abs(on.ma));
+    if (at.b != kGround) load[at.b] += S::Vec(fx, fy, std::abs(on.mb));
   }
   for (std::size_t i = 0; i < load.size(); ++i) {
     const S::Vec& mass = system.bodies[i].mass;
     const double radius = std::sqrt(mass[2] / mass[0]);
-    double force = std::max({scale.body[i][0], load[i][0], load[i][1], 1e-9 * mass[0]});
+    double force = std::max({scale.body[i][0], load[i][0], load[i][1], kLeastLoad * mass[0]});
     double moment = std::max(scale.body[i][2], load[i][2]);
     force = std::max(force, 1e-3 * moment / radius);
     moment = std::max(moment, 1e-3 * force * radius);

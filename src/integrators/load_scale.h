@@ -10,6 +10,9 @@ struct LoadScale {
   Vecs body;  // [N, N, N*m]
 };
 
+/// At least this much per mass, where nothing acts [m/s^2].
+inline constexpr double kLeastLoad = 1e-9;
+
 /// Raises `scale` to what acts on each body of `state`: r are the joints' readings there, Q the external forces. `load` is
 /// scratch, one per body.
 void grow_load_scale(const System& system, const std::vector<Reading>& r, const Vecs& Q, const State& state, Vecs& load, LoadScale& scale);

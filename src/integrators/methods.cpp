@@ -93,7 +93,7 @@ std::unique_ptr<Stepper> make_stepper(const System& system, const MethodChoice& 
     if (choice.method == "radau") return std::make_unique<TreeRadau>(system, tolerance, choice.stages);
     return std::make_unique<TreeDopri5>(system, tolerance);
   }
-  if (choice.method == "radau") return std::make_unique<BodyStepper<RadauStepper>>(system, RadauStepper(system, tolerance, choice.stages));
+  if (choice.method == "radau") return std::make_unique<BodyStepper<RadauStepper>>(system, RadauStepper(system, tolerance, choice.stages, choice.tolerance_of));
   if (choice.method == "dopri5") return std::make_unique<BodyStepper<Dopri5>>(system, Dopri5(system, tolerance));
   if (is_in(kAlphaFamily, choice.method)) return std::make_unique<AlphaStepper>(system, alpha_weights(choice.method), tolerance);
   return make_sundials_stepper(system, choice.method, tolerance);

@@ -13,6 +13,7 @@ struct MethodChoice {
   Equations equations = Equations::kNewtonian;
   std::string method = "radau";  ///< never "auto"
   int stages = 3;                ///< of radau, 3 or 5
+  ToleranceOf tolerance_of = ToleranceOf::kForces;  ///< kMotion: newtonian radau only
 };
 
 /// What "auto" stands for.

@@ -30,6 +30,9 @@ class NewtonContraction {
     return rate < 1 && rate / (1 - rate) * size < kShare ? Verdict::kDone : Verdict::kGoOn;
   }
 
+  /// The contraction that the last steps have shown.
+  double rate() const { return contraction_; }
+
  private:
   static constexpr double kShare = 0.05;      // of the tolerance, left to the iteration
   static constexpr double kRounding = 1e-15;  // of the loads: no correction

@@ -42,8 +42,14 @@ class RadauControl {
   static constexpr double kAfterKink = 0.3;     // of the usual step
   static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;
 
+  static constexpr double kSame = 0.95, kSameAbove = 1.1;  // a factor near 1 keeps the step, and with it the factorised Jacobians
+
+  static constexpr double kLeastError = 0.01;  // over the tolerance: a smaller one says nothing about its growth
+
+  double last_error_ = 0;  // over the tolerance
+
   void accept(double h, double factor, bool up_to_kink) {
-    next = h * factor;
+    next = factor > kSame && factor < kSameAbove ? h : h * factor;
     if (up_to_kink) next = std::max(next, kAfterKink * usual);  // a better guess than this stump
     else usual = next;
   }
@@ -93,6 +99,9 @@ bool RadauControl::advance(Method& method, double t_end, double tolerance, int o
       h *= std::min(factor, 0.7);
       continue;
     }
+    if (have_history && last > 0 && h >= last && last_error_ > 0 && error > 0)  // an error that grows goes on growing: K. Gustafsson's predictive controller
+      factor = std::clamp(factor * (h / last) * std::pow(last_error_ / error, 1.0 / order), kLeast, factor);
+    last_error_ = std::max(error, kLeastError);
     method.finish_step(h);
     ++counters.steps;
     accept(h, factor, up_to_kink);

@@ -25,7 +25,7 @@ bool RadauStepper::error_estimate(double h, double& error) {
   const Stage& last = stage_[n_ - 1];
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!projector_.prepare(begin_.t + h, last.m, mu, last.gap, last.gap_rate)) return false;
-  error = std::max(body_tail(), gap_tail());
+  error = of_motion_ ? motion_tail() : std::max(body_tail(), gap_tail());
   return std::isfinite(error);
 }
 
@@ -47,6 +47,35 @@ double RadauStepper::body_tail() const {
   return size[n_] * fall_off(size[n_], size[n_ - 1], size[n_ - 2]);
 }
 
+// The same coefficients as accelerations that the bodies can yield to within the step: stiff joints hold back the rest, and
+// what a step does not resolve of their vibration is damped by it. theory/time Eq. (3.14).
+double RadauStepper::motion_tail() {
+  for (int i = 0; i < system_.n_bodies(); ++i)
+    for (int back = 0; back < 3; ++back) {
+      const int k = n_ - back;
+      S::Vec force = table_.to_legendre(k, 0) * begin_.a[i];
+      for (int s = 0; s < n_; ++s) force += table_.to_legendre(k, s + 1) * stage_[s].a[i];
+      force = force.cwiseProduct(system_.bodies[i].mass);
+      for (int c = 0; c < S::kDof; ++c) tail_move_[i][c].set(back, force[c]);
+    }
+  solver_->yield_to(tail_move_);
+  return tail_size(motion_scale_.loads(), 1);
+}
+
+// The size of the last of three coefficients on the bodies, with what the next one will be like.
+double RadauStepper::tail_size(const LoadScale& scale, double factor) const {
+  Lanes<3> size = Lanes<3>::all(0), sum = size;
+  for (int i = 0; i < system_.n_bodies(); ++i)
+    for (int k = 0; k < S::kDof; ++k) {
+      const Lanes<3> relative = (system_.bodies[i].mass[k] / scale.body[i][k]) * tail_move_[i][k];
+      size = larger_size(size, relative);
+      sum += relative;
+    }
+  if (!std::isfinite(sum[0] + sum[1] + sum[2])) return std::numeric_limits<double>::infinity();
+  if (!(size[0] > 0)) return 0;
+  return factor * size[0] * fall_off(size[0], size[1], size[2]);
+}
+
 // The gaps' own accelerations come out of the stages as second differences of what the forces demand; where a joint is
 // neither stiff nor soft for this step, their error is the force's. As forces: through the projector.
 double RadauStepper::gap_tail() {
@@ -59,16 +88,7 @@ double RadauStepper::gap_tail() {
         tail_[j][k].set(back, coefficient);
       }
   projector_.close(tail_, tail_move_);
-  Lanes<3> size = Lanes<3>::all(0), sum = size;
-  for (int i = 0; i < system_.n_bodies(); ++i)
-    for (int k = 0; k < S::kDof; ++k) {
-      const Lanes<3> relative = (system_.bodies[i].mass[k] / scale_.body[i][k]) * tail_move_[i][k];
-      size = larger_size(size, relative);
-      sum += relative;
-    }
-  if (!std::isfinite(sum[0] + sum[1] + sum[2])) return std::numeric_limits<double>::infinity();
-  if (!(size[0] > 0)) return 0;
-  return kGapError * size[0] * fall_off(size[0], size[1], size[2]);
+  return tail_size(scale_, kGapError);
 }
 
 // theory/time Eqs. (4.1)-(4.3).
@@ -185,7 +205,7 @@ std::array<double, 2> RadauStepper::power(double t, const Vecs& q, const std::ve
   for (int j = 0; j < system_.n_joints(); ++j) {
     const JointData& joint = system_.joints[j];
     if (joint.servo >= 0) out[0] += force[j][joint.servo] * system_.pose(joint.at, m).rate[joint.servo];
-    else out[1] += respond(joint.law, gap[j], gap_rate[j]).loss;
+    else out[1] += law_loss(joint.law, gap[j], gap_rate[j]);
   }
   return out;
 }

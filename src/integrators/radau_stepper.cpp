@@ -1,16 +1,14 @@
 #include "integrators/radau_stepper.h"
 
+#include <limits>
 #include <utility>
 
 namespace pintle {
-namespace {
 
 using S = Planar;
 
-}  // namespace
-
-RadauStepper::RadauStepper(const System& system, double tolerance, int stages)
-    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance),
+RadauStepper::RadauStepper(const System& system, double tolerance, int stages, ToleranceOf tolerance_of)
+    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion),
       solver_(make_stage_solver(system, table_, tolerance)), stage_(table_.n), projector_(system), tail_(system.joints.size()),
       tail_move_(system.bodies.size()), wanted_(system.joints.size()),
       move_(system.bodies.size()), end_r_(system.joints.size()), end_m_(system.bodies.size()) {
@@ -29,7 +27,9 @@ RadauStepper::RadauStepper(const System& system, double tolerance, int stages)
 }
 
 bool RadauStepper::attempt(double h) {
-  if (!solver_->solve(begin_, h, control_.have_history ? &nodes_ : nullptr, control_.last, scale_, counters_)) return false;
+  if (of_motion_) motion_scale_.take(system_, begin_, h);
+  const LoadScale& scale = of_motion_ ? motion_scale_.loads() : scale_;
+  if (!solver_->solve(begin_, h, control_.have_history ? &nodes_ : nullptr, control_.last, scale, counters_)) return false;
   solver_->write(stage_);
   return true;
 }
@@ -48,6 +48,26 @@ void RadauStepper::start(const State& state, double h) {
   jumps_.forget();
   side_ = system_.has_branches() ? system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.held) : 0;
   grow_scale();
+  if (unloaded()) foresee_loads(h);
+}
+
+bool RadauStepper::unloaded() const {
+  for (std::size_t i = 0; i < scale_.body.size(); ++i)
+    if (scale_.body[i][0] > 1.001 * kLeastLoad * system_.bodies[i].mass[0]) return false;
+  return !scale_.body.empty();
+}
+
+// Where nothing acts yet (joints that are not stretched), no force is large enough to measure errors by: the loads are those
+// that the linearised first step finds.
+void RadauStepper::foresee_loads(double h) {
+  const double everything = std::numeric_limits<double>::max();
+  const LoadScale any{Vecs(scale_.body.size(), S::Vec::Constant(everything))};
+  if (!solver_->solve(begin_, h, nullptr, 0, any, counters_)) return;
+  solver_->write(stage_);
+  State ahead = end_;
+  ahead.a = stage_[n_ - 1].a;
+  ahead.force = stage_[n_ - 1].force;
+  grow_load_scale(system_, end_r_, stage_[n_ - 1].Q, ahead, move_, scale_);
 }
 
 bool RadauStepper::step(double t_end) {

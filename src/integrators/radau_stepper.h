@@ -18,15 +18,17 @@
 
 #include "integrators/gap_projector.h"
 #include "integrators/held_jumps.h"
+#include "integrators/motion_scale.h"
 #include "integrators/radau_control.h"
 #include "integrators/stage_solver.h"
+#include "pintle/model.h"
 
 namespace pintle {
 
 class RadauStepper {
  public:
   /// `stages` is 3 (order 5) or 5 (order 9).
-  RadauStepper(const System& system, double tolerance, int stages = 3);
+  RadauStepper(const System& system, double tolerance, int stages = 3, ToleranceOf tolerance_of = ToleranceOf::kForces);
 
   void set_max_step(double h) { control_.longest = h; }
   /// Loads known from an earlier run; otherwise the largest so far is used.
@@ -54,10 +56,14 @@ class RadauStepper {
   double t() const { return begin_.t; }
   void begin_at_end() { begin_ = end_; }
   bool attempt(double h);                     // solves the stages from begin_
+  bool unloaded() const;
+  void foresee_loads(double h);
 
   // radau_end.cpp: the error of a step and its end
   bool error_estimate(double h, double& error);
   double body_tail() const;
+  double tail_size(const LoadScale& scale, double factor) const;
+  double motion_tail();                       // as accelerations that the bodies can yield to
   double gap_tail();
   void finish_step(double h);                 // project, fill end_
   static double rounding_of(const Vecs& x);
@@ -84,6 +90,8 @@ class RadauStepper {
   const RadauTable& table_;
   const int n_;                               // stages
   double tolerance_;
+  const bool of_motion_;                      // the tolerance is
+  MotionScale motion_scale_;
   State begin_, end_;
   RadauControl control_;
   std::uint64_t side_ = 0;                    // of kinks, at end_

@@ -54,9 +54,9 @@ TEST(RadauStepper, IsOfOrderFiveOrNineWithoutJoints) {
 // Measured: order 9.5 in positions, at rounding after 16 steps; the forces after 8 steps are within 3e-11 N of 25 N.
 TEST(RadauStepper, FiveStagesReachForcesThatThreeDoNot) {
   for (const double k : {1e10, 1e12}) {
-    const Errors e = errors_of_fixed_steps(sample::pendulum(k, matching_damping(k)), 0.4, {8, 12}, 5);
-    EXPECT_LT(e.q.back(), e.q.front() * std::pow(8.0 / 12, 8)) << k;
-    EXPECT_LT(e.force.front(), 1e-9) << k;
+    const Errors e = errors_of_fixed_steps(sample::pendulum(k, matching_damping(k)), 0.4, {7, 10}, 5);
+    EXPECT_LT(e.q.back(), e.q.front() * std::pow(7.0 / 10, 8)) << k;
+    EXPECT_LT(e.force.back(), 1e-9) << k;
   }
   EXPECT_LT(errors_of_fixed_steps(sample::four_bar(1e12, matching_damping(1e12)), 0.1, {8}, 5).force.front(), 2e-8);
 }

@@ -1,8 +1,12 @@
 // A body and a joint at every stage of a step at once, one stage per lane; and the matrices that mix the stages.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "integrators/radau_table.h"
-#include "probes/relative_pose.h"
+#include "probes/gap_map.h"
 #include "solve/spectrum.h"
 
 namespace pintle {
@@ -20,55 +24,6 @@ struct BodyLanes {
   Planar::Motion motion(int i) const { return {{q[0][i], q[1][i]}, q[2][i], c[i], s[i], {v[0][i], v[1][i]}, v[2][i]}; }
 };
 
-/// From forces of a gap to forces on bodies, and from accelerations of bodies to that of the gap: G' and G of a pose, times
-/// the gradient where the gap is a function of the pose. T is Lanes<N>, or a number where G is frozen.
-template <class T>
-struct GapMap {
-  T c, s, ax, ay, bx, by;  // as in PoseGeometry
-  T gradient[3];           // of a gap that is a function
-  bool function = false;
-
-  void take(const PoseGeometry<T>& pose) {
-    c = pose.c;
-    s = pose.s;
-    ax = pose.ax;
-    ay = pose.ay;
-    bx = pose.bx;
-    by = pose.by;
-  }
-  /// The map of one lane.
-  GapMap<double> lane(int i) const {
-    return {c[i], s[i], ax[i], ay[i], bx[i], by[i], {gradient[0][i], gradient[1][i], gradient[2][i]}, function};
-  }
-
-  template <class U>
-  struct OnBodies { U fx, fy, ma, mb; };  // force on B (on A the opposite), moments on A and B
-
-  /// G' f.
-  template <class U>
-  OnBodies<U> spread(const U* f) const {
-    const U f0 = function ? gradient[0] * f[0] : f[0], f1 = function ? gradient[1] * f[0] : f[1],
-            f2 = function ? gradient[2] * f[0] : f[2];
-    OnBodies<U> r;
-    r.fx = c * f0 - s * f1;
-    r.fy = s * f0 + c * f1;
-    r.ma = ay * r.fx - ax * r.fy - f2;
-    r.mb = bx * r.fy - by * r.fx + f2;
-    return r;
-  }
-  /// G a.
-  template <class U>
-  void gather(const U* on_a, const U* on_b, U* e) const {
-    const U x = on_b[0] - on_a[0] + ay * on_a[2] - by * on_b[2], y = on_b[1] - on_a[1] + bx * on_b[2] - ax * on_a[2];
-    e[0] = c * x + s * y;
-    e[1] = c * y - s * x;
-    e[2] = on_b[2] - on_a[2];
-    if (!function) return;
-    e[0] = gradient[0] * e[0] + gradient[1] * e[1] + gradient[2] * e[2];
-    e[1] = e[2] = U();
-  }
-};
-
 template <int N>
 struct JointLanes {
   using L = Lanes<N>;
@@ -77,7 +32,8 @@ struct JointLanes {
   L residual[3];          // of the gap's acceleration [m/s^2, m/s^2, rad/s^2]
   GapMap<L> map;
   GapMap<double> frozen;  // at the stage where the equations are linearised
-  Planar::Mat K, C;       // the law's tangents there
+  Planar::Vec frozen_force;                                                // there
+  Planar::Mat K = Planar::Mat::Zero(), C = Planar::Mat::Zero();  // the law's tangents there
   bool diagonal = false;  // they are
   Spectrum<N> weight[9];  // (K + mu C) / mu^2; the first three when diagonal
   Spectrum<N> e[3];       // the residual in the diagonal frame
@@ -115,5 +71,16 @@ struct StageMatrices {
     }
   }
 };
+
+/// The largest lane; infinity where the sum of what it came from is not finite.
+template <int N>
+double largest(const Lanes<N>& size, const Lanes<N>& sum) {
+  double worst = 0;
+  for (int s = 0; s < N; ++s) {
+    if (!std::isfinite(sum[s])) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, size[s]);
+  }
+  return worst;
+}
 
 }  // namespace pintle

@@ -5,36 +5,29 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "integrators/newton_contraction.h"
+#include "integrators/pose_blocks.h"
 #include "integrators/stage_lanes.h"
 #include "solve/block_lu.h"
+#include "solve/wide.h"
 
 namespace pintle {
 namespace {
 
 using S = Planar;
 
-// The largest lane; infinity where the sum of what it came from is not finite.
 template <int N>
-double largest(const Lanes<N>& size, const Lanes<N>& sum) {
-  double worst = 0;
-  for (int s = 0; s < N; ++s) {
-    if (!std::isfinite(sum[s])) return std::numeric_limits<double>::infinity();
-    worst = std::max(worst, size[s]);
-  }
-  return worst;
-}
-
-template <int N>
-class LaneSolver final : public StageSolver {
+class LaneSolver : public StageSolver {
  public:
   LaneSolver(const System& system, const RadauTable& table, double tolerance);
 
-  bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override;
   void write(std::vector<Stage>& stages) const override;
   double residual(int j) const override;
+
+ protected:
+  bool solve_stages(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters);
+  void find_yield(std::vector<Three>& forces) const;
 
  private:
   using L = Lanes<N>;
@@ -54,7 +47,11 @@ class LaneSolver final : public StageSolver {
   void find_map(std::size_t j);
   L find_gradient(const JointData& joint, const PoseGeometry<L>& pose, JointLanes<N>& lanes) const;
   void linearize(double t, HeldJumps held);
+  bool renew(const State& begin, double h, Counters& counters);
   bool factorize(double h);
+  void add_joint(std::size_t j, const X& mu);
+  void add_pose_joint(std::size_t j, const X& mu);
+  static void add_block(Block<X, 3>& block, const S::Mat& K, const S::Mat& C, const X& mu, double sign);
   double correct(const LoadScale& scale);
 
   const System& system_;
@@ -62,14 +59,16 @@ class LaneSolver final : public StageSolver {
   const StageMatrices<N> matrices_;
   double tolerance_;
   NewtonContraction contraction_;
+  static constexpr double kGood = 0.15, kSlow = 0.4;  // contractions: Jacobians serve the next step; they do not serve this one
+  static constexpr int kMostWithOld = 4;      // iterations
+  double factorized_for_ = 0;                 // the step; 0: none
   bool loads_;                                // there is more than weight
   std::vector<BodyLanes<N>> bodies_;
   std::vector<JointLanes<N>> joints_;
   Vecs Q_;                                    // of one stage
   std::vector<S::Motion> motions_;
-  struct JointBlocks { std::array<S::Mat, 4> K, C; BlockPattern::Slot ab{0, true}; };  // AA, AB, BA, BB of (3.8)
   struct LoadBlock { int i, j; S::Mat dq, dv; };
-  std::vector<JointBlocks> blocks_;
+  std::vector<BlockPattern::Slot> slots_;     // of each joint's bodies, A before B
   std::vector<LoadBlock> load_blocks_;
   X mu2_;
   BlockLu<X, 3> lu_;
@@ -79,7 +78,7 @@ class LaneSolver final : public StageSolver {
 template <int N>
 LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double tolerance)
     : system_(system), table_(table), matrices_(table), tolerance_(tolerance), loads_(!system.loads.empty() || !system.applied.empty()),
-      bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), motions_(system.bodies.size()), blocks_(system.joints.size()),
+      bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), motions_(system.bodies.size()), slots_(system.joints.size()),
       lu_(system.pattern()), rhs_(system.bodies.size() + 1) {
   bodies_.back().c = L::all(1);  // the ground; what falls on it is not looked at
   for (std::size_t b = 0; b < n_bodies(); ++b)
@@ -88,33 +87,49 @@ LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double 
     const JointData& joint = system.joints[j];
     joints_[j].map.function = !std::holds_alternative<Selection>(joint.probe);
     joints_[j].diagonal = std::holds_alternative<LinearLaw>(joint.law);
-    if (joint.at.a != kGround && joint.at.b != kGround) blocks_[j].ab = system.pattern().slot(joint.at.a, joint.at.b);
+    if (joint.at.a != kGround && joint.at.b != kGround) slots_[j] = system.pattern().slot(joint.at.a, joint.at.b);
   }
 }
 
 template <int N>
-bool LaneSolver<N>::solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale,
-                          Counters& counters) {
+bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale,
+                                 Counters& counters) {
   predict(begin, h, before, last_h);
   find_targets(begin.t, h);
   place(begin, h);
   find_forces(scale);
   contraction_.start();
+  bool fresh = h != factorized_for_ || contraction_.rate() > kGood, wanted = fresh;  // a factorisation
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
     find_residuals(begin, h);
     counters.evaluations += N;
-    if (iteration == 0) {
-      linearize(begin.t + table_.c[kMiddle] * h, begin.held);
-      counters.factorizations += 1 + N / 2;
-      if (!factorize(h)) return false;
+    if (wanted) {
+      if (!renew(begin, h, counters)) return false;
+      wanted = false;
     }
     const double of_bodies = correct(scale);
     place(begin, h);
     ++counters.newton_iterations;
     const auto verdict = contraction_.judge(iteration, std::max(of_bodies, find_forces(scale)), tolerance_);
-    if (verdict != NewtonContraction::Verdict::kGoOn) return verdict == NewtonContraction::Verdict::kDone;
+    if (verdict == NewtonContraction::Verdict::kDone) return true;
+    const bool hopeless = verdict == NewtonContraction::Verdict::kHopeless;
+    if (hopeless && fresh) return false;
+    if (hopeless || (!fresh && iteration > 0 && (contraction_.rate() > kSlow || iteration > kMostWithOld))) {
+      fresh = wanted = true;
+      contraction_.start();
+      iteration = -1;
+    }
   }
   return false;
+}
+
+// Jacobians of this step, factorised.
+template <int N>
+bool LaneSolver<N>::renew(const State& begin, double h, Counters& counters) {
+  linearize(begin.t + table_.c[kMiddle] * h, begin.held);
+  counters.factorizations += 1 + N / 2;
+  factorized_for_ = factorize(h) ? h : 0;
+  return factorized_for_ != 0;
 }
 
 template <int N>
@@ -184,23 +199,21 @@ double LaneSolver<N>::find_forces(const LoadScale& scale) {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     JointLanes<N>& joint = joints_[j];
     const JointData& data = system_.joints[j];
-    L force[3];
-    if (const auto* linear = std::get_if<LinearLaw>(&data.law)) {
-      for (int k = 0; k < 3; ++k) force[k] = -(linear->k[k] * joint.gap[k] + linear->c[k] * joint.rate[k]);
-    } else {
-      for (int s = 0; s < N; ++s) {
-        const S::Vec f = law_force(data.law, {joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]},
-                                   {joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]});
-        for (int k = 0; k < 3; ++k) force[k].set(s, f[k]);
-      }
+    double at[3][N];  // of laws that are asked stage by stage
+    const auto* linear = std::get_if<LinearLaw>(&data.law);
+    for (int s = 0; s < N && !linear; ++s) {
+      const S::Vec f = law_force(data.law, {joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]},
+                                 {joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]});
+      for (int k = 0; k < 3; ++k) at[k][s] = f[k];
     }
     for (int k = 0; k < 3; ++k) {
       const S::Vec& on = scale.body[data.at.a == kGround ? data.at.b : data.at.a];
       const S::Vec& beside = scale.body[data.at.b == kGround ? data.at.a : data.at.b];
-      const L change = (1 / std::max(on[k], beside[k])) * (force[k] - joint.force[k]);
+      const L force = linear ? -(linear->k[k] * joint.gap[k] + linear->c[k] * joint.rate[k]) : L::of(at[k]);
+      const L change = (1 / std::max(on[k], beside[k])) * (force - joint.force[k]);
       worst = larger_size(worst, change);
       sum += change;
-      joint.force[k] = force[k];
+      joint.force[k] = force;
     }
   }
   return largest(worst, sum);
@@ -279,7 +292,7 @@ Lanes<N> LaneSolver<N>::find_gradient(const JointData& joint, const PoseGeometry
   return bias;
 }
 
-// Joints' G'KG and G'CG with the geometric stiffness, and loads' slopes, at the predicted middle stage. Eq. (3.8).
+// The joints' tangents and loads' slopes at the predicted middle stage.
 template <int N>
 void LaneSolver<N>::linearize(double t, HeldJumps held) {
   const int i = kMiddle;
@@ -288,18 +301,19 @@ void LaneSolver<N>::linearize(double t, HeldJumps held) {
     const JointData& data = system_.joints[j];
     JointLanes<N>& joint = joints_[j];
     joint.frozen = joint.map.lane(i);
-    const Response response = respond(data.law, {joint.gap[0][i], joint.gap[1][i], joint.gap[2][i]},
-                                      {joint.rate[0][i], joint.rate[1][i], joint.rate[2][i]});
-    joint.K = response.stiffness;
-    joint.C = response.damping;
-    const RelativePose pose = system_.pose(data.at, motions_);
-    const Reading r = read(data.probe, pose);
-    const auto geometric = geometric_stiffness(data.probe, pose, response.force);
-    const S::Mat KA = joint.K * r.GA, KB = joint.K * r.GB, CA = joint.C * r.GA, CB = joint.C * r.GB;
-    JointBlocks& b = blocks_[j];
-    b.K = {r.GA.transpose() * KA - geometric.template block<3, 3>(0, 0), r.GA.transpose() * KB - geometric.template block<3, 3>(0, 3),
-           r.GB.transpose() * KA - geometric.template block<3, 3>(3, 0), r.GB.transpose() * KB - geometric.template block<3, 3>(3, 3)};
-    b.C = {r.GA.transpose() * CA, r.GA.transpose() * CB, r.GB.transpose() * CA, r.GB.transpose() * CB};
+    if (const auto* linear = std::get_if<LinearLaw>(&data.law)) {
+      for (int k = 0; k < 3; ++k) {
+        joint.K(k, k) = linear->k[k];
+        joint.C(k, k) = linear->c[k];
+        joint.frozen_force[k] = joint.force[k][i];
+      }
+    } else {
+      const Response response = respond(data.law, {joint.gap[0][i], joint.gap[1][i], joint.gap[2][i]},
+                                        {joint.rate[0][i], joint.rate[1][i], joint.rate[2][i]});
+      joint.K = response.stiffness;
+      joint.C = response.damping;
+      joint.frozen_force = response.force;
+    }
   }
   load_blocks_.clear();
   system_.external_tangents(t, motions_, [this](int a, int b, const S::Mat& dq, const S::Mat& dv) {
@@ -312,34 +326,59 @@ template <int N>
 bool LaneSolver<N>::factorize(double h) {
   const X mu = (1 / h) * matrices_.eigenvalue, once = reciprocal(mu), twice = once * once;
   mu2_ = mu * mu;
-  const X one(1.0);
-  const auto add = [&](Block<X, 3>& block, const S::Mat& K, const S::Mat& C, double sign) {
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) block(r, c) += (sign * K(r, c)) * one + (sign * C(r, c)) * mu;
-  };
   lu_.set_zero();
   for (int i = 0; i < system_.n_bodies(); ++i)
     for (int r = 0; r < 3; ++r) lu_.diagonal(i)(r, r) = system_.bodies[i].mass[r] * mu2_;
-  for (int j = 0; j < system_.n_joints(); ++j) {
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
     JointLanes<N>& joint = joints_[j];
     if (joint.diagonal) {
       for (int k = 0; k < 3; ++k) joint.weight[k] = joint.K(k, k) * twice + joint.C(k, k) * once;
     } else {
       for (int k = 0; k < 9; ++k) joint.weight[k] = joint.K(k / 3, k % 3) * twice + joint.C(k / 3, k % 3) * once;
     }
-    const Placement& at = system_.joints[j].at;
-    const JointBlocks& b = blocks_[j];
-    if (at.a != kGround) add(lu_.diagonal(at.a), b.K[0], b.C[0], 1);
-    if (at.b != kGround) add(lu_.diagonal(at.b), b.K[3], b.C[3], 1);
-    if (at.a == kGround || at.b == kGround) continue;
-    BlockPattern::Slot slot = b.ab;
-    add(lu_.off_diagonal(slot), b.K[1], b.C[1], 1);
-    slot.upper = !slot.upper;
-    add(lu_.off_diagonal(slot), b.K[2], b.C[2], 1);
+    if (joint.diagonal && !joint.map.function) add_pose_joint(j, mu);
+    else add_joint(j, mu);
   }
   for (const LoadBlock& b : load_blocks_)
-    add(b.i == b.j ? lu_.diagonal(b.i) : lu_.off_diagonal(system_.pattern().slot(b.i, b.j)), b.dq, b.dv, -1);
+    add_block(b.i == b.j ? lu_.diagonal(b.i) : lu_.off_diagonal(system_.pattern().slot(b.i, b.j)), b.dq, b.dv, mu, -1);
   return lu_.factorize();
+}
+
+template <int N>
+void LaneSolver<N>::add_block(Block<X, 3>& block, const S::Mat& K, const S::Mat& C, const X& mu, double sign) {
+  const X one(1.0);
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) block(r, c) += (sign * K(r, c)) * one + (sign * C(r, c)) * mu;
+}
+
+// G' (K + mu C) G - N of one joint, of any kind.
+template <int N>
+void LaneSolver<N>::add_joint(std::size_t j, const X& mu) {
+  const JointData& data = system_.joints[j];
+  const JointLanes<N>& joint = joints_[j];
+  const Placement& at = data.at;
+  const RelativePose pose = system_.pose(at, motions_);
+  const Reading r = read(data.probe, pose);
+  const auto geometric = geometric_stiffness(data.probe, pose, joint.frozen_force);
+  const S::Mat KA = joint.K * r.GA(), KB = joint.K * r.GB(), CA = joint.C * r.GA(), CB = joint.C * r.GB();
+  const S::Mat At = r.GA().transpose(), Bt = r.GB().transpose();
+  if (at.a != kGround) add_block(lu_.diagonal(at.a), At * KA - geometric.template block<3, 3>(0, 0), At * CA, mu, 1);
+  if (at.b != kGround) add_block(lu_.diagonal(at.b), Bt * KB - geometric.template block<3, 3>(3, 3), Bt * CB, mu, 1);
+  if (at.a == kGround || at.b == kGround) return;
+  BlockPattern::Slot slot = slots_[j];
+  add_block(lu_.off_diagonal(slot), At * KB - geometric.template block<3, 3>(0, 3), At * CB, mu, 1);
+  slot.upper = !slot.upper;
+  add_block(lu_.off_diagonal(slot), Bt * KA - geometric.template block<3, 3>(3, 0), Bt * CA, mu, 1);
+}
+
+// The same where the gap is the relative pose and its law has a spring and a damper in each component.
+template <int N>
+void LaneSolver<N>::add_pose_joint(std::size_t j, const X& mu) {
+  const JointLanes<N>& joint = joints_[j];
+  const X one(1.0);
+  X w[3];
+  for (int k = 0; k < 3; ++k) w[k] = joint.K(k, k) * one + joint.C(k, k) * mu;
+  add_pose_blocks(lu_, system_.joints[j].at, slots_[j], joint.frozen, w, joint.frozen_force);
 }
 
 // One Newton correction: into the diagonal frame, the solve, back. Eqs. (3.9)-(3.11). Its size as body forces over the scale.
@@ -412,11 +451,50 @@ double LaneSolver<N>::residual(int j) const {
   return std::hypot(r[0][N - 1], r[1][N - 1], r[2][N - 1]);
 }
 
+template <int N>
+void LaneSolver<N>::find_yield(std::vector<Three>& forces) const {
+  lu_.solve(forces);
+  const double mu2 = mu2_.x[N - 1];
+  for (Three& x : forces)
+    for (int k = 0; k < 3; ++k) x[k] = mu2 * x[k];
+}
+
+// The same text twice, for registers of two widths: everything that is made of lanes is inlined into these functions.
+template <int N>
+class NarrowSolver final : public LaneSolver<N> {
+ public:
+  using LaneSolver<N>::LaneSolver;
+  bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override {
+    return this->solve_stages(begin, h, before, last_h, scale, counters);
+  }
+  void yield_to(std::vector<StageSolver::Three>& forces) const override { this->find_yield(forces); }
+};
+
+#ifdef PINTLE_WIDE
+template <int N>
+class WideSolver final : public LaneSolver<N> {
+ public:
+  using LaneSolver<N>::LaneSolver;
+  PINTLE_WIDE bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override {
+    return this->solve_stages(begin, h, before, last_h, scale, counters);
+  }
+  PINTLE_WIDE void yield_to(std::vector<StageSolver::Three>& forces) const override { this->find_yield(forces); }
+};
+#endif
+
+template <int N>
+std::unique_ptr<StageSolver> make_solver(const System& system, const RadauTable& table, double tolerance) {
+#ifdef PINTLE_WIDE
+  if (has_wide_registers()) return std::make_unique<WideSolver<N>>(system, table, tolerance);
+#endif
+  return std::make_unique<NarrowSolver<N>>(system, table, tolerance);
+}
+
 }  // namespace
 
 std::unique_ptr<StageSolver> make_stage_solver(const System& system, const RadauTable& table, double tolerance) {
-  if (table.n == 5) return std::make_unique<LaneSolver<5>>(system, table, tolerance);
-  return std::make_unique<LaneSolver<3>>(system, table, tolerance);
+  if (table.n == 5) return make_solver<5>(system, table, tolerance);
+  return make_solver<3>(system, table, tolerance);
 }
 
 }  // namespace pintle

@@ -8,6 +8,8 @@
 #include "integrators/radau_table.h"
 #include "integrators/step_nodes.h"
 #include "pintle/trajectory.h"
+#include "solve/block.h"
+#include "solve/lanes.h"
 #include "system/state.h"
 
 namespace pintle {
@@ -30,6 +32,10 @@ class StageSolver {
   virtual void write(std::vector<Stage>& stages) const = 0;
   /// What is missing in joint j's equation at the end of the step [m/s^2 or rad/s^2].
   virtual double residual(int j) const = 0;
+  /// Three sets of body forces, side by side, become the accelerations that they make within the step: mu^2 Z(mu)^-1 of
+  /// theory/time Eq. (3.8) with the real mu. A mode of frequency w yields by mu^2 / (mu^2 + w^2).
+  using Three = BlockVec<Lanes<3>, Planar::kDof>;
+  virtual void yield_to(std::vector<Three>& forces) const = 0;
 };
 
 /// The solver with the stages of `table`.

@@ -103,7 +103,7 @@ Misfits misfits(const Start& at, const RadauTable& table, double h, const std::v
       note(worst.force, largest(s.force[j] - f) / (1 + largest(f)));
       Vec accel = r[j].bias;
       double size = 1 + largest(r[j].bias);
-      for (const auto& [body, G] : {std::pair{on.a, r[j].GA}, std::pair{on.b, r[j].GB}}) {
+      for (const auto& [body, G] : {std::pair{on.a, r[j].GA()}, std::pair{on.b, r[j].GB()}}) {
         if (body == kGround) continue;
         left[body] -= G.transpose() * f;
         accel += G * s.a[body];

@@ -56,8 +56,8 @@ struct DenseEquations {
       const auto [j, k] = rows[r];
       const Reading reading = system.reading(j, t, m);
       const Placement& at = system.joints[j].at;
-      if (at.a != kGround) G.block<1, 3>(r, 3 * at.a) = reading.GA.row(k);
-      if (at.b != kGround) G.block<1, 3>(r, 3 * at.b) = reading.GB.row(k);
+      if (at.a != kGround) G.block<1, 3>(r, 3 * at.a) = reading.GA().row(k);
+      if (at.b != kGround) G.block<1, 3>(r, 3 * at.b) = reading.GB().row(k);
       bias[r] = reading.bias[k];
     }
   }

@@ -58,8 +58,8 @@ void TreeInstant::find_matrices() {
   for (std::size_t l = 0; l < r_.size(); ++l) {
     const Placement& at = system_.joints[tree_.laws()[l]].at;
     auto rows = A_.middleRows<3>(3 * static_cast<Eigen::Index>(l));
-    if (at.a != kGround) rows.noalias() += r_[l].GA * J_.middleRows<3>(3 * at.a);
-    if (at.b != kGround) rows.noalias() += r_[l].GB * J_.middleRows<3>(3 * at.b);
+    if (at.a != kGround) rows.noalias() += r_[l].GA() * J_.middleRows<3>(3 * at.a);
+    if (at.b != kGround) rows.noalias() += r_[l].GB() * J_.middleRows<3>(3 * at.b);
   }
 }
 

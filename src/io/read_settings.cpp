@@ -42,6 +42,16 @@ void check_method(ModelReading& reading, const Record& record, const std::string
                          equations == "ideal" ? "method = \"auto\"" : "\"auto\", \"radau\" or \"dopri5\"");
 }
 
+// Only the implicit method can step over what a motion does not feel.
+void check_tolerance_of(ModelReading& reading, const Record& record) {
+  const SimulateSettings& simulate = reading.model.simulate;
+  if (simulate.tolerance_of == ToleranceOf::kForces) return;
+  if (simulate.equations != Equations::kNewtonian)
+    reading.complaints.add(record.spot("tolerance_of"), "simulate.tolerance_of", in_quotes("motion"), "a tolerance of the motion needs newtonian equations", "equations = \"newtonian\"");
+  if (simulate.method != "auto" && simulate.method != "radau")
+    reading.complaints.add(record.spot("tolerance_of"), "simulate.tolerance_of", in_quotes("motion"), "method " + in_quotes(simulate.method) + " does not know a tolerance of the motion", "method = \"radau\"");
+}
+
 void read_simulate(ModelReading& reading) {
   const Entry* entry = reading.root.find_entry("simulate");
   if (entry == nullptr) return;
@@ -56,7 +66,9 @@ void read_simulate(ModelReading& reading) {
   simulate.equations = equations == "ideal"        ? Equations::kIdeal
                        : equations == "lagrangian" ? Equations::kLagrangian
                                                    : Equations::kNewtonian;
+  if (record.word("tolerance_of") == "motion") simulate.tolerance_of = ToleranceOf::kMotion;
   check_method(reading, record, equations);
+  check_tolerance_of(reading, record);
   const std::string start = record.word("start");
   simulate.start = start == "raw" ? Start::kRaw : start == "unloaded" ? Start::kUnloaded : Start::kAssembled;
   if (const Value* names = record.find("record")) simulate.record = names->words;

@@ -24,13 +24,14 @@ struct LinearLaw {
   }
   static constexpr bool kHasBranches = false;
   unsigned branch(const Planar::Vec&, const Planar::Vec&) const { return 0; }
+  double loss(const Planar::Vec&, const Planar::Vec& rate) const { return rate.dot(c.cwiseProduct(rate)); }  // (3.3)
   Response respond(const Planar::Vec& gap, const Planar::Vec& rate) const {
     Response r;
     r.force = force(gap, rate);
     r.stiffness = k.asDiagonal();
     r.damping = c.asDiagonal();
     r.energy = 0.5 * gap.dot(k.cwiseProduct(gap));                                       // (3.2)
-    r.loss = rate.dot(c.cwiseProduct(rate));                                             // (3.3)
+    r.loss = loss(gap, rate);
     return r;
   }
 };

@@ -28,6 +28,9 @@ struct TensionLaw {
   static constexpr bool kHasBranches = true;
   /// Which side of its kinks the law is on.
   unsigned branch(const Planar::Vec& gap, const Planar::Vec& rate) const { return pulls(gap, rate) ? 1 : 0; }
+  double loss(const Planar::Vec& gap, const Planar::Vec& rate) const {
+    return pulls(gap, rate) ? c * rate[0] * rate[0] : -k * std::max(0.0, gap[0]) * rate[0];
+  }
   Response respond(const Planar::Vec& gap, const Planar::Vec& rate) const {
     Response r;
     const double e = std::max(0.0, gap[0]);
@@ -36,10 +39,8 @@ struct TensionLaw {
     if (pulls(gap, rate)) {
       r.stiffness(0, 0) = k;
       r.damping(0, 0) = c;
-      r.loss = c * rate[0] * rate[0];
-    } else {
-      r.loss = -k * e * rate[0];
     }
+    r.loss = loss(gap, rate);
     return r;
   }
 };

@@ -8,14 +8,12 @@ using S = Planar;
 // A scalar gap g(z): its reading by the chain rule, theory/joints Eq. (2.14).
 Reading read_scalar(const GapFunction& g, const RelativePose& pose) {
   Reading r;
-  const S::Mat zero = S::Mat::Zero();
   r.gap << g.gap, 0, 0;
   r.rate << g.gradient.dot(pose.rate), 0, 0;
   r.bias << g.gradient.dot(pose.bias) + pose.rate.dot(g.hessian * pose.rate), 0, 0;
-  r.GA = zero;
-  r.GB = zero;
-  r.GA.row(0) = g.gradient.transpose() * pose.GA;
-  r.GB.row(0) = g.gradient.transpose() * pose.GB;
+  r.map = GapMap<double>::of(pose);
+  r.map.function = true;
+  for (int k = 0; k < S::kDof; ++k) r.map.gradient[k] = g.gradient[k];
   return r;
 }
 
@@ -35,7 +33,7 @@ auto visit_scalar(const Probe& probe, const S::Vec& z, F&& use) {
 
 Eigen::Matrix<double, 3, 6> both(const RelativePose& pose) {
   Eigen::Matrix<double, 3, 6> g;
-  g << pose.GA, pose.GB;
+  g << pose.GA(), pose.GB();
   return g;
 }
 
@@ -43,7 +41,7 @@ Eigen::Matrix<double, 3, 6> both(const RelativePose& pose) {
 
 Reading read(const Probe& probe, const RelativePose& pose) {
   if (const auto* plain = std::get_if<Selection>(&probe))
-    return {pose.z - plain->offset, pose.rate, pose.bias, pose.GA, pose.GB};
+    return {pose.z - plain->offset, pose.rate, pose.bias, GapMap<double>::of(pose)};
   return visit_scalar(probe, pose.z, [&](const GapFunction* g, const S::Vec&) { return read_scalar(*g, pose); });
 }
 

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "probes/gap_function.h"
+#include "probes/gap_map.h"
 #include "probes/relative_pose.h"
 
 namespace pintle {
@@ -20,7 +21,10 @@ using Probe = std::variant<Selection, Distance, Mesh, RackMesh>;
 ///   rate = GA vA + GB vB,   gap'' = GA aA + GB aB + bias
 struct Reading {
   Planar::Vec gap, rate, bias;
-  Planar::Mat GA, GB;
+  GapMap<double> map;
+
+  Planar::Mat GA() const { return map.GA(); }
+  Planar::Mat GB() const { return map.GB(); }
 };
 
 /// Reads the probe at a relative pose.

@@ -54,7 +54,7 @@ inline Couple random_couple(Random& random) {
 inline Reading reading(const Probe& probe, const Couple& c) { return read(probe, c.pose()); }
 inline Eigen::Matrix<double, 3, 6> jacobian(const Reading& r) {
   Eigen::Matrix<double, 3, 6> G;
-  G << r.GA, r.GB;
+  G << r.GA(), r.GB();
   return G;
 }
 
@@ -105,10 +105,10 @@ inline void expect_pose_force(const Probe& probe, const Couple& c, const Planar:
   const RelativePose pose = c.pose();
   const Planar::Vec f = to_pose_force(probe, pose, force);
   const Reading r = read(probe, pose);
-  expect_close<Planar::Vec>(pose.GA.transpose() * f, r.GA.transpose() * force, 1e-13, "force on A by way of z");
-  expect_close<Planar::Vec>(pose.GB.transpose() * f, r.GB.transpose() * force, 1e-13, "force on B by way of z");
+  expect_close<Planar::Vec>(pose.GA().transpose() * f, r.GA().transpose() * force, 1e-13, "force on A by way of z");
+  expect_close<Planar::Vec>(pose.GB().transpose() * f, r.GB().transpose() * force, 1e-13, "force on B by way of z");
   const Planar::Point world = pose.world_force(f);
-  EXPECT_LE((world - Planar::Point((r.GB.transpose() * force).head<2>())).norm(), 1e-13 * (1 + world.norm()));
+  EXPECT_LE((world - Planar::Point((r.GB().transpose() * force).head<2>())).norm(), 1e-13 * (1 + world.norm()));
 }
 
 /// Both bodies carried along by the same rigid motion (turn, shift; spin, speed): gap, rate and gap'' stay.

@@ -57,7 +57,7 @@ TYPED_TEST(AnyProbe, IsFiniteFarOut) {
     c.qB.head<2>() *= far;
     c.vB *= far;
     const Reading r = sample::reading(probe, c);
-    EXPECT_TRUE(r.gap.allFinite() && r.rate.allFinite() && r.bias.allFinite() && r.GA.allFinite() && r.GB.allFinite());
+    EXPECT_TRUE(r.gap.allFinite() && r.rate.allFinite() && r.bias.allFinite() && r.GA().allFinite() && r.GB().allFinite());
   }
 }
 
@@ -95,9 +95,9 @@ TEST(Distance, ByHand) {
   EXPECT_NEAR(r.gap[0], 0.5, 1e-15);
   EXPECT_NEAR(r.rate[0], 0, 1e-14);
   EXPECT_NEAR(r.bias[0], 5, 1e-14);
-  EXPECT_NEAR((r.GB.row(0).transpose() - Vec(0.6, 0.8, 0)).norm(), 0, 1e-15);
+  EXPECT_NEAR((r.GB().row(0).transpose() - Vec(0.6, 0.8, 0)).norm(), 0, 1e-15);
   EXPECT_EQ(r.gap[1], 0);
-  EXPECT_EQ(r.GB.bottomRows<2>().norm(), 0);
+  EXPECT_EQ(r.GB().bottomRows<2>().norm(), 0);
 }
 
 TEST(Distance, HasADirectionEvenAtZero) {

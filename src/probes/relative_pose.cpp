@@ -1,6 +1,11 @@
 #include "probes/relative_pose.h"
 
+#include "probes/gap_map.h"
+
 namespace pintle {
+
+RelativePose::S::Mat RelativePose::GA() const { return GapMap<double>::of(*this).GA(); }
+RelativePose::S::Mat RelativePose::GB() const { return GapMap<double>::of(*this).GB(); }
 
 Eigen::Matrix<double, 6, 6> RelativePose::geometric(const S::Vec& f) const {
   const S::Point F = world_force(f), JF = S::perp(F);

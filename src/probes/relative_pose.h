@@ -21,14 +21,16 @@ struct PoseGeometry {
 };
 
 /// z and its derivatives. Lengths in F's axes [m], angle of M against F [rad].
-///   z' = GA vA + GB vB,   z'' = GA aA + GB aB + bias
+///   z' = GA vA + GB vB,   z'' = GA aA + GB aB + bias   with GA = dz/dqA and GB = dz/dqB
 struct RelativePose {
   using S = Planar;
   S::Vec z, rate, bias;
-  S::Mat GA, GB;      // dz/dqA, dz/dqB
   S::Point arm_a;     // from A's centre of mass to M, world axes [m]
   S::Point arm_b;     // from B's centre of mass to M, world axes [m]
   double c, s;        // F's axes in the world
+
+  S::Mat GA() const;  // dz/dqA
+  S::Mat GB() const;  // dz/dqB
 
   static RelativePose between(const S::Motion& A, const S::Frame& F, const S::Motion& B, const S::Frame& M);
 
@@ -77,8 +79,6 @@ inline RelativePose RelativePose::between(const S::Motion& A, const S::Frame& F,
   r.z << g.c * g.dx + g.s * g.dy, g.c * g.dy - g.s * g.dx, B.angle + M.angle - A.angle - F.angle;  // (2.1), (2.4)
   r.rate << g.c * rx + g.s * ry, g.c * ry - g.s * rx, B.w - A.w;                    // (2.2)
   r.bias << g.bias_x, g.bias_y, 0;
-  r.GA << -g.c, -g.s, g.c * g.ay - g.s * g.ax, g.s, -g.c, -g.s * g.ay - g.c * g.ax, 0, 0, -1;  // (2.5)
-  r.GB << g.c, g.s, g.s * g.bx - g.c * g.by, -g.s, g.c, g.c * g.bx + g.s * g.by, 0, 0, 1;      // (2.6)
   return r;
 }
 

@@ -49,8 +49,9 @@ class HtmlTable {
   std::string attributes_, heads_, rows_;
 };
 
-bool misses(const LoadSummary& joint, double tolerance) {
-  return tolerance > 0 && !(joint.relative_error_estimate <= tolerance);  // a NaN does
+bool misses(const LoadSummary& joint, const Trajectory& run) {
+  if (run.of_motion || !(run.tolerance > 0)) return false;
+  return !(joint.relative_error_estimate <= run.tolerance);  // a NaN does
 }
 
 std::string seconds(double s) {
@@ -85,13 +86,19 @@ Verdict verdict_on(const Trajectory& trajectory) {
   const LoadSummary* worst = nullptr;
   std::size_t n_missed = 0, n_ambiguous = 0;
   for (const LoadSummary& joint : trajectory.joints) {
-    n_missed += misses(joint, trajectory.tolerance);
+    n_missed += misses(joint, trajectory);
     n_ambiguous += !joint.unique;
     if (!worst || !(joint.relative_error_estimate <= worst->relative_error_estimate)) worst = &joint;
   }
   if (!worst) return {Verdict::kGood, "Completed; there are no joints."};
   const std::string at = fmt::format("{} of its peak, at {}", printed_number(exponent(worst->relative_error_estimate)), worst->name);
   const std::string more = n_ambiguous ? fmt::format(" Forces of {} are not unique.", count(n_ambiguous, "joint", "joints")) : "";
+  if (trajectory.of_motion) {
+    const bool met = trajectory.motion_error <= trajectory.tolerance && trajectory.outcome == Outcome::kCompleted;
+    return {met && !n_ambiguous ? Verdict::kGood : Verdict::kDoubtful,
+            fmt::format("Places are accurate to {} of the longest way that a body has gone ({} was asked for); largest estimated error of a joint force: {}.{}",
+                        printed_number(exponent(trajectory.motion_error)), printed_number(fmt::format("{:g}", trajectory.tolerance)), at, more)};
+  }
   if (n_missed || trajectory.outcome == Outcome::kToleranceNotMet)
     return {Verdict::kDoubtful, fmt::format("{} the tolerance of {} of the peak; largest estimated error: {}.{}",
                                             n_missed == 1 ? "1 joint force misses" : fmt::format("{} joint forces miss", n_missed),
@@ -119,7 +126,7 @@ std::string force_table(const Trajectory& trajectory) {
   bool any_missed = false, any_ambiguous = false;
   for (const LoadSummary* one : joints) {
     const LoadSummary& joint = *one;
-    const bool missed = misses(joint, trajectory.tolerance);
+    const bool missed = misses(joint, trajectory);
     any_missed |= missed;
     any_ambiguous |= !joint.unique;
     const std::string name = escaped_markup(joint.name);
@@ -238,7 +245,7 @@ std::string assumption_list(const Model& model, const Trajectory& trajectory) {
     case Start::kRaw: item("The start is taken as stated, without preload; a shock is part of the result."); break;
   }
   item(fmt::format("Gravity is {:g}, {:g} m/s² along x and y.", model.gravity[0], model.gravity[1]));
-  item(fmt::format("Tolerance: {} of each joint's peak force, at every output time.", printed_number(fmt::format("{:g}", trajectory.tolerance))));
+  item(fmt::format("Tolerance: {} of {}, at every output time.", printed_number(fmt::format("{:g}", trajectory.tolerance)), trajectory.of_motion ? "the longest way that a body has gone" : "each joint's peak force"));
   item("Peaks are those at the output times; a shock between two of them is seen only with a shorter output step.");
   for (const std::string& note : trajectory.notes) item(escaped_markup(note));
   return html + "</ul>\n";

@@ -173,6 +173,7 @@ Summary summary_from(const Json& json) {
   load(json.at("notes"), trajectory.notes);
   load(json.at("method"), trajectory.method);
   load(json.at("tolerance"), trajectory.tolerance);
+  if ((trajectory.of_motion = json.contains("motion_error"))) load(json.at("motion_error"), trajectory.motion_error);
   load(json.at("t_end"), trajectory.t_end);
   load(json.at("wall_seconds"), trajectory.wall_seconds);
   load(json.at("rows"), summary.n_rows);
@@ -202,6 +203,7 @@ std::string summary_json(const Trajectory& trajectory, const RunStamp& stamp) {
   json["notes"] = trajectory.notes;
   json["method"] = trajectory.method;
   json["tolerance"] = trajectory.tolerance;
+  if (trajectory.of_motion) json["motion_error"] = trajectory.motion_error;
   json["t_end"] = trajectory.t_end;
   json["wall_seconds"] = trajectory.wall_seconds;
   json["units"] = units();

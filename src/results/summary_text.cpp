@@ -71,8 +71,9 @@ std::string section(const std::string& title, const TextTable& table, const Styl
   return table.empty() ? "" : fmt::format("\n{}\n{}", title, table.text(style.bold, style.plain));
 }
 
-bool too_inaccurate(const LoadSummary& load, double tolerance) {
-  return tolerance > 0 && !(load.relative_error_estimate <= tolerance);  // a NaN is too inaccurate as well
+bool too_inaccurate(const LoadSummary& load, const Trajectory& run) {
+  if (run.of_motion || !(run.tolerance > 0)) return false;
+  return !(load.relative_error_estimate <= run.tolerance);  // a NaN is too inaccurate as well
 }
 
 std::string joint_section(const Trajectory& trajectory, const Style& style) {
@@ -89,14 +90,14 @@ std::string joint_section(const Trajectory& trajectory, const Style& style) {
   const auto joints = pointers(trajectory.joints);
   for (const LoadSummary* one : shown(joints, [](const LoadSummary& load) { return load.peak; })) {
     const LoadSummary& load = *one;
-    const bool marked = too_inaccurate(load, trajectory.tolerance);
+    const bool marked = too_inaccurate(load, trajectory);
     table.add_row({load.name, load.type, load.second_body, load.first_body, engineering(load.peak),
                    engineering(load.peak_time), engineering(load.rms), exponent(load.error_estimate),
                    exponent(load.relative_error_estimate), (marked ? style.warn + "<" + style.plain : "") + (load.unique ? "" : " not unique")});
   }
   std::string text = section("Joint forces (magnitude)", table, style) + rest_line(joints.size());
   for (const LoadSummary* load : joints) {
-    if (!too_inaccurate(*load, trajectory.tolerance)) continue;
+    if (!too_inaccurate(*load, trajectory)) continue;
     ++n_marked;
     if (!worst || load->relative_error_estimate > worst->relative_error_estimate) worst = load;
   }
@@ -166,10 +167,11 @@ std::string energy_section(const EnergyAccount& energy, const Style& style) {
 
 std::string work_section(const Trajectory& trajectory) {
   const Counters& n = trajectory.counters;
+  const std::string motion = !trajectory.of_motion ? "" : fmt::format(" of the motion (error {} of the longest way)", exponent(trajectory.motion_error));
   return fmt::format(
-      "\nMethod {}, tolerance {:g}: {} steps ({} rejected) in {} {}\n"
+      "\nMethod {}, tolerance {:g}{}: {} steps ({} rejected) in {} {}\n"
       "  {} Newton iterations ({} failures), {} evaluations, {} factorizations\n",
-      trajectory.method, trajectory.tolerance, n.steps, n.rejected, n.passes, n.passes == 1 ? "pass" : "passes",
+      trajectory.method, trajectory.tolerance, motion, n.steps, n.rejected, n.passes, n.passes == 1 ? "pass" : "passes",
       n.newton_iterations, n.newton_failures, n.evaluations, n.factorizations);
 }
 

@@ -5,11 +5,15 @@
 #include <cmath>
 #include <utility>
 
+#include "solve/lanes.h"
+
 namespace pintle {
 
 inline double reciprocal(double a) { return 1 / a; }
 
 inline double magnitude(double a) { return std::abs(a); }
+
+inline bool is_finite(double a) { return std::isfinite(a); }
 
 /// Whether blocks of T are inverted with row pivoting.
 template <class T>
@@ -32,7 +36,7 @@ struct Block {
 
 /// C -= A B.
 template <class T, int N>
-inline void subtract_product(Block<T, N>& C, const Block<T, N>& A, const Block<T, N>& B) {
+PINTLE_LANES void subtract_product(Block<T, N>& C, const Block<T, N>& A, const Block<T, N>& B) {
   for (int i = 0; i < N; ++i)
     for (int k = 0; k < N; ++k) {
       const T aik = A(i, k);
@@ -42,7 +46,7 @@ inline void subtract_product(Block<T, N>& C, const Block<T, N>& A, const Block<T
 
 /// A B.
 template <class T, int N>
-inline Block<T, N> product(const Block<T, N>& A, const Block<T, N>& B) {
+PINTLE_LANES Block<T, N> product(const Block<T, N>& A, const Block<T, N>& B) {
   Block<T, N> C;
   for (int i = 0; i < N; ++i)
     for (int k = 0; k < N; ++k) {
@@ -54,53 +58,49 @@ inline Block<T, N> product(const Block<T, N>& A, const Block<T, N>& B) {
 
 /// y -= A x.
 template <class T, class U, int N>
-inline void subtract_product(BlockVec<U, N>& y, const Block<T, N>& A, const BlockVec<U, N>& x) {
+PINTLE_LANES void subtract_product(BlockVec<U, N>& y, const Block<T, N>& A, const BlockVec<U, N>& x) {
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j) y[i] -= A(i, j) * x[j];
 }
 
 /// A x.
 template <class T, class U, int N>
-inline BlockVec<U, N> product(const Block<T, N>& A, const BlockVec<U, N>& x) {
+PINTLE_LANES BlockVec<U, N> product(const Block<T, N>& A, const BlockVec<U, N>& x) {
   BlockVec<U, N> y;
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j) y[i] += A(i, j) * x[j];
   return y;
 }
 
-/// The inverse by Gauss-Jordan elimination; false when a pivot is exactly zero or not finite.
+/// The inverse by Gauss-Jordan elimination in place; false when a pivot is zero or not finite.
 template <class T, int N>
-inline bool invert(Block<T, N>& m) {
-  Block<T, N> inverse;
-  for (int i = 0; i < N; ++i) inverse(i, i) = T(1);
+PINTLE_LANES bool invert(Block<T, N>& m) {
+  int order[N];
+  T pivots = T(0.0);
   for (int c = 0; c < N; ++c) {
-    int pivot = c;
-    if constexpr (kPivots<T>)
+    order[c] = c;
+    if constexpr (kPivots<T>) {
       for (int r = c + 1; r < N; ++r)
-        if (magnitude(m(r, c)) > magnitude(m(pivot, c))) pivot = r;
-    const double size = magnitude(m(pivot, c));
-    if (!(size > 0) || !std::isfinite(size)) return false;
-    if (pivot != c)
-      for (int j = 0; j < N; ++j) {
-        std::swap(m(pivot, j), m(c, j));
-        std::swap(inverse(pivot, j), inverse(c, j));
-      }
-    const T scale = reciprocal(m(c, c));
-    for (int j = 0; j < N; ++j) {
-      m(c, j) = scale * m(c, j);
-      inverse(c, j) = scale * inverse(c, j);
+        if (magnitude(m(r, c)) > magnitude(m(order[c], c))) order[c] = r;
+      if (order[c] != c)
+        for (int j = 0; j < N; ++j) std::swap(m(order[c], j), m(c, j));
     }
+    const T scale = reciprocal(m(c, c));
+    pivots += scale + 0.0 * m(c, c);
+    m(c, c) = T(1.0);
+    for (int j = 0; j < N; ++j) m(c, j) = scale * m(c, j);
     for (int r = 0; r < N; ++r) {
       if (r == c) continue;
       const T f = m(r, c);
-      for (int j = 0; j < N; ++j) {
-        m(r, j) -= f * m(c, j);
-        inverse(r, j) -= f * inverse(c, j);
-      }
+      m(r, c) = T(0.0);
+      for (int j = 0; j < N; ++j) m(r, j) -= f * m(c, j);
     }
   }
-  m = inverse;
-  return true;
+  if constexpr (kPivots<T>)
+    for (int c = N - 1; c >= 0; --c)
+      if (order[c] != c)
+        for (int i = 0; i < N; ++i) std::swap(m(i, order[c]), m(i, c));
+  return is_finite(pivots);
 }
 
 }  // namespace pintle

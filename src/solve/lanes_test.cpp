@@ -5,11 +5,13 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numbers>
 #include <vector>
 
 #include "base/random_for_tests.h"
+#include "solve/wide.h"
 
 namespace pintle {
 namespace {
@@ -28,11 +30,11 @@ class AnyLanes : public testing::Test {
     for (int i = 0; i < N; ++i) x.set(i, random_.of_any_size(1e-3, 1e3));
     return x;
   }
-  // Lane by lane, and in the half register that belongs to no lane.
+  // Lane by lane, and in what of the register belongs to no lane.
   template <class F>
   static void expect_lanes(const L& found, F&& expected) {
     for (int i = 0; i < N; ++i) EXPECT_EQ(found[i], expected(i)) << i;
-    EXPECT_EQ(found.p[L::kPairs - 1][1], expected(N - 1));
+    for (int i = N; i < L::kWidth; ++i) EXPECT_EQ(found.v[i], expected(N - 1)) << i;
   }
 };
 using Sizes = testing::Types<std::integral_constant<int, 1>, std::integral_constant<int, 3>, std::integral_constant<int, 5>>;
@@ -79,6 +81,34 @@ TYPED_TEST(AnyLanes, LargerSizeIsTheLargestMagnitude) {
   }
 }
 
+#ifdef PINTLE_WIDE
+template <int N>
+using Four = std::array<Lanes<N>, 4>;
+
+template <int N>
+PINTLE_LANES void use(const Lanes<N>& a, const Lanes<N>& b, Four<N>& out) {
+  out[0] = a * b - 3.5 * a + b;
+  out[1] = larger_size(larger_size(Lanes<N>::all(0), a), b);
+  sine_and_cosine(a, out[2], out[3]);
+}
+template <int N>
+PINTLE_WIDE void use_wide(const Lanes<N>& a, const Lanes<N>& b, Four<N>& out) {
+  use(a, b, out);
+}
+
+// Whatever registers there are, the bits are the same.
+TYPED_TEST(AnyLanes, WideRegistersMakeNoDifference) {
+  if (!has_wide_registers()) GTEST_SKIP() << "this processor has none";
+  for (int again = 0; again < 1000; ++again) {
+    const auto a = this->at_random(), b = this->at_random();
+    Four<TestFixture::N> narrow, wide;
+    use(a, b, narrow);
+    use_wide(a, b, wide);
+    for (int k = 0; k < 4; ++k) this->expect_lanes(wide[k], [&](int i) { return narrow[k][i]; });
+  }
+}
+#endif
+
 TYPED_TEST(AnyLanes, MatricesAreThoseOfEigen) {
   constexpr int n = TestFixture::N;
   for (int again = 0; again < 100; ++again) {
@@ -92,7 +122,7 @@ TYPED_TEST(AnyLanes, MatricesAreThoseOfEigen) {
     const Eigen::Matrix<double, n, 1> expected = dense * dense_x;
     const auto y = m * x;
     for (int i = 0; i < n; ++i) EXPECT_NEAR(y[i], expected[i], 2e-15 * dense_x.cwiseAbs().maxCoeff());
-    EXPECT_EQ(y.p[TestFixture::L::kPairs - 1][1], y[n - 1]);
+    for (int i = n; i < TestFixture::L::kWidth; ++i) EXPECT_EQ(y.v[i], y[n - 1]);
   }
 }
 
@@ -104,18 +134,20 @@ TYPED_TEST(AnyLanes, SineAndCosineReachEveryLane) {
     EXPECT_NEAR(sine[i], std::sin(angle[i]), 2.3e-16) << angle[i];
     EXPECT_NEAR(cosine[i], std::cos(angle[i]), 2.3e-16) << angle[i];
   }
-  EXPECT_EQ(sine.p[TestFixture::L::kPairs - 1][1], sine[TestFixture::N - 1]);
-  EXPECT_EQ(cosine.p[TestFixture::L::kPairs - 1][1], cosine[TestFixture::N - 1]);
+  for (int i = TestFixture::N; i < TestFixture::L::kWidth; ++i) {
+    EXPECT_EQ(sine.v[i], sine[TestFixture::N - 1]);
+    EXPECT_EQ(cosine.v[i], cosine[TestFixture::N - 1]);
+  }
 }
 
-// The larger of the errors of sine and cosine at x, which stands beside another angle in either half of the register.
+// The larger of the errors of sine and cosine at x, which stands beside another angle in any lane.
 double error_at(double x, double beside) {
   double worst = 0;
-  for (const int half : {0, 1}) {
-    DoublePair angle{beside, beside}, sine, cosine;
-    angle[half] = x;
+  for (const int lane : {0, 1, 2}) {
+    Lanes<3> angle = Lanes<3>::all(beside), sine, cosine;
+    angle.set(lane, x);
     sine_and_cosine(angle, sine, cosine);
-    worst = std::max({worst, std::abs(sine[half] - std::sin(x)), std::abs(cosine[half] - std::cos(x))});
+    worst = std::max({worst, std::abs(sine[lane] - std::sin(x)), std::abs(cosine[lane] - std::cos(x))});
   }
   return worst;
 }
@@ -145,8 +177,8 @@ TEST(SineAndCosine, AreExactToAUnitInTheLastPlace) {
   for (const double largest : {1.0, 7.0, 1e3, kLargestAngle})
     for (int i = 0; i < 50000; ++i) {
       const double x = random.uniform(-largest, largest);
-      DoublePair sine, cosine;
-      sine_and_cosine(DoublePair{x, -x}, sine, cosine);
+      Lanes<3> sine, cosine;
+      sine_and_cosine(Lanes<3>::of({x, -x, x}), sine, cosine);
       const long double exact = x;
       worst = std::max({worst, static_cast<double>(std::abs(sine[0] - std::sin(exact))), static_cast<double>(std::abs(cosine[1] - std::cos(exact)))});
     }
@@ -173,12 +205,12 @@ TEST(SineAndCosine, HoldAtZeroAndAtTinyAngles) {
   std::vector<double> angles{0.0, -0.0, std::numeric_limits<double>::denorm_min(), -std::numeric_limits<double>::min()};
   for (int i = 0; i < 10000; ++i) angles.push_back(random.of_any_size(1e-300, 1e-3));
   for (const double x : angles) {
-    DoublePair sine, cosine;
-    sine_and_cosine(DoublePair{x, -x}, sine, cosine);
-    for (const int half : {0, 1}) {
-      const double angle = half == 0 ? x : -x;
-      EXPECT_LE(std::abs(sine[half] - std::sin(angle)), 2.3e-16 * std::abs(angle)) << angle;  // relative here
-      EXPECT_LE(std::abs(cosine[half] - std::cos(angle)), kError) << angle;
+    Lanes<3> sine, cosine;
+    sine_and_cosine(Lanes<3>::of({x, -x, x}), sine, cosine);
+    for (const int lane : {0, 1}) {
+      const double angle = lane == 0 ? x : -x;
+      EXPECT_LE(std::abs(sine[lane] - std::sin(angle)), 2.3e-16 * std::abs(angle)) << angle;  // relative here
+      EXPECT_LE(std::abs(cosine[lane] - std::cos(angle)), kError) << angle;
     }
   }
 }
@@ -197,13 +229,13 @@ TEST(SineAndCosine, AngleThatIsTooLargeIsLeftToTheStandardLibrary) {
 TEST(SineAndCosine, WhatIsNotFiniteHasNone) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity})
-    for (const int half : {0, 1}) {
-      DoublePair angle{1.25, 1.25}, sine, cosine;
-      angle[half] = bad;
+    for (const int lane : {0, 1, 2}) {
+      Lanes<3> angle = Lanes<3>::all(1.25), sine, cosine;
+      angle.set(lane, bad);
       sine_and_cosine(angle, sine, cosine);
-      EXPECT_TRUE(std::isnan(sine[half]) && std::isnan(cosine[half])) << bad;
-      EXPECT_NEAR(sine[1 - half], std::sin(1.25), kError);
-      EXPECT_NEAR(cosine[1 - half], std::cos(1.25), kError);
+      EXPECT_TRUE(std::isnan(sine[lane]) && std::isnan(cosine[lane])) << bad;
+      EXPECT_NEAR(sine[(lane + 1) % 3], std::sin(1.25), kError);
+      EXPECT_NEAR(cosine[(lane + 2) % 3], std::cos(1.25), kError);
     }
 }
 

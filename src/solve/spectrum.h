@@ -2,8 +2,8 @@
 // factorisation. Lanes: (re, im) of each complex number, the real one last.
 #pragma once
 
-#include <cmath>
-#include <limits>
+#include <cstddef>
+#include <utility>
 
 #include "solve/block.h"
 #include "solve/lanes.h"
@@ -12,55 +12,70 @@ namespace pintle {
 
 template <int N>
 struct Spectrum {
+  using Register = typename Lanes<N>::Register;
+  static constexpr int kWidth = Lanes<N>::kWidth;
   Lanes<N> x;
 
   Spectrum() = default;
-  explicit Spectrum(const Lanes<N>& lanes) : x(lanes) {}
-  explicit Spectrum(double real) {
-    for (int i = 0; i + 1 < Lanes<N>::kPairs; ++i) x.p[i] = DoublePair{real, 0};
-    x.p[Lanes<N>::kPairs - 1] = DoublePair{real, real};
+  PINTLE_LANES explicit Spectrum(const Lanes<N>& lanes) : x(lanes) {}
+  PINTLE_LANES explicit Spectrum(double real) {
+    for (int i = 0; i < kWidth; ++i) x.v[i] = i + 1 < N && i % 2 == 1 ? 0 : real;
   }
 
-  Spectrum& operator+=(const Spectrum& b) { x += b.x; return *this; }
-  Spectrum& operator-=(const Spectrum& b) { x -= b.x; return *this; }
-  friend Spectrum operator+(Spectrum a, const Spectrum& b) { return a += b; }
-  friend Spectrum operator-(Spectrum a, const Spectrum& b) { return a -= b; }
-  friend Spectrum operator-(const Spectrum& a) { return Spectrum(-a.x); }
-  friend Spectrum operator*(double f, const Spectrum& a) { return Spectrum(f * a.x); }
-  friend Spectrum operator*(const Spectrum& a, const Spectrum& b) {
-    Spectrum r;
-    constexpr int last = Lanes<N>::kPairs - 1;
-    for (int i = 0; i < last; ++i) {
-      const DoublePair u = a.x.p[i], v = b.x.p[i];
-      r.x.p[i] = DoublePair{u[0], u[0]} * v + DoublePair{-u[1], u[1]} * swapped(v);
-    }
-    r.x.p[last] = a.x.p[last] * b.x.p[last];
-    return r;
+  PINTLE_LANES Spectrum& operator+=(const Spectrum& b) { x += b.x; return *this; }
+  PINTLE_LANES Spectrum& operator-=(const Spectrum& b) { x -= b.x; return *this; }
+  PINTLE_LANES friend Spectrum operator+(const Spectrum& a, const Spectrum& b) { return Spectrum(a.x + b.x); }
+  PINTLE_LANES friend Spectrum operator-(const Spectrum& a, const Spectrum& b) { return Spectrum(a.x - b.x); }
+  PINTLE_LANES friend Spectrum operator-(const Spectrum& a) { return Spectrum(-a.x); }
+  PINTLE_LANES friend Spectrum operator*(double f, const Spectrum& a) { return Spectrum(f * a.x); }
+  // (re re) (re im) + (-im im) (im re); where there is no imaginary part the second is nothing.
+  PINTLE_LANES friend Spectrum operator*(const Spectrum& a, const Spectrum& b) {
+    return Spectrum(Lanes<N>{real_parts(a.x.v) * b.x.v + turned_imaginary_parts(a.x.v) * swapped(b.x.v)});
   }
-  friend Spectrum reciprocal(const Spectrum& a) {
-    Spectrum r;
-    constexpr int last = Lanes<N>::kPairs - 1;
-    for (int i = 0; i < last; ++i) {
-      const DoublePair u = a.x.p[i];
-      const double d = 1 / (u[0] * u[0] + u[1] * u[1]);
-      r.x.p[i] = DoublePair{u[0] * d, -u[1] * d};
-    }
-    r.x.p[last] = 1 / a.x.p[last];
-    return r;
+  PINTLE_LANES friend Spectrum reciprocal(const Spectrum& a) {
+    const Register u = a.x.v, square = u * u;
+    return Spectrum(Lanes<N>{conjugate(u) / (square + imaginary(swapped(square)))});
+  }
+
+ private:
+  // The lanes of the complex numbers come first, in pairs. What is at place `from(i)` comes to place i.
+  template <class From, std::size_t... I>
+  PINTLE_LANES static Register rearranged(const Register& a, From, std::index_sequence<I...>) {
+    return __builtin_shufflevector(a, a, From{}(I)...);
+  }
+  template <class From>
+  PINTLE_LANES static Register rearranged(const Register& a, From from) {
+    return rearranged(a, from, std::make_index_sequence<kWidth>());
+  }
+  PINTLE_LANES static Register real_parts(const Register& a) {
+    return rearranged(a, [](std::size_t i) constexpr { return i + 1 < N ? i & ~1ul : i; });
+  }
+  PINTLE_LANES static Register turned_imaginary_parts(const Register& a) {
+    return signs(-1, 1, 0) * rearranged(a, [](std::size_t i) constexpr { return i + 1 < N ? i | 1 : i; });
+  }
+  PINTLE_LANES static Register swapped(const Register& a) {
+    return rearranged(a, [](std::size_t i) constexpr { return i + 1 < N ? i ^ 1 : i; });
+  }
+  PINTLE_LANES static Register conjugate(const Register& a) { return signs(1, -1, 1) * a; }
+  PINTLE_LANES static Register imaginary(const Register& a) { return signs(1, 1, 0) * a; }
+  PINTLE_LANES static Register signs(double re, double im, double real) {
+    if constexpr (N == 1) return Register{real, real};
+    else if constexpr (N == 3) return Register{re, im, real, real};
+    else return Register{re, im, re, im, real, real, real, real};
   }
 };
 
-/// The least of its numbers, NaN when one is not finite.
+/// The real number alone, times three numbers: for solving the real system with several right-hand sides.
 template <int N>
-inline double magnitude(const Spectrum<N>& a) {
-  constexpr int last = Lanes<N>::kPairs - 1;
-  double least = std::abs(a.x.p[last][0]), sum = least;
-  for (int i = 0; i < last; ++i) {
-    const double size = std::abs(a.x.p[i][0]) + std::abs(a.x.p[i][1]);
-    least = size < least ? size : least;
-    sum += size;
-  }
-  return std::isfinite(sum) ? least : std::numeric_limits<double>::quiet_NaN();
+PINTLE_LANES Lanes<3> operator*(const Spectrum<N>& a, const Lanes<3>& b) {
+  return a.x[N - 1] * b;
+}
+
+template <int N>
+PINTLE_LANES bool is_finite(const Spectrum<N>& a) {
+  double nothing = 0;
+  for (int i = 0; i < N; ++i) nothing += 0 * a.x[i];
+  return nothing == 0;
 }
 
 /// Each number would want a pivot of its own. None is needed: mass, damping and stiffness keep every one of them, turned by a

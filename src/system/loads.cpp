@@ -96,8 +96,8 @@ void System::external(double t, const std::vector<S::Motion>& m, Vecs& Q, HeldJu
   for (std::size_t i = 0; i < bodies.size(); ++i) Q[i] = bodies[i].gravity;
   for (const LoadData& load : loads) {
     const LoadState s = load_state(load, t, m, held);
-    if (load.at.a != kGround) Q[load.at.a] += s.reading.GA.row(s.slot).transpose() * s.effort;
-    if (load.at.b != kGround) Q[load.at.b] += s.reading.GB.row(s.slot).transpose() * s.effort;
+    if (load.at.a != kGround) Q[load.at.a] += s.reading.GA().row(s.slot).transpose() * s.effort;
+    if (load.at.b != kGround) Q[load.at.b] += s.reading.GB().row(s.slot).transpose() * s.effort;
   }
   for (const AppliedData& force : applied) {
     const S::Motion& body = m[force.body];
@@ -166,7 +166,7 @@ double System::margin(const HeldJump& jump, double t, const std::vector<S::Motio
 void System::load_tangents(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held, std::vector<Tangent>& out) const {
   const LoadState s = load_state(load, t, m, held);
   const std::array<int, 2> body{load.at.a, load.at.b};
-  const std::array<Eigen::RowVector3d, 2> G{s.reading.GA.row(s.slot), s.reading.GB.row(s.slot)};
+  const std::array<Eigen::RowVector3d, 2> G{s.reading.GA().row(s.slot), s.reading.GB().row(s.slot)};
   const auto geometric = geometric_stiffness(s.probe, s.pose, Vec::Unit(s.slot) * s.effort);
   const auto rate_slope = rate_gradient(s.probe, s.pose, motion(load.at.a, m), motion(load.at.b, m));
   for (int i = 0; i < 2; ++i)
@@ -187,7 +187,7 @@ void System::load_tangents(const LoadData& load, double t, const std::vector<S::
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j) {
         if (body[i] == kGround || source[j] == kGround) continue;
-        const Eigen::RowVector3d dz = j == 0 ? p.GA.row(signal.component) : p.GB.row(signal.component);
+        const Eigen::RowVector3d dz = j == 0 ? p.GA().row(signal.component) : p.GB().row(signal.component);
         const Eigen::RowVector3d dq = signal.rate ? Eigen::RowVector3d(slope.block<1, 3>(signal.component, 3 * j)) : dz;
         const Mat zero = Mat::Zero();
         out.push_back({body[i], source[j], G[i].transpose() * (s.df_dsignal[k] * dq),

@@ -88,20 +88,22 @@ struct AppliedData {
   bool body_axes = false;
 };
 
-/// gap += G x: what the bodies' rates, accelerations or small displacements x make of a gap.
-inline void add_gap(const Placement& at, const Reading& r, const Vecs& x, Planar::Vec& gap) {
-  if (at.a != kGround) gap += r.GA * x[at.a];
-  if (at.b != kGround) gap += r.GB * x[at.b];
+/// G x: what the bodies' rates, accelerations or small displacements x make of a gap.
+inline Planar::Vec gap_change(const Placement& at, const Reading& r, const Vecs& x) {
+  constexpr double still[3] = {0, 0, 0};
+  Planar::Vec e;
+  r.map.gather(at.a != kGround ? x[at.a].data() : still, at.b != kGround ? x[at.b].data() : still, e.data());
+  return e;
 }
+/// gap += G x.
+inline void add_gap(const Placement& at, const Reading& r, const Vecs& x, Planar::Vec& gap) { gap += gap_change(at, r, x); }
 /// gap -= G x.
-inline void subtract_gap(const Placement& at, const Reading& r, const Vecs& x, Planar::Vec& gap) {
-  if (at.a != kGround) gap -= r.GA * x[at.a];
-  if (at.b != kGround) gap -= r.GB * x[at.b];
-}
+inline void subtract_gap(const Placement& at, const Reading& r, const Vecs& x, Planar::Vec& gap) { gap -= gap_change(at, r, x); }
 /// on_bodies += G' f: a gap's force as forces on its bodies.
 inline void add_force(const Placement& at, const Reading& r, const Planar::Vec& f, Vecs& on_bodies) {
-  if (at.a != kGround) on_bodies[at.a] += r.GA.transpose() * f;
-  if (at.b != kGround) on_bodies[at.b] += r.GB.transpose() * f;
+  const auto on = r.map.spread(f.data());
+  if (at.a != kGround) on_bodies[at.a] += Planar::Vec(-on.fx, -on.fy, on.ma);
+  if (at.b != kGround) on_bodies[at.b] += Planar::Vec(on.fx, on.fy, on.mb);
 }
 
 /// Forces that are not a joint's, and their energy bookkeeping.

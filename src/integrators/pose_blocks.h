@@ -1,0 +1,34 @@
+// What a joint adds to the matrices of implicit methods when its gap is the relative pose and its law has a spring and a damper
+// in each component.
+#pragma once
+
+#include "solve/block_lu.h"
+#include "system/system.h"
+
+namespace pintle {
+
+/// Adds G' w G - N to the blocks of both bodies: w stands for stiffness in each component, N is the geometric stiffness at the
+/// joint's force. In world axes w is a symmetric stiffness (xx, xy, yy) at the joint's point, which acts at the arms of both
+/// bodies, and one against turning. joints Eqs. (2.5), (2.6), (2.9).
+template <class T>
+PINTLE_LANES void add_pose_blocks(BlockLu<T, 3>& lu, const Placement& at, BlockPattern::Slot slot, const GapMap<double>& g, const T* w,
+                                  const Planar::Vec& force) {
+  const T one(1.0), xx = (g.c * g.c) * w[0] + (g.s * g.s) * w[1], yy = (g.s * g.s) * w[0] + (g.c * g.c) * w[1], xy = (g.c * g.s) * (w[0] - w[1]);
+  const T fx = (g.c * force[0] - g.s * force[1]) * one, fy = (g.s * force[0] + g.c * force[1]) * one;
+  const T ax = g.ax * xy - g.ay * xx - fy, ay = g.ax * yy - g.ay * xy + fx;
+  const T bx = g.bx * xy - g.by * xx, by = g.bx * yy - g.by * xy;
+  const auto add = [](Block<T, 3>& block, const T& k, const T& l, const T& m, const T& xt, const T& yt, const T& tx, const T& ty, const T& tt) {
+    block(0, 0) += k; block(0, 1) += l; block(0, 2) += xt;
+    block(1, 0) += l; block(1, 1) += m; block(1, 2) += yt;
+    block(2, 0) += tx; block(2, 1) += ty; block(2, 2) += tt;
+  };
+  if (at.a != kGround) add(lu.diagonal(at.a), xx, xy, yy, ax, ay, ax, ay, w[2] + g.ax * ay - g.ay * ax);
+  if (at.b != kGround) add(lu.diagonal(at.b), xx, xy, yy, bx, by, bx, by, w[2] + g.bx * (by + fx) - g.by * (bx - fy));
+  if (at.a == kGround || at.b == kGround) return;
+  const T both = w[2] + g.bx * ay - g.by * ax;
+  add(lu.off_diagonal(slot), -xx, -xy, -yy, -bx, -by, -ax, -ay, -both);
+  slot.upper = !slot.upper;
+  add(lu.off_diagonal(slot), -xx, -xy, -yy, -ax, -ay, -bx, -by, -both);
+}
+
+}  // namespace pintle

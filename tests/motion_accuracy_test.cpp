@@ -1,0 +1,82 @@
+// A tolerance of the motion: places are as accurate as asked for and as stated, and vibrations that they do not feel are
+// stepped over. The truth is a run with a far smaller tolerance of the forces, which follows every vibration.
+#include <gtest/gtest.h>
+
+#include "tests/reference_tables.h"
+
+namespace pintle {
+namespace {
+
+// The angle that matters is the crank's: in these mechanisms no point is off by more than it times the longest arm.
+struct Case {
+  const char* name;
+  const char* column;
+  double duration;
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+Trajectory run_of(const Case& c, ToleranceOf of, double tolerance) {
+  Model model = reference::mechanism(c.name);
+  model.simulate.duration = c.duration;
+  model.simulate.output_step = c.duration / 50;
+  model.simulate.tolerance_of = of;
+  model.simulate.tolerance = tolerance;
+  return simulate(model);
+}
+
+double largest_difference(const Trajectory& a, const Trajectory& b, const char* column) {
+  double worst = 0;
+  for (std::size_t row = 0; row < a.n_rows(); ++row) worst = std::max(worst, std::abs(reference::value(a, row, column) - reference::value(b, row, column)));
+  return worst;
+}
+
+class MotionAccuracy : public testing::TestWithParam<Case> {};
+
+TEST_P(MotionAccuracy, IsAsAskedForAndAsStated) {
+  const Case c = GetParam();
+  const Trajectory truth = run_of(c, ToleranceOf::kForces, 1e-7);
+  ASSERT_EQ(truth.outcome, Outcome::kCompleted) << truth.message;
+  for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+    const Trajectory run = run_of(c, ToleranceOf::kMotion, tolerance);
+    ASSERT_EQ(run.outcome, Outcome::kCompleted) << tolerance << ": " << run.message;
+    EXPECT_TRUE(run.of_motion);
+    EXPECT_LE(run.motion_error, tolerance);
+    const double error = largest_difference(run, truth, c.column);  // of a way of one or two lengths
+    EXPECT_LE(error, 3 * tolerance);
+    EXPECT_LE(error, 10 * run.motion_error + 1e-9);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Mechanisms, MotionAccuracy,
+                         testing::Values(Case{"pendulum", "body.rod.x", 4}, Case{"four_bar", "body.coupler.x", 1}, Case{"n_four_bar_1", "body.crank0.x", 2},
+                                         Case{"inverted_slider_crank", "body.crank.x", 1}),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+TEST(MotionAccuracySteps, AreThoseOfTheMotion) {
+  const Case many{"n_four_bar_10", "body.crank0.x", 4};
+  const Trajectory forces = run_of(many, ToleranceOf::kForces, 1e-3), motion = run_of(many, ToleranceOf::kMotion, 1e-3);
+  ASSERT_EQ(motion.outcome, Outcome::kCompleted) << motion.message;
+  EXPECT_LT(motion.counters.steps * 5, forces.counters.steps);
+  EXPECT_LE(largest_difference(motion, forces, many.column), 3e-3);
+}
+
+TEST(MotionAccuracySteps, StiffnessDoesNotMatter) {
+  std::uint64_t least = 0, most = 0;
+  for (const double k : {1e6, 1e8, 1e10, 1e12}) {
+    Model model = reference::mechanism("n_four_bar_1");
+    for (Joint& joint : model.joints) joint.law.values["stiffness"] = {k};
+    model.simulate.duration = 2;
+    model.simulate.tolerance_of = ToleranceOf::kMotion;
+    model.simulate.tolerance = 1e-3;
+    const Trajectory run = simulate(model);
+    ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+    std::printf("  k = %.0e: %d steps\n", k, static_cast<int>(run.counters.steps));
+    least = least == 0 ? run.counters.steps : std::min(least, run.counters.steps);
+    most = std::max(most, run.counters.steps);
+  }
+  EXPECT_LT(most, 2 * least);
+}
+
+}  // namespace
+}  // namespace pintle
