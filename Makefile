@@ -15,7 +15,7 @@ say        = @printf '\n=== %s\n' "$(1)"
 .PHONY: check-sources test-release test-package test-clang
 
 help:
-	@echo "make demo       install what is missing, build, run the paper's four-bar"
+	@echo "make demo       install what is missing, build, run the paper's four-bar, make a page of it"
 	@echo "make test       install what is missing, build and run every test and check"
 	@echo "make build      the optimised program, build/release/bin/pintle"
 	@echo "make install    library, headers and program to PREFIX (now $(PREFIX))"
@@ -41,7 +41,9 @@ build: setup
 demo: build
 	@mkdir -p out
 	@build/release/bin/pintle run mechanisms/four_bar.toml --out out/four-bar --force
+	@build/release/bin/pintle report out/four-bar --out out/four-bar.html >/dev/null
 	@echo "The results are in out/four-bar: $$(ls out/four-bar | paste -sd ' ')"
+	@echo "See them move; open this page in a browser: $(CURDIR)/out/four-bar.html"
 
 # Everything below runs one after the other, so that the log reads in order and memory suffices.
 test:

@@ -4,10 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
 #include <filesystem>
-#include <string>
 #include <string_view>
 
 #include "cli/console.h"
@@ -16,36 +13,46 @@
 namespace pintle::cli {
 namespace {
 
-constexpr std::array<std::string_view, 2> kVerbs{"sweep", "studio"};
+struct Companion {
+  const char *verb, *about, *program, *advice;
+};
 
-std::string program_of(std::string_view verb) { return fmt::format("pintle-{}", verb); }
+constexpr Companion kCompanions[] = {
+    {"sweep", kSweepDescription, "pintle-sweep", "build and install both"},
+    {"film", kFilmDescription, "pintle-pictures", "build and install both"},
+    {"studio", kStudioDescription, "pintle-studio", "install libcpp-httplib-dev, build again, and install both"},
+};
 
-void add_companion(CLI::App& app, int& exit_code, const std::string& verb_name, const char* about, const char* advice) {
-  CLI::App* verb = app.add_subcommand(verb_name, about);
-  verb->prefix_command();
-  verb->callback([&exit_code, verb_name, advice] {
-    print_error(fmt::format("pintle {0} is the program {1}, which is neither beside pintle nor on the path.\n    try: {2}\n", verb_name, program_of(verb_name), advice));
-    exit_code = kFileError;
-  });
+const char* companion_for(int argc, const char* const* argv) {
+  const std::string_view verb = argc > 1 ? argv[1] : "";
+  for (const Companion& companion : kCompanions)
+    if (verb == companion.verb) return companion.program;
+  if (verb == "plot")
+    for (int i = 2; i < argc; ++i)
+      if (std::string_view(argv[i]).ends_with(".png")) return "pintle-pictures";
+  return nullptr;
 }
 
 }  // namespace
 
 void become_companion(int argc, char** argv) {
-  if (argc < 2 || std::find(kVerbs.begin(), kVerbs.end(), argv[1]) == kVerbs.end()) return;
-  const std::string program = program_of(argv[1]);
+  const char* const program = companion_for(argc, argv);
+  if (!program) return;
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
   if (!error) ::execv((self.parent_path() / program).c_str(), argv);
-  ::execvp(program.c_str(), argv);
+  ::execvp(program, argv);
 }
 
-void add_sweep_program(CLI::App& app, int& exit_code) {
-  add_companion(app, exit_code, "sweep", kSweepDescription, "build and install both");
-}
-
-void add_studio_program(CLI::App& app, int& exit_code) {
-  add_companion(app, exit_code, "studio", "Draw, play and read mechanisms in the browser, with this folder's models", "install libcpp-httplib-dev, build again, and install both");
+void add_companions(CLI::App& app, int& exit_code) {
+  for (const Companion& companion : kCompanions) {
+    CLI::App* verb = app.add_subcommand(companion.verb, companion.about);
+    verb->prefix_command();
+    verb->callback([&exit_code, &companion] {
+      print_error(fmt::format("pintle {} is the program {}, which is neither beside pintle nor on the path.\n    try: {}\n", companion.verb, companion.program, companion.advice));
+      exit_code = kFileError;
+    });
+  }
 }
 
 }  // namespace pintle::cli

@@ -1,4 +1,4 @@
-// pintle plot: joint forces and other columns of a run as SVG.
+// pintle plot: joint forces and other columns of runs, as SVG or PNG.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,6 +8,7 @@
 
 #include "cli/console.h"
 #include "cli/exit_codes.h"
+#include "cli/run_sources.h"
 #include "cli/verbs.h"
 #include "results/disk.h"
 #include "results/run_plot.h"
@@ -20,47 +21,61 @@ constexpr const char* kFooter =
     "  pintle plot four_bar-run --joint O4\n"
     "  pintle plot four_bar-run --joint O2 --joint O4 --components magnitude --out forces.svg\n"
     "  pintle plot four_bar-run --column body.rocker.angle --column body.rocker.spin --x joint.O2.angle\n"
+    "  pintle plot four_bar-run --with softer-run --joint O4 --components magnitude\n"
+    "  pintle plot four_bar-run --joint O4 --out O4.png --width 500 --dpi 300\n"
     "\n"
     "Columns of different units stand in panels one above the other. The head of series.csv lists all columns.\n";
 
 struct PlotOptions {
   std::string run, out;
+  std::vector<std::string> others;
   PlotRequest request;
+  double width = 0, dots_per_inch = 192;
+
+  bool png() const { return out.ends_with(".png"); }
 };
 
 std::filesystem::path plot_file(const PlotOptions& options) {
   if (!options.out.empty()) return options.out;
-  std::filesystem::path folder = std::filesystem::absolute(options.run).lexically_normal();
-  if (!folder.has_filename()) folder = folder.parent_path();
-  std::string name = folder.filename().string();
+  std::string name = folder_name(options.run);
   for (const std::string& joint : options.request.joints) name += "-" + joint;
   if (options.request.joints.empty()) name += "-" + options.request.columns.front();
   return name + ".svg";
 }
 
-ExitCode plot(const PlotOptions& options) {
+ExitCode plot(const PlotOptions& options, const WritePng& write_png) {
+  if (options.png() && !write_png)
+    throw FileError(options.out + ": PNG is drawn by pintle-pictures, which was built without librsvg or is not beside pintle.\n    Install librsvg2-dev and build again, or choose .svg.");
   const RunRecord run = read_run(options.run);
-  std::string svg;
+  std::string picture;
   try {
-    svg = to_svg(make_plot(run, options.request));
+    Plot made = make_plot(run, options.request);
+    if (!options.others.empty()) {
+      std::vector<NamedPlot> plots{{folder_name(options.run), std::move(made)}};
+      for (const std::string& other : options.others) plots.push_back({folder_name(other), make_plot(read_run(other), options.request)});
+      made = overlay(plots);
+    }
+    if (options.width > 0) made.width = options.width;
+    picture = to_svg(made);
   } catch (const PlotRequestError& error) {
     print_error(fmt::format("pintle plot: {}\n", error.what()));
     return kCommandLineError;
   }
+  if (options.png()) picture = write_png(picture, options.dots_per_inch);
   if (options.out == "-") {
-    print_out(svg);
+    print_out(picture);
     return kOk;
   }
   const std::filesystem::path file = plot_file(options);
-  write_file(file, svg);
+  write_file(file, picture);
   print_out(file.string() + "\n");
   return kOk;
 }
 
 }  // namespace
 
-void add_plot(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("plot", "Draw joint forces and other columns of a run as SVG");
+void add_plot(CLI::App& app, int& exit_code, const WritePng& write_png) {
+  CLI::App* verb = app.add_subcommand("plot", "Draw joint forces and other columns of a run as SVG or PNG");
   const auto options = std::make_shared<PlotOptions>();
   PlotRequest& request = options->request;
   verb->add_option("RUN", options->run, "run folder")->required();
@@ -77,12 +92,15 @@ void add_plot(CLI::App& app, int& exit_code) {
   verb->add_option("--column", request.columns, "any column of series.csv (repeatable)")
       ->type_name("NAME")
       ->allow_extra_args(false);
+  verb->add_option("--with", options->others, "the same of another run in the same plot (repeatable)")->type_name("RUN")->allow_extra_args(false);
   verb->add_option("--x", request.x, "column along the horizontal axis")->type_name("COLUMN")->capture_default_str();
   verb->add_option("--title", request.title, "title of the plot")->type_name("TEXT");
-  verb->add_option("-o,--out", options->out, "file to write, - for standard output (default: <run>-<what>.svg)")
+  verb->add_option("-o,--out", options->out, "file to write, .svg or .png, - for SVG on standard output (default: <run>-<what>.svg)")
       ->type_name("FILE");
+  verb->add_option("--width", options->width, "of the picture, 96 of them to the inch (default: 760)")->type_name("PIXELS")->check(CLI::Range(200.0, 10000.0));
+  verb->add_option("--dpi", options->dots_per_inch, "of a PNG: dots to the inch")->type_name("DOTS")->check(CLI::Range(36.0, 1200.0))->capture_default_str();
   verb->footer(kFooter);
-  verb->callback([options, &exit_code] { exit_code = plot(*options); });
+  verb->callback([options, &exit_code, write_png] { exit_code = plot(*options, write_png); });
 }
 
 }  // namespace pintle::cli

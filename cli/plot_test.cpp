@@ -57,6 +57,38 @@ TEST_F(PlotVerb, DamagedRunGivesCode6AndItsPlace) {
   EXPECT_TRUE(holds(answer.error, "series.csv:54:5: series")) << answer.error;
 }
 
+/// Four bytes of a PNG file, the highest first.
+unsigned number_at(const std::string& png, std::size_t place) {
+  unsigned number = 0;
+  for (std::size_t i = place; i < place + 4; ++i) number = number << 8 | static_cast<unsigned char>(png.at(i));
+  return number;
+}
+
+TEST_F(PlotVerb, PngHasTheSizeAskedFor) {
+  const Answer answer = sandbox_.pintle("plot four-run --joint O4 --width 400 --dpi 240 --out O4.png");
+  if (holds(answer.error, "without librsvg")) GTEST_SKIP() << answer.error;
+  ASSERT_EQ(answer.exit_code, 0) << answer.error;
+  const std::string png = sandbox_.read("O4.png");
+  EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
+  EXPECT_EQ(number_at(png, 16), 1000u);
+  EXPECT_EQ(png.substr(37, 4), "pHYs");
+  EXPECT_EQ(number_at(png, 41), 9449u);  // 240 to the inch, to the metre
+  EXPECT_EQ(number_at(png, 50), 0x5024e7f8u);  // zlib's crc32 of the chunk
+}
+
+TEST_F(PlotVerb, SvgHasTheWidthAskedFor) {
+  EXPECT_TRUE(holds(sandbox_.pintle("plot four-run --joint O4 --width 400 --out -").out, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"400\""));
+}
+
+TEST_F(PlotVerb, RunsLieOverOneAnother) {
+  write_run(trajectory(26), stamp(), sandbox_ / "other-run");
+  const Answer answer = sandbox_.pintle("plot four-run --with other-run --joint O4 --components magnitude --out -");
+  EXPECT_EQ(answer.exit_code, 0) << answer.error;
+  EXPECT_TRUE(holds(answer.out, "four-run: |F|"));
+  EXPECT_TRUE(holds(answer.out, "other-run: |F|"));
+  EXPECT_EQ(sandbox_.pintle("plot four-run --with no-run --joint O4 --out -").exit_code, 6);
+}
+
 TEST_F(PlotVerb, FileSizeLimitLeavesTheOldPlot) {
   sandbox_.write("O4.svg", "old");
   const Answer answer = sandbox_.shell("trap '' XFSZ; ulimit -f 1; \"$PINTLE\" plot four-run --joint O4 --out O4.svg");

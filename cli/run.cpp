@@ -91,7 +91,7 @@ void print_results(const Trajectory& trajectory, const RunStamp& stamp, const Ru
     print_out(summary_json(trajectory, stamp));
   } else if (!options.quiet) {
     print_out(summary_text(trajectory, stamp, wants_colour(STDOUT_FILENO)));
-    print_out(fmt::format("\nResults in {}/ (series.csv, summary.json){}\n", folder.string(), memory_text()));
+    print_out(fmt::format("\nResults in {0}/ (series.csv, summary.json){1}\nSee them: pintle report {2}\n", folder.string(), memory_text(), shell_word(folder.string())));
   }
   const bool failed = trajectory.outcome == Outcome::kFailed;
   if (failed || (options.quiet && trajectory.outcome != Outcome::kCompleted))
@@ -104,7 +104,8 @@ ExitCode run(const RunOptions& options) {
   const Overwrite overwrite = options.force ? Overwrite::kAnyFolder : Overwrite::kRunFolder;
   const auto [text, model] = read_model_to_run(options);
   check_run_folder(folder, overwrite);
-  const RunStamp stamp{model.name, options.model, "sha256:" + sha256(text), PINTLE_VERSION, command_line()};
+  const RunStamp stamp{model.name, options.model, "sha256:" + sha256(text), PINTLE_VERSION, command_line(),
+                       all_overrides(options), text};
 
   catch_interrupts();
   ProgressReport report(progress_style(options));

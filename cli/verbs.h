@@ -2,6 +2,9 @@
 // to `exit_code`; errors leave as exceptions, which main() turns into messages and exit codes.
 #pragma once
 
+#include <functional>
+#include <string>
+
 namespace CLI {
 class App;
 }
@@ -12,7 +15,12 @@ void add_run(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
 void add_stiffen(CLI::App& app, int& exit_code);
-void add_plot(CLI::App& app, int& exit_code);
+void add_report(CLI::App& app, int& exit_code);
+/// Turns a picture into the bytes of a PNG file.
+using WritePng = std::function<std::string(const std::string& svg, double dots_per_inch)>;
+/// Without `write_png` the verb refuses PNG.
+void add_plot(CLI::App& app, int& exit_code, const WritePng& write_png);
+inline void add_plot(CLI::App& app, int& exit_code) { add_plot(app, exit_code, {}); }
 void add_solvers(CLI::App& app, int& exit_code);
 void add_convert(CLI::App& app, int& exit_code);
 void add_fmt(CLI::App& app, int& exit_code);

@@ -16,8 +16,8 @@ fail() {
 packages_of() {
   case "$1" in
     build) echo g++ cmake ninja-build pkg-config libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev libcli11-dev libfmt-dev libgtest-dev \
-      libsundials-dev libsuitesparse-dev libhdf5-dev libcpp-httplib-dev ;;
-    test) echo clang-14 libclang-rt-14-dev python3 libopenmpi-dev openmpi-bin ;;
+      libsundials-dev libsuitesparse-dev libhdf5-dev libcpp-httplib-dev librsvg2-dev ;;
+    test) echo clang-14 libclang-rt-14-dev python3 libopenmpi-dev openmpi-bin ffmpeg ;;
     bench) echo libbenchmark-dev libsimbody-dev libmujoco-dev valgrind ;;
     web) echo emscripten node-acorn chromium "$(command -v node >/dev/null || echo nodejs)" "$(command -v npm >/dev/null || echo npm)" ;;
     *) fail "unknown group '$1' (build, test, bench, web)" ;;

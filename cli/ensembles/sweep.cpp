@@ -9,12 +9,12 @@
 #include <string>
 
 #include "cli/command_line.h"
+#include "cli/companions.h"
 #include "cli/console.h"
 #include "cli/ensembles/sweep_progress.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
 #include "cli/model_options.h"
-#include "cli/companions.h"
 #include "io/document.h"
 #include "results/disk.h"
 #include "sweeps/run_sweep.h"

@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+#include "cli/companions.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
 #include "cli/interrupt.h"
@@ -85,7 +86,7 @@ ExitCode run_studio(const StudioOptions& options) {
 }  // namespace
 
 void add_studio(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("studio", "Draw, play and read mechanisms in the browser, with this folder's models");
+  CLI::App* verb = app.add_subcommand("studio", kStudioDescription);
   const auto options = std::make_shared<StudioOptions>();
   verb->add_option("MODEL", options->model, "model file to open, in this folder");
   verb->add_option("--port", options->port, fmt::format("port on 127.0.0.1 (default: {}, or a free one if that is taken)", kUsualPort))

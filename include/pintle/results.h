@@ -1,9 +1,10 @@
-// A run on disk and on the console: the run folder (series.csv, summary.json), its table, and reading it back.
+// A run on disk and on the console: the run folder (series.csv, summary.json, the model), its table, and reading it back.
 #pragma once
 
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "pintle/trajectory.h"
 
@@ -16,6 +17,8 @@ struct RunStamp {
   std::string input_hash;  ///< "sha256:..." of the model file's bytes
   std::string version;     ///< of the program that ran it
   std::string command_line;
+  std::vector<std::string> overrides{};  ///< what the command line changed in the model, as parse_model() takes it
+  std::string model_text{};              ///< the model file; empty: not known
 };
 
 struct RunRecord {
@@ -29,7 +32,7 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What write_run may replace. In either case only series.csv and summary.json are: other files in the folder stay.
+/// What write_run may replace. In either case only its own files are: other files in the folder stay.
 enum class Overwrite {
   kRunFolder,  ///< nothing but an earlier run, or an empty folder
   kAnyFolder,  ///< any folder
@@ -43,8 +46,12 @@ void check_run_folder(const std::filesystem::path& folder, Overwrite overwrite =
 void write_run(const Trajectory& trajectory, const RunStamp& stamp, const std::filesystem::path& folder,
                Overwrite overwrite = Overwrite::kRunFolder);
 
-/// Reads a run folder back. Throws FileError where it is damaged.
+/// Reads a run folder back, without the text of the model. Throws FileError where it is damaged.
 RunRecord read_run(const std::filesystem::path& folder);
+
+/// The model file of a run, from its folder, or from where it was if the folder has none. Throws FileError if it is gone
+/// or not what was run.
+std::string read_model_text(const std::filesystem::path& folder, const RunStamp& stamp);
 
 /// The text of summary.json: everything in the trajectory but the values.
 std::string summary_json(const Trajectory& trajectory, const RunStamp& stamp);

@@ -96,6 +96,13 @@ std::string tick_text(double value, double step) {
   return value < -1e-9 * step ? "−" + text : text;
 }
 
+std::string printed_number(const std::string& number) {
+  const std::size_t e = number.find('e');
+  if (e == std::string::npos) return number;
+  const std::string power = printed_unit(fmt::format("10^{}", std::stoi(number.substr(e + 1))));
+  return number.substr(0, e) == "1" ? power : number.substr(0, e) + "·" + power;
+}
+
 std::string printed_unit(const std::string& unit) {
   std::string text;
   bool raised = false;

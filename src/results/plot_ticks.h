@@ -36,6 +36,9 @@ AxisScale scale_for(double largest, const std::string& unit);
 /// Tick label with as many decimals as the step needs, with a true minus sign.
 std::string tick_text(double value, double step);
 
+/// "1.4e-06" as it is printed: "1.4·10⁻⁶"; "1e-05": "10⁻⁵".
+std::string printed_number(const std::string& number);
+
 /// "N*m/s^2" as it is printed: "N·m/s²".
 std::string printed_unit(const std::string& unit);
 

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "results/series_csv.h"
+#include "results/sha256.h"
 #include "results/summary_json.h"
 
 namespace pintle {
@@ -58,11 +59,33 @@ void write_run(const Trajectory& trajectory, const RunStamp& stamp, const fs::pa
   NewFile summary(fresh.path() / kSummaryFile, calls);
   summary.append(summary_json(trajectory, stamp));
   summary.close();
+  if (!stamp.model_text.empty()) {
+    NewFile model(fresh.path() / model_file_of(stamp), calls);
+    model.append(stamp.model_text);
+    model.close();
+  }
   fresh.publish();
 }
 
 void write_run(const Trajectory& trajectory, const RunStamp& stamp, const fs::path& folder, Overwrite overwrite) {
   write_run(trajectory, stamp, folder, overwrite, DiskCalls());
+}
+
+std::string model_file_of(const RunStamp& stamp) {
+  return stamp.model_path.ends_with(".json") ? "model-as-run.json" : "model-as-run.toml";
+}
+
+std::string read_model_text(const fs::path& folder, const RunStamp& stamp) {
+  const fs::path copy = folder / model_file_of(stamp), original = stamp.model_path;
+  const bool copied = fs::exists(copy);
+  if (!copied && !fs::exists(original))
+    throw FileError(fmt::format("{}: the run has no copy of its model, and {} is not there either.\n    Run the model again.", copy.string(),
+                                stamp.model_path.empty() ? "the model file" : stamp.model_path));
+  const std::string text = read_file(copied ? copy : original);
+  if ("sha256:" + sha256(text) != stamp.input_hash)
+    throw FileError(fmt::format("{}: this is not the model that was run: {} has another hash.\n    Run the model again.", (copied ? copy : original).string(),
+                                kSummaryFile));
+  return text;
 }
 
 RunRecord read_run(const fs::path& folder) {

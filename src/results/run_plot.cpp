@@ -9,6 +9,8 @@
 #include <string_view>
 
 #include "base/did_you_mean.h"
+#include "results/plot_ticks.h"
+#include "results/text_table.h"
 
 namespace pintle {
 namespace {
@@ -130,6 +132,7 @@ class PlotMaker {
           (alone ? "" : fmt::format("{} on {}: ", joint.name, body)) + component.label, component.subscript, {}};
       curve.y =
           component.column.empty() ? magnitude(column("fx[world]"), column("fy[world]")) : column(component.column);
+      curve.band = joint.error_estimate;
       panel_for(moment ? "N*m" : "N", moment ? "Couple" + on : "Force" + on + axes())
           .curves.push_back(std::move(curve));
     }
@@ -169,7 +172,7 @@ class PlotMaker {
     double worst = 0;
     for (const std::string& joint : request_.joints)
       worst = std::max(worst, find_joint(run_.trajectory, joint).relative_error_estimate);
-    if (worst > 0) text += fmt::format("{}estimated error {:.1e} of the peak", text.empty() ? "" : " – ", worst);
+    if (worst > 0) text += fmt::format("{}estimated error {} of the peak", text.empty() ? "" : " – ", printed_number(exponent(worst)));
     return text;
   }
 
@@ -182,6 +185,30 @@ class PlotMaker {
 
 Plot make_plot(const RunRecord& run, const PlotRequest& request) {
   return PlotMaker(run, request).make();
+}
+
+Plot overlay(const std::vector<NamedPlot>& plots) {
+  constexpr int kSolid = 7;  // styles before they repeat with dashes
+  Plot all = plots.front().plot;
+  all.subtitle.clear();
+  for (const NamedPlot& one : plots) all.subtitle += (all.subtitle.empty() ? "" : ", ") + one.name;
+  for (std::size_t p = 0; p < all.panels.size(); ++p) {
+    Panel& panel = all.panels[p];
+    panel.x_quantity = all.x_quantity;
+    panel.x_unit = all.x_unit;
+    panel.curves.clear();
+    for (std::size_t run = 0; run < plots.size(); ++run) {
+      const Plot& plot = plots[run].plot;
+      for (std::size_t i = 0; p < plot.panels.size() && i < plot.panels[p].curves.size(); ++i) {
+        Curve curve = plot.panels[p].curves[i];
+        curve.label = fmt::format("{}: {}", plots[run].name, curve.label);
+        curve.x = plot.x;
+        curve.style = static_cast<int>(i) % kSolid + kSolid * static_cast<int>(run);
+        panel.curves.push_back(std::move(curve));
+      }
+    }
+  }
+  return all;
 }
 
 }  // namespace pintle

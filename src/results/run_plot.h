@@ -29,4 +29,12 @@ class PlotRequestError : public std::runtime_error {
 /// Curves of one unit share a panel. Throws PlotRequestError.
 Plot make_plot(const RunRecord& run, const PlotRequest& request);
 
+struct NamedPlot {
+  std::string name;  ///< of the run
+  Plot plot;
+};
+
+/// The same request of several runs in one plot: what is alike has one colour, each further run other dashes.
+Plot overlay(const std::vector<NamedPlot>& plots);
+
 }  // namespace pintle

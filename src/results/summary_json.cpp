@@ -167,6 +167,7 @@ Summary summary_from(const Json& json) {
   Summary summary;
   Trajectory& trajectory = summary.run.trajectory;
   from_json(json, summary.run.stamp);
+  if (json.contains("overrides")) load(json.at("overrides"), summary.run.stamp.overrides);  // not in runs of version 0.1
   trajectory.outcome = outcome_from(json.at("outcome").get<std::string>());
   load(json.at("message"), trajectory.message);
   load(json.at("notes"), trajectory.notes);
@@ -196,6 +197,7 @@ std::string to_text(Outcome outcome) {
 std::string summary_json(const Trajectory& trajectory, const RunStamp& stamp) {
   Json json = {{kMarker, kFormat}};
   json.update(to_json(stamp));
+  json["overrides"] = stamp.overrides;
   json["outcome"] = to_text(trajectory.outcome);
   json["message"] = trajectory.message;
   json["notes"] = trajectory.notes;

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "base/utf8.h"
+#include "results/markup.h"
 #include "results/plot_ticks.h"
 #include "results/thin_line.h"
 
@@ -23,35 +24,12 @@ constexpr std::array<const char*, 4> kDashes{"", "7 3", "2 2.5", "9 3 2 3"};  //
 
 constexpr const char* kFont = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 constexpr double kTitleSize = 16, kTextSize = 12.5, kTickSize = 12;  // [px]
-constexpr double kRight = 22, kLegendRow = 20, kSample = 26, kDotRadius = 2.8;
+constexpr double kRight = 22, kLegendRow = 20, kSample = 26, kDotRadius = 2.8, kNarrowestBand = 1.2;
 constexpr double kColumnWidth = 0.5;  // what the eye can tell apart on screen and in print [px]
 
 /// How wide a text is, about [px].
 double text_width(std::string_view text, double size) {
   return 0.56 * size * static_cast<double>(count_characters(text));
-}
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : printable(text)) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
 }
 
 struct Range {
@@ -63,6 +41,12 @@ struct Range {
       low = std::min(low, value);
       high = std::max(high, value);
     }
+  }
+  /// Room for a band, if it is not far wider than the data.
+  void widen(double band) {
+    if (empty() || !(band < high - low)) return;
+    low -= band;
+    high += band;
   }
   bool empty() const { return low > high; }
   double largest() const { return empty() ? 1 : std::max(std::abs(low), std::abs(high)); }
@@ -149,6 +133,8 @@ class Picture {
   void draw_x_axis(const Frame& frame);
   void draw_legend(const Frame& frame);
   void draw_curve(const Frame& frame, std::size_t index);
+  void draw_band(const Frame& frame, std::size_t index);
+  std::vector<Point> points_of(const Frame& frame, const Curve& curve, double shift = 0) const;
   void draw_dots(const Frame& frame, const std::vector<Point>& points, std::size_t index);
 
   template <class... Args>
@@ -168,7 +154,8 @@ void Picture::scale_x(Frame& frame) const {
   Range range;
   if (!own) range.cover(plot_.x, log);
   for (const Curve& curve : frame.panel.curves) range.cover(curve.x, log);
-  const bool rising = !own && std::is_sorted(plot_.x.begin(), plot_.x.end());
+  const auto is_line = [](const Curve& curve) { return !curve.dots && std::is_sorted(curve.x.begin(), curve.x.end()); };
+  const bool rising = own ? std::all_of(frame.panel.curves.begin(), frame.panel.curves.end(), is_line) : std::is_sorted(plot_.x.begin(), plot_.x.end());
   frame.x_scale = log ? plain_scale(unit) : scale_for(range.largest(), unit);
   frame.x = log ? range.log_axis(10) : range.axis(frame.x_scale.factor, 8, rising);
 }
@@ -177,7 +164,10 @@ void Picture::lay_out() {
   double label_width = 0;
   for (const Panel& panel : plot_.panels) {
     Range range;
-    for (const Curve& curve : panel.curves) range.cover(curve.y, panel.log_y);
+    for (const Curve& curve : panel.curves) {
+      range.cover(curve.y, panel.log_y);
+      range.widen(curve.band);
+    }
     Frame frame(panel);
     scale_x(frame);
     frame.y_scale = panel.log_y ? plain_scale(panel.unit) : scale_for(range.largest(), panel.unit);
@@ -203,10 +193,10 @@ void Picture::lay_out() {
 void Picture::draw_titles() {
   if (!plot_.title.empty())
     put("<text x=\"{:.1f}\" y=\"26\" font-size=\"{}\" font-weight=\"bold\">{}</text>\n", left_, kTitleSize,
-        escaped(plot_.title));
+        escaped_markup(plot_.title));
   if (!plot_.subtitle.empty())
     put("<text x=\"{:.1f}\" y=\"45\" font-size=\"{}\" fill=\"#555\">{}</text>\n", left_, kTextSize,
-        escaped(plot_.subtitle));
+        escaped_markup(plot_.subtitle));
 }
 
 void Picture::draw_grid(const Frame& frame) {
@@ -229,7 +219,7 @@ void Picture::draw_y_axis(const Frame& frame) {
   const double middle = frame.top + frame.height / 2;
   put("<text x=\"18\" y=\"{0:.1f}\" font-size=\"{1}\" text-anchor=\"middle\" transform=\"rotate(-90 18 "
       "{0:.1f})\">{2}</text>\n",
-      middle, kTextSize, escaped(axis_title(frame.panel.quantity, frame.y_scale.unit)));
+      middle, kTextSize, escaped_markup(axis_title(frame.panel.quantity, frame.y_scale.unit)));
 }
 
 void Picture::draw_x_axis(const Frame& frame) {
@@ -244,7 +234,7 @@ void Picture::draw_x_axis(const Frame& frame) {
   for (const double tick : frame.x.ticks())
     put("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", frame.tick_px(tick), bottom + 18, frame.x.label(tick));
   put("</g>\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" text-anchor=\"middle\">{}</text>\n",
-      frame.left + frame.width / 2, bottom + 40, kTextSize, escaped(axis_title(frame.own_x() ? frame.panel.x_quantity : plot_.x_quantity, frame.x_scale.unit)));
+      frame.left + frame.width / 2, bottom + 40, kTextSize, escaped_markup(axis_title(frame.own_x() ? frame.panel.x_quantity : plot_.x_quantity, frame.x_scale.unit)));
 }
 
 void Picture::draw_legend(const Frame& frame) {
@@ -256,8 +246,8 @@ void Picture::draw_legend(const Frame& frame) {
       draw_dots(frame, {{x + kSample / 2, y - 4}}, i);
     else
       put("<path d=\"M{:.1f} {:.1f}h{}\" {} stroke-width=\"2.2\"/>\n", x, y - 4, kSample, stroke(frame, i));
-    put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">{}", x + kSample + 6, y, kTextSize, escaped(curve.label));
-    if (!curve.subscript.empty()) put("<tspan dy=\"3\" font-size=\"9.5\">{}</tspan>", escaped(curve.subscript));
+    put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">{}", x + kSample + 6, y, kTextSize, escaped_markup(curve.label));
+    if (!curve.subscript.empty()) put("<tspan dy=\"3\" font-size=\"9.5\">{}</tspan>", escaped_markup(curve.subscript));
     put("</text>\n");
   }
 }
@@ -271,12 +261,35 @@ void Picture::draw_dots(const Frame& frame, const std::vector<Point>& points, st
   put("</g>\n");
 }
 
-void Picture::draw_curve(const Frame& frame, std::size_t index) {
-  const Curve& curve = frame.panel.curves[index];
+std::vector<Point> Picture::points_of(const Frame& frame, const Curve& curve, double shift) const {
   const std::vector<double>&x = frame.own_x() ? curve.x : plot_.x, &y = curve.y;
   std::vector<Point> points;
   for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
-    points.push_back({frame.px(x[i] / frame.x_scale.factor), frame.py(y[i] / frame.y_scale.factor)});
+    points.push_back({frame.px(x[i] / frame.x_scale.factor), frame.py((y[i] + shift) / frame.y_scale.factor)});
+  return points;
+}
+
+// Only where it is wider than the line that it lies around.
+void Picture::draw_band(const Frame& frame, std::size_t index) {
+  const Curve& curve = frame.panel.curves[index];
+  if (frame.y.log || !(curve.band > 0) || !std::isfinite(curve.band)) return;
+  if (frame.height * curve.band / frame.y_scale.factor / (frame.y.high - frame.y.low) < kNarrowestBand) return;
+  std::vector<Point> edge = thin_line(points_of(frame, curve, curve.band), kColumnWidth);
+  const std::vector<Point> lower = thin_line(points_of(frame, curve, -curve.band), kColumnWidth);
+  edge.insert(edge.end(), lower.rbegin(), lower.rend());
+  put("<path fill=\"{}\" fill-opacity=\"0.2\" d=\"", kColours[style_of(frame.panel, index) % kColours.size()]);
+  const char* pen = "M";
+  for (const Point& point : edge) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
+    put("{}{:.2f} {:.2f}", pen, point.x, point.y);
+    pen = "L";
+  }
+  put("Z\"/>\n");
+}
+
+void Picture::draw_curve(const Frame& frame, std::size_t index) {
+  const Curve& curve = frame.panel.curves[index];
+  const std::vector<Point> points = points_of(frame, curve);
   if (curve.dots) draw_dots(frame, points, index);
   if (curve.dots && !curve.joined) return;
   put("<path fill=\"none\" {} stroke-width=\"1.6\" stroke-linejoin=\"round\" stroke-linecap=\"round\" d=\"",
@@ -294,7 +307,7 @@ std::string Picture::text() {
   put("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
       "role=\"img\" font-family=\"{2}\" fill=\"#222\">\n",
       plot_.width, height_, kFont);
-  put("<title>{}</title>\n", escaped(plot_.title));
+  put("<title>{}</title>\n", escaped_markup(plot_.title));
   put("<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n");
   draw_titles();
   for (const Frame& frame : frames_) {
@@ -302,6 +315,7 @@ std::string Picture::text() {
     draw_x_axis(frame);
     draw_y_axis(frame);
     draw_legend(frame);
+    for (std::size_t i = frame.panel.curves.size(); i-- > 0;) draw_band(frame, i);
     for (std::size_t i = frame.panel.curves.size(); i-- > 0;) draw_curve(frame, i);
   }
   put("</svg>\n");

@@ -13,6 +13,7 @@ struct Curve {
   bool dots = false;      ///< a dot at every point instead of a line ...
   bool joined = false;    ///< ... and the line too
   std::vector<double> x{};  ///< in a panel with an x axis of its own
+  double band = 0;          ///< half the width of a band around the line, an error [unit]
   int style = -1;           ///< which colour (the first seven solid, then the same dashed), and named even when alone; -1: by its place
 };
 

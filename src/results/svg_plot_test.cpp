@@ -182,5 +182,18 @@ TEST(RunPlot, UnitsShareOrSplitPanels) {
   EXPECT_EQ(plot.panels[1].unit, "rad");
 }
 
+TEST(SvgPlot, BandIsDrawnWhereItCanBeSeen) {
+  Plot plot;
+  plot.x_quantity = "Time";
+  plot.x_unit = "s";
+  plot.x = {0, 1, 2};
+  plot.panels = {{"Force", "N", {{"F", "", {0, 10, 5}}}}};
+  EXPECT_EQ(to_svg(plot).find("fill-opacity"), std::string::npos);
+  plot.panels[0].curves[0].band = 1e-6;
+  EXPECT_EQ(to_svg(plot).find("fill-opacity"), std::string::npos);
+  plot.panels[0].curves[0].band = 1;
+  EXPECT_NE(to_svg(plot).find("fill-opacity"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pintle

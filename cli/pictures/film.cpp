@@ -1,0 +1,188 @@
+// pintle film: a run as a film, or one instant of it as a picture.
+#include "cli/pictures/film.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/companions.h"
+#include "cli/console.h"
+#include "cli/exit_codes.h"
+#include "cli/interrupt.h"
+#include "cli/pictures/encoder.h"
+#include "cli/pictures/raster.h"
+#include "cli/progress.h"
+#include "cli/run_sources.h"
+#include "report/still.h"
+#include "results/disk.h"
+
+namespace pintle::cli {
+namespace {
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  pintle film four_bar-run\n"
+    "  pintle film four_bar-run --out four_bar.webm --fps 50 --speed 0.1 --trace coupler.B\n"
+    "  pintle film four_bar-run --still peak --out four_bar.svg\n"
+    "\n"
+    "Films are encoded by the program ffmpeg. Unless --speed says otherwise the film runs in real time if that takes\n"
+    "between 3 and 20 seconds, else in about eight.\n";
+
+struct Options {
+  std::string run, out, still;
+  double width = 760, dots_per_inch = 96, frames_per_second = 25, speed = 0;
+  bool forces = true, names = false, masses = false, dark = false, quiet = false;
+  std::vector<std::string> traces;
+};
+
+class Usage : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+double peak_time(const Trajectory& trajectory) {
+  const auto largest = std::max_element(trajectory.joints.begin(), trajectory.joints.end(),
+                                        [](const LoadSummary& a, const LoadSummary& b) { return a.peak < b.peak; });
+  return largest == trajectory.joints.end() ? 0 : largest->peak_time;
+}
+
+/// Model seconds per second of film.
+double usual_speed(double span) {
+  if (span >= 3 && span <= 20) return 1;
+  const double natural = span / 8, power = std::pow(10, std::floor(std::log10(natural))), digit = natural / power;
+  return power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
+}
+
+class FilmMaker {
+ public:
+  explicit FilmMaker(const Options& options) : options_(options), drawn_(read_drawn_run(options.run)), trajectory_(drawn_.run.trajectory) {
+    if (trajectory_.n_rows() == 0) throw FileError(options.run + ": the run has no rows: there is nothing to film.");
+    scene_ = make_scene(drawn_.model, trajectory_);
+    if (scene_.n_unseen == scene_.bodies.size())
+      throw FileError(options.run + ": the run did not record any body.\n    Run it again with record = [\"all\"] in [simulate].");
+    look_.width = options.width;
+    look_.most_height = 1.1 * options.width;
+    look_.forces = options.forces;
+    look_.names = options.names;
+    look_.masses = options.masses;
+    look_.dark = options.dark;
+    try {
+      for (const std::string& point : options.traces) traces_.push_back(make_trace(scene_, trajectory_, point));
+    } catch (const std::invalid_argument& error) {
+      throw Usage(error.what());
+    }
+  }
+
+  void draw_still(const std::filesystem::path& file) const {
+    double t = peak_time(trajectory_);
+    if (options_.still != "peak" && !CLI::detail::lexical_cast(options_.still, t))
+      throw Usage(fmt::format("found --still \"{}\": a time in seconds, or peak, is wanted here.", options_.still));
+    const std::string svg = frame(t);
+    write_file(file, file.extension() == ".png" ? png_of(svg, options_.dots_per_inch) : svg);
+  }
+
+  ExitCode film(const std::filesystem::path& file, FilmForm form) const {
+    const double first = trajectory_.at(0, 0), span = trajectory_.at(trajectory_.n_rows() - 1, 0) - first;
+    const double speed = options_.speed > 0 ? options_.speed : span > 0 ? usual_speed(span) : 1;
+    const double per_frame = speed / options_.frames_per_second;
+    if (!(span / per_frame < 1e6)) throw Usage("these would be more than a million frames.\n    A larger --speed or a smaller --fps gives fewer.");
+    const int n = std::max(1, static_cast<int>(std::lround(span / per_frame)));
+    const double scale = options_.dots_per_inch / 96;
+    const Pixels start = even(pixels_of(frame(first), scale));
+    catch_interrupts();
+    FilmEncoder encoder(file, form, start.width, start.height, options_.frames_per_second);
+    const auto began = std::chrono::steady_clock::now();
+    for (int i = 0; i < n; ++i) {
+      if (interrupted()) return wipe(), kStoppedBySignal;
+      encoder.add(i == 0 ? start : even(pixels_of(frame(first + i * per_frame), scale)));
+      show(i + 1, n, std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
+    }
+    if (watched_) print_error("\rencoding\x1b[K");
+    encoder.finish();
+    wipe();
+    return kOk;
+  }
+
+ private:
+  std::string frame(double t) const { return still_svg(scene_, instant_at(scene_, trajectory_, t), look_, traces_); }
+
+  /// Without a last odd row or column, which half-sized colour planes cannot have.
+  static Pixels even(Pixels pixels) {
+    if (pixels.width % 2 == 0 && pixels.height % 2 == 0) return pixels;
+    Pixels cut{pixels.width & ~1, pixels.height & ~1, {}};
+    for (int y = 0; y < cut.height; ++y) {
+      const auto row = pixels.bytes.begin() + 4L * y * pixels.width;
+      cut.bytes.insert(cut.bytes.end(), row, row + 4L * cut.width);
+    }
+    return cut;
+  }
+
+  void show(int done, int n, double seconds) const {
+    if (!watched_ || (done % 5 != 0 && done != n)) return;
+    print_error(fmt::format("\rframe {} of {}  {:3d} %   {} to go\x1b[K", done, n, 100 * done / n, clock_text(seconds / done * (n - done))));
+  }
+  void wipe() const {
+    if (watched_) print_error("\r\x1b[K");
+  }
+
+  const Options& options_;
+  DrawnRun drawn_;
+  const Trajectory& trajectory_;
+  Scene scene_;
+  StillOptions look_;
+  std::vector<Trace> traces_;
+  bool watched_ = !options_.quiet && is_terminal(STDERR_FILENO);
+};
+
+ExitCode make(const Options& options) {
+  const bool still = !options.still.empty();
+  const std::filesystem::path file = picture_file(options.out, options.run, still ? ".svg" : ".gif");
+  const std::string ending = file.extension().string();
+  const std::string wanted = still ? ".svg or .png" : ".gif or .webm";
+  if (still ? ending != ".svg" && ending != ".png" : ending != ".gif" && ending != ".webm")
+    throw Usage(fmt::format("found --out \"{}\": it must end in {}{}.", options.out, wanted, still ? "" : "; a picture of one instant needs --still"));
+  const FilmMaker maker(options);
+  ExitCode code = kOk;
+  if (still) maker.draw_still(file);
+  else code = maker.film(file, ending == ".gif" ? FilmForm::kGif : FilmForm::kWebm);
+  if (code == kOk && !options.quiet) print_out(file.string() + "\n");
+  return code;
+}
+
+}  // namespace
+
+void add_film(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand("film", kFilmDescription);
+  const auto options = std::make_shared<Options>();
+  verb->add_option("RUN", options->run, "run folder")->required();
+  verb->add_option("-o,--out", options->out, "file to write: .gif or .webm; with --still .svg or .png (default: <run>.gif, <run>.svg)")->type_name("FILE");
+  verb->add_option("--still", options->still, "one picture at this time, or at the largest joint force")->type_name("SECONDS|peak");
+  verb->add_option("--fps", options->frames_per_second, "frames a second")->type_name("N")->check(CLI::Range(1.0, 120.0))->capture_default_str();
+  verb->add_option("--speed", options->speed, "seconds of motion in a second of film")->type_name("FACTOR")->check(CLI::PositiveNumber);
+  verb->add_option("--width", options->width, "of the picture, 96 of them to the inch")->type_name("PIXELS")->check(CLI::Range(64.0, 10000.0))->capture_default_str();
+  verb->add_option("--dpi", options->dots_per_inch, "dots to the inch")->type_name("DOTS")->check(CLI::Range(36.0, 1200.0))->capture_default_str();
+  verb->add_flag("--forces,!--no-forces", options->forces, "arrows for the force at every joint (default)");
+  verb->add_flag("--names", options->names, "names of the joints");
+  verb->add_flag("--masses", options->masses, "marks at the centres of mass");
+  verb->add_flag("--dark", options->dark, "on a dark ground");
+  verb->add_option("--trace", options->traces, "path of this point, as body.marker (repeatable)")->type_name("POINT")->allow_extra_args(false);
+  verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
+  verb->footer(kFooter);
+  verb->callback([options, &exit_code] {
+    try {
+      exit_code = make(*options);
+    } catch (const Usage& error) {
+      print_error(fmt::format("pintle film: {}\n", error.what()));
+      exit_code = kCommandLineError;
+    }
+  });
+}
+
+}  // namespace pintle::cli

@@ -1,0 +1,37 @@
+#include "cli/run_sources.h"
+
+#include <fmt/format.h>
+
+#include "pintle/read_model.h"
+#include "results/disk.h"
+#include "results/run_folder.h"
+
+namespace pintle::cli {
+namespace fs = std::filesystem;
+
+DrawnRun read_drawn_run(const std::string& folder) {
+  DrawnRun drawn{read_run(folder), {}};
+  RunStamp& stamp = drawn.run.stamp;
+  stamp.model_text = read_model_text(folder, stamp);
+  drawn.model = parse_model(stamp.model_text, (fs::path(folder) / model_file_of(stamp)).string(), stamp.overrides);
+  return drawn;
+}
+
+std::string folder_name(const std::string& folder) {
+  fs::path path = fs::absolute(folder).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  return path.filename().string();
+}
+
+fs::path picture_file(const std::string& chosen, const std::string& run, const std::string& ending) {
+  return chosen.empty() ? fs::path(folder_name(run) + ending) : fs::path(chosen);
+}
+
+void check_replaceable(const fs::path& path, std::string_view mark, bool force) {
+  constexpr std::size_t kHead = 4096;
+  if (force || !fs::is_regular_file(path)) return;
+  if (read_file(path, kHead).find(mark) != std::string::npos) return;
+  throw FileError(fmt::format("{}: this file exists, and pintle did not write it.\n    Choose another place with --out, or replace it with --force.", path.string()));
+}
+
+}  // namespace pintle::cli

@@ -1,0 +1,29 @@
+// What the verbs that draw a run read: the run folder, and the model that was run.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "pintle/model.h"
+#include "pintle/results.h"
+
+namespace pintle::cli {
+
+struct DrawnRun {
+  RunRecord run;
+  Model model;
+};
+
+/// Throws FileError, with the place, where the folder is damaged.
+DrawnRun read_drawn_run(const std::string& folder);
+
+/// The last part of a folder's path.
+std::string folder_name(const std::string& folder);
+
+/// "<run><ending>" in the current folder, unless the user chose a file.
+std::filesystem::path picture_file(const std::string& chosen, const std::string& run, const std::string& ending);
+
+/// Throws FileError if `path` exists and is not one of ours to replace.
+void check_replaceable(const std::filesystem::path& path, std::string_view mark, bool force);
+
+}  // namespace pintle::cli

@@ -1,0 +1,27 @@
+// The tables and texts of a report's page, as HTML that reads without its script.
+#pragma once
+
+#include <string>
+
+#include "pintle/model.h"
+#include "pintle/results.h"
+
+namespace pintle {
+
+/// What became of the run, in a line: how accurate the joint forces are, or where it stopped.
+struct Verdict {
+  enum Kind { kGood, kDoubtful, kBad } kind = kGood;
+  std::string text;  ///< plain text
+};
+Verdict verdict_on(const Trajectory& trajectory);
+
+std::string facts_line(const Model& model, const Trajectory& trajectory);  ///< "0.63 s · 3 bodies · ..."
+std::string force_table(const Trajectory& trajectory);
+std::string couple_table(const Trajectory& trajectory);   ///< "" without any
+std::string drive_tables(const Trajectory& trajectory);   ///< springs and motors
+std::string energy_table(const EnergyAccount& energy);
+std::string assumption_list(const Model& model, const Trajectory& trajectory);
+std::string counter_table(const Trajectory& trajectory);
+std::string provenance(const RunStamp& stamp);
+
+}  // namespace pintle

@@ -1,0 +1,42 @@
+#include "report/paints.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace pintle {
+
+const std::vector<PaintStyle>& all_paints() {
+  constexpr Shades kNone{"", ""}, kTint{"tint", "tint"}, kBackground{"paper", "paper"};
+  static const std::vector<PaintStyle> paints{
+      {Paint::kGround, "ground", {"#e4e4de", "#343a41"}, kInk, 1.3, ""},
+      {Paint::kHatch, "hatch", kNone, kNote, 1, ""},
+      {Paint::kGuide, "guide", {"#e4e4de", "#4a525b"}, kInk, 1.2, ""},
+      {Paint::kLink, "link", kTint, kInk, 1.3, ""},
+      {Paint::kGear, "gear", kTint, kInk, 1.3, ""},
+      {Paint::kPitch, "pitch", kNone, kInk, 0.9, "9 3 2 3"},
+      {Paint::kHole, "hole", kBackground, kInk, 1.1, ""},
+      {Paint::kBlock, "block", kTint, kInk, 1.4, ""},
+      {Paint::kWeld, "weld", kInk, kNone, 0, ""},
+      {Paint::kPin, "pin", kBackground, kInk, 1.4, ""},
+      {Paint::kMass, "mass", kInk, kNone, 0, ""},
+      {Paint::kMassLight, "mass_light", kBackground, kInk, 1, ""},
+      {Paint::kSpring, "spring", kNone, {"#14784f", "#57c795"}, 1.6, ""},
+      {Paint::kRod, "rod", kNone, kInk, 2.4, ""},
+      {Paint::kRope, "rope", kNone, {"#7a5a2e", "#d1a867"}, 1.8, ""},
+      {Paint::kMotor, "motor", {"#8a3ffc", "#b692ff"}, {"#8a3ffc", "#b692ff"}, 1.8, ""},
+  };
+  return paints;
+}
+
+const PaintStyle& style_of(Paint paint) {
+  return *std::find_if(all_paints().begin(), all_paints().end(), [paint](const PaintStyle& style) { return style.paint == paint; });
+}
+
+std::string colour_of(const char* entry, int body, bool dark) {
+  const std::string_view name = entry;
+  if (name == "paper") return kPaper[dark];
+  if (name == "tint") return kTints[static_cast<std::size_t>(std::max(body, 0)) % kTints.size()][dark];
+  return std::string(name);
+}
+
+}  // namespace pintle

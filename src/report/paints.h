@@ -1,0 +1,45 @@
+// Colours and lines of a drawing, on a light and on a dark ground. The page of a report gets the same table.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "report/scene.h"
+
+namespace pintle {
+
+/// [0] on a light ground, [1] on a dark one.
+using Shades = std::array<const char*, 2>;
+
+struct PaintStyle {
+  Paint paint;
+  const char* name;   ///< in the page's data
+  Shades fill;        ///< "": not filled; "tint": the body's own colour; "paper": the ground's
+  Shades line;        ///< "": no line
+  double line_width;  ///< [px]
+  const char* dash;   ///< of the line [px]; "" for a whole one
+};
+
+const PaintStyle& style_of(Paint paint);
+const std::vector<PaintStyle>& all_paints();
+
+inline constexpr std::array<Shades, 8> kTints{{{"#c7dcf2", "#34557a"},
+                                               {"#f8d8b6", "#7d5630"},
+                                               {"#cbe7cd", "#356a49"},
+                                               {"#e4d0ed", "#684777"},
+                                               {"#f5e5a3", "#746730"},
+                                               {"#c3e8e5", "#2c6a65"},
+                                               {"#f5cdd3", "#7d404b"},
+                                               {"#dadbd5", "#555955"}}};
+inline constexpr Shades kPaper{"#ffffff", "#14181d"};
+inline constexpr Shades kInk{"#1f2933", "#dce3ea"};
+inline constexpr Shades kForce{"#c8102e", "#ff6b6b"};
+inline constexpr Shades kLoad{"#b35900", "#ffab4a"};  ///< applied forces
+inline constexpr Shades kTrace{"#2563a8", "#7db4f0"};
+inline constexpr Shades kNote{"#5b6570", "#9aa5b1"};
+
+/// A paint's entry as a colour: "tint" is that of `body`.
+std::string colour_of(const char* entry, int body, bool dark);
+
+}  // namespace pintle

@@ -1,0 +1,56 @@
+// Where bodies are in a row of a run, and at instants between rows.
+#pragma once
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "report/scene.h"
+
+namespace pintle {
+
+/// Of a body's axes: origin and the cosine and sine of their angle.
+struct Pose {
+  double x = 0, y = 0, c = 1, s = 0;
+  Vec2 world(Vec2 p) const { return {x + c * p[0] - s * p[1], y + s * p[0] + c * p[1]}; }
+  Vec2 local(Vec2 p) const { return {c * (p[0] - x) + s * (p[1] - y), -s * (p[0] - x) + c * (p[1] - y)}; }
+  Vec2 turned(Vec2 d) const { return {c * d[0] - s * d[1], s * d[0] + c * d[1]}; }
+};
+
+Pose pose_of(const BodyTrack& track, const Trajectory& trajectory, std::size_t row);
+
+/// Everything that moves, at one instant.
+struct Instant {
+  double t = 0;
+  std::vector<Pose> poses;   ///< per body of the scene
+  std::vector<Vec2> forces;  ///< per arrow of the scene [N]
+  std::vector<Vec2> loads;   ///< per load of the scene, world axes [N]
+
+  Vec2 place(const Anchor& anchor) const {
+    return anchor.body == kWorld ? anchor.point : poses[static_cast<std::size_t>(anchor.body)].world(anchor.point);
+  }
+  Vec2 place(const Spot& spot) const {
+    const Vec2 a = place(spot.at);
+    if (spot.share == 0) return a;
+    const Vec2 b = place(spot.toward);
+    return {a[0] + spot.share * (b[0] - a[0]), a[1] + spot.share * (b[1] - a[1])};
+  }
+};
+
+/// In world axes [N], on a body that is at `pose` at time t.
+Vec2 force_of(const LoadArrow& load, double t, const Pose& pose);
+
+/// At time t [s], straight between the rows beside it. The trajectory has at least one row.
+Instant instant_at(const Scene& scene, const Trajectory& trajectory, double t);
+
+/// Names of columns to their places.
+class ColumnIndex {
+ public:
+  explicit ColumnIndex(const std::vector<Column>& columns);
+  int find(const std::string& name) const;  ///< -1: there is none
+
+ private:
+  std::unordered_map<std::string, int> places_;
+};
+
+}  // namespace pintle

@@ -1,0 +1,112 @@
+// A mechanism as a drawing: shapes fixed in bodies, springs and rods between them, arrows for joint forces. Made once for a
+// run; pictures, films and the page of a report are all drawn from it. World axes, metres, y upwards.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "pintle/model.h"
+#include "pintle/trajectory.h"
+
+namespace pintle {
+
+inline constexpr int kWorld = -1;  ///< the body index of the ground
+
+/// A point, and a direction, fixed in a body (its index in the model) or in the world.
+struct Anchor {
+  int body = kWorld;
+  Vec2 point{0, 0};  ///< [m]
+  double axis = 0;   ///< [rad]
+};
+
+/// A place that moves: an anchor, or on the line from it to another one, at a share of the way.
+struct Spot {
+  Anchor at;
+  Anchor toward{};
+  double share = 0;
+};
+
+/// What a shape stands for; paints.h says how each looks.
+enum class Paint { kGround, kHatch, kGuide, kLink, kGear, kPitch, kHole, kBlock, kWeld, kPin, kMass, kMassLight, kSpring, kRod, kRope, kMotor };
+
+enum class Form {
+  kBar,     ///< paths drawn with a round pen as wide as `size`, outlined as one; closed paths are filled
+  kLine,    ///< thin lines
+  kArea,    ///< filled polygons with an outline
+  kCircle,  ///< around the first point of each path, of radius `size`
+};
+
+struct Shape {
+  Form form = Form::kLine;
+  Paint paint = Paint::kLink;
+  int body = kWorld;
+  std::vector<std::vector<Vec2>> paths;  ///< body axes [m]
+  double size = 0;                       ///< [m]
+  bool closed = false;
+};
+
+/// Drawn between two anchors that move: a spring as a zigzag, a rod, a rope.
+struct Connector {
+  std::string name;
+  Paint paint = Paint::kSpring;
+  Anchor from, to;
+  int teeth = 0;  ///< of a spring's zigzag
+};
+
+struct NamedPoint {
+  std::string name;  ///< "coupler.B", or the names of the joints there
+  Spot at;
+};
+
+/// The force on the second body of a joint; columns of the trajectory.
+struct ForceArrow {
+  std::string joint, on;
+  Spot at;
+  int fx = -1, fy = -1;
+};
+
+/// An applied force, a function of time.
+struct LoadArrow {
+  std::string name;
+  Anchor at;
+  std::array<Expression, 2> force;  ///< of t [N]
+  bool body_axes = false;
+};
+
+/// Columns of a body's pose; -1: the run did not record them, and the body is not drawn.
+struct BodyTrack {
+  std::string name;
+  int x = -1, y = -1, angle = -1;
+  bool recorded() const { return x >= 0 && y >= 0 && angle >= 0; }
+};
+
+struct Box {
+  Vec2 low{0, 0}, high{0, 0};
+  void cover(const Vec2& p, double around = 0);  ///< grows to hold p, if p is finite
+  double width() const { return high[0] - low[0]; }
+  double height() const { return high[1] - low[1]; }
+};
+
+struct Scene {
+  std::vector<BodyTrack> bodies;
+  std::vector<Shape> shapes;  ///< back to front
+  std::vector<Connector> connectors;
+  std::vector<NamedPoint> points;  ///< that a trace can follow
+  std::vector<NamedPoint> labels;
+  std::vector<ForceArrow> arrows;
+  std::vector<LoadArrow> loads;
+  Box box;                   ///< what the mechanism and its arrows cover during the run [m]
+  double unit = 1;           ///< size of a symbol [m]; a link is 1.5 units wide
+  double arrow_length = 0;   ///< of the force `arrow_force` [m]
+  double arrow_force = 0;    ///< [N]; 0: nothing to draw
+  static constexpr double kLongestArrow = 1.25;  ///< of arrow_length; a longer one is cut there and gets a second head
+  int time_decimals = 4;     ///< that tell one row from the next
+  std::size_t n_unseen = 0;  ///< bodies that the run did not record
+};
+
+/// Throws std::invalid_argument for a model that is not planar.
+Scene make_scene(const Model& model, const Trajectory& trajectory);
+
+}  // namespace pintle

@@ -1,0 +1,168 @@
+#include "report/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "report/drawn_run_for_tests.h"
+#include "report/outline.h"
+#include "report/poses.h"
+
+namespace pintle {
+namespace {
+
+using drawn::run_of_mechanism;
+
+std::size_t count(const Scene& scene, Paint paint) {
+  return static_cast<std::size_t>(std::count_if(scene.shapes.begin(), scene.shapes.end(), [paint](const Shape& shape) { return shape.paint == paint; }));
+}
+
+bool inside(const Box& box, const Vec2& p) { return p[0] >= box.low[0] && p[0] <= box.high[0] && p[1] >= box.low[1] && p[1] <= box.high[1]; }
+
+TEST(Scene, FourBarHasThreeLinksFourPinsTwoSupports) {
+  const auto [model, run] = run_of_mechanism("four_bar");
+  const Scene scene = make_scene(model, run.trajectory);
+  EXPECT_EQ(count(scene, Paint::kLink), 3u);
+  EXPECT_EQ(count(scene, Paint::kPin), 4u);
+  EXPECT_EQ(count(scene, Paint::kHatch), 2u);
+  EXPECT_EQ(scene.arrows.size(), 4u);
+  EXPECT_EQ(scene.n_unseen, 0u);
+}
+
+// The drawing closes: the end of each link is where its neighbour's is, in every row, to what the joints give way.
+TEST(Scene, LinksMeetInTheirJoints) {
+  const auto [model, run] = run_of_mechanism("four_bar");
+  const Scene scene = make_scene(model, run.trajectory);
+  const auto point = [&](const std::string& name) {
+    return std::find_if(scene.points.begin(), scene.points.end(), [&](const NamedPoint& p) { return p.name == name; })->at;
+  };
+  for (std::size_t row = 0; row < run.trajectory.n_rows(); row += 20) {
+    const Instant instant = instant_at(scene, run.trajectory, run.trajectory.at(row, 0));
+    EXPECT_LT(length(instant.place(point("crank.A")) - instant.place(point("coupler.A"))), 1e-4);
+    EXPECT_LT(length(instant.place(point("coupler.B")) - instant.place(point("follower.B"))), 1e-4);
+    EXPECT_LT(length(instant.place(point("follower.O4")) - Vec2{6, 0}), 1e-4);
+  }
+}
+
+TEST(Scene, BoxHoldsEveryPointAndArrow) {
+  const auto [model, run] = run_of_mechanism("slider_crank");
+  const Scene scene = make_scene(model, run.trajectory);
+  for (std::size_t row = 0; row < run.trajectory.n_rows(); row += 7) {
+    const Instant instant = instant_at(scene, run.trajectory, run.trajectory.at(row, 0));
+    for (const NamedPoint& point : scene.points) EXPECT_TRUE(inside(scene.box, instant.place(point.at))) << point.name;
+  }
+}
+
+TEST(Scene, ArrowsCarryTheForcesOfTheTable) {
+  const auto [model, run] = run_of_mechanism("four_bar");
+  const Trajectory& trajectory = run.trajectory;
+  const Scene scene = make_scene(model, trajectory);
+  for (const LoadSummary& joint : trajectory.joints) {
+    const Instant instant = instant_at(scene, trajectory, joint.peak_time);
+    const auto arrow = std::find_if(scene.arrows.begin(), scene.arrows.end(), [&](const ForceArrow& a) { return a.joint == joint.name; });
+    ASSERT_NE(arrow, scene.arrows.end());
+    EXPECT_EQ(arrow->on, joint.second_body);
+    EXPECT_NEAR(length(instant.forces[static_cast<std::size_t>(arrow - scene.arrows.begin())]), joint.peak, 1e-9 * joint.peak);
+  }
+}
+
+// Between rows everything is in proportion; outside the run it is the end that is nearest.
+TEST(Scene, InstantsLieBetweenRows) {
+  const auto [model, run] = run_of_mechanism("pendulum");
+  const Trajectory& trajectory = run.trajectory;
+  const Scene scene = make_scene(model, trajectory);
+  const double a = trajectory.at(10, 0), b = trajectory.at(11, 0);
+  const auto x = static_cast<std::size_t>(scene.bodies[0].x);
+  EXPECT_NEAR(instant_at(scene, trajectory, a + 0.25 * (b - a)).poses[0].x, 0.75 * trajectory.at(10, x) + 0.25 * trajectory.at(11, x), 1e-14);
+  EXPECT_EQ(instant_at(scene, trajectory, -1).poses[0].x, trajectory.at(0, x));
+  EXPECT_EQ(instant_at(scene, trajectory, 1e9).poses[0].x, trajectory.at(trajectory.n_rows() - 1, x));
+  EXPECT_EQ(instant_at(scene, trajectory, a).t, a);
+}
+
+// A uniform rod held at one end is drawn to its other end, which only its inertia tells.
+TEST(Scene, RodOnAPinHasItsLength) {
+  const auto [model, run] = run_of_mechanism("pendulum");
+  const Scene scene = make_scene(model, run.trajectory);
+  const auto bar = std::find_if(scene.shapes.begin(), scene.shapes.end(), [](const Shape& shape) { return shape.form == Form::kBar; });
+  ASSERT_NE(bar, scene.shapes.end());
+  const Vec2 pin = model.bodies[0].markers[0].position;
+  EXPECT_NEAR(length(bar->paths[0][1] - bar->paths[0][0]), 2 * length(pin), 0.01 * length(pin));
+}
+
+TEST(Scene, GuidesAreAsLongAsTheSlide) {
+  const auto [model, run] = run_of_mechanism("inverted_slider_crank");
+  const Trajectory& trajectory = run.trajectory;
+  const Scene scene = make_scene(model, trajectory);
+  const auto guide = std::find_if(scene.shapes.begin(), scene.shapes.end(), [](const Shape& shape) { return shape.paint == Paint::kGuide; });
+  ASSERT_NE(guide, scene.shapes.end());
+  const auto slide = static_cast<std::size_t>(trajectory.column("joint.P.slide"));
+  double low = 1e9, high = -1e9;
+  for (std::size_t row = 0; row < trajectory.n_rows(); ++row) low = std::min(low, trajectory.at(row, slide)), high = std::max(high, trajectory.at(row, slide));
+  const double drawn = length(guide->paths[0][1] - guide->paths[0][0]);
+  EXPECT_GT(drawn, high - low);
+  EXPECT_LT(drawn, high - low + 8 * scene.unit);
+}
+
+TEST(Scene, MeshActsWherePitchCirclesTouch) {
+  const auto [model, run] = run_of_mechanism("gear_train");
+  const Scene scene = make_scene(model, run.trajectory);
+  const auto mesh = std::find_if(scene.arrows.begin(), scene.arrows.end(), [](const ForceArrow& a) { return a.joint == "mesh"; });
+  ASSERT_NE(mesh, scene.arrows.end());
+  const Vec2 at = instant_at(scene, run.trajectory, 0.2).place(mesh->at);
+  EXPECT_NEAR(at[0], 0.020, 1e-5);
+  EXPECT_NEAR(at[1], 0, 1e-5);
+  EXPECT_EQ(count(scene, Paint::kPitch), 3u);
+}
+
+TEST(Scene, SpringsRodsAndRopesAreConnectors) {
+  const auto andrews = run_of_mechanism("andrews");
+  const Scene squeezer = make_scene(andrews.model, andrews.run.trajectory);
+  ASSERT_EQ(squeezer.connectors.size(), 1u);
+  EXPECT_EQ(squeezer.connectors[0].paint, Paint::kSpring);
+  EXPECT_EQ(std::count_if(squeezer.labels.begin(), squeezer.labels.end(), [](const NamedPoint& l) { return l.name == "E3, E4, E6"; }), 1);
+  const auto crane = run_of_mechanism("rope_pendulum");
+  const Scene pendulum = make_scene(crane.model, crane.run.trajectory);
+  ASSERT_EQ(pendulum.connectors.size(), 2u);
+  EXPECT_EQ(pendulum.connectors[0].paint, Paint::kRope);
+  EXPECT_EQ(pendulum.connectors[1].paint, Paint::kRod);
+}
+
+TEST(Scene, AppliedForcesTurnWithTheirBody) {
+  auto [model, run] = run_of_mechanism("pendulum");
+  model.forces.push_back({"push", {"rod", model.bodies[0].markers[0].name}, {Expression::constant(3), Expression::constant(4)}, Expression(), true});
+  const Scene scene = make_scene(model, run.trajectory);
+  ASSERT_EQ(scene.loads.size(), 1u);
+  const auto angle = static_cast<std::size_t>(run.trajectory.column("body.rod.angle"));
+  for (const std::size_t row : {std::size_t{0}, std::size_t{100}}) {
+    const Vec2 force = instant_at(scene, run.trajectory, run.trajectory.at(row, 0)).loads[0];
+    const double a = run.trajectory.at(row, angle);
+    EXPECT_NEAR(force[0], 3 * std::cos(a) - 4 * std::sin(a), 1e-12);
+    EXPECT_NEAR(force[1], 3 * std::sin(a) + 4 * std::cos(a), 1e-12);
+  }
+}
+
+TEST(Scene, WhatWasNotRecordedIsNotDrawn) {
+  auto [model, run] = run_of_mechanism("four_bar");
+  model.simulate.record = {"body.crank", "joint.*"};
+  const Trajectory trajectory = simulate(model);
+  const Scene scene = make_scene(model, trajectory);
+  EXPECT_EQ(scene.n_unseen, 2u);
+  EXPECT_EQ(count(scene, Paint::kLink), 1u);
+  for (const Shape& shape : scene.shapes) EXPECT_LE(shape.body, 0);
+}
+
+TEST(Scene, RunWithoutRowsIsEmpty) {
+  const auto [model, run] = run_of_mechanism("pendulum");
+  EXPECT_TRUE(make_scene(model, Trajectory()).shapes.empty());
+}
+
+TEST(Scene, OtherSpacesAreRefused) {
+  auto [model, run] = run_of_mechanism("pendulum");
+  model.space = "spatial";
+  EXPECT_THROW(make_scene(model, run.trajectory), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace pintle
