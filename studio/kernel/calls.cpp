@@ -23,8 +23,8 @@ struct PlainCall {
   std::string_view name;
   Json (*make)(Exchange&);
 };
-constexpr std::array<PlainCall, 8> kPlainCalls{{{"schema", schema}, {"catalog", catalog}, {"read", read}, {"write", write},
-                                                {"edit", edit}, {"format", format}, {"check", check}, {"run", run}}};
+constexpr std::array<PlainCall, 9> kPlainCalls{{{"schema", schema}, {"catalog", catalog}, {"read", read}, {"write", write},
+                                                {"edit", edit}, {"format", format}, {"check", check}, {"run", run}, {"report", report}}};
 
 struct SessionCall {
   std::string_view name;

@@ -89,6 +89,14 @@ TEST(StudioCalls, ARunHasColumnsPeaksAndProgress) {
   }
 }
 
+TEST(StudioCalls, AReportIsThatOfTheRun) {
+  Kernel kernel;
+  const std::string html = call(kernel, "report", {{"text", four_bar()}}).value["html"].get<std::string>();
+  EXPECT_EQ(html.find("<!doctype html>"), 0U) << html.substr(0, 100);
+  EXPECT_NE(html.find("180.7"), std::string::npos);
+  EXPECT_EQ(html.find("https://"), std::string::npos);
+}
+
 TEST(StudioCalls, ACancelledRunKeepsWhatItHas) {
   Kernel kernel;
   const Called run = call(kernel, "run", {{"text", read_file(PINTLE_SOURCE_DIR "/mechanisms/andrews.toml")}, {"set", {{"simulate.duration", "1000 s"}, {"simulate.output_step", "1 s"}}}},

@@ -71,5 +71,6 @@ Json check(Exchange& call);
 Json resolved(const Model& model);
 // runs.cpp
 Json run(Exchange& call);
+Json report(Exchange& call);
 
 }  // namespace pintle::studio

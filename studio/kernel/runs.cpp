@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "pintle/read_model.h"
+#include "pintle/report.h"
 #include "pintle/results.h"
 #include "pintle/simulate.h"
 #include "studio/kernel/exchange.h"
@@ -79,18 +80,31 @@ void demand_duration(const Model& model) {
   throw CallFault("The model does not say how long a run lasts.", "duration = \"1 s\" under [simulate]");
 }
 
+struct Asked {
+  std::string text;
+  Model model;
+};
+
+Asked model_asked_for(const Exchange& call) {
+  std::string text = text_argument(call, "text");
+  Model model = parse_model(text, name_for(text), overrides_of(call.arguments));
+  demand_duration(model);
+  return {std::move(text), std::move(model)};
+}
+
+Trajectory run_with_progress(const Model& model, const Exchange& call) {
+  ProgressGuess guess;
+  return simulate(model, [&](const Progress& progress) {
+    const double fraction = guess.at(progress);
+    return !call.on_progress || call.on_progress(dump(progress_json(progress, fraction)));
+  });
+}
+
 }  // namespace
 
 Json run(Exchange& call) {
-  const std::string text = text_argument(call, "text");
-  const Model model = parse_model(text, name_for(text), overrides_of(call.arguments));
-  demand_duration(model);
-  ProgressGuess guess;
-  const Observer observer = [&](const Progress& progress) {
-    const double fraction = guess.at(progress);
-    return !call.on_progress || call.on_progress(dump(progress_json(progress, fraction)));
-  };
-  Trajectory trajectory = simulate(model, observer);
+  const Model model = model_asked_for(call).model;
+  const Trajectory trajectory = run_with_progress(model, call);
 
   Json out = Json::parse(summary_json(trajectory, {model.name, "", "", PINTLE_VERSION, ""}));
   Json columns = Json::array(), values = Json::array();
@@ -110,6 +124,14 @@ Json run(Exchange& call) {
                       {"hint", failed ? "Look at the loads and motors that act at that time: do they stay finite, do they feed energy? What was computed before is kept." : ""}};
   }
   return out;
+}
+
+// The page of `pintle report`, of a run made anew: it is the same bits, and the page holds no trajectory.
+Json report(Exchange& call) {
+  const auto [text, model] = model_asked_for(call);
+  RunRecord run{{model.name, name_for(text), "", PINTLE_VERSION, ""}, run_with_progress(model, call)};
+  run.stamp.model_text = text;
+  return {{"html", report_html(model, run)}};
 }
 
 }  // namespace pintle::studio

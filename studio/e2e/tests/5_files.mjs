@@ -26,6 +26,7 @@ export const tests = {
     assert.match(svg, /^<svg[^>]*viewBox/);
     assert(!svg.includes("var(--"), "colours of the page in the SVG");
     const report = (await exported(page, "report")).toString();
+    assert.match(report, /: Pintle report<\/title>/);
     assert.match(report, /674\.07 N/);
     const gif = await exported(page, "GIF");
     assert.equal(gif.subarray(0, 6).toString(), "GIF89a");

@@ -1,6 +1,7 @@
 // What leaves the page as a file: the run as CSV, the drawing as SVG, the motion as GIF.
 import { say } from "../actions";
 import { theView } from "../drawing/canvas";
+import { kernel } from "../play/desk";
 import { player } from "../play/player";
 import { studio } from "../state";
 import sceneStyle from "../styles/scene.css?inline";
@@ -100,8 +101,8 @@ async function exportGif(): Promise<void> {
 }
 
 async function exportReport(): Promise<void> {
-  const { run } = studio.get();
+  const { run, history } = studio.get();
   if (!run.answer) return say("There is no run to report on yet.");
-  const { reportOf } = await import("./report");
-  download(new Blob([await reportOf()], { type: "text/html" }), `${stem()}-report.html`);
+  say("The report is made, of a run of the model as it is now.");
+  download(new Blob([await kernel.report(history.text)], { type: "text/html" }), `${stem()}-report.html`);
 }

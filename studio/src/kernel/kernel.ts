@@ -58,6 +58,8 @@ export interface Kernel {
   openDrag(text: string): Promise<DragSession>;
   openLive(text: string, options?: LiveOptions): Promise<LiveSession>;
   run(text: string, options?: RunOptions): RunHandle;
+  /** The page of `pintle report` for a run of the model, which is made once more for it. */
+  report(text: string, onProgress?: (progress: RunProgress) => void): Promise<string>;
   /** The server of `pintle studio`: files of its folder, native runs. Null where the page comes from another server. */
   native(): Promise<NativeServer | null>;
   /** Ends the workers. */
@@ -212,6 +214,7 @@ export function startKernel(place: KernelPlace = {}): Kernel {
     schema: () => ask("desk", "schema", {}),
     catalog: () => ask("desk", "catalog", {}),
     read: (text) => ask("desk", "read", { text }),
+    report: async (text, onProgress) => (await ask<{ html: string }>("run", "report", { text, set: {} }, { onProgress })).html,
     write: (model) => ask("desk", "write", { model }),
     edit: (text, path, value) => ask("desk", "edit", { text, path, value }),
     format: (text) => ask("desk", "format", { text }),
