@@ -7,6 +7,10 @@ const AXE = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 
 async function violations(page) {
   await page.addScriptTag({ path: AXE });
+  // Colours on their way from one to another are nobody's; only animations that end are waited for.
+  await page.evaluate(() =>
+    Promise.allSettled(document.getAnimations().filter((one) => one.effect.getComputedTiming().endTime < 2000).map((one) => one.finished)),
+  );
   const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
   return found.violations.map((one) => `${one.id} (${one.impact}): ${one.nodes.slice(0, 3).map((node) => `${node.target} ${node.failureSummary}`).join(" | ")}`);
 }
