@@ -4,7 +4,8 @@
   - a file in src/<room> includes nothing of a room on its right; laws and probes do not see each other;
   - nothing in src/ includes the program, tests or benchmarks; a public header includes public headers only;
   - no file has more than 500 lines, no function more than 100;
-  - no vague names in files and types; no notes to self.
+  - no vague names in files and types; no notes to self;
+  - no constant or type of one name in two headers: the linker would give one's value or code to the readers of the other.
 """
 import pathlib
 import re
@@ -31,6 +32,10 @@ VAGUE = {"manager", "handler", "util", "utils", "helper", "helpers", "misc", "da
 NOTE = re.compile(r"\b(" + "TO" + "DO|FIX" + "ME|XX" + r"X)\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
 TYPE = re.compile(r"^\s*(?:class|struct|enum class|enum|namespace)\s+(\w+)")
+SHARED_NAME = re.compile(
+    r"^inline\s+(?:constexpr|const)\b[^=({]*?\b(?P<constant>k[A-Z]\w*)\s*[={(;\[]|^(?:struct|class|enum class)\s+(?P<type>\w+)\s*(?:final\s*)?(?::[^:].*)?\{"
+)
+NAMESPACE = re.compile(r"^namespace\s+([\w:]*)\s*\{")
 FUNCTION = re.compile(r"^(?!namespace|class|struct|enum|union|extern|template|#|//|})\S.*\)[^;=]*\{$")
 
 
@@ -97,9 +102,25 @@ def breaches(root, path):
             yield number, f"the name {named[1]} says '{', '.join(sorted(vague))}': name what it is"
 
 
+def twin_names(headers):
+    """(path, line, message) of every constant and type that another header has too; `headers` are (path, lines)."""
+    first = {}
+    for path, lines in headers:
+        space = ""
+        for number, line in enumerate(lines, 1):
+            if opened := NAMESPACE.match(line):
+                space = opened[1]
+            if not (found := SHARED_NAME.match(line)):
+                continue
+            name = f"{space}::{found['constant'] or found['type']}"
+            place = first.setdefault(name, (path, number))
+            if place[0] != path:
+                yield path, number, f"{place[0]}:{place[1]} has {name} too: the linker would mix the two"
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent).resolve()
-    count, files = 0, 0
+    count, files, headers = 0, 0, []
     for folder in FOLDERS:
         for file in sorted((root / folder).rglob("*")):
             path = file.relative_to(root)
@@ -109,6 +130,11 @@ def main():
             for line, message in breaches(root, path):
                 print(f"{path}:{line}: {message}")
                 count += 1
+            if file.suffix == ".h":
+                headers.append((path, file.read_text(encoding="utf-8").splitlines()))
+    for path, line, message in twin_names(headers):
+        print(f"{path}:{line}: {message}")
+        count += 1
     print(f"check_sources: {files} files, {count} breach{'' if count == 1 else 'es'}")
     return 1 if count else 0
 

@@ -157,7 +157,7 @@ class PageData {
 
   Json point(const Vec2& p) const { return {rounded(p[0], grain_), rounded(p[1], grain_)}; }
   Json anchor(const Anchor& at) const { return {{"body", at.body}, {"point", point(at.point)}}; }
-  Json spot(const Spot& at) const {
+  Json spot(const MovingPoint& at) const {
     Json json = anchor(at.at);
     if (at.share != 0) json.update({{"toward", anchor(at.toward)}, {"share", at.share}});
     return json;
@@ -217,7 +217,7 @@ class PageData {
     Json styles = Json::object();
     for (const PaintStyle& style : all_paints())
       styles[style.name] = {{"fill", style.fill}, {"line", style.line}, {"width", style.line_width}, {"dash", style.dash}};
-    return {{"styles", styles}, {"tints", kTints}, {"paper", kPaper}, {"ink", kInk}, {"force", kForce}, {"load", kLoad}, {"trace", kTrace}, {"note", kNote}};
+    return {{"styles", styles}, {"tints", kTints}, {"paper", kPaperShades}, {"ink", kInkShades}, {"force", kForceShades}, {"load", kLoadShades}, {"trace", kTraceShades}, {"note", kNoteShades}};
   }
 
   const Scene& scene_;

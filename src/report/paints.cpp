@@ -8,20 +8,20 @@ namespace pintle {
 const std::vector<PaintStyle>& all_paints() {
   constexpr Shades kNone{"", ""}, kTint{"tint", "tint"}, kBackground{"paper", "paper"};
   static const std::vector<PaintStyle> paints{
-      {Paint::kGround, "ground", {"#e4e4de", "#343a41"}, kInk, 1.3, ""},
-      {Paint::kHatch, "hatch", kNone, kNote, 1, ""},
-      {Paint::kGuide, "guide", {"#e4e4de", "#4a525b"}, kInk, 1.2, ""},
-      {Paint::kLink, "link", kTint, kInk, 1.3, ""},
-      {Paint::kGear, "gear", kTint, kInk, 1.3, ""},
-      {Paint::kPitch, "pitch", kNone, kInk, 0.9, "9 3 2 3"},
-      {Paint::kHole, "hole", kBackground, kInk, 1.1, ""},
-      {Paint::kBlock, "block", kTint, kInk, 1.4, ""},
-      {Paint::kWeld, "weld", kInk, kNone, 0, ""},
-      {Paint::kPin, "pin", kBackground, kInk, 1.4, ""},
-      {Paint::kMass, "mass", kInk, kNone, 0, ""},
-      {Paint::kMassLight, "mass_light", kBackground, kInk, 1, ""},
+      {Paint::kGround, "ground", {"#e4e4de", "#343a41"}, kInkShades, 1.3, ""},
+      {Paint::kHatch, "hatch", kNone, kNoteShades, 1, ""},
+      {Paint::kGuide, "guide", {"#e4e4de", "#4a525b"}, kInkShades, 1.2, ""},
+      {Paint::kLink, "link", kTint, kInkShades, 1.3, ""},
+      {Paint::kGear, "gear", kTint, kInkShades, 1.3, ""},
+      {Paint::kPitch, "pitch", kNone, kInkShades, 0.9, "9 3 2 3"},
+      {Paint::kHole, "hole", kBackground, kInkShades, 1.1, ""},
+      {Paint::kBlock, "block", kTint, kInkShades, 1.4, ""},
+      {Paint::kWeld, "weld", kInkShades, kNone, 0, ""},
+      {Paint::kPin, "pin", kBackground, kInkShades, 1.4, ""},
+      {Paint::kMass, "mass", kInkShades, kNone, 0, ""},
+      {Paint::kMassLight, "mass_light", kBackground, kInkShades, 1, ""},
       {Paint::kSpring, "spring", kNone, {"#14784f", "#57c795"}, 1.6, ""},
-      {Paint::kRod, "rod", kNone, kInk, 2.4, ""},
+      {Paint::kRod, "rod", kNone, kInkShades, 2.4, ""},
       {Paint::kRope, "rope", kNone, {"#7a5a2e", "#d1a867"}, 1.8, ""},
       {Paint::kMotor, "motor", {"#8a3ffc", "#b692ff"}, {"#8a3ffc", "#b692ff"}, 1.8, ""},
   };
@@ -34,7 +34,7 @@ const PaintStyle& style_of(Paint paint) {
 
 std::string colour_of(const char* entry, int body, bool dark) {
   const std::string_view name = entry;
-  if (name == "paper") return kPaper[dark];
+  if (name == "paper") return kPaperShades[dark];
   if (name == "tint") return kTints[static_cast<std::size_t>(std::max(body, 0)) % kTints.size()][dark];
   return std::string(name);
 }

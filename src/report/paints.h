@@ -32,12 +32,12 @@ inline constexpr std::array<Shades, 8> kTints{{{"#c7dcf2", "#34557a"},
                                                {"#c3e8e5", "#2c6a65"},
                                                {"#f5cdd3", "#7d404b"},
                                                {"#dadbd5", "#555955"}}};
-inline constexpr Shades kPaper{"#ffffff", "#14181d"};
-inline constexpr Shades kInk{"#1f2933", "#dce3ea"};
-inline constexpr Shades kForce{"#c8102e", "#ff6b6b"};
-inline constexpr Shades kLoad{"#b35900", "#ffab4a"};  ///< applied forces
-inline constexpr Shades kTrace{"#2563a8", "#7db4f0"};
-inline constexpr Shades kNote{"#5b6570", "#9aa5b1"};
+inline constexpr Shades kPaperShades{"#ffffff", "#14181d"};
+inline constexpr Shades kInkShades{"#1f2933", "#dce3ea"};
+inline constexpr Shades kForceShades{"#c8102e", "#ff6b6b"};
+inline constexpr Shades kLoadShades{"#b35900", "#ffab4a"};  ///< applied forces
+inline constexpr Shades kTraceShades{"#2563a8", "#7db4f0"};
+inline constexpr Shades kNoteShades{"#5b6570", "#9aa5b1"};
 
 /// A paint's entry as a colour: "tint" is that of `body`.
 std::string colour_of(const char* entry, int body, bool dark);

@@ -29,7 +29,7 @@ struct Instant {
   Vec2 place(const Anchor& anchor) const {
     return anchor.body == kWorld ? anchor.point : poses[static_cast<std::size_t>(anchor.body)].world(anchor.point);
   }
-  Vec2 place(const Spot& spot) const {
+  Vec2 place(const MovingPoint& spot) const {
     const Vec2 a = place(spot.at);
     if (spot.share == 0) return a;
     const Vec2 b = place(spot.toward);

@@ -164,17 +164,17 @@ void SceneMaker::add_connectors() {
 }
 
 // A mesh acts where the pitch circles touch, everything else at the second marker.
-std::optional<Spot> SceneMaker::spot_of(const Joint& joint) const {
+std::optional<MovingPoint> SceneMaker::spot_of(const Joint& joint) const {
   const auto first = find(joint.first), second = find(joint.second);
-  if (!second) return first ? std::optional(Spot{*first}) : std::nullopt;
-  if (joint.type != "gear" || !first) return Spot{*second};
+  if (!second) return first ? std::optional(MovingPoint{*first}) : std::nullopt;
+  if (joint.type != "gear" || !first) return MovingPoint{*second};
   const double a = joint.geometry.at("radius_first"), b = joint.geometry.at("radius_second");
   const bool internal = joint.geometry.contains("internal") && joint.geometry.at("internal") > 0;
   const double apart = internal ? a - b : a + b;
-  return apart == 0 ? Spot{*second} : Spot{*first, *second, a / apart};
+  return apart == 0 ? MovingPoint{*second} : MovingPoint{*first, *second, a / apart};
 }
 
-Vec2 SceneMaker::place(const Spot& spot, std::size_t row) const {
+Vec2 SceneMaker::place(const MovingPoint& spot, std::size_t row) const {
   const Vec2 a = pose(spot.at.body, row).world(spot.at.point), b = pose(spot.toward.body, row).world(spot.toward.point);
   return {a[0] + spot.share * (b[0] - a[0]), a[1] + spot.share * (b[1] - a[1])};
 }

@@ -22,7 +22,7 @@ struct Anchor {
 };
 
 /// A place that moves: an anchor, or on the line from it to another one, at a share of the way.
-struct Spot {
+struct MovingPoint {
   Anchor at;
   Anchor toward{};
   double share = 0;
@@ -57,13 +57,13 @@ struct Connector {
 
 struct NamedPoint {
   std::string name;  ///< "coupler.B", or the names of the joints there
-  Spot at;
+  MovingPoint at;
 };
 
 /// The force on the second body of a joint; columns of the trajectory.
 struct ForceArrow {
   std::string joint, on;
-  Spot at;
+  MovingPoint at;
   int fx = -1, fy = -1;
 };
 

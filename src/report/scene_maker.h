@@ -50,8 +50,8 @@ class SceneMaker {
   void scale_arrows();
   std::optional<Anchor> find(const MarkerRef& ref) const;  ///< absent: its body was not recorded
   Pose pose(int body, std::size_t row) const;
-  std::optional<Spot> spot_of(const Joint& joint) const;  ///< where its force acts
-  Vec2 place(const Spot& spot, std::size_t row) const;
+  std::optional<MovingPoint> spot_of(const Joint& joint) const;  ///< where its force acts
+  Vec2 place(const MovingPoint& spot, std::size_t row) const;
   void put(Layer layer, Shape shape) { layers_[layer].push_back(std::move(shape)); }
   std::size_t drawable_rows() const;
   std::vector<std::size_t> sample_rows(std::size_t most) const;

@@ -31,7 +31,7 @@ class Drawing {
         "role=\"img\" font-family=\"{2}\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n",
         frame_.width, frame_.height, kFont);
     put("<title>The mechanism at t = {:.5g} s</title>\n", instant_.t);
-    put("<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n", kPaper[options_.dark]);
+    put("<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n", kPaperShades[options_.dark]);
     for (const Trace& trace : traces) draw_trace(trace);
     for (const Shape& shape : scene_.shapes) draw_shape(shape);
     for (const Connector& connector : scene_.connectors) draw_connector(connector);
@@ -118,7 +118,7 @@ class Drawing {
     for (const Vec2& p : trace.points) points.push_back({px(p)[0], px(p)[1]});
     std::vector<Vec2> kept;
     for (const Point& p : thin_line(points, 0.4)) kept.push_back({p.x, p.y});
-    put("<path d=\"{}\" stroke=\"{}\" stroke-width=\"1.4\" stroke-opacity=\"0.75\"/>\n", path_text(kept, false), kTrace[options_.dark]);
+    put("<path d=\"{}\" stroke=\"{}\" stroke-width=\"1.4\" stroke-opacity=\"0.75\"/>\n", path_text(kept, false), kTraceShades[options_.dark]);
   }
 
   void draw_arrow(const Vec2& tail, const Vec2& tip, bool cut, const char* colour) {
@@ -144,11 +144,11 @@ class Drawing {
       if (!std::isfinite(size) || size * frame_.scale < 1) return;
       draw_arrow(px(at), px(at + std::min(size, most) * unit(force)), size > most, colour);
     };
-    for (std::size_t i = 0; i < scene_.loads.size(); ++i) draw(instant_.place(scene_.loads[i].at), instant_.loads[i], kLoad[options_.dark]);
-    for (std::size_t i = 0; i < scene_.arrows.size(); ++i) draw(instant_.place(scene_.arrows[i].at), instant_.forces[i], kForce[options_.dark]);
+    for (std::size_t i = 0; i < scene_.loads.size(); ++i) draw(instant_.place(scene_.loads[i].at), instant_.loads[i], kLoadShades[options_.dark]);
+    for (std::size_t i = 0; i < scene_.arrows.size(); ++i) draw(instant_.place(scene_.arrows[i].at), instant_.forces[i], kForceShades[options_.dark]);
     const double nice = scale_force(scene_.arrow_force), bar = nice * per_newton * frame_.scale;
-    draw_arrow({14, frame_.height - 16}, {14 + bar, frame_.height - 16}, false, kForce[options_.dark]);
-    put("</g>\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"12\" fill=\"{}\">{}</text>\n", 22 + bar, frame_.height - 12, kInk[options_.dark], scale_text(nice));
+    draw_arrow({14, frame_.height - 16}, {14 + bar, frame_.height - 16}, false, kForceShades[options_.dark]);
+    put("</g>\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"12\" fill=\"{}\">{}</text>\n", 22 + bar, frame_.height - 12, kInkShades[options_.dark], scale_text(nice));
   }
 
   void draw_labels() {
@@ -160,13 +160,13 @@ class Drawing {
       const bool left = at[0] < middle[0] ? at[0] > wide : at[0] + wide > frame_.width;
       put("<text x=\"{0:.1f}\" y=\"{1:.1f}\" font-size=\"12.5\" font-style=\"italic\" text-anchor=\"{2}\" fill=\"{3}\" stroke=\"{4}\" "
           "stroke-width=\"3\" paint-order=\"stroke\">{5}</text>\n",
-          at[0] + (left ? -off : off), at[1] - off, left ? "end" : "start", kInk[options_.dark], kPaper[options_.dark], escaped_markup(label.name));
+          at[0] + (left ? -off : off), at[1] - off, left ? "end" : "start", kInkShades[options_.dark], kPaperShades[options_.dark], escaped_markup(label.name));
     }
   }
 
   void draw_clock() {
     put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"12.5\" text-anchor=\"end\" fill=\"{}\">t = {:.{}f} s</text>\n", frame_.width - 12,
-        frame_.height - 12, kNote[options_.dark], instant_.t, scene_.time_decimals);
+        frame_.height - 12, kNoteShades[options_.dark], instant_.t, scene_.time_decimals);
   }
 
   /// The largest of 1, 2, 5 times a power of ten that is not above it.

@@ -26,8 +26,8 @@ class AxisReader {
  public:
   AxisReader(ModelReading& reading, const std::string& text, int source) : reading_(reading), text_(text), source_(source) {}
 
-  Axis read() {
-    Axis axis;
+  SweepAxis read() {
+    SweepAxis axis;
     const std::size_t equals = text_.find('=');
     if (equals == std::string::npos) {
       complain(0, "what varies is PATH=FROM..TO:lin|log:COUNT, or PATH=A,B,C", kExample);
@@ -150,7 +150,7 @@ std::uint64_t stream_of(const std::string& path) {
 
 }  // namespace
 
-Axis read_axis(ModelReading& reading, const std::string& text, int source) { return AxisReader(reading, text, source).read(); }
+SweepAxis read_axis(ModelReading& reading, const std::string& text, int source) { return AxisReader(reading, text, source).read(); }
 
 SweepPlan::SweepPlan(const SweepRequest& request, ModelReading& reading, int first_source) : zip_(request.zip), samples_(request.samples), seed_(request.seed) {
   for (std::size_t i = 0; i < request.vary.size(); ++i) axes_.push_back(read_axis(reading, request.vary[i], first_source + static_cast<int>(i)));
@@ -208,14 +208,14 @@ double SweepPlan::share(std::size_t variable, std::uint64_t draw) const {
 
 std::vector<std::string> SweepPlan::paths() const {
   std::vector<std::string> out;
-  for (const Axis& axis : axes_) out.push_back(axis.path);
+  for (const SweepAxis& axis : axes_) out.push_back(axis.path);
   for (const Variation& v : variations_) out.push_back(v.path);
   return out;
 }
 
 std::vector<std::string> SweepPlan::units() const {
   std::vector<std::string> out;
-  for (const Axis& axis : axes_) out.push_back(axis.unit);
+  for (const SweepAxis& axis : axes_) out.push_back(axis.unit);
   for (const Variation& v : variations_) out.push_back(v.unit);
   return out;
 }

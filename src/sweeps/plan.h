@@ -12,14 +12,14 @@
 namespace pintle {
 
 /// A number that takes given values in turn [SI].
-struct Axis {
+struct SweepAxis {
   std::string path, unit;
   std::vector<double> values;
 };
 
 /// Reads "joint.A.stiffness=1e6..1e9 N/m:log:16" or "joint.A.stiffness=1e6,2e6 N/m", the text of the document's source `source`;
 /// complains about what is wrong with it. A number without a unit has that of the last one, or is SI.
-Axis read_axis(ModelReading& reading, const std::string& text, int source);
+SweepAxis read_axis(ModelReading& reading, const std::string& text, int source);
 
 class SweepPlan {
  public:
@@ -33,7 +33,7 @@ class SweepPlan {
   /// The values of sample `i` [SI], in the order of the paths: grid points in order, each with its draws. A draw's values by chance
   /// depend on the seed, the path and the draw's number alone.
   std::vector<double> values(std::uint64_t i) const;
-  const std::vector<Axis>& axes() const { return axes_; }
+  const std::vector<SweepAxis>& axes() const { return axes_; }
 
  private:
   std::uint64_t draws() const { return samples_ > 0 ? samples_ : 1; }
@@ -41,7 +41,7 @@ class SweepPlan {
   void shuffle_strata();
   double share(std::size_t variable, std::uint64_t draw) const;
 
-  std::vector<Axis> axes_;
+  std::vector<SweepAxis> axes_;
   std::vector<Variation> variations_;
   std::vector<std::uint64_t> streams_;               // of the random numbers, by variation
   std::vector<std::vector<std::uint32_t>> strata_;   // of a Latin hypercube: by variation, by draw
