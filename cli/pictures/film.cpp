@@ -6,12 +6,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "base/stopwatch.h"
 #include "cli/companions.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
@@ -98,11 +98,11 @@ class FilmMaker {
     const Pixels start = even(pixels_of(frame(first), scale));
     catch_interrupts();
     FilmEncoder encoder(file, form, start.width, start.height, options_.frames_per_second);
-    const auto began = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     for (int i = 0; i < n; ++i) {
       if (interrupted()) return wipe(), kStoppedBySignal;
       encoder.add(i == 0 ? start : even(pixels_of(frame(first + i * per_frame), scale)));
-      show(i + 1, n, std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
+      show(i + 1, n, watch.seconds());
     }
     if (watched_) print_error("\rencoding\x1b[K");
     encoder.finish();

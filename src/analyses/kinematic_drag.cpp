@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "analyses/guess.h"
+#include "analyses/hand.h"
 #include "analyses/position_search.h"
 #include "pintle/live.h"
 #include "system/build.h"
@@ -67,11 +68,7 @@ class KinematicDrag::Linkage {
     best_.clear();
   }
 
-  std::vector<PlanarPose> poses() const {
-    std::vector<PlanarPose> out;
-    for (const auto& q : q_) out.push_back({q[0], q[1], q[2]});
-    return out;
-  }
+  std::vector<PlanarPose> poses() const { return rows(q_); }
   const std::vector<double>& gaps() const { return gaps_; }
   std::vector<std::string> open_joints() const {
     std::vector<std::string> names;
@@ -84,26 +81,13 @@ class KinematicDrag::Linkage {
  private:
   // A pin between the world and whatever body is held, the last joint of the system.
   void add_hold() {
-    double stiffest = 0;
-    for (const JointData& joint : system_.joints)
-      stiffest = std::max(stiffest, respond(joint.law, S::Vec(1, 0, 0), S::Vec::Zero()).stiffness.diagonal().head<2>().maxCoeff());
-    const double k = stiffest > 0 ? kSoft * stiffest : 1;
-    JointData hold;
-    hold.name = "hold";
-    hold.type = "revolute";
-    hold.at.b = 0;
-    hold.law = LinearLaw{{k, k, 0}, {0, 0, 0}};
-    hold.free_mask[2] = 1;
-    system_.joints.push_back(std::move(hold));
+    const double stiffest = largest_stiffness(system_);
+    system_.joints.push_back(pin_to_hand("hold", 0, {0, 0}, stiffest > 0 ? kSoft * stiffest : 1));
     system_.finish();
     open_.push_back(true);
   }
 
-  S::Point point_now(const Hold& hold) const {
-    const S::Vec& q = q_[hold.body];
-    const double c = std::cos(q[2]), s = std::sin(q[2]);
-    return {q[0] + c * hold.point[0] - s * hold.point[1], q[1] + s * hold.point[0] + c * hold.point[1]};
-  }
+  S::Point point_now(const Hold& hold) const { return in_world(q_[hold.body], hold.point); }
 
   // Towards the target in moves short enough that the linkage does not turn over, as long as they bring the point nearer.
   void follow(const Hold& hold) {

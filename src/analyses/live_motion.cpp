@@ -2,14 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "analyses/hand.h"
 #include "analyses/recorder.h"
 #include "analyses/slow_start.h"
 #include "analyses/start.h"
+#include "base/stopwatch.h"
 #include "integrators/methods.h"
 #include "pintle/live.h"
 #include "system/build.h"
@@ -20,32 +21,12 @@ namespace {
 using S = Planar;
 
 constexpr double kTolerance = 1e-4;
-constexpr double kFirstStep = 1e-4;      // [s]
+constexpr double kFirstStep = 1e-4;       // [s]
 constexpr double kStretch = 1.01;         // of what is left of a frame
-constexpr double kPullRate = 9;          // natural frequency of the mechanism on the pull [rad/s]
+constexpr double kPullRate = 9;           // natural frequency of the mechanism on the pull [rad/s]
 constexpr double kSoftest = 1e-3;         // of the stiffest joint: the stiffest pull that is chosen
-constexpr double kPullDamping = 0.7;     // of critical
-constexpr std::size_t kMostJoints = 120;         // whose masses with closed joints are asked for
-
-class Clock {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-bool is_finite(const State& state) {
-  const auto finite = [](const Vecs& x) { return std::all_of(x.begin(), x.end(), [](const S::Vec& v) { return v.allFinite(); }); };
-  return std::isfinite(state.t) && finite(state.q) && finite(state.v) && finite(state.force);
-}
-
-std::vector<PlanarPose> rows(const Vecs& x) {
-  std::vector<PlanarPose> out;
-  out.reserve(x.size());
-  for (const auto& row : x) out.push_back({row[0], row[1], row[2]});
-  return out;
-}
+constexpr double kPullDamping = 0.7;      // of critical
+constexpr std::size_t kMostJoints = 120;  // whose masses with closed joints are asked for
 
 }  // namespace
 
@@ -57,6 +38,7 @@ class LiveMotion::Motion {
     if (!(model_.simulate.duration > 0)) model_.simulate.duration = 1;
     system_ = build_system(model_);
     n_own_ = system_.joints.size();
+    if (const double stiffest = largest_stiffness(system_); stiffest > 0) stiffest_ = stiffest;
     Assembly start = start_of_run(model_, system_);
     state_ = std::move(start.state);
     notes_ = std::move(start.notes);
@@ -72,7 +54,7 @@ class LiveMotion::Motion {
   }
 
   bool advance(double dt, double budget) {
-    const Clock clock;
+    const Stopwatch clock;
     failure_.clear();
     if (!(dt > 0)) return true;
     if (pull_) lead(dt);
@@ -158,12 +140,12 @@ class LiveMotion::Motion {
   JointData& pull_joint(int k) { return system_.joints[n_own_ + k]; }
 
   void hold(const Pull& pull) {
-    const S::Point at = point_in_world(pull);
+    const S::Point at = in_world(state_.q[pull.body], pull.point);
     const double mass = mass_at(pull);
-    const double k = pull.stiffness > 0 ? pull.stiffness : std::min(kPullRate * kPullRate * mass, kSoftest * stiffest());
+    const double k = pull.stiffness > 0 ? pull.stiffness : std::min(kPullRate * kPullRate * mass, kSoftest * stiffest_);
     const double c = 2 * kPullDamping * std::sqrt(k * mass);
     for (int i = 0; i < kPullJoints; ++i) {
-      JointData joint = soft_pin(pull);
+      JointData joint = pin_to_hand("pull", pull.body, pull.point, 1);
       joint.law = i == kAlongX ? LinearLaw{{k, 0, 0}, {0, 0, 0}} : i == kAlongY ? LinearLaw{{0, k, 0}, {0, 0, 0}} : LinearLaw{{0, 0, 0}, {c, c, 0}};
       if (i < kDamper) {
         joint.servo = i;
@@ -213,31 +195,6 @@ class LiveMotion::Motion {
     }
   }
 
-  static JointData soft_pin(const Pull& pull) {
-    JointData joint;
-    joint.name = "pull";
-    joint.type = "revolute";
-    joint.at.b = pull.body;
-    joint.at.M = S::Frame::at({pull.point[0], pull.point[1]}, 0);
-    joint.law = LinearLaw{{1, 1, 0}, {0, 0, 0}};
-    joint.free_mask[2] = 1;
-    return joint;
-  }
-
-  S::Point point_in_world(const Pull& pull) const {
-    const S::Vec& q = state_.q[pull.body];
-    const double c = std::cos(q[2]), s = std::sin(q[2]);
-    return {q[0] + c * pull.point[0] - s * pull.point[1], q[1] + s * pull.point[0] + c * pull.point[1]};
-  }
-
-  // Of all joints, along x or y.
-  double stiffest() const {
-    double most = 0;
-    for (std::size_t j = 0; j < n_own_; ++j)
-      most = std::max(most, respond(system_.joints[j].law, S::Vec(1, 0, 0), S::Vec::Zero()).stiffness.diagonal().head<2>().maxCoeff());
-    return most > 0 ? most : 1e300;
-  }
-
   // What a force at the held point has to move, in the direction in which it moves most easily.
   double mass_at(const Pull& pull) const {
     const double own = system_.bodies[pull.body].mass[0];
@@ -246,7 +203,7 @@ class LiveMotion::Motion {
       for (const BodyData& each : system_.bodies) mass = std::max(mass, each.mass[0]);
     } else {
       System pinned = system_;
-      pinned.joints.push_back(soft_pin(pull));
+      pinned.joints.push_back(pin_to_hand("pull", pull.body, pull.point, 1));
       pinned.finish();
       State there = state_;
       for (Vecs* x : {&there.gap, &there.gap_rate, &there.gap_accel, &there.force}) x->push_back(S::Vec::Zero());
@@ -259,7 +216,8 @@ class LiveMotion::Motion {
   Model model_;
   System system_;
   State state_;
-  std::size_t n_own_ = 0;  // joints but for the pull
+  std::size_t n_own_ = 0;        // joints but for the pull
+  double stiffest_ = 1e300;      // of them [N/m]
   std::unique_ptr<Stepper> stepper_;
   std::optional<Pull> pull_;
   bool changed_ = false;

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <unordered_set>
@@ -15,6 +14,7 @@
 #include "analyses/lean_run.h"
 #include "analyses/passes.h"
 #include "analyses/start.h"
+#include "base/stopwatch.h"
 #include "system/build.h"
 
 namespace pintle {
@@ -31,14 +31,6 @@ constexpr double kAlike = 1.25;  // steps of the finer pass over those of the co
 constexpr double kSurest = 0.1;  // of the tolerance of the steps: no error of the motion is stated as smaller
 constexpr std::size_t kManyBodies = 1000;
 constexpr double kNegligible = 1e-4;  // a joint is measured at least by this part of the mechanism's largest force
-
-class Clock {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 // Largest difference of each joint's force (and couple) between two passes, and the peaks of the finer one.
 struct PassDifference {
@@ -72,7 +64,7 @@ double motion_difference(const System& system, const ForceTable& coarse, const F
   double difference = 0, way = 0;
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t i = 0; i < bodies; ++i) {
-      const double radius = std::sqrt(system.bodies[i].mass[2] / system.bodies[i].mass[0]);
+      const double radius = system.bodies[i].radius_of_gyration();
       const double* here = &fine.place[3 * (row * bodies + i)];
       way = std::max(way, distance(here, &fine.place[3 * i], radius));
       if (coarse.t[row] == fine.t[row]) difference = std::max(difference, distance(here, &coarse.place[3 * (row * bodies + i)], radius));
@@ -217,9 +209,7 @@ class Run {
   // small part of the largest of the mechanism; couples at least by that of the largest force at a radius of gyration.
   std::vector<double> relative_differences(const PassDifference& c) const {
     const double force = largest_of(c.peak);
-    double radius = 0;
-    for (const BodyData& body : system_.bodies) radius = std::max(radius, std::sqrt(body.mass[2] / body.mass[0]));
-    const double couple = std::max(largest_of(c.peak_couple), force * radius);
+    const double couple = std::max(largest_of(c.peak_couple), force * system_.largest_radius_of_gyration());
     std::vector<double> out(c.force.size());
     for (std::size_t j = 0; j < out.size(); ++j)
       out[j] = std::max(relative(c.force[j], c.peak[j], force), relative(c.couple[j], c.peak_couple[j], couple));
@@ -264,7 +254,7 @@ class Run {
   const Model& model_;
   const Observer& observer_;
   RunShape shape_;
-  Clock clock_;
+  Stopwatch clock_;
   System system_;
   State start_;
   Trajectory out_;

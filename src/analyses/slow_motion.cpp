@@ -234,22 +234,15 @@ class SlowMotion {
   bool swept_ = false;
 };
 
-bool is_finite(const State& state) {
-  const auto finite = [](const Vecs& x) { return std::all_of(x.begin(), x.end(), [](const S::Vec& y) { return y.allFinite(); }); };
-  return finite(state.q) && finite(state.v) && finite(state.a) && finite(state.gap) && finite(state.force);
-}
-
 // How far soft joints may go with the motion, theory/assembly Eq. (5.4): all the way where their own dynamics is faster
 // than what their force does, not at all where it is slower. Fast ones go all the way.
 Vecs shares(const JointPaces& paces, const SlowMotion& motion, const System& system) {
   const Vecs &force = motion.force(0), &gap = motion.gap(0), &rate = motion.rate();
   Vecs share(force.size());
-  double largest = 0, largest_couple = 0;
-  for (const S::Vec& f : force) {
-    largest = std::max(largest, f.head<2>().norm());
-    largest_couple = std::max(largest_couple, std::abs(f[2]));
-  }
-  for (const BodyData& body : system.bodies) largest_couple = std::max(largest_couple, largest * std::sqrt(body.mass[2] / body.mass[0]));
+  const double largest = largest_force(force);
+  double largest_couple = 0;
+  for (const S::Vec& f : force) largest_couple = std::max(largest_couple, std::abs(f[2]));
+  largest_couple = std::max(largest_couple, largest * system.largest_radius_of_gyration());
   for (std::size_t j = 0; j < share.size(); ++j) {
     const S::Mat K = respond(system.joints[j].law, gap[j], S::Vec::Zero()).stiffness;
     const S::Vec change = K * rate[j];

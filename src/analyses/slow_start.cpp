@@ -150,9 +150,7 @@ bool ForcesOfMotion::find(State& state) {
   }
   for (int pass = 0; pass < kClosing; ++pass) {
     const double change = projector_.improve_forces(Q_, state.a, state.force);
-    double largest = 0;
-    for (const S::Vec& force : state.force) largest = std::max(largest, force.head<2>().norm());
-    if (change <= kClosed * largest) break;
+    if (change <= kClosed * largest_force(state.force)) break;
   }
   return true;
 }
@@ -173,12 +171,12 @@ GapMasses ForcesOfMotion::masses_on_gaps(const State& state) {
       if (system_.n_joints() > kMostJoints) continue;
       a = no_load;
       force.assign(system_.joints.size(), S::Vec::Zero());
-      for (int pass = 0; pass < 4; ++pass) {
+      for (int pass = 0; pass < kClosing; ++pass) {
         for (int i = 0; i < system_.n_joints(); ++i) wanted_[i] = -from_bodies(i, a);
         wanted_[j][c] += 1;
         projector_.close(wanted_, a);
       }
-      for (int pass = 0; pass < 4; ++pass) projector_.improve_forces(no_load, a, force);
+      for (int pass = 0; pass < kClosing; ++pass) projector_.improve_forces(no_load, a, force);
       masses.closed[j][c] = std::max(masses.closed[j][c], force[j][c]);  // where no motion can change it alone, the force is 0
     }
   }
@@ -191,7 +189,7 @@ void ForcesOfMotion::carry(State& state) const {
 
 // Eq. (3.4).
 void ForcesOfMotion::move_onto_gaps(State& state) {
-  for (int pass = 0; pass < 4; ++pass) {
+  for (int pass = 0; pass < kClosing; ++pass) {
     system_.motions(state.q, state.v, m_);
     system_.readings(state.t, m_, r_);
     if (pass == 0) {
@@ -204,7 +202,7 @@ void ForcesOfMotion::move_onto_gaps(State& state) {
   system_.motions(state.q, state.v, m_);
   system_.readings(state.t, m_, r_);
   Vecs dv(state.v.size(), S::Vec::Zero());
-  for (int pass = 0; pass < 4; ++pass) {
+  for (int pass = 0; pass < kClosing; ++pass) {
     for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap_rate[j] - r_[j].rate - from_bodies(j, dv);
     projector_.close(wanted_, dv);
   }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -16,6 +15,7 @@
 #include "analyses/passes.h"
 #include "analyses/recording.h"
 #include "analyses/start.h"
+#include "base/stopwatch.h"
 #include "pintle/simulate.h"
 #include "system/build.h"
 
@@ -30,14 +30,6 @@ constexpr int kRepetitions = 5;
 constexpr double kShort = 0.05;                          // a run that is repeated, at most [s]
 constexpr double kStepsRatio = 2;                        // between the runs that it is taken from, at least
 
-class Clock {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 void check_options(const Model& model, const SolverStudyOptions& options) {
   if (model.simulate.equations != Equations::kNewtonian)
     throw std::invalid_argument("methods are compared on joints that are force laws: equations = \"newtonian\"");
@@ -46,12 +38,6 @@ void check_options(const Model& model, const SolverStudyOptions& options) {
     if (std::find(known.begin(), known.end(), method) == known.end()) throw std::invalid_argument("there is no method " + method);
   for (const double tolerance : options.tolerances)
     if (!(tolerance > 0 && tolerance < 1)) throw std::invalid_argument(fmt::format("a tolerance of {:g} is not between 0 and 1", tolerance));
-}
-
-double largest_radius(const System& system) {
-  double radius = 0;
-  for (const BodyData& body : system.bodies) radius = std::max(radius, std::sqrt(body.mass[2] / body.mass[0]));
-  return radius;
 }
 
 class Study {
@@ -131,7 +117,7 @@ class Study {
     run.tolerance = tolerance;
     Recorder recorder(model_, system_);
     IntegrationPlan p = plan(method, tolerance);
-    const Clock clock;
+    const Stopwatch clock;
     p.keep_going = [&](double) { return clock.seconds() < options_.time_limit && go_on(); };
     const Integration done = integrate(system_, start_, p, recorder);
     run.seconds = clock.seconds();
@@ -157,7 +143,7 @@ class Study {
     const double first = run.seconds;
     for (int i = 1; i < kRepetitions && first < kShort; ++i) {
       Recorder recorder(model_, system_);
-      const Clock clock;
+      const Stopwatch clock;
       integrate(system_, start_, plan(method, tolerance), recorder);
       run.seconds = std::min(run.seconds, clock.seconds());
     }
@@ -168,7 +154,7 @@ class Study {
       run.force_error = run.position_error = run.angle_error = run.vibration = run.vibration_of_peak = run.energy_drift = kUnknown;
       return;
     }
-    const JointErrors errors(truth_, largest_radius(system_));
+    const JointErrors errors(truth_, system_.largest_radius_of_gyration());
     const JointErrors::Worst force = errors.force_error(trajectory), vibration = errors.vibration(trajectory, half_window_);
     const auto positions = errors.position_errors(trajectory);
     run.force_error = force.relative;

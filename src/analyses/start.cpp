@@ -52,21 +52,6 @@ Assembly ideal_start(Model model, System& system) {
   return assembly;
 }
 
-double largest_force(const State& state) {
-  double most = 0;
-  for (const auto& force : state.force) most = std::max(most, force.head<2>().norm());
-  return most;
-}
-
-double largest_speed(const System& system, const Vecs& v) {
-  double largest = 0;
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    const double radius = std::sqrt(system.bodies[i].mass[2] / system.bodies[i].mass[0]);
-    largest = std::max({largest, v[i].head<2>().norm(), radius * std::abs(v[i][2])});
-  }
-  return largest;
-}
-
 double largest_gap_rate(const System& system, const State& state) {
   double largest = 0;
   for (std::size_t j = 0; j < state.gap_rate.size(); ++j)
@@ -80,11 +65,11 @@ double largest_gap_rate(const System& system, const State& state) {
 bool is_runaway(const System& system, const State& attempt, const State& given) {
   Vecs change = attempt.v;
   for (std::size_t i = 0; i < change.size(); ++i) change[i] -= given.v[i];
-  return largest_speed(system, change) > std::max(kMostHaste * largest_speed(system, given.v), kMostLever * largest_gap_rate(system, attempt));
+  return system.largest_speed(change) > std::max(kMostHaste * system.largest_speed(given.v), kMostLever * largest_gap_rate(system, attempt));
 }
 
 // Whether sweeps that have not converged came near. Forces far above those of the given state are no attempt at all.
-bool is_near(const State& attempt, const State& given) { return largest_force(attempt) <= kMostGrowth * largest_force(given); }
+bool is_near(const State& attempt, const State& given) { return largest_force(attempt.force) <= kMostGrowth * largest_force(given.force); }
 
 // Fast joints ride their slow motion; where that is not found the state stays, or with `keep_best` is the best attempt. True when found.
 bool settle_fast_joints(const System& system, const JointPaces& paces, double span, bool keep_best, State& state) {

@@ -131,7 +131,7 @@ double Dopri5::error(double h) {
 void Dopri5::grow_scale() {
   for (int i = 0; i < system_.n_bodies(); ++i) {
     const S::Vec& mass = system_.bodies[i].mass;
-    const double radius = std::sqrt(mass[2] / mass[0]);
+    const double radius = system_.bodies[i].radius_of_gyration();
     const S::Vec load = mass.cwiseProduct(end_.a[i]).cwiseAbs() + system_.bodies[i].gravity.cwiseAbs();
     double force = std::max({scale_.body[i][0], load[0], load[1], rounding_[i]});
     for (int j = 0; j < system_.n_joints(); ++j)

@@ -136,13 +136,13 @@ void IdealStepper::grow_scale() {
   constexpr double kNegligible = 1e-4;  // of the largest load of the mechanism
   double largest = 0;
   for (int i = 0; i < system_.n_bodies(); ++i) largest = std::max({largest, scale_.body[i][0], system_.bodies[i].mass[0] * end_.a[i].head<2>().norm()});
-  for (const auto& force : end_.force) largest = std::max(largest, force.head<2>().norm());
+  largest = std::max(largest, largest_force(end_.force));
   for (int i = 0; i < system_.n_bodies(); ++i) {
     const S::Vec& mass = system_.bodies[i].mass;
     const S::Vec load = mass.cwiseProduct(end_.a[i]).cwiseAbs() + system_.bodies[i].gravity.cwiseAbs();
     const double least = std::max(1e-9 * mass[0], kNegligible * largest);
     const double force = std::max({scale_.body[i][0], load[0], load[1], least});
-    scale_.body[i] << force, force, std::max({scale_.body[i][2], load[2], 1e-3 * force * std::sqrt(mass[2] / mass[0])});
+    scale_.body[i] << force, force, std::max({scale_.body[i][2], load[2], 1e-3 * force * system_.bodies[i].radius_of_gyration()});
   }
   for (int j = 0; j < system_.n_joints(); ++j)
     for (const int body : {system_.joints[j].at.a, system_.joints[j].at.b}) {

@@ -18,7 +18,7 @@ void grow_load_scale(const System& system, const std::vector<Reading>& r, const 
   }
   for (std::size_t i = 0; i < load.size(); ++i) {
     const S::Vec& mass = system.bodies[i].mass;
-    const double radius = std::sqrt(mass[2] / mass[0]);
+    const double radius = system.bodies[i].radius_of_gyration();
     double force = std::max({scale.body[i][0], load[i][0], load[i][1], kLeastLoad * mass[0]});
     double moment = std::max(scale.body[i][2], load[i][2]);
     force = std::max(force, 1e-3 * moment / radius);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "integrators/load_scale.h"
 
@@ -13,23 +12,17 @@ class MotionScale {
  public:
   /// For a step of h from `begin`. The speed is the largest so far of a body's centre or of a point at its radius of gyration.
   void take(const System& system, const State& begin, double h) {
-    for (std::size_t i = 0; i < begin.v.size(); ++i) {
-      const Planar::Vec& v = begin.v[i];
-      const double turning = radius(system.bodies[i]) * v[2];
-      speed_ = std::max(speed_, std::sqrt(std::max(v[0] * v[0] + v[1] * v[1], turning * turning)));
-    }
+    speed_ = std::max(speed_, system.largest_speed(begin.v));
     loads_.body.resize(begin.v.size());
     for (std::size_t i = 0; i < loads_.body.size(); ++i) {
       const double force = system.bodies[i].mass[0] * std::max(speed_, kLeastSpeed) / h;
-      loads_.body[i] << force, force, force * radius(system.bodies[i]);
+      loads_.body[i] << force, force, force * system.bodies[i].radius_of_gyration();
     }
   }
   const LoadScale& loads() const { return loads_; }
 
  private:
   static constexpr double kLeastSpeed = 1e-6;  // [m/s]: a mechanism at rest
-
-  static double radius(const BodyData& body) { return std::sqrt(body.mass[2] / body.mass[0]); }
 
   double speed_ = 0;
   LoadScale loads_;

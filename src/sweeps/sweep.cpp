@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/stopwatch.h"
 #include "sweeps/run_sweep.h"
 
 namespace pintle {
@@ -45,11 +46,9 @@ class Collection {
     return journal_.n_done() == journal_.n_samples();
   }
 
-  SweepProgress progress() const { return {journal_.n_done(), journal_.n_samples(), resumed_, journal_.n_troubled(), seconds()}; }
+  SweepProgress progress() const { return {journal_.n_done(), journal_.n_samples(), resumed_, journal_.n_troubled(), watch_.seconds()}; }
 
  private:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
   // A batch is computed as a whole; of one that was cut in two by a kill, only the missing samples are added.
   void keep(const std::vector<FinishedBatch>& finished) {
     for (const FinishedBatch& batch : finished)
@@ -61,16 +60,16 @@ class Collection {
   }
 
   void sync_now_and_then() {
-    if (seconds() - synced_ < kBetweenSyncs) return;
-    synced_ = seconds();
+    if (watch_.seconds() - synced_ < kBetweenSyncs) return;
+    synced_ = watch_.seconds();
     journal_.flush(true);
   }
 
   bool report() { return !observer_ || observer_(progress()); }
 
   bool go_on() {
-    if (stopped_ || seconds() - reported_ < kBetweenReports) return !stopped_;
-    reported_ = seconds();
+    if (stopped_ || watch_.seconds() - reported_ < kBetweenReports) return !stopped_;
+    reported_ = watch_.seconds();
     stopped_ = !report();
     return !stopped_;
   }
@@ -81,7 +80,7 @@ class Collection {
   Remote* remote_;
   std::uint64_t resumed_;
   BatchQueue queue_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch watch_;
   double reported_ = 0, synced_ = 0;
   bool stopped_ = false;
 };

@@ -25,4 +25,15 @@ double largest_coordinate(const Vecs& x) {
   return size;
 }
 
+double largest_force(const Vecs& force) {
+  double largest = 0;
+  for (const auto& f : force) largest = std::max(largest, f.head<2>().norm());
+  return largest;
+}
+
+bool is_finite(const State& state) {
+  const auto finite = [](const Vecs& x) { return std::all_of(x.begin(), x.end(), [](const Planar::Vec& y) { return y.allFinite(); }); };
+  return std::isfinite(state.t) && finite(state.q) && finite(state.v) && finite(state.a) && finite(state.gap) && finite(state.force);
+}
+
 }  // namespace pintle

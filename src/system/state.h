@@ -24,5 +24,9 @@ void find_accelerations(const System& system, const std::vector<Planar::Motion>&
 
 /// The largest coordinate of any body, at least 1e-3: what the rounding of positions, or of velocities, goes with [m or m/s].
 double largest_coordinate(const Vecs& x);
+/// The largest force of any joint; couples are not in it [N].
+double largest_force(const Vecs& force);
+/// Whether everything that a step gives is a number.
+bool is_finite(const State& state);
 
 }  // namespace pintle

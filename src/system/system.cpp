@@ -85,4 +85,19 @@ double System::kinetic(const Vecs& v) const {
   return 0.5 * twice;
 }
 
+double System::largest_speed(const Vecs& v) const {
+  double largest = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const double turning = bodies[i].radius_of_gyration() * v[i][2];
+    largest = std::max(largest, std::sqrt(std::max(v[i].head<2>().squaredNorm(), turning * turning)));
+  }
+  return largest;
+}
+
+double System::largest_radius_of_gyration() const {
+  double largest = 0;
+  for (const BodyData& body : bodies) largest = std::max(largest, body.radius_of_gyration());
+  return largest;
+}
+
 }  // namespace pintle

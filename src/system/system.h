@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -25,6 +26,8 @@ struct BodyData {
   std::string name;
   Planar::Vec mass;     // (m, m, I) [kg, kg, kg*m^2]
   Planar::Vec gravity;  // weight [N, N, N*m]
+
+  double radius_of_gyration() const { return std::sqrt(mass[2] / mass[0]); }  // [m]
 };
 
 /// A pair of frames on two bodies; kGround is the world.
@@ -162,6 +165,9 @@ class System {
 
   /// Kinetic energy [J].
   double kinetic(const Vecs& v) const;
+  /// The largest speed of a body's centre or of a point at its radius of gyration about it [m/s].
+  double largest_speed(const Vecs& v) const;
+  double largest_radius_of_gyration() const;  // [m]
 
  private:
   struct LoadState;

@@ -1,0 +1,17 @@
+// Elapsed time.
+#pragma once
+
+#include <chrono>
+
+namespace pintle {
+
+/// Runs from its making on.
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace pintle
