@@ -93,7 +93,7 @@ test-sanitized:
 
 .PHONY: build/clang test-sanitized
 build/clang:
-	@$(CONFIGURE) -B build/clang -DCMAKE_CXX_COMPILER=$(CLANG) -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
+	@$(CONFIGURE) -B build/clang -DCMAKE_CXX_COMPILER=$(CLANG) -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O0 -g1" \
 	  -DPINTLE_WHOLE_RUN_TESTS=$(or $(WHOLE),ON) -DPINTLE_SANITIZE=ON -DPINTLE_FUZZ=ON -DPINTLE_WERROR=ON >/dev/null
 	@$(BUILD) build/clang -j $(JOBS)
 

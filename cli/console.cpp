@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include "results/disk.h"
@@ -29,6 +30,16 @@ void print_out(std::string_view text) {
 void print_error(std::string_view text) {
   std::fflush(stdout);
   std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+void StatusLine::show(std::string_view text) {
+  print_error("\r" + std::string(text) + "\x1b[K");
+  shown_ = true;
+}
+
+void StatusLine::clear() {
+  if (shown_) print_error("\r\x1b[K");
+  shown_ = false;
 }
 
 }  // namespace pintle::cli

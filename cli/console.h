@@ -17,4 +17,20 @@ void print_out(std::string_view text);
 /// To standard error.
 void print_error(std::string_view text);
 
+/// A line on standard error that rewrites itself, for a person who watches.
+class StatusLine {
+ public:
+  StatusLine() = default;
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+  ~StatusLine() { clear(); }
+
+  void show(std::string_view text);
+  /// Wipes the line, so that other output may follow.
+  void clear();
+
+ private:
+  bool shown_ = false;
+};
+
 }  // namespace pintle::cli

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "cli/console.h"
 #include "pintle/results.h"
 
 namespace pintle::cli {
@@ -38,13 +37,7 @@ void ProgressReport::show(const Progress& progress) {
   if (style_ == ProgressStyle::kNone) return;
   const double now = speed(progress);
   if (style_ == ProgressStyle::kJson) return print_error(progress_json(progress, now) + "\n");
-  print_error("\r" + progress_line(progress, now) + "\x1b[K");
-  shown_ = true;
-}
-
-void ProgressReport::clear() {
-  if (shown_) print_error("\r\x1b[K");
-  shown_ = false;
+  line_.show(progress_line(progress, now));
 }
 
 void ProgressReport::finish(const Trajectory& trajectory, const std::filesystem::path& folder) {

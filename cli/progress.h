@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "cli/console.h"
 #include "pintle/simulate.h"
 
 namespace pintle::cli {
@@ -13,13 +14,10 @@ enum class ProgressStyle { kNone, kLine, kJson };
 class ProgressReport {
  public:
   explicit ProgressReport(ProgressStyle style) : style_(style) {}
-  ProgressReport(const ProgressReport&) = delete;
-  ProgressReport& operator=(const ProgressReport&) = delete;
-  ~ProgressReport() { clear(); }
 
   void show(const Progress& progress);
   /// Wipes the line, so that other output may follow.
-  void clear();
+  void clear() { line_.clear(); }
   /// The last JSON object: how it ended and where the results are.
   void finish(const Trajectory& trajectory, const std::filesystem::path& folder);
 
@@ -29,7 +27,7 @@ class ProgressReport {
 
   ProgressStyle style_;
   Progress pass_start_{0, 0, 0, 0};
-  bool shown_ = false;
+  StatusLine line_;
 };
 
 /// "12.3 s", "4 min", "1.5 h".

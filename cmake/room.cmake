@@ -8,10 +8,28 @@ function(pintle_sources out folder)
   set(${out} ${sources} PARENT_SCOPE)
 endfunction()
 
-# pintle_room(NAME [LINK libraries...]): the target of the current folder, linked to every room on its left. Laws and
-# probes do not see each other. A room without a source is a header-only target.
+# What nearly every source reads is parsed once: for pintle_system and the rooms on its right, and for pintle_results and what else is
+# quick to build. No source relies on it: the studio's kernel is compiled without.
+function(pintle_precompile name quick)
+  if(quick)
+    set(owner pintle_results)
+  else()
+    set(owner pintle_system)
+  endif()
+  if(EMSCRIPTEN OR NOT TARGET ${owner})
+    return()
+  elseif(owner STREQUAL "pintle_${name}")
+    target_precompile_headers(pintle_${name} PRIVATE
+      <fmt/format.h> <Eigen/Core> <algorithm> <cmath> <functional> <map> <optional> <string> <variant> <vector>)
+  else()
+    target_precompile_headers(pintle_${name} REUSE_FROM ${owner})
+  endif()
+endfunction()
+
+# pintle_room(NAME [QUICK] [LINK libraries...]): the target of the current folder, linked to every room on its left. Laws and
+# probes do not see each other. A room without a source is a header-only target. QUICK: its speed does not matter.
 function(pintle_room name)
-  cmake_parse_arguments(arg "" "" "LINK" ${ARGN})
+  cmake_parse_arguments(arg "QUICK" "" "LINK" ${ARGN})
   pintle_sources(sources ${CMAKE_CURRENT_SOURCE_DIR})
   list(FIND PINTLE_ROOMS ${name} index)
   list(SUBLIST PINTLE_ROOMS 0 ${index} left)
@@ -22,6 +40,10 @@ function(pintle_room name)
   if(sources)
     add_library(pintle_${name} STATIC ${sources})
     target_link_libraries(pintle_${name} PUBLIC ${left} ${arg_LINK} PRIVATE pintle_flags)
+    if(arg_QUICK AND NOT EMSCRIPTEN)
+      target_link_libraries(pintle_${name} PRIVATE pintle_quick_build)
+    endif()
+    pintle_precompile(${name} ${arg_QUICK})
   else()
     add_library(pintle_${name} INTERFACE)
     target_link_libraries(pintle_${name} INTERFACE ${left} ${arg_LINK})

@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/console.h"
 
 namespace pintle::cli {
 namespace {
@@ -47,13 +46,7 @@ std::string progress_json(const SweepProgress& progress) {
 void SweepProgressReport::show(const SweepProgress& progress) {
   if (style_ == ProgressStyle::kNone) return;
   if (style_ == ProgressStyle::kJson) return print_error(progress_json(progress) + "\n");
-  print_error("\r" + progress_line(progress) + "\x1b[K");
-  shown_ = true;
-}
-
-void SweepProgressReport::clear() {
-  if (shown_) print_error("\r\x1b[K");
-  shown_ = false;
+  line_.show(progress_line(progress));
 }
 
 void SweepProgressReport::finish(const SweepOutcome& outcome, const std::filesystem::path& file) {

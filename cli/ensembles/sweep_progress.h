@@ -12,18 +12,15 @@ namespace pintle::cli {
 class SweepProgressReport {
  public:
   explicit SweepProgressReport(ProgressStyle style) : style_(style) {}
-  SweepProgressReport(const SweepProgressReport&) = delete;
-  SweepProgressReport& operator=(const SweepProgressReport&) = delete;
-  ~SweepProgressReport() { clear(); }
 
   void show(const SweepProgress& progress);
-  void clear();
+  void clear() { line_.clear(); }
   /// The last JSON object.
   void finish(const SweepOutcome& outcome, const std::filesystem::path& file);
 
  private:
   ProgressStyle style_;
-  bool shown_ = false;
+  StatusLine line_;
 };
 
 /// "1200 of 100000 samples   1 %   850 /s   116 s to go".

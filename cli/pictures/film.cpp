@@ -99,14 +99,14 @@ class FilmMaker {
     catch_interrupts();
     FilmEncoder encoder(file, form, start.width, start.height, options_.frames_per_second);
     const Stopwatch watch;
+    StatusLine line;
     for (int i = 0; i < n; ++i) {
-      if (interrupted()) return wipe(), kStoppedBySignal;
+      if (interrupted()) return kStoppedBySignal;
       encoder.add(i == 0 ? start : even(pixels_of(frame(first + i * per_frame), scale)));
-      show(i + 1, n, watch.seconds());
+      if (watched_ && (i % 5 == 4 || i + 1 == n)) line.show(how_far(i + 1, n, watch.seconds()));
     }
-    if (watched_) print_error("\rencoding\x1b[K");
+    if (watched_) line.show("encoding");
     encoder.finish();
-    wipe();
     return kOk;
   }
 
@@ -124,12 +124,8 @@ class FilmMaker {
     return cut;
   }
 
-  void show(int done, int n, double seconds) const {
-    if (!watched_ || (done % 5 != 0 && done != n)) return;
-    print_error(fmt::format("\rframe {} of {}  {:3d} %   {} to go\x1b[K", done, n, 100 * done / n, clock_text(seconds / done * (n - done))));
-  }
-  void wipe() const {
-    if (watched_) print_error("\r\x1b[K");
+  static std::string how_far(int done, int n, double seconds) {
+    return fmt::format("frame {} of {}  {:3d} %   {} to go", done, n, 100 * done / n, clock_text(seconds / done * (n - done)));
   }
 
   const Options& options_;

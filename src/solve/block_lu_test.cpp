@@ -10,13 +10,13 @@
 #include <set>
 
 #include "base/random_for_tests.h"
+#include "solve/graphs_for_tests.h"
 #include "solve/spectrum.h"
 
 namespace pintle {
 namespace {
 
-using sample::Random;
-using Pairs = std::vector<std::pair<int, int>>;
+using namespace sample;
 
 struct Graph {
   const char* name;
@@ -24,31 +24,6 @@ struct Graph {
   Pairs pairs;
 };
 
-Graph chain(int n) {
-  Graph g{"chain", n, {}};
-  for (int i = 0; i + 1 < n; ++i) g.pairs.emplace_back(i, i + 1);
-  return g;
-}
-Graph loop(int n) {
-  Graph g = chain(n);
-  g.name = "loop";
-  g.pairs.emplace_back(n - 1, 0);
-  return g;
-}
-Graph star(int n) {
-  Graph g{"star", n, {}};
-  for (int i = 1; i < n; ++i) g.pairs.emplace_back(0, i);
-  return g;
-}
-Graph grid(int rows, int columns) {
-  Graph g{"grid", rows * columns, {}};
-  for (int i = 0; i < rows; ++i)
-    for (int j = 0; j < columns; ++j) {
-      if (j + 1 < columns) g.pairs.emplace_back(i * columns + j, i * columns + j + 1);
-      if (i + 1 < rows) g.pairs.emplace_back((i + 1) * columns + j, i * columns + j);
-    }
-  return g;
-}
 Graph random_graph(Random& random, int n, int edges) {
   Graph g{"random", n, {}};
   while (static_cast<int>(g.pairs.size()) < edges) {
@@ -60,7 +35,8 @@ Graph random_graph(Random& random, int n, int edges) {
 
 std::vector<Graph> graphs() {
   Random random(11);
-  std::vector<Graph> all{{"one", 1, {}}, {"apart", 4, {}}, chain(2), chain(17), loop(3), loop(20), star(12), grid(4, 5), grid(7, 7)};
+  std::vector<Graph> all{{"one", 1, {}}, {"apart", 4, {}}, {"chain", 2, chain(2)}, {"chain", 17, chain(17)},
+                         {"loop", 3, loop(3)}, {"loop", 20, loop(20)}, {"star", 12, star(12)}, {"grid", 20, grid(4, 5)}, {"grid", 49, grid(7, 7)}};
   for (int i = 0; i < 12; ++i) all.push_back(random_graph(random, 3 + random.below(20), 2 + random.below(40)));
   return all;
 }
@@ -286,9 +262,9 @@ TEST(BlockPattern, OrderIsAPermutation) {
 }
 
 TEST(BlockPattern, ChainsAndStarsMakeNoFill) {
-  for (const Graph& g : {chain(2), chain(30), star(30)})
+  for (const Graph& g : {Graph{"chain", 2, chain(2)}, Graph{"chain", 30, chain(30)}, Graph{"star", 30, star(30)}})
     EXPECT_EQ(BlockPattern(g.n, g.pairs).n_off_diagonal(), static_cast<int>(g.pairs.size())) << g.name;
-  EXPECT_EQ(BlockPattern(30, loop(30).pairs).n_off_diagonal(), 30 + 27);  // a loop: one block per row but the last three
+  EXPECT_EQ(BlockPattern(30, loop(30)).n_off_diagonal(), 30 + 27);  // a loop: one block per row but the last three
 }
 
 TEST(BlockPattern, DoesNotDependOnHowThePairsAreWritten) {
@@ -304,7 +280,7 @@ TEST(BlockPattern, DoesNotDependOnHowThePairsAreWritten) {
 }
 
 TEST(BlockPattern, SlotsOfBothTrianglesShareAnIndex) {
-  const Graph g = grid(4, 4);
+  const Graph g{"grid", 16, grid(4, 4)};
   const BlockPattern p(g.n, g.pairs);
   std::set<int> indices;
   for (const auto& [i, j] : g.pairs) {

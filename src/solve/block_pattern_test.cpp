@@ -6,43 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/graphs_for_tests.h"
+
 namespace pintle {
 namespace {
 
-using Pairs = std::vector<std::pair<int, int>>;
-
-Pairs chain(int n) {
-  Pairs pairs;
-  for (int i = 1; i < n; ++i) pairs.emplace_back(i - 1, i);
-  return pairs;
-}
-
-Pairs tree(int n) {
-  Pairs pairs;
-  for (int i = 1; i < n; ++i) pairs.emplace_back((i - 1) / 2, i);
-  return pairs;
-}
-
-// Two rails of n rows with n rungs.
-Pairs ladder(int n) {
-  Pairs pairs;
-  for (int i = 0; i < n; ++i) {
-    pairs.emplace_back(2 * i, 2 * i + 1);
-    if (i > 0) pairs.emplace_back(2 * i - 2, 2 * i);
-    if (i > 0) pairs.emplace_back(2 * i - 1, 2 * i + 1);
-  }
-  return pairs;
-}
-
-Pairs grid(int n) {
-  Pairs pairs;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      if (i > 0) pairs.emplace_back((i - 1) * n + j, i * n + j);
-      if (j > 0) pairs.emplace_back(i * n + j - 1, i * n + j);
-    }
-  return pairs;
-}
+using namespace sample;
 
 double products(const BlockPattern& p) {
   double sum = 0;
@@ -74,7 +43,7 @@ TEST(BlockPattern, ALadderFillsInProportion) {
 TEST(BlockPattern, AGridFillsAsNLogN) {
   for (const int edge : {20, 40, 80}) {
     const double n = edge * edge;
-    const BlockPattern p(edge * edge, grid(edge));
+    const BlockPattern p(edge * edge, grid(edge, edge));
     EXPECT_LE(p.n_off_diagonal(), 2 * n * std::log2(n)) << edge;
     EXPECT_LE(products(p), 16 * std::pow(n, 1.5)) << edge;
   }
@@ -92,7 +61,7 @@ TEST(BlockPattern, ThePartsOfAGraphThatHangOnALoopComeFirst) {
 }
 
 TEST(BlockPattern, EveryRowHasOnePlace) {
-  Pairs pairs = grid(20);
+  Pairs pairs = grid(20, 20);
   for (int i = 400; i < 500; ++i) pairs.emplace_back(i - 300, i);
   const BlockPattern p(500, pairs);
   for (int k = 0; k < 500; ++k) EXPECT_EQ(p.position(p.row_at(k)), k);
