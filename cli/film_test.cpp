@@ -106,6 +106,9 @@ TEST_F(FilmVerb, WrongWordsGiveCode2) {
       {"--still soon", "found --still \"soon\""},
       {"--still 0.1 --out still.gif", ".svg or .png"},
       {"--fps 0", "--fps"},
+      {"--fps 60", "at most 50"},
+      {"--still 0.5", "the run goes from 0 s to 0.4 s"},
+      {"--still nan", "found --still \"nan\""},
   };
   for (const auto& [words, expected] : mistakes) {
     const Answer answer = sandbox_.pintle(std::string("film bob-run ") + words);

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "cli/interrupt.h"
 #include "pintle/results.h"
 #include "results/disk.h"
 
@@ -22,13 +23,16 @@ namespace pintle::cli {
 namespace fs = std::filesystem;
 namespace {
 
-std::vector<std::string> command(const fs::path& film, FilmForm form, int width, int height, double frames_per_second) {
+std::vector<std::string> command(const fs::path& film, FilmForm form, int width, int height, double frames_per_second, int n_samples) {
   const std::string rate = fmt::format("{}", frames_per_second);
   std::vector<std::string> words{"ffmpeg", "-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "bgr0", "-video_size",
                                  fmt::format("{}x{}", width, height), "-framerate", rate, "-i", "pipe:0", "-an"};
   const auto add = [&words](std::initializer_list<const char*> more) { words.insert(words.end(), more.begin(), more.end()); };
-  if (form == FilmForm::kGif)  // a palette of the film's own; flat colours need no dither
-    add({"-filter_complex", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=none:diff_mode=rectangle", "-loop", "0", "-f", "gif"});
+  // A palette of the film's own; flat colours need no dither. From all frames it would have to keep all of them until the end.
+  const std::string palette = fmt::format("split[a][b];[a]trim=end_frame={0},palettegen=stats_mode=full[p];[b]trim=start_frame={0},setpts=PTS-STARTPTS[c];"
+                                          "[c][p]paletteuse=dither=none:diff_mode=rectangle", n_samples);
+  if (form == FilmForm::kGif)
+    add({"-filter_complex", palette.c_str(), "-loop", "0", "-f", "gif"});
   else
     add({"-c:v", "libvpx-vp9", "-crf", "26", "-b:v", "0", "-pix_fmt", "yuv420p", "-deadline", "good", "-cpu-used", "4", "-row-mt", "1", "-f", "webm"});
   words.push_back("file:" + film.string());
@@ -37,21 +41,8 @@ std::vector<std::string> command(const fs::path& film, FilmForm form, int width,
 
 }  // namespace
 
-FilmEncoder::FilmEncoder(const fs::path& film, FilmForm form, int width, int height, double frames_per_second) : film_(film) {
-  const fs::path folder = film.parent_path().empty() ? fs::path(".") : film.parent_path();
-  std::string name = (folder / fmt::format(".{}.XXXXXX", film.filename().string())).string();
-  const int file = ::mkstemp(name.data());
-  if (file < 0) throw file_error(film, "create", errno);
-  ::fchmod(file, 0644);
-  ::close(file);
-  fresh_ = name;
-  try {
-    start(command(fresh_, form, width, height, frames_per_second));
-  } catch (...) {
-    std::error_code ignored;
-    fs::remove(fresh_, ignored);
-    throw;
-  }
+FilmEncoder::FilmEncoder(const fs::path& film, FilmForm form, int width, int height, double frames_per_second, int n_samples) : film_(film), file_(film) {
+  start(command(file_.fresh(), form, width, height, frames_per_second, n_samples));
 }
 
 FilmEncoder::~FilmEncoder() {
@@ -61,8 +52,6 @@ FilmEncoder::~FilmEncoder() {
     wait();
   }
   if (complaints_ >= 0) ::close(complaints_);
-  std::error_code ignored;
-  if (!done_) fs::remove(fresh_, ignored);
 }
 
 void FilmEncoder::start(const std::vector<std::string>& words) {
@@ -100,6 +89,7 @@ bool FilmEncoder::wait() {
   int status = 0;
   while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) continue;
   process_ = -1;
+  ended_by_ = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
@@ -111,6 +101,7 @@ void FilmEncoder::fail() {
   const ssize_t n = complaints_ >= 0 ? ::pread(complaints_, why.data(), why.size(), 0) : 0;
   why.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
   while (!why.empty() && (why.back() == '\n' || why.back() == '.')) why.pop_back();
+  if (why.empty() && ended_by_ != 0) why = fmt::format("it was ended by signal {} ({})", ended_by_, ::strsignal(ended_by_));
   throw FileError(fmt::format("{}: ffmpeg could not write the film{}{}.", film_.string(), why.empty() ? "" : ": ", why));
 }
 
@@ -125,12 +116,17 @@ void FilmEncoder::add(const Pixels& frame) {
   }
 }
 
-void FilmEncoder::finish() {
+bool FilmEncoder::finish() {
   ::close(frames_);
   frames_ = -1;
+  siginfo_t ended{};  // waited for in short spells, so that Ctrl-C is heard
+  while (::waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0) {
+    if (interrupted()) return false;
+    ::usleep(20'000);
+  }
   if (!wait()) fail();
-  if (::rename(fresh_.c_str(), film_.c_str()) != 0) throw file_error(film_, "replace", errno);
-  done_ = true;
+  file_.publish();
+  return true;
 }
 
 }  // namespace pintle::cli

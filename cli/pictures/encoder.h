@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cli/pictures/raster.h"
+#include "results/disk.h"
 
 namespace pintle::cli {
 
@@ -16,24 +17,26 @@ enum class FilmForm { kGif, kWebm };
 /// no trace.
 class FilmEncoder {
  public:
-  /// Throws FileError where there is no ffmpeg.
-  FilmEncoder(const std::filesystem::path& film, FilmForm form, int width, int height, double frames_per_second);
+  /// The first `n_samples` frames only show the colours, for a GIF's palette. Throws FileError where there is no ffmpeg.
+  FilmEncoder(const std::filesystem::path& film, FilmForm form, int width, int height, double frames_per_second, int n_samples);
   FilmEncoder(const FilmEncoder&) = delete;
   FilmEncoder& operator=(const FilmEncoder&) = delete;
   ~FilmEncoder();
 
   void add(const Pixels& frame);
-  void finish();
+  /// False: interrupted.
+  bool finish();
 
  private:
   void start(const std::vector<std::string>& words);
   [[noreturn]] void fail();
   bool wait();  ///< true: ffmpeg ended well
 
-  std::filesystem::path film_, fresh_;
+  std::filesystem::path film_;
+  Replacement file_;
   pid_t process_ = -1;
   int frames_ = -1, complaints_ = -1;
-  bool done_ = false;
+  int ended_by_ = 0;  // the signal that ended ffmpeg, if one did
 };
 
 }  // namespace pintle::cli

@@ -60,6 +60,9 @@ double usual_speed(double span) {
   return power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
 }
 
+constexpr int kColourSamples = 12;    // frames that the palette of a GIF is made of
+constexpr double kMostGifRate = 50;   // its frames last whole hundredths of a second, and browsers take 1 for 10
+
 class FilmMaker {
  public:
   explicit FilmMaker(const Options& options) : options_(options), drawn_(read_drawn_run(options.run)), trajectory_(drawn_.run.trajectory) {
@@ -84,6 +87,9 @@ class FilmMaker {
     double t = peak_time(trajectory_);
     if (options_.still != "peak" && !CLI::detail::lexical_cast(options_.still, t))
       throw Usage(fmt::format("found --still \"{}\": a time in seconds, or peak, is wanted here.", options_.still));
+    const double begin = trajectory_.at(0, 0), end = trajectory_.at(trajectory_.n_rows() - 1, 0);
+    if (const double slack = 1e-9 * (end - begin); !(t >= begin - slack && t <= end + slack))
+      throw Usage(fmt::format("found --still \"{}\": the run goes from {:.6g} s to {:.6g} s.", options_.still, begin, end));
     const std::string svg = frame(t);
     write_file(file, file.extension() == ".png" ? png_of(svg, options_.dots_per_inch) : svg);
   }
@@ -97,7 +103,12 @@ class FilmMaker {
     const double scale = options_.dots_per_inch / 96;
     const Pixels start = even(pixels_of(frame(first), scale));
     catch_interrupts();
-    FilmEncoder encoder(file, form, start.width, start.height, options_.frames_per_second);
+    const int n_samples = form == FilmForm::kGif ? kColourSamples : 0;
+    FilmEncoder encoder(file, form, start.width, start.height, options_.frames_per_second, n_samples);
+    for (int i = 0; i < n_samples; ++i) {
+      const double t = i == 0 ? peak_time(trajectory_) : first + span * i / (n_samples - 1);
+      encoder.add(even(pixels_of(frame(t), scale)));
+    }
     const Stopwatch watch;
     StatusLine line;
     for (int i = 0; i < n; ++i) {
@@ -106,8 +117,7 @@ class FilmMaker {
       if (watched_ && (i % 5 == 4 || i + 1 == n)) line.show(how_far(i + 1, n, watch.seconds()));
     }
     if (watched_) line.show("encoding");
-    encoder.finish();
-    return kOk;
+    return encoder.finish() ? kOk : kStoppedBySignal;
   }
 
  private:
@@ -144,6 +154,8 @@ ExitCode make(const Options& options) {
   const std::string wanted = still ? ".svg or .png" : ".gif or .webm";
   if (still ? ending != ".svg" && ending != ".png" : ending != ".gif" && ending != ".webm")
     throw Usage(fmt::format("found --out \"{}\": it must end in {}{}.", options.out, wanted, still ? "" : "; a picture of one instant needs --still"));
+  if (ending == ".gif" && options.frames_per_second > kMostGifRate)
+    throw Usage(fmt::format("found --fps {:g}: a GIF shows at most {:g} frames a second at its right speed.\n    --out film.webm has no such limit.", options.frames_per_second, kMostGifRate));
   const FilmMaker maker(options);
   ExitCode code = kOk;
   if (still) maker.draw_still(file);

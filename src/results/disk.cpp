@@ -142,9 +142,9 @@ FileError file_error(const fs::path& path, std::string_view doing, int error_num
   return FileError(text);
 }
 
-NewFile::NewFile(const fs::path& path, const DiskCalls& calls) : path_(path), calls_(calls) {
+NewFile::NewFile(const fs::path& path, const DiskCalls& calls, const fs::path& shown) : shown_(shown.empty() ? path : shown), calls_(calls) {
   descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw file_error(path, "create", errno);
+  if (descriptor_ < 0) throw file_error(shown_, "create", errno);
   buffer_.reserve(kBufferSize);
 }
 
@@ -158,16 +158,16 @@ void NewFile::append(std::string_view text) {
 }
 
 void NewFile::flush() {
-  write_all(descriptor_, buffer_, path_, calls_);
+  write_all(descriptor_, buffer_, shown_, calls_);
   buffer_.clear();
 }
 
 void NewFile::close() {
   flush();
-  if (calls_.sync(descriptor_) != 0 && errno != EINVAL) throw file_error(path_, "write", errno);
+  if (calls_.sync(descriptor_) != 0 && errno != EINVAL) throw file_error(shown_, "write", errno);
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
-  if (closed != 0) throw file_error(path_, "write", errno);
+  if (closed != 0) throw file_error(shown_, "write", errno);
 }
 
 NewFolder::NewFolder(const fs::path& target, const DiskCalls& calls) : target_(real_place(target)), calls_(calls) {
@@ -201,25 +201,32 @@ void NewFolder::publish() {
 
 void write_file(const fs::path& path, std::string_view text, const DiskCalls& calls) {
   if (is_special(path)) return write_special(path, text, calls);
-  const fs::path target = real_place(path);
-  if (fs::is_directory(target)) throw file_error(path, "write", EISDIR);
-  const fs::path fresh = unused_sibling(target, [](const fs::path& name) {
+  Replacement file(path, calls);
+  NewFile fresh(file.fresh(), calls, path);
+  fresh.append(text);
+  fresh.close();
+  file.publish();
+}
+
+Replacement::Replacement(const fs::path& target, const DiskCalls& calls) : shown_(target), target_(real_place(target)), calls_(calls) {
+  if (fs::is_directory(target_)) throw file_error(target, "write", EISDIR);
+  fresh_ = unused_sibling(target_, [](const fs::path& name) {
     const bool unused = ::access(name.c_str(), F_OK) != 0;
     errno = EEXIST;
     return unused;
   });
-  try {
-    NewFile file(fresh, calls);
-    file.append(text);
-    file.close();
-    struct stat old {};
-    if (::stat(target.c_str(), &old) == 0) ::chmod(fresh.c_str(), old.st_mode & 07777);
-    if (std::rename(fresh.c_str(), target.c_str()) != 0) throw file_error(path, "replace", errno);
-  } catch (...) {
-    ::unlink(fresh.c_str());
-    throw;
-  }
-  sync_folder(parent_of(target), calls);
+}
+
+Replacement::~Replacement() {
+  if (!published_) ::unlink(fresh_.c_str());
+}
+
+void Replacement::publish() {
+  struct stat old {};
+  if (::stat(target_.c_str(), &old) == 0) ::chmod(fresh_.c_str(), old.st_mode & 07777);
+  if (std::rename(fresh_.c_str(), target_.c_str()) != 0) throw file_error(shown_, "replace", errno);
+  published_ = true;
+  sync_folder(parent_of(target_), calls_);
 }
 
 std::string read_file(const fs::path& path, std::size_t at_most) {

@@ -25,7 +25,8 @@ FileError file_error(const std::filesystem::path& path, std::string_view doing, 
 /// A new file, buffered. Nothing is promised until close() has returned.
 class NewFile {
  public:
-  NewFile(const std::filesystem::path& path, const DiskCalls& calls);
+  /// Errors name `shown`, if given: what `path` is to become.
+  NewFile(const std::filesystem::path& path, const DiskCalls& calls, const std::filesystem::path& shown = {});
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
   ~NewFile();
@@ -36,7 +37,7 @@ class NewFile {
  private:
   void flush();
 
-  std::filesystem::path path_;
+  std::filesystem::path shown_;
   const DiskCalls& calls_;
   std::string buffer_;
   int descriptor_ = -1;
@@ -58,6 +59,24 @@ class NewFolder {
  private:
   std::filesystem::path target_, path_;
   const DiskCalls& calls_;
+  bool published_ = false;
+};
+
+/// A file that is written under a temporary name beside its own and takes its place by publish(). Destroyed before that, it
+/// leaves no trace. Throws FileError where the target is a folder.
+class Replacement {
+ public:
+  explicit Replacement(const std::filesystem::path& target, const DiskCalls& calls = {});
+  Replacement(const Replacement&) = delete;
+  Replacement& operator=(const Replacement&) = delete;
+  ~Replacement();
+
+  const std::filesystem::path& fresh() const { return fresh_; }  ///< where to write; there is no such file yet
+  void publish();                                                ///< links are followed, the old file's mode stays
+
+ private:
+  std::filesystem::path shown_, target_, fresh_;
+  DiskCalls calls_;
   bool published_ = false;
 };
 
