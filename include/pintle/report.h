@@ -10,9 +10,9 @@
 namespace pintle {
 
 struct ReportOptions {
-  /// Numbers that the page may carry for its pictures (eight bytes each, a third more as text). A run with more is thinned
-  /// in time, and the page says so; the tables and the
-  /// moments of the largest joint forces always stay.
+  /// Numbers that the page should carry for its pictures (eight bytes each, a third more as text). A run with more is thinned
+  /// in time, and the page says so. The tables stay, and the moments of the largest joint forces, which may be half as many
+  /// rows again; a mechanism of very many columns keeps 50 rows, however many numbers that makes.
   std::size_t most_values = 750'000;
 };
 

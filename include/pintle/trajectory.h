@@ -26,8 +26,9 @@ struct LoadSummary {
   double peak_time = 0;                ///< [s]
   bool has_moment = false;
   double peak_moment = 0, rms_moment = 0, mean_moment = 0;
-  double error_estimate = 0;           ///< largest error of any component over the run, same unit as the component
-  double relative_error_estimate = 0;  ///< the same over the joint's peak [-]
+  double error_estimate = 0;           ///< largest error of the force over the run [N]; 0 also where a run stopped before its second integration
+  double moment_error_estimate = 0;    ///< largest error of the couple [N*m]
+  double relative_error_estimate = 0;  ///< the larger of the two, each over the joint's peak [-]
   bool unique = true;                  ///< false: redundant ideal constraints leave its force undetermined; one of many is given
 };
 

@@ -229,6 +229,7 @@ class Run {
       joint.unique = !not_unique.contains(joint.name);
       if (difference.force.empty()) continue;
       joint.error_estimate = share * difference.force[j];
+      joint.moment_error_estimate = share * difference.couple[j];
       joint.relative_error_estimate = share * relative_difference[j];
     }
     judge(difference.force.empty(), error);

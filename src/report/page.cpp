@@ -81,7 +81,7 @@ constexpr std::string_view kStage = R"html(<div id="stage" hidden>
 </div>
 )html";
 
-std::string motion(const Scene& scene, const RunRecord& run, const PageContent& content) {
+std::string motion(const Scene& scene, const RunRecord& run) {
   const Trajectory& trajectory = run.trajectory;
   std::string html = "<section id=\"motion\" aria-labelledby=\"motion-title\">\n<h2 id=\"motion-title\">Motion</h2>\n";
   if (trajectory.n_rows() == 0) return html + "<p>The run has no rows: there is nothing to show.</p>\n</section>\n";
@@ -94,10 +94,13 @@ std::string motion(const Scene& scene, const RunRecord& run, const PageContent& 
   html += still(scene, trajectory);
   if (!scene.loads.empty()) html += "<p class=\"note\">Red arrows are joint forces on the second body of each joint, orange ones applied forces.</p>\n";
   if (scene.n_unseen > 0) html += fmt::format("<p class=\"note\">{} of {} bodies were not recorded and are not drawn.</p>\n", scene.n_unseen, scene.bodies.size());
-  if (content.rows.size() < trajectory.n_rows())
-    html += fmt::format("<p class=\"note\">Pictures and plots show {} of {} rows; the tables come from all of them, and the moments of the largest joint forces are among those shown.</p>\n",
-                        content.rows.size(), trajectory.n_rows());
   return html + "</section>\n";
+}
+
+std::string plots(const Trajectory& trajectory, const PageContent& content) {
+  if (content.rows.size() == trajectory.n_rows()) return "<div id=\"charts\"></div>\n";
+  return fmt::format("<p class=\"note\">Pictures and plots show {} of {} rows; the tables come from all of them, and the moments of the largest joint forces are among those shown.</p>\n<div id=\"charts\"></div>\n",
+                     content.rows.size(), trajectory.n_rows());
 }
 
 std::string section(const char* id, const char* title, const std::string& content) {
@@ -123,9 +126,9 @@ std::string report_html(const Model& model, const RunRecord& run, const ReportOp
       "<meta name=\"color-scheme\" content=\"light dark\">\n<title>{}: Pintle report</title>\n<style>\n{}</style>\n</head>\n<body>\n",
       escaped_markup(title_of(model, run)), kPageStyle);
   html += header(model, run) + "<main>\n";
-  html += motion(scene, run, content);
-  if (rows) html += section("plots", "Plots", "<div id=\"charts\"></div>\n");
-  html += section("forces-of-joints", "Peak joint forces", force_table(trajectory) + couple_table(trajectory) + drive_tables(trajectory));
+  html += motion(scene, run);
+  if (rows) html += section("plots", "Plots", plots(trajectory, content));
+  html += section("forces-of-joints", "Peak joint forces", (trajectory.joints.empty() ? "<p>There are no joints.</p>\n" : force_table(trajectory)) + couple_table(trajectory) + drive_tables(trajectory));
   html += section("energy", "Energy account", energy_table(trajectory.energy));
   html += section("assumed", "What was assumed", assumption_list(model, trajectory));
   html += section("work", "What it took", counter_table(trajectory));

@@ -208,7 +208,7 @@ class PageData {
     for (const ForceArrow& arrow : scene_.arrows)
       arrows.push_back({{"joint", arrow.joint}, {"on", arrow.on}, {"at", spot(arrow.at)}, {"fx", kept(arrow.fx)}, {"fy", kept(arrow.fy)}});
     return {{"time_decimals", scene_.time_decimals}, {"box", {scene_.box.low[0], scene_.box.low[1], scene_.box.high[0], scene_.box.high[1]}},
-            {"unit", scene_.unit}, {"arrow_length", scene_.arrow_length}, {"arrow_force", scene_.arrow_force},
+            {"unit", scene_.unit}, {"arrow_length", scene_.arrow_length}, {"arrow_force", scene_.arrow_force}, {"arrow_most", Scene::kLongestArrow},
             {"bodies", bodies}, {"shapes", shapes}, {"connectors", connectors}, {"arrows", arrows}, {"loads", loads()},
             {"points", named(scene_.points)}, {"labels", named(scene_.labels)}};
   }

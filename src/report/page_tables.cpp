@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "results/force_quality.h"
 #include "results/markup.h"
 #include "results/plot_ticks.h"
 #include "results/text_table.h"
@@ -49,11 +50,6 @@ class HtmlTable {
   std::string attributes_, heads_, rows_;
 };
 
-bool misses(const LoadSummary& joint, const Trajectory& run) {
-  if (run.of_motion || !(run.tolerance > 0)) return false;
-  return !(joint.relative_error_estimate <= run.tolerance);  // a NaN does
-}
-
 std::string seconds(double s) {
   const AxisScale scale = scale_for(s, "s");
   return fmt::format("{:.3g} {}", s / scale.factor, scale.unit);
@@ -83,28 +79,31 @@ Verdict verdict_on(const Trajectory& trajectory) {
     return {trajectory.outcome == Outcome::kFailed ? Verdict::kBad : Verdict::kDoubtful,
             fmt::format("{} at t = {:.6g} s{}{}", trajectory.outcome == Outcome::kFailed ? "The computation failed" : "Stopped by the user",
                         trajectory.t_end, trajectory.message.empty() ? "." : ": ", trajectory.message)};
+  const std::string asked = printed_number(fmt::format("{:g}", trajectory.tolerance));
   const LoadSummary* worst = nullptr;
   std::size_t n_missed = 0, n_ambiguous = 0;
   for (const LoadSummary& joint : trajectory.joints) {
-    n_missed += misses(joint, trajectory);
+    n_missed += misses_tolerance(joint, trajectory);
     n_ambiguous += !joint.unique;
     if (!worst || !(joint.relative_error_estimate <= worst->relative_error_estimate)) worst = &joint;
   }
-  if (!worst) return {Verdict::kGood, "Completed; there are no joints."};
-  const std::string at = fmt::format("{} of its peak, at {}", printed_number(exponent(worst->relative_error_estimate)), worst->name);
   const std::string more = n_ambiguous ? fmt::format(" Forces of {} are not unique.", count(n_ambiguous, "joint", "joints")) : "";
-  if (trajectory.of_motion) {
-    const bool met = trajectory.motion_error <= trajectory.tolerance && trajectory.outcome == Outcome::kCompleted;
-    return {met && !n_ambiguous ? Verdict::kGood : Verdict::kDoubtful,
-            fmt::format("Places are accurate to {} of the longest way that a body has gone ({} was asked for); largest estimated error of a joint force: {}.{}",
-                        printed_number(exponent(trajectory.motion_error)), printed_number(fmt::format("{:g}", trajectory.tolerance)), at, more)};
-  }
-  if (n_missed || trajectory.outcome == Outcome::kToleranceNotMet)
-    return {Verdict::kDoubtful, fmt::format("{} the tolerance of {} of the peak; largest estimated error: {}.{}",
-                                            n_missed == 1 ? "1 joint force misses" : fmt::format("{} joint forces miss", n_missed),
-                                            printed_number(fmt::format("{:g}", trajectory.tolerance)), at, more)};
-  return {n_ambiguous ? Verdict::kDoubtful : Verdict::kGood,
-          fmt::format("Every joint force is accurate to {} of its peak; largest estimated error: {}.{}", printed_number(fmt::format("{:g}", trajectory.tolerance)), at, more)};
+  std::string of_forces;
+  if (!worst) of_forces = "there are no joints.";
+  else if (!has_force_estimates(trajectory)) of_forces = "the joint forces carry no error estimate.";
+  else of_forces = fmt::format("largest estimated error{}: {} of its peak, at {}.", trajectory.of_motion ? " of a joint force" : "", printed_number(exponent(worst->relative_error_estimate)), worst->name);
+  of_forces += more;
+  const bool met = trajectory.outcome == Outcome::kCompleted;
+  const Verdict::Kind kind = met && !n_ambiguous ? Verdict::kGood : Verdict::kDoubtful;
+  if (trajectory.of_motion)
+    return {trajectory.motion_error <= trajectory.tolerance ? kind : Verdict::kDoubtful,
+            fmt::format("Places are accurate to {} of the longest way that a body has gone ({} was asked for); {}", printed_number(exponent(trajectory.motion_error)), asked, of_forces)};
+  if (met && !worst) return {Verdict::kGood, "Completed; " + of_forces};
+  if (met && !n_missed) return {kind, fmt::format("Every joint force is accurate to {} of its peak; {}", asked, of_forces)};
+  if (n_missed)
+    return {Verdict::kDoubtful, fmt::format("{} the tolerance of {} of the peak; {}",
+                                            n_missed == 1 ? "1 joint force misses" : fmt::format("{} joint forces miss", n_missed), asked, of_forces)};
+  return {Verdict::kDoubtful, fmt::format("The tolerance of {} was not reached{}{}; {}", asked, trajectory.message.empty() ? "" : ": ", trajectory.message, of_forces)};
 }
 
 std::string facts_line(const Model& model, const Trajectory& trajectory) {
@@ -123,10 +122,11 @@ std::string force_table(const Trajectory& trajectory) {
   table.head("est. error", "N");
   table.head("of peak");
   const auto joints = shown_joints(trajectory);
+  const bool estimated = has_force_estimates(trajectory);
   bool any_missed = false, any_ambiguous = false;
   for (const LoadSummary* one : joints) {
     const LoadSummary& joint = *one;
-    const bool missed = misses(joint, trajectory);
+    const bool missed = misses_tolerance(joint, trajectory);
     any_missed |= missed;
     any_ambiguous |= !joint.unique;
     const std::string name = escaped_markup(joint.name);
@@ -140,10 +140,8 @@ std::string force_table(const Trajectory& trajectory) {
     table.number(joint.peak_time, jump_button(joint));
     table.number(joint.rms);
     table.number(joint.mean);
-    // A run that stopped early has no second pass to compare with.
-    const bool known = joint.error_estimate > 0 || trajectory.outcome == Outcome::kCompleted;
-    table.number(joint.error_estimate, known ? estimate(joint.error_estimate) : "–");
-    table.number(joint.relative_error_estimate, (known ? estimate(joint.relative_error_estimate) : "–") + (missed ? " <strong title=\"misses the tolerance\">!</strong>" : ""));
+    table.number(joint.error_estimate, estimated ? estimate(joint.error_estimate) : "–");
+    table.number(joint.relative_error_estimate, (estimated ? estimate(joint.relative_error_estimate) : "–") + (missed ? " <strong title=\"misses the tolerance\">!</strong>" : ""));
     table.end_row();
   }
   std::string html = table.html();
@@ -159,7 +157,8 @@ std::string force_table(const Trajectory& trajectory) {
 std::string couple_table(const Trajectory& trajectory) {
   HtmlTable table(" class=\"sortable\"");
   for (const char* head : {"joint", "on", "by"}) table.head(head, "", false);
-  for (const char* head : {"peak couple", "RMS", "mean"}) table.head(head, "N*m");
+  for (const char* head : {"peak couple", "RMS", "mean", "est. error"}) table.head(head, "N*m");
+  const bool estimated = has_force_estimates(trajectory);
   bool any = false;
   for (const LoadSummary* joint : shown_joints(trajectory)) {
     if (!joint->has_moment) continue;
@@ -169,6 +168,7 @@ std::string couple_table(const Trajectory& trajectory) {
     table.text(escaped_markup(joint->second_body));
     table.text(escaped_markup(joint->first_body));
     for (const double x : {joint->peak_moment, joint->rms_moment, joint->mean_moment}) table.number(x);
+    table.number(joint->moment_error_estimate, estimated ? estimate(joint->moment_error_estimate) : "–");
     table.end_row();
   }
   return any ? "<h3>Couples about the second marker</h3>\n" + table.html() : "";

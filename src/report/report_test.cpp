@@ -151,6 +151,40 @@ TEST(Report, VerdictNamesTheWorstJoint) {
   EXPECT_EQ(verdict_on(run.trajectory).kind, Verdict::kDoubtful);
 }
 
+// A finer integration that failed leaves no estimates: nothing may say that they are zero.
+TEST(Report, VerdictWithoutEstimatesSaysSo) {
+  auto [model, run] = run_of_mechanism("four_bar");
+  for (LoadSummary& joint : run.trajectory.joints) joint.error_estimate = joint.moment_error_estimate = joint.relative_error_estimate = 0;
+  run.trajectory.outcome = Outcome::kToleranceNotMet;
+  run.trajectory.message = "no step from t = 0.1 s";
+  EXPECT_EQ(verdict_on(run.trajectory).text,
+            "The tolerance of 10⁻⁵ was not reached: no step from t = 0.1 s; the joint forces carry no error estimate.");
+  EXPECT_EQ(verdict_on(run.trajectory).kind, Verdict::kDoubtful);
+  EXPECT_EQ(count(force_table(run.trajectory), ">–<"), 2 * run.trajectory.joints.size());
+  run.trajectory.joints.clear();
+  run.trajectory.of_motion = true;
+  run.trajectory.motion_error = 2 * run.trajectory.tolerance;
+  EXPECT_EQ(verdict_on(run.trajectory).kind, Verdict::kDoubtful);
+}
+
+TEST(Report, AppliedForcesAreDrawnWithoutJoints) {
+  const auto [model, run] = run_of(R"toml(format = 1
+[simulate]
+duration = 0.1
+[body.block]
+mass = 1
+inertia = 0.1
+position = [0, 0]
+angle = 0
+[force.push]
+on = "block"
+force = [3, 4]
+)toml");
+  const Scene scene = make_scene(model, run.trajectory);
+  EXPECT_DOUBLE_EQ(scene.arrow_force, 5);
+  EXPECT_TRUE(holds(still_svg(scene, instant_at(scene, run.trajectory, 0), {}), "5 N</text>"));
+}
+
 // Thinned in time: ends and peaks stay, and the page says what it shows.
 TEST(Report, LargeRunsAreThinnedButKeepTheirPeaks) {
   const auto [model, run] = run_of_mechanism("andrews");

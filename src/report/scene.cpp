@@ -213,6 +213,16 @@ void SceneMaker::add_arrows() {
     if (const auto at = find(load.on)) scene_.loads.push_back({load.name, *at, load.force, load.body_axes});
 }
 
+double SceneMaker::largest_load() const {
+  double largest = 0;
+  for (const std::size_t row : sample_rows(400))
+    for (const LoadArrow& load : scene_.loads) {
+      const Vec2 f = force_of(load, trajectory_.at(row, 0), pose(load.at.body, row));
+      if (const double size = std::hypot(f[0], f[1]); std::isfinite(size)) largest = std::max(largest, size);
+    }
+  return largest;
+}
+
 // A shock of a moment must not shrink the arrows of the whole run: the scale follows the RMS where the peak is far above it.
 void SceneMaker::scale_arrows() {
   constexpr double kPeakOfRms = 3;
@@ -222,6 +232,7 @@ void SceneMaker::scale_arrows() {
     if (std::isfinite(joint.rms)) rms = std::max(rms, joint.rms);
   }
   scene_.arrow_force = std::min(peak, kPeakOfRms * rms);
+  if (!(scene_.arrow_force > 0)) scene_.arrow_force = largest_load();
   scene_.arrow_length = kArrowOfBox * std::sqrt(std::max(scene_.box.width() * scene_.box.height(), 1e-18));
   if (!(scene_.arrow_force > 0)) return;
   const auto show_tip = [this](const Vec2& at, const Vec2& f) {

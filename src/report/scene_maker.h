@@ -47,6 +47,7 @@ class SceneMaker {
   void add_labels();
   void add_connectors();
   void add_arrows();
+  double largest_load() const;  ///< of the applied forces [N]
   void scale_arrows();
   std::optional<Anchor> find(const MarkerRef& ref) const;  ///< absent: its body was not recorded
   Pose pose(int body, std::size_t row) const;

@@ -197,7 +197,7 @@ StillFrame frame_for(const Scene& scene, const StillOptions& options) {
   frame.scale = std::min(options.width / w, std::max(options.most_height - foot, 40.0) / h);
   const auto even = [](double x) { return 2 * std::max(std::round(x / 2), 16.0); };
   const bool narrow = options.width / w > frame.scale;
-  frame.width = even(narrow ? std::max(w * frame.scale, 260.0) : options.width);
+  frame.width = even(narrow ? std::min(std::max(w * frame.scale, 260.0), options.width) : options.width);
   frame.height = even(h * frame.scale + foot);
   const double spare = std::max(0.0, frame.width / frame.scale - w) / 2;
   frame.corner = {scene.box.low[0] - spare, scene.box.low[1] - foot / frame.scale};

@@ -18,6 +18,7 @@ double round_step(double x) {
   return power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
 }
 
+constexpr double kSteady = 1e-9;  // a range below this part of the values is none
 constexpr double kMargin = 0.05;  // free room above and below the data, of their range
 
 struct Prefix {
@@ -64,7 +65,7 @@ Axis make_log_axis(double low, double high, int n_ticks) {
 
 Axis make_axis(double low, double high, int n_ticks, bool tight) {
   const double size = std::max(std::abs(low), std::abs(high));
-  if (high - low <= 1e-12 * size || high == low) {
+  if (high - low <= kSteady * size || high == low) {
     const double margin = size > 0 ? 0.1 * size : 1;
     low -= margin;
     high += margin;

@@ -132,7 +132,7 @@ class PlotMaker {
           (alone ? "" : fmt::format("{} on {}: ", joint.name, body)) + component.label, component.subscript, {}};
       curve.y =
           component.column.empty() ? magnitude(column("fx[world]"), column("fy[world]")) : column(component.column);
-      curve.band = joint.error_estimate;
+      curve.band = moment ? joint.moment_error_estimate : joint.error_estimate;
       panel_for(moment ? "N*m" : "N", moment ? "Couple" + on : "Force" + on + axes())
           .curves.push_back(std::move(curve));
     }
@@ -192,19 +192,24 @@ Plot overlay(const std::vector<NamedPlot>& plots) {
   Plot all = plots.front().plot;
   all.subtitle.clear();
   for (const NamedPlot& one : plots) all.subtitle += (all.subtitle.empty() ? "" : ", ") + one.name;
-  for (std::size_t p = 0; p < all.panels.size(); ++p) {
-    Panel& panel = all.panels[p];
-    panel.x_quantity = all.x_quantity;
-    panel.x_unit = all.x_unit;
-    panel.curves.clear();
-    for (std::size_t run = 0; run < plots.size(); ++run) {
-      const Plot& plot = plots[run].plot;
-      for (std::size_t i = 0; p < plot.panels.size() && i < plot.panels[p].curves.size(); ++i) {
-        Curve curve = plot.panels[p].curves[i];
-        curve.label = fmt::format("{}: {}", plots[run].name, curve.label);
+  all.panels.clear();
+  for (std::size_t run = 0; run < plots.size(); ++run) {
+    const Plot& plot = plots[run].plot;
+    for (const Panel& from : plot.panels) {
+      const auto same_unit = [&from](const Panel& panel) { return panel.unit == from.unit; };
+      auto panel = std::find_if(all.panels.begin(), all.panels.end(), same_unit);
+      if (panel == all.panels.end()) {
+        panel = all.panels.insert(panel, from);
+        panel->x_quantity = all.x_quantity;
+        panel->x_unit = all.x_unit;
+        panel->curves.clear();
+      }
+      for (std::size_t i = 0; i < from.curves.size(); ++i) {
+        Curve curve = from.curves[i];
+        curve.label = fmt::format("{}: {}{}", plots[run].name, curve.label, from.quantity == panel->quantity ? "" : " (" + from.quantity + ")");
         curve.x = plot.x;
         curve.style = static_cast<int>(i) % kSolid + kSolid * static_cast<int>(run);
-        panel.curves.push_back(std::move(curve));
+        panel->curves.push_back(std::move(curve));
       }
     }
   }

@@ -43,6 +43,7 @@ void for_each_entry(Load& load, const Visit& visit) requires requires {
   visit("rms_moment", load.rms_moment);
   visit("mean_moment", load.mean_moment);
   visit("error_estimate", load.error_estimate);
+  visit("moment_error_estimate", load.moment_error_estimate);
   visit("relative_error_estimate", load.relative_error_estimate);
   visit("unique", load.unique);
 }
@@ -140,7 +141,8 @@ void load(const Json& json, T& value) {
 template <class T>
 void from_json(const Json& json, T& structure) {
   for_each_entry(structure, [&json](const char* key, auto& member) {
-    const bool newer = std::string_view(key) == "unique" && !json.contains(key);  // runs of version 0.1 before ideal joints
+    // Runs of version 0.1 before ideal joints have no "unique", older ones no error of couples.
+    const bool newer = (std::string_view(key) == "unique" || std::string_view(key) == "moment_error_estimate") && !json.contains(key);
     if (!newer) load(json.at(key), member);
   });
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "pintle/results.h"
+#include "results/force_quality.h"
 #include "results/text_table.h"
 
 namespace pintle {
@@ -71,11 +72,6 @@ std::string section(const std::string& title, const TextTable& table, const Styl
   return table.empty() ? "" : fmt::format("\n{}\n{}", title, table.text(style.bold, style.plain));
 }
 
-bool too_inaccurate(const LoadSummary& load, const Trajectory& run) {
-  if (run.of_motion || !(run.tolerance > 0)) return false;
-  return !(load.relative_error_estimate <= run.tolerance);  // a NaN is too inaccurate as well
-}
-
 std::string joint_section(const Trajectory& trajectory, const Style& style) {
   TextTable table;
   for (const char* head : {"joint", "type", "on", "by"}) table.add_column(head, Align::kLeft);
@@ -87,17 +83,18 @@ std::string joint_section(const Trajectory& trajectory, const Style& style) {
   table.add_column("", Align::kLeft);
   const LoadSummary* worst = nullptr;
   std::size_t n_marked = 0;
+  const bool estimated = has_force_estimates(trajectory);
   const auto joints = pointers(trajectory.joints);
   for (const LoadSummary* one : shown(joints, [](const LoadSummary& load) { return load.peak; })) {
     const LoadSummary& load = *one;
-    const bool marked = too_inaccurate(load, trajectory);
+    const bool marked = misses_tolerance(load, trajectory);
     table.add_row({load.name, load.type, load.second_body, load.first_body, engineering(load.peak),
-                   engineering(load.peak_time), engineering(load.rms), exponent(load.error_estimate),
-                   exponent(load.relative_error_estimate), (marked ? style.warn + "<" + style.plain : "") + (load.unique ? "" : " not unique")});
+                   engineering(load.peak_time), engineering(load.rms), estimated ? exponent(load.error_estimate) : "-",
+                   estimated ? exponent(load.relative_error_estimate) : "-", (marked ? style.warn + "<" + style.plain : "") + (load.unique ? "" : " not unique")});
   }
   std::string text = section("Joint forces (magnitude)", table, style) + rest_line(joints.size());
   for (const LoadSummary* load : joints) {
-    if (!too_inaccurate(*load, trajectory)) continue;
+    if (!misses_tolerance(*load, trajectory)) continue;
     ++n_marked;
     if (!worst || load->relative_error_estimate > worst->relative_error_estimate) worst = load;
   }

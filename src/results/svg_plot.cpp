@@ -42,11 +42,13 @@ struct Range {
       high = std::max(high, value);
     }
   }
-  /// Room for a band, if it is not far wider than the data.
-  void widen(double band) {
-    if (empty() || !(band < high - low)) return;
-    low -= band;
-    high += band;
+  /// With the room for its band: what the band hides is not magnified.
+  void cover(const Curve& curve, bool positive) {
+    Range own;
+    own.cover(curve.y, positive);
+    const double band = std::isfinite(curve.band) && !positive ? curve.band : 0;
+    low = std::min(low, own.low - band);
+    high = std::max(high, own.high + band);
   }
   bool empty() const { return low > high; }
   double largest() const { return empty() ? 1 : std::max(std::abs(low), std::abs(high)); }
@@ -164,10 +166,7 @@ void Picture::lay_out() {
   double label_width = 0;
   for (const Panel& panel : plot_.panels) {
     Range range;
-    for (const Curve& curve : panel.curves) {
-      range.cover(curve.y, panel.log_y);
-      range.widen(curve.band);
-    }
+    for (const Curve& curve : panel.curves) range.cover(curve, panel.log_y);
     Frame frame(panel);
     scale_x(frame);
     frame.y_scale = panel.log_y ? plain_scale(panel.unit) : scale_for(range.largest(), panel.unit);
@@ -274,17 +273,20 @@ void Picture::draw_band(const Frame& frame, std::size_t index) {
   const Curve& curve = frame.panel.curves[index];
   if (frame.y.log || !(curve.band > 0) || !std::isfinite(curve.band)) return;
   if (frame.height * curve.band / frame.y_scale.factor / (frame.y.high - frame.y.low) < kNarrowestBand) return;
-  std::vector<Point> edge = thin_line(points_of(frame, curve, curve.band), kColumnWidth);
-  const std::vector<Point> lower = thin_line(points_of(frame, curve, -curve.band), kColumnWidth);
-  edge.insert(edge.end(), lower.rbegin(), lower.rend());
   put("<path fill=\"{}\" fill-opacity=\"0.2\" d=\"", kColours[style_of(frame.panel, index) % kColours.size()]);
-  const char* pen = "M";
-  for (const Point& point : edge) {
-    if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;
-    put("{}{:.2f} {:.2f}", pen, point.x, point.y);
-    pen = "L";
+  const std::vector<Point> upper = points_of(frame, curve, curve.band), lower = points_of(frame, curve, -curve.band);
+  const auto there = [&](std::size_t i) { return std::isfinite(upper[i].x) && std::isfinite(upper[i].y); };
+  for (std::size_t first = 0; first < upper.size();) {  // one area for each part of the curve without a gap
+    std::size_t end = first;
+    while (end < upper.size() && there(end)) ++end;
+    std::vector<Point> edge = thin_line({upper.begin() + first, upper.begin() + end}, kColumnWidth);
+    const std::vector<Point> back = thin_line({lower.begin() + first, lower.begin() + end}, kColumnWidth);
+    edge.insert(edge.end(), back.rbegin(), back.rend());
+    for (std::size_t i = 0; i < edge.size(); ++i) put("{}{:.2f} {:.2f}", i == 0 ? "M" : "L", edge[i].x, edge[i].y);
+    if (!edge.empty()) put("Z");
+    first = end + 1;
   }
-  put("Z\"/>\n");
+  put("\"/>\n");
 }
 
 void Picture::draw_curve(const Frame& frame, std::size_t index) {

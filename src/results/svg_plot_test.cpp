@@ -174,6 +174,28 @@ TEST(RunPlot, ForcesOfOneJointNameBodyAndAxes) {
   EXPECT_EQ(plot.panels[0].curves[2].y[7], std::hypot(run.trajectory.at(7, 3), run.trajectory.at(7, 4)));
 }
 
+TEST(RunPlot, CouplesHaveTheErrorOfCouples) {
+  RunRecord run{sample::stamp(), sample::trajectory(2)};
+  Trajectory& trajectory = run.trajectory;
+  trajectory.joints[1].moment_error_estimate = 3e-5;
+  trajectory.columns = {{"t", "s", "time"}, {"joint.slide.on_block.m[world]", "N*m", "couple"}};
+  trajectory.values = {0, 1, 1, 2};
+  PlotRequest request = request_for({"slide"}, {});
+  request.components = {"moment"};
+  EXPECT_EQ(make_plot(run, request).panels.at(0).curves.at(0).band, 3e-5);
+}
+
+TEST(RunPlot, RunsInOnePlotShareWhatHasTheirUnit) {
+  const RunRecord run{sample::stamp(), sample::trajectory()};
+  const Plot forces = make_plot(run, request_for({"O4"}, {})), angle_first = make_plot(run, request_for({}, {"joint.O4.angle", "joint.O4.on_ground.fx[world]"}));
+  const Plot both = overlay({{"a", forces}, {"b", angle_first}});
+  ASSERT_EQ(both.panels.size(), 2U);
+  EXPECT_EQ(both.panels[0].unit, "N");
+  ASSERT_EQ(both.panels[0].curves.size(), forces.panels[0].curves.size() + 1);
+  EXPECT_EQ(both.panels[0].curves.back().label, "b: joint.O4.on_ground.fx[world] (joint.O4.on_ground.fx[world])");
+  EXPECT_EQ(both.panels[1].unit, "rad");
+}
+
 TEST(RunPlot, UnitsShareOrSplitPanels) {
   const RunRecord run{sample::stamp(), sample::trajectory()};
   const Plot plot = make_plot(run, request_for({"O4"}, {"joint.O4.angle", "joint.O4.on_ground.fx[world]"}));
@@ -193,6 +215,30 @@ TEST(SvgPlot, BandIsDrawnWhereItCanBeSeen) {
   EXPECT_EQ(to_svg(plot).find("fill-opacity"), std::string::npos);
   plot.panels[0].curves[0].band = 1;
   EXPECT_NE(to_svg(plot).find("fill-opacity"), std::string::npos);
+}
+
+// The axis has room for the error of a force that is zero but for rounding: neither is the rounding magnified, nor the band cut.
+TEST(SvgPlot, BandFarWiderThanTheDataStaysInTheFrame) {
+  Plot plot;
+  plot.x = {0, 1, 2};
+  plot.panels = {{"Force", "N", {{"F", "", {0, 1e-12, std::nan("")}}}}};
+  plot.panels[0].curves[0].band = 0.5;
+  const std::string svg = to_svg(plot);
+  std::size_t at = svg.find("d=\"M", svg.find("fill-opacity")) + 3;
+  int points = 0;
+  for (const std::size_t end = svg.find('"', at); at < end && svg[at] != 'Z'; ++points) {
+    std::size_t used = 0;
+    const double x = std::stod(svg.substr(at + 1), &used);
+    at += 1 + used;
+    const double y = std::stod(svg.substr(at), &used);
+    at += used;
+    EXPECT_GT(x, 0);
+    EXPECT_LT(x, plot.width);
+    EXPECT_GT(y, 0);
+    EXPECT_LT(y, plot.panel_height + 40);
+  }
+  EXPECT_EQ(points, 4);
+  EXPECT_TRUE(holds(svg, ">0.4<"));
 }
 
 }  // namespace

@@ -35,12 +35,20 @@ class Chart {
     this.height = 196;
     this.content = { title: "", unit: "", curves: [] };
     Chart.all.push(this);
-    clock.onChange(() => this.moveCursor());
-    new ResizeObserver(() => this.fitWidth()).observe(this.figure);
+    this.forget = clock.onChange(() => this.moveCursor());
+    this.watch = new ResizeObserver(() => this.fitWidth());
+    this.watch.observe(this.figure);
     for (const kind of ["pointerdown", "pointermove"]) this.svg.addEventListener(kind, (event) => this.seek(event));
   }
 
-  /** { title, unit, curves: [{ label, sub, values, peak }] } */
+  remove() {
+    this.forget();
+    this.watch.disconnect();
+    Chart.all = Chart.all.filter((one) => one !== this);
+    this.figure.remove();
+  }
+
+  /** { title, unit, curves: [{ label, sub, values }] } */
   show(content) {
     this.content = content;
     this.draw(this.figure.clientWidth || 620);

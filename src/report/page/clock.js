@@ -10,12 +10,14 @@ class Clock {
     this.speed = 1;
     this.place = { row: 0, share: 0 };
     this.listeners = [];
+    this.frame = 0;
     this.find();
   }
 
   onChange(listener) {
     this.listeners.push(listener);
     listener(this);
+    return () => (this.listeners = this.listeners.filter((one) => one !== listener));
   }
 
   tell() {
@@ -57,20 +59,20 @@ class Clock {
     this.playing = true;
     let before = null;
     const frame = (now) => {
-      if (!this.playing) return;
       if (before !== null) {
         const span = this.last - this.first;
         const t = this.t + ((now - before) / 1000) * this.speed;
         this.set(t > this.last ? this.first + ((t - this.last) % span) : t);
       }
       before = now;
-      requestAnimationFrame(frame);
+      this.frame = requestAnimationFrame(frame);
     };
-    requestAnimationFrame(frame);
+    this.frame = requestAnimationFrame(frame);
     this.tell();
   }
 
   pause() {
+    cancelAnimationFrame(this.frame);
     this.playing = false;
     this.tell();
   }

@@ -108,10 +108,10 @@ function followPointer() {
 }
 
 function onKey(event) {
-  const field = event.target.closest("select, textarea, input:not([type=checkbox]), button, summary, pre");
+  const field = event.target.closest("select, textarea, input:not([type=checkbox]), button, summary, pre, .scroller");
   if (event.ctrlKey || event.metaKey || event.altKey || (field && !(field.id === "time" && event.key === " "))) return;
   const actions = {
-    " ": () => clock.toggle(),
+    " ": () => event.repeat || clock.toggle(),
     ArrowLeft: () => clock.step(event.shiftKey ? -10 : -1),
     ArrowRight: () => clock.step(event.shiftKey ? 10 : 1),
     Home: () => clock.set(clock.first),
@@ -162,8 +162,13 @@ class ChosenChart extends Chart {
     this.head.append(this.title, this.what, this.which, remove);
     this.what.addEventListener("change", () => this.pick(run.groups[this.what.value], 0));
     this.which.addEventListener("change", () => this.pick(run.groups[this.what.value], Number(this.which.value)));
-    remove.addEventListener("click", () => this.figure.remove());
+    remove.addEventListener("click", () => this.remove());
     this.pick(group, quantity);
+  }
+
+  remove() {
+    super.remove();
+    if (jointChart === this) jointChart = null;
   }
 
   pick(group, quantity) {
@@ -225,7 +230,11 @@ function choose(joint) {
     stage.queue();
   }
   for (const row of document.querySelectorAll("#force-table tbody tr")) row.classList.toggle("chosen", row.dataset.joint === joint);
-  if (group && jointChart) jointChart.pick(group, 0);
+  if (!group) return;
+  if (jointChart) return jointChart.pick(group, 0);
+  jointChart = new ChosenChart(clock, group, 0);
+  byId("charts").append(jointChart.figure);
+  jointChart.fitWidth();
 }
 
 function setUpTable() {
@@ -277,6 +286,7 @@ function setUpPrint() {
     if (host || largestFirst.length < 2) return;
     host = made("div", { id: "all-forces" });
     const section = made("section", { className: "print-only" }, made("h2", { textContent: "Forces of the joints" }), host);
+    if (largestFirst.length > most) section.append(made("p", { className: "note", textContent: `The largest ${most} of ${largestFirst.length} joints.` }));
     byId("plots").after(section);
     for (const joint of largestFirst.slice(0, most)) {
       const group = groupOf("Joint", joint.name), chart = new Chart(clock), content = contentOf(group, group.quantities[0]);

@@ -241,7 +241,7 @@ class Stage {
     const { arrows, arrow_force: force, arrow_length: length } = run.scene;
     if (!(force > 0)) return;
     const zoom = this.now.scale / this.fitting.scale; // arrows grow with the zoom, but slower
-    const perNewton = (length * this.fitting.scale * Math.sqrt(zoom) * this.arrowFactor) / force, most = 1.25 * perNewton * force;
+    const perNewton = (length * this.fitting.scale * Math.sqrt(zoom) * this.arrowFactor) / force, most = run.scene.arrow_most * perNewton * force;
     const show = (at, xs, ys, colour) => {
       const fx = valueAt(xs, this.clock.place), fy = valueAt(ys, this.clock.place), size = Math.hypot(fx, fy) * perNewton;
       if (!(size >= 1)) return;
@@ -251,7 +251,7 @@ class Stage {
     for (const load of run.scene.loads) show(load.at, load.fx, load.fy, "load");
     for (const arrow of arrows)
       if (arrow.fx >= 0 && arrow.fy >= 0) show(arrow.at, run.columns[arrow.fx].values, run.columns[arrow.fy].values, "force");
-    const power = 10 ** Math.floor(Math.log10(force / this.arrowFactor)), digit = force / this.arrowFactor / power;
+    const shown = force / (this.arrowFactor * Math.sqrt(zoom)), power = 10 ** Math.floor(Math.log10(shown)), digit = shown / power;
     const nice = power * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
     this.drawArrow(g, 12, this.height - 14, 12 + nice * perNewton, this.height - 14, false, "force");
     g.fillStyle = this.colour("ink");

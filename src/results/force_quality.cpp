@@ -1,0 +1,17 @@
+#include "results/force_quality.h"
+
+#include <algorithm>
+
+namespace pintle {
+
+bool has_force_estimates(const Trajectory& run) {
+  return run.outcome == Outcome::kCompleted ||
+         std::any_of(run.joints.begin(), run.joints.end(), [](const LoadSummary& joint) { return joint.relative_error_estimate != 0; });
+}
+
+bool misses_tolerance(const LoadSummary& joint, const Trajectory& run) {
+  if (run.of_motion || !(run.tolerance > 0) || !has_force_estimates(run)) return false;
+  return !(joint.relative_error_estimate <= run.tolerance);
+}
+
+}  // namespace pintle

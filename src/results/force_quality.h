@@ -1,0 +1,14 @@
+// What a run says about its own joint forces.
+#pragma once
+
+#include "pintle/trajectory.h"
+
+namespace pintle {
+
+/// Whether a second integration has said how good the joint forces are. A run that stopped before has zeros for estimates.
+bool has_force_estimates(const Trajectory& run);
+
+/// Whether the estimate exceeds the tolerance, which is of forces; where it is not a number, it does.
+bool misses_tolerance(const LoadSummary& joint, const Trajectory& run);
+
+}  // namespace pintle
