@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "cli/console.h"
@@ -33,6 +34,7 @@ struct PlotOptions {
   double width = 0, dots_per_inch = 192;
 
   bool png() const { return out.ends_with(".png"); }
+  bool drawable() const { return out.empty() || out == "-" || png() || out.ends_with(".svg"); }
 };
 
 std::filesystem::path plot_file(const PlotOptions& options) {
@@ -40,10 +42,31 @@ std::filesystem::path plot_file(const PlotOptions& options) {
   std::string name = folder_name(options.run);
   for (const std::string& joint : options.request.joints) name += "-" + joint;
   if (options.request.joints.empty()) name += "-" + options.request.columns.front();
+  for (const std::string& other : options.others) name += "-with-" + folder_name(other);
   return name + ".svg";
 }
 
+Plot plot_of_other(const std::string& run, const PlotRequest& request) {
+  try {
+    return make_plot(read_run(run), request);
+  } catch (const PlotRequestError& error) {
+    throw PlotRequestError(fmt::format("{}: {}", run, error.what()));
+  }
+}
+
+/// Folders alone, where they tell the runs apart.
+void shorten_names(std::vector<NamedPlot>& plots) {
+  std::set<std::string> names;
+  for (const NamedPlot& one : plots) names.insert(folder_name(one.name));
+  if (names.size() < plots.size()) return;
+  for (NamedPlot& one : plots) one.name = folder_name(one.name);
+}
+
 ExitCode plot(const PlotOptions& options, const WritePng& write_png) {
+  if (!options.drawable()) {
+    print_error(fmt::format("pintle plot: found --out \"{}\": it must end in .svg or .png, or be - for SVG on standard output.\n", options.out));
+    return kCommandLineError;
+  }
   if (options.png() && !write_png)
     throw FileError(options.out + ": PNG is drawn by pintle-pictures, which was built without librsvg or is not beside pintle.\n    Install librsvg2-dev and build again, or choose .svg.");
   const RunRecord run = read_run(options.run);
@@ -51,8 +74,9 @@ ExitCode plot(const PlotOptions& options, const WritePng& write_png) {
   try {
     Plot made = make_plot(run, options.request);
     if (!options.others.empty()) {
-      std::vector<NamedPlot> plots{{folder_name(options.run), std::move(made)}};
-      for (const std::string& other : options.others) plots.push_back({folder_name(other), make_plot(read_run(other), options.request)});
+      std::vector<NamedPlot> plots{{options.run, std::move(made)}};
+      for (const std::string& other : options.others) plots.push_back({other, plot_of_other(other, options.request)});
+      shorten_names(plots);
       made = overlay(plots);
     }
     if (options.width > 0) made.width = options.width;

@@ -89,6 +89,24 @@ TEST_F(PlotVerb, RunsLieOverOneAnother) {
   EXPECT_EQ(sandbox_.pintle("plot four-run --with no-run --joint O4 --out -").exit_code, 6);
 }
 
+TEST_F(PlotVerb, RunsOfOneNameAreToldApartByTheirFolders) {
+  write_run(trajectory(26), stamp(), sandbox_ / "old" / "four-run");
+  const Answer answer = sandbox_.pintle("plot four-run --with old/four-run --joint O4 --components magnitude --out -");
+  EXPECT_TRUE(holds(answer.out, ">old/four-run: |F|")) << answer.error;
+  EXPECT_TRUE(holds(answer.out, ">four-run: |F|"));
+}
+
+// The words of the command line must not overwrite a model, nor put SVG into a file of another kind.
+TEST_F(PlotVerb, OtherEndingsAreRefused) {
+  sandbox_.write("four.toml", "mine");
+  for (const char* file : {"four.toml", "forces.pdf"}) {
+    const Answer answer = sandbox_.pintle(std::string("plot four-run --joint O4 --out ") + file);
+    EXPECT_EQ(answer.exit_code, 2);
+    EXPECT_TRUE(holds(answer.error, "must end in .svg or .png")) << answer.error;
+  }
+  EXPECT_EQ(sandbox_.read("four.toml"), "mine");
+}
+
 TEST_F(PlotVerb, FileSizeLimitLeavesTheOldPlot) {
   sandbox_.write("O4.svg", "old");
   const Answer answer = sandbox_.shell("trap '' XFSZ; ulimit -f 1; \"$PINTLE\" plot four-run --joint O4 --out O4.svg");
