@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kUsualPort = 7463;
+constexpr int kMorePorts = 9;  // tried after it: what a browser keeps for a page goes by its port
 constexpr const char* kFooter =
     "Examples:\n"
     "  pintle studio\n"
@@ -71,14 +72,14 @@ void show(const std::string& address) {
 
 ExitCode run_studio(const StudioOptions& options) {
   const fs::path folder = fs::current_path();
-  studio::DeskSettings settings{find_pages(), folder, model_below(folder, options.model), 0, studio::random_token()};
-  WebServer server(options.port);
+  studio::DeskSettings settings{find_pages(), folder, model_below(folder, options.model), 0, studio::random_token(), studio::random_token()};
+  WebServer server(options.port, options.port == kUsualPort ? kMorePorts : 0);
   settings.port = server.port();
   studio::Desk desk(settings);
-  const std::string address = fmt::format("http://127.0.0.1:{}/#token={}", server.port(), settings.token);
-  print_out(fmt::format("Pintle Studio: {}\nModels of {}; Ctrl-C ends it.\n", address, folder.string()));
+  const std::string place = fmt::format("http://127.0.0.1:{}/", server.port());
+  print_out(fmt::format("Pintle Studio: {}#token={}\nModels of {}; Ctrl-C ends it.\n", place, settings.token, folder.string()));
   catch_interrupts();
-  if (!options.no_browser) show(address);
+  if (!options.no_browser) show(place + "enter/" + settings.ticket);
   server.serve(desk, [] { return !interrupted(); });
   return kOk;
 }
@@ -89,7 +90,7 @@ void add_studio(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("studio", kStudioDescription);
   const auto options = std::make_shared<StudioOptions>();
   verb->add_option("MODEL", options->model, "model file to open, in this folder");
-  verb->add_option("--port", options->port, fmt::format("port on 127.0.0.1 (default: {}, or a free one if that is taken)", kUsualPort))
+  verb->add_option("--port", options->port, fmt::format("port on 127.0.0.1 (default: {}; where it is taken one of the next {}, or any)", kUsualPort, kMorePorts))
       ->check(CLI::Range(0, 65535))
       ->type_name("N");
   verb->add_flag("--no-browser", options->no_browser, "print the address only");

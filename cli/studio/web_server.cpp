@@ -31,7 +31,7 @@ struct WebServer::Sockets {
   httplib::Server server;
 };
 
-WebServer::WebServer(int port) : sockets_(std::make_unique<Sockets>()) {
+WebServer::WebServer(int port, int more) : sockets_(std::make_unique<Sockets>()) {
   httplib::Server& server = sockets_->server;
   // Without SO_REUSEPORT, so that no other program can listen at the same port.
   server.set_socket_options([](int socket) {
@@ -43,8 +43,9 @@ WebServer::WebServer(int port) : sockets_(std::make_unique<Sockets>()) {
   server.set_write_timeout(kPatience);
   server.set_keep_alive_timeout(kPatience);
   server.set_keep_alive_max_count(1000);
-  if (port > 0 && server.bind_to_port(kAddress, port)) port_ = port;
-  else port_ = server.bind_to_any_port(kAddress);
+  for (int i = 0; i <= more && port > 0 && port_ <= 0; ++i)
+    if (server.bind_to_port(kAddress, port + i)) port_ = port + i;
+  if (port_ <= 0) port_ = server.bind_to_any_port(kAddress);
   if (port_ <= 0) throw FileError("pintle studio finds no free port on 127.0.0.1");
 }
 

@@ -10,8 +10,8 @@ namespace pintle::cli {
 
 class WebServer {
  public:
-  /// Listens at `port`, or at any free one if that is taken or 0. Throws FileError when there is none.
-  explicit WebServer(int port);
+  /// Listens at `port`, where that is taken at one of the `more` after it, or (also for 0) at any free one. Throws FileError when there is none.
+  WebServer(int port, int more);
   ~WebServer();
   int port() const { return port_; }
 

@@ -16,6 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::string_view kEnter = "/enter/";
 constexpr const char* kPolicy =
     "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
     "connect-src 'self' blob:; worker-src 'self' blob:; object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
@@ -115,7 +116,8 @@ Reply Desk::answer(const Request& request) {
     const std::string query = mark < request.target.size() ? request.target.substr(mark + 1) : "";
     const bool is_api = path == "/api" || path.starts_with("/api/");
     demand_own_page(request, is_api);
-    reply = is_api ? api(request, path.substr(std::min<std::size_t>(5, path.size())), query) : page(request, path);
+    if (is_api) reply = api(request, path.substr(std::min<std::size_t>(5, path.size())), query);
+    else reply = path.starts_with(kEnter) ? enter(path.substr(kEnter.size())) : page(request, path);
   } catch (const Refusal& refusal) {
     reply = fault_reply(refusal.status, refusal.what(), refusal.hint);
   } catch (const FileError& error) {
@@ -156,6 +158,13 @@ Reply Desk::page(const Request& request, const std::string& path) const {
   // The names of what Vite builds change with their content.
   reply.headers.emplace_back("Cache-Control", name.starts_with("assets/") ? "public, max-age=31536000, immutable" : "no-cache");
   return reply;
+}
+
+// A program's arguments can be read by everybody on the machine: the address that a browser is started with is good for one use.
+Reply Desk::enter(const std::string& ticket) {
+  if (settings_.ticket.empty() || !same_secret(ticket, settings_.ticket) || entered_.exchange(true))
+    throw Refusal(410, "This address has been used.", "Open the one that pintle studio printed.");
+  return {303, "text/plain; charset=utf-8", "", {{"Location", "/#token=" + settings_.token}, {"Cache-Control", "no-store"}}};
 }
 
 Reply Desk::api(const Request& request, const std::string& path, const std::string& query) {

@@ -1,6 +1,7 @@
 // The server of the studio, but for its sockets: who may ask, what is asked, what is answered. docs/reference/studio-server.md
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@ struct DeskSettings {
   std::string model;             // to open first, below that folder; may be empty
   int port = 0;
   std::string token;             // that every question to the API must show
+  std::string ticket{};          // /enter/<ticket> leads to the page with its token, once; empty: nothing does
 };
 
 /// 32 random hexadecimal digits.
@@ -32,6 +34,7 @@ class Desk {
  private:
   void demand_own_page(const Request& request, bool api) const;
   Reply page(const Request& request, const std::string& path) const;
+  Reply enter(const std::string& ticket);
   Reply api(const Request& request, const std::string& path, const std::string& query);
   Reply about() const;
   Reply list() const;
@@ -43,6 +46,7 @@ class Desk {
   Folder pages_;
   ModelFolder models_;
   RunJobs runs_;
+  std::atomic<bool> entered_ = false;
 };
 
 }  // namespace pintle::studio

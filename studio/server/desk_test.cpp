@@ -102,6 +102,18 @@ TEST_F(StudioDesk, AnswersItsOwnPageOnly) {
   EXPECT_EQ(desk_->answer(twice).status, 403);
 }
 
+TEST_F(StudioDesk, ATicketLetsInOnce) {
+  Desk desk({root_ / "pages", root_ / "models", "", 4321, "t0ken", "t1cket"});
+  EXPECT_EQ(desk.answer(request("GET", "/enter/other")).status, 410);
+  const Reply first = desk.answer(request("GET", "/enter/t1cket"));
+  EXPECT_EQ(first.status, 303);
+  EXPECT_EQ(first.headers.at(0), (std::pair<std::string, std::string>("Location", "/#token=t0ken")));
+  const Reply second = desk.answer(request("GET", "/enter/t1cket"));
+  EXPECT_EQ(second.status, 410);
+  EXPECT_EQ(second.body.find("t0ken"), std::string::npos);
+  EXPECT_EQ(ask("GET", "/enter/").status, 410);  // of a desk without a ticket
+}
+
 TEST_F(StudioDesk, ListsAndOpensModels) {
   const Json list = ask_json("GET", "/api/models");
   ASSERT_EQ(list["models"].size(), 2U);

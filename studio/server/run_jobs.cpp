@@ -1,5 +1,6 @@
 #include "studio/server/run_jobs.h"
 
+#include <new>
 #include <utility>
 
 #include "studio/server/exchange.h"
@@ -9,6 +10,8 @@ namespace {
 
 constexpr int kMostUnderWay = 2;
 constexpr std::size_t kMostKept = 4;
+constexpr double kAbandoned = 10;   // [s] without a question: another run may have the place
+constexpr double kForgotten = 180;  // [s] without a question: it ends; browsers let pages in the background ask once a minute
 
 }  // namespace
 
@@ -21,17 +24,27 @@ RunJobs::~RunJobs() {
 int RunJobs::start(std::string arguments) {
   const std::lock_guard lock(changing_);
   int under_way = 0;
-  for (const auto& [id, job] : jobs_) under_way += job->done ? 0 : 1;
+  for (const auto& [id, job] : jobs_) under_way += job->done || job->stop ? 0 : 1;
+  for (const auto& [id, job] : jobs_)
+    if (under_way >= kMostUnderWay && !job->done && !job->stop && job->unasked() > kAbandoned) {
+      job->stop = true;
+      --under_way;
+    }
   if (under_way >= kMostUnderWay) throw Refusal(429, "Other runs are still under way.", "Wait for them, or cancel one.");
   forget_old();
   auto job = std::make_unique<Job>();
   job->thread = std::thread([job_now = job.get(), text = std::move(arguments)] {
     Job& now = *job_now;
-    std::string answer = packed(Kernel().call("run", text, [&now](std::string_view progress) {
-      const std::lock_guard writing(now.writing);
-      now.progress = progress;
-      return !now.stop;
-    }));
+    std::string answer;
+    try {
+      answer = packed(Kernel().call("run", text, [&now](std::string_view progress) {
+        const std::lock_guard writing(now.writing);
+        now.progress = progress;
+        return !now.stop && now.unasked() < kForgotten;
+      }));
+    } catch (const std::bad_alloc&) {
+      answer = packed({R"({"fault": {"message": "There is not enough memory for the results of this run.", "hint": "A larger output_step keeps fewer rows."}})", {}});
+    }
     const std::lock_guard writing(now.writing);
     now.answer = std::move(answer);
     now.done = true;
@@ -61,6 +74,7 @@ RunJobs::Job& RunJobs::find(int id) {
 std::string RunJobs::state(int id) {
   const std::lock_guard lock(changing_);
   Job& job = find(id);
+  job.asked = job.since_start.seconds();
   const std::lock_guard writing(job.writing);
   return job.done ? R"({"state": "done"})" : R"({"state": "running", "progress": )" + job.progress + "}";
 }

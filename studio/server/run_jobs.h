@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 
+#include "base/stopwatch.h"
 #include "studio/kernel/calls.h"
 
 namespace pintle::studio {
@@ -34,7 +35,11 @@ class RunJobs {
     std::mutex writing;
     std::string progress = "null";
     std::string answer;
+    Stopwatch since_start;
+    std::atomic<double> asked{0};  // when its state was asked for last [s]
     std::thread thread;
+
+    double unasked() const { return since_start.seconds() - asked; }
   };
   Job& find(int id);
   void forget_old();
