@@ -7,7 +7,7 @@ FUZZ_SECONDS ?= 60
 CONFIGURE := cmake -G Ninja -S .
 BUILD     := cmake --build
 CLANG     := clang++-14
-LONG := Slow|Live|Radau|StageSolver|Dopri5|Allocations|DenseOutput|Simulate|Reference|Accuracy|System|Start|Assembl|Stopped|Check|Kink|Methods|AlphaStepper|CompareSolvers|SolversVerb|Lagrangian|Published|Stiffen|Compare$$
+LONG := Slow|Live|BlockPattern|Envelope|LargeModels|Radau|StageSolver|Dopri5|Allocations|DenseOutput|Simulate|Reference|Accuracy|System|Start|Assembl|Stopped|Check|Kink|Methods|AlphaStepper|CompareSolvers|SolversVerb|Lagrangian|Published|Stiffen|Compare$$
 say        = @printf '\n=== %s\n' "$(1)"
 
 .PHONY: help setup build demo test install bench fuzz web-check studio studio-test studio-browser-test format clean
@@ -93,7 +93,7 @@ test-sanitized:
 
 .PHONY: build/clang test-sanitized
 build/clang:
-	@$(CONFIGURE) -B build/clang -DCMAKE_CXX_COMPILER=$(CLANG) -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O0 -g1" \
+	@$(CONFIGURE) -B build/clang -DCMAKE_CXX_COMPILER=$(CLANG) -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
 	  -DPINTLE_WHOLE_RUN_TESTS=$(or $(WHOLE),ON) -DPINTLE_SANITIZE=ON -DPINTLE_FUZZ=ON -DPINTLE_WERROR=ON >/dev/null
 	@$(BUILD) build/clang -j $(JOBS)
 
