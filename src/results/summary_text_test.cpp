@@ -57,6 +57,16 @@ TEST(SummaryText, MarksJointsBeyondTheTolerance) {
   EXPECT_NE(summary_text(trajectory, {}).find("exceeds the tolerance"), std::string::npos);
 }
 
+// A run that was stopped before its second integration knows no errors: they are not zero.
+TEST(SummaryText, ErrorsThatWereNotEstimatedAreNoZeros) {
+  Trajectory trajectory = sample::trajectory();
+  trajectory.outcome = Outcome::kInterrupted;
+  for (LoadSummary& joint : trajectory.joints) joint.error_estimate = joint.relative_error_estimate = 0;
+  const std::string text = summary_text(trajectory, {});
+  EXPECT_EQ(text.find("0.0e+00"), std::string::npos) << text;
+  EXPECT_EQ(text.find("exceeds the tolerance"), std::string::npos);
+}
+
 TEST(SummaryText, EmptyTrajectoryIsNoAccident) {
   EXPECT_NE(summary_text({}, {}).find("completed"), std::string::npos);
 }
