@@ -61,10 +61,12 @@ export class Gestures {
     let mode = studio.get().mode;
     const end = studio.subscribe(() => {
       const now = studio.get();
-      if (now.tool !== tool || (now.mode !== mode && now.mode !== "edit")) this.cancel();
+      const other = now.tool !== tool || (now.mode !== mode && now.mode !== "edit");
+      // First: cancelling changes the store, and this is told again.
       tool = now.tool;
       mode = now.mode;
       svg.dataset["tool"] = tool;
+      if (other) this.cancel();
     });
     svg.dataset["tool"] = tool;
     this.abort.signal.addEventListener("abort", end);
@@ -305,9 +307,12 @@ export class Gestures {
   }
 
   cancel(): void {
-    if (this.gesture?.kind === "pull") player.setPull(null);
-    if (this.gesture?.kind === "reshape" && this.gesture.moved) undo();
+    const { gesture } = this;
     this.reset();
+    if (gesture?.kind === "pull") player.setPull(null);
+    if (gesture?.kind !== "reshape" || !gesture.moved) return;
+    const { past } = studio.get().history;
+    if (past[past.length - 1]?.key === gesture.key) undo();
   }
 
   get drawing(): boolean {
