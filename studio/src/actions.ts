@@ -62,15 +62,28 @@ export function exists(model: Model, { kind, name }: Thing): boolean {
   }
 }
 
-export function edit(text: string, label: string, key = ""): void {
+/** A step made from the text as it stands: by the editor, or a word that is replaced in it. */
+export function editText(text: string, label: string, key = ""): void {
   const history = change(studio.get().history, text, label, key);
   if (history !== studio.get().history) studio.set({ history, ...follow(text) });
 }
 
+/** A step made from the model. While the text cannot be read the model is an older one, and the step would undo what was typed. */
+export function edit(text: string, label: string, key = ""): boolean {
+  const { stale, complaints, toasts } = studio.get();
+  if (!stale) {
+    editText(text, label, key);
+    return true;
+  }
+  const first = complaints.find((one) => one.line > 0);
+  const refusal = `Mend the text first${first ? `, line ${first.line}: ${first.message}` : ""}.`;
+  if (!toasts.some((toast) => toast.text === refusal)) say(refusal, { label: "Show the text", run: () => studio.set({ side: "text", dock: "problems" }) });
+  return false;
+}
+
 /** A drawing step: the text, and what it made becomes the selection. */
 export function drawn(made: Made, label: string): void {
-  edit(made.text, label);
-  if (made.made.length > 0) studio.set({ selection: made.made });
+  if (edit(made.text, label) && made.made.length > 0) studio.set({ selection: made.made });
 }
 
 export function undo(): void {

@@ -224,7 +224,7 @@ export class Gestures {
     const { model } = studio.get();
     const { poses } = gesture.drag;
     if (!poses) return;
-    const keep = () => edit(keepPoses(studio.get().model, poses), "Move start position");
+    const keep = () => void edit(keepPoses(studio.get().model, poses), "Move start position");
     if (!model.bodies.some((body) => body.parametric)) return keep();
     say("The start position is written with parameters. Keep this one instead?", { label: "Keep", run: keep });
     setTimeout(() => {

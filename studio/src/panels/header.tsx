@@ -63,8 +63,7 @@ function Name() {
   const [typed, setTyped] = useState(name);
   useEffect(() => setTyped(name), [name]);
   const commit = () => {
-    const { history, stale } = studio.get();
-    if (typed !== name && !stale) edit(new Draft(history.text).set(["name"], typed).apply(), "Rename the model");
+    if (typed !== name && !edit(new Draft(studio.get().history.text).set(["name"], typed).apply(), "Rename the model")) setTyped(name);
   };
   return (
     <span className="name">

@@ -53,8 +53,7 @@ function Renaming({ kind, name }: { kind: Kind; name: string }) {
     return namesOf(studio.get().model, kind).has(to) ? `There is a ${to} already.` : "";
   };
   const rename = (to: string) => {
-    edit(renameThing(studio.get().model, kind, name, to), `Rename ${name}`);
-    select([{ kind, name: to }]);
+    if (edit(renameThing(studio.get().model, kind, name, to), `Rename ${name}`)) select([{ kind, name: to }]);
   };
   return <NameField label="Name" value={name} check={check} onChange={rename} />;
 }

@@ -9,7 +9,7 @@ import { Annotation, EditorState } from "@codemirror/state";
 import { EditorView, drawSelection, highlightActiveLine, keymap, lineNumbers } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
 import { useEffect, useRef } from "react";
-import { edit, redo, undo } from "../actions";
+import { editText, redo, undo } from "../actions";
 import type { Complaint } from "../kernel/protocol";
 import { nodeAt } from "../model/toml";
 import { studio } from "../state";
@@ -97,7 +97,7 @@ function start(home: HTMLElement): EditorView {
         EditorView.contentAttributes.of({ "aria-label": "Text of the model", spellcheck: "false", tabindex: "0" }),
         EditorView.updateListener.of((update) => {
           if (!update.docChanged || update.transactions.some((one) => one.annotation(FromDrawing))) return;
-          edit(update.state.doc.toString(), "Edit the text", "typing");
+          editText(update.state.doc.toString(), "Edit the text", "typing");
         }),
       ],
     }),
