@@ -2,6 +2,7 @@
 // text; operations change the text.
 import { evaluate, namesIn } from "./expression";
 import { type Point, type Pose, ORIGIN, toWorld } from "./geometry";
+import { TRACE, remarkAt, remarkOf } from "./remarks";
 import { FROM_SHAPE, type Shape, readShape } from "./shape";
 import { type Document, type Node, type TableNode, nodeAt, parseToml } from "./toml";
 
@@ -85,7 +86,6 @@ export interface Model {
   body: ReadonlyMap<string, Body>;
 }
 
-export const TRACE = "trace";
 export const GROUND = "ground";
 
 type Reading = (node: Node | undefined) => number | null;
@@ -156,17 +156,6 @@ function point(node: Node | undefined, number: Reading): Point | null {
   const x = number(node.items[0]);
   const y = number(node.items[1]);
   return x === null || y === null ? null : [x, y];
-}
-
-/** The comment at the end of the line on which `offset` stands. */
-export function remarkAt(document: Document, offset: number): string {
-  const end = document.text.indexOf("\n", offset);
-  const rest = document.text.slice(offset, end < 0 ? undefined : end);
-  return /^[^"#]*#\s?(.*)$/.exec(rest)?.[1]?.trim() ?? "";
-}
-
-function remarkOf(document: Document, node: Node | undefined): string {
-  return node?.statement ? remarkAt(document, node.statement.to) : "";
 }
 
 function readMarkers(document: Document, node: Node | undefined, number: Reading): Marker[] {

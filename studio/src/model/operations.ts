@@ -1,9 +1,10 @@
 // What the tools draw, as edits of the text. Each operation is one step of undo; it returns the new text and what it made.
-import { Draft, type Literal } from "./edit";
+import { Draft, type Literal, unfolded } from "./edit";
 import { type Point, type Pose, direction, distance, middle, toBody, toWorld } from "./geometry";
-import { type Body, type End, GROUND, type Model, type Poses, markerOf, poseOf, worldPoint } from "./model";
+import { type Body, type End, GROUND, type Model, type Poses, markerOf, poseOf, readModel, worldPoint } from "./model";
 import { type Kind, countedName, lettersOf, namesOf, nextLetter } from "./names";
 import { addMarker, markerLiteral } from "./reshape";
+import { TRACE } from "./remarks";
 import { FROM_SHAPE, type Shape, likelyBar, massProperties, niceSize, writeInertia, writeMass, writeShape } from "./shape";
 import { writeAngle, writeLength } from "./units";
 
@@ -285,15 +286,15 @@ export function addForce(model: Model, target: Target, force: Point | null, torq
 export function toggleTrace(model: Model, target: Target, poses?: Poses): Made {
   const { end } = target;
   if (!end && target.body) {
-    const step = new Step(model, poses);
+    const step = new Step(readModel(unfolded(model.document.text, ["body", target.body, "markers", ""])), poses);
     const marker = step.letter();
-    step.draft.set(["body", target.body, "markers", marker], markerLiteral(toBody(poseOf(model, target.body, poses), target.at), 0), "trace");
+    step.draft.set(["body", target.body, "markers", marker], markerLiteral(toBody(poseOf(model, target.body, poses), target.at), 0), TRACE);
     return step.done();
   }
   if (!end || end.body === GROUND) return { text: model.document.text, made: [] };
-  const draft = new Draft(model.document);
-  const marker = markerOf(model, end);
-  draft.remark(["body", end.body, "markers", end.marker], marker?.traced ? "" : "trace");
+  const path = ["body", end.body, "markers", end.marker];
+  const draft = new Draft(unfolded(model.document.text, path));
+  draft.remark(path, markerOf(model, end)?.traced ? "" : TRACE);
   return { text: draft.apply(), made: [] };
 }
 

@@ -1,7 +1,8 @@
 // Moving points: every body at a point takes it along, and a drawn body keeps its axes in its centre of mass.
 import { Draft, type Literal } from "./edit";
 import { type Point, type Pose, direction, distance, middle, toBody, toWorld } from "./geometry";
-import { type Body, type End, GROUND, type Marker, type Model, type Poses, TRACE, markerOf, poseOf, worldPoint } from "./model";
+import { type Body, type End, GROUND, type Marker, type Model, type Poses, markerOf, poseOf, worldPoint } from "./model";
+import { TRACE } from "./remarks";
 import { FROM_SHAPE, massProperties, writeInertia, writeMass } from "./shape";
 import { nodeAt } from "./toml";
 import { writeAngle, writeLength } from "./units";
