@@ -5,7 +5,7 @@ import { type Model, type Poses, readModel } from "./model/model";
 import { EMPTY_MODEL, type Made, type Thing } from "./model/operations";
 import { copyThings, pasteThings, removeThings } from "./model/removal";
 import { type Document, lineColumn } from "./model/toml";
-import { NO_RUN, type StudioState, type ToolName, studio } from "./state";
+import { type Home, NO_RUN, type Origin, type StudioState, type ToolName, studio } from "./state";
 
 /** Faults of the text's form, found at once; the kernel finds the rest. */
 export function localComplaints(document: Document): Complaint[] {
@@ -96,15 +96,29 @@ export function redo(): void {
   goTo(redoStep(history), history.future[0]?.key ?? "", 1);
 }
 
-// A step that opened another file has both names in its key: the text and its name go together.
+// A step that opened another text changes its origin too; the origin that is left may have been saved since.
 function goTo(history: History, key: string, side: 0 | 1): void {
   if (history === studio.get().history) return;
-  const names = key.startsWith(OPENED) ? key.slice(OPENED.length).split("\u0000") : null;
-  studio.set({ history, ...(names ? { ...NOTHING_OPEN, fileName: names[side] ?? "" } : {}), ...follow(history.text) });
-  if (names) for (const listener of openedListeners) listener();
+  const origins = opened.get(key);
+  if (origins) origins[1 - side] = originNow();
+  studio.set({ history, ...(origins ? { ...NOTHING_OPEN, ...origins[side] } : {}), ...follow(history.text) });
+  if (origins) for (const listener of openedListeners) listener();
 }
 
-const OPENED = "open:";
+/** Origins on both sides of a step that opened another text, by the step's key. */
+const opened = new Map<string, [Origin, Origin]>();
+let lastDocument = 0;
+
+function originNow(): Origin {
+  const { document, fileName, home, savedText } = studio.get();
+  return { document, fileName, home, savedText };
+}
+
+/** Notes where a text has been saved; another may be open by now. */
+export function noteSaved(document: number, change: Omit<Origin, "document">): void {
+  for (const origins of opened.values()) for (const origin of origins) if (origin.document === document) Object.assign(origin, change);
+  if (studio.get().document === document) studio.set(change);
+}
 
 export function select(things: Thing[]): void {
   studio.set({ selection: things });
@@ -117,23 +131,30 @@ export function chooseTool(tool: ToolName): void {
 /** What belongs to one model only. */
 const NOTHING_OPEN: Partial<StudioState> = { poses: null, obstacle: null, report: null, selection: [], kept: null, mode: "edit", playing: false, plotted: [], tool: "select" };
 
-/** Another model in place of this one, which undo brings back. */
-export function openText(text: string, fileName: string): void {
+/** Another model in place of this one, which undo brings back. Without a home it is a new file: saving asks for its name. */
+export function openText(text: string, fileName: string, { home = null, savedText = text }: { home?: Home | null; savedText?: string } = {}): void {
   const read = readModel(text);
   const faulty = read.document.faults.length > 0;
   const before = studio.get();
+  const origin: Origin = { document: ++lastDocument, fileName, home, savedText };
+  const key = `open${origin.document}`;
+  opened.set(key, [originNow(), origin]);
   studio.set({
     ...NOTHING_OPEN,
-    history: change(before.history, text, `Open ${fileName}`, `${OPENED}${before.fileName}\u0000${fileName}`),
-    fileName,
+    ...origin,
+    history: change(before.history, text, `Open ${fileName}`, key),
     model: faulty && read.bodies.length === 0 ? readModel(EMPTY_MODEL) : read,
     stale: faulty,
     complaints: localComplaints(read.document),
     run: { ...NO_RUN, serial: before.run.serial + 1 },
     ghost: { ...before.ghost, answer: null },
-    savedText: text,
   });
   for (const listener of openedListeners) listener();
+}
+
+/** A broken file opens as text, with what is wrong with it. */
+export function showFaults(): void {
+  if (studio.get().stale) studio.set({ side: "text", dock: "problems" });
 }
 
 const openedListeners = new Set<() => void>();

@@ -16,6 +16,7 @@ import { useStudio } from "./state";
 const Gallery = lazy(() => import("./panels/gallery").then((module) => ({ default: module.Gallery })));
 const Palette = lazy(() => import("./panels/palette").then((module) => ({ default: module.Palette })));
 const FolderDialog = lazy(() => import("./panels/folder").then((module) => ({ default: module.FolderDialog })));
+const SaveDialog = lazy(() => import("./panels/save").then((module) => ({ default: module.SaveDialog })));
 const Help = lazy(() => import("./panels/help").then((module) => ({ default: module.Help })));
 
 export function App() {
@@ -54,6 +55,7 @@ export function App() {
         {dialog === "palette" && <Palette />}
         {dialog === "help" && <Help />}
         {dialog === "folder" && <FolderDialog />}
+        {dialog === "save" && <SaveDialog />}
       </Suspense>
     </div>
   );

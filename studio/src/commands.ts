@@ -3,7 +3,7 @@ import { chooseTool, copySelection, openText, paste, redo, removeSelection, say,
 import { theView } from "./drawing/canvas";
 import { isTyping } from "./drawing/gestures";
 import { TOOL_LIST } from "./drawing/tools";
-import { openFile, saveFile } from "./files/disk";
+import { openFile, saveFile, saveFileAs } from "./files/disk";
 import { shareLink } from "./files/share";
 import { EMPTY_MODEL } from "./model/operations";
 import { shiftThings } from "./model/reshape";
@@ -47,6 +47,7 @@ export const COMMANDS: readonly Command[] = [
   { id: "gallery", label: "Templates", keys: ["mod+shift+O"], group: "File", run: () => studio.set({ dialog: "gallery" }) },
   { id: "open", label: "Open a file", keys: ["mod+O"], group: "File", run: () => void openFile() },
   { id: "save", label: "Save the model as a file", keys: ["mod+S"], group: "File", run: () => void saveFile() },
+  { id: "save-as", label: "Save under another name", keys: ["mod+shift+S"], group: "File", run: () => void saveFileAs() },
   { id: "share", label: "Copy a link with the model in it", keys: ["mod+shift+L"], group: "File", run: () => void shareLink() },
   { id: "export-csv", label: "Export the run as CSV", keys: [], group: "File", run: exporting("csv") },
   { id: "export-svg", label: "Export the drawing as SVG", keys: [], group: "File", run: exporting("svg") },
@@ -161,7 +162,7 @@ export function listenToKeys(): () => void {
     if (!command) return;
     const { dialog } = studio.get();
     if (dialog && command.id !== "palette") return;
-    if (isTyping(event.target) && !/^(save|open|palette|share)$/.test(command.id)) return;
+    if (isTyping(event.target) && !/^(save|save-as|open|palette|share)$/.test(command.id)) return;
     const target = event.target as HTMLElement | null;
     // Space and Enter press the button that has the focus.
     if (event.key === " " && target?.closest("button, a, summary, [role=tab], [role=slider]")) return;

@@ -1,12 +1,12 @@
 // The folder of `pintle studio`, where the page comes from that program: models are opened from it and saved into it.
-import { asFault, openText, say } from "../actions";
+import { asFault, noteSaved, openText, say, showFaults } from "../actions";
 import type { NativeServer } from "../kernel/native";
 import { kernel } from "../play/desk";
 import { studio } from "../state";
+import { asModel, tomlName } from "./models";
+import { inTurn } from "./turns";
 
 let server: NativeServer | null = null;
-/** The file that is open, and the hash of what it held when it was read or written last. */
-let open: { path: string; hash: string | null } | null = null;
 
 export const inFolder = (): boolean => server !== null;
 
@@ -30,35 +30,43 @@ export async function showFolder(): Promise<void> {
 export async function openFromFolder(path: string): Promise<void> {
   if (!server) return;
   try {
-    const opened = await server.open(path);
-    openText(opened.text, opened.path);
-    open = { path: opened.path, hash: opened.hash };
+    const { text, hash } = await server.open(path);
+    const model = await asModel(path, text);
+    openText(model.text, model.fileName, model.converted ? { savedText: "" } : { home: { kind: "folder", folder: server.folder, path, hash } });
+    showFaults();
     studio.set({ dialog: null });
   } catch (error) {
     say(asFault(error).message);
   }
 }
 
-/** Writes the text into the folder. A file that another program has changed meanwhile is not overwritten unasked. */
+/** Saves to where the text came from; a new file is asked its name. */
 export async function saveToFolder(): Promise<void> {
-  const { fileName, history } = studio.get();
+  const { home } = studio.get();
+  if (home?.kind !== "folder" || home.folder !== server?.folder) return studio.set({ dialog: "save" });
+  await write(home.path, home.hash);
+}
+
+/** Saves under a name. A file of that name that is not the one that is open is not overwritten unasked. */
+export async function saveInFolderAs(name: string): Promise<void> {
+  const path = tomlName(name);
+  const { home } = studio.get();
+  await write(path, home?.kind === "folder" && home.folder === server?.folder && home.path === path ? home.hash : null);
+}
+
+async function write(path: string, expected: string | null): Promise<void> {
   if (!server) return;
-  const expected = open?.path === fileName ? open.hash : null;
+  const { document, history } = studio.get();
   try {
-    const saved = await server.save(fileName, history.text, expected);
+    const saved = await server.save(path, history.text, expected);
     if ("hash" in saved) {
-      open = { path: fileName, hash: saved.hash };
-      studio.set({ savedText: history.text });
-      return say(`Saved ${fileName} in ${server.folder}.`);
+      noteSaved(document, { fileName: path, home: { kind: "folder", folder: server.folder, path, hash: saved.hash }, savedText: history.text });
+      return say(`Saved ${path} in ${server.folder}.`);
     }
-    const { conflict } = saved;
-    say(`${fileName} ${expected === null ? "is there already" : "was changed by another program"}.`, {
-      label: "Write over it",
-      run: () => {
-        open = { path: fileName, hash: conflict.hash };
-        void saveToFolder();
-      },
-    });
+    const { hash } = saved.conflict;
+    const why = hash === null ? "is no longer there" : expected === null ? "is there already" : "was changed by another program";
+    const again = () => (studio.get().document === document ? void inTurn(() => write(path, hash)) : say("Another model is open by now: nothing was written."));
+    say(`${path} ${why}.`, { label: hash === null ? "Write it anew" : "Write over it", run: again });
   } catch (error) {
     say(asFault(error).message);
   }

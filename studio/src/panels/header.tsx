@@ -32,7 +32,7 @@ export function Header() {
         <button className="text-button" onClick={() => runCommand("save")}>
           <Icon name="save" size={18} /> Save
         </button>
-        <Menu label="Export" icon="export" items={["share", "export-report", "export-csv", "export-svg", "export-gif"]} />
+        <Menu label="Export" icon="export" items={["save-as", "share", "export-report", "export-csv", "export-svg", "export-gif"]} />
       </div>
       <div className="head-group" role="group" aria-label="Undo">
         <button className="icon-button" aria-label="Undo" data-tip={canUndo ? `Undo: ${canUndo}` : "Nothing to undo"} disabled={!canUndo} onClick={undo}>
