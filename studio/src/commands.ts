@@ -46,6 +46,7 @@ export const COMMANDS: readonly Command[] = [
   { id: "new", label: "New drawing", keys: ["alt+N"], group: "File", run: () => openText(EMPTY_MODEL, "untitled.toml") },
   { id: "gallery", label: "Templates", keys: ["mod+shift+O"], group: "File", run: () => studio.set({ dialog: "gallery" }) },
   { id: "open", label: "Open a file", keys: ["mod+O"], group: "File", run: () => void openFile() },
+  { id: "drafts", label: "Unsaved work of other tabs", keys: [], group: "File", run: () => studio.set({ dialog: "drafts" }) },
   { id: "save", label: "Save the model as a file", keys: ["mod+S"], group: "File", run: () => void saveFile() },
   { id: "save-as", label: "Save under another name", keys: ["mod+shift+S"], group: "File", run: () => void saveFileAs() },
   { id: "share", label: "Copy a link with the model in it", keys: ["mod+shift+L"], group: "File", run: () => void shareLink() },

@@ -10,7 +10,7 @@ export const TOOLS = [
 ] as const;
 export type ToolName = (typeof TOOLS)[number];
 
-export type Dialog = "gallery" | "palette" | "help" | "folder" | "save" | null;
+export type Dialog = "gallery" | "palette" | "help" | "folder" | "save" | "drafts" | null;
 export type DockTab = "plots" | "forces" | "energy" | "problems";
 export type SideTab = "properties" | "model" | "text";
 
