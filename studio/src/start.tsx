@@ -5,7 +5,7 @@ import { App } from "./app";
 import { theView } from "./drawing/canvas";
 import { restore, startAutosave } from "./files/autosave";
 import { startFolder } from "./files/folder";
-import { openFromAddress } from "./files/share";
+import { followAddress, openFromAddress } from "./files/share";
 import { Fence } from "./panels/fence";
 import { startDesk } from "./play/desk";
 import { studio } from "./state";
@@ -30,6 +30,6 @@ if (root) {
 player.start();
 void openFromAddress().then((opened) => {
   startDesk();
-  if (!opened) void startFolder();
+  void startFolder(!opened);
 });
-window.addEventListener("hashchange", () => void openFromAddress());
+window.addEventListener("hashchange", followAddress);

@@ -1,6 +1,6 @@
 // The folder of `pintle studio`, where the page comes from that program: models are opened from it and saved into it.
 import { asFault, noteSaved, openText, say, showFaults } from "../actions";
-import type { NativeServer } from "../kernel/native";
+import { type NativeServer, sessionToken } from "../kernel/native";
 import { kernel } from "../play/desk";
 import { studio } from "../state";
 import { asModel, tomlName } from "./models";
@@ -10,12 +10,49 @@ let server: NativeServer | null = null;
 
 export const inFolder = (): boolean => server !== null;
 
-/** Looks for the program behind the page, and opens the model that it was started with. */
-export async function startFolder(): Promise<void> {
+const BEGUN = "pintle-studio:begun";
+
+/** Looks for the program behind the page, and opens the model that it was started with: once in a tab, not at each reload. */
+export async function startFolder(mayOpen = true): Promise<void> {
   server = await kernel.native().catch(() => null);
   if (!server) return;
   studio.set({ folder: { name: server.folder, models: [] } });
-  if (server.model) await openFromFolder(server.model);
+  const { model } = server;
+  const { home, history, savedText, document } = studio.get();
+  const path = home?.kind === "folder" && home.folder === server.folder ? home.path : null;
+  const unsaved = history.text !== savedText;
+  const start = `${sessionToken()} ${model}`;
+  if (!model || !mayOpen || kept(BEGUN) === start) {
+    if (mayOpen && path && !unsaved) await refresh(path);
+    return;
+  }
+  keep(BEGUN, start);
+  if (path !== model || !unsaved) return openFromFolder(model);
+  const open = () => (studio.get().document === document ? void openFromFolder(model) : undefined);
+  say(`This is your work on ${model} that was not saved.`, { label: "Open the file", run: open });
+}
+
+// The file may have been written by another program since.
+async function refresh(path: string): Promise<void> {
+  const now = await server?.open(path).catch(() => null);
+  if (now && now.text !== studio.get().history.text) await openFromFolder(path);
+}
+
+// For as long as the tab is there.
+function kept(key: string): string | null {
+  try {
+    return sessionStorage.getItem(key);
+  } catch {
+    return null;
+  }
+}
+
+function keep(key: string, value: string): void {
+  try {
+    sessionStorage.setItem(key, value);
+  } catch {
+    // The model is opened again at the next reload; undo leads back.
+  }
 }
 
 export async function showFolder(): Promise<void> {

@@ -1,6 +1,7 @@
-import { local } from "../../tests/page";
+import { local, session } from "../../tests/page";
 import { beforeEach, describe, expect, it, vi } from "vitest";
 import { edit, openText, redo, undo } from "../actions";
+import { newHistory } from "../model/history";
 import { EMPTY_MODEL } from "../model/operations";
 import { studio } from "../state";
 import { saveFile, saveUnder, take } from "./disk";
@@ -102,6 +103,42 @@ describe("saving in the folder of pintle studio", () => {
     expect([now().history.text, now().fileName, now().home]).toEqual(["# from JSON\n", "m/a.toml", null]);
     await saveFile();
     expect(now().dialog).toBe("save");
+  });
+});
+
+describe("the model that pintle studio was started with", () => {
+  const mine = { document: 900, fileName: "a.toml", home: { kind: "folder" as const, folder: "models", path: "a.toml", hash: model("disk") }, savedText: model("disk") };
+  const begin = async (token: string, text: string, mayOpen = true) => {
+    session.setItem("pintle.token", token);
+    studio.set({ ...mine, history: newHistory(text), toasts: [] });
+    await startFolder(mayOpen);
+    return now().history.text;
+  };
+  beforeEach(() => {
+    session.entries.clear();
+    files.clear();
+    files.set("a.toml", model("disk"));
+    server.model = "a.toml";
+  });
+
+  it("is opened once, and a reload keeps what was done since", async () => {
+    studio.set({ home: null });
+    expect(await begin("1", EMPTY_MODEL)).toBe(EMPTY_MODEL);
+    expect(said()?.text).toMatch(/not saved/);
+    said()!.action!.run();
+    await vi.waitFor(() => expect(now().history.text).toBe(model("disk")));
+    expect(await begin("1", model("mine"))).toBe(model("mine"));
+    expect(said()).toBeUndefined();
+  });
+
+  it("comes after a link's, and a restart of the program asks before it replaces work on it", async () => {
+    expect(await begin("1", model("link"), false)).toBe(model("link"));
+    expect(now().folder?.name).toBe("models");
+    expect(await begin("2", model("mine"))).toBe(model("mine"));
+    expect(said()?.action?.label).toBe("Open the file");
+    expect(await begin("3", model("disk"))).toBe(model("disk"));
+    files.set("a.toml", model("theirs"));
+    expect(await begin("3", model("disk"))).toBe(model("theirs"));
   });
 });
 
