@@ -3,7 +3,7 @@ import { type Complaint, type Fault } from "./kernel/protocol";
 import { type History, change, redo as redoStep, undo as undoStep } from "./model/history";
 import { type Model, type Poses, readModel } from "./model/model";
 import { EMPTY_MODEL, type Made, type Thing } from "./model/operations";
-import { copyThings, pasteThings, removeThings } from "./model/removal";
+import { removeThings } from "./model/removal";
 import { type Document, lineColumn } from "./model/toml";
 import { type Home, NO_RUN, type Origin, type StudioState, type ToolName, studio } from "./state";
 
@@ -168,26 +168,6 @@ export function onOpened(listener: () => void): () => void {
 export function removeSelection(): void {
   const { model, selection } = studio.get();
   if (selection.length > 0) edit(removeThings(model, selection), selection.length === 1 ? `Delete ${selection[0]!.name}` : `Delete ${selection.length} things`);
-}
-
-let clipboard = "";
-
-export function copySelection(): string {
-  const { model, selection, poses } = studio.get();
-  if (!selection.some((thing) => thing.kind === "body")) {
-    say("Select a link to copy it.");
-    return "";
-  }
-  clipboard = copyThings(model, selection, poses ?? undefined);
-  void navigator.clipboard?.writeText(clipboard).catch(() => undefined);
-  return clipboard;
-}
-
-export function paste(copied = clipboard): void {
-  if (!copied.includes("[body.")) return say("There is nothing to paste: copy a link first.");
-  const { model } = studio.get();
-  const step = model.bodies.length > 0 ? 0.15 * Math.max(0.05, ...model.bodies.flatMap((body) => body.markers.map((m) => Math.hypot(...m.at)))) * 2 : 0;
-  drawn(pasteThings(model, copied, [step, -step]), "Paste");
 }
 
 export function selectAll(): void {

@@ -1,5 +1,6 @@
 // Everything that can be done, with its name and key: the palette, the shortcuts and the help sheet are made from this.
-import { chooseTool, copySelection, openText, paste, redo, removeSelection, say, select, selectAll, undo } from "./actions";
+import { chooseTool, openText, redo, removeSelection, say, select, selectAll, undo } from "./actions";
+import { copySelection, duplicate, paste } from "./clipboard";
 import { theView } from "./drawing/canvas";
 import { isTyping } from "./drawing/gestures";
 import { TOOL_LIST } from "./drawing/tools";
@@ -57,8 +58,8 @@ export const COMMANDS: readonly Command[] = [
   { id: "undo", label: "Undo", keys: ["mod+Z"], group: "Edit", run: undo },
   { id: "redo", label: "Redo", keys: ["mod+shift+Z", "mod+Y"], group: "Edit", run: redo },
   { id: "copy", label: "Copy the selected links", keys: ["mod+C"], group: "Edit", run: () => void copySelection() },
-  { id: "paste", label: "Paste", keys: ["mod+V"], group: "Edit", run: () => paste() },
-  { id: "duplicate", label: "Duplicate", keys: ["mod+D"], group: "Edit", run: () => copySelection() && paste() },
+  { id: "paste", label: "Paste", keys: ["mod+V"], group: "Edit", run: () => void paste() },
+  { id: "duplicate", label: "Duplicate", keys: ["mod+D"], group: "Edit", run: duplicate },
   { id: "delete", label: "Delete what is selected", keys: ["Delete", "Backspace"], group: "Edit", run: removeSelection },
   { id: "all", label: "Select all links", keys: ["mod+A"], group: "Edit", run: selectAll },
   { id: "left", label: "Nudge left", keys: ["ArrowLeft"], group: "Edit", run: () => arrow(-1, 0) },

@@ -98,6 +98,31 @@ describe("removing, renaming, copying", () => {
   });
 });
 
+describe("a copy", () => {
+  const all = (model: Model) => model.bodies.map((body) => ({ kind: "body" as const, name: body.name }));
+
+  it("has the shapes, what follows from them, and the traces", () => {
+    let model = fourBar();
+    model = readModel(toggleTrace(model, on(model, "link2", "C")).text);
+    const twice = readModel(pasteThings(model, copyThings(model, all(model)), [0.1, 0.1]).text);
+    const told = (name: string) => {
+      const { shape, massFromShape, inertiaFromShape, markers } = twice.body.get(name)!;
+      return { shape, massFromShape, inertiaFromShape, traced: markers.map((marker) => marker.traced) };
+    };
+    expect(["link1_2", "link2_2", "link3_2"].map(told)).toEqual(["link1", "link2", "link3"].map(told));
+    expect(told("link2_2")).toMatchObject({ massFromShape: true, traced: [false, true] });
+  });
+
+  it("of a gear is as large as the gear, without the mesh too", () => {
+    let model = readModel(addDisc(readModel(EMPTY_MODEL), free(0, 0), 0.1, null).text);
+    model = readModel(addDisc(model, free(0.15, 0), 0.05, "gear1").text);
+    const bare = readModel(model.document.text.replace(/ *# (shape|from).*/g, ""));
+    const copied = readModel(pasteThings(bare, copyThings(bare, [{ kind: "body", name: "gear2" }]), [0.1, 0.1]).text);
+    expect(copied.body.get("gear2_2")?.shape).toMatchObject({ kind: "disc", width: 0.1 });
+    expect(copied.body.get("gear2_2")?.massFromShape).toBe(false);
+  });
+});
+
 const renameThingOnce = (model: Model) => readModel(renameThing(model, "body", "link1", "crank"));
 
 describe("the collection", () => {
