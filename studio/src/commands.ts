@@ -1,5 +1,5 @@
 // Everything that can be done, with its name and key: the palette, the shortcuts and the help sheet are made from this.
-import { chooseTool, openText, redo, removeSelection, say, select, selectAll, undo } from "./actions";
+import { chooseTool, edit, openText, redo, removeSelection, say, select, selectAll, undo } from "./actions";
 import { copySelection, duplicate, paste } from "./clipboard";
 import { theView } from "./drawing/canvas";
 import { isTyping } from "./drawing/gestures";
@@ -8,7 +8,7 @@ import { openFile, saveFile, saveFileAs } from "./files/disk";
 import { shareLink } from "./files/share";
 import { EMPTY_MODEL } from "./model/operations";
 import { shiftThings } from "./model/reshape";
-import { edit } from "./actions";
+import { Strokes } from "./model/strokes";
 import { setGhost } from "./play/desk";
 import { player } from "./play/player";
 import { type DockTab, type SideTab, studio } from "./state";
@@ -28,6 +28,9 @@ const dock = (tab: DockTab) => () => studio.set((now) => ({ dock: now.dock === t
 const side = (tab: SideTab) => () => studio.set((now) => ({ side: now.side === tab ? null : tab }));
 const exporting = (word: "csv" | "svg" | "gif" | "report") => () => void import("./files/exports").then((module) => module.exportAs(word));
 
+const nudges = new Strokes("nudge");
+let nudged: unknown = null;
+
 function nudge(x: number, y: number): void {
   const { selection, model, poses, mode } = studio.get();
   const view = theView();
@@ -40,7 +43,8 @@ function nudge(x: number, y: number): void {
   if (!view || mode !== "edit" || bodies.length + markers.length === 0) return;
   const step = view.metres(4);
   const nice = 10 ** Math.round(Math.log10(step));
-  edit(shiftThings(model, bodies, markers, [x * nice, y * nice], poses ?? undefined), "Nudge", "nudge");
+  edit(shiftThings(model, bodies, markers, [x * nice, y * nice], poses ?? undefined), "Nudge", nudges.key(performance.now(), selection === nudged));
+  nudged = studio.get().selection;
 }
 
 export const COMMANDS: readonly Command[] = [
