@@ -3,6 +3,7 @@ import { type Complaint, type Fault } from "./kernel/protocol";
 import { type History, change, redo as redoStep, undo as undoStep } from "./model/history";
 import { type Model, type Poses, readModel } from "./model/model";
 import { EMPTY_MODEL, type Made, type Thing } from "./model/operations";
+import { overwritten } from "./model/placing";
 import { removeThings } from "./model/removal";
 import { type Document, lineColumn } from "./model/toml";
 import { type Home, NO_RUN, type Origin, type StudioState, type ToolName, studio } from "./state";
@@ -79,6 +80,15 @@ export function edit(text: string, label: string, key = ""): boolean {
   const refusal = `Mend the text first${first ? `, line ${first.line}: ${first.message}` : ""}.`;
   if (!toasts.some((toast) => toast.text === refusal)) say(refusal, { label: "Show the text", run: () => studio.set({ side: "text", dock: "problems" }) });
   return false;
+}
+
+/** A step that writes places. Where they are written with names of parameters, it is made only if that is wanted. */
+export function place(text: string, label: string, key = ""): void {
+  const { model, history } = studio.get();
+  const gone = overwritten(model, text);
+  if (gone.length === 0 || studio.get().stale) return void edit(text, label, key);
+  const run = () => (studio.get().history.text === history.text ? void edit(text, label) : say("The model has changed since: nothing was written."));
+  say(`${gone.slice(0, 2).join(", ")}${gone.length > 2 ? ", …" : ""}: written with parameters. Write numbers instead?`, { label: "Write numbers", run });
 }
 
 /** A drawing step: the text, and what it made becomes the selection. */
@@ -178,7 +188,7 @@ let nextToast = 1;
 
 export function say(text: string, action?: { label: string; run: () => void }): void {
   const id = nextToast++;
-  studio.set((now) => ({ toasts: [...now.toasts.slice(-2), { id, text, action }] }));
+  studio.set((now) => ({ toasts: [...now.toasts.filter((toast) => toast.text !== text).slice(-2), { id, text, action }] }));
   setTimeout(() => dismiss(id), action ? 9000 : 5000);
 }
 

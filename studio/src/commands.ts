@@ -1,5 +1,5 @@
 // Everything that can be done, with its name and key: the palette, the shortcuts and the help sheet are made from this.
-import { chooseTool, edit, openText, redo, removeSelection, say, select, selectAll, undo } from "./actions";
+import { chooseTool, openText, place, redo, removeSelection, say, select, selectAll, undo } from "./actions";
 import { copySelection, duplicate, paste } from "./clipboard";
 import { theView } from "./drawing/canvas";
 import { isTyping } from "./drawing/gestures";
@@ -43,7 +43,7 @@ function nudge(x: number, y: number): void {
   if (!view || mode !== "edit" || bodies.length + markers.length === 0) return;
   const step = view.metres(4);
   const nice = 10 ** Math.round(Math.log10(step));
-  edit(shiftThings(model, bodies, markers, [x * nice, y * nice], poses ?? undefined), "Nudge", nudges.key(performance.now(), selection === nudged));
+  place(shiftThings(model, bodies, markers, [x * nice, y * nice], poses ?? undefined), "Nudge", nudges.key(performance.now(), selection === nudged));
   nudged = studio.get().selection;
 }
 

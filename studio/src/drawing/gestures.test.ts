@@ -1,8 +1,8 @@
 import "../../tests/page";
 import { beforeEach, describe, expect, it } from "vitest";
-import { chooseTool, edit, openText } from "../actions";
+import { chooseTool, edit, editText, openText } from "../actions";
 import { EMPTY_MODEL, addBar } from "../model/operations";
-import { readModel } from "../model/model";
+import { readModel, worldPoint } from "../model/model";
 import { studio } from "../state";
 import { Gestures } from "./gestures";
 import { looksOf } from "./looks";
@@ -55,6 +55,21 @@ describe("a drag of a point", () => {
     expect(studio.get().history.text).toBe(text);
     expect(studio.get().history.past).toHaveLength(past.length);
     expect(studio.get().tool).toBe("link");
+    gestures.close();
+  });
+
+  it("asks before it replaces a parameter, and writes nothing until then", () => {
+    const { text } = studio.get().history;
+    editText(`${text.replace(/markers\.B = .*/, 'markers.B = ["half", 0]')}[parameters]\nhalf = "50 mm"\n`, "Edit");
+    const { gestures, pointer } = drawing();
+    const parametric = studio.get().history.text;
+    studio.set({ toasts: [] });
+    for (const [type, x, y] of [["pointerdown", 0.1, 0], ["pointermove", 0.15, 0.05], ["pointermove", 0.2, 0.1], ["pointerup", 0.2, 0.1]] as const) pointer(type, x, y);
+    expect(studio.get().history.text).toBe(parametric);
+    const [toast] = studio.get().toasts;
+    expect(toast?.text).toMatch(/body\.link1\.markers\.B.*parameters/);
+    toast!.action!.run();
+    expect(worldPoint(studio.get().model, { body: "link1", marker: "B" })[0]).toBeCloseTo(0.2, 9);
     gestures.close();
   });
 

@@ -3,10 +3,11 @@ import { Draft, type Literal, unfolded } from "./edit";
 import { type Point, type Pose, direction, distance, middle, toBody, toWorld } from "./geometry";
 import { type Body, type End, GROUND, type Model, type Poses, markerOf, poseOf, readModel, worldPoint } from "./model";
 import { type Kind, countedName, lettersOf, namesOf, nextLetter } from "./names";
-import { addMarker, markerLiteral } from "./reshape";
+import { markerLiteral } from "./placing";
+import { addMarker } from "./reshape";
 import { TRACE } from "./remarks";
 import { FROM_SHAPE, type Shape, likelyBar, massProperties, niceSize, writeInertia, writeMass, writeShape } from "./shape";
-import { writeAngle, writeLength } from "./units";
+import { writeAngle, writeLength, writeLengths } from "./units";
 
 /** What a click met: a point of the world; a marker there, or a body without one, or neither. */
 export interface Target {
@@ -71,7 +72,7 @@ class Step {
     const path = ["body", name];
     this.draft.set([...path, "mass"], writeMass(mass), FROM_SHAPE);
     this.draft.set([...path, "inertia"], writeInertia(inertia), FROM_SHAPE);
-    this.draft.set([...path, "position"], [writeLength(pose.x), writeLength(pose.y)]);
+    this.draft.set([...path, "position"], writeLengths([pose.x, pose.y]));
     this.draft.set([...path, "angle"], writeAngle(pose.angle));
     for (const marker of markers) this.draft.set([...path, "markers", marker.name], markerLiteral(marker.at, marker.axis ?? 0));
     this.draft.shape(name, writeShape(shape));

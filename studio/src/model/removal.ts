@@ -7,7 +7,7 @@ import type { Made, Thing } from "./operations";
 import { TRACE } from "./remarks";
 import { FROM_SHAPE, type Shape, niceSize, writeShape } from "./shape";
 import { nodeAt, parseToml, plain, writeKey } from "./toml";
-import { writeAngle, writeLength } from "./units";
+import { writeAngle, writeLengths } from "./units";
 
 /** Removes things, with all that cannot be without them. */
 export function removeThings(model: Model, things: readonly Thing[]): string {
@@ -124,7 +124,7 @@ export function copyThings(model: Model, things: readonly Thing[], poses?: Poses
     }
     if (!body) continue;
     const pose = poseOf(model, body.name, poses);
-    lines.push(`position = ${writeLiteral([writeLength(pose.x), writeLength(pose.y)])}`, `angle = ${writeLiteral(writeAngle(pose.angle))}`);
+    lines.push(`position = ${writeLiteral(writeLengths([pose.x, pose.y]))}`, `angle = ${writeLiteral(writeAngle(pose.angle))}`);
     for (const marker of body.markers) lines.push(`markers.${writeKey(marker.name)} = ${writeLiteral([marker.at[0], marker.at[1], marker.axis])}${behind(marker.traced ? TRACE : "")}`);
   }
   return lines.join("\n") + "\n";
@@ -166,7 +166,7 @@ export function pasteThings(model: Model, copied: string, step: Point): Made {
     groundNames.add(fresh);
     renamed.set(`ground.${name}`, fresh);
     const [x = 0, y = 0, axis = 0] = plain(node) as number[];
-    draft.set(["ground", "markers", fresh], [writeLength(x + step[0]), writeLength(y + step[1]), writeAngle(axis)]);
+    draft.set(["ground", "markers", fresh], [...writeLengths([x + step[0], y + step[1]]), writeAngle(axis)]);
   }
   const moveEnd = (end: string): string => {
     const [body = "", marker = ""] = end.split(".");
@@ -187,7 +187,7 @@ export function pasteThings(model: Model, copied: string, step: Point): Made {
         else if (key === "joint" && kind === "motor") literal = renamed.get(`joint.${String(literal)}`) ?? literal;
         else if (key === "position") {
           const [x, y] = lengths.get(name) ?? [0, 0];
-          literal = [writeLength(x + step[0]), writeLength(y + step[1])];
+          literal = writeLengths([x + step[0], y + step[1]]);
         } else if (key === "markers" && value.kind === "table") {
           for (const [marker, place] of value.entries) {
             const traced = body?.markers.some((one) => one.name === marker && one.traced);
@@ -214,7 +214,7 @@ function readLengths(copied: string): Map<string, Point> {
   return places;
 }
 
-// What writeLength wrote: "12.5 mm", "3 m" or 0.
+// What writeLengths wrote: "12.5 mm", "3 m" or 0.
 function metres(node: { kind: string; value?: unknown }): number {
   if (typeof node.value === "number") return node.value;
   const text = String(node.value ?? "0");
