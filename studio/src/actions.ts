@@ -2,7 +2,7 @@
 import { type Complaint, type Fault } from "./kernel/protocol";
 import { type History, change, redo as redoStep, undo as undoStep } from "./model/history";
 import { type Model, type Poses, readModel } from "./model/model";
-import { EMPTY_MODEL, type Made, type Thing } from "./model/operations";
+import { EMPTY_MODEL, type Made, type Thing, addMesh, meshFault } from "./model/operations";
 import { overwritten } from "./model/placing";
 import { removeThings } from "./model/removal";
 import { type Document, lineColumn } from "./model/toml";
@@ -178,6 +178,15 @@ export function onOpened(listener: () => void): () => void {
 export function removeSelection(): void {
   const { model, selection } = studio.get();
   if (selection.length > 0) edit(removeThings(model, selection), selection.length === 1 ? `Delete ${selection[0]!.name}` : `Delete ${selection.length} things`);
+}
+
+export function meshSelection(): void {
+  const { model, selection, poses } = studio.get();
+  const [a, b, more] = selection.map((thing) => (thing.kind === "body" ? model.body.get(thing.name) : undefined));
+  if (!a || !b || more) return say("Select two gears to bring them into mesh.");
+  const fault = meshFault(model, a, b, poses ?? undefined);
+  if (fault) return say(fault);
+  drawn(addMesh(model, a, b, poses ?? undefined), "Mesh");
 }
 
 export function selectAll(): void {

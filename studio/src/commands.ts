@@ -1,5 +1,5 @@
 // Everything that can be done, with its name and key: the palette, the shortcuts and the help sheet are made from this.
-import { chooseTool, openText, place, redo, removeSelection, say, select, selectAll, undo } from "./actions";
+import { chooseTool, meshSelection, openText, place, redo, removeSelection, say, select, selectAll, undo } from "./actions";
 import { copySelection, duplicate, paste } from "./clipboard";
 import { theView } from "./drawing/canvas";
 import { isTyping } from "./drawing/gestures";
@@ -73,6 +73,7 @@ export const COMMANDS: readonly Command[] = [
   { id: "next", label: "Select the next thing", keys: ["]"], group: "Edit", run: () => cycle(1) },
   { id: "previous", label: "Select the thing before", keys: ["["], group: "Edit", run: () => cycle(-1) },
   ...TOOL_LIST.map((tool): Command => ({ id: `tool-${tool.name}`, label: tool.name === "select" ? "Select and move" : `Draw: ${tool.label}`, keys: [tool.key], group: "Draw", run: () => chooseTool(tool.name) })),
+  { id: "mesh", label: "Mesh the two selected gears", keys: [], group: "Draw", run: meshSelection },
   { id: "snap", label: "Snap to the grid", keys: ["N"], group: "Draw", run: () => studio.set((now) => ({ snapping: !now.snapping })) },
   { id: "play", label: "Play or pause", keys: ["Space"], group: "Play", run: () => player.toggle() },
   { id: "stop", label: "Stop: back to the start and to drawing", keys: ["Escape"], group: "Play", run: escape },

@@ -272,8 +272,15 @@ export function worldPoint(model: Model, end: End, poses?: Poses): Point {
   return toWorld(poseOf(model, end.body, poses), markerOf(model, end)?.at ?? [0, 0]);
 }
 
-export function worldAxis(model: Model, end: End, poses?: Poses): number {
-  return poseOf(model, end.body, poses).angle + (markerOf(model, end)?.axis ?? 0);
+/** Of an outer gear: by its shape, or by what it is in mesh with. */
+export function gearRadius(model: Model, { name, shape, markers }: Body): number | null {
+  if (markers.length === 0) return null;
+  if (shape) return shape.kind === "disc" ? shape.width / 2 : null;
+  for (const { radii, internal, first, second } of model.joints) {
+    const radius = first.body === name && !internal ? radii?.[0] : second.body === name ? radii?.[1] : undefined;
+    if (radius) return radius;
+  }
+  return null;
 }
 
 /** Length of the mechanism: what sizes of symbols and grids are chosen from. */

@@ -2,8 +2,8 @@ import { readFileSync, readdirSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { describe, expect, it } from "vitest";
 import { distance } from "./geometry";
-import { type Model, readModel, worldPoint } from "./model";
-import { EMPTY_MODEL, type Target, addBar, addConnector, addDisc, addForce, addGroundPin, addMotor, addPin, addSlider, addSlot, toggleTrace } from "./operations";
+import { type Body, type Model, readModel, worldPoint } from "./model";
+import { EMPTY_MODEL, type Target, addBar, addConnector, addDisc, addForce, addGroundPin, addMesh, addMotor, addPin, addSlider, addSlot, meshFault, toggleTrace } from "./operations";
 import { copyThings, pasteThings, removeThings, renameThing } from "./removal";
 import { overwritten } from "./placing";
 import { keepPoses, movePoint, setBarLength } from "./reshape";
@@ -96,6 +96,27 @@ describe("removing, renaming, copying", () => {
     expect(twice.bodies).toHaveLength(6);
     expect(twice.joints).toHaveLength(8);
     expect(openness(twice)).toBeLessThan(1e-5);
+  });
+});
+
+describe("two gears that are there", () => {
+  const apart = () => readModel(addDisc(readModel(addDisc(readModel(EMPTY_MODEL), free(0, 0), 0.1, null).text), free(0.24, 0), 0.05, null).text);
+
+  it("mesh with radii that share their distance, and are as large", () => {
+    const model = apart();
+    const [a, b] = model.bodies as [Body, Body];
+    expect(meshFault(model, a, b)).toBe("");
+    const meshed = readModel(addMesh(model, a, b).text);
+    expect(meshed.document.faults).toEqual([]);
+    expect(meshed.joints.find((one) => one.type === "gear")?.radii).toEqual([0.16, 0.08]);
+    expect(meshed.bodies.map((body) => [body.shape?.width, body.massFromShape])).toEqual([[0.32, true], [0.16, true]]);
+    expect(meshed.bodies[0]!.mass / a.mass).toBeCloseTo(2.56, 3);
+    expect(meshFault(meshed, meshed.bodies[0]!, meshed.bodies[1]!)).toMatch(/already/);
+  });
+
+  it("do not where one is none", () => {
+    const model = readModel(addBar(apart(), free(0, 1), free(1, 1)).text);
+    expect(meshFault(model, model.bodies[0]!, model.bodies[2]!)).toMatch(/link1 is no gear/);
   });
 });
 

@@ -1,7 +1,7 @@
 // Deleting, renaming, copying and pasting: operations that follow references through the model.
 import { Draft, writeLiteral } from "./edit";
 import { type Point } from "./geometry";
-import { type End, GROUND, type Model, type Poses, poseOf, readModel } from "./model";
+import { type Body, type End, GROUND, type Model, type Poses, gearRadius, poseOf, readModel } from "./model";
 import { type Kind, freshName, namesOf } from "./names";
 import type { Made, Thing } from "./operations";
 import { TRACE } from "./remarks";
@@ -115,7 +115,7 @@ export function copyThings(model: Model, things: readonly Thing[], poses?: Poses
     const node = nodeAt(model.document.root, path);
     if (node?.kind !== "table") continue;
     const body = path[0] === "body" ? model.body.get(path[1]!) : undefined;
-    const shape = body && (body.shape ?? gearShape(model, body.name));
+    const shape = body && (body.shape ?? gearShape(model, body));
     lines.push("", `[${path.map(writeKey).join(".")}]${behind(shape ? writeShape(shape) : "")}`);
     for (const [key, value] of node.entries) {
       if (body && (key === "position" || key === "angle" || key === "markers")) continue;
@@ -133,12 +133,9 @@ export function copyThings(model: Model, things: readonly Thing[], poses?: Poses
 const behind = (remark: string): string => (remark ? `  # ${remark}` : "");
 
 // A gear without a shape is as large as its mesh says, which may not be copied with it.
-function gearShape(model: Model, body: string): Shape | null {
-  for (const { radii, internal, first, second } of model.joints) {
-    const radius = first.body === body && !internal ? radii?.[0] : second.body === body ? radii?.[1] : undefined;
-    if (radius) return { kind: "disc", width: 2 * radius, height: 2 * radius, thickness: niceSize(radius / 4), material: "steel" };
-  }
-  return null;
+function gearShape(model: Model, body: Body): Shape | null {
+  const radius = gearRadius(model, body);
+  return radius === null ? null : { kind: "disc", width: 2 * radius, height: 2 * radius, thickness: niceSize(radius / 4), material: "steel" };
 }
 
 /** Adds what was copied, moved by `step`, under names that are free. */
