@@ -119,6 +119,18 @@ function goTo(history: History, key: string, side: 0 | 1): void {
 const opened = new Map<string, [Origin, Origin]>();
 let lastDocument = 0;
 
+export const newDocument = (): number => ++lastDocument;
+
+/** The key of a step from one text to another. */
+export function openingKey(before: Origin, after: Origin): string {
+  const key = `open${opened.size + 1}`;
+  opened.set(key, [before, after]);
+  return key;
+}
+
+/** What the text before a step was, where the step opened another. */
+export const originBefore = (key: string): Origin | undefined => opened.get(key)?.[0];
+
 function originNow(): Origin {
   const { document, fileName, home, savedText } = studio.get();
   return { document, fileName, home, savedText };
@@ -146,13 +158,11 @@ export function openText(text: string, fileName: string, { home = null, savedTex
   const read = readModel(text);
   const faulty = read.document.faults.length > 0;
   const before = studio.get();
-  const origin: Origin = { document: ++lastDocument, fileName, home, savedText };
-  const key = `open${origin.document}`;
-  opened.set(key, [originNow(), origin]);
+  const origin: Origin = { document: newDocument(), fileName, home, savedText };
   studio.set({
     ...NOTHING_OPEN,
     ...origin,
-    history: change(before.history, text, `Open ${fileName}`, key),
+    history: change(before.history, text, `Open ${fileName}`, openingKey(originNow(), origin)),
     model: faulty && read.bodies.length === 0 ? readModel(EMPTY_MODEL) : read,
     stale: faulty,
     complaints: localComplaints(read.document),

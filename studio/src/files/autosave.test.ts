@@ -5,17 +5,17 @@ import { EMPTY_MODEL } from "../model/operations";
 
 const storage = local as unknown as Storage;
 const tab = session as unknown as Storage;
-const draft = (text: string, more = {}) => ({ text, fileName: "a.toml", savedText: "", home: null, before: [], time: Date.now(), closed: false, ...more });
+const draft = (text: string, more = {}) => ({ text, fileName: "a.toml", savedText: "", home: null, before: [], opened: [], time: Date.now(), closed: false, ...more });
 
 /** The page's modules anew, as in a tab of its own. */
 async function visit() {
   vi.resetModules();
   const autosave = await import("./autosave");
   const { studio } = await import("../state");
-  const { editText } = await import("../actions");
+  const { editText, openText, undo, redo } = await import("../actions");
   autosave.restore();
   autosave.startAutosave();
-  return { ...autosave, studio, editText };
+  return { ...autosave, studio, editText, openText, undo, redo };
 }
 const model = (name: string) => `${EMPTY_MODEL}# ${name}\n`;
 
@@ -45,6 +45,27 @@ describe("drafts", () => {
     expect(again.studio.get().history.text).toBe(model("one"));
     again.openDraft(again.otherDrafts()[0]!.id);
     expect(again.studio.get().history.text).toBe(model("two"));
+  });
+
+  it("leads back by undo to the file of the text before", async () => {
+    const home = (path: string) => ({ kind: "folder" as const, folder: "models", path, hash: path });
+    const one = await visit();
+    one.openText(model("a"), "a.toml", { home: home("a.toml") });
+    one.editText(model("a1"), "Edit");
+    one.openText(model("b"), "b.toml", { home: home("b.toml") });
+    one.editText(model("b1"), "Edit");
+    vi.advanceTimersByTime(200);
+    const again = await visit();
+    const seen = () => [again.studio.get().history.text, again.studio.get().home] as const;
+    expect(seen()).toEqual([model("b1"), home("b.toml")]);
+    again.undo();
+    again.undo();
+    expect(seen()).toEqual([model("a1"), home("a.toml")]);
+    again.undo();
+    again.undo();
+    expect(seen()).toEqual([EMPTY_MODEL, null]);
+    for (let i = 0; i < 4; i++) again.redo();
+    expect(seen()).toEqual([model("b1"), home("b.toml")]);
   });
 
   it("goes on in a new tab where the last one was closed, but not where one is open", async () => {

@@ -1,10 +1,10 @@
 // Nothing is lost: the text, the texts before it (which undo leads back to, in fewer or coarser steps) and the page's settings are
 // kept in the browser after every change.
-import { openText, say } from "../actions";
-import { change, newHistory } from "../model/history";
+import { newDocument, openText, openingKey, originBefore, say } from "../actions";
+import { type History, change, newHistory } from "../model/history";
 import { readModel } from "../model/model";
 import { EMPTY_MODEL } from "../model/operations";
-import { studio } from "../state";
+import { type Home, type Origin, studio } from "../state";
 import { type Draft, type KeptDraft, claimDraft, listDrafts, readDraft, removeDraft, writeDraft } from "./drafts";
 
 const SETTINGS = "pintle-studio-settings";
@@ -19,6 +19,7 @@ let refused = false;
 function draftNow(closed: boolean): Draft {
   const { history, fileName, savedText, home } = studio.get();
   const before: string[] = [];
+  const opened: Draft["opened"] = [];
   let text = history.text;
   for (let i = history.past.length - 1, room = 400_000; i >= 0 && before.length < 100; i--) {
     const step = history.past[i]!;
@@ -26,8 +27,25 @@ function draftNow(closed: boolean): Draft {
     room -= text.length;
     if (room < 0) break;
     before.unshift(text);
+    const origin = originBefore(step.key);
+    if (origin) opened.unshift({ behind: before.length, fileName: origin.fileName, home: folderOnly(origin.home) });
   }
-  return { text: history.text, fileName, savedText, home: home?.kind === "folder" ? home : null, before, time: Date.now(), closed };
+  return { text: history.text, fileName, savedText, home: folderOnly(home), before, opened, time: Date.now(), closed };
+}
+
+const folderOnly = (home: Home | null): Draft["home"] => (home?.kind === "folder" ? home : null);
+
+// Steps that opened another text lead back to its file, too.
+function historyOf(draft: Draft): { history: History; origin: Origin } {
+  const { before, text, opened, fileName, home, savedText } = draft;
+  const origin: Origin = { document: newDocument(), fileName, home, savedText };
+  const origins = [...opened.map((one): Origin => ({ document: newDocument(), fileName: one.fileName, home: one.home, savedText: "" })), origin];
+  let history = newHistory(before[0] ?? text);
+  [...before.slice(1), text].forEach((next, i) => {
+    const at = opened.findIndex((one) => one.behind === before.length - i);
+    history = at < 0 ? change(history, next, "Edit") : change(history, next, `Open ${origins[at + 1]!.fileName}`, openingKey(origins[at]!, origins[at + 1]!));
+  });
+  return { history, origin };
 }
 
 function remember(closed = false): void {
@@ -54,11 +72,9 @@ export function restore(): boolean {
   own = id;
   from = draft;
   if (!draft) return false;
-  let history = newHistory(draft.before[0] ?? draft.text);
-  for (const text of [...draft.before.slice(1), draft.text]) history = change(history, text, "Edit");
+  const { history, origin } = historyOf(draft);
   const model = readModel(draft.text);
-  const { fileName, savedText, home } = draft;
-  studio.set({ history, fileName, savedText, home, model, stale: model.document.faults.length > 0 });
+  studio.set({ history, ...origin, model, stale: model.document.faults.length > 0 });
   return true;
 }
 

@@ -10,6 +10,8 @@ export interface Draft {
   home: Extract<Home, { kind: "folder" }> | null;
   /** Texts before, the newest last; as many as there is room for. */
   before: string[];
+  /** The texts before that came from elsewhere: how many texts are behind the step that opened another. */
+  opened: { behind: number; fileName: string; home: Draft["home"] }[];
   /** When it was written [ms]. */
   time: number;
   /** Its tab has been left. */
@@ -32,7 +34,7 @@ export function readDraft(storage: Storage, id: string): KeptDraft | null {
     const kept = JSON.parse(storage.getItem(PREFIX + id) ?? "null") as Partial<Draft> | null;
     if (typeof kept?.text !== "string") return null;
     const before = (kept.before ?? []).filter((one) => typeof one === "string");
-    return { id, text: kept.text, fileName: kept.fileName ?? "untitled.toml", savedText: kept.savedText ?? "", home: kept.home ?? null, before, time: kept.time ?? 0, closed: kept.closed ?? true };
+    return { id, text: kept.text, fileName: kept.fileName ?? "untitled.toml", savedText: kept.savedText ?? "", home: kept.home ?? null, before, opened: kept.opened ?? [], time: kept.time ?? 0, closed: kept.closed ?? true };
   } catch {
     return null;
   }

@@ -23,6 +23,7 @@ export async function startFolder(mayOpen = true): Promise<void> {
   const unsaved = history.text !== savedText;
   const start = `${sessionToken()} ${model}`;
   if (!model || !mayOpen || kept(BEGUN) === start) {
+    keep(BEGUN, start);
     if (mayOpen && path && !unsaved) await refresh(path);
     return;
   }
