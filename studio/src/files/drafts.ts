@@ -50,7 +50,7 @@ export function listDrafts(storage: Storage): KeptDraft[] {
 
 /** False where the browser refuses: its store is full or forbidden. */
 export function writeDraft(storage: Storage, id: string, draft: Draft): boolean {
-  const attempts = [() => undefined, () => dropOldest(storage, id), () => (draft = { ...draft, before: [] })];
+  const attempts = [() => undefined, () => (draft = { ...draft, before: [], opened: [] }), () => dropOldest(storage, id)];
   for (const prepare of attempts) {
     prepare();
     try {
