@@ -2,10 +2,11 @@
 import { type Complaint, type Fault } from "./kernel/protocol";
 import { type History, change, redo as redoStep, undo as undoStep } from "./model/history";
 import { type Model, type Poses, readModel } from "./model/model";
-import { EMPTY_MODEL, type Made, type Thing } from "./model/operations";
-import { copyThings, pasteThings, removeThings } from "./model/removal";
+import { EMPTY_MODEL, type Made, type Thing, addMesh, meshFault } from "./model/operations";
+import { overwritten } from "./model/placing";
+import { removeThings } from "./model/removal";
 import { type Document, lineColumn } from "./model/toml";
-import { NO_RUN, type StudioState, type ToolName, studio } from "./state";
+import { type Home, NO_RUN, type Origin, type StudioState, type ToolName, studio } from "./state";
 
 /** Faults of the text's form, found at once; the kernel finds the rest. */
 export function localComplaints(document: Document): Complaint[] {
@@ -62,15 +63,37 @@ export function exists(model: Model, { kind, name }: Thing): boolean {
   }
 }
 
-export function edit(text: string, label: string, key = ""): void {
+/** A step made from the text as it stands: by the editor, or a word that is replaced in it. */
+export function editText(text: string, label: string, key = ""): void {
   const history = change(studio.get().history, text, label, key);
   if (history !== studio.get().history) studio.set({ history, ...follow(text) });
 }
 
+/** A step made from the model. While the text cannot be read the model is an older one, and the step would undo what was typed. */
+export function edit(text: string, label: string, key = ""): boolean {
+  const { stale, complaints, toasts } = studio.get();
+  if (!stale) {
+    editText(text, label, key);
+    return true;
+  }
+  const first = complaints.find((one) => one.line > 0);
+  const refusal = `Mend the text first${first ? `, line ${first.line}: ${first.message}` : ""}.`;
+  if (!toasts.some((toast) => toast.text === refusal)) say(refusal, { label: "Show the text", run: () => studio.set({ side: "text", dock: "problems" }) });
+  return false;
+}
+
+/** A step that writes places. Where they are written with names of parameters, it is made only if that is wanted. */
+export function place(text: string, label: string, key = ""): void {
+  const { model, history } = studio.get();
+  const gone = overwritten(model, text);
+  if (gone.length === 0 || studio.get().stale) return void edit(text, label, key);
+  const run = () => (studio.get().history.text === history.text ? void edit(text, label) : say("The model has changed since: nothing was written."));
+  say(`${gone.slice(0, 2).join(", ")}${gone.length > 2 ? ", …" : ""}: written with parameters. Write numbers instead?`, { label: "Write numbers", run });
+}
+
 /** A drawing step: the text, and what it made becomes the selection. */
 export function drawn(made: Made, label: string): void {
-  edit(made.text, label);
-  if (made.made.length > 0) studio.set({ selection: made.made });
+  if (edit(made.text, label) && made.made.length > 0) studio.set({ selection: made.made });
 }
 
 export function undo(): void {
@@ -83,15 +106,41 @@ export function redo(): void {
   goTo(redoStep(history), history.future[0]?.key ?? "", 1);
 }
 
-// A step that opened another file has both names in its key: the text and its name go together.
+// A step that opened another text changes its origin too; the origin that is left may have been saved since.
 function goTo(history: History, key: string, side: 0 | 1): void {
   if (history === studio.get().history) return;
-  const names = key.startsWith(OPENED) ? key.slice(OPENED.length).split("\u0000") : null;
-  studio.set({ history, ...(names ? { ...NOTHING_OPEN, fileName: names[side] ?? "" } : {}), ...follow(history.text) });
-  if (names) for (const listener of openedListeners) listener();
+  const origins = opened.get(key);
+  if (origins) origins[1 - side] = originNow();
+  studio.set({ history, ...(origins ? { ...NOTHING_OPEN, ...origins[side] } : {}), ...follow(history.text) });
+  if (origins) for (const listener of openedListeners) listener();
 }
 
-const OPENED = "open:";
+/** Origins on both sides of a step that opened another text, by the step's key. */
+const opened = new Map<string, [Origin, Origin]>();
+let lastDocument = 0;
+
+export const newDocument = (): number => ++lastDocument;
+
+/** The key of a step from one text to another. */
+export function openingKey(before: Origin, after: Origin): string {
+  const key = `open${opened.size + 1}`;
+  opened.set(key, [before, after]);
+  return key;
+}
+
+/** What the text before a step was, where the step opened another. */
+export const originBefore = (key: string): Origin | undefined => opened.get(key)?.[0];
+
+function originNow(): Origin {
+  const { document, fileName, home, savedText } = studio.get();
+  return { document, fileName, home, savedText };
+}
+
+/** Notes where a text has been saved; another may be open by now. */
+export function noteSaved(document: number, change: Omit<Origin, "document">): void {
+  for (const origins of opened.values()) for (const origin of origins) if (origin.document === document) Object.assign(origin, change);
+  if (studio.get().document === document) studio.set(change);
+}
 
 export function select(things: Thing[]): void {
   studio.set({ selection: things });
@@ -104,23 +153,28 @@ export function chooseTool(tool: ToolName): void {
 /** What belongs to one model only. */
 const NOTHING_OPEN: Partial<StudioState> = { poses: null, obstacle: null, report: null, selection: [], kept: null, mode: "edit", playing: false, plotted: [], tool: "select" };
 
-/** Another model in place of this one, which undo brings back. */
-export function openText(text: string, fileName: string): void {
+/** Another model in place of this one, which undo brings back. Without a home it is a new file: saving asks for its name. */
+export function openText(text: string, fileName: string, { home = null, savedText = text }: { home?: Home | null; savedText?: string } = {}): void {
   const read = readModel(text);
   const faulty = read.document.faults.length > 0;
   const before = studio.get();
+  const origin: Origin = { document: newDocument(), fileName, home, savedText };
   studio.set({
     ...NOTHING_OPEN,
-    history: change(before.history, text, `Open ${fileName}`, `${OPENED}${before.fileName}\u0000${fileName}`),
-    fileName,
+    ...origin,
+    history: change(before.history, text, `Open ${fileName}`, openingKey(originNow(), origin)),
     model: faulty && read.bodies.length === 0 ? readModel(EMPTY_MODEL) : read,
     stale: faulty,
     complaints: localComplaints(read.document),
     run: { ...NO_RUN, serial: before.run.serial + 1 },
     ghost: { ...before.ghost, answer: null },
-    savedText: text,
   });
   for (const listener of openedListeners) listener();
+}
+
+/** A broken file opens as text, with what is wrong with it. */
+export function showFaults(): void {
+  if (studio.get().stale) studio.set({ side: "text", dock: "problems" });
 }
 
 const openedListeners = new Set<() => void>();
@@ -136,24 +190,13 @@ export function removeSelection(): void {
   if (selection.length > 0) edit(removeThings(model, selection), selection.length === 1 ? `Delete ${selection[0]!.name}` : `Delete ${selection.length} things`);
 }
 
-let clipboard = "";
-
-export function copySelection(): string {
+export function meshSelection(): void {
   const { model, selection, poses } = studio.get();
-  if (!selection.some((thing) => thing.kind === "body")) {
-    say("Select a link to copy it.");
-    return "";
-  }
-  clipboard = copyThings(model, selection, poses ?? undefined);
-  void navigator.clipboard?.writeText(clipboard).catch(() => undefined);
-  return clipboard;
-}
-
-export function paste(copied = clipboard): void {
-  if (!copied.includes("[body.")) return say("There is nothing to paste: copy a link first.");
-  const { model } = studio.get();
-  const step = model.bodies.length > 0 ? 0.15 * Math.max(0.05, ...model.bodies.flatMap((body) => body.markers.map((m) => Math.hypot(...m.at)))) * 2 : 0;
-  drawn(pasteThings(model, copied, [step, -step]), "Paste");
+  const [a, b, more] = selection.map((thing) => (thing.kind === "body" ? model.body.get(thing.name) : undefined));
+  if (!a || !b || more) return say("Select two gears to bring them into mesh.");
+  const fault = meshFault(model, a, b, poses ?? undefined);
+  if (fault) return say(fault);
+  drawn(addMesh(model, a, b, poses ?? undefined), "Mesh");
 }
 
 export function selectAll(): void {
@@ -164,7 +207,7 @@ let nextToast = 1;
 
 export function say(text: string, action?: { label: string; run: () => void }): void {
   const id = nextToast++;
-  studio.set((now) => ({ toasts: [...now.toasts.slice(-2), { id, text, action }] }));
+  studio.set((now) => ({ toasts: [...now.toasts.filter((toast) => toast.text !== text).slice(-2), { id, text, action }] }));
   setTimeout(() => dismiss(id), action ? 9000 : 5000);
 }
 

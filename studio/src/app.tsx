@@ -16,6 +16,8 @@ import { useStudio } from "./state";
 const Gallery = lazy(() => import("./panels/gallery").then((module) => ({ default: module.Gallery })));
 const Palette = lazy(() => import("./panels/palette").then((module) => ({ default: module.Palette })));
 const FolderDialog = lazy(() => import("./panels/folder").then((module) => ({ default: module.FolderDialog })));
+const SaveDialog = lazy(() => import("./panels/save").then((module) => ({ default: module.SaveDialog })));
+const DraftsDialog = lazy(() => import("./panels/drafts").then((module) => ({ default: module.DraftsDialog })));
 const Help = lazy(() => import("./panels/help").then((module) => ({ default: module.Help })));
 
 export function App() {
@@ -54,6 +56,8 @@ export function App() {
         {dialog === "palette" && <Palette />}
         {dialog === "help" && <Help />}
         {dialog === "folder" && <FolderDialog />}
+        {dialog === "drafts" && <DraftsDialog />}
+        {dialog === "save" && <SaveDialog />}
       </Suspense>
     </div>
   );

@@ -1,13 +1,14 @@
 // Everything that can be done, with its name and key: the palette, the shortcuts and the help sheet are made from this.
-import { chooseTool, copySelection, openText, paste, redo, removeSelection, say, select, selectAll, undo } from "./actions";
+import { chooseTool, meshSelection, openText, place, redo, removeSelection, say, select, selectAll, undo } from "./actions";
+import { copySelection, duplicate, paste } from "./clipboard";
 import { theView } from "./drawing/canvas";
 import { isTyping } from "./drawing/gestures";
 import { TOOL_LIST } from "./drawing/tools";
-import { openFile, saveFile } from "./files/disk";
+import { openFile, saveFile, saveFileAs } from "./files/disk";
 import { shareLink } from "./files/share";
 import { EMPTY_MODEL } from "./model/operations";
 import { shiftThings } from "./model/reshape";
-import { edit } from "./actions";
+import { Strokes } from "./model/strokes";
 import { setGhost } from "./play/desk";
 import { player } from "./play/player";
 import { type DockTab, type SideTab, studio } from "./state";
@@ -27,6 +28,9 @@ const dock = (tab: DockTab) => () => studio.set((now) => ({ dock: now.dock === t
 const side = (tab: SideTab) => () => studio.set((now) => ({ side: now.side === tab ? null : tab }));
 const exporting = (word: "csv" | "svg" | "gif" | "report") => () => void import("./files/exports").then((module) => module.exportAs(word));
 
+const nudges = new Strokes("nudge");
+let nudged: unknown = null;
+
 function nudge(x: number, y: number): void {
   const { selection, model, poses, mode } = studio.get();
   const view = theView();
@@ -39,14 +43,17 @@ function nudge(x: number, y: number): void {
   if (!view || mode !== "edit" || bodies.length + markers.length === 0) return;
   const step = view.metres(4);
   const nice = 10 ** Math.round(Math.log10(step));
-  edit(shiftThings(model, bodies, markers, [x * nice, y * nice], poses ?? undefined), "Nudge", "nudge");
+  place(shiftThings(model, bodies, markers, [x * nice, y * nice], poses ?? undefined), "Nudge", nudges.key(performance.now(), selection === nudged));
+  nudged = studio.get().selection;
 }
 
 export const COMMANDS: readonly Command[] = [
   { id: "new", label: "New drawing", keys: ["alt+N"], group: "File", run: () => openText(EMPTY_MODEL, "untitled.toml") },
   { id: "gallery", label: "Templates", keys: ["mod+shift+O"], group: "File", run: () => studio.set({ dialog: "gallery" }) },
   { id: "open", label: "Open a file", keys: ["mod+O"], group: "File", run: () => void openFile() },
+  { id: "drafts", label: "Unsaved work of other tabs", keys: [], group: "File", run: () => studio.set({ dialog: "drafts" }) },
   { id: "save", label: "Save the model as a file", keys: ["mod+S"], group: "File", run: () => void saveFile() },
+  { id: "save-as", label: "Save under another name", keys: ["mod+shift+S"], group: "File", run: () => void saveFileAs() },
   { id: "share", label: "Copy a link with the model in it", keys: ["mod+shift+L"], group: "File", run: () => void shareLink() },
   { id: "export-csv", label: "Export the run as CSV", keys: [], group: "File", run: exporting("csv") },
   { id: "export-svg", label: "Export the drawing as SVG", keys: [], group: "File", run: exporting("svg") },
@@ -55,8 +62,8 @@ export const COMMANDS: readonly Command[] = [
   { id: "undo", label: "Undo", keys: ["mod+Z"], group: "Edit", run: undo },
   { id: "redo", label: "Redo", keys: ["mod+shift+Z", "mod+Y"], group: "Edit", run: redo },
   { id: "copy", label: "Copy the selected links", keys: ["mod+C"], group: "Edit", run: () => void copySelection() },
-  { id: "paste", label: "Paste", keys: ["mod+V"], group: "Edit", run: () => paste() },
-  { id: "duplicate", label: "Duplicate", keys: ["mod+D"], group: "Edit", run: () => copySelection() && paste() },
+  { id: "paste", label: "Paste", keys: ["mod+V"], group: "Edit", run: () => void paste() },
+  { id: "duplicate", label: "Duplicate", keys: ["mod+D"], group: "Edit", run: duplicate },
   { id: "delete", label: "Delete what is selected", keys: ["Delete", "Backspace"], group: "Edit", run: removeSelection },
   { id: "all", label: "Select all links", keys: ["mod+A"], group: "Edit", run: selectAll },
   { id: "left", label: "Nudge left", keys: ["ArrowLeft"], group: "Edit", run: () => arrow(-1, 0) },
@@ -66,6 +73,7 @@ export const COMMANDS: readonly Command[] = [
   { id: "next", label: "Select the next thing", keys: ["]"], group: "Edit", run: () => cycle(1) },
   { id: "previous", label: "Select the thing before", keys: ["["], group: "Edit", run: () => cycle(-1) },
   ...TOOL_LIST.map((tool): Command => ({ id: `tool-${tool.name}`, label: tool.name === "select" ? "Select and move" : `Draw: ${tool.label}`, keys: [tool.key], group: "Draw", run: () => chooseTool(tool.name) })),
+  { id: "mesh", label: "Mesh the two selected gears", keys: [], group: "Draw", run: meshSelection },
   { id: "snap", label: "Snap to the grid", keys: ["N"], group: "Draw", run: () => studio.set((now) => ({ snapping: !now.snapping })) },
   { id: "play", label: "Play or pause", keys: ["Space"], group: "Play", run: () => player.toggle() },
   { id: "stop", label: "Stop: back to the start and to drawing", keys: ["Escape"], group: "Play", run: escape },
@@ -161,7 +169,7 @@ export function listenToKeys(): () => void {
     if (!command) return;
     const { dialog } = studio.get();
     if (dialog && command.id !== "palette") return;
-    if (isTyping(event.target) && !/^(save|open|palette|share)$/.test(command.id)) return;
+    if (isTyping(event.target) && !/^(save|save-as|open|palette|share)$/.test(command.id)) return;
     const target = event.target as HTMLElement | null;
     // Space and Enter press the button that has the focus.
     if (event.key === " " && target?.closest("button, a, summary, [role=tab], [role=slider]")) return;

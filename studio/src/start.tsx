@@ -1,11 +1,11 @@
 // Begins the page: brings back what was there, starts kernel and clock, and draws.
 import { createRoot } from "react-dom/client";
-import { edit, openText } from "./actions";
+import { editText, openText } from "./actions";
 import { App } from "./app";
 import { theView } from "./drawing/canvas";
 import { restore, startAutosave } from "./files/autosave";
 import { startFolder } from "./files/folder";
-import { openFromAddress } from "./files/share";
+import { followAddress, openFromAddress } from "./files/share";
 import { Fence } from "./panels/fence";
 import { startDesk } from "./play/desk";
 import { studio } from "./state";
@@ -16,7 +16,7 @@ import "./styles/panels.css";
 import "./styles/scene.css";
 
 // For the browser tests, and for whoever is curious in the console.
-Object.assign(window, { pintleStudio: studio, pintleView: theView, pintleEdit: edit, pintleOpen: openText });
+Object.assign(window, { pintleStudio: studio, pintleView: theView, pintleEdit: editText, pintleOpen: openText });
 restore();
 startAutosave();
 const root = document.getElementById("root");
@@ -30,6 +30,6 @@ if (root) {
 player.start();
 void openFromAddress().then((opened) => {
   startDesk();
-  if (!opened) void startFolder();
+  void startFolder(!opened);
 });
-window.addEventListener("hashchange", () => void openFromAddress());
+window.addEventListener("hashchange", followAddress);

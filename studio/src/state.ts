@@ -10,7 +10,7 @@ export const TOOLS = [
 ] as const;
 export type ToolName = (typeof TOOLS)[number];
 
-export type Dialog = "gallery" | "palette" | "help" | "folder" | null;
+export type Dialog = "gallery" | "palette" | "help" | "folder" | "save" | "drafts" | null;
 export type DockTab = "plots" | "forces" | "energy" | "problems";
 export type SideTab = "properties" | "model" | "text";
 
@@ -29,9 +29,29 @@ export interface Toast {
   action?: { label: string; run: () => void };
 }
 
-export interface StudioState {
-  history: History;
+export interface WritableHandle {
+  name: string;
+  getFile(): Promise<File>;
+  createWritable(): Promise<{ write(text: string): Promise<void>; close(): Promise<void> }>;
+}
+
+/** The file that the text is saved to without asking: one of this computer, or one in the folder of `pintle studio`. */
+export type Home =
+  | { kind: "handle"; handle: WritableHandle }
+  /** `hash` is of what the file held when it was read or written last. */
+  | { kind: "folder"; folder: string; path: string; hash: string };
+
+/** What goes with an opened text, and comes back with it when a step leads back to it. */
+export interface Origin {
+  /** Another number for each text that was opened. */
+  document: number;
   fileName: string;
+  home: Home | null;
+  savedText: string;
+}
+
+export interface StudioState extends Origin {
+  history: History;
   model: Model;
   /** The text has faults; the drawing shows the last model that could be read. */
   stale: boolean;
@@ -61,7 +81,6 @@ export interface StudioState {
   /** Columns on the plot, by name. */
   plotted: string[];
   toasts: Toast[];
-  savedText: string;
   /** Of `pintle studio`, where the page comes from it. */
   folder: { name: string; models: { path: string; size: number }[] } | null;
 }
@@ -72,7 +91,9 @@ export const NO_RUN: RunState = { status: "none", answer: null, progress: null, 
 
 export const studio = createStore<StudioState>({
   history: newHistory(EMPTY_MODEL),
+  document: 0,
   fileName: "untitled.toml",
+  home: null,
   model,
   stale: false,
   poses: null,

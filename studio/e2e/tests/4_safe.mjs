@@ -85,6 +85,40 @@ export const tests = {
     await page.context().close();
   },
 
+  async "two tabs keep their own drawing, and a third offers what is left"(world) {
+    const page = await world.visit();
+    const other = await page.context().newPage();
+    for (const [tab, name] of [[page, "One"], [other, "Two"]]) {
+      await tab.goto(world.server.url);
+      await tab.locator(".scene").first().waitFor();
+      await openTemplate(tab, "trammel.toml");
+      await replaceText(tab, 'name = "Trammel of Archimedes"', `name = "${name}"`);
+      await tab.waitForTimeout(400);
+    }
+    await page.reload();
+    await page.locator(".scene").first().waitFor();
+    assert.equal(await state(page, "(now) => now.model.name"), "One");
+    await page.evaluate(() => window.pintleStudio.set({ dialog: "drafts" }));
+    await page.locator("dialog").getByText("Two, trammel.toml").click();
+    assert.equal(await state(page, "(now) => now.model.name"), "Two");
+    assert.deepEqual(page.faults, []);
+    await page.context().close();
+  },
+
+  async "drawing waits while the text is faulty"(world) {
+    const page = await world.visit();
+    await openTemplate(page, "four_bar.toml");
+    await settled(page);
+    await replaceText(page, "[body.crank]", "[body.crank");
+    const text = await state(page, "(now) => now.history.text");
+    await page.evaluate(() => window.pintleStudio.set({ selection: [{ kind: "body", name: "coupler" }] }));
+    await page.locator(".scene").first().focus();
+    await page.keyboard.press("Delete");
+    assert.match(await page.locator(".toasts").textContent(), /Mend the text first/);
+    assert.equal(await state(page, "(now) => now.history.text"), text);
+    await page.context().close();
+  },
+
   async "another model that is opened does not lose the one before"(world) {
     const page = await world.visit();
     await openTemplate(page, "trammel.toml");

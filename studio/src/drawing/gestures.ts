@@ -1,8 +1,9 @@
 // Pointer and keys on the canvas: panning, selecting, dragging, and the points of the tools.
-import { drawn, edit, say, select, undo } from "../actions";
+import { drawn, edit, place, say, select, undo } from "../actions";
 import { type Point, type Pose, along, direction, distance, toBody, toWorld } from "../model/geometry";
 import { type End, GROUND, type Poses, poseOf } from "../model/model";
 import type { Target, Thing } from "../model/operations";
+import { overwritten } from "../model/placing";
 import { keepPoses, movePoint } from "../model/reshape";
 import { KinematicDrag } from "../play/desk";
 import { player } from "../play/player";
@@ -31,7 +32,8 @@ export const entry = createStore<Entry>(CLOSED);
 type Gesture =
   | { kind: "pan"; from: Point; camera: Point; moved: boolean }
   | { kind: "box"; from: Point }
-  | { kind: "reshape"; end: End; label: string; moved: boolean; key: string }
+  /** `asks`: the way to this point, which replaces names of parameters, is shown and not yet written. */
+  | { kind: "reshape"; end: End; label: string; moved: boolean; key: string; asks: Point | null }
   | { kind: "drag"; drag: KinematicDrag; moved: boolean; before: Poses | null; at: Point }
   | { kind: "pull"; body: string; point: [number, number] }
   /** `first`: this press set the first point. */
@@ -61,10 +63,12 @@ export class Gestures {
     let mode = studio.get().mode;
     const end = studio.subscribe(() => {
       const now = studio.get();
-      if (now.tool !== tool || (now.mode !== mode && now.mode !== "edit")) this.cancel();
+      const other = now.tool !== tool || (now.mode !== mode && now.mode !== "edit");
+      // First: cancelling changes the store, and this is told again.
       tool = now.tool;
       mode = now.mode;
       svg.dataset["tool"] = tool;
+      if (other) this.cancel();
     });
     svg.dataset["tool"] = tool;
     this.abort.signal.addEventListener("abort", end);
@@ -140,7 +144,7 @@ export class Gestures {
       return;
     }
     if (hit.end) {
-      this.gesture = { kind: "reshape", end: hit.end, label: `Move point ${hit.end.marker}`, moved: false, key: `reshape${++this.count}` };
+      this.gesture = { kind: "reshape", end: hit.end, label: `Move point ${hit.end.marker}`, moved: false, key: `reshape${++this.count}`, asks: null };
       return;
     }
     if (!hit.body || hit.thing.kind !== "body") return;
@@ -185,8 +189,18 @@ export class Gestures {
     gesture.moved = true;
     const to: Point = event.altKey || !snapping ? world : [Math.round(world[0] / step) * step, Math.round(world[1] / step) * step];
     const text = movePoint(model, gesture.end, to, poses ?? undefined);
+    if (gesture.asks || overwritten(model, text).length > 0) {
+      if (!gesture.asks) this.takeBack(gesture);
+      gesture.asks = to;
+      return this.view.show({ lines: [[this.worldOf(gesture.end), to]], snap: { at: to, joins: false } });
+    }
     edit(text, gesture.label, gesture.key);
     player.touch();
+  }
+
+  private takeBack(gesture: Extract<Gesture, { kind: "reshape" }>): void {
+    const { past } = studio.get().history;
+    if (past[past.length - 1]?.key === gesture.key) undo();
   }
 
   private worldOf(end: End): Point {
@@ -215,6 +229,10 @@ export class Gestures {
     if (gesture.kind === "pull") player.setPull(null);
     if (gesture.kind === "box") this.selectIn(gesture.from, this.view.toWorld(at));
     if (gesture.kind === "drag" && gesture.moved) this.endDrag(gesture);
+    if (gesture.kind === "reshape" && gesture.asks) {
+      const { model, poses } = studio.get();
+      place(movePoint(model, gesture.end, gesture.asks, poses ?? undefined), gesture.label);
+    }
   }
 
   // A start pose that is written with parameters is not overwritten unasked.
@@ -222,7 +240,7 @@ export class Gestures {
     const { model } = studio.get();
     const { poses } = gesture.drag;
     if (!poses) return;
-    const keep = () => edit(keepPoses(studio.get().model, poses), "Move start position");
+    const keep = () => void edit(keepPoses(studio.get().model, poses), "Move start position");
     if (!model.bodies.some((body) => body.parametric)) return keep();
     say("The start position is written with parameters. Keep this one instead?", { label: "Keep", run: keep });
     setTimeout(() => {
@@ -305,9 +323,10 @@ export class Gestures {
   }
 
   cancel(): void {
-    if (this.gesture?.kind === "pull") player.setPull(null);
-    if (this.gesture?.kind === "reshape" && this.gesture.moved) undo();
+    const { gesture } = this;
     this.reset();
+    if (gesture?.kind === "pull") player.setPull(null);
+    if (gesture?.kind === "reshape" && gesture.moved) this.takeBack(gesture);
   }
 
   get drawing(): boolean {

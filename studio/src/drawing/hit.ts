@@ -1,6 +1,6 @@
 // What is under the pointer: points before joints' symbols, symbols before bars, the one on top first.
 import { type Point, distance, hull, nearestOnSegment, toWorld } from "../model/geometry";
-import { type End, GROUND, type Model, type Poses, markerOf, poseOf, worldPoint } from "../model/model";
+import { type End, GROUND, type Model, type Poses, poseOf, worldPoint } from "../model/model";
 import type { Target, Thing } from "../model/operations";
 import { type Looks, guideEnds } from "./looks";
 
@@ -173,8 +173,4 @@ export function bodiesAt(model: Model, looks: Looks, at: Point, reach: number, p
     .filter((body) => hitBody({ ...model, bodies: [body] }, looks, at, reach, poses) !== null)
     .map((body) => body.name)
     .reverse();
-}
-
-export function markerWorld(model: Model, end: End, poses?: Poses): Point {
-  return markerOf(model, end) ? worldPoint(model, end, poses) : [0, 0];
 }

@@ -1,25 +1,25 @@
-// Nothing is lost: the text, its undo steps and the page's settings are kept in the browser after every change.
+// Nothing is lost: the text, the texts before it (which undo leads back to, in fewer or coarser steps) and the page's settings are
+// kept in the browser after every change.
+import { newDocument, openText, openingKey, originBefore, say } from "../actions";
+import { type History, change, newHistory } from "../model/history";
 import { readModel } from "../model/model";
-import { change, newHistory } from "../model/history";
-import { studio } from "../state";
+import { EMPTY_MODEL } from "../model/operations";
+import { type Home, type Origin, studio } from "../state";
+import { type Draft, type KeptDraft, claimDraft, listDrafts, readDraft, removeDraft, writeDraft } from "./drafts";
 
-const KEY = "pintle-studio";
 const SETTINGS = "pintle-studio-settings";
-
-interface Kept {
-  text: string;
-  fileName: string;
-  savedText: string;
-  /** Texts before, the newest last; as many as there is room for. */
-  before: string[];
-}
-
 const SETTING_KEYS = ["theme", "show", "dock", "side", "snapping", "loop"] as const;
 
-function remember(storage: Storage | null): void {
-  if (!storage) return;
-  const { history, fileName, savedText } = studio.get();
+let storage: Storage | null = null;
+let own = "";
+let from: KeptDraft | null = null;
+let written = false;
+let refused = false;
+
+function draftNow(closed: boolean): Draft {
+  const { history, fileName, savedText, home } = studio.get();
   const before: string[] = [];
+  const opened: Draft["opened"] = [];
   let text = history.text;
   for (let i = history.past.length - 1, room = 400_000; i >= 0 && before.length < 100; i--) {
     const step = history.past[i]!;
@@ -27,22 +27,37 @@ function remember(storage: Storage | null): void {
     room -= text.length;
     if (room < 0) break;
     before.unshift(text);
+    const origin = originBefore(step.key);
+    if (origin) opened.unshift({ behind: before.length, fileName: origin.fileName, home: folderOnly(origin.home) });
   }
-  const kept: Kept = { text: history.text, fileName, savedText, before };
-  try {
-    storage.setItem(KEY, JSON.stringify(kept));
-  } catch {
-    try {
-      storage.setItem(KEY, JSON.stringify({ ...kept, before: [] }));
-    } catch {
-      // A full or forbidden store: the file can still be saved by hand.
-    }
-  }
+  return { text: history.text, fileName, savedText, home: folderOnly(home), before, opened, time: Date.now(), closed };
 }
 
-function storageOf(): Storage | null {
+const folderOnly = (home: Home | null): Draft["home"] => (home?.kind === "folder" ? home : null);
+
+// Steps that opened another text lead back to its file, too.
+function historyOf(draft: Draft): { history: History; origin: Origin } {
+  const { before, text, opened, fileName, home, savedText } = draft;
+  const origin: Origin = { document: newDocument(), fileName, home, savedText };
+  const origins = [...opened.map((one): Origin => ({ document: newDocument(), fileName: one.fileName, home: one.home, savedText: "" })), origin];
+  let history = newHistory(before[0] ?? text);
+  [...before.slice(1), text].forEach((next, i) => {
+    const at = opened.findIndex((one) => one.behind === before.length - i);
+    history = at < 0 ? change(history, next, "Edit") : change(history, next, `Open ${origins[at + 1]!.fileName}`, openingKey(origins[at]!, origins[at + 1]!));
+  });
+  return { history, origin };
+}
+
+function remember(closed = false): void {
+  written = true;
+  if (!storage || writeDraft(storage, own, draftNow(closed)) || refused) return;
+  refused = true;
+  say("The browser keeps nothing of this page: its store is full or forbidden. Save your work as a file.");
+}
+
+function storeOf(name: "localStorage" | "sessionStorage"): Storage | null {
   try {
-    return window.localStorage;
+    return window[name];
   } catch {
     return null;
   }
@@ -50,31 +65,39 @@ function storageOf(): Storage | null {
 
 /** Brings back what was there before the page was closed. */
 export function restore(): boolean {
-  const storage = storageOf();
-  restoreSettings(storage);
-  const raw = storage?.getItem(KEY);
-  if (!raw) return false;
-  try {
-    const kept = JSON.parse(raw) as Partial<Kept>;
-    if (typeof kept.text !== "string") return false;
-    const before = (kept.before ?? []).filter((one) => typeof one === "string");
-    let history = newHistory(before[0] ?? kept.text);
-    for (const text of [...before.slice(1), kept.text]) history = change(history, text, "Edit");
-    const model = readModel(kept.text);
-    studio.set({
-      history,
-      fileName: kept.fileName ?? "untitled.toml",
-      savedText: kept.savedText ?? "",
-      model,
-      stale: model.document.faults.length > 0,
-    });
-    return true;
-  } catch {
-    return false;
-  }
+  storage = storeOf("localStorage");
+  restoreSettings();
+  if (!storage) return false;
+  const { id, draft } = claimDraft(storage, storeOf("sessionStorage"));
+  own = id;
+  from = draft;
+  if (!draft) return false;
+  const { history, origin } = historyOf(draft);
+  const model = readModel(draft.text);
+  studio.set({ history, ...origin, model, stale: model.document.faults.length > 0 });
+  return true;
 }
 
-function restoreSettings(storage: Storage | null): void {
+/** Unsaved work of other tabs: of those that are closed, and of those that are open or broke down. */
+export function otherDrafts(): KeptDraft[] {
+  const { text } = studio.get().history;
+  return storage ? listDrafts(storage).filter((one) => one.id !== own && one.text !== one.savedText && one.text !== EMPTY_MODEL && one.text !== text) : [];
+}
+
+/** Opens another tab's draft here. It is this tab's from then on, unless the other one is open still. */
+export function openDraft(id: string): void {
+  const draft = storage && readDraft(storage, id);
+  if (!storage || !draft) return;
+  openText(draft.text, draft.fileName, { home: draft.home, savedText: draft.savedText });
+  remember();
+  if (draft.closed) removeDraft(storage, id);
+}
+
+export function forgetDraft(id: string): void {
+  if (storage) removeDraft(storage, id);
+}
+
+function restoreSettings(): void {
   const prefersDark = window.matchMedia("(prefers-color-scheme: dark)").matches;
   studio.set({ theme: prefersDark ? "dark" : "light" });
   try {
@@ -87,25 +110,44 @@ function restoreSettings(storage: Storage | null): void {
 }
 
 export function startAutosave(): void {
-  const storage = storageOf();
   let timer: ReturnType<typeof setTimeout> | undefined;
-  let text = studio.get().history;
+  let seen = studio.get();
   let settings = "";
   studio.subscribe(() => {
     const now = studio.get();
-    if (now.history !== text) {
-      text = now.history;
+    if (now.history !== seen.history || now.savedText !== seen.savedText || now.home !== seen.home) {
       clearTimeout(timer);
-      timer = setTimeout(() => remember(storage), 150);
+      timer = setTimeout(() => remember(), 150);
     }
+    seen = now;
     const mine = JSON.stringify(Object.fromEntries(SETTING_KEYS.map((key) => [key, now[key]])));
     if (mine === settings) return;
     settings = mine;
     try {
       storage?.setItem(SETTINGS, mine);
     } catch {
-      // As above.
+      // They are for comfort only.
     }
   });
-  window.addEventListener("pagehide", () => remember(storage));
+  if (from) remember();
+  window.addEventListener("pagehide", () => {
+    clearTimeout(timer);
+    if (written || studio.get().history.past.length > 0) remember(true);
+  });
+  // A page that comes back out of the browser's memory is open again.
+  window.addEventListener("pageshow", (event) => (event as PageTransitionEvent).persisted && written && remember());
+  void tellOfLost();
+}
+
+const LOCK = "pintle-studio:";
+
+// A tab holds a lock while it lives: what is neither closed nor held is of a tab that broke down.
+async function tellOfLost(): Promise<void> {
+  const locks = window.navigator?.locks;
+  if (!locks || !storage) return;
+  void locks.request(LOCK + own, () => new Promise(() => undefined));
+  const held = new Set((await locks.query()).held?.map((one) => one.name));
+  if (from && from.id !== own && !held.has(LOCK + from.id)) removeDraft(storage, from.id); // it goes on here
+  const lost = otherDrafts().filter((one) => !one.closed && !held.has(LOCK + one.id)).length;
+  if (lost > 0) say(`Unsaved work of ${lost === 1 ? "a tab that broke down" : `${lost} tabs that broke down`} is kept.`, { label: "Show it", run: () => studio.set({ dialog: "drafts" }) });
 }

@@ -1,15 +1,10 @@
 // Opening, saving and dropping of files. Where the browser can write a file in place, saving does; else it downloads.
-import { openText, say } from "../actions";
-import { readModel } from "../model/model";
-import { kernel } from "../play/desk";
-import { studio } from "../state";
-import { inFolder, saveToFolder, showFolder } from "./folder";
+import { noteSaved, openText, say, showFaults } from "../actions";
+import { type WritableHandle, studio } from "../state";
+import { inFolder, saveInFolderAs, saveToFolder, showFolder } from "./folder";
+import { asModel, tomlName } from "./models";
+import { inTurn } from "./turns";
 
-interface WritableHandle {
-  name: string;
-  getFile(): Promise<File>;
-  createWritable(): Promise<{ write(text: string): Promise<void>; close(): Promise<void> }>;
-}
 interface PickerWindow {
   showOpenFilePicker?: (options: object) => Promise<WritableHandle[]>;
   showSaveFilePicker?: (options: object) => Promise<WritableHandle>;
@@ -17,8 +12,6 @@ interface PickerWindow {
 
 const TYPES = [{ description: "Pintle model", accept: { "text/plain": [".toml"], "application/json": [".json"] } }];
 const LARGEST = 20e6;
-let handle: WritableHandle | null = null;
-
 const pickers = window as unknown as PickerWindow;
 
 export async function openFile(): Promise<void> {
@@ -30,9 +23,7 @@ export async function pickFile(): Promise<void> {
   if (pickers.showOpenFilePicker) {
     const picked = await pickers.showOpenFilePicker({ types: TYPES }).catch(() => null);
     const first = picked?.[0];
-    if (!first) return;
-    handle = first;
-    return take(await first.getFile(), true);
+    return first && take(await first.getFile(), first);
   }
   const input = document.createElement("input");
   input.type = "file";
@@ -42,45 +33,70 @@ export async function pickFile(): Promise<void> {
 }
 
 /** A file that was chosen or dropped; a broken one opens as text, with what is wrong with it. */
-export async function take(file: File, keepHandle = false): Promise<void> {
-  if (!keepHandle) handle = null;
+export async function take(file: File, handle: WritableHandle | null = null): Promise<void> {
   if (file.size > LARGEST) return say(`${file.name} has ${Math.round(file.size / 1e6)} MB: that is no model.`);
-  const text = await file.text();
+  let text: string;
+  try {
+    text = await file.text();
+  } catch {
+    return say(`${file.name} cannot be read: it is a folder, or has been moved.`);
+  }
   if (text.includes("\u0000")) return say(`${file.name} is not a text.`);
-  const toml = file.name.endsWith(".json") ? await fromJson(text) : text;
-  openText(toml, file.name.replace(/\.json$/, ".toml"));
-  if (readModel(toml).document.faults.length > 0) studio.set({ side: "text", dock: "problems" });
+  const model = await asModel(file.name, text);
+  openText(model.text, model.fileName, model.converted ? { savedText: "" } : { home: handle && { kind: "handle", handle } });
+  showFaults();
   say(`Opened ${file.name}. Undo leads back to the model before.`);
 }
 
-async function fromJson(text: string): Promise<string> {
+/** Saves to where the text came from, or to a new file that is asked for. */
+export function saveFile(): Promise<void> {
+  return inTurn(async () => {
+    const { home } = studio.get();
+    if (home?.kind === "handle") return writeTo(home.handle);
+    if (inFolder()) return saveToFolder();
+    return pickers.showSaveFilePicker ? saveToPicked() : downloadModel(studio.get().fileName);
+  });
+}
+
+/** Asks for a name, whatever the text came from. */
+export async function saveFileAs(): Promise<void> {
+  if (inFolder() || !pickers.showSaveFilePicker) studio.set({ dialog: "save" });
+  else await inTurn(saveToPicked);
+}
+
+/** Under a name that was typed: in the folder, or as a download. */
+export function saveUnder(name: string): Promise<void> {
+  return inTurn(async () => (inFolder() ? saveInFolderAs(name) : downloadModel(tomlName(name))));
+}
+
+async function saveToPicked(): Promise<void> {
+  const { fileName } = studio.get();
   try {
-    const answer = await kernel.write(JSON.parse(text));
-    return answer.text ?? text;
-  } catch {
-    return text;
+    const handle = await pickers.showSaveFilePicker?.({ suggestedName: fileName.replace(/^.*\//, ""), types: TYPES });
+    if (handle) await writeTo(handle);
+  } catch (error) {
+    if (!(error instanceof DOMException && error.name === "AbortError")) downloadModel(fileName);
   }
 }
 
-export async function saveFile(): Promise<void> {
-  if (inFolder()) return saveToFolder();
-  const { history, fileName } = studio.get();
+async function writeTo(handle: WritableHandle): Promise<void> {
+  const { document, history } = studio.get();
   try {
-    if (pickers.showSaveFilePicker) {
-      if (handle?.name !== fileName) handle = null;
-      handle ??= await pickers.showSaveFilePicker({ suggestedName: fileName, types: TYPES });
-      const stream = await handle.createWritable();
-      await stream.write(history.text);
-      await stream.close();
-      studio.set({ fileName: handle.name, savedText: history.text });
-      return say(`Saved ${handle.name}.`);
-    }
-  } catch (error) {
-    if (error instanceof DOMException && error.name === "AbortError") return;
-    handle = null;
+    const stream = await handle.createWritable();
+    await stream.write(history.text);
+    await stream.close();
+  } catch {
+    return say(`${handle.name} cannot be written.`, { label: "Save it elsewhere", run: () => void saveFileAs() });
   }
-  download(new Blob([history.text], { type: "application/toml" }), fileName);
-  studio.set({ savedText: history.text });
+  noteSaved(document, { fileName: handle.name, home: { kind: "handle", handle }, savedText: history.text });
+  say(`Saved ${handle.name}.`);
+}
+
+// The browser gives a download another name where one is taken.
+function downloadModel(fileName: string): void {
+  const { document, history } = studio.get();
+  download(new Blob([history.text], { type: "application/toml" }), fileName.replace(/^.*\//, ""));
+  noteSaved(document, { fileName, home: null, savedText: history.text });
 }
 
 export function download(blob: Blob, name: string): void {

@@ -1,21 +1,59 @@
 // The folder of `pintle studio`, where the page comes from that program: models are opened from it and saved into it.
-import { asFault, openText, say } from "../actions";
-import type { NativeServer } from "../kernel/native";
+import { asFault, noteSaved, openText, say, showFaults } from "../actions";
+import { type NativeServer, sessionToken } from "../kernel/native";
 import { kernel } from "../play/desk";
 import { studio } from "../state";
+import { asModel, tomlName } from "./models";
+import { inTurn } from "./turns";
 
 let server: NativeServer | null = null;
-/** The file that is open, and the hash of what it held when it was read or written last. */
-let open: { path: string; hash: string | null } | null = null;
 
 export const inFolder = (): boolean => server !== null;
 
-/** Looks for the program behind the page, and opens the model that it was started with. */
-export async function startFolder(): Promise<void> {
+const BEGUN = "pintle-studio:begun";
+
+/** Looks for the program behind the page, and opens the model that it was started with: once in a tab, not at each reload. */
+export async function startFolder(mayOpen = true): Promise<void> {
   server = await kernel.native().catch(() => null);
   if (!server) return;
   studio.set({ folder: { name: server.folder, models: [] } });
-  if (server.model) await openFromFolder(server.model);
+  const { model } = server;
+  const { home, history, savedText, document } = studio.get();
+  const path = home?.kind === "folder" && home.folder === server.folder ? home.path : null;
+  const unsaved = history.text !== savedText;
+  const start = `${sessionToken()} ${model}`;
+  if (!model || !mayOpen || kept(BEGUN) === start) {
+    keep(BEGUN, start);
+    if (mayOpen && path && !unsaved) await refresh(path);
+    return;
+  }
+  keep(BEGUN, start);
+  if (path !== model || !unsaved) return openFromFolder(model);
+  const open = () => (studio.get().document === document ? void openFromFolder(model) : undefined);
+  say(`This is your work on ${model} that was not saved.`, { label: "Open the file", run: open });
+}
+
+// The file may have been written by another program since.
+async function refresh(path: string): Promise<void> {
+  const now = await server?.open(path).catch(() => null);
+  if (now && now.text !== studio.get().history.text) await openFromFolder(path);
+}
+
+// For as long as the tab is there.
+function kept(key: string): string | null {
+  try {
+    return sessionStorage.getItem(key);
+  } catch {
+    return null;
+  }
+}
+
+function keep(key: string, value: string): void {
+  try {
+    sessionStorage.setItem(key, value);
+  } catch {
+    // The model is opened again at the next reload; undo leads back.
+  }
 }
 
 export async function showFolder(): Promise<void> {
@@ -30,35 +68,43 @@ export async function showFolder(): Promise<void> {
 export async function openFromFolder(path: string): Promise<void> {
   if (!server) return;
   try {
-    const opened = await server.open(path);
-    openText(opened.text, opened.path);
-    open = { path: opened.path, hash: opened.hash };
+    const { text, hash } = await server.open(path);
+    const model = await asModel(path, text);
+    openText(model.text, model.fileName, model.converted ? { savedText: "" } : { home: { kind: "folder", folder: server.folder, path, hash } });
+    showFaults();
     studio.set({ dialog: null });
   } catch (error) {
     say(asFault(error).message);
   }
 }
 
-/** Writes the text into the folder. A file that another program has changed meanwhile is not overwritten unasked. */
+/** Saves to where the text came from; a new file is asked its name. */
 export async function saveToFolder(): Promise<void> {
-  const { fileName, history } = studio.get();
+  const { home } = studio.get();
+  if (home?.kind !== "folder" || home.folder !== server?.folder) return studio.set({ dialog: "save" });
+  await write(home.path, home.hash);
+}
+
+/** Saves under a name. A file of that name that is not the one that is open is not overwritten unasked. */
+export async function saveInFolderAs(name: string): Promise<void> {
+  const path = tomlName(name);
+  const { home } = studio.get();
+  await write(path, home?.kind === "folder" && home.folder === server?.folder && home.path === path ? home.hash : null);
+}
+
+async function write(path: string, expected: string | null): Promise<void> {
   if (!server) return;
-  const expected = open?.path === fileName ? open.hash : null;
+  const { document, history } = studio.get();
   try {
-    const saved = await server.save(fileName, history.text, expected);
+    const saved = await server.save(path, history.text, expected);
     if ("hash" in saved) {
-      open = { path: fileName, hash: saved.hash };
-      studio.set({ savedText: history.text });
-      return say(`Saved ${fileName} in ${server.folder}.`);
+      noteSaved(document, { fileName: path, home: { kind: "folder", folder: server.folder, path, hash: saved.hash }, savedText: history.text });
+      return say(`Saved ${path} in ${server.folder}.`);
     }
-    const { conflict } = saved;
-    say(`${fileName} ${expected === null ? "is there already" : "was changed by another program"}.`, {
-      label: "Write over it",
-      run: () => {
-        open = { path: fileName, hash: conflict.hash };
-        void saveToFolder();
-      },
-    });
+    const { hash } = saved.conflict;
+    const why = hash === null ? "is no longer there" : expected === null ? "is there already" : "was changed by another program";
+    const again = () => (studio.get().document === document ? void inTurn(() => write(path, hash)) : say("Another model is open by now: nothing was written."));
+    say(`${path} ${why}.`, { label: hash === null ? "Write it anew" : "Write over it", run: again });
   } catch (error) {
     say(asFault(error).message);
   }

@@ -1,5 +1,6 @@
 // A link that holds the whole model: compressed, in the part of the address that is never sent to a server.
 import { openText, say } from "../actions";
+import { sessionTokenIn } from "../kernel/native";
 import { EMPTY_MODEL } from "../model/operations";
 import { studio } from "../state";
 
@@ -46,24 +47,50 @@ export async function decodeModel(code: string): Promise<string | null> {
 export async function shareLink(): Promise<void> {
   const { history } = studio.get();
   const link = `${location.href.replace(/#.*$/, "")}${MARK}${await encodeModel(history.text)}`;
-  window.history.replaceState(null, "", link);
   const copied = await navigator.clipboard?.writeText(link).then(
     () => true,
     () => false,
   );
-  say(copied ? "The link is copied. Whoever opens it sees this model." : "The link is in the address bar: copy it from there.");
+  if (!copied) showInAddress(link);
+  const reach = isLocal() ? "It opens on this computer, while this server runs; to others, send the saved file." : "Whoever opens it sees this model.";
+  say(`${copied ? "The link is copied." : "The link is in the address bar: copy it from there."} ${reach}`);
 }
 
-/** Opens the model of the page's address, if there is one. */
+const isLocal = (): boolean => /^(localhost|127\.[\d.]+|\[::1\])?$/.test(location.hostname);
+
+// Until the next change: a reload would bring back the link's model over what was done since.
+function showInAddress(link: string): void {
+  const { history } = studio.get();
+  window.history.replaceState(null, "", link);
+  const end = studio.subscribe(() => {
+    if (studio.get().history === history) return;
+    end();
+    clearAddress();
+  });
+}
+
+function clearAddress(): void {
+  if (location.hash.startsWith(MARK)) window.history.replaceState(null, "", location.href.replace(/#.*$/, ""));
+}
+
+/** Opens the model of the page's address, if there is one. From then on it is a draft like any other. */
 export async function openFromAddress(): Promise<boolean> {
   if (!location.hash.startsWith(MARK)) return false;
   const text = await decodeModel(location.hash.slice(MARK.length));
+  clearAddress();
   if (text === null) {
     say("The link's model cannot be read: it may have been cut off. Ask for it again, whole.");
     return false;
   }
   const mine = studio.get().history.text;
-  openText(text, "shared.toml");
-  if (mine !== text && mine !== EMPTY_MODEL) say("This is the link's model. Undo leads back to yours.");
+  if (mine === text) return true;
+  openText(text, "shared.toml", { savedText: "" });
+  if (mine !== EMPTY_MODEL) say("This is the link's model. Undo leads back to yours.");
   return true;
+}
+
+/** The address has been changed in a page that is open: another link, or the address of `pintle studio` started anew. */
+export function followAddress(): void {
+  if (sessionTokenIn(location.hash)) location.reload();
+  else void openFromAddress();
 }

@@ -39,9 +39,11 @@ export interface NativeServer {
 const kPollMilliseconds = 200;
 const kTokenKey = "pintle.token";
 
+export const sessionTokenIn = (hash: string): string | undefined => /(?:^#|[#&])token=([0-9a-f]+)/.exec(hash)?.[1];
+
 /** The token of this session: in the address when the page is opened, then kept for reloads of this tab. */
 export function sessionToken(location: Location = window.location): string | null {
-  const found = /(?:^#|[#&])token=([0-9a-f]+)/.exec(location.hash)?.[1];
+  const found = sessionTokenIn(location.hash);
   try {
     if (found) sessionStorage.setItem(kTokenKey, found);
     return found ?? sessionStorage.getItem(kTokenKey);

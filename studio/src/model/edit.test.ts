@@ -1,5 +1,7 @@
 import { describe, expect, it } from "vitest";
-import { Draft, writeNumber } from "./edit";
+import { Draft, unfolded, writeNumber } from "./edit";
+import { readModel } from "./model";
+import { toggleTrace } from "./operations";
 import { parseToml, plain } from "./toml";
 
 const TEXT = `# A model.
@@ -54,10 +56,36 @@ describe("edits of a text", () => {
     expect(text).toContain('P = { type = "revolute" }');
   });
 
-  it("sets and clears remarks", () => {
-    const text = new Draft(TEXT).remark(["body", "crank", "markers", "A"], "trace").remark(["ground", "markers", "O"], "").apply();
-    expect(text).toContain("markers.A = [1, 0]  # trace\n");
-    expect(text).toContain("O = [0, 0]\n");
+  it("sets and clears its own remarks, and leaves the author's comments", () => {
+    const marked = new Draft(TEXT).remark(["body", "crank", "markers", "A"], "trace").remark(["ground", "markers", "O"], "trace").remark(["body", "crank", "mass"], "").apply();
+    expect(marked).toContain("markers.A = [1, 0]  # trace\n");
+    expect(marked).toContain("O = [0, 0]  # the pin  # trace\n");
+    const model = readModel(marked);
+    expect([model.ground[0]!.traced, model.body.get("crank")!.markers[0]!.traced]).toEqual([true, true]);
+    expect(new Draft(marked).remark(["body", "crank", "markers", "A"], "").remark(["ground", "markers", "O"], "").apply()).toBe(TEXT);
+  });
+
+  it("keeps the comment behind a mass that is typed", () => {
+    const weighed = TEXT.replace('"1 kg"', '"2 kg"  # weighed, 3 May');
+    expect(new Draft(weighed).set(["body", "crank", "mass"], "3 kg").remark(["body", "crank", "mass"], "").apply()).toBe(weighed.replace("2 kg", "3 kg"));
+    const own = TEXT.replace('"1 kg"', '"2 kg"  # from its shape  # weighed');
+    expect(new Draft(own).remark(["body", "crank", "mass"], "").apply()).toBe(own.replace("  # from its shape", ""));
+    const crlf = TEXT.replace(/\n/g, "\r\n");
+    expect(new Draft(crlf).remark(["body", "crank", "mass"], "from its shape").apply()).toBe(crlf.replace('"1 kg"', '"1 kg"  # from its shape'));
+  });
+
+  it("does not write a remark into a line that goes on, and unfolds it for one", () => {
+    const folded = TEXT.replace("markers.A = [1, 0]", "markers = { A = [0, 0], B = [1, 0] }  # both ends");
+    expect(new Draft(folded).remark(["body", "crank", "markers", "A"], "trace").apply()).toBe(folded);
+    expect(readModel(folded.replace("both ends", "trace")).body.get("crank")!.markers.map((one) => one.traced)).toEqual([false, false]);
+    const traced = toggleTrace(readModel(folded), { at: [0, 0], end: { body: "crank", marker: "A" }, body: "crank" }).text;
+    expect(traced).toContain("markers.A = [0, 0]  # trace\nmarkers.B = [1, 0]  # both ends\n");
+    expect(plain(parseToml(traced).root)).toEqual(plain(parseToml(folded).root));
+    const another = readModel(toggleTrace(readModel(folded), { at: [0.5, 0], end: null, body: "crank" }).text);
+    expect(another.document.faults).toEqual([]);
+    expect(another.body.get("crank")!.markers.map((one) => [one.name, one.traced])).toEqual([["A", false], ["B", false], ["C", true]]);
+    const deep = 'body = { bar = { mass = 1, markers = { A = [0, 0], B.x = 1, B.y = 2 } } }';
+    expect(unfolded(deep, ["body", "bar", "markers", "A"])).toBe("body.bar.mass = 1\nbody.bar.markers.A = [0, 0]\nbody.bar.markers.B.x = 1\nbody.bar.markers.B.y = 2");
   });
 
   it("writes numbers short", () => {

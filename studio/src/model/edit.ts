@@ -1,6 +1,7 @@
 // Edits of a model's text that change what they must and nothing else: comments, order and layout stay. A draft collects
 // edits against one reading of the text and applies them together, so that one step of a user is one step of undo.
-import { type Document, type TableNode, nodeAt, parseToml, writeKey } from "./toml";
+import { withRemark } from "./remarks";
+import { type Document, type Span, type TableNode, nodeAt, parseToml, writeKey } from "./toml";
 
 interface Replacement {
   from: number;
@@ -49,33 +50,29 @@ export class Draft {
       this.replace(found.from, found.to, literal);
       if (remark) this.remark(path, remark);
     } else {
-      this.insert(path, literal + (remark ? `  # ${remark}` : ""));
+      this.insert(path, literal, remark ? `  # ${remark}` : "");
     }
     return this;
   }
 
-  /** The comment behind a value: what the studio knows of it and the format does not ("shape: bar, ..."). Empty: none. */
+  /** The studio's comment behind a value; empty: none. A value inside of braces has no line of its own, and gets none. */
   remark(path: readonly string[], remark: string): this {
     const found = nodeAt(this.document.root, path);
-    if (!found?.statement) return this;
-    const place = this.remarkSpan(found.statement.to);
-    this.replace(place.from, place.to, remark ? `  # ${remark}` : "");
+    if (found?.statement) this.remarkBehind(found.statement.to, remark);
     return this;
   }
 
   /** The comment behind a body's header that says its shape. */
   shape(body: string, words: string): this {
     const found = nodeAt(this.document.root, ["body", body]);
-    if (found?.kind === "table" && found.form === "header") {
-      const place = this.remarkSpan(found.to);
-      this.replace(place.from, place.to, words ? `  # ${words}` : "");
-    } else this.headers.set(`body\u0000${body}`, words);
+    if (found?.kind === "table" && found.form === "header") this.remarkBehind(found.to, words);
+    else this.headers.set(`body\u0000${body}`, words);
     return this;
   }
 
-  private remarkSpan(from: number): { from: number; to: number } {
-    const end = this.document.text.indexOf("\n", from);
-    return { from, to: end < 0 ? this.document.text.length : end };
+  private remarkBehind(offset: number, remark: string): void {
+    const end = withRemark(this.document, offset, remark);
+    if (end) this.replace(end.from, end.to, end.text);
   }
 
   /** Removes a value, or a table with all that is in it. */
@@ -153,16 +150,17 @@ export class Draft {
     else this.replacements.push({ from, to, text });
   }
 
-  private insert(path: readonly string[], literal: string): void {
+  private insert(path: readonly string[], value: string, remark: string): void {
     const key = path[path.length - 1]!;
     let depth = path.length - 1;
     let home = nodeAt(this.document.root, path.slice(0, depth));
     while (depth > 0 && home?.kind !== "table") home = nodeAt(this.document.root, path.slice(0, --depth));
     const table = home as TableNode;
     const rest = path.slice(depth).map(writeKey).join(".");
+    const literal = table.form === "inline" ? value : value + remark;
     const gone = this.removed.some((one) => path.slice(0, depth).join("\u0000").startsWith(one));
     if (gone || table.form === "implied" || (depth === 0 && path.length > 1) || (depth < path.length - 1 && depth < 2)) {
-      this.addFresh(path.slice(0, -1), key, literal);
+      this.addFresh(path.slice(0, -1), key, value + remark);
     } else if (table.form === "inline") {
       const comma = table.entries.size > 0 ? ", " : " ";
       const at = trimmedEnd(this.document.text, table.insertAt);
@@ -193,6 +191,30 @@ export class Draft {
     const fresh = [...this.fresh.values()].sort((a, b) => rank(a.path) - rank(b.path));
     for (const { path, lines } of fresh) text = addSection(text, path, lines, this.headers.get(path.join("\u0000")));
     return text;
+  }
+}
+
+/** The text with the value at `path` on a line of its own, out of the braces that it is in: `a = { b = 1 }` becomes `a.b = 1`. */
+export function unfolded(text: string, path: readonly string[]): string {
+  const { root } = parseToml(text);
+  for (let depth = 1; depth < path.length; depth++) {
+    const table = nodeAt(root, path.slice(0, depth));
+    if (table?.kind !== "table" || table.form !== "inline" || !table.statement) continue;
+    const key = text.slice(table.statement.from, text.lastIndexOf("=", table.from)).trim();
+    const inner = text.slice(table.from + 1, table.to - 1);
+    const starts = [...statementsIn(table)].map((one) => one.from - table.from - 1).sort((a, b) => a - b);
+    const lines = starts.map((from, i) => `${key}.${inner.slice(from, starts[i + 1]).replace(/[\s,]+$/, "")}`);
+    if (lines.length === 0) return text;
+    return unfolded(text.slice(0, table.statement.from) + lines.join("\n") + text.slice(table.to), path);
+  }
+  return text;
+}
+
+// Of the table's own line; a.b = 1 makes a table without one.
+function* statementsIn(table: TableNode): Generator<Span> {
+  for (const node of table.entries.values()) {
+    if (node.statement) yield node.statement;
+    else if (node.kind === "table") yield* statementsIn(node);
   }
 }
 

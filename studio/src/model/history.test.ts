@@ -1,5 +1,6 @@
-import { expect, it } from "vitest";
+import { describe, expect, it } from "vitest";
 import { change, newHistory, redo, undo } from "./history";
+import { Typing } from "./strokes";
 
 it("undoes and redoes any number of steps exactly", () => {
   let history = newHistory("start");
@@ -27,4 +28,20 @@ it("joins steps with one key, and a new step ends redo", () => {
   expect(history.text).toBe("a");
   history = change(history, "x", "other");
   expect(redo(history).text).toBe("x");
+});
+
+describe("typing", () => {
+  const steps = (strokes: [now: number, from: number, to: number, inserted: string][]) => {
+    const typing = new Typing();
+    return strokes.map(([now, from, to, inserted]) => typing.key(now, [{ from, to, inserted }]));
+  };
+  it("in one place is one step, with what is taken back at once", () => {
+    expect(new Set(steps([[0, 5, 5, "a"], [200, 6, 6, "b"], [400, 6, 7, ""], [600, 6, 6, "c"]])).size).toBe(1);
+  });
+  it("is another step behind a pause, a jump, a new line", () => {
+    expect(new Set(steps([[0, 5, 5, "a"], [2000, 6, 6, "b"]])).size).toBe(2);
+    expect(new Set(steps([[0, 5, 5, "a"], [200, 90, 90, "b"]])).size).toBe(2);
+    const [a, line, b] = steps([[0, 5, 5, "a"], [200, 6, 6, "\n  "], [400, 9, 9, "b"]]);
+    expect([a === line, line === b]).toEqual([true, false]);
+  });
 });

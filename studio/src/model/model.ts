@@ -2,6 +2,7 @@
 // text; operations change the text.
 import { evaluate, namesIn } from "./expression";
 import { type Point, type Pose, ORIGIN, toWorld } from "./geometry";
+import { TRACE, remarkAt, remarkOf } from "./remarks";
 import { FROM_SHAPE, type Shape, readShape } from "./shape";
 import { type Document, type Node, type TableNode, nodeAt, parseToml } from "./toml";
 
@@ -85,7 +86,6 @@ export interface Model {
   body: ReadonlyMap<string, Body>;
 }
 
-export const TRACE = "trace";
 export const GROUND = "ground";
 
 type Reading = (node: Node | undefined) => number | null;
@@ -156,17 +156,6 @@ function point(node: Node | undefined, number: Reading): Point | null {
   const x = number(node.items[0]);
   const y = number(node.items[1]);
   return x === null || y === null ? null : [x, y];
-}
-
-/** The comment at the end of the line on which `offset` stands. */
-export function remarkAt(document: Document, offset: number): string {
-  const end = document.text.indexOf("\n", offset);
-  const rest = document.text.slice(offset, end < 0 ? undefined : end);
-  return /^[^"#]*#\s?(.*)$/.exec(rest)?.[1]?.trim() ?? "";
-}
-
-function remarkOf(document: Document, node: Node | undefined): string {
-  return node?.statement ? remarkAt(document, node.statement.to) : "";
 }
 
 function readMarkers(document: Document, node: Node | undefined, number: Reading): Marker[] {
@@ -283,8 +272,15 @@ export function worldPoint(model: Model, end: End, poses?: Poses): Point {
   return toWorld(poseOf(model, end.body, poses), markerOf(model, end)?.at ?? [0, 0]);
 }
 
-export function worldAxis(model: Model, end: End, poses?: Poses): number {
-  return poseOf(model, end.body, poses).angle + (markerOf(model, end)?.axis ?? 0);
+/** Of an outer gear: by its shape, or by what it is in mesh with. */
+export function gearRadius(model: Model, { name, shape, markers }: Body): number | null {
+  if (markers.length === 0) return null;
+  if (shape) return shape.kind === "disc" ? shape.width / 2 : null;
+  for (const { radii, internal, first, second } of model.joints) {
+    const radius = first.body === name && !internal ? radii?.[0] : second.body === name ? radii?.[1] : undefined;
+    if (radius) return radius;
+  }
+  return null;
 }
 
 /** Length of the mechanism: what sizes of symbols and grids are chosen from. */

@@ -2,9 +2,10 @@ import { readFileSync, readdirSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { describe, expect, it } from "vitest";
 import { distance } from "./geometry";
-import { type Model, readModel, worldPoint } from "./model";
-import { EMPTY_MODEL, type Target, addBar, addConnector, addDisc, addForce, addGroundPin, addMotor, addPin, addSlider, addSlot, toggleTrace } from "./operations";
+import { type Body, type Model, readModel, worldPoint } from "./model";
+import { EMPTY_MODEL, type Target, addBar, addConnector, addDisc, addForce, addGroundPin, addMesh, addMotor, addPin, addSlider, addSlot, meshFault, toggleTrace } from "./operations";
 import { copyThings, pasteThings, removeThings, renameThing } from "./removal";
+import { overwritten } from "./placing";
 import { keepPoses, movePoint, setBarLength } from "./reshape";
 import { massProperties } from "./shape";
 
@@ -95,6 +96,107 @@ describe("removing, renaming, copying", () => {
     expect(twice.bodies).toHaveLength(6);
     expect(twice.joints).toHaveLength(8);
     expect(openness(twice)).toBeLessThan(1e-5);
+  });
+});
+
+describe("two gears that are there", () => {
+  const apart = () => readModel(addDisc(readModel(addDisc(readModel(EMPTY_MODEL), free(0, 0), 0.1, null).text), free(0.24, 0), 0.05, null).text);
+
+  it("mesh with radii that share their distance, and are as large", () => {
+    const model = apart();
+    const [a, b] = model.bodies as [Body, Body];
+    expect(meshFault(model, a, b)).toBe("");
+    const meshed = readModel(addMesh(model, a, b).text);
+    expect(meshed.document.faults).toEqual([]);
+    expect(meshed.joints.find((one) => one.type === "gear")?.radii).toEqual([0.16, 0.08]);
+    expect(meshed.bodies.map((body) => [body.shape?.width, body.massFromShape])).toEqual([[0.32, true], [0.16, true]]);
+    expect(meshed.bodies[0]!.mass / a.mass).toBeCloseTo(2.56, 3);
+    expect(meshFault(meshed, meshed.bodies[0]!, meshed.bodies[1]!)).toMatch(/already/);
+  });
+
+  it("do not where one is none", () => {
+    const model = readModel(addBar(apart(), free(0, 1), free(1, 1)).text);
+    expect(meshFault(model, model.bodies[0]!, model.bodies[2]!)).toMatch(/link1 is no gear/);
+  });
+});
+
+describe("a copy", () => {
+  const all = (model: Model) => model.bodies.map((body) => ({ kind: "body" as const, name: body.name }));
+
+  it("has the shapes, what follows from them, and the traces", () => {
+    let model = fourBar();
+    model = readModel(toggleTrace(model, on(model, "link2", "C")).text);
+    const twice = readModel(pasteThings(model, copyThings(model, all(model)), [0.1, 0.1]).text);
+    const told = (name: string) => {
+      const { shape, massFromShape, inertiaFromShape, markers } = twice.body.get(name)!;
+      return { shape, massFromShape, inertiaFromShape, traced: markers.map((marker) => marker.traced) };
+    };
+    expect(["link1_2", "link2_2", "link3_2"].map(told)).toEqual(["link1", "link2", "link3"].map(told));
+    expect(told("link2_2")).toMatchObject({ massFromShape: true, traced: [false, true] });
+  });
+
+  it("of a gear is as large as the gear, without the mesh too", () => {
+    let model = readModel(addDisc(readModel(EMPTY_MODEL), free(0, 0), 0.1, null).text);
+    model = readModel(addDisc(model, free(0.15, 0), 0.05, "gear1").text);
+    const bare = readModel(model.document.text.replace(/ *# (shape|from).*/g, ""));
+    const copied = readModel(pasteThings(bare, copyThings(bare, [{ kind: "body", name: "gear2" }]), [0.1, 0.1]).text);
+    expect(copied.body.get("gear2_2")?.shape).toMatchObject({ kind: "disc", width: 0.1 });
+    expect(copied.body.get("gear2_2")?.massFromShape).toBe(false);
+  });
+});
+
+describe("places in the text", () => {
+  const mechanism = (file: string) => readModel(readFileSync(fileURLToPath(new URL(`../../../mechanisms/${file}`, import.meta.url)), "utf8"));
+  const changed = (a: string, b: string) => b.split("\n").filter((line, i) => line !== a.split("\n")[i]);
+
+  it("change only where something has moved", () => {
+    const text = `${EMPTY_MODEL}
+[parameters]
+half = "40 mm"
+[ground.markers]
+P = ["half", "2*half", "30 deg"]
+[body.plate]
+mass = "1 kg"
+inertia = "1 kg*m^2"
+position = ["123.4567891 mm", 0]
+angle = "half/half*0.1"
+markers.A = ["half", 0]
+markers.B = ["-half", "20.12345678 mm"]
+markers.C = { r = "half", xi = "90 deg" }
+markers.D.x = "12 mm"
+markers.D.y = 0
+`;
+    const model = readModel(text);
+    const at = worldPoint(model, { body: "plate", marker: "B" });
+    const moved = movePoint(model, { body: "plate", marker: "B" }, [at[0] + 0.01, at[1]]);
+    expect(changed(text, moved)).toHaveLength(1);
+    expect(overwritten(model, moved)).toEqual(["body.plate.markers.B"]);
+    const ground = movePoint(model, { body: "ground", marker: "P" }, [0.04, 0.1]);
+    expect(changed(text, ground)).toEqual(['P = ["half", "100 mm", "30 deg"]']);
+    for (const marker of ["C", "D"]) {
+      const to = [0.2, 0.1] as const;
+      const again = readModel(movePoint(model, { body: "plate", marker }, to));
+      expect(again.document.faults).toEqual([]);
+      expect(distance(worldPoint(again, { body: "plate", marker }), to)).toBeLessThan(1e-9);
+    }
+    expect(keepPoses(model, new Map([["plate", model.body.get("plate")!.pose]]))).toBe(text);
+  });
+
+  it("are asked about where they are written with parameters", () => {
+    const model = mechanism("quick_return.toml");
+    const end = { body: "lever", marker: "B" };
+    const [x, y] = worldPoint(model, end);
+    expect(overwritten(model, movePoint(model, end, [x + 0.05, y]))).toEqual(["body.lever.markers.B", "body.link.markers.B", "body.link.markers.C"]);
+    expect(overwritten(model, movePoint(model, end, [x, y])).filter((path) => path.startsWith("body.lever"))).toEqual([]);
+  });
+
+  it("are as exact in a mechanism of micrometres as in one of metres", () => {
+    for (const size of [1e-5, 0.1, 10]) {
+      const model = readModel(addBar(readModel(EMPTY_MODEL), free(0, 0), free(0.8123456 * size, 0.51234567 * size)).text);
+      const again = readModel(movePoint(model, { body: "link1", marker: "B" }, [0.7654321 * size, 0.3 * size]));
+      expect(distance(worldPoint(again, { body: "link1", marker: "A" }), [0, 0])).toBeLessThan(1e-8 * size);
+      expect(distance(worldPoint(again, { body: "link1", marker: "B" }), [0.7654321 * size, 0.3 * size])).toBeLessThan(1e-8 * size);
+    }
   });
 });
 

@@ -1,11 +1,13 @@
 // What the tools draw, as edits of the text. Each operation is one step of undo; it returns the new text and what it made.
-import { Draft, type Literal } from "./edit";
-import { type Point, type Pose, direction, distance, middle, toBody, toWorld } from "./geometry";
-import { type Body, type End, GROUND, type Model, type Poses, markerOf, poseOf, worldPoint } from "./model";
+import { Draft, type Literal, unfolded } from "./edit";
+import { type Point, type Pose, direction, distance, middle, toBody } from "./geometry";
+import { type Body, type End, GROUND, type Model, type Poses, gearRadius, markerOf, poseOf, readModel, worldPoint } from "./model";
 import { type Kind, countedName, lettersOf, namesOf, nextLetter } from "./names";
-import { addMarker, markerLiteral } from "./reshape";
+import { markerLiteral } from "./placing";
+import { addMarker, applyShape } from "./reshape";
+import { TRACE } from "./remarks";
 import { FROM_SHAPE, type Shape, likelyBar, massProperties, niceSize, writeInertia, writeMass, writeShape } from "./shape";
-import { writeAngle, writeLength } from "./units";
+import { writeAngle, writeLength, writeLengths } from "./units";
 
 /** What a click met: a point of the world; a marker there, or a body without one, or neither. */
 export interface Target {
@@ -70,7 +72,7 @@ class Step {
     const path = ["body", name];
     this.draft.set([...path, "mass"], writeMass(mass), FROM_SHAPE);
     this.draft.set([...path, "inertia"], writeInertia(inertia), FROM_SHAPE);
-    this.draft.set([...path, "position"], [writeLength(pose.x), writeLength(pose.y)]);
+    this.draft.set([...path, "position"], writeLengths([pose.x, pose.y]));
     this.draft.set([...path, "angle"], writeAngle(pose.angle));
     for (const marker of markers) this.draft.set([...path, "markers", marker.name], markerLiteral(marker.at, marker.axis ?? 0));
     this.draft.shape(name, writeShape(shape));
@@ -213,13 +215,29 @@ export function addDisc(model: Model, centre: Target, radius: number, mesh: stri
 }
 
 /** Two gears that are there already come into mesh; their radii share the distance in the ratio of their sizes. */
-export function addMesh(model: Model, first: End, second: End, poses?: Poses): Made {
+export function addMesh(model: Model, first: Body, second: Body, poses?: Poses): Made {
+  const [a, b] = [first, second].map((body): End => ({ body: body.name, marker: body.markers[0]?.name ?? "" })) as [End, End];
   const step = new Step(model, poses);
-  const gap = distance(worldPoint(model, first, poses), worldPoint(model, second, poses));
-  const size = (end: End) => model.body.get(end.body)?.shape?.width ?? 1;
-  const share = size(first) / (size(first) + size(second));
-  step.joint("gear", first, second, "mesh", { radii: [writeLength(gap * share), writeLength(gap * (1 - share))] });
+  const gap = distance(worldPoint(model, a, poses), worldPoint(model, b, poses));
+  const share = gearRadius(model, first)! / (gearRadius(model, first)! + gearRadius(model, second)!);
+  const radii = [gap * share, gap * (1 - share)];
+  step.joint("gear", a, b, "mesh", { radii: writeLengths(radii) });
+  [first, second].forEach((body, i) => {
+    if (!body.shape) return;
+    const shape = { ...body.shape, width: 2 * radii[i]!, height: 2 * radii[i]! };
+    step.draft.shape(body.name, writeShape(shape));
+    if (body.massFromShape && body.inertiaFromShape) applyShape(step.draft, { ...body, shape }, poseOf(model, body.name, poses));
+  });
   return step.done();
+}
+
+/** Why two bodies cannot be meshed; empty if they can. */
+export function meshFault(model: Model, first: Body, second: Body, poses?: Poses): string {
+  const none = [first, second].find((body) => gearRadius(model, body) === null);
+  if (none) return `${none.name} is no gear.`;
+  if (model.joints.some((one) => one.type === "gear" && [one.first.body, one.second.body].sort().join() === [first.name, second.name].sort().join())) return `${first.name} and ${second.name} are in mesh already.`;
+  const [a, b] = [first, second].map((body) => worldPoint(model, { body: body.name, marker: body.markers[0]!.name }, poses)) as [Point, Point];
+  return distance(a, b) > 0 ? "" : "Both gears have one centre.";
 }
 
 export type Connector = "spring" | "damper" | "rod" | "rope";
@@ -285,20 +303,16 @@ export function addForce(model: Model, target: Target, force: Point | null, torq
 export function toggleTrace(model: Model, target: Target, poses?: Poses): Made {
   const { end } = target;
   if (!end && target.body) {
-    const step = new Step(model, poses);
+    const step = new Step(readModel(unfolded(model.document.text, ["body", target.body, "markers", ""])), poses);
     const marker = step.letter();
-    step.draft.set(["body", target.body, "markers", marker], markerLiteral(toBody(poseOf(model, target.body, poses), target.at), 0), "trace");
+    step.draft.set(["body", target.body, "markers", marker], markerLiteral(toBody(poseOf(model, target.body, poses), target.at), 0), TRACE);
     return step.done();
   }
   if (!end || end.body === GROUND) return { text: model.document.text, made: [] };
-  const draft = new Draft(model.document);
-  const marker = markerOf(model, end);
-  draft.remark(["body", end.body, "markers", end.marker], marker?.traced ? "" : "trace");
+  const path = ["body", end.body, "markers", end.marker];
+  const draft = new Draft(unfolded(model.document.text, path));
+  draft.remark(path, markerOf(model, end)?.traced ? "" : TRACE);
   return { text: draft.apply(), made: [] };
-}
-
-export function bodyPoints(body: Body, pose: Pose): Point[] {
-  return body.markers.map((marker) => toWorld(pose, marker.at));
 }
 
 /** A new model: what the file needs and a duration, so that it runs as soon as something is drawn. */

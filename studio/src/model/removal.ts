@@ -1,11 +1,13 @@
 // Deleting, renaming, copying and pasting: operations that follow references through the model.
 import { Draft, writeLiteral } from "./edit";
 import { type Point } from "./geometry";
-import { type End, GROUND, type Model, type Poses, poseOf } from "./model";
+import { type Body, type End, GROUND, type Model, type Poses, gearRadius, poseOf, readModel } from "./model";
 import { type Kind, freshName, namesOf } from "./names";
 import type { Made, Thing } from "./operations";
+import { TRACE } from "./remarks";
+import { FROM_SHAPE, type Shape, niceSize, writeShape } from "./shape";
 import { nodeAt, parseToml, plain, writeKey } from "./toml";
-import { writeAngle, writeLength } from "./units";
+import { writeAngle, writeLengths } from "./units";
 
 /** Removes things, with all that cannot be without them. */
 export function removeThings(model: Model, things: readonly Thing[]): string {
@@ -113,17 +115,27 @@ export function copyThings(model: Model, things: readonly Thing[], poses?: Poses
     const node = nodeAt(model.document.root, path);
     if (node?.kind !== "table") continue;
     const body = path[0] === "body" ? model.body.get(path[1]!) : undefined;
-    lines.push("", `[${path.map(writeKey).join(".")}]`);
+    const shape = body && (body.shape ?? gearShape(model, body));
+    lines.push("", `[${path.map(writeKey).join(".")}]${behind(shape ? writeShape(shape) : "")}`);
     for (const [key, value] of node.entries) {
       if (body && (key === "position" || key === "angle" || key === "markers")) continue;
-      lines.push(`${writeKey(key)} = ${writeLiteral(plain(value))}`);
+      const fromShape = (key === "mass" && body?.massFromShape) || (key === "inertia" && body?.inertiaFromShape);
+      lines.push(`${writeKey(key)} = ${writeLiteral(plain(value))}${behind(fromShape ? FROM_SHAPE : "")}`);
     }
     if (!body) continue;
     const pose = poseOf(model, body.name, poses);
-    lines.push(`position = ${writeLiteral([writeLength(pose.x), writeLength(pose.y)])}`, `angle = ${writeLiteral(writeAngle(pose.angle))}`);
-    for (const marker of body.markers) lines.push(`markers.${writeKey(marker.name)} = ${writeLiteral([marker.at[0], marker.at[1], marker.axis])}`);
+    lines.push(`position = ${writeLiteral(writeLengths([pose.x, pose.y]))}`, `angle = ${writeLiteral(writeAngle(pose.angle))}`);
+    for (const marker of body.markers) lines.push(`markers.${writeKey(marker.name)} = ${writeLiteral([marker.at[0], marker.at[1], marker.axis])}${behind(marker.traced ? TRACE : "")}`);
   }
   return lines.join("\n") + "\n";
+}
+
+const behind = (remark: string): string => (remark ? `  # ${remark}` : "");
+
+// A gear without a shape is as large as its mesh says, which may not be copied with it.
+function gearShape(model: Model, body: Body): Shape | null {
+  const radius = gearRadius(model, body);
+  return radius === null ? null : { kind: "disc", width: 2 * radius, height: 2 * radius, thickness: niceSize(radius / 4), material: "steel" };
 }
 
 /** Adds what was copied, moved by `step`, under names that are free. */
@@ -151,17 +163,20 @@ export function pasteThings(model: Model, copied: string, step: Point): Made {
     groundNames.add(fresh);
     renamed.set(`ground.${name}`, fresh);
     const [x = 0, y = 0, axis = 0] = plain(node) as number[];
-    draft.set(["ground", "markers", fresh], [writeLength(x + step[0]), writeLength(y + step[1]), writeAngle(axis)]);
+    draft.set(["ground", "markers", fresh], [...writeLengths([x + step[0], y + step[1]]), writeAngle(axis)]);
   }
   const moveEnd = (end: string): string => {
     const [body = "", marker = ""] = end.split(".");
     return body === GROUND ? `ground.${renamed.get(`ground.${marker}`) ?? marker}` : `${renamed.get(`body.${body}`) ?? body}.${marker}`;
   };
   const lengths = readLengths(copied);
+  const from = readModel(source);
   for (const kind of ["body", "joint", "spring", "torsion_spring", "force", "motor"] as const) {
     for (const [name, node] of tables(kind)) {
       const fresh = renamed.get(`${kind}.${name}`) ?? name;
       made.push({ kind, name: fresh });
+      const body = kind === "body" ? from.body.get(name) : undefined;
+      if (body?.shape) draft.shape(fresh, writeShape(body.shape));
       for (const [key, value] of node.kind === "table" ? node.entries : []) {
         let literal = plain(value);
         if (key === "between") literal = (literal as string[]).map(moveEnd);
@@ -169,12 +184,16 @@ export function pasteThings(model: Model, copied: string, step: Point): Made {
         else if (key === "joint" && kind === "motor") literal = renamed.get(`joint.${String(literal)}`) ?? literal;
         else if (key === "position") {
           const [x, y] = lengths.get(name) ?? [0, 0];
-          literal = [writeLength(x + step[0]), writeLength(y + step[1])];
+          literal = writeLengths([x + step[0], y + step[1]]);
         } else if (key === "markers" && value.kind === "table") {
-          for (const [marker, place] of value.entries) draft.set([kind, fresh, "markers", marker], plain(place));
+          for (const [marker, place] of value.entries) {
+            const traced = body?.markers.some((one) => one.name === marker && one.traced);
+            draft.set([kind, fresh, "markers", marker], plain(place), traced ? TRACE : "");
+          }
           continue;
         }
-        draft.set([kind, fresh, key], literal);
+        const fromShape = (key === "mass" && body?.massFromShape) || (key === "inertia" && body?.inertiaFromShape);
+        draft.set([kind, fresh, key], literal, fromShape ? FROM_SHAPE : "");
       }
     }
   }
@@ -192,7 +211,7 @@ function readLengths(copied: string): Map<string, Point> {
   return places;
 }
 
-// What writeLength wrote: "12.5 mm", "3 m" or 0.
+// What writeLengths wrote: "12.5 mm", "3 m" or 0.
 function metres(node: { kind: string; value?: unknown }): number {
   if (typeof node.value === "number") return node.value;
   const text = String(node.value ?? "0");

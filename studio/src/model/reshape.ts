@@ -1,10 +1,9 @@
 // Moving points: every body at a point takes it along, and a drawn body keeps its axes in its centre of mass.
-import { Draft, type Literal } from "./edit";
+import { Draft } from "./edit";
 import { type Point, type Pose, direction, distance, middle, toBody, toWorld } from "./geometry";
-import { type Body, type End, GROUND, type Marker, type Model, type Poses, TRACE, markerOf, poseOf, worldPoint } from "./model";
+import { type Body, type End, GROUND, type Marker, type Model, type Poses, markerOf, poseOf, worldPoint } from "./model";
+import { markerLiteral, sizeOf, writeMarker, writePose, writePoses } from "./placing";
 import { FROM_SHAPE, massProperties, writeInertia, writeMass } from "./shape";
-import { nodeAt } from "./toml";
-import { writeAngle, writeLength } from "./units";
 
 /** Joints that hold two points together; their markers move as one. */
 const POINT_JOINTS = new Set(["revolute", "fixed"]);
@@ -25,12 +24,6 @@ export function markersAt(model: Model, end: End): End[] {
 
 export function same(a: End, b: End): boolean {
   return a.body === b.body && a.marker === b.marker;
-}
-
-/** A marker as it is written: with its axis only where it has one. */
-export function markerLiteral(at: Point, axis: number): Literal {
-  const xy = [writeLength(at[0]), writeLength(at[1])];
-  return axis ? [...xy, writeAngle(axis)] : xy;
 }
 
 /** What a body is, once its markers are where they should be in the world. */
@@ -73,18 +66,18 @@ function isBar(body: Body): boolean {
   return size > 0 && Math.hypot(a.at[0] + b.at[0], a.at[1] + b.at[1]) < 1e-6 * size;
 }
 
-export function writePose(draft: Draft, name: string, pose: Pose): void {
-  draft.set(["body", name, "position"], [writeLength(pose.x), writeLength(pose.y)]);
-  draft.set(["body", name, "angle"], writeAngle(pose.angle));
-}
+/** The start that assembly has corrected by more than this part of the body's size is written, so that it begins near again. */
+const GUESSED = 0.01;
 
-function writeFit(draft: Draft, body: Body, fitted: Fit): void {
-  writePose(draft, body.name, fitted.pose);
+// `pose` is where the body stood, as assembled. What the fit has left as it was is not written.
+function writeFit(draft: Draft, body: Body, pose: Pose, fitted: Fit): void {
+  const size = sizeOf(body, pose);
+  const far = distance([pose.x, pose.y], [body.pose.x, body.pose.y]) > GUESSED * size || Math.abs(pose.angle - body.pose.angle) > GUESSED;
+  const moved = fitted.pose.x !== pose.x || fitted.pose.y !== pose.y || fitted.pose.angle !== pose.angle;
+  writePose(draft, body.name, fitted.pose, (body.stated ? far : moved) ? null : pose, size);
   if (body.massFromShape) draft.set(["body", body.name, "mass"], writeMass(fitted.mass));
   if (body.inertiaFromShape) draft.set(["body", body.name, "inertia"], writeInertia(fitted.inertia));
-  for (const marker of fitted.markers) {
-    draft.set(["body", body.name, "markers", marker.name], markerLiteral(marker.at, marker.axis), marker.traced ? TRACE : "");
-  }
+  fitted.markers.forEach((marker, i) => writeMarker(draft, ["body", body.name, "markers", marker.name], marker, body.markers[i] ?? null));
 }
 
 /** Moves the point at `end`, with every body and the ground that are joined there. */
@@ -102,19 +95,14 @@ export function movePoint(model: Model, end: End, to: Point, poses?: Poses): str
     if (!body) continue;
     const pose = poseOf(model, name, poses);
     const world = body.markers.map((marker) => (markers.has(marker.name) ? to : toWorld(pose, marker.at)));
-    writeFit(draft, body, fit(body, pose, world));
+    writeFit(draft, body, pose, fit(body, pose, world));
   }
   return draft.apply();
 }
 
 function moveGroundMarker(draft: Draft, model: Model, name: string, to: Point): void {
   const marker = markerOf(model, { body: GROUND, marker: name });
-  const path = ["ground", "markers", name];
-  // An axis that is written with parameters stays as it is written.
-  const node = nodeAt(model.document.root, path);
-  const axis = node?.kind === "list" && node.items[2]?.kind === "text" ? node.items[2].value : null;
-  const literal = markerLiteral(to, marker?.axis ?? 0) as Literal[];
-  draft.set(path, axis !== null && literal.length === 3 ? [literal[0]!, literal[1]!, axis] : literal, marker?.traced ? TRACE : "");
+  writeMarker(draft, ["ground", "markers", name], { at: to, axis: marker?.axis ?? 0, traced: marker?.traced ?? false }, marker);
 }
 
 /** The body's own length between its first two markers. */
@@ -134,7 +122,7 @@ export function setBarLength(model: Model, name: string, length: number, poses?:
   const to: Point = [from[0] + length * Math.cos(angle), from[1] + length * Math.sin(angle)];
   const world = body.markers.map((marker) => (marker === b ? to : toWorld(pose, marker.at)));
   const draft = new Draft(model.document);
-  writeFit(draft, body, fit(body, pose, world));
+  writeFit(draft, body, pose, fit(body, pose, world));
   return draft.apply();
 }
 
@@ -151,7 +139,7 @@ export function setBarAngle(model: Model, name: string, angle: number, poses?: P
   const dx = pose.x - pivot[0];
   const dy = pose.y - pivot[1];
   const draft = new Draft(model.document);
-  writePose(draft, name, { x: pivot[0] + c * dx - s * dy, y: pivot[1] + s * dx + c * dy, angle: pose.angle + turn });
+  writePose(draft, name, { x: pivot[0] + c * dx - s * dy, y: pivot[1] + s * dx + c * dy, angle: pose.angle + turn }, body.stated ? pose : null, sizeOf(body, pose));
   return draft.apply();
 }
 
@@ -162,7 +150,7 @@ export function applyShape(draft: Draft, body: Body, pose: Pose): void {
   const world = body.markers.map((marker) => toWorld(pose, marker.at));
   const fitted = fit(shaped, pose, world);
   const properties = massProperties(body.shape, world);
-  writeFit(draft, { ...shaped, massFromShape: false, inertiaFromShape: false }, fitted);
+  writeFit(draft, { ...shaped, massFromShape: false, inertiaFromShape: false }, pose, fitted);
   draft.set(["body", body.name, "mass"], writeMass(properties.mass), FROM_SHAPE);
   draft.set(["body", body.name, "inertia"], writeInertia(properties.inertia), FROM_SHAPE);
 }
@@ -173,19 +161,16 @@ export function addMarker(draft: Draft, model: Model, body: Body, name: string, 
   const marker: Marker = { name, at: toBody(pose, at), axis: 0, traced: false };
   const grown: Body = { ...body, markers: [...body.markers, marker] };
   if (body.shape?.kind === "bar" && body.massFromShape) {
-    writeFit(draft, grown, fit(grown, pose, grown.markers.map((one) => toWorld(pose, one.at))));
+    writeFit(draft, grown, pose, fit(grown, pose, grown.markers.map((one) => toWorld(pose, one.at))));
   } else {
     draft.set(["body", body.name, "markers", name], markerLiteral(marker.at, 0));
   }
 }
 
-/** Writes poses of all bodies, as after a drag of the mechanism. */
+/** The text with the poses of a mechanism that has been dragged. */
 export function keepPoses(model: Model, poses: Poses): string {
   const draft = new Draft(model.document);
-  for (const body of model.bodies) {
-    const pose = poses.get(body.name);
-    if (pose) writePose(draft, body.name, pose);
-  }
+  writePoses(draft, model, poses);
   return draft.apply();
 }
 
@@ -194,7 +179,7 @@ export function shiftThings(model: Model, bodies: readonly string[], markers: re
   const draft = new Draft(model.document);
   for (const name of bodies) {
     const pose = poseOf(model, name, poses);
-    writePose(draft, name, { ...pose, x: pose.x + step[0], y: pose.y + step[1] });
+    writePose(draft, name, { ...pose, x: pose.x + step[0], y: pose.y + step[1] }, model.body.get(name)?.stated ? pose : null);
   }
   for (const name of markers) {
     const [x, y] = worldPoint(model, { body: GROUND, marker: name });

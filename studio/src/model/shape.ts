@@ -53,8 +53,12 @@ export function writeShape(shape: Shape): string {
   return `shape: ${shape.kind}, ${size}, thickness ${mm(shape.thickness)}, ${shape.material}`;
 }
 
+const SHAPE = /^shape: (bar|block|disc), (?:width |diameter )?([\d.]+) mm(?: x ([\d.]+) mm)?, thickness ([\d.]+) mm, ([a-z ]+)$/;
+
+export const isShape = (remark: string): boolean => SHAPE.test(remark);
+
 export function readShape(remark: string): Shape | null {
-  const found = /shape: (bar|block|disc), (?:width |diameter )?([\d.]+) mm(?: x ([\d.]+) mm)?, thickness ([\d.]+) mm, ([a-z ]+)/.exec(remark);
+  const found = SHAPE.exec(remark);
   if (!found) return null;
   const [, kind, width, height, thickness, material] = found;
   return {

@@ -124,18 +124,22 @@ export function prettyUnit(unit: string): string {
   return unit.replace(/\*/g, "·").replace("^2", "²").replace(/^-$/, "");
 }
 
-export function roundTo(value: number, step: number): number {
-  return step > 0 ? Number((Math.round(value / step) * step).toPrecision(12)) : value;
+/** Lengths that belong together as the studio writes them into a model: to a billionth of the largest, in mm below ten metres. */
+export function writeLengths(metres: readonly number[], digits = 9): (string | number)[] {
+  const size = Math.max(...metres.map(Math.abs));
+  const grain = Math.max(10 ** (Math.floor(Math.log10(size)) + 1 - digits), 1e-14);
+  return metres.map((one) => {
+    const mm = Number((Math.round(one / grain) * grain * 1e3).toPrecision(12));
+    if (mm === 0) return 0;
+    return Math.abs(mm) < 1e4 ? `${mm} mm` : `${Number((mm / 1e3).toPrecision(12))} m`;
+  });
 }
 
-/** A length as the studio writes it into a model: to a hundredth of a millimetre, in mm below ten metres. */
-export function writeLength(metres: number): string | number {
-  const mm = Number((metres * 1e3).toFixed(3));
-  if (mm === 0) return 0;
-  return Math.abs(mm) < 1e4 ? `${mm} mm` : `${Number(metres.toFixed(6))} m`;
+export function writeLength(metres: number, digits = 9): string | number {
+  return writeLengths([metres], digits)[0]!;
 }
 
-export function writeAngle(radians: number): string | number {
-  const degrees = Number(((radians * 180) / Math.PI).toFixed(4));
+export function writeAngle(radians: number, decimals = 7): string | number {
+  const degrees = Number(((radians * 180) / Math.PI).toFixed(decimals));
   return degrees === 0 ? 0 : `${degrees} deg`;
 }

@@ -1,5 +1,5 @@
 // A link: its size, its shape and material, and what follows from them unless it is stated.
-import { edit, select } from "../actions";
+import { edit, place, select } from "../actions";
 import { Draft, type Literal } from "../model/edit";
 import { evaluate } from "../model/expression";
 import { type Body, markerOf, poseOf } from "../model/model";
@@ -64,19 +64,19 @@ function Size({ body }: { body: Body }) {
   const angle = direction(toWorld(pose, a.at), toWorld(pose, b.at));
   const setLength = (literal: Literal | null) => {
     const metres = value(literal, 1);
-    if (metres !== null && metres > 0) edit(setBarLength(studio.get().model, body.name, metres, poses), `Length of ${body.name}`);
+    if (metres !== null && metres > 0) place(setBarLength(studio.get().model, body.name, metres, poses), `Length of ${body.name}`);
   };
   const setAngle = (literal: Literal | null) => {
     const radians = value(literal, 1);
-    if (radians !== null) edit(setBarAngle(studio.get().model, body.name, radians, poses), `Angle of ${body.name}`);
+    if (radians !== null) place(setBarAngle(studio.get().model, body.name, radians, poses), `Angle of ${body.name}`);
   };
   return (
     <section>
       <h3>
         Size <span className="about">{`from ${a.name} to ${b.name}`}</span>
       </h3>
-      <Quantity label="Length" unit="m" literal={writeLength(length)} required meaning={`Distance from ${a.name} to ${b.name}`} onChange={setLength} />
-      <Quantity label="Angle" unit="rad" literal={writeAngle(angle)} required meaning="Against the horizontal, at the start" onChange={setAngle} />
+      <Quantity label="Length" unit="m" literal={writeLength(length, 6)} required meaning={`Distance from ${a.name} to ${b.name}`} onChange={setLength} />
+      <Quantity label="Angle" unit="rad" literal={writeAngle(angle, 4)} required meaning="Against the horizontal, at the start" onChange={setAngle} />
     </section>
   );
 }
@@ -113,9 +113,9 @@ function ShapeFields({ body }: { body: Body }) {
       <h3>Shape</h3>
       <Choice label="Form" value={shape.kind} options={[{ value: "bar", label: "bar or plate" }, "block", "disc"]} onChange={(kind) => set({ kind: kind as Shape["kind"] })} />
       <Choice label="Material" value={shape.material} options={Object.entries(MATERIALS).map(([word, density]) => ({ value: word, label: `${word}, ${density} kg/m³` }))} onChange={(material) => set({ material })} />
-      <Quantity label={shape.kind === "disc" ? "Diameter" : "Width"} unit="m" literal={writeLength(shape.width)} required onChange={size("width")} />
-      {shape.kind === "block" && <Quantity label="Height" unit="m" literal={writeLength(shape.height)} required onChange={size("height")} />}
-      <Quantity label="Thickness" unit="m" literal={writeLength(shape.thickness)} required onChange={size("thickness")} />
+      <Quantity label={shape.kind === "disc" ? "Diameter" : "Width"} unit="m" literal={writeLength(shape.width, 6)} required onChange={size("width")} />
+      {shape.kind === "block" && <Quantity label="Height" unit="m" literal={writeLength(shape.height, 6)} required onChange={size("height")} />}
+      <Quantity label="Thickness" unit="m" literal={writeLength(shape.thickness, 6)} required onChange={size("thickness")} />
     </section>
   );
 }

@@ -1,12 +1,15 @@
 // What an empty drawing says: three ways to begin.
 import { chooseTool } from "../actions";
 import { runCommand } from "../commands";
+import { otherDrafts } from "../files/autosave";
 import { useStudio } from "../state";
+import { useMemo } from "react";
 import { Icon } from "./icons";
 
 export function EmptyDrawing() {
   const empty = useStudio((now) => now.model.bodies.length === 0 && now.model.ground.length === 0 && now.tool === "select");
   const dialog = useStudio((now) => now.dialog);
+  const lost = useMemo(() => empty && otherDrafts().length > 0, [empty]);
   if (!empty || dialog === "gallery") return null;
   return (
     <section className="empty" aria-label="How to begin">
@@ -32,6 +35,11 @@ export function EmptyDrawing() {
         <button className="button" onClick={() => runCommand("open")}>
           <Icon name="open" /> Open a file
         </button>
+        {lost && (
+          <button className="button" onClick={() => runCommand("drafts")}>
+            <Icon name="undo" /> Unsaved work of other tabs
+          </button>
+        )}
       </div>
     </section>
   );

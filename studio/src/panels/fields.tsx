@@ -22,7 +22,7 @@ export function setLiteral(path: readonly string[], value: Literal | null, label
   if (value === null) draft.remove(path);
   else draft.set(path, value);
   // A value that is typed is no longer the one that follows from a shape.
-  if (path[0] === "body" && (path[2] === "mass" || path[2] === "inertia")) draft.remark(path, "");
+  if (value !== null && path[0] === "body" && (path[2] === "mass" || path[2] === "inertia")) draft.remark(path, "");
   edit(draft.apply(), label);
 }
 

@@ -32,7 +32,7 @@ export function Header() {
         <button className="text-button" onClick={() => runCommand("save")}>
           <Icon name="save" size={18} /> Save
         </button>
-        <Menu label="Export" icon="export" items={["share", "export-report", "export-csv", "export-svg", "export-gif"]} />
+        <Menu label="Export" icon="export" items={["save-as", "share", "export-report", "export-csv", "export-svg", "export-gif"]} />
       </div>
       <div className="head-group" role="group" aria-label="Undo">
         <button className="icon-button" aria-label="Undo" data-tip={canUndo ? `Undo: ${canUndo}` : "Nothing to undo"} disabled={!canUndo} onClick={undo}>
@@ -63,8 +63,7 @@ function Name() {
   const [typed, setTyped] = useState(name);
   useEffect(() => setTyped(name), [name]);
   const commit = () => {
-    const { history, stale } = studio.get();
-    if (typed !== name && !stale) edit(new Draft(history.text).set(["name"], typed).apply(), "Rename the model");
+    if (typed !== name && !edit(new Draft(studio.get().history.text).set(["name"], typed).apply(), "Rename the model")) setTyped(name);
   };
   return (
     <span className="name">

@@ -24,6 +24,9 @@ export function Help() {
           <li>
             <b>Read:</b> click a plot and the mechanism goes there. Each peak force comes with an estimate of its error.
           </li>
+          <li>
+            <b>Keep:</b> every tab comes back as it was left. Saving writes to the file that the model came from, and asks a new one its name.
+          </li>
         </ul>
       </div>
       <div className="help-keys">

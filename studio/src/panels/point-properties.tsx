@@ -1,5 +1,5 @@
 // A point of a link or of the ground: where it is, and the direction of its axis.
-import { edit } from "../actions";
+import { place } from "../actions";
 import { evaluate } from "../model/expression";
 import type { Literal } from "../model/edit";
 import { GROUND, worldPoint } from "../model/model";
@@ -17,15 +17,15 @@ export function PointProperties({ name }: { name: string }) {
   const set = (i: 0 | 1) => (literal: Literal | null) => {
     const metres = typeof literal === "number" ? literal : evaluate(String(literal ?? ""), (word) => model.parameters.get(word));
     if (metres === null) return;
-    edit(movePoint(studio.get().model, end, i === 0 ? [metres, at[1]] : [at[0], metres], poses), `Move ${marker}`);
+    place(movePoint(studio.get().model, end, i === 0 ? [metres, at[1]] : [at[0], metres], poses), `Move ${marker}`);
   };
   return (
     <section>
       <p className="quiet">
         Point <b>{marker}</b> of {body === GROUND ? "the ground" : body}. What is pinned here moves with it.
       </p>
-      <Quantity label="x" unit="m" literal={writeLength(at[0])} required meaning="In the world, at the start" onChange={set(0)} />
-      <Quantity label="y" unit="m" literal={writeLength(at[1])} required meaning="In the world, at the start" onChange={set(1)} />
+      <Quantity label="x" unit="m" literal={writeLength(at[0], 6)} required meaning="In the world, at the start" onChange={set(0)} />
+      <Quantity label="y" unit="m" literal={writeLength(at[1], 6)} required meaning="In the world, at the start" onChange={set(1)} />
     </section>
   );
 }

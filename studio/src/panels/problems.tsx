@@ -1,5 +1,5 @@
 // What is wrong, where, and what to do about it: from the text, the assembly, the check and the run.
-import { edit, select } from "../actions";
+import { edit, editText, select } from "../actions";
 import type { Warning } from "../kernel/protocol";
 import { Draft } from "../model/edit";
 import { removeThings } from "../model/removal";
@@ -95,7 +95,7 @@ function replaceAt(line: number, column: number, word: string): void {
   if (!found) return;
   const quoted = found.startsWith('"') ? JSON.stringify(word) : word;
   lines[line - 1] = row.slice(0, column - 1) + quoted + rest.slice(found.length);
-  edit(lines.join("\n"), `Write ${word}`);
+  editText(lines.join("\n"), `Write ${word}`);
 }
 
 function showLine(line: number, column: number): void {

@@ -1,6 +1,6 @@
 // What is selected, and all that can be said about it.
-import { edit, removeSelection, select } from "../actions";
-import type { Model } from "../model/model";
+import { edit, meshSelection, removeSelection, select } from "../actions";
+import { type Model, gearRadius } from "../model/model";
 import { NAME, type Kind, namesOf } from "../model/names";
 import type { Thing } from "../model/operations";
 import { renameThing } from "../model/removal";
@@ -26,7 +26,7 @@ export function Properties() {
   const selection = useStudio((now) => now.selection);
   const model = useStudio((now) => now.model);
   const only = selection.length === 1 ? selection[0] : undefined;
-  if (!only) return selection.length > 1 ? <Many count={selection.length} /> : <Contents model={model} />;
+  if (!only) return selection.length > 1 ? <Many selection={selection} model={model} /> : <Contents model={model} />;
   return (
     <div className="properties" key={`${only.kind}.${only.name}`}>
       <div className="title-row">
@@ -53,17 +53,23 @@ function Renaming({ kind, name }: { kind: Kind; name: string }) {
     return namesOf(studio.get().model, kind).has(to) ? `There is a ${to} already.` : "";
   };
   const rename = (to: string) => {
-    edit(renameThing(studio.get().model, kind, name, to), `Rename ${name}`);
-    select([{ kind, name: to }]);
+    if (edit(renameThing(studio.get().model, kind, name, to), `Rename ${name}`)) select([{ kind, name: to }]);
   };
   return <NameField label="Name" value={name} check={check} onChange={rename} />;
 }
 
-function Many({ count }: { count: number }) {
+function Many({ selection, model }: { selection: readonly Thing[]; model: Model }) {
+  const bodies = selection.map((thing) => (thing.kind === "body" ? model.body.get(thing.name) : undefined));
+  const gears = bodies.length === 2 && bodies.every((body) => body && gearRadius(model, body) !== null);
   return (
     <div className="properties">
-      <h2>{count} things</h2>
+      <h2>{selection.length} things</h2>
       <p className="quiet">Copy, duplicate or delete them; arrow keys move links.</p>
+      {gears && (
+        <button className="button" onClick={meshSelection}>
+          <Icon name="disc" size={17} /> Mesh these gears
+        </button>
+      )}
       <button className="button" onClick={removeSelection}>
         <Icon name="trash" size={17} /> Delete
       </button>

@@ -9,12 +9,14 @@ import { Annotation, EditorState } from "@codemirror/state";
 import { EditorView, drawSelection, highlightActiveLine, keymap, lineNumbers } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
 import { useEffect, useRef } from "react";
-import { edit, redo, undo } from "../actions";
+import { editText, redo, undo } from "../actions";
 import type { Complaint } from "../kernel/protocol";
+import { Typing } from "../model/strokes";
 import { nodeAt } from "../model/toml";
 import { studio } from "../state";
 import { complete } from "./completion";
 
+const typing = new Typing();
 const FromDrawing = Annotation.define<boolean>();
 let shown: EditorView | null = null;
 let wanted: { line: number; column: number } | null = null;
@@ -97,7 +99,9 @@ function start(home: HTMLElement): EditorView {
         EditorView.contentAttributes.of({ "aria-label": "Text of the model", spellcheck: "false", tabindex: "0" }),
         EditorView.updateListener.of((update) => {
           if (!update.docChanged || update.transactions.some((one) => one.annotation(FromDrawing))) return;
-          edit(update.state.doc.toString(), "Edit the text", "typing");
+          const changes: { from: number; to: number; inserted: string }[] = [];
+          update.changes.iterChanges((from, to, _from, _to, text) => changes.push({ from, to, inserted: text.toString() }));
+          editText(update.state.doc.toString(), "Edit the text", typing.key(performance.now(), changes));
         }),
       ],
     }),

@@ -1,0 +1,107 @@
+// What is kept in the browser of each tab's work: one entry to a tab, so that no tab writes over another's.
+import { readModel } from "../model/model";
+import type { Home } from "../state";
+
+export interface Draft {
+  text: string;
+  fileName: string;
+  savedText: string;
+  /** Where it is saved in the folder of `pintle studio`; handles of files cannot be kept. */
+  home: Extract<Home, { kind: "folder" }> | null;
+  /** Texts before, the newest last; as many as there is room for. */
+  before: string[];
+  /** The texts before that came from elsewhere: how many texts are behind the step that opened another. */
+  opened: { behind: number; fileName: string; home: Draft["home"] }[];
+  /** When it was written [ms]. */
+  time: number;
+  /** Its tab has been left. */
+  closed: boolean;
+}
+
+export interface KeptDraft extends Draft {
+  id: string;
+}
+
+const PREFIX = "pintle-studio:draft:";
+/** Where the one draft of all tabs was kept once. */
+const BEFORE_TABS = "pintle-studio";
+const TAB = "pintle-studio:tab";
+/** So many are kept; of more, the oldest of those that were left go. */
+const MOST = 12;
+
+export function readDraft(storage: Storage, id: string): KeptDraft | null {
+  try {
+    const kept = JSON.parse(storage.getItem(PREFIX + id) ?? "null") as Partial<Draft> | null;
+    if (typeof kept?.text !== "string") return null;
+    const before = (kept.before ?? []).filter((one) => typeof one === "string");
+    return { id, text: kept.text, fileName: kept.fileName ?? "untitled.toml", savedText: kept.savedText ?? "", home: kept.home ?? null, before, opened: kept.opened ?? [], time: kept.time ?? 0, closed: kept.closed ?? true };
+  } catch {
+    return null;
+  }
+}
+
+const keysOf = (storage: Storage) => Array.from({ length: storage.length }, (_, i) => storage.key(i) ?? "").filter((key) => key.startsWith(PREFIX));
+
+/** The newest first. */
+export function listDrafts(storage: Storage): KeptDraft[] {
+  const drafts = keysOf(storage).map((key) => readDraft(storage, key.slice(PREFIX.length))).filter((one) => one !== null);
+  return drafts.sort((a, b) => b.time - a.time);
+}
+
+/** False where the browser refuses: its store is full or forbidden. */
+export function writeDraft(storage: Storage, id: string, draft: Draft): boolean {
+  const attempts = [() => undefined, () => (draft = { ...draft, before: [], opened: [] }), () => dropOldest(storage, id)];
+  for (const prepare of attempts) {
+    prepare();
+    try {
+      storage.setItem(PREFIX + id, JSON.stringify(draft));
+      if (keysOf(storage).length > MOST) dropOldest(storage, id);
+      return true;
+    } catch {
+      // The next attempt needs less room.
+    }
+  }
+  return false;
+}
+
+export function removeDraft(storage: Storage, id: string): void {
+  storage.removeItem(PREFIX + id);
+}
+
+// First those whose text is a file as well.
+function dropOldest(storage: Storage, own: string): void {
+  const left = listDrafts(storage).filter((one) => one.closed && one.id !== own);
+  const gone = left.reverse().find((one) => one.text === one.savedText) ?? left[0];
+  if (gone) removeDraft(storage, gone.id);
+}
+
+const freshId = () => Math.random().toString(36).slice(2, 10);
+
+/** This tab's name in the store, and the draft that it goes on with. */
+export function claimDraft(storage: Storage, tab: Storage | null): { id: string; draft: KeptDraft | null } {
+  moveOldDraft(storage);
+  const mine = tab?.getItem(TAB);
+  const own = mine ? readDraft(storage, mine) : null;
+  // A tab that is doubled has its name from the other, which is still open. A new tab goes on where the last one was left.
+  const draft = own ?? (mine ? null : (listDrafts(storage).find((one) => one.closed) ?? null));
+  const id = draft && draft.closed ? draft.id : mine && !own ? mine : freshId();
+  try {
+    tab?.setItem(TAB, id);
+  } catch {
+    // The draft is kept all the same, and found among those that were left.
+  }
+  return { id, draft };
+}
+
+function moveOldDraft(storage: Storage): void {
+  const old = storage.getItem(BEFORE_TABS);
+  if (old === null) return;
+  storage.removeItem(BEFORE_TABS);
+  storage.setItem(`${PREFIX}old`, old);
+}
+
+/** "Four-bar, four_bar.toml" */
+export function draftName({ text, fileName }: Draft): string {
+  const { name } = readModel(text);
+  return name ? `${name}, ${fileName}` : fileName;
+}

@@ -1,0 +1,148 @@
+import { local, session } from "../../tests/page";
+import { beforeEach, describe, expect, it, vi } from "vitest";
+import { edit, openText, redo, undo } from "../actions";
+import { newHistory } from "../model/history";
+import { EMPTY_MODEL } from "../model/operations";
+import { studio } from "../state";
+import { saveFile, saveUnder, take } from "./disk";
+import { openFromFolder, startFolder } from "./folder";
+
+/** The folder of a server, where a text is its own hash. */
+const files = new Map<string, string>();
+const server = {
+  version: "0",
+  folder: "models",
+  model: null as string | null,
+  list: async () => [],
+  open: async (path: string) => ({ path, text: files.get(path)!, hash: files.get(path)! }),
+  save: async (path: string, text: string, expected: string | null) => {
+    await new Promise((resolve) => setTimeout(resolve, 5));
+    const now = files.get(path) ?? null;
+    if (now !== expected) return { conflict: { text: now, hash: now } };
+    files.set(path, text);
+    return { hash: text };
+  },
+};
+vi.mock("../play/desk", () => ({ kernel: { native: async () => server, write: async () => ({ text: "# from JSON\n" }) } }));
+
+const model = (name: string) => `${EMPTY_MODEL}# ${name}\n`;
+const now = () => studio.get();
+const said = () => now().toasts.at(-1);
+
+describe("saving in the folder of pintle studio", () => {
+  beforeEach(async () => {
+    files.clear();
+    local.entries.clear();
+    await startFolder();
+    studio.set({ dialog: null, toasts: [] });
+  });
+
+  it("asks a new drawing its name, and never takes another file's", async () => {
+    openText(model("one"), "untitled.toml");
+    await saveFile();
+    expect(now().dialog).toBe("save");
+    await saveUnder("one");
+    expect(files.get("one.toml")).toBe(model("one"));
+    studio.set({ dialog: null });
+    openText(model("two"), "one.toml");
+    await saveFile();
+    expect(now().dialog).toBe("save");
+    await saveUnder("one.toml");
+    expect(files.get("one.toml")).toBe(model("one"));
+    expect(said()?.text).toMatch(/there already/);
+    said()!.action!.run();
+    await vi.waitFor(() => expect(files.get("one.toml")).toBe(model("two")));
+  });
+
+  it("gives each text its own file again on undo and redo", async () => {
+    files.set("A/x.toml", model("a")).set("B/x.toml", model("b"));
+    await openFromFolder("A/x.toml");
+    await openFromFolder("B/x.toml");
+    edit(model("b, changed"), "Edit");
+    await saveFile();
+    undo();
+    undo();
+    expect(now().fileName).toBe("A/x.toml");
+    edit(model("a, changed"), "Edit");
+    await saveFile();
+    expect([...files]).toEqual([["A/x.toml", model("a, changed")], ["B/x.toml", model("b, changed")]]);
+    undo();
+    redo();
+    expect(now().home).toMatchObject({ path: "A/x.toml", hash: model("a, changed") });
+    expect(now().savedText).toBe(model("a, changed"));
+  });
+
+  it("saves twice in a row without a conflict with itself", async () => {
+    files.set("a.toml", model("a"));
+    await openFromFolder("a.toml");
+    edit(model("a1"), "Edit");
+    const first = saveFile();
+    edit(model("a2"), "Edit");
+    await Promise.all([first, saveFile()]);
+    expect(files.get("a.toml")).toBe(model("a2"));
+    expect(now().toasts.filter((toast) => toast.action)).toEqual([]);
+  });
+
+  it("does not write over what another program wrote, nor another model by a late answer", async () => {
+    files.set("a.toml", model("a"));
+    await openFromFolder("a.toml");
+    files.set("a.toml", model("theirs"));
+    edit(model("mine"), "Edit");
+    await saveFile();
+    expect(said()?.text).toMatch(/changed by another program/);
+    const { run } = said()!.action!;
+    openText(model("quite another"), "b.toml");
+    run();
+    await new Promise((resolve) => setTimeout(resolve, 20));
+    expect(files.get("a.toml")).toBe(model("theirs"));
+  });
+
+  it("opens JSON as a new TOML file", async () => {
+    files.set("m/a.json", "{}");
+    await openFromFolder("m/a.json");
+    expect([now().history.text, now().fileName, now().home]).toEqual(["# from JSON\n", "m/a.toml", null]);
+    await saveFile();
+    expect(now().dialog).toBe("save");
+  });
+});
+
+describe("the model that pintle studio was started with", () => {
+  const mine = { document: 900, fileName: "a.toml", home: { kind: "folder" as const, folder: "models", path: "a.toml", hash: model("disk") }, savedText: model("disk") };
+  const begin = async (token: string, text: string, mayOpen = true) => {
+    session.setItem("pintle.token", token);
+    studio.set({ ...mine, history: newHistory(text), toasts: [] });
+    await startFolder(mayOpen);
+    return now().history.text;
+  };
+  beforeEach(() => {
+    session.entries.clear();
+    files.clear();
+    files.set("a.toml", model("disk"));
+    server.model = "a.toml";
+  });
+
+  it("is opened once, and a reload keeps what was done since", async () => {
+    studio.set({ home: null });
+    expect(await begin("1", EMPTY_MODEL)).toBe(EMPTY_MODEL);
+    expect(said()?.text).toMatch(/not saved/);
+    said()!.action!.run();
+    await vi.waitFor(() => expect(now().history.text).toBe(model("disk")));
+    expect(await begin("1", model("mine"))).toBe(model("mine"));
+    expect(said()).toBeUndefined();
+  });
+
+  it("comes after a link's, and a restart of the program asks before it replaces work on it", async () => {
+    expect(await begin("1", model("link"), false)).toBe(model("link"));
+    expect(now().folder?.name).toBe("models");
+    expect(await begin("2", model("mine"))).toBe(model("mine"));
+    expect(said()?.action?.label).toBe("Open the file");
+    expect(await begin("3", model("disk"))).toBe(model("disk"));
+    files.set("a.toml", model("theirs"));
+    expect(await begin("3", model("disk"))).toBe(model("theirs"));
+  });
+});
+
+it("says that a dropped folder cannot be read", async () => {
+  await take({ name: "stuff", size: 4096, text: () => Promise.reject(new Error("NotReadableError")) } as unknown as File);
+  expect(said()?.text).toMatch(/stuff cannot be read/);
+});
