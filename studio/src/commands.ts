@@ -119,7 +119,7 @@ function keepRun(): void {
 
 function escape(): void {
   const now = studio.get();
-  if (now.mode !== "edit") return player.stop();
+  if (now.mode !== "edit" || player.opening) return player.stop();
   if (now.tool !== "select") return chooseTool("select");
   select([]);
 }

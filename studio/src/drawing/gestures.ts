@@ -169,6 +169,8 @@ export class Gestures {
     if (gesture.kind === "box") return this.view.show({ lines: [], box: [gesture.from, this.view.toWorld(at)] });
     const world = this.view.toWorld(at);
     if (gesture.kind === "pull") {
+      // The motion has ended under the hand: moving on must not begin another one.
+      if (!player.pulling) return this.reset();
       return player.setPull({ body: gesture.body, point: gesture.point, target: [...world] });
     }
     if (gesture.kind === "reshape") return this.reshape(gesture, at, event);
