@@ -6,6 +6,7 @@ import type { Catalog, Fault, RunAnswer, RunProgress } from "../kernel/protocol"
 import { type Pose, distance, toWorld } from "../model/geometry";
 import type { Poses } from "../model/model";
 import { NO_RUN, studio } from "../state";
+import { runWhereFastest } from "./long-run";
 
 export const kernel: Kernel = startKernel();
 
@@ -92,9 +93,10 @@ function startRun(text: string, current: () => boolean): void {
   if (model.bodies.length === 0) return;
   if (model.duration === null) return studio.set({ run: { ...NO_RUN, status: "failed", serial: run.serial, fault: { message: "The model says no duration.", hint: "Set one in Model, Simulation." } } });
   studio.set({ run: { ...run, status: "running", progress: null, fault: null } });
-  const handle = runWhereFastest(text, (progress) => {
+  const told = (progress: RunProgress) => {
     if (current()) studio.set((now) => ({ run: { ...now.run, progress } }));
-  });
+  };
+  const handle = runWhereFastest(kernel, text, () => studio.get().folder !== null, told);
   running = handle;
   handle.result
     .then((answer) => {
@@ -109,28 +111,6 @@ function startRun(text: string, current: () => boolean): void {
       if (running === handle && wasEnded(error)) return startRun(text, current);
       studio.set((now) => ({ run: { ...NO_RUN, status: "failed", fault: asFault(error), serial: now.run.serial + 1 } }));
     });
-}
-
-/** From here on a run goes to the native kernel, where there is one [s]. */
-const LONG = 3;
-
-// Begins in the browser, which answers short runs before a server could; a long run moves to the native kernel.
-function runWhereFastest(text: string, onProgress: (progress: RunProgress) => void): RunHandle {
-  let native: RunHandle | null = null;
-  let moveOver: ((result: Promise<RunAnswer>) => void) | null = null;
-  const moved = new Promise<RunAnswer>((resolve) => (moveOver = resolve));
-  const here = kernel.run(text, {
-    onProgress: (progress) => {
-      if (native) return;
-      onProgress(progress);
-      if (!studio.get().folder || (progress.seconds_left ?? 0) < LONG || progress.wall_seconds < 0.5) return;
-      native = kernel.run(text, { where: "native", onProgress });
-      moveOver?.(native.result);
-      here.cancel();
-    },
-  });
-  const first = here.result.then((answer) => (native ? moved : answer), (error: unknown) => (native ? moved : Promise.reject(error)));
-  return { result: first, cancel: () => (native ?? here).cancel() };
 }
 
 async function runGhost(text: string, current: () => boolean): Promise<void> {
