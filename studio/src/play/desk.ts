@@ -63,8 +63,7 @@ async function refresh(text: string): Promise<void> {
 }
 
 function complain(fault: Fault): void {
-  const missing = /kernel (is not built|cannot|stopped)/i.test(fault.message);
-  studio.set({ run: { ...studio.get().run, status: "failed", progress: null }, obstacle: fault, ...(missing ? { kernelState: "missing" as const } : {}) });
+  studio.set({ run: { ...studio.get().run, status: "failed", progress: null }, obstacle: fault, ...(fault.kind === "missing" ? { kernelState: "missing" as const } : {}) });
 }
 
 async function assemble(text: string, current: () => boolean): Promise<void> {
@@ -130,7 +129,7 @@ export function cancelRun(): void {
   running = null;
 }
 
-const wasEnded = (error: unknown): boolean => /cancelled before/.test(asFault(error).message);
+const wasEnded = (error: unknown): boolean => asFault(error).kind === "ended";
 
 /** Drags a point of a body while nothing runs: one question at a time, the newest target wins. */
 export class KinematicDrag {
@@ -144,10 +143,6 @@ export class KinematicDrag {
     private readonly body: string,
     private readonly point: [number, number],
   ) {}
-
-  get possible(): boolean {
-    return drag !== null && drag.bodies.includes(this.body);
-  }
 
   to(target: [number, number]): void {
     this.waiting = target;
