@@ -58,8 +58,8 @@ export interface StudioState {
   theme: "light" | "dark";
   show: { labels: boolean; forces: boolean; grid: boolean; traces: boolean; centres: boolean };
   snapping: boolean;
-  /** Columns on the plot, by name. */
-  plotted: string[];
+  /** Columns on the plot, by name; null until one chooses. */
+  plotted: string[] | null;
   toasts: Toast[];
   savedText: string;
   /** Of `pintle studio`, where the page comes from it. */
@@ -96,7 +96,7 @@ export const studio = createStore<StudioState>({
   theme: "light",
   show: { labels: true, forces: true, grid: true, traces: true, centres: false },
   snapping: true,
-  plotted: [],
+  plotted: null,
   toasts: [],
   savedText: EMPTY_MODEL,
   folder: null,
