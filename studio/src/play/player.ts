@@ -158,11 +158,13 @@ class Player {
       });
   }
 
+  // An obstacle that is not the motion's own, of assembly or reading, is left alone.
   private tell(live: Live, fault: Fault | null): void {
-    if (live.fault?.message === fault?.message) return;
-    const before = live.fault;
+    const { obstacle } = studio.get();
+    if (obstacle !== null && obstacle !== live.fault) return;
+    if (obstacle?.message === fault?.message) return;
     live.fault = fault;
-    if (fault || studio.get().obstacle === before) studio.set({ obstacle: fault });
+    studio.set({ obstacle: fault });
   }
 
   // A live motion belongs to its mode and to its text.
