@@ -70,7 +70,9 @@ export class Gestures {
     let mode = studio.get().mode;
     const end = studio.subscribe(() => {
       const now = studio.get();
-      if (now.tool !== tool || (now.mode !== mode && now.mode !== "edit")) this.cancel();
+      // A pull at a run makes it a live motion, and goes on in it.
+      const pulls = now.mode === "live" && this.gesture?.kind === "pull";
+      if (now.tool !== tool || (now.mode !== mode && now.mode !== "edit" && !pulls)) this.cancel();
       tool = now.tool;
       mode = now.mode;
       if (svg.dataset["tool"] !== tool && document.activeElement?.closest(".tools")) (svg as SVGSVGElement & HTMLElement).focus();

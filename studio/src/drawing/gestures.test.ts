@@ -1,6 +1,7 @@
-// Drawing by keys alone, on a canvas that has no picture.
+// Keys and pointer on a canvas that has no picture.
 import { beforeAll, beforeEach, describe, expect, it, vi } from "vitest";
 import { chooseTool, openText } from "../actions";
+import type { Pull } from "../kernel/protocol";
 import { EMPTY_MODEL } from "../model/operations";
 import { studio } from "../state";
 import { fromScreen, gridStep, toScreen } from "./camera";
@@ -8,9 +9,15 @@ import { nextPoint, placeInWords } from "./key-cursor";
 import { looksOf } from "./looks";
 import type { View } from "./view";
 
-vi.mock("../play/player", () => ({
-  player: { frame: () => ({ pose: (name: string) => studio.get().model.body.get(name)?.pose ?? { x: 0, y: 0, angle: 0 }, forces: null }), touch: () => undefined, pulling: null },
-}));
+vi.mock("../play/player", () => {
+  const player = {
+    pulling: null as Pull | null,
+    setPull: (pull: Pull | null) => void (player.pulling = pull),
+    frame: () => ({ pose: (name: string) => studio.get().model.body.get(name)?.pose ?? { x: 0, y: 0, angle: 0 }, forces: null }),
+    touch: () => undefined,
+  };
+  return { player };
+});
 vi.mock("../play/desk", () => ({ KinematicDrag: class {} }));
 
 class Control extends EventTarget {
@@ -28,6 +35,7 @@ class Control extends EventTarget {
 }
 
 const page = new EventTarget();
+const svg = new EventTarget();
 const camera = { scale: 1000, x: 400, y: 300 };
 
 function press(key: string, more: Partial<KeyboardEvent> = {}): Event {
@@ -45,7 +53,13 @@ beforeAll(async () => {
   vi.stubGlobal("document", { activeElement: null });
   vi.stubGlobal("Element", Control);
   vi.stubGlobal("HTMLElement", Control);
-  const svg = Object.assign(new EventTarget(), { dataset: {}, style: {} });
+  Object.assign(svg, {
+    dataset: {},
+    style: {},
+    classList: { add: () => undefined, remove: () => undefined },
+    getBoundingClientRect: () => ({ left: 0, top: 0, width: 800, height: 600 }),
+    setPointerCapture: () => undefined,
+  });
   const view = {
     svg,
     camera,
@@ -107,6 +121,29 @@ describe("by keys alone", () => {
     chooseTool("link");
     for (let i = 0; i < 100; i++) press("ArrowRight");
     expect(camera.x).toBeLessThan(0);
+  });
+});
+
+describe("a hand at a link of a run", () => {
+  const hand = (type: string, x: number, y: number) => svg.dispatchEvent(Object.assign(new Event(type), { clientX: x, clientY: y, button: 0, pointerId: 1 }));
+
+  it("goes on pulling when the run becomes a live motion, and lets go when that ends", async () => {
+    const { player } = await import("../play/player");
+    chooseTool("link");
+    pressed("R Enter R R R R Enter");
+    chooseTool("select");
+    const { x, y } = model().bodies[0]!.pose;
+    const [u, v] = toScreen(camera, [x, y]);
+    studio.set({ mode: "replay", playing: true });
+    hand("pointerdown", u, v);
+    expect(player.pulling?.body).toBe("link1");
+    studio.set({ mode: "live" });
+    hand("pointermove", u + 50, v);
+    expect(player.pulling?.target[0]).toBeCloseTo(x + 0.05, 9);
+    player.setPull(null);
+    studio.set({ mode: "edit", playing: false });
+    hand("pointermove", u + 90, v);
+    expect(player.pulling).toBeNull();
   });
 });
 
