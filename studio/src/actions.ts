@@ -151,7 +151,7 @@ export function chooseTool(tool: ToolName): void {
 }
 
 /** What belongs to one model only. */
-const NOTHING_OPEN: Partial<StudioState> = { poses: null, obstacle: null, report: null, selection: [], kept: null, mode: "edit", playing: false, plotted: [], tool: "select" };
+const NOTHING_OPEN: Partial<StudioState> = { poses: null, obstacle: null, report: null, selection: [], kept: null, mode: "edit", playing: false, plotted: null, tool: "select" };
 
 /** Another model in place of this one, which undo brings back. Without a home it is a new file: saving asks for its name. */
 export function openText(text: string, fileName: string, { home = null, savedText = text }: { home?: Home | null; savedText?: string } = {}): void {

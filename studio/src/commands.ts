@@ -1,8 +1,8 @@
 // Everything that can be done, with its name and key: the palette, the shortcuts and the help sheet are made from this.
 import { chooseTool, meshSelection, openText, place, redo, removeSelection, say, select, selectAll, undo } from "./actions";
 import { copySelection, duplicate, paste } from "./clipboard";
+import { isTyping, ownsKey } from "./controls";
 import { theView } from "./drawing/canvas";
-import { isTyping } from "./drawing/gestures";
 import { TOOL_LIST } from "./drawing/tools";
 import { openFile, saveFile, saveFileAs } from "./files/disk";
 import { shareLink } from "./files/share";
@@ -127,7 +127,7 @@ function keepRun(): void {
 
 function escape(): void {
   const now = studio.get();
-  if (now.mode !== "edit") return player.stop();
+  if (now.mode !== "edit" || player.opening) return player.stop();
   if (now.tool !== "select") return chooseTool("select");
   select([]);
 }
@@ -170,10 +170,7 @@ export function listenToKeys(): () => void {
     const { dialog } = studio.get();
     if (dialog && command.id !== "palette") return;
     if (isTyping(event.target) && !/^(save|save-as|open|palette|share)$/.test(command.id)) return;
-    const target = event.target as HTMLElement | null;
-    // Space and Enter press the button that has the focus.
-    if (event.key === " " && target?.closest("button, a, summary, [role=tab], [role=slider]")) return;
-    if (/^Arrow/.test(event.key) && target?.closest("[role=tablist], [role=slider], .plot, table")) return;
+    if (ownsKey(event.target, event.key)) return;
     if (/^mod\+[CVA]$/.test(chord) && (window.getSelection()?.toString() ?? "") !== "") return;
     event.preventDefault();
     command.run();

@@ -78,8 +78,8 @@ export interface StudioState extends Origin {
   theme: "light" | "dark";
   show: { labels: boolean; forces: boolean; grid: boolean; traces: boolean; centres: boolean };
   snapping: boolean;
-  /** Columns on the plot, by name. */
-  plotted: string[];
+  /** Columns on the plot, by name; null until one chooses. */
+  plotted: string[] | null;
   toasts: Toast[];
   /** Of `pintle studio`, where the page comes from it. */
   folder: { name: string; models: { path: string; size: number }[] } | null;
@@ -117,7 +117,7 @@ export const studio = createStore<StudioState>({
   theme: "light",
   show: { labels: true, forces: true, grid: true, traces: true, centres: false },
   snapping: true,
-  plotted: [],
+  plotted: null,
   toasts: [],
   savedText: EMPTY_MODEL,
   folder: null,

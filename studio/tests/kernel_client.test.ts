@@ -2,7 +2,7 @@
 import { describe, expect, it, vi } from "vitest";
 import { KernelFault, startKernel } from "../src/kernel/kernel";
 import type { FromWorker, ToWorker } from "../src/kernel/messages";
-import { valueOf } from "../src/kernel/module";
+import { loadKernel, valueOf } from "../src/kernel/module";
 import { unpacked } from "../src/kernel/packed";
 
 class PlayedWorker {
@@ -69,6 +69,51 @@ describe("the kernel's client", () => {
     await rejected;
     expect(worker?.terminated).toBe(true);
     vi.useRealTimers();
+  });
+
+  it("leaves a run alone while one behind it is cancelled, and counts the grace from its turn", async () => {
+    vi.useFakeTimers();
+    const kernel = start();
+    const first = kernel.run("a"), second = kernel.run("b");
+    const worker = PlayedWorker.made[0]!;
+    second.cancel();
+    await vi.advanceTimersByTimeAsync(60_000);
+    expect(worker.terminated).toBe(false);
+    worker.onmessage?.({ data: { id: worker.sent[0]!.id, value: { outcome: "completed" } } });
+    expect((await first.result).outcome).toBe("completed");
+    const ended = expect(second.result).rejects.toMatchObject({ fault: { kind: "ended" } });
+    await vi.advanceTimersByTimeAsync(2000);
+    expect(worker.terminated).toBe(false);
+    await vi.advanceTimersByTimeAsync(2000);
+    await ended;
+    expect(worker.terminated).toBe(true);
+    vi.useRealTimers();
+  });
+
+  it("checks and reports beside a run, not behind it", async () => {
+    const kernel = start();
+    void kernel.run("x");
+    const checking = kernel.check("x"), reporting = kernel.report("x");
+    expect(PlayedWorker.made.map((worker) => worker.sent.map((one) => one.call))).toEqual([["run"], ["check"], ["report"]]);
+    PlayedWorker.made[1]!.answer({ value: { passed: true } });
+    PlayedWorker.made[2]!.answer({ value: { html: "page" } });
+    expect([(await checking).passed, await reporting]).toEqual([true, "page"]);
+  });
+
+  it("tells a kernel that is missing from one that broke down", async () => {
+    const kernel = start();
+    const lost = expect(kernel.read("a")).rejects.toMatchObject({ fault: { kind: "missing" } });
+    PlayedWorker.made[0]!.onerror?.({ message: "no such file" });
+    await lost;
+    const read = kernel.read("b");
+    PlayedWorker.made[1]!.answer({ value: { ok: true, complaints: [] } });
+    await read;
+    const broken = kernel.read("c").catch((error: KernelFault) => error.fault);
+    PlayedWorker.made[1]!.onerror?.({ message: "out of memory" });
+    expect(((await broken) as { kind?: string }).kind).toBeUndefined();
+    vi.stubGlobal("fetch", async () => new Response("", { status: 404 }));
+    await expect(loadKernel("kernel/pintle.wasm")).rejects.toMatchObject({ fault: { kind: "missing" } });
+    vi.unstubAllGlobals();
   });
 });
 

@@ -47,6 +47,18 @@ export const tests = {
     return `${seconds.toFixed(1)} s, ${Number(shown).toFixed(3)} N, relative difference ${difference.toExponential(1)}`;
   },
 
+  async "a link is drawn by keys alone, and tools have their keys while the time scale has the focus"(world) {
+    const page = await world.visit();
+    for (const key of ["l", "ArrowRight", "Enter", "ArrowRight", "ArrowRight", "ArrowRight", "Enter"]) await page.keyboard.press(key);
+    assert.equal(await state(page, "(now) => now.model.bodies.length"), 1);
+    assert.match(await page.locator(".canvas .visually-hidden[role=status]").textContent(), /link1/);
+    await page.getByLabel("Time", { exact: true }).focus();
+    await page.keyboard.press("g");
+    assert.equal(await state(page, "(now) => now.tool"), "ground");
+    assert.deepEqual(page.faults, []);
+    await page.context().close();
+  },
+
   async "lengths and angles are typed exactly, while drawing and afterwards"(world) {
     const page = await world.visit();
     const from = await onPage(page, -0.08, -0.05);

@@ -28,9 +28,11 @@ export const tests = {
     const report = (await exported(page, "report")).toString();
     assert.match(report, /: Pintle report<\/title>/);
     assert.match(report, /674\.07 N/);
+    await page.getByRole("button", { name: "Play", exact: true }).click();
     const gif = await exported(page, "GIF");
     assert.equal(gif.subarray(0, 6).toString(), "GIF89a");
     assert.equal(gif[gif.length - 1], 0x3b);
+    assert.deepEqual(await state(page, "(now) => [now.mode, now.playing]"), ["replay", true], "the film stopped what played");
     assert.deepEqual(page.faults, []);
     await page.context().close();
     return `GIF of ${Math.round(gif.length / 1e3)} kB`;

@@ -29,8 +29,9 @@ export function Canvas() {
   const counts = useStudio((now) => `${now.model.bodies.length} links, ${now.model.joints.length} joints`);
   return (
     <div className="canvas">
-      <svg ref={svg} className="scene" tabIndex={0} role="application" aria-label={`Drawing of ${name}: ${counts}. Tools have keys; press question mark for help.`} />
+      <svg ref={svg} className="scene" tabIndex={0} role="application" aria-label={`Drawing of ${name}: ${counts}. Tools have keys; arrows move a tool's point, Enter sets it; press question mark for help.`} />
       <ExactFields />
+      <KeyPoint />
       <ToolHint />
     </div>
   );
@@ -52,6 +53,16 @@ function ExactFields() {
       {!now.radius && field("angle", shortNumber((now.angle * 180) / Math.PI, 4), "°", "∠")}
       <span className="exact-tip">{now.radius ? "type · Enter" : "type · Tab · Enter"}</span>
     </div>
+  );
+}
+
+/** Where the keys have led the point, in words. */
+function KeyPoint() {
+  const said = useStore(entry, (now) => now.said);
+  return (
+    <p className="visually-hidden" role="status">
+      {said}
+    </p>
   );
 }
 

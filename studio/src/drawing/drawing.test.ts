@@ -6,6 +6,7 @@ import { EMPTY_MODEL, addBar, addGroundPin, addMotor } from "../model/operations
 import { fitTo, fromScreen, gridStep, toScreen, zoomAt } from "./camera";
 import { hitTest, snap } from "./hit";
 import { looksOf } from "./looks";
+import { groundGuide, rackTeeth } from "./symbols";
 import { finish } from "./tools";
 
 const four = () => readModel(readFileSync(fileURLToPath(new URL("../../../mechanisms/four_bar.toml", import.meta.url)), "utf8"));
@@ -39,6 +40,18 @@ describe("what is under the pointer", () => {
     expect(snap(model, looks, [0.26, 0.43], 0.1, 0.5).body).toBe("crank");
     expect(snap(model, looks, [3.1, -1.9], 0.1, 0.5)).toEqual({ at: [3, -2], end: null, body: null });
     expect(snap(model, looks, [5.8, 0.15], 0.1, 0.5).end?.marker).toBe("O4");
+  });
+});
+
+describe("numbers without an end", () => {
+  it.each(['"1/0"', "inf", "nan", '"1e300 m * 1e300"'])("%s at a marker leaves the mechanism its size", (value) => {
+    const model = readModel(`[body.a]\nposition = [0, 0]\nangle = 0\nmarkers.A = [0, 0]\nmarkers.B = [${value}, 0.2]\n`);
+    expect(extent(model).size).toBeLessThan(1);
+    expect(readModel(`[parameters]\np = ${value}\n[body.a]\nmass = "p*1 kg"\n`).body.get("a")?.mass).toBe(0);
+  });
+  it.each([1e8, 1e300, Infinity])("a guide and a rack that reach %f pixels are drawn at once", (reach) => {
+    expect(groundGuide(reach, 12).length).toBeLessThan(1e6);
+    expect(rackTeeth(reach).length).toBeLessThan(2e6);
   });
 });
 

@@ -1,5 +1,6 @@
 // Pointer and keys on the canvas: panning, selecting, dragging, and the points of the tools.
 import { drawn, edit, place, say, select, undo } from "../actions";
+import { isTyping, ownsKey } from "../controls";
 import { type Point, type Pose, along, direction, distance, toBody, toWorld } from "../model/geometry";
 import { type End, GROUND, type Poses, poseOf } from "../model/model";
 import type { Target, Thing } from "../model/operations";
@@ -11,7 +12,8 @@ import { studio } from "../state";
 import { createStore } from "../store";
 import { gridStep } from "./camera";
 import { type Hit, hitTest, nearestMarker, snap } from "./hit";
-import { finish, toolOf } from "./tools";
+import { ARROWS, nextPoint, placeInWords, pointsOf } from "./key-cursor";
+import { type Asks, finish, toolOf } from "./tools";
 import type { View } from "./view";
 
 /** The fields beside the pointer while a tool draws: what is typed there is exact. */
@@ -24,9 +26,11 @@ export interface Entry {
   radius: boolean;
   typed: { length: string; angle: string };
   field: "length" | "angle";
+  /** Where the keys have led the tool's point, for those who do not see it. */
+  said: string;
 }
 
-const CLOSED: Entry = { open: false, x: 0, y: 0, length: 0, angle: 0, radius: false, typed: { length: "", angle: "" }, field: "length" };
+const CLOSED: Entry = { open: false, x: 0, y: 0, length: 0, angle: 0, radius: false, typed: { length: "", angle: "" }, field: "length", said: "" };
 export const entry = createStore<Entry>(CLOSED);
 
 type Gesture =
@@ -39,12 +43,18 @@ type Gesture =
   /** `first`: this press set the first point. */
   | { kind: "tool"; pressed: Point; first: boolean };
 
+/** A click without keys held. */
+const PLAIN = { altKey: false, shiftKey: false };
+/** Pixels that the keys' point keeps from the edge. */
+const EDGE = 24;
+
 export class Gestures {
   private gesture: Gesture | null = null;
   private targets: Target[] = [];
   private pointer: Point = [0, 0];
   private count = 0;
-  private space = false;
+  /** The keys have moved the pointer last, not a hand. */
+  private keyed = false;
   private readonly abort = new AbortController();
 
   constructor(private readonly view: View) {
@@ -58,15 +68,17 @@ export class Gestures {
     svg.addEventListener("pointerleave", () => this.gesture || studio.set({ hover: null }), options);
     svg.addEventListener("wheel", (event) => this.wheel(event), { ...options, passive: false });
     window.addEventListener("keydown", (event) => this.key(event), options);
-    window.addEventListener("keyup", (event) => event.key === " " && (this.space = false), options);
     let tool = studio.get().tool;
     let mode = studio.get().mode;
     const end = studio.subscribe(() => {
       const now = studio.get();
-      const other = now.tool !== tool || (now.mode !== mode && now.mode !== "edit");
+      // A pull at a run makes it a live motion, and goes on in it.
+      const pulls = now.mode === "live" && this.gesture?.kind === "pull";
+      const other = now.tool !== tool || (now.mode !== mode && now.mode !== "edit" && !pulls);
       // First: cancelling changes the store, and this is told again.
       tool = now.tool;
       mode = now.mode;
+      if (svg.dataset["tool"] !== tool && document.activeElement?.closest(".tools")) (svg as SVGSVGElement & HTMLElement).focus();
       svg.dataset["tool"] = tool;
       if (other) this.cancel();
     });
@@ -107,8 +119,9 @@ export class Gestures {
     (this.view.svg as SVGSVGElement & HTMLElement).focus?.();
     const at = this.local(event);
     this.pointer = at;
+    this.keyed = false;
     this.view.svg.setPointerCapture(event.pointerId);
-    if (event.button === 1 || event.button === 2 || this.space) return this.startPan(at);
+    if (event.button === 1 || event.button === 2) return this.startPan(at);
     if (event.button !== 0) return;
     const { tool } = studio.get();
     if (tool !== "select") return this.toolDown(at, event);
@@ -161,6 +174,7 @@ export class Gestures {
   private move(event: PointerEvent): void {
     const at = this.local(event);
     this.pointer = at;
+    this.keyed = false;
     const { gesture } = this;
     if (!gesture || gesture.kind === "tool") {
       if (studio.get().tool === "select") return this.hover(at);
@@ -173,6 +187,8 @@ export class Gestures {
     if (gesture.kind === "box") return this.view.show({ lines: [], box: [gesture.from, this.view.toWorld(at)] });
     const world = this.view.toWorld(at);
     if (gesture.kind === "pull") {
+      // The motion has ended under the hand: moving on must not begin another one.
+      if (!player.pulling) return this.reset();
       return player.setPull({ body: gesture.body, point: gesture.point, target: [...world] });
     }
     if (gesture.kind === "reshape") return this.reshape(gesture, at, event);
@@ -259,12 +275,21 @@ export class Gestures {
 
   private toolDown(at: Point, event: PointerEvent): void {
     const tool = toolOf(studio.get().tool);
-    const target = this.target(at, event);
-    if (tool.asks === "point") return this.finish([target]);
-    if (tool.asks === "many" && this.targets.length > 2 && distance(this.targets[0]!.at, target.at) < this.view.metres(8)) return this.finish(this.targets);
-    this.gesture = { kind: "tool", pressed: at, first: this.targets.length === 0 };
-    if (this.targets.length === 0 || tool.asks === "many") this.targets.push(target);
+    const first = this.targets.length === 0;
+    if (this.takePoint(tool.asks, this.target(at, event))) return;
+    this.gesture = { kind: "tool", pressed: at, first };
     this.previewTool(at, event);
+  }
+
+  /** True where the tool has all that it asks for. */
+  private takePoint(asks: Asks, target: Target): boolean {
+    const closes = asks === "many" && this.targets.length > 2 && distance(this.targets[0]!.at, target.at) < this.view.metres(8);
+    if (asks === "point" || closes) {
+      this.finish(closes ? this.targets : [target]);
+      return true;
+    }
+    if (this.targets.length === 0 || asks === "many") this.targets.push(target);
+    return false;
   }
 
   private toolUp({ pressed, first }: { pressed: Point; first: boolean }, at: Point, event: PointerEvent): void {
@@ -294,10 +319,10 @@ export class Gestures {
     const target = this.exact(this.target(at, event));
     const joins = target.end !== null || target.body !== null;
     const from = this.targets[0];
-    if (!from) return this.view.show({ lines: [], snap: { at: target.at, joins } });
+    if (!from) return this.view.show({ lines: [], snap: { at: target.at, joins, keyed: this.keyed } });
     const radius = tool.asks === "radius";
     const lines = radius ? [[from.at, target.at]] : [[...this.targets.map((one) => one.at), target.at]];
-    this.view.show({ lines, snap: { at: target.at, joins }, circle: radius ? { centre: from.at, radius: distance(from.at, target.at) } : undefined });
+    this.view.show({ lines, snap: { at: target.at, joins, keyed: this.keyed }, circle: radius ? { centre: from.at, radius: distance(from.at, target.at) } : undefined });
     const [x, y] = this.view.toScreen(target.at);
     entry.set({ open: tool.asks === "two" || radius, x, y, length: distance(from.at, target.at), angle: direction(from.at, target.at), radius });
   }
@@ -312,6 +337,7 @@ export class Gestures {
       return;
     }
     drawn(made, toolOf(tool).label);
+    entry.set({ said: `${toolOf(tool).label}: ${made.made.map((one) => one.name).join(", ")}` });
     if (tool === "motor" || tool === "force" || tool === "torque" || tool === "torsion") studio.set({ side: "properties" });
   }
 
@@ -345,10 +371,61 @@ export class Gestures {
     this.view.zoom(Math.exp(-event.deltaY * size * (event.ctrlKey ? 0.01 : 0.0015)), this.local(event));
   }
 
+  private drawByKey(event: KeyboardEvent): boolean {
+    const { tool, dialog } = studio.get();
+    const { asks } = toolOf(tool);
+    if (asks === "nothing" || dialog || event.ctrlKey || event.metaKey || event.altKey || ownsKey(event.target, event.key)) return false;
+    const arrow = ARROWS[event.key];
+    if (arrow) {
+      this.moveByKey(arrow, event.shiftKey ? 5 : 1);
+      return true;
+    }
+    if (event.key !== "Enter") return false;
+    this.bringIntoView();
+    const target = this.target(this.pointer, PLAIN);
+    const last = this.targets[this.targets.length - 1];
+    // Enter ends what a hand draws; the keys need it for corners, and end where they stand.
+    if (last && !(asks === "many" && this.keyed && distance(last.at, target.at) > this.view.metres(1))) return false;
+    if (this.takePoint(asks, target)) return true;
+    this.previewTool(this.pointer, PLAIN);
+    entry.set({ said: `Point ${this.targets.length}: ${placeInWords(target)}` });
+    return true;
+  }
+
+  private moveByKey(arrow: Point, steps: number): void {
+    this.bringIntoView();
+    const { model } = studio.get();
+    // Long steps go by the grid alone.
+    const points = steps === 1 ? pointsOf(model, this.poses()) : [];
+    this.pointer = this.view.toScreen(nextPoint(this.view.toWorld(this.pointer), arrow, steps * gridStep(this.view.camera), points));
+    this.keyed = true;
+    this.follow();
+    this.previewTool(this.pointer, PLAIN);
+    entry.set({ said: placeInWords(this.exact(this.target(this.pointer, PLAIN))) });
+  }
+
+  // A pointer that never came to the canvas, or was left behind by a zoom: the keys begin in the middle.
+  private bringIntoView(): void {
+    const { width, height } = this.view.size;
+    const [x, y] = this.pointer;
+    if (x <= 0 || y <= 0 || x >= width || y >= height) this.pointer = [width / 2, height / 2];
+  }
+
+  /** Moves the paper where the keys lead over its edge. */
+  private follow(): void {
+    const { width, height } = this.view.size;
+    const [x, y] = this.pointer;
+    const inside: Point = [Math.min(Math.max(x, EDGE), width - EDGE), Math.min(Math.max(y, EDGE), height - EDGE)];
+    if (inside[0] === x && inside[1] === y) return;
+    const { camera } = this.view;
+    this.view.setCamera({ ...camera, x: camera.x + inside[0] - x, y: camera.y + inside[1] - y });
+    this.pointer = inside;
+  }
+
   /** Numbers typed while a tool draws go to its fields; Enter takes them. */
   private key(event: KeyboardEvent): void {
     if (isTyping(event.target)) return;
-    if (event.key === " ") this.space = this.gesture?.kind === "pan" || this.space;
+    if (this.drawByKey(event)) return event.preventDefault();
     if (!this.drawing) return;
     const now = entry.get();
     if (event.key === "Escape") {
@@ -380,9 +457,3 @@ export function readTyped(text: string, unit: number): number | null {
   const factors: Record<string, number> = { mm: 1e-3, cm: 1e-2, m: 1, in: 0.0254, deg: Math.PI / 180, "°": Math.PI / 180, rad: 1 };
   return Number(found[1]) * (found[2] ? factors[found[2]]! : unit);
 }
-
-export function isTyping(target: EventTarget | null): boolean {
-  if (!(target instanceof HTMLElement)) return false;
-  return target.isContentEditable || /^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName);
-}
-

@@ -4,6 +4,9 @@ import type { Point } from "../model/geometry";
 export const PIN = 4.5;
 export const BAR = 8;
 
+/** Strokes and teeth of one symbol end here: far outside of any screen, and soon enough to be drawn. */
+const MOST_REACH = 40_000;
+
 const f = (value: number) => (Math.round(value * 10) / 10).toString();
 
 export function polyline(points: readonly Point[], close = false): string {
@@ -26,8 +29,9 @@ export function support(): { body: string; hatch: string } {
 
 /** A straight guide of a half length: line with hatching on its lower side, at a distance below the axis. */
 export function groundGuide(reach: number, gap: number): string {
-  let path = `M${f(-reach)} ${gap}H${f(reach)}`;
-  for (let x = -reach + 6; x <= reach; x += 8) path += `M${f(x)} ${gap}l-6 6`;
+  const end = Math.min(reach, MOST_REACH);
+  let path = `M${f(-end)} ${gap}H${f(end)}`;
+  for (let x = -end + 6; x <= end; x += 8) path += `M${f(x)} ${gap}l-6 6`;
   return path;
 }
 
@@ -108,7 +112,8 @@ export function teeth(radius: number, outward = 1): string {
 /** A rack's teeth along x. */
 export function rackTeeth(reach: number): string {
   const points: Point[] = [];
-  for (let x = -reach; x <= reach; x += 11) points.push([x, 3], [x + 2.4, -3.2], [x + 5.5, -3.2], [x + 7.9, 3]);
+  const end = Math.min(reach, MOST_REACH);
+  for (let x = -end; x <= end; x += 11) points.push([x, 3], [x + 2.4, -3.2], [x + 5.5, -3.2], [x + 7.9, 3]);
   return polyline(points);
 }
 

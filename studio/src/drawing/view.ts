@@ -15,8 +15,8 @@ export interface Preview {
   /** Rubber bands and outlines, in metres. */
   lines: Point[][];
   circle?: { centre: Point; radius: number };
-  /** The point that a click would take, and whether something is there to join. */
-  snap?: { at: Point; joins: boolean };
+  /** The point that a click would take, whether something is there to join, and whether the keys lead it: then it has a cross. */
+  snap?: { at: Point; joins: boolean; keyed?: boolean };
   box?: [Point, Point];
 }
 
@@ -203,6 +203,10 @@ export class View {
     for (const line of preview.lines) path(polyline(line.map(px)), "rubber", layer);
     if (preview.circle) path(circle(...px(preview.circle.centre), Math.max(preview.circle.radius * this.camera.scale, 1)), "rubber", layer);
     if (preview.snap) path(circle(...px(preview.snap.at), preview.snap.joins ? 8 : 3.5), preview.snap.joins ? "snap joins" : "snap", layer);
+    if (preview.snap?.keyed) {
+      const [x, y] = px(preview.snap.at);
+      path(`M${x - 16} ${y}H${x - 4}M${x + 4} ${y}H${x + 16}M${x} ${y - 16}V${y - 4}M${x} ${y + 4}V${y + 16}`, "cross", layer);
+    }
     if (preview.box) {
       const [a, b] = preview.box.map(px) as [Point, Point];
       make("rect", { x: Math.min(a[0], b[0]), y: Math.min(a[1], b[1]), width: Math.abs(a[0] - b[0]), height: Math.abs(a[1] - b[1]), class: "lasso" }, layer);

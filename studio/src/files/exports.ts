@@ -1,16 +1,16 @@
 // What leaves the page as a file: the run as CSV, the drawing as SVG, the motion as GIF.
 import { say } from "../actions";
+import type { Size } from "../drawing/camera";
 import { theView } from "../drawing/canvas";
 import { kernel } from "../play/desk";
-import { player } from "../play/player";
 import { studio } from "../state";
 import sceneStyle from "../styles/scene.css?inline";
 import { download } from "./disk";
-import { GifWriter } from "./gif";
+import { Film, type Picture, filmAsGif } from "./film";
 
 export type Export = "csv" | "svg" | "gif" | "report";
 
-const stem = () => studio.get().fileName.replace(/\.(toml|json)$/, "");
+const stem = (fileName = studio.get().fileName) => fileName.replace(/\.(toml|json)$/, "");
 
 export async function exportAs(kind: Export): Promise<void> {
   try {
@@ -23,9 +23,16 @@ export async function exportAs(kind: Export): Promise<void> {
   }
 }
 
+// The run of a changed text takes its time; until then there is the one before.
+function sayIfOld(): void {
+  const { status } = studio.get().run;
+  if (status === "running" || status === "none") say("This is of the run before your last change. The new run is not computed yet.");
+}
+
 function exportCsv(): void {
   const { answer } = studio.get().run;
   if (!answer || answer.values.length === 0) return say("There is no run to export yet.");
+  sayIfOld();
   const lines = [answer.columns.map((one) => one.name).join(","), answer.columns.map((one) => one.unit).join(",")];
   const rows = answer.values[0]!.length;
   for (let i = 0; i < rows; i++) lines.push(answer.values.map((column) => String(column[i])).join(","));
@@ -33,13 +40,16 @@ function exportCsv(): void {
 }
 
 /** The drawing as it stands, with its colours inside. */
-export function drawingAsSvg(width?: number): { text: string; width: number; height: number } {
+export function drawingAsSvg(): Picture {
   const view = theView();
   if (!view) throw new Error("there is no drawing");
-  const copy = view.svg.cloneNode(true) as SVGSVGElement;
+  return pictureOf(view.svg, view.size);
+}
+
+function pictureOf(svg: SVGSVGElement, size: Size, width?: number): Picture {
+  const copy = svg.cloneNode(true) as SVGSVGElement;
   copy.querySelector(".layer-overlay")?.remove();
   copy.querySelectorAll(".hover, .selected").forEach((one) => one.classList.remove("hover", "selected"));
-  const size = view.size;
   const factor = width ? width / size.width : 1;
   for (const name of [...copy.getAttributeNames()]) if (name !== "class") copy.removeAttribute(name);
   copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
@@ -69,34 +79,16 @@ function exportSvg(): void {
   download(new Blob([drawingAsSvg().text], { type: "image/svg+xml" }), `${stem()}.svg`);
 }
 
-const GIF_WIDTH = 640;
-const FRAMES_PER_SECOND = 20;
-
 async function exportGif(): Promise<void> {
-  const { run, speed } = studio.get();
-  if (!run.answer) return say("There is no run to export yet.");
-  const end = player.duration;
-  // The film lasts as long as it does on the screen, within reason.
-  const seconds = Math.min(Math.max(end / speed, 1), 12);
-  const frames = Math.round(seconds * FRAMES_PER_SECOND);
+  const now = studio.get();
+  const view = theView();
+  const { answer } = now.run;
+  if (!answer || !view || (answer.values[0]?.length ?? 0) < 2) return say("There is no run to export yet.");
+  sayIfOld();
   say("The film is being made…");
-  const canvas = document.createElement("canvas");
-  const first = drawingAsSvg(GIF_WIDTH);
-  canvas.width = first.width;
-  canvas.height = first.height;
-  const context = canvas.getContext("2d", { willReadFrequently: true });
-  if (!context) throw new Error("the browser has no canvas");
-  const writer = new GifWriter(first.width, first.height, Math.round(100 / FRAMES_PER_SECOND));
-  for (let i = 0; i < frames; i++) {
-    player.seek((i / frames) * end);
-    await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
-    const picture = new Image();
-    picture.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(drawingAsSvg(GIF_WIDTH).text)}`;
-    await picture.decode();
-    context.drawImage(picture, 0, 0, first.width, first.height);
-    writer.add(context.getImageData(0, 0, first.width, first.height).data);
-  }
-  download(new Blob([writer.finish() as BlobPart], { type: "image/gif" }), `${stem()}.gif`);
+  const { size } = view;
+  const bytes = await filmAsGif(new Film(view, now, answer), now.speed, (svg, width) => pictureOf(svg, size, width));
+  download(new Blob([bytes as BlobPart], { type: "image/gif" }), `${stem(now.fileName)}.gif`);
   say("The film is saved.");
 }
 

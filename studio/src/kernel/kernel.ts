@@ -1,11 +1,11 @@
-// The page's side of the kernel: typed calls that answer with promises. Three workers, made when they are first needed: one
-// for quick questions, one for the motion while it plays, one for runs; so that a long run holds up neither drawing nor play.
+// The page's side of the kernel: typed calls that answer with promises. Five workers, each made when it is first needed: for quick
+// questions, for the motion while it plays, for checks, runs and reports; so that nothing that takes long holds up anything else.
 import { KernelFault } from "./fault";
 import type { FromWorker, ToWorker } from "./messages";
 import { findNativeServer, type NativeServer } from "./native";
 import type {
   AssemblyAnswer, Catalog, CheckReport, Fault, Hold, LiveFrame, LiveStart, ModelTree, Pull, ReadAnswer, RunAnswer, RunProgress,
-  TextAnswer, TreeValue,
+  TextAnswer,
 } from "./protocol";
 
 export { KernelFault };
@@ -51,9 +51,6 @@ export interface Kernel {
   read(text: string): Promise<ReadAnswer>;
   /** The tree as TOML. Comments are not in the tree. */
   write(model: ModelTree): Promise<TextAnswer>;
-  /** `text` with one value changed or added, everything else as it was: edit(text, ["joint", "A", "stiffness"], "2e8 N/m"). */
-  edit(text: string, path: string[], value: TreeValue): Promise<TextAnswer>;
-  format(text: string): Promise<TextAnswer>;
   check(text: string): Promise<CheckReport>;
   openDrag(text: string): Promise<DragSession>;
   openLive(text: string, options?: LiveOptions): Promise<LiveSession>;
@@ -66,12 +63,15 @@ export interface Kernel {
   stop(): void;
 }
 
-type Role = "desk" | "live" | "run";
+type Role = "desk" | "live" | "check" | "run" | "report";
 
 interface Pending {
   resolve(value: unknown): void;
   reject(error: KernelFault): void;
   onProgress?: (progress: RunProgress) => void;
+  /** Set with the first call to `hurry`. */
+  fault?: Fault;
+  timer?: ReturnType<typeof setTimeout>;
 }
 
 export interface CallOptions {
@@ -79,25 +79,48 @@ export interface CallOptions {
   goOn?: string;
 }
 
+interface Call {
+  id: number;
+  result: Promise<unknown>;
+}
+
 /** One worker and the calls it has not answered. A worker that dies is replaced; its calls are rejected. */
 class Line {
   private worker: Worker | undefined;
   private pending = new Map<number, Pending>();
   private next = 1;
+  private answered = false;
 
   constructor(private readonly makeWorker: () => Worker, private readonly kernelUrl: string) {}
 
-  call(name: string, args: unknown, options: CallOptions = {}): Promise<unknown> {
+  call(name: string, args: unknown, options: CallOptions = {}): Call {
     const id = this.next++;
-    return new Promise((resolve, reject) => {
+    const result = new Promise((resolve, reject) => {
       this.pending.set(id, { resolve, reject, onProgress: options.onProgress });
       try {
         this.start().postMessage({ id, call: name, args, kernelUrl: this.kernelUrl, goOn: options.goOn } satisfies ToWorker);
       } catch (error) {
         this.pending.delete(id);
-        reject(new KernelFault({ message: `The kernel cannot be asked: ${String(error)}`, hint: "Reload the page." }));
+        reject(new KernelFault({ kind: "missing", message: `The kernel cannot be asked: ${String(error)}`, hint: "Reload the page." }));
       }
     });
+    return { id, result };
+  }
+
+  /** Ends the worker unless the call answers within the grace, counted from when its turn comes. */
+  hurry(id: number, fault: Fault) {
+    const call = this.pending.get(id);
+    if (!call) return;
+    call.fault = fault;
+    this.watchFirst();
+  }
+
+  // A worker answers in the order in which it was asked: only the first call has begun.
+  private watchFirst() {
+    const [first] = this.pending.values();
+    if (!first?.fault || first.timer !== undefined) return;
+    const { fault } = first;
+    first.timer = setTimeout(() => this.abandon(fault), kGrace);
   }
 
   /** Ends the worker; the next call starts another one. */
@@ -106,7 +129,10 @@ class Line {
     this.worker = undefined;
     const lost = [...this.pending.values()];
     this.pending.clear();
-    for (const call of lost) call.reject(new KernelFault(fault));
+    for (const call of lost) {
+      clearTimeout(call.timer);
+      call.reject(new KernelFault(fault));
+    }
   }
 
   private start(): Worker {
@@ -116,6 +142,7 @@ class Line {
     worker.onerror = (event) => {
       event.preventDefault?.();
       this.abandon({
+        kind: this.answered ? undefined : "missing",
         message: `The kernel stopped: ${event.message || "its worker could not be started"}.`,
         hint: "It is started again by itself. If it stops at the same place, keep the model and report it.",
       });
@@ -127,8 +154,11 @@ class Line {
   private take(message: FromWorker) {
     const call = this.pending.get(message.id);
     if (!call) return;
+    this.answered = true;
     if (message.progress) return call.onProgress?.(message.progress);
     this.pending.delete(message.id);
+    clearTimeout(call.timer);
+    this.watchFirst();
     if (message.fault) call.reject(new KernelFault(message.fault));
     else call.resolve(message.value);
   }
@@ -147,7 +177,7 @@ export function startKernel(place: KernelPlace = {}): Kernel {
   const kernelUrl = place.kernelUrl ?? new URL("kernel/pintle.wasm", document.baseURI).href;
   const lines: Partial<Record<Role, Line>> = {};
   const line = (role: Role) => (lines[role] ??= new Line(makeWorker, kernelUrl));
-  const ask = <T>(role: Role, name: string, args: unknown, options?: CallOptions) => line(role).call(name, args, options) as Promise<T>;
+  const ask = <T>(role: Role, name: string, args: unknown, options?: CallOptions) => line(role).call(name, args, options).result as Promise<T>;
 
   let server: Promise<NativeServer | null> | undefined;
   const native = () => (server ??= findNativeServer());
@@ -172,18 +202,14 @@ export function startKernel(place: KernelPlace = {}): Kernel {
   function run(text: string, options: RunOptions = {}): RunHandle {
     if (options.where === "native") return runNative(text, options);
     const goOn = URL.createObjectURL(new Blob(["go on"]));
-    let ended = false;
-    const result = ask<RunAnswer>("run", "run", { text, set: options.set ?? {} }, { onProgress: options.onProgress, goOn }).finally(() => {
-      ended = true;
-      URL.revokeObjectURL(goOn);
-    });
-    const cancel = () => {
-      URL.revokeObjectURL(goOn);
-      setTimeout(() => {
-        if (!ended) line("run").abandon({ message: "The run was cancelled before it had results.", hint: "" });
-      }, kGrace);
+    const call = line("run").call("run", { text, set: options.set ?? {} }, { onProgress: options.onProgress, goOn });
+    return {
+      result: (call.result as Promise<RunAnswer>).finally(() => URL.revokeObjectURL(goOn)),
+      cancel: () => {
+        URL.revokeObjectURL(goOn);
+        line("run").hurry(call.id, { kind: "ended", message: "The run was cancelled before it had results.", hint: "" });
+      },
     };
-    return { result, cancel };
   }
 
   async function openDrag(text: string): Promise<DragSession> {
@@ -214,11 +240,9 @@ export function startKernel(place: KernelPlace = {}): Kernel {
     schema: () => ask("desk", "schema", {}),
     catalog: () => ask("desk", "catalog", {}),
     read: (text) => ask("desk", "read", { text }),
-    report: async (text, onProgress) => (await ask<{ html: string }>("run", "report", { text, set: {} }, { onProgress })).html,
+    report: async (text, onProgress) => (await ask<{ html: string }>("report", "report", { text, set: {} }, { onProgress })).html,
     write: (model) => ask("desk", "write", { model }),
-    edit: (text, path, value) => ask("desk", "edit", { text, path, value }),
-    format: (text) => ask("desk", "format", { text }),
-    check: (text) => ask("run", "check", { text }),
+    check: (text) => ask("check", "check", { text }),
     openDrag,
     openLive,
     run,

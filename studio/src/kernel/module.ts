@@ -149,7 +149,7 @@ export async function startModule(source: BufferSource | Response): Promise<Kern
 
 export async function loadKernel(url: string): Promise<KernelModule> {
   const missing = (why: string) => ({
-    fault: { message: `The kernel could not be loaded (${why}).`, hint: "Is the folder complete? make studio builds kernel/pintle.wasm." },
+    fault: { kind: "missing" as const, message: `The kernel could not be loaded (${why}).`, hint: "Is the folder complete? make studio builds kernel/pintle.wasm." },
   });
   let response: Response;
   try {

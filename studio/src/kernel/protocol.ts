@@ -5,6 +5,8 @@
 export interface Fault {
   message: string;
   hint: string;
+  /** From the page's side of the kernel. missing: there is no kernel to ask; ended: the call was ended unanswered, along with its worker. */
+  kind?: "missing" | "ended";
   where?: { line: number; column: number; key: string };
   /** All complaints about the model, where it was the model. */
   complaints?: Complaint[];
@@ -208,6 +210,7 @@ export interface PeakForce {
   rms_moment: number;
   mean_moment: number;
   error_estimate: number;
+  moment_error_estimate: number;
   relative_error_estimate: number;
   /** false: redundant ideal joints leave this force undetermined. */
   unique: boolean;

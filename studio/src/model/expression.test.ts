@@ -23,7 +23,7 @@ describe("expressions", () => {
     expect(evaluate(text, scope)).toBeCloseTo(value, 12);
   });
 
-  it.each(["", "2 +", "unknown", "2 furlongs", "sin(", "1 2", "(1", "1)"])("%j has no value", (text) => {
+  it.each(["", "2 +", "unknown", "2 furlongs", "sin(", "1 2", "(1", "1)", "1/0", "10^400", "log(0)", "0/0"])("%j has no value", (text) => {
     expect(evaluate(text, scope)).toBeNull();
   });
 

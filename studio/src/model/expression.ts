@@ -34,10 +34,10 @@ const FUNCTIONS: Readonly<Record<string, (...values: number[]) => number>> = {
   if: (condition = 0, then = 0, otherwise = 0) => (condition !== 0 ? then : otherwise),
 };
 
-/** The value in SI units; null where the text is no expression or names something unknown. */
+/** The value in SI units; null where the text is no expression, names something unknown or has no finite value. */
 export function evaluate(text: string, scope: Scope = NO_NAMES): number | null {
   const value = new Evaluator(text, scope).all();
-  return value === null || Number.isNaN(value) ? null : value;
+  return value !== null && Number.isFinite(value) ? value : null;
 }
 
 /** Which of the known names an expression uses. */

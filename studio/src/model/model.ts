@@ -1,6 +1,6 @@
 // What a text says as a mechanism: bodies, markers, joints and loads with their numbers. A view, made anew from every
 // text; operations change the text.
-import { evaluate, namesIn } from "./expression";
+import { type Scope, evaluate, namesIn } from "./expression";
 import { type Point, type Pose, ORIGIN, toWorld } from "./geometry";
 import { TRACE, remarkAt, remarkOf } from "./remarks";
 import { FROM_SHAPE, type Shape, readShape } from "./shape";
@@ -94,10 +94,7 @@ export function readModel(source: string | Document): Model {
   const document = typeof source === "string" ? parseToml(source) : source;
   const { root } = document;
   const parameters = readParameters(tableAt(root, "parameters"));
-  const number: Reading = (node) => {
-    if (node?.kind === "number") return node.value;
-    return node?.kind === "text" ? evaluate(node.value, (name) => parameters.get(name)) : null;
-  };
+  const number: Reading = (node) => numberOf(node, (name) => parameters.get(name));
   const bodies = children(root, "body").map(([name, table]) => readBody(document, name, table, number, parameters));
   const gravity = point(root.entries.get("gravity"), number);
   return {
@@ -132,6 +129,12 @@ function textOf(node: Node | undefined): string | null {
   return node?.kind === "text" ? node.value : null;
 }
 
+// TOML has inf and nan, and an expression can divide by zero while it is typed: neither has a place in a drawing.
+function numberOf(node: Node | undefined, scope: Scope): number | null {
+  if (node?.kind === "number") return Number.isFinite(node.value) ? node.value : null;
+  return node?.kind === "text" ? evaluate(node.value, scope) : null;
+}
+
 // Parameters may refer to each other in any order; one that refers to itself has no value.
 function readParameters(table: TableNode | null): Map<string, number> {
   const values = new Map<string, number>();
@@ -141,7 +144,7 @@ function readParameters(table: TableNode | null): Map<string, number> {
     if (known !== undefined || open.has(name)) return known;
     const node = table?.entries.get(name);
     open.add(name);
-    const value = node?.kind === "number" ? node.value : node?.kind === "text" ? evaluate(node.value, find) : null;
+    const value = numberOf(node, find);
     open.delete(name);
     if (value === null) return undefined;
     values.set(name, value);
@@ -233,10 +236,7 @@ function readSpring(name: string, table: TableNode, number: Reading, torsion: bo
 }
 
 function readLoad(name: string, table: TableNode, number: Reading, parameters: Map<string, number>): Load {
-  const at = (t: number): Reading => (node) => {
-    if (node?.kind === "number") return node.value;
-    return node?.kind === "text" ? evaluate(node.value, (word) => (word === "t" ? t : parameters.get(word))) : null;
-  };
+  const at = (t: number): Reading => (node) => numberOf(node, (word) => (word === "t" ? t : parameters.get(word)));
   const force = table.entries.get("force");
   const now = point(force, at(0)) ?? [0, 0];
   const later = point(force, at(0.1234)) ?? now;

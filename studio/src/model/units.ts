@@ -112,6 +112,7 @@ const PREFIXED: Readonly<Record<string, readonly [number, string][]>> = {
 
 /** "1.234 kN": a quantity with the prefix that fits its size. */
 export function quantity(value: number, unit: string, digits = 4): string {
+  if (!Number.isFinite(value)) return shortNumber(value);
   const steps = PREFIXED[unit];
   if (!steps || value === 0) return `${shortNumber(value, digits)} ${prettyUnit(unit)}`.trim();
   const size = Math.abs(value);

@@ -4,6 +4,7 @@ import type { PeakForce } from "../kernel/protocol";
 import { quantity, shortNumber } from "../model/units";
 import { player } from "../play/player";
 import { useStudio } from "../state";
+import { type Estimate, estimateOf } from "./estimate";
 
 export function ForcesPanel() {
   const answer = useStudio((now) => now.run.answer);
@@ -49,7 +50,7 @@ export function ForcesPanel() {
         </thead>
         <tbody>
           {answer.joints.slice(0, 500).map((one) => (
-            <Row key={one.name} one={one} largest={largest} moments={moments} kept={kept ? (kept.joints.find((other) => other.name === one.name) ?? null) : undefined} />
+            <Row key={one.name} one={one} estimate={estimateOf(one, answer)} largest={largest} moments={moments} kept={kept ? (kept.joints.find((other) => other.name === one.name) ?? null) : undefined} />
           ))}
         </tbody>
       </table>
@@ -86,7 +87,15 @@ export function ForcesPanel() {
   );
 }
 
-function Row({ one, largest, moments, kept }: { one: PeakForce; largest: number; moments: boolean; kept?: PeakForce | null }) {
+interface RowProps {
+  one: PeakForce;
+  estimate: Estimate;
+  largest: number;
+  moments: boolean;
+  kept?: PeakForce | null;
+}
+
+function Row({ one, estimate, largest, moments, kept }: RowProps) {
   const selected = useStudio((now) => now.selection.some((thing) => thing.kind === "joint" && thing.name === one.name));
   const change = kept && kept.peak > 0 ? (one.peak / kept.peak - 1) * 100 : null;
   return (
@@ -100,8 +109,8 @@ function Row({ one, largest, moments, kept }: { one: PeakForce; largest: number;
       <td className="right strong" data-peak={one.peak}>
         {quantity(one.peak, "N", 5)}
       </td>
-      <td className="right quiet" title={`${shortNumber(one.relative_error_estimate * 100, 2)} % of the peak`}>
-        {one.unique ? `± ${quantity(one.error_estimate, "N", 2)}` : "not unique"}
+      <td className="right quiet" title={estimate.share ?? undefined}>
+        {estimate.text}
       </td>
       <td className="right">
         <button className="link-button inline" data-tip="Show this moment" onClick={() => player.seek(one.peak_time)}>

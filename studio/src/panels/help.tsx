@@ -14,9 +14,10 @@ export function Help() {
         <ul>
           <li>
             <b>Draw:</b> drag a link from end to end; an end on another link is pinned there. While you drag, type a length, Tab, an angle. <kbd>⇧</kbd> keeps to 15°, <kbd>Alt</kbd> leaves the grid.
+            Without a mouse: arrows move the tool's point from grid line to grid line and onto points, <kbd>⇧</kbd> by five, <kbd>Enter</kbd> sets it.
           </li>
           <li>
-            <b>Move:</b> drag a link and the mechanism follows; drag a point and it changes its shape. Wheel zooms, dragging the paper moves it.
+            <b>Move:</b> drag a link and the mechanism follows; drag a point and it changes its shape. Wheel zooms, dragging the paper moves it; the middle or right button does so with any tool.
           </li>
           <li>
             <b>Play:</b> what you see is the computed run. Drag a link while it plays: a soft spring pulls it, live. Arrows are joint forces on the link that a joint names second; their length grows as the root of the force.

@@ -7,6 +7,7 @@ import { addMotor, addTorsionSpring } from "../model/operations";
 import { quantity } from "../model/units";
 import { player } from "../play/player";
 import { studio, useStudio } from "../state";
+import { estimateOf } from "./estimate";
 import { Choice, Pair, TextQuantity, setLiteral, useLiteral } from "./fields";
 import { type Field, fieldsOf, labelOf, useCatalog, useSchema } from "./form";
 import { Icon } from "./icons";
@@ -17,7 +18,8 @@ const TYPE_WORDS: Record<string, string> = {
 
 export function JointProperties({ name }: { name: string }) {
   const joint = useStudio((now) => now.model.joints.find((one) => one.name === name));
-  const peak = useStudio((now) => now.run.answer?.joints.find((one) => one.name === name));
+  const answer = useStudio((now) => now.run.answer);
+  const peak = answer?.joints.find((one) => one.name === name);
   const catalog = useCatalog();
   if (!joint) return null;
   const type = catalog?.joint_types.find((one) => one.word === joint.type);
@@ -26,7 +28,7 @@ export function JointProperties({ name }: { name: string }) {
       <p className="quiet">
         {TYPE_WORDS[joint.type] ?? joint.type} between <Ref name={joint.first.body} /> and <Ref name={joint.second.body} />
       </p>
-      {peak && <PeakLine peak={peak} />}
+      {peak && answer && <PeakLine peak={peak} estimate={estimateOf(peak, answer).about} />}
       <LawFields joint={joint} catalog={catalog} />
       {type && type.geometry.length > 0 && (
         <section>
@@ -55,14 +57,15 @@ function Ref({ name }: { name: string }) {
   );
 }
 
-function PeakLine({ peak }: { peak: PeakForce }) {
+function PeakLine({ peak, estimate }: { peak: PeakForce; estimate: string }) {
   const fresh = useStudio((now) => now.run.status === "done");
   return (
     <button className={fresh ? "peak-line" : "peak-line old"} data-tip="Show the moment of the largest force" onClick={() => player.seek(peak.peak_time)}>
       <span className="peak-value">{quantity(peak.peak, "N", 5)}</span>
       <span className="peak-about">
         largest force, at {quantity(peak.peak_time, "s")}
-        <br />± {quantity(peak.error_estimate, "N", 2)} estimated error
+        <br />
+        {estimate}
       </span>
     </button>
   );

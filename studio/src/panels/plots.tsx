@@ -7,7 +7,7 @@ import { player } from "../play/player";
 import { studio, useStudio } from "../state";
 import { Nothing } from "./forces";
 import { Icon } from "./icons";
-import { type Series, firstSeries, resample, seriesOf } from "./series";
+import { type Series, chosenSeries, resample, seriesOf } from "./series";
 
 export function PlotsPanel() {
   const answer = useStudio((now) => now.run.answer);
@@ -15,10 +15,8 @@ export function PlotsPanel() {
   const plotted = useStudio((now) => now.plotted);
   const theme = useStudio((now) => now.theme);
   const all = useMemo(() => (answer ? seriesOf(answer) : []), [answer]);
-  const chosen = useMemo(() => {
-    const found = plotted.map((id) => all.find((one) => one.id === id)).filter((one): one is Series => one !== undefined);
-    return found.length > 0 || !answer ? found : firstSeries(answer).map((id) => all.find((one) => one.id === id)!).filter(Boolean);
-  }, [all, plotted, answer]);
+  const chosen = useMemo(() => (answer ? chosenSeries(all, plotted, answer) : []), [all, plotted, answer]);
+  const other = useMemo(() => (kept ? { time: kept.answer.values[0]!, series: seriesOf(kept.answer) } : null), [kept]);
   if (!answer || (answer.values[0]?.length ?? 0) < 2) return <Nothing />;
   const toggle = (id: string) => {
     const ids = chosen.map((one) => one.id);
@@ -26,8 +24,8 @@ export function PlotsPanel() {
   };
   return (
     <div className="plots">
-      <Plot key={theme} series={chosen} time={answer.values[0]!} kept={kept ? { time: kept.answer.values[0]!, series: seriesOf(kept.answer) } : null} />
-      <Legend series={chosen} onRemove={toggle} />
+      <Plot key={theme} series={chosen} time={answer.values[0]!} kept={other} />
+      <Legend series={chosen} kept={other?.series ?? null} onRemove={toggle} />
       <Chooser all={all} chosen={chosen} onToggle={toggle} />
     </div>
   );
@@ -51,6 +49,7 @@ function Plot({ series, time, kept }: PlotProps) {
     const element = home.current;
     if (!element) return;
     const plot = makePlot(element, series, time, kept);
+    const lineOf = new Map([...series.map((one) => one.id), ...keptLines(series, kept).map(({ one }) => keptId(one.id))].map((id, i) => [id, i + 1]));
     const observer = new ResizeObserver(() => plot.setSize(sizeOf(element)));
     observer.observe(element);
     const line = document.createElement("div");
@@ -60,12 +59,9 @@ function Plot({ series, time, kept }: PlotProps) {
       const at = plot.valToPos(studio.get().mode === "edit" ? 0 : player.t, "x");
       line.style.transform = `translateX(${at}px)`;
       line.hidden = studio.get().mode === "live";
-      const texts = document.querySelectorAll<HTMLElement>("[data-now]");
-      const { mode } = studio.get();
-      texts.forEach((text, i) => {
-        const values = plot.data[i + 1];
-        const index = plot.cursor.idx ?? (mode === "edit" ? 0 : nearest(time, player.t));
-        const value = values?.[index];
+      const index = plot.cursor.idx ?? (studio.get().mode === "edit" ? 0 : nearest(time, player.t));
+      document.querySelectorAll<HTMLElement>("[data-now]").forEach((text) => {
+        const value = plot.data[lineOf.get(text.dataset["now"] ?? "") ?? -1]?.[index];
         text.textContent = typeof value === "number" ? shortNumber(value, 5) : "–";
       });
     });
@@ -83,6 +79,16 @@ function nearest(time: Float64Array, t: number): number {
   return Math.min(Math.max(Math.round(t / span), 0), time.length - 1);
 }
 
+/** The lines that the kept run has too, in the order in which they follow those of the run itself. */
+function keptLines(series: readonly Series[], kept: PlotProps["kept"]): { one: Series; i: number; values: Series["values"] }[] {
+  return series.flatMap((one, i) => {
+    const other = kept?.series.find((candidate) => candidate.id === one.id);
+    return other ? [{ one, i, values: other.values }] : [];
+  });
+}
+
+const keptId = (id: string) => `kept ${id}`;
+
 const sizeOf = (element: Element) => ({ width: Math.max(element.clientWidth, 200), height: Math.max(element.clientHeight, 100) });
 
 function makePlot(element: HTMLElement, series: readonly Series[], time: Float64Array, kept: PlotProps["kept"]): uPlot {
@@ -93,13 +99,9 @@ function makePlot(element: HTMLElement, series: readonly Series[], time: Float64
   const units = [...new Set(series.map((one) => one.unit))];
   const data: uPlot.AlignedData = [time, ...series.map((one) => one.values())] as uPlot.AlignedData;
   const lines: uPlot.Series[] = series.map((one, i) => ({ label: one.label, scale: one.unit, stroke: colours[i % 6], width: 1.6, pxAlign: 0, points: { show: false } }));
-  if (kept) {
-    series.forEach((one, i) => {
-      const other = kept.series.find((candidate) => candidate.id === one.id);
-      if (!other) return;
-      (data as unknown[]).push(resample(kept.time, other.values(), time));
-      lines.push({ label: `${one.label}, kept`, scale: one.unit, stroke: colours[i % 6], width: 1.4, dash: [5, 4], pxAlign: 0, points: { show: false } });
-    });
+  for (const { one, i, values } of keptLines(series, kept)) {
+    (data as unknown[]).push(resample(kept!.time, values(), time));
+    lines.push({ label: `${one.label}, kept`, scale: one.unit, stroke: colours[i % 6], width: 1.4, dash: [5, 4], pxAlign: 0, points: { show: false } });
   }
   const font = "11px system-ui, sans-serif";
   const axis = (unit: string, i: number): uPlot.Axis => ({
@@ -131,7 +133,7 @@ function makePlot(element: HTMLElement, series: readonly Series[], time: Float64
   return plot;
 }
 
-function Legend({ series, onRemove }: { series: readonly Series[]; onRemove: (id: string) => void }) {
+function Legend({ series, kept, onRemove }: { series: readonly Series[]; kept: readonly Series[] | null; onRemove: (id: string) => void }) {
   return (
     <ul className="legend" aria-label="Plotted">
       {series.map((one, i) => (
@@ -142,6 +144,11 @@ function Legend({ series, onRemove }: { series: readonly Series[]; onRemove: (id
           </span>
           <span className="legend-value">
             <span data-now={one.id}>–</span> {prettyUnit(one.unit)}
+            {kept?.some((other) => other.id === one.id) && (
+              <span className="legend-kept">
+                kept <span data-now={keptId(one.id)}>–</span>
+              </span>
+            )}
           </span>
           <button className="icon-button tiny" aria-label={`Take ${one.label} off the plot`} onClick={() => onRemove(one.id)}>
             <Icon name="close" size={13} />

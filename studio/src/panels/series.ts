@@ -48,11 +48,18 @@ export function seriesOf(answer: RunAnswer): Series[] {
 }
 
 /** The largest forces: what a plot shows before one has chosen. */
-export function firstSeries(answer: RunAnswer): string[] {
+function firstSeries(answer: RunAnswer): string[] {
   return [...answer.joints]
     .sort((a, b) => b.peak - a.peak)
     .slice(0, 4)
     .map((joint) => `joint.${joint.name}.|F|`);
+}
+
+/** What is on the plot: what was chosen, also if that is nothing; else, or where none of it is in this run, what one asks for first. */
+export function chosenSeries(all: readonly Series[], plotted: readonly string[] | null, answer: RunAnswer): Series[] {
+  const among = (ids: readonly string[]) => ids.map((id) => all.find((one) => one.id === id)).filter((one): one is Series => one !== undefined);
+  const found = plotted ? among(plotted) : [];
+  return found.length > 0 || plotted?.length === 0 ? found : among(firstSeries(answer));
 }
 
 /** Values at other times, for two runs in one plot; outside of the run there are none. */

@@ -1,17 +1,20 @@
 // Keeps what follows from the text up to date: complaints, assembled poses, the check's report, the run. Whatever is asked
 // for an older text is forgotten when it answers.
-import { asFault, localComplaints } from "../actions";
+import { asFault, localComplaints, onOpened, say } from "../actions";
 import { type DragSession, type Kernel, type RunHandle, startKernel } from "../kernel/kernel";
 import type { Catalog, Fault, RunAnswer, RunProgress } from "../kernel/protocol";
 import { type Pose, distance, toWorld } from "../model/geometry";
 import type { Poses } from "../model/model";
+import { quantity } from "../model/units";
 import { NO_RUN, studio } from "../state";
+import { runWhereFastest } from "./long-run";
 
 export const kernel: Kernel = startKernel();
 
 let generation = 0;
 let drag: DragSession | null = null;
 let running: RunHandle | null = null;
+let ghostRun: RunHandle | null = null;
 let timer: ReturnType<typeof setTimeout> | undefined;
 
 let catalogAnswer: Promise<Catalog> | null = null;
@@ -26,11 +29,27 @@ export function startDesk(): void {
     const now = studio.get().history.text;
     if (now === text) return;
     text = now;
+    forget();
     clearTimeout(timer);
     timer = setTimeout(() => void refresh(now), 40);
   };
   studio.subscribe(look);
+  // Opening what is open already leaves the text as it is, and nothing of what was computed for it.
+  onOpened(() => {
+    text = null;
+    look();
+  });
   look();
+}
+
+/** What is under way, and what can be dragged, is of another text from now on. */
+function forget(): void {
+  generation++;
+  running?.cancel();
+  running = null;
+  drag?.close();
+  drag = null;
+  dropGhost();
 }
 
 export function posesFrom(bodies: readonly string[], flat: ArrayLike<number>): Poses {
@@ -38,12 +57,11 @@ export function posesFrom(bodies: readonly string[], flat: ArrayLike<number>): P
 }
 
 async function refresh(text: string): Promise<void> {
-  const mine = ++generation;
+  const mine = generation;
   const current = () => mine === generation;
-  running?.cancel();
-  running = null;
   const document = studio.get().model.document;
-  if (studio.get().stale || document.text !== text) return;
+  if (document.text !== text) return;
+  if (studio.get().stale) return studio.set({ complaints: localComplaints(document) });
   try {
     const read = await kernel.read(text);
     if (!current()) return;
@@ -55,15 +73,14 @@ async function refresh(text: string): Promise<void> {
     await assemble(text, current);
     if (!current()) return;
     startRun(text, current);
-    void check(text, current);
+    check(text, current);
   } catch (error) {
     if (current()) complain(asFault(error));
   }
 }
 
 function complain(fault: Fault): void {
-  const missing = /kernel (is not built|cannot|stopped)/i.test(fault.message);
-  studio.set({ run: { ...studio.get().run, status: "failed", progress: null }, obstacle: fault, ...(missing ? { kernelState: "missing" as const } : {}) });
+  studio.set({ run: { ...studio.get().run, status: "failed", progress: null }, obstacle: fault, ...(fault.kind === "missing" ? { kernelState: "missing" as const } : {}) });
 }
 
 async function assemble(text: string, current: () => boolean): Promise<void> {
@@ -73,35 +90,40 @@ async function assemble(text: string, current: () => boolean): Promise<void> {
   }
   const session = await kernel.openDrag(text);
   if (!current()) return session.close();
-  drag?.close();
   drag = session;
   const answer = await session.assemble();
   if (!current()) return;
   studio.set({ poses: posesFrom(session.bodies, answer.poses), obstacle: answer.ok ? null : (answer.reason ?? { message: "The mechanism does not close.", hint: "" }) });
 }
 
-async function check(text: string, current: () => boolean): Promise<void> {
+let checking: Promise<unknown> = Promise.resolve();
+
+// One at a time: of the texts that came while a long check was made, only the last one is checked.
+function check(text: string, current: () => boolean): void {
   if (studio.get().model.bodies.length === 0) return;
-  const ask = () => kernel.check(text);
-  const report = await ask().catch((error: unknown) => (wasEnded(error) ? ask() : null)).catch(() => null);
-  if (current()) studio.set({ report });
+  checking = checking.then(async () => {
+    if (!current()) return;
+    const report = await kernel.check(text).catch(() => null);
+    if (current()) studio.set({ report });
+  });
 }
 
 function startRun(text: string, current: () => boolean): void {
-  const { model, run, ghost } = studio.get();
+  const { model, run } = studio.get();
   if (model.bodies.length === 0) return;
   if (model.duration === null) return studio.set({ run: { ...NO_RUN, status: "failed", serial: run.serial, fault: { message: "The model says no duration.", hint: "Set one in Model, Simulation." } } });
   studio.set({ run: { ...run, status: "running", progress: null, fault: null } });
-  const handle = runWhereFastest(text, (progress) => {
+  const told = (progress: RunProgress) => {
     if (current()) studio.set((now) => ({ run: { ...now.run, progress } }));
-  });
+  };
+  const handle = runWhereFastest(kernel, text, () => studio.get().folder !== null, told);
   running = handle;
   handle.result
     .then((answer) => {
       if (!current()) return;
       running = null;
       studio.set((now) => ({ run: { status: answer.outcome === "failed" ? "failed" : "done", answer, progress: null, fault: null, serial: now.run.serial + 1 } }));
-      if (ghost.on) void runGhost(text, current);
+      runGhost(text);
     })
     .catch((error: unknown) => {
       if (!current()) return;
@@ -111,38 +133,40 @@ function startRun(text: string, current: () => boolean): void {
     });
 }
 
-/** From here on a run goes to the native kernel, where there is one [s]. */
-const LONG = 3;
-
-// Begins in the browser, which answers short runs before a server could; a long run moves to the native kernel.
-function runWhereFastest(text: string, onProgress: (progress: RunProgress) => void): RunHandle {
-  let native: RunHandle | null = null;
-  let moveOver: ((result: Promise<RunAnswer>) => void) | null = null;
-  const moved = new Promise<RunAnswer>((resolve) => (moveOver = resolve));
-  const here = kernel.run(text, {
-    onProgress: (progress) => {
-      if (native) return;
-      onProgress(progress);
-      if (!studio.get().folder || (progress.seconds_left ?? 0) < LONG || progress.wall_seconds < 0.5) return;
-      native = kernel.run(text, { where: "native", onProgress });
-      moveOver?.(native.result);
-      here.cancel();
-    },
-  });
-  const first = here.result.then((answer) => (native ? moved : answer), (error: unknown) => (native ? moved : Promise.reject(error)));
-  return { result: first, cancel: () => (native ?? here).cancel() };
+function runGhost(text: string): void {
+  const { on, answer } = studio.get().ghost;
+  if (!on || answer || ghostRun) return;
+  const handle = kernel.run(text, { set: { "simulate.equations": "ideal" } });
+  ghostRun = handle;
+  handle.result
+    .then((found) => {
+      if (ghostRun !== handle) return;
+      ghostRun = null;
+      studio.set({ ghost: { on: true, answer: found } });
+      if (found.stopped) say(`With ideal joints the run stopped at ${quantity(found.stopped.time, "s")}: ${found.stopped.reason}`);
+    })
+    .catch((error: unknown) => {
+      if (ghostRun !== handle) return;
+      ghostRun = null;
+      if (wasEnded(error)) return runGhost(text);
+      say(`There is no motion with ideal joints: ${asFault(error).message}`);
+    });
 }
 
-async function runGhost(text: string, current: () => boolean): Promise<void> {
-  const answer = await kernel.run(text, { set: { "simulate.equations": "ideal" } }).result.catch(() => null);
-  if (current()) studio.set((now) => ({ ghost: { ...now.ghost, answer } }));
+// Its run is ended too; what it still answers counts no more.
+function dropGhost(): void {
+  ghostRun?.cancel();
+  ghostRun = null;
+  studio.set((now) => (now.ghost.answer ? { ghost: { ...now.ghost, answer: null } } : {}));
 }
 
 /** Shows or hides the run with ideal joints behind the model's own. */
 export function setGhost(on: boolean): void {
-  studio.set((now) => ({ ghost: { on, answer: on ? now.ghost.answer : null } }));
-  const mine = generation;
-  if (on) void runGhost(studio.get().history.text, () => mine === generation);
+  dropGhost();
+  studio.set({ ghost: { on, answer: null } });
+  const { history, run, model, stale } = studio.get();
+  // While the model's own run is computed the ghost waits for it.
+  if (on && run.status !== "running" && !stale && model.bodies.length > 0) runGhost(history.text);
 }
 
 export function cancelRun(): void {
@@ -150,13 +174,14 @@ export function cancelRun(): void {
   running = null;
 }
 
-const wasEnded = (error: unknown): boolean => /cancelled before/.test(asFault(error).message);
+const wasEnded = (error: unknown): boolean => asFault(error).kind === "ended";
 
 /** Drags a point of a body while nothing runs: one question at a time, the newest target wins. */
 export class KinematicDrag {
   private busy = false;
   private waiting: [number, number] | null = null;
   private last: Float64Array | undefined;
+  private session: DragSession | null = null;
   private left = Number.POSITIVE_INFINITY;
   poses: Poses | null = null;
 
@@ -165,10 +190,6 @@ export class KinematicDrag {
     private readonly point: [number, number],
   ) {}
 
-  get possible(): boolean {
-    return drag !== null && drag.bodies.includes(this.body);
-  }
-
   to(target: [number, number]): void {
     this.waiting = target;
     if (!this.busy) void this.next();
@@ -176,12 +197,14 @@ export class KinematicDrag {
 
   private async next(): Promise<void> {
     const session = drag;
+    if (session !== this.session) this.last = undefined;
+    this.session = session;
     this.busy = true;
     while (this.waiting && session) {
       const target = this.waiting;
       this.waiting = null;
       const answer = await session.assemble({ body: this.body, point: this.point, target }, this.last).catch(() => null);
-      if (!answer) break;
+      if (!answer || session !== drag) break;
       if (answer.poses.length === 0) continue;
       this.last = answer.poses.slice();
       this.poses = posesFrom(session.bodies, answer.poses);

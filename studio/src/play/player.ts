@@ -1,60 +1,69 @@
 // The clock of the page: what the drawing shows at this moment. It replays the run, or takes frames of a live motion, and
 // tells once a frame whoever draws.
-import { asFault, say } from "../actions";
+import { asFault, onOpened, say } from "../actions";
 import type { Frame } from "../drawing/scene";
-import type { LiveSession } from "../kernel/kernel";
-import type { LiveFrame, Pull } from "../kernel/protocol";
-import { ORIGIN, type Point, type Pose } from "../model/geometry";
+import type { Fault, LiveFrame, Pull } from "../kernel/protocol";
+import type { Point, Pose } from "../model/geometry";
 import { poseOf } from "../model/model";
 import { studio } from "../state";
 import { kernel } from "./desk";
+import { Live } from "./live";
 import { Replay } from "./replay";
 
-/** Frames of a live motion that can be scrubbed through; at sixty a second, a minute and a half. */
-const RECORD = 5400;
-
-interface Live {
-  session: LiveSession;
-  index: Map<string, number>;
-  frames: LiveFrame[];
-  /** The frame shown; the last one while it plays. */
-  shown: number;
-}
+/** A text that changes faster than this is followed by the live motion when it rests [ms]. */
+const REST = 120;
 
 class Player {
   t = 0;
-  /** Longest force of what is shown, for the arrows [N]. */
-  forceScale = 0;
   private replay: Replay | null = null;
   private ghostReplay: Replay | null = null;
   private serial = -1;
   private live: Live | null = null;
-  private opening = false;
-  private asking = false;
+  /** Counts what was wished of live motions: a session that opens for an older wish is closed again. */
+  private wish = 0;
+  private starting = false;
+  /** The newest text that the live motion was asked to follow. */
+  private followed = "";
+  private restTimer: ReturnType<typeof setTimeout> | undefined;
   private pull: Pull | null = null;
   private before = 0;
   private readonly listeners = new Set<() => void>();
+  private readonly failures = new Set<string>();
   private dirty = true;
 
   constructor() {
     studio.subscribe(() => {
       this.dirty = true;
+      this.follow();
     });
+    onOpened(() => this.endLive());
   }
 
   /** Begins the loop. */
   start(): void {
     const tick = (now: number) => {
+      requestAnimationFrame(tick);
       const elapsed = Math.min((now - this.before) / 1e3, 0.1);
       this.before = now;
-      this.advance(elapsed);
-      if (this.dirty) {
-        this.dirty = false;
-        for (const listener of this.listeners) listener();
-      }
-      requestAnimationFrame(tick);
+      this.attempt(() => this.advance(elapsed));
+      if (!this.dirty) return;
+      this.dirty = false;
+      for (const listener of this.listeners) this.attempt(listener);
     };
     requestAnimationFrame(tick);
+  }
+
+  // What fails in one frame may go well in the next. It is told once, not sixty times a second.
+  private attempt(work: () => void): void {
+    try {
+      work();
+    } catch (error) {
+      const { message } = asFault(error);
+      if (this.failures.has(message)) return;
+      this.failures.add(message);
+      console.error(error);
+      say(`The drawing failed: ${message}. It is tried again with every change.`);
+    }
   }
 
   /** Called when there is something new to draw, at most once a frame. */
@@ -69,13 +78,13 @@ class Player {
   }
 
   get duration(): number {
-    if (this.live) return Math.max(this.live.frames[this.live.frames.length - 1]?.t ?? 0, 1e-9);
+    if (this.live) return Math.max(this.live.end, 1e-9);
     return this.current()?.end ?? studio.get().model.duration ?? 1;
   }
 
   /** Model time where the scale begins. */
   get begin(): number {
-    return this.live?.frames[0]?.t ?? 0;
+    return this.live?.begin ?? 0;
   }
 
   /** Decimals of the clock: as many as tell two frames apart, three at least. */
@@ -85,7 +94,17 @@ class Player {
   }
 
   get behind(): boolean {
-    return this.live?.frames[this.live.frames.length - 1]?.behind ?? false;
+    return this.live?.behind ?? false;
+  }
+
+  /** Longest force of what is shown, for the arrows [N]. */
+  get forceScale(): number {
+    return Math.max(this.current()?.typicalForce ?? 0, this.live?.session.start.force_scale ?? 0);
+  }
+
+  /** A live motion is asked for and has not begun. */
+  get opening(): boolean {
+    return this.starting;
   }
 
   private current(): Replay | null {
@@ -93,7 +112,6 @@ class Player {
     if (run.serial !== this.serial) {
       this.serial = run.serial;
       this.replay = run.answer && (run.answer.values[0]?.length ?? 0) > 1 ? new Replay(run.answer) : null;
-      this.forceScale = this.replay?.typicalForce ?? 0;
       if (this.replay && this.t > this.replay.end) this.t = this.replay.end;
     }
     if (this.ghostReplay?.answer !== ghost.answer) this.ghostReplay = ghost.answer ? new Replay(ghost.answer) : null;
@@ -118,33 +136,79 @@ class Player {
   }
 
   private advanceLive(dt: number): void {
-    const live = this.live;
-    if (!live || this.asking || (dt === 0 && !this.pull)) return;
-    if (dt === 0) return;
-    this.asking = true;
+    const { live } = this;
+    if (!live || live.asking || dt === 0) return;
+    live.asking = true;
     live.session
       .advance(Math.min(dt, 0.05), this.pull, 0.03)
       .then((frame) => {
-        live.frames.push(frame);
-        if (live.frames.length > RECORD) live.frames.splice(0, RECORD / 10);
-        live.shown = live.frames.length - 1;
+        if (this.live !== live) return;
+        live.take(frame);
         this.t = frame.t;
-        if (frame.error) studio.set({ obstacle: frame.error });
+        this.tell(live, frame.error);
         this.dirty = true;
       })
       .catch((error: unknown) => {
+        if (this.live !== live) return;
         say(`The live motion ended: ${asFault(error).message}`);
-        this.leaveLive();
+        this.stop();
       })
       .finally(() => {
-        this.asking = false;
+        live.asking = false;
       });
   }
 
-  private leaveLive(): void {
-    this.live?.session.close();
+  // An obstacle that is not the motion's own, of assembly or reading, is left alone.
+  private tell(live: Live, fault: Fault | null): void {
+    const { obstacle } = studio.get();
+    if (obstacle !== null && obstacle !== live.fault) return;
+    if (obstacle?.message === fault?.message) return;
+    live.fault = fault;
+    studio.set({ obstacle: fault });
+  }
+
+  // A live motion belongs to its mode and to its text.
+  private follow(): void {
+    const { mode, tool, history } = studio.get();
+    if (this.starting && tool !== "select") return this.endLive();
+    if (!this.live) return;
+    if (mode !== "live") return this.endLive();
+    if (history.text === this.followed) return;
+    this.followed = history.text;
+    this.wish++;
+    clearTimeout(this.restTimer);
+    this.restTimer = setTimeout(() => void this.reopen(), REST);
+  }
+
+  // The changed mechanism goes on where the old one stands. While its text is refused, which the desk tells, the old one moves.
+  private async reopen(): Promise<void> {
+    const old = this.live;
+    const { history, stale, model } = studio.get();
+    if (!old || stale || history.text === old.text) return;
+    if (model.bodies.length === 0) return this.stop();
+    const mine = ++this.wish;
+    // A position over time would jump: the clock of a new session begins at 0.
+    const like = model.motors.some((motor) => motor.kind === "position") ? undefined : old.session;
+    const session = await kernel.openLive(history.text, { like }).catch(() => null);
+    if (!session) return;
+    if (mine !== this.wish) return session.close();
+    this.tell(old, null);
+    old.session.close();
+    this.live = new Live(session, history.text);
+    this.t = 0;
+    this.dirty = true;
+  }
+
+  private endLive(): void {
+    this.wish++;
+    this.starting = false;
+    this.pull = null;
+    clearTimeout(this.restTimer);
+    const { live } = this;
     this.live = null;
-    studio.set({ mode: "edit", playing: false });
+    if (!live) return;
+    live.session.close();
+    this.tell(live, null);
   }
 
   /** Play or pause: the run where there is one, else the live motion. */
@@ -162,21 +226,15 @@ class Player {
 
   /** Back to the start and to drawing. */
   stop(): void {
-    this.live?.session.close();
-    this.live = null;
-    this.pull = null;
+    this.endLive();
     this.t = 0;
     studio.set({ mode: "edit", playing: false });
     this.dirty = true;
   }
 
   seek(t: number): void {
-    const live = this.live;
-    if (live && studio.get().mode === "live") {
-      let at = live.frames.findIndex((frame) => frame.t >= t);
-      if (at < 0) at = live.frames.length - 1;
-      live.shown = Math.max(at, 0);
-      this.t = live.frames[live.shown]?.t ?? 0;
+    if (this.live) {
+      this.t = this.live.seek(t);
       studio.set({ playing: false });
     } else {
       this.t = Math.min(Math.max(t, 0), this.duration);
@@ -193,30 +251,42 @@ class Player {
 
   /** Starts a live motion at model time t, where the replay stands. */
   async goLive(t = this.t): Promise<void> {
-    if (this.opening) return;
-    this.opening = true;
+    if (this.starting) return;
+    if (this.live) return studio.set({ playing: true });
+    const mine = ++this.wish;
+    this.starting = true;
     try {
-      const { history } = studio.get();
-      const session = await kernel.openLive(history.text);
-      let frames: LiveFrame[] = [];
-      if (t > 0) {
-        for (let now = 0, guard = 0; now < t * (1 - 1e-9) && guard < 400; guard++) {
-          const frame = await session.advance(t - now, null, 0.25);
-          frames = [frame];
-          if (frame.t <= now) break;
-          now = frame.t;
-        }
-      }
-      this.live?.session.close();
-      const index = new Map(session.start.bodies.map((name, i): [string, number] => [name, i]));
-      this.live = { session, index, frames, shown: frames.length - 1 };
-      this.forceScale = Math.max(session.start.force_scale, this.replay?.typicalForce ?? 0);
-      studio.set({ mode: "live", playing: true, tool: "select" });
+      studio.set({ tool: "select" });
+      const live = await this.opened(t, () => mine === this.wish);
+      if (!live) return;
+      this.starting = false;
+      this.live = live;
+      this.followed = live.text;
+      studio.set({ mode: "live", playing: true });
     } catch (error) {
+      if (mine !== this.wish) return;
+      this.endLive();
       studio.set({ obstacle: asFault(error), dock: "problems" });
-    } finally {
-      this.opening = false;
     }
+  }
+
+  // Null where it is not wanted any more.
+  private async opened(t: number, wanted: () => boolean): Promise<Live | null> {
+    const { text } = studio.get().history;
+    const session = await kernel.openLive(text);
+    let last: LiveFrame | null = null;
+    for (let now = 0, guard = 0; wanted() && now < t * (1 - 1e-9) && guard < 400; guard++) {
+      last = await session.advance(t - now, null, 0.25);
+      if (last.t <= now) break;
+      now = last.t;
+    }
+    if (!wanted()) {
+      session.close();
+      return null;
+    }
+    const live = new Live(session, text);
+    if (last) live.take(last);
+    return live;
   }
 
   /** Pulls a point of a body; null lets go. Where a replay runs it becomes a live motion. */
@@ -235,18 +305,7 @@ class Player {
   frame(): Frame {
     const { mode, model, poses } = studio.get();
     const still = (name: string): Pose => poseOf(model, name, poses ?? undefined);
-    const live = this.live;
-    if (mode === "live" && live) {
-      const frame = live.frames[live.shown];
-      const flat = frame?.poses ?? live.session.start.poses;
-      return {
-        pose: (name) => {
-          const i = live.index.get(name);
-          return i === undefined ? (name === "ground" ? ORIGIN : still(name)) : { x: flat[3 * i]!, y: flat[3 * i + 1]!, angle: flat[3 * i + 2]! };
-        },
-        forces: frame?.joint_forces ?? null,
-      };
-    }
+    if (this.live) return this.live.frame(model, still);
     const replay = this.current();
     if (mode !== "replay" || !replay) return { pose: still, forces: null };
     return replay.frame(this.t, model, still);
