@@ -34,7 +34,12 @@ struct PlotOptions {
   double width = 0, dots_per_inch = 192;
 
   bool png() const { return out.ends_with(".png"); }
-  bool drawable() const { return out.empty() || out == "-" || png() || out.ends_with(".svg"); }
+  /// Devices and pipes have no ending.
+  bool drawable() const {
+    const auto type = std::filesystem::status(out).type();
+    const bool replaced = type == std::filesystem::file_type::regular || type == std::filesystem::file_type::not_found;
+    return out.empty() || out == "-" || png() || out.ends_with(".svg") || !replaced;
+  }
 };
 
 std::filesystem::path plot_file(const PlotOptions& options) {

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "integrators/dense_output.h"
+#include "integrators/dopri5.h"
 #include "integrators/radau_stepper.h"
 #include "integrators/start_states_for_tests.h"
 

@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "integrators/radau_stepper.h"
 #include "integrators/start_states_for_tests.h"
 
 namespace pintle {

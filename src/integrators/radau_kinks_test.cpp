@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "integrators/dopri5.h"
 #include "integrators/radau_stepper.h"
 #include "integrators/start_states_for_tests.h"
 

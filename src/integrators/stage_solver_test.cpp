@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "integrators/dopri5.h"
+#include "integrators/radau_stepper.h"
 #include "integrators/start_states_for_tests.h"
 
 namespace pintle {

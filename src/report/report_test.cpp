@@ -176,8 +176,9 @@ mass = 1
 inertia = 0.1
 position = [0, 0]
 angle = 0
+markers.A = [0, 0]
 [force.push]
-on = "block"
+on = "block.A"
 force = [3, 4]
 )toml");
   const Scene scene = make_scene(model, run.trajectory);
