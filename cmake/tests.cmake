@@ -44,6 +44,9 @@ function(pintle_add_tests)
   file(GLOB tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/*.cpp ${PROJECT_SOURCE_DIR}/cli/*_test.cpp
     ${PROJECT_SOURCE_DIR}/studio/*/*_test.cpp)
   list(APPEND all ${tests})
+  if(NOT TARGET pintle_cli)
+    list(FILTER all EXCLUDE REGEX "/(cli/[a-z_]*|tests/broken_models)_test\\.cpp$")
+  endif()
   if(NOT PINTLE_WHOLE_RUN_TESTS)
     foreach(long IN ITEMS
         "tests/(reference_|lagrangian|published|compare|soft_start|held_gas|force_accuracy|motion_accuracy|live)[a-z_]*"

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "pintle/read_model.h"
 #include "tests/reference_tables.h"
 
 namespace pintle {
@@ -135,6 +136,50 @@ TEST(Ideal, InconsistentVelocitiesAreAnImpulse) {
   const Trajectory run = ideal_run("four_bar", {"simulate.start=\"raw\""});
   EXPECT_TRUE(mentions(run, "an impulse"));
   EXPECT_EQ(run.outcome, Outcome::kCompleted);
+}
+
+// A block in a guide, pushed by a force that jumps where its speed changes its sign.
+Trajectory push(const std::string& force, const std::string& speed) {
+  const Trajectory run = simulate(parse_model(R"toml(format = 1
+gravity = [0, 0]
+[simulate]
+duration = 1
+equations = "ideal"
+[ground.markers]
+O = [0, 0]
+[body.block]
+mass = 1
+inertia = 0.1
+position = [0, 0]
+angle = 0
+velocity = [)toml" + speed + R"toml(, 0]
+markers.C = [0, 0]
+[joint.guide]
+type = "prismatic"
+between = ["ground.O", "block.C"]
+[motor.push]
+joint = "guide"
+force = ")toml" + force + "\"\n", "push.toml"));
+  EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+  return run;
+}
+
+TEST(Ideal, GoesOverJumpsOfAForce) {
+  const Trajectory back = push("if(rate > 0, -2, -1)", "1");  // stops at 0.5 s after 0.25 m, and comes back with half the force
+  EXPECT_NEAR(value(back, back.n_rows() - 1, "body.block.x"), 0.25 - 0.5 * 0.25, 1e-6);
+  EXPECT_NEAR(value(back, back.n_rows() - 1, "body.block.vx"), -0.5, 1e-6);
+  const Trajectory off = push("if(rate > 0, 2, 1)", "0");  // jumps at the start
+  EXPECT_NEAR(value(off, off.n_rows() - 1, "body.block.x"), 1, 1e-6);
+}
+
+// The compressor starts at rest, where the gas force jumps; its valves are kinks.
+TEST(Ideal, CompressorIsThatOfStiffJoints) {
+  const Trajectory ideal = ideal_run("slider_crank"), stiff = simulate(reference::mechanism("slider_crank", {}));
+  ASSERT_EQ(ideal.n_rows(), stiff.n_rows());
+  for (std::size_t j = 0; j < ideal.joints.size(); ++j)
+    EXPECT_NEAR(ideal.joints[j].rms, stiff.joints[j].rms, 1e-2 * stiff.joints[j].rms) << ideal.joints[j].name;  // at its peak the gas jumps, and stiff joints ring
+  const double speed = value(stiff, stiff.n_rows() - 1, "body.crank.spin");
+  EXPECT_NEAR(value(ideal, ideal.n_rows() - 1, "body.crank.spin"), speed, 1e-3 * speed);
 }
 
 TEST(Ideal, OtherMethodsAreRefusedWhereTheyStand) {

@@ -19,6 +19,7 @@ constexpr double kSingular = 1e-4;     // of the largest independence met: a pos
 constexpr double kSuspicious = 0.5;    // of the largest: above it no singular position is looked for
 constexpr int kSearch = 48;            // positions tried inside a step
 constexpr double kPassing = 1e-2;      // of the usual step: at singular positions so short a step is taken in any case
+constexpr double kCrossing = 0.1;      // of the tolerance times the usual step: so short a step is taken over a jump of a force
 constexpr int kMostReported = 5;
 
 }  // namespace
@@ -32,7 +33,7 @@ IdealStepper::IdealStepper(const System& system, double tolerance)
 
 void IdealStepper::start(const State& state, double h) {
   end_ = state;
-  h_ = h;
+  h_ = smooth_h_ = h;
   const double before = system_.kinetic(end_.v);
   if (!onto_constraints(end_)) failure_ = "ideal joints cannot be closed at the start: the loops do not fit, or the position is singular";
   equations_.measure_misfit(end_.t, end_.q);
@@ -48,23 +49,41 @@ bool IdealStepper::step(double t_end) {
   if (!failure_.empty()) return false;
   begin_ = end_;
   double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
+  bool at_once = true;
+  const double rounding = std::numeric_limits<double>::epsilon() * std::abs(t_end);
+  const double crossing_h = std::max(kCrossing * tolerance_ * smooth_h_, 1e3 * rounding);
   while (true) {
     h = std::min(h, t_end - begin_.t);
-    if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
-      failure_ = fmt::format("ideal joints: the step size has shrunk to nothing at t = {:.9g} s, near a position where they are not independent", begin_.t);
+    if (h <= 16 * rounding) {
+      failure_ = fmt::format("ideal joints: the step size has shrunk to nothing at t = {:.9g} s{}", begin_.t,
+                             equations_.nearly_singular() ? ", near a position where they are not independent" : "");
       return false;
     }
     const double e = take_stages(h) ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
     const double factor = std::isfinite(e) ? std::clamp(0.9 * std::pow(std::max(e, 1e-10), -0.2), 0.2, 5.0) : 0.1;
     const bool passing = equations_.nearly_singular() && h < kPassing * usual_h_ && std::isfinite(e);
-    if ((e <= 1 || passing) && finish(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h)) {
-      h_ = h * (passing ? std::max(1.0, factor) : factor);
-      if (!equations_.nearly_singular()) usual_h_ = h;
+    const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && crosses_jump();
+    if ((e <= 1 || passing || crossing) && finish(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h)) {
+      h_ = crossing ? kCrossing * smooth_h_ : h * (passing ? std::max(1.0, factor) : factor);
+      if (at_once) smooth_h_ = h;  // steps that come to a jump nearer and nearer are short because of it
+      if (!equations_.nearly_singular() && !crossing) usual_h_ = h;
       return true;
     }
     ++counters_.rejected;
+    at_once = false;
     h *= std::min(factor, 0.5);
   }
+}
+
+// The embedded error of a jump does not fall with the step; what it does to velocities does.
+bool IdealStepper::crosses_jump() const {
+  if (!system_.has_branches()) return false;
+  const auto side = [this](const State& state) {
+    std::vector<S::Motion> m;
+    system_.motions(state.q, state.v, m);
+    return system_.branches(state.t, m, state.gap, state.gap_rate, state.held);
+  };
+  return side(begin_) != side(stage_);
 }
 
 bool IdealStepper::take_stages(double h) {

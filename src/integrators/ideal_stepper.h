@@ -33,12 +33,14 @@ class IdealStepper final : public Stepper {
   bool onto_constraints(State& state);
   bool finish(double t, double h);
   double error(double h) const;
+  bool crosses_jump() const;
   void grow_scale();
   void look_for_singular_position();
   void report_singular_position(double t);
 
   const System& system_;
   double tolerance_, max_step_ = 0, h_ = 0, usual_h_ = 0;  // the next step; the last away from singular positions
+  double smooth_h_ = 0;                                     // the last that was taken at once, or the first that was proposed
   IdealEquations equations_;
   DenseOutput dense_;
   State begin_, end_, inside_, stage_;
