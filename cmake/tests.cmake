@@ -49,7 +49,7 @@ function(pintle_add_tests)
   endif()
   if(NOT PINTLE_WHOLE_RUN_TESTS)
     foreach(long IN ITEMS
-        "tests/(reference_|lagrangian|published|compare|soft_start|held_gas|force_accuracy|motion_accuracy|live)[a-z_]*"
+        "tests/(reference_|lagrangian|published|compare|soft_start|held_gas|force_accuracy|motion_accuracy|live|ideal)[a-z_]*"
         "integrators/(allocation|alpha_stepper|dense_output|dopri5|methods|radau_[a-z]*|stage_solver)_test"
         "analyses/(assembly|check_frequencies|check_mobility|simulate|start)_test" "system/system_test"
         "cli/(check|solvers|stopped_run)_test")
