@@ -25,12 +25,11 @@ class StudioServer : public testing::Test {
  protected:
   void SetUp() override {
     if (!fs::exists(kProgram)) GTEST_SKIP() << "built without cpp-httplib";
-    const fs::path pages = kProgram.parent_path().parent_path() / "share/pintle/studio";
-    fs::create_directories(pages);
-    if (!fs::exists(pages / "index.html")) std::ofstream(pages / "index.html") << "<p>studio";
     std::string name = (fs::temp_directory_path() / "pintle-studio-XXXXXX").string();
     folder_ = mkdtemp(name.data());
     std::ofstream(folder_ / "a.toml") << "format = 1\n";
+    fs::create_directory(folder_ / ".pages");
+    std::ofstream(folder_ / ".pages/index.html") << "<p>studio";
     start();
   }
   void TearDown() override {
@@ -48,7 +47,7 @@ class StudioServer : public testing::Test {
     ASSERT_GE(child_, 0);
     if (child_ == 0) {
       if (chdir(folder_.c_str()) != 0 || freopen(said.c_str(), "w", stdout) == nullptr) _exit(1);
-      execl(kProgram.c_str(), "pintle", "studio", "a.toml", "--no-browser", "--port", "0", static_cast<char*>(nullptr));
+      execl(kProgram.c_str(), "pintle", "studio", "a.toml", "--no-browser", "--port", "0", "--pages", ".pages", static_cast<char*>(nullptr));
       _exit(1);
     }
     for (int i = 0; i < 200 && port_ == 0; ++i) {

@@ -34,14 +34,18 @@ constexpr const char* kFooter =
     "this machine only. Ctrl-C ends it.\n";
 
 struct StudioOptions {
-  std::string model;
+  std::string model, pages;
   int port = kUsualPort;
   bool no_browser = false;
 };
 
-/// The built pages: installed beside this program, or where make studio builds them.
-fs::path find_pages() {
+/// The built pages: those given, or installed beside this program, or where make studio builds them.
+fs::path find_pages(const std::string& given) {
   std::error_code error;
+  if (!given.empty()) {
+    check_readable(fs::path(given) / "index.html");
+    return given;
+  }
   const fs::path self = fs::read_symlink("/proc/self/exe", error);
   for (const fs::path& pages : {self.parent_path().parent_path() / "share/pintle/studio", fs::path(PINTLE_STUDIO_PAGES)})
     if (fs::exists(pages / "index.html", error)) return pages;
@@ -72,7 +76,7 @@ void show(const std::string& address) {
 
 ExitCode run_studio(const StudioOptions& options) {
   const fs::path folder = fs::current_path();
-  studio::DeskSettings settings{find_pages(), folder, model_below(folder, options.model), 0, studio::random_token(), studio::random_token()};
+  studio::DeskSettings settings{find_pages(options.pages), folder, model_below(folder, options.model), 0, studio::random_token(), studio::random_token()};
   WebServer server(options.port, options.port == kUsualPort ? kMorePorts : 0);
   settings.port = server.port();
   studio::Desk desk(settings);
@@ -93,6 +97,7 @@ void add_studio(CLI::App& app, int& exit_code) {
   verb->add_option("--port", options->port, fmt::format("port on 127.0.0.1 (default: {}; where it is taken one of the next {}, or any)", kUsualPort, kMorePorts))
       ->check(CLI::Range(0, 65535))
       ->type_name("N");
+  verb->add_option("--pages", options->pages, "built studio to serve (default: the installed one, or build/studio)")->type_name("FOLDER");
   verb->add_flag("--no-browser", options->no_browser, "print the address only");
   verb->footer(kFooter);
   verb->callback([options, &exit_code] { exit_code = run_studio(*options); });

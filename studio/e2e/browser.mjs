@@ -8,7 +8,7 @@ import { serve } from "./serve.mjs";
 
 export const ROOT = fileURLToPath(new URL("../../", import.meta.url));
 export const SHOTS = `${ROOT}build/studio-shots/`;
-const BUILT = process.env.STUDIO ?? `${ROOT}build/studio`;
+export const BUILT = process.env.STUDIO ?? `${ROOT}build/studio`;
 
 function chromiumPath() {
   return process.env.CHROMIUM ?? execFileSync("which", ["chromium"], { encoding: "utf8" }).trim();
