@@ -62,7 +62,7 @@ TEST_F(SlowSweepVerb, KilledSweepsGoOn) {
   const std::string words = "sweep pendulum.toml --sample 1500 --quiet --out ";
   ASSERT_EQ(sandbox_.pintle(words + "whole.h5").exit_code, 0);
   for (int i = 0; i < 3; ++i) sandbox_.shell(fmt::format("timeout -s KILL 0.{} \"$PINTLE\" {} killed.h5", 2 + i, words));
-  const Answer answer = sandbox_.shell("timeout --foreground --preserve-status -s INT 0.3 \"$PINTLE\" " + words + "killed.h5");
+  const Answer answer = sandbox_.shell(signalled("INT", 0.3, "\"$PINTLE\" " + words + "killed.h5"));
   if (answer.exit_code == 130) {
     EXPECT_TRUE(holds(answer.error, "the same command again")) << answer.error;
   }

@@ -3,8 +3,9 @@
 
 namespace pintle::cli {
 
-/// From now on the first SIGINT or SIGTERM only sets a flag; the next one does what it always does. A signal that the
-/// caller had switched off (nohup, background jobs) stays off.
+/// From now on the first SIGINT or SIGTERM only sets a flag; the next one does what it always does. Those that follow
+/// within 0.3 s belong to the first: `timeout` and job runners signal a process and then its whole group. A signal that
+/// the caller had switched off (nohup, background jobs) stays off.
 void catch_interrupts();
 
 /// Whether one has arrived.

@@ -123,7 +123,7 @@ TEST_F(ReportInBrowserSlow, ShowsThePeak) {
 
 TEST_F(ReportVerb, RunThatWasStoppedIsReported) {
   sandbox_.write("endless.toml", pendulum_toml("1e6 s", "10 s"));
-  const Answer run = sandbox_.shell("timeout -s INT 1 \"$PINTLE\" run endless.toml --quiet --out stopped");
+  const Answer run = sandbox_.shell(signalled("INT", 2, "\"$PINTLE\" run endless.toml --quiet --out stopped"));
   ASSERT_TRUE(sandbox_.has("stopped/summary.json")) << run.error;
   const Answer answer = sandbox_.pintle("report stopped");
   EXPECT_EQ(answer.exit_code, 0) << answer.error;

@@ -63,6 +63,11 @@ between = ["ground.O", "bob.O"]
                      duration, output_step);
 }
 
+/// The shell command, sent the signal after some seconds; in the foreground, so that it comes once. Exit code: the command's.
+inline std::string signalled(const char* signal, double seconds, const std::string& command) {
+  return fmt::format("timeout --foreground --preserve-status -s {} {} {}", signal, seconds, command);
+}
+
 inline bool holds(const std::string& text, std::string_view part) {
   return text.find(part) != std::string::npos;
 }

@@ -17,10 +17,7 @@ constexpr const char* kLong =
 class StoppedRun : public testing::Test {
  protected:
   StoppedRun() { sandbox_.write("pendulum.toml", kPendulum); }
-  // In the foreground: otherwise the run gets the signal twice, from timeout and with its group.
-  std::string stopped_by(const char* signal) {
-    return fmt::format("timeout --foreground --preserve-status -s {} 2 {}", signal, kLong);
-  }
+  std::string stopped_by(const char* signal) { return signalled(signal, 2, kLong); }
   /// Nothing is left beside the run folder: no temporary folder, no half a file.
   std::string others() { return sandbox_.shell("ls -A | grep -v -e pendulum -e '^[.]out$' -e '^[.]error$'").out; }
   Sandbox sandbox_;
@@ -36,6 +33,13 @@ TEST_F(StoppedRun, InterruptKeepsTheResults) {
   EXPECT_EQ(nlohmann::json::parse(answer.out)["outcome"], "interrupted");
   EXPECT_EQ(answer.out, sandbox_.read("pendulum-run/summary.json"));
   EXPECT_EQ(others(), "");
+}
+
+// What `timeout` does when it is not told to stay in the foreground.
+TEST_F(StoppedRun, ASignalToTheProcessAndToItsGroupIsOneRequest) {
+  const Answer answer = sandbox_.shell(std::string("timeout --preserve-status -s INT 2 ") + kLong + "--quiet");
+  EXPECT_EQ(answer.exit_code, 130) << answer.error;
+  EXPECT_EQ(read_run(sandbox_ / "pendulum-run").trajectory.outcome, Outcome::kInterrupted);
 }
 
 TEST_F(StoppedRun, AnInterruptedRunCanBePlotted) {
