@@ -7,7 +7,8 @@ FUZZ_SECONDS ?= 60
 CONFIGURE := cmake -G Ninja -S .
 BUILD     := cmake --build
 CLANG     := clang++-14
-LONG := Slow|Live|Ideal|Scene|BlockPattern|Envelope|LargeModels|Radau|StageSolver|Dopri5|Allocations|DenseOutput|Simulate|Reference|Accuracy|System|Start|Assembl|Stopped|Check|Kink|Methods|AlphaStepper|CompareSolvers|SolversVerb|Lagrangian|Published|Stiffen|Compare$$
+# Suites that take long under sanitizers in a build without the whole runs (cmake/tests.cmake).
+LONG := Slow|Scene|BlockPattern|Envelope|LargeModels|CompareSolvers|TreeMethods|CheckDifferences|CheckBatteries
 say        = @printf '\n=== %s\n' "$(1)"
 
 .PHONY: help setup build demo test install bench fuzz web-check studio studio-test studio-browser-test format clean
@@ -79,8 +80,8 @@ build/test:
 	@$(MAKE) --no-print-directory test-release
 
 # The second compiler: warnings are errors, tests under the address and undefined-behaviour sanitizers, what the
-# fuzzers have found among them. Suites that integrate for long, and the programs, are left to the release build; make test-sanitized has
-# them all, make fuzz looks for more.
+# fuzzers have found among them. Suites that integrate for long, and the programs, are left to the release build;
+# make test-sanitized has them all, make fuzz looks for more.
 test-clang:
 	$(call say,$(CLANG) without warnings; tests under the sanitizers)
 	@$(MAKE) --no-print-directory build/clang WHOLE=OFF CLI=OFF FUZZ=OFF

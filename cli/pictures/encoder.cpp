@@ -41,7 +41,7 @@ std::vector<std::string> command(const fs::path& film, FilmForm form, int width,
 
 }  // namespace
 
-FilmEncoder::FilmEncoder(const fs::path& film, FilmForm form, int width, int height, double frames_per_second, int n_samples) : film_(film), file_(film) {
+FilmEncoder::FilmEncoder(const fs::path& film, FilmForm form, int width, int height, double frames_per_second, int n_samples) : file_(film) {
   start(command(file_.fresh(), form, width, height, frames_per_second, n_samples));
 }
 
@@ -57,7 +57,7 @@ FilmEncoder::~FilmEncoder() {
 void FilmEncoder::start(const std::vector<std::string>& words) {
   ::signal(SIGPIPE, SIG_IGN);  // an encoder that ends early is a failed write, not the end of this program
   int pipe_ends[2];
-  if (::pipe2(pipe_ends, O_CLOEXEC) != 0) throw file_error(film_, "write", errno);
+  if (::pipe2(pipe_ends, O_CLOEXEC) != 0) throw file_error(file_.target(), "write", errno);
   std::FILE* complaints = std::tmpfile();
   if (complaints) complaints_ = ::fcntl(::fileno(complaints), F_DUPFD_CLOEXEC, 3);
   if (complaints) std::fclose(complaints);
@@ -102,7 +102,7 @@ void FilmEncoder::fail() {
   why.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
   while (!why.empty() && (why.back() == '\n' || why.back() == '.')) why.pop_back();
   if (why.empty() && ended_by_ != 0) why = fmt::format("it was ended by signal {} ({})", ended_by_, ::strsignal(ended_by_));
-  throw FileError(fmt::format("{}: ffmpeg could not write the film{}{}.", film_.string(), why.empty() ? "" : ": ", why));
+  throw FileError(fmt::format("{}: ffmpeg could not write the film{}{}.", file_.target().string(), why.empty() ? "" : ": ", why));
 }
 
 void FilmEncoder::add(const Pixels& frame) {

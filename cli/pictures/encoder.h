@@ -32,7 +32,6 @@ class FilmEncoder {
   [[noreturn]] void fail();
   bool wait();  ///< true: ffmpeg ended well
 
-  std::filesystem::path film_;
   Replacement file_;
   pid_t process_ = -1;
   int frames_ = -1, complaints_ = -1;

@@ -22,6 +22,8 @@
 #include "cli/run_sources.h"
 #include "report/still.h"
 #include "results/disk.h"
+#include "results/force_quality.h"
+#include "results/plot_ticks.h"
 
 namespace pintle::cli {
 namespace {
@@ -48,16 +50,13 @@ class Usage : public std::runtime_error {
 };
 
 double peak_time(const Trajectory& trajectory) {
-  const auto largest = std::max_element(trajectory.joints.begin(), trajectory.joints.end(),
-                                        [](const LoadSummary& a, const LoadSummary& b) { return a.peak < b.peak; });
-  return largest == trajectory.joints.end() ? 0 : largest->peak_time;
+  const LoadSummary* joint = largest_joint(trajectory);
+  return joint ? joint->peak_time : trajectory.at(0, 0);
 }
 
 /// Model seconds per second of film.
 double usual_speed(double span) {
-  if (span >= 3 && span <= 20) return 1;
-  const double natural = span / 8, power = std::pow(10, std::floor(std::log10(natural))), digit = natural / power;
-  return power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
+  return span >= 3 && span <= 20 ? 1 : round_step(span / 8);
 }
 
 constexpr int kColourSamples = 12;    // frames that the palette of a GIF is made of

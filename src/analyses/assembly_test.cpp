@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+
 #include "analyses/slow_motion.h"
 #include "integrators/dopri5.h"
 #include "integrators/start_states_for_tests.h"

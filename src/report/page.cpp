@@ -1,13 +1,13 @@
 // Puts a report's page together.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string_view>
 
 #include "pintle/report.h"
 #include "report/page_data.h"
 #include "report/page_tables.h"
 #include "report/still.h"
+#include "results/force_quality.h"
 #include "results/markup.h"
 
 namespace pintle {
@@ -21,12 +21,6 @@ extern const char* const kPageChart;
 extern const char* const kPageMain;
 
 namespace {
-
-const LoadSummary* largest(const Trajectory& trajectory) {
-  const auto found = std::max_element(trajectory.joints.begin(), trajectory.joints.end(),
-                                      [](const LoadSummary& a, const LoadSummary& b) { return a.peak < b.peak; });
-  return found == trajectory.joints.end() ? nullptr : &*found;
-}
 
 std::string title_of(const Model& model, const RunRecord& run) {
   if (!model.name.empty()) return model.name;
@@ -46,7 +40,7 @@ std::string header(const Model& model, const RunRecord& run) {
 
 /// Where the peak of all joints is: for print, and where no script runs.
 std::string still(const Scene& scene, const Trajectory& trajectory) {
-  const LoadSummary* joint = largest(trajectory);
+  const LoadSummary* joint = largest_joint(trajectory);
   const double t = joint ? joint->peak_time : trajectory.at(0, 0);
   StillOptions options;
   options.most_height = 620;

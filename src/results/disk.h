@@ -71,8 +71,9 @@ class Replacement {
   Replacement& operator=(const Replacement&) = delete;
   ~Replacement();
 
-  const std::filesystem::path& fresh() const { return fresh_; }  ///< where to write; there is no such file yet
-  void publish();                                                ///< links are followed, the old file's mode stays
+  const std::filesystem::path& target() const { return shown_; }  ///< as it was given
+  const std::filesystem::path& fresh() const { return fresh_; }   ///< where to write; there is no such file yet
+  void publish();                                                 ///< links are followed, the old file's mode stays
 
  private:
   std::filesystem::path shown_, target_, fresh_;

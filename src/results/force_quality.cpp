@@ -9,6 +9,12 @@ bool has_force_estimates(const Trajectory& run) {
          std::any_of(run.joints.begin(), run.joints.end(), [](const LoadSummary& joint) { return joint.relative_error_estimate != 0; });
 }
 
+const LoadSummary* largest_joint(const Trajectory& run) {
+  const auto found = std::max_element(run.joints.begin(), run.joints.end(),
+                                      [](const LoadSummary& a, const LoadSummary& b) { return a.peak < b.peak; });
+  return found == run.joints.end() ? nullptr : &*found;
+}
+
 bool misses_tolerance(const LoadSummary& joint, const Trajectory& run) {
   if (run.of_motion || !(run.tolerance > 0) || !has_force_estimates(run)) return false;
   return !(joint.relative_error_estimate <= run.tolerance);

@@ -1,4 +1,4 @@
-// What a run says about its own joint forces.
+// What a run says about its own joint forces, and how good it says they are.
 #pragma once
 
 #include "pintle/trajectory.h"
@@ -7,6 +7,9 @@ namespace pintle {
 
 /// Whether a second integration has said how good the joint forces are. A run that stopped before has zeros for estimates.
 bool has_force_estimates(const Trajectory& run);
+
+/// The joint with the largest peak force; nullptr: the run has no joints.
+const LoadSummary* largest_joint(const Trajectory& run);
 
 /// Whether the estimate exceeds the tolerance, which is of forces; where it is not a number, it does.
 bool misses_tolerance(const LoadSummary& joint, const Trajectory& run);

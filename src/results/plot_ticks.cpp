@@ -11,13 +11,6 @@
 namespace pintle {
 namespace {
 
-/// The nearest of 1, 2, 5, 10 times a power of ten.
-double round_step(double x) {
-  const double power = std::pow(10.0, std::floor(std::log10(x)));
-  const double digit = x / power;
-  return power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
-}
-
 constexpr double kSteady = 1e-9;  // a range below this part of the values is none
 constexpr double kMargin = 0.05;  // free room above and below the data, of their range
 
@@ -38,6 +31,12 @@ void replace_all(std::string& text, std::string_view old, std::string_view fresh
 }
 
 }  // namespace
+
+double round_step(double x) {
+  const double power = std::pow(10.0, std::floor(std::log10(x)));
+  const double digit = x / power;
+  return power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
+}
 
 std::vector<double> Axis::ticks() const {
   std::vector<double> result;

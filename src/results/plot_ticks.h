@@ -17,6 +17,9 @@ struct Axis {
   std::string label(double tick) const;        ///< how a tick reads
 };
 
+/// The nearest of 1, 2, 5, 10 times a power of ten, for x > 0.
+double round_step(double x);
+
 /// The axis for data in [low, high] with about `n_ticks` ticks. `tight`: ends where the data end; else with some room,
 /// but not beyond a zero that the data almost reach. A range without width is widened.
 Axis make_axis(double low, double high, int n_ticks, bool tight);

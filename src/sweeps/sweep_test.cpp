@@ -10,6 +10,7 @@
 #include "pintle/simulate.h"
 #include "results/sample_run_for_tests.h"
 #include <fmt/format.h>
+
 #include "sweeps/sweep_file.h"
 #include "sweeps/sweep_models_for_tests.h"
 #include "sweeps/sweep_report.h"

@@ -2,28 +2,20 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { edit, openText, undo } from "../actions";
 import { KernelFault } from "../kernel/fault";
-import type { DragSession, RunHandle, RunOptions } from "../kernel/kernel";
+import type { DragSession, RunOptions } from "../kernel/kernel";
 import type { AssemblyAnswer, RunAnswer } from "../kernel/protocol";
 import { readModel } from "../model/model";
 import { studio } from "../state";
+import { PlayedRun } from "./played-run-for-tests";
 
-class PlayedRun implements RunHandle {
-  static begun: PlayedRun[] = [];
-  cancelled = false;
-  resolve!: (answer: RunAnswer) => void;
-  reject!: (error: Error) => void;
-  readonly result = new Promise<RunAnswer>((resolve, reject) => {
-    this.resolve = resolve;
-    this.reject = reject;
-  });
+class BegunRun extends PlayedRun {
+  static all: BegunRun[] = [];
   constructor(
     readonly text: string,
-    readonly options: RunOptions,
+    options: RunOptions,
   ) {
-    PlayedRun.begun.push(this);
-  }
-  cancel() {
-    this.cancelled = true;
+    super(options);
+    BegunRun.all.push(this);
   }
   get ideal() {
     return this.options.set?.["simulate.equations"] === "ideal";
@@ -55,7 +47,7 @@ vi.mock("../kernel/kernel", () => ({
       return session;
     },
     check: (text: string) => new Promise((resolve) => (held ? checks.push({ text, resolve }) : resolve(null))),
-    run: (text: string, options: RunOptions = {}) => new PlayedRun(text, options),
+    run: (text: string, options: RunOptions = {}) => new BegunRun(text, options),
   }),
 }));
 
@@ -67,7 +59,7 @@ const answer = (method: string) => ({ outcome: "completed", method, columns: [],
 
 /** Until the desk has asked what it asks after a pause. */
 const rest = () => vi.advanceTimersByTimeAsync(100);
-const last = () => PlayedRun.begun.at(-1)!;
+const last = () => BegunRun.all.at(-1)!;
 
 let watching = false;
 
@@ -81,7 +73,7 @@ beforeEach(async () => {
   await rest();
   last().resolve(answer("first"));
   await rest();
-  PlayedRun.begun = [];
+  BegunRun.all = [];
 });
 
 afterEach(() => vi.useRealTimers());
@@ -180,7 +172,7 @@ describe("the ghost", () => {
     setGhost(false);
     last().resolve(answer("second"));
     await rest();
-    expect(PlayedRun.begun.filter((one) => one.ideal && one.text === OTHER)).toEqual([]);
+    expect(BegunRun.all.filter((one) => one.ideal && one.text === OTHER)).toEqual([]);
   });
 
   it("says why there is none", async () => {

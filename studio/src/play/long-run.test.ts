@@ -1,25 +1,9 @@
 // Two kernels that the test plays: who computes a long run, and what happens when the server goes away.
 import { describe, expect, it } from "vitest";
-import type { RunHandle, RunOptions } from "../kernel/kernel";
-import type { RunAnswer, RunProgress } from "../kernel/protocol";
+import type { RunOptions } from "../kernel/kernel";
+import type { RunAnswer } from "../kernel/protocol";
 import { runWhereFastest } from "./long-run";
-
-class PlayedRun implements RunHandle {
-  cancelled = false;
-  resolve!: (answer: RunAnswer) => void;
-  reject!: (error: Error) => void;
-  readonly result = new Promise<RunAnswer>((resolve, reject) => {
-    this.resolve = resolve;
-    this.reject = reject;
-  });
-  constructor(readonly options: RunOptions) {}
-  cancel() {
-    this.cancelled = true;
-  }
-  tell(fraction: number, seconds_left: number) {
-    this.options.onProgress?.({ fraction, t: 0, duration: 1, pass: 1, wall_seconds: 1, seconds_left } satisfies RunProgress);
-  }
-}
+import { PlayedRun } from "./played-run-for-tests";
 
 const answer = (method: string) => ({ outcome: "completed", method }) as RunAnswer;
 const turn = () => new Promise((resolve) => setTimeout(resolve, 0));
