@@ -29,7 +29,12 @@ kernel() {
 
 packages() {
   command -v npm >/dev/null || fail "npm is missing (tools/setup.sh web)"
-  [ studio/node_modules/.package-lock.json -nt studio/package-lock.json ] || (cd studio && npm ci --no-audit --no-fund)
+  [ studio/node_modules/.package-lock.json -nt studio/package-lock.json ] && return
+  # Registries that mirror only a part of the world lack packages for other systems, which npm ci insists on.
+  (cd studio && npm ci --no-audit --no-fund) || {
+    echo "studio: npm ci failed; trying npm install without the lock file"
+    (cd studio && npm install --no-package-lock --no-audit --no-fund)
+  }
 }
 
 pages() {
