@@ -55,6 +55,13 @@ struct ScaleOptions {
 };
 nlohmann::ordered_json study_scale(const ScaleOptions& options);
 
+struct SweepOptions {
+  std::vector<std::string> models{"four_bar", "slider_crank", "quick_return", "six_bar", "inverted_slider_crank", "toggle_press"};
+  std::vector<double> tolerances{1e-3, 1e-4, 1e-5};
+  int variants = 80, rounds = 3;
+};
+nlohmann::ordered_json study_sweeps(const SweepOptions& options);
+
 /// Google Benchmark; `filter` is a regular expression. An empty `json_file` writes none.
 void run_micro(const std::string& filter, double min_time, const std::string& json_file);
 

@@ -23,6 +23,7 @@ struct Options {
   StiffnessOptions stiffness;
   ForceOptions forces;
   ScaleOptions scale;
+  SweepOptions sweeps;
   std::string micro_filter = ".";
   double micro_time = 0.2;
 };
@@ -88,6 +89,15 @@ void add_scale(CLI::App& app, Options& o, Json& out) {
   verb->callback([&] { out["scale"] = study_scale(o.scale); });
 }
 
+void add_sweeps(CLI::App& app, Options& o, Json& out) {
+  CLI::App* verb = app.add_subcommand("sweeps", "variants of a model per second, in fleets and one by one");
+  verb->add_option("--models", o.sweeps.models, "names without .toml")->delimiter(',')->capture_default_str();
+  verb->add_option("--tolerances", o.sweeps.tolerances)->delimiter(',')->capture_default_str();
+  verb->add_option("--variants", o.sweeps.variants)->capture_default_str();
+  verb->add_option("--rounds", o.sweeps.rounds, "both ways in each")->capture_default_str();
+  verb->callback([&] { out["sweeps"] = study_sweeps(o.sweeps); });
+}
+
 void add_micro(CLI::App& app, Options& o) {
   CLI::App* verb = app.add_subcommand("micro", "laws, probes, systems, factorisation and single steps");
   verb->add_option("--filter", o.micro_filter, "a regular expression")->capture_default_str();
@@ -128,6 +138,7 @@ int run_program(int argc, char** argv) {
   add_stiffness(app, options, out);
   add_forces(app, options, out);
   add_scale(app, options, out);
+  add_sweeps(app, options, out);
   add_micro(app, options);
   app.add_subcommand("short", "a short version of peers, stiffness, forces and micro")->callback([&] { out = run_short(); });
   CLI11_PARSE(app, argc, argv);

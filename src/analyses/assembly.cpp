@@ -109,7 +109,7 @@ void assemble_positions(const Model& model, System& system, Vecs& q, std::vector
 
 }  // namespace
 
-Assembly assemble(const Model& model, System& system) {
+Assembly assemble_bodies(const Model& model, System& system) {
   Assembly out;
   State& state = out.state;
   state.q = guess_positions(model, system);
@@ -119,7 +119,12 @@ Assembly assemble(const Model& model, System& system) {
     if (model.bodies[i].position) out.largest_move = std::max(out.largest_move, (state.q[i] - guess[i]).head<2>().norm());
   state.v = stated_velocities(model);
   if (model.simulate.start != Start::kRaw) assemble_velocities(model, system, state.q, state.v);
-  start_forces(system, model.simulate.start == Start::kAssembled, state);
+  return out;
+}
+
+Assembly assemble(const Model& model, System& system) {
+  Assembly out = assemble_bodies(model, system);
+  start_forces(system, model.simulate.start == Start::kAssembled, out.state);
   return out;
 }
 

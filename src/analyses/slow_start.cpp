@@ -13,9 +13,6 @@ namespace {
 using S = Planar;
 
 constexpr int kPasses = 6;
-// The frequency above which modes are held, over the slowest of the joints by themselves: chains of joints and lever ratios
-// make modes a hundred times slower than that.
-constexpr double kSlow = 5e-4;
 constexpr int kClosing = 4;        // passes of a projection
 constexpr double kClosed = 1e-11;  // of what the first pass found: the next one finds nothing
 constexpr int kMostJoints = 300;  // whose masses with closed joints are asked for: the cost grows with the square
@@ -133,7 +130,7 @@ bool ForcesOfMotion::find(State& state) {
   system_.motions(state.q, state.v, m_);
   system_.readings(state.t, m_, r_);
   const Vecs* moved = moved_.empty() ? nullptr : &moved_;
-  const double mu = kSlow * slowest_joint(system_, r_, moved);
+  const double mu = kHeldAbove * slowest_joint(system_, r_, moved);
   if (!std::isfinite(mu) || !(mu > 0)) return false;
   if (!projector_.prepare(r_, mu, state.gap, state.gap_rate, moved)) return false;
   system_.external(state.t, m_, Q_);
@@ -159,7 +156,7 @@ bool ForcesOfMotion::find(State& state) {
 GapMasses ForcesOfMotion::masses_on_gaps(const State& state) {
   system_.motions(state.q, state.v, m_);
   system_.readings(state.t, m_, r_);
-  const double mu = kSlow * slowest_joint(system_, r_);
+  const double mu = kHeldAbove * slowest_joint(system_, r_);
   if (!std::isfinite(mu) || !(mu > 0) || !projector_.prepare(r_, mu, state.gap, state.gap_rate)) return {};
   const Vecs no_load(system_.bodies.size(), S::Vec::Zero());
   GapMasses masses{Vecs(system_.joints.size(), S::Vec::Zero()), Vecs(system_.joints.size(), S::Vec::Zero())};
@@ -193,7 +190,7 @@ void ForcesOfMotion::move_onto_gaps(State& state) {
     system_.motions(state.q, state.v, m_);
     system_.readings(state.t, m_, r_);
     if (pass == 0) {
-      const double mu = kSlow * slowest_joint(system_, r_);
+      const double mu = kHeldAbove * slowest_joint(system_, r_);
       if (!std::isfinite(mu) || !projector_.prepare(r_, mu, state.gap, state.gap_rate)) return;
     }
     for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap[j] - r_[j].gap;

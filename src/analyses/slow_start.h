@@ -7,6 +7,10 @@
 
 namespace pintle {
 
+/// The frequency above which modes are held, over the slowest of the joints by themselves: chains of joints and lever ratios
+/// make modes a hundred times slower than that.
+inline constexpr double kHeldAbove = 5e-4;
+
 /// The gap at which a law gives `force` at `rate`; components without stiffness stay. theory/assembly Eq. (3.3).
 void carry_force(const Law& law, const Planar::Vec& force, const Planar::Vec& rate, Planar::Vec& gap);
 

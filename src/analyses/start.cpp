@@ -71,17 +71,18 @@ bool is_runaway(const System& system, const State& attempt, const State& given) 
 // Whether sweeps that have not converged came near. Forces far above those of the given state are no attempt at all.
 bool is_near(const State& attempt, const State& given) { return largest_force(attempt.force) <= kMostGrowth * largest_force(given.force); }
 
-// Fast joints ride their slow motion; where that is not found the state stays, or with `keep_best` is the best attempt. True when found.
-bool settle_fast_joints(const System& system, const JointPaces& paces, double span, bool keep_best, State& state) {
+// Fast joints ride their slow motion; where that is not found the state stays, or with `keep_best` is the best attempt. Over which
+// time it was found; 0: it was not.
+double settle_fast_joints(const System& system, const JointPaces& paces, double span, bool keep_best, State& state) {
   const State given = state;
   for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25) {
     State attempt = state;
     const double change = settle_on_slow_motion(system, paces, span, attempt);
     if (is_runaway(system, attempt, given)) continue;
     if (change < kSettled || (keep_best && is_near(attempt, given))) state = std::move(attempt);
-    if (change < kSettled) return true;
+    if (change < kSettled) return span;
   }
-  return false;
+  return 0;
 }
 
 // Says which joints start on a motion of their own. True when there are none.
@@ -106,7 +107,7 @@ void settle_soft_joints(const System& system, const JointPaces& paces, double sp
   if (soft.change < kSettled || is_near(attempt, assembly.state)) assembly.state = std::move(attempt);
   const bool along = note_lively_joints(system, paces, soft, assembly.notes);
   if (soft.placed && along && soft.change < kExact) return;
-  if (settle_fast_joints(system, paces, span, false, assembly.state)) return;
+  if (settle_fast_joints(system, paces, span, false, assembly.state) > 0) return;
   if (!soft.placed || soft.change >= kSettled) assembly.notes.push_back(kNotSettled);
 }
 
@@ -117,7 +118,8 @@ void settle(const System& system, double duration, double known_span, Assembly& 
   assembly.span = span;
   const JointPaces paces = measure_paces(system, state, span);
   if (span > 0 && paces.any_soft()) return settle_soft_joints(system, paces, span, assembly);
-  if (!settle_fast_joints(system, all_fast(system), smooth_span(system, state, duration), true, state)) assembly.notes.push_back(kNotSettled);
+  assembly.settled_over = settle_fast_joints(system, all_fast(system), smooth_span(system, state, duration), true, state);
+  if (assembly.settled_over == 0) assembly.notes.push_back(kNotSettled);
 }
 
 Assembly start_of_free_bodies(const Model& model, System& system, double known_span) {

@@ -10,9 +10,9 @@ namespace pintle {
 /// Adds G' w G - N to the blocks of both bodies: w stands for stiffness in each component, N is the geometric stiffness at the
 /// joint's force. In world axes w is a symmetric stiffness (xx, xy, yy) at the joint's point, which acts at the arms of both
 /// bodies, and one against turning. joints Eqs. (2.5), (2.6), (2.9).
-template <class T>
-PINTLE_LANES void add_pose_blocks(BlockLu<T, 3>& lu, const Placement& at, BlockPattern::Slot slot, const GapMap<double>& g, const T* w,
-                                  const Planar::Vec& force) {
+template <class T, class Real, class Force>
+PINTLE_LANES void add_pose_blocks(BlockLu<T, 3>& lu, const Placement& at, BlockPattern::Slot slot, const GapMap<Real>& g, const T* w,
+                                  const Force& force) {
   const T one(1.0), xx = (g.c * g.c) * w[0] + (g.s * g.s) * w[1], yy = (g.s * g.s) * w[0] + (g.c * g.c) * w[1], xy = (g.c * g.s) * (w[0] - w[1]);
   const T fx = (g.c * force[0] - g.s * force[1]) * one, fy = (g.s * force[0] + g.c * force[1]) * one;
   const T ax = g.ax * xy - g.ay * xx - fy, ay = g.ax * yy - g.ay * xy + fx;

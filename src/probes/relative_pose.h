@@ -15,9 +15,9 @@ struct PoseGeometry {
   T ax, ay, bx, by;  // arms: from A's, from B's centre of mass to M [m]
   T bias_x, bias_y;  // convective acceleration, in F's axes [m/s^2]
 
-  /// A and B: anything with x, y, its sine s and cosine c, and rates vx, vy, w.
-  template <class Body>
-  static PoseGeometry between(const Body& A, const Planar::Frame& F, const Body& B, const Planar::Frame& M);
+  /// A and B: anything with x, y, its sine s and cosine c, and rates vx, vy, w. F and M: frames as in Planar, of numbers or lanes.
+  template <class Body, class Frame>
+  static PoseGeometry between(const Body& A, const Frame& F, const Body& B, const Frame& M);
 };
 
 /// z and its derivatives. Lengths in F's axes [m], angle of M against F [rad].
@@ -43,8 +43,8 @@ struct RelativePose {
 };
 
 template <class T>
-template <class Body>
-inline PoseGeometry<T> PoseGeometry<T>::between(const Body& A, const Planar::Frame& F, const Body& B, const Planar::Frame& M) {
+template <class Body, class Frame>
+inline PoseGeometry<T> PoseGeometry<T>::between(const Body& A, const Frame& F, const Body& B, const Frame& M) {
   PoseGeometry g;
   const T ux = A.c * F.p.x() - A.s * F.p.y(), uy = A.s * F.p.x() + A.c * F.p.y();
   g.bx = B.c * M.p.x() - B.s * M.p.y();

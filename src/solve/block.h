@@ -19,6 +19,14 @@ inline bool is_finite(double a) { return std::isfinite(a); }
 template <class T>
 inline constexpr bool kPivots = true;
 
+/// Real symmetric matrices of variants in lanes are positive definite; what is not a number in one lane is that lane's affair.
+template <int N>
+inline constexpr bool kPivots<Lanes<N>> = false;
+template <int N>
+PINTLE_LANES bool is_finite(const Lanes<N>&) {
+  return true;
+}
+
 template <class T, int N>
 struct BlockVec {
   std::array<T, N> a{};

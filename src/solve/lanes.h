@@ -1,5 +1,5 @@
-// N numbers that go through the same arithmetic in one machine register: one per stage of an implicit step, or one per part of
-// its diagonal frame. Registers narrower than that are used several times; the bits are the same.
+// N numbers that go through the same arithmetic in one machine register: one per stage of an implicit step, one per part of
+// its diagonal frame, or one per variant of a mechanism. Registers narrower than that are used several times; the bits are the same.
 #pragma once
 
 #include <cmath>
@@ -19,10 +19,13 @@ template <> struct Registers<3> {
   typedef double Reals __attribute__((vector_size(32)));
   typedef unsigned long long Bits __attribute__((vector_size(32)));
 };
+template <> struct Registers<4> : Registers<3> {};
 template <> struct Registers<5> {
   typedef double Reals __attribute__((vector_size(64)));
   typedef unsigned long long Bits __attribute__((vector_size(64)));
 };
+
+template <> struct Registers<8> : Registers<5> {};
 
 /// Lanes beyond N follow lane N - 1, so that they never overflow on their own.
 template <int N>
@@ -31,9 +34,11 @@ struct Lanes {
   static constexpr int kWidth = sizeof(Register) / sizeof(double);
   alignas(sizeof(Register)) Register v;  // as wide registers want it, also where they are not used
 
-  PINTLE_LANES static Lanes all(double x) {
-    return {x - Register{}};
-  }
+  Lanes() = default;
+  PINTLE_LANES Lanes(const Register& x) : v(x) {}
+  PINTLE_LANES explicit Lanes(double x) : v(x - Register{}) {}
+
+  PINTLE_LANES static Lanes all(double x) { return Lanes(x); }
   PINTLE_LANES static Lanes of(const double (&x)[N]) {
     Lanes r = all(x[N - 1]);
     for (int i = 0; i < N - 1; ++i) r.v[i] = x[i];
@@ -65,6 +70,29 @@ struct Lanes {
   PINTLE_LANES friend Lanes operator*(double x, const Lanes& a) { return {x * a.v}; }
   PINTLE_LANES friend Lanes operator*(const Lanes& a, double x) { return {x * a.v}; }
 };
+
+template <int N>
+PINTLE_LANES Lanes<N> reciprocal(const Lanes<N>& a) {
+  return {1 / a.v};
+}
+
+template <int N>
+PINTLE_LANES Lanes<N> larger(const Lanes<N>& a, const Lanes<N>& b) {
+  return {b.v > a.v ? b.v : a.v};
+}
+template <int N>
+PINTLE_LANES Lanes<N> smaller(const Lanes<N>& a, const Lanes<N>& b) {
+  return {b.v < a.v ? b.v : a.v};
+}
+/// Where a is larger than b, x; elsewhere y.
+template <int N>
+PINTLE_LANES Lanes<N> where_larger(const Lanes<N>& a, const Lanes<N>& b, const Lanes<N>& x, const Lanes<N>& y) {
+  return {a.v > b.v ? x.v : y.v};
+}
+template <int N>
+PINTLE_LANES Lanes<N> sizes(const Lanes<N>& a) {
+  return {a.v < -a.v ? -a.v : a.v};
+}
 
 /// The larger of the sizes, lane by lane.
 template <int N>

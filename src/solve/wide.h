@@ -8,5 +8,9 @@
 
 namespace pintle {
 inline bool has_wide_registers() { return __builtin_cpu_supports("avx2"); }
+/// Of 512 bits.
+inline bool has_widest_registers() {
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+}
 }  // namespace pintle
 #endif

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "analyses/envelope.h"
+#include "fleet/envelope.h"
 #include "io/model_variants.h"
 #include "sweeps/plan.h"
 

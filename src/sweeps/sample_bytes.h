@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analyses/envelope.h"
+#include "fleet/envelope.h"
 
 namespace pintle {
 

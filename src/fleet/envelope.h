@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "analyses/lean_run.h"
+#include "fleet/fleet.h"
 #include "pintle/model.h"
 #include "pintle/sweep.h"
 
@@ -30,6 +32,7 @@ struct JointPeak {
 struct SampleResult {
   SampleStatus status = SampleStatus::kCompleted;
   std::uint64_t steps = 0, passes = 0;
+  bool in_fleet = false;          ///< with others in the lanes of registers
   std::vector<JointPeak> joints;  ///< in the order of the model; empty if it could not be started
   std::vector<double> series;     ///< the chosen columns one after the other, each at all output times; NaN where it did not get
   std::string message;            ///< why it is not completed
@@ -38,6 +41,7 @@ struct SampleResult {
 struct EnvelopeRequest {
   std::vector<std::string> series;  ///< names of columns as in series.csv
   bool unchecked = false;           ///< some variants will not be checked: the base is run once to see how they are to be integrated
+  bool fleets = true;               ///< variants may go in fleets; otherwise each in a run of its own
 };
 
 class EnvelopeEngine {
@@ -57,6 +61,8 @@ class EnvelopeEngine {
 
  private:
   void learn(const Model& base);
+  SampleResult run_alone(const Variant& variant, const Observer& observer) const;
+  SampleResult of_fleet(const FleetResult& result) const;
 
   EnvelopeRequest request_;
   std::vector<std::string> joints_, units_;
@@ -64,6 +70,7 @@ class EnvelopeEngine {
   double output_step_ = 0;
   std::size_t n_times_ = 0;
   RunLesson lesson_;  // of the base
+  std::shared_ptr<FleetPool> fleets_;  // none: the base is not for fleets
 };
 
 }  // namespace pintle

@@ -1,5 +1,5 @@
 // The envelopes of variants are those of runs, whatever stands beside a variant.
-#include "analyses/envelope.h"
+#include "fleet/envelope.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,11 @@
-#include "analyses/envelope.h"
+#include "fleet/envelope.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 #include "analyses/recording.h"
@@ -56,6 +57,15 @@ std::size_t output_rows(double duration, double step) {
   return row + 2;
 }
 
+// One that cannot be assembled is not for a fleet either: a run of its own says why.
+bool board(Fleet& fleet, int lane, const Model& variant) {
+  try {
+    return fleet.takes(variant) && fleet.put(lane, variant);
+  } catch (const AssemblyError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 EnvelopeEngine::EnvelopeEngine(const Model& base, EnvelopeRequest request) : request_(std::move(request)) {
@@ -84,30 +94,73 @@ EnvelopeEngine::EnvelopeEngine(const Model& base, EnvelopeRequest request) : req
 // A base that cannot be run teaches nothing; its variants perhaps can.
 void EnvelopeEngine::learn(const Model& base) {
   try {
-    lean_run(base, {Recorded::kForces, true, nullptr, &lesson_});
+    const Trajectory run = lean_run(base, {Recorded::kForces, true, nullptr, &lesson_});
+    if (!request_.fleets || !request_.series.empty() || run.outcome != Outcome::kCompleted) return;
+    if (auto plan = plan_fleet(base, lesson_, run)) fleets_ = std::make_shared<FleetPool>(std::move(*plan));
   } catch (const AssemblyError&) {
     lesson_ = {};
   }
 }
 
+SampleResult EnvelopeEngine::run_alone(const Variant& variant, const Observer& observer) const {
+  const RunShape shape{columns_.empty() ? Recorded::kForces : Recorded::kColumns, variant.checked, &lesson_, nullptr};
+  try {
+    const Trajectory run = lean_run(variant.model, shape, observer);
+    SampleResult out = result_of(run, variant.checked);
+    if (!columns_.empty()) copy_series(run, columns_, n_times_, out.series);
+    return out;
+  } catch (const AssemblyError& error) {
+    SampleResult refused;
+    refused.status = SampleStatus::kNotAssembled;
+    refused.message = error.what();
+    return refused;
+  }
+}
+
+SampleResult EnvelopeEngine::of_fleet(const FleetResult& result) const {
+  SampleResult out;
+  out.steps = fleets_->plan().steps.size();
+  out.passes = 1;
+  out.in_fleet = true;
+  for (std::size_t j = 0; j < result.joints.size(); ++j) {
+    const JointData& joint = fleets_->plan().base.joints[j];
+    if (joint.servo >= 0) continue;
+    const FleetResult::Peak& peak = result.joints[j];
+    out.joints.push_back({peak.force, peak.time, transmits_couple(joint) ? peak.couple : 0, kNotEstimated});
+  }
+  return out;
+}
+
+// Those that are not checked go in fleets as far as they can, the others one by one.
 std::vector<SampleResult> EnvelopeEngine::run(std::span<const Variant> variants, const std::function<bool()>& keep_going) const {
-  std::vector<SampleResult> out;
-  out.reserve(variants.size());
-  const Observer observer = [&](const Progress&) { return keep_going(); };
-  for (const Variant& variant : variants) {
+  std::vector<SampleResult> out(variants.size());
+  bool stopped = false;
+  const Observer observer = [&](const Progress&) { return !(stopped = !keep_going()); };
+  std::unique_ptr<Fleet> fleet = fleets_ ? fleets_->borrow() : nullptr;
+  std::vector<std::size_t> aboard;  // by lane
+  std::vector<std::size_t> alone;
+  const auto sail = [&] {
+    const auto results = fleet->run();
+    for (std::size_t lane = 0; lane < aboard.size(); ++lane)
+      if (results[lane].good) out[aboard[lane]] = of_fleet(results[lane]);
+      else alone.push_back(aboard[lane]);
+    aboard.clear();
+  };
+  for (std::size_t i = 0; i < variants.size(); ++i) {
     if (!keep_going()) return {};
-    const RunShape shape{columns_.empty() ? Recorded::kForces : Recorded::kColumns, variant.checked, &lesson_, nullptr};
-    try {
-      const Trajectory run = lean_run(variant.model, shape, observer);
-      if (run.outcome == Outcome::kInterrupted) return {};
-      out.push_back(result_of(run, variant.checked));
-      if (!columns_.empty()) copy_series(run, columns_, n_times_, out.back().series);
-    } catch (const AssemblyError& error) {
-      SampleResult refused;
-      refused.status = SampleStatus::kNotAssembled;
-      refused.message = error.what();
-      out.push_back(std::move(refused));
+    if (variants[i].checked || !fleet || !board(*fleet, static_cast<int>(aboard.size()), variants[i].model)) {
+      alone.push_back(i);
+      continue;
     }
+    aboard.push_back(i);
+    if (aboard.size() == kFleet) sail();
+  }
+  if (!aboard.empty()) sail();
+  if (fleet) fleets_->give_back(std::move(fleet));
+  for (const std::size_t i : alone) {
+    if (!keep_going()) return {};
+    out[i] = run_alone(variants[i], observer);
+    if (stopped) return {};
   }
   return out;
 }

@@ -1,0 +1,10 @@
+// Fleets in registers of 256 bits. What is included before the target is set is everybody's code, and stays as it is.
+#include "fleet/fleet_common.h"
+
+#ifdef PINTLE_WIDE
+#pragma GCC push_options
+#pragma GCC target("avx2")
+#define PINTLE_FLEET bits256
+#include "fleet/fleet_lanes.h"
+#pragma GCC pop_options
+#endif

@@ -1,0 +1,10 @@
+// Fleets in registers of 512 bits. What is included before the target is set is everybody's code, and stays as it is.
+#include "fleet/fleet_common.h"
+
+#ifdef PINTLE_WIDE
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")
+#define PINTLE_FLEET bits512
+#include "fleet/fleet_lanes.h"
+#pragma GCC pop_options
+#endif
