@@ -185,7 +185,7 @@ std::array<FleetResult, kFleet> Fleet::run() {
     result.error = work_->worst()[lane];
     result.iterations = work_->iterations();
     result.unsettled = work_->unsettled()[lane];
-    result.good = result.error <= plan_.most_error && std::isfinite(result.error) && result.unsettled <= kUnsettled * plan_.wanted;
+    result.good = std::isfinite(result.error) && result.error <= plan_.most_error && result.unsettled <= kUnsettled * plan_.wanted;
     for (const FleetPeak& peak : work_->peaks()) {
       result.joints.push_back({std::sqrt(peak.square[lane]), peak.time[lane], peak.couple[lane]});
       result.good = result.good && std::isfinite(peak.square[lane] + peak.couple[lane]);

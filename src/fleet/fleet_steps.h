@@ -54,16 +54,15 @@ class FleetSteps {
     Each error;
     error_estimate(h, error);
     worst_ = larger(worst_, error);
-    for (int lane = 0; lane < kFleet; ++lane)
-      if (!std::isfinite(error[lane])) worst_.v[lane] = HUGE_VAL;
     finish(h);
+    look_for_nonsense();
     if (!plan.inside.empty()) curves_.look_inside(begin_, end_, nodes_, plan.inside);
     if (plan.at_end) curves_.look_at(end_.t, end_.force);
     last_share_ = share;
     have_nodes_ = true;
   }
 
-  /// The largest error estimate of a step over the tolerance; infinite where an iteration has failed.
+  /// The largest error estimate of a step over the tolerance; infinite where an iteration has failed or numbers are none.
   const Each& worst() const { return worst_; }
   /// Of the step that took most.
   int iterations() const { return iterations_; }
@@ -82,6 +81,17 @@ class FleetSteps {
     Stage(std::size_t n, std::size_t joints)
         : q(n + 1), v(n + 1), a(n + 1), Q(n + 1), gap(joints), rate(joints), accel(joints), force(joints), bias(joints), map(joints) {}
   };
+
+  // What is not a number is larger than nothing, and would go unseen.
+  void look_for_nonsense() {
+    Each nothing(0.0);
+    for (const EachVec& f : end_.force)
+      for (int k = 0; k < 3; ++k) nothing += 0.0 * f[k];
+    for (const EachVec& a : end_.a)
+      for (int k = 0; k < 3; ++k) nothing += 0.0 * a[k];
+    for (int lane = 0; lane < kFleet; ++lane)
+      if (nothing[lane] != 0) worst_.v[lane] = HUGE_VAL;
+  }
 
   // The last step's curve goes on. `ratio`: this step over the last one; 0: there is none.
   PINTLE_PART void predict(double ratio) {

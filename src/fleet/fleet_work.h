@@ -17,7 +17,7 @@ class FleetWork {
   virtual void run() = 0;
   /// What another sweep would change at the start, relative.
   virtual const Each& unsettled() const = 0;
-  /// The largest error estimate of a step over the tolerance; infinite where an iteration has failed.
+  /// The largest error estimate of a step over the tolerance; infinite where an iteration has failed or numbers are none.
   virtual const Each& worst() const = 0;
   /// Of the step and lane that took most.
   virtual int iterations() const = 0;
