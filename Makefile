@@ -20,7 +20,7 @@ help:
 	@echo "make test       install what is missing, build and run every test and check"
 	@echo "make build      the optimised program, build/release/bin/pintle"
 	@echo "make install    library, headers and program to PREFIX (now $(PREFIX))"
-	@echo "make bench      work and precision beside SUNDIALS, Simbody and MuJoCo, ten minutes; QUICK=1: one minute"
+	@echo "make bench      work and precision beside SUNDIALS, Simbody and MuJoCo, a quarter of an hour; QUICK=1: one minute"
 	@echo "make paper      the paper's numbered results: docs/paper/README.md and its pictures"
 	@echo "make figure9    the paper's Figure 9 only"
 	@echo "make published  published benchmark problems, measured as their sources do"
