@@ -56,9 +56,9 @@ struct ScaleOptions {
 nlohmann::ordered_json study_scale(const ScaleOptions& options);
 
 struct SweepOptions {
-  std::vector<std::string> models{"four_bar", "slider_crank", "quick_return", "six_bar", "inverted_slider_crank", "toggle_press"};
+  std::vector<std::string> models{"four_bar", "trammel", "pendulum", "weld_beam", "andrews"};
   std::vector<double> tolerances{1e-3, 1e-4, 1e-5};
-  int variants = 80, rounds = 3;
+  int variants = 240, rounds = 3;
 };
 nlohmann::ordered_json study_sweeps(const SweepOptions& options);
 

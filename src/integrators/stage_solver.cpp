@@ -459,7 +459,7 @@ void LaneSolver<N>::find_yield(std::vector<Three>& forces) const {
     for (int k = 0; k < 3; ++k) x[k] = mu2 * x[k];
 }
 
-// The same text twice, for registers of two widths: everything that is made of lanes is inlined into these functions.
+// The same text for registers of every width: everything that is made of lanes is inlined into these functions.
 template <int N>
 class NarrowSolver final : public LaneSolver<N> {
  public:
@@ -480,11 +480,23 @@ class WideSolver final : public LaneSolver<N> {
   }
   PINTLE_WIDE void yield_to(std::vector<StageSolver::Three>& forces) const override { this->find_yield(forces); }
 };
+
+// For five stages: in narrower registers they take turns.
+class WidestSolver final : public LaneSolver<5> {
+ public:
+  using LaneSolver<5>::LaneSolver;
+  PINTLE_WIDEST bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override {
+    return this->solve_stages(begin, h, before, last_h, scale, counters);
+  }
+  PINTLE_WIDEST void yield_to(std::vector<StageSolver::Three>& forces) const override { this->find_yield(forces); }
+};
 #endif
 
 template <int N>
 std::unique_ptr<StageSolver> make_solver(const System& system, const RadauTable& table, double tolerance) {
 #ifdef PINTLE_WIDE
+  if constexpr (N == 5)
+    if (has_widest_registers()) return std::make_unique<WidestSolver>(system, table, tolerance);
   if (has_wide_registers()) return std::make_unique<WideSolver<N>>(system, table, tolerance);
 #endif
   return std::make_unique<NarrowSolver<N>>(system, table, tolerance);

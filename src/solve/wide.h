@@ -1,10 +1,12 @@
-// Registers of 256 bits, where the processor that the program runs on has them. The arithmetic is the same, without fused
+// Registers of 256 and of 512 bits, where the processor that the program runs on has them. The arithmetic is the same, without fused
 // products, so that results are the same bits.
 #pragma once
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(PINTLE_NARROW)
 /// Before a function: compiled for wide registers, with all that it calls inlined into it.
 #define PINTLE_WIDE [[gnu::target("avx2"), gnu::flatten]]
+/// The same for registers of 512 bits.
+#define PINTLE_WIDEST [[gnu::target("avx512f,avx512dq,avx512vl"), gnu::flatten]]
 
 namespace pintle {
 inline bool has_wide_registers() { return __builtin_cpu_supports("avx2"); }
