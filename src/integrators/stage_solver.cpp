@@ -1,79 +1,17 @@
 // Simplified Newton on all stages at once: they stand side by side in the lanes of Lanes<N>, and so do the real and complex
 // systems into which their equations fall apart.
-#include "integrators/stage_solver.h"
+#include "integrators/lane_solver.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "integrators/newton_contraction.h"
 #include "integrators/pose_blocks.h"
-#include "integrators/stage_lanes.h"
-#include "solve/block_lu.h"
 #include "solve/wide.h"
 
 namespace pintle {
-namespace {
 
 using S = Planar;
-
-template <int N>
-class LaneSolver : public StageSolver {
- public:
-  LaneSolver(const System& system, const RadauTable& table, double tolerance);
-
-  void write(std::vector<Stage>& stages) const override;
-  double residual(int j) const override;
-
- protected:
-  bool solve_stages(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters);
-  void find_yield(std::vector<Three>& forces) const;
-
- private:
-  using L = Lanes<N>;
-  using X = Spectrum<N>;
-  static constexpr int kMiddle = N / 2;  // the stage where the equations are linearised
-
-  // Bodies by index; the ground stands behind the last one and never moves.
-  std::size_t body(int index) const { return index == kGround ? bodies_.size() - 1 : static_cast<std::size_t>(index); }
-  std::size_t n_bodies() const { return bodies_.size() - 1; }
-
-  void predict(const State& begin, double h, const StepNodes* before, double last_h);
-  void find_targets(double t, double h);
-  void place(const State& begin, double h);
-  double find_forces(const LoadScale& scale);
-  void find_residuals(const State& begin, double h);
-  void find_loads(const State& begin, double h);
-  void find_map(std::size_t j);
-  L find_gradient(const JointData& joint, const PoseGeometry<L>& pose, JointLanes<N>& lanes) const;
-  void linearize(double t, HeldJumps held);
-  bool renew(const State& begin, double h, Counters& counters);
-  bool factorize(double h);
-  void add_joint(std::size_t j, const X& mu);
-  void add_pose_joint(std::size_t j, const X& mu);
-  static void add_block(Block<X, 3>& block, const S::Mat& K, const S::Mat& C, const X& mu, double sign);
-  double correct(const LoadScale& scale);
-
-  const System& system_;
-  const RadauTable& table_;
-  const StageMatrices<N> matrices_;
-  double tolerance_;
-  NewtonContraction contraction_;
-  static constexpr double kGood = 0.15, kSlow = 0.4;  // contractions: Jacobians serve the next step; they do not serve this one
-  static constexpr int kMostWithOld = 4;      // iterations
-  double factorized_for_ = 0;                 // the step; 0: none
-  bool loads_;                                // there is more than weight
-  std::vector<BodyLanes<N>> bodies_;
-  std::vector<JointLanes<N>> joints_;
-  Vecs Q_;                                    // of one stage
-  std::vector<S::Motion> motions_;
-  struct LoadBlock { int i, j; S::Mat dq, dv; };
-  std::vector<BlockPattern::Slot> slots_;     // of each joint's bodies, A before B
-  std::vector<LoadBlock> load_blocks_;
-  X mu2_;
-  BlockLu<X, 3> lu_;
-  std::vector<BlockVec<X, 3>> rhs_;           // and the ground's
-};
 
 template <int N>
 LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double tolerance)
@@ -458,6 +396,8 @@ void LaneSolver<N>::find_yield(std::vector<Three>& forces) const {
   for (Three& x : forces)
     for (int k = 0; k < 3; ++k) x[k] = mu2 * x[k];
 }
+
+namespace {
 
 // The same text for registers of every width: everything that is made of lanes is inlined into these functions.
 template <int N>
