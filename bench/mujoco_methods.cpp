@@ -98,6 +98,7 @@ std::unique_ptr<mjModel, FreeModel> load(const std::string& text) {
   mj_makeEmptyFileVFS(files.get(), "model.xml", static_cast<int>(text.size()));
   std::copy(text.begin(), text.end(), static_cast<char*>(files->filedata[0]));
   char error[500] = "";
+  mju_user_warning = [](const char*) {};  // by itself it would leave a log in the working directory
   std::unique_ptr<mjModel, FreeModel> model(mj_loadXML("model.xml", files.get(), error, sizeof error));
   if (!model) throw std::runtime_error(fmt::format("MuJoCo refuses the model: {}", error));
   return model;
