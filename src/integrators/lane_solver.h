@@ -17,6 +17,7 @@ class LaneSolver : public StageSolver {
   LaneSolver(const System& system, const RadauTable& table, double tolerance);
 
   void write(std::vector<Stage>& stages) const override;
+  double contraction() const override { return contraction_.seen(); }
   double residual(int j) const override;
 
  protected:

@@ -56,6 +56,7 @@ class RadauStepper {
   double t() const { return begin_.t; }
   void begin_at_end() { begin_ = end_; }
   bool attempt(double h);                     // solves the stages from begin_
+  double contraction() const { return solver_->contraction(); }
   bool unloaded() const;
   void foresee_loads(double h);
 

@@ -30,6 +30,8 @@ class StageSolver {
   virtual bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) = 0;
   /// What has been found, one entry per stage.
   virtual void write(std::vector<Stage>& stages) const = 0;
+  /// By how much the last iterations shrank the error of the stages.
+  virtual double contraction() const = 0;
   /// What is missing in joint j's equation at the end of the step [m/s^2 or rad/s^2].
   virtual double residual(int j) const = 0;
   /// Three sets of body forces, side by side, become the accelerations that they make within the step: mu^2 Z(mu)^-1 of
