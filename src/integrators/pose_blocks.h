@@ -26,9 +26,9 @@ PINTLE_LANES void add_pose_blocks(BlockLu<T, 3>& lu, const Placement& at, BlockP
   if (at.b != kGround) add(lu.diagonal(at.b), xx, xy, yy, bx, by, bx, by, w[2] + g.bx * (by + fx) - g.by * (bx - fy));
   if (at.a == kGround || at.b == kGround) return;
   const T both = w[2] + g.bx * ay - g.by * ax;
-  add(lu.off_diagonal(slot), -xx, -xy, -yy, -bx, -by, -ax, -ay, -both);
+  if (lu.has(slot)) add(lu.off_diagonal(slot), -xx, -xy, -yy, -bx, -by, -ax, -ay, -both);
   slot.upper = !slot.upper;
-  add(lu.off_diagonal(slot), -xx, -xy, -yy, -ax, -ay, -bx, -by, -both);
+  if (lu.has(slot)) add(lu.off_diagonal(slot), -xx, -xy, -yy, -ax, -ay, -bx, -by, -both);
 }
 
 }  // namespace pintle
