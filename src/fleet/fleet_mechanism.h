@@ -13,6 +13,7 @@
 namespace pintle {
 
 constexpr int kFleet = 8;     // variants: what hides the latency of a chain of operations that wait for each other
+constexpr int kFleetStages = 3;  // of their steps
 using Each = Lanes<kFleet>;  // a number of each
 using EachVec = BlockVec<Each, 3>;
 using EachVecs = std::vector<EachVec>;  // per body, with one more for the ground; or per joint

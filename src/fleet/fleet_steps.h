@@ -70,7 +70,7 @@ class FleetSteps {
   const FleetState& state() const { return end_; }
 
  private:
-  static constexpr int N = FleetSamples::kStages, kMost = NewtonContraction::kMaxIterations;
+  static constexpr int N = kFleetStages, kMost = NewtonContraction::kMaxIterations;
   static constexpr double kFirstContraction = 0.5, kShare = 0.05, kRounding = 1e-15, kProjectionShare = 0.01, kGapError = 3;
   using Pair = ComplexLanes<kFleet>;
 

@@ -7,6 +7,13 @@
 
 namespace pintle {
 
+/// Springs and dampers make symmetric matrices.
+inline Symmetry symmetry_of_joints(const System& system) {
+  for (const JointData& joint : system.joints)
+    if (!std::holds_alternative<LinearLaw>(joint.law)) return Symmetry::kNone;
+  return Symmetry::kSymmetric;
+}
+
 /// Adds G' w G - N to the blocks of both bodies: w stands for stiffness in each component, N is the geometric stiffness at the
 /// joint's force. In world axes w is a symmetric stiffness (xx, xy, yy) at the joint's point, which acts at the arms of both
 /// bodies, and one against turning. joints Eqs. (2.5), (2.6), (2.9).

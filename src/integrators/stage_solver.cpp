@@ -13,22 +13,11 @@ namespace pintle {
 
 using S = Planar;
 
-namespace {
-
-// Joints that are springs and dampers, on bodies that nothing else pulls: so are Jacobians symmetric.
-Symmetry symmetry_of(const System& system) {
-  bool symmetric = system.loads.empty() && system.applied.empty();
-  for (const JointData& joint : system.joints) symmetric = symmetric && std::holds_alternative<LinearLaw>(joint.law);
-  return symmetric ? Symmetry::kSymmetric : Symmetry::kNone;
-}
-
-}  // namespace
-
 template <int N>
 LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double tolerance)
     : system_(system), table_(table), matrices_(table), tolerance_(tolerance), loads_(!system.loads.empty() || !system.applied.empty()),
       bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), motions_(system.bodies.size()), slots_(system.joints.size()),
-      lu_(system.pattern(), symmetry_of(system)), rhs_(system.bodies.size() + 1) {
+      lu_(system.pattern(), loads_ ? Symmetry::kNone : symmetry_of_joints(system)), rhs_(system.bodies.size() + 1) {
   bodies_.back().c = L::all(1);  // the ground; what falls on it is not looked at
   for (std::size_t b = 0; b < n_bodies(); ++b)
     for (int k = 0; k < 3; ++k) bodies_[b].Q[k] = L::all(system.bodies[b].gravity[k]);
@@ -122,7 +111,7 @@ void LaneSolver<N>::find_targets(double t, double h) {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const JointData& joint = system_.joints[j];
     if (joint.servo < 0 || joint.target.variables().empty()) continue;
-    for (int s = 0; s < N; ++s) joints_[j].target_accel.set(s, joint.target.second_order(std::array{t + table_.c[s] * h}, 0)[2]);
+    for (int s = 0; s < N; ++s) joints_[j].target_accel.set(s, servo_target(joint, t + table_.c[s] * h)[2]);
   }
 }
 
