@@ -98,17 +98,8 @@ void GapProjector::close(const std::vector<Three>& wanted, std::vector<Three>& x
       else
         for (int k = 0; k < S::kDof; ++k) f[r] += weight_[j](r, k) * wanted[j][k];
     }
-    const auto on = readings_[j].map.spread(f.a.data());
-    if (at.a != kGround) {
-      x[at.a][0] -= on.fx;
-      x[at.a][1] -= on.fy;
-      x[at.a][2] += on.ma;
-    }
-    if (at.b != kGround) {
-      x[at.b][0] += on.fx;
-      x[at.b][1] += on.fy;
-      x[at.b][2] += on.mb;
-    }
+    Three ground{};
+    readings_[j].map.push(f.a.data(), at.a == kGround ? ground : x[at.a], at.b == kGround ? ground : x[at.b]);
   }
   lu_.solve(x);
 }
