@@ -23,6 +23,7 @@ class LaneSolver : public StageSolver {
  protected:
   bool solve_stages(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters);
   void find_yield(std::vector<Three>& forces) const;
+  void find_tails(const State& begin, std::vector<Three>& bodies, std::vector<Three>& gaps) const;
 
  private:
   using L = Lanes<N>;
@@ -64,6 +65,7 @@ class LaneSolver : public StageSolver {
   static constexpr int kMostWithOld = 4;      // iterations
   double factorized_for_ = 0;                 // the step; 0: none
   bool loads_;                                // there is more than weight
+  bool simple_ = true;                        // and no joint that is more than springs and dampers
   std::vector<BodyLanes<N>> bodies_;
   std::vector<JointLanes<N>> joints_;
   Vecs Q_;                                    // of one stage

@@ -62,7 +62,6 @@ class RadauStepper {
 
   // radau_end.cpp: the error of a step and its end
   bool error_estimate(double h, double& error);
-  double body_tail() const;
   double tail_size(const LoadScale& scale, double factor) const;
   double motion_tail();                       // as accelerations that the bodies can yield to
   double gap_tail();

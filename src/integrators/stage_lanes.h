@@ -46,6 +46,8 @@ struct StageMatrices {
   Lanes<N> c;                    // stage times
   LaneMatrix<N> A, A2, T, T_inverse;
   Spectrum<N> eigenvalue;
+  LaneMatrix<N> tail, tail_of_stages;  // to Legendre coefficients N, N - 1, N - 2 with the start, one less each without it
+  Lanes<N> tail_of_start;
 
   explicit StageMatrices(const RadauTable& table) {
     for (int i = 0; i < N; ++i) {
@@ -63,6 +65,13 @@ struct StageMatrices {
         T.column[2 * p + 1].set(i, -2 * table.T_complex[p][i].imag());
         T_inverse.column[i].set(2 * p, table.inverse_complex[p][i].real());
         T_inverse.column[i].set(2 * p + 1, table.inverse_complex[p][i].imag());
+      }
+    }
+    for (int back = 0; back < N; ++back) {
+      tail_of_start.set(back, table.to_legendre(N - back, 0));
+      for (int s = 0; s < N; ++s) {
+        tail.column[s].set(back, table.to_legendre(N - back, s + 1));
+        tail_of_stages.column[s].set(back, table.stages_to_legendre(N - 1 - back, s));
       }
     }
     eigenvalue.x.set(N - 1, table.real_eigenvalue);

@@ -25,6 +25,7 @@ LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double 
     const JointData& joint = system.joints[j];
     joints_[j].map.function = !std::holds_alternative<Selection>(joint.probe);
     joints_[j].diagonal = std::holds_alternative<LinearLaw>(joint.law);
+    simple_ = simple_ && joints_[j].diagonal && joint.servo < 0;
     if (joint.at.a != kGround && joint.at.b != kGround) slots_[j] = system.pattern().slot(joint.at.a, joint.at.b);
   }
 }
@@ -382,16 +383,18 @@ template <int N>
 void LaneSolver<N>::write(std::vector<Stage>& stages) const {
   for (int s = 0; s < N; ++s) {
     Stage& stage = stages[s];
+    const bool whole = s == N - 1 || loads_ || !simple_;
     const auto copy = [s](const L* from, S::Vec& to) { to << from[0][s], from[1][s], from[2][s]; };
     for (std::size_t b = 0; b < n_bodies(); ++b) {
+      copy(bodies_[b].a, stage.a[b]);
+      if (!whole) continue;
       copy(bodies_[b].q, stage.q[b]);
       copy(bodies_[b].v, stage.v[b]);
-      copy(bodies_[b].a, stage.a[b]);
-      stage.m[b] = bodies_[b].motion(s);
       copy(bodies_[b].Q, stage.Q[b]);
+      stage.m[b] = bodies_[b].motion(s);
     }
     for (std::size_t j = 0; j < joints_.size(); ++j) {
-      copy(joints_[j].gap, stage.gap[j]);
+      if (whole) copy(joints_[j].gap, stage.gap[j]);
       copy(joints_[j].rate, stage.gap_rate[j]);
       copy(joints_[j].accel, stage.gap_accel[j]);
       copy(joints_[j].force, stage.force[j]);
@@ -407,6 +410,17 @@ double LaneSolver<N>::residual(int j) const {
     square += at_end * at_end;
   }
   return std::sqrt(square);
+}
+
+template <int N>
+void LaneSolver<N>::find_tails(const State& begin, std::vector<Three>& bodies, std::vector<Three>& gaps) const {
+  const auto put = [](const L& from, Lanes<3>& to) {
+    for (int back = 0; back < 3; ++back) to.set(back, from[back]);
+  };
+  for (std::size_t b = 0; b < n_bodies(); ++b)
+    for (int k = 0; k < 3; ++k) put(begin.a[b][k] * matrices_.tail_of_start + matrices_.tail * bodies_[b].a[k], bodies[b][k]);
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    for (int k = 0; k < 3; ++k) put(matrices_.tail_of_stages * joints_[j].accel[k], gaps[j][k]);
 }
 
 template <int N>
@@ -428,6 +442,9 @@ class NarrowSolver final : public LaneSolver<N> {
     return this->solve_stages(begin, h, before, last_h, scale, counters);
   }
   void yield_to(std::vector<StageSolver::Three>& forces) const override { this->find_yield(forces); }
+  void tails(const State& begin, std::vector<StageSolver::Three>& bodies, std::vector<StageSolver::Three>& gaps) const override {
+    this->find_tails(begin, bodies, gaps);
+  }
 };
 
 #ifdef PINTLE_WIDE
@@ -439,6 +456,9 @@ class WideSolver final : public LaneSolver<N> {
     return this->solve_stages(begin, h, before, last_h, scale, counters);
   }
   PINTLE_WIDE void yield_to(std::vector<StageSolver::Three>& forces) const override { this->find_yield(forces); }
+  PINTLE_WIDE void tails(const State& begin, std::vector<StageSolver::Three>& bodies, std::vector<StageSolver::Three>& gaps) const override {
+    this->find_tails(begin, bodies, gaps);
+  }
 };
 
 // For five stages: in narrower registers they take turns.
@@ -449,6 +469,9 @@ class WidestSolver final : public LaneSolver<5> {
     return this->solve_stages(begin, h, before, last_h, scale, counters);
   }
   PINTLE_WIDEST void yield_to(std::vector<StageSolver::Three>& forces) const override { this->find_yield(forces); }
+  PINTLE_WIDEST void tails(const State& begin, std::vector<StageSolver::Three>& bodies, std::vector<StageSolver::Three>& gaps) const override {
+    this->find_tails(begin, bodies, gaps);
+  }
 };
 #endif
 
