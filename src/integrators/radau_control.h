@@ -63,7 +63,7 @@ template <class Method>
 bool RadauControl::advance(Method& method, double t_end, double tolerance, int order, Counters& counters) {
   method.begin_at_end();
   double h = longest > 0 ? std::min(next, longest) : next;
-  bool up_to_kink = false;
+  bool up_to_kink = false, refused = false;  // by Newton's iteration
   for (int retry = 0; retry < kMaxRetries; ++retry) {
     const double left = t_end - method.t();
     if (h > left || left - h < 1e-3 * h) h = left;
@@ -72,6 +72,7 @@ bool RadauControl::advance(Method& method, double t_end, double tolerance, int o
     const bool solved = method.attempt(h);
     if (!solved) {
       ++counters.newton_failures;
+      refused = true;
       have_history = have_history && retry == 0;
     }
     const Kink kink = solved || retry > 0 ? method.find_kink(h, solved) : Kink{};  // twice unsolved: for a jump on the way?
@@ -106,7 +107,7 @@ bool RadauControl::advance(Method& method, double t_end, double tolerance, int o
     if (have_history && last > 0 && h >= last && last_error_ > 0 && error > 0)  // an error that grows goes on growing: K. Gustafsson's predictive controller
       factor = std::clamp(factor * (h / last) * std::pow(last_error_ / error, 1.0 / order), kLeast, factor);
     last_error_ = std::max(error, kLeastError);
-    if (retry > 0 && !up_to_kink) factor = std::min(factor, 1.0);
+    if (refused) factor = std::min(factor, 1.0);
     if (counters.steps > 0) factor = std::min(factor, of_contraction(method.contraction()));
     method.finish_step(h);
     ++counters.steps;
