@@ -72,7 +72,7 @@ TEST_F(ReportVerb, DamagedRunsAreRefusedWithTheirPlace) {
   EXPECT_TRUE(holds(answer_with("model-as-run.toml", model + "# changed"), "not the model that was run"));
   EXPECT_TRUE(holds(answer_with("summary.json", summary.substr(0, 100)), "summary.json"));
   EXPECT_TRUE(holds(answer_with("summary.json", "{}"), "summary.json"));
-  for (std::size_t cut = 7; cut < summary.size(); cut += summary.size() / 9)
+  for (std::size_t cut = 7; cut + 2 < summary.size(); cut += summary.size() / 9)  // the last line feed is not missed
     EXPECT_TRUE(holds(answer_with("summary.json", summary.substr(0, cut)), "summary.json")) << cut;
   EXPECT_FALSE(sandbox_.has("bob-run.html"));
 }

@@ -27,6 +27,7 @@ constexpr double kLoosestOfMotion = 1e-3;
 constexpr double kLeastTolerance = 1e-13;
 // The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
 constexpr double kSharePower = 0.8, kShareOfEqual = 3;
+constexpr double kPromised = 0.7;  // of the tolerance: with a smaller stated error the true one keeps to it, which may be a third larger
 constexpr double kAlike = 1.25;  // steps of the finer pass over those of the coarser: with fewer the two say little
 constexpr double kSurest = 0.1;  // of the tolerance of the steps: no error of the motion is stated as smaller
 constexpr std::size_t kManyBodies = 1000;
@@ -187,7 +188,7 @@ class Run {
           tolerance = std::max(kLeastTolerance, 0.1 * tolerance);
           continue;
         }
-        if (error <= wanted || out_.counters.passes >= kMaxPasses || tolerance <= kLeastTolerance) break;
+        if (error <= kPromised * wanted || out_.counters.passes >= kMaxPasses || tolerance <= kLeastTolerance) break;
         const double shrink = 0.5 * std::pow(wanted / error, 1 / kSharePower);
         tolerance = std::max(kLeastTolerance, tolerance * std::clamp(shrink, 1e-3, 0.1));
       }

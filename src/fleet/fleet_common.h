@@ -10,7 +10,7 @@
 
 #include "analyses/curve_nodes.h"
 #include "analyses/slow_start.h"
-#include "fleet/fleet_samples.h"
+#include "integrators/force_samples.h"
 #include "fleet/fleet_work.h"
 #include "integrators/newton_contraction.h"
 #include "integrators/pose_blocks.h"

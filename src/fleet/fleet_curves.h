@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "fleet/fleet_projector.h"
-#include "fleet/fleet_samples.h"
+#include "integrators/force_samples.h"
 #include "integrators/radau_table.h"
 
 namespace pintle::PINTLE_FLEET {
 
 /// Accelerations and joint forces at the nodes {0, c_1 .. c_n} of a step.
 struct FleetNodes {
-  std::array<EachVecs, FleetSamples::kStages + 1> a, accel, force;
+  std::array<EachVecs, kFleetStages + 1> a, accel, force;
 
   FleetNodes(std::size_t bodies, std::size_t joints) {
     for (EachVecs& x : a) x.resize(bodies + 1);
@@ -44,7 +44,7 @@ class FleetCurves {
   const std::vector<FleetPeak>& peaks() const { return peaks_; }
 
  private:
-  static constexpr int N = FleetSamples::kStages, kSamples = FleetSamples::kN;
+  static constexpr int N = kFleetStages, kSamples = ForceSamples::kN;
 
   // The forces' own curves: through the ends and samples inside.
   PINTLE_PART void find(const FleetState& begin, const FleetState& end, const FleetNodes& nodes) {
@@ -55,7 +55,7 @@ class FleetCurves {
       const double x = samples_.x[i];
       const auto &value = samples_.value[i], &once = samples_.once[i], &twice = samples_.twice[i], &whole = samples_.once[kSamples + 1],
                  &whole_twice = samples_.twice[kSamples + 1];
-      const auto combined = [](const std::array<double, N + 1>& w, const Each* a) { return w[0] * a[0] + w[1] * a[1] + w[2] * a[2] + w[3] * a[3]; };
+      const auto combined = [](const ForceSamples::AtNodes& w, const Each* a) { return w[0] * a[0] + w[1] * a[1] + w[2] * a[2] + w[3] * a[3]; };
       const double hermite = x * x * (3 - 2 * x);
       const auto along = [&](std::size_t count, const std::array<EachVecs, N + 1>& of, const EachVecs& x0, const EachVecs& v0, const EachVecs& x1,
                              const EachVecs& v1, EachVecs* position, EachVecs& rate, EachVecs* accel) {
@@ -119,7 +119,7 @@ class FleetCurves {
 
   FleetMechanism& mechanism_;
   const RadauTable& table_ = RadauTable::of(N);
-  const FleetSamples samples_{table_};
+  const ForceSamples& samples_ = ForceSamples::of(table_);
   FleetProjector projector_;
   std::vector<FleetMotion> m_;
   std::vector<FleetReading> r_;

@@ -5,11 +5,6 @@
 namespace pintle {
 namespace {
 
-std::array<double, 3> target_of(const JointData& joint, double t) {
-  if (joint.target.variables().empty()) return {joint.target.value({}), 0, 0};
-  return joint.target.second_order(std::array{t}, 0);
-}
-
 void put_frame(int lane, const Planar::Frame& from, FleetFrame& to) {
   to.p.along.set(lane, from.p.x());
   to.p.across.set(lane, from.p.y());
@@ -73,16 +68,15 @@ void FleetMechanism::put(int lane, const System& variant) {
 void FleetMechanism::take_off_target(std::size_t j, const Each& t, FleetReading& r) const {
   const int s = joints[j].servo;
   for (int lane = 0; lane < kFleet; ++lane) {
-    const JointData& joint = variant_[lane]->joints[j];
-    const auto target = target_of(joint, t[lane]);
-    r.gap[s].v[lane] -= joint.start + joint.speed * t[lane] + target[0];
-    r.rate[s].v[lane] -= joint.speed + target[1];
+    const auto target = servo_target(variant_[lane]->joints[j], t[lane]);
+    r.gap[s].v[lane] -= target[0];
+    r.rate[s].v[lane] -= target[1];
     r.bias[s].v[lane] -= target[2];
   }
 }
 
 void FleetMechanism::take_off_accel(std::size_t j, const Each& t, EachVec& bias) const {
-  for (int lane = 0; lane < kFleet; ++lane) bias[joints[j].servo].v[lane] -= target_of(variant_[lane]->joints[j], t[lane])[2];
+  for (int lane = 0; lane < kFleet; ++lane) bias[joints[j].servo].v[lane] -= servo_target(variant_[lane]->joints[j], t[lane])[2];
 }
 
 void FleetMechanism::take_motions(const std::vector<FleetMotion>& m, int lane) {

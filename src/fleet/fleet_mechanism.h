@@ -13,6 +13,7 @@
 namespace pintle {
 
 constexpr int kFleet = 8;     // variants: what hides the latency of a chain of operations that wait for each other
+constexpr int kFleetStages = 3;  // of their steps
 using Each = Lanes<kFleet>;  // a number of each
 using EachVec = BlockVec<Each, 3>;
 using EachVecs = std::vector<EachVec>;  // per body, with one more for the ground; or per joint
@@ -88,13 +89,17 @@ class FleetMechanism {
   std::size_t n_bodies() const { return bodies.size(); }
 
   PINTLE_LANES void motions(const EachVecs& q, const EachVecs& v, std::vector<FleetMotion>& out) const {
+    Each angles(0.0);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       FleetMotion& m = out[i];
       m.x = q[i][0];
       m.y = q[i][1];
       m.angle = q[i][2];
-      sine_and_cosine(m.angle, m.s, m.c);
+      sine_and_cosine_unchecked(m.angle, m.s, m.c);
+      angles = larger_size(angles, m.angle);
     }
+    if (any_beyond_largest_angle(angles))
+      for (std::size_t i = 0; i < bodies.size(); ++i) sine_and_cosine(out[i].angle, out[i].s, out[i].c);
     rates(v, out);
     FleetMotion& ground = out.back();
     ground = FleetMotion{Each(0.0), Each(0.0), Each(0.0), Each(1.0), Each(0.0), Each(0.0), Each(0.0), Each(0.0)};
@@ -167,14 +172,7 @@ class FleetMechanism {
 
   /// on_bodies += G' f.
   PINTLE_LANES static void add_force(const FleetJoint& joint, const GapMap<Each>& map, const EachVec& f, EachVecs& on_bodies) {
-    const auto on = map.spread(f.a.data());
-    EachVec &A = on_bodies[joint.a], &B = on_bodies[joint.b];
-    A[0] -= on.fx;
-    A[1] -= on.fy;
-    A[2] += on.ma;
-    B[0] += on.fx;
-    B[1] += on.fy;
-    B[2] += on.mb;
+    map.push(f.a.data(), on_bodies[joint.a], on_bodies[joint.b]);
   }
   /// G x.
   PINTLE_LANES static EachVec gap_change(const FleetJoint& joint, const GapMap<Each>& map, const EachVecs& x) {

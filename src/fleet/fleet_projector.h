@@ -23,7 +23,7 @@ PINTLE_PART inline void read_rates(const FleetMechanism& mechanism, const Each& 
 class FleetProjector {
  public:
   explicit FleetProjector(const FleetMechanism& mechanism)
-      : mechanism_(mechanism), lu_(mechanism.pattern()), map_(mechanism.joints.size()), weight_(mechanism.joints.size()),
+      : mechanism_(mechanism), lu_(mechanism.pattern(), Symmetry::kSymmetric), map_(mechanism.joints.size()), weight_(mechanism.joints.size()),
         body_(mechanism.n_bodies() + 1), missing_(mechanism.joints.size()) {}
 
   /// Factorises Z = mu^2 M + G' w G, w = K + mu C. Eq. (4.1).

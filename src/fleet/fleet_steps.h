@@ -19,8 +19,8 @@ namespace pintle::PINTLE_FLEET {
 class FleetSteps {
  public:
   FleetSteps(FleetMechanism& mechanism, const FleetPlan& plan)
-      : mechanism_(mechanism), tolerance_(plan.tolerance), of_newton_(plan.of_newton), n_(mechanism.n_bodies()), projector_(mechanism), real_(mechanism.pattern()),
-        pair_(mechanism.pattern()), begin_(n_, mechanism.joints.size()), end_(begin_), over_scale_(n_), over_joint_(mechanism.joints.size()),
+      : mechanism_(mechanism), tolerance_(plan.tolerance), of_newton_(plan.of_newton), n_(mechanism.n_bodies()), projector_(mechanism), real_(mechanism.pattern(), Symmetry::kSymmetric),
+        pair_(mechanism.pattern(), Symmetry::kSymmetric), begin_(n_, mechanism.joints.size()), end_(begin_), over_scale_(n_), over_joint_(mechanism.joints.size()),
         real_rhs_(n_ + 1), pair_rhs_(n_ + 1), real_e_(mechanism.joints.size()), pair_e_(mechanism.joints.size()), m_(n_ + 1),
         r_(mechanism.joints.size()), frozen_(mechanism.joints.size()), wanted_(mechanism.joints.size()), move_(n_ + 1), tail_(n_ + 1),
         nodes_(n_, mechanism.joints.size()), curves_(mechanism) {
@@ -70,7 +70,7 @@ class FleetSteps {
   const FleetState& state() const { return end_; }
 
  private:
-  static constexpr int N = FleetSamples::kStages, kMost = NewtonContraction::kMaxIterations;
+  static constexpr int N = kFleetStages, kMost = NewtonContraction::kMaxIterations;
   static constexpr double kFirstContraction = 0.5, kShare = 0.05, kRounding = 1e-15, kProjectionShare = 0.01, kGapError = 3;
   using Pair = ComplexLanes<kFleet>;
 
@@ -185,18 +185,28 @@ class FleetSteps {
     pair_.factorize();
   }
 
+  // The symmetric part of the loads' slopes: matrices stay symmetric, and Newton's iteration makes up for the rest.
   PINTLE_PART void add_load_tangents(const Each& t) {
     mechanism_.motions(stage_[1].q, stage_[1].v, m_);
     mechanism_.load_tangents(t, m_, [this](int lane, int i, int j, const Planar::Mat& dq, const Planar::Mat& dv) {
-      auto& real = i == j ? real_.diagonal(i) : real_.off_diagonal(mechanism_.pattern().slot(i, j));
-      auto& pair = i == j ? pair_.diagonal(i) : pair_.off_diagonal(mechanism_.pattern().slot(i, j));
-      for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) {
-          real(r, c).v[lane] -= dq(r, c) + mu_[lane] * dv(r, c);
-          pair(r, c).re.v[lane] -= dq(r, c) + nu_.re[lane] * dv(r, c);
-          pair(r, c).im.v[lane] -= nu_.im[lane] * dv(r, c);
-        }
+      if (i == j) {
+        add_slopes(lane, real_.diagonal(i), pair_.diagonal(i), dq, dv);
+        add_slopes(lane, real_.diagonal(i), pair_.diagonal(i), dq.transpose(), dv.transpose());
+        return;
+      }
+      const BlockPattern::Slot slot = mechanism_.pattern().slot(i, j), upper{slot.index, true};
+      if (slot.upper) add_slopes(lane, real_.off_diagonal(upper), pair_.off_diagonal(upper), dq, dv);
+      else add_slopes(lane, real_.off_diagonal(upper), pair_.off_diagonal(upper), dq.transpose(), dv.transpose());
     });
+  }
+  // Half of them.
+  PINTLE_LANES void add_slopes(int lane, Block<Each, 3>& real, Block<Pair, 3>& pair, const Planar::Mat& dq, const Planar::Mat& dv) const {
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) {
+        real(r, c).v[lane] -= 0.5 * (dq(r, c) + mu_[lane] * dv(r, c));
+        pair(r, c).re.v[lane] -= 0.5 * (dq(r, c) + nu_.re[lane] * dv(r, c));
+        pair(r, c).im.v[lane] -= 0.5 * (nu_.im[lane] * dv(r, c));
+      }
   }
 
   // Newton's iteration, every lane until it has converged. Eqs. (3.6)-(3.11).
@@ -282,15 +292,8 @@ class FleetSteps {
         f[k] = (joint.k[k] + mu_ * joint.c[k]) * over_mu2_ * real_e_[j][k];
         z[k] = Pair(joint.k[k] + nu_.re * joint.c[k], nu_.im * joint.c[k]) * over_nu2_ * pair_e_[j][k];
       }
-      FleetMechanism::add_force(joint, frozen_[j], f, real_rhs_);
-      const auto on = frozen_[j].spread(z.a.data());
-      BlockVec<Pair, 3>&A = pair_rhs_[joint.a], &B = pair_rhs_[joint.b];
-      A[0] -= on.fx;
-      A[1] -= on.fy;
-      A[2] += on.ma;
-      B[0] += on.fx;
-      B[1] += on.fy;
-      B[2] += on.mb;
+      frozen_[j].push(f.a.data(), real_rhs_[joint.a], real_rhs_[joint.b]);
+      frozen_[j].push(z.a.data(), pair_rhs_[joint.a], pair_rhs_[joint.b]);
     }
     real_.solve(real_rhs_);
     pair_.solve(pair_rhs_);

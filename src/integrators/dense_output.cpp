@@ -1,9 +1,6 @@
 #include "integrators/dense_output.h"
 
-#include <Eigen/LU>
 #include <array>
-#include <cmath>
-#include <numbers>
 
 namespace pintle {
 namespace {
@@ -41,23 +38,10 @@ double cubic(double s, double h, double x0, double v0, double x1, double v1) {
   return x0 + s * s * (3 - 2 * s) * (x1 - x0) + h * s * r * (r * v0 - s * v1);
 }
 
-// Where forces are found inside a step: with both ends, the extrema of a Chebyshev polynomial on [0, 1].
-double sample_point(int i, int samples) { return 0.5 * (1 - std::cos(std::numbers::pi * i / (samples + 1))); }
-
-// Values at the samples and the ends -> coefficients of powers.
-Eigen::MatrixXd to_powers(int samples) {
-  Eigen::MatrixXd at(samples + 2, samples + 2);
-  for (int i = 0; i < at.rows(); ++i)
-    for (int k = 0; k < at.cols(); ++k) at(i, k) = std::pow(sample_point(i, samples), k);
-  return at.inverse();
-}
-
 }  // namespace
 
 DenseOutput::DenseOutput(const System& system)
-    : system_(system), projector_(system), motions_(system.bodies.size()), Q_(system.bodies.size()),
-      wanted_(system.joints.size()), body_(system.bodies.size()),
-      gap_(system.joints.size()), force_(system.joints.size()) {
+    : system_(system), inside_forces_(make_inside_forces(system)), body_(system.bodies.size()), gap_(system.joints.size()), force_(system.joints.size()) {
   out_.q = out_.v = out_.a = Vecs(system.bodies.size(), S::Vec::Zero());
   out_.gap = out_.gap_rate = out_.gap_accel = out_.force = Vecs(system.joints.size(), S::Vec::Zero());
 }
@@ -133,7 +117,7 @@ void DenseOutput::follow(double t, const State& begin, const State& end) {
 // Powers of x from values at the nodes; what is left at the far end goes into bends.
 void DenseOutput::find_curves(const State& begin, const State& end, const StepNodes& nodes) {
   const RadauTable& table = *nodes.table;
-  n_ = n_force_ = table.n + 1;
+  n_ = table.n + 1;
   curves_from_ = begin.t;
   curves_to_ = end.t;
   const double h = end.t - begin.t;
@@ -158,7 +142,6 @@ void DenseOutput::find_curves(const State& begin, const State& end, const StepNo
   find(gap_, nodes.gap_accel, begin.gap, begin.gap_rate, end.gap, end.gap_rate);
   bend_work_ = {end.supplied - begin.supplied, end.dissipated - begin.dissipated};
   for (int k = 0; k < n_; ++k) {
-    for (std::size_t j = 0; j < force_.size(); ++j) force_[j][k] = coefficient(k, nodes.force, j);
     for (int i = 0; i < 2; ++i) {
       power_[k][i] = 0;
       for (int node = 0; node < n_; ++node) power_[k][i] += table.to_powers(k, node) * nodes.power[node][i];
@@ -167,31 +150,15 @@ void DenseOutput::find_curves(const State& begin, const State& end, const StepNo
   }
 }
 
-// The forces' own curves: through the ends and samples inside. There velocities are moved onto the gaps' rates and the
-// forces balanced with the gaps' accelerations. theory/time section 5.
+// The forces' own curves: through the ends and samples inside. theory/time section 5.
 void DenseOutput::find_forces(const State& begin, const State& end, const StepNodes& nodes) {
-  static const Eigen::MatrixXd powers = to_powers(kSamples);
-  const double h = end.t - begin.t, mu = nodes.table->real_eigenvalue / h;
-  sampled_.front() = begin.force;
-  for (int i = 1; i <= kSamples; ++i) {
-    follow(begin.t + sample_point(i, kSamples) * h, begin, end);
-    system_.motions(out_.q, out_.v, motions_);
-    if (projector_.prepare(out_.t, motions_, mu, out_.gap, out_.gap_rate)) {
-      for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = out_.gap_rate[j] - projector_.readings()[j].rate;
-      projector_.close(wanted_, out_.v);
-      system_.motions(out_.q, out_.v, motions_);
-      projector_.read(out_.t, motions_);
-      system_.external(out_.t, motions_, Q_, begin.held);
-      projector_.balance(Q_, out_.gap_accel, out_.force);
-    }
-    sampled_[i] = out_.force;
-  }
-  sampled_[kSamples + 1] = end.force;
-  n_force_ = kSamples + 2;
+  inside_forces_->find(begin, end, nodes, sampled_);
+  const auto& to_powers = ForceSamples::of(*nodes.table).to_powers;
+  n_force_ = ForceSamples::kAll;
   for (std::size_t j = 0; j < force_.size(); ++j)
     for (int k = 0; k < n_force_; ++k) {
       force_[j][k].setZero();
-      for (int i = 0; i < n_force_; ++i) force_[j][k] += powers(k, i) * sampled_[i][j];
+      for (int i = 0; i < n_force_; ++i) force_[j][k] += to_powers[k][i] * sampled_[i][j];
     }
 }
 

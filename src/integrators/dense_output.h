@@ -4,9 +4,10 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
-#include "integrators/gap_projector.h"
+#include "integrators/inside_forces.h"
 #include "integrators/step_nodes.h"
 #include "system/state.h"
 
@@ -22,8 +23,7 @@ class DenseOutput {
   const State& at(double t, const State& begin, const State& end, const StepNodes& nodes);
 
  private:
-  static constexpr int kSamples = 5;                            // of the forces inside a step
-  static constexpr int kMost = kSamples + 2;                    // coefficients at most
+  static constexpr int kMost = ForceSamples::kAll;              // coefficients at most
   static_assert(kMost >= RadauTable::kMaxNodes);
   using Powers = std::array<double, kMost>;
   using Coefficients = std::array<Planar::Vec, kMost>;          // of powers of the share of the step
@@ -36,11 +36,9 @@ class DenseOutput {
   void follow(double t, const State& begin, const State& end);
 
   const System& system_;
-  GapProjector projector_;
+  std::unique_ptr<InsideForces> inside_forces_;
+  InsideForces::Sampled sampled_;
   State out_;
-  std::vector<Planar::Motion> motions_;
-  Vecs Q_, wanted_;
-  std::array<Vecs, kMost> sampled_;
   // The last step's curves, found when they are first asked for.
   double curves_from_ = 0, curves_to_ = 0;
   int n_ = 0, n_force_ = 0;  // coefficients of accelerations, of forces

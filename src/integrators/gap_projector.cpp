@@ -17,8 +17,8 @@ void add_block(Block<double, S::kDof>& block, const S::Mat& m) {
 }  // namespace
 
 GapProjector::GapProjector(const System& system)
-    : system_(system), lu_(system.pattern()), readings_(system.joints.size()), weight_(system.joints.size(), S::Mat::Zero()), diagonal_(system.joints.size()),
-      slots_(system.joints.size()), work_(system.bodies.size()), body_(system.bodies.size()),
+    : system_(system), lu_(system.pattern(), symmetry_of_joints(system)), readings_(system.joints.size()), weight_(system.joints.size(), S::Mat::Zero()), diagonal_(system.joints.size()),
+      slots_(system.joints.size()), body_(system.bodies.size()),
       accel_(system.bodies.size()), missing_(system.joints.size()) {
   for (std::size_t j = 0; j < slots_.size(); ++j) {
     const Placement& at = system.joints[j].at;
@@ -68,20 +68,14 @@ void GapProjector::add_joint(int j) {
   if (at.b != kGround) add_block(lu_.diagonal(at.b), GB.transpose() * WB);
   if (at.a == kGround || at.b == kGround) return;
   BlockPattern::Slot ab = slots_[j];
-  add_block(lu_.off_diagonal(ab), GA.transpose() * WB);
+  if (lu_.has(ab)) add_block(lu_.off_diagonal(ab), GA.transpose() * WB);
   ab.upper = !ab.upper;
-  add_block(lu_.off_diagonal(ab), GB.transpose() * WA);
+  if (lu_.has(ab)) add_block(lu_.off_diagonal(ab), GB.transpose() * WA);
 }
 
 S::Vec GapProjector::weigh(int j, const S::Vec& gap) const {
   if (diagonal_[j]) return weight_[j].diagonal().cwiseProduct(gap);
   return weight_[j] * gap;
-}
-
-void GapProjector::solve(Vecs& x) {
-  for (std::size_t i = 0; i < x.size(); ++i) work_[i] = {{x[i][0], x[i][1], x[i][2]}};
-  lu_.solve(work_);
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = S::Vec(work_[i][0], work_[i][1], work_[i][2]);
 }
 
 void GapProjector::close(const Vecs& wanted, Vecs& x) {
@@ -90,7 +84,7 @@ void GapProjector::close(const Vecs& wanted, Vecs& x) {
     const S::Vec f = weigh(j, wanted[j]);
     add_force(system_.joints[j].at, readings_[j], f, body_);
   }
-  solve(body_);
+  lu_.solve(body_);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += body_[i];
 }
 
@@ -104,17 +98,8 @@ void GapProjector::close(const std::vector<Three>& wanted, std::vector<Three>& x
       else
         for (int k = 0; k < S::kDof; ++k) f[r] += weight_[j](r, k) * wanted[j][k];
     }
-    const auto on = readings_[j].map.spread(f.a.data());
-    if (at.a != kGround) {
-      x[at.a][0] -= on.fx;
-      x[at.a][1] -= on.fy;
-      x[at.a][2] += on.ma;
-    }
-    if (at.b != kGround) {
-      x[at.b][0] += on.fx;
-      x[at.b][1] += on.fy;
-      x[at.b][2] += on.mb;
-    }
+    Three ground{};
+    readings_[j].map.push(f.a.data(), at.a == kGround ? ground : x[at.a], at.b == kGround ? ground : x[at.b]);
   }
   lu_.solve(x);
 }
@@ -123,7 +108,7 @@ void GapProjector::close(const std::vector<Three>& wanted, std::vector<Three>& x
 double GapProjector::improve_forces(const Vecs& Q, const Vecs& a, Vecs& force) {
   for (int i = 0; i < system_.n_bodies(); ++i) body_[i] = Q[i] - system_.bodies[i].mass.cwiseProduct(a[i]);
   for (int j = 0; j < system_.n_joints(); ++j) add_force(system_.joints[j].at, readings_[j], force[j], body_);
-  solve(body_);
+  lu_.solve(body_);
   double largest = 0;
   for (int j = 0; j < system_.n_joints(); ++j) {
     const S::Vec change = weigh(j, gap_change(system_.joints[j].at, readings_[j], body_));

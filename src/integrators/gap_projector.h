@@ -42,7 +42,6 @@ class GapProjector {
   bool factorize(double mu, const Vecs& gap_at, const Vecs& rate_at, const Vecs* moved);
   void add_joint(int j);
   Planar::Vec weigh(int j, const Planar::Vec& gap) const;
-  void solve(Vecs& x);
 
   const System& system_;
   BlockLu<double, Planar::kDof> lu_;
@@ -50,7 +49,6 @@ class GapProjector {
   std::vector<Planar::Mat> weight_;  // K + mu C per joint
   std::vector<char> diagonal_;       // it is
   std::vector<BlockPattern::Slot> slots_;
-  std::vector<BlockVec<double, Planar::kDof>> work_;
   Vecs body_, accel_, missing_;
   double mu_ = 0;
 };

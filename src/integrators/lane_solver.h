@@ -17,11 +17,13 @@ class LaneSolver : public StageSolver {
   LaneSolver(const System& system, const RadauTable& table, double tolerance);
 
   void write(std::vector<Stage>& stages) const override;
+  double contraction() const override { return contraction_.seen(); }
   double residual(int j) const override;
 
  protected:
   bool solve_stages(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters);
   void find_yield(std::vector<Three>& forces) const;
+  void find_tails(const State& begin, std::vector<Three>& bodies, std::vector<Three>& gaps) const;
 
  private:
   using L = Lanes<N>;
@@ -34,11 +36,16 @@ class LaneSolver : public StageSolver {
 
   void predict(const State& begin, double h, const StepNodes* before, double last_h);
   void find_targets(double t, double h);
-  void place(const State& begin, double h);
-  double find_forces(const LoadScale& scale);
+  void take_scale(const LoadScale& scale);
+  L place(const L& a, double x0, double v0, L& v) const;
+  void place_body(const State& begin, std::size_t b);
+  void place_bodies(const State& begin);
+  void check_angles(const L& angles);
+  void place_joint(const State& begin, std::size_t j, L& worst, L& sum);
+  void place_joints(const State& begin);
   void find_residuals(const State& begin, double h);
   void find_loads(const State& begin, double h);
-  void find_map(std::size_t j);
+  void find_map(std::size_t j, L (&bias)[3]);
   L find_gradient(const JointData& joint, const PoseGeometry<L>& pose, JointLanes<N>& lanes) const;
   void linearize(double t, HeldJumps held);
   bool renew(const State& begin, double h, Counters& counters);
@@ -46,17 +53,19 @@ class LaneSolver : public StageSolver {
   void add_joint(std::size_t j, const X& mu);
   void add_pose_joint(std::size_t j, const X& mu);
   static void add_block(Block<X, 3>& block, const Planar::Mat& K, const Planar::Mat& C, const X& mu, double sign);
-  double correct(const LoadScale& scale);
+  double correct(const State& begin);
 
   const System& system_;
   const RadauTable& table_;
   const StageMatrices<N> matrices_;
+  StepMatrices<N> step_;
   double tolerance_;
   NewtonContraction contraction_;
   static constexpr double kGood = 0.15, kSlow = 0.4;  // contractions: Jacobians serve the next step; they do not serve this one
   static constexpr int kMostWithOld = 4;      // iterations
   double factorized_for_ = 0;                 // the step; 0: none
   bool loads_;                                // there is more than weight
+  bool simple_ = true;                        // and no joint that is more than springs and dampers
   std::vector<BodyLanes<N>> bodies_;
   std::vector<JointLanes<N>> joints_;
   Vecs Q_;                                    // of one stage

@@ -13,7 +13,7 @@ class NewtonContraction {
   static constexpr int kMaxIterations = 14;
 
   /// Before a step's first iteration.
-  void start() { last_ = before_last_ = 0; }
+  void start() { last_ = before_last_ = seen_ = 0; }
 
   /// After iteration number `iteration`, from 0: the size of its correction, over the loads, against the tolerance.
   Verdict judge(int iteration, double correction, double tolerance) {
@@ -23,7 +23,7 @@ class NewtonContraction {
     double rate = iteration == 0 ? std::pow(std::clamp(contraction_, 1e-3, kSlow), 0.8) : size / last_;
     if (iteration == 1) rate = std::max(rate, std::min(contraction_, std::sqrt(rate)));
     if (iteration > 1) rate = std::max(rate, std::sqrt(size / before_last_));
-    if (iteration > 0) contraction_ = rate;
+    if (iteration > 0) contraction_ = seen_ = rate;
     if (rate > 2 || (rate > 0.95 && iteration > 2)) return Verdict::kHopeless;
     before_last_ = last_;
     last_ = size;
@@ -32,13 +32,15 @@ class NewtonContraction {
 
   /// The contraction that the last steps have shown.
   double rate() const { return contraction_; }
+  /// What this step has shown of it; 0: nothing, it took one iteration.
+  double seen() const { return seen_; }
 
  private:
   static constexpr double kShare = 0.05;      // of the tolerance, left to the iteration
   static constexpr double kRounding = 1e-15;  // of the loads: no correction
   static constexpr double kSlow = 0.9;        // contraction expected at most of a first iteration, after one that failed
 
-  double last_ = 0, before_last_ = 0, contraction_ = 0.5;
+  double last_ = 0, before_last_ = 0, contraction_ = 0.5, seen_ = 0;
 };
 
 }  // namespace pintle

@@ -7,6 +7,13 @@
 
 namespace pintle {
 
+/// Springs and dampers make symmetric matrices.
+inline Symmetry symmetry_of_joints(const System& system) {
+  for (const JointData& joint : system.joints)
+    if (!std::holds_alternative<LinearLaw>(joint.law)) return Symmetry::kNone;
+  return Symmetry::kSymmetric;
+}
+
 /// Adds G' w G - N to the blocks of both bodies: w stands for stiffness in each component, N is the geometric stiffness at the
 /// joint's force. In world axes w is a symmetric stiffness (xx, xy, yy) at the joint's point, which acts at the arms of both
 /// bodies, and one against turning. joints Eqs. (2.5), (2.6), (2.9).
@@ -26,9 +33,9 @@ PINTLE_LANES void add_pose_blocks(BlockLu<T, 3>& lu, const Placement& at, BlockP
   if (at.b != kGround) add(lu.diagonal(at.b), xx, xy, yy, bx, by, bx, by, w[2] + g.bx * (by + fx) - g.by * (bx - fy));
   if (at.a == kGround || at.b == kGround) return;
   const T both = w[2] + g.bx * ay - g.by * ax;
-  add(lu.off_diagonal(slot), -xx, -xy, -yy, -bx, -by, -ax, -ay, -both);
+  if (lu.has(slot)) add(lu.off_diagonal(slot), -xx, -xy, -yy, -bx, -by, -ax, -ay, -both);
   slot.upper = !slot.upper;
-  add(lu.off_diagonal(slot), -xx, -xy, -yy, -ax, -ay, -bx, -by, -both);
+  if (lu.has(slot)) add(lu.off_diagonal(slot), -xx, -xy, -yy, -ax, -ay, -bx, -by, -both);
 }
 
 }  // namespace pintle

@@ -28,7 +28,7 @@ class RadauControl {
   }
 
   /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
-  /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), find_kink(h, solved),
+  /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), find_kink(h, solved),
   /// cross_kink(distance), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
@@ -37,7 +37,8 @@ class RadauControl {
   static constexpr int kMaxRetries = 80;
   static constexpr double kShortest = 1e-11;    // of the run: the shortest step that is refused for its error
   static constexpr double kKinkAtStart = 1e-5;  // of the usual step: a kink this close to its start is crossed
-  static constexpr double kShrink = 0.35;       // after Newton failed
+  static constexpr double kShrink = 0.5;        // after Newton failed
+  static constexpr double kContraction = 0.2;   // of Newton's iteration, that steps are chosen for
   static constexpr double kShort = 0.9;         // of the way to a kink that is only guessed at
   static constexpr double kAfterKink = 0.3;     // of the usual step
   static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;
@@ -47,6 +48,9 @@ class RadauControl {
   static constexpr double kLeastError = 0.01;  // over the tolerance: a smaller one says nothing about its growth
 
   double last_error_ = 0;  // over the tolerance
+
+  // The step that Newton's iteration will like, over one in which its errors shrank by `contraction`; 0: not known.
+  static double of_contraction(double contraction) { return contraction > 0 ? std::max(kShrink, std::sqrt(kContraction / contraction)) : kMost; }
 
   void accept(double h, double factor, bool up_to_kink) {
     next = factor > kSame && factor < kSameAbove ? h : h * factor;
@@ -59,7 +63,7 @@ template <class Method>
 bool RadauControl::advance(Method& method, double t_end, double tolerance, int order, Counters& counters) {
   method.begin_at_end();
   double h = longest > 0 ? std::min(next, longest) : next;
-  bool up_to_kink = false;
+  bool up_to_kink = false, refused = false;  // by Newton's iteration
   for (int retry = 0; retry < kMaxRetries; ++retry) {
     const double left = t_end - method.t();
     if (h > left || left - h < 1e-3 * h) h = left;
@@ -68,6 +72,7 @@ bool RadauControl::advance(Method& method, double t_end, double tolerance, int o
     const bool solved = method.attempt(h);
     if (!solved) {
       ++counters.newton_failures;
+      refused = true;
       have_history = have_history && retry == 0;
     }
     const Kink kink = solved || retry > 0 ? method.find_kink(h, solved) : Kink{};  // twice unsolved: for a jump on the way?
@@ -102,6 +107,8 @@ bool RadauControl::advance(Method& method, double t_end, double tolerance, int o
     if (have_history && last > 0 && h >= last && last_error_ > 0 && error > 0)  // an error that grows goes on growing: K. Gustafsson's predictive controller
       factor = std::clamp(factor * (h / last) * std::pow(last_error_ / error, 1.0 / order), kLeast, factor);
     last_error_ = std::max(error, kLeastError);
+    if (refused) factor = std::min(factor, 1.0);
+    if (counters.steps > 0) factor = std::min(factor, of_contraction(method.contraction()));
     method.finish_step(h);
     ++counters.steps;
     accept(h, factor, up_to_kink);

@@ -25,44 +25,23 @@ bool RadauStepper::error_estimate(double h, double& error) {
   const Stage& last = stage_[n_ - 1];
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!projector_.prepare(begin_.t + h, last.m, mu, last.gap, last.gap_rate)) return false;
-  error = of_motion_ ? motion_tail() : std::max(body_tail(), gap_tail());
+  solver_->tails(begin_, tail_move_, tail_);
+  const double of_bodies = of_motion_ ? motion_tail() : tail_size(scale_, 1);
+  error = of_motion_ ? of_bodies : std::max(of_bodies, gap_tail());
   return std::isfinite(error);
 }
 
-// Legendre coefficients of the body forces M a fall off by a ratio where the motion is smooth (then the next one is that
-// much smaller than the last) and do not where it vibrates.
-double RadauStepper::body_tail() const {
-  std::array<double, RadauTable::kMaxNodes> size{};
-  for (int i = 0; i < system_.n_bodies(); ++i) {
-    const S::Vec over = system_.bodies[i].mass.cwiseQuotient(scale_.body[i]);
-    for (int k = n_ - 2; k <= n_; ++k) {
-      S::Vec coefficient = table_.to_legendre(k, 0) * begin_.a[i];
-      for (int s = 0; s < n_; ++s) coefficient += table_.to_legendre(k, s + 1) * stage_[s].a[i];
-      const double relative = coefficient.cwiseProduct(over).cwiseAbs().maxCoeff();
-      if (!std::isfinite(relative)) return relative;
-      size[k] = std::max(size[k], relative);
-    }
-  }
-  if (!(size[n_] > 0)) return 0;
-  return size[n_] * fall_off(size[n_], size[n_ - 1], size[n_ - 2]);
-}
-
-// The same coefficients as accelerations that the bodies can yield to within the step: stiff joints hold back the rest, and
-// what a step does not resolve of their vibration is damped by it. theory/time Eq. (3.14).
+// Legendre coefficients of the body forces M a, as accelerations that the bodies can yield to within the step: stiff joints hold back
+// the rest, and what a step does not resolve of their vibration is damped by it. theory/time Eq. (3.14).
 double RadauStepper::motion_tail() {
   for (int i = 0; i < system_.n_bodies(); ++i)
-    for (int back = 0; back < 3; ++back) {
-      const int k = n_ - back;
-      S::Vec force = table_.to_legendre(k, 0) * begin_.a[i];
-      for (int s = 0; s < n_; ++s) force += table_.to_legendre(k, s + 1) * stage_[s].a[i];
-      force = force.cwiseProduct(system_.bodies[i].mass);
-      for (int c = 0; c < S::kDof; ++c) tail_move_[i][c].set(back, force[c]);
-    }
+    for (int c = 0; c < S::kDof; ++c) tail_move_[i][c] = system_.bodies[i].mass[c] * tail_move_[i][c];
   solver_->yield_to(tail_move_);
   return tail_size(motion_scale_.loads(), 1);
 }
 
-// The size of the last of three coefficients on the bodies, with what the next one will be like.
+// The size of the last of three coefficients on the bodies, with what the next one will be like: they fall off by a ratio where the
+// motion is smooth (then the next one is that much smaller than the last) and do not where it vibrates.
 double RadauStepper::tail_size(const LoadScale& scale, double factor) const {
   Lanes<3> size = Lanes<3>::all(0), sum = size;
   for (int i = 0; i < system_.n_bodies(); ++i)
@@ -80,13 +59,6 @@ double RadauStepper::tail_size(const LoadScale& scale, double factor) const {
 // neither stiff nor soft for this step, their error is the force's. As forces: through the projector.
 double RadauStepper::gap_tail() {
   if (system_.joints.empty()) return 0;
-  for (std::size_t j = 0; j < tail_.size(); ++j)
-    for (int k = 0; k < S::kDof; ++k)
-      for (int back = 0; back < 3; ++back) {
-        double coefficient = 0;  // without the start of the step, whose error is the last step's
-        for (int s = 0; s < n_; ++s) coefficient += table_.stages_to_legendre(n_ - 1 - back, s) * stage_[s].gap_accel[j][k];
-        tail_[j][k].set(back, coefficient);
-      }
   projector_.close(tail_, tail_move_);
   return tail_size(scale_, kGapError);
 }
@@ -97,11 +69,6 @@ void RadauStepper::finish_step(double h) {
   nodes_.a[0] = begin_.a;
   nodes_.gap_accel[0] = begin_.gap_accel;
   nodes_.force[0] = begin_.force;
-  for (int s = 0; s < n_; ++s) {
-    nodes_.a[s + 1] = stage_[s].a;
-    nodes_.gap_accel[s + 1] = stage_[s].gap_accel;
-    nodes_.force[s + 1] = stage_[s].force;
-  }
   end_.t = begin_.t + h;
   end_.q = last.q;
   end_.v = last.v;
@@ -110,8 +77,13 @@ void RadauStepper::finish_step(double h) {
   move_onto_gaps();
   take_gaps();
   balance_forces();
-  nodes_.force[n_] = end_.force;
   add_work(h);
+  for (int s = 0; s < n_; ++s) {
+    nodes_.a[s + 1].swap(stage_[s].a);
+    nodes_.gap_accel[s + 1].swap(stage_[s].gap_accel);
+    nodes_.force[s + 1].swap(stage_[s].force);
+  }
+  nodes_.force[n_] = end_.force;
   control_.have_history = true;
   if (system_.has_branches()) see_sides();
   grow_scale();
@@ -200,8 +172,11 @@ void RadauStepper::add_work(double h) {
 
 std::array<double, 2> RadauStepper::power(double t, const Vecs& q, const std::vector<S::Motion>& m, const Vecs& gap,
                                           const Vecs& gap_rate, const Vecs& force) const {
-  const ExternalWork work = system_.external_work(t, q, m, end_.held);
-  std::array<double, 2> out{work.supplied, work.lost};
+  std::array<double, 2> out{};
+  if (!system_.loads.empty() || !system_.applied.empty()) {
+    const ExternalWork work = system_.external_work(t, q, m, end_.held);
+    out = {work.supplied, work.lost};
+  }
   for (int j = 0; j < system_.n_joints(); ++j) {
     const JointData& joint = system_.joints[j];
     if (joint.servo >= 0) out[0] += force[j][joint.servo] * system_.pose(joint.at, m).rate[joint.servo];

@@ -56,12 +56,12 @@ class RadauStepper {
   double t() const { return begin_.t; }
   void begin_at_end() { begin_ = end_; }
   bool attempt(double h);                     // solves the stages from begin_
+  double contraction() const { return solver_->contraction(); }
   bool unloaded() const;
   void foresee_loads(double h);
 
   // radau_end.cpp: the error of a step and its end
   bool error_estimate(double h, double& error);
-  double body_tail() const;
   double tail_size(const LoadScale& scale, double factor) const;
   double motion_tail();                       // as accelerations that the bodies can yield to
   double gap_tail();

@@ -17,7 +17,8 @@ struct BodyLanes {
   L q[3], v[3], a[3];
   L c, s;         // cosine and sine of the angle
   L Q[3];         // what is not a joint's force [N, N, N*m]
-  L residual[3];  // of its equation of motion [N, N, N*m]
+  L missing[3];   // in its equation of motion: forces that nothing answers [N, N, N*m]
+  double over_scale[3];  // mass over the loads that corrections are measured by
 
   struct View { const L &x, &y, &c, &s, &vx, &vy, &w; };
   View view() const { return {q[0], q[1], c, s, v[0], v[1], v[2]}; }
@@ -29,14 +30,14 @@ struct JointLanes {
   using L = Lanes<N>;
   L gap[3], rate[3], accel[3], force[3];
   L target_accel;         // of a servo's target
-  L residual[3];          // of the gap's acceleration [m/s^2, m/s^2, rad/s^2]
   GapMap<L> map;
   GapMap<double> frozen;  // at the stage where the equations are linearised
   Planar::Vec frozen_force;                                                // there
   Planar::Mat K = Planar::Mat::Zero(), C = Planar::Mat::Zero();  // the law's tangents there
   bool diagonal = false;  // they are
+  double over_scale[3];   // 1 over the loads that changes of the force are measured by
   Spectrum<N> weight[9];  // (K + mu C) / mu^2; the first three when diagonal
-  Spectrum<N> e[3];       // the residual in the diagonal frame
+  Spectrum<N> e[3];       // what is missing of the gap's acceleration, in the diagonal frame [m/s^2, m/s^2, rad/s^2]
 };
 
 /// The table as it acts on lanes: stages to stages, and to and from the diagonal frame.
@@ -45,6 +46,8 @@ struct StageMatrices {
   Lanes<N> c;                    // stage times
   LaneMatrix<N> A, A2, T, T_inverse;
   Spectrum<N> eigenvalue;
+  LaneMatrix<N> tail, tail_of_stages;  // to Legendre coefficients N, N - 1, N - 2 with the start, one less each without it
+  Lanes<N> tail_of_start;
 
   explicit StageMatrices(const RadauTable& table) {
     for (int i = 0; i < N; ++i) {
@@ -64,10 +67,31 @@ struct StageMatrices {
         T_inverse.column[i].set(2 * p + 1, table.inverse_complex[p][i].imag());
       }
     }
+    for (int back = 0; back < N; ++back) {
+      tail_of_start.set(back, table.to_legendre(N - back, 0));
+      for (int s = 0; s < N; ++s) {
+        tail.column[s].set(back, table.to_legendre(N - back, s + 1));
+        tail_of_stages.column[s].set(back, table.stages_to_legendre(N - 1 - back, s));
+      }
+    }
     eigenvalue.x.set(N - 1, table.real_eigenvalue);
     for (int i = 0; i < N; ++i) {
       T.column[N - 1].set(i, table.T_real[i]);
       T_inverse.column[i].set(N - 1, table.inverse_real[i]);
+    }
+  }
+};
+
+/// What places the stages of a step of length h.
+template <int N>
+struct StepMatrices {
+  Lanes<N> c;
+  LaneMatrix<N> A, A2;
+  void scale(const StageMatrices<N>& m, double h) {
+    c = h * m.c;
+    for (int i = 0; i < N; ++i) {
+      A.column[i] = h * m.A.column[i];
+      A2.column[i] = (h * h) * m.A2.column[i];
     }
   }
 };

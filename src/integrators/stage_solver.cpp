@@ -17,7 +17,7 @@ template <int N>
 LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double tolerance)
     : system_(system), table_(table), matrices_(table), tolerance_(tolerance), loads_(!system.loads.empty() || !system.applied.empty()),
       bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), motions_(system.bodies.size()), slots_(system.joints.size()),
-      lu_(system.pattern()), rhs_(system.bodies.size() + 1) {
+      lu_(system.pattern(), loads_ ? Symmetry::kNone : symmetry_of_joints(system)), rhs_(system.bodies.size() + 1) {
   bodies_.back().c = L::all(1);  // the ground; what falls on it is not looked at
   for (std::size_t b = 0; b < n_bodies(); ++b)
     for (int k = 0; k < 3; ++k) bodies_[b].Q[k] = L::all(system.bodies[b].gravity[k]);
@@ -25,6 +25,7 @@ LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double 
     const JointData& joint = system.joints[j];
     joints_[j].map.function = !std::holds_alternative<Selection>(joint.probe);
     joints_[j].diagonal = std::holds_alternative<LinearLaw>(joint.law);
+    simple_ = simple_ && joints_[j].diagonal && joint.servo < 0;
     if (joint.at.a != kGround && joint.at.b != kGround) slots_[j] = system.pattern().slot(joint.at.a, joint.at.b);
   }
 }
@@ -32,10 +33,12 @@ LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double 
 template <int N>
 bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale,
                                  Counters& counters) {
+  step_.scale(matrices_, h);
+  take_scale(scale);
   predict(begin, h, before, last_h);
   find_targets(begin.t, h);
-  place(begin, h);
-  find_forces(scale);
+  place_bodies(begin);
+  place_joints(begin);
   contraction_.start();
   bool fresh = h != factorized_for_ || contraction_.rate() > kGood, wanted = fresh;  // a factorisation
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
@@ -45,10 +48,9 @@ bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* 
       if (!renew(begin, h, counters)) return false;
       wanted = false;
     }
-    const double of_bodies = correct(scale);
-    place(begin, h);
+    const double correction = correct(begin);
     ++counters.newton_iterations;
-    const auto verdict = contraction_.judge(iteration, std::max(of_bodies, find_forces(scale)), tolerance_);
+    const auto verdict = contraction_.judge(iteration, correction, tolerance_);
     if (verdict == NewtonContraction::Verdict::kDone) return true;
     const bool hopeless = verdict == NewtonContraction::Verdict::kHopeless;
     if (hopeless && fresh) return false;
@@ -59,6 +61,19 @@ bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* 
     }
   }
   return false;
+}
+
+// What corrections are measured by.
+template <int N>
+void LaneSolver<N>::take_scale(const LoadScale& scale) {
+  for (std::size_t b = 0; b < n_bodies(); ++b)
+    for (int k = 0; k < 3; ++k) bodies_[b].over_scale[k] = system_.bodies[b].mass[k] / scale.body[b][k];
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const Placement& at = system_.joints[j].at;
+    const S::Vec& on = scale.body[at.a == kGround ? at.b : at.a];
+    const S::Vec& beside = scale.body[at.b == kGround ? at.a : at.b];
+    for (int k = 0; k < 3; ++k) joints_[j].over_scale[k] = 1 / std::max(on[k], beside[k]);
+  }
 }
 
 // Jacobians of this step, factorised.
@@ -97,64 +112,73 @@ void LaneSolver<N>::find_targets(double t, double h) {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const JointData& joint = system_.joints[j];
     if (joint.servo < 0 || joint.target.variables().empty()) continue;
-    for (int s = 0; s < N; ++s) joints_[j].target_accel.set(s, joint.target.second_order(std::array{t + table_.c[s] * h}, 0)[2]);
+    for (int s = 0; s < N; ++s) joints_[j].target_accel.set(s, servo_target(joint, t + table_.c[s] * h)[2]);
   }
 }
 
 // Where the stages are, from their accelerations. Eq. (3.5).
 template <int N>
-void LaneSolver<N>::place(const State& begin, double h) {
-  LaneMatrix<N> A, A2;
+Lanes<N> LaneSolver<N>::place(const L& a, double x0, double v0, L& v) const {
+  const StepMatrices<N>& m = step_;
+  L first = L::all(v0), second = L::all(x0) + v0 * m.c;
   for (int i = 0; i < N; ++i) {
-    A.column[i] = h * matrices_.A.column[i];
-    A2.column[i] = (h * h) * matrices_.A2.column[i];
+    first += a[i] * m.A.column[i];
+    second += a[i] * m.A2.column[i];
   }
-  const L hc = h * matrices_.c;
-  const auto integrate = [&](const L& a, double x0, double v0, L& x, L& v) {
-    L first = L::all(v0), second = L::all(x0) + v0 * hc;
-    for (int i = 0; i < N; ++i) {
-      first += a[i] * A.column[i];
-      second += a[i] * A2.column[i];
-    }
-    v = first;
-    x = second;
-  };
+  v = first;
+  return second;
+}
+
+template <int N>
+void LaneSolver<N>::place_body(const State& begin, std::size_t b) {
+  BodyLanes<N>& body = bodies_[b];
+  for (int k = 0; k < 3; ++k) body.q[k] = place(body.a[k], begin.q[b][k], begin.v[b][k], body.v[k]);
+  sine_and_cosine_unchecked(body.q[2], body.s, body.c);
+}
+
+// `angles`: the largest.
+template <int N>
+void LaneSolver<N>::check_angles(const L& angles) {
+  if (!any_beyond_largest_angle(angles)) return;
+  for (std::size_t b = 0; b < n_bodies(); ++b) sine_and_cosine(bodies_[b].q[2], bodies_[b].s, bodies_[b].c);
+}
+
+template <int N>
+void LaneSolver<N>::place_bodies(const State& begin) {
+  L angles = L::all(0);
   for (std::size_t b = 0; b < n_bodies(); ++b) {
-    BodyLanes<N>& body = bodies_[b];
-    for (int k = 0; k < 3; ++k) integrate(body.a[k], begin.q[b][k], begin.v[b][k], body.q[k], body.v[k]);
-    sine_and_cosine(body.q[2], body.s, body.c);
+    place_body(begin, b);
+    angles = larger_size(angles, bodies_[b].q[2]);
   }
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    JointLanes<N>& joint = joints_[j];
-    for (int k = 0; k < 3; ++k) integrate(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], joint.gap[k], joint.rate[k]);
+  check_angles(angles);
+}
+
+// Gaps, rates, and the joint's force from them. How much that has changed, over the scale of the bodies that it acts on.
+template <int N>
+void LaneSolver<N>::place_joint(const State& begin, std::size_t j, L& worst, L& sum) {
+  JointLanes<N>& joint = joints_[j];
+  const JointData& data = system_.joints[j];
+  for (int k = 0; k < 3; ++k) joint.gap[k] = place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], joint.rate[k]);
+  double at[3][N];  // of laws that are asked stage by stage
+  const auto* linear = std::get_if<LinearLaw>(&data.law);
+  for (int s = 0; s < N && !linear; ++s) {
+    const S::Vec f = law_force(data.law, {joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]},
+                               {joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]});
+    for (int k = 0; k < 3; ++k) at[k][s] = f[k];
+  }
+  for (int k = 0; k < 3; ++k) {
+    const L force = linear ? -(linear->k[k] * joint.gap[k] + linear->c[k] * joint.rate[k]) : L::of(at[k]);
+    const L change = joint.over_scale[k] * (force - joint.force[k]);
+    worst = larger_size(worst, change);
+    sum += change;
+    joint.force[k] = force;
   }
 }
 
-// Joint forces from gaps and rates. How much they have changed, over the scale of the bodies that they act on.
 template <int N>
-double LaneSolver<N>::find_forces(const LoadScale& scale) {
-  L worst = L::all(0), sum = worst;
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    JointLanes<N>& joint = joints_[j];
-    const JointData& data = system_.joints[j];
-    double at[3][N];  // of laws that are asked stage by stage
-    const auto* linear = std::get_if<LinearLaw>(&data.law);
-    for (int s = 0; s < N && !linear; ++s) {
-      const S::Vec f = law_force(data.law, {joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]},
-                                 {joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]});
-      for (int k = 0; k < 3; ++k) at[k][s] = f[k];
-    }
-    for (int k = 0; k < 3; ++k) {
-      const S::Vec& on = scale.body[data.at.a == kGround ? data.at.b : data.at.a];
-      const S::Vec& beside = scale.body[data.at.b == kGround ? data.at.a : data.at.b];
-      const L force = linear ? -(linear->k[k] * joint.gap[k] + linear->c[k] * joint.rate[k]) : L::of(at[k]);
-      const L change = (1 / std::max(on[k], beside[k])) * (force - joint.force[k]);
-      worst = larger_size(worst, change);
-      sum += change;
-      joint.force[k] = force;
-    }
-  }
-  return largest(worst, sum);
+void LaneSolver<N>::place_joints(const State& begin) {
+  L change = L::all(0), sum = change;
+  for (std::size_t j = 0; j < joints_.size(); ++j) place_joint(begin, j, change, sum);
 }
 
 // What is missing in the equations. Eq. (3.6).
@@ -162,22 +186,17 @@ template <int N>
 void LaneSolver<N>::find_residuals(const State& begin, double h) {
   if (loads_) find_loads(begin, h);
   for (std::size_t b = 0; b < n_bodies(); ++b)
-    for (int k = 0; k < 3; ++k) bodies_[b].residual[k] = system_.bodies[b].mass[k] * bodies_[b].a[k] - bodies_[b].Q[k];
+    for (int k = 0; k < 3; ++k) bodies_[b].missing[k] = bodies_[b].Q[k] - system_.bodies[b].mass[k] * bodies_[b].a[k];
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     JointLanes<N>& joint = joints_[j];
-    find_map(j);
+    L bias[3];
+    find_map(j, bias);
     const Placement& at = system_.joints[j].at;
     BodyLanes<N>&A = bodies_[body(at.a)], &B = bodies_[body(at.b)];
-    const auto f = joint.map.spread(joint.force);
-    A.residual[0] += f.fx;
-    A.residual[1] += f.fy;
-    A.residual[2] -= f.ma;
-    B.residual[0] -= f.fx;
-    B.residual[1] -= f.fy;
-    B.residual[2] -= f.mb;
+    joint.map.push(joint.force, A.missing, B.missing);
     L e[3];
     joint.map.gather(A.a, B.a, e);
-    for (int k = 0; k < 3; ++k) joint.residual[k] += joint.accel[k] - e[k];
+    for (int k = 0; k < 3; ++k) joint.e[k] = X(matrices_.T_inverse * (joint.accel[k] - e[k] - bias[k]));
   }
 }
 
@@ -191,22 +210,22 @@ void LaneSolver<N>::find_loads(const State& begin, double h) {
   }
 }
 
-// The map of joint j and, in its residual, minus the convective acceleration.
+// The map of joint j and its convective acceleration; of a servo less than the target's.
 template <int N>
-void LaneSolver<N>::find_map(std::size_t j) {
+void LaneSolver<N>::find_map(std::size_t j, L (&bias)[3]) {
   const JointData& data = system_.joints[j];
   JointLanes<N>& joint = joints_[j];
   const auto pose = PoseGeometry<L>::between(bodies_[body(data.at.a)].view(), data.at.F, bodies_[body(data.at.b)].view(), data.at.M);
   GapMap<L>& map = joint.map;
   map.take(pose);
-  joint.residual[0] = -pose.bias_x;
-  joint.residual[1] = -pose.bias_y;
-  joint.residual[2] = L::all(0);
+  bias[0] = pose.bias_x;
+  bias[1] = pose.bias_y;
+  bias[2] = L::all(0);
   if (map.function) {
-    joint.residual[0] = -find_gradient(data, pose, joint);
-    joint.residual[1] = L::all(0);
+    bias[0] = find_gradient(data, pose, joint);
+    bias[1] = L::all(0);
   }
-  if (data.servo >= 0) joint.residual[data.servo] += joint.target_accel;
+  if (data.servo >= 0) bias[data.servo] -= joint.target_accel;
 }
 
 // A gap that is a function of the pose: its gradient into the map; its convective acceleration is returned. theory/joints
@@ -277,7 +296,7 @@ bool LaneSolver<N>::factorize(double h) {
     if (joint.diagonal && !joint.map.function) add_pose_joint(j, mu);
     else add_joint(j, mu);
   }
-  for (const LoadBlock& b : load_blocks_)
+  for (const LoadBlock& b : load_blocks_)  // of a matrix that is not symmetric
     add_block(b.i == b.j ? lu_.diagonal(b.i) : lu_.off_diagonal(system_.pattern().slot(b.i, b.j)), b.dq, b.dv, mu, -1);
   return lu_.factorize();
 }
@@ -304,9 +323,9 @@ void LaneSolver<N>::add_joint(std::size_t j, const X& mu) {
   if (at.b != kGround) add_block(lu_.diagonal(at.b), Bt * KB - geometric.template block<3, 3>(3, 3), Bt * CB, mu, 1);
   if (at.a == kGround || at.b == kGround) return;
   BlockPattern::Slot slot = slots_[j];
-  add_block(lu_.off_diagonal(slot), At * KB - geometric.template block<3, 3>(0, 3), At * CB, mu, 1);
+  if (lu_.has(slot)) add_block(lu_.off_diagonal(slot), At * KB - geometric.template block<3, 3>(0, 3), At * CB, mu, 1);
   slot.upper = !slot.upper;
-  add_block(lu_.off_diagonal(slot), Bt * KA - geometric.template block<3, 3>(3, 0), Bt * CA, mu, 1);
+  if (lu_.has(slot)) add_block(lu_.off_diagonal(slot), Bt * KA - geometric.template block<3, 3>(3, 0), Bt * CA, mu, 1);
 }
 
 // The same where the gap is the relative pose and its law has a spring and a damper in each component.
@@ -319,45 +338,43 @@ void LaneSolver<N>::add_pose_joint(std::size_t j, const X& mu) {
   add_pose_blocks(lu_, system_.joints[j].at, slots_[j], joint.frozen, w, joint.frozen_force);
 }
 
-// One Newton correction: into the diagonal frame, the solve, back. Eqs. (3.9)-(3.11). Its size as body forces over the scale.
+// One Newton correction: into the diagonal frame, the solve, back, and where that leads. Eqs. (3.9)-(3.11). Its size: as body
+// forces, and what the joint forces have changed, over the scale.
 template <int N>
-double LaneSolver<N>::correct(const LoadScale& scale) {
+double LaneSolver<N>::correct(const State& begin) {
   for (std::size_t b = 0; b < n_bodies(); ++b)
-    for (int k = 0; k < 3; ++k) rhs_[b][k] = X(-(matrices_.T_inverse * bodies_[b].residual[k]));
+    for (int k = 0; k < 3; ++k) rhs_[b][k] = X(matrices_.T_inverse * bodies_[b].missing[k]);
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    JointLanes<N>& joint = joints_[j];
+    const JointLanes<N>& joint = joints_[j];
     X f[3];
-    for (int k = 0; k < 3; ++k) joint.e[k] = X(matrices_.T_inverse * joint.residual[k]);
     for (int k = 0; k < 3; ++k)
       f[k] = joint.diagonal ? joint.weight[k] * joint.e[k]
                             : joint.weight[3 * k] * joint.e[0] + joint.weight[3 * k + 1] * joint.e[1] + joint.weight[3 * k + 2] * joint.e[2];
-    const auto g = joint.frozen.spread(f);
     const Placement& at = system_.joints[j].at;
-    BlockVec<X, 3>&A = rhs_[body(at.a)], &B = rhs_[body(at.b)];
-    A[0] -= g.fx;
-    A[1] -= g.fy;
-    A[2] += g.ma;
-    B[0] += g.fx;
-    B[1] += g.fy;
-    B[2] += g.mb;
+    joint.frozen.push(f, rhs_[body(at.a)], rhs_[body(at.b)]);
   }
   lu_.solve(rhs_);
   rhs_.back() = {};
-  L worst = L::all(0), sum = L::all(0);
-  for (std::size_t b = 0; b < n_bodies(); ++b)
+  L worst = L::all(0), sum = worst, angles = worst;
+  for (std::size_t b = 0; b < n_bodies(); ++b) {
     for (int k = 0; k < 3; ++k) {
       rhs_[b][k] = mu2_ * rhs_[b][k];
-      const L delta = matrices_.T * rhs_[b][k].x, relative = (system_.bodies[b].mass[k] / scale.body[b][k]) * delta;
+      const L delta = matrices_.T * rhs_[b][k].x, relative = bodies_[b].over_scale[k] * delta;
       bodies_[b].a[k] += delta;
       worst = larger_size(worst, relative);
       sum += relative;
     }
+    place_body(begin, b);
+    angles = larger_size(angles, bodies_[b].q[2]);
+  }
+  check_angles(angles);
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     JointLanes<N>& joint = joints_[j];
     const Placement& at = system_.joints[j].at;
     X e[3];
     joint.frozen.gather(&rhs_[body(at.a)][0], &rhs_[body(at.b)][0], e);
     for (int k = 0; k < 3; ++k) joint.accel[k] += matrices_.T * (e[k] - joint.e[k]).x;
+    place_joint(begin, j, worst, sum);
   }
   return largest(worst, sum);
 }
@@ -366,16 +383,18 @@ template <int N>
 void LaneSolver<N>::write(std::vector<Stage>& stages) const {
   for (int s = 0; s < N; ++s) {
     Stage& stage = stages[s];
+    const bool whole = s == N - 1 || loads_ || !simple_;
     const auto copy = [s](const L* from, S::Vec& to) { to << from[0][s], from[1][s], from[2][s]; };
     for (std::size_t b = 0; b < n_bodies(); ++b) {
+      copy(bodies_[b].a, stage.a[b]);
+      if (!whole) continue;
       copy(bodies_[b].q, stage.q[b]);
       copy(bodies_[b].v, stage.v[b]);
-      copy(bodies_[b].a, stage.a[b]);
-      stage.m[b] = bodies_[b].motion(s);
       copy(bodies_[b].Q, stage.Q[b]);
+      stage.m[b] = bodies_[b].motion(s);
     }
     for (std::size_t j = 0; j < joints_.size(); ++j) {
-      copy(joints_[j].gap, stage.gap[j]);
+      if (whole) copy(joints_[j].gap, stage.gap[j]);
       copy(joints_[j].rate, stage.gap_rate[j]);
       copy(joints_[j].accel, stage.gap_accel[j]);
       copy(joints_[j].force, stage.force[j]);
@@ -385,8 +404,23 @@ void LaneSolver<N>::write(std::vector<Stage>& stages) const {
 
 template <int N>
 double LaneSolver<N>::residual(int j) const {
-  const L* r = joints_[j].residual;
-  return std::hypot(r[0][N - 1], r[1][N - 1], r[2][N - 1]);
+  double square = 0;
+  for (const X& e : joints_[j].e) {
+    const double at_end = (matrices_.T * e.x)[N - 1];
+    square += at_end * at_end;
+  }
+  return std::sqrt(square);
+}
+
+template <int N>
+void LaneSolver<N>::find_tails(const State& begin, std::vector<Three>& bodies, std::vector<Three>& gaps) const {
+  const auto put = [](const L& from, Lanes<3>& to) {
+    for (int back = 0; back < 3; ++back) to.set(back, from[back]);
+  };
+  for (std::size_t b = 0; b < n_bodies(); ++b)
+    for (int k = 0; k < 3; ++k) put(begin.a[b][k] * matrices_.tail_of_start + matrices_.tail * bodies_[b].a[k], bodies[b][k]);
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    for (int k = 0; k < 3; ++k) put(matrices_.tail_of_stages * joints_[j].accel[k], gaps[j][k]);
 }
 
 template <int N>
@@ -408,6 +442,9 @@ class NarrowSolver final : public LaneSolver<N> {
     return this->solve_stages(begin, h, before, last_h, scale, counters);
   }
   void yield_to(std::vector<StageSolver::Three>& forces) const override { this->find_yield(forces); }
+  void tails(const State& begin, std::vector<StageSolver::Three>& bodies, std::vector<StageSolver::Three>& gaps) const override {
+    this->find_tails(begin, bodies, gaps);
+  }
 };
 
 #ifdef PINTLE_WIDE
@@ -419,6 +456,9 @@ class WideSolver final : public LaneSolver<N> {
     return this->solve_stages(begin, h, before, last_h, scale, counters);
   }
   PINTLE_WIDE void yield_to(std::vector<StageSolver::Three>& forces) const override { this->find_yield(forces); }
+  PINTLE_WIDE void tails(const State& begin, std::vector<StageSolver::Three>& bodies, std::vector<StageSolver::Three>& gaps) const override {
+    this->find_tails(begin, bodies, gaps);
+  }
 };
 
 // For five stages: in narrower registers they take turns.
@@ -429,6 +469,9 @@ class WidestSolver final : public LaneSolver<5> {
     return this->solve_stages(begin, h, before, last_h, scale, counters);
   }
   PINTLE_WIDEST void yield_to(std::vector<StageSolver::Three>& forces) const override { this->find_yield(forces); }
+  PINTLE_WIDEST void tails(const State& begin, std::vector<StageSolver::Three>& bodies, std::vector<StageSolver::Three>& gaps) const override {
+    this->find_tails(begin, bodies, gaps);
+  }
 };
 #endif
 

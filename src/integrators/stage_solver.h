@@ -14,7 +14,8 @@
 
 namespace pintle {
 
-/// One stage of a step: where everything is, and the forces.
+/// One stage of a step: where everything is, and the forces. Where nothing but springs and dampers acts, stages before the last one
+/// have accelerations, gap rates and joint forces only.
 struct Stage {
   Vecs q, v, a, Q;                            // bodies
   Vecs gap, gap_rate, gap_accel, force;       // joints
@@ -23,6 +24,8 @@ struct Stage {
 
 class StageSolver {
  public:
+  using Three = BlockVec<Lanes<3>, Planar::kDof>;
+
   virtual ~StageSolver() = default;
 
   /// Solves the step of h from `begin`; the prediction is `before`, the step before it of last_h, where there is one.
@@ -30,11 +33,15 @@ class StageSolver {
   virtual bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) = 0;
   /// What has been found, one entry per stage.
   virtual void write(std::vector<Stage>& stages) const = 0;
+  /// The last three Legendre coefficients of the bodies' accelerations and of the gaps' own, the last one first. Those of the bodies
+  /// with the start of the step, whose own error is the last step's where the gaps are concerned.
+  virtual void tails(const State& begin, std::vector<Three>& bodies, std::vector<Three>& gaps) const = 0;
+  /// By how much the last iterations shrank the error of the stages.
+  virtual double contraction() const = 0;
   /// What is missing in joint j's equation at the end of the step [m/s^2 or rad/s^2].
   virtual double residual(int j) const = 0;
   /// Three sets of body forces, side by side, become the accelerations that they make within the step: mu^2 Z(mu)^-1 of
   /// theory/time Eq. (3.8) with the real mu. A mode of frequency w yields by mu^2 / (mu^2 + w^2).
-  using Three = BlockVec<Lanes<3>, Planar::kDof>;
   virtual void yield_to(std::vector<Three>& forces) const = 0;
 };
 

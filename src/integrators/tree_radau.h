@@ -37,6 +37,7 @@ class TreeRadau final : public Stepper {
   double t() const { return begin_.t; }
   void begin_at_end();
   bool attempt(double h);
+  double contraction() const { return stages_.contraction(); }
 
   // tree_radau_end.cpp: the error of a step, its end and its inside
   bool error_estimate(double h, double& error);

@@ -48,6 +48,17 @@ struct GapMap {
     r.mb = bx * r.fy - by * r.fx + f2;
     return r;
   }
+  /// on_a, on_b += G' f: forces and moment of both bodies.
+  template <class U, class V>
+  void push(const U* f, V& on_a, V& on_b) const {
+    const OnBodies<U> on = spread(f);
+    on_a[0] -= on.fx;
+    on_a[1] -= on.fy;
+    on_a[2] += on.ma;
+    on_b[0] += on.fx;
+    on_b[1] += on.fy;
+    on_b[2] += on.mb;
+  }
   /// G a.
   template <class U>
   void gather(const U* on_a, const U* on_b, U* e) const {

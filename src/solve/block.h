@@ -64,19 +64,53 @@ PINTLE_LANES Block<T, N> product(const Block<T, N>& A, const Block<T, N>& B) {
   return C;
 }
 
-/// y -= A x.
-template <class T, class U, int N>
-PINTLE_LANES void subtract_product(BlockVec<U, N>& y, const Block<T, N>& A, const BlockVec<U, N>& x) {
+/// C -= A' B.
+template <class T, int N>
+PINTLE_LANES void subtract_transposed_product(Block<T, N>& C, const Block<T, N>& A, const Block<T, N>& B) {
   for (int i = 0; i < N; ++i)
-    for (int j = 0; j < N; ++j) y[i] -= A(i, j) * x[j];
+    for (int k = 0; k < N; ++k) {
+      const T aki = A(k, i);
+      for (int j = 0; j < N; ++j) C(i, j) -= aki * B(k, j);
+    }
+}
+
+/// C -= A' B where that is symmetric, and C too.
+template <class T, int N>
+PINTLE_LANES void subtract_symmetric_product(Block<T, N>& C, const Block<T, N>& A, const Block<T, N>& B) {
+  for (int i = 0; i < N; ++i)
+    for (int j = i; j < N; ++j) {
+      T sum = C(i, j);
+      for (int k = 0; k < N; ++k) sum -= A(k, i) * B(k, j);
+      C(i, j) = C(j, i) = sum;
+    }
+}
+
+/// y -= A x, of vectors of N numbers of any kind.
+template <class V, class T, int N>
+PINTLE_LANES void subtract_product(V& y, const Block<T, N>& A, const V& x) {
+  V sum = y;  // which x might stand in, as far as the compiler knows
+  for (int j = 0; j < N; ++j)
+    for (int i = 0; i < N; ++i) sum[i] -= A(i, j) * x[j];
+  y = sum;
+}
+
+/// y -= A' x.
+template <class V, class T, int N>
+PINTLE_LANES void subtract_transposed_product(V& y, const Block<T, N>& A, const V& x) {
+  V sum = y;
+  for (int j = 0; j < N; ++j)
+    for (int i = 0; i < N; ++i) sum[i] -= A(j, i) * x[j];
+  y = sum;
 }
 
 /// A x.
-template <class T, class U, int N>
-PINTLE_LANES BlockVec<U, N> product(const Block<T, N>& A, const BlockVec<U, N>& x) {
-  BlockVec<U, N> y;
-  for (int i = 0; i < N; ++i)
-    for (int j = 0; j < N; ++j) y[i] += A(i, j) * x[j];
+template <class V, class T, int N>
+PINTLE_LANES V product(const Block<T, N>& A, const V& x) {
+  V y;
+  for (int i = 0; i < N; ++i) {
+    y[i] = A(i, 0) * x[0];
+    for (int j = 1; j < N; ++j) y[i] += A(i, j) * x[j];
+  }
   return y;
 }
 

@@ -9,13 +9,18 @@
 
 namespace pintle {
 
+/// Whether only the upper triangle of a matrix is stored and eliminated: it is the lower one's transpose (not its conjugate).
+enum class Symmetry { kNone, kSymmetric };
+
 template <class T, int N>
 class BlockLu {
  public:
   BlockLu() = default;
-  explicit BlockLu(const BlockPattern& pattern)
-      : pattern_(&pattern), diagonal_(pattern.n()), upper_(pattern.n_off_diagonal()), lower_(pattern.n_off_diagonal()) {}
+  explicit BlockLu(const BlockPattern& pattern, Symmetry symmetry = Symmetry::kNone)
+      : pattern_(&pattern), symmetric_(symmetry == Symmetry::kSymmetric), diagonal_(pattern.n()), upper_(pattern.n_off_diagonal()),
+        lower_(symmetric_ ? 0 : pattern.n_off_diagonal()), row_(symmetric_ ? pattern.longest_row() : 0) {}
 
+  bool symmetric() const { return symmetric_; }
   void set_zero() {
     diagonal_.assign(diagonal_.size(), {});
     upper_.assign(upper_.size(), {});
@@ -23,6 +28,8 @@ class BlockLu {
   }
   /// The diagonal block of row i.
   Block<T, N>& diagonal(int i) { return diagonal_[pattern_->position(i)]; }
+  /// Whether this block is one of the matrix: a symmetric one has only the upper triangle.
+  bool has(BlockPattern::Slot s) const { return s.upper || !symmetric_; }
   /// An off-diagonal block by its slot; transposed order of rows gives the other triangle.
   Block<T, N>& off_diagonal(BlockPattern::Slot s) { return s.upper ? upper_[s.index] : lower_[s.index]; }
   Block<T, N>& diagonal_at(int position) { return diagonal_[position]; }
@@ -30,7 +37,18 @@ class BlockLu {
   Block<T, N>& lower_at(int index) { return lower_[index]; }
 
   /// Factorises in place; false when a pivot block is singular.
-  bool factorize() {
+  bool factorize() { return symmetric_ ? factorize_upper() : factorize_both(); }
+
+  /// Solves in place, rows in the user's numbering. What a row holds is N numbers like T, or several side by side for as many
+  /// right-hand sides.
+  template <class Rows>
+  void solve(Rows& x) const {
+    if (symmetric_) solve_upper(x);
+    else solve_both(x);
+  }
+
+ private:
+  bool factorize_both() {
     const BlockPattern& p = *pattern_;
     for (int k = 0; k < p.n(); ++k) {
       if (!invert(diagonal_[k])) return false;
@@ -49,24 +67,56 @@ class BlockLu {
     return true;
   }
 
-  /// Solves in place, rows in the user's numbering. U is T, or several numbers side by side for as many right-hand sides.
-  template <class U>
-  void solve(std::vector<BlockVec<U, N>>& x) const {
+  // U becomes D^-1 U, which is also what stands below the diagonal, transposed.
+  bool factorize_upper() {
     const BlockPattern& p = *pattern_;
     for (int k = 0; k < p.n(); ++k) {
-      const BlockVec<U, N>& done = x[p.row_at(k)];
+      if (!invert(diagonal_[k])) return false;
+      const int begin = p.first(k), end = p.first(k + 1);
+      const int* target = p.updates(k);
+      for (int a = begin; a < end; ++a) row_[a - begin] = product(diagonal_[k], upper_[a]);
+      for (int a = begin; a < end; ++a)
+        for (int b = begin; b < end; ++b, ++target) {
+          if (*target == 0) subtract_symmetric_product(diagonal_[p.column(a)], upper_[a], row_[a - begin]);
+          else if (*target > 0) subtract_transposed_product(upper_[*target - 1], upper_[a], row_[b - begin]);
+        }
+      for (int a = begin; a < end; ++a) upper_[a] = row_[a - begin];
+    }
+    return true;
+  }
+
+  template <class Rows>
+  void solve_both(Rows& x) const {
+    const BlockPattern& p = *pattern_;
+    for (int k = 0; k < p.n(); ++k) {
+      const auto& done = x[p.row_at(k)];
       for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(x[p.row_at(p.column(a))], lower_[a], done);
     }
     for (int k = p.n() - 1; k >= 0; --k) {
-      BlockVec<U, N>& here = x[p.row_at(k)];
+      auto& here = x[p.row_at(k)];
       for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(here, upper_[a], x[p.row_at(p.column(a))]);
       here = product(diagonal_[k], here);
     }
   }
 
- private:
+  template <class Rows>
+  void solve_upper(Rows& x) const {
+    const BlockPattern& p = *pattern_;
+    for (int k = 0; k < p.n(); ++k) {
+      const auto& done = x[p.row_at(k)];
+      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_transposed_product(x[p.row_at(p.column(a))], upper_[a], done);
+    }
+    for (int k = p.n() - 1; k >= 0; --k) {
+      auto& here = x[p.row_at(k)];
+      here = product(diagonal_[k], here);
+      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(here, upper_[a], x[p.row_at(p.column(a))]);
+    }
+  }
+
   const BlockPattern* pattern_ = nullptr;
+  bool symmetric_ = false;
   std::vector<Block<T, N>> diagonal_, upper_, lower_;
+  std::vector<Block<T, N>> row_;  // of the pivot
 };
 
 }  // namespace pintle

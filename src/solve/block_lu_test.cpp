@@ -60,10 +60,10 @@ void put_random(Random& random, Spectrum<N>& x) {
 }
 
 template <class T>
-void compare_with_dense(const Graph& g, Random& random) {
+void compare_with_dense(const Graph& g, Random& random, Symmetry symmetry) {
   constexpr int N = 3;
   const BlockPattern pattern(g.n, g.pairs);
-  BlockLu<T, N> lu(pattern);
+  BlockLu<T, N> lu(pattern, symmetry);
   lu.set_zero();
   std::vector<Eigen::MatrixXcd> dense(kSystems<T>, Eigen::MatrixXcd::Zero(N * g.n, N * g.n));
   const auto fill = [&](Block<T, N>& block, int i, int j) {
@@ -77,9 +77,24 @@ void compare_with_dense(const Graph& g, Random& random) {
       }
   };
   for (int i = 0; i < g.n; ++i) fill(lu.diagonal(i), i, i);
-  for (const auto& [i, j] : g.pairs) {
-    fill(lu.off_diagonal(pattern.slot(i, j)), i, j);
-    fill(lu.off_diagonal(pattern.slot(j, i)), j, i);
+  for (const auto& [i, j] : g.pairs)
+    for (const auto& [row, column] : {std::pair{i, j}, std::pair{j, i}})
+      if (const BlockPattern::Slot slot = pattern.slot(row, column); lu.has(slot)) fill(lu.off_diagonal(slot), row, column);
+  if (lu.symmetric()) {
+    for (int i = 0; i < g.n; ++i) {
+      Block<T, N>& block = lu.diagonal(i);
+      for (int r = 0; r < N; ++r)
+        for (int c = 0; c < r; ++c) {
+          block(r, c) = block(c, r);
+          for (auto& m : dense) m(N * i + r, N * i + c) = m(N * i + c, N * i + r);
+        }
+    }
+    for (auto& m : dense)
+      for (const auto& [i, j] : g.pairs) {
+        const BlockPattern::Slot slot = pattern.slot(i, j);
+        const int row = slot.upper ? i : j, column = slot.upper ? j : i;
+        m.block<N, N>(N * column, N * row) = m.block<N, N>(N * row, N * column).transpose();
+      }
   }
   std::vector<BlockVec<T, N>> x(g.n);
   std::vector<Eigen::VectorXcd> expected(kSystems<T>, Eigen::VectorXcd(N * g.n));
@@ -104,15 +119,17 @@ void compare_with_dense(const Graph& g, Random& random) {
 
 TEST(BlockLu, RealSolutionsAreTheDenseOnes) {
   Random random(1);
-  for (const Graph& g : graphs()) compare_with_dense<double>(g, random);
+  for (const Graph& g : graphs())
+    for (const Symmetry symmetry : {Symmetry::kNone, Symmetry::kSymmetric}) compare_with_dense<double>(g, random, symmetry);
 }
 
 TEST(BlockLu, EverySolutionOfASpectrumIsTheDenseOne) {
   Random random(2);
-  for (const Graph& g : graphs()) {
-    compare_with_dense<Spectrum<3>>(g, random);
-    compare_with_dense<Spectrum<5>>(g, random);
-  }
+  for (const Graph& g : graphs())
+    for (const Symmetry symmetry : {Symmetry::kNone, Symmetry::kSymmetric}) {
+      compare_with_dense<Spectrum<3>>(g, random, symmetry);
+      compare_with_dense<Spectrum<5>>(g, random, symmetry);
+    }
 }
 
 // Right-hand sides in lanes are solved as if each were alone.

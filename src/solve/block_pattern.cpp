@@ -116,6 +116,12 @@ int BlockPattern::find_upper(int row, int column) const {
   return static_cast<int>(it - columns_.begin());
 }
 
+int BlockPattern::longest_row() const {
+  int longest = 0;
+  for (int k = 0; k < n_; ++k) longest = std::max(longest, first_[k + 1] - first_[k]);
+  return longest;
+}
+
 BlockPattern::Slot BlockPattern::slot(int i, int j) const {
   const int a = position_[i], b = position_[j];
   return a < b ? Slot{find_upper(a, b), true} : Slot{find_upper(b, a), false};

@@ -30,6 +30,7 @@ class BlockPattern {
   // pair (a, b) of them the block that their product changes, as index + 1 of the upper block or -(index + 1) of the
   // lower one, or 0 for the diagonal.
   int first(int k) const { return first_[k]; }
+  int longest_row() const;  ///< upper blocks of one pivot, at most
   int column(int index) const { return columns_[index]; }
   const int* updates(int k) const { return updates_.data() + first_update_[k]; }
 

@@ -101,27 +101,18 @@ PINTLE_LANES Lanes<N> larger_size(const Lanes<N>& a, const Lanes<N>& b) {
   return {size > a.v ? size : a.v};
 }
 
-/// Sine and cosine, to 1.2e-16 up to kLargestAngle, beyond it the standard library's. The angle is reduced to an eighth of a
-/// turn either side of zero by subtracting quarters in two parts, of which the first has 33 bits (Cody and Waite, Software
-/// Manual for the Elementary Functions, chapter 8); there the polynomials of fdlibm's kernel functions.
+/// Sine and cosine, to 1.2e-16, of angles up to kLargestAngle. The angle is reduced to an eighth of a turn either side of zero by
+/// subtracting quarters in two parts, of which the first has 33 bits (Cody and Waite, Software Manual for the Elementary
+/// Functions, chapter 8); there the polynomials of fdlibm's kernel functions.
 constexpr double kLargestAngle = 1e5;  // [rad]
 
 template <int N>
-PINTLE_LANES void sine_and_cosine(const Lanes<N>& angle, Lanes<N>& sine, Lanes<N>& cosine) {
+PINTLE_LANES void sine_and_cosine_unchecked(const Lanes<N>& angle, Lanes<N>& sine, Lanes<N>& cosine) {
   using Register = typename Lanes<N>::Register;
   using Bits = typename Registers<N>::Bits;
   const Register x = angle.v;
   constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52: what is added to it loses its fraction
   constexpr double kQuarter = 1.57079632673412561417e+00, kRest = 6.07710050650619224932e-11;
-  bool small = true;
-  for (int i = 0; i < N; ++i) small = small && std::abs(x[i]) < kLargestAngle;
-  if (!small) {
-    for (int i = 0; i < N; ++i) {
-      sine.set(i, std::sin(x[i]));
-      cosine.set(i, std::cos(x[i]));
-    }
-    return;
-  }
   const Register shifted = x * 6.36619772367581382433e-01 + kRound, quarters = shifted - kRound;
   const Bits n = (Bits)shifted;
   const Register r = (x - quarters * kQuarter) - quarters * kRest, z = r * r;
@@ -137,6 +128,27 @@ PINTLE_LANES void sine_and_cosine(const Lanes<N>& angle, Lanes<N>& sine, Lanes<N
   const Bits out_s = ((bits_c & odd) | (bits_s & ~odd)) ^ sign_s, out_c = ((bits_s & odd) | (bits_c & ~odd)) ^ sign_c;
   sine.v = (Register)out_s;
   cosine.v = (Register)out_c;
+}
+
+/// Whether a lane is beyond kLargestAngle.
+template <int N>
+PINTLE_LANES bool any_beyond_largest_angle(const Lanes<N>& sizes) {
+  bool any = false;
+  for (int i = 0; i < N; ++i) any = any || sizes[i] >= kLargestAngle;
+  return any;
+}
+
+/// The same of any angle: the standard library's for large ones.
+template <int N>
+PINTLE_LANES void sine_and_cosine(const Lanes<N>& angle, Lanes<N>& sine, Lanes<N>& cosine) {
+  if (!any_beyond_largest_angle(sizes(angle))) {
+    sine_and_cosine_unchecked(angle, sine, cosine);
+    return;
+  }
+  for (int i = 0; i < N; ++i) {
+    sine.set(i, std::sin(angle[i]));
+    cosine.set(i, std::cos(angle[i]));
+  }
 }
 
 /// A matrix by its columns.

@@ -28,9 +28,9 @@ struct Spectrum {
   PINTLE_LANES friend Spectrum operator-(const Spectrum& a, const Spectrum& b) { return Spectrum(a.x - b.x); }
   PINTLE_LANES friend Spectrum operator-(const Spectrum& a) { return Spectrum(-a.x); }
   PINTLE_LANES friend Spectrum operator*(double f, const Spectrum& a) { return Spectrum(f * a.x); }
-  // (re re) (re im) + (-im im) (im re); where there is no imaginary part the second is nothing.
+  // (re re) (re im) + (im im) (-im re); where there is no imaginary part the second is nothing.
   PINTLE_LANES friend Spectrum operator*(const Spectrum& a, const Spectrum& b) {
-    return Spectrum(Lanes<N>{real_parts(a.x.v) * b.x.v + turned_imaginary_parts(a.x.v) * swapped(b.x.v)});
+    return Spectrum(Lanes<N>{real_parts(a.x.v) * b.x.v + imaginary_parts(a.x.v) * turned(b.x.v)});
   }
   PINTLE_LANES friend Spectrum reciprocal(const Spectrum& a) {
     const Register u = a.x.v, square = u * u;
@@ -50,9 +50,11 @@ struct Spectrum {
   PINTLE_LANES static Register real_parts(const Register& a) {
     return rearranged(a, [](std::size_t i) constexpr { return i + 1 < N ? i & ~1ul : i; });
   }
-  PINTLE_LANES static Register turned_imaginary_parts(const Register& a) {
-    return signs(-1, 1, 0) * rearranged(a, [](std::size_t i) constexpr { return i + 1 < N ? i | 1 : i; });
+  PINTLE_LANES static Register imaginary_parts(const Register& a) {
+    return rearranged(a, [](std::size_t i) constexpr { return i + 1 < N ? i | 1 : i; });
   }
+  // Times the imaginary unit; of the real number nothing.
+  PINTLE_LANES static Register turned(const Register& a) { return signs(-1, 1, 0) * swapped(a); }
   PINTLE_LANES static Register swapped(const Register& a) {
     return rearranged(a, [](std::size_t i) constexpr { return i + 1 < N ? i ^ 1 : i; });
   }

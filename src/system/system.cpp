@@ -13,15 +13,21 @@ const S::Motion kStill{};
 const S::Motion& motion(int body, const std::vector<S::Motion>& m) { return body == kGround ? kStill : m[body]; }
 
 void take_off_target(const JointData& joint, double t, Reading& r) {
-  const std::array<double, 1> time{t};
-  const auto target = joint.target.variables().empty() ? std::array<double, 3>{joint.target.value({}), 0, 0}
-                                                       : joint.target.second_order(time, 0);
-  r.gap[joint.servo] -= joint.start + joint.speed * t + target[0];
-  r.rate[joint.servo] -= joint.speed + target[1];
+  const auto target = servo_target(joint, t);
+  r.gap[joint.servo] -= target[0];
+  r.rate[joint.servo] -= target[1];
   r.bias[joint.servo] -= target[2];
 }
 
 }  // namespace
+
+std::array<double, 3> servo_target(const JointData& joint, double t) {
+  auto target = joint.target.variables().empty() ? std::array<double, 3>{joint.target.value({}), 0, 0}
+                                                 : joint.target.second_order(std::array{t}, 0);
+  target[0] += joint.start + joint.speed * t;
+  target[1] += joint.speed;
+  return target;
+}
 
 void System::finish() {
   std::vector<std::pair<int, int>> pairs;

@@ -53,6 +53,9 @@ struct JointData {
   Planar::Vec free_mask = Planar::Vec::Zero();  // 1 in components that are free coordinates
 };
 
+/// What a servo's coordinate is to be at time t, with its rate and acceleration.
+std::array<double, 3> servo_target(const JointData& joint, double t);
+
 /// What an effort motor's expression reads: the time, or a coordinate (or rate) of a joint.
 struct Signal {
   int joint = -1;  // -1: the time

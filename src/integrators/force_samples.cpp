@@ -1,4 +1,4 @@
-#include "fleet/fleet_samples.h"
+#include "integrators/force_samples.h"
 
 #include <Eigen/LU>
 #include <cmath>
@@ -6,15 +6,14 @@
 
 namespace pintle {
 
-FleetSamples::FleetSamples(const RadauTable& table) {
-  constexpr int kAll = kN + 2;
+ForceSamples::ForceSamples(const RadauTable& table) {
   Eigen::Matrix<double, kAll, kAll> powers;
   for (int i = 0; i < kAll; ++i) {
     x[i] = 0.5 * (1 - std::cos(std::numbers::pi * i / (kAll - 1)));
     for (int k = 0; k < kAll; ++k) powers(i, k) = std::pow(x[i], k);
-    for (int node = 0; node <= kStages; ++node) {
+    for (int node = 0; node <= table.n; ++node) {
       value[i][node] = once[i][node] = twice[i][node] = 0;
-      for (int k = 0; k <= kStages; ++k) {
+      for (int k = 0; k <= table.n; ++k) {
         const double c = table.to_powers(k, node);
         value[i][node] += c * std::pow(x[i], k);
         once[i][node] += c * std::pow(x[i], k + 1) / (k + 1);
@@ -25,6 +24,11 @@ FleetSamples::FleetSamples(const RadauTable& table) {
   const Eigen::Matrix<double, kAll, kAll> inverse = powers.inverse();
   for (int k = 0; k < kAll; ++k)
     for (int i = 0; i < kAll; ++i) to_powers[k][i] = inverse(k, i);
+}
+
+const ForceSamples& ForceSamples::of(const RadauTable& table) {
+  static const ForceSamples of_three(RadauTable::of(3)), of_five(RadauTable::of(5));
+  return table.n == 3 ? of_three : of_five;
 }
 
 }  // namespace pintle
