@@ -90,7 +90,7 @@ void LaneSolver<N>::predict(const State& begin, double h, const StepNodes* befor
   std::array<L, RadauTable::kMaxNodes> weight;
   if (before)
     for (int s = 0; s < N; ++s) {
-      const RadauTable::Vec w = table_.weights(1 + table_.c[s] * h / last_h);
+      const RadauTable::Vec w = table_.continuation(table_.c[s], h / last_h);
       for (int k = 0; k <= N; ++k) weight[k].set(s, w[k]);
     }
   const auto continued = [&](std::size_t i, int k, const std::vector<Vecs>& nodes, const Vecs& start) {
