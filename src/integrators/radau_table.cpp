@@ -99,10 +99,10 @@ RadauTable::Vec RadauTable::weights_of_last(int count, double x) const {
 
 RadauTable::Vec RadauTable::weights(double x) const { return weights_of_last(n + 1, x); }
 
-RadauTable::Vec RadauTable::continuation(double c, double ratio) const {
+RadauTable::Vec RadauTable::continuation(double share, double ratio) const {
   constexpr double kParabola = 1.3, kLine = 1.8;  // measured: fewest iterations in steps that grow, as many as ever in those that do not
   const double size = std::abs(ratio);
-  return weights_of_last(size > kLine ? 2 : size > kParabola ? 3 : n + 1, 1 + c * ratio);
+  return weights_of_last(size > kLine ? 2 : size > kParabola ? 3 : n + 1, 1 + share * ratio);
 }
 
 const RadauTable& RadauTable::of(int stages) {

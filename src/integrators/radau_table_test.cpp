@@ -144,6 +144,17 @@ TEST_P(RadauTables, CurvesThroughTheNodesAreExactForPolynomials) {
   }
 }
 
+// Into a step that is not much longer the whole curve, then a parabola, then a line.
+TEST_P(RadauTables, ContinuesCurvesOfTheDegreeThatFitsTheRatio) {
+  for (const auto& [ratio, degree] : {std::pair{0.4, n_}, std::pair{1.2, n_}, std::pair{1.5, 2}, std::pair{-1.5, 2}, std::pair{3.0, 1}})
+    for (int k = 0; k <= n_; ++k) {
+      const RadauTable::Vec monomial = table_.nodes.array().pow(k).matrix();
+      const double off = std::abs(table_.continuation(0.7, ratio).dot(monomial) - std::pow(1 + 0.7 * ratio, k));
+      if (k <= degree) EXPECT_LT(off, 1e-10) << ratio << " " << k;
+      else EXPECT_GT(off, 1e-3) << ratio << " " << k;
+    }
+}
+
 Complex stability(const RadauTable& table, Complex z) {
   const Eigen::MatrixXcd A = Eigen::MatrixXd(table.A).cast<Complex>();
   const Eigen::VectorXcd k = (Eigen::MatrixXcd::Identity(table.n, table.n) - z * A).inverse() * Eigen::VectorXcd::Ones(table.n);
