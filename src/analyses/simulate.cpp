@@ -20,7 +20,7 @@
 namespace pintle {
 namespace {
 
-constexpr int kMaxPasses = 8;
+constexpr int kMaxPasses = 6;
 constexpr double kLoosest = 1e-4;   // of the second pass: above it steps are bounded by other things, and two passes are alike
 constexpr double kLoosestIdeal = 1e-8;  // ideal joints are a reference, and cheap
 constexpr double kLoosestOfMotion = 1e-3;
