@@ -102,7 +102,7 @@ class FleetSteps {
         stage.accel = begin_.accel;
         continue;
       }
-      const RadauTable::Vec w = table_.continuation(table_.c[s], ratio);
+      const RadauTable::Vec w = table_.weights(1 + table_.c[s] * ratio);
       const auto continued = [&](const std::array<EachVecs, N + 1>& nodes, EachVecs& out) {
         for (std::size_t i = 0; i < out.size(); ++i)
           for (int k = 0; k < 3; ++k) out[i][k] = w[0] * nodes[0][i][k] + w[1] * nodes[1][i][k] + w[2] * nodes[2][i][k] + w[3] * nodes[3][i][k];

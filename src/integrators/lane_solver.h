@@ -14,7 +14,7 @@ namespace pintle {
 template <int N>
 class LaneSolver : public StageSolver {
  public:
-  LaneSolver(const System& system, const RadauTable& table, double tolerance);
+  LaneSolver(const System& system, const RadauTable& table, double tolerance, Steps steps);
 
   void write(std::vector<Stage>& stages) const override;
   double contraction() const override { return contraction_.seen(); }
@@ -60,6 +60,7 @@ class LaneSolver : public StageSolver {
   const StageMatrices<N> matrices_;
   StepMatrices<N> step_;
   double tolerance_;
+  Steps steps_;
   NewtonContraction contraction_;
   static constexpr double kGood = 0.15, kSlow = 0.4;  // contractions: Jacobians serve the next step; they do not serve this one
   static constexpr int kMostWithOld = 4;      // iterations

@@ -9,7 +9,7 @@ using S = Planar;
 
 RadauStepper::RadauStepper(const System& system, double tolerance, int stages, ToleranceOf tolerance_of)
     : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion),
-      solver_(make_stage_solver(system, table_, tolerance)), stage_(table_.n), projector_(system), tail_(system.joints.size()),
+      solver_(make_stage_solver(system, table_, tolerance, of_motion_ ? Steps::kLong : Steps::kAccurate)), stage_(table_.n), projector_(system), tail_(system.joints.size()),
       tail_move_(system.bodies.size()), wanted_(system.joints.size()),
       move_(system.bodies.size()), end_r_(system.joints.size()), end_m_(system.bodies.size()) {
   const std::size_t n = system.bodies.size(), m = system.joints.size();

@@ -14,8 +14,8 @@ namespace pintle {
 using S = Planar;
 
 template <int N>
-LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double tolerance)
-    : system_(system), table_(table), matrices_(table), tolerance_(tolerance), loads_(!system.loads.empty() || !system.applied.empty()),
+LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double tolerance, Steps steps)
+    : system_(system), table_(table), matrices_(table), tolerance_(tolerance), steps_(steps), loads_(!system.loads.empty() || !system.applied.empty()),
       bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), motions_(system.bodies.size()), slots_(system.joints.size()),
       lu_(system.pattern(), loads_ ? Symmetry::kNone : symmetry_of_joints(system)), rhs_(system.bodies.size() + 1) {
   bodies_.back().c = L::all(1);  // the ground; what falls on it is not looked at
@@ -90,7 +90,8 @@ void LaneSolver<N>::predict(const State& begin, double h, const StepNodes* befor
   std::array<L, RadauTable::kMaxNodes> weight;
   if (before)
     for (int s = 0; s < N; ++s) {
-      const RadauTable::Vec w = table_.continuation(table_.c[s], h / last_h);
+      const double ratio = h / last_h;
+      const RadauTable::Vec w = steps_ == Steps::kLong ? table_.continuation(table_.c[s], ratio) : table_.weights(1 + table_.c[s] * ratio);
       for (int k = 0; k <= N; ++k) weight[k].set(s, w[k]);
     }
   const auto continued = [&](std::size_t i, int k, const std::vector<Vecs>& nodes, const Vecs& start) {
@@ -476,20 +477,20 @@ class WidestSolver final : public LaneSolver<5> {
 #endif
 
 template <int N>
-std::unique_ptr<StageSolver> make_solver(const System& system, const RadauTable& table, double tolerance) {
+std::unique_ptr<StageSolver> make_solver(const System& system, const RadauTable& table, double tolerance, Steps steps) {
 #ifdef PINTLE_WIDE
   if constexpr (N == 5)
-    if (has_widest_registers()) return std::make_unique<WidestSolver>(system, table, tolerance);
-  if (has_wide_registers()) return std::make_unique<WideSolver<N>>(system, table, tolerance);
+    if (has_widest_registers()) return std::make_unique<WidestSolver>(system, table, tolerance, steps);
+  if (has_wide_registers()) return std::make_unique<WideSolver<N>>(system, table, tolerance, steps);
 #endif
-  return std::make_unique<NarrowSolver<N>>(system, table, tolerance);
+  return std::make_unique<NarrowSolver<N>>(system, table, tolerance, steps);
 }
 
 }  // namespace
 
-std::unique_ptr<StageSolver> make_stage_solver(const System& system, const RadauTable& table, double tolerance) {
-  if (table.n == 5) return make_solver<5>(system, table, tolerance);
-  return make_solver<3>(system, table, tolerance);
+std::unique_ptr<StageSolver> make_stage_solver(const System& system, const RadauTable& table, double tolerance, Steps steps) {
+  if (table.n == 5) return make_solver<5>(system, table, tolerance, steps);
+  return make_solver<3>(system, table, tolerance, steps);
 }
 
 }  // namespace pintle

@@ -45,7 +45,10 @@ class StageSolver {
   virtual void yield_to(std::vector<Three>& forces) const = 0;
 };
 
+/// Whether steps are as long as Newton's method allows, and grow as fast: what the first guess is made from.
+enum class Steps { kAccurate, kLong };
+
 /// The solver with the stages of `table`.
-std::unique_ptr<StageSolver> make_stage_solver(const System& system, const RadauTable& table, double tolerance);
+std::unique_ptr<StageSolver> make_stage_solver(const System& system, const RadauTable& table, double tolerance, Steps steps = Steps::kAccurate);
 
 }  // namespace pintle

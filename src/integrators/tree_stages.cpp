@@ -58,7 +58,7 @@ void TreeStages::predict(const TreeState& begin, double h, const TreeNodes* befo
     state.w = begin.w;
     state.accel = begin.accel;
     if (!before) continue;
-    const RadauTable::Vec weight = table_.continuation(table_.c[s], h / last_h);
+    const RadauTable::Vec weight = table_.weights(1 + table_.c[s] * h / last_h);
     state.w.noalias() = before->w * weight;
     state.accel.noalias() = before->accel * weight;
   }
