@@ -13,6 +13,7 @@
 #include "integrators/force_samples.h"
 #include "fleet/fleet_work.h"
 #include "integrators/newton_contraction.h"
+#include "integrators/step_error.h"
 #include "integrators/pose_blocks.h"
 #include "solve/complex_lanes.h"
 #include "solve/wide.h"

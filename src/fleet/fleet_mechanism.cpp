@@ -38,10 +38,7 @@ FleetMechanism::FleetMechanism(const System& base)
     to.b = place(joint.at.b);
     to.servo = joint.servo;
     if (joint.at.a != kGround && joint.at.b != kGround) to.slot = base.pattern().slot(joint.at.a, joint.at.b);
-    for (int k = 0; k < 3; ++k) {
-      to.stiff[k] = std::get<LinearLaw>(joint.law).k[k] > 0;
-      to.held[k] = joint.free_mask[k] == 0;
-    }
+    for (int k = 0; k < 3; ++k) to.stiff[k] = std::get<LinearLaw>(joint.law).k[k] > 0;
   }
 }
 

@@ -37,7 +37,7 @@ struct FleetJoint {
   BlockPattern::Slot slot{};
   FleetFrame F, M;
   EachVec offset, k, c, over_k;
-  std::array<bool, 3> stiff{}, held{};  // components with a stiffness; that are not free
+  std::array<bool, 3> stiff{};  // components with a stiffness
   int servo = -1;
 };
 

@@ -20,6 +20,15 @@ PINTLE_PART inline void read_rates(const FleetMechanism& mechanism, const Each& 
   mechanism.readings(t, m, r);
 }
 
+/// What gaps of the bodies' x lack of those wanted: wanted - known - G x; `known` is a member of the readings.
+PINTLE_PART inline void find_missing(const FleetMechanism& mechanism, const std::vector<FleetReading>& r, const EachVecs& wanted, EachVec FleetReading::*known,
+                                     const EachVecs& x, EachVecs& missing) {
+  for (std::size_t j = 0; j < r.size(); ++j) {
+    const EachVec e = FleetMechanism::gap_change(mechanism.joints[j], r[j].map, x);
+    for (int k = 0; k < 3; ++k) missing[j][k] = wanted[j][k] - (r[j].*known)[k] - e[k];
+  }
+}
+
 class FleetProjector {
  public:
   explicit FleetProjector(const FleetMechanism& mechanism)
@@ -71,10 +80,7 @@ class FleetProjector {
     for (std::size_t i = 0; i < mechanism_.n_bodies(); ++i)
       for (int k = 0; k < 3; ++k) a[i][k] *= mechanism_.bodies[i].over_mass[k];
     a.back() = {};
-    for (std::size_t j = 0; j < map_.size(); ++j) {
-      const EachVec e = FleetMechanism::gap_change(mechanism_.joints[j], map_[j], a);
-      for (int k = 0; k < 3; ++k) missing_[j][k] = gap_accel[j][k] - r[j].bias[k] - e[k];
-    }
+    find_missing(mechanism_, r, gap_accel, &FleetReading::bias, a, missing_);
     pull(missing_);
     solve();
     const Each over_mu2 = reciprocal(mu2_);

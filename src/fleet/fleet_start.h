@@ -76,10 +76,7 @@ class FleetStart {
     for (std::size_t i = 0; i < mechanism_.n_bodies(); ++i)
       for (int k = 0; k < 3; ++k) state.a[i][k] = Q_[i][k] * mechanism_.bodies[i].over_mass[k];
     for (int pass = 0; pass < kClosing; ++pass) {
-      for (std::size_t j = 0; j < r_.size(); ++j) {
-        const EachVec e = FleetMechanism::gap_change(mechanism_.joints[j], r_[j].map, state.a);
-        for (int k = 0; k < 3; ++k) wanted_[j][k] = state.accel[j][k] - r_[j].bias[k] - e[k];
-      }
+      find_missing(mechanism_, r_, state.accel, &FleetReading::bias, state.a, wanted_);
       projector_.close(wanted_, state.a);
     }
     for (int pass = 0; pass < kClosing; ++pass) projector_.improve_forces(Q_, state.a, state.force);
@@ -105,10 +102,7 @@ class FleetStart {
     read(state);
     std::fill(dv_.begin(), dv_.end(), EachVec{});
     for (int pass = 0; pass < kClosing; ++pass) {
-      for (std::size_t j = 0; j < r_.size(); ++j) {
-        const EachVec e = FleetMechanism::gap_change(mechanism_.joints[j], r_[j].map, dv_);
-        for (int k = 0; k < 3; ++k) wanted_[j][k] = state.rate[j][k] - r_[j].rate[k] - e[k];
-      }
+      find_missing(mechanism_, r_, state.rate, &FleetReading::rate, dv_, wanted_);
       projector_.close(wanted_, dv_);
     }
     for (std::size_t i = 0; i < mechanism_.n_bodies(); ++i)

@@ -12,6 +12,7 @@
 #include "fleet/fleet_start.h"
 #include "integrators/newton_contraction.h"
 #include "integrators/radau_table.h"
+#include "integrators/step_error.h"
 #include "solve/complex_lanes.h"
 
 namespace pintle::PINTLE_FLEET {
@@ -71,7 +72,7 @@ class FleetSteps {
 
  private:
   static constexpr int N = kFleetStages, kMost = NewtonContraction::kMaxIterations;
-  static constexpr double kFirstContraction = 0.5, kShare = 0.05, kRounding = 1e-15, kProjectionShare = 0.01, kGapError = 3;
+  static constexpr double kFirstContraction = 0.5;
   using Pair = ComplexLanes<kFleet>;
 
   struct Stage {
@@ -235,14 +236,14 @@ class FleetSteps {
     for (int lane = 0; lane < kFleet; ++lane) {
       if (active[lane] == 0) continue;
       const double size = change[lane] / of_newton_;
-      if (change[lane] < kRounding) {
+      if (change[lane] < NewtonContraction::kRounding) {
         active.v[lane] = 0;
         continue;
       }
       double rate = iteration == 0 ? std::clamp(2 * contraction_[lane], 0.01, 0.9) : change[lane] / last[lane];
       if (iteration == 1) rate = std::max(rate, std::min(contraction_[lane], std::sqrt(rate)));
       if (iteration > 0) contraction_[lane] = rate;
-      const bool done = rate < 1 && rate / (1 - rate) * size < kShare;
+      const bool done = rate < 1 && rate / (1 - rate) * size < NewtonContraction::kShare;
       const bool failed = !std::isfinite(size) || rate > 2;
       if (failed) worst_.v[lane] = HUGE_VAL;
       if (done || failed) active.v[lane] = 0;
@@ -329,8 +330,8 @@ class FleetSteps {
   PINTLE_LANES Each tail(const Each& last, const Each& before, const Each& before_that) const {
     Each out;
     for (int lane = 0; lane < kFleet; ++lane) {
-      const double x = last[lane], ratio = std::max(x / before[lane], std::sqrt(x / before_that[lane]));
-      out.set(lane, x > 0 ? x * std::min(1.0, ratio) / tolerance_ : x == 0 ? 0 : HUGE_VAL);
+      const double x = last[lane];
+      out.set(lane, x > 0 ? x * fall_off(x, before[lane], before_that[lane]) / tolerance_ : x == 0 ? 0 : HUGE_VAL);
     }
     return out;
   }
@@ -390,10 +391,7 @@ class FleetSteps {
     }
     std::fill(move_.begin(), move_.end(), EachVec{});
     for (int pass = 0; pass < 2; ++pass) {
-      for (std::size_t j = 0; j < r_.size(); ++j) {
-        const EachVec e = FleetMechanism::gap_change(mechanism_.joints[j], r_[j].map, move_);
-        for (int k = 0; k < 3; ++k) wanted_[j][k] = last.rate[j][k] - r_[j].rate[k] - e[k];
-      }
+      find_missing(mechanism_, r_, last.rate, &FleetReading::rate, move_, wanted_);
       projector_.close(wanted_, move_);
     }
     for (std::size_t i = 0; i < n_; ++i)
@@ -401,10 +399,7 @@ class FleetSteps {
     read_rates(mechanism_, end_.t, end_.v, m_, r_);
     take_gaps();
     move_ = last.a;
-    for (std::size_t j = 0; j < r_.size(); ++j) {
-      const EachVec e = FleetMechanism::gap_change(mechanism_.joints[j], r_[j].map, move_);
-      for (int k = 0; k < 3; ++k) wanted_[j][k] = last.accel[j][k] - r_[j].bias[k] - e[k];
-    }
+    find_missing(mechanism_, r_, last.accel, &FleetReading::bias, move_, wanted_);
     projector_.close(wanted_, move_);
     projector_.improve_forces(last.Q, move_, end_.force);
     nodes_.force[N] = end_.force;

@@ -11,6 +11,8 @@ class NewtonContraction {
  public:
   enum class Verdict { kGoOn, kDone, kHopeless };
   static constexpr int kMaxIterations = 14;
+  static constexpr double kShare = 0.05;      // of the tolerance, left to the iteration
+  static constexpr double kRounding = 1e-15;  // of the loads: no correction
 
   /// Before a step's first iteration.
   void start() { last_ = before_last_ = seen_ = 0; }
@@ -36,8 +38,6 @@ class NewtonContraction {
   double seen() const { return seen_; }
 
  private:
-  static constexpr double kShare = 0.05;      // of the tolerance, left to the iteration
-  static constexpr double kRounding = 1e-15;  // of the loads: no correction
   static constexpr double kSlow = 0.9;        // contraction expected at most of a first iteration, after one that failed
 
   double last_ = 0, before_last_ = 0, contraction_ = 0.5, seen_ = 0;

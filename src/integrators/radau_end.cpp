@@ -4,19 +4,12 @@
 #include <limits>
 
 #include "integrators/radau_stepper.h"
+#include "integrators/step_error.h"
 
 namespace pintle {
 namespace {
 
 using S = Planar;
-
-constexpr double kProjectionShare = 0.01;  // of the step's own frequency: every mode that a step does not resolve to the full is moved
-constexpr double kGapError = 3;  // error of a gap's acceleration over its last coefficient
-
-// What the next coefficients of a series will be like: its last ones fall off by this ratio, at most 1.
-double fall_off(double last, double before, double before_that) {
-  return std::min(1.0, std::max(last / before, std::sqrt(last / before_that)));
-}
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "integrators/step_error.h"
 #include "integrators/tree_radau.h"
 
 namespace pintle {
@@ -12,14 +13,6 @@ using S = Planar;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kProjectionShare = 0.01;  // of the step's own frequency: every mode that a step does not resolve to the full is moved
-constexpr double kGapError = 3;            // error of a gap's acceleration over its last coefficient
-
-// What the next coefficients of a series will be like: its last ones fall off by this ratio, at most 1.
-double fall_off(double last, double before, double before_that) {
-  return std::min(1.0, std::max(last / before, std::sqrt(last / before_that)));
-}
 
 double largest(const VectorXd& x) { return x.size() == 0 ? 0 : x.cwiseAbs().maxCoeff(); }
 

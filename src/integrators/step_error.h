@@ -1,0 +1,19 @@
+// What the error estimates of all Radau steps have in common. theory/time section 3.4.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace pintle {
+
+/// Of the step's own frequency: every mode that a step does not resolve to the full is moved onto its gap.
+constexpr double kProjectionShare = 0.01;
+/// Error of a gap's acceleration over its last coefficient.
+constexpr double kGapError = 3;
+
+/// What the next coefficients of a series will be like: its last ones fall off by this ratio, at most 1.
+inline double fall_off(double last, double before, double before_that) {
+  return std::min(1.0, std::max(last / before, std::sqrt(last / before_that)));
+}
+
+}  // namespace pintle
