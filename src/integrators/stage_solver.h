@@ -36,7 +36,7 @@ class StageSolver {
   /// The last three Legendre coefficients of the bodies' accelerations and of the gaps' own, the last one first. Those of the bodies
   /// with the start of the step, whose own error is the last step's where the gaps are concerned.
   virtual void tails(const State& begin, std::vector<Three>& bodies, std::vector<Three>& gaps) const = 0;
-  /// By how much the last iterations shrank the error of the stages.
+  /// By how much the last iterations shrank the error of the stages; 0: it took only one.
   virtual double contraction() const = 0;
   /// What is missing in joint j's equation at the end of the step [m/s^2 or rad/s^2].
   virtual double residual(int j) const = 0;

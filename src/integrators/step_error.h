@@ -6,7 +6,7 @@
 
 namespace pintle {
 
-/// Of the step's own frequency: every mode that a step does not resolve to the full is moved onto its gap.
+/// mu of the projection over the step's own frequency: every mode that a step does not resolve to the full is moved onto its gap.
 constexpr double kProjectionShare = 0.01;
 /// Error of a gap's acceleration over its last coefficient.
 constexpr double kGapError = 3;

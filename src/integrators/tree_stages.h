@@ -30,7 +30,7 @@ class TreeStages {
   const std::vector<TreeState>& states() const { return state_; }
   TreeInstant& instant(int stage) { return at_[stage]; }
   const TreeInstant& instant(int stage) const { return at_[stage]; }
-  /// By how much the last iterations shrank the error of the stages.
+  /// By how much the last iterations shrank the error of the stages; 0: it took only one.
   double contraction() const { return contraction_.seen(); }
   /// What is missing in joint j's equation at the end of the step [m/s^2 or rad/s^2].
   double residual(int j) const;
