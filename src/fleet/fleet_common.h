@@ -10,10 +10,10 @@
 
 #include "analyses/curve_nodes.h"
 #include "analyses/slow_start.h"
-#include "integrators/force_samples.h"
 #include "fleet/fleet_work.h"
+#include "integrators/force_samples.h"
 #include "integrators/newton_contraction.h"
-#include "integrators/step_error.h"
 #include "integrators/pose_blocks.h"
+#include "integrators/step_error.h"
 #include "solve/complex_lanes.h"
 #include "solve/wide.h"

@@ -18,6 +18,8 @@ class LaneForces : public InsideForces {
       : system_(system), loads_(!system.loads.empty() || !system.applied.empty()), bodies_(system.bodies.size() + 1), joints_(system.joints.size()),
         lu_(system.pattern(), symmetry_of_joints(system)), pull_(system.bodies.size() + 1), motions_(system.bodies.size()), Q_(system.bodies.size()) {
     bodies_.back().c = L::all(1);  // the ground
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < 3; ++k) bodies_[b].Q[k] = L::all(system.bodies[b].gravity[k]);
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const JointData& data = system.joints[j];
       joints_[j].map.function = !std::holds_alternative<Selection>(data.probe);
@@ -28,14 +30,14 @@ class LaneForces : public InsideForces {
 
  protected:
   void find_all(const State& begin, const State& end, const StepNodes& nodes, Sampled& sampled) {
+    const double mu = nodes.table->real_eigenvalue / (end.t - begin.t);
     follow(begin, end, nodes);
+    factorize(mu);
+    move_onto_rates();
+    if (loads_) find_loads(begin);
+    balance(mu);
     sampled.front() = begin.force;
     sampled.back() = end.force;
-    write(sampled);  // what stays where a matrix is singular
-    const double mu = nodes.table->real_eigenvalue / (end.t - begin.t);
-    if (!factorize(mu)) return;
-    move_onto_rates();
-    balance(begin, mu);
     write(sampled);
   }
 
@@ -45,6 +47,7 @@ class LaneForces : public InsideForces {
   using Three = BlockVec<L, S::kDof>;
   struct Joint {
     L gap[3], rate[3], accel[3], force[3];  // on the curves
+    L change[3];                            // of the force, that balances
     L weight[9];                            // K + mu C; the first three of a spring and damper in each component
     GapMap<L> map;
     const LinearLaw* linear = nullptr;
@@ -141,8 +144,9 @@ class LaneForces : public InsideForces {
     }
   }
 
-  // mu^2 M + G' (K + mu C) G where the curves are; leaves wanted changes of the rates in `rate`.
-  bool factorize(double mu) {
+  // mu^2 M + G' (K + mu C) G where the curves are; leaves wanted changes of the rates in `rate`. An instant at which that is singular
+  // has forces that are not numbers.
+  void factorize(double mu) {
     lu_.set_zero();
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < 3; ++k) lu_.diagonal(static_cast<int>(b))(k, k) = L::all(mu * mu * system_.bodies[b].mass[k]);
@@ -151,15 +155,15 @@ class LaneForces : public InsideForces {
       Joint& joint = joints_[j];
       L rate[3], bias[3];
       read(j, rate, bias);
-      weigh(j, mu);
+      find_weight(j, mu);
       for (int k = 0; k < 3; ++k) joint.rate[k] -= rate[k];
       if (joint.linear && !joint.map.function) add_pose_blocks(lu_, system_.joints[j].at, joint.slot, joint.map, joint.weight, none);
       else add_joint(j);
     }
-    return lu_.factorize();
+    lu_.factorize();
   }
 
-  void weigh(std::size_t j, double mu) {
+  void find_weight(std::size_t j, double mu) {
     Joint& joint = joints_[j];
     if (joint.linear) {
       for (int k = 0; k < 3; ++k) joint.weight[k] = L::all(joint.linear->k[k] + mu * joint.linear->c[k]);
@@ -170,10 +174,7 @@ class LaneForces : public InsideForces {
       for (int k = 0; k < 9; ++k) joint.weight[k].set(s, r.stiffness(k / 3, k % 3) + mu * r.damping(k / 3, k % 3));
     }
   }
-  static void weighted(const Joint& joint, const L* gap, L* f) {
-    for (int k = 0; k < 3; ++k)
-      f[k] = joint.linear ? joint.weight[k] * gap[k] : joint.weight[3 * k] * gap[0] + joint.weight[3 * k + 1] * gap[1] + joint.weight[3 * k + 2] * gap[2];
-  }
+  static void weigh(const Joint& joint, const L* gap, L* f) { pintle::weigh(joint.linear != nullptr, joint.weight, gap, f); }
 
   // G' w G of any joint, a body's coordinate at a time.
   void add_joint(std::size_t j) {
@@ -186,7 +187,7 @@ class LaneForces : public InsideForces {
       unit[c / 3][c % 3] = L::all(1);
       L e[3], f[3];
       joint.map.gather(&unit[0][0], &unit[1][0], e);
-      weighted(joint, e, f);
+      weigh(joint, e, f);
       joint.map.push(f, on[0], on[1]);
       const auto add = [&](Block<L, 3>& block, int side) {
         for (int r = 0; r < 3; ++r) block(r, c % 3) += on[side][r];
@@ -208,7 +209,7 @@ class LaneForces : public InsideForces {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const Placement& at = system_.joints[j].at;
       L f[3];
-      weighted(joints_[j], joints_[j].*gap, f);
+      weigh(joints_[j], joints_[j].*gap, f);
       joints_[j].map.push(f, pull_[body(at.a)], pull_[body(at.b)]);
     }
     lu_.solve(pull_);
@@ -222,8 +223,7 @@ class LaneForces : public InsideForces {
   }
 
   // theory/time Eq. (4.5).
-  void balance(const State& begin, double mu) {
-    find_loads(begin);
+  void balance(double mu) {
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < 3; ++k) bodies_[b].missing[k] = bodies_[b].Q[k];
     for (std::size_t j = 0; j < joints_.size(); ++j) {
@@ -244,38 +244,33 @@ class LaneForces : public InsideForces {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
       const Placement& at = system_.joints[j].at;
-      L e[3], f[3];
+      L e[3];
       joint.map.gather(&pull_[body(at.a)][0], &pull_[body(at.b)][0], e);
       for (int k = 0; k < 3; ++k) e[k] = joint.accel[k] - e[k];
-      weighted(joint, e, f);
-      for (int k = 0; k < 3; ++k) joint.force[k] += (1 / (mu * mu)) * f[k];
+      weigh(joint, e, joint.change);
+      for (L& change : joint.change) change = (1 / (mu * mu)) * change;
     }
   }
 
   void find_loads(const State& begin) {
-    for (int s = 0; s < (loads_ ? kN : 1); ++s) {
-      if (loads_) {
-        for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(s);
-        system_.external(t_[s], motions_, Q_, begin.held);
-      }
+    for (int s = 0; s < kN; ++s) {
+      for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(s);
+      system_.external(t_[s], motions_, Q_, begin.held);
       for (std::size_t b = 0; b < n_bodies(); ++b)
-        for (int k = 0; k < 3; ++k) {
-          if (loads_) bodies_[b].Q[k].set(s, Q_[b][k]);
-          else bodies_[b].Q[k] = L::all(system_.bodies[b].gravity[k]);
-        }
+        for (int k = 0; k < 3; ++k) bodies_[b].Q[k].set(s, Q_[b][k]);
     }
   }
 
-  // The forces of every instant at which all are numbers.
+  // Forces that balance; at an instant at which one of them is not a number, those of the curves.
   void write(Sampled& sampled) const {
     L nothing = L::all(0);
     for (const Joint& joint : joints_)
-      for (const L& f : joint.force) nothing += 0.0 * f;
+      for (const L& change : joint.change) nothing += 0.0 * change;
     for (int s = 0; s < kN; ++s) {
       Vecs& to = sampled[s + 1];
-      if (to.size() == joints_.size() && nothing[s] != 0) continue;
       to.resize(joints_.size());
-      for (std::size_t j = 0; j < joints_.size(); ++j) to[j] << joints_[j].force[0][s], joints_[j].force[1][s], joints_[j].force[2][s];
+      for (std::size_t j = 0; j < joints_.size(); ++j)
+        for (int k = 0; k < 3; ++k) to[j][k] = nothing[s] == 0 ? joints_[j].force[k][s] + joints_[j].change[k][s] : joints_[j].force[k][s];
     }
   }
 

@@ -96,6 +96,12 @@ struct StepMatrices {
   }
 };
 
+/// A law's answer to a gap: its weights are those of each component, or a matrix by rows.
+template <class T>
+PINTLE_LANES void weigh(bool diagonal, const T* weight, const T* gap, T* f) {
+  for (int k = 0; k < 3; ++k) f[k] = diagonal ? weight[k] * gap[k] : weight[3 * k] * gap[0] + weight[3 * k + 1] * gap[1] + weight[3 * k + 2] * gap[2];
+}
+
 /// The largest lane; infinity where the sum of what it came from is not finite.
 template <int N>
 double largest(const Lanes<N>& size, const Lanes<N>& sum) {

@@ -348,9 +348,7 @@ double LaneSolver<N>::correct(const State& begin) {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const JointLanes<N>& joint = joints_[j];
     X f[3];
-    for (int k = 0; k < 3; ++k)
-      f[k] = joint.diagonal ? joint.weight[k] * joint.e[k]
-                            : joint.weight[3 * k] * joint.e[0] + joint.weight[3 * k + 1] * joint.e[1] + joint.weight[3 * k + 2] * joint.e[2];
+    weigh(joint.diagonal, joint.weight, joint.e, f);
     const Placement& at = system_.joints[j].at;
     joint.frozen.push(f, rhs_[body(at.a)], rhs_[body(at.b)]);
   }
