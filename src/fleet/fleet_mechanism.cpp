@@ -26,7 +26,7 @@ bool FleetMechanism::takes(const System& system) {
 }
 
 FleetMechanism::FleetMechanism(const System& base)
-    : bodies(base.bodies.size()), joints(base.joints.size()), pattern_(&base.pattern()), loads_(!base.loads.empty() || !base.applied.empty()),
+    : bodies(base.bodies.size()), joints(base.joints.size()), pattern_(&base.pattern()), loads_(base.has_loads()),
       motions_(base.bodies.size()), Q_(base.bodies.size()) {
   const auto place = [&](int body) { return body == kGround ? base.n_bodies() : body; };
   for (std::size_t j = 0; j < joints.size(); ++j) {

@@ -15,7 +15,7 @@ using S = Planar;
 class LaneForces : public InsideForces {
  public:
   explicit LaneForces(const System& system)
-      : system_(system), loads_(!system.loads.empty() || !system.applied.empty()), bodies_(system.bodies.size() + 1), joints_(system.joints.size()),
+      : system_(system), loads_(system.has_loads()), bodies_(system.bodies.size() + 1), joints_(system.joints.size()),
         lu_(system.pattern(), symmetry_of_joints(system)), pull_(system.bodies.size() + 1), motions_(system.bodies.size()), Q_(system.bodies.size()) {
     bodies_.back().c = L::all(1);  // the ground
     for (std::size_t b = 0; b < n_bodies(); ++b)

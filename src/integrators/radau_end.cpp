@@ -166,7 +166,7 @@ void RadauStepper::add_work(double h) {
 std::array<double, 2> RadauStepper::power(double t, const Vecs& q, const std::vector<S::Motion>& m, const Vecs& gap,
                                           const Vecs& gap_rate, const Vecs& force) const {
   std::array<double, 2> out{};
-  if (!system_.loads.empty() || !system_.applied.empty()) {
+  if (system_.has_loads()) {
     const ExternalWork work = system_.external_work(t, q, m, end_.held);
     out = {work.supplied, work.lost};
   }

@@ -133,6 +133,8 @@ class System {
 
   int n_bodies() const { return static_cast<int>(bodies.size()); }
   int n_joints() const { return static_cast<int>(joints.size()); }
+  /// Whether anything but weight and joints acts.
+  bool has_loads() const { return !loads.empty() || !applied.empty(); }
   const BlockPattern& pattern() const { return pattern_; }
   /// Fixes the pattern; call when bodies, joints and loads are complete.
   void finish();
