@@ -5,16 +5,8 @@
 #include "integrators/pose_blocks.h"
 
 namespace pintle {
-namespace {
 
 using S = Planar;
-
-void add_block(Block<double, S::kDof>& block, const S::Mat& m) {
-  for (int i = 0; i < S::kDof; ++i)
-    for (int j = 0; j < S::kDof; ++j) block(i, j) += m(i, j);
-}
-
-}  // namespace
 
 GapProjector::GapProjector(const System& system)
     : system_(system), lu_(system.pattern(), symmetry_of_joints(system)), readings_(system.joints.size()), weight_(system.joints.size(), S::Mat::Zero()), diagonal_(system.joints.size()),
@@ -42,7 +34,7 @@ bool GapProjector::factorize(double mu, const Vecs& gap_at, const Vecs& rate_at,
   mu_ = mu;
   lu_.set_zero();
   for (int i = 0; i < system_.n_bodies(); ++i)
-    add_block(lu_.diagonal(i), S::Mat((mu * mu * system_.bodies[i].mass).asDiagonal()));
+    for (int k = 0; k < S::kDof; ++k) lu_.diagonal(i)(k, k) = mu * mu * system_.bodies[i].mass[k];
   for (int j = 0; j < system_.n_joints(); ++j) {
     const Law& law = system_.joints[j].law;
     const auto* linear = std::get_if<LinearLaw>(&law);
@@ -55,22 +47,9 @@ bool GapProjector::factorize(double mu, const Vecs& gap_at, const Vecs& rate_at,
     if (moved) weight_[j] = (*moved)[j].asDiagonal() * weight_[j] * (*moved)[j].asDiagonal();
     if (linear && !readings_[j].map.function)
       add_pose_blocks(lu_, system_.joints[j].at, slots_[j], readings_[j].map, S::Vec(weight_[j].diagonal()).data(), S::Vec::Zero());
-    else add_joint(j);
+    else add_gap_blocks(lu_, system_.joints[j].at, slots_[j], readings_[j].map, weight_[j]);
   }
   return lu_.factorize();
-}
-
-// G' w G of one joint, of any kind.
-void GapProjector::add_joint(int j) {
-  const Placement& at = system_.joints[j].at;
-  const S::Mat GA = readings_[j].GA(), GB = readings_[j].GB(), WA = weight_[j] * GA, WB = weight_[j] * GB;
-  if (at.a != kGround) add_block(lu_.diagonal(at.a), GA.transpose() * WA);
-  if (at.b != kGround) add_block(lu_.diagonal(at.b), GB.transpose() * WB);
-  if (at.a == kGround || at.b == kGround) return;
-  BlockPattern::Slot ab = slots_[j];
-  if (lu_.has(ab)) add_block(lu_.off_diagonal(ab), GA.transpose() * WB);
-  ab.upper = !ab.upper;
-  if (lu_.has(ab)) add_block(lu_.off_diagonal(ab), GB.transpose() * WA);
 }
 
 S::Vec GapProjector::weigh(int j, const S::Vec& gap) const {
@@ -86,22 +65,6 @@ void GapProjector::close(const Vecs& wanted, Vecs& x) {
   }
   lu_.solve(body_);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] += body_[i];
-}
-
-void GapProjector::close(const std::vector<Three>& wanted, std::vector<Three>& x) const {
-  std::fill(x.begin(), x.end(), Three{});
-  for (int j = 0; j < system_.n_joints(); ++j) {
-    const Placement& at = system_.joints[j].at;
-    Three f{};
-    for (int r = 0; r < S::kDof; ++r) {
-      if (diagonal_[j]) f[r] = weight_[j](r, r) * wanted[j][r];
-      else
-        for (int k = 0; k < S::kDof; ++k) f[r] += weight_[j](r, k) * wanted[j][k];
-    }
-    Three ground{};
-    readings_[j].map.push(f.a.data(), at.a == kGround ? ground : x[at.a], at.b == kGround ? ground : x[at.b]);
-  }
-  lu_.solve(x);
 }
 
 // theory/time Eq. (4.4).

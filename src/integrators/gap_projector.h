@@ -27,9 +27,6 @@ class GapProjector {
 
   /// x += the smallest displacement (in the mass norm) whose gap change is `wanted`, one pass.
   void close(const Vecs& wanted, Vecs& x);
-  /// The same from rest for three wanted changes side by side.
-  using Three = BlockVec<Lanes<3>, Planar::kDof>;
-  void close(const std::vector<Three>& wanted, std::vector<Three>& x) const;
   /// Joint forces improved so that M a = Q + G' f in the stiff modes, one pass; `a` has the wanted gap accelerations.
   /// The largest change of a joint's force is returned, over the stiff components.
   double improve_forces(const Vecs& Q, const Vecs& a, Vecs& force);
@@ -40,7 +37,6 @@ class GapProjector {
 
  private:
   bool factorize(double mu, const Vecs& gap_at, const Vecs& rate_at, const Vecs* moved);
-  void add_joint(int j);
   Planar::Vec weigh(int j, const Planar::Vec& gap) const;
 
   const System& system_;

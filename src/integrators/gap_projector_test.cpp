@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <array>
 
 #include "integrators/start_states_for_tests.h"
 
@@ -67,43 +66,6 @@ TEST(GapProjector, OnePassIsTheDenseSolution) {
     const Eigen::MatrixXd left = Eigen::MatrixXd((mu * mu * e.mass).asDiagonal()) + W * e.G.transpose() * e.G;
     const Eigen::VectorXd expected = left.ldlt().solve(W * e.G.transpose() * w);
     EXPECT_LT((stacked(x) - expected).norm(), 1e-8 * expected.norm()) << mu;
-  }
-}
-
-// Three wanted changes side by side, from rest: each is what it is alone. The four-bar, and one with every joint type.
-TEST(GapProjector, ThreeSideBySideAreThreeAlone) {
-  const Knocked four_bar(1e8, 1e-3);
-  const System everything = build_system(sample::everything());
-  Random random(5);
-  for (const System* system : {&four_bar.system, &everything}) {
-    Vecs q, v;
-    std::vector<Planar::Motion> m = four_bar.motions();
-    if (system == &everything) {
-      sample::random_state(random, system->bodies.size(), q, v);
-      system->motions(q, v, m);
-    }
-    const Vecs pulled(system->joints.size(), Planar::Vec(1, 1, 1));  // ropes as well
-    GapProjector projector(*system);
-    ASSERT_TRUE(projector.prepare(0.3, m, 10, pulled, pulled));
-    std::array<Vecs, 3> wanted, alone;
-    std::vector<GapProjector::Three> wanted_together(system->joints.size()), together(system->bodies.size());
-    for (int lane = 0; lane < 3; ++lane) {
-      for (std::size_t j = 0; j < system->joints.size(); ++j) {
-        wanted[lane].push_back(random.vector<Planar::Vec>(-1, 1));
-        for (int k = 0; k < 3; ++k) wanted_together[j][k].set(lane, wanted[lane][j][k]);
-      }
-      alone[lane].assign(system->bodies.size(), Planar::Vec::Zero());
-      projector.close(wanted[lane], alone[lane]);
-    }
-    for (auto& move : together)
-      for (int k = 0; k < 3; ++k) move[k] = Lanes<3>::all(17);  // of no effect
-    projector.close(wanted_together, together);
-    for (int lane = 0; lane < 3; ++lane) {
-      const double size = stacked(alone[lane]).cwiseAbs().maxCoeff();
-      EXPECT_GT(size, 0.01);
-      for (std::size_t i = 0; i < together.size(); ++i)
-        for (int k = 0; k < 3; ++k) EXPECT_NEAR(together[i][k][lane], alone[lane][i][k], 1e-9 * size) << "body " << i << ", lane " << lane;
-    }
   }
 }
 

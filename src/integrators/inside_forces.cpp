@@ -16,10 +16,10 @@ class LaneForces : public InsideForces {
  public:
   explicit LaneForces(const System& system)
       : system_(system), loads_(system.has_loads()), bodies_(system.bodies.size() + 1), joints_(system.joints.size()),
-        lu_(system.pattern(), symmetry_of_joints(system)), pull_(system.bodies.size() + 1), motions_(system.bodies.size()), Q_(system.bodies.size()) {
+        lu_(system.pattern(), symmetry_of_joints(system)), pull_(system.bodies.size() + 1), loads_on_(system.bodies.size() + 1), motions_(system.bodies.size()), Q_(system.bodies.size()) {
     bodies_.back().c = L::all(1);  // the ground
     for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < 3; ++k) bodies_[b].Q[k] = L::all(system.bodies[b].gravity[k]);
+      for (int k = 0; k < 3; ++k) loads_on_[b][k] = L::all(system.bodies[b].gravity[k]);
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const JointData& data = system.joints[j];
       joints_[j].map.function = !std::holds_alternative<Selection>(data.probe);
@@ -224,14 +224,13 @@ class LaneForces : public InsideForces {
 
   // theory/time Eq. (4.5).
   void balance(double mu) {
-    for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < 3; ++k) bodies_[b].missing[k] = bodies_[b].Q[k];
+    pull_ = loads_on_;
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const Placement& at = system_.joints[j].at;
-      joints_[j].map.push(joints_[j].force, bodies_[body(at.a)].missing, bodies_[body(at.b)].missing);
+      joints_[j].map.push(joints_[j].force, pull_[body(at.a)], pull_[body(at.b)]);
     }
     for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < 3; ++k) bodies_[b].a[k] = (1 / system_.bodies[b].mass[k]) * bodies_[b].missing[k];
+      for (int k = 0; k < 3; ++k) bodies_[b].a[k] = (1 / system_.bodies[b].mass[k]) * pull_[b][k];
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
       const Placement& at = system_.joints[j].at;
@@ -257,7 +256,7 @@ class LaneForces : public InsideForces {
       for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(s);
       system_.external(t_[s], motions_, Q_, begin.held);
       for (std::size_t b = 0; b < n_bodies(); ++b)
-        for (int k = 0; k < 3; ++k) bodies_[b].Q[k].set(s, Q_[b][k]);
+        for (int k = 0; k < 3; ++k) loads_on_[b][k].set(s, Q_[b][k]);
     }
   }
 
@@ -280,7 +279,7 @@ class LaneForces : public InsideForces {
   std::vector<BodyLanes<kN>> bodies_;  // and the ground
   std::vector<Joint> joints_;
   BlockLu<L, S::kDof> lu_;
-  std::vector<Three> pull_;            // and the ground's
+  std::vector<Three> pull_, loads_on_; // and the ground's; gravity and loads
   std::vector<S::Motion> motions_;     // of one instant
   Vecs Q_;
 };

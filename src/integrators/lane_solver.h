@@ -2,6 +2,7 @@
 // several widths.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "integrators/newton_contraction.h"
@@ -11,47 +12,62 @@
 
 namespace pintle {
 
+/// Large mechanisms do not fit into caches: every iteration goes through the bodies and the joints as few times as it can, and what
+/// can be computed again is not stored.
 template <int N>
 class LaneSolver : public StageSolver {
  public:
   LaneSolver(const System& system, const RadauTable& table, double tolerance, Steps steps);
 
-  void write(std::vector<Stage>& stages) const override;
   double contraction() const override { return contraction_.seen(); }
   double residual(int j) const override;
 
  protected:
   bool solve_stages(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters);
-  void find_yield(std::vector<Three>& forces) const;
-  void find_tails(const State& begin, std::vector<Three>& bodies, std::vector<Three>& gaps) const;
+  void write_stages(const State& begin, std::vector<Stage>& stages, StageTails& tails) const;
+  void find_yield(std::vector<Four>& forces) const;
 
  private:
   using L = Lanes<N>;
   using X = Spectrum<N>;
   static constexpr int kMiddle = N / 2;  // the stage where the equations are linearised
 
-  // Bodies by index; the ground stands behind the last one and never moves.
-  std::size_t body(int index) const { return index == kGround ? bodies_.size() - 1 : static_cast<std::size_t>(index); }
+  struct Body : BodyLanes<N> {
+    L missing[3];          // in its equation of motion: forces that nothing answers [N, N, N*m]
+    double over_scale[3];  // mass over the loads that corrections are measured by
+  };
+  struct Joint {
+    L accel[3], force[3];
+    X e[3];                  // what is missing of the gap's acceleration, in the diagonal frame [m/s^2, m/s^2, rad/s^2]
+    X weight[3];             // (K + mu C) / mu^2 where that is diagonal
+    GapMap<double> frozen;   // at the stage where the equations are linearised
+    double over_scale[3];    // 1 over the loads that changes of the force are measured by
+    std::size_t a, b;        // its bodies; the ground stands behind the last one
+    const LinearLaw* linear = nullptr;  // its law, if that is one
+    int full = -1;           // its matrix among full_, where that is not diagonal
+    bool function = false;   // its gap is a function of the pose
+    BlockPattern::Slot slot{};  // of its bodies, A before B
+  };
+  struct Curve;  // through the last step's nodes
+
   std::size_t n_bodies() const { return bodies_.size() - 1; }
 
-  void predict(const State& begin, double h, const StepNodes* before, double last_h);
+  void begin_bodies(const State& begin, const Curve& curve, const LoadScale& scale);
+  void begin_joint(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t j);
   void find_targets(double t, double h);
-  void take_scale(const LoadScale& scale);
   L place(const L& a, double x0, double v0, L& v) const;
   void place_body(const State& begin, std::size_t b);
-  void place_bodies(const State& begin);
   void check_angles(const L& angles);
   void place_joint(const State& begin, std::size_t j, L& worst, L& sum);
-  void place_joints(const State& begin);
-  void find_residuals(const State& begin, double h);
+  void find_missing(const State& begin, double h);
   void find_loads(const State& begin, double h);
-  void find_map(std::size_t j, L (&bias)[3]);
-  L find_gradient(const JointData& joint, const PoseGeometry<L>& pose, JointLanes<N>& lanes) const;
-  void linearize(double t, HeldJumps held);
-  bool renew(const State& begin, double h, Counters& counters);
-  bool factorize(double h);
-  void add_joint(std::size_t j, const X& mu);
-  void add_pose_joint(std::size_t j, const X& mu);
+  GapMap<L> answer(std::size_t j);
+  void push_answer(std::size_t j);
+  GapMap<L> find_map(std::size_t j, L (&bias)[3]) const;
+  L find_gradient(std::size_t j, const PoseGeometry<L>& pose, GapMap<L>& map) const;
+  void begin_matrix(const State& begin, double h);
+  void linearize(const State& begin, std::size_t j, const GapMap<L>& map);
+  void add_joint(std::size_t j, const Response& tangents);
   static void add_block(Block<X, 3>& block, const Planar::Mat& K, const Planar::Mat& C, const X& mu, double sign);
   double correct(const State& begin);
 
@@ -67,14 +83,15 @@ class LaneSolver : public StageSolver {
   double factorized_for_ = 0;                 // the step; 0: none
   bool loads_;                                // there is more than weight
   bool simple_ = true;                        // and no joint that is more than springs and dampers
-  std::vector<BodyLanes<N>> bodies_;
-  std::vector<JointLanes<N>> joints_;
+  bool poses_ = true;                         // no joint but springs and dampers in the relative pose
+  std::vector<Body> bodies_;
+  std::vector<Joint> joints_;
+  std::vector<std::array<X, 9>> full_;        // as Joint::weight, by rows
+  std::vector<L> target_accel_;               // of servos' targets, by joint; empty: there is no servo
   Vecs Q_;                                    // of one stage
-  std::vector<Planar::Motion> motions_;
-  struct LoadBlock { int i, j; Planar::Mat dq, dv; };
-  std::vector<BlockPattern::Slot> slots_;     // of each joint's bodies, A before B
-  std::vector<LoadBlock> load_blocks_;
-  X mu2_;
+  std::vector<BlockVec<L, 3>> loads_on_;      // gravity and loads at the stages, where there are loads
+  std::vector<Planar::Motion> motions_;       // of one stage, where anything asks for them
+  X mu_, mu2_, once_, twice_;                 // and 1 / mu, 1 / mu^2
   BlockLu<X, 3> lu_;
   std::vector<BlockVec<X, 3>> rhs_;           // and the ground's
 };

@@ -1,5 +1,5 @@
-// What a joint adds to the matrices of implicit methods when its gap is the relative pose and its law has a spring and a damper
-// in each component.
+// What a joint adds to the matrices of implicit methods: of any kind, and faster where its gap is the relative pose and its law has a
+// spring and a damper in each component.
 #pragma once
 
 #include "solve/block_lu.h"
@@ -36,6 +36,22 @@ PINTLE_LANES void add_pose_blocks(BlockLu<T, 3>& lu, const Placement& at, BlockP
   if (lu.has(slot)) add(lu.off_diagonal(slot), -xx, -xy, -yy, -bx, -by, -ax, -ay, -both);
   slot.upper = !slot.upper;
   if (lu.has(slot)) add(lu.off_diagonal(slot), -xx, -xy, -yy, -ax, -ay, -bx, -by, -both);
+}
+
+/// Adds G' w G to the blocks of both bodies, for a gap and a law of any kind.
+inline void add_gap_blocks(BlockLu<double, 3>& lu, const Placement& at, BlockPattern::Slot slot, const GapMap<double>& g, const Planar::Mat& w) {
+  using Mat = Planar::Mat;
+  const auto add = [](Block<double, 3>& block, const Mat& m) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) block(i, j) += m(i, j);
+  };
+  const Mat GA = g.GA(), GB = g.GB(), WA = w * GA, WB = w * GB;
+  if (at.a != kGround) add(lu.diagonal(at.a), GA.transpose() * WA);
+  if (at.b != kGround) add(lu.diagonal(at.b), GB.transpose() * WB);
+  if (at.a == kGround || at.b == kGround) return;
+  if (lu.has(slot)) add(lu.off_diagonal(slot), GA.transpose() * WB);
+  slot.upper = !slot.upper;
+  if (lu.has(slot)) add(lu.off_diagonal(slot), GB.transpose() * WA);
 }
 
 }  // namespace pintle

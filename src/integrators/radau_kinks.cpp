@@ -132,9 +132,7 @@ void RadauStepper::balance_end() {
   system_.readings(end_.t, end_m_, end_r_);
   for (int j = 0; j < system_.n_joints(); ++j) end_.force[j] = law_force(system_.joints[j].law, end_.gap[j], end_.gap_rate[j]);
   find_accelerations(system_, end_m_, end_r_, end_);
-  const auto [supplied, lost] = power(end_.t, end_.q, end_m_, end_.gap, end_.gap_rate, end_.force);
-  end_.supply_power = supplied;
-  end_.loss_power = lost;
+  find_power();
 }
 
 }  // namespace pintle

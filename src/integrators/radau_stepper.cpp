@@ -9,9 +9,8 @@ using S = Planar;
 
 RadauStepper::RadauStepper(const System& system, double tolerance, int stages, ToleranceOf tolerance_of)
     : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion),
-      solver_(make_stage_solver(system, table_, tolerance, of_motion_ ? Steps::kLong : Steps::kAccurate)), stage_(table_.n), projector_(system), tail_(system.joints.size()),
-      tail_move_(system.bodies.size()), wanted_(system.joints.size()),
-      move_(system.bodies.size()), end_r_(system.joints.size()), end_m_(system.bodies.size()) {
+      solver_(make_stage_solver(system, table_, tolerance, of_motion_ ? Steps::kLong : Steps::kAccurate)), stage_(table_.n), step_end_(make_step_end(system)),
+      tails_{std::vector<Four>(system.bodies.size()), std::vector<Four>(system.joints.size())}, load_(system.bodies.size()), end_r_(system.joints.size()), end_m_(system.bodies.size()) {
   const std::size_t n = system.bodies.size(), m = system.joints.size();
   const Vecs bodies(n, S::Vec::Zero()), joints(m, S::Vec::Zero());
   for (Stage& s : stage_) {
@@ -30,7 +29,7 @@ bool RadauStepper::attempt(double h) {
   if (of_motion_) motion_scale_.take(system_, begin_, h);
   const LoadScale& scale = of_motion_ ? motion_scale_.loads() : scale_;
   if (!solver_->solve(begin_, h, control_.have_history ? &nodes_ : nullptr, control_.last, scale, counters_)) return false;
-  solver_->write(stage_);
+  solver_->write(begin_, stage_, tails_);
   return true;
 }
 
@@ -42,9 +41,7 @@ void RadauStepper::start(const State& state, double h) {
   Stage& last = stage_[n_ - 1];
   last.Q.assign(system_.bodies.size(), S::Vec::Zero());
   system_.external(end_.t, end_m_, last.Q, end_.held);
-  const auto [supplied, lost] = power(end_.t, end_.q, end_m_, end_.gap, end_.gap_rate, end_.force);
-  end_.supply_power = supplied;
-  end_.loss_power = lost;
+  find_power();
   jumps_.forget();
   side_ = system_.has_branches() ? system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.held) : 0;
   grow_scale();
@@ -63,11 +60,11 @@ void RadauStepper::foresee_loads(double h) {
   const double everything = std::numeric_limits<double>::max();
   const LoadScale any{Vecs(scale_.body.size(), S::Vec::Constant(everything))};
   if (!solver_->solve(begin_, h, nullptr, 0, any, counters_)) return;
-  solver_->write(stage_);
+  solver_->write(begin_, stage_, tails_);
   State ahead = end_;
   ahead.a = stage_[n_ - 1].a;
   ahead.force = stage_[n_ - 1].force;
-  grow_load_scale(system_, end_r_, stage_[n_ - 1].Q, ahead, move_, scale_);
+  grow_load_scale(system_, end_r_, stage_[n_ - 1].Q, ahead, load_, scale_);
 }
 
 bool RadauStepper::step(double t_end) {

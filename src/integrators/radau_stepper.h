@@ -6,7 +6,7 @@
 // On a stiff joint the stage equations then say G M^-1 (Q + G' f) + convective = small, as if the constraint had been
 // differentiated twice: the force comes out with the order of the method, at any stiffness, instead of as k times the
 // difference of nearly equal positions. On a soft joint they are its plain equations of motion. After every step the
-// positions and velocities are moved onto the gaps (GapProjector), so that nothing drifts. Steps end at the kinks and
+// positions and velocities are moved onto the gaps (StepEnd), so that nothing drifts. Steps end at the kinks and
 // jumps of laws and loads.
 #pragma once
 
@@ -16,11 +16,11 @@
 #include <string>
 #include <vector>
 
-#include "integrators/gap_projector.h"
 #include "integrators/held_jumps.h"
 #include "integrators/motion_scale.h"
 #include "integrators/radau_control.h"
 #include "integrators/stage_solver.h"
+#include "integrators/step_end.h"
 #include "pintle/model.h"
 
 namespace pintle {
@@ -62,18 +62,15 @@ class RadauStepper {
 
   // radau_end.cpp: the error of a step and its end
   bool error_estimate(double h, double& error);
-  double tail_size(const LoadScale& scale, double factor) const;
+  double tail_size(const std::vector<Four>& tails, const LoadScale& scale, double factor) const;
   double motion_tail();                       // as accelerations that the bodies can yield to
-  double gap_tail();
-  void finish_step(double h);                 // project, fill end_
-  static double rounding_of(const Vecs& x);
-  double largest_wanted() const;
-  void move_onto_gaps();
-  void take_gaps();
-  void balance_forces();
+  void finish_step(double h);                 // fills end_ and nodes_
+  using Power = std::array<double, 2>;        // supplied, lost [W]
   void add_work(double h);
-  std::array<double, 2> power(double t, const Vecs& q, const std::vector<Planar::Motion>& m, const Vecs& gap,
-                              const Vecs& gap_rate, const Vecs& force) const;
+  Power power_of_loads(double t, const Vecs& q, const std::vector<Planar::Motion>& m) const;
+  void add_power(const JointData& joint, const std::vector<Planar::Motion>& m, const Planar::Vec& gap, const Planar::Vec& rate,
+                 const Planar::Vec& force, Power& power) const;
+  void find_power();
   void grow_scale();
 
   // radau_kinks.cpp: steps that end where a force has a kink
@@ -99,9 +96,9 @@ class RadauStepper {
   std::unique_ptr<StageSolver> solver_;
   std::vector<Stage> stage_;
   StepNodes nodes_;
-  GapProjector projector_;
-  std::vector<GapProjector::Three> tail_, tail_move_;
-  Vecs wanted_, move_, inside_q_, inside_v_, inside_gap_, inside_rate_;
+  std::unique_ptr<StepEnd> step_end_;
+  StageTails tails_;
+  Vecs load_, inside_q_, inside_v_, inside_gap_, inside_rate_;
   std::vector<Reading> end_r_;
   std::vector<Planar::Motion> end_m_, inside_m_;
   LoadScale scale_;

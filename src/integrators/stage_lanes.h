@@ -16,28 +16,10 @@ struct BodyLanes {
   using L = Lanes<N>;
   L q[3], v[3], a[3];
   L c, s;         // cosine and sine of the angle
-  L Q[3];         // what is not a joint's force [N, N, N*m]
-  L missing[3];   // in its equation of motion: forces that nothing answers [N, N, N*m]
-  double over_scale[3];  // mass over the loads that corrections are measured by
 
   struct View { const L &x, &y, &c, &s, &vx, &vy, &w; };
   View view() const { return {q[0], q[1], c, s, v[0], v[1], v[2]}; }
   Planar::Motion motion(int i) const { return {{q[0][i], q[1][i]}, q[2][i], c[i], s[i], {v[0][i], v[1][i]}, v[2][i]}; }
-};
-
-template <int N>
-struct JointLanes {
-  using L = Lanes<N>;
-  L gap[3], rate[3], accel[3], force[3];
-  L target_accel;         // of a servo's target
-  GapMap<L> map;
-  GapMap<double> frozen;  // at the stage where the equations are linearised
-  Planar::Vec frozen_force;                                                // there
-  Planar::Mat K = Planar::Mat::Zero(), C = Planar::Mat::Zero();  // the law's tangents there
-  bool diagonal = false;  // they are
-  double over_scale[3];   // 1 over the loads that changes of the force are measured by
-  Spectrum<N> weight[9];  // (K + mu C) / mu^2; the first three when diagonal
-  Spectrum<N> e[3];       // what is missing of the gap's acceleration, in the diagonal frame [m/s^2, m/s^2, rad/s^2]
 };
 
 /// The table as it acts on lanes: stages to stages, and to and from the diagonal frame.

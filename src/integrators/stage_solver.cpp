@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "integrators/pose_blocks.h"
+#include "laws/response.h"
 #include "solve/wide.h"
 
 namespace pintle {
@@ -16,36 +17,78 @@ using S = Planar;
 template <int N>
 LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double tolerance, Steps steps)
     : system_(system), table_(table), matrices_(table), tolerance_(tolerance), steps_(steps), loads_(system.has_loads()),
-      bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), motions_(system.bodies.size()), slots_(system.joints.size()),
-      lu_(system.pattern(), loads_ ? Symmetry::kNone : symmetry_of_joints(system)), rhs_(system.bodies.size() + 1) {
+      bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), loads_on_(loads_ ? system.bodies.size() : 0),
+      motions_(system.bodies.size()), lu_(system.pattern(), loads_ ? Symmetry::kNone : symmetry_of_joints(system)), rhs_(system.bodies.size() + 1) {
   bodies_.back().c = L::all(1);  // the ground; what falls on it is not looked at
-  for (std::size_t b = 0; b < n_bodies(); ++b)
-    for (int k = 0; k < 3; ++k) bodies_[b].Q[k] = L::all(system.bodies[b].gravity[k]);
+  const auto body = [&](int index) { return index == kGround ? n_bodies() : static_cast<std::size_t>(index); };
+  bool servos = false;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const JointData& joint = system.joints[j];
-    joints_[j].map.function = !std::holds_alternative<Selection>(joint.probe);
-    joints_[j].diagonal = std::holds_alternative<LinearLaw>(joint.law);
-    simple_ = simple_ && joints_[j].diagonal && joint.servo < 0;
-    if (joint.at.a != kGround && joint.at.b != kGround) slots_[j] = system.pattern().slot(joint.at.a, joint.at.b);
+    const JointData& data = system.joints[j];
+    Joint& joint = joints_[j];
+    joint.a = body(data.at.a);
+    joint.b = body(data.at.b);
+    joint.function = !std::holds_alternative<Selection>(data.probe);
+    joint.linear = std::get_if<LinearLaw>(&data.law);
+    if (!joint.linear) {
+      joint.full = static_cast<int>(full_.size());
+      full_.emplace_back();
+    }
+    simple_ = simple_ && joint.linear && data.servo < 0;
+    poses_ = poses_ && joint.linear && !joint.function;
+    servos = servos || data.servo >= 0;
+    if (data.at.a != kGround && data.at.b != kGround) joint.slot = system.pattern().slot(data.at.a, data.at.b);
   }
+  simple_ = simple_ && !loads_;
+  if (servos) target_accel_.assign(joints_.size(), L::all(0));
 }
+
+// Accelerations at the stages as the last step's curve goes on; without one those at the start.
+template <int N>
+struct LaneSolver<N>::Curve {
+  const StepNodes* nodes;
+  std::array<L, RadauTable::kMaxNodes> weight;
+
+  Curve(const RadauTable& table, Steps steps, double h, const StepNodes* before, double last_h) : nodes(before) {
+    for (int s = 0; s < N && before; ++s) {
+      const double ratio = h / last_h;
+      const RadauTable::Vec w = steps == Steps::kLong ? table.continuation(table.c[s], ratio) : table.weights(1 + table.c[s] * ratio);
+      for (int k = 0; k <= N; ++k) weight[k].set(s, w[k]);
+    }
+  }
+  L ahead(const std::vector<Vecs> StepNodes::*of, const Vecs& start, std::size_t i, int k) const {
+    if (!nodes) return L::all(start[i][k]);
+    const std::vector<Vecs>& node = nodes->*of;
+    L x = node[0][i][k] * weight[0];
+    for (int n = 1; n <= N; ++n) x += node[n][i][k] * weight[n];
+    return x;
+  }
+};
 
 template <int N>
 bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale,
                                  Counters& counters) {
   step_.scale(matrices_, h);
-  take_scale(scale);
-  predict(begin, h, before, last_h);
+  const Curve curve(table_, steps_, h, before, last_h);
+  begin_bodies(begin, curve, scale);
   find_targets(begin.t, h);
-  place_bodies(begin);
-  place_joints(begin);
   contraction_.start();
   bool fresh = h != factorized_for_ || contraction_.rate() > kGood, wanted = fresh;  // a factorisation
+  const Curve* unplaced = &curve;                                                     // the joints are
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
-    find_residuals(begin, h);
+    find_missing(begin, h);
+    if (wanted) begin_matrix(begin, h);
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      if (unplaced) begin_joint(begin, *unplaced, scale, j);
+      const GapMap<L> map = answer(j);
+      if (wanted) linearize(begin, j, map);
+      push_answer(j);
+    }
+    unplaced = nullptr;
     counters.evaluations += N;
     if (wanted) {
-      if (!renew(begin, h, counters)) return false;
+      counters.factorizations += 1 + N / 2;
+      factorized_for_ = lu_.factorize() ? h : 0;
+      if (factorized_for_ == 0) return false;
       wanted = false;
     }
     const double correction = correct(begin);
@@ -63,57 +106,42 @@ bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* 
   return false;
 }
 
-// What corrections are measured by.
+// What corrections are measured by, and a first guess.
 template <int N>
-void LaneSolver<N>::take_scale(const LoadScale& scale) {
-  for (std::size_t b = 0; b < n_bodies(); ++b)
-    for (int k = 0; k < 3; ++k) bodies_[b].over_scale[k] = system_.bodies[b].mass[k] / scale.body[b][k];
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const Placement& at = system_.joints[j].at;
-    const S::Vec& on = scale.body[at.a == kGround ? at.b : at.a];
-    const S::Vec& beside = scale.body[at.b == kGround ? at.a : at.b];
-    for (int k = 0; k < 3; ++k) joints_[j].over_scale[k] = 1 / std::max(on[k], beside[k]);
-  }
-}
-
-// Jacobians of this step, factorised.
-template <int N>
-bool LaneSolver<N>::renew(const State& begin, double h, Counters& counters) {
-  linearize(begin.t + table_.c[kMiddle] * h, begin.held);
-  counters.factorizations += 1 + N / 2;
-  factorized_for_ = factorize(h) ? h : 0;
-  return factorized_for_ != 0;
-}
-
-template <int N>
-void LaneSolver<N>::predict(const State& begin, double h, const StepNodes* before, double last_h) {
-  std::array<L, RadauTable::kMaxNodes> weight;
-  if (before)
-    for (int s = 0; s < N; ++s) {
-      const double ratio = h / last_h;
-      const RadauTable::Vec w = steps_ == Steps::kLong ? table_.continuation(table_.c[s], ratio) : table_.weights(1 + table_.c[s] * ratio);
-      for (int k = 0; k <= N; ++k) weight[k].set(s, w[k]);
+void LaneSolver<N>::begin_bodies(const State& begin, const Curve& curve, const LoadScale& scale) {
+  L angles = L::all(0);
+  for (std::size_t b = 0; b < n_bodies(); ++b) {
+    Body& body = bodies_[b];
+    for (int k = 0; k < 3; ++k) {
+      body.over_scale[k] = system_.bodies[b].mass[k] / scale.body[b][k];
+      body.a[k] = curve.ahead(&StepNodes::a, begin.a, b, k);
     }
-  const auto continued = [&](std::size_t i, int k, const std::vector<Vecs>& nodes, const Vecs& start) {
-    if (!before) return L::all(start[i][k]);
-    L x = nodes[0][i][k] * weight[0];
-    for (int node = 1; node <= N; ++node) x += nodes[node][i][k] * weight[node];
-    return x;
-  };
-  static const std::vector<Vecs> kNone;
-  for (std::size_t b = 0; b < n_bodies(); ++b)
-    for (int k = 0; k < 3; ++k) bodies_[b].a[k] = continued(b, k, before ? before->a : kNone, begin.a);
-  for (std::size_t j = 0; j < joints_.size(); ++j)
-    for (int k = 0; k < 3; ++k) joints_[j].accel[k] = continued(j, k, before ? before->gap_accel : kNone, begin.gap_accel);
+    place_body(begin, b);
+    angles = larger_size(angles, body.q[2]);
+  }
+  check_angles(angles);
+}
+
+template <int N>
+void LaneSolver<N>::begin_joint(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t j) {
+  Joint& joint = joints_[j];
+  const S::Vec& on = scale.body[joint.a == n_bodies() ? joint.b : joint.a];
+  const S::Vec& beside = scale.body[joint.b == n_bodies() ? joint.a : joint.b];
+  for (int k = 0; k < 3; ++k) {
+    joint.over_scale[k] = 1 / std::max(on[k], beside[k]);
+    joint.accel[k] = curve.ahead(&StepNodes::gap_accel, begin.gap_accel, j, k);
+  }
+  L change = L::all(0), sum = change;
+  place_joint(begin, j, change, sum);
 }
 
 // The accelerations that servos are to follow.
 template <int N>
 void LaneSolver<N>::find_targets(double t, double h) {
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
+  for (std::size_t j = 0; j < target_accel_.size(); ++j) {
     const JointData& joint = system_.joints[j];
     if (joint.servo < 0 || joint.target.variables().empty()) continue;
-    for (int s = 0; s < N; ++s) joints_[j].target_accel.set(s, servo_target(joint, t + table_.c[s] * h)[2]);
+    for (int s = 0; s < N; ++s) target_accel_[j].set(s, servo_target(joint, t + table_.c[s] * h)[2]);
   }
 }
 
@@ -132,7 +160,7 @@ Lanes<N> LaneSolver<N>::place(const L& a, double x0, double v0, L& v) const {
 
 template <int N>
 void LaneSolver<N>::place_body(const State& begin, std::size_t b) {
-  BodyLanes<N>& body = bodies_[b];
+  Body& body = bodies_[b];
   for (int k = 0; k < 3; ++k) body.q[k] = place(body.a[k], begin.q[b][k], begin.v[b][k], body.v[k]);
   sine_and_cosine_unchecked(body.q[2], body.s, body.c);
 }
@@ -144,31 +172,20 @@ void LaneSolver<N>::check_angles(const L& angles) {
   for (std::size_t b = 0; b < n_bodies(); ++b) sine_and_cosine(bodies_[b].q[2], bodies_[b].s, bodies_[b].c);
 }
 
-template <int N>
-void LaneSolver<N>::place_bodies(const State& begin) {
-  L angles = L::all(0);
-  for (std::size_t b = 0; b < n_bodies(); ++b) {
-    place_body(begin, b);
-    angles = larger_size(angles, bodies_[b].q[2]);
-  }
-  check_angles(angles);
-}
-
-// Gaps, rates, and the joint's force from them. How much that has changed, over the scale of the bodies that it acts on.
+// The joint's force at its gaps and their rates. How much that has changed, over the scale of the bodies that it acts on.
 template <int N>
 void LaneSolver<N>::place_joint(const State& begin, std::size_t j, L& worst, L& sum) {
-  JointLanes<N>& joint = joints_[j];
-  const JointData& data = system_.joints[j];
-  for (int k = 0; k < 3; ++k) joint.gap[k] = place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], joint.rate[k]);
+  Joint& joint = joints_[j];
+  const LinearLaw* linear = joint.linear;
+  L gap[3], rate[3];
+  for (int k = 0; k < 3; ++k) gap[k] = place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], rate[k]);
   double at[3][N];  // of laws that are asked stage by stage
-  const auto* linear = std::get_if<LinearLaw>(&data.law);
   for (int s = 0; s < N && !linear; ++s) {
-    const S::Vec f = law_force(data.law, {joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]},
-                               {joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]});
+    const S::Vec f = law_force(system_.joints[j].law, {gap[0][s], gap[1][s], gap[2][s]}, {rate[0][s], rate[1][s], rate[2][s]});
     for (int k = 0; k < 3; ++k) at[k][s] = f[k];
   }
   for (int k = 0; k < 3; ++k) {
-    const L force = linear ? -(linear->k[k] * joint.gap[k] + linear->c[k] * joint.rate[k]) : L::of(at[k]);
+    const L force = linear ? -(linear->k[k] * gap[k] + linear->c[k] * rate[k]) : L::of(at[k]);
     const L change = joint.over_scale[k] * (force - joint.force[k]);
     worst = larger_size(worst, change);
     sum += change;
@@ -176,28 +193,16 @@ void LaneSolver<N>::place_joint(const State& begin, std::size_t j, L& worst, L& 
   }
 }
 
+// What is missing in the bodies' equations but for the joints' forces. Eq. (3.6).
 template <int N>
-void LaneSolver<N>::place_joints(const State& begin) {
-  L change = L::all(0), sum = change;
-  for (std::size_t j = 0; j < joints_.size(); ++j) place_joint(begin, j, change, sum);
-}
-
-// What is missing in the equations. Eq. (3.6).
-template <int N>
-void LaneSolver<N>::find_residuals(const State& begin, double h) {
+void LaneSolver<N>::find_missing(const State& begin, double h) {
   if (loads_) find_loads(begin, h);
-  for (std::size_t b = 0; b < n_bodies(); ++b)
-    for (int k = 0; k < 3; ++k) bodies_[b].missing[k] = bodies_[b].Q[k] - system_.bodies[b].mass[k] * bodies_[b].a[k];
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    JointLanes<N>& joint = joints_[j];
-    L bias[3];
-    find_map(j, bias);
-    const Placement& at = system_.joints[j].at;
-    BodyLanes<N>&A = bodies_[body(at.a)], &B = bodies_[body(at.b)];
-    joint.map.push(joint.force, A.missing, B.missing);
-    L e[3];
-    joint.map.gather(A.a, B.a, e);
-    for (int k = 0; k < 3; ++k) joint.e[k] = X(matrices_.T_inverse * (joint.accel[k] - e[k] - bias[k]));
+  for (std::size_t b = 0; b < n_bodies(); ++b) {
+    const BodyData& data = system_.bodies[b];
+    for (int k = 0; k < 3; ++k) {
+      bodies_[b].missing[k] = (loads_ ? loads_on_[b][k] : L::all(data.gravity[k])) - data.mass[k] * bodies_[b].a[k];
+      rhs_[b][k] = X(L::all(0));
+    }
   }
 }
 
@@ -207,99 +212,121 @@ void LaneSolver<N>::find_loads(const State& begin, double h) {
     for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(s);
     system_.external(begin.t + table_.c[s] * h, motions_, Q_, begin.held);
     for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < 3; ++k) bodies_[b].Q[k].set(s, Q_[b][k]);
+      for (int k = 0; k < 3; ++k) loads_on_[b][k].set(s, Q_[b][k]);
   }
+}
+
+// Joint j's force on its bodies, and what is missing in its own equation. The map between them is returned. Eq. (3.6).
+template <int N>
+GapMap<Lanes<N>> LaneSolver<N>::answer(std::size_t j) {
+  Joint& joint = joints_[j];
+  Body &A = bodies_[joint.a], &B = bodies_[joint.b];
+  L bias[3], e[3];
+  const GapMap<L> map = find_map(j, bias);
+  map.push(joint.force, A.missing, B.missing);
+  map.gather(A.a, B.a, e);
+  for (int k = 0; k < 3; ++k) joint.e[k] = X(matrices_.T_inverse * (joint.accel[k] - e[k] - bias[k]));
+  return map;
+}
+
+// What of it falls on the bodies.
+template <int N>
+void LaneSolver<N>::push_answer(std::size_t j) {
+  const Joint& joint = joints_[j];
+  X f[3];
+  weigh(joint.linear != nullptr, joint.linear ? joint.weight : full_[joint.full].data(), joint.e, f);
+  joint.frozen.push(f, rhs_[joint.a], rhs_[joint.b]);
 }
 
 // The map of joint j and its convective acceleration; of a servo less than the target's.
 template <int N>
-void LaneSolver<N>::find_map(std::size_t j, L (&bias)[3]) {
+GapMap<Lanes<N>> LaneSolver<N>::find_map(std::size_t j, L (&bias)[3]) const {
   const JointData& data = system_.joints[j];
-  JointLanes<N>& joint = joints_[j];
-  const auto pose = PoseGeometry<L>::between(bodies_[body(data.at.a)].view(), data.at.F, bodies_[body(data.at.b)].view(), data.at.M);
-  GapMap<L>& map = joint.map;
+  const Joint& joint = joints_[j];
+  const auto pose = PoseGeometry<L>::between(bodies_[joint.a].view(), data.at.F, bodies_[joint.b].view(), data.at.M);
+  GapMap<L> map;
+  map.function = joint.function;
   map.take(pose);
   bias[0] = pose.bias_x;
   bias[1] = pose.bias_y;
   bias[2] = L::all(0);
-  if (map.function) {
-    bias[0] = find_gradient(data, pose, joint);
+  if (joint.function) {
+    bias[0] = find_gradient(j, pose, map);
     bias[1] = L::all(0);
   }
-  if (data.servo >= 0) bias[data.servo] -= joint.target_accel;
+  if (data.servo >= 0) bias[data.servo] -= target_accel_[j];
+  return map;
 }
 
 // A gap that is a function of the pose: its gradient into the map; its convective acceleration is returned. theory/joints
 // Eq. (2.14).
 template <int N>
-Lanes<N> LaneSolver<N>::find_gradient(const JointData& joint, const PoseGeometry<L>& pose, JointLanes<N>& lanes) const {
-  const BodyLanes<N>&A = bodies_[body(joint.at.a)], &B = bodies_[body(joint.at.b)];
+Lanes<N> LaneSolver<N>::find_gradient(std::size_t j, const PoseGeometry<L>& pose, GapMap<L>& map) const {
+  const JointData& data = system_.joints[j];
+  const Body &A = bodies_[joints_[j].a], &B = bodies_[joints_[j].b];
   L bias;
   for (int s = 0; s < N; ++s) {
-    const RelativePose z = RelativePose::between(A.motion(s), joint.at.F, B.motion(s), joint.at.M);
+    const RelativePose z = RelativePose::between(A.motion(s), data.at.F, B.motion(s), data.at.M);
     std::visit(
         [&](const auto& probe) {
           if constexpr (!std::is_same_v<std::decay_t<decltype(probe)>, Selection>) {
             const GapFunction g = probe(z.z);
-            for (int k = 0; k < 3; ++k) lanes.map.gradient[k].set(s, g.gradient[k]);
+            for (int k = 0; k < 3; ++k) map.gradient[k].set(s, g.gradient[k]);
             bias.set(s, g.gradient[0] * pose.bias_x[s] + g.gradient[1] * pose.bias_y[s] + z.rate.dot(g.hessian * z.rate));
           }
         },
-        joint.probe);
+        data.probe);
   }
   return bias;
 }
 
-// The joints' tangents and loads' slopes at the predicted middle stage.
+// Z(mu) of Eq. (3.8) at every eigenvalue, but for the joints: masses, and the loads' slopes at the middle stage.
 template <int N>
-void LaneSolver<N>::linearize(double t, HeldJumps held) {
-  const int i = kMiddle;
-  for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(i);
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const JointData& data = system_.joints[j];
-    JointLanes<N>& joint = joints_[j];
-    joint.frozen = joint.map.lane(i);
-    if (const auto* linear = std::get_if<LinearLaw>(&data.law)) {
-      for (int k = 0; k < 3; ++k) {
-        joint.K(k, k) = linear->k[k];
-        joint.C(k, k) = linear->c[k];
-        joint.frozen_force[k] = joint.force[k][i];
-      }
-    } else {
-      const Response response = respond(data.law, {joint.gap[0][i], joint.gap[1][i], joint.gap[2][i]},
-                                        {joint.rate[0][i], joint.rate[1][i], joint.rate[2][i]});
-      joint.K = response.stiffness;
-      joint.C = response.damping;
-      joint.frozen_force = response.force;
-    }
-  }
-  load_blocks_.clear();
-  system_.external_tangents(t, motions_, [this](int a, int b, const S::Mat& dq, const S::Mat& dv) {
-    load_blocks_.push_back({a, b, dq, dv});
-  }, held);
-}
-
-// Z(mu) of Eq. (3.8) at every eigenvalue, and the weights of (3.10).
-template <int N>
-bool LaneSolver<N>::factorize(double h) {
-  const X mu = (1 / h) * matrices_.eigenvalue, once = reciprocal(mu), twice = once * once;
-  mu2_ = mu * mu;
+void LaneSolver<N>::begin_matrix(const State& begin, double h) {
+  mu_ = (1 / h) * matrices_.eigenvalue;
+  mu2_ = mu_ * mu_;
+  once_ = reciprocal(mu_);
+  twice_ = once_ * once_;
   lu_.set_zero();
   for (int i = 0; i < system_.n_bodies(); ++i)
     for (int r = 0; r < 3; ++r) lu_.diagonal(i)(r, r) = system_.bodies[i].mass[r] * mu2_;
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    JointLanes<N>& joint = joints_[j];
-    if (joint.diagonal) {
-      for (int k = 0; k < 3; ++k) joint.weight[k] = joint.K(k, k) * twice + joint.C(k, k) * once;
-    } else {
-      for (int k = 0; k < 9; ++k) joint.weight[k] = joint.K(k / 3, k % 3) * twice + joint.C(k / 3, k % 3) * once;
+  if (poses_ && !loads_) return;
+  for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(kMiddle);
+  const auto add = [this](int i, int j, const S::Mat& dq, const S::Mat& dv) {  // of a matrix that is not symmetric
+    add_block(i == j ? lu_.diagonal(i) : lu_.off_diagonal(system_.pattern().slot(i, j)), dq, dv, mu_, -1);
+  };
+  system_.external_tangents(begin.t + table_.c[kMiddle] * h, motions_, add, begin.held);
+}
+
+// Joint j's part of that, by its tangents at the middle stage, and its weights of Eq. (3.10).
+template <int N>
+void LaneSolver<N>::linearize(const State& begin, std::size_t j, const GapMap<L>& map) {
+  constexpr int i = kMiddle;
+  Joint& joint = joints_[j];
+  joint.frozen = map.lane(i);
+  if (!joint.linear) {
+    S::Vec gap, rate;
+    for (int k = 0; k < 3; ++k) {
+      L rates;
+      gap[k] = place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], rates)[i];
+      rate[k] = rates[i];
     }
-    if (joint.diagonal && !joint.map.function) add_pose_joint(j, mu);
-    else add_joint(j, mu);
+    const Response response = respond(system_.joints[j].law, gap, rate);
+    for (int k = 0; k < 9; ++k) full_[joint.full][k] = response.stiffness(k / 3, k % 3) * twice_ + response.damping(k / 3, k % 3) * once_;
+    add_joint(j, response);
+    return;
   }
-  for (const LoadBlock& b : load_blocks_)  // of a matrix that is not symmetric
-    add_block(b.i == b.j ? lu_.diagonal(b.i) : lu_.off_diagonal(system_.pattern().slot(b.i, b.j)), b.dq, b.dv, mu, -1);
-  return lu_.factorize();
+  const LinearLaw& law = *joint.linear;
+  for (int k = 0; k < 3; ++k) joint.weight[k] = law.k[k] * twice_ + law.c[k] * once_;
+  const S::Vec force(joint.force[0][i], joint.force[1][i], joint.force[2][i]);
+  if (joint.function) {
+    add_joint(j, {force, law.k.asDiagonal(), law.c.asDiagonal()});
+    return;
+  }
+  const X one(1.0);
+  X w[3];
+  for (int k = 0; k < 3; ++k) w[k] = law.k[k] * one + law.c[k] * mu_;
+  add_pose_blocks(lu_, system_.joints[j].at, joint.slot, joint.frozen, w, force);
 }
 
 template <int N>
@@ -311,32 +338,21 @@ void LaneSolver<N>::add_block(Block<X, 3>& block, const S::Mat& K, const S::Mat&
 
 // G' (K + mu C) G - N of one joint, of any kind.
 template <int N>
-void LaneSolver<N>::add_joint(std::size_t j, const X& mu) {
+void LaneSolver<N>::add_joint(std::size_t j, const Response& tangents) {
   const JointData& data = system_.joints[j];
-  const JointLanes<N>& joint = joints_[j];
   const Placement& at = data.at;
   const RelativePose pose = system_.pose(at, motions_);
   const Reading r = read(data.probe, pose);
-  const auto geometric = geometric_stiffness(data.probe, pose, joint.frozen_force);
-  const S::Mat KA = joint.K * r.GA(), KB = joint.K * r.GB(), CA = joint.C * r.GA(), CB = joint.C * r.GB();
+  const auto geometric = geometric_stiffness(data.probe, pose, tangents.force);
+  const S::Mat KA = tangents.stiffness * r.GA(), KB = tangents.stiffness * r.GB(), CA = tangents.damping * r.GA(), CB = tangents.damping * r.GB();
   const S::Mat At = r.GA().transpose(), Bt = r.GB().transpose();
-  if (at.a != kGround) add_block(lu_.diagonal(at.a), At * KA - geometric.template block<3, 3>(0, 0), At * CA, mu, 1);
-  if (at.b != kGround) add_block(lu_.diagonal(at.b), Bt * KB - geometric.template block<3, 3>(3, 3), Bt * CB, mu, 1);
+  if (at.a != kGround) add_block(lu_.diagonal(at.a), At * KA - geometric.template block<3, 3>(0, 0), At * CA, mu_, 1);
+  if (at.b != kGround) add_block(lu_.diagonal(at.b), Bt * KB - geometric.template block<3, 3>(3, 3), Bt * CB, mu_, 1);
   if (at.a == kGround || at.b == kGround) return;
-  BlockPattern::Slot slot = slots_[j];
-  if (lu_.has(slot)) add_block(lu_.off_diagonal(slot), At * KB - geometric.template block<3, 3>(0, 3), At * CB, mu, 1);
+  BlockPattern::Slot slot = joints_[j].slot;
+  if (lu_.has(slot)) add_block(lu_.off_diagonal(slot), At * KB - geometric.template block<3, 3>(0, 3), At * CB, mu_, 1);
   slot.upper = !slot.upper;
-  if (lu_.has(slot)) add_block(lu_.off_diagonal(slot), Bt * KA - geometric.template block<3, 3>(3, 0), Bt * CA, mu, 1);
-}
-
-// The same where the gap is the relative pose and its law has a spring and a damper in each component.
-template <int N>
-void LaneSolver<N>::add_pose_joint(std::size_t j, const X& mu) {
-  const JointLanes<N>& joint = joints_[j];
-  const X one(1.0);
-  X w[3];
-  for (int k = 0; k < 3; ++k) w[k] = joint.K(k, k) * one + joint.C(k, k) * mu;
-  add_pose_blocks(lu_, system_.joints[j].at, slots_[j], joint.frozen, w, joint.frozen_force);
+  if (lu_.has(slot)) add_block(lu_.off_diagonal(slot), Bt * KA - geometric.template block<3, 3>(3, 0), Bt * CA, mu_, 1);
 }
 
 // One Newton correction: into the diagonal frame, the solve, back, and where that leads. Eqs. (3.9)-(3.11). Its size: as body
@@ -344,34 +360,27 @@ void LaneSolver<N>::add_pose_joint(std::size_t j, const X& mu) {
 template <int N>
 double LaneSolver<N>::correct(const State& begin) {
   for (std::size_t b = 0; b < n_bodies(); ++b)
-    for (int k = 0; k < 3; ++k) rhs_[b][k] = X(matrices_.T_inverse * bodies_[b].missing[k]);
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const JointLanes<N>& joint = joints_[j];
-    X f[3];
-    weigh(joint.diagonal, joint.weight, joint.e, f);
-    const Placement& at = system_.joints[j].at;
-    joint.frozen.push(f, rhs_[body(at.a)], rhs_[body(at.b)]);
-  }
+    for (int k = 0; k < 3; ++k) rhs_[b][k] += X(matrices_.T_inverse * bodies_[b].missing[k]);
   lu_.solve(rhs_);
   rhs_.back() = {};
   L worst = L::all(0), sum = worst, angles = worst;
   for (std::size_t b = 0; b < n_bodies(); ++b) {
+    Body& body = bodies_[b];
     for (int k = 0; k < 3; ++k) {
       rhs_[b][k] = mu2_ * rhs_[b][k];
-      const L delta = matrices_.T * rhs_[b][k].x, relative = bodies_[b].over_scale[k] * delta;
-      bodies_[b].a[k] += delta;
+      const L delta = matrices_.T * rhs_[b][k].x, relative = body.over_scale[k] * delta;
+      body.a[k] += delta;
       worst = larger_size(worst, relative);
       sum += relative;
     }
     place_body(begin, b);
-    angles = larger_size(angles, bodies_[b].q[2]);
+    angles = larger_size(angles, body.q[2]);
   }
   check_angles(angles);
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    JointLanes<N>& joint = joints_[j];
-    const Placement& at = system_.joints[j].at;
+    Joint& joint = joints_[j];
     X e[3];
-    joint.frozen.gather(&rhs_[body(at.a)][0], &rhs_[body(at.b)][0], e);
+    joint.frozen.gather(&rhs_[joint.a][0], &rhs_[joint.b][0], e);
     for (int k = 0; k < 3; ++k) joint.accel[k] += matrices_.T * (e[k] - joint.e[k]).x;
     place_joint(begin, j, worst, sum);
   }
@@ -379,24 +388,37 @@ double LaneSolver<N>::correct(const State& begin) {
 }
 
 template <int N>
-void LaneSolver<N>::write(std::vector<Stage>& stages) const {
-  for (int s = 0; s < N; ++s) {
-    Stage& stage = stages[s];
-    const bool whole = s == N - 1 || loads_ || !simple_;
-    const auto copy = [s](const L* from, S::Vec& to) { to << from[0][s], from[1][s], from[2][s]; };
-    for (std::size_t b = 0; b < n_bodies(); ++b) {
-      copy(bodies_[b].a, stage.a[b]);
-      if (!whole) continue;
-      copy(bodies_[b].q, stage.q[b]);
-      copy(bodies_[b].v, stage.v[b]);
-      copy(bodies_[b].Q, stage.Q[b]);
-      stage.m[b] = bodies_[b].motion(s);
+void LaneSolver<N>::write_stages(const State& begin, std::vector<Stage>& stages, StageTails& tails) const {
+  const bool simple = simple_;
+  const auto copy = [](const L* from, int s, S::Vec& to) { to << from[0][s], from[1][s], from[2][s]; };
+  const auto put = [](const L& from, Lanes<4>& to) { to = Lanes<4>::of({from[0], from[1], from[2], 0}); };
+  for (std::size_t b = 0; b < n_bodies(); ++b) {
+    const Body& body = bodies_[b];
+    for (int s = 0; s < N; ++s) {
+      Stage& stage = stages[s];
+      copy(body.a, s, stage.a[b]);
+      if (simple && s < N - 1) continue;
+      copy(body.q, s, stage.q[b]);
+      copy(body.v, s, stage.v[b]);
+      stage.m[b] = body.motion(s);
+      if (loads_) copy(loads_on_[b].a.data(), s, stage.Q[b]);
+      else stage.Q[b] = system_.bodies[b].gravity;
     }
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
-      if (whole) copy(joints_[j].gap, stage.gap[j]);
-      copy(joints_[j].rate, stage.gap_rate[j]);
-      copy(joints_[j].accel, stage.gap_accel[j]);
-      copy(joints_[j].force, stage.force[j]);
+    for (int k = 0; k < 3; ++k) put(begin.a[b][k] * matrices_.tail_of_start + matrices_.tail * body.a[k], tails.bodies[b][k]);
+  }
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const Joint& joint = joints_[j];
+    L gap[3], rate[3];
+    for (int k = 0; k < 3; ++k) {
+      gap[k] = place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], rate[k]);
+      put(matrices_.tail_of_stages * joint.accel[k], tails.gaps[j][k]);
+    }
+    for (int s = 0; s < N; ++s) {
+      Stage& stage = stages[s];
+      copy(rate, s, stage.gap_rate[j]);
+      copy(joint.accel, s, stage.gap_accel[j]);
+      copy(joint.force, s, stage.force[j]);
+      if (!simple || s == N - 1) copy(gap, s, stage.gap[j]);
     }
   }
 }
@@ -412,21 +434,10 @@ double LaneSolver<N>::residual(int j) const {
 }
 
 template <int N>
-void LaneSolver<N>::find_tails(const State& begin, std::vector<Three>& bodies, std::vector<Three>& gaps) const {
-  const auto put = [](const L& from, Lanes<3>& to) {
-    for (int back = 0; back < 3; ++back) to.set(back, from[back]);
-  };
-  for (std::size_t b = 0; b < n_bodies(); ++b)
-    for (int k = 0; k < 3; ++k) put(begin.a[b][k] * matrices_.tail_of_start + matrices_.tail * bodies_[b].a[k], bodies[b][k]);
-  for (std::size_t j = 0; j < joints_.size(); ++j)
-    for (int k = 0; k < 3; ++k) put(matrices_.tail_of_stages * joints_[j].accel[k], gaps[j][k]);
-}
-
-template <int N>
-void LaneSolver<N>::find_yield(std::vector<Three>& forces) const {
+void LaneSolver<N>::find_yield(std::vector<Four>& forces) const {
   lu_.solve(forces);
   const double mu2 = mu2_.x[N - 1];
-  for (Three& x : forces)
+  for (Four& x : forces)
     for (int k = 0; k < 3; ++k) x[k] = mu2 * x[k];
 }
 
@@ -440,10 +451,8 @@ class NarrowSolver final : public LaneSolver<N> {
   bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override {
     return this->solve_stages(begin, h, before, last_h, scale, counters);
   }
-  void yield_to(std::vector<StageSolver::Three>& forces) const override { this->find_yield(forces); }
-  void tails(const State& begin, std::vector<StageSolver::Three>& bodies, std::vector<StageSolver::Three>& gaps) const override {
-    this->find_tails(begin, bodies, gaps);
-  }
+  void yield_to(std::vector<Four>& forces) const override { this->find_yield(forces); }
+  void write(const State& begin, std::vector<Stage>& stages, StageTails& tails) const override { this->write_stages(begin, stages, tails); }
 };
 
 #ifdef PINTLE_WIDE
@@ -454,10 +463,8 @@ class WideSolver final : public LaneSolver<N> {
   PINTLE_WIDE bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override {
     return this->solve_stages(begin, h, before, last_h, scale, counters);
   }
-  PINTLE_WIDE void yield_to(std::vector<StageSolver::Three>& forces) const override { this->find_yield(forces); }
-  PINTLE_WIDE void tails(const State& begin, std::vector<StageSolver::Three>& bodies, std::vector<StageSolver::Three>& gaps) const override {
-    this->find_tails(begin, bodies, gaps);
-  }
+  PINTLE_WIDE void yield_to(std::vector<Four>& forces) const override { this->find_yield(forces); }
+  PINTLE_WIDE void write(const State& begin, std::vector<Stage>& stages, StageTails& tails) const override { this->write_stages(begin, stages, tails); }
 };
 
 // For five stages: in narrower registers they take turns.
@@ -467,10 +474,8 @@ class WidestSolver final : public LaneSolver<5> {
   PINTLE_WIDEST bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override {
     return this->solve_stages(begin, h, before, last_h, scale, counters);
   }
-  PINTLE_WIDEST void yield_to(std::vector<StageSolver::Three>& forces) const override { this->find_yield(forces); }
-  PINTLE_WIDEST void tails(const State& begin, std::vector<StageSolver::Three>& bodies, std::vector<StageSolver::Three>& gaps) const override {
-    this->find_tails(begin, bodies, gaps);
-  }
+  PINTLE_WIDEST void yield_to(std::vector<Four>& forces) const override { this->find_yield(forces); }
+  PINTLE_WIDEST void write(const State& begin, std::vector<Stage>& stages, StageTails& tails) const override { this->write_stages(begin, stages, tails); }
 };
 #endif
 

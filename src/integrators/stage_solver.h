@@ -22,27 +22,33 @@ struct Stage {
   std::vector<Planar::Motion> m;
 };
 
+/// Four numbers side by side for each coordinate of a body, or component of a gap.
+using Four = BlockVec<Lanes<4>, Planar::kDof>;
+
+/// The last three Legendre coefficients of the bodies' accelerations and of the gaps' own, the last one first; the fourth number is
+/// left to the reader. Those of the bodies with the start of the step, whose own error is the last step's where the gaps are
+/// concerned.
+struct StageTails {
+  std::vector<Four> bodies, gaps;
+};
+
 class StageSolver {
  public:
-  using Three = BlockVec<Lanes<3>, Planar::kDof>;
 
   virtual ~StageSolver() = default;
 
   /// Solves the step of h from `begin`; the prediction is `before`, the step before it of last_h, where there is one.
   /// False when the iteration fails.
   virtual bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) = 0;
-  /// What has been found, one entry per stage.
-  virtual void write(std::vector<Stage>& stages) const = 0;
-  /// The last three Legendre coefficients of the bodies' accelerations and of the gaps' own, the last one first. Those of the bodies
-  /// with the start of the step, whose own error is the last step's where the gaps are concerned.
-  virtual void tails(const State& begin, std::vector<Three>& bodies, std::vector<Three>& gaps) const = 0;
+  /// What has been found from `begin`: one entry per stage, and the tails.
+  virtual void write(const State& begin, std::vector<Stage>& stages, StageTails& tails) const = 0;
   /// By how much the last iterations shrank the error of the stages; 0: it took only one.
   virtual double contraction() const = 0;
   /// What is missing in joint j's equation at the end of the step [m/s^2 or rad/s^2].
   virtual double residual(int j) const = 0;
-  /// Three sets of body forces, side by side, become the accelerations that they make within the step: mu^2 Z(mu)^-1 of
+  /// Four sets of body forces, side by side, become the accelerations that they make within the step: mu^2 Z(mu)^-1 of
   /// theory/time Eq. (3.8) with the real mu. A mode of frequency w yields by mu^2 / (mu^2 + w^2).
-  virtual void yield_to(std::vector<Three>& forces) const = 0;
+  virtual void yield_to(std::vector<Four>& forces) const = 0;
 };
 
 /// Whether steps are as long as Newton's method allows, and grow as fast: what the first guess is made from.

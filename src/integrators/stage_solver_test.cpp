@@ -129,7 +129,8 @@ std::vector<Stage> solve_and_check(const Start& at, int stages, double h, const 
   EXPECT_TRUE(solver->solve(at.begin, h, before, last_h, at.scale, counters)) << where;
   EXPECT_EQ(counters.evaluations, stages * counters.newton_iterations) << where;
   EXPECT_EQ(counters.factorizations, 1u + stages / 2) << where;
-  solver->write(found);
+  StageTails tails = sample::room_for_tails(at.system);
+  solver->write(at.begin, found, tails);
   const Misfits left = misfits(at, table, h, found);
   EXPECT_LE(left.collocation, 4e-15) << where;
   EXPECT_LE(left.pose, 3e-16) << where;
@@ -362,7 +363,8 @@ TEST(StageSolver, IterationStopsWithinItsTolerance) {
         const auto solver = make_stage_solver(at.system, RadauTable::of(stages), tolerance);
         ASSERT_TRUE(solver->solve(at.begin, h, nullptr, 0, at.scale, counters));
         auto found = room_for(at.system, stages);
-        solver->write(found);
+        StageTails tails = sample::room_for_tails(at.system);
+        solver->write(at.begin, found, tails);
         const auto exact = solve_and_check(at, stages, h, "four-bar");
         double error = 0;
         for (int i = 0; i < stages; ++i)

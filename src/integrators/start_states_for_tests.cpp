@@ -114,6 +114,10 @@ State follow(const System& system, const State& from, double duration, int n, in
   return stepper.state();
 }
 
+StageTails room_for_tails(const System& system) {
+  return {std::vector<Four>(system.bodies.size()), std::vector<Four>(system.joints.size())};
+}
+
 double largest_difference(const Vecs& a, const Vecs& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (a[i] - b[i]).cwiseAbs().maxCoeff());

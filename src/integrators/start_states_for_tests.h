@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "integrators/stage_solver.h"
 #include "system/sample_systems_for_tests.h"
 #include "system/state.h"
 
@@ -39,6 +40,8 @@ State settled_start(const Model& model, const System& system, double t);
 
 /// n equal steps without error control.
 State follow(const System& system, const State& from, double duration, int n, int stages = 3);
+
+StageTails room_for_tails(const System& system);
 
 double largest_difference(const Vecs& a, const Vecs& b);
 

@@ -1,0 +1,246 @@
+#include "integrators/step_end.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrators/pose_blocks.h"
+#include "integrators/stage_lanes.h"
+#include "solve/wide.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+// What the rounding of positions leaves of a gap, or that of velocities of its rate.
+double rounding_of(const Vecs& x) { return 16 * std::numeric_limits<double>::epsilon() * largest_coordinate(x); }
+
+class EndSolver : public StepEnd {
+ public:
+  explicit EndSolver(const System& system)
+      : system_(system), joints_(system.joints.size()), lu_(system.pattern(), symmetry_of_joints(system)), four_(system.bodies.size() + 1),
+        one_(system.bodies.size() + 1), pull_(system.bodies.size() + 1) {
+    const auto body = [&](int index) { return index == kGround ? system.bodies.size() : static_cast<std::size_t>(index); };
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const JointData& data = system.joints[j];
+      Joint& joint = joints_[j];
+      joint.a = body(data.at.a);
+      joint.b = body(data.at.b);
+      joint.linear = std::get_if<LinearLaw>(&data.law);
+      joint.pose = joint.linear && std::holds_alternative<Selection>(data.probe);
+      if (!joint.linear) {
+        joint.full = full_.size();
+        full_.emplace_back();
+      }
+      for (int k = 0; k < S::kDof; ++k) joint.forbidden[k] = data.free_mask[k] == 0;
+      if (data.at.a != kGround && data.at.b != kGround) joint.slot = system.pattern().slot(data.at.a, data.at.b);
+    }
+  }
+
+  const std::vector<Four>& answers() const override { return four_; }
+
+ protected:
+  bool find_answers(double t, double mu, const Stage& last, StageTails& tails) {
+    begin_matrix(mu);
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      Joint& joint = joints_[j];
+      const Reading r = system_.reading(static_cast<int>(j), t, last.m);
+      add_joint(j, mu, last, r);
+      for (int k = 0; k < S::kDof; ++k) tails.gaps[j][k].set(3, last.gap[j][k] - r.gap[k]);
+      Four f;
+      weigh(joint, tails.gaps[j].a.data(), f.a.data());
+      r.map.push(f.a.data(), four_[joint.a], four_[joint.b]);
+    }
+    if (!lu_.factorize()) return false;
+    lu_.solve(four_);
+    return true;
+  }
+
+  void find_end(const Stage& last, State& end, std::vector<S::Motion>& m, std::vector<Reading>& r) {
+    const double rounding = rounding_of(last.q), rounding_of_rate = rounding_of(last.v);
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < S::kDof; ++k) end.q[b][k] = last.q[b][k] + four_[b][k][3];
+    end.v = last.v;
+    end.a = last.a;
+    end.gap_accel = last.gap_accel;
+    system_.motions(end.q, end.v, m);
+    if (!(ask_rates(last, end, m, r) < rounding)) {  // one pass has left more
+      ask_gaps(last, r);
+      answer(end.q);
+      system_.motions(end.q, end.v, m);
+      ask_rates(last, end, m, r);
+    }
+    move_velocities(end, m);
+    if (!(ask_forces(last, end, m, r, rounding) < rounding_of_rate)) {
+      ask_rates(last, r);
+      move_velocities(end, m);
+      ask_forces(last, end, m, r, rounding);
+    }
+    balance(last, end, r);
+  }
+
+ private:
+  struct Joint {
+    double weight[3] = {};              // K + mu C where that is diagonal
+    std::size_t a = 0, b = 0;           // its bodies; the ground stands behind the last one
+    const LinearLaw* linear = nullptr;  // its law, if that is one
+    std::size_t full = 0;               // its matrix among full_, where that is not diagonal
+    BlockPattern::Slot slot{};          // of its bodies, A before B
+    std::array<bool, 3> forbidden{};    // components
+    bool pose = false;                  // springs and dampers in the relative pose
+  };
+  using Three = BlockVec<double, S::kDof>;
+
+  std::size_t n_bodies() const { return system_.bodies.size(); }
+
+  template <class T>
+  void weigh(const Joint& joint, const T* gap, T* f) const {
+    if (joint.linear) {
+      for (int k = 0; k < S::kDof; ++k) f[k] = joint.weight[k] * gap[k];
+    } else {
+      const S::Mat& w = full_[joint.full];
+      for (int k = 0; k < S::kDof; ++k) f[k] = w(k, 0) * gap[0] + w(k, 1) * gap[1] + w(k, 2) * gap[2];
+    }
+  }
+
+  void begin_matrix(double mu) {
+    lu_.set_zero();
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < S::kDof; ++k) lu_.diagonal(static_cast<int>(b))(k, k) = mu * mu * system_.bodies[b].mass[k];
+    std::fill(four_.begin(), four_.end(), Four{});
+  }
+
+  void add_joint(std::size_t j, double mu, const Stage& last, const Reading& r) {
+    Joint& joint = joints_[j];
+    const JointData& data = system_.joints[j];
+    if (joint.linear) {
+      for (int k = 0; k < S::kDof; ++k) joint.weight[k] = joint.linear->k[k] + mu * joint.linear->c[k];
+    } else {
+      const Response response = respond(data.law, last.gap[j], last.gap_rate[j]);
+      full_[joint.full] = response.stiffness + mu * response.damping;
+    }
+    if (joint.pose) add_pose_blocks(lu_, data.at, joint.slot, r.map, joint.weight, S::Vec::Zero());
+    else add_gap_blocks(lu_, data.at, joint.slot, r.map, joint.linear ? S::Mat(S::Vec(joint.weight[0], joint.weight[1], joint.weight[2]).asDiagonal()) : full_[joint.full]);
+  }
+
+  // one_ += G' W gap.
+  void ask(const Joint& joint, const Reading& r, const S::Vec& gap) {
+    double f[3];
+    weigh(joint, gap.data(), f);
+    r.map.push(f, one_[joint.a], one_[joint.b]);
+  }
+  static double largest(const Joint& joint, const S::Vec& gap, double than) {
+    for (int k = 0; k < S::kDof; ++k)
+      if (joint.forbidden[k]) than = std::max(than, std::abs(gap[k]));
+    return than;
+  }
+  void nothing(std::vector<Three>& x) { std::fill(x.begin(), x.end(), Three{}); }
+
+  void answer(Vecs& x) {
+    lu_.solve(one_);
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < S::kDof; ++k) x[b][k] += one_[b][k];
+  }
+
+  void ask_gaps(const Stage& last, const std::vector<Reading>& r) {
+    nothing(one_);
+    for (std::size_t j = 0; j < joints_.size(); ++j) ask(joints_[j], r[j], last.gap[j] - r[j].gap);
+  }
+
+  void ask_rates(const Stage& last, const std::vector<Reading>& r) {
+    nothing(one_);
+    for (std::size_t j = 0; j < joints_.size(); ++j) ask(joints_[j], r[j], last.gap_rate[j] - r[j].rate);
+  }
+  // The same where nothing has been read; what is left of the gaps is returned.
+  double ask_rates(const Stage& last, const State& end, const std::vector<S::Motion>& m, std::vector<Reading>& r) {
+    nothing(one_);
+    double left = 0;
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      r[j] = system_.reading(static_cast<int>(j), end.t, m);
+      left = largest(joints_[j], last.gap[j] - r[j].gap, left);
+      ask(joints_[j], r[j], last.gap_rate[j] - r[j].rate);
+    }
+    return left;
+  }
+
+  void move_velocities(State& end, std::vector<S::Motion>& m) {
+    answer(end.v);
+    for (std::size_t b = 0; b < n_bodies(); ++b) {
+      m[b].v = end.v[b].head<2>();
+      m[b].w = end.v[b][2];
+    }
+  }
+
+  // The joints' forces at their gaps, into pull_; and what their accelerations want, into one_. What is left of the rates is returned.
+  double ask_forces(const Stage& last, State& end, const std::vector<S::Motion>& m, std::vector<Reading>& r, double rounding) {
+    nothing(one_);
+    nothing(pull_);
+    double left = 0;
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const Joint& joint = joints_[j];
+      const JointData& data = system_.joints[j];
+      r[j] = system_.reading(static_cast<int>(j), end.t, m);
+      left = largest(joint, last.gap_rate[j] - r[j].rate, left);
+      ask(joint, r[j], last.gap_accel[j] - r[j].bias - gap_change(data.at, r[j], last.a));
+      const S::Vec difference = r[j].gap - last.gap[j];
+      for (int k = 0; k < S::kDof; ++k) end.gap[j][k] = std::abs(difference[k]) > rounding ? r[j].gap[k] : last.gap[j][k];
+      end.gap_rate[j] = r[j].rate;
+      end.force[j] = joint.linear ? joint.linear->force(end.gap[j], end.gap_rate[j]) : law_force(data.law, end.gap[j], end.gap_rate[j]);
+      r[j].map.push(end.force[j].data(), pull_[joint.a], pull_[joint.b]);
+    }
+    return left;
+  }
+
+  // At the end of the step positions and velocities are better than anywhere inside: so are the forces that balance them.
+  void balance(const Stage& last, State& end, const std::vector<Reading>& r) {
+    lu_.solve(one_);
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < S::kDof; ++k) pull_[b][k] += last.Q[b][k] - system_.bodies[b].mass[k] * (last.a[b][k] + one_[b][k]);
+    lu_.solve(pull_);
+    nothing_of_ground(pull_);
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const Joint& joint = joints_[j];
+      double gap[3], change[3];
+      r[j].map.gather(pull_[joint.a].a.data(), pull_[joint.b].a.data(), gap);
+      weigh(joint, gap, change);
+      for (int k = 0; k < S::kDof; ++k) end.force[j][k] -= change[k];
+    }
+  }
+  static void nothing_of_ground(std::vector<Three>& x) { x.back() = {}; }
+
+  const System& system_;
+  std::vector<Joint> joints_;
+  std::vector<S::Mat> full_;
+  BlockLu<double, S::kDof> lu_;
+  std::vector<Four> four_;          // of bodies and the ground, as the next ones
+  std::vector<Three> one_, pull_;
+};
+
+// The same text for registers of every width.
+class NarrowEnd final : public EndSolver {
+ public:
+  using EndSolver::EndSolver;
+  bool prepare(double t, double mu, const Stage& last, StageTails& tails) override { return find_answers(t, mu, last, tails); }
+  void finish(const Stage& last, State& end, std::vector<S::Motion>& m, std::vector<Reading>& r) override { find_end(last, end, m, r); }
+};
+
+#ifdef PINTLE_WIDE
+class WideEnd final : public EndSolver {
+ public:
+  using EndSolver::EndSolver;
+  PINTLE_WIDE bool prepare(double t, double mu, const Stage& last, StageTails& tails) override { return find_answers(t, mu, last, tails); }
+  PINTLE_WIDE void finish(const Stage& last, State& end, std::vector<S::Motion>& m, std::vector<Reading>& r) override { find_end(last, end, m, r); }
+};
+#endif
+
+}  // namespace
+
+std::unique_ptr<StepEnd> make_step_end(const System& system) {
+#ifdef PINTLE_WIDE
+  if (has_wide_registers()) return std::make_unique<WideEnd>(system);
+#endif
+  return std::make_unique<NarrowEnd>(system);
+}
+
+}  // namespace pintle

@@ -1,0 +1,31 @@
+// The end of an implicit step: positions and velocities are moved onto the gaps that the joints carry, and forces balanced with
+// them. theory/time section 4. GapProjector answers the same questions one by one; here each pass through the joints asks all that
+// it can.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "integrators/stage_solver.h"
+#include "system/state.h"
+
+namespace pintle {
+
+class StepEnd {
+ public:
+  virtual ~StepEnd() = default;
+
+  /// Factorises mu^2 M + G' (K + mu C) G at the last stage, which ends at t, and answers what its gaps demand: their tails, and what
+  /// they differ from those of the bodies' poses. False when singular.
+  virtual bool prepare(double t, double mu, const Stage& last, StageTails& tails) = 0;
+  /// By body: accelerations that answer the gaps' tails [m/s^2, m/s^2, rad/s^2], and in the fourth place the displacement that closes
+  /// the gaps [m, m, rad].
+  virtual const std::vector<Four>& answers() const = 0;
+  /// Fills `end` from the last stage: moved onto its gaps, the gaps as carried but as the geometry has them where no motion could
+  /// bring them there (redundant joints), forces balanced. Eqs. (4.1)-(4.4). m, r: motions and readings at the end.
+  virtual void finish(const Stage& last, State& end, std::vector<Planar::Motion>& m, std::vector<Reading>& r) = 0;
+};
+
+std::unique_ptr<StepEnd> make_step_end(const System& system);
+
+}  // namespace pintle

@@ -1,0 +1,162 @@
+// The end of a step against GapProjector, which answers one question at a time.
+#include "integrators/step_end.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "integrators/gap_projector.h"
+#include "integrators/start_states_for_tests.h"
+
+namespace pintle {
+namespace {
+
+using sample::Random;
+using S = Planar;
+
+// A last stage somewhere, whose gaps and rates are beside those of its poses by up to `off`.
+struct LastStage {
+  System system;
+  double t = 0.3;
+  Stage stage;
+
+  LastStage(const Model& model, double off, std::uint64_t seed) : system(build_system(model)) {
+    Random random(seed);
+    sample::random_state(random, system.bodies.size(), stage.q, stage.v);
+    system.motions(stage.q, stage.v, stage.m);
+    for (std::size_t b = 0; b < system.bodies.size(); ++b) stage.a.push_back(random.vector<S::Vec>(-5, 5));
+    stage.Q.assign(system.bodies.size(), S::Vec::Zero());
+    system.external(t, stage.m, stage.Q);
+    for (int j = 0; j < system.n_joints(); ++j) {
+      const Reading r = system.reading(j, t, stage.m);
+      stage.gap.push_back(r.gap + random.vector<S::Vec>(-off, off));
+      stage.gap_rate.push_back(r.rate + random.vector<S::Vec>(-off, off));
+      stage.gap_accel.push_back(random.vector<S::Vec>(-5, 5));
+      stage.force.push_back(S::Vec::Zero());
+    }
+  }
+  StageTails random_tails(Random& random) const {
+    StageTails tails = sample::room_for_tails(system);
+    for (Four& gap : tails.gaps)
+      for (int k = 0; k < 3; ++k)
+        for (int lane = 0; lane < 3; ++lane) gap[k].set(lane, random.uniform(-1, 1));
+    return tails;
+  }
+};
+
+std::vector<Model> models() { return {sample::four_bar(1e8, 3000), sample::everything()}; }
+
+TEST(StepEnd, AnswersAreTheProjectorsOneByOne) {
+  Random random(5);
+  for (const Model& model : models()) {
+    const LastStage at(model, 0.1, 6);
+    const auto end = make_step_end(at.system);
+    GapProjector projector(at.system);
+    StageTails tails = at.random_tails(random);
+    ASSERT_TRUE(end->prepare(at.t, 10, at.stage, tails));
+    ASSERT_TRUE(projector.prepare(at.t, at.stage.m, 10, at.stage.gap, at.stage.gap_rate));
+    for (int lane = 0; lane < 4; ++lane) {
+      Vecs wanted(at.system.joints.size()), x(at.system.bodies.size(), S::Vec::Zero());
+      for (std::size_t j = 0; j < wanted.size(); ++j)
+        for (int k = 0; k < 3; ++k) wanted[j][k] = lane < 3 ? tails.gaps[j][k][lane] : at.stage.gap[j][k] - projector.readings()[j].gap[k];
+      projector.close(wanted, x);
+      double size = 0;
+      for (const S::Vec& move : x) size = std::max(size, move.cwiseAbs().maxCoeff());
+      EXPECT_GT(size, 0.01) << model.name;
+      for (std::size_t b = 0; b < x.size(); ++b)
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(end->answers()[b][k][lane], x[b][k], 1e-9 * size) << model.name << ", body " << b << ", lane " << lane;
+    }
+  }
+}
+
+// The same end, one question after the other. theory/time Eqs. (4.1)-(4.4). A second pass where the first has left more than
+// rounding.
+class Plainly {
+ public:
+  Plainly(const LastStage& from, double mu) : at_(from), projector_(from.system), q(from.stage.q), v(from.stage.v), wanted_(from.system.joints.size()) {
+    EXPECT_TRUE(projector_.prepare(at_.t, at_.stage.m, mu, at_.stage.gap, at_.stage.gap_rate));
+    const double rounding = rounding_of(q), rounding_of_rate = rounding_of(v);
+    for (int pass = 0; pass < 2 && (pass == 0 || left(at_.stage.gap, &Reading::gap) >= rounding); ++pass) move(at_.stage.gap, &Reading::gap, q);
+    for (int pass = 0; pass < 2 && (pass == 0 || left(at_.stage.gap_rate, &Reading::rate) >= rounding_of_rate); ++pass, ++passes) move(at_.stage.gap_rate, &Reading::rate, v);
+    find_forces();
+  }
+
+ private:
+  static double rounding_of(const Vecs& x) { return 16 * 2.220446049250313e-16 * largest_coordinate(x); }
+  double left(const Vecs& carried, S::Vec Reading::*read) const {
+    double size = 0;
+    for (std::size_t j = 0; j < carried.size(); ++j)
+      for (int k = 0; k < 3; ++k)
+        if (at_.system.joints[j].free_mask[k] == 0) size = std::max(size, std::abs(carried[j][k] - (projector_.readings()[j].*read)[k]));
+    return size;
+  }
+  void move(const Vecs& carried, S::Vec Reading::*read, Vecs& x) {
+    for (std::size_t j = 0; j < wanted_.size(); ++j) wanted_[j] = carried[j] - projector_.readings()[j].*read;
+    projector_.close(wanted_, x);
+    std::vector<S::Motion> m;
+    at_.system.motions(q, v, m);
+    projector_.read(at_.t, m);
+  }
+  void find_forces() {
+    Vecs a = at_.stage.a;
+    for (std::size_t j = 0; j < wanted_.size(); ++j) {
+      const JointData& joint = at_.system.joints[j];
+      const Reading& r = projector_.readings()[j];
+      wanted_[j] = at_.stage.gap_accel[j] - r.bias;
+      subtract_gap(joint.at, r, at_.stage.a, wanted_[j]);
+      force.push_back(law_force(joint.law, at_.stage.gap[j], r.rate));
+    }
+    projector_.close(wanted_, a);
+    projector_.improve_forces(at_.stage.Q, a, force);
+  }
+
+  const LastStage& at_;
+  GapProjector projector_;
+
+ public:
+  Vecs q, v, force;
+  int passes = 0;  // over the velocities
+
+ private:
+  Vecs wanted_;
+};
+
+TEST(StepEnd, IsWhatTheProjectorDoesOneByOne) {
+  int again = 0, at_once = 0;
+  for (const double off : {1e-4, 1e-9})
+    for (const double mu : {30.0, 3e3}) {
+      const LastStage at(sample::four_bar(1e8, 3000), off, 7);
+      const Plainly plain(at, mu);
+      ++(plain.passes > 1 ? again : at_once);
+      const auto end = make_step_end(at.system);
+      Random random(8);
+      StageTails tails = at.random_tails(random);
+      ASSERT_TRUE(end->prepare(at.t, mu, at.stage, tails));
+      State state = sample::plain_start(sample::four_bar(1e8, 3000), at.system);
+      state.t = at.t;
+      std::vector<S::Motion> m(at.system.bodies.size());
+      std::vector<Reading> r(at.system.joints.size());
+      end->finish(at.stage, state, m, r);
+      EXPECT_LT(sample::largest_difference(state.q, plain.q), 1e-14) << off << " " << mu;
+      EXPECT_LT(sample::largest_difference(state.v, plain.v), 1e-12) << off << " " << mu;
+      double size = 0;
+      for (const S::Vec& f : plain.force) size = std::max(size, f.norm());
+      EXPECT_LT(sample::largest_difference(state.force, plain.force), 1e-8 * size) << off << " " << mu;
+      EXPECT_EQ(state.a, at.stage.a);
+      EXPECT_EQ(state.gap_accel, at.stage.gap_accel);
+      std::vector<S::Motion> there;
+      at.system.motions(state.q, state.v, there);
+      for (int j = 0; j < at.system.n_joints(); ++j) {
+        const Reading expected = at.system.reading(j, at.t, there);
+        EXPECT_EQ(r[j].rate, expected.rate);
+        EXPECT_EQ(r[j].gap, expected.gap);
+        EXPECT_EQ(state.gap_rate[j], expected.rate);
+      }
+    }
+  EXPECT_GT(again, 0);
+  EXPECT_GT(at_once, 0);
+}
+
+}  // namespace
+}  // namespace pintle
