@@ -46,11 +46,12 @@ class EndSolver : public StepEnd {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
       const Reading r = system_.reading(static_cast<int>(j), t, last.m);
-      add_joint(j, mu, last, r);
+      joint.map = r.map;
+      add_joint(j, mu, last);
       for (int k = 0; k < S::kDof; ++k) tails.gaps[j][k].set(3, last.gap[j][k] - r.gap[k]);
       Four f;
       weigh(joint, tails.gaps[j].a.data(), f.a.data());
-      r.map.push(f.a.data(), four_[joint.a], four_[joint.b]);
+      joint.map.push(f.a.data(), four_[joint.a], four_[joint.b]);
     }
     if (!lu_.factorize()) return false;
     lu_.solve(four_);
@@ -77,11 +78,12 @@ class EndSolver : public StepEnd {
       move_velocities(end, m);
       ask_forces(last, end, m, r, rounding);
     }
-    balance(last, end, r);
+    balance(last, end);
   }
 
  private:
   struct Joint {
+    GapMap<double> map{};               // at the last stage, as in the matrix: with another one stiff joints would answer what is no gap
     double weight[3] = {};              // K + mu C where that is diagonal
     std::size_t a = 0, b = 0;           // its bodies; the ground stands behind the last one
     const LinearLaw* linear = nullptr;  // its law, if that is one
@@ -111,7 +113,7 @@ class EndSolver : public StepEnd {
     std::fill(four_.begin(), four_.end(), Four{});
   }
 
-  void add_joint(std::size_t j, double mu, const Stage& last, const Reading& r) {
+  void add_joint(std::size_t j, double mu, const Stage& last) {
     Joint& joint = joints_[j];
     const JointData& data = system_.joints[j];
     if (joint.linear) {
@@ -120,15 +122,15 @@ class EndSolver : public StepEnd {
       const Response response = respond(data.law, last.gap[j], last.gap_rate[j]);
       full_[joint.full] = response.stiffness + mu * response.damping;
     }
-    if (joint.pose) add_pose_blocks(lu_, data.at, joint.slot, r.map, joint.weight, S::Vec::Zero());
-    else add_gap_blocks(lu_, data.at, joint.slot, r.map, joint.linear ? S::Mat(S::Vec(joint.weight[0], joint.weight[1], joint.weight[2]).asDiagonal()) : full_[joint.full]);
+    if (joint.pose) add_pose_blocks(lu_, data.at, joint.slot, joint.map, joint.weight, S::Vec::Zero());
+    else add_gap_blocks(lu_, data.at, joint.slot, joint.map, joint.linear ? S::Mat(S::Vec(joint.weight[0], joint.weight[1], joint.weight[2]).asDiagonal()) : full_[joint.full]);
   }
 
   // one_ += G' W gap.
-  void ask(const Joint& joint, const Reading& r, const S::Vec& gap) {
+  void ask(const Joint& joint, const S::Vec& gap) {
     double f[3];
     weigh(joint, gap.data(), f);
-    r.map.push(f, one_[joint.a], one_[joint.b]);
+    joint.map.push(f, one_[joint.a], one_[joint.b]);
   }
   static double largest(const Joint& joint, const S::Vec& gap, double than) {
     for (int k = 0; k < S::kDof; ++k)
@@ -145,12 +147,12 @@ class EndSolver : public StepEnd {
 
   void ask_gaps(const Stage& last, const std::vector<Reading>& r) {
     nothing(one_);
-    for (std::size_t j = 0; j < joints_.size(); ++j) ask(joints_[j], r[j], last.gap[j] - r[j].gap);
+    for (std::size_t j = 0; j < joints_.size(); ++j) ask(joints_[j], last.gap[j] - r[j].gap);
   }
 
   void ask_rates(const Stage& last, const std::vector<Reading>& r) {
     nothing(one_);
-    for (std::size_t j = 0; j < joints_.size(); ++j) ask(joints_[j], r[j], last.gap_rate[j] - r[j].rate);
+    for (std::size_t j = 0; j < joints_.size(); ++j) ask(joints_[j], last.gap_rate[j] - r[j].rate);
   }
   // The same where nothing has been read; what is left of the gaps is returned.
   double ask_rates(const Stage& last, const State& end, const std::vector<S::Motion>& m, std::vector<Reading>& r) {
@@ -159,7 +161,7 @@ class EndSolver : public StepEnd {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       r[j] = system_.reading(static_cast<int>(j), end.t, m);
       left = largest(joints_[j], last.gap[j] - r[j].gap, left);
-      ask(joints_[j], r[j], last.gap_rate[j] - r[j].rate);
+      ask(joints_[j], last.gap_rate[j] - r[j].rate);
     }
     return left;
   }
@@ -172,7 +174,7 @@ class EndSolver : public StepEnd {
     }
   }
 
-  // The joints' forces at their gaps, into pull_; and what their accelerations want, into one_. What is left of the rates is returned.
+  // The joints' forces at their gaps, into pull_ by the matrix's map, so that the balance takes off all that is wrong with them; and what their accelerations want, into one_. What is left of the rates is returned.
   double ask_forces(const Stage& last, State& end, const std::vector<S::Motion>& m, std::vector<Reading>& r, double rounding) {
     nothing(one_);
     nothing(pull_);
@@ -182,18 +184,18 @@ class EndSolver : public StepEnd {
       const JointData& data = system_.joints[j];
       r[j] = system_.reading(static_cast<int>(j), end.t, m);
       left = largest(joint, last.gap_rate[j] - r[j].rate, left);
-      ask(joint, r[j], last.gap_accel[j] - r[j].bias - gap_change(data.at, r[j], last.a));
+      ask(joint, last.gap_accel[j] - r[j].bias - gap_change(data.at, r[j], last.a));
       const S::Vec difference = r[j].gap - last.gap[j];
       for (int k = 0; k < S::kDof; ++k) end.gap[j][k] = std::abs(difference[k]) > rounding ? r[j].gap[k] : last.gap[j][k];
       end.gap_rate[j] = r[j].rate;
       end.force[j] = joint.linear ? joint.linear->force(end.gap[j], end.gap_rate[j]) : law_force(data.law, end.gap[j], end.gap_rate[j]);
-      r[j].map.push(end.force[j].data(), pull_[joint.a], pull_[joint.b]);
+      joint.map.push(end.force[j].data(), pull_[joint.a], pull_[joint.b]);
     }
     return left;
   }
 
   // At the end of the step positions and velocities are better than anywhere inside: so are the forces that balance them.
-  void balance(const Stage& last, State& end, const std::vector<Reading>& r) {
+  void balance(const Stage& last, State& end) {
     lu_.solve(one_);
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) pull_[b][k] += last.Q[b][k] - system_.bodies[b].mass[k] * (last.a[b][k] + one_[b][k]);
@@ -202,7 +204,7 @@ class EndSolver : public StepEnd {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const Joint& joint = joints_[j];
       double gap[3], change[3];
-      r[j].map.gather(pull_[joint.a].a.data(), pull_[joint.b].a.data(), gap);
+      joint.map.gather(pull_[joint.a].a.data(), pull_[joint.b].a.data(), gap);
       weigh(joint, gap, change);
       for (int k = 0; k < S::kDof; ++k) end.force[j][k] -= change[k];
     }
