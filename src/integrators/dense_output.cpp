@@ -41,7 +41,7 @@ double cubic(double s, double h, double x0, double v0, double x1, double v1) {
 }  // namespace
 
 DenseOutput::DenseOutput(const System& system)
-    : system_(system), inside_forces_(make_inside_forces(system)), body_(system.bodies.size()), gap_(system.joints.size()), force_(system.joints.size()) {
+    : system_(system) {
   out_.q = out_.v = out_.a = Vecs(system.bodies.size(), S::Vec::Zero());
   out_.gap = out_.gap_rate = out_.gap_accel = out_.force = Vecs(system.joints.size(), S::Vec::Zero());
 }
@@ -65,12 +65,21 @@ const State& DenseOutput::at(double t, const State& begin, const State& end) {
 const State& DenseOutput::at(double t, const State& begin, const State& end, const StepNodes& nodes) {
   if (t == end.t) return end;
   if (t == begin.t) return begin;
+  if (!inside_forces_) make_room();
   if (begin.t != curves_from_ || end.t != curves_to_) {
     find_curves(begin, end, nodes);
     find_forces(begin, end, nodes);
   }
   follow(t, begin, end);
   return out_;
+}
+
+// For the curves: many runs ask for none.
+void DenseOutput::make_room() {
+  inside_forces_ = make_inside_forces(system_);
+  body_.resize(system_.bodies.size());
+  gap_.resize(system_.joints.size());
+  force_.resize(system_.joints.size());
 }
 
 // The state on the curves, at time t.

@@ -31,12 +31,13 @@ class DenseOutput {
     Coefficients c;              // of the acceleration
     Planar::Vec bend_q, bend_v;  // what its integrals miss the far end by
   };
+  void make_room();
   void find_curves(const State& begin, const State& end, const StepNodes& nodes);
   void find_forces(const State& begin, const State& end, const StepNodes& nodes);
   void follow(double t, const State& begin, const State& end);
 
   const System& system_;
-  std::unique_ptr<InsideForces> inside_forces_;
+  std::unique_ptr<InsideForces> inside_forces_;  // made with the room for curves
   InsideForces::Sampled sampled_;
   State out_;
   // The last step's curves, found when they are first asked for.
