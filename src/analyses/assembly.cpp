@@ -44,12 +44,12 @@ void assemble_velocities(const Model& model, const System& system, const Vecs& q
   LeastSquares equations(system);
   if (!equations.prepare(r, joint_weight, body_weight)) return;
   Vecs target = v, multiplier(r.size(), S::Vec::Zero()), x = v;
+  Vecs wanted(r.size()), rhs;
   for (int iteration = 0; iteration < 60; ++iteration) {
-    Vecs wanted(r.size());
     for (std::size_t j = 0; j < r.size(); ++j) wanted[j] = -r[j].rate + multiplier[j];  // at rest a servo's rate is minus its target's
-    Vecs rhs = equations.pull(r, joint_weight, wanted);
+    rhs = equations.pull(r, joint_weight, wanted);
     for (std::size_t i = 0; i < q.size(); ++i) rhs[i] += body_weight[i].cwiseProduct(target[i]);
-    const Vecs next = equations.solve(rhs);
+    const Vecs& next = equations.solve(rhs);
     double change = 0, size = 1e-12;
     for (std::size_t i = 0; i < q.size(); ++i) {
       change = std::max(change, (next[i] - x[i]).cwiseAbs().maxCoeff());

@@ -33,46 +33,52 @@ double energy(const System& system, const Vecs& w, const std::vector<Reading>& r
 }  // namespace
 
 LeastSquares::LeastSquares(const System& system)
-    : system_(system), free_(system.bodies.size(), S::Vec::Ones()), lu_(system.pattern()), x_(system.bodies.size()) {}
+    : system_(system), free_(system.bodies.size(), S::Vec::Ones()), slots_(system.joints.size()), lu_(system.pattern(), Symmetry::kSymmetric),
+      x_(system.bodies.size()), pull_(system.bodies.size()), solution_(system.bodies.size()) {
+  for (std::size_t j = 0; j < slots_.size(); ++j) {
+    const Placement& at = system.joints[j].at;
+    if (at.a != kGround && at.b != kGround) slots_[j] = system.pattern().slot(at.a, at.b);
+  }
+}
 
 bool LeastSquares::prepare(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& body_weight) {
   lu_.set_zero();
   for (int i = 0; i < system_.n_bodies(); ++i)
     for (int k = 0; k < S::kDof; ++k) lu_.diagonal(i)(k, k) = body_weight[i][k];
+  const auto add = [](Block<double, S::kDof>& target, const S::Mat& block) {
+    for (int a = 0; a < S::kDof; ++a)
+      for (int b = 0; b < S::kDof; ++b) target(a, b) += block(a, b);
+  };
   for (int j = 0; j < system_.n_joints(); ++j) {
     const Placement& at = system_.joints[j].at;
-    const std::array<int, 2> body{at.a, at.b};
-    std::array<S::Mat, 2> G{r[j].GA(), r[j].GB()};
-    for (int x = 0; x < 2; ++x)
-      if (body[x] != kGround) G[x] = G[x] * free_[body[x]].asDiagonal();
-    for (int x = 0; x < 2; ++x)
-      for (int y = 0; y < 2; ++y) {
-        if (body[x] == kGround || body[y] == kGround) continue;
-        const S::Mat block = G[x].transpose() * joint_weight[j].asDiagonal() * G[y];
-        auto& target = x == y ? lu_.diagonal(body[x]) : lu_.off_diagonal(system_.pattern().slot(body[x], body[y]));
-        for (int a = 0; a < S::kDof; ++a)
-          for (int b = 0; b < S::kDof; ++b) target(a, b) += block(a, b);
-      }
+    S::Mat GA = r[j].GA(), GB = r[j].GB();
+    if (at.a != kGround) GA = GA * free_[at.a].asDiagonal();
+    if (at.b != kGround) GB = GB * free_[at.b].asDiagonal();
+    const S::Mat WA = joint_weight[j].asDiagonal() * GA, WB = joint_weight[j].asDiagonal() * GB;
+    if (at.a != kGround) add(lu_.diagonal(at.a), GA.transpose() * WA);
+    if (at.b != kGround) add(lu_.diagonal(at.b), GB.transpose() * WB);
+    if (at.a == kGround || at.b == kGround) continue;
+    if (slots_[j].upper) add(lu_.off_diagonal(slots_[j]), GA.transpose() * WB);
+    else add(lu_.off_diagonal({slots_[j].index, true}), GB.transpose() * WA);
   }
   return lu_.factorize();
 }
 
-Vecs LeastSquares::pull(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& gap) const {
-  Vecs f(system_.bodies.size(), S::Vec::Zero());
+const Vecs& LeastSquares::pull(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& gap) {
+  for (S::Vec& f : pull_) f.setZero();
   for (int j = 0; j < system_.n_joints(); ++j) {
     const S::Vec w = joint_weight[j].cwiseProduct(gap[j]);
-    add_force(system_.joints[j].at, r[j], w, f);
+    add_force(system_.joints[j].at, r[j], w, pull_);
   }
-  for (std::size_t i = 0; i < f.size(); ++i) f[i] = f[i].cwiseProduct(free_[i]);
-  return f;
+  for (std::size_t i = 0; i < pull_.size(); ++i) pull_[i] = pull_[i].cwiseProduct(free_[i]);
+  return pull_;
 }
 
-Vecs LeastSquares::solve(const Vecs& rhs) {
+const Vecs& LeastSquares::solve(const Vecs& rhs) {
   for (std::size_t i = 0; i < rhs.size(); ++i) x_[i] = {{rhs[i][0], rhs[i][1], rhs[i][2]}};
   lu_.solve(x_);
-  Vecs out(rhs.size());
-  for (std::size_t i = 0; i < rhs.size(); ++i) out[i] = S::Vec(x_[i][0], x_[i][1], x_[i][2]);
-  return out;
+  for (std::size_t i = 0; i < rhs.size(); ++i) solution_[i] = S::Vec(x_[i][0], x_[i][1], x_[i][2]);
+  return solution_;
 }
 
 void readings_at(const System& system, double t, const Vecs& q, const Vecs& v, std::vector<S::Motion>& m, std::vector<Reading>& r) {
@@ -105,14 +111,14 @@ void PositionSearch::run(Vecs& q, int max_iterations) {
   readings_at(system_, 0, q, still, m_, r_);
   double now = energy(system_, weight_, r_), damping = 1e-3;
   const Vecs body = body_weights(q);
+  Vecs gaps(r_.size()), damped, trial;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    Vecs gaps(r_.size());
     for (std::size_t j = 0; j < gaps.size(); ++j) gaps[j] = -gap_to_close(system_.joints[j], r_[j]);
-    Vecs damped = body;
+    damped = body;
     for (auto& d : damped) d *= damping;
     if (!equations_.prepare(r_, weight_, damped)) { damping *= 10; continue; }
-    const Vecs move = equations_.solve(equations_.pull(r_, weight_, gaps));
-    Vecs trial = q;
+    const Vecs& move = equations_.solve(equations_.pull(r_, weight_, gaps));
+    trial = q;
     double step = 0;
     for (std::size_t i = 0; i < q.size(); ++i) {
       trial[i] += move[i];

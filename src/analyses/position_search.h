@@ -17,16 +17,18 @@ class LeastSquares {
   void hold(int body, int coordinate) { free_[body][coordinate] = 0; }
 
   bool prepare(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& body_weight);
-  /// G' W gap
-  Vecs pull(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& gap) const;
-  Vecs solve(const Vecs& rhs);
+  /// G' W gap. What pull and solve return is good until they are asked again.
+  const Vecs& pull(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& gap);
+  const Vecs& solve(const Vecs& rhs);
 
  private:
   using Row = BlockVec<double, Planar::kDof>;
   const System& system_;
   Vecs free_;  // 0 where a coordinate is held: no gap reacts to it, so that nothing moves it
+  std::vector<BlockPattern::Slot> slots_;  // of each joint's bodies
   BlockLu<double, Planar::kDof> lu_;
   std::vector<Row> x_;
+  Vecs pull_, solution_;
 };
 
 /// Readings of all joints at q, v.

@@ -16,7 +16,7 @@ namespace {
 
 // Peaks are better than what steps leave unresolved. Steps of the base are tried with so much more than the tolerance, then tighter,
 // until its peaks are within this share of it; and a variant's steps may leave so much more unresolved than the base's.
-constexpr double kLoosest = 100, kTighten = 3.1622776601683795, kShare = 0.1, kWorse = 4;
+constexpr double kLoosest = 1000, kTighten = 3.1622776601683795, kShare = 0.1, kWorse = 4;
 constexpr double kOfNewton = 0.1;  // tolerance of iterations over that of steps
 constexpr int kMostIterations = 10;  // in a step of the base: with more, shorter steps are cheaper, and a variant may not converge
 constexpr double kNegligible = 1e-4;  // of the largest load of the mechanism
