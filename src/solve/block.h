@@ -145,4 +145,73 @@ PINTLE_LANES bool invert(Block<T, N>& m) {
   return is_finite(pivots);
 }
 
+/// L D L' = m, symmetric, without pivoting. In place: D^-1 on the diagonal and below it M = L^-1, whose diagonal is 1. False when a pivot
+/// is zero or not finite.
+template <class T, int N>
+PINTLE_LANES bool factorize_symmetric(Block<T, N>& m) {
+  T lower[N][N], pivots = T(0.0);
+  for (int c = 0; c < N; ++c) {
+    const T inverse = reciprocal(m(c, c));
+    pivots += inverse + 0.0 * m(c, c);
+    for (int i = c + 1; i < N; ++i) {
+      lower[i][c] = m(i, c) * inverse;
+      for (int j = c + 1; j <= i; ++j) m(i, j) -= lower[i][c] * m(j, c);
+    }
+    m(c, c) = inverse;
+  }
+  for (int i = 1; i < N; ++i)
+    for (int j = 0; j < i; ++j) {
+      T sum = lower[i][j];
+      for (int k = j + 1; k < i; ++k) sum += lower[i][k] * m(k, j);
+      m(i, j) = -sum;
+    }
+  return is_finite(pivots);
+}
+
+/// B becomes M B, of a factorised m.
+template <class T, int N>
+PINTLE_LANES void apply_lower(const Block<T, N>& m, Block<T, N>& B) {
+  for (int i = N - 1; i > 0; --i)
+    for (int j = 0; j < i; ++j)
+      for (int c = 0; c < N; ++c) B(i, c) += m(i, j) * B(j, c);
+}
+
+/// x becomes M x.
+template <class V, class T, int N>
+PINTLE_LANES void apply_lower(const Block<T, N>& m, V& x) {
+  for (int i = N - 1; i > 0; --i)
+    for (int j = 0; j < i; ++j) x[i] += m(i, j) * x[j];
+}
+
+/// x becomes M' x.
+template <class V, class T, int N>
+PINTLE_LANES void apply_lower_transposed(const Block<T, N>& m, V& x) {
+  for (int j = 0; j < N - 1; ++j)
+    for (int i = j + 1; i < N; ++i) x[j] += m(i, j) * x[i];
+}
+
+/// D^-1 B.
+template <class T, int N>
+PINTLE_LANES Block<T, N> over_pivots(const Block<T, N>& m, const Block<T, N>& B) {
+  Block<T, N> out;
+  for (int i = 0; i < N; ++i)
+    for (int c = 0; c < N; ++c) out(i, c) = m(i, i) * B(i, c);
+  return out;
+}
+
+/// D^-1 x.
+template <class V, class T, int N>
+PINTLE_LANES V over_pivots(const Block<T, N>& m, const V& x) {
+  V out;
+  for (int i = 0; i < N; ++i) out[i] = m(i, i) * x[i];
+  return out;
+}
+
+/// sum += A x.
+template <class V, class T, int N>
+PINTLE_LANES void add_product(V& sum, const Block<T, N>& A, const V& x) {
+  for (int j = 0; j < N; ++j)
+    for (int i = 0; i < N; ++i) sum[i] += A(i, j) * x[j];
+}
+
 }  // namespace pintle

@@ -67,20 +67,22 @@ class BlockLu {
     return true;
   }
 
-  // U becomes D^-1 U, which is also what stands below the diagonal, transposed.
+  // Pivot blocks are L D L', and what stands above the diagonal becomes L^-1 U.
   bool factorize_upper() {
     const BlockPattern& p = *pattern_;
     for (int k = 0; k < p.n(); ++k) {
-      if (!invert(diagonal_[k])) return false;
+      if (!factorize_symmetric(diagonal_[k])) return false;
       const int begin = p.first(k), end = p.first(k + 1);
       const int* target = p.updates(k);
-      for (int a = begin; a < end; ++a) row_[a - begin] = product(diagonal_[k], upper_[a]);
+      for (int a = begin; a < end; ++a) {
+        apply_lower(diagonal_[k], upper_[a]);
+        row_[a - begin] = over_pivots(diagonal_[k], upper_[a]);
+      }
       for (int a = begin; a < end; ++a)
         for (int b = begin; b < end; ++b, ++target) {
           if (*target == 0) subtract_symmetric_product(diagonal_[p.column(a)], upper_[a], row_[a - begin]);
           else if (*target > 0) subtract_transposed_product(upper_[*target - 1], upper_[a], row_[b - begin]);
         }
-      for (int a = begin; a < end; ++a) upper_[a] = row_[a - begin];
     }
     return true;
   }
@@ -103,13 +105,19 @@ class BlockLu {
   void solve_upper(Rows& x) const {
     const BlockPattern& p = *pattern_;
     for (int k = 0; k < p.n(); ++k) {
-      const auto& done = x[p.row_at(k)];
-      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_transposed_product(x[p.row_at(p.column(a))], upper_[a], done);
+      auto& here = x[p.row_at(k)];
+      apply_lower(diagonal_[k], here);
+      here = over_pivots(diagonal_[k], here);
+      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_transposed_product(x[p.row_at(p.column(a))], upper_[a], here);
     }
     for (int k = p.n() - 1; k >= 0; --k) {
       auto& here = x[p.row_at(k)];
-      here = product(diagonal_[k], here);
-      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(here, upper_[a], x[p.row_at(p.column(a))]);
+      auto sum = here;
+      for (int i = 0; i < N; ++i) sum[i] = {};
+      for (int a = p.first(k); a < p.first(k + 1); ++a) add_product(sum, upper_[a], x[p.row_at(p.column(a))]);
+      sum = over_pivots(diagonal_[k], sum);
+      for (int i = 0; i < N; ++i) here[i] -= sum[i];
+      apply_lower_transposed(diagonal_[k], here);
     }
   }
 
