@@ -126,10 +126,11 @@ class Plainly {
   Vecs wanted_;
 };
 
+// Smaller mu leave the free motion to rounding: at 1 the forces of both ways are 4e-7 N apart, of 110 N.
 TEST(StepEnd, IsWhatTheProjectorDoesOneByOne) {
   int again = 0, at_once = 0;
   for (const double off : {1e-4, 1e-9})
-    for (const double mu : {1e-3, 30.0, 3e3}) {
+    for (const double mu : {1.0, 30.0, 3e3}) {
       const LastStage at(sample::four_bar(1e8, 3000), off, 7);
       const Plainly plain(at, mu);
       ++(plain.passes > 1 ? again : at_once);
