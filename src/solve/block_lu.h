@@ -67,33 +67,22 @@ class BlockLu {
     return true;
   }
 
-  // U becomes D^-1 U, which is also what stands below the diagonal, transposed. With row pivoting inside a block; where none is needed
-  // the pivot is L D L', and U becomes L^-1 U.
+  // Pivot blocks are L D L', and what stands above the diagonal becomes L^-1 U.
   bool factorize_upper() {
     const BlockPattern& p = *pattern_;
     for (int k = 0; k < p.n(); ++k) {
-      if constexpr (kPivots<T>) {
-        if (!invert(diagonal_[k])) return false;
-      } else if (!factorize_symmetric(diagonal_[k])) {
-        return false;
-      }
+      if (!factorize_symmetric(diagonal_[k])) return false;
       const int begin = p.first(k), end = p.first(k + 1);
       const int* target = p.updates(k);
       for (int a = begin; a < end; ++a) {
-        if constexpr (kPivots<T>) {
-          row_[a - begin] = product(diagonal_[k], upper_[a]);
-        } else {
-          apply_lower(diagonal_[k], upper_[a]);
-          row_[a - begin] = over_pivots(diagonal_[k], upper_[a]);
-        }
+        apply_lower(diagonal_[k], upper_[a]);
+        row_[a - begin] = over_pivots(diagonal_[k], upper_[a]);
       }
       for (int a = begin; a < end; ++a)
         for (int b = begin; b < end; ++b, ++target) {
           if (*target == 0) subtract_symmetric_product(diagonal_[p.column(a)], upper_[a], row_[a - begin]);
           else if (*target > 0) subtract_transposed_product(upper_[*target - 1], upper_[a], row_[b - begin]);
         }
-      if constexpr (kPivots<T>)
-        for (int a = begin; a < end; ++a) upper_[a] = row_[a - begin];
     }
     return true;
   }
@@ -117,19 +106,12 @@ class BlockLu {
     const BlockPattern& p = *pattern_;
     for (int k = 0; k < p.n(); ++k) {
       auto& here = x[p.row_at(k)];
-      if constexpr (!kPivots<T>) {
-        apply_lower(diagonal_[k], here);
-        here = over_pivots(diagonal_[k], here);
-      }
+      apply_lower(diagonal_[k], here);
+      here = over_pivots(diagonal_[k], here);
       for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_transposed_product(x[p.row_at(p.column(a))], upper_[a], here);
     }
     for (int k = p.n() - 1; k >= 0; --k) {
       auto& here = x[p.row_at(k)];
-      if constexpr (kPivots<T>) {
-        here = product(diagonal_[k], here);
-        for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(here, upper_[a], x[p.row_at(p.column(a))]);
-        continue;
-      }
       auto sum = here;
       for (int i = 0; i < N; ++i) sum[i] = {};
       for (int a = p.first(k); a < p.first(k + 1); ++a) add_product(sum, upper_[a], x[p.row_at(p.column(a))]);
