@@ -10,8 +10,6 @@ namespace {
 
 using S = Planar;
 
-const S::Motion kStill{};
-
 // Turned about the origin by `angle` and then shifted, its velocity too.
 S::Motion displaced(const S::Motion& m, double angle, const S::Point& shift) {
   S::Motion turn;
@@ -29,7 +27,7 @@ S::Motion displaced(const S::Motion& m, double angle, const S::Point& shift) {
 class LinkForces {
  public:
   void look(const CheckLink& link, const CheckState& state) {
-    const S::Motion A = motion(link.at.a, state), B = motion(link.at.b, state);
+    const S::Motion A = motion_of(link.at.a, state.m), B = motion_of(link.at.b, state.m);
     const RelativePose pose = RelativePose::between(A, link.at.F, B, link.at.M);
     if (!(link_steps(link, pose, state.length).length > 1e-12)) return;
     const Reading r = read(link.probe, pose);
@@ -42,8 +40,6 @@ class LinkForces {
   }
 
  private:
-  static S::Motion motion(int body, const CheckState& state) { return body == kGround ? kStill : state.m[body]; }
-
   void look_at_balance(const CheckLink& link, const Reading& r, const S::Motion& A, const S::Motion& B,
                        const CheckState& state, const CheckPlace& place) {
     const S::Vec f =

@@ -11,8 +11,6 @@ using S = Planar;
 using Vec6 = DisturbedLink::Vec6;
 using Mat36 = Eigen::Matrix<double, 3, 6>;
 
-const S::Motion kStill{};
-
 class ProbeSlopes {
  public:
   explicit ProbeSlopes(const System& system) : system_(system) {}
@@ -70,8 +68,7 @@ class ProbeSlopes {
   void look_at_rate_gradient(DisturbedLink& bodies, const CheckLink& link, const CheckState& state,
                              const RelativePose& pose, const Reading& here, const Mat36& G, const Vec6& step,
                              const CheckPlace& place) {
-    const auto motion = [&](int body) { return body == kGround ? kStill : state.m[body]; };
-    const Mat36 analytic = rate_gradient(link.probe, pose, motion(link.at.a), motion(link.at.b));
+    const Mat36 analytic = rate_gradient(link.probe, pose, motion_of(link.at.a, state.m), motion_of(link.at.b, state.m));
     const double size = (G.cwiseAbs() * bodies.velocities().cwiseAbs()).maxCoeff() + here.rate.cwiseAbs().maxCoeff();
     rate_gradient_.slopes(
         used(bodies, analytic), [&](int c, double s) { return bodies.reading(s * Vec6::Unit(c)).rate; }, step,

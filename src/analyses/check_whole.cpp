@@ -47,7 +47,6 @@ class Forces {
   }
 
   void add_joint(int j, Vecs& out) const {
-    static const S::Motion kStill{};
     const JointData& joint = system_.joints[j];
     const int a = joint.at.a, b = joint.at.b;
     const RelativePose pose = system_.pose(joint.at, state_.m);
@@ -59,7 +58,7 @@ class Forces {
     Eigen::Matrix<double, 3, 6> G;
     G << r.GA(), r.GB();
     const auto slope =
-        rate_gradient(joint.probe, pose, a == kGround ? kStill : state_.m[a], b == kGround ? kStill : state_.m[b]);
+        rate_gradient(joint.probe, pose, motion_of(a, state_.m), motion_of(b, state_.m));
     const S::Vec df = -(law.stiffness * (G * q) + law.damping * (slope * q + G * v));
     const Eigen::Matrix<double, 6, 1> dQ = geometric_stiffness(joint.probe, pose, law.force) * q + G.transpose() * df;
     if (a != kGround) out[a] += dQ.head<3>();

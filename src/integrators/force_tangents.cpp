@@ -3,13 +3,8 @@
 #include <algorithm>
 
 namespace pintle {
-namespace {
 
 using S = Planar;
-
-const S::Motion kStill{};
-
-}  // namespace
 
 ForceTangents::ForceTangents(const System& system)
     : system_(system), joint_places_(system.joints.size()),
@@ -32,7 +27,7 @@ int ForceTangents::place(int row, int column) const {
 // theory/solvers Eq. (1.3).
 void ForceTangents::add_joint(int j, double t) {
   const JointData& joint = system_.joints[j];
-  const S::Motion &A = joint.at.a == kGround ? kStill : motions_[joint.at.a], &B = joint.at.b == kGround ? kStill : motions_[joint.at.b];
+  const S::Motion &A = motion_of(joint.at.a, motions_), &B = motion_of(joint.at.b, motions_);
   const Reading r = system_.reading(j, t, motions_);
   const RelativePose pose = system_.pose(joint.at, motions_);
   const Response law = respond(joint.law, r.gap, r.rate);

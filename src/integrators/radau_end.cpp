@@ -50,7 +50,7 @@ void RadauStepper::finish_step(double h) {
   nodes_.gap_accel[0] = begin_.gap_accel;
   nodes_.force[0] = begin_.force;
   end_.t = begin_.t + h;
-  step_end_->finish(stage_[n_ - 1], end_, end_m_, end_r_);
+  step_end_->finish(stage_[n_ - 1], h, end_, end_m_, end_r_);
   add_work(h);
   for (int s = 0; s < n_; ++s) {
     nodes_.a[s + 1].swap(stage_[s].a);

@@ -1,6 +1,7 @@
 #include "integrators/step_end.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,6 +16,11 @@ using S = Planar;
 
 // What the rounding of positions leaves of a gap, or that of velocities of its rate.
 double rounding_of(const Vecs& x) { return 16 * std::numeric_limits<double>::epsilon() * largest_coordinate(x); }
+
+// As carried, but as the geometry has it where that is another one.
+S::Vec carried_or(const S::Vec& carried, const S::Vec& geometry, double rounding) {
+  return ((geometry - carried).array().abs() > rounding).select(geometry, carried);
+}
 
 class EndSolver : public StepEnd {
  public:
@@ -58,25 +64,25 @@ class EndSolver : public StepEnd {
     return true;
   }
 
-  void find_end(const Stage& last, State& end, std::vector<S::Motion>& m, std::vector<Reading>& r) {
-    const double rounding = rounding_of(last.q), rounding_of_rate = rounding_of(last.v);
+  void find_end(const Stage& last, double h, State& end, std::vector<S::Motion>& m, std::vector<Reading>& r) {
+    const double rounding = rounding_of(last.q), rounding_of_rate = std::max(rounding_of(last.v), rounding / std::abs(h));
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) end.q[b][k] = last.q[b][k] + four_[b][k][3];
     end.v = last.v;
     end.a = last.a;
     end.gap_accel = last.gap_accel;
     system_.motions(end.q, end.v, m);
-    if (!(ask_rates(last, end, m, r) < rounding)) {  // one pass has left more
-      ask_gaps(last, r);
+    if (!(ask_rates(last, end, m) < rounding)) {  // one pass has left more
+      ask_gaps(last, end, m);
       answer(end.q);
       system_.motions(end.q, end.v, m);
-      ask_rates(last, end, m, r);
+      ask_rates(last, end, m);
     }
     move_velocities(end, m);
-    if (!(ask_forces(last, end, m, r, rounding) < rounding_of_rate)) {
-      ask_rates(last, r);
+    if (!(ask_forces(last, end, m, r, rounding, rounding_of_rate) < rounding_of_rate)) {
+      ask_rates(last, end, m);
       move_velocities(end, m);
-      ask_forces(last, end, m, r, rounding);
+      ask_forces(last, end, m, r, rounding, rounding_of_rate);
     }
     balance(last, end);
   }
@@ -137,7 +143,7 @@ class EndSolver : public StepEnd {
       if (joint.forbidden[k]) than = std::max(than, std::abs(gap[k]));
     return than;
   }
-  void nothing(std::vector<Three>& x) { std::fill(x.begin(), x.end(), Three{}); }
+  static void clear(std::vector<Three>& x) { std::fill(x.begin(), x.end(), Three{}); }
 
   void answer(Vecs& x) {
     lu_.solve(one_);
@@ -145,23 +151,19 @@ class EndSolver : public StepEnd {
       for (int k = 0; k < S::kDof; ++k) x[b][k] += one_[b][k];
   }
 
-  void ask_gaps(const Stage& last, const std::vector<Reading>& r) {
-    nothing(one_);
-    for (std::size_t j = 0; j < joints_.size(); ++j) ask(joints_[j], last.gap[j] - r[j].gap);
+  void ask_gaps(const Stage& last, const State& end, const std::vector<S::Motion>& m) {
+    clear(one_);
+    for (std::size_t j = 0; j < joints_.size(); ++j) ask(joints_[j], last.gap[j] - system_.reading(static_cast<int>(j), end.t, m).gap);
   }
 
-  void ask_rates(const Stage& last, const std::vector<Reading>& r) {
-    nothing(one_);
-    for (std::size_t j = 0; j < joints_.size(); ++j) ask(joints_[j], last.gap_rate[j] - r[j].rate);
-  }
-  // The same where nothing has been read; what is left of the gaps is returned.
-  double ask_rates(const Stage& last, const State& end, const std::vector<S::Motion>& m, std::vector<Reading>& r) {
-    nothing(one_);
+  // What is left of the gaps is returned.
+  double ask_rates(const Stage& last, const State& end, const std::vector<S::Motion>& m) {
+    clear(one_);
     double left = 0;
     for (std::size_t j = 0; j < joints_.size(); ++j) {
-      r[j] = system_.reading(static_cast<int>(j), end.t, m);
-      left = largest(joints_[j], last.gap[j] - r[j].gap, left);
-      ask(joints_[j], last.gap_rate[j] - r[j].rate);
+      const Reading r = system_.reading(static_cast<int>(j), end.t, m);
+      left = largest(joints_[j], last.gap[j] - r.gap, left);
+      ask(joints_[j], last.gap_rate[j] - r.rate);
     }
     return left;
   }
@@ -174,10 +176,11 @@ class EndSolver : public StepEnd {
     }
   }
 
-  // The joints' forces at their gaps, into pull_ by the matrix's map, so that the balance takes off all that is wrong with them; and what their accelerations want, into one_. What is left of the rates is returned.
-  double ask_forces(const Stage& last, State& end, const std::vector<S::Motion>& m, std::vector<Reading>& r, double rounding) {
-    nothing(one_);
-    nothing(pull_);
+  // The joints' forces at their gaps, into pull_ by the matrix's map, so that the balance takes off all that is wrong with them; and
+  // what their accelerations want, into one_. What is left of the rates is returned.
+  double ask_forces(const Stage& last, State& end, const std::vector<S::Motion>& m, std::vector<Reading>& r, double rounding, double rounding_of_rate) {
+    clear(one_);
+    clear(pull_);
     double left = 0;
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const Joint& joint = joints_[j];
@@ -185,9 +188,8 @@ class EndSolver : public StepEnd {
       r[j] = system_.reading(static_cast<int>(j), end.t, m);
       left = largest(joint, last.gap_rate[j] - r[j].rate, left);
       ask(joint, last.gap_accel[j] - r[j].bias - gap_change(data.at, r[j], last.a));
-      const S::Vec difference = r[j].gap - last.gap[j];
-      for (int k = 0; k < S::kDof; ++k) end.gap[j][k] = std::abs(difference[k]) > rounding ? r[j].gap[k] : last.gap[j][k];
-      end.gap_rate[j] = r[j].rate;
+      end.gap[j] = carried_or(last.gap[j], r[j].gap, rounding);
+      end.gap_rate[j] = carried_or(last.gap_rate[j], r[j].rate, rounding_of_rate);
       end.force[j] = joint.linear ? joint.linear->force(end.gap[j], end.gap_rate[j]) : law_force(data.law, end.gap[j], end.gap_rate[j]);
       joint.map.push(end.force[j].data(), pull_[joint.a], pull_[joint.b]);
     }
@@ -200,7 +202,7 @@ class EndSolver : public StepEnd {
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) pull_[b][k] += last.Q[b][k] - system_.bodies[b].mass[k] * (last.a[b][k] + one_[b][k]);
     lu_.solve(pull_);
-    nothing_of_ground(pull_);
+    pull_.back() = {};  // the ground's
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const Joint& joint = joints_[j];
       double gap[3], change[3];
@@ -209,7 +211,6 @@ class EndSolver : public StepEnd {
       for (int k = 0; k < S::kDof; ++k) end.force[j][k] -= change[k];
     }
   }
-  static void nothing_of_ground(std::vector<Three>& x) { x.back() = {}; }
 
   const System& system_;
   std::vector<Joint> joints_;
@@ -224,7 +225,7 @@ class NarrowEnd final : public EndSolver {
  public:
   using EndSolver::EndSolver;
   bool prepare(double t, double mu, const Stage& last, StageTails& tails) override { return find_answers(t, mu, last, tails); }
-  void finish(const Stage& last, State& end, std::vector<S::Motion>& m, std::vector<Reading>& r) override { find_end(last, end, m, r); }
+  void finish(const Stage& last, double h, State& end, std::vector<S::Motion>& m, std::vector<Reading>& r) override { find_end(last, h, end, m, r); }
 };
 
 #ifdef PINTLE_WIDE
@@ -232,7 +233,7 @@ class WideEnd final : public EndSolver {
  public:
   using EndSolver::EndSolver;
   PINTLE_WIDE bool prepare(double t, double mu, const Stage& last, StageTails& tails) override { return find_answers(t, mu, last, tails); }
-  PINTLE_WIDE void finish(const Stage& last, State& end, std::vector<S::Motion>& m, std::vector<Reading>& r) override { find_end(last, end, m, r); }
+  PINTLE_WIDE void finish(const Stage& last, double h, State& end, std::vector<S::Motion>& m, std::vector<Reading>& r) override { find_end(last, h, end, m, r); }
 };
 #endif
 

@@ -39,9 +39,7 @@ Eigen::Matrix<double, 3, 6> both(const RelativePose& pose) {
 
 }  // namespace
 
-Reading read(const Probe& probe, const RelativePose& pose) {
-  if (const auto* plain = std::get_if<Selection>(&probe))
-    return {pose.z - plain->offset, pose.rate, pose.bias, GapMap<double>::of(pose)};
+Reading read_function(const Probe& probe, const RelativePose& pose) {
   return visit_scalar(probe, pose.z, [&](const GapFunction* g, const S::Vec&) { return read_scalar(*g, pose); });
 }
 

@@ -10,10 +10,6 @@ namespace {
 using S = Planar;
 constexpr int kMaxSignals = 16;
 
-const S::Motion kStill{};
-
-const S::Motion& motion(int body, const std::vector<S::Motion>& m) { return body == kGround ? kStill : m[body]; }
-
 Probe probe_of(const LoadData& load) {
   if (load.kind == LoadKind::kSpring) return Distance{load.free};
   return Selection{S::Vec::Unit(load.component) * (load.kind == LoadKind::kTorsionSpring ? load.free : 0.0)};
@@ -168,7 +164,7 @@ void System::load_tangents(const LoadData& load, double t, const std::vector<S::
   const std::array<int, 2> body{load.at.a, load.at.b};
   const std::array<Eigen::RowVector3d, 2> G{s.reading.GA().row(s.slot), s.reading.GB().row(s.slot)};
   const auto geometric = geometric_stiffness(s.probe, s.pose, Vec::Unit(s.slot) * s.effort);
-  const auto rate_slope = rate_gradient(s.probe, s.pose, motion(load.at.a, m), motion(load.at.b, m));
+  const auto rate_slope = rate_gradient(s.probe, s.pose, motion_of(load.at.a, m), motion_of(load.at.b, m));
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) {
       if (body[i] == kGround || body[j] == kGround) continue;
@@ -182,7 +178,7 @@ void System::load_tangents(const LoadData& load, double t, const std::vector<S::
     if (signal.joint < 0) continue;
     const Placement& at = joints[signal.joint].at;
     const RelativePose p = pose(at, m);
-    const auto slope = p.rate_gradient(motion(at.a, m), motion(at.b, m));
+    const auto slope = p.rate_gradient(motion_of(at.a, m), motion_of(at.b, m));
     const std::array<int, 2> source{at.a, at.b};
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j) {

@@ -4,22 +4,8 @@
 #include <array>
 
 namespace pintle {
-namespace {
 
 using S = Planar;
-
-const S::Motion kStill{};
-
-const S::Motion& motion(int body, const std::vector<S::Motion>& m) { return body == kGround ? kStill : m[body]; }
-
-void take_off_target(const JointData& joint, double t, Reading& r) {
-  const auto target = servo_target(joint, t);
-  r.gap[joint.servo] -= target[0];
-  r.rate[joint.servo] -= target[1];
-  r.bias[joint.servo] -= target[2];
-}
-
-}  // namespace
 
 std::array<double, 3> servo_target(const JointData& joint, double t) {
   auto target = joint.target.variables().empty() ? std::array<double, 3>{joint.target.value({}), 0, 0}
@@ -57,15 +43,11 @@ void System::motions(const Vecs& q, const Vecs& v, std::vector<S::Motion>& out) 
   for (std::size_t i = 0; i < bodies.size(); ++i) out[i] = S::Motion::of(q[i], v[i]);
 }
 
-RelativePose System::pose(const Placement& at, const std::vector<S::Motion>& m) const {
-  return RelativePose::between(motion(at.a, m), at.F, motion(at.b, m), at.M);
-}
-
-Reading System::reading(int j, double t, const std::vector<S::Motion>& m) const {
-  const JointData& joint = joints[j];
-  Reading r = read(joint.probe, pose(joint.at, m));
-  if (joint.servo >= 0) take_off_target(joint, t, r);
-  return r;
+void System::take_off_target(const JointData& joint, double t, Reading& r) {
+  const auto target = servo_target(joint, t);
+  r.gap[joint.servo] -= target[0];
+  r.rate[joint.servo] -= target[1];
+  r.bias[joint.servo] -= target[2];
 }
 
 void System::readings(double t, const std::vector<S::Motion>& m, std::vector<Reading>& out) const {

@@ -30,6 +30,13 @@ struct BodyData {
   double radius_of_gyration() const { return std::sqrt(mass[2] / mass[0]); }  // [m]
 };
 
+inline const Planar::Motion kStill{};
+
+/// A body's motion, or that of the ground, which stands still.
+inline const Planar::Motion& motion_of(int body, const std::vector<Planar::Motion>& m) {
+  return body == kGround ? kStill : m[body];
+}
+
 /// A pair of frames on two bodies; kGround is the world.
 struct Placement {
   int a = kGround, b = kGround;
@@ -142,9 +149,16 @@ class System {
   /// Where the bodies are and how they move.
   void motions(const Vecs& q, const Vecs& v, std::vector<S::Motion>& out) const;
   /// The relative pose of a placement.
-  RelativePose pose(const Placement& at, const std::vector<S::Motion>& m) const;
+  RelativePose pose(const Placement& at, const std::vector<S::Motion>& m) const {
+    return RelativePose::between(motion_of(at.a, m), at.F, motion_of(at.b, m), at.M);
+  }
   /// Gap, rate, Jacobians and convective term of joint j at time t (a servo's target taken off).
-  Reading reading(int j, double t, const std::vector<S::Motion>& m) const;
+  Reading reading(int j, double t, const std::vector<S::Motion>& m) const {
+    const JointData& joint = joints[j];
+    Reading r = read(joint.probe, pose(joint.at, m));
+    if (joint.servo >= 0) take_off_target(joint, t, r);
+    return r;
+  }
   void readings(double t, const std::vector<S::Motion>& m, std::vector<Reading>& out) const;
   /// Gravity, springs, applied forces and effort motors: the generalised force on every body. Motors in `held` stand at a jump.
   void external(double t, const std::vector<S::Motion>& m, Vecs& Q, HeldJumps held = {}) const;
@@ -175,6 +189,8 @@ class System {
   double largest_radius_of_gyration() const;  // [m]
 
  private:
+  static void take_off_target(const JointData& joint, double t, Reading& r);
+
   struct LoadState;
   LoadState load_state(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held) const;
   const Expression::Ramp* ramp_of(const LoadData& load, HeldJumps held) const;

@@ -11,8 +11,6 @@ namespace {
 
 using S = Planar;
 
-const S::Motion kStill{};
-
 bool carries_coordinates(const JointData& joint) {
   return joint.servo < 0 && (joint.type == "revolute" || joint.type == "prismatic" || joint.type == "fixed" || joint.type == "slot");
 }
@@ -169,7 +167,7 @@ void JointTree::place(const Eigen::VectorXd& y, const Eigen::VectorXd& u, TreePo
 void JointTree::place_on_parent(int body, const Eigen::VectorXd& y, const Eigen::VectorXd& u, TreePose& pose) const {
   const Link& link = link_[body];
   const JointData& joint = system_.joints[link.joint];
-  const S::Motion& P = link.parent == kGround ? kStill : pose.m[link.parent];
+  const S::Motion& P = motion_of(link.parent, pose.m);
   const S::Frame &F = joint.at.F, &M = joint.at.M;
   const auto coordinate = [&link](const Eigen::VectorXd& x, int column) { return column < 0 ? 0.0 : x[link.first + column]; };
   const double slide = link.slide < 0 ? offset(joint, 0) : y[link.first + link.slide];
