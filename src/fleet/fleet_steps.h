@@ -397,7 +397,7 @@ class FleetSteps {
     for (std::size_t i = 0; i < n_; ++i)
       for (int k = 0; k < 3; ++k) end_.v[i][k] += move_[i][k];
     read_rates(mechanism_, end_.t, end_.v, m_, r_);
-    take_gaps();
+    take_gaps(h);
     move_ = last.a;
     find_missing(mechanism_, r_, last.accel, &FleetReading::bias, move_, wanted_);
     projector_.close(wanted_, move_);
@@ -406,14 +406,17 @@ class FleetSteps {
   }
 
   // Eq. (4.3).
-  PINTLE_LANES void take_gaps() {
+  PINTLE_LANES void take_gaps(const Each& h) {
     const Stage& last = stage_[N - 1];
     Each largest(1e-3);
     for (std::size_t i = 0; i < n_; ++i) largest = larger(largest, larger(sizes(end_.q[i][0]), sizes(end_.q[i][1])));
-    const Each rounding = (16 * 2.220446049250313e-16) * largest;
+    const Each rounding = (16 * 2.220446049250313e-16) * largest, of_rate = rounding * reciprocal(h);
+    const auto carried_or = [](const Each& carried, const Each& geometry, const Each& limit) { return where_larger(sizes(geometry - carried), limit, geometry, carried); };
     for (std::size_t j = 0; j < r_.size(); ++j) {
-      for (int k = 0; k < 3; ++k) end_.gap[j][k] = where_larger(sizes(r_[j].gap[k] - last.gap[j][k]), rounding, r_[j].gap[k], last.gap[j][k]);
-      end_.rate[j] = r_[j].rate;
+      for (int k = 0; k < 3; ++k) {
+        end_.gap[j][k] = carried_or(last.gap[j][k], r_[j].gap[k], rounding);
+        end_.rate[j][k] = carried_or(last.rate[j][k], r_[j].rate[k], of_rate);
+      }
       end_.force[j] = FleetMechanism::law_force(mechanism_.joints[j], end_.gap[j], end_.rate[j]);
     }
   }
