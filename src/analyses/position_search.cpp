@@ -132,9 +132,9 @@ void PositionSearch::run(Vecs& q, int max_iterations) {
       now = next;
       damping = std::max(damping * 0.1, 1e-12);
       if (settled) return;
-      } else {
+    } else {
       readings_at(system_, 0, q, still, m_, r_);
-        damping *= 10;
+      damping *= 10;
       if (damping > 1e12 || step < 1e-15) return;
     }
   }

@@ -176,25 +176,33 @@ class SlowMotion {
   void follow(State& at, double s0, double s1) {
     const double eager = let_go_ ? paces_.fastest * span_ * (s1 - s0) / kEager : 0;
     const int steps = static_cast<int>(std::clamp(std::ceil(eager), 1.0, kMostSteps));
-    for (int i = 0; i < steps; ++i) runge_kutta(at, s0 + (s1 - s0) * i / steps, s0 + (s1 - s0) * (i + 1) / steps);
+    for (int i = 0; i < steps; ++i) {
+      if (i > 0) accelerate(at, s0 + (s1 - s0) * i / steps);
+      runge_kutta(at, s0 + (s1 - s0) * i / steps, s0 + (s1 - s0) * (i + 1) / steps);
+    }
   }
 
-  // One classical Runge-Kutta step of the motion whose gap accelerations are given.
+  void accelerate(State& at, double s) {
+    set_accel(at, s);
+    forces_.find_accelerations(at);
+  }
+
+  // One classical Runge-Kutta step of the motion whose gap accelerations are given, from where accelerations have been found.
   void runge_kutta(State& at, double s0, double s1) {
     const double h = span_ * (s1 - s0);
     auto& [begin, now, kq, kv] = work_;
     begin = at;
     constexpr std::array<double, 4> c{0, 0.5, 0.5, 1};
-    for (int stage = 0; stage < 4; ++stage) {
+    kq[0] = begin.v;
+    kv[0] = begin.a;
+    for (int stage = 1; stage < 4; ++stage) {
       now = begin;
       now.t = start_.t + span_ * s0 + c[stage] * h;
-      if (stage > 0)
-        for (std::size_t i = 0; i < now.q.size(); ++i) {
-          now.q[i] += c[stage] * h * kq[stage - 1][i];
-          now.v[i] += c[stage] * h * kv[stage - 1][i];
-        }
-      set_accel(now, s0 + c[stage] * (s1 - s0));
-      forces_.find(now);
+      for (std::size_t i = 0; i < now.q.size(); ++i) {
+        now.q[i] += c[stage] * h * kq[stage - 1][i];
+        now.v[i] += c[stage] * h * kv[stage - 1][i];
+      }
+      accelerate(now, s0 + c[stage] * (s1 - s0));
       kq[stage] = now.v;
       kv[stage] = now.a;
     }

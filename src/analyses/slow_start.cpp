@@ -127,6 +127,15 @@ double ForcesOfMotion::largest_held(const Vecs& gap) const {
 
 // theory/assembly Eqs. (3.1), (3.2): first the free bodies' accelerations, then what the joints ask for, then the forces.
 bool ForcesOfMotion::find(State& state) {
+  if (!find_accelerations(state)) return false;
+  for (int pass = 0; pass < kClosing; ++pass) {
+    const double change = projector_.improve_forces(Q_, state.a, state.force);
+    if (change <= kClosed * largest_force(state.force)) break;
+  }
+  return true;
+}
+
+bool ForcesOfMotion::find_accelerations(State& state) {
   system_.motions(state.q, state.v, m_);
   system_.readings(state.t, m_, r_);
   const Vecs* moved = moved_.empty() ? nullptr : &moved_;
@@ -144,10 +153,6 @@ bool ForcesOfMotion::find(State& state) {
     if (pass == 0) first = missing;
     else if (missing <= kClosed * first) break;
     projector_.close(wanted_, state.a);
-  }
-  for (int pass = 0; pass < kClosing; ++pass) {
-    const double change = projector_.improve_forces(Q_, state.a, state.force);
-    if (change <= kClosed * largest_force(state.force)) break;
   }
   return true;
 }

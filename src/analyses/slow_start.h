@@ -33,6 +33,8 @@ class ForcesOfMotion {
   /// Accelerations and joint forces at state.q, state.v for which the gaps accelerate as state.gap_accel says; what no
   /// motion can close stays as state.force has it. False when there is no stiff joint or the equations are singular.
   bool find(State& state);
+  /// The accelerations alone.
+  bool find_accelerations(State& state);
   /// The gaps at which the laws give state.force at state.gap_rate.
   void carry(State& state) const;
   /// Moves q and v so that the joints have the gaps and rates of the state. Call after `find` near that state.

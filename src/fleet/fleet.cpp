@@ -17,7 +17,7 @@ namespace {
 // Peaks are better than what steps leave unresolved. Steps of the base are tried with so much more than the tolerance, then tighter,
 // until its peaks are within this share of it; and a variant's steps may leave so much more unresolved than the base's.
 constexpr double kLoosest = 1000, kTighten = 3.1622776601683795, kShare = 0.1, kWorse = 4;
-constexpr double kOfNewton = 0.1;  // tolerance of iterations over that of steps
+constexpr double kOfNewton = 0.2;  // tolerance of iterations over that of steps
 constexpr int kMostIterations = 10;  // in a step of the base: with more, shorter steps are cheaper, and a variant may not converge
 constexpr double kNegligible = 1e-4;  // of the largest load of the mechanism
 constexpr double kMostSlack = 16, kLeastSlack = 1.2;  // of the base's joints, before one of them would count as soft
@@ -163,7 +163,7 @@ bool Fleet::is_like_base(const System& variant) const {
 
 bool Fleet::put(int lane, const Model& variant) {
   System& system = variant_[lane];
-  system = build_system(variant);
+  system = build_system(variant, &plan_.base);
   if (!is_like_base(system)) return false;
   const Assembly assembly = assemble_bodies(variant, system);
   const auto board = [&](int i) {

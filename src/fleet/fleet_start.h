@@ -70,6 +70,10 @@ class FleetStart {
 
   // Accelerations and forces for which the gaps accelerate as the state says. assembly Eqs. (3.1), (3.2).
   void find_forces(FleetState& state) {
+    find_accelerations(state);
+    for (int pass = 0; pass < kClosing; ++pass) projector_.improve_forces(Q_, state.a, state.force);
+  }
+  void find_accelerations(FleetState& state) {
     read(state);
     projector_.prepare(r_, held_above());
     mechanism_.external(state.t, m_, Q_);
@@ -79,7 +83,6 @@ class FleetStart {
       find_missing(mechanism_, r_, state.accel, &FleetReading::bias, state.a, wanted_);
       projector_.close(wanted_, state.a);
     }
-    for (int pass = 0; pass < kClosing; ++pass) projector_.improve_forces(Q_, state.a, state.force);
   }
 
   PINTLE_PART void carry(FleetState& state) const {
@@ -213,7 +216,7 @@ class FleetStart {
           now_.v[i][k] += d * kv_[stage - 1][i][k];
         }
       set_accel(now_, s0 + c[stage] * (s1 - s0));
-      find_forces(now_);
+      find_accelerations(now_);
       kq_[stage] = now_.v;
       kv_[stage] = now_.a;
     }

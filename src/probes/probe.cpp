@@ -39,7 +39,8 @@ Eigen::Matrix<double, 3, 6> both(const RelativePose& pose) {
 
 }  // namespace
 
-Reading read_function(const Probe& probe, const RelativePose& pose) {
+Reading read(const Probe& probe, const RelativePose& pose) {
+  if (const auto* plain = std::get_if<Selection>(&probe)) return read(*plain, pose);
   return visit_scalar(probe, pose.z, [&](const GapFunction* g, const S::Vec&) { return read_scalar(*g, pose); });
 }
 

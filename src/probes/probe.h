@@ -27,14 +27,9 @@ struct Reading {
   Planar::Mat GB() const { return map.GB(); }
 };
 
-/// Reads a probe that is a function of the pose.
-Reading read_function(const Probe& probe, const RelativePose& pose);
-
 /// Reads the probe at a relative pose.
-inline Reading read(const Probe& probe, const RelativePose& pose) {
-  if (const auto* plain = std::get_if<Selection>(&probe)) return {pose.z - plain->offset, pose.rate, pose.bias, GapMap<double>::of(pose)};
-  return read_function(probe, pose);
-}
+Reading read(const Probe& probe, const RelativePose& pose);
+inline Reading read(const Selection& probe, const RelativePose& pose) { return {pose.z - probe.offset, pose.rate, pose.bias, GapMap<double>::of(pose)}; }
 
 /// The law's force as seen by z: J' f.
 Planar::Vec to_pose_force(const Probe& probe, const RelativePose& pose, const Planar::Vec& force);

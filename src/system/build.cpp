@@ -24,13 +24,13 @@ class Builder {
     for (std::size_t j = 0; j < model.joints.size(); ++j) joint_index_[model.joints[j].name] = static_cast<int>(j);
   }
 
-  System build() {
+  System build(const System* like) {
     for (const Body& body : model_.bodies) add_body(body);
     for (const Joint& joint : model_.joints) add_joint(joint);
     for (const Motor& motor : model_.motors) add_motor(motor);
     for (const Spring& spring : model_.springs) add_spring(spring);
     for (const AppliedForce& force : model_.forces) add_force(force);
-    system_.finish();
+    system_.finish(like);
     return std::move(system_);
   }
 
@@ -224,7 +224,7 @@ void settle_joint(const Joint& joint, const RelativePose& pose, Probe& probe, st
 
 }  // namespace
 
-System build_system(const Model& model) { return Builder(model).build(); }
+System build_system(const Model& model, const System* like) { return Builder(model).build(like); }
 
 bool is_open(const Model& model, const System& system, int j) {
   const JointData& data = system.joints[j];

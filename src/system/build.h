@@ -8,8 +8,8 @@ namespace pintle {
 
 /// The system of a model. What depends on the assembled positions (a rod without a stated length, gear phases, free
 /// lengths, where a constant-speed drive starts) is still open: `settle` fixes it. Throws std::invalid_argument on names
-/// that do not exist; models from files have been checked before.
-System build_system(const Model& model);
+/// that do not exist; models from files have been checked before. `like`: a system that this one may be a variant of.
+System build_system(const Model& model, const System* like = nullptr);
 
 /// Is the gap of joint j known before assembly? Not so for rods without length, gears, racks and constant-speed drives.
 bool is_open(const Model& model, const System& system, int j);

@@ -15,10 +15,10 @@ std::array<double, 3> servo_target(const JointData& joint, double t) {
   return target;
 }
 
-void System::finish() {
-  std::vector<std::pair<int, int>> pairs;
-  const auto couple = [&pairs](int a, int b) {
-    if (a != kGround && b != kGround && a != b) pairs.emplace_back(a, b);
+void System::finish(const System* like) {
+  coupled_.clear();
+  const auto couple = [this](int a, int b) {
+    if (a != kGround && b != kGround && a != b) coupled_.emplace_back(a, b);
   };
   for (const JointData& joint : joints) couple(joint.at.a, joint.at.b);
   for (const LoadData& load : loads) {
@@ -29,7 +29,8 @@ void System::finish() {
         for (const int j : {joints[signal.joint].at.a, joints[signal.joint].at.b}) couple(i, j);
     }
   }
-  pattern_ = BlockPattern(n_bodies(), pairs);
+  const bool same = like && like->n_bodies() == n_bodies() && like->coupled_ == coupled_;
+  pattern_ = same ? like->pattern_ : std::make_shared<const BlockPattern>(n_bodies(), coupled_);
   has_branches_ =
       std::any_of(joints.begin(), joints.end(), [](const JointData& j) { return pintle::has_branches(j.law) || j.target.has_branches(); }) ||
       std::any_of(loads.begin(), loads.end(), [](const LoadData& load) { return load.law.has_branches(); }) ||

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -142,9 +143,9 @@ class System {
   int n_joints() const { return static_cast<int>(joints.size()); }
   /// Whether anything but weight and joints acts.
   bool has_loads() const { return !loads.empty() || !applied.empty(); }
-  const BlockPattern& pattern() const { return pattern_; }
-  /// Fixes the pattern; call when bodies, joints and loads are complete.
-  void finish();
+  const BlockPattern& pattern() const { return *pattern_; }
+  /// Fixes the pattern; call when bodies, joints and loads are complete. Variants of one mechanism share that of `like`.
+  void finish(const System* like = nullptr);
 
   /// Where the bodies are and how they move.
   void motions(const Vecs& q, const Vecs& v, std::vector<S::Motion>& out) const;
@@ -155,7 +156,8 @@ class System {
   /// Gap, rate, Jacobians and convective term of joint j at time t (a servo's target taken off).
   Reading reading(int j, double t, const std::vector<S::Motion>& m) const {
     const JointData& joint = joints[j];
-    Reading r = read(joint.probe, pose(joint.at, m));
+    const auto* plain = std::get_if<Selection>(&joint.probe);  // inlined, so that nothing is computed that is not looked at
+    Reading r = plain ? read(*plain, pose(joint.at, m)) : read(joint.probe, pose(joint.at, m));
     if (joint.servo >= 0) take_off_target(joint, t, r);
     return r;
   }
@@ -201,7 +203,8 @@ class System {
   void load_tangents(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held, std::vector<Tangent>& out) const;
   void applied_tangents(const AppliedData& force, double t, const std::vector<S::Motion>& m, std::vector<Tangent>& out) const;
 
-  BlockPattern pattern_;
+  std::vector<std::pair<int, int>> coupled_;  // bodies
+  std::shared_ptr<const BlockPattern> pattern_ = std::make_shared<const BlockPattern>();
   bool has_branches_ = false;
   mutable std::vector<Tangent> tangents_;  // reused so that steps do not allocate
 };
