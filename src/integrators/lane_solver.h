@@ -46,6 +46,7 @@ class LaneSolver : public StageSolver {
     const LinearLaw* linear = nullptr;  // its law, if that is one
     int full = -1;           // its matrix among full_, where that is not diagonal
     bool function = false;   // its gap is a function of the pose
+    bool loses = false;      // power, as a spring and a damper that no motor drives
     BlockPattern::Slot slot{};  // of its bodies, A before B
   };
   struct Curve;  // through the last step's nodes

@@ -1,6 +1,8 @@
 // The loads that relative errors refer to. theory/time section 3.5.
 #pragma once
 
+#include <algorithm>
+
 #include "system/state.h"
 
 namespace pintle {
@@ -13,11 +15,15 @@ struct LoadScale {
 /// At least this much per mass, where nothing acts [m/s^2].
 inline constexpr double kLeastLoad = 1e-9;
 
-/// Raises `scale` to what acts on each body of `state`: r are the joints' readings there, Q the external forces. `load` is
-/// scratch, one per body.
-void grow_load_scale(const System& system, const std::vector<Reading>& r, const Vecs& Q, const State& state, Vecs& load, LoadScale& scale);
+/// Raises a body's scale to the sum of the magnitudes of what acts on it.
+inline void raise_scale(const BodyData& body, const Planar::Vec& load, Planar::Vec& scale) {
+  const double radius = body.radius_of_gyration();
+  const double force = std::max({scale[0], load[0], load[1], kLeastLoad * body.mass[0]}), moment = std::max(scale[2], load[2]);
+  scale[0] = scale[1] = std::max(force, 1e-3 * moment / radius);
+  scale[2] = std::max(moment, 1e-3 * scale[0] * radius);
+}
 
-/// The same where nothing has been read yet: m are the motions of `state`.
+/// Raises `scale` to what acts on each body of `state`: m are the motions there, Q the external forces.
 void grow_load_scale(const System& system, const std::vector<Planar::Motion>& m, const Vecs& Q, const State& state, LoadScale& scale);
 
 }  // namespace pintle

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "integrators/radau_stepper.h"
+#include "integrators/stage_lanes.h"
 #include "integrators/step_error.h"
 
 namespace pintle {
@@ -14,9 +15,7 @@ using S = Planar;
 bool RadauStepper::error_estimate(double h, double& error) {
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!step_end_->prepare(begin_.t + h, mu, stage_[n_ - 1], tails_)) return false;
-  // The gaps' own accelerations come out of the stages as second differences of what the forces demand; where a joint is
-  // neither stiff nor soft for this step, their error is the force's.
-  error = of_motion_ ? motion_tail() : std::max(tail_size(tails_.bodies, scale_, 1), tail_size(step_end_->answers(), scale_, kGapError));
+  error = of_motion_ ? motion_tail() : step_end_->error(tails_, scale_);
   return std::isfinite(error);
 }
 
@@ -26,22 +25,10 @@ double RadauStepper::motion_tail() {
   for (int i = 0; i < system_.n_bodies(); ++i)
     for (int c = 0; c < S::kDof; ++c) tails_.bodies[i][c] = system_.bodies[i].mass[c] * tails_.bodies[i][c];
   solver_->yield_to(tails_.bodies);
-  return tail_size(tails_.bodies, motion_scale_.loads(), 1);
-}
-
-// The size of the last of three coefficients on the bodies, with what the next one will be like: they fall off by a ratio where the
-// motion is smooth (then the next one is that much smaller than the last) and do not where it vibrates.
-double RadauStepper::tail_size(const std::vector<Four>& tails, const LoadScale& scale, double factor) const {
-  Lanes<4> size = Lanes<4>::all(0), sum = size;
+  TailSize size;
   for (int i = 0; i < system_.n_bodies(); ++i)
-    for (int k = 0; k < S::kDof; ++k) {
-      const Lanes<4> relative = (system_.bodies[i].mass[k] / scale.body[i][k]) * tails[i][k];
-      size = larger_size(size, relative);
-      sum += relative;
-    }
-  if (!std::isfinite(sum[0] + sum[1] + sum[2])) return std::numeric_limits<double>::infinity();
-  if (!(size[0] > 0)) return 0;
-  return factor * size[0] * fall_off(size[0], size[1], size[2]);
+    for (int k = 0; k < S::kDof; ++k) size.add((system_.bodies[i].mass[k] / motion_scale_.loads().body[i][k]) * tails_.bodies[i][k]);
+  return size.value();
 }
 
 // theory/time Eqs. (4.1)-(4.3).
@@ -50,7 +37,7 @@ void RadauStepper::finish_step(double h) {
   nodes_.gap_accel[0] = begin_.gap_accel;
   nodes_.force[0] = begin_.force;
   end_.t = begin_.t + h;
-  step_end_->finish(stage_[n_ - 1], h, end_, end_m_, end_r_);
+  step_end_->finish(stage_[n_ - 1], h, end_, end_m_, scale_);
   add_work(h);
   for (int s = 0; s < n_; ++s) {
     nodes_.a[s + 1].swap(stage_[s].a);
@@ -60,18 +47,18 @@ void RadauStepper::finish_step(double h) {
   nodes_.force[n_] = end_.force;
   control_.have_history = true;
   if (system_.has_branches()) see_sides();
-  grow_scale();
   control_.last = h;
 }
 
 void RadauStepper::add_work(double h) {
   nodes_.power[0] = {begin_.supply_power, begin_.loss_power};
-  for (int s = 0; s < n_; ++s) nodes_.power[s + 1] = power_of_loads(begin_.t + h * table_.c[s], stage_[s].q, stage_[s].m);
-  for (int j = 0; j < system_.n_joints(); ++j)
-    for (int s = 0; s < n_; ++s) {
-      const Stage& stage = stage_[s];
-      add_power(system_.joints[j], stage.m, stage.gap[j], stage.gap_rate[j], stage.force[j], nodes_.power[s + 1]);
-    }
+  for (int s = 0; s < n_; ++s) {
+    const Stage& stage = stage_[s];
+    Power& power = nodes_.power[s + 1];
+    power = power_of_loads(begin_.t + h * table_.c[s], stage.q, stage.m);
+    power[1] += stage.loss;
+    for (const int j : powered_) add_power(system_.joints[j], stage.m, stage.gap[j], stage.gap_rate[j], stage.force[j], power);
+  }
   end_.supplied = begin_.supplied;
   end_.dissipated = begin_.dissipated;
   for (int s = 0; s < n_; ++s) {
@@ -100,7 +87,5 @@ void RadauStepper::find_power() {
   end_.supply_power = power[0];
   end_.loss_power = power[1];
 }
-
-void RadauStepper::grow_scale() { grow_load_scale(system_, end_r_, stage_[n_ - 1].Q, end_, load_, scale_); }
 
 }  // namespace pintle

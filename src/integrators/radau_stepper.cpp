@@ -10,7 +10,7 @@ using S = Planar;
 RadauStepper::RadauStepper(const System& system, double tolerance, int stages, ToleranceOf tolerance_of)
     : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion),
       solver_(make_stage_solver(system, table_, tolerance, of_motion_ ? Steps::kLong : Steps::kAccurate)), stage_(table_.n), step_end_(make_step_end(system)),
-      tails_{std::vector<Four>(system.bodies.size()), std::vector<Four>(system.joints.size())}, load_(system.bodies.size()), end_r_(system.joints.size()), end_m_(system.bodies.size()) {
+      tails_{std::vector<Four>(system.bodies.size()), std::vector<Four>(system.joints.size())}, end_r_(system.joints.size()), end_m_(system.bodies.size()) {
   const std::size_t n = system.bodies.size(), m = system.joints.size();
   const Vecs bodies(n, S::Vec::Zero()), joints(m, S::Vec::Zero());
   for (Stage& s : stage_) {
@@ -23,6 +23,8 @@ RadauStepper::RadauStepper(const System& system, double tolerance, int stages, T
   inside_q_ = inside_v_ = bodies;
   inside_gap_ = inside_rate_ = joints;
   scale_.body = bodies;
+  for (int j = 0; j < system.n_joints(); ++j)
+    if (system.joints[j].servo >= 0 || !std::holds_alternative<LinearLaw>(system.joints[j].law)) powered_.push_back(j);
 }
 
 bool RadauStepper::attempt(double h) {
@@ -37,14 +39,13 @@ void RadauStepper::start(const State& state, double h) {
   begin_ = end_ = state;
   control_.start(h);
   system_.motions(end_.q, end_.v, end_m_);
-  system_.readings(end_.t, end_m_, end_r_);
   Stage& last = stage_[n_ - 1];
   last.Q.assign(system_.bodies.size(), S::Vec::Zero());
   system_.external(end_.t, end_m_, last.Q, end_.held);
   find_power();
   jumps_.forget();
   side_ = system_.has_branches() ? system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.held) : 0;
-  grow_scale();
+  grow_load_scale(system_, end_m_, last.Q, end_, scale_);
   if (unloaded()) foresee_loads(h);
 }
 
@@ -64,7 +65,7 @@ void RadauStepper::foresee_loads(double h) {
   State ahead = end_;
   ahead.a = stage_[n_ - 1].a;
   ahead.force = stage_[n_ - 1].force;
-  grow_load_scale(system_, end_r_, stage_[n_ - 1].Q, ahead, load_, scale_);
+  grow_load_scale(system_, end_m_, stage_[n_ - 1].Q, ahead, scale_);
 }
 
 bool RadauStepper::step(double t_end) {

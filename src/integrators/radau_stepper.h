@@ -62,7 +62,6 @@ class RadauStepper {
 
   // radau_end.cpp: the error of a step and its end
   bool error_estimate(double h, double& error);
-  double tail_size(const std::vector<Four>& tails, const LoadScale& scale, double factor) const;
   double motion_tail();                       // as accelerations that the bodies can yield to
   void finish_step(double h);                 // fills end_ and nodes_
   using Power = std::array<double, 2>;        // supplied, lost [W]
@@ -71,7 +70,6 @@ class RadauStepper {
   void add_power(const JointData& joint, const std::vector<Planar::Motion>& m, const Planar::Vec& gap, const Planar::Vec& rate,
                  const Planar::Vec& force, Power& power) const;
   void find_power();
-  void grow_scale();
 
   // radau_kinks.cpp: steps that end where a force has a kink
   Kink find_kink(double h, bool solved);
@@ -98,7 +96,8 @@ class RadauStepper {
   StepNodes nodes_;
   std::unique_ptr<StepEnd> step_end_;
   StageTails tails_;
-  Vecs load_, inside_q_, inside_v_, inside_gap_, inside_rate_;
+  std::vector<int> powered_;                  // joints whose power no stage has summed up
+  Vecs inside_q_, inside_v_, inside_gap_, inside_rate_;
   std::vector<Reading> end_r_;
   std::vector<Planar::Motion> end_m_, inside_m_;
   LoadScale scale_;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "integrators/radau_table.h"
+#include "integrators/step_error.h"
 #include "probes/gap_map.h"
 #include "solve/spectrum.h"
 
@@ -94,5 +95,23 @@ double largest(const Lanes<N>& size, const Lanes<N>& sum) {
   }
   return worst;
 }
+
+/// The size of the last of three coefficients, with what the next one will be like: they fall off by a ratio where the motion is
+/// smooth (then the next one is that much smaller than the last) and do not where it vibrates.
+class TailSize {
+ public:
+  PINTLE_LANES void add(const Lanes<4>& relative) {
+    size_ = larger_size(size_, relative);
+    sum_ += relative;
+  }
+  PINTLE_LANES double value() const {
+    if (!std::isfinite(sum_[0] + sum_[1] + sum_[2])) return std::numeric_limits<double>::infinity();
+    if (!(size_[0] > 0)) return 0;
+    return size_[0] * fall_off(size_[0], size_[1], size_[2]);
+  }
+
+ private:
+  Lanes<4> size_ = Lanes<4>::all(0), sum_ = size_;
+};
 
 }  // namespace pintle

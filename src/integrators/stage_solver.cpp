@@ -33,7 +33,8 @@ LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double 
       joint.full = static_cast<int>(full_.size());
       full_.emplace_back();
     }
-    simple_ = simple_ && joint.linear && data.servo < 0;
+    joint.loses = joint.linear && data.servo < 0;
+    simple_ = simple_ && joint.loses;
     poses_ = poses_ && joint.linear && !joint.function;
     servos = servos || data.servo >= 0;
     if (data.at.a != kGround && data.at.b != kGround) joint.slot = system.pattern().slot(data.at.a, data.at.b);
@@ -406,6 +407,7 @@ void LaneSolver<N>::write_stages(const State& begin, std::vector<Stage>& stages,
     }
     for (int k = 0; k < 3; ++k) put(begin.a[b][k] * matrices_.tail_of_start + matrices_.tail * body.a[k], tails.bodies[b][k]);
   }
+  L loss = L::all(0);
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const Joint& joint = joints_[j];
     L gap[3], rate[3];
@@ -413,14 +415,18 @@ void LaneSolver<N>::write_stages(const State& begin, std::vector<Stage>& stages,
       gap[k] = place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], rate[k]);
       put(matrices_.tail_of_stages * joint.accel[k], tails.gaps[j][k]);
     }
+    if (joint.loses)
+      for (int k = 0; k < 3; ++k) loss += joint.linear->c[k] * (rate[k] * rate[k]);
     for (int s = 0; s < N; ++s) {
       Stage& stage = stages[s];
-      copy(rate, s, stage.gap_rate[j]);
       copy(joint.accel, s, stage.gap_accel[j]);
       copy(joint.force, s, stage.force[j]);
-      if (!simple || s == N - 1) copy(gap, s, stage.gap[j]);
+      if (simple && s < N - 1) continue;
+      copy(rate, s, stage.gap_rate[j]);
+      copy(gap, s, stage.gap[j]);
     }
   }
+  for (int s = 0; s < N; ++s) stages[s].loss = loss[s];
 }
 
 template <int N>

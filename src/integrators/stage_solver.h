@@ -15,11 +15,12 @@
 namespace pintle {
 
 /// One stage of a step: where everything is, and the forces. Where nothing but springs and dampers acts, stages before the last one
-/// have accelerations, gap rates and joint forces only.
+/// have accelerations and joint forces only.
 struct Stage {
   Vecs q, v, a, Q;                            // bodies
   Vecs gap, gap_rate, gap_accel, force;       // joints
   std::vector<Planar::Motion> m;
+  double loss = 0;                            // power lost in the springs and dampers that are joints [W]
 };
 
 /// Four numbers side by side for each coordinate of a body, or component of a gap.

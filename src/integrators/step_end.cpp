@@ -7,6 +7,7 @@
 
 #include "integrators/pose_blocks.h"
 #include "integrators/stage_lanes.h"
+#include "integrators/step_error.h"
 #include "solve/wide.h"
 
 namespace pintle {
@@ -64,7 +65,20 @@ class EndSolver : public StepEnd {
     return true;
   }
 
-  void find_end(const Stage& last, double h, State& end, std::vector<S::Motion>& m, std::vector<Reading>& r) {
+  // The gaps' own accelerations come out of the stages as second differences of what the forces demand; where a joint is
+  // neither stiff nor soft for this step, their error is the force's.
+  double find_error(const StageTails& tails, const LoadScale& scale) const {
+    TailSize bodies, gaps;
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < S::kDof; ++k) {
+        const double over = system_.bodies[b].mass[k] / scale.body[b][k];
+        bodies.add(over * tails.bodies[b][k]);
+        gaps.add(over * four_[b][k]);
+      }
+    return std::max(bodies.value(), kGapError * gaps.value());
+  }
+
+  void find_end(const Stage& last, double h, State& end, std::vector<S::Motion>& m, LoadScale& scale) {
     const double rounding = rounding_of(last.q), rounding_of_rate = std::max(rounding_of(last.v), rounding / std::abs(h));
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) end.q[b][k] = last.q[b][k] + four_[b][k][3];
@@ -79,12 +93,12 @@ class EndSolver : public StepEnd {
       ask_rates(last, end, m);
     }
     move_velocities(end, m);
-    if (!(ask_forces(last, end, m, r, rounding, rounding_of_rate) < rounding_of_rate)) {
+    if (!(ask_forces(last, end, m, rounding, rounding_of_rate) < rounding_of_rate)) {
       ask_rates(last, end, m);
       move_velocities(end, m);
-      ask_forces(last, end, m, r, rounding, rounding_of_rate);
+      ask_forces(last, end, m, rounding, rounding_of_rate);
     }
-    balance(last, end);
+    balance(last, end, scale);
   }
 
  private:
@@ -178,38 +192,51 @@ class EndSolver : public StepEnd {
 
   // The joints' forces at their gaps, into pull_ by the matrix's map, so that the balance takes off all that is wrong with them; and
   // what their accelerations want, into one_. What is left of the rates is returned.
-  double ask_forces(const Stage& last, State& end, const std::vector<S::Motion>& m, std::vector<Reading>& r, double rounding, double rounding_of_rate) {
+  double ask_forces(const Stage& last, State& end, const std::vector<S::Motion>& m, double rounding, double rounding_of_rate) {
     clear(one_);
     clear(pull_);
     double left = 0;
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const Joint& joint = joints_[j];
       const JointData& data = system_.joints[j];
-      r[j] = system_.reading(static_cast<int>(j), end.t, m);
-      left = largest(joint, last.gap_rate[j] - r[j].rate, left);
-      ask(joint, last.gap_accel[j] - r[j].bias - gap_change(data.at, r[j], last.a));
-      end.gap[j] = carried_or(last.gap[j], r[j].gap, rounding);
-      end.gap_rate[j] = carried_or(last.gap_rate[j], r[j].rate, rounding_of_rate);
+      const Reading r = system_.reading(static_cast<int>(j), end.t, m);
+      left = largest(joint, last.gap_rate[j] - r.rate, left);
+      ask(joint, last.gap_accel[j] - r.bias - gap_change(data.at, r, last.a));
+      end.gap[j] = carried_or(last.gap[j], r.gap, rounding);
+      end.gap_rate[j] = carried_or(last.gap_rate[j], r.rate, rounding_of_rate);
       end.force[j] = joint.linear ? joint.linear->force(end.gap[j], end.gap_rate[j]) : law_force(data.law, end.gap[j], end.gap_rate[j]);
       joint.map.push(end.force[j].data(), pull_[joint.a], pull_[joint.b]);
     }
     return left;
   }
 
-  // At the end of the step positions and velocities are better than anywhere inside: so are the forces that balance them.
-  void balance(const Stage& last, State& end) {
+  // At the end of the step positions and velocities are better than anywhere inside: so are the forces that balance them. The
+  // magnitudes of the loads on each body go into one_.
+  void balance(const Stage& last, State& end, LoadScale& scale) {
     lu_.solve(one_);
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) pull_[b][k] += last.Q[b][k] - system_.bodies[b].mass[k] * (last.a[b][k] + one_[b][k]);
     lu_.solve(pull_);
     pull_.back() = {};  // the ground's
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < S::kDof; ++k) one_[b][k] = std::abs(last.Q[b][k]) + std::abs(system_.bodies[b].mass[k] * end.a[b][k]);
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const Joint& joint = joints_[j];
       double gap[3], change[3];
       joint.map.gather(pull_[joint.a].a.data(), pull_[joint.b].a.data(), gap);
       weigh(joint, gap, change);
       for (int k = 0; k < S::kDof; ++k) end.force[j][k] -= change[k];
+      const auto on = joint.map.spread(end.force[j].data());
+      const double fx = std::abs(on.fx), fy = std::abs(on.fy);
+      add(one_[joint.a], fx, fy, std::abs(on.ma));
+      add(one_[joint.b], fx, fy, std::abs(on.mb));
     }
+    for (std::size_t b = 0; b < n_bodies(); ++b) raise_scale(system_.bodies[b], S::Vec(one_[b][0], one_[b][1], one_[b][2]), scale.body[b]);
+  }
+  static void add(Three& to, double x, double y, double angle) {
+    to[0] += x;
+    to[1] += y;
+    to[2] += angle;
   }
 
   const System& system_;
@@ -225,7 +252,8 @@ class NarrowEnd final : public EndSolver {
  public:
   using EndSolver::EndSolver;
   bool prepare(double t, double mu, const Stage& last, StageTails& tails) override { return find_answers(t, mu, last, tails); }
-  void finish(const Stage& last, double h, State& end, std::vector<S::Motion>& m, std::vector<Reading>& r) override { find_end(last, h, end, m, r); }
+  double error(const StageTails& tails, const LoadScale& scale) const override { return find_error(tails, scale); }
+  void finish(const Stage& last, double h, State& end, std::vector<S::Motion>& m, LoadScale& scale) override { find_end(last, h, end, m, scale); }
 };
 
 #ifdef PINTLE_WIDE
@@ -233,7 +261,8 @@ class WideEnd final : public EndSolver {
  public:
   using EndSolver::EndSolver;
   PINTLE_WIDE bool prepare(double t, double mu, const Stage& last, StageTails& tails) override { return find_answers(t, mu, last, tails); }
-  PINTLE_WIDE void finish(const Stage& last, double h, State& end, std::vector<S::Motion>& m, std::vector<Reading>& r) override { find_end(last, h, end, m, r); }
+  PINTLE_WIDE double error(const StageTails& tails, const LoadScale& scale) const override { return find_error(tails, scale); }
+  PINTLE_WIDE void finish(const Stage& last, double h, State& end, std::vector<S::Motion>& m, LoadScale& scale) override { find_end(last, h, end, m, scale); }
 };
 #endif
 

@@ -21,10 +21,12 @@ class StepEnd {
   /// By body: accelerations that answer the gaps' tails [m/s^2, m/s^2, rad/s^2], and in the fourth place the displacement that closes
   /// the gaps [m, m, rad].
   virtual const std::vector<Four>& answers() const = 0;
+  /// The size of the tails of the bodies' forces, and of what the gaps' own demand of them, over the load scale. Eqs. (3.12), (3.13).
+  virtual double error(const StageTails& tails, const LoadScale& scale) const = 0;
   /// Fills `end` from the last stage of a step of h: moved onto its gaps, the gaps and their rates as carried but as the geometry has
-  /// them where no motion could bring them there (redundant joints), forces balanced. Eqs. (4.1)-(4.4). m, r: motions and readings
-  /// at the end.
-  virtual void finish(const Stage& last, double h, State& end, std::vector<Planar::Motion>& m, std::vector<Reading>& r) = 0;
+  /// them where no motion could bring them there (redundant joints), forces balanced. Eqs. (4.1)-(4.4). m: motions at the end. The
+  /// scale is raised to what acts there.
+  virtual void finish(const Stage& last, double h, State& end, std::vector<Planar::Motion>& m, LoadScale& scale) = 0;
 };
 
 std::unique_ptr<StepEnd> make_step_end(const System& system);
