@@ -52,10 +52,11 @@ class EndSolver : public StepEnd {
     begin_matrix(mu);
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
-      const Reading r = system_.reading(static_cast<int>(j), t, last.m);
-      joint.map = r.map;
+      system_.with_reading(j, t, last.m, [&](const Reading& r) {
+        joint.map = r.map;
+        for (int k = 0; k < S::kDof; ++k) tails.gaps[j][k].set(3, last.gap[j][k] - r.gap[k]);
+      });
       add_joint(j, mu, last);
-      for (int k = 0; k < S::kDof; ++k) tails.gaps[j][k].set(3, last.gap[j][k] - r.gap[k]);
       Four f;
       weigh(joint, tails.gaps[j].a.data(), f.a.data());
       joint.map.push(f.a.data(), four_[joint.a], four_[joint.b]);
@@ -167,18 +168,19 @@ class EndSolver : public StepEnd {
 
   void ask_gaps(const Stage& last, const State& end, const std::vector<S::Motion>& m) {
     clear(one_);
-    for (std::size_t j = 0; j < joints_.size(); ++j) ask(joints_[j], last.gap[j] - system_.reading(static_cast<int>(j), end.t, m).gap);
+    for (std::size_t j = 0; j < joints_.size(); ++j)
+      system_.with_reading(j, end.t, m, [&](const Reading& r) { ask(joints_[j], last.gap[j] - r.gap); });
   }
 
   // What is left of the gaps is returned.
   double ask_rates(const Stage& last, const State& end, const std::vector<S::Motion>& m) {
     clear(one_);
     double left = 0;
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
-      const Reading r = system_.reading(static_cast<int>(j), end.t, m);
-      left = largest(joints_[j], last.gap[j] - r.gap, left);
-      ask(joints_[j], last.gap_rate[j] - r.rate);
-    }
+    for (std::size_t j = 0; j < joints_.size(); ++j)
+      system_.with_reading(j, end.t, m, [&](const Reading& r) {
+        left = largest(joints_[j], last.gap[j] - r.gap, left);
+        ask(joints_[j], last.gap_rate[j] - r.rate);
+      });
     return left;
   }
 
@@ -199,11 +201,12 @@ class EndSolver : public StepEnd {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const Joint& joint = joints_[j];
       const JointData& data = system_.joints[j];
-      const Reading r = system_.reading(static_cast<int>(j), end.t, m);
-      left = largest(joint, last.gap_rate[j] - r.rate, left);
-      ask(joint, last.gap_accel[j] - r.bias - gap_change(data.at, r, last.a));
-      end.gap[j] = carried_or(last.gap[j], r.gap, rounding);
-      end.gap_rate[j] = carried_or(last.gap_rate[j], r.rate, rounding_of_rate);
+      system_.with_reading(j, end.t, m, [&](const Reading& r) {
+        left = largest(joint, last.gap_rate[j] - r.rate, left);
+        ask(joint, last.gap_accel[j] - r.bias - gap_change(data.at, r, last.a));
+        end.gap[j] = carried_or(last.gap[j], r.gap, rounding);
+        end.gap_rate[j] = carried_or(last.gap_rate[j], r.rate, rounding_of_rate);
+      });
       end.force[j] = joint.linear ? joint.linear->force(end.gap[j], end.gap_rate[j]) : law_force(data.law, end.gap[j], end.gap_rate[j]);
       joint.map.push(end.force[j].data(), pull_[joint.a], pull_[joint.b]);
     }

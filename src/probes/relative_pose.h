@@ -73,12 +73,12 @@ inline RelativePose RelativePose::between(const S::Motion& A, const S::Frame& F,
   RelativePose r;
   r.c = g.c;
   r.s = g.s;
-  r.arm_a << g.ax, g.ay;
-  r.arm_b << g.bx, g.by;
+  r.arm_a = {g.ax, g.ay};
+  r.arm_b = {g.bx, g.by};
   const double rx = g.rx + A.w * g.dy, ry = g.ry - A.w * g.dx;
-  r.z << g.c * g.dx + g.s * g.dy, g.c * g.dy - g.s * g.dx, B.angle + M.angle - A.angle - F.angle;  // (2.1), (2.4)
-  r.rate << g.c * rx + g.s * ry, g.c * ry - g.s * rx, B.w - A.w;                    // (2.2)
-  r.bias << g.bias_x, g.bias_y, 0;
+  r.z = {g.c * g.dx + g.s * g.dy, g.c * g.dy - g.s * g.dx, B.angle + M.angle - A.angle - F.angle};  // (2.1), (2.4)
+  r.rate = {g.c * rx + g.s * ry, g.c * ry - g.s * rx, B.w - A.w};                   // (2.2)
+  r.bias = {g.bias_x, g.bias_y, 0};
   return r;
 }
 

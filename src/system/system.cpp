@@ -44,11 +44,15 @@ void System::motions(const Vecs& q, const Vecs& v, std::vector<S::Motion>& out) 
   for (std::size_t i = 0; i < bodies.size(); ++i) out[i] = S::Motion::of(q[i], v[i]);
 }
 
-void System::take_off_target(const JointData& joint, double t, Reading& r) {
+Reading System::reading(int j, double t, const std::vector<S::Motion>& m) const {
+  const JointData& joint = joints[j];
+  Reading r = read(joint.probe, pose(joint.at, m));
+  if (joint.servo < 0) return r;
   const auto target = servo_target(joint, t);
   r.gap[joint.servo] -= target[0];
   r.rate[joint.servo] -= target[1];
   r.bias[joint.servo] -= target[2];
+  return r;
 }
 
 void System::readings(double t, const std::vector<S::Motion>& m, std::vector<Reading>& out) const {

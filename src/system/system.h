@@ -154,12 +154,14 @@ class System {
     return RelativePose::between(motion_of(at.a, m), at.F, motion_of(at.b, m), at.M);
   }
   /// Gap, rate, Jacobians and convective term of joint j at time t (a servo's target taken off).
-  Reading reading(int j, double t, const std::vector<S::Motion>& m) const {
+  Reading reading(int j, double t, const std::vector<S::Motion>& m) const;
+  /// Calls use(reading). Of plain joints nothing is computed that it does not look at, where it is inlined.
+  template <class Use>
+  void with_reading(std::size_t j, double t, const std::vector<S::Motion>& m, Use&& use) const {
     const JointData& joint = joints[j];
-    const auto* plain = std::get_if<Selection>(&joint.probe);  // inlined, so that nothing is computed that is not looked at
-    Reading r = plain ? read(*plain, pose(joint.at, m)) : read(joint.probe, pose(joint.at, m));
-    if (joint.servo >= 0) take_off_target(joint, t, r);
-    return r;
+    const auto* plain = std::get_if<Selection>(&joint.probe);
+    if (plain && joint.servo < 0) use(read(*plain, pose(joint.at, m)));
+    else use(reading(static_cast<int>(j), t, m));
   }
   void readings(double t, const std::vector<S::Motion>& m, std::vector<Reading>& out) const;
   /// Gravity, springs, applied forces and effort motors: the generalised force on every body. Motors in `held` stand at a jump.
@@ -191,7 +193,6 @@ class System {
   double largest_radius_of_gyration() const;  // [m]
 
  private:
-  static void take_off_target(const JointData& joint, double t, Reading& r);
 
   struct LoadState;
   LoadState load_state(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held) const;
