@@ -183,6 +183,14 @@ PINTLE_LANES void apply_lower(const Block<T, N>& m, V& x) {
     for (int j = 0; j < i; ++j) x[i] += m(i, j) * x[j];
 }
 
+/// B becomes M' B.
+template <class T, int N>
+PINTLE_LANES void apply_lower_transposed(const Block<T, N>& m, Block<T, N>& B) {
+  for (int j = 0; j < N - 1; ++j)
+    for (int i = j + 1; i < N; ++i)
+      for (int c = 0; c < N; ++c) B(j, c) += m(i, j) * B(i, c);
+}
+
 /// x becomes M' x.
 template <class V, class T, int N>
 PINTLE_LANES void apply_lower_transposed(const Block<T, N>& m, V& x) {
@@ -205,13 +213,6 @@ PINTLE_LANES V over_pivots(const Block<T, N>& m, const V& x) {
   V out;
   for (int i = 0; i < N; ++i) out[i] = m(i, i) * x[i];
   return out;
-}
-
-/// sum += A x.
-template <class V, class T, int N>
-PINTLE_LANES void add_product(V& sum, const Block<T, N>& A, const V& x) {
-  for (int j = 0; j < N; ++j)
-    for (int i = 0; i < N; ++i) sum[i] += A(i, j) * x[j];
 }
 
 }  // namespace pintle

@@ -67,7 +67,8 @@ class BlockLu {
     return true;
   }
 
-  // Pivot blocks are L D L', and what stands above the diagonal becomes L^-1 U.
+  // Pivot blocks Z are L D L', and what stands above the diagonal becomes Z^-1 U: in a solve each row waits for one product with the
+  // row before it and for nothing else.
   bool factorize_upper() {
     const BlockPattern& p = *pattern_;
     for (int k = 0; k < p.n(); ++k) {
@@ -83,6 +84,10 @@ class BlockLu {
           if (*target == 0) subtract_symmetric_product(diagonal_[p.column(a)], upper_[a], row_[a - begin]);
           else if (*target > 0) subtract_transposed_product(upper_[*target - 1], upper_[a], row_[b - begin]);
         }
+      for (int a = begin; a < end; ++a) {
+        apply_lower_transposed(diagonal_[k], row_[a - begin]);
+        upper_[a] = row_[a - begin];
+      }
     }
     return true;
   }
@@ -106,18 +111,14 @@ class BlockLu {
     const BlockPattern& p = *pattern_;
     for (int k = 0; k < p.n(); ++k) {
       auto& here = x[p.row_at(k)];
+      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_transposed_product(x[p.row_at(p.column(a))], upper_[a], here);
       apply_lower(diagonal_[k], here);
       here = over_pivots(diagonal_[k], here);
-      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_transposed_product(x[p.row_at(p.column(a))], upper_[a], here);
+      apply_lower_transposed(diagonal_[k], here);
     }
     for (int k = p.n() - 1; k >= 0; --k) {
       auto& here = x[p.row_at(k)];
-      auto sum = here;
-      for (int i = 0; i < N; ++i) sum[i] = {};
-      for (int a = p.first(k); a < p.first(k + 1); ++a) add_product(sum, upper_[a], x[p.row_at(p.column(a))]);
-      sum = over_pivots(diagonal_[k], sum);
-      for (int i = 0; i < N; ++i) here[i] -= sum[i];
-      apply_lower_transposed(diagonal_[k], here);
+      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(here, upper_[a], x[p.row_at(p.column(a))]);
     }
   }
 

@@ -6,11 +6,6 @@
 #include <cassert>
 
 namespace pintle {
-namespace {
-
-constexpr int kSmall = 200;  // rows up to which minimum degree alone decides
-
-}  // namespace
 
 BlockPattern::BlockPattern(int n, const std::vector<std::pair<int, int>>& pairs) : n_(n) {
   order_rows(pairs);
@@ -20,13 +15,14 @@ BlockPattern::BlockPattern(int n, const std::vector<std::pair<int, int>>& pairs)
 
 void BlockPattern::order_rows(const std::vector<std::pair<int, int>>& pairs) {
   position_.assign(n_, -1);
-  if (n_ > kSmall) peel(pairs);
+  peel(pairs);
   order_core(pairs);
   for (int k = 0; k < n_; ++k) position_[order_[k]] = k;
 }
 
 // Rows with one neighbour left, or none, go first: they make no fill. Trees and chains are ordered by this alone, and
-// minimum degree, which may merge siblings, is left with what holds loops.
+// minimum degree, which may merge siblings, is left with what holds loops. Chains are eliminated from both ends at once, which is
+// faster by what a processor does side by side.
 void BlockPattern::peel(const std::vector<std::pair<int, int>>& pairs) {
   std::vector<std::vector<int>> neighbours(n_);
   for (const auto& [i, j] : pairs) {
