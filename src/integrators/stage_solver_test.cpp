@@ -67,7 +67,7 @@ double collocation_misfit(const RadauTable& table, int i, double h, const Vec& x
 
 // Relative to sizes; what remains is that of the iteration or, in the first, of rounding.
 struct Misfits {
-  double collocation = 0, pose = 0, force = 0, motion = 0, gap = 0;
+  double collocation = 0, pose = 0, force = 0, motion = 0, gap = 0, loss = 0;
 };
 
 // What is missing in Eqs. (3.5) and (3.6) at the stages, evaluated one by one in plain numbers.
@@ -97,6 +97,10 @@ Misfits misfits(const Start& at, const RadauTable& table, double h, const std::v
       note(worst.motion, largest((s.Q[b] - Q[b]).cwiseQuotient(at.scale.body[b])));
       left[b] = system.bodies[b].mass.cwiseProduct(s.a[b]) - Q[b];
     }
+    double loss = 0;
+    for (int j = 0; j < system.n_joints(); ++j)
+      if (system.joints[j].servo < 0 && std::holds_alternative<LinearLaw>(system.joints[j].law)) loss += law_loss(system.joints[j].law, s.gap[j], s.gap_rate[j]);
+    note(worst.loss, std::abs(s.loss - loss) / (1 + loss));
     for (int j = 0; j < system.n_joints(); ++j) {
       const Placement& on = system.joints[j].at;
       note(worst.collocation,
@@ -134,6 +138,7 @@ std::vector<Stage> solve_and_check(const Start& at, int stages, double h, const 
   const Misfits left = misfits(at, table, h, found);
   EXPECT_LE(left.collocation, 4e-15) << where;
   EXPECT_LE(left.pose, 3e-16) << where;
+  EXPECT_LE(left.loss, 1e-14) << where;
   EXPECT_LE(left.force, 1e-14) << where;
   EXPECT_LE(left.motion, 1e-12) << where;  // measured: 4e-13
   EXPECT_LE(left.gap, 2e-11) << where;     // measured: 4e-12

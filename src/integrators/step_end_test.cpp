@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "integrators/gap_projector.h"
 #include "integrators/start_states_for_tests.h"
+#include "integrators/step_error.h"
 
 namespace pintle {
 namespace {
@@ -71,6 +73,35 @@ TEST(StepEnd, AnswersAreTheProjectorsOneByOne) {
 }
 
 constexpr double kStep = 2e-3;
+
+// The last coefficient of either kind, over the loads, with what the next one will be like.
+TEST(StepEnd, ErrorIsTheLargerTail) {
+  Random random(11);
+  const LastStage at(sample::four_bar(1e8, 3000), 1e-3, 12);
+  const auto end = make_step_end(at.system);
+  for (const double of_bodies : {1e-9, 1e9}) {
+    StageTails tails = at.random_tails(random);
+    for (std::size_t b = 0; b < tails.bodies.size(); ++b)
+      for (int k = 0; k < 3; ++k)
+        for (int lane = 0; lane < 3; ++lane) tails.bodies[b][k].set(lane, of_bodies * random.uniform(-1, 1));
+    ASSERT_TRUE(end->prepare(at.t, 10, at.stage, tails));
+    LoadScale scale;
+    for (std::size_t b = 0; b < tails.bodies.size(); ++b) scale.body.push_back(random.vector<S::Vec>(1, 2));
+    const auto tail = [&](const std::vector<Four>& of) {
+      double size[3] = {};
+      for (std::size_t b = 0; b < of.size(); ++b)
+        for (int k = 0; k < 3; ++k)
+          for (int lane = 0; lane < 3; ++lane) size[lane] = std::max(size[lane], at.system.bodies[b].mass[k] / scale.body[b][k] * std::abs(of[b][k][lane]));
+      return size[0] * fall_off(size[0], size[1], size[2]);
+    };
+    const double bodies = tail(tails.bodies), gaps = kGapError * tail(end->answers());
+    EXPECT_EQ(bodies > gaps, of_bodies > 1);
+    EXPECT_NEAR(end->error(tails, scale), std::max(bodies, gaps), 1e-14 * std::max(bodies, gaps));
+  }
+  StageTails tails = at.random_tails(random);
+  tails.bodies[0][1].set(1, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_FALSE(std::isfinite(end->error(tails, LoadScale{Vecs(tails.bodies.size(), S::Vec::Ones())})));
+}
 
 // The same end, one question after the other. theory/time Eqs. (4.1)-(4.4). A second pass where the first has left more than
 // rounding.
@@ -147,8 +178,8 @@ TEST(StepEnd, IsWhatTheProjectorDoesOneByOne) {
       State state = sample::plain_start(sample::four_bar(1e8, 3000), at.system);
       state.t = at.t;
       std::vector<S::Motion> m(at.system.bodies.size());
-      std::vector<Reading> r(at.system.joints.size());
-      end->finish(at.stage, kStep, state, m, r);
+      LoadScale scale{Vecs(at.system.bodies.size(), S::Vec(7, 7, 1e-3))}, raised = scale;
+      end->finish(at.stage, kStep, state, m, scale);
       EXPECT_LT(sample::largest_difference(state.q, plain.q), 1e-14) << off << " " << mu;
       EXPECT_LT(sample::largest_difference(state.v, plain.v), 1e-12) << off << " " << mu;
       double size = 0;
@@ -160,10 +191,15 @@ TEST(StepEnd, IsWhatTheProjectorDoesOneByOne) {
       EXPECT_EQ(state.gap_accel, at.stage.gap_accel);
       std::vector<S::Motion> there;
       at.system.motions(state.q, state.v, there);
-      for (int j = 0; j < at.system.n_joints(); ++j) {
-        const Reading expected = at.system.reading(j, at.t, there);
-        EXPECT_EQ(r[j].rate, expected.rate);
-        EXPECT_EQ(r[j].gap, expected.gap);
+      for (std::size_t b = 0; b < m.size(); ++b) {
+        EXPECT_EQ(m[b].p, there[b].p);
+        EXPECT_EQ(m[b].c, there[b].c);
+        EXPECT_EQ(m[b].v, there[b].v);
+      }
+      grow_load_scale(at.system, m, at.stage.Q, state, raised);
+      for (std::size_t b = 0; b < m.size(); ++b) {
+        EXPECT_GT(raised.body[b][0], 7);
+        EXPECT_LT((scale.body[b] - raised.body[b]).cwiseQuotient(raised.body[b]).norm(), 1e-3) << off << " " << mu;  // of maps up to `off` apart
       }
     }
   EXPECT_GT(again, 0);
