@@ -51,6 +51,30 @@ TEST(HeldGasForce, ASoftCompressorRunsThroughItsDeadCentre) {
   }
 }
 
+// While the piston is held, forces are those of the tolerance, at the ends of steps of any length, too.
+TEST(HeldGasForce, EveryToleranceIsMetInAFewPasses) {
+  Model model = soft_compressor();
+  model.simulate.tolerance = 1e-6;
+  const Trajectory fine = simulate(model);
+  ASSERT_EQ(fine.outcome, Outcome::kCompleted) << fine.message;
+  for (const double tolerance : {1e-3, 3e-4, 1e-4, 3e-5, 1e-5}) {
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = simulate(model);
+    EXPECT_EQ(run.outcome, Outcome::kCompleted) << tolerance << ": " << run.message;
+    EXPECT_LE(run.counters.passes, 4) << tolerance;
+    ASSERT_EQ(run.n_rows(), fine.n_rows());
+    for (std::size_t j = 0; j < run.joints.size(); ++j) EXPECT_NEAR(run.joints[j].peak, fine.joints[j].peak, tolerance * fine.joints[j].peak) << tolerance;
+    for (std::size_t c = 0; c < run.columns.size(); ++c) {
+      const std::string& name = run.columns[c].name;
+      if (!name.starts_with("joint.") || !name.ends_with("[world]")) continue;
+      double peak = 0, difference = 0;
+      for (const LoadSummary& joint : fine.joints) peak = std::max(peak, joint.peak);
+      for (std::size_t i = 0; i < run.n_rows(); ++i) difference = std::max(difference, std::abs(run.at(i, c) - fine.at(i, c)));
+      EXPECT_LT(difference, tolerance * peak) << name << " at " << tolerance;
+    }
+  }
+}
+
 // The energy account knows the effort of a motor that is held.
 TEST(HeldGasForce, TheAccountCloses) {
   const Trajectory run = simulate(soft_compressor());

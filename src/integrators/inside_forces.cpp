@@ -34,7 +34,8 @@ class LaneForces : public InsideForces {
     follow(begin, end, nodes);
     factorize(mu);
     move_onto_rates();
-    if (loads_) find_loads(begin);
+    if (!begin.held.empty()) find_balanced_loads();
+    else if (loads_) find_loads(begin);
     balance(mu);
     sampled.front() = begin.force;
     sampled.back() = end.force;
@@ -97,6 +98,7 @@ class LaneForces : public InsideForces {
       for (int k = 0; k < 3; ++k) {
         body.q[k] = place(nodes.a, begin.q, begin.v, end.q, b, k);
         body.v[k] = rate(nodes.a, begin.v, end.v, b, k);
+        if (!begin.held.empty()) body.a[k] = combined(value, nodes.a, b, k);
       }
       sine_and_cosine(body.q[2], body.s, body.c);
     }
@@ -248,6 +250,17 @@ class LaneForces : public InsideForces {
       for (int k = 0; k < 3; ++k) e[k] = joint.accel[k] - e[k];
       weigh(joint, e, joint.change);
       for (L& change : joint.change) change = (1 / (mu * mu)) * change;
+    }
+  }
+
+  // While a motor is held at a jump, those that the curves leave: its ramp is too steep to be asked at their speeds.
+  void find_balanced_loads() {
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < 3; ++k) loads_on_[b][k] = system_.bodies[b].mass[k] * bodies_[b].a[k];
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const Placement& at = system_.joints[j].at;
+      const L *f = joints_[j].force, against[3] = {-f[0], -f[1], -f[2]};
+      joints_[j].map.push(against, loads_on_[body(at.a)], loads_on_[body(at.b)]);
     }
   }
 

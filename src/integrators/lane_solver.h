@@ -62,6 +62,7 @@ class LaneSolver : public StageSolver {
   void place_joint(const State& begin, std::size_t j, L& worst, L& sum);
   void find_missing(const State& begin, double h);
   void find_loads(const State& begin, double h);
+  void find_balanced_loads();
   GapMap<L> answer(std::size_t j);
   void push_answer(std::size_t j);
   GapMap<L> find_map(std::size_t j, L (&bias)[3]) const;

@@ -73,7 +73,7 @@ bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* 
   begin_bodies(begin, curve, scale);
   find_targets(begin.t, h);
   contraction_.start();
-  bool fresh = h != factorized_for_ || contraction_.rate() > kGood, wanted = fresh;  // a factorisation
+  bool fresh = !before || h != factorized_for_ || contraction_.rate() > kGood, wanted = fresh;  // a factorisation; old ones know no new side of a jump
   const Curve* unplaced = &curve;                                                     // the joints are
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
     find_missing(begin, h);
@@ -95,7 +95,10 @@ bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* 
     const double correction = correct(begin);
     ++counters.newton_iterations;
     const auto verdict = contraction_.judge(iteration, correction, tolerance_);
-    if (verdict == NewtonContraction::Verdict::kDone) return true;
+    if (verdict == NewtonContraction::Verdict::kDone) {
+      if (!begin.held.empty()) find_balanced_loads();
+      return true;
+    }
     const bool hopeless = verdict == NewtonContraction::Verdict::kHopeless;
     if (hopeless && fresh) return false;
     if (hopeless || (!fresh && iteration > 0 && (contraction_.rate() > kSlow || iteration > kMostWithOld))) {
@@ -215,6 +218,21 @@ void LaneSolver<N>::find_loads(const State& begin, double h) {
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < 3; ++k) loads_on_[b][k].set(s, Q_[b][k]);
   }
+}
+
+// The loads that the last correction has counted on. A motor that is held at a jump has a ramp so steep that the effort of the last
+// bits of a velocity says less.
+template <int N>
+void LaneSolver<N>::find_balanced_loads() {
+  for (std::size_t b = 0; b < n_bodies(); ++b)
+    for (int k = 0; k < 3; ++k) bodies_[b].missing[k] = system_.bodies[b].mass[k] * bodies_[b].a[k];
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    L bias[3];
+    const L *f = joints_[j].force, against[3] = {-f[0], -f[1], -f[2]};
+    find_map(j, bias).push(against, bodies_[joints_[j].a].missing, bodies_[joints_[j].b].missing);
+  }
+  for (std::size_t b = 0; b < n_bodies(); ++b)
+    for (int k = 0; k < 3; ++k) loads_on_[b][k] = bodies_[b].missing[k];
 }
 
 // Joint j's force on its bodies, and what is missing in its own equation. The map between them is returned. Eq. (3.6).

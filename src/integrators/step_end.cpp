@@ -18,6 +18,8 @@ using S = Planar;
 // What the rounding of positions leaves of a gap, or that of velocities of its rate.
 double rounding_of(const Vecs& x) { return 16 * std::numeric_limits<double>::epsilon() * largest_coordinate(x); }
 
+constexpr double kMostOfRates = 1e-9;  // of the largest velocity: what may be left of rates in the shortest steps
+
 // As carried, but as the geometry has it where that is another one.
 S::Vec carried_or(const S::Vec& carried, const S::Vec& geometry, double rounding) {
   return ((geometry - carried).array().abs() > rounding).select(geometry, carried);
@@ -80,7 +82,7 @@ class EndSolver : public StepEnd {
   }
 
   void find_end(const Stage& last, double h, State& end, std::vector<S::Motion>& m, LoadScale& scale) {
-    const double rounding = rounding_of(last.q), rounding_of_rate = std::max(rounding_of(last.v), rounding / std::abs(h));
+    const double rounding = rounding_of(last.q), rounding_of_rate = std::max(rounding_of(last.v), std::min(rounding / std::abs(h), kMostOfRates * largest_coordinate(last.v)));
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) end.q[b][k] = last.q[b][k] + four_[b][k][3];
     end.v = last.v;

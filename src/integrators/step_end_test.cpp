@@ -113,7 +113,7 @@ class Plainly {
   Plainly(const LastStage& from, double mu) : q(from.stage.q), v(from.stage.v), at_(from), projector_(from.system), wanted_(from.system.joints.size()) {
     EXPECT_TRUE(projector_.prepare(at_.t, at_.stage.m, mu, at_.stage.gap, at_.stage.gap_rate));
     read();
-    const double rounding = rounding_of(q), rounding_of_rate = std::max(rounding_of(v), rounding / kStep);
+    const double rounding = rounding_of(q), rounding_of_rate = std::max(rounding_of(v), std::min(rounding / kStep, 1e-9 * largest_coordinate(v)));
     for (int pass = 0; pass < 2 && (pass == 0 || left(at_.stage.gap, &Reading::gap) >= rounding); ++pass) move(at_.stage.gap, &Reading::gap, q);
     for (int pass = 0; pass < 2 && (pass == 0 || left(at_.stage.gap_rate, &Reading::rate) >= rounding_of_rate); ++pass, ++passes) move(at_.stage.gap_rate, &Reading::rate, v);
     find_forces(rounding, rounding_of_rate);
