@@ -1,0 +1,86 @@
+// The matrix of the stages' equations, in lanes: what LaneSolver puts into it. Included where it is compiled for registers of several
+// widths.
+#pragma once
+
+#include "integrators/lane_solver.h"
+#include "integrators/pose_blocks.h"
+#include "laws/response.h"
+
+namespace pintle {
+
+// Z(mu) of Eq. (3.8) at every eigenvalue, but for the joints: masses, and the loads' slopes at the middle stage.
+template <int N>
+void LaneSolver<N>::begin_matrix(const State& begin, double h) {
+  mu_ = (1 / h) * matrices_.eigenvalue;
+  mu2_ = mu_ * mu_;
+  once_ = reciprocal(mu_);
+  twice_ = once_ * once_;
+  lu_.set_zero();
+  for (int i = 0; i < system_.n_bodies(); ++i)
+    for (int r = 0; r < 3; ++r) lu_.diagonal(i)(r, r) = system_.bodies[i].mass[r] * mu2_;
+  if (poses_ && !loads_) return;
+  for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(kMiddle);
+  const auto add = [this](int i, int j, const Planar::Mat& dq, const Planar::Mat& dv) {  // of a matrix that is not symmetric
+    add_block(i == j ? lu_.diagonal(i) : lu_.off_diagonal(system_.pattern().slot(i, j)), dq, dv, mu_, -1);
+  };
+  system_.external_tangents(begin.t + table_.c[kMiddle] * h, motions_, add, begin.held);
+}
+
+// Joint j's part of that, by its tangents at the middle stage, and its weights of Eq. (3.10).
+template <int N>
+void LaneSolver<N>::linearize(const State& begin, std::size_t j, const GapMap<L>& map) {
+  constexpr int i = kMiddle;
+  Joint& joint = joints_[j];
+  joint.frozen = map.lane(i);
+  if (!joint.linear) {
+    Planar::Vec gap, rate;
+    for (int k = 0; k < 3; ++k) {
+      L rates;
+      gap[k] = place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], rates)[i];
+      rate[k] = rates[i];
+    }
+    const Response response = respond(system_.joints[j].law, gap, rate);
+    for (int k = 0; k < 9; ++k) full_[joint.full][k] = response.stiffness(k / 3, k % 3) * twice_ + response.damping(k / 3, k % 3) * once_;
+    add_joint(j, response);
+    return;
+  }
+  const LinearLaw& law = *joint.linear;
+  for (int k = 0; k < 3; ++k) joint.weight[k] = law.k[k] * twice_ + law.c[k] * once_;
+  const Planar::Vec force(joint.force[0][i], joint.force[1][i], joint.force[2][i]);
+  if (joint.function) {
+    add_joint(j, {force, law.k.asDiagonal(), law.c.asDiagonal()});
+    return;
+  }
+  const X one(1.0);
+  X w[3];
+  for (int k = 0; k < 3; ++k) w[k] = law.k[k] * one + law.c[k] * mu_;
+  add_pose_blocks(lu_, system_.joints[j].at, joint.slot, joint.frozen, w, force);
+}
+
+template <int N>
+void LaneSolver<N>::add_block(Block<X, 3>& block, const Planar::Mat& K, const Planar::Mat& C, const X& mu, double sign) {
+  const X one(1.0);
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) block(r, c) += (sign * K(r, c)) * one + (sign * C(r, c)) * mu;
+}
+
+// G' (K + mu C) G - N of one joint, of any kind.
+template <int N>
+void LaneSolver<N>::add_joint(std::size_t j, const Response& tangents) {
+  const JointData& data = system_.joints[j];
+  const Placement& at = data.at;
+  const RelativePose pose = system_.pose(at, motions_);
+  const Reading r = read(data.probe, pose);
+  const auto geometric = geometric_stiffness(data.probe, pose, tangents.force);
+  const Planar::Mat KA = tangents.stiffness * r.GA(), KB = tangents.stiffness * r.GB(), CA = tangents.damping * r.GA(), CB = tangents.damping * r.GB();
+  const Planar::Mat At = r.GA().transpose(), Bt = r.GB().transpose();
+  if (at.a != kGround) add_block(lu_.diagonal(at.a), At * KA - geometric.template block<3, 3>(0, 0), At * CA, mu_, 1);
+  if (at.b != kGround) add_block(lu_.diagonal(at.b), Bt * KB - geometric.template block<3, 3>(3, 3), Bt * CB, mu_, 1);
+  if (at.a == kGround || at.b == kGround) return;
+  BlockPattern::Slot slot = joints_[j].slot;
+  if (lu_.has(slot)) add_block(lu_.off_diagonal(slot), At * KB - geometric.template block<3, 3>(0, 3), At * CB, mu_, 1);
+  slot.upper = !slot.upper;
+  if (lu_.has(slot)) add_block(lu_.off_diagonal(slot), Bt * KA - geometric.template block<3, 3>(3, 0), Bt * CA, mu_, 1);
+}
+
+}  // namespace pintle
