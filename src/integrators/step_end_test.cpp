@@ -89,7 +89,7 @@ TEST(StepEnd, ErrorIsTheLargerTail) {
     for (std::size_t b = 0; b < tails.bodies.size(); ++b) scale.body.push_back(random.vector<S::Vec>(1, 2));
     const auto tail = [&](const std::vector<Four>& of) {
       double size[3] = {};
-      for (std::size_t b = 0; b < of.size(); ++b)
+      for (std::size_t b = 0; b < at.system.bodies.size(); ++b)
         for (int k = 0; k < 3; ++k)
           for (int lane = 0; lane < 3; ++lane) size[lane] = std::max(size[lane], at.system.bodies[b].mass[k] / scale.body[b][k] * std::abs(of[b][k][lane]));
       return size[0] * fall_off(size[0], size[1], size[2]);
