@@ -91,7 +91,7 @@ class LaneSolver : public StageSolver {
   std::vector<std::array<X, 9>> full_;        // as Joint::weight, by rows
   std::vector<L> target_accel_;               // of servos' targets, by joint; empty: there is no servo
   Vecs Q_;                                    // of one stage
-  std::vector<BlockVec<L, 3>> loads_on_;      // gravity and loads at the stages, where there are loads
+  std::vector<BlockVec<L, 3>> loads_on_;      // and on the ground: gravity and loads at the stages, where there are loads
   std::vector<Planar::Motion> motions_;       // of one stage, where anything asks for them
   X mu_, mu2_, once_, twice_;                 // and 1 / mu, 1 / mu^2
   BlockLu<X, 3> lu_;

@@ -16,7 +16,7 @@ using S = Planar;
 template <int N>
 LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double tolerance, Steps steps)
     : system_(system), table_(table), matrices_(table), tolerance_(tolerance), steps_(steps), loads_(system.has_loads()),
-      bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), loads_on_(loads_ ? system.bodies.size() : 0),
+      bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), loads_on_(loads_ ? system.bodies.size() + 1 : 0),
       motions_(system.bodies.size()), lu_(system.pattern(), loads_ ? Symmetry::kNone : symmetry_of_joints(system)), rhs_(system.bodies.size() + 1) {
   bodies_.back().c = L::all(1);  // the ground; what falls on it is not looked at
   const auto body = [&](int index) { return index == kGround ? n_bodies() : static_cast<std::size_t>(index); };
@@ -72,7 +72,8 @@ bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* 
   begin_bodies(begin, curve, scale);
   find_targets(begin.t, h);
   contraction_.start();
-  bool fresh = !before || h != factorized_for_ || contraction_.rate() > kGood, wanted = fresh;  // a factorisation; old ones know no new side of a jump
+  // An old factorisation does not know the new side of a jump: without a step before there is none that serves.
+  bool fresh = !before || h != factorized_for_ || contraction_.rate() > kGood, wanted = fresh;  // a factorisation
   const Curve* unplaced = &curve;                                                     // the joints are
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
     find_missing(begin, h);
@@ -224,14 +225,12 @@ void LaneSolver<N>::find_loads(const State& begin, double h) {
 template <int N>
 void LaneSolver<N>::find_balanced_loads() {
   for (std::size_t b = 0; b < n_bodies(); ++b)
-    for (int k = 0; k < 3; ++k) bodies_[b].missing[k] = system_.bodies[b].mass[k] * bodies_[b].a[k];
+    for (int k = 0; k < 3; ++k) loads_on_[b][k] = system_.bodies[b].mass[k] * bodies_[b].a[k];
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     L bias[3];
     const L *f = joints_[j].force, against[3] = {-f[0], -f[1], -f[2]};
-    find_map(j, bias).push(against, bodies_[joints_[j].a].missing, bodies_[joints_[j].b].missing);
+    find_map(j, bias).push(against, loads_on_[joints_[j].a], loads_on_[joints_[j].b]);
   }
-  for (std::size_t b = 0; b < n_bodies(); ++b)
-    for (int k = 0; k < 3; ++k) loads_on_[b][k] = bodies_[b].missing[k];
 }
 
 // Joint j's force on its bodies, and what is missing in its own equation. The map between them is returned. Eq. (3.6).

@@ -82,7 +82,8 @@ class EndSolver : public StepEnd {
   }
 
   void find_end(const Stage& last, double h, State& end, std::vector<S::Motion>& m, LoadScale& scale) {
-    const double rounding = rounding_of(last.q), rounding_of_rate = std::max(rounding_of(last.v), std::min(rounding / std::abs(h), kMostOfRates * largest_coordinate(last.v)));
+    const double rounding = rounding_of(last.q), most = kMostOfRates * largest_coordinate(last.v);
+    const double rounding_of_rate = std::max(rounding_of(last.v), std::min(rounding / std::abs(h), most));
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) end.q[b][k] = last.q[b][k] + four_[b][k][3];
     end.v = last.v;
@@ -231,17 +232,9 @@ class EndSolver : public StepEnd {
       joint.map.gather(pull_[joint.a].a.data(), pull_[joint.b].a.data(), gap);
       weigh(joint, gap, change);
       for (int k = 0; k < S::kDof; ++k) end.force[j][k] -= change[k];
-      const auto on = joint.map.spread(end.force[j].data());
-      const double fx = std::abs(on.fx), fy = std::abs(on.fy);
-      add(one_[joint.a], fx, fy, std::abs(on.ma));
-      add(one_[joint.b], fx, fy, std::abs(on.mb));
+      add_magnitudes(joint.map, end.force[j], one_[joint.a], one_[joint.b]);
     }
     for (std::size_t b = 0; b < n_bodies(); ++b) raise_scale(system_.bodies[b], S::Vec(one_[b][0], one_[b][1], one_[b][2]), scale.body[b]);
-  }
-  static void add(Three& to, double x, double y, double angle) {
-    to[0] += x;
-    to[1] += y;
-    to[2] += angle;
   }
 
   const System& system_;
