@@ -12,6 +12,12 @@
 
 namespace pintle {
 
+/// A frame on a body, as PoseGeometry asks for it.
+struct Foot {
+  Planar::Point p;
+  double c = 1, s = 0;
+};
+
 /// Large mechanisms do not fit into caches: every iteration goes through the bodies and the joints as few times as it can, and what
 /// can be computed again is not stored.
 template <int N>
@@ -33,20 +39,21 @@ class LaneSolver : public StageSolver {
   static constexpr int kMiddle = N / 2;  // the stage where the equations are linearised
 
   struct Body : BodyLanes<N> {
-    L missing[3];          // in its equation of motion: forces that nothing answers [N, N, N*m]
+    L missing[3];          // in its equation of motion: forces that nothing answers [N, N, N*m]; then Newton's correction of a
     double over_scale[3];  // mass over the loads that corrections are measured by
   };
   struct Joint {
     L accel[3], force[3];
-    X e[3];                  // what is missing of the gap's acceleration, in the diagonal frame [m/s^2, m/s^2, rad/s^2]
-    X weight[3];             // (K + mu C) / mu^2 where that is diagonal
     GapMap<double> frozen;   // at the stage where the equations are linearised
+    Foot F, M;               // where it stands on its bodies
+    double k[3], c[3];       // of springs and dampers
     double over_scale[3];    // 1 over the loads that changes of the force are measured by
-    std::size_t a, b;        // its bodies; the ground stands behind the last one
-    const LinearLaw* linear = nullptr;  // its law, if that is one
+    int a, b;                // its bodies; the ground stands behind the last one
     int full = -1;           // its matrix among full_, where that is not diagonal
+    bool linear = false;     // springs and dampers
     bool function = false;   // its gap is a function of the pose
     bool loses = false;      // power, as a spring and a damper that no motor drives
+    signed char servo = -1;  // component that a servo drives
     BlockPattern::Slot slot{};  // of its bodies, A before B
   };
   struct Curve;  // through the last step's nodes
@@ -63,8 +70,7 @@ class LaneSolver : public StageSolver {
   void find_missing(const State& begin, double h);
   void find_loads(const State& begin, double h);
   void find_balanced_loads();
-  GapMap<L> answer(std::size_t j);
-  void push_answer(std::size_t j);
+  void answer(std::size_t j, const GapMap<L>& map, const L (&bias)[3]);
   GapMap<L> find_map(std::size_t j, L (&bias)[3]) const;
   L find_gradient(std::size_t j, const PoseGeometry<L>& pose, GapMap<L>& map) const;
   void begin_matrix(const State& begin, double h);
@@ -88,7 +94,7 @@ class LaneSolver : public StageSolver {
   bool poses_ = true;                         // no joint but springs and dampers in the relative pose
   std::vector<Body> bodies_;
   std::vector<Joint> joints_;
-  std::vector<std::array<X, 9>> full_;        // as Joint::weight, by rows
+  std::vector<std::array<X, 9>> full_;        // (K + mu C) / mu^2 where that is not diagonal, by rows
   std::vector<L> target_accel_;               // of servos' targets, by joint; empty: there is no servo
   Vecs Q_;                                    // of one stage
   std::vector<BlockVec<L, 3>> loads_on_;      // and on the ground: gravity and loads at the stages, where there are loads

@@ -44,16 +44,14 @@ void LaneSolver<N>::linearize(const State& begin, std::size_t j, const GapMap<L>
     add_joint(j, response);
     return;
   }
-  const LinearLaw& law = *joint.linear;
-  for (int k = 0; k < 3; ++k) joint.weight[k] = law.k[k] * twice_ + law.c[k] * once_;
   const Planar::Vec force(joint.force[0][i], joint.force[1][i], joint.force[2][i]);
   if (joint.function) {
-    add_joint(j, {force, law.k.asDiagonal(), law.c.asDiagonal()});
+    add_joint(j, {force, Planar::Vec(joint.k[0], joint.k[1], joint.k[2]).asDiagonal(), Planar::Vec(joint.c[0], joint.c[1], joint.c[2]).asDiagonal()});
     return;
   }
   const X one(1.0);
   X w[3];
-  for (int k = 0; k < 3; ++k) w[k] = law.k[k] * one + law.c[k] * mu_;
+  for (int k = 0; k < 3; ++k) w[k] = joint.k[k] * one + joint.c[k] * mu_;
   add_pose_blocks(lu_, system_.joints[j].at, joint.slot, joint.frozen, w, force);
 }
 

@@ -19,7 +19,7 @@ LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double 
       bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), loads_on_(loads_ ? system.bodies.size() + 1 : 0),
       motions_(system.bodies.size()), lu_(system.pattern(), loads_ ? Symmetry::kNone : symmetry_of_joints(system)), rhs_(system.bodies.size() + 1) {
   bodies_.back().c = L::all(1);  // the ground; what falls on it is not looked at
-  const auto body = [&](int index) { return index == kGround ? n_bodies() : static_cast<std::size_t>(index); };
+  const auto body = [&](int index) { return index == kGround ? static_cast<int>(n_bodies()) : index; };
   bool servos = false;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const JointData& data = system.joints[j];
@@ -27,8 +27,16 @@ LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double 
     joint.a = body(data.at.a);
     joint.b = body(data.at.b);
     joint.function = !std::holds_alternative<Selection>(data.probe);
-    joint.linear = std::get_if<LinearLaw>(&data.law);
-    if (!joint.linear) {
+    joint.F = {data.at.F.p, data.at.F.c, data.at.F.s};
+    joint.M = {data.at.M.p, data.at.M.c, data.at.M.s};
+    joint.servo = static_cast<signed char>(data.servo);
+    if (const auto* law = std::get_if<LinearLaw>(&data.law)) {
+      joint.linear = true;
+      for (int k = 0; k < 3; ++k) {
+        joint.k[k] = law->k[k];
+        joint.c[k] = law->c[k];
+      }
+    } else {
       joint.full = static_cast<int>(full_.size());
       full_.emplace_back();
     }
@@ -80,9 +88,10 @@ bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* 
     if (wanted) begin_matrix(begin, h);
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       if (unplaced) begin_joint(begin, *unplaced, scale, j);
-      const GapMap<L> map = answer(j);
+      L bias[3];
+      const GapMap<L> map = find_map(j, bias);
       if (wanted) linearize(begin, j, map);
-      push_answer(j);
+      answer(j, map, bias);
     }
     unplaced = nullptr;
     counters.evaluations += N;
@@ -129,8 +138,9 @@ void LaneSolver<N>::begin_bodies(const State& begin, const Curve& curve, const L
 template <int N>
 void LaneSolver<N>::begin_joint(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t j) {
   Joint& joint = joints_[j];
-  const S::Vec& on = scale.body[joint.a == n_bodies() ? joint.b : joint.a];
-  const S::Vec& beside = scale.body[joint.b == n_bodies() ? joint.a : joint.b];
+  const int ground = static_cast<int>(n_bodies());
+  const S::Vec& on = scale.body[joint.a == ground ? joint.b : joint.a];
+  const S::Vec& beside = scale.body[joint.b == ground ? joint.a : joint.b];
   for (int k = 0; k < 3; ++k) {
     joint.over_scale[k] = 1 / std::max(on[k], beside[k]);
     joint.accel[k] = curve.ahead(&StepNodes::gap_accel, begin.gap_accel, j, k);
@@ -180,16 +190,15 @@ void LaneSolver<N>::check_angles(const L& angles) {
 template <int N>
 void LaneSolver<N>::place_joint(const State& begin, std::size_t j, L& worst, L& sum) {
   Joint& joint = joints_[j];
-  const LinearLaw* linear = joint.linear;
   L gap[3], rate[3];
   for (int k = 0; k < 3; ++k) gap[k] = place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], rate[k]);
   double at[3][N];  // of laws that are asked stage by stage
-  for (int s = 0; s < N && !linear; ++s) {
+  for (int s = 0; s < N && !joint.linear; ++s) {
     const S::Vec f = law_force(system_.joints[j].law, {gap[0][s], gap[1][s], gap[2][s]}, {rate[0][s], rate[1][s], rate[2][s]});
     for (int k = 0; k < 3; ++k) at[k][s] = f[k];
   }
   for (int k = 0; k < 3; ++k) {
-    const L force = linear ? -(linear->k[k] * gap[k] + linear->c[k] * rate[k]) : L::of(at[k]);
+    const L force = joint.linear ? -(joint.k[k] * gap[k] + joint.c[k] * rate[k]) : L::of(at[k]);
     const L change = joint.over_scale[k] * (force - joint.force[k]);
     worst = larger_size(worst, change);
     sum += change;
@@ -233,34 +242,33 @@ void LaneSolver<N>::find_balanced_loads() {
   }
 }
 
-// Joint j's force on its bodies, and what is missing in its own equation. The map between them is returned. Eq. (3.6).
+// Joint j's force on its bodies, and what falls on them of what is missing in its own equation. Its acceleration becomes what the
+// bodies' make of it: that is what the correction starts from. Eq. (3.6).
 template <int N>
-GapMap<Lanes<N>> LaneSolver<N>::answer(std::size_t j) {
+void LaneSolver<N>::answer(std::size_t j, const GapMap<L>& map, const L (&bias)[3]) {
   Joint& joint = joints_[j];
   Body &A = bodies_[joint.a], &B = bodies_[joint.b];
-  L bias[3], e[3];
-  const GapMap<L> map = find_map(j, bias);
   map.push(joint.force, A.missing, B.missing);
+  L e[3];
+  X missing[3], f[3];
   map.gather(A.a, B.a, e);
-  for (int k = 0; k < 3; ++k) joint.e[k] = X(matrices_.T_inverse * (joint.accel[k] - e[k] - bias[k]));
-  return map;
-}
-
-// What of it falls on the bodies.
-template <int N>
-void LaneSolver<N>::push_answer(std::size_t j) {
-  const Joint& joint = joints_[j];
-  X f[3];
-  weigh(joint.linear != nullptr, joint.linear ? joint.weight : full_[joint.full].data(), joint.e, f);
+  for (int k = 0; k < 3; ++k) {
+    e[k] += bias[k];
+    missing[k] = X(matrices_.T_inverse * (joint.accel[k] - e[k]));
+    joint.accel[k] = e[k];
+  }
+  if (joint.linear)
+    for (int k = 0; k < 3; ++k) f[k] = (joint.k[k] * twice_ + joint.c[k] * once_) * missing[k];
+  else
+    weigh(false, full_[joint.full].data(), missing, f);
   joint.frozen.push(f, rhs_[joint.a], rhs_[joint.b]);
 }
 
 // The map of joint j and its convective acceleration; of a servo less than the target's.
 template <int N>
 GapMap<Lanes<N>> LaneSolver<N>::find_map(std::size_t j, L (&bias)[3]) const {
-  const JointData& data = system_.joints[j];
   const Joint& joint = joints_[j];
-  const auto pose = PoseGeometry<L>::between(bodies_[joint.a].view(), data.at.F, bodies_[joint.b].view(), data.at.M);
+  const auto pose = PoseGeometry<L>::between(bodies_[joint.a].view(), joint.F, bodies_[joint.b].view(), joint.M);
   GapMap<L> map;
   map.function = joint.function;
   map.take(pose);
@@ -271,7 +279,7 @@ GapMap<Lanes<N>> LaneSolver<N>::find_map(std::size_t j, L (&bias)[3]) const {
     bias[0] = find_gradient(j, pose, map);
     bias[1] = L::all(0);
   }
-  if (data.servo >= 0) bias[data.servo] -= target_accel_[j];
+  if (joint.servo >= 0) bias[joint.servo] -= target_accel_[j];
   return map;
 }
 
@@ -301,29 +309,31 @@ Lanes<N> LaneSolver<N>::find_gradient(std::size_t j, const PoseGeometry<L>& pose
 // forces, and what the joint forces have changed, over the scale.
 template <int N>
 double LaneSolver<N>::correct(const State& begin) {
-  for (std::size_t b = 0; b < n_bodies(); ++b)
-    for (int k = 0; k < 3; ++k) rhs_[b][k] += X(matrices_.T_inverse * bodies_[b].missing[k]);
-  lu_.solve(rhs_);
-  rhs_.back() = {};
   L worst = L::all(0), sum = worst, angles = worst;
-  for (std::size_t b = 0; b < n_bodies(); ++b) {
-    Body& body = bodies_[b];
-    for (int k = 0; k < 3; ++k) {
-      rhs_[b][k] = mu2_ * rhs_[b][k];
-      const L delta = matrices_.T * rhs_[b][k].x, relative = body.over_scale[k] * delta;
-      body.a[k] += delta;
-      worst = larger_size(worst, relative);
-      sum += relative;
-    }
-    place_body(begin, b);
-    angles = larger_size(angles, body.q[2]);
-  }
+  lu_.solve(
+      rhs_,
+      [&](int b, BlockVec<X, 3>& x) {
+        for (int k = 0; k < 3; ++k) x[k] += X(matrices_.T_inverse * bodies_[b].missing[k]);
+      },
+      [&](int b, const BlockVec<X, 3>& x) {
+        Body& body = bodies_[b];
+        for (int k = 0; k < 3; ++k) {
+          const L delta = matrices_.T * (mu2_ * x[k]).x, relative = body.over_scale[k] * delta;
+          body.missing[k] = delta;
+          body.a[k] += delta;
+          worst = larger_size(worst, relative);
+          sum += relative;
+        }
+        place_body(begin, b);
+        angles = larger_size(angles, body.q[2]);
+      });
   check_angles(angles);
+  for (L& still : bodies_.back().missing) still = L::all(0);
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     Joint& joint = joints_[j];
-    X e[3];
-    joint.frozen.gather(&rhs_[joint.a][0], &rhs_[joint.b][0], e);
-    for (int k = 0; k < 3; ++k) joint.accel[k] += matrices_.T * (e[k] - joint.e[k]).x;
+    L e[3];
+    joint.frozen.gather(bodies_[joint.a].missing, bodies_[joint.b].missing, e);
+    for (int k = 0; k < 3; ++k) joint.accel[k] += e[k];
     place_joint(begin, j, worst, sum);
   }
   return largest(worst, sum);
@@ -357,7 +367,7 @@ void LaneSolver<N>::write_stages(const State& begin, std::vector<Stage>& stages,
       put(matrices_.tail_of_stages * joint.accel[k], tails.gaps[j][k]);
     }
     if (joint.loses)
-      for (int k = 0; k < 3; ++k) loss += joint.linear->c[k] * (rate[k] * rate[k]);
+      for (int k = 0; k < 3; ++k) loss += joint.c[k] * (rate[k] * rate[k]);
     for (int s = 0; s < N; ++s) {
       Stage& stage = stages[s];
       copy(joint.accel, s, stage.gap_accel[j]);
@@ -372,9 +382,12 @@ void LaneSolver<N>::write_stages(const State& begin, std::vector<Stage>& stages,
 
 template <int N>
 double LaneSolver<N>::residual(int j) const {
+  const Joint& joint = joints_[j];
+  L bias[3], e[3];
+  find_map(j, bias).gather(bodies_[joint.a].a, bodies_[joint.b].a, e);
   double square = 0;
-  for (const X& e : joints_[j].e) {
-    const double at_end = (matrices_.T * e.x)[N - 1];
+  for (int k = 0; k < 3; ++k) {
+    const double at_end = (joint.accel[k] - e[k] - bias[k])[N - 1];
     square += at_end * at_end;
   }
   return std::sqrt(square);

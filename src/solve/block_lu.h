@@ -2,6 +2,7 @@
 // matrices of this program are dominated by their mass and stiffness blocks. No allocation after construction.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "solve/block.h"
@@ -43,8 +44,14 @@ class BlockLu {
   /// right-hand sides.
   template <class Rows>
   void solve(Rows& x) const {
-    if (symmetric_) solve_upper(x);
-    else solve_both(x);
+    solve(x, [](int, auto&) {}, [](int, const auto&) {});
+  }
+  /// The same on the way through the rows: first(i, x[i]) is called before any use of row i's right-hand side, though what other rows
+  /// take off may be in it already, and last(i, x[i]) as soon as the row is known, though others still read it.
+  template <class Rows, class First, class Last>
+  void solve(Rows& x, First&& first, Last&& last) const {
+    if (symmetric_) solve_upper(x, first, last);
+    else solve_both(x, first, last);
   }
 
  private:
@@ -92,25 +99,28 @@ class BlockLu {
     return true;
   }
 
-  template <class Rows>
-  void solve_both(Rows& x) const {
+  template <class Rows, class First, class Last>
+  void solve_both(Rows& x, First& first, Last& last) const {
     const BlockPattern& p = *pattern_;
     for (int k = 0; k < p.n(); ++k) {
-      const auto& done = x[p.row_at(k)];
+      auto& done = x[p.row_at(k)];
+      first(p.row_at(k), done);
       for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(x[p.row_at(p.column(a))], lower_[a], done);
     }
     for (int k = p.n() - 1; k >= 0; --k) {
       auto& here = x[p.row_at(k)];
       for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(here, upper_[a], x[p.row_at(p.column(a))]);
       here = product(diagonal_[k], here);
+      last(p.row_at(k), std::as_const(here));
     }
   }
 
-  template <class Rows>
-  void solve_upper(Rows& x) const {
+  template <class Rows, class First, class Last>
+  void solve_upper(Rows& x, First& first, Last& last) const {
     const BlockPattern& p = *pattern_;
     for (int k = 0; k < p.n(); ++k) {
       auto& here = x[p.row_at(k)];
+      first(p.row_at(k), here);
       for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_transposed_product(x[p.row_at(p.column(a))], upper_[a], here);
       apply_lower(diagonal_[k], here);
       here = over_pivots(diagonal_[k], here);
@@ -119,6 +129,7 @@ class BlockLu {
     for (int k = p.n() - 1; k >= 0; --k) {
       auto& here = x[p.row_at(k)];
       for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(here, upper_[a], x[p.row_at(p.column(a))]);
+      last(p.row_at(k), std::as_const(here));
     }
   }
 
