@@ -42,9 +42,7 @@ LeastSquares::LeastSquares(const System& system)
 }
 
 bool LeastSquares::prepare(const std::vector<Reading>& r, const Vecs& joint_weight, const Vecs& body_weight) {
-  lu_.set_zero();
-  for (int i = 0; i < system_.n_bodies(); ++i)
-    for (int k = 0; k < S::kDof; ++k) lu_.diagonal(i)(k, k) = body_weight[i][k];
+  lu_.set_diagonal([&](int b, int k) { return body_weight[b][k]; });
   const auto add = [](Block<double, S::kDof>& target, const S::Mat& block) {
     for (int a = 0; a < S::kDof; ++a)
       for (int b = 0; b < S::kDof; ++b) target(a, b) += block(a, b);

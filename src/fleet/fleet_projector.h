@@ -38,11 +38,7 @@ class FleetProjector {
   /// Factorises Z = mu^2 M + G' w G, w = K + mu C. Eq. (4.1).
   PINTLE_PART void prepare(const std::vector<FleetReading>& r, const Each& mu) {
     mu2_ = mu * mu;
-    lu_.set_zero();
-    for (std::size_t i = 0; i < mechanism_.n_bodies(); ++i) {
-      auto& block = lu_.diagonal(static_cast<int>(i));
-      for (int k = 0; k < 3; ++k) block(k, k) = mu2_ * mechanism_.bodies[i].mass[k];
-    }
+    lu_.set_diagonal([this](int i, int k) { return mu2_ * mechanism_.bodies[i].mass[k]; });
     const EachVec none{};
     for (std::size_t j = 0; j < map_.size(); ++j) {
       const FleetJoint& joint = mechanism_.joints[j];

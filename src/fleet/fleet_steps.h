@@ -162,13 +162,8 @@ class FleetSteps {
     nu2_ = nu_ * nu_;
     over_mu2_ = reciprocal(mu2_);
     over_nu2_ = reciprocal(nu2_);
-    real_.set_zero();
-    pair_.set_zero();
-    for (std::size_t i = 0; i < n_; ++i)
-      for (int k = 0; k < 3; ++k) {
-        real_.diagonal(static_cast<int>(i))(k, k) = mechanism_.bodies[i].mass[k] * mu2_;
-        pair_.diagonal(static_cast<int>(i))(k, k) = mechanism_.bodies[i].mass[k] * nu2_;
-      }
+    real_.set_diagonal([this](int i, int k) { return mechanism_.bodies[i].mass[k] * mu2_; });
+    pair_.set_diagonal([this](int i, int k) { return mechanism_.bodies[i].mass[k] * nu2_; });
     for (std::size_t j = 0; j < r_.size(); ++j) {
       const FleetJoint& joint = mechanism_.joints[j];
       frozen_[j] = stage_[kMiddle].map[j];

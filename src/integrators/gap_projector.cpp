@@ -32,9 +32,7 @@ bool GapProjector::prepare(const std::vector<Reading>& readings, double mu, cons
 
 bool GapProjector::factorize(double mu, const Vecs& gap_at, const Vecs& rate_at, const Vecs* moved) {
   mu_ = mu;
-  lu_.set_zero();
-  for (int i = 0; i < system_.n_bodies(); ++i)
-    for (int k = 0; k < S::kDof; ++k) lu_.diagonal(i)(k, k) = mu * mu * system_.bodies[i].mass[k];
+  lu_.set_diagonal([&](int b, int k) { return mu * mu * system_.bodies[b].mass[k]; });
   for (int j = 0; j < system_.n_joints(); ++j) {
     const Law& law = system_.joints[j].law;
     const auto* linear = std::get_if<LinearLaw>(&law);

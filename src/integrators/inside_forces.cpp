@@ -149,9 +149,7 @@ class LaneForces : public InsideForces {
   // mu^2 M + G' (K + mu C) G where the curves are; leaves wanted changes of the rates in `rate`. An instant at which that is singular
   // has forces that are not numbers.
   void factorize(double mu) {
-    lu_.set_zero();
-    for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < 3; ++k) lu_.diagonal(static_cast<int>(b))(k, k) = L::all(mu * mu * system_.bodies[b].mass[k]);
+    lu_.set_diagonal([&](int b, int k) { return L::all(mu * mu * system_.bodies[b].mass[k]); });
     const L none[3] = {L::all(0), L::all(0), L::all(0)};
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];

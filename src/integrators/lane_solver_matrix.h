@@ -15,9 +15,7 @@ void LaneSolver<N>::begin_matrix(const State& begin, double h) {
   mu2_ = mu_ * mu_;
   once_ = reciprocal(mu_);
   twice_ = once_ * once_;
-  lu_.set_zero();
-  for (int i = 0; i < system_.n_bodies(); ++i)
-    for (int r = 0; r < 3; ++r) lu_.diagonal(i)(r, r) = system_.bodies[i].mass[r] * mu2_;
+  lu_.set_diagonal([this](int b, int k) { return system_.bodies[b].mass[k] * mu2_; });
   if (poses_ && !loads_) return;
   for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(kMiddle);
   const auto add = [this](int i, int j, const Planar::Mat& dq, const Planar::Mat& dv) {  // of a matrix that is not symmetric

@@ -24,13 +24,25 @@ PINTLE_LANES void add_pose_blocks(BlockLu<T, 3>& lu, const Placement& at, BlockP
   const T fx = (g.c * force[0] - g.s * force[1]) * one, fy = (g.s * force[0] + g.c * force[1]) * one;
   const T ax = g.ax * xy - g.ay * xx - fy, ay = g.ax * yy - g.ay * xy + fx;
   const T bx = g.bx * xy - g.by * xx, by = g.bx * yy - g.by * xy;
-  const auto add = [](Block<T, 3>& block, const T& k, const T& l, const T& m, const T& xt, const T& yt, const T& tx, const T& ty, const T& tt) {
-    block(0, 0) += k; block(0, 1) += l; block(0, 2) += xt;
-    block(1, 0) += l; block(1, 1) += m; block(1, 2) += yt;
+  const auto add_lower = [](Block<T, 3>& block, const T& k, const T& l, const T& m, const T& tx, const T& ty, const T& tt) {
+    block(0, 0) += k;
+    block(1, 0) += l; block(1, 1) += m;
     block(2, 0) += tx; block(2, 1) += ty; block(2, 2) += tt;
   };
-  if (at.a != kGround) add(lu.diagonal(at.a), xx, xy, yy, ax, ay, ax, ay, w[2] + g.ax * ay - g.ay * ax);
-  if (at.b != kGround) add(lu.diagonal(at.b), xx, xy, yy, bx, by, bx, by, w[2] + g.bx * (by + fx) - g.by * (bx - fy));
+  const auto add_upper = [](Block<T, 3>& block, const T& l, const T& xt, const T& yt) {
+    block(0, 1) += l; block(0, 2) += xt;
+    block(1, 2) += yt;
+  };
+  const auto add_diagonal = [&](Block<T, 3>& block, const T& x, const T& y, const T& tt) {
+    add_lower(block, xx, xy, yy, x, y, tt);
+    if (!lu.symmetric()) add_upper(block, xy, x, y);
+  };
+  const auto add = [&](Block<T, 3>& block, const T& k, const T& l, const T& m, const T& xt, const T& yt, const T& tx, const T& ty, const T& tt) {
+    add_lower(block, k, l, m, tx, ty, tt);
+    add_upper(block, l, xt, yt);
+  };
+  if (at.a != kGround) add_diagonal(lu.diagonal(at.a), ax, ay, w[2] + g.ax * ay - g.ay * ax);
+  if (at.b != kGround) add_diagonal(lu.diagonal(at.b), bx, by, w[2] + g.bx * (by + fx) - g.by * (bx - fy));
   if (at.a == kGround || at.b == kGround) return;
   const T both = w[2] + g.bx * ay - g.by * ax;
   if (lu.has(slot)) add(lu.off_diagonal(slot), -xx, -xy, -yy, -bx, -by, -ax, -ay, -both);

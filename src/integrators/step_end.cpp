@@ -131,9 +131,7 @@ class EndSolver : public StepEnd {
   }
 
   void begin_matrix(double mu) {
-    lu_.set_zero();
-    for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < S::kDof; ++k) lu_.diagonal(static_cast<int>(b))(k, k) = mu * mu * system_.bodies[b].mass[k];
+    lu_.set_diagonal([&](int b, int k) { return mu * mu * system_.bodies[b].mass[k]; });
     std::fill(four_.begin(), four_.end(), Four{});
   }
 

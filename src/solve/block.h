@@ -74,15 +74,12 @@ PINTLE_LANES void subtract_transposed_product(Block<T, N>& C, const Block<T, N>&
     }
 }
 
-/// C -= A' B where that is symmetric, and C too.
+/// C -= A' B where that is symmetric, and C too: its upper triangle is left alone.
 template <class T, int N>
 PINTLE_LANES void subtract_symmetric_product(Block<T, N>& C, const Block<T, N>& A, const Block<T, N>& B) {
   for (int i = 0; i < N; ++i)
-    for (int j = i; j < N; ++j) {
-      T sum = C(i, j);
-      for (int k = 0; k < N; ++k) sum -= A(k, i) * B(k, j);
-      C(i, j) = C(j, i) = sum;
-    }
+    for (int j = i; j < N; ++j)
+      for (int k = 0; k < N; ++k) C(j, i) -= A(k, i) * B(k, j);
 }
 
 /// y -= A x, of vectors of N numbers of any kind.
@@ -145,7 +142,7 @@ PINTLE_LANES bool invert(Block<T, N>& m) {
   return is_finite(pivots);
 }
 
-/// L D L' = m, symmetric, without pivoting. In place: D^-1 on the diagonal and below it M = L^-1, whose diagonal is 1. False when a pivot
+/// L D L' = m, symmetric, of which the lower triangle is read, without pivoting. In place: D^-1 on the diagonal and below it M = L^-1, whose diagonal is 1. False when a pivot
 /// is zero or not finite.
 template <class T, int N>
 PINTLE_LANES bool factorize_symmetric(Block<T, N>& m) {

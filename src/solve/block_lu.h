@@ -27,7 +27,19 @@ class BlockLu {
     upper_.assign(upper_.size(), {});
     lower_.assign(lower_.size(), {});
   }
-  /// The diagonal block of row i.
+  /// Nothing but its diagonal: entry(i, k) at place k of row i.
+  template <class Entry>
+  void set_diagonal(Entry&& entry) {
+    for (int at = 0; at < pattern_->n(); ++at) {
+      for (int i = 0; i < N; ++i) {
+        const T here = entry(pattern_->row_at(at), i);
+        for (int j = 0; j < N; ++j) diagonal_[at](i, j) = i == j ? here : T(0.0);
+      }
+    }
+    upper_.assign(upper_.size(), {});
+    lower_.assign(lower_.size(), {});
+  }
+  /// The diagonal block of row i; of a symmetric matrix what stands above its diagonal is not read.
   Block<T, N>& diagonal(int i) { return diagonal_[pattern_->position(i)]; }
   /// Whether this block is one of the matrix: a symmetric one has only the upper triangle.
   bool has(BlockPattern::Slot s) const { return s.upper || !symmetric_; }
