@@ -39,12 +39,11 @@ class FleetProjector {
   PINTLE_PART void prepare(const std::vector<FleetReading>& r, const Each& mu) {
     mu2_ = mu * mu;
     lu_.set_diagonal([this](int i, int k) { return mu2_ * mechanism_.bodies[i].mass[k]; });
-    const EachVec none{};
     for (std::size_t j = 0; j < map_.size(); ++j) {
       const FleetJoint& joint = mechanism_.joints[j];
       map_[j] = r[j].map;
       for (int k = 0; k < 3; ++k) weight_[j][k] = joint.k[k] + mu * joint.c[k];
-      add_pose_blocks(lu_, joint.at, joint.slot, map_[j], weight_[j].a.data(), none);
+      PoseBlocks<Each>::of(map_[j], weight_[j].a.data()).add_to(lu_, joint.at, joint.slot);
     }
     lu_.factorize();
   }

@@ -44,7 +44,7 @@ bool GapProjector::factorize(double mu, const Vecs& gap_at, const Vecs& rate_at,
     }
     if (moved) weight_[j] = (*moved)[j].asDiagonal() * weight_[j] * (*moved)[j].asDiagonal();
     if (linear && !readings_[j].map.function)
-      add_pose_blocks(lu_, system_.joints[j].at, slots_[j], readings_[j].map, S::Vec(weight_[j].diagonal()).data(), S::Vec::Zero());
+      PoseBlocks<double>::of(readings_[j].map, S::Vec(weight_[j].diagonal()).data()).add_to(lu_, system_.joints[j].at, slots_[j]);
     else add_gap_blocks(lu_, system_.joints[j].at, slots_[j], readings_[j].map, weight_[j]);
   }
   return lu_.factorize();

@@ -150,14 +150,13 @@ class LaneForces : public InsideForces {
   // has forces that are not numbers.
   void factorize(double mu) {
     lu_.set_diagonal([&](int b, int k) { return L::all(mu * mu * system_.bodies[b].mass[k]); });
-    const L none[3] = {L::all(0), L::all(0), L::all(0)};
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
       L rate[3], bias[3];
       read(j, rate, bias);
       find_weight(j, mu);
       for (int k = 0; k < 3; ++k) joint.rate[k] -= rate[k];
-      if (joint.linear && !joint.map.function) add_pose_blocks(lu_, system_.joints[j].at, joint.slot, joint.map, joint.weight, none);
+      if (joint.linear && !joint.map.function) PoseBlocks<L>::of(joint.map, joint.weight).add_to(lu_, system_.joints[j].at, joint.slot);
       else add_joint(j);
     }
     lu_.factorize();

@@ -59,6 +59,7 @@ class LaneSolver : public StageSolver {
   struct Curve;  // through the last step's nodes
 
   std::size_t n_bodies() const { return bodies_.size() - 1; }
+  int body_or_ground(int place) const { return place == static_cast<int>(n_bodies()) ? kGround : place; }
 
   void begin_bodies(const State& begin, const Curve& curve, const LoadScale& scale);
   void begin_joint(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t j);

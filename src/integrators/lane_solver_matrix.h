@@ -50,7 +50,7 @@ void LaneSolver<N>::linearize(const State& begin, std::size_t j, const GapMap<L>
   const X one(1.0);
   X w[3];
   for (int k = 0; k < 3; ++k) w[k] = joint.k[k] * one + joint.c[k] * mu_;
-  add_pose_blocks(lu_, system_.joints[j].at, joint.slot, joint.frozen, w, force);
+  PoseBlocks<X>::of(joint.frozen, w, force).add_to(lu_, body_or_ground(joint.a), body_or_ground(joint.b), joint.slot);
 }
 
 template <int N>

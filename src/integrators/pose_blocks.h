@@ -14,41 +14,71 @@ inline Symmetry symmetry_of_joints(const System& system) {
   return Symmetry::kSymmetric;
 }
 
-/// Adds G' w G - N to the blocks of both bodies: w stands for stiffness in each component, N is the geometric stiffness at the
-/// joint's force. In world axes w is a symmetric stiffness (xx, xy, yy) at the joint's point, which acts at the arms of both
-/// bodies, and one against turning. joints Eqs. (2.5), (2.6), (2.9).
-template <class T, class Real, class Force>
-PINTLE_LANES void add_pose_blocks(BlockLu<T, 3>& lu, const Placement& at, BlockPattern::Slot slot, const GapMap<Real>& g, const T* w,
-                                  const Force& force) {
-  const T one(1.0), xx = (g.c * g.c) * w[0] + (g.s * g.s) * w[1], yy = (g.s * g.s) * w[0] + (g.c * g.c) * w[1], xy = (g.c * g.s) * (w[0] - w[1]);
-  const T fx = (g.c * force[0] - g.s * force[1]) * one, fy = (g.s * force[0] + g.c * force[1]) * one;
-  const T ax = g.ax * xy - g.ay * xx - fy, ay = g.ax * yy - g.ay * xy + fx;
-  const T bx = g.bx * xy - g.by * xx, by = g.bx * yy - g.by * xy;
-  const auto add_lower = [](Block<T, 3>& block, const T& k, const T& l, const T& m, const T& tx, const T& ty, const T& tt) {
-    block(0, 0) += k;
-    block(1, 0) += l; block(1, 1) += m;
-    block(2, 0) += tx; block(2, 1) += ty; block(2, 2) += tt;
-  };
-  const auto add_upper = [](Block<T, 3>& block, const T& l, const T& xt, const T& yt) {
-    block(0, 1) += l; block(0, 2) += xt;
-    block(1, 2) += yt;
-  };
-  const auto add_diagonal = [&](Block<T, 3>& block, const T& x, const T& y, const T& tt) {
-    add_lower(block, xx, xy, yy, x, y, tt);
-    if (!lu.symmetric()) add_upper(block, xy, x, y);
-  };
-  const auto add = [&](Block<T, 3>& block, const T& k, const T& l, const T& m, const T& xt, const T& yt, const T& tx, const T& ty, const T& tt) {
-    add_lower(block, k, l, m, tx, ty, tt);
-    add_upper(block, l, xt, yt);
-  };
-  if (at.a != kGround) add_diagonal(lu.diagonal(at.a), ax, ay, w[2] + g.ax * ay - g.ay * ax);
-  if (at.b != kGround) add_diagonal(lu.diagonal(at.b), bx, by, w[2] + g.bx * (by + fx) - g.by * (bx - fy));
-  if (at.a == kGround || at.b == kGround) return;
-  const T both = w[2] + g.bx * ay - g.by * ax;
-  if (lu.has(slot)) add(lu.off_diagonal(slot), -xx, -xy, -yy, -bx, -by, -ax, -ay, -both);
-  slot.upper = !slot.upper;
-  if (lu.has(slot)) add(lu.off_diagonal(slot), -xx, -xy, -yy, -ax, -ay, -bx, -by, -both);
-}
+/// G' w G - N of a pair of bodies: w stands for stiffness in each component, N is the geometric stiffness at the joint's force. In world
+/// axes w is a symmetric stiffness (xx, xy, yy) at the joint's point, which acts at the arms of both bodies, and one against turning.
+/// joints Eqs. (2.5), (2.6), (2.9).
+template <class T>
+struct PoseBlocks {
+  T xx, xy, yy;
+  T ax, ay, aa;  // of the first body with its angle
+  T bx, by, bb;
+  T ba;          // of both angles
+
+  template <class Real>
+  PINTLE_LANES static PoseBlocks of(const GapMap<Real>& g, const T* w) {
+    PoseBlocks k;
+    k.xx = (g.c * g.c) * w[0] + (g.s * g.s) * w[1];
+    k.yy = (g.s * g.s) * w[0] + (g.c * g.c) * w[1];
+    k.xy = (g.c * g.s) * (w[0] - w[1]);
+    k.ax = g.ax * k.xy - g.ay * k.xx;
+    k.ay = g.ax * k.yy - g.ay * k.xy;
+    k.bx = g.bx * k.xy - g.by * k.xx;
+    k.by = g.bx * k.yy - g.by * k.xy;
+    k.aa = w[2] + g.ax * k.ay - g.ay * k.ax;
+    k.bb = w[2] + g.bx * k.by - g.by * k.bx;
+    k.ba = w[2] + g.bx * k.ay - g.by * k.ax;
+    return k;
+  }
+  /// Less N, at a force [N, N, N*m].
+  template <class Real, class Force>
+  PINTLE_LANES static PoseBlocks of(const GapMap<Real>& g, const T* w, const Force& force) {
+    PoseBlocks k = of(g, w);
+    const T one(1.0), fx = (g.c * force[0] - g.s * force[1]) * one, fy = (g.s * force[0] + g.c * force[1]) * one;
+    k.ax -= fy;
+    k.ay += fx;
+    k.aa += g.ax * fx + g.ay * fy;
+    k.bb += g.bx * fx + g.by * fy;
+    k.ba += g.bx * fx + g.by * fy;
+    return k;
+  }
+
+  /// Those of one lane.
+  PINTLE_LANES PoseBlocks<double> lane(int i) const { return {xx[i], xy[i], yy[i], ax[i], ay[i], aa[i], bx[i], by[i], bb[i], ba[i]}; }
+  /// Adds it to the blocks of bodies a and b, which may be the ground.
+  PINTLE_LANES void add_to(BlockLu<T, 3>& lu, int a, int b, BlockPattern::Slot slot) const {
+    if (a != kGround) add_diagonal(lu.diagonal(a), ax, ay, aa, !lu.symmetric());
+    if (b != kGround) add_diagonal(lu.diagonal(b), bx, by, bb, !lu.symmetric());
+    if (a == kGround || b == kGround) return;
+    if (lu.has(slot)) subtract(lu.off_diagonal(slot), bx, by, ax, ay);
+    slot.upper = !slot.upper;
+    if (lu.has(slot)) subtract(lu.off_diagonal(slot), ax, ay, bx, by);
+  }
+  PINTLE_LANES void add_to(BlockLu<T, 3>& lu, const Placement& at, BlockPattern::Slot slot) const { add_to(lu, at.a, at.b, slot); }
+
+ private:
+  PINTLE_LANES void add_diagonal(Block<T, 3>& block, const T& x, const T& y, const T& turn, bool whole) const {
+    block(0, 0) += xx;
+    block(1, 0) += xy; block(1, 1) += yy;
+    block(2, 0) += x; block(2, 1) += y; block(2, 2) += turn;
+    if (!whole) return;
+    block(0, 1) += xy; block(0, 2) += x; block(1, 2) += y;
+  }
+  PINTLE_LANES void subtract(Block<T, 3>& block, const T& x, const T& y, const T& down_x, const T& down_y) const {
+    block(0, 0) -= xx; block(0, 1) -= xy; block(0, 2) -= x;
+    block(1, 0) -= xy; block(1, 1) -= yy; block(1, 2) -= y;
+    block(2, 0) -= down_x; block(2, 1) -= down_y; block(2, 2) -= ba;
+  }
+};
 
 /// Adds G' w G to the blocks of both bodies, for a gap and a law of any kind.
 inline void add_gap_blocks(BlockLu<double, 3>& lu, const Placement& at, BlockPattern::Slot slot, const GapMap<double>& g, const Planar::Mat& w) {

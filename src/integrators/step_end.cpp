@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "integrators/pose_blocks.h"
+#include "integrators/joint_fours.h"
 #include "integrators/stage_lanes.h"
 #include "integrators/step_error.h"
 #include "solve/wide.h"
@@ -21,47 +21,45 @@ double rounding_of(const Vecs& x) { return 16 * std::numeric_limits<double>::eps
 constexpr double kMostOfRates = 1e-9;  // of the largest velocity: what may be left of rates in the shortest steps
 
 // As carried, but as the geometry has it where that is another one.
-S::Vec carried_or(const S::Vec& carried, const S::Vec& geometry, double rounding) {
-  return ((geometry - carried).array().abs() > rounding).select(geometry, carried);
+PINTLE_LANES Lanes<4> carried_or(const Lanes<4>& carried, const Lanes<4>& geometry, double rounding) {
+  return where_larger(sizes(geometry - carried), Lanes<4>::all(rounding), geometry, carried);
+}
+
+PINTLE_LANES double largest_of(const Lanes<4>& x) {
+  return std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
 }
 
 class EndSolver : public StepEnd {
  public:
   explicit EndSolver(const System& system)
-      : system_(system), joints_(system.joints.size()), lu_(system.pattern(), symmetry_of_joints(system)), four_(system.bodies.size() + 1),
-        one_(system.bodies.size() + 1), pull_(system.bodies.size() + 1) {
-    const auto body = [&](int index) { return index == kGround ? system.bodies.size() : static_cast<std::size_t>(index); };
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
-      const JointData& data = system.joints[j];
-      Joint& joint = joints_[j];
-      joint.a = body(data.at.a);
-      joint.b = body(data.at.b);
-      joint.linear = std::get_if<LinearLaw>(&data.law);
-      joint.pose = joint.linear && std::holds_alternative<Selection>(data.probe);
-      if (!joint.linear) {
-        joint.full = full_.size();
-        full_.emplace_back();
-      }
-      for (int k = 0; k < S::kDof; ++k) joint.forbidden[k] = data.free_mask[k] == 0;
-      if (data.at.a != kGround && data.at.b != kGround) joint.slot = system.pattern().slot(data.at.a, data.at.b);
-    }
+      : system_(system), joints_(joints_in_fours(system)), lu_(system.pattern(), symmetry_of_joints(system)), at_(system.bodies.size() + 1),
+        four_(system.bodies.size() + 1), accel_(system.bodies.size() + 1), one_(system.bodies.size() + 1), pull_(system.bodies.size() + 1) {
+    at_.back().take(kStill);
+    for (const FourJoints& joint : joints_)
+      if (joint.full >= 0) full_.emplace_back();
   }
 
   const std::vector<Four>& answers() const override { return four_; }
 
  protected:
   bool find_answers(double t, double mu, const Stage& last, StageTails& tails) {
-    begin_matrix(mu);
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
-      Joint& joint = joints_[j];
-      system_.with_reading(j, t, last.m, [&](const Reading& r) {
-        joint.map = r.map;
-        for (int k = 0; k < S::kDof; ++k) tails.gaps[j][k].set(3, last.gap[j][k] - r.gap[k]);
-      });
-      add_joint(j, mu, last);
-      Four f;
-      weigh(joint, tails.gaps[j].a.data(), f.a.data());
-      joint.map.push(f.a.data(), four_[joint.a], four_[joint.b]);
+    lu_.set_diagonal([&](int b, int k) { return mu * mu * system_.bodies[b].mass[k]; });
+    std::fill(four_.begin(), four_.end(), Four{});
+    see(last.m);
+    for (FourJoints& joints : joints_) {
+      const Read r = read(joints, t, last.m);
+      joints.map = r.map;
+      find_weight(joints, mu, last);
+      add_blocks(joints);
+      L off[3];
+      for (int k = 0; k < S::kDof; ++k) off[k] = joints.take(last.gap, k) - r.gap[k];
+      for (int i = 0; i < joints.n; ++i) {
+        Four &gap = tails.gaps[joints.first + i], with_off = gap, f;
+        for (int k = 0; k < S::kDof; ++k) with_off[k].set(3, off[k][i]);
+        gap = with_off;
+        weigh_tails(joints, i, with_off, f);
+        joints.map.lane(i).push(f.a.data(), four_[joints.a[i]], four_[joints.b[i]]);
+      }
     }
     if (!lu_.factorize()) return false;
     lu_.solve(four_);
@@ -89,11 +87,11 @@ class EndSolver : public StepEnd {
     end.v = last.v;
     end.a = last.a;
     end.gap_accel = last.gap_accel;
-    system_.motions(end.q, end.v, m);
+    find_motions(end, m);
     if (!(ask_rates(last, end, m) < rounding)) {  // one pass has left more
       ask_gaps(last, end, m);
-      answer(end.q);
-      system_.motions(end.q, end.v, m);
+      move(end.q);
+      find_motions(end, m);
       ask_rates(last, end, m);
     }
     move_velocities(end, m);
@@ -106,62 +104,81 @@ class EndSolver : public StepEnd {
   }
 
  private:
-  struct Joint {
-    GapMap<double> map{};               // at the last stage, as in the matrix: with another one stiff joints would answer what is no gap
-    double weight[3] = {};              // K + mu C where that is diagonal
-    std::size_t a = 0, b = 0;           // its bodies; the ground stands behind the last one
-    const LinearLaw* linear = nullptr;  // its law, if that is one
-    std::size_t full = 0;               // its matrix among full_, where that is not diagonal
-    BlockPattern::Slot slot{};          // of its bodies, A before B
-    std::array<bool, 3> forbidden{};    // components
-    bool pose = false;                  // springs and dampers in the relative pose
-  };
-  using Three = BlockVec<double, S::kDof>;
+  using L = FourJoints::L;
+  using Read = FourJoints::Read;
 
   std::size_t n_bodies() const { return system_.bodies.size(); }
 
-  template <class T>
-  void weigh(const Joint& joint, const T* gap, T* f) const {
-    if (joint.linear) {
-      for (int k = 0; k < S::kDof; ++k) f[k] = joint.weight[k] * gap[k];
-    } else {
-      const S::Mat& w = full_[joint.full];
-      for (int k = 0; k < S::kDof; ++k) f[k] = w(k, 0) * gap[0] + w(k, 1) * gap[1] + w(k, 2) * gap[2];
-    }
+  void see(const std::vector<S::Motion>& m) {
+    for (std::size_t b = 0; b < n_bodies(); ++b) at_[b].take(m[b]);
+  }
+  void find_motions(const State& end, std::vector<S::Motion>& m) {
+    system_.motions(end.q, end.v, m);
+    see(m);
   }
 
-  void begin_matrix(double mu) {
-    lu_.set_diagonal([&](int b, int k) { return mu * mu * system_.bodies[b].mass[k]; });
-    std::fill(four_.begin(), four_.end(), Four{});
+  Read read(const FourJoints& joints, double t, const std::vector<S::Motion>& m) const {
+    Read r;
+    if (joints.pose) {
+      joints.read_poses(at_, r);
+      return r;
+    }
+    const Reading one = system_.reading(joints.first, t, m);
+    for (int k = 0; k < S::kDof; ++k) {
+      r.gap[k] = L::all(one.gap[k]);
+      r.rate[k] = L::all(one.rate[k]);
+      r.bias[k] = L::all(one.bias[k]);
+    }
+    r.map = GapMap<L>::same(one.map);
+    return r;
   }
 
-  void add_joint(std::size_t j, double mu, const Stage& last) {
-    Joint& joint = joints_[j];
-    const JointData& data = system_.joints[j];
-    if (joint.linear) {
-      for (int k = 0; k < S::kDof; ++k) joint.weight[k] = joint.linear->k[k] + mu * joint.linear->c[k];
-    } else {
-      const Response response = respond(data.law, last.gap[j], last.gap_rate[j]);
-      full_[joint.full] = response.stiffness + mu * response.damping;
+  // K + mu C.
+  void find_weight(FourJoints& joints, double mu, const Stage& last) {
+    if (joints.full < 0) {
+      for (int k = 0; k < S::kDof; ++k) joints.weight[k] = joints.k[k] + mu * joints.c[k];
+      return;
     }
-    if (joint.pose) add_pose_blocks(lu_, data.at, joint.slot, joint.map, joint.weight, S::Vec::Zero());
-    else add_gap_blocks(lu_, data.at, joint.slot, joint.map, joint.linear ? S::Mat(S::Vec(joint.weight[0], joint.weight[1], joint.weight[2]).asDiagonal()) : full_[joint.full]);
+    const Response response = respond(system_.joints[joints.first].law, last.gap[joints.first], last.gap_rate[joints.first]);
+    full_[joints.full] = response.stiffness + mu * response.damping;
+  }
+  void weigh(const FourJoints& joints, const L* gap, L* f) const {
+    for (int k = 0; k < S::kDof; ++k) {
+      if (joints.full < 0) {
+        f[k] = joints.weight[k] * gap[k];
+      } else {
+        const S::Mat& w = full_[joints.full];
+        f[k] = w(k, 0) * gap[0] + w(k, 1) * gap[1] + w(k, 2) * gap[2];
+      }
+    }
+  }
+  // Of one of the joints, four sets of gaps.
+  void weigh_tails(const FourJoints& joints, int i, const Four& gap, Four& f) const {
+    if (joints.full >= 0) weigh(joints, gap.a.data(), f.a.data());
+    else
+      for (int k = 0; k < S::kDof; ++k) f[k] = joints.weight[k][i] * gap[k];
+  }
+
+  void add_blocks(const FourJoints& joints) {
+    if (!joints.pose) {
+      const S::Mat w = joints.full >= 0 ? full_[joints.full] : S::Mat(S::Vec(joints.weight[0][0], joints.weight[1][0], joints.weight[2][0]).asDiagonal());
+      add_gap_blocks(lu_, system_.joints[joints.first].at, joints.slot[0], joints.map.lane(0), w);
+      return;
+    }
+    const auto blocks = PoseBlocks<L>::of(joints.map, joints.weight);
+    const auto body = [this](int place) { return place == static_cast<int>(n_bodies()) ? kGround : place; };
+    for (int i = 0; i < joints.n; ++i) blocks.lane(i).add_to(lu_, body(joints.a[i]), body(joints.b[i]), joints.slot[i]);
   }
 
   // one_ += G' W gap.
-  void ask(const Joint& joint, const S::Vec& gap) {
-    double f[3];
-    weigh(joint, gap.data(), f);
-    joint.map.push(f, one_[joint.a], one_[joint.b]);
+  void ask(const FourJoints& joints, const L (&gap)[3]) {
+    L f[3];
+    weigh(joints, gap, f);
+    joints.push(f, one_);
   }
-  static double largest(const Joint& joint, const S::Vec& gap, double than) {
-    for (int k = 0; k < S::kDof; ++k)
-      if (joint.forbidden[k]) than = std::max(than, std::abs(gap[k]));
-    return than;
-  }
-  static void clear(std::vector<Three>& x) { std::fill(x.begin(), x.end(), Three{}); }
+  static void clear(std::vector<BodyRow>& x) { std::fill(x.begin(), x.end(), BodyRow{}); }
 
-  void answer(Vecs& x) {
+  void move(Vecs& x) {
     lu_.solve(one_);
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) x[b][k] += one_[b][k];
@@ -169,49 +186,78 @@ class EndSolver : public StepEnd {
 
   void ask_gaps(const Stage& last, const State& end, const std::vector<S::Motion>& m) {
     clear(one_);
-    for (std::size_t j = 0; j < joints_.size(); ++j)
-      system_.with_reading(j, end.t, m, [&](const Reading& r) { ask(joints_[j], last.gap[j] - r.gap); });
+    for (const FourJoints& joints : joints_) {
+      const Read r = read(joints, end.t, m);
+      L off[3];
+      for (int k = 0; k < S::kDof; ++k) off[k] = joints.take(last.gap, k) - r.gap[k];
+      ask(joints, off);
+    }
   }
 
   // What is left of the gaps is returned.
   double ask_rates(const Stage& last, const State& end, const std::vector<S::Motion>& m) {
     clear(one_);
-    double left = 0;
-    for (std::size_t j = 0; j < joints_.size(); ++j)
-      system_.with_reading(j, end.t, m, [&](const Reading& r) {
-        left = largest(joints_[j], last.gap[j] - r.gap, left);
-        ask(joints_[j], last.gap_rate[j] - r.rate);
-      });
-    return left;
+    L left = L::all(0);
+    for (const FourJoints& joints : joints_) {
+      const Read r = read(joints, end.t, m);
+      L off[3];
+      for (int k = 0; k < S::kDof; ++k) {
+        left = larger_size(left, joints.forbidden[k] * (joints.take(last.gap, k) - r.gap[k]));
+        off[k] = joints.take(last.gap_rate, k) - r.rate[k];
+      }
+      ask(joints, off);
+    }
+    return largest_of(left);
   }
 
   void move_velocities(State& end, std::vector<S::Motion>& m) {
-    answer(end.v);
-    for (std::size_t b = 0; b < n_bodies(); ++b) {
-      m[b].v = end.v[b].head<2>();
-      m[b].w = end.v[b][2];
-    }
+    lu_.solve(
+        one_, [](int, BodyRow&) {},
+        [&](int b, const BodyRow& x) {
+          S::Vec& v = end.v[b];
+          for (int k = 0; k < S::kDof; ++k) v[k] += x[k];
+          m[b].v = v.head<2>();
+          m[b].w = v[2];
+          at_[b].take(m[b]);
+        });
   }
 
   // The joints' forces at their gaps, into pull_ by the matrix's map, so that the balance takes off all that is wrong with them; and
   // what their accelerations want, into one_. What is left of the rates is returned.
   double ask_forces(const Stage& last, State& end, const std::vector<S::Motion>& m, double rounding, double rounding_of_rate) {
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < S::kDof; ++k) accel_[b][k] = last.a[b][k];
     clear(one_);
     clear(pull_);
-    double left = 0;
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
-      const Joint& joint = joints_[j];
-      const JointData& data = system_.joints[j];
-      system_.with_reading(j, end.t, m, [&](const Reading& r) {
-        left = largest(joint, last.gap_rate[j] - r.rate, left);
-        ask(joint, last.gap_accel[j] - r.bias - gap_change(data.at, r, last.a));
-        end.gap[j] = carried_or(last.gap[j], r.gap, rounding);
-        end.gap_rate[j] = carried_or(last.gap_rate[j], r.rate, rounding_of_rate);
-      });
-      end.force[j] = joint.linear ? joint.linear->force(end.gap[j], end.gap_rate[j]) : law_force(data.law, end.gap[j], end.gap_rate[j]);
-      joint.map.push(end.force[j].data(), pull_[joint.a], pull_[joint.b]);
+    L left = L::all(0);
+    for (const FourJoints& joints : joints_) {
+      const Read r = read(joints, end.t, m);
+      L accel[3], gap[3], rate[3], force[3];
+      joints.gather(r.map, accel_, accel);
+      for (int k = 0; k < S::kDof; ++k) {
+        const L carried = joints.take(last.gap_rate, k);
+        left = larger_size(left, joints.forbidden[k] * (carried - r.rate[k]));
+        accel[k] = joints.take(last.gap_accel, k) - r.bias[k] - accel[k];
+        gap[k] = carried_or(joints.take(last.gap, k), r.gap[k], rounding);
+        rate[k] = carried_or(carried, r.rate[k], rounding_of_rate);
+      }
+      joints.put(gap, end.gap);
+      joints.put(rate, end.gap_rate);
+      ask(joints, accel);
+      find_force(joints, gap, rate, force);
+      joints.put(force, end.force);
+      joints.push(force, pull_);
     }
-    return left;
+    return largest_of(left);
+  }
+
+  void find_force(const FourJoints& joints, const L (&gap)[3], const L (&rate)[3], L (&force)[3]) const {
+    if (joints.full < 0) {
+      for (int k = 0; k < S::kDof; ++k) force[k] = -(joints.k[k] * gap[k] + joints.c[k] * rate[k]);
+      return;
+    }
+    const S::Vec f = law_force(system_.joints[joints.first].law, {gap[0][0], gap[1][0], gap[2][0]}, {rate[0][0], rate[1][0], rate[2][0]});
+    for (int k = 0; k < S::kDof; ++k) force[k] = L::all(f[k]);
   }
 
   // At the end of the step positions and velocities are better than anywhere inside: so are the forces that balance them. The
@@ -219,28 +265,31 @@ class EndSolver : public StepEnd {
   void balance(const Stage& last, State& end, LoadScale& scale) {
     lu_.solve(one_);
     for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < S::kDof; ++k) pull_[b][k] += last.Q[b][k] - system_.bodies[b].mass[k] * (last.a[b][k] + one_[b][k]);
+      for (int k = 0; k < S::kDof; ++k) {
+        const double mass = system_.bodies[b].mass[k];
+        pull_[b][k] += last.Q[b][k] - mass * (last.a[b][k] + one_[b][k]);
+        one_[b][k] = std::abs(last.Q[b][k]) + std::abs(mass * end.a[b][k]);
+      }
     lu_.solve(pull_);
     pull_.back() = {};  // the ground's
-    for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < S::kDof; ++k) one_[b][k] = std::abs(last.Q[b][k]) + std::abs(system_.bodies[b].mass[k] * end.a[b][k]);
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
-      const Joint& joint = joints_[j];
-      double gap[3], change[3];
-      joint.map.gather(pull_[joint.a].a.data(), pull_[joint.b].a.data(), gap);
-      weigh(joint, gap, change);
-      for (int k = 0; k < S::kDof; ++k) end.force[j][k] -= change[k];
-      add_magnitudes(joint.map, end.force[j], one_[joint.a], one_[joint.b]);
+    for (const FourJoints& joints : joints_) {
+      L gap[3], force[3];
+      joints.gather(joints.map, pull_, gap);
+      weigh(joints, gap, force);
+      for (int k = 0; k < S::kDof; ++k) force[k] = joints.take(end.force, k) - force[k];
+      joints.put(force, end.force);
+      joints.push_magnitudes(force, one_);
     }
     for (std::size_t b = 0; b < n_bodies(); ++b) raise_scale(system_.bodies[b], S::Vec(one_[b][0], one_[b][1], one_[b][2]), scale.body[b]);
   }
 
   const System& system_;
-  std::vector<Joint> joints_;
+  std::vector<FourJoints> joints_;
   std::vector<S::Mat> full_;
   BlockLu<double, S::kDof> lu_;
-  std::vector<Four> four_;          // of bodies and the ground, as the next ones
-  std::vector<Three> one_, pull_;
+  std::vector<BodyAt> at_;          // of bodies and the ground, as the next ones
+  std::vector<Four> four_;
+  std::vector<BodyRow> accel_, one_, pull_;
 };
 
 // The same text for registers of every width.

@@ -24,6 +24,10 @@ struct GapMap {
   static GapMap of(const RelativePose& pose) {
     return {pose.c, pose.s, pose.arm_a.x(), pose.arm_a.y(), pose.arm_b.x(), pose.arm_b.y(), {}, false};
   }
+  /// The same map in every lane.
+  static GapMap same(const GapMap<double>& g) {
+    return {T(g.c), T(g.s), T(g.ax), T(g.ay), T(g.bx), T(g.by), {T(g.gradient[0]), T(g.gradient[1]), T(g.gradient[2])}, g.function};
+  }
   /// The map of one lane.
   GapMap<double> lane(int i) const {
     return {c[i], s[i], ax[i], ay[i], bx[i], by[i], {gradient[0][i], gradient[1][i], gradient[2][i]}, function};

@@ -94,6 +94,16 @@ PINTLE_LANES Lanes<N> sizes(const Lanes<N>& a) {
   return {a.v < -a.v ? -a.v : a.v};
 }
 
+/// Rows become columns.
+PINTLE_LANES void transpose(Lanes<4> (&rows)[4]) {
+  const auto even_low = __builtin_shufflevector(rows[0].v, rows[1].v, 0, 4, 2, 6), odd_low = __builtin_shufflevector(rows[0].v, rows[1].v, 1, 5, 3, 7);
+  const auto even_high = __builtin_shufflevector(rows[2].v, rows[3].v, 0, 4, 2, 6), odd_high = __builtin_shufflevector(rows[2].v, rows[3].v, 1, 5, 3, 7);
+  rows[0].v = __builtin_shufflevector(even_low, even_high, 0, 1, 4, 5);
+  rows[1].v = __builtin_shufflevector(odd_low, odd_high, 0, 1, 4, 5);
+  rows[2].v = __builtin_shufflevector(even_low, even_high, 2, 3, 6, 7);
+  rows[3].v = __builtin_shufflevector(odd_low, odd_high, 2, 3, 6, 7);
+}
+
 /// The larger of the sizes, lane by lane.
 template <int N>
 PINTLE_LANES Lanes<N> larger_size(const Lanes<N>& a, const Lanes<N>& b) {
