@@ -11,17 +11,8 @@
 
 namespace pintle {
 
-/// Three numbers of a body, as wide as a register. The fourth is nothing.
-struct BodyRow {
-  alignas(32) std::array<double, 4> a{};
-  double& operator[](int i) { return a[i]; }
-  const double& operator[](int i) const { return a[i]; }
-
-  PINTLE_LANES Lanes<4> lanes() const { return Lanes<4>::of({a[0], a[1], a[2], a[3]}); }
-  PINTLE_LANES void add(const Lanes<4>& x) {
-    for (int i = 0; i < 4; ++i) a[i] += x.v[i];
-  }
-};
+/// Three numbers of a body.
+using BodyRow = BlockVec<double, Planar::kDof>;
 
 /// Where a body is and how it moves, for joints that look at four of them.
 struct BodyAt {
@@ -123,13 +114,14 @@ struct FourJoints {
     }
   };
 
+  PINTLE_LANES static void add(const L& x, BodyRow& to) { to.set(to.lanes() + x); }
   PINTLE_LANES void push(const L (&on_a)[3], const L (&on_b)[3], std::vector<BodyRow>& on_bodies) const {
     L row_a[4] = {on_a[0], on_a[1], on_a[2], L::all(0)}, row_b[4] = {on_b[0], on_b[1], on_b[2], L::all(0)};
     transpose(row_a);
     transpose(row_b);
     for (int i = 0; i < n; ++i) {
-      on_bodies[a[i]].add(row_a[i]);
-      on_bodies[b[i]].add(row_b[i]);
+      add(row_a[i], on_bodies[a[i]]);
+      add(row_b[i], on_bodies[b[i]]);
     }
   }
 };

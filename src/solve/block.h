@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "solve/lanes.h"
@@ -40,6 +41,29 @@ struct Block {
   std::array<T, N * N> a{};
   T& operator()(int i, int j) { return a[i * N + j]; }
   const T& operator()(int i, int j) const { return a[i * N + j]; }
+};
+
+/// Three numbers in a register. The fourth is nothing.
+template <>
+struct BlockVec<double, 3> {
+  alignas(32) std::array<double, 4> a{};
+  double& operator[](int i) { return a[i]; }
+  const double& operator[](int i) const { return a[i]; }
+
+  PINTLE_LANES Lanes<4> lanes() const {
+    Lanes<4> x;
+    std::memcpy(&x.v, a.data(), sizeof x.v);
+    return x;
+  }
+  PINTLE_LANES void set(const Lanes<4>& x) { std::memcpy(a.data(), &x.v, sizeof x.v); }
+};
+
+/// 3 x 3 with each row in a register.
+template <>
+struct Block<double, 3> {
+  std::array<BlockVec<double, 3>, 3> rows{};
+  double& operator()(int i, int j) { return rows[i][j]; }
+  const double& operator()(int i, int j) const { return rows[i][j]; }
 };
 
 /// C -= A B.
@@ -173,26 +197,12 @@ PINTLE_LANES void apply_lower(const Block<T, N>& m, Block<T, N>& B) {
       for (int c = 0; c < N; ++c) B(i, c) += m(i, j) * B(j, c);
 }
 
-/// x becomes M x.
-template <class V, class T, int N>
-PINTLE_LANES void apply_lower(const Block<T, N>& m, V& x) {
-  for (int i = N - 1; i > 0; --i)
-    for (int j = 0; j < i; ++j) x[i] += m(i, j) * x[j];
-}
-
 /// B becomes M' B.
 template <class T, int N>
 PINTLE_LANES void apply_lower_transposed(const Block<T, N>& m, Block<T, N>& B) {
   for (int j = 0; j < N - 1; ++j)
     for (int i = j + 1; i < N; ++i)
       for (int c = 0; c < N; ++c) B(j, c) += m(i, j) * B(i, c);
-}
-
-/// x becomes M' x.
-template <class V, class T, int N>
-PINTLE_LANES void apply_lower_transposed(const Block<T, N>& m, V& x) {
-  for (int j = 0; j < N - 1; ++j)
-    for (int i = j + 1; i < N; ++i) x[j] += m(i, j) * x[i];
 }
 
 /// D^-1 B.
@@ -204,11 +214,65 @@ PINTLE_LANES Block<T, N> over_pivots(const Block<T, N>& m, const Block<T, N>& B)
   return out;
 }
 
-/// D^-1 x.
+/// x becomes M' D^-1 M x: what a factorised m solves.
 template <class V, class T, int N>
-PINTLE_LANES V over_pivots(const Block<T, N>& m, const V& x) {
-  V out;
-  for (int i = 0; i < N; ++i) out[i] = m(i, i) * x[i];
+PINTLE_LANES void apply_inverse(const Block<T, N>& m, V& x) {
+  for (int i = N - 1; i > 0; --i)
+    for (int j = 0; j < i; ++j) x[i] += m(i, j) * x[j];
+  for (int i = 0; i < N; ++i) x[i] = m(i, i) * x[i];
+  for (int j = 0; j < N - 1; ++j)
+    for (int i = j + 1; i < N; ++i) x[j] += m(i, j) * x[i];
+}
+
+// The same of real blocks, row by row.
+using RealBlock = Block<double, 3>;
+using RealRow = BlockVec<double, 3>;
+
+/// C -= A' B.
+PINTLE_LANES void subtract_transposed_product(RealBlock& C, const RealBlock& A, const RealBlock& B) {
+  for (int i = 0; i < 3; ++i) {
+    Lanes<4> sum = C.rows[i].lanes();
+    for (int k = 0; k < 3; ++k) sum -= A(k, i) * B.rows[k].lanes();
+    C.rows[i].set(sum);
+  }
+}
+
+/// C -= A' B where that is symmetric, and C too.
+PINTLE_LANES void subtract_symmetric_product(RealBlock& C, const RealBlock& A, const RealBlock& B) { subtract_transposed_product(C, A, B); }
+
+/// y -= A x.
+PINTLE_LANES void subtract_product(RealRow& y, const RealBlock& A, const RealRow& x) {
+  Lanes<4> columns[4] = {A.rows[0].lanes(), A.rows[1].lanes(), A.rows[2].lanes(), Lanes<4>::all(0)}, sum = y.lanes();
+  transpose(columns);
+  for (int j = 0; j < 3; ++j) sum -= x[j] * columns[j];
+  y.set(sum);
+}
+
+/// y -= A' x.
+PINTLE_LANES void subtract_transposed_product(RealRow& y, const RealBlock& A, const RealRow& x) {
+  Lanes<4> sum = y.lanes();
+  for (int j = 0; j < 3; ++j) sum -= x[j] * A.rows[j].lanes();
+  y.set(sum);
+}
+
+/// B becomes M B, of a factorised m.
+PINTLE_LANES void apply_lower(const RealBlock& m, RealBlock& B) {
+  const Lanes<4> first = B.rows[0].lanes(), second = B.rows[1].lanes();
+  B.rows[2].set(B.rows[2].lanes() + m(2, 0) * first + m(2, 1) * second);
+  B.rows[1].set(second + m(1, 0) * first);
+}
+
+/// B becomes M' B.
+PINTLE_LANES void apply_lower_transposed(const RealBlock& m, RealBlock& B) {
+  const Lanes<4> second = B.rows[1].lanes(), third = B.rows[2].lanes();
+  B.rows[0].set(B.rows[0].lanes() + m(1, 0) * second + m(2, 0) * third);
+  B.rows[1].set(second + m(2, 1) * third);
+}
+
+/// D^-1 B.
+PINTLE_LANES RealBlock over_pivots(const RealBlock& m, const RealBlock& B) {
+  RealBlock out;
+  for (int i = 0; i < 3; ++i) out.rows[i].set(m(i, i) * B.rows[i].lanes());
   return out;
 }
 

@@ -90,22 +90,25 @@ class BlockLu {
   // row before it and for nothing else.
   bool factorize_upper() {
     const BlockPattern& p = *pattern_;
-    for (int k = 0; k < p.n(); ++k) {
-      if (!factorize_symmetric(diagonal_[k])) return false;
+    Block<T, N>*const diagonal = diagonal_.data(), *const upper = upper_.data(), *const row = row_.data();  // no store reaches these
+    const int n = p.n();
+    for (int k = 0; k < n; ++k) {
+      Block<T, N>& pivot = diagonal[k];
+      if (!factorize_symmetric(pivot)) return false;
       const int begin = p.first(k), end = p.first(k + 1);
       const int* target = p.updates(k);
       for (int a = begin; a < end; ++a) {
-        apply_lower(diagonal_[k], upper_[a]);
-        row_[a - begin] = over_pivots(diagonal_[k], upper_[a]);
+        apply_lower(pivot, upper[a]);
+        row[a - begin] = over_pivots(pivot, upper[a]);
       }
       for (int a = begin; a < end; ++a)
         for (int b = begin; b < end; ++b, ++target) {
-          if (*target == 0) subtract_symmetric_product(diagonal_[p.column(a)], upper_[a], row_[a - begin]);
-          else if (*target > 0) subtract_transposed_product(upper_[*target - 1], upper_[a], row_[b - begin]);
+          if (*target == 0) subtract_symmetric_product(diagonal[p.column(a)], upper[a], row[a - begin]);
+          else if (*target > 0) subtract_transposed_product(upper[*target - 1], upper[a], row[b - begin]);
         }
       for (int a = begin; a < end; ++a) {
-        apply_lower_transposed(diagonal_[k], row_[a - begin]);
-        upper_[a] = row_[a - begin];
+        apply_lower_transposed(pivot, row[a - begin]);
+        upper[a] = row[a - begin];
       }
     }
     return true;
@@ -128,20 +131,23 @@ class BlockLu {
   }
 
   template <class Rows, class First, class Last>
-  void solve_upper(Rows& x, First& first, Last& last) const {
+  void solve_upper(Rows& rows, First& first, Last& last) const {
     const BlockPattern& p = *pattern_;
-    for (int k = 0; k < p.n(); ++k) {
-      auto& here = x[p.row_at(k)];
-      first(p.row_at(k), here);
-      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_transposed_product(x[p.row_at(p.column(a))], upper_[a], here);
-      apply_lower(diagonal_[k], here);
-      here = over_pivots(diagonal_[k], here);
-      apply_lower_transposed(diagonal_[k], here);
+    const Block<T, N>*const diagonal = diagonal_.data(), *const upper = upper_.data();  // no store reaches these
+    auto* const x = rows.data();
+    const int n = p.n();
+    for (int k = 0; k < n; ++k) {
+      const int i = p.row_at(k), end = p.first(k + 1);
+      auto& here = x[i];
+      first(i, here);
+      for (int a = p.first(k); a < end; ++a) subtract_transposed_product(x[p.row_at(p.column(a))], upper[a], here);
+      apply_inverse(diagonal[k], here);
     }
-    for (int k = p.n() - 1; k >= 0; --k) {
-      auto& here = x[p.row_at(k)];
-      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(here, upper_[a], x[p.row_at(p.column(a))]);
-      last(p.row_at(k), std::as_const(here));
+    for (int k = n - 1; k >= 0; --k) {
+      const int i = p.row_at(k), end = p.first(k + 1);
+      auto& here = x[i];
+      for (int a = p.first(k); a < end; ++a) subtract_product(here, upper[a], x[p.row_at(p.column(a))]);
+      last(i, std::as_const(here));
     }
   }
 
