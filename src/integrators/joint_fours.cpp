@@ -6,6 +6,7 @@ namespace {
 void put(const JointData& data, const System& system, int lane, FourJoints& four) {
   const Placement& at = data.at;
   const auto body = [&](int index) { return index == kGround ? system.n_bodies() : index; };
+  four.lane[lane] = four.first + four.n - 1;
   four.a[lane] = body(at.a);
   four.b[lane] = body(at.b);
   if (at.a != kGround && at.b != kGround) four.slot[lane] = system.pattern().slot(at.a, at.b);

@@ -39,7 +39,6 @@ struct FourJoints {
   };
   struct Read {
     L gap[3], rate[3], bias[3];
-    GapMap<L> map;
   };
 
   Foot F, M;
@@ -47,28 +46,27 @@ struct FourJoints {
   L forbidden[3];          // components: 1; free ones: 0
   L weight[3];             // K + mu C where that is diagonal
   GapMap<L> map;           // as in the matrix
-  int first = 0, n = 0;    // joints; lanes beyond them follow the last one
+  int first = 0, n = 0;    // joints
+  int lane[4] = {};        // the joint in each; those beyond n follow the last one
   int a[4] = {}, b[4] = {};  // their bodies; the ground stands behind the last one
   BlockPattern::Slot slot[4] = {};  // of their bodies, A before B
   int full = -1;           // its matrix among those that are not diagonal
   bool pose = false;       // springs and dampers in the relative pose
 
-  int joint(int lane) const { return first + std::min(lane, n - 1); }
-
   /// Component k of what there is for each joint.
   PINTLE_LANES L take(const std::vector<Planar::Vec>& x, int component) const {
-    return L::of({x[joint(0)][component], x[joint(1)][component], x[joint(2)][component], x[joint(3)][component]});
+    return L::of({x[lane[0]][component], x[lane[1]][component], x[lane[2]][component], x[lane[3]][component]});
   }
   PINTLE_LANES void put(const L (&from)[3], std::vector<Planar::Vec>& x) const {
     for (int i = 0; i < n; ++i)
       for (int component = 0; component < 3; ++component) x[first + i][component] = from[component].v[i];
   }
 
-  /// Their gaps, of springs and dampers in the pose. joints Eqs. (2.1)-(2.5).
-  PINTLE_LANES void read_poses(const std::vector<BodyAt>& at, Read& r) const {
+  /// Their gaps and the map there, of springs and dampers in the pose. joints Eqs. (2.1)-(2.5).
+  PINTLE_LANES void read_poses(const std::vector<BodyAt>& at, Read& r, GapMap<L>& map_there) const {
     const View A = View::of(at, a), B = View::of(at, b);
     const auto g = PoseGeometry<L>::between(A, F, B, M);
-    r.map.take(g);
+    map_there.take(g);
     const L rx = g.rx + A.w * g.dy, ry = g.ry - A.w * g.dx;
     r.gap[0] = g.c * g.dx + g.s * g.dy - offset[0];
     r.gap[1] = g.c * g.dy - g.s * g.dx - offset[1];

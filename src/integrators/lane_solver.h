@@ -49,6 +49,7 @@ class LaneSolver : public StageSolver {
     double k[3], c[3];       // of springs and dampers
     double over_scale[3];    // 1 over the loads that changes of the force are measured by
     int a, b;                // its bodies; the ground stands behind the last one
+    int last = -1;           // of them but the ground
     int full = -1;           // its matrix among full_, where that is not diagonal
     bool linear = false;     // springs and dampers
     bool function = false;   // its gap is a function of the pose
@@ -61,24 +62,26 @@ class LaneSolver : public StageSolver {
   std::size_t n_bodies() const { return bodies_.size() - 1; }
   int body_or_ground(int place) const { return place == static_cast<int>(n_bodies()) ? kGround : place; }
 
-  void begin_bodies(const State& begin, const Curve& curve, const LoadScale& scale);
+  void answer_all(const State& begin, double h, const Curve* unplaced, const LoadScale& scale, bool linearized);
+  void begin_bodies(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t first, std::size_t end);
   void begin_joint(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t j);
   void find_targets(double t, double h);
   L place(const L& a, double x0, double v0, L& v) const;
   void place_body(const State& begin, std::size_t b);
-  void check_angles(const L& angles);
+  void check_angles(const L& angles, std::size_t first, std::size_t end);
   void place_joint(const State& begin, std::size_t j, L& worst, L& sum);
-  void find_missing(const State& begin, double h);
+  void find_missing(std::size_t b);
   void find_loads(const State& begin, double h);
   void find_balanced_loads();
   void answer(std::size_t j, const GapMap<L>& map, const L (&bias)[3]);
   GapMap<L> find_map(std::size_t j, L (&bias)[3]) const;
   L find_gradient(std::size_t j, const PoseGeometry<L>& pose, GapMap<L>& map) const;
-  void begin_matrix(const State& begin, double h);
+  void begin_matrix(double h);
+  void add_loads(const State& begin, double h);
   void linearize(const State& begin, std::size_t j, const GapMap<L>& map);
   void add_joint(std::size_t j, const Response& tangents);
   static void add_block(Block<X, 3>& block, const Planar::Mat& K, const Planar::Mat& C, const X& mu, double sign);
-  double correct(const State& begin);
+  bool correct(const State& begin, bool factorize, double& size);
 
   const System& system_;
   const RadauTable& table_;
@@ -91,6 +94,8 @@ class LaneSolver : public StageSolver {
   static constexpr int kMostWithOld = 4;      // iterations
   double factorized_for_ = 0;                 // the step; 0: none
   bool loads_;                                // there is more than weight
+  static constexpr std::size_t kTile = 32;    // bodies that fit into the nearest cache, with their joints
+  std::vector<int> order_;                    // of joints, by their last bodies
   bool simple_ = true;                        // and no joint that is more than springs and dampers
   bool poses_ = true;                         // no joint but springs and dampers in the relative pose
   std::vector<Body> bodies_;

@@ -8,15 +8,18 @@
 
 namespace pintle {
 
-// Z(mu) of Eq. (3.8) at every eigenvalue, but for the joints: masses, and the loads' slopes at the middle stage.
+// The eigenvalues that Z(mu) of Eq. (3.8) is made at.
 template <int N>
-void LaneSolver<N>::begin_matrix(const State& begin, double h) {
+void LaneSolver<N>::begin_matrix(double h) {
   mu_ = (1 / h) * matrices_.eigenvalue;
   mu2_ = mu_ * mu_;
   once_ = reciprocal(mu_);
   twice_ = once_ * once_;
-  lu_.set_diagonal([this](int b, int k) { return system_.bodies[b].mass[k] * mu2_; });
-  if (poses_ && !loads_) return;
+}
+
+// The loads' slopes at the middle stage.
+template <int N>
+void LaneSolver<N>::add_loads(const State& begin, double h) {
   for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(kMiddle);
   const auto add = [this](int i, int j, const Planar::Mat& dq, const Planar::Mat& dv) {  // of a matrix that is not symmetric
     add_block(i == j ? lu_.diagonal(i) : lu_.off_diagonal(system_.pattern().slot(i, j)), dq, dv, mu_, -1);

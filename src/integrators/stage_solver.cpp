@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "integrators/pose_blocks.h"
 #include "solve/wide.h"
@@ -26,6 +28,7 @@ LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double 
     Joint& joint = joints_[j];
     joint.a = body(data.at.a);
     joint.b = body(data.at.b);
+    for (const int index : {data.at.a, data.at.b}) joint.last = std::max(joint.last, index);
     joint.function = !std::holds_alternative<Selection>(data.probe);
     joint.F = {data.at.F.p, data.at.F.c, data.at.F.s};
     joint.M = {data.at.M.p, data.at.M.c, data.at.M.s};
@@ -47,6 +50,9 @@ LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double 
     if (data.at.a != kGround && data.at.b != kGround) joint.slot = system.pattern().slot(data.at.a, data.at.b);
   }
   simple_ = simple_ && !loads_;
+  order_.resize(joints_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  std::stable_sort(order_.begin(), order_.end(), [this](int i, int j) { return joints_[i].last < joints_[j].last; });
   if (servos) target_accel_.assign(joints_.size(), L::all(0));
 }
 
@@ -77,31 +83,22 @@ bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* 
                                  Counters& counters) {
   step_.scale(matrices_, h);
   const Curve curve(table_, steps_, h, before, last_h);
-  begin_bodies(begin, curve, scale);
   find_targets(begin.t, h);
   contraction_.start();
   // An old factorisation does not know the new side of a jump: without a step before there is none that serves.
   bool fresh = !before || h != factorized_for_ || contraction_.rate() > kGood, wanted = fresh;  // a factorisation
-  const Curve* unplaced = &curve;                                                     // the joints are
+  const Curve* unplaced = &curve;  // the stages are
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
-    find_missing(begin, h);
-    if (wanted) begin_matrix(begin, h);
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
-      if (unplaced) begin_joint(begin, *unplaced, scale, j);
-      L bias[3];
-      const GapMap<L> map = find_map(j, bias);
-      if (wanted) linearize(begin, j, map);
-      answer(j, map, bias);
-    }
-    unplaced = nullptr;
+    answer_all(begin, h, std::exchange(unplaced, nullptr), scale, wanted);
     counters.evaluations += N;
-    if (wanted) {
-      counters.factorizations += 1 + N / 2;
-      factorized_for_ = lu_.factorize() ? h : 0;
-      if (factorized_for_ == 0) return false;
-      wanted = false;
+    double correction = 0;
+    if (wanted) counters.factorizations += 1 + N / 2;
+    if (!correct(begin, wanted, correction)) {
+      factorized_for_ = 0;
+      return false;
     }
-    const double correction = correct(begin);
+    if (wanted) factorized_for_ = h;
+    wanted = false;
     ++counters.newton_iterations;
     const auto verdict = contraction_.judge(iteration, correction, tolerance_);
     if (verdict == NewtonContraction::Verdict::kDone) {
@@ -119,11 +116,38 @@ bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* 
   return false;
 }
 
+// What is missing in all equations, and the matrix of the correction that answers it. Bodies and joints that follow each other are done
+// together, while they are at hand; loads want to know where all of the bodies are.
+template <int N>
+void LaneSolver<N>::answer_all(const State& begin, double h, const Curve* unplaced, const LoadScale& scale, bool linearized) {
+  const bool whole = loads_ || !poses_;
+  if (linearized) begin_matrix(h);
+  std::size_t next = 0;
+  for (std::size_t first = 0, end = 0; first < n_bodies(); first = end) {
+    end = whole ? n_bodies() : std::min(first + kTile, n_bodies());
+    if (unplaced) begin_bodies(begin, *unplaced, scale, first, end);
+    if (loads_) find_loads(begin, h);
+    for (std::size_t b = first; b < end; ++b) {
+      find_missing(b);
+      if (linearized) lu_.set_diagonal(static_cast<int>(b), [&](int k) { return system_.bodies[b].mass[k] * mu2_; });
+    }
+    if (linearized && whole) add_loads(begin, h);
+    for (; next < order_.size() && joints_[order_[next]].last < static_cast<int>(end); ++next) {
+      const std::size_t j = order_[next];
+      if (unplaced) begin_joint(begin, *unplaced, scale, j);
+      L bias[3];
+      const GapMap<L> map = find_map(j, bias);
+      if (linearized) linearize(begin, j, map);
+      answer(j, map, bias);
+    }
+  }
+}
+
 // What corrections are measured by, and a first guess.
 template <int N>
-void LaneSolver<N>::begin_bodies(const State& begin, const Curve& curve, const LoadScale& scale) {
+void LaneSolver<N>::begin_bodies(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t first, std::size_t end) {
   L angles = L::all(0);
-  for (std::size_t b = 0; b < n_bodies(); ++b) {
+  for (std::size_t b = first; b < end; ++b) {
     Body& body = bodies_[b];
     for (int k = 0; k < 3; ++k) {
       body.over_scale[k] = system_.bodies[b].mass[k] / scale.body[b][k];
@@ -132,7 +156,7 @@ void LaneSolver<N>::begin_bodies(const State& begin, const Curve& curve, const L
     place_body(begin, b);
     angles = larger_size(angles, body.q[2]);
   }
-  check_angles(angles);
+  check_angles(angles, first, end);
 }
 
 template <int N>
@@ -181,9 +205,9 @@ void LaneSolver<N>::place_body(const State& begin, std::size_t b) {
 
 // `angles`: the largest.
 template <int N>
-void LaneSolver<N>::check_angles(const L& angles) {
+void LaneSolver<N>::check_angles(const L& angles, std::size_t first, std::size_t end) {
   if (!any_beyond_largest_angle(angles)) return;
-  for (std::size_t b = 0; b < n_bodies(); ++b) sine_and_cosine(bodies_[b].q[2], bodies_[b].s, bodies_[b].c);
+  for (std::size_t b = first; b < end; ++b) sine_and_cosine(bodies_[b].q[2], bodies_[b].s, bodies_[b].c);
 }
 
 // The joint's force at its gaps and their rates. How much that has changed, over the scale of the bodies that it acts on.
@@ -206,16 +230,13 @@ void LaneSolver<N>::place_joint(const State& begin, std::size_t j, L& worst, L& 
   }
 }
 
-// What is missing in the bodies' equations but for the joints' forces. Eq. (3.6).
+// What is missing in a body's equations but for the joints' forces. Eq. (3.6).
 template <int N>
-void LaneSolver<N>::find_missing(const State& begin, double h) {
-  if (loads_) find_loads(begin, h);
-  for (std::size_t b = 0; b < n_bodies(); ++b) {
-    const BodyData& data = system_.bodies[b];
-    for (int k = 0; k < 3; ++k) {
-      bodies_[b].missing[k] = (loads_ ? loads_on_[b][k] : L::all(data.gravity[k])) - data.mass[k] * bodies_[b].a[k];
-      rhs_[b][k] = X(L::all(0));
-    }
+void LaneSolver<N>::find_missing(std::size_t b) {
+  const BodyData& data = system_.bodies[b];
+  for (int k = 0; k < 3; ++k) {
+    bodies_[b].missing[k] = (loads_ ? loads_on_[b][k] : L::all(data.gravity[k])) - data.mass[k] * bodies_[b].a[k];
+    rhs_[b][k] = X(L::all(0));
   }
 }
 
@@ -306,28 +327,28 @@ Lanes<N> LaneSolver<N>::find_gradient(std::size_t j, const PoseGeometry<L>& pose
 }
 
 // One Newton correction: into the diagonal frame, the solve, back, and where that leads. Eqs. (3.9)-(3.11). Its size: as body
-// forces, and what the joint forces have changed, over the scale.
+// forces, and what the joint forces have changed, over the scale. False where the matrix, which may have to be factorised, is singular.
 template <int N>
-double LaneSolver<N>::correct(const State& begin) {
+bool LaneSolver<N>::correct(const State& begin, bool factorize, double& size) {
   L worst = L::all(0), sum = worst, angles = worst;
-  lu_.solve(
-      rhs_,
-      [&](int b, BlockVec<X, 3>& x) {
-        for (int k = 0; k < 3; ++k) x[k] += X(matrices_.T_inverse * bodies_[b].missing[k]);
-      },
-      [&](int b, const BlockVec<X, 3>& x) {
-        Body& body = bodies_[b];
-        for (int k = 0; k < 3; ++k) {
-          const L delta = matrices_.T * (mu2_ * x[k]).x, relative = body.over_scale[k] * delta;
-          body.missing[k] = delta;
-          body.a[k] += delta;
-          worst = larger_size(worst, relative);
-          sum += relative;
-        }
-        place_body(begin, b);
-        angles = larger_size(angles, body.q[2]);
-      });
-  check_angles(angles);
+  const auto complete = [&](int b, BlockVec<X, 3>& x) {
+    for (int k = 0; k < 3; ++k) x[k] += X(matrices_.T_inverse * bodies_[b].missing[k]);
+  };
+  const auto move = [&](int b, const BlockVec<X, 3>& x) {
+    Body& body = bodies_[b];
+    for (int k = 0; k < 3; ++k) {
+      const L delta = matrices_.T * (mu2_ * x[k]).x, relative = body.over_scale[k] * delta;
+      body.missing[k] = delta;
+      body.a[k] += delta;
+      worst = larger_size(worst, relative);
+      sum += relative;
+    }
+    place_body(begin, b);
+    angles = larger_size(angles, body.q[2]);
+  };
+  if (!factorize) lu_.solve(rhs_, complete, move);
+  else if (!lu_.factorize_and_solve(rhs_, complete, move)) return false;
+  check_angles(angles, 0, n_bodies());
   for (L& still : bodies_.back().missing) still = L::all(0);
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     Joint& joint = joints_[j];
@@ -336,7 +357,8 @@ double LaneSolver<N>::correct(const State& begin) {
     for (int k = 0; k < 3; ++k) joint.accel[k] += e[k];
     place_joint(begin, j, worst, sum);
   }
-  return largest(worst, sum);
+  size = largest(worst, sum);
+  return true;
 }
 
 template <int N>

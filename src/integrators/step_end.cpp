@@ -47,8 +47,7 @@ class EndSolver : public StepEnd {
     std::fill(four_.begin(), four_.end(), Four{});
     see(last.m);
     for (FourJoints& joints : joints_) {
-      const Read r = read(joints, t, last.m);
-      joints.map = r.map;
+      const Read r = read(joints, t, last.m, joints.map);
       find_weight(joints, mu, last);
       add_blocks(joints);
       L off[3];
@@ -61,9 +60,7 @@ class EndSolver : public StepEnd {
         joints.map.lane(i).push(f.a.data(), four_[joints.a[i]], four_[joints.b[i]]);
       }
     }
-    if (!lu_.factorize()) return false;
-    lu_.solve(four_);
-    return true;
+    return lu_.factorize_and_solve(four_, [](int, Four&) {}, [](int, const Four&) {});
   }
 
   // The gaps' own accelerations come out of the stages as second differences of what the forces demand; where a joint is
@@ -117,10 +114,10 @@ class EndSolver : public StepEnd {
     see(m);
   }
 
-  Read read(const FourJoints& joints, double t, const std::vector<S::Motion>& m) const {
+  Read read(const FourJoints& joints, double t, const std::vector<S::Motion>& m, GapMap<L>& map) const {
     Read r;
     if (joints.pose) {
-      joints.read_poses(at_, r);
+      joints.read_poses(at_, r, map);
       return r;
     }
     const Reading one = system_.reading(joints.first, t, m);
@@ -129,7 +126,7 @@ class EndSolver : public StepEnd {
       r.rate[k] = L::all(one.rate[k]);
       r.bias[k] = L::all(one.bias[k]);
     }
-    r.map = GapMap<L>::same(one.map);
+    map = GapMap<L>::same(one.map);
     return r;
   }
 
@@ -187,7 +184,8 @@ class EndSolver : public StepEnd {
   void ask_gaps(const Stage& last, const State& end, const std::vector<S::Motion>& m) {
     clear(one_);
     for (const FourJoints& joints : joints_) {
-      const Read r = read(joints, end.t, m);
+      GapMap<L> map;
+      const Read r = read(joints, end.t, m, map);
       L off[3];
       for (int k = 0; k < S::kDof; ++k) off[k] = joints.take(last.gap, k) - r.gap[k];
       ask(joints, off);
@@ -199,7 +197,8 @@ class EndSolver : public StepEnd {
     clear(one_);
     L left = L::all(0);
     for (const FourJoints& joints : joints_) {
-      const Read r = read(joints, end.t, m);
+      GapMap<L> map;
+      const Read r = read(joints, end.t, m, map);
       L off[3];
       for (int k = 0; k < S::kDof; ++k) {
         left = larger_size(left, joints.forbidden[k] * (joints.take(last.gap, k) - r.gap[k]));
@@ -231,9 +230,10 @@ class EndSolver : public StepEnd {
     clear(pull_);
     L left = L::all(0);
     for (const FourJoints& joints : joints_) {
-      const Read r = read(joints, end.t, m);
+      GapMap<L> map;
+      const Read r = read(joints, end.t, m, map);
       L accel[3], gap[3], rate[3], force[3];
-      joints.gather(r.map, accel_, accel);
+      joints.gather(map, accel_, accel);
       for (int k = 0; k < S::kDof; ++k) {
         const L carried = joints.take(last.gap_rate, k);
         left = larger_size(left, joints.forbidden[k] * (carried - r.rate[k]));

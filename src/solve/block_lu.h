@@ -30,14 +30,21 @@ class BlockLu {
   /// Nothing but its diagonal: entry(i, k) at place k of row i.
   template <class Entry>
   void set_diagonal(Entry&& entry) {
-    for (int at = 0; at < pattern_->n(); ++at) {
-      for (int i = 0; i < N; ++i) {
-        const T here = entry(pattern_->row_at(at), i);
-        for (int j = 0; j < N; ++j) diagonal_[at](i, j) = i == j ? here : T(0.0);
-      }
+    for (int i = 0; i < pattern_->n(); ++i) set_diagonal(i, [&](int k) { return entry(i, k); });
+  }
+  /// The same of row i alone, and of the column below it.
+  template <class Entry>
+  PINTLE_LANES void set_diagonal(int i, Entry&& entry) {
+    const int at = pattern_->position(i), end = pattern_->first(at + 1);
+    Block<T, N>& block = diagonal_[at];
+    for (int r = 0; r < N; ++r) {
+      const T here = entry(r);
+      for (int c = 0; c < N; ++c) block(r, c) = r == c ? here : T(0.0);
     }
-    upper_.assign(upper_.size(), {});
-    lower_.assign(lower_.size(), {});
+    for (int a = pattern_->first(at); a < end; ++a) {
+      upper_[a] = {};
+      if (!symmetric_) lower_[a] = {};
+    }
   }
   /// The diagonal block of row i; of a symmetric matrix what stands above its diagonal is not read.
   Block<T, N>& diagonal(int i) { return diagonal_[pattern_->position(i)]; }
@@ -62,8 +69,27 @@ class BlockLu {
   /// take off may be in it already, and last(i, x[i]) as soon as the row is known, though others still read it.
   template <class Rows, class First, class Last>
   void solve(Rows& x, First&& first, Last&& last) const {
-    if (symmetric_) solve_upper(x, first, last);
-    else solve_both(x, first, last);
+    if (symmetric_) {
+      for (int k = 0; k < pattern_->n(); ++k) reduce(k, x, first);
+      substitute(x, last);
+    } else {
+      solve_both(x, first, last);
+    }
+  }
+  /// Factorises and solves, on one way through the rows there and one back. False when a pivot block is singular.
+  template <class Rows, class First, class Last>
+  bool factorize_and_solve(Rows& x, First&& first, Last&& last) {
+    if (!symmetric_) {
+      if (!factorize_both()) return false;
+      solve_both(x, first, last);
+      return true;
+    }
+    for (int k = 0; k < pattern_->n(); ++k) {
+      if (!eliminate(k)) return false;
+      reduce(k, x, first);
+    }
+    substitute(x, last);
+    return true;
   }
 
  private:
@@ -86,32 +112,60 @@ class BlockLu {
     return true;
   }
 
+  bool factorize_upper() {
+    for (int k = 0; k < pattern_->n(); ++k)
+      if (!eliminate(k)) return false;
+    return true;
+  }
+
   // Pivot blocks Z are L D L', and what stands above the diagonal becomes Z^-1 U: in a solve each row waits for one product with the
   // row before it and for nothing else.
-  bool factorize_upper() {
+  PINTLE_LANES bool eliminate(int k) {
     const BlockPattern& p = *pattern_;
     Block<T, N>*const diagonal = diagonal_.data(), *const upper = upper_.data(), *const row = row_.data();  // no store reaches these
-    const int n = p.n();
-    for (int k = 0; k < n; ++k) {
-      Block<T, N>& pivot = diagonal[k];
-      if (!factorize_symmetric(pivot)) return false;
-      const int begin = p.first(k), end = p.first(k + 1);
-      const int* target = p.updates(k);
-      for (int a = begin; a < end; ++a) {
-        apply_lower(pivot, upper[a]);
-        row[a - begin] = over_pivots(pivot, upper[a]);
+    Block<T, N>& pivot = diagonal[k];
+    if (!factorize_symmetric(pivot)) return false;
+    const int begin = p.first(k), end = p.first(k + 1);
+    const int* target = p.updates(k);
+    for (int a = begin; a < end; ++a) {
+      apply_lower(pivot, upper[a]);
+      row[a - begin] = over_pivots(pivot, upper[a]);
+    }
+    for (int a = begin; a < end; ++a)
+      for (int b = begin; b < end; ++b, ++target) {
+        if (*target == 0) subtract_symmetric_product(diagonal[p.column(a)], upper[a], row[a - begin]);
+        else if (*target > 0) subtract_transposed_product(upper[*target - 1], upper[a], row[b - begin]);
       }
-      for (int a = begin; a < end; ++a)
-        for (int b = begin; b < end; ++b, ++target) {
-          if (*target == 0) subtract_symmetric_product(diagonal[p.column(a)], upper[a], row[a - begin]);
-          else if (*target > 0) subtract_transposed_product(upper[*target - 1], upper[a], row[b - begin]);
-        }
-      for (int a = begin; a < end; ++a) {
-        apply_lower_transposed(pivot, row[a - begin]);
-        upper[a] = row[a - begin];
-      }
+    for (int a = begin; a < end; ++a) {
+      apply_lower_transposed(pivot, row[a - begin]);
+      upper[a] = row[a - begin];
     }
     return true;
+  }
+
+  // Row k on the way there.
+  template <class Rows, class First>
+  PINTLE_LANES void reduce(int k, Rows& x, First& first) const {
+    const BlockPattern& p = *pattern_;
+    const int i = p.row_at(k), end = p.first(k + 1);
+    auto& here = x[i];
+    first(i, here);
+    for (int a = p.first(k); a < end; ++a) subtract_transposed_product(x[p.row_at(p.column(a))], upper_[a], here);
+    apply_inverse(diagonal_[k], here);
+  }
+
+  // The way back.
+  template <class Rows, class Last>
+  void substitute(Rows& rows, Last& last) const {
+    const BlockPattern& p = *pattern_;
+    const Block<T, N>* const upper = upper_.data();  // no store reaches these
+    auto* const x = rows.data();
+    for (int k = p.n() - 1; k >= 0; --k) {
+      const int i = p.row_at(k), end = p.first(k + 1);
+      auto& here = x[i];
+      for (int a = p.first(k); a < end; ++a) subtract_product(here, upper[a], x[p.row_at(p.column(a))]);
+      last(i, std::as_const(here));
+    }
   }
 
   template <class Rows, class First, class Last>
@@ -127,27 +181,6 @@ class BlockLu {
       for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(here, upper_[a], x[p.row_at(p.column(a))]);
       here = product(diagonal_[k], here);
       last(p.row_at(k), std::as_const(here));
-    }
-  }
-
-  template <class Rows, class First, class Last>
-  void solve_upper(Rows& rows, First& first, Last& last) const {
-    const BlockPattern& p = *pattern_;
-    const Block<T, N>*const diagonal = diagonal_.data(), *const upper = upper_.data();  // no store reaches these
-    auto* const x = rows.data();
-    const int n = p.n();
-    for (int k = 0; k < n; ++k) {
-      const int i = p.row_at(k), end = p.first(k + 1);
-      auto& here = x[i];
-      first(i, here);
-      for (int a = p.first(k); a < end; ++a) subtract_transposed_product(x[p.row_at(p.column(a))], upper[a], here);
-      apply_inverse(diagonal[k], here);
-    }
-    for (int k = n - 1; k >= 0; --k) {
-      const int i = p.row_at(k), end = p.first(k + 1);
-      auto& here = x[i];
-      for (int a = p.first(k); a < end; ++a) subtract_product(here, upper[a], x[p.row_at(p.column(a))]);
-      last(i, std::as_const(here));
     }
   }
 
