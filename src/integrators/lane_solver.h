@@ -106,6 +106,7 @@ class LaneSolver : public StageSolver {
   std::vector<BlockVec<L, 3>> loads_on_;      // and on the ground: gravity and loads at the stages, where there are loads
   std::vector<Planar::Motion> motions_;       // of one stage, where anything asks for them
   X mu_, mu2_, once_, twice_;                 // and 1 / mu, 1 / mu^2
+  LaneMatrix<N> back_;                        // T mu^2: from the diagonal frame to accelerations at the stages
   BlockLu<X, 3> lu_;
   std::vector<BlockVec<X, 3>> rhs_;           // and the ground's
 };

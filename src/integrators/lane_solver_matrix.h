@@ -15,6 +15,13 @@ void LaneSolver<N>::begin_matrix(double h) {
   mu2_ = mu_ * mu_;
   once_ = reciprocal(mu_);
   twice_ = once_ * once_;
+  const LaneMatrix<N>& T = matrices_.T;
+  for (int p = 0; p < N - 1; p += 2) {
+    const double re = mu2_.x[p], im = mu2_.x[p + 1];
+    back_.column[p] = re * T.column[p] + im * T.column[p + 1];
+    back_.column[p + 1] = re * T.column[p + 1] - im * T.column[p];
+  }
+  back_.column[N - 1] = mu2_.x[N - 1] * T.column[N - 1];
 }
 
 // The loads' slopes at the middle stage.

@@ -337,7 +337,7 @@ bool LaneSolver<N>::correct(const State& begin, bool factorize, double& size) {
   const auto move = [&](int b, const BlockVec<X, 3>& x) {
     Body& body = bodies_[b];
     for (int k = 0; k < 3; ++k) {
-      const L delta = matrices_.T * (mu2_ * x[k]).x, relative = body.over_scale[k] * delta;
+      const L delta = back_ * x[k].x, relative = body.over_scale[k] * delta;
       body.missing[k] = delta;
       body.a[k] += delta;
       worst = larger_size(worst, relative);
@@ -426,46 +426,29 @@ void LaneSolver<N>::find_yield(std::vector<Four>& forces) const {
 namespace {
 
 // The same text for registers of every width: everything that is made of lanes is inlined into these functions.
-template <int N>
-class NarrowSolver final : public LaneSolver<N> {
- public:
-  using LaneSolver<N>::LaneSolver;
-  bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override {
-    return this->solve_stages(begin, h, before, last_h, scale, counters);
-  }
-  void yield_to(std::vector<Four>& forces) const override { this->find_yield(forces); }
-  void write(const State& begin, std::vector<Stage>& stages, StageTails& tails) const override { this->write_stages(begin, stages, tails); }
-};
+#define PINTLE_SOLVER(Name, WIDTH)                                                                                                            \
+  template <int N>                                                                                                                            \
+  class Name final : public LaneSolver<N> {                                                                                                   \
+   public:                                                                                                                                    \
+    using LaneSolver<N>::LaneSolver;                                                                                                          \
+    WIDTH bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override { \
+      return this->solve_stages(begin, h, before, last_h, scale, counters);                                                                   \
+    }                                                                                                                                         \
+    WIDTH void yield_to(std::vector<Four>& forces) const override { this->find_yield(forces); }                                               \
+    WIDTH void write(const State& begin, std::vector<Stage>& stages, StageTails& tails) const override { this->write_stages(begin, stages, tails); } \
+  };
 
+PINTLE_SOLVER(NarrowSolver, )
 #ifdef PINTLE_WIDE
-template <int N>
-class WideSolver final : public LaneSolver<N> {
- public:
-  using LaneSolver<N>::LaneSolver;
-  PINTLE_WIDE bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override {
-    return this->solve_stages(begin, h, before, last_h, scale, counters);
-  }
-  PINTLE_WIDE void yield_to(std::vector<Four>& forces) const override { this->find_yield(forces); }
-  PINTLE_WIDE void write(const State& begin, std::vector<Stage>& stages, StageTails& tails) const override { this->write_stages(begin, stages, tails); }
-};
-
-// For five stages: in narrower registers they take turns.
-class WidestSolver final : public LaneSolver<5> {
- public:
-  using LaneSolver<5>::LaneSolver;
-  PINTLE_WIDEST bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override {
-    return this->solve_stages(begin, h, before, last_h, scale, counters);
-  }
-  PINTLE_WIDEST void yield_to(std::vector<Four>& forces) const override { this->find_yield(forces); }
-  PINTLE_WIDEST void write(const State& begin, std::vector<Stage>& stages, StageTails& tails) const override { this->write_stages(begin, stages, tails); }
-};
+PINTLE_SOLVER(WideSolver, PINTLE_WIDE)
+PINTLE_SOLVER(WidestSolver, PINTLE_WIDEST)
 #endif
+#undef PINTLE_SOLVER
 
 template <int N>
 std::unique_ptr<StageSolver> make_solver(const System& system, const RadauTable& table, double tolerance, Steps steps) {
 #ifdef PINTLE_WIDE
-  if constexpr (N == 5)
-    if (has_widest_registers()) return std::make_unique<WidestSolver>(system, table, tolerance, steps);
+  if (has_widest_registers()) return std::make_unique<WidestSolver<N>>(system, table, tolerance, steps);
   if (has_wide_registers()) return std::make_unique<WideSolver<N>>(system, table, tolerance, steps);
 #endif
   return std::make_unique<NarrowSolver<N>>(system, table, tolerance, steps);

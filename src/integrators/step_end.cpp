@@ -293,28 +293,27 @@ class EndSolver : public StepEnd {
 };
 
 // The same text for registers of every width.
-class NarrowEnd final : public EndSolver {
- public:
-  using EndSolver::EndSolver;
-  bool prepare(double t, double mu, const Stage& last, StageTails& tails) override { return find_answers(t, mu, last, tails); }
-  double error(const StageTails& tails, const LoadScale& scale) const override { return find_error(tails, scale); }
-  void finish(const Stage& last, double h, State& end, std::vector<S::Motion>& m, LoadScale& scale) override { find_end(last, h, end, m, scale); }
-};
+#define PINTLE_END(Name, WIDTH)                                                                                                               \
+  class Name final : public EndSolver {                                                                                                       \
+   public:                                                                                                                                    \
+    using EndSolver::EndSolver;                                                                                                               \
+    WIDTH bool prepare(double t, double mu, const Stage& last, StageTails& tails) override { return find_answers(t, mu, last, tails); }       \
+    WIDTH double error(const StageTails& tails, const LoadScale& scale) const override { return find_error(tails, scale); }                   \
+    WIDTH void finish(const Stage& last, double h, State& end, std::vector<S::Motion>& m, LoadScale& scale) override { find_end(last, h, end, m, scale); } \
+  };
 
+PINTLE_END(NarrowEnd, )
 #ifdef PINTLE_WIDE
-class WideEnd final : public EndSolver {
- public:
-  using EndSolver::EndSolver;
-  PINTLE_WIDE bool prepare(double t, double mu, const Stage& last, StageTails& tails) override { return find_answers(t, mu, last, tails); }
-  PINTLE_WIDE double error(const StageTails& tails, const LoadScale& scale) const override { return find_error(tails, scale); }
-  PINTLE_WIDE void finish(const Stage& last, double h, State& end, std::vector<S::Motion>& m, LoadScale& scale) override { find_end(last, h, end, m, scale); }
-};
+PINTLE_END(WideEnd, PINTLE_WIDE)
+PINTLE_END(WidestEnd, PINTLE_WIDEST)
 #endif
+#undef PINTLE_END
 
 }  // namespace
 
 std::unique_ptr<StepEnd> make_step_end(const System& system) {
 #ifdef PINTLE_WIDE
+  if (has_widest_registers()) return std::make_unique<WidestEnd>(system);
   if (has_wide_registers()) return std::make_unique<WideEnd>(system);
 #endif
   return std::make_unique<NarrowEnd>(system);

@@ -102,8 +102,12 @@ PINTLE_LANES void subtract_transposed_product(Block<T, N>& C, const Block<T, N>&
 template <class T, int N>
 PINTLE_LANES void subtract_symmetric_product(Block<T, N>& C, const Block<T, N>& A, const Block<T, N>& B) {
   for (int i = 0; i < N; ++i)
-    for (int j = i; j < N; ++j)
-      for (int k = 0; k < N; ++k) C(j, i) -= A(k, i) * B(k, j);
+    for (int j = 0; j < N; ++j) {
+      if (j < i) continue;
+      T sum = C(j, i);
+      for (int k = 0; k < N; ++k) sum -= A(k, i) * B(k, j);
+      C(j, i) = sum;
+    }
 }
 
 /// y -= A x, of vectors of N numbers of any kind.
