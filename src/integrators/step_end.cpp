@@ -15,8 +15,8 @@ namespace {
 
 using S = Planar;
 
-// What the rounding of positions leaves of a gap, or that of velocities of its rate.
-double rounding_of(const Vecs& x) { return 16 * std::numeric_limits<double>::epsilon() * largest_coordinate(x); }
+// Of the largest position or velocity: what its rounding leaves of a gap, or of its rate.
+constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
 constexpr double kMostOfRates = 1e-9;  // of the largest velocity: what may be left of rates in the shortest steps
 
@@ -77,8 +77,8 @@ class EndSolver : public StepEnd {
   }
 
   void find_end(const Stage& last, double h, State& end, std::vector<S::Motion>& m, LoadScale& scale) {
-    const double rounding = rounding_of(last.q), most = kMostOfRates * largest_coordinate(last.v);
-    const double rounding_of_rate = std::max(rounding_of(last.v), std::min(rounding / std::abs(h), most));
+    const double rounding = kRounding * largest_coordinate(last.q), fastest = largest_coordinate(last.v);
+    const double rounding_of_rate = std::max(kRounding * fastest, std::min(rounding / std::abs(h), kMostOfRates * fastest));
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) end.q[b][k] = last.q[b][k] + four_[b][k][3];
     end.v = last.v;

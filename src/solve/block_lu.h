@@ -42,8 +42,8 @@ class BlockLu {
       for (int c = 0; c < N; ++c) block(r, c) = r == c ? here : T(0.0);
     }
     for (int a = pattern_->first(at); a < end; ++a) {
-      upper_[a] = {};
-      if (!symmetric_) lower_[a] = {};
+      clear(upper_[a]);
+      if (!symmetric_) clear(lower_[a]);
     }
   }
   /// The diagonal block of row i; of a symmetric matrix what stands above its diagonal is not read.
@@ -93,6 +93,11 @@ class BlockLu {
   }
 
  private:
+  PINTLE_LANES static void clear(Block<T, N>& block) {
+    for (int r = 0; r < N; ++r)
+      for (int c = 0; c < N; ++c) block(r, c) = T(0.0);
+  }
+
   bool factorize_both() {
     const BlockPattern& p = *pattern_;
     for (int k = 0; k < p.n(); ++k) {

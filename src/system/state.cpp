@@ -20,9 +20,12 @@ void find_accelerations(const System& system, const std::vector<Planar::Motion>&
 }
 
 double largest_coordinate(const Vecs& x) {
-  double size = 1e-3;
-  for (const auto& xi : x) size = std::max({size, std::abs(xi[0]), std::abs(xi[1])});
-  return size;
+  double across = 1e-3, up = across;
+  for (const auto& xi : x) {
+    across = std::max(across, std::abs(xi[0]));
+    up = std::max(up, std::abs(xi[1]));
+  }
+  return std::max(across, up);
 }
 
 double largest_force(const Vecs& force) {
