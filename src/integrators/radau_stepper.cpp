@@ -10,21 +10,27 @@ using S = Planar;
 RadauStepper::RadauStepper(const System& system, double tolerance, int stages, ToleranceOf tolerance_of)
     : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion),
       solver_(make_stage_solver(system, table_, tolerance, of_motion_ ? Steps::kLong : Steps::kAccurate)), stage_(table_.n), step_end_(make_step_end(system)),
-      tails_{std::vector<Four>(system.bodies.size()), std::vector<Four>(system.joints.size())}, end_r_(system.joints.size()), end_m_(system.bodies.size()) {
+      tails_{std::vector<Four>(system.bodies.size()), std::vector<Four>(system.joints.size())}, end_m_(system.bodies.size()) {
   const std::size_t n = system.bodies.size(), m = system.joints.size();
   const Vecs bodies(n, S::Vec::Zero()), joints(m, S::Vec::Zero());
+  for (int j = 0; j < system.n_joints(); ++j)
+    if (system.joints[j].servo >= 0 || !std::holds_alternative<LinearLaw>(system.joints[j].law)) powered_.push_back(j);
+  const bool only_last = powered_.empty() && !system.has_loads();  // no other stage is asked for its power
   for (Stage& s : stage_) {
-    s.q = s.v = s.a = s.Q = bodies;
-    s.gap = s.gap_rate = s.gap_accel = s.force = joints;
+    s.a = bodies;
+    s.gap_accel = s.force = joints;
+    if (only_last && &s != &stage_.back()) continue;
+    s.q = s.v = s.Q = bodies;
+    s.gap = s.gap_rate = joints;
     s.m.resize(n);
   }
   nodes_ = {&table_, std::vector<Vecs>(n_ + 1, bodies), std::vector<Vecs>(n_ + 1, joints), std::vector<Vecs>(n_ + 1, joints),
             std::vector<std::array<double, 2>>(n_ + 1)};
+  scale_.body = bodies;
+  if (!system.has_branches()) return;
   inside_q_ = inside_v_ = bodies;
   inside_gap_ = inside_rate_ = joints;
-  scale_.body = bodies;
-  for (int j = 0; j < system.n_joints(); ++j)
-    if (system.joints[j].servo >= 0 || !std::holds_alternative<LinearLaw>(system.joints[j].law)) powered_.push_back(j);
+  end_r_.resize(m);
 }
 
 bool RadauStepper::attempt(double h) {

@@ -22,11 +22,6 @@ class BlockLu {
         lower_(symmetric_ ? 0 : pattern.n_off_diagonal()), row_(symmetric_ ? pattern.longest_row() : 0) {}
 
   bool symmetric() const { return symmetric_; }
-  void set_zero() {
-    diagonal_.assign(diagonal_.size(), {});
-    upper_.assign(upper_.size(), {});
-    lower_.assign(lower_.size(), {});
-  }
   /// Nothing but its diagonal: entry(i, k) at place k of row i.
   template <class Entry>
   void set_diagonal(Entry&& entry) {

@@ -64,7 +64,7 @@ void compare_with_dense(const Graph& g, Random& random, Symmetry symmetry) {
   constexpr int N = 3;
   const BlockPattern pattern(g.n, g.pairs);
   BlockLu<T, N> lu(pattern, symmetry);
-  lu.set_zero();
+  lu.set_diagonal([](int, int) { return T(0.0); });
   std::vector<Eigen::MatrixXcd> dense(kSystems<T>, Eigen::MatrixXcd::Zero(N * g.n, N * g.n));
   const auto fill = [&](Block<T, N>& block, int i, int j) {
     for (int r = 0; r < N; ++r)
@@ -104,16 +104,31 @@ void compare_with_dense(const Graph& g, Random& random, Symmetry symmetry) {
       for (int s = 0; s < kSystems<T>; ++s) expected[s][N * i + k] = to_std(x[i][k], s);
     }
   for (int s = 0; s < kSystems<T>; ++s) expected[s] = dense[s].partialPivLu().solve(Eigen::VectorXcd(expected[s]));
-  ASSERT_TRUE(lu.factorize()) << g.name;
-  for (int again = 0; again < 2; ++again) {  // one factorisation serves any number of right-hand sides
-    auto y = x;
-    lu.solve(y);
+  const auto expect_solved = [&](const std::vector<BlockVec<T, N>>& y) {
     for (int s = 0; s < kSystems<T>; ++s) {
       double worst = 0;
       for (int i = 0; i < g.n; ++i)
         for (int k = 0; k < N; ++k) worst = std::max(worst, std::abs(to_std(y[i][k], s) - expected[s][N * i + k]));
       EXPECT_LT(worst, 1e-12 * (1 + expected[s].cwiseAbs().maxCoeff())) << g.name << " of " << g.n << ", system " << s;
     }
+  };
+  // On one way there and back, where right-hand sides come in and solutions are taken as the rows are passed.
+  BlockLu<T, N> on_the_way = lu;
+  std::vector<BlockVec<T, N>> rows(g.n), taken(g.n);
+  const auto bring = [&](int i, BlockVec<T, N>& row) {
+    for (int k = 0; k < N; ++k) row[k] += x[i][k];
+  };
+  const auto take = [&](int i, const BlockVec<T, N>& row) { taken[i] = row; };
+  ASSERT_TRUE(on_the_way.factorize_and_solve(rows, bring, take)) << g.name;
+  expect_solved(taken);
+  ASSERT_TRUE(lu.factorize()) << g.name;
+  for (int again = 0; again < 2; ++again) {  // one factorisation serves any number of right-hand sides
+    auto y = x;
+    lu.solve(y);
+    expect_solved(y);
+    std::fill(rows.begin(), rows.end(), BlockVec<T, N>{});
+    lu.solve(rows, bring, take);
+    expect_solved(taken);
   }
 }
 
@@ -139,7 +154,7 @@ TEST(BlockLu, SolvesRightHandSidesSideBySide) {
   for (const Graph& g : graphs()) {
     const BlockPattern pattern(g.n, g.pairs);
     BlockLu<double, N> lu(pattern);
-    lu.set_zero();
+    lu.set_diagonal([](int, int) { return 0.0; });
     const auto fill = [&](Block<double, N>& block, double diagonal) {
       for (int r = 0; r < N; ++r)
         for (int c = 0; c < N; ++c) block(r, c) += random.uniform(-1, 1) + (r == c ? diagonal : 0);
@@ -175,9 +190,7 @@ void expect_one_bad_system_is_reported() {
     const BlockPattern pattern(g.n, g.pairs);
     BlockLu<X, 3> lu(pattern);
     const auto set_to_one = [&] {
-      lu.set_zero();
-      for (int i = 0; i < g.n; ++i)
-        for (int k = 0; k < 3; ++k) lu.diagonal(i)(k, k) = X(1.0);
+      lu.set_diagonal([](int, int) { return X(1.0); });
     };
     set_to_one();
     EXPECT_TRUE(lu.factorize()) << g.name;
@@ -199,11 +212,9 @@ TEST(BlockLu, SingularMatrixIsReported) {
   for (const Graph& g : graphs()) {
     const BlockPattern pattern(g.n, g.pairs);
     BlockLu<double, 3> lu(pattern);
-    lu.set_zero();
+    lu.set_diagonal([](int, int) { return 0.0; });
     EXPECT_FALSE(lu.factorize()) << g.name;
-    lu.set_zero();
-    for (int i = 0; i < g.n; ++i)
-      for (int k = 0; k < 3; ++k) lu.diagonal(i)(k, k) = 1;
+    lu.set_diagonal([](int, int) { return 1.0; });
     lu.diagonal(g.n - 1)(2, 2) = 0;
     EXPECT_FALSE(lu.factorize()) << g.name;
   }
@@ -213,9 +224,8 @@ TEST(BlockLu, SingularMatrixIsReported) {
 TEST(BlockLu, DependentRowsAreReported) {
   const BlockPattern pattern(2, {{0, 1}});
   BlockLu<double, 3> lu(pattern);
-  lu.set_zero();
+  lu.set_diagonal([](int, int) { return 1.0; });
   for (int k = 0; k < 3; ++k) {
-    lu.diagonal(0)(k, k) = lu.diagonal(1)(k, k) = 1;
     lu.off_diagonal(pattern.slot(0, 1))(k, k) = lu.off_diagonal(pattern.slot(1, 0))(k, k) = -1;
   }
   EXPECT_FALSE(lu.factorize());
@@ -225,8 +235,7 @@ TEST(BlockLu, ValuesThatAreNotNumbersAreReported) {
   const BlockPattern pattern(1, {});
   BlockLu<double, 3> lu(pattern);
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    lu.set_zero();
-    for (int k = 0; k < 3; ++k) lu.diagonal(0)(k, k) = bad;
+    lu.set_diagonal([bad](int, int) { return bad; });
     EXPECT_FALSE(lu.factorize());
   }
 }

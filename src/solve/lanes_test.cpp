@@ -109,6 +109,15 @@ TYPED_TEST(AnyLanes, WideRegistersMakeNoDifference) {
 }
 #endif
 
+TEST(Lanes, TransposedRowsAreColumns) {
+  Lanes<4> rows[4];
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 4; ++k) rows[i].set(k, 10 * i + k);
+  transpose(rows);
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 4; ++k) EXPECT_EQ(rows[i][k], 10 * k + i);
+}
+
 TYPED_TEST(AnyLanes, MatricesAreThoseOfEigen) {
   constexpr int n = TestFixture::N;
   for (int again = 0; again < 100; ++again) {
