@@ -94,7 +94,7 @@ class LaneSolver : public StageSolver {
   static constexpr int kMostWithOld = 4;      // iterations
   double factorized_for_ = 0;                 // the step; 0: none
   bool loads_;                                // there is more than weight
-  static constexpr std::size_t kTile = 32;    // bodies that fit into the nearest cache, with their joints
+  static constexpr std::size_t kTile = 16;    // bodies that fit into the nearest cache, with their joints
   std::vector<int> order_;                    // of joints, by their last bodies
   bool simple_ = true;                        // and no joint that is more than springs and dampers
   bool poses_ = true;                         // no joint but springs and dampers in the relative pose
