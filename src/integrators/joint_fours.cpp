@@ -1,5 +1,7 @@
 #include "integrators/joint_fours.h"
 
+#include <utility>
+
 namespace pintle {
 namespace {
 
@@ -31,7 +33,6 @@ void put(const JointData& data, const System& system, int lane, FourJoints& four
 
 std::vector<FourJoints> joints_in_fours(const System& system) {
   std::vector<FourJoints> fours;
-  int n_full = 0;
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& data = system.joints[j];
     const bool linear = std::holds_alternative<LinearLaw>(data.law), pose = linear && std::holds_alternative<Selection>(data.probe) && data.servo < 0;
@@ -39,7 +40,7 @@ std::vector<FourJoints> joints_in_fours(const System& system) {
       FourJoints& four = fours.emplace_back();
       four.first = j;
       four.pose = pose;
-      if (!linear) four.full = n_full++;
+      four.linear = linear;
     }
     FourJoints& four = fours.back();
     for (int lane = four.n++; lane < 4; ++lane) put(data, system, lane, four);

@@ -1,8 +1,6 @@
 // Joints in fours, one in each lane: where they stand on their bodies, what they read there, and what they push.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <vector>
 
 #include "integrators/pose_blocks.h"
@@ -44,14 +42,14 @@ struct FourJoints {
   Foot F, M;
   L offset[3], k[3], c[3];
   L forbidden[3];          // components: 1; free ones: 0
-  L weight[3];             // K + mu C where that is diagonal
+  L weight[9];             // K + mu C by rows; the first three of springs and dampers
   GapMap<L> map;           // as in the matrix
   int first = 0, n = 0;    // joints
   int lane[4] = {};        // the joint in each; those beyond n follow the last one
   int a[4] = {}, b[4] = {};  // their bodies; the ground stands behind the last one
   BlockPattern::Slot slot[4] = {};  // of their bodies, A before B
-  int full = -1;           // its matrix among those that are not diagonal
-  bool pose = false;       // springs and dampers in the relative pose
+  bool linear = false;     // springs and dampers
+  bool pose = false;       // the same in the relative pose
 
   /// Component k of what there is for each joint.
   PINTLE_LANES L take(const std::vector<Planar::Vec>& x, int component) const {

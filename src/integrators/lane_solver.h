@@ -12,12 +12,6 @@
 
 namespace pintle {
 
-/// A frame on a body, as PoseGeometry asks for it.
-struct Foot {
-  Planar::Point p;
-  double c = 1, s = 0;
-};
-
 /// Large mechanisms do not fit into caches: every iteration goes through the bodies and the joints as few times as it can, and what
 /// can be computed again is not stored.
 template <int N>
@@ -41,6 +35,10 @@ class LaneSolver : public StageSolver {
   struct Body : BodyLanes<N> {
     L missing[3];          // in its equation of motion: forces that nothing answers [N, N, N*m]; then Newton's correction of a
     double over_scale[3];  // mass over the loads that corrections are measured by
+  };
+  struct Foot {  // a frame on a body, as PoseGeometry asks for it
+    Planar::Point p;
+    double c = 1, s = 0;
   };
   struct Joint {
     L accel[3], force[3];

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include "system/state.h"
 
@@ -15,19 +14,6 @@ struct LoadScale {
 
 /// At least this much per mass, where nothing acts [m/s^2].
 inline constexpr double kLeastLoad = 1e-9;
-
-/// on_a, on_b += the magnitudes of a gap's force on its bodies.
-template <class V>
-void add_magnitudes(const GapMap<double>& map, const Planar::Vec& force, V& on_a, V& on_b) {
-  const auto on = map.spread(force.data());
-  const double size[] = {std::abs(on.fx), std::abs(on.fy)};
-  for (int k = 0; k < 2; ++k) {
-    on_a[k] += size[k];
-    on_b[k] += size[k];
-  }
-  on_a[2] += std::abs(on.ma);
-  on_b[2] += std::abs(on.mb);
-}
 
 /// Raises a body's scale to the sum of the magnitudes of what acts on it.
 inline void raise_scale(const BodyData& body, const Planar::Vec& load, Planar::Vec& scale) {

@@ -35,8 +35,6 @@ class EndSolver : public StepEnd {
       : system_(system), joints_(joints_in_fours(system)), lu_(system.pattern(), symmetry_of_joints(system)), at_(system.bodies.size() + 1),
         four_(system.bodies.size() + 1), accel_(system.bodies.size() + 1), one_(system.bodies.size() + 1), pull_(system.bodies.size() + 1) {
     at_.back().take(kStill);
-    for (const FourJoints& joint : joints_)
-      if (joint.full >= 0) full_.emplace_back();
   }
 
   const std::vector<Four>& answers() const override { return four_; }
@@ -132,33 +130,27 @@ class EndSolver : public StepEnd {
 
   // K + mu C.
   void find_weight(FourJoints& joints, double mu, const Stage& last) {
-    if (joints.full < 0) {
+    if (joints.linear) {
       for (int k = 0; k < S::kDof; ++k) joints.weight[k] = joints.k[k] + mu * joints.c[k];
       return;
     }
     const Response response = respond(system_.joints[joints.first].law, last.gap[joints.first], last.gap_rate[joints.first]);
-    full_[joints.full] = response.stiffness + mu * response.damping;
-  }
-  void weigh(const FourJoints& joints, const L* gap, L* f) const {
-    for (int k = 0; k < S::kDof; ++k) {
-      if (joints.full < 0) {
-        f[k] = joints.weight[k] * gap[k];
-      } else {
-        const S::Mat& w = full_[joints.full];
-        f[k] = w(k, 0) * gap[0] + w(k, 1) * gap[1] + w(k, 2) * gap[2];
-      }
-    }
+    for (int k = 0; k < 9; ++k) joints.weight[k] = L::all(response.stiffness(k / 3, k % 3) + mu * response.damping(k / 3, k % 3));
   }
   // Of one of the joints, four sets of gaps.
-  void weigh_tails(const FourJoints& joints, int i, const Four& gap, Four& f) const {
-    if (joints.full >= 0) weigh(joints, gap.a.data(), f.a.data());
+  static void weigh_tails(const FourJoints& joints, int i, const Four& gap, Four& f) {
+    if (!joints.linear) weigh(false, joints.weight, gap.a.data(), f.a.data());
     else
       for (int k = 0; k < S::kDof; ++k) f[k] = joints.weight[k][i] * gap[k];
   }
 
   void add_blocks(const FourJoints& joints) {
     if (!joints.pose) {
-      const S::Mat w = joints.full >= 0 ? full_[joints.full] : S::Mat(S::Vec(joints.weight[0][0], joints.weight[1][0], joints.weight[2][0]).asDiagonal());
+      S::Mat w = S::Mat::Zero();
+      for (int k = 0; k < 3; ++k) {
+        if (joints.linear) w(k, k) = joints.weight[k][0];
+        else w.row(k) << joints.weight[3 * k][0], joints.weight[3 * k + 1][0], joints.weight[3 * k + 2][0];
+      }
       add_gap_blocks(lu_, system_.joints[joints.first].at, joints.slot[0], joints.map.lane(0), w);
       return;
     }
@@ -170,7 +162,7 @@ class EndSolver : public StepEnd {
   // one_ += G' W gap.
   void ask(const FourJoints& joints, const L (&gap)[3]) {
     L f[3];
-    weigh(joints, gap, f);
+    weigh(joints.linear, joints.weight, gap, f);
     joints.push(f, one_);
   }
   static void clear(std::vector<BodyRow>& x) { std::fill(x.begin(), x.end(), BodyRow{}); }
@@ -252,7 +244,7 @@ class EndSolver : public StepEnd {
   }
 
   void find_force(const FourJoints& joints, const L (&gap)[3], const L (&rate)[3], L (&force)[3]) const {
-    if (joints.full < 0) {
+    if (joints.linear) {
       for (int k = 0; k < S::kDof; ++k) force[k] = -(joints.k[k] * gap[k] + joints.c[k] * rate[k]);
       return;
     }
@@ -275,7 +267,7 @@ class EndSolver : public StepEnd {
     for (const FourJoints& joints : joints_) {
       L gap[3], force[3];
       joints.gather(joints.map, pull_, gap);
-      weigh(joints, gap, force);
+      weigh(joints.linear, joints.weight, gap, force);
       for (int k = 0; k < S::kDof; ++k) force[k] = joints.take(end.force, k) - force[k];
       joints.put(force, end.force);
       joints.push_magnitudes(force, one_);
@@ -285,7 +277,6 @@ class EndSolver : public StepEnd {
 
   const System& system_;
   std::vector<FourJoints> joints_;
-  std::vector<S::Mat> full_;
   BlockLu<double, S::kDof> lu_;
   std::vector<BodyAt> at_;          // of bodies and the ground, as the next ones
   std::vector<Four> four_;

@@ -155,14 +155,6 @@ class System {
   }
   /// Gap, rate, Jacobians and convective term of joint j at time t (a servo's target taken off).
   Reading reading(int j, double t, const std::vector<S::Motion>& m) const;
-  /// Calls use(reading). Of plain joints nothing is computed that it does not look at, where it is inlined.
-  template <class Use>
-  void with_reading(std::size_t j, double t, const std::vector<S::Motion>& m, Use&& use) const {
-    const JointData& joint = joints[j];
-    const auto* plain = std::get_if<Selection>(&joint.probe);
-    if (plain && joint.servo < 0) use(read(*plain, pose(joint.at, m)));
-    else use(reading(static_cast<int>(j), t, m));
-  }
   void readings(double t, const std::vector<S::Motion>& m, std::vector<Reading>& out) const;
   /// Gravity, springs, applied forces and effort motors: the generalised force on every body. Motors in `held` stand at a jump.
   void external(double t, const std::vector<S::Motion>& m, Vecs& Q, HeldJumps held = {}) const;
