@@ -5,6 +5,7 @@
 
 #include "integrators/pose_blocks.h"
 #include "integrators/stage_lanes.h"
+#include "solve/fetch.h"
 #include "system/system.h"
 
 namespace pintle {
@@ -58,6 +59,19 @@ struct FourJoints {
   PINTLE_LANES void put(const L (&from)[3], std::vector<Planar::Vec>& x) const {
     for (int i = 0; i < n; ++i)
       for (int component = 0; component < 3; ++component) x[first + i][component] = from[component].v[i];
+  }
+
+  /// What they read and write of x, by joint or by body, will be asked for soon.
+  template <class Row>
+  PINTLE_LANES void fetch_joints(const std::vector<Row>& x) const {
+    fetch(x, first, n);
+  }
+  template <class Row>
+  PINTLE_LANES void fetch_bodies(const std::vector<Row>& x) const {
+    for (int i = 0; i < n; ++i) {
+      fetch(x, a[i]);
+      fetch(x, b[i]);
+    }
   }
 
   /// Their gaps and the map there, of springs and dampers in the pose. joints Eqs. (2.1)-(2.5).

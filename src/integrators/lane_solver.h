@@ -12,8 +12,8 @@
 
 namespace pintle {
 
-/// Large mechanisms do not fit into caches: every iteration goes through the bodies and the joints as few times as it can, and what
-/// can be computed again is not stored.
+/// Large mechanisms do not fit into caches: every iteration goes through the bodies and the joints once there and once back, what it
+/// keeps stands in the order of elimination, and what can be computed again is not stored.
 template <int N>
 class LaneSolver : public StageSolver {
  public:
@@ -35,6 +35,7 @@ class LaneSolver : public StageSolver {
   struct Body : BodyLanes<N> {
     L missing[3];          // in its equation of motion: forces that nothing answers [N, N, N*m]; then Newton's correction of a
     double over_scale[3];  // mass over the loads that corrections are measured by
+    int index = 0;         // in the system
   };
   struct Foot {  // a frame on a body, as PoseGeometry asks for it
     Planar::Point p;
@@ -46,8 +47,9 @@ class LaneSolver : public StageSolver {
     Foot F, M;               // where it stands on its bodies
     double k[3], c[3];       // of springs and dampers
     double over_scale[3];    // 1 over the loads that changes of the force are measured by
+    int index = 0;           // in the system
     int a, b;                // its bodies; the ground stands behind the last one
-    int last = -1;           // of them but the ground
+    int first, last;         // of them but the ground
     int full = -1;           // its matrix among full_, where that is not diagonal
     bool linear = false;     // springs and dampers
     bool function = false;   // its gap is a function of the pose
@@ -60,26 +62,32 @@ class LaneSolver : public StageSolver {
   std::size_t n_bodies() const { return bodies_.size() - 1; }
   int body_or_ground(int place) const { return place == static_cast<int>(n_bodies()) ? kGround : place; }
 
-  void answer_all(const State& begin, double h, const Curve* unplaced, const LoadScale& scale, bool linearized);
+  void fetch_body(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t b) const;
+  void fetch_joint(const State& begin, const Curve* unplaced, std::size_t j) const;
+  void fetch_body_end(const State& begin, const std::vector<Stage>& stages, const StageTails& tails, std::size_t b) const;
+  void fetch_joint_end(const State& begin, const std::vector<Stage>& stages, const StageTails& tails, std::size_t j) const;
+  bool answer_all(const State& begin, double h, const Curve* unplaced, const LoadScale& scale, bool linearized);
   void begin_bodies(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t first, std::size_t end);
-  void begin_joint(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t j);
+  void begin_joint(const State& begin, const Curve& curve, const LoadScale& scale, Joint& joint);
   void find_targets(double t, double h);
   L place(const L& a, double x0, double v0, L& v) const;
   void place_body(const State& begin, std::size_t b);
   void check_angles(const L& angles, std::size_t first, std::size_t end);
-  void place_joint(const State& begin, std::size_t j, L& worst, L& sum);
+  void place_joint(const State& begin, Joint& joint, L& worst, L& sum);
   void find_missing(std::size_t b);
   void find_loads(const State& begin, double h);
   void find_balanced_loads();
-  void answer(std::size_t j, const GapMap<L>& map, const L (&bias)[3]);
-  GapMap<L> find_map(std::size_t j, L (&bias)[3]) const;
-  L find_gradient(std::size_t j, const PoseGeometry<L>& pose, GapMap<L>& map) const;
+  void answer(Joint& joint, const GapMap<L>& map, const L (&bias)[3]);
+  GapMap<L> find_map(const Joint& joint, L (&bias)[3]) const;
+  L find_gradient(const Joint& joint, const PoseGeometry<L>& pose, GapMap<L>& map) const;
   void begin_matrix(double h);
   void add_loads(const State& begin, double h);
-  void linearize(const State& begin, std::size_t j, const GapMap<L>& map);
-  void add_joint(std::size_t j, const Response& tangents);
+  void linearize(const State& begin, Joint& joint, const GapMap<L>& map);
+  void add_joint(const Joint& joint, const Response& tangents);
   static void add_block(Block<X, 3>& block, const Planar::Mat& K, const Planar::Mat& C, const X& mu, double sign);
-  bool correct(const State& begin, bool factorize, double& size);
+  double correct(const State& begin);
+  void move_joint(const State& begin, Joint& joint, L& worst, L& sum);
+  void move_body(const State& begin, int b, const BlockVec<X, 3>& x, L& worst, L& sum);
 
   const System& system_;
   const RadauTable& table_;
@@ -93,16 +101,20 @@ class LaneSolver : public StageSolver {
   double factorized_for_ = 0;                 // the step; 0: none
   bool loads_;                                // there is more than weight
   static constexpr std::size_t kTile = 16;    // bodies that fit into the nearest cache, with their joints
-  std::vector<int> order_;                    // of joints, by their last bodies
+  static constexpr std::size_t kLarge = 1000;  // bodies that do not fit into the next one: what comes after this is asked for in time
+  static constexpr std::size_t kSoon = 16, kLater = 24;  // bodies or joints from here; first those, then what the system has of them
+  bool large_;
+  std::vector<int> by_first_;                 // joints in the order of their first bodies
   bool simple_ = true;                        // and no joint that is more than springs and dampers
   bool poses_ = true;                         // no joint but springs and dampers in the relative pose
-  std::vector<Body> bodies_;
-  std::vector<Joint> joints_;
+  const BlockPattern pattern_;                // of rows in the order of elimination
+  std::vector<Body> bodies_;                  // in that order
+  std::vector<Joint> joints_;                 // in the order of their last bodies
   std::vector<std::array<X, 9>> full_;        // (K + mu C) / mu^2 where that is not diagonal, by rows
-  std::vector<L> target_accel_;               // of servos' targets, by joint; empty: there is no servo
-  Vecs Q_;                                    // of one stage
+  std::vector<L> target_accel_;               // of servos' targets, by joint of the system; empty: there is no servo
+  Vecs Q_;                                    // of one stage, by body of the system
   std::vector<BlockVec<L, 3>> loads_on_;      // and on the ground: gravity and loads at the stages, where there are loads
-  std::vector<Planar::Motion> motions_;       // of one stage, where anything asks for them
+  std::vector<Planar::Motion> motions_;       // of one stage, by body of the system, where anything asks for them
   X mu_, mu2_, once_, twice_;                 // and 1 / mu, 1 / mu^2
   LaneMatrix<N> back_;                        // T mu^2: from the diagonal frame to accelerations at the stages
   BlockLu<X, 3> lu_;

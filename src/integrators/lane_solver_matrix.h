@@ -27,18 +27,19 @@ void LaneSolver<N>::begin_matrix(double h) {
 // The loads' slopes at the middle stage.
 template <int N>
 void LaneSolver<N>::add_loads(const State& begin, double h) {
-  for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(kMiddle);
+  for (std::size_t b = 0; b < n_bodies(); ++b) motions_[bodies_[b].index] = bodies_[b].motion(kMiddle);
   const auto add = [this](int i, int j, const Planar::Mat& dq, const Planar::Mat& dv) {  // of a matrix that is not symmetric
-    add_block(i == j ? lu_.diagonal(i) : lu_.off_diagonal(system_.pattern().slot(i, j)), dq, dv, mu_, -1);
+    const int row = system_.pattern().position(i), column = system_.pattern().position(j);
+    add_block(i == j ? lu_.diagonal(row) : lu_.off_diagonal(pattern_.slot(row, column)), dq, dv, mu_, -1);
   };
   system_.external_tangents(begin.t + table_.c[kMiddle] * h, motions_, add, begin.held);
 }
 
-// Joint j's part of that, by its tangents at the middle stage, and its weights of Eq. (3.10).
+// A joint's part of that, by its tangents at the middle stage, and its weights of Eq. (3.10).
 template <int N>
-void LaneSolver<N>::linearize(const State& begin, std::size_t j, const GapMap<L>& map) {
+void LaneSolver<N>::linearize(const State& begin, Joint& joint, const GapMap<L>& map) {
   constexpr int i = kMiddle;
-  Joint& joint = joints_[j];
+  const int j = joint.index;
   joint.frozen = map.lane(i);
   if (!joint.linear) {
     Planar::Vec gap, rate;
@@ -49,12 +50,12 @@ void LaneSolver<N>::linearize(const State& begin, std::size_t j, const GapMap<L>
     }
     const Response response = respond(system_.joints[j].law, gap, rate);
     for (int k = 0; k < 9; ++k) full_[joint.full][k] = response.stiffness(k / 3, k % 3) * twice_ + response.damping(k / 3, k % 3) * once_;
-    add_joint(j, response);
+    add_joint(joint, response);
     return;
   }
   const Planar::Vec force(joint.force[0][i], joint.force[1][i], joint.force[2][i]);
   if (joint.function) {
-    add_joint(j, {force, Planar::Vec(joint.k[0], joint.k[1], joint.k[2]).asDiagonal(), Planar::Vec(joint.c[0], joint.c[1], joint.c[2]).asDiagonal()});
+    add_joint(joint, {force, Planar::Vec(joint.k[0], joint.k[1], joint.k[2]).asDiagonal(), Planar::Vec(joint.c[0], joint.c[1], joint.c[2]).asDiagonal()});
     return;
   }
   const X one(1.0);
@@ -72,18 +73,18 @@ void LaneSolver<N>::add_block(Block<X, 3>& block, const Planar::Mat& K, const Pl
 
 // G' (K + mu C) G - N of one joint, of any kind.
 template <int N>
-void LaneSolver<N>::add_joint(std::size_t j, const Response& tangents) {
-  const JointData& data = system_.joints[j];
+void LaneSolver<N>::add_joint(const Joint& joint, const Response& tangents) {
+  const JointData& data = system_.joints[joint.index];
   const Placement& at = data.at;
   const RelativePose pose = system_.pose(at, motions_);
   const Reading r = read(data.probe, pose);
   const auto geometric = geometric_stiffness(data.probe, pose, tangents.force);
   const Planar::Mat KA = tangents.stiffness * r.GA(), KB = tangents.stiffness * r.GB(), CA = tangents.damping * r.GA(), CB = tangents.damping * r.GB();
   const Planar::Mat At = r.GA().transpose(), Bt = r.GB().transpose();
-  if (at.a != kGround) add_block(lu_.diagonal(at.a), At * KA - geometric.template block<3, 3>(0, 0), At * CA, mu_, 1);
-  if (at.b != kGround) add_block(lu_.diagonal(at.b), Bt * KB - geometric.template block<3, 3>(3, 3), Bt * CB, mu_, 1);
+  if (at.a != kGround) add_block(lu_.diagonal(joint.a), At * KA - geometric.template block<3, 3>(0, 0), At * CA, mu_, 1);
+  if (at.b != kGround) add_block(lu_.diagonal(joint.b), Bt * KB - geometric.template block<3, 3>(3, 3), Bt * CB, mu_, 1);
   if (at.a == kGround || at.b == kGround) return;
-  BlockPattern::Slot slot = joints_[j].slot;
+  BlockPattern::Slot slot = joint.slot;
   if (lu_.has(slot)) add_block(lu_.off_diagonal(slot), At * KB - geometric.template block<3, 3>(0, 3), At * CB, mu_, 1);
   slot.upper = !slot.upper;
   if (lu_.has(slot)) add_block(lu_.off_diagonal(slot), Bt * KA - geometric.template block<3, 3>(3, 0), Bt * CA, mu_, 1);

@@ -223,6 +223,40 @@ TEST(RadauStepper, CarriedGapsAreThoseOfThePositions) {
   }
 }
 
+// Large mechanisms go through memory in another way; what does not touch does not matter.
+TEST(RadauStepper, ManyMechanismsMoveLikeOne) {
+  constexpr std::size_t kCopies = 400;  // 1200 bodies
+  const Model one = sample::four_bar(1e8, 3000);
+  Model many = one;
+  for (std::size_t i = 1; i < kCopies; ++i) {
+    const auto name = [i](std::string& of) {
+      if (of != "ground") of += std::to_string(i);
+    };
+    for (Body body : one.bodies) {
+      name(body.name);
+      many.bodies.push_back(body);
+    }
+    for (Joint joint : one.joints) {
+      for (std::string* of : {&joint.name, &joint.first.body, &joint.second.body}) name(*of);
+      many.joints.push_back(joint);
+    }
+  }
+  const System alone = build_system(one), together = build_system(many);
+  const State start = sample::settled_start(one, alone, 0.05);
+  State starts = start;
+  for (Vecs State::*rows : {&State::q, &State::v, &State::a, &State::gap, &State::gap_rate, &State::gap_accel, &State::force})
+    for (std::size_t i = 1; i < kCopies; ++i) (starts.*rows).insert((starts.*rows).end(), (start.*rows).begin(), (start.*rows).end());
+  for (const int stages : {3, 5}) {
+    const State end = follow(alone, start, 0.05, 8, stages), ends = follow(together, starts, 0.05, 8, stages);
+    ASSERT_EQ(ends.q.size(), kCopies * end.q.size());
+    double q = 0, force = 0;
+    for (std::size_t i = 0; i < ends.q.size(); ++i) q = std::max(q, (ends.q[i] - end.q[i % end.q.size()]).norm());
+    for (std::size_t i = 0; i < ends.force.size(); ++i) force = std::max(force, (ends.force[i] - end.force[i % end.force.size()]).norm());
+    EXPECT_LT(q, 1e-13) << stages;
+    EXPECT_LT(force, 1e-9 * largest_force(end.force)) << stages;
+  }
+}
+
 TEST(RadauStepper, SameBitsEveryTime) {
   const Model model = sample::four_bar(1e8, 3000);
   const System system = build_system(model);

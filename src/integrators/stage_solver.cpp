@@ -1,9 +1,9 @@
 // Simplified Newton on all stages at once: they stand side by side in the lanes of Lanes<N>, and so do the real and complex
 // systems into which their equations fall apart.
+#include "integrators/lane_solver_guess.h"
 #include "integrators/lane_solver_matrix.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -17,18 +17,22 @@ using S = Planar;
 
 template <int N>
 LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double tolerance, Steps steps)
-    : system_(system), table_(table), matrices_(table), tolerance_(tolerance), steps_(steps), loads_(system.has_loads()),
-      bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), loads_on_(loads_ ? system.bodies.size() + 1 : 0),
-      motions_(system.bodies.size()), lu_(system.pattern(), loads_ ? Symmetry::kNone : symmetry_of_joints(system)), rhs_(system.bodies.size() + 1) {
+    : system_(system), table_(table), matrices_(table), tolerance_(tolerance), steps_(steps), loads_(system.has_loads()), large_(system.bodies.size() > kLarge),
+      pattern_(system.pattern().in_order()), bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), loads_on_(loads_ ? system.bodies.size() + 1 : 0),
+      motions_(system.bodies.size()), lu_(pattern_, loads_ ? Symmetry::kNone : symmetry_of_joints(system)), rhs_(system.bodies.size() + 1) {
   bodies_.back().c = L::all(1);  // the ground; what falls on it is not looked at
-  const auto body = [&](int index) { return index == kGround ? static_cast<int>(n_bodies()) : index; };
+  for (std::size_t b = 0; b < n_bodies(); ++b) bodies_[b].index = system.pattern().row_at(static_cast<int>(b));
+  const int ground = static_cast<int>(n_bodies());
+  const auto body = [&](int index) { return index == kGround ? ground : system.pattern().position(index); };
   bool servos = false;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const JointData& data = system.joints[j];
     Joint& joint = joints_[j];
+    joint.index = static_cast<int>(j);
     joint.a = body(data.at.a);
     joint.b = body(data.at.b);
-    for (const int index : {data.at.a, data.at.b}) joint.last = std::max(joint.last, index);
+    joint.first = std::min(joint.a, joint.b);
+    joint.last = joint.a == ground || joint.b == ground ? joint.first : std::max(joint.a, joint.b);
     joint.function = !std::holds_alternative<Selection>(data.probe);
     joint.F = {data.at.F.p, data.at.F.c, data.at.F.s};
     joint.M = {data.at.M.p, data.at.M.c, data.at.M.s};
@@ -47,36 +51,15 @@ LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double 
     simple_ = simple_ && joint.loses;
     poses_ = poses_ && joint.linear && !joint.function;
     servos = servos || data.servo >= 0;
-    if (data.at.a != kGround && data.at.b != kGround) joint.slot = system.pattern().slot(data.at.a, data.at.b);
+    if (data.at.a != kGround && data.at.b != kGround) joint.slot = pattern_.slot(joint.a, joint.b);
   }
   simple_ = simple_ && !loads_;
-  order_.resize(joints_.size());
-  std::iota(order_.begin(), order_.end(), 0);
-  std::stable_sort(order_.begin(), order_.end(), [this](int i, int j) { return joints_[i].last < joints_[j].last; });
+  std::stable_sort(joints_.begin(), joints_.end(), [](const Joint& i, const Joint& j) { return i.last < j.last; });
+  by_first_.resize(joints_.size());
+  std::iota(by_first_.begin(), by_first_.end(), 0);
+  std::stable_sort(by_first_.begin(), by_first_.end(), [this](int i, int j) { return joints_[i].first < joints_[j].first; });
   if (servos) target_accel_.assign(joints_.size(), L::all(0));
 }
-
-// Accelerations at the stages as the last step's curve goes on; without one those at the start.
-template <int N>
-struct LaneSolver<N>::Curve {
-  const StepNodes* nodes;
-  std::array<L, RadauTable::kMaxNodes> weight;
-
-  Curve(const RadauTable& table, Steps steps, double h, const StepNodes* before, double last_h) : nodes(before) {
-    for (int s = 0; s < N && before; ++s) {
-      const double ratio = h / last_h;
-      const RadauTable::Vec w = steps == Steps::kLong ? table.continuation(table.c[s], ratio) : table.weights(1 + table.c[s] * ratio);
-      for (int k = 0; k <= N; ++k) weight[k].set(s, w[k]);
-    }
-  }
-  L ahead(const std::vector<Vecs> StepNodes::*of, const Vecs& start, std::size_t i, int k) const {
-    if (!nodes) return L::all(start[i][k]);
-    const std::vector<Vecs>& node = nodes->*of;
-    L x = node[0][i][k] * weight[0];
-    for (int n = 1; n <= N; ++n) x += node[n][i][k] * weight[n];
-    return x;
-  }
-};
 
 template <int N>
 bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale,
@@ -89,14 +72,14 @@ bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* 
   bool fresh = !before || h != factorized_for_ || contraction_.rate() > kGood, wanted = fresh;  // a factorisation
   const Curve* unplaced = &curve;  // the stages are
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
-    answer_all(begin, h, std::exchange(unplaced, nullptr), scale, wanted);
+    const bool answered = answer_all(begin, h, std::exchange(unplaced, nullptr), scale, wanted);
     counters.evaluations += N;
-    double correction = 0;
     if (wanted) counters.factorizations += 1 + N / 2;
-    if (!correct(begin, wanted, correction)) {
+    if (!answered) {
       factorized_for_ = 0;
       return false;
     }
+    const double correction = correct(begin);
     if (wanted) factorized_for_ = h;
     wanted = false;
     ++counters.newton_iterations;
@@ -116,61 +99,49 @@ bool LaneSolver<N>::solve_stages(const State& begin, double h, const StepNodes* 
   return false;
 }
 
-// What is missing in all equations, and the matrix of the correction that answers it. Bodies and joints that follow each other are done
-// together, while they are at hand; loads want to know where all of the bodies are.
+// The way there: what is missing in all equations, the matrix of the correction that answers it, and their elimination. Bodies and
+// joints that follow each other are done together, while they are at hand; loads want to know where all of the bodies are. False where
+// the matrix, which may have to be factorised, is singular. Eqs. (3.9), (3.10).
 template <int N>
-void LaneSolver<N>::answer_all(const State& begin, double h, const Curve* unplaced, const LoadScale& scale, bool linearized) {
+bool LaneSolver<N>::answer_all(const State& begin, double h, const Curve* unplaced, const LoadScale& scale, bool linearized) {
   const bool whole = loads_ || !poses_;
+  const auto complete = [&](int b, BlockVec<X, 3>& x) {
+    if (large_) {
+      fetch(rhs_, b + kLater);
+      if (linearized) lu_.fetch_row(b + static_cast<int>(kLater));
+      if (!unplaced) fetch(bodies_, b + kLater);
+    }
+    for (int k = 0; k < 3; ++k) x[k] += X(matrices_.T_inverse * bodies_[b].missing[k]);
+  };
   if (linearized) begin_matrix(h);
-  std::size_t next = 0;
+  std::size_t j = 0;
+  int row = 0;
   for (std::size_t first = 0, end = 0; first < n_bodies(); first = end) {
     end = whole ? n_bodies() : std::min(first + kTile, n_bodies());
     if (unplaced) begin_bodies(begin, *unplaced, scale, first, end);
     if (loads_) find_loads(begin, h);
     for (std::size_t b = first; b < end; ++b) {
       find_missing(b);
-      if (linearized) lu_.set_diagonal(static_cast<int>(b), [&](int k) { return system_.bodies[b].mass[k] * mu2_; });
+      if (!linearized) continue;
+      const S::Vec& mass = system_.bodies[bodies_[b].index].mass;
+      lu_.set_diagonal(static_cast<int>(b), [&](int k) { return mass[k] * mu2_; });
     }
     if (linearized && whole) add_loads(begin, h);
-    for (; next < order_.size() && joints_[order_[next]].last < static_cast<int>(end); ++next) {
-      const std::size_t j = order_[next];
-      if (unplaced) begin_joint(begin, *unplaced, scale, j);
+    for (; j < joints_.size() && joints_[j].last < static_cast<int>(end); ++j) {
+      Joint& joint = joints_[j];
+      if (large_) fetch_joint(begin, unplaced, j);
+      if (unplaced) begin_joint(begin, *unplaced, scale, joint);
       L bias[3];
-      const GapMap<L> map = find_map(j, bias);
-      if (linearized) linearize(begin, j, map);
-      answer(j, map, bias);
+      const GapMap<L> map = find_map(joint, bias);
+      if (linearized) linearize(begin, joint, map);
+      answer(joint, map, bias);
     }
+    const int ready = lu_.ready(static_cast<int>(end), row);
+    if (!linearized) lu_.reduce(row, ready, rhs_, complete);
+    else if (!lu_.eliminate(row, ready, rhs_, complete)) return false;
+    row = ready;
   }
-}
-
-// What corrections are measured by, and a first guess.
-template <int N>
-void LaneSolver<N>::begin_bodies(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t first, std::size_t end) {
-  L angles = L::all(0);
-  for (std::size_t b = first; b < end; ++b) {
-    Body& body = bodies_[b];
-    for (int k = 0; k < 3; ++k) {
-      body.over_scale[k] = system_.bodies[b].mass[k] / scale.body[b][k];
-      body.a[k] = curve.ahead(&StepNodes::a, begin.a, b, k);
-    }
-    place_body(begin, b);
-    angles = larger_size(angles, body.q[2]);
-  }
-  check_angles(angles, first, end);
-}
-
-template <int N>
-void LaneSolver<N>::begin_joint(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t j) {
-  Joint& joint = joints_[j];
-  const int ground = static_cast<int>(n_bodies());
-  const S::Vec& on = scale.body[joint.a == ground ? joint.b : joint.a];
-  const S::Vec& beside = scale.body[joint.b == ground ? joint.a : joint.b];
-  for (int k = 0; k < 3; ++k) {
-    joint.over_scale[k] = 1 / std::max(on[k], beside[k]);
-    joint.accel[k] = curve.ahead(&StepNodes::gap_accel, begin.gap_accel, j, k);
-  }
-  L change = L::all(0), sum = change;
-  place_joint(begin, j, change, sum);
+  return true;
 }
 
 // The accelerations that servos are to follow.
@@ -199,7 +170,8 @@ Lanes<N> LaneSolver<N>::place(const L& a, double x0, double v0, L& v) const {
 template <int N>
 void LaneSolver<N>::place_body(const State& begin, std::size_t b) {
   Body& body = bodies_[b];
-  for (int k = 0; k < 3; ++k) body.q[k] = place(body.a[k], begin.q[b][k], begin.v[b][k], body.v[k]);
+  const S::Vec &q = begin.q[body.index], &v = begin.v[body.index];
+  for (int k = 0; k < 3; ++k) body.q[k] = place(body.a[k], q[k], v[k], body.v[k]);
   sine_and_cosine_unchecked(body.q[2], body.s, body.c);
 }
 
@@ -212,13 +184,13 @@ void LaneSolver<N>::check_angles(const L& angles, std::size_t first, std::size_t
 
 // The joint's force at its gaps and their rates. How much that has changed, over the scale of the bodies that it acts on.
 template <int N>
-void LaneSolver<N>::place_joint(const State& begin, std::size_t j, L& worst, L& sum) {
-  Joint& joint = joints_[j];
+void LaneSolver<N>::place_joint(const State& begin, Joint& joint, L& worst, L& sum) {
+  const S::Vec &gap_there = begin.gap[joint.index], &rate_there = begin.gap_rate[joint.index];
   L gap[3], rate[3];
-  for (int k = 0; k < 3; ++k) gap[k] = place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], rate[k]);
+  for (int k = 0; k < 3; ++k) gap[k] = place(joint.accel[k], gap_there[k], rate_there[k], rate[k]);
   double at[3][N];  // of laws that are asked stage by stage
   for (int s = 0; s < N && !joint.linear; ++s) {
-    const S::Vec f = law_force(system_.joints[j].law, {gap[0][s], gap[1][s], gap[2][s]}, {rate[0][s], rate[1][s], rate[2][s]});
+    const S::Vec f = law_force(system_.joints[joint.index].law, {gap[0][s], gap[1][s], gap[2][s]}, {rate[0][s], rate[1][s], rate[2][s]});
     for (int k = 0; k < 3; ++k) at[k][s] = f[k];
   }
   for (int k = 0; k < 3; ++k) {
@@ -233,7 +205,7 @@ void LaneSolver<N>::place_joint(const State& begin, std::size_t j, L& worst, L& 
 // What is missing in a body's equations but for the joints' forces. Eq. (3.6).
 template <int N>
 void LaneSolver<N>::find_missing(std::size_t b) {
-  const BodyData& data = system_.bodies[b];
+  const BodyData& data = system_.bodies[bodies_[b].index];
   for (int k = 0; k < 3; ++k) {
     bodies_[b].missing[k] = (loads_ ? loads_on_[b][k] : L::all(data.gravity[k])) - data.mass[k] * bodies_[b].a[k];
     rhs_[b][k] = X(L::all(0));
@@ -243,10 +215,10 @@ void LaneSolver<N>::find_missing(std::size_t b) {
 template <int N>
 void LaneSolver<N>::find_loads(const State& begin, double h) {
   for (int s = 0; s < N; ++s) {
-    for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(s);
+    for (std::size_t b = 0; b < n_bodies(); ++b) motions_[bodies_[b].index] = bodies_[b].motion(s);
     system_.external(begin.t + table_.c[s] * h, motions_, Q_, begin.held);
     for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < 3; ++k) loads_on_[b][k].set(s, Q_[b][k]);
+      for (int k = 0; k < 3; ++k) loads_on_[b][k].set(s, Q_[bodies_[b].index][k]);
   }
 }
 
@@ -255,19 +227,18 @@ void LaneSolver<N>::find_loads(const State& begin, double h) {
 template <int N>
 void LaneSolver<N>::find_balanced_loads() {
   for (std::size_t b = 0; b < n_bodies(); ++b)
-    for (int k = 0; k < 3; ++k) loads_on_[b][k] = system_.bodies[b].mass[k] * bodies_[b].a[k];
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    for (int k = 0; k < 3; ++k) loads_on_[b][k] = system_.bodies[bodies_[b].index].mass[k] * bodies_[b].a[k];
+  for (const Joint& joint : joints_) {
     L bias[3];
-    const L *f = joints_[j].force, against[3] = {-f[0], -f[1], -f[2]};
-    find_map(j, bias).push(against, loads_on_[joints_[j].a], loads_on_[joints_[j].b]);
+    const L *f = joint.force, against[3] = {-f[0], -f[1], -f[2]};
+    find_map(joint, bias).push(against, loads_on_[joint.a], loads_on_[joint.b]);
   }
 }
 
-// Joint j's force on its bodies, and what falls on them of what is missing in its own equation. Its acceleration becomes what the
+// A joint's force on its bodies, and what falls on them of what is missing in its own equation. Its acceleration becomes what the
 // bodies' make of it: that is what the correction starts from. Eq. (3.6).
 template <int N>
-void LaneSolver<N>::answer(std::size_t j, const GapMap<L>& map, const L (&bias)[3]) {
-  Joint& joint = joints_[j];
+void LaneSolver<N>::answer(Joint& joint, const GapMap<L>& map, const L (&bias)[3]) {
   Body &A = bodies_[joint.a], &B = bodies_[joint.b];
   map.push(joint.force, A.missing, B.missing);
   L e[3];
@@ -285,10 +256,9 @@ void LaneSolver<N>::answer(std::size_t j, const GapMap<L>& map, const L (&bias)[
   joint.frozen.push(f, rhs_[joint.a], rhs_[joint.b]);
 }
 
-// The map of joint j and its convective acceleration; of a servo less than the target's.
+// The map of a joint and its convective acceleration; of a servo less than the target's.
 template <int N>
-GapMap<Lanes<N>> LaneSolver<N>::find_map(std::size_t j, L (&bias)[3]) const {
-  const Joint& joint = joints_[j];
+GapMap<Lanes<N>> LaneSolver<N>::find_map(const Joint& joint, L (&bias)[3]) const {
   const auto pose = PoseGeometry<L>::between(bodies_[joint.a].view(), joint.F, bodies_[joint.b].view(), joint.M);
   GapMap<L> map;
   map.function = joint.function;
@@ -297,19 +267,19 @@ GapMap<Lanes<N>> LaneSolver<N>::find_map(std::size_t j, L (&bias)[3]) const {
   bias[1] = pose.bias_y;
   bias[2] = L::all(0);
   if (joint.function) {
-    bias[0] = find_gradient(j, pose, map);
+    bias[0] = find_gradient(joint, pose, map);
     bias[1] = L::all(0);
   }
-  if (joint.servo >= 0) bias[joint.servo] -= target_accel_[j];
+  if (joint.servo >= 0) bias[joint.servo] -= target_accel_[joint.index];
   return map;
 }
 
 // A gap that is a function of the pose: its gradient into the map; its convective acceleration is returned. theory/joints
 // Eq. (2.14).
 template <int N>
-Lanes<N> LaneSolver<N>::find_gradient(std::size_t j, const PoseGeometry<L>& pose, GapMap<L>& map) const {
-  const JointData& data = system_.joints[j];
-  const Body &A = bodies_[joints_[j].a], &B = bodies_[joints_[j].b];
+Lanes<N> LaneSolver<N>::find_gradient(const Joint& joint, const PoseGeometry<L>& pose, GapMap<L>& map) const {
+  const JointData& data = system_.joints[joint.index];
+  const Body &A = bodies_[joint.a], &B = bodies_[joint.b];
   L bias;
   for (int s = 0; s < N; ++s) {
     const RelativePose z = RelativePose::between(A.motion(s), data.at.F, B.motion(s), data.at.M);
@@ -326,39 +296,92 @@ Lanes<N> LaneSolver<N>::find_gradient(std::size_t j, const PoseGeometry<L>& pose
   return bias;
 }
 
-// One Newton correction: into the diagonal frame, the solve, back, and where that leads. Eqs. (3.9)-(3.11). Its size: as body
-// forces, and what the joint forces have changed, over the scale. False where the matrix, which may have to be factorised, is singular.
+// The way back: the corrections of bodies and joints, and where they lead. Eq. (3.11). Their size is returned: as body forces, and what
+// the joint forces have changed, over the scale.
 template <int N>
-bool LaneSolver<N>::correct(const State& begin, bool factorize, double& size) {
+double LaneSolver<N>::correct(const State& begin) {
   L worst = L::all(0), sum = worst, angles = worst;
-  const auto complete = [&](int b, BlockVec<X, 3>& x) {
-    for (int k = 0; k < 3; ++k) x[k] += X(matrices_.T_inverse * bodies_[b].missing[k]);
-  };
-  const auto move = [&](int b, const BlockVec<X, 3>& x) {
-    Body& body = bodies_[b];
-    for (int k = 0; k < 3; ++k) {
-      const L delta = back_ * x[k].x, relative = body.over_scale[k] * delta;
-      body.missing[k] = delta;
-      body.a[k] += delta;
-      worst = larger_size(worst, relative);
-      sum += relative;
-    }
-    place_body(begin, b);
-    angles = larger_size(angles, body.q[2]);
-  };
-  if (!factorize) lu_.solve(rhs_, complete, move);
-  else if (!lu_.factorize_and_solve(rhs_, complete, move)) return false;
-  check_angles(angles, 0, n_bodies());
   for (L& still : bodies_.back().missing) still = L::all(0);
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    Joint& joint = joints_[j];
-    L e[3];
-    joint.frozen.gather(bodies_[joint.a].missing, bodies_[joint.b].missing, e);
-    for (int k = 0; k < 3; ++k) joint.accel[k] += e[k];
-    place_joint(begin, j, worst, sum);
+  const auto move = [&](int b, const BlockVec<X, 3>& x) {
+    move_body(begin, b, x, worst, sum);
+    angles = larger_size(angles, bodies_[b].q[2]);
+  };
+  if (!large_) {
+    lu_.substitute(0, pattern_.n(), rhs_, move);
+    for (Joint& joint : joints_) move_joint(begin, joint, worst, sum);
   }
-  size = largest(worst, sum);
-  return true;
+  std::size_t left = large_ ? joints_.size() : 0;
+  for (int first = 0, end = large_ ? pattern_.n() : 0; end > 0; end = first) {
+    first = std::max(0, end - static_cast<int>(kTile));
+    lu_.substitute(first, end, rhs_, move);
+    for (; left > 0 && joints_[by_first_[left - 1]].first >= first; --left) {
+      if (left > kLater) {
+        fetch(joints_, by_first_[left - 1 - kLater]);
+        const int i = joints_[by_first_[left - 1 - kSoon]].index;
+        fetch(begin.gap, i);
+        fetch(begin.gap_rate, i);
+      }
+      move_joint(begin, joints_[by_first_[left - 1]], worst, sum);
+    }
+  }
+  check_angles(angles, 0, n_bodies());
+  return largest(worst, sum);
+}
+
+template <int N>
+void LaneSolver<N>::move_joint(const State& begin, Joint& joint, L& worst, L& sum) {
+  L e[3];
+  joint.frozen.gather(bodies_[joint.a].missing, bodies_[joint.b].missing, e);
+  for (int k = 0; k < 3; ++k) joint.accel[k] += e[k];
+  place_joint(begin, joint, worst, sum);
+}
+
+template <int N>
+void LaneSolver<N>::move_body(const State& begin, int b, const BlockVec<X, 3>& x, L& worst, L& sum) {
+  Body& body = bodies_[b];
+  if (large_ && b >= static_cast<int>(kLater)) {
+    fetch(bodies_, b - kLater);
+    fetch(rhs_, b - kLater);
+    lu_.fetch_upper(b - static_cast<int>(kLater));
+    const int i = bodies_[b - kSoon].index;
+    fetch(begin.q, i);
+    fetch(begin.v, i);
+  }
+  for (int k = 0; k < 3; ++k) {
+    const L delta = back_ * x[k].x, relative = body.over_scale[k] * delta;
+    body.missing[k] = delta;
+    body.a[k] += delta;
+    worst = larger_size(worst, relative);
+    sum += relative;
+  }
+  place_body(begin, b);
+}
+
+// What is written soon of a body and of a joint.
+template <int N>
+PINTLE_LANES void LaneSolver<N>::fetch_body_end(const State& begin, const std::vector<Stage>& stages, const StageTails& tails, std::size_t b) const {
+  fetch(bodies_, b + kSoon);
+  if (b >= n_bodies()) return;
+  const int i = bodies_[b].index;
+  const Stage& last = stages.back();
+  fetch(begin.a, i);
+  fetch(tails.bodies, i);
+  for (const Stage& stage : stages) fetch(stage.a, i);
+  for (const Vecs* x : {&last.q, &last.v, &last.Q}) fetch(*x, i);
+  fetch(last.m, i);
+}
+template <int N>
+PINTLE_LANES void LaneSolver<N>::fetch_joint_end(const State& begin, const std::vector<Stage>& stages, const StageTails& tails, std::size_t j) const {
+  fetch(joints_, j + kSoon);
+  if (j >= joints_.size()) return;
+  const int i = joints_[j].index;
+  const Stage& last = stages.back();
+  for (const Vecs* x : {&begin.gap, &begin.gap_rate, &last.gap, &last.gap_rate}) fetch(*x, i);
+  fetch(tails.gaps, i);
+  for (const Stage& stage : stages) {
+    fetch(stage.gap_accel, i);
+    fetch(stage.force, i);
+  }
 }
 
 template <int N>
@@ -368,21 +391,25 @@ void LaneSolver<N>::write_stages(const State& begin, std::vector<Stage>& stages,
   const auto put = [](const L& from, Lanes<4>& to) { to = Lanes<4>::of({from[0], from[1], from[2], 0}); };
   for (std::size_t b = 0; b < n_bodies(); ++b) {
     const Body& body = bodies_[b];
+    const int i = body.index;
+    if (large_) fetch_body_end(begin, stages, tails, b + kSoon);
     for (int s = 0; s < N; ++s) {
       Stage& stage = stages[s];
-      copy(body.a, s, stage.a[b]);
+      copy(body.a, s, stage.a[i]);
       if (simple && s < N - 1) continue;
-      copy(body.q, s, stage.q[b]);
-      copy(body.v, s, stage.v[b]);
-      stage.m[b] = body.motion(s);
-      if (loads_) copy(loads_on_[b].a.data(), s, stage.Q[b]);
-      else stage.Q[b] = system_.bodies[b].gravity;
+      copy(body.q, s, stage.q[i]);
+      copy(body.v, s, stage.v[i]);
+      stage.m[i] = body.motion(s);
+      if (loads_) copy(loads_on_[b].a.data(), s, stage.Q[i]);
+      else stage.Q[i] = system_.bodies[i].gravity;
     }
-    for (int k = 0; k < 3; ++k) put(begin.a[b][k] * matrices_.tail_of_start + matrices_.tail * body.a[k], tails.bodies[b][k]);
+    for (int k = 0; k < 3; ++k) put(begin.a[i][k] * matrices_.tail_of_start + matrices_.tail * body.a[k], tails.bodies[i][k]);
   }
   L loss = L::all(0);
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const Joint& joint = joints_[j];
+  for (std::size_t at = 0; at < joints_.size(); ++at) {
+    const Joint& joint = joints_[at];
+    const int j = joint.index;
+    if (large_) fetch_joint_end(begin, stages, tails, at + kSoon);
     L gap[3], rate[3];
     for (int k = 0; k < 3; ++k) {
       gap[k] = place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], rate[k]);
@@ -404,9 +431,9 @@ void LaneSolver<N>::write_stages(const State& begin, std::vector<Stage>& stages,
 
 template <int N>
 double LaneSolver<N>::residual(int j) const {
-  const Joint& joint = joints_[j];
+  const Joint& joint = *std::find_if(joints_.begin(), joints_.end(), [j](const Joint& other) { return other.index == j; });
   L bias[3], e[3];
-  find_map(j, bias).gather(bodies_[joint.a].a, bodies_[joint.b].a, e);
+  find_map(joint, bias).gather(bodies_[joint.a].a, bodies_[joint.b].a, e);
   double square = 0;
   for (int k = 0; k < 3; ++k) {
     const double at_end = (joint.accel[k] - e[k] - bias[k])[N - 1];
@@ -415,9 +442,18 @@ double LaneSolver<N>::residual(int j) const {
   return std::sqrt(square);
 }
 
+// Rows of the system in the order of elimination.
+struct InOrder {
+  Four* rows;
+  const BlockPattern& pattern;
+  InOrder data() const { return *this; }
+  Four& operator[](int k) const { return rows[pattern.row_at(k)]; }
+};
+
 template <int N>
 void LaneSolver<N>::find_yield(std::vector<Four>& forces) const {
-  lu_.solve(forces);
+  InOrder rows{forces.data(), system_.pattern()};
+  lu_.solve(rows);
   const double mu2 = mu2_.x[N - 1];
   for (Four& x : forces)
     for (int k = 0; k < 3; ++k) x[k] = mu2 * x[k];

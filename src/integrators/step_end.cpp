@@ -32,7 +32,7 @@ PINTLE_LANES double largest_of(const Lanes<4>& x) {
 class EndSolver : public StepEnd {
  public:
   explicit EndSolver(const System& system)
-      : system_(system), joints_(joints_in_fours(system)), lu_(system.pattern(), symmetry_of_joints(system)), at_(system.bodies.size() + 1),
+      : system_(system), large_(system.bodies.size() > kLarge), joints_(joints_in_fours(system)), lu_(system.pattern(), symmetry_of_joints(system)), at_(system.bodies.size() + 1),
         four_(system.bodies.size() + 1), accel_(system.bodies.size() + 1), one_(system.bodies.size() + 1), pull_(system.bodies.size() + 1) {
     at_.back().take(kStill);
   }
@@ -45,6 +45,7 @@ class EndSolver : public StepEnd {
     std::fill(four_.begin(), four_.end(), Four{});
     see(last.m);
     for (FourJoints& joints : joints_) {
+      if (large_) fetch_answers(joints, last, tails);
       const Read r = read(joints, t, last.m, joints.map);
       find_weight(joints, mu, last);
       add_blocks(joints);
@@ -58,7 +59,7 @@ class EndSolver : public StepEnd {
         joints.map.lane(i).push(f.a.data(), four_[joints.a[i]], four_[joints.b[i]]);
       }
     }
-    return lu_.factorize_and_solve(four_, [](int, Four&) {}, [](int, const Four&) {});
+    return lu_.factorize_and_solve(four_);
   }
 
   // The gaps' own accelerations come out of the stages as second differences of what the forces demand; where a joint is
@@ -176,6 +177,7 @@ class EndSolver : public StepEnd {
   void ask_gaps(const Stage& last, const State& end, const std::vector<S::Motion>& m) {
     clear(one_);
     for (const FourJoints& joints : joints_) {
+      if (large_) fetch_reading(joints, last);
       GapMap<L> map;
       const Read r = read(joints, end.t, m, map);
       L off[3];
@@ -189,6 +191,7 @@ class EndSolver : public StepEnd {
     clear(one_);
     L left = L::all(0);
     for (const FourJoints& joints : joints_) {
+      if (large_) fetch_reading(joints, last);
       GapMap<L> map;
       const Read r = read(joints, end.t, m, map);
       L off[3];
@@ -202,15 +205,20 @@ class EndSolver : public StepEnd {
   }
 
   void move_velocities(State& end, std::vector<S::Motion>& m) {
-    lu_.solve(
-        one_, [](int, BodyRow&) {},
-        [&](int b, const BodyRow& x) {
-          S::Vec& v = end.v[b];
-          for (int k = 0; k < S::kDof; ++k) v[k] += x[k];
-          m[b].v = v.head<2>();
-          m[b].w = v[2];
-          at_[b].take(m[b]);
-        });
+    lu_.solve(one_, [&](int b, const BodyRow& x) {
+      if (const int place = system_.pattern().position(b) - kSoon; large_ && place >= 0) {
+        const int next = system_.pattern().row_at(place);
+        fetch(end.v, next);
+        fetch(m, next);
+        fetch(at_, next);
+        fetch(one_, next);
+      }
+      S::Vec& v = end.v[b];
+      for (int k = 0; k < S::kDof; ++k) v[k] += x[k];
+      m[b].v = v.head<2>();
+      m[b].w = v[2];
+      at_[b].take(m[b]);
+    });
   }
 
   // The joints' forces at their gaps, into pull_ by the matrix's map, so that the balance takes off all that is wrong with them; and
@@ -222,6 +230,7 @@ class EndSolver : public StepEnd {
     clear(pull_);
     L left = L::all(0);
     for (const FourJoints& joints : joints_) {
+      if (large_) fetch_forces(joints, last, end);
       GapMap<L> map;
       const Read r = read(joints, end.t, m, map);
       L accel[3], gap[3], rate[3], force[3];
@@ -265,6 +274,7 @@ class EndSolver : public StepEnd {
     lu_.solve(pull_);
     pull_.back() = {};  // the ground's
     for (const FourJoints& joints : joints_) {
+      if (large_) fetch_balance(joints, end);
       L gap[3], force[3];
       joints.gather(joints.map, pull_, gap);
       weigh(joints.linear, joints.weight, gap, force);
@@ -275,7 +285,54 @@ class EndSolver : public StepEnd {
     for (std::size_t b = 0; b < n_bodies(); ++b) raise_scale(system_.bodies[b], S::Vec(one_[b][0], one_[b][1], one_[b][2]), scale.body[b]);
   }
 
+  // What the joints after these will want.
+  const FourJoints* soon(const FourJoints& joints, int fours) const {
+    return joints_.data() + joints_.size() - &joints > fours ? &joints + fours : nullptr;
+  }
+  PINTLE_LANES void fetch_answers(const FourJoints& joints, const Stage& last, const StageTails& tails) const {
+    fetch(joints_, &joints - joints_.data() + kLater);
+    const FourJoints* next = soon(joints, kNext);
+    if (!next) return;
+    next->fetch_joints(last.gap);
+    next->fetch_joints(tails.gaps);
+    next->fetch_bodies(at_);
+    next->fetch_bodies(four_);
+    for (int i = 0; i < next->n; ++i)
+      for (const int body : {next->a[i], next->b[i]})
+        if (body < system_.n_bodies()) lu_.fetch_row(system_.pattern().position(body));
+  }
+  PINTLE_LANES void fetch_reading(const FourJoints& joints, const Stage& last) const {
+    fetch(joints_, &joints - joints_.data() + kLater);
+    const FourJoints* next = soon(joints, kNext);
+    if (!next) return;
+    next->fetch_joints(last.gap);
+    next->fetch_joints(last.gap_rate);
+    next->fetch_bodies(at_);
+    next->fetch_bodies(one_);
+  }
+  PINTLE_LANES void fetch_forces(const FourJoints& joints, const Stage& last, const State& end) const {
+    fetch_reading(joints, last);
+    const FourJoints* next = soon(joints, kNext);
+    if (!next) return;
+    for (const Vecs* x : {&last.gap_accel, &end.gap, &end.gap_rate, &end.force}) next->fetch_joints(*x);
+    next->fetch_bodies(accel_);
+    next->fetch_bodies(pull_);
+  }
+  PINTLE_LANES void fetch_balance(const FourJoints& joints, const State& end) const {
+    fetch(joints_, &joints - joints_.data() + kLater);
+    const FourJoints* next = soon(joints, kNext);
+    if (!next) return;
+    next->fetch_joints(end.force);
+    next->fetch_bodies(pull_);
+    next->fetch_bodies(one_);
+  }
+
+  static constexpr std::size_t kLarge = 1000;    // bodies that do not fit into the second cache: what comes soon is asked for in time
+  static constexpr int kSoon = 16;               // bodies from here
+  static constexpr int kNext = 2, kLater = 4;    // joints in fours from here; first those, then what the system has of them
+
   const System& system_;
+  const bool large_;
   std::vector<FourJoints> joints_;
   BlockLu<double, S::kDof> lu_;
   std::vector<BodyAt> at_;          // of bodies and the ground, as the next ones

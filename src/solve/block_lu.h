@@ -7,6 +7,7 @@
 
 #include "solve/block.h"
 #include "solve/block_pattern.h"
+#include "solve/fetch.h"
 
 namespace pintle {
 
@@ -52,39 +53,71 @@ class BlockLu {
   Block<T, N>& lower_at(int index) { return lower_[index]; }
 
   /// Factorises in place; false when a pivot block is singular.
-  bool factorize() { return symmetric_ ? factorize_upper() : factorize_both(); }
+  bool factorize() {
+    for (int k = 0; k < pattern_->n(); ++k)
+      if (!(symmetric_ ? eliminate_upper(k) : eliminate_both(k))) return false;
+    return true;
+  }
 
   /// Solves in place, rows in the user's numbering. What a row holds is N numbers like T, or several side by side for as many
   /// right-hand sides.
   template <class Rows>
   void solve(Rows& x) const {
-    solve(x, [](int, auto&) {}, [](int, const auto&) {});
+    solve(x, [](int, const auto&) {});
   }
-  /// The same on the way through the rows: first(i, x[i]) is called before any use of row i's right-hand side, though what other rows
-  /// take off may be in it already, and last(i, x[i]) as soon as the row is known, though others still read it.
-  template <class Rows, class First, class Last>
-  void solve(Rows& x, First&& first, Last&& last) const {
-    if (symmetric_) {
-      for (int k = 0; k < pattern_->n(); ++k) reduce(k, x, first);
-      substitute(x, last);
-    } else {
-      solve_both(x, first, last);
-    }
+  /// The same; last(i, x[i]) is called as soon as row i is known, though others still read it.
+  template <class Rows, class Last>
+  void solve(Rows& x, Last&& last) const {
+    reduce(0, pattern_->n(), x, [](int, auto&) {});
+    substitute(0, pattern_->n(), x, last);
   }
   /// Factorises and solves, on one way through the rows there and one back. False when a pivot block is singular.
-  template <class Rows, class First, class Last>
-  bool factorize_and_solve(Rows& x, First&& first, Last&& last) {
-    if (!symmetric_) {
-      if (!factorize_both()) return false;
-      solve_both(x, first, last);
-      return true;
-    }
-    for (int k = 0; k < pattern_->n(); ++k) {
-      if (!eliminate(k)) return false;
-      reduce(k, x, first);
-    }
-    substitute(x, last);
+  template <class Rows>
+  bool factorize_and_solve(Rows& x) {
+    if (!eliminate(0, pattern_->n(), x, [](int, auto&) {})) return false;
+    substitute(0, pattern_->n(), x, [](int, const auto&) {});
     return true;
+  }
+
+  /// How many rows of the order can be eliminated once rows [0, n) are filled.
+  int ready(int n, int from) const {
+    const BlockPattern& p = *pattern_;
+    for (; from < n; ++from)
+      if (p.first(from) < p.first(from + 1) && p.column(p.first(from + 1) - 1) >= n) break;
+    return from;
+  }
+  /// The way there, of rows [from, to) of the order, which must be ready: they are factorised, and their right-hand sides reduced.
+  /// first(i, x[i]) is called before any use of row i's, though what other rows take off may be in it already. False when a pivot
+  /// block is singular.
+  template <class Rows, class First>
+  PINTLE_LANES bool eliminate(int from, int to, Rows& x, First&& first) {
+    return symmetric_ ? eliminate_rows<true>(from, to, x, first) : eliminate_rows<false>(from, to, x, first);
+  }
+  /// The same of right-hand sides alone, by rows that have been factorised.
+  template <class Rows, class First>
+  PINTLE_LANES void reduce(int from, int to, Rows& x, First&& first) const {
+    for (int k = from; k < to; ++k) {
+      if (symmetric_) reduce_row<true>(k, x, first);
+      else reduce_row<false>(k, x, first);
+    }
+  }
+  /// And the way back through rows [from, to), after those behind them; last(i, x[i]) as in solve.
+  template <class Rows, class Last>
+  PINTLE_LANES void substitute(int from, int to, Rows& rows, Last&& last) const {
+    if (symmetric_) substitute_rows<true>(from, to, rows, last);
+    else substitute_rows<false>(from, to, rows, last);
+  }
+
+  /// Row k of the order will be filled or eliminated soon.
+  PINTLE_LANES void fetch_row(int k) const {
+    if (k >= pattern_->n()) return;
+    fetch(diagonal_, k);
+    fetch_upper(k);
+    if (!symmetric_) fetch(lower_, pattern_->first(k), pattern_->first(k + 1) - pattern_->first(k));
+  }
+  /// It will be substituted soon.
+  PINTLE_LANES void fetch_upper(int k) const {
+    if (k >= 0) fetch(upper_, pattern_->first(k), pattern_->first(k + 1) - pattern_->first(k));
   }
 
  private:
@@ -93,34 +126,26 @@ class BlockLu {
       for (int c = 0; c < N; ++c) block(r, c) = T(0.0);
   }
 
-  bool factorize_both() {
+  PINTLE_LANES bool eliminate_both(int k) {
     const BlockPattern& p = *pattern_;
-    for (int k = 0; k < p.n(); ++k) {
-      if (!invert(diagonal_[k])) return false;
-      const int begin = p.first(k), end = p.first(k + 1);
-      const int* target = p.updates(k);
-      for (int a = begin; a < end; ++a) {
-        lower_[a] = product(lower_[a], diagonal_[k]);
-        for (int b = begin; b < end; ++b, ++target) {
-          Block<T, N>& block = *target == 0  ? diagonal_[p.column(a)]
-                               : *target > 0 ? upper_[*target - 1]
-                                             : lower_[-*target - 1];
-          subtract_product(block, lower_[a], upper_[b]);
-        }
+    if (!invert(diagonal_[k])) return false;
+    const int begin = p.first(k), end = p.first(k + 1);
+    const int* target = p.updates(k);
+    for (int a = begin; a < end; ++a) {
+      lower_[a] = product(lower_[a], diagonal_[k]);
+      for (int b = begin; b < end; ++b, ++target) {
+        Block<T, N>& block = *target == 0  ? diagonal_[p.column(a)]
+                             : *target > 0 ? upper_[*target - 1]
+                                           : lower_[-*target - 1];
+        subtract_product(block, lower_[a], upper_[b]);
       }
     }
     return true;
   }
 
-  bool factorize_upper() {
-    for (int k = 0; k < pattern_->n(); ++k)
-      if (!eliminate(k)) return false;
-    return true;
-  }
-
   // Pivot blocks Z are L D L', and what stands above the diagonal becomes Z^-1 U: in a solve each row waits for one product with the
   // row before it and for nothing else.
-  PINTLE_LANES bool eliminate(int k) {
+  PINTLE_LANES bool eliminate_upper(int k) {
     const BlockPattern& p = *pattern_;
     Block<T, N>*const diagonal = diagonal_.data(), *const upper = upper_.data(), *const row = row_.data();  // no store reaches these
     Block<T, N>& pivot = diagonal[k];
@@ -143,44 +168,41 @@ class BlockLu {
     return true;
   }
 
+  template <bool kSymmetric, class Rows, class First>
+  PINTLE_LANES bool eliminate_rows(int from, int to, Rows& x, First& first) {
+    for (int k = from; k < to; ++k) {
+      if (!(kSymmetric ? eliminate_upper(k) : eliminate_both(k))) return false;
+      reduce_row<kSymmetric>(k, x, first);
+    }
+    return true;
+  }
+
   // Row k on the way there.
-  template <class Rows, class First>
-  PINTLE_LANES void reduce(int k, Rows& x, First& first) const {
+  template <bool kSymmetric, class Rows, class First>
+  PINTLE_LANES void reduce_row(int k, Rows& x, First& first) const {
     const BlockPattern& p = *pattern_;
     const int i = p.row_at(k), end = p.first(k + 1);
     auto& here = x[i];
     first(i, here);
-    for (int a = p.first(k); a < end; ++a) subtract_transposed_product(x[p.row_at(p.column(a))], upper_[a], here);
-    apply_inverse(diagonal_[k], here);
+    for (int a = p.first(k); a < end; ++a) {
+      auto& there = x[p.row_at(p.column(a))];
+      if constexpr (kSymmetric) subtract_transposed_product(there, upper_[a], here);
+      else subtract_product(there, lower_[a], here);
+    }
+    if constexpr (kSymmetric) apply_inverse(diagonal_[k], here);
   }
 
-  // The way back.
-  template <class Rows, class Last>
-  void substitute(Rows& rows, Last& last) const {
+  template <bool kSymmetric, class Rows, class Last>
+  PINTLE_LANES void substitute_rows(int from, int to, Rows& rows, Last& last) const {
     const BlockPattern& p = *pattern_;
     const Block<T, N>* const upper = upper_.data();  // no store reaches these
-    auto* const x = rows.data();
-    for (int k = p.n() - 1; k >= 0; --k) {
+    const auto x = rows.data();
+    for (int k = to - 1; k >= from; --k) {
       const int i = p.row_at(k), end = p.first(k + 1);
       auto& here = x[i];
       for (int a = p.first(k); a < end; ++a) subtract_product(here, upper[a], x[p.row_at(p.column(a))]);
+      if constexpr (!kSymmetric) here = product(diagonal_[k], here);
       last(i, std::as_const(here));
-    }
-  }
-
-  template <class Rows, class First, class Last>
-  void solve_both(Rows& x, First& first, Last& last) const {
-    const BlockPattern& p = *pattern_;
-    for (int k = 0; k < p.n(); ++k) {
-      auto& done = x[p.row_at(k)];
-      first(p.row_at(k), done);
-      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(x[p.row_at(p.column(a))], lower_[a], done);
-    }
-    for (int k = p.n() - 1; k >= 0; --k) {
-      auto& here = x[p.row_at(k)];
-      for (int a = p.first(k); a < p.first(k + 1); ++a) subtract_product(here, upper_[a], x[p.row_at(p.column(a))]);
-      here = product(diagonal_[k], here);
-      last(p.row_at(k), std::as_const(here));
     }
   }
 

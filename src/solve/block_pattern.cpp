@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 namespace pintle {
 
@@ -103,6 +104,13 @@ void BlockPattern::list_updates() {
       }
     first_update_[k + 1] = updates_.size();
   }
+}
+
+BlockPattern BlockPattern::in_order() const {
+  BlockPattern ordered = *this;
+  std::iota(ordered.order_.begin(), ordered.order_.end(), 0);
+  ordered.position_ = ordered.order_;
+  return ordered;
 }
 
 int BlockPattern::find_upper(int row, int column) const {

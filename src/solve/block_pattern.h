@@ -18,6 +18,8 @@ class BlockPattern {
   /// Position of row i in the order of elimination.
   int position(int i) const { return position_[i]; }
   int row_at(int position) const { return order_[position]; }
+  /// The same, of rows that are numbered by their positions.
+  BlockPattern in_order() const;
 
   /// The off-diagonal block of (i, j) as rows of the user's numbering: its index, and whether it stands in the upper part.
   struct Slot {
