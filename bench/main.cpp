@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "bench/commands.h"
+#include "bench/scaling.h"
 
 namespace pintle::bench {
 namespace {
@@ -23,6 +24,8 @@ struct Options {
   StiffnessOptions stiffness;
   ForceOptions forces;
   ScaleOptions scale;
+  std::vector<int> loops{40, 400, 4000, 40000};
+  int scaling_rounds = 3;
   SweepOptions sweeps;
   std::string micro_filter = ".";
   double micro_time = 0.2;
@@ -89,6 +92,20 @@ void add_scale(CLI::App& app, Options& o, Json& out) {
   verb->callback([&] { out["scale"] = study_scale(o.scale); });
 }
 
+void add_scaling(CLI::App& app, Options& o, Json& out) {
+  CLI::App* verb = app.add_subcommand("scaling", "time of N four-bars against N, and its exponent, as the curves have it");
+  verb->add_option("--sizes", o.loops, "loops")->delimiter(',')->check(CLI::PositiveNumber)->expected(2, 100)->capture_default_str();
+  verb->add_option("--rounds", o.scaling_rounds, "runs of each")->check(CLI::PositiveNumber)->capture_default_str();
+  verb->callback([&] {
+    const Scaling scaling = measure_scaling(o.loops, o.scaling_rounds);
+    const ResultTable table = scaling.table();
+    table.print();
+    fmt::print("Exponent of time over N: {:.3f}\n", scaling.exponent());
+    out["scaling"] = table.json();
+    out["exponent"] = scaling.exponent();
+  });
+}
+
 void add_sweeps(CLI::App& app, Options& o, Json& out) {
   CLI::App* verb = app.add_subcommand("sweeps", "variants of a model per second, in fleets and one by one");
   verb->add_option("--models", o.sweeps.models, "names without .toml")->delimiter(',')->capture_default_str();
@@ -138,6 +155,7 @@ int run_program(int argc, char** argv) {
   add_stiffness(app, options, out);
   add_forces(app, options, out);
   add_scale(app, options, out);
+  add_scaling(app, options, out);
   add_sweeps(app, options, out);
   add_micro(app, options);
   app.add_subcommand("short", "a short version of peers, stiffness, forces and micro")->callback([&] { out = run_short(); });
