@@ -101,10 +101,9 @@ class LaneSolver : public StageSolver {
   double factorized_for_ = 0;                 // the step; 0: none
   bool loads_;                                // there is more than weight
   static constexpr std::size_t kTile = 16;    // bodies that fit into the nearest cache, with their joints
-  static constexpr std::size_t kLarge = 1000;  // bodies that do not fit into the next one: what comes after this is asked for in time
   static constexpr std::size_t kSoon = 16, kLater = 24;  // bodies or joints from here; first those, then what the system has of them
-  bool large_;
-  std::vector<int> by_first_;                 // joints in the order of their first bodies
+  bool large_;                                // memory is asked for in time
+  std::vector<int> by_first_;                 // where it is: joints in the order of their first bodies
   bool simple_ = true;                        // and no joint that is more than springs and dampers
   bool poses_ = true;                         // no joint but springs and dampers in the relative pose
   const BlockPattern pattern_;                // of rows in the order of elimination

@@ -17,7 +17,7 @@ using S = Planar;
 
 template <int N>
 LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double tolerance, Steps steps)
-    : system_(system), table_(table), matrices_(table), tolerance_(tolerance), steps_(steps), loads_(system.has_loads()), large_(system.bodies.size() > kLarge),
+    : system_(system), table_(table), matrices_(table), tolerance_(tolerance), steps_(steps), loads_(system.has_loads()), large_(system.bodies.size() > kLargeMechanism),
       pattern_(system.pattern().in_order()), bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), loads_on_(loads_ ? system.bodies.size() + 1 : 0),
       motions_(system.bodies.size()), lu_(pattern_, loads_ ? Symmetry::kNone : symmetry_of_joints(system)), rhs_(system.bodies.size() + 1) {
   bodies_.back().c = L::all(1);  // the ground; what falls on it is not looked at
@@ -55,7 +55,7 @@ LaneSolver<N>::LaneSolver(const System& system, const RadauTable& table, double 
   }
   simple_ = simple_ && !loads_;
   std::stable_sort(joints_.begin(), joints_.end(), [](const Joint& i, const Joint& j) { return i.last < j.last; });
-  by_first_.resize(joints_.size());
+  by_first_.resize(large_ ? joints_.size() : 0);
   std::iota(by_first_.begin(), by_first_.end(), 0);
   std::stable_sort(by_first_.begin(), by_first_.end(), [this](int i, int j) { return joints_[i].first < joints_[j].first; });
   if (servos) target_accel_.assign(joints_.size(), L::all(0));

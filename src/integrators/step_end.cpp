@@ -32,7 +32,7 @@ PINTLE_LANES double largest_of(const Lanes<4>& x) {
 class EndSolver : public StepEnd {
  public:
   explicit EndSolver(const System& system)
-      : system_(system), large_(system.bodies.size() > kLarge), joints_(joints_in_fours(system)), lu_(system.pattern(), symmetry_of_joints(system)), at_(system.bodies.size() + 1),
+      : system_(system), large_(system.bodies.size() > kLargeMechanism), joints_(joints_in_fours(system)), lu_(system.pattern(), symmetry_of_joints(system)), at_(system.bodies.size() + 1),
         four_(system.bodies.size() + 1), accel_(system.bodies.size() + 1), one_(system.bodies.size() + 1), pull_(system.bodies.size() + 1) {
     at_.back().take(kStill);
   }
@@ -285,13 +285,14 @@ class EndSolver : public StepEnd {
     for (std::size_t b = 0; b < n_bodies(); ++b) raise_scale(system_.bodies[b], S::Vec(one_[b][0], one_[b][1], one_[b][2]), scale.body[b]);
   }
 
-  // What the joints after these will want.
-  const FourJoints* soon(const FourJoints& joints, int fours) const {
-    return joints_.data() + joints_.size() - &joints > fours ? &joints + fours : nullptr;
+  // Joints that come soon, which are asked for themselves before, and what they will want; null behind the last ones.
+  PINTLE_LANES const FourJoints* soon(const FourJoints& joints) const {
+    const std::size_t place = &joints - joints_.data();
+    fetch(joints_, place + kLater);
+    return place + kNext < joints_.size() ? &joints_[place + kNext] : nullptr;
   }
   PINTLE_LANES void fetch_answers(const FourJoints& joints, const Stage& last, const StageTails& tails) const {
-    fetch(joints_, &joints - joints_.data() + kLater);
-    const FourJoints* next = soon(joints, kNext);
+    const FourJoints* next = soon(joints);
     if (!next) return;
     next->fetch_joints(last.gap);
     next->fetch_joints(tails.gaps);
@@ -301,35 +302,32 @@ class EndSolver : public StepEnd {
       for (const int body : {next->a[i], next->b[i]})
         if (body < system_.n_bodies()) lu_.fetch_row(system_.pattern().position(body));
   }
-  PINTLE_LANES void fetch_reading(const FourJoints& joints, const Stage& last) const {
-    fetch(joints_, &joints - joints_.data() + kLater);
-    const FourJoints* next = soon(joints, kNext);
-    if (!next) return;
+  PINTLE_LANES const FourJoints* fetch_reading(const FourJoints& joints, const Stage& last) const {
+    const FourJoints* next = soon(joints);
+    if (!next) return next;
     next->fetch_joints(last.gap);
     next->fetch_joints(last.gap_rate);
     next->fetch_bodies(at_);
     next->fetch_bodies(one_);
+    return next;
   }
   PINTLE_LANES void fetch_forces(const FourJoints& joints, const Stage& last, const State& end) const {
-    fetch_reading(joints, last);
-    const FourJoints* next = soon(joints, kNext);
+    const FourJoints* next = fetch_reading(joints, last);
     if (!next) return;
     for (const Vecs* x : {&last.gap_accel, &end.gap, &end.gap_rate, &end.force}) next->fetch_joints(*x);
     next->fetch_bodies(accel_);
     next->fetch_bodies(pull_);
   }
   PINTLE_LANES void fetch_balance(const FourJoints& joints, const State& end) const {
-    fetch(joints_, &joints - joints_.data() + kLater);
-    const FourJoints* next = soon(joints, kNext);
+    const FourJoints* next = soon(joints);
     if (!next) return;
     next->fetch_joints(end.force);
     next->fetch_bodies(pull_);
     next->fetch_bodies(one_);
   }
 
-  static constexpr std::size_t kLarge = 1000;    // bodies that do not fit into the second cache: what comes soon is asked for in time
-  static constexpr int kSoon = 16;               // bodies from here
-  static constexpr int kNext = 2, kLater = 4;    // joints in fours from here; first those, then what the system has of them
+  static constexpr int kSoon = 16;                     // bodies from here
+  static constexpr std::size_t kNext = 2, kLater = 4;  // joints in fours from here
 
   const System& system_;
   const bool large_;

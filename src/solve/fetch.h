@@ -9,6 +9,9 @@
 
 namespace pintle {
 
+/// Bodies that do not fit into the second cache: of mechanisms with more, what comes soon is asked for.
+constexpr std::size_t kLargeMechanism = 1000;
+
 /// Entries [i, i + n) of x, as far as there are any, will be read or written soon.
 template <class T>
 PINTLE_LANES void fetch(const std::vector<T>& x, std::size_t i, std::size_t n = 1) {
