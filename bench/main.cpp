@@ -6,6 +6,7 @@
 #include <exception>
 #include <fstream>
 
+#include "base/freed_memory.h"
 #include "bench/commands.h"
 #include "bench/scaling.h"
 
@@ -173,6 +174,7 @@ int run_program(int argc, char** argv) {
 }  // namespace pintle::bench
 
 int main(int argc, char** argv) {
+  pintle::keep_freed_memory();
   try {
     return pintle::bench::run_program(argc, argv);
   } catch (const std::exception& error) {

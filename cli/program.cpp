@@ -6,6 +6,7 @@
 #include <exception>
 #include <new>
 
+#include "base/freed_memory.h"
 #include "cli/command_line.h"
 #include "cli/console.h"
 #include "cli/exit_codes.h"
@@ -56,6 +57,7 @@ int dispatch(CLI::App& app, int argc, char** argv, const int& exit_code) {
 }  // namespace
 
 int run_program(int argc, char** argv, std::initializer_list<AddVerb> verbs) {
+  keep_freed_memory();
   remember_command_line(argc, argv);
   CLI::App app(kAbout, "pintle");
   app.footer(kFooter);
