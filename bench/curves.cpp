@@ -54,7 +54,7 @@ class Study {
     out_["machine"] = machine;
     for (const CurveProblem& problem : chosen(options_.problems.empty() && options_.quick ? kQuick : options_.problems)) measure(problem);
     const bool all = options_.problems.empty();
-    if (all) scaling_ = measure_scaling(options_.quick ? std::vector{40, 400} : std::vector{40, 400, 4000, 40000}, options_.quick ? 2 : 3);
+    if (all) scaling_ = measure_scaling(options_.quick ? std::vector{40, 400} : std::vector{40, 400, 4000, 40000}, options_.quick ? 2 : 7);
     if (all) keep("scaling", scaling_.table());
     std::map<std::string, const WorkPrecision*> works;
     for (const auto& [name, work] : works_) works[name] = work.get();

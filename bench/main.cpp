@@ -26,7 +26,7 @@ struct Options {
   ForceOptions forces;
   ScaleOptions scale;
   std::vector<int> loops{40, 400, 4000, 40000};
-  int scaling_rounds = 3;
+  int scaling_rounds = 7;
   SweepOptions sweeps;
   std::string micro_filter = ".";
   double micro_time = 0.2;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "bench/pintle_methods.h"
 #include "bench/stopwatch.h"
@@ -26,32 +27,58 @@ ResultTable Scaling::table() const {
   ResultTable table("Time against size: N four-bars", {{"N", "loops"},
                                                        {"bodies", "bodies"},
                                                        {"steps", "steps"},
+                                                       {"Newton", "newton_iterations_per_step"},
                                                        {"ms", "milliseconds"},
+                                                       {"spread", "spread"},
                                                        {"us per body and step", "microseconds_per_body_and_step"},
                                                        {"start, ms", "start_milliseconds"}});
   for (const Row& row : rows)
-    table.add_row({count(row.loops), count(row.bodies), count(row.steps), number(1e3 * row.seconds, "{:.2f}"),
+    table.add_row({count(row.loops), count(row.bodies), count(row.steps), number(row.iterations / row.steps, "{:.1f}"),
+                   number(1e3 * row.seconds, "{:.2f}"), number(row.spread, "{:.2f}"),
                    number(1e6 * row.per_body_and_step(), "{:.2f}"), number(1e3 * row.start_seconds, "{:.1f}")});
   return table;
 }
 
+namespace {
+
+constexpr double kTurn = 0.3;  // of a size in a round [s], unless one run takes longer
+
+struct Subject {
+  explicit Subject(Model model) : ready(std::move(model)), problem(ready.problem(1)) {}
+  ReadyModel ready;
+  Problem problem;
+  Times times;
+};
+
+}  // namespace
+
 Scaling measure_scaling(const std::vector<int>& loops, int rounds, double duration, double tolerance) {
   Scaling out;
+  std::vector<std::unique_ptr<Subject>> subjects;
   for (const int n : loops) {
     Model model = sample::ladder_model(n);
     model.simulate.duration = duration;
     const Stopwatch watch;
-    const ReadyModel ready(model);
-    Scaling::Row row{n, ready.system.n_bodies(), 0, 0, watch.seconds()};
-    const Problem problem = ready.problem(1);
-    Times times;
-    for (int i = 0; i < rounds; ++i) {
-      const PintleRun run = run_radau(problem, 3, tolerance);
-      times.add(run.seconds);
-      row.steps = static_cast<double>(run.counters.steps);
+    subjects.push_back(std::make_unique<Subject>(std::move(model)));
+    Scaling::Row& row = out.rows.emplace_back();
+    row.loops = n;
+    row.bodies = subjects.back()->ready.system.n_bodies();
+    row.start_seconds = watch.seconds();
+  }
+  for (int round = 0; round < rounds; ++round)
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      Subject& subject = *subjects[i];
+      const Stopwatch turn;
+      do {
+        const PintleRun run = run_radau(subject.problem, 3, tolerance);
+        subject.times.add(run.seconds);
+        out.rows[i].steps = static_cast<double>(run.counters.steps);
+        out.rows[i].iterations = static_cast<double>(run.counters.newton_iterations);
+      } while (turn.seconds() < kTurn);
     }
-    row.seconds = times.median();
-    out.rows.push_back(row);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    out.rows[i].seconds = subjects[i]->times.median();
+    out.rows[i].spread = subjects[i]->times.spread();
   }
   return out;
 }

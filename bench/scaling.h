@@ -10,7 +10,7 @@ namespace pintle::bench {
 struct Scaling {
   struct Row {
     int loops = 0, bodies = 0;
-    double steps = 0, seconds = 0, start_seconds = 0;
+    double steps = 0, iterations = 0, seconds = 0, spread = 0, start_seconds = 0;
     double per_body_and_step() const { return seconds / steps / bodies; }
   };
   std::vector<Row> rows;
@@ -19,7 +19,8 @@ struct Scaling {
   ResultTable table() const;
 };
 
-/// N four-bars over `duration`, before they first come in line, at one tolerance; the median of `rounds` runs.
+/// N four-bars over `duration`, before they first come in line, at one tolerance. Every size has its turn in every round, small ones
+/// with as many runs as are worth a median; the medians of all runs.
 Scaling measure_scaling(const std::vector<int>& loops, int rounds, double duration = 0.3, double tolerance = 1e-4);
 
 }  // namespace pintle::bench
