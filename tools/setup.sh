@@ -76,7 +76,9 @@ offered_of() {
 install() {
   local packages
   find_root "$@"
-  local command=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends)
+  # Ten minutes' patience with another installation, such as the machine's own upgrades just after it was started.
+  local command=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive
+    apt-get -o DPkg::Lock::Timeout=600 install -q -y --no-install-recommends)
   if [ "$dry_run" = yes ]; then
     echo "setup: would run: ${command[*]} $*"
     return
