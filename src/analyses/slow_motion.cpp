@@ -22,6 +22,7 @@ constexpr int kOrders = 6;               // sweeps in which soft joints go with 
 constexpr double kSmallForce = 0.05;     // of the largest: the change of a force is measured by this at least
 constexpr int kHalvings = 30;            // of the stretch that the forces' curves may need
 constexpr double kResolved = 1e-4;       // of the forces: what the last coefficients of a resolved curve may be
+constexpr int kLeap = 4;                 // halvings at once, of a stretch that is far from resolved
 constexpr double kShortOfMotion = 0.25;  // of a stretch that is just resolved
 constexpr double kEager = 0.7;           // of a step of the motion, over the time constant of the fastest lively joint
 constexpr double kMostSteps = 300;       // from one node to the next
@@ -269,16 +270,24 @@ Vecs shares(const JointPaces& paces, const SlowMotion& motion, const System& sys
   return share;
 }
 
+// How often to halve a stretch of whose curves this part is not resolved: each halving takes off about two to the number of the nodes.
+int halvings_for(double unresolved) {
+  return unresolved < 1 ? 1 + static_cast<int>(std::log2(unresolved / kResolved) / kNodes) : kLeap;
+}
+
 }  // namespace
 
 double span_of_motion(const System& system, const State& state, double longest) {
   const JointPaces paces = all_fast(system);
-  double span = std::exp2(std::ceil(std::log2(longest)));
-  for (int i = 0; i < kHalvings; ++i, span *= 0.5) {
-    SlowMotion motion(system, span, state, paces);
-    if (motion.sweep() < kDiverged && motion.unresolved() < kResolved) return kShortOfMotion * span;
+  const double whole = std::exp2(std::ceil(std::log2(longest)));
+  int too_long = -1, resolved = kHalvings;  // the halvings between which the answer is
+  for (int next = 0; resolved - too_long > 1;) {
+    SlowMotion motion(system, std::ldexp(whole, -next), state, paces);
+    const double rest = motion.sweep() < kDiverged ? motion.unresolved() : kDiverged;
+    (rest < kResolved ? resolved : too_long) = next;
+    next = resolved < kHalvings ? (too_long + resolved) / 2 : std::min(too_long + halvings_for(rest), kHalvings - 1);
   }
-  return 0;
+  return resolved < kHalvings ? kShortOfMotion * std::ldexp(whole, -resolved) : 0;
 }
 
 SoftStart place_soft_joints(const System& system, const JointPaces& paces, double span, State& state) {
