@@ -25,11 +25,12 @@ class RadauControl {
   void start(double h) {
     next = usual = h;
     have_history = false;
+    rounding_ = 0;
   }
 
   /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
   /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), find_kink(h, solved),
-  /// cross_kink(distance), error_estimate(h, error) and finish_step(h).
+  /// cross_kink(distance), renew_start(), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
 
@@ -39,6 +40,10 @@ class RadauControl {
   static constexpr double kKinkAtStart = 1e-5;  // of the usual step: a kink this close to its start is crossed
   static constexpr double kShrink = 0.5;        // after Newton failed
   static constexpr double kContraction = 0.2;   // of Newton's iteration, that steps are chosen for
+  static constexpr double kSteady = 0.9;        // of the error of the trial before: a shorter step has not made it smaller
+  static constexpr int kMostSteady = 3;         // such trials: the error is that of the accelerations that the step starts with
+  static constexpr double kMostRounding = 1e-11;  // of the loads, a hundredth of the least tolerance: what may pass for rounding of accelerations
+  static constexpr double kAboveRounding = 2;     // that of one step is not that of the next
   static constexpr double kShort = 0.9;         // of the way to a kink that is only guessed at
   static constexpr double kAfterKink = 0.3;     // of the usual step
   static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;
@@ -48,6 +53,7 @@ class RadauControl {
   static constexpr double kLeastError = 0.01;  // over the tolerance: a smaller one says nothing about its growth
 
   double last_error_ = 0;  // over the tolerance
+  double rounding_ = 0;    // of accelerations, over the tolerance: no step resolves it
 
   // The step that Newton's iteration will like, over one in which its errors shrank by `contraction`; 0: not known.
   static double of_contraction(double contraction) { return contraction > 0 ? std::max(kShrink, std::sqrt(kContraction / contraction)) : kMost; }
@@ -64,6 +70,8 @@ bool RadauControl::advance(Method& method, double t_end, double tolerance, int o
   method.begin_at_end();
   double h = longest > 0 ? std::min(next, longest) : next;
   bool up_to_kink = false, refused = false;  // by Newton's iteration
+  double error_before = 0;                   // of the trial before, over the tolerance
+  int steady = 0;                            // trials in a row that were shorter, and no better
   for (int retry = 0; retry < kMaxRetries; ++retry) {
     const double left = t_end - method.t();
     if (h > left || left - h < 1e-3 * h) h = left;
@@ -94,14 +102,19 @@ bool RadauControl::advance(Method& method, double t_end, double tolerance, int o
       h *= kShrink;
       continue;
     }
-    error /= tolerance;
+    error = std::max(error / tolerance - kAboveRounding * rounding_, 0.0);
     double factor = std::clamp(kSafety * std::pow(std::max(error, 1e-14), -1.0 / order), kLeast, counters.steps == 0 ? kMostAtFirst : kMost);
     // A force that jumps cannot be resolved by any step: one that is this short passes over the jump.
     const bool jump = error > 1 && h <= kShortest * std::abs(t_end);
     if (jump) factor = kMost;
     if (error > 1 && !jump) {
       ++counters.rejected;
-      h *= std::min(factor, 0.7);
+      steady = error > kSteady * error_before ? steady + 1 : 0;
+      error_before = error;
+      if (steady == kMostSteady) {
+        if (error * tolerance < kMostRounding) rounding_ = std::max(rounding_, error);
+        method.renew_start();
+      } else h *= std::min(factor, 0.7);
       continue;
     }
     if (have_history && last > 0 && h >= last && last_error_ > 0 && error > 0)  // an error that grows goes on growing: K. Gustafsson's predictive controller
