@@ -26,6 +26,15 @@ TEST_F(CompareVerb, PrintsATableAndDrawsAPicture) {
   EXPECT_TRUE(holds(sandbox_.read("pendulum-compare.svg"), "</svg>"));
 }
 
+TEST_F(CompareVerb, PicturesAreSvg) {
+  for (const char* verb : {"compare", "stiffen", "solvers"}) {
+    const Answer answer = sandbox_.pintle(std::string(verb) + " pendulum.toml --plot picture.png");
+    EXPECT_EQ(answer.exit_code, 2) << verb;
+    EXPECT_TRUE(holds(answer.error, "found \"picture.png\": it must end in .svg")) << answer.error;
+    EXPECT_FALSE(sandbox_.has("picture.png"));
+  }
+}
+
 TEST_F(CompareVerb, JsonAndNoPicture) {
   const Answer answer = sandbox_.pintle("compare pendulum.toml --json --plot none --against lagrangian --set joint.pin.ideal=true");
   EXPECT_EQ(answer.exit_code, 0) << answer.error;

@@ -35,6 +35,11 @@ void add_model_options(CLI::App& verb, ModelOptions& options, bool tolerance) {
       ->type_name("NUMBER");
 }
 
+std::string svg_problem(const std::string& file) {
+  if (file == "none" || file.ends_with(".svg")) return {};
+  return fmt::format("found \"{}\": it must end in .svg", file);
+}
+
 std::vector<std::string> all_overrides(const ModelOptions& options) {
   std::vector<std::string> overrides = options.overrides;
   const auto add = [&overrides](const char* key, const std::string& value) {

@@ -37,6 +37,14 @@ TEST_F(RunVerb, JsonOnStandardOutputIsTheSummary) {
   EXPECT_EQ(nlohmann::json::parse(last)["event"], "finished");
 }
 
+TEST_F(RunVerb, NamesTheForceThatIsNotANumber) {
+  sandbox_.write("broken.toml", pendulum_toml("1 s", "10 ms") + "[force.pull]\non = \"bob.O\"\nforce = [\"1 N*sqrt(0.5 - t/(1 s))\", 0]\n");
+  const Answer answer = sandbox_.pintle("run broken.toml");
+  EXPECT_EQ(answer.exit_code, 5);
+  EXPECT_TRUE(holds(answer.error, "at t = 0.5 s")) << answer.error;
+  EXPECT_TRUE(holds(answer.error, "force pull is not a number there")) << answer.error;
+}
+
 TEST_F(RunVerb, QuietIsQuiet) {
   const Answer answer = sandbox_.pintle("run --quiet pendulum.toml --out there");
   EXPECT_EQ(answer.exit_code, 0) << answer.error;

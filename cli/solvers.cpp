@@ -34,7 +34,7 @@ constexpr const char* kFooter =
     "running mean over 3 periods of the joints' slowest vibration (20 output steps at least, a quarter of the run at\n"
     "most), and measure from peak to peak in the last half of the run. A drift that is smooth does not count.\n"
     "\n"
-    "radau and dopri5 are Pintle's own and hold the tolerance on joint forces. The others hold it on positions and\n"
+    "radau and dopri5 are Pintle's own and measure each step by the joint forces. The others measure it by positions and\n"
     "velocities, as general integrators do: ode45 (Dormand-Prince), ode23t (trapezoidal rule), ode15s (BDF), ode113\n"
     "(Adams), hht (alpha = -0.05), generalised_alpha (spectral radius 0.9).\n\n";
 
@@ -93,7 +93,7 @@ void add_solvers(CLI::App& app, int& exit_code) {
       ->type_name("SECONDS")
       ->check(CLI::PositiveNumber);
   verb->add_option("--max-step", options->max_step, "longest step of every method, e.g. '1 ms'")->type_name("TIME");
-  verb->add_option("--plot", options->plot, "draw force error over time and over evaluations")->type_name("FILE.svg");
+  verb->add_option("--plot", options->plot, "draw force error over time and over evaluations")->type_name("FILE.svg")->check(svg_problem, "", "");
   verb->add_flag("--json", options->json, "print everything as JSON");
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
   verb->footer(std::string(kFooter) + kExitCodeHelp);

@@ -155,7 +155,7 @@ void add_sweep(CLI::App& app, int& exit_code) {
   verb->add_option("-o,--out", options->out, "file (default: <name of the model file>-sweep.h5)")->type_name("FILE.h5");
   verb->add_flag("--force", options->run.force, "replace a file or a journal, whatever it is");
   verb->add_option("--threads", options->run.threads, "of each process (default: one for each core)")->type_name("COUNT")->check(CLI::Range(1, 4096));
-  verb->add_option("--plot", options->plot, "draw the peak forces against the one or two values that vary")->type_name("FILE.svg");
+  verb->add_option("--plot", options->plot, "draw the peak forces against the one or two values that vary")->type_name("FILE.svg")->check(svg_problem, "", "");
   verb->add_option("--progress", options->progress, "on standard error: a line on a terminal, nothing, or JSON lines")->check(CLI::IsMember({"auto", "none", "json"}))->type_name("auto|none|json");
   verb->add_flag("--json", options->json, "print the summary as JSON");
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");

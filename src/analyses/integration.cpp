@@ -54,6 +54,7 @@ Integration integrate(const System& system, const State& start, const Integratio
       break;
     }
     const State& now = stepper.state();
+    recorder.see_step(now, now.t - stepper.previous().t);
     for (double t = static_cast<double>(row) * plan.output_step; t <= now.t && t < almost;
          t = static_cast<double>(++row) * plan.output_step)
       recorder.add(stepper.inside(t));
@@ -64,8 +65,8 @@ Integration integrate(const System& system, const State& start, const Integratio
     }
     if (stepper.counters().steps >= kMaxSteps) {
       out.ended = Ended::kFailed;
-      out.message = fmt::format("more than {} steps before t = {:.9g} s: this method needs steps of {:.3g} s here; choose radau, or a larger tolerance",
-                                kMaxSteps, now.t, now.t - stepper.previous().t);
+      out.message = fmt::format("more than {} steps before t = {:.9g} s: this method needs steps of {:.3g} s here; choose {}a larger tolerance",
+                                kMaxSteps, now.t, now.t - stepper.previous().t, plan.choice.method == "radau" ? "" : "radau, or ");
       break;
     }
     if (plan.keep_going && !plan.keep_going(now.t)) {

@@ -57,7 +57,7 @@ JointLoad joint_load(const System& system, int j, double, const std::vector<S::M
 }
 
 Recorder::Recorder(const Model& model, const System& system, Recorded what)
-    : model_(model), system_(system), what_(what), recording_(choose_recording(model, system)) {
+    : model_(model), system_(system), what_(what), recording_(choose_recording(model, system)), watch_(system) {
   find_drives();
 }
 
@@ -185,18 +185,24 @@ void Recorder::put_row(const State& state) {
   for (const LoadData& load : system_.loads)
     if (load.kind == LoadKind::kSpring) put(-system_.load_effort(load, state.t, m_));
     else if (load.kind == LoadKind::kTorsionSpring) put(system_.load_effort(load, state.t, m_));
+  const ExternalWork loads = system_.external_work(state.t, state.q, m_, state.held);
+  double supply = loads.supplied;
   for (const Drive& drive : drives_) {
     const bool servo = drive.joint >= 0;
     const double effort = servo ? state.force[drive.joint][component(drive)]
                                 : system_.load_effort(system_.loads[drive.load], state.t, m_, state.held);
     const Placement& at = servo ? system_.joints[drive.joint].at : system_.loads[drive.load].at;
+    const double power = effort * system_.pose(at, m_).rate[component(drive)];
     put(effort);
-    put(effort * system_.pose(at, m_).rate[component(drive)]);
+    put(power);
+    if (servo) supply += power;
   }
-  put(system_.kinetic(state.v));
-  put(system_.external_work(state.t, state.q, m_).potential + stored);
+  const double kinetic = system_.kinetic(state.v);
+  put(kinetic);
+  put(loads.potential + stored);
   put(state.dissipated);
   put(state.supplied);
+  watch_.add_row(state, supply, kinetic);
 }
 
 void Recorder::fill(Trajectory& out) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analyses/recording.h"
+#include "analyses/row_watch.h"
 #include "pintle/model.h"
 #include "pintle/trajectory.h"
 #include "system/state.h"
@@ -37,6 +38,12 @@ class Recorder {
 
   /// Adds a row. Called in the order of time.
   void add(const State& state);
+  /// The end of a step of h seconds, between rows or at one.
+  void see_step(const State& state, double h) {
+    if (what_ == Recorded::kColumns) watch_.add_step(state, h);
+  }
+  /// What the rows miss; empty: nothing much.
+  std::string missed(double output_step) const { return watch_.note(output_step); }
   void clear();
   const ForceTable& forces() const { return forces_; }
   /// Of what is recorded.
@@ -65,6 +72,7 @@ class Recorder {
   std::vector<double> values_;
   ForceTable forces_;
   std::vector<Planar::Motion> m_;
+  RowWatch watch_;
 };
 
 }  // namespace pintle

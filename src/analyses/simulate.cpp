@@ -221,6 +221,8 @@ class Run {
     fine_->fill(out_);
     out_.t_end = last_.t;
     out_.notes.insert(out_.notes.end(), last_.remarks.begin(), last_.remarks.end());
+    std::string missed = fine_->missed(output_step_of(model_.simulate, system_.joints.size()));
+    if (!missed.empty()) out_.notes.push_back(std::move(missed));
     const std::vector<double> relative_difference = relative_differences(difference);
     const std::unordered_set<std::string> not_unique(not_unique_.begin(), not_unique_.end());
     std::size_t row = 0;
@@ -242,15 +244,15 @@ class Run {
     const bool whole = last_.ended == Ended::kAtEnd;
     if (ended == Ended::kStopped) out_.outcome = Outcome::kInterrupted;
     else if (ended == Ended::kFailed && !whole) out_.outcome = Outcome::kFailed;
-    else if (ended == Ended::kFailed || error > model_.simulate.tolerance) out_.outcome = Outcome::kToleranceNotMet;
+    else if ((ended == Ended::kFailed && no_estimate) || error > model_.simulate.tolerance) out_.outcome = Outcome::kToleranceNotMet;
     if (no_estimate && shape_.checked && !system_.joints.empty()) out_.notes.push_back("stopped before a second integration: the joint forces carry no error estimate");
     if (whole && ended != Ended::kAtEnd)
-      out_.notes.push_back("a finer integration did not reach the end; the results are those of the one before it");
+      out_.notes.push_back(fmt::format("a finer integration did not reach the end{}; the results are those of the one before it", message.empty() ? "" : " (" + message + ")"));
     if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)
       out_.message = fmt::format("{} is estimated at {:.2g} of {}, {:.2g} was asked for",
                                  out_.of_motion ? "the largest error of a body's place" : "the largest joint-force error", error,
                                  out_.of_motion ? "the longest way that one has gone" : "the joint's peak force", model_.simulate.tolerance);
-    if (!message.empty()) out_.message += (out_.message.empty() ? "" : "; ") + message;
+    if (!message.empty() && out_.outcome != Outcome::kCompleted) out_.message += (out_.message.empty() ? "" : "; ") + message;
   }
 
   const Model& model_;

@@ -223,6 +223,20 @@ TEST(RadauStepper, CarriedGapsAreThoseOfThePositions) {
   }
 }
 
+// What a start has of accelerations may not be what its forces give. No step resolves that: it is noticed, not stepped around.
+TEST(RadauStepper, AStartThatDoesNotFitCostsAFewTrials) {
+  const Model model = sample::four_bar(1e8, 3000);
+  const System system = build_system(model);
+  State start = sample::settled_start(model, system, 0.05);
+  for (auto& a : start.a) a *= 1 + 1e-5;
+  RadauStepper stepper(system, 1e-8, 5);
+  stepper.start(start, 1e-4);
+  ASSERT_TRUE(stepper.step(0.1));
+  EXPECT_GT(stepper.counters().rejected, 0u);
+  EXPECT_LE(stepper.counters().rejected, 3u);
+  EXPECT_GT(stepper.state().t - 0.05, 1e-5);
+}
+
 // Large mechanisms go through memory in another way; what does not touch does not matter.
 TEST(RadauStepper, ManyMechanismsMoveLikeOne) {
   constexpr std::size_t kCopies = 400;  // 1200 bodies

@@ -97,6 +97,7 @@ class PlotMaker {
       throw PlotRequestError("found nothing to plot.\n    Choose joints with --joint or columns with --column.");
     plot_.title = request_.title.empty() ? made_title() : request_.title;
     plot_.subtitle = subtitle();
+    if (plot_.title.empty()) std::swap(plot_.title, plot_.subtitle);
     if (plot_.panels.size() > 1) plot_.panel_height = 200;
     return std::move(plot_);
   }

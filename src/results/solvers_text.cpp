@@ -55,8 +55,9 @@ std::string legend_text(const SolverStudy& study) {
       "\n  force error: largest over joints and output times, of the joint's peak force (or couple)\n"
       "  vibration: parasitic; peak to peak of a joint force's error in the last half of the run, its running mean over\n"
       "             {:.3g} s taken off, in N and of the joint's peak force\n"
-      "  time: one integration with its {:.0f} output times; radau and dopri5 hold their tolerance on joint forces, the\n"
-      "        others on positions and velocities, as general integrators do\n",
+      "  time: one integration with its {:.0f} output times; radau and dopri5 measure each step by the joint\n"
+      "        forces, the others by positions and velocities, as general integrators do; pintle run integrates again\n"
+      "        until the forces keep the tolerance\n",
       study.window, std::floor(study.duration / study.output_step * (1 + 1e-9)));
 }
 

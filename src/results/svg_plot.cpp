@@ -176,7 +176,7 @@ void Picture::lay_out() {
     frames_.push_back(std::move(frame));
   }
   left_ = 46 + label_width;
-  double top = plot_.title.empty() ? 8 : plot_.subtitle.empty() ? 38 : 56;
+  double top = !plot_.subtitle.empty() ? 56 : plot_.title.empty() ? 8 : 38;
   for (Frame& frame : frames_) {
     frame.left = left_;
     frame.width = plot_.width - left_ - kRight;

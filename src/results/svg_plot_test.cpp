@@ -196,6 +196,13 @@ TEST(RunPlot, RunsInOnePlotShareWhatHasTheirUnit) {
   EXPECT_EQ(both.panels[1].unit, "rad");
 }
 
+TEST(RunPlot, ColumnsUnderTheModelsNameWhereNoOtherIsGiven) {
+  const RunRecord run{sample::stamp(), sample::trajectory()};
+  const Plot plot = make_plot(run, request_for({}, {"joint.O4.angle", "joint.O4.on_ground.fx[world]"}));
+  EXPECT_EQ(plot.title, run.stamp.model_name);
+  EXPECT_EQ(plot.subtitle, "");
+}
+
 TEST(RunPlot, UnitsShareOrSplitPanels) {
   const RunRecord run{sample::stamp(), sample::trajectory()};
   const Plot plot = make_plot(run, request_for({"O4"}, {"joint.O4.angle", "joint.O4.on_ground.fx[world]"}));

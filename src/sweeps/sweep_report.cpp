@@ -62,6 +62,15 @@ std::string values_text(const SweepTable& table, std::size_t sample) {
 
 std::string known(double x) { return std::isfinite(x) ? engineering(x) : "-"; }
 
+// Its first line; also the second, where the first ends with a colon.
+std::string start_of(const std::string& message) {
+  const std::size_t end = message.find('\n');
+  if (end == std::string::npos || end == 0 || message[end - 1] != ':') return message.substr(0, end);
+  const std::size_t from = message.find_first_not_of(" \n", end);
+  if (from == std::string::npos) return message.substr(0, end);
+  return message.substr(0, end) + " " + message.substr(from, message.find('\n', from) - from);
+}
+
 std::string troubles_text(const SweepTable& table) {
   std::string text;
   for (const SampleStatus status : kStatuses)
@@ -70,7 +79,7 @@ std::string troubles_text(const SweepTable& table) {
   text = fmt::format("\n{} of {} samples are not completed: {}\n", table.troubled.size(), table.n_samples(), text);
   for (std::size_t k = 0; k < std::min(kMostMessages, table.troubled.size()); ++k) {
     const std::string& message = table.messages[k];
-    text += fmt::format("  sample {} ({}): {}\n", table.troubled[k], values_text(table, table.troubled[k]), message.substr(0, message.find('\n')));
+    text += fmt::format("  sample {} ({}): {}\n", table.troubled[k], values_text(table, table.troubled[k]), start_of(message));
   }
   if (table.troubled.size() > kMostMessages) text += "  ... the file has the others, in /troubled\n";
   return text;
