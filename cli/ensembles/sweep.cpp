@@ -110,7 +110,11 @@ void print_results(const SweepOptions& options, const SweepOutcome& outcome) {
   if (options.quiet) return;
   print_out(sweep_text(table, wants_colour(STDOUT_FILENO)));
   if (outcome.end == SweepEnd::kFinishedBefore) print_out(fmt::format("\n{} was finished before; --force computes it again\n", options.run.out.string()));
-  else print_out(fmt::format("\nResults in {} ({} samples in {})\n", options.run.out.string(), outcome.progress.done - outcome.progress.resumed, clock_text(outcome.progress.wall_seconds)));
+  else {
+    const std::uint64_t kept = outcome.progress.resumed;
+    print_out(fmt::format("\nResults in {} ({} samples in {}{})\n", options.run.out.string(), outcome.progress.done - kept, clock_text(outcome.progress.wall_seconds),
+                          kept > 0 ? fmt::format(", {} from before", kept) : ""));
+  }
 }
 
 ExitCode sweep_model(SweepOptions& options) {

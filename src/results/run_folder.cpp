@@ -91,6 +91,8 @@ std::string read_model_text(const fs::path& folder, const RunStamp& stamp) {
 RunRecord read_run(const fs::path& folder) {
   if (!fs::is_directory(folder))
     throw FileError(fmt::format("{}: there is no such run folder.\n    Make one with pintle run.", folder.string()));
+  if (!fs::exists(folder / kSummaryFile))
+    throw FileError(fmt::format("{}: this is not a run folder: it has no {}.\n    Make one with pintle run.", folder.string(), kSummaryFile));
   Summary summary = parse_summary(read_file(folder / kSummaryFile), folder / kSummaryFile);
   RunRecord run = std::move(summary.run);
   std::vector<Column> promised = std::move(run.trajectory.columns);

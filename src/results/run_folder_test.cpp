@@ -196,6 +196,7 @@ TEST(RunFolder, DamageIsLocated) {
   EXPECT_NE(damaged("summary.json", "\"completed\"", "\"perfect\"").find("perfect"), std::string::npos);
   EXPECT_NE(damaged("summary.json", "{", "").find("not a summary"), std::string::npos);
   EXPECT_NE(message_of([&] { read_run(scratch / "none"); }).find("no such run folder"), std::string::npos);
+  EXPECT_NE(message_of([&] { read_run(scratch.path()); }).find("not a run folder"), std::string::npos);
 }
 
 TEST(RunFolder, EmptySeriesIsAnError) {
