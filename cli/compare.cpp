@@ -75,7 +75,7 @@ void add_compare(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"ideal", "lagrangian"}))
       ->type_name("ideal|lagrangian")
       ->capture_default_str();
-  verb->add_option("--plot", options->plot, "picture to write (default: <name of the model file>-compare.svg; none: no picture)")->type_name("FILE.svg")->check(svg_problem, "", "");
+  verb->add_option("--plot", options->plot, "picture to write (default: <name of the model file>-compare.svg; none: no picture)")->type_name("FILE.svg")->check(svg_or_none_problem, "", "");
   verb->add_flag("--json", options->json, "print the comparison as JSON");
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
   verb->footer(std::string(kFooter) + kExitCodeHelp);

@@ -33,6 +33,7 @@ TEST_F(CompareVerb, PicturesAreSvg) {
     EXPECT_TRUE(holds(answer.error, "found \"picture.png\": it must end in .svg")) << answer.error;
     EXPECT_FALSE(sandbox_.has("picture.png"));
   }
+  EXPECT_EQ(sandbox_.pintle("solvers pendulum.toml --plot none").exit_code, 2);
 }
 
 TEST_F(CompareVerb, JsonAndNoPicture) {

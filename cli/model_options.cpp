@@ -36,9 +36,10 @@ void add_model_options(CLI::App& verb, ModelOptions& options, bool tolerance) {
 }
 
 std::string svg_problem(const std::string& file) {
-  if (file == "none" || file.ends_with(".svg")) return {};
-  return fmt::format("found \"{}\": it must end in .svg", file);
+  return file.ends_with(".svg") ? "" : fmt::format("found \"{}\": it must end in .svg", file);
 }
+
+std::string svg_or_none_problem(const std::string& file) { return file == "none" ? "" : svg_problem(file); }
 
 std::vector<std::string> all_overrides(const ModelOptions& options) {
   std::vector<std::string> overrides = options.overrides;

@@ -22,8 +22,10 @@ struct ModelOptions {
 /// MODEL, --set, --duration and, where the verb has one tolerance, --tolerance.
 void add_model_options(CLI::App& verb, ModelOptions& options, bool tolerance = true);
 
-/// Empty for a file that can be drawn into as SVG, or for "none"; else what is wrong with it. For CLI11's check().
+/// Empty for a file that can be drawn into as SVG; else what is wrong with it. For CLI11's check().
 std::string svg_problem(const std::string& file);
+/// The same; "none" will do.
+std::string svg_or_none_problem(const std::string& file);
 
 /// --duration and its kin are --set simulate.duration and its kin.
 std::vector<std::string> all_overrides(const ModelOptions& options);

@@ -92,7 +92,7 @@ void add_stiffen(CLI::App& app, int& exit_code) {
   verb->add_option("--from", request.first, "stiffness to start from [N/m] (default: 1e6, or 1e5 with --motion-only)")->check(CLI::PositiveNumber);
   verb->add_option("--to", request.last, "stiffness to give up at [N/m]")->check(CLI::PositiveNumber)->capture_default_str();
   verb->add_flag("--write", options->write, "put the recommended values into the model file");
-  verb->add_option("--plot", options->plot, "picture to write (default: <name of the model file>-stiffen.svg; none: no picture)")->type_name("FILE.svg")->check(svg_problem, "", "");
+  verb->add_option("--plot", options->plot, "picture to write (default: <name of the model file>-stiffen.svg; none: no picture)")->type_name("FILE.svg")->check(svg_or_none_problem, "", "");
   verb->add_flag("--json", options->json, "print the result as JSON");
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
   verb->footer(std::string(kFooter) + kExitCodeHelp);

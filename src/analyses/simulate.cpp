@@ -24,14 +24,15 @@ constexpr int kMaxPasses = 6;
 constexpr double kLoosest = 1e-4;   // of the second pass: above it steps are bounded by other things, and two passes are alike
 constexpr double kLoosestIdeal = 1e-8;  // ideal joints are a reference, and cheap
 constexpr double kLoosestOfMotion = 1e-3;
-constexpr double kLeastTolerance = 1e-13;
+constexpr double kLeastTolerance = 1e-12;
 // The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
 constexpr double kSharePower = 0.8, kShareOfEqual = 3;
 constexpr double kPromised = 0.7;  // of the tolerance: with a smaller stated error the true one keeps to it, which may be a third larger
 constexpr double kAlike = 1.25;  // steps of the finer pass over those of the coarser: with fewer the two say little
 constexpr double kSurest = 0.1;  // of the tolerance of the steps: no error of the motion is stated as smaller
 constexpr std::size_t kManyBodies = 1000;
-constexpr double kNegligible = 1e-4;  // a joint is measured at least by this part of the mechanism's largest force
+constexpr double kNegligible = 1e-4;         // a joint is measured at least by this part of the mechanism's largest force
+constexpr double kNegligibleOfMotor = 1e-3;  // a motor by this
 
 // Largest difference of each joint's force (and couple) between two passes, and the peaks of the finer one.
 struct PassDifference {
@@ -73,7 +74,7 @@ double motion_difference(const System& system, const ForceTable& coarse, const F
   return way > 0 ? difference / way : 0;
 }
 
-double relative(double error, double peak, double largest) { return error / std::max({peak, kNegligible * largest, 1e-300}); }
+double relative(double error, double peak, double least) { return error / std::max({peak, least, 1e-300}); }
 
 double largest_of(const std::vector<double>& x) { return x.empty() ? 0 : *std::max_element(x.begin(), x.end()); }
 
@@ -182,7 +183,7 @@ class Run {
         share = alike || out_.of_motion ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(tolerance / before, kSharePower));
         out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse_->forces(), fine_->forces()), kSurest * fine_tolerance_) : 0;
         error = out_.of_motion ? out_.motion_error : share * largest_of(relative_differences(difference));
-        if (alike && !doubted && out_.counters.passes < kMaxPasses) {
+        if (alike && !doubted && out_.counters.passes < kMaxPasses && tolerance > kLeastTolerance) {
           doubted = true;
           if (out_.of_motion) choice_.stages = 5;  // long steps are alike at any tolerance: another order tells
           tolerance = std::max(kLeastTolerance, 0.1 * tolerance);
@@ -212,8 +213,10 @@ class Run {
     const double force = largest_of(c.peak);
     const double couple = std::max(largest_of(c.peak_couple), force * system_.largest_radius_of_gyration());
     std::vector<double> out(c.force.size());
-    for (std::size_t j = 0; j < out.size(); ++j)
-      out[j] = std::max(relative(c.force[j], c.peak[j], force), relative(c.couple[j], c.peak_couple[j], couple));
+    for (std::size_t j = 0; j < out.size(); ++j) {
+      const double least = system_.joints[j].servo >= 0 ? kNegligibleOfMotor : kNegligible;
+      out[j] = std::max(relative(c.force[j], c.peak[j], least * force), relative(c.couple[j], c.peak_couple[j], least * couple));
+    }
     return out;
   }
 
@@ -235,11 +238,14 @@ class Run {
       joint.moment_error_estimate = share * difference.couple[j];
       joint.relative_error_estimate = share * relative_difference[j];
     }
-    judge(difference.force.empty(), error);
+    const auto worst = std::max_element(relative_difference.begin(), relative_difference.end());
+    judge(worst == relative_difference.end() ? nullptr : &system_.joints[static_cast<std::size_t>(worst - relative_difference.begin())], error);
   }
 
   // How it ended; a pass that broke off leaves the results of the one before it.
-  void judge(bool no_estimate, double error) {
+  // `worst` has the largest error; none where there is no estimate.
+  void judge(const JointData* worst, double error) {
+    const bool no_estimate = worst == nullptr;
     const auto& [ended, message] = interrupted_;
     const bool whole = last_.ended == Ended::kAtEnd;
     if (ended == Ended::kStopped) out_.outcome = Outcome::kInterrupted;
@@ -249,9 +255,9 @@ class Run {
     if (whole && ended != Ended::kAtEnd)
       out_.notes.push_back(fmt::format("a finer integration did not reach the end{}; the results are those of the one before it", message.empty() ? "" : " (" + message + ")"));
     if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)
-      out_.message = fmt::format("{} is estimated at {:.2g} of {}, {:.2g} was asked for",
-                                 out_.of_motion ? "the largest error of a body's place" : "the largest joint-force error", error,
-                                 out_.of_motion ? "the longest way that one has gone" : "the joint's peak force", model_.simulate.tolerance);
+      out_.message = fmt::format("the largest error of {} is estimated at {:.2g} of {}, {:.2g} was asked for",
+                                 out_.of_motion ? "a body's place" : fmt::format("a joint force, at {} {},", worst->servo < 0 ? "joint" : "motor", worst->name), error,
+                                 out_.of_motion ? "the longest way that one has gone" : "its peak", model_.simulate.tolerance);
     if (!message.empty() && out_.outcome != Outcome::kCompleted) out_.message += (out_.message.empty() ? "" : "; ") + message;
   }
 
