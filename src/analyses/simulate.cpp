@@ -24,7 +24,7 @@ constexpr int kMaxPasses = 6;
 constexpr double kLoosest = 1e-4;   // of the second pass: above it steps are bounded by other things, and two passes are alike
 constexpr double kLoosestIdeal = 1e-8;  // ideal joints are a reference, and cheap
 constexpr double kLoosestOfMotion = 1e-3;
-constexpr double kLeastTolerance = 1e-12;
+constexpr double kLeastTolerance = 1e-13;
 // The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
 constexpr double kSharePower = 0.8, kShareOfEqual = 3;
 constexpr double kPromised = 0.7;  // of the tolerance: with a smaller stated error the true one keeps to it, which may be a third larger

@@ -42,7 +42,7 @@ class RadauControl {
   static constexpr double kContraction = 0.2;   // of Newton's iteration, that steps are chosen for
   static constexpr double kSteady = 0.9;        // of the error of the trial before: a shorter step has not made it smaller
   static constexpr int kMostSteady = 3;         // such trials: the error is that of the accelerations that the step starts with
-  static constexpr double kMostRounding = 1e-11;  // of the loads, a hundredth of the least tolerance: what may pass for rounding of accelerations
+  static constexpr double kMostRounding = 1e-11;  // of the loads, a hundredth of the least tolerance: what may pass for rounding
   static constexpr double kAboveRounding = 2;     // that of one step is not that of the next
   static constexpr double kShort = 0.9;         // of the way to a kink that is only guessed at
   static constexpr double kAfterKink = 0.3;     // of the usual step
@@ -72,6 +72,7 @@ bool RadauControl::advance(Method& method, double t_end, double tolerance, int o
   bool up_to_kink = false, refused = false;  // by Newton's iteration
   double error_before = 0;                   // of the trial before, over the tolerance
   int steady = 0;                            // trials in a row that were shorter, and no better
+  bool renewed = false;                      // the start, for this trial
   for (int retry = 0; retry < kMaxRetries; ++retry) {
     const double left = t_end - method.t();
     if (h > left || left - h < 1e-3 * h) h = left;
@@ -102,19 +103,22 @@ bool RadauControl::advance(Method& method, double t_end, double tolerance, int o
       h *= kShrink;
       continue;
     }
-    error = std::max(error / tolerance - kAboveRounding * rounding_, 0.0);
+    error /= tolerance;
+    if (renewed && error < kSteady * error_before && error_before * tolerance < kMostRounding) rounding_ = std::max(rounding_, error_before);
+    renewed = false;
+    const double measured = error;
+    error = std::max(error - kAboveRounding * rounding_, 0.0);
     double factor = std::clamp(kSafety * std::pow(std::max(error, 1e-14), -1.0 / order), kLeast, counters.steps == 0 ? kMostAtFirst : kMost);
     // A force that jumps cannot be resolved by any step: one that is this short passes over the jump.
     const bool jump = error > 1 && h <= kShortest * std::abs(t_end);
     if (jump) factor = kMost;
     if (error > 1 && !jump) {
       ++counters.rejected;
-      steady = error > kSteady * error_before ? steady + 1 : 0;
-      error_before = error;
-      if (steady == kMostSteady) {
-        if (error * tolerance < kMostRounding) rounding_ = std::max(rounding_, error);
-        method.renew_start();
-      } else h *= std::min(factor, 0.7);
+      steady = measured > kSteady * error_before ? steady + 1 : 0;
+      error_before = measured;
+      renewed = steady == kMostSteady;
+      if (renewed) method.renew_start();
+      else h *= std::min(factor, 0.7);
       continue;
     }
     if (have_history && last > 0 && h >= last && last_error_ > 0 && error > 0)  // an error that grows goes on growing: K. Gustafsson's predictive controller
