@@ -190,6 +190,7 @@ class FuzzedDesk {
 /// line, the body. Nothing outside its folder is read or written; what is refused says why.
 inline std::string studio_request(std::string_view text) {
   static FuzzedDesk desk;
+  const bool knows = text.find(FuzzedDesk::kSecret) != std::string_view::npos;  // then a refusal may quote it
   const auto line = [&text] {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view out = text.substr(0, end);
@@ -207,7 +208,7 @@ inline std::string studio_request(std::string_view text) {
   request.body = text;
   if (request.target.starts_with("/api/runs") && request.method == "POST") return {};  // takes as long as the model says
   const studio::Reply reply = desk.answer(request);
-  if (reply.body.find(FuzzedDesk::kSecret) != std::string::npos || desk.is_touched()) return "a file outside the folder";
+  if ((!knows && reply.body.find(FuzzedDesk::kSecret) != std::string::npos) || desk.is_touched()) return "a file outside the folder";
   if (reply.status < 200 || reply.status > 599) return "a status that is none";
   if (reply.status >= 400 && nlohmann::json::parse(reply.body).at("fault").at("message").get<std::string>().empty()) return "refused without a reason";
   return {};
