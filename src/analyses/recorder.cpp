@@ -208,7 +208,8 @@ void Recorder::put_row(const State& state) {
 void Recorder::fill(Trajectory& out) {
   if (what_ == Recorded::kColumns) out.columns = columns();
   out.values = std::move(values_);
-  if (!recording_.note.empty()) out.notes.push_back(recording_.note);
+  for (std::string note : {recording_.note, watch_.note(output_step_of(model_.simulate, system_.joints.size()))})
+    if (!note.empty()) out.notes.push_back(std::move(note));
   const std::size_t rows = forces_.t.size(), n = system_.joints.size();
   const std::vector<double> weight = time_weights(forces_.t);
   out.joints.clear();

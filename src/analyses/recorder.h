@@ -42,15 +42,13 @@ class Recorder {
   void see_step(const State& state, double h) {
     if (what_ == Recorded::kColumns) watch_.add_step(state, h);
   }
-  /// What the rows miss; empty: nothing much.
-  std::string missed(double output_step) const { return watch_.note(output_step); }
   void clear();
   const ForceTable& forces() const { return forces_; }
   /// Of what is recorded.
   std::vector<Column> columns() const;
   /// Forgets the rows, keeps the forces.
   void keep_forces_only();
-  /// Columns, values, summaries. The rows change hands.
+  /// Columns, values, summaries, notes on what is not in them. The rows change hands.
   void fill(Trajectory& trajectory);
 
  private:

@@ -224,8 +224,6 @@ class Run {
     fine_->fill(out_);
     out_.t_end = last_.t;
     out_.notes.insert(out_.notes.end(), last_.remarks.begin(), last_.remarks.end());
-    std::string missed = fine_->missed(output_step_of(model_.simulate, system_.joints.size()));
-    if (!missed.empty()) out_.notes.push_back(std::move(missed));
     const std::vector<double> relative_difference = relative_differences(difference);
     const std::unordered_set<std::string> not_unique(not_unique_.begin(), not_unique_.end());
     std::size_t row = 0;

@@ -30,7 +30,7 @@ class RadauControl {
 
   /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
   /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), find_kink(h, solved),
-  /// cross_kink(distance), renew_start(), error_estimate(h, error) and finish_step(h).
+  /// cross_kink(distance), balance_end(), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
 
@@ -117,8 +117,12 @@ bool RadauControl::advance(Method& method, double t_end, double tolerance, int o
       steady = measured > kSteady * error_before ? steady + 1 : 0;
       error_before = measured;
       renewed = steady == kMostSteady;
-      if (renewed) method.renew_start();
-      else h *= std::min(factor, 0.7);
+      if (renewed) {
+        method.balance_end();
+        method.begin_at_end();
+      } else {
+        h *= std::min(factor, 0.7);
+      }
       continue;
     }
     if (have_history && last > 0 && h >= last && last_error_ > 0 && error > 0)  // an error that grows goes on growing: K. Gustafsson's predictive controller

@@ -127,11 +127,6 @@ void RadauStepper::see_sides() {
   side_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.held);
 }
 
-void RadauStepper::renew_start() {
-  balance_end();
-  begin_at_end();
-}
-
 // What the laws and loads really give at end_.
 void RadauStepper::balance_end() {
   system_.readings(end_.t, end_m_, end_r_);

@@ -55,7 +55,6 @@ class RadauStepper {
   friend class RadauControl;  // which calls what follows, up to finish_step
   double t() const { return begin_.t; }
   void begin_at_end() { begin_ = end_; }
-  void renew_start();                         // what the start has of accelerations, from its forces
   bool attempt(double h);                     // solves the stages from begin_
   double contraction() const { return solver_->contraction(); }
   bool unloaded() const;

@@ -36,7 +36,6 @@ class TreeRadau final : public Stepper {
   friend class RadauControl;  // which calls what follows, up to finish_step
   double t() const { return begin_.t; }
   void begin_at_end();
-  void renew_start();  // what the start has of accelerations, from its forces
   bool attempt(double h);
   double contraction() const { return stages_.contraction(); }
 

@@ -87,11 +87,6 @@ double TreeRadau::margin_rate(const HeldJump& jump) {
   return (system_.margin(jump, inside_at_.t(), inside_at_.pose().m) - system_.margin(jump, end_.t, end_at_.pose().m)) / d;
 }
 
-void TreeRadau::renew_start() {
-  balance_end();
-  begin_at_end();
-}
-
 // What the laws and loads really give at the end.
 void TreeRadau::balance_end() {
   end_at_.place(end_.t, end_.y, end_.u);
