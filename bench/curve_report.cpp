@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "bench/groups.h"
-#include "results/svg_plot.h"
+#include "results/plots/svg_plot.h"
 
 namespace pintle::bench {
 namespace {

@@ -108,7 +108,7 @@ void add_scaling(CLI::App& app, Options& o, Json& out) {
 }
 
 void add_sweeps(CLI::App& app, Options& o, Json& out) {
-  CLI::App* verb = app.add_subcommand("sweeps", "variants of a model per second, in fleets and one by one");
+  CLI::App* verb = app.add_subcommand("sweeps", "variants of a model per second, in batches and one by one");
   verb->add_option("--models", o.sweeps.models, "names without .toml")->delimiter(',')->capture_default_str();
   verb->add_option("--tolerances", o.sweeps.tolerances)->delimiter(',')->capture_default_str();
   verb->add_option("--variants", o.sweeps.variants)->capture_default_str();
@@ -117,7 +117,7 @@ void add_sweeps(CLI::App& app, Options& o, Json& out) {
 }
 
 void add_micro(CLI::App& app, Options& o) {
-  CLI::App* verb = app.add_subcommand("micro", "laws, probes, systems, factorisation and single steps");
+  CLI::App* verb = app.add_subcommand("micro", "laws, joints, systems, factorisation and single steps");
   verb->add_option("--filter", o.micro_filter, "a regular expression")->capture_default_str();
   verb->add_option("--min-time", o.micro_time, "seconds for each")->capture_default_str();
   verb->callback([&] { run_micro(o.micro_filter, o.micro_time, o.json_file); });

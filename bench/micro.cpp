@@ -6,11 +6,11 @@
 
 #include "bench/commands.h"
 #include "bench/pintle_methods.h"
-#include "integrators/radau_stepper.h"
+#include "integrators/absolute/radau_stepper.h"
+#include "joints/joint_displacement.h"
 #include "laws/law.h"
-#include "probes/probe.h"
-#include "solve/block_lu.h"
-#include "solve/spectrum.h"
+#include "linalg/block_lu.h"
+#include "linalg/spectrum.h"
 #include "tests/large_models.h"
 
 namespace pintle::bench {
@@ -32,13 +32,13 @@ void law_response(benchmark::State& state) {
   }
 }
 
-void probe_reading(benchmark::State& state, const std::string& name) {
+void joint_kinematics(benchmark::State& state, const std::string& name) {
   const ReadyModel ready(collection_model(name));
   std::vector<S::Motion> m;
   ready.system.motions(ready.start.q, ready.start.v, m);
   for (auto _ : state) {
     benchmark::DoNotOptimize(m.data());
-    benchmark::DoNotOptimize(ready.system.reading(ready.system.n_joints() - 1, 0, m));
+    benchmark::DoNotOptimize(ready.system.kinematics(ready.system.n_joints() - 1, 0, m));
   }
 }
 
@@ -121,15 +121,15 @@ void whole_run_start(benchmark::State& state, const std::string& name) {
 void register_all() {
   using benchmark::RegisterBenchmark;
   RegisterBenchmark("law/linear", law_response);
-  RegisterBenchmark("probe/revolute", probe_reading, "four_bar");
-  RegisterBenchmark("probe/slider", probe_reading, "trammel");
-  RegisterBenchmark("probe/gear", probe_reading, "gear_train");
+  RegisterBenchmark("joint/revolute", joint_kinematics, "four_bar");
+  RegisterBenchmark("joint/slider", joint_kinematics, "trammel");
+  RegisterBenchmark("joint/gear", joint_kinematics, "gear_train");
   for (const char* name : {"four_bar", "n_four_bar_40"}) {
     RegisterBenchmark(fmt::format("accelerations/{}", name).c_str(), accelerations, name);
     RegisterBenchmark(fmt::format("factorise/real/{}", name).c_str(), factorise<double>, name);
     RegisterBenchmark(fmt::format("factorise/order_5/{}", name).c_str(), factorise<Spectrum<3>>, name);
-    RegisterBenchmark(fmt::format("solve/real/{}", name).c_str(), solve<double>, name);
-    RegisterBenchmark(fmt::format("solve/order_5/{}", name).c_str(), solve<Spectrum<3>>, name);
+    RegisterBenchmark(fmt::format("linalg/real/{}", name).c_str(), solve<double>, name);
+    RegisterBenchmark(fmt::format("linalg/order_5/{}", name).c_str(), solve<Spectrum<3>>, name);
     RegisterBenchmark(fmt::format("start/{}", name).c_str(), whole_run_start, name);
   }
   for (const int stages : {3, 5}) {

@@ -5,11 +5,11 @@
 #include <memory>
 #include <stdexcept>
 
-#include "analyses/passes.h"
-#include "analyses/start.h"
 #include "bench/stopwatch.h"
 #include "pintle/read_model.h"
 #include "pintle/simulate.h"
+#include "run/passes.h"
+#include "start/start.h"
 #include "system/build.h"
 
 namespace pintle::bench {
@@ -69,7 +69,7 @@ PintleRun run_stepper(const Problem& problem, const MethodChoice& choice, double
     const State& now = stepper->state();
     for (; row < problem.outputs.size() && problem.outputs[row] <= now.t; ++row) {
       const double t = problem.outputs[row];
-      const State& at = t < now.t ? stepper->inside(t) : now;
+      const State& at = t < now.t ? stepper->interpolate(t) : now;
       run.samples.add(t, at.q, at.v, at.force);
     }
     if (stepper->counters().steps % kLook == 0 && watch.seconds() > problem.cap) break;

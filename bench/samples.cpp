@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analyses/recorder.h"
+#include "run/recorder.h"
 
 namespace pintle::bench {
 namespace {
@@ -33,7 +33,7 @@ void Samples::add_by_laws(double t, const Vecs& q, const Vecs& v) {
   system_->motions(q, v, motions_);
   force_.resize(system_->joints.size());
   for (int j = 0; j < system_->n_joints(); ++j) {
-    const Reading r = system_->reading(j, t, motions_);
+    const JointKinematics r = system_->kinematics(j, t, motions_);
     force_[j] = law_force(system_->joints[j].law, r.gap, r.rate);
   }
   add(t, q, v, force_);

@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "analyses/assembly.h"
-#include "analyses/start.h"
 #include "bench/commands.h"
 #include "bench/result_table.h"
 #include "bench/stopwatch.h"
 #include "integrators/methods.h"
 #include "pintle/read_model.h"
+#include "start/assembly.h"
+#include "start/start.h"
 #include "system/build.h"
 #include "tests/large_models.h"
 
@@ -81,9 +81,9 @@ Costs measure(const Model& model, int size, int steps) {
   c.size = size;
   const std::string text = text_of(model);
   const PeakMemory memory;
-  const Stopwatch reading;
+  const Stopwatch kinematics;
   const Model read = parse_model(text, "large.toml");
-  c.read = reading.seconds();
+  c.read = kinematics.seconds();
   const Stopwatch building;
   System system = build_system(read);
   c.build = building.seconds();

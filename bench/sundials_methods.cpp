@@ -10,7 +10,7 @@ namespace pintle::bench {
 namespace {
 
 // Absolute tolerances for positions, then velocities.
-std::vector<double> floors(const FlatEquations& equations, const Problem& problem, Weights weights, double tolerance) {
+std::vector<double> floors(const FirstOrderOde& equations, const Problem& problem, Weights weights, double tolerance) {
   std::vector<double> out(equations.size(), tolerance);
   if (weights == Weights::kPlain) return out;
   for (std::size_t i = 0; i < out.size(); ++i)
@@ -103,7 +103,7 @@ PeerMethod explicit_witness() {
 MethodRun run_sundials(const PeerMethod& method, const Problem& problem, double tolerance) {
   MethodRun run{false, 0, 0, 0, Samples(*problem.system, problem.point)};
   const Stopwatch watch;
-  FlatEquations equations(*problem.system, FlatEquations::Energies::kLeftOut);
+  FirstOrderOde equations(*problem.system, FirstOrderOde::Energies::kLeftOut);
   std::vector<double> y(equations.size());
   equations.flatten(*problem.start, y.data());
   SundialsCode code(method.code, equations, problem.start->t, y, relative_tolerance(method.weights, tolerance),

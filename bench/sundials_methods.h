@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/problem.h"
-#include "integrators/sundials_code.h"
+#include "integrators/general/sundials_code.h"
 
 namespace pintle::bench {
 

@@ -5,11 +5,11 @@
 #include <stdexcept>
 #include <vector>
 
+#include "batch/envelope.h"
 #include "bench/commands.h"
 #include "bench/pintle_methods.h"
 #include "bench/result_table.h"
 #include "bench/stopwatch.h"
-#include "fleet/envelope.h"
 
 namespace pintle::bench {
 namespace {
@@ -57,13 +57,13 @@ SweepRate measure_sweep_rate(const std::string& name, double tolerance, int n, i
   SweepRate out;
   for (int round = 0; round < rounds; ++round) {
     const Stopwatch watch;
-    const auto fleets = together.run(variants, [] { return true; });
+    const auto batches = together.run(variants, [] { return true; });
     time.push_back(watch.seconds());
     const Stopwatch watch_alone;
     const auto runs = alone.run(variants, [] { return true; });
     time_alone.push_back(watch_alone.seconds());
-    out.difference = largest_difference(fleets, runs);
-    out.aboard = static_cast<double>(std::count_if(fleets.begin(), fleets.end(), [](const SampleResult& r) { return r.in_fleet; })) / n;
+    out.difference = largest_difference(batches, runs);
+    out.aboard = static_cast<double>(std::count_if(batches.begin(), batches.end(), [](const SampleResult& r) { return r.in_batch; })) / n;
   }
   out.per_second = n / median(time);
   out.alone_per_second = n / median(time_alone);
@@ -74,7 +74,7 @@ double turns_per_second(int turns) { return measure_sweep_rate("four_bar", 1e-4,
 
 nlohmann::ordered_json study_sweeps(const SweepOptions& options) {
   ResultTable table("Variants per second of one core", {{"model", "model", true}, {"tolerance", "tolerance"}, {"per second", "per_second"}, {"alone", "alone_per_second"},
-                                                        {"ratio", "ratio"}, {"in fleets", "aboard"}, {"difference", "difference"}});
+                                                        {"ratio", "ratio"}, {"in batches", "aboard"}, {"difference", "difference"}});
   for (const std::string& model : options.models)
     for (const double tolerance : options.tolerances) {
       const SweepRate rate = measure_sweep_rate(model, tolerance, options.variants, options.rounds);

@@ -9,7 +9,7 @@ struct SweepRate {
   double per_second = 0;       // variants, of one core's time
   double alone_per_second = 0;  // the same with every variant in a run of its own
   double difference = 0;       // of any joint's peak between the two, over the largest it has in any variant
-  double aboard = 0;           // share of the variants that went in fleets
+  double aboard = 0;           // share of the variants that went in batches
 };
 
 /// Variants of a model of the collection at a tolerance: stiffness of one joint from half to twice, mass of one body by a tenth either

@@ -13,8 +13,8 @@
 #include "io/document.h"
 #include "pintle/check.h"
 #include "pintle/read_model.h"
-#include "results/check_report.h"
 #include "results/disk.h"
+#include "results/studies/check_report.h"
 
 namespace pintle::cli {
 namespace {

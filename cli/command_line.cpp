@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "base/did_you_mean.h"
+#include "base/text/did_you_mean.h"
 
 namespace pintle::cli {
 namespace {

@@ -14,8 +14,8 @@
 #include "cli/progress.h"
 #include "cli/verbs.h"
 #include "pintle/compare.h"
-#include "results/compare_report.h"
 #include "results/disk.h"
+#include "results/studies/compare_report.h"
 
 namespace pintle::cli {
 namespace {
@@ -24,7 +24,7 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  pintle compare four_bar.toml\n"
     "  pintle compare four_bar.toml --set defaults.joint.stiffness=1e6 --plot softer.svg\n"
-    "  pintle compare four_bar.toml --against lagrangian --set joint.A.ideal=true --set joint.B.ideal=true\n"
+    "  pintle compare four_bar.toml --against relative --set joint.A.ideal=true --set joint.B.ideal=true\n"
     "\n"
     "Digits are the significant figures in which both agree. A difference within the error estimates of both runs is\n"
     "called numerical, a larger one physical: the joints' own compliance.\n\n";
@@ -47,7 +47,7 @@ ExitCode exit_code_of(const Comparison& comparison) {
 
 ExitCode compare_model(const CompareOptions& options) {
   const Model model = read_model_to_run(options).model;
-  const Equations against = options.against == "ideal" ? Equations::kIdeal : Equations::kLagrangian;
+  const Equations against = options.against == "ideal" ? Equations::kIdeal : Equations::kRelative;
   catch_interrupts();
   ProgressReport report(!options.quiet && is_terminal(STDERR_FILENO) ? ProgressStyle::kLine : ProgressStyle::kNone);
   const Comparison comparison = with_file_name(options.model, [&] {
@@ -71,9 +71,9 @@ void add_compare(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("compare", "Run with compliant joints and with ideal ones; say how far they agree");
   const auto options = std::make_shared<CompareOptions>();
   add_model_options(*verb, *options);
-  verb->add_option("--against", options->against, "ideal: every joint ideal; lagrangian: the joints marked ideal obeyed by relative coordinates")
-      ->check(CLI::IsMember({"ideal", "lagrangian"}))
-      ->type_name("ideal|lagrangian")
+  verb->add_option("--against", options->against, "ideal: every joint ideal; relative: the joints marked ideal obeyed by relative coordinates")
+      ->check(CLI::IsMember({"ideal", "relative"}))
+      ->type_name("ideal|relative")
       ->capture_default_str();
   verb->add_option("--plot", options->plot, "picture to write (default: <name of the model file>-compare.svg; none: no picture)")->type_name("FILE.svg")->check(svg_or_none_problem, "", "");
   verb->add_flag("--json", options->json, "print the comparison as JSON");

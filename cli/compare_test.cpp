@@ -37,10 +37,10 @@ TEST_F(CompareVerb, PicturesAreSvg) {
 }
 
 TEST_F(CompareVerb, JsonAndNoPicture) {
-  const Answer answer = sandbox_.pintle("compare pendulum.toml --json --plot none --against lagrangian --set joint.pin.ideal=true");
+  const Answer answer = sandbox_.pintle("compare pendulum.toml --json --plot none --against relative --set joint.pin.ideal=true");
   EXPECT_EQ(answer.exit_code, 0) << answer.error;
   const nlohmann::json json = nlohmann::json::parse(answer.out);
-  EXPECT_EQ(json["against"], "lagrangian");
+  EXPECT_EQ(json["against"], "relative");
   ASSERT_EQ(json["forces"].size(), 1U);
   EXPECT_GT(json["forces"][0]["digits"], 4);
   EXPECT_FALSE(sandbox_.has("pendulum-compare.svg"));

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/sandbox_for_tests.h"
-#include "sweeps/sweep_file.h"
+#include "sweeps/storage/sweep_file.h"
 #include "sweeps/sweep_models_for_tests.h"
 
 namespace pintle::sample {

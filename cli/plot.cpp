@@ -12,7 +12,7 @@
 #include "cli/run_sources.h"
 #include "cli/verbs.h"
 #include "results/disk.h"
-#include "results/run_plot.h"
+#include "results/plots/run_plot.h"
 
 namespace pintle::cli {
 namespace {

@@ -17,7 +17,7 @@
 #include "cli/model_options.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
-#include "io/schema.h"
+#include "io/schema/schema.h"
 #include "pintle/results.h"
 #include "pintle/simulate.h"
 #include "results/disk.h"
@@ -134,8 +134,8 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(Schema::model().assemble("simulate").find("method")->words))
       ->type_name("NAME");
   verb->add_option("--equations", options->equations, "every joint a force law; the marked ones obeyed by coordinates; every joint ideal")
-      ->check(CLI::IsMember({"newtonian", "lagrangian", "ideal"}))
-      ->type_name("newtonian|lagrangian|ideal");
+      ->check(CLI::IsMember({"newtonian", "relative", "ideal"}))
+      ->type_name("newtonian|relative|ideal");
   verb->add_option("-o,--out", options->out, "run folder (default: <name of the model file>-run)")->type_name("FOLDER");
   verb->add_flag("--force", options->force, "write into a folder that is not an earlier run; its files stay");
   verb->add_option("--progress", options->progress, "on standard error: a line on a terminal, nothing, or JSON lines")

@@ -15,7 +15,7 @@
 #include "cli/verbs.h"
 #include "pintle/solvers.h"
 #include "results/disk.h"
-#include "results/solvers_report.h"
+#include "results/studies/solvers_report.h"
 
 namespace pintle::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/sandbox_for_tests.h"
-#include "integrators/sundials_stepper.h"
+#include "integrators/general/sundials_stepper.h"
 
 namespace pintle::sample {
 namespace {

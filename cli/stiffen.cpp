@@ -13,10 +13,10 @@
 #include "cli/model_options.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
-#include "io/edit_toml.h"
+#include "io/toml/edit_toml.h"
 #include "pintle/stiffen.h"
 #include "results/disk.h"
-#include "results/stiffen_report.h"
+#include "results/studies/stiffen_report.h"
 
 namespace pintle::cli {
 namespace {

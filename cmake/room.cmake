@@ -1,9 +1,14 @@
 # A room is a folder of src/ and a target pintle_<room>. It may link only to rooms that stand before it in this list.
-set(PINTLE_ROOMS base space model laws probes solve system integrators analyses fleet results io report sweeps)
+set(PINTLE_ROOMS base simd space model laws joints linalg system integrators mobility start run batch check studies live results io report sweeps)
 
-# Sources of a folder without its tests and what is made for tests; a new file needs no edit here.
+# Sources of a folder (with RECURSE also of the folders in it) without its tests and what is made for tests; a new file needs no
+# edit here.
 function(pintle_sources out folder)
-  file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+  if("RECURSE" IN_LIST ARGN)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+  else()
+    file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+  endif()
   list(FILTER sources EXCLUDE REGEX "_tests?\\.cpp$")
   set(${out} ${sources} PARENT_SCOPE)
 endfunction()
@@ -27,13 +32,13 @@ function(pintle_precompile name quick)
 endfunction()
 
 # pintle_room(NAME [QUICK] [LINK libraries...]): the target of the current folder, linked to every room on its left. Laws and
-# probes do not see each other. A room without a source is a header-only target. QUICK: its speed does not matter.
+# joints do not see each other. A room without a source is a header-only target. QUICK: its speed does not matter.
 function(pintle_room name)
   cmake_parse_arguments(arg "QUICK" "" "LINK" ${ARGN})
-  pintle_sources(sources ${CMAKE_CURRENT_SOURCE_DIR})
+  pintle_sources(sources ${CMAKE_CURRENT_SOURCE_DIR} RECURSE)
   list(FIND PINTLE_ROOMS ${name} index)
   list(SUBLIST PINTLE_ROOMS 0 ${index} left)
-  if(name STREQUAL "probes")
+  if(name STREQUAL "joints")
     list(REMOVE_ITEM left laws)
   endif()
   list(TRANSFORM left PREPEND pintle_)

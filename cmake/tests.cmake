@@ -32,9 +32,9 @@ function(pintle_add_tests)
   set(all "")
   set(samples "")  # what tests of a room and of those on its right use
   foreach(room IN LISTS PINTLE_ROOMS)
-    file(GLOB for_tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${room}/*_for_tests.cpp)
+    file(GLOB_RECURSE for_tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${room}/*_for_tests.cpp)
     list(APPEND samples ${for_tests})
-    file(GLOB tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${room}/*_test.cpp)
+    file(GLOB_RECURSE tests CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${room}/*_test.cpp)
     if(tests)
       pintle_test_program(pintle_${room}_tests SOURCES ${tests} ${samples} LINK pintle_${room})
       set_target_properties(pintle_${room}_tests PROPERTIES EXCLUDE_FROM_ALL ON)
@@ -49,9 +49,9 @@ function(pintle_add_tests)
   endif()
   if(NOT PINTLE_WHOLE_RUN_TESTS)
     foreach(long IN ITEMS
-        "tests/(reference_|lagrangian|published|compare|soft_start|held_gas|force_accuracy|motion_accuracy|live|ideal)[a-z_]*"
-        "integrators/(allocation|alpha_stepper|dense_output|dopri5|methods|radau_[a-z]*|stage_solver)_test"
-        "analyses/(assembly|check_frequencies|check_mobility|simulate|start)_test" "system/system_test"
+        "tests/(reference_|relative|published|compare|soft_start|held_gas|force_accuracy|motion_accuracy|live|ideal)[a-z_]*"
+        "integrators/([a-z]+/)?(allocation|alpha_stepper|dense_output|dopri5|event_location|methods|radau_[a-z]*|stage_solver)_test"
+        "(check/check_frequencies|check/check_mobility|run/simulate|start/assembly|start/start)_test" "system/system_test"
         "cli/(check|solvers|stopped_run)_test")
       list(FILTER all EXCLUDE REGEX "/${long}\\.cpp$")
     endforeach()

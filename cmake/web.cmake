@@ -16,7 +16,7 @@ endforeach()
 target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY=1)
 set(PINTLE_TOMLPP_INCLUDE ${PINTLE_WEB_INCLUDE})
 set(PINTLE_SUNDIALS_LIBRARIES "")
-list(REMOVE_ITEM PINTLE_ROOMS fleet sweeps)  # ensembles: threads and files
+list(REMOVE_ITEM PINTLE_ROOMS batch sweeps)  # ensembles: threads and files
 
 # Exceptions of WebAssembly itself: those by way of JavaScript cost every call of the innermost loops.
 set(CMAKE_POSITION_INDEPENDENT_CODE OFF)

@@ -2,7 +2,7 @@
 // estimate of the right size.
 #include <gtest/gtest.h>
 
-#include "integrators/radau_stepper.h"
+#include "integrators/absolute/radau_stepper.h"
 #include "tests/reference_tables.h"
 
 namespace pintle {

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analyses/assembly.h"
-#include "analyses/recording.h"
-#include "analyses/start.h"
 #include "pintle/simulate.h"
+#include "run/recording.h"
+#include "start/assembly.h"
+#include "start/start.h"
 #include "system/build.h"
 
 namespace pintle::sample {

@@ -1,7 +1,7 @@
 // Joint forces at one instant, from text books: a motor's moment and what it takes at the pins.
 #include <gtest/gtest.h>
 
-#include "base/expression_parser.h"
+#include "base/expression/expression_parser.h"
 #include "system/sample_systems_for_tests.h"
 #include "tests/reference_tables.h"
 

@@ -1,7 +1,7 @@
 // The pendulum of the paper's section 7 against its exact solution, with an ideal pin and with a compliant one.
 #include <gtest/gtest.h>
 
-#include "integrators/radau_stepper.h"
+#include "integrators/absolute/radau_stepper.h"
 #include "tests/reference_tables.h"
 
 namespace pintle {

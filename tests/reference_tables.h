@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "analyses/integration.h"
-#include "analyses/passes.h"
-#include "analyses/start.h"
 #include "pintle/read_model.h"
 #include "pintle/simulate.h"
+#include "run/integration.h"
+#include "run/passes.h"
+#include "start/start.h"
 #include "system/build.h"
 
 namespace pintle::reference {

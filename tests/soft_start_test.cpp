@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "analyses/start.h"
 #include "reference_tables.h"
+#include "start/start.h"
 
 namespace pintle {
 namespace {

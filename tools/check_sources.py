@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks the order of the rooms and the habits that a compiler does not see; prints every breach and exits with 1.
 
-  - a file in src/<room> includes nothing of a room on its right; laws and probes do not see each other;
+  - a file in src/<room> includes nothing of a room on its right; laws and joints do not see each other;
   - nothing in src/ includes the program, tests or benchmarks; a public header includes public headers only;
   - no file has more than 500 lines, no function more than 100;
   - no vague names in files and types; no notes to self;
@@ -11,18 +11,18 @@ import pathlib
 import re
 import sys
 
-ROOMS = "base space model laws probes solve system integrators analyses fleet results io report sweeps".split()
+ROOMS = "base simd space model laws joints linalg system integrators mobility start run batch check studies live results io report sweeps".split()
 # The leftmost room that may use a public header; others count as model.
 PUBLIC_HEADERS = {
     "complaint.h": "base",
     "expression.h": "base",
     "model.h": "model",
     "trajectory.h": "integrators",
-    "simulate.h": "analyses",
-    "live.h": "analyses",
-    "check.h": "analyses",
-    "solvers.h": "analyses",
-    "sweep.h": "analyses",
+    "simulate.h": "start",
+    "live.h": "live",
+    "check.h": "mobility",
+    "solvers.h": "studies",
+    "sweep.h": "batch",
 }
 OUTER = {"cli", "studio", "tests", "bench", "examples"}
 FOLDERS = ["include", "src", "cli", "studio/kernel", "studio/server", "studio/src", "studio/tests", "tests", "bench", "examples", "tools", "cmake"]
@@ -56,8 +56,8 @@ def room_may_include(room, target):
         return f"{target} names no room: write \"room/file.h\" or \"pintle/file.h\""
     if ROOMS.index(head) > ROOMS.index(room):
         return f"{target} is on the right of {room}"
-    if {room, head} == {"laws", "probes"}:
-        return "laws and probes do not see each other"
+    if {room, head} == {"laws", "joints"}:
+        return "laws and joints do not see each other"
     return ""
 
 

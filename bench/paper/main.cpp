@@ -22,7 +22,7 @@ const std::vector<ItemEntry>& all_items() {
       {"bearings", "from rubber to rolling elements", make_bearings},
       {"stiffness", "k tenfold until the digits stand", make_procedure},
       {"start", "the inconsistent start", make_start},
-      {"lagrangian", "three angles and one opened joint", make_opened},
+      {"relative", "three angles and one opened joint", make_opened},
       {"slider", "the inverted slider-crank", make_slider},
       {"sweep", "section 10's sweep of k and c", make_sweep},
       {"slips", "what the paper gets wrong, with a number each", make_slips},

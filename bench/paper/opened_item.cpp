@@ -9,7 +9,7 @@
 namespace pintle::paper {
 
 Item make_opened() {
-  Item item{"lagrangian", "Section 8: three angles and one opened joint", {}, {}, {}, {}, {}};
+  Item item{"relative", "Section 8: three angles and one opened joint", {}, {}, {}, {}, {}};
   item.text = {"The pins O2, A and O4 are ideal and the three angles obey them; only the pin at B is a force law. Its reaction is read from "
                "the law, and those of the ideal pins from what the bodies need."};
   Table table{"Each pin's force over a turn less ideal joints, as a share of its peak", {"k [N/m]", "O2", "A", "B", "O4", "angles [rad]"}, {}};
@@ -17,7 +17,7 @@ Item make_opened() {
     double opened = 0, all = 0;
     for (const double k : {1e6, 1e8, 1e10}) {
       Model model = four_bar({k, 3000}, 60);
-      model.simulate.equations = Equations::kLagrangian;
+      model.simulate.equations = Equations::kRelative;
       for (Joint& joint : model.joints) joint.ideal = joint.name != "B";
       const FromIdeal d = from_ideal(run(model, true), 60);
       std::vector<std::string> row{short_number(k)};
@@ -34,7 +34,7 @@ Item make_opened() {
                     verdict(opened < 5e-4)}};
     item.tables = {table};
   } catch (const std::invalid_argument&) {
-    item.waiting = {"the form in three angles (`equations = \"lagrangian\"`, joints marked `ideal`)"};
+    item.waiting = {"the form in three angles (`equations = \"relative\"`, joints marked `ideal`)"};
   }
   return item;
 }

@@ -59,7 +59,7 @@ build/release/bin/pintle-paper --list
 build/release/bin/pintle-paper --only figure-9
 ```
 
-*pass*: the number found here is within what the paper states. *in part*: it is under some reading or for some of the cases, and the
+*pass*: the number found here is within what the paper states. *in part*: it is under some kinematics or for some of the cases, and the
 text says which. ***fail***: it is not. Where the paper leaves something open (gravity, the crank's first angle, how the joints
 start), what is taken here is said; [theory](../theory/README.md) lists these too.
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "results/svg_plot.h"
+#include "results/plots/svg_plot.h"
 
 namespace pintle::paper {
 

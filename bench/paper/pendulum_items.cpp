@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analyses/start.h"
 #include "bench/paper/ideal.h"
 #include "bench/paper/items.h"
 #include "bench/paper/runs.h"
 #include "integrators/methods.h"
+#include "start/start.h"
 #include "system/build.h"
 
 namespace pintle::paper {
@@ -193,7 +193,7 @@ Item make_dashpot() {
   for (double t = 1e-3; t < 2; t += 1e-3) {
     while (stepper->state().t < t)
       if (!stepper->step(2)) throw std::runtime_error(stepper->failure());
-    const State& s = stepper->inside(t);
+    const State& s = stepper->interpolate(t);
     const Planar::Vec e = s.gap[0], rate = s.gap_rate[0];
     const double fk = 2e8 * e.head<2>().norm(), fd = 3500 * rate.head<2>().norm();
     spring = std::max(spring, fk);

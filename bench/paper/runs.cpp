@@ -8,11 +8,11 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "analyses/integration.h"
-#include "analyses/start.h"
 #include "pintle/read_model.h"
 #include "pintle/results.h"
 #include "pintle/simulate.h"
+#include "run/integration.h"
+#include "start/start.h"
 #include "system/build.h"
 
 namespace pintle::paper {

@@ -8,8 +8,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "analyses/start.h"
 #include "integrators/methods.h"
+#include "start/start.h"
 #include "system/build.h"
 
 namespace pintle::published {

@@ -11,15 +11,15 @@
 #include <thread>
 
 #include "pintle/complaint.h"
-#include "sweeps/sample_bytes.h"
+#include "sweeps/storage/sample_bytes.h"
 
 namespace pintle::cli {
 namespace {
 
-// A process asks with what it has finished (frames, perhaps none) after the number of batches it can take; the answer is a list of
-// batches. An empty list means that nothing is left.
+// A process asks with what it has finished (frames, perhaps none) after the number of chunks it can take; the answer is a list of
+// chunks. An empty list means that nothing is left.
 constexpr int kAsk = 1, kAnswer = 2;
-constexpr std::uint64_t kBatchesPerThread = 2;
+constexpr std::uint64_t kChunksPerThread = 2;
 constexpr double kWait = 1e-3;  // [s]
 
 std::string receive(int source, int tag, const MPI_Status& status) {
@@ -32,31 +32,31 @@ std::string receive(int source, int tag, const MPI_Status& status) {
 
 void send(int to, int tag, const void* bytes, std::size_t size) { MPI_Send(bytes, static_cast<int>(size), MPI_BYTE, to, tag, MPI_COMM_WORLD); }
 
-std::vector<FinishedBatch> batches_of(std::string_view bytes) {
-  std::vector<FinishedBatch> out;
+std::vector<FinishedChunk> chunks_of(std::string_view bytes) {
+  std::vector<FinishedChunk> out;
   for (std::size_t at = 0; at < bytes.size();) {
     auto frame = read_frame(bytes, at);
     if (!frame) throw std::runtime_error("a message between processes is damaged");
-    const std::uint64_t batch = frame->sample / kSamplesPerBatch;
-    if (out.empty() || out.back().batch != batch) out.push_back({batch, {}});
+    const std::uint64_t chunk = frame->sample / kSamplesPerChunk;
+    if (out.empty() || out.back().chunk != chunk) out.push_back({chunk, {}});
     out.back().results.push_back(std::move(frame->result));
   }
   return out;
 }
 
-// Computes the listed batches on all threads.
-std::string compute(const SweepJob& job, int threads, const std::vector<std::uint64_t>& batches) {
+// Computes the listed chunks on all threads.
+std::string compute(const SweepJob& job, int threads, const std::vector<std::uint64_t>& chunks) {
   std::mutex mutex;
   std::size_t given = 0;
   const auto next = [&]() -> std::optional<std::uint64_t> {
     const std::lock_guard lock(mutex);
-    return given < batches.size() ? std::optional(batches[given++]) : std::nullopt;
+    return given < chunks.size() ? std::optional(chunks[given++]) : std::nullopt;
   };
   std::string bytes;
-  Crew crew(job, threads, next);
-  while (!crew.idle())
-    for (const FinishedBatch& batch : crew.take(1))
-      for (std::size_t k = 0; k < batch.results.size(); ++k) append_frame(bytes, batch.batch * kSamplesPerBatch + k, batch.results[k]);
+  WorkerPool pool(job, threads, next);
+  while (!pool.idle())
+    for (const FinishedChunk& chunk : pool.take(1))
+      for (std::size_t k = 0; k < chunk.results.size(); ++k) append_frame(bytes, chunk.chunk * kSamplesPerChunk + k, chunk.results[k]);
   return bytes;
 }
 
@@ -89,8 +89,8 @@ void MpiProcesses::abort(int exit_code) const {
   std::abort();
 }
 
-std::vector<FinishedBatch> MpiProcesses::serve(BatchQueue& queue) {
-  std::vector<FinishedBatch> out;
+std::vector<FinishedChunk> MpiProcesses::serve(ChunkQueue& queue) {
+  std::vector<FinishedChunk> out;
   while (true) {
     int there = 0;
     MPI_Status status;
@@ -99,12 +99,12 @@ std::vector<FinishedBatch> MpiProcesses::serve(BatchQueue& queue) {
     const std::string bytes = receive(status.MPI_SOURCE, kAsk, status);
     std::uint64_t wanted = 0;
     std::memcpy(&wanted, bytes.data(), sizeof wanted);
-    for (FinishedBatch& batch : batches_of(std::string_view(bytes).substr(sizeof wanted))) out.push_back(std::move(batch));
+    for (FinishedChunk& chunk : chunks_of(std::string_view(bytes).substr(sizeof wanted))) out.push_back(std::move(chunk));
     std::vector<std::uint64_t> given;
     while (given.size() < wanted) {
-      const auto batch = queue.next();
-      if (!batch) break;
-      given.push_back(*batch);
+      const auto chunk = queue.next();
+      if (!chunk) break;
+      given.push_back(*chunk);
     }
     if (given.empty()) ++dismissed_;
     send(status.MPI_SOURCE, kAnswer, given.data(), given.size() * sizeof given[0]);
@@ -112,7 +112,7 @@ std::vector<FinishedBatch> MpiProcesses::serve(BatchQueue& queue) {
 }
 
 void MpiProcesses::dismiss() {
-  BatchQueue nothing(0, [](std::uint64_t) { return true; });
+  ChunkQueue nothing(0, [](std::uint64_t) { return true; });
   while (busy()) {
     serve(nothing);
     std::this_thread::sleep_for(std::chrono::duration<double>(kWait));
@@ -127,7 +127,7 @@ void MpiProcesses::work(const SweepRequest& request, int threads) const {
   }
   std::string message(sizeof(std::uint64_t), '\0');
   while (true) {
-    const std::uint64_t wanted = job ? kBatchesPerThread * static_cast<std::uint64_t>(threads) : 0;
+    const std::uint64_t wanted = job ? kChunksPerThread * static_cast<std::uint64_t>(threads) : 0;
     std::memcpy(message.data(), &wanted, sizeof wanted);
     send(0, kAsk, message.data(), message.size());
     MPI_Status status;
@@ -136,11 +136,11 @@ void MpiProcesses::work(const SweepRequest& request, int threads) const {
       if (there == 0) std::this_thread::sleep_for(std::chrono::duration<double>(kWait));
     }
     const std::string bytes = receive(0, kAnswer, status);
-    std::vector<std::uint64_t> batches(bytes.size() / sizeof(std::uint64_t));
-    if (batches.empty()) return;
-    std::memcpy(batches.data(), bytes.data(), bytes.size());
+    std::vector<std::uint64_t> chunks(bytes.size() / sizeof(std::uint64_t));
+    if (chunks.empty()) return;
+    std::memcpy(chunks.data(), bytes.data(), bytes.size());
     message.assign(sizeof(std::uint64_t), '\0');
-    message += compute(*job, threads, batches);
+    message += compute(*job, threads, chunks);
   }
 }
 

@@ -25,7 +25,7 @@ class MpiProcesses : public Remote {
   /// Ends all of them at once, after an error.
   [[noreturn]] void abort(int exit_code) const;
 
-  std::vector<FinishedBatch> serve(BatchQueue& queue) override;
+  std::vector<FinishedChunk> serve(ChunkQueue& queue) override;
   bool busy() const override { return dismissed_ < size_ - 1; }
   /// Tells all who do not know it yet that nothing is left, and waits until they do.
   void dismiss();

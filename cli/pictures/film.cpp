@@ -23,7 +23,7 @@
 #include "report/still.h"
 #include "results/disk.h"
 #include "results/force_quality.h"
-#include "results/plot_ticks.h"
+#include "results/plots/plot_ticks.h"
 
 namespace pintle::cli {
 namespace {

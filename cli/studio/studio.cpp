@@ -76,15 +76,15 @@ void show(const std::string& address) {
 
 ExitCode run_studio(const StudioOptions& options) {
   const fs::path folder = fs::current_path();
-  studio::DeskSettings settings{find_pages(options.pages), folder, model_below(folder, options.model), 0, studio::random_token(), studio::random_token()};
+  studio::RouterSettings settings{find_pages(options.pages), folder, model_below(folder, options.model), 0, studio::random_token(), studio::random_token()};
   WebServer server(options.port, options.port == kUsualPort ? kMorePorts : 0);
   settings.port = server.port();
-  studio::Desk desk(settings);
+  studio::RequestRouter router(settings);
   const std::string place = fmt::format("http://127.0.0.1:{}/", server.port());
   print_out(fmt::format("Pintle Studio: {}#token={}\nModels of {}; Ctrl-C ends it.\n", place, settings.token, folder.string()));
   catch_interrupts();
   if (!options.no_browser) show(place + "enter/" + settings.ticket);
-  server.serve(desk, [] { return !interrupted(); });
+  server.serve(router, [] { return !interrupted(); });
   return kOk;
 }
 

@@ -51,10 +51,10 @@ WebServer::WebServer(int port, int more) : sockets_(std::make_unique<Sockets>())
 
 WebServer::~WebServer() = default;
 
-void WebServer::serve(studio::Desk& desk, const std::function<bool()>& goes_on) {
+void WebServer::serve(studio::RequestRouter& router, const std::function<bool()>& goes_on) {
   httplib::Server& server = sockets_->server;
-  const auto answer = [&desk](const httplib::Request& from, httplib::Response& to) {
-    studio::Reply reply = desk.answer(request_of(from));
+  const auto answer = [&router](const httplib::Request& from, httplib::Response& to) {
+    studio::Reply reply = router.answer(request_of(from));
     to.status = reply.status;
     for (const auto& [name, value] : reply.headers) to.set_header(name.c_str(), value);
     to.set_content(std::move(reply.body), reply.type.c_str());

@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "studio/server/desk.h"
+#include "studio/server/request_router.h"
 
 namespace pintle::cli {
 
@@ -16,7 +16,7 @@ class WebServer {
   int port() const { return port_; }
 
   /// Answers until `goes_on` says no; it is asked about ten times a second.
-  void serve(studio::Desk& desk, const std::function<bool()>& goes_on);
+  void serve(studio::RequestRouter& router, const std::function<bool()>& goes_on);
 
  private:
   struct Sockets;

@@ -50,14 +50,14 @@ struct LawChoice {
   friend bool operator==(const LawChoice&, const LawChoice&) = default;
 };
 
-/// A joint: a probe (its `type`) between two markers and a law. F is on the first marker, M on the second.
+/// A joint: a joint displacement (its `type`) between two markers and a law. F is on the first marker, M on the second.
 struct Joint {
   std::string name;
   std::string type;  ///< revolute, prismatic, fixed, slot, rod, rope, gear, rack
   MarkerRef first, second;
   std::map<std::string, double> geometry;  ///< rod, rope: length [m] (absent: as assembled); gear: radius_first, radius_second [m], internal (0 or 1); rack: radius [m]
   LawChoice law;
-  bool ideal = false;  ///< with Equations::kLagrangian: no force law, the coordinates obey it
+  bool ideal = false;  ///< with Equations::kRelative: no force law, the coordinates obey it
   friend bool operator==(const Joint&, const Joint&) = default;
 };
 
@@ -98,10 +98,10 @@ struct Motor {
 
 enum class Start { kAssembled, kUnloaded, kRaw };
 
-/// The equations of motion. kNewtonian: every joint is a force law. kLagrangian: joints marked `ideal` are obeyed by
+/// The equations of motion. kNewtonian: every joint is a force law. kRelative: joints marked `ideal` are obeyed by
 /// relative coordinates over a spanning tree, every other joint is a force law. kIdeal: every joint with a linear law is a
 /// constraint with Lagrange multipliers.
-enum class Equations { kNewtonian, kLagrangian, kIdeal };
+enum class Equations { kNewtonian, kRelative, kIdeal };
 
 /// What the tolerance is of. kForces: of each joint force, over its peak. kMotion: of the place of every body, over the longest
 /// way that one has gone; vibrations too small to matter for that are damped out, not followed, and the joint forces are as

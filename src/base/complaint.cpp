@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 
 namespace pintle {
 namespace {

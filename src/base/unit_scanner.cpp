@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-#include "base/text_scanner.h"
+#include "base/text/text_scanner.h"
 
 namespace pintle {
 namespace {

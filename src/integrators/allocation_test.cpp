@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <new>
 
-#include "integrators/dense_output.h"
-#include "integrators/dopri5.h"
-#include "integrators/radau_stepper.h"
+#include "integrators/absolute/radau_stepper.h"
+#include "integrators/dense/dense_output.h"
+#include "integrators/general/dopri5.h"
 #include "integrators/start_states_for_tests.h"
 
 namespace {
@@ -115,7 +115,7 @@ TEST(Allocations, NoneBetweenAcceptedImplicitSteps) {
 }
 
 // The kinks of two loads are passed: 40 of them in a second.
-TEST(Allocations, NoneAcrossKinks) {
+TEST(Allocations, NoneAcrossEvents) {
   Model model = sample::pendulum(1e8, 3000);
   AppliedForce force;
   force.name = "F";

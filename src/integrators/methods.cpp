@@ -8,22 +8,22 @@
 #include <string_view>
 #include <utility>
 
-#include "integrators/alpha_stepper.h"
-#include "integrators/dense_output.h"
-#include "integrators/dopri5.h"
-#include "integrators/ideal_stepper.h"
-#include "integrators/radau_stepper.h"
-#include "integrators/sundials_stepper.h"
-#include "integrators/tree_dopri5.h"
-#include "integrators/tree_radau.h"
+#include "integrators/absolute/radau_stepper.h"
+#include "integrators/dense/dense_output.h"
+#include "integrators/general/alpha_stepper.h"
+#include "integrators/general/dopri5.h"
+#include "integrators/general/sundials_stepper.h"
+#include "integrators/ideal/ideal_stepper.h"
+#include "integrators/relative/tree_dopri5.h"
+#include "integrators/relative/tree_radau.h"
 
 namespace pintle {
 namespace {
 
-const State& inside_of(DenseOutput& dense, const RadauStepper& method, double t) {
+const State& interpolate_with(DenseOutput& dense, const RadauStepper& method, double t) {
   return dense.at(t, method.previous(), method.state(), method.nodes());
 }
-const State& inside_of(DenseOutput& dense, const Dopri5& method, double t) {
+const State& interpolate_with(DenseOutput& dense, const Dopri5& method, double t) {
   return dense.at(t, method.previous(), method.state());
 }
 
@@ -40,7 +40,7 @@ class BodyStepper final : public Stepper {
   bool step(double t_end) override { return method_.step(t_end); }
   const State& state() const override { return method_.state(); }
   const State& previous() const override { return method_.previous(); }
-  const State& inside(double t) override { return inside_of(dense_, method_, t); }
+  const State& interpolate(double t) override { return interpolate_with(dense_, method_, t); }
   const Counters& counters() const override { return method_.counters(); }
   const std::string& failure() const override { return method_.failure(); }
 
@@ -89,7 +89,7 @@ std::string why_not(const MethodChoice& choice) {
 std::unique_ptr<Stepper> make_stepper(const System& system, const MethodChoice& choice, double tolerance) {
   if (const std::string reason = why_not(choice); !reason.empty()) throw std::invalid_argument(reason);
   if (choice.equations == Equations::kIdeal) return std::make_unique<IdealStepper>(system, tolerance);
-  if (choice.equations == Equations::kLagrangian) {
+  if (choice.equations == Equations::kRelative) {
     if (choice.method == "radau") return std::make_unique<TreeRadau>(system, tolerance, choice.stages);
     return std::make_unique<TreeDopri5>(system, tolerance);
   }

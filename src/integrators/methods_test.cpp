@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "integrators/sundials_stepper.h"
+#include "integrators/general/sundials_stepper.h"
 #include "integrators/start_states_for_tests.h"
 
 namespace pintle {
@@ -106,7 +106,7 @@ TEST(Methods, InsideAStepTheMotionIsTheSame) {
     while (stepper->state().t < 1) {
       ASSERT_TRUE(stepper->step(1)) << method;
       const double t = 0.3 * stepper->previous().t + 0.7 * stepper->state().t;
-      const State& s = stepper->inside(t);
+      const State& s = stepper->interpolate(t);
       EXPECT_EQ(s.t, t);
       worst = std::max({worst, std::abs(s.q[0][0] - sample::oscillator_at(t)[0]), std::abs(s.v[0][0] - sample::oscillator_at(t)[1]) / 5});
     }
@@ -136,7 +136,7 @@ TEST(Methods, SayWhyTheyAreNotToBeHad) {
   const Model model = sample::pendulum(1e6, 500);
   const System system = build_system(model);
   for (const char* method : {"ode45", "ode23t", "ode15s", "ode113", "hht", "generalised_alpha"})
-    for (const Equations equations : {Equations::kIdeal, Equations::kLagrangian}) {
+    for (const Equations equations : {Equations::kIdeal, Equations::kRelative}) {
       const std::string reason = why_not({equations, method, 3});
       EXPECT_NE(reason.find(method), std::string::npos);
       EXPECT_NE(reason.find("force laws"), std::string::npos);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "integrators/dopri5.h"
-#include "integrators/radau_stepper.h"
+#include "integrators/absolute/radau_stepper.h"
+#include "integrators/general/dopri5.h"
 
 namespace pintle::sample {
 
@@ -44,11 +44,11 @@ DenseEquations::DenseEquations(const System& system, double t, const Vecs& q, co
   bias.resize(static_cast<int>(rows.size()));
   for (int r = 0; r < G.rows(); ++r) {
     const auto [j, k] = rows[r];
-    const Reading reading = system.reading(j, t, m);
+    const JointKinematics kinematics = system.kinematics(j, t, m);
     const Placement& at = system.joints[j].at;
-    if (at.a != kGround) G.block<1, 3>(r, 3 * at.a) = reading.GA().row(k);
-    if (at.b != kGround) G.block<1, 3>(r, 3 * at.b) = reading.GB().row(k);
-    bias[r] = reading.bias[k];
+    if (at.a != kGround) G.block<1, 3>(r, 3 * at.a) = kinematics.GA().row(k);
+    if (at.b != kGround) G.block<1, 3>(r, 3 * at.b) = kinematics.GB().row(k);
+    bias[r] = kinematics.bias[k];
   }
 }
 
@@ -67,7 +67,7 @@ State loaded_start(const Model& model, const System& system) {
     system.motions(state.q, state.v, m);
     for (int r = 0; r < f.size(); ++r) {
       const auto [j, k] = e.rows[r];
-      misfit[r] = -f[r] / std::get<LinearLaw>(system.joints[j].law).k[k] - system.reading(j, state.t, m).gap[k];
+      misfit[r] = -f[r] / std::get<LinearLaw>(system.joints[j].law).k[k] - system.kinematics(j, state.t, m).gap[k];
     }
     const Eigen::MatrixXd MG = e.mass.cwiseInverse().asDiagonal() * e.G.transpose();
     const Eigen::VectorXd move = MG * (e.G * MG).ldlt().solve(misfit);
@@ -115,7 +115,7 @@ State follow(const System& system, const State& from, double duration, int n, in
 }
 
 StageTails room_for_tails(const System& system) {
-  return {std::vector<Four>(system.bodies.size()), std::vector<Four>(system.joints.size())};
+  return {std::vector<Vec3x4>(system.bodies.size()), std::vector<Vec3x4>(system.joints.size())};
 }
 
 double largest_difference(const Vecs& a, const Vecs& b) {

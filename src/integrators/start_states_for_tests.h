@@ -1,4 +1,4 @@
-// States to start integrators from, made without the room of the analyses: plain ones, and ones whose joints carry the
+// States to start integrators from, made without the rooms on the right: plain ones, and ones whose joints carry the
 // reactions of ideal joints, found by dense elimination.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "integrators/stage_solver.h"
+#include "integrators/absolute/stage_solver.h"
 #include "system/sample_systems_for_tests.h"
 #include "system/state.h"
 

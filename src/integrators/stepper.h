@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "integrators/stage_solver.h"
+#include "integrators/load_scale.h"
 #include "pintle/trajectory.h"
 #include "system/state.h"
 
@@ -27,7 +27,7 @@ class Stepper {
   virtual const State& state() const = 0;
   virtual const State& previous() const = 0;
   /// The state at a time inside the last step.
-  virtual const State& inside(double t) = 0;
+  virtual const State& interpolate(double t) = 0;
   virtual const Counters& counters() const = 0;
   virtual const std::string& failure() const = 0;
   /// What the method noticed on its way, for the user.

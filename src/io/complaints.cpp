@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "base/did_you_mean.h"
+#include "base/text/did_you_mean.h"
 #include "io/text.h"
 
 namespace pintle {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "io/text.h"
 
 namespace pintle {

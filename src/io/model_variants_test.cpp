@@ -1,4 +1,4 @@
-// Reading again only what depends on a number gives what reading everything gives, for every number of every mechanism.
+// JointKinematics again only what depends on a number gives what reading everything gives, for every number of every mechanism.
 #include "io/model_variants.h"
 
 #include <fmt/format.h>

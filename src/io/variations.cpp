@@ -8,7 +8,7 @@
 
 #include "base/units.h"
 #include "io/text.h"
-#include "probes/catalog.h"
+#include "joints/catalog.h"
 
 namespace pintle {
 namespace {

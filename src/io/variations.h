@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/model_reading.h"
+#include "io/reading/model_reading.h"
 
 namespace pintle {
 

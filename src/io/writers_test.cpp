@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "io/schema.h"
+#include "io/schema/schema.h"
 #include "io/test_models.h"
+#include "joints/catalog.h"
 #include "laws/catalog.h"
-#include "probes/catalog.h"
 #include "results/disk.h"
 
 namespace pintle {

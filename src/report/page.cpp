@@ -8,7 +8,7 @@
 #include "report/page_tables.h"
 #include "report/still.h"
 #include "results/force_quality.h"
-#include "results/markup.h"
+#include "results/plots/markup.h"
 
 namespace pintle {
 

@@ -114,7 +114,8 @@ class PageData {
       add_quantity(one, "Couple on " + joint.second_body, {{on + "m[world]", "M", ""}});
       add_quantity(one, "Slide", {{p + "slide", "s", ""}});
       add_quantity(one, "Angle", {{p + "angle", "φ", ""}});
-      add_quantity(one, "Rate", {{p + "rate", "rate", ""}});
+      add_quantity(one, "Rate of the slide", {{p + "slide_rate", "rate", ""}});
+      add_quantity(one, "Rate of the angle", {{p + "angle_rate", "rate", ""}});
       add_group(list, std::move(one));
     }
     for (const BodyTrack& body : scene_.bodies) {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "results/force_quality.h"
-#include "results/markup.h"
-#include "results/plot_ticks.h"
+#include "results/plots/markup.h"
+#include "results/plots/plot_ticks.h"
 #include "results/text_table.h"
 
 namespace pintle {
@@ -236,7 +236,7 @@ std::string assumption_list(const Model& model, const Trajectory& trajectory) {
   const SimulateSettings& settings = model.simulate;
   switch (settings.equations) {
     case Equations::kNewtonian: item("Every joint is a force law: it gives way by as much as its force needs."); break;
-    case Equations::kLagrangian: item("Joints marked ideal do not give way; every other joint is a force law."); break;
+    case Equations::kRelative: item("Joints marked ideal do not give way; every other joint is a force law."); break;
     case Equations::kIdeal: item("Every joint with a linear law is an ideal constraint."); break;
   }
   switch (settings.start) {

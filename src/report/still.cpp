@@ -7,13 +7,13 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "base/did_you_mean.h"
-#include "base/utf8.h"
+#include "base/text/did_you_mean.h"
+#include "base/text/utf8.h"
 #include "report/outline.h"
 #include "report/paints.h"
-#include "results/markup.h"
-#include "results/plot_ticks.h"
-#include "results/thin_line.h"
+#include "results/plots/markup.h"
+#include "results/plots/plot_ticks.h"
+#include "results/plots/thin_line.h"
 
 namespace pintle {
 namespace {

@@ -83,10 +83,10 @@ TEST(RunFolder, KeepsEveryBitOfAwkwardNumbers) {
 TEST(RunFolder, SeriesHasTwoHeaderRows) {
   const sample::ScratchFolder scratch;
   Trajectory trajectory;
-  trajectory.columns = {{"t", "s", ""}, {"joint.A.rate", "rad/s", ""}};
+  trajectory.columns = {{"t", "s", ""}, {"joint.A.angle_rate", "rad/s", ""}};
   trajectory.values = {0, 1.5, 0.001, -2e-7};
   write_run(trajectory, {}, scratch / "run");
-  EXPECT_EQ(read_file(scratch / "run/series.csv"), "t,joint.A.rate\r\ns,rad/s\r\n0,1.5\r\n0.001,-2e-07\r\n");
+  EXPECT_EQ(read_file(scratch / "run/series.csv"), "t,joint.A.angle_rate\r\ns,rad/s\r\n0,1.5\r\n0.001,-2e-07\r\n");
 }
 
 TEST(RunFolder, EveryOutcomeSurvives) {

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <optional>
 
-#include "base/expression_parser.h"
-#include "base/text_scanner.h"
+#include "base/expression/expression_parser.h"
+#include "base/text/text_scanner.h"
 #include "base/units.h"
 #include "io/text.h"
 #include "sweeps/philox.h"

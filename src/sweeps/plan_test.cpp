@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "io/overrides.h"
+#include "io/reading/overrides.h"
 #include "sweeps/sweep_job.h"
 #include "sweeps/sweep_models_for_tests.h"
 

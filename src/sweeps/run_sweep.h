@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pintle/sweep.h"
-#include "sweeps/crew.h"
+#include "sweeps/worker_pool.h"
 
 namespace pintle {
 
@@ -13,8 +13,8 @@ namespace pintle {
 class Remote {
  public:
   virtual ~Remote() = default;
-  /// Gives batches to those that ask, and returns what they have sent. Never waits.
-  virtual std::vector<FinishedBatch> serve(BatchQueue& queue) = 0;
+  /// Gives chunks to those that ask, and returns what they have sent. Never waits.
+  virtual std::vector<FinishedChunk> serve(ChunkQueue& queue) = 0;
   /// Some process still computes or has not been told that nothing is left.
   virtual bool busy() const = 0;
 };

@@ -28,16 +28,16 @@ class Collection {
 
   /// True when the journal has every sample.
   bool run(int threads) {
-    Crew crew(job_, threads, [this] { return queue_.next(); });
+    WorkerPool pool(job_, threads, [this] { return queue_.next(); });
     while (true) {
       if (remote_ != nullptr) keep(remote_->serve(queue_));
-      keep(crew.take(remote_ != nullptr ? kShortWait : kLongWait));
+      keep(pool.take(remote_ != nullptr ? kShortWait : kLongWait));
       sync_now_and_then();
       if (!go_on()) {
         queue_.close();
-        crew.stop();
+        pool.stop();
       }
-      if (!crew.idle()) continue;
+      if (!pool.idle()) continue;
       if (remote_ == nullptr || !remote_->busy()) break;
       std::this_thread::sleep_for(std::chrono::duration<double>(kShortWait));  // for the others
     }
@@ -49,12 +49,12 @@ class Collection {
   SweepProgress progress() const { return {journal_.n_done(), journal_.n_samples(), resumed_, journal_.n_troubled(), watch_.seconds()}; }
 
  private:
-  // A batch is computed as a whole; of one that was cut in two by a kill, only the missing samples are added.
-  void keep(const std::vector<FinishedBatch>& finished) {
-    for (const FinishedBatch& batch : finished)
-      for (std::size_t k = 0; k < batch.results.size(); ++k) {
-        const std::uint64_t sample = batch.batch * kSamplesPerBatch + k;
-        if (!journal_.has(sample)) journal_.add(sample, batch.results[k]);
+  // A chunk is computed as a whole; of one that was cut in two by a kill, only the missing samples are added.
+  void keep(const std::vector<FinishedChunk>& finished) {
+    for (const FinishedChunk& chunk : finished)
+      for (std::size_t k = 0; k < chunk.results.size(); ++k) {
+        const std::uint64_t sample = chunk.chunk * kSamplesPerChunk + k;
+        if (!journal_.has(sample)) journal_.add(sample, chunk.results[k]);
       }
     if (!finished.empty()) journal_.flush(false);  // a kill costs nothing that is finished
   }
@@ -79,7 +79,7 @@ class Collection {
   const SweepObserver& observer_;
   Remote* remote_;
   std::uint64_t resumed_;
-  BatchQueue queue_;
+  ChunkQueue queue_;
   Stopwatch watch_;
   double reported_ = 0, synced_ = 0;
   bool stopped_ = false;

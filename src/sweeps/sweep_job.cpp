@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "io/overrides.h"
+#include "io/reading/overrides.h"
 #include "results/sha256.h"
 
 namespace pintle {

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "pintle/sweep.h"
-#include "sweeps/batches.h"
+#include "sweeps/chunks.h"
 #include "sweeps/plan.h"
-#include "sweeps/sweep_file.h"
+#include "sweeps/storage/sweep_file.h"
 
 namespace pintle {
 
@@ -20,7 +20,7 @@ class SweepJob {
   /// SHA-256 of all that the results depend on, the program's version among it.
   const std::string& hash() const { return origin_.plan; }
   SweepOrigin origin(const std::string& command) const;
-  BatchComputer computer() const { return {plan_, *engine_, *variants_, origin_.check_every}; }
+  ChunkComputer computer() const { return {plan_, *engine_, *variants_, origin_.check_every}; }
 
  private:
   SweepPlan plan_;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pintle/sweep.h"
-#include "results/svg_plot.h"
+#include "results/plots/svg_plot.h"
 
 namespace pintle {
 

@@ -11,7 +11,7 @@
 #include "results/sample_run_for_tests.h"
 #include <fmt/format.h>
 
-#include "sweeps/sweep_file.h"
+#include "sweeps/storage/sweep_file.h"
 #include "sweeps/sweep_models_for_tests.h"
 #include "sweeps/sweep_report.h"
 

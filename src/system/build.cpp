@@ -9,8 +9,8 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "joints/catalog.h"
 #include "laws/catalog.h"
-#include "probes/catalog.h"
 
 namespace pintle {
 namespace {
@@ -111,7 +111,7 @@ class Builder {
     const auto it = joint.geometry.find(key);
     return it == joint.geometry.end() ? fallback : it->second;
   }
-  static Probe make_probe(const Joint& joint) {
+  static JointDisplacement make_displacement(const Joint& joint) {
     if (joint.type == "rod" || joint.type == "rope") return Distance{geometry(joint, "length", 0)};
     if (joint.type == "gear")
       return Mesh{geometry(joint, "radius_first", 1), geometry(joint, "radius_second", 1), geometry(joint, "internal", 0) > 0 ? -1.0 : 1.0, 0};
@@ -125,9 +125,9 @@ class Builder {
     data.name = joint.name;
     data.type = joint.type;
     data.at = place(joint.first, joint.second);
-    data.probe = make_probe(joint);
+    data.displacement = make_displacement(joint);
     data.law = make_law(joint);
-    data.ideal = joint.ideal && model_.simulate.equations == Equations::kLagrangian;
+    data.ideal = joint.ideal && model_.simulate.equations == Equations::kRelative;
     for (const ComponentInfo& free : info->free) data.free_mask[free.angular ? 2 : 0] = 1;
     system_.joints.push_back(std::move(data));
   }
@@ -154,7 +154,7 @@ class Builder {
     law.k[component] = motor.stiffness;
     law.c[component] = motor.damping;
     servo.law = law;
-    servo.probe = Selection{};
+    servo.displacement = Selection{};
     servo.keeps_speed = motor.kind == MotorKind::kSpeed;
     if (servo.keeps_speed) servo.speed = motor.law.value({});
     else servo.target = motor.law;
@@ -208,13 +208,13 @@ class Builder {
 
 const Joint* model_joint(const Model& model, std::size_t j) { return j < model.joints.size() ? &model.joints[j] : nullptr; }
 
-void settle_joint(const Joint& joint, const RelativePose& pose, Probe& probe, std::vector<std::string>& notes) {
-  if (auto* distance = std::get_if<Distance>(&probe); distance && !joint.geometry.contains("length")) {
+void settle_joint(const Joint& joint, const RelativePose& pose, JointDisplacement& displacement, std::vector<std::string>& notes) {
+  if (auto* distance = std::get_if<Distance>(&displacement); distance && !joint.geometry.contains("length")) {
     distance->length = std::hypot(pose.z[0], pose.z[1]);
     notes.push_back(fmt::format("joint {}: length {:.9g} m, as assembled", joint.name, distance->length));
   }
-  if (auto* mesh = std::get_if<Mesh>(&probe)) mesh->phase -= (*mesh)(pose.z).gap;
-  if (auto* rack = std::get_if<RackMesh>(&probe)) {
+  if (auto* mesh = std::get_if<Mesh>(&displacement)) mesh->phase -= (*mesh)(pose.z).gap;
+  if (auto* rack = std::get_if<RackMesh>(&displacement)) {
     // The pinion's centre in the rack's axes: minus the rack's place in the pinion's, turned.
     const double across = pose.z[0] * std::sin(pose.z[2]) - pose.z[1] * std::cos(pose.z[2]);
     rack->side = across >= 0 ? 1 : -1;
@@ -230,7 +230,7 @@ bool is_open(const Model& model, const System& system, int j) {
   const JointData& data = system.joints[j];
   if (data.servo >= 0) return data.keeps_speed;
   return data.type == "gear" || data.type == "rack" ||
-         (std::holds_alternative<Distance>(data.probe) && !model.joints[j].geometry.contains("length"));
+         (std::holds_alternative<Distance>(data.displacement) && !model.joints[j].geometry.contains("length"));
 }
 
 void unwind(const Vecs& q, System& system) {
@@ -238,13 +238,13 @@ void unwind(const Vecs& q, System& system) {
   system.motions(q, Vecs(q.size(), S::Vec::Zero()), m);
   const double turn = 2 * std::numbers::pi;
   for (JointData& joint : system.joints) {
-    auto* selection = std::get_if<Selection>(&joint.probe);
+    auto* selection = std::get_if<Selection>(&joint.displacement);
     if (!selection || joint.servo >= 0 || (joint.type != "prismatic" && joint.type != "fixed")) continue;
     selection->offset[2] = turn * std::round(system.pose(joint.at, m).z[2] / turn);
   }
 }
 
-void settle(const Model& model, const Vecs& q, System& system, std::vector<std::string>& notes) {
+void fix_assembled_values(const Model& model, const Vecs& q, System& system, std::vector<std::string>& notes) {
   unwind(q, system);
   std::vector<S::Motion> m;
   system.motions(q, Vecs(q.size(), S::Vec::Zero()), m);
@@ -252,7 +252,7 @@ void settle(const Model& model, const Vecs& q, System& system, std::vector<std::
     JointData& data = system.joints[j];
     const RelativePose pose = system.pose(data.at, m);
     if (const Joint* joint = model_joint(model, j)) {
-      settle_joint(*joint, pose, data.probe, notes);
+      settle_joint(*joint, pose, data.displacement, notes);
     } else if (data.keeps_speed) {
       data.start = pose.z[data.servo];
     }

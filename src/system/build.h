@@ -7,7 +7,7 @@
 namespace pintle {
 
 /// The system of a model. What depends on the assembled positions (a rod without a stated length, gear phases, free
-/// lengths, where a constant-speed drive starts) is still open: `settle` fixes it. Throws std::invalid_argument on names
+/// lengths, where a constant-speed drive starts) is still open: `fix_assembled_values` fixes it. Throws std::invalid_argument on names
 /// that do not exist; models from files have been checked before. `like`: a system that this one may be a variant of.
 System build_system(const Model& model, const System* like = nullptr);
 
@@ -15,7 +15,7 @@ System build_system(const Model& model, const System* like = nullptr);
 bool is_open(const Model& model, const System& system, int j);
 
 /// Fixes what depends on the assembled positions q. `notes` receives a line for each value that was assumed.
-void settle(const Model& model, const Vecs& q, System& system, std::vector<std::string>& notes);
+void fix_assembled_values(const Model& model, const Vecs& q, System& system, std::vector<std::string>& notes);
 
 /// Turns welds and sliders by whole turns so that their angle is within half a turn of zero at q.
 void unwind(const Vecs& q, System& system);

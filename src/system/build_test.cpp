@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "probes/catalog.h"
-#include "probes/probe_checks_for_tests.h"
+#include "joints/catalog.h"
+#include "joints/joint_checks_for_tests.h"
 #include "system/sample_systems_for_tests.h"
 
 namespace pintle {
@@ -26,7 +26,7 @@ Model model_of(const std::string& type) {
 
 class JointType : public testing::TestWithParam<std::string> {};
 
-TEST_P(JointType, PassesTheProbesBattery) {
+TEST_P(JointType, PassesTheCommonBattery) {
   Random random(21);
   const Model model = model_of(GetParam());
   for (int i = 0; i < 50; ++i) {
@@ -36,9 +36,9 @@ TEST_P(JointType, PassesTheProbesBattery) {
     c.M = system.joints[0].at.M;
     sample::place_at_random(random, 0.4, c);
     std::vector<std::string> notes;
-    settle(model, {c.qA, c.qB}, system, notes);
+    fix_assembled_values(model, {c.qA, c.qB}, system, notes);
     sample::place_at_random(random, 0.4, c);
-    sample::expect_all(system.joints[0].probe, c, random);
+    sample::expect_all(system.joints[0].displacement, c, random);
     if (HasFailure()) return;
   }
 }
@@ -69,10 +69,10 @@ TEST_P(JointType, GapIsZeroWhereItIsSettledOpen) {
   Vecs q, v;
   sample::random_state(random, 2, q, v);
   std::vector<std::string> notes;
-  settle(model, q, system, notes);
+  fix_assembled_values(model, q, system, notes);
   std::vector<S::Motion> m;
   system.motions(q, v, m);
-  EXPECT_NEAR(system.reading(0, 0, m).gap[0], 0, 1e-14);
+  EXPECT_NEAR(system.kinematics(0, 0, m).gap[0], 0, 1e-14);
 }
 
 std::vector<std::string> words() {
@@ -177,7 +177,7 @@ Model hanging() {
 
 System settled(const Model& model, std::vector<std::string>& notes) {
   System system = build_system(model);
-  settle(model, {{0.5, 0, 0}}, system, notes);
+  fix_assembled_values(model, {{0.5, 0, 0}}, system, notes);
   return system;
 }
 
@@ -248,11 +248,11 @@ TEST(Settle, ConstantSpeedDriveStartsWhereItIs) {
     v.emplace_back((*body.velocity)[0], (*body.velocity)[1], *body.spin);
   }
   std::vector<std::string> notes;
-  settle(model, q, system, notes);
+  fix_assembled_values(model, q, system, notes);
   EXPECT_DOUBLE_EQ(system.joints[4].start, std::numbers::pi / 3);
   std::vector<S::Motion> m;
   system.motions(q, v, m);
-  const Reading r = system.reading(4, 0, m);
+  const JointKinematics r = system.kinematics(4, 0, m);
   EXPECT_NEAR(r.gap[2], 0, 1e-15);
   EXPECT_NEAR(r.rate[2], 0, 1e-14);
 }
@@ -273,7 +273,7 @@ TEST(Unwind, WholeTurnsOfSlidersAndWeldsAreTakenOff) {
     unwind(q, system);
     std::vector<S::Motion> m;
     system.motions(q, {{0, 0, 0}, {0, 0, 0}}, m);
-    EXPECT_NEAR(system.reading(0, 0, m).gap[2], -0.1, 1e-13) << type;
+    EXPECT_NEAR(system.kinematics(0, 0, m).gap[2], -0.1, 1e-13) << type;
   }
 }
 

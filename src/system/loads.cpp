@@ -10,7 +10,7 @@ namespace {
 using S = Planar;
 constexpr int kMaxSignals = 16;
 
-Probe probe_of(const LoadData& load) {
+JointDisplacement displacement_of(const LoadData& load) {
   if (load.kind == LoadKind::kSpring) return Distance{load.free};
   return Selection{S::Vec::Unit(load.component) * (load.kind == LoadKind::kTorsionSpring ? load.free : 0.0)};
 }
@@ -45,55 +45,55 @@ Wrench wrench(const AppliedData& load, double t, const S::Motion& body) {
 
 }  // namespace
 
-// A load at an instant: its reading, its force conjugate to the reading's components, and the slopes of that force.
+// A load at an instant: its kinematics, its force conjugate to their components, and the slopes of that force.
 struct System::LoadState {
-  Probe probe;
+  JointDisplacement displacement;
   RelativePose pose;
-  Reading reading;
+  JointKinematics kinematics;
   double effort = 0;  // force along the component [N] or [N*m]; a spring in tension has a negative one
-  int slot = 0;       // component of the reading
+  int slot = 0;       // component of the displacement
   double df_dgap = 0, df_drate = 0;
   std::array<double, kMaxSignals> df_dsignal{};
 };
 
-const Expression::Ramp* System::ramp_of(const LoadData& load, HeldJumps held) const {
-  for (const HeldJump& jump : held)
+const Expression::Ramp* System::ramp_of(const LoadData& load, SlidingModes sliding) const {
+  for (const SlidingMode& jump : sliding)
     if (&loads[jump.load] == &load) return &jump.ramp;
   return nullptr;
 }
 
-System::LoadState System::load_state(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held) const {
+System::LoadState System::load_state(const LoadData& load, double t, const std::vector<S::Motion>& m, SlidingModes sliding) const {
   LoadState state;
-  state.probe = probe_of(load);
+  state.displacement = displacement_of(load);
   state.pose = pose(load.at, m);
-  state.reading = read(state.probe, state.pose);
+  state.kinematics = read(state.displacement, state.pose);
   state.slot = load.kind == LoadKind::kSpring ? 0 : load.component;
   if (load.kind == LoadKind::kEffort) {
     const auto values = signal_values(*this, load, t, m);
     const std::size_t n = load.signals.size();
     const auto at = std::span(values).first(n);
     const auto slopes = std::span(state.df_dsignal).first(n);
-    const Expression::Ramp* ramp = ramp_of(load, held);
+    const Expression::Ramp* ramp = ramp_of(load, sliding);
     state.effort = ramp ? load.law.gradient(at, slopes, *ramp) : load.law.gradient(at, slopes);
   } else {
-    state.effort = -(load.constant + load.k * state.reading.gap[state.slot] + load.c * state.reading.rate[state.slot]);
+    state.effort = -(load.constant + load.k * state.kinematics.gap[state.slot] + load.c * state.kinematics.rate[state.slot]);
     state.df_dgap = -load.k;
     state.df_drate = -load.c;
   }
   return state;
 }
 
-double System::load_effort(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held) const {
-  return load_state(load, t, m, held).effort;
+double System::load_effort(const LoadData& load, double t, const std::vector<S::Motion>& m, SlidingModes sliding) const {
+  return load_state(load, t, m, sliding).effort;
 }
 
-void System::external(double t, const std::vector<S::Motion>& m, Vecs& Q, HeldJumps held) const {
+void System::external(double t, const std::vector<S::Motion>& m, Vecs& Q, SlidingModes sliding) const {
   Q.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) Q[i] = bodies[i].gravity;
   for (const LoadData& load : loads) {
-    const LoadState s = load_state(load, t, m, held);
-    if (load.at.a != kGround) Q[load.at.a] += s.reading.GA().row(s.slot).transpose() * s.effort;
-    if (load.at.b != kGround) Q[load.at.b] += s.reading.GB().row(s.slot).transpose() * s.effort;
+    const LoadState s = load_state(load, t, m, sliding);
+    if (load.at.a != kGround) Q[load.at.a] += s.kinematics.GA().row(s.slot).transpose() * s.effort;
+    if (load.at.b != kGround) Q[load.at.b] += s.kinematics.GB().row(s.slot).transpose() * s.effort;
   }
   for (const AppliedData& force : applied) {
     const S::Motion& body = m[force.body];
@@ -102,12 +102,12 @@ void System::external(double t, const std::vector<S::Motion>& m, Vecs& Q, HeldJu
   }
 }
 
-ExternalWork System::external_work(double t, const Vecs& q, const std::vector<S::Motion>& m, HeldJumps held) const {
+ExternalWork System::external_work(double t, const Vecs& q, const std::vector<S::Motion>& m, SlidingModes sliding) const {
   ExternalWork work;
   for (std::size_t i = 0; i < bodies.size(); ++i) work.potential -= bodies[i].gravity.dot(q[i]);
   for (const LoadData& load : loads) {
-    const LoadState s = load_state(load, t, m, held);
-    const double gap = s.reading.gap[s.slot], rate = s.reading.rate[s.slot];
+    const LoadState s = load_state(load, t, m, sliding);
+    const double gap = s.kinematics.gap[s.slot], rate = s.kinematics.rate[s.slot];
     if (load.kind == LoadKind::kEffort) {
       work.supplied += s.effort * rate;
     } else {
@@ -123,7 +123,7 @@ ExternalWork System::external_work(double t, const Vecs& q, const std::vector<S:
   return work;
 }
 
-std::uint64_t System::branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate, HeldJumps held) const {
+std::uint64_t System::branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate, SlidingModes sliding) const {
   std::uint64_t sides = 0;
   const auto add = [&sides](std::uint64_t side) { sides = sides * 0x9E3779B97F4A7C15U + 1 + side; };
   const std::array<double, 1> time{t};
@@ -135,36 +135,36 @@ std::uint64_t System::branches(double t, const std::vector<S::Motion>& m, const 
   for (const LoadData& load : loads) {
     if (load.kind != LoadKind::kEffort || !load.law.has_branches()) continue;
     const auto values = signal_values(*this, load, t, m);
-    add(load.law.branches(std::span(values).first(load.signals.size()), ramp_of(load, held)));
+    add(load.law.branches(std::span(values).first(load.signals.size()), ramp_of(load, sliding)));
   }
   for (const AppliedData& force : applied)
     for (const Expression* e : {&force.fx, &force.fy, &force.torque}) add_at_t(*e);
   return sides;
 }
 
-std::optional<HeldJump> System::jump_between(double t0, const std::vector<S::Motion>& m0, double t1, const std::vector<S::Motion>& m1) const {
+std::optional<SlidingMode> System::jump_between(double t0, const std::vector<S::Motion>& m0, double t1, const std::vector<S::Motion>& m1) const {
   for (const LoadData& load : loads) {
     if (load.kind != LoadKind::kEffort || !load.law.has_branches()) continue;
     const auto from = signal_values(*this, load, t0, m0), to = signal_values(*this, load, t1, m1);
     const std::size_t n = load.signals.size();
     if (const auto jump = load.law.jump_between(std::span(from).first(n), std::span(to).first(n)))
-      return HeldJump{static_cast<int>(&load - loads.data()), {*jump}};
+      return SlidingMode{static_cast<int>(&load - loads.data()), {*jump}};
   }
   return {};
 }
 
-double System::margin(const HeldJump& jump, double t, const std::vector<S::Motion>& m) const {
+double System::margin(const SlidingMode& jump, double t, const std::vector<S::Motion>& m) const {
   const LoadData& load = loads[jump.load];
   const auto values = signal_values(*this, load, t, m);
   return load.law.margin(jump.ramp.jump, std::span(values).first(load.signals.size()));
 }
 
-void System::load_tangents(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held, std::vector<Tangent>& out) const {
-  const LoadState s = load_state(load, t, m, held);
+void System::load_tangents(const LoadData& load, double t, const std::vector<S::Motion>& m, SlidingModes sliding, std::vector<Tangent>& out) const {
+  const LoadState s = load_state(load, t, m, sliding);
   const std::array<int, 2> body{load.at.a, load.at.b};
-  const std::array<Eigen::RowVector3d, 2> G{s.reading.GA().row(s.slot), s.reading.GB().row(s.slot)};
-  const auto geometric = geometric_stiffness(s.probe, s.pose, Vec::Unit(s.slot) * s.effort);
-  const auto rate_slope = rate_gradient(s.probe, s.pose, motion_of(load.at.a, m), motion_of(load.at.b, m));
+  const std::array<Eigen::RowVector3d, 2> G{s.kinematics.GA().row(s.slot), s.kinematics.GB().row(s.slot)};
+  const auto geometric = geometric_stiffness(s.displacement, s.pose, Vec::Unit(s.slot) * s.effort);
+  const auto rate_slope = rate_gradient(s.displacement, s.pose, motion_of(load.at.a, m), motion_of(load.at.b, m));
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) {
       if (body[i] == kGround || body[j] == kGround) continue;

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/expression_parser.h"
+#include "base/expression/expression_parser.h"
 #include "base/units.h"
 
 namespace pintle::sample {

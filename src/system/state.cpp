@@ -5,15 +5,15 @@
 
 namespace pintle {
 
-void find_gap_accelerations(const System& system, const std::vector<Reading>& r, State& state) {
+void find_gap_accelerations(const System& system, const std::vector<JointKinematics>& r, State& state) {
   for (int j = 0; j < system.n_joints(); ++j) {
     state.gap_accel[j] = r[j].bias;
     add_gap(system.joints[j].at, r[j], state.a, state.gap_accel[j]);
   }
 }
 
-void find_accelerations(const System& system, const std::vector<Planar::Motion>& m, const std::vector<Reading>& r, State& state) {
-  system.external(state.t, m, state.a, state.held);
+void find_accelerations(const System& system, const std::vector<Planar::Motion>& m, const std::vector<JointKinematics>& r, State& state) {
+  system.external(state.t, m, state.a, state.sliding);
   for (int j = 0; j < system.n_joints(); ++j) add_force(system.joints[j].at, r[j], state.force[j], state.a);
   for (int i = 0; i < system.n_bodies(); ++i) state.a[i] = state.a[i].cwiseQuotient(system.bodies[i].mass);
   find_gap_accelerations(system, r, state);

@@ -12,15 +12,15 @@ struct State {
   Vecs q, v, a;                    // bodies [m, m, rad] and derivatives
   Vecs gap, gap_rate, gap_accel;   // joints
   Vecs force;                      // joints, on the second body, conjugate to the gap
-  std::vector<HeldJump> held;      // motors that stand at a jump of theirs
+  std::vector<SlidingMode> sliding;  // motors that stand at a jump of theirs
   double dissipated = 0, supplied = 0;        // since the start [J]
   double loss_power = 0, supply_power = 0;    // their rates [W]
 };
 
 /// The gaps' accelerations that go with those of the bodies: e'' = G a + bias.
-void find_gap_accelerations(const System& system, const std::vector<Reading>& r, State& state);
+void find_gap_accelerations(const System& system, const std::vector<JointKinematics>& r, State& state);
 /// All accelerations that go with the joint forces: M a = Q + G' f, then those of the gaps.
-void find_accelerations(const System& system, const std::vector<Planar::Motion>& m, const std::vector<Reading>& r, State& state);
+void find_accelerations(const System& system, const std::vector<Planar::Motion>& m, const std::vector<JointKinematics>& r, State& state);
 
 /// The largest coordinate of any body, at least 1e-3: what the rounding of positions, or of velocities, goes with [m or m/s].
 double largest_coordinate(const Vecs& x);

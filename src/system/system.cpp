@@ -44,9 +44,9 @@ void System::motions(const Vecs& q, const Vecs& v, std::vector<S::Motion>& out) 
   for (std::size_t i = 0; i < bodies.size(); ++i) out[i] = S::Motion::of(q[i], v[i]);
 }
 
-Reading System::reading(int j, double t, const std::vector<S::Motion>& m) const {
+JointKinematics System::kinematics(int j, double t, const std::vector<S::Motion>& m) const {
   const JointData& joint = joints[j];
-  Reading r = read(joint.probe, pose(joint.at, m));
+  JointKinematics r = read(joint.displacement, pose(joint.at, m));
   if (joint.servo < 0) return r;
   const auto target = servo_target(joint, t);
   r.gap[joint.servo] -= target[0];
@@ -55,9 +55,9 @@ Reading System::reading(int j, double t, const std::vector<S::Motion>& m) const 
   return r;
 }
 
-void System::readings(double t, const std::vector<S::Motion>& m, std::vector<Reading>& out) const {
+void System::joint_kinematics(double t, const std::vector<S::Motion>& m, std::vector<JointKinematics>& out) const {
   out.resize(joints.size());
-  for (int j = 0; j < n_joints(); ++j) out[j] = reading(j, t, m);
+  for (int j = 0; j < n_joints(); ++j) out[j] = kinematics(j, t, m);
 }
 
 void System::accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a) const {
@@ -65,7 +65,7 @@ void System::accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a) cons
   motions(q, v, m);
   external(t, m, a);
   for (int j = 0; j < n_joints(); ++j) {
-    const Reading r = reading(j, t, m);
+    const JointKinematics r = kinematics(j, t, m);
     const Vec f = law_force(joints[j].law, r.gap, r.rate);
     add_force(joints[j].at, r, f, a);
   }

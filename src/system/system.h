@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "joints/joint_displacement.h"
 #include "laws/law.h"
+#include "linalg/block_pattern.h"
 #include "pintle/expression.h"
-#include "probes/probe.h"
-#include "solve/block_pattern.h"
 
 namespace pintle {
 
@@ -49,7 +49,7 @@ struct JointData {
   std::string name;
   std::string type;
   Placement at;
-  Probe probe;
+  JointDisplacement displacement;
   Law law;
   bool ideal = false;          // its gap is kept at zero by the equations, its law is not asked
   std::array<bool, 3> redundant{};  // components of an ideal joint that other ideal joints keep already
@@ -87,11 +87,11 @@ struct LoadData {
 };
 
 /// A motor's effort kept at one of its jumps: on a ramp between the efforts of both sides.
-struct HeldJump {
+struct SlidingMode {
   int load = 0;
   Expression::Ramp ramp;
 };
-using HeldJumps = std::span<const HeldJump>;
+using SlidingModes = std::span<const SlidingMode>;
 
 /// A force on one body at a point, functions of t.
 struct AppliedData {
@@ -103,18 +103,18 @@ struct AppliedData {
 };
 
 /// G x: what the bodies' rates, accelerations or small displacements x make of a gap.
-inline Planar::Vec gap_change(const Placement& at, const Reading& r, const Vecs& x) {
+inline Planar::Vec gap_change(const Placement& at, const JointKinematics& r, const Vecs& x) {
   constexpr double still[3] = {0, 0, 0};
   Planar::Vec e;
   r.map.gather(at.a != kGround ? x[at.a].data() : still, at.b != kGround ? x[at.b].data() : still, e.data());
   return e;
 }
 /// gap += G x.
-inline void add_gap(const Placement& at, const Reading& r, const Vecs& x, Planar::Vec& gap) { gap += gap_change(at, r, x); }
+inline void add_gap(const Placement& at, const JointKinematics& r, const Vecs& x, Planar::Vec& gap) { gap += gap_change(at, r, x); }
 /// gap -= G x.
-inline void subtract_gap(const Placement& at, const Reading& r, const Vecs& x, Planar::Vec& gap) { gap -= gap_change(at, r, x); }
+inline void subtract_gap(const Placement& at, const JointKinematics& r, const Vecs& x, Planar::Vec& gap) { gap -= gap_change(at, r, x); }
 /// on_bodies += G' f: a gap's force as forces on its bodies.
-inline void add_force(const Placement& at, const Reading& r, const Planar::Vec& f, Vecs& on_bodies) {
+inline void add_force(const Placement& at, const JointKinematics& r, const Planar::Vec& f, Vecs& on_bodies) {
   const auto on = r.map.spread(f.data());
   if (at.a != kGround) on_bodies[at.a] += Planar::Vec(-on.fx, -on.fy, on.ma);
   if (at.b != kGround) on_bodies[at.b] += Planar::Vec(on.fx, on.fy, on.mb);
@@ -154,26 +154,26 @@ class System {
     return RelativePose::between(motion_of(at.a, m), at.F, motion_of(at.b, m), at.M);
   }
   /// Gap, rate, Jacobians and convective term of joint j at time t (a servo's target taken off).
-  Reading reading(int j, double t, const std::vector<S::Motion>& m) const;
-  void readings(double t, const std::vector<S::Motion>& m, std::vector<Reading>& out) const;
-  /// Gravity, springs, applied forces and effort motors: the generalised force on every body. Motors in `held` stand at a jump.
-  void external(double t, const std::vector<S::Motion>& m, Vecs& Q, HeldJumps held = {}) const;
-  ExternalWork external_work(double t, const Vecs& q, const std::vector<S::Motion>& m, HeldJumps held = {}) const;
+  JointKinematics kinematics(int j, double t, const std::vector<S::Motion>& m) const;
+  void joint_kinematics(double t, const std::vector<S::Motion>& m, std::vector<JointKinematics>& out) const;
+  /// Gravity, springs, applied forces and effort motors: the generalised force on every body. Motors in `sliding` stand at a jump.
+  void external(double t, const std::vector<S::Motion>& m, Vecs& Q, SlidingModes sliding = {}) const;
+  ExternalWork external_work(double t, const Vecs& q, const std::vector<S::Motion>& m, SlidingModes sliding = {}) const;
   /// Force (spring: tension; motor: effort) of a load.
-  double load_effort(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held = {}) const;
+  double load_effort(const LoadData& load, double t, const std::vector<S::Motion>& m, SlidingModes sliding = {}) const;
 
   /// Whether any law, load or servo has kinks or jumps.
   bool has_branches() const { return has_branches_; }
   /// Which side of them everything is on: a number that changes where a side does. Gaps and rates are the joints'.
-  std::uint64_t branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate, HeldJumps held = {}) const;
+  std::uint64_t branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate, SlidingModes sliding = {}) const;
   /// A jump of a motor's effort between two instants, as a ramp still to be given its share.
-  std::optional<HeldJump> jump_between(double t0, const std::vector<S::Motion>& m0, double t1, const std::vector<S::Motion>& m1) const;
+  std::optional<SlidingMode> jump_between(double t0, const std::vector<S::Motion>& m0, double t1, const std::vector<S::Motion>& m1) const;
   /// How far the argument of a jump is above it.
-  double margin(const HeldJump& jump, double t, const std::vector<S::Motion>& m) const;
+  double margin(const SlidingMode& jump, double t, const std::vector<S::Motion>& m) const;
 
   /// Calls add(i, j, dQ_i/dq_j, dQ_i/dv_j) for every block of the external forces' tangents.
   template <class Add>
-  void external_tangents(double t, const std::vector<S::Motion>& m, Add&& add, HeldJumps held = {}) const;
+  void external_tangents(double t, const std::vector<S::Motion>& m, Add&& add, SlidingModes sliding = {}) const;
 
   /// M a = Q + G' law(gap, rate): the equations of motion as they stand (for explicit methods and tests).
   void accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a) const;
@@ -187,13 +187,13 @@ class System {
  private:
 
   struct LoadState;
-  LoadState load_state(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held) const;
-  const Expression::Ramp* ramp_of(const LoadData& load, HeldJumps held) const;
+  LoadState load_state(const LoadData& load, double t, const std::vector<S::Motion>& m, SlidingModes sliding) const;
+  const Expression::Ramp* ramp_of(const LoadData& load, SlidingModes sliding) const;
   struct Tangent {
     int i, j;
     Mat dq, dv;
   };
-  void load_tangents(const LoadData& load, double t, const std::vector<S::Motion>& m, HeldJumps held, std::vector<Tangent>& out) const;
+  void load_tangents(const LoadData& load, double t, const std::vector<S::Motion>& m, SlidingModes sliding, std::vector<Tangent>& out) const;
   void applied_tangents(const AppliedData& force, double t, const std::vector<S::Motion>& m, std::vector<Tangent>& out) const;
 
   std::vector<std::pair<int, int>> coupled_;  // bodies
@@ -203,10 +203,10 @@ class System {
 };
 
 template <class Add>
-void System::external_tangents(double t, const std::vector<S::Motion>& m, Add&& add, HeldJumps held) const {
+void System::external_tangents(double t, const std::vector<S::Motion>& m, Add&& add, SlidingModes sliding) const {
   for (const LoadData& load : loads) {
     tangents_.clear();
-    load_tangents(load, t, m, held, tangents_);
+    load_tangents(load, t, m, sliding, tangents_);
     for (const Tangent& k : tangents_) add(k.i, k.j, k.dq, k.dv);
   }
   for (const AppliedData& force : applied) {

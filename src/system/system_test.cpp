@@ -32,7 +32,7 @@ struct Instant {
   Instant(const Model& model, Random& random) : system(build_system(model)) {
     sample::random_state(random, model.bodies.size(), settled, v);
     std::vector<std::string> notes;
-    settle(model, settled, system, notes);
+    fix_assembled_values(model, settled, system, notes);
     sample::random_state(random, model.bodies.size(), q, v);
   }
   Vecs external(int body, bool in_v, const Vec& move) const {
@@ -87,7 +87,7 @@ double potential(const Instant& at, const Vecs& q) {
   const auto m = motions(at.system, q, at.v);
   double sum = at.system.external_work(at.t, q, m).potential;
   for (int j = 0; j < at.system.n_joints(); ++j) {
-    const Reading r = at.system.reading(j, at.t, m);
+    const JointKinematics r = at.system.kinematics(j, at.t, m);
     if (at.system.joints[j].servo < 0) sum += respond(at.system.joints[j].law, r.gap, r.rate).energy;
   }
   return sum;
@@ -113,7 +113,7 @@ TEST(System, PowerIsBalanced) {
     double supplied = work.supplied, lost = work.lost;
     for (int j = 0; j < at.system.n_joints(); ++j) {
       const JointData& joint = at.system.joints[j];
-      const Reading r = at.system.reading(j, at.t, m);
+      const JointKinematics r = at.system.kinematics(j, at.t, m);
       const Response response = respond(joint.law, r.gap, r.rate);
       if (joint.servo >= 0) supplied += response.force[joint.servo] * at.system.pose(joint.at, m).rate[joint.servo];
       else lost += response.loss;
@@ -172,7 +172,7 @@ TEST(System, AccelerationsDoNotDependOnTheOrderOfBodies) {
       v[place[k]] = at.v[k];
     }
     std::vector<std::string> notes;
-    settle(shuffled, settled, other, notes);
+    fix_assembled_values(shuffled, settled, other, notes);
     at.system.accelerations(at.t, at.q, at.v, a);
     other.accelerations(at.t, q, v, b);
     for (std::size_t k = 0; k < place.size(); ++k) EXPECT_LT((a[k] - b[place[k]]).norm(), 1e-12 * (1 + a[k].norm()));
@@ -198,7 +198,7 @@ TEST(System, PendulumOnItsReactionFallsAsOnAPin) {
 }
 
 // A servo's gap is its coordinate less the target: rate and bias are the derivatives of that.
-TEST(System, ServoReadingsFollowTheTarget) {
+TEST(System, ServoKinematicsFollowTheTarget) {
   Random random(10);
   const Instant at(sample::everything(), random);
   for (int j = 0; j < at.system.n_joints(); ++j) {
@@ -207,9 +207,9 @@ TEST(System, ServoReadingsFollowTheTarget) {
     const auto at_time = [&](double dt) {
       Vecs q = at.q;
       for (std::size_t b = 0; b < q.size(); ++b) q[b] += dt * at.v[b];
-      return at.system.reading(j, at.t + dt, motions(at.system, q, at.v));
+      return at.system.kinematics(j, at.t + dt, motions(at.system, q, at.v));
     };
-    const Reading r = at_time(0);
+    const JointKinematics r = at_time(0);
     const double rate = sample::slope_at_zero(1e-4, [&](double dt) { return at_time(dt).gap[k]; });
     const double bias = sample::slope_at_zero(1e-4, [&](double dt) { return at_time(dt).rate[k]; });
     EXPECT_NEAR(r.rate[k], rate, 1e-9 * (1 + std::abs(rate))) << at.system.joints[j].name;
@@ -270,7 +270,7 @@ TEST(System, SaysOnWhichSideOfItsKinksItIs) {
     const auto m = motions(system, {{0.5, lift, 0}}, {{0, 0, 0}});
     Vecs gap, rate;
     for (int j = 0; j < system.n_joints(); ++j) {
-      const Reading r = system.reading(j, t, m);
+      const JointKinematics r = system.kinematics(j, t, m);
       gap.push_back(r.gap);
       rate.push_back(r.rate);
     }

@@ -15,7 +15,7 @@ bool carries_coordinates(const JointData& joint) {
   return joint.servo < 0 && (joint.type == "revolute" || joint.type == "prismatic" || joint.type == "fixed" || joint.type == "slot");
 }
 
-double offset(const JointData& joint, int component) { return std::get<Selection>(joint.probe).offset[component]; }
+double offset(const JointData& joint, int component) { return std::get<Selection>(joint.displacement).offset[component]; }
 
 // How a rigid motion of the parent moves a body `arm` away. Eq. (2.2).
 S::Vec carried(const S::Point& arm, const S::Vec& x) { return {x[0] - arm.y() * x[2], x[1] + arm.x() * x[2], x[2]}; }

@@ -21,7 +21,7 @@ System with_ideal(const std::vector<std::string>& names, bool free = false) {
   for (JointData& joint : system.joints)
     for (const std::string& name : names) joint.ideal = joint.ideal || joint.name == name;
   for (JointData& joint : system.joints)
-    if (joint.type == "fixed") std::get<Selection>(joint.probe).offset[2] = 2 * std::numbers::pi;
+    if (joint.type == "fixed") std::get<Selection>(joint.displacement).offset[2] = 2 * std::numbers::pi;
   return system;
 }
 
@@ -80,7 +80,7 @@ TEST_P(JointTrees, CoordinatesComeBackFromTheBodies) {
 TEST_P(JointTrees, JointsOfTheTreeKeepTheirGapsClosed) {
   for (int j = 0; j < system.n_joints(); ++j) {
     if (!tree.in_tree(j)) continue;
-    const Reading r = system.reading(j, 0, pose.m);
+    const JointKinematics r = system.kinematics(j, 0, pose.m);
     const S::Vec held = S::Vec::Ones() - system.joints[j].free_mask;
     EXPECT_LT(r.gap.cwiseProduct(held).norm(), 1e-13) << system.joints[j].name;
     EXPECT_LT(r.rate.cwiseProduct(held).norm(), 1e-13) << system.joints[j].name;
@@ -150,7 +150,7 @@ TEST_P(JointTrees, ReactionsBalanceEveryBody) {
   tree.reactions(pose, a, Q, force);
   double largest = 0;
   for (int j = 0; j < system.n_joints(); ++j) {
-    add_force(system.joints[j].at, system.reading(j, 0, pose.m), force[j], Q);
+    add_force(system.joints[j].at, system.kinematics(j, 0, pose.m), force[j], Q);
     largest = std::max(largest, force[j].norm());
     EXPECT_EQ(force[j].cwiseProduct(system.joints[j].free_mask).norm(), 0);
   }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <new>
 
-#include "base/utf8.h"
+#include "base/text/utf8.h"
 #include "pintle/simulate.h"
 
 namespace pintle::studio {

@@ -68,7 +68,7 @@ Json motor(const Motor& m) {
 }
 
 const char* word(Equations equations) {
-  return equations == Equations::kIdeal ? "ideal" : equations == Equations::kLagrangian ? "lagrangian" : "newtonian";
+  return equations == Equations::kIdeal ? "ideal" : equations == Equations::kRelative ? "relative" : "newtonian";
 }
 
 const char* word(Start start) { return start == Start::kRaw ? "raw" : start == Start::kUnloaded ? "unloaded" : "assembled"; }

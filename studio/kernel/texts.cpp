@@ -4,14 +4,14 @@
 #include <algorithm>
 
 #include "io/document.h"
-#include "io/edit_toml.h"
-#include "io/schema.h"
+#include "io/schema/schema.h"
+#include "io/toml/edit_toml.h"
 #include "io/writers.h"
+#include "joints/catalog.h"
 #include "laws/catalog.h"
 #include "pintle/check.h"
 #include "pintle/read_model.h"
-#include "probes/catalog.h"
-#include "results/check_report.h"
+#include "results/studies/check_report.h"
 #include "studio/kernel/exchange.h"
 
 namespace pintle::studio {

@@ -9,7 +9,7 @@ import { shareLink } from "./files/share";
 import { EMPTY_MODEL } from "./model/operations";
 import { shiftThings } from "./model/reshape";
 import { Strokes } from "./model/strokes";
-import { setGhost } from "./play/desk";
+import { setGhost } from "./play/kernel-session";
 import { player } from "./play/player";
 import { type DockTab, type SideTab, studio } from "./state";
 

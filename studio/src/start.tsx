@@ -7,7 +7,7 @@ import { restore, startAutosave } from "./files/autosave";
 import { startFolder } from "./files/folder";
 import { followAddress, openFromAddress } from "./files/share";
 import { Fence } from "./panels/fence";
-import { startDesk } from "./play/desk";
+import { startKernelSession } from "./play/kernel-session";
 import { studio } from "./state";
 import { player } from "./play/player";
 import "./styles/base.css";
@@ -29,7 +29,7 @@ if (root) {
 }
 player.start();
 void openFromAddress().then((opened) => {
-  startDesk();
+  startKernelSession();
   void startFolder(!opened);
 });
 window.addEventListener("hashchange", followAddress);

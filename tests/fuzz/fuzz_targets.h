@@ -18,7 +18,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/expression_parser.h"
+#include "base/expression/expression_parser.h"
 #include "base/units.h"
 #include "io/document.h"
 #include "io/writers.h"
@@ -26,7 +26,7 @@
 #include "results/disk.h"
 #include "results/series_csv.h"
 #include "results/summary_json.h"
-#include "studio/server/desk.h"
+#include "studio/server/request_router.h"
 
 namespace pintle::fuzz {
 
@@ -163,9 +163,9 @@ inline std::string studio_call(std::string_view text) {
 }
 
 /// A folder with a model and a page, and one beside it that nobody may read.
-class FuzzedDesk {
+class FuzzedRouter {
  public:
-  FuzzedDesk() {
+  FuzzedRouter() {
     namespace fs = std::filesystem;
     std::string name = (fs::temp_directory_path() / "pintle-fuzz-XXXXXX").string();
     root_ = mkdtemp(name.data());
@@ -174,23 +174,23 @@ class FuzzedDesk {
     write_file(root_ / "models/a.toml", "format = 1\n");
     write_file(root_ / "outside/s.toml", kSecret);
     fs::create_symlink(root_ / "outside", root_ / "models/way");
-    desk_ = std::make_unique<studio::Desk>(studio::DeskSettings{root_ / "pages", root_ / "models", "", 1, "t"});
+    router_ = std::make_unique<studio::RequestRouter>(studio::RouterSettings{root_ / "pages", root_ / "models", "", 1, "t"});
   }
-  ~FuzzedDesk() { std::filesystem::remove_all(root_); }
-  studio::Reply answer(const studio::Request& request) { return desk_->answer(request); }
+  ~FuzzedRouter() { std::filesystem::remove_all(root_); }
+  studio::Reply answer(const studio::Request& request) { return router_->answer(request); }
   bool is_touched() const { return read_file(root_ / "outside/s.toml") != kSecret || std::distance(std::filesystem::directory_iterator(root_ / "outside"), {}) != 1; }
   static constexpr const char* kSecret = "dont-read-me";
 
  private:
   std::filesystem::path root_;
-  std::unique_ptr<studio::Desk> desk_;
+  std::unique_ptr<studio::RequestRouter> router_;
 };
 
 /// A request to the studio's server: method and target on the first line, then headers if they are not the page's own, an empty
 /// line, the body. Nothing outside its folder is read or written; what is refused says why.
 inline std::string studio_request(std::string_view text) {
-  static FuzzedDesk desk;
-  const bool knows = text.find(FuzzedDesk::kSecret) != std::string_view::npos;  // then a refusal may quote it
+  static FuzzedRouter router;
+  const bool knows = text.find(FuzzedRouter::kSecret) != std::string_view::npos;  // then a refusal may quote it
   const auto line = [&text] {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view out = text.substr(0, end);
@@ -207,8 +207,8 @@ inline std::string studio_request(std::string_view text) {
   if (request.headers.empty()) request.headers = {{"host", "127.0.0.1:1"}, {"x-pintle-token", "t"}};
   request.body = text;
   if (request.target.starts_with("/api/runs") && request.method == "POST") return {};  // takes as long as the model says
-  const studio::Reply reply = desk.answer(request);
-  if ((!knows && reply.body.find(FuzzedDesk::kSecret) != std::string::npos) || desk.is_touched()) return "a file outside the folder";
+  const studio::Reply reply = router.answer(request);
+  if ((!knows && reply.body.find(FuzzedRouter::kSecret) != std::string::npos) || router.is_touched()) return "a file outside the folder";
   if (reply.status < 200 || reply.status > 599) return "a status that is none";
   if (reply.status >= 400 && nlohmann::json::parse(reply.body).at("fault").at("message").get<std::string>().empty()) return "refused without a reason";
   return {};

@@ -6,7 +6,7 @@ import { type End, GROUND, type Poses, poseOf } from "../model/model";
 import type { Target, Thing } from "../model/operations";
 import { overwritten } from "../model/placing";
 import { keepPoses, movePoint } from "../model/reshape";
-import { KinematicDrag } from "../play/desk";
+import { KinematicDrag } from "../play/kernel-session";
 import { player } from "../play/player";
 import { studio } from "../state";
 import { createStore } from "../store";

@@ -18,7 +18,7 @@ vi.mock("../play/player", () => {
   };
   return { player };
 });
-vi.mock("../play/desk", () => ({ KinematicDrag: class {} }));
+vi.mock("../play/kernel-session", () => ({ KinematicDrag: class {} }));
 
 class Control extends EventTarget {
   isContentEditable = false;

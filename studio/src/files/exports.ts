@@ -2,7 +2,7 @@
 import { say } from "../actions";
 import type { Size } from "../drawing/camera";
 import { theView } from "../drawing/canvas";
-import { kernel } from "../play/desk";
+import { kernel } from "../play/kernel-session";
 import { studio } from "../state";
 import sceneStyle from "../styles/scene.css?inline";
 import { download } from "./disk";

@@ -1,7 +1,7 @@
 // The folder of `pintle studio`, where the page comes from that program: models are opened from it and saved into it.
 import { asFault, noteSaved, openText, say, showFaults } from "../actions";
 import { type NativeServer, sessionToken } from "../kernel/native";
-import { kernel } from "../play/desk";
+import { kernel } from "../play/kernel-session";
 import { studio } from "../state";
 import { asModel, tomlName } from "./models";
 import { inTurn } from "./turns";

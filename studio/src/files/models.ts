@@ -1,6 +1,6 @@
 // What a file holds as a model's text, wherever it comes from.
 import type { ModelTree } from "../kernel/protocol";
-import { kernel } from "../play/desk";
+import { kernel } from "../play/kernel-session";
 
 export interface ModelFile {
   text: string;

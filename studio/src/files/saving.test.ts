@@ -23,7 +23,7 @@ const server = {
     return { hash: text };
   },
 };
-vi.mock("../play/desk", () => ({ kernel: { native: async () => server, write: async () => ({ text: "# from JSON\n" }) } }));
+vi.mock("../play/kernel-session", () => ({ kernel: { native: async () => server, write: async () => ({ text: "# from JSON\n" }) } }));
 
 const model = (name: string) => `${EMPTY_MODEL}# ${name}\n`;
 const now = () => studio.get();

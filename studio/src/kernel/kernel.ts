@@ -63,7 +63,7 @@ export interface Kernel {
   stop(): void;
 }
 
-type Role = "desk" | "live" | "check" | "run" | "report";
+type Role = "session" | "live" | "check" | "run" | "report";
 
 interface Pending {
   resolve(value: unknown): void;
@@ -213,12 +213,12 @@ export function startKernel(place: KernelPlace = {}): Kernel {
   }
 
   async function openDrag(text: string): Promise<DragSession> {
-    const opened = await ask<{ id: number; bodies: string[]; joints: string[] }>("desk", "open_drag", { text });
+    const opened = await ask<{ id: number; bodies: string[]; joints: string[] }>("session", "open_drag", { text });
     return {
       bodies: opened.bodies,
       joints: opened.joints,
-      assemble: (hold, from) => ask("desk", "drag", { id: opened.id, hold: hold ?? null, from: from ? [...from] : null }),
-      close: () => void ask("desk", "close_drag", { id: opened.id }).catch(() => undefined),
+      assemble: (hold, from) => ask("session", "drag", { id: opened.id, hold: hold ?? null, from: from ? [...from] : null }),
+      close: () => void ask("session", "close_drag", { id: opened.id }).catch(() => undefined),
     };
   }
 
@@ -237,11 +237,11 @@ export function startKernel(place: KernelPlace = {}): Kernel {
   }
 
   return {
-    schema: () => ask("desk", "schema", {}),
-    catalog: () => ask("desk", "catalog", {}),
-    read: (text) => ask("desk", "read", { text }),
+    schema: () => ask("session", "schema", {}),
+    catalog: () => ask("session", "catalog", {}),
+    read: (text) => ask("session", "read", { text }),
     report: async (text, onProgress) => (await ask<{ html: string }>("report", "report", { text, set: {} }, { onProgress })).html,
-    write: (model) => ask("desk", "write", { model }),
+    write: (model) => ask("session", "write", { model }),
     check: (text) => ask("check", "check", { text }),
     openDrag,
     openLive,

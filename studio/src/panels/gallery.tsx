@@ -8,7 +8,7 @@ import type { Template } from "../files/templates";
 import { extent, poseOf, readModel } from "../model/model";
 import { EMPTY_MODEL } from "../model/operations";
 import type { RunHandle } from "../kernel/kernel";
-import { kernel } from "../play/desk";
+import { kernel } from "../play/kernel-session";
 import { Replay } from "../play/replay";
 import { studio } from "../state";
 import { Dialog } from "./dialog";

@@ -97,7 +97,7 @@ function LawFields({ joint, catalog }: { joint: Joint; catalog: Catalog | null }
       <Keys keys={keys} path={["joint", joint.name]} />
       <label className="check">
         <input type="checkbox" checked={ideal === true} onChange={(event) => setLiteral(["joint", joint.name, "ideal"], event.target.checked ? true : null, "Ideal joint")} />
-        <span data-tip='Counts with equations "lagrangian" (Model, Simulation): this joint then does not give way'>Does not give way (ideal)</span>
+        <span data-tip='Counts with equations "relative" (Model, Simulation): this joint then does not give way'>Does not give way (ideal)</span>
       </label>
     </section>
   );

@@ -1,5 +1,5 @@
 // One line on the state of the run: computing, done in so much, stopped.
-import { cancelRun } from "../play/desk";
+import { cancelRun } from "../play/kernel-session";
 import { quantity } from "../model/units";
 import { runCommand } from "../commands";
 import { useStudio } from "../state";

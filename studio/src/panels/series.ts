@@ -12,7 +12,7 @@ export interface Series {
 
 const WORDS: Record<string, string> = {
   x: "x", y: "y", angle: "angle", vx: "velocity x", vy: "velocity y", spin: "spin", fx: "force x", fy: "force y", f1: "force along x of the joint", f2: "force along y of the joint",
-  m: "moment", slide: "slide", rate: "rate", effort: "effort", power: "power",
+  m: "moment", slide: "slide", slide_rate: "rate of slide", angle_rate: "rate of angle", effort: "effort", power: "power",
 };
 
 export function seriesOf(answer: RunAnswer): Series[] {

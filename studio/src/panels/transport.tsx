@@ -2,7 +2,7 @@
 import { useEffect, useRef } from "react";
 import { runCommand } from "../commands";
 import { shortNumber } from "../model/units";
-import { setGhost } from "../play/desk";
+import { setGhost } from "../play/kernel-session";
 import { player } from "../play/player";
 import { studio, useStudio } from "../state";
 import { Icon } from "./icons";

@@ -32,7 +32,7 @@ class PlayedSession implements LiveSession {
 }
 
 let gate: Promise<void> = Promise.resolve();
-vi.mock("./desk", () => ({
+vi.mock("./kernel-session", () => ({
   kernel: {
     openLive: async (text: string, options: LiveOptions = {}) => {
       await gate;

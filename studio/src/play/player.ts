@@ -6,7 +6,7 @@ import type { Fault, LiveFrame, Pull } from "../kernel/protocol";
 import type { Point, Pose } from "../model/geometry";
 import { poseOf } from "../model/model";
 import { studio } from "../state";
-import { kernel } from "./desk";
+import { kernel } from "./kernel-session";
 import { Live } from "./live";
 import { Replay } from "./replay";
 
@@ -180,7 +180,7 @@ class Player {
     this.restTimer = setTimeout(() => void this.reopen(), REST);
   }
 
-  // The changed mechanism goes on where the old one stands. While its text is refused, which the desk tells, the old one moves.
+  // The changed mechanism goes on where the old one stands. While its text is refused, which the kernel session tells, the old one moves.
   private async reopen(): Promise<void> {
     const old = this.live;
     const { history, stale, model } = studio.get();

@@ -1,7 +1,7 @@
 // Completion from the schema: tables after "[", keys at the beginning of a line, words and names of the model in quotes.
 import type { Completion, CompletionContext, CompletionResult } from "@codemirror/autocomplete";
 import { fieldsOf } from "../panels/form";
-import { schema } from "../play/desk";
+import { schema } from "../play/kernel-session";
 import { studio } from "../state";
 import { UNITS } from "../model/units";
 

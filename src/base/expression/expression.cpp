@@ -1,0 +1,62 @@
+#include "pintle/expression.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+
+#include "base/expression/expression_run.h"
+
+namespace pintle {
+namespace {
+
+constexpr auto kAsIs = [](std::size_t, auto, auto&) {};
+
+}  // namespace
+
+Expression::Expression() = default;
+
+Expression Expression::constant(double si) {
+  Expression result;
+  result.text_ = fmt::format("{}", si);
+  result.program_ = std::make_shared<const Program>(Program{{Instruction{Op::kConstant, 0, si}}});
+  return result;
+}
+
+bool Expression::is_constant() const {
+  return variables_.empty();
+}
+
+double Expression::value(std::span<const double> values) const {
+  if (!program_) return 0;
+  assert(values.size() >= variables_.size());
+  return run_at(*program_, values, kAsIs);
+}
+
+double Expression::gradient(std::span<const double> values, std::span<double> gradient) const {
+  assert(gradient.size() >= variables_.size());
+  if (variables_.empty()) return value(values);
+  double result = 0;
+  for (std::size_t i = 0; i < variables_.size(); ++i) {
+    const Jet jet = run_along(*program_, values, i, kAsIs);
+    result = jet.value;
+    gradient[i] = jet.first;
+  }
+  return result;
+}
+
+bool Expression::has_branches() const {
+  if (!program_) return false;
+  const auto& code = program_->code;
+  return std::any_of(code.begin(), code.end(), [](const Instruction& step) { return pintle::has_branches(step.op); });
+}
+
+std::array<double, 3> Expression::second_order(std::span<const double> values, std::size_t index) const {
+  if (variables_.empty()) return {value(values), 0, 0};
+  const Jet jet = run_along(*program_, values, index, kAsIs);
+  return {jet.value, jet.first, jet.second};
+}
+
+}  // namespace pintle

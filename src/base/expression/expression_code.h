@@ -1,0 +1,36 @@
+// Builds an expression's program; what does not vary is worked out at once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/expression/expression_program.h"
+
+namespace pintle {
+
+class ExpressionCode {
+ public:
+  void push_constant(double value);
+  void push_variable(std::size_t index);
+  /// Applies `op` to the topmost operands; if none of them varies, they become one constant.
+  void apply_op(Op op, bool varies);
+
+  /// The constant on top of the stack; 0 if a variable expression is there.
+  double top_constant() const;
+  /// Did apply_op make something infinite or undefined of finite constants?
+  bool went_out_of_range() const { return went_out_of_range_; }
+  bool overflows_stack() const { return deepest_ > kStackSize; }
+  const std::vector<Instruction>& instructions() const { return code_; }
+
+ private:
+  void push(const Instruction& instruction);
+  double folded(Op op) const;
+
+  std::vector<Instruction> code_;
+  std::size_t depth_ = 0;
+  std::size_t deepest_ = 0;
+  bool went_out_of_range_ = false;
+};
+
+}  // namespace pintle

@@ -1,0 +1,80 @@
+// Expressions with one of their jumps held on a ramp.
+#include <algorithm>
+#include <cassert>
+
+#include "base/expression/expression_run.h"
+
+namespace pintle {
+namespace {
+
+bool jumps(Op op) { return op == Op::kSign || op == Op::kStep || (op >= Op::kLess && op <= Op::kGreaterEqual); }
+
+double less(double a, double b) { return a - b; }
+Jet less(const Jet& a, const Jet& b) { return {a.value - b.value, a.first - b.first, a.second - b.second}; }
+
+template <class T>
+T margin_of(std::span<const T> operands) {
+  return operands.size() > 1 ? less(operands[0], operands[1]) : operands[0];
+}
+
+// What operation `op` gives on the low side of its jump (0) or on the high one (1).
+double on_side(Op op, int side) {
+  const double margin = side == 0 ? -1 : 1;
+  return arity(op) == 1 ? apply(op, margin) : apply(op, margin, 0.0);
+}
+
+}  // namespace
+
+double Expression::margin(std::size_t jump, std::span<const double> values) const {
+  double margin = 0;
+  run_at(*program_, values, [&](std::size_t i, std::span<const double> operands, double&) {
+    if (i == jump) margin = margin_of(operands);
+  });
+  return margin;
+}
+
+std::optional<std::size_t> Expression::jump_between(std::span<const double> from, std::span<const double> to) const {
+  if (!program_) return {};
+  const auto& code = program_->code;
+  for (std::size_t i = 0; i < code.size(); ++i)
+    if (jumps(code[i].op) && (margin(i, from) > 0) != (margin(i, to) > 0)) return i;
+  return {};
+}
+
+double Expression::gradient(std::span<const double> values, std::span<double> gradient, const Ramp& ramp) const {
+  assert(gradient.size() >= variables_.size());
+  const Op op = program_->code[ramp.jump].op;
+  double result = 0;
+  for (std::size_t i = 0; i < variables_.size(); ++i) {
+    Jet of_side[2], margin{0, 0, 0};
+    for (const int side : {0, 1})
+      of_side[side] = run_along(*program_, values, i, [&](std::size_t at, std::span<const Jet> operands, Jet& value) {
+        if (at != ramp.jump) return;
+        margin = margin_of(operands);
+        value = {on_side(op, side), 0, 0};
+      });
+    const double share = ramp.share_at(margin.value), rise = of_side[1].value - of_side[0].value;
+    result = of_side[0].value + share * rise;
+    gradient[i] = of_side[0].first + share * (of_side[1].first - of_side[0].first) + ramp.slope * margin.first * rise;
+  }
+  return result;
+}
+
+std::uint64_t Expression::branches(std::span<const double> values, const Ramp* ramp) const {
+  if (!program_) return 0;
+  std::uint64_t sides = 0;
+  run_at(*program_, values, [&](std::size_t i, std::span<const double> x, double& result) {
+    const Op op = program_->code[i].op;
+    if (!pintle::has_branches(op)) return;
+    unsigned side = branch(op, x[0], x.size() > 1 ? x[1] : 0, x.size() > 2 ? x[2] : 0);
+    if (ramp && i == ramp->jump) {
+      const double share = ramp->share_at(margin_of(x));
+      side = share < 0 ? 3 : share > 1 ? 4 : 2;
+      result = on_side(op, 1);
+    }
+    sides = sides * 0x9E3779B97F4A7C15U + 1 + side;
+  });
+  return sides;
+}
+
+}  // namespace pintle

@@ -1,0 +1,26 @@
+// The messages about text that cannot be read as an expression.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "base/expression/expression_parser.h"
+
+namespace pintle {
+
+/// The text goes on at `at` where it should end, or where an operator or a closing parenthesis should be.
+ParseProblem unexpected_after_operand(std::string_view text, std::size_t at, const ParseScope& scope);
+
+/// A number, a name or a parenthesis should be at `at`.
+ParseProblem no_operand(std::string_view text, std::size_t at);
+
+/// The word at `at` is no name of this scope.
+ParseProblem unknown_name(std::string_view word, std::size_t at, const ParseScope& scope);
+
+/// The word at `at` stands where a unit should be and is none.
+ParseProblem unknown_unit(std::string_view word, std::size_t at);
+
+/// Is the word a variable, a constant or a function here?
+bool is_known_name(std::string_view word, const ParseScope& scope);
+
+}  // namespace pintle

@@ -1,0 +1,211 @@
+#include "batch/batch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "batch/batch_work.h"
+#include "integrators/absolute/radau_stepper.h"
+#include "pintle/simulate.h"
+#include "run/recording.h"
+#include "start/start.h"
+#include "start/time_scales.h"
+#include "system/build.h"
+
+namespace pintle {
+namespace {
+
+// Peaks are better than what steps leave unresolved. Steps of the base are tried with so much more than the tolerance, then tighter,
+// until its peaks are within this share of it; and a variant's steps may leave so much more unresolved than the base's.
+constexpr double kLoosest = 1000, kTighten = 3.1622776601683795, kShare = 0.1, kWorse = 4;
+constexpr double kOfNewton = 0.2;  // tolerance of iterations over that of steps
+constexpr int kMostIterations = 10;  // in a step of the base: with more, shorter steps are cheaper, and a variant may not converge
+constexpr double kNegligible = 1e-4;  // of the largest load of the mechanism
+constexpr double kMostSlack = 16, kLeastSlack = 1.2;  // of the base's joints, before one of them would count as soft
+constexpr double kUnsettled = 0.01;  // of the tolerance: what another sweep would change at the start
+constexpr double kWellSettled = 0.2;  // of that, for the base
+constexpr int kFewestSweeps = 2, kMostSweeps = 4;
+constexpr std::size_t kMostSteps = 100'000;
+
+bool is_for_batches(const Model& model) {
+  const SimulateSettings& s = model.simulate;
+  return s.start == Start::kAssembled && s.equations == Equations::kNewtonian && s.tolerance_of == ToleranceOf::kForces &&
+         (s.method == "auto" || s.method == "radau") && s.duration > 0;
+}
+
+// The rows of `integrate`, step by step.
+class Rows {
+ public:
+  Rows(double duration, double output_step) : duration_(duration), step_(output_step), almost_(duration * (1 - 1e-12)) {}
+
+  BatchStep of_step(double t0, double t1) {
+    BatchStep out;
+    out.share = (t1 - t0) / duration_;
+    for (double t = time(); t <= t1 && t < almost_; ++row_, t = time()) {
+      if (t == t1) out.at_end = true;
+      else out.inside.push_back((t - t0) / (t1 - t0));
+    }
+    if (t1 >= almost_) out.at_end = true;
+    return out;
+  }
+
+ private:
+  double time() const { return static_cast<double>(row_) * step_; }
+  double duration_, step_, almost_;
+  std::size_t row_ = 1;
+};
+
+// The lengths of the base's steps. False where it does not get to the end.
+bool find_steps(const State& start, BatchPlan& plan) {
+  RadauStepper stepper(plan.base, plan.tolerance);
+  stepper.set_max_step(plan.max_step);
+  stepper.set_load_scale(plan.scale);
+  stepper.start(start, 1e-4 * plan.duration);
+  Rows rows(plan.duration, plan.output_step);
+  plan.steps.clear();
+  while (stepper.state().t < plan.duration * (1 - 1e-12)) {
+    if (plan.steps.size() > kMostSteps || !stepper.step(plan.duration)) return false;
+    plan.steps.push_back(rows.of_step(stepper.previous().t, stepper.state().t));
+  }
+  return true;
+}
+
+// Whether a batch finds the peaks of the base's own run, with most of the tolerance to spare; and how large errors of steps may be.
+bool is_good(BatchPlan& plan, const Model& base, const Trajectory& run) {
+  plan.most_error = HUGE_VAL;
+  BatchResult found;
+  for (plan.sweeps = kFewestSweeps;; ++plan.sweeps) {
+    Batch batch(plan);
+    if (!batch.put(0, base)) return false;
+    found = batch.run()[0];
+    if (found.unsettled <= kWellSettled * kUnsettled * plan.wanted || plan.sweeps == kMostSweeps) break;
+  }
+  if (!found.good || found.iterations > kMostIterations) return false;
+  plan.most_error = kWorse * found.error;
+  double force = 0, couple = 0;
+  for (const LoadSummary& joint : run.joints) {
+    force = std::max(force, joint.peak);
+    couple = std::max(couple, joint.peak_moment);
+  }
+  std::size_t row = 0;
+  for (std::size_t j = 0; j < found.joints.size(); ++j) {
+    if (plan.base.joints[j].servo >= 0) continue;
+    const LoadSummary& joint = run.joints[row++];
+    const double share = kShare * plan.wanted;
+    if (!(std::abs(found.joints[j].force - joint.peak) <= share * std::max(joint.peak, kNegligible * force))) return false;
+    if (joint.has_moment && !(std::abs(found.joints[j].couple - joint.peak_moment) <= share * std::max(joint.peak_moment, kNegligible * couple))) return false;
+  }
+  return true;
+}
+
+// How much slower the joints could be without being soft; 1: not at all.
+double slack_of(const System& system, const State& state, double span) {
+  for (double slack = kMostSlack; slack > kLeastSlack; slack /= kLeastSlack)
+    if (!measure_time_scales(system, state, span / slack).any_soft()) return slack;
+  return 1;
+}
+
+bool is_near(double x, double y) { return std::abs(x - y) <= 1e-9 * std::abs(y); }
+
+}  // namespace
+
+std::optional<BatchPlan> plan_batch(const Model& base, const NominalRun& nominal, const Trajectory& run) {
+  if (!is_for_batches(base) || !(nominal.wanted > 0) || !(nominal.span > 0)) return std::nullopt;
+  BatchPlan plan;
+  plan.base = build_system(base);
+  if (!BatchMechanism::accepts(plan.base)) return std::nullopt;
+  const Assembly start = start_of_run(base, plan.base, nominal.span);
+  if (!(start.settled_over > 0)) return std::nullopt;
+  plan.slack = slack_of(plan.base, start.state, nominal.span);
+  plan.duration = base.simulate.duration;
+  plan.output_step = output_step_of(base.simulate, plan.base.joints.size());
+  plan.max_step = base.simulate.max_step;
+  plan.wanted = nominal.wanted;
+  plan.span = start.settled_over / plan.duration;
+  plan.scale = nominal.scale;
+  for (double looser = kLoosest; looser > 0.9; looser /= kTighten) {
+    plan.tolerance = looser * nominal.tolerance;
+    plan.of_newton = std::max(nominal.tolerance, kOfNewton * plan.tolerance);
+    if (find_steps(start.state, plan) && is_good(plan, base, run)) return plan;
+  }
+  return std::nullopt;
+}
+
+Batch::Batch(const BatchPlan& plan) : plan_(plan), work_(make_batch_work(plan)) {}
+Batch::~Batch() = default;
+
+bool Batch::accepts(const Model& variant) const {
+  const SimulateSettings& s = variant.simulate;
+  return is_for_batches(variant) && s.tolerance == plan_.wanted && variant.bodies.size() == plan_.base.bodies.size() &&
+         is_near(output_step_of(s, plan_.base.joints.size()) / s.duration, plan_.output_step / plan_.duration) &&
+         is_near(s.max_step / s.duration, plan_.max_step / plan_.duration);
+}
+
+// So that no joint of it is soft where those of the base are fast.
+bool Batch::is_like_base(const System& variant) const {
+  if (!BatchMechanism::accepts(variant) || variant.joints.size() != plan_.base.joints.size() || variant.loads.size() != plan_.base.loads.size() ||
+      variant.applied.size() != plan_.base.applied.size())
+    return false;
+  double heavier = 1;
+  for (std::size_t i = 0; i < variant.bodies.size(); ++i)
+    for (int k = 0; k < 3; ++k) heavier = std::max(heavier, variant.bodies[i].mass[k] / plan_.base.bodies[i].mass[k]);
+  for (std::size_t j = 0; j < variant.joints.size(); ++j) {
+    const auto &law = std::get<LinearLaw>(variant.joints[j].law), &base = std::get<LinearLaw>(plan_.base.joints[j].law);
+    if (variant.joints[j].at.a != plan_.base.joints[j].at.a || variant.joints[j].at.b != plan_.base.joints[j].at.b) return false;
+    for (int k = 0; k < 3; ++k) {
+      if ((law.k[k] > 0) != (base.k[k] > 0)) return false;
+      if (!(law.k[k] > 0)) continue;
+      const double stiffer = law.k[k] / base.k[k], damped = base.c[k] > 0 ? law.c[k] / base.c[k] : law.c[k] > 0 ? HUGE_VAL : 1;
+      if (std::min(std::sqrt(stiffer / heavier), stiffer / std::max(1.0, damped)) * plan_.slack < 1) return false;
+    }
+  }
+  return true;
+}
+
+bool Batch::put(int lane, const Model& variant) {
+  System& system = variant_[lane];
+  system = build_system(variant, &plan_.base);
+  if (!is_like_base(system)) return false;
+  const Assembly assembly = assemble_bodies(variant, system);
+  const auto board = [&](int i) {
+    work_->put(i, system, assembly.state.q, assembly.state.v, variant.simulate.duration);
+  };
+  if (filled_ == std::array<bool, kVariantLanes>{})
+    for (int i = 0; i < kVariantLanes; ++i) board(i);  // lanes that stay empty have numbers, too
+  else board(lane);
+  filled_[lane] = true;
+  return true;
+}
+
+std::array<BatchResult, kVariantLanes> Batch::run() {
+  std::array<BatchResult, kVariantLanes> out;
+  work_->run();
+  for (int lane = 0; lane < kVariantLanes; ++lane) {
+    if (!filled_[lane]) continue;
+    BatchResult& result = out[lane];
+    result.error = work_->worst()[lane];
+    result.iterations = work_->iterations();
+    result.unsettled = work_->unsettled()[lane];
+    result.good = std::isfinite(result.error) && result.error <= plan_.most_error && result.unsettled <= kUnsettled * plan_.wanted;
+    for (const BatchPeak& peak : work_->peaks()) {
+      result.joints.push_back({std::sqrt(peak.square[lane]), peak.time[lane], peak.couple[lane]});
+      result.good = result.good && std::isfinite(peak.square[lane] + peak.couple[lane]);
+    }
+  }
+  filled_.fill(false);
+  return out;
+}
+
+std::unique_ptr<Batch> BatchPool::borrow() {
+  const std::lock_guard lock(mutex_);
+  if (idle_.empty()) return std::make_unique<Batch>(plan_);
+  std::unique_ptr<Batch> batch = std::move(idle_.back());
+  idle_.pop_back();
+  return batch;
+}
+
+void BatchPool::give_back(std::unique_ptr<Batch> batch) {
+  const std::lock_guard lock(mutex_);
+  idle_.push_back(std::move(batch));
+}
+
+}  // namespace pintle

@@ -1,0 +1,10 @@
+// Batches in registers of 256 bits. What is included before the target is set is everybody's code, and stays as it is.
+#include "batch/batch_common.h"
+
+#ifdef PINTLE_WIDE
+#pragma GCC push_options
+#pragma GCC target("avx2")
+#define PINTLE_BATCH bits256
+#include "batch/batch_lanes.h"
+#pragma GCC pop_options
+#endif

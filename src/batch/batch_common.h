@@ -1,0 +1,19 @@
+// What code for registers of any width is made of and shares.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "batch/batch_work.h"
+#include "integrators/absolute/pose_blocks.h"
+#include "integrators/dense/force_samples.h"
+#include "integrators/radau/newton_contraction.h"
+#include "integrators/radau/step_error.h"
+#include "linalg/complex_lanes.h"
+#include "simd/processor_registers.h"
+#include "start/chebyshev_nodes.h"
+#include "start/preload.h"

@@ -1,0 +1,41 @@
+// What a batch does in registers, behind a door that does not say how wide they are.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "batch/batch.h"
+
+namespace pintle {
+
+class BatchWork {
+ public:
+  virtual ~BatchWork() = default;
+  /// A variant with its assembled positions and velocities into a lane; the system must stay where it is.
+  virtual void put(int lane, const System& variant, const Vecs& q, const Vecs& v, double duration) = 0;
+  /// All lanes from start to end.
+  virtual void run() = 0;
+  /// What another sweep would change at the start, relative.
+  virtual const VariantLanes& unsettled() const = 0;
+  /// The largest error estimate of a step over the tolerance; infinite where an iteration has failed or numbers are none.
+  virtual const VariantLanes& worst() const = 0;
+  /// Of the step and lane that took most.
+  virtual int iterations() const = 0;
+  virtual const std::vector<BatchPeak>& peaks() const = 0;
+};
+
+/// With the widest registers that the processor has.
+std::unique_ptr<BatchWork> make_batch_work(const BatchPlan& plan);
+
+// One for each width of registers.
+namespace bits128 {
+std::unique_ptr<BatchWork> make_batch_work(const BatchPlan& plan);
+}
+namespace bits256 {
+std::unique_ptr<BatchWork> make_batch_work(const BatchPlan& plan);
+}
+namespace bits512 {
+std::unique_ptr<BatchWork> make_batch_work(const BatchPlan& plan);
+}
+
+}  // namespace pintle

@@ -1,0 +1,32 @@
+// Every formula that a run of this model will use against its own differences, and against the energy it should keep.
+#pragma once
+
+#include "check/check_links.h"
+#include "pintle/check.h"
+
+namespace pintle {
+
+constexpr double kSlopeTolerance = 1e-6;     // of differences of fourth order
+constexpr double kIdentityTolerance = 1e-9;  // of what should vanish but for rounding
+
+/// Jacobians, rates and second derivatives of joint displacements; tangents of laws, loads and expressions; the whole.
+CheckBattery jacobian_battery(const System& system, const State& assembled, const std::vector<CheckState>& states,
+                              double duration);
+
+/// Opposite forces, potentials, losses, rigid motion, and the account of powers.
+CheckBattery energy_battery(const System& system, const State& assembled, const std::vector<CheckState>& states);
+
+// Their parts, one file each.
+void check_displacement_slopes(const System& system, const std::vector<CheckState>& states, CheckBattery& battery);
+void check_law_slopes(const System& system, const State& assembled, const std::vector<CheckState>& states,
+                      CheckBattery& battery);
+void check_load_slopes(const System& system, const std::vector<CheckState>& states, CheckBattery& battery);
+void check_expressions(const System& system, const std::vector<CheckState>& states, double duration,
+                       CheckBattery& battery);
+void check_whole_slopes(const System& system, const std::vector<CheckState>& states, CheckBattery& battery);
+void check_link_forces(const System& system, const std::vector<CheckState>& states, CheckBattery& battery);
+void check_law_energy(const System& system, const State& assembled, const std::vector<CheckState>& states,
+                      CheckBattery& battery);
+void check_power_account(const System& system, const std::vector<CheckState>& states, CheckBattery& battery);
+
+}  // namespace pintle

@@ -1,0 +1,113 @@
+// The batteries pass on every joint type, and notice a wrong slope; kinks are no mistakes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "check/check_differences.h"
+#include "check/check_samples_for_tests.h"
+
+namespace pintle {
+namespace {
+
+Eigen::VectorXd one(double x) {
+  return Eigen::VectorXd::Constant(1, x);
+}
+
+const CheckPlace kHere{"joint", "A", 0};
+
+std::string failures(const CheckReport& report) {
+  std::string text;
+  for (const CheckBattery* battery : {&report.jacobians, &report.energy})
+    for (const CheckItem& item : battery->items)
+      if (!item.passed()) text += item.what + " " + std::to_string(item.worst) + " at " + item.place + "\n";
+  return text;
+}
+
+TEST(CheckDifferences, RightAndWrongSlopes) {
+  Comparisons right("sine", 1e-6), wrong("sine", 1e-6);
+  const auto sine = [](double s) { return one(std::sin(0.3 + s)); };
+  right.slope(one(std::cos(0.3)), sine, 1e-3, 0, kHere);
+  wrong.slope(one(std::cos(0.3) * 1.00001), sine, 1e-3, 0, kHere);
+  EXPECT_TRUE(right.item().passed());
+  EXPECT_FALSE(wrong.item().passed());
+  EXPECT_NEAR(wrong.item().worst, 1e-5, 1e-7);
+  EXPECT_EQ(wrong.item().place, "joint A, as assembled");
+}
+
+TEST(CheckDifferences, KinksAreLeftOutAndSharpBendsAreNot) {
+  Comparisons tally("bent", 1e-6);
+  tally.slope(
+      one(1), [](double s) { return one(std::max(0.0, s)); }, 1e-3, 0, kHere);
+  tally.slope(
+      one(0), [](double s) { return one(s > 0 ? 1.0 : 0.0); }, 1e-3, 0, kHere);
+  EXPECT_EQ(tally.item().at_kinks, 2);
+  EXPECT_EQ(tally.item().comparisons, 0);
+  tally.slope(
+      one(1e4), [](double s) { return one(std::tanh(1e4 * s)); }, 1e-3, 0, kHere);
+  EXPECT_EQ(tally.item().comparisons, 1);
+  EXPECT_TRUE(tally.item().passed());
+  tally.slope(
+      one(2e4), [](double s) { return one(std::tanh(1e4 * s)); }, 1e-3, 0, kHere);
+  EXPECT_FALSE(tally.item().passed());
+}
+
+TEST(CheckDifferences, ANumberThatIsNoneDoesNotPass) {
+  Comparisons tally("nan", 1e-6);
+  tally.slope(
+      one(1), [](double) { return one(NAN); }, 1e-3, 0, kHere);
+  EXPECT_FALSE(tally.item().passed());
+}
+
+// A body held by one joint of each type, far from symmetric.
+class EveryType : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryType, PassesBothBatteries) {
+  Model model;
+  const std::string type = GetParam();
+  model.ground = {{"O", {0.1, -0.2}, 0.3}, {"P", {-1, 0.4}, 0}};
+  model.bodies = {sample::bar("bar", 2, 0.3, {0.5, 0.4}, 0.7, {{"O", {-0.4, 0.1}, 0.2}, {"P", {0.3, 0.2}, -0.5}}),
+                  sample::bar("other", 3, 0.1, {1.1, 0.1}, -0.4, {{"O", {0.1, 0.2}, 1.1}, {"P", {-0.2, 0.1}, 0}})};
+  Joint tested = sample::joint("tested", type, {"bar", "P"}, {"other", "O"});
+  if (type == "gear") tested.geometry = {{"radius_first", 0.2}, {"radius_second", 0.5}, {"internal", 1}};
+  if (type == "rack") tested.geometry = {{"radius", 0.2}};
+  model.joints = {sample::joint("pin", "revolute", {"ground", "O"}, {"bar", "O"}), tested};
+  Spring spring;
+  spring.name = "spring";
+  spring.first = {"ground", "P"};
+  spring.second = {"other", "P"};
+  spring.stiffness = 400;
+  spring.damping = 30;
+  spring.free_length = 0.4;
+  model.springs = {spring};
+  AppliedForce force;
+  force.name = "force";
+  force.on = {"bar", "P"};
+  force.force = {Expression::constant(20), Expression::constant(-5)};
+  force.body_axes = type.size() % 2 == 0;
+  model.forces = {force};
+  const CheckReport report = check_model(model);
+  EXPECT_EQ(failures(report), "");
+  for (const CheckItem& item : report.jacobians.items)
+    if (item.what == "gap Jacobians") {
+      EXPECT_GT(item.comparisons, 40);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Joints, EveryType,
+                         testing::Values("revolute", "prismatic", "fixed", "slot", "rod", "rope", "gear", "rack"),
+                         [](const auto& type) { return type.param; });
+
+// A rope exactly at its length: force and tangent jump there, and nobody is to blame.
+TEST(CheckBatteries, RopeAtItsKink) {
+  Model model;
+  model.gravity = {0, 0};
+  model.ground = {{"O", {0, 0}, 0}};
+  model.bodies = {sample::bar("load", 2, 0.3, {1, 0}, 0, {{"top", {0, 0}, 0}})};
+  Joint rope = sample::joint("rope", "rope", {"ground", "O"}, {"load", "top"}, 1e6, 200);
+  rope.geometry = {{"length", 1}};
+  model.joints = {rope};
+  EXPECT_EQ(failures(check_model(model)), "");
+}
+
+}  // namespace
+}  // namespace pintle

@@ -1,0 +1,178 @@
+#include "check/check_frequencies.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "mobility/constraint_rows.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+constexpr int kDenseFreedoms = 450;  // every mode up to here, the fastest alone beyond
+
+// Columns scaled by the square root of the mass: K_m = sum k g g', g = M^-1/2 G'. A row touches two bodies.
+class MassScaledRows {
+ public:
+  MassScaledRows(const System& system, const std::vector<ConstraintRow>& rows) : system_(system), rows_(rows) {
+    scale_.resize(S::kDof * system.n_bodies());
+    for (int i = 0; i < system.n_bodies(); ++i)
+      scale_.segment<3>(3 * i) = system.bodies[i].mass.cwiseSqrt().cwiseInverse();
+  }
+  int size() const { return static_cast<int>(scale_.size()); }
+  int n_rows() const { return static_cast<int>(rows_.size()); }
+  const ConstraintRow& row(int i) const { return rows_[i]; }
+
+  double dot(int i, const Eigen::VectorXd& x) const {
+    double sum = 0;
+    for_each(i, [&](int column, double value) { sum += value * x[column]; });
+    return sum;
+  }
+  void add(int i, double factor, Eigen::VectorXd& y) const {
+    for_each(i, [&](int column, double value) { y[column] += factor * value; });
+  }
+  double mobility(int i) const {  // g' g = G M^-1 G' [1/kg]
+    double sum = 0;
+    for_each(i, [&](int, double value) { sum += value * value; });
+    return sum;
+  }
+  Eigen::MatrixXd stiffness() const {
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(size(), size());
+    for (int i = 0; i < n_rows(); ++i)
+      for_each(i,
+               [&](int a, double x) { for_each(i, [&](int b, double y) { K(a, b) += rows_[i].stiffness * x * y; }); });
+    return K;
+  }
+  // The mode of shape x, of unit length.
+  CheckMode mode(const Eigen::VectorXd& x) const {
+    double stiffness = 0, damping = 0, most = -1;
+    int dominant = 0;
+    for (int i = 0; i < n_rows(); ++i) {
+      const double g = dot(i, x), energy = rows_[i].stiffness * g * g;
+      stiffness += energy;
+      damping += rows_[i].damping * g * g;
+      if (energy > most) {
+        most = energy;
+        dominant = i;
+      }
+    }
+    const JointData& joint = system_.joints[rows_[dominant].joint];
+    CheckMode out;
+    out.frequency = std::sqrt(stiffness);
+    out.damping_ratio = stiffness > 0 ? damping / (2 * out.frequency) : 0;
+    out.joint = joint.name;
+    out.component = component_name(joint, rows_[dominant].component);
+    out.share = stiffness > 0 ? most / stiffness : 0;
+    return out;
+  }
+
+ private:
+  template <class Use>
+  void for_each(int i, Use&& use) const {
+    const Placement& at = system_.joints[rows_[i].joint].at;
+    for (int k = 0; k < S::kDof; ++k) {
+      if (at.a != kGround) use(3 * at.a + k, rows_[i].on_a[k] * scale_[3 * at.a + k]);
+      if (at.b != kGround) use(3 * at.b + k, rows_[i].on_b[k] * scale_[3 * at.b + k]);
+    }
+  }
+
+  const System& system_;
+  const std::vector<ConstraintRow>& rows_;
+  Eigen::VectorXd scale_;
+};
+
+std::vector<CheckComponent> local_components(const System& system, const MassScaledRows& rows) {
+  std::vector<CheckComponent> out;
+  for (int i = 0; i < rows.n_rows(); ++i) {
+    const ConstraintRow& row = rows.row(i);
+    const JointData& joint = system.joints[row.joint];
+    const double mobility = rows.mobility(i);
+    if (!(mobility > 0)) continue;
+    CheckComponent& c = out.emplace_back();
+    c.joint = joint.name;
+    c.type = joint.type;
+    c.component = component_name(joint, row.component);
+    c.stiffness = row.stiffness;
+    c.damping = row.damping;
+    c.effective_mass = 1 / mobility;
+    c.frequency = std::sqrt(row.stiffness * mobility);
+    c.damping_ratio = row.damping * mobility / (2 * c.frequency);
+  }
+  return out;
+}
+
+std::vector<CheckMode> all_modes(const MassScaledRows& rows, int n_free) {
+  std::vector<CheckMode> modes;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(rows.stiffness());
+  for (int i = n_free; i < rows.size(); ++i) modes.push_back(rows.mode(solver.eigenvectors().col(i)));
+  std::stable_sort(modes.begin(), modes.end(), [](const auto& a, const auto& b) { return a.frequency < b.frequency; });
+  return modes;
+}
+
+// The stiffest direction, by repeated multiplication from a start that holds every direction.
+CheckMode fastest_mode(const MassScaledRows& rows) {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(rows.size());
+  for (int i = 0; i < rows.n_rows(); ++i) rows.add(i, 1 + 0.5 * std::sin(i), x);
+  double last = 0;
+  for (int iteration = 0; iteration < 1000; ++iteration) {
+    const double size = x.norm();
+    if (!(size > 0)) break;
+    x /= size;
+    if (iteration > 20 && std::abs(size - last) < 1e-7 * size) break;
+    last = size;
+    Eigen::VectorXd next = Eigen::VectorXd::Zero(rows.size());
+    for (int i = 0; i < rows.n_rows(); ++i) rows.add(i, rows.row(i).stiffness * rows.dot(i, x), next);
+    x = next;
+  }
+  return rows.mode(x.normalized());
+}
+
+}  // namespace
+
+double dormand_prince_step(double frequency, double damping_ratio) {
+  // The stability function of the seven-stage pair's fifth-order solution.
+  const auto growth = [](std::complex<double> z) {
+    return std::abs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0 * (1.0 + z / 5.0 * (1.0 + z / 5.0))))));
+  };
+  constexpr double kMargin = 1e-6;  // for rounding
+  const std::complex<double> root = std::sqrt(std::complex<double>(damping_ratio * damping_ratio - 1, 0));
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const double sign : {1.0, -1.0}) {
+    const std::complex<double> lambda = -damping_ratio + sign * root;  // in units of the frequency
+    const double size = std::abs(lambda);
+    if (!(size > 0) || !(frequency > 0)) continue;
+    double z = 0;  // h |lambda|
+    while (z < 4 && growth(lambda / size * (z + 1e-3)) <= 1 + kMargin) z += 1e-3;
+    shortest = std::min(shortest, z / (size * frequency));
+  }
+  return shortest;
+}
+
+CheckFrequencies check_frequencies(const System& system, const State& assembled, int n_free) {
+  CheckFrequencies out;
+  const auto joint_kinematics = kinematics_at_rest(system, assembled.q);
+  const auto constraints = constraint_rows(system, joint_kinematics, 1e-9 * arm_length(system, joint_kinematics));
+  const MassScaledRows rows(system, constraints);
+  out.components = local_components(system, rows);
+  if (out.components.empty()) return out;
+  if (n_free >= 0 && rows.size() <= kDenseFreedoms) {
+    out.modes = all_modes(rows, n_free);
+    out.complete = true;
+  } else {
+    out.modes = {fastest_mode(rows)};
+    out.remark = fmt::format("more than {} freedoms: the fastest mode only, by iteration", kDenseFreedoms);
+  }
+  for (const CheckMode& mode : out.modes) {
+    const double step = dormand_prince_step(mode.frequency, mode.damping_ratio);
+    out.explicit_step = out.explicit_step > 0 ? std::min(out.explicit_step, step) : step;
+  }
+  return out;
+}
+
+}  // namespace pintle

@@ -1,0 +1,48 @@
+// Frequencies by hand: a bar on a pin, and the stability limit of Dormand-Prince.
+#include "check/check_frequencies.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "check/check_samples_for_tests.h"
+
+namespace pintle {
+namespace {
+
+// Along the bar the pin moves the mass alone, 1/m = 1/kg; across it also turns it, 1/m + r^2/I = 1 + 3 = 4 /kg.
+TEST(CheckFrequencies, BarOnAPin) {
+  const CheckFrequencies f = check_model(sample::pendulum()).frequencies;
+  const double k = 2e8, c = 3500, slow = std::sqrt(k), fast = std::sqrt(4 * k);
+  ASSERT_EQ(f.components.size(), 2u);
+  EXPECT_NEAR(f.components[0].effective_mass, 0.25, 1e-6);
+  EXPECT_NEAR(f.components[0].frequency, fast, 1e-6 * fast);
+  EXPECT_NEAR(f.components[0].damping_ratio, 4 * c / (2 * fast), 1e-6);
+  EXPECT_NEAR(f.components[1].effective_mass, 1, 1e-6);
+  ASSERT_TRUE(f.complete);
+  ASSERT_EQ(f.modes.size(), 2u);
+  EXPECT_NEAR(f.modes[0].frequency, slow, 1e-6 * slow);
+  EXPECT_NEAR(f.modes[0].damping_ratio, c / (2 * slow), 1e-6);
+  EXPECT_EQ(f.modes[0].component, "y");
+  EXPECT_NEAR(f.modes[0].share, 1, 1e-6);
+  EXPECT_NEAR(f.modes[1].frequency, fast, 1e-6 * fast);
+  EXPECT_EQ(f.modes[1].component, "x");
+  EXPECT_NEAR(f.explicit_step, dormand_prince_step(fast, 4 * c / (2 * fast)), 1e-6 * f.explicit_step);
+}
+
+// Known to be 3.3066 on the negative real axis, and about 1 on the imaginary one.
+TEST(CheckFrequencies, DormandPrinceStep) {
+  EXPECT_NEAR(dormand_prince_step(100, 1), 3.3066 / 100, 5e-5);
+  EXPECT_NEAR(dormand_prince_step(10, 0), 0.1, 0.01);
+  EXPECT_LT(dormand_prince_step(100, 10), 3.4 / 1990);  // the fast root of strong damping
+}
+
+TEST(CheckFrequencies, AsManyModesAsConstraints) {
+  const CheckFrequencies f = check_model(sample::four_bar(1, 4, 4, 6, 60 * sample::kDegree)).frequencies;
+  EXPECT_EQ(f.modes.size(), 8u);
+  EXPECT_GT(f.modes.front().frequency, 10);
+  EXPECT_LE(f.modes.front().frequency, f.modes.back().frequency);
+}
+
+}  // namespace
+}  // namespace pintle

@@ -1,0 +1,32 @@
+#include "check/check_law_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pintle {
+
+using S = Planar;
+
+LawSample law_sample(const JointData& joint, const State& assembled, int j, const CheckState& state) {
+  constexpr double kSmall = 1e-6;  // of the mechanism's length, where the assembled gap says nothing
+  LawSample out;
+  const S::Vec resisted = respond(joint.law, S::Vec::Ones(), S::Vec::Zero()).stiffness.diagonal();
+  double gap = kSmall * state.length;
+  for (const int k : {0, 1})
+    if (resisted[k] > 0) gap = std::max(gap, std::abs(assembled.gap[j][k]));  // a slide is not a gap
+  out.gap_size << gap, gap, resisted[2] > 0 ? std::max(std::abs(assembled.gap[j][2]), kSmall) : kSmall;
+  const Response stretched = respond(joint.law, out.gap_size, S::Vec::Zero());
+  for (int k = 0; k < S::kDof; ++k) {
+    const double c = stretched.damping(k, k);
+    out.rate_size[k] = out.gap_size[k] * (c > 0 ? stretched.stiffness(k, k) / c : 1);
+  }
+  out.gap = assembled.gap[j];
+  out.rate = assembled.gap_rate[j];
+  if (state.number == 0) return out;
+  Noise noise(1000u * static_cast<unsigned>(state.number) + static_cast<unsigned>(j));
+  out.gap = 2 * out.gap_size.cwiseProduct(noise.vec());
+  out.rate = 2 * out.rate_size.cwiseProduct(noise.vec());
+  return out;
+}
+
+}  // namespace pintle

@@ -1,0 +1,16 @@
+// Gaps and rates at which a joint's law is looked at: as assembled, and about as far on either side.
+#pragma once
+
+#include "check/check_links.h"
+
+namespace pintle {
+
+struct LawSample {
+  Planar::Vec gap, rate;            // [m, m, rad] and per second
+  Planar::Vec gap_size, rate_size;  // typical of this joint
+};
+
+/// `state` 0 gives what the assembled state has; others are disturbed, with elastic and damping forces alike.
+LawSample law_sample(const JointData& joint, const State& assembled, int j, const CheckState& state);
+
+}  // namespace pintle

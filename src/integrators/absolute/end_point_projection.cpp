@@ -1,0 +1,368 @@
+#include "integrators/absolute/end_point_projection.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "integrators/absolute/joint_pack.h"
+#include "integrators/absolute/stage_lanes.h"
+#include "integrators/radau/step_error.h"
+#include "simd/processor_registers.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+// Of the largest position or velocity: what its rounding leaves of a gap, or of its rate.
+constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+
+constexpr double kMostOfRates = 1e-9;  // of the largest velocity: what may be left of rates in the shortest steps
+
+// As carried, but as the geometry has it where that is another one.
+PINTLE_LANES Lanes<4> carried_or(const Lanes<4>& carried, const Lanes<4>& geometry, double rounding) {
+  return where_larger(sizes(geometry - carried), Lanes<4>::all(rounding), geometry, carried);
+}
+
+PINTLE_LANES double largest_of(const Lanes<4>& x) {
+  return std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
+}
+
+class LaneEndPointProjection : public EndPointProjection {
+ public:
+  explicit LaneEndPointProjection(const System& system)
+      : system_(system), large_(system.bodies.size() > kLargeMechanism), joints_(pack_joints(system)), lu_(system.pattern(), symmetry_of_joints(system)), at_(system.bodies.size() + 1),
+        corrections_(system.bodies.size() + 1), accel_(system.bodies.size() + 1), rhs_(system.bodies.size() + 1), force_rhs_(system.bodies.size() + 1) {
+    at_.back().set(kStill);
+  }
+
+  const std::vector<Vec3x4>& corrections() const override { return corrections_; }
+
+ protected:
+  bool find_corrections(double t, double mu, const Stage& last, StageTails& tails) {
+    lu_.set_diagonal([&](int b, int k) { return mu * mu * system_.bodies[b].mass[k]; });
+    std::fill(corrections_.begin(), corrections_.end(), Vec3x4{});
+    load_motions(last.m);
+    for (JointPack& joints : joints_) {
+      if (large_) fetch_corrections(joints, last, tails);
+      const Kinematics r = read(joints, t, last.m, joints.map);
+      find_weight(joints, mu, last);
+      add_blocks(joints);
+      L off[3];
+      for (int k = 0; k < S::kDof; ++k) off[k] = joints.load(last.gap, k) - r.gap[k];
+      for (int i = 0; i < joints.n; ++i) {
+        Vec3x4 &gap = tails.gaps[joints.first + i], with_off = gap, f;
+        for (int k = 0; k < S::kDof; ++k) with_off[k].set(3, off[k][i]);
+        gap = with_off;
+        weigh_tails(joints, i, with_off, f);
+        joints.map.lane(i).push(f.a.data(), corrections_[joints.a[i]], corrections_[joints.b[i]]);
+      }
+    }
+    return lu_.factorize_and_solve(corrections_);
+  }
+
+  // The gaps' own accelerations come out of the stages as second differences of what the forces demand; where a joint is
+  // neither stiff nor soft for this step, their error is the force's.
+  double find_error(const StageTails& tails, const LoadScale& scale) const {
+    TailSize bodies, gaps;
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < S::kDof; ++k) {
+        const double over = system_.bodies[b].mass[k] / scale.body[b][k];
+        bodies.add(over * tails.bodies[b][k]);
+        gaps.add(over * corrections_[b][k]);
+      }
+    return std::max(bodies.value(), kGapError * gaps.value());
+  }
+
+  void project(const Stage& last, double h, State& end, std::vector<S::Motion>& m, LoadScale& scale) {
+    const double rounding = kRounding * largest_coordinate(last.q), fastest = largest_coordinate(last.v);
+    const double rounding_of_rate = std::max(kRounding * fastest, std::min(rounding / std::abs(h), kMostOfRates * fastest));
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < S::kDof; ++k) end.q[b][k] = last.q[b][k] + corrections_[b][k][3];
+    end.v = last.v;
+    end.a = last.a;
+    end.gap_accel = last.gap_accel;
+    find_motions(end, m);
+    if (!(assemble_velocity_error(last, end, m) < rounding)) {  // one pass has left more
+      assemble_position_error(last, end, m);
+      solve_and_add(end.q);
+      find_motions(end, m);
+      assemble_velocity_error(last, end, m);
+    }
+    move_velocities(end, m);
+    if (!(assemble_force_balance(last, end, m, rounding, rounding_of_rate) < rounding_of_rate)) {
+      assemble_velocity_error(last, end, m);
+      move_velocities(end, m);
+      assemble_force_balance(last, end, m, rounding, rounding_of_rate);
+    }
+    balance(last, end, scale);
+  }
+
+ private:
+  using L = JointPack::L;
+  using Kinematics = JointPack::Kinematics;
+
+  std::size_t n_bodies() const { return system_.bodies.size(); }
+
+  void load_motions(const std::vector<S::Motion>& m) {
+    for (std::size_t b = 0; b < n_bodies(); ++b) at_[b].set(m[b]);
+  }
+  void find_motions(const State& end, std::vector<S::Motion>& m) {
+    system_.motions(end.q, end.v, m);
+    load_motions(m);
+  }
+
+  Kinematics read(const JointPack& joints, double t, const std::vector<S::Motion>& m, GapMap<L>& map) const {
+    Kinematics r;
+    if (joints.pose) {
+      joints.read_poses(at_, r, map);
+      return r;
+    }
+    const JointKinematics one = system_.kinematics(joints.first, t, m);
+    for (int k = 0; k < S::kDof; ++k) {
+      r.gap[k] = L::all(one.gap[k]);
+      r.rate[k] = L::all(one.rate[k]);
+      r.bias[k] = L::all(one.bias[k]);
+    }
+    map = GapMap<L>::same(one.map);
+    return r;
+  }
+
+  // K + mu C.
+  void find_weight(JointPack& joints, double mu, const Stage& last) {
+    if (joints.linear) {
+      for (int k = 0; k < S::kDof; ++k) joints.weight[k] = joints.k[k] + mu * joints.c[k];
+      return;
+    }
+    const Response response = respond(system_.joints[joints.first].law, last.gap[joints.first], last.gap_rate[joints.first]);
+    for (int k = 0; k < 9; ++k) joints.weight[k] = L::all(response.stiffness(k / 3, k % 3) + mu * response.damping(k / 3, k % 3));
+  }
+  // Of one of the joints, four sets of gaps.
+  static void weigh_tails(const JointPack& joints, int i, const Vec3x4& gap, Vec3x4& f) {
+    if (!joints.linear) weigh(false, joints.weight, gap.a.data(), f.a.data());
+    else
+      for (int k = 0; k < S::kDof; ++k) f[k] = joints.weight[k][i] * gap[k];
+  }
+
+  void add_blocks(const JointPack& joints) {
+    if (!joints.pose) {
+      S::Mat w = S::Mat::Zero();
+      for (int k = 0; k < 3; ++k) {
+        if (joints.linear) w(k, k) = joints.weight[k][0];
+        else w.row(k) << joints.weight[3 * k][0], joints.weight[3 * k + 1][0], joints.weight[3 * k + 2][0];
+      }
+      add_gap_blocks(lu_, system_.joints[joints.first].at, joints.slot[0], joints.map.lane(0), w);
+      return;
+    }
+    const auto blocks = PoseBlocks<L>::of(joints.map, joints.weight);
+    const auto body = [this](int place) { return place == static_cast<int>(n_bodies()) ? kGround : place; };
+    for (int i = 0; i < joints.n; ++i) blocks.lane(i).add_to(lu_, body(joints.a[i]), body(joints.b[i]), joints.slot[i]);
+  }
+
+  // rhs_ += G' W gap.
+  void add_to_rhs(const JointPack& joints, const L (&gap)[3]) {
+    L f[3];
+    weigh(joints.linear, joints.weight, gap, f);
+    joints.push(f, rhs_);
+  }
+  static void clear(std::vector<BodyRow>& x) { std::fill(x.begin(), x.end(), BodyRow{}); }
+
+  void solve_and_add(Vecs& x) {
+    lu_.solve(rhs_);
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < S::kDof; ++k) x[b][k] += rhs_[b][k];
+  }
+
+  void assemble_position_error(const Stage& last, const State& end, const std::vector<S::Motion>& m) {
+    clear(rhs_);
+    for (const JointPack& joints : joints_) {
+      if (large_) fetch_kinematics(joints, last);
+      GapMap<L> map;
+      const Kinematics r = read(joints, end.t, m, map);
+      L off[3];
+      for (int k = 0; k < S::kDof; ++k) off[k] = joints.load(last.gap, k) - r.gap[k];
+      add_to_rhs(joints, off);
+    }
+  }
+
+  // What is left of the gaps is returned.
+  double assemble_velocity_error(const Stage& last, const State& end, const std::vector<S::Motion>& m) {
+    clear(rhs_);
+    L left = L::all(0);
+    for (const JointPack& joints : joints_) {
+      if (large_) fetch_kinematics(joints, last);
+      GapMap<L> map;
+      const Kinematics r = read(joints, end.t, m, map);
+      L off[3];
+      for (int k = 0; k < S::kDof; ++k) {
+        left = larger_size(left, joints.forbidden[k] * (joints.load(last.gap, k) - r.gap[k]));
+        off[k] = joints.load(last.gap_rate, k) - r.rate[k];
+      }
+      add_to_rhs(joints, off);
+    }
+    return largest_of(left);
+  }
+
+  void move_velocities(State& end, std::vector<S::Motion>& m) {
+    lu_.solve(rhs_, [&](int b, const BodyRow& x) {
+      if (const int place = system_.pattern().position(b) - kSoon; large_ && place >= 0) {
+        const int next = system_.pattern().row_at(place);
+        fetch(end.v, next);
+        fetch(m, next);
+        fetch(at_, next);
+        fetch(rhs_, next);
+      }
+      S::Vec& v = end.v[b];
+      for (int k = 0; k < S::kDof; ++k) v[k] += x[k];
+      m[b].v = v.head<2>();
+      m[b].w = v[2];
+      at_[b].set(m[b]);
+    });
+  }
+
+  // The joints' forces at their gaps, into force_rhs_ by the matrix's map, so that the balance takes off all that is wrong with them; and
+  // what their accelerations want, into rhs_. What is left of the rates is returned.
+  double assemble_force_balance(const Stage& last, State& end, const std::vector<S::Motion>& m, double rounding, double rounding_of_rate) {
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < S::kDof; ++k) accel_[b][k] = last.a[b][k];
+    clear(rhs_);
+    clear(force_rhs_);
+    L left = L::all(0);
+    for (const JointPack& joints : joints_) {
+      if (large_) fetch_forces(joints, last, end);
+      GapMap<L> map;
+      const Kinematics r = read(joints, end.t, m, map);
+      L accel[3], gap[3], rate[3], force[3];
+      joints.gather(map, accel_, accel);
+      for (int k = 0; k < S::kDof; ++k) {
+        const L carried = joints.load(last.gap_rate, k);
+        left = larger_size(left, joints.forbidden[k] * (carried - r.rate[k]));
+        accel[k] = joints.load(last.gap_accel, k) - r.bias[k] - accel[k];
+        gap[k] = carried_or(joints.load(last.gap, k), r.gap[k], rounding);
+        rate[k] = carried_or(carried, r.rate[k], rounding_of_rate);
+      }
+      joints.store(gap, end.gap);
+      joints.store(rate, end.gap_rate);
+      add_to_rhs(joints, accel);
+      find_force(joints, gap, rate, force);
+      joints.store(force, end.force);
+      joints.push(force, force_rhs_);
+    }
+    return largest_of(left);
+  }
+
+  void find_force(const JointPack& joints, const L (&gap)[3], const L (&rate)[3], L (&force)[3]) const {
+    if (joints.linear) {
+      for (int k = 0; k < S::kDof; ++k) force[k] = -(joints.k[k] * gap[k] + joints.c[k] * rate[k]);
+      return;
+    }
+    const S::Vec f = law_force(system_.joints[joints.first].law, {gap[0][0], gap[1][0], gap[2][0]}, {rate[0][0], rate[1][0], rate[2][0]});
+    for (int k = 0; k < S::kDof; ++k) force[k] = L::all(f[k]);
+  }
+
+  // At the end of the step positions and velocities are better than anywhere inside: so are the forces that balance them. The
+  // magnitudes of the loads on each body go into rhs_.
+  void balance(const Stage& last, State& end, LoadScale& scale) {
+    lu_.solve(rhs_);
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < S::kDof; ++k) {
+        const double mass = system_.bodies[b].mass[k];
+        force_rhs_[b][k] += last.Q[b][k] - mass * (last.a[b][k] + rhs_[b][k]);
+        rhs_[b][k] = std::abs(last.Q[b][k]) + std::abs(mass * end.a[b][k]);
+      }
+    lu_.solve(force_rhs_);
+    force_rhs_.back() = {};  // the ground's
+    for (const JointPack& joints : joints_) {
+      if (large_) fetch_balance(joints, end);
+      L gap[3], force[3];
+      joints.gather(joints.map, force_rhs_, gap);
+      weigh(joints.linear, joints.weight, gap, force);
+      for (int k = 0; k < S::kDof; ++k) force[k] = joints.load(end.force, k) - force[k];
+      joints.store(force, end.force);
+      joints.push_magnitudes(force, rhs_);
+    }
+    for (std::size_t b = 0; b < n_bodies(); ++b) raise_scale(system_.bodies[b], S::Vec(rhs_[b][0], rhs_[b][1], rhs_[b][2]), scale.body[b]);
+  }
+
+  // Joints that come soon, which are asked for themselves before, and what they will want; null behind the last ones.
+  PINTLE_LANES const JointPack* soon(const JointPack& joints) const {
+    const std::size_t place = &joints - joints_.data();
+    fetch(joints_, place + kLater);
+    return place + kNext < joints_.size() ? &joints_[place + kNext] : nullptr;
+  }
+  PINTLE_LANES void fetch_corrections(const JointPack& joints, const Stage& last, const StageTails& tails) const {
+    const JointPack* next = soon(joints);
+    if (!next) return;
+    next->fetch_joints(last.gap);
+    next->fetch_joints(tails.gaps);
+    next->fetch_bodies(at_);
+    next->fetch_bodies(corrections_);
+    for (int i = 0; i < next->n; ++i)
+      for (const int body : {next->a[i], next->b[i]})
+        if (body < system_.n_bodies()) lu_.fetch_row(system_.pattern().position(body));
+  }
+  PINTLE_LANES const JointPack* fetch_kinematics(const JointPack& joints, const Stage& last) const {
+    const JointPack* next = soon(joints);
+    if (!next) return next;
+    next->fetch_joints(last.gap);
+    next->fetch_joints(last.gap_rate);
+    next->fetch_bodies(at_);
+    next->fetch_bodies(rhs_);
+    return next;
+  }
+  PINTLE_LANES void fetch_forces(const JointPack& joints, const Stage& last, const State& end) const {
+    const JointPack* next = fetch_kinematics(joints, last);
+    if (!next) return;
+    for (const Vecs* x : {&last.gap_accel, &end.gap, &end.gap_rate, &end.force}) next->fetch_joints(*x);
+    next->fetch_bodies(accel_);
+    next->fetch_bodies(force_rhs_);
+  }
+  PINTLE_LANES void fetch_balance(const JointPack& joints, const State& end) const {
+    const JointPack* next = soon(joints);
+    if (!next) return;
+    next->fetch_joints(end.force);
+    next->fetch_bodies(force_rhs_);
+    next->fetch_bodies(rhs_);
+  }
+
+  static constexpr int kSoon = 16;                     // bodies from here
+  static constexpr std::size_t kNext = 2, kLater = 4;  // joints in packs from here
+
+  const System& system_;
+  const bool large_;
+  std::vector<JointPack> joints_;
+  BlockLu<double, S::kDof> lu_;
+  std::vector<BodyAt> at_;          // of bodies and the ground, as the next ones
+  std::vector<Vec3x4> corrections_;
+  std::vector<BodyRow> accel_, rhs_, force_rhs_;
+};
+
+// The same text for registers of every width.
+#define PINTLE_END_POINT(Name, WIDTH)                                                                                                         \
+  class Name final : public LaneEndPointProjection {                                                                                          \
+   public:                                                                                                                                    \
+    using LaneEndPointProjection::LaneEndPointProjection;                                                                                     \
+    WIDTH bool prepare(double t, double mu, const Stage& last, StageTails& tails) override { return find_corrections(t, mu, last, tails); }   \
+    WIDTH double error(const StageTails& tails, const LoadScale& scale) const override { return find_error(tails, scale); }                   \
+    WIDTH void finish(const Stage& last, double h, State& end, std::vector<S::Motion>& m, LoadScale& scale) override { project(last, h, end, m, scale); } \
+  };
+
+PINTLE_END_POINT(NarrowEndPointProjection, )
+#ifdef PINTLE_WIDE
+PINTLE_END_POINT(WideEndPointProjection, PINTLE_WIDE)
+PINTLE_END_POINT(WidestEndPointProjection, PINTLE_WIDEST)
+#endif
+#undef PINTLE_END_POINT
+
+}  // namespace
+
+std::unique_ptr<EndPointProjection> make_end_point_projection(const System& system) {
+#ifdef PINTLE_WIDE
+  if (has_widest_registers()) return std::make_unique<WidestEndPointProjection>(system);
+  if (has_wide_registers()) return std::make_unique<WideEndPointProjection>(system);
+#endif
+  return std::make_unique<NarrowEndPointProjection>(system);
+}
+
+}  // namespace pintle

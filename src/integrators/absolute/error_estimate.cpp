@@ -1,0 +1,91 @@
+// The error of a step, and its end: moved onto its gaps, with the work done on the way.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrators/absolute/radau_stepper.h"
+#include "integrators/absolute/stage_lanes.h"
+#include "integrators/radau/step_error.h"
+
+namespace pintle {
+
+using S = Planar;
+
+// How much of the forces the step's polynomials leave unresolved, over the load scale. theory/time Eqs. (3.12), (3.13).
+bool RadauStepper::error_estimate(double h, double& error) {
+  const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
+  if (!end_point_->prepare(begin_.t + h, mu, stage_[n_ - 1], tails_)) return false;
+  error = of_motion_ ? motion_tail() : end_point_->error(tails_, scale_);
+  return std::isfinite(error);
+}
+
+// Legendre coefficients of the body forces M a, as accelerations that the bodies can yield to within the step: stiff joints hold back
+// the rest, and what a step does not resolve of their vibration is damped by it. theory/time Eq. (3.14).
+double RadauStepper::motion_tail() {
+  for (int i = 0; i < system_.n_bodies(); ++i)
+    for (int c = 0; c < S::kDof; ++c) tails_.bodies[i][c] = system_.bodies[i].mass[c] * tails_.bodies[i][c];
+  solver_->filter_accelerations(tails_.bodies);
+  TailSize size;
+  for (int i = 0; i < system_.n_bodies(); ++i)
+    for (int k = 0; k < S::kDof; ++k) size.add((system_.bodies[i].mass[k] / motion_scale_.loads().body[i][k]) * tails_.bodies[i][k]);
+  return size.value();
+}
+
+// theory/time Eqs. (4.1)-(4.3).
+void RadauStepper::finish_step(double h) {
+  nodes_.a[0] = begin_.a;
+  nodes_.gap_accel[0] = begin_.gap_accel;
+  nodes_.force[0] = begin_.force;
+  end_.t = begin_.t + h;
+  end_point_->finish(stage_[n_ - 1], h, end_, end_m_, scale_);
+  add_work(h);
+  for (int s = 0; s < n_; ++s) {
+    nodes_.a[s + 1].swap(stage_[s].a);
+    nodes_.gap_accel[s + 1].swap(stage_[s].gap_accel);
+    nodes_.force[s + 1].swap(stage_[s].force);
+  }
+  nodes_.force[n_] = end_.force;
+  control_.have_history = true;
+  if (system_.has_branches()) update_branches();
+  control_.last = h;
+}
+
+void RadauStepper::add_work(double h) {
+  nodes_.power[0] = {begin_.supply_power, begin_.loss_power};
+  for (int s = 0; s < n_; ++s) {
+    const Stage& stage = stage_[s];
+    Power& power = nodes_.power[s + 1];
+    power = power_of_loads(begin_.t + h * table_.c[s], stage.q, stage.m);
+    power[1] += stage.loss;
+    for (const int j : powered_) add_power(system_.joints[j], stage.m, stage.gap[j], stage.gap_rate[j], stage.force[j], power);
+  }
+  end_.supplied = begin_.supplied;
+  end_.dissipated = begin_.dissipated;
+  for (int s = 0; s < n_; ++s) {
+    end_.supplied += h * table_.b[s] * nodes_.power[s + 1][0];
+    end_.dissipated += h * table_.b[s] * nodes_.power[s + 1][1];
+  }
+  end_.supply_power = nodes_.power[n_][0];
+  end_.loss_power = nodes_.power[n_][1];
+}
+
+RadauStepper::Power RadauStepper::power_of_loads(double t, const Vecs& q, const std::vector<S::Motion>& m) const {
+  if (!system_.has_loads()) return {};
+  const ExternalWork work = system_.external_work(t, q, m, end_.sliding);
+  return {work.supplied, work.lost};
+}
+
+void RadauStepper::add_power(const JointData& joint, const std::vector<S::Motion>& m, const S::Vec& gap, const S::Vec& rate, const S::Vec& force, Power& power) const {
+  if (joint.servo >= 0) power[0] += force[joint.servo] * system_.pose(joint.at, m).rate[joint.servo];
+  else power[1] += law_loss(joint.law, gap, rate);
+}
+
+// At end_.
+void RadauStepper::find_power() {
+  Power power = power_of_loads(end_.t, end_.q, end_m_);
+  for (int j = 0; j < system_.n_joints(); ++j) add_power(system_.joints[j], end_m_, end_.gap[j], end_.gap_rate[j], end_.force[j], power);
+  end_.supply_power = power[0];
+  end_.loss_power = power[1];
+}
+
+}  // namespace pintle

@@ -1,0 +1,138 @@
+// Steps that end where a law or a load has a kink or a jump: found on the step's own curve, approached from before, and
+// crossed by a step too short to matter. theory/time section 7.
+#include <algorithm>
+#include <limits>
+
+#include "integrators/absolute/radau_stepper.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+constexpr double kCrossing = 1e-9;  // of the usual step: the least that is gone to cross
+constexpr int kCrossings = 5;       // each ten times longer, until the branch has changed
+constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
+constexpr double kMoment = 1e-6;    // of the usual step: to see where accelerations lead
+
+}  // namespace
+
+// The branches at share x of the step, on the curve through its stages.
+std::uint64_t RadauStepper::branches(double x, double h) {
+  RadauTable::Vec v(n_), q(n_);
+  for (int i = 0; i < n_; ++i) {
+    double power = x;
+    v[i] = q[i] = 0;
+    for (int k = 0; k < n_; ++k, power *= x) {
+      v[i] += table_.stages_to_powers(k, i) * power / (k + 1);
+      q[i] += table_.stages_to_powers(k, i) * power * x / ((k + 1) * (k + 2));
+    }
+  }
+  for (std::size_t b = 0; b < inside_q_.size(); ++b) {
+    inside_q_[b] = begin_.q[b] + x * h * begin_.v[b];
+    inside_v_[b] = begin_.v[b];
+    for (int i = 0; i < n_; ++i) {
+      inside_q_[b] += h * h * q[i] * stage_[i].a[b];
+      inside_v_[b] += h * v[i] * stage_[i].a[b];
+    }
+  }
+  for (std::size_t j = 0; j < inside_gap_.size(); ++j) {
+    inside_gap_[j] = begin_.gap[j] + x * h * begin_.gap_rate[j];
+    inside_rate_[j] = begin_.gap_rate[j];
+    for (int i = 0; i < n_; ++i) {
+      inside_gap_[j] += h * h * q[i] * stage_[i].gap_accel[j];
+      inside_rate_[j] += h * v[i] * stage_[i].gap_accel[j];
+    }
+  }
+  system_.motions(inside_q_, inside_v_, inside_m_);
+  return system_.branches(begin_.t + x * h, inside_m_, inside_gap_, inside_rate_, begin_.sliding);
+}
+
+// The branches a time d ahead of the start, by Taylor's series: all there is to go by when the stages are not solved.
+std::uint64_t RadauStepper::branches_ahead(double d) {
+  const double half = 0.5 * d * d;
+  for (std::size_t b = 0; b < end_.q.size(); ++b) {
+    inside_q_[b] = begin_.q[b] + d * begin_.v[b] + half * begin_.a[b];
+    inside_v_[b] = begin_.v[b] + d * begin_.a[b];
+  }
+  for (std::size_t j = 0; j < end_.gap.size(); ++j) {
+    inside_gap_[j] = begin_.gap[j] + d * begin_.gap_rate[j] + half * begin_.gap_accel[j];
+    inside_rate_[j] = begin_.gap_rate[j] + d * begin_.gap_accel[j];
+  }
+  system_.motions(inside_q_, inside_v_, inside_m_);
+  return system_.branches(begin_.t + d, inside_m_, inside_gap_, inside_rate_, begin_.sliding);
+}
+
+SwitchingEvent RadauStepper::locate_event(double h, bool solved) {
+  if (!system_.has_branches()) return {};
+  return first_event(table_, branch_, [&](double x) { return solved ? branches(x, h) : branches_ahead(x * h); });
+}
+
+// Moves end_ over the event that it stands just before, by Taylor's series; false when the branch stays the same.
+bool RadauStepper::step_over_event(double distance) {
+  double beyond = std::max(kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
+  for (int i = 0; i < kCrossings; ++i, beyond *= 10) {
+    const double d = (i == 0 ? distance : 0) + beyond, half = 0.5 * d * d;
+    end_.t += d;
+    for (std::size_t b = 0; b < end_.q.size(); ++b) {
+      end_.q[b] += d * end_.v[b] + half * end_.a[b];
+      end_.v[b] += d * end_.a[b];
+    }
+    for (std::size_t j = 0; j < end_.gap.size(); ++j) {
+      end_.gap[j] += d * end_.gap_rate[j] + half * end_.gap_accel[j];
+      end_.gap_rate[j] += d * end_.gap_accel[j];
+    }
+    system_.motions(end_.q, end_.v, end_m_);
+    const std::uint64_t now = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.sliding);
+    if (now == branch_) continue;
+    branch_ = now;
+    return true;
+  }
+  return false;
+}
+
+// Over the event; forces and accelerations renewed there. A jump that comes back at once is held.
+void RadauStepper::cross_event(double distance) {
+  const double before = end_.t;
+  inside_m_ = end_m_;
+  step_over_event(distance);
+  leave_sliding(system_, end_.t, end_m_, end_.sliding);
+  balance_end();
+  if (const auto jump = chattering_.crossed(system_, before, inside_m_, end_.t, end_m_, kAtOnce * control_.usual)) {
+    const double margin = system_.margin(*jump, end_.t, end_m_);
+    enter_sliding(*jump, margin, ramp_size(system_, *jump, end_, control_.usual, tolerance_), end_.sliding, [this] { balance_end(); },
+              [&] { return margin_rate(*jump); });
+  }
+  branch_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.sliding);
+  control_.have_history = false;
+}
+
+// How fast the argument of a jump changes at end_, by what it is a moment later.
+double RadauStepper::margin_rate(const SlidingMode& jump) {
+  const double d = kMoment * control_.usual;
+  for (std::size_t b = 0; b < end_.q.size(); ++b) {
+    inside_q_[b] = end_.q[b] + d * end_.v[b];
+    inside_v_[b] = end_.v[b] + d * end_.a[b];
+  }
+  system_.motions(inside_q_, inside_v_, inside_m_);
+  return (system_.margin(jump, end_.t + d, inside_m_) - system_.margin(jump, end_.t, end_m_)) / d;
+}
+
+// The branches at the end of a step; a ramp that the last bits have left is let go.
+void RadauStepper::update_branches() {
+  if (leave_sliding(system_, end_.t, end_m_, end_.sliding)) {
+    balance_end();
+    control_.have_history = false;
+  }
+  branch_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.sliding);
+}
+
+// What the laws and loads really give at end_.
+void RadauStepper::balance_end() {
+  system_.joint_kinematics(end_.t, end_m_, end_r_);
+  for (int j = 0; j < system_.n_joints(); ++j) end_.force[j] = law_force(system_.joints[j].law, end_.gap[j], end_.gap_rate[j]);
+  find_accelerations(system_, end_m_, end_r_, end_);
+  find_power();
+}
+
+}  // namespace pintle

@@ -1,0 +1,123 @@
+// The stage solver with its stages in lanes: what it knows. What it does is in stage_solver.cpp, which compiles it for registers of
+// several widths.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "integrators/absolute/stage_lanes.h"
+#include "integrators/absolute/stage_solver.h"
+#include "integrators/radau/newton_contraction.h"
+#include "linalg/block_lu.h"
+
+namespace pintle {
+
+/// Large mechanisms do not fit into caches: every iteration goes through the bodies and the joints once there and once back, what it
+/// keeps stands in the order of elimination, and what can be computed again is not stored.
+template <int N>
+class LaneStageSolver : public StageSolver {
+ public:
+  LaneStageSolver(const System& system, const RadauTable& table, double tolerance, Steps steps);
+
+  double contraction() const override { return contraction_.seen(); }
+  double residual(int j) const override;
+
+ protected:
+  bool solve_stages(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters);
+  void write_stages(const State& begin, std::vector<Stage>& stages, StageTails& tails) const;
+  void filter_lanes(std::vector<Vec3x4>& forces) const;
+
+ private:
+  using L = Lanes<N>;
+  using X = Spectrum<N>;
+  static constexpr int kMiddle = N / 2;  // the stage where the equations are linearised
+
+  struct Body : BodyLanes<N> {
+    L residual[3];         // in its equation of motion: forces that nothing answers [N, N, N*m]; then Newton's correction of a
+    double over_scale[3];  // mass over the loads that corrections are measured by
+    int index = 0;         // in the system
+  };
+  struct AttachmentFrame {  // a frame on a body, as PoseGeometry asks for it
+    Planar::Point p;
+    double c = 1, s = 0;
+  };
+  struct Joint {
+    L accel[3], force[3];
+    GapMap<double> frozen;   // at the stage where the equations are linearised
+    AttachmentFrame F, M;    // where it stands on its bodies
+    double k[3], c[3];       // of springs and dampers
+    double over_scale[3];    // 1 over the loads that changes of the force are measured by
+    int index = 0;           // in the system
+    int a, b;                // its bodies; the ground stands behind the last one
+    int first, last;         // of them but the ground
+    int full = -1;           // its matrix among full_, where that is not diagonal
+    bool linear = false;     // springs and dampers
+    bool function = false;   // its gap is a function of the pose
+    bool loses = false;      // power, as a spring and a damper that no motor drives
+    signed char servo = -1;  // component that a servo drives
+    BlockPattern::Slot slot{};  // of its bodies, A before B
+  };
+  struct Curve;  // through the last step's nodes
+
+  std::size_t n_bodies() const { return bodies_.size() - 1; }
+  int body_or_ground(int place) const { return place == static_cast<int>(n_bodies()) ? kGround : place; }
+
+  void fetch_body(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t b) const;
+  void fetch_joint(const State& begin, const Curve* unplaced, std::size_t j) const;
+  void fetch_body_end(const State& begin, const std::vector<Stage>& stages, const StageTails& tails, std::size_t b) const;
+  void fetch_joint_end(const State& begin, const std::vector<Stage>& stages, const StageTails& tails, std::size_t j) const;
+  bool assemble_and_eliminate(const State& begin, double h, const Curve* unplaced, const LoadScale& scale, bool linearized);
+  void begin_bodies(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t first, std::size_t end);
+  void begin_joint(const State& begin, const Curve& curve, const LoadScale& scale, Joint& joint);
+  void find_targets(double t, double h);
+  L place(const L& a, double x0, double v0, L& v) const;
+  void place_body(const State& begin, std::size_t b);
+  void check_angles(const L& angles, std::size_t first, std::size_t end);
+  void place_joint(const State& begin, Joint& joint, L& worst, L& sum);
+  void begin_residual(std::size_t b);
+  void find_loads(const State& begin, double h);
+  void find_balanced_loads();
+  void assemble_joint(Joint& joint, const GapMap<L>& map, const L (&bias)[3]);
+  GapMap<L> find_map(const Joint& joint, L (&bias)[3]) const;
+  L find_gradient(const Joint& joint, const PoseGeometry<L>& pose, GapMap<L>& map) const;
+  void begin_matrix(double h);
+  void add_loads(const State& begin, double h);
+  void linearize(const State& begin, Joint& joint, const GapMap<L>& map);
+  void add_joint(const Joint& joint, const Response& tangents);
+  static void add_block(Block<X, 3>& block, const Planar::Mat& K, const Planar::Mat& C, const X& mu, double sign);
+  double back_substitute(const State& begin);
+  void apply_joint_correction(const State& begin, Joint& joint, L& worst, L& sum);
+  void apply_body_correction(const State& begin, int b, const BlockVec<X, 3>& x, L& worst, L& sum);
+
+  const System& system_;
+  const RadauTable& table_;
+  const StageMatrices<N> matrices_;
+  StepMatrices<N> step_;
+  double tolerance_;
+  Steps steps_;
+  NewtonContraction contraction_;
+  static constexpr double kGood = 0.15, kSlow = 0.4;  // contractions: Jacobians serve the next step; they do not serve this one
+  static constexpr int kMostWithOld = 4;      // iterations
+  double factorized_for_ = 0;                 // the step; 0: none
+  bool loads_;                                // there is more than weight
+  static constexpr std::size_t kTile = 16;    // bodies that fit into the nearest cache, with their joints
+  static constexpr std::size_t kSoon = 16, kLater = 24;  // bodies or joints from here; first those, then what the system has of them
+  bool large_;                                // memory is asked for in time
+  std::vector<int> by_first_;                 // where it is: joints in the order of their first bodies
+  bool simple_ = true;                        // and no joint that is more than springs and dampers
+  bool poses_ = true;                         // no joint but springs and dampers in the relative pose
+  const BlockPattern pattern_;                // of rows in the order of elimination
+  std::vector<Body> bodies_;                  // in that order
+  std::vector<Joint> joints_;                 // in the order of their last bodies
+  std::vector<std::array<X, 9>> full_;        // (K + mu C) / mu^2 where that is not diagonal, by rows
+  std::vector<L> target_accel_;               // of servos' targets, by joint of the system; empty: there is no servo
+  Vecs Q_;                                    // of one stage, by body of the system
+  std::vector<BlockVec<L, 3>> loads_on_;      // and on the ground: gravity and loads at the stages, where there are loads
+  std::vector<Planar::Motion> motions_;       // of one stage, by body of the system, where anything asks for them
+  X mu_, mu2_, once_, twice_;                 // and 1 / mu, 1 / mu^2
+  LaneMatrix<N> back_;                        // T mu^2: from the diagonal frame to accelerations at the stages
+  BlockLu<X, 3> lu_;
+  std::vector<BlockVec<X, 3>> rhs_;           // and the ground's
+};
+
+}  // namespace pintle

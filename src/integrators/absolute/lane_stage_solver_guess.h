@@ -1,0 +1,83 @@
+// The stage solver's first guess. Included where it is compiled for registers of several widths.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "integrators/absolute/lane_stage_solver.h"
+#include "simd/fetch.h"
+
+namespace pintle {
+
+// Accelerations at the stages as the last step's curve goes on; without one those at the start.
+template <int N>
+struct LaneStageSolver<N>::Curve {
+  const StepNodes* nodes;
+  std::array<L, RadauTable::kMaxNodes> weight;
+
+  Curve(const RadauTable& table, Steps steps, double h, const StepNodes* before, double last_h) : nodes(before) {
+    for (int s = 0; s < N && before; ++s) {
+      const double ratio = h / last_h;
+      const RadauTable::Vec w = steps == Steps::kLong ? table.continuation(table.c[s], ratio) : table.weights(1 + table.c[s] * ratio);
+      for (int k = 0; k <= N; ++k) weight[k].set(s, w[k]);
+    }
+  }
+  L ahead(const std::vector<Vecs> StepNodes::*of, const Vecs& start, std::size_t i, int k) const {
+    if (!nodes) return L::all(start[i][k]);
+    const std::vector<Vecs>& node = nodes->*of;
+    L x = node[0][i][k] * weight[0];
+    for (int n = 1; n <= N; ++n) x += node[n][i][k] * weight[n];
+    return x;
+  }
+};
+
+// What a large mechanism will want soon, past body b and past joint j: the solver's own first, then what the system has of it. All such
+// functions are inlined by force: the compiler takes one that does nothing else for one that does nothing.
+template <int N>
+PINTLE_LANES void LaneStageSolver<N>::fetch_body(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t b) const {
+  fetch(bodies_, b + kLater);
+  if (b + kSoon >= n_bodies()) return;
+  const int i = bodies_[b + kSoon].index;
+  fetch(system_.bodies, i);
+  for (const Vecs* x : {&begin.q, &begin.v, &begin.a, &scale.body}) fetch(*x, i);
+  for (int n = 0; n <= N && curve.nodes; ++n) fetch(curve.nodes->a[n], i);
+}
+template <int N>
+PINTLE_LANES void LaneStageSolver<N>::fetch_joint(const State& begin, const Curve* unplaced, std::size_t j) const {
+  fetch(joints_, j + kLater);
+  if (!unplaced || j + kSoon >= joints_.size()) return;
+  const int i = joints_[j + kSoon].index;
+  for (const Vecs* x : {&begin.gap, &begin.gap_rate, &begin.gap_accel}) fetch(*x, i);
+  for (int n = 0; n <= N && unplaced->nodes; ++n) fetch(unplaced->nodes->gap_accel[n], i);
+}
+
+// What corrections are measured by, and a first guess.
+template <int N>
+void LaneStageSolver<N>::begin_bodies(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t first, std::size_t end) {
+  L angles = L::all(0);
+  for (std::size_t b = first; b < end; ++b) {
+    Body& body = bodies_[b];
+    if (large_) fetch_body(begin, curve, scale, b);
+    const Planar::Vec &mass = system_.bodies[body.index].mass, &load = scale.body[body.index];
+    for (int k = 0; k < 3; ++k) {
+      body.over_scale[k] = mass[k] / load[k];
+      body.a[k] = curve.ahead(&StepNodes::a, begin.a, body.index, k);
+    }
+    place_body(begin, b);
+    angles = larger_size(angles, body.q[2]);
+  }
+  check_angles(angles, first, end);
+}
+
+template <int N>
+void LaneStageSolver<N>::begin_joint(const State& begin, const Curve& curve, const LoadScale& scale, Joint& joint) {
+  const Planar::Vec &on = scale.body[bodies_[joint.first].index], &beside = scale.body[bodies_[joint.last].index];
+  for (int k = 0; k < 3; ++k) {
+    joint.over_scale[k] = 1 / std::max(on[k], beside[k]);
+    joint.accel[k] = curve.ahead(&StepNodes::gap_accel, begin.gap_accel, joint.index, k);
+  }
+  L change = L::all(0), sum = change;
+  place_joint(begin, joint, change, sum);
+}
+
+}  // namespace pintle

@@ -1,0 +1,31 @@
+// What errors refer to where the tolerance is of the motion: the force that would give a body the mechanism's speed within one step.
+#pragma once
+
+#include <algorithm>
+
+#include "integrators/load_scale.h"
+
+namespace pintle {
+
+/// theory/time Eq. (3.15).
+class MotionScale {
+ public:
+  /// For a step of h from `begin`. The speed is the largest so far of a body's centre or of a point at its radius of gyration.
+  void update(const System& system, const State& begin, double h) {
+    speed_ = std::max(speed_, system.largest_speed(begin.v));
+    loads_.body.resize(begin.v.size());
+    for (std::size_t i = 0; i < loads_.body.size(); ++i) {
+      const double force = system.bodies[i].mass[0] * std::max(speed_, kLeastSpeed) / h;
+      loads_.body[i] << force, force, force * system.bodies[i].radius_of_gyration();
+    }
+  }
+  const LoadScale& loads() const { return loads_; }
+
+ private:
+  static constexpr double kLeastSpeed = 1e-6;  // [m/s]: a mechanism at rest
+
+  double speed_ = 0;
+  LoadScale loads_;
+};
+
+}  // namespace pintle

@@ -1,0 +1,99 @@
+// What a joint adds to the matrices of implicit methods: of any kind, and faster where its gap is the relative pose and its law has a
+// spring and a damper in each component.
+#pragma once
+
+#include "linalg/block_lu.h"
+#include "system/system.h"
+
+namespace pintle {
+
+/// Springs and dampers make symmetric matrices.
+inline Symmetry symmetry_of_joints(const System& system) {
+  for (const JointData& joint : system.joints)
+    if (!std::holds_alternative<LinearLaw>(joint.law)) return Symmetry::kNone;
+  return Symmetry::kSymmetric;
+}
+
+/// G' w G - N of a pair of bodies: w stands for stiffness in each component, N is the geometric stiffness at the joint's force. In world
+/// axes w is a symmetric stiffness (xx, xy, yy) at the joint's point, which acts at the arms of both bodies, and one against turning.
+/// joints Eqs. (2.5), (2.6), (2.9).
+template <class T>
+struct PoseBlocks {
+  T xx, xy, yy;
+  T ax, ay, aa;  // of the first body with its angle
+  T bx, by, bb;
+  T ba;          // of both angles
+
+  template <class Real>
+  PINTLE_LANES static PoseBlocks of(const GapMap<Real>& g, const T* w) {
+    PoseBlocks k;
+    k.xx = (g.c * g.c) * w[0] + (g.s * g.s) * w[1];
+    k.yy = (g.s * g.s) * w[0] + (g.c * g.c) * w[1];
+    k.xy = (g.c * g.s) * (w[0] - w[1]);
+    k.ax = g.ax * k.xy - g.ay * k.xx;
+    k.ay = g.ax * k.yy - g.ay * k.xy;
+    k.bx = g.bx * k.xy - g.by * k.xx;
+    k.by = g.bx * k.yy - g.by * k.xy;
+    k.aa = w[2] + g.ax * k.ay - g.ay * k.ax;
+    k.bb = w[2] + g.bx * k.by - g.by * k.bx;
+    k.ba = w[2] + g.bx * k.ay - g.by * k.ax;
+    return k;
+  }
+  /// Less N, at a force [N, N, N*m].
+  template <class Real, class Force>
+  PINTLE_LANES static PoseBlocks of(const GapMap<Real>& g, const T* w, const Force& force) {
+    PoseBlocks k = of(g, w);
+    const T one(1.0), fx = (g.c * force[0] - g.s * force[1]) * one, fy = (g.s * force[0] + g.c * force[1]) * one;
+    k.ax -= fy;
+    k.ay += fx;
+    k.aa += g.ax * fx + g.ay * fy;
+    k.bb += g.bx * fx + g.by * fy;
+    k.ba += g.bx * fx + g.by * fy;
+    return k;
+  }
+
+  /// Those of one lane.
+  PINTLE_LANES PoseBlocks<double> lane(int i) const { return {xx[i], xy[i], yy[i], ax[i], ay[i], aa[i], bx[i], by[i], bb[i], ba[i]}; }
+  /// Adds it to the blocks of bodies a and b, which may be the ground.
+  PINTLE_LANES void add_to(BlockLu<T, 3>& lu, int a, int b, BlockPattern::Slot slot) const {
+    if (a != kGround) add_diagonal(lu.diagonal(a), ax, ay, aa, !lu.symmetric());
+    if (b != kGround) add_diagonal(lu.diagonal(b), bx, by, bb, !lu.symmetric());
+    if (a == kGround || b == kGround) return;
+    if (lu.has(slot)) subtract(lu.off_diagonal(slot), bx, by, ax, ay);
+    slot.upper = !slot.upper;
+    if (lu.has(slot)) subtract(lu.off_diagonal(slot), ax, ay, bx, by);
+  }
+  PINTLE_LANES void add_to(BlockLu<T, 3>& lu, const Placement& at, BlockPattern::Slot slot) const { add_to(lu, at.a, at.b, slot); }
+
+ private:
+  PINTLE_LANES void add_diagonal(Block<T, 3>& block, const T& x, const T& y, const T& turn, bool whole) const {
+    block(0, 0) += xx;
+    block(1, 0) += xy; block(1, 1) += yy;
+    block(2, 0) += x; block(2, 1) += y; block(2, 2) += turn;
+    if (!whole) return;
+    block(0, 1) += xy; block(0, 2) += x; block(1, 2) += y;
+  }
+  PINTLE_LANES void subtract(Block<T, 3>& block, const T& x, const T& y, const T& down_x, const T& down_y) const {
+    block(0, 0) -= xx; block(0, 1) -= xy; block(0, 2) -= x;
+    block(1, 0) -= xy; block(1, 1) -= yy; block(1, 2) -= y;
+    block(2, 0) -= down_x; block(2, 1) -= down_y; block(2, 2) -= ba;
+  }
+};
+
+/// Adds G' w G to the blocks of both bodies, for a gap and a law of any kind.
+inline void add_gap_blocks(BlockLu<double, 3>& lu, const Placement& at, BlockPattern::Slot slot, const GapMap<double>& g, const Planar::Mat& w) {
+  using Mat = Planar::Mat;
+  const auto add = [](Block<double, 3>& block, const Mat& m) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) block(i, j) += m(i, j);
+  };
+  const Mat GA = g.GA(), GB = g.GB(), WA = w * GA, WB = w * GB;
+  if (at.a != kGround) add(lu.diagonal(at.a), GA.transpose() * WA);
+  if (at.b != kGround) add(lu.diagonal(at.b), GB.transpose() * WB);
+  if (at.a == kGround || at.b == kGround) return;
+  if (lu.has(slot)) add(lu.off_diagonal(slot), GA.transpose() * WB);
+  slot.upper = !slot.upper;
+  if (lu.has(slot)) add(lu.off_diagonal(slot), GB.transpose() * WA);
+}
+
+}  // namespace pintle

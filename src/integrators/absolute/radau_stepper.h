@@ -1,0 +1,108 @@
+// The force-accurate implicit method: Radau IIA of order 5 or 9 on positions, velocities AND joint gaps, theory/time
+// section 3.
+//
+// Every joint carries its gap e as a state of its own, driven by what the bodies' accelerations make of it:
+//     M v' = Q + G' f,    q' = v,    e'' = G v' + (convective term),    f = law(e, e')
+// On a stiff joint the stage equations then say G M^-1 (Q + G' f) + convective = small, as if the constraint had been
+// differentiated twice: the force comes out with the order of the method, at any stiffness, instead of as k times the
+// difference of nearly equal positions. On a soft joint they are its plain equations of motion. After every step the
+// positions and velocities are moved onto the gaps (EndPointProjection), so that nothing drifts. Steps end at the kinks and
+// jumps of laws and loads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "integrators/absolute/end_point_projection.h"
+#include "integrators/absolute/motion_scale.h"
+#include "integrators/absolute/stage_solver.h"
+#include "integrators/radau/sliding_mode.h"
+#include "integrators/radau/step_control.h"
+#include "pintle/model.h"
+
+namespace pintle {
+
+class RadauStepper {
+ public:
+  /// `stages` is 3 (order 5) or 5 (order 9).
+  RadauStepper(const System& system, double tolerance, int stages = 3, ToleranceOf tolerance_of = ToleranceOf::kForces);
+
+  void set_max_step(double h) { control_.longest = h; }
+  /// Loads known from an earlier run; otherwise the largest so far is used.
+  void set_load_scale(const LoadScale& scale) { scale_ = scale; }
+  const LoadScale& load_scale() const { return scale_; }
+
+  /// Starts at `state` (all of it filled in) with a first step of about h.
+  void start(const State& state, double h);
+  /// One accepted step, not beyond t_end. False when no step could be made; `failure` says why.
+  bool step(double t_end);
+  /// One step of exactly h without error control (negative: backwards); false when Newton fails.
+  bool trial(double h);
+
+  const State& state() const { return end_; }
+  const State& previous() const { return begin_; }
+  /// The inside of the last step, for dense output.
+  const StepNodes& nodes() const { return nodes_; }
+  double next_step() const { return control_.next; }
+  const Counters& counters() const { return counters_; }
+  const std::string& failure() const { return failure_; }
+  const RadauTable& table() const { return table_; }
+
+ private:
+  friend class StepControl;  // which calls what follows, up to finish_step
+  double t() const { return begin_.t; }
+  void begin_at_end() { begin_ = end_; }
+  bool attempt(double h);                     // solves the stages from begin_
+  double contraction() const { return solver_->contraction(); }
+  bool unloaded() const;
+  void foresee_loads(double h);
+
+  // error_estimate.cpp: the error of a step and its end
+  bool error_estimate(double h, double& error);
+  double motion_tail();                       // as accelerations that the bodies can yield to
+  void finish_step(double h);                 // fills end_ and nodes_
+  using Power = std::array<double, 2>;        // supplied, lost [W]
+  void add_work(double h);
+  Power power_of_loads(double t, const Vecs& q, const std::vector<Planar::Motion>& m) const;
+  void add_power(const JointData& joint, const std::vector<Planar::Motion>& m, const Planar::Vec& gap, const Planar::Vec& rate,
+                 const Planar::Vec& force, Power& power) const;
+  void find_power();
+
+  // event_location.cpp: steps that end where a force has a kink
+  SwitchingEvent locate_event(double h, bool solved);
+  std::uint64_t branches(double x, double h);
+  std::uint64_t branches_ahead(double d);
+  void cross_event(double distance);
+  bool step_over_event(double distance);
+  void update_branches();
+  double margin_rate(const SlidingMode& jump);
+  void balance_end();
+
+  const System& system_;
+  const RadauTable& table_;
+  const int n_;                               // stages
+  double tolerance_;
+  const bool of_motion_;                      // the tolerance is
+  MotionScale motion_scale_;
+  State begin_, end_;
+  StepControl control_;
+  std::uint64_t branch_ = 0;                  // of kinks, at end_
+  ChatteringDetector chattering_;
+  std::unique_ptr<StageSolver> solver_;
+  std::vector<Stage> stage_;
+  StepNodes nodes_;
+  std::unique_ptr<EndPointProjection> end_point_;
+  StageTails tails_;
+  std::vector<int> powered_;                  // joints whose power no stage has summed up
+  Vecs inside_q_, inside_v_, inside_gap_, inside_rate_;
+  std::vector<JointKinematics> end_r_;
+  std::vector<Planar::Motion> end_m_, inside_m_;
+  LoadScale scale_;
+  Counters counters_;
+  std::string failure_;
+};
+
+}  // namespace pintle

@@ -1,0 +1,117 @@
+// A body and a joint at every stage of a step at once, one stage per lane; and the matrices that mix the stages.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrators/radau/radau_table.h"
+#include "integrators/radau/step_error.h"
+#include "joints/gap_map.h"
+#include "linalg/spectrum.h"
+
+namespace pintle {
+
+template <int N>
+struct BodyLanes {
+  using L = Lanes<N>;
+  L q[3], v[3], a[3];
+  L c, s;         // cosine and sine of the angle
+
+  struct View { const L &x, &y, &c, &s, &vx, &vy, &w; };
+  View view() const { return {q[0], q[1], c, s, v[0], v[1], v[2]}; }
+  Planar::Motion motion(int i) const { return {{q[0][i], q[1][i]}, q[2][i], c[i], s[i], {v[0][i], v[1][i]}, v[2][i]}; }
+};
+
+/// The table as it acts on lanes: stages to stages, and to and from the diagonal frame.
+template <int N>
+struct StageMatrices {
+  Lanes<N> c;                    // stage times
+  LaneMatrix<N> A, A2, T, T_inverse;
+  Spectrum<N> eigenvalue;
+  LaneMatrix<N> tail, tail_of_stages;  // to Legendre coefficients N, N - 1, N - 2 with the start, one less each without it
+  Lanes<N> tail_of_start;
+
+  explicit StageMatrices(const RadauTable& table) {
+    for (int i = 0; i < N; ++i) {
+      c.set(i, table.c[i]);
+      for (int k = 0; k < N; ++k) {
+        A.column[k].set(i, table.A(i, k));
+        A2.column[k].set(i, table.A2(i, k));
+      }
+    }
+    for (int p = 0; p < N / 2; ++p) {
+      eigenvalue.x.set(2 * p, table.eigenvalue[p].real());
+      eigenvalue.x.set(2 * p + 1, table.eigenvalue[p].imag());
+      for (int i = 0; i < N; ++i) {
+        T.column[2 * p].set(i, 2 * table.T_complex[p][i].real());
+        T.column[2 * p + 1].set(i, -2 * table.T_complex[p][i].imag());
+        T_inverse.column[i].set(2 * p, table.inverse_complex[p][i].real());
+        T_inverse.column[i].set(2 * p + 1, table.inverse_complex[p][i].imag());
+      }
+    }
+    for (int back = 0; back < N; ++back) {
+      tail_of_start.set(back, table.to_legendre(N - back, 0));
+      for (int s = 0; s < N; ++s) {
+        tail.column[s].set(back, table.to_legendre(N - back, s + 1));
+        tail_of_stages.column[s].set(back, table.stages_to_legendre(N - 1 - back, s));
+      }
+    }
+    eigenvalue.x.set(N - 1, table.real_eigenvalue);
+    for (int i = 0; i < N; ++i) {
+      T.column[N - 1].set(i, table.T_real[i]);
+      T_inverse.column[i].set(N - 1, table.inverse_real[i]);
+    }
+  }
+};
+
+/// What places the stages of a step of length h.
+template <int N>
+struct StepMatrices {
+  Lanes<N> c;
+  LaneMatrix<N> A, A2;
+  void scale(const StageMatrices<N>& m, double h) {
+    c = h * m.c;
+    for (int i = 0; i < N; ++i) {
+      A.column[i] = h * m.A.column[i];
+      A2.column[i] = (h * h) * m.A2.column[i];
+    }
+  }
+};
+
+/// A law's answer to a gap: its weights are those of each component, or a matrix by rows.
+template <class T>
+PINTLE_LANES void weigh(bool diagonal, const T* weight, const T* gap, T* f) {
+  for (int k = 0; k < 3; ++k) f[k] = diagonal ? weight[k] * gap[k] : weight[3 * k] * gap[0] + weight[3 * k + 1] * gap[1] + weight[3 * k + 2] * gap[2];
+}
+
+/// The largest lane; infinity where the sum of what it came from is not finite.
+template <int N>
+double largest(const Lanes<N>& size, const Lanes<N>& sum) {
+  double worst = 0;
+  for (int s = 0; s < N; ++s) {
+    if (!std::isfinite(sum[s])) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, size[s]);
+  }
+  return worst;
+}
+
+/// The size of the last of three coefficients, with what the next one will be like: they fall off by a ratio where the motion is
+/// smooth (then the next one is that much smaller than the last) and do not where it vibrates.
+class TailSize {
+ public:
+  PINTLE_LANES void add(const Lanes<4>& relative) {
+    size_ = larger_size(size_, relative);
+    sum_ += relative;
+  }
+  PINTLE_LANES double value() const {
+    if (!std::isfinite(sum_[0] + sum_[1] + sum_[2])) return std::numeric_limits<double>::infinity();
+    if (!(size_[0] > 0)) return 0;
+    return size_[0] * fall_off(size_[0], size_[1], size_[2]);
+  }
+
+ private:
+  Lanes<4> size_ = Lanes<4>::all(0), sum_ = size_;
+};
+
+}  // namespace pintle

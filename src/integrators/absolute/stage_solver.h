@@ -1,0 +1,61 @@
+// The stage equations of one implicit step. theory/time Eqs. (3.5)-(3.11).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "integrators/load_scale.h"
+#include "integrators/radau/radau_table.h"
+#include "integrators/radau/step_nodes.h"
+#include "linalg/block.h"
+#include "pintle/trajectory.h"
+#include "simd/lanes.h"
+#include "system/state.h"
+
+namespace pintle {
+
+/// One stage of a step: where everything is, and the forces. Where nothing but springs and dampers acts, stages before the last one
+/// have accelerations and joint forces only.
+struct Stage {
+  Vecs q, v, a, Q;                            // bodies
+  Vecs gap, gap_rate, gap_accel, force;       // joints
+  std::vector<Planar::Motion> m;
+  double loss = 0;                            // power lost in the springs and dampers that are joints [W]
+};
+
+/// Four numbers side by side for each coordinate of a body, or component of a gap.
+using Vec3x4 = BlockVec<Lanes<4>, Planar::kDof>;
+
+/// The last three Legendre coefficients of the bodies' accelerations and of the gaps' own, the last one first; the fourth number is
+/// left to the reader. Those of the bodies with the start of the step, whose own error is the last step's where the gaps are
+/// concerned.
+struct StageTails {
+  std::vector<Vec3x4> bodies, gaps;
+};
+
+class StageSolver {
+ public:
+
+  virtual ~StageSolver() = default;
+
+  /// Solves the step of h from `begin`; the prediction is `before`, the step before it of last_h, where there is one.
+  /// False when the iteration fails.
+  virtual bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) = 0;
+  /// What has been found from `begin`: one entry per stage, and the tails.
+  virtual void write(const State& begin, std::vector<Stage>& stages, StageTails& tails) const = 0;
+  /// By how much the last iterations shrank the error of the stages; 0: it took only one.
+  virtual double contraction() const = 0;
+  /// What is missing in joint j's equation at the end of the step [m/s^2 or rad/s^2].
+  virtual double residual(int j) const = 0;
+  /// Four sets of body forces, side by side, become the accelerations that they make within the step: mu^2 Z(mu)^-1 of
+  /// theory/time Eq. (3.8) with the real mu. A mode of frequency w yields by mu^2 / (mu^2 + w^2).
+  virtual void filter_accelerations(std::vector<Vec3x4>& forces) const = 0;
+};
+
+/// Whether steps are as long as Newton's method allows, and grow as fast: what the first guess is made from.
+enum class Steps { kAccurate, kLong };
+
+/// The solver with the stages of `table`.
+std::unique_ptr<StageSolver> make_stage_solver(const System& system, const RadauTable& table, double tolerance, Steps steps = Steps::kAccurate);
+
+}  // namespace pintle

@@ -1,0 +1,327 @@
+#include "integrators/dense/dense_forces.h"
+
+#include <cmath>
+
+#include "integrators/absolute/pose_blocks.h"
+#include "integrators/absolute/stage_lanes.h"
+#include "simd/processor_registers.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+// One instant per lane.
+class LaneForces : public DenseForces {
+ public:
+  explicit LaneForces(const System& system)
+      : system_(system), loads_(system.has_loads()), bodies_(system.bodies.size() + 1), joints_(system.joints.size()),
+        lu_(system.pattern(), symmetry_of_joints(system)), pull_(system.bodies.size() + 1), loads_on_(system.bodies.size() + 1), motions_(system.bodies.size()), Q_(system.bodies.size()) {
+    bodies_.back().c = L::all(1);  // the ground
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < 3; ++k) loads_on_[b][k] = L::all(system.bodies[b].gravity[k]);
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const JointData& data = system.joints[j];
+      joints_[j].map.function = !std::holds_alternative<Selection>(data.displacement);
+      joints_[j].linear = std::get_if<LinearLaw>(&data.law);
+      if (data.at.a != kGround && data.at.b != kGround) joints_[j].slot = system.pattern().slot(data.at.a, data.at.b);
+    }
+  }
+
+ protected:
+  void find_all(const State& begin, const State& end, const StepNodes& nodes, Sampled& sampled) {
+    const double mu = nodes.table->real_eigenvalue / (end.t - begin.t);
+    follow(begin, end, nodes);
+    factorize(mu);
+    move_onto_rates();
+    if (!begin.sliding.empty()) find_balanced_loads();
+    else if (loads_) find_loads(begin);
+    balance(mu);
+    sampled.front() = begin.force;
+    sampled.back() = end.force;
+    write(sampled);
+  }
+
+ private:
+  static constexpr int kN = ForceSamples::kN;
+  using L = Lanes<kN>;
+  using Three = BlockVec<L, S::kDof>;
+  struct Joint {
+    L gap[3], rate[3], accel[3], force[3];  // on the curves
+    L change[3];                            // of the force, that balances
+    L weight[9];                            // K + mu C; the first three of a spring and damper in each component
+    GapMap<L> map;
+    const LinearLaw* linear = nullptr;
+    BlockPattern::Slot slot{};
+  };
+
+  std::size_t body(int index) const { return index == kGround ? bodies_.size() - 1 : static_cast<std::size_t>(index); }
+  std::size_t n_bodies() const { return bodies_.size() - 1; }
+
+  // Where the curves are at the instants.
+  void follow(const State& begin, const State& end, const StepNodes& nodes) {
+    const ForceSamples& samples = ForceSamples::of(*nodes.table);
+    const int n = nodes.table->n + 1;
+    const double h = end.t - begin.t;
+    L x, hermite, value[RadauTable::kMaxNodes], once[RadauTable::kMaxNodes], twice[RadauTable::kMaxNodes];
+    for (int s = 0; s < kN; ++s) {
+      const double at = samples.x[s + 1];
+      x.set(s, at);
+      hermite.set(s, at * at * (3 - 2 * at));
+      t_.set(s, begin.t + at * h);
+      for (int node = 0; node < n; ++node) {
+        value[node].set(s, samples.value[s + 1][node]);
+        once[node].set(s, h * samples.once[s + 1][node]);
+        twice[node].set(s, h * h * samples.twice[s + 1][node]);
+      }
+    }
+    const auto combined = [&](const L* weight, const std::vector<Vecs>& of, std::size_t i, int k) {
+      L sum = of[0][i][k] * weight[0];
+      for (int node = 1; node < n; ++node) sum += of[node][i][k] * weight[node];
+      return sum;
+    };
+    const auto whole = [&](const ForceSamples::AtNodes& weight, const std::vector<Vecs>& of, std::size_t i, int k) {
+      double sum = 0;
+      for (int node = 0; node < n; ++node) sum += weight[node] * of[node][i][k];
+      return sum;
+    };
+    const auto rate = [&](const std::vector<Vecs>& of, const Vecs& v0, const Vecs& v1, std::size_t i, int k) {
+      const double bend = v1[i][k] - v0[i][k] - h * whole(samples.once.back(), of, i, k);
+      return L::all(v0[i][k]) + bend * x + combined(once, of, i, k);
+    };
+    const auto place = [&](const std::vector<Vecs>& of, const Vecs& x0, const Vecs& v0, const Vecs& x1, std::size_t i, int k) {
+      const double way = h * v0[i][k], bend = x1[i][k] - x0[i][k] - way - h * h * whole(samples.twice.back(), of, i, k);
+      return L::all(x0[i][k]) + way * x + bend * hermite + combined(twice, of, i, k);
+    };
+    for (std::size_t b = 0; b < n_bodies(); ++b) {
+      BodyLanes<kN>& body = bodies_[b];
+      for (int k = 0; k < 3; ++k) {
+        body.q[k] = place(nodes.a, begin.q, begin.v, end.q, b, k);
+        body.v[k] = rate(nodes.a, begin.v, end.v, b, k);
+        if (!begin.sliding.empty()) body.a[k] = combined(value, nodes.a, b, k);
+      }
+      sine_and_cosine(body.q[2], body.s, body.c);
+    }
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      Joint& joint = joints_[j];
+      for (int k = 0; k < 3; ++k) {
+        joint.gap[k] = place(nodes.gap_accel, begin.gap, begin.gap_rate, end.gap, j, k);
+        joint.rate[k] = rate(nodes.gap_accel, begin.gap_rate, end.gap_rate, j, k);
+        joint.accel[k] = combined(value, nodes.gap_accel, j, k);
+        joint.force[k] = combined(value, nodes.force, j, k);
+      }
+    }
+  }
+
+  // The map of joint j, what its bodies make of the gap's rate, and the convective acceleration; of a servo less than its target's.
+  void read(std::size_t j, L (&rate)[3], L (&bias)[3]) {
+    const JointData& data = system_.joints[j];
+    Joint& joint = joints_[j];
+    const BodyLanes<kN>&A = bodies_[body(data.at.a)], &B = bodies_[body(data.at.b)];
+    const auto pose = PoseGeometry<L>::between(A.view(), data.at.F, B.view(), data.at.M);
+    joint.map.set(pose);
+    if (joint.map.function) {
+      for (int s = 0; s < kN; ++s) {
+        const JointKinematics r = pintle::read(data.displacement, RelativePose::between(A.motion(s), data.at.F, B.motion(s), data.at.M));
+        for (int k = 0; k < 3; ++k) {
+          joint.map.gradient[k].set(s, r.map.gradient[k]);
+          rate[k].set(s, r.rate[k]);
+          bias[k].set(s, r.bias[k]);
+        }
+      }
+    } else {
+      const L rx = pose.rx + A.v[2] * pose.dy, ry = pose.ry - A.v[2] * pose.dx;
+      rate[0] = pose.c * rx + pose.s * ry;
+      rate[1] = pose.c * ry - pose.s * rx;
+      rate[2] = B.v[2] - A.v[2];
+      bias[0] = pose.bias_x;
+      bias[1] = pose.bias_y;
+      bias[2] = L::all(0);
+    }
+    if (data.servo < 0) return;
+    for (int s = 0; s < kN; ++s) {
+      const auto target = servo_target(data, t_[s]);
+      rate[data.servo].set(s, rate[data.servo][s] - target[1]);
+      bias[data.servo].set(s, bias[data.servo][s] - target[2]);
+    }
+  }
+
+  // mu^2 M + G' (K + mu C) G where the curves are; leaves wanted changes of the rates in `rate`. An instant at which that is singular
+  // has forces that are not numbers.
+  void factorize(double mu) {
+    lu_.set_diagonal([&](int b, int k) { return L::all(mu * mu * system_.bodies[b].mass[k]); });
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      Joint& joint = joints_[j];
+      L rate[3], bias[3];
+      read(j, rate, bias);
+      find_weight(j, mu);
+      for (int k = 0; k < 3; ++k) joint.rate[k] -= rate[k];
+      if (joint.linear && !joint.map.function) PoseBlocks<L>::of(joint.map, joint.weight).add_to(lu_, system_.joints[j].at, joint.slot);
+      else add_joint(j);
+    }
+    lu_.factorize();
+  }
+
+  void find_weight(std::size_t j, double mu) {
+    Joint& joint = joints_[j];
+    if (joint.linear) {
+      for (int k = 0; k < 3; ++k) joint.weight[k] = L::all(joint.linear->k[k] + mu * joint.linear->c[k]);
+      return;
+    }
+    for (int s = 0; s < kN; ++s) {
+      const Response r = respond(system_.joints[j].law, {joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]}, {joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]});
+      for (int k = 0; k < 9; ++k) joint.weight[k].set(s, r.stiffness(k / 3, k % 3) + mu * r.damping(k / 3, k % 3));
+    }
+  }
+  static void weigh(const Joint& joint, const L* gap, L* f) { pintle::weigh(joint.linear != nullptr, joint.weight, gap, f); }
+
+  // G' w G of any joint, a body's coordinate at a time.
+  void add_joint(std::size_t j) {
+    const Joint& joint = joints_[j];
+    const Placement& at = system_.joints[j].at;
+    BlockPattern::Slot ba = joint.slot;
+    ba.upper = !ba.upper;
+    for (int c = 0; c < 6; ++c) {
+      Three unit[2] = {zero(), zero()}, on[2] = {zero(), zero()};
+      unit[c / 3][c % 3] = L::all(1);
+      L e[3], f[3];
+      joint.map.gather(&unit[0][0], &unit[1][0], e);
+      weigh(joint, e, f);
+      joint.map.push(f, on[0], on[1]);
+      const auto add = [&](Block<L, 3>& block, int side) {
+        for (int r = 0; r < 3; ++r) block(r, c % 3) += on[side][r];
+      };
+      const int column = c < 3 ? at.a : at.b, other = c < 3 ? at.b : at.a;
+      if (column == kGround) continue;
+      add(lu_.diagonal(column), c / 3);
+      if (other == kGround) continue;
+      const BlockPattern::Slot slot = c < 3 ? ba : joint.slot;  // (row: the other body, column: this one)
+      if (lu_.has(slot)) add(lu_.off_diagonal(slot), 1 - c / 3);
+    }
+  }
+  static Three zero() { return {{L::all(0), L::all(0), L::all(0)}}; }
+
+  // The bodies' answer to forces w gap of all joints, into pull_.
+  template <class Gap>
+  void pull(Gap gap) {
+    for (Three& x : pull_) x = zero();
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const Placement& at = system_.joints[j].at;
+      L f[3];
+      weigh(joints_[j], joints_[j].*gap, f);
+      joints_[j].map.push(f, pull_[body(at.a)], pull_[body(at.b)]);
+    }
+    lu_.solve(pull_);
+    pull_.back() = zero();
+  }
+
+  void move_onto_rates() {
+    pull(&Joint::rate);
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < 3; ++k) bodies_[b].v[k] += pull_[b][k];
+  }
+
+  // theory/time Eq. (4.5).
+  void balance(double mu) {
+    pull_ = loads_on_;
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const Placement& at = system_.joints[j].at;
+      joints_[j].map.push(joints_[j].force, pull_[body(at.a)], pull_[body(at.b)]);
+    }
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < 3; ++k) bodies_[b].a[k] = (1 / system_.bodies[b].mass[k]) * pull_[b][k];
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      Joint& joint = joints_[j];
+      const Placement& at = system_.joints[j].at;
+      L rate[3], bias[3], e[3];
+      read(j, rate, bias);
+      joint.map.gather(bodies_[body(at.a)].a, bodies_[body(at.b)].a, e);
+      for (int k = 0; k < 3; ++k) joint.accel[k] -= bias[k] + e[k];
+    }
+    pull(&Joint::accel);
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      Joint& joint = joints_[j];
+      const Placement& at = system_.joints[j].at;
+      L e[3];
+      joint.map.gather(&pull_[body(at.a)][0], &pull_[body(at.b)][0], e);
+      for (int k = 0; k < 3; ++k) e[k] = joint.accel[k] - e[k];
+      weigh(joint, e, joint.change);
+      for (L& change : joint.change) change = (1 / (mu * mu)) * change;
+    }
+  }
+
+  // While a motor is held at a jump, those that the curves leave: its ramp is too steep to be asked at their speeds.
+  void find_balanced_loads() {
+    for (std::size_t b = 0; b < n_bodies(); ++b)
+      for (int k = 0; k < 3; ++k) loads_on_[b][k] = system_.bodies[b].mass[k] * bodies_[b].a[k];
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const Placement& at = system_.joints[j].at;
+      const L *f = joints_[j].force, against[3] = {-f[0], -f[1], -f[2]};
+      joints_[j].map.push(against, loads_on_[body(at.a)], loads_on_[body(at.b)]);
+    }
+  }
+
+  void find_loads(const State& begin) {
+    for (int s = 0; s < kN; ++s) {
+      for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(s);
+      system_.external(t_[s], motions_, Q_, begin.sliding);
+      for (std::size_t b = 0; b < n_bodies(); ++b)
+        for (int k = 0; k < 3; ++k) loads_on_[b][k].set(s, Q_[b][k]);
+    }
+  }
+
+  // Forces that balance; at an instant at which one of them is not a number, those of the curves.
+  void write(Sampled& sampled) const {
+    L nothing = L::all(0);
+    for (const Joint& joint : joints_)
+      for (const L& change : joint.change) nothing += 0.0 * change;
+    for (int s = 0; s < kN; ++s) {
+      Vecs& to = sampled[s + 1];
+      to.resize(joints_.size());
+      for (std::size_t j = 0; j < joints_.size(); ++j)
+        for (int k = 0; k < 3; ++k) to[j][k] = nothing[s] == 0 ? joints_[j].force[k][s] + joints_[j].change[k][s] : joints_[j].force[k][s];
+    }
+  }
+
+  const System& system_;
+  const bool loads_;
+  L t_;
+  std::vector<BodyLanes<kN>> bodies_;  // and the ground
+  std::vector<Joint> joints_;
+  BlockLu<L, S::kDof> lu_;
+  std::vector<Three> pull_, loads_on_; // and the ground's; gravity and loads
+  std::vector<S::Motion> motions_;     // of one instant
+  Vecs Q_;
+};
+
+class NarrowForces final : public LaneForces {
+ public:
+  using LaneForces::LaneForces;
+  void find(const State& begin, const State& end, const StepNodes& nodes, Sampled& sampled) override { find_all(begin, end, nodes, sampled); }
+};
+
+#ifdef PINTLE_WIDE
+class WideForces final : public LaneForces {
+ public:
+  using LaneForces::LaneForces;
+  PINTLE_WIDE void find(const State& begin, const State& end, const StepNodes& nodes, Sampled& sampled) override { find_all(begin, end, nodes, sampled); }
+};
+
+class WidestForces final : public LaneForces {
+ public:
+  using LaneForces::LaneForces;
+  PINTLE_WIDEST void find(const State& begin, const State& end, const StepNodes& nodes, Sampled& sampled) override { find_all(begin, end, nodes, sampled); }
+};
+#endif
+
+}  // namespace
+
+std::unique_ptr<DenseForces> make_dense_forces(const System& system) {
+#ifdef PINTLE_WIDE
+  if (has_widest_registers()) return std::make_unique<WidestForces>(system);
+  if (has_wide_registers()) return std::make_unique<WideForces>(system);
+#endif
+  return std::make_unique<NarrowForces>(system);
+}
+
+}  // namespace pintle

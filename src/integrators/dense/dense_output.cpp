@@ -1,0 +1,174 @@
+#include "integrators/dense/dense_output.h"
+
+#include <array>
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+// Values of the six quintic Hermite functions and their first two derivatives at s in [0, 1]: for f, h f', h^2 f'' at the
+// start and at the end.
+struct Hermite {
+  std::array<double, 6> f, df, ddf;
+  explicit Hermite(double s) {
+    const double s2 = s * s, s3 = s2 * s, s4 = s3 * s, s5 = s4 * s;
+    f = {1 - 10 * s3 + 15 * s4 - 6 * s5, s - 6 * s3 + 8 * s4 - 3 * s5, (s2 - 3 * s3 + 3 * s4 - s5) / 2,
+         10 * s3 - 15 * s4 + 6 * s5, -4 * s3 + 7 * s4 - 3 * s5, (s3 - 2 * s4 + s5) / 2};
+    df = {-30 * s2 + 60 * s3 - 30 * s4, 1 - 18 * s2 + 32 * s3 - 15 * s4, (2 * s - 9 * s2 + 12 * s3 - 5 * s4) / 2,
+          30 * s2 - 60 * s3 + 30 * s4, -12 * s2 + 28 * s3 - 15 * s4, (3 * s2 - 8 * s3 + 5 * s4) / 2};
+    ddf = {-60 * s + 180 * s2 - 120 * s3, -36 * s + 96 * s2 - 60 * s3, (2 - 18 * s + 36 * s2 - 20 * s3) / 2,
+           60 * s - 180 * s2 + 120 * s3, -24 * s + 84 * s2 - 60 * s3, (6 * s - 24 * s2 + 20 * s3) / 2};
+  }
+};
+
+// Curve through (x, x', x'') at both ends: written so that only the increment is interpolated.
+void interpolate(const Hermite& H, double h, const Vecs& x0, const Vecs& v0, const Vecs& a0, const Vecs& x1, const Vecs& v1,
+                 const Vecs& a1, Vecs& x, Vecs& v, Vecs& a) {
+  for (std::size_t i = 0; i < x0.size(); ++i) {
+    const S::Vec d = x1[i] - x0[i], hv0 = h * v0[i], hv1 = h * v1[i], ha0 = h * h * a0[i], ha1 = h * h * a1[i];
+    x[i] = x0[i] + H.f[3] * d + H.f[1] * hv0 + H.f[4] * hv1 + H.f[2] * ha0 + H.f[5] * ha1;
+    v[i] = (H.df[3] * d + H.df[1] * hv0 + H.df[4] * hv1 + H.df[2] * ha0 + H.df[5] * ha1) / h;
+    a[i] = (H.ddf[3] * d + H.ddf[1] * hv0 + H.ddf[4] * hv1 + H.ddf[2] * ha0 + H.ddf[5] * ha1) / (h * h);
+  }
+}
+
+double cubic(double s, double h, double x0, double v0, double x1, double v1) {
+  const double r = 1 - s;
+  return x0 + s * s * (3 - 2 * s) * (x1 - x0) + h * s * r * (r * v0 - s * v1);
+}
+
+}  // namespace
+
+DenseOutput::DenseOutput(const System& system)
+    : system_(system) {
+  out_.q = out_.v = out_.a = Vecs(system.bodies.size(), S::Vec::Zero());
+  out_.gap = out_.gap_rate = out_.gap_accel = out_.force = Vecs(system.joints.size(), S::Vec::Zero());
+}
+
+const State& DenseOutput::at(double t, const State& begin, const State& end) {
+  if (t == end.t) return end;
+  if (t == begin.t) return begin;
+  const double h = end.t - begin.t, s = (t - begin.t) / h;
+  const Hermite H(s);
+  interpolate(H, h, begin.q, begin.v, begin.a, end.q, end.v, end.a, out_.q, out_.v, out_.a);
+  interpolate(H, h, begin.gap, begin.gap_rate, begin.gap_accel, end.gap, end.gap_rate, end.gap_accel, out_.gap, out_.gap_rate,
+              out_.gap_accel);
+  out_.t = t;
+  out_.sliding = begin.sliding;
+  out_.dissipated = cubic(s, h, begin.dissipated, begin.loss_power, end.dissipated, end.loss_power);
+  out_.supplied = cubic(s, h, begin.supplied, begin.supply_power, end.supplied, end.supply_power);
+  for (int j = 0; j < system_.n_joints(); ++j) out_.force[j] = law_force(system_.joints[j].law, out_.gap[j], out_.gap_rate[j]);
+  return out_;
+}
+
+const State& DenseOutput::at(double t, const State& begin, const State& end, const StepNodes& nodes) {
+  if (t == end.t) return end;
+  if (t == begin.t) return begin;
+  if (!dense_forces_) make_room();
+  if (begin.t != curves_from_ || end.t != curves_to_) {
+    find_curves(begin, end, nodes);
+    find_forces(begin, end, nodes);
+  }
+  follow(t, begin, end);
+  return out_;
+}
+
+// For the curves: many runs ask for none.
+void DenseOutput::make_room() {
+  dense_forces_ = make_dense_forces(system_);
+  body_.resize(system_.bodies.size());
+  gap_.resize(system_.joints.size());
+  force_.resize(system_.joints.size());
+}
+
+// The state on the curves, at time t.
+void DenseOutput::follow(double t, const State& begin, const State& end) {
+  const double h = end.t - begin.t, x = (t - begin.t) / h;
+  Powers value, first, second;  // weights of the coefficients
+  double power = 1;
+  for (int k = 0; k < kMost; ++k, power *= x) {
+    value[k] = power;
+    first[k] = h * power * x / (k + 1);
+    second[k] = first[k] * h * x / (k + 2);
+  }
+  const double hermite = x * x * (3 - 2 * x);
+  const auto along = [&](const std::vector<Curve>& curves, const Vecs& x0, const Vecs& v0, Vecs& position, Vecs& rate, Vecs& accel) {
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      const Curve& curve = curves[i];
+      S::Vec a = curve.c[0], v = v0[i] + x * curve.bend_v + first[0] * a, q = x0[i] + x * h * v0[i] + hermite * curve.bend_q + second[0] * a;
+      for (int k = 1; k < n_; ++k) {
+        a += value[k] * curve.c[k];
+        v += first[k] * curve.c[k];
+        q += second[k] * curve.c[k];
+      }
+      accel[i] = a;
+      rate[i] = v;
+      position[i] = q;
+    }
+  };
+  out_.t = t;
+  out_.sliding = begin.sliding;
+  along(body_, begin.q, begin.v, out_.q, out_.v, out_.a);
+  along(gap_, begin.gap, begin.gap_rate, out_.gap, out_.gap_rate, out_.gap_accel);
+  for (std::size_t j = 0; j < force_.size(); ++j) {
+    S::Vec f = force_[j][0];
+    for (int k = 1; k < n_force_; ++k) f += value[k] * force_[j][k];
+    out_.force[j] = f;
+  }
+  std::array<double, 2> work = {x * bend_work_[0], x * bend_work_[1]};
+  for (int k = 0; k < n_; ++k)
+    for (int i = 0; i < 2; ++i) work[i] += first[k] * power_[k][i];
+  out_.supplied = begin.supplied + work[0];
+  out_.dissipated = begin.dissipated + work[1];
+}
+
+// Powers of x from values at the nodes; what is left at the far end goes into bends.
+void DenseOutput::find_curves(const State& begin, const State& end, const StepNodes& nodes) {
+  const RadauTable& table = *nodes.table;
+  n_ = table.n + 1;
+  curves_from_ = begin.t;
+  curves_to_ = end.t;
+  const double h = end.t - begin.t;
+  const auto coefficient = [&](int k, const std::vector<Vecs>& values, std::size_t i) {
+    S::Vec c = S::Vec::Zero();
+    for (int node = 0; node < n_; ++node) c += table.to_powers(k, node) * values[node][i];
+    return c;
+  };
+  const auto find = [&](std::vector<Curve>& curves, const std::vector<Vecs>& a, const Vecs& x0, const Vecs& v0, const Vecs& x1, const Vecs& v1) {
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      Curve& curve = curves[i];
+      curve.bend_v = v1[i] - v0[i];
+      curve.bend_q = x1[i] - x0[i] - h * v0[i];
+      for (int k = 0; k < n_; ++k) {
+        curve.c[k] = coefficient(k, a, i);
+        curve.bend_v -= h / (k + 1) * curve.c[k];
+        curve.bend_q -= h * h / ((k + 1) * (k + 2)) * curve.c[k];
+      }
+    }
+  };
+  find(body_, nodes.a, begin.q, begin.v, end.q, end.v);
+  find(gap_, nodes.gap_accel, begin.gap, begin.gap_rate, end.gap, end.gap_rate);
+  bend_work_ = {end.supplied - begin.supplied, end.dissipated - begin.dissipated};
+  for (int k = 0; k < n_; ++k) {
+    for (int i = 0; i < 2; ++i) {
+      power_[k][i] = 0;
+      for (int node = 0; node < n_; ++node) power_[k][i] += table.to_powers(k, node) * nodes.power[node][i];
+      bend_work_[i] -= h / (k + 1) * power_[k][i];
+    }
+  }
+}
+
+// The forces' own curves: through the ends and samples inside. theory/time section 5.
+void DenseOutput::find_forces(const State& begin, const State& end, const StepNodes& nodes) {
+  dense_forces_->find(begin, end, nodes, sampled_);
+  const auto& to_powers = ForceSamples::of(*nodes.table).to_powers;
+  n_force_ = ForceSamples::kAll;
+  for (std::size_t j = 0; j < force_.size(); ++j)
+    for (int k = 0; k < n_force_; ++k) {
+      force_[j][k].setZero();
+      for (int i = 0; i < n_force_; ++i) force_[j][k] += to_powers[k][i] * sampled_[i][j];
+    }
+}
+
+}  // namespace pintle

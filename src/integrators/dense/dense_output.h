@@ -1,0 +1,52 @@
+// The state at any time inside the last step, with joint forces as accurate as those at its ends: curves through what the
+// implicit method knows at its nodes, or quintic Hermite ones through both ends and the forces that go with them.
+// theory/time section 5.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "integrators/dense/dense_forces.h"
+#include "integrators/radau/step_nodes.h"
+#include "system/state.h"
+
+namespace pintle {
+
+class DenseOutput {
+ public:
+  explicit DenseOutput(const System& system);
+
+  /// The state at time t between `begin` and `end`, of a method that resolves every vibration.
+  const State& at(double t, const State& begin, const State& end);
+  /// The same with what an implicit step knows at its nodes.
+  const State& at(double t, const State& begin, const State& end, const StepNodes& nodes);
+
+ private:
+  static constexpr int kMost = ForceSamples::kAll;              // coefficients at most
+  static_assert(kMost >= RadauTable::kMaxNodes);
+  using Powers = std::array<double, kMost>;
+  using Coefficients = std::array<Planar::Vec, kMost>;          // of powers of the share of the step
+  struct Curve {
+    Coefficients c;              // of the acceleration
+    Planar::Vec bend_q, bend_v;  // what its integrals miss the far end by
+  };
+  void make_room();
+  void find_curves(const State& begin, const State& end, const StepNodes& nodes);
+  void find_forces(const State& begin, const State& end, const StepNodes& nodes);
+  void follow(double t, const State& begin, const State& end);
+
+  const System& system_;
+  std::unique_ptr<DenseForces> dense_forces_;  // made with the room for curves
+  DenseForces::Sampled sampled_;
+  State out_;
+  // The last step's curves, found when they are first asked for.
+  double curves_from_ = 0, curves_to_ = 0;
+  int n_ = 0, n_force_ = 0;  // coefficients of accelerations, of forces
+  std::vector<Curve> body_, gap_;
+  std::vector<Coefficients> force_;
+  std::array<std::array<double, 2>, kMost> power_{};  // supplied, lost
+  std::array<double, 2> bend_work_{};
+};
+
+}  // namespace pintle

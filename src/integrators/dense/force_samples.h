@@ -1,0 +1,25 @@
+// Where joint forces are found inside a step of Radau IIA, and what of the accelerations at its nodes is the acceleration there,
+// the rate and the way. theory/time section 5.
+#pragma once
+
+#include <array>
+
+#include "integrators/radau/radau_table.h"
+
+namespace pintle {
+
+struct ForceSamples {
+  static constexpr int kN = 5, kAll = kN + 2;  // inside; with both ends
+  using AtNodes = std::array<double, RadauTable::kMaxNodes>;
+
+  std::array<double, kAll> x;                        // of the step: with both ends, the extrema of a Chebyshev polynomial on [0, 1]
+  std::array<AtNodes, kAll> value, once, twice;      // weights of the nodes: of a curve and its integrals from the start
+  std::array<std::array<double, kAll>, kAll> to_powers;  // coefficient, sample
+
+  static const ForceSamples& of(const RadauTable& table);
+
+ private:
+  explicit ForceSamples(const RadauTable& table);
+};
+
+}  // namespace pintle

@@ -1,0 +1,30 @@
+#include "integrators/force_evaluator.h"
+
+namespace pintle {
+
+void ForceEvaluator::complete(State& state) {
+  system_.motions(state.q, state.v, m_);
+  system_.joint_kinematics(state.t, m_, r_);
+  const ExternalWork work = system_.external_work(state.t, state.q, m_, state.sliding);
+  state.supply_power = work.supplied;
+  state.loss_power = work.lost;
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const JointData& joint = system_.joints[j];
+    state.gap[j] = r_[j].gap;
+    state.gap_rate[j] = r_[j].rate;
+    const Response response = respond(joint.law, r_[j].gap, r_[j].rate);
+    state.force[j] = response.force;
+    if (joint.servo >= 0) state.supply_power += response.force[joint.servo] * system_.pose(joint.at, m_).rate[joint.servo];
+    else state.loss_power += response.loss;
+  }
+  find_accelerations(system_, m_, r_, state);
+}
+
+State zero_state(const System& system) {
+  State state;
+  state.q = state.v = state.a = Vecs(system.bodies.size(), Planar::Vec::Zero());
+  state.gap = state.gap_rate = state.gap_accel = state.force = Vecs(system.joints.size(), Planar::Vec::Zero());
+  return state;
+}
+
+}  // namespace pintle

@@ -1,0 +1,206 @@
+#include "integrators/general/alpha_stepper.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+constexpr int kMaxIterations = 10;
+constexpr double kNewtonShare = 0.01;       // of the tolerance: a last correction that is small enough
+constexpr double kLoosestNewton = 1e-5;     // forces are k times positions: solved at least to this, whatever the tolerance
+constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+// theory/solvers Eq. (3.6).
+double AlphaWeights::velocity_error() const {
+  const double g = gamma(), d = lag(), ahead = 1 + d;
+  const double offset = 0.5 * (1 - forces - (1 - accelerations) * ahead * ahead - accelerations * d * d);
+  return 0.5 * (1 - g) * d * d + 0.5 * g * ahead * ahead + offset - 1.0 / 6;
+}
+
+AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance)
+    : system_(system), weights_(weights), beta_(weights.beta()), gamma_(weights.gamma()), tolerance_(tolerance),
+      newton_tolerance_(std::min(tolerance, kLoosestNewton)), force_evaluator_(system), tangents_(system), lu_(system.pattern()),
+      begin_(zero_state(system)), end_(begin_), between_(begin_), a_before_(begin_.q), a_now_(begin_.q), q_(begin_.q), v_(begin_.q), a_(begin_.q), F_begin_(begin_.q),
+      F_(begin_.q), work_(system.bodies.size()) {
+  before_ = now_ = {begin_.q, begin_.q, begin_.q, 0};
+}
+
+void AlphaStepper::start(const State& state, double h) {
+  begin_ = end_ = state;
+  force_evaluator_.complete(end_);
+  now_ = {end_.v, end_.a, end_.a, 0};
+  h_ = h;
+}
+
+// theory/solvers Eq. (3.7): the lag of the accelerations goes with the step; here it becomes that of a step of h.
+void AlphaStepper::set_lag(double h, const Knot& knot, Vecs& a) const {
+  const double share = weights_.lag() != 0 && knot.h > 0 ? h / knot.h : 1;
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = share == 1 ? knot.a[i] : knot.law[i] + share * (knot.a[i] - knot.law[i]);
+}
+
+// F = Q + G' law(gap, rate).
+void AlphaStepper::forces(double t, const Vecs& q, const Vecs& v, Vecs& F) {
+  system_.accelerations(t, q, v, F);
+  for (int i = 0; i < system_.n_bodies(); ++i) F[i] = F[i].cwiseProduct(system_.bodies[i].mass);
+  ++counters_.evaluations;
+}
+
+// theory/solvers Eq. (3.2): where the accelerations a_ take positions and velocities.
+void AlphaStepper::place(double h) {
+  for (std::size_t i = 0; i < q_.size(); ++i) {
+    q_[i] = begin_.q[i] + h * begin_.v[i] + h * h * ((0.5 - beta_) * a_now_[i] + beta_ * a_[i]);
+    v_[i] = begin_.v[i] + h * ((1 - gamma_) * a_now_[i] + gamma_ * a_[i]);
+  }
+}
+
+double AlphaStepper::weight(double a, double b, double largest) const {
+  return tolerance_.relative * std::max(std::abs(a), std::abs(b)) + tolerance_.absolute + kRounding * largest;
+}
+
+// One Newton correction, theory/solvers Eq. (3.4); how large it is, in units of the tolerance.
+double AlphaStepper::correct(double h) {
+  const double t = begin_.t + h, new_a = 1 - weights_.accelerations, new_F = 1 - weights_.forces;
+  forces(t, q_, v_, F_);
+  tangents_.find(t, q_, v_);
+  tangents_.combine(new_a, new_F * h * h * beta_, new_F * h * gamma_, lu_);
+  ++counters_.factorizations;
+  ++counters_.newton_iterations;
+  if (!lu_.factorize()) return std::numeric_limits<double>::infinity();
+  for (int i = 0; i < system_.n_bodies(); ++i) {
+    const S::Vec rest = new_F * F_[i] + weights_.forces * F_begin_[i] -
+                        system_.bodies[i].mass.cwiseProduct(new_a * a_[i] + weights_.accelerations * a_now_[i]);
+    work_[i] = {{rest[0], rest[1], rest[2]}};
+  }
+  lu_.solve(work_);
+  double size = 0, sum = 0;
+  for (std::size_t i = 0; i < a_.size(); ++i)
+    for (int k = 0; k < S::kDof; ++k) {
+      const double da = work_[i][k];
+      sum += da;
+      a_[i][k] += da;
+      size = std::max({size, h * h * beta_ * std::abs(da) / weight(begin_.q[i][k], q_[i][k], largest_q_),
+                       h * gamma_ * std::abs(da) / weight(begin_.v[i][k], v_[i][k], largest_v_)});
+    }
+  place(h);
+  return std::isfinite(sum) ? size : std::numeric_limits<double>::infinity();
+}
+
+bool AlphaStepper::solve(double h) {
+  a_ = a_now_;
+  place(h);
+  const double enough = kNewtonShare * newton_tolerance_ / tolerance_.relative;
+  double last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const double size = correct(h);
+    if (!std::isfinite(size) || (i > 2 && size > 2 * last)) return false;
+    if (size < std::max(enough, 1e-2 * kRounding)) return true;
+    last = size;
+  }
+  return last < 1;  // at the rounding of stiff forces corrections shrink no more
+}
+
+// theory/solvers Eqs. (3.5), (3.6), in units of the tolerance.
+double AlphaStepper::error(double h) {
+  const double e_q = std::abs(weights_.position_error()) * h * h * h, e_v = std::abs(weights_.velocity_error()) * h * h * h;
+  double worst = 0, sum = 0;
+  for (std::size_t i = 0; i < a_.size(); ++i)
+    for (int k = 0; k < S::kDof; ++k) {
+      const double slope_v = (v_[i][k] - begin_.v[i][k]) / h, slope_a = (a_[i][k] - a_now_[i][k]) / h;
+      double q3 = slope_a, v3 = slope_a / h;  // a first step knows no more: too large a guess
+      if (now_.h > 0) {
+        q3 = 2 * (slope_v - (begin_.v[i][k] - before_.v[i][k]) / now_.h) / (h + now_.h);
+        v3 = 2 * (slope_a - (a_now_[i][k] - a_before_[i][k]) / now_.h) / (h + now_.h);
+      }
+      sum += q3 + v3;
+      worst = std::max({worst, e_q * std::abs(q3) / weight(begin_.q[i][k], q_[i][k], largest_q_),
+                        e_v * std::abs(v3) / weight(begin_.v[i][k], v_[i][k], largest_v_)});
+    }
+  return std::isfinite(sum) ? worst : std::numeric_limits<double>::infinity();
+}
+
+bool AlphaStepper::step(double t_end) {
+  begin_ = end_;
+  largest_q_ = largest_coordinate(begin_.q);
+  largest_v_ = largest_coordinate(begin_.v);
+  forces(begin_.t, begin_.q, begin_.v, F_begin_);
+  double most = 5;  // by which the next step may be longer
+  double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
+  while (true) {
+    h = std::min(h, t_end - begin_.t);
+    if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
+      failure_ = fmt::format("the step size has shrunk to nothing at t = {:.9g} s", begin_.t);
+      return false;
+    }
+    set_lag(h, now_, a_now_);
+    set_lag(h, before_, a_before_);
+    if (!solve(h)) {
+      ++counters_.newton_failures;
+      most = 1;
+      h *= 0.25;
+      continue;
+    }
+    const double e = error(h);
+    const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
+    if (e <= 1) {
+      finish(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
+      h_ = h * std::min(factor, most);
+      return true;
+    }
+    ++counters_.rejected;
+    most = 1;
+    h *= std::min(factor, 0.8);
+  }
+}
+
+// Energies by the trapezoidal rule, which is of the method's order.
+void AlphaStepper::finish(double t, double h) {
+  end_.t = t;
+  end_.q = q_;
+  end_.v = v_;
+  force_evaluator_.complete(end_);
+  end_.dissipated = begin_.dissipated + 0.5 * h * (begin_.loss_power + end_.loss_power);
+  end_.supplied = begin_.supplied + 0.5 * h * (begin_.supply_power + end_.supply_power);
+  std::swap(before_, now_);
+  now_.v = v_;
+  now_.a = a_;
+  now_.law = end_.a;
+  now_.h = h;
+  ++counters_.steps;
+}
+
+// theory/solvers section 4: bodies on cubics, gaps and their rates on straight lines.
+const State& AlphaStepper::interpolate(double t) {
+  if (t == end_.t) return end_;
+  if (t == begin_.t) return begin_;
+  const double h = end_.t - begin_.t, s = (t - begin_.t) / h, r = 1 - s;
+  const auto cubic = [&](const auto& x0, const auto& d0, const auto& x1, const auto& d1, auto& x) {
+    x = x0 + s * s * (3 - 2 * s) * (x1 - x0) + h * s * r * (r * d0 - s * d1);
+  };
+  between_.t = t;
+  for (std::size_t i = 0; i < q_.size(); ++i) {
+    cubic(begin_.q[i], begin_.v[i], end_.q[i], end_.v[i], between_.q[i]);
+    cubic(begin_.v[i], begin_.a[i], end_.v[i], end_.a[i], between_.v[i]);
+    between_.a[i] = r * begin_.a[i] + s * end_.a[i];
+  }
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    between_.gap[j] = r * begin_.gap[j] + s * end_.gap[j];
+    between_.gap_rate[j] = r * begin_.gap_rate[j] + s * end_.gap_rate[j];
+    between_.gap_accel[j] = r * begin_.gap_accel[j] + s * end_.gap_accel[j];
+    between_.force[j] = law_force(system_.joints[j].law, between_.gap[j], between_.gap_rate[j]);
+  }
+  between_.loss_power = r * begin_.loss_power + s * end_.loss_power;
+  between_.supply_power = r * begin_.supply_power + s * end_.supply_power;
+  between_.dissipated = begin_.dissipated + 0.5 * h * s * (begin_.loss_power + between_.loss_power);
+  between_.supplied = begin_.supplied + 0.5 * h * s * (begin_.supply_power + between_.supply_power);
+  return between_;
+}
+
+}  // namespace pintle

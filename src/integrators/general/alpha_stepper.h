@@ -1,0 +1,81 @@
+// The trapezoidal rule, HHT-alpha and the generalised-alpha method on M a = F(t, q, v), joint forces read from the laws:
+// one family with two parameters. theory/solvers section 3.
+#pragma once
+
+#include <string>
+
+#include "integrators/force_evaluator.h"
+#include "integrators/general/force_tangents.h"
+#include "integrators/general/usual_tolerance.h"
+#include "integrators/stepper.h"
+
+namespace pintle {
+
+/// Weights of the old end of a step: of the accelerations and of the forces. theory/solvers Eqs. (3.1)-(3.3).
+struct AlphaWeights {
+  double accelerations = 0, forces = 0;
+
+  static AlphaWeights trapezoidal() { return {}; }
+  /// Hilber, Hughes and Taylor, -1/3 <= alpha <= 0.
+  static AlphaWeights hht(double alpha) { return {0, -alpha}; }
+  /// Chung and Hulbert, with the factor that very fast vibrations keep per step.
+  static AlphaWeights generalised(double radius) { return {(2 * radius - 1) / (radius + 1), radius / (radius + 1)}; }
+
+  double gamma() const { return 0.5 - accelerations + forces; }
+  double beta() const { return 0.25 * (0.5 + gamma()) * (0.5 + gamma()); }
+  /// The accelerations are those of a time that lies this part of a step behind the end's (ahead where positive).
+  double lag() const { return accelerations - forces; }
+  /// What a step adds to the error: this times h^3 q''' in positions, h^3 v''' in velocities.
+  double position_error() const { return beta() + 0.5 * lag() - 1.0 / 6; }
+  double velocity_error() const;
+};
+
+class AlphaStepper final : public Stepper {
+ public:
+  AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance);
+
+  void set_max_step(double h) override { max_step_ = h; }
+  void set_load_scale(const LoadScale&) override {}
+  const LoadScale& load_scale() const override { return no_scale_; }
+  void start(const State& state, double h) override;
+  bool step(double t_end) override;
+  const State& state() const override { return end_; }
+  const State& previous() const override { return begin_; }
+  const State& interpolate(double t) override;
+  const Counters& counters() const override { return counters_; }
+  const std::string& failure() const override { return failure_; }
+
+ private:
+  struct Knot {     // a time that has been reached
+    Vecs v, a, law;  // accelerations: the method's own, and those that the laws give
+    double h = 0;    // of the step that led there
+  };
+  void set_lag(double h, const Knot& knot, Vecs& a) const;
+  bool solve(double h);
+  void place(double h);
+  void forces(double t, const Vecs& q, const Vecs& v, Vecs& F);
+  double correct(double h);
+  double error(double h);
+  void finish(double t, double h);
+  double weight(double a, double b, double largest) const;
+
+  const System& system_;
+  AlphaWeights weights_;
+  double beta_, gamma_;
+  UsualTolerance tolerance_;
+  double newton_tolerance_, max_step_ = 0, h_ = 0;
+  ForceEvaluator force_evaluator_;
+  ForceTangents tangents_;
+  BlockLu<double, Planar::kDof> lu_;
+  State begin_, end_, between_;
+  Knot before_, now_;                   // begins of the step before and of this one
+  Vecs a_before_, a_now_;               // their accelerations with the lag of this step
+  Vecs q_, v_, a_, F_begin_, F_;        // the end that is sought
+  std::vector<BlockVec<double, Planar::kDof>> work_;
+  double largest_q_ = 1, largest_v_ = 1;
+  LoadScale no_scale_;
+  Counters counters_;
+  std::string failure_;
+};
+
+}  // namespace pintle

@@ -1,0 +1,146 @@
+#include "integrators/general/dopri5.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrators/dormand_prince.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+using namespace dormand_prince;
+
+}  // namespace
+
+Dopri5::Dopri5(const System& system, double tolerance)
+    : system_(system), force_evaluator_(system), tolerance_(tolerance), q_(system.bodies.size()), v_(system.bodies.size()), dq_(system.bodies.size()),
+      dv_(system.bodies.size()) {
+  for (auto* k : {&kq_, &kv_})
+    for (auto& x : *k) x.resize(system.bodies.size());
+  scale_.body.assign(system.bodies.size(), S::Vec::Zero());
+}
+
+void Dopri5::start(const State& state, double h) {
+  begin_ = end_ = state;
+  h_ = h;
+  complete(end_);
+  find_rounding();
+  grow_scale();
+}
+
+// The load below which the rounding of positions, as joint force, would be seen as an error.
+void Dopri5::find_rounding() {
+  const double size = largest_coordinate(end_.q);
+  rounding_.assign(system_.bodies.size(), 0.0);
+  for (std::size_t i = 0; i < rounding_.size(); ++i) rounding_[i] = 1e-9 * system_.bodies[i].mass[0];
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const JointData& joint = system_.joints[j];
+    const double k = respond(joint.law, end_.gap[j], end_.gap_rate[j]).stiffness.diagonal().head<2>().maxCoeff();
+    const double least = 30 * std::numeric_limits<double>::epsilon() * size * k / tolerance_;
+    for (const int body : {joint.at.a, joint.at.b})
+      if (body != kGround) rounding_[body] = std::max(rounding_[body], least);
+  }
+}
+
+bool Dopri5::step(double t_end) {
+  begin_ = end_;
+  double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
+  kq_[0] = begin_.v;
+  kv_[0] = begin_.a;
+  while (true) {
+    h = std::min(h, t_end - begin_.t);
+    if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
+      failure_ = fmt::format("the step size has shrunk to nothing at t = {:.9g} s", begin_.t);
+      return false;
+    }
+    for (int s = 1; s < 7; ++s) {
+      for (std::size_t i = 0; i < q_.size(); ++i) {
+        q_[i].setZero();
+        v_[i].setZero();
+        for (int k = 0; k < s; ++k) {
+          q_[i] += kA[s][k] * kq_[k][i];
+          v_[i] += kA[s][k] * kv_[k][i];
+        }
+        q_[i] = begin_.q[i] + h * q_[i];
+        v_[i] = begin_.v[i] + h * v_[i];
+      }
+      kq_[s] = v_;
+      system_.accelerations(begin_.t + kC[s] * h, q_, v_, kv_[s]);
+      ++counters_.evaluations;
+    }
+    const double e = error(h) / tolerance_;
+    const double factor = std::isfinite(e) ? std::clamp(0.9 * std::pow(std::max(e, 1e-10), -0.2), 0.2, 5.0) : 0.1;
+    if (e <= 1) {
+      end_.t = t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h;
+      end_.q = q_;
+      end_.v = v_;
+      complete(end_);
+      end_.dissipated = begin_.dissipated + 0.5 * h * (begin_.loss_power + end_.loss_power);
+      end_.supplied = begin_.supplied + 0.5 * h * (begin_.supply_power + end_.supply_power);
+      grow_scale();
+      ++counters_.steps;
+      h_ = h * factor;
+      return true;
+    }
+    ++counters_.rejected;
+    h *= std::min(factor, 0.8);
+  }
+}
+
+// The embedded error as joint force: what the error of positions and velocities makes of the laws' forces, over the loads.
+double Dopri5::error(double h) {
+  for (std::size_t i = 0; i < q_.size(); ++i) {
+    dq_[i].setZero();
+    dv_[i].setZero();
+    for (int s = 0; s < 7; ++s) {
+      dq_[i] += kE[s] * h * kq_[s][i];
+      dv_[i] += kE[s] * h * kv_[s][i];
+    }
+  }
+  system_.motions(q_, v_, m_);
+  system_.joint_kinematics(begin_.t + h, m_, r_);
+  double worst = 0;
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const JointData& joint = system_.joints[j];
+    S::Vec de = S::Vec::Zero(), dr = S::Vec::Zero();
+    double load = 0, couple = 0;
+    for (const auto& [body, G] : {std::pair{joint.at.a, r_[j].GA()}, std::pair{joint.at.b, r_[j].GB()}}) {
+      if (body == kGround) continue;
+      de += G * dq_[body];
+      dr += G * dv_[body];
+      load = std::max(load, scale_.body[body][0]);
+      couple = std::max(couple, scale_.body[body][2]);
+    }
+    const Response response = respond(joint.law, r_[j].gap, r_[j].rate);
+    const S::Vec df = response.stiffness * de + response.damping * dr;
+    worst = std::max({worst, df.head<2>().norm() / load, std::abs(df[2]) / couple});
+    if (!std::isfinite(df.sum())) return std::numeric_limits<double>::infinity();
+  }
+  for (int i = 0; i < system_.n_bodies(); ++i) {
+    const S::Vec d = system_.bodies[i].mass.cwiseProduct(dv_[i]).cwiseAbs().cwiseQuotient(scale_.body[i]) / h;
+    worst = std::max(worst, d.maxCoeff());
+  }
+  return worst;
+}
+
+void Dopri5::grow_scale() {
+  for (int i = 0; i < system_.n_bodies(); ++i) {
+    const S::Vec& mass = system_.bodies[i].mass;
+    const double radius = system_.bodies[i].radius_of_gyration();
+    const S::Vec load = mass.cwiseProduct(end_.a[i]).cwiseAbs() + system_.bodies[i].gravity.cwiseAbs();
+    double force = std::max({scale_.body[i][0], load[0], load[1], rounding_[i]});
+    for (int j = 0; j < system_.n_joints(); ++j)
+      if (system_.joints[j].at.a == i || system_.joints[j].at.b == i) force = std::max(force, end_.force[j].head<2>().norm());
+    double moment = std::max({scale_.body[i][2], load[2], 1e-3 * force * radius});
+    for (int j = 0; j < system_.n_joints(); ++j)
+      if (system_.joints[j].at.a == i || system_.joints[j].at.b == i) moment = std::max(moment, std::abs(end_.force[j][2]));
+    scale_.body[i] << force, force, moment;
+  }
+}
+
+}  // namespace pintle

@@ -1,0 +1,49 @@
+// The explicit Dormand-Prince pair of order 5(4) on the equations as they stand, with the error measured on joint forces
+// as well as on velocities. J. R. Dormand and P. J. Prince, J. Comput. Appl. Math. 6 (1980) 19-26.
+#pragma once
+
+#include <array>
+
+#include "integrators/absolute/stage_solver.h"
+#include "integrators/force_evaluator.h"
+#include "pintle/trajectory.h"
+#include "system/state.h"
+
+namespace pintle {
+
+class Dopri5 {
+ public:
+  Dopri5(const System& system, double tolerance);
+  void set_load_scale(const LoadScale& scale) { scale_ = scale; }
+  const LoadScale& load_scale() const { return scale_; }
+  void set_max_step(double h) { max_step_ = h; }
+  void start(const State& state, double h);
+  bool step(double t_end);
+  const State& state() const { return end_; }
+  const State& previous() const { return begin_; }
+  const Counters& counters() const { return counters_; }
+  const std::string& failure() const { return failure_; }
+
+  /// Gaps, forces, accelerations and powers that belong to state.q, state.v.
+  void complete(State& state) { force_evaluator_.complete(state); }
+
+ private:
+  double error(double h);
+  void find_rounding();
+  void grow_scale();
+
+  const System& system_;
+  ForceEvaluator force_evaluator_;
+  double tolerance_, max_step_ = 0, h_ = 0;
+  State begin_, end_;
+  std::array<Vecs, 7> kq_, kv_;
+  Vecs q_, v_, dq_, dv_;
+  std::vector<Planar::Motion> m_;
+  std::vector<JointKinematics> r_;
+  LoadScale scale_;
+  std::vector<double> rounding_;  // per body [N]
+  Counters counters_;
+  std::string failure_;
+};
+
+}  // namespace pintle

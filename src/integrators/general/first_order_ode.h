@@ -1,0 +1,49 @@
+// A system as the plain first-order equations y' = f(t, y) that general integrators ask for, with the exact Jacobian:
+// y = (q, v), and where wanted the energies dissipated and supplied as two more components. theory/solvers section 1.
+#pragma once
+
+#include "integrators/force_evaluator.h"
+#include "integrators/general/force_tangents.h"
+
+namespace pintle {
+
+class FirstOrderOde {
+ public:
+  enum class Energies { kLeftOut, kAppended };
+
+  FirstOrderOde(const System& system, Energies energies);
+
+  const System& system() const { return system_; }
+  /// Length of y; of its part (q, v).
+  int size() const { return motion_size() + (energies_ ? 2 : 0); }
+  int motion_size() const { return 6 * system_.n_bodies(); }
+  void flatten(const State& state, double* y) const;
+  /// Fills time, q, v and, where y has them, the energies of `state`; the rest stays as it is.
+  void unflatten(double t, const double* y, State& state) const;
+
+  /// f(t, y); false where it is not finite.
+  bool rate(double t, const double* y, double* dy);
+  /// Finds the blocks of d(a)/dq and d(a)/dv at y. The energies' rows of the Jacobian are taken as zero: they act back
+  /// on nothing.
+  void linearize(double t, const double* y);
+  /// A body whose accelerations may depend on those coordinates, and where the block stands.
+  struct Coupling {
+    int row, place;
+  };
+  /// All that depend on the coordinates of body `column`, in the order of rows.
+  const std::vector<Coupling>& couplings(int column) const { return couplings_[column]; }
+  Planar::Mat by_position(const Coupling& c) const { return inverse_mass(c.row) * tangents_.by_position(c.place); }
+  Planar::Mat by_velocity(const Coupling& c) const { return inverse_mass(c.row) * tangents_.by_velocity(c.place); }
+
+ private:
+  Eigen::DiagonalMatrix<double, 3> inverse_mass(int i) const { return Eigen::DiagonalMatrix<double, 3>(system_.bodies[i].mass.cwiseInverse()); }
+
+  const System& system_;
+  bool energies_;
+  ForceEvaluator force_evaluator_;
+  ForceTangents tangents_;
+  State at_;
+  std::vector<std::vector<Coupling>> couplings_;  // by columns
+};
+
+}  // namespace pintle

@@ -1,0 +1,39 @@
+// Derivatives of all forces on the bodies, joints included, by positions and by velocities: one block per coupled pair of
+// bodies, on the system's pattern. theory/solvers Eqs. (1.2), (1.3).
+#pragma once
+
+#include <array>
+
+#include "linalg/block_lu.h"
+#include "system/system.h"
+
+namespace pintle {
+
+class ForceTangents {
+ public:
+  using Mat = Planar::Mat;
+
+  explicit ForceTangents(const System& system);
+
+  /// dF/dq and dF/dv of F = Q + G' law(gap, rate).
+  void find(double t, const Vecs& q, const Vecs& v);
+
+  /// Blocks of the pattern, fill of its elimination included, and where block (row, column) stands among them.
+  int n_blocks() const { return static_cast<int>(by_q_.size()); }
+  int place(int row, int column) const;
+  const Mat& by_position(int place) const { return by_q_[place]; }
+  const Mat& by_velocity(int place) const { return by_v_[place]; }
+
+  /// lu = mass * M - by_q * dF/dq - by_v * dF/dv.
+  void combine(double mass, double by_q, double by_v, BlockLu<double, Planar::kDof>& lu) const;
+
+ private:
+  void add_joint(int j, double t);
+
+  const System& system_;
+  std::vector<Planar::Motion> motions_;
+  std::vector<std::array<int, 4>> joint_places_;  // (a, a), (a, b), (b, a), (b, b); -1: ground
+  std::vector<Mat> by_q_, by_v_;                  // diagonal, upper, lower blocks
+};
+
+}  // namespace pintle

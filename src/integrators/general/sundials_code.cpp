@@ -1,0 +1,265 @@
+#ifdef PINTLE_SUNDIALS
+#include "integrators/general/sundials_code.h"
+
+#include <arkode/arkode_arkstep.h>
+#include <arkode/arkode_erkstep.h>
+#include <cvode/cvode.h>
+#include <fmt/format.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunlinsol/sunlinsol_klu.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace pintle {
+namespace {
+
+using Family = SundialsChoice::Family;
+
+constexpr long kMaxSteps = 20'000'000;  // of one call
+
+template <class T>
+using Owned = std::unique_ptr<T, void (*)(T*)>;
+using Vector = Owned<_generic_N_Vector>;
+
+void must(int flag, const char* what) {
+  if (flag < 0) throw std::runtime_error(fmt::format("SUNDIALS: {} failed", what));
+}
+
+int rate(realtype t, N_Vector y, N_Vector dy, void* equations) {
+  const bool finite = static_cast<FirstOrderOde*>(equations)->rate(t, N_VGetArrayPointer(y), N_VGetArrayPointer(dy));
+  return finite ? 0 : 1;  // 1: to be tried with a smaller step
+}
+
+void fill_dense(const FirstOrderOde& e, SUNMatrix J) {
+  const int half = e.motion_size() / 2;
+  SUNMatZero(J);
+  for (int k = 0; k < half; ++k) SM_ELEMENT_D(J, k, half + k) = 1;
+  for (int j = 0; j < e.system().n_bodies(); ++j)
+    for (const FirstOrderOde::Coupling& at : e.couplings(j)) {
+      const Planar::Mat by_q = e.by_position(at), by_v = e.by_velocity(at);
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) {
+          SM_ELEMENT_D(J, half + 3 * at.row + r, 3 * j + c) = by_q(r, c);
+          SM_ELEMENT_D(J, half + 3 * at.row + r, half + 3 * j + c) = by_v(r, c);
+        }
+    }
+}
+
+// By columns, the diagonal always present, so that I - gamma J needs no other pattern.
+class ColumnWriter {
+ public:
+  explicit ColumnWriter(SUNMatrix J) : J_(J) {}
+  void begin_column() { SM_INDEXPTRS_S(J_)[column_++] = count_; }
+  void put(int row, double value) {
+    SM_INDEXVALS_S(J_)[count_] = row;
+    SM_DATA_S(J_)[count_++] = value;
+  }
+
+ private:
+  SUNMatrix J_;
+  sunindextype column_ = 0, count_ = 0;
+};
+
+void fill_sparse(const FirstOrderOde& e, SUNMatrix J) {
+  const int n = e.system().n_bodies(), half = 3 * n;
+  ColumnWriter out(J);
+  for (const bool velocities : {false, true})
+    for (int j = 0; j < n; ++j)
+      for (int c = 0; c < 3; ++c) {
+        out.begin_column();
+        out.put(3 * j + c, velocities ? 1 : 0);
+        for (const FirstOrderOde::Coupling& at : e.couplings(j)) {
+          const Planar::Mat block = velocities ? e.by_velocity(at) : e.by_position(at);
+          for (int r = 0; r < 3; ++r) out.put(half + 3 * at.row + r, block(r, c));
+        }
+      }
+  for (int k = e.motion_size(); k < e.size(); ++k) {
+    out.begin_column();
+    out.put(k, 0);
+  }
+  out.begin_column();
+}
+
+sunindextype entries(const FirstOrderOde& e) {
+  sunindextype blocks = 0;
+  for (int j = 0; j < e.system().n_bodies(); ++j) blocks += static_cast<sunindextype>(e.couplings(j).size());
+  return 2 * 9 * blocks + e.size();
+}
+
+int jacobian(realtype t, N_Vector y, N_Vector, SUNMatrix J, void* equations, N_Vector, N_Vector, N_Vector) {
+  auto& e = *static_cast<FirstOrderOde*>(equations);
+  e.linearize(t, N_VGetArrayPointer(y));
+  SUNMatGetID(J) == SUNMATRIX_DENSE ? fill_dense(e, J) : fill_sparse(e, J);
+  return 0;
+}
+
+using JacobianFunction = int (*)(realtype, N_Vector, N_Vector, SUNMatrix, void*, N_Vector, N_Vector, N_Vector);
+using Count = int (*)(void*, long*);
+
+// One family's calls. The linear solver's are null where there is none, counts where nothing is counted.
+struct Calls {
+  int (*set_tolerances)(void*, realtype, N_Vector);
+  int (*set_user_data)(void*, void*);
+  int (*set_max_steps)(void*, long);
+  int (*set_error_file)(void*, FILE*);
+  int (*set_max_step)(void*, realtype);
+  int (*set_stop)(void*, realtype);
+  int (*advance)(void*, realtype, N_Vector, realtype*, int);
+  int (*interpolate)(void*, realtype, int, N_Vector);
+  int (*set_linear_solver)(void*, SUNLinearSolver, SUNMatrix);
+  int (*set_jacobian)(void*, JacobianFunction);
+  Count steps, evaluations, rejected, iterations, iteration_failures, factorizations;
+  char* (*flag_name)(long);
+  void (*release)(void**);
+};
+static_assert(CV_NORMAL == ARK_NORMAL && CV_ONE_STEP == ARK_ONE_STEP);
+
+const Calls kCvode{CVodeSVtolerances, CVodeSetUserData, CVodeSetMaxNumSteps, CVodeSetErrFile, CVodeSetMaxStep, CVodeSetStopTime, CVode,
+                   CVodeGetDky, CVodeSetLinearSolver, CVodeSetJacFn, CVodeGetNumSteps, CVodeGetNumRhsEvals, CVodeGetNumErrTestFails,
+                   CVodeGetNumNonlinSolvIters, CVodeGetNumNonlinSolvConvFails, CVodeGetNumLinSolvSetups, CVodeGetReturnFlagName, CVodeFree};
+const Calls kErk{ERKStepSVtolerances, ERKStepSetUserData, ERKStepSetMaxNumSteps, ERKStepSetErrFile, ERKStepSetMaxStep, ERKStepSetStopTime,
+                 ERKStepEvolve, ERKStepGetDky, nullptr, nullptr, ERKStepGetNumSteps, ERKStepGetNumRhsEvals, ERKStepGetNumErrTestFails,
+                 nullptr, nullptr, nullptr, ERKStepGetReturnFlagName, ERKStepFree};
+
+int implicit_evaluations(void* memory, long* n) {
+  long of_explicit_part = 0;
+  return ARKStepGetNumRhsEvals(memory, &of_explicit_part, n);
+}
+const Calls kDirk{ARKStepSVtolerances, ARKStepSetUserData, ARKStepSetMaxNumSteps, ARKStepSetErrFile, ARKStepSetMaxStep, ARKStepSetStopTime,
+                  ARKStepEvolve, ARKStepGetDky, ARKStepSetLinearSolver, ARKStepSetJacFn, ARKStepGetNumSteps, implicit_evaluations,
+                  ARKStepGetNumErrTestFails, ARKStepGetNumNonlinSolvIters, ARKStepGetNumNonlinSolvConvFails, ARKStepGetNumLinSolvSetups,
+                  ARKStepGetReturnFlagName, ARKStepFree};
+
+}  // namespace
+
+int dormand_prince_table() { return ARKODE_DORMAND_PRINCE_7_4_5; }
+
+// Everything of SUNDIALS that lives as long as a run.
+struct SundialsCode::Workspace {
+  Workspace(const SundialsChoice& choice, FirstOrderOde& e, double start, const std::vector<double>& y0, double relative,
+            const std::vector<double>& absolute)
+      : equations(e), y(N_VNew_Serial(e.size(), context), N_VDestroy), floor(N_VNew_Serial(e.size(), context), N_VDestroy),
+        between(N_VNew_Serial(e.size(), context), N_VDestroy), t(start) {
+    std::copy(y0.begin(), y0.end(), N_VGetArrayPointer(y.get()));
+    std::copy(absolute.begin(), absolute.end(), N_VGetArrayPointer(floor.get()));
+    make_memory(choice);
+    must(calls->set_tolerances(memory, relative, floor.get()), "setting tolerances");
+    calls->set_user_data(memory, &equations);
+    calls->set_max_steps(memory, kMaxSteps);
+    calls->set_error_file(memory, nullptr);
+    choose_method(choice);
+  }
+  ~Workspace() { calls->release(&memory); }
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
+
+  void make_memory(const SundialsChoice& choice) {
+    if (choice.family == Family::kExplicitRungeKutta) {
+      calls = &kErk;
+      memory = ERKStepCreate(rate, t, y.get(), context);
+    } else if (choice.family == Family::kImplicitRungeKutta) {
+      calls = &kDirk;
+      memory = ARKStepCreate(nullptr, rate, t, y.get(), context);
+    } else {
+      calls = &kCvode;
+      memory = CVodeCreate(choice.family == Family::kBdf ? CV_BDF : CV_ADAMS, context);
+      must(CVodeInit(memory, rate, t, y.get()), "CVodeInit");
+    }
+    if (!memory) throw std::runtime_error("SUNDIALS: no memory");
+  }
+  void choose_method(const SundialsChoice& choice) {
+    switch (choice.family) {
+      case Family::kExplicitRungeKutta:
+        must(ERKStepSetTableNum(memory, static_cast<ARKODE_ERKTableID>(choice.table)), "ERKStepSetTableNum");
+        break;
+      case Family::kImplicitRungeKutta:
+        must(ARKStepSetTableNum(memory, static_cast<ARKODE_DIRKTableID>(choice.table), ARKODE_ERK_NONE), "ARKStepSetTableNum");
+        ARKStepSetDeduceImplicitRhs(memory, SUNTRUE);
+        make_linear_solver(choice.solver);
+        break;
+      case Family::kAdams:
+        iteration.reset(SUNNonlinSol_FixedPoint(y.get(), 0, context));
+        must(CVodeSetNonlinearSolver(memory, iteration.get()), "CVodeSetNonlinearSolver");
+        break;
+      case Family::kBdf:
+        CVodeSetMaxOrd(memory, choice.max_order);
+        CVodeSetStabLimDet(memory, choice.limit_unstable);
+        make_linear_solver(choice.solver);
+        break;
+    }
+  }
+  void make_linear_solver(SundialsChoice::LinearSolver choice) {
+    const sunindextype n = equations.size();
+    const bool dense = choice == SundialsChoice::LinearSolver::kDense;
+    matrix.reset(dense ? SUNDenseMatrix(n, n, context) : SUNSparseMatrix(n, n, entries(equations), CSC_MAT, context));
+    solver.reset(dense ? SUNLinSol_Dense(y.get(), matrix.get(), context) : SUNLinSol_KLU(y.get(), matrix.get(), context));
+    must(calls->set_linear_solver(memory, solver.get(), matrix.get()), "setting the linear solver");
+    must(calls->set_jacobian(memory, jacobian), "setting the Jacobian");
+  }
+  bool advance(double to, int task) {
+    const int flag = calls->advance(memory, to, y.get(), &t, task);
+    if (flag >= 0) return true;
+    char* name = calls->flag_name(flag);
+    failure = fmt::format("SUNDIALS gave up at t = {:.9g} s: {}", t, name);
+    std::free(name);
+    return false;
+  }
+  std::uint64_t number(Count count) const {
+    long n = 0;
+    if (count) count(memory, &n);
+    return static_cast<std::uint64_t>(n);
+  }
+
+  sundials::Context context;
+  FirstOrderOde& equations;
+  Vector y, floor, between;
+  Owned<_generic_SUNMatrix> matrix{nullptr, [](SUNMatrix m) { SUNMatDestroy(m); }};
+  Owned<_generic_SUNLinearSolver> solver{nullptr, [](SUNLinearSolver s) { SUNLinSolFree(s); }};
+  Owned<_generic_SUNNonlinearSolver> iteration{nullptr, [](SUNNonlinearSolver s) { SUNNonlinSolFree(s); }};
+  const Calls* calls = nullptr;
+  void* memory = nullptr;
+  double t, stop = 0;
+  std::string failure;
+};
+
+SundialsCode::SundialsCode(const SundialsChoice& choice, FirstOrderOde& equations, double t, const std::vector<double>& y, double relative,
+                           const std::vector<double>& absolute)
+    : w_(std::make_unique<Workspace>(choice, equations, t, y, relative, absolute)) {}
+
+SundialsCode::~SundialsCode() = default;
+
+void SundialsCode::set_max_step(double h) { w_->calls->set_max_step(w_->memory, h); }
+void SundialsCode::stop_at(double t) {
+  w_->calls->set_stop(w_->memory, t);
+  w_->stop = t;
+}
+bool SundialsCode::step() { return w_->advance(w_->stop, CV_ONE_STEP); }
+bool SundialsCode::advance_to(double t) { return w_->advance(t, CV_NORMAL); }
+double SundialsCode::t() const { return w_->t; }
+const double* SundialsCode::y() const { return N_VGetArrayPointer(w_->y.get()); }
+
+const double* SundialsCode::interpolate(double t) {
+  return w_->calls->interpolate(w_->memory, t, 0, w_->between.get()) < 0 ? nullptr : N_VGetArrayPointer(w_->between.get());
+}
+
+void SundialsCode::count(Counters& counters) const {
+  const Calls& c = *w_->calls;
+  counters.steps = w_->number(c.steps);
+  counters.evaluations = w_->number(c.evaluations);
+  counters.rejected = w_->number(c.rejected);
+  counters.newton_iterations = w_->number(c.iterations);
+  counters.newton_failures = w_->number(c.iteration_failures);
+  counters.factorizations = w_->solver ? w_->number(c.factorizations) : 0;
+}
+
+const std::string& SundialsCode::failure() const { return w_->failure; }
+
+}  // namespace pintle
+#endif

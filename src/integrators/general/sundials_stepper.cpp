@@ -1,0 +1,110 @@
+#include "integrators/general/sundials_stepper.h"
+
+#ifdef PINTLE_SUNDIALS
+
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+
+#include "integrators/general/sundials_code.h"
+#include "integrators/general/usual_tolerance.h"
+
+namespace pintle {
+namespace {
+
+constexpr int kDenseBodies = 8;          // more have their Newton matrices factorised by KLU
+constexpr double kDoesNotSteer = 1e100;  // absolute tolerance of the energies [J]
+
+class SundialsStepper final : public Stepper {
+ public:
+  SundialsStepper(const System& system, std::string name, const SundialsChoice& choice, double tolerance)
+      : name_(std::move(name)), choice_(choice), tolerance_(tolerance), equations_(system, FirstOrderOde::Energies::kAppended),
+        states_(system), begin_(zero_state(system)), end_(begin_), between_(begin_) {}
+
+  void set_max_step(double h) override { max_step_ = h; }
+  void set_load_scale(const LoadScale&) override {}
+  const LoadScale& load_scale() const override { return no_scale_; }
+
+  void start(const State& state, double) override {
+    begin_ = end_ = state;
+    states_.complete(end_);
+    const UsualTolerance usual(tolerance_);
+    std::vector<double> y(equations_.size()), floor(y.size(), usual.absolute);
+    for (int i = equations_.motion_size(); i < equations_.size(); ++i) floor[i] = kDoesNotSteer;
+    equations_.flatten(state, y.data());
+    code_.emplace(choice_, equations_, state.t, y, usual.relative, floor);
+    if (max_step_ > 0) code_->set_max_step(max_step_);
+  }
+
+  bool step(double t_end) override {
+    begin_ = end_;
+    code_->stop_at(t_end);
+    if (!code_->step()) {
+      failure_ = fmt::format("{}: {}", name_, code_->failure());
+      return false;
+    }
+    equations_.unflatten(code_->t(), code_->y(), end_);
+    states_.complete(end_);
+    code_->count(counters_);
+    return true;
+  }
+
+  const State& state() const override { return end_; }
+  const State& previous() const override { return begin_; }
+  const State& interpolate(double t) override {
+    if (t == end_.t) return end_;
+    if (t == begin_.t) return begin_;
+    const double* y = code_->interpolate(t);
+    if (!y) return end_;
+    equations_.unflatten(t, y, between_);
+    states_.complete(between_);
+    return between_;
+  }
+  const Counters& counters() const override { return counters_; }
+  const std::string& failure() const override { return failure_; }
+
+ private:
+  std::string name_;
+  SundialsChoice choice_;
+  double tolerance_, max_step_ = 0;
+  FirstOrderOde equations_;
+  ForceEvaluator states_;
+  std::optional<SundialsCode> code_;
+  State begin_, end_, between_;
+  LoadScale no_scale_;
+  Counters counters_;
+  std::string failure_;
+};
+
+}  // namespace
+
+bool has_sundials() { return true; }
+
+std::unique_ptr<Stepper> make_sundials_stepper(const System& system, const std::string& method, double tolerance) {
+  SundialsChoice choice;
+  if (method == "ode45") {
+    choice.family = SundialsChoice::Family::kExplicitRungeKutta;
+    choice.table = dormand_prince_table();
+  } else if (method == "ode113") {
+    choice.family = SundialsChoice::Family::kAdams;
+  } else if (method != "ode15s") {
+    return nullptr;
+  }
+  if (system.n_bodies() > kDenseBodies) choice.solver = SundialsChoice::LinearSolver::kKlu;
+  return std::make_unique<SundialsStepper>(system, method, choice, tolerance);
+}
+
+}  // namespace pintle
+
+#else
+
+namespace pintle {
+
+bool has_sundials() { return false; }
+
+std::unique_ptr<Stepper> make_sundials_stepper(const System&, const std::string&, double) { return nullptr; }
+
+}  // namespace pintle
+
+#endif

@@ -1,0 +1,243 @@
+#include "integrators/ideal/ideal_equations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+constexpr int kRefinements = 1;       // of the multipliers, against the accelerations they give
+constexpr int kMaxClosing = 12;       // Newton iterations on the loops
+constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+
+constexpr int kMostModes = 300;       // rows for which eigenvectors are taken; beyond, redundant rows are left out
+constexpr double kDamped = 1e-9;      // pivots below it are lifted, so that forces stay finite at singular positions ...
+constexpr double kMisfit = 30;        // ... and below the square of so many times the misfit that redundant rows leave
+constexpr double kNearlySingular = 1e5;  // times as much: there the nearest closed position may be on another branch
+
+bool keeps(const JointData& joint, int component) {
+  const auto* law = std::get_if<LinearLaw>(&joint.law);
+  return joint.ideal && law != nullptr && law->k[component] > 0;
+}
+
+}  // namespace
+
+IdealEquations::IdealEquations(const System& system) : system_(system), still_(system.bodies.size(), S::Vec::Zero()) {
+  for (int j = 0; j < system.n_joints(); ++j)
+    for (int k = 0; k < S::kDof; ++k)
+      if (keeps(system.joints[j], k)) {
+        rows_.push_back({j, k});
+        n_redundant_ += system.joints[j].redundant[k];
+      }
+  if (rows_.size() > kMostModes && n_redundant_ > 0) {
+    std::erase_if(rows_, [&](const Row& row) { return system.joints[row.joint].redundant[row.component]; });
+    n_redundant_ = 0;
+  }
+  std::vector<std::vector<std::pair<int, int>>> on_body(system.bodies.size());  // row, side
+  for (int i = 0; i < static_cast<int>(rows_.size()); ++i) {
+    const Placement& at = system.joints[rows_[i].joint].at;
+    if (at.a != kGround) on_body[at.a].emplace_back(i, 0);
+    if (at.b != kGround) on_body[at.b].emplace_back(i, 1);
+  }
+  std::map<std::pair<int, int>, int> entries;  // (column, row) of the lower half
+  for (const auto& list : on_body)
+    for (const auto& [row, side] : list)
+      for (const auto& [other, other_side] : list)
+        if (row >= other) entries.emplace(std::pair(other, row), 0);
+  const int n = static_cast<int>(rows_.size());
+  std::vector<Eigen::Triplet<double>> pattern;
+  for (auto& [place, index] : entries) {
+    index = static_cast<int>(pattern.size());  // in the order in which columns are stored
+    pattern.emplace_back(place.second, place.first, 1.0);
+    row_of_entry_.push_back(place.second);
+    column_of_entry_.push_back(place.first);
+  }
+  for (int body = 0; body < system.n_bodies(); ++body)
+    for (const auto& [row, side] : on_body[body])
+      for (const auto& [other, other_side] : on_body[body])
+        if (row >= other) products_.push_back({entries[{other, row}], row, other, side, other_side, body});
+  matrix_.resize(n, n);
+  matrix_.setFromTriplets(pattern.begin(), pattern.end());
+  if (n > 0) factors_.analyzePattern(matrix_);
+  jacobian_.resize(2 * rows_.size());
+  scale_.resize(n);
+}
+
+void IdealEquations::read(double t, const Vecs& q, const Vecs& v) {
+  system_.motions(q, v, m_);
+  system_.joint_kinematics(t, m_, r_);
+  size_ = largest_coordinate(q);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const JointKinematics& r = r_[rows_[i].joint];
+    jacobian_[2 * i] = r.GA().row(rows_[i].component);
+    jacobian_[2 * i + 1] = r.GB().row(rows_[i].component);
+  }
+}
+
+bool IdealEquations::factorize() {
+  if (rows_.empty()) return true;
+  double* values = matrix_.valuePtr();
+  std::fill(values, values + matrix_.nonZeros(), 0.0);
+  for (const Product& p : products_)
+    values[p.entry] += jacobian(p.row, p.side).cwiseQuotient(system_.bodies[p.body].mass.transpose()).dot(jacobian(p.other, p.other_side));
+  for (int e = 0; e < matrix_.nonZeros(); ++e)
+    if (row_of_entry_[e] == column_of_entry_[e]) scale_[row_of_entry_[e]] = 1 / std::sqrt(std::max(values[e], std::numeric_limits<double>::min()));
+  for (int e = 0; e < matrix_.nonZeros(); ++e) values[e] *= scale_[row_of_entry_[e]] * scale_[column_of_entry_[e]];
+  return n_redundant_ == 0 ? factorize_sparse() : find_modes();
+}
+
+bool IdealEquations::factorize_sparse() {
+  factors_.setShift(kRounding);
+  factors_.factorize(matrix_);
+  if (factors_.info() != Eigen::Success) return false;
+  smallest_pivot_ = factors_.vectorD().minCoeff();
+  if (smallest_pivot_ >= damped_) return true;
+  const double missing = 1 - std::max(0.0, smallest_pivot_) / damped_;
+  factors_.setShift(kRounding + damped_ * missing * missing);
+  factors_.factorize(matrix_);
+  return factors_.info() == Eigen::Success && factors_.vectorD().minCoeff() > 0;
+}
+
+bool IdealEquations::find_modes() {
+  modes_.compute(Eigen::MatrixXd(matrix_));  // of the lower half; ascending
+  if (modes_.info() != Eigen::Success) return false;
+  smallest_pivot_ = modes_.eigenvalues()[n_redundant_];
+  return true;
+}
+
+void IdealEquations::solve(const Eigen::VectorXd& wanted, Eigen::VectorXd& multipliers) const {
+  const Eigen::VectorXd scaled = scale_.cwiseProduct(wanted);
+  if (n_redundant_ == 0) {
+    multipliers = scale_.cwiseProduct(factors_.solve(scaled));
+    return;
+  }
+  const Eigen::Index kept = scale_.size() - n_redundant_;
+  const auto V = modes_.eigenvectors().rightCols(kept);
+  const Eigen::VectorXd values = modes_.eigenvalues().tail(kept).cwiseMax(damped_);
+  multipliers = scale_.cwiseProduct(V * (V.transpose() * scaled).cwiseQuotient(values));
+}
+
+Eigen::VectorXd IdealEquations::rates(const Vecs& x) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size()));
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Placement& at = system_.joints[rows_[i].joint].at;
+    if (at.a != kGround) out[i] += jacobian(i, 0).dot(x[at.a]);
+    if (at.b != kGround) out[i] += jacobian(i, 1).dot(x[at.b]);
+  }
+  return out;
+}
+
+void IdealEquations::push(const Eigen::VectorXd& multipliers, Vecs& x) const {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Placement& at = system_.joints[rows_[i].joint].at;
+    for (const auto& [body, side] : {std::pair{at.a, 0}, std::pair{at.b, 1}})
+      if (body != kGround) x[body] += jacobian(i, side).transpose().cwiseQuotient(system_.bodies[body].mass) * multipliers[i];
+  }
+}
+
+bool IdealEquations::complete(State& state) {
+  read(state.t, state.q, state.v);
+  fill_joints(state);
+  system_.external(state.t, m_, state.a);
+  for (int j = 0; j < system_.n_joints(); ++j) add_force(system_.joints[j].at, r_[j], state.force[j], state.a);
+  for (int i = 0; i < system_.n_bodies(); ++i) state.a[i] = state.a[i].cwiseQuotient(system_.bodies[i].mass);
+  if (!factorize()) return false;
+  Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(scale_.size()), change;
+  for (int pass = 0; pass <= kRefinements && !rows_.empty(); ++pass) {
+    Eigen::VectorXd missing = -rates(state.a);                                              // (1.3)
+    for (std::size_t i = 0; i < rows_.size(); ++i) missing[i] -= r_[rows_[i].joint].bias[rows_[i].component];
+    solve(missing, change);
+    multipliers += change;
+    push(change, state.a);
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) state.force[rows_[i].joint][rows_[i].component] = multipliers[i];
+  find_gap_accelerations(system_, r_, state);
+  const ExternalWork work = system_.external_work(state.t, state.q, m_);
+  state.supply_power = work.supplied;
+  state.loss_power = work.lost;
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const JointData& joint = system_.joints[j];
+    if (joint.servo >= 0) state.supply_power += state.force[j][joint.servo] * system_.pose(joint.at, m_).rate[joint.servo];
+    else if (!joint.ideal) state.loss_power += respond(joint.law, state.gap[j], state.gap_rate[j]).loss;
+  }
+  return state.a.empty() || std::isfinite(state.a[0].sum());
+}
+
+// Gaps and rates, and the forces of joints that have a law; what ideal joints keep is exactly closed.
+void IdealEquations::fill_joints(State& state) {
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const JointData& joint = system_.joints[j];
+    state.gap[j] = r_[j].gap;
+    state.gap_rate[j] = r_[j].rate;
+    state.force[j] = joint.ideal ? S::Vec(S::Vec::Zero()) : law_force(joint.law, r_[j].gap, r_[j].rate);
+  }
+  for (const Row& row : rows_) state.gap[row.joint][row.component] = state.gap_rate[row.joint][row.component] = 0;
+}
+
+bool IdealEquations::close_positions(double t, Vecs& q) {
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMaxClosing; ++i) {
+    read(t, q, still_);
+    double largest = 0;
+    Eigen::VectorXd missing(scale_.size()), multipliers;
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      missing[k] = -r_[rows_[k].joint].gap[rows_[k].component];
+      largest = std::max(largest, std::abs(missing[k]));
+    }
+    if (!factorize()) return false;
+    if (n_redundant_ > 0) {  // what can be closed
+      const auto V = modes_.eigenvectors().rightCols(scale_.size() - n_redundant_);
+      largest = (V * (V.transpose() * scale_.cwiseProduct(missing))).cwiseQuotient(scale_).cwiseAbs().maxCoeff();
+    }
+    if (largest <= kRounding * size_) return true;
+    if (!(largest < before)) return largest <= 1e3 * kRounding * size_;  // rounding, or no way to close
+    before = largest;
+    solve(missing, multipliers);
+    push(multipliers, q);                                                                   // (1.4)
+  }
+  return before <= 1e-9 * size_;
+}
+
+bool IdealEquations::close_velocities(double t, const Vecs& q, Vecs& v) {
+  Eigen::VectorXd multipliers;
+  for (int pass = 0; pass <= kRefinements && !rows_.empty(); ++pass) {
+    read(t, q, v);
+    if (pass == 0 && !factorize()) return false;
+    Eigen::VectorXd missing(scale_.size());
+    for (std::size_t k = 0; k < rows_.size(); ++k) missing[k] = -r_[rows_[k].joint].rate[rows_[k].component];
+    solve(missing, multipliers);
+    push(multipliers, v);                                                                   // (1.5)
+  }
+  return true;
+}
+
+void IdealEquations::measure_misfit(double t, const Vecs& q) {
+  read(t, q, still_);
+  double worst = 0;
+  for (const Row& row : rows_) worst = std::max(worst, std::abs(r_[row.joint].gap[row.component]) / (row.component == 2 ? 1 : size_));
+  damped_ = std::max(kDamped, kMisfit * kMisfit * worst * worst);
+}
+
+bool IdealEquations::nearly_singular() const { return smallest_pivot_ < kNearlySingular * damped_; }
+
+double IdealEquations::independence(double t, const Vecs& q) {
+  if (rows_.empty()) return 1;
+  read(t, q, still_);
+  if (!factorize()) return 0;
+  return std::sqrt(std::max(0.0, smallest_pivot_));
+}
+
+Eigen::VectorXd IdealEquations::nearest_dependency() const {
+  if (n_redundant_ > 0) return modes_.eigenvectors().col(n_redundant_);
+  Eigen::VectorXd x(scale_.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = 1 + 0.1 * std::sin(static_cast<double>(7 * i + 1));
+  for (int i = 0; i < 4; ++i) x = factors_.solve(x).normalized().eval();
+  return x;
+}
+
+}  // namespace pintle

@@ -1,0 +1,57 @@
+// Ideal joints in time: Dormand-Prince 5(4) on the accelerations that the multipliers leave, positions and velocities put
+// back onto the constraints after every step. theory/ideal section 2.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "integrators/dense/dense_output.h"
+#include "integrators/ideal/ideal_equations.h"
+#include "integrators/stepper.h"
+
+namespace pintle {
+
+class IdealStepper final : public Stepper {
+ public:
+  IdealStepper(const System& system, double tolerance);
+
+  void set_max_step(double h) override { max_step_ = h; }
+  void set_load_scale(const LoadScale& scale) override { scale_ = scale; }
+  const LoadScale& load_scale() const override { return scale_; }
+  void start(const State& state, double h) override;
+  bool step(double t_end) override;
+  const State& state() const override { return end_; }
+  const State& previous() const override { return begin_; }
+  const State& interpolate(double t) override;
+  const Counters& counters() const override { return counters_; }
+  const std::string& failure() const override { return failure_; }
+  std::vector<std::string> remarks() const override { return remarks_; }
+
+ private:
+  bool take_stages(double h);
+  bool onto_constraints(State& state);
+  bool finish(double t, double h);
+  double error(double h) const;
+  bool crosses_jump() const;
+  void grow_scale();
+  void look_for_singular_position();
+  void report_singular_position(double t);
+
+  const System& system_;
+  double tolerance_, max_step_ = 0, h_ = 0, usual_h_ = 0;  // the next step; the last away from singular positions
+  double smooth_h_ = 0;                                     // the last that was taken at once, or the first that was proposed
+  IdealEquations equations_;
+  DenseOutput dense_;
+  State begin_, end_, inside_, stage_;
+  std::array<Vecs, 7> kq_, kv_;
+  std::array<std::array<double, 2>, 7> power_{};  // supplied, lost [W]
+  LoadScale scale_;
+  Counters counters_;
+  std::string failure_;
+  std::vector<std::string> remarks_;
+  double most_independent_ = 0;
+  int n_singular_ = 0;
+};
+
+}  // namespace pintle

@@ -1,0 +1,40 @@
+#include "integrators/radau/sliding_mode.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pintle {
+namespace {
+
+constexpr double kRounding = 4;  // of velocities, over the tolerance: the least width of a ramp
+
+}  // namespace
+
+std::optional<SlidingMode> ChatteringDetector::crossed(const System& system, double t0, const std::vector<Planar::Motion>& m0, double t1,
+                                           const std::vector<Planar::Motion>& m1, double soon) {
+  const std::optional<SlidingMode> before = last_;
+  const double since = t1 - t_;
+  last_ = system.jump_between(t0, m0, t1, m1);
+  t_ = t1;
+  const bool again = before && last_ && before->load == last_->load && before->ramp.jump == last_->ramp.jump && since < soon;
+  return again ? last_ : std::nullopt;
+}
+
+bool leave_sliding(const System& system, double t, const std::vector<Planar::Motion>& m, std::vector<SlidingMode>& sliding) {
+  const std::size_t before = sliding.size();
+  std::erase_if(sliding, [&](const SlidingMode& jump) {
+    const double share = jump.ramp.share_at(system.margin(jump, t, m));
+    return !(share >= 0 && share <= 1);
+  });
+  return sliding.size() < before;
+}
+
+RampSize ramp_size(const System& system, const SlidingMode& jump, const State& state, double usual_step, double tolerance) {
+  double fastest = largest_coordinate(state.v);
+  if (system.loads[jump.load].component == 2)
+    for (const auto& v : state.v) fastest = std::max(fastest, std::abs(v[2]));
+  return {tolerance * usual_step, kRounding * std::numeric_limits<double>::epsilon() * fastest / tolerance};
+}
+
+}  // namespace pintle

@@ -1,0 +1,62 @@
+// Motors whose effort jumps and throws the motion back from both sides, as dry friction does at rest: a run would cross such a
+// jump for ever. They are held at it, on a steep ramp between the efforts of both sides. theory/time section 7.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "system/state.h"
+
+namespace pintle {
+
+/// Remembers the jump that was crossed last.
+class ChatteringDetector {
+ public:
+  /// Call after each crossing, with the instants before and after it: the jump that has been crossed again within `soon`.
+  std::optional<SlidingMode> crossed(const System& system, double t0, const std::vector<Planar::Motion>& m0, double t1,
+                                  const std::vector<Planar::Motion>& m1, double soon);
+  void forget() { last_.reset(); }
+
+ private:
+  std::optional<SlidingMode> last_;
+  double t_ = 0;
+};
+
+/// Lets go of the jumps whose ramps have been left; true if there was one.
+bool leave_sliding(const System& system, double t, const std::vector<Planar::Motion>& m, std::vector<SlidingMode>& sliding);
+
+/// How steep a ramp may be.
+struct RampSize {
+  double time;    // in which a jump's effort brings its argument over the ramp [s]
+  double margin;  // the least width, for the rounding of velocities
+};
+RampSize ramp_size(const System& system, const SlidingMode& jump, const State& state, double usual_step, double tolerance);
+
+/// Holds `jump` if the efforts of its sides drive its argument towards each other's, at the share of them that leaves it where it
+/// is. `balance()` renews the accelerations for what is in `sliding`, `rate()` is then that of the argument, now `margin`.
+template <class Balance, class Rate>
+bool enter_sliding(const SlidingMode& jump, double margin, const RampSize& size, std::vector<SlidingMode>& sliding, const Balance& balance,
+               const Rate& rate) {
+  sliding.push_back(jump);
+  Expression::Ramp& ramp = sliding.back().ramp;
+  double pull[2];
+  for (const int side : {0, 1}) {
+    ramp.share = side;
+    balance();
+    pull[side] = rate();
+  }
+  const double against = pull[0] - pull[1];
+  const bool meet = pull[0] > 0 && pull[1] < 0;
+  if (meet) {
+    ramp.share = pull[0] / against;
+    ramp.slope = 1 / std::max(size.time * against, size.margin);
+    ramp.at = margin;
+  } else {
+    sliding.pop_back();
+  }
+  balance();
+  return meet;
+}
+
+}  // namespace pintle

@@ -1,0 +1,40 @@
+#include "integrators/radau/step_control.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <span>
+
+namespace pintle {
+namespace {
+
+// The applied force or the driven coordinate that is not a number at t or just after; empty: all are.
+std::string broken_function(const System& system, double t) {
+  constexpr double kJustAfter = 1e-9;
+  for (const double at : {t, t + kJustAfter * std::max(std::abs(t), 1e-3)}) {
+    const std::array<double, 1> time{at};
+    for (const AppliedData& force : system.applied)
+      for (const Expression* e : {&force.fx, &force.fy, &force.torque})
+        if (!std::isfinite(e->value(std::span(time).first(e->variables().size())))) return "force " + force.name;
+    for (const JointData& joint : system.joints)
+      if (joint.servo >= 0)
+        for (const double x : servo_target(joint, at))
+          if (!std::isfinite(x)) return "motor " + joint.name;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string no_step_message(const System& system, double t, double h, std::vector<std::pair<double, int>> residuals) {
+  constexpr std::size_t kNamed = 3;
+  const auto rank = [](double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::infinity(); };
+  std::stable_sort(residuals.begin(), residuals.end(), [&](const auto& a, const auto& b) { return rank(a.first) > rank(b.first); });
+  std::string text = fmt::format("the step size has shrunk to nothing at t = {:.9g} s, step {:.3g} s", t, h);
+  if (const std::string broken = broken_function(system, t); !broken.empty()) text += fmt::format("; {} is not a number there", broken);
+  for (std::size_t i = 0; i < std::min(kNamed, residuals.size()); ++i)
+    text += fmt::format("; joint {} (residual {:.3g} m/s^2)", system.joints[residuals[i].second].name, residuals[i].first);
+  return text;
+}
+
+}  // namespace pintle

@@ -1,0 +1,145 @@
+// How the implicit methods choose their steps: predict, solve, estimate, accept or shrink; steps end at events. The same for
+// free bodies and over a joint tree. theory/time sections 3.5 and 7.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "integrators/radau/event_search.h"
+#include "pintle/trajectory.h"
+#include "system/system.h"
+
+namespace pintle {
+
+class StepControl {
+ public:
+  double next = 0, last = 0, usual = 0;  // steps: the next; the last; what it was before an event [s]
+  double longest = 0;                    // [s]; 0: no limit
+  bool have_history = false;             // the last step's curve goes on into the next one
+
+  void start(double h) {
+    next = usual = h;
+    have_history = false;
+    rounding_ = 0;
+  }
+
+  /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
+  /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved),
+  /// cross_event(distance), balance_end(), error_estimate(h, error) and finish_step(h).
+  template <class Method>
+  bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
+
+ private:
+  static constexpr int kMaxRetries = 80;
+  static constexpr double kShortest = 1e-11;    // of the run: the shortest step that is refused for its error
+  static constexpr double kEventAtStart = 1e-5;  // of the usual step: an event this close to its start is crossed
+  static constexpr double kShrink = 0.5;        // after Newton failed
+  static constexpr double kContraction = 0.2;   // of Newton's iteration, that steps are chosen for
+  static constexpr double kSteady = 0.9;        // of the error of the trial before: a shorter step has not made it smaller
+  static constexpr int kMostSteady = 3;         // such trials: the error is that of the accelerations that the step starts with
+  static constexpr double kMostRounding = 1e-11;  // of the loads, a hundredth of the least tolerance: what may pass for rounding
+  static constexpr double kAboveRounding = 2;     // that of one step is not that of the next
+  static constexpr double kShort = 0.9;         // of the way to an event that is only guessed at
+  static constexpr double kAfterEvent = 0.3;    // of the usual step
+  static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;
+
+  static constexpr double kSame = 0.95, kSameAbove = 1.1;  // a factor near 1 keeps the step, and with it the factorised Jacobians
+
+  static constexpr double kLeastError = 0.01;  // over the tolerance: a smaller one says nothing about its growth
+
+  double last_error_ = 0;  // over the tolerance
+  double rounding_ = 0;    // of accelerations, over the tolerance: no step resolves it
+
+  // The step that Newton's iteration will like, over one in which its errors shrank by `contraction`; 0: not known.
+  static double of_contraction(double contraction) { return contraction > 0 ? std::max(kShrink, std::sqrt(kContraction / contraction)) : kMost; }
+
+  void accept(double h, double factor, bool up_to_event) {
+    next = factor > kSame && factor < kSameAbove ? h : h * factor;
+    if (up_to_event) next = std::max(next, kAfterEvent * usual);  // a better guess than this stump
+    else usual = next;
+  }
+};
+
+template <class Method>
+bool StepControl::advance(Method& method, double t_end, double tolerance, int order, Counters& counters) {
+  method.begin_at_end();
+  double h = longest > 0 ? std::min(next, longest) : next;
+  bool up_to_event = false, refused = false;  // by Newton's iteration
+  double error_before = 0;                   // of the trial before, over the tolerance
+  int steady = 0;                            // trials in a row that were shorter, and no better
+  bool renewed = false;                      // the start, for this trial
+  for (int retry = 0; retry < kMaxRetries; ++retry) {
+    const double left = t_end - method.t();
+    if (h > left || left - h < 1e-3 * h) h = left;
+    else if (!up_to_event && left < 1.7 * h) h = 0.5 * left;
+    if (h <= 16 * std::numeric_limits<double>::epsilon() * std::max(std::abs(method.t()), std::abs(t_end))) break;
+    const bool solved = method.attempt(h);
+    if (!solved) {
+      ++counters.newton_failures;
+      refused = true;
+      have_history = have_history && retry == 0;
+    }
+    const SwitchingEvent event = solved || retry > 0 ? method.locate_event(h, solved) : SwitchingEvent{};  // twice unsolved: for a jump on the way?
+    if (event.before < 1 && event.before * h < kEventAtStart * usual) {
+      method.cross_event(event.before * h);
+      method.begin_at_end();
+      h = std::max(h, kAfterEvent * usual);
+      continue;
+    }
+    if (event.after < 1) {
+      up_to_event = true;
+      h *= event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort);  // so that the last stage is not on it
+      if (solved) ++counters.rejected;
+      continue;
+    }
+    double error = 0;
+    if (!solved || !method.error_estimate(h, error)) {
+      if (solved) ++counters.newton_failures;
+      h *= kShrink;
+      continue;
+    }
+    error /= tolerance;
+    if (renewed && error < kSteady * error_before && error_before * tolerance < kMostRounding) rounding_ = std::max(rounding_, error_before);
+    renewed = false;
+    const double measured = error;
+    error = std::max(error - kAboveRounding * rounding_, 0.0);
+    double factor = std::clamp(kSafety * std::pow(std::max(error, 1e-14), -1.0 / order), kLeast, counters.steps == 0 ? kMostAtFirst : kMost);
+    // A force that jumps cannot be resolved by any step: one that is this short passes over the jump.
+    const bool jump = error > 1 && h <= kShortest * std::abs(t_end);
+    if (jump) factor = kMost;
+    if (error > 1 && !jump) {
+      ++counters.rejected;
+      steady = measured > kSteady * error_before ? steady + 1 : 0;
+      error_before = measured;
+      renewed = steady == kMostSteady;
+      if (renewed) {
+        method.balance_end();
+        method.begin_at_end();
+      } else {
+        h *= std::min(factor, 0.7);
+      }
+      continue;
+    }
+    if (have_history && last > 0 && h >= last && last_error_ > 0 && error > 0)  // an error that grows goes on growing: K. Gustafsson's predictive controller
+      factor = std::clamp(factor * (h / last) * std::pow(last_error_ / error, 1.0 / order), kLeast, factor);
+    last_error_ = std::max(error, kLeastError);
+    if (refused) factor = std::min(factor, 1.0);
+    if (counters.steps > 0) factor = std::min(factor, of_contraction(method.contraction()));
+    method.finish_step(h);
+    ++counters.steps;
+    accept(h, factor, up_to_event);
+    return true;
+  }
+  next = h;
+  return false;
+}
+
+/// When and how small the last step was, and the joints with the largest residuals: (residual [m/s^2], joint) each.
+std::string no_step_message(const System& system, double t, double h, std::vector<std::pair<double, int>> residuals);
+
+}  // namespace pintle

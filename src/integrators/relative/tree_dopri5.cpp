@@ -1,0 +1,186 @@
+#include "integrators/relative/tree_dopri5.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrators/dormand_prince.h"
+#include "integrators/load_scale.h"
+
+namespace pintle {
+namespace {
+
+using namespace dormand_prince;
+using Eigen::Index;
+using Eigen::VectorXd;
+using S = Planar;
+
+// x, its first and second derivative at share s of a step, on the quintic through all three at both ends.
+void quintic(double s, double h, const std::array<const VectorXd*, 3>& begin, const std::array<const VectorXd*, 3>& end, VectorXd& x, VectorXd& v) {
+  const double s2 = s * s, s3 = s2 * s, s4 = s3 * s;
+  const VectorXd d = *end[0] - *begin[0] - h * *begin[1] - 0.5 * h * h * *begin[2];
+  const VectorXd dv = h * (*end[1] - *begin[1]) - h * h * *begin[2], da = h * h * (*end[2] - *begin[2]);
+  const VectorXd c3 = 10 * d - 4 * dv + 0.5 * da, c4 = -15 * d + 7 * dv - da, c5 = 6 * d - 3 * dv + 0.5 * da;
+  x = *begin[0] + s * h * *begin[1] + 0.5 * s2 * h * h * *begin[2] + s3 * c3 + s4 * c4 + s4 * s * c5;
+  v = *begin[1] + s * h * *begin[2] + (3 * s2 * c3 + 4 * s3 * c4 + 5 * s4 * c5) / h;
+}
+
+double cubic(double s, double h, double x0, double v0, double x1, double v1) {
+  const double r = 1 - s;
+  return x0 + s * s * (3 - 2 * s) * (x1 - x0) + h * s * r * (r * v0 - s * v1);
+}
+
+}  // namespace
+
+TreeDopri5::TreeDopri5(const System& system, double tolerance)
+    : system_(system), tree_(std::make_unique<JointTree>(system)), tolerance_(tolerance), at_(system, *tree_) {
+  scale_.body.assign(system.bodies.size(), S::Vec::Zero());
+}
+
+void TreeDopri5::complete(TreeState& state) {
+  at_.place(state.t, state.y, state.u);
+  at_.gaps(state.gap);
+  at_.rates(state.rate);
+  at_.forces(state.gap, state.rate, state.force);
+  tree_->mass(at_.pose(), mass_matrix_);
+  mass_.compute(mass_matrix_);
+  at_.accelerate(VectorXd::Zero(tree_->n()));
+  at_.imbalance(state.force, state.w);
+  state.w = mass_.solve(-state.w);
+}
+
+void TreeDopri5::write(TreeState& at, State& state) {
+  at_.accelerate(at.w);
+  at_.gap_accelerations(at.accel);
+  at_.write(at, at.w, state);
+  const auto [supplied, lost] = at_.power(at.gap, at.rate, at.force);
+  state.supply_power = supplied;
+  state.loss_power = lost;
+}
+
+void TreeDopri5::start(const State& state, double h) {
+  end_state_ = state;
+  h_ = h;
+  end_.t = state.t;
+  tree_->read_positions(state.q, end_.y);
+  TreePose pose;
+  tree_->place(end_.y, VectorXd::Zero(tree_->n()), pose);
+  tree_->read_rates(pose, state.v, end_.u);
+  complete(end_);
+  write(end_, end_state_);
+  find_rounding();
+  raise_scale();
+}
+
+// The load below which the rounding of positions, as joint force, would be seen as an error.
+void TreeDopri5::find_rounding() {
+  const double size = largest_coordinate(at_.pose().q);
+  rounding_.assign(system_.bodies.size(), S::Vec::Zero());
+  for (std::size_t l = 0; l < tree_->laws().size(); ++l) {
+    const Placement& at = system_.joints[tree_->laws()[l]].at;
+    const double k = at_.answer(static_cast<int>(l), end_.gap, end_.rate).stiffness.diagonal().head<2>().maxCoeff();
+    const double least = 30 * std::numeric_limits<double>::epsilon() * size * k / tolerance_;
+    for (const int body : {at.a, at.b})
+      if (body != kGround) rounding_[body] = rounding_[body].cwiseMax(S::Vec(least, least, 0));
+  }
+}
+
+void TreeDopri5::raise_scale() {
+  grow_load_scale(system_, at_.pose().m, at_.Q(), end_state_, scale_);
+  for (std::size_t i = 0; i < rounding_.size(); ++i) scale_.body[i] = scale_.body[i].cwiseMax(rounding_[i]);
+}
+
+bool TreeDopri5::step(double t_end) {
+  begin_ = end_;
+  begin_state_ = end_state_;
+  double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
+  ky_[0] = begin_.u;
+  ku_[0] = begin_.w;
+  while (true) {
+    h = std::min(h, t_end - begin_.t);
+    if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
+      failure_ = fmt::format("the step size has shrunk to nothing at t = {:.9g} s", begin_.t);
+      return false;
+    }
+    for (int s = 1; s < 7; ++s) {
+      stage_.y = begin_.y;
+      stage_.u = begin_.u;
+      for (int k = 0; k < s; ++k) {
+        stage_.y += h * kA[s][k] * ky_[k];
+        stage_.u += h * kA[s][k] * ku_[k];
+      }
+      stage_.t = begin_.t + kC[s] * h;
+      complete(stage_);
+      ky_[s] = stage_.u;
+      ku_[s] = stage_.w;
+      ++counters_.evaluations;
+    }
+    const double e = error(h) / tolerance_;
+    const double factor = std::isfinite(e) ? std::clamp(0.9 * std::pow(std::max(e, 1e-10), -0.2), 0.2, 5.0) : 0.1;
+    if (e <= 1) {
+      end_ = stage_;
+      end_.t = t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h;
+      write(end_, end_state_);
+      end_state_.dissipated = begin_state_.dissipated + 0.5 * h * (begin_state_.loss_power + end_state_.loss_power);
+      end_state_.supplied = begin_state_.supplied + 0.5 * h * (begin_state_.supply_power + end_state_.supply_power);
+      raise_scale();
+      ++counters_.steps;
+      h_ = h * factor;
+      return true;
+    }
+    ++counters_.rejected;
+    h *= std::min(factor, 0.8);
+  }
+}
+
+// The embedded error as joint force and as body force, over the loads; the instant stands at the step's end.
+double TreeDopri5::error(double h) {
+  VectorXd dy = VectorXd::Zero(tree_->n()), du = dy;
+  for (int s = 0; s < 7; ++s) {
+    dy += kE[s] * h * ky_[s];
+    du += kE[s] * h * ku_[s];
+  }
+  at_.find_matrices();
+  const VectorXd gap = at_.A() * dy, rate = at_.A() * du, of_bodies = at_.J() * du;
+  if (!gap.allFinite() || !rate.allFinite() || !of_bodies.allFinite()) return std::numeric_limits<double>::infinity();
+  double worst = 0;
+  for (std::size_t l = 0; l < tree_->laws().size(); ++l) {
+    const Placement& at = system_.joints[tree_->laws()[l]].at;
+    const Index i = 3 * static_cast<Index>(l);
+    const S::Vec& first = scale_.body[at.a == kGround ? at.b : at.a];
+    const S::Vec largest = first.cwiseMax(scale_.body[at.b == kGround ? at.a : at.b]);
+    const Response response = at_.answer(static_cast<int>(l), stage_.gap, stage_.rate);
+    const S::Vec df = response.stiffness * gap.segment<3>(i) + response.damping * rate.segment<3>(i);
+    worst = std::max({worst, df.head<2>().norm() / largest[0], std::abs(df[2]) / largest[2]});
+  }
+  for (int i = 0; i < system_.n_bodies(); ++i) {
+    const S::Vec d = system_.bodies[i].mass.cwiseProduct(of_bodies.segment<3>(3 * i)).cwiseAbs().cwiseQuotient(scale_.body[i]) / h;
+    worst = std::max(worst, d.maxCoeff());
+  }
+  return worst;
+}
+
+// Quintic curves through both ends, of coordinates and of gaps; every vibration is resolved, so that the laws at these gaps
+// are the forces.
+const State& TreeDopri5::interpolate(double t) {
+  if (t == end_.t) return end_state_;
+  if (t == begin_.t) return begin_state_;
+  const double h = end_.t - begin_.t, s = (t - begin_.t) / h;
+  TreeState now;
+  now.t = t;
+  quintic(s, h, {&begin_.y, &begin_.u, &begin_.w}, {&end_.y, &end_.u, &end_.w}, now.y, now.u);
+  complete(now);
+  quintic(s, h, {&begin_.gap, &begin_.rate, &begin_.accel}, {&end_.gap, &end_.rate, &end_.accel}, now.gap, now.rate);
+  at_.forces(now.gap, now.rate, now.force);
+  at_.accelerate(VectorXd::Zero(tree_->n()));
+  at_.imbalance(now.force, now.w);
+  now.w = mass_.solve(-now.w);
+  write(now, inside_state_);
+  inside_state_.dissipated = cubic(s, h, begin_state_.dissipated, begin_state_.loss_power, end_state_.dissipated, end_state_.loss_power);
+  inside_state_.supplied = cubic(s, h, begin_state_.supplied, begin_state_.supply_power, end_state_.supplied, end_state_.supply_power);
+  return inside_state_;
+}
+
+}  // namespace pintle

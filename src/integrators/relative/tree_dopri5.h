@@ -1,0 +1,51 @@
+// The explicit Dormand-Prince pair over a joint tree: coordinates and rates as they stand, the joints that stay force laws
+// asked at the bodies' gaps. dopri5.h is the method for free bodies. theory/tree section 7.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "integrators/relative/tree_projector.h"
+#include "integrators/stepper.h"
+
+namespace pintle {
+
+class TreeDopri5 final : public Stepper {
+ public:
+  TreeDopri5(const System& system, double tolerance);
+
+  void set_max_step(double h) override { max_step_ = h; }
+  void set_load_scale(const LoadScale& scale) override { scale_ = scale; }
+  const LoadScale& load_scale() const override { return scale_; }
+  void start(const State& state, double h) override;
+  bool step(double t_end) override;
+  const State& state() const override { return end_state_; }
+  const State& previous() const override { return begin_state_; }
+  const State& interpolate(double t) override;
+  const Counters& counters() const override { return counters_; }
+  const std::string& failure() const override { return failure_; }
+
+ private:
+  void complete(TreeState& state);  // gaps, forces and accelerations at t, y, u
+  void write(TreeState& at, State& state);
+  void find_rounding();
+  double error(double h);
+  void raise_scale();
+
+  const System& system_;
+  std::unique_ptr<JointTree> tree_;
+  double tolerance_, max_step_ = 0, h_ = 0;
+  TreeInstant at_;
+  Eigen::MatrixXd mass_matrix_;
+  Eigen::LLT<Eigen::MatrixXd> mass_;
+  TreeState begin_, end_, stage_;
+  State begin_state_, end_state_, inside_state_;
+  std::array<Eigen::VectorXd, 7> ky_, ku_;
+  LoadScale scale_;
+  Vecs rounding_;  // per body [N, N, N*m]
+  Counters counters_;
+  std::string failure_;
+};
+
+}  // namespace pintle

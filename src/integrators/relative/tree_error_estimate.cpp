@@ -1,0 +1,211 @@
+// The error of a step over a joint tree, its end moved onto its gaps, and its inside.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrators/radau/step_error.h"
+#include "integrators/relative/tree_radau.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+double largest(const VectorXd& x) { return x.size() == 0 ? 0 : x.cwiseAbs().maxCoeff(); }
+
+}  // namespace
+
+// theory/time Eqs. (3.12), (3.13): the bodies' forces, whatever the coordinates are.
+bool TreeRadau::error_estimate(double h, double& error) {
+  const TreeState& last = stages_.states()[n_ - 1];
+  const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
+  if (!projector_.prepare(stages_.instant(n_ - 1), mu, last.gap, last.rate)) return false;
+  error = std::max(body_tail(), gap_tail());
+  return std::isfinite(error);
+}
+
+// Accelerations of all bodies as forces over the load scale: the largest.
+double TreeRadau::over_scale(const VectorXd& of_bodies) const {
+  if (!of_bodies.allFinite()) return std::numeric_limits<double>::infinity();
+  double size = 0;
+  for (int i = 0; i < system_.n_bodies(); ++i)
+    size = std::max(size, of_bodies.segment<3>(3 * i).cwiseProduct(system_.bodies[i].mass).cwiseQuotient(scale_.body[i]).cwiseAbs().maxCoeff());
+  return size;
+}
+
+double TreeRadau::body_tail() const {
+  std::array<double, RadauTable::kMaxNodes> size{};
+  VectorXd coefficient(3 * system_.n_bodies());
+  for (int k = n_ - 2; k <= n_; ++k) {
+    for (int i = 0; i < system_.n_bodies(); ++i) {
+      S::Vec a = table_.to_legendre(k, 0) * begin_state_.a[i];
+      for (int s = 0; s < n_; ++s) a += table_.to_legendre(k, s + 1) * stages_.instant(s).a()[i];
+      coefficient.segment<3>(3 * i) = a;
+    }
+    size[k] = over_scale(coefficient);
+    if (!std::isfinite(size[k])) return size[k];
+  }
+  if (!(size[n_] > 0)) return 0;
+  return size[n_] * fall_off(size[n_], size[n_ - 1], size[n_ - 2]);
+}
+
+double TreeRadau::gap_tail() {
+  const Index m = end_at_.n_gaps();
+  if (m == 0) return 0;
+  MatrixXd tail = MatrixXd::Zero(m, 3);
+  for (int back = 0; back < 3; ++back)  // without the start of the step, whose error is the last step's
+    for (int s = 0; s < n_; ++s) tail.col(back) += table_.stages_to_legendre(n_ - 1 - back, s) * stages_.states()[s].accel;
+  const MatrixXd move = stages_.instant(n_ - 1).J() * projector_.close(tail);
+  const double last = over_scale(move.col(0)), before = over_scale(move.col(1)), before_that = over_scale(move.col(2));
+  if (!std::isfinite(last + before + before_that)) return std::numeric_limits<double>::infinity();
+  if (!(last > 0)) return 0;
+  return kGapError * last * fall_off(last, before, before_that);
+}
+
+// theory/tree section 6.
+void TreeRadau::finish_step(double h) {
+  const TreeState& last = stages_.states()[n_ - 1];
+  nodes_.w.col(0) = begin_.w;
+  nodes_.accel.col(0) = begin_.accel;
+  nodes_.force.col(0) = begin_.force;
+  for (int s = 0; s < n_; ++s) {
+    nodes_.w.col(s + 1) = stages_.states()[s].w;
+    nodes_.accel.col(s + 1) = stages_.states()[s].accel;
+    nodes_.force.col(s + 1) = stages_.states()[s].force;
+  }
+  add_work(h);
+  end_ = last;
+  end_.t = begin_.t + h;
+  move_onto_gaps();
+  take_gaps();
+  VectorXd w;
+  projector_.balance(end_at_, last.accel, true, end_.force, w);
+  nodes_.force.col(n_) = end_.force;
+  finish_end(w);
+  control_.last = h;
+  control_.have_history = true;
+}
+
+// Coordinates and rates, each in one pass, and a second where the first has left more than rounding. Eq. (6.2).
+void TreeRadau::move_onto_gaps() {
+  const double epsilon = 16 * std::numeric_limits<double>::epsilon();
+  const double rounding = epsilon * largest_coordinate(stages_.instant(n_ - 1).pose().q);
+  const double rounding_of_rate = epsilon * largest_coordinate(stages_.instant(n_ - 1).pose().v);
+  end_at_.place_only(end_.t, end_.y, end_.u);
+  VectorXd now;
+  for (int pass = 0; pass < 2; ++pass) {
+    end_at_.gaps(now);
+    const VectorXd wanted = end_.gap - now;
+    if (pass > 0 && largest(wanted) < rounding) break;
+    end_.y += projector_.close(wanted);
+    end_at_.place_only(end_.t, end_.y, end_.u);
+  }
+  for (int pass = 0; pass < 2; ++pass) {
+    end_at_.rates(now);
+    const VectorXd wanted = end_.rate - now;
+    if (pass > 0 && largest(wanted) < rounding_of_rate) break;
+    end_.u += projector_.close(wanted);
+    end_at_.place_only(end_.t, end_.y, end_.u);
+  }
+  end_at_.place(end_.t, end_.y, end_.u);
+}
+
+// The carried gap, but the geometry's where no motion could bring it there (redundant joints). theory/time Eq. (4.3).
+void TreeRadau::take_gaps() {
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() * largest_coordinate(end_at_.pose().q);
+  VectorXd now;
+  end_at_.gaps(now);
+  for (Index i = 0; i < now.size(); ++i)
+    if (std::abs(now[i] - end_.gap[i]) > rounding) end_.gap[i] = now[i];
+  end_at_.rates(end_.rate);
+  end_at_.forces(end_.gap, end_.rate, end_.force);
+}
+
+void TreeRadau::add_work(double h) {
+  nodes_.power.col(0) << begin_state_.supply_power, begin_state_.loss_power;
+  end_state_.supplied = begin_state_.supplied;
+  end_state_.dissipated = begin_state_.dissipated;
+  for (int s = 0; s < n_; ++s) {
+    const TreeState& stage = stages_.states()[s];
+    const auto [supplied, lost] = stages_.instant(s).power(stage.gap, stage.rate, stage.force);
+    nodes_.power.col(s + 1) << supplied, lost;
+    end_state_.supplied += h * table_.b[s] * supplied;
+    end_state_.dissipated += h * table_.b[s] * lost;
+  }
+  end_state_.supply_power = nodes_.power(0, n_);
+  end_state_.loss_power = nodes_.power(1, n_);
+}
+
+// Powers of the share of the step from values at the nodes; what is left at the far end goes into bends. theory/time Eq. (5.1).
+void TreeRadau::find_curves() {
+  const double h = end_.t - begin_.t;
+  const MatrixXd to_powers = MatrixXd(table_.to_powers).transpose();
+  curves_.from = begin_.t;
+  curves_.to = end_.t;
+  curves_.w = nodes_.w * to_powers;
+  curves_.accel = nodes_.accel * to_powers;
+  curves_.force = nodes_.force * to_powers;
+  curves_.power = nodes_.power * to_powers;
+  VectorXd once(n_ + 1), twice(n_ + 1);
+  for (int k = 0; k <= n_; ++k) {
+    once[k] = h / (k + 1);
+    twice[k] = h * h / ((k + 1) * (k + 2));
+  }
+  curves_.bend_u = end_.u - begin_.u - curves_.w * once;
+  curves_.bend_y = end_.y - begin_.y - h * begin_.u - curves_.w * twice;
+  curves_.bend_rate = end_.rate - begin_.rate - curves_.accel * once;
+  curves_.bend_gap = end_.gap - begin_.gap - h * begin_.rate - curves_.accel * twice;
+  curves_.bend_work = -(curves_.power * once);
+  curves_.bend_work[0] += end_state_.supplied - begin_state_.supplied;
+  curves_.bend_work[1] += end_state_.dissipated - begin_state_.dissipated;
+}
+
+void TreeRadau::follow(double x, TreeState& out) const {
+  const double h = end_.t - begin_.t, hermite = x * x * (3 - 2 * x);
+  VectorXd value(n_ + 1), once(n_ + 1), twice(n_ + 1);
+  double power = 1;
+  for (int k = 0; k <= n_; ++k, power *= x) {
+    value[k] = power;
+    once[k] = h * power * x / (k + 1);
+    twice[k] = once[k] * h * x / (k + 2);
+  }
+  out.t = begin_.t + x * h;
+  out.w = curves_.w * value;
+  out.u = begin_.u + x * curves_.bend_u + curves_.w * once;
+  out.y = begin_.y + x * h * begin_.u + hermite * curves_.bend_y + curves_.w * twice;
+  out.accel = curves_.accel * value;
+  out.rate = begin_.rate + x * curves_.bend_rate + curves_.accel * once;
+  out.gap = begin_.gap + x * h * begin_.rate + hermite * curves_.bend_gap + curves_.accel * twice;
+  out.force = curves_.force * value;
+}
+
+// On the curves; rates moved onto the gaps', forces balanced with their accelerations. Eq. (6.3).
+const State& TreeRadau::interpolate(double t) {
+  if (t == end_.t) return end_state_;
+  if (t == begin_.t) return begin_state_;
+  if (curves_.from != begin_.t || curves_.to != end_.t) find_curves();
+  const double h = end_.t - begin_.t, x = (t - begin_.t) / h;
+  TreeState now;
+  follow(x, now);
+  now.t = t;
+  VectorXd w = now.w, rate;
+  inside_at_.place(t, now.y, now.u);
+  if (projector_.prepare(inside_at_, table_.real_eigenvalue / h, now.gap, now.rate)) {
+    inside_at_.rates(rate);
+    now.u += projector_.close(now.rate - rate);
+    inside_at_.place(t, now.y, now.u);
+    projector_.balance(inside_at_, now.accel, false, now.force, w);
+  }
+  inside_at_.write(now, w, inside_state_);
+  double power = 1;
+  Eigen::Vector2d work = x * curves_.bend_work;
+  for (int k = 0; k <= n_; ++k, power *= x) work += curves_.power.col(k) * (h * power * x / (k + 1));
+  inside_state_.supplied = begin_state_.supplied + work[0];
+  inside_state_.dissipated = begin_state_.dissipated + work[1];
+  return inside_state_;
+}
+
+}  // namespace pintle

@@ -1,0 +1,103 @@
+// Steps over a joint tree end where a law or a load has a kink or a jump. theory/time section 7, as RadauStepper.
+#include <algorithm>
+#include <limits>
+
+#include "integrators/relative/tree_radau.h"
+
+namespace pintle {
+namespace {
+
+constexpr double kCrossing = 1e-9;  // of the usual step: the least that is gone to cross
+constexpr int kCrossings = 5;       // each ten times longer, until the branch has changed
+constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
+constexpr double kMoment = 1e-6;    // of the usual step: to see where accelerations lead
+
+}  // namespace
+
+// The branches at share x of the step, on the curve through its stages.
+std::uint64_t TreeRadau::branches(double x, double h) {
+  TreeState at;
+  at.u = begin_.u;
+  at.y = begin_.y + x * h * begin_.u;
+  at.rate = begin_.rate;
+  at.gap = begin_.gap + x * h * begin_.rate;
+  for (int i = 0; i < n_; ++i) {
+    double power = x, first = 0, second = 0;
+    for (int k = 0; k < n_; ++k, power *= x) {
+      first += table_.stages_to_powers(k, i) * power / (k + 1);
+      second += table_.stages_to_powers(k, i) * power * x / ((k + 1) * (k + 2));
+    }
+    const TreeState& stage = stages_.states()[i];
+    at.u += h * first * stage.w;
+    at.y += h * h * second * stage.w;
+    at.rate += h * first * stage.accel;
+    at.gap += h * h * second * stage.accel;
+  }
+  inside_at_.place_only(begin_.t + x * h, at.y, at.u);
+  return inside_at_.branches(at.gap, at.rate);
+}
+
+// The branches a time d ahead of the start, by Taylor's series: all there is to go by when the stages are not solved.
+std::uint64_t TreeRadau::branches_ahead(double d) {
+  const double half = 0.5 * d * d;
+  inside_at_.place_only(begin_.t + d, begin_.y + d * begin_.u + half * begin_.w, begin_.u + d * begin_.w);
+  return inside_at_.branches(begin_.gap + d * begin_.rate + half * begin_.accel, begin_.rate + d * begin_.accel);
+}
+
+SwitchingEvent TreeRadau::locate_event(double h, bool solved) {
+  if (!system_.has_branches()) return {};
+  return first_event(table_, branch_, [&](double x) { return solved ? branches(x, h) : branches_ahead(x * h); });
+}
+
+// Moves the end over the event that it stands just before, by Taylor's series; false when the branch stays the same.
+bool TreeRadau::step_over_event(double distance) {
+  double beyond = std::max(kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
+  for (int i = 0; i < kCrossings; ++i, beyond *= 10) {
+    const double d = (i == 0 ? distance : 0) + beyond, half = 0.5 * d * d;
+    end_.t += d;
+    end_.y += d * end_.u + half * end_.w;
+    end_.u += d * end_.w;
+    end_.gap += d * end_.rate + half * end_.accel;
+    end_.rate += d * end_.accel;
+    end_at_.place(end_.t, end_.y, end_.u);
+    if (end_at_.branches(end_.gap, end_.rate) != branch_) return true;
+  }
+  return false;
+}
+
+// Over the event; forces and accelerations renewed there. A jump that comes back at once is held.
+void TreeRadau::cross_event(double distance) {
+  const double before = end_.t;
+  const std::vector<Planar::Motion> motions_before = end_at_.pose().m;
+  step_over_event(distance);
+  leave_sliding(system_, end_.t, end_at_.pose().m, sliding_);
+  balance_end();
+  if (const auto jump = chattering_.crossed(system_, before, motions_before, end_.t, end_at_.pose().m, kAtOnce * control_.usual)) {
+    const double margin = system_.margin(*jump, end_.t, end_at_.pose().m);
+    enter_sliding(*jump, margin, ramp_size(system_, *jump, end_state_, control_.usual, tolerance_), sliding_, [this] { balance_end(); },
+              [&] { return margin_rate(*jump); });
+  }
+  control_.have_history = false;
+}
+
+// How fast the argument of a jump changes at the end, by what it is a moment later.
+double TreeRadau::margin_rate(const SlidingMode& jump) {
+  const double d = kMoment * control_.usual;
+  inside_at_.place_only(end_.t + d, end_.y + d * end_.u, end_.u + d * end_.w);
+  return (system_.margin(jump, inside_at_.t(), inside_at_.pose().m) - system_.margin(jump, end_.t, end_at_.pose().m)) / d;
+}
+
+// What the laws and loads really give at the end.
+void TreeRadau::balance_end() {
+  end_at_.place(end_.t, end_.y, end_.u);
+  end_at_.forces(end_.gap, end_.rate, end_.force);
+  if (projector_.prepare(end_at_, 1, end_.gap, end_.rate)) projector_.accelerations(end_at_, end_.force, end_.w);
+  end_at_.accelerate(end_.w);
+  end_at_.gap_accelerations(end_.accel);
+  const auto [supplied, lost] = end_at_.power(end_.gap, end_.rate, end_.force);
+  end_state_.supply_power = supplied;
+  end_state_.loss_power = lost;
+  finish_end(end_.w);
+}
+
+}  // namespace pintle

@@ -1,0 +1,144 @@
+#include "integrators/relative/tree_instant.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+using Eigen::VectorXd;
+
+}  // namespace
+
+TreeInstant::TreeInstant(const System& system, const JointTree& tree)
+    : system_(system), tree_(tree), r_(tree.laws().size()), Q_(system.bodies.size()), a_(system.bodies.size(), S::Vec::Zero()),
+      on_bodies_(system.bodies.size()), gap_(system.joints.size(), S::Vec::Zero()), rate_(gap_) {}
+
+void TreeInstant::place_only(double t, const VectorXd& y, const VectorXd& u) {
+  t_ = t;
+  tree_.place(y, u, pose_);
+  for (std::size_t l = 0; l < r_.size(); ++l) r_[l] = system_.kinematics(tree_.laws()[l], t, pose_.m);
+}
+
+void TreeInstant::place(double t, const VectorXd& y, const VectorXd& u) {
+  place_only(t, y, u);
+  system_.external(t, pose_.m, Q_, sliding());
+}
+
+void TreeInstant::gap_accelerations(VectorXd& out) const {
+  out.resize(n_gaps());
+  for (std::size_t l = 0; l < r_.size(); ++l) {
+    S::Vec e = r_[l].bias;
+    add_gap(system_.joints[tree_.laws()[l]].at, r_[l], a_, e);
+    out.segment<3>(3 * static_cast<Eigen::Index>(l)) = e;
+  }
+}
+
+// Eq. (3.4).
+void TreeInstant::imbalance(const VectorXd& f, VectorXd& out) {
+  for (std::size_t i = 0; i < Q_.size(); ++i) on_bodies_[i] = Q_[i] - system_.bodies[i].mass.cwiseProduct(a_[i]);
+  for (std::size_t l = 0; l < r_.size(); ++l)
+    add_force(system_.joints[tree_.laws()[l]].at, r_[l], f.segment<3>(3 * static_cast<Eigen::Index>(l)), on_bodies_);
+  tree_.gather(pose_, on_bodies_, out);
+  out = -out;
+}
+
+void TreeInstant::gaps(VectorXd& out) const {
+  out.resize(n_gaps());
+  for (std::size_t l = 0; l < r_.size(); ++l) out.segment<3>(3 * static_cast<Eigen::Index>(l)) = r_[l].gap;
+}
+
+void TreeInstant::rates(VectorXd& out) const {
+  out.resize(n_gaps());
+  for (std::size_t l = 0; l < r_.size(); ++l) out.segment<3>(3 * static_cast<Eigen::Index>(l)) = r_[l].rate;
+}
+
+void TreeInstant::find_matrices() {
+  tree_.mass(pose_, H_);
+  tree_.jacobian(pose_, J_);
+  A_.setZero(n_gaps(), n());
+  for (std::size_t l = 0; l < r_.size(); ++l) {
+    const Placement& at = system_.joints[tree_.laws()[l]].at;
+    auto rows = A_.middleRows<3>(3 * static_cast<Eigen::Index>(l));
+    if (at.a != kGround) rows.noalias() += r_[l].GA() * J_.middleRows<3>(3 * at.a);
+    if (at.b != kGround) rows.noalias() += r_[l].GB() * J_.middleRows<3>(3 * at.b);
+  }
+}
+
+Response TreeInstant::answer(int law, const VectorXd& gap, const VectorXd& rate) const {
+  return respond(system_.joints[tree_.laws()[law]].law, gap.segment<3>(3 * law), rate.segment<3>(3 * law));
+}
+
+void TreeInstant::forces(const VectorXd& gap, const VectorXd& rate, VectorXd& f) const {
+  f.resize(gap.size());
+  for (std::size_t l = 0; l < r_.size(); ++l) {
+    const Eigen::Index i = 3 * static_cast<Eigen::Index>(l);
+    f.segment<3>(i) = law_force(system_.joints[tree_.laws()[l]].law, gap.segment<3>(i), rate.segment<3>(i));
+  }
+}
+
+std::array<double, 2> TreeInstant::power(const VectorXd& gap, const VectorXd& rate, const VectorXd& f) const {
+  const ExternalWork work = system_.external_work(t_, pose_.q, pose_.m, sliding());
+  std::array<double, 2> out{work.supplied, work.lost};
+  for (std::size_t l = 0; l < r_.size(); ++l) {
+    const JointData& joint = system_.joints[tree_.laws()[l]];
+    const int law = static_cast<int>(l);
+    if (joint.servo >= 0) out[0] += f[3 * law + joint.servo] * system_.pose(joint.at, pose_.m).rate[joint.servo];
+    else out[1] += answer(law, gap, rate).loss;
+  }
+  return out;
+}
+
+// Joints that coordinates obey have linear laws as a rule; a law with kinks among them is asked at a gap of zero.
+std::uint64_t TreeInstant::branches(const VectorXd& gap, const VectorXd& rate) {
+  for (std::size_t l = 0; l < r_.size(); ++l) {
+    const Eigen::Index i = 3 * static_cast<Eigen::Index>(l);
+    gap_[tree_.laws()[l]] = gap.segment<3>(i);
+    rate_[tree_.laws()[l]] = rate.segment<3>(i);
+  }
+  return system_.branches(t_, pose_.m, gap_, rate_, sliding());
+}
+
+void TreeInstant::write(const TreeState& at, const VectorXd& w, State& state) {
+  const std::size_t joints = system_.joints.size();
+  for (Vecs* x : {&state.gap, &state.gap_rate, &state.gap_accel, &state.force}) x->resize(joints, S::Vec::Zero());
+  state.t = at.t;
+  state.sliding.assign(sliding().begin(), sliding().end());
+  state.q = pose_.q;
+  state.v = pose_.v;
+  accelerate(w);
+  state.a = a_;
+  on_bodies_ = Q_;
+  for (std::size_t l = 0; l < r_.size(); ++l) {
+    const Eigen::Index i = 3 * static_cast<Eigen::Index>(l);
+    const int j = tree_.laws()[l];
+    state.gap[j] = at.gap.segment<3>(i);
+    state.gap_rate[j] = at.rate.segment<3>(i);
+    state.gap_accel[j] = at.accel.segment<3>(i);
+    state.force[j] = at.force.segment<3>(i);
+    add_force(system_.joints[j].at, r_[l], state.force[j], on_bodies_);
+  }
+  tree_.reactions(pose_, a_, on_bodies_, state.force);
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    if (!tree_.in_tree(j)) continue;
+    const JointData& joint = system_.joints[j];
+    JointKinematics r = system_.kinematics(j, t_, pose_.m);
+    add_gap(joint.at, r, a_, r.bias);
+    state.gap[j] = r.gap.cwiseProduct(joint.free_mask);
+    state.gap_rate[j] = r.rate.cwiseProduct(joint.free_mask);
+    state.gap_accel[j] = r.bias.cwiseProduct(joint.free_mask);
+  }
+}
+
+void read_carried(const JointTree& tree, const State& state, TreeState& out) {
+  const auto n = static_cast<Eigen::Index>(3 * tree.laws().size());
+  for (VectorXd* x : {&out.gap, &out.rate, &out.accel, &out.force}) x->resize(n);
+  for (std::size_t l = 0; l < tree.laws().size(); ++l) {
+    const Eigen::Index i = 3 * static_cast<Eigen::Index>(l);
+    const int j = tree.laws()[l];
+    out.gap.segment<3>(i) = state.gap[j];
+    out.rate.segment<3>(i) = state.gap_rate[j];
+    out.accel.segment<3>(i) = state.gap_accel[j];
+    out.force.segment<3>(i) = state.force[j];
+  }
+}
+
+}  // namespace pintle

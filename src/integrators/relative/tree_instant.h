@@ -1,0 +1,85 @@
+// The equations over a joint tree at one instant: bodies, gaps of the joints that stay force laws, mass matrix, what is
+// missing in the balance. theory/tree sections 3 and 5.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "system/state.h"
+#include "system/tree.h"
+
+namespace pintle {
+
+/// Coordinates, rates and accelerations of a joint tree, with what is carried of the joints that stay force laws: gap, rate,
+/// acceleration and force, three entries for each of `JointTree::laws`.
+struct TreeState {
+  double t = 0;
+  Eigen::VectorXd y, u, w;              // w = u'
+  Eigen::VectorXd gap, rate, accel, force;
+};
+
+class TreeInstant {
+ public:
+  TreeInstant(const System& system, const JointTree& tree);
+
+  const System& system() const { return system_; }
+  const JointTree& tree() const { return tree_; }
+  int n() const { return tree_.n(); }
+  int n_gaps() const { return 3 * static_cast<int>(tree_.laws().size()); }
+
+  /// Motors that stand at a jump of theirs, from now on; none at first. The list stays the caller's and may change.
+  void set_sliding(const std::vector<SlidingMode>& sliding) { sliding_ = &sliding; }
+  SlidingModes sliding() const { return sliding_ ? SlidingModes(*sliding_) : SlidingModes(); }
+
+  /// Bodies, joint kinematics and external forces.
+  void place(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& u);
+  /// The same without the external forces.
+  void place_only(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& u);
+  double t() const { return t_; }
+  const TreePose& pose() const { return pose_; }
+  const Vecs& Q() const { return Q_; }
+  const JointKinematics& kinematics(int law) const { return r_[law]; }
+
+  /// Accelerations of the bodies for u' = w.
+  void accelerate(const Eigen::VectorXd& w) { tree_.accelerate(pose_, w, a_); }
+  const Vecs& a() const { return a_; }
+  /// e'' = G a + bias, at the accelerations given last.
+  void gap_accelerations(Eigen::VectorXd& out) const;
+  /// J' (M a - Q - G' f), at the accelerations given last: what is missing in the balance.
+  void imbalance(const Eigen::VectorXd& f, Eigen::VectorXd& out);
+
+  void gaps(Eigen::VectorXd& out) const;
+  void rates(Eigen::VectorXd& out) const;
+  /// Mass matrix, dv/du and A = G J.
+  void find_matrices();
+  const Eigen::MatrixXd& H() const { return H_; }
+  const Eigen::MatrixXd& J() const { return J_; }
+  const Eigen::MatrixXd& A() const { return A_; }
+
+  /// The law of `law` at its part of gap and rate.
+  Response answer(int law, const Eigen::VectorXd& gap, const Eigen::VectorXd& rate) const;
+  void forces(const Eigen::VectorXd& gap, const Eigen::VectorXd& rate, Eigen::VectorXd& f) const;
+  /// Supplied and lost power [W].
+  std::array<double, 2> power(const Eigen::VectorXd& gap, const Eigen::VectorXd& rate, const Eigen::VectorXd& f) const;
+  /// The number that changes with the side of any kink, at the carried gaps.
+  std::uint64_t branches(const Eigen::VectorXd& gap, const Eigen::VectorXd& rate);
+
+  /// Everything of the state but its work, from what is carried; the instant must have been placed at `at`. Accelerations
+  /// and the reactions of the tree's joints are those of u' = w.
+  void write(const TreeState& at, const Eigen::VectorXd& w, State& state);
+
+ private:
+  const System& system_;
+  const JointTree& tree_;
+  const std::vector<SlidingMode>* sliding_ = nullptr;
+  double t_ = 0;
+  TreePose pose_;
+  std::vector<JointKinematics> r_;  // of the joints that stay laws
+  Vecs Q_, a_, on_bodies_, gap_, rate_;
+  Eigen::MatrixXd H_, J_, A_;
+};
+
+/// The carried part of `state`: gaps, rates, accelerations and forces of the joints that stay laws.
+void read_carried(const JointTree& tree, const State& state, TreeState& out);
+
+}  // namespace pintle

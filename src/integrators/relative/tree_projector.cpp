@@ -1,0 +1,64 @@
+#include "integrators/relative/tree_projector.h"
+
+#include <cmath>
+
+namespace pintle {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+bool TreeProjector::prepare(TreeInstant& at, double mu, const VectorXd& gap_at, const VectorXd& rate_at) {
+  at.find_matrices();
+  mass_.compute(at.H());
+  if (mass_.info() != Eigen::Success) return false;
+  A_ = at.A();
+  const Index m = A_.rows();
+  if (m == 0) return true;
+  pull_ = mass_.solve(A_.transpose());
+  weight_.resize(static_cast<std::size_t>(m / 3));
+  for (int l = 0; l < static_cast<int>(weight_.size()); ++l) {
+    const Response response = at.answer(l, gap_at, rate_at);
+    weight_[l] = response.stiffness + mu * response.damping;
+  }
+  const MatrixXd mobility = A_ * pull_;
+  MatrixXd matrix(m, m);
+  row_ = VectorXd::Ones(m);
+  matrix = weighted(mobility);
+  matrix.diagonal().array() += mu * mu;
+  row_ = matrix.cwiseAbs().rowwise().maxCoeff().cwiseInverse();
+  lu_.compute(row_.asDiagonal() * matrix);
+  return std::isfinite(lu_.matrixLU().sum());
+}
+
+MatrixXd TreeProjector::weighted(const MatrixXd& x) const {
+  MatrixXd out(x.rows(), x.cols());
+  for (Index l = 0; l < x.rows() / 3; ++l) out.middleRows<3>(3 * l) = weight_[l] * x.middleRows<3>(3 * l);
+  return row_.asDiagonal() * out;
+}
+
+MatrixXd TreeProjector::close(const MatrixXd& wanted) const {
+  if (A_.rows() == 0) return MatrixXd::Zero(A_.cols(), wanted.cols());
+  return pull_ * lu_.solve(weighted(wanted));
+}
+
+void TreeProjector::accelerations(TreeInstant& at, const VectorXd& force, VectorXd& w) const {
+  at.accelerate(VectorXd::Zero(at.n()));
+  at.imbalance(force, w);
+  w = mass_.solve(-w);
+}
+
+void TreeProjector::balance(TreeInstant& at, const VectorXd& accel, bool sliding, VectorXd& force, VectorXd& w) const {
+  accelerations(at, force, w);
+  if (A_.rows() == 0) return;
+  VectorXd now;
+  at.accelerate(w);
+  at.gap_accelerations(now);
+  VectorXd missing = accel - now;
+  if (sliding) missing = A_ * close(missing);
+  const VectorXd more = lu_.solve(weighted(missing));
+  force += more;
+  w += pull_ * more;
+}
+
+}  // namespace pintle

@@ -1,0 +1,71 @@
+#include "integrators/relative/tree_radau.h"
+
+#include <utility>
+
+#include "integrators/load_scale.h"
+
+namespace pintle {
+
+using S = Planar;
+using Eigen::VectorXd;
+
+TreeRadau::TreeRadau(const System& system, double tolerance, int stages)
+    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance),
+      tree_(std::make_unique<JointTree>(system)), stages_(system, *tree_, table_, tolerance), end_at_(system, *tree_), inside_at_(end_at_) {
+  scale_.body.assign(system.bodies.size(), S::Vec::Zero());
+  for (TreeInstant* at : {&end_at_, &inside_at_}) at->set_sliding(sliding_);
+  stages_.set_sliding(sliding_);
+  const int n = tree_->n(), m = end_at_.n_gaps();
+  nodes_ = {Eigen::MatrixXd::Zero(n, n_ + 1), Eigen::MatrixXd::Zero(m, n_ + 1), Eigen::MatrixXd::Zero(m, n_ + 1), Eigen::MatrixXd::Zero(2, n_ + 1)};
+}
+
+bool TreeRadau::attempt(double h) {
+  return stages_.solve(begin_, h, control_.have_history ? &nodes_ : nullptr, control_.last, scale_, counters_);
+}
+
+// The tree takes positions and rates from the bodies; gaps and forces of the joints that stay laws are the state's.
+void TreeRadau::start(const State& state, double h) {
+  end_state_ = state;
+  control_.start(h);
+  sliding_ = state.sliding;
+  chattering_.forget();
+  end_.t = state.t;
+  tree_->read_positions(state.q, end_.y);
+  TreePose pose;
+  tree_->place(end_.y, VectorXd::Zero(tree_->n()), pose);
+  tree_->read_rates(pose, state.v, end_.u);
+  read_carried(*tree_, state, end_);
+  end_at_.place(end_.t, end_.y, end_.u);
+  projector_.prepare(end_at_, 1, end_.gap, end_.rate);
+  projector_.accelerations(end_at_, end_.force, end_.w);
+  const auto [supplied, lost] = end_at_.power(end_.gap, end_.rate, end_.force);
+  end_state_.supply_power = supplied;
+  end_state_.loss_power = lost;
+  finish_end(end_.w);
+}
+
+bool TreeRadau::step(double t_end) {
+  if (leave_sliding(system_, end_.t, end_at_.pose().m, sliding_)) {
+    balance_end();
+    control_.have_history = false;
+  }
+  if (control_.advance(*this, t_end, tolerance_, n_ + 1, counters_)) return true;
+  std::vector<std::pair<double, int>> residuals;
+  for (const int j : tree_->laws()) residuals.emplace_back(stages_.residual(j), j);
+  failure_ = no_step_message(system_, begin_.t, control_.next, std::move(residuals));
+  return false;
+}
+
+void TreeRadau::begin_at_end() {
+  begin_ = end_;
+  begin_state_ = end_state_;
+}
+
+// What the state of the bodies says about the end, with reactions that go with u' = w.
+void TreeRadau::finish_end(const VectorXd& w) {
+  end_at_.write(end_, w, end_state_);
+  if (system_.has_branches()) branch_ = end_at_.branches(end_.gap, end_.rate);
+  grow_load_scale(system_, end_at_.pose().m, end_at_.Q(), end_state_, scale_);
+}
+
+}  // namespace pintle

@@ -1,0 +1,91 @@
+// The force-accurate implicit method over a joint tree: Radau IIA on coordinates, rates AND the gaps of the joints that stay
+// force laws. theory/tree sections 5 to 7; the method for free bodies is radau_stepper.h.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "integrators/radau/sliding_mode.h"
+#include "integrators/radau/step_control.h"
+#include "integrators/relative/tree_projector.h"
+#include "integrators/relative/tree_stages.h"
+#include "integrators/stepper.h"
+
+namespace pintle {
+
+class TreeRadau final : public Stepper {
+ public:
+  /// `stages` is 3 (order 5) or 5 (order 9).
+  TreeRadau(const System& system, double tolerance, int stages = 3);
+
+  void set_max_step(double h) override { control_.longest = h; }
+  void set_load_scale(const LoadScale& scale) override { scale_ = scale; }
+  const LoadScale& load_scale() const override { return scale_; }
+  void start(const State& state, double h) override;
+  bool step(double t_end) override;
+  const State& state() const override { return end_state_; }
+  const State& previous() const override { return begin_state_; }
+  const State& interpolate(double t) override;
+  const Counters& counters() const override { return counters_; }
+  const std::string& failure() const override { return failure_; }
+
+  const JointTree& tree() const { return *tree_; }
+
+ private:
+  friend class StepControl;  // which calls what follows, up to finish_step
+  double t() const { return begin_.t; }
+  void begin_at_end();
+  bool attempt(double h);
+  double contraction() const { return stages_.contraction(); }
+
+  // tree_error_estimate.cpp: the error of a step, its end and its inside
+  bool error_estimate(double h, double& error);
+  double body_tail() const;
+  double gap_tail();
+  double over_scale(const Eigen::VectorXd& of_bodies) const;
+  void finish_step(double h);
+  void move_onto_gaps();
+  void take_gaps();
+  void add_work(double h);
+  void finish_end(const Eigen::VectorXd& w);
+  void find_curves();
+  void follow(double x, TreeState& out) const;
+
+  // tree_event_location.cpp
+  SwitchingEvent locate_event(double h, bool solved);
+  std::uint64_t branches(double x, double h);
+  std::uint64_t branches_ahead(double d);
+  void cross_event(double distance);
+  bool step_over_event(double distance);
+  double margin_rate(const SlidingMode& jump);
+  void balance_end();
+
+  const System& system_;
+  const RadauTable& table_;
+  const int n_;  // stages
+  double tolerance_;
+  StepControl control_;
+  std::uint64_t branch_ = 0;                 // of kinks, at the end
+  ChatteringDetector chattering_;
+  std::vector<SlidingMode> sliding_;
+  std::unique_ptr<JointTree> tree_;
+  TreeStages stages_;
+  TreeProjector projector_;
+  TreeInstant end_at_, inside_at_;
+  TreeState begin_, end_;
+  State begin_state_, end_state_, inside_state_;
+  TreeNodes nodes_;
+  // The last step as powers of its share, with what the integrals miss the far end by; found when first asked for.
+  struct Curves {
+    double from = 0, to = 0;
+    Eigen::MatrixXd w, accel, force, power;
+    Eigen::VectorXd bend_y, bend_u, bend_gap, bend_rate, bend_work;
+  };
+  Curves curves_;
+  LoadScale scale_;
+  Counters counters_;
+  std::string failure_;
+};
+
+}  // namespace pintle

@@ -1,0 +1,233 @@
+#include "integrators/relative/tree_stages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pintle {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+using S = Planar;
+
+constexpr double kDifference = 1e-7;   // step of the differences, of a coordinate's size and at least of 1
+
+const S::Vec& on(const LoadScale& scale, int body, int other) { return scale.body[body == kGround ? other : body]; }
+
+}  // namespace
+
+TreeStages::TreeStages(const System& system, const JointTree& tree, const RadauTable& table, double tolerance)
+    : system_(system), tree_(tree), table_(table), n_(table.n), tolerance_(tolerance), state_(table.n),
+      at_(table.n, TreeInstant(system, tree)), beside_(system, tree), missing_(table.n), missing_gap_(table.n),
+      K_(tree.laws().size()), C_(tree.laws().size()) {
+  for (TreeState& s : state_) s.force = VectorXd::Zero(beside_.n_gaps());
+}
+
+bool TreeStages::solve(const TreeState& begin, double h, const TreeNodes* before, double last_h, const LoadScale& scale, Counters& counters) {
+  predict(begin, h, before, last_h);
+  place(begin, h);
+  find_forces(scale);
+  contraction_.start();
+  for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
+    find_residuals();
+    counters.evaluations += n_;
+    if (iteration == 0) {
+      linearize();
+      counters.factorizations += 1 + n_ / 2;
+      if (!factorize(h)) return false;
+    }
+    const double of_bodies = correct(scale);
+    place(begin, h);
+    ++counters.newton_iterations;
+    const auto verdict = contraction_.judge(iteration, std::max(of_bodies, find_forces(scale)), tolerance_);
+    if (verdict != NewtonContraction::Verdict::kGoOn) return verdict == NewtonContraction::Verdict::kDone;
+  }
+  return false;
+}
+
+void TreeStages::set_sliding(const std::vector<SlidingMode>& sliding) {
+  for (TreeInstant& at : at_) at.set_sliding(sliding);
+  beside_.set_sliding(sliding);
+}
+
+void TreeStages::predict(const TreeState& begin, double h, const TreeNodes* before, double last_h) {
+  for (int s = 0; s < n_; ++s) {
+    TreeState& state = state_[s];
+    state.w = begin.w;
+    state.accel = begin.accel;
+    if (!before) continue;
+    const RadauTable::Vec weight = table_.weights(1 + table_.c[s] * h / last_h);
+    state.w.noalias() = before->w * weight;
+    state.accel.noalias() = before->accel * weight;
+  }
+}
+
+// Where the stages are, from their accelerations. Eq. (5.2).
+void TreeStages::place(const TreeState& begin, double h) {
+  for (int s = 0; s < n_; ++s) {
+    TreeState& state = state_[s];
+    state.t = begin.t + table_.c[s] * h;
+    state.u = begin.u;
+    state.y = begin.y + table_.c[s] * h * begin.u;
+    state.rate = begin.rate;
+    state.gap = begin.gap + table_.c[s] * h * begin.rate;
+    for (int i = 0; i < n_; ++i) {
+      const double first = h * table_.A(s, i), second = h * h * table_.A2(s, i);
+      state.u += first * state_[i].w;
+      state.y += second * state_[i].w;
+      state.rate += first * state_[i].accel;
+      state.gap += second * state_[i].accel;
+    }
+    at_[s].place(state.t, state.y, state.u);
+    at_[s].accelerate(state.w);
+  }
+}
+
+// Joint forces from gaps and rates. How much they have changed, over the scale of the bodies that they act on.
+double TreeStages::find_forces(const LoadScale& scale) {
+  double worst = 0, sum = 0;
+  for (int s = 0; s < n_; ++s) {
+    TreeState& state = state_[s];
+    at_[s].forces(state.gap, state.rate, force_);
+    for (std::size_t l = 0; l < tree_.laws().size(); ++l) {
+      const Placement& at = system_.joints[tree_.laws()[l]].at;
+      const S::Vec largest = on(scale, at.a, at.b).cwiseMax(on(scale, at.b, at.a));
+      for (int k = 0; k < 3; ++k) {
+        const Index i = 3 * static_cast<Index>(l) + k;
+        const double change = (force_[i] - state.force[i]) / largest[k];
+        worst = std::max(worst, std::abs(change));
+        sum += change;
+      }
+    }
+    state.force = force_;
+  }
+  return std::isfinite(sum) ? worst : std::numeric_limits<double>::infinity();
+}
+
+// What is missing in the equations. Eq. (5.3).
+void TreeStages::find_residuals() {
+  for (int s = 0; s < n_; ++s) {
+    at_[s].imbalance(state_[s].force, missing_[s]);
+    at_[s].gap_accelerations(missing_gap_[s]);
+    missing_gap_[s] = state_[s].accel - missing_gap_[s];
+  }
+}
+
+// The laws' tangents, exact, and the slopes of everything else by differences of the recursions, at the predicted middle stage.
+void TreeStages::linearize() {
+  const int i = n_ / 2;
+  const TreeState& state = state_[i];
+  TreeInstant& at = at_[i];
+  at.find_matrices();
+  for (std::size_t l = 0; l < K_.size(); ++l) {
+    const Response response = at.answer(static_cast<int>(l), state.gap, state.rate);
+    K_[l] = response.stiffness;
+    C_[l] = response.damping;
+  }
+  at.gap_accelerations(accel_);
+  const std::uint64_t branch = system_.has_branches() ? at.branches(state.gap, state.rate) : 0;
+  const Index n = tree_.n(), m = at.n_gaps();
+  for (Eigen::MatrixXd* x : {&Dy_, &Du_}) x->setZero(n, n);
+  for (Eigen::MatrixXd* x : {&Ey_, &Eu_}) x->setZero(m, n);
+  for (int k = 0; k < n; ++k) {
+    differentiate(k, false, missing_[i], accel_, branch);
+    differentiate(k, true, missing_[i], accel_, branch);
+  }
+}
+
+// One-sided, to the side that lies before a kink.
+void TreeStages::differentiate(int k, bool of_rate, const VectorXd& balance, const VectorXd& accel, std::uint64_t branch) {
+  const TreeState& state = state_[n_ / 2];
+  double step = kDifference * std::max(1.0, std::abs(of_rate ? state.u[k] : state.y[k]));
+  for (int attempt = 0; attempt < 2; ++attempt, step = -step) {
+    y_ = state.y;
+    u_ = state.u;
+    (of_rate ? u_ : y_)[k] += step;
+    beside_.place(state.t, y_, u_);
+    // A ramp is narrower than the difference, but goes on beyond its ends.
+    if (system_.has_branches() && beside_.sliding().empty() && beside_.branches(state.gap, state.rate) != branch) continue;
+    beside_.accelerate(state.w);
+    beside_.imbalance(state.force, balance_);
+    (of_rate ? Du_ : Dy_).col(k) = (balance_ - balance) / step;
+    beside_.gap_accelerations(balance_);
+    (of_rate ? Eu_ : Ey_).col(k) = (balance_ - accel) / step;
+    return;
+  }
+}
+
+// Eq. (5.5).
+template <class Scalar>
+bool TreeStages::factorize(Mode<Scalar>& mode) {
+  const TreeInstant& at = at_[n_ / 2];
+  const Scalar once = Scalar(1) / mode.mu, twice = once * once;
+  mode.gaps = at.A().template cast<Scalar>() + once * Eu_.template cast<Scalar>() + twice * Ey_.template cast<Scalar>();
+  mode.pull.resize(tree_.n(), at.n_gaps());
+  for (std::size_t l = 0; l < K_.size(); ++l) {
+    const Index i = 3 * static_cast<Index>(l);
+    const Eigen::Matrix<Scalar, 3, 3> weight = twice * K_[l].template cast<Scalar>() + once * C_[l].template cast<Scalar>();
+    mode.pull.template middleCols<3>(i) = at.A().middleRows<3>(i).transpose().template cast<Scalar>() * weight;
+  }
+  Matrix<Scalar> matrix = at.H().template cast<Scalar>() + once * Du_.template cast<Scalar>() + twice * Dy_.template cast<Scalar>();
+  matrix.noalias() += mode.pull * mode.gaps;
+  if (!std::isfinite(std::abs(matrix.sum()))) return false;
+  mode.lu.compute(matrix);
+  return true;
+}
+
+bool TreeStages::factorize(double h) {
+  if (tree_.n() == 0) return true;
+  real_.mu = table_.real_eigenvalue / h;
+  bool good = factorize(real_);
+  for (int p = 0; p < table_.pairs && good; ++p) {
+    pair_[p].mu = table_.eigenvalue[p] / h;
+    good = factorize(pair_[p]);
+  }
+  return good;
+}
+
+// One Newton correction: into the diagonal frame, the solve, back. Eq. (5.6). Its size as body forces over the scale.
+double TreeStages::correct(const LoadScale& scale) {
+  if (tree_.n() == 0) return 0;
+  const Index n = tree_.n(), m = at_[0].n_gaps();
+  VectorXd balance = VectorXd::Zero(n), gaps = VectorXd::Zero(m);
+  for (int s = 0; s < n_; ++s) {
+    balance += table_.inverse_real[s] * missing_[s];
+    gaps += table_.inverse_real[s] * missing_gap_[s];
+  }
+  const VectorXd real = real_.lu.solve(real_.pull * gaps - balance), real_gaps = real_.gaps * real - gaps;
+  std::array<VectorXcd, RadauTable::kMaxPairs> pair, pair_gaps;
+  for (int p = 0; p < table_.pairs; ++p) {
+    VectorXcd b = VectorXcd::Zero(n), g = VectorXcd::Zero(m);
+    for (int s = 0; s < n_; ++s) {
+      b += table_.inverse_complex[p][s] * missing_[s];
+      g += table_.inverse_complex[p][s] * missing_gap_[s];
+    }
+    pair[p] = pair_[p].lu.solve(pair_[p].pull * g - b);
+    pair_gaps[p] = pair_[p].gaps * pair[p] - g;
+  }
+  double worst = 0;
+  for (int s = 0; s < n_; ++s) {
+    VectorXd w = table_.T_real[s] * real, e = table_.T_real[s] * real_gaps;
+    for (int p = 0; p < table_.pairs; ++p) {
+      w += 2 * (table_.T_complex[p][s] * pair[p]).real();
+      e += 2 * (table_.T_complex[p][s] * pair_gaps[p]).real();
+    }
+    state_[s].w += w;
+    state_[s].accel += e;
+    const VectorXd a = at_[n_ / 2].J() * w;
+    if (!a.allFinite()) return std::numeric_limits<double>::infinity();
+    for (int i = 0; i < system_.n_bodies(); ++i)
+      worst = std::max(worst, a.segment<3>(3 * i).cwiseProduct(system_.bodies[i].mass).cwiseQuotient(scale.body[i]).cwiseAbs().maxCoeff());
+  }
+  return worst;
+}
+
+double TreeStages::residual(int j) const {
+  const auto found = std::find(tree_.laws().begin(), tree_.laws().end(), j);
+  if (found == tree_.laws().end() || missing_gap_[n_ - 1].size() == 0) return 0;
+  return missing_gap_[n_ - 1].segment<3>(3 * (found - tree_.laws().begin())).norm();
+}
+
+}  // namespace pintle

@@ -1,0 +1,78 @@
+// The stage equations of an implicit step over a joint tree: unknown are the accelerations of the coordinates and of the
+// carried gaps. theory/tree section 5.
+#pragma once
+
+#include <Eigen/LU>
+#include <vector>
+
+#include "integrators/absolute/stage_solver.h"
+#include "integrators/radau/newton_contraction.h"
+#include "integrators/radau/radau_table.h"
+#include "integrators/relative/tree_instant.h"
+
+namespace pintle {
+
+/// Accelerations, forces and powers at the nodes {0, c_1 .. c_n} of the last step, one column for each.
+struct TreeNodes {
+  Eigen::MatrixXd w, accel, force, power;
+};
+
+class TreeStages {
+ public:
+  TreeStages(const System& system, const JointTree& tree, const RadauTable& table, double tolerance);
+
+  /// Solves the step of h from `begin`; the prediction continues `before`, the step before it of last_h, where there is one.
+  bool solve(const TreeState& begin, double h, const TreeNodes* before, double last_h, const LoadScale& scale, Counters& counters);
+
+  /// Motors that stand at a jump; see TreeInstant.
+  void set_sliding(const std::vector<SlidingMode>& sliding);
+
+  const std::vector<TreeState>& states() const { return state_; }
+  TreeInstant& instant(int stage) { return at_[stage]; }
+  const TreeInstant& instant(int stage) const { return at_[stage]; }
+  /// By how much the last iterations shrank the error of the stages; 0: it took only one.
+  double contraction() const { return contraction_.seen(); }
+  /// What is missing in joint j's equation at the end of the step [m/s^2 or rad/s^2].
+  double residual(int j) const;
+
+ private:
+  void predict(const TreeState& begin, double h, const TreeNodes* before, double last_h);
+  void place(const TreeState& begin, double h);
+  double find_forces(const LoadScale& scale);
+  void find_residuals();
+  void linearize();
+  void differentiate(int k, bool of_rate, const Eigen::VectorXd& balance, const Eigen::VectorXd& accel, std::uint64_t branch);
+  bool factorize(double h);
+  double correct(const LoadScale& scale);
+
+  template <class Scalar>
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  /// One of the systems that the equations fall apart into.
+  template <class Scalar>
+  struct Mode {
+    Scalar mu;
+    Matrix<Scalar> pull;  // A' (K/mu^2 + C/mu)
+    Matrix<Scalar> gaps;  // A + E_u/mu + E_y/mu^2
+    Eigen::PartialPivLU<Matrix<Scalar>> lu;
+  };
+  template <class Scalar>
+  bool factorize(Mode<Scalar>& mode);
+
+  const System& system_;
+  const JointTree& tree_;
+  const RadauTable& table_;
+  const int n_;
+  double tolerance_;
+  NewtonContraction contraction_;
+  std::vector<TreeState> state_;
+  std::vector<TreeInstant> at_;
+  TreeInstant beside_;                          // for differences
+  std::vector<Eigen::VectorXd> missing_, missing_gap_;
+  Eigen::VectorXd y_, u_, balance_, accel_, force_;
+  Eigen::MatrixXd Dy_, Du_, Ey_, Eu_;           // slopes of the balance and of the gaps' accelerations
+  std::vector<Planar::Mat> K_, C_;
+  Mode<double> real_;
+  std::array<Mode<std::complex<double>>, RadauTable::kMaxPairs> pair_;
+};
+
+}  // namespace pintle

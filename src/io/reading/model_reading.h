@@ -1,0 +1,59 @@
+// The steps from a document to a model. Each reads one part of the file and complains about what is wrong with it.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "io/complaints.h"
+#include "io/reading/record.h"
+#include "io/schema/schema.h"
+#include "pintle/model.h"
+
+namespace pintle {
+
+/// What the steps share.
+struct ModelReading {
+  explicit ModelReading(const Document& document)
+      : root(*document.root.table()), complaints(document), records(complaints) {}
+
+  const Table& root;
+  Complaints complaints;
+  RecordReader records;
+  Model model;
+  std::map<std::string, std::set<std::string>, std::less<>> markers_of;  // by body, "ground" among them
+  std::map<std::string, std::string, std::less<>> type_of_joint;         // by joint, also of joints with faults
+  std::map<std::string, TableSpec, std::less<>> specs;                   // assembled ones, by path and kind
+
+  /// The assembled table of the schema, made once.
+  const TableSpec& spec(const std::string& path, const std::string& when = {}, const std::string& law = {});
+};
+
+void read_settings(ModelReading& reading);    // the file's head, [simulate]
+void read_parameters(ModelReading& reading);  // first: every other value may use them
+void read_bodies(ModelReading& reading);      // [ground], [body]
+void read_joints(ModelReading& reading);      // [defaults.joint], [joint]
+void read_loads(ModelReading& reading);       // [spring], [torsion_spring], [force]
+void read_motors(ModelReading& reading);      // [motor]
+void check_record(ModelReading& reading);     // simulate.record, once bodies and joints are known
+
+/// All of these in their order, but for [variation]; complaints are collected.
+void read_all(ModelReading& reading);
+
+/// The table `key` of the document, or an empty one; complains if it is something else.
+const Table& section(ModelReading& reading, std::string_view key);
+
+/// Names of things are letters, digits, _ and -. Complains if this is none.
+void check_name(ModelReading& reading, const Entry& entry, const std::string& path);
+
+/// The marker that `text` names: "crank.A". Complains, with `node` as the place, if there is none.
+MarkerRef read_marker_ref(ModelReading& reading, const Node& node, const std::string& path);
+
+/// The two markers of `between`; they must be on different bodies. `thing` is what connects them, for the message.
+void read_between(ModelReading& reading, const Record& record, const std::string& thing, MarkerRef& first,
+                  MarkerRef& second);
+
+}  // namespace pintle

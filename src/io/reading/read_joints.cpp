@@ -1,0 +1,138 @@
+// [defaults.joint] and [joint].
+
+#include <algorithm>
+
+#include "io/reading/model_reading.h"
+#include "io/text.h"
+#include "joints/catalog.h"
+#include "laws/catalog.h"
+
+namespace pintle {
+namespace {
+
+constexpr std::string_view kAngularPrefix = "angular_";
+
+bool is_angular(const KeyInfo& key) {
+  return key.key.starts_with(kAngularPrefix);
+}
+
+std::size_t linear_components(const JointTypeInfo& type) {
+  const auto linear = [](const ComponentInfo& component) { return !component.angular; };
+  return static_cast<std::size_t>(std::count_if(type.gap.begin(), type.gap.end(), linear));
+}
+
+// A word of the joint read ahead of the rest, because the keys depend on it; "" if it is missing or no string.
+std::string word_ahead(const Node& joint, std::string_view key) {
+  const Node* node = joint.table() == nullptr ? nullptr : joint.table()->find(key);
+  return node == nullptr || node->string() == nullptr ? std::string() : *node->string();
+}
+
+TableSpec& joint_spec(ModelReading& reading, const JointTypeInfo* type, const LawInfo* law) {
+  const std::string type_word(type == nullptr ? "" : type->word);
+  const std::string law_word(law == nullptr ? "" : law->word);
+  // The specs are made by spec() and belong to `reading`, so they may be completed here: how many entries lists have.
+  TableSpec& spec = const_cast<TableSpec&>(reading.spec("joint.*", type_word, law_word));
+  for (KeySpec& key : spec.keys) {
+    if (key.per_component && type != nullptr) key.count = linear_components(*type);
+  }
+  return spec;
+}
+
+// A joint of a wrong type or law: its keys cannot be judged, but what belongs to all joints can.
+void read_faulty_joint(ModelReading& reading, const Entry& entry, const std::string& path) {
+  TableSpec spec = reading.spec("joint.*");
+  if (entry.value.table() != nullptr) {
+    for (const Entry& inner : entry.value.table()->entries()) {
+      const bool special = !Schema::model().kinds_with("joint.*", inner.key).empty();
+      if (!special || spec.find(inner.key) != nullptr) continue;
+      KeySpec key;
+      key.key = inner.key;
+      key.type = ValueType::kMarker;  // read as nothing
+      spec.keys.push_back(key);
+    }
+  }
+  const Record record = reading.records.read(spec, entry.value, entry.key_spot, path);
+  MarkerRef first;
+  MarkerRef second;
+  read_between(reading, record, "joint", first, second);
+}
+
+void read_geometry(const JointTypeInfo& type, const Record& record, Joint& joint) {
+  for (const KeyInfo& key : type.keys) {
+    if (const auto number = record.maybe_number(key.key)) joint.geometry[std::string(key.key)] = *number;
+  }
+  if (type.word != "gear") return;
+  if (const auto radii = record.maybe_pair("radii")) {
+    joint.geometry["radius_first"] = (*radii)[0];
+    joint.geometry["radius_second"] = (*radii)[1];
+  }
+  joint.geometry["internal"] = record.word("mesh") == "internal" ? 1 : 0;
+}
+
+void check_gear(ModelReading& reading, const Record& record, const Joint& joint) {
+  const auto radii = record.maybe_pair("radii");
+  if (joint.type != "gear" || !radii || (*radii)[0] != (*radii)[1] || record.word("mesh") != "internal") return;
+  reading.complaints.add(record.spot("radii"), record.path + ".radii", "two equal radii",
+                         "a gear cannot turn inside one of its own size",
+                         "mesh = \"external\", or two different radii");
+}
+
+void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record,
+              const Record& defaults, LawChoice& choice) {
+  choice.word = law.word;
+  const bool has_angle = std::any_of(type.gap.begin(), type.gap.end(), [](const auto& c) { return c.angular; });
+  for (const KeyInfo& key : law.keys) {
+    const bool stated = record.states(key.key);
+    if (stated && is_angular(key) && !has_angle) {
+      reading.complaints.add(record.spot(key.key), record.path + "." + std::string(key.key), std::string(key.key),
+                             "a " + std::string(type.word) + " joint forbids no angle, so this would do nothing",
+                             "delete it");
+    }
+    const Value* value = stated || !defaults.states(key.key) ? record.find(key.key) : defaults.find(key.key);
+    if (value != nullptr) choice.values[std::string(key.key)] = value->numbers;
+  }
+}
+
+void read_joint(ModelReading& reading, const Entry& entry, const Record& defaults) {
+  const std::string path = "joint." + entry.key;
+  check_name(reading, entry, path);
+  const std::string law_word = word_ahead(entry.value, "law");
+  const JointTypeInfo* type = find_joint_type(word_ahead(entry.value, "type"));
+  const LawInfo* law = find_law(law_word.empty() ? "linear" : law_word);
+  reading.type_of_joint[entry.key] = type == nullptr ? "" : std::string(type->word);
+  if (type == nullptr || law == nullptr) {
+    read_faulty_joint(reading, entry, path);
+    return;
+  }
+  const std::string kind = "a " + std::string(type->word) + " joint";
+  const Record record = reading.records.read(joint_spec(reading, type, law), entry.value, entry.key_spot, path, kind);
+  Joint joint;
+  joint.name = entry.key;
+  joint.type = type->word;
+  read_between(reading, record, "joint", joint.first, joint.second);
+  read_geometry(*type, record, joint);
+  check_gear(reading, record, joint);
+  read_law(reading, *type, *law, record, defaults, joint.law);
+  joint.ideal = record.number("ideal") > 0;
+  reading.model.joints.push_back(std::move(joint));
+}
+
+Record read_defaults(ModelReading& reading) {
+  const Entry* defaults = reading.root.find_entry("defaults");
+  if (defaults == nullptr) return {};
+  reading.records.read(reading.spec("defaults"), defaults->value, defaults->key_spot, "defaults");
+  const Entry* joint = defaults->value.table() == nullptr ? nullptr : defaults->value.table()->find_entry("joint");
+  if (joint == nullptr) return {};
+  TableSpec spec = reading.spec("defaults.joint");
+  for (KeySpec& key : spec.keys) key.per_component = false;  // joints differ in their number of components
+  return reading.records.read(spec, joint->value, joint->key_spot, "defaults.joint");
+}
+
+}  // namespace
+
+void read_joints(ModelReading& reading) {
+  const Record defaults = read_defaults(reading);
+  for (const Entry& entry : section(reading, "joint").entries()) read_joint(reading, entry, defaults);
+}
+
+}  // namespace pintle

@@ -1,0 +1,143 @@
+// [motor].
+
+#include <algorithm>
+
+#include "base/text/text_scanner.h"
+#include "base/units.h"
+#include "io/reading/model_reading.h"
+#include "io/text.h"
+#include "joints/catalog.h"
+
+namespace pintle {
+namespace {
+
+using Variables = std::vector<std::pair<std::string, Dimension>>;
+
+void add_joint(const std::string& name, const std::string& type_word, Variables& variables) {
+  const JointTypeInfo* type = find_joint_type(type_word);
+  if (type == nullptr || type->free.empty()) return;
+  for (const ComponentInfo& coordinate : type->free) {
+    variables.emplace_back(name + "." + std::string(coordinate.name), coordinate.angular ? kAngle : kLength);
+  }
+  variables.emplace_back(name + ".rate", type->free.front().angular ? kAngularSpeed : kLinearSpeed);
+}
+
+// Every name before a dot in the text. Big models have many joints, so only those that are mentioned become variables.
+std::set<std::string> names_before_dots(std::string_view text) {
+  const auto in_name = [](char c) { return is_word_part(c) || c == '-'; };
+  std::set<std::string> names;
+  for (std::size_t dot = text.find('.'); dot != std::string_view::npos; dot = text.find('.', dot + 1)) {
+    std::size_t start = dot;
+    while (start > 0 && in_name(text[start - 1])) {
+      --start;
+      if (is_word_start(text[start])) names.emplace(text.substr(start, dot - start));
+    }
+  }
+  return names;
+}
+
+void add_mentioned_joints(const ModelReading& reading, std::string_view text, Variables& variables) {
+  constexpr std::size_t kFew = 100;
+  if (reading.type_of_joint.size() <= kFew) {  // all of them: suggestions for misspelt ones then work
+    for (const auto& [name, type] : reading.type_of_joint) add_joint(name, type, variables);
+    return;
+  }
+  for (const std::string& name : names_before_dots(text)) {
+    const auto it = reading.type_of_joint.find(name);
+    if (it != reading.type_of_joint.end()) add_joint(name, it->second, variables);
+  }
+}
+
+// The free coordinate that the motor acts on, "angle" or "slide"; "" after a complaint.
+std::string coordinate_of(ModelReading& reading, const Entry& entry, const std::string& path) {
+  const Node* joint = entry.value.table() == nullptr ? nullptr : entry.value.table()->find("joint");
+  if (joint == nullptr || joint->string() == nullptr) return {};
+  const auto it = reading.type_of_joint.find(*joint->string());
+  if (it == reading.type_of_joint.end()) {
+    std::vector<std::string> names;
+    for (const auto& [name, type] : reading.type_of_joint) names.push_back(name);
+    reading.complaints.add(joint->spot, path + ".joint", in_quotes(*joint->string()), "there is no such joint",
+                           reading.complaints.did_you_mean(*joint->string(), names));
+    return {};
+  }
+  const JointTypeInfo* type = find_joint_type(it->second);
+  if (type == nullptr) return {};
+  if (!type->free.empty()) return std::string(type->free.front().name);
+  reading.complaints.add(joint->spot, path + ".joint", in_quotes(*joint->string()),
+                         "a " + it->second + " joint leaves no coordinate free for a motor",
+                         "a revolute, prismatic or slot joint");
+  return {};
+}
+
+// Exactly one of the three must be stated (a faulty one counts).
+void check_choice(ModelReading& reading, const Entry& entry, const std::string& path, const std::string& effort) {
+  std::vector<const Entry*> stated;
+  for (const std::string& key : {effort, std::string("speed"), std::string("position")}) {
+    if (const Entry* found = entry.value.table()->find_entry(key)) stated.push_back(found);
+  }
+  if (stated.empty()) {
+    reading.complaints.add(entry.key_spot, path, "no " + effort + ", speed or position", "a motor states one of them",
+                           effort == "torque" ? "torque = \"5 N*m\"" : "force = \"5 N\"");
+  } else if (stated.size() > 1) {
+    reading.complaints.add(stated[1]->key_spot, path + "." + stated[1]->key, stated[0]->key + " and " + stated[1]->key,
+                           "a motor states exactly one of " + effort + ", speed and position", "delete one of them");
+  }
+  const bool servo = stated.empty() || stated.front()->key != effort;
+  for (const char* key : {"stiffness", "damping"}) {
+    const Entry* found = entry.value.table()->find_entry(key);
+    if (servo || found == nullptr) continue;
+    reading.complaints.add(found->key_spot, path + "." + key, key, "only servos (speed, position) have it",
+                           "delete it");
+  }
+}
+
+void check_servos(ModelReading& reading, const Motor& motor, Spot spot, std::map<std::string, std::string>& servo_of) {
+  if (motor.kind == MotorKind::kEffort || motor.joint.empty()) return;
+  const auto [it, is_new] = servo_of.emplace(motor.joint, motor.name);
+  if (is_new) return;
+  reading.complaints.add(spot, "motor." + motor.name + ".joint", in_quotes(motor.joint),
+                         "motor " + it->second + " already is a servo in this joint: they would fight", "one of them");
+}
+
+void read_motor(ModelReading& reading, const Entry& entry, std::map<std::string, std::string>& servo_of) {
+  const std::string path = "motor." + entry.key;
+  check_name(reading, entry, path);
+  if (!reading.records.is_table(entry.value, path)) return;
+  const std::string coordinate = coordinate_of(reading, entry, path);
+  if (coordinate.empty() && entry.value.table()->find("joint") != nullptr &&
+      entry.value.table()->find("joint")->string() != nullptr) {
+    return;  // without the joint, nothing else can be judged
+  }
+  const std::string effort = coordinate == "slide" ? "force" : "torque";
+  const std::string when = coordinate.empty() ? "angle" : coordinate;
+  const Record record =
+      reading.records.read(reading.spec("motor.*", when), entry.value, entry.key_spot, path,
+                           when == "angle" ? "a motor in a revolute joint" : "a motor in a sliding joint");
+  check_choice(reading, entry, path, effort);
+  Motor motor;
+  motor.name = entry.key;
+  motor.joint = record.word("joint");
+  motor.stiffness = record.number("stiffness", motor.stiffness);
+  motor.damping = record.number("damping", motor.damping);
+  if (record.states("speed")) {
+    motor.kind = MotorKind::kSpeed;
+    motor.law = Expression::constant(record.number("speed"));
+  } else {
+    motor.kind = record.states("position") ? MotorKind::kPosition : MotorKind::kEffort;
+    motor.law = record.expression(motor.kind == MotorKind::kPosition ? "position" : effort);
+  }
+  check_servos(reading, motor, record.spot("joint"), servo_of);
+  reading.model.motors.push_back(std::move(motor));
+}
+
+}  // namespace
+
+void read_motors(ModelReading& reading) {
+  reading.records.joint_variables = [&reading](std::string_view text, Variables& variables) {
+    add_mentioned_joints(reading, text, variables);
+  };
+  std::map<std::string, std::string> servo_of;
+  for (const Entry& entry : section(reading, "motor").entries()) read_motor(reading, entry, servo_of);
+}
+
+}  // namespace pintle

@@ -1,0 +1,131 @@
+#include "io/reading/record.h"
+
+#include <algorithm>
+
+#include "io/text.h"
+
+namespace pintle {
+namespace {
+
+// How a required key might be stated.
+std::string example_line(const KeySpec& key) {
+  const std::string start = key.key + " = ";
+  const std::string number = key.unit.empty() || key.unit == "any" ? "1" : "\"1 " + key.unit + "\"";
+  switch (key.type) {
+    case ValueType::kWord:
+      return start + in_quotes(key.words.empty() ? "word" : key.words.front());
+    case ValueType::kMarkerName:
+      return start + "\"crank.A\"";
+    case ValueType::kMarkerNames:
+      return start + "[\"ground.A\", \"crank.A\"]";
+    case ValueType::kJointName:
+      return start + "\"O2\", the name of a joint";
+    case ValueType::kQuantities:
+      return start + "[" + number + ", " + number + "]";
+    default:
+      return start + number;
+  }
+}
+
+}  // namespace
+
+const Value* Record::find(std::string_view key) const {
+  const auto it = values.find(key);
+  return it == values.end() ? nullptr : &it->second;
+}
+
+bool Record::states(std::string_view key) const {
+  const Value* value = find(key);
+  return value != nullptr && value->node != nullptr;
+}
+
+std::optional<double> Record::maybe_number(std::string_view key) const {
+  const Value* value = find(key);
+  if (value == nullptr || value->numbers.empty()) return std::nullopt;
+  return value->numbers.front();
+}
+
+double Record::number(std::string_view key, double otherwise) const {
+  return maybe_number(key).value_or(otherwise);
+}
+
+std::optional<Vec2> Record::maybe_pair(std::string_view key) const {
+  const Value* value = find(key);
+  if (value == nullptr || value->numbers.size() != 2) return std::nullopt;
+  return Vec2{value->numbers[0], value->numbers[1]};
+}
+
+std::string Record::word(std::string_view key) const {
+  const Value* value = find(key);
+  return value == nullptr || value->words.empty() ? std::string() : value->words.front();
+}
+
+Expression Record::expression(std::string_view key, std::size_t index) const {
+  const Value* value = find(key);
+  return value == nullptr || value->expressions.size() <= index ? Expression() : value->expressions[index];
+}
+
+Spot Record::spot(std::string_view key) const {
+  const Value* value = find(key);
+  return value == nullptr || value->node == nullptr ? table_spot : value->node->spot;
+}
+
+bool RecordReader::is_table(const Node& node, const std::string& path) {
+  if (node.table() != nullptr) return true;
+  complaints_.add(node.spot, path, describe(node), "a table is wanted here", "[" + path + "] and its keys below");
+  return false;
+}
+
+Record RecordReader::read(const TableSpec& spec, const Node& table_node, Spot key_spot, const std::string& path,
+                          const std::string& kind) {
+  Record record;
+  record.table_spot = key_spot;
+  record.path = path;
+  if (!is_table(table_node, path)) return record;
+  const Table& table = *table_node.table();
+  check_keys(spec, table, record, kind);
+  for (const KeySpec& key : spec.keys) {
+    const std::string key_path = path.empty() ? key.key : path + "." + key.key;
+    const Node* node = table.find(key.key);
+    if (node == nullptr && key.required) {
+      complaints_.add(key_spot, key_path, "no " + key.key, "this key is required: " + key.meaning, example_line(key));
+    }
+    const bool is_default = node == nullptr;
+    if (is_default && key.fallback) node = &*key.fallback;
+    if (node == nullptr) continue;
+    if (std::optional<Value> value = read_value(*node, key, key_path)) {
+      value->node = is_default ? nullptr : node;
+      record.values.emplace(key.key, std::move(*value));
+    }
+  }
+  return record;
+}
+
+void RecordReader::check_keys(const TableSpec& spec, const Table& table, const Record& record,
+                              const std::string& kind) {
+  for (const Entry& entry : table.entries()) {
+    const bool known = spec.find(entry.key) != nullptr ||
+                       std::find(spec.children.begin(), spec.children.end(), entry.key) != spec.children.end();
+    if (!known) complain_of_key(spec, entry, record, kind);
+  }
+}
+
+void RecordReader::complain_of_key(const TableSpec& spec, const Entry& entry, const Record& record,
+                                   const std::string& kind) {
+  const std::string path = record.path.empty() ? entry.key : record.path + "." + entry.key;
+  const std::vector<std::string> owners = Schema::model().kinds_with(spec.path, entry.key);
+  if (!owners.empty() && !kind.empty()) {
+    std::string list;
+    for (const std::string& owner : owners) list += (list.empty() ? "" : ", ") + owner;
+    complaints_.add(entry.key_spot, path, entry.key, "this key is for " + list + " only, and this is " + kind,
+                    "delete it");
+    return;
+  }
+  std::vector<std::string> candidates = spec.children;
+  for (const KeySpec& key : spec.keys) candidates.push_back(key.key);
+  complaints_.add(entry.key_spot, path, "unknown key " + in_quotes(entry.key),
+                  record.path.empty() ? "models have no such key" : "there is no such key here",
+                  complaints_.did_you_mean(entry.key, candidates));
+}
+
+}  // namespace pintle

@@ -1,0 +1,91 @@
+// The values of one table of the model file, checked against its schema.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/expression/expression_parser.h"
+#include "io/complaints.h"
+#include "io/schema/schema.h"
+#include "pintle/model.h"
+
+namespace pintle {
+
+/// The value of a key: as many numbers, words or expressions as its type has. `node` is null for a default.
+struct Value {
+  const Node* node = nullptr;
+  std::vector<double> numbers;
+  std::vector<std::string> words;
+  std::vector<Expression> expressions;
+};
+
+/// A table's values by key. A key that is absent and has no default, or whose value was complained about, has none.
+class Record {
+ public:
+  const Value* find(std::string_view key) const;
+  bool states(std::string_view key) const;  ///< the file has this key, with a good value
+  double number(std::string_view key, double otherwise = 0) const;
+  std::optional<double> maybe_number(std::string_view key) const;
+  std::optional<Vec2> maybe_pair(std::string_view key) const;
+  std::string word(std::string_view key) const;
+  Expression expression(std::string_view key, std::size_t index = 0) const;
+  /// Where the value stands, or the table if it is absent.
+  Spot spot(std::string_view key) const;
+
+  Spot table_spot;
+  std::string path;
+  std::map<std::string, Value, std::less<>> values;
+};
+
+/// Reads and checks values, complaining about each that is wrong.
+class RecordReader {
+ public:
+  explicit RecordReader(Complaints& complaints) : complaints_(complaints) {}
+
+  /// The constants that expressions may use.
+  ParseScope scope;
+  /// Variables of expressions beyond the schema's own; called with the expression's text for those "of joints".
+  std::function<void(std::string_view text, std::vector<std::pair<std::string, Dimension>>& variables)> joint_variables;
+
+  /// All values of the table `node`, which stands at `path`, its key at `key_spot`. `kind` is its kind in words for
+  /// messages ("a gear").
+  Record read(const TableSpec& spec, const Node& node, Spot key_spot, const std::string& path,
+              const std::string& kind = {});
+
+  /// A number in SI units, if the node is one of the key's dimension and range.
+  std::optional<double> read_number(const Node& node, const KeySpec& spec, const std::string& path);
+  /// The same before dimension and range are checked.
+  std::optional<Quantity> read_quantity(const Node& node, const std::string& path);
+  std::optional<Marker> read_marker(const Entry& entry, const std::string& path);
+  /// Is the node a table? Complains if not.
+  bool is_table(const Node& node, const std::string& path);
+
+  Complaints& complaints() { return complaints_; }
+
+ private:
+  void check_keys(const TableSpec& spec, const Table& table, const Record& record, const std::string& kind);
+  void complain_of_key(const TableSpec& spec, const Entry& entry, const Record& record, const std::string& kind);
+  std::optional<Value> read_value(const Node& node, const KeySpec& spec, const std::string& path);
+  bool read_words(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
+  bool read_word(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
+  bool read_truth(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
+  bool read_integer(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
+  bool read_numbers(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
+  bool read_expression(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
+  bool read_list(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
+  bool in_range(double number, const Node& node, const KeySpec& spec, const std::string& path);
+  std::optional<std::string> wrong_dimension(const Dimension& found, const KeySpec& spec) const;
+  bool read_marker_table(const Table& table, const Entry& entry, const std::string& path, Marker& marker);
+  bool read_marker_list(const Array& list, const std::string& path, Marker& marker);
+  void complain(const ParseProblem& problem, const Node& node, const std::string& path);
+  void set_variables(const KeySpec& spec, std::string_view text);
+
+  Complaints& complaints_;
+};
+
+}  // namespace pintle

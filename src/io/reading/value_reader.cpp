@@ -1,0 +1,286 @@
+// Single values: numbers with units, words, lists, expressions.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/units.h"
+#include "io/reading/record.h"
+#include "io/text.h"
+
+namespace pintle {
+namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+std::string example_of(const KeySpec& spec) {
+  if (spec.unit.empty()) return "a plain number such as 0.5";
+  if (spec.unit == "any") return "a number or a string such as \"25 mm\"";
+  return "a number in SI, or a string such as \"1 " + spec.unit + "\"";
+}
+
+std::string short_number(double number) {
+  return fmt::format("{}", number);
+}
+
+std::string range_problem(double number, const KeySpec& spec) {
+  const std::string unit = spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit;
+  const bool feeds = spec.key.find("damping") != std::string::npos || spec.key.find("stiffness") != std::string::npos;
+  if (feeds && number < 0) return "a negative " + spec.key + " feeds energy into the mechanism";
+  if (spec.minimum && spec.minimum_exclusive && number <= *spec.minimum) {
+    return "this must be greater than " + short_number(*spec.minimum) + unit;
+  }
+  if (spec.minimum && number < *spec.minimum) return "this must be at least " + short_number(*spec.minimum) + unit;
+  if (spec.maximum && number > *spec.maximum) return "this must be at most " + short_number(*spec.maximum) + unit;
+  return {};
+}
+
+std::string range_example(double number, const KeySpec& spec) {
+  const bool needs_positive = spec.minimum && *spec.minimum == 0 && number <= 0;
+  const std::string unit = spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit;
+  if (needs_positive && number < 0 && !unit.empty()) return "turn the sign: \"" + short_number(-number) + unit + "\"";
+  if (needs_positive) return unit.empty() ? "1" : "a small positive value, such as \"1e-3" + unit + "\"";
+  if (spec.minimum && spec.maximum) return short_number(*spec.minimum) + " to " + short_number(*spec.maximum);
+  return spec.minimum ? short_number(*spec.minimum) + " or more" : example_of(spec);
+}
+
+std::string list_example(const KeySpec& spec) {
+  if (spec.per_component) return "one number for each linear gap component, or one for all";
+  if (!spec.fallback || spec.fallback->array() == nullptr) return "[0, 0]";
+  std::string text;
+  for (const Node& item : *spec.fallback->array())
+    text += (text.empty() ? "" : ", ") + (item.real() != nullptr ? short_number(*item.real()) : describe(item));
+  return "[" + text + "]";
+}
+
+}  // namespace
+
+void RecordReader::complain(const ParseProblem& problem, const Node& node, const std::string& path) {
+  const Spot spot = complaints_.document().inside(node, problem.offset);
+  complaints_.add(spot, path, problem.found.empty() ? describe(node) : problem.found, problem.because,
+                  problem.suggestion);
+}
+
+std::optional<Quantity> RecordReader::read_quantity(const Node& node, const std::string& path) {
+  if (const std::int64_t* integer = node.integer()) return Quantity{static_cast<double>(*integer), kBareNumber};
+  if (const double* real = node.real()) return Quantity{*real, kBareNumber};
+  const std::string* string = node.string();
+  if (string == nullptr) {
+    complaints_.add(node.spot, path, describe(node), "a number is wanted here",
+                    "a number, or a string such as \"25 mm\"");
+    return std::nullopt;
+  }
+  auto result = parse_quantity(*string, scope);
+  if (const ParseProblem* problem = std::get_if<ParseProblem>(&result)) {
+    complain(*problem, node, path);
+    return std::nullopt;
+  }
+  const Quantity quantity = std::get<Quantity>(result);
+  if (std::isnan(quantity.si)) return std::nullopt;  // made of a constant that was complained about
+  if (std::isfinite(quantity.si)) return quantity;
+  complaints_.add(node.spot, path, describe(node), "this does not give a finite number",
+                  "look for a division by 0, or a root or logarithm outside its range");
+  return std::nullopt;
+}
+
+std::optional<std::string> RecordReader::wrong_dimension(const Dimension& found, const KeySpec& spec) const {
+  return check_dimension(found, spec.dimension);
+}
+
+bool RecordReader::in_range(double number, const Node& node, const KeySpec& spec, const std::string& path) {
+  std::string problem = range_problem(number, spec);
+  if (problem.empty()) return true;
+  complaints_.add(node.spot, path, describe(node), std::move(problem), range_example(number, spec));
+  return false;
+}
+
+std::optional<double> RecordReader::read_number(const Node& node, const KeySpec& spec, const std::string& path) {
+  const bool is_number = node.integer() != nullptr || node.real() != nullptr || node.string() != nullptr;
+  if (!is_number) {
+    complaints_.add(node.spot, path, describe(node), "a number is wanted here", example_of(spec));
+    return std::nullopt;
+  }
+  const std::optional<Quantity> quantity = read_quantity(node, path);
+  if (!quantity) return std::nullopt;
+  if (std::optional<std::string> problem = wrong_dimension(quantity->dimension, spec)) {
+    complaints_.add(node.spot, path, describe(node), std::move(*problem), example_of(spec));
+    return std::nullopt;
+  }
+  if (!in_range(quantity->si, node, spec, path)) return std::nullopt;
+  return quantity->si;
+}
+
+std::optional<Value> RecordReader::read_value(const Node& node, const KeySpec& spec, const std::string& path) {
+  Value value;
+  bool good = false;
+  switch (spec.type) {
+    case ValueType::kInteger:
+      good = read_integer(node, spec, path, value);
+      break;
+    case ValueType::kText:
+    case ValueType::kWord:
+    case ValueType::kMarkerName:
+    case ValueType::kJointName:
+      good = read_word(node, spec, path, value);
+      break;
+    case ValueType::kWords:
+    case ValueType::kMarkerNames:
+      good = read_words(node, spec, path, value);
+      break;
+    case ValueType::kNumber:
+    case ValueType::kQuantity:
+    case ValueType::kQuantities:
+      good = read_numbers(node, spec, path, value);
+      break;
+    case ValueType::kExpression:
+      good = read_expression(node, spec, path, value);
+      break;
+    case ValueType::kExpressions:
+      good = read_list(node, spec, path, value);
+      break;
+    case ValueType::kTruth:
+      good = read_truth(node, spec, path, value);
+      break;
+    case ValueType::kMarker:
+      break;  // markers stand in tables of their own: read_marker
+  }
+  if (!good) return std::nullopt;
+  return value;
+}
+
+bool RecordReader::read_integer(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
+  if (node.integer() == nullptr) {
+    complaints_.add(node.spot, path, describe(node), "a whole number is wanted here", spec.key + " = 1");
+    return false;
+  }
+  value.numbers.push_back(static_cast<double>(*node.integer()));
+  return in_range(value.numbers.back(), node, spec, path);
+}
+
+bool RecordReader::read_truth(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
+  if (node.truth() == nullptr) {
+    complaints_.add(node.spot, path, describe(node), "true or false is wanted here, without quotes", spec.key + " = true");
+    return false;
+  }
+  value.numbers.push_back(*node.truth() ? 1 : 0);
+  return true;
+}
+
+bool RecordReader::read_word(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
+  const std::string* word = node.string();
+  if (word == nullptr) {
+    complaints_.add(node.spot, path, describe(node), "a string is wanted here",
+                    spec.words.empty() ? "text in quotes" : "one of " + joined(spec.words));
+    return false;
+  }
+  if (!spec.words.empty() && std::find(spec.words.begin(), spec.words.end(), *word) == spec.words.end()) {
+    complaints_.add(node.spot, path, in_quotes(*word), "it is none of " + joined(spec.words),
+                    complaints_.did_you_mean(*word, spec.words));
+    return false;
+  }
+  value.words.push_back(*word);
+  return true;
+}
+
+bool RecordReader::read_words(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
+  const Array* list = node.array();
+  if (list == nullptr || (spec.count != 0 && list->size() != spec.count)) {
+    const std::string wanted = spec.count == 0 ? "a list" : "a list of " + std::to_string(spec.count);
+    complaints_.add(
+        node.spot, path, describe(node), wanted + " strings is wanted here",
+        spec.type == ValueType::kMarkerNames ? "[\"ground.A\", \"crank.A\"]" : "[\"" + (spec.words.empty() ? "text" : joined(spec.words)) + "\"]");
+    return false;
+  }
+  bool good = true;
+  for (const Node& item : *list) good = read_word(item, spec, path, value) && good;
+  return good;
+}
+
+bool RecordReader::read_numbers(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
+  const Array* list = node.array();
+  const bool wants_list = spec.type == ValueType::kQuantities;
+  if (!wants_list && (list == nullptr || !spec.per_component)) {
+    const std::optional<double> number = read_number(node, spec, path);
+    value.numbers.push_back(number.value_or(0));
+    return number.has_value();
+  }
+  if (list == nullptr || list->size() != spec.count) {
+    complaints_.add(
+        node.spot, path, describe(node),
+        "a list of " + std::to_string(spec.count) + (spec.count == 1 ? " number" : " numbers") + " is wanted here",
+        list_example(spec));
+    return false;
+  }
+  bool good = true;
+  for (const Node& item : *list) {
+    const std::optional<double> number = read_number(item, spec, path);
+    value.numbers.push_back(number.value_or(0));
+    good = good && number.has_value();
+  }
+  return good;
+}
+
+void RecordReader::set_variables(const KeySpec& spec, std::string_view text) {
+  scope.variables.clear();
+  for (const std::string& variable : spec.variables) {
+    if (variable == "t") scope.variables.emplace_back("t", kTime);
+    if (variable == "angle") scope.variables.emplace_back("angle", kAngle);
+    if (variable == "slide") scope.variables.emplace_back("slide", kLength);
+    if (variable == "joints" && joint_variables) joint_variables(text, scope.variables);
+  }
+  const bool has_rate = std::find(spec.variables.begin(), spec.variables.end(), "rate") != spec.variables.end();
+  const bool slides = std::find(spec.variables.begin(), spec.variables.end(), "slide") != spec.variables.end();
+  if (has_rate) scope.variables.emplace_back("rate", slides ? kLinearSpeed : kAngularSpeed);
+}
+
+bool RecordReader::read_expression(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
+  const std::string* text = node.string();
+  if (text == nullptr) {
+    const std::optional<double> number = read_number(node, spec, path);
+    value.expressions.push_back(Expression::constant(number.value_or(0)));
+    return number.has_value();
+  }
+  set_variables(spec, *text);
+  auto result = parse_expression(*text, scope);
+  scope.variables.clear();
+  if (const ParseProblem* problem = std::get_if<ParseProblem>(&result)) {
+    complain(*problem, node, path);
+    return false;
+  }
+  ParsedExpression& parsed = std::get<ParsedExpression>(result);
+  if (std::optional<std::string> problem = wrong_dimension(parsed.dimension, spec)) {
+    complaints_.add(node.spot, path, describe(node), std::move(*problem), "an expression in " + spec.unit);
+    return false;
+  }
+  if (parsed.expression.variables() == std::vector<std::string>{"t"}) {
+    const double start = 0;
+    if (!std::isfinite(parsed.expression.value(std::span(&start, 1)))) {
+      complaints_.add(node.spot, path, describe(node), "this is not a finite number at t = 0",
+                      "if(t > 0, ..., 0) where it is not defined");
+      return false;
+    }
+  }
+  value.expressions.push_back(std::move(parsed.expression));
+  return true;
+}
+
+bool RecordReader::read_list(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
+  const Array* list = node.array();
+  if (list == nullptr || list->size() != spec.count) {
+    complaints_.add(node.spot, path, describe(node),
+                    "a list of " + std::to_string(spec.count) + " numbers or expressions is wanted here",
+                    "[0, \"-10 " + spec.unit + "\"]");
+    return false;
+  }
+  bool good = true;
+  for (const Node& item : *list) good = read_expression(item, spec, path, value) && good;
+  return good;
+}
+
+}  // namespace pintle

@@ -1,0 +1,214 @@
+#include "io/schema/schema.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include "base/units.h"
+#include "joints/catalog.h"
+#include "laws/catalog.h"
+
+namespace pintle {
+
+extern const char* const kModelToml;  // schema/model.schema.toml
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, ValueType>, 14> kTypes{{
+    {"integer", ValueType::kInteger},
+    {"text", ValueType::kText},
+    {"word", ValueType::kWord},
+    {"words", ValueType::kWords},
+    {"number", ValueType::kNumber},
+    {"quantity", ValueType::kQuantity},
+    {"quantities", ValueType::kQuantities},
+    {"expression", ValueType::kExpression},
+    {"expressions", ValueType::kExpressions},
+    {"truth", ValueType::kTruth},
+    {"marker", ValueType::kMarker},
+    {"marker_name", ValueType::kMarkerName},
+    {"marker_names", ValueType::kMarkerNames},
+    {"joint_name", ValueType::kJointName},
+}};
+
+[[noreturn]] void schema_fault(const std::string& what) {
+  throw std::logic_error("model.schema.toml: " + what);
+}
+
+std::string text_of(const Table& table, std::string_view key) {
+  const Node* node = table.find(key);
+  return node == nullptr ? std::string() : node->string() != nullptr ? *node->string() : std::string();
+}
+
+std::optional<double> number_of(const Table& table, std::string_view key) {
+  const Node* node = table.find(key);
+  if (node == nullptr) return std::nullopt;
+  return node->real() != nullptr ? *node->real() : static_cast<double>(*node->integer());
+}
+
+std::vector<std::string> words_of_catalog(std::string_view catalog) {
+  std::vector<std::string> words;
+  if (catalog == "laws") {
+    for (const LawInfo& law : law_catalog()) words.emplace_back(law.word);
+  } else if (catalog == "joint types") {
+    for (const JointTypeInfo& type : joint_type_catalog()) words.emplace_back(type.word);
+  } else {
+    schema_fault("unknown catalog " + std::string(catalog));
+  }
+  return words;
+}
+
+std::vector<std::string> words_of(const Table& table, std::string_view key) {
+  const Node* node = table.find(key);
+  if (node == nullptr) return {};
+  if (node->string() != nullptr) return words_of_catalog(*node->string());
+  std::vector<std::string> words;
+  for (const Node& item : *node->array()) words.push_back(*item.string());
+  return words;
+}
+
+Dimension dimension_of(const std::string& unit) {
+  if (unit == "any") return kBareNumber;
+  const std::optional<Unit> parsed = parse_unit(unit);
+  if (!parsed) schema_fault("unit " + unit);
+  return parsed->dimension;
+}
+
+KeySpec read_key(const std::string& key, const Table& table) {
+  KeySpec spec;
+  spec.key = key;
+  spec.type_word = text_of(table, "type");
+  const auto type =
+      std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& entry) { return entry.first == spec.type_word; });
+  if (type == kTypes.end()) schema_fault("type of key " + key);
+  spec.type = type->second;
+  spec.unit = text_of(table, "unit");
+  spec.dimension = dimension_of(spec.unit);
+  spec.meaning = text_of(table, "meaning");
+  spec.otherwise = text_of(table, "otherwise");
+  if (const Node* fallback = table.find("default")) spec.fallback = *fallback;
+  spec.minimum_exclusive = table.find("above") != nullptr;
+  spec.minimum = number_of(table, spec.minimum_exclusive ? "above" : "minimum");
+  spec.maximum = number_of(table, "maximum");
+  spec.required = table.find("required") != nullptr;
+  spec.count = static_cast<std::size_t>(number_of(table, "count").value_or(0));
+  spec.words = words_of(table, "words");
+  spec.variables = words_of(table, "of");
+  return spec;
+}
+
+TableSpec read_table(const Table& table) {
+  TableSpec spec;
+  spec.path = text_of(table, "path");
+  spec.when = text_of(table, "when");
+  spec.called = text_of(table, "called");
+  spec.meaning = text_of(table, "meaning");
+  if (const Node* keys = table.find("keys")) {
+    for (const Entry& entry : keys->table()->entries()) spec.keys.push_back(read_key(entry.key, *entry.value.table()));
+  }
+  if (const Node* entries = table.find("entries")) spec.entries = read_key("*", *entries->table());
+  if (const Node* catalogs = table.find("keys_from")) {
+    for (const Node& catalog : *catalogs->array()) {
+      (*catalog.string() == "laws" ? spec.law_keys : spec.joint_type_keys) = true;
+    }
+  }
+  return spec;
+}
+
+void add_law_keys(TableSpec& table, std::string_view law) {
+  for (const LawInfo& info : law_catalog()) {
+    if (!law.empty() && info.word != law) continue;
+    for (const KeyInfo& key : info.keys) {
+      if (table.find(key.key) == nullptr) table.keys.push_back(spec_of(key));
+    }
+  }
+}
+
+}  // namespace
+
+KeySpec spec_of(const KeyInfo& info) {
+  KeySpec spec;
+  spec.key = info.key;
+  spec.type = ValueType::kQuantity;
+  spec.type_word = info.unit.empty() ? "number" : "quantity";
+  spec.unit = info.unit;
+  spec.dimension = dimension_of(spec.unit);
+  spec.meaning = info.meaning;
+  spec.minimum = info.minimum;
+  spec.minimum_exclusive = info.minimum_exclusive;
+  spec.required = info.required;
+  spec.per_component = info.per_component;
+  if (!info.required) {
+    spec.fallback = Node{};
+    spec.fallback->value = info.fallback;
+  }
+  return spec;
+}
+
+const KeySpec* TableSpec::find(std::string_view key) const {
+  const auto it = std::find_if(keys.begin(), keys.end(), [&](const KeySpec& spec) { return spec.key == key; });
+  return it == keys.end() ? nullptr : &*it;
+}
+
+Schema::Schema(const Document& document) {
+  for (const Node& table : *document.root.table()->find("table")->array()) {
+    tables_.push_back(read_table(*table.table()));
+  }
+}
+
+const Schema& Schema::model() {
+  static const Schema schema(parse_toml(kModelToml, "model.schema.toml"));
+  return schema;
+}
+
+TableSpec Schema::assemble(std::string_view path, std::string_view when, std::string_view law) const {
+  TableSpec out;
+  bool found = false;
+  for (const TableSpec& table : tables_) {
+    if (table.path != path || (!table.when.empty() && table.when != when)) continue;
+    if (!found) out = table;
+    if (found) out.keys.insert(out.keys.end(), table.keys.begin(), table.keys.end());
+    found = true;
+  }
+  if (!found) schema_fault("no table " + std::string(path));
+  out.children = children(path);
+  if (const JointTypeInfo* type = out.joint_type_keys ? find_joint_type(when) : nullptr) {
+    for (const KeyInfo& key : type->keys) {
+      out.keys.push_back(spec_of(key));
+      // A geometry that may be left out is measured when assembled, so it has no value of its own.
+      out.keys.back().fallback.reset();
+      if (!key.required) out.keys.back().otherwise = "as assembled";
+    }
+  }
+  if (out.law_keys) add_law_keys(out, law);
+  return out;
+}
+
+std::vector<std::string> Schema::children(std::string_view path) const {
+  std::vector<std::string> keys;
+  const std::string prefix = path.empty() ? std::string() : std::string(path) + ".";
+  for (const TableSpec& table : tables_) {
+    if (table.path.size() <= prefix.size() || !std::string_view(table.path).starts_with(prefix)) continue;
+    const std::string rest = table.path.substr(prefix.size());
+    std::string key = rest.substr(0, rest.find('.'));
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(std::move(key));
+  }
+  return keys;
+}
+
+std::vector<std::string> Schema::kinds_with(std::string_view path, std::string_view key) const {
+  std::vector<std::string> kinds;
+  for (const TableSpec& table : tables_) {
+    if (table.path != path) continue;
+    if (!table.when.empty() && table.find(key) != nullptr) kinds.push_back(table.called);
+    if (!table.joint_type_keys) continue;
+    for (const JointTypeInfo& type : joint_type_catalog()) {
+      const auto has = [&](const KeyInfo& info) { return info.key == key; };
+      if (std::any_of(type.keys.begin(), type.keys.end(), has)) kinds.push_back(std::string(type.word) + " joints");
+    }
+  }
+  return kinds;
+}
+
+}  // namespace pintle

@@ -1,0 +1,89 @@
+// A gap's Jacobians in factored form: the turn into F's axes, and the arms of the point where the joint acts.
+#pragma once
+
+#include "joints/relative_pose.h"
+
+namespace pintle {
+
+/// From forces of a gap to forces on bodies, and from accelerations of bodies to that of the gap: G' and G of a pose, times
+/// the gradient where the gap is a function of the pose. T is a number, or one number per stage of a step.
+template <class T>
+struct GapMap {
+  T c, s, ax, ay, bx, by;  // as in PoseGeometry
+  T gradient[3];           // of a gap that is a function
+  bool function = false;
+
+  void set(const PoseGeometry<T>& pose) {
+    c = pose.c;
+    s = pose.s;
+    ax = pose.ax;
+    ay = pose.ay;
+    bx = pose.bx;
+    by = pose.by;
+  }
+  static GapMap of(const RelativePose& pose) {
+    return {pose.c, pose.s, pose.arm_a.x(), pose.arm_a.y(), pose.arm_b.x(), pose.arm_b.y(), {}, false};
+  }
+  /// The same map in every lane.
+  static GapMap same(const GapMap<double>& g) {
+    return {T(g.c), T(g.s), T(g.ax), T(g.ay), T(g.bx), T(g.by), {T(g.gradient[0]), T(g.gradient[1]), T(g.gradient[2])}, g.function};
+  }
+  /// The map of one lane.
+  GapMap<double> lane(int i) const {
+    return {c[i], s[i], ax[i], ay[i], bx[i], by[i], {gradient[0][i], gradient[1][i], gradient[2][i]}, function};
+  }
+
+  /// G of the first and of the second body, 3 x 3.
+  Planar::Mat GA() const { return rows(-c, -s, c * ay - s * ax, s, -c, -s * ay - c * ax, -1); }
+  Planar::Mat GB() const { return rows(c, s, s * bx - c * by, -s, c, c * bx + s * by, 1); }
+
+  template <class U>
+  struct OnBodies { U fx, fy, ma, mb; };  // force on B (on A the opposite), moments on A and B
+
+  /// G' f.
+  template <class U>
+  OnBodies<U> spread(const U* f) const {
+    const U f0 = function ? gradient[0] * f[0] : f[0], f1 = function ? gradient[1] * f[0] : f[1],
+            f2 = function ? gradient[2] * f[0] : f[2];
+    OnBodies<U> r;
+    r.fx = c * f0 - s * f1;
+    r.fy = s * f0 + c * f1;
+    r.ma = ay * r.fx - ax * r.fy - f2;
+    r.mb = bx * r.fy - by * r.fx + f2;
+    return r;
+  }
+  /// on_a, on_b += G' f: forces and moment of both bodies.
+  template <class U, class V>
+  void push(const U* f, V& on_a, V& on_b) const {
+    const OnBodies<U> on = spread(f);
+    on_a[0] -= on.fx;
+    on_a[1] -= on.fy;
+    on_a[2] += on.ma;
+    on_b[0] += on.fx;
+    on_b[1] += on.fy;
+    on_b[2] += on.mb;
+  }
+  /// G a.
+  template <class U>
+  void gather(const U* on_a, const U* on_b, U* e) const {
+    const U x = on_b[0] - on_a[0] + ay * on_a[2] - by * on_b[2], y = on_b[1] - on_a[1] + bx * on_b[2] - ax * on_a[2];
+    e[0] = c * x + s * y;
+    e[1] = c * y - s * x;
+    e[2] = on_b[2] - on_a[2];
+    if (!function) return;
+    e[0] = gradient[0] * e[0] + gradient[1] * e[1] + gradient[2] * e[2];
+    e[1] = e[2] = U();
+  }
+ private:
+  // joints (2.5), (2.6), and the chain rule.
+  Planar::Mat rows(T xx, T xy, T xt, T yx, T yy, T yt, T tt) const {
+    Planar::Mat G;
+    G << xx, xy, xt, yx, yy, yt, 0, 0, tt;
+    if (!function) return G;
+    const Eigen::RowVector3d row = gradient[0] * G.row(0) + gradient[1] * G.row(1) + gradient[2] * G.row(2);
+    G << row, Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero();
+    return G;
+  }
+};
+
+}  // namespace pintle

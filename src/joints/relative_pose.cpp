@@ -1,0 +1,36 @@
+#include "joints/relative_pose.h"
+
+#include "joints/gap_map.h"
+
+namespace pintle {
+
+RelativePose::S::Mat RelativePose::GA() const { return GapMap<double>::of(*this).GA(); }
+RelativePose::S::Mat RelativePose::GB() const { return GapMap<double>::of(*this).GB(); }
+
+Eigen::Matrix<double, 6, 6> RelativePose::geometric(const S::Vec& f) const {
+  const S::Point F = world_force(f), JF = S::perp(F);
+  Eigen::Matrix<double, 6, 6> k = Eigen::Matrix<double, 6, 6>::Zero();
+  // Rows: the force and moment on A, then on B; turning A turns the force, moving the points moves the arms.
+  k.block<2, 1>(0, 2) = -JF;
+  k.block<2, 1>(3, 2) = JF;
+  k.block<1, 2>(2, 0) = -JF.transpose();
+  k.block<1, 2>(2, 3) = JF.transpose();
+  k(2, 2) = -arm_a.dot(F);
+  k(2, 5) = k(5, 2) = arm_b.dot(F);
+  k(5, 5) = -arm_b.dot(F);
+  return k;
+}
+
+Eigen::Matrix<double, 3, 6> RelativePose::rate_gradient(const S::Motion& A, const S::Motion& B) const {
+  Eigen::Matrix<double, 3, 6> g = Eigen::Matrix<double, 3, 6>::Zero();
+  Eigen::Matrix2d to_F, turn;
+  to_F << c, s, -s, c;
+  turn << 0, -1, 1, 0;
+  g.block<2, 2>(0, 0) = A.w * to_F * turn;
+  g.block<2, 2>(0, 3) = -A.w * to_F * turn;
+  g.block<2, 1>(0, 2) = -turn * rate.head<2>();
+  g.block<2, 1>(0, 5) = (A.w - B.w) * (to_F * arm_b);
+  return g;
+}
+
+}  // namespace pintle

@@ -1,0 +1,283 @@
+// Small dense blocks, real or complex, with loops the compiler can unroll.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "simd/lanes.h"
+
+namespace pintle {
+
+inline double reciprocal(double a) { return 1 / a; }
+
+inline double magnitude(double a) { return std::abs(a); }
+
+inline bool is_finite(double a) { return std::isfinite(a); }
+
+/// Whether blocks of T are inverted with row pivoting.
+template <class T>
+inline constexpr bool kPivots = true;
+
+/// Real symmetric matrices of variants in lanes are positive definite; what is not a number in one lane is that lane's affair.
+template <int N>
+inline constexpr bool kPivots<Lanes<N>> = false;
+template <int N>
+PINTLE_LANES bool is_finite(const Lanes<N>&) {
+  return true;
+}
+
+template <class T, int N>
+struct BlockVec {
+  std::array<T, N> a{};
+  T& operator[](int i) { return a[i]; }
+  const T& operator[](int i) const { return a[i]; }
+};
+
+/// An N x N matrix, row-major.
+template <class T, int N>
+struct Block {
+  std::array<T, N * N> a{};
+  T& operator()(int i, int j) { return a[i * N + j]; }
+  const T& operator()(int i, int j) const { return a[i * N + j]; }
+};
+
+/// Three numbers in a register. The fourth is nothing.
+template <>
+struct BlockVec<double, 3> {
+  alignas(32) std::array<double, 4> a{};
+  double& operator[](int i) { return a[i]; }
+  const double& operator[](int i) const { return a[i]; }
+
+  PINTLE_LANES Lanes<4> lanes() const {
+    Lanes<4> x;
+    std::memcpy(&x.v, a.data(), sizeof x.v);
+    return x;
+  }
+  PINTLE_LANES void set(const Lanes<4>& x) { std::memcpy(a.data(), &x.v, sizeof x.v); }
+};
+
+/// 3 x 3 with each row in a register.
+template <>
+struct Block<double, 3> {
+  std::array<BlockVec<double, 3>, 3> rows{};
+  double& operator()(int i, int j) { return rows[i][j]; }
+  const double& operator()(int i, int j) const { return rows[i][j]; }
+};
+
+/// C -= A B.
+template <class T, int N>
+PINTLE_LANES void subtract_product(Block<T, N>& C, const Block<T, N>& A, const Block<T, N>& B) {
+  for (int i = 0; i < N; ++i)
+    for (int k = 0; k < N; ++k) {
+      const T aik = A(i, k);
+      for (int j = 0; j < N; ++j) C(i, j) -= aik * B(k, j);
+    }
+}
+
+/// A B.
+template <class T, int N>
+PINTLE_LANES Block<T, N> product(const Block<T, N>& A, const Block<T, N>& B) {
+  Block<T, N> C;
+  for (int i = 0; i < N; ++i)
+    for (int k = 0; k < N; ++k) {
+      const T aik = A(i, k);
+      for (int j = 0; j < N; ++j) C(i, j) += aik * B(k, j);
+    }
+  return C;
+}
+
+/// C -= A' B.
+template <class T, int N>
+PINTLE_LANES void subtract_transposed_product(Block<T, N>& C, const Block<T, N>& A, const Block<T, N>& B) {
+  for (int i = 0; i < N; ++i)
+    for (int k = 0; k < N; ++k) {
+      const T aki = A(k, i);
+      for (int j = 0; j < N; ++j) C(i, j) -= aki * B(k, j);
+    }
+}
+
+/// C -= A' B where that is symmetric, and C too: its upper triangle is left alone.
+template <class T, int N>
+PINTLE_LANES void subtract_symmetric_product(Block<T, N>& C, const Block<T, N>& A, const Block<T, N>& B) {
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) {
+      if (j < i) continue;
+      T sum = C(j, i);
+      for (int k = 0; k < N; ++k) sum -= A(k, i) * B(k, j);
+      C(j, i) = sum;
+    }
+}
+
+/// y -= A x, of vectors of N numbers of any kind.
+template <class V, class T, int N>
+PINTLE_LANES void subtract_product(V& y, const Block<T, N>& A, const V& x) {
+  V sum = y;  // which x might stand in, as far as the compiler knows
+  for (int j = 0; j < N; ++j)
+    for (int i = 0; i < N; ++i) sum[i] -= A(i, j) * x[j];
+  y = sum;
+}
+
+/// y -= A' x.
+template <class V, class T, int N>
+PINTLE_LANES void subtract_transposed_product(V& y, const Block<T, N>& A, const V& x) {
+  V sum = y;
+  for (int j = 0; j < N; ++j)
+    for (int i = 0; i < N; ++i) sum[i] -= A(j, i) * x[j];
+  y = sum;
+}
+
+/// A x.
+template <class V, class T, int N>
+PINTLE_LANES V product(const Block<T, N>& A, const V& x) {
+  V y;
+  for (int i = 0; i < N; ++i) {
+    y[i] = A(i, 0) * x[0];
+    for (int j = 1; j < N; ++j) y[i] += A(i, j) * x[j];
+  }
+  return y;
+}
+
+/// The inverse by Gauss-Jordan elimination in place; false when a pivot is zero or not finite.
+template <class T, int N>
+PINTLE_LANES bool invert(Block<T, N>& m) {
+  int order[N];
+  T pivots = T(0.0);
+  for (int c = 0; c < N; ++c) {
+    order[c] = c;
+    if constexpr (kPivots<T>) {
+      for (int r = c + 1; r < N; ++r)
+        if (magnitude(m(r, c)) > magnitude(m(order[c], c))) order[c] = r;
+      if (order[c] != c)
+        for (int j = 0; j < N; ++j) std::swap(m(order[c], j), m(c, j));
+    }
+    const T scale = reciprocal(m(c, c));
+    pivots += scale + 0.0 * m(c, c);
+    m(c, c) = T(1.0);
+    for (int j = 0; j < N; ++j) m(c, j) = scale * m(c, j);
+    for (int r = 0; r < N; ++r) {
+      if (r == c) continue;
+      const T f = m(r, c);
+      m(r, c) = T(0.0);
+      for (int j = 0; j < N; ++j) m(r, j) -= f * m(c, j);
+    }
+  }
+  if constexpr (kPivots<T>)
+    for (int c = N - 1; c >= 0; --c)
+      if (order[c] != c)
+        for (int i = 0; i < N; ++i) std::swap(m(i, order[c]), m(i, c));
+  return is_finite(pivots);
+}
+
+/// L D L' = m, symmetric, of which the lower triangle is read, without pivoting. In place: D^-1 on the diagonal and below it M = L^-1, whose diagonal is 1. False when a pivot
+/// is zero or not finite.
+template <class T, int N>
+PINTLE_LANES bool factorize_symmetric(Block<T, N>& m) {
+  T lower[N][N], pivots = T(0.0);
+  for (int c = 0; c < N; ++c) {
+    const T inverse = reciprocal(m(c, c));
+    pivots += inverse + 0.0 * m(c, c);
+    for (int i = c + 1; i < N; ++i) {
+      lower[i][c] = m(i, c) * inverse;
+      for (int j = c + 1; j <= i; ++j) m(i, j) -= lower[i][c] * m(j, c);
+    }
+    m(c, c) = inverse;
+  }
+  for (int i = 1; i < N; ++i)
+    for (int j = 0; j < i; ++j) {
+      T sum = lower[i][j];
+      for (int k = j + 1; k < i; ++k) sum += lower[i][k] * m(k, j);
+      m(i, j) = -sum;
+    }
+  return is_finite(pivots);
+}
+
+/// B becomes M B, of a factorised m.
+template <class T, int N>
+PINTLE_LANES void apply_lower(const Block<T, N>& m, Block<T, N>& B) {
+  for (int i = N - 1; i > 0; --i)
+    for (int j = 0; j < i; ++j)
+      for (int c = 0; c < N; ++c) B(i, c) += m(i, j) * B(j, c);
+}
+
+/// B becomes M' B.
+template <class T, int N>
+PINTLE_LANES void apply_lower_transposed(const Block<T, N>& m, Block<T, N>& B) {
+  for (int j = 0; j < N - 1; ++j)
+    for (int i = j + 1; i < N; ++i)
+      for (int c = 0; c < N; ++c) B(j, c) += m(i, j) * B(i, c);
+}
+
+/// D^-1 B.
+template <class T, int N>
+PINTLE_LANES Block<T, N> over_pivots(const Block<T, N>& m, const Block<T, N>& B) {
+  Block<T, N> out;
+  for (int i = 0; i < N; ++i)
+    for (int c = 0; c < N; ++c) out(i, c) = m(i, i) * B(i, c);
+  return out;
+}
+
+/// x becomes M' D^-1 M x: what a factorised m solves.
+template <class V, class T, int N>
+PINTLE_LANES void apply_inverse(const Block<T, N>& m, V& x) {
+  for (int i = N - 1; i > 0; --i)
+    for (int j = 0; j < i; ++j) x[i] += m(i, j) * x[j];
+  for (int i = 0; i < N; ++i) x[i] = m(i, i) * x[i];
+  for (int j = 0; j < N - 1; ++j)
+    for (int i = j + 1; i < N; ++i) x[j] += m(i, j) * x[i];
+}
+
+// The same of real blocks, row by row.
+using RealBlock = Block<double, 3>;
+using RealRow = BlockVec<double, 3>;
+
+/// C -= A' B.
+PINTLE_LANES void subtract_transposed_product(RealBlock& C, const RealBlock& A, const RealBlock& B) {
+  for (int i = 0; i < 3; ++i) {
+    Lanes<4> sum = C.rows[i].lanes();
+    for (int k = 0; k < 3; ++k) sum -= A(k, i) * B.rows[k].lanes();
+    C.rows[i].set(sum);
+  }
+}
+
+/// C -= A' B where that is symmetric, and C too.
+PINTLE_LANES void subtract_symmetric_product(RealBlock& C, const RealBlock& A, const RealBlock& B) { subtract_transposed_product(C, A, B); }
+
+/// y -= A x.
+PINTLE_LANES void subtract_product(RealRow& y, const RealBlock& A, const RealRow& x) {
+  Lanes<4> columns[4] = {A.rows[0].lanes(), A.rows[1].lanes(), A.rows[2].lanes(), Lanes<4>::all(0)}, sum = y.lanes();
+  transpose(columns);
+  for (int j = 0; j < 3; ++j) sum -= x[j] * columns[j];
+  y.set(sum);
+}
+
+/// y -= A' x.
+PINTLE_LANES void subtract_transposed_product(RealRow& y, const RealBlock& A, const RealRow& x) {
+  Lanes<4> sum = y.lanes();
+  for (int j = 0; j < 3; ++j) sum -= x[j] * A.rows[j].lanes();
+  y.set(sum);
+}
+
+/// B becomes M B, of a factorised m.
+PINTLE_LANES void apply_lower(const RealBlock& m, RealBlock& B) {
+  const Lanes<4> first = B.rows[0].lanes(), second = B.rows[1].lanes();
+  B.rows[2].set(B.rows[2].lanes() + m(2, 0) * first + m(2, 1) * second);
+  B.rows[1].set(second + m(1, 0) * first);
+}
+
+/// B becomes M' B.
+PINTLE_LANES void apply_lower_transposed(const RealBlock& m, RealBlock& B) {
+  const Lanes<4> second = B.rows[1].lanes(), third = B.rows[2].lanes();
+  B.rows[0].set(B.rows[0].lanes() + m(1, 0) * second + m(2, 0) * third);
+  B.rows[1].set(second + m(2, 1) * third);
+}
+
+/// D^-1 B.
+PINTLE_LANES RealBlock over_pivots(const RealBlock& m, const RealBlock& B) {
+  RealBlock out;
+  for (int i = 0; i < 3; ++i) out.rows[i].set(m(i, i) * B.rows[i].lanes());
+  return out;
+}
+
+}  // namespace pintle

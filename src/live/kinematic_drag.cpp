@@ -1,0 +1,153 @@
+// A linkage moved by hand. theory/live section 2.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "live/mouse_spring.h"
+#include "pintle/live.h"
+#include "start/guess.h"
+#include "start/position_search.h"
+#include "system/build.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+constexpr double kSoft = 1e-2;         // of the stiffest joint: the hold, which gives way to every joint
+constexpr double kClosed = 1e-5;       // of the mechanism's size
+constexpr double kLongestMove = 0.05;  // of the mechanism's size, in one search
+constexpr double kReached = 1e-7;      // of the mechanism's size
+constexpr double kWorthwhile = 1e-3;   // of a move: how far the point goes
+constexpr int kMostMoves = 24;
+constexpr int kHoldIterations = 30, kCloseIterations = 100;
+
+// Everything that the user states about positions is a place to start from, not one to keep.
+Model free_to_move(Model model) {
+  for (Body& body : model.bodies) {
+    body.hold = {false, false, false};
+    body.position = Vec2{0, 0};  // stated: all bodies resist alike
+    body.angle = 0;
+  }
+  return model;
+}
+
+}  // namespace
+
+class KinematicDrag::Linkage {
+ public:
+  explicit Linkage(const Model& model) : model_(free_to_move(model)), system_(build_system(model)) {
+    q_ = guess_positions(model, system_);
+    unwind(q_, system_);
+    const int n_before = system_.n_joints();
+    for (int j = 0; j < n_before; ++j) open_.push_back(is_open(model, system_, j));
+    PositionSearch(model, system_, open_).run(q_);
+    std::vector<std::string> notes;
+    fix_assembled_values(model, q_, system_, notes);
+    for (int j = 0; j < n_before; ++j) open_[j] = system_.joints[j].servo >= 0;  // motors let go
+    add_hold();
+    measure();
+  }
+
+  bool assemble(const std::optional<Hold>& hold) {
+    const Vecs before = q_;
+    if (hold) follow(*hold);
+    close();
+    measure();
+    const bool closed = open_joints().empty();
+    if (closed) best_ = q_;
+    else if (hold) {
+      q_ = best_.empty() ? before : best_;
+      measure();
+    }
+    return closed;
+  }
+
+  void set_poses(const std::vector<PlanarPose>& poses) {
+    for (std::size_t i = 0; i < std::min(poses.size(), q_.size()); ++i) q_[i] = S::Vec(poses[i][0], poses[i][1], poses[i][2]);
+    best_.clear();
+  }
+
+  std::vector<PlanarPose> poses() const { return rows(q_); }
+  const std::vector<double>& gaps() const { return gaps_; }
+  std::vector<std::string> open_joints() const {
+    std::vector<std::string> names;
+    const double size = mechanism_size(system_, q_);
+    for (std::size_t j = 0; j < gaps_.size(); ++j)
+      if (!(gaps_[j] <= kClosed * size)) names.push_back(system_.joints[j].name);
+    return names;
+  }
+
+ private:
+  // A pin between the world and whatever body is held, the last joint of the system.
+  void add_hold() {
+    const double stiffest = largest_stiffness(system_);
+    system_.joints.push_back(mouse_spring("hold", 0, {0, 0}, stiffest > 0 ? kSoft * stiffest : 1));
+    system_.finish();
+    open_.push_back(true);
+  }
+
+  S::Point point_now(const Hold& hold) const { return in_world(q_[hold.body], hold.point); }
+
+  // Towards the target in moves short enough that the linkage does not turn over, as long as they bring the point nearer.
+  void follow(const Hold& hold) {
+    if (hold.body < 0 || hold.body >= system_.n_bodies()) return;
+    Placement& at = system_.joints.back().at;
+    at.b = hold.body;
+    at.M = S::Frame::at({hold.point[0], hold.point[1]}, 0);
+    const S::Point target(hold.target[0], hold.target[1]);
+    const double size = mechanism_size(system_, q_);
+    double left = (target - point_now(hold)).norm();
+    for (int i = 0; i < kMostMoves && left > kReached * size; ++i) {
+      const double move = std::min(left, kLongestMove * size);
+      const S::Point from = point_now(hold), to = from + (move / left) * (target - from);
+      at.F = S::Frame::at({to.x(), to.y()}, 0);
+      const Vecs before = q_;
+      open_.back() = false;
+      PositionSearch(model_, system_, open_).run(q_, kHoldIterations);
+      open_.back() = true;
+      close();
+      const S::Point reached = point_now(hold);
+      const double now = (target - reached).norm();
+      if (now > left) q_ = before;
+      if (now > left || (reached - from).norm() < kWorthwhile * move) break;
+      left = now;
+    }
+  }
+
+  void close() { PositionSearch(model_, system_, open_).run(q_, kCloseIterations); }
+
+  void measure() {
+    kinematics_at(system_, 0, q_, Vecs(q_.size(), S::Vec::Zero()), m_, r_);
+    const double size = mechanism_size(system_, q_);
+    gaps_.assign(model_.joints.size(), 0);
+    for (std::size_t j = 0; j < gaps_.size(); ++j) {
+      const JointData& joint = system_.joints[j];
+      const S::Vec stiff = respond(joint.law, S::Vec(1, 0, 0), S::Vec::Zero()).stiffness.diagonal();
+      S::Vec gap = gap_to_close(joint, r_[j]);
+      for (int k = 0; k < 3; ++k)
+        if (stiff[k] == 0) gap[k] = 0;
+      gaps_[j] = std::hypot(gap[0], gap[1], size * gap[2]);
+    }
+  }
+
+  Model model_;
+  System system_;
+  Vecs q_, best_;  // best_: the last poses that closed
+  std::vector<bool> open_;
+  std::vector<double> gaps_;
+  std::vector<S::Motion> m_;
+  std::vector<JointKinematics> r_;
+};
+
+KinematicDrag::KinematicDrag(const Model& model) : linkage_(std::make_unique<Linkage>(model)) {}
+KinematicDrag::~KinematicDrag() = default;
+KinematicDrag::KinematicDrag(KinematicDrag&&) noexcept = default;
+KinematicDrag& KinematicDrag::operator=(KinematicDrag&&) noexcept = default;
+bool KinematicDrag::assemble(const std::optional<Hold>& hold) { return linkage_->assemble(hold); }
+void KinematicDrag::set_poses(const std::vector<PlanarPose>& poses) { linkage_->set_poses(poses); }
+std::vector<PlanarPose> KinematicDrag::poses() const { return linkage_->poses(); }
+const std::vector<double>& KinematicDrag::gaps() const { return linkage_->gaps(); }
+std::vector<std::string> KinematicDrag::open_joints() const { return linkage_->open_joints(); }
+
+}  // namespace pintle

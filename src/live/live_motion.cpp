@@ -1,0 +1,245 @@
+// Motion in real time. theory/live section 1.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "base/stopwatch.h"
+#include "integrators/methods.h"
+#include "live/mouse_spring.h"
+#include "pintle/live.h"
+#include "run/recorder.h"
+#include "start/preload.h"
+#include "start/start.h"
+#include "system/build.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+constexpr double kTolerance = 1e-4;
+constexpr double kFirstStep = 1e-4;       // [s]
+constexpr double kStretch = 1.01;         // of what is left of a frame
+constexpr double kPullRate = 9;           // natural frequency of the mechanism on the pull [rad/s]
+constexpr double kSoftest = 1e-3;         // of the stiffest joint: the stiffest pull that is chosen
+constexpr double kPullDamping = 0.7;      // of critical
+constexpr std::size_t kMostJoints = 120;  // whose masses with closed joints are asked for
+
+}  // namespace
+
+class LiveMotion::Motion {
+ public:
+  explicit Motion(const Model& model) : model_(model) {
+    model_.simulate.equations = Equations::kNewtonian;
+    if (model_.bodies.empty()) throw std::invalid_argument("the model has no bodies that could move");
+    if (!(model_.simulate.duration > 0)) model_.simulate.duration = 1;
+    system_ = build_system(model_);
+    n_own_ = system_.joints.size();
+    if (const double stiffest = largest_stiffness(system_); stiffest > 0) stiffest_ = stiffest;
+    Assembly start = start_of_run(model_, system_);
+    state_ = std::move(start.state);
+    notes_ = std::move(start.notes);
+    restart(kFirstStep);
+  }
+
+  void pull(const std::optional<Pull>& pull) {
+    if (pull && (pull->body < 0 || pull->body >= system_.n_bodies())) throw std::invalid_argument("there is no such body to pull at");
+    const bool other = pull_ && (!pull || pull_->body != pull->body || pull_->point != pull->point || pull_->stiffness != pull->stiffness);
+    if (other) release();
+    if (pull && !pull_) hold(*pull);
+    pull_ = pull;
+  }
+
+  bool advance(double dt, double budget) {
+    const Stopwatch clock;
+    failure_.clear();
+    if (!(dt > 0)) return true;
+    if (pull_) lead(dt);
+    if (changed_) restart(std::min(last_step_, dt));
+    const double end = state_.t + dt, almost = end - 1e-9 * dt;
+    while (state_.t < almost) {
+      if (!step(end)) return false;
+      if (budget > 0 && clock.seconds() > budget) break;
+    }
+    return true;
+  }
+
+  const std::string& failure() const { return failure_; }
+  const State& state() const { return state_; }
+  std::uint64_t steps() const { return steps_; }
+  const std::vector<std::string>& notes() const { return notes_; }
+
+  std::vector<JointForce> joint_forces() const {
+    std::vector<S::Motion> m;
+    system_.motions(state_.q, state_.v, m);
+    std::vector<JointForce> out;
+    for (std::size_t j = 0; j < model_.joints.size(); ++j) {
+      const JointLoad load = joint_load(system_, static_cast<int>(j), state_.t, m, state_.force[j]);
+      out.push_back({load.fx, load.fy, load.couple});
+    }
+    return out;
+  }
+
+  Energies energies() const {
+    std::vector<S::Motion> m;
+    system_.motions(state_.q, state_.v, m);
+    Energies out{system_.kinetic(state_.v), system_.external_work(state_.t, state_.q, m).potential, state_.dissipated, state_.supplied};
+    for (std::size_t j = 0; j < n_own_; ++j)
+      if (system_.joints[j].servo < 0) out.potential += respond(system_.joints[j].law, state_.gap[j], state_.gap_rate[j]).energy;
+    return out;
+  }
+
+ private:
+  // No step: the state stays, and another one is tried from it when asked again. A kink of a force just at the end of the frame
+  // can be in the way: then the frame ends a little later.
+  bool step(double end) {
+    if (try_step(end)) return true;
+    restart(kFirstStep);
+    if (try_step(state_.t + kStretch * (end - state_.t))) return true;
+    changed_ = true;
+    last_step_ = kFirstStep;
+    return false;
+  }
+
+  bool try_step(double end) {
+    try {
+      if (!stepper_->step(end)) {
+        failure_ = stepper_->failure();
+        return false;
+      }
+    } catch (const std::exception& error) {
+      failure_ = error.what();
+      return false;
+    }
+    if (!is_finite(stepper_->state())) {
+      failure_ = fmt::format("the motion has no finite values beyond t = {:.6g} s", state_.t);
+      return false;
+    }
+    failure_.clear();
+    ++steps_;
+    const double before = state_.t;
+    state_ = stepper_->state();
+    if (state_.t > before) last_step_ = state_.t - before;
+    return true;
+  }
+
+  // From the state as it is, with whatever pulls now.
+  void restart(double first_step) {
+    balance_start(system_, state_);
+    stepper_ = make_stepper(system_, {Equations::kNewtonian, "radau", 3}, kTolerance);
+    stepper_->start(state_, std::max(first_step, 1e-9));
+    changed_ = false;
+  }
+
+  // The pull is three joints behind the model's own: a spring along x and one along y, each a servo whose target moves with
+  // constant speed during a frame, so that no force jumps when the hand has moved on; and a damper against the world.
+  enum { kAlongX, kAlongY, kDamper, kPullJoints };
+  JointData& pull_joint(int k) { return system_.joints[n_own_ + k]; }
+
+  void hold(const Pull& pull) {
+    const S::Point at = in_world(state_.q[pull.body], pull.point);
+    const double mass = mass_at(pull);
+    const double k = pull.stiffness > 0 ? pull.stiffness : std::min(kPullRate * kPullRate * mass, kSoftest * stiffest_);
+    const double c = 2 * kPullDamping * std::sqrt(k * mass);
+    for (int i = 0; i < kPullJoints; ++i) {
+      JointData joint = mouse_spring("pull", pull.body, pull.point, 1);
+      joint.law = i == kAlongX ? LinearLaw{{k, 0, 0}, {0, 0, 0}} : i == kAlongY ? LinearLaw{{0, k, 0}, {0, 0, 0}} : LinearLaw{{0, 0, 0}, {c, c, 0}};
+      if (i < kDamper) {
+        joint.servo = i;
+        joint.keeps_speed = true;
+        joint.start = at[i];
+      }
+      system_.joints.push_back(std::move(joint));
+    }
+    for (Vecs* x : {&state_.gap, &state_.gap_rate, &state_.gap_accel, &state_.force}) x->resize(system_.joints.size(), S::Vec::Zero());
+    system_.finish();
+    read_pull();
+    changed_ = true;
+  }
+
+  void release() {
+    if (!pull_) return;
+    pull_.reset();
+    system_.joints.resize(n_own_);
+    for (Vecs* x : {&state_.gap, &state_.gap_rate, &state_.gap_accel, &state_.force}) x->resize(n_own_);
+    system_.finish();
+    changed_ = true;
+  }
+
+  // From where the targets are now to where the hand is, within dt.
+  void lead(double dt) {
+    bool moved = false;
+    for (int i = 0; i < kDamper; ++i) {
+      JointData& spring = pull_joint(i);
+      const double now = spring.start + spring.speed * state_.t, speed = (pull_->target[i] - now) / dt;
+      if (speed == spring.speed) continue;
+      spring.start = now - speed * state_.t;
+      spring.speed = speed;
+      moved = true;
+    }
+    if (!moved) return;
+    read_pull();
+    changed_ = true;
+  }
+
+  void read_pull() {
+    std::vector<S::Motion> m;
+    system_.motions(state_.q, state_.v, m);
+    for (std::size_t j = n_own_; j < system_.joints.size(); ++j) {
+      const JointKinematics r = system_.kinematics(static_cast<int>(j), state_.t, m);
+      state_.gap[j] = r.gap;
+      state_.gap_rate[j] = r.rate;
+    }
+  }
+
+  // What a force at the held point has to move, in the direction in which it moves most easily.
+  double mass_at(const Pull& pull) const {
+    const double own = system_.bodies[pull.body].mass[0];
+    double mass = own;
+    if (n_own_ > kMostJoints) {
+      for (const BodyData& each : system_.bodies) mass = std::max(mass, each.mass[0]);
+    } else {
+      System pinned = system_;
+      pinned.joints.push_back(mouse_spring("pull", pull.body, pull.point, 1));
+      pinned.finish();
+      State there = state_;
+      for (Vecs* x : {&there.gap, &there.gap_rate, &there.gap_accel, &there.force}) x->push_back(S::Vec::Zero());
+      const EffectiveMasses masses = InverseDynamics(pinned).effective_masses(there);
+      if (!masses.closed.empty()) mass = std::min(masses.closed.back()[0], masses.closed.back()[1]);
+    }
+    return std::isfinite(mass) && mass > 0 ? mass : own;
+  }
+
+  Model model_;
+  System system_;
+  State state_;
+  std::size_t n_own_ = 0;        // joints but for the pull
+  double stiffest_ = 1e300;      // of them [N/m]
+  std::unique_ptr<Stepper> stepper_;
+  std::optional<Pull> pull_;
+  bool changed_ = false;
+  double last_step_ = kFirstStep;
+  std::uint64_t steps_ = 0;
+  std::string failure_;
+  std::vector<std::string> notes_;
+};
+
+LiveMotion::LiveMotion(const Model& model) : motion_(std::make_unique<Motion>(model)) {}
+LiveMotion::~LiveMotion() = default;
+LiveMotion::LiveMotion(LiveMotion&&) noexcept = default;
+LiveMotion& LiveMotion::operator=(LiveMotion&&) noexcept = default;
+void LiveMotion::pull(const std::optional<Pull>& pull) { motion_->pull(pull); }
+bool LiveMotion::advance(double dt, double budget) { return motion_->advance(dt, budget); }
+const std::string& LiveMotion::failure() const { return motion_->failure(); }
+double LiveMotion::time() const { return motion_->state().t; }
+std::vector<PlanarPose> LiveMotion::poses() const { return rows(motion_->state().q); }
+std::vector<PlanarPose> LiveMotion::velocities() const { return rows(motion_->state().v); }
+std::vector<JointForce> LiveMotion::joint_forces() const { return motion_->joint_forces(); }
+LiveMotion::Energies LiveMotion::energies() const { return motion_->energies(); }
+std::uint64_t LiveMotion::steps() const { return motion_->steps(); }
+const std::vector<std::string>& LiveMotion::notes() const { return motion_->notes(); }
+
+}  // namespace pintle

@@ -1,0 +1,63 @@
+#include "mobility/constraint_rows.h"
+
+#include <cmath>
+
+#include "joints/catalog.h"
+
+namespace pintle {
+
+using S = Planar;
+
+std::string component_name(const JointData& joint, int k) {
+  if (joint.servo >= 0) return k == 2 ? "angle" : "slide";
+  const JointTypeInfo* type = find_joint_type(joint.type);
+  if (!type) return std::to_string(k);
+  std::vector<std::string_view> lengths;
+  for (const ComponentInfo& info : type->gap) {
+    if (info.angular && k == 2) return std::string(info.name);
+    if (!info.angular) lengths.push_back(info.name);
+  }
+  if (lengths.empty()) return std::to_string(k);
+  return std::string(lengths.size() == 2 && k < 2 ? lengths[k] : lengths[0]);
+}
+
+std::vector<ConstraintRow> constraint_rows(const System& system, const std::vector<JointKinematics>& joint_kinematics, double reach) {
+  std::vector<ConstraintRow> rows;
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const JointData& joint = system.joints[j];
+    const JointKinematics& r = joint_kinematics[j];
+    const Response law = respond(joint.law, r.gap + S::Vec::Constant(reach), S::Vec::Zero());
+    for (int k = 0; k < S::kDof; ++k) {
+      if (!(law.stiffness(k, k) > 0)) continue;
+      rows.push_back(
+          {j, k, joint.servo >= 0, r.GA().row(k), r.GB().row(k), r.gap[k], law.stiffness(k, k), law.damping(k, k)});
+    }
+  }
+  return rows;
+}
+
+double arm_length(const System& system, const std::vector<JointKinematics>& joint_kinematics) {
+  double sum = 0;
+  int count = 0;
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const Placement& at = system.joints[j].at;
+    for (int k = 0; k < 2; ++k)
+      for (const auto& [body, G] : {std::pair{at.a, joint_kinematics[j].GA()}, std::pair{at.b, joint_kinematics[j].GB()}}) {
+        const double arm = G(k, 2);
+        if (body == kGround || std::abs(arm) < 1e-12) continue;
+        sum += arm * arm;
+        ++count;
+      }
+  }
+  return count > 0 ? std::sqrt(sum / count) : 1.0;
+}
+
+std::vector<JointKinematics> kinematics_at_rest(const System& system, const Vecs& q) {
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> joint_kinematics;
+  system.motions(q, Vecs(q.size(), S::Vec::Zero()), m);
+  system.joint_kinematics(0, m, joint_kinematics);
+  return joint_kinematics;
+}
+
+}  // namespace pintle

@@ -1,0 +1,220 @@
+#include "results/plots/run_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <string_view>
+
+#include "base/text/did_you_mean.h"
+#include "results/plots/plot_ticks.h"
+#include "results/text_table.h"
+
+namespace pintle {
+namespace {
+
+struct ComponentName {
+  std::string_view word;    // on the command line
+  std::string_view column;  // end of the column's name; empty: made from x and y
+  const char* label;
+  const char* subscript;
+};
+constexpr std::array<ComponentName, 6> kComponents{{
+    {"x", "fx[world]", "F", "x"},
+    {"y", "fy[world]", "F", "y"},
+    {"magnitude", "", "|F|", ""},
+    {"1", "f1[joint]", "F", "1"},
+    {"2", "f2[joint]", "F", "2"},
+    {"moment", "m[world]", "M", ""},
+}};
+
+std::string hint(const std::string& word, const std::vector<std::string>& words, std::string_view list_name) {
+  if (const auto meant = did_you_mean(word, words)) return fmt::format("Did you mean \"{}\"?", *meant);
+  std::string list;
+  for (const std::string& entry : words) list += (list.empty() ? "" : ", ") + entry;
+  return fmt::format("{}: {}.", list_name, list.empty() ? "none" : list);
+}
+
+std::vector<double> values_of(const Trajectory& trajectory, int column) {
+  std::vector<double> values(trajectory.n_rows());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = trajectory.at(i, static_cast<std::size_t>(column));
+  return values;
+}
+
+int find_column(const Trajectory& trajectory, const std::string& name) {
+  const int column = trajectory.column(name);
+  if (column >= 0) return column;
+  std::vector<std::string> names;
+  for (const Column& entry : trajectory.columns) names.push_back(entry.name);
+  throw PlotRequestError(
+      fmt::format("found column \"{}\": the run has no such column.\n    {}", name, hint(name, names, "Its columns")));
+}
+
+const LoadSummary& find_joint(const Trajectory& trajectory, const std::string& name) {
+  std::vector<std::string> names;
+  for (const LoadSummary& joint : trajectory.joints) {
+    if (joint.name == name) return joint;
+    names.push_back(joint.name);
+  }
+  throw PlotRequestError(
+      fmt::format("found joint \"{}\": the run has no such joint.\n    {}", name, hint(name, names, "Its joints")));
+}
+
+const ComponentName& find_component(const std::string& word) {
+  std::vector<std::string> words;
+  for (const ComponentName& component : kComponents) {
+    if (component.word == word) return component;
+    words.emplace_back(component.word);
+  }
+  throw PlotRequestError(fmt::format("found component \"{}\": there is no such component.\n    {}", word,
+                                     hint(word, words, "Components")));
+}
+
+std::string body_on(const LoadSummary& joint, const PlotRequest& request) {
+  if (request.on.empty()) return joint.second_body;
+  if (request.on == joint.first_body || request.on == joint.second_body) return request.on;
+  throw PlotRequestError(fmt::format("found body \"{}\": joint {} joins {} and {}.\n    Choose one of these with --on.",
+                                     request.on, joint.name, joint.first_body, joint.second_body));
+}
+
+std::vector<double> magnitude(const std::vector<double>& x, const std::vector<double>& y) {
+  std::vector<double> result(x.size());
+  std::transform(x.begin(), x.end(), y.begin(), result.begin(), [](double a, double b) { return std::hypot(a, b); });
+  return result;
+}
+
+class PlotMaker {
+ public:
+  PlotMaker(const RunRecord& run, const PlotRequest& request) : run_(run), request_(request) {}
+
+  Plot make() {
+    add_x();
+    for (const std::string& joint : request_.joints) add_joint(find_joint(run_.trajectory, joint));
+    for (const std::string& column : request_.columns) add_column(column);
+    if (plot_.panels.empty())
+      throw PlotRequestError("found nothing to plot.\n    Choose joints with --joint or columns with --column.");
+    plot_.title = request_.title.empty() ? made_title() : request_.title;
+    plot_.subtitle = subtitle();
+    if (plot_.title.empty()) std::swap(plot_.title, plot_.subtitle);
+    if (plot_.panels.size() > 1) plot_.panel_height = 200;
+    return std::move(plot_);
+  }
+
+ private:
+  void add_x() {
+    const int column = find_column(run_.trajectory, request_.x);
+    const Column& about = run_.trajectory.columns[static_cast<std::size_t>(column)];
+    plot_.x = values_of(run_.trajectory, column);
+    plot_.x_unit = about.unit;
+    plot_.x_quantity = about.name == "t" ? "Time" : about.name;
+  }
+
+  Panel& panel_for(const std::string& unit, const std::string& quantity) {
+    for (Panel& panel : plot_.panels)
+      if (panel.unit == unit) return panel;
+    plot_.panels.push_back({quantity, unit, {}});
+    return plot_.panels.back();
+  }
+
+  void add_joint(const LoadSummary& joint) {
+    const std::string body = body_on(joint, request_);
+    const std::string prefix = fmt::format("joint.{}.on_{}.", joint.name, body);
+    const bool alone = request_.joints.size() == 1;
+    const auto column = [&](std::string_view name) {
+      return values_of(run_.trajectory, find_column(run_.trajectory, prefix + std::string(name)));
+    };
+    for (const std::string& word : request_.components) {
+      const ComponentName& component = find_component(word);
+      const bool moment = component.word == "moment";
+      const std::string on = alone ? " on " + body : "";
+      Curve curve{
+          (alone ? "" : fmt::format("{} on {}: ", joint.name, body)) + component.label, component.subscript, {}};
+      curve.y =
+          component.column.empty() ? magnitude(column("fx[world]"), column("fy[world]")) : column(component.column);
+      curve.band = moment ? joint.moment_error_estimate : joint.error_estimate;
+      panel_for(moment ? "N*m" : "N", moment ? "Couple" + on : "Force" + on + axes())
+          .curves.push_back(std::move(curve));
+    }
+  }
+
+  /// Which axes the force components are along, if it is one kind of axes.
+  std::string axes() const {
+    const auto any_of = [this](std::initializer_list<std::string_view> words) {
+      return std::any_of(request_.components.begin(), request_.components.end(), [&](const std::string& component) {
+        return std::find(words.begin(), words.end(), component) != words.end();
+      });
+    };
+    const bool world = any_of({"x", "y"}), joint = any_of({"1", "2"});
+    return world == joint ? "" : world ? ", world axes" : ", joint axes";
+  }
+
+  void add_column(const std::string& name) {
+    const int column = find_column(run_.trajectory, name);
+    const std::string& unit = run_.trajectory.columns[static_cast<std::size_t>(column)].unit;
+    Panel& panel = panel_for(unit, name);
+    if (!panel.curves.empty() && panel.quantity == panel.curves.front().label) panel.quantity = "Value";
+    panel.curves.push_back({name, "", values_of(run_.trajectory, column)});
+  }
+
+  std::string made_title() const {
+    if (request_.joints.size() == 1) {
+      const LoadSummary& joint = find_joint(run_.trajectory, request_.joints.front());
+      return fmt::format("Joint {}: force on {}", joint.name, body_on(joint, request_));
+    }
+    if (request_.joints.size() > 1) return "Joint forces" + (request_.on.empty() ? "" : " on " + request_.on);
+    return request_.columns.size() == 1 ? request_.columns.front() : "";
+  }
+
+  /// Which model, and for joint forces how far they can be trusted.
+  std::string subtitle() const {
+    std::string text = run_.stamp.model_name.empty() ? run_.stamp.model_path : run_.stamp.model_name;
+    double worst = 0;
+    for (const std::string& joint : request_.joints)
+      worst = std::max(worst, find_joint(run_.trajectory, joint).relative_error_estimate);
+    if (worst > 0) text += fmt::format("{}estimated error {} of the peak", text.empty() ? "" : " – ", printed_number(exponent(worst)));
+    return text;
+  }
+
+  const RunRecord& run_;
+  const PlotRequest& request_;
+  Plot plot_;
+};
+
+}  // namespace
+
+Plot make_plot(const RunRecord& run, const PlotRequest& request) {
+  return PlotMaker(run, request).make();
+}
+
+Plot overlay(const std::vector<NamedPlot>& plots) {
+  constexpr int kSolid = 7;  // styles before they repeat with dashes
+  Plot all = plots.front().plot;
+  all.subtitle.clear();
+  for (const NamedPlot& one : plots) all.subtitle += (all.subtitle.empty() ? "" : ", ") + one.name;
+  all.panels.clear();
+  for (std::size_t run = 0; run < plots.size(); ++run) {
+    const Plot& plot = plots[run].plot;
+    for (const Panel& from : plot.panels) {
+      const auto same_unit = [&from](const Panel& panel) { return panel.unit == from.unit; };
+      auto panel = std::find_if(all.panels.begin(), all.panels.end(), same_unit);
+      if (panel == all.panels.end()) {
+        panel = all.panels.insert(panel, from);
+        panel->x_quantity = all.x_quantity;
+        panel->x_unit = all.x_unit;
+        panel->curves.clear();
+      }
+      for (std::size_t i = 0; i < from.curves.size(); ++i) {
+        Curve curve = from.curves[i];
+        curve.label = fmt::format("{}: {}{}", plots[run].name, curve.label, from.quantity == panel->quantity ? "" : " (" + from.quantity + ")");
+        curve.x = plot.x;
+        curve.style = static_cast<int>(i) % kSolid + kSolid * static_cast<int>(run);
+        panel->curves.push_back(std::move(curve));
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace pintle

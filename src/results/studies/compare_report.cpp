@@ -1,0 +1,175 @@
+#include "results/studies/compare_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "results/text_table.h"
+
+namespace pintle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Align = TextTable::Align;
+
+constexpr std::size_t kMostPlotted = 3, kDots = 40;
+constexpr double kMainShare = 0.5;  // of the elastic energy: then one joint decides
+
+std::string word(Cause cause) {
+  switch (cause) {
+    case Cause::kNone:
+      return "";
+    case Cause::kNumerical:
+      return "numerical";
+    case Cause::kPhysical:
+      return "physical";
+    case Cause::kNotUnique:
+      return "not unique";
+  }
+  return "";
+}
+
+std::string table_text(const std::vector<Difference>& list, const char* head, bool judged) {
+  TextTable table;
+  table.add_column(head, Align::kLeft);
+  table.add_column("peak", Align::kNumber);
+  table.add_column("largest diff.", Align::kNumber);
+  table.add_column("unit", Align::kLeft);
+  table.add_column("at t", Align::kNumber, "s");
+  table.add_column("of peak", Align::kNumber, "-");
+  table.add_column("RMS of peak", Align::kNumber, "-");
+  table.add_column("digits", Align::kNumber);
+  if (judged) {
+    table.add_column("error est.", Align::kNumber);
+    table.add_column("difference is", Align::kLeft);
+  }
+  for (const Difference& d : list) {
+    std::vector<std::string> row{d.name,           engineering(d.peak),          exponent(d.largest), d.unit, engineering(d.largest_time),
+                                 exponent(d.relative), exponent(d.relative_rms), fmt::format("{}", d.digits)};
+    if (judged) {
+      row.push_back(exponent(d.error_estimate));
+      row.push_back(word(d.cause));
+    }
+    table.add_row(std::move(row));
+  }
+  return table.text();
+}
+
+bool any(const std::vector<Difference>& list, Cause cause) {
+  return std::any_of(list.begin(), list.end(), [cause](const Difference& d) { return d.cause == cause; });
+}
+
+// What the causes mean, and who gives way.
+std::string explanation(const Comparison& c) {
+  std::string text;
+  if (any(c.forces, Cause::kNumerical)) text += "  numerical: within the error estimates of both runs; a smaller tolerance would shrink it\n";
+  if (any(c.forces, Cause::kPhysical) || any(c.couples, Cause::kPhysical)) {
+    text += "  physical: beyond the error estimates; the joints give way, and the difference goes as 1 / stiffness\n";
+    if (!c.softness.empty() && c.softness.front().share > 0)
+      text += fmt::format("    {} stores {:.0f} % of the joints' elastic energy{}\n", c.softness.front().joint, 100 * c.softness.front().share,
+                          c.softness.front().share > kMainShare ? ": it decides" : ", the largest share");
+  }
+  if (any(c.forces, Cause::kNotUnique)) text += "  not unique: ideal joints share this load in many ways; compliant ones in one\n";
+  return text;
+}
+
+std::string run_line(const Trajectory& run, const std::string& name) {
+  return fmt::format("  {}: method {}, {} steps, {}{}{}\n", name, run.method, run.counters.steps,
+                     run.outcome == Outcome::kCompleted ? "completed" : fmt::format("stopped at t = {:.6g} s", run.t_end), run.message.empty() ? "" : ": ",
+                     run.message);
+}
+
+Json to_json(const Difference& d) {
+  return Json{{"name", d.name}, {"unit", d.unit}, {"peak", d.peak}, {"largest", d.largest}, {"largest_time", d.largest_time}, {"rms", d.rms},
+              {"relative", d.relative}, {"relative_rms", d.relative_rms}, {"digits", d.digits}, {"error_estimate", d.error_estimate}, {"cause", word(d.cause)}};
+}
+
+Json to_json(const std::vector<Difference>& list) {
+  Json json = Json::array();
+  for (const Difference& d : list) json.push_back(to_json(d));
+  return json;
+}
+
+std::vector<double> magnitude(const Trajectory& run, const std::string& path, const std::vector<double>& times) {
+  const int x = run.column(path + "fx[world]"), y = run.column(path + "fy[world]");
+  std::vector<double> out(times.size(), std::nan(""));
+  for (std::size_t i = 0; i < std::min(times.size(), run.n_rows()) && x >= 0 && y >= 0; ++i)
+    out[i] = std::hypot(run.at(i, static_cast<std::size_t>(x)), run.at(i, static_cast<std::size_t>(y)));
+  return out;
+}
+
+// A few of many values, for dots on a line.
+std::vector<double> sparse(std::vector<double> y) {
+  const std::size_t step = std::max<std::size_t>(1, y.size() / kDots);
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (i % step != 0) y[i] = std::nan("");
+  return y;
+}
+
+}  // namespace
+
+std::string to_text(Equations equations) {
+  return equations == Equations::kIdeal ? "ideal joints" : equations == Equations::kRelative ? "relative coordinates" : "compliant joints";
+}
+
+std::string compare_text(const Comparison& c, const std::string& title, bool colour) {
+  const std::string bold = colour ? "\x1b[1m" : "", plain = colour ? "\x1b[0m" : "";
+  std::string text = fmt::format("{}{}{}: compliant joints against {}\n", bold, title, plain, to_text(c.against));
+  text += run_line(c.first, "compliant joints") + run_line(c.second, to_text(c.against));
+  if (!c.forces.empty()) text += "\nJoint forces (difference of the vectors)\n" + table_text(c.forces, "joint", true);
+  if (!c.couples.empty()) text += "\nJoint couples\n" + table_text(c.couples, "joint", true);
+  text += explanation(c);
+  if (!c.coordinates.empty()) text += "\nCoordinates\n" + table_text(c.coordinates, "column", false);
+  if (!c.second.notes.empty()) {
+    text += "\nNotes on " + to_text(c.against) + "\n";
+    for (const std::string& note : c.second.notes) text += "  " + note + "\n";
+  }
+  return text;
+}
+
+std::string compare_json(const Comparison& c, const std::string& model_name, const std::string& model_path) {
+  Json json;
+  json["model"] = model_name;
+  json["model_path"] = model_path;
+  json["against"] = c.against == Equations::kIdeal ? "ideal" : c.against == Equations::kRelative ? "relative" : "newtonian";
+  json["forces"] = to_json(c.forces);
+  json["couples"] = to_json(c.couples);
+  json["coordinates"] = to_json(c.coordinates);
+  json["softness"] = Json::array();
+  for (const Softness& s : c.softness) json["softness"].push_back({{"joint", s.joint}, {"share", s.share}});
+  json["notes"] = c.second.notes;
+  return json.dump(2) + "\n";
+}
+
+Plot compare_plot(const Comparison& c, const std::string& title) {
+  Plot plot;
+  plot.title = title;
+  plot.subtitle = fmt::format("compliant joints against {}", to_text(c.against));
+  plot.x_quantity = "Time";
+  plot.x_unit = "s";
+  for (std::size_t i = 0; i < std::min(c.first.n_rows(), c.second.n_rows()); ++i) plot.x.push_back(c.first.at(i, 0));
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < c.forces.size(); ++i) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return c.forces[a].relative > c.forces[b].relative; });
+  Panel gaps{"Difference of the force vectors", "N", {}};
+  for (const std::size_t j : order) {
+    if (plot.panels.size() == kMostPlotted) break;
+    const LoadSummary& joint = c.first.joints[j];
+    const std::string path = "joint." + joint.name + ".on_" + joint.second_body + ".";
+    plot.panels.push_back({"Force at " + joint.name, "N", {{"compliant", "", magnitude(c.first, path, plot.x)}, {to_text(c.against), "", sparse(magnitude(c.second, path, plot.x)), true}}});
+    Curve gap{joint.name, "", std::vector<double>(plot.x.size(), 0)};
+    for (const char* component : {"fx[world]", "fy[world]"}) {
+      const int a = c.first.column(path + component), b = c.second.column(path + component);
+      for (std::size_t i = 0; i < plot.x.size() && a >= 0 && b >= 0; ++i)
+        gap.y[i] = std::hypot(gap.y[i], c.first.at(i, static_cast<std::size_t>(a)) - c.second.at(i, static_cast<std::size_t>(b)));
+    }
+    gaps.curves.push_back(std::move(gap));
+  }
+  if (!gaps.curves.empty()) plot.panels.push_back(std::move(gaps));
+  plot.panel_height = 180;
+  return plot;
+}
+
+}  // namespace pintle

@@ -1,0 +1,23 @@
+// A comparison of two runs for people, for programs and as a picture.
+#pragma once
+
+#include <string>
+
+#include "pintle/compare.h"
+#include "results/plots/svg_plot.h"
+
+namespace pintle {
+
+/// "ideal joints", "relative coordinates".
+std::string to_text(Equations equations);
+
+/// Tables for the console; `colour` adds terminal escapes.
+std::string compare_text(const Comparison& comparison, const std::string& title, bool colour = false);
+
+/// Everything but the series, one object.
+std::string compare_json(const Comparison& comparison, const std::string& model_name, const std::string& model_path);
+
+/// Both runs' forces at the joints that differ most, and the difference.
+Plot compare_plot(const Comparison& comparison, const std::string& title);
+
+}  // namespace pintle

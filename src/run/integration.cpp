@@ -1,0 +1,85 @@
+#include "run/integration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "integrators/methods.h"
+
+namespace pintle {
+
+namespace {
+
+constexpr std::uint64_t kMaxSteps = 20'000'000;  // of one integration
+
+// Notices a motion that needs ever shorter steps: one that blows up without end.
+class Standstill {
+ public:
+  explicit Standstill(double duration) : least_(kLeastShare * duration) {}
+  // Call once per step.
+  bool reached(double t) {
+    if (++steps_ < kSteps) return false;
+    const bool still = t - since_ < least_;
+    steps_ = 0;
+    since_ = t;
+    return still;
+  }
+
+ private:
+  static constexpr int kSteps = 20000;
+  static constexpr double kLeastShare = 1e-6;  // of the duration, in that many steps
+  double least_, since_ = 0;
+  int steps_ = 0;
+};
+
+}  // namespace
+
+Integration integrate(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder) {
+  const std::unique_ptr<Stepper> method = make_stepper(system, plan.choice, plan.tolerance);
+  Stepper& stepper = *method;
+  Integration out;
+  stepper.set_max_step(plan.max_step);
+  if (plan.scale) stepper.set_load_scale(*plan.scale);
+  stepper.start(start, plan.first_step);
+  recorder.add(stepper.state());
+  std::size_t row = 1;
+  const double end = plan.duration, almost = end * (1 - 1e-12);
+  Standstill standstill(end);
+  while (stepper.state().t < almost) {
+    if (!stepper.step(end)) {
+      out.ended = Ended::kFailed;
+      out.message = stepper.failure();
+      break;
+    }
+    const State& now = stepper.state();
+    recorder.see_step(now, now.t - stepper.previous().t);
+    for (double t = static_cast<double>(row) * plan.output_step; t <= now.t && t < almost;
+         t = static_cast<double>(++row) * plan.output_step)
+      recorder.add(stepper.interpolate(t));
+    if (standstill.reached(now.t)) {
+      out.ended = Ended::kFailed;
+      out.message = fmt::format("the motion blows up, or the tolerance is below the rounding of its forces: steps of {:.3g} s at t = {:.9g} s", now.t - stepper.previous().t, now.t);
+      break;
+    }
+    if (stepper.counters().steps >= kMaxSteps) {
+      out.ended = Ended::kFailed;
+      out.message = fmt::format("more than {} steps before t = {:.9g} s: this method needs steps of {:.3g} s here; choose {}a larger tolerance",
+                                kMaxSteps, now.t, now.t - stepper.previous().t, plan.choice.method == "radau" ? "" : "radau, or ");
+      break;
+    }
+    if (plan.keep_going && !plan.keep_going(now.t)) {
+      out.ended = Ended::kStopped;
+      break;
+    }
+  }
+  if (stepper.state().t > recorder.forces().t.back()) recorder.add(stepper.state());
+  out.t = stepper.state().t;
+  out.counters = stepper.counters();
+  out.scale = stepper.load_scale();
+  out.remarks = stepper.remarks();
+  return out;
+}
+
+}  // namespace pintle

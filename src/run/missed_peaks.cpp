@@ -1,0 +1,77 @@
+#include "run/missed_peaks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pintle {
+namespace {
+
+constexpr double kMissed = 0.01;       // of a peak, or of the work
+constexpr double kNegligible = 0.01;   // of the largest force: joints that carry less are not looked at
+constexpr double kNoWork = 1e-3;       // of the largest kinetic energy
+constexpr double kRowsPerStep = 5;     // show what a step has found
+constexpr double kMostRefined = 1e-3;  // of the output step: a peak that asks for less is a shock
+constexpr const char* kTables = "peaks, means and works of the tables are those of the rows";
+
+double square_of(const State& state, std::size_t j) { return state.force[j].head<2>().squaredNorm(); }
+
+}  // namespace
+
+MissedPeaks::MissedPeaks(const System& system) : system_(system), in_rows_(system.joints.size(), 0), at_steps_(system.joints.size()) {}
+
+void MissedPeaks::add_row(const State& state, double power, double kinetic) {
+  for (std::size_t j = 0; j < in_rows_.size(); ++j) in_rows_[j] = std::max(in_rows_[j], square_of(state, j));
+  if (any_row_) {
+    work_ += 0.5 * (power_ + power) * (state.t - t_);
+    moved_ += 0.5 * (std::abs(power_) + std::abs(power)) * (state.t - t_);
+  } else {
+    supplied_before_ = state.supplied;
+  }
+  any_row_ = true;
+  kinetic_ = std::max(kinetic_, kinetic);
+  t_ = state.t;
+  power_ = power;
+  supplied_ = state.supplied;
+}
+
+void MissedPeaks::add_step(const State& state, double h) {
+  for (std::size_t j = 0; j < at_steps_.size(); ++j)
+    if (const double square = square_of(state, j); square > at_steps_[j].square) at_steps_[j] = {square, state.t, h};
+}
+
+std::string MissedPeaks::note(double output_step) const {
+  const std::string peak = missed_peak(output_step);
+  return peak.empty() ? missed_work() : peak;
+}
+
+std::string MissedPeaks::missed_peak(double output_step) const {
+  double largest = 0, worst = (1 + kMissed) * (1 + kMissed);
+  for (std::size_t j = 0; j < at_steps_.size(); ++j)
+    if (system_.joints[j].servo < 0) largest = std::max(largest, at_steps_[j].square);
+  std::size_t missed = at_steps_.size();
+  for (std::size_t j = 0; j < at_steps_.size(); ++j) {
+    const double square = at_steps_[j].square;
+    if (system_.joints[j].servo >= 0 || square < kNegligible * kNegligible * largest || !(square > worst * in_rows_[j])) continue;
+    worst = in_rows_[j] > 0 ? square / in_rows_[j] : square;
+    missed = j;
+  }
+  if (missed == at_steps_.size()) return "";
+  const Peak& peak = at_steps_[missed];
+  const double wanted = peak.h / kRowsPerStep;
+  const bool known = wanted > kMostRefined * output_step && wanted < output_step;
+  return fmt::format("output rows miss peaks: joint {} carries {:.5g} N at t = {:.5g} s, the rows show {:.5g} N at most; {}. {}", system_.joints[missed].name,
+                     std::sqrt(peak.square), peak.t, std::sqrt(in_rows_[missed]), kTables,
+                     known ? fmt::format("output_step = \"{:.1g} s\" shows it", wanted) : "A shorter output_step shows more");
+}
+
+std::string MissedPeaks::missed_work() const {
+  const double supplied = supplied_ - supplied_before_;
+  const double missed = std::abs(work_ - supplied);
+  if (!(missed > kMissed * std::max(moved_, std::abs(supplied)) && missed > kNoWork * kinetic_)) return "";
+  return fmt::format("output rows are too far apart: their power adds up to {:.5g} J where {:.5g} J were supplied; {}. A shorter output_step shows more", work_,
+                     supplied, kTables);
+}
+
+}  // namespace pintle

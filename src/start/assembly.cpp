@@ -1,0 +1,131 @@
+#include "start/assembly.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "pintle/simulate.h"
+#include "start/guess.h"
+#include "start/position_search.h"
+#include "start/preload.h"
+#include "system/build.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+// Velocities that leave every gap as it is (servos: that follow their targets), nearest to the stated ones in the mass
+// norm; what is not stated follows. Multiplier iteration, theory/assembly Eqs. (2.1)-(2.3).
+void assemble_velocities(const Model& model, const System& system, const Vecs& q, Vecs& v) {
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  const Vecs still(q.size(), S::Vec::Zero());
+  kinematics_at(system, 0, q, still, m, r);
+  Vecs joint_weight(r.size(), S::Vec::Zero()), body_weight(q.size());
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    const Body& body = model.bodies[i];
+    const double move = body.velocity ? 1 : 1e-3, turn = body.spin ? 1 : 1e-3;
+    body_weight[i] = system.bodies[i].mass.cwiseProduct(S::Vec(move, move, turn));
+  }
+  for (std::size_t j = 0; j < r.size(); ++j) {
+    const JointData& joint = system.joints[j];
+    const S::Vec stiff = respond(joint.law, S::Vec(joint.type == "rope" ? 1 : 0, 0, 0), S::Vec::Zero()).stiffness.diagonal();
+    for (int k = 0; k < 3; ++k) {
+      if (!(stiff[k] > 0)) continue;
+      double mobility = 0;
+      if (joint.at.a != kGround) mobility += r[j].GA().row(k).cwiseAbs2().dot(system.bodies[joint.at.a].mass.cwiseInverse());
+      if (joint.at.b != kGround) mobility += r[j].GB().row(k).cwiseAbs2().dot(system.bodies[joint.at.b].mass.cwiseInverse());
+      joint_weight[j][k] = mobility > 0 ? 1e5 / mobility : 0;
+    }
+  }
+  LeastSquares equations(system);
+  if (!equations.prepare(r, joint_weight, body_weight)) return;
+  Vecs target = v, multiplier(r.size(), S::Vec::Zero()), x = v;
+  Vecs wanted(r.size()), rhs;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    for (std::size_t j = 0; j < r.size(); ++j) wanted[j] = -r[j].rate + multiplier[j];  // at rest a servo's rate is minus its target's
+    rhs = equations.pull(r, joint_weight, wanted);
+    for (std::size_t i = 0; i < q.size(); ++i) rhs[i] += body_weight[i].cwiseProduct(target[i]);
+    const Vecs& next = equations.solve(rhs);
+    double change = 0, size = 1e-12;
+    for (std::size_t i = 0; i < q.size(); ++i) {
+      change = std::max(change, (next[i] - x[i]).cwiseAbs().maxCoeff());
+      size = std::max(size, next[i].cwiseAbs().maxCoeff());
+      for (int k = 0; k < 3; ++k)
+        if (!(k < 2 ? model.bodies[i].velocity.has_value() : model.bodies[i].spin.has_value())) target[i][k] = next[i][k];
+    }
+    x = next;
+    for (std::size_t j = 0; j < r.size(); ++j) {
+      S::Vec rate = r[j].rate;
+      add_gap(system.joints[j].at, r[j], x, rate);
+      multiplier[j] -= rate;
+    }
+    if (change < 1e-15 * size) break;
+  }
+  v = x;
+}
+
+void demand_closed(const System& system, const Vecs& q, const std::vector<bool>& open, std::vector<std::string>& notes) {
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  kinematics_at(system, 0, q, Vecs(q.size(), S::Vec::Zero()), m, r);
+  const double size = mechanism_size(system, q);
+  constexpr int kMostListed = 20;
+  int n_broken = 0;
+  std::string broken;
+  for (std::size_t j = 0; j < r.size(); ++j) {
+    if (open[j]) continue;
+    const JointData& joint = system.joints[j];
+    const S::Vec stiff = respond(joint.law, S::Vec(1, 0, 0), S::Vec::Zero()).stiffness.diagonal();
+    S::Vec gap = gap_to_close(joint, r[j]);
+    for (int k = 0; k < 3; ++k)
+      if (stiff[k] == 0) gap[k] = 0;
+    const double length = gap.head<2>().norm(), angle = std::abs(gap[2]);
+    if (length > 2e-3 * size || angle > 0.02) {
+      if (++n_broken > kMostListed) continue;
+      broken += fmt::format("\n  joint {} ({}) stays {} apart", joint.name, joint.type,
+                            length > 2e-3 * size ? fmt::format("{:.4g} m", length) : fmt::format("{:.4g} rad", angle));
+    } else if (length > 1e-9 * size || angle > 1e-9) {
+      notes.push_back(fmt::format("joint {}: misfit of {:.3g} m, {:.3g} rad as assembled; it is preloaded by it", joint.name, length, angle));
+    }
+  }
+  if (n_broken > kMostListed) broken += fmt::format("\n  and {} more", n_broken - kMostListed);
+  if (!broken.empty())
+    throw AssemblyError("the mechanism cannot be assembled from the stated positions:" + broken + "\n  loop: " + loop_through(system, broken) +
+                        "\n  Try lengths that close, or angles nearer to the position that is meant.");
+}
+
+void assemble_positions(const Model& model, System& system, Vecs& q, std::vector<std::string>& notes) {
+  std::vector<bool> open(system.joints.size());
+  for (int j = 0; j < system.n_joints(); ++j) open[j] = is_open(model, system, j);
+  unwind(q, system);
+  if (model.simulate.start != Start::kRaw || !all_positions_stated(model)) PositionSearch(model, system, open).run(q);
+  if (model.simulate.start != Start::kRaw) demand_closed(system, q, open, notes);
+  fix_assembled_values(model, q, system, notes);
+}
+
+}  // namespace
+
+Assembly assemble_bodies(const Model& model, System& system) {
+  Assembly out;
+  State& state = out.state;
+  state.q = guess_positions(model, system);
+  const Vecs guess = state.q;
+  assemble_positions(model, system, state.q, out.notes);
+  for (std::size_t i = 0; i < guess.size(); ++i)
+    if (model.bodies[i].position) out.largest_move = std::max(out.largest_move, (state.q[i] - guess[i]).head<2>().norm());
+  state.v = stated_velocities(model);
+  if (model.simulate.start != Start::kRaw) assemble_velocities(model, system, state.q, state.v);
+  return out;
+}
+
+Assembly assemble(const Model& model, System& system) {
+  Assembly out = assemble_bodies(model, system);
+  start_forces(system, model.simulate.start == Start::kAssembled, out.state);
+  return out;
+}
+
+}  // namespace pintle

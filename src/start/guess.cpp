@@ -1,0 +1,131 @@
+#include "start/guess.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+bool joins_points(const JointData& joint) {
+  return joint.type == "revolute" || joint.type == "fixed" || joint.type == "slot" || joint.type == "prismatic";
+}
+
+bool joins_angles(const JointData& joint) { return joint.type == "fixed" || joint.type == "prismatic"; }
+
+// Puts body `b` onto the joint's other half; `other` is placed already.
+void put(const JointData& joint, int b, const Model& model, const std::vector<S::Motion>& m, Vecs& q) {
+  const bool is_second = joint.at.b == b;
+  const int other = is_second ? joint.at.a : joint.at.b;
+  const S::Frame &mine = is_second ? joint.at.M : joint.at.F, &theirs = is_second ? joint.at.F : joint.at.M;
+  const S::Motion still{}, &o = other == kGround ? still : m[other];
+  if (!model.bodies[b].angle) q[b][2] = joins_angles(joint) ? o.angle + theirs.angle - mine.angle : 0;
+  if (model.bodies[b].position) return;
+  const S::Motion me = S::Motion::of({0, 0, q[b][2]}, S::Vec::Zero());
+  const S::Point p = o.p + o.turned(theirs.p) - me.turned(mine.p);
+  q[b][0] = p.x();
+  q[b][1] = p.y();
+}
+
+}  // namespace
+
+bool all_positions_stated(const Model& model) {
+  return std::all_of(model.bodies.begin(), model.bodies.end(), [](const Body& b) { return b.position && b.angle; });
+}
+
+Vecs stated_velocities(const Model& model) {
+  Vecs v;
+  for (const Body& body : model.bodies) {
+    const Vec2 move = body.velocity.value_or(Vec2{0, 0});
+    v.emplace_back(move[0], move[1], body.spin.value_or(0));
+  }
+  return v;
+}
+
+Vecs guess_positions(const Model& model, const System& system) {
+  const int n = system.n_bodies();
+  Vecs q;
+  for (const Body& body : model.bodies) {
+    const Vec2 p = body.position.value_or(Vec2{0, 0});
+    q.emplace_back(p[0], p[1], body.angle.value_or(0));
+  }
+  std::vector<std::vector<int>> joints_of(n + 1);
+  for (int j = 0; j < system.n_joints(); ++j)
+    for (const int b : {system.joints[j].at.a, system.joints[j].at.b}) joints_of[b == kGround ? n : b].push_back(j);
+  std::vector<bool> placed(n + 1, false);
+  std::deque<int> queue{n};
+  placed[n] = true;
+  for (int i = 0; i < n; ++i)
+    if (model.bodies[i].position && model.bodies[i].angle) {
+      placed[i] = true;
+      queue.push_back(i);
+    }
+  std::vector<S::Motion> m;
+  system.motions(q, Vecs(q.size(), S::Vec::Zero()), m);
+  const auto spread = [&] {
+    while (!queue.empty()) {
+      const int at = queue.front();
+      queue.pop_front();
+      for (const int j : joints_of[at]) {
+        const JointData& joint = system.joints[j];
+        const int a = joint.at.a == kGround ? n : joint.at.a, b = joint.at.b == kGround ? n : joint.at.b;
+        const int next = a == at ? b : a;
+        if (placed[next] || !joins_points(joint)) continue;
+        put(joint, next, model, m, q);
+        m[next] = S::Motion::of(q[next], S::Vec::Zero());
+        placed[next] = true;
+        queue.push_back(next);
+      }
+    }
+  };
+  spread();
+  for (int i = 0; i < n; ++i)
+    if (!placed[i]) {
+      placed[i] = true;
+      queue.push_back(i);
+      spread();
+    }
+  return q;
+}
+
+std::string loop_through(const System& system, const std::string& text) {
+  const int n = system.n_bodies();
+  int start = -1;
+  for (int j = 0; j < system.n_joints() && start < 0; ++j)
+    if (text.find(fmt::format("joint {} ", system.joints[j].name)) != std::string::npos) start = j;
+  if (start < 0) return "-";
+  const auto node = [n](int body) { return body == kGround ? n : body; };
+  std::vector<std::vector<int>> joints_of(n + 1);
+  for (int j = 0; j < system.n_joints(); ++j)
+    if (system.joints[j].servo < 0)  // a servo acts along its joint, it closes nothing
+      for (const int b : {system.joints[j].at.a, system.joints[j].at.b}) joints_of[node(b)].push_back(j);
+  std::vector<int> by(n + 1, -1);  // joint by which a body was reached
+  std::deque<int> queue{node(system.joints[start].at.a)};
+  by[queue.front()] = start;
+  const int goal = node(system.joints[start].at.b);
+  while (!queue.empty()) {
+    const int at = queue.front();
+    queue.pop_front();
+    for (const int j : joints_of[at]) {
+      if (j == start) continue;
+      const int a = node(system.joints[j].at.a), b = node(system.joints[j].at.b);
+      if (by[a == at ? b : a] >= 0) continue;
+      by[a == at ? b : a] = j;
+      queue.push_back(a == at ? b : a);
+    }
+  }
+  if (by[goal] < 0) return system.joints[start].name + " (no other way between its bodies)";
+  std::string names = system.joints[start].name;
+  for (int at = goal; at != node(system.joints[start].at.a);) {
+    const int j = by[at];
+    names += ", " + system.joints[j].name;
+    const int a = node(system.joints[j].at.a), b = node(system.joints[j].at.b);
+    at = a == at ? b : a;
+  }
+  return names;
+}
+
+}  // namespace pintle

@@ -1,0 +1,71 @@
+#include "start/ideal_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "mobility/mobility.h"
+#include "mobility/rank.h"
+
+namespace pintle {
+namespace {
+
+constexpr int kDenseFreedoms = 900;
+
+std::string list_of_members(const CheckRedundancy& group) {
+  constexpr std::size_t kShown = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kShown, group.members.size()); ++i)
+    text += fmt::format("{}{}.{}", i == 0 ? "" : ", ", group.members[i].joint, group.members[i].component);
+  if (group.members.size() > kShown) text += fmt::format(" and {} more", group.members.size() - kShown);
+  return text;
+}
+
+// The rows to leave out at q, of rows whose rank is known.
+std::vector<int> dependent_rows(const System& system, const std::vector<ConstraintRow>& rows, const std::vector<JointKinematics>& joint_kinematics,
+                                double tolerance) {
+  const double length = arm_length(system, joint_kinematics);
+  std::vector<char> kept(rows.size(), 0);
+  if (3 * system.n_bodies() <= kDenseFreedoms) {
+    for (const int row : DenseRank(rows, system, length, tolerance).independent_rows()) kept[row] = 1;
+  } else {
+    std::fill(kept.begin(), kept.end(), 1);
+    for (const auto& dependency : sparse_rank(rows, system, length, tolerance).dependencies) {
+      const auto last = std::find_if(dependency.rbegin(), dependency.rend(), [&](int row) { return kept[row] != 0; });
+      if (last != dependency.rend()) kept[*last] = 0;
+    }
+  }
+  std::vector<int> out;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (!kept[i]) out.push_back(static_cast<int>(i));
+  return out;
+}
+
+}  // namespace
+
+void make_ideal(System& system) {
+  for (JointData& joint : system.joints) joint.ideal = std::holds_alternative<LinearLaw>(joint.law);
+}
+
+IdealRows choose_ideal_rows(System& system, const Vecs& q) {
+  IdealRows out;
+  const MobilityCheck mobility = check_mobility(system, q);
+  const std::vector<JointKinematics> joint_kinematics = kinematics_at_rest(system, mobility.regular);
+  std::vector<ConstraintRow> rows;
+  for (const ConstraintRow& row : constraint_rows(system, joint_kinematics, 0))
+    if (system.joints[row.joint].ideal) rows.push_back(row);
+  for (const int i : dependent_rows(system, rows, joint_kinematics, mobility.counts.rank_tolerance)) {
+    JointData& joint = system.joints[rows[i].joint];
+    joint.redundant[rows[i].component] = true;
+  }
+  for (const CheckRedundancy& group : mobility.redundancies) {
+    out.notes.push_back(fmt::format("ideal joints: {} constraint{} too many among {}: their reactions are not unique, the motion is", group.degree,
+                                    group.degree == 1 ? "" : "s", list_of_members(group)));
+    for (const auto& member : group.members)
+      if (std::find(out.not_unique.begin(), out.not_unique.end(), member.joint) == out.not_unique.end()) out.not_unique.push_back(member.joint);
+  }
+  return out;
+}
+
+}  // namespace pintle

@@ -1,0 +1,231 @@
+#include "start/preload.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrators/absolute/gap_projector.h"
+#include "integrators/absolute/radau_stepper.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+constexpr int kPasses = 6;
+constexpr int kClosing = 4;        // passes of a projection
+constexpr double kClosed = 1e-11;  // of what the first pass found: the next one finds nothing
+constexpr int kMostJoints = 300;  // whose masses with closed joints are asked for: the cost grows with the square
+
+// What a force of a joint does to its own two bodies: the acceleration of the gap per unit of force, component by component.
+S::Vec own_mobility(const System& system, const Placement& at, const JointKinematics& r) {
+  S::Vec mobility = S::Vec::Zero();
+  if (at.a != kGround) mobility += r.GA().cwiseAbs2() * system.bodies[at.a].mass.cwiseInverse();
+  if (at.b != kGround) mobility += r.GB().cwiseAbs2() * system.bodies[at.b].mass.cwiseInverse();
+  return mobility;
+}
+
+// The slowest frequency that a joint's stiffness gives to the two bodies it connects, over all joints (of components with
+// `moved`, when given).
+double slowest_joint(const System& system, const std::vector<JointKinematics>& r, const Vecs* moved = nullptr) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const JointData& joint = system.joints[j];
+    const S::Vec k = respond(joint.law, S::Vec(1e-9, 0, 0), S::Vec::Zero()).stiffness.diagonal();
+    const S::Vec mobility = own_mobility(system, joint.at, r[j]);
+    for (int c = 0; c < 3; ++c) {
+      if (!(k[c] > 0) || (moved && (*moved)[j][c] == 0)) continue;
+      if (mobility[c] > 0) slowest = std::min(slowest, std::sqrt(k[c] * mobility[c]));
+    }
+  }
+  return slowest;
+}
+
+void plain_start(const System& system, State& state) {
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  system.motions(state.q, state.v, m);
+  system.joint_kinematics(state.t, m, r);
+  system.accelerations(state.t, state.q, state.v, state.a);
+  for (int j = 0; j < system.n_joints(); ++j) {
+    state.gap[j] = r[j].gap;
+    state.gap_rate[j] = r[j].rate;
+    state.force[j] = law_force(system.joints[j].law, r[j].gap, r[j].rate);
+  }
+  find_gap_accelerations(system, r, state);
+}
+
+}  // namespace
+
+// Newton on the law's own tangent; nothing in free components.
+void gap_at_force(const Law& law, const S::Vec& force, const S::Vec& rate, S::Vec& gap) {
+  for (int i = 0; i < 20; ++i) {
+    const Response now = respond(law, gap, rate);
+    bool moved = false;
+    for (int k = 0; k < S::kDof; ++k) {
+      if (!(now.stiffness(k, k) > 0)) continue;
+      const double step = (now.force[k] - force[k]) / now.stiffness(k, k);
+      gap[k] += step;
+      moved = moved || std::abs(step) > 1e-15 * std::abs(gap[k]);
+    }
+    if (!moved) break;
+  }
+}
+
+// Gaps that carry no stiffness are those of the positions.
+void balance_start(const System& system, State& state) {
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  system.motions(state.q, state.v, m);
+  system.joint_kinematics(state.t, m, r);
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const JointData& joint = system.joints[j];
+    const Response response = respond(joint.law, state.gap[j], state.gap_rate[j]);
+    for (int k = 0; k < S::kDof; ++k) {
+      if (response.stiffness(k, k) > 0) continue;
+      state.gap[j][k] = r[j].gap[k];
+      state.gap_rate[j][k] = r[j].rate[k];
+    }
+    state.force[j] = law_force(joint.law, state.gap[j], state.gap_rate[j]);
+  }
+  find_accelerations(system, m, r, state);
+}
+
+InverseDynamics::InverseDynamics(const System& system) : system_(system), projector_(system), wanted_(system.joints.size()) {}
+
+S::Vec InverseDynamics::from_bodies(int j, const Vecs& x) const {
+  S::Vec y = S::Vec::Zero();
+  add_gap(system_.joints[j].at, r_[j], x, y);
+  return y;
+}
+
+void InverseDynamics::leave_to_laws(const Vecs& components) {
+  by_law_ = components;
+  moved_.resize(components.size());
+  for (std::size_t j = 0; j < components.size(); ++j) moved_[j] = S::Vec::Ones() - components[j];
+}
+
+// theory/assembly Eq. (5.7): what follows its law pushes as a load does.
+void InverseDynamics::push_by_laws(State& state) {
+  for (std::size_t j = 0; j < by_law_.size(); ++j) {
+    if (by_law_[j].isZero()) continue;
+    const S::Vec force = law_force(system_.joints[j].law, r_[j].gap, r_[j].rate);
+    const S::Vec pushing = by_law_[j].cwiseProduct(force);
+    state.force[j] = pushing + moved_[j].cwiseProduct(state.force[j]);
+    add_force(system_.joints[j].at, r_[j], pushing, state.a);
+  }
+}
+
+// Over the components that a law holds.
+double InverseDynamics::largest_held(const Vecs& gap) const {
+  double largest = 0;
+  for (int j = 0; j < system_.n_joints(); ++j)
+    for (int k = 0; k < S::kDof; ++k)
+      if (system_.joints[j].free_mask[k] == 0 && (moved_.empty() || moved_[j][k] != 0)) largest = std::max(largest, std::abs(gap[j][k]));
+  return largest;
+}
+
+// theory/assembly Eqs. (3.1), (3.2): first the free bodies' accelerations, then what the joints ask for, then the forces.
+bool InverseDynamics::find(State& state) {
+  if (!find_accelerations(state)) return false;
+  for (int pass = 0; pass < kClosing; ++pass) {
+    const double change = projector_.improve_forces(Q_, state.a, state.force);
+    if (change <= kClosed * largest_force(state.force)) break;
+  }
+  return true;
+}
+
+bool InverseDynamics::find_accelerations(State& state) {
+  system_.motions(state.q, state.v, m_);
+  system_.joint_kinematics(state.t, m_, r_);
+  const Vecs* moved = moved_.empty() ? nullptr : &moved_;
+  const double mu = kHeldAbove * slowest_joint(system_, r_, moved);
+  if (!std::isfinite(mu) || !(mu > 0)) return false;
+  if (!projector_.prepare(r_, mu, state.gap, state.gap_rate, moved)) return false;
+  system_.external(state.t, m_, Q_);
+  state.a = Q_;
+  if (moved) push_by_laws(state);
+  for (int i = 0; i < system_.n_bodies(); ++i) state.a[i] = state.a[i].cwiseQuotient(system_.bodies[i].mass);
+  double first = 0;
+  for (int pass = 0; pass < kClosing; ++pass) {
+    for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap_accel[j] - r_[j].bias - from_bodies(j, state.a);
+    const double missing = largest_held(wanted_);
+    if (pass == 0) first = missing;
+    else if (missing <= kClosed * first) break;
+    projector_.close(wanted_, state.a);
+  }
+  return true;
+}
+
+// theory/assembly Eq. (5.1).
+EffectiveMasses InverseDynamics::effective_masses(const State& state) {
+  system_.motions(state.q, state.v, m_);
+  system_.joint_kinematics(state.t, m_, r_);
+  const double mu = kHeldAbove * slowest_joint(system_, r_);
+  if (!std::isfinite(mu) || !(mu > 0) || !projector_.prepare(r_, mu, state.gap, state.gap_rate)) return {};
+  const Vecs no_load(system_.bodies.size(), S::Vec::Zero());
+  EffectiveMasses masses{Vecs(system_.joints.size(), S::Vec::Zero()), Vecs(system_.joints.size(), S::Vec::Zero())};
+  Vecs a, force;
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const S::Vec mobility = own_mobility(system_, system_.joints[j].at, r_[j]);
+    for (int c = 0; c < S::kDof; ++c) {
+      masses.closed[j][c] = masses.alone[j][c] = mobility[c] > 0 ? 1 / mobility[c] : 0;
+      if (system_.n_joints() > kMostJoints) continue;
+      a = no_load;
+      force.assign(system_.joints.size(), S::Vec::Zero());
+      for (int pass = 0; pass < kClosing; ++pass) {
+        for (int i = 0; i < system_.n_joints(); ++i) wanted_[i] = -from_bodies(i, a);
+        wanted_[j][c] += 1;
+        projector_.close(wanted_, a);
+      }
+      for (int pass = 0; pass < kClosing; ++pass) projector_.improve_forces(no_load, a, force);
+      masses.closed[j][c] = std::max(masses.closed[j][c], force[j][c]);  // where no motion can change it alone, the force is 0
+    }
+  }
+  return masses;
+}
+
+void InverseDynamics::find_gaps(State& state) const {
+  for (int j = 0; j < system_.n_joints(); ++j) gap_at_force(system_.joints[j].law, state.force[j], state.gap_rate[j], state.gap[j]);
+}
+
+// Eq. (3.4).
+void InverseDynamics::move_onto_gaps(State& state) {
+  for (int pass = 0; pass < kClosing; ++pass) {
+    system_.motions(state.q, state.v, m_);
+    system_.joint_kinematics(state.t, m_, r_);
+    if (pass == 0) {
+      const double mu = kHeldAbove * slowest_joint(system_, r_);
+      if (!std::isfinite(mu) || !projector_.prepare(r_, mu, state.gap, state.gap_rate)) return;
+    }
+    for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap[j] - r_[j].gap;
+    projector_.close(wanted_, state.q);
+  }
+  system_.motions(state.q, state.v, m_);
+  system_.joint_kinematics(state.t, m_, r_);
+  Vecs dv(state.v.size(), S::Vec::Zero());
+  for (int pass = 0; pass < kClosing; ++pass) {
+    for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap_rate[j] - r_[j].rate - from_bodies(j, dv);
+    projector_.close(wanted_, dv);
+  }
+  for (std::size_t i = 0; i < dv.size(); ++i) state.v[i] += dv[i];
+}
+
+void start_forces(const System& system, bool preload, State& state) {
+  const std::size_t n = system.bodies.size(), joints = system.joints.size();
+  state.a.assign(n, S::Vec::Zero());
+  state.gap = state.gap_rate = state.gap_accel = state.force = Vecs(joints, S::Vec::Zero());
+  plain_start(system, state);
+  if (!preload || joints == 0) return;
+  for (auto& x : state.gap_rate) x.setZero();
+  for (auto& x : state.gap_accel) x.setZero();
+  InverseDynamics forces(system);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    if (!forces.find(state)) break;
+    forces.find_gaps(state);
+    forces.move_onto_gaps(state);
+  }
+  balance_start(system, state);
+}
+
+}  // namespace pintle

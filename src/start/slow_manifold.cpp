@@ -1,0 +1,340 @@
+#include "start/slow_manifold.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "start/chebyshev_nodes.h"
+#include "start/preload.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+constexpr int kNodes = ChebyshevNodes::kN;
+constexpr int kSweeps = 5;
+constexpr int kOrders = 6;               // sweeps in which soft joints go with the motion
+constexpr double kSmallForce = 0.05;     // of the largest: the change of a force is measured by this at least
+constexpr int kHalvings = 30;            // of the stretch that the forces' curves may need
+constexpr double kResolved = 1e-4;       // of the forces: what the last coefficients of a resolved curve may be
+constexpr int kLeap = 4;                 // halvings at once, of a stretch that is far from resolved
+constexpr double kShortOfMotion = 0.25;  // of a stretch that is just resolved
+constexpr double kEager = 0.7;           // of a step of the motion, over the time constant of the fastest resolved joint
+constexpr double kMostSteps = 300;       // from one node to the next
+constexpr double kDiverged = 1e300, kConverged = 1e-10;  // relative change of a sweep
+
+using Nodes = ChebyshevNodes;
+using Curve = std::array<Vecs, kNodes>;  // one value per joint at every node
+
+class SlowManifold {
+ public:
+  SlowManifold(const System& system, double span, const State& start, const TimeScales& time_scales)
+      : system_(system), span_(span), start_(start), time_scales_(time_scales), soft_(time_scales.any_soft()), forces_(system) {
+    for (auto* c : {&gap_, &rate_, &accel_})
+      for (auto& x : *c) x.assign(system.joints.size(), S::Vec::Zero());
+    share_.assign(system.joints.size(), S::Vec::Ones());
+  }
+
+  // All joints go with the motion, each as far as `share` says.
+  void go_with_the_motion(const Vecs& share) {
+    share_ = share;
+    differentiate();
+  }
+
+  // Soft joints go from where they start: overdamped ones as their damping lets them, resolved ones by their laws.
+  void release() {
+    if (!soft_) return;
+    released_ = true;
+    if (time_scales_.any_resolved()) forces_.leave_to_laws(time_scales_.resolved);
+    for (auto& gap : gap_)
+      for (std::size_t j = 0; j < gap.size(); ++j) gap[j] = soft(j).cwiseProduct(start_.gap[j]);
+    differentiate();
+    swept_ = true;
+    for (std::size_t j = 0; j < start_.gap.size(); ++j) rate_[0][j] += time_scales_.overdamped[j].cwiseProduct(start_.gap_rate[j]);
+  }
+
+  // One sweep: follow the motion with the present gap accelerations; gaps from the forces that it takes. Relative change.
+  double sweep() {
+    State at = start_;
+    put(0, at);
+    if (swept_) forces_.move_onto_gaps(at);
+    for (int node = 0; node < kNodes; ++node) {
+      if (node > 0) follow(at, nodes_.x[node - 1], nodes_.x[node]);
+      set_accel(at, nodes_.x[node]);
+      at.gap_rate = rate_[node];
+      if (!forces_.find(at)) return kDiverged;
+      forces_.find_gaps(at);
+      next_[node] = at.gap;
+      force_[node] = at.force;
+    }
+    if (released_) follow_overdamped();
+    double change = 0, size = 1e-300;
+    for (int node = 0; node < kNodes; ++node)
+      for (std::size_t j = 0; j < at.gap.size(); ++j) {
+        const double moved = (weighted(j, next_[node][j]) - weighted(j, gap_[node][j])).norm();
+        if (!std::isfinite(moved)) return kDiverged;
+        change = std::max(change, moved);
+        size = std::max(size, weighted(j, next_[node][j]).norm());
+      }
+    gap_ = next_;
+    carried_rate_ = rate_[0];
+    differentiate();
+    swept_ = true;
+    return change / size;
+  }
+
+  // The start that the sweeps have found. Where an overdamped joint starts is given: its rate carries the force.
+  void write_start(State& state) const {
+    put(0, state);
+    for (std::size_t j = 0; released_ && j < state.gap.size(); ++j)
+      for (int i = 0; i < S::kDof; ++i) {
+        if (time_scales_.overdamped[j][i] == 0) continue;
+        const Response now = respond(system_.joints[j].law, state.gap[j], state.gap_rate[j]);
+        if (now.damping(i, i) > 0) state.gap_rate[j][i] += (now.force[i] - force_[0][j][i]) / now.damping(i, i);
+      }
+  }
+
+  // The gaps at the start and the rates with which they carry its forces.
+  void take_carrying(State& state) const {
+    put(0, state);
+    state.gap_rate = carried_rate_;
+  }
+
+  // Share of the forces' curves that the last two of their Chebyshev coefficients make up.
+  double unresolved() const {
+    double tail = 0, size = 1e-300;
+    for (std::size_t j = 0; j < system_.joints.size(); ++j)
+      for (const int end : {kNodes - 1, kNodes - 2}) {
+        S::Vec sum = S::Vec::Zero();
+        for (int n = 0; n < kNodes; ++n) {
+          const double w = n == 0 || n == kNodes - 1 ? 0.5 : 1;
+          sum += w * std::cos(std::numbers::pi * n * end / (kNodes - 1)) * force_[n][j];
+          size = std::max(size, force_[n][j].head<2>().norm());
+        }
+        tail = std::max(tail, 2.0 / (kNodes - 1) * sum.head<2>().norm());
+      }
+    return tail / size;
+  }
+
+  const Vecs& gap(int node) const { return gap_[node]; }
+  const Vecs& force(int node) const { return force_[node]; }
+  const Vecs& rate() const { return rate_[0]; }
+
+ private:
+  S::Vec soft(std::size_t j) const { return time_scales_.overdamped[j] + time_scales_.resolved[j]; }
+
+  void put(int node, State& at) const {
+    at.gap = gap_[node];
+    at.gap_rate = rate_[node];
+    at.gap_accel = accel_[node];
+  }
+
+  // A gap as the force it makes.
+  S::Vec weighted(std::size_t j, const S::Vec& gap) const {
+    return respond(system_.joints[j].law, start_.gap[j], start_.gap_rate[j]).stiffness * gap;
+  }
+
+  void set_accel(State& at, double s) const {
+    const auto w = nodes_.weights(s);
+    for (std::size_t j = 0; j < at.gap_accel.size(); ++j) {
+      at.gap_accel[j].setZero();
+      for (int k = 0; k < kNodes; ++k) at.gap_accel[j] += w[k] * accel_[k][j];
+    }
+  }
+
+  // theory/assembly Eq. (5.6): overdamped gaps from where they start, by collocation at the other nodes.
+  void follow_overdamped() {
+    for (std::size_t j = 0; j < system_.joints.size(); ++j) {
+      std::array<Response, kNodes> now;
+      for (int n = 0; n < kNodes; ++n) now[n] = respond(system_.joints[j].law, gap_[n][j], rate_[n][j]);
+      for (int i = 0; i < S::kDof; ++i) {
+        if (time_scales_.resolved[j][i] != 0)
+          for (auto& gap : next_) gap[j][i] = start_.gap[j][i];
+        if (time_scales_.overdamped[j][i] == 0) continue;
+        Eigen::Matrix<double, kNodes, kNodes> A = nodes_.D / span_;
+        Eigen::Matrix<double, kNodes, 1> b;
+        for (int n = 0; n < kNodes; ++n) {
+          const double k = now[n].stiffness(i, i), c = now[n].damping(i, i);
+          A.row(n) *= c;
+          A(n, n) += k;
+          b[n] = k * gap_[n][j][i] + c * rate_[n][j][i] + now[n].force[i] - force_[n][j][i];
+        }
+        A.row(0).setZero();
+        A(0, 0) = 1;
+        b[0] = start_.gap[j][i];
+        b = A.partialPivLu().solve(b).eval();
+        for (int n = 0; n < kNodes; ++n) next_[n][j][i] = b[n];
+      }
+    }
+  }
+
+  // Short steps where resolved joints follow their laws.
+  void follow(State& at, double s0, double s1) {
+    const double eager = released_ ? time_scales_.fastest * span_ * (s1 - s0) / kEager : 0;
+    const int steps = static_cast<int>(std::clamp(std::ceil(eager), 1.0, kMostSteps));
+    for (int i = 0; i < steps; ++i) {
+      if (i > 0) accelerate(at, s0 + (s1 - s0) * i / steps);
+      runge_kutta(at, s0 + (s1 - s0) * i / steps, s0 + (s1 - s0) * (i + 1) / steps);
+    }
+  }
+
+  void accelerate(State& at, double s) {
+    set_accel(at, s);
+    forces_.find_accelerations(at);
+  }
+
+  // One classical Runge-Kutta step of the motion whose gap accelerations are given, from where accelerations have been found.
+  void runge_kutta(State& at, double s0, double s1) {
+    const double h = span_ * (s1 - s0);
+    auto& [begin, now, kq, kv] = work_;
+    begin = at;
+    constexpr std::array<double, 4> c{0, 0.5, 0.5, 1};
+    kq[0] = begin.v;
+    kv[0] = begin.a;
+    for (int stage = 1; stage < 4; ++stage) {
+      now = begin;
+      now.t = start_.t + span_ * s0 + c[stage] * h;
+      for (std::size_t i = 0; i < now.q.size(); ++i) {
+        now.q[i] += c[stage] * h * kq[stage - 1][i];
+        now.v[i] += c[stage] * h * kv[stage - 1][i];
+      }
+      accelerate(now, s0 + c[stage] * (s1 - s0));
+      kq[stage] = now.v;
+      kv[stage] = now.a;
+    }
+    at.t = start_.t + span_ * s1;
+    for (std::size_t i = 0; i < at.q.size(); ++i) {
+      at.q[i] += h / 6 * (kq[0][i] + 2 * kq[1][i] + 2 * kq[2][i] + kq[3][i]);
+      at.v[i] += h / 6 * (kv[0][i] + 2 * kv[1][i] + 2 * kv[2][i] + kv[3][i]);
+    }
+  }
+
+  void differentiate() {
+    for (std::size_t j = 0; j < system_.joints.size(); ++j) {
+      for (const auto& [from, to] : {std::pair{&gap_, &rate_}, std::pair{&rate_, &accel_}})
+        for (int i = 0; i < kNodes; ++i) {
+          S::Vec sum = S::Vec::Zero();
+          for (int k = 0; k < kNodes; ++k) sum += nodes_.D(i, k) * (*from)[k][j];
+          (*to)[i][j] = share_[j].cwiseProduct(sum) / span_;
+        }
+      if (!released_) continue;
+      for (auto& rate : rate_) rate[j] += time_scales_.resolved[j].cwiseProduct(start_.gap_rate[j]);
+    }
+  }
+
+  const System& system_;
+  double span_;
+  const State& start_;
+  const TimeScales& time_scales_;
+  bool soft_, released_ = false;
+  InverseDynamics forces_;
+  Nodes nodes_;
+  Curve gap_, rate_, accel_, next_, force_;
+  Vecs share_, carried_rate_;
+  struct {
+    State begin, now;
+    std::array<Vecs, 4> kq, kv;
+  } work_;  // of one step: at 100,000 bodies fresh memory costs as much as the step
+  bool swept_ = false;
+};
+
+// How far soft joints may go with the motion, theory/assembly Eq. (5.4): all the way where their own dynamics is faster
+// than what their force does, not at all where it is slower. Fast ones go all the way.
+Vecs shares(const TimeScales& time_scales, const SlowManifold& motion, const System& system) {
+  const Vecs &force = motion.force(0), &gap = motion.gap(0), &rate = motion.rate();
+  Vecs share(force.size());
+  const double largest = largest_force(force);
+  double largest_couple = 0;
+  for (const S::Vec& f : force) largest_couple = std::max(largest_couple, std::abs(f[2]));
+  largest_couple = std::max(largest_couple, largest * system.largest_radius_of_gyration());
+  for (std::size_t j = 0; j < share.size(); ++j) {
+    const S::Mat K = respond(system.joints[j].law, gap[j], S::Vec::Zero()).stiffness;
+    const S::Vec change = K * rate[j];
+    const auto share_of = [&](double now, double least, double per_second, double own) {
+      const double x = per_second / (own * std::max({now, kSmallForce * least, 1e-300}));
+      return 1 / (1 + x * x * x * x);
+    };
+    const S::Vec &own = time_scales.slow_rate[j], soft = time_scales.overdamped[j] + time_scales.resolved[j];
+    for (int i = 0; i < S::kDof; ++i) {
+      share[j][i] = 1;
+      if (soft[i] == 0) continue;
+      share[j][i] = i < 2 ? share_of(force[j].head<2>().norm(), largest, change.head<2>().norm(), own[i])
+                          : share_of(std::abs(force[j][2]), largest_couple, std::abs(change[2]), own[i]);
+    }
+  }
+  return share;
+}
+
+// How often to halve a stretch of whose curves this part is not resolved: each halving takes off about two to the number of the nodes.
+int halvings_for(double unresolved) {
+  return unresolved < 1 ? 1 + static_cast<int>(std::log2(unresolved / kResolved) / kNodes) : kLeap;
+}
+
+}  // namespace
+
+double span_of_motion(const System& system, const State& state, double longest) {
+  const TimeScales time_scales = all_fast(system);
+  const double whole = std::exp2(std::ceil(std::log2(longest)));
+  int too_long = -1, resolved = kHalvings;  // the halvings between which the answer is
+  for (int next = 0; resolved - too_long > 1;) {
+    SlowManifold motion(system, std::ldexp(whole, -next), state, time_scales);
+    const double rest = motion.sweep() < kDiverged ? motion.unresolved() : kDiverged;
+    (rest < kResolved ? resolved : too_long) = next;
+    next = resolved < kHalvings ? (too_long + resolved) / 2 : std::min(too_long + halvings_for(rest), kHalvings - 1);
+  }
+  return resolved < kHalvings ? kShortOfMotion * std::ldexp(whole, -resolved) : 0;
+}
+
+SoftStart place_soft_joints(const System& system, const TimeScales& time_scales, double span, State& state) {
+  SlowManifold motion(system, span, state, time_scales);
+  SoftStart out;
+  if (motion.sweep() >= kDiverged) return out;
+  out.share = shares(time_scales, motion, system);
+  motion.go_with_the_motion(out.share);
+  std::optional<State> best;
+  for (int sweep = 0; sweep < kOrders && out.change > kConverged; ++sweep) {
+    const double change = motion.sweep();
+    if (!(change < 0.5 * out.change)) break;
+    State next = state;
+    motion.take_carrying(next);
+    InverseDynamics(system).move_onto_gaps(next);
+    balance_start(system, next);
+    if (!is_finite(next)) break;
+    best = std::move(next);
+    out.change = change;
+  }
+  out.placed = best.has_value();
+  if (best) state = std::move(*best);
+  return out;
+}
+
+double move_onto_slow_manifold(const System& system, const TimeScales& time_scales, double span, State& state) {
+  SlowManifold motion(system, span, state, time_scales);
+  motion.release();
+  double last = kDiverged;
+  std::optional<State> best;
+  for (int sweep = 0; sweep < kSweeps && last > kConverged; ++sweep) {
+    const double change = motion.sweep();
+    if (change == 0) return 0;  // nothing to carry
+    if (sweep > 0 && !(change < 0.5 * last)) break;
+    if (sweep > 0) {
+      State next = state;
+      motion.write_start(next);
+      InverseDynamics(system).move_onto_gaps(next);
+      balance_start(system, next);
+      if (!is_finite(next)) break;
+      best = std::move(next);
+    }
+    last = change;
+  }
+  if (!best) return kDiverged;
+  state = std::move(*best);
+  return last;
+}
+
+}  // namespace pintle

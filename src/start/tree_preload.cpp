@@ -1,0 +1,223 @@
+#include "start/tree_preload.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "start/chebyshev_nodes.h"
+#include "start/preload.h"
+
+namespace pintle {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using S = Planar;
+
+constexpr int kPasses = 6, kSweeps = 5;
+constexpr double kSlow = 5e-4;  // of the slowest joint by itself: faster modes are held
+constexpr double kDiverged = 1e300, kConverged = 1e-10;  // relative change of a sweep
+
+const Law& law_of(const TreeInstant& at, std::size_t l) { return at.system().joints[at.tree().laws()[l]].law; }
+
+// The slowest frequency that a law's stiffness gives to the whole tree by itself.
+double slowest_joint(const TreeInstant& at) {
+  const MatrixXd mobility = at.A() * at.H().llt().solve(at.A().transpose());
+  double slowest = std::numeric_limits<double>::infinity();
+  for (std::size_t l = 0; l < at.tree().laws().size(); ++l) {
+    const S::Vec k = respond(law_of(at, l), S::Vec(1e-9, 0, 0), S::Vec::Zero()).stiffness.diagonal();
+    for (int c = 0; c < 3; ++c) {
+      const double m = mobility(3 * static_cast<Index>(l) + c, 3 * static_cast<Index>(l) + c);
+      if (k[c] > 0 && m > 0) slowest = std::min(slowest, std::sqrt(k[c] * m));
+    }
+  }
+  return slowest;
+}
+
+}  // namespace
+
+bool TreeInverseDynamics::prepare(const TreeState& state) {
+  at_.place(state.t, state.y, state.u);
+  at_.find_matrices();
+  const double mu = kSlow * slowest_joint(at_);
+  return std::isfinite(mu) && mu > 0 && projector_.prepare(at_, mu, state.gap, state.rate);
+}
+
+bool TreeInverseDynamics::find(TreeState& state) {
+  if (!prepare(state)) return false;
+  for (int pass = 0; pass < 2; ++pass) projector_.balance(at_, state.accel, true, state.force, state.w);
+  return true;
+}
+
+void TreeInverseDynamics::find_gaps(TreeState& state) const {
+  for (std::size_t l = 0; l < at_.tree().laws().size(); ++l) {
+    const Index i = 3 * static_cast<Index>(l);
+    S::Vec gap = state.gap.segment<3>(i);
+    gap_at_force(law_of(at_, l), state.force.segment<3>(i), state.rate.segment<3>(i), gap);
+    state.gap.segment<3>(i) = gap;
+  }
+}
+
+void TreeInverseDynamics::move_onto_gaps(TreeState& state) {
+  if (!prepare(state)) return;
+  VectorXd now;
+  for (int pass = 0; pass < 4; ++pass) {
+    at_.gaps(now);
+    state.y += projector_.close(state.gap - now);
+    at_.place(state.t, state.y, state.u);
+  }
+  for (int pass = 0; pass < 2; ++pass) {
+    at_.rates(now);
+    state.u += projector_.close(state.rate - now);
+    at_.place(state.t, state.y, state.u);
+  }
+}
+
+void TreeInverseDynamics::balance(TreeState& state) {
+  at_.place(state.t, state.y, state.u);
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() * largest_coordinate(at_.pose().q);
+  VectorXd now, now_rate;
+  at_.gaps(now);
+  at_.rates(now_rate);
+  for (Index i = 0; i < now.size(); ++i) {
+    const Response response = at_.answer(static_cast<int>(i / 3), state.gap, state.rate);
+    const bool sliding = response.stiffness(i % 3, i % 3) > 0;
+    if (!sliding) state.rate[i] = now_rate[i];
+    if (!sliding || std::abs(now[i] - state.gap[i]) > rounding) state.gap[i] = now[i];
+  }
+  at_.forces(state.gap, state.rate, state.force);
+  if (!projector_.prepare(at_, 1, state.gap, state.rate)) return;
+  projector_.accelerations(at_, state.force, state.w);
+  at_.accelerate(state.w);
+  at_.gap_accelerations(state.accel);
+}
+
+void start_tree_forces(TreeInverseDynamics& forces, bool preload, TreeState& state) {
+  TreeInstant& at = forces.instant();
+  at.place(state.t, state.y, state.u);
+  at.gaps(state.gap);
+  at.rates(state.rate);
+  at.forces(state.gap, state.rate, state.force);
+  state.accel = VectorXd::Zero(state.gap.size());
+  if (preload) {
+    state.rate.setZero();
+    for (int pass = 0; pass < kPasses; ++pass) {
+      if (!forces.find(state)) break;
+      forces.find_gaps(state);
+      forces.move_onto_gaps(state);
+    }
+  }
+  forces.balance(state);
+}
+
+namespace {
+
+// The slow motion from `start` over `span`: one column of every curve at each node.
+class TreeSlowManifold {
+ public:
+  TreeSlowManifold(const System& system, const JointTree& tree, double span, const TreeState& start)
+      : span_(span), start_(start), forces_(system, tree), gap_(MatrixXd::Zero(start.gap.size(), ChebyshevNodes::kN)), rate_(gap_), accel_(gap_),
+        force_of_gap_(start.gap.size(), start.gap.size()) {
+    force_of_gap_.setZero();
+    for (std::size_t l = 0; l < tree.laws().size(); ++l) {
+      const Index i = 3 * static_cast<Index>(l);
+      force_of_gap_.block<3, 3>(i, i) = forces_.instant().answer(static_cast<int>(l), start.gap, start.rate).stiffness;
+    }
+  }
+
+  // Follows the motion with the present gap accelerations; gaps from the forces that it takes. Relative change.
+  double sweep() {
+    TreeState at = start_;
+    at.gap = gap_.col(0);
+    at.rate = rate_.col(0);
+    at.accel = accel_.col(0);
+    if (swept_) forces_.move_onto_gaps(at);
+    MatrixXd next = gap_;
+    for (int node = 0; node < ChebyshevNodes::kN; ++node) {
+      if (node > 0) follow(at, nodes_.x[node - 1], nodes_.x[node]);
+      at.accel = accel_.col(node);
+      at.rate = rate_.col(node);
+      if (!forces_.find(at)) return kDiverged;
+      forces_.find_gaps(at);
+      if (!at.gap.allFinite()) return kDiverged;
+      next.col(node) = at.gap;
+    }
+    double change = 0, size = 1e-300;
+    for (Index i = 0; i < next.rows(); i += 3)
+      for (Index node = 0; node < next.cols(); ++node) {
+        change = std::max(change, (force_of_gap_ * (next - gap_)).col(node).segment<3>(i).norm());
+        size = std::max(size, (force_of_gap_ * next).col(node).segment<3>(i).norm());
+      }
+    gap_ = next;
+    rate_ = gap_ * nodes_.D.transpose() / span_;
+    accel_ = rate_ * nodes_.D.transpose() / span_;
+    swept_ = true;
+    return change / size;
+  }
+
+  bool write_start(TreeState& state) {
+    state.gap = gap_.col(0);
+    state.rate = rate_.col(0);
+    state.accel = accel_.col(0);
+    forces_.move_onto_gaps(state);
+    forces_.balance(state);
+    return state.y.allFinite() && state.u.allFinite() && state.w.allFinite() && state.force.allFinite();
+  }
+
+ private:
+  // One classical Runge-Kutta step of the motion whose gap accelerations are given.
+  void follow(TreeState& at, double s0, double s1) {
+    const double h = span_ * (s1 - s0);
+    const TreeState begin = at;
+    std::array<VectorXd, 4> ky, ku;
+    constexpr std::array<double, 4> c{0, 0.5, 0.5, 1};
+    for (int stage = 0; stage < 4; ++stage) {
+      TreeState now = begin;
+      now.t = start_.t + span_ * s0 + c[stage] * h;
+      if (stage > 0) {
+        now.y += c[stage] * h * ky[stage - 1];
+        now.u += c[stage] * h * ku[stage - 1];
+      }
+      now.accel = accel_ * nodes_.weights(s0 + c[stage] * (s1 - s0));
+      forces_.find(now);
+      ky[stage] = now.u;
+      ku[stage] = now.w;
+    }
+    at.t = start_.t + span_ * s1;
+    at.y += h / 6 * (ky[0] + 2 * ky[1] + 2 * ky[2] + ky[3]);
+    at.u += h / 6 * (ku[0] + 2 * ku[1] + 2 * ku[2] + ku[3]);
+  }
+
+  double span_;
+  const TreeState& start_;
+  TreeInverseDynamics forces_;
+  ChebyshevNodes nodes_;
+  MatrixXd gap_, rate_, accel_, force_of_gap_;
+  bool swept_ = false;
+};
+
+}  // namespace
+
+double move_tree_onto_slow_manifold(const System& system, const JointTree& tree, double span, TreeState& state) {
+  TreeSlowManifold motion(system, tree, span, state);
+  double last = kDiverged;
+  std::optional<TreeState> best;
+  for (int sweep = 0; sweep < kSweeps && last > kConverged; ++sweep) {
+    const double change = motion.sweep();
+    if (sweep > 0 && !(change < 0.5 * last)) break;
+    if (sweep > 0) {
+      TreeState next = state;
+      if (!motion.write_start(next)) break;
+      best = std::move(next);
+    }
+    last = change;
+  }
+  if (!best) return kDiverged;
+  state = std::move(*best);
+  return last;
+}
+
+}  // namespace pintle

@@ -1,0 +1,82 @@
+#include "start/tree_start.h"
+
+#include <algorithm>
+
+#include "integrators/relative/tree_radau.h"
+#include "start/tree_preload.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+using Eigen::VectorXd;
+
+constexpr double kStiffAtLeast = 1e12;    // of a tree joint's law while it is assembled, and at least that of every other [N/m]
+constexpr double kRelaxation = 1e-5;      // its damping over its stiffness [s]
+constexpr double kScoutTolerance = 1e-3;  // of the rough integration that finds a natural step
+constexpr int kScoutSteps = 3;
+constexpr int kSpans = 4;                 // tried, each a quarter of the one before
+constexpr double kSettled = 0.1;          // relative change of the gaps in the last sweep that is taken for convergence
+
+// Laws for the tree's joints so stiff that they give way by nothing that matters.
+void stiffen(const JointTree& tree, System& system) {
+  double stiffest = kStiffAtLeast, size = 0;
+  for (const int j : tree.laws())
+    stiffest = std::max(stiffest, respond(system.joints[j].law, S::Vec::UnitX(), S::Vec::Zero()).stiffness.diagonal().head<2>().maxCoeff());
+  for (const BodyData& body : system.bodies) size = std::max(size, body.mass[2] / body.mass[0]);
+  for (int j = 0; j < system.n_joints(); ++j) {
+    if (!tree.in_tree(j)) continue;
+    JointData& joint = system.joints[j];
+    LinearLaw law;
+    law.k = stiffest * S::Vec(1, 1, size).cwiseProduct(S::Vec::Ones() - joint.free_mask);
+    law.c = kRelaxation * law.k;
+    joint.law = law;
+  }
+}
+
+void write(TreeInverseDynamics& forces, const TreeState& from, State& to) {
+  forces.instant().place(from.t, from.y, from.u);
+  forces.instant().write(from, from.w, to);
+}
+
+// A step that a rough integration takes, once it is under way: the gaps are smooth over about that time.
+double natural_step(const System& system, const State& start, double duration) {
+  TreeRadau scout(system, kScoutTolerance);
+  scout.start(start, 1e-3 * duration);
+  for (int i = 0; i < kScoutSteps; ++i)
+    if (!scout.step(duration)) return 0;
+  return scout.state().t - scout.previous().t;
+}
+
+void take_over(const JointTree& tree, const System& system, const SimulateSettings& settings, State& state) {
+  TreeState start;
+  TreeInverseDynamics forces(system, tree);
+  TreePose pose;
+  start.t = state.t;
+  tree.read_positions(state.q, start.y);
+  tree.place(start.y, VectorXd::Zero(tree.n()), pose);
+  tree.read_rates(pose, state.v, start.u);
+  const bool preload = settings.start == Start::kAssembled && !tree.laws().empty();
+  start_tree_forces(forces, preload, start);
+  write(forces, start, state);
+  if (!preload) return;
+  double span = 0.5 * natural_step(system, state, settings.duration);
+  for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25)
+    if (move_tree_onto_slow_manifold(system, tree, span, start) < kSettled) break;
+  write(forces, start, state);
+}
+
+}  // namespace
+
+Assembly start_over_tree(const Model& model, System& system) {
+  const JointTree tree(system);
+  System stiff = system;
+  stiffen(tree, stiff);
+  Assembly assembly = assemble(model, stiff);
+  for (int j = 0; j < system.n_joints(); ++j) stiff.joints[j].law = system.joints[j].law;
+  system = std::move(stiff);
+  take_over(tree, system, model.simulate, assembly.state);
+  return assembly;
+}
+
+}  // namespace pintle

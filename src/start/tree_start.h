@@ -1,0 +1,12 @@
+// The state that a run over a joint tree starts from. theory/tree section 8.
+#pragma once
+
+#include "start/assembly.h"
+
+namespace pintle {
+
+/// Assembles a copy of `system` whose tree joints are very stiff laws, takes positions and rates over into the tree's
+/// coordinates and, for start = "assembled", puts the joints that stay laws on their slow motion. Completes `system`.
+Assembly start_over_tree(const Model& model, System& system);
+
+}  // namespace pintle

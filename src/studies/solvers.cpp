@@ -1,0 +1,209 @@
+// Every method at every tolerance against one tight run. theory/solvers section 5.
+#include "pintle/solvers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "base/stopwatch.h"
+#include "check/check_frequencies.h"
+#include "pintle/simulate.h"
+#include "run/integration.h"
+#include "run/passes.h"
+#include "run/recording.h"
+#include "start/start.h"
+#include "studies/joint_errors.h"
+#include "system/build.h"
+
+namespace pintle {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kWindowSteps = 20, kWindowPeriods = 3;  // of the running mean
+constexpr double kWindowMost = 0.25;                     // of the duration
+constexpr double kAboveTruth = 10, kTooCoarse = 0.3;     // errors between these say something of the order
+constexpr int kRepetitions = 5;
+constexpr double kShort = 0.05;                          // a run that is repeated, at most [s]
+constexpr double kStepsRatio = 2;                        // between the runs that it is taken from, at least
+
+void check_options(const Model& model, const SolverStudyOptions& options) {
+  if (model.simulate.equations != Equations::kNewtonian)
+    throw std::invalid_argument("methods are compared on joints that are force laws: equations = \"newtonian\"");
+  const std::vector<std::string> known = SolverStudyOptions{}.methods;
+  for (const std::string& method : options.methods)
+    if (std::find(known.begin(), known.end(), method) == known.end()) throw std::invalid_argument("there is no method " + method);
+  for (const double tolerance : options.tolerances)
+    if (!(tolerance > 0 && tolerance < 1)) throw std::invalid_argument(fmt::format("a tolerance of {:g} is not between 0 and 1", tolerance));
+}
+
+class Study {
+ public:
+  Study(const Model& model, const SolverStudyOptions& options, const KeepGoing& keep_going)
+      : model_(model), options_(options), keep_going_(keep_going) {}
+
+  SolverStudy go() {
+    check_options(model_, options_);
+    model_.simulate.record = {"all"};
+    system_ = build_system(model_);
+    model_.simulate.output_step = output_step_of(model_.simulate, system_.joints.size());
+    out_.duration = model_.simulate.duration;
+    out_.output_step = model_.simulate.output_step;
+    start_ = start_of_run(model_, system_).state;
+    find_truth();
+    if (!out_.truth.complete) return std::move(out_);
+    choose_window();
+    for (const std::string& method : options_.methods) try_method(method);
+    return std::move(out_);
+  }
+
+ private:
+  bool go_on() {
+    if (keep_going_ && !keep_going_()) out_.interrupted = true;
+    return !out_.interrupted;
+  }
+
+  void find_truth() {
+    Model model = model_;
+    model.simulate.method = "radau";
+    model.simulate.tolerance = options_.truth_tolerance;
+    truth_ = simulate(model, [this](const Progress&) { return go_on(); });
+    SolverTruth& truth = out_.truth;
+    truth.method = truth_.method;
+    truth.tolerance = options_.truth_tolerance;
+    truth.complete = truth_.outcome == Outcome::kCompleted || truth_.outcome == Outcome::kToleranceNotMet;
+    truth.message = truth_.message;
+    truth.seconds = truth_.wall_seconds;
+    for (const LoadSummary& joint : truth_.joints) truth.error_estimate = std::max(truth.error_estimate, joint.relative_error_estimate);
+  }
+
+  void choose_window() {
+    const CheckFrequencies frequencies = check_frequencies(system_, start_, -1);
+    for (const CheckComponent& c : frequencies.components)
+      if (c.frequency > 0) out_.slowest_vibration = out_.slowest_vibration > 0 ? std::min(out_.slowest_vibration, c.frequency) : c.frequency;
+    const double periods = out_.slowest_vibration > 0 ? kWindowPeriods * 2 * std::numbers::pi / out_.slowest_vibration : 0;
+    const double window = std::clamp(std::max(periods, kWindowSteps * out_.output_step), 0.0, kWindowMost * out_.duration);
+    half_window_ = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(0.5 * window / out_.output_step)));
+    out_.window = 2 * static_cast<double>(half_window_) * out_.output_step;
+  }
+
+  void try_method(const std::string& method) {
+    if (const std::string reason = why_not({Equations::kNewtonian, method, 3}); !reason.empty()) {
+      out_.notes.push_back(reason);
+      return;
+    }
+    for (const double tolerance : options_.tolerances)
+      if (go_on()) out_.runs.push_back(measure(method, tolerance));
+    out_.orders.push_back(order_of(method));
+  }
+
+  IntegrationPlan plan(const std::string& method, double tolerance) const {
+    IntegrationPlan p;
+    p.duration = out_.duration;
+    p.output_step = out_.output_step;
+    p.max_step = model_.simulate.max_step;
+    p.tolerance = tolerance;
+    p.first_step = 1e-4 * p.duration;
+    p.choice = {Equations::kNewtonian, method, tolerance < kTight ? 5 : 3};
+    return p;
+  }
+
+  SolverRun measure(const std::string& method, double tolerance) {
+    SolverRun run;
+    run.method = method;
+    run.tolerance = tolerance;
+    Recorder recorder(model_, system_);
+    IntegrationPlan p = plan(method, tolerance);
+    const Stopwatch clock;
+    p.keep_going = [&](double) { return clock.seconds() < options_.time_limit && go_on(); };
+    const Integration done = integrate(system_, start_, p, recorder);
+    run.seconds = clock.seconds();
+    run.t_end = done.t;
+    run.message = done.message;
+    run.steps = static_cast<double>(done.counters.steps);
+    run.rejected = static_cast<double>(done.counters.rejected);
+    run.evaluations = static_cast<double>(done.counters.evaluations);
+    run.newton_iterations = static_cast<double>(done.counters.newton_iterations);
+    run.factorizations = static_cast<double>(done.counters.factorizations);
+    if (done.ended == Ended::kFailed) run.end = SolverEnd::kFailed;
+    if (done.ended == Ended::kStopped) run.end = out_.interrupted ? SolverEnd::kInterrupted : SolverEnd::kOutOfTime;
+    if (run.end == SolverEnd::kOutOfTime) run.message = fmt::format("more than {:g} s", options_.time_limit);
+    Trajectory trajectory;
+    recorder.fill(trajectory);
+    judge(trajectory, run);
+    if (run.end == SolverEnd::kCompleted) find_least_time(method, tolerance, run);
+    return run;
+  }
+
+  // Short runs are repeated, and the least time counts: what else the machine does only adds to it.
+  void find_least_time(const std::string& method, double tolerance, SolverRun& run) const {
+    const double first = run.seconds;
+    for (int i = 1; i < kRepetitions && first < kShort; ++i) {
+      Recorder recorder(model_, system_);
+      const Stopwatch clock;
+      integrate(system_, start_, plan(method, tolerance), recorder);
+      run.seconds = std::min(run.seconds, clock.seconds());
+    }
+  }
+
+  void judge(const Trajectory& trajectory, SolverRun& run) const {
+    if (run.end != SolverEnd::kCompleted) {
+      run.force_error = run.position_error = run.angle_error = run.vibration = run.vibration_of_peak = run.energy_drift = kUnknown;
+      return;
+    }
+    const JointErrors errors(truth_, system_.largest_radius_of_gyration());
+    const JointErrors::Worst force = errors.force_error(trajectory), vibration = errors.vibration(trajectory, half_window_);
+    const auto positions = errors.position_errors(trajectory);
+    run.force_error = force.relative;
+    run.worst_joint = force.joint;
+    run.position_error = positions[0];
+    run.angle_error = positions[1];
+    run.vibration = vibration.absolute;
+    run.vibration_of_peak = vibration.relative;
+    run.vibrating_joint = vibration.joint;
+    run.energy_drift = trajectory.energy.drift;
+  }
+
+  // Least squares of log(error) over log(steps). Where stability bounds the steps they hardly change, and say nothing.
+  SolverOrder order_of(const std::string& method) const {
+    SolverOrder order{method, 0, kUnknown};
+    double sx = 0, sy = 0, sxx = 0, sxy = 0, least = 1e300, most = 0;
+    for (const SolverRun& run : out_.runs) {
+      const bool telling = run.method == method && run.end == SolverEnd::kCompleted &&
+                           (method != "radau" || run.tolerance >= kTight) &&  // the runs of one order only
+                           run.force_error > kAboveTruth * out_.truth.error_estimate && run.force_error < kTooCoarse;
+      if (!telling) continue;
+      const double x = std::log(run.steps), y = std::log(run.force_error);
+      ++order.runs;
+      least = std::min(least, run.steps);
+      most = std::max(most, run.steps);
+      sx += x;
+      sy += y;
+      sxx += x * x;
+      sxy += x * y;
+    }
+    const double n = order.runs, spread = n * sxx - sx * sx;
+    if (order.runs > 1 && most >= kStepsRatio * least) order.order = -(n * sxy - sx * sy) / spread;
+    return order;
+  }
+
+  Model model_;
+  const SolverStudyOptions& options_;
+  const KeepGoing& keep_going_;
+  System system_;
+  State start_;
+  Trajectory truth_;
+  std::size_t half_window_ = 1;
+  SolverStudy out_;
+};
+
+}  // namespace
+
+SolverStudy compare_solvers(const Model& model, const SolverStudyOptions& options, const KeepGoing& keep_going) {
+  return Study(model, options, keep_going).go();
+}
+
+}  // namespace pintle

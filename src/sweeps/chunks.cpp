@@ -1,0 +1,46 @@
+#include "sweeps/chunks.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "pintle/complaint.h"
+
+namespace pintle {
+
+ChunkQueue::ChunkQueue(std::uint64_t n_samples, const std::function<bool(std::uint64_t)>& done) : to_do_((n_samples + kSamplesPerChunk - 1) / kSamplesPerChunk) {
+  for (std::uint64_t i = 0; i < n_samples; ++i)
+    if (!done(i)) to_do_[i / kSamplesPerChunk] = true;
+}
+
+std::optional<std::uint64_t> ChunkQueue::next() {
+  const std::lock_guard lock(mutex_);
+  while (next_ < to_do_.size() && !to_do_[next_]) ++next_;
+  return next_ < to_do_.size() ? std::optional(next_++) : std::nullopt;
+}
+
+void ChunkQueue::close() {
+  const std::lock_guard lock(mutex_);
+  next_ = to_do_.size();
+}
+
+std::vector<SampleResult> ChunkComputer::compute(std::uint64_t chunk, const std::function<bool()>& keep_going) {
+  const std::uint64_t first = chunk * kSamplesPerChunk, last = std::min(first + kSamplesPerChunk, plan_.size());
+  std::vector<SampleResult> out(last - first);
+  std::vector<Variant> variants;
+  std::vector<std::size_t> place;  // of each variant among the results
+  for (std::uint64_t i = first; i < last; ++i) {
+    try {
+      variants.push_back({variants_.at(plan_.values(i)), i % check_every_ == 0});
+      place.push_back(i - first);
+    } catch (const InputError& error) {
+      out[i - first].status = SampleStatus::kModelError;
+      out[i - first].message = error.what();
+    }
+  }
+  std::vector<SampleResult> results = engine_.run(variants, keep_going);
+  if (results.size() < variants.size()) return {};
+  for (std::size_t k = 0; k < results.size(); ++k) out[place[k]] = std::move(results[k]);
+  return out;
+}
+
+}  // namespace pintle

@@ -1,0 +1,48 @@
+// The samples in chunks that never change: what is computed together does not depend on threads, machines or restarts.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "batch/envelope.h"
+#include "io/model_variants.h"
+#include "sweeps/plan.h"
+
+namespace pintle {
+
+inline constexpr std::uint64_t kSamplesPerChunk = 16;
+
+/// Which chunks are still to be computed; asked by several threads.
+class ChunkQueue {
+ public:
+  /// `done` says which samples there are already.
+  ChunkQueue(std::uint64_t n_samples, const std::function<bool(std::uint64_t)>& done);
+  std::optional<std::uint64_t> next();
+  void close();  ///< nothing more is handed out
+
+ private:
+  std::mutex mutex_;
+  std::uint64_t next_ = 0;
+  std::vector<bool> to_do_;
+};
+
+/// Computes chunks; one for each thread.
+class ChunkComputer {
+ public:
+  ChunkComputer(const SweepPlan& plan, const EnvelopeEngine& engine, ModelVariants variants, std::uint64_t check_every)
+      : plan_(plan), engine_(engine), variants_(std::move(variants)), check_every_(check_every) {}
+
+  /// The results of all samples of a chunk, in order; empty if `keep_going` said no.
+  std::vector<SampleResult> compute(std::uint64_t chunk, const std::function<bool()>& keep_going);
+
+ private:
+  const SweepPlan& plan_;
+  const EnvelopeEngine& engine_;
+  ModelVariants variants_;
+  std::uint64_t check_every_;
+};
+
+}  // namespace pintle

@@ -1,0 +1,54 @@
+// The threads of one process, each computing one chunk after the other.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "sweeps/sweep_job.h"
+
+namespace pintle {
+
+struct FinishedChunk {
+  std::uint64_t chunk = 0;
+  std::vector<SampleResult> results;
+};
+
+/// As many as there are cores that this process may use.
+int usable_threads(int wanted);
+
+class WorkerPool {
+ public:
+  /// Every thread calls `next` until it gives nothing.
+  WorkerPool(const SweepJob& job, int threads, std::function<std::optional<std::uint64_t>()> next);
+  WorkerPool(const WorkerPool&) = delete;
+  WorkerPool& operator=(const WorkerPool&) = delete;
+  ~WorkerPool();
+
+  /// What is finished since the last call; waits for it at most so long. Rethrows what a thread threw.
+  std::vector<FinishedChunk> take(double seconds);
+  /// No thread computes any more, and everything has been taken.
+  bool idle();
+  /// Batches under way are given up.
+  void stop() { stopped_ = true; }
+
+ private:
+  void work(ChunkComputer computer);
+
+  std::function<std::optional<std::uint64_t>()> next_;
+  std::atomic<bool> stopped_{false};
+  std::mutex mutex_;
+  std::condition_variable something_;
+  std::vector<FinishedChunk> finished_;
+  std::exception_ptr error_;
+  int working_ = 0;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace pintle
