@@ -72,7 +72,7 @@ void add_compare(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<CompareOptions>();
   add_model_options(*verb, *options);
   verb->add_option("--against", options->against, "ideal: every joint ideal; relative: the joints marked ideal obeyed by relative coordinates")
-      ->check(CLI::IsMember({"ideal", "relative"}))
+      ->check(CLI::IsMember({"ideal", "relative", "lagrangian"}))
       ->type_name("ideal|relative")
       ->capture_default_str();
   verb->add_option("--plot", options->plot, "picture to write (default: <name of the model file>-compare.svg; none: no picture)")->type_name("FILE.svg")->check(svg_or_none_problem, "", "");

@@ -44,6 +44,8 @@ TEST_F(CompareVerb, JsonAndNoPicture) {
   ASSERT_EQ(json["forces"].size(), 1U);
   EXPECT_GT(json["forces"][0]["digits"], 4);
   EXPECT_FALSE(sandbox_.has("pendulum-compare.svg"));
+  const Answer synonym = sandbox_.pintle("compare pendulum.toml --json --plot none --against lagrangian --set joint.pin.ideal=true");
+  EXPECT_EQ(nlohmann::json::parse(synonym.out)["against"], "relative") << synonym.error;
 }
 
 TEST_F(CompareVerb, EquationsAreAnOptionOfRun) {

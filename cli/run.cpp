@@ -134,7 +134,7 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(Schema::model().assemble("simulate").find("method")->words))
       ->type_name("NAME");
   verb->add_option("--equations", options->equations, "every joint a force law; the marked ones obeyed by coordinates; every joint ideal")
-      ->check(CLI::IsMember({"newtonian", "relative", "ideal"}))
+      ->check(CLI::IsMember({"newtonian", "relative", "ideal", "lagrangian"}))
       ->type_name("newtonian|relative|ideal");
   verb->add_option("-o,--out", options->out, "run folder (default: <name of the model file>-run)")->type_name("FOLDER");
   verb->add_flag("--force", options->force, "write into a folder that is not an earlier run; its files stay");

@@ -2,6 +2,7 @@
 """Checks the order of the rooms and the habits that a compiler does not see; prints every breach and exits with 1.
 
   - a file in src/<room> includes nothing of a room on its right; laws and joints do not see each other;
+  - a file in src/<room>/<folder> includes nothing of a folder of that room on its right;
   - nothing in src/ includes the program, tests or benchmarks; a public header includes public headers only;
   - no file has more than 500 lines, no function more than 100;
   - no vague names in files and types; no notes to self;
@@ -12,6 +13,15 @@ import re
 import sys
 
 ROOMS = "base simd space model laws joints linalg system integrators mobility start run batch check studies live results io report sweeps".split()
+# The folders of a room, in order of dependence; what stands in the room itself is everybody's.
+FOLDERS_OF = {
+    "base": "text expression".split(),
+    "integrators": "radau absolute dense relative general ideal".split(),
+    "io": "schema reading toml".split(),
+    "results": "plots studies".split(),
+    "sweeps": "storage".split(),
+}
+MAX_IN_FOLDER = 25
 # The leftmost room that may use a public header; others count as model.
 PUBLIC_HEADERS = {
     "complaint.h": "base",
@@ -61,13 +71,35 @@ def room_may_include(room, target):
     return ""
 
 
+def folder_may_include(path, target):
+    """Why a file may not include `target` of its own room, or an empty string."""
+    own, other = path.parts[2:-1], pathlib.PurePath(target).parts[1:-1]
+    order = FOLDERS_OF.get(path.parts[1], [])
+    known = len(own) == 1 and len(other) == 1 and own[0] in order and other[0] in order
+    if known and not path.stem.endswith("_test") and order.index(other[0]) > order.index(own[0]):
+        return f"{target} is on the right of {path.parts[1]}/{own[0]}"
+    return ""
+
+
 def include_breach(path, target):
     parts = path.parts
     if parts[0] == "include" and not target.startswith("pintle/"):
         return f"a public header includes the internal {target}"
     if parts[0] == "src" and len(parts) > 2:
-        return room_may_include(parts[1], target)
+        return room_may_include(parts[1], target) or (folder_may_include(path, target) if target.startswith(parts[1] + "/") else "")
     return ""
+
+
+def crowds(root):
+    """(path, line, message) of every folder of a room that is not in FOLDERS_OF, or has too many sources side by side."""
+    for room in ROOMS:
+        for folder in sorted(path for path in [root / "src" / room, *(root / "src" / room).rglob("*")] if path.is_dir()):
+            path = folder.relative_to(root)
+            sources = [file for file in folder.iterdir() if file.suffix in {".h", ".cpp"}]
+            if len(sources) > MAX_IN_FOLDER:
+                yield path, 1, f"{len(sources)} sources side by side (at most {MAX_IN_FOLDER})"
+            if len(path.parts) == 3 and sources and path.parts[2] not in FOLDERS_OF.get(room, []):
+                yield path, 1, "a folder without a place in the order of FOLDERS_OF"
 
 
 def function_breaches(lines):
@@ -132,7 +164,7 @@ def main():
                 count += 1
             if file.suffix == ".h":
                 headers.append((path, file.read_text(encoding="utf-8").splitlines()))
-    for path, line, message in twin_names(headers):
+    for path, line, message in [*twin_names(headers), *crowds(root)]:
         print(f"{path}:{line}: {message}")
         count += 1
     print(f"check_sources: {files} files, {count} breach{'' if count == 1 else 'es'}")

@@ -122,6 +122,18 @@ TEST(ReadModel, Motors) {
   EXPECT_EQ(model.motors[2].stiffness, 1e6);
 }
 
+// "lagrangian" is another word for "relative".
+TEST(ReadModel, SynonymsStandForTheirWords) {
+  for (const char* word : {"simulate.equations=relative", "simulate.equations=lagrangian"})
+    EXPECT_EQ(parse_model(kFullModel, "x.toml", std::vector<std::string>{word}).simulate.equations, Equations::kRelative) << word;
+}
+
+// The rate of a free coordinate has the coordinate's name in it; `rate` alone is that of the slide, where there is one.
+TEST(ReadModel, RatesOfFreeCoordinates) {
+  for (const char* law : {"motor.M.torque=5 N*m - 0.1*angle_rate", "motor.M.torque=5 N*m - 0.1*rate", "motor.M.torque=5 N*m - 0.2*B.slide_rate"})
+    EXPECT_EQ(parse_model(kFullModel, "x.toml", std::vector<std::string>{law}).motors[0].law.variables().size(), 1U) << law;
+}
+
 TEST(ReadModel, OverridesAreReadAsTomlOrAsStrings) {
   const Model model = parse_model(kFullModel, "x.toml",
                                   {"joint.A.stiffness=2e8", "simulate.duration=0.7 s", "gravity=[0, \"-1 m/s^2\"]",

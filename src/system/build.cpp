@@ -177,8 +177,8 @@ class Builder {
     const std::string word = dot == std::string::npos ? variable : variable.substr(dot + 1);
     const int of = joint(dot == std::string::npos ? motor.joint : variable.substr(0, dot));
     const int own = dot == std::string::npos ? component : system_.joints[of].free_mask[0] > 0 ? 0 : 2;
-    if (word == "angle") return {of, 2, false};
-    if (word == "slide") return {of, 0, false};
+    if (word == "angle" || word == "angle_rate") return {of, 2, word == "angle_rate"};
+    if (word == "slide" || word == "slide_rate") return {of, 0, word == "slide_rate"};
     if (word == "rate") return {of, own, true};
     refuse(fmt::format("motor {}: '{}' is not a coordinate of a joint", motor.name, variable));
   }

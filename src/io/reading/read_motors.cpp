@@ -18,6 +18,7 @@ void add_joint(const std::string& name, const std::string& type_word, Variables&
   if (type == nullptr || type->free.empty()) return;
   for (const ComponentInfo& coordinate : type->free) {
     variables.emplace_back(name + "." + std::string(coordinate.name), coordinate.angular ? kAngle : kLength);
+    variables.emplace_back(name + "." + std::string(coordinate.name) + "_rate", coordinate.angular ? kAngularSpeed : kLinearSpeed);
   }
   variables.emplace_back(name + ".rate", type->free.front().angular ? kAngularSpeed : kLinearSpeed);
 }

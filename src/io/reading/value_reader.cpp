@@ -179,6 +179,11 @@ bool RecordReader::read_word(const Node& node, const KeySpec& spec, const std::s
                     spec.words.empty() ? "text in quotes" : "one of " + joined(spec.words));
     return false;
   }
+  for (const auto& [synonym, allowed] : spec.synonyms)
+    if (*word == synonym) {
+      value.words.push_back(allowed);
+      return true;
+    }
   if (!spec.words.empty() && std::find(spec.words.begin(), spec.words.end(), *word) == spec.words.end()) {
     complaints_.add(node.spot, path, in_quotes(*word), "it is none of " + joined(spec.words),
                     complaints_.did_you_mean(*word, spec.words));
@@ -232,6 +237,8 @@ void RecordReader::set_variables(const KeySpec& spec, std::string_view text) {
     if (variable == "t") scope.variables.emplace_back("t", kTime);
     if (variable == "angle") scope.variables.emplace_back("angle", kAngle);
     if (variable == "slide") scope.variables.emplace_back("slide", kLength);
+    if (variable == "angle_rate") scope.variables.emplace_back("angle_rate", kAngularSpeed);
+    if (variable == "slide_rate") scope.variables.emplace_back("slide_rate", kLinearSpeed);
     if (variable == "joints" && joint_variables) joint_variables(text, scope.variables);
   }
   const bool has_rate = std::find(spec.variables.begin(), spec.variables.end(), "rate") != spec.variables.end();

@@ -68,6 +68,10 @@ Json word_schema(const KeySpec& spec) {
   Json schema;
   schema["type"] = "string";
   if (!spec.words.empty()) schema["enum"] = spec.words;
+  for (const auto& [synonym, allowed] : spec.synonyms) {
+    schema["enum"].push_back(synonym);
+    schema["synonyms"][synonym] = allowed;
+  }
   if (spec.type == ValueType::kMarkerName || spec.type == ValueType::kMarkerNames) {
     schema["pattern"] = "^[A-Za-z0-9_-]+\\.[A-Za-z0-9_-]+$";
   }

@@ -47,6 +47,7 @@ struct KeySpec {
   bool per_component = false;          ///< a list is allowed: one entry per linear gap component
   std::size_t count = 0;               ///< entries of a list; 0: any number
   std::vector<std::string> words;      ///< allowed words; empty: any
+  std::vector<std::pair<std::string, std::string>> synonyms;  ///< words that are accepted too, and the allowed ones they stand for
   std::vector<std::string> variables;  ///< of expressions
 };
 

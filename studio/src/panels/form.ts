@@ -9,6 +9,8 @@ export interface Field {
   meaning: string;
   kind: "quantity" | "expression" | "pair" | "word" | "words" | "truth" | "text" | "name";
   words?: string[];
+  /** Words that a file may say instead, with the one of `words` that each stands for. */
+  synonyms?: Record<string, string>;
   fallback?: string;
   required: boolean;
 }
@@ -17,6 +19,7 @@ interface SchemaProperty {
   type?: string | string[];
   description?: string;
   enum?: string[];
+  synonyms?: Record<string, string>;
   default?: unknown;
   items?: unknown;
   minItems?: number;
@@ -59,7 +62,8 @@ function fieldOf(name: string, property: SchemaProperty, required: boolean, slid
     unit,
     meaning: meaning.replace(/\s*\[[^\]]*\]/, "").replace(/; when absent: .*$/, ""),
     kind,
-    words: property.enum,
+    words: property.enum?.filter((word) => !(word in (property.synonyms ?? {}))),
+    synonyms: property.synonyms,
     fallback: property.default !== undefined ? String(property.default) : otherwise,
     required,
   };

@@ -194,7 +194,7 @@ export function SchemaField({ field, path, variables }: { field: Field; path: re
   const literal = useLiteral(path);
   if (field.kind === "word") {
     const options = [...(field.required ? [] : [{ value: "", label: `${field.fallback ?? "–"} (default)` }]), ...(field.words ?? [])];
-    return <Choice label={labelOf(field.name)} value={String(literal ?? "")} options={options} meaning={field.meaning} onChange={(value) => setLiteral(path, value || null, `Set ${labelOf(field.name).toLowerCase()}`)} />;
+    return <Choice label={labelOf(field.name)} value={field.synonyms?.[String(literal)] ?? String(literal ?? "")} options={options} meaning={field.meaning} onChange={(value) => setLiteral(path, value || null, `Set ${labelOf(field.name).toLowerCase()}`)} />;
   }
   if (field.kind === "pair") return <Pair label={labelOf(field.name)} unit={field.unit} path={path} names={["x", "y"]} meaning={field.meaning} variables={variables} />;
   if (field.kind !== "quantity" && field.kind !== "expression") return null;
