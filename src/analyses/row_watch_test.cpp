@@ -43,8 +43,8 @@ TEST(RowWatch, LooksAtNoJointThatCarriesNextToNothing) {
   state.force[2] = {0, 1020, 0};
   watch.add_step(state, 1e-3);
   EXPECT_EQ(watch.note(0.01), "output rows miss peaks: joint " + system.joints[2].name +
-                                  " carries 1020 N at t = 0.001 s, the rows show 1000 N at most; peaks, means and works of the tables are those of the rows. "
-                                  "output_step = \"0.0002 s\" shows it");
+                                  " carries 1020 N at t = 0.001 s, the rows show 1000 N at most; peaks, means and work in the tables are those of the rows. "
+                                  "output_step = \"0.0002 s\" resolves it");
 }
 
 // Power 1 + cos(2 pi t): over ten periods 10 J. Rows at its peaks make 20 J of it.
