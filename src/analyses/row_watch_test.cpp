@@ -24,7 +24,7 @@ TEST(RowWatch, NamesTheJointWhosePeakTheRowsMiss) {
   model.simulate.duration = 0.9;
   for (const double step : {0.3, 0.005}) {
     model.simulate.output_step = step;
-    EXPECT_EQ(says(simulate(model), "output rows miss peaks: joint pin carries 24.5"), step > 0.1) << step;
+    EXPECT_EQ(says(simulate(model), "output rows miss a peak: joint pin carries 24.5"), step > 0.1) << step;
   }
 }
 
@@ -42,8 +42,8 @@ TEST(RowWatch, LooksAtNoJointThatCarriesNextToNothing) {
   EXPECT_EQ(watch.note(0.01), "");
   state.force[2] = {0, 1020, 0};
   watch.add_step(state, 1e-3);
-  EXPECT_EQ(watch.note(0.01), "output rows miss peaks: joint " + system.joints[2].name +
-                                  " carries 1020 N at t = 0.001 s, the rows show 1000 N at most; peaks, means and work in the tables are those of the rows. "
+  EXPECT_EQ(watch.note(0.01), "output rows miss a peak: joint " + system.joints[2].name +
+                                  " carries 1020 N at t = 0.001 s, the rows show at most 1000 N; peaks, means and work in the tables are those of the rows. "
                                   "output_step = \"0.0002 s\" resolves it");
 }
 

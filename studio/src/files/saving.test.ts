@@ -49,7 +49,7 @@ describe("saving in the folder of pintle studio", () => {
     expect(now().dialog).toBe("save");
     await saveUnder("one.toml");
     expect(files.get("one.toml")).toBe(model("one"));
-    expect(said()?.text).toMatch(/there already/);
+    expect(said()?.text).toMatch(/already exists/);
     said()!.action!.run();
     await vi.waitFor(() => expect(files.get("one.toml")).toBe(model("two")));
   });
