@@ -124,7 +124,7 @@ describe("the model that pintle studio was started with", () => {
   it("is opened once, and a reload keeps what was done since", async () => {
     studio.set({ home: null });
     expect(await begin("1", EMPTY_MODEL)).toBe(EMPTY_MODEL);
-    expect(said()?.text).toMatch(/not saved/);
+    expect(said()?.text).toMatch(/unsaved work/);
     said()!.action!.run();
     await vi.waitFor(() => expect(now().history.text).toBe(model("disk")));
     expect(await begin("1", model("mine"))).toBe(model("mine"));
