@@ -59,7 +59,7 @@ TEST(RowWatch, AddsUpThePowerOfTheRows) {
       state.supplied = 5 + state.t + std::sin(2 * std::numbers::pi * state.t) / (2 * std::numbers::pi);
       watch.add_row(state, 1 + std::cos(2 * std::numbers::pi * state.t), 1);
     }
-    EXPECT_EQ(watch.note(10.0 / rows).find("output rows are too far apart: their power adds up to 20 J where 10 J were supplied") == 0, rows == 10) << watch.note(1);
+    EXPECT_EQ(watch.note(10.0 / rows).find("output rows are too far apart: their power integrates to 20 J, but 10 J were supplied") == 0, rows == 10) << watch.note(1);
     EXPECT_EQ(watch.note(10.0 / rows).empty(), rows == 40);
   }
 }

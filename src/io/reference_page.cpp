@@ -73,7 +73,7 @@ std::string type_text(const KeySpec& spec) {
     case ValueType::kWord:
       return list_of(spec.words, " or ");
     case ValueType::kWords:
-      return "list of " + (spec.words.empty() ? "texts" : list_of(spec.words, ", "));
+      return "list of " + (spec.words.empty() ? "strings" : list_of(spec.words, ", "));
     case ValueType::kQuantities:
       return fmt::format("list of {} numbers", spec.count);
     case ValueType::kExpression:

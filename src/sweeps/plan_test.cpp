@@ -88,7 +88,7 @@ TEST(SweepPlan, SaysWhatIsWrong) {
   says("joint.pin.stiffness", "PATH=FROM..TO");
   says("joint.pin.stifness=1,2", "stiffness");
   says("joint.pn.stiffness=1,2", "pin");
-  says("joint.pin.stiffness=1e6..1e9 N:log:3", "stiffness [N/m] is wanted");
+  says("joint.pin.stiffness=1e6..1e9 N:log:3", "stiffness [N/m] is expected");
   says("joint.pin.stiffness=1e6..1e9", "needs a spacing");
   says("joint.pin.stiffness=1e6..1e9:cubic:3", "lin or log");
   says("joint.pin.stiffness=1e6..1e9:log:1", "whole number");
@@ -130,10 +130,10 @@ TEST(SweepPlan, VariationsOfTheFileAreChecked) {
   const auto pin = [](const std::string& values) { return "[variation.\"joint.pin.stiffness\"]\n" + values; };
   says(pin("distribution = \"normal\"\nmean = 1e8\n"), "deviation");
   says(pin("distribution = \"gauss\"\n"), "normal, lognormal");
-  says(pin("distribution = \"uniform\"\nfrom = \"1 N\"\nto = 3\n"), "stiffness [N/m] is wanted");
+  says(pin("distribution = \"uniform\"\nfrom = \"1 N\"\nto = 3\n"), "stiffness [N/m] is expected");
   says(pin("distribution = \"uniform\"\nfrom = 3\nto = 2\n"), "empty");
   says(pin("distribution = \"uniform\"\nfrom = -3\nto = 2\n"), "cannot have this value");
-  says(pin("distribution = \"uniform\"\nfrom = 1\nto = 2\nmean = 1\n"), "has none");
+  says(pin("distribution = \"uniform\"\nfrom = 1\nto = 2\nmean = 1\n"), "does not use it");
   says(pin("distribution = \"triangular\"\nfrom = 1\nto = 2\nmode = 3\n"), "between from and to");
   says(pin("distribution = \"normal\"\nmean = -1e8\ndeviation = 1e6\n"), "almost none");
   says("[variation.\"joint.pn.stiffness\"]\ndistribution = \"uniform\"\nfrom = 1\nto = 2\n", "pin");
