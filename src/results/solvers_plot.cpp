@@ -8,7 +8,7 @@ namespace {
 
 Panel panel(const SolverStudy& study, const char* quantity, const char* unit, double (*cost)(const SolverRun&)) {
   Panel out;
-  out.quantity = "Joint-force error, of the joint's peak";
+  out.quantity = "Joint-force error, relative to the joint's peak";
   out.x_quantity = quantity;
   out.x_unit = unit;
   out.log_x = out.log_y = true;
