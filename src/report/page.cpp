@@ -58,7 +58,7 @@ constexpr std::string_view kStage = R"html(<div id="stage" hidden>
 <div class="bar" role="group" aria-label="Playback">
 <button id="play" class="main" aria-pressed="false" title="Space">Play</button>
 <button id="back" title="Left arrow" aria-label="One row back">◂</button>
-<button id="on" title="Right arrow" aria-label="One row on">▸</button>
+<button id="on" title="Right arrow" aria-label="One row forward">▸</button>
 <input id="time" type="range" min="0" value="0" step="1" aria-label="Time">
 <output id="clock" for="time"></output>
 <label>speed <select id="speed"></select></label>
@@ -78,9 +78,9 @@ constexpr std::string_view kStage = R"html(<div id="stage" hidden>
 std::string motion(const Scene& scene, const RunRecord& run) {
   const Trajectory& trajectory = run.trajectory;
   std::string html = "<section id=\"motion\" aria-labelledby=\"motion-title\">\n<h2 id=\"motion-title\">Motion</h2>\n";
-  if (trajectory.n_rows() == 0) return html + "<p>The run has no rows: there is nothing to show.</p>\n</section>\n";
+  if (trajectory.n_rows() == 0) return html + "<p>The run has no rows to show.</p>\n</section>\n";
   if (scene.n_unseen == scene.bodies.size()) {
-    html += "<p>The run did not record any body, so that it cannot be drawn. <code>record = [\"all\"]</code> in "
+    html += "<p>The run did not record any body, so it cannot be drawn. <code>record = [\"all\"]</code> in "
             "<code>[simulate]</code> keeps everything.</p>\n</section>\n";
     return html;
   }
