@@ -15,7 +15,7 @@ std::string known(double x, const char* format) { return std::isfinite(x) ? fmt:
 
 std::string truth_text(const SolverStudy& study) {
   const SolverTruth& t = study.truth;
-  std::string text = fmt::format("Truth: {}, tolerance {:g}; its joint forces are accurate to about {:.1e} of their peaks by its own estimate ({:.3g} s)\n",
+  std::string text = fmt::format("Reference: {}, tolerance {:g}; its joint forces are accurate to about {:.1e} of their peaks by its own estimate ({:.3g} s)\n",
                                  t.method, t.tolerance, t.error_estimate, t.seconds);
   if (!t.message.empty()) text += fmt::format("  {}\n", t.message);
   return text;
