@@ -210,7 +210,7 @@ TEST(Report, RunsWithNothingToDrawStillHaveTables) {
   EXPECT_TRUE(holds(report_html(model, run), "did not record any body"));
   run.trajectory.values.clear();
   const std::string html = report_html(model, run);
-  EXPECT_TRUE(holds(html, "there is nothing to show"));
+  EXPECT_TRUE(holds(html, "no rows to show"));
   EXPECT_TRUE(holds(html, "id=\"force-table\""));
 }
 

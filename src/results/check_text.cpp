@@ -84,7 +84,7 @@ std::string redundancy_section(const CheckReport& report, const Look& look) {
       members.push_back(m.share > 0
                             ? fmt::format("{}.{} ({:.0f} %)", m.joint, m.component, 100 * m.share / group.degree)
                             : fmt::format("{}.{}", m.joint, m.component));
-    text += fmt::format("  {} redundant among {}\n", group.degree, names(members, look.details));
+    text += fmt::format("  {} among {}\n", counted(group.degree, "redundant constraint", "redundant constraints"), names(members, look.details));
   }
   text += more(report.redundancies.size(), shown, "groups");
   return text +
