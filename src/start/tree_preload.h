@@ -1,5 +1,5 @@
-// Preload and slow motion at the start, over a joint tree: what preload.h and slow_manifold.h do for free bodies.
-// theory/tree section 8.
+// Preload and slow manifold at the start, over a joint tree: the counterpart of preload.h and slow_manifold.h for free
+// bodies. theory/tree section 8.
 #pragma once
 
 #include "integrators/relative/tree_projector.h"
