@@ -84,9 +84,9 @@ void TreeInverseDynamics::balance(TreeState& state) {
   at_.rates(now_rate);
   for (Index i = 0; i < now.size(); ++i) {
     const Response response = at_.answer(static_cast<int>(i / 3), state.gap, state.rate);
-    const bool sliding = response.stiffness(i % 3, i % 3) > 0;
-    if (!sliding) state.rate[i] = now_rate[i];
-    if (!sliding || std::abs(now[i] - state.gap[i]) > rounding) state.gap[i] = now[i];
+    const bool held = response.stiffness(i % 3, i % 3) > 0;
+    if (!held) state.rate[i] = now_rate[i];
+    if (!held || std::abs(now[i] - state.gap[i]) > rounding) state.gap[i] = now[i];
   }
   at_.forces(state.gap, state.rate, state.force);
   if (!projector_.prepare(at_, 1, state.gap, state.rate)) return;
