@@ -1,5 +1,5 @@
 # A room is a folder of src/ and a target pintle_<room>. It may link only to rooms that stand before it in this list.
-set(PINTLE_ROOMS base space model laws probes solve system integrators analyses fleet results io report sweeps)
+set(PINTLE_ROOMS base simd space model laws probes solve system integrators analyses fleet results io report sweeps)
 
 # Sources of a folder without its tests and what is made for tests; a new file needs no edit here.
 function(pintle_sources out folder)

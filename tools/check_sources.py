@@ -11,7 +11,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = "base space model laws probes solve system integrators analyses fleet results io report sweeps".split()
+ROOMS = "base simd space model laws probes solve system integrators analyses fleet results io report sweeps".split()
 # The leftmost room that may use a public header; others count as model.
 PUBLIC_HEADERS = {
     "complaint.h": "base",

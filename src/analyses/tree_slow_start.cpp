@@ -28,7 +28,7 @@ double slowest_joint(const TreeInstant& at) {
   const MatrixXd mobility = at.A() * at.H().llt().solve(at.A().transpose());
   double slowest = std::numeric_limits<double>::infinity();
   for (std::size_t l = 0; l < at.tree().laws().size(); ++l) {
-    const S::Vec k = respond(law_of(at, l), S::Vec(1e-9, 0, 0), S::Vec::Zero()).stiffness.diagonal();
+    const S::Vec k = law_of(at, l).engaged_stiffness();
     for (int c = 0; c < 3; ++c) {
       const double m = mobility(3 * static_cast<Index>(l) + c, 3 * static_cast<Index>(l) + c);
       if (k[c] > 0 && m > 0) slowest = std::min(slowest, std::sqrt(k[c] * m));
@@ -43,7 +43,7 @@ bool TreeForcesOfMotion::prepare(const TreeState& state) {
   at_.place(state.t, state.y, state.u);
   at_.find_matrices();
   const double mu = kSlow * slowest_joint(at_);
-  return std::isfinite(mu) && mu > 0 && projector_.prepare(at_, mu, state.gap, state.rate);
+  return std::isfinite(mu) && mu > 0 && projector_.prepare(at_, mu, state);
 }
 
 bool TreeForcesOfMotion::find(TreeState& state) {
@@ -83,13 +83,13 @@ void TreeForcesOfMotion::balance(TreeState& state) {
   at_.gaps(now);
   at_.rates(now_rate);
   for (Index i = 0; i < now.size(); ++i) {
-    const Response response = at_.answer(static_cast<int>(i / 3), state.gap, state.rate);
-    const bool held = response.stiffness(i % 3, i % 3) > 0;
+    const bool held = law_of(at_, static_cast<std::size_t>(i / 3)).engaged_stiffness()[i % 3] > 0;
     if (!held) state.rate[i] = now_rate[i];
     if (!held || std::abs(now[i] - state.gap[i]) > rounding) state.gap[i] = now[i];
   }
-  at_.forces(state.gap, state.rate, state.force);
-  if (!projector_.prepare(at_, 1, state.gap, state.rate)) return;
+  at_.rest(state);
+  at_.forces(state, state.force, state.law_rate);
+  if (!projector_.prepare(at_, 1, state)) return;
   projector_.accelerations(at_, state.force, state.w);
   at_.accelerate(state.w);
   at_.gap_accelerations(state.accel);
@@ -100,7 +100,8 @@ void start_tree_forces(TreeForcesOfMotion& forces, bool preload, TreeState& stat
   at.place(state.t, state.y, state.u);
   at.gaps(state.gap);
   at.rates(state.rate);
-  at.forces(state.gap, state.rate, state.force);
+  at.rest(state);
+  at.forces(state, state.force, state.law_rate);
   state.accel = VectorXd::Zero(state.gap.size());
   if (preload) {
     state.rate.setZero();
@@ -124,7 +125,7 @@ class TreeSlowMotion {
     force_of_gap_.setZero();
     for (std::size_t l = 0; l < tree.laws().size(); ++l) {
       const Index i = 3 * static_cast<Index>(l);
-      force_of_gap_.block<3, 3>(i, i) = forces_.instant().answer(static_cast<int>(l), start.gap, start.rate).stiffness;
+      force_of_gap_.block<3, 3>(i, i) = respond(law_of(forces_.instant(), l), start.gap.segment<3>(i), start.rate.segment<3>(i)).stiffness;
     }
   }
 

@@ -1,7 +1,7 @@
 // Fleets in registers that every processor has; and the choice between these and wider ones.
 #define PINTLE_FLEET bits128
 #include "fleet/fleet_lanes.h"
-#include "solve/wide.h"
+#include "simd/wide.h"
 
 namespace pintle {
 

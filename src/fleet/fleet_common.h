@@ -16,4 +16,4 @@
 #include "integrators/pose_blocks.h"
 #include "integrators/step_error.h"
 #include "solve/complex_lanes.h"
-#include "solve/wide.h"
+#include "simd/wide.h"

@@ -11,7 +11,7 @@
 #include "fleet/fleet_work.h"
 #include "integrators/start_states_for_tests.h"
 #include "pintle/simulate.h"
-#include "solve/wide.h"
+#include "simd/wide.h"
 #include "system/sample_systems_for_tests.h"
 
 namespace pintle {

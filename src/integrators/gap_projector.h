@@ -5,7 +5,7 @@
 #pragma once
 
 #include "solve/block_lu.h"
-#include "solve/lanes.h"
+#include "simd/lanes.h"
 #include "system/system.h"
 
 namespace pintle {

@@ -22,7 +22,7 @@ void put(const JointData& data, const System& system, int lane, FourJoints& four
   for (int k = 0; k < 3; ++k) {
     four.forbidden[k].set(lane, data.free_mask[k] == 0 ? 1 : 0);
     if (const auto* probe = std::get_if<Selection>(&data.probe)) four.offset[k].set(lane, probe->offset[k]);
-    if (const auto* law = std::get_if<LinearLaw>(&data.law)) {
+    if (const LinearLaw* law = data.law.constant_diagonal()) {
       four.k[k].set(lane, law->k[k]);
       four.c[k].set(lane, law->c[k]);
     }
@@ -35,7 +35,7 @@ std::vector<FourJoints> joints_in_fours(const System& system) {
   std::vector<FourJoints> fours;
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& data = system.joints[j];
-    const bool linear = std::holds_alternative<LinearLaw>(data.law), pose = linear && std::holds_alternative<Selection>(data.probe) && data.servo < 0;
+    const bool linear = data.law.constant_diagonal() != nullptr, pose = linear && std::holds_alternative<Selection>(data.probe) && data.servo < 0;
     if (!pose || fours.empty() || !fours.back().pose || fours.back().n == 4) {
       FourJoints& four = fours.emplace_back();
       four.first = j;

@@ -15,6 +15,11 @@ struct LoadScale {
 /// At least this much per mass, where nothing acts [m/s^2].
 inline constexpr double kLeastLoad = 1e-9;
 
+/// The larger of the scales of both bodies of a joint, component by component.
+inline Planar::Vec load_on(const Placement& at, const LoadScale& scale) {
+  return scale.body[at.a == kGround ? at.b : at.a].cwiseMax(scale.body[at.b == kGround ? at.a : at.b]);
+}
+
 /// Raises a body's scale to the sum of the magnitudes of what acts on it.
 inline void raise_scale(const BodyData& body, const Planar::Vec& load, Planar::Vec& scale) {
   const double radius = body.radius_of_gyration();

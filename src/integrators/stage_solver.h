@@ -9,7 +9,7 @@
 #include "integrators/step_nodes.h"
 #include "pintle/trajectory.h"
 #include "solve/block.h"
-#include "solve/lanes.h"
+#include "simd/lanes.h"
 #include "system/state.h"
 
 namespace pintle {
@@ -19,6 +19,7 @@ namespace pintle {
 struct Stage {
   Vecs q, v, a, Q;                            // bodies
   Vecs gap, gap_rate, gap_accel, force;       // joints
+  std::vector<double> law_state, law_rate;    // of the laws' own states
   std::vector<Planar::Motion> m;
   double loss = 0;                            // power lost in the springs and dampers that are joints [W]
 };
@@ -31,6 +32,7 @@ using Four = BlockVec<Lanes<4>, Planar::kDof>;
 /// concerned.
 struct StageTails {
   std::vector<Four> bodies, gaps;
+  std::vector<Four> states;  // those of the laws' states, as forces of their joints; empty where no law has any
 };
 
 class StageSolver {

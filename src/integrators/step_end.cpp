@@ -8,7 +8,7 @@
 #include "integrators/joint_fours.h"
 #include "integrators/stage_lanes.h"
 #include "integrators/step_error.h"
-#include "solve/wide.h"
+#include "simd/wide.h"
 
 namespace pintle {
 namespace {
@@ -47,7 +47,7 @@ class EndSolver : public StepEnd {
     for (FourJoints& joints : joints_) {
       if (large_) fetch_answers(joints, last, tails);
       const Read r = read(joints, t, last.m, joints.map);
-      find_weight(joints, mu, last);
+      find_weight(joints, t, mu, last);
       add_blocks(joints);
       L off[3];
       for (int k = 0; k < S::kDof; ++k) off[k] = joints.take(last.gap, k) - r.gap[k];
@@ -65,14 +65,16 @@ class EndSolver : public StepEnd {
   // The gaps' own accelerations come out of the stages as second differences of what the forces demand; where a joint is
   // neither stiff nor soft for this step, their error is the force's.
   double find_error(const StageTails& tails, const LoadScale& scale) const {
-    TailSize bodies, gaps;
+    TailSize bodies, gaps, states;
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) {
         const double over = system_.bodies[b].mass[k] / scale.body[b][k];
         bodies.add(over * tails.bodies[b][k]);
         gaps.add(over * four_[b][k]);
       }
-    return std::max(bodies.value(), kGapError * gaps.value());
+    for (std::size_t j = 0; j < tails.states.size(); ++j)
+      for (int k = 0; k < S::kDof; ++k) states.add((1 / load_on(system_.joints[j].at, scale)[k]) * tails.states[j][k]);
+    return std::max({bodies.value(), kGapError * gaps.value(), states.value()});
   }
 
   void find_end(const Stage& last, double h, State& end, std::vector<S::Motion>& m, LoadScale& scale) {
@@ -83,6 +85,8 @@ class EndSolver : public StepEnd {
     end.v = last.v;
     end.a = last.a;
     end.gap_accel = last.gap_accel;
+    end.law_state = last.law_state;
+    end.law_rate = last.law_rate;
     find_motions(end, m);
     if (!(ask_rates(last, end, m) < rounding)) {  // one pass has left more
       ask_gaps(last, end, m);
@@ -130,13 +134,16 @@ class EndSolver : public StepEnd {
   }
 
   // K + mu C.
-  void find_weight(FourJoints& joints, double mu, const Stage& last) {
+  void find_weight(FourJoints& joints, double t, double mu, const Stage& last) {
     if (joints.linear) {
       for (int k = 0; k < S::kDof; ++k) joints.weight[k] = joints.k[k] + mu * joints.c[k];
       return;
     }
-    const Response response = respond(system_.joints[joints.first].law, last.gap[joints.first], last.gap_rate[joints.first]);
-    for (int k = 0; k < 9; ++k) joints.weight[k] = L::all(response.stiffness(k / 3, k % 3) + mu * response.damping(k / 3, k % 3));
+    const JointData& joint = system_.joints[joints.first];
+    joint.law.linearize({t, last.gap[joints.first], last.gap_rate[joints.first], last.law_state.data() + joint.first_state}, tangents_);
+    impedance_.reserve(tangents_.n);
+    impedance_.find(tangents_, mu);
+    for (int k = 0; k < 9; ++k) joints.weight[k] = L::all(impedance_.weight[k]);
   }
   // Of one of the joints, four sets of gaps.
   static void weigh_tails(const FourJoints& joints, int i, const Four& gap, Four& f) {
@@ -245,19 +252,21 @@ class EndSolver : public StepEnd {
       joints.put(gap, end.gap);
       joints.put(rate, end.gap_rate);
       ask(joints, accel);
-      find_force(joints, gap, rate, force);
+      find_force(joints, end, gap, rate, force);
       joints.put(force, end.force);
       joints.push(force, pull_);
     }
     return largest_of(left);
   }
 
-  void find_force(const FourJoints& joints, const L (&gap)[3], const L (&rate)[3], L (&force)[3]) const {
+  void find_force(const FourJoints& joints, const State& end, const L (&gap)[3], const L (&rate)[3], L (&force)[3]) const {
     if (joints.linear) {
       for (int k = 0; k < S::kDof; ++k) force[k] = -(joints.k[k] * gap[k] + joints.c[k] * rate[k]);
       return;
     }
-    const S::Vec f = law_force(system_.joints[joints.first].law, {gap[0][0], gap[1][0], gap[2][0]}, {rate[0][0], rate[1][0], rate[2][0]});
+    const JointData& joint = system_.joints[joints.first];
+    const S::Vec e(gap[0][0], gap[1][0], gap[2][0]), v(rate[0][0], rate[1][0], rate[2][0]);
+    const S::Vec f = joint.law.force({end.t, e, v, end.law_state.data() + joint.first_state});
     for (int k = 0; k < S::kDof; ++k) force[k] = L::all(f[k]);
   }
 
@@ -332,6 +341,8 @@ class EndSolver : public StepEnd {
   const System& system_;
   const bool large_;
   std::vector<FourJoints> joints_;
+  LawTangents tangents_;            // of one joint at a time
+  LawImpedance<double> impedance_;
   BlockLu<double, S::kDof> lu_;
   std::vector<BodyAt> at_;          // of bodies and the ground, as the next ones
   std::vector<Four> four_;

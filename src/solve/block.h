@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include "solve/lanes.h"
+#include "simd/lanes.h"
 
 namespace pintle {
 

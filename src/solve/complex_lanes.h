@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solve/block.h"
-#include "solve/lanes.h"
+#include "simd/lanes.h"
 
 namespace pintle {
 

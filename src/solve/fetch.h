@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "solve/lanes.h"
+#include "simd/lanes.h"
 
 namespace pintle {
 

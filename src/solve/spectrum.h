@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "solve/block.h"
-#include "solve/lanes.h"
+#include "simd/lanes.h"
 
 namespace pintle {
 

@@ -1,5 +1,5 @@
 // Lanes against numbers one at a time, their matrices against Eigen's, sine and cosine against the standard library's.
-#include "solve/lanes.h"
+#include "simd/lanes.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/random_for_tests.h"
-#include "solve/wide.h"
+#include "simd/wide.h"
 
 namespace pintle {
 namespace {
