@@ -215,7 +215,7 @@ class Run {
     std::vector<double> out(c.force.size());
     for (std::size_t j = 0; j < out.size(); ++j) {
       const double least = system_.joints[j].servo >= 0 ? kNegligibleOfMotor : kNegligible;
-      out[j] = std::max(relative(c.force[j], c.peak[j], least * force), relative(c.couple[j], c.peak_couple[j], least * couple));
+      out[j] = std::max(relative(c.force[j], c.peak[j], least * force), relative(c.couple[j], c.peak_couple[j], std::max(least * couple, system_.joints[j].law.lever() * c.peak[j])));
     }
     return out;
   }

@@ -20,6 +20,14 @@ inline Planar::Vec load_on(const Placement& at, const LoadScale& scale) {
   return scale.body[at.a == kGround ? at.b : at.a].cwiseMax(scale.body[at.b == kGround ? at.a : at.b]);
 }
 
+/// What the force of a joint with states is measured by: the loads on its bodies, and for a couple that its law makes of its force
+/// that force at the lever.
+inline Planar::Vec load_on(const JointData& joint, const LoadScale& scale) {
+  Planar::Vec load = load_on(joint.at, scale);
+  if (const double lever = joint.law.lever(); lever > 0) load[2] = std::min(load[2], lever * load[0]);
+  return load;
+}
+
 /// Raises a body's scale to the sum of the magnitudes of what acts on it.
 inline void raise_scale(const BodyData& body, const Planar::Vec& load, Planar::Vec& scale) {
   const double radius = body.radius_of_gyration();

@@ -73,7 +73,7 @@ class EndSolver : public StepEnd {
         gaps.add(over * four_[b][k]);
       }
     for (std::size_t j = 0; j < tails.states.size(); ++j)
-      for (int k = 0; k < S::kDof; ++k) states.add((1 / load_on(system_.joints[j].at, scale)[k]) * tails.states[j][k]);
+      for (int k = 0; k < S::kDof; ++k) states.add((1 / load_on(system_.joints[j], scale)[k]) * tails.states[j][k]);
     return std::max({bodies.value(), kGapError * gaps.value(), states.value()});
   }
 

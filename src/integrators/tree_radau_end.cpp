@@ -80,7 +80,7 @@ double TreeRadau::state_tail() const {
   if (!force.allFinite()) return std::numeric_limits<double>::infinity();
   std::array<double, 3> size{};
   for (std::size_t l = 0; l < tree_->laws().size(); ++l) {
-    const S::Vec load = load_on(system_.joints[tree_->laws()[l]].at, scale_);
+    const S::Vec load = load_on(system_.joints[tree_->laws()[l]], scale_);
     for (int back = 0; back < 3; ++back)
       size[back] = std::max(size[back], force.col(back).segment<3>(3 * static_cast<Index>(l)).cwiseQuotient(load).cwiseAbs().maxCoeff());
   }

@@ -61,7 +61,7 @@ constexpr std::array<KeyInfo, 8> kLuGreKeys{{
     {.key = "static_friction", .unit = "", .fallback = 0.15, .minimum_exclusive = true, .meaning = "coefficient at which slip begins; not below the kinetic one"},
     {.key = "pin_radius", .unit = "m", .fallback = 0.01, .minimum_exclusive = true, .meaning = "where a pin rubs"},
     {.key = "stribeck_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip at which friction has fallen most of the way to kinetic"},
-    {.key = "bristle_stiffness", .unit = "1/m", .fallback = 1e5, .minimum_exclusive = true, .meaning = "friction before slip, per displacement and load; slip begins at static_friction over this"},
+    {.key = "bristle_stiffness", .unit = "m^-1", .fallback = 1e5, .minimum_exclusive = true, .meaning = "friction before slip, per displacement and load; slip begins at static_friction over this"},
     {.key = "bristle_damping", .unit = "s/m", .fallback = 10, .meaning = "the same per rate of the bristles"},
     {.key = "viscous_friction", .unit = "s/m", .meaning = "friction per slip speed and load"},
     {.key = "friction_preload", .unit = "N", .meaning = "presses the surfaces together besides the joint's own force"},

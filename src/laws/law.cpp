@@ -170,6 +170,12 @@ S::Vec Law::engaged_stiffness() const {
   return k;
 }
 
+double Law::lever() const {
+  double lever = 0;
+  for (const auto& part : parts_) lever = std::max(lever, part->lever());
+  return lever;
+}
+
 std::vector<LawColumn> Law::columns() const {
   std::vector<LawColumn> all;
   for (const auto& part : parts_) all.insert(all.end(), part->columns().begin(), part->columns().end());

@@ -93,6 +93,8 @@ class Law {
   bool ideal_limit() const;
   /// Stiffness of what holds, one-sided laws as if they acted.
   Planar::Vec engaged_stiffness() const;
+  /// The largest lever of its parts [m]; 0: it makes no couple of its own force.
+  double lever() const;
   /// Moves a gap into the range in which the law holds.
   void engage(Planar::Vec& gap) const {
     for (const auto& part : parts_) part->engage(gap);

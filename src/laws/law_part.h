@@ -40,6 +40,8 @@ class LawPart {
   virtual bool holds() const = 0;
   /// Stiffness in each component where the law acts; a rope that is slack is looked at as if it were taut.
   virtual Planar::Vec engaged_stiffness() const = 0;
+  /// What the joint's own force is multiplied by to measure couples that the law makes of it [m]: the radius of a pin that rubs.
+  virtual double lever() const = 0;
   /// Moves a gap into the range in which the law acts.
   virtual void engage(Planar::Vec& gap) const = 0;
   virtual std::span<const LawColumn> columns() const = 0;
@@ -49,7 +51,7 @@ class LawPart {
 
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
 /// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), kHolds = false, columns() with
-/// observe(), engage().
+/// observe(), engage(), lever().
 template <class P>
 class LawPartOf final : public LawPart {
  public:
@@ -83,6 +85,10 @@ class LawPartOf final : public LawPart {
   Planar::Vec engaged_stiffness() const override {
     if constexpr (requires { law_.engaged_stiffness(); }) return law_.engaged_stiffness();
     else return Planar::Vec::Zero();
+  }
+  double lever() const override {
+    if constexpr (requires { law_.lever(); }) return law_.lever();
+    else return 0;
   }
   void engage(Planar::Vec& gap) const override {
     if constexpr (requires { law_.engage(gap); }) law_.engage(gap);

@@ -48,6 +48,7 @@ struct LuGreLaw {
     const double v = radius * in.rate[free];
     state[0] = v == 0 ? 0 : (v > 0 ? 1 : -1) * coefficient(v) / bristle_stiffness;
   }
+  double lever() const { return free == 2 ? radius : 0; }
   std::span<const LawColumn> columns() const {
     static const std::array<LawColumn, 2> pin{{{"friction", "N*m", "moment of friction on the second body"}, {"friction_power", "W", "power that friction turns into heat"}}};
     static const std::array<LawColumn, 2> slide{{{"friction", "N", "force of friction on the second body, along the slide"}, {"friction_power", "W", "power that friction turns into heat"}}};
