@@ -16,14 +16,14 @@ say        = @printf '\n=== %s\n' "$(1)"
 .PHONY: check-sources test-release test-package test-clang
 
 help:
-	@echo "make demo       install what is missing, build, run the paper's four-bar, make a page of it"
-	@echo "make test       install what is missing, build and run every test and check"
+	@echo "make demo       install missing packages, build, run the paper's four-bar, write its report"
+	@echo "make test       install missing packages, build and run every test and check"
 	@echo "make build      the optimised program, build/release/bin/pintle"
 	@echo "make install    library, headers and program to PREFIX (now $(PREFIX))"
-	@echo "make bench      work and precision beside SUNDIALS, Simbody and MuJoCo, a quarter of an hour; QUICK=1: one minute"
+	@echo "make bench      work-precision against SUNDIALS, Simbody and MuJoCo, a quarter of an hour; QUICK=1: one minute"
 	@echo "make paper      the paper's numbered results: docs/paper/README.md and its pictures"
 	@echo "make figure9    the paper's Figure 9 only"
-	@echo "make published  published benchmark problems, measured as their sources do"
+	@echo "make published  published benchmark problems with their own measures"
 	@echo "make fuzz       fuzz the reader for FUZZ_SECONDS (now $(FUZZ_SECONDS)) per fuzzer"
 	@echo "make studio     the studio: its kernel as WebAssembly, its pages, and pintle studio that serves them"
 	@echo "make studio-test  the studio's tests in Node; the WebAssembly kernel gives the native one's numbers"

@@ -64,7 +64,7 @@ void store_truth(const CurveProblem& about, double tolerance) {
   const Problem problem = problem_of(*model, about.point);
   const Truth truth = settle_truth(problem, {Equations::kNewtonian, "radau", 5}, 10 * tolerance, tolerance);
   if (!truth.samples) throw std::runtime_error("no truth of " + about.name);
-  fmt::print("{}: {}; places within {:.1e} m of the run before it\n", about.name, truth.method, truth.place_doubt);
+  fmt::print("{}: {}; positions within {:.1e} m of the previous run\n", about.name, truth.method, truth.place_doubt);
   write_truth(about.name, problem, {truth.method, truth.place_doubt, *truth.samples});
 }
 
@@ -114,9 +114,9 @@ std::string CurveCase::truths() const {
   for (const std::string& equations : {kCompliant, kIdeal}) {
     const Truth& t = truth(equations);
     if (!t.samples) continue;
-    out += fmt::format("- Truth of {} joints: {}; ", equations, t.method);
+    out += fmt::format("- Reference for {} joints: {}; ", equations, t.method);
     if (t.samples->has_forces()) out += fmt::format("forces within {:.0e} and ", t.force_doubt);
-    out += fmt::format("places within {:.0e} m of the run before it.\n", t.place_doubt);
+    out += fmt::format("positions within {:.0e} m of the previous run.\n", t.place_doubt);
   }
   return out;
 }

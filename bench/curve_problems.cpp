@@ -26,7 +26,7 @@ std::vector<CurveProblem> curve_problems() {
   }
   list.push_back({"andrews", "Andrews' squeezer, 0.03 s", of_collection("andrews"), {"K1", "F"}});
   list.push_back({"scissor_20", "Scissor chain of 20 bars, 0.7 s", [] { return scissor_chain(10); }, {"a9", "B"}});
-  CurveProblem five{"five_bar", "Five-bar parallelogram, one bar too many, 1 s", [] {
+  CurveProblem five{"five_bar", "Five-bar parallelogram, one redundant bar, 1 s", [] {
                       Model model = collection_model("five_bar_parallelogram");
                       model.motors.clear();
                       return model;

@@ -82,7 +82,7 @@ std::string picture(const WorkPrecision& work, const std::string& title, const s
   Plot plot;
   plot.title = title;
   plot.subtitle = subtitle;
-  plot.panels = {panel(work, Measure::kForce, "Joint-force error, of the joint's peak", ""), panel(work, Measure::kPlace, "Error of the point's place", "m")};
+  plot.panels = {panel(work, Measure::kForce, "Joint-force error, relative to the joint's peak", ""), panel(work, Measure::kPlace, "Position error of the point", "m")};
   std::erase_if(plot.panels, [](const Panel& p) { return p.curves.empty(); });
   return to_svg(plot);
 }
@@ -90,12 +90,12 @@ std::string picture(const WorkPrecision& work, const std::string& title, const s
 std::string curves_page(const std::vector<ProblemReport>& problems, const ResultTable& targets, const nlohmann::ordered_json& machine) {
   std::string page =
       "# Work and precision\n\n"
-      "Written by `pintle-bench curves --write docs/benchmarks`; [Benchmarks](../benchmarks.md#curves) says what is measured and how to read it.\n"
+      "Written by `pintle-bench curves --write docs/benchmarks`; [Benchmarks](../benchmarks.md#curves) explains what is measured and how to read it.\n"
       "Every curve is the best of a group of methods: no cheaper run of the group has a smaller error. Times are medians, in milliseconds of\n"
-      "processor time; \"-\" is an error that no run of the group reached within the time that it was given.\n\n";
+      "processor time; \"-\" means that no run of the group reached this error within the time limit.\n\n";
   page += "| measured on | |\n| --- | --- |\n";
   for (const auto& [key, value] : machine.items()) page += fmt::format("| {} | {} |\n", key, value.is_string() ? value.get<std::string>() : value.dump());
-  page += "\n## What is to be reached\n\n" + targets.markdown();
+  page += "\n## Targets\n\n" + targets.markdown();
   for (const ProblemReport& report : problems) {
     page += fmt::format("\n## {}\n\n{}{}\n![{}]({}.svg)\n", report.problem.title, report.problem.remark.empty() ? "" : report.problem.remark + "\n\n", report.truths,
                         report.problem.title, report.problem.name);

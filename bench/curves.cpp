@@ -49,7 +49,7 @@ class Study {
     nlohmann::ordered_json machine = describe_machine();
     machine["kind of run"] = options_.quick ? "--quick: some problems, small caps" : options_.problems.empty() ? "full" : "chosen problems";
     for (const auto& [key, value] : machine.items()) fmt::print("{}: {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
-    fmt::print("A run that would take more than {:g} s ({:g} s in large mechanisms) is given up, and so are the finer ones of its method.\n",
+    fmt::print("A run longer than {:g} s ({:g} s for large mechanisms) is stopped, and finer runs of its method are skipped.\n",
                kSmallShare * options_.cap, options_.cap);
     out_["machine"] = machine;
     for (const CurveProblem& problem : chosen(options_.problems.empty() && options_.quick ? kQuick : options_.problems)) measure(problem);
@@ -83,9 +83,9 @@ class Study {
     ProblemReport report{problem, one.truths(), {}};
     nlohmann::ordered_json& json = out_["problems"][problem.name];
     json["runs"] = runs.json();
-    for (const auto& [measure, key, title] : {std::tuple{Measure::kForce, "forces", "Milliseconds for an error of the joint forces, of their peaks"},
-                                              std::tuple{Measure::kPlace, "places", "Milliseconds for an error of the point's place [m]"},
-                                              std::tuple{Measure::kEnd, "end", "Milliseconds for an error of the point's place at the end [m]"}}) {
+    for (const auto& [measure, key, title] : {std::tuple{Measure::kForce, "forces", "Milliseconds for a joint-force error, relative to the peaks"},
+                                              std::tuple{Measure::kPlace, "places", "Milliseconds for a position error of the point [m]"},
+                                              std::tuple{Measure::kEnd, "end", "Milliseconds for a position error of the point at the end [m]"}}) {
       if (measure == Measure::kEnd && problem.loops == 0) continue;
       const ResultTable prices = price_table(*work, measure, title);
       if (prices.n_columns() < 2) continue;

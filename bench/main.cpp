@@ -33,10 +33,10 @@ struct Options {
 };
 
 void add_curves(CLI::App& app, Options& o, Json& out) {
-  CLI::App* verb = app.add_subcommand("curves", "work and precision beside the peers, on every problem");
-  verb->add_option("--problems", o.curves.problems, "names; all if absent")->delimiter(',');
-  verb->add_option("--rounds", o.curves.rounds, "every method once in each")->capture_default_str();
-  verb->add_option("--cap", o.curves.cap, "seconds that any run may take")->capture_default_str();
+  CLI::App* verb = app.add_subcommand("curves", "work-precision of all programs on every problem");
+  verb->add_option("--problems", o.curves.problems, "names (default: all)")->delimiter(',');
+  verb->add_option("--rounds", o.curves.rounds, "rounds; every method runs once in each")->capture_default_str();
+  verb->add_option("--cap", o.curves.cap, "time limit of a run in seconds")->capture_default_str();
   verb->add_flag("--quick", o.curves.quick, "about a minute: fewer problems and rounds, a smaller cap");
   verb->add_flag("--details", o.curves.details, "print every run");
   verb->add_option("--write", o.curves.folder, "folder for the pictures and their page, README.md");
@@ -44,21 +44,21 @@ void add_curves(CLI::App& app, Options& o, Json& out) {
 }
 
 void add_truths(CLI::App& app, Options& o) {
-  CLI::App* verb = app.add_subcommand("truths", "compute bench/truths anew: what large mechanisms do, for the curves; an hour");
+  CLI::App* verb = app.add_subcommand("truths", "recompute bench/truths, the reference solutions of large mechanisms for the curves; takes an hour");
   verb->add_option("--problems", o.truth_problems)->delimiter(',')->capture_default_str();
   verb->add_option("--tolerance", o.truth_tolerance)->capture_default_str();
   verb->callback([&] { store_truths(o.truth_problems, o.truth_tolerance); });
 }
 
 void add_instructions(CLI::App& app, Options& o, Json& out) {
-  CLI::App* verb = app.add_subcommand("instructions", "instructions that fixed commands take, beside the last release");
+  CLI::App* verb = app.add_subcommand("instructions", "instruction counts of fixed commands, compared with the last release");
   verb->add_option("--record", o.record_as, "the version to write to bench/instructions.json");
   verb->callback([&] { out["instructions"] = count_instructions(o.record_as); });
 }
 
 void add_peers(CLI::App& app, Options& o, Json& out) {
-  CLI::App* verb = app.add_subcommand("peers", "one turn of the four-bar: work and precision beside SUNDIALS");
-  verb->add_option("--repetitions", o.peers.repetitions, "rounds; every method once in each")->capture_default_str();
+  CLI::App* verb = app.add_subcommand("peers", "one turn of the four-bar: work-precision against SUNDIALS");
+  verb->add_option("--repetitions", o.peers.repetitions, "rounds; every method runs once in each")->capture_default_str();
   verb->callback([&] { out["peers"] = compare_peers(o.peers); });
 }
 
@@ -66,16 +66,16 @@ void add_stiffness(CLI::App& app, Options& o, Json& out) {
   CLI::App* verb = app.add_subcommand("stiffness", "the four-bar's steps for joints from soft to very stiff");
   verb->add_option("--stiffness", o.stiffness.stiffness, "N/m")->delimiter(',');
   verb->add_option("--damping", o.stiffness.damping, "N*s/m")->delimiter(',');
-  verb->add_option("--tolerance", o.stiffness.tolerance, "of the peak force")->capture_default_str();
+  verb->add_option("--tolerance", o.stiffness.tolerance, "relative to the peak force")->capture_default_str();
   verb->add_option("--repetitions", o.stiffness.repetitions)->capture_default_str();
   verb->callback([&] { out["stiffness"] = study_stiffness(o.stiffness); });
 }
 
 void add_forces(CLI::App& app, Options& o, Json& out) {
   CLI::App* verb = app.add_subcommand("forces", "true and stated force errors of every model of the collection");
-  verb->add_option("--models", o.forces.models, "names without .toml; all if absent")->delimiter(',');
+  verb->add_option("--models", o.forces.models, "names without .toml (default: all)")->delimiter(',');
   verb->add_option("--tolerances", o.forces.tolerances)->delimiter(',');
-  verb->add_option("--cap", o.forces.cap, "seconds that any run may take")->capture_default_str();
+  verb->add_option("--cap", o.forces.cap, "time limit of a run in seconds")->capture_default_str();
   verb->add_option("--negligible", o.forces.negligible,
                    "share of the largest force that any joint is measured by at least")
       ->capture_default_str();
@@ -89,12 +89,12 @@ void add_scale(CLI::App& app, Options& o, Json& out) {
   verb->add_option("--sizes", o.scale.sizes, "bars; of a ladder loops")->delimiter(',')->capture_default_str();
   verb->add_option("--grid-sizes", o.scale.grid_sizes, "parallelograms along an edge")->delimiter(',')->capture_default_str();
   verb->add_option("--steps", o.scale.steps, "steps timed")->capture_default_str();
-  verb->add_flag("--verbose", o.scale.verbose, "say when a model is done");
+  verb->add_flag("--verbose", o.scale.verbose, "report each finished model");
   verb->callback([&] { out["scale"] = study_scale(o.scale); });
 }
 
 void add_scaling(CLI::App& app, Options& o, Json& out) {
-  CLI::App* verb = app.add_subcommand("scaling", "time of N four-bars against N, and its exponent, as the curves have it");
+  CLI::App* verb = app.add_subcommand("scaling", "time of N four-bars against N, and its exponent, as in the curves");
   verb->add_option("--sizes", o.loops, "loops")->delimiter(',')->check(CLI::PositiveNumber)->expected(2, 100)->capture_default_str();
   verb->add_option("--rounds", o.scaling_rounds, "runs of each")->check(CLI::PositiveNumber)->capture_default_str();
   verb->callback([&] {
@@ -112,7 +112,7 @@ void add_sweeps(CLI::App& app, Options& o, Json& out) {
   verb->add_option("--models", o.sweeps.models, "names without .toml")->delimiter(',')->capture_default_str();
   verb->add_option("--tolerances", o.sweeps.tolerances)->delimiter(',')->capture_default_str();
   verb->add_option("--variants", o.sweeps.variants)->capture_default_str();
-  verb->add_option("--rounds", o.sweeps.rounds, "both ways in each")->capture_default_str();
+  verb->add_option("--rounds", o.sweeps.rounds, "rounds; both ways in each")->capture_default_str();
   verb->callback([&] { out["sweeps"] = study_sweeps(o.sweeps); });
 }
 
@@ -146,7 +146,7 @@ int run_program(int argc, char** argv) {
   CLI::App app("Benchmarks of Pintle. Without a sub-command: the curves.", "pintle-bench");
   Options options;
   Json out;
-  app.add_option("--json", options.json_file, "write the tables to this file as well");
+  app.add_option("--json", options.json_file, "also write the tables to this file");
   app.fallthrough();
   app.require_subcommand(0, 1);
   add_curves(app, options, out);

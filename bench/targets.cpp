@@ -61,7 +61,7 @@ class Judge {
   }
 
   const std::map<std::string, const WorkPrecision*>& works_;
-  ResultTable table_{"What is to be reached", {{"what", "what", true}, {"wanted", "wanted", true}, {"measured", "measured", true}, {"", "verdict", true}}};
+  ResultTable table_{"Targets", {{"what", "what", true}, {"target", "wanted", true}, {"measured", "measured", true}, {"", "verdict", true}}};
 };
 
 void judge_a02(Judge& judge) {
@@ -82,11 +82,11 @@ void judge_a02(Judge& judge) {
 ResultTable judge_targets(const std::map<std::string, const WorkPrecision*>& works, const Scaling* scaling, double turns_per_second) {
   Judge judge(works);
   judge_a02(judge);
-  judge.within("pendulum", "Pendulum, 10 s, place to 1e-5 m", Measure::kPlace, 1e-5, 1e-3);
-  judge.within("pendulum", "Pendulum, 10 s, place to 1e-8 m", Measure::kPlace, 1e-8, 5e-3);
-  judge.within("andrews", "Andrews' squeezer, place to 1e-5 m", Measure::kPlace, 1e-5, 3e-3);
+  judge.within("pendulum", "Pendulum, 10 s, position to 1e-5 m", Measure::kPlace, 1e-5, 1e-3);
+  judge.within("pendulum", "Pendulum, 10 s, position to 1e-8 m", Measure::kPlace, 1e-8, 5e-3);
+  judge.within("andrews", "Andrews' squeezer, position to 1e-5 m", Measure::kPlace, 1e-5, 3e-3);
   for (const double error : {1e-3, 1e-4, 1e-5})
-    judge.faster("four_bar", fmt::format("Four-bar, forces to {:.0e}: faster than the best of SUNDIALS", error), group::kSundials, Measure::kForce, error, 20);
+    judge.faster("four_bar", fmt::format("Four-bar, forces to {:.0e}: faster than the best SUNDIALS method", error), group::kSundials, Measure::kForce, error, 20);
   if (scaling) {
     for (const Scaling::Row& row : scaling->rows)
       if (row.loops == 400)

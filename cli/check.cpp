@@ -42,7 +42,7 @@ ExitCode check(const CheckOptions& options) {
                          wants_colour(STDOUT_FILENO)));
   }
   if (report.passed()) return kOk;
-  print_error(fmt::format("{}: a formula disagrees with its own differences, or the energy account does not close\n",
+  print_error(fmt::format("{}: a formula disagrees with finite differences, or the energy account does not close\n",
                           options.model));
   return kCheckFailed;
 }

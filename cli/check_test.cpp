@@ -15,7 +15,7 @@ TEST(CheckVerb, TellsMobilityLoopsAndBatteries) {
   const Answer answer = sandbox.pintle("check " + kFourBar);
   EXPECT_EQ(answer.exit_code, 0) << answer.error;
   EXPECT_EQ(answer.error, "");
-  for (const char* part : {"true mobility: 1", "O2", "Jacobians against differences: passed", "total mass 9.0000 kg"})
+  for (const char* part : {"true mobility: 1", "O2", "Jacobians against finite differences: passed", "total mass 9.0000 kg"})
     EXPECT_TRUE(holds(answer.out, part)) << part;
   EXPECT_FALSE(holds(answer.out, "\x1b"));
 }

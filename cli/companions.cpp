@@ -49,7 +49,7 @@ void add_companions(CLI::App& app, int& exit_code) {
     CLI::App* verb = app.add_subcommand(companion.verb, companion.about);
     verb->prefix_command();
     verb->callback([&exit_code, &companion] {
-      print_error(fmt::format("pintle {} is the program {}, which is neither beside pintle nor on the path.\n    try: {}\n", companion.verb, companion.program, companion.advice));
+      print_error(fmt::format("pintle {} needs the program {}, which is neither next to pintle nor on the path.\n    try: {}\n", companion.verb, companion.program, companion.advice));
       exit_code = kFileError;
     });
   }

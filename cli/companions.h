@@ -8,7 +8,7 @@ class App;
 
 namespace pintle::cli {
 
-inline constexpr const char* kSweepDescription = "Run a model with many sets of values, in a grid or by chance; peaks of every joint force";
+inline constexpr const char* kSweepDescription = "Run a model with many sets of values, in a grid or random; peaks of every joint force";
 inline constexpr const char* kStudioDescription = "Draw, play and read mechanisms in the browser, with this folder's models";
 inline constexpr const char* kFilmDescription = "Film a run as GIF or WebM, or draw one instant of it as SVG or PNG";
 

@@ -68,10 +68,10 @@ ExitCode compare_model(const CompareOptions& options) {
 }  // namespace
 
 void add_compare(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("compare", "Run with compliant joints and with ideal ones; say how far they agree");
+  CLI::App* verb = app.add_subcommand("compare", "Compare compliant joints with ideal ones: how many digits agree, and why they differ");
   const auto options = std::make_shared<CompareOptions>();
   add_model_options(*verb, *options);
-  verb->add_option("--against", options->against, "ideal: every joint ideal; lagrangian: the joints marked ideal obeyed by relative coordinates")
+  verb->add_option("--against", options->against, "ideal: every joint ideal; lagrangian: relative coordinates for the joints marked ideal")
       ->check(CLI::IsMember({"ideal", "lagrangian"}))
       ->type_name("ideal|lagrangian")
       ->capture_default_str();

@@ -19,7 +19,7 @@ constexpr const char* kFooter =
     "  pintle convert four_bar.toml --out four_bar.json\n"
     "  pintle convert four_bar.json --to toml\n"
     "\n"
-    "Names, values, units and expressions come through unchanged; comments have no place in JSON.\n";
+    "Names, values, units and expressions are preserved; JSON cannot hold comments.\n";
 
 struct ConvertOptions {
   std::string model, to, out;
@@ -47,7 +47,7 @@ void add_convert(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("convert", "Convert a model file between TOML and JSON");
   const auto options = std::make_shared<ConvertOptions>();
   verb->add_option("MODEL", options->model, "model file (.toml or .json)")->required();
-  verb->add_option("--to", options->to, "wanted form (default: by the ending of --out, else the other one)")
+  verb->add_option("--to", options->to, "output format (default: from the extension of --out, else the other one)")
       ->check(CLI::IsMember({"toml", "json"}))
       ->type_name("toml|json");
   verb->add_option("-o,--out", options->out, "file to write (default: standard output)")->type_name("FILE");

@@ -27,7 +27,7 @@ TEST_F(SweepVerb, PrintsAndDrawsPeaks) {
   EXPECT_TRUE(holds(sandbox_.read("peaks.svg"), "<svg"));
   const Answer again = sandbox_.pintle("sweep pendulum.toml --vary joint.pin.stiffness='1e6..1e9 N/m:log:4'");
   EXPECT_EQ(again.exit_code, 0);
-  EXPECT_TRUE(holds(again.out, "was finished before")) << again.out;
+  EXPECT_TRUE(holds(again.out, "is already complete")) << again.out;
   const Answer other = sandbox_.pintle("sweep pendulum.toml --vary joint.pin.stiffness='1e6..1e9 N/m:log:5'");
   EXPECT_EQ(other.exit_code, 6);
   EXPECT_TRUE(holds(other.error, "--force")) << other.error;

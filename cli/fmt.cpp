@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kFooter =
     "Examples:\n"
-    "  pintle fmt four_bar.toml            # rewrites the file if its layout is not in order\n"
+    "  pintle fmt four_bar.toml            # rewrites the file if its layout needs changes\n"
     "  pintle fmt --check mechanisms/*.toml # exit code 3 if any is not; changes nothing\n"
     "\n"
     "Spacing, indentation and blank lines change; comments, the order of keys and every value stay as written.\n";
@@ -36,7 +36,7 @@ ExitCode format_files(const FmtOptions& options) {
     if (options.to_stdout) {
       print_out(formatted);
     } else if (formatted != text && options.check) {
-      print_error(fmt::format("{}: its layout is not in order.\n    Try pintle fmt {}.\n", model, model));
+      print_error(fmt::format("{}: its layout needs changes.\n    Try pintle fmt {}.\n", model, model));
       code = kModelError;
     } else if (formatted != text) {
       write_file(model, formatted);
@@ -48,10 +48,10 @@ ExitCode format_files(const FmtOptions& options) {
 }  // namespace
 
 void add_fmt(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("fmt", "Put the layout of TOML model files in order");
+  CLI::App* verb = app.add_subcommand("fmt", "Format TOML model files");
   const auto options = std::make_shared<FmtOptions>();
   verb->add_option("MODEL", options->models, "model files (.toml)")->required();
-  CLI::Option* check = verb->add_flag("--check", options->check, "change nothing, only say whether it would");
+  CLI::Option* check = verb->add_flag("--check", options->check, "report needed changes without making them");
   verb->add_flag("--stdout", options->to_stdout, "print the result and leave the file alone")->excludes(check);
   verb->footer(kFooter);
   verb->callback([options, &exit_code] { exit_code = format_files(*options); });

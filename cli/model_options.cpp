@@ -17,7 +17,7 @@ void check_duration(const Model& model, const std::string& text, const std::stri
   const Document document = parse_document(text, file);
   const Entry* simulate = document.root.table()->find_entry("simulate");
   throw InputError({document.complaint(simulate == nullptr ? Spot{0, 1, 1} : simulate->key_spot, "simulate.duration",
-                                       "no duration", "a run needs to know how long it lasts",
+                                       "no duration", "a run needs a duration",
                                        "duration = \"1 s\" under [simulate], or --duration '1 s'")});
 }
 
@@ -31,7 +31,7 @@ void add_model_options(CLI::App& verb, ModelOptions& options, bool tolerance) {
       ->allow_extra_args(false);
   verb.add_option("--duration", options.duration, "model time to run, e.g. 2 or '500 ms'")->type_name("TIME");
   if (!tolerance) return;
-  verb.add_option("--tolerance", options.tolerance, "wanted error of each joint force, relative to its peak")
+  verb.add_option("--tolerance", options.tolerance, "allowed error of each joint force, relative to its peak")
       ->type_name("NUMBER");
 }
 

@@ -25,7 +25,7 @@ constexpr const char* kFooter =
     "  pintle plot four_bar-run --with softer-run --joint O4 --components magnitude\n"
     "  pintle plot four_bar-run --joint O4 --out O4.png --width 500 --dpi 300\n"
     "\n"
-    "Columns of different units stand in panels one above the other. The head of series.csv lists all columns.\n";
+    "Columns with different units are drawn in stacked panels. The first row of series.csv lists all columns.\n";
 
 struct PlotOptions {
   std::string run, out;
@@ -73,7 +73,7 @@ ExitCode plot(const PlotOptions& options, const WritePng& write_png) {
     return kCommandLineError;
   }
   if (options.png() && !write_png)
-    throw FileError(options.out + ": PNG is drawn by pintle-pictures, which was built without librsvg or is not beside pintle.\n    Install librsvg2-dev and build again, or choose .svg.");
+    throw FileError(options.out + ": PNG needs pintle-pictures, which was built without librsvg or is not next to pintle.\n    Install librsvg2-dev and build again, or choose .svg.");
   const RunRecord run = read_run(options.run);
   std::string picture;
   try {
@@ -111,23 +111,23 @@ void add_plot(CLI::App& app, int& exit_code, const WritePng& write_png) {
   verb->add_option("--joint", request.joints, "force at this joint (repeatable)")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  verb->add_option("--components", request.components, "which: x, y, magnitude (world axes), 1, 2 (joint axes), moment")
+  verb->add_option("--components", request.components, "components: x, y, magnitude (world axes), 1, 2 (joint axes), moment")
       ->type_name("LIST")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();
-  verb->add_option("--on", request.on, "the body that feels the force (default: the joint's second)")
+  verb->add_option("--on", request.on, "the body the force acts on (default: the joint's second)")
       ->type_name("BODY");
   verb->add_option("--column", request.columns, "any column of series.csv (repeatable)")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  verb->add_option("--with", options->others, "the same of another run in the same plot (repeatable)")->type_name("RUN")->allow_extra_args(false);
-  verb->add_option("--x", request.x, "column along the horizontal axis")->type_name("COLUMN")->capture_default_str();
+  verb->add_option("--with", options->others, "add another run to the plot (repeatable)")->type_name("RUN")->allow_extra_args(false);
+  verb->add_option("--x", request.x, "column on the horizontal axis")->type_name("COLUMN")->capture_default_str();
   verb->add_option("--title", request.title, "title of the plot")->type_name("TEXT");
   verb->add_option("-o,--out", options->out, "file to write, .svg or .png, - for SVG on standard output (default: <run>-<what>.svg)")
       ->type_name("FILE");
-  verb->add_option("--width", options->width, "of the picture, 96 of them to the inch (default: 760)")->type_name("PIXELS")->check(CLI::Range(200.0, 10000.0));
-  verb->add_option("--dpi", options->dots_per_inch, "of a PNG: dots to the inch")->type_name("DOTS")->check(CLI::Range(36.0, 1200.0))->capture_default_str();
+  verb->add_option("--width", options->width, "width of the picture, at 96 pixels per inch (default: 760)")->type_name("PIXELS")->check(CLI::Range(200.0, 10000.0));
+  verb->add_option("--dpi", options->dots_per_inch, "dots per inch of a PNG")->type_name("DOTS")->check(CLI::Range(36.0, 1200.0))->capture_default_str();
   verb->footer(kFooter);
   verb->callback([options, &exit_code, write_png] { exit_code = plot(*options, write_png); });
 }

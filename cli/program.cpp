@@ -18,7 +18,7 @@ namespace pintle::cli {
 namespace {
 
 constexpr const char* kAbout =
-    "Planar mechanism dynamics where joints are force laws, and every joint force is a result.";
+    "Planar mechanism dynamics: every joint is a force law, every joint force a result.";
 constexpr const char* kFooter =
     "Example:\n"
     "  pintle run mechanisms/four_bar.toml\n"

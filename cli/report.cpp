@@ -20,9 +20,8 @@ constexpr const char* kFooter =
     "  pintle report four_bar-run\n"
     "  pintle report four_bar-run --out four-bar.html\n"
     "\n"
-    "The page needs nothing beside it: no network, no other file. It shows the mechanism moving with the force at every\n"
-    "joint, plots that follow, peak forces with their error estimates, the energy account and what was assumed. Print it\n"
-    "for a paper version.\n";
+    "The page is self-contained: no network, no other file. It shows the moving mechanism with the force at every joint,\n"
+    "linked plots, peak forces with their error estimates, the energy account and the assumptions. It can be printed.\n";
 
 struct Options {
   std::string run, out;

@@ -32,14 +32,12 @@ constexpr const char* kFooter =
     "  pintle run four_bar.toml --set joint.A.stiffness='2e8 N/m' --tolerance 1e-6 --out stiffer\n"
     "  pintle run four_bar.toml --json --quiet > summary.json\n"
     "\n"
-    "The run folder holds series.csv (two header rows: name and unit) and summary.json. Ctrl-C stops a run and keeps "
-    "the\n"
-    "results up to there; a second Ctrl-C kills it.\n\n";
+    "The run folder holds series.csv (two header rows: name and unit) and summary.json. Ctrl-C stops a run and keeps the\n"
+    "results so far; a second Ctrl-C kills it.\n\n";
 
 constexpr const char* kFailureAdvice =
-    "    try: look at the loads and motors that act at that time (do they stay finite, do they feed energy?), or at "
-    "the\n"
-    "    results up to there, which are kept\n";
+    "    try: check the loads and motors that act at that time (are they finite, do they add energy?), or the\n"
+    "    results up to then, which are kept\n";
 
 struct RunOptions : ModelOptions {
   std::string out;
@@ -127,17 +125,17 @@ void add_run(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("run", "Run a model; write series.csv and summary.json, print joint forces");
   const auto options = std::make_shared<RunOptions>();
   add_model_options(*verb, *options);
-  verb->add_option("--tolerance-of", options->tolerance_of, "what the tolerance is of: every joint force (default), or every body's place")
+  verb->add_option("--tolerance-of", options->tolerance_of, "what the tolerance applies to: joint forces (default) or body positions")
       ->check(CLI::IsMember({"forces", "motion"}))
       ->type_name("forces|motion");
   verb->add_option("--method", options->method, "integration method")
       ->check(CLI::IsMember(Schema::model().assemble("simulate").find("method")->words))
       ->type_name("NAME");
-  verb->add_option("--equations", options->equations, "every joint a force law; the marked ones obeyed by coordinates; every joint ideal")
+  verb->add_option("--equations", options->equations, "newtonian: every joint a force law; lagrangian: relative coordinates for joints marked ideal; ideal: every joint a constraint")
       ->check(CLI::IsMember({"newtonian", "lagrangian", "ideal"}))
       ->type_name("newtonian|lagrangian|ideal");
   verb->add_option("-o,--out", options->out, "run folder (default: <name of the model file>-run)")->type_name("FOLDER");
-  verb->add_flag("--force", options->force, "write into a folder that is not an earlier run; its files stay");
+  verb->add_flag("--force", options->force, "write into a folder that is not an earlier run; its files are kept");
   verb->add_option("--progress", options->progress, "on standard error: a line on a terminal, nothing, or JSON lines")
       ->check(CLI::IsMember({"auto", "none", "json"}))
       ->type_name("auto|none|json");

@@ -31,7 +31,7 @@ void check_replaceable(const fs::path& path, std::string_view mark, bool force) 
   constexpr std::size_t kHead = 4096;
   if (force || !fs::is_regular_file(path)) return;
   if (read_file(path, kHead).find(mark) != std::string::npos) return;
-  throw FileError(fmt::format("{}: this file exists, and pintle did not write it.\n    Choose another place with --out, or replace it with --force.", path.string()));
+  throw FileError(fmt::format("{}: this file exists and was not written by pintle.\n    Choose another place with --out, or replace it with --force.", path.string()));
 }
 
 }  // namespace pintle::cli

@@ -42,7 +42,7 @@ TEST_F(RunVerb, NamesTheForceThatIsNotANumber) {
   const Answer answer = sandbox_.pintle("run broken.toml");
   EXPECT_EQ(answer.exit_code, 5);
   EXPECT_TRUE(holds(answer.error, "at t = 0.5 s")) << answer.error;
-  EXPECT_TRUE(holds(answer.error, "force pull is not a number there")) << answer.error;
+  EXPECT_TRUE(holds(answer.error, "force pull is not finite there")) << answer.error;
 }
 
 TEST_F(RunVerb, QuietIsQuiet) {

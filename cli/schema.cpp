@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kFooter =
     "Examples:\n"
-    "  pintle schema --out pintle.schema.json     # then, as first line of a model:  #:schema ./pintle.schema.json\n"
+    "  pintle schema --out pintle.schema.json     # then, as the first line of a model:  #:schema ./pintle.schema.json\n"
     "  pintle schema --reference | less\n";
 
 struct SchemaOptions {

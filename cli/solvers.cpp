@@ -26,15 +26,15 @@ constexpr const char* kFooter =
     "  pintle solvers four_bar.toml --methods radau,ode15s,hht --tolerances 1e-4,1e-6,1e-8 --plot work.svg\n"
     "  pintle solvers pendulum.toml --set joint.pin.stiffness=1e9 --duration '0.2 s' --json\n"
     "\n"
-    "Every method integrates the model once per tolerance, from the same start; its joint forces are compared at the\n"
-    "output times with those of a run of radau at a tolerance of 1e-9, whose own estimated error is printed. A joint's\n"
+    "Every method integrates the model once per tolerance, from the same start. Its joint forces are compared at the\n"
+    "output times with a reference run of radau at tolerance 1e-9, whose own estimated error is printed. A joint's\n"
     "force error is the largest over the output times, relative to the joint's peak force.\n"
     "\n"
-    "Parasitic vibration is what shakes in a joint force and should not: take the force minus the true one, take off its\n"
-    "running mean over 3 periods of the joints' slowest vibration (20 output steps at least, a quarter of the run at\n"
-    "most), and measure from peak to peak in the last half of the run. A drift that is smooth does not count.\n"
+    "Parasitic vibration is measured from the force minus the reference force, less its running mean over 3 periods of the\n"
+    "joints' slowest vibration (at least 20 output steps, at most a quarter of the run): peak to peak in the last half of\n"
+    "the run. Smooth drift does not count.\n"
     "\n"
-    "radau and dopri5 are Pintle's own and measure each step by the joint forces. The others measure it by positions and\n"
+    "radau and dopri5 are Pintle's own and control the error of the joint forces. The others control that of positions and\n"
     "velocities, as general integrators do: ode45 (Dormand-Prince), ode23t (trapezoidal rule), ode15s (BDF), ode113\n"
     "(Adams), hht (alpha = -0.05), generalised_alpha (spectral radius 0.9).\n\n";
 
@@ -65,7 +65,7 @@ ExitCode solvers(const SolversOptions& options) {
   else if (!options.quiet) print_out(solvers_text(study, title, wants_colour(STDOUT_FILENO)));
   if (!options.plot.empty()) write_file(options.plot, to_svg(solvers_plot(study, title)));
   if (!study.truth.complete && !study.interrupted)
-    print_error(fmt::format("{}: the run that the others are measured against failed: {}\n", options.model, study.truth.message));
+    print_error(fmt::format("{}: the reference run failed: {}\n", options.model, study.truth.message));
   return exit_code_of(study);
 }
 
@@ -76,24 +76,24 @@ void add_solvers(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<SolversOptions>();
   const std::vector<std::string> known = options->study.methods;
   add_model_options(*verb, *options, false);
-  verb->add_option("--methods", options->study.methods, "which methods")
+  verb->add_option("--methods", options->study.methods, "methods to compare")
       ->type_name("LIST")
       ->delimiter(',')
       ->check(CLI::IsMember(known))
       ->allow_extra_args(false);
-  verb->add_option("--tolerances", options->study.tolerances, "which tolerances (1e-3 to 1e-7)")
+  verb->add_option("--tolerances", options->study.tolerances, "tolerances (1e-3 to 1e-7)")
       ->type_name("LIST")
       ->delimiter(',')
       ->check(CLI::Range(1e-14, 0.5))
       ->allow_extra_args(false);
-  verb->add_option("--truth", options->study.truth_tolerance, "tolerance of the run that all are measured against (1e-9)")
+  verb->add_option("--truth", options->study.truth_tolerance, "tolerance of the reference run (1e-9)")
       ->type_name("NUMBER")
       ->check(CLI::Range(1e-13, 0.5));
   verb->add_option("--time-limit", options->study.time_limit, "seconds for each integration; longer ones are stopped (10)")
       ->type_name("SECONDS")
       ->check(CLI::PositiveNumber);
   verb->add_option("--max-step", options->max_step, "longest step of every method, e.g. '1 ms'")->type_name("TIME");
-  verb->add_option("--plot", options->plot, "draw force error over time and over evaluations")->type_name("FILE.svg")->check(svg_problem, "", "");
+  verb->add_option("--plot", options->plot, "plot force error over time and over evaluations")->type_name("FILE.svg")->check(svg_problem, "", "");
   verb->add_flag("--json", options->json, "print everything as JSON");
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
   verb->footer(std::string(kFooter) + kExitCodeHelp);

@@ -23,7 +23,7 @@ TEST_F(SolversVerb, PrintsARowForEveryMethodAndTolerance) {
   EXPECT_EQ(answer.error, "");
   for (const char* method : {"radau", "dopri5", "ode23t", "hht", "generalised_alpha", "ode45", "ode15s", "ode113"})
     EXPECT_TRUE(holds(answer.out, method)) << method;
-  EXPECT_TRUE(holds(answer.out, "Truth: radau, tolerance 1e-09"));
+  EXPECT_TRUE(holds(answer.out, "Reference: radau, tolerance 1e-09"));
   EXPECT_EQ(holds(answer.out, "no SUNDIALS"), !has_sundials());
 }
 

@@ -27,8 +27,8 @@ constexpr const char* kFooter =
     "  pintle stiffen four_bar.toml --joint O4 --digits 6 --damping-ratio 0.1\n"
     "  pintle stiffen four_bar.toml --motion-only --write\n"
     "\n"
-    "Joints that the model states softer than the procedure starts from, and ropes, keep their stiffness: it belongs to\n"
-    "the mechanism. Everything else is raised tenfold until the digits agree.\n\n";
+    "Ropes, and joints that the model makes softer than the starting stiffness, keep their stiffness as part of the\n"
+    "mechanism. All other stiffnesses are raised tenfold until the digits agree.\n\n";
 
 struct StiffenOptions : ModelOptions {
   StiffenRequest request;
@@ -84,11 +84,11 @@ void add_stiffen(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<StiffenOptions>();
   StiffenRequest& request = options->request;
   add_model_options(*verb, *options);
-  verb->add_option("--digits", request.digits, "significant figures that shall agree")->check(CLI::Range(1, 8))->capture_default_str();
-  verb->add_flag("--motion-only", request.motion_only, "coordinates instead of joint forces; starts from 1e5 N/m");
+  verb->add_option("--digits", request.digits, "significant figures that must agree")->check(CLI::Range(1, 8))->capture_default_str();
+  verb->add_flag("--motion-only", request.motion_only, "compare coordinates instead of joint forces; starts from 1e5 N/m");
   verb->add_option("--joint", request.joints, "count the force at this joint only (repeatable)")->type_name("NAME")->allow_extra_args(false);
-  verb->add_option("--damping", request.damping, "of every joint [N*s/m]")->check(CLI::NonNegativeNumber)->capture_default_str();
-  verb->add_option("--damping-ratio", options->damping_ratio, "of critical, instead of --damping")->check(CLI::Range(0.0, 10.0));
+  verb->add_option("--damping", request.damping, "damping of every joint [N*s/m]")->check(CLI::NonNegativeNumber)->capture_default_str();
+  verb->add_option("--damping-ratio", options->damping_ratio, "fraction of critical damping, instead of --damping")->check(CLI::Range(0.0, 10.0));
   verb->add_option("--from", request.first, "stiffness to start from [N/m] (default: 1e6, or 1e5 with --motion-only)")->check(CLI::PositiveNumber);
   verb->add_option("--to", request.last, "stiffness to give up at [N/m]")->check(CLI::PositiveNumber)->capture_default_str();
   verb->add_flag("--write", options->write, "put the recommended values into the model file");

@@ -124,8 +124,8 @@ TEST(LagrangianFourBar, ALoopOfIdealJointsIsOpenedAndTheNotesSayWhere) {
   EXPECT_EQ(d.bodies, 0);
   EXPECT_EQ(d.forces, 0);
   const auto noted = [&all](const std::string& line) { return std::find(all.notes.begin(), all.notes.end(), line) != all.notes.end(); };
-  EXPECT_TRUE(noted("joint B is opened: with it the ideal joints A, O2, O4 close a loop; its force law acts"));
-  EXPECT_TRUE(noted("joints obeyed by coordinates: O2, O4, A; 3 coordinates"));
+  EXPECT_TRUE(noted("joint B is opened: it closes a loop with the ideal joints A, O2, O4; its force law acts"));
+  EXPECT_TRUE(noted("joints eliminated by relative coordinates: O2, O4, A; 3 coordinates"));
 }
 
 // Coupler and follower at rest while the crank turns: ideal joints share the momentum out at once, the opened one keeps

@@ -53,11 +53,11 @@ void compare_with_multipliers(const Trajectory& compliant, Item& item) {
   try {
     const Trajectory ideal = run(model, true);
     const FromIdeal d = from_ideal(ideal, 0);
-    item.claims.push_back({"8", "(a check of ours) equations with Lagrange multipliers give the closed form",
+    item.claims.push_back({"8", "(additional check) equations with Lagrange multipliers give the closed form",
                            fmt::format("{:.1e} of each pin's peak", d.force), verdict(d.force < 1e-4)});
     (void)compliant;
   } catch (const std::invalid_argument&) {
-    item.waiting.push_back("the ideal four-bar by Lagrange multipliers (`equations = \"ideal\"`); the closed form stands in for it");
+    item.waiting.push_back("the ideal four-bar by Lagrange multipliers (`equations = \"ideal\"`); the closed form replaces it");
   }
 }
 
@@ -76,10 +76,10 @@ Item make_figure_9() {
   const std::vector<double> speed = column(r, "body.crank.spin");
   const auto [slowest, fastest] = std::minmax_element(speed.begin(), speed.end());
   item.text = {
-      "The crank's first angle is not printed; here it is 0°. The flywheel keeps the speed, so that over the crank's angle any start "
-      "gives the same curve. Coupler and follower start with the velocities that fit, and every pin with its load.",
-      fmt::format("The ideal joints are a closed form of our own (one coordinate, energy integral, Newton-Euler); it agrees with the "
-                  "table of 30 digits in tests/reference to {:.0e} N.",
+      "The paper does not print the initial crank angle; here it is 0°. The flywheel keeps the speed constant, so over the crank angle any start "
+      "gives the same curve. Coupler and follower start with consistent velocities, and every pin with its load.",
+      fmt::format("The ideal joints are computed from a closed form (one coordinate, energy integral, Newton-Euler); it agrees with the 30-digit "
+                  "table in tests/reference to {:.0e} N.",
                   std::max(closed_form_error("four_bar_from_0", 0), closed_form_error("four_bar", 60)))};
   item.claims = {{"8, Fig. 9", "three programs agree within the noise of numerical integration",
                   fmt::format("F14 at k = 1e8, c = 3000 is {:.1e} of its peak from ideal joints; largest F14x {:.2f} N, F14y {:.2f} N",
@@ -88,7 +88,7 @@ Item make_figure_9() {
                  {"8", "the crank's speed is close to constant", fmt::format("{:.5f} to {:.5f} rad/s", *slowest, *fastest),
                   verdict(*fastest - *slowest < 1e-3)}};
   compare_with_multipliers(r, item);
-  item.pictures = {{"figure-9.svg", "Reaction at the follower's ground pin over one turn of the crank.", figure_9(r)}};
+  item.pictures = {{"figure-9.svg", "Reaction at the follower's ground pin over one crank revolution.", figure_9(r)}};
   Table table{"F14 over the crank's angle", {"theta2 [deg]", "F14x [N]", "ideal [N]", "F14y [N]", "ideal [N]"}, {}};
   const std::vector<double> theta = column(r, "body.crank.angle"), fx = column(r, "joint.O4.on_follower.fx[world]"),
                             fy = column(r, "joint.O4.on_follower.fy[world]");
@@ -113,7 +113,7 @@ Item make_bearings() {
                             {"the paper's four-bar", {1e8, 3e3}},
                             {"rolling element, soft, most damped", {1e8, 1e4}},
                             {"rolling element, stiffest", {3e9, 1e4}}};
-  Table table{"Largest difference of joint forces from ideal joints over a turn, as a share of each pin's peak; the digits are those "
+  Table table{"Largest difference of joint forces from ideal joints over a turn, relative to each pin's peak; the digits are those "
               "in which the worst pin agrees",
               {"bearing", "k [N/m]", "c [N s/m]", "O2", "A", "B", "O4", "digits", "angles [rad]"},
               {}};
@@ -133,7 +133,7 @@ Item make_bearings() {
     if (name.starts_with("journal")) journal = std::max(journal, d.force);
     if (name.starts_with("rubber")) rubber = std::max(rubber, d.force);
   }
-  item.text = {"Stiffness and damping are the paper's ranges (section 4); of rubber it gives none, so two are taken. Every pin has the same bearing."};
+  item.text = {"Stiffness and damping are the paper's ranges (section 4); it gives none for rubber, so two values are assumed. Every pin has the same bearing."};
   item.claims = {{"8", "k and c of commercial bearings: forces as with ideal ones to 4 significant figures (rolling elements)",
                   fmt::format("worst pin {:.1e} of its peak: {:.1f} digits", commercial, digits(commercial)), verdict(commercial < kFourFigures)},
                  {"8", "the same, lubricated journal bearings", fmt::format("worst pin {:.1e} of its peak at k = 1e7, the softest: {:.1f} digits; see the table", journal, digits(journal)),
@@ -147,11 +147,11 @@ Item make_bearings() {
 }
 
 Item make_procedure() {
-  Item item{"stiffness", "Section 8: the stiffness that is not known", {}, {}, {}, {}, {}};
-  item.text = {"c = 500 N s/m, k tenfold from 1e6 N/m (1e5 when only the motion matters) until the digits stand. The change is that of the "
+  Item item{"stiffness", "Section 8: unknown stiffness", {}, {}, {}, {}, {}};
+  item.text = {"c = 500 N s/m, k tenfold from 1e6 N/m (1e5 when only the motion matters) until the digits agree. The change is that of the "
                "largest O4 force over a turn."};
-  Table table{"Each k beside the one before it and beside ideal joints",
-              {"k [N/m]", "largest F14 [N]", "change", "forces less ideal, of peak", "angles less ideal [rad]", "steps of all passes"},
+  Table table{"Each k compared with the previous one and with ideal joints",
+              {"k [N/m]", "largest F14 [N]", "change", "forces minus ideal, of peak", "angles minus ideal [rad]", "steps of all passes"},
               {}};
   double before = NAN, angle_soft = 0, at_1e6 = 0, at_1e8 = 0;
   std::uint64_t most = 0, least = ~0ULL;

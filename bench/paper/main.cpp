@@ -15,12 +15,12 @@ namespace pintle::paper {
 const std::vector<ItemEntry>& all_items() {
   static const std::vector<ItemEntry> items{
       {"figure-6", "the pendulum's joint force and angle", make_figure_6},
-      {"figure-7", "compliant less ideal pin", make_figure_7},
-      {"dashpot", "what the damper carries", make_dashpot},
+      {"figure-7", "compliant minus ideal pin", make_figure_7},
+      {"dashpot", "damper forces", make_dashpot},
       {"solvers", "section 7's comparison of solvers", make_solvers},
       {"figure-9", "the four-bar's ground force over the crank's angle", make_figure_9},
       {"bearings", "from rubber to rolling elements", make_bearings},
-      {"stiffness", "k tenfold until the digits stand", make_procedure},
+      {"stiffness", "k tenfold until the digits agree", make_procedure},
       {"start", "the inconsistent start", make_start},
       {"lagrangian", "three angles and one opened joint", make_opened},
       {"slider", "the inverted slider-crank", make_slider},

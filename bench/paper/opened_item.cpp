@@ -10,9 +10,9 @@ namespace pintle::paper {
 
 Item make_opened() {
   Item item{"lagrangian", "Section 8: three angles and one opened joint", {}, {}, {}, {}, {}};
-  item.text = {"The pins O2, A and O4 are ideal and the three angles obey them; only the pin at B is a force law. Its reaction is read from "
-               "the law, and those of the ideal pins from what the bodies need."};
-  Table table{"Each pin's force over a turn less ideal joints, as a share of its peak", {"k [N/m]", "O2", "A", "B", "O4", "angles [rad]"}, {}};
+  item.text = {"The pins O2, A and O4 are ideal and eliminated by the three angles; only the pin at B is a force law. Its reaction follows from the "
+               "law, those of the ideal pins from inverse dynamics."};
+  Table table{"Each pin's force over a turn minus that with ideal joints, relative to its peak", {"k [N/m]", "O2", "A", "B", "O4", "angles [rad]"}, {}};
   try {
     double opened = 0, all = 0;
     for (const double k : {1e6, 1e8, 1e10}) {

@@ -49,8 +49,8 @@ void append(std::string& out, const std::string& block) {
 constexpr const char* kHead =
     R"(# The paper, reproduced
 
-Every numbered result of G. H. Sutherland, *Mechanism analysis using implicit constraints*, DETC2008-49020, computed anew. This page
-and its pictures are made by a program, from the models in [mechanisms/](../../mechanisms/README.md):
+Every numbered result of G. H. Sutherland, *Mechanism analysis using implicit constraints*, DETC2008-49020, recomputed. A program
+generates this page and its pictures from the models in [mechanisms/](../../mechanisms/README.md):
 
 ```sh
 make paper      # this page
@@ -59,9 +59,9 @@ build/release/bin/pintle-paper --list
 build/release/bin/pintle-paper --only figure-9
 ```
 
-*pass*: the number found here is within what the paper states. *in part*: it is under some reading or for some of the cases, and the
-text says which. ***fail***: it is not. Where the paper leaves something open (gravity, the crank's first angle, how the joints
-start), what is taken here is said; [theory](../theory/README.md) lists these too.
+*pass*: the number found here agrees with the paper's statement. *in part*: it agrees under one interpretation or for some cases, as the
+text explains. ***fail***: it does not agree. If the paper leaves something open (gravity, the initial crank angle, the joints'
+initial state), the assumption made here is stated; [theory](../theory/README.md) lists these too.
 
 ## All claims
 

@@ -1,4 +1,4 @@
-// Section 7: the pendulum. Figures 6 and 7, and what the damper carries.
+// Section 7: the pendulum. Figures 6 and 7, and damper forces.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -100,7 +100,7 @@ std::vector<double> for_decades(const std::vector<double>& t, const std::vector<
 Plot figure_7(const Swing& unloaded, const Swing& preloaded) {
   Plot plot;
   plot.log_x = true;
-  plot.title = "Figure 7: compliant less ideal pin";
+  plot.title = "Figure 7: compliant minus ideal pin";
   plot.subtitle = "k = 2e8 N/m, c = 3500 N s/m; the paper's bound is 5e-5";
   plot.x_quantity = "time";
   plot.x_unit = "s";
@@ -127,18 +127,18 @@ Item make_figure_6() {
   Item item{"figure-6", "Figure 6: the pendulum", {}, {}, {}, {}, {}};
   const Swing c = compliant(Start::kAssembled, false), i = ideal(c.t), d = difference(c, i);
   item.text = {
-      "A rod of 1 kg and 1 m is let go from 90°; x points down, g = 9.81 m/s² (the paper does not print it). The ideal pin is the "
+      "A rod of 1 kg and 1 m is released from 90°; x points down, g = 9.81 m/s² (the paper does not print it). The ideal pin is the "
       "closed form of (21)-(23) in Jacobi's elliptic functions."};
   const double peak = std::max(largest(c.fx), largest(c.fy));
   item.claims = {{"7, Fig. 6", "results differ by less than 5e-5 for angle and joint forces, over 2 s",
-                  fmt::format("at most {:.2g} N and {:.2g} rad, from a loaded pin; from an unstretched one see figure-7",
+                  fmt::format("at most {:.2g} N and {:.2g} rad, with a loaded pin; for an unstretched one see figure-7",
                               std::max(largest(d.fx), largest(d.fy)), largest(d.theta)),
                   verdict(worst(d) < kBound)},
                  {"7", "the two solutions agree to six significant figures",
                   fmt::format("{:.1e} of the peak of {:.3f} N", std::max(largest(d.fx), largest(d.fy)) / peak, peak),
                   verdict(std::max(largest(d.fx), largest(d.fy)) / peak < 1e-6)}};
   item.pictures = {{"figure-6.svg", "Force of the ground on the rod, and its angle.", figure_6(c, i)}};
-  Table table{"Some values of the ideal and of the compliant pin (N, rad)",
+  Table table{"Selected values of the ideal and the compliant pin (N, rad)",
               {"t [s]", "Fx ideal", "Fx", "Fy ideal", "Fy", "theta ideal", "theta"},
               {}};
   for (std::size_t row = 0; row < c.t.size(); row += 250)
@@ -150,22 +150,22 @@ Item make_figure_6() {
 }
 
 Item make_figure_7() {
-  Item item{"figure-7", "Figure 7: compliant less ideal", {}, {}, {}, {}, {}};
+  Item item{"figure-7", "Figure 7: compliant minus ideal", {}, {}, {}, {}, {}};
   const Swing unloaded = compliant(Start::kUnloaded, true), preloaded = compliant(Start::kAssembled, true), i = ideal(unloaded.t);
   const Swing du = difference(unloaded, i), dp = difference(preloaded, i);
   item.text = {
-      "The ideal pin carries a quarter of the weight, 2.4525 N, at the instant of release. A compliant pin that starts "
-      "unstretched carries nothing then, so the difference cannot be below 5e-5 N from the start. It is from the start "
-      "if the pin is stretched beforehand by what it has to carry, and from some milliseconds on if not."};
+      "The ideal pin carries a quarter of the weight, 2.4525 N, at the instant of release. A compliant pin that starts unstretched carries nothing "
+      "then, so the difference cannot be below 5e-5 N from the start. With a pin preloaded by its initial force it is below from the start, "
+      "otherwise after some milliseconds."};
   item.claims = {
       {"7, Fig. 7", "difference below 5e-5 throughout, from the printed start (an unstretched pin)",
        fmt::format("{:.4f} N at t = 0; above 5e-5 until {:.1f} ms", du.fx[0], 1e3 * settled_after(du)),
        verdict(worst(du) < kBound)},
-      {"7, Fig. 7", "the same from a pin that carries its load at the start",
+      {"7, Fig. 7", "the same with a pin preloaded at the start",
        fmt::format("{:.1e} N in Fx, {:.1e} N in Fy, {:.1e} rad", largest(dp.fx), largest(dp.fy), largest(dp.theta)),
        verdict(worst(dp) < kBound)}};
-  item.pictures = {{"figure-7.svg", "Both starts, on scales of decades.", figure_7(du, dp)}};
-  Table table{"The difference is that of the pin's stiffness: it falls as 1/k (c = 3500 N s/m, loaded pin)",
+  item.pictures = {{"figure-7.svg", "Both starts, on logarithmic axes.", figure_7(du, dp)}};
+  Table table{"The difference comes from the pin's stiffness and falls as 1/k (c = 3500 N s/m, loaded pin)",
               {"k [N/m]", "Fx [N]", "Fy [N]", "theta [rad]"},
               {}};
   for (const double k : {2e6, 2e7, 2e8, 2e9, 2e10}) {
@@ -184,7 +184,7 @@ Item make_figure_7() {
 }
 
 Item make_dashpot() {
-  Item item{"dashpot", "What the damper carries", {}, {}, {}, {}, {}};
+  Item item{"dashpot", "Damper forces", {}, {}, {}, {}, {}};
   const Model model = pendulum(Start::kAssembled);
   System system = build_system(model);
   const auto stepper = make_stepper(system, {}, 1e-7);
@@ -205,9 +205,9 @@ Item make_dashpot() {
     ratio_x = std::max(ratio_x, 3500 * std::abs(rate[1]) / (2e8 * std::abs(e[1])));
   }
   item.text = {
-      fmt::format("Where the damped joint follows the motion, Fd/Fk = (c/k) |F'|/|F|: a property of the motion times c/k = 1.75e-5 s. "
-                  "It is largest, {:.2e}, at theta = {:.0f}°, a little above the paper's bound. Measured by the peak of Fk the "
-                  "bound holds. By components it cannot hold: Fy passes through zero where its rate does not.",
+      fmt::format("If the damped joint follows the motion, Fd/Fk = (c/k) |F'|/|F|: a property of the motion times c/k = 1.75e-5 s. Its maximum, "
+                  "{:.2e}, occurs at theta = {:.0f}° and is slightly above the paper's bound. Relative to the peak of Fk the bound holds. It cannot "
+                  "hold by components: Fy passes through zero where its rate does not.",
                   ratio, std::abs(at) / kDegree)};
   item.claims = {{"7", "Fd/Fk < 1e-4 throughout the range of motion, c = 3500",
                   fmt::format("{:.2e} instant by instant; {:.1e} of the peak of Fk", ratio, damper / spring),

@@ -75,8 +75,8 @@ Item make_slider() {
   Item item{"slider", "Section 9: the inverted slider-crank", {}, {}, {}, {}, {}};
   const ReferenceTable ideal("inverted_slider_crank");
   const Trajectory file = turn(1), stiffer = turn(100);
-  item.text = {"The paper prints no dimensions; mechanisms/inverted_slider_crank.toml has ours, with every offset of its Figure 10 "
-               "different from zero. Ideal joints: a table of 40 digits, tests/reference/inverted_slider_crank.csv."};
+  item.text = {"The paper prints no dimensions; mechanisms/inverted_slider_crank.toml assumes them, with every offset of its Figure 10 nonzero. "
+               "Ideal joints: a 40-digit table, tests/reference/inverted_slider_crank.csv."};
   Table table{"Largest difference from ideal joints over a turn",
               {"what", "peak", "k = 1e8", "of the peak", "k = 1e10", "of the peak"},
               {}};
@@ -91,7 +91,7 @@ Item make_slider() {
   item.claims = {{"9", "results identical to ideal joints to within the usual tolerances of numerical integration",
                   fmt::format("{:.1e} of the peak at k = 1e8 N/m, {:.1e} at 1e10: {:.1f} and {:.1f} digits", one, hundred, digits(one), digits(hundred)),
                   one < 1e-4 ? Verdict::kHolds : one < 1e-3 ? Verdict::kPartly : Verdict::kFails}};
-  item.pictures = {{"slider.svg", "Force and moment of the prismatic pair over one turn of the crank.", picture(file, ideal)}};
+  item.pictures = {{"slider.svg", "Force and moment of the prismatic pair over one crank revolution.", picture(file, ideal)}};
   item.tables = {table};
   return item;
 }

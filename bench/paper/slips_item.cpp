@@ -140,34 +140,34 @@ double spin_lost(double k, double c) {
 
 Item make_slips() {
   Item item{"slips", "What the paper leaves open or gets wrong", {}, {}, {}, {}, {}};
-  item.text = {"Each with a number from the equations as printed, integrated by a plain Runge-Kutta method of this program's own. What the "
-               "library does instead stands in [theory](../theory/README.md)."};
+  item.text = {"Each has a number from the equations as printed, integrated by an independent plain Runge-Kutta method. "
+               "[Theory](../theory/README.md) describes what the library does instead."};
   const double critical = 2 * std::sqrt(1e8 * 4);
-  Table t{"Errors and omissions", {"where", "printed", "what is so", "number"}, {}};
+  Table t{"Errors and omissions", {"where", "printed", "correct", "number"}, {}};
   t.rows = {
-      {"(13)-(20)", "force and moment on body g at its own point a; of h nothing is said",
-       "h feels the opposite force at the same point of space. At h's own point b the pair makes angular momentum in proportion to the slide",
+      {"(13)-(20)", "force and moment on body g at its own point a; nothing about h",
+       "the opposite force acts on h at the same point in space. At h's own point b the pair creates angular momentum in proportion to the slide",
        fmt::format("two free bodies turning at 5 rad/s, 0.3 m apart along the axis: angular momentum changes by {:+.1f} % in 0.1 s, {:+.0f} % in 0.3 s with the force "
                    "at b, by {:+.0e} with both at a",
                    100 * leak_of_slider(true, 0.1), 100 * leak_of_slider(true, 0.3), leak_of_slider(false, 0.3))},
       {"(17)", "phi = theta_h + xi_b - theta_g - xi_a - pi",
-       "so only if the two centres of mass lie on opposite sides of the axis; on one side the pi must go, and with a centre on the axis there is no xi",
+       "true only if the two centres of mass lie on opposite sides of the axis; on one side pi must be dropped, and with a centre on the axis xi is undefined",
        fmt::format("both centres on one side, k2 = 1e6 N m/rad: a moment of {:.2e} N m in the unloaded joint", 1e6 * std::numbers::pi)},
       {"(7)-(8)", "damping by the difference of the two points' velocities",
-       "it brakes a stretched joint that merely turns along with its bodies, by a couple c omega d²: angular momentum is lost, little with bearings, more with rubber",
+       "it damps a stretched joint that only rotates with its bodies, by a couple c omega d²: angular momentum is lost, little with bearings, more with rubber",
        fmt::format("two free rods at 10 rad/s lose {:.0e} of their spin in 1 s at k = 1e8, c = 3000, and {:.1e} at k = 1e5, c = 500", spin_lost(1e8, 3000),
                    spin_lost(1e5, 500))},
-      {"(16), (20)", "moment on g by k2 phi and c2 (theta_h' - theta_g')", "signs agree with (17): both turn g after h. No slip", "-"},
-      {"(29)", "factor 4r/J, J about the pin", "4r/J = r/I about the centre of mass: right, and no angular term is missing",
+      {"(16), (20)", "moment on g by k2 phi and c2 (theta_h' - theta_g')", "signs agree with (17): both turn g towards h. No error", "-"},
+      {"(29)", "factor 4r/J, J about the pin", "4r/J = r/I about the centre of mass: correct, and no angular term is missing",
        fmt::format("(24)-(33) as printed against this program over 2 s: {:.0e} N", printed_pendulum_error())},
       {"Fig. 7", "difference below 5e-5 from t = 0", "an unstretched pin carries nothing at first, an ideal one a quarter of the weight",
        fmt::format("{:.4f} N at t = 0; see `figure-7`", -ideal_pendulum(0).fx)},
-      {"7", "Fd/Fk < 1e-4 throughout", "true of the peak of Fk, not at every angle", "see `dashpot`"},
+      {"7", "Fd/Fk < 1e-4 throughout", "true relative to the peak of Fk, not at every angle", "see `dashpot`"},
       {"7", "N-m/s for c", "N s/m", "-"},
       {"7, 8", "gravity and the crank's first angle", "not printed; 9.81 m/s² and any angle give the figures", "-"},
       {"8", "start transients are gone after a few degrees", "some tens of degrees with the damping of the paper's own example", "see `start`"},
       {"8", "I = 5.333", "16/3 rounded; forces change by less than the paper's figures show", fmt::format("{:.0e} relative", 1 - 5.333 * 3 / 16)},
-      {"10", "bearings have a few percent of critical damping", "so with rolling elements; lubricated journals are far above critical",
+      {"10", "bearings have a few percent of critical damping", "true of rolling elements; lubricated journals are far above critical",
        fmt::format("4 kg, k = 1e8: c = 2e3 to 1e4 is {:.0f} to {:.0f} %; journals (1e5 to 5e5) {:.0f} to {:.0f} %", 100 * 2e3 / critical, 100 * 1e4 / critical,
                    100 * 1e5 / critical, 100 * 5e5 / critical)}};
   item.tables = {t};

@@ -126,8 +126,8 @@ class Study {
 
  private:
   Item& item_;
-  Table table_{"2 s at a relative tolerance of 1e-5. Error: of the joint force against the ideal pin after 0.05 s (1.7e-5 N of it "
-               "is the pin's own compliance). Ripple: peak to peak of what is left of the force in 2 ms when a cubic is taken off",
+  Table table_{"2 s at a relative tolerance of 1e-5. Error: of the joint force relative to the ideal pin after 0.05 s (1.7e-5 N of it is the pin's "
+               "own compliance). Ripple: peak to peak of the force in 2 ms after subtracting a cubic",
                {"method", "c", "pin at start", "largest step [s]", "error [N]", "of the peak", "ripple [N]", "steps"},
                {}};
 };
@@ -137,16 +137,15 @@ class Study {
 Item make_solvers() {
   Item item{"solvers", "Section 7: the solvers", {}, {}, {}, {}, {}};
   item.text = {
-      "`ode45`, `ode23t`, `ode15s` and `ode113` are this program's methods of those names; MATLAB's own may differ in step control. "
-      "`radau` and `dopri5` control the error of the joint force, the others that of the state. The claims at c = 0 are taken for "
-      "a pin that carries its load at the start: from an unstretched one the missing 2.45 N swing for ever, and only a method's "
-      "own damping can take them out."};
+      "`ode45`, `ode23t`, `ode15s` and `ode113` are this program's methods of those names; MATLAB's own may differ in step control. `radau` and "
+      "`dopri5` control the error of the joint force, the others that of the state. The claims at c = 0 are tested with a pin preloaded at the "
+      "start: with an unstretched one the missing 2.45 N oscillate forever, and only numerical damping can remove them."};
   Study study(item);
   if (const auto m = study.measure_all("ode45", kExplicit); !m.empty()) {
-    study.claim("ode45, c = 3500, steps of 1e-5 s: right to six figures", m[1], m[1].error / kPeak < 2e-6);
-    study.claim("(10) ode45 without a largest step: obviously in error", m[0], m[0].error / kPeak > 1e-3);
+    study.claim("ode45, c = 3500, steps of 1e-5 s: accurate to six figures", m[1], m[1].error / kPeak < 2e-6);
+    study.claim("(10) ode45 without a step limit: obviously in error", m[0], m[0].error / kPeak > 1e-3);
     study.claim("ode45, c = 0: stable, parasitic vibration below 3e-6 N peak to peak", m[3], m[3].ripple < 3e-6);
-    study.claim("the same from an unstretched pin", m[4], m[4].ripple < 3e-6);
+    study.claim("the same with an unstretched pin", m[4], m[4].ripple < 3e-6);
   }
   if (const auto m = study.measure_all("ode23t", kImplicit); !m.empty())
     study.claim("ode23t, c = 0: no vibration, but different at the 5th significant figure", m[1],
@@ -157,7 +156,7 @@ Item make_solvers() {
     study.claim("ode113, c = 0: accurate, vibration of about 1e-5 N", m[3], m[3].ripple < 3e-5 && m[3].ripple > 3e-6);
   study.measure_all("dopri5", kExplicit);
   if (const auto m = study.measure_all("radau", kImplicit); !m.empty())
-    study.claim("the stiff solvers do worse on this problem than the non-stiff ones (not so `radau`, c = 0)", m[1],
+    study.claim("the stiff solvers do worse on this problem than the non-stiff ones (not true of `radau`, c = 0)", m[1],
                 m[1].error / kPeak > 1e-5 ? Verdict::kHolds : Verdict::kPartly);
   study.finish();
   return item;

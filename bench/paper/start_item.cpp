@@ -62,14 +62,14 @@ std::vector<double> envelope(const Decay& d) {
 Item make_start() {
   Item item{"start", "Section 8: an inconsistent start", {}, {}, {}, {}, {}};
   item.text = {
-      "The crank starts at 60° with 10 rad/s, coupler and follower at rest, k = 1e8 N/m in every pin. The error is that of the worst "
-      "pin's force against ideal joints at the same crank angle, over that pin's peak; settled means below 1 % from there on."};
+      "The crank starts at 60° with 10 rad/s, coupler and follower at rest, k = 1e8 N/m in every pin. The error is that of the worst pin's force "
+      "relative to ideal joints at the same crank angle, over that pin's peak; settled means below 1 % from then on."};
   const double dampings[] = {0, 500, 2e3, 3e3, 1e4, 1e5, 5e5};
-  Table table{"Degrees of crank until every joint force is right to 1 %",
+  Table table{"Crank rotation until every joint force is within 1 %",
               {"c [N s/m]", "largest force [N]", "error at first", "settled after [deg]", "error in the last 10 deg", "crank in the end [rad/s]"},
               {}};
   Plot plot;
-  plot.title = "Inconsistent start: how the force error dies out";
+  plot.title = "Inconsistent start: decay of the force error";
   plot.subtitle = "worst pin, over its peak, the largest in each degree; four-bar of section 8, k = 1e8 N/m";
   plot.x_quantity = "crank angle since the start";
   plot.x_unit = "deg";
@@ -89,12 +89,12 @@ Item make_start() {
   plot.panels = {panel};
   plot.panel_height = 380;
   item.claims = {{"8", "c = 0: the start induces vibrations that are significant beside the solution",
-                  fmt::format("after a whole turn still {:.0f} times the peak force", undamped), verdict(undamped > 0.1)},
+                  fmt::format("still {:.0f} times the peak force after a full turn", undamped), verdict(undamped > 0.1)},
                  {"8", "the most lightly damped real bearing (c = 2e3): only the desired solution after a few degrees of crank",
-                  fmt::format("right to 1 % after {:.1f} degrees", lightest), verdict(lightest < kFew)},
-                 {"8", "the same with the most damped rolling bearing (c = 1e4)", fmt::format("right to 1 % after {:.1f} degrees", rolling),
+                  fmt::format("within 1 % after {:.1f} degrees", lightest), verdict(lightest < kFew)},
+                 {"8", "the same with the most damped rolling bearing (c = 1e4)", fmt::format("within 1 % after {:.1f} degrees", rolling),
                   verdict(rolling < kFew)}};
-  item.pictures = {{"start.svg", "The rate of decay goes as c, until damping is critical; beyond that it takes longer again.", plot}};
+  item.pictures = {{"start.svg", "The decay rate is proportional to c up to critical damping; beyond it the decay is slower again.", plot}};
   item.tables = {table};
   return item;
 }

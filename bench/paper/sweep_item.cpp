@@ -48,7 +48,7 @@ Plot picture_of(const std::string& title, const std::vector<double>& stiffness, 
   plot.x_unit = "N/m";
   plot.x = stiffness;
   plot.log_x = true;
-  Panel panel{"joint forces less ideal", "", {}, true};
+  Panel panel{"joint forces minus ideal", "", {}, true};
   for (std::size_t j = 0; j < kDamping.size(); ++j) {
     Curve curve{"c = " + short_number(kDamping[j]), "", {}};
     for (const auto& row : errors) curve.y.push_back(row[j]);
@@ -83,14 +83,14 @@ double spread(const std::vector<std::vector<double>>& errors, std::size_t row) {
 }  // namespace
 
 Item make_sweep() {
-  Item item{"sweep", "Section 10: stiffness and damping swept", {}, {}, {}, {}, {}};
+  Item item{"sweep", "Section 10: sweep of stiffness and damping", {}, {}, {}, {}, {}};
   const std::vector<double> shaken(kStiffness.begin(), kStiffness.begin() + 7);  // to 1e8 N/m
   const auto loaded = sweep(kStiffness, Start::kAssembled), unstretched = sweep(shaken, Start::kUnloaded);
   item.text = {
-      "The error is the worst pin's, over its ideal peak, in the second half of a turn; bold: above 1 %, which is what a plot shows. "
-      "From pins that carry their load nothing shakes the mechanism, and the error is that of flexibility alone. From unstretched pins the "
-      "missing load rings until the damping has taken it out, for a time that goes as 1/c: some tens of degrees of crank at c = 3000, "
-      "about a turn at 300, many turns below. So it begins at a tenth of a bearing's damping where the start excites it, and not at all where it does not."};
+      "The error is that of the worst pin, over its ideal peak, in the second half of a turn; bold: above 1 %, visible in a plot. With loaded pins "
+      "nothing excites the mechanism, and the error comes from flexibility alone. With unstretched pins the missing load rings until damping has "
+      "removed it, for a time proportional to 1/c: some tens of degrees of crank rotation at c = 3000, about a turn at 300, many turns below. So "
+      "vibration appears at a tenth of a bearing's damping if the start excites it, and not at all otherwise."};
   item.claims = {
       {"10", "k from 1e5 to 1e6 N/m gives results similar to higher k", fmt::format("c = 3000: {:.1e} of the peak at 1e5, {:.1e} at 1e6",
        at(kStiffness, loaded, 1e5, 3e3), at(kStiffness, loaded, 1e6, 3e3)),
@@ -102,13 +102,13 @@ Item make_sweep() {
        verdict(at(kStiffness, loaded, 1e4, 3e3) > kVisible && at(kStiffness, loaded, 1e6, 3e3) < kVisible)},
       {"10", "c within a reasonable range has no effect on the results", fmt::format("k = 1e8, c = 300 to 3e4: at most {:.1e} of the peak from ideal",
        spread(loaded, 6)), verdict(spread(loaded, 6) < 5e-4)},
-      {"10", "c below a thousandth of a bearing's: parasitic vibration appears", fmt::format("k = 1e8, unstretched: {:.1e} of the peak at c = 3, {:.1e} at 30, {:.1e} at 300, {:.1e} at 3000; from loaded pins none at any c",
+      {"10", "c below a thousandth of a bearing's: parasitic vibration appears", fmt::format("k = 1e8, unstretched: {:.1e} of the peak at c = 3, {:.1e} at 30, {:.1e} at 300, {:.1e} at 3000; with loaded pins none at any c",
        at(shaken, unstretched, 1e8, 3), at(shaken, unstretched, 1e8, 30), at(shaken, unstretched, 1e8, 300), at(shaken, unstretched, 1e8, 3e3)),
        at(shaken, unstretched, 1e8, 3) < kVisible ? Verdict::kFails : at(shaken, unstretched, 1e8, 30) > kVisible ? Verdict::kPartly : Verdict::kHolds}};
-  item.pictures = {{"sweep-loaded.svg", "From pins that carry their load: flexibility.", picture_of("Sweep: loaded pins at the start", kStiffness, loaded)},
-                   {"sweep-unstretched.svg", "From unstretched pins: flexibility and ringing.",
+  item.pictures = {{"sweep-loaded.svg", "With loaded pins: flexibility only.", picture_of("Sweep: loaded pins at the start", kStiffness, loaded)},
+                   {"sweep-unstretched.svg", "With unstretched pins: flexibility and ringing.",
                     picture_of("Sweep: unstretched pins at the start", shaken, unstretched)}};
-  item.tables = {table_of("From pins that carry their load", kStiffness, loaded), table_of("From unstretched pins", shaken, unstretched)};
+  item.tables = {table_of("With loaded pins", kStiffness, loaded), table_of("With unstretched pins", shaken, unstretched)};
   return item;
 }
 

@@ -45,7 +45,7 @@ void print_sources(const nlohmann::json& facts) {
 int run_program(int argc, char** argv) {
   CLI::App app("Published benchmark problems; sources and data are in bench/published/*.json.", "pintle-published");
   std::vector<std::string> names;
-  app.add_option("problems", names, "a01, a02, a03, andrews; all if absent")
+  app.add_option("problems", names, "a01, a02, a03, andrews (default: all)")
       ->check(CLI::IsMember({"a01", "a02", "a03", "andrews"}));
   CLI11_PARSE(app, argc, argv);
   int failed = 0;
@@ -57,7 +57,7 @@ int run_program(int argc, char** argv) {
     print(report);
     for (const Row& row : report.rows) failed += row.judged && !row.passes();
   }
-  fmt::print("{} of the measures missed their tolerance ('compliance': so do joints that are too soft for it, as they should)\n", failed);
+  fmt::print("{} of the measures missed their tolerance ('compliance': expected, the joints are too soft for it)\n", failed);
   return failed == 0 ? 0 : 1;
 }
 

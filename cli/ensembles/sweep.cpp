@@ -34,9 +34,9 @@ constexpr const char* kFooter =
     "  pintle sweep four_bar.toml --sample 100000 --seed 1 --tolerance 1e-4 --check-every 100\n"
     "  mpirun -n 64 pintle sweep four_bar.toml --sample 1000000\n"
     "\n"
-    "--vary makes a grid, the last one running fastest; --sample draws from the distributions under [variation] in the\n"
-    "model, at each point of the grid. A file that is cut short by Ctrl-C, a kill or a power cut goes on where it was when\n"
-    "the same command is given again: FILE.part holds what is done. Threads, machines and restarts change no bit of it.\n\n";
+    "--vary makes a grid, the last one varying fastest; --sample draws from the distributions under [variation] in the\n"
+    "model, at each point of the grid. After Ctrl-C, a kill or a power cut, run the same command again to continue from\n"
+    "FILE.part. The file is bitwise identical for any number of threads, machines and restarts.\n\n";
 
 struct SweepOptions : ModelOptions {
   SweepRequest request;
@@ -104,12 +104,12 @@ void print_results(const SweepOptions& options, const SweepOutcome& outcome) {
   if (!options.plot.empty()) {
     const auto plot = sweep_plot(table);
     if (plot) write_file(options.plot, to_svg(*plot));
-    else print_error("pintle sweep: no plot: it takes one varying value, or two of which one has at most eight\n");
+    else print_error("pintle sweep: no plot: it needs one varying value, or two of which one takes at most eight values\n");
   }
   if (options.json) return print_out(sweep_json(table, options.run.out.string()));
   if (options.quiet) return;
   print_out(sweep_text(table, wants_colour(STDOUT_FILENO)));
-  if (outcome.end == SweepEnd::kFinishedBefore) print_out(fmt::format("\n{} was finished before; --force computes it again\n", options.run.out.string()));
+  if (outcome.end == SweepEnd::kFinishedBefore) print_out(fmt::format("\n{} is already complete; --force recomputes it\n", options.run.out.string()));
   else {
     const std::uint64_t kept = outcome.progress.resumed;
     print_out(fmt::format("\nResults in {} ({} samples in {}{})\n", options.run.out.string(), outcome.progress.done - kept, clock_text(outcome.progress.wall_seconds),
@@ -131,7 +131,7 @@ ExitCode sweep_model(SweepOptions& options) {
   if (!outcome) return kOk;
   report.finish(*outcome, options.run.out);
   if (outcome->end == SweepEnd::kInterrupted) {
-    print_error(fmt::format("stopped after {} of {} samples, which {}.part keeps\n    try: the same command again goes on from there\n",
+    print_error(fmt::format("stopped after {} of {} samples, kept in {}.part\n    try: run the same command again to continue\n",
                             outcome->progress.done, outcome->progress.total, options.run.out.string()));
     return kStoppedBySignal;
   }
@@ -146,20 +146,20 @@ void add_sweep(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<SweepOptions>();
   SweepRequest& request = options->request;
   add_model_options(*verb, *options);
-  verb->add_option("--vary", request.vary, "a value that runs through a range or a list (repeatable: a grid)")->type_name("PATH=FROM..TO:lin|log:COUNT")->allow_extra_args(false);
-  verb->add_flag("--zip", request.zip, "all --vary run side by side instead of making a grid");
-  verb->add_option("--sample", request.samples, "draw so many samples from the distributions in the model")->type_name("COUNT")->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
-  verb->add_option("--seed", request.seed, "of the random numbers")->type_name("NUMBER")->capture_default_str();
+  verb->add_option("--vary", request.vary, "a value to vary over a range or a list (repeatable: a grid)")->type_name("PATH=FROM..TO:lin|log:COUNT")->allow_extra_args(false);
+  verb->add_flag("--zip", request.zip, "vary all --vary together instead of as a grid");
+  verb->add_option("--sample", request.samples, "number of samples to draw from the distributions in the model")->type_name("COUNT")->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
+  verb->add_option("--seed", request.seed, "seed of the random numbers")->type_name("NUMBER")->capture_default_str();
   verb->add_flag("--latin", request.latin, "Latin hypercube: the samples fill each value's range evenly");
   verb->add_option("--series", request.series, "keep this column of series.csv at all output times (repeatable)")->type_name("COLUMN")->allow_extra_args(false);
-  verb->add_option("--check-every", request.check_every, "estimate the errors of one sample in so many; the others are integrated once, as the model as it stands needs it")
+  verb->add_option("--check-every", request.check_every, "estimate the errors of one sample in this many; the others are integrated once, with the steps of the nominal run")
       ->type_name("COUNT")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
       ->capture_default_str();
   verb->add_option("-o,--out", options->out, "file (default: <name of the model file>-sweep.h5)")->type_name("FILE.h5");
-  verb->add_flag("--force", options->run.force, "replace a file or a journal, whatever it is");
-  verb->add_option("--threads", options->run.threads, "of each process (default: one for each core)")->type_name("COUNT")->check(CLI::Range(1, 4096));
-  verb->add_option("--plot", options->plot, "draw the peak forces against the one or two values that vary")->type_name("FILE.svg")->check(svg_problem, "", "");
+  verb->add_flag("--force", options->run.force, "replace any existing file or journal");
+  verb->add_option("--threads", options->run.threads, "threads of each process (default: one per core)")->type_name("COUNT")->check(CLI::Range(1, 4096));
+  verb->add_option("--plot", options->plot, "plot the peak forces against the one or two varying values")->type_name("FILE.svg")->check(svg_problem, "", "");
   verb->add_option("--progress", options->progress, "on standard error: a line on a terminal, nothing, or JSON lines")->check(CLI::IsMember({"auto", "none", "json"}))->type_name("auto|none|json");
   verb->add_flag("--json", options->json, "print the summary as JSON");
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");

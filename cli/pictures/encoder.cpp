@@ -81,7 +81,7 @@ void FilmEncoder::start(const std::vector<std::string>& words) {
   ::close(frames_);
   if (complaints_ >= 0) ::close(complaints_);
   if (failed == ENOENT)
-    throw FileError("ffmpeg: there is no such program, and films need it.\n    Install it: apt-get install ffmpeg. One instant as SVG or PNG works without: --still TIME.");
+    throw FileError("ffmpeg: not found, but films need it.\n    Install it: apt-get install ffmpeg. A still as SVG or PNG works without it: --still TIME.");
   throw FileError(fmt::format("ffmpeg: cannot be started: {}.", std::strerror(failed)));
 }
 

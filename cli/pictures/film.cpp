@@ -34,8 +34,8 @@ constexpr const char* kFooter =
     "  pintle film four_bar-run --out four_bar.webm --fps 50 --speed 0.1 --trace coupler.B\n"
     "  pintle film four_bar-run --still peak --out four_bar.svg\n"
     "\n"
-    "Films are encoded by the program ffmpeg. Unless --speed says otherwise the film runs in real time if that takes\n"
-    "between 3 and 20 seconds, else in about eight.\n";
+    "Films are encoded by ffmpeg. Without --speed, the film runs in real time if that takes 3 to 20 seconds, otherwise\n"
+    "it lasts about 8 seconds.\n";
 
 struct Options {
   std::string run, out, still;
@@ -65,7 +65,7 @@ constexpr double kMostGifRate = 50;   // its frames last whole hundredths of a s
 class FilmMaker {
  public:
   explicit FilmMaker(const Options& options) : options_(options), drawn_(read_drawn_run(options.run)), trajectory_(drawn_.run.trajectory) {
-    if (trajectory_.n_rows() == 0) throw FileError(options.run + ": the run has no rows: there is nothing to film.");
+    if (trajectory_.n_rows() == 0) throw FileError(options.run + ": the run has no rows to film.");
     scene_ = make_scene(drawn_.model, trajectory_);
     if (scene_.n_unseen == scene_.bodies.size())
       throw FileError(options.run + ": the run did not record any body.\n    Run it again with record = [\"all\"] in [simulate].");
@@ -85,7 +85,7 @@ class FilmMaker {
   void draw_still(const std::filesystem::path& file) const {
     double t = peak_time(trajectory_);
     if (options_.still != "peak" && !CLI::detail::lexical_cast(options_.still, t))
-      throw Usage(fmt::format("found --still \"{}\": a time in seconds, or peak, is wanted here.", options_.still));
+      throw Usage(fmt::format("found --still \"{}\": a time in seconds, or peak, is expected here.", options_.still));
     const double begin = trajectory_.at(0, 0), end = trajectory_.at(trajectory_.n_rows() - 1, 0);
     if (const double slack = 1e-9 * (end - begin); !(t >= begin - slack && t <= end + slack))
       throw Usage(fmt::format("found --still \"{}\": the run goes from {:.6g} s to {:.6g} s.", options_.still, begin, end));
@@ -97,7 +97,7 @@ class FilmMaker {
     const double first = trajectory_.at(0, 0), span = trajectory_.at(trajectory_.n_rows() - 1, 0) - first;
     const double speed = options_.speed > 0 ? options_.speed : span > 0 ? usual_speed(span) : 1;
     const double per_frame = speed / options_.frames_per_second;
-    if (!(span / per_frame < 1e6)) throw Usage("these would be more than a million frames.\n    A larger --speed or a smaller --fps gives fewer.");
+    if (!(span / per_frame < 1e6)) throw Usage("this would be more than a million frames.\n    A larger --speed or a smaller --fps gives fewer.");
     const int n = std::max(1, static_cast<int>(std::lround(span / per_frame)));
     const double scale = options_.dots_per_inch / 96;
     const Pixels start = even(pixels_of(frame(first), scale));
@@ -170,15 +170,15 @@ void add_film(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<Options>();
   verb->add_option("RUN", options->run, "run folder")->required();
   verb->add_option("-o,--out", options->out, "file to write: .gif or .webm; with --still .svg or .png (default: <run>.gif, <run>.svg)")->type_name("FILE");
-  verb->add_option("--still", options->still, "one picture at this time, or at the largest joint force")->type_name("SECONDS|peak");
-  verb->add_option("--fps", options->frames_per_second, "frames a second")->type_name("N")->check(CLI::Range(1.0, 120.0))->capture_default_str();
-  verb->add_option("--speed", options->speed, "seconds of motion in a second of film")->type_name("FACTOR")->check(CLI::PositiveNumber);
-  verb->add_option("--width", options->width, "of the picture, 96 of them to the inch")->type_name("PIXELS")->check(CLI::Range(64.0, 10000.0))->capture_default_str();
-  verb->add_option("--dpi", options->dots_per_inch, "dots to the inch")->type_name("DOTS")->check(CLI::Range(36.0, 1200.0))->capture_default_str();
+  verb->add_option("--still", options->still, "one picture, at this time or at the largest joint force")->type_name("SECONDS|peak");
+  verb->add_option("--fps", options->frames_per_second, "frames per second")->type_name("N")->check(CLI::Range(1.0, 120.0))->capture_default_str();
+  verb->add_option("--speed", options->speed, "seconds of motion per second of film")->type_name("FACTOR")->check(CLI::PositiveNumber);
+  verb->add_option("--width", options->width, "width of the picture, at 96 pixels per inch")->type_name("PIXELS")->check(CLI::Range(64.0, 10000.0))->capture_default_str();
+  verb->add_option("--dpi", options->dots_per_inch, "dots per inch")->type_name("DOTS")->check(CLI::Range(36.0, 1200.0))->capture_default_str();
   verb->add_flag("--forces,!--no-forces", options->forces, "arrows for the force at every joint (default)");
   verb->add_flag("--names", options->names, "names of the joints");
   verb->add_flag("--masses", options->masses, "marks at the centres of mass");
-  verb->add_flag("--dark", options->dark, "on a dark ground");
+  verb->add_flag("--dark", options->dark, "dark background");
   verb->add_option("--trace", options->traces, "path of this point, as body.marker (repeatable)")->type_name("POINT")->allow_extra_args(false);
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
   verb->footer(kFooter);

@@ -5,7 +5,7 @@ namespace pintle::cli {
 namespace {
 
 [[noreturn]] void refuse() {
-  throw FileError("pintle was built without librsvg, which PNG and films need.\n    Install librsvg2-dev and build again; SVG works without.");
+  throw FileError("pintle was built without librsvg, which PNG and films need.\n    Install librsvg2-dev and build again; SVG works without it.");
 }
 
 }  // namespace

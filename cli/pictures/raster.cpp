@@ -23,7 +23,7 @@ template <class T>
 using Held = std::unique_ptr<T, Release>;
 
 [[noreturn]] void fail(const std::string& why) {
-  throw FileError(fmt::format("The picture could not be turned into pixels: {}.\n    A smaller --width or --dpi may help.", why));
+  throw FileError(fmt::format("The picture could not be rasterised: {}.\n    A smaller --width or --dpi may help.", why));
 }
 
 void fail_if(GError* error) {

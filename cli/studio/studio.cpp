@@ -30,8 +30,8 @@ constexpr const char* kFooter =
     "  pintle studio\n"
     "  pintle studio four_bar.toml --port 8000\n"
     "\n"
-    "The studio reads and writes the model files of the folder that it is started in, and nothing else. It answers to\n"
-    "this machine only. Ctrl-C ends it.\n";
+    "The studio reads and writes the model files of the folder it is started in, and nothing else. It accepts\n"
+    "connections from this machine only. Ctrl-C stops it.\n";
 
 struct StudioOptions {
   std::string model, pages;
@@ -49,7 +49,7 @@ fs::path find_pages(const std::string& given) {
   const fs::path self = fs::read_symlink("/proc/self/exe", error);
   for (const fs::path& pages : {self.parent_path().parent_path() / "share/pintle/studio", fs::path(PINTLE_STUDIO_PAGES)})
     if (fs::exists(pages / "index.html", error)) return pages;
-  throw FileError("the pages of the studio are not built\n    try: make studio");
+  throw FileError("the studio's pages are not built\n    try: make studio");
 }
 
 /// The model's path below the folder; throws FileError if it is elsewhere.
@@ -81,7 +81,7 @@ ExitCode run_studio(const StudioOptions& options) {
   settings.port = server.port();
   studio::Desk desk(settings);
   const std::string place = fmt::format("http://127.0.0.1:{}/", server.port());
-  print_out(fmt::format("Pintle Studio: {}#token={}\nModels of {}; Ctrl-C ends it.\n", place, settings.token, folder.string()));
+  print_out(fmt::format("Pintle Studio: {}#token={}\nModels in {}; Ctrl-C stops it.\n", place, settings.token, folder.string()));
   catch_interrupts();
   if (!options.no_browser) show(place + "enter/" + settings.ticket);
   server.serve(desk, [] { return !interrupted(); });
@@ -94,7 +94,7 @@ void add_studio(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("studio", kStudioDescription);
   const auto options = std::make_shared<StudioOptions>();
   verb->add_option("MODEL", options->model, "model file to open, in this folder");
-  verb->add_option("--port", options->port, fmt::format("port on 127.0.0.1 (default: {}; where it is taken one of the next {}, or any)", kUsualPort, kMorePorts))
+  verb->add_option("--port", options->port, fmt::format("port on 127.0.0.1 (default: {}; if taken, one of the next {}, or any free one)", kUsualPort, kMorePorts))
       ->check(CLI::Range(0, 65535))
       ->type_name("N");
   verb->add_option("--pages", options->pages, "built studio to serve (default: the installed one, or build/studio)")->type_name("FOLDER");

@@ -1,5 +1,5 @@
-// What can be said of a model before it is run: mobility, redundancy, loops, frequencies, and whether every formula
-// that a run will use agrees with its own differences and keeps the energy account. theory/checks.
+// Analysis of a model without running it: mobility, redundancy, loops, frequencies, and whether every formula that a
+// run uses agrees with finite differences and the energy account. theory/checks.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// A mechanism in motion, advanced a little at a time and pulled at while it moves; and one at rest, moved by hand.
+// Live motion, advanced in small increments and pulled while it moves; and a linkage at rest, moved by hand.
 // theory/live.
 #pragma once
 

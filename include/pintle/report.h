@@ -1,4 +1,4 @@
-// A run as one HTML page: moving mechanism, plots, tables. It needs nothing beside it, no network and no file system.
+// A run as one self-contained HTML page: moving mechanism, plots, tables. It needs no network and no file system.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Work and precision of the integration methods on one model, measured on its joint forces: what does each method pay, and
-// what are its forces worth? theory/solvers section 5.
+// Work and precision of the integration methods on one model: cost and accuracy of the joint forces of each method.
+// theory/solvers section 5.
 #pragma once
 
 #include <functional>

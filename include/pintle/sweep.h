@@ -1,4 +1,4 @@
-// Ensembles: one mechanism with many sets of values, in a grid or by chance. The peaks of every joint force go to one HDF5
+// Ensembles: one mechanism with many sets of values, in a grid or random. The peaks of every joint force go to one HDF5
 // file, through a journal that survives a kill. docs/tutorials/sweep.md
 #pragma once
 

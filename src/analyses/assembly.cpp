@@ -86,16 +86,16 @@ void demand_closed(const System& system, const Vecs& q, const std::vector<bool>&
     const double length = gap.head<2>().norm(), angle = std::abs(gap[2]);
     if (length > 2e-3 * size || angle > 0.02) {
       if (++n_broken > kMostListed) continue;
-      broken += fmt::format("\n  joint {} ({}) stays {} apart", joint.name, joint.type,
+      broken += fmt::format("\n  joint {} ({}) stays open by {}", joint.name, joint.type,
                             length > 2e-3 * size ? fmt::format("{:.4g} m", length) : fmt::format("{:.4g} rad", angle));
     } else if (length > 1e-9 * size || angle > 1e-9) {
-      notes.push_back(fmt::format("joint {}: misfit of {:.3g} m, {:.3g} rad as assembled; it is preloaded by it", joint.name, length, angle));
+      notes.push_back(fmt::format("joint {}: misfit of {:.3g} m, {:.3g} rad after assembly; it preloads the joint", joint.name, length, angle));
     }
   }
   if (n_broken > kMostListed) broken += fmt::format("\n  and {} more", n_broken - kMostListed);
   if (!broken.empty())
     throw AssemblyError("the mechanism cannot be assembled from the stated positions:" + broken + "\n  loop: " + loop_through(system, broken) +
-                        "\n  Try lengths that close, or angles nearer to the position that is meant.");
+                        "\n  Try lengths that close the loop, or angles nearer to the intended position.");
 }
 
 void assemble_positions(const Model& model, System& system, Vecs& q, std::vector<std::string>& notes) {

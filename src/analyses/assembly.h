@@ -1,4 +1,4 @@
-// Finds a state to start from: positions that close every loop, velocities of the joints' free motion, joint preload.
+// Computes an initial state: positions that close every loop, consistent velocities, joint preload.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Every formula that a run of this model will use against its own differences, and against the energy it should keep.
+// Checks every formula that a run of this model uses against finite differences and the energy balance.
 #pragma once
 
 #include "analyses/check_links.h"

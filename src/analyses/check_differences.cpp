@@ -64,7 +64,7 @@ void Comparisons::count(double mismatch, const CheckPlace& place) {
   item_.worst = mismatch;
   item_.place =
       fmt::format("{}{}{}, {}", place.kind, place.name.empty() ? "" : " ", place.name,
-                  place.state == 0 ? std::string("as assembled") : fmt::format("disturbed state {}", place.state));
+                  place.state == 0 ? std::string("as assembled") : fmt::format("perturbed state {}", place.state));
 }
 
 }  // namespace pintle

@@ -1,4 +1,4 @@
-// Slopes against central differences, and a tally of how well they agree.
+// Derivatives against central differences, and statistics of the agreement.
 #pragma once
 
 #include <Eigen/Core>

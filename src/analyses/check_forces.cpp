@@ -66,9 +66,9 @@ class LinkForces {
     rigid_.vanishes((r.GA() * swept(A) + r.GB() * swept(B)).norm(), reach + 1 + r.GA().norm() + r.GB().norm(), place);
   }
 
-  Comparisons force_{"forces opposite on both bodies", kIdentityTolerance},
-      moment_{"moments opposite about any point", kIdentityTolerance},
-      rigid_{"blind to a common rigid motion", kIdentityTolerance};
+  Comparisons force_{"equal and opposite forces", kIdentityTolerance},
+      moment_{"equal and opposite moments", kIdentityTolerance},
+      rigid_{"invariant under rigid motion", kIdentityTolerance};
 };
 
 }  // namespace

@@ -166,7 +166,7 @@ CheckFrequencies check_frequencies(const System& system, const State& assembled,
     out.complete = true;
   } else {
     out.modes = {fastest_mode(rows)};
-    out.remark = fmt::format("more than {} freedoms: the fastest mode only, by iteration", kDenseFreedoms);
+    out.remark = fmt::format("more than {} degrees of freedom: fastest mode only, by iteration", kDenseFreedoms);
   }
   for (const CheckMode& mode : out.modes) {
     const double step = dormand_prince_step(mode.frequency, mode.damping_ratio);

@@ -1,4 +1,4 @@
-// The fast frequencies that the joints' stiffness makes, and their damping. theory/checks.
+// The high frequencies due to joint stiffness, and their damping. theory/checks.
 #pragma once
 
 #include "pintle/check.h"

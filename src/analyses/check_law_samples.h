@@ -1,4 +1,4 @@
-// Gaps and rates at which a joint's law is looked at: as assembled, and about as far on either side.
+// Gaps and rates at which a joint's law is checked: as assembled, and about as far on either side.
 #pragma once
 
 #include "analyses/check_links.h"

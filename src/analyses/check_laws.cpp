@@ -78,9 +78,9 @@ void check_law_slopes(const System& system, const State& assembled, const std::v
 
 void check_law_energy(const System& system, const State& assembled, const std::vector<CheckState>& states,
                       CheckBattery& battery) {
-  Comparisons potential("force downhill in the law's energy", kSlopeTolerance),
-      account("power = stored + lost, per law", kIdentityTolerance), loss("losses not negative", kIdentityTolerance),
-      finite("finite at rest and far out", 0);
+  Comparisons potential("force = -energy gradient", kSlopeTolerance),
+      account("power = stored + dissipated, per law", kIdentityTolerance), loss("dissipation not negative", kIdentityTolerance),
+      finite("finite at zero and large gaps", 0);
   for_each_sample(system, assembled, states, [&](const Law& law, const LawSample& at, const CheckPlace& place) {
     downhill(law, at, place, potential);
     powers(law, at, place, account, loss);

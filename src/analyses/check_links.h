@@ -1,4 +1,4 @@
-// What the batteries look at: every joint, servo, spring and motor as a probe between two bodies, in a few states.
+// What the batteries check: every joint, servo, spring and motor as a probe between two bodies, in a few states.
 #pragma once
 
 #include <string>

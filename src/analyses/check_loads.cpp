@@ -93,7 +93,7 @@ class LoadSlopes {
     return out;
   }
 
-  Comparisons by_position_{"loads by position", kSlopeTolerance}, by_velocity_{"loads by velocity", kSlopeTolerance};
+  Comparisons by_position_{"load derivatives, position", kSlopeTolerance}, by_velocity_{"load derivatives, velocity", kSlopeTolerance};
 };
 
 // The values an effort expression reads.
@@ -174,7 +174,7 @@ void check_load_slopes(const System& system, const std::vector<CheckState>& stat
 
 void check_expressions(const System& system, const std::vector<CheckState>& states, double duration,
                        CheckBattery& battery) {
-  Comparisons slopes("slopes of expressions", kSlopeTolerance), finite("expressions finite over the run", 0);
+  Comparisons slopes("derivatives of expressions", kSlopeTolerance), finite("expressions finite over the run", 0);
   for (const CheckState& state : states) {
     for (const LoadData& load : system.loads) {
       if (load.kind != LoadKind::kEffort) continue;

@@ -41,7 +41,7 @@ class MobilityCount {
     // Positions are not known better than the misfit; a parallelogram with a tolerance is still a parallelogram.
     counts.rank_tolerance = std::clamp(10 * misfit_, 1e-8, 1e-3);
     if (counts.freedoms > kSparseFreedoms || counts.constraints > kSparseFreedoms) {
-      counts.remark = "too large for a rank; only Gruebler's count is known";
+      counts.remark = "too large to compute the rank; only Gruebler's count is known";
     } else if (counts.freedoms > kDenseFreedoms) {
       sparse();
     } else {
@@ -67,7 +67,7 @@ class MobilityCount {
     CheckMobility& counts = out_.counts;
     counts.method = "sparse factors";
     counts.remark =
-        fmt::format("more than {} freedoms: no singular values, and no look at nearby positions", kDenseFreedoms);
+        fmt::format("more than {} degrees of freedom: no singular values, nearby positions not examined", kDenseFreedoms);
     const SparseRank rank = sparse_rank(joints_, system_, length_, counts.rank_tolerance);
     counts.rank = counts.mobility_driven = rank.rank;
     if (rank.rank < 0) {

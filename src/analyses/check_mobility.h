@@ -1,4 +1,4 @@
-// Mobility by Gruebler's count and by true rank, and the constraints that say the same thing twice. theory/checks.
+// Mobility by Gruebler's count and by rank, and the redundant constraints. theory/checks.
 #pragma once
 
 #include <vector>

@@ -30,7 +30,7 @@ Assembled assembled(const Model& model, Start start) {
     as.simulate.start = Start::kRaw;  // its gaps are meant
     out.system = build_system(as);
     out.at = assemble(as, out.system);
-    out.at.notes.push_back("checked with the stated positions, whose gaps are wider than assembly would leave them");
+    out.at.notes.push_back("checked at the stated positions, where gaps are wider than after assembly");
   }
   return out;
 }

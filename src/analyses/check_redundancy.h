@@ -1,4 +1,4 @@
-// Names for what is redundant: constraint components that are bound by a dependency.
+// Names of the redundant constraint components, grouped by dependency.
 #pragma once
 
 #include "analyses/check_rank.h"

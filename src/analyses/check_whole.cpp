@@ -137,7 +137,7 @@ class PowerAccount {
 }  // namespace
 
 void check_whole_slopes(const System& system, const std::vector<CheckState>& states, CheckBattery& battery) {
-  Comparisons whole("all forces along a direction", kSlopeTolerance);
+  Comparisons whole("directional derivative of all forces", kSlopeTolerance);
   for (const CheckState& state : states) {
     const double step = shortest_step(system, state);
     for (unsigned direction = 0; direction < 3; ++direction) {
@@ -157,7 +157,7 @@ void check_whole_slopes(const System& system, const std::vector<CheckState>& sta
 
 void check_power_account(const System& system, const std::vector<CheckState>& states, CheckBattery& battery) {
   constexpr double kRounding = 1e-8;  // of the energies, with room: differences cannot see less
-  Comparisons account("powers of the whole add up", kSlopeTolerance);
+  Comparisons account("power balance of the mechanism", kSlopeTolerance);
   System loads_alone = system;  // joint forces of disturbed states would drown the others
   for (JointData& joint : loads_alone.joints) joint.law = LinearLaw{};
   for (const CheckState& state : states) {

@@ -117,7 +117,7 @@ std::string loop_through(const System& system, const std::string& text) {
       queue.push_back(a == at ? b : a);
     }
   }
-  if (by[goal] < 0) return system.joints[start].name + " (no other way between its bodies)";
+  if (by[goal] < 0) return system.joints[start].name + " (no other path between its bodies)";
   std::string names = system.joints[start].name;
   for (int at = goal; at != node(system.joints[start].at.a);) {
     const int j = by[at];

@@ -1,4 +1,4 @@
-// What a motion in real time and a linkage moved by hand have in common: the pin by which the hand holds a body.
+// Common to live motion and linkages moved by hand: the pin by which the hand holds a body.
 #pragma once
 
 #include <string>

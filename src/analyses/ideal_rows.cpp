@@ -60,7 +60,7 @@ IdealRows choose_ideal_rows(System& system, const Vecs& q) {
     joint.redundant[rows[i].component] = true;
   }
   for (const CheckRedundancy& group : mobility.redundancies) {
-    out.notes.push_back(fmt::format("ideal joints: {} constraint{} too many among {}: their reactions are not unique, the motion is", group.degree,
+    out.notes.push_back(fmt::format("ideal joints: {} redundant constraint{} among {}: the motion is unique, these reactions are not", group.degree,
                                     group.degree == 1 ? "" : "s", list_of_members(group)));
     for (const auto& member : group.members)
       if (std::find(out.not_unique.begin(), out.not_unique.end(), member.joint) == out.not_unique.end()) out.not_unique.push_back(member.joint);

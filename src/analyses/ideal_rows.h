@@ -1,4 +1,4 @@
-// Which gap components the ideal equations keep: all of the ideal joints' but those that the others keep already.
+// The gap components constrained by the ideal equations: those of all ideal joints except the redundant ones.
 #pragma once
 
 #include <string>

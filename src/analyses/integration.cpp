@@ -60,7 +60,7 @@ Integration integrate(const System& system, const State& start, const Integratio
       recorder.add(stepper.inside(t));
     if (standstill.reached(now.t)) {
       out.ended = Ended::kFailed;
-      out.message = fmt::format("the motion blows up, or the tolerance is below the rounding of its forces: steps of {:.3g} s at t = {:.9g} s", now.t - stepper.previous().t, now.t);
+      out.message = fmt::format("the motion diverges, or the tolerance is below the rounding error of the forces: steps of {:.3g} s at t = {:.9g} s", now.t - stepper.previous().t, now.t);
       break;
     }
     if (stepper.counters().steps >= kMaxSteps) {

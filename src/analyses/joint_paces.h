@@ -1,5 +1,5 @@
-// How fast the joints' own dynamics is against a span of time: which gaps ride their slow motion, which creep, which
-// vibrate along with the motion. theory/assembly section 5.
+// Time scales of the joints' own dynamics compared with an interval: which gaps follow the slow manifold, which creep
+// (overdamped), which oscillate with the motion. theory/assembly section 5.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// A run that keeps less than `simulate` does, for those who make many of them.
+// A run that records less than `simulate`, for callers that make many of them.
 #pragma once
 
 #include "analyses/recorder.h"

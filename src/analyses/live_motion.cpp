@@ -46,7 +46,7 @@ class LiveMotion::Motion {
   }
 
   void pull(const std::optional<Pull>& pull) {
-    if (pull && (pull->body < 0 || pull->body >= system_.n_bodies())) throw std::invalid_argument("there is no such body to pull at");
+    if (pull && (pull->body < 0 || pull->body >= system_.n_bodies())) throw std::invalid_argument("there is no such body to pull");
     const bool other = pull_ && (!pull || pull_->body != pull->body || pull_->point != pull->point || pull_->stiffness != pull->stiffness);
     if (other) release();
     if (pull && !pull_) hold(*pull);

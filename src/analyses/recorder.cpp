@@ -97,7 +97,7 @@ std::vector<Column> Recorder::columns() const {
     const std::string p = "body." + body.name + ".";
     column(p + "x", "m", "centre of mass of " + body.name + ", world x");
     column(p + "y", "m", "centre of mass of " + body.name + ", world y");
-    column(p + "angle", "rad", "angle of " + body.name + " against the world, counter-clockwise");
+    column(p + "angle", "rad", "angle of " + body.name + " in the world, counter-clockwise");
     column(p + "vx", "m/s", "velocity of the centre of mass of " + body.name + ", world x");
     column(p + "vy", "m/s", "velocity of the centre of mass of " + body.name + ", world y");
     column(p + "spin", "rad/s", "angular velocity of " + body.name);
@@ -118,7 +118,7 @@ std::vector<Column> Recorder::columns() const {
     column(p + "on_" + first + ".fy[world]", "N", what + first + ", world y");
     if (couple) column(p + "on_" + first + ".m[world]", "N*m", "couple that joint " + joint.name + " exerts on " + first + ", about its marker");
     if (joint.free_mask[0] > 0) column(p + "slide", "m", "displacement along the axis of the joint's frame on " + first);
-    if (joint.free_mask[2] > 0) column(p + "angle", "rad", "angle of " + second + "'s marker against " + first + "'s");
+    if (joint.free_mask[2] > 0) column(p + "angle", "rad", "angle of " + second + "'s marker relative to " + first + "'s");
     if (joint.free_mask[0] > 0) column(p + "rate", "m/s", "rate of the slide");
     else if (joint.free_mask[2] > 0) column(p + "rate", "rad/s", "rate of the angle");
     for (LawColumn& law : joint.law.columns()) column(p + law.name, law.unit.c_str(), std::move(law.meaning));
@@ -136,7 +136,7 @@ std::vector<Column> Recorder::columns() const {
   }
   column("energy.kinetic", "J", "kinetic energy");
   column("energy.potential", "J", "potential energy of gravity, springs and joints");
-  column("energy.dissipated", "J", "turned into heat in joints and dampers since the start");
+  column("energy.dissipated", "J", "dissipated in joints and dampers since the start");
   column("energy.supplied", "J", "delivered by motors and applied forces since the start");
   return columns;
 }

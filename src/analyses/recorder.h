@@ -1,4 +1,4 @@
-// Turns states into the rows of a trajectory, and sums up what every joint, spring and motor carried.
+// Records states as rows of a trajectory, and summarises the load of every joint, spring and motor.
 #pragma once
 
 #include <vector>

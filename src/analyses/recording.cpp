@@ -34,7 +34,7 @@ Recording choose_recording(const Model& model, const System& system) {
     const double columns = kPerBody * static_cast<double>(n_bodies) + kPerJoint * static_cast<double>(n_joints);
     const bool many = columns > kMostColumns || columns * model.simulate.duration / step > kMostNumbers;
     if (n_bodies + n_joints <= kSmall || !many) return out;
-    out.note = fmt::format("series.csv leaves out the columns of {} bodies and {} joints: name those wanted in simulate.record; "
+    out.note = fmt::format("series.csv omits the columns of {} bodies and {} joints: list those you need in simulate.record; "
                            "summary.json has peak, mean, RMS and error of every joint", n_bodies, n_joints);
   }
   const NamePatterns chosen(wanted);

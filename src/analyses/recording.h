@@ -1,5 +1,4 @@
-// What a run keeps over time: of which bodies and joints, and how often. Whatever is left out here, every joint's forces are
-// compared and summed up.
+// Which bodies and joints a run records, and how often. Forces of all joints are compared and summarised regardless.
 #pragma once
 
 #include <string>

@@ -13,7 +13,7 @@ constexpr double kNegligible = 0.01;   // of the largest force: joints that carr
 constexpr double kNoWork = 1e-3;       // of the largest kinetic energy
 constexpr double kRowsPerStep = 5;     // show what a step has found
 constexpr double kMostRefined = 1e-3;  // of the output step: a peak that asks for less is a shock
-constexpr const char* kTables = "peaks, means and works of the tables are those of the rows";
+constexpr const char* kTables = "peaks, means and work in the tables are those of the rows";
 
 double square_of(const State& state, std::size_t j) { return state.force[j].head<2>().squaredNorm(); }
 
@@ -61,16 +61,16 @@ std::string RowWatch::missed_peak(double output_step) const {
   const Peak& peak = at_steps_[missed];
   const double wanted = peak.h / kRowsPerStep;
   const bool known = wanted > kMostRefined * output_step && wanted < output_step;
-  return fmt::format("output rows miss peaks: joint {} carries {:.5g} N at t = {:.5g} s, the rows show {:.5g} N at most; {}. {}", system_.joints[missed].name,
+  return fmt::format("output rows miss a peak: joint {} carries {:.5g} N at t = {:.5g} s, the rows show at most {:.5g} N; {}. {}", system_.joints[missed].name,
                      std::sqrt(peak.square), peak.t, std::sqrt(in_rows_[missed]), kTables,
-                     known ? fmt::format("output_step = \"{:.1g} s\" shows it", wanted) : "A shorter output_step shows more");
+                     known ? fmt::format("output_step = \"{:.1g} s\" resolves it", wanted) : "A shorter output_step resolves it");
 }
 
 std::string RowWatch::missed_work() const {
   const double supplied = supplied_ - supplied_before_;
   const double missed = std::abs(work_ - supplied);
   if (!(missed > kMissed * std::max(moved_, std::abs(supplied)) && missed > kNoWork * kinetic_)) return "";
-  return fmt::format("output rows are too far apart: their power adds up to {:.5g} J where {:.5g} J were supplied; {}. A shorter output_step shows more", work_,
+  return fmt::format("output rows are too far apart: their power integrates to {:.5g} J, but {:.5g} J were supplied; {}. A shorter output_step resolves it", work_,
                      supplied, kTables);
 }
 

@@ -1,4 +1,4 @@
-// Looks at what happens between output rows, so that a table that misses a peak or a part of the work says so.
+// Monitors the run between output rows, so that a table that misses a peak or part of the work says so.
 #pragma once
 
 #include <string>

@@ -24,7 +24,7 @@ TEST(RowWatch, NamesTheJointWhosePeakTheRowsMiss) {
   model.simulate.duration = 0.9;
   for (const double step : {0.3, 0.005}) {
     model.simulate.output_step = step;
-    EXPECT_EQ(says(simulate(model), "output rows miss peaks: joint pin carries 24.5"), step > 0.1) << step;
+    EXPECT_EQ(says(simulate(model), "output rows miss a peak: joint pin carries 24.5"), step > 0.1) << step;
   }
 }
 
@@ -42,9 +42,9 @@ TEST(RowWatch, LooksAtNoJointThatCarriesNextToNothing) {
   EXPECT_EQ(watch.note(0.01), "");
   state.force[2] = {0, 1020, 0};
   watch.add_step(state, 1e-3);
-  EXPECT_EQ(watch.note(0.01), "output rows miss peaks: joint " + system.joints[2].name +
-                                  " carries 1020 N at t = 0.001 s, the rows show 1000 N at most; peaks, means and works of the tables are those of the rows. "
-                                  "output_step = \"0.0002 s\" shows it");
+  EXPECT_EQ(watch.note(0.01), "output rows miss a peak: joint " + system.joints[2].name +
+                                  " carries 1020 N at t = 0.001 s, the rows show at most 1000 N; peaks, means and work in the tables are those of the rows. "
+                                  "output_step = \"0.0002 s\" resolves it");
 }
 
 // Power 1 + cos(2 pi t): over ten periods 10 J. Rows at its peaks make 20 J of it.
@@ -59,7 +59,7 @@ TEST(RowWatch, AddsUpThePowerOfTheRows) {
       state.supplied = 5 + state.t + std::sin(2 * std::numbers::pi * state.t) / (2 * std::numbers::pi);
       watch.add_row(state, 1 + std::cos(2 * std::numbers::pi * state.t), 1);
     }
-    EXPECT_EQ(watch.note(10.0 / rows).find("output rows are too far apart: their power adds up to 20 J where 10 J were supplied") == 0, rows == 10) << watch.note(1);
+    EXPECT_EQ(watch.note(10.0 / rows).find("output rows are too far apart: their power integrates to 20 J, but 10 J were supplied") == 0, rows == 10) << watch.note(1);
     EXPECT_EQ(watch.note(10.0 / rows).empty(), rows == 40);
   }
 }

@@ -249,13 +249,13 @@ class Run {
     if (ended == Ended::kStopped) out_.outcome = Outcome::kInterrupted;
     else if (ended == Ended::kFailed && !whole) out_.outcome = Outcome::kFailed;
     else if ((ended == Ended::kFailed && no_estimate) || error > model_.simulate.tolerance) out_.outcome = Outcome::kToleranceNotMet;
-    if (no_estimate && shape_.checked && !system_.joints.empty()) out_.notes.push_back("stopped before a second integration: the joint forces carry no error estimate");
+    if (no_estimate && shape_.checked && !system_.joints.empty()) out_.notes.push_back("stopped before a second integration: the joint forces have no error estimate");
     if (whole && ended != Ended::kAtEnd)
-      out_.notes.push_back(fmt::format("a finer integration did not reach the end{}; the results are those of the one before it", message.empty() ? "" : " (" + message + ")"));
+      out_.notes.push_back(fmt::format("a finer integration did not reach the end{}; the results are those of the previous one", message.empty() ? "" : " (" + message + ")"));
     if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)
-      out_.message = fmt::format("the largest error of {} is estimated at {:.2g} of {}, {:.2g} was asked for",
-                                 out_.of_motion ? "a body's place" : fmt::format("a joint force, at {} {},", worst->servo < 0 ? "joint" : "motor", worst->name), error,
-                                 out_.of_motion ? "the longest way that one has gone" : "its peak", model_.simulate.tolerance);
+      out_.message = fmt::format("the largest {} is estimated at {:.2g} of {}; the tolerance is {:.2g}",
+                                 out_.of_motion ? "position error" : fmt::format("force error, at {} {},", worst->servo < 0 ? "joint" : "motor", worst->name), error,
+                                 out_.of_motion ? "the longest path of any body" : "the peak force", model_.simulate.tolerance);
     if (!message.empty() && out_.outcome != Outcome::kCompleted) out_.message += (out_.message.empty() ? "" : "; ") + message;
   }
 

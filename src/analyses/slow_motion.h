@@ -1,5 +1,5 @@
-// The joints' slow motion from a given start: the gaps that the motion itself demands over a short stretch of time, free of
-// ringing, by fixed-point iteration on polynomials. theory/assembly Eqs. (4.1)-(4.4), and section 5 for soft joints.
+// The slow manifold from a given start: the gaps required by the motion over a short interval, free of ringing, by
+// fixed-point iteration on polynomials. theory/assembly Eqs. (4.1)-(4.4), and section 5 for soft joints.
 #pragma once
 
 #include "analyses/joint_paces.h"

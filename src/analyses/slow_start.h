@@ -1,5 +1,5 @@
-// Joint preload at the start: the forces that the motion needs, with the gaps, gap rates and gap accelerations that carry
-// them, so that a run begins on the joints' slow motion and excites no ringing. theory/assembly section 3.
+// Joint preload at the start: the forces that the motion needs, with the gaps, gap rates and gap accelerations that
+// carry them, so that a run starts on the slow manifold and excites no ringing. theory/assembly section 3.
 #pragma once
 
 #include "integrators/gap_projector.h"

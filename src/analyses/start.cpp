@@ -26,8 +26,8 @@ constexpr double kMostHaste = 1e-3, kMostLever = 30;
 constexpr double kExact = 1e-6;   // the same, with nothing left to settle
 constexpr double kEntirely = 0.99;  // of its slow motion: with this share a soft joint counts as going with the motion
 constexpr const char* kNotSettled =
-    "the joints' slow motion at the start was not found (a force that jumps there, or a chain so long that it sways slower than it moves): joints may ring from the start on. Both integrations start alike, so the stated "
-    "errors do not include it";
+    "no transient-free start was found (a force jumps at the start, or a long chain has modes slower than its motion): joint forces may ring from the start. All passes start alike, so the stated "
+    "errors do not include this";
 
 // Half a step that a rough integration takes, once it is under way: the gaps are smooth over about that time. Rounded to a
 // part of the duration, so that it does not change with every slight change of the model: where a joint is as slow as the
@@ -93,8 +93,8 @@ bool note_lively_joints(const System& system, const JointPaces& paces, const Sof
     const double share = soft.share[j].minCoeff(&slowest);
     if (share > kEntirely) continue;
     none = false;
-    notes.push_back(fmt::format("{} {}: its own rate of {:.3g} 1/s is slow against the change of its force; it starts at the gap that carries the load, "
-                                "with {:.0f} % of the rate that goes with it, and what it does from there is part of the answer",
+    notes.push_back(fmt::format("{} {}: with a rate of {:.3g} 1/s it relaxes more slowly than its load varies; it starts at the deflection that carries the load, "
+                                "with {:.0f} % of the quasi-static rate, and its transient is part of the solution",
                                 system.joints[j].servo < 0 ? "joint" : "motor", system.joints[j].name, paces.slow_rate[j][slowest], 100 * share));
   }
   return none;

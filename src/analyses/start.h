@@ -1,4 +1,4 @@
-// The state that a run starts from, as the model's `start` setting asks.
+// The initial state of a run according to the model's `start` setting.
 #pragma once
 
 #include "analyses/assembly.h"

@@ -66,7 +66,7 @@ class Procedure {
     ask_ideal_joints();
     raise();
     if (out_.found) relax();
-    else if (out_.steps.size() < 2) out_.reason += out_.reason.empty() ? "no two stiffnesses could be run" : "";
+    else if (out_.steps.size() < 2) out_.reason += out_.reason.empty() ? "fewer than two stiffnesses could be run" : "";
     else if (out_.reason.empty()) explain();
     if (out_.steps.size() > 1 && out_.reason != kInterrupted) weigh_kept();
     return std::move(out_);
@@ -278,7 +278,7 @@ class Procedure {
 
   void give_up_relaxing() {
     if (out_.reason != kInterrupted) out_.reason.clear();
-    out_.notes.push_back("with the joints softened one by one the digits would not agree: the same stiffness is recommended for all");
+    out_.notes.push_back("softening individual joints would lose digits: the same stiffness is recommended for all");
   }
 
   // What it would change if the joints that are soft by intention were stiff as well.
@@ -297,7 +297,7 @@ class Procedure {
     const std::string before = std::exchange(out_.reason, "");
     Trajectory all_stiff;
     if (!run(stiff, stiffness, all_stiff)) {
-      out_.notes.push_back("with " + names + " stiff as well: " + out_.reason);
+      out_.notes.push_back("with " + names + " stiffened too: " + out_.reason);
       out_.reason = before;
       return;
     }
@@ -305,8 +305,8 @@ class Procedure {
     out_.kept_influence = change;
     out_.kept_where = where;
     const std::string verdict = change <= wanted_agreement(request())
-                      ? fmt::format("{}: softer than the procedure starts from, left as stated; it does not show in the chosen quantities", names)
-                      : fmt::format("{}: its own flexibility decides. Made stiff as well, {} would change by {:.2g} of its peak: its stiffness has to be known, no larger one may stand for it",
+                      ? fmt::format("{}: softer than the starting stiffness, left as stated; it does not affect the chosen quantities", names)
+                      : fmt::format("{}: its own flexibility matters. Stiffening it too would change {} by {:.2g} of its peak: its real stiffness must be known, a larger one is no substitute",
                                     names, where, change);
     out_.reason = before.empty() ? verdict : before + "; " + verdict;
   }
@@ -317,20 +317,20 @@ class Procedure {
     const auto worst = static_cast<std::size_t>(std::find(out_.quantities.begin(), out_.quantities.end(), last.where) - out_.quantities.begin());
     out_.reason = fmt::format("{} still changes by {:.2g} of its peak from {:.0e} to {:.0e} N/m", last.where, last.change, before.stiffness, last.stiffness);
     if (last.peaks[worst] > kGrowth * before.peaks[worst]) {
-      out_.reason += "; it grows with the stiffness: the joints are loaded by a misfit, and only their real stiffness tells how much";
+      out_.reason += "; the change grows with the stiffness: a misfit preloads the joints, and only their real stiffness determines how much";
       for (const CheckRedundancy& group : redundancies_) {
         std::string names;
         for (const auto& member : group.members)
           if (names.find(member.joint) == std::string::npos) names += (names.empty() ? "" : ", ") + member.joint;
-        out_.notes.push_back(fmt::format("redundant: {} constraint{} too many among {}", group.degree, group.degree == 1 ? "" : "s", names));
+        out_.notes.push_back(fmt::format("{} redundant constraint{} among {}", group.degree, group.degree == 1 ? "" : "s", names));
       }
       return;
     }
     out_.notes.insert(out_.notes.end(), ideal_notes_.begin(), ideal_notes_.end());
     if (last.change < before.change / 5)
-      out_.reason += fmt::format("; the change falls as 1/stiffness, so that {:.0e} N/m is within {:.1g} of the limit, and the limit below is closer", last.stiffness, last.change / (kTenfold - 1));
+      out_.reason += fmt::format("; the change falls as 1/stiffness: {:.0e} N/m is within {:.1g} of the limit, and the extrapolated limit below is closer", last.stiffness, last.change / (kTenfold - 1));
     else if (singular_) out_.reason += "; the mechanism passes singular positions, where forces depend on the joints' compliance";
-    else if (last.change > kStill * before.change) out_.reason += "; the change no longer falls: look for vibration, impact or slack, or ask for fewer digits";
+    else if (last.change > kStill * before.change) out_.reason += "; the change no longer falls: check for vibration, impact or slack, or ask for fewer digits";
   }
 
   Model model_;

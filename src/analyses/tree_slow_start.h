@@ -1,5 +1,5 @@
-// Preload and slow motion at the start, over a joint tree: what slow_start.h and slow_motion.h do for free bodies.
-// theory/tree section 8.
+// Preload and slow manifold at the start, over a joint tree: the counterpart of slow_start.h and slow_motion.h for free
+// bodies. theory/tree section 8.
 #pragma once
 
 #include "integrators/tree_projector.h"

@@ -55,7 +55,7 @@ CombinedOperand raised(const Operand& a, double exponent, const std::string& fou
 
 DimensionProblem check_pure(const Operand& operand, const std::string& name) {
   if (is_pure(operand.dimension)) return {};
-  DimensionProblem problem{to_words(operand.dimension), name + " wants a number or an angle",
+  DimensionProblem problem{to_words(operand.dimension), name + " needs a number or an angle",
                            "divide by a quantity of the same kind, such as (x/1 m)"};
   if (fits(operand.dimension, kTime)) problem.suggestion = "multiply the time by an angular speed, such as 1 rad/s";
   return problem;

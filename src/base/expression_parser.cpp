@@ -92,7 +92,7 @@ class ExpressionParser {
       throw ParseProblem{0, "", "the expression is longer than 4096 bytes", "parts of it as [parameters]"};
     skip();
     if (at_ == text_.size())
-      throw ParseProblem{0, "an empty text", "a number or an expression is wanted", "0, or delete the key"};
+      throw ParseProblem{0, "an empty text", "a number or an expression is expected", "0, or delete the key"};
     const Operand whole = parse_sum(0);
     if (at_ != text_.size()) throw unexpected_after_operand(text_, at_, scope_);
     if (code_.overflows_stack())
@@ -166,7 +166,7 @@ class ExpressionParser {
     code_.apply_op(op, operand.varies);
     if (code_.went_out_of_range())
       throw ParseProblem{at, "", "this does not give a finite number",
-                         "look for a division by 0, or a root or logarithm outside its range"};
+                         "check for a division by 0, or a root or logarithm outside its range"};
     operand.constant = operand.varies ? 0 : code_.top_constant();
     return operand;
   }

@@ -75,10 +75,10 @@ std::string known_names(const ParseScope& scope) {
   std::vector<std::string> names;
   for (const auto& variable : scope.variables) names.push_back(variable.first);
   names.insert(names.end(), scope.constant_names.begin(), scope.constant_names.end());
-  if (names.empty()) return "state it under [parameters]; functions are sin, cos, sqrt, if and others";
+  if (names.empty()) return "define it under [parameters]; functions are sin, cos, sqrt, if and others";
   std::string list;
   for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i) list += (i == 0 ? "" : ", ") + names[i];
-  return "one of " + list + (names.size() > kShown ? ", ..." : "") + ", or state it under [parameters]";
+  return "one of " + list + (names.size() > kShown ? ", ..." : "") + ", or define it under [parameters]";
 }
 
 }  // namespace
@@ -102,24 +102,24 @@ ParseProblem unexpected_after_operand(std::string_view text, std::size_t at, con
   if (is_known_name(symbol, scope)) return missing_operator(at, symbol, false);
   if (is_unit_symbol(symbol)) return missing_operator(at, symbol, true);
   if (!symbol.empty() && is_word_start(c)) return unknown_name(symbol, at, scope);
-  return {at, in_quotes(character), "this has no meaning in an expression", "+ - * / ^ ( ) < > <= >="};
+  return {at, in_quotes(character), "this is not allowed in an expression", "+ - * / ^ ( ) < > <= >="};
 }
 
 ParseProblem no_operand(std::string_view text, std::size_t at) {
   constexpr std::string_view kWanted = "a number, a name or a parenthesis is missing here";
   if (at >= text.size())
-    return {at, "the end of the text", std::string(kWanted), "a number, or delete what asks for one"};
+    return {at, "the end of the text", std::string(kWanted), "a number, or delete what needs one"};
   const std::optional<OperatorAt> found = operator_at(text, at);
   if (!found)
-    return {at, in_quotes(character_at(text, at)), std::string(kWanted), "a number, or delete what asks for one"};
+    return {at, in_quotes(character_at(text, at)), std::string(kWanted), "a number, or delete what needs one"};
   const bool is_double_star = found->symbol == '*' && at > 0 && text[at - 1] == '*';
   return {at, in_quotes(text.substr(at, found->length)), std::string(kWanted),
-          is_double_star ? "^ for a power" : "a number, or delete what asks for one"};
+          is_double_star ? "^ for a power" : "a number, or delete what needs one"};
 }
 
 ParseProblem unknown_name(std::string_view word, std::size_t at, const ParseScope& scope) {
   if (word == "t" && scope.variables.empty())
-    return {at, in_quotes(word), "time is known in forces, torques and motors only; this is a constant",
+    return {at, in_quotes(word), "time is available only in forces, torques and motors; this is a constant",
             "a number, or 1 t for a tonne"};
   if (is_unit_symbol(word)) return {at, in_quotes(word), "a unit needs a number in front of it", "1 " + std::string(word)};
   std::vector<std::string_view> names(scope.constant_names.begin(), scope.constant_names.end());
@@ -130,13 +130,13 @@ ParseProblem unknown_name(std::string_view word, std::size_t at, const ParseScop
   const auto alias =
       std::find_if(kFunctionAliases.begin(), kFunctionAliases.end(), [&](const Alias& a) { return a.word == word; });
   if (alias != kFunctionAliases.end())
-    return {at, in_quotes(word), "there is no such name here", "did you mean " + in_quotes(alias->unit) + "?"};
-  return {at, in_quotes(word), "there is no such name here",
+    return {at, in_quotes(word), "this name is not defined here", "did you mean " + in_quotes(alias->unit) + "?"};
+  return {at, in_quotes(word), "this name is not defined here",
           guess ? "did you mean " + in_quotes(*guess) + "?" : known_names(scope)};
 }
 
 ParseProblem unknown_unit(std::string_view word, std::size_t at) {
-  ParseProblem problem{at, in_quotes(word), "no unit has this symbol", ""};
+  ParseProblem problem{at, in_quotes(word), "there is no unit with this symbol", ""};
   const auto alias = std::find_if(kAliases.begin(), kAliases.end(), [&](const Alias& a) { return a.word == word; });
   if (alias != kAliases.end()) {
     problem.suggestion = alias->unit;

@@ -1,4 +1,4 @@
-// What becomes of freed memory.
+// Retains freed memory for reuse.
 #pragma once
 
 namespace pintle {

@@ -114,7 +114,7 @@ TEST(Units, WhatFits) {
   EXPECT_FALSE(fits(kAngle, kLength));
   EXPECT_FALSE(fits(kStiffness, kAngularStiffness));
   EXPECT_EQ(check_dimension(kAngle, kPureNumber), std::nullopt);
-  EXPECT_EQ(check_dimension(kAngle, kLength), "a length [m] is wanted here");
+  EXPECT_EQ(check_dimension(kAngle, kLength), "a length [m] is expected here");
 }
 
 TEST(Units, ExponentsDoNotOverflow) {

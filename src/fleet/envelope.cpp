@@ -83,7 +83,7 @@ EnvelopeEngine::EnvelopeEngine(const Model& base, EnvelopeRequest request) : req
       for (const Column& column : columns) names.push_back(column.name);
       const auto near = did_you_mean(name, names);
       throw std::invalid_argument(fmt::format("a run has no column \"{}\"; {}", name,
-                                              near ? "did you mean " + *near + "?" : "the first row of series.csv of a run names them"));
+                                              near ? "did you mean " + *near + "?" : "the first row of a run's series.csv lists them"));
     }
     columns_.push_back(static_cast<int>(found - columns.begin()));
     units_.push_back(found->unit);

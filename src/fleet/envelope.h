@@ -1,4 +1,4 @@
-// The envelopes of joint forces of many variants of one mechanism: what an ensemble asks of the integrators.
+// Envelopes of the joint forces of many variants of one mechanism: the interface of ensembles to the integrators.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Variants that are like their base, eight at a time in the lanes of registers: start, steps of the base's lengths, peaks of the joint
-// forces. A variant that does not fit, or whose errors would need shorter steps, says so and is for `lean_run`.
+// Variants similar to their base, in batches of eight in register lanes: start, steps of the base's lengths, peaks of
+// the joint forces. A variant that does not qualify, or would need shorter steps, reports it and is left to `lean_run`.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Eight variants of one mechanism in the lanes of registers: what a System is for one of them. Joints are relative poses with a
-// spring and a damper in each component; loads are asked variant by variant.
+// Eight variants of one mechanism in register lanes: the counterpart of System. Joints are relative poses with a spring
+// and a damper in each component; loads are evaluated per variant.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What a fleet does in registers, behind a door that does not say how wide they are.
+// The batch computation behind an interface that hides the register width.
 #pragma once
 
 #include <memory>

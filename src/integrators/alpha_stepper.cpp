@@ -168,7 +168,7 @@ bool AlphaStepper::step(double t_end) {
   while (true) {
     h = std::min(h, t_end - begin_.t);
     if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
-      failure_ = fmt::format("the step size has shrunk to nothing at t = {:.9g} s", begin_.t);
+      failure_ = fmt::format("the step size became too small at t = {:.9g} s", begin_.t);
       return false;
     }
     set_lag(h, now_, a_now_);

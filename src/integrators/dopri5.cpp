@@ -60,7 +60,7 @@ bool Dopri5::step(double t_end) {
   while (true) {
     h = std::min(h, t_end - begin_.t);
     if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
-      failure_ = fmt::format("the step size has shrunk to nothing at t = {:.9g} s", begin_.t);
+      failure_ = fmt::format("the step size became too small at t = {:.9g} s", begin_.t);
       return false;
     }
     for (int s = 1; s < 7; ++s) {

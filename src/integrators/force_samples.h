@@ -1,5 +1,5 @@
-// Where joint forces are found inside a step of Radau IIA, and what of the accelerations at its nodes is the acceleration there,
-// the rate and the way. theory/time section 5.
+// The instants within a Radau IIA step at which joint forces are computed, and the weights that give acceleration,
+// velocity and displacement there from the accelerations at the nodes. theory/time section 5.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
-// Motors whose effort jumps and throws the motion back from both sides, as dry friction does at rest: a run would cross such a
-// jump for ever. They are held at it, on a steep ramp between the efforts of both sides. theory/time section 7.
+// Sliding modes of motors: the effort jumps and drives the motion back from both sides, as dry friction does at rest. A
+// run would cross such a jump forever (chattering), so it is held at the jump, on a steep ramp between the efforts of
+// both sides. theory/time section 7.
 #pragma once
 
 #include <algorithm>

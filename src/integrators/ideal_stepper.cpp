@@ -35,11 +35,11 @@ void IdealStepper::start(const State& state, double h) {
   end_ = state;
   h_ = smooth_h_ = h;
   const double before = system_.kinetic(end_.v);
-  if (!onto_constraints(end_)) failure_ = "ideal joints cannot be closed at the start: the loops do not fit, or the position is singular";
+  if (!onto_constraints(end_)) failure_ = "ideal joints cannot be closed at the start: the loops do not close, or the position is singular";
   equations_.measure_misfit(end_.t, end_.q);
   const double lost = before - system_.kinetic(end_.v);
   if (lost > 1e-6 * before)
-    remarks_.push_back(fmt::format("ideal joints: the velocities stated do not fit together; an impulse in the joints takes {:.3g} J at the start", lost));
+    remarks_.push_back(fmt::format("ideal joints: the stated velocities are inconsistent; an impulse in the joints dissipates {:.3g} J at the start", lost));
   begin_ = inside_ = stage_ = end_;
   most_independent_ = equations_.independence(end_.t, end_.q);
   grow_scale();
@@ -55,8 +55,8 @@ bool IdealStepper::step(double t_end) {
   while (true) {
     h = std::min(h, t_end - begin_.t);
     if (h <= 16 * rounding) {
-      failure_ = fmt::format("ideal joints: the step size has shrunk to nothing at t = {:.9g} s{}", begin_.t,
-                             equations_.nearly_singular() ? ", near a position where they are not independent" : "");
+      failure_ = fmt::format("ideal joints: the step size became too small at t = {:.9g} s{}", begin_.t,
+                             equations_.nearly_singular() ? ", near a position where the constraints are not independent" : "");
       return false;
     }
     const double e = take_stages(h) ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
@@ -215,7 +215,7 @@ void IdealStepper::report_singular_position(double t) {
     names += fmt::format("{}{} along {}", names.empty() ? "" : ", ", system_.joints[joint].name,
                          system_.joints[joint].servo >= 0 ? "its coordinate" : component == 2 ? "its angle" : component == 0 ? "x" : "y");
   }
-  remarks_.push_back(fmt::format("ideal joints: singular position at t = {:.6g} s; not independent there, so without unique reactions: {} (axes of the joint)", t, names));
+  remarks_.push_back(fmt::format("ideal joints: singular position at t = {:.6g} s; dependent there, with no unique reactions: {} (joint axes)", t, names));
 }
 
 }  // namespace pintle

@@ -1,5 +1,5 @@
-// Ideal joints in time: Dormand-Prince 5(4) on the accelerations that the multipliers leave, positions and velocities put
-// back onto the constraints after every step. theory/ideal section 2.
+// Time integration with ideal joints: Dormand-Prince 5(4) on the accelerations from the multipliers, with positions and
+// velocities projected onto the constraints after every step. theory/ideal section 2.
 #pragma once
 
 #include <array>

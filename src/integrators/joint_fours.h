@@ -1,4 +1,4 @@
-// Joints in fours, one in each lane: where they stand on their bodies, what they read there, and what they push.
+// Joints in groups of four, one per lane: attachment points, gaps and forces.
 #pragma once
 
 #include <vector>

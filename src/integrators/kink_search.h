@@ -1,4 +1,4 @@
-// The first kink on a step's curve. theory/time section 7.
+// Locates the first event (kink or jump) on a step's polynomial. theory/time section 7.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// What errors refer to where the tolerance is of the motion: the force that would give a body the mechanism's speed within one step.
+// The scale of errors for a tolerance on the motion: the force that would give a body the mechanism's speed within one
+// step.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// When Newton's iteration on the stage equations has done enough, or never will. theory/time section 3.4.
+// Stopping criteria of Newton's iteration on the stage equations, from its contraction rate. theory/time section 3.4.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// How the implicit methods choose their steps: predict, solve, estimate, accept or shrink; steps end at kinks. The same for
+// Step control of the implicit methods: predict, solve, estimate, accept or shrink; steps end at events. The same for
 // free bodies and over a joint tree. theory/time sections 3.5 and 7.
 #pragma once
 

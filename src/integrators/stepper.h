@@ -1,4 +1,4 @@
-// One integration method under way: what every method offers to a run.
+// The interface of an integration method during a run.
 #pragma once
 
 #include <string>

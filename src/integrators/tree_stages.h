@@ -1,5 +1,5 @@
-// The stage equations of an implicit step over a joint tree: unknown are the accelerations of the coordinates and of the
-// carried gaps. theory/tree section 5.
+// The stage equations of an implicit step over a joint tree: the unknowns are the accelerations of the coordinates and
+// of the carried gaps. theory/tree section 5.
 #pragma once
 
 #include <Eigen/LU>

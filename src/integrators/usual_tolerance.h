@@ -1,4 +1,4 @@
-// What a tolerance means to a general integrator. theory/solvers Eq. (1.4).
+// The tolerance as used by a general integrator. theory/solvers Eq. (1.4).
 #pragma once
 
 namespace pintle {

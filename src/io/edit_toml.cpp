@@ -62,7 +62,7 @@ std::string joined(const std::vector<std::string>& path, std::size_t count) {
 [[noreturn]] void refuse(std::string_view text, std::string_view file_name, const std::vector<std::string>& path) {
   const Document document = parse_document(std::string(text), std::string(file_name));
   throw InputError({document.complaint({0, 1, 1}, joined(path, path.size()), "a table without a header of its own",
-                                       "a value can be put only below its table's header", "[" + joined(path, path.size() - 1) + "] on a line of its own")});
+                                       "a value can be added only below its table's header", "[" + joined(path, path.size() - 1) + "] on a line of its own")});
 }
 
 std::string in_toml(std::string_view text, std::string_view file_name, const std::vector<std::string>& path, const std::string& value) {

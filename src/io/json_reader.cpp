@@ -57,9 +57,9 @@ class JsonReader {
   [[noreturn]] void fail_at_key() {
     const char c = peek();
     if (at_ >= text_.size()) fail("the end of the file", "an object is not closed", "close it with }");
-    if (c == '}') fail("a comma before }", "no comma ends the list of an object", "delete the comma");
+    if (c == '}') fail("a comma before }", "no comma is allowed after the last entry", "delete the comma");
     if (c == '/' || c == '#') fail("a comment", "JSON has no comments", "delete it, or write the model as TOML");
-    if (c == '\'') fail("a key in single quotes", "keys of a JSON object stand in double quotes", "\" in place of '");
+    if (c == '\'') fail("a key in single quotes", "keys of a JSON object need double quotes", "\" in place of '");
     fail("a key without quotes", "keys of a JSON object are strings", "\"key\": value");
   }
 
@@ -115,7 +115,7 @@ class JsonReader {
         table.append(std::move(key), key_spot, std::move(value));
       } else {
         complaints_.push_back(document_.complaint(key_spot, inner, "a second definition of the same key",
-                                                  "every name may be stated once", "rename it, or delete one"));
+                                                  "a name may be defined only once", "rename it, or delete one"));
       }
       skip_space();
       if (peek() != ',') break;
@@ -184,7 +184,7 @@ class JsonReader {
     if (!high && (first < 0xDC00U || first > 0xDFFFU)) return first;
     const std::uint32_t second = high ? read_hex_escape() : 0;
     if (second < 0xDC00U || second > 0xDFFFU)
-      fail("half a surrogate pair", "it is no character", "the character itself");
+      fail("half a surrogate pair", "it is not a character", "the character itself");
     return 0x10000U + ((first - 0xD800U) << 10U) + (second - 0xDC00U);
   }
 
@@ -203,11 +203,11 @@ class JsonReader {
     if (word == "true" || word == "false") {
       node.value = word == "true";
     } else if (word == "null") {
-      complaints_.push_back(document_.complaint(spot(), path, "null", "there are no empty values",
-                                                "leave the key out to take its default"));
+      complaints_.push_back(document_.complaint(spot(), path, "null", "empty values are not allowed",
+                                                "leave the key out to use its default"));
       node.value = std::int64_t{0};
     } else if (!read_number(word, node)) {
-      fail(word.empty() ? "no value" : in_quotes(word), "expected a JSON value", "strings with units need double quotes");
+      fail(word.empty() ? "no value" : in_quotes(word), "a JSON value is expected", "strings with units need double quotes");
     }
     if (node.real() != nullptr && !std::isfinite(*node.real())) {
       complaints_.push_back(

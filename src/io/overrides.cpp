@@ -122,7 +122,7 @@ class Override {
       node = &table.append(parts[i], spot_, std::move(empty));
     }
     if (node->table() == nullptr) {
-      complaints_.add(spot_, parts[i], describe(*node), "this is a value, there are no keys in it",
+      complaints_.add(spot_, parts[i], describe(*node), "this is a value and has no keys",
                       "the path up to here");
     }
     return node->table();

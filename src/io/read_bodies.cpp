@@ -43,7 +43,7 @@ void read_body(ModelReading& reading, const Entry& entry) {
   const std::string path = "body." + entry.key;
   check_name(reading, entry, path);
   if (entry.key == "ground") {
-    reading.complaints.add(entry.key_spot, path, "\"ground\"", "this name belongs to the world",
+    reading.complaints.add(entry.key_spot, path, "\"ground\"", "this name is reserved for the world",
                            "[ground.markers], or another name");
   }
   const Record record = reading.records.read(reading.spec("body.*"), entry.value, entry.key_spot, path);

@@ -110,7 +110,7 @@ void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& l
     const bool stated = record.states(key.key);
     if (stated && is_angular(key) && !has_angle) {
       reading.complaints.add(record.spot(key.key), record.path + "." + std::string(key.key), std::string(key.key),
-                             "a " + std::string(type.word) + " joint forbids no angle, so this would do nothing",
+                             "a " + std::string(type.word) + " joint forbids no angle, so this has no effect",
                              "delete it");
     }
     const Value* value = stated || !defaults.states(key.key) ? record.find(key.key) : defaults.find(key.key);

@@ -9,7 +9,7 @@ namespace {
 void check_preload(ModelReading& reading, const Record& record, const std::string& free_key) {
   if (!record.states("preload") || !record.states(free_key)) return;
   reading.complaints.add(record.spot("preload"), record.path + ".preload", "preload and " + free_key,
-                         "each of them follows from the other", "delete one of them");
+                         "each determines the other", "delete one of them");
 }
 
 void check_spring_does_something(ModelReading& reading, const Record& record, const Spring& spring) {
@@ -65,7 +65,7 @@ void read_loads(ModelReading& reading) {
     read_spring(reading, entry, true);
     if (springs.find(entry.key) == nullptr) continue;
     reading.complaints.add(entry.key_spot, "torsion_spring." + entry.key, in_quotes(entry.key),
-                           "there is a spring of this name, and results could not tell them apart", "another name");
+                           "a spring has this name too, and their results would collide", "another name");
   }
   for (const Entry& entry : section(reading, "force").entries()) read_force(reading, entry);
 }

@@ -76,11 +76,11 @@ void check_choice(ModelReading& reading, const Entry& entry, const std::string& 
     if (const Entry* found = entry.value.table()->find_entry(key)) stated.push_back(found);
   }
   if (stated.empty()) {
-    reading.complaints.add(entry.key_spot, path, "no " + effort + ", speed or position", "a motor states one of them",
+    reading.complaints.add(entry.key_spot, path, "no " + effort + ", speed or position", "a motor needs one of them",
                            effort == "torque" ? "torque = \"5 N*m\"" : "force = \"5 N\"");
   } else if (stated.size() > 1) {
     reading.complaints.add(stated[1]->key_spot, path + "." + stated[1]->key, stated[0]->key + " and " + stated[1]->key,
-                           "a motor states exactly one of " + effort + ", speed and position", "delete one of them");
+                           "a motor needs exactly one of " + effort + ", speed and position", "delete one of them");
   }
   const bool servo = stated.empty() || stated.front()->key != effort;
   for (const char* key : {"stiffness", "damping"}) {
@@ -96,7 +96,7 @@ void check_servos(ModelReading& reading, const Motor& motor, Spot spot, std::map
   const auto [it, is_new] = servo_of.emplace(motor.joint, motor.name);
   if (is_new) return;
   reading.complaints.add(spot, "motor." + motor.name + ".joint", in_quotes(motor.joint),
-                         "motor " + it->second + " already is a servo in this joint: they would fight", "one of them");
+                         "motor " + it->second + " is already a servo on this joint: they would conflict", "one of them");
 }
 
 void read_motor(ModelReading& reading, const Entry& entry, std::map<std::string, std::string>& servo_of) {

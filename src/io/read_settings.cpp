@@ -1,4 +1,4 @@
-// The head of the file, [simulate] and [parameters].
+// Top level, [simulate] and [parameters].
 
 #include <fmt/format.h>
 
@@ -25,7 +25,7 @@ void check_times(ModelReading& reading, const Record& record) {
   const Spot spot = record.spot("output_step");
   if (simulate.output_step > simulate.duration) {
     reading.complaints.add(spot, "simulate.output_step", fmt::format("{} s", simulate.output_step),
-                           "this is longer than the duration, " + fmt::format("{} s", simulate.duration),
+                           "this exceeds the duration, " + fmt::format("{} s", simulate.duration),
                            "a small part of the duration");
   } else if (simulate.duration / simulate.output_step > kMostRows) {
     reading.complaints.add(spot, "simulate.output_step", fmt::format("{} s", simulate.output_step),
@@ -49,7 +49,7 @@ void check_tolerance_of(ModelReading& reading, const Record& record) {
   if (simulate.equations != Equations::kNewtonian)
     reading.complaints.add(record.spot("tolerance_of"), "simulate.tolerance_of", in_quotes("motion"), "a tolerance of the motion needs newtonian equations", "equations = \"newtonian\"");
   if (simulate.method != "auto" && simulate.method != "radau")
-    reading.complaints.add(record.spot("tolerance_of"), "simulate.tolerance_of", in_quotes("motion"), "method " + in_quotes(simulate.method) + " does not know a tolerance of the motion", "method = \"radau\"");
+    reading.complaints.add(record.spot("tolerance_of"), "simulate.tolerance_of", in_quotes("motion"), "method " + in_quotes(simulate.method) + " has no tolerance of the motion", "method = \"radau\"");
 }
 
 void read_simulate(ModelReading& reading) {
@@ -183,8 +183,8 @@ class ParameterReader {
     if (cycle.size() > kShown) chain += "... -> ";
     const Entry& entry = entries()[cycle.front()];
     reading_.complaints.add(entry.value.spot, "parameters." + entry.key, describe(entry.value),
-                            "parameters that need each other have no value: " + chain + entry.key,
-                            "state one of them as a number");
+                            "circular parameters have no value: " + chain + entry.key,
+                            "define one of them as a number");
   }
 
   ModelReading& reading_;
@@ -243,7 +243,7 @@ void check_record(ModelReading& reading) {
                             : known.contains(entry);
     if (found) continue;
     const Node* list = simulate->table()->find("record");
-    reading.complaints.add((*list->array())[i].spot, "simulate.record", in_quotes(entry), "no body or joint is called that: body.NAME or joint.NAME is wanted",
+    reading.complaints.add((*list->array())[i].spot, "simulate.record", in_quotes(entry), "no body or joint has this name; body.NAME or joint.NAME is expected",
                            wild ? "\"joint.*\"" : reading.complaints.did_you_mean(entry, names));
   }
 }

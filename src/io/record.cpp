@@ -72,7 +72,7 @@ Spot Record::spot(std::string_view key) const {
 
 bool RecordReader::is_table(const Node& node, const std::string& path) {
   if (node.table() != nullptr) return true;
-  complaints_.add(node.spot, path, describe(node), "a table is wanted here", "[" + path + "] and its keys below");
+  complaints_.add(node.spot, path, describe(node), "a table is expected here", "[" + path + "] and its keys below");
   return false;
 }
 

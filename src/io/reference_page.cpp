@@ -15,16 +15,16 @@ namespace {
 constexpr const char* kHead =
     R"(# Model file
 
-This page is made by `pintle schema --reference` from the same schema that the reader checks files with.
+`pintle schema --reference` writes this page from the schema that model files are checked against.
 
 A model is one TOML file, or one JSON file with the same tree (`pintle convert` turns one into the other).
-`pintle check MODEL` says what is wrong with a file, with line and column.
+`pintle check MODEL` reports errors in a file with line and column.
 
 ## Numbers
 
-Wherever a number may stand, so may a string with an expression: `"25 mm"`, `"2*crank + 5 mm"`, `"3000 N*s/m"`.
+Any number can also be a string with an expression: `"25 mm"`, `"2*crank + 5 mm"`, `"3000 N*s/m"`.
 A unit binds to the number before it. A bare number is in SI units and radians. A quantity of the wrong kind is an
-error. Names of parameters may be used anywhere; where the table says "expression of", so may the variables named there.
+error. Parameter names may be used anywhere; "expression of" in a table lists further variables.
 
 - operators: `+ - * / ^`, unary `-`, comparisons `< > <= >=` (1 or 0), parentheses
 - functions: `sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign min max pow step(x) smoothstep(a, b, x) if(condition, then, else)`
@@ -33,7 +33,7 @@ error. Names of parameters may be used anywhere; where the table says "expressio
 
 constexpr const char* kMarkers =
     R"(
-A marker is a point and the direction of its axis, in one of the forms
+A marker is a point with an axis direction, in one of the forms
 
 - `[x, y]` or `[x, y, axis]`
 - `{ x = 1, y = 2, axis = "90 deg" }`
@@ -67,13 +67,13 @@ std::string list_of(const std::vector<std::string>& words, std::string_view betw
 std::string type_text(const KeySpec& spec) {
   switch (spec.type) {
     case ValueType::kInteger:
-      return "whole number";
+      return "integer";
     case ValueType::kText:
       return "text";
     case ValueType::kWord:
       return list_of(spec.words, " or ");
     case ValueType::kWords:
-      return "list of " + (spec.words.empty() ? "texts" : list_of(spec.words, ", "));
+      return "list of " + (spec.words.empty() ? "strings" : list_of(spec.words, ", "));
     case ValueType::kQuantities:
       return fmt::format("list of {} numbers", spec.count);
     case ValueType::kExpression:
@@ -91,7 +91,7 @@ std::string type_text(const KeySpec& spec) {
     case ValueType::kJointName:
       return "name of a joint";
     default:
-      return spec.per_component ? "number, or a list with one for each linear gap component" : "number";
+      return spec.per_component ? "number, or a list with one per linear gap component" : "number";
   }
 }
 
@@ -119,7 +119,7 @@ std::string key_rows(const std::vector<KeySpec>& keys) {
 }
 
 std::string heading(const TableSpec& table) {
-  if (table.path.empty()) return "The head of the file";
+  if (table.path.empty()) return "Top level";
   std::string path = table.path;
   if (const std::size_t star = path.find('*'); star != std::string::npos) path.replace(star, 1, "NAME");
   const std::string kind = table.when.empty() ? "" : ", " + table.called;
@@ -133,8 +133,8 @@ std::string table_text(const TableSpec& table) {
     text += fmt::format("Each entry: {}.\n", table.entries->meaning);
   }
   text += key_rows(table.keys);
-  if (table.joint_type_keys) text += "\nFurther keys belong to the [joint types](#joint-types).\n";
-  if (table.law_keys) text += "\nFurther keys belong to the [joint laws](#joint-laws).\n";
+  if (table.joint_type_keys) text += "\nSee also the keys of the [joint types](#joint-types).\n";
+  if (table.law_keys) text += "\nSee also the keys of the [joint laws](#joint-laws).\n";
   return text;
 }
 
@@ -159,16 +159,15 @@ std::string components_text(std::span<const ComponentInfo> components) {
 
 std::string joint_types_text() {
   std::string text =
-      "\n## Joint types\n\nThe gap is what a joint forbids, in the frame F of its first marker; its law resists it. "
-      "What it "
-      "leaves free\nis for motors, plots and expressions.\n\n| type | is | gap | free |\n| --- | --- | --- | --- |\n";
+      "\n## Joint types\n\nThe gap is the forbidden displacement, in frame F of the first marker; the law resists it. "
+      "Motors, plots\nand expressions use the free coordinates.\n\n| type | description | gap | free |\n| --- | --- | --- | --- |\n";
   for (const JointTypeInfo& type : joint_type_catalog()) {
     text += fmt::format("| {} | {} | {} | {} |\n", code(type.word), type.meaning, components_text(type.gap),
                         components_text(type.free));
   }
   for (const JointTypeInfo& type : joint_type_catalog()) {
     if (type.keys.empty()) continue;
-    text += fmt::format("\nFurther keys of {} joints:\n", code(type.word)) + key_rows(specs_of(type.keys, true));
+    text += fmt::format("\nKeys of {} joints:\n", code(type.word)) + key_rows(specs_of(type.keys, true));
   }
   return text;
 }
@@ -182,7 +181,7 @@ std::string laws_text() {
 }
 
 std::string units_text() {
-  std::string text = "\n## Units\n\nThey join by `*`, `/` and whole exponents: `\"kg*m^2\"`, `\"N*m*s/rad\"`.\n\n";
+  std::string text = "\n## Units\n\nCombine them with `*`, `/` and integer exponents: `\"kg*m^2\"`, `\"N*m*s/rad\"`.\n\n";
   std::string line;
   for (const std::string_view symbol : unit_symbols()) line += (line.empty() ? "" : ", ") + code(symbol);
   return text + line + "\n";

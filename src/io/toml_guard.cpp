@@ -89,7 +89,7 @@ class Guard {
     }
     if (open_.empty()) return "the end of the line after the value";
     const std::string begun =
-        open_.back().line == spot_.line ? "" : fmt::format(" (it begins in line {})", open_.back().line);
+        open_.back().line == spot_.line ? "" : fmt::format(" (opened on line {})", open_.back().line);
     return (in_list() ? "a comma or ] in the list" : "a comma or } in the inline table") + begun;
   }
 
@@ -127,14 +127,14 @@ class Guard {
     const Spot spot{0, spot_.line, spot_.column + static_cast<int>(before)};  // what stands before is ASCII
     const std::string_view found = character_at(token.text, before);
     if (in_key() && found == ":")
-      return TomlProblem{spot, in_quotes(found), "= stands between a key and its value", "key = value"};
+      return TomlProblem{spot, in_quotes(found), "a key and its value are separated by =", "key = value"};
     if (token.text.starts_with("<<<<<<<") || token.text.starts_with(">>>>>>>"))
-      return TomlProblem{spot, "a mark of an unfinished merge", "two versions of the file stand here",
+      return TomlProblem{spot, "an unresolved merge marker", "the file contains two versions here",
                          "keep one of them"};
     if (kCurlyQuotes.find(found) != std::string_view::npos)
-      return TomlProblem{spot, in_quotes(found), "strings stand in straight quotes",
+      return TomlProblem{spot, in_quotes(found), "strings need straight quotes",
                          "\" in place of " + std::string(found)};
-    return TomlProblem{spot, in_quotes(found), "this character must stand in quotes", "delete it, or \"text in quotes\""};
+    return TomlProblem{spot, in_quotes(found), "this character must be in quotes", "delete it, or \"text in quotes\""};
   }
 
   std::optional<TomlProblem> deep_key(const Token& token) {
@@ -161,18 +161,18 @@ class Guard {
   std::optional<TomlProblem> missing_quotes(const Token& token) const {
     if (token.kind == TokenKind::kString && !is_closed(token.text))
       return TomlProblem{spot_, "a string without closing quotes",
-                         "a string ends on its line, in the quotes that open it",
+                         "a string ends on its line, with the same quotes that opened it",
                          "close it with " + std::string(1, token.text.front())};
     if (token.kind != TokenKind::kBare || in_key()) return std::nullopt;
     const bool is_word = std::isalpha(static_cast<unsigned char>(token.text.front())) != 0;
     const bool same_line = previous_.find('\n') == std::string_view::npos && !previous_.starts_with('#');
     if (expect_ == Expect::kAfterValue && is_word && same_line)
-      return TomlProblem{spot_, in_quotes(token.text), "a number with a unit stands in quotes",
+      return TomlProblem{spot_, in_quotes(token.text), "a number with a unit needs quotes",
                          in_quotes(std::string(previous_) + " " + std::string(token.text))};
     constexpr std::array<std::string_view, 4> kWords{"true", "false", "inf", "nan"};
     const bool known = std::find(kWords.begin(), kWords.end(), token.text) != kWords.end();
     if (expect_ == Expect::kValue && is_word && !known)
-      return TomlProblem{spot_, in_quotes(token.text), "text stands in quotes", in_quotes(token.text)};
+      return TomlProblem{spot_, in_quotes(token.text), "text needs quotes", in_quotes(token.text)};
     return std::nullopt;
   }
 

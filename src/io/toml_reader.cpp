@@ -118,8 +118,8 @@ constexpr std::array<SyntaxAdvice, 5> kSyntaxAdvice{{
     {"not representable", "a whole number with too many digits", "write it as a decimal number, such as 1e20"},
     {"floating-point", "a number that cannot be read", "a number below 1e308, such as 1.5e3"},
     {"escape", "an unknown escape", "\\\\ for a backslash, or single quotes around the text"},
-    {"string", "a string that is not in order", "close it with the quotes that open it; escape other quotes with \\"},
-    {"", "text that is not TOML", "strings with units need quotes, keys are followed by =, lists stand in [ ]"},
+    {"string", "a malformed string", "close it with the quotes that opened it; escape other quotes with \\"},
+    {"", "text that is not TOML", "strings with units need quotes, keys are followed by =, lists need [ ]"},
 }};
 
 Complaint syntax_complaint(const Document& document, const toml::parse_error& error) {
@@ -127,7 +127,7 @@ Complaint syntax_complaint(const Document& document, const toml::parse_error& er
   const Spot spot{0, static_cast<int>(error.source().begin.line), static_cast<int>(error.source().begin.column)};
   if (words.find("redefine") != std::string_view::npos) {
     return document.complaint(spot_of_second(document, spot, words), "", "a second definition of the same key or table",
-                              "every name may be stated once", "rename it, or delete one of the two");
+                              "a name may be defined only once", "rename it, or delete one of the two");
   }
   const auto advice = std::find_if(kSyntaxAdvice.begin(), kSyntaxAdvice.end(), [&](const SyntaxAdvice& candidate) {
     return words.find(candidate.part) != std::string_view::npos;

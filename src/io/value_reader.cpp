@@ -44,7 +44,7 @@ std::string range_problem(double number, const KeySpec& spec) {
 std::string range_example(double number, const KeySpec& spec) {
   const bool needs_positive = spec.minimum && *spec.minimum == 0 && number <= 0;
   const std::string unit = spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit;
-  if (needs_positive && number < 0 && !unit.empty()) return "turn the sign: \"" + short_number(-number) + unit + "\"";
+  if (needs_positive && number < 0 && !unit.empty()) return "reverse the sign: \"" + short_number(-number) + unit + "\"";
   if (needs_positive) return unit.empty() ? "1" : "a small positive value, such as \"1e-3" + unit + "\"";
   if (spec.minimum && spec.maximum) return short_number(*spec.minimum) + " to " + short_number(*spec.maximum);
   return spec.minimum ? short_number(*spec.minimum) + " or more" : example_of(spec);
@@ -72,7 +72,7 @@ std::optional<Quantity> RecordReader::read_quantity(const Node& node, const std:
   if (const double* real = node.real()) return Quantity{*real, kBareNumber};
   const std::string* string = node.string();
   if (string == nullptr) {
-    complaints_.add(node.spot, path, describe(node), "a number is wanted here",
+    complaints_.add(node.spot, path, describe(node), "a number is expected here",
                     "a number, or a string such as \"25 mm\"");
     return std::nullopt;
   }
@@ -85,7 +85,7 @@ std::optional<Quantity> RecordReader::read_quantity(const Node& node, const std:
   if (std::isnan(quantity.si)) return std::nullopt;  // made of a constant that was complained about
   if (std::isfinite(quantity.si)) return quantity;
   complaints_.add(node.spot, path, describe(node), "this does not give a finite number",
-                  "look for a division by 0, or a root or logarithm outside its range");
+                  "check for a division by 0, or a root or logarithm outside its range");
   return std::nullopt;
 }
 
@@ -103,7 +103,7 @@ bool RecordReader::in_range(double number, const Node& node, const KeySpec& spec
 std::optional<double> RecordReader::read_number(const Node& node, const KeySpec& spec, const std::string& path) {
   const bool is_number = node.integer() != nullptr || node.real() != nullptr || node.string() != nullptr;
   if (!is_number) {
-    complaints_.add(node.spot, path, describe(node), "a number is wanted here", example_of(spec));
+    complaints_.add(node.spot, path, describe(node), "a number is expected here", example_of(spec));
     return std::nullopt;
   }
   const std::optional<Quantity> quantity = read_quantity(node, path);
@@ -156,7 +156,7 @@ std::optional<Value> RecordReader::read_value(const Node& node, const KeySpec& s
 
 bool RecordReader::read_integer(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
   if (node.integer() == nullptr) {
-    complaints_.add(node.spot, path, describe(node), "a whole number is wanted here", spec.key + " = 1");
+    complaints_.add(node.spot, path, describe(node), "a whole number is expected here", spec.key + " = 1");
     return false;
   }
   value.numbers.push_back(static_cast<double>(*node.integer()));
@@ -165,7 +165,7 @@ bool RecordReader::read_integer(const Node& node, const KeySpec& spec, const std
 
 bool RecordReader::read_truth(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
   if (node.truth() == nullptr) {
-    complaints_.add(node.spot, path, describe(node), "true or false is wanted here, without quotes", spec.key + " = true");
+    complaints_.add(node.spot, path, describe(node), "true or false is expected here, without quotes", spec.key + " = true");
     return false;
   }
   value.numbers.push_back(*node.truth() ? 1 : 0);
@@ -175,7 +175,7 @@ bool RecordReader::read_truth(const Node& node, const KeySpec& spec, const std::
 bool RecordReader::read_word(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
   const std::string* word = node.string();
   if (word == nullptr) {
-    complaints_.add(node.spot, path, describe(node), "a string is wanted here",
+    complaints_.add(node.spot, path, describe(node), "a string is expected here",
                     spec.words.empty() ? "text in quotes" : "one of " + joined(spec.words));
     return false;
   }
@@ -193,7 +193,7 @@ bool RecordReader::read_words(const Node& node, const KeySpec& spec, const std::
   if (list == nullptr || (spec.count != 0 && list->size() != spec.count)) {
     const std::string wanted = spec.count == 0 ? "a list" : "a list of " + std::to_string(spec.count);
     complaints_.add(
-        node.spot, path, describe(node), wanted + " strings is wanted here",
+        node.spot, path, describe(node), wanted + " strings is expected here",
         spec.type == ValueType::kMarkerNames ? "[\"ground.A\", \"crank.A\"]" : "[\"" + (spec.words.empty() ? "text" : joined(spec.words)) + "\"]");
     return false;
   }
@@ -213,7 +213,7 @@ bool RecordReader::read_numbers(const Node& node, const KeySpec& spec, const std
   if (list == nullptr || list->size() != spec.count) {
     complaints_.add(
         node.spot, path, describe(node),
-        "a list of " + std::to_string(spec.count) + (spec.count == 1 ? " number" : " numbers") + " is wanted here",
+        "a list of " + std::to_string(spec.count) + (spec.count == 1 ? " number" : " numbers") + " is expected here",
         list_example(spec));
     return false;
   }
@@ -274,7 +274,7 @@ bool RecordReader::read_list(const Node& node, const KeySpec& spec, const std::s
   const Array* list = node.array();
   if (list == nullptr || list->size() != spec.count) {
     complaints_.add(node.spot, path, describe(node),
-                    "a list of " + std::to_string(spec.count) + " numbers or expressions is wanted here",
+                    "a list of " + std::to_string(spec.count) + " numbers or expressions is expected here",
                     "[0, \"-10 " + spec.unit + "\"]");
     return false;
   }

@@ -84,7 +84,7 @@ class KeySearch {
       return complain("there is no key " + in_quotes(parts_.back()), reading_.complaints.did_you_mean(parts_.back(), keys));
     }
     if (spec->type != ValueType::kNumber && spec->type != ValueType::kQuantity && spec->type != ValueType::kExpression)
-      return complain("only a key that is one number can vary", "a name under [parameters] for the number, and vary parameters.NAME");
+      return complain("only a key that is one number can vary", "name the number under [parameters], and vary parameters.NAME");
     return VariedKey{spec->unit, spec->dimension, spec->minimum, spec->maximum, spec->minimum_exclusive};
   }
 
@@ -133,7 +133,7 @@ class VariationReader {
       const bool limit = key == "from" || key == "to";
       const bool wanted = limit ? !bell : key == "mode" ? word == "triangular" : bell;
       if (wanted && !record_.states(key)) complain(entry_.key_spot, key, "no " + std::string(key), "a " + word + " distribution needs it", std::string(key) + " = " + example());
-      if (!wanted && !limit && record_.states(key)) complain(record_.spot(key), key, std::string(key), "a " + word + " distribution has none", "delete it");
+      if (!wanted && !limit && record_.states(key)) complain(record_.spot(key), key, std::string(key), "a " + word + " distribution does not use it", "delete it");
       check_dimension_of(key);
     }
     out.mean = record_.number("mean");
@@ -160,7 +160,7 @@ class VariationReader {
     if (v.distribution == Distribution::kLognormal && !(v.mean > 0)) complain(record_.spot("mean"), "mean", fmt::format("{:g}", v.mean), "a lognormal value is positive", "distribution = \"normal\"");
     constexpr double kFarOut = 6;  // deviations: next to nothing of the distribution lies there
     if (bell && (v.from > v.mean + kFarOut * v.deviation || v.to < v.mean - kFarOut * v.deviation))
-      complain(record_.spot("mean"), "mean", fmt::format("{:g}", v.mean), fmt::format("next to nothing of it lies in the range, {:g} to {:g}", v.from, v.to), "a mean inside the range");
+      complain(record_.spot("mean"), "mean", fmt::format("{:g}", v.mean), fmt::format("almost none of it lies in the range, {:g} to {:g}", v.from, v.to), "a mean inside the range");
     if (v.distribution == Distribution::kTriangular && !(v.from <= v.mode && v.mode <= v.to))
       complain(record_.spot("mode"), "mode", fmt::format("{:g}", v.mode), "the most likely value lies between from and to", "");
   }

@@ -18,13 +18,13 @@ constexpr double kAny = -std::numeric_limits<double>::infinity();  // a smallest
 
 constexpr std::array<KeyInfo, 4> kLinearKeys{{
     {.key = "stiffness", .unit = "N/m", .fallback = 1e8, .minimum_exclusive = true, .per_component = true,
-     .meaning = "force per displacement that an ideal joint would forbid"},
+     .meaning = "force per forbidden displacement"},
     {.key = "damping", .unit = "N*s/m", .fallback = 3e3, .per_component = true,
-     .meaning = "force per rate of that displacement"},
+     .meaning = "force per rate of forbidden displacement"},
     {.key = "angular_stiffness", .unit = "N*m/rad", .fallback = 1e6, .minimum_exclusive = true,
-     .meaning = "moment per forbidden angle, in joints that forbid one"},
+     .meaning = "moment per forbidden rotation, for joints that forbid it"},
     {.key = "angular_damping", .unit = "N*m*s/rad", .fallback = 30,
-     .meaning = "moment per rate of that angle"},
+     .meaning = "moment per rate of forbidden rotation"},
 }};
 
 constexpr std::array<KeyInfo, 16> kBushingKeys{{

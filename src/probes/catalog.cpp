@@ -20,7 +20,7 @@ constexpr std::array<ComponentInfo, 1> kSlide{{{.name = "slide"}}};
 constexpr std::array<ComponentInfo, 2> kSlideAngle{{{.name = "slide"}, kTurn}};
 
 constexpr std::array<KeyInfo, 1> kLength{{
-    {.key = "length", .unit = "m", .minimum_exclusive = true, .meaning = "distance it keeps; absent: the distance as assembled"},
+    {.key = "length", .unit = "m", .minimum_exclusive = true, .meaning = "distance between the points; default: as assembled"},
 }};
 constexpr std::array<KeyInfo, 1> kRackRadius{{
     {.key = "radius", .unit = "m", .minimum_exclusive = true, .required = true, .meaning = "pitch radius of the pinion (the first body)"},
@@ -40,12 +40,12 @@ Probe make_rack(const Geometry& g) { return RackMesh{value(g, "radius", 1), 1, 0
 // The gear's keys `radii` and `mesh` are lists and words; the reader turns them into radius_first, radius_second, internal.
 std::vector<JointTypeInfo>& types() {
   static std::vector<JointTypeInfo> all{
-      {.word = "revolute", .meaning = "a pin: holds two points together, leaves the angle", .gap = kXY, .free = kAngle, .keys = {}, .make = make_pose},
-      {.word = "prismatic", .meaning = "a slider: keeps two axes in line, leaves the slide along them", .gap = kAcrossAngle, .free = kSlide, .keys = {}, .make = make_pose},
-      {.word = "fixed", .meaning = "a weld with compliance: holds point and angle", .gap = kXYAngle, .free = {}, .keys = {}, .make = make_pose},
+      {.word = "revolute", .meaning = "a pin: holds two points together, the angle is free", .gap = kXY, .free = kAngle, .keys = {}, .make = make_pose},
+      {.word = "prismatic", .meaning = "a slider: keeps two axes collinear, the slide along them is free", .gap = kAcrossAngle, .free = kSlide, .keys = {}, .make = make_pose},
+      {.word = "fixed", .meaning = "a weld with compliance: fixes point and angle", .gap = kXYAngle, .free = {}, .keys = {}, .make = make_pose},
       {.word = "slot", .meaning = "a pin (second) in a straight slot (first marker's axis)", .gap = kAcross, .free = kSlideAngle, .keys = {}, .make = make_pose},
       {.word = "rod", .meaning = "a massless rod: keeps two points at a distance", .gap = kAlong, .free = {}, .keys = kLength, .make = make_distance},
-      {.word = "rope", .meaning = "a rope: two points no farther apart than its length", .gap = kAlong, .free = {}, .keys = kLength, .one_sided = true, .make = make_distance},
+      {.word = "rope", .meaning = "a rope: limits the distance of two points to its length", .gap = kAlong, .free = {}, .keys = kLength, .one_sided = true, .make = make_distance},
       {.word = "gear", .meaning = "two gears in mesh, centred on the two markers", .gap = kPitch, .free = {}, .keys = {}, .make = make_mesh},
       {.word = "rack", .meaning = "a pinion (first) rolling along a rack (second marker's axis)", .gap = kPitch, .free = {}, .keys = kRackRadius, .make = make_rack},
   };

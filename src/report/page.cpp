@@ -58,12 +58,12 @@ constexpr std::string_view kStage = R"html(<div id="stage" hidden>
 <div class="bar" role="group" aria-label="Playback">
 <button id="play" class="main" aria-pressed="false" title="Space">Play</button>
 <button id="back" title="Left arrow" aria-label="One row back">◂</button>
-<button id="on" title="Right arrow" aria-label="One row on">▸</button>
+<button id="on" title="Right arrow" aria-label="One row forward">▸</button>
 <input id="time" type="range" min="0" value="0" step="1" aria-label="Time">
 <output id="clock" for="time"></output>
 <label>speed <select id="speed"></select></label>
 </div>
-<div class="bar" role="group" aria-label="What is drawn">
+<div class="bar" role="group" aria-label="Display">
 <label><input type="checkbox" id="forces" checked> forces</label>
 <label><input type="checkbox" id="names"> names</label>
 <label><input type="checkbox" id="masses"> centres of mass</label>
@@ -78,9 +78,9 @@ constexpr std::string_view kStage = R"html(<div id="stage" hidden>
 std::string motion(const Scene& scene, const RunRecord& run) {
   const Trajectory& trajectory = run.trajectory;
   std::string html = "<section id=\"motion\" aria-labelledby=\"motion-title\">\n<h2 id=\"motion-title\">Motion</h2>\n";
-  if (trajectory.n_rows() == 0) return html + "<p>The run has no rows: there is nothing to show.</p>\n</section>\n";
+  if (trajectory.n_rows() == 0) return html + "<p>The run has no rows to show.</p>\n</section>\n";
   if (scene.n_unseen == scene.bodies.size()) {
-    html += "<p>The run did not record any body, so that it cannot be drawn. <code>record = [\"all\"]</code> in "
+    html += "<p>The run did not record any body, so it cannot be drawn. <code>record = [\"all\"]</code> in "
             "<code>[simulate]</code> keeps everything.</p>\n</section>\n";
     return html;
   }
@@ -93,7 +93,7 @@ std::string motion(const Scene& scene, const RunRecord& run) {
 
 std::string plots(const Trajectory& trajectory, const PageContent& content) {
   if (content.rows.size() == trajectory.n_rows()) return "<div id=\"charts\"></div>\n";
-  return fmt::format("<p class=\"note\">Pictures and plots show {} of {} rows; the tables come from all of them, and the moments of the largest joint forces are among those shown.</p>\n<div id=\"charts\"></div>\n",
+  return fmt::format("<p class=\"note\">Pictures and plots show {} of {} rows, including the instants of the largest joint forces; the tables use all rows.</p>\n<div id=\"charts\"></div>\n",
                      content.rows.size(), trajectory.n_rows());
 }
 
@@ -124,9 +124,9 @@ std::string report_html(const Model& model, const RunRecord& run, const ReportOp
   if (rows) html += section("plots", "Plots", plots(trajectory, content));
   html += section("forces-of-joints", "Peak joint forces", (trajectory.joints.empty() ? "<p>There are no joints.</p>\n" : force_table(trajectory)) + couple_table(trajectory) + drive_tables(trajectory));
   html += section("energy", "Energy account", energy_table(trajectory.energy));
-  html += section("assumed", "What was assumed", assumption_list(model, trajectory));
-  html += section("work", "What it took", counter_table(trajectory));
-  html += section("source", "Where it comes from", provenance(run.stamp));
+  html += section("assumed", "Assumptions", assumption_list(model, trajectory));
+  html += section("work", "Computation", counter_table(trajectory));
+  html += section("source", "Provenance", provenance(run.stamp));
   html += "</main>\n";
   if (rows) html += script(scene, run, content);
   return html + "</body>\n</html>\n";

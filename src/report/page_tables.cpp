@@ -90,14 +90,14 @@ Verdict verdict_on(const Trajectory& trajectory) {
   const std::string more = n_ambiguous ? fmt::format(" Forces of {} are not unique.", count(n_ambiguous, "joint", "joints")) : "";
   std::string of_forces;
   if (!worst) of_forces = "there are no joints.";
-  else if (!has_force_estimates(trajectory)) of_forces = "the joint forces carry no error estimate.";
+  else if (!has_force_estimates(trajectory)) of_forces = "the joint forces have no error estimate.";
   else of_forces = fmt::format("largest estimated error{}: {} of its peak, at {}.", trajectory.of_motion ? " of a joint force" : "", printed_number(exponent(worst->relative_error_estimate)), worst->name);
   of_forces += more;
   const bool met = trajectory.outcome == Outcome::kCompleted;
   const Verdict::Kind kind = met && !n_ambiguous ? Verdict::kGood : Verdict::kDoubtful;
   if (trajectory.of_motion)
     return {trajectory.motion_error <= trajectory.tolerance ? kind : Verdict::kDoubtful,
-            fmt::format("Places are accurate to {} of the longest way that a body has gone ({} was asked for); {}", printed_number(exponent(trajectory.motion_error)), asked, of_forces)};
+            fmt::format("Positions are accurate to {} of the longest path of any body (tolerance {}); {}", printed_number(exponent(trajectory.motion_error)), asked, of_forces)};
   if (met && !worst) return {Verdict::kGood, "Completed; " + of_forces};
   if (met && !n_missed) return {kind, fmt::format("Every joint force is accurate to {} of its peak; {}", asked, of_forces)};
   if (n_missed)
@@ -150,7 +150,7 @@ std::string force_table(const Trajectory& trajectory) {
   if (any_missed)
     html += fmt::format("<p class=\"note\"><strong>!</strong> the estimate exceeds the tolerance of {} of the peak</p>\n", printed_number(fmt::format("{:g}", trajectory.tolerance)));
   if (any_ambiguous)
-    html += "<p class=\"note\">† redundant ideal constraints leave this force undetermined; one of many is given</p>\n";
+    html += "<p class=\"note\">† redundant ideal constraints leave this force undetermined; one of many solutions is given</p>\n";
   return html;
 }
 
@@ -227,7 +227,7 @@ std::string energy_table(const EnergyAccount& energy) {
   table.end_row();
   std::string note = fmt::format("kinetic + potential + dissipated − supplied drifts by {} J", estimate(energy.drift));
   if (energy.kinetic_peak > 0) note += fmt::format(", {} of the peak kinetic energy", estimate(energy.drift / energy.kinetic_peak));
-  return table.html() + "<p class=\"note\">" + note + ". Nothing in the method makes the account add up: it is a check of its own.</p>\n";
+  return table.html() + "<p class=\"note\">" + note + ". Nothing in the method enforces this balance: it is an independent check.</p>\n";
 }
 
 std::string assumption_list(const Model& model, const Trajectory& trajectory) {
@@ -235,18 +235,18 @@ std::string assumption_list(const Model& model, const Trajectory& trajectory) {
   const auto item = [&html](const std::string& text) { html += "<li>" + text + "</li>\n"; };
   const SimulateSettings& settings = model.simulate;
   switch (settings.equations) {
-    case Equations::kNewtonian: item("Every joint is a force law: it gives way by as much as its force needs."); break;
-    case Equations::kLagrangian: item("Joints marked ideal do not give way; every other joint is a force law."); break;
+    case Equations::kNewtonian: item("Every joint is a force law: it deflects under its force."); break;
+    case Equations::kLagrangian: item("Joints marked ideal are rigid; every other joint is a force law."); break;
     case Equations::kIdeal: item("Every joint with a linear law is an ideal constraint."); break;
   }
   switch (settings.start) {
-    case Start::kAssembled: item("The start is assembled: positions, velocities and the preload of every joint are found."); break;
+    case Start::kAssembled: item("The start is assembled: positions, velocities and the preload of every joint are computed."); break;
     case Start::kUnloaded: item("The start has no joint preload."); break;
-    case Start::kRaw: item("The start is taken as stated, without preload; a shock is part of the result."); break;
+    case Start::kRaw: item("The start is used as stated, without preload; the resulting shock is part of the result."); break;
   }
   item(fmt::format("Gravity is {:g}, {:g} m/s² along x and y.", model.gravity[0], model.gravity[1]));
-  item(fmt::format("Tolerance: {} of {}, at every output time.", printed_number(fmt::format("{:g}", trajectory.tolerance)), trajectory.of_motion ? "the longest way that a body has gone" : "each joint's peak force"));
-  item("Peaks are those at the output times; a shock between two of them is seen only with a shorter output step.");
+  item(fmt::format("Tolerance: {} of {}, at every output time.", printed_number(fmt::format("{:g}", trajectory.tolerance)), trajectory.of_motion ? "the longest path of any body" : "each joint's peak force"));
+  item("Peaks are those at the output times; a shock between two of them is visible only with a shorter output step.");
   for (const std::string& note : trajectory.notes) item(escaped_markup(note));
   return html + "</ul>\n";
 }
@@ -272,10 +272,10 @@ std::string provenance(const RunStamp& stamp) {
   entry("Program", stamp.version.empty() ? "" : "Pintle " + stamp.version);
   entry("Command", stamp.command_line);
   entry("Model file", stamp.model_path);
-  entry("Its content", stamp.input_hash);
+  entry("File hash", stamp.input_hash);
   std::string changes;
   for (const std::string& change : stamp.overrides) changes += (changes.empty() ? "" : "; ") + change;
-  entry("Changed in it", changes);
+  entry("Overrides", changes);
   html += "</dl>\n";
   if (stamp.model_text.empty()) return html;
   html += "<details><summary>The model file</summary><pre tabindex=\"0\">";

@@ -158,7 +158,7 @@ TEST(Report, VerdictWithoutEstimatesSaysSo) {
   run.trajectory.outcome = Outcome::kToleranceNotMet;
   run.trajectory.message = "no step from t = 0.1 s";
   EXPECT_EQ(verdict_on(run.trajectory).text,
-            "The tolerance of 10⁻⁵ was not reached: no step from t = 0.1 s; the joint forces carry no error estimate.");
+            "The tolerance of 10⁻⁵ was not reached: no step from t = 0.1 s; the joint forces have no error estimate.");
   EXPECT_EQ(verdict_on(run.trajectory).kind, Verdict::kDoubtful);
   EXPECT_EQ(count(force_table(run.trajectory), ">–<"), 2 * run.trajectory.joints.size());
   run.trajectory.joints.clear();
@@ -210,7 +210,7 @@ TEST(Report, RunsWithNothingToDrawStillHaveTables) {
   EXPECT_TRUE(holds(report_html(model, run), "did not record any body"));
   run.trajectory.values.clear();
   const std::string html = report_html(model, run);
-  EXPECT_TRUE(holds(html, "there is nothing to show"));
+  EXPECT_TRUE(holds(html, "no rows to show"));
   EXPECT_TRUE(holds(html, "id=\"force-table\""));
 }
 

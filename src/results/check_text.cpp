@@ -51,22 +51,22 @@ std::string heading(const CheckReport& r, const std::string& title, const Look& 
 
 std::string mobility_section(const CheckMobility& m, const Look& look) {
   std::string text = fmt::format("\n{}Mobility{}\n", look.bold, look.plain);
-  text += fmt::format("  Gruebler's count: {} freedoms - {} = {}\n", m.freedoms,
+  text += fmt::format("  Gruebler's count: {} degrees of freedom - {} = {}\n", m.freedoms,
                       counted(m.constraints, "constraint", "constraints"), m.gruebler);
   if (m.rank < 0) return text + fmt::format("  true mobility: not determined, {}\n", m.remark);
-  text += fmt::format("  true mobility: {}{}{} ({} freedoms - rank {}, by {}, relative tolerance {:.1e})\n", look.bold,
+  text += fmt::format("  true mobility: {}{}{} ({} degrees of freedom - rank {}, by {}, relative tolerance {:.1e})\n", look.bold,
                       m.mobility, look.plain, m.freedoms, m.freedoms - m.mobility, m.method, m.rank_tolerance);
   if (m.servos > 0)
     text += fmt::format(
         "  with {} holding: {}{}\n", counted(m.servos, "motor", "motors"), m.mobility_driven,
-        m.freedoms - m.rank - m.mobility_driven < m.servos ? "; motors and joints are in each other's way" : "");
+        m.freedoms - m.rank - m.mobility_driven < m.servos ? "; motors and joints conflict" : "");
   if (m.singular_position())
     text += fmt::format(
-        "  {}singular position{}: the rank is {} here and {} nearby; for an instant it can move in {} ways\n",
+        "  {}singular position{}: the rank is {} here and {} nearby; here it has {} instantaneous degrees of freedom\n",
         look.warn, look.plain, m.rank, m.rank_nearby, m.freedoms - m.rank);
   if (m.smallest_kept > 0 && m.smallest_kept < 1e-4)
     text +=
-        fmt::format("  close to one more freedom: the smallest singular value that counts is {:.1e} of the largest\n",
+        fmt::format("  close to one more degree of freedom: the smallest singular value counted is {:.1e} of the largest\n",
                     m.smallest_kept);
   if (!m.remark.empty()) text += fmt::format("  {}\n", m.remark);
   return text;
@@ -84,22 +84,22 @@ std::string redundancy_section(const CheckReport& report, const Look& look) {
       members.push_back(m.share > 0
                             ? fmt::format("{}.{} ({:.0f} %)", m.joint, m.component, 100 * m.share / group.degree)
                             : fmt::format("{}.{}", m.joint, m.component));
-    text += fmt::format("  {} too many among {}\n", group.degree, names(members, look.details));
+    text += fmt::format("  {} among {}\n", counted(group.degree, "redundant constraint", "redundant constraints"), names(members, look.details));
   }
   text += more(report.redundancies.size(), shown, "groups");
   return text +
-         "  They carry load against each other: stiffness and misfit decide how much. Ideal joints could not tell.\n";
+         "  They can load each other: stiffness and misfit decide how much. Ideal joints leave the load sharing undetermined.\n";
 }
 
 std::string loop_section(const CheckTopology& t, const Look& look) {
   std::string text = fmt::format("\n{}Loops{}\n", look.bold, look.plain);
-  if (t.n_loops == 0) text += "  none: the joints make a tree\n";
+  if (t.n_loops == 0) text += "  none: the joints form a tree\n";
   const std::size_t shown = look.details ? t.loops.size() : std::min(kMaxLoops, t.loops.size());
   for (std::size_t i = 0; i < shown; ++i)
     text += fmt::format("  {}  {}\n", i + 1, names(t.loops[i].joints, look.details));
   text += more(static_cast<std::size_t>(t.n_loops), shown, "loops");
   for (const auto& group : t.floating)
-    text += fmt::format("  not tied to the ground by joints: {}\n", names(group, look.details));
+    text += fmt::format("  not connected to the ground by joints: {}\n", names(group, look.details));
   return text;
 }
 
@@ -111,7 +111,7 @@ std::string gear_section(const CheckReport& report, const Look& look) {
   for (const CheckGear& gear : report.gears)
     table.add_row({gear.joint, gear.type, gear.first_body, gear.second_body, engineering(gear.ratio), gear.unit});
   if (table.empty()) return "";
-  std::string text = fmt::format("\n{}Gear ratios{} (line of centres held)\n{}", look.bold, look.plain,
+  std::string text = fmt::format("\n{}Gear ratios{} (line of centres fixed)\n{}", look.bold, look.plain,
                                  table.text(look.bold, look.plain));
   for (const CheckTransmission& t : report.transmission)
     text += fmt::format("  {}.{} moves {} {} of {}\n", t.joint, t.coordinate, engineering(t.ratio),
@@ -135,7 +135,7 @@ TextTable frequency_table(const char* first) {
 std::string mode_section(const CheckFrequencies& f, const Look& look) {
   if (f.modes.empty()) return "";
   TextTable table = frequency_table("mode");
-  table.add_column("energy there", Align::kNumber, "%");
+  table.add_column("energy share", Align::kNumber, "%");
   const auto add = [&table](const std::string& which, const CheckMode& m) {
     table.add_row({which, m.joint, m.component, engineering(m.frequency), hertz(m.frequency),
                    engineering(m.damping_ratio), engineering(100 * m.share)});
@@ -152,7 +152,7 @@ std::string mode_section(const CheckFrequencies& f, const Look& look) {
     }
   }
   std::string text =
-      fmt::format("\n{}Vibrations on the joints{} (as assembled; the joint that stores most of the energy)\n{}",
+      fmt::format("\n{}Vibration modes{} (as assembled, with the joint that stores most of the energy)\n{}",
                   look.bold, look.plain, table.text(look.bold, look.plain));
   if (!f.remark.empty()) text += fmt::format("  {}\n", f.remark);
   if (f.explicit_step > 0)
@@ -172,7 +172,7 @@ std::string component_section(const CheckFrequencies& f, const Look& look) {
     table.add_row({c.type, c.joint, c.component, engineering(c.frequency), hertz(c.frequency),
                    engineering(c.damping_ratio), engineering(c.stiffness), engineering(c.effective_mass)});
   }
-  return fmt::format("\n{}Each joint by itself{}\n{}", look.bold, look.plain, table.text(look.bold, look.plain)) +
+  return fmt::format("\n{}Each joint alone{}\n{}", look.bold, look.plain, table.text(look.bold, look.plain)) +
          more(f.components.size(), shown, "components");
 }
 
@@ -182,7 +182,7 @@ std::string battery_section(const char* title, const CheckBattery& battery, cons
   for (const CheckItem& item : battery.items) comparisons += item.comparisons, kinks += item.at_kinks;
   std::string text = fmt::format("\n{}{}{}: {}{}{}, {} comparisons", look.bold, title, look.plain,
                                  passed ? look.good : look.warn, passed ? "passed" : "FAILED", look.plain, comparisons);
-  text += kinks > 0 ? fmt::format(", {} left out at kinks\n", kinks) : "\n";
+  text += kinks > 0 ? fmt::format(", {} omitted at kinks\n", kinks) : "\n";
   TextTable table;
   table.add_column("compared", Align::kLeft);
   table.add_column("worst mismatch", Align::kNumber, "-");
@@ -211,7 +211,7 @@ std::string check_text(const CheckReport& report, const std::string& title, bool
   text += gear_section(report, look);
   text += mode_section(report.frequencies, look);
   text += component_section(report.frequencies, look);
-  text += battery_section("Jacobians against differences", report.jacobians, look);
+  text += battery_section("Jacobians against finite differences", report.jacobians, look);
   text += battery_section("Energy and balance", report.energy, look);
   if (!report.notes.empty()) text += fmt::format("\n{}Notes{}\n", look.bold, look.plain);
   for (const std::string& note : report.notes) text += fmt::format("  {}\n", note);

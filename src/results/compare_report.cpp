@@ -64,14 +64,14 @@ bool any(const std::vector<Difference>& list, Cause cause) {
 // What the causes mean, and who gives way.
 std::string explanation(const Comparison& c) {
   std::string text;
-  if (any(c.forces, Cause::kNumerical)) text += "  numerical: within the error estimates of both runs; a smaller tolerance would shrink it\n";
+  if (any(c.forces, Cause::kNumerical)) text += "  numerical: within the error estimates of both runs; a smaller tolerance would reduce it\n";
   if (any(c.forces, Cause::kPhysical) || any(c.couples, Cause::kPhysical)) {
-    text += "  physical: beyond the error estimates; the joints give way, and the difference goes as 1 / stiffness\n";
+    text += "  physical: larger than the error estimates; it comes from joint compliance and goes as 1 / stiffness\n";
     if (!c.softness.empty() && c.softness.front().share > 0)
       text += fmt::format("    {} stores {:.0f} % of the joints' elastic energy{}\n", c.softness.front().joint, 100 * c.softness.front().share,
-                          c.softness.front().share > kMainShare ? ": it decides" : ", the largest share");
+                          c.softness.front().share > kMainShare ? ", most of it" : ", the largest share");
   }
-  if (any(c.forces, Cause::kNotUnique)) text += "  not unique: ideal joints share this load in many ways; compliant ones in one\n";
+  if (any(c.forces, Cause::kNotUnique)) text += "  not unique: ideal joints leave this load sharing undetermined\n";
   return text;
 }
 

@@ -1,4 +1,4 @@
-// What a run says about its own joint forces, and how good it says they are.
+// The stated accuracy of a run's joint forces.
 #pragma once
 
 #include "pintle/trajectory.h"

@@ -38,14 +38,14 @@ void check_run_folder(const fs::path& folder, Overwrite overwrite) {
   const fs::file_status status = fs::status(folder, error);
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status))
-    throw FileError(fmt::format("{}: it is a file, and a run needs a folder.\n    Choose another place with --out.",
+    throw FileError(fmt::format("{}: this is a file, but a run needs a folder.\n    Choose another place with --out.",
                                 folder.string()));
   const bool empty = fs::is_empty(folder, error);
   if (error) throw file_error(folder, "look into", error.value());
   if (overwrite == Overwrite::kAnyFolder || empty || holds_a_run(folder)) return;
   throw FileError(
-      fmt::format("{}: this folder exists and is not an earlier run (it has no {} of ours).\n    Choose another place "
-                  "with --out, or put the run among its files with --force.",
+      fmt::format("{}: this folder exists and is not an earlier run (it has no {} written by pintle).\n    Choose another place "
+                  "with --out, or add the run to its files with --force.",
                   folder.string(), kSummaryFile));
 }
 
@@ -79,11 +79,11 @@ std::string read_model_text(const fs::path& folder, const RunStamp& stamp) {
   const fs::path copy = folder / model_file_of(stamp), original = stamp.model_path;
   const bool copied = fs::exists(copy);
   if (!copied && !fs::exists(original))
-    throw FileError(fmt::format("{}: the run has no copy of its model, and {} is not there either.\n    Run the model again.", copy.string(),
+    throw FileError(fmt::format("{}: the run has no copy of its model, and {} does not exist either.\n    Run the model again.", copy.string(),
                                 stamp.model_path.empty() ? "the model file" : stamp.model_path));
   const std::string text = read_file(copied ? copy : original);
   if ("sha256:" + sha256(text) != stamp.input_hash)
-    throw FileError(fmt::format("{}: this is not the model that was run: {} has another hash.\n    Run the model again.", (copied ? copy : original).string(),
+    throw FileError(fmt::format("{}: this is not the model that was run: {} has a different hash.\n    Run the model again.", (copied ? copy : original).string(),
                                 kSummaryFile));
   return text;
 }

@@ -93,7 +93,7 @@ class FieldReader {
     if (!rest_.empty() && rest_.front() == ',') return drop(1);
     if (rest_.substr(0, 2) == kLineEnd) drop(1);
     if (!rest_.empty() && rest_.front() != '\n')
-      fail("text after a quoted field", "a comma or the line's end belongs here");
+      fail("text after a quoted field", "expected a comma or the end of the line");
     if (!rest_.empty()) drop(1);
     next_line();
     row_done_ = true;

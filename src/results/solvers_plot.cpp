@@ -8,7 +8,7 @@ namespace {
 
 Panel panel(const SolverStudy& study, const char* quantity, const char* unit, double (*cost)(const SolverRun&)) {
   Panel out;
-  out.quantity = "Joint-force error, of the joint's peak";
+  out.quantity = "Joint-force error, relative to the joint's peak";
   out.x_quantity = quantity;
   out.x_unit = unit;
   out.log_x = out.log_y = true;
@@ -29,7 +29,7 @@ Panel panel(const SolverStudy& study, const char* quantity, const char* unit, do
 Plot solvers_plot(const SolverStudy& study, const std::string& title) {
   Plot plot;
   plot.title = title;
-  plot.subtitle = fmt::format("Truth: {}, tolerance {:g}, error about {:.0e}", study.truth.method, study.truth.tolerance, study.truth.error_estimate);
+  plot.subtitle = fmt::format("Reference: {}, tolerance {:g}, error about {:.0e}", study.truth.method, study.truth.tolerance, study.truth.error_estimate);
   plot.panels = {panel(study, "Wall time", "ms", [](const SolverRun& run) { return 1e3 * run.seconds; }),
                  panel(study, "Evaluations", "", [](const SolverRun& run) { return run.evaluations; })};
   return plot;

@@ -40,7 +40,7 @@ bool holds(const std::string& text, const std::string& part) { return text.find(
 
 TEST(SolversReport, TextSaysWhatTheTruthIsAndWhoWasStopped) {
   const std::string text = solvers_text(small_study(), "Four-bar");
-  EXPECT_TRUE(holds(text, "Truth: radau, tolerance 1e-09"));
+  EXPECT_TRUE(holds(text, "Reference: radau, tolerance 1e-09"));
   EXPECT_TRUE(holds(text, "3.0e-10"));
   EXPECT_TRUE(holds(text, "stopped at t = 0.25 s"));
   EXPECT_TRUE(holds(text, "running mean"));

@@ -15,7 +15,7 @@ std::string known(double x, const char* format) { return std::isfinite(x) ? fmt:
 
 std::string truth_text(const SolverStudy& study) {
   const SolverTruth& t = study.truth;
-  std::string text = fmt::format("Truth: {}, tolerance {:g}; its joint forces are right to about {:.1e} of their peaks by its own estimate ({:.3g} s)\n",
+  std::string text = fmt::format("Reference: {}, tolerance {:g}; its joint forces are accurate to about {:.1e} of their peaks by its own estimate ({:.3g} s)\n",
                                  t.method, t.tolerance, t.error_estimate, t.seconds);
   if (!t.message.empty()) text += fmt::format("  {}\n", t.message);
   return text;
@@ -52,12 +52,12 @@ std::string order_text(const SolverStudy& study, const std::string& bold, const 
 
 std::string legend_text(const SolverStudy& study) {
   return fmt::format(
-      "\n  force error: largest over joints and output times, of the joint's peak force (or couple)\n"
-      "  vibration: parasitic; peak to peak of a joint force's error in the last half of the run, its running mean over\n"
-      "             {:.3g} s taken off, in N and of the joint's peak force\n"
-      "  time: one integration with its {:.0f} output times; radau and dopri5 measure each step by the joint\n"
-      "        forces, the others by positions and velocities, as general integrators do; pintle run integrates again\n"
-      "        until the forces keep the tolerance\n",
+      "\n  force error: largest over joints and output times, relative to the joint's peak force (or couple)\n"
+      "  vibration: parasitic; peak to peak of a joint force's error in the last half of the run, less its running mean\n"
+      "             over {:.3g} s, in N and relative to the joint's peak force\n"
+      "  time: one integration with its {:.0f} output times; radau and dopri5 control the error of the joint\n"
+      "        forces, the others that of positions and velocities, as general integrators do; pintle run repeats\n"
+      "        the integration until the forces meet the tolerance\n",
       study.window, std::floor(study.duration / study.output_step * (1 + 1e-9)));
 }
 

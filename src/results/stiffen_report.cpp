@@ -55,7 +55,7 @@ std::string joints_text(const Stiffening& s) {
   table.add_column("damping", Align::kNumber, "N*s/m");
   table.add_column("angular stiffness", Align::kNumber, "N*m/rad");
   table.add_column("angular damping", Align::kNumber, "N*m*s/rad");
-  table.add_column("its influence", Align::kNumber, "-");
+  table.add_column("influence", Align::kNumber, "-");
   table.add_column("", Align::kLeft);
   for (const StiffenJoint& j : s.joints) {
     const bool angle = j.angular_stiffness > 0;
@@ -84,10 +84,10 @@ std::string chosen(const StiffenRequest& request) {
 std::string stiffen_text(const Stiffening& s, const std::string& title, bool colour) {
   const std::string bold = colour ? "\x1b[1m" : "", plain = colour ? "\x1b[0m" : "";
   const std::string damping = s.request.damping_ratio ? fmt::format("damping {:g} of critical", *s.request.damping_ratio) : fmt::format("damping {:g} N*s/m", s.request.damping);
-  std::string text = fmt::format("{}{}{}: {} digits of {} wanted, {}\n\n", bold, title, plain, s.request.digits, chosen(s.request), damping);
+  std::string text = fmt::format("{}{}{}: {} digits of {} requested, {}\n\n", bold, title, plain, s.request.digits, chosen(s.request), damping);
   text += steps_text(s);
   if (s.found) text += fmt::format("\nFound: the digits agree at {:.0e} N/m.\n", s.stiffness);
-  else text += "\nNo answer.\n";
+  else text += "\nNot found.\n";
   if (!s.reason.empty()) text += "  " + s.reason + "\n";
   for (const std::string& note : s.notes) text += "  " + note + "\n";
   if (converges(s)) text += "\nLimit of stiff joints, extrapolated in 1/stiffness (peaks over the run)\n" + limits_text(s);
@@ -123,7 +123,7 @@ std::string stiffen_json(const Stiffening& s, const std::string& model_name, con
 Plot stiffen_plot(const Stiffening& s, const std::string& title) {
   Plot plot;
   plot.title = title;
-  plot.subtitle = s.found ? fmt::format("{} digits agree at {:.0e} N/m", s.request.digits, s.stiffness) : "no stiffness was enough";
+  plot.subtitle = s.found ? fmt::format("{} digits agree at {:.0e} N/m", s.request.digits, s.stiffness) : "no stiffness was high enough";
   plot.x_quantity = "Stiffness";
   plot.x_unit = "N/m";
   plot.log_x = true;

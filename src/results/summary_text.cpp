@@ -164,7 +164,7 @@ std::string energy_section(const EnergyAccount& energy, const Style& style) {
 
 std::string work_section(const Trajectory& trajectory) {
   const Counters& n = trajectory.counters;
-  const std::string motion = !trajectory.of_motion ? "" : fmt::format(" of the motion (error {} of the longest way)", exponent(trajectory.motion_error));
+  const std::string motion = !trajectory.of_motion ? "" : fmt::format(" of the motion (error {} of the longest path)", exponent(trajectory.motion_error));
   return fmt::format(
       "\nMethod {}, tolerance {:g}{}: {} steps ({} rejected) in {} {}\n"
       "  {} Newton iterations ({} failures), {} evaluations, {} factorizations\n",

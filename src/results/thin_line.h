@@ -1,4 +1,4 @@
-// A curve of a million points drawn with a few thousand that look the same.
+// Thins a curve of a million points to a few thousand without visible change.
 #pragma once
 
 #include <vector>

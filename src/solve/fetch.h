@@ -1,5 +1,5 @@
-// Memory that is asked for before it is used. A step goes through a dozen arrays at once, and back as well as forth: that is more than
-// processors foresee, and without this large mechanisms wait for memory half of the time.
+// Explicit prefetching. A step walks a dozen arrays at once, forward and backward, which hardware prefetchers do not
+// predict; without this, large mechanisms wait for memory half of the time.
 #pragma once
 
 #include <cstddef>

@@ -67,7 +67,7 @@ void Journal::open(const std::string& head, bool force) {
   const bool torn = head.compare(0, found.size(), found) == 0;  // empty, or killed while it was begun
   if (!same && !torn && !force)
     throw FileError(fmt::format("{}: this is the journal of another sweep, with other values, another model or other options.\n"
-                                "    try: the command that began it to go on with it, another --out, or --force to discard it",
+                                "    try: the command that started it to continue it, another --out, or --force to discard it",
                                 path_.string()));
   if (same && !force) return read_frames(head.size());
   if (::ftruncate(descriptor_, 0) != 0) throw file_error(path_, "write", errno);
@@ -129,7 +129,7 @@ SampleResult Journal::read(std::uint64_t sample) const {
   const std::string bytes = read_at(descriptor_, offset, frame_length(head), path_);
   std::size_t at = 0;
   auto frame = read_frame(bytes, at);
-  if (!frame || frame->sample != sample) throw FileError(path_.string() + ": it was damaged while it was in use.\n    try: the same command again");
+  if (!frame || frame->sample != sample) throw FileError(path_.string() + ": it was damaged while in use.\n    try: the same command again");
   return std::move(frame->result);
 }
 

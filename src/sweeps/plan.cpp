@@ -30,7 +30,7 @@ class AxisReader {
     SweepAxis axis;
     const std::size_t equals = text_.find('=');
     if (equals == std::string::npos) {
-      complain(0, "what varies is PATH=FROM..TO:lin|log:COUNT, or PATH=A,B,C", kExample);
+      complain(0, "a varying value is PATH=FROM..TO:lin|log:COUNT, or PATH=A,B,C", kExample);
       return axis;
     }
     axis.path = text_.substr(0, equals);
@@ -68,7 +68,7 @@ class AxisReader {
   std::vector<double> range(std::size_t from, std::size_t dots) {
     const std::size_t last = text_.rfind(':'), middle = last == std::string::npos || last == 0 ? last : text_.rfind(':', last - 1);
     if (last == std::string::npos || middle == std::string::npos || middle < dots) {
-      complain(dots, "a range says how it is spaced and how many values it has", kExample);
+      complain(dots, "a range needs a spacing and a number of values", kExample);
       return {};
     }
     const std::string spacing = text_.substr(middle + 1, last - middle - 1);
@@ -77,9 +77,9 @@ class AxisReader {
     const char* const end = text_.data() + text_.size();
     const auto [stop, error] = std::from_chars(text_.data() + last + 1, end, count);
     if (error != std::errc() || stop != end || count < 2 || static_cast<std::uint64_t>(count) > kMostSamples) complain(last + 1, "the number of values is a whole number, 2 or more", "16");
-    else if (spacing != "lin" && spacing != "log") complain(middle + 1, "values are spaced lin or log", kExample);
+    else if (spacing != "lin" && spacing != "log") complain(middle + 1, "the spacing is lin or log", kExample);
     else if (ends.size() != 2) return {};
-    else if (spacing == "log" && !(ends[0] * ends[1] > 0)) complain(from, "a logarithmic range has both ends on the same side of 0", text_.substr(0, middle) + ":lin" + text_.substr(last));
+    else if (spacing == "log" && !(ends[0] * ends[1] > 0)) complain(from, "both ends of a logarithmic range must have the same sign", text_.substr(0, middle) + ":lin" + text_.substr(last));
     else return spaced(ends[0], ends[1], spacing == "log", static_cast<std::size_t>(count));
     return {};
   }
@@ -160,9 +160,9 @@ SweepPlan::SweepPlan(const SweepRequest& request, ModelReading& reading, int fir
     reading.complaints.add({0, 1, 1}, std::move(path), std::move(found), std::move(because), std::move(suggestion));
   };
   if (samples_ > 0 && section(reading, "variation").empty())
-    complain("variation", "no variation", "--sample draws values from the distributions of the model, and it states none",
+    complain("variation", "no variation", "--sample draws from the distributions in the model, and it has none",
              "[variation.\"joint.NAME.stiffness\"] with distribution = \"normal\", mean and deviation");
-  if (samples_ == 0 && axes_.empty()) complain("", "nothing that varies", "a sweep needs --vary or --sample", std::string("--vary ") + kExample);
+  if (samples_ == 0 && axes_.empty()) complain("", "nothing to vary", "a sweep needs --vary or --sample", std::string("--vary ") + kExample);
   std::vector<std::string> seen;
   for (const std::string& path : paths()) {
     if (std::find(seen.begin(), seen.end(), path) != seen.end()) complain(path, "twice", "this varies in two ways", "one of them");
@@ -179,11 +179,11 @@ void SweepPlan::count_points(const SweepRequest& request, ModelReading& reading,
     const std::size_t count = std::max<std::size_t>(1, axes_[i].values.size());
     if (zip_ && i > 0 && count != axes_[0].values.size() && !axes_[0].values.empty() && !axes_[i].values.empty())
       reading.complaints.add({first_source + static_cast<int>(i), 1, 1}, axes_[i].path, in_quotes(request.vary[i]),
-                             fmt::format("with --zip all have the same number of values: {} here, {} before", count, axes_[0].values.size()), "equal numbers");
+                             fmt::format("with --zip all need the same number of values: {} here, {} before", count, axes_[0].values.size()), "equal numbers");
     points = zip_ ? static_cast<double>(count) : points * static_cast<double>(count);
   }
   if (points * static_cast<double>(draws()) > static_cast<double>(kMostSamples)) {
-    reading.complaints.add({0, 1, 1}, "", fmt::format("{:.3g} samples", points * static_cast<double>(draws())), "that is more than a thousand million", "fewer values");
+    reading.complaints.add({0, 1, 1}, "", fmt::format("{:.3g} samples", points * static_cast<double>(draws())), "the limit is 1e9", "fewer values");
     return;
   }
   grid_points_ = static_cast<std::uint64_t>(points);

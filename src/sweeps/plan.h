@@ -1,4 +1,4 @@
-// Which values each sample has: a grid of given values, and at each of its points samples drawn by chance.
+// The values of each sample: a grid of given values, and random samples at each of its points.
 #pragma once
 
 #include <cstdint>

@@ -88,11 +88,11 @@ TEST(SweepPlan, SaysWhatIsWrong) {
   says("joint.pin.stiffness", "PATH=FROM..TO");
   says("joint.pin.stifness=1,2", "stiffness");
   says("joint.pn.stiffness=1,2", "pin");
-  says("joint.pin.stiffness=1e6..1e9 N:log:3", "stiffness [N/m] is wanted");
-  says("joint.pin.stiffness=1e6..1e9", "how it is spaced");
+  says("joint.pin.stiffness=1e6..1e9 N:log:3", "stiffness [N/m] is expected");
+  says("joint.pin.stiffness=1e6..1e9", "needs a spacing");
   says("joint.pin.stiffness=1e6..1e9:cubic:3", "lin or log");
   says("joint.pin.stiffness=1e6..1e9:log:1", "whole number");
-  says("joint.pin.damping=0..1e3:log:3", "same side of 0");
+  says("joint.pin.damping=0..1e3:log:3", "the same sign");
   says("body.bob.mass=-1,1", "outside the range");
   says("body.bob.position=1,2", "one number");
   says("parameters.width=1,2", "no parameter");
@@ -105,7 +105,7 @@ TEST(SweepPlan, SaysWhatIsMissing) {
   SweepRequest none = request({});
   none.model_text = sample::pendulum_with("");
   none.samples = 5;
-  EXPECT_TRUE(contains(complaint_about(none), "states none"));
+  EXPECT_TRUE(contains(complaint_about(none), "has none"));
   EXPECT_TRUE(contains(complaint_about(request({"body.bob.mass=1,2", "body.bob.mass=3,4"})), "in two ways"));
   SweepRequest uneven = request({"body.bob.mass=1,2", "joint.pin.damping=1,2,3"});
   uneven.zip = true;
@@ -130,12 +130,12 @@ TEST(SweepPlan, VariationsOfTheFileAreChecked) {
   const auto pin = [](const std::string& values) { return "[variation.\"joint.pin.stiffness\"]\n" + values; };
   says(pin("distribution = \"normal\"\nmean = 1e8\n"), "deviation");
   says(pin("distribution = \"gauss\"\n"), "normal, lognormal");
-  says(pin("distribution = \"uniform\"\nfrom = \"1 N\"\nto = 3\n"), "stiffness [N/m] is wanted");
+  says(pin("distribution = \"uniform\"\nfrom = \"1 N\"\nto = 3\n"), "stiffness [N/m] is expected");
   says(pin("distribution = \"uniform\"\nfrom = 3\nto = 2\n"), "empty");
   says(pin("distribution = \"uniform\"\nfrom = -3\nto = 2\n"), "cannot have this value");
-  says(pin("distribution = \"uniform\"\nfrom = 1\nto = 2\nmean = 1\n"), "has none");
+  says(pin("distribution = \"uniform\"\nfrom = 1\nto = 2\nmean = 1\n"), "does not use it");
   says(pin("distribution = \"triangular\"\nfrom = 1\nto = 2\nmode = 3\n"), "between from and to");
-  says(pin("distribution = \"normal\"\nmean = -1e8\ndeviation = 1e6\n"), "next to nothing");
+  says(pin("distribution = \"normal\"\nmean = -1e8\ndeviation = 1e6\n"), "almost none");
   says("[variation.\"joint.pn.stiffness\"]\ndistribution = \"uniform\"\nfrom = 1\nto = 2\n", "pin");
 }
 

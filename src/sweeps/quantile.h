@@ -1,4 +1,4 @@
-// Quantiles: what makes a number between 0 and 1 into a value of a distribution.
+// Quantiles: map a number between 0 and 1 to a value of a distribution.
 #pragma once
 
 #include "io/variations.h"

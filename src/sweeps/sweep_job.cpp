@@ -36,7 +36,7 @@ void check_times(const Document& document, const SweepPlan& plan, const Model& b
     }
     if (other.duration != base.simulate.duration || other.output_step != base.simulate.output_step)
       refuse(document, "simulate", fmt::format("sample {} lasts {:g} s", sample, other.duration),
-             "duration and output times change with what varies, and series need the same ones in every sample", "--set simulate.duration=... and simulate.output_step=..., or no --series");
+             "duration and output times depend on the varying values, but series need the same ones in every sample", "--set simulate.duration=... and simulate.output_step=..., or no --series");
   }
 }
 
@@ -53,11 +53,11 @@ SweepJob::SweepJob(const SweepRequest& request) {
   plan_ = SweepPlan(request, reading, first_source);
   reading.complaints.throw_if_any();
   const Model& base = reading.model;
-  if (base.simulate.duration <= 0) refuse(document, "simulate.duration", "no duration", "a run needs to know how long it lasts", "duration = \"1 s\" under [simulate], or --duration '1 s'");
+  if (base.simulate.duration <= 0) refuse(document, "simulate.duration", "no duration", "a run needs a duration", "duration = \"1 s\" under [simulate], or --duration '1 s'");
   try {
     engine_ = std::make_unique<EnvelopeEngine>(base, EnvelopeRequest{request.series, request.check_every > 1});
   } catch (const std::invalid_argument& error) {
-    refuse(document, "--series", "a column that is not there", error.what(), "");
+    refuse(document, "--series", "an unknown column", error.what(), "");
   }
   variants_ = std::make_unique<ModelVariants>(document, plan_.paths());
   if (!request.series.empty()) check_times(document, plan_, base, *variants_);

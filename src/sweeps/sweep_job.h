@@ -1,4 +1,4 @@
-// What every process and thread of a sweep makes of the request, the same everywhere.
+// Everything that the processes and threads of a sweep derive from the request, identical in all of them.
 #pragma once
 
 #include <memory>

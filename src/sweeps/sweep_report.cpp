@@ -76,12 +76,12 @@ std::string troubles_text(const SweepTable& table) {
   for (const SampleStatus status : kStatuses)
     if (const std::size_t count = count_of(table, status); status != SampleStatus::kCompleted && count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_text(status));
   if (text.empty()) return {};
-  text = fmt::format("\n{} of {} samples are not completed: {}\n", table.troubled.size(), table.n_samples(), text);
+  text = fmt::format("\n{} of {} samples did not complete: {}\n", table.troubled.size(), table.n_samples(), text);
   for (std::size_t k = 0; k < std::min(kMostMessages, table.troubled.size()); ++k) {
     const std::string& message = table.messages[k];
     text += fmt::format("  sample {} ({}): {}\n", table.troubled[k], values_text(table, table.troubled[k]), start_of(message));
   }
-  if (table.troubled.size() > kMostMessages) text += "  ... the file has the others, in /troubled\n";
+  if (table.troubled.size() > kMostMessages) text += "  ... the others are in /troubled of the file\n";
   return text;
 }
 
@@ -110,7 +110,7 @@ std::string sweep_text(const SweepTable& table, bool colour) {
     out.add_row({j.joint, known(j.least), known(j.median), known(j.high), known(j.most), std::isfinite(j.most) ? fmt::format("{}", j.most_sample) : "-",
                  std::isfinite(j.worst_error) ? exponent(j.worst_error) : "-"});
   text += out.text(colour ? "\x1b[1m" : "", colour ? "\x1b[0m" : "");
-  if (cut) text += fmt::format("  ... and {} joints that carry less; the file has all of them\n", table.joints.size() - kMostJoints);
+  if (cut) text += fmt::format("  ... and {} joints with smaller forces; the file has all of them\n", table.joints.size() - kMostJoints);
   std::set<std::size_t> told;
   for (const PeakStatistics& j : joints)
     if (std::isfinite(j.most) && told.size() < kMostMessages && told.insert(j.most_sample).second) text += fmt::format("  sample {}: {}\n", j.most_sample, values_text(table, j.most_sample));

@@ -117,8 +117,8 @@ TEST_F(SlowSweep, SamplesThatFailAreResults) {
   EXPECT_TRUE(sample::contains(table.messages[1], "body.bob.mass")) << table.messages[1];
   EXPECT_TRUE(std::isnan(table.force[1]));
   const std::string text = sweep_text(table, false);
-  EXPECT_TRUE(sample::contains(text, "2 of 3 samples are not completed: 1 not_assembled, 1 model_error")) << text;
-  EXPECT_TRUE(sample::contains(text, "cannot be assembled from the stated positions: joint pin (revolute) stays 0.2 m apart")) << text;
+  EXPECT_TRUE(sample::contains(text, "2 of 3 samples did not complete: 1 not_assembled, 1 model_error")) << text;
+  EXPECT_TRUE(sample::contains(text, "cannot be assembled from the stated positions: joint pin (revolute) stays open by 0.2 m")) << text;
 }
 
 SweepTable table_of(std::size_t n) {

@@ -76,9 +76,9 @@ void JointTree::open_the_rest() {
     const JointData& joint = system_.joints[j];
     if (!joint.ideal || in_tree_[j]) continue;
     if (carries_coordinates(joint))
-      opened_.push_back(fmt::format("joint {} is opened: with it the ideal {} a loop; its force law acts", joint.name, loop_of(j)));
+      opened_.push_back(fmt::format("joint {} is opened: it closes a loop with the ideal {}; its force law acts", joint.name, loop_of(j)));
     else
-      opened_.push_back(fmt::format("joint {} is opened: a {} leaves no single coordinates free; its force law acts", joint.name, joint.type));
+      opened_.push_back(fmt::format("joint {} is opened: a {} has no free coordinates of its own; its force law acts", joint.name, joint.type));
   }
 }
 
@@ -97,7 +97,7 @@ std::string JointTree::loop_of(int joint) const {
   for (const auto& part : path)
     for (const int b : part) names += (names.empty() ? "" : ", ") + system_.joints[link_[b].joint].name;
   const bool one = path[0].size() + path[1].size() == 1;
-  return fmt::format("{} {} {}", one ? "joint" : "joints", names, one ? "closes" : "close");
+  return fmt::format("{} {}", one ? "joint" : "joints", names);
 }
 
 std::vector<std::string> JointTree::notes() const {
@@ -109,9 +109,9 @@ std::vector<std::string> JointTree::notes() const {
     if (j >= 0) names += (names.empty() ? "" : ", ") + system_.joints[j].name;
     else ++free;
   }
-  std::string line = names.empty() ? fmt::format("no joint is obeyed by coordinates: {} coordinates", n_)
-                                   : fmt::format("joints obeyed by coordinates: {}; {} coordinate{}", names, n_, n_ == 1 ? "" : "s");
-  if (free > 0) line += fmt::format(", among them all three of {} {}", free, free == 1 ? "body" : "bodies");
+  std::string line = names.empty() ? fmt::format("no joint is eliminated by relative coordinates: {} coordinates", n_)
+                                   : fmt::format("joints eliminated by relative coordinates: {}; {} coordinate{}", names, n_, n_ == 1 ? "" : "s");
+  if (free > 0) line += fmt::format(", including all three of {} {}", free, free == 1 ? "body" : "bodies");
   out.push_back(std::move(line));
   return out;
 }

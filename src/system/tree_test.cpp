@@ -194,8 +194,8 @@ TEST(JointTree, ALoopOfIdealJointsIsOpenedOnceAndSaid) {
   EXPECT_EQ(system.joints[tree.laws()[0]].name, "B");
   const auto notes = tree.notes();
   ASSERT_EQ(notes.size(), 2u);
-  EXPECT_EQ(notes[0], "joint B is opened: with it the ideal joints A, O2, O4 close a loop; its force law acts");
-  EXPECT_EQ(notes[1], "joints obeyed by coordinates: O2, O4, A; 3 coordinates");
+  EXPECT_EQ(notes[0], "joint B is opened: it closes a loop with the ideal joints A, O2, O4; its force law acts");
+  EXPECT_EQ(notes[1], "joints eliminated by relative coordinates: O2, O4, A; 3 coordinates");
 }
 
 TEST(JointTree, AJointBesideAnotherIsALoopOfTwo) {
@@ -206,7 +206,7 @@ TEST(JointTree, AJointBesideAnotherIsALoopOfTwo) {
   system.finish();
   const JointTree tree(system);
   EXPECT_EQ(tree.n(), 1);
-  EXPECT_EQ(tree.notes()[0], "joint twin is opened: with it the ideal joint pin closes a loop; its force law acts");
+  EXPECT_EQ(tree.notes()[0], "joint twin is opened: it closes a loop with the ideal joint pin; its force law acts");
 }
 
 TEST(JointTree, TypesWithoutSingleCoordinatesAreOpenedAndSaid) {
@@ -214,7 +214,7 @@ TEST(JointTree, TypesWithoutSingleCoordinatesAreOpenedAndSaid) {
   const JointTree tree(system);
   EXPECT_EQ(tree.n(), 18);
   ASSERT_EQ(tree.notes().size(), 5u);
-  EXPECT_EQ(tree.notes()[0], "joint d is opened: a rod leaves no single coordinates free; its force law acts");
+  EXPECT_EQ(tree.notes()[0], "joint d is opened: a rod has no free coordinates of its own; its force law acts");
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ void append_count(std::string& out, std::size_t n) {
 Answer Kernel::call(std::string_view name, std::string_view arguments, const OnProgress& on_progress) {
   try {
     const Json parsed = Json::parse(arguments);
-    if (!parsed.is_object()) throw CallFault("The call is malformed: its arguments are no object.", "This is a fault of the page: reload it.");
+    if (!parsed.is_object()) throw CallFault("The call is malformed: its arguments are not an object.", "This is a fault of the page: reload it.");
     Exchange exchange{parsed, on_progress, {}};
     const Json value = make_value(name, exchange, sessions_->motions);
     return {dump({{"value", value}}), std::move(exchange.arrays)};

@@ -14,7 +14,7 @@ namespace pintle::studio {
 namespace {
 
 [[noreturn]] void malformed(const char* key, const char* wanted) {
-  throw CallFault(fmt::format("The call lacks \"{}\", {}.", key, wanted), "This is a fault of the page: reload it.");
+  throw CallFault(fmt::format("The call lacks \"{}\" ({}).", key, wanted), "This is a fault of the page: reload it.");
 }
 
 // Characters from the complaint's column on that are meant: a word, or what is between the quotes.
@@ -54,7 +54,7 @@ Json input_fault(const InputError& error) {
 
 std::string text_argument(const Exchange& call, const char* key) {
   const auto it = call.arguments.find(key);
-  if (it == call.arguments.end() || !it->is_string()) malformed(key, "a text");
+  if (it == call.arguments.end() || !it->is_string()) malformed(key, "a string");
   return it->get<std::string>();
 }
 
@@ -112,7 +112,7 @@ Json current_fault() {
     const auto [message, hint] = message_and_hint(error.what());
     return fault(message, hint, joints_named_in(error.what()));
   } catch (const std::bad_alloc&) {
-    return fault("There is not enough memory for this.", "A longer simulate.output_step gives fewer rows; simulate.record names the columns to keep.");
+    return fault("There is not enough memory for this.", "A longer simulate.output_step gives fewer rows; simulate.record selects the columns to keep.");
   } catch (const Json::exception&) {
     return fault("The call is malformed.", "This is a fault of the page: reload it.");
   } catch (const std::invalid_argument& error) {

@@ -77,7 +77,7 @@ std::vector<std::string> overrides_of(const Json& arguments) {
 
 void demand_duration(const Model& model) {
   if (model.simulate.duration > 0) return;
-  throw CallFault("The model does not say how long a run lasts.", "duration = \"1 s\" under [simulate]");
+  throw CallFault("The model states no duration for a run.", "duration = \"1 s\" under [simulate]");
 }
 
 struct Asked {
@@ -121,7 +121,7 @@ Json run(Exchange& call) {
     out["stopped"] = {{"time", trajectory.t_end},
                       {"joints", joints_named_in(trajectory.message, &names)},
                       {"reason", failed ? trajectory.message : "The run was stopped."},
-                      {"hint", failed ? "Look at the loads and motors that act at that time: do they stay finite, do they feed energy? What was computed before is kept." : ""}};
+                      {"hint", failed ? "Check the loads and motors that act at that time: are they finite, do they add energy? The results so far are kept." : ""}};
   }
   return out;
 }

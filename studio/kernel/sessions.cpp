@@ -67,7 +67,7 @@ double force_scale(const Model& model, const std::vector<JointForce>& forces) {
 
 int MotionSessions::Names::body(const std::string& name) const {
   const auto it = std::find(bodies.begin(), bodies.end(), name);
-  if (it == bodies.end()) throw CallFault(fmt::format("There is no body \"{}\" that could be moved.", name), "Take hold of another one.");
+  if (it == bodies.end()) throw CallFault(fmt::format("There is no movable body \"{}\".", name), "Drag another one.");
   return static_cast<int>(it - bodies.begin());
 }
 
@@ -103,8 +103,8 @@ Json MotionSessions::drag(Exchange& call) {
   Json out = {{"ok", ok}, {"poses", call.array(flat(drag.linkage.poses()))}, {"gaps", call.array(drag.linkage.gaps())}};
   if (ok) return out;
   const std::vector<std::string> open = drag.linkage.open_joints();
-  out["reason"] = hold ? fault("The joints do not reach that far.", "Pull somewhere else, or let go.", open)
-                       : fault(fmt::format("The joints {} stay open.", fmt::join(open, ", ")), "Change lengths so that the loop closes, or place its bodies nearer to where they are meant to be.", open);
+  out["reason"] = hold ? fault("The joints do not reach that far.", "Pull in another direction, or let go.", open)
+                       : fault(fmt::format("The joints {} stay open.", fmt::join(open, ", ")), "Change lengths so that the loop closes, or place its bodies closer to their intended positions.", open);
   return out;
 }
 
@@ -127,7 +127,7 @@ void MotionSessions::start_like(const Live& other, Model& model) {
 Json MotionSessions::open_live(Exchange& call) {
   const std::string text = text_argument(call, "text");
   Model model = parse_model(text, name_for(text));
-  if (model.bodies.empty()) throw CallFault("There is nothing that could move: the model has no bodies.", "Draw a link first.");
+  if (model.bodies.empty()) throw CallFault("There is nothing to move: the model has no bodies.", "Draw a link first.");
   if (call.arguments.contains("like")) {
     const auto it = lives_.find(static_cast<int>(number_argument(call.arguments, "like")));
     if (it != lives_.end()) start_like(it->second, model);
@@ -167,7 +167,7 @@ Json MotionSessions::advance(Exchange& call) {
               {"behind", ok && motion.time() < wanted - 1e-6 * dt},
               {"cost", seconds_now() - began}};
   out["error"] = ok ? Json(nullptr)
-                    : fault("The motion cannot go on: " + motion.failure(), pull ? "Let go, or pull more gently." : "Look at the loads that act now, or start again.",
+                    : fault("The motion cannot go on: " + motion.failure(), pull ? "Let go, or pull more gently." : "Check the loads that act now, or start again.",
                             joints_named_in(motion.failure(), &live.names.joints));
   return out;
 }

@@ -54,7 +54,7 @@ std::string as_toml(const Json& value) {
     for (const Json& entry : value) out += (out.empty() ? "" : ", ") + as_toml(entry);
     return "[" + out + "]";
   }
-  if (!value.is_object()) throw CallFault("A value of a model is a number, a text, a truth, a list or a table.", "");
+  if (!value.is_object()) throw CallFault("A model value is a number, a string, a boolean, a list or a table.", "");
   for (const auto& [key, entry] : value.items()) out += (out.empty() ? "" : ", ") + key + " = " + as_toml(entry);
   return "{ " + out + " }";
 }
@@ -69,9 +69,9 @@ Json redundancy_warning(const CheckRedundancy& group) {
   for (const auto& member : group.members)
     if (std::find(joints.begin(), joints.end(), member.joint) == joints.end()) joints.push_back(member.joint);
   const auto& most = group.members.front();
-  return warning("redundant", fmt::format("The joints {} hold {} more than the motion needs and can carry load against each other.", fmt::join(joints, ", "),
-                                          group.degree == 1 ? "one direction" : fmt::format("{} directions", group.degree)),
-                 fmt::format("Their forces depend on their stiffness and on how well the parts fit. To avoid it, free {} of joint {}: a slot in place of a pin, a pin in place of a slider.",
+  return warning("redundant", fmt::format("The joints {} have {} too many and can load each other.", fmt::join(joints, ", "),
+                                          group.degree == 1 ? "one constraint" : fmt::format("{} constraints", group.degree)),
+                 fmt::format("Their forces depend on their stiffness and on how well the parts fit. To avoid it, free {} of joint {}: a slot instead of a pin, a pin instead of a slider.",
                              most.component, most.joint),
                  joints);
 }
@@ -85,14 +85,14 @@ Json mobility_warnings(const CheckReport& report) {
       if (std::find(held.begin(), held.end(), member.joint) == held.end()) held.push_back(member.joint);
   if (m.mobility == 0 && m.rank >= 0)
     out.push_back(warning("immobile", "The mechanism cannot move: its joints hold every body.",
-                          held.empty() ? "Take a joint away, or choose one that leaves more free: a slot in place of a pin." : fmt::format("Take one of the joints {} away, or free it: a slot in place of a pin.", fmt::join(held, ", ")), held));
+                          held.empty() ? "Remove a joint, or replace one with a freer type: a slot instead of a pin." : fmt::format("Remove one of the joints {}, or free it: a slot instead of a pin.", fmt::join(held, ", ")), held));
   if (m.singular_position())
-    out.push_back(warning("singular", "The mechanism stands in a singular position: here it could move in more ways than one, or a force could be beyond all bounds.",
-                          "Start from a position a little way off, unless this is the point."));
+    out.push_back(warning("singular", "The mechanism is in a singular position: here it has extra degrees of freedom, or a force may be unbounded.",
+                          "Start from a slightly different position, unless this is intended."));
   if (m.servos > 0 && m.mobility_driven >= 0 && m.mobility >= 0 && m.servos > m.mobility - m.mobility_driven)
-    out.push_back(warning("driven", fmt::format("{} motors that hold a speed or a position drive {} way{} of moving: they work against each other.", m.servos, m.mobility - m.mobility_driven,
+    out.push_back(warning("driven", fmt::format("{} motors that hold a speed or a position drive {} degree{} of freedom: they work against each other.", m.servos, m.mobility - m.mobility_driven,
                                                 m.mobility - m.mobility_driven == 1 ? "" : "s"),
-                          "Take a motor away, or give one a torque in place of a speed."));
+                          "Remove a motor, or give one a torque instead of a speed."));
   return out;
 }
 
@@ -101,8 +101,8 @@ Json warnings_of(const CheckReport& report) {
   for (const CheckRedundancy& group : report.redundancies)
     if (!group.members.empty()) out.push_back(redundancy_warning(group));
   for (const auto& group : report.topology.floating)
-    out.push_back(warning("floating", fmt::format("No joint ties {} to the ground.", fmt::join(group, ", ")), "Join one of them to the ground, unless it is meant to fly.", {}, group));
-  if (!report.passed()) out.push_back(warning("formula", "A formula of the model disagrees with its own differences, or the energy account does not close.", "pintle check --details names it."));
+    out.push_back(warning("floating", fmt::format("No joint connects {} to the ground.", fmt::join(group, ", ")), "Connect one of them to the ground, unless it is meant to move freely.", {}, group));
+  if (!report.passed()) out.push_back(warning("formula", "A formula of the model disagrees with finite differences, or the energy account does not close.", "pintle check --details names it."));
   for (const std::string& note : report.notes) out.push_back(warning("note", note, "", joints_named_in(note)));
   return out;
 }
@@ -143,7 +143,7 @@ Json read(Exchange& call) {
 
 Json write(Exchange& call) {
   const auto it = call.arguments.find("model");
-  if (it == call.arguments.end() || !it->is_object()) throw CallFault("The call lacks \"model\", a tree.", "This is a fault of the page: reload it.");
+  if (it == call.arguments.end() || !it->is_object()) throw CallFault("The call lacks \"model\", an object.", "This is a fault of the page: reload it.");
   try {
     return text_answer(to_toml(parse_document(dump(*it), "model.json")));
   } catch (const InputError& error) {

@@ -66,7 +66,7 @@ std::string query_value(const std::string& query, const std::string& key) {
     if (part.starts_with(key + "=")) return decoded(part.substr(key.size() + 1));
     at = end + 1;
   }
-  throw Refusal(400, fmt::format("The question lacks \"{}\".", key));
+  throw Refusal(400, fmt::format("The request lacks \"{}\".", key));
 }
 
 Json body_of(const Request& request) {
@@ -82,18 +82,18 @@ Json body_of(const Request& request) {
 
 std::string text_in(const Json& body, const char* key) {
   const auto it = body.find(key);
-  if (it == body.end() || !it->is_string()) throw Refusal(400, fmt::format("The body lacks \"{}\", a text.", key));
+  if (it == body.end() || !it->is_string()) throw Refusal(400, fmt::format("The body lacks the string \"{}\".", key));
   return it->get<std::string>();
 }
 
 void demand_method(const Request& request, std::string_view method) {
-  if (request.method != method) throw Refusal(405, fmt::format("This is asked with {}.", method));
+  if (request.method != method) throw Refusal(405, fmt::format("Use {} for this request.", method));
 }
 
 int run_number(std::string_view text) {
   int id = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id);
-  if (error != std::errc() || end != text.data() + text.size()) throw Refusal(400, "The number of a run is wrong.");
+  if (error != std::errc() || end != text.data() + text.size()) throw Refusal(400, "The run number is invalid.");
   return id;
 }
 
@@ -142,11 +142,11 @@ Reply Desk::answer(const Request& request) {
 void Desk::demand_own_page(const Request& request, bool is_api) const {
   const std::string host = request.header("host");
   const std::array<std::string, 2> own{fmt::format("127.0.0.1:{}", settings_.port), fmt::format("localhost:{}", settings_.port)};
-  if (std::find(own.begin(), own.end(), host) == own.end()) throw Refusal(403, "This server answers to 127.0.0.1 only.", "Open the address that pintle studio printed.");
-  if (request.has("origin") && request.header("origin") != "http://" + host) throw Refusal(403, "This page is of another origin.");
+  if (std::find(own.begin(), own.end(), host) == own.end()) throw Refusal(403, "This server accepts 127.0.0.1 only.", "Open the address that pintle studio printed.");
+  if (request.has("origin") && request.header("origin") != "http://" + host) throw Refusal(403, "This page has another origin.");
   if (!is_api) return;
-  if (request.has("sec-fetch-site") && request.header("sec-fetch-site") != "same-origin") throw Refusal(403, "This page is of another origin.");
-  if (!same_secret(request.header("x-pintle-token"), settings_.token)) throw Refusal(401, "The question does not show this session's token.", "Open the address that pintle studio printed.");
+  if (request.has("sec-fetch-site") && request.header("sec-fetch-site") != "same-origin") throw Refusal(403, "This page has another origin.");
+  if (!same_secret(request.header("x-pintle-token"), settings_.token)) throw Refusal(401, "The request lacks this session's token.", "Open the address that pintle studio printed.");
 }
 
 Reply Desk::page(const Request& request, const std::string& path) const {
@@ -163,7 +163,7 @@ Reply Desk::page(const Request& request, const std::string& path) const {
 // A program's arguments can be read by everybody on the machine: the address that a browser is started with is good for one use.
 Reply Desk::enter(const std::string& ticket) {
   if (settings_.ticket.empty() || !same_secret(ticket, settings_.ticket) || entered_.exchange(true))
-    throw Refusal(410, "This address has been used.", "Open the one that pintle studio printed.");
+    throw Refusal(410, "This address has already been used.", "Open the one that pintle studio printed.");
   return {303, "text/plain; charset=utf-8", "", {{"Location", "/#token=" + settings_.token}, {"Cache-Control", "no-store"}}};
 }
 
@@ -178,7 +178,7 @@ Reply Desk::api(const Request& request, const std::string& path, const std::stri
     return open(query);
   }
   if (path == "runs" || path.starts_with("runs/")) return run(request, path);
-  throw Refusal(404, "The server knows no such question.");
+  throw Refusal(404, "The server has no such endpoint.");
 }
 
 Reply Desk::about() const {
@@ -203,11 +203,11 @@ Reply Desk::save(const Request& request) {
   const Json body = body_of(request);
   const auto expected = body.find("expected");
   if (expected == body.end() || !(expected->is_null() || expected->is_string()))
-    throw Refusal(400, "The body lacks \"expected\": the hash of what is replaced, or null for a new file.");
+    throw Refusal(400, "The body lacks \"expected\": the hash of the file to replace, or null for a new file.");
   const ModelFolder::Saved saved =
       models_.save(text_in(body, "path"), text_in(body, "text"), expected->is_null() ? std::nullopt : std::optional(expected->get<std::string>()));
   if (saved.done) return json_reply(200, {{"hash", saved.hash}});
-  Json out = {{"fault", {{"message", "The file has been changed by something else since it was opened."}, {"hint", "Compare both, then keep one, or save under another name."}}}};
+  Json out = {{"fault", {{"message", "The file was changed elsewhere since it was opened."}, {"hint", "Compare both, then keep one, or save under another name."}}}};
   out["hash"] = saved.other ? Json(saved.hash) : Json(nullptr);
   out["text"] = saved.other ? Json(*saved.other) : Json(nullptr);
   return json_reply(409, out);
@@ -224,7 +224,7 @@ Reply Desk::run(const Request& request, const std::string& path) {
   const std::size_t slash = rest.find('/');
   const int id = run_number(std::string_view(rest).substr(0, slash));
   if (slash != std::string::npos) {
-    if (rest.substr(slash + 1) != "result") throw Refusal(404, "The server knows no such question.");
+    if (rest.substr(slash + 1) != "result") throw Refusal(404, "The server has no such endpoint.");
     demand_method(request, "GET");
     return {200, "application/octet-stream", runs_.result(id), {{"Cache-Control", "no-store"}}};
   }

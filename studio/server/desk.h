@@ -1,4 +1,4 @@
-// The server of the studio, but for its sockets: who may ask, what is asked, what is answered. docs/reference/studio-server.md
+// The server of the studio without its sockets: access control, requests, responses. docs/reference/studio-server.md
 #pragma once
 
 #include <atomic>

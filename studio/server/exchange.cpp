@@ -42,7 +42,7 @@ std::string decoded(std::string_view text) {
 }
 
 std::vector<std::string> names_of_path(std::string_view path) {
-  const auto refuse = [] { throw Refusal(400, "This path is not one below the folder.", "Names of files and folders, with / between them."); };
+  const auto refuse = [] { throw Refusal(400, "This path is not inside the folder.", "Use names of files and folders, separated by /."); };
   if (path.empty() || path.front() == '/') refuse();
   std::vector<std::string> names;
   std::size_t at = 0;

@@ -47,11 +47,11 @@ fs::path Folder::place_for(std::string_view path) const {
   const fs::path wanted = joined(root_, names_of_path(path));
   std::error_code error;
   const fs::path parent = fs::canonical(wanted.parent_path(), error);
-  if (error || !fs::is_directory(parent, error)) throw Refusal(404, "There is no such folder to write into.", "Make the folder first, or choose another one.");
+  if (error || !fs::is_directory(parent, error)) throw Refusal(404, "There is no such folder.", "Make the folder first, or choose another one.");
   if (!holds(parent)) throw Refusal(403, "This path leads out of the folder.");
   const fs::path place = parent / wanted.filename();
   // A link that leads nowhere, a folder, a pipe: what is there and is no regular file is not replaced.
-  if (fs::symlink_status(place, error).type() != fs::file_type::not_found) throw Refusal(403, "There is something at this path that is no model file.");
+  if (fs::symlink_status(place, error).type() != fs::file_type::not_found) throw Refusal(403, "What is at this path is not a model file.");
   return place;
 }
 
@@ -84,7 +84,7 @@ ModelText ModelFolder::open(std::string_view path) const {
   try {
     if (!text.empty()) check_text(text, path);
   } catch (const InputError&) {
-    throw Refusal(422, "This file is not text in UTF-8.");
+    throw Refusal(422, "This file is not UTF-8 text.");
   }
   std::string hash = sha256(text);
   return {std::move(text), std::move(hash)};

@@ -30,7 +30,7 @@ int RunJobs::start(std::string arguments) {
       job->stop = true;
       --under_way;
     }
-  if (under_way >= kMostUnderWay) throw Refusal(429, "Other runs are still under way.", "Wait for them, or cancel one.");
+  if (under_way >= kMostUnderWay) throw Refusal(429, "Other runs are still in progress.", "Wait for them, or cancel one.");
   forget_old();
   auto job = std::make_unique<Job>();
   job->thread = std::thread([job_now = job.get(), text = std::move(arguments)] {
@@ -43,7 +43,7 @@ int RunJobs::start(std::string arguments) {
         return !now.stop && now.unasked() < kForgotten;
       }));
     } catch (const std::bad_alloc&) {
-      answer = packed({R"({"fault": {"message": "There is not enough memory for the results of this run.", "hint": "A larger output_step keeps fewer rows."}})", {}});
+      answer = packed({R"({"fault": {"message": "There is not enough memory for the results of this run.", "hint": "A larger output_step gives fewer rows."}})", {}});
     }
     const std::lock_guard writing(now.writing);
     now.answer = std::move(answer);
@@ -67,7 +67,7 @@ void RunJobs::forget_old() {
 
 RunJobs::Job& RunJobs::find(int id) {
   const auto it = jobs_.find(id);
-  if (it == jobs_.end()) throw Refusal(404, "There is no such run.", "It was forgotten for newer ones: run it again.");
+  if (it == jobs_.end()) throw Refusal(404, "There is no such run.", "It was discarded for newer ones: run it again.");
   return *it->second;
 }
 
@@ -82,7 +82,7 @@ std::string RunJobs::state(int id) {
 std::string RunJobs::result(int id) {
   const std::lock_guard lock(changing_);
   Job& job = find(id);
-  if (!job.done) throw Refusal(409, "The run is still under way.");
+  if (!job.done) throw Refusal(409, "The run is still in progress.");
   return job.answer;
 }
 

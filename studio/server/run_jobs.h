@@ -1,4 +1,4 @@
-// Runs in the background, with progress, until somebody asks for their results.
+// Runs in the background, with progress, until their results are requested.
 #pragma once
 
 #include <atomic>

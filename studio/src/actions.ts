@@ -77,7 +77,7 @@ export function edit(text: string, label: string, key = ""): boolean {
     return true;
   }
   const first = complaints.find((one) => one.line > 0);
-  const refusal = `Mend the text first${first ? `, line ${first.line}: ${first.message}` : ""}.`;
+  const refusal = `Fix the text first${first ? `, line ${first.line}: ${first.message}` : ""}.`;
   if (!toasts.some((toast) => toast.text === refusal)) say(refusal, { label: "Show the text", run: () => studio.set({ side: "text", dock: "problems" }) });
   return false;
 }
@@ -87,8 +87,8 @@ export function place(text: string, label: string, key = ""): void {
   const { model, history } = studio.get();
   const gone = overwritten(model, text);
   if (gone.length === 0 || studio.get().stale) return void edit(text, label, key);
-  const run = () => (studio.get().history.text === history.text ? void edit(text, label) : say("The model has changed since: nothing was written."));
-  say(`${gone.slice(0, 2).join(", ")}${gone.length > 2 ? ", …" : ""}: written with parameters. Write numbers instead?`, { label: "Write numbers", run });
+  const run = () => (studio.get().history.text === history.text ? void edit(text, label) : say("The model has changed in the meantime: nothing was written."));
+  say(`${gone.slice(0, 2).join(", ")}${gone.length > 2 ? ", …" : ""}: defined by parameters. Replace them with numbers?`, { label: "Replace", run });
 }
 
 /** A drawing step: the text, and what it made becomes the selection. */
@@ -193,7 +193,7 @@ export function removeSelection(): void {
 export function meshSelection(): void {
   const { model, selection, poses } = studio.get();
   const [a, b, more] = selection.map((thing) => (thing.kind === "body" ? model.body.get(thing.name) : undefined));
-  if (!a || !b || more) return say("Select two gears to bring them into mesh.");
+  if (!a || !b || more) return say("Select two gears to mesh them.");
   const fault = meshFault(model, a, b, poses ?? undefined);
   if (fault) return say(fault);
   drawn(addMesh(model, a, b, poses ?? undefined), "Mesh");

@@ -41,7 +41,7 @@ export function duplicate(): void {
 const isModel = (text: string | undefined): text is string => text !== undefined && /^\s*\[body\./m.test(text);
 
 function pasteCopied(): void {
-  if (!isModel(copied)) return say("There is nothing to paste: copy a link first.");
+  if (!isModel(copied)) return say("Nothing to paste: copy a link first.");
   const { model } = studio.get();
   const step = ++times * stepOf(model);
   drawn(pasteThings(model, copied, [step, -step]), "Paste");

@@ -53,7 +53,7 @@ export const COMMANDS: readonly Command[] = [
   { id: "open", label: "Open a file", keys: ["mod+O"], group: "File", run: () => void openFile() },
   { id: "drafts", label: "Unsaved work of other tabs", keys: [], group: "File", run: () => studio.set({ dialog: "drafts" }) },
   { id: "save", label: "Save the model as a file", keys: ["mod+S"], group: "File", run: () => void saveFile() },
-  { id: "save-as", label: "Save under another name", keys: ["mod+shift+S"], group: "File", run: () => void saveFileAs() },
+  { id: "save-as", label: "Save as", keys: ["mod+shift+S"], group: "File", run: () => void saveFileAs() },
   { id: "share", label: "Copy a link with the model in it", keys: ["mod+shift+L"], group: "File", run: () => void shareLink() },
   { id: "export-csv", label: "Export the run as CSV", keys: [], group: "File", run: exporting("csv") },
   { id: "export-svg", label: "Export the drawing as SVG", keys: [], group: "File", run: exporting("svg") },
@@ -64,26 +64,26 @@ export const COMMANDS: readonly Command[] = [
   { id: "copy", label: "Copy the selected links", keys: ["mod+C"], group: "Edit", run: () => void copySelection() },
   { id: "paste", label: "Paste", keys: ["mod+V"], group: "Edit", run: () => void paste() },
   { id: "duplicate", label: "Duplicate", keys: ["mod+D"], group: "Edit", run: duplicate },
-  { id: "delete", label: "Delete what is selected", keys: ["Delete", "Backspace"], group: "Edit", run: removeSelection },
+  { id: "delete", label: "Delete the selection", keys: ["Delete", "Backspace"], group: "Edit", run: removeSelection },
   { id: "all", label: "Select all links", keys: ["mod+A"], group: "Edit", run: selectAll },
   { id: "left", label: "Nudge left", keys: ["ArrowLeft"], group: "Edit", run: () => arrow(-1, 0) },
   { id: "right", label: "Nudge right", keys: ["ArrowRight"], group: "Edit", run: () => arrow(1, 0) },
   { id: "up", label: "Nudge up", keys: ["ArrowUp"], group: "Edit", run: () => nudge(0, 1) },
   { id: "down", label: "Nudge down", keys: ["ArrowDown"], group: "Edit", run: () => nudge(0, -1) },
-  { id: "next", label: "Select the next thing", keys: ["]"], group: "Edit", run: () => cycle(1) },
-  { id: "previous", label: "Select the thing before", keys: ["["], group: "Edit", run: () => cycle(-1) },
+  { id: "next", label: "Select the next item", keys: ["]"], group: "Edit", run: () => cycle(1) },
+  { id: "previous", label: "Select the previous item", keys: ["["], group: "Edit", run: () => cycle(-1) },
   ...TOOL_LIST.map((tool): Command => ({ id: `tool-${tool.name}`, label: tool.name === "select" ? "Select and move" : `Draw: ${tool.label}`, keys: [tool.key], group: "Draw", run: () => chooseTool(tool.name) })),
   { id: "mesh", label: "Mesh the two selected gears", keys: [], group: "Draw", run: meshSelection },
   { id: "snap", label: "Snap to the grid", keys: ["N"], group: "Draw", run: () => studio.set((now) => ({ snapping: !now.snapping })) },
   { id: "play", label: "Play or pause", keys: ["Space"], group: "Play", run: () => player.toggle() },
-  { id: "stop", label: "Stop: back to the start and to drawing", keys: ["Escape"], group: "Play", run: escape },
-  { id: "live", label: "Live motion: runs on, can be dragged", keys: ["shift+Space"], group: "Play", run: () => void player.goLive() },
-  { id: "step-on", label: "One frame on", keys: ["."], group: "Play", run: () => player.step(1) },
+  { id: "stop", label: "Stop and return to drawing", keys: ["Escape"], group: "Play", run: escape },
+  { id: "live", label: "Live motion: runs on, links can be dragged", keys: ["shift+Space"], group: "Play", run: () => void player.goLive() },
+  { id: "step-on", label: "One frame forward", keys: ["."], group: "Play", run: () => player.step(1) },
   { id: "step-back", label: "One frame back", keys: [","], group: "Play", run: () => player.step(-1) },
   { id: "slower", label: "Slower", keys: ["-"], group: "Play", run: () => faster(0.5) },
   { id: "faster", label: "Faster", keys: ["+", "="], group: "Play", run: () => faster(2) },
-  { id: "ghost", label: "Show the motion with ideal joints behind", keys: ["H"], group: "Play", run: () => setGhost(!studio.get().ghost.on) },
-  { id: "keep", label: "Keep this run to compare with", keys: ["B"], group: "Play", run: keepRun },
+  { id: "ghost", label: "Overlay the motion with ideal joints", keys: ["H"], group: "Play", run: () => setGhost(!studio.get().ghost.on) },
+  { id: "keep", label: "Pin this run for comparison", keys: ["B"], group: "Play", run: keepRun },
   { id: "fit", label: "Fit the drawing to the window", keys: ["0"], group: "View", run: () => theView()?.fit() },
   { id: "zoom-in", label: "Zoom in", keys: ["mod+="], group: "View", run: () => theView()?.zoom(1.25) },
   { id: "zoom-out", label: "Zoom out", keys: ["mod+-"], group: "View", run: () => theView()?.zoom(0.8) },
@@ -120,9 +120,9 @@ function faster(factor: number): void {
 function keepRun(): void {
   const { run, kept, model } = studio.get();
   if (kept) return studio.set({ kept: null });
-  if (!run.answer) return say("There is no run to keep yet.");
-  studio.set({ kept: { answer: run.answer, label: model.name || "kept run" } });
-  say("This run is kept, dashed in the plots. Change something and compare.");
+  if (!run.answer) return say("There is no run to pin yet.");
+  studio.set({ kept: { answer: run.answer, label: model.name || "pinned run" } });
+  say("This run is pinned and shown dashed in the plots. Change something and compare.");
 }
 
 function escape(): void {

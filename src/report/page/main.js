@@ -149,7 +149,7 @@ function contentOf(group, quantity) {
 class ChosenChart extends Chart {
   constructor(clock, group, quantity) {
     super(clock);
-    this.what = made("select", { ariaLabel: "Plot of what" });
+    this.what = made("select", { ariaLabel: "Plotted object" });
     this.which = made("select", { ariaLabel: "Quantity" });
     const remove = made("button", { className: "remove", textContent: "✕", title: "Remove this plot", ariaLabel: "Remove this plot" });
     this.title = made("span", { className: "title print-only" });

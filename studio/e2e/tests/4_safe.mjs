@@ -114,7 +114,7 @@ export const tests = {
     await page.evaluate(() => window.pintleStudio.set({ selection: [{ kind: "body", name: "coupler" }] }));
     await page.locator(".scene").first().focus();
     await page.keyboard.press("Delete");
-    assert.match(await page.locator(".toasts").textContent(), /Mend the text first/);
+    assert.match(await page.locator(".toasts").textContent(), /Fix the text first/);
     assert.equal(await state(page, "(now) => now.history.text"), text);
     await page.context().close();
   },

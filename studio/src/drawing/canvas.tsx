@@ -29,7 +29,7 @@ export function Canvas() {
   const counts = useStudio((now) => `${now.model.bodies.length} links, ${now.model.joints.length} joints`);
   return (
     <div className="canvas">
-      <svg ref={svg} className="scene" tabIndex={0} role="application" aria-label={`Drawing of ${name}: ${counts}. Tools have keys; arrows move a tool's point, Enter sets it; press question mark for help.`} />
+      <svg ref={svg} className="scene" tabIndex={0} role="application" aria-label={`Drawing of ${name}: ${counts}. Every tool has a key; arrows move its point, Enter places it; press question mark for help.`} />
       <ExactFields />
       <KeyPoint />
       <ToolHint />
@@ -71,7 +71,7 @@ function ToolHint() {
   const mode = useStudio((state) => state.mode);
   const empty = useStudio((state) => state.model.bodies.length === 0);
   if (empty && tool === "select") return null;
-  const hint = mode === "edit" ? toolOf(tool).hint : "Drag a link: a soft spring pulls it. Stop (Esc) leads back to drawing.";
+  const hint = mode === "edit" ? toolOf(tool).hint : "Drag a link: a soft spring pulls it. Stop (Esc) returns to drawing.";
   return (
     <p className="tool-hint" role="status">
       {hint}

@@ -72,6 +72,6 @@ describe("tools", () => {
     const made = finish("motor", [click], { model, looks: looksOf(model, 0.1), reach: 0.01 });
     expect(typeof made === "object" && made.made).toEqual([{ kind: "motor", name: "motor1" }]);
     model = readModel(addMotor(model, "A").text);
-    expect(finish("motor", [click], { model, looks: looksOf(model, 0.1), reach: 0.01 })).toMatch(/motor already/);
+    expect(finish("motor", [click], { model, looks: looksOf(model, 0.1), reach: 0.01 })).toMatch(/already has a motor/);
   });
 });

@@ -258,7 +258,7 @@ export class Gestures {
     if (!poses) return;
     const keep = () => void edit(keepPoses(studio.get().model, poses), "Move start position");
     if (!model.bodies.some((body) => body.parametric)) return keep();
-    say("The start position is written with parameters. Keep this one instead?", { label: "Keep", run: keep });
+    say("The start position is defined by parameters. Keep this one instead?", { label: "Keep", run: keep });
     setTimeout(() => {
       if (studio.get().poses === poses && studio.get().model === model) studio.set({ poses: gesture.before });
     }, 6000);

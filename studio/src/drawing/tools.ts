@@ -31,24 +31,24 @@ export interface Tool {
 }
 
 export const TOOL_LIST: readonly Tool[] = [
-  { name: "select", label: "Select", key: "V", asks: "nothing", group: "select", hint: "Drag a link to move the mechanism, a point to reshape it. Shift-drag on paper selects." },
-  { name: "link", label: "Link", key: "L", asks: "two", group: "bodies", hint: "Drag from one end to the other. An end on a point or a bar is pinned there. Type a number for the exact length." },
-  { name: "plate", label: "Plate", key: "K", asks: "many", group: "bodies", hint: "Click three or more corners; Enter or a double click ends it." },
+  { name: "select", label: "Select", key: "V", asks: "nothing", group: "select", hint: "Drag a link to move the mechanism, a point to reshape it. Shift-drag on the background selects." },
+  { name: "link", label: "Link", key: "L", asks: "two", group: "bodies", hint: "Drag from one end to the other. An end placed on a point or a bar is pinned there. Type a number for an exact length." },
+  { name: "plate", label: "Plate", key: "K", asks: "many", group: "bodies", hint: "Click three or more corners; Enter or a double-click finishes." },
   { name: "disc", label: "Gear", key: "D", asks: "radius", group: "bodies", hint: "Drag from the centre to the rim. A rim that touches another gear meshes with it." },
-  { name: "ground", label: "Ground pin", key: "G", asks: "point", group: "joints", hint: "Click a point: it is pinned to the ground there." },
-  { name: "pin", label: "Pin", key: "P", asks: "point", group: "joints", hint: "Click where two links cross: a pin joins them." },
+  { name: "ground", label: "Ground pin", key: "G", asks: "point", group: "joints", hint: "Click a point to pin it to the ground." },
+  { name: "pin", label: "Pin", key: "P", asks: "point", group: "joints", hint: "Click where two links cross to pin them together." },
   { name: "slider", label: "Slider", key: "S", asks: "ray", group: "joints", hint: "Click a point to put a sliding block there; drag to turn its guide." },
-  { name: "slot", label: "Slot", key: "O", asks: "ray", group: "joints", hint: "Click a point to let it run in a slot of the ground; drag to turn the slot. On two links: a slot in the lower one." },
+  { name: "slot", label: "Slot", key: "O", asks: "ray", group: "joints", hint: "Click a point to guide it in a slot in the ground; drag to turn the slot. On two links, the slot is in the lower one." },
   { name: "weld", label: "Weld", key: "W", asks: "point", group: "joints", hint: "Click where two links overlap, or a point to fix it to the ground." },
   { name: "spring", label: "Spring", key: "Q", asks: "two", group: "loads", hint: "Drag from one point to another." },
   { name: "damper", label: "Damper", key: "E", asks: "two", group: "loads", hint: "Drag from one point to another." },
   { name: "torsion", label: "Torsion spring", key: "U", asks: "point", group: "loads", hint: "Click a pin." },
-  { name: "rod", label: "Rod", key: "I", asks: "two", group: "loads", hint: "Drag from one point to another: a rod without mass keeps their distance." },
-  { name: "rope", label: "Rope", key: "J", asks: "two", group: "loads", hint: "Drag from one point to another: a rope keeps them from going farther apart." },
+  { name: "rod", label: "Rod", key: "I", asks: "two", group: "loads", hint: "Drag from one point to another: a massless rod keeps their distance." },
+  { name: "rope", label: "Rope", key: "J", asks: "two", group: "loads", hint: "Drag from one point to another: a rope limits their distance." },
   { name: "motor", label: "Motor", key: "M", asks: "point", group: "loads", hint: "Click a pin or a slider to drive it." },
-  { name: "force", label: "Force", key: "F", asks: "ray", group: "loads", hint: "Press on a link and drag: ten pixels are one newton; type the exact value afterwards." },
+  { name: "force", label: "Force", key: "F", asks: "ray", group: "loads", hint: "Press on a link and drag: ten pixels per newton; type the exact value afterwards." },
   { name: "torque", label: "Torque", key: "T", asks: "point", group: "loads", hint: "Click a link." },
-  { name: "trace", label: "Trace", key: "R", asks: "point", group: "loads", hint: "Click a point of a link to see the curve that it draws." },
+  { name: "trace", label: "Trace", key: "R", asks: "point", group: "loads", hint: "Click a point of a link to trace its path." },
 ];
 
 export const toolOf = (name: ToolName): Tool => TOOL_LIST.find((tool) => tool.name === name) ?? TOOL_LIST[0]!;
@@ -165,9 +165,9 @@ function makeSlot(first: Target, angle: number, context: Context): Made | string
 
 function onJoint(tool: "motor" | "torsion", first: Target, context: Context): Made | string {
   const joint = jointAt(first, context, tool === "motor" ? ["revolute", "prismatic", "slot"] : ["revolute"]);
-  if (joint === null) return tool === "motor" ? "A motor sits on a pin or a slider: click one." : "A torsion spring sits on a pin: click one.";
+  if (joint === null) return tool === "motor" ? "A motor needs a pin or a slider: click one." : "A torsion spring needs a pin: click one.";
   if (tool === "torsion") return addTorsionSpring(context.model, joint);
-  if (context.model.motors.some((motor) => motor.joint === joint)) return `Joint ${joint} has a motor already.`;
+  if (context.model.motors.some((motor) => motor.joint === joint)) return `Joint ${joint} already has a motor.`;
   return addMotor(context.model, joint);
 }
 

@@ -102,7 +102,7 @@ describe("drafts", () => {
       editText(model(name), "Edit");
       vi.advanceTimersByTime(200);
     }
-    expect(studio.get().toasts.filter((toast) => /keeps nothing/.test(toast.text))).toHaveLength(1);
+    expect(studio.get().toasts.filter((toast) => /cannot store/.test(toast.text))).toHaveLength(1);
   });
 
   it("keeps the newest dozen, unsaved ones before saved ones", () => {

@@ -52,7 +52,7 @@ function remember(closed = false): void {
   written = true;
   if (!storage || writeDraft(storage, own, draftNow(closed)) || refused) return;
   refused = true;
-  say("The browser keeps nothing of this page: its store is full or forbidden. Save your work as a file.");
+  say("The browser cannot store this page's data: storage is full or disabled. Save your work as a file.");
 }
 
 function storeOf(name: "localStorage" | "sessionStorage"): Storage | null {
@@ -149,5 +149,5 @@ async function tellOfLost(): Promise<void> {
   const held = new Set((await locks.query()).held?.map((one) => one.name));
   if (from && from.id !== own && !held.has(LOCK + from.id)) removeDraft(storage, from.id); // it goes on here
   const lost = otherDrafts().filter((one) => !one.closed && !held.has(LOCK + one.id)).length;
-  if (lost > 0) say(`Unsaved work of ${lost === 1 ? "a tab that broke down" : `${lost} tabs that broke down`} is kept.`, { label: "Show it", run: () => studio.set({ dialog: "drafts" }) });
+  if (lost > 0) say(`Unsaved work of ${lost === 1 ? "a crashed tab" : `${lost} crashed tabs`} is available.`, { label: "Show it", run: () => studio.set({ dialog: "drafts" }) });
 }

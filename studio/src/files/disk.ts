@@ -34,18 +34,18 @@ export async function pickFile(): Promise<void> {
 
 /** A file that was chosen or dropped; a broken one opens as text, with what is wrong with it. */
 export async function take(file: File, handle: WritableHandle | null = null): Promise<void> {
-  if (file.size > LARGEST) return say(`${file.name} has ${Math.round(file.size / 1e6)} MB: that is no model.`);
+  if (file.size > LARGEST) return say(`${file.name} has ${Math.round(file.size / 1e6)} MB, too large for a model.`);
   let text: string;
   try {
     text = await file.text();
   } catch {
-    return say(`${file.name} cannot be read: it is a folder, or has been moved.`);
+    return say(`${file.name} cannot be read: it is a folder or has been moved.`);
   }
-  if (text.includes("\u0000")) return say(`${file.name} is not a text.`);
+  if (text.includes("\u0000")) return say(`${file.name} is not a text file.`);
   const model = await asModel(file.name, text);
   openText(model.text, model.fileName, model.converted ? { savedText: "" } : { home: handle && { kind: "handle", handle } });
   showFaults();
-  say(`Opened ${file.name}. Undo leads back to the model before.`);
+  say(`Opened ${file.name}. Undo returns to the previous model.`);
 }
 
 /** Saves to where the text came from, or to a new file that is asked for. */
@@ -86,7 +86,7 @@ async function writeTo(handle: WritableHandle): Promise<void> {
     await stream.write(history.text);
     await stream.close();
   } catch {
-    return say(`${handle.name} cannot be written.`, { label: "Save it elsewhere", run: () => void saveFileAs() });
+    return say(`${handle.name} cannot be written.`, { label: "Save elsewhere", run: () => void saveFileAs() });
   }
   noteSaved(document, { fileName: handle.name, home: { kind: "handle", handle }, savedText: history.text });
   say(`Saved ${handle.name}.`);

@@ -26,7 +26,7 @@ export async function exportAs(kind: Export): Promise<void> {
 // The run of a changed text takes its time; until then there is the one before.
 function sayIfOld(): void {
   const { status } = studio.get().run;
-  if (status === "running" || status === "none") say("This is of the run before your last change. The new run is not computed yet.");
+  if (status === "running" || status === "none") say("This is the run before your last change; the new run is not computed yet.");
 }
 
 function exportCsv(): void {
@@ -85,7 +85,7 @@ async function exportGif(): Promise<void> {
   const { answer } = now.run;
   if (!answer || !view || (answer.values[0]?.length ?? 0) < 2) return say("There is no run to export yet.");
   sayIfOld();
-  say("The film is being made…");
+  say("Making the film…");
   const { size } = view;
   const bytes = await filmAsGif(new Film(view, now, answer), now.speed, (svg, width) => pictureOf(svg, size, width));
   download(new Blob([bytes as BlobPart], { type: "image/gif" }), `${stem(now.fileName)}.gif`);
@@ -95,6 +95,6 @@ async function exportGif(): Promise<void> {
 async function exportReport(): Promise<void> {
   const { run, history } = studio.get();
   if (!run.answer) return say("There is no run to report on yet.");
-  say("The report is made, of a run of the model as it is now.");
+  say("The report is saved, from a run of the current model.");
   download(new Blob([await kernel.report(history.text)], { type: "text/html" }), `${stem()}-report.html`);
 }

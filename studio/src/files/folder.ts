@@ -30,7 +30,7 @@ export async function startFolder(mayOpen = true): Promise<void> {
   keep(BEGUN, start);
   if (path !== model || !unsaved) return openFromFolder(model);
   const open = () => (studio.get().document === document ? void openFromFolder(model) : undefined);
-  say(`This is your work on ${model} that was not saved.`, { label: "Open the file", run: open });
+  say(`This is your unsaved work on ${model}.`, { label: "Open the file", run: open });
 }
 
 // The file may have been written by another program since.
@@ -102,9 +102,9 @@ async function write(path: string, expected: string | null): Promise<void> {
       return say(`Saved ${path} in ${server.folder}.`);
     }
     const { hash } = saved.conflict;
-    const why = hash === null ? "is no longer there" : expected === null ? "is there already" : "was changed by another program";
-    const again = () => (studio.get().document === document ? void inTurn(() => write(path, hash)) : say("Another model is open by now: nothing was written."));
-    say(`${path} ${why}.`, { label: hash === null ? "Write it anew" : "Write over it", run: again });
+    const why = hash === null ? "no longer exists" : expected === null ? "already exists" : "was changed by another program";
+    const again = () => (studio.get().document === document ? void inTurn(() => write(path, hash)) : say("Another model is open now: nothing was written."));
+    say(`${path} ${why}.`, { label: hash === null ? "Write it again" : "Overwrite it", run: again });
   } catch (error) {
     say(asFault(error).message);
   }

@@ -49,7 +49,7 @@ describe("saving in the folder of pintle studio", () => {
     expect(now().dialog).toBe("save");
     await saveUnder("one.toml");
     expect(files.get("one.toml")).toBe(model("one"));
-    expect(said()?.text).toMatch(/there already/);
+    expect(said()?.text).toMatch(/already exists/);
     said()!.action!.run();
     await vi.waitFor(() => expect(files.get("one.toml")).toBe(model("two")));
   });
@@ -124,7 +124,7 @@ describe("the model that pintle studio was started with", () => {
   it("is opened once, and a reload keeps what was done since", async () => {
     studio.set({ home: null });
     expect(await begin("1", EMPTY_MODEL)).toBe(EMPTY_MODEL);
-    expect(said()?.text).toMatch(/not saved/);
+    expect(said()?.text).toMatch(/unsaved work/);
     said()!.action!.run();
     await vi.waitFor(() => expect(now().history.text).toBe(model("disk")));
     expect(await begin("1", model("mine"))).toBe(model("mine"));

@@ -20,7 +20,7 @@ describe("a link and the page's address", () => {
     vi.stubGlobal("navigator", { clipboard: { writeText } });
     await shareLink();
     expect(writeText).toHaveBeenCalledWith(expect.stringContaining("#m="));
-    expect([place.hash, said()]).toEqual(["", expect.stringMatching(/Whoever opens it/)]);
+    expect([place.hash, said()]).toEqual(["", expect.stringMatching(/Anyone who opens it/)]);
     place.hostname = "127.0.0.1";
     await shareLink();
     expect(said()).toMatch(/on this computer/);

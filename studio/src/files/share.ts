@@ -52,7 +52,7 @@ export async function shareLink(): Promise<void> {
     () => false,
   );
   if (!copied) showInAddress(link);
-  const reach = isLocal() ? "It opens on this computer, while this server runs; to others, send the saved file." : "Whoever opens it sees this model.";
+  const reach = isLocal() ? "It opens only on this computer while this server runs; send others the saved file." : "Anyone who opens it sees this model.";
   say(`${copied ? "The link is copied." : "The link is in the address bar: copy it from there."} ${reach}`);
 }
 
@@ -79,13 +79,13 @@ export async function openFromAddress(): Promise<boolean> {
   const text = await decodeModel(location.hash.slice(MARK.length));
   clearAddress();
   if (text === null) {
-    say("The link's model cannot be read: it may have been cut off. Ask for it again, whole.");
+    say("The link's model cannot be read: the link may be truncated. Ask for the complete link.");
     return false;
   }
   const mine = studio.get().history.text;
   if (mine === text) return true;
   openText(text, "shared.toml", { savedText: "" });
-  if (mine !== EMPTY_MODEL) say("This is the link's model. Undo leads back to yours.");
+  if (mine !== EMPTY_MODEL) say("This is the link's model. Undo returns to yours.");
   return true;
 }
 

@@ -101,7 +101,7 @@ class Line {
         this.start().postMessage({ id, call: name, args, kernelUrl: this.kernelUrl, goOn: options.goOn } satisfies ToWorker);
       } catch (error) {
         this.pending.delete(id);
-        reject(new KernelFault({ kind: "missing", message: `The kernel cannot be asked: ${String(error)}`, hint: "Reload the page." }));
+        reject(new KernelFault({ kind: "missing", message: `The kernel cannot be called: ${String(error)}`, hint: "Reload the page." }));
       }
     });
     return { id, result };
@@ -144,7 +144,7 @@ class Line {
       this.abandon({
         kind: this.answered ? undefined : "missing",
         message: `The kernel stopped: ${event.message || "its worker could not be started"}.`,
-        hint: "It is started again by itself. If it stops at the same place, keep the model and report it.",
+        hint: "It restarts automatically. If it stops at the same place, save the model and report it.",
       });
     };
     this.worker = worker;
@@ -185,7 +185,7 @@ export function startKernel(place: KernelPlace = {}): Kernel {
   function runNative(text: string, options: RunOptions): RunHandle {
     let handle: RunHandle | undefined, cancelled = false;
     const result = native().then((found) => {
-      if (!found) throw new KernelFault({ message: "This page does not come from pintle studio.", hint: "Run it in the browser." });
+      if (!found) throw new KernelFault({ message: "This page was not served by pintle studio.", hint: "Run it in the browser." });
       handle = found.run(text, options.set ?? {}, options.onProgress);
       if (cancelled) handle.cancel();
       return handle.result;
@@ -207,7 +207,7 @@ export function startKernel(place: KernelPlace = {}): Kernel {
       result: (call.result as Promise<RunAnswer>).finally(() => URL.revokeObjectURL(goOn)),
       cancel: () => {
         URL.revokeObjectURL(goOn);
-        line("run").hurry(call.id, { kind: "ended", message: "The run was cancelled before it had results.", hint: "" });
+        line("run").hurry(call.id, { kind: "ended", message: "The run was cancelled before it had any results.", hint: "" });
       },
     };
   }

@@ -102,7 +102,7 @@ class Module implements KernelModule {
       if (typeof error === "object" && error !== null && "fault" in error) throw error;
       this.broken = true;
       const message = error instanceof Error ? error.message : String(error);
-      throw { fault: { message: `The kernel broke down: ${message}.`, hint: "It is started again by itself. Please report the model that did it." } };
+      throw { fault: { message: `The kernel crashed: ${message}.`, hint: "It restarts automatically. Please report the model that caused it." } };
     } finally {
       this.onProgress = undefined;
     }

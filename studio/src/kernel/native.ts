@@ -64,7 +64,7 @@ class Questions {
       if (body !== undefined) headers["Content-Type"] = "application/json";
       return await fetch(this.base + path, { method, headers, body: body === undefined ? undefined : JSON.stringify(body), cache: "no-store" });
     } catch {
-      throw new KernelFault({ message: "pintle studio does not answer.", hint: "Is the program still running? Your work is kept in this page." });
+      throw new KernelFault({ message: "pintle studio does not answer.", hint: "Is the program still running? Your work is safe in this page." });
     }
   }
 
@@ -75,7 +75,7 @@ class Questions {
   async good(response: Response): Promise<Response> {
     if (response.ok) return response;
     const told = (await response.json().catch(() => null)) as { fault?: { message: string; hint: string } } | null;
-    throw new KernelFault(told?.fault ?? { message: `pintle studio refuses (${response.status}).`, hint: "Open the address that it printed." });
+    throw new KernelFault(told?.fault ?? { message: `pintle studio refused the request (${response.status}).`, hint: "Open the address it printed." });
   }
 }
 

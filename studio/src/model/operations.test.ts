@@ -116,7 +116,7 @@ describe("two gears that are there", () => {
 
   it("do not where one is none", () => {
     const model = readModel(addBar(apart(), free(0, 1), free(1, 1)).text);
-    expect(meshFault(model, model.bodies[0]!, model.bodies[2]!)).toMatch(/link1 is no gear/);
+    expect(meshFault(model, model.bodies[0]!, model.bodies[2]!)).toMatch(/link1 is not a gear/);
   });
 });
 

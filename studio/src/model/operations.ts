@@ -234,10 +234,10 @@ export function addMesh(model: Model, first: Body, second: Body, poses?: Poses):
 /** Why two bodies cannot be meshed; empty if they can. */
 export function meshFault(model: Model, first: Body, second: Body, poses?: Poses): string {
   const none = [first, second].find((body) => gearRadius(model, body) === null);
-  if (none) return `${none.name} is no gear.`;
-  if (model.joints.some((one) => one.type === "gear" && [one.first.body, one.second.body].sort().join() === [first.name, second.name].sort().join())) return `${first.name} and ${second.name} are in mesh already.`;
+  if (none) return `${none.name} is not a gear.`;
+  if (model.joints.some((one) => one.type === "gear" && [one.first.body, one.second.body].sort().join() === [first.name, second.name].sort().join())) return `${first.name} and ${second.name} are already in mesh.`;
   const [a, b] = [first, second].map((body) => worldPoint(model, { body: body.name, marker: body.markers[0]!.name }, poses)) as [Point, Point];
-  return distance(a, b) > 0 ? "" : "Both gears have one centre.";
+  return distance(a, b) > 0 ? "" : "Both gears have the same centre.";
 }
 
 export type Connector = "spring" | "damper" | "rod" | "rope";

@@ -161,7 +161,7 @@ class Reader {
     this.skipBlanks();
     const char = this.text[this.at];
     if (char !== undefined && char !== "\n" && char !== "\r" && char !== "#") {
-      throw new Fault(this.at, this.at + 1, "the line goes on after the value: one key to a line");
+      throw new Fault(this.at, this.at + 1, "unexpected text after the value: only one key per line");
     }
     this.skipLine();
   }
@@ -169,7 +169,7 @@ class Reader {
   private readHeader(from: number): { table: TableNode; section: Section } {
     const start = this.at;
     this.at++;
-    if (this.text[this.at] === "[") throw new Fault(start, start + 2, "lists of tables have no place in a model");
+    if (this.text[this.at] === "[") throw new Fault(start, start + 2, "lists of tables are not allowed in a model");
     this.skipBlanks();
     const path = this.readKeys();
     if (this.text[this.at] !== "]") throw new Fault(start, this.at + 1, 'a header ends in "]"');
@@ -182,7 +182,7 @@ class Reader {
       const found = table.entries.get(key);
       if (found && found.kind !== "table") throw new Fault(header.from, header.to, `"${key}" is a value, not a table`);
       if (found && last && found.form !== "implied") {
-        throw new Fault(header.from, header.to, `the table [${path.join(".")}] is there twice`);
+        throw new Fault(header.from, header.to, `the table [${path.join(".")}] is defined twice`);
       }
       const next = found ?? newTable(last ? "header" : "implied", header.from, header.to);
       if (!found) table.entries.set(key, next);
@@ -236,7 +236,7 @@ class Reader {
       table = next;
     }
     const last = keys[keys.length - 1]!;
-    if (table.entries.has(last)) throw new Fault(start, this.at, `${keys.join(".")} is there twice`);
+    if (table.entries.has(last)) throw new Fault(start, this.at, `${keys.join(".")} is defined twice`);
     table.entries.set(last, value);
   }
 
@@ -256,7 +256,7 @@ class Reader {
       return { kind: "number", value: Number(word.replace(/_/g, "").replace("inf", "Infinity")), from: start, to: this.at };
     }
     this.at += word.length;
-    throw new Fault(start, Math.max(this.at, start + 1), word ? `"${word}" is no number; expressions stand in quotes: "${word}"` : "a value is missing here");
+    throw new Fault(start, Math.max(this.at, start + 1), word ? `"${word}" is not a number; expressions need quotes: "${word}"` : "a value is missing here");
   }
 
   private readText(): TextNode {
@@ -270,7 +270,7 @@ class Reader {
     while (!this.text.startsWith(ending, this.at)) {
       const char = this.text[this.at];
       if (char === undefined || (!triple && char === "\n")) {
-        throw new Fault(start, this.at, `a text that begins with ${ending} does not end`);
+        throw new Fault(start, this.at, `a string that begins with ${ending} is not closed`);
       }
       if (char === "\\" && quote === '"') value += this.readEscape();
       else {
@@ -292,7 +292,7 @@ class Reader {
     const digits = char === "u" ? 4 : char === "U" ? 8 : 0;
     const code = this.text.slice(this.at + 2, this.at + 2 + digits);
     if (!digits || !/^[0-9a-fA-F]+$/.test(code) || Number.parseInt(code, 16) > 0x10ffff) {
-      throw new Fault(this.at, this.at + 2, `"\\${char}" is no escape of TOML`);
+      throw new Fault(this.at, this.at + 2, `"\\${char}" is not a TOML escape`);
     }
     this.at += 2 + digits;
     return String.fromCodePoint(Number.parseInt(code, 16));
@@ -304,7 +304,7 @@ class Reader {
     for (;;) {
       this.skipSpace();
       if (this.text[this.at] === "]") break;
-      if (this.at >= this.text.length) throw new Fault(start, this.at, 'this list has no end: "]" is missing');
+      if (this.at >= this.text.length) throw new Fault(start, this.at, 'this list is not closed: "]" is missing');
       items.push(this.readValue());
       this.skipSpace();
       if (this.text[this.at] === ",") this.at++;

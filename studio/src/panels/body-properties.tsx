@@ -27,18 +27,18 @@ export function BodyProperties({ name }: { name: string }) {
       <ShapeFields body={body} />
       <section>
         <h3>Mass</h3>
-        <TextQuantity label="Mass" unit="kg" path={["body", name, "mass"]} required meaning="Typed here, it no longer follows from the shape" note={body.massFromShape ? <FromShape /> : null} />
+        <TextQuantity label="Mass" unit="kg" path={["body", name, "mass"]} required meaning="A typed value overrides the shape" note={body.massFromShape ? <FromShape /> : null} />
         <TextQuantity label="Inertia" unit="kg*m^2" path={["body", name, "inertia"]} required meaning="Moment of inertia about the centre of mass" note={body.inertiaFromShape ? <FromShape /> : null} />
         {body.shape && (!body.massFromShape || !body.inertiaFromShape) && (
           <button className="link-button" onClick={() => reshape(body, body.shape!)}>
-            Take both from the shape again
+            Compute both from the shape again
           </button>
         )}
       </section>
       <details>
         <summary>Start: position and speed</summary>
         <Pair label="Centre of mass" unit="m" path={["body", name, "position"]} names={["x", "y"]} meaning="A guess: assembly closes the mechanism from here" />
-        <TextQuantity label="Angle" unit="rad" path={["body", name, "angle"]} meaning="Of the link's own axes at the start" />
+        <TextQuantity label="Angle" unit="rad" path={["body", name, "angle"]} meaning="Of the link's axes at the start" />
         <Pair label="Velocity" unit="m/s" path={["body", name, "velocity"]} names={["x", "y"]} meaning="Of the centre of mass at the start; empty: found by assembly" />
         <TextQuantity label="Spin" unit="rad/s" path={["body", name, "spin"]} fallback="found by assembly" meaning="Angular velocity at the start" />
       </details>
@@ -76,7 +76,7 @@ function Size({ body }: { body: Body }) {
         Size <span className="about">{`from ${a.name} to ${b.name}`}</span>
       </h3>
       <Quantity label="Length" unit="m" literal={writeLength(length, 6)} required meaning={`Distance from ${a.name} to ${b.name}`} onChange={setLength} />
-      <Quantity label="Angle" unit="rad" literal={writeAngle(angle, 4)} required meaning="Against the horizontal, at the start" onChange={setAngle} />
+      <Quantity label="Angle" unit="rad" literal={writeAngle(angle, 4)} required meaning="From the horizontal, at the start" onChange={setAngle} />
     </section>
   );
 }
@@ -111,7 +111,7 @@ function ShapeFields({ body }: { body: Body }) {
   return (
     <section>
       <h3>Shape</h3>
-      <Choice label="Form" value={shape.kind} options={[{ value: "bar", label: "bar or plate" }, "block", "disc"]} onChange={(kind) => set({ kind: kind as Shape["kind"] })} />
+      <Choice label="Shape" value={shape.kind} options={[{ value: "bar", label: "bar or plate" }, "block", "disc"]} onChange={(kind) => set({ kind: kind as Shape["kind"] })} />
       <Choice label="Material" value={shape.material} options={Object.entries(MATERIALS).map(([word, density]) => ({ value: word, label: `${word}, ${density} kg/m³` }))} onChange={(material) => set({ material })} />
       <Quantity label={shape.kind === "disc" ? "Diameter" : "Width"} unit="m" literal={writeLength(shape.width, 6)} required onChange={size("width")} />
       {shape.kind === "block" && <Quantity label="Height" unit="m" literal={writeLength(shape.height, 6)} required onChange={size("height")} />}

@@ -14,7 +14,7 @@ export function DraftsDialog() {
   };
   return (
     <Dialog title="Unsaved work of other tabs">
-      {drafts.length === 0 && <p className="quiet">There is none: what this tab has is on the drawing.</p>}
+      {drafts.length === 0 && <p className="quiet">There is none. This tab's work is on the drawing.</p>}
       <ul className="things">
         {drafts.map((one) => (
           <li key={one.id} className="point-row">
@@ -25,7 +25,7 @@ export function DraftsDialog() {
             <button
               className="icon-button small"
               aria-label={`Discard ${draftName(one)}`}
-              data-tip="Discard for ever"
+              data-tip="Discard permanently"
               onClick={() => {
                 forgetDraft(one.id);
                 setDrafts(otherDrafts());

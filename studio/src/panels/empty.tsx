@@ -16,13 +16,13 @@ export function EmptyDrawing() {
       <h2>Draw a mechanism. Press play. Trust the forces.</h2>
       <ol>
         <li>
-          <kbd>L</kbd> draws a <b>link</b>: drag from end to end. Begin the next one on its end, and a pin joins them.
+          <kbd>L</kbd> draws a <b>link</b>: drag from end to end. Start the next one at its end, and a pin joins them.
         </li>
         <li>
           <kbd>G</kbd> pins a point to the <b>ground</b>; <kbd>M</kbd> puts a <b>motor</b> on a pin.
         </li>
         <li>
-          <kbd>Space</kbd> <b>plays</b> it. Every joint shows its force; pull at a link while it runs.
+          <kbd>Space</kbd> <b>plays</b> it. Every joint shows its force; drag a link while it runs.
         </li>
       </ol>
       <div className="empty-buttons">
@@ -30,7 +30,7 @@ export function EmptyDrawing() {
           <Icon name="link" /> Draw a link
         </button>
         <button className="button" onClick={() => runCommand("gallery")}>
-          <Icon name="gallery" /> Begin with a template
+          <Icon name="gallery" /> Start from a template
         </button>
         <button className="button" onClick={() => runCommand("open")}>
           <Icon name="open" /> Open a file

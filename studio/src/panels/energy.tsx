@@ -16,13 +16,13 @@ export function EnergyPanel() {
         <thead>
           <tr>
             <td />
-            <th scope="col" className="right" data-tip="Of motion">
+            <th scope="col" className="right" data-tip="Energy of motion">
               Kinetic
             </th>
-            <th scope="col" className="right" data-tip="Of height and of springs, joints among them">
+            <th scope="col" className="right" data-tip="Gravity, springs and joints">
               Potential
             </th>
-            <th scope="col" className="right" data-tip="Turned into heat in joints and dampers">
+            <th scope="col" className="right" data-tip="Dissipated in joints and dampers">
               Dissipated
             </th>
             <th scope="col" className="right" data-tip="By motors and loads">

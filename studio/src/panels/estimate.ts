@@ -19,7 +19,7 @@ export interface Estimate {
 /** How far a peak force can be trusted, in words. */
 export function estimateOf(one: PeakForce, run: Pick<RunAnswer, "outcome">): Estimate {
   if (!one.unique) return { text: "not unique", about: "not unique", share: null };
-  if (!known(one, run)) return { text: "–", about: "its error is not known", share: null };
+  if (!known(one, run)) return { text: "–", about: "error unknown", share: null };
   const text = `± ${quantity(one.error_estimate, "N", 2)}`;
   const share = Number.isFinite(one.relative_error_estimate) ? `${shortNumber(one.relative_error_estimate * 100, 2)} % of the peak` : null;
   return { text, about: `${text} estimated error`, share };

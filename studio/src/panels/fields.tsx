@@ -82,7 +82,7 @@ export function Quantity({ label, unit, literal, fallback, meaning, variables, r
     if (value === "") return required ? setTyped(shown) : onChange(null);
     const simple = SIMPLE.exec(value);
     if (simple && !simple[2]) return onChange(now ? `${simple[1]} ${now}` : Number(simple[1]));
-    if (!variables && numberIn(value) === null) return setWrong(`"${value}" is no number and no expression of the model's parameters.`);
+    if (!variables && numberIn(value) === null) return setWrong(`"${value}" is neither a number nor an expression of the model's parameters.`);
     setWrong("");
     onChange(value);
   };

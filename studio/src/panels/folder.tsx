@@ -28,7 +28,7 @@ export function FolderDialog() {
             void pickFile();
           }}
         >
-          <Icon name="open" size={17} /> Another file of this computer
+          <Icon name="open" size={17} /> Another file on this computer
         </button>
       </p>
     </Dialog>

@@ -24,7 +24,7 @@ export function ForcesPanel() {
             <th scope="col" className="right">
               Peak force
             </th>
-            <th scope="col" className="right" data-tip="Difference of two runs with different tolerances: how far the number can be trusted">
+            <th scope="col" className="right" data-tip="From two runs with different tolerances: how far the value can be trusted">
               ± estimate
             </th>
             <th scope="col" className="right">
@@ -113,7 +113,7 @@ function Row({ one, estimate, largest, moments, kept }: RowProps) {
         {estimate.text}
       </td>
       <td className="right">
-        <button className="link-button inline" data-tip="Show this moment" onClick={() => player.seek(one.peak_time)}>
+        <button className="link-button inline" data-tip="Go to this time" onClick={() => player.seek(one.peak_time)}>
           {quantity(one.peak_time, "s")}
         </button>
       </td>
@@ -137,10 +137,10 @@ export function Nothing() {
   return (
     <p className="quiet teach">
       {empty
-        ? "Draw a mechanism: as soon as it can run, its forces are here."
+        ? "Draw a mechanism: its forces appear here as soon as it can run."
         : status === "running"
           ? "The first run is being computed…"
-          : "There is no run yet. Problems says what is missing."}
+          : "There is no run yet. See Problems for what is missing."}
     </p>
   );
 }

@@ -23,8 +23,8 @@ export function Gallery() {
     studio.set({ dialog: null });
   };
   return (
-    <Dialog title="Begin with a mechanism" wide>
-      <p className="dialog-lead">Every one runs at once and may be changed at will. Point at a picture to see it move.</p>
+    <Dialog title="Start from a mechanism" wide>
+      <p className="dialog-lead">Each one runs immediately and can be changed freely. Point at a picture to see it move.</p>
       <ul className="gallery">
         <li>
           <button className="card" onClick={() => choose(EMPTY_MODEL, "untitled.toml")}>

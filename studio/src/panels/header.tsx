@@ -68,7 +68,7 @@ function Name() {
   return (
     <span className="name">
       <input aria-label="Name of the model" value={typed} spellCheck={false} onChange={(event) => setTyped(event.target.value)} onBlur={commit} onKeyDown={(event) => event.key === "Enter" && event.currentTarget.blur()} />
-      <span className="file" title={unsaved ? "Kept in this browser; not saved as a file" : "Saved"}>
+      <span className="file" title={unsaved ? "Stored in this browser, not saved as a file" : "Saved"}>
         {file}
         {unsaved && <span className="dot" aria-label="not saved as a file" role="img" />}
       </span>

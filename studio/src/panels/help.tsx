@@ -9,24 +9,24 @@ export function Help() {
     <Dialog title="Help" wide>
       <div className="help-idea">
         <p>
-          In Pintle a joint is a <b>force law</b>: a pin is a very stiff spring, a bushing a soft one. So every joint's force is known at every moment, also where links are redundant or in line.
+          In Pintle a joint is a <b>force law</b>: a pin is a very stiff spring, a bushing a soft one. So every joint force is known at all times, even where links are redundant or collinear.
         </p>
         <ul>
           <li>
-            <b>Draw:</b> drag a link from end to end; an end on another link is pinned there. While you drag, type a length, Tab, an angle. <kbd>⇧</kbd> keeps to 15°, <kbd>Alt</kbd> leaves the grid.
-            Without a mouse: arrows move the tool's point from grid line to grid line and onto points, <kbd>⇧</kbd> by five, <kbd>Enter</kbd> sets it.
+            <b>Draw:</b> drag a link from end to end; an end placed on another link is pinned there. While dragging, type a length, Tab, an angle. <kbd>⇧</kbd> snaps to 15°, <kbd>Alt</kbd> ignores the grid.
+            Without a mouse: arrows move the tool's point along the grid and onto points, <kbd>⇧</kbd> by five, <kbd>Enter</kbd> places it.
           </li>
           <li>
-            <b>Move:</b> drag a link and the mechanism follows; drag a point and it changes its shape. Wheel zooms, dragging the paper moves it; the middle or right button does so with any tool.
+            <b>Move:</b> drag a link and the mechanism follows; drag a point to reshape it. The wheel zooms; drag the background to pan, with the middle or right button in any tool.
           </li>
           <li>
-            <b>Play:</b> what you see is the computed run. Drag a link while it plays: a soft spring pulls it, live. Arrows are joint forces on the link that a joint names second; their length grows as the root of the force.
+            <b>Play:</b> you see the computed run. Drag a link while it plays: a soft spring pulls it, live. Arrows are the joint forces on each joint's second link; their length is proportional to the square root of the force.
           </li>
           <li>
-            <b>Read:</b> click a plot and the mechanism goes there. Each peak force comes with an estimate of its error.
+            <b>Read:</b> click a plot to go to that time. Each peak force has an error estimate.
           </li>
           <li>
-            <b>Keep:</b> every tab comes back as it was left. Saving writes to the file that the model came from, and asks a new one its name.
+            <b>Keep:</b> every tab is restored as you left it. Saving writes to the file the model came from; a new model needs a name.
           </li>
         </ul>
       </div>

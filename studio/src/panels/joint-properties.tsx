@@ -13,7 +13,7 @@ import { type Field, fieldsOf, labelOf, useCatalog, useSchema } from "./form";
 import { Icon } from "./icons";
 
 const TYPE_WORDS: Record<string, string> = {
-  revolute: "pin", prismatic: "slider", fixed: "weld", slot: "pin in a slot", rod: "rod without mass", rope: "rope", gear: "gear mesh", rack: "rack and pinion",
+  revolute: "pin", prismatic: "slider", fixed: "weld", slot: "pin in a slot", rod: "massless rod", rope: "rope", gear: "gear mesh", rack: "rack and pinion",
 };
 
 export function JointProperties({ name }: { name: string }) {
@@ -60,7 +60,7 @@ function Ref({ name }: { name: string }) {
 function PeakLine({ peak, estimate }: { peak: PeakForce; estimate: string }) {
   const fresh = useStudio((now) => now.run.status === "done");
   return (
-    <button className={fresh ? "peak-line" : "peak-line old"} data-tip="Show the moment of the largest force" onClick={() => player.seek(peak.peak_time)}>
+    <button className={fresh ? "peak-line" : "peak-line old"} data-tip="Go to the time of the largest force" onClick={() => player.seek(peak.peak_time)}>
       <span className="peak-value">{quantity(peak.peak, "N", 5)}</span>
       <span className="peak-about">
         largest force, at {quantity(peak.peak_time, "s")}
@@ -90,14 +90,14 @@ function LawFields({ joint, catalog }: { joint: Joint; catalog: Catalog | null }
   };
   return (
     <section>
-      <h3 data-tip="How the joint answers when it is forced open">Law</h3>
+      <h3 data-tip="Force of the joint against its deflection">Law</h3>
       <Choice label="Law" value={joint.law} options={allowed.map((one) => ({ value: one.word, label: lawName(one.word) }))} onChange={change} />
       {law && <p className="quiet">{law.meaning}</p>}
       {joint.law === "linear" && <Presets joint={joint} />}
       <Keys keys={keys} path={["joint", joint.name]} />
       <label className="check">
         <input type="checkbox" checked={ideal === true} onChange={(event) => setLiteral(["joint", joint.name, "ideal"], event.target.checked ? true : null, "Ideal joint")} />
-        <span data-tip='Counts with equations "lagrangian" (Model, Simulation): this joint then does not give way'>Does not give way (ideal)</span>
+        <span data-tip='With equations "lagrangian" (Model, Simulation), this joint is rigid'>Rigid (ideal)</span>
       </label>
     </section>
   );
@@ -114,7 +114,7 @@ function starter(key: CatalogKey): string | number {
 const PRESETS: { label: string; tip: string; stiffness: string; damping: string }[] = [
   { label: "Stiff", tip: "Nearly ideal: 1e10 N/m", stiffness: "1e10 N/m", damping: "1e5 N*s/m" },
   { label: "Bearing", tip: "A rolling-element bearing: 2e8 N/m", stiffness: "2e8 N/m", damping: "3500 N*s/m" },
-  { label: "Journal", tip: "A lubricated journal: 5e7 N/m with much damping", stiffness: "5e7 N/m", damping: "2e5 N*s/m" },
+  { label: "Journal", tip: "A lubricated journal: 5e7 N/m, heavily damped", stiffness: "5e7 N/m", damping: "2e5 N*s/m" },
   { label: "Bushing", tip: "A rubber bushing: 5e5 N/m", stiffness: "5e5 N/m", damping: "500 N*s/m" },
 ];
 
@@ -126,7 +126,7 @@ function Presets({ joint }: { joint: Joint }) {
     edit(draft.apply(), `${one.label} in ${joint.name}`);
   };
   return (
-    <div className="presets" role="group" aria-label="Usual values">
+    <div className="presets" role="group" aria-label="Typical values">
       {PRESETS.map((one) => (
         <button key={one.label} className={stiffness === one.stiffness ? "chip on" : "chip"} aria-pressed={stiffness === one.stiffness} data-tip={one.tip} onClick={() => apply(one)}>
           {one.label}
@@ -222,7 +222,7 @@ export function LoadProperties({ name }: { name: string }) {
   return (
     <section>
       <p className="quiet">
-        at {load.on.marker} of <Ref name={load.on.body} />. Each value may be an expression of <code>t</code>.
+        at {load.on.marker} of <Ref name={load.on.body} />. Values may be expressions of <code>t</code>.
       </p>
       <SchemaFields fields={fieldsOf(schema, "force").filter((field) => field.name !== "on")} path={["force", name]} variables />
     </section>
@@ -257,7 +257,7 @@ export function MotorProperties({ name }: { name: string }) {
           {motor.joint}
         </button>
       </p>
-      <Choice label="Drives by" value={law} options={["speed", "position", effort]} meaning="Speed and position are held by a servo with the stiffness below; torque is given" onChange={change} />
+      <Choice label="Controls" value={law} options={["speed", "position", effort]} meaning="A servo with the stiffness below holds speed or position; a torque is applied directly" onChange={change} />
       {shown.map((field) => (
         <SchemaField key={field.name} field={field.name === law ? { ...field, kind: "expression", fallback: undefined } : field} path={["motor", name, field.name]} variables />
       ))}

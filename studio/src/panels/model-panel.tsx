@@ -68,7 +68,7 @@ function Parameters() {
   };
   return (
     <section>
-      <h3 data-tip="Names for numbers: use them in any field, 2*crank + 5 mm">Parameters</h3>
+      <h3 data-tip="Named numbers for use in any field: 2*crank + 5 mm">Parameters</h3>
       {entries.length === 0 && <p className="quiet">A parameter is a named number. Any field takes expressions of parameters, such as 2*crank + 5 mm.</p>}
       {entries.map(([key, value]) => (
         <div className="parameter" key={key}>
@@ -98,7 +98,7 @@ const LAW_UNITS: [string, string, string][] = [
 function JointDefaults() {
   return (
     <details>
-      <summary data-tip="For every joint that does not state its own">Defaults of all joints</summary>
+      <summary data-tip="For joints without values of their own">Defaults of all joints</summary>
       {LAW_UNITS.map(([name, unit, fallback]) => (
         <TextQuantity key={name} label={labelOf(name)} unit={unit} path={["defaults", "joint", name]} fallback={fallback} />
       ))}
@@ -120,9 +120,9 @@ function Facts() {
         </dd>
         <dt>Closed loops</dt>
         <dd>{report.topology.n_loops}</dd>
-        <dt data-tip="In how many ways it can move, before motors act">Degrees of freedom</dt>
+        <dt data-tip="Independent motions, before motors act">Degrees of freedom</dt>
         <dd>{mobility.mobility}</dd>
-        <dt data-tip="Constraints too many: ideal joints would share their load in no certain way">Redundant constraints</dt>
+        <dt data-tip="Ideal joints would leave the load sharing undetermined">Redundant constraints</dt>
         <dd>{mobility.redundant}</dd>
         <dt>Total mass</dt>
         <dd>{quantity(report.total_mass, "kg")}</dd>

@@ -43,7 +43,7 @@ export function Palette() {
         aria-controls="palette-list"
         aria-activedescendant={found[at] ? `palette-${at}` : undefined}
         aria-label="Command"
-        placeholder="What do you want to do?"
+        placeholder="Type a command"
         autoFocus
         value={sought}
         onChange={(event) => {
@@ -60,7 +60,7 @@ export function Palette() {
           </li>
         ))}
       </ul>
-      {found.length === 0 && <p className="quiet">No command has these words.</p>}
+      {found.length === 0 && <p className="quiet">No matching command.</p>}
     </Dialog>
   );
 }

@@ -150,7 +150,7 @@ function Legend({ series, kept, onRemove }: { series: readonly Series[]; kept: r
               </span>
             )}
           </span>
-          <button className="icon-button tiny" aria-label={`Take ${one.label} off the plot`} onClick={() => onRemove(one.id)}>
+          <button className="icon-button tiny" aria-label={`Remove ${one.label} from the plot`} onClick={() => onRemove(one.id)}>
             <Icon name="close" size={13} />
           </button>
         </li>
@@ -181,7 +181,7 @@ function Chooser({ all, chosen, onToggle }: { all: readonly Series[]; chosen: re
               ))}
           </section>
         ))}
-        {found.length === 0 && <p className="quiet">No quantity has these words.</p>}
+        {found.length === 0 && <p className="quiet">No matching quantity.</p>}
       </div>
     </div>
   );

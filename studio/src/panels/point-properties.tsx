@@ -22,7 +22,7 @@ export function PointProperties({ name }: { name: string }) {
   return (
     <section>
       <p className="quiet">
-        Point <b>{marker}</b> of {body === GROUND ? "the ground" : body}. What is pinned here moves with it.
+        Point <b>{marker}</b> of {body === GROUND ? "the ground" : body}. Whatever is pinned here moves with it.
       </p>
       <Quantity label="x" unit="m" literal={writeLength(at[0], 6)} required meaning="In the world, at the start" onChange={set(0)} />
       <Quantity label="y" unit="m" literal={writeLength(at[1], 6)} required meaning="In the world, at the start" onChange={set(1)} />

@@ -43,9 +43,9 @@ function collect({ complaints, obstacle, report, run, model }: Pick<StudioState,
   const { answer } = run;
   if (answer?.stopped) {
     const { time, reason, hint, joints } = answer.stopped;
-    list.push({ severity: "error", title: `The run stopped at ${quantity(time, "s")}: ${reason}`, hint, fixes: [{ label: "Show that moment", run: () => player.seek(time) }, ...showJoints(joints)] });
+    list.push({ severity: "error", title: `The run stopped at ${quantity(time, "s")}: ${reason}`, hint, fixes: [{ label: "Go to that time", run: () => player.seek(time) }, ...showJoints(joints)] });
   } else if (answer?.outcome === "tolerance_not_met") {
-    list.push({ severity: "warning", title: "Some joint's force is less certain than the tolerance asks for.", hint: "Peak forces shows each estimate. Impacts and very soft joints need a smaller tolerance or a shorter max step.", fixes: [] });
+    list.push({ severity: "warning", title: "A joint force misses the tolerance.", hint: "Peak forces shows each estimate. Impacts and very soft joints need a smaller tolerance or a shorter max step.", fixes: [] });
   }
   for (const warning of report?.warnings ?? []) if (warning.kind !== "note") list.push(fromWarning(warning));
   for (const note of [...(answer?.notes ?? []), ...(report?.warnings ?? []).filter((one) => one.kind === "note").map((one) => one.message)]) {
@@ -110,7 +110,7 @@ export function ProblemsPanel({ problems }: { problems: readonly Problem[] }) {
   if (problems.length === 0) {
     return (
       <p className="quiet teach all-well">
-        <Icon name="check" size={18} /> {empty ? "Nothing is drawn yet, and nothing is wrong." : "No problems: it closes, it moves, and it runs."}
+        <Icon name="check" size={18} /> {empty ? "Nothing is drawn yet." : "No problems: the mechanism closes, moves and runs."}
       </p>
     );
   }

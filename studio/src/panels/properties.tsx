@@ -49,8 +49,8 @@ export function Properties() {
 
 function Renaming({ kind, name }: { kind: Kind; name: string }) {
   const check = (to: string): string => {
-    if (!NAME.test(to)) return "Letters, digits, _ and - make a name.";
-    return namesOf(studio.get().model, kind).has(to) ? `There is a ${to} already.` : "";
+    if (!NAME.test(to)) return "A name has letters, digits, _ and - only.";
+    return namesOf(studio.get().model, kind).has(to) ? `${to} already exists.` : "";
   };
   const rename = (to: string) => {
     if (edit(renameThing(studio.get().model, kind, name, to), `Rename ${name}`)) select([{ kind, name: to }]);

@@ -32,8 +32,8 @@ export function RunLine() {
         </span>
       )}
       {run.status === "failed" && <span className="state bad">{run.fault ? "not run" : "stopped early"}</span>}
-      <button className={kept ? "chip on" : "chip"} aria-pressed={kept !== null} data-tip="Keep this run, dashed, and compare what comes  B" disabled={!run.answer} onClick={() => runCommand("keep")}>
-        <Icon name="compare" size={14} /> {kept ? "Kept run: drop" : "Keep to compare"}
+      <button className={kept ? "chip on" : "chip"} aria-pressed={kept !== null} data-tip="Pin this run for comparison (dashed)  B" disabled={!run.answer} onClick={() => runCommand("keep")}>
+        <Icon name="compare" size={14} /> {kept ? "Unpin run" : "Pin run"}
       </button>
     </div>
   );

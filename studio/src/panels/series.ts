@@ -27,7 +27,7 @@ export function seriesOf(answer: RunAnswer): Series[] {
       label: `|F| at ${joint.name}`,
       unit: "N",
       group: `Joint ${joint.name}`,
-      about: `Size of the force in joint ${joint.name}`,
+      about: `Magnitude of the force in joint ${joint.name}`,
       values: () => fx.map((value, i) => Math.hypot(value, fy[i]!)),
     });
   }

@@ -30,7 +30,7 @@ export function Transport() {
       <button className="icon-button" aria-label="One frame back" data-tip="One frame back  ," disabled={!ready} onClick={() => player.step(-1)}>
         <Icon name="stepBack" />
       </button>
-      <button className="icon-button" aria-label="One frame on" data-tip="One frame on  ." disabled={!ready} onClick={() => player.step(1)}>
+      <button className="icon-button" aria-label="One frame forward" data-tip="One frame forward  ." disabled={!ready} onClick={() => player.step(1)}>
         <Icon name="stepOn" />
       </button>
       <Scale />
@@ -45,11 +45,11 @@ export function Transport() {
           ))}
         </select>
       </label>
-      <Toggle name="loop" label="Begin again at the end" on={loop} onClick={() => studio.set({ loop: !loop })} />
+      <Toggle name="loop" label="Loop" on={loop} onClick={() => studio.set({ loop: !loop })} />
       <span className="divider" />
       <Toggle name="force" label="Joint-force arrows  ⇧F" on={show.forces} onClick={() => runCommand("show-forces")} />
       <Toggle name="labels" label="Names  ⇧N" on={show.labels} onClick={() => runCommand("show-labels")} />
-      <Toggle name="ghost" label="Ideal joints behind  H" on={ghost} onClick={() => setGhost(!ghost)} />
+      <Toggle name="ghost" label="Overlay ideal joints  H" on={ghost} onClick={() => setGhost(!ghost)} />
       <Toggle name="grid" label="Grid  ⇧G" on={show.grid} onClick={() => runCommand("show-grid")} />
       <button className="icon-button" aria-label="Fit" data-tip="Fit to the window  0" onClick={() => runCommand("fit")}>
         <Icon name="fit" />

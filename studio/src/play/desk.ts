@@ -111,7 +111,7 @@ function check(text: string, current: () => boolean): void {
 function startRun(text: string, current: () => boolean): void {
   const { model, run } = studio.get();
   if (model.bodies.length === 0) return;
-  if (model.duration === null) return studio.set({ run: { ...NO_RUN, status: "failed", serial: run.serial, fault: { message: "The model says no duration.", hint: "Set one in Model, Simulation." } } });
+  if (model.duration === null) return studio.set({ run: { ...NO_RUN, status: "failed", serial: run.serial, fault: { message: "The model has no duration.", hint: "Set one in Model, Simulation." } } });
   studio.set({ run: { ...run, status: "running", progress: null, fault: null } });
   const told = (progress: RunProgress) => {
     if (current()) studio.set((now) => ({ run: { ...now.run, progress } }));
@@ -149,7 +149,7 @@ function runGhost(text: string): void {
       if (ghostRun !== handle) return;
       ghostRun = null;
       if (wasEnded(error)) return runGhost(text);
-      say(`There is no motion with ideal joints: ${asFault(error).message}`);
+      say(`No motion with ideal joints: ${asFault(error).message}`);
     });
 }
 

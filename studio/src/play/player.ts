@@ -62,7 +62,7 @@ class Player {
       if (this.failures.has(message)) return;
       this.failures.add(message);
       console.error(error);
-      say(`The drawing failed: ${message}. It is tried again with every change.`);
+      say(`The drawing failed: ${message}. It is retried after every change.`);
     }
   }
 
