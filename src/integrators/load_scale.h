@@ -21,10 +21,13 @@ inline Planar::Vec load_on(const Placement& at, const LoadScale& scale) {
 }
 
 /// What the force of a joint with states is measured by: the loads on its bodies, and for a couple that its law makes of its force
-/// that force at the lever.
+/// the smaller of these loads at the lever: no more than that can press.
 inline Planar::Vec load_on(const JointData& joint, const LoadScale& scale) {
   Planar::Vec load = load_on(joint.at, scale);
-  if (const double lever = joint.law.lever(); lever > 0) load[2] = std::min(load[2], lever * load[0]);
+  const double lever = joint.law.lever();
+  if (!(lever > 0)) return load;
+  const Planar::Vec &first = scale.body[joint.at.a == kGround ? joint.at.b : joint.at.a], &second = scale.body[joint.at.b == kGround ? joint.at.a : joint.at.b];
+  load[2] = std::min(load[2], lever * std::min(first[0], second[0]));
   return load;
 }
 

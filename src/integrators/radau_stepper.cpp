@@ -10,7 +10,7 @@ using S = Planar;
 RadauStepper::RadauStepper(const System& system, double tolerance, int stages, ToleranceOf tolerance_of)
     : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion),
       solver_(make_stage_solver(system, table_, tolerance, of_motion_ ? Steps::kLong : Steps::kAccurate)), stage_(table_.n), step_end_(make_step_end(system)),
-      tails_{std::vector<Four>(system.bodies.size()), std::vector<Four>(system.joints.size()), std::vector<Four>(system.n_law_states() > 0 ? system.joints.size() : 0)}, end_m_(system.bodies.size()) {
+      tails_{std::vector<Four>(system.bodies.size()), std::vector<Four>(system.joints.size()), std::vector<Lanes<4>>(system.n_law_states())}, end_m_(system.bodies.size()) {
   const std::size_t n = system.bodies.size(), m = system.joints.size();
   const Vecs bodies(n, S::Vec::Zero()), joints(m, S::Vec::Zero());
   const std::vector<double> states(system.n_law_states());

@@ -475,21 +475,19 @@ void LaneSolver<N>::write_stages(const State& begin, std::vector<Stage>& stages,
   for (int s = 0; s < N; ++s) stages[s].loss = loss[s];
 }
 
-// The tails of a law's states as the forces that they stand for within the step. Eq. (3.18).
+// The laws' own states at the stages, and the tails of their rates.
 template <int N>
 void LaneSolver<N>::write_states(const State& begin, const Joint& joint, std::vector<Stage>& stages, StageTails& tails) const {
   const General& general = general_[joint.general];
   const int n = general.impedance.n, first = system_.joints[joint.index].first_state;
-  Four force{};
   for (int z = 0; z < n; ++z) {
     const L tail = begin.law_rate[first + z] * matrices_.tail_of_start + matrices_.tail * general.rate[z];
-    for (int k = 0; k < 3; ++k) force[k] += general.impedance.pushes[k * n + z].x[N - 1] * Lanes<4>::of({tail[0], tail[1], tail[2], 0});
+    tails.law_rates[first + z] = Lanes<4>::of({tail[0], tail[1], tail[2], 0});
     for (int s = 0; s < N; ++s) {
       stages[s].law_state[first + z] = general.state[z][s];
       stages[s].law_rate[first + z] = general.rate[z][s];
     }
   }
-  if (n > 0) tails.states[joint.index] = force;
 }
 
 template <int N>

@@ -44,10 +44,12 @@ class EndSolver : public StepEnd {
     lu_.set_diagonal([&](int b, int k) { return mu * mu * system_.bodies[b].mass[k]; });
     std::fill(four_.begin(), four_.end(), Four{});
     see(last.m);
+    remembering_.clear();
+    state_tails_.clear();
     for (FourJoints& joints : joints_) {
       if (large_) fetch_answers(joints, last, tails);
       const Read r = read(joints, t, last.m, joints.map);
-      find_weight(joints, t, mu, last);
+      find_weight(joints, t, mu, last, tails);
       add_blocks(joints);
       L off[3];
       for (int k = 0; k < S::kDof; ++k) off[k] = joints.take(last.gap, k) - r.gap[k];
@@ -72,8 +74,8 @@ class EndSolver : public StepEnd {
         bodies.add(over * tails.bodies[b][k]);
         gaps.add(over * four_[b][k]);
       }
-    for (std::size_t j = 0; j < tails.states.size(); ++j)
-      for (int k = 0; k < S::kDof; ++k) states.add((1 / load_on(system_.joints[j], scale)[k]) * tails.states[j][k]);
+    for (std::size_t i = 0; i < remembering_.size(); ++i)
+      for (int k = 0; k < S::kDof; ++k) states.add((1 / load_on(system_.joints[remembering_[i]], scale)[k]) * state_tails_[i][k]);
     return std::max({bodies.value(), kGapError * gaps.value(), states.value()});
   }
 
@@ -134,7 +136,7 @@ class EndSolver : public StepEnd {
   }
 
   // K + mu C.
-  void find_weight(FourJoints& joints, double t, double mu, const Stage& last) {
+  void find_weight(FourJoints& joints, double t, double mu, const Stage& last, const StageTails& tails) {
     if (joints.linear) {
       for (int k = 0; k < S::kDof; ++k) joints.weight[k] = joints.k[k] + mu * joints.c[k];
       return;
@@ -142,8 +144,19 @@ class EndSolver : public StepEnd {
     const JointData& joint = system_.joints[joints.first];
     joint.law.linearize({t, last.gap[joints.first], last.gap_rate[joints.first], last.law_state.data() + joint.first_state}, tangents_);
     impedance_.reserve(tangents_.n);
+    if (tangents_.n > 0) find_state_tail(joints.first, mu / kProjectionShare, tails);
     impedance_.find(tangents_, mu);
     for (int k = 0; k < 9; ++k) joints.weight[k] = L::all(impedance_.weight[k]);
+  }
+  // The tails of a law's states as the forces that they stand for within the step. Eq. (3.18). The tangents are those at the end:
+  // a joint that begins to stick there holds an error that the slip before it would have let go.
+  void find_state_tail(int j, double mu, const StageTails& tails) {
+    impedance_.find(tangents_, mu);
+    Four force{};
+    for (int z = 0; z < tangents_.n; ++z)
+      for (int k = 0; k < S::kDof; ++k) force[k] += impedance_.pushes[k * tangents_.n + z] * tails.law_rates[system_.joints[j].first_state + z];
+    remembering_.push_back(j);
+    state_tails_.push_back(force);
   }
   // Of one of the joints, four sets of gaps.
   static void weigh_tails(const FourJoints& joints, int i, const Four& gap, Four& f) {
@@ -341,6 +354,8 @@ class EndSolver : public StepEnd {
   const System& system_;
   const bool large_;
   std::vector<FourJoints> joints_;
+  std::vector<int> remembering_;    // joints whose laws have states of their own, with the tails of these as forces
+  std::vector<Four> state_tails_;
   LawTangents tangents_;            // of one joint at a time
   LawImpedance<double> impedance_;
   BlockLu<double, S::kDof> lu_;

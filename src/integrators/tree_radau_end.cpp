@@ -24,7 +24,7 @@ bool TreeRadau::error_estimate(double h, double& error) {
   const TreeState& last = stages_.states()[n_ - 1];
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!projector_.prepare(stages_.instant(n_ - 1), mu, last)) return false;
-  error = std::max({body_tail(), gap_tail(), state_tail()});
+  error = std::max({body_tail(), gap_tail(), state_tail(std::abs(h))});
   return std::isfinite(error);
 }
 
@@ -67,7 +67,7 @@ double TreeRadau::gap_tail() {
 }
 
 // theory/time Eq. (3.18).
-double TreeRadau::state_tail() const {
+double TreeRadau::state_tail(double h) const {
   const Index states = system_.n_law_states();
   if (states == 0) return 0;
   MatrixXd tail(states, 3);
@@ -76,7 +76,16 @@ double TreeRadau::state_tail() const {
       tail(z, back) = table_.to_legendre(n_ - back, 0) * begin_.law_rate[z];
       for (int s = 0; s < n_; ++s) tail(z, back) += table_.to_legendre(n_ - back, s + 1) * stages_.states()[s].law_rate[z];
     }
-  const MatrixXd force = stages_.as_forces(tail);
+  MatrixXd force = MatrixXd::Zero(end_at_.n_gaps(), 3);
+  LawTangents tangents;
+  LawImpedance<double> law;
+  for (std::size_t l = 0; l < tree_->laws().size(); ++l) {
+    stages_.instant(n_ - 1).linearize(static_cast<int>(l), stages_.states()[n_ - 1], tangents);
+    law.reserve(tangents.n);
+    law.find(tangents, table_.real_eigenvalue / h);
+    for (int k = 0; k < 3; ++k)
+      for (int z = 0; z < law.n; ++z) force.row(3 * static_cast<Index>(l) + k) += law.pushes[k * law.n + z] * tail.row(system_.joints[tree_->laws()[l]].first_state + z);
+  }
   if (!force.allFinite()) return std::numeric_limits<double>::infinity();
   std::array<double, 3> size{};
   for (std::size_t l = 0; l < tree_->laws().size(); ++l) {

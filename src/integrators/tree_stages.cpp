@@ -221,15 +221,6 @@ TreeStages::Vector<Scalar> TreeStages::states_moved(const Mode<Scalar>& mode, co
   return move;
 }
 
-Eigen::MatrixXd TreeStages::as_forces(const Eigen::MatrixXd& law_rates) const {
-  Eigen::MatrixXd force = Eigen::MatrixXd::Zero(at_[0].n_gaps(), law_rates.cols());
-  for (std::size_t l = 0; l < real_.law.size(); ++l)
-    for (int k = 0; k < 3; ++k)
-      for (int z = 0; z < real_.law[l].n; ++z)
-        force.row(3 * static_cast<Index>(l) + k) += real_.law[l].pushes[k * real_.law[l].n + z] * law_rates.row(system_.joints[tree_.laws()[l]].first_state + z);
-  return force;
-}
-
 // One Newton correction: into the diagonal frame, the solve, back. Eq. (5.6). Its size as body forces over the scale.
 double TreeStages::correct(const LoadScale& scale) {
   if (tree_.n() == 0) return 0;

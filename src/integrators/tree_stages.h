@@ -35,8 +35,6 @@ class TreeStages {
   double contraction() const { return contraction_.seen(); }
   /// What is missing in joint j's equation at the end of the step [m/s^2 or rad/s^2].
   double residual(int j) const;
-  /// What rates of the laws' states stand for within the step, as forces of all laws: of a column for each set of rates.
-  Eigen::MatrixXd as_forces(const Eigen::MatrixXd& law_rates) const;
 
  private:
   void predict(const TreeState& begin, double h, const TreeNodes* before, double last_h);
