@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using S = Planar;
 
-constexpr int kPasses = 6, kSweeps = 5;
+constexpr int kPasses = 6, kSweeps = 5, kRounds = 4;
 constexpr double kSlow = 5e-4;  // of the slowest joint by itself: faster modes are held
 constexpr double kDiverged = 1e300, kConverged = 1e-10;  // relative change of a sweep
 
@@ -43,13 +43,47 @@ bool TreeForcesOfMotion::prepare(const TreeState& state) {
   at_.place(state.t, state.y, state.u);
   at_.find_matrices();
   const double mu = kSlow * slowest_joint(at_);
-  return std::isfinite(mu) && mu > 0 && projector_.prepare(at_, mu, state);
+  return std::isfinite(mu) && mu > 0 && projector_.prepare(at_, mu, state, TreeProjector::Laws::kHolding);
 }
 
 bool TreeForcesOfMotion::find(TreeState& state) {
   if (!prepare(state)) return false;
+  const bool rubs = push_by_friction(state);
   for (int pass = 0; pass < 2; ++pass) projector_.balance(at_, state.accel, true, state.force, state.w);
+  for (int round = 1; rubs && round < kRounds; ++round) {
+    carry(state);
+    push_by_friction(state);
+    projector_.balance(at_, state.accel, true, state.force, state.w);
+  }
   return true;
+}
+
+// theory/assembly Eq. (3.5). Whether there is any.
+bool TreeForcesOfMotion::push_by_friction(TreeState& state) {
+  bool any = false;
+  VectorXd now, now_rate;
+  for (std::size_t l = 0; l < at_.tree().laws().size(); ++l) {
+    const JointData& joint = at_.system().joints[at_.tree().laws()[l]];
+    if (!joint.law.rubs()) continue;
+    if (!any) {
+      at_.gaps(now);
+      at_.rates(now_rate);
+    }
+    any = true;
+    const Index i = 3 * static_cast<Index>(l);
+    S::Vec gap = state.gap.segment<3>(i), rate = state.rate.segment<3>(i);
+    for (int k = 0; k < 3; ++k)
+      if (!joint.held[k]) {
+        gap[k] = now[i + k];
+        rate[k] = now_rate[i + k];
+      }
+    double states[kMostLawStates];
+    joint.law.rest({state.t, gap, rate, states}, states);
+    const S::Vec force = joint.law.force({state.t, gap, rate, states});
+    for (int k = 0; k < 3; ++k)
+      if (!joint.held[k]) state.force[i + k] = force[k];
+  }
+  return any;
 }
 
 void TreeForcesOfMotion::carry(TreeState& state) const {

@@ -25,6 +25,7 @@ class TreeForcesOfMotion {
 
  private:
   bool prepare(const TreeState& state);
+  bool push_by_friction(TreeState& state);
 
   TreeInstant at_;
   TreeProjector projector_;

@@ -8,7 +8,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-bool TreeProjector::prepare(TreeInstant& at, double mu, const TreeState& laws_at) {
+bool TreeProjector::prepare(TreeInstant& at, double mu, const TreeState& laws_at, Laws laws) {
   at.find_matrices();
   mass_.compute(at.H());
   if (mass_.info() != Eigen::Success) return false;
@@ -20,6 +20,11 @@ bool TreeProjector::prepare(TreeInstant& at, double mu, const TreeState& laws_at
   LawTangents tangents;
   LawImpedance<double> impedance;
   for (int l = 0; l < static_cast<int>(weight_.size()); ++l) {
+    if (laws == Laws::kHolding) {
+      const Response held = respond(at.system().joints[at.tree().laws()[l]].law, laws_at.gap.segment<3>(3 * l), laws_at.rate.segment<3>(3 * l));
+      weight_[l] = held.stiffness + mu * held.damping;
+      continue;
+    }
     at.linearize(l, laws_at, tangents);
     impedance.reserve(tangents.n);
     impedance.find(tangents, mu);

@@ -117,8 +117,16 @@ LawFault bushing_fault(const LawSetting& at) {
   const BushingLaw law = bushing_of(at);
   for (const auto& [m, word, beside] : {std::tuple(&law.K, "stiffness", &kStiffnessBeside), std::tuple(&law.C, "damping", &kDampingBeside)}) {
     if (is_semi_definite(*m)) continue;
-    const auto* key = std::find_if(beside->begin(), beside->end(), [&](const char* one) { return at.number(one) != 0; });
-    return {key == beside->end() ? word : *key, fmt::format("the {} matrix is not positive semi-definite: such a bushing feeds energy into the mechanism", word),
+    constexpr std::array<std::pair<int, int>, 3> kPlaces{{{0, 1}, {0, 2}, {1, 2}}};
+    const char* key = word;  // the boldest of those that couple
+    double boldest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double beside_it = std::abs(at.number((*beside)[i])), on_it = std::sqrt((*m)(kPlaces[i].first, kPlaces[i].first) * (*m)(kPlaces[i].second, kPlaces[i].second));
+      if (!(beside_it > boldest * on_it)) continue;
+      boldest = on_it > 0 ? beside_it / on_it : std::numeric_limits<double>::max();
+      key = (*beside)[i];
+    }
+    return {key, fmt::format("the {} matrix is not positive semi-definite: such a bushing feeds energy into the mechanism", word),
             "smaller terms off the diagonal: each at most the root of the product of the two on it"};
   }
   return {};
