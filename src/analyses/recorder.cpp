@@ -230,7 +230,7 @@ void Recorder::fill(Trajectory& out) {
     s.type = joint.type;
     s.first_body = body_name(system_, joint.at.a);
     s.second_body = body_name(system_, joint.at.b);
-    s.has_moment = transmits_couple(joint);
+    s.has_moment = transmits_couple(joint) || joint.law.lever() > 0;
     Sums force, moment;
     for (std::size_t i = 0; i < rows; ++i) {
       const double* f = &forces_.world[3 * (i * n + j)];

@@ -32,7 +32,7 @@ using Four = BlockVec<Lanes<4>, Planar::kDof>;
 /// concerned.
 struct StageTails {
   std::vector<Four> bodies, gaps;
-  std::vector<Lanes<4>> law_rates;  // those of the rates of the laws' own states, with the start of the step
+  std::vector<Lanes<4>> law_rates{};  // those of the rates of the laws' own states, with the start of the step
 };
 
 class StageSolver {

@@ -16,7 +16,7 @@ namespace pintle {
 
 /// Where a law is asked, in plain numbers.
 struct LawPoint {
-  double t = 0;                                   // [s]
+  double t;                                       // [s]
   const Planar::Vec& gap;
   const Planar::Vec& rate;
   const double* state = nullptr;                  // n_states() numbers

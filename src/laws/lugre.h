@@ -10,7 +10,9 @@
 // bristles is counted as lost, and as regained where they spring back, because their energy changes with the load.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <string_view>
 
@@ -43,10 +45,11 @@ struct LuGreLaw {
     out.force[free] = -radius * friction;                                                              // (3.13)
     out.loss = friction * v;
   }
-  /// Slipping bristles are bent all the way; those of a joint at rest carry nothing.
+  /// Slipping bristles are bent all the way; those of a joint at rest carry nothing. Below the Stribeck speed it is a share of both:
+  /// a start has speeds of no meaning that are not quite zero.
   void rest(const LawInput<double>& in, double* state) const {
     const double v = radius * in.rate[free];
-    state[0] = v == 0 ? 0 : (v > 0 ? 1 : -1) * coefficient(v) / bristle_stiffness;
+    state[0] = v / std::max(std::abs(v), stribeck) * coefficient(v) / bristle_stiffness;
   }
   double lever() const { return free == 2 ? radius : 0; }
   std::span<const LawColumn> columns() const {
