@@ -34,7 +34,7 @@ void Samples::add_by_laws(double t, const Vecs& q, const Vecs& v) {
   force_.resize(system_->joints.size());
   for (int j = 0; j < system_->n_joints(); ++j) {
     const JointKinematics r = system_->kinematics(j, t, motions_);
-    force_[j] = law_force(system_->joints[j].law, r.gap, r.rate);
+    force_[j] = respond(system_->joints[j].law, r.gap, r.rate).force;
   }
   add(t, q, v, force_);
 }

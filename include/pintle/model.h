@@ -57,6 +57,7 @@ struct Joint {
   MarkerRef first, second;
   std::map<std::string, double> geometry;  ///< rod, rope: length [m] (absent: as assembled); gear: radius_first, radius_second [m], internal (0 or 1); rack: radius [m]
   LawChoice law;
+  LawChoice friction{"", {}};  ///< of what the joint leaves free; no word: none
   bool ideal = false;  ///< with Equations::kRelative: no force law, the coordinates obey it
   friend bool operator==(const Joint&, const Joint&) = default;
 };

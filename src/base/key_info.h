@@ -13,6 +13,7 @@ struct KeyInfo {
   bool minimum_exclusive = false;  // the minimum itself is refused
   bool required = false;
   bool per_component = false;      // may be a list, one value per gap component it covers
+  bool list = false;               // is a list of any length
   std::string_view meaning;        // one line
 };
 

@@ -21,7 +21,7 @@ void put_vec(int lane, const Planar::Vec& from, VariantVec& to) {
 
 bool BatchMechanism::accepts(const System& system) {
   return !system.has_branches() && std::all_of(system.joints.begin(), system.joints.end(), [](const JointData& joint) {
-    return std::holds_alternative<LinearLaw>(joint.law) && std::holds_alternative<Selection>(joint.displacement);
+    return joint.law.constant_diagonal() && std::holds_alternative<Selection>(joint.displacement);
   });
 }
 
@@ -38,7 +38,7 @@ BatchMechanism::BatchMechanism(const System& base)
     to.b = place(joint.at.b);
     to.servo = joint.servo;
     if (joint.at.a != kGround && joint.at.b != kGround) to.slot = base.pattern().slot(joint.at.a, joint.at.b);
-    for (int k = 0; k < 3; ++k) to.stiff[k] = std::get<LinearLaw>(joint.law).k[k] > 0;
+    for (int k = 0; k < 3; ++k) to.stiff[k] = joint.law.engaged_stiffness()[k] > 0;
   }
 }
 
@@ -52,7 +52,7 @@ void BatchMechanism::put(int lane, const System& variant) {
   }
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const JointData& joint = variant.joints[j];
-    const auto& law = std::get<LinearLaw>(joint.law);
+    const LinearLaw& law = *joint.law.constant_diagonal();
     put_frame(lane, joint.at.F, joints[j].F);
     put_frame(lane, joint.at.M, joints[j].M);
     put_vec(lane, std::get<Selection>(joint.displacement).offset, joints[j].offset);

@@ -65,10 +65,10 @@ void check_law_slopes(const System& system, const State& assembled, const std::v
     for (int k = 0; k < S::kDof; ++k) {
       const S::Vec unit = S::Vec::Unit(k);
       stiffness.slope(
-          -r.stiffness.col(k), [&](double s) -> Eigen::VectorXd { return law_force(law, at.gap + s * unit, at.rate); },
+          -r.stiffness.col(k), [&](double s) -> Eigen::VectorXd { return respond(law, at.gap + s * unit, at.rate).force; },
           1e-3 * at.gap_size[k], typical.stiffness.cwiseAbs().maxCoeff() * 1e-3, place);
       damping.slope(
-          -r.damping.col(k), [&](double s) -> Eigen::VectorXd { return law_force(law, at.gap, at.rate + s * unit); },
+          -r.damping.col(k), [&](double s) -> Eigen::VectorXd { return respond(law, at.gap, at.rate + s * unit).force; },
           1e-3 * at.rate_size[k], typical.damping.cwiseAbs().maxCoeff() * 1e-3, place);
     }
   });

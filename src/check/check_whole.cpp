@@ -25,7 +25,7 @@ class Forces {
     system_.external(state_.t, m_, Q_);
     for (int j = 0; j < system_.n_joints(); ++j) {
       const JointKinematics r = system_.kinematics(j, state_.t, m_);
-      add_force(system_.joints[j].at, r, law_force(system_.joints[j].law, r.gap, r.rate), Q_);
+      add_force(system_.joints[j].at, r, respond(system_.joints[j].law, r.gap, r.rate).force, Q_);
     }
     return flat(Q_);
   }

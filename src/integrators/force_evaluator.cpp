@@ -12,11 +12,12 @@ void ForceEvaluator::complete(State& state) {
     const JointData& joint = system_.joints[j];
     state.gap[j] = r_[j].gap;
     state.gap_rate[j] = r_[j].rate;
-    const Response response = respond(joint.law, r_[j].gap, r_[j].rate);
-    state.force[j] = response.force;
-    if (joint.servo >= 0) state.supply_power += response.force[joint.servo] * system_.pose(joint.at, m_).rate[joint.servo];
-    else state.loss_power += response.loss;
+    const LawPoint at = law_point(system_, j, state);
+    state.force[j] = joint.law.force(at);
+    if (joint.servo >= 0) state.supply_power += state.force[j][joint.servo] * system_.pose(joint.at, m_).rate[joint.servo];
+    else state.loss_power += joint.law.loss(at);
   }
+  find_law_rates(system_, state);
   find_accelerations(system_, m_, r_, state);
 }
 
@@ -24,6 +25,8 @@ State zero_state(const System& system) {
   State state;
   state.q = state.v = state.a = Vecs(system.bodies.size(), Planar::Vec::Zero());
   state.gap = state.gap_rate = state.gap_accel = state.force = Vecs(system.joints.size(), Planar::Vec::Zero());
+  state.law_state.resize(system.n_law_states());
+  state.law_rate.resize(system.n_law_states());
   return state;
 }
 

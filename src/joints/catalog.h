@@ -1,16 +1,23 @@
 // The joint types by the word used in model files: what each forbids, what it leaves free, which keys it brings.
 #pragma once
 
+#include <map>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "base/key_info.h"
+#include "joints/joint_displacement.h"
 
 namespace pintle {
 
-/// A gap component or a free coordinate: its name ("x", "angle", "slide") and whether it is an angle [rad] or a length [m].
+using Geometry = std::map<std::string, double>;  // values of a type's own keys
+
+/// A gap component or a free coordinate: its name ("x", "angle", "slide"), its place in the relative pose (a gap that is a function
+/// stands in the first), and whether it is an angle [rad] or a length [m].
 struct ComponentInfo {
   std::string_view name;
+  int place = 0;
   bool angular = false;
 };
 
@@ -20,6 +27,8 @@ struct JointTypeInfo {
   std::span<const ComponentInfo> gap;   // forbidden displacements, in the order of the law's components
   std::span<const ComponentInfo> free;  // what is left: coordinates that motors, plots and expressions use
   std::span<const KeyInfo> keys;        // geometry: model.joints[].geometry by key
+  bool one_sided = false;               // it pulls and does not push
+  JointDisplacement (*make)(const Geometry& geometry) = nullptr;  // the gap
 };
 
 /// Every joint type, in the manual's order.
@@ -27,5 +36,8 @@ std::span<const JointTypeInfo> joint_type_catalog();
 
 /// The type called `word`, or nullptr.
 const JointTypeInfo* find_joint_type(std::string_view word);
+
+/// Makes a joint type known, before the first model is read. Throws std::logic_error when there is one of that word.
+void register_joint_type(const JointTypeInfo& info);
 
 }  // namespace pintle

@@ -1,6 +1,7 @@
 // Scalar gaps that are functions of the relative pose z = (x, y, angle) of M in F: value, gradient, second derivative.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -77,6 +78,14 @@ struct RackMesh {
     g.hessian(1, 2) = g.hessian(2, 1) = -c;
     return g;
   }
+};
+
+/// Any other function of the pose, by its address and up to four numbers: what a joint type brings that is registered from outside.
+struct FunctionGap {
+  GapFunction (*at)(const Planar::Vec& z, const double* parameters) = nullptr;
+  std::array<double, 4> parameters{};
+
+  GapFunction operator()(const Planar::Vec& z) const { return at(z, parameters.data()); }
 };
 
 }  // namespace pintle

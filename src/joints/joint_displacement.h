@@ -15,7 +15,7 @@ struct Selection {
   Planar::Vec offset = Planar::Vec::Zero();  // e.g. full turns of a weld's angle
 };
 
-using JointDisplacement = std::variant<Selection, Distance, Mesh, RackMesh>;
+using JointDisplacement = std::variant<Selection, Distance, Mesh, RackMesh, FunctionGap>;
 
 /// The gap between two bodies as a law wants it; scalar gaps stand in component 0.
 ///   rate = GA vA + GB vB,   gap'' = GA aA + GB aB + bias

@@ -29,6 +29,18 @@ RackMesh sample_of(std::type_identity<RackMesh>, Random& random) {
   return {random.uniform(0.1, 1), random.coin() ? 1.0 : -1.0, random.uniform(-0.1, 0.1)};
 }
 
+GapFunction sum_of_squares(const Planar::Vec& z, const double* p) {
+  GapFunction g;
+  g.gap = p[0] * z[0] * z[0] + p[1] * z[1] * z[1] + p[2] * z[2] - p[3];
+  g.gradient << 2 * p[0] * z[0], 2 * p[1] * z[1], p[2];
+  g.hessian(0, 0) = 2 * p[0];
+  g.hessian(1, 1) = 2 * p[1];
+  return g;
+}
+FunctionGap sample_of(std::type_identity<FunctionGap>, Random& random) {
+  return {sum_of_squares, {random.uniform(0.5, 1), random.uniform(0.5, 1), random.uniform(-0.5, 0.5), random.uniform(0.1, 1)}};
+}
+
 template <class V>
 struct TypesOf;
 template <class... P>

@@ -1,10 +1,20 @@
 #include "laws/catalog.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
+#include <fmt/format.h>
+#include <limits>
+#include <stdexcept>
+
+#include "laws/bushing.h"
+#include "laws/lugre.h"
+#include "laws/maxwell.h"
+#include "laws/tension.h"
 
 namespace pintle {
 namespace {
+
+constexpr double kAny = -std::numeric_limits<double>::infinity();  // a smallest value that allows all
 
 constexpr std::array<KeyInfo, 4> kLinearKeys{{
     {.key = "stiffness", .unit = "N/m", .fallback = 1e8, .minimum_exclusive = true, .per_component = true,
@@ -17,17 +27,200 @@ constexpr std::array<KeyInfo, 4> kLinearKeys{{
      .meaning = "moment per rate of forbidden rotation"},
 }};
 
-constexpr std::array<LawInfo, 1> kLaws{{
-    {.word = "linear", .meaning = "a spring and a damper in each forbidden displacement (the paper's axioms)", .keys = kLinearKeys},
+constexpr std::array<KeyInfo, 16> kBushingKeys{{
+    {.key = "stiffness", .unit = "N/m", .fallback = 5e5, .per_component = true, .meaning = "on the diagonal of the matrix, in the axes of the first marker"},
+    {.key = "damping", .unit = "N*s/m", .fallback = 500, .per_component = true, .meaning = "on the diagonal of the damping matrix"},
+    {.key = "angular_stiffness", .unit = "N*m/rad", .fallback = 100, .meaning = "moment per forbidden angle, in joints that forbid one"},
+    {.key = "angular_damping", .unit = "N*m*s/rad", .fallback = 0.1, .meaning = "moment per rate of that angle"},
+    {.key = "stiffness_xy", .unit = "N/m", .minimum = kAny, .meaning = "off the diagonal: force along x per displacement along y, and the reverse"},
+    {.key = "stiffness_xa", .unit = "N/rad", .minimum = kAny, .meaning = "force along x per angle; moment per displacement along x"},
+    {.key = "stiffness_ya", .unit = "N/rad", .minimum = kAny, .meaning = "force along y per angle; moment per displacement along y"},
+    {.key = "damping_xy", .unit = "N*s/m", .minimum = kAny, .meaning = "off the diagonal of the damping matrix: x and y"},
+    {.key = "damping_xa", .unit = "N*s/rad", .minimum = kAny, .meaning = "x and angle"},
+    {.key = "damping_ya", .unit = "N*s/rad", .minimum = kAny, .meaning = "y and angle"},
+    {.key = "preload_x", .unit = "N", .minimum = kAny, .meaning = "force on the second body in the rest position, along x of the first marker"},
+    {.key = "preload_y", .unit = "N", .minimum = kAny, .meaning = "the same along y"},
+    {.key = "preload_moment", .unit = "N*m", .minimum = kAny, .meaning = "moment on the second body in the rest position"},
+    {.key = "offset_x", .unit = "m", .minimum = kAny, .meaning = "rest position of the second marker, along x of the first"},
+    {.key = "offset_y", .unit = "m", .minimum = kAny, .meaning = "the same along y"},
+    {.key = "offset_angle", .unit = "rad", .minimum = kAny, .meaning = "angle of the second marker against the first at rest"},
 }};
+
+constexpr std::array<KeyInfo, 6> kMaxwellKeys{{
+    {.key = "stiffness", .unit = "N/m", .fallback = 5e5, .minimum_exclusive = true, .per_component = true, .meaning = "what is left when all branches have relaxed"},
+    {.key = "damping", .unit = "N*s/m", .fallback = 500, .per_component = true, .meaning = "of a damper beside the branches"},
+    {.key = "angular_stiffness", .unit = "N*m/rad", .fallback = 100, .minimum_exclusive = true, .meaning = "the same for a forbidden angle"},
+    {.key = "angular_damping", .unit = "N*m*s/rad", .fallback = 0.1, .meaning = "moment per rate of that angle"},
+    {.key = "branch_ratio", .unit = "", .minimum_exclusive = true, .required = true, .list = true,
+     .meaning = "stiffness of each relaxing branch over the relaxed one, a list, in every forbidden component alike"},
+    {.key = "branch_time", .unit = "s", .minimum_exclusive = true, .required = true, .list = true, .meaning = "time in which the force of each branch falls to 1/e, a list as long"},
+}};
+
+constexpr std::array<KeyInfo, 8> kLuGreKeys{{
+    {.key = "friction_coefficient", .unit = "", .fallback = 0.1, .minimum_exclusive = true, .meaning = "kinetic friction: of steady fast slip"},
+    {.key = "static_friction", .unit = "", .fallback = 0.15, .minimum_exclusive = true, .meaning = "coefficient at which slip begins; not below the kinetic one"},
+    {.key = "pin_radius", .unit = "m", .fallback = 0.01, .minimum_exclusive = true, .meaning = "where a pin rubs"},
+    {.key = "stribeck_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip at which friction has fallen most of the way to kinetic"},
+    {.key = "bristle_stiffness", .unit = "m^-1", .fallback = 1e5, .minimum_exclusive = true, .meaning = "friction before slip, per displacement and load; slip begins at static_friction over this"},
+    {.key = "bristle_damping", .unit = "s/m", .fallback = 10, .meaning = "the same per rate of the bristles"},
+    {.key = "viscous_friction", .unit = "s/m", .meaning = "friction per slip speed and load"},
+    {.key = "friction_preload", .unit = "N", .meaning = "presses the surfaces together besides the joint's own force"},
+}};
+
+constexpr std::array<std::string_view, 4> kPoseJoints{"revolute", "prismatic", "fixed", "slot"};
+constexpr std::array<std::string_view, 7> kTwoSided{"revolute", "prismatic", "fixed", "slot", "rod", "gear", "rack"};
+constexpr std::array<std::string_view, 2> kRubbing{"revolute", "prismatic"};
+
+// A rope's spring and damper pull only.
+void make_linear(const LawSetting& at, Law& law) {
+  const LinearLaw linear{at.by_component("stiffness", "angular_stiffness"), at.by_component("damping", "angular_damping")};
+  if (at.one_sided) law.add(std::make_unique<LawPartOf<TensionLaw>>(TensionLaw{linear.k[0], linear.c[0]}));
+  else law.set_linear(linear);
+}
+
+Planar::Mat matrix(const LawSetting& at, const char* linear, const char* angular, const std::array<const char*, 3>& beside) {
+  Planar::Mat m = at.by_component(linear, angular).asDiagonal();
+  constexpr std::array<std::pair<int, int>, 3> kPlaces{{{0, 1}, {0, 2}, {1, 2}}};
+  for (std::size_t i = 0; i < 3; ++i) m(kPlaces[i].first, kPlaces[i].second) = m(kPlaces[i].second, kPlaces[i].first) = at.number(beside[i]);
+  return m;
+}
+
+constexpr std::array<const char*, 3> kStiffnessBeside{"stiffness_xy", "stiffness_xa", "stiffness_ya"}, kDampingBeside{"damping_xy", "damping_xa", "damping_ya"};
+
+BushingLaw bushing_of(const LawSetting& at) {
+  BushingLaw law;
+  law.K = matrix(at, "stiffness", "angular_stiffness", kStiffnessBeside);
+  law.C = matrix(at, "damping", "angular_damping", kDampingBeside);
+  law.preload << at.number("preload_x"), at.number("preload_y"), at.number("preload_moment");
+  law.offset << at.number("offset_x"), at.number("offset_y"), at.number("offset_angle");
+  return law;
+}
+
+// Lengths and angles made comparable by the diagonal, so that the sign of the least eigenvalue does not drown in rounding.
+bool is_semi_definite(const Planar::Mat& m) {
+  Planar::Vec size = m.diagonal().cwiseAbs().cwiseSqrt();
+  for (int i = 0; i < 3; ++i)
+    if (size[i] == 0) size[i] = 1;
+  const Planar::Mat scaled = size.cwiseInverse().asDiagonal() * m * size.cwiseInverse().asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Planar::Mat>(scaled, Eigen::EigenvaluesOnly).eigenvalues().minCoeff() > -1e-12;
+}
+
+LawFault bushing_fault(const LawSetting& at) {
+  constexpr std::array<std::array<const char*, 6>, 3> kOf{{{"stiffness_xy", "damping_xy", "stiffness_xa", "damping_xa", "preload_x", "offset_x"},
+                                                           {"stiffness_xy", "damping_xy", "stiffness_ya", "damping_ya", "preload_y", "offset_y"},
+                                                           {"stiffness_xa", "damping_xa", "stiffness_ya", "damping_ya", "preload_moment", "offset_angle"}}};
+  constexpr std::array<const char*, 3> kNames{"x", "y", "the angle"};
+  for (int k = 0; k < 3; ++k)
+    for (const char* key : kOf[k])
+      if (!at.held[k] && at.number(key) != 0)
+        return {key, fmt::format("a {} joint leaves {} free, so that nothing can act there", at.joint_type, kNames[k]), "delete it, or another type of joint"};
+  const BushingLaw law = bushing_of(at);
+  for (const auto& [m, word, beside] : {std::tuple(&law.K, "stiffness", &kStiffnessBeside), std::tuple(&law.C, "damping", &kDampingBeside)}) {
+    if (is_semi_definite(*m)) continue;
+    constexpr std::array<std::pair<int, int>, 3> kPlaces{{{0, 1}, {0, 2}, {1, 2}}};
+    const char* key = word;  // the boldest of those that couple
+    double boldest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double beside_it = std::abs(at.number((*beside)[i])), on_it = std::sqrt((*m)(kPlaces[i].first, kPlaces[i].first) * (*m)(kPlaces[i].second, kPlaces[i].second));
+      if (!(beside_it > boldest * on_it)) continue;
+      boldest = on_it > 0 ? beside_it / on_it : std::numeric_limits<double>::max();
+      key = (*beside)[i];
+    }
+    return {key, fmt::format("the {} matrix is not positive semi-definite: such a bushing feeds energy into the mechanism", word),
+            "smaller terms off the diagonal: each at most the root of the product of the two on it"};
+  }
+  return {};
+}
+
+void make_bushing(const LawSetting& at, Law& law) { law.add(std::make_unique<LawPartOf<BushingLaw>>(bushing_of(at))); }
+
+LawFault maxwell_fault(const LawSetting& at) {
+  const std::size_t ratios = at.list("branch_ratio").size(), times = at.list("branch_time").size();
+  if (ratios != times) return {"branch_time", fmt::format("{} times for {} branches", times, ratios), "one time for each entry of branch_ratio"};
+  const auto held = static_cast<std::size_t>(std::count(at.held.begin(), at.held.end(), true));
+  if (held * ratios > static_cast<std::size_t>(kMostLawStates))
+    return {"branch_ratio", fmt::format("{} branches in {} components are more than {} states", ratios, held, kMostLawStates), "fewer branches"};
+  return {};
+}
+
+void make_maxwell(const LawSetting& at, Law& law) {
+  MaxwellLaw maxwell{at.by_component("stiffness", "angular_stiffness"), at.by_component("damping", "angular_damping"), {}};
+  const std::vector<double> ratio = at.list("branch_ratio"), time = at.list("branch_time");
+  for (int k = 0; k < 3; ++k)
+    for (std::size_t b = 0; at.held[k] && b < ratio.size(); ++b) maxwell.branches.push_back({k, ratio[b] * maxwell.k[k], time[b]});
+  law.add(std::make_unique<LawPartOf<MaxwellLaw>>(maxwell));
+}
+
+LawFault lugre_fault(const LawSetting& at) {
+  if (at.number("static_friction") >= at.number("friction_coefficient")) return {};
+  return {"static_friction", fmt::format("{:g} is below the kinetic coefficient of {:g}: what slips would be held more firmly than what rests", at.number("static_friction"), at.number("friction_coefficient")),
+          "static_friction not below friction_coefficient"};
+}
+
+void make_lugre(const LawSetting& at, Law& law) {
+  LuGreLaw friction;
+  const bool pin = at.free[2];
+  friction.free = pin ? 2 : 0;
+  friction.pressing = pin ? std::array<double, 3>{1, 1, 0} : std::array<double, 3>{0, 1, 0};
+  friction.radius = pin ? at.number("pin_radius") : 1;
+  friction.kinetic = at.number("friction_coefficient");
+  friction.stuck = at.number("static_friction");
+  friction.stribeck = at.number("stribeck_speed");
+  friction.bristle_stiffness = at.number("bristle_stiffness");
+  friction.bristle_damping = at.number("bristle_damping");
+  friction.viscous = at.number("viscous_friction");
+  friction.preload = at.number("friction_preload");
+  law.add(std::make_unique<LawPartOf<LuGreLaw>>(friction));
+}
+
+std::vector<LawInfo>& laws() {
+  static std::vector<LawInfo> all{
+      {.word = "linear", .meaning = "a spring and a damper in each forbidden displacement (the paper's axioms)", .keys = kLinearKeys, .stiffens = true, .make = make_linear},
+      {.word = "bushing", .meaning = "full matrices of stiffness and damping, with a preload and a rest position of its own", .keys = kBushingKeys, .joints = kPoseJoints, .make = make_bushing, .fault = bushing_fault},
+      {.word = "maxwell", .meaning = "rubber: a spring, a damper, and branches of both in series that relax", .keys = kMaxwellKeys, .joints = kTwoSided, .make = make_maxwell, .fault = maxwell_fault},
+      {.word = "lugre", .meaning = "dry friction of what the joint leaves free, pressed by the joint's own force (LuGre: bristles, stiction, Stribeck)", .keys = kLuGreKeys,
+       .role = LawRole::kFriction, .joints = kRubbing, .make = make_lugre, .fault = lugre_fault},
+  };
+  return all;
+}
 
 }  // namespace
 
-std::span<const LawInfo> law_catalog() { return kLaws; }
+double LawSetting::number(std::string_view key, std::size_t place) const {
+  const std::vector<double> stated = list(key);
+  if (!stated.empty()) return stated[std::min(place, stated.size() - 1)];
+  for (const KeyInfo& info : keys)
+    if (info.key == key) return info.fallback;
+  return 0;
+}
+
+std::vector<double> LawSetting::list(std::string_view key) const {
+  const auto it = values ? values->find(std::string(key)) : std::map<std::string, std::vector<double>>::const_iterator{};
+  return values && it != values->end() ? it->second : std::vector<double>{};
+}
+
+Planar::Vec LawSetting::by_component(std::string_view linear, std::string_view angular) const {
+  Planar::Vec x = Planar::Vec::Zero();
+  for (int k = 0, place = 0; k < 3; ++k)
+    if (held[k]) x[k] = k == 2 ? number(angular) : number(linear, place++);
+  return x;
+}
+
+std::span<const LawInfo> law_catalog() { return laws(); }
 
 const LawInfo* find_law(std::string_view word) {
-  const auto it = std::find_if(kLaws.begin(), kLaws.end(), [&](const LawInfo& law) { return law.word == word; });
-  return it == kLaws.end() ? nullptr : &*it;
+  const auto catalog = law_catalog();
+  const auto it = std::find_if(catalog.begin(), catalog.end(), [&](const LawInfo& law) { return law.word == word; });
+  return it == catalog.end() ? nullptr : &*it;
+}
+
+void register_law(const LawInfo& info) {
+  if (find_law(info.word)) throw std::logic_error(fmt::format("there is a law '{}' already", info.word));
+  laws().push_back(info);
+}
+
+bool suits(const LawInfo& law, std::string_view joint_type) {
+  return law.joints.empty() || std::find(law.joints.begin(), law.joints.end(), joint_type) != law.joints.end();
 }
 
 }  // namespace pintle

@@ -1,17 +1,53 @@
-// The joint laws by the word used in model files. A new law is its file, one line in catalog.cpp, and its test.
+// The joint laws by the word used in model files: reader, schema, reference page and studio follow from the entries. A law is made
+// known by one call of register_law; those that come with the program are in catalog.cpp.
 #pragma once
 
+#include <array>
+#include <map>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/key_info.h"
+#include "laws/law.h"
 
 namespace pintle {
+
+/// What a law does in a joint. Each joint has one that holds it, and may have friction beside it.
+enum class LawRole { kHolds, kFriction };
+
+/// The joint that a law is made for, and the values of its keys.
+struct LawSetting {
+  std::string_view joint_type;
+  std::array<bool, 3> held{};  // components of the relative pose; a gap that is a function stands in the first
+  std::array<bool, 3> free{};
+  bool one_sided = false;      // the joint pulls and does not push
+  const std::map<std::string, std::vector<double>>* values = nullptr;
+  std::span<const KeyInfo> keys;
+
+  /// A value as stated, or the key's default; of a list the entry for this place, or its last one.
+  double number(std::string_view key, std::size_t place = 0) const;
+  /// A list as stated; empty where there is none.
+  std::vector<double> list(std::string_view key) const;
+  /// `linear` of the held lengths, in their order, and `angular` of the angle where that is held.
+  Planar::Vec by_component(std::string_view linear, std::string_view angular) const;
+};
+
+/// Why values do not go together; no key: they do.
+struct LawFault {
+  std::string key, why, remedy;
+};
 
 struct LawInfo {
   std::string_view word;
   std::string_view meaning;
   std::span<const KeyInfo> keys;
+  LawRole role = LawRole::kHolds;
+  bool stiffens = false;                        // `pintle stiffen` may raise its key stiffness
+  std::span<const std::string_view> joints{};   // types that it suits; empty: all
+  void (*make)(const LawSetting& setting, Law& law) = nullptr;  // adds itself
+  LawFault (*fault)(const LawSetting& setting) = nullptr;
 };
 
 /// Every law, in the manual's order.
@@ -19,5 +55,11 @@ std::span<const LawInfo> law_catalog();
 
 /// The law called `word`, or nullptr.
 const LawInfo* find_law(std::string_view word);
+
+/// Makes a law known, before the first model is read. Throws std::logic_error when there is one of that word.
+void register_law(const LawInfo& info);
+
+/// Whether a joint of this type may have the law.
+bool suits(const LawInfo& law, std::string_view joint_type);
 
 }  // namespace pintle

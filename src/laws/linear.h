@@ -8,6 +8,7 @@
 
 #include <string_view>
 
+#include "laws/law_numbers.h"
 #include "laws/response.h"
 
 namespace pintle {
@@ -22,18 +23,26 @@ struct LinearLaw {
   Planar::Vec force(const Planar::Vec& gap, const Planar::Vec& rate) const {
     return -(k.cwiseProduct(gap) + c.cwiseProduct(rate));                                // (3.1)
   }
-  static constexpr bool kHasBranches = false;
-  unsigned branch(const Planar::Vec&, const Planar::Vec&) const { return 0; }
-  double loss(const Planar::Vec&, const Planar::Vec& rate) const { return rate.dot(c.cwiseProduct(rate)); }  // (3.3)
+  double loss(const Planar::Vec& rate) const { return rate.dot(c.cwiseProduct(rate)); }  // (3.3)
   Response respond(const Planar::Vec& gap, const Planar::Vec& rate) const {
     Response r;
     r.force = force(gap, rate);
     r.stiffness = k.asDiagonal();
     r.damping = c.asDiagonal();
     r.energy = 0.5 * gap.dot(k.cwiseProduct(gap));                                       // (3.2)
-    r.loss = loss(gap, rate);
+    r.loss = loss(rate);
     return r;
   }
+  /// The same over any number type, added to `out`.
+  template <class T>
+  void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
+    for (int i = 0; i < 3; ++i) {
+      out.force[i] -= k[i] * in.gap[i] + c[i] * in.rate[i];
+      out.energy += 0.5 * k[i] * (in.gap[i] * in.gap[i]);
+      out.loss += c[i] * (in.rate[i] * in.rate[i]);
+    }
+  }
+  Planar::Vec engaged_stiffness() const { return k; }
 };
 
 }  // namespace pintle

@@ -4,13 +4,15 @@
 //   V = 1/2 k max(0, e)^2                             Eq. (3.5)
 //
 // A rope never pushes: while it is stretched but closing so fast that the damper would push, the force is 0 and
-// the loss is what is left of the elastic power, -k e e' >= 0. The force has kinks at e = 0 and where it vanishes.
+// the loss is what is left of the elastic power, -k e e' >= 0. The formula changes at e = 0 and where the force vanishes.
 #pragma once
 
 #include <algorithm>
 #include <string_view>
 
-#include "laws/response.h"
+#include "laws/law_math.h"
+#include "laws/law_numbers.h"
+#include "space/planar.h"
 
 namespace pintle {
 
@@ -21,28 +23,19 @@ struct TensionLaw {
 
   static TensionLaw typical() { return {1e6, 200}; }
 
-  bool pulls(const Planar::Vec& gap, const Planar::Vec& rate) const { return gap[0] > 0 && k * gap[0] + c * rate[0] > 0; }
-  Planar::Vec force(const Planar::Vec& gap, const Planar::Vec& rate) const {
-    return {pulls(gap, rate) ? -(k * gap[0] + c * rate[0]) : 0.0, 0, 0};                 // (3.4)
+  template <class T>
+  void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
+    using namespace law_math;
+    const T none(0.0), e = where_positive(in.gap[0], in.gap[0], none), rate = in.rate[0], pull = k * e + c * rate;
+    out.force[0] = where_positive(e, where_positive(pull, -pull, none), none);           // (3.4)
+    out.energy = 0.5 * k * (e * e);                                                      // (3.5)
+    out.loss = where_positive(e, where_positive(pull, c * (rate * rate), -k * (e * rate)), none);
   }
-  static constexpr bool kHasBranches = true;
-  /// Which side of its kinks the law is on.
-  unsigned branch(const Planar::Vec& gap, const Planar::Vec& rate) const { return pulls(gap, rate) ? 1 : 0; }
-  double loss(const Planar::Vec& gap, const Planar::Vec& rate) const {
-    return pulls(gap, rate) ? c * rate[0] * rate[0] : -k * std::max(0.0, gap[0]) * rate[0];
-  }
-  Response respond(const Planar::Vec& gap, const Planar::Vec& rate) const {
-    Response r;
-    const double e = std::max(0.0, gap[0]);
-    r.energy = 0.5 * k * e * e;                                                          // (3.5)
-    r.force = force(gap, rate);
-    if (pulls(gap, rate)) {
-      r.stiffness(0, 0) = k;
-      r.damping(0, 0) = c;
-    }
-    r.loss = loss(gap, rate);
-    return r;
-  }
+  int n_borders() const { return 1; }
+  /// Positive where it pulls.
+  void borders(const LawInput<double>& in, double* value) const { value[0] = std::min(in.gap[0], in.gap[0] + c / k * in.rate[0]); }
+  Planar::Vec engaged_stiffness() const { return {k, 0, 0}; }
+  void engage(Planar::Vec& gap) const { gap[0] = std::max(gap[0], 0.0); }
 };
 
 }  // namespace pintle

@@ -123,7 +123,7 @@ class KinematicDrag::Linkage {
     gaps_.assign(model_.joints.size(), 0);
     for (std::size_t j = 0; j < gaps_.size(); ++j) {
       const JointData& joint = system_.joints[j];
-      const S::Vec stiff = respond(joint.law, S::Vec(1, 0, 0), S::Vec::Zero()).stiffness.diagonal();
+      const S::Vec stiff = joint.law.engaged_stiffness();
       S::Vec gap = gap_to_close(joint, r_[j]);
       for (int k = 0; k < 3; ++k)
         if (stiff[k] == 0) gap[k] = 0;

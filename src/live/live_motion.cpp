@@ -88,7 +88,7 @@ class LiveMotion::Motion {
     system_.motions(state_.q, state_.v, m);
     Energies out{system_.kinetic(state_.v), system_.external_work(state_.t, state_.q, m).potential, state_.dissipated, state_.supplied};
     for (std::size_t j = 0; j < n_own_; ++j)
-      if (system_.joints[j].servo < 0) out.potential += respond(system_.joints[j].law, state_.gap[j], state_.gap_rate[j]).energy;
+      if (system_.joints[j].servo < 0) out.potential += system_.joints[j].law.energy(law_point(system_, static_cast<int>(j), state_));
     return out;
   }
 

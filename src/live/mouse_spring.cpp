@@ -25,7 +25,7 @@ S::Point in_world(const S::Vec& q, const Vec2& point) {
 double largest_stiffness(const System& system) {
   double largest = 0;
   for (const JointData& joint : system.joints)
-    largest = std::max(largest, respond(joint.law, S::Vec::UnitX(), S::Vec::Zero()).stiffness.diagonal().head<2>().maxCoeff());
+    largest = std::max(largest, joint.law.engaged_stiffness().head<2>().maxCoeff());
   return largest;
 }
 

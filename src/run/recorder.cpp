@@ -10,6 +10,12 @@ namespace {
 
 using S = Planar;
 
+// Couples are told where the joint holds an angle, meshes, or rubs.
+bool tells_couple(const JointData& joint) {
+  const bool mesh = std::holds_alternative<Mesh>(joint.displacement) || std::holds_alternative<RackMesh>(joint.displacement);
+  return transmits_couple(joint) || mesh || (joint.law.rubs() && joint.free_mask[2] > 0);
+}
+
 std::string body_name(const System& system, int body) { return body == kGround ? "ground" : system.bodies[body].name; }
 
 bool is_servo(const JointData& joint) { return joint.servo >= 0; }
@@ -44,8 +50,7 @@ std::vector<double> time_weights(const std::vector<double>& t) {
 }  // namespace
 
 bool transmits_couple(const JointData& joint) {
-  const auto* linear = std::get_if<LinearLaw>(&joint.law);
-  return linear && linear->k[2] > 0;
+  return joint.held[2] && joint.law.engaged_stiffness()[2] > 0;
 }
 
 JointLoad joint_load(const System& system, int j, double, const std::vector<S::Motion>& m, const S::Vec& force) {
@@ -105,7 +110,7 @@ std::vector<Column> Recorder::columns() const {
     const std::string what = "force that joint " + joint.name + " exerts on ";
     column(p + "on_" + second + ".fx[world]", "N", what + second + ", world x");
     column(p + "on_" + second + ".fy[world]", "N", what + second + ", world y");
-    const bool couple = transmits_couple(joint) || joint.type == "gear" || joint.type == "rack";
+    const bool couple = tells_couple(joint);
     if (couple) column(p + "on_" + second + ".m[world]", "N*m", "couple that joint " + joint.name + " exerts on " + second + ", about its marker " + (j < model_.joints.size() ? model_.joints[j].second.marker : ""));
     column(p + "on_" + second + ".f1[joint]", "N", what + second + ", along x of the joint's frame on " + first);
     column(p + "on_" + second + ".f2[joint]", "N", what + second + ", along y of the joint's frame on " + first);
@@ -116,6 +121,7 @@ std::vector<Column> Recorder::columns() const {
     if (joint.free_mask[2] > 0) column(p + "angle", "rad", "angle of " + second + "'s marker relative to " + first + "'s");
     if (joint.free_mask[0] > 0) column(p + "slide_rate", "m/s", "rate of the slide");
     else if (joint.free_mask[2] > 0) column(p + "angle_rate", "rad/s", "rate of the angle");
+    for (LawColumn& law : joint.law.columns()) column(p + law.name, law.unit.c_str(), std::move(law.meaning));
   }
   for (const LoadData& load : system_.loads) {
     if (load.kind == LoadKind::kEffort) continue;
@@ -138,7 +144,7 @@ std::vector<Column> Recorder::columns() const {
 void Recorder::put_joint(int j, const JointLoad& load) {
   const JointData& joint = system_.joints[j];
   const RelativePose pose = system_.pose(joint.at, m_);
-  const bool couple = transmits_couple(joint) || joint.type == "gear" || joint.type == "rack";
+  const bool couple = tells_couple(joint);
   put(load.fx);
   put(load.fy);
   if (couple) put(load.couple);
@@ -179,8 +185,11 @@ void Recorder::put_row(const State& state) {
   double stored = 0;
   for (int j = 0; j < system_.n_joints(); ++j, world += 3) {
     if (is_servo(system_.joints[j])) continue;
-    if (recording_.joint[j]) put_joint(j, {world[0], world[1], world[2]});
-    stored += respond(system_.joints[j].law, state.gap[j], state.gap_rate[j]).energy;
+    if (recording_.joint[j]) {
+      put_joint(j, {world[0], world[1], world[2]});
+      system_.joints[j].law.observe(law_point(system_, j, state), state.force[j], values_);
+    }
+    stored += system_.joints[j].law.energy(law_point(system_, j, state));
   }
   for (const LoadData& load : system_.loads)
     if (load.kind == LoadKind::kSpring) put(-system_.load_effort(load, state.t, m_));
@@ -221,7 +230,7 @@ void Recorder::fill(Trajectory& out) {
     s.type = joint.type;
     s.first_body = body_name(system_, joint.at.a);
     s.second_body = body_name(system_, joint.at.b);
-    s.has_moment = transmits_couple(joint);
+    s.has_moment = transmits_couple(joint) || joint.law.lever() > 0;
     Sums force, moment;
     for (std::size_t i = 0; i < rows; ++i) {
       const double* f = &forces_.world[3 * (i * n + j)];

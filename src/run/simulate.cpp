@@ -209,13 +209,15 @@ class Run {
 
   // Each joint's largest difference over its peak force or couple. Joints that carry next to nothing are measured by a
   // small part of the largest of the mechanism; couples at least by that of the largest force at a radius of gyration.
+  // The couple of a pin that rubs is a small part of what its force does: its error is stated, and drives no pass.
   std::vector<double> relative_differences(const PassDifference& c) const {
     const double force = largest_of(c.peak);
     const double couple = std::max(largest_of(c.peak_couple), force * system_.largest_radius_of_gyration());
     std::vector<double> out(c.force.size());
     for (std::size_t j = 0; j < out.size(); ++j) {
       const double least = system_.joints[j].servo >= 0 ? kNegligibleOfMotor : kNegligible;
-      out[j] = std::max(relative(c.force[j], c.peak[j], least * force), relative(c.couple[j], c.peak_couple[j], least * couple));
+      out[j] = relative(c.force[j], c.peak[j], least * force);
+      if (system_.joints[j].law.lever() == 0) out[j] = std::max(out[j], relative(c.couple[j], c.peak_couple[j], least * couple));
     }
     return out;
   }

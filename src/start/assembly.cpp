@@ -32,7 +32,7 @@ void assemble_velocities(const Model& model, const System& system, const Vecs& q
   }
   for (std::size_t j = 0; j < r.size(); ++j) {
     const JointData& joint = system.joints[j];
-    const S::Vec stiff = respond(joint.law, S::Vec(joint.type == "rope" ? 1 : 0, 0, 0), S::Vec::Zero()).stiffness.diagonal();
+    const S::Vec stiff = joint.law.engaged_stiffness();
     for (int k = 0; k < 3; ++k) {
       if (!(stiff[k] > 0)) continue;
       double mobility = 0;
@@ -79,7 +79,7 @@ void demand_closed(const System& system, const Vecs& q, const std::vector<bool>&
   for (std::size_t j = 0; j < r.size(); ++j) {
     if (open[j]) continue;
     const JointData& joint = system.joints[j];
-    const S::Vec stiff = respond(joint.law, S::Vec(1, 0, 0), S::Vec::Zero()).stiffness.diagonal();
+    const S::Vec stiff = joint.law.engaged_stiffness();
     S::Vec gap = gap_to_close(joint, r[j]);
     for (int k = 0; k < 3; ++k)
       if (stiff[k] == 0) gap[k] = 0;

@@ -248,7 +248,7 @@ TEST(Assembly, ARawStartIsTakenAsStated) {
     EXPECT_EQ(at.state().q[i], Planar::Vec((*b.position)[0], (*b.position)[1], *b.angle));
     EXPECT_EQ(at.state().v[i], Planar::Vec((*b.velocity)[0], (*b.velocity)[1], *b.spin));
   }
-  for (int j = 0; j < 4; ++j) EXPECT_LT((at.state().force[j] - law_force(at.system.joints[j].law, at.kinematics(j).gap, at.kinematics(j).rate)).norm(), 1e-9);
+  for (int j = 0; j < 4; ++j) EXPECT_LT((at.state().force[j] - respond(at.system.joints[j].law, at.kinematics(j).gap, at.kinematics(j).rate).force).norm(), 1e-9);
 }
 
 // Horizontal and at rest: a quarter of the weight, upwards.

@@ -14,9 +14,7 @@ Vecs joint_weights(const System& system, const std::vector<bool>& open) {
   Vecs w(system.joints.size(), S::Vec::Zero());
   for (std::size_t j = 0; j < w.size(); ++j) {
     if (open[j]) continue;
-    S::Vec displacement_gap = S::Vec::Zero();
-    if (system.joints[j].type == "rope") displacement_gap[0] = 1;  // a rope is taut while it is assembled
-    w[j] = respond(system.joints[j].law, displacement_gap, S::Vec::Zero()).stiffness.diagonal();
+    w[j] = system.joints[j].law.engaged_stiffness();
   }
   return w;
 }
@@ -86,7 +84,7 @@ void kinematics_at(const System& system, double t, const Vecs& q, const Vecs& v,
 
 S::Vec gap_to_close(const JointData& joint, const JointKinematics& r) {
   S::Vec gap = r.gap;
-  if (joint.type == "rope") gap[0] = std::max(gap[0], 0.0);
+  joint.law.engage(gap);
   return gap;
 }
 

@@ -13,6 +13,7 @@ namespace {
 using S = Planar;
 
 constexpr int kPasses = 6;
+constexpr int kRounds = 4;         // of friction and reactions: each gains the coefficient of friction times a lever ratio
 constexpr int kClosing = 4;        // passes of a projection
 constexpr double kClosed = 1e-11;  // of what the first pass found: the next one finds nothing
 constexpr int kMostJoints = 300;  // whose masses with closed joints are asked for: the cost grows with the square
@@ -31,7 +32,7 @@ double slowest_joint(const System& system, const std::vector<JointKinematics>& r
   double slowest = std::numeric_limits<double>::infinity();
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& joint = system.joints[j];
-    const S::Vec k = respond(joint.law, S::Vec(1e-9, 0, 0), S::Vec::Zero()).stiffness.diagonal();
+    const S::Vec k = joint.law.engaged_stiffness();
     const S::Vec mobility = own_mobility(system, joint.at, r[j]);
     for (int c = 0; c < 3; ++c) {
       if (!(k[c] > 0) || (moved && (*moved)[j][c] == 0)) continue;
@@ -46,12 +47,13 @@ void plain_start(const System& system, State& state) {
   std::vector<JointKinematics> r;
   system.motions(state.q, state.v, m);
   system.joint_kinematics(state.t, m, r);
-  system.accelerations(state.t, state.q, state.v, state.a);
   for (int j = 0; j < system.n_joints(); ++j) {
     state.gap[j] = r[j].gap;
     state.gap_rate[j] = r[j].rate;
-    state.force[j] = law_force(system.joints[j].law, r[j].gap, r[j].rate);
   }
+  rest_laws(system, state);
+  system.accelerations(state.t, state.q, state.v, state.a, state.law_state.data());
+  for (int j = 0; j < system.n_joints(); ++j) state.force[j] = system.joints[j].law.force(law_point(system, j, state));
   find_gap_accelerations(system, r, state);
 }
 
@@ -86,12 +88,16 @@ void balance_start(const System& system, State& state) {
       state.gap[j][k] = r[j].gap[k];
       state.gap_rate[j][k] = r[j].rate[k];
     }
-    state.force[j] = law_force(joint.law, state.gap[j], state.gap_rate[j]);
   }
+  rest_laws(system, state);
+  for (int j = 0; j < system.n_joints(); ++j) state.force[j] = system.joints[j].law.force(law_point(system, j, state));
   find_accelerations(system, m, r, state);
 }
 
-InverseDynamics::InverseDynamics(const System& system) : system_(system), projector_(system), wanted_(system.joints.size()) {}
+InverseDynamics::InverseDynamics(const System& system) : system_(system), projector_(system), wanted_(system.joints.size()) {
+  for (int j = 0; j < system.n_joints(); ++j)
+    if (system.joints[j].law.rubs()) rubbing_.push_back(j);
+}
 
 S::Vec InverseDynamics::from_bodies(int j, const Vecs& x) const {
   S::Vec y = S::Vec::Zero();
@@ -109,10 +115,32 @@ void InverseDynamics::leave_to_laws(const Vecs& components) {
 void InverseDynamics::push_by_laws(State& state) {
   for (std::size_t j = 0; j < by_law_.size(); ++j) {
     if (by_law_[j].isZero()) continue;
-    const S::Vec force = law_force(system_.joints[j].law, r_[j].gap, r_[j].rate);
+    const S::Vec force = respond(system_.joints[j].law, r_[j].gap, r_[j].rate).force;
     const S::Vec pushing = by_law_[j].cwiseProduct(force);
     state.force[j] = pushing + moved_[j].cwiseProduct(state.force[j]);
     add_force(system_.joints[j].at, r_[j], pushing, state.a);
+  }
+}
+
+// Friction pushes as a load does, at the reactions that the gaps of the state carry. theory/assembly Eq. (3.5).
+void InverseDynamics::push_by_friction(State& state) {
+  for (const int j : rubbing_) {
+    const JointData& joint = system_.joints[j];
+    S::Vec gap = state.gap[j], rate = state.gap_rate[j], f = S::Vec::Zero();
+    for (int k = 0; k < S::kDof; ++k)
+      if (!joint.held[k]) {
+        gap[k] = r_[j].gap[k];
+        rate[k] = r_[j].rate[k];
+      }
+    double states[kMostLawStates];
+    joint.law.rest({state.t, gap, rate, states}, states);
+    const S::Vec force = joint.law.force({state.t, gap, rate, states});
+    for (int k = 0; k < S::kDof; ++k)
+      if (!joint.held[k]) {
+        f[k] = force[k];
+        state.force[j][k] = 0;  // what the joint force is to be found without
+      }
+    add_force(joint.at, r_[j], f, Q_);
   }
 }
 
@@ -127,13 +155,18 @@ double InverseDynamics::largest_held(const Vecs& gap) const {
 
 // theory/assembly Eqs. (3.1), (3.2): first the free bodies' accelerations, then what the joints ask for, then the forces.
 bool InverseDynamics::find(State& state) {
-  if (!find_accelerations(state)) return false;
-  for (int pass = 0; pass < kClosing; ++pass) {
-    const double change = projector_.improve_forces(Q_, state.a, state.force);
-    if (change <= kClosed * largest_force(state.force)) break;
+  // Friction goes with the reactions: they are found again with the friction of the ones before.
+  for (int round = 0; round < (rubbing_.empty() ? 1 : kRounds); ++round) {
+    if (!find_accelerations(state)) return false;
+    for (int pass = 0; pass < kClosing; ++pass) {
+      const double change = projector_.improve_forces(Q_, state.a, state.force);
+      if (change <= kClosed * largest_force(state.force)) break;
+    }
+    if (!rubbing_.empty()) find_gaps(state);
   }
   return true;
 }
+
 
 bool InverseDynamics::find_accelerations(State& state) {
   system_.motions(state.q, state.v, m_);
@@ -143,6 +176,7 @@ bool InverseDynamics::find_accelerations(State& state) {
   if (!std::isfinite(mu) || !(mu > 0)) return false;
   if (!projector_.prepare(r_, mu, state.gap, state.gap_rate, moved)) return false;
   system_.external(state.t, m_, Q_);
+  push_by_friction(state);
   state.a = Q_;
   if (moved) push_by_laws(state);
   for (int i = 0; i < system_.n_bodies(); ++i) state.a[i] = state.a[i].cwiseQuotient(system_.bodies[i].mass);

@@ -45,11 +45,13 @@ class InverseDynamics {
   Planar::Vec from_bodies(int j, const Vecs& x) const;
   double largest_held(const Vecs& gap) const;
   void push_by_laws(State& state);
+  void push_by_friction(State& state);
 
   const System& system_;
   GapProjector projector_;
   std::vector<Planar::Motion> m_;
   std::vector<JointKinematics> r_;
+  std::vector<int> rubbing_;  // joints with friction
   Vecs Q_, wanted_, by_law_, moved_;
 };
 

@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using S = Planar;
 
-constexpr int kPasses = 6, kSweeps = 5;
+constexpr int kPasses = 6, kSweeps = 5, kRounds = 4;
 constexpr double kSlow = 5e-4;  // of the slowest joint by itself: faster modes are held
 constexpr double kDiverged = 1e300, kConverged = 1e-10;  // relative change of a sweep
 
@@ -28,7 +28,7 @@ double slowest_joint(const TreeInstant& at) {
   const MatrixXd mobility = at.A() * at.H().llt().solve(at.A().transpose());
   double slowest = std::numeric_limits<double>::infinity();
   for (std::size_t l = 0; l < at.tree().laws().size(); ++l) {
-    const S::Vec k = respond(law_of(at, l), S::Vec(1e-9, 0, 0), S::Vec::Zero()).stiffness.diagonal();
+    const S::Vec k = law_of(at, l).engaged_stiffness();
     for (int c = 0; c < 3; ++c) {
       const double m = mobility(3 * static_cast<Index>(l) + c, 3 * static_cast<Index>(l) + c);
       if (k[c] > 0 && m > 0) slowest = std::min(slowest, std::sqrt(k[c] * m));
@@ -43,13 +43,47 @@ bool TreeInverseDynamics::prepare(const TreeState& state) {
   at_.place(state.t, state.y, state.u);
   at_.find_matrices();
   const double mu = kSlow * slowest_joint(at_);
-  return std::isfinite(mu) && mu > 0 && projector_.prepare(at_, mu, state.gap, state.rate);
+  return std::isfinite(mu) && mu > 0 && projector_.prepare(at_, mu, state, TreeProjector::Laws::kHolding);
 }
 
 bool TreeInverseDynamics::find(TreeState& state) {
   if (!prepare(state)) return false;
+  const bool rubs = push_by_friction(state);
   for (int pass = 0; pass < 2; ++pass) projector_.balance(at_, state.accel, true, state.force, state.w);
+  for (int round = 1; rubs && round < kRounds; ++round) {
+    find_gaps(state);
+    push_by_friction(state);
+    projector_.balance(at_, state.accel, true, state.force, state.w);
+  }
   return true;
+}
+
+// theory/assembly Eq. (3.5). Whether there is any.
+bool TreeInverseDynamics::push_by_friction(TreeState& state) {
+  bool any = false;
+  VectorXd now, now_rate;
+  for (std::size_t l = 0; l < at_.tree().laws().size(); ++l) {
+    const JointData& joint = at_.system().joints[at_.tree().laws()[l]];
+    if (!joint.law.rubs()) continue;
+    if (!any) {
+      at_.gaps(now);
+      at_.rates(now_rate);
+    }
+    any = true;
+    const Index i = 3 * static_cast<Index>(l);
+    S::Vec gap = state.gap.segment<3>(i), rate = state.rate.segment<3>(i);
+    for (int k = 0; k < 3; ++k)
+      if (!joint.held[k]) {
+        gap[k] = now[i + k];
+        rate[k] = now_rate[i + k];
+      }
+    double states[kMostLawStates];
+    joint.law.rest({state.t, gap, rate, states}, states);
+    const S::Vec force = joint.law.force({state.t, gap, rate, states});
+    for (int k = 0; k < 3; ++k)
+      if (!joint.held[k]) state.force[i + k] = force[k];
+  }
+  return any;
 }
 
 void TreeInverseDynamics::find_gaps(TreeState& state) const {
@@ -83,13 +117,13 @@ void TreeInverseDynamics::balance(TreeState& state) {
   at_.gaps(now);
   at_.rates(now_rate);
   for (Index i = 0; i < now.size(); ++i) {
-    const Response response = at_.answer(static_cast<int>(i / 3), state.gap, state.rate);
-    const bool held = response.stiffness(i % 3, i % 3) > 0;
+    const bool held = law_of(at_, static_cast<std::size_t>(i / 3)).engaged_stiffness()[i % 3] > 0;
     if (!held) state.rate[i] = now_rate[i];
     if (!held || std::abs(now[i] - state.gap[i]) > rounding) state.gap[i] = now[i];
   }
-  at_.forces(state.gap, state.rate, state.force);
-  if (!projector_.prepare(at_, 1, state.gap, state.rate)) return;
+  at_.rest(state);
+  at_.forces(state, state.force, state.law_rate);
+  if (!projector_.prepare(at_, 1, state)) return;
   projector_.accelerations(at_, state.force, state.w);
   at_.accelerate(state.w);
   at_.gap_accelerations(state.accel);
@@ -100,7 +134,8 @@ void start_tree_forces(TreeInverseDynamics& forces, bool preload, TreeState& sta
   at.place(state.t, state.y, state.u);
   at.gaps(state.gap);
   at.rates(state.rate);
-  at.forces(state.gap, state.rate, state.force);
+  at.rest(state);
+  at.forces(state, state.force, state.law_rate);
   state.accel = VectorXd::Zero(state.gap.size());
   if (preload) {
     state.rate.setZero();
@@ -124,7 +159,7 @@ class TreeSlowManifold {
     force_of_gap_.setZero();
     for (std::size_t l = 0; l < tree.laws().size(); ++l) {
       const Index i = 3 * static_cast<Index>(l);
-      force_of_gap_.block<3, 3>(i, i) = forces_.instant().answer(static_cast<int>(l), start.gap, start.rate).stiffness;
+      force_of_gap_.block<3, 3>(i, i) = respond(law_of(forces_.instant(), l), start.gap.segment<3>(i), start.rate.segment<3>(i)).stiffness;
     }
   }
 

@@ -25,6 +25,7 @@ class TreeInverseDynamics {
 
  private:
   bool prepare(const TreeState& state);
+  bool push_by_friction(TreeState& state);
 
   TreeInstant at_;
   TreeProjector projector_;

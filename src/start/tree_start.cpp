@@ -22,7 +22,7 @@ constexpr double kSettled = 0.1;          // relative change of the gaps in the 
 void stiffen(const JointTree& tree, System& system) {
   double stiffest = kStiffAtLeast, size = 0;
   for (const int j : tree.laws())
-    stiffest = std::max(stiffest, respond(system.joints[j].law, S::Vec::UnitX(), S::Vec::Zero()).stiffness.diagonal().head<2>().maxCoeff());
+    stiffest = std::max(stiffest, system.joints[j].law.engaged_stiffness().head<2>().maxCoeff());
   for (const BodyData& body : system.bodies) size = std::max(size, body.mass[2] / body.mass[0]);
   for (int j = 0; j < system.n_joints(); ++j) {
     if (!tree.in_tree(j)) continue;

@@ -8,15 +8,18 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
-#include "base/text/did_you_mean.h"
 #include "check/check_frequencies.h"
-#include "mobility/constraint_rows.h"
 #include "mobility/mobility.h"
-#include "pintle/compare.h"
-#include "pintle/complaint.h"
+#include "mobility/constraint_rows.h"
 #include "start/start.h"
+#include "base/text/did_you_mean.h"
+#include "pintle/compare.h"
+#include "laws/catalog.h"
+#include "pintle/complaint.h"
+#include "joints/catalog.h"
 #include "system/build.h"
 
 namespace pintle {
@@ -101,7 +104,9 @@ class Procedure {
       j.name = joint.name;
       j.type = joint.type;
       j.stated = stated(joint, "stiffness", 1e8);
-      j.kept = joint.type == "rope" || j.stated < request().first ||
+      const bool fixed_law = !find_law(joint.law.word)->stiffens || find_joint_type(joint.type)->one_sided;
+      if (fixed_law) as_it_is_.insert(joint.name);
+      j.kept = fixed_law || j.stated < request().first ||
                (has_angle(joint) && stated(joint, "angular_stiffness", 1e6) < request().first * length_ * length_);
       set(j, request().first);
       if (!j.kept) continue;
@@ -281,7 +286,7 @@ class Procedure {
     std::string names;
     std::vector<StiffenJoint> stiff = out_.joints;
     for (StiffenJoint& joint : stiff) {
-      if (!joint.kept || joint.type == "rope") continue;
+      if (!joint.kept || as_it_is_.contains(joint.name)) continue;
       names += (names.empty() ? "" : ", ") + joint.name;
       joint.kept = false;
     }
@@ -333,6 +338,7 @@ class Procedure {
   Stiffening out_;
   Trajectory stiffest_;
   double length_ = 1;
+  std::set<std::string> as_it_is_;      // joints whose laws stiffness does not scale
   std::map<std::string, double> mass_;  // effective, by joint and by "joint.angle" [kg], [kg*m^2]
   std::vector<CheckRedundancy> redundancies_;
   std::vector<std::string> ideal_notes_;

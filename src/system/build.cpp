@@ -78,45 +78,26 @@ class Builder {
     return at;
   }
 
-  static double number(const Joint& joint, const char* key, std::size_t component = 0) {
-    const auto it = joint.law.values.find(key);
-    if (it != joint.law.values.end() && !it->second.empty()) return it->second[std::min(component, it->second.size() - 1)];
-    for (const KeyInfo& info : find_law("linear")->keys)
-      if (info.key == key) return info.fallback;
-    return 0;
-  }
-  // Components of z that the type's gap covers; scalar gaps stand in component 0.
-  static std::array<bool, 3> forbids(const std::string& type) {
-    if (type == "revolute") return {true, true, false};
-    if (type == "prismatic") return {false, true, true};
-    if (type == "fixed") return {true, true, true};
-    if (type == "slot") return {false, true, false};
-    return {true, false, false};
-  }
-  static Law make_law(const Joint& joint) {
-    if (joint.law.word != LinearLaw::kWord) refuse(fmt::format("joint {}: there is no law '{}'", joint.name, joint.law.word));
-    if (joint.type == "rope") return TensionLaw{number(joint, "stiffness"), number(joint, "damping")};
-    LinearLaw law;
-    const auto covered = forbids(joint.type);
-    std::size_t component = 0;
-    for (int k = 0; k < 3; ++k) {
-      if (!covered[k]) continue;
-      law.k[k] = k == 2 ? number(joint, "angular_stiffness") : number(joint, "stiffness", component);
-      law.c[k] = k == 2 ? number(joint, "angular_damping") : number(joint, "damping", component);
-      ++component;
+  static Law make_law(const Joint& joint, const JointTypeInfo& type, const std::array<bool, 3>& held) {
+    LawSetting setting;
+    setting.joint_type = joint.type;
+    setting.held = held;
+    setting.one_sided = type.one_sided;
+    for (const ComponentInfo& free : type.free) setting.free[free.place] = true;
+    Law law;
+    for (const LawChoice* choice : {&joint.law, &joint.friction}) {
+      if (choice->word.empty()) continue;
+      const LawInfo* info = find_law(choice->word);
+      if (!info || (choice == &joint.friction) != (info->role == LawRole::kFriction))
+        refuse(fmt::format("joint {}: there is no {} '{}'", joint.name, choice == &joint.friction ? "friction" : "law", choice->word));
+      if (!suits(*info, joint.type)) refuse(fmt::format("joint {}: a {} joint has no law '{}'", joint.name, joint.type, choice->word));
+      setting.values = &choice->values;
+      setting.keys = info->keys;
+      if (info->fault)
+        if (const LawFault fault = info->fault(setting); !fault.key.empty()) refuse(fmt::format("joint {}: {}: {}", joint.name, fault.key, fault.why));
+      info->make(setting, law);
     }
     return law;
-  }
-  static double geometry(const Joint& joint, const char* key, double fallback) {
-    const auto it = joint.geometry.find(key);
-    return it == joint.geometry.end() ? fallback : it->second;
-  }
-  static JointDisplacement make_displacement(const Joint& joint) {
-    if (joint.type == "rod" || joint.type == "rope") return Distance{geometry(joint, "length", 0)};
-    if (joint.type == "gear")
-      return Mesh{geometry(joint, "radius_first", 1), geometry(joint, "radius_second", 1), geometry(joint, "internal", 0) > 0 ? -1.0 : 1.0, 0};
-    if (joint.type == "rack") return RackMesh{geometry(joint, "radius", 1), 1, 0};
-    return Selection{};
   }
   void add_joint(const Joint& joint) {
     const JointTypeInfo* info = find_joint_type(joint.type);
@@ -125,10 +106,11 @@ class Builder {
     data.name = joint.name;
     data.type = joint.type;
     data.at = place(joint.first, joint.second);
-    data.displacement = make_displacement(joint);
-    data.law = make_law(joint);
+    data.displacement = info->make(joint.geometry);
+    for (const ComponentInfo& gap : info->gap) data.held[gap.place] = true;
+    data.law = make_law(joint, *info, data.held);
     data.ideal = joint.ideal && model_.simulate.equations == Equations::kRelative;
-    for (const ComponentInfo& free : info->free) data.free_mask[free.angular ? 2 : 0] = 1;
+    for (const ComponentInfo& free : info->free) data.free_mask[free.place] = 1;
     system_.joints.push_back(std::move(data));
   }
 
@@ -155,6 +137,7 @@ class Builder {
     law.c[component] = motor.damping;
     servo.law = law;
     servo.displacement = Selection{};
+    servo.held[component] = true;
     servo.keeps_speed = motor.kind == MotorKind::kSpeed;
     if (servo.keeps_speed) servo.speed = motor.law.value({});
     else servo.target = motor.law;
@@ -229,7 +212,7 @@ System build_system(const Model& model, const System* like) { return Builder(mod
 bool is_open(const Model& model, const System& system, int j) {
   const JointData& data = system.joints[j];
   if (data.servo >= 0) return data.keeps_speed;
-  return data.type == "gear" || data.type == "rack" ||
+  return std::holds_alternative<Mesh>(data.displacement) || std::holds_alternative<RackMesh>(data.displacement) ||
          (std::holds_alternative<Distance>(data.displacement) && !model.joints[j].geometry.contains("length"));
 }
 
@@ -239,7 +222,7 @@ void unwind(const Vecs& q, System& system) {
   const double turn = 2 * std::numbers::pi;
   for (JointData& joint : system.joints) {
     auto* selection = std::get_if<Selection>(&joint.displacement);
-    if (!selection || joint.servo >= 0 || (joint.type != "prismatic" && joint.type != "fixed")) continue;
+    if (!selection || joint.servo >= 0 || !joint.held[2]) continue;
     selection->offset[2] = turn * std::round(system.pose(joint.at, m).z[2] / turn);
   }
 }

@@ -123,13 +123,13 @@ ExternalWork System::external_work(double t, const Vecs& q, const std::vector<S:
   return work;
 }
 
-std::uint64_t System::branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate, SlidingModes sliding) const {
+std::uint64_t System::branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate, const std::vector<double>& law_state, SlidingModes sliding) const {
   std::uint64_t sides = 0;
   const auto add = [&sides](std::uint64_t side) { sides = sides * 0x9E3779B97F4A7C15U + 1 + side; };
   const std::array<double, 1> time{t};
   const auto add_at_t = [&](const Expression& e) { add(e.branches(std::span(time).first(e.variables().size()))); };
   for (int j = 0; j < n_joints(); ++j) {
-    add(branch(joints[j].law, gap[j], rate[j]));
+    add(joints[j].law.branch({t, gap[j], rate[j], law_state.data() + joints[j].first_state}));
     if (joints[j].servo >= 0) add_at_t(joints[j].target);
   }
   for (const LoadData& load : loads) {

@@ -12,6 +12,21 @@ void find_gap_accelerations(const System& system, const std::vector<JointKinemat
   }
 }
 
+void find_law_rates(const System& system, State& state) {
+  if (system.n_law_states() == 0) return;
+  for (int j = 0; j < system.n_joints(); ++j)
+    system.joints[j].law.state_rates(law_point(system, j, state), state.law_rate.data() + system.joints[j].first_state);
+}
+
+void rest_laws(const System& system, State& state) {
+  state.law_state.assign(system.n_law_states(), 0.0);
+  state.law_rate.assign(system.n_law_states(), 0.0);
+  if (system.n_law_states() == 0) return;
+  for (int j = 0; j < system.n_joints(); ++j)
+    system.joints[j].law.rest(law_point(system, j, state), state.law_state.data() + system.joints[j].first_state);
+  find_law_rates(system, state);
+}
+
 void find_accelerations(const System& system, const std::vector<Planar::Motion>& m, const std::vector<JointKinematics>& r, State& state) {
   system.external(state.t, m, state.a, state.sliding);
   for (int j = 0; j < system.n_joints(); ++j) add_force(system.joints[j].at, r[j], state.force[j], state.a);
@@ -36,7 +51,8 @@ double largest_force(const Vecs& force) {
 
 bool is_finite(const State& state) {
   const auto finite = [](const Vecs& x) { return std::all_of(x.begin(), x.end(), [](const Planar::Vec& y) { return y.allFinite(); }); };
-  return std::isfinite(state.t) && finite(state.q) && finite(state.v) && finite(state.a) && finite(state.gap) && finite(state.force);
+  const bool laws = std::all_of(state.law_state.begin(), state.law_state.end(), [](double z) { return std::isfinite(z); });
+  return std::isfinite(state.t) && laws && finite(state.q) && finite(state.v) && finite(state.a) && finite(state.gap) && finite(state.force);
 }
 
 }  // namespace pintle

@@ -12,10 +12,20 @@ struct State {
   Vecs q, v, a;                    // bodies [m, m, rad] and derivatives
   Vecs gap, gap_rate, gap_accel;   // joints
   Vecs force;                      // joints, on the second body, conjugate to the gap
+  std::vector<double> law_state, law_rate;  // of the laws' own states, as JointData::first_state counts them
   std::vector<SlidingMode> sliding;  // motors that stand at a jump of theirs
   double dissipated = 0, supplied = 0;        // since the start [J]
   double loss_power = 0, supply_power = 0;    // their rates [W]
 };
+
+/// Where the law of joint j is asked in `state`.
+inline LawPoint law_point(const System& system, int j, const State& state) {
+  return {state.t, state.gap[j], state.gap_rate[j], state.law_state.data() + system.joints[j].first_state};
+}
+/// The rates of the laws' own states that go with `state`.
+void find_law_rates(const System& system, State& state);
+/// The laws' own states as those of joints that have long been at the gaps of `state`, moving at its rates.
+void rest_laws(const System& system, State& state);
 
 /// The gaps' accelerations that go with those of the bodies: e'' = G a + bias.
 void find_gap_accelerations(const System& system, const std::vector<JointKinematics>& r, State& state);

@@ -16,6 +16,11 @@ std::array<double, 3> servo_target(const JointData& joint, double t) {
 }
 
 void System::finish(const System* like) {
+  n_law_states_ = 0;
+  for (JointData& joint : joints) {
+    joint.first_state = n_law_states_;
+    n_law_states_ += joint.law.n_states();
+  }
   coupled_.clear();
   const auto couple = [this](int a, int b) {
     if (a != kGround && b != kGround && a != b) coupled_.emplace_back(a, b);
@@ -32,7 +37,7 @@ void System::finish(const System* like) {
   const bool same = like && like->n_bodies() == n_bodies() && like->coupled_ == coupled_;
   pattern_ = same ? like->pattern_ : std::make_shared<const BlockPattern>(n_bodies(), coupled_);
   has_branches_ =
-      std::any_of(joints.begin(), joints.end(), [](const JointData& j) { return pintle::has_branches(j.law) || j.target.has_branches(); }) ||
+      std::any_of(joints.begin(), joints.end(), [](const JointData& j) { return j.law.n_borders() > 0 || j.target.has_branches(); }) ||
       std::any_of(loads.begin(), loads.end(), [](const LoadData& load) { return load.law.has_branches(); }) ||
       std::any_of(applied.begin(), applied.end(), [](const AppliedData& f) {
         return f.fx.has_branches() || f.fy.has_branches() || f.torque.has_branches();
@@ -60,14 +65,16 @@ void System::joint_kinematics(double t, const std::vector<S::Motion>& m, std::ve
   for (int j = 0; j < n_joints(); ++j) out[j] = kinematics(j, t, m);
 }
 
-void System::accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a) const {
+void System::accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a, const double* law_state, double* law_rate) const {
   thread_local std::vector<S::Motion> m;
   motions(q, v, m);
   external(t, m, a);
   for (int j = 0; j < n_joints(); ++j) {
     const JointKinematics r = kinematics(j, t, m);
-    const Vec f = law_force(joints[j].law, r.gap, r.rate);
+    const LawPoint at{t, r.gap, r.rate, law_state + joints[j].first_state};
+    const Vec f = joints[j].law.force(at);
     add_force(joints[j].at, r, f, a);
+    if (law_rate) joints[j].law.state_rates(at, law_rate + joints[j].first_state);
   }
   for (int i = 0; i < n_bodies(); ++i) a[i] = a[i].cwiseQuotient(bodies[i].mass);
 }

@@ -59,6 +59,8 @@ struct JointData {
   double speed = 0;            // constant-speed servo [rad/s or m/s]
   Expression target;           // servo that follows a function of t; the coordinate is start + speed t + target(t)
   Planar::Vec free_mask = Planar::Vec::Zero();  // 1 in components that are free coordinates
+  std::array<bool, 3> held{};  // components that the joint forbids
+  int first_state = 0;         // of the law, among those of all joints
 };
 
 /// What a servo's coordinate is to be at time t, with its rate and acceleration.
@@ -165,7 +167,8 @@ class System {
   /// Whether any law, load or servo has kinks or jumps.
   bool has_branches() const { return has_branches_; }
   /// Which side of them everything is on: a number that changes where a side does. Gaps and rates are the joints'.
-  std::uint64_t branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate, SlidingModes sliding = {}) const;
+  std::uint64_t branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate, const std::vector<double>& law_state,
+                         SlidingModes sliding = {}) const;
   /// A jump of a motor's effort between two instants, as a ramp still to be given its share.
   std::optional<SlidingMode> jump_between(double t0, const std::vector<S::Motion>& m0, double t1, const std::vector<S::Motion>& m1) const;
   /// How far the argument of a jump is above it.
@@ -175,8 +178,12 @@ class System {
   template <class Add>
   void external_tangents(double t, const std::vector<S::Motion>& m, Add&& add, SlidingModes sliding = {}) const;
 
-  /// M a = Q + G' law(gap, rate): the equations of motion as they stand (for explicit methods and tests).
-  void accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a) const;
+  /// M a = Q + G' law(gap, rate): the equations of motion as they stand (for explicit methods and tests), and the rates of the laws' own
+  /// states; both lists of states may be left out where no law has any.
+  void accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a, const double* law_state = nullptr, double* law_rate = nullptr) const;
+
+  /// States of all joints' laws together.
+  int n_law_states() const { return n_law_states_; }
 
   /// Kinetic energy [J].
   double kinetic(const Vecs& v) const;
@@ -199,6 +206,7 @@ class System {
   std::vector<std::pair<int, int>> coupled_;  // bodies
   std::shared_ptr<const BlockPattern> pattern_ = std::make_shared<const BlockPattern>();
   bool has_branches_ = false;
+  int n_law_states_ = 0;
   mutable std::vector<Tangent> tangents_;  // reused so that steps do not allocate
 };
 

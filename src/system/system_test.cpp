@@ -274,7 +274,7 @@ TEST(System, SaysOnWhichSideOfItsKinksItIs) {
       gap.push_back(r.gap);
       rate.push_back(r.rate);
     }
-    return system.branches(t, m, gap, rate);
+    return system.branches(t, m, gap, rate, {});
   };
   EXPECT_EQ(sides(0, 0.1), sides(0.9, 0.19));
   EXPECT_NE(sides(0, 0.1), sides(0, 0.21));

@@ -36,6 +36,7 @@ Json joint(const Joint& j) {
           {"second", ref(j.second)},
           {"geometry", Json(j.geometry)},
           {"law", {{"word", j.law.word}, {"values", Json(j.law.values)}}},
+          {"friction", {{"word", j.friction.word}, {"values", Json(j.friction.values)}}},
           {"ideal", j.ideal}};
 }
 

@@ -112,13 +112,13 @@ Json warnings_of(const CheckReport& report) {
 Json schema(Exchange&) { return Json::parse(json_schema()); }
 
 Json catalog(Exchange&) {
-  Json laws = Json::array(), types = Json::array(), words = Json::array();
-  for (const LawInfo& law : law_catalog()) {
-    laws.push_back({{"word", law.word}, {"meaning", law.meaning}, {"keys", keys_json(law.keys)}});
-    words.push_back(law.word);
-  }
+  Json laws = Json::array(), types = Json::array();
+  for (const LawInfo& law : law_catalog())
+    laws.push_back({{"word", law.word}, {"meaning", law.meaning}, {"friction", law.role == LawRole::kFriction}, {"keys", keys_json(law.keys)}});
   for (const JointTypeInfo& type : joint_type_catalog()) {
-    Json free = Json::array(), gap = Json::array();
+    Json free = Json::array(), gap = Json::array(), words = Json::array();
+    for (const LawInfo& law : law_catalog())
+      if (suits(law, type.word)) words.push_back(law.word);
     for (const ComponentInfo& component : type.free) free.push_back(component.name);
     for (const ComponentInfo& component : type.gap) gap.push_back(component.name);
     types.push_back({{"word", type.word}, {"meaning", type.meaning}, {"gap", gap}, {"free", free}, {"geometry", keys_json(type.keys)}, {"laws", words}});

@@ -44,10 +44,12 @@ class LaneEndPointProjection : public EndPointProjection {
     lu_.set_diagonal([&](int b, int k) { return mu * mu * system_.bodies[b].mass[k]; });
     std::fill(corrections_.begin(), corrections_.end(), Vec3x4{});
     load_motions(last.m);
+    remembering_.clear();
+    state_tails_.clear();
     for (JointPack& joints : joints_) {
       if (large_) fetch_corrections(joints, last, tails);
       const Kinematics r = read(joints, t, last.m, joints.map);
-      find_weight(joints, mu, last);
+      find_weight(joints, t, mu, last, tails);
       add_blocks(joints);
       L off[3];
       for (int k = 0; k < S::kDof; ++k) off[k] = joints.load(last.gap, k) - r.gap[k];
@@ -65,14 +67,16 @@ class LaneEndPointProjection : public EndPointProjection {
   // The gaps' own accelerations come out of the stages as second differences of what the forces demand; where a joint is
   // neither stiff nor soft for this step, their error is the force's.
   double find_error(const StageTails& tails, const LoadScale& scale) const {
-    TailSize bodies, gaps;
+    TailSize bodies, gaps, states;
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) {
         const double over = system_.bodies[b].mass[k] / scale.body[b][k];
         bodies.add(over * tails.bodies[b][k]);
         gaps.add(over * corrections_[b][k]);
       }
-    return std::max(bodies.value(), kGapError * gaps.value());
+    for (std::size_t i = 0; i < remembering_.size(); ++i)
+      for (int k = 0; k < S::kDof; ++k) states.add((1 / load_on(system_.joints[remembering_[i]], scale)[k]) * state_tails_[i][k]);
+    return std::max({bodies.value(), kGapError * gaps.value(), states.value()});
   }
 
   void project(const Stage& last, double h, State& end, std::vector<S::Motion>& m, LoadScale& scale) {
@@ -83,6 +87,8 @@ class LaneEndPointProjection : public EndPointProjection {
     end.v = last.v;
     end.a = last.a;
     end.gap_accel = last.gap_accel;
+    end.law_state = last.law_state;
+    end.law_rate = last.law_rate;
     find_motions(end, m);
     if (!(assemble_velocity_error(last, end, m) < rounding)) {  // one pass has left more
       assemble_position_error(last, end, m);
@@ -130,13 +136,27 @@ class LaneEndPointProjection : public EndPointProjection {
   }
 
   // K + mu C.
-  void find_weight(JointPack& joints, double mu, const Stage& last) {
+  void find_weight(JointPack& joints, double t, double mu, const Stage& last, const StageTails& tails) {
     if (joints.linear) {
       for (int k = 0; k < S::kDof; ++k) joints.weight[k] = joints.k[k] + mu * joints.c[k];
       return;
     }
-    const Response response = respond(system_.joints[joints.first].law, last.gap[joints.first], last.gap_rate[joints.first]);
-    for (int k = 0; k < 9; ++k) joints.weight[k] = L::all(response.stiffness(k / 3, k % 3) + mu * response.damping(k / 3, k % 3));
+    const JointData& joint = system_.joints[joints.first];
+    joint.law.linearize({t, last.gap[joints.first], last.gap_rate[joints.first], last.law_state.data() + joint.first_state}, tangents_);
+    impedance_.reserve(tangents_.n);
+    if (tangents_.n > 0) find_state_tail(joints.first, mu / kProjectionShare, tails);
+    impedance_.find(tangents_, mu);
+    for (int k = 0; k < 9; ++k) joints.weight[k] = L::all(impedance_.weight[k]);
+  }
+  // The tails of a law's states as the forces that they stand for within the step. Eq. (3.18). The tangents are those at the end:
+  // a joint that begins to stick there holds an error that the slip before it would have let go.
+  void find_state_tail(int j, double mu, const StageTails& tails) {
+    impedance_.find(tangents_, mu);
+    Vec3x4 force{};
+    for (int z = 0; z < tangents_.n; ++z)
+      for (int k = 0; k < S::kDof; ++k) force[k] += impedance_.pushes[k * tangents_.n + z] * tails.law_rates[system_.joints[j].first_state + z];
+    remembering_.push_back(j);
+    state_tails_.push_back(force);
   }
   // Of one of the joints, four sets of gaps.
   static void weigh_tails(const JointPack& joints, int i, const Vec3x4& gap, Vec3x4& f) {
@@ -245,19 +265,21 @@ class LaneEndPointProjection : public EndPointProjection {
       joints.store(gap, end.gap);
       joints.store(rate, end.gap_rate);
       add_to_rhs(joints, accel);
-      find_force(joints, gap, rate, force);
+      find_force(joints, end, gap, rate, force);
       joints.store(force, end.force);
       joints.push(force, force_rhs_);
     }
     return largest_of(left);
   }
 
-  void find_force(const JointPack& joints, const L (&gap)[3], const L (&rate)[3], L (&force)[3]) const {
+  void find_force(const JointPack& joints, const State& end, const L (&gap)[3], const L (&rate)[3], L (&force)[3]) const {
     if (joints.linear) {
       for (int k = 0; k < S::kDof; ++k) force[k] = -(joints.k[k] * gap[k] + joints.c[k] * rate[k]);
       return;
     }
-    const S::Vec f = law_force(system_.joints[joints.first].law, {gap[0][0], gap[1][0], gap[2][0]}, {rate[0][0], rate[1][0], rate[2][0]});
+    const JointData& joint = system_.joints[joints.first];
+    const S::Vec e(gap[0][0], gap[1][0], gap[2][0]), v(rate[0][0], rate[1][0], rate[2][0]);
+    const S::Vec f = joint.law.force({end.t, e, v, end.law_state.data() + joint.first_state});
     for (int k = 0; k < S::kDof; ++k) force[k] = L::all(f[k]);
   }
 
@@ -332,6 +354,10 @@ class LaneEndPointProjection : public EndPointProjection {
   const System& system_;
   const bool large_;
   std::vector<JointPack> joints_;
+  std::vector<int> remembering_;    // joints whose laws have states of their own, with the tails of these as forces
+  std::vector<Vec3x4> state_tails_;
+  LawTangents tangents_;            // of one joint at a time
+  LawImpedance<double> impedance_;
   BlockLu<double, S::kDof> lu_;
   std::vector<BodyAt> at_;          // of bodies and the ground, as the next ones
   std::vector<Vec3x4> corrections_;

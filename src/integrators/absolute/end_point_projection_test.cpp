@@ -151,7 +151,7 @@ class Plainly {
       subtract_gap(joint.at, r_[j], at_.stage.a, wanted_[j]);
       gap.push_back(carried_or(at_.stage.gap[j], r_[j].gap, rounding));
       rate.push_back(carried_or(at_.stage.gap_rate[j], r_[j].rate, rounding_of_rate));
-      force.push_back(law_force(joint.law, gap[j], rate[j]));
+      force.push_back(joint.law.force({0, gap[j], rate[j]}));
     }
     projector_.close(wanted_, a);
     projector_.improve_forces(at_.stage.Q, a, force);

@@ -36,6 +36,8 @@ void RadauStepper::finish_step(double h) {
   nodes_.a[0] = begin_.a;
   nodes_.gap_accel[0] = begin_.gap_accel;
   nodes_.force[0] = begin_.force;
+  nodes_.law_state[0] = begin_.law_state;
+  nodes_.law_rate[0] = begin_.law_rate;
   end_.t = begin_.t + h;
   end_point_->finish(stage_[n_ - 1], h, end_, end_m_, scale_);
   add_work(h);
@@ -43,6 +45,8 @@ void RadauStepper::finish_step(double h) {
     nodes_.a[s + 1].swap(stage_[s].a);
     nodes_.gap_accel[s + 1].swap(stage_[s].gap_accel);
     nodes_.force[s + 1].swap(stage_[s].force);
+    nodes_.law_state[s + 1].swap(stage_[s].law_state);
+    nodes_.law_rate[s + 1].swap(stage_[s].law_rate);
   }
   nodes_.force[n_] = end_.force;
   control_.have_history = true;
@@ -57,7 +61,11 @@ void RadauStepper::add_work(double h) {
     Power& power = nodes_.power[s + 1];
     power = power_of_loads(begin_.t + h * table_.c[s], stage.q, stage.m);
     power[1] += stage.loss;
-    for (const int j : powered_) add_power(system_.joints[j], stage.m, stage.gap[j], stage.gap_rate[j], stage.force[j], power);
+    for (const int j : powered_) {
+      const JointData& joint = system_.joints[j];
+      const LawPoint at{begin_.t + h * table_.c[s], stage.gap[j], stage.gap_rate[j], stage.law_state.data() + joint.first_state};
+      add_power(joint, stage.m, at, stage.force[j], power);
+    }
   }
   end_.supplied = begin_.supplied;
   end_.dissipated = begin_.dissipated;
@@ -75,15 +83,15 @@ RadauStepper::Power RadauStepper::power_of_loads(double t, const Vecs& q, const 
   return {work.supplied, work.lost};
 }
 
-void RadauStepper::add_power(const JointData& joint, const std::vector<S::Motion>& m, const S::Vec& gap, const S::Vec& rate, const S::Vec& force, Power& power) const {
+void RadauStepper::add_power(const JointData& joint, const std::vector<S::Motion>& m, const LawPoint& at, const S::Vec& force, Power& power) const {
   if (joint.servo >= 0) power[0] += force[joint.servo] * system_.pose(joint.at, m).rate[joint.servo];
-  else power[1] += law_loss(joint.law, gap, rate);
+  else power[1] += joint.law.loss(at);
 }
 
 // At end_.
 void RadauStepper::find_power() {
   Power power = power_of_loads(end_.t, end_.q, end_m_);
-  for (int j = 0; j < system_.n_joints(); ++j) add_power(system_.joints[j], end_m_, end_.gap[j], end_.gap_rate[j], end_.force[j], power);
+  for (int j = 0; j < system_.n_joints(); ++j) add_power(system_.joints[j], end_m_, law_point(system_, j, end_), end_.force[j], power);
   end_.supply_power = power[0];
   end_.loss_power = power[1];
 }

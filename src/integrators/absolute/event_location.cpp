@@ -44,8 +44,12 @@ std::uint64_t RadauStepper::branches(double x, double h) {
       inside_rate_[j] += h * v[i] * stage_[i].gap_accel[j];
     }
   }
+  for (std::size_t z = 0; z < inside_law_state_.size(); ++z) {
+    inside_law_state_[z] = begin_.law_state[z];
+    for (int i = 0; i < n_; ++i) inside_law_state_[z] += h * v[i] * stage_[i].law_rate[z];
+  }
   system_.motions(inside_q_, inside_v_, inside_m_);
-  return system_.branches(begin_.t + x * h, inside_m_, inside_gap_, inside_rate_, begin_.sliding);
+  return system_.branches(begin_.t + x * h, inside_m_, inside_gap_, inside_rate_, inside_law_state_, begin_.sliding);
 }
 
 // The branches a time d ahead of the start, by Taylor's series: all there is to go by when the stages are not solved.
@@ -59,8 +63,9 @@ std::uint64_t RadauStepper::branches_ahead(double d) {
     inside_gap_[j] = begin_.gap[j] + d * begin_.gap_rate[j] + half * begin_.gap_accel[j];
     inside_rate_[j] = begin_.gap_rate[j] + d * begin_.gap_accel[j];
   }
+  for (std::size_t z = 0; z < inside_law_state_.size(); ++z) inside_law_state_[z] = begin_.law_state[z] + d * begin_.law_rate[z];
   system_.motions(inside_q_, inside_v_, inside_m_);
-  return system_.branches(begin_.t + d, inside_m_, inside_gap_, inside_rate_, begin_.sliding);
+  return system_.branches(begin_.t + d, inside_m_, inside_gap_, inside_rate_, inside_law_state_, begin_.sliding);
 }
 
 SwitchingEvent RadauStepper::locate_event(double h, bool solved) {
@@ -82,8 +87,9 @@ bool RadauStepper::step_over_event(double distance) {
       end_.gap[j] += d * end_.gap_rate[j] + half * end_.gap_accel[j];
       end_.gap_rate[j] += d * end_.gap_accel[j];
     }
+    for (std::size_t z = 0; z < end_.law_state.size(); ++z) end_.law_state[z] += d * end_.law_rate[z];
     system_.motions(end_.q, end_.v, end_m_);
-    const std::uint64_t now = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.sliding);
+    const std::uint64_t now = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding);
     if (now == branch_) continue;
     branch_ = now;
     return true;
@@ -103,7 +109,7 @@ void RadauStepper::cross_event(double distance) {
     enter_sliding(*jump, margin, ramp_size(system_, *jump, end_, control_.usual, tolerance_), end_.sliding, [this] { balance_end(); },
               [&] { return margin_rate(*jump); });
   }
-  branch_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.sliding);
+  branch_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding);
   control_.have_history = false;
 }
 
@@ -124,13 +130,14 @@ void RadauStepper::update_branches() {
     balance_end();
     control_.have_history = false;
   }
-  branch_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.sliding);
+  branch_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding);
 }
 
 // What the laws and loads really give at end_.
 void RadauStepper::balance_end() {
   system_.joint_kinematics(end_.t, end_m_, end_r_);
-  for (int j = 0; j < system_.n_joints(); ++j) end_.force[j] = law_force(system_.joints[j].law, end_.gap[j], end_.gap_rate[j]);
+  for (int j = 0; j < system_.n_joints(); ++j) end_.force[j] = system_.joints[j].law.force(law_point(system_, j, end_));
+  find_law_rates(system_, end_);
   find_accelerations(system_, end_m_, end_r_, end_);
   find_power();
 }

@@ -14,7 +14,7 @@ GapProjector::GapProjector(const System& system)
       accel_(system.bodies.size()), missing_(system.joints.size()) {
   for (std::size_t j = 0; j < slots_.size(); ++j) {
     const Placement& at = system.joints[j].at;
-    diagonal_[j] = std::holds_alternative<LinearLaw>(system.joints[j].law);
+    diagonal_[j] = system.joints[j].law.constant_diagonal() != nullptr;
     if (at.a != kGround && at.b != kGround) slots_[j] = system.pattern().slot(at.a, at.b);
   }
 }
@@ -35,7 +35,7 @@ bool GapProjector::factorize(double mu, const Vecs& gap_at, const Vecs& rate_at,
   lu_.set_diagonal([&](int b, int k) { return mu * mu * system_.bodies[b].mass[k]; });
   for (int j = 0; j < system_.n_joints(); ++j) {
     const Law& law = system_.joints[j].law;
-    const auto* linear = std::get_if<LinearLaw>(&law);
+    const LinearLaw* linear = law.constant_diagonal();
     if (linear) {
       weight_[j].diagonal() = linear->k + mu * linear->c;
     } else {

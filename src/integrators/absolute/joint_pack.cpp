@@ -22,7 +22,7 @@ void put(const JointData& data, const System& system, int lane, JointPack& pack)
   for (int k = 0; k < 3; ++k) {
     pack.forbidden[k].set(lane, data.free_mask[k] == 0 ? 1 : 0);
     if (const auto* displacement = std::get_if<Selection>(&data.displacement)) pack.offset[k].set(lane, displacement->offset[k]);
-    if (const auto* law = std::get_if<LinearLaw>(&data.law)) {
+    if (const LinearLaw* law = data.law.constant_diagonal()) {
       pack.k[k].set(lane, law->k[k]);
       pack.c[k].set(lane, law->c[k]);
     }
@@ -35,7 +35,7 @@ std::vector<JointPack> pack_joints(const System& system) {
   std::vector<JointPack> packs;
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& data = system.joints[j];
-    const bool linear = std::holds_alternative<LinearLaw>(data.law), pose = linear && std::holds_alternative<Selection>(data.displacement) && data.servo < 0;
+    const bool linear = data.law.constant_diagonal() != nullptr, pose = linear && std::holds_alternative<Selection>(data.displacement) && data.servo < 0;
     if (!pose || packs.empty() || !packs.back().pose || packs.back().n == 4) {
       JointPack& pack = packs.emplace_back();
       pack.first = j;

@@ -50,12 +50,22 @@ class LaneStageSolver : public StageSolver {
     int index = 0;           // in the system
     int a, b;                // its bodies; the ground stands behind the last one
     int first, last;         // of them but the ground
-    int full = -1;           // its matrix among full_, where that is not diagonal
+    int general = -1;        // among general_, where the law is more than springs and dampers
     bool linear = false;     // springs and dampers
     bool function = false;   // its gap is a function of the pose
     bool loses = false;      // power, as a spring and a damper that no motor drives
     signed char servo = -1;  // component that a servo drives
     BlockPattern::Slot slot{};  // of its bodies, A before B
+  };
+  // What a joint has whose law is more than springs and dampers.
+  struct General {
+    LawTangents tangents;            // at the stage where the equations are linearised
+    LawImpedance<X> impedance;       // there
+    X over_mu2[9];                   // its weight over mu^2
+    X missing_gap[3];                // in the gap's equation, in the diagonal frame
+    std::vector<L> state, rate;      // of the law's own; their rates are unknowns of the stages
+    std::vector<L> residual;         // in the rates' equations
+    std::vector<X> missing_hat;      // the same in the diagonal frame
   };
   struct Curve;  // through the last step's nodes
 
@@ -83,9 +93,13 @@ class LaneStageSolver : public StageSolver {
   void begin_matrix(double h);
   void add_loads(const State& begin, double h);
   void linearize(const State& begin, Joint& joint, const GapMap<L>& map);
-  void add_joint(const Joint& joint, const Response& tangents);
+  void add_joint(const Joint& joint, const X* weight, const Planar::Vec& force);
   static void add_block(Block<X, 3>& block, const Planar::Mat& K, const Planar::Mat& C, const X& mu, double sign);
   double back_substitute(const State& begin);
+  void place_general(const State& begin, Joint& joint, const L* gap, const L* rate, L* force);
+  void answer_states(General& general, const X* missing, X* f) const;
+  void move_states(General& general, const L* accel) const;
+  void write_states(const State& begin, const Joint& joint, std::vector<Stage>& stages, StageTails& tails) const;
   void apply_joint_correction(const State& begin, Joint& joint, L& worst, L& sum);
   void apply_body_correction(const State& begin, int b, const BlockVec<X, 3>& x, L& worst, L& sum);
 
@@ -109,7 +123,7 @@ class LaneStageSolver : public StageSolver {
   const BlockPattern pattern_;                // of rows in the order of elimination
   std::vector<Body> bodies_;                  // in that order
   std::vector<Joint> joints_;                 // in the order of their last bodies
-  std::vector<std::array<X, 9>> full_;        // (K + mu C) / mu^2 where that is not diagonal, by rows
+  std::vector<General> general_;
   std::vector<L> target_accel_;               // of servos' targets, by joint of the system; empty: there is no servo
   Vecs Q_;                                    // of one stage, by body of the system
   std::vector<BlockVec<L, 3>> loads_on_;      // and on the ground: gravity and loads at the stages, where there are loads

@@ -29,6 +29,12 @@ struct LaneStageSolver<N>::Curve {
     for (int n = 1; n <= N; ++n) x += node[n][i][k] * weight[n];
     return x;
   }
+  L state_ahead(const std::vector<double>& start, std::size_t z) const {
+    if (!nodes) return L::all(start[z]);
+    L x = nodes->law_rate[0][z] * weight[0];
+    for (int n = 1; n <= N; ++n) x += nodes->law_rate[n][z] * weight[n];
+    return x;
+  }
 };
 
 // What a large mechanism will want soon, past body b and past joint j: the solver's own first, then what the system has of it. All such
@@ -75,6 +81,11 @@ void LaneStageSolver<N>::begin_joint(const State& begin, const Curve& curve, con
   for (int k = 0; k < 3; ++k) {
     joint.over_scale[k] = 1 / std::max(on[k], beside[k]);
     joint.accel[k] = curve.ahead(&StepNodes::gap_accel, begin.gap_accel, joint.index, k);
+  }
+  if (!joint.linear) {
+    General& general = general_[joint.general];
+    const int first_state = system_.joints[joint.index].first_state;
+    for (std::size_t z = 0; z < general.rate.size(); ++z) general.rate[z] = curve.state_ahead(begin.law_rate, first_state + z);
   }
   L change = L::all(0), sum = change;
   place_joint(begin, joint, change, sum);

@@ -41,24 +41,31 @@ void LaneStageSolver<N>::linearize(const State& begin, Joint& joint, const GapMa
   constexpr int i = kMiddle;
   const int j = joint.index;
   joint.frozen = map.lane(i);
+  const X one(1.0);
   if (!joint.linear) {
+    const JointData& data = system_.joints[j];
+    General& general = general_[joint.general];
     Planar::Vec gap, rate;
+    double state[kMostLawStates];
     for (int k = 0; k < 3; ++k) {
       L rates;
       gap[k] = place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], rates)[i];
       rate[k] = rates[i];
     }
-    const Response response = respond(system_.joints[j].law, gap, rate);
-    for (int k = 0; k < 9; ++k) full_[joint.full][k] = response.stiffness(k / 3, k % 3) * twice_ + response.damping(k / 3, k % 3) * once_;
-    add_joint(joint, response);
+    for (std::size_t z = 0; z < general.state.size(); ++z) state[z] = general.state[z][i];
+    data.law.linearize({begin.t + step_.c[i], gap, rate, state}, general.tangents);
+    general.impedance.find(general.tangents, mu_);
+    for (int k = 0; k < 9; ++k) general.over_mu2[k] = twice_ * general.impedance.weight[k];
+    add_joint(joint, general.impedance.weight, general.tangents.force);
     return;
   }
   const Planar::Vec force(joint.force[0][i], joint.force[1][i], joint.force[2][i]);
   if (joint.function) {
-    add_joint(joint, {force, Planar::Vec(joint.k[0], joint.k[1], joint.k[2]).asDiagonal(), Planar::Vec(joint.c[0], joint.c[1], joint.c[2]).asDiagonal()});
+    X weight[9];
+    for (int k = 0; k < 9; ++k) weight[k] = k % 4 == 0 ? joint.k[k / 4] * one + joint.c[k / 4] * mu_ : X(0.0);
+    add_joint(joint, weight, force);
     return;
   }
-  const X one(1.0);
   X w[3];
   for (int k = 0; k < 3; ++k) w[k] = joint.k[k] * one + joint.c[k] * mu_;
   PoseBlocks<X>::of(joint.frozen, w, force).add_to(lu_, body_or_ground(joint.a), body_or_ground(joint.b), joint.slot);
@@ -71,23 +78,33 @@ void LaneStageSolver<N>::add_block(Block<X, 3>& block, const Planar::Mat& K, con
     for (int c = 0; c < 3; ++c) block(r, c) += (sign * K(r, c)) * one + (sign * C(r, c)) * mu;
 }
 
-// G' (K + mu C) G - N of one joint, of any kind.
+// G' w G - N of one joint of any kind, whose weight is any matrix.
 template <int N>
-void LaneStageSolver<N>::add_joint(const Joint& joint, const Response& tangents) {
+void LaneStageSolver<N>::add_joint(const Joint& joint, const X* weight, const Planar::Vec& force) {
   const JointData& data = system_.joints[joint.index];
-  const Placement& at = data.at;
-  const RelativePose pose = system_.pose(at, motions_);
+  const RelativePose pose = system_.pose(data.at, motions_);
   const JointKinematics r = read(data.displacement, pose);
-  const auto geometric = geometric_stiffness(data.displacement, pose, tangents.force);
-  const Planar::Mat KA = tangents.stiffness * r.GA(), KB = tangents.stiffness * r.GB(), CA = tangents.damping * r.GA(), CB = tangents.damping * r.GB();
-  const Planar::Mat At = r.GA().transpose(), Bt = r.GB().transpose();
-  if (at.a != kGround) add_block(lu_.diagonal(joint.a), At * KA - geometric.template block<3, 3>(0, 0), At * CA, mu_, 1);
-  if (at.b != kGround) add_block(lu_.diagonal(joint.b), Bt * KB - geometric.template block<3, 3>(3, 3), Bt * CB, mu_, 1);
-  if (at.a == kGround || at.b == kGround) return;
-  BlockPattern::Slot slot = joint.slot;
-  if (lu_.has(slot)) add_block(lu_.off_diagonal(slot), At * KB - geometric.template block<3, 3>(0, 3), At * CB, mu_, 1);
-  slot.upper = !slot.upper;
-  if (lu_.has(slot)) add_block(lu_.off_diagonal(slot), Bt * KA - geometric.template block<3, 3>(3, 0), Bt * CA, mu_, 1);
+  const auto geometric = geometric_stiffness(data.displacement, pose, force);
+  const std::array<Planar::Mat, 2> G{r.GA(), r.GB()};
+  const std::array<int, 2> body{body_or_ground(joint.a), body_or_ground(joint.b)};
+  for (int column = 0; column < 2; ++column) {
+    if (body[column] == kGround) continue;
+    X force_by[3][3];  // w G
+    for (int k = 0; k < 3; ++k)
+      for (int c = 0; c < 3; ++c) force_by[k][c] = G[column](0, c) * weight[3 * k] + G[column](1, c) * weight[3 * k + 1] + G[column](2, c) * weight[3 * k + 2];
+    for (int row = 0; row < 2; ++row) {
+      if (body[row] == kGround) continue;
+      BlockPattern::Slot slot = joint.slot;
+      if (row > column) slot.upper = !slot.upper;
+      if (row != column && !lu_.has(slot)) continue;
+      Block<X, 3>& block = row == column ? lu_.diagonal(row == 0 ? joint.a : joint.b) : lu_.off_diagonal(slot);
+      for (int p = 0; p < 3; ++p)
+        for (int c = 0; c < 3; ++c) {
+          block(p, c) -= X(geometric(3 * row + p, 3 * column + c));
+          for (int k = 0; k < 3; ++k) block(p, c) += G[row](k, p) * force_by[k][c];
+        }
+    }
+  }
 }
 
 }  // namespace pintle

@@ -10,7 +10,7 @@ namespace pintle {
 /// Springs and dampers make symmetric matrices.
 inline Symmetry symmetry_of_joints(const System& system) {
   for (const JointData& joint : system.joints)
-    if (!std::holds_alternative<LinearLaw>(joint.law)) return Symmetry::kNone;
+    if (!joint.law.constant_diagonal()) return Symmetry::kNone;
   return Symmetry::kSymmetric;
 }
 

@@ -10,26 +10,29 @@ using S = Planar;
 RadauStepper::RadauStepper(const System& system, double tolerance, int stages, ToleranceOf tolerance_of)
     : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion),
       solver_(make_stage_solver(system, table_, tolerance, of_motion_ ? Steps::kLong : Steps::kAccurate)), stage_(table_.n), end_point_(make_end_point_projection(system)),
-      tails_{std::vector<Vec3x4>(system.bodies.size()), std::vector<Vec3x4>(system.joints.size())}, end_m_(system.bodies.size()) {
+      tails_{std::vector<Vec3x4>(system.bodies.size()), std::vector<Vec3x4>(system.joints.size()), std::vector<Lanes<4>>(system.n_law_states())}, end_m_(system.bodies.size()) {
   const std::size_t n = system.bodies.size(), m = system.joints.size();
   const Vecs bodies(n, S::Vec::Zero()), joints(m, S::Vec::Zero());
+  const std::vector<double> states(system.n_law_states());
   for (int j = 0; j < system.n_joints(); ++j)
-    if (system.joints[j].servo >= 0 || !std::holds_alternative<LinearLaw>(system.joints[j].law)) powered_.push_back(j);
+    if (system.joints[j].servo >= 0 || !system.joints[j].law.constant_diagonal()) powered_.push_back(j);
   const bool only_last = powered_.empty() && !system.has_loads();  // no other stage is asked for its power
   for (Stage& s : stage_) {
     s.a = bodies;
     s.gap_accel = s.force = joints;
+    s.law_state = s.law_rate = states;
     if (only_last && &s != &stage_.back()) continue;
     s.q = s.v = s.Q = bodies;
     s.gap = s.gap_rate = joints;
     s.m.resize(n);
   }
   nodes_ = {&table_, std::vector<Vecs>(n_ + 1, bodies), std::vector<Vecs>(n_ + 1, joints), std::vector<Vecs>(n_ + 1, joints),
-            std::vector<std::array<double, 2>>(n_ + 1)};
+            std::vector<std::vector<double>>(n_ + 1, states), std::vector<std::vector<double>>(n_ + 1, states), std::vector<std::array<double, 2>>(n_ + 1)};
   scale_.body = bodies;
   if (!system.has_branches()) return;
   inside_q_ = inside_v_ = bodies;
   inside_gap_ = inside_rate_ = joints;
+  inside_law_state_ = states;
   end_r_.resize(m);
 }
 
@@ -50,7 +53,7 @@ void RadauStepper::start(const State& state, double h) {
   system_.external(end_.t, end_m_, last.Q, end_.sliding);
   find_power();
   chattering_.forget();
-  branch_ = system_.has_branches() ? system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.sliding) : 0;
+  branch_ = system_.has_branches() ? system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding) : 0;
   grow_load_scale(system_, end_m_, last.Q, end_, scale_);
   if (unloaded()) foresee_loads(h);
 }

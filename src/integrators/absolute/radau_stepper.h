@@ -67,8 +67,7 @@ class RadauStepper {
   using Power = std::array<double, 2>;        // supplied, lost [W]
   void add_work(double h);
   Power power_of_loads(double t, const Vecs& q, const std::vector<Planar::Motion>& m) const;
-  void add_power(const JointData& joint, const std::vector<Planar::Motion>& m, const Planar::Vec& gap, const Planar::Vec& rate,
-                 const Planar::Vec& force, Power& power) const;
+  void add_power(const JointData& joint, const std::vector<Planar::Motion>& m, const LawPoint& at, const Planar::Vec& force, Power& power) const;
   void find_power();
 
   // event_location.cpp: steps that end where a force has a kink
@@ -98,6 +97,7 @@ class RadauStepper {
   StageTails tails_;
   std::vector<int> powered_;                  // joints whose power no stage has summed up
   Vecs inside_q_, inside_v_, inside_gap_, inside_rate_;
+  std::vector<double> inside_law_state_;
   std::vector<JointKinematics> end_r_;
   std::vector<Planar::Motion> end_m_, inside_m_;
   LoadScale scale_;

@@ -218,7 +218,7 @@ TEST(RadauStepper, CarriedGapsAreThoseOfThePositions) {
       const JointKinematics r = system.kinematics(j, s.t, m);
       EXPECT_LT((r.gap - s.gap[j]).head<2>().norm(), 1e-13);
       EXPECT_LT((s.t - before) * (r.rate - s.gap_rate[j]).head<2>().norm(), 1e-13);
-      EXPECT_LT((s.force[j] - law_force(system.joints[j].law, s.gap[j], s.gap_rate[j])).head<2>().norm(), 1e-5 * peak);
+      EXPECT_LT((s.force[j] - system.joints[j].law.force({s.t, s.gap[j], s.gap_rate[j]})).head<2>().norm(), 1e-5 * peak);
     }
   }
 }

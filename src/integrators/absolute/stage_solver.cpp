@@ -37,15 +37,19 @@ LaneStageSolver<N>::LaneStageSolver(const System& system, const RadauTable& tabl
     joint.F = {data.at.F.p, data.at.F.c, data.at.F.s};
     joint.M = {data.at.M.p, data.at.M.c, data.at.M.s};
     joint.servo = static_cast<signed char>(data.servo);
-    if (const auto* law = std::get_if<LinearLaw>(&data.law)) {
+    if (const LinearLaw* law = data.law.constant_diagonal()) {
       joint.linear = true;
       for (int k = 0; k < 3; ++k) {
         joint.k[k] = law->k[k];
         joint.c[k] = law->c[k];
       }
     } else {
-      joint.full = static_cast<int>(full_.size());
-      full_.emplace_back();
+      joint.general = static_cast<int>(general_.size());
+      General& general = general_.emplace_back();
+      const int states = data.law.n_states();
+      general.impedance.reserve(states);
+      for (auto* x : {&general.state, &general.rate, &general.residual}) x->resize(states);
+      general.missing_hat.resize(states);
     }
     joint.loses = joint.linear && data.servo < 0;
     simple_ = simple_ && joint.loses;
@@ -188,18 +192,32 @@ void LaneStageSolver<N>::place_joint(const State& begin, Joint& joint, L& worst,
   const S::Vec &gap_there = begin.gap[joint.index], &rate_there = begin.gap_rate[joint.index];
   L gap[3], rate[3];
   for (int k = 0; k < 3; ++k) gap[k] = place(joint.accel[k], gap_there[k], rate_there[k], rate[k]);
-  double at[3][N];  // of laws that are asked stage by stage
-  for (int s = 0; s < N && !joint.linear; ++s) {
-    const S::Vec f = law_force(system_.joints[joint.index].law, {gap[0][s], gap[1][s], gap[2][s]}, {rate[0][s], rate[1][s], rate[2][s]});
-    for (int k = 0; k < 3; ++k) at[k][s] = f[k];
-  }
+  L of_law[3];
+  if (!joint.linear) place_general(begin, joint, gap, rate, of_law);
   for (int k = 0; k < 3; ++k) {
-    const L force = joint.linear ? -(joint.k[k] * gap[k] + joint.c[k] * rate[k]) : L::of(at[k]);
+    const L force = joint.linear ? -(joint.k[k] * gap[k] + joint.c[k] * rate[k]) : of_law[k];
     const L change = joint.over_scale[k] * (force - joint.force[k]);
     worst = larger_size(worst, change);
     sum += change;
     joint.force[k] = force;
   }
+}
+
+// The states of a law at the stages, its force, and what is missing in its states' equations.
+template <int N>
+void LaneStageSolver<N>::place_general(const State& begin, Joint& joint, const L* gap, const L* rate, L* force) {
+  const JointData& data = system_.joints[joint.index];
+  General& general = general_[joint.general];
+  for (std::size_t z = 0; z < general.state.size(); ++z) general.state[z] = L::all(begin.law_state[data.first_state + z]) + step_.A * general.rate[z];
+  LawInput<L> in;
+  in.t = L::all(begin.t) + step_.c;
+  std::copy_n(gap, 3, in.gap);
+  std::copy_n(rate, 3, in.rate);
+  in.state = general.state.data();
+  LawOutput<L> out;
+  data.law.evaluate(in, out);
+  std::copy_n(out.force, 3, force);
+  for (std::size_t z = 0; z < general.state.size(); ++z) general.residual[z] = general.rate[z] - out.state_rate[z];
 }
 
 // What is missing in a body's equations but for the joints' forces. Eq. (3.6).
@@ -252,8 +270,34 @@ void LaneStageSolver<N>::assemble_joint(Joint& joint, const GapMap<L>& map, cons
   if (joint.linear)
     for (int k = 0; k < 3; ++k) f[k] = (joint.k[k] * twice_ + joint.c[k] * once_) * missing[k];
   else
-    weigh(false, full_[joint.full].data(), missing, f);
+    answer_states(general_[joint.general], missing, f);
   joint.frozen.push(f, rhs_[joint.a], rhs_[joint.b]);
+}
+
+// The forces that answer what is missing in a gap's equation and in those of the law's states. Eq. (3.16).
+template <int N>
+void LaneStageSolver<N>::answer_states(General& general, const X* missing, X* f) const {
+  weigh(false, general.over_mu2, missing, f);
+  std::copy_n(missing, 3, general.missing_gap);
+  const int n = general.impedance.n;
+  for (int z = 0; z < n; ++z) {
+    general.missing_hat[z] = X(matrices_.T_inverse * general.residual[z]);
+    for (int k = 0; k < 3; ++k) f[k] -= general.impedance.pushes[k * n + z] * general.missing_hat[z];
+  }
+}
+
+// The rates of a law's states, once the gap's acceleration is corrected. Eq. (3.17).
+template <int N>
+void LaneStageSolver<N>::move_states(General& general, const L* accel) const {
+  const LawImpedance<X>& law = general.impedance;
+  X gap[3];
+  for (int k = 0; k < 3; ++k) gap[k] = once_ * (X(matrices_.T_inverse * accel[k]) - general.missing_gap[k]);
+  for (int z = 0; z < law.n; ++z) {
+    X move(0.0);
+    for (int k = 0; k < 3; ++k) move += law.follows[3 * z + k] * gap[k];
+    for (int y = 0; y < law.n; ++y) move -= mu_ * (law.inverse[z * law.n + y] * general.missing_hat[y]);
+    general.rate[z] += matrices_.T * move.x;
+  }
 }
 
 // The map of a joint and its convective acceleration; of a servo less than the target's.
@@ -333,6 +377,7 @@ void LaneStageSolver<N>::apply_joint_correction(const State& begin, Joint& joint
   L e[3];
   joint.frozen.gather(bodies_[joint.a].residual, bodies_[joint.b].residual, e);
   for (int k = 0; k < 3; ++k) joint.accel[k] += e[k];
+  if (!joint.linear) move_states(general_[joint.general], e);
   place_joint(begin, joint, worst, sum);
 }
 
@@ -417,6 +462,7 @@ void LaneStageSolver<N>::write_stages(const State& begin, std::vector<Stage>& st
     }
     if (joint.loses)
       for (int k = 0; k < 3; ++k) loss += joint.c[k] * (rate[k] * rate[k]);
+    if (!joint.linear) write_states(begin, joint, stages, tails);
     for (int s = 0; s < N; ++s) {
       Stage& stage = stages[s];
       copy(joint.accel, s, stage.gap_accel[j]);
@@ -427,6 +473,21 @@ void LaneStageSolver<N>::write_stages(const State& begin, std::vector<Stage>& st
     }
   }
   for (int s = 0; s < N; ++s) stages[s].loss = loss[s];
+}
+
+// The laws' own states at the stages, and the tails of their rates.
+template <int N>
+void LaneStageSolver<N>::write_states(const State& begin, const Joint& joint, std::vector<Stage>& stages, StageTails& tails) const {
+  const General& general = general_[joint.general];
+  const int n = general.impedance.n, first = system_.joints[joint.index].first_state;
+  for (int z = 0; z < n; ++z) {
+    const L tail = begin.law_rate[first + z] * matrices_.tail_of_start + matrices_.tail * general.rate[z];
+    tails.law_rates[first + z] = Lanes<4>::of({tail[0], tail[1], tail[2], 0});
+    for (int s = 0; s < N; ++s) {
+      stages[s].law_state[first + z] = general.state[z][s];
+      stages[s].law_rate[first + z] = general.rate[z][s];
+    }
+  }
 }
 
 template <int N>

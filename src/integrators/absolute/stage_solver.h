@@ -7,8 +7,8 @@
 #include "integrators/load_scale.h"
 #include "integrators/radau/radau_table.h"
 #include "integrators/radau/step_nodes.h"
-#include "linalg/block.h"
 #include "pintle/trajectory.h"
+#include "linalg/block.h"
 #include "simd/lanes.h"
 #include "system/state.h"
 
@@ -19,6 +19,7 @@ namespace pintle {
 struct Stage {
   Vecs q, v, a, Q;                            // bodies
   Vecs gap, gap_rate, gap_accel, force;       // joints
+  std::vector<double> law_state, law_rate;    // of the laws' own states
   std::vector<Planar::Motion> m;
   double loss = 0;                            // power lost in the springs and dampers that are joints [W]
 };
@@ -31,6 +32,7 @@ using Vec3x4 = BlockVec<Lanes<4>, Planar::kDof>;
 /// concerned.
 struct StageTails {
   std::vector<Vec3x4> bodies, gaps;
+  std::vector<Lanes<4>> law_rates{};  // those of the rates of the laws' own states, with the start of the step
 };
 
 class StageSolver {

@@ -46,7 +46,7 @@ struct Start {
 
 std::vector<Stage> room_for(const System& system, int stages) {
   const Vecs bodies(system.bodies.size(), Vec::Zero()), joints(system.joints.size(), Vec::Zero());
-  return std::vector<Stage>(stages, Stage{bodies, bodies, bodies, bodies, joints, joints, joints, joints, std::vector<Planar::Motion>(bodies.size())});
+  return std::vector<Stage>(stages, Stage{bodies, bodies, bodies, bodies, joints, joints, joints, joints, {}, {}, std::vector<Planar::Motion>(bodies.size())});
 }
 
 double largest(const Vec& x) { return x.cwiseAbs().maxCoeff(); }
@@ -99,13 +99,13 @@ Misfits misfits(const Start& at, const RadauTable& table, double h, const std::v
     }
     double loss = 0;
     for (int j = 0; j < system.n_joints(); ++j)
-      if (system.joints[j].servo < 0 && std::holds_alternative<LinearLaw>(system.joints[j].law)) loss += law_loss(system.joints[j].law, s.gap[j], s.gap_rate[j]);
+      if (system.joints[j].servo < 0 && system.joints[j].law.constant_diagonal()) loss += system.joints[j].law.loss({0, s.gap[j], s.gap_rate[j]});
     note(worst.loss, std::abs(s.loss - loss) / (1 + loss));
     for (int j = 0; j < system.n_joints(); ++j) {
       const Placement& on = system.joints[j].at;
       note(worst.collocation,
            collocation_misfit(table, i, h, at.begin.gap[j], at.begin.gap_rate[j], s.gap[j], s.gap_rate[j], over_stages(&Stage::gap_accel, j)));
-      const Vec f = law_force(system.joints[j].law, s.gap[j], s.gap_rate[j]);
+      const Vec f = system.joints[j].law.force({0, s.gap[j], s.gap_rate[j]});
       note(worst.force, largest(s.force[j] - f) / (1 + largest(f)));
       Vec accel = r[j].bias;
       double size = 1 + largest(r[j].bias);
@@ -196,7 +196,7 @@ TEST(StageSolver, SolutionsOfEverythingSatisfyTheEquations) {
         if (seed % 2 == 0) model.joints[kRope].geometry = {{"length", 4}};
         const Start at(at_random(model, seed), 0.7);
         for (const Stage& s : solve_and_check(at, stages, h, "everything"))
-          ++(std::get<TensionLaw>(at.system.joints[kRope].law).pulls(s.gap[kRope], s.gap_rate[kRope]) ? pulling : slack);
+          ++(at.system.joints[kRope].law.branch({0, s.gap[kRope], s.gap_rate[kRope]}) ? pulling : slack);
       }
   EXPECT_GT(pulling, 10);
   EXPECT_GT(slack, 10);

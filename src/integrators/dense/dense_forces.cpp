@@ -23,7 +23,7 @@ class LaneForces : public DenseForces {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const JointData& data = system.joints[j];
       joints_[j].map.function = !std::holds_alternative<Selection>(data.displacement);
-      joints_[j].linear = std::get_if<LinearLaw>(&data.law);
+      joints_[j].linear = data.law.constant_diagonal();
       if (data.at.a != kGround && data.at.b != kGround) joints_[j].slot = system.pattern().slot(data.at.a, data.at.b);
     }
   }
@@ -102,6 +102,11 @@ class LaneForces : public DenseForces {
       }
       sine_and_cosine(body.q[2], body.s, body.c);
     }
+    for (int s = 0; s < kN && system_.n_law_states() > 0; ++s) {
+      law_state_[s].assign(begin.law_state.size(), 0.0);
+      for (int node = 0; node < n; ++node)
+        for (std::size_t z = 0; z < law_state_[s].size(); ++z) law_state_[s][z] += value[node][s] * nodes.law_state[node][z];
+    }
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
       for (int k = 0; k < 3; ++k) {
@@ -168,9 +173,13 @@ class LaneForces : public DenseForces {
       for (int k = 0; k < 3; ++k) joint.weight[k] = L::all(joint.linear->k[k] + mu * joint.linear->c[k]);
       return;
     }
+    const JointData& data = system_.joints[j];
     for (int s = 0; s < kN; ++s) {
-      const Response r = respond(system_.joints[j].law, {joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]}, {joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]});
-      for (int k = 0; k < 9; ++k) joint.weight[k].set(s, r.stiffness(k / 3, k % 3) + mu * r.damping(k / 3, k % 3));
+      const S::Vec gap(joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]), rate(joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]);
+      data.law.linearize({t_[s], gap, rate, law_state_[s].data() + data.first_state}, tangents_);
+      impedance_.reserve(tangents_.n);
+      impedance_.find(tangents_, mu);
+      for (int k = 0; k < 9; ++k) joint.weight[k].set(s, impedance_.weight[k]);
     }
   }
   static void weigh(const Joint& joint, const L* gap, L* f) { pintle::weigh(joint.linear != nullptr, joint.weight, gap, f); }
@@ -292,6 +301,9 @@ class LaneForces : public DenseForces {
   std::vector<Three> pull_, loads_on_; // and the ground's; gravity and loads
   std::vector<S::Motion> motions_;     // of one instant
   Vecs Q_;
+  std::array<std::vector<double>, kN> law_state_;  // at the instants
+  LawTangents tangents_;               // of one law at one of them
+  LawImpedance<double> impedance_;
 };
 
 class NarrowForces final : public LaneForces {

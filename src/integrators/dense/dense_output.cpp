@@ -44,6 +44,8 @@ DenseOutput::DenseOutput(const System& system)
     : system_(system) {
   out_.q = out_.v = out_.a = Vecs(system.bodies.size(), S::Vec::Zero());
   out_.gap = out_.gap_rate = out_.gap_accel = out_.force = Vecs(system.joints.size(), S::Vec::Zero());
+  out_.law_state.resize(system.n_law_states());
+  out_.law_rate.resize(system.n_law_states());
 }
 
 const State& DenseOutput::at(double t, const State& begin, const State& end) {
@@ -58,7 +60,10 @@ const State& DenseOutput::at(double t, const State& begin, const State& end) {
   out_.sliding = begin.sliding;
   out_.dissipated = cubic(s, h, begin.dissipated, begin.loss_power, end.dissipated, end.loss_power);
   out_.supplied = cubic(s, h, begin.supplied, begin.supply_power, end.supplied, end.supply_power);
-  for (int j = 0; j < system_.n_joints(); ++j) out_.force[j] = law_force(system_.joints[j].law, out_.gap[j], out_.gap_rate[j]);
+  for (std::size_t z = 0; z < out_.law_state.size(); ++z)
+    out_.law_state[z] = cubic(s, h, begin.law_state[z], begin.law_rate[z], end.law_state[z], end.law_rate[z]);
+  for (int j = 0; j < system_.n_joints(); ++j) out_.force[j] = system_.joints[j].law.force(law_point(system_, j, out_));
+  find_law_rates(system_, out_);
   return out_;
 }
 
@@ -71,6 +76,7 @@ const State& DenseOutput::at(double t, const State& begin, const State& end, con
     find_forces(begin, end, nodes);
   }
   follow(t, begin, end);
+  follow_states((t - begin.t) / (end.t - begin.t), nodes);
   return out_;
 }
 
@@ -121,6 +127,19 @@ void DenseOutput::follow(double t, const State& begin, const State& end) {
     for (int i = 0; i < 2; ++i) work[i] += first[k] * power_[k][i];
   out_.supplied = begin.supplied + work[0];
   out_.dissipated = begin.dissipated + work[1];
+}
+
+// The laws' own states on the polynomial through the nodes.
+void DenseOutput::follow_states(double x, const StepNodes& nodes) {
+  if (out_.law_state.empty()) return;
+  const RadauTable::Vec weight = nodes.table->weights(x);
+  for (std::size_t z = 0; z < out_.law_state.size(); ++z) {
+    out_.law_state[z] = out_.law_rate[z] = 0;
+    for (int node = 0; node <= nodes.table->n; ++node) {
+      out_.law_state[z] += weight[node] * nodes.law_state[node][z];
+      out_.law_rate[z] += weight[node] * nodes.law_rate[node][z];
+    }
+  }
 }
 
 // Powers of x from values at the nodes; what is left at the far end goes into bends.

@@ -35,6 +35,7 @@ class DenseOutput {
   void find_curves(const State& begin, const State& end, const StepNodes& nodes);
   void find_forces(const State& begin, const State& end, const StepNodes& nodes);
   void follow(double t, const State& begin, const State& end);
+  void follow_states(double x, const StepNodes& nodes);
 
   const System& system_;
   std::unique_ptr<DenseForces> dense_forces_;  // made with the room for curves

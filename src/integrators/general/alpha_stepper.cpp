@@ -47,10 +47,40 @@ void AlphaStepper::set_lag(double h, const Knot& knot, Vecs& a) const {
 }
 
 // F = Q + G' law(gap, rate).
-void AlphaStepper::forces(double t, const Vecs& q, const Vecs& v, Vecs& F) {
-  system_.accelerations(t, q, v, F);
+void AlphaStepper::forces(double t, const Vecs& q, const Vecs& v, std::vector<double>& law_state, Vecs& F) {
+  system_.accelerations(t, q, v, F, law_state.data());
   for (int i = 0; i < system_.n_bodies(); ++i) F[i] = F[i].cwiseProduct(system_.bodies[i].mass);
   ++counters_.evaluations;
+}
+
+// The laws' own states at the end of a step of h, by the trapezoidal rule, joint by joint.
+void AlphaStepper::find_states(double t, const Vecs& q, const Vecs& v, double h) {
+  if (z_.empty()) return;
+  system_.motions(q, v, m_);
+  LawTangents law;
+  LawImpedance<double> follows;
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const JointData& joint = system_.joints[j];
+    const int n = joint.law.n_states(), first = joint.first_state;
+    if (n == 0) continue;
+    const JointKinematics r = system_.kinematics(j, t, m_);
+    follows.reserve(n);
+    for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+      joint.law.linearize({t, r.gap, r.rate, z_.data() + first}, law);
+      follows.find(law, 2 / h);
+      double change = 0, size = 0;
+      Eigen::VectorXd missing(n);
+      for (int z = 0; z < n; ++z) missing[z] = begin_.law_rate[first + z] + law.state_rate[z] - 2 / h * (z_[first + z] - begin_.law_state[first + z]);
+      for (int z = 0; z < n; ++z) {
+        double move = 0;
+        for (int y = 0; y < n; ++y) move += follows.inverse[z * n + y] * missing[y];
+        z_[first + z] += move;
+        change = std::max(change, std::abs(move));
+        size = std::max(size, std::abs(z_[first + z]));
+      }
+      if (!(change > kRounding * size)) break;
+    }
+  }
 }
 
 // theory/solvers Eq. (3.2): where the accelerations a_ take positions and velocities.
@@ -68,8 +98,9 @@ double AlphaStepper::weight(double a, double b, double largest) const {
 // One Newton correction, theory/solvers Eq. (3.4); how large it is, in units of the tolerance.
 double AlphaStepper::correct(double h) {
   const double t = begin_.t + h, new_a = 1 - weights_.accelerations, new_F = 1 - weights_.forces;
-  forces(t, q_, v_, F_);
-  tangents_.find(t, q_, v_);
+  find_states(t, q_, v_, h);
+  forces(t, q_, v_, z_, F_);
+  tangents_.find(t, q_, v_, z_, 2 / h);
   tangents_.combine(new_a, new_F * h * h * beta_, new_F * h * gamma_, lu_);
   ++counters_.factorizations;
   ++counters_.newton_iterations;
@@ -95,6 +126,7 @@ double AlphaStepper::correct(double h) {
 
 bool AlphaStepper::solve(double h) {
   a_ = a_now_;
+  z_ = begin_.law_state;
   place(h);
   const double enough = kNewtonShare * newton_tolerance_ / tolerance_.relative;
   double last = std::numeric_limits<double>::infinity();
@@ -130,7 +162,7 @@ bool AlphaStepper::step(double t_end) {
   begin_ = end_;
   largest_q_ = largest_coordinate(begin_.q);
   largest_v_ = largest_coordinate(begin_.v);
-  forces(begin_.t, begin_.q, begin_.v, F_begin_);
+  forces(begin_.t, begin_.q, begin_.v, begin_.law_state, F_begin_);
   double most = 5;  // by which the next step may be longer
   double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
   while (true) {
@@ -165,6 +197,8 @@ void AlphaStepper::finish(double t, double h) {
   end_.t = t;
   end_.q = q_;
   end_.v = v_;
+  find_states(t, q_, v_, h);
+  end_.law_state = z_;
   force_evaluator_.complete(end_);
   end_.dissipated = begin_.dissipated + 0.5 * h * (begin_.loss_power + end_.loss_power);
   end_.supplied = begin_.supplied + 0.5 * h * (begin_.supply_power + end_.supply_power);
@@ -194,8 +228,12 @@ const State& AlphaStepper::interpolate(double t) {
     between_.gap[j] = r * begin_.gap[j] + s * end_.gap[j];
     between_.gap_rate[j] = r * begin_.gap_rate[j] + s * end_.gap_rate[j];
     between_.gap_accel[j] = r * begin_.gap_accel[j] + s * end_.gap_accel[j];
-    between_.force[j] = law_force(system_.joints[j].law, between_.gap[j], between_.gap_rate[j]);
   }
+  for (std::size_t z = 0; z < between_.law_state.size(); ++z) {
+    between_.law_state[z] = r * begin_.law_state[z] + s * end_.law_state[z];
+    between_.law_rate[z] = r * begin_.law_rate[z] + s * end_.law_rate[z];
+  }
+  for (int j = 0; j < system_.n_joints(); ++j) between_.force[j] = system_.joints[j].law.force(law_point(system_, j, between_));
   between_.loss_power = r * begin_.loss_power + s * end_.loss_power;
   between_.supply_power = r * begin_.supply_power + s * end_.supply_power;
   between_.dissipated = begin_.dissipated + 0.5 * h * s * (begin_.loss_power + between_.loss_power);

@@ -53,7 +53,8 @@ class AlphaStepper final : public Stepper {
   void set_lag(double h, const Knot& knot, Vecs& a) const;
   bool solve(double h);
   void place(double h);
-  void forces(double t, const Vecs& q, const Vecs& v, Vecs& F);
+  void forces(double t, const Vecs& q, const Vecs& v, std::vector<double>& law_state, Vecs& F);
+  void find_states(double t, const Vecs& q, const Vecs& v, double h);
   double correct(double h);
   double error(double h);
   void finish(double t, double h);
@@ -71,6 +72,8 @@ class AlphaStepper final : public Stepper {
   Knot before_, now_;                   // begins of the step before and of this one
   Vecs a_before_, a_now_;               // their accelerations with the lag of this step
   Vecs q_, v_, a_, F_begin_, F_;        // the end that is sought
+  std::vector<double> z_;               // the laws' own states there
+  std::vector<Planar::Motion> m_;
   std::vector<BlockVec<double, Planar::kDof>> work_;
   double largest_q_ = 1, largest_v_ = 1;
   LoadScale no_scale_;

@@ -22,6 +22,8 @@ Dopri5::Dopri5(const System& system, double tolerance)
       dv_(system.bodies.size()) {
   for (auto* k : {&kq_, &kv_})
     for (auto& x : *k) x.resize(system.bodies.size());
+  z_.resize(system.n_law_states());
+  for (auto& k : kz_) k.resize(z_.size());
   scale_.body.assign(system.bodies.size(), S::Vec::Zero());
 }
 
@@ -40,7 +42,9 @@ void Dopri5::find_rounding() {
   for (std::size_t i = 0; i < rounding_.size(); ++i) rounding_[i] = 1e-9 * system_.bodies[i].mass[0];
   for (int j = 0; j < system_.n_joints(); ++j) {
     const JointData& joint = system_.joints[j];
-    const double k = respond(joint.law, end_.gap[j], end_.gap_rate[j]).stiffness.diagonal().head<2>().maxCoeff();
+    LawTangents law;
+    joint.law.linearize(law_point(system_, j, end_), law);
+    const double k = law.stiffness.diagonal().head<2>().maxCoeff();
     const double least = 30 * std::numeric_limits<double>::epsilon() * size * k / tolerance_;
     for (const int body : {joint.at.a, joint.at.b})
       if (body != kGround) rounding_[body] = std::max(rounding_[body], least);
@@ -52,6 +56,7 @@ bool Dopri5::step(double t_end) {
   double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
   kq_[0] = begin_.v;
   kv_[0] = begin_.a;
+  kz_[0] = begin_.law_rate;
   while (true) {
     h = std::min(h, t_end - begin_.t);
     if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
@@ -69,8 +74,12 @@ bool Dopri5::step(double t_end) {
         q_[i] = begin_.q[i] + h * q_[i];
         v_[i] = begin_.v[i] + h * v_[i];
       }
+      for (std::size_t z = 0; z < z_.size(); ++z) {
+        z_[z] = begin_.law_state[z];
+        for (int k = 0; k < s; ++k) z_[z] += h * kA[s][k] * kz_[k][z];
+      }
       kq_[s] = v_;
-      system_.accelerations(begin_.t + kC[s] * h, q_, v_, kv_[s]);
+      system_.accelerations(begin_.t + kC[s] * h, q_, v_, kv_[s], z_.data(), kz_[s].data());
       ++counters_.evaluations;
     }
     const double e = error(h) / tolerance_;
@@ -79,6 +88,7 @@ bool Dopri5::step(double t_end) {
       end_.t = t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h;
       end_.q = q_;
       end_.v = v_;
+      end_.law_state = z_;
       complete(end_);
       end_.dissipated = begin_.dissipated + 0.5 * h * (begin_.loss_power + end_.loss_power);
       end_.supplied = begin_.supplied + 0.5 * h * (begin_.supply_power + end_.supply_power);
@@ -116,8 +126,12 @@ double Dopri5::error(double h) {
       load = std::max(load, scale_.body[body][0]);
       couple = std::max(couple, scale_.body[body][2]);
     }
-    const Response response = respond(joint.law, r_[j].gap, r_[j].rate);
-    const S::Vec df = response.stiffness * de + response.damping * dr;
+    LawTangents law;
+    joint.law.linearize({begin_.t + h, r_[j].gap, r_[j].rate, z_.data() + joint.first_state}, law);
+    S::Vec df = law.stiffness * de + law.damping * dr;
+    for (int z = 0; z < law.n; ++z)
+      for (int s = 0; s < 7; ++s)
+        for (int k = 0; k < 3; ++k) df[k] -= law.force_by_state[k][z] * kE[s] * h * kz_[s][joint.first_state + z];
     worst = std::max({worst, df.head<2>().norm() / load, std::abs(df[2]) / couple});
     if (!std::isfinite(df.sum())) return std::numeric_limits<double>::infinity();
   }

@@ -37,7 +37,9 @@ class Dopri5 {
   double tolerance_, max_step_ = 0, h_ = 0;
   State begin_, end_;
   std::array<Vecs, 7> kq_, kv_;
+  std::array<std::vector<double>, 7> kz_;  // rates of the laws' states
   Vecs q_, v_, dq_, dv_;
+  std::vector<double> z_;
   std::vector<Planar::Motion> m_;
   std::vector<JointKinematics> r_;
   LoadScale scale_;

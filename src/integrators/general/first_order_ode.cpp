@@ -27,9 +27,10 @@ void FirstOrderOde::flatten(const State& state, double* y) const {
       y[3 * i + k] = state.q[i][k];
       y[half + 3 * i + k] = state.v[i][k];
     }
+  std::copy(state.law_state.begin(), state.law_state.end(), y + 2 * half);
   if (!energies_) return;
-  y[2 * half] = state.dissipated;
-  y[2 * half + 1] = state.supplied;
+  y[state_size()] = state.dissipated;
+  y[state_size() + 1] = state.supplied;
 }
 
 void FirstOrderOde::unflatten(double t, const double* y, State& state) const {
@@ -40,15 +41,16 @@ void FirstOrderOde::unflatten(double t, const double* y, State& state) const {
       state.q[i][k] = y[3 * i + k];
       state.v[i][k] = y[half + 3 * i + k];
     }
+  state.law_state.assign(y + 2 * half, y + state_size());
   if (!energies_) return;
-  state.dissipated = y[2 * half];
-  state.supplied = y[2 * half + 1];
+  state.dissipated = y[state_size()];
+  state.supplied = y[state_size() + 1];
 }
 
 bool FirstOrderOde::rate(double t, const double* y, double* dy) {
   unflatten(t, y, at_);
   if (energies_) force_evaluator_.complete(at_);
-  else system_.accelerations(t, at_.q, at_.v, at_.a);
+  else system_.accelerations(t, at_.q, at_.v, at_.a, at_.law_state.data(), at_.law_rate.data());
   const int half = motion_size() / 2;
   double sum = 0;
   for (int i = 0; i < system_.n_bodies(); ++i)
@@ -57,9 +59,10 @@ bool FirstOrderOde::rate(double t, const double* y, double* dy) {
       dy[half + 3 * i + k] = at_.a[i][k];
       sum += at_.v[i][k] + at_.a[i][k];
     }
+  for (std::size_t z = 0; z < at_.law_rate.size(); ++z) sum += dy[2 * half + static_cast<int>(z)] = at_.law_rate[z];
   if (energies_) {
-    dy[2 * half] = at_.loss_power;
-    dy[2 * half + 1] = at_.supply_power;
+    dy[state_size()] = at_.loss_power;
+    dy[state_size() + 1] = at_.supply_power;
     sum += at_.loss_power + at_.supply_power;
   }
   return std::isfinite(sum);
@@ -67,7 +70,26 @@ bool FirstOrderOde::rate(double t, const double* y, double* dy) {
 
 void FirstOrderOde::linearize(double t, const double* y) {
   unflatten(t, y, at_);
-  tangents_.find(t, at_.q, at_.v);
+  tangents_.find(t, at_.q, at_.v, at_.law_state);
+}
+
+Eigen::MatrixXd FirstOrderOde::accelerations_by_state(const ForceTangents::StateTangents& at, int side) const {
+  const Placement& place = system_.joints[at.joint].at;
+  Eigen::MatrixXd by_state(3, at.law.n);
+  for (int z = 0; z < at.law.n; ++z)
+    for (int k = 0; k < 3; ++k) by_state(k, z) = at.law.force_by_state[k][z];
+  return inverse_mass(side == 0 ? place.a : place.b) * (at.G[side].transpose() * by_state);
+}
+
+Eigen::MatrixXd FirstOrderOde::rates_by_motion(const ForceTangents::StateTangents& at, int side, bool velocities) {
+  Eigen::MatrixXd by_gap(at.law.n, 3), by_rate(at.law.n, 3);
+  for (int z = 0; z < at.law.n; ++z)
+    for (int k = 0; k < 3; ++k) {
+      by_gap(z, k) = at.law.by_gap[z][k];
+      by_rate(z, k) = at.law.by_rate[z][k];
+    }
+  if (velocities) return by_rate * at.G[side];
+  return by_gap * at.G[side] + by_rate * at.rate_by_q[side];
 }
 
 }  // namespace pintle

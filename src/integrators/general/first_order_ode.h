@@ -1,5 +1,5 @@
 // A system as the plain first-order equations y' = f(t, y) that general integrators ask for, with the exact Jacobian:
-// y = (q, v), and where wanted the energies dissipated and supplied as two more components. theory/solvers section 1.
+// y = (q, v, z), z the laws' own states, and where wanted the energies dissipated and supplied as two more components. theory/solvers section 1.
 #pragma once
 
 #include "integrators/force_evaluator.h"
@@ -15,8 +15,10 @@ class FirstOrderOde {
 
   const System& system() const { return system_; }
   /// Length of y; of its part (q, v).
-  int size() const { return motion_size() + (energies_ ? 2 : 0); }
+  int size() const { return state_size() + (energies_ ? 2 : 0); }
   int motion_size() const { return 6 * system_.n_bodies(); }
+  /// Of (q, v, z).
+  int state_size() const { return motion_size() + system_.n_law_states(); }
   void flatten(const State& state, double* y) const;
   /// Fills time, q, v and, where y has them, the energies of `state`; the rest stays as it is.
   void unflatten(double t, const double* y, State& state) const;
@@ -34,6 +36,11 @@ class FirstOrderOde {
   const std::vector<Coupling>& couplings(int column) const { return couplings_[column]; }
   Planar::Mat by_position(const Coupling& c) const { return inverse_mass(c.row) * tangents_.by_position(c.place); }
   Planar::Mat by_velocity(const Coupling& c) const { return inverse_mass(c.row) * tangents_.by_velocity(c.place); }
+  /// Joints whose laws have states, and what the states of one do to the accelerations of its body `side` (0 or 1): 3 x n.
+  const std::vector<ForceTangents::StateTangents>& states() const { return tangents_.states(); }
+  Eigen::MatrixXd accelerations_by_state(const ForceTangents::StateTangents& at, int side) const;
+  /// What a body's positions, or velocities, do to the rates of the states: n x 3.
+  static Eigen::MatrixXd rates_by_motion(const ForceTangents::StateTangents& at, int side, bool velocities);
 
  private:
   Eigen::DiagonalMatrix<double, 3> inverse_mass(int i) const { return Eigen::DiagonalMatrix<double, 3>(system_.bodies[i].mass.cwiseInverse()); }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <limits>
+#include <vector>
 
 #include "linalg/block_lu.h"
 #include "system/system.h"
@@ -15,8 +17,17 @@ class ForceTangents {
 
   explicit ForceTangents(const System& system);
 
-  /// dF/dq and dF/dv of F = Q + G' law(gap, rate).
-  void find(double t, const Vecs& q, const Vecs& v);
+  /// dF/dq and dF/dv of F = Q + G' law(gap, rate, states). States that follow within a step of a method which advances them by
+  /// dz = dz' / mu are eliminated; at mu = infinity they stay what they are, and `states` says how they act.
+  void find(double t, const Vecs& q, const Vecs& v, const std::vector<double>& law_state, double mu = std::numeric_limits<double>::infinity());
+
+  /// A joint whose law has states of its own, at the last `find`.
+  struct StateTangents {
+    int joint = 0;
+    LawTangents law;
+    std::array<Mat, 2> G, rate_by_q;  // of both bodies
+  };
+  const std::vector<StateTangents>& states() const { return states_; }
 
   /// Blocks of the pattern, fill of its elimination included, and where block (row, column) stands among them.
   int n_blocks() const { return static_cast<int>(by_q_.size()); }
@@ -28,12 +39,15 @@ class ForceTangents {
   void combine(double mass, double by_q, double by_v, BlockLu<double, Planar::kDof>& lu) const;
 
  private:
-  void add_joint(int j, double t);
+  void add_joint(int j, double t, const std::vector<double>& law_state, double mu);
 
   const System& system_;
   std::vector<Planar::Motion> motions_;
   std::vector<std::array<int, 4>> joint_places_;  // (a, a), (a, b), (b, a), (b, b); -1: ground
   std::vector<Mat> by_q_, by_v_;                  // diagonal, upper, lower blocks
+  std::vector<StateTangents> states_;
+  LawTangents law_;                               // of one joint at a time
+  LawImpedance<double> follows_;
 };
 
 }  // namespace pintle

@@ -64,7 +64,7 @@ TEST(ForceTangents, AreTheDifferencesOfTheAccelerations) {
 TEST(ForceTangents, CombineIntoTheMatrixOfAnImplicitStep) {
   Everything at(FirstOrderOde::Energies::kLeftOut);
   ForceTangents tangents(at.system);
-  tangents.find(at.state.t, at.state.q, at.state.v);
+  tangents.find(at.state.t, at.state.q, at.state.v, at.state.law_state);
   const int n = at.system.n_bodies();
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(3 * n, 3 * n);
   for (int j = 0; j < n; ++j)

@@ -50,6 +50,22 @@ void fill_dense(const FirstOrderOde& e, SUNMatrix J) {
           SM_ELEMENT_D(J, half + 3 * at.row + r, half + 3 * j + c) = by_v(r, c);
         }
     }
+  const auto put = [J](int row, int column, const Eigen::MatrixXd& block) {
+    for (Eigen::Index r = 0; r < block.rows(); ++r)
+      for (Eigen::Index c = 0; c < block.cols(); ++c) SM_ELEMENT_D(J, row + r, column + c) = block(r, c);
+  };
+  for (const ForceTangents::StateTangents& of : e.states()) {
+    const JointData& joint = e.system().joints[of.joint];
+    const int first = 2 * half + joint.first_state;
+    for (int side = 0; side < 2; ++side) {
+      const int body = side == 0 ? joint.at.a : joint.at.b;
+      if (body == kGround) continue;
+      put(half + 3 * body, first, e.accelerations_by_state(of, side));
+      for (const bool velocities : {false, true}) put(first, (velocities ? half : 0) + 3 * body, FirstOrderOde::rates_by_motion(of, side, velocities));
+    }
+    for (int r = 0; r < of.law.n; ++r)
+      for (int c = 0; c < of.law.n; ++c) SM_ELEMENT_D(J, first + r, first + c) = of.law.by_state[r][c];
+  }
 }
 
 // By columns, the diagonal always present, so that I - gamma J needs no other pattern.
@@ -79,8 +95,28 @@ void fill_sparse(const FirstOrderOde& e, SUNMatrix J) {
           const Planar::Mat block = velocities ? e.by_velocity(at) : e.by_position(at);
           for (int r = 0; r < 3; ++r) out.put(half + 3 * at.row + r, block(r, c));
         }
+        for (const ForceTangents::StateTangents& of : e.states())
+          for (int side = 0; side < 2; ++side) {
+            const JointData& joint = e.system().joints[of.joint];
+            if ((side == 0 ? joint.at.a : joint.at.b) != j) continue;
+            const Eigen::MatrixXd block = FirstOrderOde::rates_by_motion(of, side, velocities);
+            for (int r = 0; r < of.law.n; ++r) out.put(2 * half + joint.first_state + r, block(r, c));
+          }
       }
-  for (int k = e.motion_size(); k < e.size(); ++k) {
+  for (const ForceTangents::StateTangents& of : e.states()) {  // in the order of the states
+    const JointData& joint = e.system().joints[of.joint];
+    for (int c = 0; c < of.law.n; ++c) {
+      out.begin_column();
+      for (int side = 0; side < 2; ++side) {
+        const int body = side == 0 ? joint.at.a : joint.at.b;
+        if (body == kGround) continue;
+        const Eigen::MatrixXd block = e.accelerations_by_state(of, side);
+        for (int r = 0; r < 3; ++r) out.put(half + 3 * body + r, block(r, c));
+      }
+      for (int r = 0; r < of.law.n; ++r) out.put(2 * half + joint.first_state + r, of.law.by_state[r][c]);
+    }
+  }
+  for (int k = e.state_size(); k < e.size(); ++k) {
     out.begin_column();
     out.put(k, 0);
   }
@@ -90,7 +126,12 @@ void fill_sparse(const FirstOrderOde& e, SUNMatrix J) {
 sunindextype entries(const FirstOrderOde& e) {
   sunindextype blocks = 0;
   for (int j = 0; j < e.system().n_bodies(); ++j) blocks += static_cast<sunindextype>(e.couplings(j).size());
-  return 2 * 9 * blocks + e.size();
+  sunindextype of_states = 0;
+  for (const JointData& joint : e.system().joints) {
+    const sunindextype n = joint.law.n_states();
+    of_states += n * (2 * (2 * 3 + 3) + n);  // by and of two bodies, and of itself
+  }
+  return 2 * 9 * blocks + of_states + e.size();
 }
 
 int jacobian(realtype t, N_Vector y, N_Vector, SUNMatrix J, void* equations, N_Vector, N_Vector, N_Vector) {

@@ -21,8 +21,7 @@ constexpr double kMisfit = 30;        // ... and below the square of so many tim
 constexpr double kNearlySingular = 1e5;  // times as much: there the nearest closed position may be on another branch
 
 bool keeps(const JointData& joint, int component) {
-  const auto* law = std::get_if<LinearLaw>(&joint.law);
-  return joint.ideal && law != nullptr && law->k[component] > 0;
+  return joint.ideal && joint.law.engaged_stiffness()[component] > 0;
 }
 
 }  // namespace
@@ -174,7 +173,7 @@ void IdealEquations::fill_joints(State& state) {
     const JointData& joint = system_.joints[j];
     state.gap[j] = r_[j].gap;
     state.gap_rate[j] = r_[j].rate;
-    state.force[j] = joint.ideal ? S::Vec(S::Vec::Zero()) : law_force(joint.law, r_[j].gap, r_[j].rate);
+    state.force[j] = joint.ideal ? S::Vec(S::Vec::Zero()) : respond(joint.law, r_[j].gap, r_[j].rate).force;
   }
   for (const Row& row : rows_) state.gap[row.joint][row.component] = state.gap_rate[row.joint][row.component] = 0;
 }

@@ -81,7 +81,7 @@ bool IdealStepper::crosses_jump() const {
   const auto side = [this](const State& state) {
     std::vector<S::Motion> m;
     system_.motions(state.q, state.v, m);
-    return system_.branches(state.t, m, state.gap, state.gap_rate, state.sliding);
+    return system_.branches(state.t, m, state.gap, state.gap_rate, state.law_state, state.sliding);
   };
   return side(begin_) != side(stage_);
 }

@@ -43,7 +43,7 @@ void TreeDopri5::complete(TreeState& state) {
   at_.place(state.t, state.y, state.u);
   at_.gaps(state.gap);
   at_.rates(state.rate);
-  at_.forces(state.gap, state.rate, state.force);
+  at_.forces(state, state.force, state.law_rate);
   tree_->mass(at_.pose(), mass_matrix_);
   mass_.compute(mass_matrix_);
   at_.accelerate(VectorXd::Zero(tree_->n()));
@@ -55,7 +55,7 @@ void TreeDopri5::write(TreeState& at, State& state) {
   at_.accelerate(at.w);
   at_.gap_accelerations(at.accel);
   at_.write(at, at.w, state);
-  const auto [supplied, lost] = at_.power(at.gap, at.rate, at.force);
+  const auto [supplied, lost] = at_.power(at);
   state.supply_power = supplied;
   state.loss_power = lost;
 }
@@ -68,6 +68,7 @@ void TreeDopri5::start(const State& state, double h) {
   TreePose pose;
   tree_->place(end_.y, VectorXd::Zero(tree_->n()), pose);
   tree_->read_rates(pose, state.v, end_.u);
+  end_.law_state = state.law_state;
   complete(end_);
   write(end_, end_state_);
   find_rounding();
@@ -80,7 +81,9 @@ void TreeDopri5::find_rounding() {
   rounding_.assign(system_.bodies.size(), S::Vec::Zero());
   for (std::size_t l = 0; l < tree_->laws().size(); ++l) {
     const Placement& at = system_.joints[tree_->laws()[l]].at;
-    const double k = at_.answer(static_cast<int>(l), end_.gap, end_.rate).stiffness.diagonal().head<2>().maxCoeff();
+    LawTangents law;
+    at_.linearize(static_cast<int>(l), end_, law);
+    const double k = law.stiffness.diagonal().head<2>().maxCoeff();
     const double least = 30 * std::numeric_limits<double>::epsilon() * size * k / tolerance_;
     for (const int body : {at.a, at.b})
       if (body != kGround) rounding_[body] = rounding_[body].cwiseMax(S::Vec(least, least, 0));
@@ -98,6 +101,7 @@ bool TreeDopri5::step(double t_end) {
   double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
   ky_[0] = begin_.u;
   ku_[0] = begin_.w;
+  kz_[0] = begin_.law_rate;
   while (true) {
     h = std::min(h, t_end - begin_.t);
     if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
@@ -111,10 +115,14 @@ bool TreeDopri5::step(double t_end) {
         stage_.y += h * kA[s][k] * ky_[k];
         stage_.u += h * kA[s][k] * ku_[k];
       }
+      stage_.law_state = begin_.law_state;
+      for (std::size_t z = 0; z < stage_.law_state.size(); ++z)
+        for (int k = 0; k < s; ++k) stage_.law_state[z] += h * kA[s][k] * kz_[k][z];
       stage_.t = begin_.t + kC[s] * h;
       complete(stage_);
       ky_[s] = stage_.u;
       ku_[s] = stage_.w;
+      kz_[s] = stage_.law_rate;
       ++counters_.evaluations;
     }
     const double e = error(h) / tolerance_;
@@ -151,8 +159,12 @@ double TreeDopri5::error(double h) {
     const Index i = 3 * static_cast<Index>(l);
     const S::Vec& first = scale_.body[at.a == kGround ? at.b : at.a];
     const S::Vec largest = first.cwiseMax(scale_.body[at.b == kGround ? at.a : at.b]);
-    const Response response = at_.answer(static_cast<int>(l), stage_.gap, stage_.rate);
-    const S::Vec df = response.stiffness * gap.segment<3>(i) + response.damping * rate.segment<3>(i);
+    LawTangents law;
+    at_.linearize(static_cast<int>(l), stage_, law);
+    S::Vec df = law.stiffness * gap.segment<3>(i) + law.damping * rate.segment<3>(i);
+    for (int z = 0; z < law.n; ++z)
+      for (int s = 0; s < 7; ++s)
+        for (int k = 0; k < 3; ++k) df[k] -= law.force_by_state[k][z] * kE[s] * h * kz_[s][system_.joints[tree_->laws()[l]].first_state + z];
     worst = std::max({worst, df.head<2>().norm() / largest[0], std::abs(df[2]) / largest[2]});
   }
   for (int i = 0; i < system_.n_bodies(); ++i) {
@@ -171,9 +183,12 @@ const State& TreeDopri5::interpolate(double t) {
   TreeState now;
   now.t = t;
   quintic(s, h, {&begin_.y, &begin_.u, &begin_.w}, {&end_.y, &end_.u, &end_.w}, now.y, now.u);
+  now.law_state = begin_.law_state;
+  for (std::size_t z = 0; z < now.law_state.size(); ++z)
+    now.law_state[z] = cubic(s, h, begin_.law_state[z], begin_.law_rate[z], end_.law_state[z], end_.law_rate[z]);
   complete(now);
   quintic(s, h, {&begin_.gap, &begin_.rate, &begin_.accel}, {&end_.gap, &end_.rate, &end_.accel}, now.gap, now.rate);
-  at_.forces(now.gap, now.rate, now.force);
+  at_.forces(now, now.force, now.law_rate);
   at_.accelerate(VectorXd::Zero(tree_->n()));
   at_.imbalance(now.force, now.w);
   now.w = mass_.solve(-now.w);

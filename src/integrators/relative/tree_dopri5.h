@@ -42,6 +42,7 @@ class TreeDopri5 final : public Stepper {
   TreeState begin_, end_, stage_;
   State begin_state_, end_state_, inside_state_;
   std::array<Eigen::VectorXd, 7> ky_, ku_;
+  std::array<std::vector<double>, 7> kz_;  // rates of the laws' states
   LoadScale scale_;
   Vecs rounding_;  // per body [N, N, N*m]
   Counters counters_;

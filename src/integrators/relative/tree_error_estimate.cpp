@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "integrators/load_scale.h"
 #include "integrators/radau/step_error.h"
 #include "integrators/relative/tree_radau.h"
 
@@ -22,8 +23,8 @@ double largest(const VectorXd& x) { return x.size() == 0 ? 0 : x.cwiseAbs().maxC
 bool TreeRadau::error_estimate(double h, double& error) {
   const TreeState& last = stages_.states()[n_ - 1];
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
-  if (!projector_.prepare(stages_.instant(n_ - 1), mu, last.gap, last.rate)) return false;
-  error = std::max(body_tail(), gap_tail());
+  if (!projector_.prepare(stages_.instant(n_ - 1), mu, last)) return false;
+  error = std::max({body_tail(), gap_tail(), state_tail(std::abs(h))});
   return std::isfinite(error);
 }
 
@@ -65,16 +66,54 @@ double TreeRadau::gap_tail() {
   return kGapError * last * fall_off(last, before, before_that);
 }
 
+// theory/time Eq. (3.18).
+double TreeRadau::state_tail(double h) const {
+  const Index states = system_.n_law_states();
+  if (states == 0) return 0;
+  MatrixXd tail(states, 3);
+  for (int back = 0; back < 3; ++back)
+    for (Index z = 0; z < states; ++z) {
+      tail(z, back) = table_.to_legendre(n_ - back, 0) * begin_.law_rate[z];
+      for (int s = 0; s < n_; ++s) tail(z, back) += table_.to_legendre(n_ - back, s + 1) * stages_.states()[s].law_rate[z];
+    }
+  MatrixXd force = MatrixXd::Zero(end_at_.n_gaps(), 3);
+  LawTangents tangents;
+  LawImpedance<double> law;
+  for (std::size_t l = 0; l < tree_->laws().size(); ++l) {
+    stages_.instant(n_ - 1).linearize(static_cast<int>(l), stages_.states()[n_ - 1], tangents);
+    law.reserve(tangents.n);
+    law.find(tangents, table_.real_eigenvalue / h);
+    for (int k = 0; k < 3; ++k)
+      for (int z = 0; z < law.n; ++z) force.row(3 * static_cast<Index>(l) + k) += law.pushes[k * law.n + z] * tail.row(system_.joints[tree_->laws()[l]].first_state + z);
+  }
+  if (!force.allFinite()) return std::numeric_limits<double>::infinity();
+  std::array<double, 3> size{};
+  for (std::size_t l = 0; l < tree_->laws().size(); ++l) {
+    const S::Vec load = load_on(system_.joints[tree_->laws()[l]], scale_);
+    for (int back = 0; back < 3; ++back)
+      size[back] = std::max(size[back], force.col(back).segment<3>(3 * static_cast<Index>(l)).cwiseQuotient(load).cwiseAbs().maxCoeff());
+  }
+  return size[0] > 0 ? size[0] * fall_off(size[0], size[1], size[2]) : 0;
+}
+
 // theory/tree section 6.
 void TreeRadau::finish_step(double h) {
   const TreeState& last = stages_.states()[n_ - 1];
   nodes_.w.col(0) = begin_.w;
   nodes_.accel.col(0) = begin_.accel;
   nodes_.force.col(0) = begin_.force;
+  const auto put_states = [this](int node, const TreeState& at) {
+    for (std::size_t z = 0; z < at.law_state.size(); ++z) {
+      nodes_.law_state(static_cast<Index>(z), node) = at.law_state[z];
+      nodes_.law_rate(static_cast<Index>(z), node) = at.law_rate[z];
+    }
+  };
+  put_states(0, begin_);
   for (int s = 0; s < n_; ++s) {
     nodes_.w.col(s + 1) = stages_.states()[s].w;
     nodes_.accel.col(s + 1) = stages_.states()[s].accel;
     nodes_.force.col(s + 1) = stages_.states()[s].force;
+    put_states(s + 1, stages_.states()[s]);
   }
   add_work(h);
   end_ = last;
@@ -121,7 +160,7 @@ void TreeRadau::take_gaps() {
   for (Index i = 0; i < now.size(); ++i)
     if (std::abs(now[i] - end_.gap[i]) > rounding) end_.gap[i] = now[i];
   end_at_.rates(end_.rate);
-  end_at_.forces(end_.gap, end_.rate, end_.force);
+  end_at_.forces(end_, end_.force, end_.law_rate);
 }
 
 void TreeRadau::add_work(double h) {
@@ -130,7 +169,7 @@ void TreeRadau::add_work(double h) {
   end_state_.dissipated = begin_state_.dissipated;
   for (int s = 0; s < n_; ++s) {
     const TreeState& stage = stages_.states()[s];
-    const auto [supplied, lost] = stages_.instant(s).power(stage.gap, stage.rate, stage.force);
+    const auto [supplied, lost] = stages_.instant(s).power(stage);
     nodes_.power.col(s + 1) << supplied, lost;
     end_state_.supplied += h * table_.b[s] * supplied;
     end_state_.dissipated += h * table_.b[s] * lost;
@@ -180,6 +219,14 @@ void TreeRadau::follow(double x, TreeState& out) const {
   out.rate = begin_.rate + x * curves_.bend_rate + curves_.accel * once;
   out.gap = begin_.gap + x * h * begin_.rate + hermite * curves_.bend_gap + curves_.accel * twice;
   out.force = curves_.force * value;
+  const RadauTable::Vec weight = table_.weights(x);
+  out.law_state.assign(begin_.law_state.size(), 0.0);
+  out.law_rate = out.law_state;
+  for (std::size_t z = 0; z < out.law_state.size(); ++z)
+    for (int node = 0; node <= n_; ++node) {
+      out.law_state[z] += weight[node] * nodes_.law_state(static_cast<Index>(z), node);
+      out.law_rate[z] += weight[node] * nodes_.law_rate(static_cast<Index>(z), node);
+    }
 }
 
 // On the curves; rates moved onto the gaps', forces balanced with their accelerations. Eq. (6.3).
@@ -193,7 +240,7 @@ const State& TreeRadau::interpolate(double t) {
   now.t = t;
   VectorXd w = now.w, rate;
   inside_at_.place(t, now.y, now.u);
-  if (projector_.prepare(inside_at_, table_.real_eigenvalue / h, now.gap, now.rate)) {
+  if (projector_.prepare(inside_at_, table_.real_eigenvalue / h, now)) {
     inside_at_.rates(rate);
     now.u += projector_.close(now.rate - rate);
     inside_at_.place(t, now.y, now.u);

@@ -12,12 +12,20 @@ constexpr int kCrossings = 5;       // each ten times longer, until the branch h
 constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
 constexpr double kMoment = 1e-6;    // of the usual step: to see where accelerations lead
 
+// Gaps and the laws' states a time d later, by Taylor's series.
+void move_carried(double d, TreeState& at) {
+  at.gap += d * at.rate + 0.5 * d * d * at.accel;
+  at.rate += d * at.accel;
+  for (std::size_t z = 0; z < at.law_state.size(); ++z) at.law_state[z] += d * at.law_rate[z];
+}
+
 }  // namespace
 
 // The branches at share x of the step, on the curve through its stages.
 std::uint64_t TreeRadau::branches(double x, double h) {
   TreeState at;
   at.u = begin_.u;
+  at.law_state = begin_.law_state;
   at.y = begin_.y + x * h * begin_.u;
   at.rate = begin_.rate;
   at.gap = begin_.gap + x * h * begin_.rate;
@@ -32,16 +40,19 @@ std::uint64_t TreeRadau::branches(double x, double h) {
     at.y += h * h * second * stage.w;
     at.rate += h * first * stage.accel;
     at.gap += h * h * second * stage.accel;
+    for (std::size_t z = 0; z < at.law_state.size(); ++z) at.law_state[z] += h * first * stage.law_rate[z];
   }
   inside_at_.place_only(begin_.t + x * h, at.y, at.u);
-  return inside_at_.branches(at.gap, at.rate);
+  return inside_at_.branches(at);
 }
 
 // The branches a time d ahead of the start, by Taylor's series: all there is to go by when the stages are not solved.
 std::uint64_t TreeRadau::branches_ahead(double d) {
   const double half = 0.5 * d * d;
   inside_at_.place_only(begin_.t + d, begin_.y + d * begin_.u + half * begin_.w, begin_.u + d * begin_.w);
-  return inside_at_.branches(begin_.gap + d * begin_.rate + half * begin_.accel, begin_.rate + d * begin_.accel);
+  TreeState at = begin_;
+  move_carried(d, at);
+  return inside_at_.branches(at);
 }
 
 SwitchingEvent TreeRadau::locate_event(double h, bool solved) {
@@ -57,10 +68,9 @@ bool TreeRadau::step_over_event(double distance) {
     end_.t += d;
     end_.y += d * end_.u + half * end_.w;
     end_.u += d * end_.w;
-    end_.gap += d * end_.rate + half * end_.accel;
-    end_.rate += d * end_.accel;
+    move_carried(d, end_);
     end_at_.place(end_.t, end_.y, end_.u);
-    if (end_at_.branches(end_.gap, end_.rate) != branch_) return true;
+    if (end_at_.branches(end_) != branch_) return true;
   }
   return false;
 }
@@ -90,11 +100,11 @@ double TreeRadau::margin_rate(const SlidingMode& jump) {
 // What the laws and loads really give at the end.
 void TreeRadau::balance_end() {
   end_at_.place(end_.t, end_.y, end_.u);
-  end_at_.forces(end_.gap, end_.rate, end_.force);
-  if (projector_.prepare(end_at_, 1, end_.gap, end_.rate)) projector_.accelerations(end_at_, end_.force, end_.w);
+  end_at_.forces(end_, end_.force, end_.law_rate);
+  if (projector_.prepare(end_at_, 1, end_)) projector_.accelerations(end_at_, end_.force, end_.w);
   end_at_.accelerate(end_.w);
   end_at_.gap_accelerations(end_.accel);
-  const auto [supplied, lost] = end_at_.power(end_.gap, end_.rate, end_.force);
+  const auto [supplied, lost] = end_at_.power(end_);
   end_state_.supply_power = supplied;
   end_state_.loss_power = lost;
   finish_end(end_.w);

@@ -63,38 +63,57 @@ void TreeInstant::find_matrices() {
   }
 }
 
-Response TreeInstant::answer(int law, const VectorXd& gap, const VectorXd& rate) const {
-  return respond(system_.joints[tree_.laws()[law]].law, gap.segment<3>(3 * law), rate.segment<3>(3 * law));
+void TreeInstant::linearize(int law, const TreeState& at, LawTangents& out) const {
+  const JointData& joint = system_.joints[tree_.laws()[law]];
+  const S::Vec gap = at.gap.segment<3>(3 * law), rate = at.rate.segment<3>(3 * law);
+  joint.law.linearize({t_, gap, rate, at.law_state.data() + joint.first_state}, out);
 }
 
-void TreeInstant::forces(const VectorXd& gap, const VectorXd& rate, VectorXd& f) const {
-  f.resize(gap.size());
+void TreeInstant::rest(TreeState& at) const {
+  at.law_state.assign(system_.n_law_states(), 0.0);
   for (std::size_t l = 0; l < r_.size(); ++l) {
+    const JointData& joint = system_.joints[tree_.laws()[l]];
     const Eigen::Index i = 3 * static_cast<Eigen::Index>(l);
-    f.segment<3>(i) = law_force(system_.joints[tree_.laws()[l]].law, gap.segment<3>(i), rate.segment<3>(i));
+    const S::Vec gap = at.gap.segment<3>(i), rate = at.rate.segment<3>(i);
+    double* const states = at.law_state.data() + joint.first_state;
+    joint.law.rest({t_, gap, rate, states}, states);
   }
 }
 
-std::array<double, 2> TreeInstant::power(const VectorXd& gap, const VectorXd& rate, const VectorXd& f) const {
+void TreeInstant::forces(const TreeState& at, VectorXd& f, std::vector<double>& law_rate) const {
+  f.resize(at.gap.size());
+  law_rate.resize(at.law_state.size());
+  for (std::size_t l = 0; l < r_.size(); ++l) {
+    const Eigen::Index i = 3 * static_cast<Eigen::Index>(l);
+    const JointData& joint = system_.joints[tree_.laws()[l]];
+    const S::Vec gap = at.gap.segment<3>(i), rate = at.rate.segment<3>(i);
+    const LawPoint point{t_, gap, rate, at.law_state.data() + joint.first_state};
+    f.segment<3>(i) = joint.law.force(point);
+    joint.law.state_rates(point, law_rate.data() + joint.first_state);
+  }
+}
+
+std::array<double, 2> TreeInstant::power(const TreeState& at) const {
   const ExternalWork work = system_.external_work(t_, pose_.q, pose_.m, sliding());
   std::array<double, 2> out{work.supplied, work.lost};
   for (std::size_t l = 0; l < r_.size(); ++l) {
     const JointData& joint = system_.joints[tree_.laws()[l]];
-    const int law = static_cast<int>(l);
-    if (joint.servo >= 0) out[0] += f[3 * law + joint.servo] * system_.pose(joint.at, pose_.m).rate[joint.servo];
-    else out[1] += answer(law, gap, rate).loss;
+    const Eigen::Index i = 3 * static_cast<Eigen::Index>(l);
+    const S::Vec gap = at.gap.segment<3>(i), rate = at.rate.segment<3>(i);
+    if (joint.servo >= 0) out[0] += at.force[i + joint.servo] * system_.pose(joint.at, pose_.m).rate[joint.servo];
+    else out[1] += joint.law.loss({t_, gap, rate, at.law_state.data() + joint.first_state});
   }
   return out;
 }
 
 // Joints that coordinates obey have linear laws as a rule; a law with kinks among them is asked at a gap of zero.
-std::uint64_t TreeInstant::branches(const VectorXd& gap, const VectorXd& rate) {
+std::uint64_t TreeInstant::branches(const TreeState& at) {
   for (std::size_t l = 0; l < r_.size(); ++l) {
     const Eigen::Index i = 3 * static_cast<Eigen::Index>(l);
-    gap_[tree_.laws()[l]] = gap.segment<3>(i);
-    rate_[tree_.laws()[l]] = rate.segment<3>(i);
+    gap_[tree_.laws()[l]] = at.gap.segment<3>(i);
+    rate_[tree_.laws()[l]] = at.rate.segment<3>(i);
   }
-  return system_.branches(t_, pose_.m, gap_, rate_, sliding());
+  return system_.branches(t_, pose_.m, gap_, rate_, at.law_state, sliding());
 }
 
 void TreeInstant::write(const TreeState& at, const VectorXd& w, State& state) {
@@ -104,6 +123,8 @@ void TreeInstant::write(const TreeState& at, const VectorXd& w, State& state) {
   state.sliding.assign(sliding().begin(), sliding().end());
   state.q = pose_.q;
   state.v = pose_.v;
+  state.law_state = at.law_state;
+  state.law_rate = at.law_rate;
   accelerate(w);
   state.a = a_;
   on_bodies_ = Q_;
@@ -131,6 +152,8 @@ void TreeInstant::write(const TreeState& at, const VectorXd& w, State& state) {
 void read_carried(const JointTree& tree, const State& state, TreeState& out) {
   const auto n = static_cast<Eigen::Index>(3 * tree.laws().size());
   for (VectorXd* x : {&out.gap, &out.rate, &out.accel, &out.force}) x->resize(n);
+  out.law_state = state.law_state;
+  out.law_rate = state.law_rate;
   for (std::size_t l = 0; l < tree.laws().size(); ++l) {
     const Eigen::Index i = 3 * static_cast<Eigen::Index>(l);
     const int j = tree.laws()[l];

@@ -16,6 +16,7 @@ struct TreeState {
   double t = 0;
   Eigen::VectorXd y, u, w;              // w = u'
   Eigen::VectorXd gap, rate, accel, force;
+  std::vector<double> law_state, law_rate;  // of the laws' own states, as in State
 };
 
 class TreeInstant {
@@ -56,13 +57,16 @@ class TreeInstant {
   const Eigen::MatrixXd& J() const { return J_; }
   const Eigen::MatrixXd& A() const { return A_; }
 
-  /// The law of `law` at its part of gap and rate.
-  Response answer(int law, const Eigen::VectorXd& gap, const Eigen::VectorXd& rate) const;
-  void forces(const Eigen::VectorXd& gap, const Eigen::VectorXd& rate, Eigen::VectorXd& f) const;
+  /// The tangents of `law` at its part of what the state carries.
+  void linearize(int law, const TreeState& at, LawTangents& out) const;
+  /// The laws' states as those of joints that have long been as `at` says.
+  void rest(TreeState& at) const;
+  /// The forces of all laws, and the rates of their states, at what the state carries.
+  void forces(const TreeState& at, Eigen::VectorXd& f, std::vector<double>& law_rate) const;
   /// Supplied and lost power [W].
-  std::array<double, 2> power(const Eigen::VectorXd& gap, const Eigen::VectorXd& rate, const Eigen::VectorXd& f) const;
+  std::array<double, 2> power(const TreeState& at) const;
   /// The number that changes with the side of any kink, at the carried gaps.
-  std::uint64_t branches(const Eigen::VectorXd& gap, const Eigen::VectorXd& rate);
+  std::uint64_t branches(const TreeState& at);
 
   /// Everything of the state but its work, from what is carried; the instant must have been placed at `at`. Accelerations
   /// and the reactions of the tree's joints are those of u' = w.

@@ -156,7 +156,8 @@ TEST(TreeProjector, ClosesGapsAndBalancesForces) {
   at.place(0, state.y, VectorXd::Constant(tree.n(), 0.2));
   TreeProjector projector;
   const VectorXd still = VectorXd::Zero(at.n_gaps());
-  ASSERT_TRUE(projector.prepare(at, 1e-2, still, still));
+  state.gap = state.rate = still;
+  ASSERT_TRUE(projector.prepare(at, 1e-2, state));
   const VectorXd wanted = Eigen::Vector3d(0.3, -0.2, 0);
   const VectorXd reached = at.A() * projector.close(wanted);
   EXPECT_LT((reached - wanted).head<2>().norm(), 1e-9);

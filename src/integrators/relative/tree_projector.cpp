@@ -8,7 +8,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-bool TreeProjector::prepare(TreeInstant& at, double mu, const VectorXd& gap_at, const VectorXd& rate_at) {
+bool TreeProjector::prepare(TreeInstant& at, double mu, const TreeState& laws_at, Laws laws) {
   at.find_matrices();
   mass_.compute(at.H());
   if (mass_.info() != Eigen::Success) return false;
@@ -17,9 +17,18 @@ bool TreeProjector::prepare(TreeInstant& at, double mu, const VectorXd& gap_at, 
   if (m == 0) return true;
   pull_ = mass_.solve(A_.transpose());
   weight_.resize(static_cast<std::size_t>(m / 3));
+  LawTangents tangents;
+  LawImpedance<double> impedance;
   for (int l = 0; l < static_cast<int>(weight_.size()); ++l) {
-    const Response response = at.answer(l, gap_at, rate_at);
-    weight_[l] = response.stiffness + mu * response.damping;
+    if (laws == Laws::kHolding) {
+      const Response held = respond(at.system().joints[at.tree().laws()[l]].law, laws_at.gap.segment<3>(3 * l), laws_at.rate.segment<3>(3 * l));
+      weight_[l] = held.stiffness + mu * held.damping;
+      continue;
+    }
+    at.linearize(l, laws_at, tangents);
+    impedance.reserve(tangents.n);
+    impedance.find(tangents, mu);
+    for (int k = 0; k < 9; ++k) weight_[l](k / 3, k % 3) = impedance.weight[k];
   }
   const MatrixXd mobility = A_ * pull_;
   MatrixXd matrix(m, m);

@@ -11,8 +11,11 @@ namespace pintle {
 
 class TreeProjector {
  public:
-  /// Factorises H and mu^2 + w A H^-1 A' at an instant, w = K + mu C. False when singular.
-  bool prepare(TreeInstant& at, double mu, const Eigen::VectorXd& gap_at, const Eigen::VectorXd& rate_at);
+  /// What the laws weigh with: all that they do, or what keeps the joints together.
+  enum class Laws { kWhole, kHolding };
+
+  /// Factorises H and mu^2 + w A H^-1 A' at an instant, w the impedances of the laws at mu. False when singular.
+  bool prepare(TreeInstant& at, double mu, const TreeState& laws_at, Laws laws = Laws::kWhole);
 
   /// The smallest displacements (in the mass norm) whose gap changes are the columns of `wanted`, one pass. Eq. (6.2).
   Eigen::MatrixXd close(const Eigen::MatrixXd& wanted) const;

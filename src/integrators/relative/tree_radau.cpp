@@ -16,7 +16,8 @@ TreeRadau::TreeRadau(const System& system, double tolerance, int stages)
   for (TreeInstant* at : {&end_at_, &inside_at_}) at->set_sliding(sliding_);
   stages_.set_sliding(sliding_);
   const int n = tree_->n(), m = end_at_.n_gaps();
-  nodes_ = {Eigen::MatrixXd::Zero(n, n_ + 1), Eigen::MatrixXd::Zero(m, n_ + 1), Eigen::MatrixXd::Zero(m, n_ + 1), Eigen::MatrixXd::Zero(2, n_ + 1)};
+  nodes_ = {Eigen::MatrixXd::Zero(n, n_ + 1), Eigen::MatrixXd::Zero(m, n_ + 1), Eigen::MatrixXd::Zero(m, n_ + 1), Eigen::MatrixXd::Zero(2, n_ + 1),
+            Eigen::MatrixXd::Zero(system.n_law_states(), n_ + 1), Eigen::MatrixXd::Zero(system.n_law_states(), n_ + 1)};
 }
 
 bool TreeRadau::attempt(double h) {
@@ -36,9 +37,9 @@ void TreeRadau::start(const State& state, double h) {
   tree_->read_rates(pose, state.v, end_.u);
   read_carried(*tree_, state, end_);
   end_at_.place(end_.t, end_.y, end_.u);
-  projector_.prepare(end_at_, 1, end_.gap, end_.rate);
+  projector_.prepare(end_at_, 1, end_);
   projector_.accelerations(end_at_, end_.force, end_.w);
-  const auto [supplied, lost] = end_at_.power(end_.gap, end_.rate, end_.force);
+  const auto [supplied, lost] = end_at_.power(end_);
   end_state_.supply_power = supplied;
   end_state_.loss_power = lost;
   finish_end(end_.w);
@@ -64,7 +65,7 @@ void TreeRadau::begin_at_end() {
 // What the state of the bodies says about the end, with reactions that go with u' = w.
 void TreeRadau::finish_end(const VectorXd& w) {
   end_at_.write(end_, w, end_state_);
-  if (system_.has_branches()) branch_ = end_at_.branches(end_.gap, end_.rate);
+  if (system_.has_branches()) branch_ = end_at_.branches(end_);
   grow_load_scale(system_, end_at_.pose().m, end_at_.Q(), end_state_, scale_);
 }
 

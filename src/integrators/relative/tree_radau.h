@@ -43,6 +43,7 @@ class TreeRadau final : public Stepper {
   bool error_estimate(double h, double& error);
   double body_tail() const;
   double gap_tail();
+  double state_tail(double h) const;
   double over_scale(const Eigen::VectorXd& of_bodies) const;
   void finish_step(double h);
   void move_onto_gaps();

@@ -14,14 +14,18 @@ using S = Planar;
 
 constexpr double kDifference = 1e-7;   // step of the differences, of a coordinate's size and at least of 1
 
-const S::Vec& on(const LoadScale& scale, int body, int other) { return scale.body[body == kGround ? other : body]; }
-
 }  // namespace
 
 TreeStages::TreeStages(const System& system, const JointTree& tree, const RadauTable& table, double tolerance)
     : system_(system), tree_(tree), table_(table), n_(table.n), tolerance_(tolerance), state_(table.n),
       at_(table.n, TreeInstant(system, tree)), beside_(system, tree), missing_(table.n), missing_gap_(table.n),
-      K_(tree.laws().size()), C_(tree.laws().size()) {
+      missing_state_(table.n, VectorXd::Zero(system.n_law_states())), law_(tree.laws().size()) {
+  const auto make_room = [&](auto& mode) {
+    mode.law.resize(tree.laws().size());
+    for (std::size_t l = 0; l < mode.law.size(); ++l) mode.law[l].reserve(system.joints[tree.laws()[l]].law.n_states());
+  };
+  make_room(real_);
+  for (auto& mode : pair_) make_room(mode);
   for (TreeState& s : state_) s.force = VectorXd::Zero(beside_.n_gaps());
 }
 
@@ -57,10 +61,12 @@ void TreeStages::predict(const TreeState& begin, double h, const TreeNodes* befo
     TreeState& state = state_[s];
     state.w = begin.w;
     state.accel = begin.accel;
+    state.law_rate = begin.law_rate;
     if (!before) continue;
     const RadauTable::Vec weight = table_.weights(1 + table_.c[s] * h / last_h);
     state.w.noalias() = before->w * weight;
     state.accel.noalias() = before->accel * weight;
+    if (!state.law_rate.empty()) VectorXd::Map(state.law_rate.data(), system_.n_law_states()) = before->law_rate * weight;
   }
 }
 
@@ -80,6 +86,9 @@ void TreeStages::place(const TreeState& begin, double h) {
       state.rate += first * state_[i].accel;
       state.gap += second * state_[i].accel;
     }
+    state.law_state = begin.law_state;
+    for (std::size_t z = 0; z < state.law_state.size(); ++z)
+      for (int i = 0; i < n_; ++i) state.law_state[z] += h * table_.A(s, i) * state_[i].law_rate[z];
     at_[s].place(state.t, state.y, state.u);
     at_[s].accelerate(state.w);
   }
@@ -90,10 +99,11 @@ double TreeStages::find_forces(const LoadScale& scale) {
   double worst = 0, sum = 0;
   for (int s = 0; s < n_; ++s) {
     TreeState& state = state_[s];
-    at_[s].forces(state.gap, state.rate, force_);
+    at_[s].forces(state, force_, law_rate_);
+    for (std::size_t z = 0; z < law_rate_.size(); ++z) missing_state_[s][z] = state.law_rate[z] - law_rate_[z];
     for (std::size_t l = 0; l < tree_.laws().size(); ++l) {
       const Placement& at = system_.joints[tree_.laws()[l]].at;
-      const S::Vec largest = on(scale, at.a, at.b).cwiseMax(on(scale, at.b, at.a));
+      const S::Vec largest = load_on(at, scale);
       for (int k = 0; k < 3; ++k) {
         const Index i = 3 * static_cast<Index>(l) + k;
         const double change = (force_[i] - state.force[i]) / largest[k];
@@ -121,13 +131,9 @@ void TreeStages::linearize() {
   const TreeState& state = state_[i];
   TreeInstant& at = at_[i];
   at.find_matrices();
-  for (std::size_t l = 0; l < K_.size(); ++l) {
-    const Response response = at.answer(static_cast<int>(l), state.gap, state.rate);
-    K_[l] = response.stiffness;
-    C_[l] = response.damping;
-  }
+  for (std::size_t l = 0; l < law_.size(); ++l) at.linearize(static_cast<int>(l), state, law_[l]);
   at.gap_accelerations(accel_);
-  const std::uint64_t branch = system_.has_branches() ? at.branches(state.gap, state.rate) : 0;
+  const std::uint64_t branch = system_.has_branches() ? at.branches(state) : 0;
   const Index n = tree_.n(), m = at.n_gaps();
   for (Eigen::MatrixXd* x : {&Dy_, &Du_}) x->setZero(n, n);
   for (Eigen::MatrixXd* x : {&Ey_, &Eu_}) x->setZero(m, n);
@@ -147,7 +153,7 @@ void TreeStages::differentiate(int k, bool of_rate, const VectorXd& balance, con
     (of_rate ? u_ : y_)[k] += step;
     beside_.place(state.t, y_, u_);
     // A ramp is narrower than the difference, but goes on beyond its ends.
-    if (system_.has_branches() && beside_.sliding().empty() && beside_.branches(state.gap, state.rate) != branch) continue;
+    if (system_.has_branches() && beside_.sliding().empty() && beside_.branches(state) != branch) continue;
     beside_.accelerate(state.w);
     beside_.imbalance(state.force, balance_);
     (of_rate ? Du_ : Dy_).col(k) = (balance_ - balance) / step;
@@ -164,9 +170,11 @@ bool TreeStages::factorize(Mode<Scalar>& mode) {
   const Scalar once = Scalar(1) / mode.mu, twice = once * once;
   mode.gaps = at.A().template cast<Scalar>() + once * Eu_.template cast<Scalar>() + twice * Ey_.template cast<Scalar>();
   mode.pull.resize(tree_.n(), at.n_gaps());
-  for (std::size_t l = 0; l < K_.size(); ++l) {
+  for (std::size_t l = 0; l < law_.size(); ++l) {
     const Index i = 3 * static_cast<Index>(l);
-    const Eigen::Matrix<Scalar, 3, 3> weight = twice * K_[l].template cast<Scalar>() + once * C_[l].template cast<Scalar>();
+    mode.law[l].find(law_[l], mode.mu);
+    Eigen::Matrix<Scalar, 3, 3> weight;
+    for (int k = 0; k < 9; ++k) weight(k / 3, k % 3) = twice * mode.law[l].weight[k];
     mode.pull.template middleCols<3>(i) = at.A().middleRows<3>(i).transpose().template cast<Scalar>() * weight;
   }
   Matrix<Scalar> matrix = at.H().template cast<Scalar>() + once * Du_.template cast<Scalar>() + twice * Dy_.template cast<Scalar>();
@@ -187,25 +195,56 @@ bool TreeStages::factorize(double h) {
   return good;
 }
 
+// The body forces of the answers to what is missing in the laws' states. theory/time Eq. (3.16).
+template <class Scalar>
+TreeStages::Vector<Scalar> TreeStages::pushes(const Mode<Scalar>& mode, const Vector<Scalar>& missing) const {
+  Vector<Scalar> force = Vector<Scalar>::Zero(at_[0].n_gaps());
+  for (std::size_t l = 0; l < mode.law.size(); ++l)
+    for (int k = 0; k < 3; ++k)
+      for (int z = 0; z < mode.law[l].n; ++z)
+        force[3 * static_cast<Index>(l) + k] += mode.law[l].pushes[k * mode.law[l].n + z] * missing[system_.joints[tree_.laws()[l]].first_state + z];
+  return at_[n_ / 2].A().transpose().template cast<Scalar>() * force;
+}
+
+// The correction of the states' rates, once that of the gaps' accelerations is known. theory/time Eq. (3.17).
+template <class Scalar>
+TreeStages::Vector<Scalar> TreeStages::states_moved(const Mode<Scalar>& mode, const Vector<Scalar>& gaps, const Vector<Scalar>& missing) const {
+  Vector<Scalar> move = Vector<Scalar>::Zero(missing.size());
+  for (std::size_t l = 0; l < mode.law.size(); ++l) {
+    const LawImpedance<Scalar>& law = mode.law[l];
+    const int first = system_.joints[tree_.laws()[l]].first_state;
+    for (int z = 0; z < law.n; ++z) {
+      for (int k = 0; k < 3; ++k) move[first + z] += law.follows[3 * z + k] * gaps[3 * static_cast<Index>(l) + k] / mode.mu;
+      for (int y = 0; y < law.n; ++y) move[first + z] -= mode.mu * law.inverse[z * law.n + y] * missing[first + y];
+    }
+  }
+  return move;
+}
+
 // One Newton correction: into the diagonal frame, the solve, back. Eq. (5.6). Its size as body forces over the scale.
 double TreeStages::correct(const LoadScale& scale) {
   if (tree_.n() == 0) return 0;
   const Index n = tree_.n(), m = at_[0].n_gaps();
-  VectorXd balance = VectorXd::Zero(n), gaps = VectorXd::Zero(m);
+  const Index states = system_.n_law_states();
+  VectorXd balance = VectorXd::Zero(n), gaps = VectorXd::Zero(m), of_states = VectorXd::Zero(states);
   for (int s = 0; s < n_; ++s) {
     balance += table_.inverse_real[s] * missing_[s];
     gaps += table_.inverse_real[s] * missing_gap_[s];
+    of_states += table_.inverse_real[s] * missing_state_[s];
   }
-  const VectorXd real = real_.lu.solve(real_.pull * gaps - balance), real_gaps = real_.gaps * real - gaps;
-  std::array<VectorXcd, RadauTable::kMaxPairs> pair, pair_gaps;
+  const VectorXd real = real_.lu.solve(real_.pull * gaps - balance - pushes(real_, of_states)), real_gaps = real_.gaps * real - gaps;
+  const VectorXd real_states = states_moved(real_, real_gaps, of_states);
+  std::array<VectorXcd, RadauTable::kMaxPairs> pair, pair_gaps, pair_states;
   for (int p = 0; p < table_.pairs; ++p) {
-    VectorXcd b = VectorXcd::Zero(n), g = VectorXcd::Zero(m);
+    VectorXcd b = VectorXcd::Zero(n), g = VectorXcd::Zero(m), z = VectorXcd::Zero(states);
     for (int s = 0; s < n_; ++s) {
       b += table_.inverse_complex[p][s] * missing_[s];
       g += table_.inverse_complex[p][s] * missing_gap_[s];
+      z += table_.inverse_complex[p][s] * missing_state_[s];
     }
-    pair[p] = pair_[p].lu.solve(pair_[p].pull * g - b);
+    pair[p] = pair_[p].lu.solve(pair_[p].pull * g - b - pushes(pair_[p], z));
     pair_gaps[p] = pair_[p].gaps * pair[p] - g;
+    pair_states[p] = states_moved(pair_[p], pair_gaps[p], z);
   }
   double worst = 0;
   for (int s = 0; s < n_; ++s) {
@@ -216,6 +255,10 @@ double TreeStages::correct(const LoadScale& scale) {
     }
     state_[s].w += w;
     state_[s].accel += e;
+    for (Index z = 0; z < states; ++z) {
+      state_[s].law_rate[z] += table_.T_real[s] * real_states[z];
+      for (int p = 0; p < table_.pairs; ++p) state_[s].law_rate[z] += 2 * (table_.T_complex[p][s] * pair_states[p][z]).real();
+    }
     const VectorXd a = at_[n_ / 2].J() * w;
     if (!a.allFinite()) return std::numeric_limits<double>::infinity();
     for (int i = 0; i < system_.n_bodies(); ++i)

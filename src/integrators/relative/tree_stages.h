@@ -15,6 +15,7 @@ namespace pintle {
 /// Accelerations, forces and powers at the nodes {0, c_1 .. c_n} of the last step, one column for each.
 struct TreeNodes {
   Eigen::MatrixXd w, accel, force, power;
+  Eigen::MatrixXd law_state, law_rate;  // of the laws' own states
 };
 
 class TreeStages {
@@ -51,12 +52,19 @@ class TreeStages {
   template <class Scalar>
   struct Mode {
     Scalar mu;
-    Matrix<Scalar> pull;  // A' (K/mu^2 + C/mu)
+    Matrix<Scalar> pull;  // A' Z(mu)/mu^2
+    std::vector<LawImpedance<Scalar>> law;
     Matrix<Scalar> gaps;  // A + E_u/mu + E_y/mu^2
     Eigen::PartialPivLU<Matrix<Scalar>> lu;
   };
   template <class Scalar>
   bool factorize(Mode<Scalar>& mode);
+  template <class Scalar>
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+  template <class Scalar>
+  Vector<Scalar> pushes(const Mode<Scalar>& mode, const Vector<Scalar>& missing) const;
+  template <class Scalar>
+  Vector<Scalar> states_moved(const Mode<Scalar>& mode, const Vector<Scalar>& gaps, const Vector<Scalar>& missing) const;
 
   const System& system_;
   const JointTree& tree_;
@@ -67,10 +75,11 @@ class TreeStages {
   std::vector<TreeState> state_;
   std::vector<TreeInstant> at_;
   TreeInstant beside_;                          // for differences
-  std::vector<Eigen::VectorXd> missing_, missing_gap_;
+  std::vector<Eigen::VectorXd> missing_, missing_gap_, missing_state_;
   Eigen::VectorXd y_, u_, balance_, accel_, force_;
   Eigen::MatrixXd Dy_, Du_, Ey_, Eu_;           // slopes of the balance and of the gaps' accelerations
-  std::vector<Planar::Mat> K_, C_;
+  std::vector<LawTangents> law_;
+  std::vector<double> law_rate_;
   Mode<double> real_;
   std::array<Mode<std::complex<double>>, RadauTable::kMaxPairs> pair_;
 };

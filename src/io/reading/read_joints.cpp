@@ -27,11 +27,11 @@ std::string word_ahead(const Node& joint, std::string_view key) {
   return node == nullptr || node->string() == nullptr ? std::string() : *node->string();
 }
 
-TableSpec& joint_spec(ModelReading& reading, const JointTypeInfo* type, const LawInfo* law) {
+TableSpec& joint_spec(ModelReading& reading, const JointTypeInfo* type, const LawInfo* law, const std::string& friction) {
   const std::string type_word(type == nullptr ? "" : type->word);
   const std::string law_word(law == nullptr ? "" : law->word);
   // The specs are made by spec() and belong to `reading`, so they may be completed here: how many entries lists have.
-  TableSpec& spec = const_cast<TableSpec&>(reading.spec("joint.*", type_word, law_word));
+  TableSpec& spec = const_cast<TableSpec&>(reading.spec("joint.*", type_word, law_word, friction));
   for (KeySpec& key : spec.keys) {
     if (key.per_component && type != nullptr) key.count = linear_components(*type);
   }
@@ -77,6 +77,31 @@ void check_gear(ModelReading& reading, const Record& record, const Joint& joint)
                          "mesh = \"external\", or two different radii");
 }
 
+// Whether the law suits the joint, and its values each other.
+void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const LawChoice& choice) {
+  const bool friction = law.role == LawRole::kFriction;
+  if (!suits(law, type.word)) {
+    std::string types;
+    for (const std::string_view one : law.joints) types += (types.empty() ? "" : ", ") + std::string(one);
+    const std::string key = friction ? "friction" : "law";
+    reading.complaints.add(record.spot(key), record.path + "." + key, '"' + choice.word + '"', "a " + std::string(type.word) + " joint cannot have it",
+                           "it is for joints of type " + types);
+    return;
+  }
+  LawSetting setting;
+  setting.joint_type = type.word;
+  for (const ComponentInfo& gap : type.gap) setting.held[gap.place] = true;
+  for (const ComponentInfo& free : type.free) setting.free[free.place] = true;
+  setting.one_sided = type.one_sided;
+  setting.values = &choice.values;
+  setting.keys = law.keys;
+  if (law.fault == nullptr) return;
+  const LawFault fault = law.fault(setting);
+  if (fault.key.empty()) return;
+  const Value* value = record.find(fault.key);
+  reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : fault.key, fault.why, fault.remedy);
+}
+
 void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record,
               const Record& defaults, LawChoice& choice) {
   choice.word = law.word;
@@ -91,6 +116,7 @@ void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& l
     const Value* value = stated || !defaults.states(key.key) ? record.find(key.key) : defaults.find(key.key);
     if (value != nullptr) choice.values[std::string(key.key)] = value->numbers;
   }
+  check_law(reading, type, law, record, choice);
 }
 
 void read_joint(ModelReading& reading, const Entry& entry, const Record& defaults) {
@@ -99,13 +125,17 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   const std::string law_word = word_ahead(entry.value, "law");
   const JointTypeInfo* type = find_joint_type(word_ahead(entry.value, "type"));
   const LawInfo* law = find_law(law_word.empty() ? "linear" : law_word);
+  if (law != nullptr && law->role != LawRole::kHolds) law = nullptr;
+  const std::string friction_word = word_ahead(entry.value, "friction");
+  const LawInfo* friction = find_law(friction_word);
+  if (friction != nullptr && friction->role != LawRole::kFriction) friction = nullptr;
   reading.type_of_joint[entry.key] = type == nullptr ? "" : std::string(type->word);
   if (type == nullptr || law == nullptr) {
     read_faulty_joint(reading, entry, path);
     return;
   }
   const std::string kind = "a " + std::string(type->word) + " joint";
-  const Record record = reading.records.read(joint_spec(reading, type, law), entry.value, entry.key_spot, path, kind);
+  const Record record = reading.records.read(joint_spec(reading, type, law, friction == nullptr ? "" : friction_word), entry.value, entry.key_spot, path, kind);
   Joint joint;
   joint.name = entry.key;
   joint.type = type->word;
@@ -114,6 +144,10 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   check_gear(reading, record, joint);
   read_law(reading, *type, *law, record, defaults, joint.law);
   joint.ideal = record.number("ideal") > 0;
+  if (friction != nullptr) read_law(reading, *type, *friction, record, defaults, joint.friction);
+  if (friction != nullptr && joint.ideal)
+    reading.complaints.add(record.spot("friction"), path + ".friction", '"' + friction_word + '"', "an ideal joint does not give way, so that nothing says what presses its surfaces together",
+                           "ideal = false, or no friction");
   reading.model.joints.push_back(std::move(joint));
 }
 

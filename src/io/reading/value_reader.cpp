@@ -215,11 +215,10 @@ bool RecordReader::read_numbers(const Node& node, const KeySpec& spec, const std
     value.numbers.push_back(number.value_or(0));
     return number.has_value();
   }
-  if (list == nullptr || list->size() != spec.count) {
-    complaints_.add(
-        node.spot, path, describe(node),
-        "a list of " + std::to_string(spec.count) + (spec.count == 1 ? " number" : " numbers") + " is expected here",
-        list_example(spec));
+  const bool any_length = wants_list && spec.count == 0;
+  if (list == nullptr || (any_length ? list->empty() : list->size() != spec.count)) {
+    const std::string wanted = any_length ? "a list of numbers" : "a list of " + std::to_string(spec.count) + (spec.count == 1 ? " number" : " numbers");
+    complaints_.add(node.spot, path, describe(node), wanted + " is expected here", any_length ? "[" + (spec.unit.empty() ? std::string("0.5") : "\"1 " + spec.unit + "\"") + "]" : list_example(spec));
     return false;
   }
   bool good = true;

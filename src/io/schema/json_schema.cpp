@@ -148,7 +148,7 @@ void add_catalog_keys(Json& properties, const TableSpec& table) {
     for (const KeyInfo& key : law.keys) {
       KeySpec spec = spec_of(key);
       if (table.path.starts_with("defaults")) spec.per_component = false;
-      add_key(properties, spec);
+      if (!properties.contains(spec.key)) add_key(properties, spec);  // laws share words for what they have in common
     }
   }
 }

@@ -75,7 +75,7 @@ std::string type_text(const KeySpec& spec) {
     case ValueType::kWords:
       return "list of " + (spec.words.empty() ? "strings" : list_of(spec.words, ", "));
     case ValueType::kQuantities:
-      return fmt::format("list of {} numbers", spec.count);
+      return spec.count == 0 ? "list of numbers" : fmt::format("list of {} numbers", spec.count);
     case ValueType::kExpression:
       return "expression of " + list_of(spec.variables, ", ");
     case ValueType::kExpressions:

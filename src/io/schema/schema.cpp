@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -50,7 +51,11 @@ std::optional<double> number_of(const Table& table, std::string_view key) {
 std::vector<std::string> words_of_catalog(std::string_view catalog) {
   std::vector<std::string> words;
   if (catalog == "laws") {
-    for (const LawInfo& law : law_catalog()) words.emplace_back(law.word);
+    for (const LawInfo& law : law_catalog())
+      if (law.role == LawRole::kHolds) words.emplace_back(law.word);
+  } else if (catalog == "friction laws") {
+    for (const LawInfo& law : law_catalog())
+      if (law.role == LawRole::kFriction) words.emplace_back(law.word);
   } else if (catalog == "joint types") {
     for (const JointTypeInfo& type : joint_type_catalog()) words.emplace_back(type.word);
   } else {
@@ -118,11 +123,13 @@ TableSpec read_table(const Table& table) {
   return spec;
 }
 
-void add_law_keys(TableSpec& table, std::string_view law) {
+void add_law_keys(TableSpec& table, std::string_view law, std::string_view friction) {
   for (const LawInfo& info : law_catalog()) {
-    if (!law.empty() && info.word != law) continue;
+    if (!law.empty() && info.word != law && info.word != friction) continue;
     for (const KeyInfo& key : info.keys) {
-      if (table.find(key.key) == nullptr) table.keys.push_back(spec_of(key));
+      if (table.find(key.key) != nullptr) continue;
+      table.keys.push_back(spec_of(key));
+      if (law.empty()) table.keys.back().required = false;  // of one law only
     }
   }
 }
@@ -132,12 +139,12 @@ void add_law_keys(TableSpec& table, std::string_view law) {
 KeySpec spec_of(const KeyInfo& info) {
   KeySpec spec;
   spec.key = info.key;
-  spec.type = ValueType::kQuantity;
-  spec.type_word = info.unit.empty() ? "number" : "quantity";
+  spec.type = info.list ? ValueType::kQuantities : ValueType::kQuantity;
+  spec.type_word = info.list ? "quantities" : info.unit.empty() ? "number" : "quantity";
   spec.unit = info.unit;
   spec.dimension = dimension_of(spec.unit);
   spec.meaning = info.meaning;
-  spec.minimum = info.minimum;
+  if (std::isfinite(info.minimum)) spec.minimum = info.minimum;
   spec.minimum_exclusive = info.minimum_exclusive;
   spec.required = info.required;
   spec.per_component = info.per_component;
@@ -164,7 +171,7 @@ const Schema& Schema::model() {
   return schema;
 }
 
-TableSpec Schema::assemble(std::string_view path, std::string_view when, std::string_view law) const {
+TableSpec Schema::assemble(std::string_view path, std::string_view when, std::string_view law, std::string_view friction) const {
   TableSpec out;
   bool found = false;
   for (const TableSpec& table : tables_) {
@@ -183,7 +190,7 @@ TableSpec Schema::assemble(std::string_view path, std::string_view when, std::st
       if (!key.required) out.keys.back().otherwise = "as assembled";
     }
   }
-  if (out.law_keys) add_law_keys(out, law);
+  if (out.law_keys) add_law_keys(out, law, friction);
   return out;
 }
 

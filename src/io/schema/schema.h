@@ -74,8 +74,8 @@ class Schema {
   const std::vector<TableSpec>& tables() const { return tables_; }
 
   /// Everything that may stand at `path` in a thing of kind `when`: the keys for all, those of this kind, and those of
-  /// the catalogs (of all laws when `law` is empty). The table must exist.
-  TableSpec assemble(std::string_view path, std::string_view when = {}, std::string_view law = {}) const;
+  /// the catalogs (of all laws when `law` is empty, else of it and of `friction`). The table must exist.
+  TableSpec assemble(std::string_view path, std::string_view when = {}, std::string_view law = {}, std::string_view friction = {}) const;
 
   /// The tables that may stand in the table at `path`, by key; "*" for names that the user chooses.
   std::vector<std::string> children(std::string_view path) const;

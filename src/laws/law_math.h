@@ -1,0 +1,57 @@
+// The functions that laws are written with, over plain numbers, dual numbers and lanes alike.
+#pragma once
+
+#include <cmath>
+
+#include "base/dual.h"
+#include "simd/lanes.h"
+
+namespace pintle::law_math {
+
+inline double value_of(double x) { return x; }
+template <int M>
+double value_of(const Dual<M>& x) { return x.v; }
+
+inline double abs(double x) { return std::abs(x); }
+inline double sqrt(double x) { return std::sqrt(x); }
+inline double exp(double x) { return std::exp(x); }
+inline double divide(double a, double b) { return a / b; }
+/// x where a > 0, else y.
+inline double where_positive(double a, double x, double y) { return a > 0 ? x : y; }
+
+template <int M>
+Dual<M> abs(const Dual<M>& x) { return x.v < 0 ? -x : x; }
+/// At zero the slope is taken as zero.
+template <int M>
+Dual<M> sqrt(const Dual<M>& x) {
+  const double root = std::sqrt(x.v);
+  return Dual<M>::scaled(root, root > 0 ? 0.5 / root : 0, x);
+}
+template <int M>
+Dual<M> exp(const Dual<M>& x) {
+  const double e = std::exp(x.v);
+  return Dual<M>::scaled(e, e, x);
+}
+template <int M>
+Dual<M> divide(const Dual<M>& a, const Dual<M>& b) { return a / b; }
+template <int M>
+Dual<M> where_positive(const Dual<M>& a, const Dual<M>& x, const Dual<M>& y) { return a.v > 0 ? x : y; }
+
+template <int N, class F>
+Lanes<N> each(const Lanes<N>& x, F f) {
+  Lanes<N> r;
+  for (int i = 0; i < N; ++i) r.set(i, f(x[i]));
+  return r;
+}
+template <int N>
+Lanes<N> abs(const Lanes<N>& x) { return sizes(x); }
+template <int N>
+Lanes<N> sqrt(const Lanes<N>& x) { return each(x, [](double v) { return std::sqrt(v); }); }
+template <int N>
+Lanes<N> exp(const Lanes<N>& x) { return each(x, [](double v) { return std::exp(v); }); }
+template <int N>
+Lanes<N> divide(const Lanes<N>& a, const Lanes<N>& b) { return {a.v / b.v}; }
+template <int N>
+Lanes<N> where_positive(const Lanes<N>& a, const Lanes<N>& x, const Lanes<N>& y) { return where_larger(a, Lanes<N>::all(0), x, y); }
+
+}  // namespace pintle::law_math

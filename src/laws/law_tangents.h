@@ -1,0 +1,105 @@
+// The tangents of a law with states of its own, and what is left of them once the states are eliminated.
+//
+//   f = F(e, e', z),   z' = g(e, e', z)        theory/joints Eq. (3.7)
+//
+// Where a step's operator is 1/mu (theory/time Eq. (3.9)), states answer gaps at once,
+//   (mu - g_z) dz = (g_e + mu g_v) de,         Eq. (3.8)
+// so that a law of any kind enters the matrices by its impedance only:
+//   Z(mu) = -[F_e + mu F_v + F_z (mu - g_z)^-1 (g_e + mu g_v)].   Eq. (3.9)
+#pragma once
+
+#include <vector>
+
+#include "laws/law_numbers.h"
+#include "space/planar.h"
+
+namespace pintle {
+
+struct LawTangents {
+  int n = 0;                                          // states
+  Planar::Vec force = Planar::Vec::Zero();
+  Planar::Mat stiffness = Planar::Mat::Zero();        // -F_e, states held
+  Planar::Mat damping = Planar::Mat::Zero();          // -F_v
+  double energy = 0, loss = 0;
+  double state_rate[kMostLawStates] = {};
+  double force_by_state[3][kMostLawStates] = {};      // F_z
+  double by_gap[kMostLawStates][3] = {};              // g_e
+  double by_rate[kMostLawStates][3] = {};             // g_v
+  double by_state[kMostLawStates][kMostLawStates] = {};  // g_z
+};
+
+
+/// The impedance of a law at one mu, or at several side by side: T is double or Spectrum<N>.
+template <class T>
+struct LawImpedance {
+  T weight[9];                // Z(mu), by rows
+  std::vector<T> inverse;     // (mu - g_z)^-1, n x n
+  std::vector<T> follows;     // (mu - g_z)^-1 (g_e + mu g_v), n x 3: states by gaps
+  std::vector<T> pushes;      // F_z (mu - g_z)^-1, 3 x n: forces by what is missing in the states' rates
+  int n = 0;
+
+  /// Room for n states; then `find` allocates nothing.
+  void reserve(int states) {
+    n = states;
+    inverse.resize(n * n);
+    follows.resize(3 * n);
+    pushes.resize(3 * n);
+    work_.resize(n * n);
+  }
+
+  void find(const LawTangents& law, const T& mu) {
+    const T one(1.0), none(0.0);
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) weight[3 * r + c] = law.stiffness(r, c) * one + law.damping(r, c) * mu;
+    if (n == 0) return;
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) {
+        work_[r * n + c] = (r == c ? mu : none) - law.by_state[r][c] * one;
+        inverse[r * n + c] = r == c ? one : none;
+      }
+    invert();
+    for (int r = 0; r < n; ++r)
+      for (int k = 0; k < 3; ++k) {
+        T sum = none, push = none;
+        for (int c = 0; c < n; ++c) {
+          sum += inverse[r * n + c] * (law.by_gap[c][k] * one + law.by_rate[c][k] * mu);
+          push += law.force_by_state[k][c] * inverse[c * n + r];
+        }
+        follows[3 * r + k] = sum;
+        pushes[k * n + r] = push;
+      }
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c)
+        for (int z = 0; z < n; ++z) weight[3 * r + c] -= law.force_by_state[r][z] * follows[3 * z + c];
+  }
+
+ private:
+  static T inverse_of(const T& x) {
+    if constexpr (requires { 1.0 / x; }) return 1.0 / x;
+    else return reciprocal(x);
+  }
+
+  // Gauss and Jordan. Rates that die out have g_z on the left of the imaginary axis and mu stands on its right, so that pivots do
+  // not vanish; what a law that feeds its own states makes of them shows in the step's factorisation, which looks at its numbers.
+  void invert() {
+    for (int p = 0; p < n; ++p) {
+      const T pivot = inverse_of(work_[p * n + p]);
+      for (int c = 0; c < n; ++c) {
+        work_[p * n + c] = pivot * work_[p * n + c];
+        inverse[p * n + c] = pivot * inverse[p * n + c];
+      }
+      for (int r = 0; r < n; ++r) {
+        if (r == p) continue;
+        const T factor = work_[r * n + p];
+        for (int c = 0; c < n; ++c) {
+          work_[r * n + c] -= factor * work_[p * n + c];
+          inverse[r * n + c] -= factor * inverse[p * n + c];
+        }
+      }
+    }
+  }
+
+  std::vector<T> work_;
+};
+
+}  // namespace pintle
