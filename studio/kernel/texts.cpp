@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/document.h"
 #include "io/schema/schema.h"
@@ -18,8 +19,10 @@ namespace pintle::studio {
 namespace {
 
 Json key_json(const KeyInfo& key) {
-  Json out = {{"name", key.key}, {"unit", key.unit.empty() ? "-" : key.unit}, {"meaning", key.meaning}, {"minimum", key.minimum}};
+  Json out = {{"name", key.key}, {"unit", key.unit.empty() ? "-" : key.unit}, {"meaning", key.meaning}};
+  if (std::isfinite(key.minimum)) out["minimum"] = key.minimum;
   if (!key.required) out["default"] = key.fallback;
+  if (key.list) out["list"] = true;
   return out;
 }
 

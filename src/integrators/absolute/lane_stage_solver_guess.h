@@ -91,4 +91,14 @@ void LaneStageSolver<N>::begin_joint(const State& begin, const Curve& curve, con
   place_joint(begin, joint, change, sum);
 }
 
+// The accelerations that servos are to follow.
+template <int N>
+void LaneStageSolver<N>::find_targets(double t, double h) {
+  for (std::size_t j = 0; j < target_accel_.size(); ++j) {
+    const JointData& joint = system_.joints[j];
+    if (joint.servo < 0 || joint.target.variables().empty()) continue;
+    for (int s = 0; s < N; ++s) target_accel_[j].set(s, servo_target(joint, t + table_.c[s] * h)[2]);
+  }
+}
+
 }  // namespace pintle

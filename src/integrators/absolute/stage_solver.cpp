@@ -1,6 +1,7 @@
 // Simplified Newton on all stages at once: they stand side by side in the lanes of Lanes<N>, and so do the real and complex
 // systems into which their equations fall apart.
 #include "integrators/absolute/lane_stage_solver_guess.h"
+#include "integrators/absolute/lane_stage_solver_laws.h"
 #include "integrators/absolute/lane_stage_solver_matrix.h"
 
 #include <algorithm>
@@ -148,16 +149,6 @@ bool LaneStageSolver<N>::assemble_and_eliminate(const State& begin, double h, co
   return true;
 }
 
-// The accelerations that servos are to follow.
-template <int N>
-void LaneStageSolver<N>::find_targets(double t, double h) {
-  for (std::size_t j = 0; j < target_accel_.size(); ++j) {
-    const JointData& joint = system_.joints[j];
-    if (joint.servo < 0 || joint.target.variables().empty()) continue;
-    for (int s = 0; s < N; ++s) target_accel_[j].set(s, servo_target(joint, t + table_.c[s] * h)[2]);
-  }
-}
-
 // Where the stages are, from their accelerations. Eq. (3.5).
 template <int N>
 Lanes<N> LaneStageSolver<N>::place(const L& a, double x0, double v0, L& v) const {
@@ -201,23 +192,6 @@ void LaneStageSolver<N>::place_joint(const State& begin, Joint& joint, L& worst,
     sum += change;
     joint.force[k] = force;
   }
-}
-
-// The states of a law at the stages, its force, and what is missing in its states' equations.
-template <int N>
-void LaneStageSolver<N>::place_general(const State& begin, Joint& joint, const L* gap, const L* rate, L* force) {
-  const JointData& data = system_.joints[joint.index];
-  General& general = general_[joint.general];
-  for (std::size_t z = 0; z < general.state.size(); ++z) general.state[z] = L::all(begin.law_state[data.first_state + z]) + step_.A * general.rate[z];
-  LawInput<L> in;
-  in.t = L::all(begin.t) + step_.c;
-  std::copy_n(gap, 3, in.gap);
-  std::copy_n(rate, 3, in.rate);
-  in.state = general.state.data();
-  LawOutput<L> out;
-  data.law.evaluate(in, out);
-  std::copy_n(out.force, 3, force);
-  for (std::size_t z = 0; z < general.state.size(); ++z) general.residual[z] = general.rate[z] - out.state_rate[z];
 }
 
 // What is missing in a body's equations but for the joints' forces. Eq. (3.6).
@@ -272,32 +246,6 @@ void LaneStageSolver<N>::assemble_joint(Joint& joint, const GapMap<L>& map, cons
   else
     answer_states(general_[joint.general], missing, f);
   joint.frozen.push(f, rhs_[joint.a], rhs_[joint.b]);
-}
-
-// The forces that answer what is missing in a gap's equation and in those of the law's states. Eq. (3.16).
-template <int N>
-void LaneStageSolver<N>::answer_states(General& general, const X* missing, X* f) const {
-  weigh(false, general.over_mu2, missing, f);
-  std::copy_n(missing, 3, general.missing_gap);
-  const int n = general.impedance.n;
-  for (int z = 0; z < n; ++z) {
-    general.missing_hat[z] = X(matrices_.T_inverse * general.residual[z]);
-    for (int k = 0; k < 3; ++k) f[k] -= general.impedance.pushes[k * n + z] * general.missing_hat[z];
-  }
-}
-
-// The rates of a law's states, once the gap's acceleration is corrected. Eq. (3.17).
-template <int N>
-void LaneStageSolver<N>::move_states(General& general, const L* accel) const {
-  const LawImpedance<X>& law = general.impedance;
-  X gap[3];
-  for (int k = 0; k < 3; ++k) gap[k] = once_ * (X(matrices_.T_inverse * accel[k]) - general.missing_gap[k]);
-  for (int z = 0; z < law.n; ++z) {
-    X move(0.0);
-    for (int k = 0; k < 3; ++k) move += law.follows[3 * z + k] * gap[k];
-    for (int y = 0; y < law.n; ++y) move -= mu_ * (law.inverse[z * law.n + y] * general.missing_hat[y]);
-    general.rate[z] += matrices_.T * move.x;
-  }
 }
 
 // The map of a joint and its convective acceleration; of a servo less than the target's.
@@ -473,21 +421,6 @@ void LaneStageSolver<N>::write_stages(const State& begin, std::vector<Stage>& st
     }
   }
   for (int s = 0; s < N; ++s) stages[s].loss = loss[s];
-}
-
-// The laws' own states at the stages, and the tails of their rates.
-template <int N>
-void LaneStageSolver<N>::write_states(const State& begin, const Joint& joint, std::vector<Stage>& stages, StageTails& tails) const {
-  const General& general = general_[joint.general];
-  const int n = general.impedance.n, first = system_.joints[joint.index].first_state;
-  for (int z = 0; z < n; ++z) {
-    const L tail = begin.law_rate[first + z] * matrices_.tail_of_start + matrices_.tail * general.rate[z];
-    tails.law_rates[first + z] = Lanes<4>::of({tail[0], tail[1], tail[2], 0});
-    for (int s = 0; s < N; ++s) {
-      stages[s].law_state[first + z] = general.state[z][s];
-      stages[s].law_rate[first + z] = general.rate[z][s];
-    }
-  }
 }
 
 template <int N>

@@ -109,6 +109,8 @@ export interface CatalogKey {
   default?: number;
   /** Smallest value that is taken. */
   minimum?: number;
+  /** A list of any length. */
+  list?: boolean;
 }
 
 /** Joint types and laws, with what a form needs. */
@@ -123,7 +125,7 @@ export interface Catalog {
     geometry: CatalogKey[];
     laws: string[];
   }[];
-  laws: { word: string; meaning: string; keys: CatalogKey[] }[];
+  laws: { word: string; meaning: string; /** It rubs beside the law that holds the joint. */ friction?: boolean; keys: CatalogKey[] }[];
   methods: string[];
 }
 

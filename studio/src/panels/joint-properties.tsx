@@ -76,7 +76,9 @@ function LawFields({ joint, catalog }: { joint: Joint; catalog: Catalog | null }
   const ideal = useLiteral(["joint", joint.name, "ideal"]);
   if (!catalog) return <p className="quiet">The laws are loading…</p>;
   const type = catalog.joint_types.find((one) => one.word === joint.type);
-  const allowed = catalog.laws.filter((law) => !type || type.laws.length === 0 || type.laws.includes(law.word));
+  const suits = catalog.laws.filter((law) => !type || type.laws.length === 0 || type.laws.includes(law.word));
+  const allowed = suits.filter((law) => !law.friction);
+  const frictions = suits.filter((law) => law.friction);
   const law = catalog.laws.find((one) => one.word === joint.law);
   const turns = joint.type === "prismatic" || joint.type === "fixed";
   const keys = (law?.keys ?? []).filter((key) => turns || !key.name.startsWith("angular_"));
@@ -85,7 +87,7 @@ function LawFields({ joint, catalog }: { joint: Joint; catalog: Catalog | null }
     const next = catalog.laws.find((one) => one.word === word);
     // Values that the new law does not know would be errors.
     for (const key of law?.keys ?? []) if (!next?.keys.some((one) => one.name === key.name)) draft.remove(["joint", joint.name, key.name]);
-    for (const key of next?.keys ?? []) if (key.default === undefined && law?.keys.every((one) => one.name !== key.name)) draft.set(["joint", joint.name, key.name], starter(key));
+    for (const key of next?.keys ?? []) if (key.default === undefined && law?.keys.every((one) => one.name !== key.name)) draft.set(["joint", joint.name, key.name], key.list ? [starter(key)] : starter(key));
     edit(draft.apply(), `Law of ${joint.name}`);
   };
   return (
@@ -95,11 +97,32 @@ function LawFields({ joint, catalog }: { joint: Joint; catalog: Catalog | null }
       {law && <p className="quiet">{law.meaning}</p>}
       {joint.law === "linear" && <Presets joint={joint} />}
       <Keys keys={keys} path={["joint", joint.name]} />
+      {frictions.length > 0 && <FrictionFields name={joint.name} laws={frictions} />}
       <label className="check">
         <input type="checkbox" checked={ideal === true} onChange={(event) => setLiteral(["joint", joint.name, "ideal"], event.target.checked ? true : null, "Ideal joint")} />
         <span data-tip='With equations "relative" (Model, Simulation), this joint is rigid'>Rigid (ideal)</span>
       </label>
     </section>
+  );
+}
+
+/** Friction of what the joint leaves free, beside its law. */
+function FrictionFields({ name, laws }: { name: string; laws: Catalog["laws"] }) {
+  const word = useLiteral(["joint", name, "friction"]);
+  const law = laws.find((one) => one.word === word);
+  const change = (next: string) => {
+    const draft = new Draft(studio.get().model.document);
+    for (const key of law?.keys ?? []) draft.remove(["joint", name, key.name]);
+    if (next) draft.set(["joint", name, "friction"], next);
+    else draft.remove(["joint", name, "friction"]);
+    edit(draft.apply(), `Friction of ${name}`);
+  };
+  return (
+    <>
+      <Choice label="Friction" value={law?.word ?? ""} options={[{ value: "", label: "none" }, ...laws.map((one) => ({ value: one.word, label: one.word }))]} onChange={change} />
+      {law && <p className="quiet">{law.meaning}</p>}
+      {law && <Keys keys={law.keys} path={["joint", name]} />}
+    </>
   );
 }
 
@@ -141,7 +164,8 @@ function Keys({ keys, path }: { keys: readonly CatalogKey[]; path: readonly stri
   const own = typeof defaults === "object" && !Array.isArray(defaults) ? defaults : {};
   return (
     <>
-      {keys.map((key) => (
+      {keys.some((key) => key.list) && <p className="quiet">{keys.filter((key) => key.list).map((key) => labelOf(key.name)).join(" and ")}: lists, edited in the text.</p>}
+      {keys.filter((key) => !key.list).map((key) => (
         <TextQuantity
           key={key.name}
           label={labelOf(key.name)}
