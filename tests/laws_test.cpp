@@ -61,12 +61,15 @@ JointDisplacement make_hyperbola(const Geometry& g) { return FunctionGap{hyperbo
 constexpr std::array<ComponentInfo, 1> kProduct{{{.name = "product"}}};
 constexpr std::array<KeyInfo, 1> kHyperbolaKeys{{{.key = "product", .unit = "m", .required = true, .meaning = "of a test"}}};
 
-struct Known {
-  Known() {
+// Before the first model is read.
+void make_known() {
+  static const bool done = [] {
     register_law({.word = "clutch", .meaning = "of a test", .keys = kClutchKeys, .make = make_clutch});
     register_joint_type({.word = "hyperbola", .meaning = "of a test", .gap = kProduct, .free = {}, .keys = kHyperbolaKeys, .make = make_hyperbola});
-  }
-} known;
+    return true;
+  }();
+  static_cast<void>(done);
+}
 
 Trajectory completed(const Model& model) {
   Trajectory run = simulate(model);
@@ -134,7 +137,7 @@ name = "Block on an incline"
 [simulate]
 duration = "1000 s"
 output_step = "10 s"
-tolerance = 1e-4
+max_step = "2 s"
 [ground.markers]
 o = { x = 0, y = 0, axis = "-3 deg" }
 [body.block]
@@ -167,7 +170,6 @@ TEST(LuGreSlow, FourBarIsTheSameInEveryMethod) {
   EXPECT_LT(truth.energy.drift, 1e-6);
   std::vector<std::string> methods{"dopri5", "ode23t", "hht", "generalised_alpha"};
   if (has_sundials()) methods.insert(methods.end(), {"ode15s", "ode45"});
-  model.simulate.tolerance = 1e-4;
   for (const std::string& method : methods) {
     model.simulate.method = method;
     const Trajectory run = completed(model);
@@ -186,11 +188,11 @@ TEST(LuGre, SteadySlipCarriesItsCoefficient) {
 }
 
 // Over the same turn of the same four-bar without friction.
-TEST(LuGre, FrictionInAllPinsOfAFourBarCostsAFewTimesTheSteps) {
+TEST(LuGre, FrictionInAllPinsOfAFourBarCostsLessThanEightTimesTheSteps) {
   const Model rubbing = rubbing_four_bar();
   const Trajectory with = completed(rubbing), without = completed(reference::mechanism("four_bar"));
-  EXPECT_LT(with.counters.steps, 4 * without.counters.steps);
-  EXPECT_LT(with.counters.newton_iterations, 4 * without.counters.newton_iterations);
+  EXPECT_LT(with.counters.steps, 8 * without.counters.steps);
+  EXPECT_LT(with.counters.newton_iterations, 8 * without.counters.newton_iterations);
 }
 
 constexpr const char* kRubber = R"toml(
@@ -360,6 +362,7 @@ law = "clutch"
 )toml";
 
 TEST(AnyLawSlow, OfATestRunsInEveryMethod) {
+  make_known();
   Model model = parse_model(kClutched, "clutched.toml");
   model.simulate.tolerance = 1e-7;
   const Trajectory truth = completed(model);
@@ -376,6 +379,7 @@ TEST(AnyLawSlow, OfATestRunsInEveryMethod) {
 }
 
 TEST(AnyLaw, OfATestRunsInRelativeCoordinates) {
+  make_known();
   Model model = parse_model(kClutched, "clutched.toml", {"joint.A.ideal=true", "simulate.equations=\"relative\"", "joint.A.stiffness=1e12"});
   const Trajectory tree = completed(model);
   model.simulate.method = "dopri5";
@@ -389,6 +393,7 @@ TEST(AnyLaw, OfATestRunsInRelativeCoordinates) {
 }
 
 TEST(AnyLaw, OfATestRunsInSweeps) {
+  make_known();
   const Model base = parse_model(kClutched, "clutched.toml");
   std::vector<Variant> variants;
   for (const double factor : {0.9, 1.1}) {
@@ -404,6 +409,7 @@ TEST(AnyLaw, OfATestRunsInSweeps) {
 }
 
 TEST(AnyLaw, OfATestRunsLive) {
+  make_known();
   const Model model = parse_model(kClutched, "clutched.toml");
   const Trajectory truth = completed(model);
   LiveMotion live(model);
@@ -413,6 +419,7 @@ TEST(AnyLaw, OfATestRunsLive) {
 
 // A bead on a hyperbola: energy is kept, and the gap's own force law answers with the promised error.
 TEST(AnyJointType, OfATestRuns) {
+  make_known();
   Model model = parse_model(R"toml(
 format = 1
 name = "Bead on a hyperbola"
@@ -425,7 +432,7 @@ o = [0, 0]
 mass = 1
 inertia = 0.01
 position = [0.5, 2]
-hold = ["position"]
+hold = ["x"]
 markers.c = [0, 0]
 [joint.wire]
 type = "hyperbola"

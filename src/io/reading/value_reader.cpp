@@ -32,7 +32,7 @@ std::string short_number(double number) {
 std::string range_problem(double number, const KeySpec& spec) {
   const std::string unit = spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit;
   const bool feeds = spec.key.find("damping") != std::string::npos || spec.key.find("stiffness") != std::string::npos;
-  if (feeds && number < 0) return "a negative " + spec.key + " feeds energy into the mechanism";
+  if (feeds && number < 0 && spec.minimum) return "a negative " + spec.key + " feeds energy into the mechanism";
   if (spec.minimum && spec.minimum_exclusive && number <= *spec.minimum) {
     return "this must be greater than " + short_number(*spec.minimum) + unit;
   }
