@@ -62,6 +62,9 @@ struct SweepOptions {
 };
 nlohmann::ordered_json study_sweeps(const SweepOptions& options);
 
+/// Spectral radius of a step across taut joints, drawn to `file`.
+nlohmann::ordered_json study_stability(const std::string& file);
+
 /// Google Benchmark; `filter` is a regular expression. An empty `json_file` writes none.
 void run_micro(const std::string& filter, double min_time, const std::string& json_file);
 

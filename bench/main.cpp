@@ -28,6 +28,7 @@ struct Options {
   std::vector<int> loops{40, 400, 4000, 40000};
   int scaling_rounds = 7;
   SweepOptions sweeps;
+  std::string stability = std::string(PINTLE_SOURCE_DIR) + "/docs/theory/stability.svg";
   std::string micro_filter = ".";
   double micro_time = 0.2;
 };
@@ -54,6 +55,12 @@ void add_instructions(CLI::App& app, Options& o, Json& out) {
   CLI::App* verb = app.add_subcommand("instructions", "instruction counts of fixed commands, compared with the last release");
   verb->add_option("--record", o.record_as, "the version to write to bench/instructions.json");
   verb->callback([&] { out["instructions"] = count_instructions(o.record_as); });
+}
+
+void add_stability(CLI::App& app, Options& o, Json& out) {
+  CLI::App* verb = app.add_subcommand("stability", "spectral radius of a step across taut joints: the picture of theory/time section 4.1");
+  verb->add_option("--write", o.stability, "the picture")->capture_default_str();
+  verb->callback([&] { out["stability"] = study_stability(o.stability); });
 }
 
 void add_peers(CLI::App& app, Options& o, Json& out) {
@@ -152,6 +159,7 @@ int run_program(int argc, char** argv) {
   add_curves(app, options, out);
   add_truths(app, options);
   add_instructions(app, options, out);
+  add_stability(app, options, out);
   add_peers(app, options, out);
   add_stiffness(app, options, out);
   add_forces(app, options, out);

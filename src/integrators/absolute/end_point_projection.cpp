@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "integrators/absolute/joint_pack.h"
+#include "integrators/radau/joint_pull.h"
 #include "integrators/absolute/stage_lanes.h"
 #include "integrators/radau/step_error.h"
 #include "simd/processor_registers.h"
@@ -17,6 +18,8 @@ using S = Planar;
 
 // Of the largest position or velocity: what its rounding leaves of a gap, or of its rate.
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+
+constexpr int kTautPasses = 2;  // besides the first: they leave the cube of what one pass leaves, Eq. (4.8)
 
 constexpr double kMostOfRates = 1e-9;  // of the largest velocity: what may be left of rates in the shortest steps
 
@@ -33,7 +36,7 @@ class LaneEndPointProjection : public EndPointProjection {
  public:
   explicit LaneEndPointProjection(const System& system)
       : system_(system), large_(system.bodies.size() > kLargeMechanism), joints_(pack_joints(system)), lu_(system.pattern(), symmetry_of_joints(system)), at_(system.bodies.size() + 1),
-        corrections_(system.bodies.size() + 1), accel_(system.bodies.size() + 1), rhs_(system.bodies.size() + 1), force_rhs_(system.bodies.size() + 1) {
+        corrections_(system.bodies.size() + 1), pulled_(system.bodies.size() + 1), rest_of_four_(system.bodies.size() + 1), rest_(system.bodies.size() + 1), accel_(system.bodies.size() + 1), rhs_(system.bodies.size() + 1), force_rhs_(system.bodies.size() + 1) {
     at_.back().set(kStill);
   }
 
@@ -43,6 +46,7 @@ class LaneEndPointProjection : public EndPointProjection {
   bool find_corrections(double t, double mu, const Stage& last, StageTails& tails) {
     lu_.set_diagonal([&](int b, int k) { return mu * mu * system_.bodies[b].mass[k]; });
     std::fill(corrections_.begin(), corrections_.end(), Vec3x4{});
+    clear(pulled_);
     load_motions(last.m);
     remembering_.clear();
     state_tails_.clear();
@@ -51,6 +55,7 @@ class LaneEndPointProjection : public EndPointProjection {
       const Kinematics r = read(joints, t, last.m, joints.map);
       find_weight(joints, t, mu, last, tails);
       add_blocks(joints);
+      add_pull(joints, last);
       L off[3];
       for (int k = 0; k < S::kDof; ++k) off[k] = joints.load(last.gap, k) - r.gap[k];
       for (int i = 0; i < joints.n; ++i) {
@@ -61,7 +66,10 @@ class LaneEndPointProjection : public EndPointProjection {
         joints.map.lane(i).push(f.a.data(), corrections_[joints.a[i]], corrections_[joints.b[i]]);
       }
     }
-    return lu_.factorize_and_solve(corrections_);
+    hold_taut(mu);
+    if (!lu_.factorize_and_solve(corrections_)) return false;
+    if (taut_) answer_rest(corrections_, rest_of_four_);
+    return true;
   }
 
   // The gaps' own accelerations come out of the stages as second differences of what the forces demand; where a joint is
@@ -180,6 +188,49 @@ class LaneEndPointProjection : public EndPointProjection {
     for (int i = 0; i < joints.n; ++i) blocks.lane(i).add_to(lu_, body(joints.a[i]), body(joints.b[i]), joints.slot[i]);
   }
 
+  // What the joints' forces at the last stage do against motions across them, into pulled_.
+  void add_pull(const JointPack& joints, const Stage& last) {
+    if (joints.map.function) return add_pull_of(joints.first, system_, last.m, last.force[joints.first], pulled_);
+    const auto pull = PullAcross<L>::of(joints.map, joints.load(last.force, 0), joints.load(last.force, 1), joints.forbidden);
+    for (int i = 0; i < joints.n; ++i) {
+      pulled_[joints.a[i]][2] += pull.turn_a[i];
+      pulled_[joints.b[i]][2] += pull.turn_b[i];
+      if (!joints.slides) continue;
+      add_slide(pull.slide[i], pull.arm_a[i], joints.a[i], system_, pulled_);
+      add_slide(pull.slide[i], pull.arm_b[i], joints.b[i], system_, pulled_);
+    }
+  }
+
+  // What the step does not resolve of it, into the matrix. Eq. (4.7).
+  void hold_taut(double mu) {
+    const double own = mu / kProjectionShare;
+    taut_ = false;
+    for (std::size_t b = 0; b < n_bodies(); ++b) {
+      const S::Vec held = unresolved(pulled_[b], own, system_.bodies[b].mass);
+      for (int k = 0; k < S::kDof; ++k) pulled_[b][k] = held[k];
+      if (!(held.maxCoeff() > 0)) continue;
+      taut_ = true;
+      for (int k = 0; k < S::kDof; ++k) lu_.diagonal(static_cast<int>(b))(k, k) += held[k];
+    }
+  }
+
+  // What the matrix has answered too little where it holds bodies: x answers it again, a few times. Eq. (4.8).
+  template <class Row>
+  void answer_rest(std::vector<Row>& x, std::vector<Row>& rest) {
+    rest = x;
+    for (int pass = 0; pass < kTautPasses; ++pass) {
+      for (std::size_t b = 0; b < n_bodies(); ++b)
+        for (int k = 0; k < S::kDof; ++k) rest[b][k] = pulled_[b][k] * rest[b][k];
+      lu_.solve(rest);
+      for (std::size_t b = 0; b < n_bodies(); ++b)
+        for (int k = 0; k < S::kDof; ++k) x[b][k] += rest[b][k];
+    }
+  }
+  void answer(std::vector<BodyRow>& x) {
+    lu_.solve(x);
+    if (taut_) answer_rest(x, rest_);
+  }
+
   // rhs_ += G' W gap.
   void add_to_rhs(const JointPack& joints, const L (&gap)[3]) {
     L f[3];
@@ -189,7 +240,7 @@ class LaneEndPointProjection : public EndPointProjection {
   static void clear(std::vector<BodyRow>& x) { std::fill(x.begin(), x.end(), BodyRow{}); }
 
   void solve_and_add(Vecs& x) {
-    lu_.solve(rhs_);
+    answer(rhs_);
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) x[b][k] += rhs_[b][k];
   }
@@ -225,6 +276,18 @@ class LaneEndPointProjection : public EndPointProjection {
   }
 
   void move_velocities(State& end, std::vector<S::Motion>& m) {
+    const auto move = [&](int b, const BodyRow& x) {
+      S::Vec& v = end.v[b];
+      for (int k = 0; k < S::kDof; ++k) v[k] += x[k];
+      m[b].v = v.head<2>();
+      m[b].w = v[2];
+      at_[b].set(m[b]);
+    };
+    if (taut_) {
+      answer(rhs_);
+      for (int b = 0; b < system_.n_bodies(); ++b) move(b, rhs_[b]);
+      return;
+    }
     lu_.solve(rhs_, [&](int b, const BodyRow& x) {
       if (const int place = system_.pattern().position(b) - kSoon; large_ && place >= 0) {
         const int next = system_.pattern().row_at(place);
@@ -233,11 +296,7 @@ class LaneEndPointProjection : public EndPointProjection {
         fetch(at_, next);
         fetch(rhs_, next);
       }
-      S::Vec& v = end.v[b];
-      for (int k = 0; k < S::kDof; ++k) v[k] += x[k];
-      m[b].v = v.head<2>();
-      m[b].w = v[2];
-      at_[b].set(m[b]);
+      move(b, x);
     });
   }
 
@@ -286,14 +345,14 @@ class LaneEndPointProjection : public EndPointProjection {
   // At the end of the step positions and velocities are better than anywhere inside: so are the forces that balance them. The
   // magnitudes of the loads on each body go into rhs_.
   void balance(const Stage& last, State& end, LoadScale& scale) {
-    lu_.solve(rhs_);
+    answer(rhs_);
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) {
         const double mass = system_.bodies[b].mass[k];
         force_rhs_[b][k] += last.Q[b][k] - mass * (last.a[b][k] + rhs_[b][k]);
         rhs_[b][k] = std::abs(last.Q[b][k]) + std::abs(mass * end.a[b][k]);
       }
-    lu_.solve(force_rhs_);
+    answer(force_rhs_);
     force_rhs_.back() = {};  // the ground's
     for (const JointPack& joints : joints_) {
       if (large_) fetch_balance(joints, end);
@@ -361,6 +420,10 @@ class LaneEndPointProjection : public EndPointProjection {
   BlockLu<double, S::kDof> lu_;
   std::vector<BodyAt> at_;          // of bodies and the ground, as the next ones
   std::vector<Vec3x4> corrections_;
+  std::vector<BodyRow> pulled_;  // how taut joints hold each body, first as BodyPull, then against moving [N/m, N/m, N*m/rad]
+  bool taut_ = false;            // a body is held
+  std::vector<Vec3x4> rest_of_four_;
+  std::vector<BodyRow> rest_;
   std::vector<BodyRow> accel_, rhs_, force_rhs_;
 };
 

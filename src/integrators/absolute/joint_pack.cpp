@@ -21,6 +21,7 @@ void put(const JointData& data, const System& system, int lane, JointPack& pack)
   }
   for (int k = 0; k < 3; ++k) {
     pack.forbidden[k].set(lane, data.free_mask[k] == 0 ? 1 : 0);
+    pack.slides = pack.slides || (k < 2 && data.free_mask[k] != 0);
     if (const auto* displacement = std::get_if<Selection>(&data.displacement)) pack.offset[k].set(lane, displacement->offset[k]);
     if (const LinearLaw* law = data.law.constant_diagonal()) {
       pack.k[k].set(lane, law->k[k]);

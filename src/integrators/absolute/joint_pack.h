@@ -51,6 +51,7 @@ struct JointPack {
   BlockPattern::Slot slot[4] = {};  // of their bodies, A before B
   bool linear = false;     // springs and dampers
   bool pose = false;       // the same in the relative pose
+  bool slides = false;     // one of them leaves a component of translation free
 
   /// Component k of what there is for each joint.
   PINTLE_LANES L load(const std::vector<Planar::Vec>& x, int component) const {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "integrators/radau/joint_pull.h"
 #include "integrators/load_scale.h"
 #include "integrators/radau/step_error.h"
 #include "integrators/relative/tree_radau.h"
@@ -23,9 +24,19 @@ double largest(const VectorXd& x) { return x.size() == 0 ? 0 : x.cwiseAbs().maxC
 bool TreeRadau::error_estimate(double h, double& error) {
   const TreeState& last = stages_.states()[n_ - 1];
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
-  if (!projector_.prepare(stages_.instant(n_ - 1), mu, last)) return false;
+  if (!projector_.prepare(stages_.instant(n_ - 1), mu, last, TreeProjector::Laws::kWhole, find_taut(mu / kProjectionShare))) return false;
   error = std::max({body_tail(), gap_tail(), state_tail(std::abs(h))});
   return std::isfinite(error);
+}
+
+// How the joints' forces hold the bodies where a step with this frequency of its own does not resolve it: with those at its start, the
+// tree's reactions among them. Empty where it resolves everything. theory/time section 4.1.
+VectorXd TreeRadau::find_taut(double own) const {
+  std::vector<BodyPull> pulled(system_.bodies.size());
+  for (int j = 0; j < system_.n_joints(); ++j) add_pull_of(j, system_, stages_.instant(n_ - 1).pose().m, begin_state_.force[j], pulled);
+  VectorXd taut(3 * system_.n_bodies());
+  for (int b = 0; b < system_.n_bodies(); ++b) taut.segment<3>(3 * b) = unresolved(pulled[b], own, system_.bodies[b].mass);
+  return taut.maxCoeff() > 0 ? taut : VectorXd();
 }
 
 // Accelerations of all bodies as forces over the load scale: the largest.

@@ -8,7 +8,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-bool TreeProjector::prepare(TreeInstant& at, double mu, const TreeState& laws_at, Laws laws) {
+bool TreeProjector::prepare(TreeInstant& at, double mu, const TreeState& laws_at, Laws laws, const VectorXd& taut) {
   at.find_matrices();
   mass_.compute(at.H());
   if (mass_.info() != Eigen::Success) return false;
@@ -30,6 +30,8 @@ bool TreeProjector::prepare(TreeInstant& at, double mu, const TreeState& laws_at
     impedance.find(tangents, mu);
     for (int k = 0; k < 9; ++k) weight_[l](k / 3, k % 3) = impedance.weight[k];
   }
+  taut_ = taut.size() > 0;
+  if (taut_) set_held_mass(at.J(), at.H(), taut / (mu * mu));
   const MatrixXd mobility = A_ * pull_;
   MatrixXd matrix(m, m);
   row_ = VectorXd::Ones(m);
@@ -40,6 +42,13 @@ bool TreeProjector::prepare(TreeInstant& at, double mu, const TreeState& laws_at
   return std::isfinite(lu_.matrixLU().sum());
 }
 
+// The mass matrix of (6.4), for what gaps ask of the coordinates.
+void TreeProjector::set_held_mass(const MatrixXd& J, const MatrixXd& H, const VectorXd& taut) {
+  held_stiffness_ = J.transpose() * taut.asDiagonal() * J;
+  held_mass_.compute(H + held_stiffness_);
+  pull_ = held_mass_.solve(A_.transpose());
+}
+
 MatrixXd TreeProjector::weighted(const MatrixXd& x) const {
   MatrixXd out(x.rows(), x.cols());
   for (Index l = 0; l < x.rows() / 3; ++l) out.middleRows<3>(3 * l) = weight_[l] * x.middleRows<3>(3 * l);
@@ -48,7 +57,24 @@ MatrixXd TreeProjector::weighted(const MatrixXd& x) const {
 
 MatrixXd TreeProjector::close(const MatrixXd& wanted) const {
   if (A_.rows() == 0) return MatrixXd::Zero(A_.cols(), wanted.cols());
-  return pull_ * lu_.solve(weighted(wanted));
+  MatrixXd x = pull_ * lu_.solve(weighted(wanted)), rest = x;
+  for (int pass = 0; pass < kPasses && taut_; ++pass) {
+    rest = held_mass_.solve(held_stiffness_ * rest);
+    rest -= pull_ * lu_.solve(weighted(A_ * rest));
+    x += rest;
+  }
+  return x;
+}
+
+// w A Z^-1 of forces in the coordinates, Z that without `taut`: what it leaves in held directions is answered again.
+VectorXd TreeProjector::forces_for(const VectorXd& on_coordinates) const {
+  VectorXd sum = VectorXd::Zero(A_.rows()), rest = on_coordinates;
+  for (int pass = 0; pass <= kPasses; ++pass) {
+    const VectorXd free = held_mass_.solve(rest), more = lu_.solve(weighted(A_ * free));
+    sum += more;
+    rest = held_stiffness_ * (free - pull_ * more);
+  }
+  return sum;
 }
 
 void TreeProjector::accelerations(TreeInstant& at, const VectorXd& force, VectorXd& w) const {
@@ -57,17 +83,19 @@ void TreeProjector::accelerations(TreeInstant& at, const VectorXd& force, Vector
   w = mass_.solve(-w);
 }
 
-void TreeProjector::balance(TreeInstant& at, const VectorXd& accel, bool sliding, VectorXd& force, VectorXd& w) const {
+void TreeProjector::balance(TreeInstant& at, const VectorXd& accel, bool held, VectorXd& force, VectorXd& w) const {
   accelerations(at, force, w);
   if (A_.rows() == 0) return;
   VectorXd now;
   at.accelerate(w);
   at.gap_accelerations(now);
   VectorXd missing = accel - now;
-  if (sliding) missing = A_ * close(missing);
-  const VectorXd more = lu_.solve(weighted(missing));
+  const VectorXd wanted = held ? VectorXd(close(missing)) : VectorXd();
+  if (held) missing = A_ * wanted;
+  VectorXd more = lu_.solve(weighted(missing));
+  if (taut_ && held) more = forces_for(at.H() * wanted);
   force += more;
-  w += pull_ * more;
+  w += taut_ ? VectorXd(mass_.solve(A_.transpose() * more)) : VectorXd(pull_ * more);
 }
 
 }  // namespace pintle

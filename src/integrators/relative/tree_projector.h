@@ -14,23 +14,31 @@ class TreeProjector {
   /// What the laws weigh with: all that they do, or what keeps the joints together.
   enum class Laws { kWhole, kHolding };
 
-  /// Factorises H and mu^2 + w A H^-1 A' at an instant, w the impedances of the laws at mu. False when singular.
-  bool prepare(TreeInstant& at, double mu, const TreeState& laws_at, Laws laws = Laws::kWhole);
+  /// Factorises H and mu^2 + w A H^-1 A' at an instant, w the impedances of the laws at mu. False when singular. `taut` are stiffnesses
+  /// that hold the bodies' coordinates, three each, or empty: `close` and `balance` then take H + J' taut J / mu^2 for H, and answer
+  /// again what that has left.
+  bool prepare(TreeInstant& at, double mu, const TreeState& laws_at, Laws laws = Laws::kWhole, const Eigen::VectorXd& taut = {});
 
   /// The smallest displacements (in the mass norm) whose gap changes are the columns of `wanted`, one pass. Eq. (6.2).
   Eigen::MatrixXd close(const Eigen::MatrixXd& wanted) const;
   /// u' for given forces of the laws, at the instant `at`. The factor of the mass matrix is that of `prepare`.
   void accelerations(TreeInstant& at, const Eigen::VectorXd& force, Eigen::VectorXd& w) const;
-  /// Forces for which the accelerations give the gaps' own in the stiff modes, and these accelerations. With `sliding` what no
+  /// Forces for which the accelerations give the gaps' own in the stiff modes, and these accelerations. With `held` what no
   /// motion can close is left out. Eq. (6.3).
-  void balance(TreeInstant& at, const Eigen::VectorXd& accel, bool sliding, Eigen::VectorXd& force, Eigen::VectorXd& w) const;
+  void balance(TreeInstant& at, const Eigen::VectorXd& accel, bool held, Eigen::VectorXd& force, Eigen::VectorXd& w) const;
 
  private:
   Eigen::MatrixXd weighted(const Eigen::MatrixXd& x) const;  // row-scaled w x
+  void set_held_mass(const Eigen::MatrixXd& J, const Eigen::MatrixXd& H, const Eigen::VectorXd& taut);
+  Eigen::VectorXd forces_for(const Eigen::VectorXd& on_coordinates) const;
+  static constexpr int kPasses = 2;                          // where bodies are held, besides the first
 
   Eigen::LLT<Eigen::MatrixXd> mass_;
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
   Eigen::MatrixXd A_, pull_;       // pull = H^-1 A'
+  bool taut_ = false;              // bodies are held
+  Eigen::LLT<Eigen::MatrixXd> held_mass_;
+  Eigen::MatrixXd held_stiffness_;        // J' taut J / mu^2
   std::vector<Planar::Mat> weight_;
   Eigen::VectorXd row_;            // scale of the rows
 };

@@ -41,6 +41,7 @@ class TreeRadau final : public Stepper {
 
   // tree_error_estimate.cpp: the error of a step, its end and its inside
   bool error_estimate(double h, double& error);
+  Eigen::VectorXd find_taut(double own) const;
   double body_tail() const;
   double gap_tail();
   double state_tail(double h) const;
