@@ -31,7 +31,7 @@ class SundialsStepper final : public Stepper {
     states_.complete(end_);
     const UsualTolerance usual(tolerance_);
     std::vector<double> y(equations_.size()), floor(y.size(), usual.absolute);
-    for (int i = equations_.motion_size(); i < equations_.size(); ++i) floor[i] = kDoesNotSteer;
+    for (int i = equations_.state_size(); i < equations_.size(); ++i) floor[i] = kDoesNotSteer;
     equations_.flatten(state, y.data());
     code_.emplace(choice_, equations_, state.t, y, usual.relative, floor);
     if (max_step_ > 0) code_->set_max_step(max_step_);
