@@ -5,37 +5,44 @@
 #include <cmath>
 #include <numbers>
 
-#include "space/planar.h"
+#include "space/space.h"
 
 namespace pintle {
 
-struct GapFunction {
+template <class S>
+struct BasicGapFunction {
   double gap = 0;
-  Planar::Vec gradient = Planar::Vec::Zero();
-  Planar::Mat hessian = Planar::Mat::Zero();
+  typename S::Vec gradient = S::Vec::Zero();
+  typename S::Mat hessian = S::Mat::Zero();
 };
+using GapFunction = BasicGapFunction<Planar>;
 
 /// Rod and rope: the distance of the two points less the length. theory/joints Eq. (2.11). Undefined at zero distance;
 /// there the direction is taken along F's x axis.
-struct Distance {
+template <class S>
+struct BasicDistance {
   double length = 1;  // [m]
 
-  GapFunction operator()(const Planar::Vec& z) const {
-    GapFunction g;
-    const double distance = std::hypot(z[0], z[1]);
+  BasicGapFunction<S> operator()(const typename S::Vec& z) const {
+    BasicGapFunction<S> g;
+    double distance = std::hypot(z[0], z[1]);
+    for (int k = 2; k < S::kDim; ++k) distance = std::hypot(distance, z[k]);
     g.gap = distance - length;
     if (distance < 1e-300) {
       g.gradient[0] = 1;
       return g;
     }
-    const double nx = z[0] / distance, ny = z[1] / distance;
-    g.gradient << nx, ny, 0;
-    g.hessian(0, 0) = ny * ny / distance;
-    g.hessian(1, 1) = nx * nx / distance;
-    g.hessian(0, 1) = g.hessian(1, 0) = -nx * ny / distance;
+    for (int k = 0; k < S::kDim; ++k) g.gradient[k] = z[k] / distance;
+    for (int i = 0; i < S::kDim; ++i)
+      for (int k = 0; k < S::kDim; ++k) {
+        double sum = 0;  // of the squares across, in which nothing is lost
+        for (int c = 0; c < S::kDim && i == k; ++c) sum += c == i ? 0 : g.gradient[c] * g.gradient[c];
+        g.hessian(i, k) = (i == k ? sum : -g.gradient[i] * g.gradient[k]) / distance;
+      }
     return g;
   }
 };
+using Distance = BasicDistance<Planar>;
 
 /// Two gears in mesh, centred on F and M: how far their pitch circles have slipped. Eq. (2.12).
 ///   gap = sign r2 angle - (r1 + sign r2) direction of the line of centres + phase, sign = +1 external, -1 internal

@@ -5,40 +5,87 @@
 #include <variant>
 
 #include "joints/gap_function.h"
-#include "joints/gap_map.h"
-#include "joints/relative_pose.h"
 
 namespace pintle {
 
 /// Joints whose gap is z itself, less an offset; the law has no stiffness in the components that stay free.
-struct Selection {
-  Planar::Vec offset = Planar::Vec::Zero();  // e.g. full turns of a weld's angle
+template <class S>
+struct BasicSelection {
+  typename S::Vec offset = S::Vec::Zero();  // e.g. full turns of a weld's angle
 };
 
-using JointDisplacement = std::variant<Selection, Distance, Mesh, RackMesh, FunctionGap>;
+using Selection = BasicSelection<Planar>;
+
+/// The kinds of gaps that there are in a space.
+template <class S>
+struct DisplacementsOf;
+template <>
+struct DisplacementsOf<Planar> {
+  using Type = std::variant<Selection, Distance, Mesh, RackMesh, FunctionGap>;
+};
+template <>
+struct DisplacementsOf<Spatial> {
+  using Type = std::variant<BasicSelection<Spatial>, BasicDistance<Spatial>>;
+};
+template <class S>
+using BasicDisplacement = typename DisplacementsOf<S>::Type;
+using JointDisplacement = BasicDisplacement<Planar>;
 
 /// The gap between two bodies as a law wants it; scalar gaps stand in component 0.
 ///   rate = GA vA + GB vB,   gap'' = GA aA + GB aB + bias
-struct JointKinematics {
-  Planar::Vec gap, rate, bias;
-  GapMap<double> map;
+template <class S>
+struct BasicJointKinematics {
+  typename S::Vec gap, rate, bias;
+  typename S::template GapMap<double> map;
 
-  Planar::Mat GA() const { return map.GA(); }
-  Planar::Mat GB() const { return map.GB(); }
+  typename S::Mat GA() const { return map.GA(); }
+  typename S::Mat GB() const { return map.GB(); }
 };
+using JointKinematics = BasicJointKinematics<Planar>;
+
+template <class S>
+BasicJointKinematics<S> read(const BasicSelection<S>& displacement, const typename S::RelativePose& pose) {
+  return {pose.z - displacement.offset, pose.rate, pose.bias, S::template GapMap<double>::of(pose)};
+}
+
+/// What displacements answer, by their space S.
+template <class S>
+struct DisplacementReader {
+  using Vec = typename S::Vec;
+  using Pose = typename S::RelativePose;
+  using Displacement = BasicDisplacement<S>;
+  using Both = Eigen::Matrix<double, 2 * S::kDof, 2 * S::kDof>;
+  using RateGradient = Eigen::Matrix<double, S::kDof, 2 * S::kDof>;
+
+  static BasicJointKinematics<S> read(const Displacement& displacement, const Pose& pose);
+  static Vec to_pose_force(const Displacement& displacement, const Pose& pose, const Vec& force);
+  static Both geometric_stiffness(const Displacement& displacement, const Pose& pose, const Vec& force);
+  static RateGradient rate_gradient(const Displacement& displacement, const Pose& pose, const typename S::Motion& A, const typename S::Motion& B);
+};
+/// The space of a relative pose.
+template <class Pose>
+using SpaceOf = typename Pose::S;
 
 /// The displacement at a relative pose, with what goes with it.
-JointKinematics read(const JointDisplacement& displacement, const RelativePose& pose);
-inline JointKinematics read(const Selection& displacement, const RelativePose& pose) { return {pose.z - displacement.offset, pose.rate, pose.bias, GapMap<double>::of(pose)}; }
+template <class Displacement, class Pose>
+auto read(const Displacement& displacement, const Pose& pose) { return DisplacementReader<SpaceOf<Pose>>::read(displacement, pose); }
 
 /// The law's force as seen by z: J' f.
-Planar::Vec to_pose_force(const JointDisplacement& displacement, const RelativePose& pose, const Planar::Vec& force);
+template <class Displacement, class Pose, class Vec>
+auto to_pose_force(const Displacement& displacement, const Pose& pose, const Vec& force) {
+  return DisplacementReader<SpaceOf<Pose>>::to_pose_force(displacement, pose, force);
+}
 
 /// d(G' f)/dq at constant f over (qA, qB): the geometric stiffness of the joint.
-Eigen::Matrix<double, 6, 6> geometric_stiffness(const JointDisplacement& displacement, const RelativePose& pose, const Planar::Vec& force);
+template <class Displacement, class Pose, class Vec>
+auto geometric_stiffness(const Displacement& displacement, const Pose& pose, const Vec& force) {
+  return DisplacementReader<SpaceOf<Pose>>::geometric_stiffness(displacement, pose, force);
+}
 
 /// d(rate)/dq over (qA, qB).
-Eigen::Matrix<double, 3, 6> rate_gradient(const JointDisplacement& displacement, const RelativePose& pose, const Planar::Motion& A,
-                                          const Planar::Motion& B);
+template <class Displacement, class Pose, class Motion>
+auto rate_gradient(const Displacement& displacement, const Pose& pose, const Motion& A, const Motion& B) {
+  return DisplacementReader<SpaceOf<Pose>>::rate_gradient(displacement, pose, A, B);
+}
 
 }  // namespace pintle

@@ -8,91 +8,105 @@
 namespace pintle {
 namespace {
 
-using S = Planar;
-
-LawInput<double> input_at(const LawPoint& at) {
-  return {at.t, {at.gap[0], at.gap[1], at.gap[2]}, {at.rate[0], at.rate[1], at.rate[2]}, {}, at.state};
+template <class S>
+LawInput<double, S::kDof> input_at(const BasicLawPoint<S>& at) {
+  LawInput<double, S::kDof> in{};
+  in.t = at.t;
+  std::copy_n(at.gap.data(), S::kDof, in.gap);
+  std::copy_n(at.rate.data(), S::kDof, in.rate);
+  in.state = at.state;
+  return in;
 }
 
-LawOutput<double> answer(const Law& law, const LawPoint& at) {
-  LawOutput<double> out;
+template <class S>
+LawOutput<double, S::kDof> answer(const BasicLaw<S>& law, const BasicLawPoint<S>& at) {
+  LawOutput<double, S::kDof> out;
   law.evaluate(input_at(at), out);
   return out;
 }
 
 }  // namespace
 
-void Law::add(std::unique_ptr<LawPart> part) {
+template <class S>
+void BasicLaw<S>::add(std::unique_ptr<BasicLawPart<S>> part) {
   n_states_ += part->n_states();
   if (n_states_ > kMostLawStates) throw std::invalid_argument(fmt::format("the laws of a joint may have {} states together", kMostLawStates));
   parts_.push_back(std::move(part));
 }
 
-int Law::n_borders() const {
+template <class S>
+int BasicLaw<S>::n_borders() const {
   int n = 0;
   for (const auto& part : parts_) n += part->n_borders();
   return n;
 }
 
-S::Vec Law::force(const LawPoint& at) const {
+template <class S>
+typename S::Vec BasicLaw<S>::force(const BasicLawPoint<S>& at) const {
   if (parts_.empty()) return linear_.force(at.gap, at.rate);
   const auto out = answer(*this, at);
-  return {out.force[0], out.force[1], out.force[2]};
+  return Eigen::Map<const typename S::Vec>(out.force);
 }
 
-double Law::loss(const LawPoint& at) const { return parts_.empty() ? linear_.loss(at.rate) : answer(*this, at).loss; }
+template <class S>
+double BasicLaw<S>::loss(const BasicLawPoint<S>& at) const { return parts_.empty() ? linear_.loss(at.rate) : answer(*this, at).loss; }
 
-double Law::energy(const LawPoint& at) const {
+template <class S>
+double BasicLaw<S>::energy(const BasicLawPoint<S>& at) const {
   return parts_.empty() ? linear_.respond(at.gap, at.rate).energy : answer(*this, at).energy;
 }
 
-void Law::state_rates(const LawPoint& at, double* rate) const {
+template <class S>
+void BasicLaw<S>::state_rates(const BasicLawPoint<S>& at, double* rate) const {
   if (n_states_ == 0) return;
   const auto out = answer(*this, at);
   std::copy_n(out.state_rate, n_states_, rate);
 }
 
+template <class S>
 template <class Dual>
-void Law::linearize_by(const LawPoint& at, LawTangents& out) const {
-  LawInput<Dual> in;
+void BasicLaw<S>::linearize_by(const BasicLawPoint<S>& at, BasicLawTangents<S>& out) const {
+  LawInput<Dual, S::kDof> in;
   Dual state[kMostLawStates];
   in.t = Dual(at.t);
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < S::kDof; ++k) {
     in.gap[k] = Dual::variable(at.gap[k], k);
-    in.rate[k] = Dual::variable(at.rate[k], 3 + k);
+    in.rate[k] = Dual::variable(at.rate[k], S::kDof + k);
   }
-  for (int z = 0; z < n_states_; ++z) state[z] = Dual::variable(at.state[z], 6 + z);
+  for (int z = 0; z < n_states_; ++z) state[z] = Dual::variable(at.state[z], 2 * S::kDof + z);
   in.state = state;
-  LawOutput<Dual> answer;
+  LawOutput<Dual, S::kDof> answer;
   evaluate(in, answer);
   out.n = n_states_;
   out.energy = answer.energy.v;
   out.loss = answer.loss.v;
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < S::kDof; ++k) {
     out.force[k] = answer.force[k].v;
-    for (int c = 0; c < 3; ++c) {
+    for (int c = 0; c < S::kDof; ++c) {
       out.stiffness(k, c) = -answer.force[k].d[c];
-      out.damping(k, c) = -answer.force[k].d[3 + c];
+      out.damping(k, c) = -answer.force[k].d[S::kDof + c];
     }
-    for (int z = 0; z < n_states_; ++z) out.force_by_state[k][z] = answer.force[k].d[6 + z];
+    for (int z = 0; z < n_states_; ++z) out.force_by_state[k][z] = answer.force[k].d[2 * S::kDof + z];
   }
   for (int z = 0; z < n_states_; ++z) {
     out.state_rate[z] = answer.state_rate[z].v;
-    for (int c = 0; c < 3; ++c) {
+    for (int c = 0; c < S::kDof; ++c) {
       out.by_gap[z][c] = answer.state_rate[z].d[c];
-      out.by_rate[z][c] = answer.state_rate[z].d[3 + c];
+      out.by_rate[z][c] = answer.state_rate[z].d[S::kDof + c];
     }
-    for (int y = 0; y < n_states_; ++y) out.by_state[z][y] = answer.state_rate[z].d[6 + y];
+    for (int y = 0; y < n_states_; ++y) out.by_state[z][y] = answer.state_rate[z].d[2 * S::kDof + y];
   }
 }
 
-void Law::linearize(const LawPoint& at, LawTangents& out) const {
-  if (n_states_ <= 2) linearize_by<FewDual>(at, out);
-  else linearize_by<ManyDual>(at, out);
+template <class S>
+void BasicLaw<S>::linearize(const BasicLawPoint<S>& at, BasicLawTangents<S>& out) const {
+  if (n_states_ <= 2) linearize_by<FewDual<S::kDof>>(at, out);
+  else linearize_by<ManyDual<S::kDof>>(at, out);
 }
 
-void Law::borders(const LawPoint& at, double* value) const {
-  LawInput<double> in = input_at(at);
+template <class S>
+void BasicLaw<S>::borders(const BasicLawPoint<S>& at, double* value) const {
+  LawInput<double, S::kDof> in = input_at(at);
   for (const auto& part : parts_) {
     if (part->n_borders() > 0) part->borders(in, value);
     value += part->n_borders();
@@ -100,7 +114,8 @@ void Law::borders(const LawPoint& at, double* value) const {
   }
 }
 
-unsigned Law::branch(const LawPoint& at) const {
+template <class S>
+unsigned BasicLaw<S>::branch(const BasicLawPoint<S>& at) const {
   if (parts_.empty()) return 0;
   double value[32];
   const int n = std::min(n_borders(), 32);
@@ -110,52 +125,57 @@ unsigned Law::branch(const LawPoint& at) const {
   return sides;
 }
 
-void Law::rest(const LawPoint& at, double* state) const {
-  LawInput<double> in = input_at(at);
-  LawOutput<double> so_far;
+template <class S>
+void BasicLaw<S>::rest(const BasicLawPoint<S>& at, double* state) const {
+  LawInput<double, S::kDof> in = input_at(at);
+  LawOutput<double, S::kDof> so_far;
   so_far.clear();
   linear_.evaluate(in, so_far);
   for (const auto& part : parts_) {
     std::copy(std::begin(so_far.force), std::end(so_far.force), in.before);
     part->rest(in, state);
     in.state = state;
-    LawOutput<double> one;
+    LawOutput<double, S::kDof> one;
     one.clear();
     part->evaluate(in, one);
-    for (int k = 0; k < 3; ++k) so_far.force[k] += one.force[k];
+    for (int k = 0; k < S::kDof; ++k) so_far.force[k] += one.force[k];
     state += part->n_states();
   }
 }
 
-bool Law::rubs() const {
+template <class S>
+bool BasicLaw<S>::rubs() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return !part->holds(); });
 }
 
-bool Law::ideal_limit() const {
+template <class S>
+bool BasicLaw<S>::ideal_limit() const {
   return std::none_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->holds(); });
 }
 
-Response Law::holding(const S::Vec& gap, const S::Vec& rate) const {
+template <class S>
+BasicResponse<S> BasicLaw<S>::holding(const typename S::Vec& gap, const typename S::Vec& rate) const {
   if (!rubs()) return holding_of_parts(gap, rate);
-  Law held(linear_);
+  BasicLaw<S> held(linear_);
   for (const auto& part : parts_)
     if (part->holds()) held.add(part->clone());
   return respond(held, gap, rate);
 }
 
 // Static stiffness: that of Eq. (3.9) at mu = 0.
-Response Law::holding_of_parts(const S::Vec& gap, const S::Vec& rate) const {
+template <class S>
+BasicResponse<S> BasicLaw<S>::holding_of_parts(const typename S::Vec& gap, const typename S::Vec& rate) const {
   double state[kMostLawStates];
-  const S::Vec still = S::Vec::Zero();
+  const typename S::Vec still = S::Vec::Zero();
   rest({0, gap, still, state}, state);
-  LawTangents tangents;
+  BasicLawTangents<S> tangents;
   linearize({0, gap, rate, state}, tangents);
-  LawImpedance<double> statics;
+  LawImpedance<double, S> statics;
   statics.reserve(n_states_);
   statics.find(tangents, 0);
-  Response r;
+  BasicResponse<S> r;
   r.force = tangents.force;
-  for (int k = 0; k < 9; ++k) r.stiffness(k / 3, k % 3) = statics.weight[k];
+  for (int k = 0; k < S::kDof * S::kDof; ++k) r.stiffness(k / S::kDof, k % S::kDof) = statics.weight[k];
   if (!r.stiffness.allFinite()) r.stiffness = tangents.stiffness;
   r.damping = tangents.damping;
   r.energy = tangents.energy;
@@ -163,27 +183,31 @@ Response Law::holding_of_parts(const S::Vec& gap, const S::Vec& rate) const {
   return r;
 }
 
-S::Vec Law::engaged_stiffness() const {
-  S::Vec k = linear_.k;
+template <class S>
+typename S::Vec BasicLaw<S>::engaged_stiffness() const {
+  typename S::Vec k = linear_.k;
   for (const auto& part : parts_)
     if (part->holds()) k += part->engaged_stiffness();
   return k;
 }
 
-double Law::lever() const {
+template <class S>
+double BasicLaw<S>::lever() const {
   double lever = 0;
   for (const auto& part : parts_) lever = std::max(lever, part->lever());
   return lever;
 }
 
-std::vector<LawColumn> Law::columns() const {
+template <class S>
+std::vector<LawColumn> BasicLaw<S>::columns() const {
   std::vector<LawColumn> all;
   for (const auto& part : parts_) all.insert(all.end(), part->columns().begin(), part->columns().end());
   return all;
 }
 
-void Law::observe(const LawPoint& at, const S::Vec& force, std::vector<double>& values) const {
-  LawInput<double> in = input_at(at);
+template <class S>
+void BasicLaw<S>::observe(const BasicLawPoint<S>& at, const typename S::Vec& force, std::vector<double>& values) const {
+  LawInput<double, S::kDof> in = input_at(at);
   for (const auto& part : parts_) {
     const std::size_t n = part->columns().size(), first = values.size();
     values.resize(first + n);
@@ -191,5 +215,8 @@ void Law::observe(const LawPoint& at, const S::Vec& force, std::vector<double>& 
     in.state += part->n_states();
   }
 }
+
+template class BasicLaw<Planar>;
+template class BasicLaw<Spatial>;
 
 }  // namespace pintle

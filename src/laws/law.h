@@ -15,55 +15,63 @@
 namespace pintle {
 
 /// Where a law is asked, in plain numbers.
-struct LawPoint {
+template <class S>
+struct BasicLawPoint {
   double t;                                       // [s]
-  const Planar::Vec& gap;
-  const Planar::Vec& rate;
+  const typename S::Vec& gap;
+  const typename S::Vec& rate;
   const double* state = nullptr;                  // n_states() numbers
 };
+using LawPoint = BasicLawPoint<Planar>;
 
-class Law {
+template <class S>
+class BasicLaw {
  public:
-  Law() = default;
-  Law(const LinearLaw& linear) : linear_(linear) {}
+  using Vec = typename S::Vec;
+  using Linear = BasicLinearLaw<S>;
+  using Point = BasicLawPoint<S>;
+  using Tangents = BasicLawTangents<S>;
+  using Part = BasicLawPart<S>;
+  BasicLaw() = default;
+  BasicLaw(const Linear& linear) : linear_(linear) {}
   /// A law without springs and dampers of its own.
   template <class P>
-    requires(!std::same_as<P, LinearLaw> && !std::same_as<P, Law> && requires { P::kWord; })
-  Law(const P& part) {
-    add(std::make_unique<LawPartOf<P>>(part));
+    requires(!std::same_as<P, BasicLinearLaw<S>> && !std::same_as<P, BasicLaw> && requires { P::kWord; })
+  BasicLaw(const P& part) {
+    add(std::make_unique<LawPartOf<P, S>>(part));
   }
-  Law(const Law& other) : linear_(other.linear_) {
+  BasicLaw(const BasicLaw& other) : linear_(other.linear_) {
     for (const auto& part : other.parts_) add(part->clone());
   }
-  Law(Law&&) noexcept = default;
-  Law& operator=(Law other) noexcept {
+  BasicLaw(BasicLaw&&) noexcept = default;
+  BasicLaw& operator=(BasicLaw other) noexcept {
     std::swap(linear_, other.linear_);
     std::swap(parts_, other.parts_);
     std::swap(n_states_, other.n_states_);
     return *this;
   }
 
-  void set_linear(const LinearLaw& linear) { linear_ = linear; }
+  void set_linear(const Linear& linear) { linear_ = linear; }
   /// Throws std::invalid_argument when the joint would have too many states.
-  void add(std::unique_ptr<LawPart> part);
+  void add(std::unique_ptr<Part> part);
 
   /// The springs and dampers, where there is nothing else: constant tangents, one component apart from the other. Otherwise null.
-  const LinearLaw* constant_diagonal() const { return parts_.empty() ? &linear_ : nullptr; }
+  const Linear* constant_diagonal() const { return parts_.empty() ? &linear_ : nullptr; }
   int n_states() const { return n_states_; }
   int n_borders() const;
-  const std::vector<std::unique_ptr<LawPart>>& parts() const { return parts_; }
+  const std::vector<std::unique_ptr<Part>>& parts() const { return parts_; }
 
   /// Over any number type of PINTLE_LAW_NUMBERS. Fills `out` whole; in.before need not be set.
   template <class T>
-  void evaluate(LawInput<T> in, LawOutput<T>& out) const {
+  void evaluate(LawInput<T, S::kDof> in, LawOutput<T, S::kDof>& out) const {
     out.clear();
     linear_.evaluate(in, out);
     for (int first = 0; const auto& part : parts_) {
       std::copy(std::begin(out.force), std::end(out.force), in.before);
-      LawOutput<T> one;
+      LawOutput<T, S::kDof> one;
       one.clear();
       part->evaluate(in, one);
-      for (int k = 0; k < 3; ++k) out.force[k] += one.force[k];
+      for (int k = 0; k < S::kDof; ++k) out.force[k] += one.force[k];
       for (int z = 0; z < part->n_states(); ++z) out.state_rate[first + z] = one.state_rate[z];
       out.energy += one.energy;
       out.loss += one.loss;
@@ -73,50 +81,52 @@ class Law {
   }
 
   /// Force on the second body; power lost [W].
-  Planar::Vec force(const LawPoint& at) const;
-  double loss(const LawPoint& at) const;
-  double energy(const LawPoint& at) const;
-  void state_rates(const LawPoint& at, double* rate) const;
+  Vec force(const Point& at) const;
+  double loss(const Point& at) const;
+  double energy(const Point& at) const;
+  void state_rates(const Point& at, double* rate) const;
   /// Everything, with the tangents.
-  void linearize(const LawPoint& at, LawTangents& out) const;
+  void linearize(const Point& at, Tangents& out) const;
   /// Signs of all borders, one bit each; the values themselves.
-  unsigned branch(const LawPoint& at) const;
-  void borders(const LawPoint& at, double* value) const;
+  unsigned branch(const Point& at) const;
+  void borders(const Point& at, double* value) const;
 
   /// The states of a joint that has long been at this gap and moves at this rate.
-  void rest(const LawPoint& at, double* state) const;
+  void rest(const Point& at, double* state) const;
   /// What keeps the joint together, with its states at rest: force, static stiffness, damping.
-  Response holding(const Planar::Vec& gap, const Planar::Vec& rate) const;
+  BasicResponse<S> holding(const Vec& gap, const Vec& rate) const;
   /// Whether anything acts beside what holds, such as friction in a free direction.
   bool rubs() const;
   /// Whether ideal joints are its limit: springs and dampers hold it, and nothing else does.
   bool ideal_limit() const;
   /// Stiffness of what holds, one-sided laws as if they acted.
-  Planar::Vec engaged_stiffness() const;
+  Vec engaged_stiffness() const;
   /// The largest lever of its parts [m]; 0: it makes no couple of its own force.
   double lever() const;
   /// Moves a gap into the range in which the law holds.
-  void engage(Planar::Vec& gap) const {
+  void engage(Vec& gap) const {
     for (const auto& part : parts_) part->engage(gap);
   }
 
   /// Columns of all parts, and their values, appended, where the joint has this force.
   std::vector<LawColumn> columns() const;
-  void observe(const LawPoint& at, const Planar::Vec& force, std::vector<double>& values) const;
+  void observe(const Point& at, const Vec& force, std::vector<double>& values) const;
 
  private:
   template <class Dual>
-  void linearize_by(const LawPoint& at, LawTangents& out) const;
-  Response holding_of_parts(const Planar::Vec& gap, const Planar::Vec& rate) const;
+  void linearize_by(const Point& at, Tangents& out) const;
+  BasicResponse<S> holding_of_parts(const Vec& gap, const Vec& rate) const;
 
-  LinearLaw linear_;
-  std::vector<std::unique_ptr<LawPart>> parts_;
+  Linear linear_;
+  std::vector<std::unique_ptr<Part>> parts_;
   int n_states_ = 0;
 };
+using Law = BasicLaw<Planar>;
 
 /// What keeps a joint together, at rest: where no states are at hand (assembly, starts, checks).
-inline Response respond(const Law& law, const Planar::Vec& gap, const Planar::Vec& rate) {
-  if (const LinearLaw* linear = law.constant_diagonal()) return linear->respond(gap, rate);
+template <class S>
+BasicResponse<S> respond(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate) {
+  if (const auto* linear = law.constant_diagonal()) return linear->respond(gap, rate);
   return law.holding(gap, rate);
 }
 

@@ -10,19 +10,20 @@ namespace pintle {
 /// States that the laws of one joint may have together.
 inline constexpr int kMostLawStates = 12;
 
-/// Everything that a joint knows. Gap and rate are the relative pose of M as seen from F and its rate, in F's axes: (x, y, angle). What
+/// Everything that a joint knows. Gap and rate are the relative pose of M as seen from F and its rate, in F's axes: (x, y, angle) in the
+/// plane, D components in a space of D degrees of freedom. What
 /// the joint leaves free stands there like what it holds. A gap that is a function (rods, gears) stands in component 0.
-template <class T>
+template <class T, int D = 3>
 struct LawInput {
   T t;                       // [s]
-  T gap[3], rate[3];         // [m, m, rad] and per second
-  T before[3];               // force on the second body of the laws before this one in the same joint [N, N, N*m]
+  T gap[D], rate[D];         // [m, m, rad] and per second
+  T before[D];               // force on the second body of the laws before this one in the same joint [N, N, N*m]
   const T* state = nullptr;  // the law's own
 };
 
-template <class T>
+template <class T, int D = 3>
 struct LawOutput {
-  T force[3];                    // on the second body, conjugate to the gap, held and free components alike [N, N, N*m]
+  T force[D];                    // on the second body, conjugate to the gap, held and free components alike [N, N, N*m]
   T state_rate[kMostLawStates];  // of the law's own states
   T energy, loss;                // stored [J]; power that is lost [W]
 
@@ -34,10 +35,12 @@ struct LawOutput {
 };
 
 /// Derivatives by gap, rate and states: of laws with few states, and of all.
-using FewDual = Dual<8>;
-using ManyDual = Dual<6 + kMostLawStates>;
+template <int D>
+using FewDual = Dual<2 * D + 2>;
+template <int D>
+using ManyDual = Dual<2 * D + kMostLawStates>;
 
-/// Calls use(T) for every number type that laws are compiled for.
-#define PINTLE_LAW_NUMBERS(use) use(double) use(FewDual) use(ManyDual) use(Lanes<3>) use(Lanes<5>) use(Lanes<8>)
+/// Calls use(T) for every number type that the laws of a space S are compiled for.
+#define PINTLE_LAW_NUMBERS(use) use(double) use(FewDual<S::kDof>) use(ManyDual<S::kDof>) use(Lanes<3>) use(Lanes<5>) use(Lanes<8>)
 
 }  // namespace pintle

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "laws/law_numbers.h"
-#include "space/planar.h"
+#include "space/space.h"
 
 namespace pintle {
 
@@ -20,47 +20,59 @@ struct LawColumn {
   std::string meaning;  // one line
 };
 
-class LawPart {
+template <class S>
+class BasicLawPart {
  public:
-  virtual ~LawPart() = default;
-  virtual std::unique_ptr<LawPart> clone() const = 0;
+  using Vec = typename S::Vec;
+  template <class T>
+  using Input = LawInput<T, S::kDof>;
+  template <class T>
+  using Output = LawOutput<T, S::kDof>;
+  virtual ~BasicLawPart() = default;
+  virtual std::unique_ptr<BasicLawPart> clone() const = 0;
   virtual std::string_view word() const = 0;
 
-#define PINTLE_EVALUATE(T) virtual void evaluate(const LawInput<T>& in, LawOutput<T>& out) const = 0;
+#define PINTLE_EVALUATE(T) virtual void evaluate(const Input<T>& in, Output<T>& out) const = 0;
   PINTLE_LAW_NUMBERS(PINTLE_EVALUATE)
 #undef PINTLE_EVALUATE
 
   virtual int n_states() const = 0;
   /// The states that a joint has which has long been where it is: state_rate = 0.
-  virtual void rest(const LawInput<double>& in, double* state) const = 0;
+  virtual void rest(const Input<double>& in, double* state) const = 0;
   /// Signed functions that change their sign where the law changes its formula; integrators end a step there.
   virtual int n_borders() const = 0;
-  virtual void borders(const LawInput<double>& in, double* value) const = 0;
+  virtual void borders(const Input<double>& in, double* value) const = 0;
   /// Whether it keeps the joint together. What does not (friction) is left out where gaps that carry loads are looked for.
   virtual bool holds() const = 0;
   /// Stiffness in each component where the law acts; a rope that is slack is looked at as if it were taut.
-  virtual Planar::Vec engaged_stiffness() const = 0;
+  virtual Vec engaged_stiffness() const = 0;
   /// What the joint's own force is multiplied by to measure couples that the law makes of it [m]: the radius of a pin that rubs.
   virtual double lever() const = 0;
   /// Moves a gap into the range in which the law acts.
-  virtual void engage(Planar::Vec& gap) const = 0;
+  virtual void engage(Vec& gap) const = 0;
   virtual std::span<const LawColumn> columns() const = 0;
   /// One value per column, where the whole joint has this force on its second body.
-  virtual void observe(const LawInput<double>& in, const Planar::Vec& force, double* value) const = 0;
+  virtual void observe(const Input<double>& in, const Vec& force, double* value) const = 0;
 };
+using LawPart = BasicLawPart<Planar>;
 
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
 /// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), kHolds = false, columns() with
 /// observe(), engage(), lever().
-template <class P>
-class LawPartOf final : public LawPart {
+template <class P, class S = Planar>
+class LawPartOf final : public BasicLawPart<S> {
  public:
+  using Vec = typename S::Vec;
+  template <class T>
+  using Input = LawInput<T, S::kDof>;
+  template <class T>
+  using Output = LawOutput<T, S::kDof>;
   explicit LawPartOf(P law) : law_(std::move(law)) {}
-  std::unique_ptr<LawPart> clone() const override { return std::make_unique<LawPartOf>(*this); }
+  std::unique_ptr<BasicLawPart<S>> clone() const override { return std::make_unique<LawPartOf>(*this); }
   std::string_view word() const override { return P::kWord; }
 
 #define PINTLE_EVALUATE(T) \
-  void evaluate(const LawInput<T>& in, LawOutput<T>& out) const override { law_.evaluate(in, out); }
+  void evaluate(const Input<T>& in, Output<T>& out) const override { law_.evaluate(in, out); }
   PINTLE_LAW_NUMBERS(PINTLE_EVALUATE)
 #undef PINTLE_EVALUATE
 
@@ -68,36 +80,36 @@ class LawPartOf final : public LawPart {
     if constexpr (requires { law_.n_states(); }) return law_.n_states();
     else return 0;
   }
-  void rest(const LawInput<double>& in, double* state) const override {
+  void rest(const Input<double>& in, double* state) const override {
     if constexpr (requires { law_.rest(in, state); }) law_.rest(in, state);
   }
   int n_borders() const override {
     if constexpr (requires { law_.n_borders(); }) return law_.n_borders();
     else return 0;
   }
-  void borders(const LawInput<double>& in, double* value) const override {
+  void borders(const Input<double>& in, double* value) const override {
     if constexpr (requires { law_.borders(in, value); }) law_.borders(in, value);
   }
   bool holds() const override {
     if constexpr (requires { P::kHolds; }) return P::kHolds;
     else return true;
   }
-  Planar::Vec engaged_stiffness() const override {
+  Vec engaged_stiffness() const override {
     if constexpr (requires { law_.engaged_stiffness(); }) return law_.engaged_stiffness();
-    else return Planar::Vec::Zero();
+    else return Vec::Zero();
   }
   double lever() const override {
     if constexpr (requires { law_.lever(); }) return law_.lever();
     else return 0;
   }
-  void engage(Planar::Vec& gap) const override {
+  void engage(Vec& gap) const override {
     if constexpr (requires { law_.engage(gap); }) law_.engage(gap);
   }
   std::span<const LawColumn> columns() const override {
     if constexpr (requires { law_.columns(); }) return law_.columns();
     else return {};
   }
-  void observe(const LawInput<double>& in, const Planar::Vec& force, double* value) const override {
+  void observe(const Input<double>& in, const Vec& force, double* value) const override {
     if constexpr (requires { law_.observe(in, force, value); }) law_.observe(in, force, value);
   }
 

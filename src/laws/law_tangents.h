@@ -11,46 +11,49 @@
 #include <vector>
 
 #include "laws/law_numbers.h"
-#include "space/planar.h"
+#include "space/space.h"
 
 namespace pintle {
 
-struct LawTangents {
+template <class S>
+struct BasicLawTangents {
+  static constexpr int kDof = S::kDof;
   int n = 0;                                          // states
-  Planar::Vec force = Planar::Vec::Zero();
-  Planar::Mat stiffness = Planar::Mat::Zero();        // -F_e, states held
-  Planar::Mat damping = Planar::Mat::Zero();          // -F_v
+  typename S::Vec force = S::Vec::Zero();
+  typename S::Mat stiffness = S::Mat::Zero();        // -F_e, states held
+  typename S::Mat damping = S::Mat::Zero();          // -F_v
   double energy = 0, loss = 0;
   double state_rate[kMostLawStates] = {};
-  double force_by_state[3][kMostLawStates] = {};      // F_z
-  double by_gap[kMostLawStates][3] = {};              // g_e
-  double by_rate[kMostLawStates][3] = {};             // g_v
+  double force_by_state[kDof][kMostLawStates] = {};      // F_z
+  double by_gap[kMostLawStates][kDof] = {};              // g_e
+  double by_rate[kMostLawStates][kDof] = {};             // g_v
   double by_state[kMostLawStates][kMostLawStates] = {};  // g_z
 };
-
+using LawTangents = BasicLawTangents<Planar>;
 
 /// The impedance of a law at one mu, or at several side by side: T is double or Spectrum<N>.
-template <class T>
+template <class T, class S = Planar>
 struct LawImpedance {
-  T weight[9];                // Z(mu), by rows
+  static constexpr int D = S::kDof;
+  T weight[D * D];                // Z(mu), by rows
   std::vector<T> inverse;     // (mu - g_z)^-1, n x n
-  std::vector<T> follows;     // (mu - g_z)^-1 (g_e + mu g_v), n x 3: states by gaps
-  std::vector<T> pushes;      // F_z (mu - g_z)^-1, 3 x n: forces by what is missing in the states' rates
+  std::vector<T> follows;     // (mu - g_z)^-1 (g_e + mu g_v), n x D: states by gaps
+  std::vector<T> pushes;      // F_z (mu - g_z)^-1, D x n: forces by what is missing in the states' rates
   int n = 0;
 
   /// Room for n states; then `find` allocates nothing.
   void reserve(int states) {
     n = states;
     inverse.resize(n * n);
-    follows.resize(3 * n);
-    pushes.resize(3 * n);
+    follows.resize(D * n);
+    pushes.resize(D * n);
     work_.resize(n * n);
   }
 
-  void find(const LawTangents& law, const T& mu) {
+  void find(const BasicLawTangents<S>& law, const T& mu) {
     const T one(1.0), none(0.0);
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) weight[3 * r + c] = law.stiffness(r, c) * one + law.damping(r, c) * mu;
+    for (int r = 0; r < D; ++r)
+      for (int c = 0; c < D; ++c) weight[D * r + c] = law.stiffness(r, c) * one + law.damping(r, c) * mu;
     if (n == 0) return;
     for (int r = 0; r < n; ++r)
       for (int c = 0; c < n; ++c) {
@@ -59,18 +62,18 @@ struct LawImpedance {
       }
     invert();
     for (int r = 0; r < n; ++r)
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < D; ++k) {
         T sum = none, push = none;
         for (int c = 0; c < n; ++c) {
           sum += inverse[r * n + c] * (law.by_gap[c][k] * one + law.by_rate[c][k] * mu);
           push += law.force_by_state[k][c] * inverse[c * n + r];
         }
-        follows[3 * r + k] = sum;
+        follows[D * r + k] = sum;
         pushes[k * n + r] = push;
       }
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c)
-        for (int z = 0; z < n; ++z) weight[3 * r + c] -= law.force_by_state[r][z] * follows[3 * z + c];
+    for (int r = 0; r < D; ++r)
+      for (int c = 0; c < D; ++c)
+        for (int z = 0; z < n; ++z) weight[D * r + c] -= law.force_by_state[r][z] * follows[D * z + c];
   }
 
  private:

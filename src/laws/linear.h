@@ -13,19 +13,28 @@
 
 namespace pintle {
 
-struct LinearLaw {
+template <class S>
+struct BasicLinearLaw {
+  using Vec = typename S::Vec;
   static constexpr std::string_view kWord = "linear";
-  Planar::Vec k = Planar::Vec::Zero();  // >= 0 [N/m, N/m, N*m/rad]
-  Planar::Vec c = Planar::Vec::Zero();  // >= 0 [N*s/m, N*s/m, N*m*s/rad]
+  Vec k = Vec::Zero();  // >= 0 [N/m, N/m, N*m/rad]
+  Vec c = Vec::Zero();  // >= 0 [N*s/m, N*s/m, N*m*s/rad]
 
-  static LinearLaw typical() { return {{1e8, 2e8, 1e6}, {3e3, 2e3, 30}}; }
+  static BasicLinearLaw typical() {
+    BasicLinearLaw law;
+    for (int i = 0; i < S::kDof; ++i) {
+      law.k[i] = i < S::kDim ? (1 + i) * 1e8 : (1 + i - S::kDim) * 1e6;
+      law.c[i] = i < S::kDim ? 3e3 - i * 1e3 : 30;
+    }
+    return law;
+  }
 
-  Planar::Vec force(const Planar::Vec& gap, const Planar::Vec& rate) const {
+  Vec force(const Vec& gap, const Vec& rate) const {
     return -(k.cwiseProduct(gap) + c.cwiseProduct(rate));                                // (3.1)
   }
-  double loss(const Planar::Vec& rate) const { return rate.dot(c.cwiseProduct(rate)); }  // (3.3)
-  Response respond(const Planar::Vec& gap, const Planar::Vec& rate) const {
-    Response r;
+  double loss(const Vec& rate) const { return rate.dot(c.cwiseProduct(rate)); }  // (3.3)
+  BasicResponse<S> respond(const Vec& gap, const Vec& rate) const {
+    BasicResponse<S> r;
     r.force = force(gap, rate);
     r.stiffness = k.asDiagonal();
     r.damping = c.asDiagonal();
@@ -35,14 +44,15 @@ struct LinearLaw {
   }
   /// The same over any number type, added to `out`.
   template <class T>
-  void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
-    for (int i = 0; i < 3; ++i) {
+  void evaluate(const LawInput<T, S::kDof>& in, LawOutput<T, S::kDof>& out) const {
+    for (int i = 0; i < S::kDof; ++i) {
       out.force[i] -= k[i] * in.gap[i] + c[i] * in.rate[i];
       out.energy += 0.5 * k[i] * (in.gap[i] * in.gap[i]);
       out.loss += c[i] * (in.rate[i] * in.rate[i]);
     }
   }
-  Planar::Vec engaged_stiffness() const { return k; }
+  Vec engaged_stiffness() const { return k; }
 };
+using LinearLaw = BasicLinearLaw<Planar>;
 
 }  // namespace pintle

@@ -3,18 +3,54 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 namespace pintle {
 
+template <class T>
+struct PlanarPoseGeometry;
+template <class T>
+struct PlanarGapMap;
+struct PlanarRelativePose;
+template <int N>
+struct PlanarBodyLanes;
+
 struct Planar {
-  static constexpr int kDof = 3;                         // degrees of freedom of a free body
+  static constexpr std::string_view kName = "plane";
+  static constexpr int kDof = 3;                         // degrees of freedom of a free body, and components of a relative pose
+  static constexpr int kDim = 2;                         // the first of them are translations, the others rotations
+  static constexpr int kTurn = 2;                        // component of a relative pose about the joint's axis
+  static constexpr bool kCurved = false;                 // rotations add: coordinates are increments
+  static constexpr bool kGyroscopic = false;             // no force comes of a constant mass matrix and the velocity alone
   using Vec = Eigen::Matrix<double, kDof, 1>;            // (x, y, angle) [m, m, rad], or their rates, or (fx, fy, moment)
   using Mat = Eigen::Matrix<double, kDof, kDof>;
   using Point = Eigen::Vector2d;                         // [m]
+  using Coordinates = Vec;                               // where a body is
+
+  template <class T>
+  using PoseGeometry = PlanarPoseGeometry<T>;
+  template <class T>
+  using GapMap = PlanarGapMap<T>;
+  using RelativePose = PlanarRelativePose;
+  template <int N>
+  using BodyLanes = PlanarBodyLanes<N>;
 
   // Turned by a right angle: J r.
   static Point perp(const Point& r) { return {-r.y(), r.x()}; }
   static double cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+  static Coordinates at_origin() { return Vec::Zero(); }
+  static Coordinates moved(const Coordinates& q, const Vec& dq) { return q + dq; }
+  static void move(Coordinates& q, const Vec& dq) { q += dq; }
+  // What moves q0 to q1.
+  static Vec difference(const Coordinates& q1, const Coordinates& q0) { return q1 - q0; }
+  // The rate of a displacement dq that began where velocities are measured.
+  static Vec rate_of_increment(const Vec&, const Vec& v) { return v; }
+  static Point position(const Coordinates& q) { return q.head<2>(); }
+  static bool is_finite(const Coordinates& q) { return q.allFinite(); }
+  // Whole turns of a relative pose such that it is nearest to `reference`.
+  static void count_turns(const Vec&, Vec&) {}
 
   // Where a body is and how it moves, in world axes.
   struct Motion {
@@ -27,7 +63,14 @@ struct Planar {
     static Motion of(const Vec& q, const Vec& v) {
       return {{q[0], q[1]}, q[2], std::cos(q[2]), std::sin(q[2]), {v[0], v[1]}, v[2]};
     }
+    // The same place at other velocities.
+    void set_velocity(const Vec& x) {
+      v = x.head<2>();
+      w = x[2];
+    }
     Point turned(const Point& r) const { return {c * r.x() - s * r.y(), s * r.x() + c * r.y()}; }
+    // A force and a couple on the body at its centre of mass, in world axes, as a generalised force; r: the point where the force acts, from there.
+    Vec wrench(const Point& force, double couple, const Point& r) const { return {force.x(), force.y(), couple + cross(r, force)}; }
   };
 
   // A frame fixed in a body: where its origin is [m] and how its x axis is turned [rad], in body axes.

@@ -7,16 +7,15 @@
 namespace pintle {
 namespace {
 
-using S = Planar;
-constexpr int kMaxSignals = 16;
-
-JointDisplacement displacement_of(const LoadData& load) {
-  if (load.kind == LoadKind::kSpring) return Distance{load.free};
-  return Selection{S::Vec::Unit(load.component) * (load.kind == LoadKind::kTorsionSpring ? load.free : 0.0)};
+template <class S>
+BasicDisplacement<S> displacement_of(const BasicLoadData<S>& load) {
+  if (load.kind == LoadKind::kSpring) return BasicDistance<S>{load.free};
+  return BasicSelection<S>{typename S::Vec(S::Vec::Unit(load.component) * (load.kind == LoadKind::kTorsionSpring ? load.free : 0.0))};
 }
 
 // Values of the signals an effort expression reads.
-std::array<double, kMaxSignals> signal_values(const System& system, const LoadData& load, double t, const std::vector<S::Motion>& m) {
+template <class S>
+std::array<double, kMaxSignals> signal_values(const BasicSystem<S>& system, const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m) {
   std::array<double, kMaxSignals> values{};
   const std::size_t n = std::min<std::size_t>(load.signals.size(), kMaxSignals);
   for (std::size_t s = 0; s < n; ++s) {
@@ -25,44 +24,78 @@ std::array<double, kMaxSignals> signal_values(const System& system, const LoadDa
       values[s] = t;
       continue;
     }
-    const RelativePose pose = system.pose(system.joints[signal.joint].at, m);
+    const typename S::RelativePose pose = system.pose(system.joints[signal.joint].at, m);
     values[s] = signal.rate ? pose.rate[signal.component] : pose.z[signal.component];
   }
   return values;
 }
 
 // An applied force in world axes, at time t.
-struct Wrench {
-  S::Point force;
-  double torque;
+struct PlanarWrench {
+  Planar::Point force;
+  double couple;
 };
-Wrench wrench(const AppliedData& load, double t, const S::Motion& body) {
+struct SpatialWrench {
+  Spatial::Point force, couple;
+};
+double value_at(const Expression& e, double t) {
   const std::array<double, 1> time{t};
-  const auto at_t = [&time](const Expression& e) { return e.value(std::span(time).first(e.variables().size())); };
-  const S::Point f(at_t(load.fx), at_t(load.fy));
-  return {load.body_axes ? body.turned(f) : f, at_t(load.torque)};
+  return e.value(std::span(time).first(e.variables().size()));
+}
+PlanarWrench wrench(const BasicAppliedData<Planar>& load, double t, const Planar::Motion& body) {
+  const Planar::Point f(value_at(load.fx, t), value_at(load.fy, t));
+  return {load.body_axes ? body.turned(f) : f, value_at(load.torque, t)};
+}
+SpatialWrench wrench(const BasicAppliedData<Spatial>& load, double t, const Spatial::Motion& body) {
+  Spatial::Point f, couple;
+  for (int k = 0; k < 3; ++k) {
+    f[k] = value_at(load.force[k], t);
+    couple[k] = value_at(load.torque[k], t);
+  }
+  return load.body_axes ? SpatialWrench{body.turned(f), body.turned(couple)} : SpatialWrench{f, couple};
+}
+
+double power_of(const PlanarWrench& w, const Planar::Motion& body, const Planar::Point& arm) {
+  return w.force.dot(body.v + body.w * Planar::perp(arm)) + w.couple * body.w;
+}
+double power_of(const SpatialWrench& w, const Spatial::Motion& body, const Spatial::Point& arm) {
+  return w.force.dot(body.v + body.w.cross(arm)) + w.couple.dot(body.w);
+}
+
+// What the force on a body changes by when the body turns.
+Planar::Mat turning_tangent(const AppliedData& force, const PlanarWrench& w, const Planar::Motion& body) {
+  const Planar::Point arm = body.turned(force.at.p);
+  Planar::Mat dq = Planar::Mat::Zero();
+  if (force.body_axes) {
+    dq.block<2, 1>(0, 2) = Planar::perp(w.force);  // the moment stays: arm and force turn together
+  } else {
+    dq(2, 2) = -arm.dot(w.force);
+  }
+  return dq;
+}
+// theory/space Eq. (4.3).
+Spatial::Mat turning_tangent(const BasicAppliedData<Spatial>& force, const SpatialWrench& w, const Spatial::Motion& body) {
+  Spatial::Mat dq = Spatial::Mat::Zero();
+  const Eigen::Vector3d f = body.R.transpose() * w.force, couple = body.R.transpose() * w.couple;
+  for (int c = 0; c < 3; ++c) {
+    const Eigen::Vector3d turn = Eigen::Vector3d::Unit(c);
+    if (force.body_axes) dq.block<3, 1>(0, 3 + c) = body.R * turn.cross(f);
+    else dq.block<3, 1>(3, 3 + c) = couple.cross(turn) + force.at.p.cross(f.cross(turn));
+  }
+  return dq;
 }
 
 }  // namespace
 
-// A load at an instant: its kinematics, its force conjugate to their components, and the slopes of that force.
-struct System::LoadState {
-  JointDisplacement displacement;
-  RelativePose pose;
-  JointKinematics kinematics;
-  double effort = 0;  // force along the component [N] or [N*m]; a spring in tension has a negative one
-  int slot = 0;       // component of the displacement
-  double df_dgap = 0, df_drate = 0;
-  std::array<double, kMaxSignals> df_dsignal{};
-};
-
-const Expression::Ramp* System::ramp_of(const LoadData& load, SlidingModes sliding) const {
+template <class S>
+const Expression::Ramp* BasicSystem<S>::ramp_of(const BasicLoadData<S>& load, SlidingModes sliding) const {
   for (const SlidingMode& jump : sliding)
     if (&loads[jump.load] == &load) return &jump.ramp;
   return nullptr;
 }
 
-System::LoadState System::load_state(const LoadData& load, double t, const std::vector<S::Motion>& m, SlidingModes sliding) const {
+template <class S>
+BasicSystem<S>::LoadState BasicSystem<S>::load_state(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding) const {
   LoadState state;
   state.displacement = displacement_of(load);
   state.pose = pose(load.at, m);
@@ -83,29 +116,34 @@ System::LoadState System::load_state(const LoadData& load, double t, const std::
   return state;
 }
 
-double System::load_effort(const LoadData& load, double t, const std::vector<S::Motion>& m, SlidingModes sliding) const {
+template <class S>
+double BasicSystem<S>::load_effort(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding) const {
   return load_state(load, t, m, sliding).effort;
 }
 
-void System::external(double t, const std::vector<S::Motion>& m, Vecs& Q, SlidingModes sliding) const {
+template <class S>
+void BasicSystem<S>::external(double t, const std::vector<typename S::Motion>& m, VecsOf<S>& Q, SlidingModes sliding) const {
   Q.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) Q[i] = bodies[i].gravity;
-  for (const LoadData& load : loads) {
+  for (const BasicLoadData<S>& load : loads) {
     const LoadState s = load_state(load, t, m, sliding);
     if (load.at.a != kGround) Q[load.at.a] += s.kinematics.GA().row(s.slot).transpose() * s.effort;
     if (load.at.b != kGround) Q[load.at.b] += s.kinematics.GB().row(s.slot).transpose() * s.effort;
   }
-  for (const AppliedData& force : applied) {
-    const S::Motion& body = m[force.body];
-    const Wrench w = wrench(force, t, body);
-    Q[force.body] += Vec(w.force.x(), w.force.y(), w.torque + S::cross(body.turned(force.at.p), w.force));
+  for (const BasicAppliedData<S>& force : applied) {
+    const typename S::Motion& body = m[force.body];
+    const auto w = wrench(force, t, body);
+    Q[force.body] += body.wrench(w.force, w.couple, body.turned(force.at.p));
   }
+  if constexpr (S::kGyroscopic)
+    for (std::size_t i = 0; i < bodies.size(); ++i) Q[i] += gyroscopic_force(bodies[i], m[i]);
 }
 
-ExternalWork System::external_work(double t, const Vecs& q, const std::vector<S::Motion>& m, SlidingModes sliding) const {
+template <class S>
+ExternalWork BasicSystem<S>::external_work(double t, const PositionsOf<S>& q, const std::vector<typename S::Motion>& m, SlidingModes sliding) const {
   ExternalWork work;
-  for (std::size_t i = 0; i < bodies.size(); ++i) work.potential -= bodies[i].gravity.dot(q[i]);
-  for (const LoadData& load : loads) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) work.potential -= bodies[i].gravity.template head<S::kDim>().dot(S::position(q[i]));
+  for (const BasicLoadData<S>& load : loads) {
     const LoadState s = load_state(load, t, m, sliding);
     const double gap = s.kinematics.gap[s.slot], rate = s.kinematics.rate[s.slot];
     if (load.kind == LoadKind::kEffort) {
@@ -115,15 +153,15 @@ ExternalWork System::external_work(double t, const Vecs& q, const std::vector<S:
       work.lost += load.c * rate * rate;
     }
   }
-  for (const AppliedData& force : applied) {
-    const S::Motion& body = m[force.body];
-    const Wrench w = wrench(force, t, body);
-    work.supplied += w.force.dot(body.v + body.w * S::perp(body.turned(force.at.p))) + w.torque * body.w;
+  for (const BasicAppliedData<S>& force : applied) {
+    const typename S::Motion& body = m[force.body];
+    work.supplied += power_of(wrench(force, t, body), body, body.turned(force.at.p));
   }
   return work;
 }
 
-std::uint64_t System::branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate, const std::vector<double>& law_state, SlidingModes sliding) const {
+template <class S>
+std::uint64_t BasicSystem<S>::branches(double t, const std::vector<typename S::Motion>& m, const VecsOf<S>& gap, const VecsOf<S>& rate, const std::vector<double>& law_state, SlidingModes sliding) const {
   std::uint64_t sides = 0;
   const auto add = [&sides](std::uint64_t side) { sides = sides * 0x9E3779B97F4A7C15U + 1 + side; };
   const std::array<double, 1> time{t};
@@ -132,18 +170,19 @@ std::uint64_t System::branches(double t, const std::vector<S::Motion>& m, const 
     add(joints[j].law.branch({t, gap[j], rate[j], law_state.data() + joints[j].first_state}));
     if (joints[j].servo >= 0) add_at_t(joints[j].target);
   }
-  for (const LoadData& load : loads) {
+  for (const BasicLoadData<S>& load : loads) {
     if (load.kind != LoadKind::kEffort || !load.law.has_branches()) continue;
     const auto values = signal_values(*this, load, t, m);
     add(load.law.branches(std::span(values).first(load.signals.size()), ramp_of(load, sliding)));
   }
-  for (const AppliedData& force : applied)
-    for (const Expression* e : {&force.fx, &force.fy, &force.torque}) add_at_t(*e);
+  for (const BasicAppliedData<S>& force : applied)
+    for (const Expression* e : force.functions()) add_at_t(*e);
   return sides;
 }
 
-std::optional<SlidingMode> System::jump_between(double t0, const std::vector<S::Motion>& m0, double t1, const std::vector<S::Motion>& m1) const {
-  for (const LoadData& load : loads) {
+template <class S>
+std::optional<SlidingMode> BasicSystem<S>::jump_between(double t0, const std::vector<typename S::Motion>& m0, double t1, const std::vector<typename S::Motion>& m1) const {
+  for (const BasicLoadData<S>& load : loads) {
     if (load.kind != LoadKind::kEffort || !load.law.has_branches()) continue;
     const auto from = signal_values(*this, load, t0, m0), to = signal_values(*this, load, t1, m1);
     const std::size_t n = load.signals.size();
@@ -153,38 +192,42 @@ std::optional<SlidingMode> System::jump_between(double t0, const std::vector<S::
   return {};
 }
 
-double System::margin(const SlidingMode& jump, double t, const std::vector<S::Motion>& m) const {
-  const LoadData& load = loads[jump.load];
+template <class S>
+double BasicSystem<S>::margin(const SlidingMode& jump, double t, const std::vector<typename S::Motion>& m) const {
+  const BasicLoadData<S>& load = loads[jump.load];
   const auto values = signal_values(*this, load, t, m);
   return load.law.margin(jump.ramp.jump, std::span(values).first(load.signals.size()));
 }
 
-void System::load_tangents(const LoadData& load, double t, const std::vector<S::Motion>& m, SlidingModes sliding, std::vector<Tangent>& out) const {
+template <class S>
+void BasicSystem<S>::load_tangents(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding, std::vector<Tangent>& out) const {
   const LoadState s = load_state(load, t, m, sliding);
+  using Row = Eigen::Matrix<double, 1, S::kDof>;
+  constexpr int n = S::kDof;
   const std::array<int, 2> body{load.at.a, load.at.b};
-  const std::array<Eigen::RowVector3d, 2> G{s.kinematics.GA().row(s.slot), s.kinematics.GB().row(s.slot)};
+  const std::array<Row, 2> G{s.kinematics.GA().row(s.slot), s.kinematics.GB().row(s.slot)};
   const auto geometric = geometric_stiffness(s.displacement, s.pose, Vec::Unit(s.slot) * s.effort);
   const auto rate_slope = rate_gradient(s.displacement, s.pose, motion_of(load.at.a, m), motion_of(load.at.b, m));
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) {
       if (body[i] == kGround || body[j] == kGround) continue;
-      const Eigen::RowVector3d rate_j = rate_slope.block<1, 3>(s.slot, 3 * j);
+      const Row rate_j = rate_slope.template block<1, n>(s.slot, n * j);
       out.push_back({body[i], body[j],
-                     geometric.block<3, 3>(3 * i, 3 * j) + G[i].transpose() * (s.df_dgap * G[j] + s.df_drate * rate_j),
+                     geometric.template block<n, n>(n * i, n * j) + G[i].transpose() * (s.df_dgap * G[j] + s.df_drate * rate_j),
                      G[i].transpose() * (s.df_drate * G[j])});
     }
   for (std::size_t k = 0; k < load.signals.size(); ++k) {
     const Signal& signal = load.signals[k];
     if (signal.joint < 0) continue;
-    const Placement& at = joints[signal.joint].at;
-    const RelativePose p = pose(at, m);
+    const BasicPlacement<S>& at = joints[signal.joint].at;
+    const typename S::RelativePose p = pose(at, m);
     const auto slope = p.rate_gradient(motion_of(at.a, m), motion_of(at.b, m));
     const std::array<int, 2> source{at.a, at.b};
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j) {
         if (body[i] == kGround || source[j] == kGround) continue;
-        const Eigen::RowVector3d dz = j == 0 ? p.GA().row(signal.component) : p.GB().row(signal.component);
-        const Eigen::RowVector3d dq = signal.rate ? Eigen::RowVector3d(slope.block<1, 3>(signal.component, 3 * j)) : dz;
+        const Row dz = j == 0 ? p.GA().row(signal.component) : p.GB().row(signal.component);
+        const Row dq = signal.rate ? Row(slope.template block<1, n>(signal.component, n * j)) : dz;
         const Mat zero = Mat::Zero();
         out.push_back({body[i], source[j], G[i].transpose() * (s.df_dsignal[k] * dq),
                        signal.rate ? Mat(G[i].transpose() * (s.df_dsignal[k] * dz)) : zero});
@@ -192,17 +235,31 @@ void System::load_tangents(const LoadData& load, double t, const std::vector<S::
   }
 }
 
-void System::applied_tangents(const AppliedData& force, double t, const std::vector<S::Motion>& m, std::vector<Tangent>& out) const {
-  const S::Motion& body = m[force.body];
-  const Wrench w = wrench(force, t, body);
-  const S::Point arm = body.turned(force.at.p);
-  Mat dq = Mat::Zero();
-  if (force.body_axes) {
-    dq.block<2, 1>(0, 2) = S::perp(w.force);  // the moment stays: arm and force turn together
-  } else {
-    dq(2, 2) = -arm.dot(w.force);
-  }
-  out.push_back({force.body, force.body, dq, Mat::Zero()});
+template <class S>
+void BasicSystem<S>::applied_tangents(const BasicAppliedData<S>& force, double t, const std::vector<typename S::Motion>& m, std::vector<Tangent>& out) const {
+  const typename S::Motion& body = m[force.body];
+  out.push_back({force.body, force.body, turning_tangent(force, wrench(force, t, body), body), Mat::Zero()});
 }
+
+template const Expression::Ramp* BasicSystem<Planar>::ramp_of(const BasicLoadData<Planar>& load, SlidingModes sliding) const;
+template BasicSystem<Planar>::LoadState BasicSystem<Planar>::load_state(const BasicLoadData<Planar>& load, double t, const std::vector<Planar::Motion>& m, SlidingModes sliding) const;
+template double BasicSystem<Planar>::load_effort(const BasicLoadData<Planar>& load, double t, const std::vector<Planar::Motion>& m, SlidingModes sliding) const;
+template void BasicSystem<Planar>::external(double t, const std::vector<Planar::Motion>& m, VecsOf<Planar>& Q, SlidingModes sliding) const;
+template ExternalWork BasicSystem<Planar>::external_work(double t, const PositionsOf<Planar>& q, const std::vector<Planar::Motion>& m, SlidingModes sliding) const;
+template std::uint64_t BasicSystem<Planar>::branches(double t, const std::vector<Planar::Motion>& m, const VecsOf<Planar>& gap, const VecsOf<Planar>& rate, const std::vector<double>& law_state, SlidingModes sliding) const;
+template std::optional<SlidingMode> BasicSystem<Planar>::jump_between(double t0, const std::vector<Planar::Motion>& m0, double t1, const std::vector<Planar::Motion>& m1) const;
+template double BasicSystem<Planar>::margin(const SlidingMode& jump, double t, const std::vector<Planar::Motion>& m) const;
+template void BasicSystem<Planar>::load_tangents(const BasicLoadData<Planar>& load, double t, const std::vector<Planar::Motion>& m, SlidingModes sliding, std::vector<Tangent>& out) const;
+template void BasicSystem<Planar>::applied_tangents(const BasicAppliedData<Planar>& force, double t, const std::vector<Planar::Motion>& m, std::vector<Tangent>& out) const;
+template const Expression::Ramp* BasicSystem<Spatial>::ramp_of(const BasicLoadData<Spatial>& load, SlidingModes sliding) const;
+template BasicSystem<Spatial>::LoadState BasicSystem<Spatial>::load_state(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;
+template double BasicSystem<Spatial>::load_effort(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;
+template void BasicSystem<Spatial>::external(double t, const std::vector<Spatial::Motion>& m, VecsOf<Spatial>& Q, SlidingModes sliding) const;
+template ExternalWork BasicSystem<Spatial>::external_work(double t, const PositionsOf<Spatial>& q, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;
+template std::uint64_t BasicSystem<Spatial>::branches(double t, const std::vector<Spatial::Motion>& m, const VecsOf<Spatial>& gap, const VecsOf<Spatial>& rate, const std::vector<double>& law_state, SlidingModes sliding) const;
+template std::optional<SlidingMode> BasicSystem<Spatial>::jump_between(double t0, const std::vector<Spatial::Motion>& m0, double t1, const std::vector<Spatial::Motion>& m1) const;
+template double BasicSystem<Spatial>::margin(const SlidingMode& jump, double t, const std::vector<Spatial::Motion>& m) const;
+template void BasicSystem<Spatial>::load_tangents(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding, std::vector<Tangent>& out) const;
+template void BasicSystem<Spatial>::applied_tangents(const BasicAppliedData<Spatial>& force, double t, const std::vector<Spatial::Motion>& m, std::vector<Tangent>& out) const;
 
 }  // namespace pintle

@@ -5,20 +5,23 @@
 
 namespace pintle {
 
-void find_gap_accelerations(const System& system, const std::vector<JointKinematics>& r, State& state) {
+template <class S>
+void find_gap_accelerations(const BasicSystem<S>& system, const std::vector<BasicJointKinematics<S>>& r, BasicState<S>& state) {
   for (int j = 0; j < system.n_joints(); ++j) {
     state.gap_accel[j] = r[j].bias;
     add_gap(system.joints[j].at, r[j], state.a, state.gap_accel[j]);
   }
 }
 
-void find_law_rates(const System& system, State& state) {
+template <class S>
+void find_law_rates(const BasicSystem<S>& system, BasicState<S>& state) {
   if (system.n_law_states() == 0) return;
   for (int j = 0; j < system.n_joints(); ++j)
     system.joints[j].law.state_rates(law_point(system, j, state), state.law_rate.data() + system.joints[j].first_state);
 }
 
-void rest_laws(const System& system, State& state) {
+template <class S>
+void rest_laws(const BasicSystem<S>& system, BasicState<S>& state) {
   state.law_state.assign(system.n_law_states(), 0.0);
   state.law_rate.assign(system.n_law_states(), 0.0);
   if (system.n_law_states() == 0) return;
@@ -27,32 +30,60 @@ void rest_laws(const System& system, State& state) {
   find_law_rates(system, state);
 }
 
-void find_accelerations(const System& system, const std::vector<Planar::Motion>& m, const std::vector<JointKinematics>& r, State& state) {
+template <class S>
+void find_accelerations(const BasicSystem<S>& system, const std::vector<typename S::Motion>& m, const std::vector<BasicJointKinematics<S>>& r, BasicState<S>& state) {
   system.external(state.t, m, state.a, state.sliding);
   for (int j = 0; j < system.n_joints(); ++j) add_force(system.joints[j].at, r[j], state.force[j], state.a);
   for (int i = 0; i < system.n_bodies(); ++i) state.a[i] = state.a[i].cwiseQuotient(system.bodies[i].mass);
   find_gap_accelerations(system, r, state);
 }
 
-double largest_coordinate(const Vecs& x) {
-  double across = 1e-3, up = across;
-  for (const auto& xi : x) {
-    across = std::max(across, std::abs(xi[0]));
-    up = std::max(up, std::abs(xi[1]));
-  }
-  return std::max(across, up);
-}
+// Coordinates and vectors of a body begin with its translations.
+template <class Vec>
+constexpr int kTranslations = Vec::SizeAtCompileTime == Planar::kDof ? Planar::kDim : Spatial::kDim;
 
-double largest_force(const Vecs& force) {
-  double largest = 0;
-  for (const auto& f : force) largest = std::max(largest, f.head<2>().norm());
+template <class Vec>
+double largest_coordinate(const std::vector<Vec>& x) {
+  double largest = 1e-3;
+  for (const auto& xi : x)
+    for (int k = 0; k < kTranslations<Vec>; ++k) largest = std::max(largest, std::abs(xi[k]));
+  return largest;
+}
+template <>
+double largest_coordinate(const PositionsOf<Spatial>& x) {
+  double largest = 1e-3;
+  for (const auto& xi : x) largest = std::max(largest, xi.p.cwiseAbs().maxCoeff());
   return largest;
 }
 
-bool is_finite(const State& state) {
-  const auto finite = [](const Vecs& x) { return std::all_of(x.begin(), x.end(), [](const Planar::Vec& y) { return y.allFinite(); }); };
-  const bool laws = std::all_of(state.law_state.begin(), state.law_state.end(), [](double z) { return std::isfinite(z); });
-  return std::isfinite(state.t) && laws && finite(state.q) && finite(state.v) && finite(state.a) && finite(state.gap) && finite(state.force);
+template <class Vec>
+double largest_force(const std::vector<Vec>& force) {
+  double largest = 0;
+  for (const auto& f : force) largest = std::max(largest, f.template head<kTranslations<Vec>>().norm());
+  return largest;
 }
+
+template <class S>
+bool is_finite(const BasicState<S>& state) {
+  const auto finite = [](const VecsOf<S>& x) { return std::all_of(x.begin(), x.end(), [](const typename S::Vec& y) { return y.allFinite(); }); };
+  const bool positions = std::all_of(state.q.begin(), state.q.end(), [](const auto& q) { return S::is_finite(q); });
+  const bool laws = std::all_of(state.law_state.begin(), state.law_state.end(), [](double z) { return std::isfinite(z); });
+  return std::isfinite(state.t) && laws && positions && finite(state.v) && finite(state.a) && finite(state.gap) && finite(state.force);
+}
+
+template double largest_coordinate(const VecsOf<Planar>&);
+template double largest_coordinate(const VecsOf<Spatial>&);
+template double largest_force(const VecsOf<Planar>&);
+template double largest_force(const VecsOf<Spatial>&);
+template void find_gap_accelerations(const BasicSystem<Planar>& system, const std::vector<BasicJointKinematics<Planar>>& r, BasicState<Planar>& state);
+template void find_law_rates(const BasicSystem<Planar>& system, BasicState<Planar>& state);
+template void rest_laws(const BasicSystem<Planar>& system, BasicState<Planar>& state);
+template void find_accelerations(const BasicSystem<Planar>& system, const std::vector<Planar::Motion>& m, const std::vector<BasicJointKinematics<Planar>>& r, BasicState<Planar>& state);
+template bool is_finite(const BasicState<Planar>& state);
+template void find_gap_accelerations(const BasicSystem<Spatial>& system, const std::vector<BasicJointKinematics<Spatial>>& r, BasicState<Spatial>& state);
+template void find_law_rates(const BasicSystem<Spatial>& system, BasicState<Spatial>& state);
+template void rest_laws(const BasicSystem<Spatial>& system, BasicState<Spatial>& state);
+template void find_accelerations(const BasicSystem<Spatial>& system, const std::vector<Spatial::Motion>& m, const std::vector<BasicJointKinematics<Spatial>>& r, BasicState<Spatial>& state);
+template bool is_finite(const BasicState<Spatial>& state);
 
 }  // namespace pintle

@@ -7,36 +7,47 @@ namespace pintle {
 
 /// Positions and velocities per body; gap, its rate and acceleration, and the force per joint. The gap is carried beside
 /// the positions it belongs to: k times the rounding of a position would show in the force otherwise.
-struct State {
+template <class S>
+struct BasicState {
   double t = 0;
-  Vecs q, v, a;                    // bodies [m, m, rad] and derivatives
-  Vecs gap, gap_rate, gap_accel;   // joints
-  Vecs force;                      // joints, on the second body, conjugate to the gap
+  PositionsOf<S> q;                 // bodies
+  VecsOf<S> v, a;                   // their velocities and accelerations
+  VecsOf<S> gap, gap_rate, gap_accel;   // joints
+  VecsOf<S> force;                      // joints, on the second body, conjugate to the gap
   std::vector<double> law_state, law_rate;  // of the laws' own states, as JointData::first_state counts them
   std::vector<SlidingMode> sliding;  // motors that stand at a jump of theirs
   double dissipated = 0, supplied = 0;        // since the start [J]
   double loss_power = 0, supply_power = 0;    // their rates [W]
 };
+using State = BasicState<Planar>;
 
 /// Where the law of joint j is asked in `state`.
-inline LawPoint law_point(const System& system, int j, const State& state) {
+template <class S>
+BasicLawPoint<S> law_point(const BasicSystem<S>& system, int j, const BasicState<S>& state) {
   return {state.t, state.gap[j], state.gap_rate[j], state.law_state.data() + system.joints[j].first_state};
 }
 /// The rates of the laws' own states that go with `state`.
-void find_law_rates(const System& system, State& state);
+template <class S>
+void find_law_rates(const BasicSystem<S>& system, BasicState<S>& state);
 /// The laws' own states as those of joints that have long been at the gaps of `state`, moving at its rates.
-void rest_laws(const System& system, State& state);
+template <class S>
+void rest_laws(const BasicSystem<S>& system, BasicState<S>& state);
 
 /// The gaps' accelerations that go with those of the bodies: e'' = G a + bias.
-void find_gap_accelerations(const System& system, const std::vector<JointKinematics>& r, State& state);
+template <class S>
+void find_gap_accelerations(const BasicSystem<S>& system, const std::vector<BasicJointKinematics<S>>& r, BasicState<S>& state);
 /// All accelerations that go with the joint forces: M a = Q + G' f, then those of the gaps.
-void find_accelerations(const System& system, const std::vector<Planar::Motion>& m, const std::vector<JointKinematics>& r, State& state);
+template <class S>
+void find_accelerations(const BasicSystem<S>& system, const std::vector<typename S::Motion>& m, const std::vector<BasicJointKinematics<S>>& r, BasicState<S>& state);
 
 /// The largest coordinate of any body, at least 1e-3: what the rounding of positions, or of velocities, goes with [m or m/s].
-double largest_coordinate(const Vecs& x);
+template <class Vec>
+double largest_coordinate(const std::vector<Vec>& x);
 /// The largest force of any joint; couples are not in it [N].
-double largest_force(const Vecs& force);
+template <class Vec>
+double largest_force(const std::vector<Vec>& force);
 /// Whether everything that a step gives is a number.
-bool is_finite(const State& state);
+template <class S>
+bool is_finite(const BasicState<S>& state);
 
 }  // namespace pintle

@@ -5,9 +5,8 @@
 
 namespace pintle {
 
-using S = Planar;
-
-std::array<double, 3> servo_target(const JointData& joint, double t) {
+template <class S>
+std::array<double, 3> servo_target(const BasicJointData<S>& joint, double t) {
   auto target = joint.target.variables().empty() ? std::array<double, 3>{joint.target.value({}), 0, 0}
                                                  : joint.target.second_order(std::array{t}, 0);
   target[0] += joint.start + joint.speed * t;
@@ -15,9 +14,10 @@ std::array<double, 3> servo_target(const JointData& joint, double t) {
   return target;
 }
 
-void System::finish(const System* like) {
+template <class S>
+void BasicSystem<S>::finish(const BasicSystem<S>* like) {
   n_law_states_ = 0;
-  for (JointData& joint : joints) {
+  for (BasicJointData<S>& joint : joints) {
     joint.first_state = n_law_states_;
     n_law_states_ += joint.law.n_states();
   }
@@ -25,8 +25,8 @@ void System::finish(const System* like) {
   const auto couple = [this](int a, int b) {
     if (a != kGround && b != kGround && a != b) coupled_.emplace_back(a, b);
   };
-  for (const JointData& joint : joints) couple(joint.at.a, joint.at.b);
-  for (const LoadData& load : loads) {
+  for (const BasicJointData<S>& joint : joints) couple(joint.at.a, joint.at.b);
+  for (const BasicLoadData<S>& load : loads) {
     couple(load.at.a, load.at.b);
     for (const Signal& signal : load.signals) {
       if (signal.joint < 0) continue;
@@ -37,21 +37,24 @@ void System::finish(const System* like) {
   const bool same = like && like->n_bodies() == n_bodies() && like->coupled_ == coupled_;
   pattern_ = same ? like->pattern_ : std::make_shared<const BlockPattern>(n_bodies(), coupled_);
   has_branches_ =
-      std::any_of(joints.begin(), joints.end(), [](const JointData& j) { return j.law.n_borders() > 0 || j.target.has_branches(); }) ||
-      std::any_of(loads.begin(), loads.end(), [](const LoadData& load) { return load.law.has_branches(); }) ||
-      std::any_of(applied.begin(), applied.end(), [](const AppliedData& f) {
-        return f.fx.has_branches() || f.fy.has_branches() || f.torque.has_branches();
+      std::any_of(joints.begin(), joints.end(), [](const BasicJointData<S>& j) { return j.law.n_borders() > 0 || j.target.has_branches(); }) ||
+      std::any_of(loads.begin(), loads.end(), [](const BasicLoadData<S>& load) { return load.law.has_branches(); }) ||
+      std::any_of(applied.begin(), applied.end(), [](const BasicAppliedData<S>& f) {
+        const auto functions = f.functions();
+        return std::any_of(functions.begin(), functions.end(), [](const Expression* e) { return e->has_branches(); });
       });
 }
 
-void System::motions(const Vecs& q, const Vecs& v, std::vector<S::Motion>& out) const {
+template <class S>
+void BasicSystem<S>::motions(const PositionsOf<S>& q, const VecsOf<S>& v, std::vector<typename S::Motion>& out) const {
   out.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) out[i] = S::Motion::of(q[i], v[i]);
 }
 
-JointKinematics System::kinematics(int j, double t, const std::vector<S::Motion>& m) const {
-  const JointData& joint = joints[j];
-  JointKinematics r = read(joint.displacement, pose(joint.at, m));
+template <class S>
+BasicJointKinematics<S> BasicSystem<S>::kinematics(int j, double t, const std::vector<typename S::Motion>& m) const {
+  const BasicJointData<S>& joint = joints[j];
+  BasicJointKinematics<S> r = read(joint.displacement, pose(joint.at, m));
   if (joint.servo < 0) return r;
   const auto target = servo_target(joint, t);
   r.gap[joint.servo] -= target[0];
@@ -60,18 +63,20 @@ JointKinematics System::kinematics(int j, double t, const std::vector<S::Motion>
   return r;
 }
 
-void System::joint_kinematics(double t, const std::vector<S::Motion>& m, std::vector<JointKinematics>& out) const {
+template <class S>
+void BasicSystem<S>::joint_kinematics(double t, const std::vector<typename S::Motion>& m, std::vector<BasicJointKinematics<S>>& out) const {
   out.resize(joints.size());
   for (int j = 0; j < n_joints(); ++j) out[j] = kinematics(j, t, m);
 }
 
-void System::accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a, const double* law_state, double* law_rate) const {
-  thread_local std::vector<S::Motion> m;
+template <class S>
+void BasicSystem<S>::accelerations(double t, const PositionsOf<S>& q, const VecsOf<S>& v, VecsOf<S>& a, const double* law_state, double* law_rate) const {
+  thread_local std::vector<typename S::Motion> m;
   motions(q, v, m);
   external(t, m, a);
   for (int j = 0; j < n_joints(); ++j) {
-    const JointKinematics r = kinematics(j, t, m);
-    const LawPoint at{t, r.gap, r.rate, law_state + joints[j].first_state};
+    const BasicJointKinematics<S> r = kinematics(j, t, m);
+    const BasicLawPoint<S> at{t, r.gap, r.rate, law_state + joints[j].first_state};
     const Vec f = joints[j].law.force(at);
     add_force(joints[j].at, r, f, a);
     if (law_rate) joints[j].law.state_rates(at, law_rate + joints[j].first_state);
@@ -79,25 +84,34 @@ void System::accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a, cons
   for (int i = 0; i < n_bodies(); ++i) a[i] = a[i].cwiseQuotient(bodies[i].mass);
 }
 
-double System::kinetic(const Vecs& v) const {
+template <class S>
+double BasicSystem<S>::kinetic(const VecsOf<S>& v) const {
   double twice = 0;
   for (int i = 0; i < n_bodies(); ++i) twice += v[i].dot(bodies[i].mass.cwiseProduct(v[i]));
   return 0.5 * twice;
 }
 
-double System::largest_speed(const Vecs& v) const {
+template <class S>
+double BasicSystem<S>::largest_speed(const VecsOf<S>& v) const {
   double largest = 0;
   for (std::size_t i = 0; i < v.size(); ++i) {
-    const double turning = bodies[i].radius_of_gyration() * v[i][2];
-    largest = std::max(largest, std::sqrt(std::max(v[i].head<2>().squaredNorm(), turning * turning)));
+    const double turning = bodies[i].radius_of_gyration() * v[i].template tail<S::kDof - S::kDim>().norm();
+    largest = std::max(largest, std::sqrt(std::max(v[i].template head<S::kDim>().squaredNorm(), turning * turning)));
   }
   return largest;
 }
 
-double System::largest_radius_of_gyration() const {
+template <class S>
+double BasicSystem<S>::largest_radius_of_gyration() const {
   double largest = 0;
-  for (const BodyData& body : bodies) largest = std::max(largest, body.radius_of_gyration());
+  for (const BasicBodyData<S>& body : bodies) largest = std::max(largest, body.radius_of_gyration());
   return largest;
 }
+
+template std::array<double, 3> servo_target(const BasicJointData<Planar>& joint, double t);
+template std::array<double, 3> servo_target(const BasicJointData<Spatial>& joint, double t);
+
+template class BasicSystem<Planar>;
+template class BasicSystem<Spatial>;
 
 }  // namespace pintle

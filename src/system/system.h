@@ -19,52 +19,66 @@
 
 namespace pintle {
 
-using Vecs = std::vector<Planar::Vec>;  // one entry per body, or per joint
+template <class S>
+using VecsOf = std::vector<typename S::Vec>;  // one entry per body, or per joint
+using Vecs = VecsOf<Planar>;
+template <class S>
+using PositionsOf = std::vector<typename S::Coordinates>;  // one per body
 
 constexpr int kGround = -1;
 
-struct BodyData {
+template <class S>
+struct BasicBodyData {
   std::string name;
-  Planar::Vec mass;     // (m, m, I) [kg, kg, kg*m^2]
-  Planar::Vec gravity;  // weight [N, N, N*m]
+  typename S::Vec mass;     // (m, m, I) [kg, kg, kg*m^2]
+  typename S::Vec gravity;  // weight [N, N, N*m]
 
-  double radius_of_gyration() const { return std::sqrt(mass[2] / mass[0]); }  // [m]
+  /// About the axis with the largest inertia [m].
+  double radius_of_gyration() const { return std::sqrt(mass.template tail<S::kDof - S::kDim>().maxCoeff() / mass[0]); }
 };
+using BodyData = BasicBodyData<Planar>;
 
-inline const Planar::Motion kStill{};
+template <class Motion>
+inline const Motion kStill{};
 
 /// A body's motion, or that of the ground, which stands still.
-inline const Planar::Motion& motion_of(int body, const std::vector<Planar::Motion>& m) {
-  return body == kGround ? kStill : m[body];
+template <class Motion>
+const Motion& motion_of(int body, const std::vector<Motion>& m) {
+  return body == kGround ? kStill<Motion> : m[body];
 }
 
 /// A pair of frames on two bodies; kGround is the world.
-struct Placement {
+template <class S>
+struct BasicPlacement {
   int a = kGround, b = kGround;
-  Planar::Frame F, M;
+  typename S::Frame F, M;
 };
+using Placement = BasicPlacement<Planar>;
 
 /// A gap with a law: a joint of the model, or the servo of a motor (then `target` says what its coordinate follows).
-struct JointData {
+template <class S>
+struct BasicJointData {
   std::string name;
   std::string type;
-  Placement at;
-  JointDisplacement displacement;
-  Law law;
+  BasicPlacement<S> at;
+  BasicDisplacement<S> displacement;
+  BasicLaw<S> law;
   bool ideal = false;          // its gap is kept at zero by the equations, its law is not asked
-  std::array<bool, 3> redundant{};  // components of an ideal joint that other ideal joints keep already
+  std::array<bool, S::kDof> redundant{};  // components of an ideal joint that other ideal joints keep already
   int servo = -1;              // component that a servo drives, -1: not a servo
   bool keeps_speed = false;    // servo of a constant speed
   double start = 0;            // constant-speed servo: coordinate as assembled
   double speed = 0;            // constant-speed servo [rad/s or m/s]
   Expression target;           // servo that follows a function of t; the coordinate is start + speed t + target(t)
-  Planar::Vec free_mask = Planar::Vec::Zero();  // 1 in components that are free coordinates
-  std::array<bool, 3> held{};  // components that the joint forbids
+  typename S::Vec free_mask = S::Vec::Zero();  // 1 in components that are free coordinates
+  std::array<bool, S::kDof> held{};  // components that the joint forbids
   int first_state = 0;         // of the law, among those of all joints
 };
+using JointData = BasicJointData<Planar>;
 
 /// What a servo's coordinate is to be at time t, with its rate and acceleration.
-std::array<double, 3> servo_target(const JointData& joint, double t);
+template <class S>
+std::array<double, 3> servo_target(const BasicJointData<S>& joint, double t);
 
 /// What an effort motor's expression reads: the time, or a coordinate (or rate) of a joint.
 struct Signal {
@@ -76,17 +90,22 @@ struct Signal {
 enum class LoadKind { kSpring, kTorsionSpring, kEffort };
 
 /// A force along one coordinate between two bodies that is not a joint's: springs, dampers, motors with a torque law.
-struct LoadData {
+template <class S>
+struct BasicLoadData {
   std::string name;
   LoadKind kind = LoadKind::kSpring;
-  Placement at;
-  int component = 0;     // of z: torsion springs 2; motors 2 or 0
+  BasicPlacement<S> at;
+  int component = 0;     // of z: torsion springs the turn; motors the turn or the slide
   double k = 0, c = 0;   // [N/m, N*s/m] or [N*m/rad, N*m*s/rad]
   double free = 0;       // length or angle without elastic force
   double constant = 0;   // a spring without stiffness: its preload at any length [N] or [N*m]
   Expression law;        // motors: effort on the second body
   std::vector<Signal> signals;
 };
+using LoadData = BasicLoadData<Planar>;
+
+/// Signals that an expression may read.
+inline constexpr int kMaxSignals = 16;
 
 /// A motor's effort kept at one of its jumps: on a ramp between the efforts of both sides.
 struct SlidingMode {
@@ -96,30 +115,65 @@ struct SlidingMode {
 using SlidingModes = std::span<const SlidingMode>;
 
 /// A force on one body at a point, functions of t.
-struct AppliedData {
+template <class S>
+struct BasicAppliedData;
+template <>
+struct BasicAppliedData<Planar> {
   std::string name;
   int body = 0;
   Planar::Frame at;
   Expression fx, fy, torque;
   bool body_axes = false;
+
+  std::array<const Expression*, 3> functions() const { return {&fx, &fy, &torque}; }
 };
+template <>
+struct BasicAppliedData<Spatial> {
+  std::string name;
+  int body = 0;
+  Spatial::Frame at;
+  std::array<Expression, 3> force, torque;
+  bool body_axes = false;  // otherwise in the world's
+
+  std::array<const Expression*, 6> functions() const { return {&force[0], &force[1], &force[2], &torque[0], &torque[1], &torque[2]}; }
+};
+using AppliedData = BasicAppliedData<Planar>;
 
 /// G x: what the bodies' rates, accelerations or small displacements x make of a gap.
-inline Planar::Vec gap_change(const Placement& at, const JointKinematics& r, const Vecs& x) {
-  constexpr double still[3] = {0, 0, 0};
-  Planar::Vec e;
+template <class S>
+inline typename S::Vec gap_change(const BasicPlacement<S>& at, const BasicJointKinematics<S>& r, const VecsOf<S>& x) {
+  constexpr double still[S::kDof] = {};
+  typename S::Vec e;
   r.map.gather(at.a != kGround ? x[at.a].data() : still, at.b != kGround ? x[at.b].data() : still, e.data());
   return e;
 }
 /// gap += G x.
-inline void add_gap(const Placement& at, const JointKinematics& r, const Vecs& x, Planar::Vec& gap) { gap += gap_change(at, r, x); }
+template <class S>
+inline void add_gap(const BasicPlacement<S>& at, const BasicJointKinematics<S>& r, const VecsOf<S>& x, typename S::Vec& gap) { gap += gap_change(at, r, x); }
 /// gap -= G x.
-inline void subtract_gap(const Placement& at, const JointKinematics& r, const Vecs& x, Planar::Vec& gap) { gap -= gap_change(at, r, x); }
+template <class S>
+inline void subtract_gap(const BasicPlacement<S>& at, const BasicJointKinematics<S>& r, const VecsOf<S>& x, typename S::Vec& gap) { gap -= gap_change(at, r, x); }
 /// on_bodies += G' f: a gap's force as forces on its bodies.
-inline void add_force(const Placement& at, const JointKinematics& r, const Planar::Vec& f, Vecs& on_bodies) {
-  const auto on = r.map.spread(f.data());
-  if (at.a != kGround) on_bodies[at.a] += Planar::Vec(-on.fx, -on.fy, on.ma);
-  if (at.b != kGround) on_bodies[at.b] += Planar::Vec(on.fx, on.fy, on.mb);
+template <class S>
+inline void add_force(const BasicPlacement<S>& at, const BasicJointKinematics<S>& r, const typename S::Vec& f, VecsOf<S>& on_bodies) {
+  typename S::Vec on_ground = S::Vec::Zero();
+  r.map.push(f.data(), at.a != kGround ? on_bodies[at.a] : on_ground, at.b != kGround ? on_bodies[at.b] : on_ground);
+}
+
+/// The moment -w x I w of a spinning body, in its axes, and its slope by the velocity. theory/space Eq. (4.2).
+inline Spatial::Vec gyroscopic_force(const BasicBodyData<Spatial>& body, const Spatial::Motion& m) {
+  Spatial::Vec f;
+  f << Eigen::Vector3d::Zero(), Eigen::Vector3d(body.mass.tail<3>().cwiseProduct(m.w_body)).cross(m.w_body);
+  return f;
+}
+inline Spatial::Mat gyroscopic_tangent(const BasicBodyData<Spatial>& body, const Spatial::Motion& m) {
+  Spatial::Mat slope = Spatial::Mat::Zero();
+  const Eigen::Vector3d I = body.mass.tail<3>(), spin = I.cwiseProduct(m.w_body);
+  for (int c = 0; c < 3; ++c) {
+    const Eigen::Vector3d unit = Eigen::Vector3d::Unit(c);
+    slope.block<3, 1>(3, 3 + c) = spin.cross(unit) + I[c] * unit.cross(m.w_body);
+  }
+  return slope;
 }
 
 /// Forces that are not a joint's, and their energy bookkeeping.
@@ -129,79 +183,87 @@ struct ExternalWork {
   double lost = 0;       // power lost in dampers [W]
 };
 
-class System {
+template <class S>
+class BasicSystem {
  public:
-  using S = Planar;
   static constexpr int kDof = S::kDof;
-  using Vec = S::Vec;
-  using Mat = S::Mat;
+  using Vec = typename S::Vec;
+  using Mat = typename S::Mat;
 
-  std::vector<BodyData> bodies;
-  std::vector<JointData> joints;
-  std::vector<LoadData> loads;
-  std::vector<AppliedData> applied;
+  std::vector<BasicBodyData<S>> bodies;
+  std::vector<BasicJointData<S>> joints;
+  std::vector<BasicLoadData<S>> loads;
+  std::vector<BasicAppliedData<S>> applied;
 
   int n_bodies() const { return static_cast<int>(bodies.size()); }
   int n_joints() const { return static_cast<int>(joints.size()); }
-  /// Whether anything but weight and joints acts.
-  bool has_loads() const { return !loads.empty() || !applied.empty(); }
+  /// Whether anything but weight and joints acts; in space the moments of spinning bodies do.
+  bool has_loads() const { return S::kGyroscopic || !loads.empty() || !applied.empty(); }
   const BlockPattern& pattern() const { return *pattern_; }
   /// Fixes the pattern; call when bodies, joints and loads are complete. Variants of one mechanism share that of `like`.
-  void finish(const System* like = nullptr);
+  void finish(const BasicSystem* like = nullptr);
 
   /// Where the bodies are and how they move.
-  void motions(const Vecs& q, const Vecs& v, std::vector<S::Motion>& out) const;
+  void motions(const PositionsOf<S>& q, const VecsOf<S>& v, std::vector<typename S::Motion>& out) const;
   /// The relative pose of a placement.
-  RelativePose pose(const Placement& at, const std::vector<S::Motion>& m) const {
-    return RelativePose::between(motion_of(at.a, m), at.F, motion_of(at.b, m), at.M);
+  typename S::RelativePose pose(const BasicPlacement<S>& at, const std::vector<typename S::Motion>& m) const {
+    return S::RelativePose::between(motion_of(at.a, m), at.F, motion_of(at.b, m), at.M);
   }
   /// Gap, rate, Jacobians and convective term of joint j at time t (a servo's target taken off).
-  JointKinematics kinematics(int j, double t, const std::vector<S::Motion>& m) const;
-  void joint_kinematics(double t, const std::vector<S::Motion>& m, std::vector<JointKinematics>& out) const;
+  BasicJointKinematics<S> kinematics(int j, double t, const std::vector<typename S::Motion>& m) const;
+  void joint_kinematics(double t, const std::vector<typename S::Motion>& m, std::vector<BasicJointKinematics<S>>& out) const;
   /// Gravity, springs, applied forces and effort motors: the generalised force on every body. Motors in `sliding` stand at a jump.
-  void external(double t, const std::vector<S::Motion>& m, Vecs& Q, SlidingModes sliding = {}) const;
-  ExternalWork external_work(double t, const Vecs& q, const std::vector<S::Motion>& m, SlidingModes sliding = {}) const;
+  void external(double t, const std::vector<typename S::Motion>& m, VecsOf<S>& Q, SlidingModes sliding = {}) const;
+  ExternalWork external_work(double t, const PositionsOf<S>& q, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;
   /// Force (spring: tension; motor: effort) of a load.
-  double load_effort(const LoadData& load, double t, const std::vector<S::Motion>& m, SlidingModes sliding = {}) const;
+  double load_effort(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;
 
   /// Whether any law, load or servo has kinks or jumps.
   bool has_branches() const { return has_branches_; }
   /// Which side of them everything is on: a number that changes where a side does. Gaps and rates are the joints'.
-  std::uint64_t branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate, const std::vector<double>& law_state,
+  std::uint64_t branches(double t, const std::vector<typename S::Motion>& m, const VecsOf<S>& gap, const VecsOf<S>& rate, const std::vector<double>& law_state,
                          SlidingModes sliding = {}) const;
   /// A jump of a motor's effort between two instants, as a ramp still to be given its share.
-  std::optional<SlidingMode> jump_between(double t0, const std::vector<S::Motion>& m0, double t1, const std::vector<S::Motion>& m1) const;
+  std::optional<SlidingMode> jump_between(double t0, const std::vector<typename S::Motion>& m0, double t1, const std::vector<typename S::Motion>& m1) const;
   /// How far the argument of a jump is above it.
-  double margin(const SlidingMode& jump, double t, const std::vector<S::Motion>& m) const;
+  double margin(const SlidingMode& jump, double t, const std::vector<typename S::Motion>& m) const;
 
   /// Calls add(i, j, dQ_i/dq_j, dQ_i/dv_j) for every block of the external forces' tangents.
   template <class Add>
-  void external_tangents(double t, const std::vector<S::Motion>& m, Add&& add, SlidingModes sliding = {}) const;
+  void external_tangents(double t, const std::vector<typename S::Motion>& m, Add&& add, SlidingModes sliding = {}) const;
 
   /// M a = Q + G' law(gap, rate): the equations of motion as they stand (for explicit methods and tests), and the rates of the laws' own
   /// states; both lists of states may be left out where no law has any.
-  void accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a, const double* law_state = nullptr, double* law_rate = nullptr) const;
+  void accelerations(double t, const PositionsOf<S>& q, const VecsOf<S>& v, VecsOf<S>& a, const double* law_state = nullptr, double* law_rate = nullptr) const;
 
   /// States of all joints' laws together.
   int n_law_states() const { return n_law_states_; }
 
   /// Kinetic energy [J].
-  double kinetic(const Vecs& v) const;
+  double kinetic(const VecsOf<S>& v) const;
   /// The largest speed of a body's centre or of a point at its radius of gyration about it [m/s].
-  double largest_speed(const Vecs& v) const;
+  double largest_speed(const VecsOf<S>& v) const;
   double largest_radius_of_gyration() const;  // [m]
 
  private:
 
-  struct LoadState;
-  LoadState load_state(const LoadData& load, double t, const std::vector<S::Motion>& m, SlidingModes sliding) const;
-  const Expression::Ramp* ramp_of(const LoadData& load, SlidingModes sliding) const;
+  struct LoadState {
+    BasicDisplacement<S> displacement;
+    typename S::RelativePose pose;
+    BasicJointKinematics<S> kinematics;
+    double effort = 0;  // force along the component [N] or [N*m]; a spring in tension has a negative one
+    int slot = 0;       // component of the displacement
+    double df_dgap = 0, df_drate = 0;
+    std::array<double, kMaxSignals> df_dsignal{};
+  };
+  LoadState load_state(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding) const;
+  const Expression::Ramp* ramp_of(const BasicLoadData<S>& load, SlidingModes sliding) const;
   struct Tangent {
     int i, j;
     Mat dq, dv;
   };
-  void load_tangents(const LoadData& load, double t, const std::vector<S::Motion>& m, SlidingModes sliding, std::vector<Tangent>& out) const;
-  void applied_tangents(const AppliedData& force, double t, const std::vector<S::Motion>& m, std::vector<Tangent>& out) const;
+  void load_tangents(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding, std::vector<Tangent>& out) const;
+  void applied_tangents(const BasicAppliedData<S>& force, double t, const std::vector<typename S::Motion>& m, std::vector<Tangent>& out) const;
 
   std::vector<std::pair<int, int>> coupled_;  // bodies
   std::shared_ptr<const BlockPattern> pattern_ = std::make_shared<const BlockPattern>();
@@ -210,18 +272,22 @@ class System {
   mutable std::vector<Tangent> tangents_;  // reused so that steps do not allocate
 };
 
+template <class S>
 template <class Add>
-void System::external_tangents(double t, const std::vector<S::Motion>& m, Add&& add, SlidingModes sliding) const {
-  for (const LoadData& load : loads) {
+void BasicSystem<S>::external_tangents(double t, const std::vector<typename S::Motion>& m, Add&& add, SlidingModes sliding) const {
+  for (const BasicLoadData<S>& load : loads) {
     tangents_.clear();
     load_tangents(load, t, m, sliding, tangents_);
     for (const Tangent& k : tangents_) add(k.i, k.j, k.dq, k.dv);
   }
-  for (const AppliedData& force : applied) {
+  for (const BasicAppliedData<S>& force : applied) {
     tangents_.clear();
     applied_tangents(force, t, m, tangents_);
     for (const Tangent& k : tangents_) add(k.i, k.j, k.dq, k.dv);
   }
+  if constexpr (S::kGyroscopic)
+    for (int i = 0; i < n_bodies(); ++i) add(i, i, Mat(Mat::Zero()), gyroscopic_tangent(bodies[i], m[i]));
 }
+using System = BasicSystem<Planar>;
 
 }  // namespace pintle

@@ -8,7 +8,7 @@ namespace pintle {
 
 /// What z, z' and z'' are made of, in world axes unless it says otherwise; T is a number, or one number per stage of a step.
 template <class T>
-struct PoseGeometry {
+struct PlanarPoseGeometry {
   T c, s;            // F's axes in the world
   T dx, dy;          // from F to M [m]
   T rx, ry;          // its rate [m/s]
@@ -17,12 +17,34 @@ struct PoseGeometry {
 
   /// A and B: anything with x, y, its sine s and cosine c, and rates vx, vy, w. F and M: frames as in Planar, of numbers or lanes.
   template <class Body, class Frame>
-  static PoseGeometry between(const Body& A, const Frame& F, const Body& B, const Frame& M);
+  static PlanarPoseGeometry between(const Body& A, const Frame& F, const Body& B, const Frame& M);
+  /// z, of bodies and frames that have their angles. Eqs. (2.1), (2.4).
+  template <class Body, class Frame, class Gap>
+  void gaps(const Body& A, const Frame& F, const Body& B, const Frame& M, Gap& z) const {
+    z[0] = c * dx + s * dy;
+    z[1] = c * dy - s * dx;
+    z[2] = B.angle + M.angle - A.angle - F.angle;
+  }
+  /// z'. Eq. (2.2).
+  template <class Body, class Gap>
+  void rates(const Body& A, const Body& B, Gap& rate) const {
+    const T x = rx + A.w * dy, y = ry - A.w * dx;
+    rate[0] = c * x + s * y;
+    rate[1] = c * y - s * x;
+    rate[2] = B.w - A.w;
+  }
+  /// The convective part of z''. Eq. (2.3).
+  template <class Gap>
+  void biases(Gap& bias) const {
+    bias[0] = bias_x;
+    bias[1] = bias_y;
+    bias[2] = T(0.0);
+  }
 };
 
 /// z and its derivatives. Lengths in F's axes [m], angle of M against F [rad].
 ///   z' = GA vA + GB vB,   z'' = GA aA + GB aB + bias   with GA = dz/dqA and GB = dz/dqB
-struct RelativePose {
+struct PlanarRelativePose {
   using S = Planar;
   S::Vec z, rate, bias;
   S::Point arm_a;     // from A's centre of mass to M, world axes [m]
@@ -32,7 +54,7 @@ struct RelativePose {
   S::Mat GA() const;  // dz/dqA
   S::Mat GB() const;  // dz/dqB
 
-  static RelativePose between(const S::Motion& A, const S::Frame& F, const S::Motion& B, const S::Frame& M);
+  static PlanarRelativePose between(const S::Motion& A, const S::Frame& F, const S::Motion& B, const S::Frame& M);
 
   /// The force of z-components f (conjugate to z, on B) in world axes [N].
   S::Point world_force(const S::Vec& f) const { return {c * f[0] - s * f[1], s * f[0] + c * f[1]}; }
@@ -44,8 +66,8 @@ struct RelativePose {
 
 template <class T>
 template <class Body, class Frame>
-inline PoseGeometry<T> PoseGeometry<T>::between(const Body& A, const Frame& F, const Body& B, const Frame& M) {
-  PoseGeometry g;
+inline PlanarPoseGeometry<T> PlanarPoseGeometry<T>::between(const Body& A, const Frame& F, const Body& B, const Frame& M) {
+  PlanarPoseGeometry g;
   const T ux = A.c * F.p.x() - A.s * F.p.y(), uy = A.s * F.p.x() + A.c * F.p.y();
   g.bx = B.c * M.p.x() - B.s * M.p.y();
   g.by = B.s * M.p.x() + B.c * M.p.y();
@@ -64,21 +86,21 @@ inline PoseGeometry<T> PoseGeometry<T>::between(const Body& A, const Frame& F, c
   return g;
 }
 
-inline RelativePose RelativePose::between(const S::Motion& A, const S::Frame& F, const S::Motion& B, const S::Frame& M) {
+inline PlanarRelativePose PlanarRelativePose::between(const S::Motion& A, const S::Frame& F, const S::Motion& B, const S::Frame& M) {
   struct View {
-    double x, y, c, s, vx, vy, w;
-    explicit View(const S::Motion& m) : x(m.p.x()), y(m.p.y()), c(m.c), s(m.s), vx(m.v.x()), vy(m.v.y()), w(m.w) {}
+    double x, y, angle, c, s, vx, vy, w;
+    explicit View(const S::Motion& m) : x(m.p.x()), y(m.p.y()), angle(m.angle), c(m.c), s(m.s), vx(m.v.x()), vy(m.v.y()), w(m.w) {}
   };
-  const auto g = PoseGeometry<double>::between(View(A), F, View(B), M);
-  RelativePose r;
+  const View a(A), b(B);
+  const auto g = PlanarPoseGeometry<double>::between(a, F, b, M);
+  PlanarRelativePose r;
   r.c = g.c;
   r.s = g.s;
   r.arm_a = {g.ax, g.ay};
   r.arm_b = {g.bx, g.by};
-  const double rx = g.rx + A.w * g.dy, ry = g.ry - A.w * g.dx;
-  r.z = {g.c * g.dx + g.s * g.dy, g.c * g.dy - g.s * g.dx, B.angle + M.angle - A.angle - F.angle};  // (2.1), (2.4)
-  r.rate = {g.c * rx + g.s * ry, g.c * ry - g.s * rx, B.w - A.w};                   // (2.2)
-  r.bias = {g.bias_x, g.bias_y, 0};
+  g.gaps(a, F, b, M, r.z);
+  g.rates(a, b, r.rate);
+  g.biases(r.bias);
   return r;
 }
 

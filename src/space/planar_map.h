@@ -1,19 +1,20 @@
 // A gap's Jacobians in factored form: the turn into F's axes, and the arms of the point where the joint acts.
 #pragma once
 
-#include "joints/relative_pose.h"
+#include "simd/lanes.h"
+#include "space/planar_pose.h"
 
 namespace pintle {
 
 /// From forces of a gap to forces on bodies, and from accelerations of bodies to that of the gap: G' and G of a pose, times
 /// the gradient where the gap is a function of the pose. T is a number, or one number per stage of a step.
 template <class T>
-struct GapMap {
-  T c, s, ax, ay, bx, by;  // as in PoseGeometry
+struct PlanarGapMap {
+  T c, s, ax, ay, bx, by;  // as in PlanarPoseGeometry
   T gradient[3];           // of a gap that is a function
   bool function = false;
 
-  void set(const PoseGeometry<T>& pose) {
+  void set(const PlanarPoseGeometry<T>& pose) {
     c = pose.c;
     s = pose.s;
     ax = pose.ax;
@@ -21,15 +22,15 @@ struct GapMap {
     bx = pose.bx;
     by = pose.by;
   }
-  static GapMap of(const RelativePose& pose) {
+  static PlanarGapMap of(const PlanarRelativePose& pose) {
     return {pose.c, pose.s, pose.arm_a.x(), pose.arm_a.y(), pose.arm_b.x(), pose.arm_b.y(), {}, false};
   }
   /// The same map in every lane.
-  static GapMap same(const GapMap<double>& g) {
+  static PlanarGapMap same(const PlanarGapMap<double>& g) {
     return {T(g.c), T(g.s), T(g.ax), T(g.ay), T(g.bx), T(g.by), {T(g.gradient[0]), T(g.gradient[1]), T(g.gradient[2])}, g.function};
   }
   /// The map of one lane.
-  GapMap<double> lane(int i) const {
+  PlanarGapMap<double> lane(int i) const {
     return {c[i], s[i], ax[i], ay[i], bx[i], by[i], {gradient[0][i], gradient[1][i], gradient[2][i]}, function};
   }
 
@@ -63,6 +64,18 @@ struct GapMap {
     on_b[1] += on.fy;
     on_b[2] += on.mb;
   }
+  /// on_a, on_b += the magnitudes of that.
+  template <class U, class V>
+  void push_magnitudes(const U* f, V& on_a, V& on_b) const {
+    const OnBodies<U> on = spread(f);
+    const U x = size(on.fx), y = size(on.fy);
+    on_a[0] += x;
+    on_a[1] += y;
+    on_a[2] += size(on.ma);
+    on_b[0] += x;
+    on_b[1] += y;
+    on_b[2] += size(on.mb);
+  }
   /// G a.
   template <class U>
   void gather(const U* on_a, const U* on_b, U* e) const {
@@ -74,7 +87,11 @@ struct GapMap {
     e[0] = gradient[0] * e[0] + gradient[1] * e[1] + gradient[2] * e[2];
     e[1] = e[2] = U();
   }
+
  private:
+  static double size(double x) { return std::abs(x); }
+  template <int N>
+  static Lanes<N> size(const Lanes<N>& x) { return sizes(x); }
   // joints (2.5), (2.6), and the chain rule.
   Planar::Mat rows(T xx, T xy, T xt, T yx, T yy, T yt, T tt) const {
     Planar::Mat G;

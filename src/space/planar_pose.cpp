@@ -1,13 +1,13 @@
-#include "joints/relative_pose.h"
+#include "space/planar_pose.h"
 
-#include "joints/gap_map.h"
+#include "space/planar_map.h"
 
 namespace pintle {
 
-RelativePose::S::Mat RelativePose::GA() const { return GapMap<double>::of(*this).GA(); }
-RelativePose::S::Mat RelativePose::GB() const { return GapMap<double>::of(*this).GB(); }
+PlanarRelativePose::S::Mat PlanarRelativePose::GA() const { return PlanarGapMap<double>::of(*this).GA(); }
+PlanarRelativePose::S::Mat PlanarRelativePose::GB() const { return PlanarGapMap<double>::of(*this).GB(); }
 
-Eigen::Matrix<double, 6, 6> RelativePose::geometric(const S::Vec& f) const {
+Eigen::Matrix<double, 6, 6> PlanarRelativePose::geometric(const S::Vec& f) const {
   const S::Point F = world_force(f), JF = S::perp(F);
   Eigen::Matrix<double, 6, 6> k = Eigen::Matrix<double, 6, 6>::Zero();
   // Rows: the force and moment on A, then on B; turning A turns the force, moving the points moves the arms.
@@ -21,7 +21,7 @@ Eigen::Matrix<double, 6, 6> RelativePose::geometric(const S::Vec& f) const {
   return k;
 }
 
-Eigen::Matrix<double, 3, 6> RelativePose::rate_gradient(const S::Motion& A, const S::Motion& B) const {
+Eigen::Matrix<double, 3, 6> PlanarRelativePose::rate_gradient(const S::Motion& A, const S::Motion& B) const {
   Eigen::Matrix<double, 3, 6> g = Eigen::Matrix<double, 3, 6>::Zero();
   Eigen::Matrix2d to_F, turn;
   to_F << c, s, -s, c;
