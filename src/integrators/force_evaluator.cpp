@@ -2,17 +2,18 @@
 
 namespace pintle {
 
-void ForceEvaluator::complete(State& state) {
+template <class S>
+void BasicForceEvaluator<S>::complete(BasicState<S>& state) {
   system_.motions(state.q, state.v, m_);
   system_.joint_kinematics(state.t, m_, r_);
   const ExternalWork work = system_.external_work(state.t, state.q, m_, state.sliding);
   state.supply_power = work.supplied;
   state.loss_power = work.lost;
   for (int j = 0; j < system_.n_joints(); ++j) {
-    const JointData& joint = system_.joints[j];
+    const BasicJointData<S>& joint = system_.joints[j];
     state.gap[j] = r_[j].gap;
     state.gap_rate[j] = r_[j].rate;
-    const LawPoint at = law_point(system_, j, state);
+    const BasicLawPoint<S> at = law_point(system_, j, state);
     state.force[j] = joint.law.force(at);
     if (joint.servo >= 0) state.supply_power += state.force[j][joint.servo] * system_.pose(joint.at, m_).rate[joint.servo];
     else state.loss_power += joint.law.loss(at);
@@ -21,13 +22,21 @@ void ForceEvaluator::complete(State& state) {
   find_accelerations(system_, m_, r_, state);
 }
 
-State zero_state(const System& system) {
-  State state;
-  state.q = state.v = state.a = Vecs(system.bodies.size(), Planar::Vec::Zero());
-  state.gap = state.gap_rate = state.gap_accel = state.force = Vecs(system.joints.size(), Planar::Vec::Zero());
+template <class S>
+BasicState<S> zero_state(const BasicSystem<S>& system) {
+  BasicState<S> state;
+  state.q.assign(system.bodies.size(), S::at_origin());
+  state.v = state.a = VecsOf<S>(system.bodies.size(), S::Vec::Zero());
+  state.gap = state.gap_rate = state.gap_accel = state.force = VecsOf<S>(system.joints.size(), S::Vec::Zero());
   state.law_state.resize(system.n_law_states());
   state.law_rate.resize(system.n_law_states());
   return state;
 }
+
+template BasicState<Planar> zero_state(const BasicSystem<Planar>& system);
+template BasicState<Spatial> zero_state(const BasicSystem<Spatial>& system);
+
+template class BasicForceEvaluator<Planar>;
+template class BasicForceEvaluator<Spatial>;
 
 }  // namespace pintle

@@ -6,20 +6,23 @@
 
 namespace pintle {
 
-class ForceEvaluator {
+template <class S>
+class BasicForceEvaluator {
  public:
-  explicit ForceEvaluator(const System& system) : system_(system) {}
+  explicit BasicForceEvaluator(const BasicSystem<S>& system) : system_(system) {}
 
   /// Gaps, forces, accelerations and powers that belong to state.t, state.q, state.v.
-  void complete(State& state);
+  void complete(BasicState<S>& state);
 
  private:
-  const System& system_;
-  std::vector<Planar::Motion> m_;
-  std::vector<JointKinematics> r_;
+  const BasicSystem<S>& system_;
+  std::vector<typename S::Motion> m_;
+  std::vector<BasicJointKinematics<S>> r_;
 };
+using ForceEvaluator = BasicForceEvaluator<Planar>;
 
 /// A state with room for all bodies and joints of the system, all zero.
-State zero_state(const System& system);
+template <class S>
+BasicState<S> zero_state(const BasicSystem<S>& system);
 
 }  // namespace pintle

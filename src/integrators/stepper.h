@@ -10,28 +10,30 @@
 
 namespace pintle {
 
-class Stepper {
+template <class S>
+class BasicStepper {
  public:
-  virtual ~Stepper() = default;
+  virtual ~BasicStepper() = default;
 
   virtual void set_max_step(double h) = 0;
   /// Loads known from an earlier integration, for methods that measure errors by them.
-  virtual void set_load_scale(const LoadScale& scale) = 0;
-  virtual const LoadScale& load_scale() const = 0;
+  virtual void set_load_scale(const BasicLoadScale<S>& scale) = 0;
+  virtual const BasicLoadScale<S>& load_scale() const = 0;
 
   /// Starts at `state` (all of it filled in) with a first step of about h.
-  virtual void start(const State& state, double h) = 0;
+  virtual void start(const BasicState<S>& state, double h) = 0;
   /// One accepted step, not beyond t_end. False when no step could be made; `failure` says why.
   virtual bool step(double t_end) = 0;
 
-  virtual const State& state() const = 0;
-  virtual const State& previous() const = 0;
+  virtual const BasicState<S>& state() const = 0;
+  virtual const BasicState<S>& previous() const = 0;
   /// The state at a time inside the last step.
-  virtual const State& interpolate(double t) = 0;
+  virtual const BasicState<S>& interpolate(double t) = 0;
   virtual const Counters& counters() const = 0;
   virtual const std::string& failure() const = 0;
   /// What the method noticed on its way, for the user.
   virtual std::vector<std::string> remarks() const { return {}; }
 };
+using Stepper = BasicStepper<Planar>;
 
 }  // namespace pintle

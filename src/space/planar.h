@@ -81,6 +81,13 @@ struct Planar {
 
     static Frame at(const Point& p, double angle) { return {p, angle, std::cos(angle), std::sin(angle)}; }
   };
+
+  // What PoseGeometry wants of it.
+  struct AttachmentFrame {
+    Point p = Point::Zero();
+    double c = 1, s = 0;
+  };
+  static AttachmentFrame attachment(const Frame& F) { return {F.p, F.c, F.s}; }
 };
 
 }  // namespace pintle

@@ -64,6 +64,17 @@ struct PlanarGapMap {
     on_b[1] += on.fy;
     on_b[2] += on.mb;
   }
+  /// on_a, on_b = G' f.
+  template <class U>
+  void wrenches(const U* f, U* on_a, U* on_b) const {
+    const OnBodies<U> on = spread(f);
+    on_a[0] = -on.fx;
+    on_a[1] = -on.fy;
+    on_a[2] = on.ma;
+    on_b[0] = on.fx;
+    on_b[1] = on.fy;
+    on_b[2] = on.mb;
+  }
   /// on_a, on_b += the magnitudes of that.
   template <class U, class V>
   void push_magnitudes(const U* f, V& on_a, V& on_b) const {

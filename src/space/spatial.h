@@ -21,6 +21,13 @@ struct SpatialRelativePose;
 template <int N>
 struct SpatialBodyLanes;
 
+/// A frame on a body as PoseGeometry asks for it.
+template <class T>
+struct SpatialFrame {
+  Vector3<T> p;
+  Matrix3<T> R;
+};
+
 struct Spatial {
   static constexpr std::string_view kName = "space";
   static constexpr int kDof = 6;               // degrees of freedom of a free body, and components of a relative pose
@@ -120,6 +127,9 @@ struct Spatial {
       return {p, Eigen::Quaterniond::FromTwoVectors(Point::UnitZ(), axis).toRotationMatrix()};
     }
   };
+
+  using AttachmentFrame = SpatialFrame<double>;
+  static AttachmentFrame attachment(const Frame& F) { return {components(F.p), components(F.R)}; }
 };
 
 }  // namespace pintle

@@ -32,6 +32,9 @@ struct SpatialBodyLanes {
     return {{q[0][i], q[1][i], q[2][i]}, (q0.r * rotation::quaternion({turn.x[i], turn.y[i], turn.z[i]})).normalized()};
   }
 
+  /// The rate of the increment from the step's start.
+  void write_increment_rate(int i, S::Vec& rate) const { rate << v[0][i], v[1][i], v[2][i], turn_rate.x[i], turn_rate.y[i], turn_rate.z[i]; }
+
   void stand_still() {
     for (L& x : q) x = L::all(0);
     for (L& x : v) x = L::all(0);

@@ -38,8 +38,8 @@ SpatialRelativePose SpatialRelativePose::between(const S::Motion& A, const S::Fr
   SpatialRelativePose r;
   r.A = view(A);
   r.B = view(B);
-  r.F = components(F);
-  r.M = components(M);
+  r.F = S::attachment(F);
+  r.M = S::attachment(M);
   const auto g = SpatialPoseGeometry<double>::between(r.A, r.F, r.B, r.M);
   r.map = SpatialGapMap<double>::of(g);
   g.gaps(r.A, r.F, r.B, r.M, r.z);

@@ -16,14 +16,6 @@ struct SpatialBodyView {
   Vector3<T> w;   // angular velocity, world axes
 };
 
-/// A frame on a body as PoseGeometry asks for it.
-template <class T>
-struct SpatialFrame {
-  Vector3<T> p;
-  Matrix3<T> R;
-};
-inline SpatialFrame<double> components(const Spatial::Frame& frame) { return {components(frame.p), components(frame.R)}; }
-
 namespace rotation {
 inline double one_over(double x) { return 1 / x; }
 template <int M>
@@ -181,6 +173,12 @@ struct SpatialGapMap {
     const Wrenches<U> on = spread(f);
     add(Vector3<U>{-on.force.x, -on.force.y, -on.force.z}, Vector3<U>{-on.on_a.x, -on.on_a.y, -on.on_a.z}, on_a);
     add(on.force, on.on_b, on_b);
+  }
+  /// on_a, on_b = G' f.
+  template <class U>
+  PINTLE_LANES void wrenches(const U* f, U* on_a, U* on_b) const {
+    for (int i = 0; i < 6; ++i) on_a[i] = on_b[i] = U(0.0);
+    push(f, on_a, on_b);
   }
   /// on_a, on_b += the magnitudes of that.
   template <class U, class V>

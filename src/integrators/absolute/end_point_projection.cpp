@@ -14,8 +14,6 @@
 namespace pintle {
 namespace {
 
-using S = Planar;
-
 // Of the largest position or velocity: what its rounding leaves of a gap, or of its rate.
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
@@ -32,34 +30,35 @@ PINTLE_LANES double largest_of(const Lanes<4>& x) {
   return std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
 }
 
-class LaneEndPointProjection : public EndPointProjection {
+template <class S>
+class LaneEndPointProjection : public BasicEndPointProjection<S> {
  public:
-  explicit LaneEndPointProjection(const System& system)
+  explicit LaneEndPointProjection(const BasicSystem<S>& system)
       : system_(system), large_(system.bodies.size() > kLargeMechanism), joints_(pack_joints(system)), lu_(system.pattern(), symmetry_of_joints(system)), at_(system.bodies.size() + 1),
         corrections_(system.bodies.size() + 1), pulled_(system.bodies.size() + 1), rest_of_four_(system.bodies.size() + 1), rest_(system.bodies.size() + 1), accel_(system.bodies.size() + 1), rhs_(system.bodies.size() + 1), force_rhs_(system.bodies.size() + 1) {
-    at_.back().set(kStill);
+    at_.back().set(kStill<typename S::Motion>);
   }
 
-  const std::vector<Vec3x4>& corrections() const override { return corrections_; }
+  const std::vector<RowOf4<S>>& corrections() const override { return corrections_; }
 
  protected:
-  bool find_corrections(double t, double mu, const Stage& last, StageTails& tails) {
+  bool find_corrections(double t, double mu, const BasicStage<S>& last, BasicStageTails<S>& tails) {
     lu_.set_diagonal([&](int b, int k) { return mu * mu * system_.bodies[b].mass[k]; });
-    std::fill(corrections_.begin(), corrections_.end(), Vec3x4{});
+    std::fill(corrections_.begin(), corrections_.end(), RowOf4<S>{});
     clear(pulled_);
     load_motions(last.m);
     remembering_.clear();
     state_tails_.clear();
-    for (JointPack& joints : joints_) {
+    for (BasicJointPack<S>& joints : joints_) {
       if (large_) fetch_corrections(joints, last, tails);
       const Kinematics r = read(joints, t, last.m, joints.map);
       find_weight(joints, t, mu, last, tails);
       add_blocks(joints);
       add_pull(joints, last);
-      L off[3];
+      L off[S::kDof];
       for (int k = 0; k < S::kDof; ++k) off[k] = joints.load(last.gap, k) - r.gap[k];
       for (int i = 0; i < joints.n; ++i) {
-        Vec3x4 &gap = tails.gaps[joints.first + i], with_off = gap, f;
+        RowOf4<S> &gap = tails.gaps[joints.first + i], with_off = gap, f;
         for (int k = 0; k < S::kDof; ++k) with_off[k].set(3, off[k][i]);
         gap = with_off;
         weigh_tails(joints, i, with_off, f);
@@ -74,7 +73,7 @@ class LaneEndPointProjection : public EndPointProjection {
 
   // The gaps' own accelerations come out of the stages as second differences of what the forces demand; where a joint is
   // neither stiff nor soft for this step, their error is the force's.
-  double find_error(const StageTails& tails, const LoadScale& scale) const {
+  double find_error(const BasicStageTails<S>& tails, const BasicLoadScale<S>& scale) const {
     TailSize bodies, gaps, states;
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) {
@@ -87,11 +86,15 @@ class LaneEndPointProjection : public EndPointProjection {
     return std::max({bodies.value(), kGapError * gaps.value(), states.value()});
   }
 
-  void project(const Stage& last, double h, State& end, std::vector<S::Motion>& m, LoadScale& scale) {
+  void project(const BasicStage<S>& last, double h, BasicState<S>& end, std::vector<typename S::Motion>& m, BasicLoadScale<S>& scale) {
     const double rounding = kRounding * largest_coordinate(last.q), fastest = largest_coordinate(last.v);
     const double rounding_of_rate = std::max(kRounding * fastest, std::min(rounding / std::abs(h), kMostOfRates * fastest));
     for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < S::kDof; ++k) end.q[b][k] = last.q[b][k] + corrections_[b][k][3];
+      {
+        typename S::Vec dq;
+        for (int k = 0; k < S::kDof; ++k) dq[k] = corrections_[b][k][3];
+        end.q[b] = S::moved(last.q[b], dq);
+      }
     end.v = last.v;
     end.a = last.a;
     end.gap_accel = last.gap_accel;
@@ -100,7 +103,8 @@ class LaneEndPointProjection : public EndPointProjection {
     find_motions(end, m);
     if (!(assemble_velocity_error(last, end, m) < rounding)) {  // one pass has left more
       assemble_position_error(last, end, m);
-      solve_and_add(end.q);
+      answer(rhs_);
+      for (std::size_t b = 0; b < n_bodies(); ++b) S::move(end.q[b], Eigen::Map<const typename S::Vec>(rhs_[b].a.data()));
       find_motions(end, m);
       assemble_velocity_error(last, end, m);
     }
@@ -114,87 +118,90 @@ class LaneEndPointProjection : public EndPointProjection {
   }
 
  private:
-  using L = JointPack::L;
-  using Kinematics = JointPack::Kinematics;
+  using L = BasicJointPack<S>::L;
+  using Kinematics = BasicJointPack<S>::Kinematics;
 
   std::size_t n_bodies() const { return system_.bodies.size(); }
 
-  void load_motions(const std::vector<S::Motion>& m) {
+  void load_motions(const std::vector<typename S::Motion>& m) {
     for (std::size_t b = 0; b < n_bodies(); ++b) at_[b].set(m[b]);
   }
-  void find_motions(const State& end, std::vector<S::Motion>& m) {
+  void find_motions(const BasicState<S>& end, std::vector<typename S::Motion>& m) {
     system_.motions(end.q, end.v, m);
     load_motions(m);
   }
 
-  Kinematics read(const JointPack& joints, double t, const std::vector<S::Motion>& m, GapMap<L>& map) const {
+  Kinematics read(const BasicJointPack<S>& joints, double t, const std::vector<typename S::Motion>& m, typename S::template GapMap<L>& map) const {
     Kinematics r;
     if (joints.pose) {
       joints.read_poses(at_, r, map);
       return r;
     }
-    const JointKinematics one = system_.kinematics(joints.first, t, m);
+    const BasicJointKinematics<S> one = system_.kinematics(joints.first, t, m);
     for (int k = 0; k < S::kDof; ++k) {
       r.gap[k] = L::all(one.gap[k]);
       r.rate[k] = L::all(one.rate[k]);
       r.bias[k] = L::all(one.bias[k]);
     }
-    map = GapMap<L>::same(one.map);
+    map = S::template GapMap<L>::same(one.map);
     return r;
   }
 
   // K + mu C.
-  void find_weight(JointPack& joints, double t, double mu, const Stage& last, const StageTails& tails) {
+  void find_weight(BasicJointPack<S>& joints, double t, double mu, const BasicStage<S>& last, const BasicStageTails<S>& tails) {
     if (joints.linear) {
       for (int k = 0; k < S::kDof; ++k) joints.weight[k] = joints.k[k] + mu * joints.c[k];
       return;
     }
-    const JointData& joint = system_.joints[joints.first];
+    const BasicJointData<S>& joint = system_.joints[joints.first];
     joint.law.linearize({t, last.gap[joints.first], last.gap_rate[joints.first], last.law_state.data() + joint.first_state}, tangents_);
     impedance_.reserve(tangents_.n);
     if (tangents_.n > 0) find_state_tail(joints.first, mu / kProjectionShare, tails);
     impedance_.find(tangents_, mu);
-    for (int k = 0; k < 9; ++k) joints.weight[k] = L::all(impedance_.weight[k]);
+    for (int k = 0; k < S::kDof * S::kDof; ++k) joints.weight[k] = L::all(impedance_.weight[k]);
   }
   // The tails of a law's states as the forces that they stand for within the step. Eq. (3.18). The tangents are those at the end:
   // a joint that begins to stick there holds an error that the slip before it would have let go.
-  void find_state_tail(int j, double mu, const StageTails& tails) {
+  void find_state_tail(int j, double mu, const BasicStageTails<S>& tails) {
     impedance_.find(tangents_, mu);
-    Vec3x4 force{};
+    RowOf4<S> force{};
     for (int z = 0; z < tangents_.n; ++z)
       for (int k = 0; k < S::kDof; ++k) force[k] += impedance_.pushes[k * tangents_.n + z] * tails.law_rates[system_.joints[j].first_state + z];
     remembering_.push_back(j);
     state_tails_.push_back(force);
   }
   // Of one of the joints, four sets of gaps.
-  static void weigh_tails(const JointPack& joints, int i, const Vec3x4& gap, Vec3x4& f) {
-    if (!joints.linear) weigh(false, joints.weight, gap.a.data(), f.a.data());
+  static void weigh_tails(const BasicJointPack<S>& joints, int i, const RowOf4<S>& gap, RowOf4<S>& f) {
+    if (!joints.linear) weigh<S::kDof>(false, joints.weight, gap.a.data(), f.a.data());
     else
       for (int k = 0; k < S::kDof; ++k) f[k] = joints.weight[k][i] * gap[k];
   }
 
-  void add_blocks(const JointPack& joints) {
+  void add_blocks(const BasicJointPack<S>& joints) {
     if (!joints.pose) {
-      S::Mat w = S::Mat::Zero();
-      for (int k = 0; k < 3; ++k) {
+      typename S::Mat w = S::Mat::Zero();
+      for (int k = 0; k < S::kDof; ++k) {
         if (joints.linear) w(k, k) = joints.weight[k][0];
-        else w.row(k) << joints.weight[3 * k][0], joints.weight[3 * k + 1][0], joints.weight[3 * k + 2][0];
+        else
+          for (int c = 0; c < S::kDof; ++c) w(k, c) = joints.weight[S::kDof * k + c][0];
       }
       add_gap_blocks(lu_, system_.joints[joints.first].at, joints.slot[0], joints.map.lane(0), w);
       return;
     }
-    const auto blocks = PoseBlocks<L>::of(joints.map, joints.weight);
+    const auto blocks = PoseBlocks<S, L>::of(joints.map, joints.weight);
     const auto body = [this](int place) { return place == static_cast<int>(n_bodies()) ? kGround : place; };
     for (int i = 0; i < joints.n; ++i) blocks.lane(i).add_to(lu_, body(joints.a[i]), body(joints.b[i]), joints.slot[i]);
   }
 
   // What the joints' forces at the last stage do against motions across them, into pulled_.
-  void add_pull(const JointPack& joints, const Stage& last) {
+  void add_pull(const BasicJointPack<S>& joints, const BasicStage<S>& last) {
     if (joints.map.function) return add_pull_of(joints.first, system_, last.m, last.force[joints.first], pulled_);
-    const auto pull = PullAcross<L>::of(joints.map, joints.load(last.force, 0), joints.load(last.force, 1), joints.forbidden);
+    L force[S::kDof];
+    for (int k = 0; k < S::kDof; ++k) force[k] = joints.load(last.force, k);
+    const auto pull = PullAcross<S, L>::of(joints.map, force, joints.forbidden);
     for (int i = 0; i < joints.n; ++i) {
-      pulled_[joints.a[i]][2] += pull.turn_a[i];
-      pulled_[joints.b[i]][2] += pull.turn_b[i];
+      pull.add_turn_of_first(i, pulled_[joints.a[i]]);
+      pull.add_turn_of_second(i, pulled_[joints.b[i]]);
       if (!joints.slides) continue;
       add_slide(pull.slide[i], pull.arm_a[i], joints.a[i], system_, pulled_);
       add_slide(pull.slide[i], pull.arm_b[i], joints.b[i], system_, pulled_);
@@ -206,7 +213,7 @@ class LaneEndPointProjection : public EndPointProjection {
     const double own = mu / kProjectionShare;
     taut_ = false;
     for (std::size_t b = 0; b < n_bodies(); ++b) {
-      const S::Vec held = unresolved(pulled_[b], own, system_.bodies[b].mass);
+      const typename S::Vec held = unresolved(pulled_[b], own, system_.bodies[b].mass);
       for (int k = 0; k < S::kDof; ++k) pulled_[b][k] = held[k];
       if (!(held.maxCoeff() > 0)) continue;
       taut_ = true;
@@ -226,46 +233,41 @@ class LaneEndPointProjection : public EndPointProjection {
         for (int k = 0; k < S::kDof; ++k) x[b][k] += rest[b][k];
     }
   }
-  void answer(std::vector<BodyRow>& x) {
+  void answer(std::vector<BodyRow<S>>& x) {
     lu_.solve(x);
     if (taut_) answer_rest(x, rest_);
   }
 
   // rhs_ += G' W gap.
-  void add_to_rhs(const JointPack& joints, const L (&gap)[3]) {
+  void add_to_rhs(const BasicJointPack<S>& joints, const L (&gap)[S::kDof]) {
     L f[3];
-    weigh(joints.linear, joints.weight, gap, f);
+    weigh<S::kDof>(joints.linear, joints.weight, gap, f);
     joints.push(f, rhs_);
   }
-  static void clear(std::vector<BodyRow>& x) { std::fill(x.begin(), x.end(), BodyRow{}); }
+  template <class Row>
+  static void clear(std::vector<Row>& x) { std::fill(x.begin(), x.end(), Row{}); }
 
-  void solve_and_add(Vecs& x) {
-    answer(rhs_);
-    for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < S::kDof; ++k) x[b][k] += rhs_[b][k];
-  }
-
-  void assemble_position_error(const Stage& last, const State& end, const std::vector<S::Motion>& m) {
+  void assemble_position_error(const BasicStage<S>& last, const BasicState<S>& end, const std::vector<typename S::Motion>& m) {
     clear(rhs_);
-    for (const JointPack& joints : joints_) {
+    for (const BasicJointPack<S>& joints : joints_) {
       if (large_) fetch_kinematics(joints, last);
-      GapMap<L> map;
+      typename S::template GapMap<L> map;
       const Kinematics r = read(joints, end.t, m, map);
-      L off[3];
+      L off[S::kDof];
       for (int k = 0; k < S::kDof; ++k) off[k] = joints.load(last.gap, k) - r.gap[k];
       add_to_rhs(joints, off);
     }
   }
 
   // What is left of the gaps is returned.
-  double assemble_velocity_error(const Stage& last, const State& end, const std::vector<S::Motion>& m) {
+  double assemble_velocity_error(const BasicStage<S>& last, const BasicState<S>& end, const std::vector<typename S::Motion>& m) {
     clear(rhs_);
     L left = L::all(0);
-    for (const JointPack& joints : joints_) {
+    for (const BasicJointPack<S>& joints : joints_) {
       if (large_) fetch_kinematics(joints, last);
-      GapMap<L> map;
+      typename S::template GapMap<L> map;
       const Kinematics r = read(joints, end.t, m, map);
-      L off[3];
+      L off[S::kDof];
       for (int k = 0; k < S::kDof; ++k) {
         left = larger_size(left, joints.forbidden[k] * (joints.load(last.gap, k) - r.gap[k]));
         off[k] = joints.load(last.gap_rate, k) - r.rate[k];
@@ -275,12 +277,11 @@ class LaneEndPointProjection : public EndPointProjection {
     return largest_of(left);
   }
 
-  void move_velocities(State& end, std::vector<S::Motion>& m) {
-    const auto move = [&](int b, const BodyRow& x) {
-      S::Vec& v = end.v[b];
+  void move_velocities(BasicState<S>& end, std::vector<typename S::Motion>& m) {
+    const auto move = [&](int b, const BodyRow<S>& x) {
+      typename S::Vec& v = end.v[b];
       for (int k = 0; k < S::kDof; ++k) v[k] += x[k];
-      m[b].v = v.head<2>();
-      m[b].w = v[2];
+      m[b].set_velocity(v);
       at_[b].set(m[b]);
     };
     if (taut_) {
@@ -288,7 +289,7 @@ class LaneEndPointProjection : public EndPointProjection {
       for (int b = 0; b < system_.n_bodies(); ++b) move(b, rhs_[b]);
       return;
     }
-    lu_.solve(rhs_, [&](int b, const BodyRow& x) {
+    lu_.solve(rhs_, [&](int b, const BodyRow<S>& x) {
       if (const int place = system_.pattern().position(b) - kSoon; large_ && place >= 0) {
         const int next = system_.pattern().row_at(place);
         fetch(end.v, next);
@@ -302,17 +303,17 @@ class LaneEndPointProjection : public EndPointProjection {
 
   // The joints' forces at their gaps, into force_rhs_ by the matrix's map, so that the balance takes off all that is wrong with them; and
   // what their accelerations want, into rhs_. What is left of the rates is returned.
-  double assemble_force_balance(const Stage& last, State& end, const std::vector<S::Motion>& m, double rounding, double rounding_of_rate) {
+  double assemble_force_balance(const BasicStage<S>& last, BasicState<S>& end, const std::vector<typename S::Motion>& m, double rounding, double rounding_of_rate) {
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) accel_[b][k] = last.a[b][k];
     clear(rhs_);
     clear(force_rhs_);
     L left = L::all(0);
-    for (const JointPack& joints : joints_) {
+    for (const BasicJointPack<S>& joints : joints_) {
       if (large_) fetch_forces(joints, last, end);
-      GapMap<L> map;
+      typename S::template GapMap<L> map;
       const Kinematics r = read(joints, end.t, m, map);
-      L accel[3], gap[3], rate[3], force[3];
+      L accel[S::kDof], gap[S::kDof], rate[S::kDof], force[S::kDof];
       joints.gather(map, accel_, accel);
       for (int k = 0; k < S::kDof; ++k) {
         const L carried = joints.load(last.gap_rate, k);
@@ -331,20 +332,24 @@ class LaneEndPointProjection : public EndPointProjection {
     return largest_of(left);
   }
 
-  void find_force(const JointPack& joints, const State& end, const L (&gap)[3], const L (&rate)[3], L (&force)[3]) const {
+  void find_force(const BasicJointPack<S>& joints, const BasicState<S>& end, const L (&gap)[S::kDof], const L (&rate)[S::kDof], L (&force)[S::kDof]) const {
     if (joints.linear) {
       for (int k = 0; k < S::kDof; ++k) force[k] = -(joints.k[k] * gap[k] + joints.c[k] * rate[k]);
       return;
     }
-    const JointData& joint = system_.joints[joints.first];
-    const S::Vec e(gap[0][0], gap[1][0], gap[2][0]), v(rate[0][0], rate[1][0], rate[2][0]);
-    const S::Vec f = joint.law.force({end.t, e, v, end.law_state.data() + joint.first_state});
+    const BasicJointData<S>& joint = system_.joints[joints.first];
+    typename S::Vec e, v;
+    for (int k = 0; k < S::kDof; ++k) {
+      e[k] = gap[k][0];
+      v[k] = rate[k][0];
+    }
+    const typename S::Vec f = joint.law.force({end.t, e, v, end.law_state.data() + joint.first_state});
     for (int k = 0; k < S::kDof; ++k) force[k] = L::all(f[k]);
   }
 
   // At the end of the step positions and velocities are better than anywhere inside: so are the forces that balance them. The
   // magnitudes of the loads on each body go into rhs_.
-  void balance(const Stage& last, State& end, LoadScale& scale) {
+  void balance(const BasicStage<S>& last, BasicState<S>& end, BasicLoadScale<S>& scale) {
     answer(rhs_);
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < S::kDof; ++k) {
@@ -354,26 +359,26 @@ class LaneEndPointProjection : public EndPointProjection {
       }
     answer(force_rhs_);
     force_rhs_.back() = {};  // the ground's
-    for (const JointPack& joints : joints_) {
+    for (const BasicJointPack<S>& joints : joints_) {
       if (large_) fetch_balance(joints, end);
-      L gap[3], force[3];
+      L gap[S::kDof], force[S::kDof];
       joints.gather(joints.map, force_rhs_, gap);
-      weigh(joints.linear, joints.weight, gap, force);
+      weigh<S::kDof>(joints.linear, joints.weight, gap, force);
       for (int k = 0; k < S::kDof; ++k) force[k] = joints.load(end.force, k) - force[k];
       joints.store(force, end.force);
       joints.push_magnitudes(force, rhs_);
     }
-    for (std::size_t b = 0; b < n_bodies(); ++b) raise_scale(system_.bodies[b], S::Vec(rhs_[b][0], rhs_[b][1], rhs_[b][2]), scale.body[b]);
+    for (std::size_t b = 0; b < n_bodies(); ++b) raise_scale(system_.bodies[b], typename S::Vec(Eigen::Map<const typename S::Vec>(rhs_[b].a.data())), scale.body[b]);
   }
 
   // Joints that come soon, which are asked for themselves before, and what they will want; null behind the last ones.
-  PINTLE_LANES const JointPack* soon(const JointPack& joints) const {
+  PINTLE_LANES const BasicJointPack<S>* soon(const BasicJointPack<S>& joints) const {
     const std::size_t place = &joints - joints_.data();
     fetch(joints_, place + kLater);
     return place + kNext < joints_.size() ? &joints_[place + kNext] : nullptr;
   }
-  PINTLE_LANES void fetch_corrections(const JointPack& joints, const Stage& last, const StageTails& tails) const {
-    const JointPack* next = soon(joints);
+  PINTLE_LANES void fetch_corrections(const BasicJointPack<S>& joints, const BasicStage<S>& last, const BasicStageTails<S>& tails) const {
+    const BasicJointPack<S>* next = soon(joints);
     if (!next) return;
     next->fetch_joints(last.gap);
     next->fetch_joints(tails.gaps);
@@ -383,8 +388,8 @@ class LaneEndPointProjection : public EndPointProjection {
       for (const int body : {next->a[i], next->b[i]})
         if (body < system_.n_bodies()) lu_.fetch_row(system_.pattern().position(body));
   }
-  PINTLE_LANES const JointPack* fetch_kinematics(const JointPack& joints, const Stage& last) const {
-    const JointPack* next = soon(joints);
+  PINTLE_LANES const BasicJointPack<S>* fetch_kinematics(const BasicJointPack<S>& joints, const BasicStage<S>& last) const {
+    const BasicJointPack<S>* next = soon(joints);
     if (!next) return next;
     next->fetch_joints(last.gap);
     next->fetch_joints(last.gap_rate);
@@ -392,15 +397,15 @@ class LaneEndPointProjection : public EndPointProjection {
     next->fetch_bodies(rhs_);
     return next;
   }
-  PINTLE_LANES void fetch_forces(const JointPack& joints, const Stage& last, const State& end) const {
-    const JointPack* next = fetch_kinematics(joints, last);
+  PINTLE_LANES void fetch_forces(const BasicJointPack<S>& joints, const BasicStage<S>& last, const BasicState<S>& end) const {
+    const BasicJointPack<S>* next = fetch_kinematics(joints, last);
     if (!next) return;
-    for (const Vecs* x : {&last.gap_accel, &end.gap, &end.gap_rate, &end.force}) next->fetch_joints(*x);
+    for (const VecsOf<S>* x : {&last.gap_accel, &end.gap, &end.gap_rate, &end.force}) next->fetch_joints(*x);
     next->fetch_bodies(accel_);
     next->fetch_bodies(force_rhs_);
   }
-  PINTLE_LANES void fetch_balance(const JointPack& joints, const State& end) const {
-    const JointPack* next = soon(joints);
+  PINTLE_LANES void fetch_balance(const BasicJointPack<S>& joints, const BasicState<S>& end) const {
+    const BasicJointPack<S>* next = soon(joints);
     if (!next) return;
     next->fetch_joints(end.force);
     next->fetch_bodies(force_rhs_);
@@ -410,31 +415,32 @@ class LaneEndPointProjection : public EndPointProjection {
   static constexpr int kSoon = 16;                     // bodies from here
   static constexpr std::size_t kNext = 2, kLater = 4;  // joints in packs from here
 
-  const System& system_;
+  const BasicSystem<S>& system_;
   const bool large_;
-  std::vector<JointPack> joints_;
+  std::vector<BasicJointPack<S>> joints_;
   std::vector<int> remembering_;    // joints whose laws have states of their own, with the tails of these as forces
-  std::vector<Vec3x4> state_tails_;
-  LawTangents tangents_;            // of one joint at a time
-  LawImpedance<double> impedance_;
+  std::vector<RowOf4<S>> state_tails_;
+  BasicLawTangents<S> tangents_;            // of one joint at a time
+  LawImpedance<double, S> impedance_;
   BlockLu<double, S::kDof> lu_;
-  std::vector<BodyAt> at_;          // of bodies and the ground, as the next ones
-  std::vector<Vec3x4> corrections_;
-  std::vector<BodyRow> pulled_;  // how taut joints hold each body, first as BodyPull, then against moving [N/m, N/m, N*m/rad]
+  std::vector<BodyAt<S>> at_;          // of bodies and the ground, as the next ones
+  std::vector<RowOf4<S>> corrections_;
+  std::vector<BodyPull<S>> pulled_;  // how taut joints hold each body, first as BodyPull, then against moving [N/m, N/m, N*m/rad]
   bool taut_ = false;            // a body is held
-  std::vector<Vec3x4> rest_of_four_;
-  std::vector<BodyRow> rest_;
-  std::vector<BodyRow> accel_, rhs_, force_rhs_;
+  std::vector<RowOf4<S>> rest_of_four_;
+  std::vector<BodyRow<S>> rest_;
+  std::vector<BodyRow<S>> accel_, rhs_, force_rhs_;
 };
 
 // The same text for registers of every width.
 #define PINTLE_END_POINT(Name, WIDTH)                                                                                                         \
-  class Name final : public LaneEndPointProjection {                                                                                          \
+  template <class S>                                                                                                                          \
+  class Name final : public LaneEndPointProjection<S> {                                                                                          \
    public:                                                                                                                                    \
-    using LaneEndPointProjection::LaneEndPointProjection;                                                                                     \
-    WIDTH bool prepare(double t, double mu, const Stage& last, StageTails& tails) override { return find_corrections(t, mu, last, tails); }   \
-    WIDTH double error(const StageTails& tails, const LoadScale& scale) const override { return find_error(tails, scale); }                   \
-    WIDTH void finish(const Stage& last, double h, State& end, std::vector<S::Motion>& m, LoadScale& scale) override { project(last, h, end, m, scale); } \
+    using LaneEndPointProjection<S>::LaneEndPointProjection;                                                                                     \
+    WIDTH bool prepare(double t, double mu, const BasicStage<S>& last, BasicStageTails<S>& tails) override { return this->find_corrections(t, mu, last, tails); }   \
+    WIDTH double error(const BasicStageTails<S>& tails, const BasicLoadScale<S>& scale) const override { return this->find_error(tails, scale); }                   \
+    WIDTH void finish(const BasicStage<S>& last, double h, BasicState<S>& end, std::vector<typename S::Motion>& m, BasicLoadScale<S>& scale) override { this->project(last, h, end, m, scale); } \
   };
 
 PINTLE_END_POINT(NarrowEndPointProjection, )
@@ -446,12 +452,16 @@ PINTLE_END_POINT(WidestEndPointProjection, PINTLE_WIDEST)
 
 }  // namespace
 
-std::unique_ptr<EndPointProjection> make_end_point_projection(const System& system) {
+template <class S>
+std::unique_ptr<BasicEndPointProjection<S>> make_end_point_projection(const BasicSystem<S>& system) {
 #ifdef PINTLE_WIDE
-  if (has_widest_registers()) return std::make_unique<WidestEndPointProjection>(system);
-  if (has_wide_registers()) return std::make_unique<WideEndPointProjection>(system);
+  if (has_widest_registers()) return std::make_unique<WidestEndPointProjection<S>>(system);
+  if (has_wide_registers()) return std::make_unique<WideEndPointProjection<S>>(system);
 #endif
-  return std::make_unique<NarrowEndPointProjection>(system);
+  return std::make_unique<NarrowEndPointProjection<S>>(system);
 }
+
+template std::unique_ptr<BasicEndPointProjection<Planar>> make_end_point_projection(const BasicSystem<Planar>& system);
+template std::unique_ptr<BasicEndPointProjection<Spatial>> make_end_point_projection(const BasicSystem<Spatial>& system);
 
 }  // namespace pintle

@@ -11,24 +11,27 @@
 
 namespace pintle {
 
-class EndPointProjection {
+template <class S>
+class BasicEndPointProjection {
  public:
-  virtual ~EndPointProjection() = default;
+  virtual ~BasicEndPointProjection() = default;
 
   /// Factorises mu^2 M + G' (K + mu C) G at the last stage, which ends at t, and answers what its gaps demand: their tails, and what
   /// they differ from those of the bodies' poses. False when singular.
-  virtual bool prepare(double t, double mu, const Stage& last, StageTails& tails) = 0;
+  virtual bool prepare(double t, double mu, const BasicStage<S>& last, BasicStageTails<S>& tails) = 0;
   /// By body: accelerations that correct the gaps' tails [m/s^2, m/s^2, rad/s^2], and in the fourth place the displacement that closes
   /// the gaps [m, m, rad].
-  virtual const std::vector<Vec3x4>& corrections() const = 0;
+  virtual const std::vector<RowOf4<S>>& corrections() const = 0;
   /// The size of the tails of the bodies' forces, and of what the gaps' own demand of them, over the load scale. Eqs. (3.12), (3.13).
-  virtual double error(const StageTails& tails, const LoadScale& scale) const = 0;
+  virtual double error(const BasicStageTails<S>& tails, const BasicLoadScale<S>& scale) const = 0;
   /// Fills `end` from the last stage of a step of h: moved onto its gaps, the gaps and their rates as carried but as the geometry has
   /// them where no motion could bring them there (redundant joints), forces balanced. Eqs. (4.1)-(4.4). m: motions at the end. The
   /// scale is raised to what acts there.
-  virtual void finish(const Stage& last, double h, State& end, std::vector<Planar::Motion>& m, LoadScale& scale) = 0;
+  virtual void finish(const BasicStage<S>& last, double h, BasicState<S>& end, std::vector<typename S::Motion>& m, BasicLoadScale<S>& scale) = 0;
 };
+using EndPointProjection = BasicEndPointProjection<Planar>;
 
-std::unique_ptr<EndPointProjection> make_end_point_projection(const System& system);
+template <class S>
+std::unique_ptr<BasicEndPointProjection<S>> make_end_point_projection(const BasicSystem<S>& system);
 
 }  // namespace pintle

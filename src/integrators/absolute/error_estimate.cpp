@@ -9,10 +9,9 @@
 
 namespace pintle {
 
-using S = Planar;
-
 // How much of the forces the step's polynomials leave unresolved, over the load scale. theory/time Eqs. (3.12), (3.13).
-bool RadauStepper::error_estimate(double h, double& error) {
+template <class S>
+bool BasicRadauStepper<S>::error_estimate(double h, double& error) {
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!end_point_->prepare(begin_.t + h, mu, stage_[n_ - 1], tails_)) return false;
   error = of_motion_ ? motion_tail() : end_point_->error(tails_, scale_);
@@ -21,7 +20,8 @@ bool RadauStepper::error_estimate(double h, double& error) {
 
 // Legendre coefficients of the body forces M a, as accelerations that the bodies can yield to within the step: stiff joints hold back
 // the rest, and what a step does not resolve of their vibration is damped by it. theory/time Eq. (3.14).
-double RadauStepper::motion_tail() {
+template <class S>
+double BasicRadauStepper<S>::motion_tail() {
   for (int i = 0; i < system_.n_bodies(); ++i)
     for (int c = 0; c < S::kDof; ++c) tails_.bodies[i][c] = system_.bodies[i].mass[c] * tails_.bodies[i][c];
   solver_->filter_accelerations(tails_.bodies);
@@ -32,7 +32,8 @@ double RadauStepper::motion_tail() {
 }
 
 // theory/time Eqs. (4.1)-(4.3).
-void RadauStepper::finish_step(double h) {
+template <class S>
+void BasicRadauStepper<S>::finish_step(double h) {
   nodes_.a[0] = begin_.a;
   nodes_.gap_accel[0] = begin_.gap_accel;
   nodes_.force[0] = begin_.force;
@@ -54,16 +55,17 @@ void RadauStepper::finish_step(double h) {
   control_.last = h;
 }
 
-void RadauStepper::add_work(double h) {
+template <class S>
+void BasicRadauStepper<S>::add_work(double h) {
   nodes_.power[0] = {begin_.supply_power, begin_.loss_power};
   for (int s = 0; s < n_; ++s) {
-    const Stage& stage = stage_[s];
+    const BasicStage<S>& stage = stage_[s];
     Power& power = nodes_.power[s + 1];
     power = power_of_loads(begin_.t + h * table_.c[s], stage.q, stage.m);
     power[1] += stage.loss;
     for (const int j : powered_) {
-      const JointData& joint = system_.joints[j];
-      const LawPoint at{begin_.t + h * table_.c[s], stage.gap[j], stage.gap_rate[j], stage.law_state.data() + joint.first_state};
+      const BasicJointData<S>& joint = system_.joints[j];
+      const BasicLawPoint<S> at{begin_.t + h * table_.c[s], stage.gap[j], stage.gap_rate[j], stage.law_state.data() + joint.first_state};
       add_power(joint, stage.m, at, stage.force[j], power);
     }
   }
@@ -77,19 +79,22 @@ void RadauStepper::add_work(double h) {
   end_.loss_power = nodes_.power[n_][1];
 }
 
-RadauStepper::Power RadauStepper::power_of_loads(double t, const Vecs& q, const std::vector<S::Motion>& m) const {
+template <class S>
+BasicRadauStepper<S>::Power BasicRadauStepper<S>::power_of_loads(double t, const VecsOf<S>& q, const std::vector<typename S::Motion>& m) const {
   if (!system_.has_loads()) return {};
   const ExternalWork work = system_.external_work(t, q, m, end_.sliding);
   return {work.supplied, work.lost};
 }
 
-void RadauStepper::add_power(const JointData& joint, const std::vector<S::Motion>& m, const LawPoint& at, const S::Vec& force, Power& power) const {
+template <class S>
+void BasicRadauStepper<S>::add_power(const BasicJointData<S>& joint, const std::vector<typename S::Motion>& m, const BasicLawPoint<S>& at, const typename S::Vec& force, Power& power) const {
   if (joint.servo >= 0) power[0] += force[joint.servo] * system_.pose(joint.at, m).rate[joint.servo];
   else power[1] += joint.law.loss(at);
 }
 
 // At end_.
-void RadauStepper::find_power() {
+template <class S>
+void BasicRadauStepper<S>::find_power() {
   Power power = power_of_loads(end_.t, end_.q, end_m_);
   for (int j = 0; j < system_.n_joints(); ++j) add_power(system_.joints[j], end_m_, law_point(system_, j, end_), end_.force[j], power);
   end_.supply_power = power[0];

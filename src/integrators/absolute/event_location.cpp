@@ -8,8 +8,6 @@
 namespace pintle {
 namespace {
 
-using S = Planar;
-
 constexpr double kCrossing = 1e-9;  // of the usual step: the least that is gone to cross
 constexpr int kCrossings = 5;       // each ten times longer, until the branch has changed
 constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
@@ -18,7 +16,8 @@ constexpr double kMoment = 1e-6;    // of the usual step: to see where accelerat
 }  // namespace
 
 // The branches at share x of the step, on the curve through its stages.
-std::uint64_t RadauStepper::branches(double x, double h) {
+template <class S>
+std::uint64_t BasicRadauStepper<S>::branches(double x, double h) {
   RadauTable::Vec v(n_), q(n_);
   for (int i = 0; i < n_; ++i) {
     double power = x;
@@ -53,7 +52,8 @@ std::uint64_t RadauStepper::branches(double x, double h) {
 }
 
 // The branches a time d ahead of the start, by Taylor's series: all there is to go by when the stages are not solved.
-std::uint64_t RadauStepper::branches_ahead(double d) {
+template <class S>
+std::uint64_t BasicRadauStepper<S>::branches_ahead(double d) {
   const double half = 0.5 * d * d;
   for (std::size_t b = 0; b < end_.q.size(); ++b) {
     inside_q_[b] = begin_.q[b] + d * begin_.v[b] + half * begin_.a[b];
@@ -68,13 +68,15 @@ std::uint64_t RadauStepper::branches_ahead(double d) {
   return system_.branches(begin_.t + d, inside_m_, inside_gap_, inside_rate_, inside_law_state_, begin_.sliding);
 }
 
-SwitchingEvent RadauStepper::locate_event(double h, bool solved) {
+template <class S>
+SwitchingEvent BasicRadauStepper<S>::locate_event(double h, bool solved) {
   if (!system_.has_branches()) return {};
   return first_event(table_, branch_, [&](double x) { return solved ? branches(x, h) : branches_ahead(x * h); });
 }
 
 // Moves end_ over the event that it stands just before, by Taylor's series; false when the branch stays the same.
-bool RadauStepper::step_over_event(double distance) {
+template <class S>
+bool BasicRadauStepper<S>::step_over_event(double distance) {
   double beyond = std::max(kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
   for (int i = 0; i < kCrossings; ++i, beyond *= 10) {
     const double d = (i == 0 ? distance : 0) + beyond, half = 0.5 * d * d;
@@ -98,7 +100,8 @@ bool RadauStepper::step_over_event(double distance) {
 }
 
 // Over the event; forces and accelerations renewed there. A jump that comes back at once is held.
-void RadauStepper::cross_event(double distance) {
+template <class S>
+void BasicRadauStepper<S>::cross_event(double distance) {
   const double before = end_.t;
   inside_m_ = end_m_;
   step_over_event(distance);
@@ -114,7 +117,8 @@ void RadauStepper::cross_event(double distance) {
 }
 
 // How fast the argument of a jump changes at end_, by what it is a moment later.
-double RadauStepper::margin_rate(const SlidingMode& jump) {
+template <class S>
+double BasicRadauStepper<S>::margin_rate(const SlidingMode& jump) {
   const double d = kMoment * control_.usual;
   for (std::size_t b = 0; b < end_.q.size(); ++b) {
     inside_q_[b] = end_.q[b] + d * end_.v[b];
@@ -125,7 +129,8 @@ double RadauStepper::margin_rate(const SlidingMode& jump) {
 }
 
 // The branches at the end of a step; a ramp that the last bits have left is let go.
-void RadauStepper::update_branches() {
+template <class S>
+void BasicRadauStepper<S>::update_branches() {
   if (leave_sliding(system_, end_.t, end_m_, end_.sliding)) {
     balance_end();
     control_.have_history = false;
@@ -134,7 +139,8 @@ void RadauStepper::update_branches() {
 }
 
 // What the laws and loads really give at end_.
-void RadauStepper::balance_end() {
+template <class S>
+void BasicRadauStepper<S>::balance_end() {
   system_.joint_kinematics(end_.t, end_m_, end_r_);
   for (int j = 0; j < system_.n_joints(); ++j) end_.force[j] = system_.joints[j].law.force(law_point(system_, j, end_));
   find_law_rates(system_, end_);

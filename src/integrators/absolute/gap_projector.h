@@ -10,43 +10,45 @@
 
 namespace pintle {
 
-class GapProjector {
+template <class S>
+class BasicGapProjector {
  public:
-  explicit GapProjector(const System& system);
+  explicit BasicGapProjector(const BasicSystem<S>& system);
 
   /// Factorises mu^2 M + G' (K + mu C) G at the configuration of `m`. False when singular. With `moved` (1 or 0 for every
   /// component of every gap) the components with 0 are left alone, as if they had no law.
-  bool prepare(double t, const std::vector<Planar::Motion>& m, double mu, const Vecs& gap_at, const Vecs& rate_at,
-               const Vecs* moved = nullptr);
+  bool prepare(double t, const std::vector<typename S::Motion>& m, double mu, const VecsOf<S>& gap_at, const VecsOf<S>& rate_at,
+               const VecsOf<S>* moved = nullptr);
 
   /// The same where the joints have been read already.
-  bool prepare(const std::vector<JointKinematics>& joint_kinematics, double mu, const Vecs& gap_at, const Vecs& rate_at, const Vecs* moved = nullptr);
+  bool prepare(const std::vector<BasicJointKinematics<S>>& joint_kinematics, double mu, const VecsOf<S>& gap_at, const VecsOf<S>& rate_at, const VecsOf<S>* moved = nullptr);
 
   /// Gaps, rates, Jacobians and convective terms of `m`; the factorisation stays.
-  void read(double t, const std::vector<Planar::Motion>& m) { system_.joint_kinematics(t, m, joint_kinematics_); }
+  void read(double t, const std::vector<typename S::Motion>& m) { system_.joint_kinematics(t, m, joint_kinematics_); }
 
   /// x += the smallest displacement (in the mass norm) whose gap change is `wanted`, one pass.
-  void close(const Vecs& wanted, Vecs& x);
+  void close(const VecsOf<S>& wanted, VecsOf<S>& x);
   /// Joint forces improved so that M a = Q + G' f in the stiff modes, one pass; `a` has the wanted gap accelerations.
   /// The largest change of a joint's force is returned, over the stiff components.
-  double improve_forces(const Vecs& Q, const Vecs& a, Vecs& force);
+  double improve_forces(const VecsOf<S>& Q, const VecsOf<S>& a, VecsOf<S>& force);
   /// Joint forces improved so that in the stiff modes the accelerations M^-1 (Q + G' f) give the gaps' own, one pass.
-  void balance(const Vecs& Q, const Vecs& gap_accel, Vecs& force);
+  void balance(const VecsOf<S>& Q, const VecsOf<S>& gap_accel, VecsOf<S>& force);
 
-  const std::vector<JointKinematics>& joint_kinematics() const { return joint_kinematics_; }
+  const std::vector<BasicJointKinematics<S>>& joint_kinematics() const { return joint_kinematics_; }
 
  private:
-  bool factorize(double mu, const Vecs& gap_at, const Vecs& rate_at, const Vecs* moved);
-  Planar::Vec weigh(int j, const Planar::Vec& gap) const;
+  bool factorize(double mu, const VecsOf<S>& gap_at, const VecsOf<S>& rate_at, const VecsOf<S>* moved);
+  typename S::Vec weigh(int j, const typename S::Vec& gap) const;
 
-  const System& system_;
-  BlockLu<double, Planar::kDof> lu_;
-  std::vector<JointKinematics> joint_kinematics_;
-  std::vector<Planar::Mat> weight_;  // K + mu C per joint
+  const BasicSystem<S>& system_;
+  BlockLu<double, S::kDof> lu_;
+  std::vector<BasicJointKinematics<S>> joint_kinematics_;
+  std::vector<typename S::Mat> weight_;  // K + mu C per joint
   std::vector<char> diagonal_;       // it is
   std::vector<BlockPattern::Slot> slots_;
-  Vecs body_, accel_, missing_;
+  VecsOf<S> body_, accel_, missing_;
   double mu_ = 0;
 };
+using GapProjector = BasicGapProjector<Planar>;
 
 }  // namespace pintle

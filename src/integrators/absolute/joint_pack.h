@@ -10,11 +10,42 @@
 
 namespace pintle {
 
-/// Three numbers of a body.
-using BodyRow = BlockVec<double, Planar::kDof>;
+/// One number for each degree of freedom of a body.
+template <class S>
+using BodyRow = BlockVec<double, S::kDof>;
+
+/// Rows of four bodies, component by component in lanes, and back.
+PINTLE_LANES void load_rows(const std::vector<BodyRow<Planar>>& x, const int (&body)[4], Lanes<4> (&out)[Planar::kDof]) {
+  Lanes<4> rows[4] = {x[body[0]].lanes(), x[body[1]].lanes(), x[body[2]].lanes(), x[body[3]].lanes()};
+  transpose(rows);
+  for (int k = 0; k < Planar::kDof; ++k) out[k] = rows[k];
+}
+PINTLE_LANES void load_rows(const std::vector<BodyRow<Spatial>>& x, const int (&body)[4], Lanes<4> (&out)[Spatial::kDof]) {
+  for (int k = 0; k < Spatial::kDof; ++k) out[k] = Lanes<4>::of({x[body[0]][k], x[body[1]][k], x[body[2]][k], x[body[3]][k]});
+}
+/// Adds the rows of two bodies of each of n joints, joint by joint.
+PINTLE_LANES void add_rows(const Lanes<4> (&on_a)[Planar::kDof], const Lanes<4> (&on_b)[Planar::kDof], int n, const int (&a)[4], const int (&b)[4], std::vector<BodyRow<Planar>>& x) {
+  Lanes<4> row_a[4] = {on_a[0], on_a[1], on_a[2], Lanes<4>::all(0)}, row_b[4] = {on_b[0], on_b[1], on_b[2], Lanes<4>::all(0)};
+  transpose(row_a);
+  transpose(row_b);
+  for (int i = 0; i < n; ++i) {
+    x[a[i]].set(x[a[i]].lanes() + row_a[i]);
+    x[b[i]].set(x[b[i]].lanes() + row_b[i]);
+  }
+}
+PINTLE_LANES void add_rows(const Lanes<4> (&on_a)[Spatial::kDof], const Lanes<4> (&on_b)[Spatial::kDof], int n, const int (&a)[4], const int (&b)[4], std::vector<BodyRow<Spatial>>& x) {
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < Spatial::kDof; ++k) {
+      x[a[i]][k] += on_a[k][i];
+      x[b[i]][k] += on_b[k][i];
+    }
+}
 
 /// Where a body is and how it moves, for joints that look at four of them.
-struct BodyAt {
+template <class S>
+struct BodyAt;
+template <>
+struct BodyAt<Planar> {
   Lanes<4> place;   // x, y [m], angle [rad], its cosine
   Lanes<4> motion;  // its sine, velocities [m/s, m/s, rad/s]
 
@@ -22,29 +53,80 @@ struct BodyAt {
     place = Lanes<4>::of({m.p.x(), m.p.y(), m.angle, m.c});
     motion = Lanes<4>::of({m.s, m.v.x(), m.v.y(), m.w});
   }
+  struct View {
+    Lanes<4> x, y, angle, c, s, vx, vy, w;
+  };
+  PINTLE_LANES static View view(const std::vector<BodyAt>& at, const int (&body)[4]) {
+    Lanes<4> place[4] = {at[body[0]].place, at[body[1]].place, at[body[2]].place, at[body[3]].place};
+    Lanes<4> motion[4] = {at[body[0]].motion, at[body[1]].motion, at[body[2]].motion, at[body[3]].motion};
+    transpose(place);
+    transpose(motion);
+    return {place[0], place[1], place[2], place[3], motion[0], motion[1], motion[2], motion[3]};
+  }
+};
+template <>
+struct BodyAt<Spatial> {
+  Spatial::Motion m;
+
+  PINTLE_LANES void set(const Spatial::Motion& motion) { m = motion; }
+  PINTLE_LANES static SpatialBodyView<Lanes<4>> view(const std::vector<BodyAt>& at, const int (&body)[4]) {
+    const auto four = [&](auto&& of) { return Lanes<4>::of({of(at[body[0]].m), of(at[body[1]].m), of(at[body[2]].m), of(at[body[3]].m)}); };
+    const auto vector = [&](Spatial::Point Spatial::Motion::*x) {
+      return Vector3<Lanes<4>>{four([&](const auto& m) { return (m.*x)[0]; }), four([&](const auto& m) { return (m.*x)[1]; }), four([&](const auto& m) { return (m.*x)[2]; })};
+    };
+    const auto entry = [&](int r, int c) { return four([&](const auto& m) { return m.R(r, c); }); };
+    return {vector(&Spatial::Motion::p),
+            {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 0), entry(1, 1), entry(1, 2), entry(2, 0), entry(2, 1), entry(2, 2)},
+            vector(&Spatial::Motion::v), vector(&Spatial::Motion::w)};
+  }
 };
 
-/// Up to four joints with a spring and a damper in each component of the relative pose; or one joint of another kind, in every lane.
-struct JointPack {
+/// An attachment frame of each of four joints.
+template <class S>
+struct PackedFrame;
+template <>
+struct PackedFrame<Planar> {
   using L = Lanes<4>;
   struct Point {
     L across, up;
     const L& x() const { return across; }
     const L& y() const { return up; }
   };
-  struct AttachmentFrame {
-    Point p;
-    L c, s, angle;
-  };
+  Point p;
+  L c, s, angle;
+
+  void set(int lane, const Planar::Frame& frame) {
+    p.across.set(lane, frame.p.x());
+    p.up.set(lane, frame.p.y());
+    c.set(lane, frame.c);
+    s.set(lane, frame.s);
+    angle.set(lane, frame.angle);
+  }
+};
+template <>
+struct PackedFrame<Spatial> : SpatialFrame<Lanes<4>> {
+  void set(int lane, const Spatial::Frame& frame) {
+    Lanes<4>* const to[] = {&R.xx, &R.xy, &R.xz, &R.yx, &R.yy, &R.yz, &R.zx, &R.zy, &R.zz};
+    for (int i = 0; i < 9; ++i) to[i]->set(lane, frame.R(i / 3, i % 3));
+    p.x.set(lane, frame.p.x());
+    p.y.set(lane, frame.p.y());
+    p.z.set(lane, frame.p.z());
+  }
+};
+
+/// Up to four joints with a spring and a damper in each component of the relative pose; or one joint of another kind, in every lane.
+template <class S>
+struct BasicJointPack {
+  using L = Lanes<4>;
   struct Kinematics {
-    L gap[3], rate[3], bias[3];
+    L gap[S::kDof], rate[S::kDof], bias[S::kDof];
   };
 
-  AttachmentFrame F, M;
-  L offset[3], k[3], c[3];
-  L forbidden[3];          // components: 1; free ones: 0
-  L weight[9];             // K + mu C by rows; the first three of springs and dampers
-  GapMap<L> map;           // as in the matrix
+  PackedFrame<S> F, M;
+  L offset[S::kDof], k[S::kDof], c[S::kDof];
+  L forbidden[S::kDof];          // components: 1; free ones: 0
+  L weight[S::kDof * S::kDof];             // K + mu C by rows; the first row of springs and dampers
+  typename S::template GapMap<L> map;           // as in the matrix
   int first = 0, n = 0;    // joints
   int lane[4] = {};        // the joint in each; those beyond n follow the last one
   int a[4] = {}, b[4] = {};  // their bodies; the ground stands behind the last one
@@ -54,12 +136,12 @@ struct JointPack {
   bool slides = false;     // one of them leaves a component of translation free
 
   /// Component k of what there is for each joint.
-  PINTLE_LANES L load(const std::vector<Planar::Vec>& x, int component) const {
-    return L::of({x[lane[0]][component], x[lane[1]][component], x[lane[2]][component], x[lane[3]][component]});
+  PINTLE_LANES L load(const std::vector<typename S::Vec>& x, int component) const {
+    return L::of({x[lane[0]][component], x[lane[1]][component], x[lane[2]][component], x[lane[S::kDof]][component]});
   }
-  PINTLE_LANES void store(const L (&from)[3], std::vector<Planar::Vec>& x) const {
+  PINTLE_LANES void store(const L (&from)[S::kDof], std::vector<typename S::Vec>& x) const {
     for (int i = 0; i < n; ++i)
-      for (int component = 0; component < 3; ++component) x[first + i][component] = from[component].v[i];
+      for (int component = 0; component < S::kDof; ++component) x[first + i][component] = from[component].v[i];
   }
 
   /// What they read and write of x, by joint or by body, will be asked for soon.
@@ -76,68 +158,39 @@ struct JointPack {
   }
 
   /// Their gaps and the map there, of springs and dampers in the pose. joints Eqs. (2.1)-(2.5).
-  PINTLE_LANES void read_poses(const std::vector<BodyAt>& at, Kinematics& r, GapMap<L>& map_there) const {
-    const View A = View::of(at, a), B = View::of(at, b);
-    const auto g = PoseGeometry<L>::between(A, F, B, M);
+  PINTLE_LANES void read_poses(const std::vector<BodyAt<S>>& at, Kinematics& r, typename S::template GapMap<L>& map_there) const {
+    const auto A = BodyAt<S>::view(at, a), B = BodyAt<S>::view(at, b);
+    const auto g = S::template PoseGeometry<L>::between(A, F, B, M);
     map_there.set(g);
-    const L rx = g.rx + A.w * g.dy, ry = g.ry - A.w * g.dx;
-    r.gap[0] = g.c * g.dx + g.s * g.dy - offset[0];
-    r.gap[1] = g.c * g.dy - g.s * g.dx - offset[1];
-    r.gap[2] = B.angle + M.angle - A.angle - F.angle - offset[2];
-    r.rate[0] = g.c * rx + g.s * ry;
-    r.rate[1] = g.c * ry - g.s * rx;
-    r.rate[2] = B.w - A.w;
-    r.bias[0] = g.bias_x;
-    r.bias[1] = g.bias_y;
-    r.bias[2] = L::all(0);
+    g.gaps(A, F, B, M, r.gap);
+    for (int k = 0; k < S::kDof; ++k) r.gap[k] -= offset[k];
+    g.rates(A, B, r.rate);
+    g.biases(r.bias);
   }
 
   /// on_bodies += G' f, by the map of the matrix.
-  PINTLE_LANES void push(const L* f, std::vector<BodyRow>& on_bodies) const {
-    const auto on = map.spread(f);
-    push({-on.fx, -on.fy, on.ma}, {on.fx, on.fy, on.mb}, on_bodies);
+  PINTLE_LANES void push(const L* f, std::vector<BodyRow<S>>& on_bodies) const {
+    L on_a[S::kDof], on_b[S::kDof];
+    map.wrenches(f, on_a, on_b);
+    add_rows(on_a, on_b, n, a, b, on_bodies);
   }
   /// on_bodies += the magnitudes of that.
-  PINTLE_LANES void push_magnitudes(const L* f, std::vector<BodyRow>& on_bodies) const {
-    const auto on = map.spread(f);
-    const L x = sizes(on.fx), y = sizes(on.fy);
-    push({x, y, sizes(on.ma)}, {x, y, sizes(on.mb)}, on_bodies);
+  PINTLE_LANES void push_magnitudes(const L* f, std::vector<BodyRow<S>>& on_bodies) const {
+    L on_a[S::kDof] = {}, on_b[S::kDof] = {};
+    map.push_magnitudes(f, on_a, on_b);
+    add_rows(on_a, on_b, n, a, b, on_bodies);
   }
   /// G x of bodies and the ground, by one of the joints' maps.
-  PINTLE_LANES void gather(const GapMap<L>& by, const std::vector<BodyRow>& x, L (&gap)[3]) const {
-    L of_a[4] = {x[a[0]].lanes(), x[a[1]].lanes(), x[a[2]].lanes(), x[a[3]].lanes()};
-    L of_b[4] = {x[b[0]].lanes(), x[b[1]].lanes(), x[b[2]].lanes(), x[b[3]].lanes()};
-    transpose(of_a);
-    transpose(of_b);
+  PINTLE_LANES void gather(const typename S::template GapMap<L>& by, const std::vector<BodyRow<S>>& x, L (&gap)[S::kDof]) const {
+    L of_a[S::kDof], of_b[S::kDof];
+    load_rows(x, a, of_a);
+    load_rows(x, b, of_b);
     by.gather(of_a, of_b, gap);
-  }
-
- private:
-  struct View {
-    L x, y, angle, c, s, vx, vy, w;
-
-    PINTLE_LANES static View of(const std::vector<BodyAt>& at, const int (&body)[4]) {
-      L place[4] = {at[body[0]].place, at[body[1]].place, at[body[2]].place, at[body[3]].place};
-      L motion[4] = {at[body[0]].motion, at[body[1]].motion, at[body[2]].motion, at[body[3]].motion};
-      transpose(place);
-      transpose(motion);
-      return {place[0], place[1], place[2], place[3], motion[0], motion[1], motion[2], motion[3]};
-    }
-  };
-
-  PINTLE_LANES static void add(const L& x, BodyRow& to) { to.set(to.lanes() + x); }
-  PINTLE_LANES void push(const L (&on_a)[3], const L (&on_b)[3], std::vector<BodyRow>& on_bodies) const {
-    L row_a[4] = {on_a[0], on_a[1], on_a[2], L::all(0)}, row_b[4] = {on_b[0], on_b[1], on_b[2], L::all(0)};
-    transpose(row_a);
-    transpose(row_b);
-    for (int i = 0; i < n; ++i) {
-      add(row_a[i], on_bodies[a[i]]);
-      add(row_b[i], on_bodies[b[i]]);
-    }
   }
 };
 
 /// The joints of a mechanism in packs, in their order.
-std::vector<JointPack> pack_joints(const System& system);
+template <class S>
+std::vector<BasicJointPack<S>> pack_joints(const BasicSystem<S>& system);
 
 }  // namespace pintle

@@ -14,39 +14,35 @@ namespace pintle {
 
 /// Large mechanisms do not fit into caches: every iteration goes through the bodies and the joints once there and once back, what it
 /// keeps stands in the order of elimination, and what can be computed again is not stored.
-template <int N>
-class LaneStageSolver : public StageSolver {
+template <class S, int N>
+class LaneStageSolver : public BasicStageSolver<S> {
  public:
-  LaneStageSolver(const System& system, const RadauTable& table, double tolerance, Steps steps);
+  LaneStageSolver(const BasicSystem<S>& system, const RadauTable& table, double tolerance, Steps steps);
 
   double contraction() const override { return contraction_.seen(); }
   double residual(int j) const override;
 
  protected:
-  bool solve_stages(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters);
-  void write_stages(const State& begin, std::vector<Stage>& stages, StageTails& tails) const;
-  void filter_lanes(std::vector<Vec3x4>& forces) const;
+  bool solve_stages(const BasicState<S>& begin, double h, const BasicStepNodes<S>* before, double last_h, const BasicLoadScale<S>& scale, Counters& counters);
+  void write_stages(const BasicState<S>& begin, std::vector<BasicStage<S>>& stages, BasicStageTails<S>& tails) const;
+  void filter_lanes(std::vector<RowOf4<S>>& forces) const;
 
  private:
   using L = Lanes<N>;
   using X = Spectrum<N>;
   static constexpr int kMiddle = N / 2;  // the stage where the equations are linearised
 
-  struct Body : BodyLanes<N> {
-    L residual[3];         // in its equation of motion: forces that nothing answers [N, N, N*m]; then Newton's correction of a
-    double over_scale[3];  // mass over the loads that corrections are measured by
+  struct Body : S::template BodyLanes<N> {
+    L residual[S::kDof];         // in its equation of motion: forces that nothing answers [N, N, N*m]; then Newton's correction of a
+    double over_scale[S::kDof];  // mass over the loads that corrections are measured by
     int index = 0;         // in the system
   };
-  struct AttachmentFrame {  // a frame on a body, as PoseGeometry asks for it
-    Planar::Point p;
-    double c = 1, s = 0;
-  };
   struct Joint {
-    L accel[3], force[3];
-    GapMap<double> frozen;   // at the stage where the equations are linearised
-    AttachmentFrame F, M;    // where it stands on its bodies
-    double k[3], c[3];       // of springs and dampers
-    double over_scale[3];    // 1 over the loads that changes of the force are measured by
+    L accel[S::kDof], force[S::kDof];
+    typename S::template GapMap<double> frozen;   // at the stage where the equations are linearised
+    typename S::AttachmentFrame F, M;  // where it stands on its bodies
+    double k[S::kDof], c[S::kDof];       // of springs and dampers
+    double over_scale[S::kDof];    // 1 over the loads that changes of the force are measured by
     int index = 0;           // in the system
     int a, b;                // its bodies; the ground stands behind the last one
     int first, last;         // of them but the ground
@@ -59,10 +55,10 @@ class LaneStageSolver : public StageSolver {
   };
   // What a joint has whose law is more than springs and dampers.
   struct General {
-    LawTangents tangents;            // at the stage where the equations are linearised
-    LawImpedance<X> impedance;       // there
-    X over_mu2[9];                   // its weight over mu^2
-    X missing_gap[3];                // in the gap's equation, in the diagonal frame
+    BasicLawTangents<S> tangents;            // at the stage where the equations are linearised
+    LawImpedance<X, S> impedance;       // there
+    X over_mu2[S::kDof * S::kDof];                   // its weight over mu^2
+    X missing_gap[S::kDof];                // in the gap's equation, in the diagonal frame
     std::vector<L> state, rate;      // of the law's own; their rates are unknowns of the stages
     std::vector<L> residual;         // in the rates' equations
     std::vector<X> missing_hat;      // the same in the diagonal frame
@@ -72,38 +68,37 @@ class LaneStageSolver : public StageSolver {
   std::size_t n_bodies() const { return bodies_.size() - 1; }
   int body_or_ground(int place) const { return place == static_cast<int>(n_bodies()) ? kGround : place; }
 
-  void fetch_body(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t b) const;
-  void fetch_joint(const State& begin, const Curve* unplaced, std::size_t j) const;
-  void fetch_body_end(const State& begin, const std::vector<Stage>& stages, const StageTails& tails, std::size_t b) const;
-  void fetch_joint_end(const State& begin, const std::vector<Stage>& stages, const StageTails& tails, std::size_t j) const;
-  bool assemble_and_eliminate(const State& begin, double h, const Curve* unplaced, const LoadScale& scale, bool linearized);
-  void begin_bodies(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t first, std::size_t end);
-  void begin_joint(const State& begin, const Curve& curve, const LoadScale& scale, Joint& joint);
+  void fetch_body(const BasicState<S>& begin, const Curve& curve, const BasicLoadScale<S>& scale, std::size_t b) const;
+  void fetch_joint(const BasicState<S>& begin, const Curve* unplaced, std::size_t j) const;
+  void fetch_body_end(const BasicState<S>& begin, const std::vector<BasicStage<S>>& stages, const BasicStageTails<S>& tails, std::size_t b) const;
+  void fetch_joint_end(const BasicState<S>& begin, const std::vector<BasicStage<S>>& stages, const BasicStageTails<S>& tails, std::size_t j) const;
+  bool assemble_and_eliminate(const BasicState<S>& begin, double h, const Curve* unplaced, const BasicLoadScale<S>& scale, bool linearized);
+  void begin_bodies(const BasicState<S>& begin, const Curve& curve, const BasicLoadScale<S>& scale, std::size_t first, std::size_t end);
+  void begin_joint(const BasicState<S>& begin, const Curve& curve, const BasicLoadScale<S>& scale, Joint& joint);
   void find_targets(double t, double h);
-  L place(const L& a, double x0, double v0, L& v) const;
-  void place_body(const State& begin, std::size_t b);
+  void place_body(const BasicState<S>& begin, std::size_t b);
   void check_angles(const L& angles, std::size_t first, std::size_t end);
-  void place_joint(const State& begin, Joint& joint, L& worst, L& sum);
+  void place_joint(const BasicState<S>& begin, Joint& joint, L& worst, L& sum);
   void begin_residual(std::size_t b);
-  void find_loads(const State& begin, double h);
+  void find_loads(const BasicState<S>& begin, double h);
   void find_balanced_loads();
-  void assemble_joint(Joint& joint, const GapMap<L>& map, const L (&bias)[3]);
-  GapMap<L> find_map(const Joint& joint, L (&bias)[3]) const;
-  L find_gradient(const Joint& joint, const PoseGeometry<L>& pose, GapMap<L>& map) const;
+  void assemble_joint(Joint& joint, const typename S::template GapMap<L>& map, const L (&bias)[S::kDof]);
+  typename S::template GapMap<L> find_map(const Joint& joint, L (&bias)[S::kDof]) const;
+  L find_gradient(const Joint& joint, const typename S::template PoseGeometry<L>& pose, typename S::template GapMap<L>& map) const;
   void begin_matrix(double h);
-  void add_loads(const State& begin, double h);
-  void linearize(const State& begin, Joint& joint, const GapMap<L>& map);
-  void add_joint(const Joint& joint, const X* weight, const Planar::Vec& force);
-  static void add_block(Block<X, 3>& block, const Planar::Mat& K, const Planar::Mat& C, const X& mu, double sign);
-  double back_substitute(const State& begin);
-  void place_general(const State& begin, Joint& joint, const L* gap, const L* rate, L* force);
+  void add_loads(const BasicState<S>& begin, double h);
+  void linearize(const BasicState<S>& begin, Joint& joint, const typename S::template GapMap<L>& map);
+  void add_joint(const Joint& joint, const X* weight, const typename S::Vec& force);
+  static void add_block(Block<X, S::kDof>& block, const typename S::Mat& K, const typename S::Mat& C, const X& mu, double sign);
+  double back_substitute(const BasicState<S>& begin);
+  void place_general(const BasicState<S>& begin, Joint& joint, const L* gap, const L* rate, L* force);
   void answer_states(General& general, const X* missing, X* f) const;
   void move_states(General& general, const L* accel) const;
-  void write_states(const State& begin, const Joint& joint, std::vector<Stage>& stages, StageTails& tails) const;
-  void apply_joint_correction(const State& begin, Joint& joint, L& worst, L& sum);
-  void apply_body_correction(const State& begin, int b, const BlockVec<X, 3>& x, L& worst, L& sum);
+  void write_states(const BasicState<S>& begin, const Joint& joint, std::vector<BasicStage<S>>& stages, BasicStageTails<S>& tails) const;
+  void apply_joint_correction(const BasicState<S>& begin, Joint& joint, L& worst, L& sum);
+  void apply_body_correction(const BasicState<S>& begin, int b, const BlockVec<X, S::kDof>& x, L& worst, L& sum);
 
-  const System& system_;
+  const BasicSystem<S>& system_;
   const RadauTable& table_;
   const StageMatrices<N> matrices_;
   StepMatrices<N> step_;
@@ -125,13 +120,13 @@ class LaneStageSolver : public StageSolver {
   std::vector<Joint> joints_;                 // in the order of their last bodies
   std::vector<General> general_;
   std::vector<L> target_accel_;               // of servos' targets, by joint of the system; empty: there is no servo
-  Vecs Q_;                                    // of one stage, by body of the system
-  std::vector<BlockVec<L, 3>> loads_on_;      // and on the ground: gravity and loads at the stages, where there are loads
-  std::vector<Planar::Motion> motions_;       // of one stage, by body of the system, where anything asks for them
+  VecsOf<S> Q_;                                    // of one stage, by body of the system
+  std::vector<BlockVec<L, S::kDof>> loads_on_;      // and on the ground: gravity and loads at the stages, where there are loads
+  std::vector<typename S::Motion> motions_;       // of one stage, by body of the system, where anything asks for them
   X mu_, mu2_, once_, twice_;                 // and 1 / mu, 1 / mu^2
   LaneMatrix<N> back_;                        // T mu^2: from the diagonal frame to accelerations at the stages
-  BlockLu<X, 3> lu_;
-  std::vector<BlockVec<X, 3>> rhs_;           // and the ground's
+  BlockLu<X, S::kDof> lu_;
+  std::vector<BlockVec<X, S::kDof>> rhs_;           // and the ground's
 };
 
 }  // namespace pintle

@@ -10,21 +10,21 @@
 namespace pintle {
 
 // Accelerations at the stages as the last step's curve goes on; without one those at the start.
-template <int N>
-struct LaneStageSolver<N>::Curve {
-  const StepNodes* nodes;
+template <class S, int N>
+struct LaneStageSolver<S, N>::Curve {
+  const BasicStepNodes<S>* nodes;
   std::array<L, RadauTable::kMaxNodes> weight;
 
-  Curve(const RadauTable& table, Steps steps, double h, const StepNodes* before, double last_h) : nodes(before) {
+  Curve(const RadauTable& table, Steps steps, double h, const BasicStepNodes<S>* before, double last_h) : nodes(before) {
     for (int s = 0; s < N && before; ++s) {
       const double ratio = h / last_h;
       const RadauTable::Vec w = steps == Steps::kLong ? table.continuation(table.c[s], ratio) : table.weights(1 + table.c[s] * ratio);
       for (int k = 0; k <= N; ++k) weight[k].set(s, w[k]);
     }
   }
-  L ahead(const std::vector<Vecs> StepNodes::*of, const Vecs& start, std::size_t i, int k) const {
+  L ahead(const std::vector<VecsOf<S>> BasicStepNodes<S>::*of, const VecsOf<S>& start, std::size_t i, int k) const {
     if (!nodes) return L::all(start[i][k]);
-    const std::vector<Vecs>& node = nodes->*of;
+    const std::vector<VecsOf<S>>& node = nodes->*of;
     L x = node[0][i][k] * weight[0];
     for (int n = 1; n <= N; ++n) x += node[n][i][k] * weight[n];
     return x;
@@ -39,48 +39,49 @@ struct LaneStageSolver<N>::Curve {
 
 // What a large mechanism will want soon, past body b and past joint j: the solver's own first, then what the system has of it. All such
 // functions are inlined by force: the compiler takes one that does nothing else for one that does nothing.
-template <int N>
-PINTLE_LANES void LaneStageSolver<N>::fetch_body(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t b) const {
+template <class S, int N>
+PINTLE_LANES void LaneStageSolver<S, N>::fetch_body(const BasicState<S>& begin, const Curve& curve, const BasicLoadScale<S>& scale, std::size_t b) const {
   fetch(bodies_, b + kLater);
   if (b + kSoon >= n_bodies()) return;
   const int i = bodies_[b + kSoon].index;
   fetch(system_.bodies, i);
-  for (const Vecs* x : {&begin.q, &begin.v, &begin.a, &scale.body}) fetch(*x, i);
+  fetch(begin.q, i);
+  for (const VecsOf<S>* x : {&begin.v, &begin.a, &scale.body}) fetch(*x, i);
   for (int n = 0; n <= N && curve.nodes; ++n) fetch(curve.nodes->a[n], i);
 }
-template <int N>
-PINTLE_LANES void LaneStageSolver<N>::fetch_joint(const State& begin, const Curve* unplaced, std::size_t j) const {
+template <class S, int N>
+PINTLE_LANES void LaneStageSolver<S, N>::fetch_joint(const BasicState<S>& begin, const Curve* unplaced, std::size_t j) const {
   fetch(joints_, j + kLater);
   if (!unplaced || j + kSoon >= joints_.size()) return;
   const int i = joints_[j + kSoon].index;
-  for (const Vecs* x : {&begin.gap, &begin.gap_rate, &begin.gap_accel}) fetch(*x, i);
+  for (const VecsOf<S>* x : {&begin.gap, &begin.gap_rate, &begin.gap_accel}) fetch(*x, i);
   for (int n = 0; n <= N && unplaced->nodes; ++n) fetch(unplaced->nodes->gap_accel[n], i);
 }
 
 // What corrections are measured by, and a first guess.
-template <int N>
-void LaneStageSolver<N>::begin_bodies(const State& begin, const Curve& curve, const LoadScale& scale, std::size_t first, std::size_t end) {
+template <class S, int N>
+void LaneStageSolver<S, N>::begin_bodies(const BasicState<S>& begin, const Curve& curve, const BasicLoadScale<S>& scale, std::size_t first, std::size_t end) {
   L angles = L::all(0);
   for (std::size_t b = first; b < end; ++b) {
     Body& body = bodies_[b];
     if (large_) fetch_body(begin, curve, scale, b);
-    const Planar::Vec &mass = system_.bodies[body.index].mass, &load = scale.body[body.index];
-    for (int k = 0; k < 3; ++k) {
+    const typename S::Vec &mass = system_.bodies[body.index].mass, &load = scale.body[body.index];
+    for (int k = 0; k < S::kDof; ++k) {
       body.over_scale[k] = mass[k] / load[k];
-      body.a[k] = curve.ahead(&StepNodes::a, begin.a, body.index, k);
+      body.a[k] = curve.ahead(&BasicStepNodes<S>::a, begin.a, body.index, k);
     }
-    place_body(begin, b);
-    angles = larger_size(angles, body.q[2]);
+    body.begin(step_, begin.q[body.index], begin.v[body.index]);
+    angles = larger_size(angles, body.to_check());
   }
   check_angles(angles, first, end);
 }
 
-template <int N>
-void LaneStageSolver<N>::begin_joint(const State& begin, const Curve& curve, const LoadScale& scale, Joint& joint) {
-  const Planar::Vec &on = scale.body[bodies_[joint.first].index], &beside = scale.body[bodies_[joint.last].index];
-  for (int k = 0; k < 3; ++k) {
+template <class S, int N>
+void LaneStageSolver<S, N>::begin_joint(const BasicState<S>& begin, const Curve& curve, const BasicLoadScale<S>& scale, Joint& joint) {
+  const typename S::Vec &on = scale.body[bodies_[joint.first].index], &beside = scale.body[bodies_[joint.last].index];
+  for (int k = 0; k < S::kDof; ++k) {
     joint.over_scale[k] = 1 / std::max(on[k], beside[k]);
-    joint.accel[k] = curve.ahead(&StepNodes::gap_accel, begin.gap_accel, joint.index, k);
+    joint.accel[k] = curve.ahead(&BasicStepNodes<S>::gap_accel, begin.gap_accel, joint.index, k);
   }
   if (!joint.linear) {
     General& general = general_[joint.general];
@@ -92,10 +93,10 @@ void LaneStageSolver<N>::begin_joint(const State& begin, const Curve& curve, con
 }
 
 // The accelerations that servos are to follow.
-template <int N>
-void LaneStageSolver<N>::find_targets(double t, double h) {
+template <class S, int N>
+void LaneStageSolver<S, N>::find_targets(double t, double h) {
   for (std::size_t j = 0; j < target_accel_.size(); ++j) {
-    const JointData& joint = system_.joints[j];
+    const BasicJointData<S>& joint = system_.joints[j];
     if (joint.servo < 0 || joint.target.variables().empty()) continue;
     for (int s = 0; s < N; ++s) target_accel_[j].set(s, servo_target(joint, t + table_.c[s] * h)[2]);
   }

@@ -9,8 +9,8 @@
 namespace pintle {
 
 // The eigenvalues that Z(mu) of Eq. (3.8) is made at.
-template <int N>
-void LaneStageSolver<N>::begin_matrix(double h) {
+template <class S, int N>
+void LaneStageSolver<S, N>::begin_matrix(double h) {
   mu_ = (1 / h) * matrices_.eigenvalue;
   mu2_ = mu_ * mu_;
   once_ = reciprocal(mu_);
@@ -25,10 +25,10 @@ void LaneStageSolver<N>::begin_matrix(double h) {
 }
 
 // The loads' slopes at the middle stage.
-template <int N>
-void LaneStageSolver<N>::add_loads(const State& begin, double h) {
+template <class S, int N>
+void LaneStageSolver<S, N>::add_loads(const BasicState<S>& begin, double h) {
   for (std::size_t b = 0; b < n_bodies(); ++b) motions_[bodies_[b].index] = bodies_[b].motion(kMiddle);
-  const auto add = [this](int i, int j, const Planar::Mat& dq, const Planar::Mat& dv) {  // of a matrix that is not symmetric
+  const auto add = [this](int i, int j, const typename S::Mat& dq, const typename S::Mat& dv) {  // of a matrix that is not symmetric
     const int row = system_.pattern().position(i), column = system_.pattern().position(j);
     add_block(i == j ? lu_.diagonal(row) : lu_.off_diagonal(pattern_.slot(row, column)), dq, dv, mu_, -1);
   };
@@ -36,72 +36,82 @@ void LaneStageSolver<N>::add_loads(const State& begin, double h) {
 }
 
 // A joint's part of that, by its tangents at the middle stage, and its weights of Eq. (3.10).
-template <int N>
-void LaneStageSolver<N>::linearize(const State& begin, Joint& joint, const GapMap<L>& map) {
+template <class S, int N>
+void LaneStageSolver<S, N>::linearize(const BasicState<S>& begin, Joint& joint, const typename S::template GapMap<L>& map) {
   constexpr int i = kMiddle;
   const int j = joint.index;
   joint.frozen = map.lane(i);
   const X one(1.0);
   if (!joint.linear) {
-    const JointData& data = system_.joints[j];
+    const BasicJointData<S>& data = system_.joints[j];
     General& general = general_[joint.general];
-    Planar::Vec gap, rate;
+    typename S::Vec gap, rate;
     double state[kMostLawStates];
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < S::kDof; ++k) {
       L rates;
-      gap[k] = place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], rates)[i];
+      gap[k] = step_.place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], rates)[i];
       rate[k] = rates[i];
     }
     for (std::size_t z = 0; z < general.state.size(); ++z) state[z] = general.state[z][i];
     data.law.linearize({begin.t + step_.c[i], gap, rate, state}, general.tangents);
     general.impedance.find(general.tangents, mu_);
-    for (int k = 0; k < 9; ++k) general.over_mu2[k] = twice_ * general.impedance.weight[k];
+    for (int k = 0; k < S::kDof * S::kDof; ++k) general.over_mu2[k] = twice_ * general.impedance.weight[k];
     add_joint(joint, general.impedance.weight, general.tangents.force);
     return;
   }
-  const Planar::Vec force(joint.force[0][i], joint.force[1][i], joint.force[2][i]);
-  if (joint.function) {
-    X weight[9];
-    for (int k = 0; k < 9; ++k) weight[k] = k % 4 == 0 ? joint.k[k / 4] * one + joint.c[k / 4] * mu_ : X(0.0);
+  typename S::Vec force;
+  for (int k = 0; k < S::kDof; ++k) force[k] = joint.force[k][i];
+  if (S::kCurved || joint.function) {
+    X weight[S::kDof * S::kDof];
+    for (int k = 0; k < S::kDof * S::kDof; ++k) weight[k] = k % (S::kDof + 1) == 0 ? joint.k[k / (S::kDof + 1)] * one + joint.c[k / (S::kDof + 1)] * mu_ : X(0.0);
     add_joint(joint, weight, force);
     return;
   }
-  X w[3];
-  for (int k = 0; k < 3; ++k) w[k] = joint.k[k] * one + joint.c[k] * mu_;
-  PoseBlocks<X>::of(joint.frozen, w, force).add_to(lu_, body_or_ground(joint.a), body_or_ground(joint.b), joint.slot);
+  if constexpr (!S::kCurved) {
+    X w[S::kDof];
+    for (int k = 0; k < S::kDof; ++k) w[k] = joint.k[k] * one + joint.c[k] * mu_;
+    PoseBlocks<S, X>::of(joint.frozen, w, force).add_to(lu_, body_or_ground(joint.a), body_or_ground(joint.b), joint.slot);
+  }
 }
 
-template <int N>
-void LaneStageSolver<N>::add_block(Block<X, 3>& block, const Planar::Mat& K, const Planar::Mat& C, const X& mu, double sign) {
+template <class S, int N>
+void LaneStageSolver<S, N>::add_block(Block<X, S::kDof>& block, const typename S::Mat& K, const typename S::Mat& C, const X& mu, double sign) {
   const X one(1.0);
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) block(r, c) += (sign * K(r, c)) * one + (sign * C(r, c)) * mu;
+  for (int r = 0; r < S::kDof; ++r)
+    for (int c = 0; c < S::kDof; ++c) block(r, c) += (sign * K(r, c)) * one + (sign * C(r, c)) * mu;
 }
 
 // G' w G - N of one joint of any kind, whose weight is any matrix.
-template <int N>
-void LaneStageSolver<N>::add_joint(const Joint& joint, const X* weight, const Planar::Vec& force) {
-  const JointData& data = system_.joints[joint.index];
-  const RelativePose pose = system_.pose(data.at, motions_);
-  const JointKinematics r = read(data.displacement, pose);
+template <class S, int N>
+void LaneStageSolver<S, N>::add_joint(const Joint& joint, const X* weight, const typename S::Vec& force) {
+  const BasicJointData<S>& data = system_.joints[joint.index];
+  const typename S::RelativePose pose = system_.pose(data.at, motions_);
+  const BasicJointKinematics<S> r = read(data.displacement, pose);
   const auto geometric = geometric_stiffness(data.displacement, pose, force);
-  const std::array<Planar::Mat, 2> G{r.GA(), r.GB()};
+  const std::array<typename S::Mat, 2> G{r.GA(), r.GB()};
   const std::array<int, 2> body{body_or_ground(joint.a), body_or_ground(joint.b)};
   for (int column = 0; column < 2; ++column) {
     if (body[column] == kGround) continue;
-    X force_by[3][3];  // w G
-    for (int k = 0; k < 3; ++k)
-      for (int c = 0; c < 3; ++c) force_by[k][c] = G[column](0, c) * weight[3 * k] + G[column](1, c) * weight[3 * k + 1] + G[column](2, c) * weight[3 * k + 2];
+    X force_by[S::kDof][S::kDof];  // w G
+    for (int k = 0; k < S::kDof; ++k)
+      for (int c = 0; c < S::kDof; ++c) {
+        if (joint.linear) {
+          force_by[k][c] = G[column](k, c) * weight[(S::kDof + 1) * k];
+          continue;
+        }
+        force_by[k][c] = G[column](0, c) * weight[S::kDof * k];
+        for (int i = 1; i < S::kDof; ++i) force_by[k][c] += G[column](i, c) * weight[S::kDof * k + i];
+      }
     for (int row = 0; row < 2; ++row) {
       if (body[row] == kGround) continue;
       BlockPattern::Slot slot = joint.slot;
       if (row > column) slot.upper = !slot.upper;
       if (row != column && !lu_.has(slot)) continue;
-      Block<X, 3>& block = row == column ? lu_.diagonal(row == 0 ? joint.a : joint.b) : lu_.off_diagonal(slot);
-      for (int p = 0; p < 3; ++p)
-        for (int c = 0; c < 3; ++c) {
-          block(p, c) -= X(geometric(3 * row + p, 3 * column + c));
-          for (int k = 0; k < 3; ++k) block(p, c) += G[row](k, p) * force_by[k][c];
+      Block<X, S::kDof>& block = row == column ? lu_.diagonal(row == 0 ? joint.a : joint.b) : lu_.off_diagonal(slot);
+      for (int p = 0; p < S::kDof; ++p)
+        for (int c = 0; c < S::kDof; ++c) {
+          block(p, c) -= X(geometric(S::kDof * row + p, S::kDof * column + c));
+          for (int k = 0; k < S::kDof; ++k) block(p, c) += G[row](k, p) * force_by[k][c];
         }
     }
   }

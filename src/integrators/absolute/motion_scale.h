@@ -9,24 +9,26 @@
 namespace pintle {
 
 /// theory/time Eq. (3.15).
-class MotionScale {
+template <class S>
+class BasicMotionScale {
  public:
   /// For a step of h from `begin`. The speed is the largest so far of a body's centre or of a point at its radius of gyration.
-  void update(const System& system, const State& begin, double h) {
+  void update(const BasicSystem<S>& system, const BasicState<S>& begin, double h) {
     speed_ = std::max(speed_, system.largest_speed(begin.v));
     loads_.body.resize(begin.v.size());
     for (std::size_t i = 0; i < loads_.body.size(); ++i) {
+      const double radius = system.bodies[i].radius_of_gyration();
       const double force = system.bodies[i].mass[0] * std::max(speed_, kLeastSpeed) / h;
-      loads_.body[i] << force, force, force * system.bodies[i].radius_of_gyration();
+      for (int k = 0; k < S::kDof; ++k) loads_.body[i][k] = k < S::kDim ? force : force * radius;
     }
   }
-  const LoadScale& loads() const { return loads_; }
+  const BasicLoadScale<S>& loads() const { return loads_; }
 
  private:
   static constexpr double kLeastSpeed = 1e-6;  // [m/s]: a mechanism at rest
 
   double speed_ = 0;
-  LoadScale loads_;
+  BasicLoadScale<S> loads_;
 };
 
 }  // namespace pintle

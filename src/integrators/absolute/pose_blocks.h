@@ -2,30 +2,96 @@
 // spring and a damper in each component.
 #pragma once
 
+#include <tuple>
+#include <type_traits>
+
 #include "linalg/block_lu.h"
 #include "system/system.h"
 
 namespace pintle {
 
 /// Springs and dampers make symmetric matrices.
-inline Symmetry symmetry_of_joints(const System& system) {
-  for (const JointData& joint : system.joints)
+template <class S>
+Symmetry symmetry_of_joints(const BasicSystem<S>& system) {
+  for (const BasicJointData<S>& joint : system.joints)
     if (!joint.law.constant_diagonal()) return Symmetry::kNone;
   return Symmetry::kSymmetric;
 }
 
-/// G' w G - N of a pair of bodies: w stands for stiffness in each component, N is the geometric stiffness at the joint's force. In world
+/// G' w G of a pair of bodies: w stands for stiffness in each component.
+template <class S, class T>
+struct PoseBlocks {
+  static constexpr int n = S::kDof;
+  Block<T, n> aa, ab, ba, bb;
+
+  template <class Map>
+  PINTLE_LANES static PoseBlocks of(const Map& g, const T* w) {
+    using Real = std::decay_t<decltype(g.k)>;
+    Real G[2][n][n];  // of each body, by columns
+    for (int body = 0; body < 2; ++body)
+      for (int c = 0; c < n; ++c) {
+        Real x[2][n];
+        for (auto& of_body : x)
+          for (Real& y : of_body) y = Real(0.0);
+        x[body][c] = Real(1.0);
+        g.gather(x[0], x[1], G[body][c]);
+      }
+    PoseBlocks k;
+    for (const auto& [block, row, column] : {std::tuple(&k.aa, 0, 0), std::tuple(&k.ab, 0, 1), std::tuple(&k.ba, 1, 0), std::tuple(&k.bb, 1, 1)})
+      for (int c = 0; c < n; ++c) {
+        T force[n];
+        for (int i = 0; i < n; ++i) force[i] = G[column][c][i] * w[i];
+        for (int r = 0; r < n; ++r) {
+          T sum = G[row][r][0] * force[0];
+          for (int i = 1; i < n; ++i) sum += G[row][r][i] * force[i];
+          (*block)(r, c) = sum;
+        }
+      }
+    return k;
+  }
+
+  /// Those of one lane.
+  PINTLE_LANES PoseBlocks<S, double> lane(int i) const {
+    PoseBlocks<S, double> one;
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) {
+        one.aa(r, c) = aa(r, c)[i];
+        one.ab(r, c) = ab(r, c)[i];
+        one.ba(r, c) = ba(r, c)[i];
+        one.bb(r, c) = bb(r, c)[i];
+      }
+    return one;
+  }
+  /// Adds it to the blocks of bodies a and b, which may be the ground.
+  PINTLE_LANES void add_to(BlockLu<T, n>& lu, int a, int b, BlockPattern::Slot slot) const {
+    if (a != kGround) add(lu.diagonal(a), aa);
+    if (b != kGround) add(lu.diagonal(b), bb);
+    if (a == kGround || b == kGround) return;
+    if (lu.has(slot)) add(lu.off_diagonal(slot), ab);
+    slot.upper = !slot.upper;
+    if (lu.has(slot)) add(lu.off_diagonal(slot), ba);
+  }
+  PINTLE_LANES void add_to(BlockLu<T, n>& lu, const BasicPlacement<S>& at, BlockPattern::Slot slot) const { add_to(lu, at.a, at.b, slot); }
+
+ private:
+  PINTLE_LANES static void add(Block<T, n>& to, const Block<T, n>& k) {
+    for (int r = 0; r < n; ++r)
+      for (int c = 0; c < n; ++c) to(r, c) += k(r, c);
+  }
+};
+
+/// The same in the plane, and less N, which is the geometric stiffness at the joint's force. In world
 /// axes w is a symmetric stiffness (xx, xy, yy) at the joint's point, which acts at the arms of both bodies, and one against turning.
 /// joints Eqs. (2.5), (2.6), (2.9).
 template <class T>
-struct PoseBlocks {
+struct PoseBlocks<Planar, T> {
   T xx, xy, yy;
   T ax, ay, aa;  // of the first body with its angle
   T bx, by, bb;
   T ba;          // of both angles
 
   template <class Real>
-  PINTLE_LANES static PoseBlocks of(const GapMap<Real>& g, const T* w) {
+  PINTLE_LANES static PoseBlocks of(const PlanarGapMap<Real>& g, const T* w) {
     PoseBlocks k;
     k.xx = (g.c * g.c) * w[0] + (g.s * g.s) * w[1];
     k.yy = (g.s * g.s) * w[0] + (g.c * g.c) * w[1];
@@ -41,7 +107,7 @@ struct PoseBlocks {
   }
   /// Less N, at a force [N, N, N*m].
   template <class Real, class Force>
-  PINTLE_LANES static PoseBlocks of(const GapMap<Real>& g, const T* w, const Force& force) {
+  PINTLE_LANES static PoseBlocks of(const PlanarGapMap<Real>& g, const T* w, const Force& force) {
     PoseBlocks k = of(g, w);
     const T one(1.0), fx = (g.c * force[0] - g.s * force[1]) * one, fy = (g.s * force[0] + g.c * force[1]) * one;
     k.ax -= fy;
@@ -53,7 +119,7 @@ struct PoseBlocks {
   }
 
   /// Those of one lane.
-  PINTLE_LANES PoseBlocks<double> lane(int i) const { return {xx[i], xy[i], yy[i], ax[i], ay[i], aa[i], bx[i], by[i], bb[i], ba[i]}; }
+  PINTLE_LANES PoseBlocks<Planar, double> lane(int i) const { return {xx[i], xy[i], yy[i], ax[i], ay[i], aa[i], bx[i], by[i], bb[i], ba[i]}; }
   /// Adds it to the blocks of bodies a and b, which may be the ground.
   PINTLE_LANES void add_to(BlockLu<T, 3>& lu, int a, int b, BlockPattern::Slot slot) const {
     if (a != kGround) add_diagonal(lu.diagonal(a), ax, ay, aa, !lu.symmetric());
@@ -81,11 +147,12 @@ struct PoseBlocks {
 };
 
 /// Adds G' w G to the blocks of both bodies, for a gap and a law of any kind.
-inline void add_gap_blocks(BlockLu<double, 3>& lu, const Placement& at, BlockPattern::Slot slot, const GapMap<double>& g, const Planar::Mat& w) {
-  using Mat = Planar::Mat;
-  const auto add = [](Block<double, 3>& block, const Mat& m) {
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) block(i, j) += m(i, j);
+template <class S>
+void add_gap_blocks(BlockLu<double, S::kDof>& lu, const BasicPlacement<S>& at, BlockPattern::Slot slot, const typename S::template GapMap<double>& g, const typename S::Mat& w) {
+  using Mat = typename S::Mat;
+  const auto add = [](Block<double, S::kDof>& block, const Mat& m) {
+    for (int i = 0; i < S::kDof; ++i)
+      for (int j = 0; j < S::kDof; ++j) block(i, j) += m(i, j);
   };
   const Mat GA = g.GA(), GB = g.GB(), WA = w * GA, WB = w * GB;
   if (at.a != kGround) add(lu.diagonal(at.a), GA.transpose() * WA);

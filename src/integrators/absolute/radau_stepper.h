@@ -25,27 +25,28 @@
 
 namespace pintle {
 
-class RadauStepper {
+template <class S>
+class BasicRadauStepper {
  public:
   /// `stages` is 3 (order 5) or 5 (order 9).
-  RadauStepper(const System& system, double tolerance, int stages = 3, ToleranceOf tolerance_of = ToleranceOf::kForces);
+  BasicRadauStepper(const BasicSystem<S>& system, double tolerance, int stages = 3, ToleranceOf tolerance_of = ToleranceOf::kForces);
 
   void set_max_step(double h) { control_.longest = h; }
   /// Loads known from an earlier run; otherwise the largest so far is used.
-  void set_load_scale(const LoadScale& scale) { scale_ = scale; }
-  const LoadScale& load_scale() const { return scale_; }
+  void set_load_scale(const BasicLoadScale<S>& scale) { scale_ = scale; }
+  const BasicLoadScale<S>& load_scale() const { return scale_; }
 
   /// Starts at `state` (all of it filled in) with a first step of about h.
-  void start(const State& state, double h);
+  void start(const BasicState<S>& state, double h);
   /// One accepted step, not beyond t_end. False when no step could be made; `failure` says why.
   bool step(double t_end);
   /// One step of exactly h without error control (negative: backwards); false when Newton fails.
   bool trial(double h);
 
-  const State& state() const { return end_; }
-  const State& previous() const { return begin_; }
+  const BasicState<S>& state() const { return end_; }
+  const BasicState<S>& previous() const { return begin_; }
   /// The inside of the last step, for dense output.
-  const StepNodes& nodes() const { return nodes_; }
+  const BasicStepNodes<S>& nodes() const { return nodes_; }
   double next_step() const { return control_.next; }
   const Counters& counters() const { return counters_; }
   const std::string& failure() const { return failure_; }
@@ -66,8 +67,8 @@ class RadauStepper {
   void finish_step(double h);                 // fills end_ and nodes_
   using Power = std::array<double, 2>;        // supplied, lost [W]
   void add_work(double h);
-  Power power_of_loads(double t, const Vecs& q, const std::vector<Planar::Motion>& m) const;
-  void add_power(const JointData& joint, const std::vector<Planar::Motion>& m, const LawPoint& at, const Planar::Vec& force, Power& power) const;
+  Power power_of_loads(double t, const VecsOf<S>& q, const std::vector<typename S::Motion>& m) const;
+  void add_power(const BasicJointData<S>& joint, const std::vector<typename S::Motion>& m, const BasicLawPoint<S>& at, const typename S::Vec& force, Power& power) const;
   void find_power();
 
   // event_location.cpp: steps that end where a force has a kink
@@ -80,27 +81,27 @@ class RadauStepper {
   double margin_rate(const SlidingMode& jump);
   void balance_end();
 
-  const System& system_;
+  const BasicSystem<S>& system_;
   const RadauTable& table_;
   const int n_;                               // stages
   double tolerance_;
   const bool of_motion_;                      // the tolerance is
-  MotionScale motion_scale_;
-  State begin_, end_;
+  BasicMotionScale<S> motion_scale_;
+  BasicState<S> begin_, end_;
   StepControl control_;
   std::uint64_t branch_ = 0;                  // of kinks, at end_
-  ChatteringDetector chattering_;
-  std::unique_ptr<StageSolver> solver_;
-  std::vector<Stage> stage_;
-  StepNodes nodes_;
-  std::unique_ptr<EndPointProjection> end_point_;
-  StageTails tails_;
+  BasicChatteringDetector<S> chattering_;
+  std::unique_ptr<BasicStageSolver<S>> solver_;
+  std::vector<BasicStage<S>> stage_;
+  BasicStepNodes<S> nodes_;
+  std::unique_ptr<BasicEndPointProjection<S>> end_point_;
+  BasicStageTails<S> tails_;
   std::vector<int> powered_;                  // joints whose power no stage has summed up
-  Vecs inside_q_, inside_v_, inside_gap_, inside_rate_;
+  VecsOf<S> inside_q_, inside_v_, inside_gap_, inside_rate_;
   std::vector<double> inside_law_state_;
-  std::vector<JointKinematics> end_r_;
-  std::vector<Planar::Motion> end_m_, inside_m_;
-  LoadScale scale_;
+  std::vector<BasicJointKinematics<S>> end_r_;
+  std::vector<typename S::Motion> end_m_, inside_m_;
+  BasicLoadScale<S> scale_;
   Counters counters_;
   std::string failure_;
 };

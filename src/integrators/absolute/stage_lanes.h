@@ -1,4 +1,4 @@
-// A body and a joint at every stage of a step at once, one stage per lane; and the matrices that mix the stages.
+// The matrices that mix the stages of a step, which stand one per lane; and what comes of the lanes.
 #pragma once
 
 #include <algorithm>
@@ -7,21 +7,10 @@
 
 #include "integrators/radau/radau_table.h"
 #include "integrators/radau/step_error.h"
-#include "joints/gap_map.h"
+#include "space/space.h"
 #include "linalg/spectrum.h"
 
 namespace pintle {
-
-template <int N>
-struct BodyLanes {
-  using L = Lanes<N>;
-  L q[3], v[3], a[3];
-  L c, s;         // cosine and sine of the angle
-
-  struct View { const L &x, &y, &c, &s, &vx, &vy, &w; };
-  View view() const { return {q[0], q[1], c, s, v[0], v[1], v[2]}; }
-  Planar::Motion motion(int i) const { return {{q[0][i], q[1][i]}, q[2][i], c[i], s[i], {v[0][i], v[1][i]}, v[2][i]}; }
-};
 
 /// The table as it acts on lanes: stages to stages, and to and from the diagonal frame.
 template <int N>
@@ -77,12 +66,30 @@ struct StepMatrices {
       A2.column[i] = (h * h) * m.A2.column[i];
     }
   }
+  /// x and its rate v at the stages, from its second derivative a. theory/time Eq. (3.5).
+  PINTLE_LANES Lanes<N> place(const Lanes<N>& a, double x0, double v0, Lanes<N>& v) const {
+    Lanes<N> first = Lanes<N>::all(v0), second = Lanes<N>::all(x0) + v0 * c;
+    for (int i = 0; i < N; ++i) {
+      first += a[i] * A.column[i];
+      second += a[i] * A2.column[i];
+    }
+    v = first;
+    return second;
+  }
 };
 
-/// A law's answer to a gap: its weights are those of each component, or a matrix by rows.
-template <class T>
+/// A law's answer to a gap of D components: its weights are those of each, or a matrix by rows.
+template <int D, class T>
 PINTLE_LANES void weigh(bool diagonal, const T* weight, const T* gap, T* f) {
-  for (int k = 0; k < 3; ++k) f[k] = diagonal ? weight[k] * gap[k] : weight[3 * k] * gap[0] + weight[3 * k + 1] * gap[1] + weight[3 * k + 2] * gap[2];
+  for (int k = 0; k < D; ++k) {
+    if (diagonal) {
+      f[k] = weight[k] * gap[k];
+      continue;
+    }
+    T sum = weight[D * k] * gap[0];
+    for (int i = 1; i < D; ++i) sum += weight[D * k + i] * gap[i];
+    f[k] = sum;
+  }
 }
 
 /// The largest lane; infinity where the sum of what it came from is not finite.

@@ -14,33 +14,31 @@
 
 namespace pintle {
 
-using S = Planar;
-
-template <int N>
-LaneStageSolver<N>::LaneStageSolver(const System& system, const RadauTable& table, double tolerance, Steps steps)
+template <class S, int N>
+LaneStageSolver<S, N>::LaneStageSolver(const BasicSystem<S>& system, const RadauTable& table, double tolerance, Steps steps)
     : system_(system), table_(table), matrices_(table), tolerance_(tolerance), steps_(steps), loads_(system.has_loads()), large_(system.bodies.size() > kLargeMechanism),
       pattern_(system.pattern().in_order()), bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), loads_on_(loads_ ? system.bodies.size() + 1 : 0),
       motions_(system.bodies.size()), lu_(pattern_, loads_ ? Symmetry::kNone : symmetry_of_joints(system)), rhs_(system.bodies.size() + 1) {
-  bodies_.back().c = L::all(1);  // the ground; what falls on it is not looked at
+  bodies_.back().stand_still();  // the ground; what falls on it is not looked at
   for (std::size_t b = 0; b < n_bodies(); ++b) bodies_[b].index = system.pattern().row_at(static_cast<int>(b));
   const int ground = static_cast<int>(n_bodies());
   const auto body = [&](int index) { return index == kGround ? ground : system.pattern().position(index); };
   bool servos = false;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const JointData& data = system.joints[j];
+    const BasicJointData<S>& data = system.joints[j];
     Joint& joint = joints_[j];
     joint.index = static_cast<int>(j);
     joint.a = body(data.at.a);
     joint.b = body(data.at.b);
     joint.first = std::min(joint.a, joint.b);
     joint.last = joint.a == ground || joint.b == ground ? joint.first : std::max(joint.a, joint.b);
-    joint.function = !std::holds_alternative<Selection>(data.displacement);
-    joint.F = {data.at.F.p, data.at.F.c, data.at.F.s};
-    joint.M = {data.at.M.p, data.at.M.c, data.at.M.s};
+    joint.function = !std::holds_alternative<BasicSelection<S>>(data.displacement);
+    joint.F = S::attachment(data.at.F);
+    joint.M = S::attachment(data.at.M);
     joint.servo = static_cast<signed char>(data.servo);
-    if (const LinearLaw* law = data.law.constant_diagonal()) {
+    if (const BasicLinearLaw<S>* law = data.law.constant_diagonal()) {
       joint.linear = true;
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < S::kDof; ++k) {
         joint.k[k] = law->k[k];
         joint.c[k] = law->c[k];
       }
@@ -66,8 +64,8 @@ LaneStageSolver<N>::LaneStageSolver(const System& system, const RadauTable& tabl
   if (servos) target_accel_.assign(joints_.size(), L::all(0));
 }
 
-template <int N>
-bool LaneStageSolver<N>::solve_stages(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale,
+template <class S, int N>
+bool LaneStageSolver<S, N>::solve_stages(const BasicState<S>& begin, double h, const BasicStepNodes<S>* before, double last_h, const BasicLoadScale<S>& scale,
                                  Counters& counters) {
   step_.scale(matrices_, h);
   const Curve curve(table_, steps_, h, before, last_h);
@@ -107,16 +105,16 @@ bool LaneStageSolver<N>::solve_stages(const State& begin, double h, const StepNo
 // The way there: what is missing in all equations, the matrix of the correction that answers it, and their elimination. Bodies and
 // joints that follow each other are done together, while they are at hand; loads want to know where all of the bodies are. False where
 // the matrix, which may have to be factorised, is singular. Eqs. (3.9), (3.10).
-template <int N>
-bool LaneStageSolver<N>::assemble_and_eliminate(const State& begin, double h, const Curve* unplaced, const LoadScale& scale, bool linearized) {
+template <class S, int N>
+bool LaneStageSolver<S, N>::assemble_and_eliminate(const BasicState<S>& begin, double h, const Curve* unplaced, const BasicLoadScale<S>& scale, bool linearized) {
   const bool whole = loads_ || !poses_;
-  const auto complete = [&](int b, BlockVec<X, 3>& x) {
+  const auto complete = [&](int b, BlockVec<X, S::kDof>& x) {
     if (large_) {
       fetch(rhs_, b + kLater);
       if (linearized) lu_.fetch_row(b + static_cast<int>(kLater));
       if (!unplaced) fetch(bodies_, b + kLater);
     }
-    for (int k = 0; k < 3; ++k) x[k] += X(matrices_.T_inverse * bodies_[b].residual[k]);
+    for (int k = 0; k < S::kDof; ++k) x[k] += X(matrices_.T_inverse * bodies_[b].residual[k]);
   };
   if (linearized) begin_matrix(h);
   std::size_t j = 0;
@@ -128,7 +126,7 @@ bool LaneStageSolver<N>::assemble_and_eliminate(const State& begin, double h, co
     for (std::size_t b = first; b < end; ++b) {
       begin_residual(b);
       if (!linearized) continue;
-      const S::Vec& mass = system_.bodies[bodies_[b].index].mass;
+      const typename S::Vec& mass = system_.bodies[bodies_[b].index].mass;
       lu_.set_diagonal(static_cast<int>(b), [&](int k) { return mass[k] * mu2_; });
     }
     if (linearized && whole) add_loads(begin, h);
@@ -136,8 +134,8 @@ bool LaneStageSolver<N>::assemble_and_eliminate(const State& begin, double h, co
       Joint& joint = joints_[j];
       if (large_) fetch_joint(begin, unplaced, j);
       if (unplaced) begin_joint(begin, *unplaced, scale, joint);
-      L bias[3];
-      const GapMap<L> map = find_map(joint, bias);
+      L bias[S::kDof];
+      const typename S::template GapMap<L> map = find_map(joint, bias);
       if (linearized) linearize(begin, joint, map);
       assemble_joint(joint, map, bias);
     }
@@ -149,43 +147,28 @@ bool LaneStageSolver<N>::assemble_and_eliminate(const State& begin, double h, co
   return true;
 }
 
-// Where the stages are, from their accelerations. Eq. (3.5).
-template <int N>
-Lanes<N> LaneStageSolver<N>::place(const L& a, double x0, double v0, L& v) const {
-  const StepMatrices<N>& m = step_;
-  L first = L::all(v0), second = L::all(x0) + v0 * m.c;
-  for (int i = 0; i < N; ++i) {
-    first += a[i] * m.A.column[i];
-    second += a[i] * m.A2.column[i];
-  }
-  v = first;
-  return second;
-}
-
-template <int N>
-void LaneStageSolver<N>::place_body(const State& begin, std::size_t b) {
+template <class S, int N>
+void LaneStageSolver<S, N>::place_body(const BasicState<S>& begin, std::size_t b) {
   Body& body = bodies_[b];
-  const S::Vec &q = begin.q[body.index], &v = begin.v[body.index];
-  for (int k = 0; k < 3; ++k) body.q[k] = place(body.a[k], q[k], v[k], body.v[k]);
-  sine_and_cosine_unchecked(body.q[2], body.s, body.c);
+  body.place(step_, begin.q[body.index], begin.v[body.index]);
 }
 
 // `angles`: the largest.
-template <int N>
-void LaneStageSolver<N>::check_angles(const L& angles, std::size_t first, std::size_t end) {
-  if (!any_beyond_largest_angle(angles)) return;
-  for (std::size_t b = first; b < end; ++b) sine_and_cosine(bodies_[b].q[2], bodies_[b].s, bodies_[b].c);
+template <class S, int N>
+void LaneStageSolver<S, N>::check_angles(const L& angles, std::size_t first, std::size_t end) {
+  if (!Body::must_check(angles)) return;
+  for (std::size_t b = first; b < end; ++b) bodies_[b].check();
 }
 
 // The joint's force at its gaps and their rates. How much that has changed, over the scale of the bodies that it acts on.
-template <int N>
-void LaneStageSolver<N>::place_joint(const State& begin, Joint& joint, L& worst, L& sum) {
-  const S::Vec &gap_there = begin.gap[joint.index], &rate_there = begin.gap_rate[joint.index];
-  L gap[3], rate[3];
-  for (int k = 0; k < 3; ++k) gap[k] = place(joint.accel[k], gap_there[k], rate_there[k], rate[k]);
-  L of_law[3];
+template <class S, int N>
+void LaneStageSolver<S, N>::place_joint(const BasicState<S>& begin, Joint& joint, L& worst, L& sum) {
+  const typename S::Vec &gap_there = begin.gap[joint.index], &rate_there = begin.gap_rate[joint.index];
+  L gap[S::kDof], rate[S::kDof];
+  for (int k = 0; k < S::kDof; ++k) gap[k] = step_.place(joint.accel[k], gap_there[k], rate_there[k], rate[k]);
+  L of_law[S::kDof];
   if (!joint.linear) place_general(begin, joint, gap, rate, of_law);
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < S::kDof; ++k) {
     const L force = joint.linear ? -(joint.k[k] * gap[k] + joint.c[k] * rate[k]) : of_law[k];
     const L change = joint.over_scale[k] * (force - joint.force[k]);
     worst = larger_size(worst, change);
@@ -195,72 +178,71 @@ void LaneStageSolver<N>::place_joint(const State& begin, Joint& joint, L& worst,
 }
 
 // What is missing in a body's equations but for the joints' forces. Eq. (3.6).
-template <int N>
-void LaneStageSolver<N>::begin_residual(std::size_t b) {
-  const BodyData& data = system_.bodies[bodies_[b].index];
-  for (int k = 0; k < 3; ++k) {
+template <class S, int N>
+void LaneStageSolver<S, N>::begin_residual(std::size_t b) {
+  const BasicBodyData<S>& data = system_.bodies[bodies_[b].index];
+  for (int k = 0; k < S::kDof; ++k) {
     bodies_[b].residual[k] = (loads_ ? loads_on_[b][k] : L::all(data.gravity[k])) - data.mass[k] * bodies_[b].a[k];
     rhs_[b][k] = X(L::all(0));
   }
 }
 
-template <int N>
-void LaneStageSolver<N>::find_loads(const State& begin, double h) {
+template <class S, int N>
+void LaneStageSolver<S, N>::find_loads(const BasicState<S>& begin, double h) {
   for (int s = 0; s < N; ++s) {
     for (std::size_t b = 0; b < n_bodies(); ++b) motions_[bodies_[b].index] = bodies_[b].motion(s);
     system_.external(begin.t + table_.c[s] * h, motions_, Q_, begin.sliding);
     for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < 3; ++k) loads_on_[b][k].set(s, Q_[bodies_[b].index][k]);
+      for (int k = 0; k < S::kDof; ++k) loads_on_[b][k].set(s, Q_[bodies_[b].index][k]);
   }
 }
 
 // The loads that the last correction has counted on. A motor that is held at a jump has a ramp so steep that the effort of the last
 // bits of a velocity says less.
-template <int N>
-void LaneStageSolver<N>::find_balanced_loads() {
+template <class S, int N>
+void LaneStageSolver<S, N>::find_balanced_loads() {
   for (std::size_t b = 0; b < n_bodies(); ++b)
-    for (int k = 0; k < 3; ++k) loads_on_[b][k] = system_.bodies[bodies_[b].index].mass[k] * bodies_[b].a[k];
+    for (int k = 0; k < S::kDof; ++k) loads_on_[b][k] = system_.bodies[bodies_[b].index].mass[k] * bodies_[b].a[k];
   for (const Joint& joint : joints_) {
-    L bias[3];
-    const L *f = joint.force, against[3] = {-f[0], -f[1], -f[2]};
+    L bias[S::kDof];
+    L against[S::kDof];
+    for (int k = 0; k < S::kDof; ++k) against[k] = -joint.force[k];
     find_map(joint, bias).push(against, loads_on_[joint.a], loads_on_[joint.b]);
   }
 }
 
 // A joint's force on its bodies, and what falls on them of what is missing in its own equation. Its acceleration becomes what the
 // bodies' make of it: that is what the correction starts from. Eq. (3.6).
-template <int N>
-void LaneStageSolver<N>::assemble_joint(Joint& joint, const GapMap<L>& map, const L (&bias)[3]) {
+template <class S, int N>
+void LaneStageSolver<S, N>::assemble_joint(Joint& joint, const typename S::template GapMap<L>& map, const L (&bias)[S::kDof]) {
   Body &A = bodies_[joint.a], &B = bodies_[joint.b];
   map.push(joint.force, A.residual, B.residual);
-  L e[3];
-  X missing[3], f[3];
+  L e[S::kDof];
+  X missing[S::kDof], f[S::kDof];
   map.gather(A.a, B.a, e);
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < S::kDof; ++k) {
     e[k] += bias[k];
     missing[k] = X(matrices_.T_inverse * (joint.accel[k] - e[k]));
     joint.accel[k] = e[k];
   }
   if (joint.linear)
-    for (int k = 0; k < 3; ++k) f[k] = (joint.k[k] * twice_ + joint.c[k] * once_) * missing[k];
+    for (int k = 0; k < S::kDof; ++k) f[k] = (joint.k[k] * twice_ + joint.c[k] * once_) * missing[k];
   else
     answer_states(general_[joint.general], missing, f);
   joint.frozen.push(f, rhs_[joint.a], rhs_[joint.b]);
 }
 
 // The map of a joint and its convective acceleration; of a servo less than the target's.
-template <int N>
-GapMap<Lanes<N>> LaneStageSolver<N>::find_map(const Joint& joint, L (&bias)[3]) const {
-  const auto pose = PoseGeometry<L>::between(bodies_[joint.a].view(), joint.F, bodies_[joint.b].view(), joint.M);
-  GapMap<L> map;
+template <class S, int N>
+typename S::template GapMap<Lanes<N>> LaneStageSolver<S, N>::find_map(const Joint& joint, L (&bias)[S::kDof]) const {
+  const auto pose = S::template PoseGeometry<L>::between(bodies_[joint.a].view(), joint.F, bodies_[joint.b].view(), joint.M);
+  typename S::template GapMap<L> map;
   map.function = joint.function;
   map.set(pose);
-  bias[0] = pose.bias_x;
-  bias[1] = pose.bias_y;
-  bias[2] = L::all(0);
+  pose.biases(bias);
   if (joint.function) {
     bias[0] = find_gradient(joint, pose, map);
-    bias[1] = L::all(0);
+    for (int k = 1; k < S::kDof; ++k) bias[k] = L::all(0);
   }
   if (joint.servo >= 0) bias[joint.servo] -= target_accel_[joint.index];
   return map;
@@ -268,19 +250,19 @@ GapMap<Lanes<N>> LaneStageSolver<N>::find_map(const Joint& joint, L (&bias)[3]) 
 
 // A gap that is a function of the pose: its gradient into the map; its convective acceleration is returned. theory/joints
 // Eq. (2.14).
-template <int N>
-Lanes<N> LaneStageSolver<N>::find_gradient(const Joint& joint, const PoseGeometry<L>& pose, GapMap<L>& map) const {
-  const JointData& data = system_.joints[joint.index];
+template <class S, int N>
+Lanes<N> LaneStageSolver<S, N>::find_gradient(const Joint& joint, const typename S::template PoseGeometry<L>& pose, typename S::template GapMap<L>& map) const {
+  const BasicJointData<S>& data = system_.joints[joint.index];
   const Body &A = bodies_[joint.a], &B = bodies_[joint.b];
   L bias;
   for (int s = 0; s < N; ++s) {
-    const RelativePose z = RelativePose::between(A.motion(s), data.at.F, B.motion(s), data.at.M);
+    const typename S::RelativePose z = S::RelativePose::between(A.motion(s), data.at.F, B.motion(s), data.at.M);
     std::visit(
         [&](const auto& displacement) {
-          if constexpr (!std::is_same_v<std::decay_t<decltype(displacement)>, Selection>) {
-            const GapFunction g = displacement(z.z);
-            for (int k = 0; k < 3; ++k) map.gradient[k].set(s, g.gradient[k]);
-            bias.set(s, g.gradient[0] * pose.bias_x[s] + g.gradient[1] * pose.bias_y[s] + z.rate.dot(g.hessian * z.rate));
+          if constexpr (!std::is_same_v<std::decay_t<decltype(displacement)>, BasicSelection<S>>) {
+            const auto g = displacement(z.z);
+            for (int k = 0; k < S::kDof; ++k) map.gradient[k].set(s, g.gradient[k]);
+            bias.set(s, g.gradient.dot(z.bias) + z.rate.dot(g.hessian * z.rate));
           }
         },
         data.displacement);
@@ -290,13 +272,13 @@ Lanes<N> LaneStageSolver<N>::find_gradient(const Joint& joint, const PoseGeometr
 
 // The way back: the corrections of bodies and joints, and where they lead. Eq. (3.11). Their size is returned: as body forces, and what
 // the joint forces have changed, over the scale.
-template <int N>
-double LaneStageSolver<N>::back_substitute(const State& begin) {
+template <class S, int N>
+double LaneStageSolver<S, N>::back_substitute(const BasicState<S>& begin) {
   L worst = L::all(0), sum = worst, angles = worst;
   for (L& still : bodies_.back().residual) still = L::all(0);
-  const auto move = [&](int b, const BlockVec<X, 3>& x) {
+  const auto move = [&](int b, const BlockVec<X, S::kDof>& x) {
     apply_body_correction(begin, b, x, worst, sum);
-    angles = larger_size(angles, bodies_[b].q[2]);
+    angles = larger_size(angles, bodies_[b].to_check());
   };
   if (!large_) {
     lu_.substitute(0, pattern_.n(), rhs_, move);
@@ -320,17 +302,17 @@ double LaneStageSolver<N>::back_substitute(const State& begin) {
   return largest(worst, sum);
 }
 
-template <int N>
-void LaneStageSolver<N>::apply_joint_correction(const State& begin, Joint& joint, L& worst, L& sum) {
-  L e[3];
+template <class S, int N>
+void LaneStageSolver<S, N>::apply_joint_correction(const BasicState<S>& begin, Joint& joint, L& worst, L& sum) {
+  L e[S::kDof];
   joint.frozen.gather(bodies_[joint.a].residual, bodies_[joint.b].residual, e);
-  for (int k = 0; k < 3; ++k) joint.accel[k] += e[k];
+  for (int k = 0; k < S::kDof; ++k) joint.accel[k] += e[k];
   if (!joint.linear) move_states(general_[joint.general], e);
   place_joint(begin, joint, worst, sum);
 }
 
-template <int N>
-void LaneStageSolver<N>::apply_body_correction(const State& begin, int b, const BlockVec<X, 3>& x, L& worst, L& sum) {
+template <class S, int N>
+void LaneStageSolver<S, N>::apply_body_correction(const BasicState<S>& begin, int b, const BlockVec<X, S::kDof>& x, L& worst, L& sum) {
   Body& body = bodies_[b];
   if (large_ && b >= static_cast<int>(kLater)) {
     fetch(bodies_, b - kLater);
@@ -340,7 +322,7 @@ void LaneStageSolver<N>::apply_body_correction(const State& begin, int b, const 
     fetch(begin.q, i);
     fetch(begin.v, i);
   }
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < S::kDof; ++k) {
     const L delta = back_ * x[k].x, relative = body.over_scale[k] * delta;
     body.residual[k] = delta;
     body.a[k] += delta;
@@ -351,68 +333,73 @@ void LaneStageSolver<N>::apply_body_correction(const State& begin, int b, const 
 }
 
 // What is written soon of a body and of a joint.
-template <int N>
-PINTLE_LANES void LaneStageSolver<N>::fetch_body_end(const State& begin, const std::vector<Stage>& stages, const StageTails& tails, std::size_t b) const {
+template <class S, int N>
+PINTLE_LANES void LaneStageSolver<S, N>::fetch_body_end(const BasicState<S>& begin, const std::vector<BasicStage<S>>& stages, const BasicStageTails<S>& tails, std::size_t b) const {
   fetch(bodies_, b + kSoon);
   if (b >= n_bodies()) return;
   const int i = bodies_[b].index;
-  const Stage& last = stages.back();
+  const BasicStage<S>& last = stages.back();
   fetch(begin.a, i);
   fetch(tails.bodies, i);
-  for (const Stage& stage : stages) fetch(stage.a, i);
-  for (const Vecs* x : {&last.q, &last.v, &last.Q}) fetch(*x, i);
+  for (const BasicStage<S>& stage : stages) fetch(stage.a, i);
+  fetch(last.q, i);
+  for (const VecsOf<S>* x : {&last.v, &last.Q}) fetch(*x, i);
   fetch(last.m, i);
 }
-template <int N>
-PINTLE_LANES void LaneStageSolver<N>::fetch_joint_end(const State& begin, const std::vector<Stage>& stages, const StageTails& tails, std::size_t j) const {
+template <class S, int N>
+PINTLE_LANES void LaneStageSolver<S, N>::fetch_joint_end(const BasicState<S>& begin, const std::vector<BasicStage<S>>& stages, const BasicStageTails<S>& tails, std::size_t j) const {
   fetch(joints_, j + kSoon);
   if (j >= joints_.size()) return;
   const int i = joints_[j].index;
-  const Stage& last = stages.back();
-  for (const Vecs* x : {&begin.gap, &begin.gap_rate, &last.gap, &last.gap_rate}) fetch(*x, i);
+  const BasicStage<S>& last = stages.back();
+  for (const VecsOf<S>* x : {&begin.gap, &begin.gap_rate, &last.gap, &last.gap_rate}) fetch(*x, i);
   fetch(tails.gaps, i);
-  for (const Stage& stage : stages) {
+  for (const BasicStage<S>& stage : stages) {
     fetch(stage.gap_accel, i);
     fetch(stage.force, i);
   }
 }
 
-template <int N>
-void LaneStageSolver<N>::write_stages(const State& begin, std::vector<Stage>& stages, StageTails& tails) const {
+template <class S, int N>
+void LaneStageSolver<S, N>::write_stages(const BasicState<S>& begin, std::vector<BasicStage<S>>& stages, BasicStageTails<S>& tails) const {
   const bool simple = simple_;
-  const auto copy = [](const L* from, int s, S::Vec& to) { to << from[0][s], from[1][s], from[2][s]; };
+  const auto copy = [](const L* from, int s, typename S::Vec& to) {
+    for (int k = 0; k < S::kDof; ++k) to[k] = from[k][s];
+  };
   const auto put = [](const L& from, Lanes<4>& to) { to = Lanes<4>::of({from[0], from[1], from[2], 0}); };
   for (std::size_t b = 0; b < n_bodies(); ++b) {
     const Body& body = bodies_[b];
     const int i = body.index;
     if (large_) fetch_body_end(begin, stages, tails, b + kSoon);
     for (int s = 0; s < N; ++s) {
-      Stage& stage = stages[s];
+      BasicStage<S>& stage = stages[s];
       copy(body.a, s, stage.a[i]);
       if (simple && s < N - 1) continue;
-      copy(body.q, s, stage.q[i]);
+      stage.q[i] = body.coordinates(s, begin.q[i]);
       copy(body.v, s, stage.v[i]);
       stage.m[i] = body.motion(s);
       if (loads_) copy(loads_on_[b].a.data(), s, stage.Q[i]);
       else stage.Q[i] = system_.bodies[i].gravity;
     }
-    for (int k = 0; k < 3; ++k) put(begin.a[i][k] * matrices_.tail_of_start + matrices_.tail * body.a[k], tails.bodies[i][k]);
+    if constexpr (S::kCurved)
+      for (int s = 0; s < N; ++s) body.write_increment_rate(s, stages[s].increment_rate[i]);
+    for (int k = 0; k < S::kDof; ++k) put(begin.a[i][k] * matrices_.tail_of_start + matrices_.tail * body.a[k], tails.bodies[i][k]);
   }
   L loss = L::all(0);
   for (std::size_t at = 0; at < joints_.size(); ++at) {
     const Joint& joint = joints_[at];
     const int j = joint.index;
     if (large_) fetch_joint_end(begin, stages, tails, at + kSoon);
-    L gap[3], rate[3];
-    for (int k = 0; k < 3; ++k) {
-      gap[k] = place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], rate[k]);
+    L gap[S::kDof], rate[S::kDof];
+    for (int k = 0; k < S::kDof; ++k) {
+      gap[k] = step_.place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], rate[k]);
       put(matrices_.tail_of_stages * joint.accel[k], tails.gaps[j][k]);
     }
     if (joint.loses)
-      for (int k = 0; k < 3; ++k) loss += joint.c[k] * (rate[k] * rate[k]);
+      for (int k = 0; k < S::kDof; ++k) loss += joint.c[k] * (rate[k] * rate[k]);
     if (!joint.linear) write_states(begin, joint, stages, tails);
     for (int s = 0; s < N; ++s) {
-      Stage& stage = stages[s];
+      BasicStage<S>& stage = stages[s];
       copy(joint.accel, s, stage.gap_accel[j]);
       copy(joint.force, s, stage.force[j]);
       if (simple && s < N - 1) continue;
@@ -423,13 +410,13 @@ void LaneStageSolver<N>::write_stages(const State& begin, std::vector<Stage>& st
   for (int s = 0; s < N; ++s) stages[s].loss = loss[s];
 }
 
-template <int N>
-double LaneStageSolver<N>::residual(int j) const {
+template <class S, int N>
+double LaneStageSolver<S, N>::residual(int j) const {
   const Joint& joint = *std::find_if(joints_.begin(), joints_.end(), [j](const Joint& other) { return other.index == j; });
-  L bias[3], e[3];
+  L bias[S::kDof], e[S::kDof];
   find_map(joint, bias).gather(bodies_[joint.a].a, bodies_[joint.b].a, e);
   double square = 0;
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < S::kDof; ++k) {
     const double at_end = (joint.accel[k] - e[k] - bias[k])[N - 1];
     square += at_end * at_end;
   }
@@ -437,35 +424,36 @@ double LaneStageSolver<N>::residual(int j) const {
 }
 
 // Rows of the system in the order of elimination.
+template <class S>
 struct InOrder {
-  Vec3x4* rows;
+  RowOf4<S>* rows;
   const BlockPattern& pattern;
   InOrder data() const { return *this; }
-  Vec3x4& operator[](int k) const { return rows[pattern.row_at(k)]; }
+  RowOf4<S>& operator[](int k) const { return rows[pattern.row_at(k)]; }
 };
 
-template <int N>
-void LaneStageSolver<N>::filter_lanes(std::vector<Vec3x4>& forces) const {
-  InOrder rows{forces.data(), system_.pattern()};
+template <class S, int N>
+void LaneStageSolver<S, N>::filter_lanes(std::vector<RowOf4<S>>& forces) const {
+  InOrder<S> rows{forces.data(), system_.pattern()};
   lu_.solve(rows);
   const double mu2 = mu2_.x[N - 1];
-  for (Vec3x4& x : forces)
-    for (int k = 0; k < 3; ++k) x[k] = mu2 * x[k];
+  for (RowOf4<S>& x : forces)
+    for (int k = 0; k < S::kDof; ++k) x[k] = mu2 * x[k];
 }
 
 namespace {
 
 // The same text for registers of every width: everything that is made of lanes is inlined into these functions.
 #define PINTLE_SOLVER(Name, WIDTH)                                                                                                            \
-  template <int N>                                                                                                                            \
-  class Name final : public LaneStageSolver<N> {                                                                                              \
+  template <class S, int N>                                                                                                                   \
+  class Name final : public LaneStageSolver<S, N> {                                                                                              \
    public:                                                                                                                                    \
-    using LaneStageSolver<N>::LaneStageSolver;                                                                                                \
-    WIDTH bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) override { \
+    using LaneStageSolver<S, N>::LaneStageSolver;                                                                                                \
+    WIDTH bool solve(const BasicState<S>& begin, double h, const BasicStepNodes<S>* before, double last_h, const BasicLoadScale<S>& scale, Counters& counters) override { \
       return this->solve_stages(begin, h, before, last_h, scale, counters);                                                                   \
     }                                                                                                                                         \
-    WIDTH void filter_accelerations(std::vector<Vec3x4>& forces) const override { this->filter_lanes(forces); }                               \
-    WIDTH void write(const State& begin, std::vector<Stage>& stages, StageTails& tails) const override { this->write_stages(begin, stages, tails); } \
+    WIDTH void filter_accelerations(std::vector<RowOf4<S>>& forces) const override { this->filter_lanes(forces); }                               \
+    WIDTH void write(const BasicState<S>& begin, std::vector<BasicStage<S>>& stages, BasicStageTails<S>& tails) const override { this->write_stages(begin, stages, tails); } \
   };
 
 PINTLE_SOLVER(NarrowSolver, )
@@ -475,20 +463,24 @@ PINTLE_SOLVER(WidestSolver, PINTLE_WIDEST)
 #endif
 #undef PINTLE_SOLVER
 
-template <int N>
-std::unique_ptr<StageSolver> make_solver(const System& system, const RadauTable& table, double tolerance, Steps steps) {
+template <class S, int N>
+std::unique_ptr<BasicStageSolver<S>> make_solver(const BasicSystem<S>& system, const RadauTable& table, double tolerance, Steps steps) {
 #ifdef PINTLE_WIDE
-  if (has_widest_registers()) return std::make_unique<WidestSolver<N>>(system, table, tolerance, steps);
-  if (has_wide_registers()) return std::make_unique<WideSolver<N>>(system, table, tolerance, steps);
+  if (has_widest_registers()) return std::make_unique<WidestSolver<S, N>>(system, table, tolerance, steps);
+  if (has_wide_registers()) return std::make_unique<WideSolver<S, N>>(system, table, tolerance, steps);
 #endif
-  return std::make_unique<NarrowSolver<N>>(system, table, tolerance, steps);
+  return std::make_unique<NarrowSolver<S, N>>(system, table, tolerance, steps);
 }
 
 }  // namespace
 
-std::unique_ptr<StageSolver> make_stage_solver(const System& system, const RadauTable& table, double tolerance, Steps steps) {
-  if (table.n == 5) return make_solver<5>(system, table, tolerance, steps);
-  return make_solver<3>(system, table, tolerance, steps);
+template <class S>
+std::unique_ptr<BasicStageSolver<S>> make_stage_solver(const BasicSystem<S>& system, const RadauTable& table, double tolerance, Steps steps) {
+  if (table.n == 5) return make_solver<S, 5>(system, table, tolerance, steps);
+  return make_solver<S, 3>(system, table, tolerance, steps);
 }
+
+template std::unique_ptr<BasicStageSolver<Planar>> make_stage_solver(const BasicSystem<Planar>& system, const RadauTable& table, double tolerance, Steps steps);
+template std::unique_ptr<BasicStageSolver<Spatial>> make_stage_solver(const BasicSystem<Spatial>& system, const RadauTable& table, double tolerance, Steps steps);
 
 }  // namespace pintle

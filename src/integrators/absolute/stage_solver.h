@@ -16,48 +16,57 @@ namespace pintle {
 
 /// One stage of a step: where everything is, and the forces. Where nothing but springs and dampers acts, stages before the last one
 /// have accelerations and joint forces only.
-struct Stage {
-  Vecs q, v, a, Q;                            // bodies
-  Vecs gap, gap_rate, gap_accel, force;       // joints
+template <class S>
+struct BasicStage {
+  PositionsOf<S> q;                           // bodies
+  VecsOf<S> v, a, Q;
+  VecsOf<S> gap, gap_rate, gap_accel, force;       // joints
   std::vector<double> law_state, law_rate;    // of the laws' own states
-  std::vector<Planar::Motion> m;
+  std::vector<typename S::Motion> m;
   double loss = 0;                            // power lost in the springs and dampers that are joints [W]
+  VecsOf<S> increment_rate;                   // in curved spaces: of the bodies' increments from the start of the step
 };
+using Stage = BasicStage<Planar>;
 
 /// Four numbers side by side for each coordinate of a body, or component of a gap.
-using Vec3x4 = BlockVec<Lanes<4>, Planar::kDof>;
+template <class S>
+using RowOf4 = BlockVec<Lanes<4>, S::kDof>;
 
 /// The last three Legendre coefficients of the bodies' accelerations and of the gaps' own, the last one first; the fourth number is
 /// left to the reader. Those of the bodies with the start of the step, whose own error is the last step's where the gaps are
 /// concerned.
-struct StageTails {
-  std::vector<Vec3x4> bodies, gaps;
+template <class S>
+struct BasicStageTails {
+  std::vector<RowOf4<S>> bodies, gaps;
   std::vector<Lanes<4>> law_rates{};  // those of the rates of the laws' own states, with the start of the step
 };
+using StageTails = BasicStageTails<Planar>;
 
-class StageSolver {
+template <class S>
+class BasicStageSolver {
  public:
 
-  virtual ~StageSolver() = default;
+  virtual ~BasicStageSolver() = default;
 
   /// Solves the step of h from `begin`; the prediction is `before`, the step before it of last_h, where there is one.
   /// False when the iteration fails.
-  virtual bool solve(const State& begin, double h, const StepNodes* before, double last_h, const LoadScale& scale, Counters& counters) = 0;
+  virtual bool solve(const BasicState<S>& begin, double h, const BasicStepNodes<S>* before, double last_h, const BasicLoadScale<S>& scale, Counters& counters) = 0;
   /// What has been found from `begin`: one entry per stage, and the tails.
-  virtual void write(const State& begin, std::vector<Stage>& stages, StageTails& tails) const = 0;
+  virtual void write(const BasicState<S>& begin, std::vector<BasicStage<S>>& stages, BasicStageTails<S>& tails) const = 0;
   /// By how much the last iterations shrank the error of the stages; 0: it took only one.
   virtual double contraction() const = 0;
   /// What is missing in joint j's equation at the end of the step [m/s^2 or rad/s^2].
   virtual double residual(int j) const = 0;
   /// Four sets of body forces, side by side, become the accelerations that they make within the step: mu^2 Z(mu)^-1 of
   /// theory/time Eq. (3.8) with the real mu. A mode of frequency w yields by mu^2 / (mu^2 + w^2).
-  virtual void filter_accelerations(std::vector<Vec3x4>& forces) const = 0;
+  virtual void filter_accelerations(std::vector<RowOf4<S>>& forces) const = 0;
 };
 
 /// Whether steps are as long as Newton's method allows, and grow as fast: what the first guess is made from.
 enum class Steps { kAccurate, kLong };
 
 /// The solver with the stages of `table`.
-std::unique_ptr<StageSolver> make_stage_solver(const System& system, const RadauTable& table, double tolerance, Steps steps = Steps::kAccurate);
+template <class S>
+std::unique_ptr<BasicStageSolver<S>> make_stage_solver(const BasicSystem<S>& system, const RadauTable& table, double tolerance, Steps steps = Steps::kAccurate);
 
 }  // namespace pintle

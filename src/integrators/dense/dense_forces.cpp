@@ -9,27 +9,26 @@
 namespace pintle {
 namespace {
 
-using S = Planar;
-
 // One instant per lane.
-class LaneForces : public DenseForces {
+template <class S>
+class LaneForces : public BasicDenseForces<S> {
  public:
-  explicit LaneForces(const System& system)
+  explicit LaneForces(const BasicSystem<S>& system)
       : system_(system), loads_(system.has_loads()), bodies_(system.bodies.size() + 1), joints_(system.joints.size()),
         lu_(system.pattern(), symmetry_of_joints(system)), pull_(system.bodies.size() + 1), loads_on_(system.bodies.size() + 1), motions_(system.bodies.size()), Q_(system.bodies.size()) {
     bodies_.back().c = L::all(1);  // the ground
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < 3; ++k) loads_on_[b][k] = L::all(system.bodies[b].gravity[k]);
     for (std::size_t j = 0; j < joints_.size(); ++j) {
-      const JointData& data = system.joints[j];
-      joints_[j].map.function = !std::holds_alternative<Selection>(data.displacement);
+      const BasicJointData<S>& data = system.joints[j];
+      joints_[j].map.function = !std::holds_alternative<BasicSelection<S>>(data.displacement);
       joints_[j].linear = data.law.constant_diagonal();
       if (data.at.a != kGround && data.at.b != kGround) joints_[j].slot = system.pattern().slot(data.at.a, data.at.b);
     }
   }
 
  protected:
-  void find_all(const State& begin, const State& end, const StepNodes& nodes, Sampled& sampled) {
+  void find_all(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes, Sampled& sampled) {
     const double mu = nodes.table->real_eigenvalue / (end.t - begin.t);
     follow(begin, end, nodes);
     factorize(mu);
@@ -50,8 +49,8 @@ class LaneForces : public DenseForces {
     L gap[3], rate[3], accel[3], force[3];  // on the curves
     L change[3];                            // of the force, that balances
     L weight[9];                            // K + mu C; the first three of a spring and damper in each component
-    GapMap<L> map;
-    const LinearLaw* linear = nullptr;
+    typename S::template GapMap<L> map;
+    const BasicLinearLaw<S>* linear = nullptr;
     BlockPattern::Slot slot{};
   };
 
@@ -59,7 +58,7 @@ class LaneForces : public DenseForces {
   std::size_t n_bodies() const { return bodies_.size() - 1; }
 
   // Where the curves are at the instants.
-  void follow(const State& begin, const State& end, const StepNodes& nodes) {
+  void follow(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes) {
     const ForceSamples& samples = ForceSamples::of(*nodes.table);
     const int n = nodes.table->n + 1;
     const double h = end.t - begin.t;
@@ -75,26 +74,26 @@ class LaneForces : public DenseForces {
         twice[node].set(s, h * h * samples.twice[s + 1][node]);
       }
     }
-    const auto combined = [&](const L* weight, const std::vector<Vecs>& of, std::size_t i, int k) {
+    const auto combined = [&](const L* weight, const std::vector<VecsOf<S>>& of, std::size_t i, int k) {
       L sum = of[0][i][k] * weight[0];
       for (int node = 1; node < n; ++node) sum += of[node][i][k] * weight[node];
       return sum;
     };
-    const auto whole = [&](const ForceSamples::AtNodes& weight, const std::vector<Vecs>& of, std::size_t i, int k) {
+    const auto whole = [&](const ForceSamples::AtNodes& weight, const std::vector<VecsOf<S>>& of, std::size_t i, int k) {
       double sum = 0;
       for (int node = 0; node < n; ++node) sum += weight[node] * of[node][i][k];
       return sum;
     };
-    const auto rate = [&](const std::vector<Vecs>& of, const Vecs& v0, const Vecs& v1, std::size_t i, int k) {
+    const auto rate = [&](const std::vector<VecsOf<S>>& of, const VecsOf<S>& v0, const VecsOf<S>& v1, std::size_t i, int k) {
       const double bend = v1[i][k] - v0[i][k] - h * whole(samples.once.back(), of, i, k);
       return L::all(v0[i][k]) + bend * x + combined(once, of, i, k);
     };
-    const auto place = [&](const std::vector<Vecs>& of, const Vecs& x0, const Vecs& v0, const Vecs& x1, std::size_t i, int k) {
+    const auto place = [&](const std::vector<VecsOf<S>>& of, const VecsOf<S>& x0, const VecsOf<S>& v0, const VecsOf<S>& x1, std::size_t i, int k) {
       const double way = h * v0[i][k], bend = x1[i][k] - x0[i][k] - way - h * h * whole(samples.twice.back(), of, i, k);
       return L::all(x0[i][k]) + way * x + bend * hermite + combined(twice, of, i, k);
     };
     for (std::size_t b = 0; b < n_bodies(); ++b) {
-      BodyLanes<kN>& body = bodies_[b];
+      typename S::template BodyLanes<kN>& body = bodies_[b];
       for (int k = 0; k < 3; ++k) {
         body.q[k] = place(nodes.a, begin.q, begin.v, end.q, b, k);
         body.v[k] = rate(nodes.a, begin.v, end.v, b, k);
@@ -120,14 +119,14 @@ class LaneForces : public DenseForces {
 
   // The map of joint j, what its bodies make of the gap's rate, and the convective acceleration; of a servo less than its target's.
   void read(std::size_t j, L (&rate)[3], L (&bias)[3]) {
-    const JointData& data = system_.joints[j];
+    const BasicJointData<S>& data = system_.joints[j];
     Joint& joint = joints_[j];
-    const BodyLanes<kN>&A = bodies_[body(data.at.a)], &B = bodies_[body(data.at.b)];
-    const auto pose = PoseGeometry<L>::between(A.view(), data.at.F, B.view(), data.at.M);
+    const typename S::template BodyLanes<kN>&A = bodies_[body(data.at.a)], &B = bodies_[body(data.at.b)];
+    const auto pose = S::template PoseGeometry<L>::between(A.view(), data.at.F, B.view(), data.at.M);
     joint.map.set(pose);
     if (joint.map.function) {
       for (int s = 0; s < kN; ++s) {
-        const JointKinematics r = pintle::read(data.displacement, RelativePose::between(A.motion(s), data.at.F, B.motion(s), data.at.M));
+        const BasicJointKinematics<S> r = pintle::read(data.displacement, S::RelativePose::between(A.motion(s), data.at.F, B.motion(s), data.at.M));
         for (int k = 0; k < 3; ++k) {
           joint.map.gradient[k].set(s, r.map.gradient[k]);
           rate[k].set(s, r.rate[k]);
@@ -173,9 +172,9 @@ class LaneForces : public DenseForces {
       for (int k = 0; k < 3; ++k) joint.weight[k] = L::all(joint.linear->k[k] + mu * joint.linear->c[k]);
       return;
     }
-    const JointData& data = system_.joints[j];
+    const BasicJointData<S>& data = system_.joints[j];
     for (int s = 0; s < kN; ++s) {
-      const S::Vec gap(joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]), rate(joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]);
+      const typename S::Vec gap(joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]), rate(joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]);
       data.law.linearize({t_[s], gap, rate, law_state_[s].data() + data.first_state}, tangents_);
       impedance_.reserve(tangents_.n);
       impedance_.find(tangents_, mu);
@@ -187,7 +186,7 @@ class LaneForces : public DenseForces {
   // G' w G of any joint, a body's coordinate at a time.
   void add_joint(std::size_t j) {
     const Joint& joint = joints_[j];
-    const Placement& at = system_.joints[j].at;
+    const BasicPlacement<S>& at = system_.joints[j].at;
     BlockPattern::Slot ba = joint.slot;
     ba.upper = !ba.upper;
     for (int c = 0; c < 6; ++c) {
@@ -215,7 +214,7 @@ class LaneForces : public DenseForces {
   void pull(Gap gap) {
     for (Three& x : pull_) x = zero();
     for (std::size_t j = 0; j < joints_.size(); ++j) {
-      const Placement& at = system_.joints[j].at;
+      const BasicPlacement<S>& at = system_.joints[j].at;
       L f[3];
       weigh(joints_[j], joints_[j].*gap, f);
       joints_[j].map.push(f, pull_[body(at.a)], pull_[body(at.b)]);
@@ -234,14 +233,14 @@ class LaneForces : public DenseForces {
   void balance(double mu) {
     pull_ = loads_on_;
     for (std::size_t j = 0; j < joints_.size(); ++j) {
-      const Placement& at = system_.joints[j].at;
+      const BasicPlacement<S>& at = system_.joints[j].at;
       joints_[j].map.push(joints_[j].force, pull_[body(at.a)], pull_[body(at.b)]);
     }
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < 3; ++k) bodies_[b].a[k] = (1 / system_.bodies[b].mass[k]) * pull_[b][k];
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
-      const Placement& at = system_.joints[j].at;
+      const BasicPlacement<S>& at = system_.joints[j].at;
       L rate[3], bias[3], e[3];
       read(j, rate, bias);
       joint.map.gather(bodies_[body(at.a)].a, bodies_[body(at.b)].a, e);
@@ -250,7 +249,7 @@ class LaneForces : public DenseForces {
     pull(&Joint::accel);
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
-      const Placement& at = system_.joints[j].at;
+      const BasicPlacement<S>& at = system_.joints[j].at;
       L e[3];
       joint.map.gather(&pull_[body(at.a)][0], &pull_[body(at.b)][0], e);
       for (int k = 0; k < 3; ++k) e[k] = joint.accel[k] - e[k];
@@ -264,13 +263,13 @@ class LaneForces : public DenseForces {
     for (std::size_t b = 0; b < n_bodies(); ++b)
       for (int k = 0; k < 3; ++k) loads_on_[b][k] = system_.bodies[b].mass[k] * bodies_[b].a[k];
     for (std::size_t j = 0; j < joints_.size(); ++j) {
-      const Placement& at = system_.joints[j].at;
+      const BasicPlacement<S>& at = system_.joints[j].at;
       const L *f = joints_[j].force, against[3] = {-f[0], -f[1], -f[2]};
       joints_[j].map.push(against, loads_on_[body(at.a)], loads_on_[body(at.b)]);
     }
   }
 
-  void find_loads(const State& begin) {
+  void find_loads(const BasicState<S>& begin) {
     for (int s = 0; s < kN; ++s) {
       for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(s);
       system_.external(t_[s], motions_, Q_, begin.sliding);
@@ -285,55 +284,62 @@ class LaneForces : public DenseForces {
     for (const Joint& joint : joints_)
       for (const L& change : joint.change) nothing += 0.0 * change;
     for (int s = 0; s < kN; ++s) {
-      Vecs& to = sampled[s + 1];
+      VecsOf<S>& to = sampled[s + 1];
       to.resize(joints_.size());
       for (std::size_t j = 0; j < joints_.size(); ++j)
         for (int k = 0; k < 3; ++k) to[j][k] = nothing[s] == 0 ? joints_[j].force[k][s] + joints_[j].change[k][s] : joints_[j].force[k][s];
     }
   }
 
-  const System& system_;
+  const BasicSystem<S>& system_;
   const bool loads_;
   L t_;
-  std::vector<BodyLanes<kN>> bodies_;  // and the ground
+  std::vector<typename S::template BodyLanes<kN>> bodies_;  // and the ground
   std::vector<Joint> joints_;
   BlockLu<L, S::kDof> lu_;
   std::vector<Three> pull_, loads_on_; // and the ground's; gravity and loads
-  std::vector<S::Motion> motions_;     // of one instant
-  Vecs Q_;
+  std::vector<typename S::Motion> motions_;     // of one instant
+  VecsOf<S> Q_;
   std::array<std::vector<double>, kN> law_state_;  // at the instants
-  LawTangents tangents_;               // of one law at one of them
+  BasicLawTangents<S> tangents_;               // of one law at one of them
   LawImpedance<double> impedance_;
 };
 
+template <class S>
 class NarrowForces final : public LaneForces {
  public:
   using LaneForces::LaneForces;
-  void find(const State& begin, const State& end, const StepNodes& nodes, Sampled& sampled) override { find_all(begin, end, nodes, sampled); }
+  void find(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes, Sampled& sampled) override { find_all(begin, end, nodes, sampled); }
 };
 
 #ifdef PINTLE_WIDE
+template <class S>
 class WideForces final : public LaneForces {
  public:
   using LaneForces::LaneForces;
-  PINTLE_WIDE void find(const State& begin, const State& end, const StepNodes& nodes, Sampled& sampled) override { find_all(begin, end, nodes, sampled); }
+  PINTLE_WIDE void find(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes, Sampled& sampled) override { find_all(begin, end, nodes, sampled); }
 };
 
+template <class S>
 class WidestForces final : public LaneForces {
  public:
   using LaneForces::LaneForces;
-  PINTLE_WIDEST void find(const State& begin, const State& end, const StepNodes& nodes, Sampled& sampled) override { find_all(begin, end, nodes, sampled); }
+  PINTLE_WIDEST void find(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes, Sampled& sampled) override { find_all(begin, end, nodes, sampled); }
 };
 #endif
 
 }  // namespace
 
-std::unique_ptr<DenseForces> make_dense_forces(const System& system) {
+template <class S>
+std::unique_ptr<BasicDenseForces<S>> make_dense_forces(const BasicSystem<S>& system) {
 #ifdef PINTLE_WIDE
   if (has_widest_registers()) return std::make_unique<WidestForces>(system);
   if (has_wide_registers()) return std::make_unique<WideForces>(system);
 #endif
   return std::make_unique<NarrowForces>(system);
 }
+
+template std::unique_ptr<BasicDenseForces<Planar>> make_dense_forces(const BasicSystem<Planar>& system);
+template std::unique_ptr<BasicDenseForces<Spatial>> make_dense_forces(const BasicSystem<Spatial>& system);
 
 }  // namespace pintle

@@ -11,16 +11,18 @@
 
 namespace pintle {
 
-class DenseForces {
+template <class S>
+class BasicDenseForces {
  public:
-  using Sampled = std::array<Vecs, ForceSamples::kAll>;  // one entry per joint
+  using Sampled = std::array<VecsOf<S>, ForceSamples::kAll>;  // one entry per joint
 
-  virtual ~DenseForces() = default;
+  virtual ~BasicDenseForces() = default;
   /// Of the step from `begin` to `end`; both ends of `sampled` are theirs.
-  virtual void find(const State& begin, const State& end, const StepNodes& nodes, Sampled& sampled) = 0;
+  virtual void find(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes, Sampled& sampled) = 0;
 };
 
 /// With the widest registers that the processor has; `system` must outlive it.
-std::unique_ptr<DenseForces> make_dense_forces(const System& system);
+template <class S>
+std::unique_ptr<BasicDenseForces<S>> make_dense_forces(const BasicSystem<S>& system);
 
 }  // namespace pintle

@@ -5,10 +5,9 @@
 namespace pintle {
 namespace {
 
-using S = Planar;
-
 // Values of the six quintic Hermite functions and their first two derivatives at s in [0, 1]: for f, h f', h^2 f'' at the
 // start and at the end.
+template <class S>
 struct Hermite {
   std::array<double, 6> f, df, ddf;
   explicit Hermite(double s) {
@@ -23,16 +22,18 @@ struct Hermite {
 };
 
 // Curve through (x, x', x'') at both ends: written so that only the increment is interpolated.
-void interpolate(const Hermite& H, double h, const Vecs& x0, const Vecs& v0, const Vecs& a0, const Vecs& x1, const Vecs& v1,
-                 const Vecs& a1, Vecs& x, Vecs& v, Vecs& a) {
+template <class S>
+void interpolate(const Hermite& H, double h, const VecsOf<S>& x0, const VecsOf<S>& v0, const VecsOf<S>& a0, const VecsOf<S>& x1, const VecsOf<S>& v1,
+                 const VecsOf<S>& a1, VecsOf<S>& x, VecsOf<S>& v, VecsOf<S>& a) {
   for (std::size_t i = 0; i < x0.size(); ++i) {
-    const S::Vec d = x1[i] - x0[i], hv0 = h * v0[i], hv1 = h * v1[i], ha0 = h * h * a0[i], ha1 = h * h * a1[i];
+    const typename S::Vec d = x1[i] - x0[i], hv0 = h * v0[i], hv1 = h * v1[i], ha0 = h * h * a0[i], ha1 = h * h * a1[i];
     x[i] = x0[i] + H.f[3] * d + H.f[1] * hv0 + H.f[4] * hv1 + H.f[2] * ha0 + H.f[5] * ha1;
     v[i] = (H.df[3] * d + H.df[1] * hv0 + H.df[4] * hv1 + H.df[2] * ha0 + H.df[5] * ha1) / h;
     a[i] = (H.ddf[3] * d + H.ddf[1] * hv0 + H.ddf[4] * hv1 + H.ddf[2] * ha0 + H.ddf[5] * ha1) / (h * h);
   }
 }
 
+template <class S>
 double cubic(double s, double h, double x0, double v0, double x1, double v1) {
   const double r = 1 - s;
   return x0 + s * s * (3 - 2 * s) * (x1 - x0) + h * s * r * (r * v0 - s * v1);
@@ -40,7 +41,8 @@ double cubic(double s, double h, double x0, double v0, double x1, double v1) {
 
 }  // namespace
 
-DenseOutput::DenseOutput(const System& system)
+template <class S>
+BasicDenseOutput<S>::BasicDenseOutput(const BasicSystem<S>& system)
     : system_(system) {
   out_.q = out_.v = out_.a = Vecs(system.bodies.size(), S::Vec::Zero());
   out_.gap = out_.gap_rate = out_.gap_accel = out_.force = Vecs(system.joints.size(), S::Vec::Zero());
@@ -48,7 +50,7 @@ DenseOutput::DenseOutput(const System& system)
   out_.law_rate.resize(system.n_law_states());
 }
 
-const State& DenseOutput::at(double t, const State& begin, const State& end) {
+const BasicState<S>& BasicDenseOutput<S>::at(double t, const BasicState<S>& begin, const BasicState<S>& end) {
   if (t == end.t) return end;
   if (t == begin.t) return begin;
   const double h = end.t - begin.t, s = (t - begin.t) / h;
@@ -67,7 +69,7 @@ const State& DenseOutput::at(double t, const State& begin, const State& end) {
   return out_;
 }
 
-const State& DenseOutput::at(double t, const State& begin, const State& end, const StepNodes& nodes) {
+const BasicState<S>& BasicDenseOutput<S>::at(double t, const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes) {
   if (t == end.t) return end;
   if (t == begin.t) return begin;
   if (!dense_forces_) make_room();
@@ -81,7 +83,8 @@ const State& DenseOutput::at(double t, const State& begin, const State& end, con
 }
 
 // For the curves: many runs ask for none.
-void DenseOutput::make_room() {
+template <class S>
+void BasicDenseOutput<S>::make_room() {
   dense_forces_ = make_dense_forces(system_);
   body_.resize(system_.bodies.size());
   gap_.resize(system_.joints.size());
@@ -89,7 +92,8 @@ void DenseOutput::make_room() {
 }
 
 // The state on the curves, at time t.
-void DenseOutput::follow(double t, const State& begin, const State& end) {
+template <class S>
+void BasicDenseOutput<S>::follow(double t, const BasicState<S>& begin, const BasicState<S>& end) {
   const double h = end.t - begin.t, x = (t - begin.t) / h;
   Powers value, first, second;  // weights of the coefficients
   double power = 1;
@@ -99,10 +103,10 @@ void DenseOutput::follow(double t, const State& begin, const State& end) {
     second[k] = first[k] * h * x / (k + 2);
   }
   const double hermite = x * x * (3 - 2 * x);
-  const auto along = [&](const std::vector<Curve>& curves, const Vecs& x0, const Vecs& v0, Vecs& position, Vecs& rate, Vecs& accel) {
+  const auto along = [&](const std::vector<Curve>& curves, const VecsOf<S>& x0, const VecsOf<S>& v0, VecsOf<S>& position, VecsOf<S>& rate, VecsOf<S>& accel) {
     for (std::size_t i = 0; i < curves.size(); ++i) {
       const Curve& curve = curves[i];
-      S::Vec a = curve.c[0], v = v0[i] + x * curve.bend_v + first[0] * a, q = x0[i] + x * h * v0[i] + hermite * curve.bend_q + second[0] * a;
+      typename S::Vec a = curve.c[0], v = v0[i] + x * curve.bend_v + first[0] * a, q = x0[i] + x * h * v0[i] + hermite * curve.bend_q + second[0] * a;
       for (int k = 1; k < n_; ++k) {
         a += value[k] * curve.c[k];
         v += first[k] * curve.c[k];
@@ -118,7 +122,7 @@ void DenseOutput::follow(double t, const State& begin, const State& end) {
   along(body_, begin.q, begin.v, out_.q, out_.v, out_.a);
   along(gap_, begin.gap, begin.gap_rate, out_.gap, out_.gap_rate, out_.gap_accel);
   for (std::size_t j = 0; j < force_.size(); ++j) {
-    S::Vec f = force_[j][0];
+    typename S::Vec f = force_[j][0];
     for (int k = 1; k < n_force_; ++k) f += value[k] * force_[j][k];
     out_.force[j] = f;
   }
@@ -130,7 +134,8 @@ void DenseOutput::follow(double t, const State& begin, const State& end) {
 }
 
 // The laws' own states on the polynomial through the nodes.
-void DenseOutput::follow_states(double x, const StepNodes& nodes) {
+template <class S>
+void BasicDenseOutput<S>::follow_states(double x, const BasicStepNodes<S>& nodes) {
   if (out_.law_state.empty()) return;
   const RadauTable::Vec weight = nodes.table->weights(x);
   for (std::size_t z = 0; z < out_.law_state.size(); ++z) {
@@ -143,18 +148,19 @@ void DenseOutput::follow_states(double x, const StepNodes& nodes) {
 }
 
 // Powers of x from values at the nodes; what is left at the far end goes into bends.
-void DenseOutput::find_curves(const State& begin, const State& end, const StepNodes& nodes) {
+template <class S>
+void BasicDenseOutput<S>::find_curves(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes) {
   const RadauTable& table = *nodes.table;
   n_ = table.n + 1;
   curves_from_ = begin.t;
   curves_to_ = end.t;
   const double h = end.t - begin.t;
-  const auto coefficient = [&](int k, const std::vector<Vecs>& values, std::size_t i) {
-    S::Vec c = S::Vec::Zero();
+  const auto coefficient = [&](int k, const std::vector<VecsOf<S>>& values, std::size_t i) {
+    typename S::Vec c = S::Vec::Zero();
     for (int node = 0; node < n_; ++node) c += table.to_powers(k, node) * values[node][i];
     return c;
   };
-  const auto find = [&](std::vector<Curve>& curves, const std::vector<Vecs>& a, const Vecs& x0, const Vecs& v0, const Vecs& x1, const Vecs& v1) {
+  const auto find = [&](std::vector<Curve>& curves, const std::vector<VecsOf<S>>& a, const VecsOf<S>& x0, const VecsOf<S>& v0, const VecsOf<S>& x1, const VecsOf<S>& v1) {
     for (std::size_t i = 0; i < curves.size(); ++i) {
       Curve& curve = curves[i];
       curve.bend_v = v1[i] - v0[i];
@@ -179,7 +185,8 @@ void DenseOutput::find_curves(const State& begin, const State& end, const StepNo
 }
 
 // The forces' own curves: through the ends and samples inside. theory/time section 5.
-void DenseOutput::find_forces(const State& begin, const State& end, const StepNodes& nodes) {
+template <class S>
+void BasicDenseOutput<S>::find_forces(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes) {
   dense_forces_->find(begin, end, nodes, sampled_);
   const auto& to_powers = ForceSamples::of(*nodes.table).to_powers;
   n_force_ = ForceSamples::kAll;

@@ -13,34 +13,35 @@
 
 namespace pintle {
 
-class DenseOutput {
+template <class S>
+class BasicDenseOutput {
  public:
-  explicit DenseOutput(const System& system);
+  explicit BasicDenseOutput(const BasicSystem<S>& system);
 
   /// The state at time t between `begin` and `end`, of a method that resolves every vibration.
-  const State& at(double t, const State& begin, const State& end);
+  const BasicState<S>& at(double t, const BasicState<S>& begin, const BasicState<S>& end);
   /// The same with what an implicit step knows at its nodes.
-  const State& at(double t, const State& begin, const State& end, const StepNodes& nodes);
+  const BasicState<S>& at(double t, const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes);
 
  private:
   static constexpr int kMost = ForceSamples::kAll;              // coefficients at most
   static_assert(kMost >= RadauTable::kMaxNodes);
   using Powers = std::array<double, kMost>;
-  using Coefficients = std::array<Planar::Vec, kMost>;          // of powers of the share of the step
+  using Coefficients = std::array<typename S::Vec, kMost>;          // of powers of the share of the step
   struct Curve {
     Coefficients c;              // of the acceleration
-    Planar::Vec bend_q, bend_v;  // what its integrals miss the far end by
+    typename S::Vec bend_q, bend_v;  // what its integrals miss the far end by
   };
   void make_room();
-  void find_curves(const State& begin, const State& end, const StepNodes& nodes);
-  void find_forces(const State& begin, const State& end, const StepNodes& nodes);
-  void follow(double t, const State& begin, const State& end);
-  void follow_states(double x, const StepNodes& nodes);
+  void find_curves(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes);
+  void find_forces(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes);
+  void follow(double t, const BasicState<S>& begin, const BasicState<S>& end);
+  void follow_states(double x, const BasicStepNodes<S>& nodes);
 
-  const System& system_;
-  std::unique_ptr<DenseForces> dense_forces_;  // made with the room for curves
-  DenseForces::Sampled sampled_;
-  State out_;
+  const BasicSystem<S>& system_;
+  std::unique_ptr<BasicDenseForces<S>> dense_forces_;  // made with the room for curves
+  BasicDenseForces<S>::Sampled sampled_;
+  BasicState<S> out_;
   // The last step's curves, found when they are first asked for.
   double curves_from_ = 0, curves_to_ = 0;
   int n_ = 0, n_force_ = 0;  // coefficients of accelerations, of forces

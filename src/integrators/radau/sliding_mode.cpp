@@ -11,8 +11,9 @@ constexpr double kRounding = 4;  // of velocities, over the tolerance: the least
 
 }  // namespace
 
-std::optional<SlidingMode> ChatteringDetector::crossed(const System& system, double t0, const std::vector<Planar::Motion>& m0, double t1,
-                                           const std::vector<Planar::Motion>& m1, double soon) {
+template <class S>
+std::optional<SlidingMode> BasicChatteringDetector<S>::crossed(const BasicSystem<S>& system, double t0, const std::vector<typename S::Motion>& m0, double t1,
+                                           const std::vector<typename S::Motion>& m1, double soon) {
   const std::optional<SlidingMode> before = last_;
   const double since = t1 - t_;
   last_ = system.jump_between(t0, m0, t1, m1);
@@ -21,7 +22,8 @@ std::optional<SlidingMode> ChatteringDetector::crossed(const System& system, dou
   return again ? last_ : std::nullopt;
 }
 
-bool leave_sliding(const System& system, double t, const std::vector<Planar::Motion>& m, std::vector<SlidingMode>& sliding) {
+template <class S>
+bool leave_sliding(const BasicSystem<S>& system, double t, const std::vector<typename S::Motion>& m, std::vector<SlidingMode>& sliding) {
   const std::size_t before = sliding.size();
   std::erase_if(sliding, [&](const SlidingMode& jump) {
     const double share = jump.ramp.share_at(system.margin(jump, t, m));
@@ -30,11 +32,20 @@ bool leave_sliding(const System& system, double t, const std::vector<Planar::Mot
   return sliding.size() < before;
 }
 
-RampSize ramp_size(const System& system, const SlidingMode& jump, const State& state, double usual_step, double tolerance) {
+template <class S>
+RampSize ramp_size(const BasicSystem<S>& system, const SlidingMode& jump, const BasicState<S>& state, double usual_step, double tolerance) {
   double fastest = largest_coordinate(state.v);
-  if (system.loads[jump.load].component == 2)
-    for (const auto& v : state.v) fastest = std::max(fastest, std::abs(v[2]));
+  if (system.loads[jump.load].component >= S::kDim)
+    for (const auto& v : state.v) fastest = std::max(fastest, v.template tail<S::kDof - S::kDim>().cwiseAbs().maxCoeff());
   return {tolerance * usual_step, kRounding * std::numeric_limits<double>::epsilon() * fastest / tolerance};
 }
+
+template bool leave_sliding(const BasicSystem<Planar>& system, double t, const std::vector<Planar::Motion>& m, std::vector<SlidingMode>& sliding);
+template RampSize ramp_size(const BasicSystem<Planar>& system, const SlidingMode& jump, const BasicState<Planar>& state, double usual_step, double tolerance);
+template bool leave_sliding(const BasicSystem<Spatial>& system, double t, const std::vector<Spatial::Motion>& m, std::vector<SlidingMode>& sliding);
+template RampSize ramp_size(const BasicSystem<Spatial>& system, const SlidingMode& jump, const BasicState<Spatial>& state, double usual_step, double tolerance);
+
+template class BasicChatteringDetector<Planar>;
+template class BasicChatteringDetector<Spatial>;
 
 }  // namespace pintle

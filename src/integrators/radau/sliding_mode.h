@@ -12,27 +12,31 @@
 namespace pintle {
 
 /// Remembers the jump that was crossed last.
-class ChatteringDetector {
+template <class S>
+class BasicChatteringDetector {
  public:
   /// Call after each crossing, with the instants before and after it: the jump that has been crossed again within `soon`.
-  std::optional<SlidingMode> crossed(const System& system, double t0, const std::vector<Planar::Motion>& m0, double t1,
-                                  const std::vector<Planar::Motion>& m1, double soon);
+  std::optional<SlidingMode> crossed(const BasicSystem<S>& system, double t0, const std::vector<typename S::Motion>& m0, double t1,
+                                  const std::vector<typename S::Motion>& m1, double soon);
   void forget() { last_.reset(); }
 
  private:
   std::optional<SlidingMode> last_;
   double t_ = 0;
 };
+using ChatteringDetector = BasicChatteringDetector<Planar>;
 
 /// Lets go of the jumps whose ramps have been left; true if there was one.
-bool leave_sliding(const System& system, double t, const std::vector<Planar::Motion>& m, std::vector<SlidingMode>& sliding);
+template <class S>
+bool leave_sliding(const BasicSystem<S>& system, double t, const std::vector<typename S::Motion>& m, std::vector<SlidingMode>& sliding);
 
 /// How steep a ramp may be.
 struct RampSize {
   double time;    // in which a jump's effort brings its argument over the ramp [s]
   double margin;  // the least width, for the rounding of velocities
 };
-RampSize ramp_size(const System& system, const SlidingMode& jump, const State& state, double usual_step, double tolerance);
+template <class S>
+RampSize ramp_size(const BasicSystem<S>& system, const SlidingMode& jump, const BasicState<S>& state, double usual_step, double tolerance);
 
 /// Holds `jump` if the efforts of its sides drive its argument towards each other's, at the share of them that leaves it where it
 /// is. `balance()` renews the accelerations for what is in `sliding`, `rate()` is then that of the argument, now `margin`.

@@ -9,14 +9,15 @@ namespace pintle {
 namespace {
 
 // The applied force or the driven coordinate that is not a number at t or just after; empty: all are.
-std::string broken_function(const System& system, double t) {
+template <class S>
+std::string broken_function(const BasicSystem<S>& system, double t) {
   constexpr double kJustAfter = 1e-9;
   for (const double at : {t, t + kJustAfter * std::max(std::abs(t), 1e-3)}) {
     const std::array<double, 1> time{at};
-    for (const AppliedData& force : system.applied)
-      for (const Expression* e : {&force.fx, &force.fy, &force.torque})
+    for (const BasicAppliedData<S>& force : system.applied)
+      for (const Expression* e : force.functions())
         if (!std::isfinite(e->value(std::span(time).first(e->variables().size())))) return "force " + force.name;
-    for (const JointData& joint : system.joints)
+    for (const BasicJointData<S>& joint : system.joints)
       if (joint.servo >= 0)
         for (const double x : servo_target(joint, at))
           if (!std::isfinite(x)) return "motor " + joint.name;
@@ -26,7 +27,8 @@ std::string broken_function(const System& system, double t) {
 
 }  // namespace
 
-std::string no_step_message(const System& system, double t, double h, std::vector<std::pair<double, int>> residuals) {
+template <class S>
+std::string no_step_message(const BasicSystem<S>& system, double t, double h, std::vector<std::pair<double, int>> residuals) {
   constexpr std::size_t kNamed = 3;
   const auto rank = [](double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::infinity(); };
   std::stable_sort(residuals.begin(), residuals.end(), [&](const auto& a, const auto& b) { return rank(a.first) > rank(b.first); });
@@ -36,5 +38,8 @@ std::string no_step_message(const System& system, double t, double h, std::vecto
     text += fmt::format("; joint {} (residual {:.3g} m/s^2)", system.joints[residuals[i].second].name, residuals[i].first);
   return text;
 }
+
+template std::string no_step_message(const BasicSystem<Planar>& system, double t, double h, std::vector<std::pair<double, int>> residuals);
+template std::string no_step_message(const BasicSystem<Spatial>& system, double t, double h, std::vector<std::pair<double, int>> residuals);
 
 }  // namespace pintle

@@ -140,6 +140,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
 }
 
 /// When and how small the last step was, and the joints with the largest residuals: (residual [m/s^2], joint) each.
-std::string no_step_message(const System& system, double t, double h, std::vector<std::pair<double, int>> residuals);
+template <class S>
+std::string no_step_message(const BasicSystem<S>& system, double t, double h, std::vector<std::pair<double, int>> residuals);
 
 }  // namespace pintle

@@ -10,11 +10,16 @@
 namespace pintle {
 
 /// Accelerations, joint forces, states of laws and powers at the nodes {0, c_1 .. c_n} of the last step.
-struct StepNodes {
+template <class S>
+struct BasicStepNodes {
   const RadauTable* table = nullptr;
-  std::vector<Vecs> a, gap_accel, force;
+  std::vector<VecsOf<S>> a, gap_accel, force;
   std::vector<std::vector<double>> law_state, law_rate;  // of the laws' own states
   std::vector<std::array<double, 2>> power;  // supplied, lost [W]
+  /// In curved spaces: the rates of the bodies' increments from the start of the step at the nodes, and what their integral misses the end by.
+  std::vector<VecsOf<S>> increment_rate{};
+  VecsOf<S> increment_bend{};
 };
+using StepNodes = BasicStepNodes<Planar>;
 
 }  // namespace pintle
