@@ -100,16 +100,6 @@ void Law::borders(const LawPoint& at, double* value) const {
   }
 }
 
-unsigned Law::branch(const LawPoint& at) const {
-  if (parts_.empty()) return 0;
-  double value[32];
-  const int n = std::min(n_borders(), 32);
-  borders(at, value);
-  unsigned sides = 0;
-  for (int i = 0; i < n; ++i) sides |= (value[i] > 0 ? 1u : 0u) << i;
-  return sides;
-}
-
 void Law::rest(const LawPoint& at, double* state) const {
   LawInput<double> in = input_at(at);
   LawOutput<double> so_far;

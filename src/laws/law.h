@@ -79,8 +79,7 @@ class Law {
   void state_rates(const LawPoint& at, double* rate) const;
   /// Everything, with the tangents.
   void linearize(const LawPoint& at, LawTangents& out) const;
-  /// Signs of all borders, one bit each; the values themselves.
-  unsigned branch(const LawPoint& at) const;
+  /// The signed functions of all borders, n_borders() numbers.
   void borders(const LawPoint& at, double* value) const;
 
   /// The states of a joint that has long been at this gap and moves at this rate.

@@ -123,28 +123,33 @@ ExternalWork System::external_work(double t, const Vecs& q, const std::vector<S:
   return work;
 }
 
-std::uint64_t System::branches(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate, const std::vector<double>& law_state, SlidingModes sliding) const {
-  std::uint64_t sides = 0;
-  const auto add = [&sides](std::uint64_t side) { sides = sides * 0x9E3779B97F4A7C15U + 1 + side; };
+void System::find_switching(double t, const std::vector<S::Motion>& m, const Vecs& gap, const Vecs& rate, const std::vector<double>& law_state, SlidingModes sliding,
+                            double* value) const {
+  const auto find = [&value](const Expression& e, std::span<const double> at, const Expression::Ramp* ramp) {
+    const int n = e.n_switches();
+    if (n > 0) e.find_switching(at, value, ramp);
+    value += n;
+  };
   const std::array<double, 1> time{t};
-  const auto add_at_t = [&](const Expression& e) { add(e.branches(std::span(time).first(e.variables().size()))); };
+  const auto find_at_t = [&](const Expression& e) { find(e, std::span(time).first(e.variables().size()), nullptr); };
   for (int j = 0; j < n_joints(); ++j) {
-    add(joints[j].law.branch({t, gap[j], rate[j], law_state.data() + joints[j].first_state}));
-    if (joints[j].servo >= 0) add_at_t(joints[j].target);
+    const JointData& joint = joints[j];
+    joint.law.borders({t, gap[j], rate[j], law_state.data() + joint.first_state}, value);
+    value += joint.law.n_borders();
+    if (joint.servo >= 0) find_at_t(joint.target);
   }
   for (const LoadData& load : loads) {
-    if (load.kind != LoadKind::kEffort || !load.law.has_branches()) continue;
+    if (load.kind != LoadKind::kEffort || load.law.n_switches() == 0) continue;
     const auto values = signal_values(*this, load, t, m);
-    add(load.law.branches(std::span(values).first(load.signals.size()), ramp_of(load, sliding)));
+    find(load.law, std::span(values).first(load.signals.size()), ramp_of(load, sliding));
   }
   for (const AppliedData& force : applied)
-    for (const Expression* e : {&force.fx, &force.fy, &force.torque}) add_at_t(*e);
-  return sides;
+    for (const Expression* e : {&force.fx, &force.fy, &force.torque}) find_at_t(*e);
 }
 
 std::optional<SlidingMode> System::jump_between(double t0, const std::vector<S::Motion>& m0, double t1, const std::vector<S::Motion>& m1) const {
   for (const LoadData& load : loads) {
-    if (load.kind != LoadKind::kEffort || !load.law.has_branches()) continue;
+    if (load.kind != LoadKind::kEffort || load.law.n_switches() == 0) continue;
     const auto from = signal_values(*this, load, t0, m0), to = signal_values(*this, load, t1, m1);
     const std::size_t n = load.signals.size();
     if (const auto jump = load.law.jump_between(std::span(from).first(n), std::span(to).first(n)))

@@ -50,7 +50,7 @@ void RadauStepper::finish_step(double h) {
   }
   nodes_.force[n_] = end_.force;
   control_.have_history = true;
-  if (system_.has_branches()) update_branches();
+  if (system_.has_branches()) update_switching();
   control_.last = h;
 }
 

@@ -8,7 +8,7 @@ namespace pintle {
 using S = Planar;
 
 RadauStepper::RadauStepper(const System& system, double tolerance, int stages, ToleranceOf tolerance_of)
-    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion),
+    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion), search_(system.switching()),
       solver_(make_stage_solver(system, table_, tolerance, of_motion_ ? Steps::kLong : Steps::kAccurate)), stage_(table_.n), end_point_(make_end_point_projection(system)),
       tails_{std::vector<Vec3x4>(system.bodies.size()), std::vector<Vec3x4>(system.joints.size()), std::vector<Lanes<4>>(system.n_law_states())}, end_m_(system.bodies.size()) {
   const std::size_t n = system.bodies.size(), m = system.joints.size();
@@ -53,7 +53,7 @@ void RadauStepper::start(const State& state, double h) {
   system_.external(end_.t, end_m_, last.Q, end_.sliding);
   find_power();
   chattering_.forget();
-  branch_ = system_.has_branches() ? system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding) : 0;
+  if (system_.has_branches()) system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, search_.start());
   grow_load_scale(system_, end_m_, last.Q, end_, scale_);
   if (unloaded()) foresee_loads(h);
 }
@@ -81,7 +81,7 @@ bool RadauStepper::step(double t_end) {
   if (control_.advance(*this, t_end, tolerance_, n_ + 1, counters_)) return true;
   std::vector<std::pair<double, int>> residuals;
   for (int j = 0; j < system_.n_joints(); ++j) residuals.emplace_back(solver_->residual(j), j);
-  failure_ = no_step_message(system_, begin_.t, control_.next, std::move(residuals));
+  failure_ = no_step_message(system_, begin_.t, control_.next, std::move(residuals), control_.last_event(system_, begin_.t - control_.usual));
   return false;
 }
 

@@ -49,6 +49,8 @@ class RadauStepper {
   double next_step() const { return control_.next; }
   const Counters& counters() const { return counters_; }
   const std::string& failure() const { return failure_; }
+  /// The last event, if it came after `since`; otherwise empty.
+  std::string last_event(double since) const { return control_.last_event(system_, since); }
   const RadauTable& table() const { return table_; }
 
  private:
@@ -72,11 +74,11 @@ class RadauStepper {
 
   // event_location.cpp: steps that end where a force has a kink
   SwitchingEvent locate_event(double h, bool solved);
-  std::uint64_t branches(double x, double h);
-  std::uint64_t branches_ahead(double d);
-  void cross_event(double distance);
-  bool step_over_event(double distance);
-  void update_branches();
+  void find_switching(double x, double h, double* value);
+  void find_switching_ahead(double d, double* value);
+  void cross_event(double distance, const SwitchingEvent& event);
+  void step_over_event(double distance, const SwitchingEvent& event);
+  void update_switching();
   double margin_rate(const SlidingMode& jump);
   void balance_end();
 
@@ -88,7 +90,7 @@ class RadauStepper {
   MotionScale motion_scale_;
   State begin_, end_;
   StepControl control_;
-  std::uint64_t branch_ = 0;                  // of kinks, at end_
+  EventSearch search_;
   ChatteringDetector chattering_;
   std::unique_ptr<StageSolver> solver_;
   std::vector<Stage> stage_;
