@@ -54,11 +54,11 @@ class Expression {
   /// Value and first derivatives with one jump on a ramp, which goes on beyond both sides.
   double gradient(std::span<const double> values, std::span<double> gradient, const Ramp& ramp) const;
 
-  /// Which side of its kinks and jumps the expression is on at `values` (min, max, abs, comparisons ..): a number that
-  /// changes where a side does. 0 for an expression without any.
-  /// With a ramp: whether its share is below 0, within, or above 1.
-  std::uint64_t branches(std::span<const double> values, const Ramp* ramp = nullptr) const;
-  bool has_branches() const;
+  /// How many kinks and jumps the expression has (min, max, abs, comparisons ..; a smoothstep two).
+  int n_switches() const;
+  /// A number for each of them that changes its sign there: positive on one side, negative or 0 on the other, and proportional
+  /// to the distance of its arguments. On a ramp: positive where its share is outside 0 .. 1.
+  void find_switching(std::span<const double> values, double* value, const Ramp* ramp = nullptr) const;
   /// Value, first and second derivative with respect to variable `index`, the others held (exact).
   std::array<double, 3> second_order(std::span<const double> values, std::size_t index) const;
 

@@ -51,6 +51,7 @@ struct EnergyAccount {
 struct Counters {
   std::uint64_t steps = 0, rejected = 0, newton_iterations = 0, newton_failures = 0;
   std::uint64_t evaluations = 0, factorizations = 0, passes = 0;
+  std::uint64_t events = 0;  ///< kinks, jumps and borders of laws that steps ended on; 0 also where the method does not locate them
 };
 
 enum class Outcome { kCompleted, kToleranceNotMet, kInterrupted, kFailed };

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "joints/gap_map.h"
+#include "space/space.h"
 #include "linalg/block_lu.h"
 #include "system/system.h"
 

@@ -43,6 +43,10 @@ class BodyStepper final : public Stepper {
   const State& interpolate(double t) override { return interpolate_with(dense_, method_, t); }
   const Counters& counters() const override { return method_.counters(); }
   const std::string& failure() const override { return method_.failure(); }
+  std::string last_event(double since) const override {
+    if constexpr (requires { method_.last_event(since); }) return method_.last_event(since);
+    else return {};
+  }
 
  private:
   Method method_;

@@ -31,6 +31,8 @@ class BasicStepper {
   virtual const BasicState<S>& interpolate(double t) = 0;
   virtual const Counters& counters() const = 0;
   virtual const std::string& failure() const = 0;
+  /// The last event, if the method locates events and it came after `since`: whose it is, and when. Otherwise empty.
+  virtual std::string last_event(double) const { return {}; }
   /// What the method noticed on its way, for the user.
   virtual std::vector<std::string> remarks() const { return {}; }
 };

@@ -115,17 +115,6 @@ void BasicLaw<S>::borders(const BasicLawPoint<S>& at, double* value) const {
 }
 
 template <class S>
-unsigned BasicLaw<S>::branch(const BasicLawPoint<S>& at) const {
-  if (parts_.empty()) return 0;
-  double value[32];
-  const int n = std::min(n_borders(), 32);
-  borders(at, value);
-  unsigned sides = 0;
-  for (int i = 0; i < n; ++i) sides |= (value[i] > 0 ? 1u : 0u) << i;
-  return sides;
-}
-
-template <class S>
 void BasicLaw<S>::rest(const BasicLawPoint<S>& at, double* state) const {
   LawInput<double, S::kDof> in = input_at(at);
   LawOutput<double, S::kDof> so_far;

@@ -87,9 +87,8 @@ class BasicLaw {
   void state_rates(const Point& at, double* rate) const;
   /// Everything, with the tangents.
   void linearize(const Point& at, Tangents& out) const;
-  /// Signs of all borders, one bit each; the values themselves.
-  unsigned branch(const Point& at) const;
-  void borders(const Point& at, double* value) const;
+  /// The signed functions of all borders, n_borders() numbers.
+  void borders(const BasicLawPoint<S>& at, double* value) const;
 
   /// The states of a joint that has long been at this gap and moves at this rate.
   void rest(const Point& at, double* state) const;

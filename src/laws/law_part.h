@@ -42,6 +42,8 @@ class BasicLawPart {
   /// Signed functions that change their sign where the law changes its formula; integrators end a step there.
   virtual int n_borders() const = 0;
   virtual void borders(const Input<double>& in, double* value) const = 0;
+  /// In which direction border i matters: +1 where its function turns positive, -1 where it turns negative, 0 both.
+  virtual int border_direction(int i) const = 0;
   /// Whether it keeps the joint together. What does not (friction) is left out where gaps that carry loads are looked for.
   virtual bool holds() const = 0;
   /// Stiffness in each component where the law acts; a rope that is slack is looked at as if it were taut.
@@ -57,8 +59,8 @@ class BasicLawPart {
 using LawPart = BasicLawPart<Planar>;
 
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
-/// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), kHolds = false, columns() with
-/// observe(), engage(), lever().
+/// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders() and border_directions() (one +1, -1 or 0
+/// each), kHolds = false, columns() with observe(), engage(), lever().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
  public:
@@ -89,6 +91,10 @@ class LawPartOf final : public BasicLawPart<S> {
   }
   void borders(const Input<double>& in, double* value) const override {
     if constexpr (requires { law_.borders(in, value); }) law_.borders(in, value);
+  }
+  int border_direction(int i) const override {
+    if constexpr (requires { law_.border_directions()[i]; }) return law_.border_directions()[i];
+    else return 0;
   }
   bool holds() const override {
     if constexpr (requires { P::kHolds; }) return P::kHolds;

@@ -255,10 +255,10 @@ std::string counter_table(const Trajectory& trajectory) {
   const Counters& n = trajectory.counters;
   HtmlTable table("");
   table.head("method", "", false);
-  for (const char* head : {"steps", "rejected", "passes", "Newton iterations", "failures", "evaluations", "factorizations"}) table.head(head);
+  for (const char* head : {"steps", "rejected", "passes", "Newton iterations", "failures", "evaluations", "factorizations", "events"}) table.head(head);
   table.begin_row();
   table.name(escaped_markup(trajectory.method));
-  for (const std::uint64_t x : {n.steps, n.rejected, n.passes, n.newton_iterations, n.newton_failures, n.evaluations, n.factorizations})
+  for (const std::uint64_t x : {n.steps, n.rejected, n.passes, n.newton_iterations, n.newton_failures, n.evaluations, n.factorizations, n.events})
     table.number(static_cast<double>(x), fmt::format("{}", x));
   table.end_row();
   return table.html();

@@ -91,6 +91,7 @@ void for_each_entry(Counts& counts, const Visit& visit) requires requires {
   visit("evaluations", counts.evaluations);
   visit("factorizations", counts.factorizations);
   visit("passes", counts.passes);
+  visit("events", counts.events);
 }
 
 template <class Named, class Visit>
@@ -141,8 +142,9 @@ void load(const Json& json, T& value) {
 template <class T>
 void from_json(const Json& json, T& structure) {
   for_each_entry(structure, [&json](const char* key, auto& member) {
-    // Runs of version 0.1 before ideal joints have no "unique", older ones no error of couples.
-    const bool newer = (std::string_view(key) == "unique" || std::string_view(key) == "moment_error_estimate") && !json.contains(key);
+    // Runs of version 0.1 before ideal joints have no "unique", older ones no error of couples; before 0.3 events were not counted.
+    const std::string_view word = key;
+    const bool newer = (word == "unique" || word == "moment_error_estimate" || word == "events") && !json.contains(key);
     if (!newer) load(json.at(key), member);
   });
 }

@@ -167,9 +167,9 @@ std::string work_section(const Trajectory& trajectory) {
   const std::string motion = !trajectory.of_motion ? "" : fmt::format(" of the motion (error {} of the longest path)", exponent(trajectory.motion_error));
   return fmt::format(
       "\nMethod {}, tolerance {:g}{}: {} steps ({} rejected) in {} {}\n"
-      "  {} Newton iterations ({} failures), {} evaluations, {} factorizations\n",
+      "  {} Newton iterations ({} failures), {} evaluations, {} factorizations{}\n",
       trajectory.method, trajectory.tolerance, motion, n.steps, n.rejected, n.passes, n.passes == 1 ? "pass" : "passes",
-      n.newton_iterations, n.newton_failures, n.evaluations, n.factorizations);
+      n.newton_iterations, n.newton_failures, n.evaluations, n.factorizations, n.events == 0 ? "" : fmt::format(", {} event{}", n.events, n.events == 1 ? "" : "s"));
 }
 
 }  // namespace

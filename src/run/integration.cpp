@@ -21,16 +21,19 @@ class Standstill {
   // Call once per step.
   bool reached(double t) {
     if (++steps_ < kSteps) return false;
-    const bool still = t - since_ < least_;
+    const bool still = t - end_ < least_;
     steps_ = 0;
-    since_ = t;
+    since_ = end_;
+    end_ = t;
     return still;
   }
+  // Where the last so many steps began [s].
+  double since() const { return since_; }
 
  private:
   static constexpr int kSteps = 20000;
   static constexpr double kLeastShare = 1e-6;  // of the duration, in that many steps
-  double least_, since_ = 0;
+  double least_, since_ = 0, end_ = 0;
   int steps_ = 0;
 };
 
@@ -61,6 +64,8 @@ Integration integrate(const System& system, const State& start, const Integratio
     if (standstill.reached(now.t)) {
       out.ended = Ended::kFailed;
       out.message = fmt::format("the motion diverges, or the tolerance is below the rounding error of the forces: steps of {:.3g} s at t = {:.9g} s", now.t - stepper.previous().t, now.t);
+      if (const std::string event = stepper.last_event(standstill.since()); !event.empty())
+        out.message += fmt::format(", after {} events; the last: {}", stepper.counters().events, event);
       break;
     }
     if (stepper.counters().steps >= kMaxSteps) {

@@ -152,6 +152,7 @@ class Run {
     c.newton_failures += done.newton_failures;
     c.evaluations += done.evaluations;
     c.factorizations += done.factorizations;
+    c.events += done.events;
     ++c.passes;
   }
 

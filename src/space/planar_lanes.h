@@ -32,6 +32,8 @@ struct PlanarBodyLanes {
   PINTLE_LANES const L& to_check() const { return q[2]; }
   PINTLE_LANES static bool must_check(const L& largest) { return any_beyond_largest_angle(largest); }
   PINTLE_LANES void check() { sine_and_cosine(q[2], s, c); }
+  /// Velocities have been changed.
+  PINTLE_LANES void renew_rates() {}
 };
 
 }  // namespace pintle

@@ -63,7 +63,15 @@ struct SpatialBodyLanes {
   PINTLE_LANES const L& to_check() const { return change; }
   PINTLE_LANES static bool must_check(const L&) { return false; }
   PINTLE_LANES void check() {}
+  /// Velocities have been changed.
+  PINTLE_LANES void renew_rates() { w = R * Vector3<L>{v[3], v[4], v[5]}; }
 
+  /// Displaced from q0 by increments.
+  PINTLE_LANES void displace(const S::Coordinates& q0, const L (&dq)[6]) {
+    for (int k = 0; k < 3; ++k) q[k] = L::all(q0.p[k]) + dq[k];
+    turn = {dq[3], dq[4], dq[5]};
+    orient(q0.r);
+  }
   /// R and w from `turn` and the angular velocity.
   PINTLE_LANES void orient(const Eigen::Quaterniond& r0) {
     const Matrix3<double> start = components(Eigen::Matrix3d(r0.toRotationMatrix()));

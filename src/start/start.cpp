@@ -129,14 +129,26 @@ Assembly start_of_free_bodies(const Model& model, System& system, double known_s
   return assembly;
 }
 
+// Equations that keep a gap at zero do not ask the joint's law, and so do not know of its friction either.
+template <class IsIdeal>
+void note_lost_friction(const System& system, const IsIdeal& is_ideal, std::vector<std::string>& notes) {
+  for (int j = 0; j < system.n_joints(); ++j)
+    if (is_ideal(j) && system.joints[j].law.rubs()) notes.push_back(fmt::format("joint {} is ideal: its friction is not in these equations", system.joints[j].name));
+}
+
 }  // namespace
 
 Assembly start_of_run(const Model& model, System& system, double known_span) {
-  if (model.simulate.equations == Equations::kIdeal) return ideal_start(model, system);
+  if (model.simulate.equations == Equations::kIdeal) {
+    Assembly assembly = ideal_start(model, system);
+    note_lost_friction(system, [&system](int j) { return system.joints[j].ideal; }, assembly.notes);
+    return assembly;
+  }
   if (model.simulate.equations != Equations::kRelative) return start_of_free_bodies(model, system, known_span);
   const JointTree tree(system);
   Assembly assembly = tree.all_free() ? start_of_free_bodies(model, system, known_span) : start_over_tree(model, system);
   for (std::string& line : tree.notes()) assembly.notes.push_back(std::move(line));
+  note_lost_friction(system, [&tree](int j) { return tree.in_tree(j); }, assembly.notes);
   return assembly;
 }
 

@@ -161,29 +161,34 @@ ExternalWork BasicSystem<S>::external_work(double t, const PositionsOf<S>& q, co
 }
 
 template <class S>
-std::uint64_t BasicSystem<S>::branches(double t, const std::vector<typename S::Motion>& m, const VecsOf<S>& gap, const VecsOf<S>& rate, const std::vector<double>& law_state, SlidingModes sliding) const {
-  std::uint64_t sides = 0;
-  const auto add = [&sides](std::uint64_t side) { sides = sides * 0x9E3779B97F4A7C15U + 1 + side; };
+void BasicSystem<S>::find_switching(double t, const std::vector<typename S::Motion>& m, const VecsOf<S>& gap, const VecsOf<S>& rate, const std::vector<double>& law_state, SlidingModes sliding,
+                            double* value) const {
+  const auto find = [&value](const Expression& e, std::span<const double> at, const Expression::Ramp* ramp) {
+    const int n = e.n_switches();
+    if (n > 0) e.find_switching(at, value, ramp);
+    value += n;
+  };
   const std::array<double, 1> time{t};
-  const auto add_at_t = [&](const Expression& e) { add(e.branches(std::span(time).first(e.variables().size()))); };
+  const auto find_at_t = [&](const Expression& e) { find(e, std::span(time).first(e.variables().size()), nullptr); };
   for (int j = 0; j < n_joints(); ++j) {
-    add(joints[j].law.branch({t, gap[j], rate[j], law_state.data() + joints[j].first_state}));
-    if (joints[j].servo >= 0) add_at_t(joints[j].target);
+    const BasicJointData<S>& joint = joints[j];
+    joint.law.borders({t, gap[j], rate[j], law_state.data() + joint.first_state}, value);
+    value += joint.law.n_borders();
+    if (joint.servo >= 0) find_at_t(joint.target);
   }
   for (const BasicLoadData<S>& load : loads) {
-    if (load.kind != LoadKind::kEffort || !load.law.has_branches()) continue;
+    if (load.kind != LoadKind::kEffort || load.law.n_switches() == 0) continue;
     const auto values = signal_values(*this, load, t, m);
-    add(load.law.branches(std::span(values).first(load.signals.size()), ramp_of(load, sliding)));
+    find(load.law, std::span(values).first(load.signals.size()), ramp_of(load, sliding));
   }
   for (const BasicAppliedData<S>& force : applied)
-    for (const Expression* e : force.functions()) add_at_t(*e);
-  return sides;
+    for (const Expression* e : force.functions()) find_at_t(*e);
 }
 
 template <class S>
 std::optional<SlidingMode> BasicSystem<S>::jump_between(double t0, const std::vector<typename S::Motion>& m0, double t1, const std::vector<typename S::Motion>& m1) const {
   for (const BasicLoadData<S>& load : loads) {
-    if (load.kind != LoadKind::kEffort || !load.law.has_branches()) continue;
+    if (load.kind != LoadKind::kEffort || load.law.n_switches() == 0) continue;
     const auto from = signal_values(*this, load, t0, m0), to = signal_values(*this, load, t1, m1);
     const std::size_t n = load.signals.size();
     if (const auto jump = load.law.jump_between(std::span(from).first(n), std::span(to).first(n)))
@@ -246,7 +251,7 @@ template BasicSystem<Planar>::LoadState BasicSystem<Planar>::load_state(const Ba
 template double BasicSystem<Planar>::load_effort(const BasicLoadData<Planar>& load, double t, const std::vector<Planar::Motion>& m, SlidingModes sliding) const;
 template void BasicSystem<Planar>::external(double t, const std::vector<Planar::Motion>& m, VecsOf<Planar>& Q, SlidingModes sliding) const;
 template ExternalWork BasicSystem<Planar>::external_work(double t, const PositionsOf<Planar>& q, const std::vector<Planar::Motion>& m, SlidingModes sliding) const;
-template std::uint64_t BasicSystem<Planar>::branches(double t, const std::vector<Planar::Motion>& m, const VecsOf<Planar>& gap, const VecsOf<Planar>& rate, const std::vector<double>& law_state, SlidingModes sliding) const;
+template void BasicSystem<Planar>::find_switching(double t, const std::vector<Planar::Motion>& m, const VecsOf<Planar>& gap, const VecsOf<Planar>& rate, const std::vector<double>& law_state, SlidingModes sliding, double* value) const;
 template std::optional<SlidingMode> BasicSystem<Planar>::jump_between(double t0, const std::vector<Planar::Motion>& m0, double t1, const std::vector<Planar::Motion>& m1) const;
 template double BasicSystem<Planar>::margin(const SlidingMode& jump, double t, const std::vector<Planar::Motion>& m) const;
 template void BasicSystem<Planar>::load_tangents(const BasicLoadData<Planar>& load, double t, const std::vector<Planar::Motion>& m, SlidingModes sliding, std::vector<Tangent>& out) const;
@@ -256,7 +261,7 @@ template BasicSystem<Spatial>::LoadState BasicSystem<Spatial>::load_state(const 
 template double BasicSystem<Spatial>::load_effort(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;
 template void BasicSystem<Spatial>::external(double t, const std::vector<Spatial::Motion>& m, VecsOf<Spatial>& Q, SlidingModes sliding) const;
 template ExternalWork BasicSystem<Spatial>::external_work(double t, const PositionsOf<Spatial>& q, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;
-template std::uint64_t BasicSystem<Spatial>::branches(double t, const std::vector<Spatial::Motion>& m, const VecsOf<Spatial>& gap, const VecsOf<Spatial>& rate, const std::vector<double>& law_state, SlidingModes sliding) const;
+template void BasicSystem<Spatial>::find_switching(double t, const std::vector<Spatial::Motion>& m, const VecsOf<Spatial>& gap, const VecsOf<Spatial>& rate, const std::vector<double>& law_state, SlidingModes sliding, double* value) const;
 template std::optional<SlidingMode> BasicSystem<Spatial>::jump_between(double t0, const std::vector<Spatial::Motion>& m0, double t1, const std::vector<Spatial::Motion>& m1) const;
 template double BasicSystem<Spatial>::margin(const SlidingMode& jump, double t, const std::vector<Spatial::Motion>& m) const;
 template void BasicSystem<Spatial>::load_tangents(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding, std::vector<Tangent>& out) const;

@@ -1,5 +1,7 @@
 #include "system/system.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -36,13 +38,41 @@ void BasicSystem<S>::finish(const BasicSystem<S>* like) {
   }
   const bool same = like && like->n_bodies() == n_bodies() && like->coupled_ == coupled_;
   pattern_ = same ? like->pattern_ : std::make_shared<const BlockPattern>(n_bodies(), coupled_);
-  has_branches_ =
-      std::any_of(joints.begin(), joints.end(), [](const BasicJointData<S>& j) { return j.law.n_borders() > 0 || j.target.has_branches(); }) ||
-      std::any_of(loads.begin(), loads.end(), [](const BasicLoadData<S>& load) { return load.law.has_branches(); }) ||
-      std::any_of(applied.begin(), applied.end(), [](const BasicAppliedData<S>& f) {
-        const auto functions = f.functions();
-        return std::any_of(functions.begin(), functions.end(), [](const Expression* e) { return e->has_branches(); });
-      });
+  list_switching();
+}
+
+// In the order in which find_switching fills their values.
+template <class S>
+void BasicSystem<S>::list_switching() {
+  switching_.clear();
+  const auto list = [this](SwitchingFunction::Owner owner, int index, int part, const Expression& e) {
+    for (int border = 0; border < e.n_switches(); ++border) switching_.push_back({owner, index, part, border});
+  };
+  for (int j = 0; j < n_joints(); ++j) {
+    for (int p = 0; const auto& part : joints[j].law.parts()) {
+      for (int border = 0; border < part->n_borders(); ++border)
+        switching_.push_back({SwitchingFunction::Owner::kLaw, j, p, border, part->border_direction(border)});
+      ++p;
+    }
+    if (joints[j].servo >= 0) list(SwitchingFunction::Owner::kServo, j, 0, joints[j].target);
+  }
+  for (int l = 0; l < static_cast<int>(loads.size()); ++l)
+    if (loads[l].kind == LoadKind::kEffort) list(SwitchingFunction::Owner::kMotor, l, 0, loads[l].law);
+  for (int f = 0; f < static_cast<int>(applied.size()); ++f)
+    for (int c = 0; const Expression* e : applied[f].functions()) list(SwitchingFunction::Owner::kForce, f, c++, *e);
+}
+
+template <class S>
+std::string BasicSystem<S>::name(const SwitchingFunction& function) const {
+  using Owner = SwitchingFunction::Owner;
+  const auto at = static_cast<std::size_t>(function.index);
+  if (function.owner == Owner::kLaw)
+    return fmt::format("border {} of law \"{}\" in joint {}", function.border + 1, joints[at].law.parts()[static_cast<std::size_t>(function.part)]->word(), joints[at].name);
+  const auto kink = [&function](const std::string& of, const Expression& e) { return fmt::format("kink or jump {} of {} ({})", function.border + 1, of, e.text()); };
+  if (function.owner == Owner::kServo) return kink("motor " + joints[at].name, joints[at].target);
+  if (function.owner == Owner::kMotor) return kink("motor " + loads[at].name, loads[at].law);
+  const BasicAppliedData<S>& force = applied[at];
+  return kink("force " + force.name, *force.functions()[static_cast<std::size_t>(function.part)]);
 }
 
 template <class S>

@@ -16,6 +16,7 @@
 #include "laws/law.h"
 #include "linalg/block_pattern.h"
 #include "pintle/expression.h"
+#include "system/switching_function.h"
 
 namespace pintle {
 
@@ -218,11 +219,14 @@ class BasicSystem {
   /// Force (spring: tension; motor: effort) of a load.
   double load_effort(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;
 
-  /// Whether any law, load or servo has kinks or jumps.
-  bool has_branches() const { return has_branches_; }
-  /// Which side of them everything is on: a number that changes where a side does. Gaps and rates are the joints'.
-  std::uint64_t branches(double t, const std::vector<typename S::Motion>& m, const VecsOf<S>& gap, const VecsOf<S>& rate, const std::vector<double>& law_state,
-                         SlidingModes sliding = {}) const;
+  /// The borders, kinks and jumps of all laws, loads and servos.
+  const std::vector<SwitchingFunction>& switching() const { return switching_; }
+  bool has_branches() const { return !switching_.empty(); }
+  /// The value of each. Gaps and rates are the joints'.
+  void find_switching(double t, const std::vector<typename S::Motion>& m, const VecsOf<S>& gap, const VecsOf<S>& rate, const std::vector<double>& law_state,
+                      SlidingModes sliding, double* value) const;
+  /// What it is, for messages: border 1 of "tension" in joint R.
+  std::string name(const SwitchingFunction& function) const;
   /// A jump of a motor's effort between two instants, as a ramp still to be given its share.
   std::optional<SlidingMode> jump_between(double t0, const std::vector<typename S::Motion>& m0, double t1, const std::vector<typename S::Motion>& m1) const;
   /// How far the argument of a jump is above it.
@@ -246,6 +250,7 @@ class BasicSystem {
   double largest_radius_of_gyration() const;  // [m]
 
  private:
+  void list_switching();
 
   struct LoadState {
     BasicDisplacement<S> displacement;
@@ -267,7 +272,7 @@ class BasicSystem {
 
   std::vector<std::pair<int, int>> coupled_;  // bodies
   std::shared_ptr<const BlockPattern> pattern_ = std::make_shared<const BlockPattern>();
-  bool has_branches_ = false;
+  std::vector<SwitchingFunction> switching_;
   int n_law_states_ = 0;
   mutable std::vector<Tangent> tangents_;  // reused so that steps do not allocate
 };

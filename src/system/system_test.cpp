@@ -257,7 +257,7 @@ TEST(System, AppliedForceInBodyAxesTurnsWithTheBody) {
   }
 }
 
-// The side number changes where a rope goes taut or an expression jumps, and nowhere else.
+// The switching functions change their signs where a rope goes taut or an expression jumps, and nowhere else.
 TEST(System, SaysOnWhichSideOfItsKinksItIs) {
   Model model = sample::pendulum(1e6, 0);
   EXPECT_FALSE(build_system(model).has_branches());
@@ -274,12 +274,20 @@ TEST(System, SaysOnWhichSideOfItsKinksItIs) {
       gap.push_back(r.gap);
       rate.push_back(r.rate);
     }
-    return system.branches(t, m, gap, rate, {});
+    std::vector<double> value(system.switching().size());
+    system.find_switching(t, m, gap, rate, {}, {}, value.data());
+    return value;
   };
-  EXPECT_EQ(sides(0, 0.1), sides(0.9, 0.19));
-  EXPECT_NE(sides(0, 0.1), sides(0, 0.21));
-  EXPECT_NE(sides(0.9, 0.1), sides(1.1, 0.1));
-  EXPECT_NE(sides(1.1, 0.1), sides(0.9, 0.21));
+  EXPECT_TRUE(same_sides(sides(0, 0.1), sides(0.9, 0.19)));
+  EXPECT_FALSE(same_sides(sides(0, 0.1), sides(0, 0.21)));
+  EXPECT_FALSE(same_sides(sides(0.9, 0.1), sides(1.1, 0.1)));
+  EXPECT_FALSE(same_sides(sides(1.1, 0.1), sides(0.9, 0.21)));
+  const std::vector<double> value = sides(0.25, 0.21);
+  ASSERT_EQ(value.size(), 2u);
+  EXPECT_NEAR(value[0], 0.01, 1e-15);
+  EXPECT_NEAR(value[1], -0.75, 1e-15);
+  EXPECT_EQ(system.name(system.switching()[0]), "border 1 of law \"tension\" in joint rope");
+  EXPECT_EQ(system.name(system.switching()[1]), "kink or jump 1 of motor M (if(t > 1, 2, 3))");
 }
 
 }  // namespace

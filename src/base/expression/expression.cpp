@@ -47,10 +47,11 @@ double Expression::gradient(std::span<const double> values, std::span<double> gr
   return result;
 }
 
-bool Expression::has_branches() const {
-  if (!program_) return false;
-  const auto& code = program_->code;
-  return std::any_of(code.begin(), code.end(), [](const Instruction& step) { return pintle::has_branches(step.op); });
+int Expression::n_switches() const {
+  int n = 0;
+  if (program_)
+    for (const Instruction& step : program_->code) n += pintle::n_switches(step.op);
+  return n;
 }
 
 std::array<double, 3> Expression::second_order(std::span<const double> values, std::size_t index) const {

@@ -60,21 +60,18 @@ double Expression::gradient(std::span<const double> values, std::span<double> gr
   return result;
 }
 
-std::uint64_t Expression::branches(std::span<const double> values, const Ramp* ramp) const {
-  if (!program_) return 0;
-  std::uint64_t sides = 0;
+void Expression::find_switching(std::span<const double> values, double* value, const Ramp* ramp) const {
+  if (!program_) return;
   run_at(*program_, values, [&](std::size_t i, std::span<const double> x, double& result) {
     const Op op = program_->code[i].op;
-    if (!pintle::has_branches(op)) return;
-    unsigned side = branch(op, x[0], x.size() > 1 ? x[1] : 0, x.size() > 2 ? x[2] : 0);
+    pintle::find_switching(op, x, value);
     if (ramp && i == ramp->jump) {
       const double share = ramp->share_at(margin_of(x));
-      side = share < 0 ? 3 : share > 1 ? 4 : 2;
+      value[0] = std::max(-share, share - 1);
       result = on_side(op, 1);
     }
-    sides = sides * 0x9E3779B97F4A7C15U + 1 + side;
+    value += pintle::n_switches(op);
   });
-  return sides;
 }
 
 }  // namespace pintle

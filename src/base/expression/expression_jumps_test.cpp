@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <vector>
 
 #include "base/expression/expression_parser.h"
 #include "base/units.h"
@@ -48,15 +49,40 @@ TEST(ExpressionJumps, ARampMixesBothSides) {
   EXPECT_NEAR(slope[e.variables()[0] == "x" ? 1 : 0], by_y, 1e-13);
 }
 
-TEST(ExpressionJumps, SidesTellWhereARampEnds) {
+TEST(ExpressionJumps, SwitchingFunctionsTellWhereARampEnds) {
   const Expression e = law();
   const std::size_t jump = *e.jump_between(in_order(e, 0.9, 2), in_order(e, 1.2, 2));
   const Expression::Ramp ramp{jump, 0.5, 1, 0};
-  const auto side = [&](double x) { return e.branches(in_order(e, x, 2), &ramp); };
-  EXPECT_EQ(side(0.6), side(1.4));
-  EXPECT_NE(side(0.4), side(0.6));
-  EXPECT_NE(side(1.6), side(1.4));
-  EXPECT_NE(side(1.6), side(0.4));
+  ASSERT_EQ(e.n_switches(), 2);
+  const auto outside = [&](double x) {
+    std::array<double, 2> value;
+    e.find_switching(in_order(e, x, 2), value.data(), &ramp);
+    return value[0];
+  };
+  EXPECT_NEAR(outside(0.6), -0.1, 1e-15);
+  EXPECT_NEAR(outside(1.4), -0.1, 1e-15);
+  EXPECT_NEAR(outside(0.4), 0.1, 1e-15);
+  EXPECT_NEAR(outside(1.6), 0.1, 1e-15);
+}
+
+// Every operation with a kink or a jump, on both sides of it and on it: the sign is that of the formula that holds.
+TEST(ExpressionJumps, SwitchingFunctionsAreSignedDistances) {
+  ParseScope scope;
+  scope.variables = {{"x", kBareNumber}};
+  const auto at = [&scope](const char* text, double x) {
+    const Expression e = std::get<ParsedExpression>(parse_expression(text, scope)).expression;
+    std::vector<double> value(e.n_switches());
+    e.find_switching(std::array{x}, value.data());
+    return value;
+  };
+  for (const double x : {-1.0, 0.0, 2.5}) {
+    for (const char* text : {"abs(x)", "sign(x)", "step(x)"}) EXPECT_EQ(at(text, x), std::vector{-x}) << text;
+    for (const char* text : {"min(x, 1)", "max(x, 1)", "if(x < 1, 2, 3)", "if(x >= 1, 2, 3)"}) EXPECT_EQ(at(text, x), std::vector{1 - x}) << text;
+    for (const char* text : {"if(x > 1, 2, 3)", "if(x <= 1, 2, 3)"}) EXPECT_EQ(at(text, x), std::vector{x - 1}) << text;
+    EXPECT_EQ(at("smoothstep(0, 2, x)", x), (std::vector{-x, 2 - x}));
+    EXPECT_EQ(at("abs(x) + 2*min(x, 1)", x), (std::vector{-x, 1 - x}));
+    EXPECT_TRUE(at("sin(x)^2", x).empty());
+  }
 }
 
 }  // namespace

@@ -63,42 +63,29 @@ const FunctionInfo* find_function(std::string_view name) {
   return it == all.end() ? nullptr : &*it;
 }
 
-bool has_branches(Op op) {
+void find_switching(Op op, std::span<const double> x, double* value) {
   switch (op) {
     case Op::kAbs:
     case Op::kSign:
     case Op::kStep:
-    case Op::kMin:
-    case Op::kMax:
-    case Op::kLess:
-    case Op::kGreater:
-    case Op::kLessEqual:
-    case Op::kGreaterEqual:
-    case Op::kSmoothstep:
-      return true;
-    default:
-      return false;  // `if` follows its condition
-  }
-}
-
-unsigned branch(Op op, double a, double b, double c) {
-  switch (op) {
-    case Op::kAbs:
-    case Op::kSign:
-    case Op::kStep:
-      return a >= 0 ? 1 : 0;
+      value[0] = -x[0];
+      break;
     case Op::kMin:
     case Op::kMax:
     case Op::kLess:
     case Op::kGreaterEqual:
-      return a < b ? 1 : 0;
+      value[0] = x[1] - x[0];
+      break;
     case Op::kGreater:
     case Op::kLessEqual:
-      return a > b ? 1 : 0;
+      value[0] = x[0] - x[1];
+      break;
     case Op::kSmoothstep:
-      return (c >= a ? 1U : 0U) + (c >= b ? 1U : 0U);
+      value[0] = x[0] - x[2];
+      value[1] = x[1] - x[2];
+      break;
     default:
-      return 0;
+      break;
   }
 }
 

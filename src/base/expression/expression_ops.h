@@ -80,10 +80,13 @@ struct FunctionInfo {
 std::span<const FunctionInfo> function_catalog();
 const FunctionInfo* find_function(std::string_view name);
 
-/// True for an operation with a kink or a jump inside its range.
-bool has_branches(Op op);
-/// On which side of them the operands are (unused ones are 0).
-unsigned branch(Op op, double a, double b, double c);
+/// How many kinks or jumps an operation has inside its range.
+constexpr int n_switches(Op op) {
+  if (op == Op::kSmoothstep) return 2;
+  return op == Op::kAbs || op == Op::kSign || op == Op::kStep || (op >= Op::kMin && op <= Op::kGreaterEqual) ? 1 : 0;  // `if` follows its condition
+}
+/// A number for each of them that is positive on one side only: not at the kink itself where that belongs to the other side.
+void find_switching(Op op, std::span<const double> operands, double* value);
 
 double apply(Op op, double a);
 double apply(Op op, double a, double b);

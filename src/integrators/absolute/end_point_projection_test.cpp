@@ -40,7 +40,7 @@ struct LastStage {
   }
   StageTails random_tails(Random& random) const {
     StageTails tails = sample::room_for_tails(system);
-    for (Vec3x4& gap : tails.gaps)
+    for (RowOf4<Planar>& gap : tails.gaps)
       for (int k = 0; k < 3; ++k)
         for (int lane = 0; lane < 3; ++lane) gap[k].set(lane, random.uniform(-1, 1));
     return tails;
@@ -87,7 +87,7 @@ TEST(EndPointProjection, ErrorIsTheLargerTail) {
     ASSERT_TRUE(end->prepare(at.t, 10, at.stage, tails));
     LoadScale scale;
     for (std::size_t b = 0; b < tails.bodies.size(); ++b) scale.body.push_back(random.vector<S::Vec>(1, 2));
-    const auto tail = [&](const std::vector<Vec3x4>& of) {
+    const auto tail = [&](const std::vector<RowOf4<Planar>>& of) {
       double size[3] = {};
       for (std::size_t b = 0; b < at.system.bodies.size(); ++b)
         for (int k = 0; k < 3; ++k)

@@ -48,11 +48,29 @@ void BasicRadauStepper<S>::finish_step(double h) {
     nodes_.force[s + 1].swap(stage_[s].force);
     nodes_.law_state[s + 1].swap(stage_[s].law_state);
     nodes_.law_rate[s + 1].swap(stage_[s].law_rate);
+    if (S::kCurved) nodes_.increment_rate[s + 1].swap(stage_[s].increment_rate);
   }
   nodes_.force[n_] = end_.force;
+  if (S::kCurved) find_increments(h);
   control_.have_history = true;
-  if (system_.has_branches()) update_branches();
+  if (system_.has_branches()) update_switching();
   control_.last = h;
+}
+
+// What the integrals of the increments' rates miss the end by: the projection. theory/space Eq. (2.3).
+template <class S>
+void BasicRadauStepper<S>::find_increments(double h) {
+  nodes_.increment_rate[0] = begin_.v;
+  RadauTable::Vec weight(n_ + 1);
+  for (int node = 0; node <= n_; ++node) {
+    weight[node] = 0;
+    for (int k = 0; k <= n_; ++k) weight[node] += table_.to_powers(k, node) / (k + 1);
+  }
+  for (std::size_t b = 0; b < end_.q.size(); ++b) {
+    typename S::Vec dq = S::Vec::Zero();
+    for (int node = 0; node <= n_; ++node) dq += h * weight[node] * nodes_.increment_rate[node][b];
+    nodes_.increment_bend[b] = S::rate_of_increment(dq, S::difference(end_.q[b], S::moved(begin_.q[b], dq)));
+  }
 }
 
 template <class S>
@@ -80,7 +98,7 @@ void BasicRadauStepper<S>::add_work(double h) {
 }
 
 template <class S>
-BasicRadauStepper<S>::Power BasicRadauStepper<S>::power_of_loads(double t, const VecsOf<S>& q, const std::vector<typename S::Motion>& m) const {
+typename BasicRadauStepper<S>::Power BasicRadauStepper<S>::power_of_loads(double t, const PositionsOf<S>& q, const std::vector<typename S::Motion>& m) const {
   if (!system_.has_loads()) return {};
   const ExternalWork work = system_.external_work(t, q, m, end_.sliding);
   return {work.supplied, work.lost};
@@ -100,5 +118,22 @@ void BasicRadauStepper<S>::find_power() {
   end_.supply_power = power[0];
   end_.loss_power = power[1];
 }
+
+template bool BasicRadauStepper<Planar>::error_estimate(double h, double& error);
+template double BasicRadauStepper<Planar>::motion_tail();
+template void BasicRadauStepper<Planar>::finish_step(double h);
+template void BasicRadauStepper<Planar>::find_increments(double h);
+template void BasicRadauStepper<Planar>::add_work(double h);
+template BasicRadauStepper<Planar>::Power BasicRadauStepper<Planar>::power_of_loads(double t, const PositionsOf<Planar>& q, const std::vector<Planar::Motion>& m) const;
+template void BasicRadauStepper<Planar>::add_power(const BasicJointData<Planar>& joint, const std::vector<Planar::Motion>& m, const BasicLawPoint<Planar>& at, const Planar::Vec& force, Power& power) const;
+template void BasicRadauStepper<Planar>::find_power();
+template bool BasicRadauStepper<Spatial>::error_estimate(double h, double& error);
+template double BasicRadauStepper<Spatial>::motion_tail();
+template void BasicRadauStepper<Spatial>::finish_step(double h);
+template void BasicRadauStepper<Spatial>::find_increments(double h);
+template void BasicRadauStepper<Spatial>::add_work(double h);
+template BasicRadauStepper<Spatial>::Power BasicRadauStepper<Spatial>::power_of_loads(double t, const PositionsOf<Spatial>& q, const std::vector<Spatial::Motion>& m) const;
+template void BasicRadauStepper<Spatial>::add_power(const BasicJointData<Spatial>& joint, const std::vector<Spatial::Motion>& m, const BasicLawPoint<Spatial>& at, const Spatial::Vec& force, Power& power) const;
+template void BasicRadauStepper<Spatial>::find_power();
 
 }  // namespace pintle

@@ -9,15 +9,20 @@ namespace pintle {
 namespace {
 
 constexpr double kCrossing = 1e-9;  // of the usual step: the least that is gone to cross
-constexpr int kCrossings = 5;       // each ten times longer, until the branch has changed
 constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
 constexpr double kMoment = 1e-6;    // of the usual step: to see where accelerations lead
 
+// Taylor's series to the second order.
+Planar::Coordinates along(const Planar::Coordinates& q, double d, const Planar::Vec& v, double half, const Planar::Vec& a) { return q + d * v + half * a; }
+Spatial::Coordinates along(const Spatial::Coordinates& q, double d, const Spatial::Vec& v, double half, const Spatial::Vec& a) {
+  return Spatial::moved(q, d * v + half * a);
+}
+
 }  // namespace
 
-// The branches at share x of the step, on the curve through its stages.
+// The switching functions at share x of the step, on the curve through its stages.
 template <class S>
-std::uint64_t BasicRadauStepper<S>::branches(double x, double h) {
+void BasicRadauStepper<S>::find_switching(double x, double h, double* value) {
   RadauTable::Vec v(n_), q(n_);
   for (int i = 0; i < n_; ++i) {
     double power = x;
@@ -28,10 +33,16 @@ std::uint64_t BasicRadauStepper<S>::branches(double x, double h) {
     }
   }
   for (std::size_t b = 0; b < inside_q_.size(); ++b) {
-    inside_q_[b] = begin_.q[b] + x * h * begin_.v[b];
+    if constexpr (S::kCurved) {
+      typename S::Vec dq = S::Vec::Zero();
+      for (int i = 0; i < n_; ++i) dq += h * v[i] * stage_[i].increment_rate[b];
+      inside_q_[b] = S::moved(begin_.q[b], dq);
+    } else {
+      inside_q_[b] = begin_.q[b] + x * h * begin_.v[b];
+    }
     inside_v_[b] = begin_.v[b];
     for (int i = 0; i < n_; ++i) {
-      inside_q_[b] += h * h * q[i] * stage_[i].a[b];
+      if constexpr (!S::kCurved) inside_q_[b] += h * h * q[i] * stage_[i].a[b];
       inside_v_[b] += h * v[i] * stage_[i].a[b];
     }
   }
@@ -48,15 +59,15 @@ std::uint64_t BasicRadauStepper<S>::branches(double x, double h) {
     for (int i = 0; i < n_; ++i) inside_law_state_[z] += h * v[i] * stage_[i].law_rate[z];
   }
   system_.motions(inside_q_, inside_v_, inside_m_);
-  return system_.branches(begin_.t + x * h, inside_m_, inside_gap_, inside_rate_, inside_law_state_, begin_.sliding);
+  system_.find_switching(begin_.t + x * h, inside_m_, inside_gap_, inside_rate_, inside_law_state_, begin_.sliding, value);
 }
 
-// The branches a time d ahead of the start, by Taylor's series: all there is to go by when the stages are not solved.
+// The same a time d ahead of the start, by Taylor's series: all there is to go by when the stages are not solved.
 template <class S>
-std::uint64_t BasicRadauStepper<S>::branches_ahead(double d) {
+void BasicRadauStepper<S>::find_switching_ahead(double d, double* value) {
   const double half = 0.5 * d * d;
   for (std::size_t b = 0; b < end_.q.size(); ++b) {
-    inside_q_[b] = begin_.q[b] + d * begin_.v[b] + half * begin_.a[b];
+    inside_q_[b] = along(begin_.q[b], d, begin_.v[b], half, begin_.a[b]);
     inside_v_[b] = begin_.v[b] + d * begin_.a[b];
   }
   for (std::size_t j = 0; j < end_.gap.size(); ++j) {
@@ -65,24 +76,24 @@ std::uint64_t BasicRadauStepper<S>::branches_ahead(double d) {
   }
   for (std::size_t z = 0; z < inside_law_state_.size(); ++z) inside_law_state_[z] = begin_.law_state[z] + d * begin_.law_rate[z];
   system_.motions(inside_q_, inside_v_, inside_m_);
-  return system_.branches(begin_.t + d, inside_m_, inside_gap_, inside_rate_, inside_law_state_, begin_.sliding);
+  system_.find_switching(begin_.t + d, inside_m_, inside_gap_, inside_rate_, inside_law_state_, begin_.sliding, value);
 }
 
 template <class S>
 SwitchingEvent BasicRadauStepper<S>::locate_event(double h, bool solved) {
   if (!system_.has_branches()) return {};
-  return first_event(table_, branch_, [&](double x) { return solved ? branches(x, h) : branches_ahead(x * h); });
+  return search_.first(table_, [&](double x, double* value) { solved ? find_switching(x, h, value) : find_switching_ahead(x * h, value); });
 }
 
-// Moves end_ over the event that it stands just before, by Taylor's series; false when the branch stays the same.
+// Moves end_ over the event that it stands just before, by Taylor's series.
 template <class S>
-bool BasicRadauStepper<S>::step_over_event(double distance) {
-  double beyond = std::max(kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
-  for (int i = 0; i < kCrossings; ++i, beyond *= 10) {
-    const double d = (i == 0 ? distance : 0) + beyond, half = 0.5 * d * d;
+void BasicRadauStepper<S>::step_over_event(double distance, const SwitchingEvent& event) {
+  const double beyond = std::max(kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
+  search_.step_over(event, distance, beyond, [this](double d, double* value) {
+    const double half = 0.5 * d * d;
     end_.t += d;
     for (std::size_t b = 0; b < end_.q.size(); ++b) {
-      end_.q[b] += d * end_.v[b] + half * end_.a[b];
+      end_.q[b] = along(end_.q[b], d, end_.v[b], half, end_.a[b]);
       end_.v[b] += d * end_.a[b];
     }
     for (std::size_t j = 0; j < end_.gap.size(); ++j) {
@@ -91,20 +102,16 @@ bool BasicRadauStepper<S>::step_over_event(double distance) {
     }
     for (std::size_t z = 0; z < end_.law_state.size(); ++z) end_.law_state[z] += d * end_.law_rate[z];
     system_.motions(end_.q, end_.v, end_m_);
-    const std::uint64_t now = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding);
-    if (now == branch_) continue;
-    branch_ = now;
-    return true;
-  }
-  return false;
+    system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, value);
+  });
 }
 
 // Over the event; forces and accelerations renewed there. A jump that comes back at once is held.
 template <class S>
-void BasicRadauStepper<S>::cross_event(double distance) {
+void BasicRadauStepper<S>::cross_event(double distance, const SwitchingEvent& event) {
   const double before = end_.t;
   inside_m_ = end_m_;
-  step_over_event(distance);
+  step_over_event(distance, event);
   leave_sliding(system_, end_.t, end_m_, end_.sliding);
   balance_end();
   if (const auto jump = chattering_.crossed(system_, before, inside_m_, end_.t, end_m_, kAtOnce * control_.usual)) {
@@ -112,7 +119,7 @@ void BasicRadauStepper<S>::cross_event(double distance) {
     enter_sliding(*jump, margin, ramp_size(system_, *jump, end_, control_.usual, tolerance_), end_.sliding, [this] { balance_end(); },
               [&] { return margin_rate(*jump); });
   }
-  branch_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding);
+  system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, search_.start());
   control_.have_history = false;
 }
 
@@ -121,21 +128,21 @@ template <class S>
 double BasicRadauStepper<S>::margin_rate(const SlidingMode& jump) {
   const double d = kMoment * control_.usual;
   for (std::size_t b = 0; b < end_.q.size(); ++b) {
-    inside_q_[b] = end_.q[b] + d * end_.v[b];
+    inside_q_[b] = S::moved(end_.q[b], d * end_.v[b]);
     inside_v_[b] = end_.v[b] + d * end_.a[b];
   }
   system_.motions(inside_q_, inside_v_, inside_m_);
   return (system_.margin(jump, end_.t + d, inside_m_) - system_.margin(jump, end_.t, end_m_)) / d;
 }
 
-// The branches at the end of a step; a ramp that the last bits have left is let go.
+// The switching functions at the end of a step; a ramp that the last bits have left is let go.
 template <class S>
-void BasicRadauStepper<S>::update_branches() {
+void BasicRadauStepper<S>::update_switching() {
   if (leave_sliding(system_, end_.t, end_m_, end_.sliding)) {
     balance_end();
     control_.have_history = false;
   }
-  branch_ = system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding);
+  system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, search_.start());
 }
 
 // What the laws and loads really give at end_.
@@ -147,5 +154,22 @@ void BasicRadauStepper<S>::balance_end() {
   find_accelerations(system_, end_m_, end_r_, end_);
   find_power();
 }
+
+template void BasicRadauStepper<Planar>::find_switching(double x, double h, double* value);
+template void BasicRadauStepper<Planar>::find_switching_ahead(double d, double* value);
+template SwitchingEvent BasicRadauStepper<Planar>::locate_event(double h, bool solved);
+template void BasicRadauStepper<Planar>::step_over_event(double distance, const SwitchingEvent& event);
+template void BasicRadauStepper<Planar>::cross_event(double distance, const SwitchingEvent& event);
+template double BasicRadauStepper<Planar>::margin_rate(const SlidingMode& jump);
+template void BasicRadauStepper<Planar>::update_switching();
+template void BasicRadauStepper<Planar>::balance_end();
+template void BasicRadauStepper<Spatial>::find_switching(double x, double h, double* value);
+template void BasicRadauStepper<Spatial>::find_switching_ahead(double d, double* value);
+template SwitchingEvent BasicRadauStepper<Spatial>::locate_event(double h, bool solved);
+template void BasicRadauStepper<Spatial>::step_over_event(double distance, const SwitchingEvent& event);
+template void BasicRadauStepper<Spatial>::cross_event(double distance, const SwitchingEvent& event);
+template double BasicRadauStepper<Spatial>::margin_rate(const SlidingMode& jump);
+template void BasicRadauStepper<Spatial>::update_switching();
+template void BasicRadauStepper<Spatial>::balance_end();
 
 }  // namespace pintle

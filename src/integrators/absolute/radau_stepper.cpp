@@ -7,9 +7,9 @@ namespace pintle {
 
 template <class S>
 BasicRadauStepper<S>::BasicRadauStepper(const BasicSystem<S>& system, double tolerance, int stages, ToleranceOf tolerance_of)
-    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion),
+    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion), search_(system.switching()),
       solver_(make_stage_solver(system, table_, tolerance, of_motion_ ? Steps::kLong : Steps::kAccurate)), stage_(table_.n), end_point_(make_end_point_projection(system)),
-      tails_{std::vector<Vec3x4>(system.bodies.size()), std::vector<Vec3x4>(system.joints.size()), std::vector<Lanes<4>>(system.n_law_states())}, end_m_(system.bodies.size()) {
+      tails_{std::vector<RowOf4<S>>(system.bodies.size()), std::vector<RowOf4<S>>(system.joints.size()), std::vector<Lanes<4>>(system.n_law_states())}, end_m_(system.bodies.size()) {
   const std::size_t n = system.bodies.size(), m = system.joints.size();
   const VecsOf<S> bodies(n, S::Vec::Zero()), joints(m, S::Vec::Zero());
   const std::vector<double> states(system.n_law_states());
@@ -21,15 +21,22 @@ BasicRadauStepper<S>::BasicRadauStepper(const BasicSystem<S>& system, double tol
     s.gap_accel = s.force = joints;
     s.law_state = s.law_rate = states;
     if (only_last && &s != &stage_.back()) continue;
-    s.q = s.v = s.Q = bodies;
+    s.q.assign(n, S::at_origin());
+    s.v = s.Q = bodies;
+    if (S::kCurved) s.increment_rate = bodies;
     s.gap = s.gap_rate = joints;
     s.m.resize(n);
   }
   nodes_ = {&table_, std::vector<VecsOf<S>>(n_ + 1, bodies), std::vector<VecsOf<S>>(n_ + 1, joints), std::vector<VecsOf<S>>(n_ + 1, joints),
             std::vector<std::vector<double>>(n_ + 1, states), std::vector<std::vector<double>>(n_ + 1, states), std::vector<std::array<double, 2>>(n_ + 1)};
+  if (S::kCurved) {
+    nodes_.increment_rate.assign(n_ + 1, bodies);
+    nodes_.increment_bend = bodies;
+  }
   scale_.body = bodies;
   if (!system.has_branches()) return;
-  inside_q_ = inside_v_ = bodies;
+  inside_q_.assign(n, S::at_origin());
+  inside_v_ = bodies;
   inside_gap_ = inside_rate_ = joints;
   inside_law_state_ = states;
   end_r_.resize(m);
@@ -54,7 +61,7 @@ void BasicRadauStepper<S>::start(const BasicState<S>& state, double h) {
   system_.external(end_.t, end_m_, last.Q, end_.sliding);
   find_power();
   chattering_.forget();
-  branch_ = system_.has_branches() ? system_.branches(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding) : 0;
+  if (system_.has_branches()) system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, search_.start());
   grow_load_scale(system_, end_m_, last.Q, end_, scale_);
   if (unloaded()) foresee_loads(h);
 }
@@ -71,7 +78,7 @@ bool BasicRadauStepper<S>::unloaded() const {
 template <class S>
 void BasicRadauStepper<S>::foresee_loads(double h) {
   const double everything = std::numeric_limits<double>::max();
-  const BasicLoadScale<S> any{Vecs(scale_.body.size(), S::Vec::Constant(everything))};
+  const BasicLoadScale<S> any{VecsOf<S>(scale_.body.size(), S::Vec::Constant(everything))};
   if (!solver_->solve(begin_, h, nullptr, 0, any, counters_)) return;
   solver_->write(begin_, stage_, tails_);
   BasicState<S> ahead = end_;
@@ -85,7 +92,7 @@ bool BasicRadauStepper<S>::step(double t_end) {
   if (control_.advance(*this, t_end, tolerance_, n_ + 1, counters_)) return true;
   std::vector<std::pair<double, int>> residuals;
   for (int j = 0; j < system_.n_joints(); ++j) residuals.emplace_back(solver_->residual(j), j);
-  failure_ = no_step_message(system_, begin_.t, control_.next, std::move(residuals));
+  failure_ = no_step_message(system_, begin_.t, control_.next, std::move(residuals), control_.last_event(system_, begin_.t - control_.usual));
   return false;
 }
 
@@ -97,5 +104,8 @@ bool BasicRadauStepper<S>::trial(double h) {
   finish_step(h);
   return true;
 }
+
+template class BasicRadauStepper<Planar>;
+template class BasicRadauStepper<Spatial>;
 
 }  // namespace pintle

@@ -50,6 +50,8 @@ class BasicRadauStepper {
   double next_step() const { return control_.next; }
   const Counters& counters() const { return counters_; }
   const std::string& failure() const { return failure_; }
+  /// The last event, if it came after `since`; otherwise empty.
+  std::string last_event(double since) const { return control_.last_event(system_, since); }
   const RadauTable& table() const { return table_; }
 
  private:
@@ -65,19 +67,20 @@ class BasicRadauStepper {
   bool error_estimate(double h, double& error);
   double motion_tail();                       // as accelerations that the bodies can yield to
   void finish_step(double h);                 // fills end_ and nodes_
+  void find_increments(double h);             // of the nodes, in curved spaces
   using Power = std::array<double, 2>;        // supplied, lost [W]
   void add_work(double h);
-  Power power_of_loads(double t, const VecsOf<S>& q, const std::vector<typename S::Motion>& m) const;
+  Power power_of_loads(double t, const PositionsOf<S>& q, const std::vector<typename S::Motion>& m) const;
   void add_power(const BasicJointData<S>& joint, const std::vector<typename S::Motion>& m, const BasicLawPoint<S>& at, const typename S::Vec& force, Power& power) const;
   void find_power();
 
   // event_location.cpp: steps that end where a force has a kink
   SwitchingEvent locate_event(double h, bool solved);
-  std::uint64_t branches(double x, double h);
-  std::uint64_t branches_ahead(double d);
-  void cross_event(double distance);
-  bool step_over_event(double distance);
-  void update_branches();
+  void find_switching(double x, double h, double* value);
+  void find_switching_ahead(double d, double* value);
+  void cross_event(double distance, const SwitchingEvent& event);
+  void step_over_event(double distance, const SwitchingEvent& event);
+  void update_switching();
   double margin_rate(const SlidingMode& jump);
   void balance_end();
 
@@ -89,7 +92,7 @@ class BasicRadauStepper {
   BasicMotionScale<S> motion_scale_;
   BasicState<S> begin_, end_;
   StepControl control_;
-  std::uint64_t branch_ = 0;                  // of kinks, at end_
+  EventSearch search_;
   BasicChatteringDetector<S> chattering_;
   std::unique_ptr<BasicStageSolver<S>> solver_;
   std::vector<BasicStage<S>> stage_;
@@ -97,7 +100,8 @@ class BasicRadauStepper {
   std::unique_ptr<BasicEndPointProjection<S>> end_point_;
   BasicStageTails<S> tails_;
   std::vector<int> powered_;                  // joints whose power no stage has summed up
-  VecsOf<S> inside_q_, inside_v_, inside_gap_, inside_rate_;
+  PositionsOf<S> inside_q_;
+  VecsOf<S> inside_v_, inside_gap_, inside_rate_;
   std::vector<double> inside_law_state_;
   std::vector<BasicJointKinematics<S>> end_r_;
   std::vector<typename S::Motion> end_m_, inside_m_;
@@ -105,5 +109,6 @@ class BasicRadauStepper {
   Counters counters_;
   std::string failure_;
 };
+using RadauStepper = BasicRadauStepper<Planar>;
 
 }  // namespace pintle

@@ -13,12 +13,13 @@ namespace {
 template <class S>
 class LaneForces : public BasicDenseForces<S> {
  public:
+  using Sampled = typename BasicDenseForces<S>::Sampled;
   explicit LaneForces(const BasicSystem<S>& system)
       : system_(system), loads_(system.has_loads()), bodies_(system.bodies.size() + 1), joints_(system.joints.size()),
         lu_(system.pattern(), symmetry_of_joints(system)), pull_(system.bodies.size() + 1), loads_on_(system.bodies.size() + 1), motions_(system.bodies.size()), Q_(system.bodies.size()) {
-    bodies_.back().c = L::all(1);  // the ground
+    bodies_.back().stand_still();  // the ground
     for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < 3; ++k) loads_on_[b][k] = L::all(system.bodies[b].gravity[k]);
+      for (int k = 0; k < S::kDof; ++k) loads_on_[b][k] = L::all(system.bodies[b].gravity[k]);
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const BasicJointData<S>& data = system.joints[j];
       joints_[j].map.function = !std::holds_alternative<BasicSelection<S>>(data.displacement);
@@ -44,13 +45,13 @@ class LaneForces : public BasicDenseForces<S> {
  private:
   static constexpr int kN = ForceSamples::kN;
   using L = Lanes<kN>;
-  using Three = BlockVec<L, S::kDof>;
+  using Row = BlockVec<L, S::kDof>;
   struct Joint {
-    L gap[3], rate[3], accel[3], force[3];  // on the curves
-    L change[3];                            // of the force, that balances
-    L weight[9];                            // K + mu C; the first three of a spring and damper in each component
+    L gap[S::kDof], rate[S::kDof], accel[S::kDof], force[S::kDof];  // on the curves
+    L change[S::kDof];                            // of the force, that balances
+    L weight[S::kDof * S::kDof];                            // K + mu C; the first three of a spring and damper in each component
     typename S::template GapMap<L> map;
-    const BasicLinearLaw<S>* linear = nullptr;
+    const typename BasicLaw<S>::Linear* linear = nullptr;
     BlockPattern::Slot slot{};
   };
 
@@ -93,13 +94,19 @@ class LaneForces : public BasicDenseForces<S> {
       return L::all(x0[i][k]) + way * x + bend * hermite + combined(twice, of, i, k);
     };
     for (std::size_t b = 0; b < n_bodies(); ++b) {
-      typename S::template BodyLanes<kN>& body = bodies_[b];
-      for (int k = 0; k < 3; ++k) {
-        body.q[k] = place(nodes.a, begin.q, begin.v, end.q, b, k);
+      auto& body = bodies_[b];
+      for (int k = 0; k < S::kDof; ++k) {
         body.v[k] = rate(nodes.a, begin.v, end.v, b, k);
         if (!begin.sliding.empty()) body.a[k] = combined(value, nodes.a, b, k);
       }
-      sine_and_cosine(body.q[2], body.s, body.c);
+      if constexpr (S::kCurved) {
+        L dq[S::kDof];
+        for (int k = 0; k < S::kDof; ++k) dq[k] = combined(once, nodes.increment_rate, b, k) + nodes.increment_bend[b][k] * hermite;
+        body.displace(begin.q[b], dq);
+      } else {
+        for (int k = 0; k < S::kDof; ++k) body.q[k] = place(nodes.a, begin.q, begin.v, end.q, b, k);
+        body.check();
+      }
     }
     for (int s = 0; s < kN && system_.n_law_states() > 0; ++s) {
       law_state_[s].assign(begin.law_state.size(), 0.0);
@@ -108,7 +115,7 @@ class LaneForces : public BasicDenseForces<S> {
     }
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < S::kDof; ++k) {
         joint.gap[k] = place(nodes.gap_accel, begin.gap, begin.gap_rate, end.gap, j, k);
         joint.rate[k] = rate(nodes.gap_accel, begin.gap_rate, end.gap_rate, j, k);
         joint.accel[k] = combined(value, nodes.gap_accel, j, k);
@@ -118,29 +125,24 @@ class LaneForces : public BasicDenseForces<S> {
   }
 
   // The map of joint j, what its bodies make of the gap's rate, and the convective acceleration; of a servo less than its target's.
-  void read(std::size_t j, L (&rate)[3], L (&bias)[3]) {
+  void read(std::size_t j, L (&rate)[S::kDof], L (&bias)[S::kDof]) {
     const BasicJointData<S>& data = system_.joints[j];
     Joint& joint = joints_[j];
     const typename S::template BodyLanes<kN>&A = bodies_[body(data.at.a)], &B = bodies_[body(data.at.b)];
-    const auto pose = S::template PoseGeometry<L>::between(A.view(), data.at.F, B.view(), data.at.M);
+    const auto pose = S::template PoseGeometry<L>::between(A.view(), S::attachment(data.at.F), B.view(), S::attachment(data.at.M));
     joint.map.set(pose);
     if (joint.map.function) {
       for (int s = 0; s < kN; ++s) {
         const BasicJointKinematics<S> r = pintle::read(data.displacement, S::RelativePose::between(A.motion(s), data.at.F, B.motion(s), data.at.M));
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < S::kDof; ++k) {
           joint.map.gradient[k].set(s, r.map.gradient[k]);
           rate[k].set(s, r.rate[k]);
           bias[k].set(s, r.bias[k]);
         }
       }
     } else {
-      const L rx = pose.rx + A.v[2] * pose.dy, ry = pose.ry - A.v[2] * pose.dx;
-      rate[0] = pose.c * rx + pose.s * ry;
-      rate[1] = pose.c * ry - pose.s * rx;
-      rate[2] = B.v[2] - A.v[2];
-      bias[0] = pose.bias_x;
-      bias[1] = pose.bias_y;
-      bias[2] = L::all(0);
+      pose.rates(A.view(), B.view(), rate);
+      pose.biases(bias);
     }
     if (data.servo < 0) return;
     for (int s = 0; s < kN; ++s) {
@@ -156,11 +158,11 @@ class LaneForces : public BasicDenseForces<S> {
     lu_.set_diagonal([&](int b, int k) { return L::all(mu * mu * system_.bodies[b].mass[k]); });
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
-      L rate[3], bias[3];
+      L rate[S::kDof], bias[S::kDof];
       read(j, rate, bias);
       find_weight(j, mu);
-      for (int k = 0; k < 3; ++k) joint.rate[k] -= rate[k];
-      if (joint.linear && !joint.map.function) PoseBlocks<L>::of(joint.map, joint.weight).add_to(lu_, system_.joints[j].at, joint.slot);
+      for (int k = 0; k < S::kDof; ++k) joint.rate[k] -= rate[k];
+      if (joint.linear && !joint.map.function) PoseBlocks<S, L>::of(joint.map, joint.weight).add_to(lu_, system_.joints[j].at, joint.slot);
       else add_joint(j);
     }
     lu_.factorize();
@@ -169,19 +171,23 @@ class LaneForces : public BasicDenseForces<S> {
   void find_weight(std::size_t j, double mu) {
     Joint& joint = joints_[j];
     if (joint.linear) {
-      for (int k = 0; k < 3; ++k) joint.weight[k] = L::all(joint.linear->k[k] + mu * joint.linear->c[k]);
+      for (int k = 0; k < S::kDof; ++k) joint.weight[k] = L::all(joint.linear->k[k] + mu * joint.linear->c[k]);
       return;
     }
     const BasicJointData<S>& data = system_.joints[j];
     for (int s = 0; s < kN; ++s) {
-      const typename S::Vec gap(joint.gap[0][s], joint.gap[1][s], joint.gap[2][s]), rate(joint.rate[0][s], joint.rate[1][s], joint.rate[2][s]);
+      typename S::Vec gap, rate;
+      for (int k = 0; k < S::kDof; ++k) {
+        gap[k] = joint.gap[k][s];
+        rate[k] = joint.rate[k][s];
+      }
       data.law.linearize({t_[s], gap, rate, law_state_[s].data() + data.first_state}, tangents_);
       impedance_.reserve(tangents_.n);
       impedance_.find(tangents_, mu);
-      for (int k = 0; k < 9; ++k) joint.weight[k].set(s, impedance_.weight[k]);
+      for (int k = 0; k < S::kDof * S::kDof; ++k) joint.weight[k].set(s, impedance_.weight[k]);
     }
   }
-  static void weigh(const Joint& joint, const L* gap, L* f) { pintle::weigh(joint.linear != nullptr, joint.weight, gap, f); }
+  static void weigh(const Joint& joint, const L* gap, L* f) { pintle::weigh<S::kDof>(joint.linear != nullptr, joint.weight, gap, f); }
 
   // G' w G of any joint, a body's coordinate at a time.
   void add_joint(std::size_t j) {
@@ -189,33 +195,38 @@ class LaneForces : public BasicDenseForces<S> {
     const BasicPlacement<S>& at = system_.joints[j].at;
     BlockPattern::Slot ba = joint.slot;
     ba.upper = !ba.upper;
-    for (int c = 0; c < 6; ++c) {
-      Three unit[2] = {zero(), zero()}, on[2] = {zero(), zero()};
-      unit[c / 3][c % 3] = L::all(1);
-      L e[3], f[3];
+    constexpr int n = S::kDof;
+    for (int c = 0; c < 2 * n; ++c) {
+      Row unit[2] = {zero(), zero()}, on[2] = {zero(), zero()};
+      unit[c / n][c % n] = L::all(1);
+      L e[n], f[n];
       joint.map.gather(&unit[0][0], &unit[1][0], e);
       weigh(joint, e, f);
       joint.map.push(f, on[0], on[1]);
-      const auto add = [&](Block<L, 3>& block, int side) {
-        for (int r = 0; r < 3; ++r) block(r, c % 3) += on[side][r];
+      const auto add = [&](Block<L, n>& block, int side) {
+        for (int r = 0; r < n; ++r) block(r, c % n) += on[side][r];
       };
-      const int column = c < 3 ? at.a : at.b, other = c < 3 ? at.b : at.a;
+      const int column = c < n ? at.a : at.b, other = c < n ? at.b : at.a;
       if (column == kGround) continue;
-      add(lu_.diagonal(column), c / 3);
+      add(lu_.diagonal(column), c / n);
       if (other == kGround) continue;
-      const BlockPattern::Slot slot = c < 3 ? ba : joint.slot;  // (row: the other body, column: this one)
-      if (lu_.has(slot)) add(lu_.off_diagonal(slot), 1 - c / 3);
+      const BlockPattern::Slot slot = c < n ? ba : joint.slot;  // (row: the other body, column: this one)
+      if (lu_.has(slot)) add(lu_.off_diagonal(slot), 1 - c / n);
     }
   }
-  static Three zero() { return {{L::all(0), L::all(0), L::all(0)}}; }
+  static Row zero() {
+    Row row;
+    for (int k = 0; k < S::kDof; ++k) row[k] = L::all(0);
+    return row;
+  }
 
   // The bodies' answer to forces w gap of all joints, into pull_.
   template <class Gap>
   void pull(Gap gap) {
-    for (Three& x : pull_) x = zero();
+    for (Row& x : pull_) x = zero();
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const BasicPlacement<S>& at = system_.joints[j].at;
-      L f[3];
+      L f[S::kDof];
       weigh(joints_[j], joints_[j].*gap, f);
       joints_[j].map.push(f, pull_[body(at.a)], pull_[body(at.b)]);
     }
@@ -226,7 +237,8 @@ class LaneForces : public BasicDenseForces<S> {
   void move_onto_rates() {
     pull(&Joint::rate);
     for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < 3; ++k) bodies_[b].v[k] += pull_[b][k];
+      for (int k = 0; k < S::kDof; ++k) bodies_[b].v[k] += pull_[b][k];
+    for (auto& body : bodies_) body.renew_rates();
   }
 
   // theory/time Eq. (4.5).
@@ -237,22 +249,22 @@ class LaneForces : public BasicDenseForces<S> {
       joints_[j].map.push(joints_[j].force, pull_[body(at.a)], pull_[body(at.b)]);
     }
     for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < 3; ++k) bodies_[b].a[k] = (1 / system_.bodies[b].mass[k]) * pull_[b][k];
+      for (int k = 0; k < S::kDof; ++k) bodies_[b].a[k] = (1 / system_.bodies[b].mass[k]) * pull_[b][k];
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
       const BasicPlacement<S>& at = system_.joints[j].at;
-      L rate[3], bias[3], e[3];
+      L rate[S::kDof], bias[S::kDof], e[S::kDof];
       read(j, rate, bias);
       joint.map.gather(bodies_[body(at.a)].a, bodies_[body(at.b)].a, e);
-      for (int k = 0; k < 3; ++k) joint.accel[k] -= bias[k] + e[k];
+      for (int k = 0; k < S::kDof; ++k) joint.accel[k] -= bias[k] + e[k];
     }
     pull(&Joint::accel);
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       Joint& joint = joints_[j];
       const BasicPlacement<S>& at = system_.joints[j].at;
-      L e[3];
+      L e[S::kDof];
       joint.map.gather(&pull_[body(at.a)][0], &pull_[body(at.b)][0], e);
-      for (int k = 0; k < 3; ++k) e[k] = joint.accel[k] - e[k];
+      for (int k = 0; k < S::kDof; ++k) e[k] = joint.accel[k] - e[k];
       weigh(joint, e, joint.change);
       for (L& change : joint.change) change = (1 / (mu * mu)) * change;
     }
@@ -261,10 +273,11 @@ class LaneForces : public BasicDenseForces<S> {
   // While a motor is held at a jump, those that the curves leave: its ramp is too steep to be asked at their speeds.
   void find_balanced_loads() {
     for (std::size_t b = 0; b < n_bodies(); ++b)
-      for (int k = 0; k < 3; ++k) loads_on_[b][k] = system_.bodies[b].mass[k] * bodies_[b].a[k];
+      for (int k = 0; k < S::kDof; ++k) loads_on_[b][k] = system_.bodies[b].mass[k] * bodies_[b].a[k];
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const BasicPlacement<S>& at = system_.joints[j].at;
-      const L *f = joints_[j].force, against[3] = {-f[0], -f[1], -f[2]};
+      L against[S::kDof];
+      for (int k = 0; k < S::kDof; ++k) against[k] = -joints_[j].force[k];
       joints_[j].map.push(against, loads_on_[body(at.a)], loads_on_[body(at.b)]);
     }
   }
@@ -274,7 +287,7 @@ class LaneForces : public BasicDenseForces<S> {
       for (std::size_t b = 0; b < n_bodies(); ++b) motions_[b] = bodies_[b].motion(s);
       system_.external(t_[s], motions_, Q_, begin.sliding);
       for (std::size_t b = 0; b < n_bodies(); ++b)
-        for (int k = 0; k < 3; ++k) loads_on_[b][k].set(s, Q_[b][k]);
+        for (int k = 0; k < S::kDof; ++k) loads_on_[b][k].set(s, Q_[b][k]);
     }
   }
 
@@ -287,7 +300,7 @@ class LaneForces : public BasicDenseForces<S> {
       VecsOf<S>& to = sampled[s + 1];
       to.resize(joints_.size());
       for (std::size_t j = 0; j < joints_.size(); ++j)
-        for (int k = 0; k < 3; ++k) to[j][k] = nothing[s] == 0 ? joints_[j].force[k][s] + joints_[j].change[k][s] : joints_[j].force[k][s];
+        for (int k = 0; k < S::kDof; ++k) to[j][k] = nothing[s] == 0 ? joints_[j].force[k][s] + joints_[j].change[k][s] : joints_[j].force[k][s];
     }
   }
 
@@ -297,34 +310,34 @@ class LaneForces : public BasicDenseForces<S> {
   std::vector<typename S::template BodyLanes<kN>> bodies_;  // and the ground
   std::vector<Joint> joints_;
   BlockLu<L, S::kDof> lu_;
-  std::vector<Three> pull_, loads_on_; // and the ground's; gravity and loads
+  std::vector<Row> pull_, loads_on_; // and the ground's; gravity and loads
   std::vector<typename S::Motion> motions_;     // of one instant
   VecsOf<S> Q_;
   std::array<std::vector<double>, kN> law_state_;  // at the instants
   BasicLawTangents<S> tangents_;               // of one law at one of them
-  LawImpedance<double> impedance_;
+  LawImpedance<double, S> impedance_;
 };
 
 template <class S>
-class NarrowForces final : public LaneForces {
+class NarrowForces final : public LaneForces<S> {
  public:
-  using LaneForces::LaneForces;
-  void find(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes, Sampled& sampled) override { find_all(begin, end, nodes, sampled); }
+  using LaneForces<S>::LaneForces;
+  void find(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes, typename BasicDenseForces<S>::Sampled& sampled) override { this->find_all(begin, end, nodes, sampled); }
 };
 
 #ifdef PINTLE_WIDE
 template <class S>
-class WideForces final : public LaneForces {
+class WideForces final : public LaneForces<S> {
  public:
-  using LaneForces::LaneForces;
-  PINTLE_WIDE void find(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes, Sampled& sampled) override { find_all(begin, end, nodes, sampled); }
+  using LaneForces<S>::LaneForces;
+  PINTLE_WIDE void find(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes, typename BasicDenseForces<S>::Sampled& sampled) override { this->find_all(begin, end, nodes, sampled); }
 };
 
 template <class S>
-class WidestForces final : public LaneForces {
+class WidestForces final : public LaneForces<S> {
  public:
-  using LaneForces::LaneForces;
-  PINTLE_WIDEST void find(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes, Sampled& sampled) override { find_all(begin, end, nodes, sampled); }
+  using LaneForces<S>::LaneForces;
+  PINTLE_WIDEST void find(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes, typename BasicDenseForces<S>::Sampled& sampled) override { this->find_all(begin, end, nodes, sampled); }
 };
 #endif
 
@@ -333,10 +346,10 @@ class WidestForces final : public LaneForces {
 template <class S>
 std::unique_ptr<BasicDenseForces<S>> make_dense_forces(const BasicSystem<S>& system) {
 #ifdef PINTLE_WIDE
-  if (has_widest_registers()) return std::make_unique<WidestForces>(system);
-  if (has_wide_registers()) return std::make_unique<WideForces>(system);
+  if (has_widest_registers()) return std::make_unique<WidestForces<S>>(system);
+  if (has_wide_registers()) return std::make_unique<WideForces<S>>(system);
 #endif
-  return std::make_unique<NarrowForces>(system);
+  return std::make_unique<NarrowForces<S>>(system);
 }
 
 template std::unique_ptr<BasicDenseForces<Planar>> make_dense_forces(const BasicSystem<Planar>& system);

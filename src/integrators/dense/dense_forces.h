@@ -20,6 +20,7 @@ class BasicDenseForces {
   /// Of the step from `begin` to `end`; both ends of `sampled` are theirs.
   virtual void find(const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes, Sampled& sampled) = 0;
 };
+using DenseForces = BasicDenseForces<Planar>;
 
 /// With the widest registers that the processor has; `system` must outlive it.
 template <class S>

@@ -1,13 +1,13 @@
 #include "integrators/dense/dense_output.h"
 
 #include <array>
+#include <type_traits>
 
 namespace pintle {
 namespace {
 
 // Values of the six quintic Hermite functions and their first two derivatives at s in [0, 1]: for f, h f', h^2 f'' at the
 // start and at the end.
-template <class S>
 struct Hermite {
   std::array<double, 6> f, df, ddf;
   explicit Hermite(double s) {
@@ -22,18 +22,18 @@ struct Hermite {
 };
 
 // Curve through (x, x', x'') at both ends: written so that only the increment is interpolated.
-template <class S>
-void interpolate(const Hermite& H, double h, const VecsOf<S>& x0, const VecsOf<S>& v0, const VecsOf<S>& a0, const VecsOf<S>& x1, const VecsOf<S>& v1,
-                 const VecsOf<S>& a1, VecsOf<S>& x, VecsOf<S>& v, VecsOf<S>& a) {
+template <class Vecs>
+void interpolate(const Hermite& H, double h, const Vecs& x0, const Vecs& v0, const Vecs& a0, const Vecs& x1, const Vecs& v1, const Vecs& a1, Vecs& x, Vecs& v,
+                 Vecs& a) {
+  using Vec = typename Vecs::value_type;
   for (std::size_t i = 0; i < x0.size(); ++i) {
-    const typename S::Vec d = x1[i] - x0[i], hv0 = h * v0[i], hv1 = h * v1[i], ha0 = h * h * a0[i], ha1 = h * h * a1[i];
+    const Vec d = x1[i] - x0[i], hv0 = h * v0[i], hv1 = h * v1[i], ha0 = h * h * a0[i], ha1 = h * h * a1[i];
     x[i] = x0[i] + H.f[3] * d + H.f[1] * hv0 + H.f[4] * hv1 + H.f[2] * ha0 + H.f[5] * ha1;
     v[i] = (H.df[3] * d + H.df[1] * hv0 + H.df[4] * hv1 + H.df[2] * ha0 + H.df[5] * ha1) / h;
     a[i] = (H.ddf[3] * d + H.ddf[1] * hv0 + H.ddf[4] * hv1 + H.ddf[2] * ha0 + H.ddf[5] * ha1) / (h * h);
   }
 }
 
-template <class S>
 double cubic(double s, double h, double x0, double v0, double x1, double v1) {
   const double r = 1 - s;
   return x0 + s * s * (3 - 2 * s) * (x1 - x0) + h * s * r * (r * v0 - s * v1);
@@ -44,18 +44,31 @@ double cubic(double s, double h, double x0, double v0, double x1, double v1) {
 template <class S>
 BasicDenseOutput<S>::BasicDenseOutput(const BasicSystem<S>& system)
     : system_(system) {
-  out_.q = out_.v = out_.a = Vecs(system.bodies.size(), S::Vec::Zero());
-  out_.gap = out_.gap_rate = out_.gap_accel = out_.force = Vecs(system.joints.size(), S::Vec::Zero());
+  out_.q.assign(system.bodies.size(), S::at_origin());
+  out_.v = out_.a = VecsOf<S>(system.bodies.size(), S::Vec::Zero());
+  out_.gap = out_.gap_rate = out_.gap_accel = out_.force = VecsOf<S>(system.joints.size(), S::Vec::Zero());
   out_.law_state.resize(system.n_law_states());
   out_.law_rate.resize(system.n_law_states());
 }
 
+template <class S>
 const BasicState<S>& BasicDenseOutput<S>::at(double t, const BasicState<S>& begin, const BasicState<S>& end) {
   if (t == end.t) return end;
   if (t == begin.t) return begin;
   const double h = end.t - begin.t, s = (t - begin.t) / h;
   const Hermite H(s);
-  interpolate(H, h, begin.q, begin.v, begin.a, end.q, end.v, end.a, out_.q, out_.v, out_.a);
+  if constexpr (S::kCurved) {
+    VecsOf<S> from(begin.v.size(), S::Vec::Zero()), to = from, rate_there = end.v, at = from;
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      to[i] = S::difference(end.q[i], begin.q[i]);
+      rate_there[i] = S::rate_of_increment(to[i], end.v[i]);
+    }
+    interpolate(H, h, from, begin.v, begin.a, to, end.v, end.a, at, out_.v, out_.a);
+    for (std::size_t i = 0; i < to.size(); ++i)
+      out_.q[i] = S::moved(begin.q[i], H.f[3] * to[i] + h * (H.f[1] * begin.v[i] + H.f[4] * rate_there[i]) + h * h * (H.f[2] * begin.a[i] + H.f[5] * end.a[i]));
+  } else {
+    interpolate(H, h, begin.q, begin.v, begin.a, end.q, end.v, end.a, out_.q, out_.v, out_.a);
+  }
   interpolate(H, h, begin.gap, begin.gap_rate, begin.gap_accel, end.gap, end.gap_rate, end.gap_accel, out_.gap, out_.gap_rate,
               out_.gap_accel);
   out_.t = t;
@@ -69,6 +82,7 @@ const BasicState<S>& BasicDenseOutput<S>::at(double t, const BasicState<S>& begi
   return out_;
 }
 
+template <class S>
 const BasicState<S>& BasicDenseOutput<S>::at(double t, const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes) {
   if (t == end.t) return end;
   if (t == begin.t) return begin;
@@ -88,6 +102,7 @@ void BasicDenseOutput<S>::make_room() {
   dense_forces_ = make_dense_forces(system_);
   body_.resize(system_.bodies.size());
   gap_.resize(system_.joints.size());
+  if (S::kCurved) increment_.resize(system_.bodies.size());
   force_.resize(system_.joints.size());
 }
 
@@ -103,23 +118,31 @@ void BasicDenseOutput<S>::follow(double t, const BasicState<S>& begin, const Bas
     second[k] = first[k] * h * x / (k + 2);
   }
   const double hermite = x * x * (3 - 2 * x);
-  const auto along = [&](const std::vector<Curve>& curves, const VecsOf<S>& x0, const VecsOf<S>& v0, VecsOf<S>& position, VecsOf<S>& rate, VecsOf<S>& accel) {
+  const auto along = [&](const std::vector<Curve>& curves, const auto& x0, const VecsOf<S>& v0, auto& position, VecsOf<S>& rate, VecsOf<S>& accel) {
     for (std::size_t i = 0; i < curves.size(); ++i) {
       const Curve& curve = curves[i];
-      typename S::Vec a = curve.c[0], v = v0[i] + x * curve.bend_v + first[0] * a, q = x0[i] + x * h * v0[i] + hermite * curve.bend_q + second[0] * a;
+      typename S::Vec a = curve.c[0], v = v0[i] + x * curve.bend_v + first[0] * a, q;
+      constexpr bool flat = std::is_same_v<std::decay_t<decltype(x0[i])>, typename S::Vec>;
+      if constexpr (flat) q = x0[i] + x * h * v0[i] + hermite * curve.bend_q + second[0] * a;
       for (int k = 1; k < n_; ++k) {
         a += value[k] * curve.c[k];
         v += first[k] * curve.c[k];
-        q += second[k] * curve.c[k];
+        if constexpr (flat) q += second[k] * curve.c[k];
       }
       accel[i] = a;
       rate[i] = v;
-      position[i] = q;
+      if constexpr (flat) position[i] = q;
     }
   };
   out_.t = t;
   out_.sliding = begin.sliding;
   along(body_, begin.q, begin.v, out_.q, out_.v, out_.a);
+  if constexpr (S::kCurved)
+    for (std::size_t i = 0; i < increment_.size(); ++i) {
+      typename S::Vec dq = hermite * increment_bend_[i];
+      for (int k = 0; k < n_; ++k) dq += first[k] * increment_[i][k];
+      out_.q[i] = S::moved(begin.q[i], dq);
+    }
   along(gap_, begin.gap, begin.gap_rate, out_.gap, out_.gap_rate, out_.gap_accel);
   for (std::size_t j = 0; j < force_.size(); ++j) {
     typename S::Vec f = force_[j][0];
@@ -160,11 +183,12 @@ void BasicDenseOutput<S>::find_curves(const BasicState<S>& begin, const BasicSta
     for (int node = 0; node < n_; ++node) c += table.to_powers(k, node) * values[node][i];
     return c;
   };
-  const auto find = [&](std::vector<Curve>& curves, const std::vector<VecsOf<S>>& a, const VecsOf<S>& x0, const VecsOf<S>& v0, const VecsOf<S>& x1, const VecsOf<S>& v1) {
+  const auto find = [&](std::vector<Curve>& curves, const std::vector<VecsOf<S>>& a, const auto& x0, const VecsOf<S>& v0, const auto& x1, const VecsOf<S>& v1) {
     for (std::size_t i = 0; i < curves.size(); ++i) {
       Curve& curve = curves[i];
       curve.bend_v = v1[i] - v0[i];
-      curve.bend_q = x1[i] - x0[i] - h * v0[i];
+      constexpr bool flat = std::is_same_v<std::decay_t<decltype(x0[i])>, typename S::Vec>;
+      if constexpr (flat) curve.bend_q = x1[i] - x0[i] - h * v0[i];
       for (int k = 0; k < n_; ++k) {
         curve.c[k] = coefficient(k, a, i);
         curve.bend_v -= h / (k + 1) * curve.c[k];
@@ -173,6 +197,9 @@ void BasicDenseOutput<S>::find_curves(const BasicState<S>& begin, const BasicSta
     }
   };
   find(body_, nodes.a, begin.q, begin.v, end.q, end.v);
+  for (std::size_t i = 0; i < increment_.size(); ++i)
+    for (int k = 0; k < n_; ++k) increment_[i][k] = coefficient(k, nodes.increment_rate, i);
+  if (S::kCurved) increment_bend_ = nodes.increment_bend;
   find(gap_, nodes.gap_accel, begin.gap, begin.gap_rate, end.gap, end.gap_rate);
   bend_work_ = {end.supplied - begin.supplied, end.dissipated - begin.dissipated};
   for (int k = 0; k < n_; ++k) {
@@ -196,5 +223,8 @@ void BasicDenseOutput<S>::find_forces(const BasicState<S>& begin, const BasicSta
       for (int i = 0; i < n_force_; ++i) force_[j][k] += to_powers[k][i] * sampled_[i][j];
     }
 }
+
+template class BasicDenseOutput<Planar>;
+template class BasicDenseOutput<Spatial>;
 
 }  // namespace pintle

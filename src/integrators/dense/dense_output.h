@@ -45,10 +45,13 @@ class BasicDenseOutput {
   // The last step's curves, found when they are first asked for.
   double curves_from_ = 0, curves_to_ = 0;
   int n_ = 0, n_force_ = 0;  // coefficients of accelerations, of forces
-  std::vector<Curve> body_, gap_;
+  std::vector<Curve> body_, gap_;  // in curved spaces `body_` gives velocities and accelerations only
+  std::vector<Coefficients> increment_;  // of the rates of increments there, and what their integrals miss the far end by
+  VecsOf<S> increment_bend_;
   std::vector<Coefficients> force_;
   std::array<std::array<double, 2>, kMost> power_{};  // supplied, lost
   std::array<double, 2> bend_work_{};
 };
+using DenseOutput = BasicDenseOutput<Planar>;
 
 }  // namespace pintle

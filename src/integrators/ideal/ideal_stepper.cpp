@@ -81,9 +81,11 @@ bool IdealStepper::crosses_jump() const {
   const auto side = [this](const State& state) {
     std::vector<S::Motion> m;
     system_.motions(state.q, state.v, m);
-    return system_.branches(state.t, m, state.gap, state.gap_rate, state.law_state, state.sliding);
+    std::vector<double> value(system_.switching().size());
+    system_.find_switching(state.t, m, state.gap, state.gap_rate, state.law_state, state.sliding, value.data());
+    return value;
   };
-  return side(begin_) != side(stage_);
+  return !same_sides(side(begin_), side(stage_));
 }
 
 bool IdealStepper::take_stages(double h) {

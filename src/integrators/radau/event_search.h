@@ -1,36 +1,93 @@
-// Locates the first event (kink or jump) on a step's polynomial. theory/time section 7.
+// Locates the first event (border, kink or jump) on a step's polynomial. theory/time section 7.
 #pragma once
 
-#include <cstdint>
+#include <array>
+#include <span>
+#include <type_traits>
+#include <vector>
 
 #include "integrators/radau/radau_table.h"
+#include "system/switching_function.h"
 
 namespace pintle {
 
 /// Shares of the step just before and just after an event; 2: there is none.
 struct SwitchingEvent {
   double before = 2, after = 2;
+  int function = -1;    // which switching function
+  bool rising = false;  // it turns positive
 };
 
-/// Looks at the nodes and half-way between them for a branch other than `branch`, then halves the way to the first that is found.
-template <class BranchAt>
-SwitchingEvent first_event(const RadauTable& table, std::uint64_t branch, const BranchAt& branch_at) {
-  constexpr int kHalvings = 46;
-  double before = 0;
-  for (int i = 0; i < 2 * table.n; ++i) {
-    const double x = i % 2 == 0 ? 0.5 * (table.nodes[i / 2] + table.nodes[i / 2 + 1]) : table.nodes[i / 2 + 1];
-    if (branch_at(x) == branch) {
-      before = x;
-      continue;
-    }
-    double after = x;
-    for (int k = 0; k < kHalvings; ++k) {
-      const double middle = 0.5 * (before + after);
-      (branch_at(middle) == branch ? before : after) = middle;
-    }
-    return {before, after};
+/// What fills the values of all switching functions at a share of a step: a reference to any callable (double share, double* value).
+class SwitchingValues {
+ public:
+  template <class F>
+    requires(!std::same_as<std::remove_cvref_t<F>, SwitchingValues>)
+  SwitchingValues(const F& find) : object_(&find), call_([](const void* object, double x, double* value) { (*static_cast<const F*>(object))(x, value); }) {}
+  void operator()(double share, double* value) const { call_(object_, share, value); }
+
+ private:
+  const void* object_;
+  void (*call_)(const void*, double, double*);
+};
+
+/// Finds events, and goes over them. It keeps the values at the start of the step.
+class EventSearch {
+ public:
+  /// `functions` stay the caller's.
+  explicit EventSearch(const std::vector<SwitchingFunction>& functions);
+
+  /// The values where the step begins, to be filled in at the end of the step before it.
+  double* start() { return start_.data(); }
+  std::span<const double> start() const { return start_; }
+
+  /// Looks at the nodes and half-way between them, and where parabolas through the values say that a function is left and entered again
+  /// between two of these; then goes to the first event that is found.
+  SwitchingEvent first(const RadauTable& table, SwitchingValues values_at);
+
+  /// Moves by `distance` and a little `beyond` by move(d, value), which moves by d and fills the values there; farther where the sign of
+  /// the event's function has not changed yet. False when it still has not.
+  template <class Move>
+  bool step_over(const SwitchingEvent& event, double distance, double beyond, const Move& move);
+
+ private:
+  static constexpr int kMostSamples = 2 * RadauTable::kMaxStages + 1;
+  static constexpr int kLevels = 3;  // how often an interval is split at an extremum
+  static constexpr int kTrials = 3;  // both ends of what is left, and what is between them
+  static constexpr int kMoves = 5;   // over an event
+  static constexpr double kFarther = 10;  // the most by which a move is longer than the one before
+
+  struct Sample {
+    double share;
+    double* value;
+  };
+  double* row(int i) { return rows_.data() + static_cast<std::size_t>(i) * start_.size(); }
+  bool has_event(const Sample& from, const Sample& to) const;
+  double extremum(const Sample* before, const Sample& left, const Sample& right, const Sample* beyond) const;
+  bool search(const Sample* before, const Sample& left, const Sample& right, const Sample* beyond, int level, SwitchingValues values_at, SwitchingEvent& event);
+  int first_crossing(const Sample& low, const Sample& high, double& share) const;
+  SwitchingEvent locate(const Sample& left, const Sample& right, SwitchingValues values_at);
+
+  const std::vector<SwitchingFunction>& functions_;
+  std::vector<double> start_;
+  std::vector<double> rows_;  // values of the samples, of the extrema of each level, of the trials
+};
+
+template <class Move>
+bool EventSearch::step_over(const SwitchingEvent& event, double distance, double beyond, const Move& move) {
+  double* const now = row(kMostSamples);
+  const double before = start_[event.function];
+  double gone = 0, next = distance + beyond;
+  for (int i = 0; i < kMoves; ++i) {
+    move(next, now);
+    gone += next;
+    const double value = now[event.function];
+    if ((value > 0) == event.rising) return true;
+    const double left = gone * value / (before - value);  // to zero, on a straight line
+    beyond *= kFarther;
+    next = left > 0 && left < beyond ? left + beyond / kFarther : beyond;
   }
-  return {};
+  return false;
 }
 
 }  // namespace pintle

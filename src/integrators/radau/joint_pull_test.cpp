@@ -42,7 +42,7 @@ TEST(JointPull, IsNotLessThanTheGeometricStiffness) {
       const bool pose = std::holds_alternative<Selection>(joint.displacement);
       for (int k = 0; k < 2 && pose; ++k)
         if (joint.free_mask[k] != 0 || joint.servo >= 0) force[k] = 0;  // no law there
-      std::vector<BodyPull> pulled(system.bodies.size());
+      std::vector<BodyPull<Planar>> pulled(system.bodies.size());
       add_pull_of(j, system, m, force, pulled);
       if (joint.servo >= 0) continue;
       const auto x = motion_that_keeps(joint, system.kinematics(j, 0, m), random);
@@ -64,7 +64,7 @@ TEST(JointPull, OfABarIsForceTimesLength) {
   std::vector<S::Motion> m;
   system.motions({S::Vec(0.5, 0, 0)}, {S::Vec::Zero()}, m);
   for (const double force : {-10.0, 10.0}) {
-    std::vector<BodyPull> pulled(1);
+    std::vector<BodyPull<Planar>> pulled(1);
     add_pull_of(0, system, m, S::Vec(force, 0, 0), pulled);
     EXPECT_NEAR(pulled[0][2], -0.5 * force, 1e-12);  // at the pin on its left only
     EXPECT_NEAR(unresolved(pulled[0], 0, system.bodies[0].mass)[2], 5, 1e-12);

@@ -28,18 +28,28 @@ std::string broken_function(const BasicSystem<S>& system, double t) {
 }  // namespace
 
 template <class S>
-std::string no_step_message(const BasicSystem<S>& system, double t, double h, std::vector<std::pair<double, int>> residuals) {
+std::string StepControl::last_event(const BasicSystem<S>& system, double since) const {
+  if (event_.function < 0 || event_time_ < since) return {};
+  return fmt::format("{} turns {} at t = {:.9g} s", system.name(system.switching()[static_cast<std::size_t>(event_.function)]), event_.rising ? "positive" : "negative",
+                     event_time_);
+}
+
+template <class S>
+std::string no_step_message(const BasicSystem<S>& system, double t, double h, std::vector<std::pair<double, int>> residuals, const std::string& event) {
   constexpr std::size_t kNamed = 3;
   const auto rank = [](double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::infinity(); };
   std::stable_sort(residuals.begin(), residuals.end(), [&](const auto& a, const auto& b) { return rank(a.first) > rank(b.first); });
   std::string text = fmt::format("the step size became too small at t = {:.9g} s, step {:.3g} s", t, h);
   if (const std::string broken = broken_function(system, t); !broken.empty()) text += fmt::format("; {} is not finite there", broken);
+  if (!event.empty()) text += "; " + event;
   for (std::size_t i = 0; i < std::min(kNamed, residuals.size()); ++i)
     text += fmt::format("; joint {} (residual {:.3g} m/s^2)", system.joints[residuals[i].second].name, residuals[i].first);
   return text;
 }
 
-template std::string no_step_message(const BasicSystem<Planar>& system, double t, double h, std::vector<std::pair<double, int>> residuals);
-template std::string no_step_message(const BasicSystem<Spatial>& system, double t, double h, std::vector<std::pair<double, int>> residuals);
+template std::string no_step_message(const BasicSystem<Planar>& system, double t, double h, std::vector<std::pair<double, int>> residuals, const std::string& event);
+template std::string no_step_message(const BasicSystem<Spatial>& system, double t, double h, std::vector<std::pair<double, int>> residuals, const std::string& event);
+template std::string StepControl::last_event(const BasicSystem<Planar>& system, double since) const;
+template std::string StepControl::last_event(const BasicSystem<Spatial>& system, double since) const;
 
 }  // namespace pintle

@@ -26,11 +26,16 @@ class StepControl {
     next = usual = h;
     have_history = false;
     rounding_ = 0;
+    event_ = {};
   }
+
+  /// The last event, if it came after `since`: whose, in which direction, when. Otherwise empty.
+  template <class S>
+  std::string last_event(const BasicSystem<S>& system, double since) const;
 
   /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
   /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved),
-  /// cross_event(distance), balance_end(), error_estimate(h, error) and finish_step(h).
+  /// cross_event(distance, event), balance_end(), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
 
@@ -54,6 +59,8 @@ class StepControl {
 
   double last_error_ = 0;  // over the tolerance
   double rounding_ = 0;    // of accelerations, over the tolerance: no step resolves it
+  SwitchingEvent event_;   // the last that was crossed or approached
+  double event_time_ = 0;
 
   // The step that Newton's iteration will like, over one in which its errors shrank by `contraction`; 0: not known.
   static double of_contraction(double contraction) { return contraction > 0 ? std::max(kShrink, std::sqrt(kContraction / contraction)) : kMost; }
@@ -85,8 +92,13 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       have_history = have_history && retry == 0;
     }
     const SwitchingEvent event = solved || retry > 0 ? method.locate_event(h, solved) : SwitchingEvent{};  // twice unsolved: for a jump on the way?
+    if (event.after < 1) {
+      event_ = event;
+      event_time_ = method.t() + event.before * h;
+    }
     if (event.before < 1 && event.before * h < kEventAtStart * usual) {
-      method.cross_event(event.before * h);
+      ++counters.events;
+      method.cross_event(event.before * h, event);
       method.begin_at_end();
       h = std::max(h, kAfterEvent * usual);
       continue;
@@ -139,8 +151,9 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
   return false;
 }
 
-/// When and how small the last step was, and the joints with the largest residuals: (residual [m/s^2], joint) each.
+/// When and how small the last step was, the event near it if there is one, and the joints with the largest residuals: (residual [m/s^2],
+/// joint) each.
 template <class S>
-std::string no_step_message(const BasicSystem<S>& system, double t, double h, std::vector<std::pair<double, int>> residuals);
+std::string no_step_message(const BasicSystem<S>& system, double t, double h, std::vector<std::pair<double, int>> residuals, const std::string& event);
 
 }  // namespace pintle

@@ -32,7 +32,7 @@ bool TreeRadau::error_estimate(double h, double& error) {
 // How the joints' forces hold the bodies where a step with this frequency of its own does not resolve it: with those at its start, the
 // tree's reactions among them. Empty where it resolves everything. theory/time section 4.1.
 VectorXd TreeRadau::find_taut(double own) const {
-  std::vector<BodyPull> pulled(system_.bodies.size());
+  std::vector<BodyPull<Planar>> pulled(system_.bodies.size());
   for (int j = 0; j < system_.n_joints(); ++j) add_pull_of(j, system_, stages_.instant(n_ - 1).pose().m, begin_state_.force[j], pulled);
   VectorXd taut(3 * system_.n_bodies());
   for (int b = 0; b < system_.n_bodies(); ++b) taut.segment<3>(3 * b) = unresolved(pulled[b], own, system_.bodies[b].mass);

@@ -8,7 +8,6 @@ namespace pintle {
 namespace {
 
 constexpr double kCrossing = 1e-9;  // of the usual step: the least that is gone to cross
-constexpr int kCrossings = 5;       // each ten times longer, until the branch has changed
 constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
 constexpr double kMoment = 1e-6;    // of the usual step: to see where accelerations lead
 
@@ -21,8 +20,8 @@ void move_carried(double d, TreeState& at) {
 
 }  // namespace
 
-// The branches at share x of the step, on the curve through its stages.
-std::uint64_t TreeRadau::branches(double x, double h) {
+// The switching functions at share x of the step, on the curve through its stages.
+void TreeRadau::find_switching(double x, double h, double* value) {
   TreeState at;
   at.u = begin_.u;
   at.law_state = begin_.law_state;
@@ -43,43 +42,42 @@ std::uint64_t TreeRadau::branches(double x, double h) {
     for (std::size_t z = 0; z < at.law_state.size(); ++z) at.law_state[z] += h * first * stage.law_rate[z];
   }
   inside_at_.place_only(begin_.t + x * h, at.y, at.u);
-  return inside_at_.branches(at);
+  inside_at_.find_switching(at, value);
 }
 
-// The branches a time d ahead of the start, by Taylor's series: all there is to go by when the stages are not solved.
-std::uint64_t TreeRadau::branches_ahead(double d) {
+// The same a time d ahead of the start, by Taylor's series: all there is to go by when the stages are not solved.
+void TreeRadau::find_switching_ahead(double d, double* value) {
   const double half = 0.5 * d * d;
   inside_at_.place_only(begin_.t + d, begin_.y + d * begin_.u + half * begin_.w, begin_.u + d * begin_.w);
   TreeState at = begin_;
   move_carried(d, at);
-  return inside_at_.branches(at);
+  inside_at_.find_switching(at, value);
 }
 
 SwitchingEvent TreeRadau::locate_event(double h, bool solved) {
   if (!system_.has_branches()) return {};
-  return first_event(table_, branch_, [&](double x) { return solved ? branches(x, h) : branches_ahead(x * h); });
+  return search_.first(table_, [&](double x, double* value) { solved ? find_switching(x, h, value) : find_switching_ahead(x * h, value); });
 }
 
-// Moves the end over the event that it stands just before, by Taylor's series; false when the branch stays the same.
-bool TreeRadau::step_over_event(double distance) {
-  double beyond = std::max(kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
-  for (int i = 0; i < kCrossings; ++i, beyond *= 10) {
-    const double d = (i == 0 ? distance : 0) + beyond, half = 0.5 * d * d;
+// Moves the end over the event that it stands just before, by Taylor's series.
+void TreeRadau::step_over_event(double distance, const SwitchingEvent& event) {
+  const double beyond = std::max(kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
+  search_.step_over(event, distance, beyond, [this](double d, double* value) {
+    const double half = 0.5 * d * d;
     end_.t += d;
     end_.y += d * end_.u + half * end_.w;
     end_.u += d * end_.w;
     move_carried(d, end_);
     end_at_.place(end_.t, end_.y, end_.u);
-    if (end_at_.branches(end_) != branch_) return true;
-  }
-  return false;
+    end_at_.find_switching(end_, value);
+  });
 }
 
 // Over the event; forces and accelerations renewed there. A jump that comes back at once is held.
-void TreeRadau::cross_event(double distance) {
+void TreeRadau::cross_event(double distance, const SwitchingEvent& event) {
   const double before = end_.t;
   const std::vector<Planar::Motion> motions_before = end_at_.pose().m;
-  step_over_event(distance);
+  step_over_event(distance, event);
   leave_sliding(system_, end_.t, end_at_.pose().m, sliding_);
   balance_end();
   if (const auto jump = chattering_.crossed(system_, before, motions_before, end_.t, end_at_.pose().m, kAtOnce * control_.usual)) {

@@ -107,13 +107,13 @@ std::array<double, 2> TreeInstant::power(const TreeState& at) const {
 }
 
 // Joints that coordinates obey have linear laws as a rule; a law with kinks among them is asked at a gap of zero.
-std::uint64_t TreeInstant::branches(const TreeState& at) {
+void TreeInstant::find_switching(const TreeState& at, double* value) {
   for (std::size_t l = 0; l < r_.size(); ++l) {
     const Eigen::Index i = 3 * static_cast<Eigen::Index>(l);
     gap_[tree_.laws()[l]] = at.gap.segment<3>(i);
     rate_[tree_.laws()[l]] = at.rate.segment<3>(i);
   }
-  return system_.branches(t_, pose_.m, gap_, rate_, at.law_state, sliding());
+  system_.find_switching(t_, pose_.m, gap_, rate_, at.law_state, sliding(), value);
 }
 
 void TreeInstant::write(const TreeState& at, const VectorXd& w, State& state) {

@@ -65,8 +65,8 @@ class TreeInstant {
   void forces(const TreeState& at, Eigen::VectorXd& f, std::vector<double>& law_rate) const;
   /// Supplied and lost power [W].
   std::array<double, 2> power(const TreeState& at) const;
-  /// The number that changes with the side of any kink, at the carried gaps.
-  std::uint64_t branches(const TreeState& at);
+  /// The system's switching functions at the carried gaps.
+  void find_switching(const TreeState& at, double* value);
 
   /// Everything of the state but its work, from what is carried; the instant must have been placed at `at`. Accelerations
   /// and the reactions of the tree's joints are those of u' = w.

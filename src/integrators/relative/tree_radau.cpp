@@ -10,7 +10,7 @@ using S = Planar;
 using Eigen::VectorXd;
 
 TreeRadau::TreeRadau(const System& system, double tolerance, int stages)
-    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance),
+    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), search_(system.switching()),
       tree_(std::make_unique<JointTree>(system)), stages_(system, *tree_, table_, tolerance), end_at_(system, *tree_), inside_at_(end_at_) {
   scale_.body.assign(system.bodies.size(), S::Vec::Zero());
   for (TreeInstant* at : {&end_at_, &inside_at_}) at->set_sliding(sliding_);
@@ -53,7 +53,7 @@ bool TreeRadau::step(double t_end) {
   if (control_.advance(*this, t_end, tolerance_, n_ + 1, counters_)) return true;
   std::vector<std::pair<double, int>> residuals;
   for (const int j : tree_->laws()) residuals.emplace_back(stages_.residual(j), j);
-  failure_ = no_step_message(system_, begin_.t, control_.next, std::move(residuals));
+  failure_ = no_step_message(system_, begin_.t, control_.next, std::move(residuals), control_.last_event(system_, begin_.t - control_.usual));
   return false;
 }
 
@@ -65,7 +65,7 @@ void TreeRadau::begin_at_end() {
 // What the state of the bodies says about the end, with reactions that go with u' = w.
 void TreeRadau::finish_end(const VectorXd& w) {
   end_at_.write(end_, w, end_state_);
-  if (system_.has_branches()) branch_ = end_at_.branches(end_);
+  if (system_.has_branches()) end_at_.find_switching(end_, search_.start());
   grow_load_scale(system_, end_at_.pose().m, end_at_.Q(), end_state_, scale_);
 }
 

@@ -29,6 +29,7 @@ class TreeRadau final : public Stepper {
   const State& interpolate(double t) override;
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
+  std::string last_event(double since) const override { return control_.last_event(system_, since); }
 
   const JointTree& tree() const { return *tree_; }
 
@@ -56,10 +57,10 @@ class TreeRadau final : public Stepper {
 
   // tree_event_location.cpp
   SwitchingEvent locate_event(double h, bool solved);
-  std::uint64_t branches(double x, double h);
-  std::uint64_t branches_ahead(double d);
-  void cross_event(double distance);
-  bool step_over_event(double distance);
+  void find_switching(double x, double h, double* value);
+  void find_switching_ahead(double d, double* value);
+  void cross_event(double distance, const SwitchingEvent& event);
+  void step_over_event(double distance, const SwitchingEvent& event);
   double margin_rate(const SlidingMode& jump);
   void balance_end();
 
@@ -68,7 +69,7 @@ class TreeRadau final : public Stepper {
   const int n_;  // stages
   double tolerance_;
   StepControl control_;
-  std::uint64_t branch_ = 0;                 // of kinks, at the end
+  EventSearch search_;
   ChatteringDetector chattering_;
   std::vector<SlidingMode> sliding_;
   std::unique_ptr<JointTree> tree_;

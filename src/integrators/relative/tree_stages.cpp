@@ -18,7 +18,7 @@ constexpr double kDifference = 1e-7;   // step of the differences, of a coordina
 
 TreeStages::TreeStages(const System& system, const JointTree& tree, const RadauTable& table, double tolerance)
     : system_(system), tree_(tree), table_(table), n_(table.n), tolerance_(tolerance), state_(table.n),
-      at_(table.n, TreeInstant(system, tree)), beside_(system, tree), missing_(table.n), missing_gap_(table.n),
+      at_(table.n, TreeInstant(system, tree)), beside_(system, tree), switching_(system.switching().size()), switching_beside_(switching_), missing_(table.n), missing_gap_(table.n),
       missing_state_(table.n, VectorXd::Zero(system.n_law_states())), law_(tree.laws().size()) {
   const auto make_room = [&](auto& mode) {
     mode.law.resize(tree.laws().size());
@@ -133,18 +133,18 @@ void TreeStages::linearize() {
   at.find_matrices();
   for (std::size_t l = 0; l < law_.size(); ++l) at.linearize(static_cast<int>(l), state, law_[l]);
   at.gap_accelerations(accel_);
-  const std::uint64_t branch = system_.has_branches() ? at.branches(state) : 0;
+  if (system_.has_branches()) at.find_switching(state, switching_.data());
   const Index n = tree_.n(), m = at.n_gaps();
   for (Eigen::MatrixXd* x : {&Dy_, &Du_}) x->setZero(n, n);
   for (Eigen::MatrixXd* x : {&Ey_, &Eu_}) x->setZero(m, n);
   for (int k = 0; k < n; ++k) {
-    differentiate(k, false, missing_[i], accel_, branch);
-    differentiate(k, true, missing_[i], accel_, branch);
+    differentiate(k, false, missing_[i], accel_);
+    differentiate(k, true, missing_[i], accel_);
   }
 }
 
 // One-sided, to the side that lies before a kink.
-void TreeStages::differentiate(int k, bool of_rate, const VectorXd& balance, const VectorXd& accel, std::uint64_t branch) {
+void TreeStages::differentiate(int k, bool of_rate, const VectorXd& balance, const VectorXd& accel) {
   const TreeState& state = state_[n_ / 2];
   double step = kDifference * std::max(1.0, std::abs(of_rate ? state.u[k] : state.y[k]));
   for (int attempt = 0; attempt < 2; ++attempt, step = -step) {
@@ -153,7 +153,10 @@ void TreeStages::differentiate(int k, bool of_rate, const VectorXd& balance, con
     (of_rate ? u_ : y_)[k] += step;
     beside_.place(state.t, y_, u_);
     // A ramp is narrower than the difference, but goes on beyond its ends.
-    if (system_.has_branches() && beside_.sliding().empty() && beside_.branches(state) != branch) continue;
+    if (system_.has_branches() && beside_.sliding().empty()) {
+      beside_.find_switching(state, switching_beside_.data());
+      if (!same_sides(switching_, switching_beside_)) continue;
+    }
     beside_.accelerate(state.w);
     beside_.imbalance(state.force, balance_);
     (of_rate ? Du_ : Dy_).col(k) = (balance_ - balance) / step;

@@ -1,0 +1,27 @@
+// What makes the equations change their formula: signed functions of the state, each with an owner. theory/time section 7.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+namespace pintle {
+
+/// A border of a joint's law, or a kink or jump of an expression. Its value changes its sign there.
+struct SwitchingFunction {
+  enum class Owner { kLaw, kServo, kMotor, kForce };
+  Owner owner = Owner::kLaw;
+  int index = 0;      // of the joint (laws, servos), the load (motors) or the applied force
+  int part = 0;       // of the joint's law; of an applied force: 0 fx, 1 fy, 2 torque
+  int border = 0;     // of that part, or kink of the expression, counted from 0
+  int direction = 0;  // +1: an event only where it turns positive; -1: only where it does not stay so; 0: both
+
+  /// Whether going from one value to the other is an event.
+  bool is_event(double from, double to) const { return (from > 0) != (to > 0) && (direction == 0 || (direction > 0) == (to > 0)); }
+};
+
+/// Whether all values lie on the same sides.
+inline bool same_sides(std::span<const double> a, std::span<const double> b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) { return (x > 0) == (y > 0); });
+}
+
+}  // namespace pintle
