@@ -163,7 +163,7 @@ struct BasicJointPack {
     const auto g = S::template PoseGeometry<L>::between(A, F, B, M);
     map_there.set(g);
     g.gaps(A, F, B, M, r.gap);
-    for (int k = 0; k < S::kDof; ++k) r.gap[k] -= offset[k];
+    for (int i = 0; i < S::kDof; ++i) r.gap[i] -= offset[i];
     g.rates(A, B, r.rate);
     g.biases(r.bias);
   }

@@ -84,7 +84,7 @@ class LaneStageSolver : public BasicStageSolver<S> {
   void find_balanced_loads();
   void assemble_joint(Joint& joint, const typename S::template GapMap<L>& map, const L (&bias)[S::kDof]);
   typename S::template GapMap<L> find_map(const Joint& joint, L (&bias)[S::kDof]) const;
-  L find_gradient(const Joint& joint, const typename S::template PoseGeometry<L>& pose, typename S::template GapMap<L>& map) const;
+  L find_gradient(const Joint& joint, typename S::template GapMap<L>& map) const;
   void begin_matrix(double h);
   void add_loads(const BasicState<S>& begin, double h);
   void linearize(const BasicState<S>& begin, Joint& joint, const typename S::template GapMap<L>& map);

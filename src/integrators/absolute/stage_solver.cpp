@@ -241,7 +241,7 @@ typename S::template GapMap<Lanes<N>> LaneStageSolver<S, N>::find_map(const Join
   map.set(pose);
   pose.biases(bias);
   if (joint.function) {
-    bias[0] = find_gradient(joint, pose, map);
+    bias[0] = find_gradient(joint, map);
     for (int k = 1; k < S::kDof; ++k) bias[k] = L::all(0);
   }
   if (joint.servo >= 0) bias[joint.servo] -= target_accel_[joint.index];
@@ -251,7 +251,7 @@ typename S::template GapMap<Lanes<N>> LaneStageSolver<S, N>::find_map(const Join
 // A gap that is a function of the pose: its gradient into the map; its convective acceleration is returned. theory/joints
 // Eq. (2.14).
 template <class S, int N>
-Lanes<N> LaneStageSolver<S, N>::find_gradient(const Joint& joint, const typename S::template PoseGeometry<L>& pose, typename S::template GapMap<L>& map) const {
+Lanes<N> LaneStageSolver<S, N>::find_gradient(const Joint& joint, typename S::template GapMap<L>& map) const {
   const BasicJointData<S>& data = system_.joints[joint.index];
   const Body &A = bodies_[joint.a], &B = bodies_[joint.b];
   L bias;
