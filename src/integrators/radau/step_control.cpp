@@ -27,9 +27,8 @@ std::string broken_function(const System& system, double t) {
 }  // namespace
 
 std::string StepControl::last_event(const System& system, double since) const {
-  if (event_.function < 0 || event_time_ < since) return {};
-  return fmt::format("{} turns {} at t = {:.9g} s", system.name(system.switching()[static_cast<std::size_t>(event_.function)]), event_.rising ? "positive" : "negative",
-                     event_time_);
+  if (event_.function < 0 || event_.t < since) return {};
+  return fmt::format("{} turns {} at t = {:.9g} s", system.name(system.switching()[static_cast<std::size_t>(event_.function)]), event_.rising ? "positive" : "negative", event_.t);
 }
 
 std::string no_step_message(const System& system, double t, double h, std::vector<std::pair<double, int>> residuals, const std::string& event) {
