@@ -5,17 +5,13 @@
 #include <vector>
 
 #include "pintle/model.h"
-#include "system/state.h"
+#include "start/settle_joints.h"
 
 namespace pintle {
 
-struct Assembly {
-  State state;                     // t = 0
-  std::vector<std::string> notes;  // what was assumed
+struct Assembly : BasicSettledStart<Planar> {
   std::vector<std::string> not_unique;  // ideal equations: joints whose reactions they do not determine
-  double span = 0;                 // over which the joints are smooth, where it was looked for [s]
-  double settled_over = 0;         // the joints' slow motion was found over this time [s]; 0: it was not, or not looked for
-  double largest_move = 0;         // of a centre of mass that was stated [m]
+  double largest_move = 0;              // of a centre of mass that was stated [m]
 };
 
 /// Positions and velocities only; the state has no forces yet. Completes `system`. Throws AssemblyError when a loop cannot close.

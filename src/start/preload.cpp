@@ -10,8 +10,6 @@
 namespace pintle {
 namespace {
 
-using S = Planar;
-
 constexpr int kPasses = 6;
 constexpr int kRounds = 4;         // of friction and reactions: each gains the coefficient of friction times a lever ratio
 constexpr int kClosing = 4;        // passes of a projection
@@ -19,8 +17,9 @@ constexpr double kClosed = 1e-11;  // of what the first pass found: the next one
 constexpr int kMostJoints = 300;  // whose masses with closed joints are asked for: the cost grows with the square
 
 // What a force of a joint does to its own two bodies: the acceleration of the gap per unit of force, component by component.
-S::Vec own_mobility(const System& system, const Placement& at, const JointKinematics& r) {
-  S::Vec mobility = S::Vec::Zero();
+template <class S>
+typename S::Vec own_mobility(const BasicSystem<S>& system, const BasicPlacement<S>& at, const BasicJointKinematics<S>& r) {
+  typename S::Vec mobility = S::Vec::Zero();
   if (at.a != kGround) mobility += r.GA().cwiseAbs2() * system.bodies[at.a].mass.cwiseInverse();
   if (at.b != kGround) mobility += r.GB().cwiseAbs2() * system.bodies[at.b].mass.cwiseInverse();
   return mobility;
@@ -28,13 +27,14 @@ S::Vec own_mobility(const System& system, const Placement& at, const JointKinema
 
 // The slowest frequency that a joint's stiffness gives to the two bodies it connects, over all joints (of components with
 // `moved`, when given).
-double slowest_joint(const System& system, const std::vector<JointKinematics>& r, const Vecs* moved = nullptr) {
+template <class S>
+double slowest_joint(const BasicSystem<S>& system, const std::vector<BasicJointKinematics<S>>& r, const VecsOf<S>* moved = nullptr) {
   double slowest = std::numeric_limits<double>::infinity();
   for (int j = 0; j < system.n_joints(); ++j) {
-    const JointData& joint = system.joints[j];
-    const S::Vec k = joint.law.engaged_stiffness();
-    const S::Vec mobility = own_mobility(system, joint.at, r[j]);
-    for (int c = 0; c < 3; ++c) {
+    const BasicJointData<S>& joint = system.joints[j];
+    const typename S::Vec k = joint.law.engaged_stiffness();
+    const typename S::Vec mobility = own_mobility(system, joint.at, r[j]);
+    for (int c = 0; c < S::kDof; ++c) {
       if (!(k[c] > 0) || (moved && (*moved)[j][c] == 0)) continue;
       if (mobility[c] > 0) slowest = std::min(slowest, std::sqrt(k[c] * mobility[c]));
     }
@@ -42,9 +42,10 @@ double slowest_joint(const System& system, const std::vector<JointKinematics>& r
   return slowest;
 }
 
-void plain_start(const System& system, State& state) {
-  std::vector<S::Motion> m;
-  std::vector<JointKinematics> r;
+template <class S>
+void plain_start(const BasicSystem<S>& system, BasicState<S>& state) {
+  std::vector<typename S::Motion> m;
+  std::vector<BasicJointKinematics<S>> r;
   system.motions(state.q, state.v, m);
   system.joint_kinematics(state.t, m, r);
   for (int j = 0; j < system.n_joints(); ++j) {
@@ -60,9 +61,10 @@ void plain_start(const System& system, State& state) {
 }  // namespace
 
 // Newton on the law's own tangent; nothing in free components.
-void gap_at_force(const Law& law, const S::Vec& force, const S::Vec& rate, S::Vec& gap) {
+template <class S>
+void gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
   for (int i = 0; i < 20; ++i) {
-    const Response now = respond(law, gap, rate);
+    const BasicResponse<S> now = respond(law, gap, rate);
     bool moved = false;
     for (int k = 0; k < S::kDof; ++k) {
       if (!(now.stiffness(k, k) > 0)) continue;
@@ -75,14 +77,15 @@ void gap_at_force(const Law& law, const S::Vec& force, const S::Vec& rate, S::Ve
 }
 
 // Gaps that carry no stiffness are those of the positions.
-void balance_start(const System& system, State& state) {
-  std::vector<S::Motion> m;
-  std::vector<JointKinematics> r;
+template <class S>
+void balance_start(const BasicSystem<S>& system, BasicState<S>& state) {
+  std::vector<typename S::Motion> m;
+  std::vector<BasicJointKinematics<S>> r;
   system.motions(state.q, state.v, m);
   system.joint_kinematics(state.t, m, r);
   for (int j = 0; j < system.n_joints(); ++j) {
-    const JointData& joint = system.joints[j];
-    const Response response = respond(joint.law, state.gap[j], state.gap_rate[j]);
+    const BasicJointData<S>& joint = system.joints[j];
+    const BasicResponse<S> response = respond(joint.law, state.gap[j], state.gap_rate[j]);
     for (int k = 0; k < S::kDof; ++k) {
       if (response.stiffness(k, k) > 0) continue;
       state.gap[j][k] = r[j].gap[k];
@@ -94,39 +97,44 @@ void balance_start(const System& system, State& state) {
   find_accelerations(system, m, r, state);
 }
 
-InverseDynamics::InverseDynamics(const System& system) : system_(system), projector_(system), wanted_(system.joints.size()) {
+template <class S>
+BasicInverseDynamics<S>::BasicInverseDynamics(const BasicSystem<S>& system) : system_(system), projector_(system), wanted_(system.joints.size()) {
   for (int j = 0; j < system.n_joints(); ++j)
     if (system.joints[j].law.rubs()) rubbing_.push_back(j);
 }
 
-S::Vec InverseDynamics::from_bodies(int j, const Vecs& x) const {
-  S::Vec y = S::Vec::Zero();
+template <class S>
+typename S::Vec BasicInverseDynamics<S>::from_bodies(int j, const VecsOf<S>& x) const {
+  typename S::Vec y = S::Vec::Zero();
   add_gap(system_.joints[j].at, r_[j], x, y);
   return y;
 }
 
-void InverseDynamics::leave_to_laws(const Vecs& components) {
+template <class S>
+void BasicInverseDynamics<S>::leave_to_laws(const VecsOf<S>& components) {
   by_law_ = components;
   moved_.resize(components.size());
   for (std::size_t j = 0; j < components.size(); ++j) moved_[j] = S::Vec::Ones() - components[j];
 }
 
 // theory/assembly Eq. (5.7): what follows its law pushes as a load does.
-void InverseDynamics::push_by_laws(State& state) {
+template <class S>
+void BasicInverseDynamics<S>::push_by_laws(BasicState<S>& state) {
   for (std::size_t j = 0; j < by_law_.size(); ++j) {
     if (by_law_[j].isZero()) continue;
-    const S::Vec force = respond(system_.joints[j].law, r_[j].gap, r_[j].rate).force;
-    const S::Vec pushing = by_law_[j].cwiseProduct(force);
+    const typename S::Vec force = respond(system_.joints[j].law, r_[j].gap, r_[j].rate).force;
+    const typename S::Vec pushing = by_law_[j].cwiseProduct(force);
     state.force[j] = pushing + moved_[j].cwiseProduct(state.force[j]);
     add_force(system_.joints[j].at, r_[j], pushing, state.a);
   }
 }
 
 // Friction pushes as a load does, at the reactions that the gaps of the state carry. theory/assembly Eq. (3.5).
-void InverseDynamics::push_by_friction(State& state) {
+template <class S>
+void BasicInverseDynamics<S>::push_by_friction(BasicState<S>& state) {
   for (const int j : rubbing_) {
-    const JointData& joint = system_.joints[j];
-    S::Vec gap = state.gap[j], rate = state.gap_rate[j], f = S::Vec::Zero();
+    const BasicJointData<S>& joint = system_.joints[j];
+    typename S::Vec gap = state.gap[j], rate = state.gap_rate[j], f = S::Vec::Zero();
     for (int k = 0; k < S::kDof; ++k)
       if (!joint.held[k]) {
         gap[k] = r_[j].gap[k];
@@ -134,7 +142,7 @@ void InverseDynamics::push_by_friction(State& state) {
       }
     double states[kMostLawStates];
     joint.law.rest({state.t, gap, rate, states}, states);
-    const S::Vec force = joint.law.force({state.t, gap, rate, states});
+    const typename S::Vec force = joint.law.force({state.t, gap, rate, states});
     for (int k = 0; k < S::kDof; ++k)
       if (!joint.held[k]) {
         f[k] = force[k];
@@ -145,7 +153,8 @@ void InverseDynamics::push_by_friction(State& state) {
 }
 
 // Over the components that a law holds.
-double InverseDynamics::largest_held(const Vecs& gap) const {
+template <class S>
+double BasicInverseDynamics<S>::largest_held(const VecsOf<S>& gap) const {
   double largest = 0;
   for (int j = 0; j < system_.n_joints(); ++j)
     for (int k = 0; k < S::kDof; ++k)
@@ -154,7 +163,8 @@ double InverseDynamics::largest_held(const Vecs& gap) const {
 }
 
 // theory/assembly Eqs. (3.1), (3.2): first the free bodies' accelerations, then what the joints ask for, then the forces.
-bool InverseDynamics::find(State& state) {
+template <class S>
+bool BasicInverseDynamics<S>::find(BasicState<S>& state) {
   // Friction goes with the reactions: they are found again with the friction of the ones before.
   for (int round = 0; round < (rubbing_.empty() ? 1 : kRounds); ++round) {
     if (!find_accelerations(state)) return false;
@@ -168,10 +178,11 @@ bool InverseDynamics::find(State& state) {
 }
 
 
-bool InverseDynamics::find_accelerations(State& state) {
+template <class S>
+bool BasicInverseDynamics<S>::find_accelerations(BasicState<S>& state) {
   system_.motions(state.q, state.v, m_);
   system_.joint_kinematics(state.t, m_, r_);
-  const Vecs* moved = moved_.empty() ? nullptr : &moved_;
+  const VecsOf<S>* moved = moved_.empty() ? nullptr : &moved_;
   const double mu = kHeldAbove * slowest_joint(system_, r_, moved);
   if (!std::isfinite(mu) || !(mu > 0)) return false;
   if (!projector_.prepare(r_, mu, state.gap, state.gap_rate, moved)) return false;
@@ -192,16 +203,18 @@ bool InverseDynamics::find_accelerations(State& state) {
 }
 
 // theory/assembly Eq. (5.1).
-EffectiveMasses InverseDynamics::effective_masses(const State& state) {
+template <class S>
+BasicEffectiveMasses<S> BasicInverseDynamics<S>::effective_masses(const BasicState<S>& state) {
   system_.motions(state.q, state.v, m_);
   system_.joint_kinematics(state.t, m_, r_);
   const double mu = kHeldAbove * slowest_joint(system_, r_);
   if (!std::isfinite(mu) || !(mu > 0) || !projector_.prepare(r_, mu, state.gap, state.gap_rate)) return {};
-  const Vecs no_load(system_.bodies.size(), S::Vec::Zero());
-  EffectiveMasses masses{Vecs(system_.joints.size(), S::Vec::Zero()), Vecs(system_.joints.size(), S::Vec::Zero())};
-  Vecs a, force;
+  const VecsOf<S> no_load(system_.bodies.size(), S::Vec::Zero());
+  const VecsOf<S> none(system_.joints.size(), S::Vec::Zero());
+  BasicEffectiveMasses<S> masses{none, none};
+  VecsOf<S> a, force;
   for (int j = 0; j < system_.n_joints(); ++j) {
-    const S::Vec mobility = own_mobility(system_, system_.joints[j].at, r_[j]);
+    const typename S::Vec mobility = own_mobility(system_, system_.joints[j].at, r_[j]);
     for (int c = 0; c < S::kDof; ++c) {
       masses.closed[j][c] = masses.alone[j][c] = mobility[c] > 0 ? 1 / mobility[c] : 0;
       if (system_.n_joints() > kMostJoints) continue;
@@ -219,12 +232,14 @@ EffectiveMasses InverseDynamics::effective_masses(const State& state) {
   return masses;
 }
 
-void InverseDynamics::find_gaps(State& state) const {
+template <class S>
+void BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
   for (int j = 0; j < system_.n_joints(); ++j) gap_at_force(system_.joints[j].law, state.force[j], state.gap_rate[j], state.gap[j]);
 }
 
 // Eq. (3.4).
-void InverseDynamics::move_onto_gaps(State& state) {
+template <class S>
+void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
   for (int pass = 0; pass < kClosing; ++pass) {
     system_.motions(state.q, state.v, m_);
     system_.joint_kinematics(state.t, m_, r_);
@@ -233,11 +248,13 @@ void InverseDynamics::move_onto_gaps(State& state) {
       if (!std::isfinite(mu) || !projector_.prepare(r_, mu, state.gap, state.gap_rate)) return;
     }
     for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap[j] - r_[j].gap;
-    projector_.close(wanted_, state.q);
+    moves_.assign(state.v.size(), S::Vec::Zero());
+    projector_.close(wanted_, moves_);
+    for (std::size_t i = 0; i < moves_.size(); ++i) S::move(state.q[i], moves_[i]);
   }
   system_.motions(state.q, state.v, m_);
   system_.joint_kinematics(state.t, m_, r_);
-  Vecs dv(state.v.size(), S::Vec::Zero());
+  VecsOf<S> dv(state.v.size(), S::Vec::Zero());
   for (int pass = 0; pass < kClosing; ++pass) {
     for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap_rate[j] - r_[j].rate - from_bodies(j, dv);
     projector_.close(wanted_, dv);
@@ -245,15 +262,16 @@ void InverseDynamics::move_onto_gaps(State& state) {
   for (std::size_t i = 0; i < dv.size(); ++i) state.v[i] += dv[i];
 }
 
-void start_forces(const System& system, bool preload, State& state) {
+template <class S>
+void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& state) {
   const std::size_t n = system.bodies.size(), joints = system.joints.size();
   state.a.assign(n, S::Vec::Zero());
-  state.gap = state.gap_rate = state.gap_accel = state.force = Vecs(joints, S::Vec::Zero());
+  state.gap = state.gap_rate = state.gap_accel = state.force = VecsOf<S>(joints, S::Vec::Zero());
   plain_start(system, state);
   if (!preload || joints == 0) return;
   for (auto& x : state.gap_rate) x.setZero();
   for (auto& x : state.gap_accel) x.setZero();
-  InverseDynamics forces(system);
+  BasicInverseDynamics<S> forces(system);
   for (int pass = 0; pass < kPasses; ++pass) {
     if (!forces.find(state)) break;
     forces.find_gaps(state);
@@ -261,5 +279,15 @@ void start_forces(const System& system, bool preload, State& state) {
   }
   balance_start(system, state);
 }
+
+template void gap_at_force(const BasicLaw<Planar>& law, const Planar::Vec& force, const Planar::Vec& rate, Planar::Vec& gap);
+template void balance_start(const BasicSystem<Planar>& system, BasicState<Planar>& state);
+template void start_forces(const BasicSystem<Planar>& system, bool preload, BasicState<Planar>& state);
+template void gap_at_force(const BasicLaw<Spatial>& law, const Spatial::Vec& force, const Spatial::Vec& rate, Spatial::Vec& gap);
+template void balance_start(const BasicSystem<Spatial>& system, BasicState<Spatial>& state);
+template void start_forces(const BasicSystem<Spatial>& system, bool preload, BasicState<Spatial>& state);
+
+template class BasicInverseDynamics<Planar>;
+template class BasicInverseDynamics<Spatial>;
 
 }  // namespace pintle

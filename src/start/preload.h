@@ -12,54 +12,61 @@ namespace pintle {
 inline constexpr double kHeldAbove = 5e-4;
 
 /// The gap at which a law gives `force` at `rate`; components without stiffness stay. theory/assembly Eq. (3.3).
-void gap_at_force(const Law& law, const Planar::Vec& force, const Planar::Vec& rate, Planar::Vec& gap);
+template <class S>
+void gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap);
 
 /// What a force on a component of a gap has to accelerate, per joint and component [kg or kg*m^2]. Empty when no joint has
 /// a stiffness.
-struct EffectiveMasses {
-  Vecs closed;  // while all other gaps stay as they are; in mechanisms of hundreds of joints as `alone`
-  Vecs alone;   // of the joint's own two bodies; 0 where they do not move the gap
+template <class S>
+struct BasicEffectiveMasses {
+  VecsOf<S> closed;  // while all other gaps stay as they are; in mechanisms of hundreds of joints as `alone`
+  VecsOf<S> alone;   // of the joint's own two bodies; 0 where they do not move the gap
 };
+using EffectiveMasses = BasicEffectiveMasses<Planar>;
 
 /// The joint forces that a given motion takes, and the gaps that carry them.
-class InverseDynamics {
+template <class S>
+class BasicInverseDynamics {
  public:
-  explicit InverseDynamics(const System& system);
+  explicit BasicInverseDynamics(const BasicSystem<S>& system);
 
   /// The components (1, others 0) that `find` leaves to their laws: their forces are those of the gaps and rates that the
   /// bodies have, and their gaps accelerate as they may.
-  void leave_to_laws(const Vecs& components);
+  void leave_to_laws(const VecsOf<S>& components);
 
   /// Accelerations and joint forces at state.q, state.v for which the gaps accelerate as state.gap_accel says; what no
   /// motion can close stays as state.force has it. False when there is no stiff joint or the equations are singular.
-  bool find(State& state);
+  bool find(BasicState<S>& state);
   /// The accelerations alone.
-  bool find_accelerations(State& state);
+  bool find_accelerations(BasicState<S>& state);
   /// The gaps at which the laws give state.force at state.gap_rate.
-  void find_gaps(State& state) const;
+  void find_gaps(BasicState<S>& state) const;
   /// Moves q and v so that the joints have the gaps and rates of the state. Call after `find` near that state.
-  void move_onto_gaps(State& state);
-  EffectiveMasses effective_masses(const State& state);
+  void move_onto_gaps(BasicState<S>& state);
+  BasicEffectiveMasses<S> effective_masses(const BasicState<S>& state);
 
  private:
-  Planar::Vec from_bodies(int j, const Vecs& x) const;
-  double largest_held(const Vecs& gap) const;
-  void push_by_laws(State& state);
-  void push_by_friction(State& state);
+  typename S::Vec from_bodies(int j, const VecsOf<S>& x) const;
+  double largest_held(const VecsOf<S>& gap) const;
+  void push_by_laws(BasicState<S>& state);
+  void push_by_friction(BasicState<S>& state);
 
-  const System& system_;
-  GapProjector projector_;
-  std::vector<Planar::Motion> m_;
-  std::vector<JointKinematics> r_;
+  const BasicSystem<S>& system_;
+  BasicGapProjector<S> projector_;
+  std::vector<typename S::Motion> m_;
+  std::vector<BasicJointKinematics<S>> r_;
   std::vector<int> rubbing_;  // joints with friction
-  Vecs Q_, wanted_, by_law_, moved_;
+  VecsOf<S> Q_, wanted_, by_law_, moved_, moves_;
 };
+using InverseDynamics = BasicInverseDynamics<Planar>;
 
 /// Accelerations that the joint forces really give at the state's gaps, and the gap accelerations that go with them.
-void balance_start(const System& system, State& state);
+template <class S>
+void balance_start(const BasicSystem<S>& system, BasicState<S>& state);
 
 /// Completes `state` (q, v given): accelerations, gaps and forces. With `preload` the positions and velocities are moved
 /// by the (small) joint deflections; without it the joints start as the positions leave them.
-void start_forces(const System& system, bool preload, State& state);
+template <class S>
+void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& state);
 
 }  // namespace pintle

@@ -14,8 +14,6 @@
 namespace pintle {
 namespace {
 
-using S = Planar;
-
 constexpr int kNodes = ChebyshevNodes::kN;
 constexpr int kSweeps = 5;
 constexpr int kOrders = 6;               // sweeps in which soft joints go with the motion
@@ -29,11 +27,13 @@ constexpr double kMostSteps = 300;       // from one node to the next
 constexpr double kDiverged = 1e300, kConverged = 1e-10;  // relative change of a sweep
 
 using Nodes = ChebyshevNodes;
-using Curve = std::array<Vecs, kNodes>;  // one value per joint at every node
+template <class S>
+using Curve = std::array<VecsOf<S>, kNodes>;  // one value per joint at every node
 
-class SlowManifold {
+template <class S>
+class BasicSlowManifold {
  public:
-  SlowManifold(const System& system, double span, const State& start, const TimeScales& time_scales)
+  BasicSlowManifold(const BasicSystem<S>& system, double span, const BasicState<S>& start, const BasicTimeScales<S>& time_scales)
       : system_(system), span_(span), start_(start), time_scales_(time_scales), soft_(time_scales.any_soft()), forces_(system) {
     for (auto* c : {&gap_, &rate_, &accel_})
       for (auto& x : *c) x.assign(system.joints.size(), S::Vec::Zero());
@@ -41,7 +41,7 @@ class SlowManifold {
   }
 
   // All joints go with the motion, each as far as `share` says.
-  void go_with_the_motion(const Vecs& share) {
+  void go_with_the_motion(const VecsOf<S>& share) {
     share_ = share;
     differentiate();
   }
@@ -60,7 +60,7 @@ class SlowManifold {
 
   // One sweep: follow the motion with the present gap accelerations; gaps from the forces that it takes. Relative change.
   double sweep() {
-    State at = start_;
+    BasicState<S> at = start_;
     put(0, at);
     if (swept_) forces_.move_onto_gaps(at);
     for (int node = 0; node < kNodes; ++node) {
@@ -89,18 +89,18 @@ class SlowManifold {
   }
 
   // The start that the sweeps have found. Where an overdamped joint starts is given: its rate carries the force.
-  void write_start(State& state) const {
+  void write_start(BasicState<S>& state) const {
     put(0, state);
     for (std::size_t j = 0; released_ && j < state.gap.size(); ++j)
       for (int i = 0; i < S::kDof; ++i) {
         if (time_scales_.overdamped[j][i] == 0) continue;
-        const Response now = respond(system_.joints[j].law, state.gap[j], state.gap_rate[j]);
+        const BasicResponse<S> now = respond(system_.joints[j].law, state.gap[j], state.gap_rate[j]);
         if (now.damping(i, i) > 0) state.gap_rate[j][i] += (now.force[i] - force_[0][j][i]) / now.damping(i, i);
       }
   }
 
   // The gaps at the start and the rates with which they carry its forces.
-  void take_carrying(State& state) const {
+  void take_carrying(BasicState<S>& state) const {
     put(0, state);
     state.gap_rate = carried_rate_;
   }
@@ -110,36 +110,36 @@ class SlowManifold {
     double tail = 0, size = 1e-300;
     for (std::size_t j = 0; j < system_.joints.size(); ++j)
       for (const int end : {kNodes - 1, kNodes - 2}) {
-        S::Vec sum = S::Vec::Zero();
+        typename S::Vec sum = S::Vec::Zero();
         for (int n = 0; n < kNodes; ++n) {
           const double w = n == 0 || n == kNodes - 1 ? 0.5 : 1;
           sum += w * std::cos(std::numbers::pi * n * end / (kNodes - 1)) * force_[n][j];
-          size = std::max(size, force_[n][j].head<2>().norm());
+          size = std::max(size, force_[n][j].template head<S::kDim>().norm());
         }
-        tail = std::max(tail, 2.0 / (kNodes - 1) * sum.head<2>().norm());
+        tail = std::max(tail, 2.0 / (kNodes - 1) * sum.template head<S::kDim>().norm());
       }
     return tail / size;
   }
 
-  const Vecs& gap(int node) const { return gap_[node]; }
-  const Vecs& force(int node) const { return force_[node]; }
-  const Vecs& rate() const { return rate_[0]; }
+  const VecsOf<S>& gap(int node) const { return gap_[node]; }
+  const VecsOf<S>& force(int node) const { return force_[node]; }
+  const VecsOf<S>& rate() const { return rate_[0]; }
 
  private:
-  S::Vec soft(std::size_t j) const { return time_scales_.overdamped[j] + time_scales_.resolved[j]; }
+  typename S::Vec soft(std::size_t j) const { return time_scales_.overdamped[j] + time_scales_.resolved[j]; }
 
-  void put(int node, State& at) const {
+  void put(int node, BasicState<S>& at) const {
     at.gap = gap_[node];
     at.gap_rate = rate_[node];
     at.gap_accel = accel_[node];
   }
 
   // A gap as the force it makes.
-  S::Vec weighted(std::size_t j, const S::Vec& gap) const {
+  typename S::Vec weighted(std::size_t j, const typename S::Vec& gap) const {
     return respond(system_.joints[j].law, start_.gap[j], start_.gap_rate[j]).stiffness * gap;
   }
 
-  void set_accel(State& at, double s) const {
+  void set_accel(BasicState<S>& at, double s) const {
     const auto w = nodes_.weights(s);
     for (std::size_t j = 0; j < at.gap_accel.size(); ++j) {
       at.gap_accel[j].setZero();
@@ -150,7 +150,7 @@ class SlowManifold {
   // theory/assembly Eq. (5.6): overdamped gaps from where they start, by collocation at the other nodes.
   void follow_overdamped() {
     for (std::size_t j = 0; j < system_.joints.size(); ++j) {
-      std::array<Response, kNodes> now;
+      std::array<BasicResponse<S>, kNodes> now;
       for (int n = 0; n < kNodes; ++n) now[n] = respond(system_.joints[j].law, gap_[n][j], rate_[n][j]);
       for (int i = 0; i < S::kDof; ++i) {
         if (time_scales_.resolved[j][i] != 0)
@@ -174,7 +174,7 @@ class SlowManifold {
   }
 
   // Short steps where resolved joints follow their laws.
-  void follow(State& at, double s0, double s1) {
+  void follow(BasicState<S>& at, double s0, double s1) {
     const double eager = released_ ? time_scales_.fastest * span_ * (s1 - s0) / kEager : 0;
     const int steps = static_cast<int>(std::clamp(std::ceil(eager), 1.0, kMostSteps));
     for (int i = 0; i < steps; ++i) {
@@ -183,13 +183,13 @@ class SlowManifold {
     }
   }
 
-  void accelerate(State& at, double s) {
+  void accelerate(BasicState<S>& at, double s) {
     set_accel(at, s);
     forces_.find_accelerations(at);
   }
 
   // One classical Runge-Kutta step of the motion whose gap accelerations are given, from where accelerations have been found.
-  void runge_kutta(State& at, double s0, double s1) {
+  void runge_kutta(BasicState<S>& at, double s0, double s1) {
     const double h = span_ * (s1 - s0);
     auto& [begin, now, kq, kv] = work_;
     begin = at;
@@ -200,16 +200,17 @@ class SlowManifold {
       now = begin;
       now.t = start_.t + span_ * s0 + c[stage] * h;
       for (std::size_t i = 0; i < now.q.size(); ++i) {
-        now.q[i] += c[stage] * h * kq[stage - 1][i];
+        now.q[i] = S::moved(begin.q[i], c[stage] * h * kq[stage - 1][i]);
         now.v[i] += c[stage] * h * kv[stage - 1][i];
       }
       accelerate(now, s0 + c[stage] * (s1 - s0));
-      kq[stage] = now.v;
+      kq[stage].resize(now.v.size());
+      for (std::size_t i = 0; i < now.v.size(); ++i) kq[stage][i] = S::rate_of_increment(c[stage] * h * kq[stage - 1][i], now.v[i]);
       kv[stage] = now.a;
     }
     at.t = start_.t + span_ * s1;
     for (std::size_t i = 0; i < at.q.size(); ++i) {
-      at.q[i] += h / 6 * (kq[0][i] + 2 * kq[1][i] + 2 * kq[2][i] + kq[3][i]);
+      at.q[i] = S::moved(begin.q[i], h / 6 * (kq[0][i] + 2 * kq[1][i] + 2 * kq[2][i] + kq[3][i]));
       at.v[i] += h / 6 * (kv[0][i] + 2 * kv[1][i] + 2 * kv[2][i] + kv[3][i]);
     }
   }
@@ -218,7 +219,7 @@ class SlowManifold {
     for (std::size_t j = 0; j < system_.joints.size(); ++j) {
       for (const auto& [from, to] : {std::pair{&gap_, &rate_}, std::pair{&rate_, &accel_}})
         for (int i = 0; i < kNodes; ++i) {
-          S::Vec sum = S::Vec::Zero();
+          typename S::Vec sum = S::Vec::Zero();
           for (int k = 0; k < kNodes; ++k) sum += nodes_.D(i, k) * (*from)[k][j];
           (*to)[i][j] = share_[j].cwiseProduct(sum) / span_;
         }
@@ -227,44 +228,45 @@ class SlowManifold {
     }
   }
 
-  const System& system_;
+  const BasicSystem<S>& system_;
   double span_;
-  const State& start_;
-  const TimeScales& time_scales_;
+  const BasicState<S>& start_;
+  const BasicTimeScales<S>& time_scales_;
   bool soft_, released_ = false;
-  InverseDynamics forces_;
+  BasicInverseDynamics<S> forces_;
   Nodes nodes_;
-  Curve gap_, rate_, accel_, next_, force_;
-  Vecs share_, carried_rate_;
+  Curve<S> gap_, rate_, accel_, next_, force_;
+  VecsOf<S> share_, carried_rate_;
   struct {
-    State begin, now;
-    std::array<Vecs, 4> kq, kv;
+    BasicState<S> begin, now;
+    std::array<VecsOf<S>, 4> kq, kv;
   } work_;  // of one step: at 100,000 bodies fresh memory costs as much as the step
   bool swept_ = false;
 };
 
 // How far soft joints may go with the motion, theory/assembly Eq. (5.4): all the way where their own dynamics is faster
 // than what their force does, not at all where it is slower. Fast ones go all the way.
-Vecs shares(const TimeScales& time_scales, const SlowManifold& motion, const System& system) {
-  const Vecs &force = motion.force(0), &gap = motion.gap(0), &rate = motion.rate();
-  Vecs share(force.size());
+template <class S>
+VecsOf<S> shares(const BasicTimeScales<S>& time_scales, const BasicSlowManifold<S>& motion, const BasicSystem<S>& system) {
+  const VecsOf<S> &force = motion.force(0), &gap = motion.gap(0), &rate = motion.rate();
+  VecsOf<S> share(force.size());
   const double largest = largest_force(force);
   double largest_couple = 0;
-  for (const S::Vec& f : force) largest_couple = std::max(largest_couple, std::abs(f[2]));
+  for (const typename S::Vec& f : force) largest_couple = std::max(largest_couple, f.template tail<S::kDof - S::kDim>().norm());
   largest_couple = std::max(largest_couple, largest * system.largest_radius_of_gyration());
   for (std::size_t j = 0; j < share.size(); ++j) {
-    const S::Mat K = respond(system.joints[j].law, gap[j], S::Vec::Zero()).stiffness;
-    const S::Vec change = K * rate[j];
+    const typename S::Mat K = respond(system.joints[j].law, gap[j], S::Vec::Zero()).stiffness;
+    const typename S::Vec change = K * rate[j];
     const auto share_of = [&](double now, double least, double per_second, double own) {
       const double x = per_second / (own * std::max({now, kSmallForce * least, 1e-300}));
       return 1 / (1 + x * x * x * x);
     };
-    const S::Vec &own = time_scales.slow_rate[j], soft = time_scales.overdamped[j] + time_scales.resolved[j];
+    const typename S::Vec &own = time_scales.slow_rate[j], soft = time_scales.overdamped[j] + time_scales.resolved[j];
     for (int i = 0; i < S::kDof; ++i) {
       share[j][i] = 1;
       if (soft[i] == 0) continue;
-      share[j][i] = i < 2 ? share_of(force[j].head<2>().norm(), largest, change.head<2>().norm(), own[i])
-                          : share_of(std::abs(force[j][2]), largest_couple, std::abs(change[2]), own[i]);
+      share[j][i] = i < S::kDim ? share_of(force[j].template head<S::kDim>().norm(), largest, change.template head<S::kDim>().norm(), own[i])
+                          : share_of(force[j].template tail<S::kDof - S::kDim>().norm(), largest_couple, change.template tail<S::kDof - S::kDim>().norm(), own[i]);
     }
   }
   return share;
@@ -277,12 +279,13 @@ int halvings_for(double unresolved) {
 
 }  // namespace
 
-double span_of_motion(const System& system, const State& state, double longest) {
-  const TimeScales time_scales = all_fast(system);
+template <class S>
+double span_of_motion(const BasicSystem<S>& system, const BasicState<S>& state, double longest) {
+  const BasicTimeScales<S> time_scales = all_fast(system);
   const double whole = std::exp2(std::ceil(std::log2(longest)));
   int too_long = -1, resolved = kHalvings;  // the halvings between which the answer is
   for (int next = 0; resolved - too_long > 1;) {
-    SlowManifold motion(system, std::ldexp(whole, -next), state, time_scales);
+    BasicSlowManifold<S> motion(system, std::ldexp(whole, -next), state, time_scales);
     const double rest = motion.sweep() < kDiverged ? motion.unresolved() : kDiverged;
     (rest < kResolved ? resolved : too_long) = next;
     next = resolved < kHalvings ? (too_long + resolved) / 2 : std::min(too_long + halvings_for(rest), kHalvings - 1);
@@ -290,19 +293,20 @@ double span_of_motion(const System& system, const State& state, double longest) 
   return resolved < kHalvings ? kShortOfMotion * std::ldexp(whole, -resolved) : 0;
 }
 
-SoftStart place_soft_joints(const System& system, const TimeScales& time_scales, double span, State& state) {
-  SlowManifold motion(system, span, state, time_scales);
-  SoftStart out;
+template <class S>
+BasicSoftStart<S> place_soft_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, double span, BasicState<S>& state) {
+  BasicSlowManifold<S> motion(system, span, state, time_scales);
+  BasicSoftStart<S> out;
   if (motion.sweep() >= kDiverged) return out;
   out.share = shares(time_scales, motion, system);
   motion.go_with_the_motion(out.share);
-  std::optional<State> best;
+  std::optional<BasicState<S>> best;
   for (int sweep = 0; sweep < kOrders && out.change > kConverged; ++sweep) {
     const double change = motion.sweep();
     if (!(change < 0.5 * out.change)) break;
-    State next = state;
+    BasicState<S> next = state;
     motion.take_carrying(next);
-    InverseDynamics(system).move_onto_gaps(next);
+    BasicInverseDynamics<S>(system).move_onto_gaps(next);
     balance_start(system, next);
     if (!is_finite(next)) break;
     best = std::move(next);
@@ -313,19 +317,20 @@ SoftStart place_soft_joints(const System& system, const TimeScales& time_scales,
   return out;
 }
 
-double move_onto_slow_manifold(const System& system, const TimeScales& time_scales, double span, State& state) {
-  SlowManifold motion(system, span, state, time_scales);
+template <class S>
+double move_onto_slow_manifold(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, double span, BasicState<S>& state) {
+  BasicSlowManifold<S> motion(system, span, state, time_scales);
   motion.release();
   double last = kDiverged;
-  std::optional<State> best;
+  std::optional<BasicState<S>> best;
   for (int sweep = 0; sweep < kSweeps && last > kConverged; ++sweep) {
     const double change = motion.sweep();
     if (change == 0) return 0;  // nothing to carry
     if (sweep > 0 && !(change < 0.5 * last)) break;
     if (sweep > 0) {
-      State next = state;
+      BasicState<S> next = state;
       motion.write_start(next);
-      InverseDynamics(system).move_onto_gaps(next);
+      BasicInverseDynamics<S>(system).move_onto_gaps(next);
       balance_start(system, next);
       if (!is_finite(next)) break;
       best = std::move(next);
@@ -336,5 +341,12 @@ double move_onto_slow_manifold(const System& system, const TimeScales& time_scal
   state = std::move(*best);
   return last;
 }
+
+template double span_of_motion(const BasicSystem<Planar>& system, const BasicState<Planar>& state, double longest);
+template BasicSoftStart<Planar> place_soft_joints(const BasicSystem<Planar>& system, const BasicTimeScales<Planar>& time_scales, double span, BasicState<Planar>& state);
+template double move_onto_slow_manifold(const BasicSystem<Planar>& system, const BasicTimeScales<Planar>& time_scales, double span, BasicState<Planar>& state);
+template double span_of_motion(const BasicSystem<Spatial>& system, const BasicState<Spatial>& state, double longest);
+template BasicSoftStart<Spatial> place_soft_joints(const BasicSystem<Spatial>& system, const BasicTimeScales<Spatial>& time_scales, double span, BasicState<Spatial>& state);
+template double move_onto_slow_manifold(const BasicSystem<Spatial>& system, const BasicTimeScales<Spatial>& time_scales, double span, BasicState<Spatial>& state);
 
 }  // namespace pintle

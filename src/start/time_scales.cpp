@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "start/preload.h"
 
 namespace pintle {
 namespace {
-
-using S = Planar;
 
 // theory/assembly Eq. (5.3). A gap is fast when its slower rate is this many times 1/span: then sweeps of section 4 gain digits, and what they leave
 // out is below (span/kFast)^2 of the force's curvature. Damping settles a rate at once when the faster one is kSettles times.
@@ -26,32 +25,39 @@ Rates own_rates(double m, double c, double k) {
   return {2 * k / sum, sum / (2 * m)};
 }
 
-bool any(const Vecs& x) {
-  return std::any_of(x.begin(), x.end(), [](const S::Vec& y) { return !y.isZero(); });
+template <class Vec>
+bool any(const std::vector<Vec>& x) {
+  return std::any_of(x.begin(), x.end(), [](const Vec& y) { return !y.isZero(); });
 }
 
 }  // namespace
 
-bool TimeScales::any_soft() const { return any(overdamped) || any(resolved); }
-bool TimeScales::any_resolved() const { return any(resolved); }
+template <class S>
+bool BasicTimeScales<S>::any_soft() const { return any(overdamped) || any(resolved); }
+template <class S>
+bool BasicTimeScales<S>::any_resolved() const { return any(resolved); }
 
-TimeScales all_fast(const System& system) {
-  const Vecs none(system.joints.size(), S::Vec::Zero());
+template <class S>
+BasicTimeScales<S> all_fast(const BasicSystem<S>& system) {
+  const VecsOf<S> none(system.joints.size(), S::Vec::Zero());
   return {none, none, none};
 }
 
-TimeScales measure_time_scales(const System& system, const State& state, double span) {
-  TimeScales time_scales = all_fast(system);
-  const EffectiveMasses masses = InverseDynamics(system).effective_masses(state);
+template <class S>
+BasicTimeScales<S> measure_time_scales(const BasicSystem<S>& system, const BasicState<S>& state, double span) {
+  BasicTimeScales<S> time_scales = all_fast(system);
+  const BasicEffectiveMasses<S> masses = BasicInverseDynamics<S>(system).effective_masses(state);
   for (std::size_t j = 0; j < masses.closed.size(); ++j) {
-    const Response response = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]);
+    const BasicResponse<S> response = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]);
     Rates both[S::kDof];
     for (int i = 0; i < S::kDof; ++i) {
       const double k = response.stiffness(i, i), m = masses.closed[j][i];
       if (k > 0 && m > 0) both[i] = own_rates(m, response.damping(i, i), k);
     }
-    // Both directions of a point are treated alike: the slower decides.
-    if (both[0].slow > 0 && both[1].slow > 0) both[0] = both[1] = both[0].slow < both[1].slow ? both[0] : both[1];
+    // All directions of a point are treated alike: the slowest decides.
+    const auto point = std::span(both).template first<S::kDim>();
+    const auto slower = [](const Rates& a, const Rates& b) { return a.slow < b.slow; };
+    if (const Rates slowest = *std::min_element(point.rbegin(), point.rend(), slower); slowest.slow > 0) std::fill(point.begin(), point.end(), slowest);
     for (int i = 0; i < S::kDof; ++i) {
       const Rates& rates = both[i];
       time_scales.slow_rate[j][i] = rates.slow;
@@ -65,5 +71,13 @@ TimeScales measure_time_scales(const System& system, const State& state, double 
   }
   return time_scales;
 }
+
+template BasicTimeScales<Planar> all_fast(const BasicSystem<Planar>& system);
+template BasicTimeScales<Planar> measure_time_scales(const BasicSystem<Planar>& system, const BasicState<Planar>& state, double span);
+template BasicTimeScales<Spatial> all_fast(const BasicSystem<Spatial>& system);
+template BasicTimeScales<Spatial> measure_time_scales(const BasicSystem<Spatial>& system, const BasicState<Spatial>& state, double span);
+
+template struct BasicTimeScales<Planar>;
+template struct BasicTimeScales<Spatial>;
 
 }  // namespace pintle

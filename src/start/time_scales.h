@@ -9,21 +9,25 @@
 
 namespace pintle {
 
-struct TimeScales {
+template <class S>
+struct BasicTimeScales {
   /// 1 for components of either kind, 0 for others, one vector per joint. Overdamped: relaxation k/c is slow, but damping
   /// settles the rate at once. Resolved: the whole dynamics of the gap is part of the motion.
-  Vecs overdamped, resolved;
-  Vecs slow_rate;      // the slower of the gap's own two rates [1/s]; 0 without a stiffness
+  VecsOf<S> overdamped, resolved;
+  VecsOf<S> slow_rate;      // the slower of the gap's own two rates [1/s]; 0 without a stiffness
   double fastest = 0;  // the fastest rate of resolved components, with their own two bodies alone [1/s]
 
   bool any_soft() const;
   bool any_resolved() const;
 };
+using TimeScales = BasicTimeScales<Planar>;
 
 /// No joint is soft.
-TimeScales all_fast(const System& system);
+template <class S>
+BasicTimeScales<S> all_fast(const BasicSystem<S>& system);
 
 /// Measures the components of all gaps at `state`, with the bodies that they move while other gaps stay closed.
-TimeScales measure_time_scales(const System& system, const State& state, double span);
+template <class S>
+BasicTimeScales<S> measure_time_scales(const BasicSystem<S>& system, const BasicState<S>& state, double span);
 
 }  // namespace pintle

@@ -50,6 +50,7 @@ class BasicRadauStepper {
   double next_step() const { return control_.next; }
   const Counters& counters() const { return counters_; }
   const std::string& failure() const { return failure_; }
+  const SwitchingEvent& event() const { return control_.event(); }
   /// The last event, if it came after `since`; otherwise empty.
   std::string last_event(double since) const { return control_.last_event(system_, since); }
   const RadauTable& table() const { return table_; }

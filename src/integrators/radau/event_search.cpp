@@ -10,7 +10,8 @@ namespace {
 
 constexpr int kHalvings = 46;         // of an interval between two samples: how well an event is located
 constexpr double kInside = 1e-6;      // of an interval: an extremum this close to its end is the end's
-constexpr double kTruncation = 0.2;   // kappa_1 of the ITP method; kappa_2 is 2, n_0 is 1
+constexpr double kUnsure = 0.1;       // of a parabola's curvature: what two of them that agree may still be wrong by
+constexpr int kSecants = 16;          // after so many, halvings
 
 // Second divided difference over three points.
 double curvature(double x0, double y0, double x1, double y1, double x2, double y2) {
@@ -44,8 +45,8 @@ bool EventSearch::has_event(const Sample& from, const Sample& to) const {
 }
 
 // The first point between two samples where a function with the same sign at both may reach zero; 0: there is none. It is the
-// extremum of a parabola through both, theory/time Eq. (7.3); its curvature is the largest of those that the samples beside them give, and by how
-// much these differ.
+// extremum of a parabola through both, theory/time Eq. (7.3); its place is that of the mean of the curvatures that the samples
+// beside them give, its depth that of the largest and by how much these differ.
 double EventSearch::extremum(const Sample* before, const Sample& left, const Sample& right, const Sample* beyond) const {
   const double width = right.share - left.share;
   double first = right.share;
@@ -54,15 +55,12 @@ double EventSearch::extremum(const Sample* before, const Sample& left, const Sam
     if ((right.value[f] > 0) != positive) continue;
     const double sign = positive ? 1 : -1, y0 = sign * left.value[f], y1 = sign * right.value[f], slope = (y1 - y0) / width;
     const auto curved = [&](const Sample& beside) { return curvature(left.share, y0, right.share, y1, beside.share, sign * beside.value[f]); };
-    double c = before ? curved(*before) : curved(*beyond);
-    if (before && beyond) {
-      const double other = curved(*beyond);
-      c = std::max(c, other) + std::abs(c - other);
-    }
-    if (!(c > 0)) continue;
-    const double inside = 0.5 * width - 0.5 * slope / c;
+    const double c0 = curved(before ? *before : *beyond), c1 = curved(beyond ? *beyond : *before), mean = 0.5 * (c0 + c1);
+    const double largest = (1 + kUnsure) * std::max(c0, c1) + std::abs(c0 - c1);
+    if (!(mean > 0)) continue;
+    const double inside = 0.5 * width - 0.5 * slope / mean;
     if (!(inside > kInside * width && inside < (1 - kInside) * width)) continue;
-    if (y0 + slope * inside - c * inside * (width - inside) > 0) continue;
+    if (y0 + slope * inside - largest * inside * (width - inside) > 0) continue;
     first = std::min(first, left.share + inside);
   }
   return first < right.share ? first : 0;
@@ -97,34 +95,38 @@ int EventSearch::first_crossing(const Sample& low, const Sample& high, double& s
   return first;
 }
 
-// Narrows an interval down to its first event by the ITP method (I. F. D. Oliveira and R. H. C. Takahashi, 2020): the secant's zero,
-// moved a little towards the middle, and never so far from it that more than one evaluation beyond those of halving could be needed.
+// Narrows an interval down to its first event by secants. Where the same end stays twice, its value counts less (N. Anderson and
+// A. Bjorck, 1973), so that both ends approach the event. What secants have not located is halved.
 SwitchingEvent EventSearch::locate(const Sample& left, const Sample& right, SwitchingValues values_at) {
-  const double width = right.share - left.share, resolution = std::ldexp(width, -kHalvings);
+  const double resolution = std::max(std::ldexp(right.share - left.share, -kHalvings), 4 * std::numeric_limits<double>::epsilon());
   std::array<double*, kTrials> free{row(kMostSamples + kLevels), row(kMostSamples + kLevels + 1), row(kMostSamples + kLevels + 2)};
   Sample low{left.share, free[0]}, high{right.share, free[1]};
   std::copy_n(left.value, start_.size(), low.value);
   std::copy_n(right.value, start_.size(), high.value);
   double* trial = free[2];
-  double crossing = 0;
-  int function = first_crossing(low, high, crossing);
-  double most = width;  // half of it, halved with each evaluation, is how far from the middle a trial may be
-  for (int k = 0; k <= kHalvings + 1 && high.share - low.share > resolution; ++k, most *= 0.5) {
-    const double now = high.share - low.share, middle = low.share + 0.5 * now, towards = middle < crossing ? -1 : 1;
-    const double shift = kTruncation * now * now / width;
-    double at = std::isfinite(crossing) && shift <= std::abs(middle - crossing) ? crossing + towards * shift : middle;
-    const double reach = most - 0.5 * now;
-    if (std::abs(at - middle) > reach) at = middle - towards * reach;
+  double share = 0, weight = 1;  // of the value at the end that stayed
+  bool was_high = false;
+  int function = first_crossing(low, high, share);
+  for (int k = 0; high.share - low.share > resolution; ++k) {
+    const double middle = low.share + 0.5 * (high.share - low.share);
+    double at = k < kSecants && std::isfinite(share) ? share : middle;
     at = std::clamp(at, low.share + 0.5 * resolution, high.share - 0.5 * resolution);
     if (!(at > low.share && at < high.share)) break;
     values_at(at, trial);
     const Sample tried{at, trial};
-    Sample& end = has_event(low, tried) ? high : low;
+    const bool is_high = has_event(low, tried);
+    Sample& end = is_high ? high : low;
+    const double ratio = trial[function] / end.value[function];
     std::swap(end.value, trial);
     end.share = at;
-    function = first_crossing(low, high, crossing);
+    const int before = function;
+    function = first_crossing(low, high, share);
+    weight = function == before && k > 0 && is_high == was_high ? weight * (ratio < 1 ? 1 - ratio : 0.5) : 1;
+    was_high = is_high;
+    const double a = low.value[function] * (is_high ? weight : 1), b = high.value[function] * (is_high ? 1 : weight);
+    share = low.share + (high.share - low.share) * (a / (a - b));
   }
-  return {low.share, high.share, function, high.value[function] > 0};
+  return {low.share, high.share, function, high.value[function] > 0, 0};
 }
 
 }  // namespace pintle

@@ -16,6 +16,7 @@ struct SwitchingEvent {
   double before = 2, after = 2;
   int function = -1;    // which switching function
   bool rising = false;  // it turns positive
+  double t = 0;         // [s]
 };
 
 /// What fills the values of all switching functions at a share of a step: a reference to any callable (double share, double* value).

@@ -29,6 +29,8 @@ class StepControl {
     event_ = {};
   }
 
+  /// The last event that was crossed, or that no step could be made to.
+  const SwitchingEvent& event() const { return event_; }
   /// The last event, if it came after `since`: whose, in which direction, when. Otherwise empty.
   template <class S>
   std::string last_event(const BasicSystem<S>& system, double since) const;
@@ -59,8 +61,7 @@ class StepControl {
 
   double last_error_ = 0;  // over the tolerance
   double rounding_ = 0;    // of accelerations, over the tolerance: no step resolves it
-  SwitchingEvent event_;   // the last that was crossed or approached
-  double event_time_ = 0;
+  SwitchingEvent event_;
 
   // The step that Newton's iteration will like, over one in which its errors shrank by `contraction`; 0: not known.
   static double of_contraction(double contraction) { return contraction > 0 ? std::max(kShrink, std::sqrt(kContraction / contraction)) : kMost; }
@@ -80,6 +81,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
   double error_before = 0;                   // of the trial before, over the tolerance
   int steady = 0;                            // trials in a row that were shorter, and no better
   bool renewed = false;                      // the start, for this trial
+  SwitchingEvent ahead;                      // the last that was located
   for (int retry = 0; retry < kMaxRetries; ++retry) {
     const double left = t_end - method.t();
     if (h > left || left - h < 1e-3 * h) h = left;
@@ -91,13 +93,22 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       refused = true;
       have_history = have_history && retry == 0;
     }
-    const SwitchingEvent event = solved || retry > 0 ? method.locate_event(h, solved) : SwitchingEvent{};  // twice unsolved: for a jump on the way?
-    if (event.after < 1) {
-      event_ = event;
-      event_time_ = method.t() + event.before * h;
+    SwitchingEvent event = solved || retry > 0 ? method.locate_event(h, solved) : SwitchingEvent{};  // twice unsolved: for a jump on the way?
+    if (const double near = kEventAtStart * usual; event.before * h < near) {  // the far end may lie beyond other events: Taylor's series is better here
+      const SwitchingEvent closer = method.locate_event(2 * near, false);
+      if (closer.after < 1) {
+        event = closer;
+        event.before *= 2 * near / h;
+        event.after *= 2 * near / h;
+      }
     }
-    if (event.before < 1 && event.before * h < kEventAtStart * usual) {
+    if (event.after < 1) {
+      ahead = event;
+      ahead.t = method.t() + event.before * h;
+    }
+    if (event.before < 1 && event.before * h < 2 * kEventAtStart * usual) {
       ++counters.events;
+      event_ = ahead;
       method.cross_event(event.before * h, event);
       method.begin_at_end();
       h = std::max(h, kAfterEvent * usual);
@@ -148,6 +159,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     return true;
   }
   next = h;
+  if (ahead.function >= 0) event_ = ahead;
   return false;
 }
 

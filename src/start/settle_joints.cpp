@@ -1,0 +1,124 @@
+#include "start/settle_joints.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "integrators/absolute/radau_stepper.h"
+#include "start/slow_manifold.h"
+#include "start/time_scales.h"
+
+namespace pintle {
+namespace {
+
+constexpr double kScoutTolerance = 1e-3;
+constexpr int kScoutSteps = 3;
+constexpr int kSpans = 4;         // tried, each a quarter of the one before
+constexpr double kSettled = 0.1;  // relative change of the gaps in the last sweep that is taken for convergence
+constexpr double kMostGrowth = 2;  // of the largest joint force, by an attempt that has not converged
+// Change of a body's speed, over the largest speed and over the largest rate of a gap: beyond both it is not the joints' giving way.
+constexpr double kMostHaste = 1e-3, kMostLever = 30;
+constexpr double kExact = 1e-6;   // the same, with nothing left to settle
+constexpr double kEntirely = 0.99;  // of its slow motion: with this share a soft joint counts as going with the motion
+constexpr const char* kNotSettled =
+    "no transient-free start was found (a force jumps at the start, or a long chain has modes slower than its motion): joint forces may ring from the start. All passes start alike, so the stated "
+    "errors do not include this";
+
+// Half a step that a rough integration takes, once it is under way: the gaps are smooth over about that time. Rounded to a
+// part of the duration, so that it does not change with every slight change of the model: where a joint is as slow as the
+// motion, what is called its slow motion depends on the span.
+template <class S>
+double smooth_span(const BasicSystem<S>& system, const BasicState<S>& start, double duration) {
+  BasicRadauStepper<S> scout(system, kScoutTolerance);
+  scout.start(start, 1e-3 * duration);
+  for (int i = 0; i < kScoutSteps; ++i)
+    if (!scout.step(duration)) return 0;
+  const double half = 0.5 * (scout.state().t - scout.previous().t);
+  return half > 0 ? duration * std::exp2(std::floor(std::log2(half / duration))) : 0;
+}
+
+template <class S>
+double largest_gap_rate(const BasicSystem<S>& system, const BasicState<S>& state) {
+  double largest = 0;
+  for (std::size_t j = 0; j < state.gap_rate.size(); ++j)
+    for (int k = 0; k < S::kDim; ++k)
+      if (system.joints[j].free_mask[k] == 0) largest = std::max(largest, std::abs(state.gap_rate[j][k]));
+  return largest;
+}
+
+// In a chain of hundreds of joints, each of them fast, their compliances add up to modes slower than the motion. What the sweeps
+// then approach is not where it starts: all joints give way a little, one after the other, and the ends get speeds of their own.
+template <class S>
+bool is_runaway(const BasicSystem<S>& system, const BasicState<S>& attempt, const BasicState<S>& given) {
+  VecsOf<S> change = attempt.v;
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] -= given.v[i];
+  return system.largest_speed(change) > std::max(kMostHaste * system.largest_speed(given.v), kMostLever * largest_gap_rate(system, attempt));
+}
+
+// Whether sweeps that have not converged came near. Forces far above those of the given state are no attempt at all.
+template <class S>
+bool is_near(const BasicState<S>& attempt, const BasicState<S>& given) { return largest_force(attempt.force) <= kMostGrowth * largest_force(given.force); }
+
+// Fast joints ride their slow motion; where that is not found the state stays, or with `keep_best` is the best attempt. Over which
+// time it was found; 0: it was not.
+template <class S>
+double settle_fast_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, double span, bool keep_best, BasicState<S>& state) {
+  const BasicState<S> given = state;
+  for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25) {
+    BasicState<S> attempt = state;
+    const double change = move_onto_slow_manifold(system, time_scales, span, attempt);
+    if (is_runaway(system, attempt, given)) continue;
+    if (change < kSettled || (keep_best && is_near(attempt, given))) state = std::move(attempt);
+    if (change < kSettled) return span;
+  }
+  return 0;
+}
+
+// Says which joints start on a motion of their own. True when there are none.
+template <class S>
+bool note_resolved_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, const BasicSoftStart<S>& soft, std::vector<std::string>& notes) {
+  bool none = true;
+  for (std::size_t j = 0; j < soft.share.size(); ++j) {
+    Eigen::Index slowest = 0;
+    const double share = soft.share[j].minCoeff(&slowest);
+    if (share > kEntirely) continue;
+    none = false;
+    notes.push_back(fmt::format("{} {}: with a rate of {:.3g} 1/s it relaxes more slowly than its load varies; it starts at the deflection that carries the load, "
+                                "with {:.0f} % of the quasi-static rate, and its transient is part of the solution",
+                                system.joints[j].servo < 0 ? "joint" : "motor", system.joints[j].name, time_scales.slow_rate[j][slowest], 100 * share));
+  }
+  return none;
+}
+
+// theory/start section 5: soft joints first, then the others around them.
+template <class S>
+void settle_soft_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, double span, BasicSettledStart<S>& start) {
+  BasicState<S> attempt = start.state;
+  const BasicSoftStart<S> soft = place_soft_joints(system, time_scales, 2 * span, attempt);
+  if (soft.change < kSettled || is_near(attempt, start.state)) start.state = std::move(attempt);
+  const bool along = note_resolved_joints(system, time_scales, soft, start.notes);
+  if (soft.placed && along && soft.change < kExact) return;
+  if (settle_fast_joints(system, time_scales, span, false, start.state) > 0) return;
+  if (!soft.placed || soft.change >= kSettled) start.notes.push_back(kNotSettled);
+}
+
+}  // namespace
+
+template <class S>
+void settle_joints(const BasicSystem<S>& system, double duration, double known_span, BasicSettledStart<S>& start) {
+  if (!(duration > 0)) return;
+  BasicState<S>& state = start.state;
+  const double span = known_span > 0 ? known_span : span_of_motion(system, state, 4 * duration);
+  start.span = span;
+  const BasicTimeScales<S> time_scales = measure_time_scales(system, state, span);
+  if (span > 0 && time_scales.any_soft()) return settle_soft_joints(system, time_scales, span, start);
+  start.settled_over = settle_fast_joints(system, all_fast(system), smooth_span(system, state, duration), true, state);
+  if (start.settled_over == 0) start.notes.push_back(kNotSettled);
+}
+
+template void settle_joints(const BasicSystem<Planar>& system, double duration, double known_span, BasicSettledStart<Planar>& start);
+template void settle_joints(const BasicSystem<Spatial>& system, double duration, double known_span, BasicSettledStart<Spatial>& start);
+
+}  // namespace pintle

@@ -1,0 +1,154 @@
+// Borders of a law that the program does not know, in whole runs: events at the times of the closed form, in the stated direction only.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "integrators/absolute/radau_stepper.h"
+#include "laws/catalog.h"
+#include "laws/law_math.h"
+#include "tests/reference_tables.h"
+
+namespace pintle {
+namespace {
+
+// A one-sided spring under what a slider leaves free, and a border that only says where the motion turns upwards.
+struct PadLaw {
+  static constexpr std::string_view kWord = "pad";
+  double k = 0;
+
+  template <class T>
+  void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
+    const T depth = law_math::where_positive(in.gap[0], T(0.0), T(0.0) - in.gap[0]);
+    out.force[0] = k * depth;
+    out.energy = 0.5 * k * (depth * depth);
+  }
+  int n_borders() const { return 2; }
+  void borders(const LawInput<double>& in, double* value) const {
+    value[0] = -in.gap[0];
+    value[1] = in.rate[0];
+  }
+  std::array<int, 2> border_directions() const { return {0, 1}; }
+};
+
+constexpr std::array<KeyInfo, 1> kPadKeys{{{.key = "pad_stiffness", .unit = "N/m", .fallback = 4e3, .minimum_exclusive = true, .meaning = "of a test"}}};
+void make_pad(const LawSetting& at, Law& law) {
+  law.set_linear({{0, 1e7, 1e5}, {0, 1e3, 10}});
+  law.add(std::make_unique<LawPartOf<PadLaw>>(PadLaw{at.number("pad_stiffness")}));
+}
+void make_known() {
+  static const bool done = [] {
+    register_law({.word = "pad", .meaning = "of a test", .keys = kPadKeys, .make = make_pad});
+    return true;
+  }();
+  static_cast<void>(done);
+}
+
+constexpr double kMass = 2, kGravity = 9.80665, kHeight = 0.3, kStiffness = 4e3;
+
+Model bouncing() {
+  make_known();
+  return parse_model(R"toml(
+format = 1
+name = "Bouncing block"
+[simulate]
+duration = "2 s"
+output_step = "10 ms"
+start = "raw"
+[ground.markers]
+o = { x = 0, y = 0, axis = "90 deg" }
+[body.block]
+mass = 2
+inertia = 0.01
+position = [0, 0.3]
+velocity = [0, 0]
+angle = 0
+spin = 0
+markers.c = { x = 0, y = 0, axis = "90 deg" }
+[joint.guide]
+type = "prismatic"
+between = ["ground.o", "block.c"]
+law = "pad"
+)toml", "bouncing.toml");
+}
+
+// Falls, is on the pad from `touch` on for `contact`, and flies for `flight`; the same again and again, as nothing is lost.
+struct Bounces {
+  double speed = std::sqrt(2 * kGravity * kHeight), w = std::sqrt(kStiffness / kMass);
+  double touch = speed / kGravity, flight = 2 * touch, contact = 2 * (std::numbers::pi - std::atan(speed * w / kGravity)) / w;
+
+  // Touch, turning point, let-go, touch ..
+  double event(int i) const { return touch + i / 3 * (contact + flight) + 0.5 * contact * (i % 3); }
+};
+
+TEST(Events, ABlockTouchesTurnsAndLetsGoWhenItShould) {
+  const Model model = bouncing();
+  System system = build_system(model);
+  const State start = start_of_run(model, system).state;
+  ASSERT_EQ(system.switching().size(), 2u);
+  const Bounces exact;
+  for (const int stages : {3, 5})
+    for (const double tolerance : {1e-5, 1e-9}) {
+      RadauStepper stepper(system, tolerance, stages);
+      stepper.start(start, 1e-4);
+      std::vector<SwitchingEvent> events;
+      std::uint64_t seen = 0;
+      while (stepper.state().t < 1.9) {
+        ASSERT_TRUE(stepper.step(1.9)) << stepper.failure();
+        ASSERT_LE(stepper.counters().events, seen + 1);
+        if (stepper.counters().events > seen) events.push_back(stepper.event());
+        seen = stepper.counters().events;
+      }
+      // A free fall is exact; after it the solution's own error adds up.
+      ASSERT_EQ(events.size(), 9u) << stages;  // of three bounces; the highest points are none
+      for (int i = 0; i < 9; ++i) {
+        EXPECT_NEAR(events[i].t, exact.event(i), i == 0 ? 1e-10 : 3 * tolerance) << i << ' ' << stages << ' ' << tolerance;
+        EXPECT_EQ(events[i].function, i % 3 == 1 ? 1 : 0) << i;
+        EXPECT_EQ(events[i].rising, i % 3 != 2) << i;
+      }
+    }
+}
+
+TEST(Events, ARunCountsThemAndKeepsItsTolerance) {
+  Model model = bouncing();
+  const Bounces exact;
+  for (const Equations equations : {Equations::kNewtonian, Equations::kRelative}) {
+    model.simulate.equations = equations;
+    const Trajectory run = simulate(model);
+    ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+    EXPECT_EQ(run.counters.events, 11 * run.counters.passes);  // up to the fourth turning point
+    const int y = run.column("body.block.y");
+    for (std::size_t i = 0; i < run.n_rows(); ++i) {
+      const double since = std::fmod(run.at(i, 0) + 0.5 * exact.flight, exact.contact + exact.flight);  // the last let-go
+      if (since < exact.flight) EXPECT_NEAR(run.at(i, y), kHeight - 0.5 * kGravity * std::pow(since - 0.5 * exact.flight, 2), 2e-5) << run.at(i, 0);
+      else EXPECT_LT(run.at(i, y), 1e-6);
+    }
+    EXPECT_LT(run.energy.drift, 1e-5 * run.energy.kinetic_peak);
+  }
+}
+
+// A joint that the equations keep closed does not rub: said, once for each.
+TEST(Events, FrictionOfAnIdealJointIsMissedAloud) {
+  Model model = reference::mechanism("four_bar");
+  model.simulate.duration = 0.01;
+  model.joints[0].friction = model.joints[2].friction = {"lugre", {}};
+  const auto lost = [](const Trajectory& run) {
+    std::vector<std::string> notes;
+    for (const std::string& note : run.notes)
+      if (note.find("its friction is not in these equations") != std::string::npos) notes.push_back(note);
+    return notes;
+  };
+  EXPECT_TRUE(lost(simulate(model)).empty());
+  const std::string first = "joint " + model.joints[0].name + " is ideal: its friction is not in these equations";
+  const std::string third = "joint " + model.joints[2].name + " is ideal: its friction is not in these equations";
+  model.simulate.equations = Equations::kIdeal;
+  EXPECT_EQ(lost(simulate(model)), (std::vector{first, third}));
+  model.simulate.equations = Equations::kRelative;
+  model.joints[0].ideal = true;
+  EXPECT_EQ(lost(simulate(model)), std::vector{first});
+}
+
+}  // namespace
+}  // namespace pintle
