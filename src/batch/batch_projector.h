@@ -43,7 +43,7 @@ class BatchProjector {
       const BatchJoint& joint = mechanism_.joints[j];
       map_[j] = r[j].map;
       for (int k = 0; k < 3; ++k) weight_[j][k] = joint.k[k] + mu * joint.c[k];
-      PoseBlocks<VariantLanes>::of(map_[j], weight_[j].a.data()).add_to(lu_, joint.at, joint.slot);
+      PoseBlocks<Planar, VariantLanes>::of(map_[j], weight_[j].a.data()).add_to(lu_, joint.at, joint.slot);
     }
     lu_.factorize();
   }

@@ -173,8 +173,8 @@ class BatchSteps {
         w[k] = joint.k[k] + mu_ * joint.c[k];
         z[k] = {joint.k[k] + nu_.re * joint.c[k], nu_.im * joint.c[k]};
       }
-      PoseBlocks<VariantLanes>::of(frozen_[j], w, stage_[kMiddle].force[j]).add_to(real_, joint.at, joint.slot);
-      PoseBlocks<Pair>::of(frozen_[j], z, stage_[kMiddle].force[j]).add_to(pair_, joint.at, joint.slot);
+      PoseBlocks<Planar, VariantLanes>::of(frozen_[j], w, stage_[kMiddle].force[j]).add_to(real_, joint.at, joint.slot);
+      PoseBlocks<Planar, Pair>::of(frozen_[j], z, stage_[kMiddle].force[j]).add_to(pair_, joint.at, joint.slot);
     }
     if (mechanism_.has_loads()) add_load_tangents(begin_.t + table_.c[kMiddle] * h);
     real_.factorize();

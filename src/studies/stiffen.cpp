@@ -31,7 +31,7 @@ constexpr std::size_t kMostInfluences = 24;  // joints; more are not tried one b
 constexpr double kGrowth = 5;             // of a peak per tenfold stiffness: it goes with the stiffness itself
 constexpr const char* kInterrupted = "interrupted";
 constexpr double kStiffEnough = 1e9;      // to see what a soft joint does, where no stiffness was found [N/m]
-constexpr double kStill = 0.5;            // of the change per step: no longer falling
+constexpr double kNoLongerFalls = 0.5;            // of the change per step: no longer falling
 
 double wanted_agreement(const StiffenRequest& request) { return 0.5 * std::pow(10.0, -request.digits); }
 
@@ -183,7 +183,7 @@ class Procedure {
   // Two steps in a row that changed nearly as much as the one before each; one where the motion is known to be singular.
   bool no_longer_falls() const {
     const std::size_t n = out_.steps.size();
-    const auto still = [this](std::size_t i) { return out_.steps[i].change > kStill * out_.steps[i - 1].change; };
+    const auto still = [this](std::size_t i) { return out_.steps[i].change > kNoLongerFalls * out_.steps[i - 1].change; };
     return singular_ ? n > 2 && still(n - 1) : n > 3 && still(n - 1) && still(n - 2);
   }
 
@@ -330,7 +330,7 @@ class Procedure {
     if (last.change < before.change / 5)
       out_.reason += fmt::format("; the change falls as 1/stiffness: {:.0e} N/m is within {:.1g} of the limit, and the extrapolated limit below is closer", last.stiffness, last.change / (kTenfold - 1));
     else if (singular_) out_.reason += "; the mechanism passes singular positions, where forces depend on the joints' compliance";
-    else if (last.change > kStill * before.change) out_.reason += "; the change no longer falls: check for vibration, impact or slack, or ask for fewer digits";
+    else if (last.change > kNoLongerFalls * before.change) out_.reason += "; the change no longer falls: check for vibration, impact or slack, or ask for fewer digits";
   }
 
   Model model_;

@@ -17,7 +17,7 @@ using sample::Random;
 using Vec = Planar::Vec;
 
 template <int N>
-void put(BodyLanes<N>& body, int lane, const Vec& q, const Vec& v) {
+void put(PlanarBodyLanes<N>& body, int lane, const Vec& q, const Vec& v) {
   for (int k = 0; k < 3; ++k) {
     body.q[k].set(lane, q[k]);
     body.v[k].set(lane, v[k]);
@@ -53,7 +53,7 @@ template <int N>
 struct Poses {
   std::vector<Couple> couple;
   std::vector<JointKinematics> kinematics;
-  BodyLanes<N> A, B;
+  PlanarBodyLanes<N> A, B;
   PoseGeometry<Lanes<N>> pose;
   GapMap<Lanes<N>> map;
 
