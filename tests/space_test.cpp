@@ -55,15 +55,15 @@ SpatialState at(const SpatialSystem& system, const PositionsOf<S>& q, const Vecs
 }
 
 // The state at each of the times, and the number of steps.
-struct Run {
+struct SpatialRun {
   std::vector<SpatialState> states;
   Counters counters;
 };
-Run run(const SpatialSystem& system, const SpatialState& start, const std::vector<double>& times, double tolerance, int stages) {
+SpatialRun run(const SpatialSystem& system, const SpatialState& start, const std::vector<double>& times, double tolerance, int stages) {
   BasicRadauStepper<S> stepper(system, tolerance, stages);
   BasicDenseOutput<S> dense(system);
   stepper.start(start, 1e-4 * times.back());
-  Run out;
+  SpatialRun out;
   for (std::size_t next = 0; next < times.size();) {
     if (!stepper.step(times.back())) {
       ADD_FAILURE() << stepper.failure();
@@ -87,7 +87,7 @@ TEST(Space, AFreeBodyTurnsOverWhenJacobisFunctionsSay) {
   const SpatialState start = at(system, {S::Coordinates{}}, {v});
   constexpr double kFlip = 5.02592913815747;
   for (const int stages : {3, 5}) {
-    const Run done = run(system, start, {2.5, 5, kFlip}, stages == 3 ? 1e-9 : 1e-11, stages);
+    const SpatialRun done = run(system, start, {2.5, 5, kFlip}, stages == 3 ? 1e-9 : 1e-11, stages);
     printf("free stages %d steps %d\n", stages, (int)done.counters.steps);
     const auto &at_5 = done.states[1], &flipped = done.states[2];
     EXPECT_NEAR(at_5.v[0][3], -0.011325693900949457, 1e-6);
@@ -116,7 +116,7 @@ TEST(Space, AHeavyTopCarriesTheKnownForces) {
   const SpatialState start = at(system, {S::Coordinates{{0, 1, 0}, Eigen::Quaterniond::Identity()}}, {v});
   const Point expected[] = {{-640.2364079922062, -148.62771134696467, 136.9293130385287}, {-517.6007394773699, -396.8431014892873, 404.5749251636106}};
   for (const double tolerance : {1e-4, 1e-6}) {
-    const Run done = run(system, start, {0.2, 1.0}, tolerance, 5);
+    const SpatialRun done = run(system, start, {0.2, 1.0}, tolerance, 5);
     printf("top tol %g steps %d newton %d\n", tolerance, (int)done.counters.steps, (int)done.counters.newton_iterations);
     for (int i = 0; i < 2; ++i) {
       const Point f = done.states[i].force[0].head<3>();
@@ -162,7 +162,7 @@ SpatialState bricard_start(const SpatialSystem& system) {
 TEST(Space, BricardsHingesMoveAsComputed) {
   const SpatialSystem system = bricard(1e9);
   const SpatialState start = bricard_start(system);
-  const Run done = run(system, start, {1, 2, 4, 7, 9, 10}, 1e-5, 5);
+  const SpatialRun done = run(system, start, {1, 2, 4, 7, 9, 10}, 1e-5, 5);
   printf("bricard steps %d rejected %d newton %d\n", (int)done.counters.steps, (int)done.counters.rejected, (int)done.counters.newton_iterations);
   const Point expected[] = {{0.5105014611872182, -1.6491675993948074, 0.14012311455318463}, {-0.9693403447776451, -1.2212468949563386, 0.7542780107797513},
                             {0.5248995933913272, -1.6438760013360654, 0.14883584611567457}, {-0.9713738492431965, -1.2145418748558687, 0.7624440171107958},

@@ -137,7 +137,7 @@ struct BasicJointPack {
 
   /// Component k of what there is for each joint.
   PINTLE_LANES L load(const std::vector<typename S::Vec>& x, int component) const {
-    return L::of({x[lane[0]][component], x[lane[1]][component], x[lane[2]][component], x[lane[S::kDof]][component]});
+    return L::of({x[lane[0]][component], x[lane[1]][component], x[lane[2]][component], x[lane[3]][component]});
   }
   PINTLE_LANES void store(const L (&from)[S::kDof], std::vector<typename S::Vec>& x) const {
     for (int i = 0; i < n; ++i)
