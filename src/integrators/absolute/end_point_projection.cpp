@@ -240,7 +240,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
 
   // rhs_ += G' W gap.
   void add_to_rhs(const BasicJointPack<S>& joints, const L (&gap)[S::kDof]) {
-    L f[3];
+    L f[S::kDof];
     weigh<S::kDof>(joints.linear, joints.weight, gap, f);
     joints.push(f, rhs_);
   }
