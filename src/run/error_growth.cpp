@@ -11,7 +11,8 @@ constexpr double kSaturated = 0.03;     // of the peak: differences above it no 
 constexpr double kFitted = 1e-6;        // of that, the smallest difference that is fitted
 constexpr int kMostBlocks = 32, kLeastBlocks = 8;
 constexpr double kLeastGain = 4.6;      // of the logarithm over the fit: a factor of a hundred
-constexpr double kMostBend = 0.28;      // second over first Legendre coefficient: 0 of an exponential, -0.56 of any power of time
+constexpr double kLeastBend = -0.28;    // second over first Legendre coefficient: 0 of an exponential, -0.56 of any power of time
+constexpr double kMostPower = 4;        // of time: errors of phases grow with its first or second, forces' with little more
 constexpr double kSure = 5;             // standard errors that a rate is above zero
 constexpr double kSurePair = 3;         // that two rates may be apart
 constexpr double kSameRate = 0.3;       // of the rate, besides
@@ -120,7 +121,7 @@ ErrorGrowth fit_growth(const DifferenceCurve& curve) {
   growth.until = b.t[b.n - 1];
   growth.level = std::exp(line.mean_y + line.slope * (growth.until - line.mean_x));
   const double gain = line.slope * (b.t[b.n - 1] - b.t[0]);
-  growth.exponential = gain > kLeastGain && line.slope > kSure * line.error && line.squares < power.squares && std::abs(bend(b)) < kMostBend;
+  growth.exponential = gain > kLeastGain && line.slope > kSure * line.error && (line.squares < power.squares || power.slope > kMostPower) && bend(b) > kLeastBend;
   return growth;
 }
 

@@ -34,10 +34,10 @@ Statistics after(const ForceTable& forces, std::size_t joints, std::size_t j, do
 
 }  // namespace
 
-void promise_until_horizons(const System& system, const ForceTable& coarse, const ForceTable& fine, double share, const ErrorGrowth& growth, Trajectory& out) {
+void promise_until_horizons(const System& system, const ForceTable& coarse, const ForceTable& fine, double share, double within, const ErrorGrowth& growth, Trajectory& out) {
   const std::size_t joints = system.joints.size();
-  std::vector<double> horizons = force_horizons(system, coarse, fine, share, out.tolerance);
-  if (out.of_motion) horizons.assign(joints, curve_horizon(motion_difference_curve(system, coarse, fine), out.tolerance));
+  std::vector<double> horizons = force_horizons(system, coarse, fine, share, within);
+  if (out.of_motion) horizons.assign(joints, curve_horizon(motion_difference_curve(system, coarse, fine), within));
   out.growth = {growth.rate, growth.rate_error, out.t_end};
   const LoadSummary* earliest = nullptr;
   std::size_t row = 0;

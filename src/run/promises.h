@@ -7,7 +7,8 @@
 
 namespace pintle {
 
-/// Fills in horizons, errors up to them, statistics after them, growth and message. `out` has its summaries; `share` is that of Eq. (6.2).
-void promise_until_horizons(const System& system, const ForceTable& coarse, const ForceTable& fine, double share, const ErrorGrowth& growth, Trajectory& out);
+/// Fills in horizons, errors up to them, statistics after them, growth and message. `out` has its summaries; `share` is that of Eq. (6.2),
+/// `within` what it times the difference may be [-].
+void promise_until_horizons(const System& system, const ForceTable& coarse, const ForceTable& fine, double share, double within, const ErrorGrowth& growth, Trajectory& out);
 
 }  // namespace pintle

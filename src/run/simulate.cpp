@@ -36,7 +36,8 @@ constexpr double kAlike = 1.25;  // steps of the finer pass over those of the co
 constexpr double kSurest = 0.1;  // of the tolerance of the steps: no error of the motion is stated as smaller
 constexpr std::size_t kManyBodies = 1000;
 constexpr double kRepeated = 0.1;  // tolerance of a pass that is to show whether what two have shown is so, over that of the finer
-constexpr double kFinest = 1e-12;  // tolerance down to which errors are expected to fall with it
+constexpr double kFinest = 1e-11;  // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
+constexpr double kOptimism = 2;    // standard errors by which a rate may be smaller before no tolerance is said to help
 constexpr int kMostOpen = 2;       // passes made finer because the energy account did not close
 
 class Run {
@@ -162,6 +163,7 @@ class Run {
       fine_.reset();
       complete = run_closed_pass(of_pilot);
     }
+    stages_before_ = choice_.stages;
     tolerance = std::min(tolerance, of_pilot / kPilot);
     return complete;
   }
@@ -169,15 +171,19 @@ class Run {
   // The last two passes, of which the coarser had the tolerance `before` and made so many steps.
   void compare(double before, double steps_before) {
     const ForceTable &coarse = coarse_->forces(), &fine = fine_->forces();
+    coarse_tolerance_ = before;
     difference_ = difference_of_passes(system_, coarse, fine, fine.t.back());
-    alike_ = static_cast<double>(last_.counters.steps) < kAlike * steps_before;
+    alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
+    stages_before_ = choice_.stages;
     share_ = alike_ || out_.of_motion ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(fine_tolerance_ / before, kSharePower));
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
-    error_ = out_.of_motion ? out_.motion_error : share_ * largest_of(relative_differences(system_, difference_));
+    double apart = out_.of_motion ? out_.motion_error : largest_of(relative_differences(system_, difference_));
     last_growth_ = growth_;
     growth_ = {};
-    if (error_ > kPromised * model_.simulate.tolerance)
+    if (apart > kPromised * model_.simulate.tolerance)
       growth_ = fit_growth(out_.of_motion ? motion_difference_curve(system_, coarse, fine) : force_difference_curve(system_, coarse, fine));
+    if (growth_.exponential && growth_.saturated) share_ = 1;  // a difference that has stopped growing does not tell the finer one's part
+    error_ = share_ * apart;
   }
 
   // Whether another pass is made, and with which tolerance.
@@ -194,19 +200,23 @@ class Run {
     if (error_ <= kPromised * wanted) return false;
     chaotic_ = growth_.saturated && same_growth(last_growth_, growth_);
     if (last_one) return false;
-    if (growth_.exponential) {
-      if (const double next = tolerance_by_growth(tolerance); next >= kFinest) return at(std::min(next, kRepeated * tolerance));
-      if (growth_.saturated) return !chaotic_ && at(kRepeated * tolerance);
+    if (growth_.exponential && growth_.saturated) {
+      const double hoped = tolerance_by_growth(growth_.rate - kOptimism * growth_.rate_error, 1);
+      const bool hopeless = hoped < kLeastTolerance || tolerance < kFinest;
+      if (chaotic_ && hopeless) return false;
+      const double next = std::min(kRepeated * tolerance, hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kSharePower)));
+      if (next < kTight) choice_.stages = 5;
+      return at(next);
     }
-    chaotic_ = false;
     const double shrink = 0.5 * std::pow(wanted / error_, 1 / kSharePower);
     return at(tolerance * std::clamp(shrink, 1e-3, 0.1));
   }
 
-  // The tolerance with which the difference, growing as it does, would be small enough at the end. theory/time Eq. (6.10).
-  double tolerance_by_growth(double tolerance) const {
-    const double at_end = share_ * growth_.extrapolated(model_.simulate.duration, growth_.rate);
-    return tolerance * std::min(1.0, 0.5 * std::pow(model_.simulate.tolerance / at_end, 1 / kSharePower));
+  // The tolerance with which errors, growing as they do, would be small enough at the end: the difference is the coarser pass's error.
+  // theory/time Eq. (6.10).
+  double tolerance_by_growth(double rate, double power) const {
+    const double at_end = growth_.extrapolated(model_.simulate.duration, rate);
+    return coarse_tolerance_ * std::min(1.0, 0.5 * std::pow(model_.simulate.tolerance / at_end, 1 / power));
   }
 
   // Of the only pass: that of the second one, or what was enough for the run that the nominal settings are from.
@@ -239,7 +249,7 @@ class Run {
       joint.moment_error_estimate = share_ * difference_.couple[j];
       joint.relative_error_estimate = share_ * relative_difference[j];
     }
-    if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, growth_, out_);
+    if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * model_.simulate.tolerance, growth_, out_);
   }
 
   // How it ended; a pass that broke off leaves the results of the one before it.
@@ -275,11 +285,12 @@ class Run {
   std::vector<std::string> not_unique_;
   MethodChoice choice_;
   std::unique_ptr<Recorder> coarse_, fine_;
-  double fine_tolerance_ = 0, span_ = 0;
+  double fine_tolerance_ = 0, coarse_tolerance_ = 0, span_ = 0;
   // Of the last two passes.
   PassDifference difference_;
   double share_ = 1, error_ = 0;
   bool alike_ = false;             // their steps
+  int stages_before_ = 0;          // of the coarser one
   ErrorGrowth growth_, last_growth_;  // and of the pair before
   bool chaotic_ = false;
   bool doubted_ = false;           // a pass has been made because two were alike
