@@ -36,7 +36,7 @@ DifferenceCurve force_difference_curve(const System& system, const ForceTable& c
 DifferenceCurve motion_difference_curve(const System& system, const ForceTable& coarse, const ForceTable& fine);
 
 /// For each joint the last time [s] at which a run that ends there has `share` times its difference within `tolerance` of its peak.
-/// theory/time Eq. (6.9).
+/// theory/time Eq. (6.10).
 std::vector<double> force_horizons(const System& system, const ForceTable& coarse, const ForceTable& fine, double share, double tolerance);
 
 /// The last time up to which the curve stays within `tolerance`.

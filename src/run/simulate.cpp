@@ -198,12 +198,13 @@ class Run {
       return at(kRepeated * tolerance);
     }
     if (error_ <= kPromised * wanted) return false;
-    chaotic_ = growth_.saturated && same_growth(last_growth_, growth_);
+    const bool same = growth_.saturated && same_growth(last_growth_, growth_);
+    if (same) chaos_ = growth_;
     if (last_one) return false;
     if (growth_.exponential && growth_.saturated) {
       const double hoped = tolerance_by_growth(growth_.rate - kOptimism * growth_.rate_error, 1);
       const bool hopeless = hoped < kLeastTolerance || tolerance < kFinest;
-      if (chaotic_ && hopeless) return false;
+      if (same && hopeless) return false;
       const double next = std::min(kRepeated * tolerance, hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kSharePower)));
       if (next < kTight) choice_.stages = 5;
       return at(next);
@@ -213,7 +214,7 @@ class Run {
   }
 
   // The tolerance with which errors, growing as they do, would be small enough at the end: the difference is the coarser pass's error.
-  // theory/time Eq. (6.10).
+  // theory/time Eq. (6.9).
   double tolerance_by_growth(double rate, double power) const {
     const double at_end = growth_.extrapolated(model_.simulate.duration, rate);
     return coarse_tolerance_ * std::min(1.0, 0.5 * std::pow(model_.simulate.tolerance / at_end, 1 / power));
@@ -249,7 +250,7 @@ class Run {
       joint.moment_error_estimate = share_ * difference_.couple[j];
       joint.relative_error_estimate = share_ * relative_difference[j];
     }
-    if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * model_.simulate.tolerance, growth_, out_);
+    if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * model_.simulate.tolerance, chaos_, out_);
   }
 
   // How it ended; a pass that broke off leaves the results of the one before it.
@@ -262,7 +263,7 @@ class Run {
     else if (last_.ended == Ended::kRunaway) out_.outcome = Outcome::kRunaway;
     else if (ended == Ended::kEnergyOpen) out_.outcome = Outcome::kEnergyOpen;
     else if (ended == Ended::kFailed && !whole) out_.outcome = Outcome::kFailed;
-    else if (missed && chaotic_ && ended == Ended::kAtEnd) out_.outcome = Outcome::kHorizon;
+    else if (missed && chaos_.exponential && ended == Ended::kAtEnd) out_.outcome = Outcome::kHorizon;
     else if ((ended == Ended::kFailed && no_estimate) || missed) out_.outcome = Outcome::kToleranceNotMet;
     if (no_estimate && shape_.checked && !system_.joints.empty()) out_.notes.push_back("stopped before a second integration: the joint forces have no error estimate");
     if (whole && ended != Ended::kAtEnd)
@@ -292,7 +293,7 @@ class Run {
   bool alike_ = false;             // their steps
   int stages_before_ = 0;          // of the coarser one
   ErrorGrowth growth_, last_growth_;  // and of the pair before
-  bool chaotic_ = false;
+  ErrorGrowth chaos_;              // where two pairs have shown the same exponential growth
   bool doubted_ = false;           // a pass has been made because two were alike
   bool ran_away_ = false;          // the coarser one
   int open_ = 0;                   // passes repeated because the energy account did not close
