@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kJudgedEvery = 8;          // steps
 constexpr double kExplained = 30;        // times tolerance and turnover: what errors of the forces explain. Eq. (8.2)
+constexpr double kPerExchange = 0.01;    // part of the energy that goes to and fro: errors add up in long runs
 constexpr double kLeastTolerance = 1e-7; // below it rounding makes the account
 constexpr double kRounding = 1e-11;      // of the largest entry
 constexpr int kRunaway = 10;             // powers of ten above what can be stored. Eq. (8.4)
@@ -48,6 +49,7 @@ double EnergyWatch::potential(const State& state) {
 // Eq. (8.3).
 void EnergyWatch::start(const State& state) {
   const double kinetic = system_.kinetic(state.v), size = size_of(system_);
+  kinetic_ = kinetic;
   potential_ = potential(state);
   total_ = kinetic + potential_ + state.dissipated - state.supplied;
   double elastic = potential_;
@@ -67,6 +69,8 @@ EnergyWatch::Alarm EnergyWatch::see_step(const State& state, double h) {
   supply_ = state.supply_power;
   loss_ = state.loss_power;
   const double kinetic = system_.kinetic(state.v);
+  exchanged_ += std::abs(kinetic - kinetic_);
+  kinetic_ = kinetic;
   kinetic_peak_ = std::max(kinetic_peak_, kinetic);
   if (reached_ > 0) add_works(state, h);
   if (++since_judged_ >= kJudgedEvery)
@@ -83,7 +87,7 @@ EnergyWatch::Alarm EnergyWatch::judge_account(const State& state) {
   const double stored = potential(state), kinetic = system_.kinetic(state.v);
   swing_ = std::max(swing_, std::abs(stored - potential_));
   const double missing = kinetic + stored + state.dissipated - state.supplied - total_;
-  const double turnover = std::max({kinetic_peak_, swing_, throughput_, storable_});
+  const double turnover = std::max({kinetic_peak_, swing_, throughput_, storable_}) + kPerExchange * exchanged_;
   const double largest = std::max({kinetic, std::abs(stored), std::abs(potential_), std::abs(state.supplied), std::abs(state.dissipated)});
   const double within = kExplained * tolerance_ * turnover + kRounding * largest;
   if (std::abs(missing) <= within) {
@@ -116,7 +120,7 @@ EnergyWatch::Alarm EnergyWatch::judge_growth(const State& state, double) {
   if (!more || reached_ <= kRunaway) return Alarm::kNone;
   const double last = decade_[reached_ - 1] - decade_[reached_ - 1 - kCompared];
   const double before = decade_[reached_ - 1 - kCompared] - decade_[reached_ - 1 - 2 * kCompared];
-  if (last > kSteady * before) return Alarm::kNone;
+  if (!(before > 0) || last > kSteady * before) return Alarm::kNone;  // powers of ten within one step tell nothing
   say_runaway(state, energy);
   return Alarm::kRunaway;
 }

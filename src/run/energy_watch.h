@@ -44,6 +44,7 @@ class EnergyWatch {
   double storable_ = 0;                  // what the mechanism stores at the start, or its weights over its size [J]
   double total_ = 0, potential_ = 0;     // at the start [J]
   double kinetic_peak_ = 0, swing_ = 0;  // largest kinetic energy, largest change of the potential one [J]
+  double kinetic_ = 0, exchanged_ = 0;   // at the last step; the sum of its changes by their size [J]
   double throughput_ = 0;                // of supply and loss together, by their size [J]
   double supply_ = 0, loss_ = 0;         // powers at the last step [W]
   double missing_ = 0;                   // of the account when last judged [J]
