@@ -38,6 +38,7 @@ constexpr std::size_t kManyBodies = 1000;
 constexpr double kRepeated = 0.1;  // tolerance of a pass that is to show whether what two have shown is so, over that of the finer
 constexpr double kFinest = 1e-11;  // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
 constexpr double kOptimism = 2;    // standard errors by which a rate may be smaller before no tolerance is said to help
+constexpr double kLoosestAccount = 1e-3;  // passes are finer than a looser tolerance, and so are their energies
 constexpr int kMostOpen = 2;       // passes made finer because the energy account did not close
 
 class Run {
@@ -95,7 +96,7 @@ class Run {
     IntegrationPlan p = plan(tolerance);
     // Explicit methods take works by the trapezoidal rule, others leave them out of their control.
     const bool exact_work = choice_.method == "radau" || choice_.equations == Equations::kIdeal;
-    EnergyWatch energy(system_, p.duration, std::max(tolerance, model_.simulate.tolerance), exact_work);
+    EnergyWatch energy(system_, p.duration, std::max(tolerance, std::min(model_.simulate.tolerance, kLoosestAccount)), exact_work);
     p.energy = &energy;
     Integration done = integrate(system_, start_, p, *recorder);
     count(done.counters);
