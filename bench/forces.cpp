@@ -79,6 +79,8 @@ const char* outcome_word(const Trajectory& run) {
       return "";
     case Outcome::kToleranceNotMet:
       return "run says: not met";
+    case Outcome::kHorizon:
+      return "run says: chaotic";
     case Outcome::kInterrupted:
       return "over the time cap";
     default:

@@ -40,7 +40,11 @@ ExitCode exit_code_of(const Comparison& comparison) {
   for (const Trajectory* run : {&comparison.first, &comparison.second}) {
     if (run->outcome == Outcome::kInterrupted) return kStoppedBySignal;
     if (run->outcome == Outcome::kFailed) code = kIntegrationFailed;
-    if (run->outcome == Outcome::kToleranceNotMet && code == kOk) code = kToleranceMissed;
+    if (code != kOk) continue;
+    if (run->outcome == Outcome::kToleranceNotMet) code = kToleranceMissed;
+    if (run->outcome == Outcome::kHorizon) code = kPromisedUntilHorizon;
+    if (run->outcome == Outcome::kRunaway) code = kRanAway;
+    if (run->outcome == Outcome::kEnergyOpen) code = kEnergyOpen;
   }
   return code;
 }

@@ -13,6 +13,9 @@ enum ExitCode : int {
   kFileError = 6,
   kToleranceMissed = 7,
   kCheckFailed = 8,
+  kPromisedUntilHorizon = 9,
+  kRanAway = 10,
+  kEnergyOpen = 11,
   kStoppedBySignal = 130,
 };
 
@@ -28,6 +31,9 @@ inline constexpr const char* kExitCodeHelp =
     "  6  a file or folder cannot be read or written\n"
     "  7  finished, but some joint's force missed the tolerance; results are kept; stiffen: no stiffness was enough\n"
     "  8  pintle check: a formula disagrees with its differences, or energy is not kept\n"
+    "  9  finished; the motion is chaotic, and forces are promised up to a time that the table states\n"
+    "  10  the motion runs away, fed by a motor or force that the message names; results up to there are kept\n"
+    "  11  the energy account does not close: the results are wrong; the message says from when on and why\n"
     "  130  stopped by Ctrl-C or a termination signal; results up to there are kept\n";
 
 }  // namespace pintle::cli

@@ -66,6 +66,12 @@ ExitCode exit_code_of(Outcome outcome) {
       return kStoppedBySignal;
     case Outcome::kFailed:
       return kIntegrationFailed;
+    case Outcome::kHorizon:
+      return kPromisedUntilHorizon;
+    case Outcome::kRunaway:
+      return kRanAway;
+    case Outcome::kEnergyOpen:
+      return kEnergyOpen;
   }
   return kInternalError;
 }

@@ -59,7 +59,7 @@ std::string summary_json(const Trajectory& trajectory, const RunStamp& stamp);
 /// The same for people: joints, springs, motors, energy account, counters. `colour` adds terminal escapes.
 std::string summary_text(const Trajectory& trajectory, const RunStamp& stamp, bool colour = false);
 
-/// "completed", "tolerance_not_met", "interrupted" or "failed".
+/// "completed", "tolerance_not_met", "interrupted", "failed", "horizon", "runaway" or "energy_open".
 std::string to_text(Outcome outcome);
 
 }  // namespace pintle

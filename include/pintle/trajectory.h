@@ -29,6 +29,9 @@ struct LoadSummary {
   double error_estimate = 0;           ///< largest error of the force over the run [N]; 0 also where a run stopped before its second integration
   double moment_error_estimate = 0;    ///< largest error of the couple [N*m]
   double relative_error_estimate = 0;  ///< the larger of the two, each over the joint's peak [-]
+  double horizon = 0;                  ///< last time up to which the force is promised [s]; the error estimates are of the rows up to it
+  double peak_after = 0, rms_after = 0, mean_after = 0;  ///< where the motion goes on beyond the horizon: statistics of its rest [N]
+  double peak_scatter = 0, rms_scatter = 0, mean_scatter = 0;  ///< and how far two motions that agree up to the horizon differ in them [N]
   bool unique = true;                  ///< false: redundant ideal constraints leave its force undetermined; one of many is given
 };
 
@@ -54,7 +57,21 @@ struct Counters {
   std::uint64_t events = 0;  ///< kinks, jumps and borders of laws that steps ended on; 0 also where the method does not locate them
 };
 
-enum class Outcome { kCompleted, kToleranceNotMet, kInterrupted, kFailed };
+enum class Outcome {
+  kCompleted,
+  kToleranceNotMet,
+  kInterrupted,
+  kFailed,
+  kHorizon,     ///< the motion is chaotic: forces are promised up to a time, and statistics after it
+  kRunaway,     ///< something feeds the motion more and more energy
+  kEnergyOpen,  ///< the energy account does not close: the results are wrong
+};
+
+/// How errors grow along a chaotic motion.
+struct Growth {
+  double rate = 0, rate_error = 0;  ///< and its standard error [1/s]; 0: not found to be chaotic
+  double horizon = 0;               ///< the earliest of the joints [s]
+};
 
 struct Trajectory {
   std::vector<Column> columns;    ///< the first is the time
@@ -74,6 +91,7 @@ struct Trajectory {
   double motion_error = 0;   ///< then: largest error of a body's place, estimated, over the longest way that one has gone [-]
   double wall_seconds = 0;   ///< assembly and integration
   Outcome outcome = Outcome::kCompleted;
+  Growth growth;
   double t_end = 0;          ///< time reached [s]
   std::string message;       ///< why it stopped early: time, step, the worst joints
   std::vector<std::string> notes;  ///< what was assumed: assembled positions, opened distances, free lengths

@@ -79,6 +79,8 @@ Verdict verdict_on(const Trajectory& trajectory) {
     return {trajectory.outcome == Outcome::kFailed ? Verdict::kBad : Verdict::kDoubtful,
             fmt::format("{} at t = {:.6g} s{}{}", trajectory.outcome == Outcome::kFailed ? "The computation failed" : "Stopped by the user",
                         trajectory.t_end, trajectory.message.empty() ? "." : ": ", trajectory.message)};
+  if (trajectory.outcome == Outcome::kRunaway || trajectory.outcome == Outcome::kEnergyOpen || trajectory.outcome == Outcome::kHorizon)
+    return {trajectory.outcome == Outcome::kHorizon ? Verdict::kDoubtful : Verdict::kBad, trajectory.message + "."};
   const std::string asked = printed_number(fmt::format("{:g}", trajectory.tolerance));
   const LoadSummary* worst = nullptr;
   std::size_t n_missed = 0, n_ambiguous = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -16,11 +17,14 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kMarker = "pintle_run";  // its value is the format's number
 constexpr int kFormat = 1;
 
-constexpr std::array<std::pair<Outcome, const char*>, 4> kOutcomes{{
+constexpr std::array<std::pair<Outcome, const char*>, 7> kOutcomes{{
     {Outcome::kCompleted, "completed"},
     {Outcome::kToleranceNotMet, "tolerance_not_met"},
     {Outcome::kInterrupted, "interrupted"},
     {Outcome::kFailed, "failed"},
+    {Outcome::kHorizon, "horizon"},
+    {Outcome::kRunaway, "runaway"},
+    {Outcome::kEnergyOpen, "energy_open"},
 }};
 
 // One text per structure serves both directions: `visit(key, member)` stores into JSON or loads from it.
@@ -45,6 +49,13 @@ void for_each_entry(Load& load, const Visit& visit) requires requires {
   visit("error_estimate", load.error_estimate);
   visit("moment_error_estimate", load.moment_error_estimate);
   visit("relative_error_estimate", load.relative_error_estimate);
+  visit("horizon", load.horizon);
+  visit("peak_after", load.peak_after);
+  visit("rms_after", load.rms_after);
+  visit("mean_after", load.mean_after);
+  visit("peak_scatter", load.peak_scatter);
+  visit("rms_scatter", load.rms_scatter);
+  visit("mean_scatter", load.mean_scatter);
   visit("unique", load.unique);
 }
 
@@ -77,6 +88,16 @@ void for_each_entry(Energy& energy, const Visit& visit) requires requires {
   visit("dissipated", energy.dissipated);
   visit("supplied", energy.supplied);
   visit("drift", energy.drift);
+}
+
+template <class Rates, class Visit>
+void for_each_entry(Rates& growth, const Visit& visit) requires requires {
+  growth.rate_error;
+}
+{
+  visit("rate", growth.rate);
+  visit("rate_error", growth.rate_error);
+  visit("horizon", growth.horizon);
 }
 
 template <class Counts, class Visit>
@@ -139,13 +160,16 @@ void load(const Json& json, T& value) {
   json.get_to(value);
 }
 
+// Runs of version 0.1 before ideal joints have no "unique", older ones no error of couples; those of 0.2 have no events and no horizons.
+bool is_newer(std::string_view key) {
+  constexpr std::array kNewer{"unique", "moment_error_estimate", "events", "horizon", "peak_after", "rms_after", "mean_after", "peak_scatter", "rms_scatter", "mean_scatter"};
+  return std::any_of(kNewer.begin(), kNewer.end(), [key](const char* newer) { return key == newer; });
+}
+
 template <class T>
 void from_json(const Json& json, T& structure) {
   for_each_entry(structure, [&json](const char* key, auto& member) {
-    // Runs of version 0.1 before ideal joints have no "unique", older ones no error of couples; before 0.3 events were not counted.
-    const std::string_view word = key;
-    const bool newer = (word == "unique" || word == "moment_error_estimate" || word == "events") && !json.contains(key);
-    if (!newer) load(json.at(key), member);
+    if (!is_newer(key) || json.contains(key)) load(json.at(key), member);
   });
 }
 
@@ -178,6 +202,7 @@ Summary summary_from(const Json& json) {
   load(json.at("method"), trajectory.method);
   load(json.at("tolerance"), trajectory.tolerance);
   if ((trajectory.of_motion = json.contains("motion_error"))) load(json.at("motion_error"), trajectory.motion_error);
+  if (json.contains("growth")) from_json(json.at("growth"), trajectory.growth);
   load(json.at("t_end"), trajectory.t_end);
   load(json.at("wall_seconds"), trajectory.wall_seconds);
   load(json.at("rows"), summary.n_rows);
@@ -208,6 +233,7 @@ std::string summary_json(const Trajectory& trajectory, const RunStamp& stamp) {
   json["method"] = trajectory.method;
   json["tolerance"] = trajectory.tolerance;
   if (trajectory.of_motion) json["motion_error"] = trajectory.motion_error;
+  if (trajectory.growth.rate > 0) json["growth"] = to_json(trajectory.growth);
   json["t_end"] = trajectory.t_end;
   json["wall_seconds"] = trajectory.wall_seconds;
   json["units"] = units();

@@ -104,6 +104,19 @@ std::string joint_section(const Trajectory& trajectory, const Style& style) {
   return text;
 }
 
+std::string horizon_section(const Trajectory& trajectory, const Style& style) {
+  if (trajectory.outcome != Outcome::kHorizon) return "";
+  TextTable table;
+  table.add_column("joint", Align::kLeft);
+  table.add_column("promised to", Align::kNumber, "s");
+  for (const char* head : {"peak", "+-", "RMS", "+-", "mean", "+-"}) table.add_column(head, Align::kNumber, "N");
+  const auto joints = pointers(trajectory.joints);
+  for (const LoadSummary* load : shown(joints, [](const LoadSummary& one) { return -one.horizon; }))
+    table.add_row({load->name, engineering(load->horizon), engineering(load->peak_after), exponent(load->peak_scatter), engineering(load->rms_after), exponent(load->rms_scatter),
+                   engineering(load->mean_after), exponent(load->mean_scatter)});
+  return section("Horizons, and statistics of the forces after them (+-: how far two motions that agree up to there differ)", table, style) + rest_line(joints.size());
+}
+
 std::string moment_section(const Trajectory& trajectory, const Style& style) {
   TextTable table;
   for (const char* head : {"joint", "on", "by"}) table.add_column(head, Align::kLeft);
@@ -178,6 +191,7 @@ std::string summary_text(const Trajectory& trajectory, const RunStamp& stamp, bo
   const Style style(colour);
   std::string text = heading(trajectory, stamp, style);
   text += joint_section(trajectory, style);
+  text += horizon_section(trajectory, style);
   text += moment_section(trajectory, style);
   text += spring_section(trajectory, style);
   text += motor_section(trajectory, style);

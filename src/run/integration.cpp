@@ -37,6 +37,14 @@ class Standstill {
   int steps_ = 0;
 };
 
+// Whether the energy ends the integration.
+bool alarmed(EnergyWatch::Alarm alarm, const EnergyWatch& energy, Integration& out) {
+  if (alarm == EnergyWatch::Alarm::kNone) return false;
+  out.ended = alarm == EnergyWatch::Alarm::kRunaway ? Ended::kRunaway : Ended::kEnergyOpen;
+  out.message = energy.message();
+  return true;
+}
+
 }  // namespace
 
 Integration integrate(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder) {
@@ -47,6 +55,7 @@ Integration integrate(const System& system, const State& start, const Integratio
   if (plan.scale) stepper.set_load_scale(*plan.scale);
   stepper.start(start, plan.first_step);
   recorder.add(stepper.state());
+  if (plan.energy) plan.energy->start(stepper.state());
   std::size_t row = 1;
   const double end = plan.duration, almost = end * (1 - 1e-12);
   Standstill standstill(end);
@@ -61,6 +70,7 @@ Integration integrate(const System& system, const State& start, const Integratio
     for (double t = static_cast<double>(row) * plan.output_step; t <= now.t && t < almost;
          t = static_cast<double>(++row) * plan.output_step)
       recorder.add(stepper.interpolate(t));
+    if (plan.energy && alarmed(plan.energy->see_step(now, now.t - stepper.previous().t), *plan.energy, out)) break;
     if (standstill.reached(now.t)) {
       out.ended = Ended::kFailed;
       out.message = fmt::format("the motion diverges, or the tolerance is below the rounding error of the forces: steps of {:.3g} s at t = {:.9g} s", now.t - stepper.previous().t, now.t);
@@ -79,6 +89,7 @@ Integration integrate(const System& system, const State& start, const Integratio
       break;
     }
   }
+  if (plan.energy && out.ended == Ended::kAtEnd) alarmed(plan.energy->see_end(stepper.state()), *plan.energy, out);
   if (stepper.state().t > recorder.forces().t.back()) recorder.add(stepper.state());
   out.t = stepper.state().t;
   out.counters = stepper.counters();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "integrators/methods.h"
+#include "run/energy_watch.h"
 #include "run/recorder.h"
 
 namespace pintle {
@@ -18,10 +19,11 @@ struct IntegrationPlan {
   double first_step = 0;
   MethodChoice choice;
   const LoadScale* scale = nullptr;  // from an earlier pass
+  EnergyWatch* energy = nullptr;     // ends the integration where it raises an alarm
   std::function<bool(double t)> keep_going;  // called after each step; false stops
 };
 
-enum class Ended { kAtEnd, kStopped, kFailed };
+enum class Ended { kAtEnd, kStopped, kFailed, kRunaway, kEnergyOpen };
 
 struct Integration {
   Ended ended = Ended::kAtEnd;

@@ -11,9 +11,13 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "run/energy_watch.h"
+#include "run/error_growth.h"
 #include "run/integration.h"
 #include "run/nominal_run.h"
+#include "run/pass_difference.h"
 #include "run/passes.h"
+#include "run/promises.h"
 #include "start/start.h"
 #include "system/build.h"
 
@@ -31,52 +35,11 @@ constexpr double kPromised = 0.7;  // of the tolerance: with a smaller stated er
 constexpr double kAlike = 1.25;  // steps of the finer pass over those of the coarser: with fewer the two say little
 constexpr double kSurest = 0.1;  // of the tolerance of the steps: no error of the motion is stated as smaller
 constexpr std::size_t kManyBodies = 1000;
-constexpr double kNegligible = 1e-4;         // a joint is measured at least by this part of the mechanism's largest force
-constexpr double kNegligibleOfMotor = 1e-3;  // a motor by this
-
-// Largest difference of each joint's force (and couple) between two passes, and the peaks of the finer one.
-struct PassDifference {
-  std::vector<double> force, couple, peak, peak_couple;
-};
-
-PassDifference difference_of_passes(const ForceTable& coarse, const ForceTable& fine, std::size_t joints) {
-  PassDifference c;
-  for (auto* x : {&c.force, &c.couple, &c.peak, &c.peak_couple}) x->assign(joints, 0.0);
-  const std::size_t rows = std::min(coarse.t.size(), fine.t.size());
-  for (std::size_t i = 0; i < rows; ++i)
-    for (std::size_t j = 0; j < joints; ++j) {
-      const double *a = &coarse.world[3 * (i * joints + j)], *b = &fine.world[3 * (i * joints + j)];
-      c.peak[j] = std::max(c.peak[j], std::hypot(b[0], b[1]));
-      c.peak_couple[j] = std::max(c.peak_couple[j], std::abs(b[2]));
-      if (coarse.t[i] != fine.t[i]) continue;
-      c.force[j] = std::max(c.force[j], std::hypot(a[0] - b[0], a[1] - b[1]));
-      c.couple[j] = std::max(c.couple[j], std::abs(a[2] - b[2]));
-    }
-  return c;
-}
-
-double distance(const double* a, const double* b, double radius) {
-  return std::max(std::hypot(a[0] - b[0], a[1] - b[1]), 2 * radius * std::abs(std::sin(0.5 * (a[2] - b[2]))));
-}
-
-// Largest difference of a body's place between two passes, over the longest way that one has gone from its start; of centres
-// and of points at the radius of gyration. theory/time Eq. (6.4).
-double motion_difference(const System& system, const ForceTable& coarse, const ForceTable& fine) {
-  const std::size_t bodies = system.bodies.size(), rows = std::min(coarse.t.size(), fine.t.size());
-  double difference = 0, way = 0;
-  for (std::size_t row = 0; row < rows; ++row)
-    for (std::size_t i = 0; i < bodies; ++i) {
-      const double radius = system.bodies[i].radius_of_gyration();
-      const double* here = &fine.place[3 * (row * bodies + i)];
-      way = std::max(way, distance(here, &fine.place[3 * i], radius));
-      if (coarse.t[row] == fine.t[row]) difference = std::max(difference, distance(here, &coarse.place[3 * (row * bodies + i)], radius));
-    }
-  return way > 0 ? difference / way : 0;
-}
-
-double relative(double error, double peak, double least) { return error / std::max({peak, least, 1e-300}); }
-
-double largest_of(const std::vector<double>& x) { return x.empty() ? 0 : *std::max_element(x.begin(), x.end()); }
+constexpr double kRepeated = 0.1;  // tolerance of a pass that is to show whether what two have shown is so, over that of the finer
+constexpr double kFinest = 1e-11;  // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
+constexpr double kOptimism = 2;    // standard errors by which a rate may be smaller before no tolerance is said to help
+constexpr double kLoosestAccount = 1e-3;  // passes are finer than a looser tolerance, and so are their energies
+constexpr int kMostOpen = 2;       // passes made finer because the energy account did not close
 
 class Run {
  public:
@@ -130,11 +93,15 @@ class Run {
   // False when it did not reach the end: then the passes before it stand, unless it is the first.
   bool run_pass(double tolerance) {
     auto recorder = std::make_unique<Recorder>(model_, system_, shape_.recorded);
-    const IntegrationPlan p = plan(tolerance);
+    IntegrationPlan p = plan(tolerance);
+    // Explicit methods take works by the trapezoidal rule, others leave them out of their control.
+    const bool exact_work = choice_.method == "radau" || choice_.equations == Equations::kIdeal;
+    EnergyWatch energy(system_, p.duration, std::max(tolerance, std::min(model_.simulate.tolerance, kLoosestAccount)), exact_work);
+    p.energy = &energy;
     Integration done = integrate(system_, start_, p, *recorder);
     count(done.counters);
-    const bool complete = done.ended == Ended::kAtEnd;
-    if (!complete) interrupted_ = {done.ended, done.message};
+    const bool complete = done.ended == Ended::kAtEnd || done.ended == Ended::kRunaway;
+    interrupted_ = complete ? std::pair{Ended::kAtEnd, std::string()} : std::pair{done.ended, done.message};
     if (!complete && fine_) return false;
     coarse_ = std::move(fine_);
     if (coarse_) coarse_->keep_forces_only();
@@ -156,47 +123,103 @@ class Run {
     ++c.passes;
   }
 
+  // A pass whose energy account does not close is not compared with others: a finer one may close it.
+  bool run_closed_pass(double& tolerance) {
+    bool complete = run_pass(tolerance);
+    for (; interrupted_.first == Ended::kEnergyOpen && open_ < kMostOpen && tolerance > kLeastTolerance; ++open_) {
+      if (last_.ended == Ended::kEnergyOpen) fine_.reset();  // it was the first
+      tolerance = std::max(kLeastTolerance, kRepeated * tolerance);
+      complete = run_pass(tolerance);
+    }
+    return complete;
+  }
+
   // theory/time Eqs. (6.1)-(6.3).
   void make_passes() {
     const double wanted = model_.simulate.tolerance;
-    PassDifference difference;
-    double share = 1, error = 0;
-    bool doubted = false;  // a pass has been made because two were alike
     choice_.stages = wanted < kTight ? 5 : 3;
     double tolerance = std::min(wanted, out_.of_motion ? kLoosestOfMotion : choice_.equations == Equations::kIdeal ? kLoosestIdeal : kLoosest);
     if (!shape_.checked) {
       run_pass(tolerance_by_nominal(tolerance));
-      return finish(difference, share, error);
+      return finish();
     }
-    bool complete = run_pass(kPilot * tolerance);
+    if (run_pilot(tolerance)) {
+      do {
+        const double before = fine_tolerance_, steps_before = static_cast<double>(last_.counters.steps);
+        ran_away_ = last_.ended == Ended::kRunaway;
+        if (!run_closed_pass(tolerance)) break;
+        compare(before, steps_before);
+      } while (go_finer(tolerance));
+    }
+    if (shape_.measured != nullptr) *shape_.measured = {wanted, fine_tolerance_, choice_.stages, span_, last_.scale};
+    finish();
+  }
+
+  // `tolerance` is that of the next pass.
+  bool run_pilot(double& tolerance) {
+    double of_pilot = kPilot * tolerance;
+    bool complete = run_closed_pass(of_pilot);
     const Counters& pilot = last_.counters;
     if (complete && choice_.method == "radau" && choice_.stages == 3 && static_cast<double>(pilot.newton_iterations) < kEasy * static_cast<double>(pilot.steps)) {
       choice_.stages = 5;
       fine_.reset();
-      complete = run_pass(kPilot * tolerance);
+      complete = run_closed_pass(of_pilot);
     }
-    if (complete) {
-      while (true) {
-        const double before = fine_tolerance_, steps_before = static_cast<double>(last_.counters.steps);
-        if (!run_pass(tolerance)) break;
-        difference = difference_of_passes(coarse_->forces(), fine_->forces(), system_.joints.size());
-        const bool alike = static_cast<double>(last_.counters.steps) < kAlike * steps_before;
-        share = alike || out_.of_motion ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(tolerance / before, kSharePower));
-        out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse_->forces(), fine_->forces()), kSurest * fine_tolerance_) : 0;
-        error = out_.of_motion ? out_.motion_error : share * largest_of(relative_differences(difference));
-        if (alike && !doubted && out_.counters.passes < kMaxPasses && tolerance > kLeastTolerance) {
-          doubted = true;
-          if (out_.of_motion) choice_.stages = 5;  // long steps are alike at any tolerance: another order tells
-          tolerance = std::max(kLeastTolerance, 0.1 * tolerance);
-          continue;
-        }
-        if (error <= kPromised * wanted || out_.counters.passes >= kMaxPasses || tolerance <= kLeastTolerance) break;
-        const double shrink = 0.5 * std::pow(wanted / error, 1 / kSharePower);
-        tolerance = std::max(kLeastTolerance, tolerance * std::clamp(shrink, 1e-3, 0.1));
-      }
+    stages_before_ = choice_.stages;
+    tolerance = std::min(tolerance, of_pilot / kPilot);
+    return complete;
+  }
+
+  // The last two passes, of which the coarser had the tolerance `before` and made so many steps.
+  void compare(double before, double steps_before) {
+    const ForceTable &coarse = coarse_->forces(), &fine = fine_->forces();
+    coarse_tolerance_ = before;
+    difference_ = difference_of_passes(system_, coarse, fine, fine.t.back());
+    alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
+    stages_before_ = choice_.stages;
+    share_ = alike_ || out_.of_motion ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(fine_tolerance_ / before, kSharePower));
+    out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
+    double apart = out_.of_motion ? out_.motion_error : largest_of(relative_differences(system_, difference_));
+    last_growth_ = growth_;
+    growth_ = {};
+    if (apart > kPromised * model_.simulate.tolerance)
+      growth_ = fit_growth(out_.of_motion ? motion_difference_curve(system_, coarse, fine) : force_difference_curve(system_, coarse, fine));
+    if (growth_.exponential && growth_.saturated) share_ = 1;  // a difference that has stopped growing does not tell the finer one's part
+    error_ = share_ * apart;
+  }
+
+  // Whether another pass is made, and with which tolerance.
+  bool go_finer(double& tolerance) {
+    const double wanted = model_.simulate.tolerance;
+    const auto at = [&tolerance](double next) { return tolerance = std::max(kLeastTolerance, next), true; };
+    const bool last_one = out_.counters.passes >= kMaxPasses || tolerance <= kLeastTolerance;
+    if (last_.ended == Ended::kRunaway) return false;
+    if (((alike_ && !doubted_) || ran_away_) && !last_one) {
+      doubted_ = true;
+      if (out_.of_motion) choice_.stages = 5;  // long steps are alike at any tolerance: another order tells
+      return at(kRepeated * tolerance);
     }
-    if (shape_.measured != nullptr) *shape_.measured = {wanted, fine_tolerance_, choice_.stages, span_, last_.scale};
-    finish(difference, share, error);
+    if (error_ <= kPromised * wanted) return false;
+    const bool same = growth_.saturated && same_growth(last_growth_, growth_);
+    if (same) chaos_ = growth_;
+    if (last_one) return false;
+    if (growth_.exponential && growth_.saturated) {
+      const double hoped = tolerance_by_growth(growth_.rate - kOptimism * growth_.rate_error, 1);
+      const bool hopeless = hoped < kLeastTolerance || tolerance < kFinest;
+      if (same && hopeless) return false;
+      const double next = std::min(kRepeated * tolerance, hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kSharePower)));
+      if (next < kTight) choice_.stages = 5;
+      return at(next);
+    }
+    const double shrink = 0.5 * std::pow(wanted / error_, 1 / kSharePower);
+    return at(tolerance * std::clamp(shrink, 1e-3, 0.1));
+  }
+
+  // The tolerance with which errors, growing as they do, would be small enough at the end: the difference is the coarser pass's error.
+  // theory/time Eq. (6.9).
+  double tolerance_by_growth(double rate, double power) const {
+    const double at_end = growth_.extrapolated(model_.simulate.duration, rate);
+    return coarse_tolerance_ * std::min(1.0, 0.5 * std::pow(model_.simulate.tolerance / at_end, 1 / power));
   }
 
   // Of the only pass: that of the second one, or what was enough for the run that the nominal settings are from.
@@ -208,57 +231,50 @@ class Run {
     return std::clamp(nominal->tolerance * model_.simulate.tolerance / nominal->wanted, kLeastTolerance, second);
   }
 
-  // Each joint's largest difference over its peak force or couple. Joints that carry next to nothing are measured by a
-  // small part of the largest of the mechanism; couples at least by that of the largest force at a radius of gyration.
-  // The couple of a pin that rubs is a small part of what its force does: its error is stated, and drives no pass.
-  std::vector<double> relative_differences(const PassDifference& c) const {
-    const double force = largest_of(c.peak);
-    const double couple = std::max(largest_of(c.peak_couple), force * system_.largest_radius_of_gyration());
-    std::vector<double> out(c.force.size());
-    for (std::size_t j = 0; j < out.size(); ++j) {
-      const double least = system_.joints[j].servo >= 0 ? kNegligibleOfMotor : kNegligible;
-      out[j] = relative(c.force[j], c.peak[j], least * force);
-      if (system_.joints[j].law.lever() == 0) out[j] = std::max(out[j], relative(c.couple[j], c.peak_couple[j], least * couple));
-    }
-    return out;
-  }
-
-  void finish(const PassDifference& difference, double share, double error) {
+  void finish() {
     fine_->fill(out_);
     out_.t_end = last_.t;
     out_.notes.insert(out_.notes.end(), last_.remarks.begin(), last_.remarks.end());
-    const std::vector<double> relative_difference = relative_differences(difference);
+    std::vector<double> relative_difference = relative_differences(system_, difference_);
+    const auto worst = std::max_element(relative_difference.begin(), relative_difference.end());
+    const JointData* worst_joint = worst == relative_difference.end() ? nullptr : &system_.joints[static_cast<std::size_t>(worst - relative_difference.begin())];
+    judge(worst_joint);
     const std::unordered_set<std::string> not_unique(not_unique_.begin(), not_unique_.end());
+    const bool chaotic = out_.outcome == Outcome::kHorizon;
     std::size_t row = 0;
     for (std::size_t j = 0; j < system_.joints.size(); ++j) {
       if (system_.joints[j].servo >= 0) continue;
       LoadSummary& joint = out_.joints[row++];
       joint.unique = !not_unique.contains(joint.name);
-      if (difference.force.empty()) continue;
-      joint.error_estimate = share * difference.force[j];
-      joint.moment_error_estimate = share * difference.couple[j];
-      joint.relative_error_estimate = share * relative_difference[j];
+      joint.horizon = last_.t;
+      if (difference_.force.empty() || chaotic) continue;
+      joint.error_estimate = share_ * difference_.force[j];
+      joint.moment_error_estimate = share_ * difference_.couple[j];
+      joint.relative_error_estimate = share_ * relative_difference[j];
     }
-    const auto worst = std::max_element(relative_difference.begin(), relative_difference.end());
-    judge(worst == relative_difference.end() ? nullptr : &system_.joints[static_cast<std::size_t>(worst - relative_difference.begin())], error);
+    if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * model_.simulate.tolerance, chaos_, out_);
   }
 
   // How it ended; a pass that broke off leaves the results of the one before it.
   // `worst` has the largest error; none where there is no estimate.
-  void judge(const JointData* worst, double error) {
+  void judge(const JointData* worst) {
     const bool no_estimate = worst == nullptr;
     const auto& [ended, message] = interrupted_;
-    const bool whole = last_.ended == Ended::kAtEnd;
+    const bool whole = last_.ended == Ended::kAtEnd, missed = error_ > model_.simulate.tolerance;
     if (ended == Ended::kStopped) out_.outcome = Outcome::kInterrupted;
+    else if (last_.ended == Ended::kRunaway) out_.outcome = Outcome::kRunaway;
+    else if (ended == Ended::kEnergyOpen) out_.outcome = Outcome::kEnergyOpen;
     else if (ended == Ended::kFailed && !whole) out_.outcome = Outcome::kFailed;
-    else if ((ended == Ended::kFailed && no_estimate) || error > model_.simulate.tolerance) out_.outcome = Outcome::kToleranceNotMet;
+    else if (missed && chaos_.exponential && ended == Ended::kAtEnd) out_.outcome = Outcome::kHorizon;
+    else if ((ended == Ended::kFailed && no_estimate) || missed) out_.outcome = Outcome::kToleranceNotMet;
     if (no_estimate && shape_.checked && !system_.joints.empty()) out_.notes.push_back("stopped before a second integration: the joint forces have no error estimate");
     if (whole && ended != Ended::kAtEnd)
       out_.notes.push_back(fmt::format("a finer integration did not reach the end{}; the results are those of the previous one", message.empty() ? "" : " (" + message + ")"));
     if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)
       out_.message = fmt::format("the largest {} is estimated at {:.2g} of {}; the tolerance is {:.2g}",
-                                 out_.of_motion ? "position error" : fmt::format("force error, at {} {},", worst->servo < 0 ? "joint" : "motor", worst->name), error,
+                                 out_.of_motion ? "position error" : fmt::format("force error, at {} {},", worst->servo < 0 ? "joint" : "motor", worst->name), error_,
                                  out_.of_motion ? "the longest path of any body" : "the peak force", model_.simulate.tolerance);
+    if (out_.outcome == Outcome::kRunaway) out_.message = last_.message;
     if (!message.empty() && out_.outcome != Outcome::kCompleted) out_.message += (out_.message.empty() ? "" : "; ") + message;
   }
 
@@ -272,7 +288,17 @@ class Run {
   std::vector<std::string> not_unique_;
   MethodChoice choice_;
   std::unique_ptr<Recorder> coarse_, fine_;
-  double fine_tolerance_ = 0, span_ = 0;
+  double fine_tolerance_ = 0, coarse_tolerance_ = 0, span_ = 0;
+  // Of the last two passes.
+  PassDifference difference_;
+  double share_ = 1, error_ = 0;
+  bool alike_ = false;             // their steps
+  int stages_before_ = 0;          // of the coarser one
+  ErrorGrowth growth_, last_growth_;  // and of the pair before
+  ErrorGrowth chaos_;              // where two pairs have shown the same exponential growth
+  bool doubted_ = false;           // a pass has been made because two were alike
+  bool ran_away_ = false;          // the coarser one
+  int open_ = 0;                   // passes repeated because the energy account did not close
   Integration last_;
   std::pair<Ended, std::string> interrupted_{Ended::kAtEnd, ""};
   double reported_ = 0;

@@ -116,12 +116,13 @@ Json run(Exchange& call) {
   out["values"] = std::move(values);
   std::vector<std::string> names;
   for (const Joint& joint : model.joints) names.push_back(joint.name);
-  if (trajectory.outcome == Outcome::kFailed || trajectory.outcome == Outcome::kInterrupted) {
-    const bool failed = trajectory.outcome == Outcome::kFailed;
+  const bool ended = trajectory.outcome == Outcome::kRunaway || trajectory.outcome == Outcome::kEnergyOpen;
+  if (trajectory.outcome == Outcome::kFailed || trajectory.outcome == Outcome::kInterrupted || ended) {
+    const bool failed = trajectory.outcome != Outcome::kInterrupted;
     out["stopped"] = {{"time", trajectory.t_end},
                       {"joints", joints_named_in(trajectory.message, &names)},
                       {"reason", failed ? trajectory.message : "The run was stopped."},
-                      {"hint", failed ? "Check the loads and motors that act at that time: are they finite, do they add energy? The results so far are kept." : ""}};
+                      {"hint", ended ? "The results so far are kept." : failed ? "Check the loads and motors that act at that time: are they finite, do they add energy? The results so far are kept." : ""}};
   }
   return out;
 }

@@ -303,5 +303,5 @@ setUpCharts();
 setUpTable();
 setUpPrint();
 addEventListener("keydown", onKey);
-if (run.outcome === "failed" || run.outcome === "interrupted") clock.set(clock.last);
+if (["failed", "interrupted", "runaway", "energy_open"].includes(run.outcome)) clock.set(clock.last);
 else if (largestFirst.length) clock.set(largestFirst[0].peak_time);

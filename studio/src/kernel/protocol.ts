@@ -242,7 +242,7 @@ export interface EnergyAccount {
 }
 
 export interface RunAnswer {
-  outcome: "completed" | "tolerance_not_met" | "interrupted" | "failed";
+  outcome: "completed" | "tolerance_not_met" | "interrupted" | "failed" | "horizon" | "runaway" | "energy_open";
   columns: Column[];
   /** One array per column. */
   values: Float64Array[];

@@ -44,6 +44,8 @@ function collect({ complaints, obstacle, report, run, model }: Pick<StudioState,
   if (answer?.stopped) {
     const { time, reason, hint, joints } = answer.stopped;
     list.push({ severity: "error", title: `The run stopped at ${quantity(time, "s")}: ${reason}`, hint, fixes: [{ label: "Go to that time", run: () => player.seek(time) }, ...showJoints(joints)] });
+  } else if (answer?.outcome === "horizon") {
+    list.push({ severity: "note", title: `Chaotic motion: ${answer.message}.`, hint: "The motion after that is one of many possible ones; a smaller tolerance gains little.", fixes: [] });
   } else if (answer?.outcome === "tolerance_not_met") {
     list.push({ severity: "warning", title: "A joint force misses the tolerance.", hint: "Peak forces shows each estimate. Impacts and very soft joints need a smaller tolerance or a shorter max step.", fixes: [] });
   }

@@ -1,0 +1,160 @@
+#include "run/energy_watch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace pintle {
+namespace {
+
+constexpr int kJudgedEvery = 8;          // steps
+constexpr double kExplained = 30;        // times tolerance and turnover: what errors of the forces explain. Eq. (8.2)
+constexpr double kPerExchange = 0.01;    // part of the energy that goes to and fro: errors add up in long runs
+constexpr double kLeastTolerance = 1e-7; // below it rounding makes the account
+constexpr double kRounding = 1e-11;      // of the largest entry
+constexpr int kRunaway = 10;             // powers of ten above what can be stored. Eq. (8.4)
+constexpr int kCompared = 4;             // of them: the time of the last ones against that of those before
+constexpr double kSteady = 1.5;          // ratio of these times: 1 of an exponential, 100 of constant torque, 3.2 of t^8
+
+double reach(const Placement& at) { return std::max(at.F.p.norm(), at.M.p.norm()); }
+
+// The distance over which weights can work: from the markers, and the bodies' own size.
+double size_of(const System& system) {
+  double size = system.largest_radius_of_gyration();
+  for (const JointData& joint : system.joints) size = std::max(size, reach(joint.at));
+  return size;
+}
+
+}  // namespace
+
+EnergyWatch::EnergyWatch(const System& system, double duration, double tolerance, bool exact_work)
+    : system_(system), duration_(duration), tolerance_(std::max(tolerance, kLeastTolerance)), exact_work_(exact_work) {
+  for (const JointData& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : "negative damping of joint", &joint.name});
+  for (const LoadData& load : system.loads) feeders_.push_back({load.kind == LoadKind::kEffort ? "motor" : "negative damping of spring", &load.name});
+  for (const AppliedData& force : system.applied) feeders_.push_back({"force", &force.name});
+}
+
+double EnergyWatch::potential(const State& state) {
+  system_.motions(state.q, state.v, m_);
+  double out = system_.external_work(state.t, state.q, m_, state.sliding).potential;
+  for (int j = 0; j < system_.n_joints(); ++j)
+    if (system_.joints[j].servo < 0) out += system_.joints[j].law.energy(law_point(system_, j, state));
+  return out;
+}
+
+// Eq. (8.3).
+void EnergyWatch::start(const State& state) {
+  const double kinetic = system_.kinetic(state.v), size = size_of(system_);
+  kinetic_ = kinetic;
+  potential_ = potential(state);
+  total_ = kinetic + potential_ + state.dissipated - state.supplied;
+  double elastic = potential_;
+  storable_ = kinetic;
+  for (std::size_t i = 0; i < system_.bodies.size(); ++i) {
+    const BodyData& body = system_.bodies[i];
+    elastic += body.gravity.dot(state.q[i]);
+    storable_ += body.gravity.head<2>().norm() * size + body.mass[0] * size * size / (duration_ * duration_);
+  }
+  storable_ += std::abs(elastic);
+  supply_ = state.supply_power;
+  loss_ = state.loss_power;
+}
+
+EnergyWatch::Alarm EnergyWatch::see_step(const State& state, double h) {
+  throughput_ += 0.5 * h * (std::abs(supply_) + std::abs(state.supply_power) + std::abs(loss_) + std::abs(state.loss_power));
+  supply_ = state.supply_power;
+  loss_ = state.loss_power;
+  const double kinetic = system_.kinetic(state.v);
+  exchanged_ += std::abs(kinetic - kinetic_);
+  kinetic_ = kinetic;
+  kinetic_peak_ = std::max(kinetic_peak_, kinetic);
+  if (reached_ > 0) add_works(state, h);
+  if (++since_judged_ >= kJudgedEvery)
+    if (const Alarm alarm = judge_account(state); alarm != Alarm::kNone) return alarm;
+  return judge_growth(state, kinetic);
+}
+
+EnergyWatch::Alarm EnergyWatch::see_end(const State& state) { return judge_account(state); }
+
+// Eq. (8.2).
+EnergyWatch::Alarm EnergyWatch::judge_account(const State& state) {
+  since_judged_ = 0;
+  if (!exact_work_) return Alarm::kNone;
+  const double stored = potential(state), kinetic = system_.kinetic(state.v);
+  swing_ = std::max(swing_, std::abs(stored - potential_));
+  const double missing = kinetic + stored + state.dissipated - state.supplied - total_;
+  const double turnover = std::max({kinetic_peak_, swing_, throughput_, storable_}) + kPerExchange * exchanged_;
+  const double largest = std::max({kinetic, std::abs(stored), std::abs(potential_), std::abs(state.supplied), std::abs(state.dissipated)});
+  const double within = kExplained * tolerance_ * turnover + kRounding * largest;
+  if (std::abs(missing) <= within) {
+    missing_ = missing;
+    return Alarm::kNone;
+  }
+  say_open(state, missing, within);
+  return Alarm::kOpen;
+}
+
+void EnergyWatch::say_open(const State& state, double missing, double within) {
+  const bool ideal = std::any_of(system_.joints.begin(), system_.joints.end(), [](const JointData& joint) { return joint.ideal; });
+  const bool sudden = std::abs(missing - missing_) > 0.5 * within;
+  const char* cause = sudden && !system_.has_loads() && ideal ? "likely a singular position of ideal joints: start elsewhere, or give its joints stiffness"
+                      : sudden && system_.has_loads() ? "likely a load or motor that changes within a step there, or has a pole: set a max_step that sees it"
+                      : ideal ? "likely ideal joints near a singular position: give them stiffness"
+                              : "likely numbers too far apart in size, or steps too long for what happens in them: check masses, stiffness and loads, or set a max_step";
+  message_ = fmt::format("the energy account does not close: {:.3g} J {} by t = {:.6g} s, where errors within the tolerance explain {:.2g} J; {}", std::abs(missing),
+                         missing > 0 ? "have appeared" : "are gone", state.t, within, cause);
+}
+
+// Eq. (8.4). Only energy that was fed counts: what falls, or what springs give, the mechanism had.
+EnergyWatch::Alarm EnergyWatch::judge_growth(const State& state, double) {
+  const double energy = state.supplied - state.dissipated;
+  bool more = false;
+  while (reached_ < kDecades && energy > storable_ * std::pow(10.0, reached_)) {
+    decade_[reached_++] = state.t;
+    more = true;
+  }
+  if (!more || reached_ <= kRunaway) return Alarm::kNone;
+  const double last = decade_[reached_ - 1] - decade_[reached_ - 1 - kCompared];
+  const double before = decade_[reached_ - 1 - kCompared] - decade_[reached_ - 1 - 2 * kCompared];
+  if (!(before > 0) || last > kSteady * before) return Alarm::kNone;  // powers of ten within one step tell nothing
+  say_runaway(state, energy);
+  return Alarm::kRunaway;
+}
+
+// Works since the energy left what can be stored, by the powers at the ends of steps.
+void EnergyWatch::add_works(const State& state, double h) {
+  system_.motions(state.q, state.v, m_);
+  std::size_t at = 0;
+  for (int j = 0; j < system_.n_joints(); ++j, ++at) {
+    const JointData& joint = system_.joints[j];
+    if (joint.servo >= 0) feeders_[at].work += h * state.force[j][joint.servo] * system_.pose(joint.at, m_).rate[joint.servo];
+    else if (!joint.ideal) feeders_[at].work += h * std::max(0.0, -joint.law.loss(law_point(system_, j, state)));
+  }
+  for (const LoadData& load : system_.loads) {
+    double& work = feeders_[at++].work;
+    if (load.kind == LoadKind::kEffort) work += h * system_.load_effort(load, state.t, m_, state.sliding) * system_.pose(load.at, m_).rate[load.component];
+    else if (load.c < 0) work -= h * load.c * std::pow(load.kind == LoadKind::kSpring ? read(JointDisplacement(Distance{load.free}), system_.pose(load.at, m_)).rate[0] : system_.pose(load.at, m_).rate[load.component], 2);
+  }
+  const std::array<double, 1> time{state.t};
+  const auto at_t = [&time](const Expression& e) { return e.value(std::span(time).first(e.variables().size())); };
+  for (const AppliedData& force : system_.applied) {
+    const Planar::Motion& body = m_[force.body];
+    Planar::Point f(at_t(force.fx), at_t(force.fy));
+    if (force.body_axes) f = body.turned(f);
+    feeders_[at++].work += h * (f.dot(body.v + body.w * Planar::perp(body.turned(force.at.p))) + at_t(force.torque) * body.w);
+  }
+}
+
+void EnergyWatch::say_runaway(const State& state, double energy) {
+  const auto most = std::max_element(feeders_.begin(), feeders_.end(), [](const Feeder& a, const Feeder& b) { return a.work < b.work; });
+  const double span = decade_[reached_ - 1] - decade_[reached_ - 1 - 2 * kCompared];
+  message_ = fmt::format("the motion runs away: at t = {:.4g} s it had been fed {:.3g} J, more than the mechanism stores by itself, and {:.3g} J at t = {:.4g} s, ten times more every {:.2g} s",
+                         decade_[0], storable_, energy, state.t, span / (2 * kCompared));
+  if (most != feeders_.end() && most->work > 0) message_ += fmt::format("; {} {} feeds it: check the signs of what it depends on", most->kind, *most->name);
+}
+
+}  // namespace pintle

@@ -1,0 +1,59 @@
+// Follows the energy of a motion from step to step: whether its account closes, and whether it runs away. theory/time section 8.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "system/state.h"
+
+namespace pintle {
+
+class EnergyWatch {
+ public:
+  enum class Alarm { kNone, kRunaway, kOpen };
+
+  /// A motion of `duration` [s] whose forces are to be right to `tolerance` [-]. `exact_work`: the method integrates works as it does the
+  /// motion, so that the account is as accurate; otherwise it is not judged.
+  EnergyWatch(const System& system, double duration, double tolerance, bool exact_work);
+
+  void start(const State& state);
+  /// The end of a step of h seconds.
+  Alarm see_step(const State& state, double h);
+  /// The end of the motion: the account is judged once more.
+  Alarm see_end(const State& state);
+  /// What the last alarm was about.
+  const std::string& message() const { return message_; }
+
+ private:
+  struct Feeder {
+    const char* kind;
+    const std::string* name;
+    double work = 0;  // [J]
+  };
+  Alarm judge_account(const State& state);
+  Alarm judge_growth(const State& state, double kinetic);
+  void add_works(const State& state, double h);
+  double potential(const State& state);
+  void say_open(const State& state, double missing, double within);
+  void say_runaway(const State& state, double energy);
+
+  static constexpr int kDecades = 64;
+  const System& system_;
+  double duration_, tolerance_;
+  bool exact_work_;
+  double storable_ = 0;                  // what the mechanism stores at the start, or its weights over its size [J]
+  double total_ = 0, potential_ = 0;     // at the start [J]
+  double kinetic_peak_ = 0, swing_ = 0;  // largest kinetic energy, largest change of the potential one [J]
+  double kinetic_ = 0, exchanged_ = 0;   // at the last step; the sum of its changes by their size [J]
+  double throughput_ = 0;                // of supply and loss together, by their size [J]
+  double supply_ = 0, loss_ = 0;         // powers at the last step [W]
+  double missing_ = 0;                   // of the account when last judged [J]
+  int since_judged_ = 0;
+  int reached_ = 0;                      // powers of ten of `storable_`
+  double decade_[kDecades] = {};         // when they were [s]
+  std::vector<Planar::Motion> m_;
+  std::vector<Feeder> feeders_;          // joints, loads, applied forces
+  std::string message_;
+};
+
+}  // namespace pintle

@@ -1,0 +1,81 @@
+// Energy that appears from nowhere, or goes nowhere, is noticed; energy that comes and goes by the account is not.
+#include "run/energy_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "start/start.h"
+#include "system/build.h"
+#include "system/sample_systems_for_tests.h"
+
+namespace pintle {
+namespace {
+
+using Alarm = EnergyWatch::Alarm;
+
+struct Pendulum {
+  Model model = sample::pendulum(1e8, 1000);
+  System system = build_system(model);
+  State state = start_of_run(model, system, 0).state;
+};
+
+Alarm after_steps(EnergyWatch& watch, const State& state, int steps) {
+  for (int i = 0; i < steps; ++i)
+    if (const Alarm alarm = watch.see_step(state, 1e-3); alarm != Alarm::kNone) return alarm;
+  return Alarm::kNone;
+}
+
+TEST(EnergyWatch, WorkThatIsInNoEnergyIsNoticedAtOnce) {
+  for (const double missing : {0.1, -0.1}) {
+    Pendulum p;
+    EnergyWatch watch(p.system, 2, 1e-5, true);
+    watch.start(p.state);
+    EXPECT_EQ(after_steps(watch, p.state, 100), Alarm::kNone);
+    p.state.dissipated += missing;
+    EXPECT_EQ(after_steps(watch, p.state, 8), Alarm::kOpen);
+    EXPECT_NE(watch.message().find(missing > 0 ? "0.1 J have appeared" : "0.1 J are gone"), std::string::npos) << watch.message();
+  }
+}
+
+TEST(EnergyWatch, TheEndIsJudgedToo) {
+  Pendulum p;
+  EnergyWatch watch(p.system, 2, 1e-5, true);
+  watch.start(p.state);
+  EXPECT_EQ(watch.see_end(p.state), Alarm::kNone);
+  p.state.supplied += 0.1;
+  EXPECT_EQ(watch.see_end(p.state), Alarm::kOpen);
+}
+
+TEST(EnergyWatch, WhatErrorsWithinTheToleranceExplainIsNoAlarm) {
+  Pendulum p;
+  EnergyWatch loose(p.system, 2, 1e-3, true), tight(p.system, 2, 1e-6, true), unheard(p.system, 2, 1e-6, false);
+  for (EnergyWatch* watch : {&loose, &tight, &unheard}) watch->start(p.state);
+  p.state.supplied += 0.05;
+  EXPECT_EQ(loose.see_end(p.state), Alarm::kNone);
+  EXPECT_EQ(tight.see_end(p.state), Alarm::kOpen);
+  EXPECT_EQ(unheard.see_end(p.state), Alarm::kNone);
+}
+
+// Work that is fed and stored nowhere (the account is not judged): only how it grows counts.
+TEST(EnergyWatch, ExponentialFeedingIsARunawayAndAPowerOfTimeIsNot) {
+  const auto alarm = [](const auto& fed) {
+    Pendulum p;
+    EnergyWatch watch(p.system, 100, 1e-5, false);
+    watch.start(p.state);
+    for (int i = 1; i <= 10000; ++i) {
+      p.state.t = 0.01 * i;
+      p.state.supplied = fed(p.state.t);
+      if (const Alarm now = watch.see_step(p.state, 0.01); now != Alarm::kNone) return now;
+    }
+    return Alarm::kNone;
+  };
+  EXPECT_EQ(alarm([](double t) { return std::exp(t); }), Alarm::kRunaway);
+  EXPECT_EQ(alarm([](double t) { return t < 50 ? 1e20 / std::pow(50.01 - t, 12) * 1e-20 : 1e24; }), Alarm::kRunaway);  // in finite time
+  for (const double power : {1.0, 2.0, 4.0, 8.0}) EXPECT_EQ(alarm([power](double t) { return 1e6 * std::pow(t, power); }), Alarm::kNone) << power;
+  EXPECT_EQ(alarm([](double t) { return t < 50 ? 0 : 1e20; }), Alarm::kNone);
+  EXPECT_EQ(alarm([](double t) { return t < 50 ? 1 : 1e12 * (t - 50) * (t - 50); }), Alarm::kNone);
+}
+
+}  // namespace
+}  // namespace pintle

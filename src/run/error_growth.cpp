@@ -1,0 +1,133 @@
+#include "run/error_growth.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pintle {
+namespace {
+
+constexpr double kSaturated = 0.03;     // of the peak: differences above it no longer grow as small ones do
+constexpr double kFitted = 1e-6;        // of that, the smallest difference that is fitted
+constexpr int kMostBlocks = 32, kLeastBlocks = 8;
+constexpr double kLeastGain = 4.6;      // of the logarithm over the fit: a factor of a hundred
+constexpr double kLeastBend = -0.28;    // second over first Legendre coefficient: 0 of an exponential, -0.56 of any power of time
+constexpr double kMostPower = 4;        // of time: errors of phases grow with its first or second, forces' with little more
+constexpr double kSure = 5;             // standard errors that a rate is above zero
+constexpr double kSurePair = 3;         // that two rates may be apart
+constexpr double kSameRate = 0.3;       // of the rate, besides
+
+struct Blocks {
+  int n = 0;
+  std::array<double, kMostBlocks> t{}, y{};
+};
+
+// Logarithms of the largest difference in equal parts of the time; parts without a difference are left out.
+Blocks blocks_of(const DifferenceCurve& curve, std::size_t first, std::size_t last) {
+  Blocks b;
+  const std::size_t rows = last - first;
+  const std::size_t parts = std::min<std::size_t>(kMostBlocks, rows / 2);
+  for (std::size_t p = 0; p < parts; ++p) {
+    const std::size_t from = first + p * rows / parts, to = first + (p + 1) * rows / parts;
+    double e = 0;
+    for (std::size_t i = from; i < to; ++i) e = std::max(e, curve.e[i]);
+    if (!(e > 0)) continue;
+    b.t[b.n] = 0.5 * (curve.t[from] + curve.t[to - 1]);
+    b.y[b.n++] = std::log(e);
+  }
+  return b;
+}
+
+struct Line {
+  double mean_x = 0, mean_y = 0, slope = 0, error = 0, squares = 0;  // squares of the residuals
+};
+
+// Least squares; neighbouring residuals are alike, which makes the standard error larger. Eq. (6.6).
+Line fit_line(int n, const std::array<double, kMostBlocks>& x, const std::array<double, kMostBlocks>& y) {
+  Line line;
+  for (int i = 0; i < n; ++i) {
+    line.mean_x += x[i] / n;
+    line.mean_y += y[i] / n;
+  }
+  double xx = 0, xy = 0;
+  for (int i = 0; i < n; ++i) {
+    xx += (x[i] - line.mean_x) * (x[i] - line.mean_x);
+    xy += (x[i] - line.mean_x) * (y[i] - line.mean_y);
+  }
+  if (!(xx > 0)) return line;
+  line.slope = xy / xx;
+  double last = 0, neighbours = 0;
+  for (int i = 0; i < n; ++i) {
+    const double residual = y[i] - line.mean_y - line.slope * (x[i] - line.mean_x);
+    line.squares += residual * residual;
+    if (i > 0) neighbours += residual * last;
+    last = residual;
+  }
+  const double alike = line.squares > 0 ? std::clamp(neighbours / line.squares, 0.0, 0.9) : 0;
+  line.error = std::sqrt(line.squares / (n - 2) / xx * (1 + alike) / (1 - alike));
+  return line;
+}
+
+// Second over first coefficient of a series of Legendre polynomials over the fitted part. Eq. (6.7).
+double bend(const Blocks& b) {
+  const double middle = 0.5 * (b.t[0] + b.t[b.n - 1]), half = 0.5 * (b.t[b.n - 1] - b.t[0]);
+  // Of 1, s, P2(s) by Gram and Schmidt on the blocks.
+  double s_mean = 0, p_mean = 0;
+  for (int i = 0; i < b.n; ++i) {
+    const double s = (b.t[i] - middle) / half;
+    s_mean += s / b.n;
+    p_mean += (1.5 * s * s - 0.5) / b.n;
+  }
+  double ss = 0, sp = 0, sy = 0;
+  for (int i = 0; i < b.n; ++i) {
+    const double s = (b.t[i] - middle) / half, p = 1.5 * s * s - 0.5;
+    ss += (s - s_mean) * (s - s_mean);
+    sp += (s - s_mean) * (p - p_mean);
+    sy += (s - s_mean) * b.y[i];
+  }
+  double pp = 0, py = 0;
+  for (int i = 0; i < b.n; ++i) {
+    const double s = (b.t[i] - middle) / half, p = 1.5 * s * s - 0.5 - p_mean - sp / ss * (s - s_mean);
+    pp += p * p;
+    py += p * b.y[i];
+  }
+  const double second = py / pp, first = (sy - sp * second) / ss;
+  return second / first;
+}
+
+}  // namespace
+
+double ErrorGrowth::extrapolated(double t, double with_rate) const {
+  constexpr double kMost = 600;  // keeps the number finite
+  return level * std::exp(std::min(kMost, with_rate * (t - until)));
+}
+
+ErrorGrowth fit_growth(const DifferenceCurve& curve) {
+  ErrorGrowth growth;
+  std::size_t last = 0, first = 0;
+  while (last < curve.e.size() && curve.e[last] < kSaturated) ++last;
+  growth.saturated = last < curve.e.size();
+  for (std::size_t i = 0; i < last; ++i)
+    if (curve.e[i] <= kFitted * kSaturated) first = i + 1;
+  if (first >= last) return growth;
+  const Blocks b = blocks_of(curve, first, last);
+  if (b.n < kLeastBlocks) return growth;
+  const Line line = fit_line(b.n, b.t, b.y);
+  std::array<double, kMostBlocks> log_t{};
+  for (int i = 0; i < b.n; ++i) log_t[i] = std::log(std::max(b.t[i], 1e-300));
+  const Line power = fit_line(b.n, log_t, b.y);
+  growth.rate = line.slope;
+  growth.rate_error = line.error;
+  growth.until = b.t[b.n - 1];
+  growth.level = std::exp(line.mean_y + line.slope * (growth.until - line.mean_x));
+  const double gain = line.slope * (b.t[b.n - 1] - b.t[0]);
+  growth.exponential = gain > kLeastGain && line.slope > kSure * line.error && (line.squares < power.squares || power.slope > kMostPower) && bend(b) > kLeastBend;
+  return growth;
+}
+
+bool same_growth(const ErrorGrowth& first, const ErrorGrowth& second) {
+  return first.exponential && second.exponential &&
+         std::abs(first.rate - second.rate) < kSurePair * std::hypot(first.rate_error, second.rate_error) + kSameRate * std::min(first.rate, second.rate);
+}
+
+}  // namespace pintle

@@ -1,0 +1,47 @@
+// What two integrations of the same motion say about their errors: how far the joint forces differ, when, and up to which time they agree.
+// theory/time section 6.
+#pragma once
+
+#include <vector>
+
+#include "run/recorder.h"
+
+namespace pintle {
+
+/// Largest difference of each joint's force (and couple) between two passes, and the peaks of the finer one.
+struct PassDifference {
+  std::vector<double> force, couple, peak, peak_couple;
+};
+
+/// Over the rows up to time `until` [s].
+PassDifference difference_of_passes(const System& system, const ForceTable& coarse, const ForceTable& fine, double until);
+
+/// Each joint's largest difference over its peak force or couple [-]. Joints that carry next to nothing are measured by a
+/// small part of the largest of the mechanism; couples at least by that of the largest force at a radius of gyration.
+/// The couple of a pin that rubs is a small part of what its force does: its error is stated, and drives no pass.
+std::vector<double> relative_differences(const System& system, const PassDifference& c);
+
+/// Largest difference of a body's place between two passes, over the longest way that one has gone from its start [-]; of centres
+/// and of points at the radius of gyration. theory/time Eq. (6.4).
+double motion_difference(const System& system, const ForceTable& coarse, const ForceTable& fine);
+
+/// A relative difference [-] as a function of time [s].
+struct DifferenceCurve {
+  std::vector<double> t, e;
+};
+
+/// In every common row, the largest relative difference of any joint, by the measures of `relative_differences`.
+DifferenceCurve force_difference_curve(const System& system, const ForceTable& coarse, const ForceTable& fine);
+/// In every common row, the largest difference of a body's place over the longest way.
+DifferenceCurve motion_difference_curve(const System& system, const ForceTable& coarse, const ForceTable& fine);
+
+/// For each joint the last time [s] at which a run that ends there has `share` times its difference within `tolerance` of its peak.
+/// theory/time Eq. (6.10).
+std::vector<double> force_horizons(const System& system, const ForceTable& coarse, const ForceTable& fine, double share, double tolerance);
+
+/// The last time up to which the curve stays within `tolerance`.
+double curve_horizon(const DifferenceCurve& curve, double tolerance);
+
+double largest_of(const std::vector<double>& x);
+
+}  // namespace pintle

@@ -1,0 +1,68 @@
+#include "run/promises.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pintle {
+namespace {
+
+struct Statistics {
+  double peak = 0, rms = 0, mean = 0;
+};
+
+// Of a joint's force in the rows after `from` [s]; trapezoidal in time.
+Statistics after(const ForceTable& forces, std::size_t joints, std::size_t j, double from) {
+  Statistics out;
+  double span = 0;
+  for (std::size_t i = 1; i < forces.t.size(); ++i) {
+    if (forces.t[i] <= from) continue;
+    const double *a = &forces.world[3 * ((i - 1) * joints + j)], *b = &forces.world[3 * (i * joints + j)];
+    const double last = std::hypot(a[0], a[1]), now = std::hypot(b[0], b[1]), h = forces.t[i] - forces.t[i - 1];
+    out.peak = std::max(out.peak, now);
+    out.mean += 0.5 * h * (last + now);
+    out.rms += 0.5 * h * (last * last + now * now);
+    span += h;
+  }
+  if (span > 0) {
+    out.mean /= span;
+    out.rms = std::sqrt(out.rms / span);
+  }
+  return out;
+}
+
+}  // namespace
+
+void promise_until_horizons(const System& system, const ForceTable& coarse, const ForceTable& fine, double share, double within, const ErrorGrowth& growth, Trajectory& out) {
+  const std::size_t joints = system.joints.size();
+  std::vector<double> horizons = force_horizons(system, coarse, fine, share, within);
+  if (out.of_motion) horizons.assign(joints, curve_horizon(motion_difference_curve(system, coarse, fine), within));
+  out.growth = {growth.rate, growth.rate_error, out.t_end};
+  const LoadSummary* earliest = nullptr;
+  std::size_t row = 0;
+  for (std::size_t j = 0; j < joints; ++j) {
+    if (system.joints[j].servo >= 0) continue;
+    LoadSummary& joint = out.joints[row++];
+    joint.horizon = horizons[j];
+    const PassDifference until = difference_of_passes(system, coarse, fine, joint.horizon);
+    joint.error_estimate = share * until.force[j];
+    joint.moment_error_estimate = share * until.couple[j];
+    joint.relative_error_estimate = share * relative_differences(system, until)[j];
+    const Statistics now = after(fine, joints, j, joint.horizon), other = after(coarse, joints, j, joint.horizon);
+    joint.peak_after = now.peak;
+    joint.rms_after = now.rms;
+    joint.mean_after = now.mean;
+    joint.peak_scatter = std::abs(now.peak - other.peak);
+    joint.rms_scatter = std::abs(now.rms - other.rms);
+    joint.mean_scatter = std::abs(now.mean - other.mean);
+    if (earliest == nullptr || joint.horizon < earliest->horizon) earliest = &joint;
+  }
+  if (earliest != nullptr) out.growth.horizon = earliest->horizon;
+  out.message = fmt::format(
+      "joint forces are promised up to t = {:.4g} s{}: the motion is chaotic, errors grow e-fold every {:.2g} s ({:.3g} +- {:.1g} per second), and no tolerance is enough for all of it; "
+      "peaks, means and RMS after that are statistics",
+      out.growth.horizon, earliest != nullptr ? " (joint " + earliest->name + ")" : "", 1 / growth.rate, growth.rate, growth.rate_error);
+}
+
+}  // namespace pintle

@@ -1,0 +1,113 @@
+// Motions whose errors cannot be kept small, and motions whose errors only look so. theory/time section 6.1.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pintle/results.h"
+#include "tests/reference_tables.h"
+
+namespace pintle {
+namespace {
+
+Model mechanism(const std::string& name, double duration, double tolerance) {
+  Model model = read_model(std::string(PINTLE_SOURCE_DIR) + "/mechanisms/" + name + ".toml");
+  if (duration > 0) model.simulate.duration = duration;
+  model.simulate.tolerance = tolerance;
+  return model;
+}
+
+TEST(Chaos, ADoublePendulumIsPromisedUpToItsHorizonAtTheCostOfAnOrdinaryRun) {
+  const Trajectory run = simulate(mechanism("double_pendulum", 30, 1e-5));
+  ASSERT_EQ(run.outcome, Outcome::kHorizon) << run.message;
+  EXPECT_EQ(run.t_end, 30);
+  EXPECT_LE(run.counters.passes, 3u);
+  EXPECT_LT(run.counters.steps, 10000u);  // measured: 5157
+  EXPECT_GT(run.growth.rate, 0.5);
+  EXPECT_LT(run.growth.rate, 2.5);
+  EXPECT_GT(run.growth.rate_error, 0);
+  EXPECT_LT(run.growth.rate_error, 0.3 * run.growth.rate);
+  for (const LoadSummary& joint : run.joints) {
+    EXPECT_GT(joint.horizon, 1) << joint.name;
+    EXPECT_LT(joint.horizon, 15) << joint.name;
+    EXPECT_LE(joint.relative_error_estimate, 1e-5) << joint.name;
+    EXPECT_GE(joint.horizon, run.growth.horizon);
+    EXPECT_GE(joint.peak_after, joint.rms_after);
+    EXPECT_GE(joint.rms_after, joint.mean_after);
+    EXPECT_GT(joint.mean_after, 0);
+  }
+  EXPECT_NE(run.message.find("chaotic"), std::string::npos);
+}
+
+// Against a run that is right for that long.
+TEST(Chaos, ForcesAreRightUpToTheHorizon) {
+  const Trajectory fine = simulate(mechanism("double_pendulum", 10, 1e-8));
+  ASSERT_EQ(fine.outcome, Outcome::kCompleted) << fine.message;
+  for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6}) {
+    const Trajectory run = simulate(mechanism("double_pendulum", 60, tolerance));
+    ASSERT_EQ(run.outcome, Outcome::kHorizon) << tolerance << run.message;
+    for (const LoadSummary& joint : run.joints) {
+      const std::string column = "joint." + joint.name + ".on_" + joint.second_body;
+      double error = 0, peak = 0;
+      for (std::size_t row = 0; row < fine.n_rows() && fine.at(row, 0) <= joint.horizon; ++row) {
+        const auto at = [&](const Trajectory& of, const char* end) { return reference::value(of, row, column + end); };
+        ASSERT_EQ(run.at(row, 0), fine.at(row, 0));
+        error = std::max(error, std::hypot(at(run, ".fx[world]") - at(fine, ".fx[world]"), at(run, ".fy[world]") - at(fine, ".fy[world]")));
+        peak = std::max(peak, std::hypot(at(fine, ".fx[world]"), at(fine, ".fy[world]")));
+      }
+      EXPECT_LE(error, tolerance * peak) << joint.name << " at " << tolerance;
+    }
+  }
+}
+
+TEST(Chaos, WhatASmallerToleranceMeetsALargerOneMeets) {
+  for (const double duration : {8.0, 10.0, 12.0, 14.0, 16.0}) {
+    bool met = false;  // by a smaller tolerance
+    for (const double tolerance : {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
+      const Trajectory run = simulate(mechanism("double_pendulum", duration, tolerance));
+      const bool now = run.outcome == Outcome::kCompleted;
+      EXPECT_TRUE(now || !met) << duration << " s at " << tolerance << ": " << run.message;
+      met = met || now;
+    }
+    EXPECT_TRUE(met) << duration;
+  }
+}
+
+TEST(Chaos, RegularMotionsAreNotChaotic) {
+  for (const char* name : {"pendulum", "four_bar", "slider_crank", "n_four_bar_1", "five_bar_parallelogram", "six_bar", "andrews", "quick_return"})
+    for (const double tolerance : {1e-3, 1e-5}) {
+      const Trajectory run = simulate(mechanism(name, 0, tolerance));
+      EXPECT_EQ(run.outcome, Outcome::kCompleted) << name << " at " << tolerance << ": " << run.message;
+      EXPECT_EQ(run.growth.rate, 0) << name;
+    }
+}
+
+// Errors of phase grow with the time; steps that are all alike keep passes from agreeing.
+TEST(Chaos, AMotionThatIsBadlyIntegratedMissesItsTolerance) {
+  Model model = mechanism("pendulum", 200, 1e-12);
+  const Trajectory run = simulate(model);
+  EXPECT_EQ(run.outcome, Outcome::kToleranceNotMet) << run.message;
+  EXPECT_EQ(run.growth.rate, 0);
+}
+
+TEST(Chaos, AStartThatRingsIsNotChaotic) {
+  Model model = mechanism("four_bar", 0, 1e-5);
+  model.simulate.start = Start::kUnloaded;
+  for (Joint& joint : model.joints)
+    for (double& c : joint.law.values["damping"]) c = 0;
+  model.simulate.duration = 0.02;
+  const Trajectory run = simulate(model);
+  EXPECT_NE(run.outcome, Outcome::kHorizon) << run.message;
+  EXPECT_EQ(run.growth.rate, 0);
+}
+
+TEST(Chaos, TheSummaryStatesHorizonsAndGrowth) {
+  const Trajectory run = simulate(mechanism("double_pendulum", 20, 1e-6));
+  ASSERT_EQ(run.outcome, Outcome::kHorizon);
+  const std::string json = summary_json(run, {}), text = summary_text(run, {});
+  EXPECT_NE(json.find("\"outcome\": \"horizon\""), std::string::npos);
+  EXPECT_NE(json.find("\"rate_error\""), std::string::npos);
+  EXPECT_NE(text.find("promised to [s]"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pintle

@@ -1,0 +1,61 @@
+// Motions that are fed without end, machines that only look so, and energy accounts that do not close. theory/time section 8.
+#include <gtest/gtest.h>
+
+#include "pintle/read_model.h"
+#include "pintle/simulate.h"
+
+namespace pintle {
+namespace {
+
+// A rotor on one pin; `drive` is the effort of the motor on it.
+Model rotor(const std::string& drive, const std::string& duration, const std::string& more = "") {
+  return parse_model(
+      "format = 1\ngravity = [0, \"-9.81 m/s^2\"]\n[simulate]\nduration = \"" + duration +
+          "\"\noutput_step = \"" + duration + "/100\"\n[ground.markers]\nO = [0, 0]\n[body.rotor]\nmass = \"2 kg\"\ninertia = \"0.1 kg*m^2\"\nposition = [0, 0]\nmarkers.O = [0, 0]\n"
+          "[joint.O]\ntype = \"revolute\"\nbetween = [\"ground.O\", \"rotor.O\"]\n[motor.drive]\njoint = \"O\"\ntorque = \"" + drive + "\"\n" + more,
+      "rotor.toml");
+}
+
+TEST(Runaway, AControllerOfTheWrongSignIsNamed) {
+  const Trajectory run = simulate(read_model(std::string(PINTLE_SOURCE_DIR) + "/tests/models/cart_and_pole_wrong_sign.toml"));
+  ASSERT_EQ(run.outcome, Outcome::kRunaway) << run.message;
+  EXPECT_NE(run.message.find("motor controller feeds it"), std::string::npos) << run.message;
+  EXPECT_NE(run.message.find("at t = 0.40"), std::string::npos) << run.message;  // when it left what can be stored
+  EXPECT_LT(run.t_end, 3);
+  EXPECT_GT(run.n_rows(), 10u);
+  EXPECT_LT(run.counters.steps, 10000u);
+  EXPECT_EQ(run.counters.passes, 2u);
+}
+
+TEST(Runaway, NegativeDampingIsNamed) {
+  const Trajectory run = simulate(rotor("2*angle_rate + 0.01", "100 s"));
+  ASSERT_EQ(run.outcome, Outcome::kRunaway) << run.message;
+  EXPECT_NE(run.message.find("motor drive feeds it"), std::string::npos) << run.message;
+  EXPECT_LT(run.t_end, 2.0);
+}
+
+TEST(Runaway, AForceThatFeedsIsNamed) {
+  const Trajectory run = simulate(rotor("0", "100 s", "[force.jet]\non = \"rotor.O\"\ntorque = \"0.1*exp(2*t)\"\n"));
+  ASSERT_EQ(run.outcome, Outcome::kRunaway) << run.message;
+  EXPECT_NE(run.message.find("force jet feeds it"), std::string::npos) << run.message;
+}
+
+// Energies of 5e13, 5e17 and 1e4 J: by t^2, t^2 and more, and within a moment, from nothing.
+TEST(Runaway, MachinesThatAreSpunUpAreNot) {
+  for (const char* drive : {"1e3", "1e5*t", "100*step(t - 50)", "1e4*smoothstep(40, 60, t)"}) {
+    const Trajectory run = simulate(rotor(drive, "100 s"));
+    EXPECT_EQ(run.outcome, Outcome::kCompleted) << drive << ": " << run.message;
+    EXPECT_EQ(run.t_end, 100) << drive;
+  }
+  const Trajectory rocket = simulate(rotor("0", "1e4 s", "[force.jet]\non = \"rotor.O\"\ntorque = \"1e6\"\n"));
+  EXPECT_EQ(rocket.outcome, Outcome::kCompleted) << rocket.message;
+}
+
+TEST(EnergyAccount, APoleInsideTheRunIsNotSteppedOver) {
+  const Trajectory run = simulate(rotor("1/(t - 0.1)", "1 s"));
+  EXPECT_EQ(run.outcome, Outcome::kEnergyOpen) << run.message;
+  EXPECT_NE(run.message.find("has a pole"), std::string::npos) << run.message;
+}
+
+}  // namespace
+}  // namespace pintle
