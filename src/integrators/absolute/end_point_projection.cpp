@@ -455,7 +455,8 @@ PINTLE_END_POINT(WidestEndPointProjection, PINTLE_WIDEST)
 template <class S>
 std::unique_ptr<BasicEndPointProjection<S>> make_end_point_projection(const BasicSystem<S>& system) {
 #ifdef PINTLE_WIDE
-  if (has_widest_registers()) return std::make_unique<WidestEndPointProjection<S>>(system);
+  if constexpr (!S::kCurved)
+    if (has_widest_registers()) return std::make_unique<WidestEndPointProjection<S>>(system);
   if (has_wide_registers()) return std::make_unique<WideEndPointProjection<S>>(system);
 #endif
   return std::make_unique<NarrowEndPointProjection<S>>(system);

@@ -1,4 +1,4 @@
-// The stage solver with its stages in lanes: what it knows. What it does is in stage_solver.cpp, which compiles it for registers of
+// The stage solver with its stages in lanes: what it knows. What it does is in lane_stage_solver_steps.h, which is compiled for registers of
 // several widths.
 #pragma once
 

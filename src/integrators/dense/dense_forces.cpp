@@ -346,7 +346,8 @@ class WidestForces final : public LaneForces<S> {
 template <class S>
 std::unique_ptr<BasicDenseForces<S>> make_dense_forces(const BasicSystem<S>& system) {
 #ifdef PINTLE_WIDE
-  if (has_widest_registers()) return std::make_unique<WidestForces<S>>(system);
+  if constexpr (!S::kCurved)
+    if (has_widest_registers()) return std::make_unique<WidestForces<S>>(system);
   if (has_wide_registers()) return std::make_unique<WideForces<S>>(system);
 #endif
   return std::make_unique<NarrowForces<S>>(system);

@@ -1,5 +1,9 @@
+// The stage solver. Included where it is compiled, once for each space.
+//
 // Simplified Newton on all stages at once: they stand side by side in the lanes of Lanes<N>, and so do the real and complex
 // systems into which their equations fall apart.
+#pragma once
+
 #include "integrators/absolute/lane_stage_solver_guess.h"
 #include "integrators/absolute/lane_stage_solver_laws.h"
 #include "integrators/absolute/lane_stage_solver_matrix.h"
@@ -441,8 +445,6 @@ void LaneStageSolver<S, N>::filter_lanes(std::vector<RowOf4<S>>& forces) const {
     for (int k = 0; k < S::kDof; ++k) x[k] = mu2 * x[k];
 }
 
-namespace {
-
 // The same text for registers of every width: everything that is made of lanes is inlined into these functions.
 #define PINTLE_SOLVER(Name, WIDTH)                                                                                                            \
   template <class S, int N>                                                                                                                   \
@@ -466,21 +468,17 @@ PINTLE_SOLVER(WidestSolver, PINTLE_WIDEST)
 template <class S, int N>
 std::unique_ptr<BasicStageSolver<S>> make_solver(const BasicSystem<S>& system, const RadauTable& table, double tolerance, Steps steps) {
 #ifdef PINTLE_WIDE
-  if (has_widest_registers()) return std::make_unique<WidestSolver<S, N>>(system, table, tolerance, steps);
+  if constexpr (!S::kCurved)  // in space it takes long to compile, and little is gained
+    if (has_widest_registers()) return std::make_unique<WidestSolver<S, N>>(system, table, tolerance, steps);
   if (has_wide_registers()) return std::make_unique<WideSolver<S, N>>(system, table, tolerance, steps);
 #endif
   return std::make_unique<NarrowSolver<S, N>>(system, table, tolerance, steps);
 }
-
-}  // namespace
 
 template <class S>
 std::unique_ptr<BasicStageSolver<S>> make_stage_solver(const BasicSystem<S>& system, const RadauTable& table, double tolerance, Steps steps) {
   if (table.n == 5) return make_solver<S, 5>(system, table, tolerance, steps);
   return make_solver<S, 3>(system, table, tolerance, steps);
 }
-
-template std::unique_ptr<BasicStageSolver<Planar>> make_stage_solver(const BasicSystem<Planar>& system, const RadauTable& table, double tolerance, Steps steps);
-template std::unique_ptr<BasicStageSolver<Spatial>> make_stage_solver(const BasicSystem<Spatial>& system, const RadauTable& table, double tolerance, Steps steps);
 
 }  // namespace pintle

@@ -1,0 +1,7 @@
+#include "integrators/absolute/lane_stage_solver_steps.h"
+
+namespace pintle {
+
+template std::unique_ptr<BasicStageSolver<Planar>> make_stage_solver(const BasicSystem<Planar>& system, const RadauTable& table, double tolerance, Steps steps);
+
+}  // namespace pintle

@@ -1,0 +1,7 @@
+#include "integrators/absolute/lane_stage_solver_steps.h"
+
+namespace pintle {
+
+template std::unique_ptr<BasicStageSolver<Spatial>> make_stage_solver(const BasicSystem<Spatial>& system, const RadauTable& table, double tolerance, Steps steps);
+
+}  // namespace pintle
