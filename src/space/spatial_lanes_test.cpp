@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/random_for_tests.h"
@@ -146,6 +147,30 @@ TEST(SpatialLanes, DisplacedBodiesAreWhereIncrementsMoveThem) {
     EXPECT_LT((body.motion(i).w - m.w).norm(), 3e-15);
     EXPECT_LT((S::moved(start.q, S::difference(moved, start.q)).r.angularDistance(moved.r)), 2e-15);
   }
+}
+
+// Half a turn and more within a step, about an axis that moves: what a pass leaves is answered by the next.
+TEST(SpatialLanes, IterationsContractInLongSteps) {
+  const Step step(1);
+  Body body;
+  body.stand_still();
+  S::Vec v;
+  v << 0, 0, 0, 2.4, 3.2, 0;
+  for (int i = 0; i < 3; ++i) {
+    body.a[3].set(i, -2);
+    body.a[5].set(i, 2);
+  }
+  body.begin(step, {}, v);
+  double last = 1;
+  for (int pass = 0; pass < 4; ++pass) {
+    double change = 0;
+    for (int i = 0; i < 3; ++i) change = std::max(change, body.change[i]);
+    EXPECT_LT(change, std::max(1e-13, 0.01 * last)) << pass;
+    last = change;
+    body.place(step, {}, v);
+  }
+  EXPECT_LT(last, 1e-11);
+  EXPECT_GT(rotation::square_of(body.turn)[2], 3.2 * 3.2);
 }
 
 // A step that turns a body by much of a whole turn is too long: no number comes out of it.

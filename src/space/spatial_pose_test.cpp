@@ -347,6 +347,31 @@ TEST(SpatialPose, LanesAreThePlainNumbers) {
   }
 }
 
+// M's z axis against F's, exactly and within rounding: the turn is undefined, but everything is a number, and right in what else there is.
+TEST(SpatialPose, AtHalfATurnOfTiltNumbersStayNumbers) {
+  for (const double n : {-1.0, std::nextafter(-1.0, -2.0), std::nextafter(-1.0, 0.0), -1 + 1e-11, 0.3})
+    EXPECT_EQ(rotation::over_one_plus(Lanes<3>(n))[1], rotation::over_one_plus(n)) << n;
+  Random random(14);
+  const S::Vec held(S::Vec{{1.0, -2.0, 3.0, 0.0, 0.0, 0.0}});
+  for (const double off : {0.0, 1e-300, 1e-20, 1e-9, 1e-7, 1e-5}) {
+    Pair p = pair(random, 0.4);
+    p.a.r = p.b.r = Quaternion::Identity();
+    p.F.R = Eigen::Matrix3d::Identity();
+    p.M.R = Eigen::Matrix3d(Point(1, -1, -1).asDiagonal());
+    p.M.R.col(2) += Point(off, -off, 0);
+    const auto pose = p.pose();
+    const auto N = pose.geometric(held);
+    EXPECT_TRUE(pose.z.allFinite() && pose.rate.allFinite() && pose.bias.allFinite()) << off;
+    EXPECT_TRUE(jacobian(pose).allFinite() && N.allFinite()) << off;
+    EXPECT_TRUE(pose.rate_gradient(S::Motion::of(p.a, p.va), S::Motion::of(p.b, p.vb)).allFinite()) << off;
+    // Forces of what a ball joint holds do not know of it.
+    Pair level = p;
+    level.M.R = Eigen::Matrix3d::Identity();
+    EXPECT_EQ(wrenches(pose, held), wrenches(level.pose(), held)) << off;
+    EXPECT_EQ(N, level.pose().geometric(held)) << off;
+  }
+}
+
 TEST(SpatialPose, CountsWholeTurnsFromAReference) {
   constexpr double turn = 2 * std::numbers::pi;
   S::Vec reference = S::Vec::Zero(), z = S::Vec::Constant(0.25);
