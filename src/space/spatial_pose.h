@@ -17,11 +17,19 @@ struct SpatialBodyView {
 };
 
 namespace rotation {
-inline double one_over(double x) { return 1 / x; }
+/// 1 / (1 + n), n the cosine of a tilt, but a number also at half a turn, where the turn about the axis is undefined: a joint that leaves
+/// both free has no force there for it to multiply. theory/space Eq. (3.4) and section 3.6.
+inline constexpr double kLeastOnePlusCosine = 1e-12;
+inline double over_one_plus(double n) { return 1 / std::max(1 + n, kLeastOnePlusCosine); }
 template <int M>
-Dual<M> one_over(const Dual<M>& x) { return Dual<M>(1.0) / x; }
+Dual<M> over_one_plus(const Dual<M>& n) {
+  const Dual<M> sum = Dual<M>(1.0) + n;
+  return sum.v < kLeastOnePlusCosine ? Dual<M>(1 / kLeastOnePlusCosine) : Dual<M>(1.0) / sum;
+}
 template <int N>
-PINTLE_LANES Lanes<N> one_over(const Lanes<N>& x) { return reciprocal(x); }
+PINTLE_LANES Lanes<N> over_one_plus(const Lanes<N>& n) {
+  return reciprocal(larger(Lanes<N>(1.0) + n, Lanes<N>(kLeastOnePlusCosine)));
+}
 }  // namespace rotation
 
 /// What z, z' and z'' are made of; T is a number, or one number per stage of a step.
@@ -72,7 +80,7 @@ struct SpatialPoseGeometry {
   template <class Body, class Gap>
   PINTLE_LANES void rates(const Body&, const Body&, Gap& rate) const {
     const Vector3<T> at = turned_back(RF, dd);
-    const T k = rotation::one_over(T(1.0) + R.zz);
+    const T k = rotation::over_one_plus(R.zz);
     rate[0] = at.x;
     rate[1] = at.y;
     rate[2] = at.z;
@@ -84,7 +92,7 @@ struct SpatialPoseGeometry {
   template <class Gap>
   PINTLE_LANES void biases(Gap& out) const {
     const Vector3<T> n{R.xz, R.yz, R.zz}, dn = cross(w, n), turning = cross(w, wa);
-    const T k = rotation::one_over(T(1.0) + n.z), kx = k * n.x, ky = k * n.y;
+    const T k = rotation::over_one_plus(n.z), kx = k * n.x, ky = k * n.y;
     out[0] = bias.x;
     out[1] = bias.y;
     out[2] = bias.z;
@@ -127,7 +135,7 @@ struct SpatialGapMap {
     arm_a = pose.arm_a;
     arm_b = pose.arm_b;
     n = {pose.R.xz, pose.R.yz, pose.R.zz};
-    k = rotation::one_over(T(1.0) + n.z);
+    k = rotation::over_one_plus(n.z);
   }
   static SpatialGapMap of(const SpatialPoseGeometry<T>& pose) {
     SpatialGapMap map;
