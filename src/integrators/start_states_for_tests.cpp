@@ -115,7 +115,7 @@ State follow(const System& system, const State& from, double duration, int n, in
 }
 
 StageTails room_for_tails(const System& system) {
-  return {std::vector<Vec3x4>(system.bodies.size()), std::vector<Vec3x4>(system.joints.size())};
+  return {std::vector<RowOf4<Planar>>(system.bodies.size()), std::vector<RowOf4<Planar>>(system.joints.size())};
 }
 
 double largest_difference(const Vecs& a, const Vecs& b) {

@@ -95,7 +95,7 @@ const Expression::Ramp* BasicSystem<S>::ramp_of(const BasicLoadData<S>& load, Sl
 }
 
 template <class S>
-BasicSystem<S>::LoadState BasicSystem<S>::load_state(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding) const {
+typename BasicSystem<S>::LoadState BasicSystem<S>::load_state(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding) const {
   LoadState state;
   state.displacement = displacement_of(load);
   state.pose = pose(load.at, m);

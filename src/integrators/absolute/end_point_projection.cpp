@@ -51,7 +51,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     state_tails_.clear();
     for (BasicJointPack<S>& joints : joints_) {
       if (large_) fetch_corrections(joints, last, tails);
-      const Kinematics r = read(joints, t, last.m, joints.map);
+      const Kinematics r = read(joints, t, last.m, joints.map, last);
       find_weight(joints, t, mu, last, tails);
       add_blocks(joints);
       add_pull(joints, last);
@@ -131,10 +131,19 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     load_motions(m);
   }
 
-  Kinematics read(const BasicJointPack<S>& joints, double t, const std::vector<typename S::Motion>& m, typename S::template GapMap<L>& map) const {
+  // In curved spaces the geometry knows turns but for whole ones: those are the carried gap's.
+  Kinematics read(const BasicJointPack<S>& joints, double t, const std::vector<typename S::Motion>& m, typename S::template GapMap<L>& map,
+                  const BasicStage<S>& carried) const {
     Kinematics r;
     if (joints.pose) {
       joints.read_poses(at_, r, map);
+      if constexpr (S::kCurved)
+        for (int i = 0; i < 4; ++i) {
+          typename S::Vec z;
+          for (int k = 0; k < S::kDof; ++k) z[k] = r.gap[k][i];
+          S::count_turns(carried.gap[joints.lane[i]], z);
+          r.gap[S::kTurn].set(i, z[S::kTurn]);
+        }
       return r;
     }
     const BasicJointKinematics<S> one = system_.kinematics(joints.first, t, m);
@@ -252,7 +261,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     for (const BasicJointPack<S>& joints : joints_) {
       if (large_) fetch_kinematics(joints, last);
       typename S::template GapMap<L> map;
-      const Kinematics r = read(joints, end.t, m, map);
+      const Kinematics r = read(joints, end.t, m, map, last);
       L off[S::kDof];
       for (int k = 0; k < S::kDof; ++k) off[k] = joints.load(last.gap, k) - r.gap[k];
       add_to_rhs(joints, off);
@@ -266,7 +275,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     for (const BasicJointPack<S>& joints : joints_) {
       if (large_) fetch_kinematics(joints, last);
       typename S::template GapMap<L> map;
-      const Kinematics r = read(joints, end.t, m, map);
+      const Kinematics r = read(joints, end.t, m, map, last);
       L off[S::kDof];
       for (int k = 0; k < S::kDof; ++k) {
         left = larger_size(left, joints.forbidden[k] * (joints.load(last.gap, k) - r.gap[k]));
@@ -312,7 +321,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     for (const BasicJointPack<S>& joints : joints_) {
       if (large_) fetch_forces(joints, last, end);
       typename S::template GapMap<L> map;
-      const Kinematics r = read(joints, end.t, m, map);
+      const Kinematics r = read(joints, end.t, m, map, last);
       L accel[S::kDof], gap[S::kDof], rate[S::kDof], force[S::kDof];
       joints.gather(map, accel_, accel);
       for (int k = 0; k < S::kDof; ++k) {

@@ -72,9 +72,9 @@ struct BodyAt<Spatial> {
   PINTLE_LANES static SpatialBodyView<Lanes<4>> view(const std::vector<BodyAt>& at, const int (&body)[4]) {
     const auto four = [&](auto&& of) { return Lanes<4>::of({of(at[body[0]].m), of(at[body[1]].m), of(at[body[2]].m), of(at[body[3]].m)}); };
     const auto vector = [&](Spatial::Point Spatial::Motion::*x) {
-      return Vector3<Lanes<4>>{four([&](const auto& m) { return (m.*x)[0]; }), four([&](const auto& m) { return (m.*x)[1]; }), four([&](const auto& m) { return (m.*x)[2]; })};
+      return Vector3<Lanes<4>>{four([&](const auto& motion) { return (motion.*x)[0]; }), four([&](const auto& motion) { return (motion.*x)[1]; }), four([&](const auto& motion) { return (motion.*x)[2]; })};
     };
-    const auto entry = [&](int r, int c) { return four([&](const auto& m) { return m.R(r, c); }); };
+    const auto entry = [&](int r, int c) { return four([&](const auto& motion) { return motion.R(r, c); }); };
     return {vector(&Spatial::Motion::p),
             {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 0), entry(1, 1), entry(1, 2), entry(2, 0), entry(2, 1), entry(2, 2)},
             vector(&Spatial::Motion::v), vector(&Spatial::Motion::w)};

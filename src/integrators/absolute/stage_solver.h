@@ -24,7 +24,7 @@ struct BasicStage {
   std::vector<double> law_state, law_rate;    // of the laws' own states
   std::vector<typename S::Motion> m;
   double loss = 0;                            // power lost in the springs and dampers that are joints [W]
-  VecsOf<S> increment_rate;                   // in curved spaces: of the bodies' increments from the start of the step
+  VecsOf<S> increment_rate{};                 // in curved spaces: of the bodies' increments from the start of the step
 };
 using Stage = BasicStage<Planar>;
 

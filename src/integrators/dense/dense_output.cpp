@@ -57,15 +57,15 @@ const BasicState<S>& BasicDenseOutput<S>::at(double t, const BasicState<S>& begi
   if (t == begin.t) return begin;
   const double h = end.t - begin.t, s = (t - begin.t) / h;
   const Hermite H(s);
-  if constexpr (S::kCurved) {
-    VecsOf<S> from(begin.v.size(), S::Vec::Zero()), to = from, rate_there = end.v, at = from;
-    for (std::size_t i = 0; i < to.size(); ++i) {
-      to[i] = S::difference(end.q[i], begin.q[i]);
-      rate_there[i] = S::rate_of_increment(to[i], end.v[i]);
+  if constexpr (S::kCurved) {  // increments and velocities by cubic curves: accelerations are not the increments' second derivatives
+    const double r = 1 - s;
+    for (std::size_t i = 0; i < out_.q.size(); ++i) {
+      const typename S::Vec dq = S::difference(end.q[i], begin.q[i]), rate = S::rate_of_increment(dq, end.v[i]);
+      const typename S::Vec dv = end.v[i] - begin.v[i];
+      out_.q[i] = S::moved(begin.q[i], s * s * (3 - 2 * s) * dq + h * s * r * (r * begin.v[i] - s * rate));
+      out_.v[i] = begin.v[i] + s * s * (3 - 2 * s) * dv + h * s * r * (r * begin.a[i] - s * end.a[i]);
+      out_.a[i] = 6 * s * r / h * dv + r * (1 - 3 * s) * begin.a[i] + s * (3 * s - 2) * end.a[i];
     }
-    interpolate(H, h, from, begin.v, begin.a, to, end.v, end.a, at, out_.v, out_.a);
-    for (std::size_t i = 0; i < to.size(); ++i)
-      out_.q[i] = S::moved(begin.q[i], H.f[3] * to[i] + h * (H.f[1] * begin.v[i] + H.f[4] * rate_there[i]) + h * h * (H.f[2] * begin.a[i] + H.f[5] * end.a[i]));
   } else {
     interpolate(H, h, begin.q, begin.v, begin.a, end.q, end.v, end.a, out_.q, out_.v, out_.a);
   }
