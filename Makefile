@@ -11,7 +11,7 @@ CLANG     := clang++-14
 LONG := Slow|Scene|BlockPattern|Envelope|LargeModels|CompareSolvers|TreeMethods|CheckDifferences|CheckBatteries
 say        = @printf '\n=== %s\n' "$(1)"
 
-.PHONY: help setup build demo test install bench fuzz web-check studio studio-test studio-browser-test format clean
+.PHONY: help setup build build-demo demo test install bench fuzz web-check studio studio-test studio-browser-test format clean
 .PHONY: paper figure9 published
 .PHONY: check-sources test-release test-package test-clang
 
@@ -39,7 +39,12 @@ build: setup
 	@$(CONFIGURE) -B build/release -DPINTLE_TESTS=OFF >/dev/null
 	@$(BUILD) build/release -j $(JOBS)
 
-demo: build
+# The program alone: neither ensembles, pictures, the studio's server nor the library to install.
+build-demo: setup
+	@$(CONFIGURE) -B build/release -DPINTLE_TESTS=OFF >/dev/null
+	@$(BUILD) build/release -j $(JOBS) --target pintle_cli
+
+demo: build-demo
 	@mkdir -p out
 	@build/release/bin/pintle run mechanisms/four_bar.toml --out out/four-bar --force
 	@build/release/bin/pintle report out/four-bar --out out/four-bar.html >/dev/null

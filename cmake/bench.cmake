@@ -12,7 +12,7 @@ string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
 target_compile_definitions(pintle_bench PRIVATE PINTLE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
   PINTLE_BENCH_FLAGS="${CMAKE_CXX_FLAGS_${build_type}} -ffp-contract=off$<$<BOOL:${PINTLE_NATIVE}>: -march=native>")
 target_include_directories(pintle_bench PRIVATE ${PROJECT_SOURCE_DIR})
-target_link_libraries(pintle_bench PRIVATE pintle_flags pintle_io benchmark::benchmark)
+target_link_libraries(pintle_bench PRIVATE pintle_flags pintle_io pintle_batch benchmark::benchmark)
 if(TARGET pintle_cli)  # for the instruction counts
   add_dependencies(pintle_bench pintle_cli)
 endif()

@@ -32,7 +32,8 @@ function(pintle_precompile name quick)
 endfunction()
 
 # pintle_room(NAME [QUICK] [LINK libraries...]): the target of the current folder, linked to every room on its left. Laws and
-# joints do not see each other. A room without a source is a header-only target. QUICK: its speed does not matter.
+# joints do not see each other, and only sweeps see batch, which a program without ensembles need not build. A room without a source is
+# a header-only target. QUICK: its speed does not matter.
 function(pintle_room name)
   cmake_parse_arguments(arg "QUICK" "" "LINK" ${ARGN})
   pintle_sources(sources ${CMAKE_CURRENT_SOURCE_DIR} RECURSE)
@@ -40,6 +41,8 @@ function(pintle_room name)
   list(SUBLIST PINTLE_ROOMS 0 ${index} left)
   if(name STREQUAL "joints")
     list(REMOVE_ITEM left laws)
+  elseif(NOT name STREQUAL "sweeps")
+    list(REMOVE_ITEM left batch)
   endif()
   list(TRANSFORM left PREPEND pintle_)
   if(sources)

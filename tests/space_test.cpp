@@ -203,6 +203,21 @@ TEST(Space, BricardsReactionsAreRightAndConvergeWithTheStiffness) {
   EXPECT_NEAR(first / second, 10, 1);
 }
 
+// A wheel on a hinge: its free turn counts on past half a turn, inside steps too.
+TEST(Space, AHingeCountsTurns) {
+  SpatialSystem system;
+  system.bodies.push_back(body("wheel", 2, {0.1, 0.1, 0.2}, Point::Zero()));
+  system.joints.push_back(joint("axle", "revolute", kGround, S::Frame{}, 0, S::Frame{}, 1e8, 1e4, 1e6, 1e2));
+  system.finish();
+  S::Vec v;
+  v << 0, 0, 0, 0, 0, 10;
+  const SpatialState start = at(system, {S::Coordinates{}}, {v});
+  const std::vector<double> times{0.1, 0.3, 0.35, 0.9, 2};
+  const SpatialRun done = run(system, start, times, 1e-8, 5);
+  ASSERT_EQ(done.states.size(), times.size());
+  for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(done.states[i].gap[0][S::kTurn], 10 * times[i], 1e-9);
+}
+
 // A component of the plane in space: x, y and the turn about z.
 constexpr std::array<int, Planar::kDof> kInSpace{0, 1, S::kTurn};
 S::Vec in_space(const Planar::Vec& x) {
