@@ -118,8 +118,8 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
   }
 
  private:
-  using L = BasicJointPack<S>::L;
-  using Kinematics = BasicJointPack<S>::Kinematics;
+  using L = typename BasicJointPack<S>::L;
+  using Kinematics = typename BasicJointPack<S>::Kinematics;
 
   std::size_t n_bodies() const { return system_.bodies.size(); }
 

@@ -40,7 +40,7 @@ class BasicDenseOutput {
 
   const BasicSystem<S>& system_;
   std::unique_ptr<BasicDenseForces<S>> dense_forces_;  // made with the room for curves
-  BasicDenseForces<S>::Sampled sampled_;
+  typename BasicDenseForces<S>::Sampled sampled_;
   BasicState<S> out_;
   // The last step's curves, found when they are first asked for.
   double curves_from_ = 0, curves_to_ = 0;
