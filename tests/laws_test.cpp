@@ -189,11 +189,32 @@ TEST(LuGre, SteadySlipCarriesItsCoefficient) {
 }
 
 // Over the same turn of the same four-bar without friction.
-TEST(LuGre, FrictionInAllPinsOfAFourBarCostsLessThanEightTimesTheSteps) {
+TEST(LuGre, FrictionInAllPinsOfAFourBarCostsLessThanTwiceTheIterations) {
   const Model rubbing = rubbing_four_bar();
   const Trajectory with = completed(rubbing), without = completed(reference::mechanism("four_bar"));
-  EXPECT_LT(with.counters.steps, 8 * without.counters.steps);
-  EXPECT_LT(with.counters.newton_iterations, 8 * without.counters.newton_iterations);
+  EXPECT_LT(static_cast<double>(with.counters.steps), 2.75 * static_cast<double>(without.counters.steps));
+  EXPECT_LT(static_cast<double>(with.counters.newton_iterations), 1.9 * static_cast<double>(without.counters.newton_iterations));
+  EXPECT_EQ(with.counters.newton_failures, 0);
+}
+
+// The bristles of four pins turn round within a few thousandths of a second: what is stated holds against a finer run.
+TEST(LuGre, FourBarKeepsWhatItStates) {
+  Model model = rubbing_four_bar();
+  model.simulate.tolerance = 1e-8;
+  const Trajectory truth = completed(model);
+  for (const double tolerance : {1e-4, 1e-5}) {
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = completed(model);
+    for (std::size_t j = 0; j < run.joints.size(); ++j) {
+      EXPECT_LT(run.joints[j].relative_error_estimate, tolerance);
+      for (std::size_t c = 1; c < run.columns.size(); ++c) {
+        const std::string& name = run.columns[c].name;
+        if (name.rfind("joint." + run.joints[j].name + ".on_", 0) != 0 || name.find(".f") == std::string::npos || name.find("[world]") == std::string::npos) continue;
+        for (std::size_t i = 0; i < run.n_rows(); ++i)
+          EXPECT_NEAR(run.at(i, c), truth.at(i, c), 4.0 / 3 * run.joints[j].error_estimate) << name << ' ' << i << ' ' << tolerance;
+      }
+    }
+  }
 }
 
 constexpr const char* kRubber = R"toml(

@@ -49,6 +49,26 @@ typename S::Vec BasicLaw<S>::force(const BasicLawPoint<S>& at) const {
 }
 
 template <class S>
+typename S::Vec BasicLaw<S>::force_of_states(const BasicLawPoint<S>& at) const {
+  LawInput<double, S::kDof> in = input_at(at);
+  LawOutput<double, S::kDof> so_far, one;
+  so_far.clear();
+  linear_.evaluate(in, so_far);
+  typename S::Vec force = S::Vec::Zero();
+  for (const auto& part : parts_) {
+    std::copy(std::begin(so_far.force), std::end(so_far.force), in.before);
+    one.clear();
+    part->evaluate(in, one);
+    for (int k = 0; k < S::kDof; ++k) {
+      so_far.force[k] += one.force[k];
+      if (part->n_states() > 0) force[k] += one.force[k];
+    }
+    in.state += part->n_states();
+  }
+  return force;
+}
+
+template <class S>
 double BasicLaw<S>::loss(const BasicLawPoint<S>& at) const { return parts_.empty() ? linear_.loss(at.rate) : answer(*this, at).loss; }
 
 template <class S>

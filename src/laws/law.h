@@ -83,6 +83,8 @@ class BasicLaw {
   /// Force on the second body; power lost [W].
   Vec force(const Point& at) const;
   double loss(const Point& at) const;
+  /// The share in the force of those parts that have states.
+  Vec force_of_states(const Point& at) const;
   double energy(const Point& at) const;
   void state_rates(const Point& at, double* rate) const;
   /// Everything, with the tangents.

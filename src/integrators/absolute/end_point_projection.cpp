@@ -34,7 +34,8 @@ template <class S>
 class LaneEndPointProjection : public BasicEndPointProjection<S> {
  public:
   explicit LaneEndPointProjection(const BasicSystem<S>& system)
-      : system_(system), large_(system.bodies.size() > kLargeMechanism), joints_(pack_joints(system)), lu_(system.pattern(), symmetry_of_joints(system)), at_(system.bodies.size() + 1),
+      : system_(system), large_(system.bodies.size() > kLargeMechanism), joints_(pack_joints(system)), has_states_(system.n_law_states() > 0),
+        state_loads_(has_states_ ? system.bodies.size() + 1 : 0), lu_(system.pattern(), symmetry_of_joints(system)), at_(system.bodies.size() + 1),
         corrections_(system.bodies.size() + 1), pulled_(system.bodies.size() + 1), rest_of_four_(system.bodies.size() + 1), rest_(system.bodies.size() + 1), accel_(system.bodies.size() + 1), rhs_(system.bodies.size() + 1), force_rhs_(system.bodies.size() + 1) {
     at_.back().set(kStill<typename S::Motion>);
   }
@@ -47,8 +48,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     std::fill(corrections_.begin(), corrections_.end(), RowOf4<S>{});
     clear(pulled_);
     load_motions(last.m);
-    remembering_.clear();
-    state_tails_.clear();
+    if (has_states_) clear(state_loads_);
     for (BasicJointPack<S>& joints : joints_) {
       if (large_) fetch_corrections(joints, last, tails);
       const Kinematics r = read(joints, t, last.m, joints.map, last);
@@ -81,9 +81,9 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
         bodies.add(over * tails.bodies[b][k]);
         gaps.add(over * corrections_[b][k]);
       }
-    for (std::size_t i = 0; i < remembering_.size(); ++i)
-      for (int k = 0; k < S::kDof; ++k) states.add((1 / load_on(system_.joints[remembering_[i]], scale)[k]) * state_tails_[i][k]);
-    return std::max({bodies.value(), kGapError * gaps.value(), states.value()});
+    for (std::size_t b = 0; has_states_ && b < n_bodies(); ++b)
+      for (int k = 0; k < S::kDof; ++k) states.add((1 / scale.body[b][k]) * state_loads_[b][k]);
+    return std::max({bodies.value(), kGapError * gaps.value(), kStateError * states.last()});
   }
 
   void project(const BasicStage<S>& last, double h, BasicState<S>& end, std::vector<typename S::Motion>& m, BasicLoadScale<S>& scale) {
@@ -165,19 +165,9 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     const BasicJointData<S>& joint = system_.joints[joints.first];
     joint.law.linearize({t, last.gap[joints.first], last.gap_rate[joints.first], last.law_state.data() + joint.first_state}, tangents_);
     impedance_.reserve(tangents_.n);
-    if (tangents_.n > 0) find_state_tail(joints.first, mu / kProjectionShare, tails);
+    if (tangents_.n > 0) joints.map.lane(0).push(tails.of_states[joints.first].a.data(), state_loads_[joints.a[0]], state_loads_[joints.b[0]]);
     impedance_.find(tangents_, mu);
     for (int k = 0; k < S::kDof * S::kDof; ++k) joints.weight[k] = L::all(impedance_.weight[k]);
-  }
-  // The tails of a law's states as the forces that they stand for within the step. Eq. (3.18). The tangents are those at the end:
-  // a joint that begins to stick there holds an error that the slip before it would have let go.
-  void find_state_tail(int j, double mu, const BasicStageTails<S>& tails) {
-    impedance_.find(tangents_, mu);
-    RowOf4<S> force{};
-    for (int z = 0; z < tangents_.n; ++z)
-      for (int k = 0; k < S::kDof; ++k) force[k] += impedance_.pushes[k * tangents_.n + z] * tails.law_rates[system_.joints[j].first_state + z];
-    remembering_.push_back(j);
-    state_tails_.push_back(force);
   }
   // Of one of the joints, four sets of gaps.
   static void weigh_tails(const BasicJointPack<S>& joints, int i, const RowOf4<S>& gap, RowOf4<S>& f) {
@@ -427,8 +417,8 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
   const BasicSystem<S>& system_;
   const bool large_;
   std::vector<BasicJointPack<S>> joints_;
-  std::vector<int> remembering_;    // joints whose laws have states of their own, with the tails of these as forces
-  std::vector<RowOf4<S>> state_tails_;
+  const bool has_states_;               // laws have some
+  std::vector<RowOf4<S>> state_loads_;  // tails of what these laws add to the loads on bodies
   BasicLawTangents<S> tangents_;            // of one joint at a time
   LawImpedance<double, S> impedance_;
   BlockLu<double, S::kDof> lu_;

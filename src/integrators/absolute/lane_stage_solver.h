@@ -30,7 +30,9 @@ class LaneStageSolver : public BasicStageSolver<S> {
  private:
   using L = Lanes<N>;
   using X = Spectrum<N>;
+  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   static constexpr int kMiddle = N / 2;  // the stage where the equations are linearised
+  static constexpr int kMostStatePasses = 3;  // of Newton's method for the states of a law at given gaps; one serves what is linear in them
 
   struct Body : S::template BodyLanes<N> {
     L residual[S::kDof];         // in its equation of motion: forces that nothing answers [N, N, N*m]; then Newton's correction of a
@@ -62,6 +64,8 @@ class LaneStageSolver : public BasicStageSolver<S> {
     std::vector<L> state, rate;      // of the law's own; their rates are unknowns of the stages
     std::vector<L> residual;         // in the rates' equations
     std::vector<X> missing_hat;      // the same in the diagonal frame
+    BasicLawTangents<S> at_stage;    // of one stage at a time
+    std::vector<double> matrix, move;  // of the states' equations at all stages, and what solves them
   };
   struct Curve;  // through the last step's nodes
 
@@ -91,10 +95,13 @@ class LaneStageSolver : public BasicStageSolver<S> {
   void add_joint(const Joint& joint, const X* weight, const typename S::Vec& force);
   static void add_block(Block<X, S::kDof>& block, const typename S::Mat& K, const typename S::Mat& C, const X& mu, double sign);
   double back_substitute(const BasicState<S>& begin);
+  void linearize_at(double t, const BasicLaw<S>& law, const L* gap, const L* rate, const General& general, int stage, BasicLawTangents<S>& tangents) const;
+  bool miss_states(const Joint& joint, const General& general) const;
+  void solve_states(double t, const BasicLaw<S>& law, const L* gap, const L* rate, General& general);
   void place_general(const BasicState<S>& begin, Joint& joint, const L* gap, const L* rate, L* force);
   void answer_states(General& general, const X* missing, X* f) const;
   void move_states(General& general, const L* accel) const;
-  void write_states(const BasicState<S>& begin, const Joint& joint, std::vector<BasicStage<S>>& stages, BasicStageTails<S>& tails) const;
+  void write_states(const BasicState<S>& begin, const Joint& joint, const L* gap, const L* rate, std::vector<BasicStage<S>>& stages, BasicStageTails<S>& tails) const;
   void apply_joint_correction(const BasicState<S>& begin, Joint& joint, L& worst, L& sum);
   void apply_body_correction(const BasicState<S>& begin, int b, const BlockVec<X, S::kDof>& x, L& worst, L& sum);
 

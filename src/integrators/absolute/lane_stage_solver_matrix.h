@@ -45,15 +45,9 @@ void LaneStageSolver<S, N>::linearize(const BasicState<S>& begin, Joint& joint, 
   if (!joint.linear) {
     const BasicJointData<S>& data = system_.joints[j];
     General& general = general_[joint.general];
-    typename S::Vec gap, rate;
-    double state[kMostLawStates];
-    for (int k = 0; k < S::kDof; ++k) {
-      L rates;
-      gap[k] = step_.place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], rates)[i];
-      rate[k] = rates[i];
-    }
-    for (std::size_t z = 0; z < general.state.size(); ++z) state[z] = general.state[z][i];
-    data.law.linearize({begin.t + step_.c[i], gap, rate, state}, general.tangents);
+    L gap[S::kDof], rate[S::kDof];
+    for (int k = 0; k < S::kDof; ++k) gap[k] = step_.place(joint.accel[k], begin.gap[j][k], begin.gap_rate[j][k], rate[k]);
+    linearize_at(begin.t, data.law, gap, rate, general, i, general.tangents);
     general.impedance.find(general.tangents, mu_);
     for (int k = 0; k < S::kDof * S::kDof; ++k) general.over_mu2[k] = twice_ * general.impedance.weight[k];
     add_joint(joint, general.impedance.weight, general.tangents.force);

@@ -53,6 +53,8 @@ LaneStageSolver<S, N>::LaneStageSolver(const BasicSystem<S>& system, const Radau
       general.impedance.reserve(states);
       for (auto* x : {&general.state, &general.rate, &general.residual}) x->resize(states);
       general.missing_hat.resize(states);
+      general.matrix.resize(N * states * N * states);
+      general.move.resize(N * states);
     }
     joint.loses = joint.linear && data.servo < 0;
     simple_ = simple_ && joint.loses;
@@ -401,7 +403,7 @@ void LaneStageSolver<S, N>::write_stages(const BasicState<S>& begin, std::vector
     }
     if (joint.loses)
       for (int k = 0; k < S::kDof; ++k) loss += joint.c[k] * (rate[k] * rate[k]);
-    if (!joint.linear) write_states(begin, joint, stages, tails);
+    if (!joint.linear) write_states(begin, joint, gap, rate, stages, tails);
     for (int s = 0; s < N; ++s) {
       BasicStage<S>& stage = stages[s];
       copy(joint.accel, s, stage.gap_accel[j]);

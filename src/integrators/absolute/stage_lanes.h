@@ -111,6 +111,8 @@ class TailSize {
     size_ = larger_size(size_, relative);
     sum_ += relative;
   }
+  /// Of the last one alone, where a series with kinks may fall off by chance.
+  PINTLE_LANES double last() const { return std::isfinite(sum_[0]) ? size_[0] : std::numeric_limits<double>::infinity(); }
   PINTLE_LANES double value() const {
     if (!std::isfinite(sum_[0] + sum_[1] + sum_[2])) return std::numeric_limits<double>::infinity();
     if (!(size_[0] > 0)) return 0;

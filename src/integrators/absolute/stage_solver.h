@@ -38,7 +38,7 @@ using RowOf4 = BlockVec<Lanes<4>, S::kDof>;
 template <class S>
 struct BasicStageTails {
   std::vector<RowOf4<S>> bodies, gaps;
-  std::vector<Lanes<4>> law_rates{};  // those of the rates of the laws' own states, with the start of the step
+  std::vector<RowOf4<S>> of_states{};  // those of the forces of laws with states of their own, with the start of the step, by joint
 };
 using StageTails = BasicStageTails<Planar>;
 

@@ -10,6 +10,8 @@ namespace pintle {
 constexpr double kProjectionShare = 0.01;
 /// Error of a gap's acceleration over its last coefficient.
 constexpr double kGapError = 3;
+/// Error of the joints' forces over the last coefficient of what laws with states add to the loads on bodies. theory/time Eq. (3.18).
+constexpr double kStateError = 30;
 
 /// What the next coefficients of a series will be like: its last ones fall off by this ratio, at most 1.
 inline double fall_off(double last, double before, double before_that) {
