@@ -7,7 +7,7 @@
 
 #include "integrators/absolute/joint_pack.h"
 #include "integrators/radau/joint_pull.h"
-#include "integrators/absolute/stage_lanes.h"
+#include "integrators/radau/stage_lanes.h"
 #include "integrators/radau/step_error.h"
 #include "simd/processor_registers.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "integrators/absolute/radau_stepper.h"
-#include "integrators/absolute/stage_lanes.h"
+#include "integrators/radau/stage_lanes.h"
 #include "integrators/radau/step_error.h"
 
 namespace pintle {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "integrators/absolute/pose_blocks.h"
-#include "integrators/absolute/stage_lanes.h"
+#include "integrators/radau/stage_lanes.h"
 #include "simd/fetch.h"
 #include "system/system.h"
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "integrators/absolute/stage_lanes.h"
+#include "integrators/radau/stage_lanes.h"
 #include "integrators/absolute/stage_solver.h"
 #include "integrators/radau/newton_contraction.h"
 #include "linalg/block_lu.h"

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "integrators/absolute/end_point_projection.h"
-#include "integrators/absolute/motion_scale.h"
+#include "integrators/radau/motion_scale.h"
 #include "integrators/absolute/stage_solver.h"
 #include "integrators/radau/sliding_mode.h"
 #include "integrators/radau/step_control.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "integrators/absolute/pose_blocks.h"
-#include "integrators/absolute/stage_lanes.h"
+#include "integrators/radau/stage_lanes.h"
 #include "simd/processor_registers.h"
 
 namespace pintle {

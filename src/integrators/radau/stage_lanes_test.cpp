@@ -1,5 +1,5 @@
 // The maps between forces and accelerations of gaps and of bodies, in lanes, against what every kind of joint displacement reads.
-#include "integrators/absolute/stage_lanes.h"
+#include "integrators/radau/stage_lanes.h"
 
 #include <gtest/gtest.h>
 
