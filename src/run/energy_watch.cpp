@@ -75,7 +75,7 @@ EnergyWatch::Alarm EnergyWatch::see_step(const State& state, double h) {
   if (reached_ > 0) add_works(state, h);
   if (++since_judged_ >= kJudgedEvery)
     if (const Alarm alarm = judge_account(state); alarm != Alarm::kNone) return alarm;
-  return judge_growth(state, kinetic);
+  return judge_growth(state);
 }
 
 EnergyWatch::Alarm EnergyWatch::see_end(const State& state) { return judge_account(state); }
@@ -110,7 +110,7 @@ void EnergyWatch::say_open(const State& state, double missing, double within) {
 }
 
 // Eq. (8.4). Only energy that was fed counts: what falls, or what springs give, the mechanism had.
-EnergyWatch::Alarm EnergyWatch::judge_growth(const State& state, double) {
+EnergyWatch::Alarm EnergyWatch::judge_growth(const State& state) {
   const double energy = state.supplied - state.dissipated;
   bool more = false;
   while (reached_ < kDecades && energy > storable_ * std::pow(10.0, reached_)) {

@@ -31,7 +31,7 @@ class EnergyWatch {
     double work = 0;  // [J]
   };
   Alarm judge_account(const State& state);
-  Alarm judge_growth(const State& state, double kinetic);
+  Alarm judge_growth(const State& state);
   void add_works(const State& state, double h);
   double potential(const State& state);
   void say_open(const State& state, double missing, double within);
