@@ -15,6 +15,8 @@ double value_of(const Dual<M>& x) { return x.v; }
 inline double abs(double x) { return std::abs(x); }
 inline double sqrt(double x) { return std::sqrt(x); }
 inline double exp(double x) { return std::exp(x); }
+/// For x >= 0 and p > 1.
+inline double pow(double x, double p) { return std::pow(x, p); }
 inline double divide(double a, double b) { return a / b; }
 /// x where a > 0, else y.
 inline double where_positive(double a, double x, double y) { return a > 0 ? x : y; }
@@ -33,6 +35,11 @@ Dual<M> exp(const Dual<M>& x) {
   return Dual<M>::scaled(e, e, x);
 }
 template <int M>
+Dual<M> pow(const Dual<M>& x, double p) {
+  const double less = std::pow(x.v, p - 1);
+  return Dual<M>::scaled(x.v * less, p * less, x);
+}
+template <int M>
 Dual<M> divide(const Dual<M>& a, const Dual<M>& b) { return a / b; }
 template <int M>
 Dual<M> where_positive(const Dual<M>& a, const Dual<M>& x, const Dual<M>& y) { return a.v > 0 ? x : y; }
@@ -49,6 +56,8 @@ template <int N>
 Lanes<N> sqrt(const Lanes<N>& x) { return each(x, [](double v) { return std::sqrt(v); }); }
 template <int N>
 Lanes<N> exp(const Lanes<N>& x) { return each(x, [](double v) { return std::exp(v); }); }
+template <int N>
+Lanes<N> pow(const Lanes<N>& x, double p) { return each(x, [p](double v) { return std::pow(v, p); }); }
 template <int N>
 Lanes<N> divide(const Lanes<N>& a, const Lanes<N>& b) { return {a.v / b.v}; }
 template <int N>

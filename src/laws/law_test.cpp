@@ -14,6 +14,7 @@
 #include "laws/catalog.h"
 #include "laws/lugre.h"
 #include "laws/maxwell.h"
+#include "laws/pin_contact.h"
 #include "laws/tension.h"
 
 namespace pintle {
@@ -86,7 +87,7 @@ class AnyLaw : public testing::Test {
     return !std::equal(before.begin(), before.end(), after.begin(), [](double x, double y) { return (x > 0) == (y > 0); });
   }
 };
-using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, ClutchLaw>;
+using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, ClearanceLaw, EdgeContactLaw, ClutchLaw>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 
 // Across a border that the law declares there is no difference quotient; anywhere else there must be.

@@ -78,6 +78,7 @@ void TreeRadau::cross_event(double distance, const SwitchingEvent& event) {
   const double before = end_.t;
   const std::vector<Planar::Motion> motions_before = end_at_.pose().m;
   step_over_event(distance, event);
+  end_at_.cross_borders(search_.start(), search_.beyond(), end_, end_state_.dissipated);
   leave_sliding(system_, end_.t, end_at_.pose().m, sliding_);
   balance_end();
   if (const auto jump = chattering_.crossed(system_, before, motions_before, end_.t, end_at_.pose().m, kAtOnce * control_.usual)) {

@@ -1,0 +1,13 @@
+// The parts that the catalog of laws is put together from, each a file.
+#pragma once
+
+#include <vector>
+
+#include "laws/catalog.h"
+
+namespace pintle {
+
+/// Clearance and contact.
+void add_contact_laws(std::vector<LawInfo>& all);
+
+}  // namespace pintle
