@@ -13,19 +13,20 @@ BasicDisplacement<S> displacement_of(const BasicLoadData<S>& load) {
   return BasicSelection<S>{typename S::Vec(S::Vec::Unit(load.component) * (load.kind == LoadKind::kTorsionSpring ? load.free : 0.0))};
 }
 
+template <class S>
+double value_of(const BasicSystem<S>& system, const BasicSignal<S>& signal, double t, const std::vector<typename S::Motion>& m) {
+  if (signal.is_time) return t;
+  const typename S::RelativePose pose = system.pose(signal.at, m);
+  return signal.rate ? pose.rate[signal.component] : pose.z[signal.component];
+}
+
 // Values of the signals an effort expression reads.
 template <class S>
 std::array<double, kMaxSignals> signal_values(const BasicSystem<S>& system, const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m) {
   std::array<double, kMaxSignals> values{};
   const std::size_t n = std::min<std::size_t>(load.signals.size(), kMaxSignals);
   for (std::size_t s = 0; s < n; ++s) {
-    const Signal& signal = load.signals[s];
-    if (signal.joint < 0) {
-      values[s] = t;
-      continue;
-    }
-    const typename S::RelativePose pose = system.pose(system.joints[signal.joint].at, m);
-    values[s] = signal.rate ? pose.rate[signal.component] : pose.z[signal.component];
+    values[s] = value_of(system, load.signals[s], t, m);
   }
   return values;
 }
@@ -236,9 +237,9 @@ void BasicSystem<S>::load_tangents(const BasicLoadData<S>& load, double t, const
                      G[i].transpose() * (s.df_drate * G[j])});
     }
   for (std::size_t k = 0; k < load.signals.size(); ++k) {
-    const Signal& signal = load.signals[k];
-    if (signal.joint < 0) continue;
-    const BasicPlacement<S>& at = joints[signal.joint].at;
+    const BasicSignal<S>& signal = load.signals[k];
+    if (signal.is_time) continue;
+    const BasicPlacement<S>& at = signal.at;
     const typename S::RelativePose p = pose(at, m);
     const auto slope = p.rate_gradient(motion_of(at.a, m), motion_of(at.b, m));
     const std::array<int, 2> source{at.a, at.b};

@@ -81,12 +81,16 @@ using JointData = BasicJointData<Planar>;
 template <class S>
 std::array<double, 3> servo_target(const BasicJointData<S>& joint, double t);
 
-/// What an effort motor's expression reads: the time, or a coordinate (or rate) of a joint.
-struct Signal {
-  int joint = -1;  // -1: the time
+/// What the expression of an effort reads: the time, or a component of the relative pose of two frames (or its rate), which are those of a joint,
+/// or the ground's and one on a body.
+template <class S>
+struct BasicSignal {
+  bool is_time = true;
+  BasicPlacement<S> at;
   int component = 0;
   bool rate = false;
 };
+using Signal = BasicSignal<Planar>;
 
 enum class LoadKind { kSpring, kTorsionSpring, kEffort };
 
@@ -101,7 +105,8 @@ struct BasicLoadData {
   double free = 0;       // length or angle without elastic force
   double constant = 0;   // a spring without stiffness: its preload at any length [N] or [N*m]
   Expression law;        // motors: effort on the second body
-  std::vector<Signal> signals;
+  std::vector<BasicSignal<S>> signals;
+  bool applied = false;  // an effort that is an applied force along a component, not a motor's
 };
 using LoadData = BasicLoadData<Planar>;
 
