@@ -61,6 +61,18 @@ struct ContactForce {
     if (viscous > 0) return depth + (viscous / stiffness) * rate;  // such contacts have n = 1 and no h
     return 1 + damping(approach) * rate;
   }
+  /// The borders of one contact whose approach speed is `approach`: the touch, the let-go, where the force vanishes although bodies overlap.
+  void borders(double depth, double rate, double approach, double* value) const {
+    const bool touching = approach > 0;
+    value[0] = touching ? -1 : depth;
+    value[1] = touching ? depth : 1;
+    value[2] = touching ? pressing(depth, rate, approach) : 1;
+  }
+  /// What becomes of the approach speed where that border has been crossed, at this rate.
+  void cross(int border, double rate, double& approach) const {
+    if (border == 0) approach = std::max(rate, least_approach);
+    if (border == 1) approach = 0;
+  }
   /// The stiffness at a depth, for what only asks how stiff a joint is [N/m].
   double stiffness_at(double depth) const { return stiffness * exponent * std::pow(depth, exponent - 1); }
 };

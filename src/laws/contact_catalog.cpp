@@ -7,6 +7,7 @@
 
 #include "laws/catalog.h"
 #include "laws/catalog_parts.h"
+#include "laws/guide_contact.h"
 #include "laws/pin_contact.h"
 
 namespace pintle {
@@ -16,8 +17,8 @@ constexpr std::array<std::string_view, 6> kModels{"exact", "lankarani-nikravesh"
 constexpr std::array<std::string_view, 2> kAttraction{"cut-off", "kept"};
 
 constexpr KeyInfo kClearance{.key = "clearance", .unit = "m", .minimum_exclusive = true, .required = true,
-                             .meaning = "radius of the bush less that of the pin; in a slot the play to either side"};
-constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .minimum_exclusive = true, .meaning = "of the pin, which is on the second body"};
+                             .meaning = "radius of the bush less that of the pin; in a slot or guide the play to either side"};
+constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .minimum_exclusive = true, .meaning = "of the pin, which is on the second body; of a slider, at the edges of its ends"};
 constexpr KeyInfo kRollerRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .meaning = "of the pin or roller on the second body; 0: a point"};
 constexpr KeyInfo kModel{.key = "contact_model", .unit = "", .words = kModels,
                          .meaning = "damping of the contact; only exact returns the restitution that is asked for, linear is a spring and a damper"};
@@ -34,13 +35,17 @@ constexpr KeyInfo kFriction{.key = "friction_coefficient", .unit = "", .meaning 
 constexpr KeyInfo kRampStart{.key = "friction_start_speed", .unit = "m/s", .meaning = "slip below which there is no friction"};
 constexpr KeyInfo kRampEnd{.key = "friction_full_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip above which there is all of it"};
 
-constexpr std::array<KeyInfo, 15> kClearanceKeys{{kClearance, kPinRadius, kModel, kRestitution, kStiffness, kExponent, kModulus, kPoisson, kFixedDamping, kViscous, kLeastApproach, kAttracts,
+constexpr KeyInfo kGuideLength{.key = "guide_length", .unit = "m", .fallback = 0.05, .minimum_exclusive = true, .meaning = "of a slider: between its two ends, which touch the guide"};
+
+constexpr std::array<KeyInfo, 16> kClearanceKeys{{kClearance, kPinRadius, kGuideLength, kModel, kRestitution, kStiffness, kExponent, kModulus, kPoisson, kFixedDamping, kViscous, kLeastApproach, kAttracts,
                                                   kFriction, kRampStart, kRampEnd}};
 constexpr std::array<KeyInfo, 14> kEdgeKeys{{kRollerRadius, kModel, kRestitution, kStiffness, kExponent, kModulus, kPoisson, kFixedDamping, kViscous, kLeastApproach, kAttracts,
                                              kFriction, kRampStart, kRampEnd}};
 
-constexpr std::array<std::string_view, 2> kWithClearance{"revolute", "slot"};
+constexpr std::array<std::string_view, 3> kWithClearance{"revolute", "slot", "prismatic"};
 constexpr std::array<std::string_view, 1> kOnEdge{"slot"};
+
+constexpr double kFlat = std::numeric_limits<double>::infinity();
 
 ContactModel model_of(const LawSetting& at) { return static_cast<ContactModel>(static_cast<int>(at.number("contact_model"))); }
 
@@ -58,25 +63,41 @@ LawFault contact_fault(const LawSetting& at) {
   return {};
 }
 
-void set_contact(const LawSetting& at, PinContact& law) {
+// bearing: the radius that the pin's surface lies in.
+ContactForce contact_of(const LawSetting& at, double bearing) {
   const ContactModel model = model_of(at);
   const bool linear = model == ContactModel::kViscous;
-  ContactForce& contact = law.contact;
-  law.radius = at.number("pin_radius");
-  law.clearance = at.number("clearance");
-  const double bearing = law.shape == PinContact::Shape::kBush ? law.radius + law.clearance : std::numeric_limits<double>::infinity();
+  ContactForce contact;
   contact.stiffness = at.number("contact_stiffness");
-  if (!(contact.stiffness > 0)) contact.stiffness = hertz_stiffness(at.number("elastic_modulus"), at.number("poisson_ratio"), law.radius, bearing);
+  if (!(contact.stiffness > 0)) contact.stiffness = hertz_stiffness(at.number("elastic_modulus"), at.number("poisson_ratio"), at.number("pin_radius"), bearing);
   contact.exponent = linear ? 1 : at.number("contact_exponent");
   contact.fixed_damping = linear ? 0 : at.number("damping_factor");
   contact.hysteresis = linear || contact.fixed_damping > 0 ? 0 : hysteresis_of(model, at.number("restitution"));
   contact.viscous = linear ? at.number("contact_damping") : 0;
   contact.least_approach = at.number("least_approach_speed");
   contact.attracts = at.number("attraction") > 0;
-  law.friction = {at.number("friction_coefficient"), at.number("friction_start_speed"), at.number("friction_full_speed")};
+  return contact;
+}
+
+RampedFriction friction_of(const LawSetting& at) { return {at.number("friction_coefficient"), at.number("friction_start_speed"), at.number("friction_full_speed")}; }
+
+void set_contact(const LawSetting& at, PinContact& law) {
+  law.radius = at.number("pin_radius");
+  law.clearance = at.number("clearance");
+  law.contact = contact_of(at, law.shape == PinContact::Shape::kBush ? law.radius + law.clearance : kFlat);
+  law.friction = friction_of(at);
 }
 
 void make_clearance(const LawSetting& at, Law& law) {
+  if (at.held[2]) {
+    GuideContactLaw guide;
+    guide.clearance = at.number("clearance");
+    guide.length = at.number("guide_length");
+    guide.contact = contact_of(at, kFlat);
+    guide.friction = friction_of(at);
+    law.add(std::make_unique<LawPartOf<GuideContactLaw>>(guide));
+    return;
+  }
   ClearanceLaw contact;
   contact.shape = at.held[0] ? PinContact::Shape::kBush : PinContact::Shape::kSlot;
   set_contact(at, contact);
@@ -93,10 +114,10 @@ void make_edge(const LawSetting& at, Law& law) {
 }  // namespace
 
 void add_contact_laws(std::vector<LawInfo>& all) {
-  all.push_back({.word = "clearance", .meaning = "a pin with clearance in its bush, or with play in its slot: free flight, impact, contact with friction and wear", .keys = kClearanceKeys,
-                 .joints = kWithClearance, .make = make_clearance, .fault = contact_fault});
+  all.push_back({.word = "clearance", .meaning = "a pin with clearance in its bush or slot, a slider with clearance in its guide: free flight, impact, contact with friction and wear", .keys = kClearanceKeys,
+                 .rubs = true, .joints = kWithClearance, .make = make_clearance, .fault = contact_fault});
   all.push_back({.word = "contact", .meaning = "a pin or roller (second) on one side of a straight edge, the first marker's axis: stops, feet, wheels; it presses along +y and does not pull", .keys = kEdgeKeys,
-                 .joints = kOnEdge, .make = make_edge, .fault = contact_fault});
+                 .rubs = true, .joints = kOnEdge, .make = make_edge, .fault = contact_fault});
 }
 
 }  // namespace pintle

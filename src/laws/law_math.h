@@ -15,6 +15,8 @@ double value_of(const Dual<M>& x) { return x.v; }
 inline double abs(double x) { return std::abs(x); }
 inline double sqrt(double x) { return std::sqrt(x); }
 inline double exp(double x) { return std::exp(x); }
+inline double sin(double x) { return std::sin(x); }
+inline double cos(double x) { return std::cos(x); }
 /// For x >= 0 and p > 1.
 inline double pow(double x, double p) { return std::pow(x, p); }
 inline double divide(double a, double b) { return a / b; }
@@ -34,6 +36,10 @@ Dual<M> exp(const Dual<M>& x) {
   const double e = std::exp(x.v);
   return Dual<M>::scaled(e, e, x);
 }
+template <int M>
+Dual<M> sin(const Dual<M>& x) { return Dual<M>::scaled(std::sin(x.v), std::cos(x.v), x); }
+template <int M>
+Dual<M> cos(const Dual<M>& x) { return Dual<M>::scaled(std::cos(x.v), -std::sin(x.v), x); }
 template <int M>
 Dual<M> pow(const Dual<M>& x, double p) {
   const double less = std::pow(x.v, p - 1);
@@ -56,6 +62,10 @@ template <int N>
 Lanes<N> sqrt(const Lanes<N>& x) { return each(x, [](double v) { return std::sqrt(v); }); }
 template <int N>
 Lanes<N> exp(const Lanes<N>& x) { return each(x, [](double v) { return std::exp(v); }); }
+template <int N>
+Lanes<N> sin(const Lanes<N>& x) { return each(x, [](double v) { return std::sin(v); }); }
+template <int N>
+Lanes<N> cos(const Lanes<N>& x) { return each(x, [](double v) { return std::cos(v); }); }
 template <int N>
 Lanes<N> pow(const Lanes<N>& x, double p) { return each(x, [p](double v) { return std::pow(v, p); }); }
 template <int N>

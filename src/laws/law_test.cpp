@@ -12,6 +12,7 @@
 #include "base/random_for_tests.h"
 #include "laws/bushing.h"
 #include "laws/catalog.h"
+#include "laws/guide_contact.h"
 #include "laws/lugre.h"
 #include "laws/maxwell.h"
 #include "laws/pin_contact.h"
@@ -87,7 +88,7 @@ class AnyLaw : public testing::Test {
     return !std::equal(before.begin(), before.end(), after.begin(), [](double x, double y) { return (x > 0) == (y > 0); });
   }
 };
-using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, ClearanceLaw, EdgeContactLaw, ClutchLaw>;
+using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, ClearanceLaw, EdgeContactLaw, GuideContactLaw, ClutchLaw>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 
 // Across a border that the law declares there is no difference quotient; anywhere else there must be.

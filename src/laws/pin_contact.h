@@ -49,18 +49,11 @@ struct PinContact {
   int n_borders() const { return 3; }
   static constexpr std::array<int, 3> kDirections{1, -1, 0};
   std::span<const int> border_directions() const { return kDirections; }
-  /// The touch; the let-go; where the force vanishes although they still overlap.
   void borders(const LawInput<double>& in, double* value) const {
     const At<double> at = find(in);
-    const bool touching = in.state[0] > 0;
-    value[0] = touching ? -1 : at.depth;
-    value[1] = touching ? at.depth : 1;
-    value[2] = touching ? contact.pressing(at.depth, at.rate, in.state[0]) : 1;
+    contact.borders(at.depth, at.rate, in.state[0], value);
   }
-  void cross(int border, const LawInput<double>& in, double* state) const {
-    if (border == 0) state[0] = std::max(find(in).rate, contact.least_approach);
-    if (border == 1) state[0] = 0;
-  }
+  void cross(int border, const LawInput<double>& in, double* state) const { contact.cross(border, find(in).rate, state[0]); }
 
   double lever() const { return friction.coefficient > 0 ? radius : 0; }
   Planar::Vec engaged_stiffness() const {

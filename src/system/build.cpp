@@ -87,6 +87,7 @@ class Builder {
     setting.one_sided = type.one_sided;
     for (const ComponentInfo& free : type.free) setting.free[free.place] = true;
     Law law;
+    const LawInfo* law_info = find_law(joint.law.word);
     for (const LawChoice* choice : {&joint.law, &joint.friction}) {
       if (choice->word.empty()) continue;
       const LawInfo* info = find_law(choice->word);
@@ -97,6 +98,7 @@ class Builder {
       setting.keys = info->keys;
       if (info->fault)
         if (const LawFault fault = info->fault(setting); !fault.key.empty()) refuse(fmt::format("joint {}: {}: {}", joint.name, fault.key, fault.why));
+      if (choice == &joint.friction && law_info && law_info->rubs) refuse(fmt::format("joint {}: law '{}' has friction of its own", joint.name, joint.law.word));
       info->make(setting, law);
     }
     return law;

@@ -153,6 +153,9 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   if (friction != nullptr && joint.ideal)
     reading.complaints.add(record.spot("friction"), path + ".friction", '"' + friction_word + '"', "an ideal joint does not give way, so that nothing says what presses its surfaces together",
                            "ideal = false, or no friction");
+  if (friction != nullptr && law->rubs)
+    reading.complaints.add(record.spot("friction"), path + ".friction", '"' + friction_word + '"', "a joint with law \"" + std::string(law->word) + "\" has friction of its own, where the bodies touch",
+                           "friction_coefficient, and no friction");
   reading.model.joints.push_back(std::move(joint));
 }
 
