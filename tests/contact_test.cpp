@@ -63,9 +63,9 @@ Followed follow(const Model& model, double tolerance, double t_end, MethodChoice
 Model thrown(const std::string& law, const std::string& duration = "0.1 s") {
   return parse_model(fmt::format(R"toml(
 format = 1
+gravity = [0, 0]
 [simulate]
 duration = "{}"
-gravity = [0, 0]
 start = "raw"
 [ground.markers]
 o = {{ x = 0, y = 0 }}
@@ -120,7 +120,7 @@ TEST(Contact, ThePublishedLawsDoNotReturnTheRestitutionAskedFor) {
 }
 
 // Spring and damper: until the force vanishes, x = v/w_d exp(-z w t) sin(w_d t) ends at tan(w_d t) = -.. in closed form; kept attraction ends at
-// half a period.
+// half a period. The force jumps at the touch, which is crossed by 1e-9 of a step.
 TEST(Contact, ALinearContactEndsWhereItsForceVanishesOrWhereTheBodiesPart) {
   const double m = 2, k = 1e7, v = 0.5;
   for (const double ratio : {0.09, 0.88}) {
@@ -130,8 +130,8 @@ TEST(Contact, ALinearContactEndsWhereItsForceVanishesOrWhereTheBodiesPart) {
     for (const bool kept : {false, true}) {
       const double lasts = kept ? part : vanish;
       const Followed run = follow(thrown(fmt::format("contact_model = \"linear\"\ncontact_stiffness = {}\ncontact_damping = {}\nattraction = \"{}\"", k, c, kept ? "kept" : "cut-off")), 1e-11, 0.1, {});
-      EXPECT_NEAR(run.end.v[0][1], -speed(lasts), 1e-9) << ratio << ' ' << kept;
-      EXPECT_NEAR(run.end.dissipated, 0.5 * m * (v * v - speed(lasts) * speed(lasts)), 1e-9) << ratio << ' ' << kept;
+      EXPECT_NEAR(run.end.v[0][1], -speed(lasts), 1e-8) << ratio << ' ' << kept;
+      EXPECT_NEAR(run.end.dissipated, 0.5 * m * (v * v - speed(lasts) * speed(lasts)), 1e-8) << ratio << ' ' << kept;
       ASSERT_EQ(run.contacts.size(), 2u);
       if (kept) EXPECT_NEAR(run.contacts[1].t - run.contacts[0].t, part, 1e-9) << ratio;
     }
@@ -143,10 +143,10 @@ TEST(Contact, ALinearContactEndsWhereItsForceVanishesOrWhereTheBodiesPart) {
 Model slider_crank() {
   return parse_model(R"toml(
 format = 1
+gravity = [0, -9.81]
 name = "Slider-crank with clearance between rod and slider"
 [simulate]
 duration = "12 ms"
-gravity = [0, -9.81]
 equations = "relative"
 start = "raw"
 [ground.markers]
@@ -179,9 +179,11 @@ velocity = [0, 0]
 spin = 0
 markers.b = { x = 0, y = 0 }
 [joint.crank]
+ideal = true
 type = "revolute"
 between = ["ground.o", "crank.o"]
 [joint.a]
+ideal = true
 type = "revolute"
 between = ["crank.a", "rod.a"]
 [joint.b]
@@ -194,6 +196,7 @@ contact_model = "lankarani-nikravesh"
 restitution = 0.9
 attraction = "kept"
 [joint.guide]
+ideal = true
 type = "prismatic"
 between = ["ground.guide", "slider.b"]
 )toml",
@@ -223,10 +226,10 @@ TEST(Contact, SliderCrankWithAClearanceJointTouchesWhenItShould) {
 Model four_bar(double friction) {
   return parse_model(fmt::format(R"toml(
 format = 1
+gravity = [0, 0]
 name = "Four-bar with clearance at B"
 [simulate]
 duration = "0.3 s"
-gravity = [0, 0]
 equations = "relative"
 start = "raw"
 [ground.markers]
@@ -260,9 +263,11 @@ spin = -2
 markers.o4 = {{ x = -2, y = 0 }}
 markers.b = {{ x = 2, y = 0 }}
 [joint.o2]
+ideal = true
 type = "revolute"
 between = ["ground.o2", "crank.o2"]
 [joint.a]
+ideal = true
 type = "revolute"
 between = ["crank.a", "coupler.a"]
 [joint.b]
@@ -277,6 +282,7 @@ friction_coefficient = {}
 friction_start_speed = 0.001
 friction_full_speed = 0.01
 [joint.o4]
+ideal = true
 type = "revolute"
 between = ["ground.o4", "follower.o4"]
 )toml",
@@ -304,10 +310,10 @@ TEST(Contact, FourBarWithAClearanceJointTouchesAndLetsGoWhenItShould) {
 Model rod() {
   return parse_model(R"toml(
 format = 1
+gravity = [0, -9.81]
 name = "Falling rod"
 [simulate]
 duration = "1 s"
-gravity = [0, -9.81]
 start = "raw"
 [ground.markers]
 o = { x = 0, y = 0 }

@@ -14,10 +14,10 @@ namespace {
 std::string held_by(const char* what, const char* equations = "newtonian") {
   return fmt::format(R"toml(
 format = 1
+gravity = [0, 0]
 [simulate]
 duration = "1 s"
 tolerance = 1e-7
-gravity = [0, 0]
 equations = "{}"
 [ground.markers]
 o = {{ x = 0, y = 0 }}
@@ -53,10 +53,10 @@ TEST(StateForces, ASpringWrittenAsAForceIsThatSpring) {
 TEST(StateForces, ATorqueReadsTheAngleOfItsMarker) {
   const Trajectory run = simulate(parse_model(R"toml(
 format = 1
+gravity = [0, 0]
 [simulate]
 duration = "1 s"
 tolerance = 1e-8
-gravity = [0, 0]
 [ground.markers]
 o = { x = 0, y = 0 }
 [body.wheel]
@@ -95,13 +95,15 @@ TEST(StateForces, InTheAxesOfTheBodyTheyReadTimeOnly) {
 TEST(StateForces, MacPhersonStrutDropsOnItsTyre) {
   const Model model = parse_model(R"toml(
 format = 1
+gravity = [0, -9.81]
 [simulate]
 duration = "0.6 s"
 output_step = "20 ms"
 tolerance = 1e-7
-gravity = [0, -9.81]
-equations = "ideal"
 start = "unloaded"
+[defaults.joint]
+stiffness = 1e10
+angular_stiffness = 1e8
 [ground.markers]
 Q = [0.12, 0.29]
 O = [0.41, 0.83]

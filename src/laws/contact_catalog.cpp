@@ -57,7 +57,6 @@ LawFault contact_fault(const LawSetting& at) {
   if (poisson > 0.5) return {"poisson_ratio", fmt::format("{:g} is above 0.5, that of what keeps its volume", poisson), "0.3 for metals"};
   const bool linear = model_of(at) == ContactModel::kViscous, stated = at.number("contact_stiffness") > 0;
   if (linear && !stated) return {"contact_model", "the linear model has no stiffness from elastic_modulus", "state contact_stiffness in N/m"};
-  if (linear && !at.list("contact_exponent").empty() && at.number("contact_exponent") != 1) return {"contact_exponent", "the linear model's exponent is 1", "delete it"};
   if (!linear && at.number("contact_damping") > 0) return {"contact_damping", "it is the damper of the linear model only", "contact_model = \"linear\", or restitution instead"};
   if (at.joint_type != "revolute" && !stated && !(at.number("pin_radius") > 0)) return {"pin_radius", "a point has no Hertzian stiffness", "a radius, or contact_stiffness"};
   return {};

@@ -92,6 +92,8 @@ void BasicRadauStepper<S>::step_over_event(double distance, const SwitchingEvent
   search_.step_over(event, distance, beyond, [this](double d, double* value) {
     const double half = 0.5 * d * d;
     end_.t += d;
+    end_.supplied += d * end_.supply_power;
+    end_.dissipated += d * end_.loss_power;
     for (std::size_t b = 0; b < end_.q.size(); ++b) {
       end_.q[b] = along(end_.q[b], d, end_.v[b], half, end_.a[b]);
       end_.v[b] += d * end_.a[b];

@@ -65,6 +65,8 @@ void TreeRadau::step_over_event(double distance, const SwitchingEvent& event) {
   search_.step_over(event, distance, beyond, [this](double d, double* value) {
     const double half = 0.5 * d * d;
     end_.t += d;
+    end_state_.supplied += d * end_state_.supply_power;
+    end_state_.dissipated += d * end_state_.loss_power;
     end_.y += d * end_.u + half * end_.w;
     end_.u += d * end_.w;
     move_carried(d, end_);
