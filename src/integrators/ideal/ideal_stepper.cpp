@@ -20,7 +20,8 @@ constexpr double kSuspicious = 0.5;    // of the largest: above it no singular p
 constexpr int kSearch = 48;            // positions tried inside a step
 constexpr double kPassing = 1e-2;      // of the usual step: at singular positions so short a step is taken in any case
 constexpr double kCrossing = 0.1;      // of the tolerance times the usual step: so short a step is taken over a jump of a force
-constexpr double kForget = 0.9;       // of the usual step, by one that is shorter
+constexpr double kNear = 1e-4;        // of the usual step: rejected steps that are this short are looked at for jumps
+constexpr double kForget = 0.99;      // of the usual step, by one that is shorter
 constexpr double kLeastCrossing = 1e-8;  // of the usual step: shorter ones are lost in the rounding of velocities over the step
 constexpr int kMostReported = 5;
 
@@ -51,7 +52,7 @@ bool IdealStepper::step(double t_end) {
   if (!failure_.empty()) return false;
   begin_ = end_;
   double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
-  bool at_once = true;
+  bool at_once = true, jump_ahead = false;
   const double rounding = std::numeric_limits<double>::epsilon() * std::abs(t_end);
   const double crossing_h = std::max(std::max(kCrossing * tolerance_, kLeastCrossing) * smooth_h_, 1e3 * rounding);
   while (true) {
@@ -64,7 +65,10 @@ bool IdealStepper::step(double t_end) {
     const double e = take_stages(h) ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
     const double factor = std::isfinite(e) ? std::clamp(0.9 * std::pow(std::max(e, 1e-10), -0.2), 0.2, 5.0) : 0.1;
     const bool passing = equations_.nearly_singular() && h < kPassing * usual_h_ && std::isfinite(e);
-    const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && crosses_jump();
+    const bool jumps = e > 1 && h < kNear * smooth_h_ && std::isfinite(e) && crosses_jump();
+    jump_ahead = jump_ahead || jumps;
+    // Over the jump; or up to where nothing but rounding is left of the way to it.
+    const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && jump_ahead;
     if ((e <= 1 || passing || crossing) && finish(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h)) {
       h_ = crossing ? kCrossing * smooth_h_ : h * (passing ? std::max(1.0, factor) : factor);
       if (at_once) smooth_h_ = std::max(h, kForget * smooth_h_);  // steps that come to a jump nearer and nearer are short because of it
