@@ -73,6 +73,18 @@ struct Growth {
   double horizon = 0;               ///< the earliest of the joints [s]
 };
 
+/// What a joint's law goes through: touch and let-go of a contact, stick and slip.
+struct JointEvent {
+  double t = 0;               ///< [s]
+  std::string what;           ///< "touch"
+  std::vector<double> values; ///< of JointEvents::columns, just behind it
+};
+struct JointEvents {
+  std::string joint;
+  std::vector<Column> columns;     ///< what the law reports: contact_force, penetration ..
+  std::vector<JointEvent> events;  ///< in the order of time
+};
+
 struct Trajectory {
   std::vector<Column> columns;    ///< the first is the time
   std::vector<double> values;     ///< row-major, n_rows x columns.size()
@@ -84,6 +96,7 @@ struct Trajectory {
   std::vector<LoadSummary> springs;
   std::vector<MotorSummary> motors;
   EnergyAccount energy;
+  std::vector<JointEvents> events;  ///< of joints that have any
   Counters counters;
   std::string method;        ///< the one used
   double tolerance = 0;      ///< asked for

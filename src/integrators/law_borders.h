@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "integrators/law_crossings.h"
 #include "system/state.h"
 
 namespace pintle {
@@ -28,15 +29,20 @@ class LawBorders {
     return share;
   }
   /// Lets the laws set their states where the step that ends at `end` has crossed their borders; what they store less then is dissipated. Whether
-  /// any has: forces are to be found anew, and what was remembered of the step's curve does not go on.
+  /// any has: forces are to be found anew, what was remembered of the step's curve does not go on, and `note` must follow.
   bool cross(State& end) {
     if (before_.empty()) return false;
     find(end, after_);
     const bool crossed = system_.cross_borders(end.t, end.gap, end.gap_rate, before_.data(), after_.data(), end.law_state, end.dissipated);
-    if (crossed) find(end, before_);
-    else before_.swap(after_);
+    if (!crossed) before_.swap(after_);
     return crossed;
   }
+  /// The end with the forces that it has then: what has been crossed is noted there.
+  void note(const State& end) {
+    note_crossings(system_, end, before_.data(), after_.data(), crossings_);
+    find(end, before_);
+  }
+  const std::vector<LawCrossing>& crossings() const { return crossings_; }
 
  private:
   void find(const State& at, std::vector<double>& value) {
@@ -47,6 +53,7 @@ class LawBorders {
   const System& system_;
   std::vector<double> before_, after_;
   std::vector<Planar::Motion> m_;
+  std::vector<LawCrossing> crossings_;
 };
 
 /// A step that crosses a border is made anew so much shorter that it ends just behind it, so often at most.

@@ -43,6 +43,7 @@ class BodyStepper final : public Stepper {
   const State& interpolate(double t) override { return interpolate_with(dense_, method_, t); }
   const Counters& counters() const override { return method_.counters(); }
   const std::string& failure() const override { return method_.failure(); }
+  const std::vector<LawCrossing>& crossings() const override { return method_.crossings(); }
   std::string last_event(double since) const override {
     if constexpr (requires { method_.last_event(since); }) return method_.last_event(since);
     else return {};

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "integrators/law_crossings.h"
 #include "integrators/load_scale.h"
 #include "pintle/trajectory.h"
 #include "system/state.h"
@@ -33,6 +34,11 @@ class BasicStepper {
   virtual const std::string& failure() const = 0;
   /// The last event, if the method locates events and it came after `since`: whose it is, and when. Otherwise empty.
   virtual std::string last_event(double) const { return {}; }
+  /// The borders at which laws have set their states, in the order of time.
+  virtual const std::vector<LawCrossing>& crossings() const {
+    static const std::vector<LawCrossing> none;
+    return none;
+  }
   /// What the method noticed on its way, for the user.
   virtual std::vector<std::string> remarks() const { return {}; }
 };

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "laws/law_math.h"
 
@@ -67,6 +68,9 @@ struct ContactForce {
     value[0] = touching ? -1 : depth;
     value[1] = touching ? depth : 1;
     value[2] = touching ? pressing(depth, rate, approach) : 1;
+  }
+  static constexpr std::string_view border_name(int border, bool rising) {
+    return border == 0 ? "touch" : border == 1 ? "let-go" : rising ? "force returns" : "force vanishes";
   }
   /// What becomes of the approach speed where that border has been crossed, at this rate.
   void cross(int border, double rate, double& approach) const {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "laws/contact.h"
@@ -61,6 +62,9 @@ struct GuideContactLaw {
       const End<double> end = find(in, i);
       contact.borders(end.depth, end.rate, in.state[i], value + 3 * i);
     }
+  }
+  static std::string border_name(int border, bool rising) {
+    return std::string(border < 3 ? "front " : "rear ") + std::string(ContactForce::border_name(border % 3, rising));
   }
   void cross(int border, const LawInput<double>& in, double* state) const {
     const int i = border / 3;

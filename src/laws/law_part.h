@@ -47,6 +47,8 @@ class BasicLawPart {
   virtual void borders(const Input<double>& in, double* value) const = 0;
   /// In which direction border i matters: +1 where its function turns positive, -1 where it turns negative, 0 both.
   virtual int border_direction(int i) const = 0;
+  /// What crossing border i in that direction is called: "touch".
+  virtual std::string border_name(int i, bool rising) const = 0;
   /// Border i has just been crossed in that direction: sets those of its states that stay as they are in between, a mode or what held when two
   /// bodies touched. `in` is the instant after it.
   virtual void cross(int i, const Input<double>& in, double* state) const = 0;
@@ -66,7 +68,7 @@ using LawPart = BasicLawPart<Planar>;
 
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
 /// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), border_directions() (one +1, -1 or 0
-/// each) and cross(), kHolds = false, columns() with observe(), engage(), lever().
+/// each) cross() and border_name(), kHolds = false, columns() with observe(), engage(), lever().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
  public:
@@ -101,6 +103,10 @@ class LawPartOf final : public BasicLawPart<S> {
   int border_direction(int i) const override {
     if constexpr (requires { law_.border_directions()[i]; }) return law_.border_directions()[i];
     else return 0;
+  }
+  std::string border_name(int i, bool rising) const override {
+    if constexpr (requires { law_.border_name(i, rising); }) return std::string(law_.border_name(i, rising));
+    else return "border " + std::to_string(i + 1) + (rising ? " rises" : " falls");
   }
   void cross(int i, const Input<double>& in, double* state) const override {
     if constexpr (requires { law_.cross(i, in, state); }) law_.cross(i, in, state);

@@ -53,6 +53,7 @@ struct PinContact {
     const At<double> at = find(in);
     contact.borders(at.depth, at.rate, in.state[0], value);
   }
+  static constexpr std::string_view border_name(int border, bool rising) { return ContactForce::border_name(border, rising); }
   void cross(int border, const LawInput<double>& in, double* state) const { contact.cross(border, find(in).rate, state[0]); }
 
   double lever() const { return friction.coefficient > 0 ? radius : 0; }

@@ -94,6 +94,7 @@ Integration integrate(const System& system, const State& start, const Integratio
   out.t = stepper.state().t;
   out.counters = stepper.counters();
   out.scale = stepper.load_scale();
+  out.crossings = stepper.crossings();
   out.remarks = stepper.remarks();
   return out;
 }

@@ -31,6 +31,7 @@ struct Integration {
   std::string message;
   Counters counters;
   LoadScale scale;
+  std::vector<LawCrossing> crossings;  // of the borders of laws
   std::vector<std::string> remarks;  // what the method noticed
 };
 

@@ -240,6 +240,7 @@ class Run {
 
   void finish() {
     fine_->fill(out_);
+    fill_events();
     out_.t_end = last_.t;
     out_.notes.insert(out_.notes.end(), last_.remarks.begin(), last_.remarks.end());
     std::vector<double> relative_difference = relative_differences(system_, difference_);
@@ -261,6 +262,20 @@ class Run {
       joint.relative_error_estimate = std::max(share_ * relative_difference[j], least);
     }
     if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * model_.simulate.tolerance, chaos_, out_);
+  }
+
+  void fill_events() {
+    std::vector<JointEvents> of_joint(system_.joints.size());
+    for (const LawCrossing& crossing : last_.crossings) {
+      const JointData& joint = system_.joints[static_cast<std::size_t>(crossing.joint)];
+      of_joint[static_cast<std::size_t>(crossing.joint)].events.push_back({crossing.t, joint.law.parts()[static_cast<std::size_t>(crossing.part)]->border_name(crossing.border, crossing.rising), crossing.seen});
+    }
+    for (std::size_t j = 0; j < of_joint.size(); ++j) {
+      if (of_joint[j].events.empty()) continue;
+      of_joint[j].joint = system_.joints[j].name;
+      for (const LawColumn& column : system_.joints[j].law.columns()) of_joint[j].columns.push_back({column.name, column.unit, column.meaning});
+      out_.events.push_back(std::move(of_joint[j]));
+    }
   }
 
   // How it ended; a pass that broke off leaves the results of the one before it.

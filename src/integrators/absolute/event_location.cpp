@@ -114,9 +114,10 @@ void BasicRadauStepper<S>::cross_event(double distance, const SwitchingEvent& ev
   const double before = end_.t;
   inside_m_ = end_m_;
   step_over_event(distance, event);
-  system_.cross_borders(end_.t, end_.gap, end_.gap_rate, search_.start(), search_.beyond(), end_.law_state, end_.dissipated);
+  const bool crossed = system_.cross_borders(end_.t, end_.gap, end_.gap_rate, search_.start(), search_.beyond(), end_.law_state, end_.dissipated);
   leave_sliding(system_, end_.t, end_m_, end_.sliding);
   balance_end();
+  if (crossed) note_crossings(system_, end_, search_.start(), search_.beyond(), crossings_);
   if (const auto jump = chattering_.crossed(system_, before, inside_m_, end_.t, end_m_, kAtOnce * control_.usual)) {
     const double margin = system_.margin(*jump, end_.t, end_m_);
     enter_sliding(*jump, margin, ramp_size(system_, *jump, end_, control_.usual, tolerance_), end_.sliding, [this] { balance_end(); },
@@ -147,6 +148,7 @@ void BasicRadauStepper<S>::update_switching() {
     balance_end();
     control_.have_history = false;
   }
+  if (crossed) note_crossings(system_, end_, search_.start(), search_.beyond(), crossings_);
   system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, search_.start());
 }
 

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "integrators/law_crossings.h"
 #include "integrators/absolute/end_point_projection.h"
 #include "integrators/radau/motion_scale.h"
 #include "integrators/absolute/stage_solver.h"
@@ -50,6 +51,7 @@ class BasicRadauStepper {
   double next_step() const { return control_.next; }
   const Counters& counters() const { return counters_; }
   const std::string& failure() const { return failure_; }
+  const std::vector<LawCrossing>& crossings() const { return crossings_; }
   const SwitchingEvent& event() const { return control_.event(); }
   /// The last event, if it came after `since`; otherwise empty.
   std::string last_event(double since) const { return control_.last_event(system_, since); }
@@ -109,6 +111,7 @@ class BasicRadauStepper {
   BasicLoadScale<S> scale_;
   Counters counters_;
   std::string failure_;
+  std::vector<LawCrossing> crossings_;
 };
 using RadauStepper = BasicRadauStepper<Planar>;
 

@@ -214,7 +214,10 @@ void AlphaStepper::finish(double h) {
   end_.dissipated = begin_.dissipated + 0.5 * h * (begin_.loss_power + end_.loss_power);
   end_.supplied = begin_.supplied + 0.5 * h * (begin_.supply_power + end_.supply_power);
   const Vecs before_crossing = end_.a;
-  if (borders_.cross(end_)) force_evaluator_.complete(end_);
+  if (borders_.cross(end_)) {
+    force_evaluator_.complete(end_);
+    borders_.note(end_);
+  }
   std::swap(before_, now_);
   now_.v = v_;
   now_.a = a_;

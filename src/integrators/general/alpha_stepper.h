@@ -45,6 +45,7 @@ class AlphaStepper final : public Stepper {
   const State& interpolate(double t) override;
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
+  const std::vector<LawCrossing>& crossings() const override { return borders_.crossings(); }
 
  private:
   struct Knot {     // a time that has been reached

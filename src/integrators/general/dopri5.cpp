@@ -99,7 +99,10 @@ bool Dopri5::step(double t_end) {
       }
       end_.dissipated = begin_.dissipated + 0.5 * h * (begin_.loss_power + end_.loss_power);
       end_.supplied = begin_.supplied + 0.5 * h * (begin_.supply_power + end_.supply_power);
-      if (borders_.cross(end_)) complete(end_);
+      if (borders_.cross(end_)) {
+        complete(end_);
+        borders_.note(end_);
+      }
       grow_scale();
       ++counters_.steps;
       h_ = shortened > 0 ? std::max(h_, h * factor) : h * factor;

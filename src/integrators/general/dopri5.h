@@ -24,6 +24,7 @@ class Dopri5 {
   const State& previous() const { return begin_; }
   const Counters& counters() const { return counters_; }
   const std::string& failure() const { return failure_; }
+  const std::vector<LawCrossing>& crossings() const { return borders_.crossings(); }
 
   /// Gaps, forces, accelerations and powers that belong to state.q, state.v.
   void complete(State& state) { force_evaluator_.complete(state); }

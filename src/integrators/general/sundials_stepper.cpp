@@ -53,6 +53,7 @@ class SundialsStepper final : public Stepper {
       equations_.flatten(end_, y.data());
       code_->restart(y);
       states_.complete(end_);
+      borders_.note(end_);
     }
     code_->count(counters_);
     return true;
@@ -71,6 +72,7 @@ class SundialsStepper final : public Stepper {
   }
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
+  const std::vector<LawCrossing>& crossings() const override { return borders_.crossings(); }
 
  private:
   std::string name_;

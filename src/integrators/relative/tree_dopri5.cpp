@@ -144,6 +144,7 @@ bool TreeDopri5::step(double t_end) {
         end_.law_state = end_state_.law_state;
         complete(end_);
         write(end_, end_state_);
+        borders_.note(end_state_);
       }
       raise_scale();
       ++counters_.steps;

@@ -26,6 +26,7 @@ class TreeDopri5 final : public Stepper {
   const State& interpolate(double t) override;
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
+  const std::vector<LawCrossing>& crossings() const override { return borders_.crossings(); }
 
  private:
   void complete(TreeState& state);  // gaps, forces and accelerations at t, y, u

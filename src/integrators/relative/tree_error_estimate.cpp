@@ -140,7 +140,9 @@ void TreeRadau::finish_step(double h) {
     end_at_.find_switching(end_, search_.now());
     if (end_at_.cross_borders(search_.start(), search_.now(), end_, end_state_.dissipated)) {
       control_.have_history = false;
-      return balance_end();
+      const std::vector<double> start(search_.start(), search_.start() + system_.switching().size());
+      balance_end();
+      return note_crossings(system_, end_state_, start.data(), search_.beyond(), crossings_);
     }
   }
   finish_end(w);

@@ -80,9 +80,11 @@ void TreeRadau::cross_event(double distance, const SwitchingEvent& event) {
   const double before = end_.t;
   const std::vector<Planar::Motion> motions_before = end_at_.pose().m;
   step_over_event(distance, event);
-  end_at_.cross_borders(search_.start(), search_.beyond(), end_, end_state_.dissipated);
+  const bool crossed = end_at_.cross_borders(search_.start(), search_.beyond(), end_, end_state_.dissipated);
+  const std::vector<double> start(search_.start(), search_.start() + system_.switching().size());
   leave_sliding(system_, end_.t, end_at_.pose().m, sliding_);
   balance_end();
+  if (crossed) note_crossings(system_, end_state_, start.data(), search_.beyond(), crossings_);
   if (const auto jump = chattering_.crossed(system_, before, motions_before, end_.t, end_at_.pose().m, kAtOnce * control_.usual)) {
     const double margin = system_.margin(*jump, end_.t, end_at_.pose().m);
     enter_sliding(*jump, margin, ramp_size(system_, *jump, end_state_, control_.usual, tolerance_), sliding_, [this] { balance_end(); },

@@ -29,6 +29,7 @@ class TreeRadau final : public Stepper {
   const State& interpolate(double t) override;
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
+  const std::vector<LawCrossing>& crossings() const override { return crossings_; }
   std::string last_event(double since) const override { return control_.last_event(system_, since); }
 
   const JointTree& tree() const { return *tree_; }
@@ -89,6 +90,7 @@ class TreeRadau final : public Stepper {
   LoadScale scale_;
   Counters counters_;
   std::string failure_;
+  std::vector<LawCrossing> crossings_;
 };
 
 }  // namespace pintle
