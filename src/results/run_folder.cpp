@@ -56,6 +56,11 @@ void write_run(const Trajectory& trajectory, const RunStamp& stamp, const fs::pa
   NewFile series(fresh.path() / kSeriesFile, calls);
   write_series(trajectory, [&series](std::string_view text) { series.append(text); });
   series.close();
+  if (!trajectory.events.empty()) {
+    NewFile events(fresh.path() / kEventsFile, calls);
+    write_events(trajectory, [&events](std::string_view text) { events.append(text); });
+    events.close();
+  }
   NewFile summary(fresh.path() / kSummaryFile, calls);
   summary.append(summary_json(trajectory, stamp));
   summary.close();

@@ -7,6 +7,7 @@
 namespace pintle {
 
 inline constexpr const char* kSeriesFile = "series.csv";
+inline constexpr const char* kEventsFile = "events.csv";  // where joints have any
 inline constexpr const char* kSummaryFile = "summary.json";
 
 /// The copy of the model file, in its own form.

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/decimal.h"
 
@@ -155,6 +156,29 @@ void read_series(std::string_view text, const std::filesystem::path& path, Traje
                     fmt::format("the header row has {}", n_columns));
     }
   }
+}
+
+void write_events(const Trajectory& trajectory, const std::function<void(std::string_view)>& append) {
+  std::vector<const Column*> reported;  // by any joint, each name once
+  for (const JointEvents& joint : trajectory.events)
+    for (const Column& column : joint.columns)
+      if (std::none_of(reported.begin(), reported.end(), [&](const Column* one) { return one->name == column.name; })) reported.push_back(&column);
+  std::string names = "t,joint,event", units = "s,,";
+  for (const Column* column : reported) {
+    names += ',' + as_field(column->name);
+    units += ',' + as_field(column->unit);
+  }
+  append(names.append(kLineEnd).append(units).append(kLineEnd));
+  for (const JointEvents& joint : trajectory.events)
+    for (const JointEvent& event : joint.events) {
+      std::string row = fmt::format("{},{},{}", event.t, as_field(joint.joint), as_field(event.what));
+      for (const Column* column : reported) {
+        row += ',';
+        for (std::size_t k = 0; k < joint.columns.size() && k < event.values.size(); ++k)
+          if (joint.columns[k].name == column->name) row += fmt::format("{}", event.values[k]);
+      }
+      append(row.append(kLineEnd));
+    }
 }
 
 }  // namespace pintle

@@ -15,4 +15,8 @@ void write_series(const Trajectory& trajectory, const std::function<void(std::st
 /// Fills columns (name and unit) and values from `text`. Throws FileError with line and column of `path`.
 void read_series(std::string_view text, const std::filesystem::path& path, Trajectory& trajectory);
 
+/// events.csv: what the laws of joints went through, by joint and in the order of time; a column for each number that one of them reports, empty where it is
+/// another's. Two header rows, name and unit.
+void write_events(const Trajectory& trajectory, const std::function<void(std::string_view)>& append);
+
 }  // namespace pintle

@@ -160,6 +160,34 @@ std::string motor_section(const Trajectory& trajectory, const Style& style) {
   return section("Motors", table, style) + rest_line(motors.size());
 }
 
+// By joint and by what happened, in the order of the first time; of what has an approach speed the largest.
+std::string event_section(const Trajectory& trajectory, const Style& style) {
+  TextTable table;
+  for (const char* head : {"joint", "event"}) table.add_column(head, Align::kLeft);
+  table.add_column("count", Align::kNumber);
+  for (const char* head : {"first", "last"}) table.add_column(head, Align::kNumber, "s");
+  table.add_column("fastest approach", Align::kNumber, "m/s");
+  for (const JointEvents& joint : trajectory.events) {
+    std::vector<std::string> kinds;
+    for (const JointEvent& event : joint.events)
+      if (std::find(kinds.begin(), kinds.end(), event.what) == kinds.end()) kinds.push_back(event.what);
+    const auto approach = static_cast<std::size_t>(
+        std::find_if(joint.columns.begin(), joint.columns.end(), [](const Column& column) { return column.name == "approach_speed"; }) - joint.columns.begin());
+    for (const std::string& kind : kinds) {
+      std::size_t count = 0;
+      double first = 0, last = 0, fastest = 0;
+      for (const JointEvent& event : joint.events) {
+        if (event.what != kind) continue;
+        if (count++ == 0) first = event.t;
+        last = event.t;
+        if (approach < event.values.size()) fastest = std::max(fastest, event.values[approach]);
+      }
+      table.add_row({joint.joint, kind, fmt::format("{}", count), engineering(first), engineering(last), fastest > 0 ? engineering(fastest) : ""});
+    }
+  }
+  return section("Events in joints (events.csv has all)", table, style);
+}
+
 std::string energy_section(const EnergyAccount& energy, const Style& style) {
   TextTable table;
   table.add_column("", Align::kLeft);
@@ -195,6 +223,7 @@ std::string summary_text(const Trajectory& trajectory, const RunStamp& stamp, bo
   text += moment_section(trajectory, style);
   text += spring_section(trajectory, style);
   text += motor_section(trajectory, style);
+  text += event_section(trajectory, style);
   text += energy_section(trajectory.energy, style);
   text += work_section(trajectory);
   const std::size_t n_notes = trajectory.notes.size(), n_shown = n_notes > kFull ? kCut : n_notes;
