@@ -17,14 +17,14 @@ class LawBorders {
   void start(const State& state) {
     if (!before_.empty()) find(state, before_);
   }
-  /// The share of a step that ends at `end` after which the first border of a law is crossed, on a straight line; 1: none is.
+  /// The share of a step that ends at `end` after which the first border of a law with states is crossed, on a straight line; 1: none is.
   double first_crossing(const State& end) {
     double share = 1;
     if (before_.empty()) return share;
     find(end, after_);
     for (std::size_t f = 0; f < after_.size(); ++f) {
       const SwitchingFunction& function = system_.switching()[f];
-      if (function.owner == SwitchingFunction::Owner::kLaw && function.is_event(before_[f], after_[f])) share = std::min(share, before_[f] / (before_[f] - after_[f]));
+      if (sets_states(function) && function.is_event(before_[f], after_[f])) share = std::min(share, before_[f] / (before_[f] - after_[f]));
     }
     return share;
   }
@@ -45,6 +45,9 @@ class LawBorders {
   const std::vector<LawCrossing>& crossings() const { return crossings_; }
 
  private:
+  bool sets_states(const SwitchingFunction& function) const {
+    return function.owner == SwitchingFunction::Owner::kLaw && system_.joints[static_cast<std::size_t>(function.index)].law.parts()[static_cast<std::size_t>(function.part)]->n_states() > 0;
+  }
   void find(const State& at, std::vector<double>& value) {
     system_.motions(at.q, at.v, m_);
     system_.find_switching(at.t, m_, at.gap, at.gap_rate, at.law_state, at.sliding, value.data());
