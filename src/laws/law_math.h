@@ -15,6 +15,7 @@ double value_of(const Dual<M>& x) { return x.v; }
 inline double abs(double x) { return std::abs(x); }
 inline double sqrt(double x) { return std::sqrt(x); }
 inline double exp(double x) { return std::exp(x); }
+inline double tanh(double x) { return std::tanh(x); }
 inline double divide(double a, double b) { return a / b; }
 /// x where a > 0, else y.
 inline double where_positive(double a, double x, double y) { return a > 0 ? x : y; }
@@ -33,6 +34,11 @@ Dual<M> exp(const Dual<M>& x) {
   return Dual<M>::scaled(e, e, x);
 }
 template <int M>
+Dual<M> tanh(const Dual<M>& x) {
+  const double y = std::tanh(x.v);
+  return Dual<M>::scaled(y, 1 - y * y, x);
+}
+template <int M>
 Dual<M> divide(const Dual<M>& a, const Dual<M>& b) { return a / b; }
 template <int M>
 Dual<M> where_positive(const Dual<M>& a, const Dual<M>& x, const Dual<M>& y) { return a.v > 0 ? x : y; }
@@ -49,6 +55,8 @@ template <int N>
 Lanes<N> sqrt(const Lanes<N>& x) { return each(x, [](double v) { return std::sqrt(v); }); }
 template <int N>
 Lanes<N> exp(const Lanes<N>& x) { return each(x, [](double v) { return std::exp(v); }); }
+template <int N>
+Lanes<N> tanh(const Lanes<N>& x) { return each(x, [](double v) { return std::tanh(v); }); }
 template <int N>
 Lanes<N> divide(const Lanes<N>& a, const Lanes<N>& b) { return {a.v / b.v}; }
 template <int N>
