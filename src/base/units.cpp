@@ -18,6 +18,7 @@ struct UnitEntry {
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr Dimension kPerTime{{0, 0, -1, 0}, false};
 constexpr Dimension kPower{{2, 1, -3, 0}, false};
+constexpr Dimension kPressure{{-1, 1, -2, 0}, false};
 constexpr double kPound = 0.45359237;  // international avoirdupois pound, exact [kg]
 constexpr double kInch = 0.0254;       // exact [m]
 
@@ -50,6 +51,10 @@ constexpr std::array kUnits{
     UnitEntry{"kJ", {1e3, kTorque}},
     UnitEntry{"W", {1, kPower}},
     UnitEntry{"kW", {1e3, kPower}},
+    UnitEntry{"Pa", {1, kPressure}},
+    UnitEntry{"kPa", {1e3, kPressure}},
+    UnitEntry{"MPa", {1e6, kPressure}},
+    UnitEntry{"GPa", {1e9, kPressure}},
     UnitEntry{"Hz", {1, kPerTime}},
     UnitEntry{"kHz", {1e3, kPerTime}},
     UnitEntry{"rad", {1, kAngle}},
@@ -91,6 +96,7 @@ constexpr std::array kNames{
     DimensionName{kTorque, "a torque or an energy", "N*m"},
     DimensionName{kAngularStiffness, "an angular stiffness", "N*m/rad"},
     DimensionName{kPower, "a power", "W"},
+    DimensionName{kPressure, "a pressure", "Pa"},
     DimensionName{kStiffness, "a stiffness", "N/m"},
     DimensionName{kDamping, "a damping", "N*s/m"},
     DimensionName{{{2, 1, -1, 0}, false}, "an angular momentum", "N*m*s"},

@@ -34,11 +34,10 @@ class OneLoad {
   System one_;
 };
 
-std::vector<int> bodies_of(const System& system, const LoadData& load) {
+std::vector<int> bodies_of(const LoadData& load) {
   std::vector<int> bodies{load.at.a, load.at.b};
   for (const Signal& signal : load.signals)
-    if (signal.joint >= 0)
-      bodies.insert(bodies.end(), {system.joints[signal.joint].at.a, system.joints[signal.joint].at.b});
+    if (!signal.is_time) bodies.insert(bodies.end(), {signal.at.a, signal.at.b});
   std::sort(bodies.begin(), bodies.end());
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   if (bodies.front() == kGround) bodies.erase(bodies.begin());
@@ -100,11 +99,11 @@ class LoadSlopes {
 std::vector<double> signal_values(const System& system, const LoadData& load, const CheckState& state) {
   std::vector<double> values;
   for (const Signal& signal : load.signals) {
-    if (signal.joint < 0) {
+    if (signal.is_time) {
       values.push_back(state.t);
       continue;
     }
-    const RelativePose pose = system.pose(system.joints[signal.joint].at, state.m);
+    const RelativePose pose = system.pose(signal.at, state.m);
     values.push_back(signal.rate ? pose.rate[signal.component] : pose.z[signal.component]);
   }
   return values;
@@ -164,7 +163,7 @@ void check_load_slopes(const System& system, const std::vector<CheckState>& stat
       const LoadData& load = system.loads[i];
       const double length = link_steps(links[i], system.pose(load.at, state.m), state.length).length * 1e3;
       if (!(length > 1e-9)) continue;  // two points in one place have no direction
-      slopes.look(one.with(load), state, bodies_of(system, load), {links[i].kind, load.name, state.number}, length);
+      slopes.look(one.with(load), state, bodies_of(load), {links[i].kind, load.name, state.number}, length);
     }
     for (const AppliedData& force : system.applied)
       slopes.look(one.with(force), state, {force.body}, {"force", force.name, state.number}, state.length);

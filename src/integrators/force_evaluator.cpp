@@ -23,6 +23,17 @@ void BasicForceEvaluator<S>::complete(BasicState<S>& state) {
 }
 
 template <class S>
+void BasicForceEvaluator<S>::find_roots(BasicState<S>& state, double* value) {
+  system_.motions(state.q, state.v, m_);
+  system_.joint_kinematics(state.t, m_, r_);
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    state.gap[j] = r_[j].gap;
+    state.gap_rate[j] = r_[j].rate;
+  }
+  system_.find_switching(state.t, m_, state.gap, state.gap_rate, state.law_state, state.sliding, value);
+}
+
+template <class S>
 BasicState<S> zero_state(const BasicSystem<S>& system) {
   BasicState<S> state;
   state.q.assign(system.bodies.size(), S::at_origin());

@@ -13,6 +13,8 @@ class BasicForceEvaluator {
 
   /// Gaps, forces, accelerations and powers that belong to state.t, state.q, state.v.
   void complete(BasicState<S>& state);
+  /// The values of the system's switching functions there; fills gaps and their rates.
+  void find_roots(BasicState<S>& state, double* value);
 
  private:
   const BasicSystem<S>& system_;

@@ -6,11 +6,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "laws/brown_mcphee.h"
 #include "laws/bushing.h"
-#include "laws/lugre.h"
+#include "laws/catalog_parts.h"
 #include "laws/maxwell.h"
-#include "laws/stribeck.h"
 #include "laws/tension.h"
 
 namespace pintle {
@@ -58,37 +56,8 @@ constexpr std::array<KeyInfo, 6> kMaxwellKeys{{
     {.key = "branch_time", .unit = "s", .minimum_exclusive = true, .required = true, .list = true, .meaning = "time in which the force of each branch falls to 1/e, a list as long"},
 }};
 
-// Of friction by any law.
-constexpr KeyInfo kKinetic{.key = "friction_coefficient", .unit = "", .fallback = 0.1, .minimum_exclusive = true, .meaning = "kinetic friction: of steady fast slip"};
-constexpr KeyInfo kStatic{.key = "static_friction", .unit = "", .fallback = 0.15, .minimum_exclusive = true, .meaning = "coefficient at which slip begins; not below the kinetic one"};
-constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .minimum_exclusive = true, .meaning = "where a pin rubs"};
-constexpr KeyInfo kGuide{.key = "guide_length", .unit = "m", .meaning = "of a slider, centred on the second marker: its moment presses the edges; 0: only the force across does"};
-constexpr KeyInfo kStribeck{.key = "stribeck_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip at which friction has fallen most of the way to kinetic"};
-constexpr KeyInfo kViscous{.key = "viscous_friction", .unit = "s/m", .meaning = "friction per slip speed and load"};
-constexpr KeyInfo kPreload{.key = "friction_preload", .unit = "N", .meaning = "presses the surfaces together besides the joint's own force"};
-
-constexpr std::array<KeyInfo, 9> kLuGreKeys{{
-    kKinetic, kStatic, kPinRadius, kGuide, kStribeck,
-    {.key = "bristle_stiffness", .unit = "m^-1", .fallback = 1e5, .minimum_exclusive = true, .meaning = "friction before slip, per displacement and load; slip begins at static_friction over this"},
-    {.key = "bristle_damping", .unit = "s/m", .fallback = 10, .meaning = "the same per rate of the bristles"},
-    kViscous, kPreload,
-}};
-
-constexpr std::array<KeyInfo, 7> kBrownMcPheeKeys{{
-    kKinetic, kStatic, kPinRadius, kGuide,
-    {.key = "transition_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip at which friction is largest; below it a joint creeps that should stick"},
-    kViscous, kPreload,
-}};
-
-constexpr std::array<KeyInfo, 8> kStribeckKeys{{
-    kKinetic, kStatic, kPinRadius, kGuide, kStribeck,
-    {.key = "transition_speed", .unit = "m/s", .fallback = 1e-4, .minimum_exclusive = true, .meaning = "friction rises with tanh(slip / transition_speed); about this fast a joint creeps that should stick"},
-    kViscous, kPreload,
-}};
-
 constexpr std::array<std::string_view, 4> kPoseJoints{"revolute", "prismatic", "fixed", "slot"};
 constexpr std::array<std::string_view, 7> kTwoSided{"revolute", "prismatic", "fixed", "slot", "rod", "gear", "rack"};
-constexpr std::array<std::string_view, 2> kRubbing{"revolute", "prismatic"};
 
 // A rope's spring and damper pull only.
 void make_linear(const LawSetting& at, Law& law) {
@@ -170,62 +139,19 @@ void make_maxwell(const LawSetting& at, Law& law) {
   law.add(std::make_unique<LawPartOf<MaxwellLaw>>(maxwell));
 }
 
-LawFault friction_fault(const LawSetting& at) {
-  if (at.number("static_friction") < at.number("friction_coefficient"))
-    return {"static_friction", fmt::format("{:g} is below the kinetic coefficient of {:g}: what slips would be held more firmly than what rests", at.number("static_friction"), at.number("friction_coefficient")),
-            "static_friction not below friction_coefficient"};
-  if (at.free[2] && at.number("guide_length") > 0) return {"guide_length", "a pin transmits no moment that could press the edges of a guide", "delete it"};
-  return {};
-}
-
-// What its law has in common with others.
-void set_friction(const LawSetting& at, Friction& friction) {
-  const bool pin = at.free[2];
-  friction.free = pin ? 2 : 0;
-  friction.radius = pin ? at.number("pin_radius") : 1;
-  friction.guide = pin ? 0 : at.number("guide_length");
-  friction.preload = at.number("friction_preload");
-  friction.kinetic = at.number("friction_coefficient");
-  friction.stuck = at.number("static_friction");
-  friction.viscous = at.number("viscous_friction");
-}
-
-void make_lugre(const LawSetting& at, Law& law) {
-  LuGreLaw friction;
-  set_friction(at, friction);
-  friction.stribeck = at.number("stribeck_speed");
-  friction.bristle_stiffness = at.number("bristle_stiffness");
-  friction.bristle_damping = at.number("bristle_damping");
-  law.add(std::make_unique<LawPartOf<LuGreLaw>>(friction));
-}
-
-void make_brown_mcphee(const LawSetting& at, Law& law) {
-  BrownMcPheeLaw friction;
-  set_friction(at, friction);
-  friction.transition = at.number("transition_speed");
-  law.add(std::make_unique<LawPartOf<BrownMcPheeLaw>>(friction));
-}
-
-void make_stribeck(const LawSetting& at, Law& law) {
-  StribeckLaw friction;
-  set_friction(at, friction);
-  friction.stribeck = at.number("stribeck_speed");
-  friction.transition = at.number("transition_speed");
-  law.add(std::make_unique<LawPartOf<StribeckLaw>>(friction));
-}
-
-std::vector<LawInfo>& laws() {
-  static std::vector<LawInfo> all{
+std::vector<LawInfo> own_laws() {
+  std::vector<LawInfo> all{
       {.word = "linear", .meaning = "a spring and a damper in each forbidden displacement (the paper's axioms)", .keys = kLinearKeys, .stiffens = true, .make = make_linear},
       {.word = "bushing", .meaning = "full matrices of stiffness and damping, with a preload and a rest position of its own", .keys = kBushingKeys, .joints = kPoseJoints, .make = make_bushing, .fault = bushing_fault},
       {.word = "maxwell", .meaning = "rubber: a spring, a damper, and branches of both in series that relax", .keys = kMaxwellKeys, .joints = kTwoSided, .make = make_maxwell, .fault = maxwell_fault},
-      {.word = "lugre", .meaning = "dry friction of what the joint leaves free, pressed by the joint's own force (LuGre: bristles, stiction, Stribeck)", .keys = kLuGreKeys,
-       .role = LawRole::kFriction, .joints = kRubbing, .make = make_lugre, .fault = friction_fault},
-      {.word = "brown-mcphee", .meaning = "dry friction as a smooth function of the slip speed (Brown and McPhee); a joint that should stick creeps", .keys = kBrownMcPheeKeys,
-       .role = LawRole::kFriction, .joints = kRubbing, .make = make_brown_mcphee, .fault = friction_fault},
-      {.word = "stribeck", .meaning = "Coulomb friction made smooth at rest, with the Stribeck drop and a viscous part; a joint that should stick creeps", .keys = kStribeckKeys,
-       .role = LawRole::kFriction, .joints = kRubbing, .make = make_stribeck, .fault = friction_fault},
   };
+  add_friction_laws(all);
+  add_contact_laws(all);
+  return all;
+}
+
+std::vector<LawInfo>& laws() {
+  static std::vector<LawInfo> all = own_laws();
   return all;
 }
 

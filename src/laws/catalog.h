@@ -45,6 +45,7 @@ struct LawInfo {
   std::span<const KeyInfo> keys;
   LawRole role = LawRole::kHolds;
   bool stiffens = false;                        // `pintle stiffen` may raise its key stiffness
+  bool rubs = false;                            // it has its own friction, and takes none beside it
   std::span<const std::string_view> joints{};   // types that it suits; empty: all
   void (*make)(const LawSetting& setting, Law& law) = nullptr;  // adds itself
   LawFault (*fault)(const LawSetting& setting) = nullptr;

@@ -49,26 +49,6 @@ typename S::Vec BasicLaw<S>::force(const BasicLawPoint<S>& at) const {
 }
 
 template <class S>
-typename S::Vec BasicLaw<S>::force_of_states(const BasicLawPoint<S>& at) const {
-  LawInput<double, S::kDof> in = input_at(at);
-  LawOutput<double, S::kDof> so_far, one;
-  so_far.clear();
-  linear_.evaluate(in, so_far);
-  typename S::Vec force = S::Vec::Zero();
-  for (const auto& part : parts_) {
-    std::copy(std::begin(so_far.force), std::end(so_far.force), in.before);
-    one.clear();
-    part->evaluate(in, one);
-    for (int k = 0; k < S::kDof; ++k) {
-      so_far.force[k] += one.force[k];
-      if (part->n_states() > 0) force[k] += one.force[k];
-    }
-    in.state += part->n_states();
-  }
-  return force;
-}
-
-template <class S>
 double BasicLaw<S>::loss(const BasicLawPoint<S>& at) const { return parts_.empty() ? linear_.loss(at.rate) : answer(*this, at).loss; }
 
 template <class S>
@@ -124,32 +104,68 @@ void BasicLaw<S>::linearize(const BasicLawPoint<S>& at, BasicLawTangents<S>& out
   else linearize_by<ManyDual<S::kDof>>(at, out);
 }
 
+// Calls visit(part, in) for every part with what it sees: its states, and the forces of those before it.
 template <class S>
-void BasicLaw<S>::borders(const BasicLawPoint<S>& at, double* value) const {
+template <class Visit>
+void BasicLaw<S>::visit_parts(const BasicLawPoint<S>& at, const Visit& visit) const {
   LawInput<double, S::kDof> in = input_at(at);
+  LawOutput<double, S::kDof> so_far, one;
+  so_far.clear();
+  linear_.evaluate(in, so_far);
   for (const auto& part : parts_) {
-    if (part->n_borders() > 0) part->borders(in, value);
-    value += part->n_borders();
+    std::copy(std::begin(so_far.force), std::end(so_far.force), in.before);
+    visit(*part, in);
+    one.clear();
+    part->evaluate(in, one);
+    for (int k = 0; k < S::kDof; ++k) so_far.force[k] += one.force[k];
     in.state += part->n_states();
   }
 }
 
 template <class S>
-void BasicLaw<S>::rest(const BasicLawPoint<S>& at, double* state) const {
-  LawInput<double, S::kDof> in = input_at(at);
-  LawOutput<double, S::kDof> so_far;
-  so_far.clear();
-  linear_.evaluate(in, so_far);
-  for (const auto& part : parts_) {
-    std::copy(std::begin(so_far.force), std::end(so_far.force), in.before);
-    part->rest(in, state);
-    in.state = state;
+typename S::Vec BasicLaw<S>::force_of_states(const BasicLawPoint<S>& at) const {
+  typename S::Vec force = S::Vec::Zero();
+  visit_parts(at, [&force](const Part& part, const LawInput<double, S::kDof>& in) {
+    if (part.n_states() == 0) return;
     LawOutput<double, S::kDof> one;
     one.clear();
-    part->evaluate(in, one);
-    for (int k = 0; k < S::kDof; ++k) so_far.force[k] += one.force[k];
-    state += part->n_states();
-  }
+    part.evaluate(in, one);
+    for (int k = 0; k < S::kDof; ++k) force[k] += one.force[k];
+  });
+  return force;
+}
+
+template <class S>
+void BasicLaw<S>::borders(const BasicLawPoint<S>& at, double* value) const {
+  if (n_borders() == 0) return;
+  visit_parts(at, [&value](const Part& part, const LawInput<double, S::kDof>& in) {
+    if (part.n_borders() > 0) part.borders(in, value);
+    value += part.n_borders();
+  });
+}
+
+template <class S>
+bool BasicLaw<S>::cross(const BasicLawPoint<S>& at, const double* before, const double* after, double* state, double& lost) const {
+  const double stored = energy(at);
+  bool crossed = false;
+  visit_parts({at.t, at.gap, at.rate, state}, [&](const Part& part, const LawInput<double, S::kDof>& in) {
+    for (int i = 0; i < part.n_borders(); ++i, ++before, ++after) {
+      if (part.n_states() == 0 || !is_event(part.border_direction(i), *before, *after)) continue;
+      part.cross(i, in, state);
+      crossed = true;
+    }
+    state += part.n_states();
+  });
+  if (crossed) lost += stored - energy(at);
+  return crossed;
+}
+
+template <class S>
+void BasicLaw<S>::rest(const BasicLawPoint<S>& at, double* state) const {
+  visit_parts({at.t, at.gap, at.rate, state}, [&state](const Part& part, const LawInput<double, S::kDof>& in) {
+    part.rest(in, state);
+    state += part.n_states();
+  });
 }
 
 template <class S>

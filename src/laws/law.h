@@ -91,6 +91,9 @@ class BasicLaw {
   void linearize(const Point& at, Tangents& out) const;
   /// The signed functions of all borders, n_borders() numbers.
   void borders(const BasicLawPoint<S>& at, double* value) const;
+  /// Lets the parts set those of their states that change at borders only, where the values of these were `before` and are `after`; `state` is that
+  /// of `at`. Whether one of a part with states has been crossed. What the law stores less then is added to `lost` [J].
+  bool cross(const Point& at, const double* before, const double* after, double* state, double& lost) const;
 
   /// The states of a joint that has long been at this gap and moves at this rate.
   void rest(const Point& at, double* state) const;
@@ -116,6 +119,8 @@ class BasicLaw {
  private:
   template <class Dual>
   void linearize_by(const Point& at, Tangents& out) const;
+  template <class Visit>
+  void visit_parts(const Point& at, const Visit& visit) const;
   BasicResponse<S> holding_of_parts(const Vec& gap, const Vec& rate) const;
 
   Linear linear_;

@@ -16,6 +16,10 @@ inline double abs(double x) { return std::abs(x); }
 inline double sqrt(double x) { return std::sqrt(x); }
 inline double exp(double x) { return std::exp(x); }
 inline double tanh(double x) { return std::tanh(x); }
+inline double sin(double x) { return std::sin(x); }
+inline double cos(double x) { return std::cos(x); }
+/// For x >= 0 and p > 1.
+inline double pow(double x, double p) { return std::pow(x, p); }
 inline double divide(double a, double b) { return a / b; }
 /// x where a > 0, else y.
 inline double where_positive(double a, double x, double y) { return a > 0 ? x : y; }
@@ -39,6 +43,15 @@ Dual<M> tanh(const Dual<M>& x) {
   return Dual<M>::scaled(y, 1 - y * y, x);
 }
 template <int M>
+Dual<M> sin(const Dual<M>& x) { return Dual<M>::scaled(std::sin(x.v), std::cos(x.v), x); }
+template <int M>
+Dual<M> cos(const Dual<M>& x) { return Dual<M>::scaled(std::cos(x.v), -std::sin(x.v), x); }
+template <int M>
+Dual<M> pow(const Dual<M>& x, double p) {
+  const double less = std::pow(x.v, p - 1);
+  return Dual<M>::scaled(x.v * less, p * less, x);
+}
+template <int M>
 Dual<M> divide(const Dual<M>& a, const Dual<M>& b) { return a / b; }
 template <int M>
 Dual<M> where_positive(const Dual<M>& a, const Dual<M>& x, const Dual<M>& y) { return a.v > 0 ? x : y; }
@@ -57,6 +70,12 @@ template <int N>
 Lanes<N> exp(const Lanes<N>& x) { return each(x, [](double v) { return std::exp(v); }); }
 template <int N>
 Lanes<N> tanh(const Lanes<N>& x) { return each(x, [](double v) { return std::tanh(v); }); }
+template <int N>
+Lanes<N> sin(const Lanes<N>& x) { return each(x, [](double v) { return std::sin(v); }); }
+template <int N>
+Lanes<N> cos(const Lanes<N>& x) { return each(x, [](double v) { return std::cos(v); }); }
+template <int N>
+Lanes<N> pow(const Lanes<N>& x, double p) { return each(x, [p](double v) { return std::pow(v, p); }); }
 template <int N>
 Lanes<N> divide(const Lanes<N>& a, const Lanes<N>& b) { return {a.v / b.v}; }
 template <int N>

@@ -20,6 +20,9 @@ struct LawColumn {
   std::string meaning;  // one line
 };
 
+/// Whether a border that matters in this direction (LawPart::border_direction) is crossed on the way from one value to the other.
+inline bool is_event(int direction, double from, double to) { return (from > 0) != (to > 0) && (direction == 0 || (direction > 0) == (to > 0)); }
+
 template <class S>
 class BasicLawPart {
  public:
@@ -44,6 +47,9 @@ class BasicLawPart {
   virtual void borders(const Input<double>& in, double* value) const = 0;
   /// In which direction border i matters: +1 where its function turns positive, -1 where it turns negative, 0 both.
   virtual int border_direction(int i) const = 0;
+  /// Border i has just been crossed in that direction: sets those of its states that stay as they are in between, a mode or what held when two
+  /// bodies touched. `in` is the instant after it.
+  virtual void cross(int i, const Input<double>& in, double* state) const = 0;
   /// Whether it keeps the joint together. What does not (friction) is left out where gaps that carry loads are looked for.
   virtual bool holds() const = 0;
   /// Stiffness in each component where the law acts; a rope that is slack is looked at as if it were taut.
@@ -59,8 +65,8 @@ class BasicLawPart {
 using LawPart = BasicLawPart<Planar>;
 
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
-/// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders() and border_directions() (one +1, -1 or 0
-/// each), kHolds = false, columns() with observe(), engage(), lever().
+/// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), border_directions() (one +1, -1 or 0
+/// each) and cross(), kHolds = false, columns() with observe(), engage(), lever().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
  public:
@@ -95,6 +101,9 @@ class LawPartOf final : public BasicLawPart<S> {
   int border_direction(int i) const override {
     if constexpr (requires { law_.border_directions()[i]; }) return law_.border_directions()[i];
     else return 0;
+  }
+  void cross(int i, const Input<double>& in, double* state) const override {
+    if constexpr (requires { law_.cross(i, in, state); }) law_.cross(i, in, state);
   }
   bool holds() const override {
     if constexpr (requires { P::kHolds; }) return P::kHolds;

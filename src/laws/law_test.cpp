@@ -13,8 +13,11 @@
 #include "laws/brown_mcphee.h"
 #include "laws/bushing.h"
 #include "laws/catalog.h"
+#include "laws/coulomb.h"
+#include "laws/guide_contact.h"
 #include "laws/lugre.h"
 #include "laws/maxwell.h"
+#include "laws/pin_contact.h"
 #include "laws/stribeck.h"
 #include "laws/tension.h"
 
@@ -100,7 +103,7 @@ class AnyLaw : public testing::Test {
     return !std::equal(before.begin(), before.end(), after.begin(), [](double x, double y) { return (x > 0) == (y > 0); });
   }
 };
-using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClutchLaw>;
+using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GuideContactLaw, ClutchLaw>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 
 // Across a border that the law declares there is no difference quotient; anywhere else there must be.
@@ -371,70 +374,6 @@ TEST(BushingLaw, RefusesWhatFeedsEnergy) {
   EXPECT_EQ(info.fault(setting_of(info, values)).key, "stiffness_xa");
   const std::map<std::string, std::vector<double>> just{{"stiffness", {100}}, {"angular_stiffness", {1}}, {"stiffness_xa", {10}}};
   EXPECT_EQ(info.fault(setting_of(info, just)).key, "");
-}
-
-// A slide on a spring that gives the reaction, at the speed v along it.
-template <class P>
-double friction_of(P law, const Vec& reaction, double v) {
-  law.free = 0;
-  law.radius = 1;
-  Law joint(LinearLaw{{0, 1e6, 1e3}, {0, 0, 0}});
-  joint.add(std::make_unique<LawPartOf<P>>(law));
-  const Vec gap(0, -reaction[1] / 1e6, -reaction[2] / 1e3), rate(v, 0, 0);
-  double state = 0;
-  joint.rest({0, gap, rate, &state}, &state);
-  return joint.force({0, gap, rate, &state})[0];
-}
-
-TEST(BrownMcPheeLaw, ByHand) {
-  BrownMcPheeLaw law;
-  law.viscous = 2;
-  const Vec pressed(0, 100, 0);
-  // The second term is 1 at v_t and 2 / 1.75^2 at twice that; the viscous one 0.002 and 0.004 of the load.
-  EXPECT_NEAR(friction_of(law, pressed, 1e-3), -100 * (0.1 * std::tanh(4.0) + 0.05 + 0.002), 1e-12);
-  EXPECT_NEAR(friction_of(law, pressed, -2e-3), 100 * (0.1 * std::tanh(8.0) + 0.05 * 0.65306122448979592 + 0.004), 1e-12);
-  EXPECT_NEAR(friction_of(law, pressed, 10), -100 * (0.1 + 20), 1e-9 * 2000);
-}
-
-TEST(StribeckLaw, ByHand) {
-  StribeckLaw law;
-  law.preload = 7;
-  const Vec pressed(0, -93, 0);
-  EXPECT_NEAR(friction_of(law, pressed, 1e-4), -100 * (0.1 + 0.05 * std::exp(-0.01)) * 0.76159415595576489, 1e-12);
-  EXPECT_NEAR(friction_of(law, pressed, -1e-3), 100 * (0.1 + 0.05 / M_E) * std::tanh(10.0), 1e-12);
-  EXPECT_NEAR(friction_of(law, pressed, 1), -10, 1e-12);
-}
-
-// 100 N across a guide of 50 mm: a moment below 2.5 N m leaves both edges on one side, 10 N m press them with 200 N each.
-TEST(Friction, MomentPressesTheEdgesOfAGuide) {
-  StribeckLaw law;
-  for (const double moment : {0.0, 2.4, -2.4, 10.0, -10.0}) {
-    law.guide = 0.05;
-    const double load = std::abs(moment) < 2.5 ? 100 : 400;
-    EXPECT_NEAR(friction_of(law, {0, 100, moment}, 1), -0.1 * load, 1e-12) << moment;
-    EXPECT_NEAR(friction_of(law, {0, -100, moment}, 1), -0.1 * load, 1e-12) << moment;
-    law.guide = 0;
-    EXPECT_NEAR(friction_of(law, {0, 100, moment}, 1), -10, 1e-12) << moment;
-  }
-}
-
-TEST(Friction, RefusesAGuideInAPinAndSlipHeldMoreFirmlyThanRest) {
-  for (const char* word : {"lugre", "brown-mcphee", "stribeck"}) {
-    const LawInfo& info = *find_law(word);
-    const std::map<std::string, std::vector<double>> guide{{"guide_length", {0.1}}}, weak{{"static_friction", {0.05}}}, none;
-    LawSetting at = setting_of(info, none);
-    at.joint_type = "revolute";
-    at.held = {true, true, false};
-    at.free = {false, false, true};
-    EXPECT_EQ(info.fault(at).key, "");
-    at.values = &guide;
-    EXPECT_EQ(info.fault(at).key, "guide_length");
-    at.free = {true, false, false};
-    at.held = {false, true, true};
-    EXPECT_EQ(info.fault(at).key, "");
-    at.values = &weak;
-    EXPECT_EQ(info.fault(at).key, "static_friction");
-  }
 }
 
 }  // namespace

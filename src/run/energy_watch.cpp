@@ -34,7 +34,7 @@ double size_of(const System& system) {
 EnergyWatch::EnergyWatch(const System& system, double duration, double tolerance, bool exact_work)
     : system_(system), duration_(duration), tolerance_(std::max(tolerance, kLeastTolerance)), exact_work_(exact_work) {
   for (const JointData& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : "negative damping of joint", &joint.name});
-  for (const LoadData& load : system.loads) feeders_.push_back({load.kind == LoadKind::kEffort ? "motor" : "negative damping of spring", &load.name});
+  for (const LoadData& load : system.loads) feeders_.push_back({load.applied ? "force" : load.kind == LoadKind::kEffort ? "motor" : "negative damping of spring", &load.name});
   for (const AppliedData& force : system.applied) feeders_.push_back({"force", &force.name});
 }
 

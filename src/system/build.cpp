@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
@@ -85,6 +87,7 @@ class Builder {
     setting.one_sided = type.one_sided;
     for (const ComponentInfo& free : type.free) setting.free[free.place] = true;
     Law law;
+    const LawInfo* law_info = find_law(joint.law.word);
     for (const LawChoice* choice : {&joint.law, &joint.friction}) {
       if (choice->word.empty()) continue;
       const LawInfo* info = find_law(choice->word);
@@ -95,6 +98,7 @@ class Builder {
       setting.keys = info->keys;
       if (info->fault)
         if (const LawFault fault = info->fault(setting); !fault.key.empty()) refuse(fmt::format("joint {}: {}: {}", joint.name, fault.key, fault.why));
+      if (choice == &joint.friction && law_info && law_info->rubs) refuse(fmt::format("joint {}: law '{}' has friction of its own", joint.name, joint.law.word));
       info->make(setting, law);
     }
     return law;
@@ -150,20 +154,46 @@ class Builder {
     load.at = driven.at;
     load.component = component;
     load.law = motor.law;
-    if (motor.law.variables().size() > 16) refuse(fmt::format("motor {}: an expression may read 16 signals at most", motor.name));
-    for (const std::string& variable : motor.law.variables()) load.signals.push_back(signal(motor, variable, component));
+    read_signals("motor", motor.joint, component, load);
     return load;
   }
-  Signal signal(const Motor& motor, const std::string& variable, int component) const {
-    if (variable == "t") return {};
+  // `own`: the joint whose coordinate stands there without a name, and the component of it; empty: none.
+  void read_signals(const char* kind, const std::string& own, int component, LoadData& load) const {
+    const std::vector<std::string>& variables = load.law.variables();
+    if (variables.size() > static_cast<std::size_t>(kMaxSignals)) refuse(fmt::format("{} {}: an expression may read {} signals at most", kind, load.name, kMaxSignals));
+    for (const std::string& variable : variables) {
+      const std::optional<Signal> signal = find_signal(variable, own, component);
+      if (!signal) refuse(fmt::format("{} {}: '{}' is not a coordinate of a joint, a body or a marker", kind, load.name, variable));
+      load.signals.push_back(*signal);
+    }
+  }
+  std::optional<Signal> find_signal(const std::string& variable, const std::string& own, int component) const {
+    if (variable == "t") return Signal{};
     const auto dot = variable.rfind('.');
-    const std::string word = dot == std::string::npos ? variable : variable.substr(dot + 1);
-    const int of = joint(dot == std::string::npos ? motor.joint : variable.substr(0, dot));
-    const int own = dot == std::string::npos ? component : system_.joints[of].free_mask[0] > 0 ? 0 : 2;
-    if (word == "angle" || word == "angle_rate") return {of, 2, word == "angle_rate"};
-    if (word == "slide" || word == "slide_rate") return {of, 0, word == "slide_rate"};
-    if (word == "rate") return {of, own, true};
-    refuse(fmt::format("motor {}: '{}' is not a coordinate of a joint", motor.name, variable));
+    const std::string word = dot == std::string::npos ? variable : variable.substr(dot + 1), of = dot == std::string::npos ? own : variable.substr(0, dot);
+    if (const auto it = joint_index_.find(of); it != joint_index_.end()) {
+      const JointData& joint = system_.joints[it->second];
+      const int free = dot == std::string::npos ? component : joint.free_mask[0] > 0 ? 0 : 2;
+      if (word == "angle" || word == "angle_rate") return Signal{false, joint.at, 2, word == "angle_rate"};
+      if (word == "slide" || word == "slide_rate") return Signal{false, joint.at, 0, word == "slide_rate"};
+      if (word == "rate") return Signal{false, joint.at, free, true};
+    }
+    return find_body_signal(of, word);
+  }
+  // As seen from the ground: of a body's centre of mass, or of one of its markers.
+  std::optional<Signal> find_body_signal(const std::string& of, std::string_view word) const {
+    constexpr std::array<std::string_view, 6> kWords{"x", "y", "angle", "vx", "vy", "spin"};
+    const auto found = std::find(kWords.begin(), kWords.end(), word);
+    const auto dot = of.find('.');
+    const std::string body = of.substr(0, dot);
+    const auto at = body_index_.find(body);
+    if (found == kWords.end() || at == body_index_.end()) return {};
+    Signal signal{false, {}, static_cast<int>(found - kWords.begin()) % 3, found - kWords.begin() >= 3};
+    signal.at.a = kGround;
+    signal.at.b = at->second;
+    signal.at.F = S::Frame::at({0, 0}, 0);
+    signal.at.M = dot == std::string::npos ? S::Frame::at({0, 0}, 0) : frame({body, of.substr(dot + 1)});
+    return signal;
   }
 
   void add_spring(const Spring& spring) {
@@ -180,7 +210,30 @@ class Builder {
   void add_force(const AppliedForce& force) {
     const int on = body(force.on);
     if (on == kGround) refuse(fmt::format("force {} acts on the ground", force.name));
-    system_.applied.push_back({force.name, on, frame(force.on), force.force[0], force.force[1], force.torque, force.body_axes});
+    const std::array<const Expression*, 3> along{&force.force[0], &force.force[1], &force.torque};
+    const bool of_time = std::all_of(along.begin(), along.end(), [](const Expression* e) { return std::all_of(e->variables().begin(), e->variables().end(), [](const std::string& x) { return x == "t"; }); });
+    if (of_time) {
+      system_.applied.push_back({force.name, on, frame(force.on), force.force[0], force.force[1], force.torque, force.body_axes});
+      return;
+    }
+    if (force.body_axes) refuse(fmt::format("force {}: in the axes of the body it may read t only", force.name));
+    for (int component = 0; component < 3; ++component)
+      if (!along[component]->variables().empty() || along[component]->value({}) != 0) add_effort(force, on, component, *along[component]);
+  }
+  // Along the place of the point as seen from the ground, or its angle.
+  void add_effort(const AppliedForce& force, int on, int component, const Expression& law) {
+    LoadData load;
+    load.name = force.name;
+    load.kind = LoadKind::kEffort;
+    load.applied = true;
+    load.at.a = kGround;
+    load.at.b = on;
+    load.at.F = S::Frame::at({0, 0}, 0);
+    load.at.M = frame(force.on);
+    load.component = component;
+    load.law = law;
+    read_signals("force", "", component, load);
+    system_.loads.push_back(std::move(load));
   }
 
   const Model& model_;

@@ -13,19 +13,20 @@ BasicDisplacement<S> displacement_of(const BasicLoadData<S>& load) {
   return BasicSelection<S>{typename S::Vec(S::Vec::Unit(load.component) * (load.kind == LoadKind::kTorsionSpring ? load.free : 0.0))};
 }
 
+template <class S>
+double value_of(const BasicSystem<S>& system, const BasicSignal<S>& signal, double t, const std::vector<typename S::Motion>& m) {
+  if (signal.is_time) return t;
+  const typename S::RelativePose pose = system.pose(signal.at, m);
+  return signal.rate ? pose.rate[signal.component] : pose.z[signal.component];
+}
+
 // Values of the signals an effort expression reads.
 template <class S>
 std::array<double, kMaxSignals> signal_values(const BasicSystem<S>& system, const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m) {
   std::array<double, kMaxSignals> values{};
   const std::size_t n = std::min<std::size_t>(load.signals.size(), kMaxSignals);
   for (std::size_t s = 0; s < n; ++s) {
-    const Signal& signal = load.signals[s];
-    if (signal.joint < 0) {
-      values[s] = t;
-      continue;
-    }
-    const typename S::RelativePose pose = system.pose(system.joints[signal.joint].at, m);
-    values[s] = signal.rate ? pose.rate[signal.component] : pose.z[signal.component];
+    values[s] = value_of(system, load.signals[s], t, m);
   }
   return values;
 }
@@ -186,6 +187,20 @@ void BasicSystem<S>::find_switching(double t, const std::vector<typename S::Moti
 }
 
 template <class S>
+bool BasicSystem<S>::cross_borders(double t, const VecsOf<S>& gap, const VecsOf<S>& rate, const double* before, const double* after, std::vector<double>& law_state, double& lost) const {
+  bool crossed = false;
+  for (int j = 0; j < n_joints(); ++j) {
+    const BasicJointData<S>& joint = joints[j];
+    const int n = joint.law.n_borders(), skipped = n + (joint.servo >= 0 ? joint.target.n_switches() : 0);
+    double* const state = law_state.data() + joint.first_state;
+    if (n > 0 && joint.law.cross({t, gap[j], rate[j], state}, before, after, state, lost)) crossed = true;
+    before += skipped;
+    after += skipped;
+  }
+  return crossed;
+}
+
+template <class S>
 std::optional<SlidingMode> BasicSystem<S>::jump_between(double t0, const std::vector<typename S::Motion>& m0, double t1, const std::vector<typename S::Motion>& m1) const {
   for (const BasicLoadData<S>& load : loads) {
     if (load.kind != LoadKind::kEffort || load.law.n_switches() == 0) continue;
@@ -222,9 +237,9 @@ void BasicSystem<S>::load_tangents(const BasicLoadData<S>& load, double t, const
                      G[i].transpose() * (s.df_drate * G[j])});
     }
   for (std::size_t k = 0; k < load.signals.size(); ++k) {
-    const Signal& signal = load.signals[k];
-    if (signal.joint < 0) continue;
-    const BasicPlacement<S>& at = joints[signal.joint].at;
+    const BasicSignal<S>& signal = load.signals[k];
+    if (signal.is_time) continue;
+    const BasicPlacement<S>& at = signal.at;
     const typename S::RelativePose p = pose(at, m);
     const auto slope = p.rate_gradient(motion_of(at.a, m), motion_of(at.b, m));
     const std::array<int, 2> source{at.a, at.b};
@@ -251,6 +266,7 @@ template BasicSystem<Planar>::LoadState BasicSystem<Planar>::load_state(const Ba
 template double BasicSystem<Planar>::load_effort(const BasicLoadData<Planar>& load, double t, const std::vector<Planar::Motion>& m, SlidingModes sliding) const;
 template void BasicSystem<Planar>::external(double t, const std::vector<Planar::Motion>& m, VecsOf<Planar>& Q, SlidingModes sliding) const;
 template ExternalWork BasicSystem<Planar>::external_work(double t, const PositionsOf<Planar>& q, const std::vector<Planar::Motion>& m, SlidingModes sliding) const;
+template bool BasicSystem<Planar>::cross_borders(double t, const VecsOf<Planar>& gap, const VecsOf<Planar>& rate, const double* before, const double* after, std::vector<double>& law_state, double& lost) const;
 template void BasicSystem<Planar>::find_switching(double t, const std::vector<Planar::Motion>& m, const VecsOf<Planar>& gap, const VecsOf<Planar>& rate, const std::vector<double>& law_state, SlidingModes sliding, double* value) const;
 template std::optional<SlidingMode> BasicSystem<Planar>::jump_between(double t0, const std::vector<Planar::Motion>& m0, double t1, const std::vector<Planar::Motion>& m1) const;
 template double BasicSystem<Planar>::margin(const SlidingMode& jump, double t, const std::vector<Planar::Motion>& m) const;
@@ -261,6 +277,7 @@ template BasicSystem<Spatial>::LoadState BasicSystem<Spatial>::load_state(const 
 template double BasicSystem<Spatial>::load_effort(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;
 template void BasicSystem<Spatial>::external(double t, const std::vector<Spatial::Motion>& m, VecsOf<Spatial>& Q, SlidingModes sliding) const;
 template ExternalWork BasicSystem<Spatial>::external_work(double t, const PositionsOf<Spatial>& q, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;
+template bool BasicSystem<Spatial>::cross_borders(double t, const VecsOf<Spatial>& gap, const VecsOf<Spatial>& rate, const double* before, const double* after, std::vector<double>& law_state, double& lost) const;
 template void BasicSystem<Spatial>::find_switching(double t, const std::vector<Spatial::Motion>& m, const VecsOf<Spatial>& gap, const VecsOf<Spatial>& rate, const std::vector<double>& law_state, SlidingModes sliding, double* value) const;
 template std::optional<SlidingMode> BasicSystem<Spatial>::jump_between(double t0, const std::vector<Spatial::Motion>& m0, double t1, const std::vector<Spatial::Motion>& m1) const;
 template double BasicSystem<Spatial>::margin(const SlidingMode& jump, double t, const std::vector<Spatial::Motion>& m) const;

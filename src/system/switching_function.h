@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <span>
 
+#include "laws/law_part.h"
+
 namespace pintle {
 
 /// A border of a joint's law, or a kink or jump of an expression. Its value changes its sign there.
@@ -16,7 +18,7 @@ struct SwitchingFunction {
   int direction = 0;  // +1: an event only where it turns positive; -1: only where it does not stay so; 0: both
 
   /// Whether going from one value to the other is an event.
-  bool is_event(double from, double to) const { return (from > 0) != (to > 0) && (direction == 0 || (direction > 0) == (to > 0)); }
+  bool is_event(double from, double to) const { return pintle::is_event(direction, from, to); }
 };
 
 /// Whether all values lie on the same sides.

@@ -30,10 +30,10 @@ void BasicSystem<S>::finish(const BasicSystem<S>* like) {
   for (const BasicJointData<S>& joint : joints) couple(joint.at.a, joint.at.b);
   for (const BasicLoadData<S>& load : loads) {
     couple(load.at.a, load.at.b);
-    for (const Signal& signal : load.signals) {
-      if (signal.joint < 0) continue;
+    for (const BasicSignal<S>& signal : load.signals) {
+      if (signal.is_time) continue;
       for (const int i : {load.at.a, load.at.b})
-        for (const int j : {joints[signal.joint].at.a, joints[signal.joint].at.b}) couple(i, j);
+        for (const int j : {signal.at.a, signal.at.b}) couple(i, j);
     }
   }
   const bool same = like && like->n_bodies() == n_bodies() && like->coupled_ == coupled_;
@@ -70,7 +70,7 @@ std::string BasicSystem<S>::name(const SwitchingFunction& function) const {
     return fmt::format("border {} of law \"{}\" in joint {}", function.border + 1, joints[at].law.parts()[static_cast<std::size_t>(function.part)]->word(), joints[at].name);
   const auto kink = [&function](const std::string& of, const Expression& e) { return fmt::format("kink or jump {} of {} ({})", function.border + 1, of, e.text()); };
   if (function.owner == Owner::kServo) return kink("motor " + joints[at].name, joints[at].target);
-  if (function.owner == Owner::kMotor) return kink("motor " + loads[at].name, loads[at].law);
+  if (function.owner == Owner::kMotor) return kink((loads[at].applied ? "force " : "motor ") + loads[at].name, loads[at].law);
   const BasicAppliedData<S>& force = applied[at];
   return kink("force " + force.name, *force.functions()[static_cast<std::size_t>(function.part)]);
 }

@@ -81,12 +81,16 @@ using JointData = BasicJointData<Planar>;
 template <class S>
 std::array<double, 3> servo_target(const BasicJointData<S>& joint, double t);
 
-/// What an effort motor's expression reads: the time, or a coordinate (or rate) of a joint.
-struct Signal {
-  int joint = -1;  // -1: the time
+/// What the expression of an effort reads: the time, or a component of the relative pose of two frames (or its rate), which are those of a joint,
+/// or the ground's and one on a body.
+template <class S>
+struct BasicSignal {
+  bool is_time = true;
+  BasicPlacement<S> at;
   int component = 0;
   bool rate = false;
 };
+using Signal = BasicSignal<Planar>;
 
 enum class LoadKind { kSpring, kTorsionSpring, kEffort };
 
@@ -101,7 +105,8 @@ struct BasicLoadData {
   double free = 0;       // length or angle without elastic force
   double constant = 0;   // a spring without stiffness: its preload at any length [N] or [N*m]
   Expression law;        // motors: effort on the second body
-  std::vector<Signal> signals;
+  std::vector<BasicSignal<S>> signals;
+  bool applied = false;  // an effort that is an applied force along a component, not a motor's
 };
 using LoadData = BasicLoadData<Planar>;
 
@@ -225,6 +230,9 @@ class BasicSystem {
   /// The value of each. Gaps and rates are the joints'.
   void find_switching(double t, const std::vector<typename S::Motion>& m, const VecsOf<S>& gap, const VecsOf<S>& rate, const std::vector<double>& law_state,
                       SlidingModes sliding, double* value) const;
+  /// Where the values of the switching functions were `before` and are `after`, the laws whose borders that crosses set their states: LawPart::cross.
+  /// Whether there are any; stored energy that is gone with it is added to `lost` [J].
+  bool cross_borders(double t, const VecsOf<S>& gap, const VecsOf<S>& rate, const double* before, const double* after, std::vector<double>& law_state, double& lost) const;
   /// What it is, for messages: border 1 of "tension" in joint R.
   std::string name(const SwitchingFunction& function) const;
   /// A jump of a motor's effort between two instants, as a ramp still to be given its share.

@@ -22,6 +22,10 @@ Json key_json(const KeyInfo& key) {
   Json out = {{"name", key.key}, {"unit", key.unit.empty() ? "-" : key.unit}, {"meaning", key.meaning}};
   if (std::isfinite(key.minimum)) out["minimum"] = key.minimum;
   if (!key.required) out["default"] = key.fallback;
+  if (!key.words.empty()) {
+    out["words"] = key.words;
+    if (!key.required) out["default"] = key.words[static_cast<std::size_t>(key.fallback)];
+  }
   if (key.list) out["list"] = true;
   return out;
 }

@@ -22,7 +22,7 @@ constexpr std::array<Alias, 20> kAliases{{
     {"sec", "s"},      {"second", "s"},    {"seconds", "s"},   {"hour", "h"},      {"hr", "h"},
     {"meter", "m"},    {"metre", "m"},     {"meters", "m"},    {"metres", "m"},    {"inch", "in"},
     {"degree", "deg"}, {"degrees", "deg"}, {"radian", "rad"},  {"radians", "rad"}, {"lbs", "lb"},
-    {"Pa", "N/m^2"},   {"MPa", "N/mm^2"},  {"GPa", "kN/mm^2"}, {"turn", "rev"},    {"turns", "rev"},
+    {"turn", "rev"},    {"turns", "rev"},
 }};
 
 std::string in_quotes(std::string_view text) {

@@ -92,6 +92,8 @@ void BasicRadauStepper<S>::step_over_event(double distance, const SwitchingEvent
   search_.step_over(event, distance, beyond, [this](double d, double* value) {
     const double half = 0.5 * d * d;
     end_.t += d;
+    end_.supplied += d * end_.supply_power;
+    end_.dissipated += d * end_.loss_power;
     for (std::size_t b = 0; b < end_.q.size(); ++b) {
       end_.q[b] = along(end_.q[b], d, end_.v[b], half, end_.a[b]);
       end_.v[b] += d * end_.a[b];
@@ -112,6 +114,7 @@ void BasicRadauStepper<S>::cross_event(double distance, const SwitchingEvent& ev
   const double before = end_.t;
   inside_m_ = end_m_;
   step_over_event(distance, event);
+  system_.cross_borders(end_.t, end_.gap, end_.gap_rate, search_.start(), search_.beyond(), end_.law_state, end_.dissipated);
   leave_sliding(system_, end_.t, end_m_, end_.sliding);
   balance_end();
   if (const auto jump = chattering_.crossed(system_, before, inside_m_, end_.t, end_m_, kAtOnce * control_.usual)) {
@@ -135,10 +138,12 @@ double BasicRadauStepper<S>::margin_rate(const SlidingMode& jump) {
   return (system_.margin(jump, end_.t + d, inside_m_) - system_.margin(jump, end_.t, end_m_)) / d;
 }
 
-// The switching functions at the end of a step; a ramp that the last bits have left is let go.
+// The switching functions at the end of a step. A ramp that the last bits have left is let go, a border that they have crossed is crossed.
 template <class S>
 void BasicRadauStepper<S>::update_switching() {
-  if (leave_sliding(system_, end_.t, end_m_, end_.sliding)) {
+  system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, search_.now());
+  const bool crossed = system_.cross_borders(end_.t, end_.gap, end_.gap_rate, search_.start(), search_.now(), end_.law_state, end_.dissipated);
+  if (leave_sliding(system_, end_.t, end_m_, end_.sliding) || crossed) {
     balance_end();
     control_.have_history = false;
   }

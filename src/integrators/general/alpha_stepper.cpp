@@ -27,7 +27,7 @@ double AlphaWeights::velocity_error() const {
 
 AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance)
     : system_(system), weights_(weights), beta_(weights.beta()), gamma_(weights.gamma()), tolerance_(tolerance),
-      newton_tolerance_(std::min(tolerance, kLoosestNewton)), force_evaluator_(system), tangents_(system), lu_(system.pattern()),
+      newton_tolerance_(std::min(tolerance, kLoosestNewton)), force_evaluator_(system), borders_(system), tangents_(system), lu_(system.pattern()),
       begin_(zero_state(system)), end_(begin_), between_(begin_), a_before_(begin_.q), a_now_(begin_.q), q_(begin_.q), v_(begin_.q), a_(begin_.q), F_begin_(begin_.q),
       F_(begin_.q), work_(system.bodies.size()) {
   before_ = now_ = {begin_.q, begin_.q, begin_.q, 0};
@@ -36,6 +36,7 @@ AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, do
 void AlphaStepper::start(const State& state, double h) {
   begin_ = end_ = state;
   force_evaluator_.complete(end_);
+  borders_.start(end_);
   now_ = {end_.v, end_.a, end_.a, 0};
   h_ = h;
 }
@@ -165,6 +166,7 @@ bool AlphaStepper::step(double t_end) {
   forces(begin_.t, begin_.q, begin_.v, begin_.law_state, F_begin_);
   double most = 5;  // by which the next step may be longer
   double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
+  int shortened = 0;
   while (true) {
     h = std::min(h, t_end - begin_.t);
     if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
@@ -182,8 +184,14 @@ bool AlphaStepper::step(double t_end) {
     const double e = error(h);
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
     if (e <= 1) {
-      finish(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
-      h_ = h * std::min(factor, most);
+      place_end(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
+      if (const double share = borders_.first_crossing(end_); share < 1 - kBehindBorder && shortened++ < kMostShortened) {
+        ++counters_.rejected;
+        h *= share + 0.5 * kBehindBorder;
+        continue;
+      }
+      finish(h);
+      h_ = shortened > 0 ? std::max(h_, h * factor) : h * std::min(factor, most);
       return true;
     }
     ++counters_.rejected;
@@ -192,19 +200,25 @@ bool AlphaStepper::step(double t_end) {
   }
 }
 
-// Energies by the trapezoidal rule, which is of the method's order.
-void AlphaStepper::finish(double t, double h) {
+void AlphaStepper::place_end(double t, double h) {
   end_.t = t;
   end_.q = q_;
   end_.v = v_;
   find_states(t, q_, v_, h);
   end_.law_state = z_;
   force_evaluator_.complete(end_);
+}
+
+// Energies by the trapezoidal rule, which is of the method's order.
+void AlphaStepper::finish(double h) {
   end_.dissipated = begin_.dissipated + 0.5 * h * (begin_.loss_power + end_.loss_power);
   end_.supplied = begin_.supplied + 0.5 * h * (begin_.supply_power + end_.supply_power);
+  const Vecs before_crossing = end_.a;
+  if (borders_.cross(end_)) force_evaluator_.complete(end_);
   std::swap(before_, now_);
   now_.v = v_;
   now_.a = a_;
+  for (std::size_t i = 0; i < a_.size(); ++i) now_.a[i] += end_.a[i] - before_crossing[i];  // what the crossing has changed
   now_.law = end_.a;
   now_.h = h;
   ++counters_.steps;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "integrators/force_evaluator.h"
+#include "integrators/law_borders.h"
 #include "integrators/general/force_tangents.h"
 #include "integrators/general/usual_tolerance.h"
 #include "integrators/stepper.h"
@@ -57,7 +58,8 @@ class AlphaStepper final : public Stepper {
   void find_states(double t, const Vecs& q, const Vecs& v, double h);
   double correct(double h);
   double error(double h);
-  void finish(double t, double h);
+  void place_end(double t, double h);
+  void finish(double h);
   double weight(double a, double b, double largest) const;
 
   const System& system_;
@@ -66,6 +68,7 @@ class AlphaStepper final : public Stepper {
   UsualTolerance tolerance_;
   double newton_tolerance_, max_step_ = 0, h_ = 0;
   ForceEvaluator force_evaluator_;
+  LawBorders borders_;
   ForceTangents tangents_;
   BlockLu<double, Planar::kDof> lu_;
   State begin_, end_, between_;

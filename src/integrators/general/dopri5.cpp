@@ -18,7 +18,7 @@ using namespace dormand_prince;
 }  // namespace
 
 Dopri5::Dopri5(const System& system, double tolerance)
-    : system_(system), force_evaluator_(system), tolerance_(tolerance), q_(system.bodies.size()), v_(system.bodies.size()), dq_(system.bodies.size()),
+    : system_(system), force_evaluator_(system), borders_(system), tolerance_(tolerance), q_(system.bodies.size()), v_(system.bodies.size()), dq_(system.bodies.size()),
       dv_(system.bodies.size()) {
   for (auto* k : {&kq_, &kv_})
     for (auto& x : *k) x.resize(system.bodies.size());
@@ -31,6 +31,7 @@ void Dopri5::start(const State& state, double h) {
   begin_ = end_ = state;
   h_ = h;
   complete(end_);
+  borders_.start(end_);
   find_rounding();
   grow_scale();
 }
@@ -57,6 +58,7 @@ bool Dopri5::step(double t_end) {
   kq_[0] = begin_.v;
   kv_[0] = begin_.a;
   kz_[0] = begin_.law_rate;
+  int shortened = 0;
   while (true) {
     h = std::min(h, t_end - begin_.t);
     if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
@@ -90,11 +92,17 @@ bool Dopri5::step(double t_end) {
       end_.v = v_;
       end_.law_state = z_;
       complete(end_);
+      if (const double share = borders_.first_crossing(end_); share < 1 - kBehindBorder && shortened++ < kMostShortened) {
+        ++counters_.rejected;
+        h *= share + 0.5 * kBehindBorder;
+        continue;
+      }
       end_.dissipated = begin_.dissipated + 0.5 * h * (begin_.loss_power + end_.loss_power);
       end_.supplied = begin_.supplied + 0.5 * h * (begin_.supply_power + end_.supply_power);
+      if (borders_.cross(end_)) complete(end_);
       grow_scale();
       ++counters_.steps;
-      h_ = h * factor;
+      h_ = shortened > 0 ? std::max(h_, h * factor) : h * factor;
       return true;
     }
     ++counters_.rejected;

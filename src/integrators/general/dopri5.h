@@ -6,6 +6,7 @@
 
 #include "integrators/absolute/stage_solver.h"
 #include "integrators/force_evaluator.h"
+#include "integrators/law_borders.h"
 #include "pintle/trajectory.h"
 #include "system/state.h"
 
@@ -34,6 +35,7 @@ class Dopri5 {
 
   const System& system_;
   ForceEvaluator force_evaluator_;
+  LawBorders borders_;
   double tolerance_, max_step_ = 0, h_ = 0;
   State begin_, end_;
   std::array<Vecs, 7> kq_, kv_;

@@ -8,6 +8,9 @@ namespace pintle {
 FirstOrderOde::FirstOrderOde(const System& system, Energies energies)
     : system_(system), energies_(energies == Energies::kAppended), force_evaluator_(system), tangents_(system), at_(zero_state(system)),
       couplings_(system.bodies.size()) {
+  for (const JointData& joint : system.joints)
+    for (const auto& part : joint.law.parts())
+      if (part->n_states() > 0 && part->n_borders() > 0) n_roots_ = static_cast<int>(system.switching().size());
   const BlockPattern& p = system.pattern();
   for (int i = 0; i < system.n_bodies(); ++i) couplings_[i].push_back({i, tangents_.place(i, i)});
   for (int k = 0; k < p.n(); ++k)
@@ -45,6 +48,11 @@ void FirstOrderOde::unflatten(double t, const double* y, State& state) const {
   if (!energies_) return;
   state.dissipated = y[state_size()];
   state.supplied = y[state_size() + 1];
+}
+
+void FirstOrderOde::find_roots(double t, const double* y, double* value) {
+  unflatten(t, y, at_);
+  force_evaluator_.find_roots(at_, value);
 }
 
 bool FirstOrderOde::rate(double t, const double* y, double* dy) {

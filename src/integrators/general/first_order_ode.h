@@ -23,6 +23,10 @@ class FirstOrderOde {
   /// Fills time, q, v and, where y has them, the energies of `state`; the rest stays as it is.
   void unflatten(double t, const double* y, State& state) const;
 
+  /// The switching functions, where some law changes its states at a border; otherwise none.
+  int n_roots() const { return n_roots_; }
+  void find_roots(double t, const double* y, double* value);
+
   /// f(t, y); false where it is not finite.
   bool rate(double t, const double* y, double* dy);
   /// Finds the blocks of d(a)/dq and d(a)/dv at y. The energies' rows of the Jacobian are taken as zero: they act back
@@ -50,6 +54,7 @@ class FirstOrderOde {
   ForceEvaluator force_evaluator_;
   ForceTangents tangents_;
   State at_;
+  int n_roots_ = 0;
   std::vector<std::vector<Coupling>> couplings_;  // by columns
 };
 

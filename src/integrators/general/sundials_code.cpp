@@ -141,6 +141,11 @@ int jacobian(realtype t, N_Vector y, N_Vector, SUNMatrix J, void* equations, N_V
   return 0;
 }
 
+int roots(realtype t, N_Vector y, realtype* value, void* equations) {
+  static_cast<FirstOrderOde*>(equations)->find_roots(t, N_VGetArrayPointer(y), value);
+  return 0;
+}
+
 using JacobianFunction = int (*)(realtype, N_Vector, N_Vector, SUNMatrix, void*, N_Vector, N_Vector, N_Vector);
 using Count = int (*)(void*, long*);
 
@@ -156,6 +161,8 @@ struct Calls {
   int (*interpolate)(void*, realtype, int, N_Vector);
   int (*set_linear_solver)(void*, SUNLinearSolver, SUNMatrix);
   int (*set_jacobian)(void*, JacobianFunction);
+  int (*set_roots)(void*, int, int (*)(realtype, N_Vector, realtype*, void*));
+  int (*restart)(void*, realtype, N_Vector);
   Count steps, evaluations, rejected, iterations, iteration_failures, factorizations;
   char* (*flag_name)(long);
   void (*release)(void**);
@@ -163,10 +170,10 @@ struct Calls {
 static_assert(CV_NORMAL == ARK_NORMAL && CV_ONE_STEP == ARK_ONE_STEP);
 
 const Calls kCvode{CVodeSVtolerances, CVodeSetUserData, CVodeSetMaxNumSteps, CVodeSetErrFile, CVodeSetMaxStep, CVodeSetStopTime, CVode,
-                   CVodeGetDky, CVodeSetLinearSolver, CVodeSetJacFn, CVodeGetNumSteps, CVodeGetNumRhsEvals, CVodeGetNumErrTestFails,
+                   CVodeGetDky, CVodeSetLinearSolver, CVodeSetJacFn, CVodeRootInit, CVodeReInit, CVodeGetNumSteps, CVodeGetNumRhsEvals, CVodeGetNumErrTestFails,
                    CVodeGetNumNonlinSolvIters, CVodeGetNumNonlinSolvConvFails, CVodeGetNumLinSolvSetups, CVodeGetReturnFlagName, CVodeFree};
 const Calls kErk{ERKStepSVtolerances, ERKStepSetUserData, ERKStepSetMaxNumSteps, ERKStepSetErrFile, ERKStepSetMaxStep, ERKStepSetStopTime,
-                 ERKStepEvolve, ERKStepGetDky, nullptr, nullptr, ERKStepGetNumSteps, ERKStepGetNumRhsEvals, ERKStepGetNumErrTestFails,
+                 ERKStepEvolve, ERKStepGetDky, nullptr, nullptr, ERKStepRootInit, [](void* memory, realtype t, N_Vector y) { return ERKStepReInit(memory, rate, t, y); }, ERKStepGetNumSteps, ERKStepGetNumRhsEvals, ERKStepGetNumErrTestFails,
                  nullptr, nullptr, nullptr, ERKStepGetReturnFlagName, ERKStepFree};
 
 int implicit_evaluations(void* memory, long* n) {
@@ -174,7 +181,7 @@ int implicit_evaluations(void* memory, long* n) {
   return ARKStepGetNumRhsEvals(memory, &of_explicit_part, n);
 }
 const Calls kDirk{ARKStepSVtolerances, ARKStepSetUserData, ARKStepSetMaxNumSteps, ARKStepSetErrFile, ARKStepSetMaxStep, ARKStepSetStopTime,
-                  ARKStepEvolve, ARKStepGetDky, ARKStepSetLinearSolver, ARKStepSetJacFn, ARKStepGetNumSteps, implicit_evaluations,
+                  ARKStepEvolve, ARKStepGetDky, ARKStepSetLinearSolver, ARKStepSetJacFn, ARKStepRootInit, [](void* memory, realtype t, N_Vector y) { return ARKStepReInit(memory, nullptr, rate, t, y); }, ARKStepGetNumSteps, implicit_evaluations,
                   ARKStepGetNumErrTestFails, ARKStepGetNumNonlinSolvIters, ARKStepGetNumNonlinSolvConvFails, ARKStepGetNumLinSolvSetups,
                   ARKStepGetReturnFlagName, ARKStepFree};
 
@@ -196,6 +203,7 @@ struct SundialsCode::Workspace {
     calls->set_max_steps(memory, kMaxSteps);
     calls->set_error_file(memory, nullptr);
     choose_method(choice);
+    if (equations.n_roots() > 0) must(calls->set_roots(memory, equations.n_roots(), roots), "setting roots");
   }
   ~Workspace() { calls->release(&memory); }
   Workspace(const Workspace&) = delete;
@@ -257,6 +265,15 @@ struct SundialsCode::Workspace {
     if (count) count(memory, &n);
     return static_cast<std::uint64_t>(n);
   }
+  // Added to what is there, and from nothing again.
+  void add_counts(Counters& counters) const {
+    counters.steps += number(calls->steps);
+    counters.evaluations += number(calls->evaluations);
+    counters.rejected += number(calls->rejected);
+    counters.newton_iterations += number(calls->iterations);
+    counters.newton_failures += number(calls->iteration_failures);
+    counters.factorizations += solver ? number(calls->factorizations) : 0;
+  }
 
   sundials::Context context;
   FirstOrderOde& equations;
@@ -267,6 +284,7 @@ struct SundialsCode::Workspace {
   const Calls* calls = nullptr;
   void* memory = nullptr;
   double t, stop = 0;
+  Counters before_restart;
   std::string failure;
 };
 
@@ -290,14 +308,15 @@ const double* SundialsCode::interpolate(double t) {
   return w_->calls->interpolate(w_->memory, t, 0, w_->between.get()) < 0 ? nullptr : N_VGetArrayPointer(w_->between.get());
 }
 
+void SundialsCode::restart(const std::vector<double>& y) {
+  w_->add_counts(w_->before_restart);
+  std::copy(y.begin(), y.end(), N_VGetArrayPointer(w_->y.get()));
+  must(w_->calls->restart(w_->memory, w_->t, w_->y.get()), "restarting");
+}
+
 void SundialsCode::count(Counters& counters) const {
-  const Calls& c = *w_->calls;
-  counters.steps = w_->number(c.steps);
-  counters.evaluations = w_->number(c.evaluations);
-  counters.rejected = w_->number(c.rejected);
-  counters.newton_iterations = w_->number(c.iterations);
-  counters.newton_failures = w_->number(c.iteration_failures);
-  counters.factorizations = w_->solver ? w_->number(c.factorizations) : 0;
+  counters = w_->before_restart;
+  w_->add_counts(counters);
 }
 
 const std::string& SundialsCode::failure() const { return w_->failure; }

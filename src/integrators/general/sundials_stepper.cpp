@@ -9,6 +9,7 @@
 
 #include "integrators/general/sundials_code.h"
 #include "integrators/general/usual_tolerance.h"
+#include "integrators/law_borders.h"
 
 namespace pintle {
 namespace {
@@ -20,7 +21,7 @@ class SundialsStepper final : public Stepper {
  public:
   SundialsStepper(const System& system, std::string name, const SundialsChoice& choice, double tolerance)
       : name_(std::move(name)), choice_(choice), tolerance_(tolerance), equations_(system, FirstOrderOde::Energies::kAppended),
-        states_(system), begin_(zero_state(system)), end_(begin_), between_(begin_) {}
+        states_(system), borders_(system), begin_(zero_state(system)), end_(begin_), between_(begin_) {}
 
   void set_max_step(double h) override { max_step_ = h; }
   void set_load_scale(const LoadScale&) override {}
@@ -29,6 +30,7 @@ class SundialsStepper final : public Stepper {
   void start(const State& state, double) override {
     begin_ = end_ = state;
     states_.complete(end_);
+    borders_.start(end_);
     const UsualTolerance usual(tolerance_);
     std::vector<double> y(equations_.size()), floor(y.size(), usual.absolute);
     for (int i = equations_.state_size(); i < equations_.size(); ++i) floor[i] = kDoesNotSteer;
@@ -46,6 +48,12 @@ class SundialsStepper final : public Stepper {
     }
     equations_.unflatten(code_->t(), code_->y(), end_);
     states_.complete(end_);
+    if (borders_.cross(end_)) {
+      std::vector<double> y(equations_.size());
+      equations_.flatten(end_, y.data());
+      code_->restart(y);
+      states_.complete(end_);
+    }
     code_->count(counters_);
     return true;
   }
@@ -70,6 +78,7 @@ class SundialsStepper final : public Stepper {
   double tolerance_, max_step_ = 0;
   FirstOrderOde equations_;
   ForceEvaluator states_;
+  LawBorders borders_;
   std::optional<SundialsCode> code_;
   State begin_, end_, between_;
   LoadScale no_scale_;

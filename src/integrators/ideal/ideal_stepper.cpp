@@ -20,6 +20,8 @@ constexpr double kSuspicious = 0.5;    // of the largest: above it no singular p
 constexpr int kSearch = 48;            // positions tried inside a step
 constexpr double kPassing = 1e-2;      // of the usual step: at singular positions so short a step is taken in any case
 constexpr double kCrossing = 0.1;      // of the tolerance times the usual step: so short a step is taken over a jump of a force
+constexpr double kForget = 0.9;       // of the usual step, by one that is shorter
+constexpr double kLeastCrossing = 1e-8;  // of the usual step: shorter ones are lost in the rounding of velocities over the step
 constexpr int kMostReported = 5;
 
 }  // namespace
@@ -51,7 +53,7 @@ bool IdealStepper::step(double t_end) {
   double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
   bool at_once = true;
   const double rounding = std::numeric_limits<double>::epsilon() * std::abs(t_end);
-  const double crossing_h = std::max(kCrossing * tolerance_ * smooth_h_, 1e3 * rounding);
+  const double crossing_h = std::max(std::max(kCrossing * tolerance_, kLeastCrossing) * smooth_h_, 1e3 * rounding);
   while (true) {
     h = std::min(h, t_end - begin_.t);
     if (h <= 16 * rounding) {
@@ -65,7 +67,7 @@ bool IdealStepper::step(double t_end) {
     const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && crosses_jump();
     if ((e <= 1 || passing || crossing) && finish(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h)) {
       h_ = crossing ? kCrossing * smooth_h_ : h * (passing ? std::max(1.0, factor) : factor);
-      if (at_once) smooth_h_ = h;  // steps that come to a jump nearer and nearer are short because of it
+      if (at_once) smooth_h_ = std::max(h, kForget * smooth_h_);  // steps that come to a jump nearer and nearer are short because of it
       if (!equations_.nearly_singular() && !crossing) usual_h_ = h;
       return true;
     }

@@ -41,6 +41,10 @@ class EventSearch {
   /// The values where the step begins, to be filled in at the end of the step before it.
   double* start() { return start_.data(); }
   std::span<const double> start() const { return start_; }
+  /// The values that step_over filled in last.
+  const double* beyond() const { return rows_.data() + static_cast<std::size_t>(kMostSamples) * start_.size(); }
+  /// Room for the values at an instant that are to be compared with those at the start.
+  double* now() { return row(kMostSamples); }
 
   /// Looks at the nodes and half-way between them, and where parabolas through the values say that a function is left and entered again
   /// between two of these; then goes to the first event that is found.

@@ -35,7 +35,7 @@ double cubic(double s, double h, double x0, double v0, double x1, double v1) {
 }  // namespace
 
 TreeDopri5::TreeDopri5(const System& system, double tolerance)
-    : system_(system), tree_(std::make_unique<JointTree>(system)), tolerance_(tolerance), at_(system, *tree_) {
+    : system_(system), borders_(system), tree_(std::make_unique<JointTree>(system)), tolerance_(tolerance), at_(system, *tree_) {
   scale_.body.assign(system.bodies.size(), S::Vec::Zero());
 }
 
@@ -71,6 +71,7 @@ void TreeDopri5::start(const State& state, double h) {
   end_.law_state = state.law_state;
   complete(end_);
   write(end_, end_state_);
+  borders_.start(end_state_);
   find_rounding();
   raise_scale();
 }
@@ -102,6 +103,7 @@ bool TreeDopri5::step(double t_end) {
   ky_[0] = begin_.u;
   ku_[0] = begin_.w;
   kz_[0] = begin_.law_rate;
+  int shortened = 0;
   while (true) {
     h = std::min(h, t_end - begin_.t);
     if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
@@ -131,11 +133,21 @@ bool TreeDopri5::step(double t_end) {
       end_ = stage_;
       end_.t = t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h;
       write(end_, end_state_);
+      if (const double share = borders_.first_crossing(end_state_); share < 1 - kBehindBorder && shortened++ < kMostShortened) {
+        ++counters_.rejected;
+        h *= share + 0.5 * kBehindBorder;
+        continue;
+      }
       end_state_.dissipated = begin_state_.dissipated + 0.5 * h * (begin_state_.loss_power + end_state_.loss_power);
       end_state_.supplied = begin_state_.supplied + 0.5 * h * (begin_state_.supply_power + end_state_.supply_power);
+      if (borders_.cross(end_state_)) {
+        end_.law_state = end_state_.law_state;
+        complete(end_);
+        write(end_, end_state_);
+      }
       raise_scale();
       ++counters_.steps;
-      h_ = h * factor;
+      h_ = shortened > 0 ? std::max(h_, h * factor) : h * factor;
       return true;
     }
     ++counters_.rejected;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "integrators/law_borders.h"
 #include "integrators/relative/tree_projector.h"
 #include "integrators/stepper.h"
 
@@ -34,6 +35,7 @@ class TreeDopri5 final : public Stepper {
   void raise_scale();
 
   const System& system_;
+  LawBorders borders_;
   std::unique_ptr<JointTree> tree_;
   double tolerance_, max_step_ = 0, h_ = 0;
   TreeInstant at_;

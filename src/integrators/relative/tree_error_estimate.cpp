@@ -134,9 +134,16 @@ void TreeRadau::finish_step(double h) {
   VectorXd w;
   projector_.balance(end_at_, last.accel, true, end_.force, w);
   nodes_.force.col(n_) = end_.force;
-  finish_end(w);
   control_.last = h;
   control_.have_history = true;
+  if (system_.has_branches()) {  // borders that the last bits have crossed
+    end_at_.find_switching(end_, search_.now());
+    if (end_at_.cross_borders(search_.start(), search_.now(), end_, end_state_.dissipated)) {
+      control_.have_history = false;
+      return balance_end();
+    }
+  }
+  finish_end(w);
 }
 
 // Coordinates and rates, each in one pass, and a second where the first has left more than rounding. Eq. (6.2).

@@ -65,6 +65,8 @@ void TreeRadau::step_over_event(double distance, const SwitchingEvent& event) {
   search_.step_over(event, distance, beyond, [this](double d, double* value) {
     const double half = 0.5 * d * d;
     end_.t += d;
+    end_state_.supplied += d * end_state_.supply_power;
+    end_state_.dissipated += d * end_state_.loss_power;
     end_.y += d * end_.u + half * end_.w;
     end_.u += d * end_.w;
     move_carried(d, end_);
@@ -78,6 +80,7 @@ void TreeRadau::cross_event(double distance, const SwitchingEvent& event) {
   const double before = end_.t;
   const std::vector<Planar::Motion> motions_before = end_at_.pose().m;
   step_over_event(distance, event);
+  end_at_.cross_borders(search_.start(), search_.beyond(), end_, end_state_.dissipated);
   leave_sliding(system_, end_.t, end_at_.pose().m, sliding_);
   balance_end();
   if (const auto jump = chattering_.crossed(system_, before, motions_before, end_.t, end_at_.pose().m, kAtOnce * control_.usual)) {

@@ -108,12 +108,21 @@ std::array<double, 2> TreeInstant::power(const TreeState& at) const {
 
 // Joints that coordinates obey have linear laws as a rule; a law with kinks among them is asked at a gap of zero.
 void TreeInstant::find_switching(const TreeState& at, double* value) {
+  spread_gaps(at);
+  system_.find_switching(t_, pose_.m, gap_, rate_, at.law_state, sliding(), value);
+}
+
+bool TreeInstant::cross_borders(const double* before, const double* after, TreeState& at, double& lost) {
+  spread_gaps(at);
+  return system_.cross_borders(t_, gap_, rate_, before, after, at.law_state, lost);
+}
+
+void TreeInstant::spread_gaps(const TreeState& at) {
   for (std::size_t l = 0; l < r_.size(); ++l) {
     const Eigen::Index i = 3 * static_cast<Eigen::Index>(l);
     gap_[tree_.laws()[l]] = at.gap.segment<3>(i);
     rate_[tree_.laws()[l]] = at.rate.segment<3>(i);
   }
-  system_.find_switching(t_, pose_.m, gap_, rate_, at.law_state, sliding(), value);
 }
 
 void TreeInstant::write(const TreeState& at, const VectorXd& w, State& state) {

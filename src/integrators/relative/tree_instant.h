@@ -67,12 +67,16 @@ class TreeInstant {
   std::array<double, 2> power(const TreeState& at) const;
   /// The system's switching functions at the carried gaps.
   void find_switching(const TreeState& at, double* value);
+  /// System::cross_borders at the carried gaps.
+  bool cross_borders(const double* before, const double* after, TreeState& at, double& lost);
 
   /// Everything of the state but its work, from what is carried; the instant must have been placed at `at`. Accelerations
   /// and the reactions of the tree's joints are those of u' = w.
   void write(const TreeState& at, const Eigen::VectorXd& w, State& state);
 
  private:
+  void spread_gaps(const TreeState& at);
+
   const System& system_;
   const JointTree& tree_;
   const std::vector<SlidingMode>* sliding_ = nullptr;

@@ -36,6 +36,8 @@ void read_settings(ModelReading& reading);    // the file's head, [simulate]
 void read_parameters(ModelReading& reading);  // first: every other value may use them
 void read_bodies(ModelReading& reading);      // [ground], [body]
 void read_joints(ModelReading& reading);      // [defaults.joint], [joint]
+/// Expressions "of joints" then read coordinates of joints, bodies and markers.
+void let_expressions_read_coordinates(ModelReading& reading);
 void read_loads(ModelReading& reading);       // [spring], [torsion_spring], [force]
 void read_motors(ModelReading& reading);      // [motor]
 void check_record(ModelReading& reading);     // simulate.record, once bodies and joints are known

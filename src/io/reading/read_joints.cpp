@@ -102,6 +102,11 @@ void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& 
   reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : fault.key, fault.why, fault.remedy);
 }
 
+// Which of its words a key has.
+double number_of_word(const KeyInfo& key, const std::vector<std::string>& words) {
+  return static_cast<double>(std::find(key.words.begin(), key.words.end(), words.front()) - key.words.begin());
+}
+
 void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record,
               const Record& defaults, LawChoice& choice) {
   choice.word = law.word;
@@ -114,7 +119,7 @@ void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& l
                              "delete it");
     }
     const Value* value = stated || !defaults.states(key.key) ? record.find(key.key) : defaults.find(key.key);
-    if (value != nullptr) choice.values[std::string(key.key)] = value->numbers;
+    if (value != nullptr) choice.values[std::string(key.key)] = key.words.empty() ? value->numbers : std::vector<double>{number_of_word(key, value->words)};
   }
   check_law(reading, type, law, record, choice);
 }
@@ -148,6 +153,9 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   if (friction != nullptr && joint.ideal)
     reading.complaints.add(record.spot("friction"), path + ".friction", '"' + friction_word + '"', "an ideal joint does not give way, so that nothing says what presses its surfaces together",
                            "ideal = false, or no friction");
+  if (friction != nullptr && law->rubs)
+    reading.complaints.add(record.spot("friction"), path + ".friction", '"' + friction_word + '"', "a joint with law \"" + std::string(law->word) + "\" has friction of its own, where the bodies touch",
+                           "friction_coefficient, and no friction");
   reading.model.joints.push_back(std::move(joint));
 }
 

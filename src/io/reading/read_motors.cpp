@@ -2,52 +2,12 @@
 
 #include <algorithm>
 
-#include "base/text/text_scanner.h"
-#include "base/units.h"
 #include "io/reading/model_reading.h"
 #include "io/text.h"
 #include "joints/catalog.h"
 
 namespace pintle {
 namespace {
-
-using Variables = std::vector<std::pair<std::string, Dimension>>;
-
-void add_joint(const std::string& name, const std::string& type_word, Variables& variables) {
-  const JointTypeInfo* type = find_joint_type(type_word);
-  if (type == nullptr || type->free.empty()) return;
-  for (const ComponentInfo& coordinate : type->free) {
-    variables.emplace_back(name + "." + std::string(coordinate.name), coordinate.angular ? kAngle : kLength);
-    variables.emplace_back(name + "." + std::string(coordinate.name) + "_rate", coordinate.angular ? kAngularSpeed : kLinearSpeed);
-  }
-  variables.emplace_back(name + ".rate", type->free.front().angular ? kAngularSpeed : kLinearSpeed);
-}
-
-// Every name before a dot in the text. Big models have many joints, so only those that are mentioned become variables.
-std::set<std::string> names_before_dots(std::string_view text) {
-  const auto in_name = [](char c) { return is_word_part(c) || c == '-'; };
-  std::set<std::string> names;
-  for (std::size_t dot = text.find('.'); dot != std::string_view::npos; dot = text.find('.', dot + 1)) {
-    std::size_t start = dot;
-    while (start > 0 && in_name(text[start - 1])) {
-      --start;
-      if (is_word_start(text[start])) names.emplace(text.substr(start, dot - start));
-    }
-  }
-  return names;
-}
-
-void add_mentioned_joints(const ModelReading& reading, std::string_view text, Variables& variables) {
-  constexpr std::size_t kFew = 100;
-  if (reading.type_of_joint.size() <= kFew) {  // all of them: suggestions for misspelt ones then work
-    for (const auto& [name, type] : reading.type_of_joint) add_joint(name, type, variables);
-    return;
-  }
-  for (const std::string& name : names_before_dots(text)) {
-    const auto it = reading.type_of_joint.find(name);
-    if (it != reading.type_of_joint.end()) add_joint(name, it->second, variables);
-  }
-}
 
 // The free coordinate that the motor acts on, "angle" or "slide"; "" after a complaint.
 std::string coordinate_of(ModelReading& reading, const Entry& entry, const std::string& path) {
@@ -134,9 +94,7 @@ void read_motor(ModelReading& reading, const Entry& entry, std::map<std::string,
 }  // namespace
 
 void read_motors(ModelReading& reading) {
-  reading.records.joint_variables = [&reading](std::string_view text, Variables& variables) {
-    add_mentioned_joints(reading, text, variables);
-  };
+  let_expressions_read_coordinates(reading);
   std::map<std::string, std::string> servo_of;
   for (const Entry& entry : section(reading, "motor").entries()) read_motor(reading, entry, servo_of);
 }

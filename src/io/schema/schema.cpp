@@ -152,6 +152,12 @@ KeySpec spec_of(const KeyInfo& info) {
     spec.fallback = Node{};
     spec.fallback->value = info.fallback;
   }
+  if (info.words.empty()) return spec;
+  spec.type = ValueType::kWord;
+  spec.type_word = "word";
+  spec.words.assign(info.words.begin(), info.words.end());
+  spec.minimum.reset();
+  if (!info.required) spec.fallback->value = spec.words[static_cast<std::size_t>(info.fallback)];
   return spec;
 }
 

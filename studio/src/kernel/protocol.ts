@@ -106,11 +106,13 @@ export interface CatalogKey {
   unit: string;
   meaning: string;
   /** Absent: the key must be stated, or is found otherwise. */
-  default?: number;
+  default?: number | string;
   /** Smallest value that is taken. */
   minimum?: number;
   /** A list of any length. */
   list?: boolean;
+  /** It is one of these. */
+  words?: readonly string[];
 }
 
 /** Joint types and laws, with what a form needs. */

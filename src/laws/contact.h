@@ -1,0 +1,97 @@
+// The normal force of two bodies in contact, from the depth d by which they overlap and its rate.
+//
+//   N = K d^n (1 + g d') + c d'          theory/contact Eq. (1.1)
+//   V = K d^(n+1) / (n+1)                Eq. (1.2)
+//   g = h / v                            Eq. (1.3)
+//
+// v is the approach speed: d' at the touch, kept for as long as they touch, and at least the floor. A state of the law, 0 while they are apart.
+// Where N < 0 the bodies would attract each other: N = 0 instead, and the elastic power left is lost, unless attraction is wanted.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "laws/law_math.h"
+
+namespace pintle {
+
+/// The coefficient of restitution e of a free impact with N = K d^n (1 + h d'/v), whatever K, n, mass and speed: the root of
+/// h (1 + e) = ln((1 + h) / (1 - h e)). theory/contact Eq. (2.3). For h >= 0 [-].
+double restitution_of(double hysteresis);
+/// The h that gives the restitution e, 0 < e <= 1; the inverse of restitution_of.
+double hysteresis_for(double restitution);
+
+/// How the published laws choose h from the restitution asked for.
+enum class ContactModel { kExact, kLankaraniNikravesh, kHuntCrossley, kFlores, kGonthier, kViscous };
+/// h of a model for a restitution 0 < e <= 1; kViscous has none. theory/contact Eqs. (2.4)-(2.7).
+double hysteresis_of(ContactModel model, double restitution);
+
+/// K of Hertz' contact of a cylinder's end or sphere of radius R_j in a hollow of radius R_b > R_j, or on a flat (infinite R_b), of one material
+/// [N/m^1.5]: 4/3 E/(2 (1 - nu^2)) sqrt(R_j R_b/(R_b - R_j)). As H. M. Lankarani and P. E. Nikravesh use it, ASME J. Mech. Des. 112 (1990) 369-376.
+double hertz_stiffness(double modulus, double poisson, double journal, double bearing);
+
+struct ContactForce {
+  double stiffness = 1e10;     // K [N/m^n]
+  double exponent = 1.5;       // n [-]
+  double hysteresis = 0;       // h [-]
+  double fixed_damping = 0;    // g, where it does not depend on the approach speed [s/m]
+  double viscous = 0;          // c [N*s/m]
+  double least_approach = 1e-3;  // floor of v [m/s]
+  bool attracts = false;
+
+  /// g of a contact that began with this approach speed.
+  template <class T>
+  T damping(const T& approach) const {
+    return T(fixed_damping) + law_math::divide(T(hysteresis), law_math::where_positive(approach - T(least_approach), approach, T(least_approach)));
+  }
+  /// N for d > 0.
+  template <class T>
+  T force(const T& depth, const T& rate, const T& approach) const {
+    using namespace law_math;
+    const T elastic = stiffness * pow(depth, exponent), whole = elastic * (T(1.0) + damping(approach) * rate) + viscous * rate;
+    return attracts ? whole : where_positive(whole, whole, T(0.0));
+  }
+  template <class T>
+  T elastic_force(const T& depth) const { return stiffness * law_math::pow(depth, exponent); }
+  template <class T>
+  T energy(const T& depth) const { return (stiffness / (exponent + 1)) * law_math::pow(depth, exponent + 1); }
+  /// Positive where the force is.
+  double pressing(double depth, double rate, double approach) const {
+    if (attracts) return 1;
+    if (viscous > 0) return depth + (viscous / stiffness) * rate;  // such contacts have n = 1 and no h
+    return 1 + damping(approach) * rate;
+  }
+  /// The borders of one contact whose approach speed is `approach`: the touch, the let-go, where the force vanishes although bodies overlap.
+  void borders(double depth, double rate, double approach, double* value) const {
+    const bool touching = approach > 0;
+    value[0] = touching ? -1 : depth;
+    value[1] = touching ? depth : 1;
+    value[2] = touching ? pressing(depth, rate, approach) : 1;
+  }
+  /// What becomes of the approach speed where that border has been crossed, at this rate.
+  void cross(int border, double rate, double& approach) const {
+    if (border == 0) approach = std::max(rate, least_approach);
+    if (border == 1) approach = 0;
+  }
+  /// The stiffness at a depth, for what only asks how stiff a joint is [N/m].
+  double stiffness_at(double depth) const { return stiffness * exponent * std::pow(depth, exponent - 1); }
+};
+
+/// Coulomb's friction on a ramp, J. A. C. Ambrosio, Impact of rigid and flexible multibody systems, in: Virtual Nonlinear Multibody Systems, NATO
+/// ASI (2002): none below a slip of v_0, in full above v_1. theory/contact Eq. (3.1).
+struct RampedFriction {
+  double coefficient = 0;        // mu [-]
+  double start = 0, end = 1e-3;  // v_0, v_1 [m/s]
+
+  /// -mu N c(|v|) sign(v) for a slip v.
+  template <class T>
+  T force(const T& normal, const T& slip) const {
+    using namespace law_math;
+    if (coefficient == 0) return T(0.0);
+    const T size = abs(slip), ramp = (1 / (end - start)) * (size - T(start));
+    const T share = where_positive(ramp, where_positive(ramp - T(1.0), T(1.0), ramp), T(0.0));
+    return where_positive(slip, -coefficient * (normal * share), coefficient * (normal * share));
+  }
+};
+
+}  // namespace pintle

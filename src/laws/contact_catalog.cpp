@@ -1,0 +1,122 @@
+// The catalog's entries of pins with clearance and of contact with an edge.
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <memory>
+
+#include "laws/catalog.h"
+#include "laws/catalog_parts.h"
+#include "laws/guide_contact.h"
+#include "laws/pin_contact.h"
+
+namespace pintle {
+namespace {
+
+constexpr std::array<std::string_view, 6> kModels{"exact", "lankarani-nikravesh", "hunt-crossley", "flores", "gonthier", "linear"};
+constexpr std::array<std::string_view, 2> kAttraction{"cut-off", "kept"};
+
+constexpr KeyInfo kClearance{.key = "clearance", .unit = "m", .minimum_exclusive = true, .required = true,
+                             .meaning = "radius of the bush less that of the pin; in a slot or guide the play to either side"};
+constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .minimum_exclusive = true, .meaning = "of the pin, which is on the second body; of a slider, at the edges of its ends"};
+constexpr KeyInfo kRollerRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .meaning = "of the pin or roller on the second body; 0: a point"};
+constexpr KeyInfo kModel{.key = "contact_model", .unit = "", .words = kModels,
+                         .meaning = "damping of the contact; only exact returns the restitution that is asked for, linear is a spring and a damper"};
+constexpr KeyInfo kRestitution{.key = "restitution", .unit = "", .fallback = 0.8, .minimum_exclusive = true, .meaning = "speed after a free impact over the speed before, at most 1"};
+constexpr KeyInfo kStiffness{.key = "contact_stiffness", .unit = "", .meaning = "force at a depth of 1 m [N/m^contact_exponent]; 0: Hertz' of elastic_modulus, pin_radius and clearance"};
+constexpr KeyInfo kExponent{.key = "contact_exponent", .unit = "", .fallback = 1.5, .minimum = 1, .meaning = "the force goes as the depth to this power; 1 in the linear model"};
+constexpr KeyInfo kModulus{.key = "elastic_modulus", .unit = "Pa", .fallback = 207e9, .minimum_exclusive = true, .meaning = "of pin and bush, where contact_stiffness is not stated"};
+constexpr KeyInfo kPoisson{.key = "poisson_ratio", .unit = "", .fallback = 0.3, .meaning = "the same"};
+constexpr KeyInfo kFixedDamping{.key = "damping_factor", .unit = "s/m", .meaning = "damping over elastic force and speed, instead of restitution and approach speed (Hunt and Crossley: 3/2 of their alpha)"};
+constexpr KeyInfo kViscous{.key = "contact_damping", .unit = "N*s/m", .meaning = "of the linear model"};
+constexpr KeyInfo kLeastApproach{.key = "least_approach_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "floor of the approach speed, and what stands for it in a contact that the run starts with"};
+constexpr KeyInfo kAttracts{.key = "attraction", .unit = "", .words = kAttraction, .meaning = "where the damping would make the force pull: no force, or the formula as it stands"};
+constexpr KeyInfo kFriction{.key = "friction_coefficient", .unit = "", .meaning = "of the pin's surface along the other one"};
+constexpr KeyInfo kRampStart{.key = "friction_start_speed", .unit = "m/s", .meaning = "slip below which there is no friction"};
+constexpr KeyInfo kRampEnd{.key = "friction_full_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip above which there is all of it"};
+
+constexpr KeyInfo kGuideLength{.key = "guide_length", .unit = "m", .fallback = 0.05, .minimum_exclusive = true, .meaning = "of a slider: between its two ends, which touch the guide"};
+
+constexpr std::array<KeyInfo, 16> kClearanceKeys{{kClearance, kPinRadius, kGuideLength, kModel, kRestitution, kStiffness, kExponent, kModulus, kPoisson, kFixedDamping, kViscous, kLeastApproach, kAttracts,
+                                                  kFriction, kRampStart, kRampEnd}};
+constexpr std::array<KeyInfo, 14> kEdgeKeys{{kRollerRadius, kModel, kRestitution, kStiffness, kExponent, kModulus, kPoisson, kFixedDamping, kViscous, kLeastApproach, kAttracts,
+                                             kFriction, kRampStart, kRampEnd}};
+
+constexpr std::array<std::string_view, 3> kWithClearance{"revolute", "slot", "prismatic"};
+constexpr std::array<std::string_view, 1> kOnEdge{"slot"};
+
+constexpr double kFlat = std::numeric_limits<double>::infinity();
+
+ContactModel model_of(const LawSetting& at) { return static_cast<ContactModel>(static_cast<int>(at.number("contact_model"))); }
+
+LawFault contact_fault(const LawSetting& at) {
+  const double restitution = at.number("restitution"), start = at.number("friction_start_speed"), end = at.number("friction_full_speed");
+  if (restitution > 1) return {"restitution", fmt::format("{:g} is above 1: every impact would gain energy", restitution), "a value between 0 and 1, such as 0.8"};
+  if (!(end > start)) return {"friction_full_speed", fmt::format("{:g} m/s is not above friction_start_speed, {:g} m/s", end, start), "a larger speed"};
+  const double poisson = at.number("poisson_ratio");
+  if (poisson > 0.5) return {"poisson_ratio", fmt::format("{:g} is above 0.5, that of what keeps its volume", poisson), "0.3 for metals"};
+  const bool linear = model_of(at) == ContactModel::kViscous, stated = at.number("contact_stiffness") > 0;
+  if (linear && !stated) return {"contact_model", "the linear model has no stiffness from elastic_modulus", "state contact_stiffness in N/m"};
+  if (!linear && at.number("contact_damping") > 0) return {"contact_damping", "it is the damper of the linear model only", "contact_model = \"linear\", or restitution instead"};
+  if (at.joint_type != "revolute" && !stated && !(at.number("pin_radius") > 0)) return {"pin_radius", "a point has no Hertzian stiffness", "a radius, or contact_stiffness"};
+  return {};
+}
+
+// bearing: the radius that the pin's surface lies in.
+ContactForce contact_of(const LawSetting& at, double bearing) {
+  const ContactModel model = model_of(at);
+  const bool linear = model == ContactModel::kViscous;
+  ContactForce contact;
+  contact.stiffness = at.number("contact_stiffness");
+  if (!(contact.stiffness > 0)) contact.stiffness = hertz_stiffness(at.number("elastic_modulus"), at.number("poisson_ratio"), at.number("pin_radius"), bearing);
+  contact.exponent = linear ? 1 : at.number("contact_exponent");
+  contact.fixed_damping = linear ? 0 : at.number("damping_factor");
+  contact.hysteresis = linear || contact.fixed_damping > 0 ? 0 : hysteresis_of(model, at.number("restitution"));
+  contact.viscous = linear ? at.number("contact_damping") : 0;
+  contact.least_approach = at.number("least_approach_speed");
+  contact.attracts = at.number("attraction") > 0;
+  return contact;
+}
+
+RampedFriction friction_of(const LawSetting& at) { return {at.number("friction_coefficient"), at.number("friction_start_speed"), at.number("friction_full_speed")}; }
+
+void set_contact(const LawSetting& at, PinContact& law) {
+  law.radius = at.number("pin_radius");
+  law.clearance = at.number("clearance");
+  law.contact = contact_of(at, law.shape == PinContact::Shape::kBush ? law.radius + law.clearance : kFlat);
+  law.friction = friction_of(at);
+}
+
+void make_clearance(const LawSetting& at, Law& law) {
+  if (at.held[2]) {
+    GuideContactLaw guide;
+    guide.clearance = at.number("clearance");
+    guide.length = at.number("guide_length");
+    guide.contact = contact_of(at, kFlat);
+    guide.friction = friction_of(at);
+    law.add(std::make_unique<LawPartOf<GuideContactLaw>>(guide));
+    return;
+  }
+  ClearanceLaw contact;
+  contact.shape = at.held[0] ? PinContact::Shape::kBush : PinContact::Shape::kSlot;
+  set_contact(at, contact);
+  law.add(std::make_unique<LawPartOf<ClearanceLaw>>(contact));
+}
+
+void make_edge(const LawSetting& at, Law& law) {
+  EdgeContactLaw contact;
+  contact.shape = PinContact::Shape::kEdge;
+  set_contact(at, contact);
+  law.add(std::make_unique<LawPartOf<EdgeContactLaw>>(contact));
+}
+
+}  // namespace
+
+void add_contact_laws(std::vector<LawInfo>& all) {
+  all.push_back({.word = "clearance", .meaning = "a pin with clearance in its bush or slot, a slider with clearance in its guide: free flight, impact, contact with friction and wear", .keys = kClearanceKeys,
+                 .rubs = true, .joints = kWithClearance, .make = make_clearance, .fault = contact_fault});
+  all.push_back({.word = "contact", .meaning = "a pin or roller (second) on one side of a straight edge, the first marker's axis: stops, feet, wheels; it presses along +y and does not pull", .keys = kEdgeKeys,
+                 .rubs = true, .joints = kOnEdge, .make = make_edge, .fault = contact_fault});
+}
+
+}  // namespace pintle

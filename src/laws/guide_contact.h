@@ -1,0 +1,114 @@
+// A slider with clearance in its guide, which it touches with its two ends: it may move across, tilt, and lie on both walls.
+//
+//   x_i = x + l_i cos a,  y_i = y + l_i sin a,  l = (L/2, -L/2)      theory/contact Eq. (4.4)
+//   d_i = |y_i| - c,  n_i = sign y_i,  v_i = x_i'                    Eq. (4.5)
+//
+// Each end has a contact of its own, with its own approach speed as a state; force and friction push at that point.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <string_view>
+
+#include "laws/contact.h"
+#include "laws/law_part.h"
+
+namespace pintle {
+
+struct GuideContactLaw {
+  static constexpr std::string_view kWord = "clearance";
+  ContactForce contact;
+  RampedFriction friction;
+  double clearance = 1e-4;  // c, to either side [m]
+  double length = 0.05;     // L, between the ends [m]
+
+  static GuideContactLaw typical() {
+    GuideContactLaw law;
+    law.contact.stiffness = 1e9;
+    law.contact.hysteresis = hysteresis_for(0.7);
+    law.friction.coefficient = 0.15;
+    law.clearance = 2e-4;
+    return law;
+  }
+
+  int n_states() const { return kEnds; }
+  template <class T>
+  void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
+    using namespace law_math;
+    const T none(0.0), apart(-1.0);
+    for (int i = 0; i < kEnds; ++i) {
+      const End<T> end = find(in, i);
+      const T touching = where_positive(in.state[i], end.depth, apart), depth = where_positive(touching, end.depth, none);
+      const T normal = where_positive(touching, contact.force(depth, end.rate, in.state[i]), none), rubbing = friction.force(normal, end.slip);
+      const T across = -(normal * end.side);
+      out.force[0] += rubbing;
+      out.force[1] += across;
+      out.force[2] += end.arm_x * across - end.arm_y * rubbing;
+      out.energy += contact.energy(depth);
+      out.loss += (normal - contact.elastic_force(depth)) * end.rate - rubbing * end.slip;
+    }
+  }
+  void rest(const LawInput<double>& in, double* state) const {
+    for (int i = 0; i < kEnds; ++i) state[i] = find(in, i).depth > 0 ? contact.least_approach : 0;
+  }
+
+  int n_borders() const { return 3 * kEnds; }
+  static constexpr std::array<int, 6> kDirections{1, -1, 0, 1, -1, 0};
+  std::span<const int> border_directions() const { return kDirections; }
+  void borders(const LawInput<double>& in, double* value) const {
+    for (int i = 0; i < kEnds; ++i) {
+      const End<double> end = find(in, i);
+      contact.borders(end.depth, end.rate, in.state[i], value + 3 * i);
+    }
+  }
+  void cross(int border, const LawInput<double>& in, double* state) const {
+    const int i = border / 3;
+    contact.cross(border % 3, find(in, i).rate, state[i]);
+  }
+
+  Planar::Vec engaged_stiffness() const {
+    const double k = contact.stiffness_at(0.1 * clearance);
+    return {0, 2 * k, 0.5 * k * length * length};
+  }
+  std::span<const LawColumn> columns() const {
+    static const std::array<LawColumn, 5> all{{{"contact_force_front", "N", "normal force at the end ahead, along the guide's axis"},
+                                               {"contact_force_rear", "N", "normal force at the other end"},
+                                               {"penetration_front", "m", "depth by which the end ahead overlaps a wall; negative while apart"},
+                                               {"penetration_rear", "m", "the same of the other end"},
+                                               {"wear_power", "W", "normal forces times speeds of slip"}}};
+    return all;
+  }
+  void observe(const LawInput<double>& in, const Planar::Vec&, double* value) const {
+    value[4] = 0;
+    for (int i = 0; i < kEnds; ++i) {
+      const End<double> end = find(in, i);
+      value[i] = in.state[i] > 0 && end.depth > 0 ? contact.force(end.depth, end.rate, in.state[i]) : 0;
+      value[2 + i] = end.depth;
+      value[4] += value[i] * std::abs(end.slip);
+    }
+  }
+
+ private:
+  static constexpr int kEnds = 2;
+  template <class T>
+  struct End {
+    T depth, rate, slip, side, arm_x, arm_y;
+  };
+  template <class T>
+  End<T> find(const LawInput<T>& in, int i) const {
+    using namespace law_math;
+    const double reach = i == 0 ? 0.5 * length : -0.5 * length;
+    End<T> end;
+    end.arm_x = reach * cos(in.gap[2]);
+    end.arm_y = reach * sin(in.gap[2]);
+    const T y = in.gap[1] + end.arm_y;
+    end.side = where_positive(y, T(1.0), T(-1.0));
+    end.depth = abs(y) - T(clearance);
+    end.rate = end.side * (in.rate[1] + end.arm_x * in.rate[2]);
+    end.slip = in.rate[0] - end.arm_y * in.rate[2];
+    return end;
+  }
+};
+
+}  // namespace pintle

@@ -1,0 +1,138 @@
+// A pin that touches what is around or below it: a bush with clearance, the two walls of a slot, one edge.
+//
+//   bush:  d = |p| - c,  n = p/|p|        p = (x, y), the pin's centre as seen from the bush        theory/contact Eq. (4.1)
+//   slot:  d = |y| - c,  n = (0, sign y)
+//   edge:  d = R - y,    n = (0, -1)
+//   d' = n . p',  v_t = t . p' + R w,  t = (-n_y, n_x)                                             Eq. (4.2)
+//   on the second body: force -N n + F_t t, couple R F_t; F_t against the slip v_t                 Eq. (4.3)
+//
+// The pin, of radius R, is on the second body. Force and slip are those of one point, at the pin's surface, so that nothing is missing in the
+// balance of moments. Its state is the approach speed while they touch, 0 while they are apart; touch and let-go are borders.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <string_view>
+
+#include "laws/contact.h"
+#include "laws/law_part.h"
+
+namespace pintle {
+
+struct PinContact {
+  enum class Shape { kBush, kSlot, kEdge };
+  Shape shape = Shape::kBush;
+  ContactForce contact;
+  RampedFriction friction;
+  double clearance = 1e-4;  // c, radial, or to either side [m]
+  double radius = 0.01;     // R [m]
+
+  int n_states() const { return 1; }
+  template <class T>
+  void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
+    using namespace law_math;
+    const T none(0.0), apart(-1.0);
+    const At<T> at = find(in);
+    const T touching = where_positive(in.state[0], at.depth, apart), depth = where_positive(touching, at.depth, none);
+    const T normal = where_positive(touching, contact.force(depth, at.rate, in.state[0]), none);
+    const T rubbing = friction.force(normal, at.slip);
+    out.force[0] = -(normal * at.nx) - rubbing * at.ny;
+    out.force[1] = -(normal * at.ny) + rubbing * at.nx;
+    out.force[2] = radius * rubbing;
+    out.energy = contact.energy(depth);
+    out.loss = (normal - contact.elastic_force(depth)) * at.rate - rubbing * at.slip;
+  }
+  /// One that starts in contact has not approached: the floor stands for its speed.
+  void rest(const LawInput<double>& in, double* state) const { state[0] = find(in).depth > 0 ? contact.least_approach : 0; }
+
+  int n_borders() const { return 3; }
+  static constexpr std::array<int, 3> kDirections{1, -1, 0};
+  std::span<const int> border_directions() const { return kDirections; }
+  void borders(const LawInput<double>& in, double* value) const {
+    const At<double> at = find(in);
+    contact.borders(at.depth, at.rate, in.state[0], value);
+  }
+  void cross(int border, const LawInput<double>& in, double* state) const { contact.cross(border, find(in).rate, state[0]); }
+
+  double lever() const { return friction.coefficient > 0 ? radius : 0; }
+  Planar::Vec engaged_stiffness() const {
+    const double k = contact.stiffness_at(shape == Shape::kEdge ? 1e-2 * radius : 0.1 * clearance);
+    return {shape == Shape::kBush ? k : 0, k, 0};
+  }
+  std::span<const LawColumn> columns() const {
+    static const std::array<LawColumn, 6> all{{{"contact_force", "N", "normal force of the contact"},
+                                               {"penetration", "m", "depth by which the surfaces overlap; negative while they are apart"},
+                                               {"contact_angle", "rad", "direction of the contact's normal, from the x axis of the first marker"},
+                                               {"approach_speed", "m/s", "speed at which this contact began; 0 while apart"},
+                                               {"slip", "m/s", "speed of the pin's surface along the other one"},
+                                               {"wear_power", "W", "normal force times speed of slip: its integral is what Archard's law multiplies"}}};
+    return all;
+  }
+  void observe(const LawInput<double>& in, const Planar::Vec&, double* value) const {
+    const At<double> at = find(in);
+    const bool touching = in.state[0] > 0 && at.depth > 0;
+    value[0] = touching ? contact.force(at.depth, at.rate, in.state[0]) : 0;
+    value[1] = at.depth;
+    value[2] = std::atan2(at.ny, at.nx);
+    value[3] = in.state[0];
+    value[4] = at.slip;
+    value[5] = value[0] * std::abs(at.slip);
+  }
+
+ private:
+  template <class T>
+  struct At {
+    T depth, rate, slip, nx, ny;
+  };
+  template <class T>
+  At<T> find(const LawInput<T>& in) const {
+    using namespace law_math;
+    const T none(0.0), one(1.0);
+    At<T> at;
+    if (shape == Shape::kEdge) {
+      at.nx = none;
+      at.ny = -one;
+      at.depth = T(radius) - in.gap[1];
+    } else {
+      const T x = shape == Shape::kBush ? in.gap[0] : none, y = in.gap[1];
+      const T distance = sqrt(x * x + y * y), least = T(kCentred * clearance);  // no direction in the centre, and no force
+      const T size = where_positive(distance - least, distance, least);
+      at.nx = divide(x, size);
+      at.ny = divide(y, size);
+      at.depth = distance - T(clearance);
+    }
+    at.rate = at.nx * in.rate[0] + at.ny * in.rate[1];
+    at.slip = at.nx * in.rate[1] - at.ny * in.rate[0] + radius * in.rate[2];
+    return at;
+  }
+  static constexpr double kCentred = 1e-6;
+};
+
+struct ClearanceLaw : PinContact {
+  static constexpr std::string_view kWord = "clearance";
+
+  static ClearanceLaw typical() {
+    ClearanceLaw law;
+    law.contact.stiffness = 1e9;
+    law.contact.hysteresis = hysteresis_for(0.8);
+    law.friction.coefficient = 0.1;
+    law.clearance = 2e-4;
+    return law;
+  }
+};
+
+struct EdgeContactLaw : PinContact {
+  static constexpr std::string_view kWord = "contact";
+
+  static EdgeContactLaw typical() {
+    EdgeContactLaw law;
+    law.shape = Shape::kEdge;
+    law.contact.stiffness = 1e8;
+    law.contact.hysteresis = hysteresis_for(0.6);
+    law.friction.coefficient = 0.2;
+    return law;
+  }
+};
+
+}  // namespace pintle
