@@ -8,7 +8,6 @@
 
 #include "laws/bushing.h"
 #include "laws/catalog_parts.h"
-#include "laws/lugre.h"
 #include "laws/maxwell.h"
 #include "laws/tension.h"
 
@@ -57,20 +56,8 @@ constexpr std::array<KeyInfo, 6> kMaxwellKeys{{
     {.key = "branch_time", .unit = "s", .minimum_exclusive = true, .required = true, .list = true, .meaning = "time in which the force of each branch falls to 1/e, a list as long"},
 }};
 
-constexpr std::array<KeyInfo, 8> kLuGreKeys{{
-    {.key = "friction_coefficient", .unit = "", .fallback = 0.1, .minimum_exclusive = true, .meaning = "kinetic friction: of steady fast slip"},
-    {.key = "static_friction", .unit = "", .fallback = 0.15, .minimum_exclusive = true, .meaning = "coefficient at which slip begins; not below the kinetic one"},
-    {.key = "pin_radius", .unit = "m", .fallback = 0.01, .minimum_exclusive = true, .meaning = "where a pin rubs"},
-    {.key = "stribeck_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip at which friction has fallen most of the way to kinetic"},
-    {.key = "bristle_stiffness", .unit = "m^-1", .fallback = 1e5, .minimum_exclusive = true, .meaning = "friction before slip, per displacement and load; slip begins at static_friction over this"},
-    {.key = "bristle_damping", .unit = "s/m", .fallback = 10, .meaning = "the same per rate of the bristles"},
-    {.key = "viscous_friction", .unit = "s/m", .meaning = "friction per slip speed and load"},
-    {.key = "friction_preload", .unit = "N", .meaning = "presses the surfaces together besides the joint's own force"},
-}};
-
 constexpr std::array<std::string_view, 4> kPoseJoints{"revolute", "prismatic", "fixed", "slot"};
 constexpr std::array<std::string_view, 7> kTwoSided{"revolute", "prismatic", "fixed", "slot", "rod", "gear", "rack"};
-constexpr std::array<std::string_view, 2> kRubbing{"revolute", "prismatic"};
 
 // A rope's spring and damper pull only.
 void make_linear(const LawSetting& at, Law& law) {
@@ -152,36 +139,13 @@ void make_maxwell(const LawSetting& at, Law& law) {
   law.add(std::make_unique<LawPartOf<MaxwellLaw>>(maxwell));
 }
 
-LawFault lugre_fault(const LawSetting& at) {
-  if (at.number("static_friction") >= at.number("friction_coefficient")) return {};
-  return {"static_friction", fmt::format("{:g} is below the kinetic coefficient of {:g}: what slips would be held more firmly than what rests", at.number("static_friction"), at.number("friction_coefficient")),
-          "static_friction not below friction_coefficient"};
-}
-
-void make_lugre(const LawSetting& at, Law& law) {
-  LuGreLaw friction;
-  const bool pin = at.free[2];
-  friction.free = pin ? 2 : 0;
-  friction.pressing = pin ? std::array<double, 3>{1, 1, 0} : std::array<double, 3>{0, 1, 0};
-  friction.radius = pin ? at.number("pin_radius") : 1;
-  friction.kinetic = at.number("friction_coefficient");
-  friction.stuck = at.number("static_friction");
-  friction.stribeck = at.number("stribeck_speed");
-  friction.bristle_stiffness = at.number("bristle_stiffness");
-  friction.bristle_damping = at.number("bristle_damping");
-  friction.viscous = at.number("viscous_friction");
-  friction.preload = at.number("friction_preload");
-  law.add(std::make_unique<LawPartOf<LuGreLaw>>(friction));
-}
-
 std::vector<LawInfo> own_laws() {
   std::vector<LawInfo> all{
       {.word = "linear", .meaning = "a spring and a damper in each forbidden displacement (the paper's axioms)", .keys = kLinearKeys, .stiffens = true, .make = make_linear},
       {.word = "bushing", .meaning = "full matrices of stiffness and damping, with a preload and a rest position of its own", .keys = kBushingKeys, .joints = kPoseJoints, .make = make_bushing, .fault = bushing_fault},
       {.word = "maxwell", .meaning = "rubber: a spring, a damper, and branches of both in series that relax", .keys = kMaxwellKeys, .joints = kTwoSided, .make = make_maxwell, .fault = maxwell_fault},
-      {.word = "lugre", .meaning = "dry friction of what the joint leaves free, pressed by the joint's own force (LuGre: bristles, stiction, Stribeck)", .keys = kLuGreKeys,
-       .role = LawRole::kFriction, .joints = kRubbing, .make = make_lugre, .fault = lugre_fault},
   };
+  add_friction_laws(all);
   add_contact_laws(all);
   return all;
 }

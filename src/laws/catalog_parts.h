@@ -7,6 +7,8 @@
 
 namespace pintle {
 
+/// Dry friction.
+void add_friction_laws(std::vector<LawInfo>& all);
 /// Clearance and contact.
 void add_contact_laws(std::vector<LawInfo>& all);
 

@@ -15,6 +15,7 @@ double value_of(const Dual<M>& x) { return x.v; }
 inline double abs(double x) { return std::abs(x); }
 inline double sqrt(double x) { return std::sqrt(x); }
 inline double exp(double x) { return std::exp(x); }
+inline double tanh(double x) { return std::tanh(x); }
 inline double sin(double x) { return std::sin(x); }
 inline double cos(double x) { return std::cos(x); }
 /// For x >= 0 and p > 1.
@@ -35,6 +36,11 @@ template <int M>
 Dual<M> exp(const Dual<M>& x) {
   const double e = std::exp(x.v);
   return Dual<M>::scaled(e, e, x);
+}
+template <int M>
+Dual<M> tanh(const Dual<M>& x) {
+  const double y = std::tanh(x.v);
+  return Dual<M>::scaled(y, 1 - y * y, x);
 }
 template <int M>
 Dual<M> sin(const Dual<M>& x) { return Dual<M>::scaled(std::sin(x.v), std::cos(x.v), x); }
@@ -62,6 +68,8 @@ template <int N>
 Lanes<N> sqrt(const Lanes<N>& x) { return each(x, [](double v) { return std::sqrt(v); }); }
 template <int N>
 Lanes<N> exp(const Lanes<N>& x) { return each(x, [](double v) { return std::exp(v); }); }
+template <int N>
+Lanes<N> tanh(const Lanes<N>& x) { return each(x, [](double v) { return std::tanh(v); }); }
 template <int N>
 Lanes<N> sin(const Lanes<N>& x) { return each(x, [](double v) { return std::sin(v); }); }
 template <int N>

@@ -10,12 +10,15 @@
 #include <string>
 
 #include "base/random_for_tests.h"
+#include "laws/brown_mcphee.h"
 #include "laws/bushing.h"
 #include "laws/catalog.h"
+#include "laws/coulomb.h"
 #include "laws/guide_contact.h"
 #include "laws/lugre.h"
 #include "laws/maxwell.h"
 #include "laws/pin_contact.h"
+#include "laws/stribeck.h"
 #include "laws/tension.h"
 
 namespace pintle {
@@ -50,6 +53,18 @@ struct ClutchLaw {
   void borders(const LawInput<double>& in, double* value) const { value[0] = in.gap[0]; }
 };
 
+// A slider whose moment presses the edges of its guide.
+struct LuGreGuide : LuGreLaw {
+  static LuGreGuide typical() {
+    LuGreGuide law;
+    law.free = 0;
+    law.radius = 1;
+    law.guide = 0.05;
+    law.preload = 3;
+    return law;
+  }
+};
+
 struct Point {
   Vec gap, rate, before;
   std::array<double, kMostLawStates> state{};
@@ -69,7 +84,7 @@ Point random_point(Random& random) {
 // The law beside a spring that presses, so that friction has something to rub on.
 template <class P>
 Law pressed(const P& part) {
-  Law law(LinearLaw{{1e6, 2e6, 0}, {10, 20, 0}});
+  Law law(LinearLaw{{1e6, 2e6, 3e3}, {10, 20, 0.5}});
   law.add(std::make_unique<LawPartOf<P>>(part));
   return law;
 }
@@ -88,7 +103,7 @@ class AnyLaw : public testing::Test {
     return !std::equal(before.begin(), before.end(), after.begin(), [](double x, double y) { return (x > 0) == (y > 0); });
   }
 };
-using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, ClearanceLaw, EdgeContactLaw, GuideContactLaw, ClutchLaw>;
+using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GuideContactLaw, ClutchLaw>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 
 // Across a border that the law declares there is no difference quotient; anywhere else there must be.

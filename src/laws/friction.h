@@ -1,0 +1,70 @@
+// What the laws of friction in joints have in common: what slips, what presses, and what is told of it.
+//
+//   v = r w (pins) or the rate of the slide;      N = |reaction| + N_0                             theory/joints Eq. (3.14)
+//   a slide with a guide:  N = |F/2 + M/L| + |F/2 - M/L| + N_0 = max(|F|, 2 |M|/L) + N_0           Eq. (3.15)
+//
+// F is the force across a slide and M its moment about the second marker, the middle of the guide: they press its edges, both on the
+// same side or one on either side. The reaction is that of the laws before this one in the same joint.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "laws/law_math.h"
+#include "laws/law_part.h"
+
+namespace pintle {
+
+struct Friction {
+  static constexpr bool kHolds = false;
+  int free = 2;                      // component that slips: 2 of a pin, 0 of a slide
+  double radius = 0.01;              // of the pin [m]; 1 for slides
+  double guide = 0;                  // length L of a slide's guide [m]; 0: its moment does not press
+  double preload = 0;                // N_0 [N]
+  double kinetic = 0.1, stuck = 0.15;  // coefficients [-]
+  double viscous = 0;                // friction per slip speed and load [s/m]
+
+  template <class T>
+  T slip(const LawInput<T>& in) const { return radius * in.rate[free]; }
+
+  /// N.
+  template <class T>
+  T load(const LawInput<T>& in) const {
+    using namespace law_math;
+    const T* f = in.before;
+    if (free == 2) return T(preload) + sqrt(f[0] * f[0] + f[1] * f[1]);                                       // (3.14)
+    if (!(guide > 0)) return T(preload) + abs(f[1]);
+    const T half = 0.5 * f[1], edge = (1 / guide) * f[2];
+    return T(preload) + abs(half + edge) + abs(half - edge);                                                  // (3.15)
+  }
+
+  /// Fills `out` with a friction F against the slip.
+  template <class T>
+  void rub(const T& friction, const T& slip, LawOutput<T>& out) const {
+    out.force[free] = -radius * friction;
+    out.loss = friction * slip;
+  }
+
+  double lever() const { return free == 2 ? radius : 0; }
+  std::span<const LawColumn> columns() const {
+    static const std::array<LawColumn, 2> pin{{{"friction", "N*m", "moment of friction on the second body"}, {"friction_power", "W", "power that friction turns into heat"}}};
+    static const std::array<LawColumn, 2> slide{{{"friction", "N", "force of friction on the second body, along the slide"}, {"friction_power", "W", "power that friction turns into heat"}}};
+    return free == 2 ? pin : slide;
+  }
+  /// Nothing else acts in the direction that is left free.
+  void observe(const LawInput<double>& in, const Planar::Vec& force, double* value) const {
+    value[0] = force[free];
+    value[1] = -force[free] * in.rate[free];
+  }
+
+ protected:
+  /// Coefficient of steady slip that falls from the static one to the kinetic one with the speed over that of Stribeck (squared). Eq. (3.12)
+  template <class T>
+  T stribeck_coefficient(const T& v, double stribeck) const {
+    const T relative = (1 / stribeck) * v;
+    return T(kinetic) + (stuck - kinetic) * law_math::exp(-(relative * relative));
+  }
+};
+
+}  // namespace pintle

@@ -1,0 +1,117 @@
+// The catalog's entries of dry friction.
+#include <array>
+#include <fmt/format.h>
+#include <memory>
+
+#include "laws/brown_mcphee.h"
+#include "laws/catalog_parts.h"
+#include "laws/coulomb.h"
+#include "laws/lugre.h"
+#include "laws/stribeck.h"
+
+namespace pintle {
+namespace {
+
+// Of friction by any law.
+constexpr KeyInfo kKinetic{.key = "friction_coefficient", .unit = "", .fallback = 0.1, .minimum_exclusive = true, .meaning = "kinetic friction: of steady fast slip"};
+constexpr KeyInfo kStatic{.key = "static_friction", .unit = "", .fallback = 0.15, .minimum_exclusive = true, .meaning = "coefficient at which slip begins; not below the kinetic one"};
+constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .minimum_exclusive = true, .meaning = "where a pin rubs"};
+constexpr KeyInfo kGuide{.key = "guide_length", .unit = "m", .meaning = "of a slider, centred on the second marker: its moment presses the edges; 0: only the force across does"};
+constexpr KeyInfo kStribeck{.key = "stribeck_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip at which friction has fallen most of the way to kinetic"};
+constexpr KeyInfo kViscous{.key = "viscous_friction", .unit = "s/m", .meaning = "friction per slip speed and load"};
+constexpr KeyInfo kPreload{.key = "friction_preload", .unit = "N", .meaning = "presses the surfaces together besides the joint's own force"};
+
+constexpr std::array<KeyInfo, 9> kLuGreKeys{{
+    kKinetic, kStatic, kPinRadius, kGuide, kStribeck,
+    {.key = "bristle_stiffness", .unit = "m^-1", .fallback = 1e5, .minimum_exclusive = true, .meaning = "friction before slip, per displacement and load; slip begins at static_friction over this"},
+    {.key = "bristle_damping", .unit = "s/m", .fallback = 10, .meaning = "the same per rate of the bristles"},
+    kViscous, kPreload,
+}};
+
+constexpr std::array<KeyInfo, 8> kCoulombKeys{{
+    kKinetic, kStatic, kPinRadius, kGuide,
+    {.key = "stick_stiffness", .unit = "N/m", .fallback = 1e8, .minimum_exclusive = true, .meaning = "friction before slip, per displacement where it rubs"},
+    {.key = "stick_damping", .unit = "N*s/m", .fallback = 3e3, .meaning = "the same per speed"},
+    kViscous, kPreload,
+}};
+
+constexpr std::array<KeyInfo, 7> kBrownMcPheeKeys{{
+    kKinetic, kStatic, kPinRadius, kGuide,
+    {.key = "transition_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip at which friction is largest; below it a joint creeps that should stick"},
+    kViscous, kPreload,
+}};
+
+constexpr std::array<KeyInfo, 8> kStribeckKeys{{
+    kKinetic, kStatic, kPinRadius, kGuide, kStribeck,
+    {.key = "transition_speed", .unit = "m/s", .fallback = 1e-4, .minimum_exclusive = true, .meaning = "friction rises with tanh(slip / transition_speed); about this fast a joint creeps that should stick"},
+    kViscous, kPreload,
+}};
+
+constexpr std::array<std::string_view, 2> kRubbing{"revolute", "prismatic"};
+
+LawFault friction_fault(const LawSetting& at) {
+  if (at.number("static_friction") < at.number("friction_coefficient"))
+    return {"static_friction", fmt::format("{:g} is below the kinetic coefficient of {:g}: what slips would be held more firmly than what rests", at.number("static_friction"), at.number("friction_coefficient")),
+            "static_friction not below friction_coefficient"};
+  if (at.free[2] && at.number("guide_length") > 0) return {"guide_length", "a pin transmits no moment that could press the edges of a guide", "delete it"};
+  return {};
+}
+
+// What its law has in common with others.
+void set_friction(const LawSetting& at, Friction& friction) {
+  const bool pin = at.free[2];
+  friction.free = pin ? 2 : 0;
+  friction.radius = pin ? at.number("pin_radius") : 1;
+  friction.guide = pin ? 0 : at.number("guide_length");
+  friction.preload = at.number("friction_preload");
+  friction.kinetic = at.number("friction_coefficient");
+  friction.stuck = at.number("static_friction");
+  friction.viscous = at.number("viscous_friction");
+}
+
+void make_lugre(const LawSetting& at, Law& law) {
+  LuGreLaw friction;
+  set_friction(at, friction);
+  friction.stribeck = at.number("stribeck_speed");
+  friction.bristle_stiffness = at.number("bristle_stiffness");
+  friction.bristle_damping = at.number("bristle_damping");
+  law.add(std::make_unique<LawPartOf<LuGreLaw>>(friction));
+}
+
+void make_coulomb(const LawSetting& at, Law& law) {
+  CoulombLaw friction;
+  set_friction(at, friction);
+  friction.stiffness = at.number("stick_stiffness");
+  friction.damping = at.number("stick_damping");
+  law.add(std::make_unique<LawPartOf<CoulombLaw>>(friction));
+}
+
+void make_brown_mcphee(const LawSetting& at, Law& law) {
+  BrownMcPheeLaw friction;
+  set_friction(at, friction);
+  friction.transition = at.number("transition_speed");
+  law.add(std::make_unique<LawPartOf<BrownMcPheeLaw>>(friction));
+}
+
+void make_stribeck(const LawSetting& at, Law& law) {
+  StribeckLaw friction;
+  set_friction(at, friction);
+  friction.stribeck = at.number("stribeck_speed");
+  friction.transition = at.number("transition_speed");
+  law.add(std::make_unique<LawPartOf<StribeckLaw>>(friction));
+}
+
+LawInfo entry(std::string_view word, std::string_view meaning, std::span<const KeyInfo> keys, void (*make)(const LawSetting&, Law&)) {
+  return {.word = word, .meaning = meaning, .keys = keys, .role = LawRole::kFriction, .joints = kRubbing, .make = make, .fault = friction_fault};
+}
+
+}  // namespace
+
+void add_friction_laws(std::vector<LawInfo>& all) {
+  all.push_back(entry("lugre", "dry friction of what the joint leaves free, pressed by the joint's own force (LuGre: bristles, stiction, Stribeck)", kLuGreKeys, make_lugre));
+  all.push_back(entry("coulomb", "dry friction with stiction: the joint sticks on a spring and a damper until friction cannot carry its load, then slips", kCoulombKeys, make_coulomb));
+  all.push_back(entry("brown-mcphee", "dry friction as a smooth function of the slip speed (Brown and McPhee); a joint that should stick creeps", kBrownMcPheeKeys, make_brown_mcphee));
+  all.push_back(entry("stribeck", "Coulomb friction made smooth at rest, with the Stribeck drop and a viscous part; a joint that should stick creeps", kStribeckKeys, make_stribeck));
+}
+
+}  // namespace pintle

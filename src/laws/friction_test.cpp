@@ -1,0 +1,125 @@
+// Friction laws: values by hand, what presses, what is refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "laws/brown_mcphee.h"
+#include "laws/catalog.h"
+#include "laws/coulomb.h"
+#include "laws/law.h"
+#include "laws/stribeck.h"
+
+namespace pintle {
+namespace {
+
+using Vec = Planar::Vec;
+
+// A slide on a spring that gives the reaction, at the speed v along it.
+template <class P>
+double friction_of(P law, const Vec& reaction, double v) {
+  law.free = 0;
+  law.radius = 1;
+  Law joint(LinearLaw{{0, 1e6, 1e3}, {0, 0, 0}});
+  joint.add(std::make_unique<LawPartOf<P>>(law));
+  const Vec gap(0, -reaction[1] / 1e6, -reaction[2] / 1e3), rate(v, 0, 0);
+  double state = 0;
+  joint.rest({0, gap, rate, &state}, &state);
+  return joint.force({0, gap, rate, &state})[0];
+}
+
+TEST(BrownMcPheeLaw, ByHand) {
+  BrownMcPheeLaw law;
+  law.viscous = 2;
+  const Vec pressed(0, 100, 0);
+  // The second term is 1 at v_t and 2 / 1.75^2 at twice that; the viscous one 0.002 and 0.004 of the load.
+  EXPECT_NEAR(friction_of(law, pressed, 1e-3), -100 * (0.1 * std::tanh(4.0) + 0.05 + 0.002), 1e-12);
+  EXPECT_NEAR(friction_of(law, pressed, -2e-3), 100 * (0.1 * std::tanh(8.0) + 0.05 * 0.65306122448979592 + 0.004), 1e-12);
+  EXPECT_NEAR(friction_of(law, pressed, 10), -100 * (0.1 + 20), 1e-9 * 2000);
+}
+
+TEST(StribeckLaw, ByHand) {
+  StribeckLaw law;
+  law.preload = 7;
+  const Vec pressed(0, -93, 0);
+  EXPECT_NEAR(friction_of(law, pressed, 1e-4), -100 * (0.1 + 0.05 * std::exp(-0.01)) * 0.76159415595576489, 1e-12);
+  EXPECT_NEAR(friction_of(law, pressed, -1e-3), 100 * (0.1 + 0.05 / M_E) * std::tanh(10.0), 1e-12);
+  EXPECT_NEAR(friction_of(law, pressed, 1), -10, 1e-12);
+}
+
+// A slide that is pressed by 100 N: it breaks at 15 N, 150 um from its anchor, and slips with 10 N. Where it turns round it sticks, and friction is
+// what it was.
+TEST(CoulombLaw, SticksBreaksAndSticksAgain) {
+  CoulombLaw law;
+  law.free = 0;
+  law.radius = 1;
+  law.stiffness = 1e5;
+  law.damping = 50;
+  Law joint(LinearLaw{{0, 1e6, 0}, {0, 0, 0}});
+  joint.add(std::make_unique<LawPartOf<CoulombLaw>>(law));
+  double state[2], before[3], after[3], lost = 0;
+  const auto at = [&state](const Vec& gap, const Vec& rate) { return LawPoint{0, gap, rate, state}; };
+  const auto crosses = [&](const Vec& gap, const Vec& rate) {
+    joint.borders(at(gap, rate), after);
+    return joint.cross(at(gap, rate), before, after, state, lost);
+  };
+  const Vec rest(0.5, -1e-4, 0), still = Vec::Zero();
+  joint.rest(at(rest, still), state);
+  EXPECT_EQ(joint.force(at(rest, still))[0], 0);
+  joint.borders(at(rest, still), before);
+  EXPECT_NEAR(before[0], 15, 1e-8);
+
+  const Vec held = rest + Vec(149e-6, 0, 0), broken = rest + Vec(151e-6, 0, 0), creep(1e-4, 0, 0), slip(0.2, 0, 0), back(-1e-9, 0, 0);
+  EXPECT_FALSE(crosses(held, still));
+  EXPECT_NEAR(joint.force(at(held, creep))[0], -14.9 - 50e-4, 1e-9);
+  EXPECT_TRUE(crosses(broken, still));
+  EXPECT_NEAR(joint.force(at(broken, slip))[0], -10, 1e-9);
+  EXPECT_NEAR(joint.loss(at(broken, slip)), 2, 1e-9);
+
+  joint.borders(at(broken, slip), before);
+  const Vec far = rest + Vec(0.3, 0, 0);
+  EXPECT_FALSE(crosses(far, slip));
+  EXPECT_TRUE(crosses(far, back));
+  EXPECT_NEAR(joint.force(at(far, back))[0], -10, 1e-9);
+  EXPECT_NEAR(joint.force(at(far - Vec(200e-6, 0, 0), still))[0], 10, 1e-7);
+  EXPECT_EQ(lost, 0);
+}
+
+// 100 N across a guide of 50 mm: a moment below 2.5 N m leaves both edges on one side, 10 N m press them with 200 N each.
+TEST(Friction, MomentPressesTheEdgesOfAGuide) {
+  StribeckLaw law;
+  for (const double moment : {0.0, 2.4, -2.4, 10.0, -10.0}) {
+    law.guide = 0.05;
+    const double load = std::abs(moment) < 2.5 ? 100 : 400;
+    EXPECT_NEAR(friction_of(law, {0, 100, moment}, 1), -0.1 * load, 1e-12) << moment;
+    EXPECT_NEAR(friction_of(law, {0, -100, moment}, 1), -0.1 * load, 1e-12) << moment;
+    law.guide = 0;
+    EXPECT_NEAR(friction_of(law, {0, 100, moment}, 1), -10, 1e-12) << moment;
+  }
+}
+
+TEST(Friction, RefusesAGuideInAPinAndSlipHeldMoreFirmlyThanRest) {
+  for (const char* word : {"lugre", "coulomb", "brown-mcphee", "stribeck"}) {
+    const LawInfo& info = *find_law(word);
+    const std::map<std::string, std::vector<double>> guide{{"guide_length", {0.1}}}, weak{{"static_friction", {0.05}}}, none;
+    LawSetting at;
+    at.values = &none;
+    at.keys = info.keys;
+    at.joint_type = "revolute";
+    at.held = {true, true, false};
+    at.free = {false, false, true};
+    EXPECT_EQ(info.fault(at).key, "");
+    at.values = &guide;
+    EXPECT_EQ(info.fault(at).key, "guide_length");
+    at.free = {true, false, false};
+    at.held = {false, true, true};
+    EXPECT_EQ(info.fault(at).key, "");
+    at.values = &weak;
+    EXPECT_EQ(info.fault(at).key, "static_friction");
+  }
+}
+
+}  // namespace
+}  // namespace pintle

@@ -1,0 +1,350 @@
+// Friction in the joints of whole mechanisms: published motions that stick and slip, closed forms of what locks, friction circles.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/reference_tables.h"
+
+namespace pintle {
+namespace {
+
+Trajectory completed(const Model& model) {
+  Trajectory run = simulate(model);
+  EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+  return run;
+}
+
+double at_end(const Trajectory& run, const std::string& column) { return reference::value(run, run.n_rows() - 1, column); }
+
+double drift(const Trajectory& run) { return run.energy.drift / (run.energy.kinetic_peak + run.energy.dissipated + std::abs(run.energy.supplied)); }
+
+// Of a body's x and its rate from the table's columns x and `rate`, row by row.
+std::pair<double, double> largest_differences(const Trajectory& run, const std::string& body, const reference::Table& table, const std::string& rate) {
+  EXPECT_EQ(run.n_rows(), table.rows.size());
+  double x = 0, v = 0;
+  for (std::size_t i = 0; i < run.n_rows(); ++i) {
+    x = std::max(x, std::abs(reference::value(run, i, "body." + body + ".x") - table.at(i, "x")));
+    v = std::max(v, std::abs(reference::value(run, i, "body." + body + ".vx") - table.at(i, rate)));
+  }
+  return {x, v};
+}
+
+constexpr const char* kPulledMass = R"toml(
+format = 1
+name = "Pulled mass"
+gravity = [0, -9.81]
+[simulate]
+duration = "25 s"
+output_step = "0.5 s"
+[ground.markers]
+o = [0, 0]
+[body.mass]
+mass = 1
+inertia = 0.01
+markers.c = [0, 0]
+[joint.slide]
+type = "prismatic"
+between = ["ground.o", "mass.c"]
+friction = "brown-mcphee"
+friction_coefficient = 0.1
+static_friction = 0.15
+transition_speed = "0.001 m/s"
+[motor.pull]
+joint = "slide"
+force = "2 N/m*(0.1 m/s*t - slide)"
+)toml";
+
+TEST(BrownMcPhee, PulledMassSticksAndSlipsAsComputedElsewhere) {
+  const auto table = reference::read_table("brown_mcphee_stick_slip");
+  for (const double tolerance : {1e-5, 1e-7}) {
+    Model model = parse_model(kPulledMass, "pulled.toml");
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = completed(model);
+    const auto [x, v] = largest_differences(run, "mass", table, "v");
+    EXPECT_LT(x, tolerance);
+    EXPECT_LT(v, tolerance);
+    EXPECT_LT(drift(run), 1e-6);
+  }
+}
+
+// The belt is stiff in its rollers and its drive: with a drive of 1e9 N/m the block breaks away so much later that x is off by 6e-7 m.
+constexpr const char* kConveyor = R"toml(
+format = 1
+name = "Block on a conveyor belt"
+gravity = [0, -9.81]
+[simulate]
+duration = "10 s"
+output_step = "0.1 s"
+[ground.markers]
+o = [0, 0]
+[body.belt]
+mass = 10
+inertia = 10
+position = [0, 0]
+angle = 0
+velocity = [0.1, 0]
+markers.c = [0, 0]
+[body.block]
+mass = 1
+inertia = 0.01
+position = [1, 0]
+velocity = [0, 0]
+angle = 0
+hold = ["x"]
+markers.c = [0, 0]
+[joint.rollers]
+type = "prismatic"
+between = ["ground.o", "belt.c"]
+stiffness = 1e11
+angular_stiffness = 1e10
+[joint.contact]
+type = "prismatic"
+between = ["belt.c", "block.c"]
+friction = "stribeck"
+friction_coefficient = 0.15
+static_friction = 0.2
+stribeck_speed = "0.001 m/s"
+transition_speed = "1e-4 m/s"
+[spring.s]
+between = ["ground.o", "block.c"]
+stiffness = "10 N/m"
+free_length = "0.8 m"
+[motor.drive]
+joint = "rollers"
+speed = 0.1
+stiffness = 1e11
+damping = 1e8
+)toml";
+
+TEST(Stribeck, BlockOnAConveyorBeltMovesAsPublished) {
+  const auto table = reference::read_table("conveyor_belt");
+  for (const double tolerance : {1e-5, 1e-7}) {
+    Model model = parse_model(kConveyor, "conveyor.toml");
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = completed(model);
+    const auto [x, v] = largest_differences(run, "block", table, "vx");
+    EXPECT_LT(x, tolerance);
+    EXPECT_LT(v, tolerance);
+    EXPECT_LT(drift(run), 1e-6);
+  }
+}
+
+// From 1 s to 2 s.
+double speed_gained(const Trajectory& run, const std::string& rate) { return at_end(run, rate) - reference::value(run, reference::row_at(run, 1), rate); }
+
+// From the row where the load is whole it moves no farther than bristles bend, mu / s_0, and comes to rest.
+void expect_locked(const Trajectory& run, const std::string& column, std::size_t loaded, double mu) {
+  const auto slide = [&](std::size_t i) { return reference::value(run, i, column); };
+  for (std::size_t i = loaded; i < run.n_rows(); ++i) EXPECT_LT(std::abs(slide(i) - slide(loaded)), mu / 1e5) << i;
+  EXPECT_LT(std::abs(at_end(run, column) - slide(reference::row_at(run, 1.5))), 1e-3 * mu / 1e5);
+}
+
+// A wedge on a floor under a follower that moves up and down without friction; W presses the follower from 0 to 0.5 s.
+Model wedge(double angle, double mu, double mass) {
+  return parse_model(R"toml(
+format = 1
+name = "Wedge"
+gravity = [0, 0]
+[parameters]
+angle = 0
+mu = 0.1
+mass = 1
+[simulate]
+duration = "2 s"
+output_step = "0.05 s"
+[defaults.joint]
+stiffness = 1e9
+damping = 1e5
+friction_coefficient = "mu"
+static_friction = "mu"
+[ground.markers]
+floor = [0, 0]
+guide = { x = 0, y = 0, axis = "90 deg" }
+[body.wedge]
+mass = "mass"
+inertia = 1
+position = [0, 0]
+angle = 0
+hold = ["x", "y", "angle"]
+markers.floor = [0, 0]
+markers.face = { x = 0, y = 0, axis = "angle" }
+[body.follower]
+mass = 2
+inertia = 1
+position = [0, 0]
+angle = 0
+markers.face = { x = 0, y = 0, axis = "angle" }
+markers.guide = { x = 0, y = 0, axis = "90 deg" }
+[joint.floor]
+type = "prismatic"
+between = ["ground.floor", "wedge.floor"]
+friction = "lugre"
+[joint.face]
+type = "prismatic"
+between = ["wedge.face", "follower.face"]
+friction = "lugre"
+[joint.guide]
+type = "prismatic"
+between = ["ground.guide", "follower.guide"]
+[force.press]
+on = "follower.face"
+force = [0, "-1000 N*smoothstep(0, 0.5 s, t)"]
+)toml", "wedge.toml", {"parameters.angle=" + std::to_string(angle), "parameters.mu=" + std::to_string(mu), "parameters.mass=" + std::to_string(mass)});
+}
+
+// Pressed on a wedge of angle A, with the friction angle phi on floor and face, it drives the wedge out when A > 2 phi. A heavy wedge goes so
+// little way that the press beside the middle of the floor's joint does not tilt it.
+//   R (cos A + mu sin A) = W - m_f a tan A,     m_w a = R (sin A - mu cos A) - mu R (cos A + mu sin A)
+TEST(Jamming, WedgeLocksBelowTwiceTheFrictionAngle) {
+  const double mu = 0.15, phi = std::atan(mu), hair = 0.1 * M_PI / 180;
+  const Trajectory locked = completed(wedge(2 * phi - hair, mu, 1));
+  expect_locked(locked, "joint.floor.slide", reference::row_at(locked, 0.5), mu);
+  const Trajectory driven = completed(wedge(2 * phi + hair, mu, 1e4));
+  const double A = 2 * phi + hair, c = std::cos(A), s = std::sin(A), t = std::tan(A), W = 1000;
+  const double drive = (s - mu * c) / (c + mu * s) - mu, a = drive * W / (1e4 + drive * 2 * t);
+  EXPECT_NEAR(speed_gained(driven, "joint.floor.slide_rate"), a, 3e-4 * a);
+}
+
+// A slider pushed along its guide by a force P at 200 mm from it.
+Model pushed(double guide) {
+  return parse_model(R"toml(
+format = 1
+name = "Pushed beside its guide"
+gravity = [0, 0]
+[parameters]
+guide = 1
+[simulate]
+duration = "2 s"
+output_step = "0.05 s"
+[ground.markers]
+o = [0, 0]
+[body.slider]
+mass = 1
+inertia = 0.01
+markers.c = [0, 0]
+markers.push = [0, 0.2]
+[joint.guide]
+type = "prismatic"
+between = ["ground.o", "slider.c"]
+friction = "lugre"
+friction_coefficient = 0.15
+guide_length = "guide"
+[force.P]
+on = "slider.push"
+force = ["100 N*smoothstep(0, 0.5 s, t)", 0]
+)toml", "pushed.toml", {"parameters.guide=" + std::to_string(guide)});
+}
+
+// Its moment P h presses both edges with P h / L: the guide jams where it is shorter than 2 mu h, else a = P (1 - 2 mu h / L) / m.
+TEST(Jamming, ShortGuideLocksASliderThatIsPushedBesideIt) {
+  const double critical = 2 * 0.15 * 0.2;
+  const Trajectory jammed = completed(pushed(0.999 * critical));
+  expect_locked(jammed, "joint.guide.slide", reference::row_at(jammed, 0.5), 0.15);
+  EXPECT_NEAR(at_end(jammed, "joint.guide.friction"), -100, 1e-5 * 100);
+  const Trajectory moved = completed(pushed(1.001 * critical));
+  EXPECT_NEAR(speed_gained(moved, "joint.guide.slide_rate"), 100 * (1 - 1 / 1.001), 1e-5 * 0.1);
+}
+
+constexpr const char* kCircles = R"toml(
+format = 1
+name = "Four-bar that is all friction"
+gravity = [0, 0]
+[simulate]
+duration = "6.4 s"
+output_step = "0.05 s"
+tolerance = 1e-5
+[defaults.joint]
+friction_coefficient = 0.2
+static_friction = 0.2
+pin_radius = "20 mm"
+[ground.markers]
+O2 = [0, 0]
+O4 = [0.5, 0]
+[body.crank]
+mass = 1e-3
+inertia = 1e-6
+position = [0.05, 0]
+angle = 0
+spin = 1
+hold = ["angle"]
+markers.O2 = [-0.05, 0]
+markers.A = [0.05, 0]
+[body.coupler]
+mass = 1e-3
+inertia = 1e-6
+position = [0.3, 0.15]
+angle = 0.7
+markers.A = [-0.25, 0]
+markers.B = [0.25, 0]
+[body.rocker]
+mass = 1e-3
+inertia = 1e-6
+position = [0.5, 0.15]
+angle = 1.6
+markers.O4 = [-0.15, 0]
+markers.B = [0.15, 0]
+[joint.O2]
+type = "revolute"
+between = ["ground.O2", "crank.O2"]
+friction = "lugre"
+[joint.A]
+type = "revolute"
+between = ["crank.A", "coupler.A"]
+friction = "lugre"
+[joint.B]
+type = "revolute"
+between = ["coupler.B", "rocker.B"]
+friction = "lugre"
+[joint.O4]
+type = "revolute"
+between = ["ground.O4", "rocker.O4"]
+friction = "lugre"
+[motor.load]
+joint = "O4"
+torque = "-10 N*m"
+[motor.drive]
+joint = "O2"
+speed = 1
+)toml";
+
+// The force between two pins of the coupler is tangent to the circles of radius mu r about both, on the sides that the pins' slips say;
+// it is (F, phi) on the rocker. With s = the sign of each pin's slip:
+//   b sin(phi - theta_3) = mu r (s_B - s_A),   F (c sin(phi - theta_4) - mu r (s_B + s_4)) = -T,   T_2 = F (a sin(phi - theta_2) + mu r (s_2 - s_A))
+TEST(FrictionCircles, FourBarCarriesItsLoadAlongTheirTangents) {
+  const double a = 0.1, b = 0.5, c = 0.3, circle = 0.2 * 0.02, T = -10;
+  for (const char* word : {"lugre", "stribeck", "brown-mcphee"}) {
+    Model model = parse_model(kCircles, "circles.toml");
+    for (Joint& joint : model.joints) joint.friction.word = word;
+    const Trajectory run = completed(model);
+    double worst[3] = {};
+    int rows = 0;
+    for (std::size_t i = 0; i < run.n_rows(); ++i) {
+      const auto at = [&](const std::string& column) { return reference::value(run, i, column); };
+      double slip[4], slowest = 1;
+      const char* pins[4] = {"O2", "A", "B", "O4"};
+      for (int k = 0; k < 4; ++k) {
+        const double rate = at(std::string("joint.") + pins[k] + ".angle_rate");
+        slip[k] = rate > 0 ? 1 : -1;
+        slowest = std::min(slowest, 0.02 * std::abs(rate));
+      }
+      if (slowest < 5e-3) continue;
+      ++rows;
+      const double theta2 = at("body.crank.angle"), theta3 = at("body.coupler.angle"), theta4 = at("body.rocker.angle");
+      const double tangent = std::asin(circle * (slip[2] - slip[1]) / b);
+      const auto force = [&](double phi) { return -T / (c * std::sin(phi - theta4) - circle * (slip[2] + slip[3])); };
+      double phi = theta3 + tangent;
+      if (force(phi) < 0) phi = theta3 + M_PI - tangent;
+      const double F = force(phi), torque = F * (a * std::sin(phi - theta2) + circle * (slip[0] - slip[1]));
+      worst[0] = std::max(worst[0], std::abs(at("joint.B.on_rocker.fx[world]") - F * std::cos(phi)) / F);
+      worst[1] = std::max(worst[1], std::abs(at("joint.B.on_rocker.fy[world]") - F * std::sin(phi)) / F);
+      worst[2] = std::max(worst[2], std::abs(at("motor.drive.effort") - torque) / (a * F));
+    }
+    EXPECT_GT(rows, 30) << word;
+    for (const double difference : worst) EXPECT_LT(difference, 1e-5) << word;
+  }
+}
+
+}  // namespace
+}  // namespace pintle
