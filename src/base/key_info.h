@@ -1,6 +1,7 @@
 // One key of the model file that a law or a joint type brings along: the reader, the schema and the manual page read it.
 #pragma once
 
+#include <span>
 #include <string_view>
 
 namespace pintle {
@@ -14,6 +15,7 @@ struct KeyInfo {
   bool required = false;
   bool per_component = false;      // may be a list, one value per gap component it covers
   bool list = false;               // is a list of any length
+  std::span<const std::string_view> words{};  // is one of these; its value is the word's place, that of an absent key `fallback`
   std::string_view meaning;        // one line
 };
 

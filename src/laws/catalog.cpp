@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "laws/bushing.h"
+#include "laws/catalog_bearings.h"
 #include "laws/lugre.h"
 #include "laws/maxwell.h"
 #include "laws/tension.h"
@@ -173,14 +174,20 @@ void make_lugre(const LawSetting& at, Law& law) {
   law.add(std::make_unique<LawPartOf<LuGreLaw>>(friction));
 }
 
-std::vector<LawInfo>& laws() {
-  static std::vector<LawInfo> all{
+std::vector<LawInfo> own_laws() {
+  std::vector<LawInfo> all{
       {.word = "linear", .meaning = "a spring and a damper in each forbidden displacement (the paper's axioms)", .keys = kLinearKeys, .stiffens = true, .make = make_linear},
       {.word = "bushing", .meaning = "full matrices of stiffness and damping, with a preload and a rest position of its own", .keys = kBushingKeys, .joints = kPoseJoints, .make = make_bushing, .fault = bushing_fault},
       {.word = "maxwell", .meaning = "rubber: a spring, a damper, and branches of both in series that relax", .keys = kMaxwellKeys, .joints = kTwoSided, .make = make_maxwell, .fault = maxwell_fault},
       {.word = "lugre", .meaning = "dry friction of what the joint leaves free, pressed by the joint's own force (LuGre: bristles, stiction, Stribeck)", .keys = kLuGreKeys,
        .role = LawRole::kFriction, .joints = kRubbing, .make = make_lugre, .fault = lugre_fault},
   };
+  all.insert(all.end(), bearing_laws().begin(), bearing_laws().end());
+  return all;
+}
+
+std::vector<LawInfo>& laws() {
+  static std::vector<LawInfo> all = own_laws();
   return all;
 }
 

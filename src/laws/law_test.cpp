@@ -12,8 +12,11 @@
 #include "base/random_for_tests.h"
 #include "laws/bushing.h"
 #include "laws/catalog.h"
+#include "laws/journal_film.h"
 #include "laws/lugre.h"
 #include "laws/maxwell.h"
+#include "laws/rolling_bearing.h"
+#include "laws/table.h"
 #include "laws/tension.h"
 
 namespace pintle {
@@ -46,6 +49,17 @@ struct ClutchLaw {
   }
   int n_borders() const { return 1; }
   void borders(const LawInput<double>& in, double* value) const { value[0] = in.gap[0]; }
+};
+
+// Other formulas of the bearings.
+struct LongFilmLaw : JournalFilmLaw {
+  static LongFilmLaw typical() { return {{0.03, 0.2, 4e-5, 0.05, 2e-6, 5e8, true}}; }
+};
+struct LooseBearingLaw : RollingBearingLaw {
+  static LooseBearingLaw typical() { return {{5e9, 10.0 / 9, 300, 2e-5, 0, 1e-6, 0.5, {}}}; }
+};
+struct WholeBearingLaw : RollingBearingLaw {
+  static WholeBearingLaw typical() { return {{5e9, 1.5, 300, 0, 0, 1e-6, 0.5, {}}}; }
 };
 
 struct Point {
@@ -86,7 +100,8 @@ class AnyLaw : public testing::Test {
     return !std::equal(before.begin(), before.end(), after.begin(), [](double x, double y) { return (x > 0) == (y > 0); });
   }
 };
-using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, ClutchLaw>;
+using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, ClutchLaw,
+                            TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 
 // Across a border that the law declares there is no difference quotient; anywhere else there must be.
