@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "laws/bushing.h"
 #include "laws/journal_film.h"
 #include "laws/rolling_bearing.h"
 #include "laws/table.h"
@@ -21,7 +20,7 @@ constexpr std::array<std::string_view, 1> kPins{"revolute"};
 constexpr std::array<std::string_view, 2> kBushed{"revolute", "fixed"};
 constexpr std::array<std::string_view, 7> kTwoSided{"revolute", "prismatic", "fixed", "slot", "rod", "gear", "rack"};
 
-// Defaults of stiffness and damping and their ranges: theory/bearings, section 8.1, from the paper's sections 4, 5, 7 and 8.
+// Defaults of stiffness and damping and their ranges: theory/bearings, section 1, from the paper's sections 4, 5, 7 and 8.
 constexpr std::array<KeyInfo, 5> kGuideKeys{{
     {.key = "stiffness", .unit = "N/m", .fallback = 2e8, .minimum_exclusive = true, .meaning = "force per displacement across the guide; 1e8 to 30e8 N/m of rolling elements"},
     {.key = "damping", .unit = "N*s/m", .fallback = 3500, .meaning = "force per rate of it; 2e3 to 10e3 N*s/m of rolling elements"},
@@ -31,40 +30,20 @@ constexpr std::array<KeyInfo, 5> kGuideKeys{{
 }};
 
 void make_guide(const LawSetting& at, Law& law) {
-  const double length = at.number("carriage_length"), even = length * length / 12;  // (8.3)
+  const double length = at.number("carriage_length"), even = length * length / 12;  // (1.1)
   const double k = at.number("stiffness"), c = at.number("damping"), turning = at.number("angular_stiffness"), lost = at.number("angular_damping");
   law.set_linear({{0, k, turning > 0 ? turning : k * even}, {0, c, lost > 0 ? lost : c * even}});
 }
 
-constexpr std::array<KeyInfo, 7> kRubberKeys{{
+constexpr std::array<KeyInfo, 4> kRubberKeys{{
     {.key = "stiffness", .unit = "N/m", .fallback = 1e5, .minimum_exclusive = true, .per_component = true, .meaning = "force per displacement; from about 1e5 N/m down, flexibility shows in the results"},
     {.key = "damping", .unit = "N*s/m", .fallback = 500, .per_component = true, .meaning = "force per rate of it"},
     {.key = "angular_stiffness", .unit = "N*m/rad", .fallback = 100, .minimum_exclusive = true, .meaning = "moment per forbidden angle, in joints that forbid one"},
     {.key = "angular_damping", .unit = "N*m*s/rad", .fallback = 0.1, .meaning = "moment per rate of that angle"},
-    {.key = "torsional_stiffness", .unit = "N*m/rad", .meaning = "of rubber that is bonded to a pin and its eye: moment per angle that the joint leaves free"},
-    {.key = "torsional_damping", .unit = "N*m*s/rad", .meaning = "moment per rate of that angle"},
-    {.key = "rest_angle", .unit = "rad", .minimum = kAny, .meaning = "angle of the second marker against the first at which bonded rubber is not twisted"},
 }};
 
-LawFault rubber_fault(const LawSetting& at) {
-  for (const char* key : {"torsional_stiffness", "torsional_damping", "rest_angle"})
-    if (!at.free[2] && at.number(key) != 0)
-      return {key, fmt::format("a {} joint leaves no angle free that could twist the rubber", at.joint_type), "angular_stiffness and angular_damping"};
-  return {};
-}
-
 void make_rubber(const LawSetting& at, Law& law) {
-  Planar::Vec k = at.by_component("stiffness", "angular_stiffness"), c = at.by_component("damping", "angular_damping");
-  if (at.free[2]) {
-    k[2] = at.number("torsional_stiffness");
-    c[2] = at.number("torsional_damping");
-  }
-  BushingLaw rubber;
-  rubber.K = k.asDiagonal();
-  rubber.C = c.asDiagonal();
-  rubber.offset[2] = at.number("rest_angle");
-  if (at.free[2] && k[2] + c[2] > 0) law.add(std::make_unique<LawPartOf<BushingLaw>>(rubber));
-  else law.set_linear({k, c});
+  law.set_linear({at.by_component("stiffness", "angular_stiffness"), at.by_component("damping", "angular_damping")});
 }
 
 constexpr std::array<std::string_view, 2> kElementWords{"lumped", "sum"};
@@ -90,7 +69,7 @@ struct Elements {
   double share = 1;      // load of the most loaded over load of the bearing
 };
 
-// Palmgren and Harris, formulas in N and mm: theory/bearings Eqs. (8.4), (8.5).
+// Palmgren and Harris, formulas in N and mm: theory/bearings Eqs. (2.1), (2.2).
 Elements elements_of(const LawSetting& at) {
   Elements e;
   const bool balls = at.number("balls") > 0;
@@ -214,7 +193,7 @@ void make_table(const LawSetting& at, Law& law) {
 
 constexpr std::array<LawInfo, 5> kBearings{{
     {.word = "linear-guide", .meaning = "a linear bearing: a spring and a damper, and the resistance to turning of a carriage that carries evenly", .keys = kGuideKeys, .stiffens = true, .joints = kSlides, .make = make_guide},
-    {.word = "rubber-bushing", .meaning = "a soft bushing: springs and dampers, and bonded rubber that is twisted by what the joint leaves free", .keys = kRubberKeys, .joints = kBushed, .make = make_rubber, .fault = rubber_fault},
+    {.word = "rubber-bushing", .meaning = "a soft bushing: a spring and a damper; a torsion spring beside it is the twist of bonded rubber", .keys = kRubberKeys, .stiffens = true, .joints = kBushed, .make = make_rubber},
     {.word = "rolling-bearing", .meaning = "a ball or roller bearing: a spring and a damper, or force against deflection from its balls or rollers, with play or preload", .keys = kRollingKeys, .joints = kPins, .make = make_rolling, .fault = rolling_fault},
     {.word = "journal-bearing", .meaning = "a plain bearing: a spring and a damper, or a film of oil between pin and bush", .keys = kJournalKeys, .joints = kPins, .make = make_journal, .fault = journal_fault},
     {.word = "table", .meaning = "a measured force against displacement, by smooth pieces that do not overshoot; of a pin against its length, in every direction alike", .keys = kTableKeys, .joints = kTwoSided, .make = make_table, .fault = table_fault},

@@ -1,9 +1,9 @@
-// A rolling bearing by the approximate formulas of A. Palmgren, Grundlagen der Waelzlagertechnik, Franckh 1959, as T. A. Harris, Rolling
-// Bearing Analysis, Wiley, gives them (chapter on bearing deflection): force against deflection with a power n, 3/2 of balls and 10/9 of rollers.
+// A rolling bearing by the approximate formulas of A. Palmgren, Ball and Roller Bearing Engineering, Burbank 1959, as T. A. Harris, Rolling
+// Bearing Analysis, Wiley, gives them (chapter on deflection): force against deflection with a power n, 3/2 of balls and 10/9 of rollers.
 //
-//   f = K d^n  against the deflection,   d = max(0, |e| - P/2)       of the bearing as a whole     theory/bearings Eq. (8.6)
-//   f = -sum over j of K_1 d_j^n n_j,    d_j = max(0, n_j.e + d_0 - P/2)   of each rolling element   Eq. (8.7)
-//   V = K d^(n+1) / (n+1)                                                                          Eq. (8.8)
+//   f = K d^n  against the deflection,   d = max(0, |e| - P/2)       of the bearing as a whole     theory/bearings Eq. (2.3)
+//   f = -sum over j of K_1 d_j^n n_j,    d_j = max(0, n_j.e + d_0 - P/2)   of each rolling element   Eq. (2.4)
+//   V = K d^(n+1) / (n+1)                                                                          Eq. (2.5)
 //
 // Damping acts where there is contact, along the deflection, and grows smoothly over the first `damping_depth` of it; a contact never
 // pulls. With no play at all, the bearing as a whole is damped alike in all directions. What is parting so fast that damping would pull
@@ -45,7 +45,7 @@ struct RollingBearingLaw {
     if (!elements.empty()) {
       for (const auto& n : elements) {
         const Contact<T> at = contact(n[0] * in.gap[0] + n[1] * in.gap[1] + T(interference - 0.5 * play), n[0] * in.rate[0] + n[1] * in.rate[1]);
-        for (int k = 0; k < 2; ++k) out.force[k] -= n[k] * at.force;                                       // (8.7)
+        for (int k = 0; k < 2; ++k) out.force[k] -= n[k] * at.force;                                       // (2.4)
         out.energy += at.energy;
         out.loss += at.loss;
       }
@@ -55,15 +55,15 @@ struct RollingBearingLaw {
     if (play == 0) {
       const T secant = where_positive(r, divide(stiffness * pow(r, exponent), r), T(exponent == 1 ? stiffness : 0));
       for (int k = 0; k < 2; ++k) {
-        out.force[k] = -(secant * in.gap[k] + damping * in.rate[k]);                                       // (8.6)
+        out.force[k] = -(secant * in.gap[k] + damping * in.rate[k]);                                       // (2.3)
         out.loss += damping * (in.rate[k] * in.rate[k]);
       }
-      out.energy = stiffness / (exponent + 1) * pow(r, exponent + 1);                                      // (8.8)
+      out.energy = stiffness / (exponent + 1) * pow(r, exponent + 1);                                      // (2.5)
       return;
     }
     const T n[2] = {unit(in.gap[0], r), unit(in.gap[1], r)};
     const Contact<T> at = contact(r - T(0.5 * play), n[0] * in.rate[0] + n[1] * in.rate[1]);
-    for (int k = 0; k < 2; ++k) out.force[k] = -(at.force * n[k]);                                         // (8.6)
+    for (int k = 0; k < 2; ++k) out.force[k] = -(at.force * n[k]);                                         // (2.3)
     out.energy = at.energy;
     out.loss = at.loss;
   }
@@ -113,7 +113,7 @@ struct RollingBearingLaw {
     return {where_positive(d, where_positive(force, force, none), none), stiffness / (exponent + 1) * pow(depth, exponent + 1),
             where_positive(d, where_positive(force, damper * rate, -(spring * rate)), none)};
   }
-  // Share of the damping: 0 at touch, 1 from damping_depth on. theory/bearings Eq. (8.9)
+  // Share of the damping: 0 at touch, 1 from damping_depth on. theory/bearings Eq. (2.6)
   template <class T>
   T grown(const T& depth) const {
     const T s = (1 / damping_depth) * depth;

@@ -1,7 +1,7 @@
 // A force that is measured: a table of force against displacement, by cubic pieces that rise as the points do (base/monotone_table.h).
 //
-//   f = -F(e)  of a joint that holds one length;   f = -F(|e|) e/|e|  of a pin         theory/bearings Eq. (8.1)
-//   V = integral of F from 0 to e                                                      Eq. (8.2)
+//   f = -F(e)  of a joint that holds one length;   f = -F(|e|) e/|e|  of a pin         theory/bearings Eq. (4.1)
+//   V = integral of F from 0 to e                                                      Eq. (4.2)
 //
 // At e = 0 a pin's tangent is the table's slope there, in every direction. What is lost, the damper beside it loses.
 #pragma once
@@ -29,14 +29,14 @@ struct TableLaw {
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
     using namespace law_math;
     if (!radial) {
-      out.force[along] = -force_of(in.gap[along]);                                   // (8.1)
-      out.energy = energy_of(in.gap[along]);                                         // (8.2)
+      out.force[along] = -force_of(in.gap[along]);                                   // (4.1)
+      out.energy = energy_of(in.gap[along]);                                         // (4.2)
       return;
     }
     const T r = sqrt(in.gap[0] * in.gap[0] + in.gap[1] * in.gap[1]);
     const T secant = where_positive(r, divide(force_of(r), r), T(table.slope(0)));
-    for (int k = 0; k < 2; ++k) out.force[k] = -(secant * in.gap[k]);                // (8.1)
-    out.energy = energy_of(r);                                                       // (8.2)
+    for (int k = 0; k < 2; ++k) out.force[k] = -(secant * in.gap[k]);                // (4.1)
+    out.energy = energy_of(r);                                                       // (4.2)
   }
   Planar::Vec engaged_stiffness() const {
     Planar::Vec k = Planar::Vec::Zero();

@@ -106,9 +106,11 @@ export interface CatalogKey {
   unit: string;
   meaning: string;
   /** Absent: the key must be stated, or is found otherwise. */
-  default?: number;
+  default?: number | string;
   /** Smallest value that is taken. */
   minimum?: number;
+  /** The key is one of these words. */
+  words?: string[];
   /** A list of any length. */
   list?: boolean;
 }

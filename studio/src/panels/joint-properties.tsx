@@ -165,7 +165,10 @@ function Keys({ keys, path }: { keys: readonly CatalogKey[]; path: readonly stri
   return (
     <>
       {keys.some((key) => key.list) && <p className="quiet">{keys.filter((key) => key.list).map((key) => labelOf(key.name)).join(" and ")}: lists, edited in the text.</p>}
-      {keys.filter((key) => !key.list).map((key) => (
+      {keys.filter((key) => key.words).map((key) => (
+        <SchemaField key={key.name} field={{ ...key, kind: "word", fallback: String(key.default), required: false }} path={[...path, key.name]} />
+      ))}
+      {keys.filter((key) => !key.list && !key.words).map((key) => (
         <TextQuantity
           key={key.name}
           label={labelOf(key.name)}
