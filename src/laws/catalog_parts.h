@@ -9,6 +9,8 @@ namespace pintle {
 
 /// Dry friction.
 void add_friction_laws(std::vector<LawInfo>& all);
+/// Bearings, oil films and measured forces.
+void add_bearing_laws(std::vector<LawInfo>& all);
 /// Clearance and contact.
 void add_contact_laws(std::vector<LawInfo>& all);
 

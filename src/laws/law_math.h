@@ -12,6 +12,21 @@ inline double value_of(double x) { return x; }
 template <int M>
 double value_of(const Dual<M>& x) { return x.v; }
 
+template <int N, class F>
+Lanes<N> each(const Lanes<N>& x, F f) {
+  Lanes<N> r;
+  for (int i = 0; i < N; ++i) r.set(i, f(x[i]));
+  return r;
+}
+
+/// f(x), where `slope` is the derivative of f.
+template <class F, class D>
+double through(double x, F f, D) { return f(x); }
+template <int M, class F, class D>
+Dual<M> through(const Dual<M>& x, F f, D slope) { return Dual<M>::scaled(f(x.v), slope(x.v), x); }
+template <int N, class F, class D>
+Lanes<N> through(const Lanes<N>& x, F f, D) { return each(x, f); }
+
 inline double abs(double x) { return std::abs(x); }
 inline double sqrt(double x) { return std::sqrt(x); }
 inline double exp(double x) { return std::exp(x); }
@@ -56,12 +71,6 @@ Dual<M> divide(const Dual<M>& a, const Dual<M>& b) { return a / b; }
 template <int M>
 Dual<M> where_positive(const Dual<M>& a, const Dual<M>& x, const Dual<M>& y) { return a.v > 0 ? x : y; }
 
-template <int N, class F>
-Lanes<N> each(const Lanes<N>& x, F f) {
-  Lanes<N> r;
-  for (int i = 0; i < N; ++i) r.set(i, f(x[i]));
-  return r;
-}
 template <int N>
 Lanes<N> abs(const Lanes<N>& x) { return sizes(x); }
 template <int N>
@@ -80,5 +89,29 @@ template <int N>
 Lanes<N> divide(const Lanes<N>& a, const Lanes<N>& b) { return {a.v / b.v}; }
 template <int N>
 Lanes<N> where_positive(const Lanes<N>& a, const Lanes<N>& x, const Lanes<N>& y) { return where_larger(a, Lanes<N>::all(0), x, y); }
+
+/// x^n of x >= 0 with n >= 1; at zero the slope is that of the right side.
+template <class T>
+T pow(const T& x, double n) {
+  return through(x, [n](double v) { return std::pow(v, n); }, [n](double v) { return n * std::pow(v, n - 1); });
+}
+template <class T>
+T sin(const T& x) { return through(x, [](double v) { return std::sin(v); }, [](double v) { return std::cos(v); }); }
+template <class T>
+T cos(const T& x) { return through(x, [](double v) { return std::cos(v); }, [](double v) { return -std::sin(v); }); }
+inline double atan2(double y, double x) { return std::atan2(y, x); }
+template <int M>
+Dual<M> atan2(const Dual<M>& y, const Dual<M>& x) {
+  const double square = x.v * x.v + y.v * y.v;
+  Dual<M> r = (x.v / square) * y - (y.v / square) * x;
+  r.v = std::atan2(y.v, x.v);
+  return r;
+}
+template <int N>
+Lanes<N> atan2(const Lanes<N>& y, const Lanes<N>& x) {
+  Lanes<N> r;
+  for (int i = 0; i < N; ++i) r.set(i, std::atan2(y[i], x[i]));
+  return r;
+}
 
 }  // namespace pintle::law_math

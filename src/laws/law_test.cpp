@@ -15,10 +15,13 @@
 #include "laws/catalog.h"
 #include "laws/coulomb.h"
 #include "laws/guide_contact.h"
+#include "laws/journal_film.h"
 #include "laws/lugre.h"
 #include "laws/maxwell.h"
 #include "laws/pin_contact.h"
+#include "laws/rolling_bearing.h"
 #include "laws/stribeck.h"
+#include "laws/table.h"
 #include "laws/tension.h"
 
 namespace pintle {
@@ -64,6 +67,16 @@ struct LuGreGuide : LuGreLaw {
     return law;
   }
 };
+// Other formulas of the bearings.
+struct LongFilmLaw : JournalFilmLaw {
+  static LongFilmLaw typical() { return {{0.03, 0.2, 4e-5, 0.05, 2e-6, 5e8, true}}; }
+};
+struct LooseBearingLaw : RollingBearingLaw {
+  static LooseBearingLaw typical() { return {{5e9, 10.0 / 9, 300, 2e-5, 0, 1e-6, 0.5, {}}}; }
+};
+struct WholeBearingLaw : RollingBearingLaw {
+  static WholeBearingLaw typical() { return {{5e9, 1.5, 300, 0, 0, 1e-6, 0.5, {}}}; }
+};
 
 struct Point {
   Vec gap, rate, before;
@@ -103,7 +116,8 @@ class AnyLaw : public testing::Test {
     return !std::equal(before.begin(), before.end(), after.begin(), [](double x, double y) { return (x > 0) == (y > 0); });
   }
 };
-using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GuideContactLaw, ClutchLaw>;
+using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GuideContactLaw, ClutchLaw,
+                             TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 
 // Across a border that the law declares there is no difference quotient; anywhere else there must be.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "integrators/absolute/gap_projector.h"
 #include "integrators/absolute/radau_stepper.h"
@@ -42,6 +43,36 @@ double slowest_joint(const BasicSystem<S>& system, const std::vector<BasicJointK
   return slowest;
 }
 
+// Whether a law that holds also resists the motion that the joint leaves free, as an oil film does.
+template <class S>
+bool drags(const BasicJointData<S>& joint) {
+  if (joint.law.constant_diagonal()) return false;
+  const BasicResponse<S> still = respond(joint.law, typename S::Vec(S::Vec::Zero()), typename S::Vec(S::Vec::Zero()));
+  for (int k = 0; k < S::kDof; ++k)
+    if (joint.free_mask[k] != 0 && still.damping(k, k) > 0) return true;
+  return false;
+}
+
+// The same system with springs in place of laws that do not answer at all where the joints stand, as in their play; none when all do.
+template <class S>
+std::optional<BasicSystem<S>> with_springs_for_play(const BasicSystem<S>& system, const BasicState<S>& state) {
+  std::optional<BasicSystem<S>> firm;
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const BasicLaw<S>& law = system.joints[j].law;
+    if (law.constant_diagonal()) continue;
+    const typename S::Vec engaged = law.engaged_stiffness();
+    const BasicResponse<S> now = respond(law, state.gap[j], state.gap_rate[j]);
+    bool open = false;
+    for (int k = 0; k < S::kDof; ++k) open = open || (engaged[k] > 0 && !(now.stiffness(k, k) > 0) && !(now.damping(k, k) > 0));
+    if (!open) continue;
+    if (!firm) firm = system;
+    BasicLinearLaw<S> spring;
+    spring.k = engaged;
+    firm->joints[j].law = BasicLaw<S>(spring);
+  }
+  return firm;
+}
+
 template <class S>
 void plain_start(const BasicSystem<S>& system, BasicState<S>& state) {
   std::vector<typename S::Motion> m;
@@ -60,19 +91,77 @@ void plain_start(const BasicSystem<S>& system, BasicState<S>& state) {
 
 }  // namespace
 
+namespace {
+
+constexpr int kNewton = 40, kHalvings = 12, kDoublings = 80;
+
+// Where the law does not resist at all (in its play, or at the beginning of a force that rises with a power of the gap), farther out against
+// the force, until there is as much of it.
+template <class S>
+void begin_where_it_resists(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
+  const typename S::Vec engaged = law.engaged_stiffness();
+  const BasicResponse<S> now = respond(law, gap, rate);
+  typename S::Vec out = S::Vec::Zero(), wanted = S::Vec::Zero();
+  bool weak = false;
+  for (int k = 0; k < S::kDof; ++k) {
+    if (!(engaged[k] > 0)) continue;
+    wanted[k] = force[k];
+    out[k] = -force[k] / engaged[k];
+    weak = weak || (force[k] != 0 && !(now.stiffness(k, k) > 0));
+  }
+  for (int i = 0; weak && i < kDoublings; ++i, out *= 2) {
+    typename S::Vec trial = gap;
+    for (int k = 0; k < S::kDof; ++k)
+      if (engaged[k] > 0) trial[k] = out[k];
+    const BasicResponse<S> there = respond(law, trial, rate);
+    if (!there.force.allFinite()) return;
+    if (there.force.dot(wanted) < wanted.squaredNorm()) continue;
+    gap = trial;
+    return;
+  }
+}
+
+// Newton's step with the whole tangent, over the components that the law holds.
+template <class S>
+typename S::Vec newton_step(const BasicResponse<S>& now, const typename S::Vec& force) {
+  typename S::Mat K = now.stiffness;
+  typename S::Vec missing = now.force - force;
+  for (int k = 0; k < S::kDof; ++k) {
+    if (now.stiffness(k, k) > 0) continue;
+    K.row(k).setZero();
+    K.col(k).setZero();
+    K(k, k) = 1;
+    missing[k] = 0;
+  }
+  return K.partialPivLu().solve(missing);
+}
+
+}  // namespace
+
 // Newton on the law's own tangent; nothing in free components.
 template <class S>
 void gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
-  for (int i = 0; i < 20; ++i) {
+  if (const auto* linear = law.constant_diagonal()) {
+    for (int k = 0; k < S::kDof; ++k)
+      if (linear->k[k] > 0) gap[k] = -(force[k] + linear->c[k] * rate[k]) / linear->k[k];
+    return;
+  }
+  begin_where_it_resists(law, force, rate, gap);
+  for (int i = 0; i < kNewton; ++i) {
     const BasicResponse<S> now = respond(law, gap, rate);
+    typename S::Vec step = newton_step<S>(now, force);
+    if (!step.allFinite()) return;
     bool moved = false;
-    for (int k = 0; k < S::kDof; ++k) {
-      if (!(now.stiffness(k, k) > 0)) continue;
-      const double step = (now.force[k] - force[k]) / now.stiffness(k, k);
-      gap[k] += step;
-      moved = moved || std::abs(step) > 1e-15 * std::abs(gap[k]);
-    }
-    if (!moved) break;
+    for (int k = 0; k < S::kDof; ++k) moved = moved || std::abs(step[k]) > 1e-15 * std::abs(gap[k]);
+    if (!moved) return;
+    const auto misses = [&](const BasicResponse<S>& at) {
+      double sum = 0;
+      for (int k = 0; k < S::kDof; ++k)
+        if (now.stiffness(k, k) > 0) sum += (at.force[k] - force[k]) * (at.force[k] - force[k]);
+      return sum;
+    };
+    for (int h = 0; h < kHalvings && !(misses(respond(law, typename S::Vec(gap + step), rate)) <= misses(now)); ++h) step *= 0.5;
+    gap += step;
   }
 }
 
@@ -99,8 +188,16 @@ void balance_start(const BasicSystem<S>& system, BasicState<S>& state) {
 
 template <class S>
 BasicInverseDynamics<S>::BasicInverseDynamics(const BasicSystem<S>& system) : system_(system), projector_(system), wanted_(system.joints.size()) {
-  for (int j = 0; j < system.n_joints(); ++j)
-    if (system.joints[j].law.rubs()) rubbing_.push_back(j);
+  VecsOf<S> held(system.joints.size(), S::Vec::Ones());
+  bool any_drags = false;
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const bool drag = drags(system.joints[j]);
+    if (drag || system.joints[j].law.rubs()) rubbing_.push_back(j);
+    for (int k = 0; drag && k < S::kDof; ++k)
+      if (system.joints[j].free_mask[k] != 0) held[j][k] = 0;
+    any_drags = any_drags || drag;
+  }
+  if (any_drags) moved_ = held;
 }
 
 template <class S>
@@ -113,8 +210,8 @@ typename S::Vec BasicInverseDynamics<S>::from_bodies(int j, const VecsOf<S>& x) 
 template <class S>
 void BasicInverseDynamics<S>::leave_to_laws(const VecsOf<S>& components) {
   by_law_ = components;
-  moved_.resize(components.size());
-  for (std::size_t j = 0; j < components.size(); ++j) moved_[j] = S::Vec::Ones() - components[j];
+  moved_.resize(components.size(), S::Vec::Ones());
+  for (std::size_t j = 0; j < components.size(); ++j) moved_[j] = moved_[j].cwiseProduct(S::Vec::Ones() - components[j]);
 }
 
 // theory/assembly Eq. (5.7): what follows its law pushes as a load does.
@@ -233,8 +330,17 @@ BasicEffectiveMasses<S> BasicInverseDynamics<S>::effective_masses(const BasicSta
 }
 
 template <class S>
-void BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
-  for (int j = 0; j < system_.n_joints(); ++j) gap_at_force(system_.joints[j].law, state.force[j], state.gap_rate[j], state.gap[j]);
+void BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) {
+  if (r_.empty()) {
+    system_.motions(state.q, state.v, m_);
+    system_.joint_kinematics(state.t, m_, r_);
+  }
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    typename S::Vec rate = state.gap_rate[j];
+    for (int k = 0; k < S::kDof; ++k)
+      if (system_.joints[j].free_mask[k] != 0) rate[k] = r_[j].rate[k];
+    gap_at_force(system_.joints[j].law, state.force[j], rate, state.gap[j]);
+  }
 }
 
 // Eq. (3.4).
@@ -272,9 +378,17 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
   for (auto& x : state.gap_rate) x.setZero();
   for (auto& x : state.gap_accel) x.setZero();
   BasicInverseDynamics<S> forces(system);
+  const std::optional<BasicSystem<S>> firm = with_springs_for_play(system, state);
   for (int pass = 0; pass < kPasses; ++pass) {
-    if (!forces.find(state)) break;
+    if (pass == 0 && firm) {
+      if (!BasicInverseDynamics<S>(*firm).find(state)) break;
+    } else if (!forces.find(state)) {
+      break;
+    }
     forces.find_gaps(state);
+    if (pass == 0 && firm)  // what no gap can carry, as a push in a rope, does not act
+      for (int j = 0; j < system.n_joints(); ++j)
+        if (!system.joints[j].law.constant_diagonal()) state.force[j] = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]).force;
     forces.move_onto_gaps(state);
   }
   balance_start(system, state);

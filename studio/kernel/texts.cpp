@@ -21,11 +21,9 @@ namespace {
 Json key_json(const KeyInfo& key) {
   Json out = {{"name", key.key}, {"unit", key.unit.empty() ? "-" : key.unit}, {"meaning", key.meaning}};
   if (std::isfinite(key.minimum)) out["minimum"] = key.minimum;
-  if (!key.required) out["default"] = key.fallback;
-  if (!key.words.empty()) {
-    out["words"] = key.words;
-    if (!key.required) out["default"] = key.words[static_cast<std::size_t>(key.fallback)];
-  }
+  if (!key.required && key.words.empty()) out["default"] = key.fallback;
+  if (!key.words.empty()) out["words"] = std::vector<std::string>(key.words.begin(), key.words.end());
+  if (!key.required && !key.words.empty()) out["default"] = out["words"][static_cast<std::size_t>(key.fallback)];
   if (key.list) out["list"] = true;
   return out;
 }

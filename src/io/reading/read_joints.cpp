@@ -102,9 +102,10 @@ void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& 
   reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : fault.key, fault.why, fault.remedy);
 }
 
-// Which of its words a key has.
-double number_of_word(const KeyInfo& key, const std::vector<std::string>& words) {
-  return static_cast<double>(std::find(key.words.begin(), key.words.end(), words.front()) - key.words.begin());
+// As a law takes it: numbers, or the place of a word among the key's.
+std::vector<double> numbers_of(const KeyInfo& key, const Value& value) {
+  if (key.words.empty()) return value.numbers;
+  return {static_cast<double>(std::find(key.words.begin(), key.words.end(), value.words.front()) - key.words.begin())};
 }
 
 void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record,
@@ -119,7 +120,7 @@ void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& l
                              "delete it");
     }
     const Value* value = stated || !defaults.states(key.key) ? record.find(key.key) : defaults.find(key.key);
-    if (value != nullptr) choice.values[std::string(key.key)] = key.words.empty() ? value->numbers : std::vector<double>{number_of_word(key, value->words)};
+    if (value != nullptr) choice.values[std::string(key.key)] = numbers_of(key, *value);
   }
   check_law(reading, type, law, record, choice);
 }

@@ -148,9 +148,16 @@ KeySpec spec_of(const KeyInfo& info) {
   spec.minimum_exclusive = info.minimum_exclusive;
   spec.required = info.required;
   spec.per_component = info.per_component;
+  if (!info.words.empty()) {
+    spec.type = ValueType::kWord;
+    spec.type_word = "word";
+    spec.words.assign(info.words.begin(), info.words.end());
+    spec.minimum.reset();
+  }
   if (!info.required) {
     spec.fallback = Node{};
-    spec.fallback->value = info.fallback;
+    if (info.words.empty()) spec.fallback->value = info.fallback;
+    else spec.fallback->value = spec.words.at(static_cast<std::size_t>(info.fallback));
   }
   if (info.words.empty()) return spec;
   spec.type = ValueType::kWord;

@@ -11,7 +11,7 @@ export interface Template {
 
 const ORDER = [
   "four_bar", "slider_crank", "pendulum", "quick_return", "gear_train", "crane_bushing", "six_bar", "toggle_press", "scissor_lift", "trammel", "two_loop_engine",
-  "inverted_slider_crank", "robot_arm", "andrews", "five_bar_parallelogram", "rope_pendulum", "weld_beam",
+  "inverted_slider_crank", "robot_arm", "andrews", "five_bar_parallelogram", "rope_pendulum", "weld_beam", "loose_ball_bearing", "lubricated_crank",
 ];
 
 export const TEMPLATES: readonly Template[] = Object.entries(files)

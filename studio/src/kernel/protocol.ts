@@ -109,6 +109,8 @@ export interface CatalogKey {
   default?: number | string;
   /** Smallest value that is taken. */
   minimum?: number;
+  /** The key is one of these words. */
+  words?: string[];
   /** A list of any length. */
   list?: boolean;
   /** It is one of these. */

@@ -166,7 +166,7 @@ function Keys({ keys, path }: { keys: readonly CatalogKey[]; path: readonly stri
     <>
       {keys.some((key) => key.list) && <p className="quiet">{keys.filter((key) => key.list).map((key) => labelOf(key.name)).join(" and ")}: lists, edited in the text.</p>}
       {keys.filter((key) => key.words).map((key) => (
-        <WordKey key={key.name} info={key} path={[...path, key.name]} />
+        <SchemaField key={key.name} field={{ ...key, kind: "word", fallback: String(key.default), required: false }} path={[...path, key.name]} />
       ))}
       {keys.filter((key) => !key.list && !key.words).map((key) => (
         <TextQuantity
@@ -180,14 +180,6 @@ function Keys({ keys, path }: { keys: readonly CatalogKey[]; path: readonly stri
       ))}
     </>
   );
-}
-
-/** A key that is one of several words; the default stands for "not stated". */
-function WordKey({ info, path }: { info: CatalogKey; path: readonly string[] }) {
-  const stated = useLiteral(path);
-  const value = typeof stated === "string" ? stated : String(info.default ?? info.words?.[0] ?? "");
-  const change = (word: string) => setLiteral(path, word === info.default ? null : word, labelOf(info.name));
-  return <Choice label={labelOf(info.name)} value={value} options={(info.words ?? []).map((word) => ({ value: word, label: word }))} onChange={change} />;
 }
 
 function Additions({ joint }: { joint: Joint }) {

@@ -1,0 +1,61 @@
+// A force that is measured: a table of force against displacement, by cubic pieces that rise as the points do (base/monotone_table.h).
+//
+//   f = -F(e)  of a joint that holds one length;   f = -F(|e|) e/|e|  of a pin         theory/bearings Eq. (4.1)
+//   V = integral of F from 0 to e                                                      Eq. (4.2)
+//
+// At e = 0 a pin's tangent is the table's slope there, in every direction. What is lost, the damper beside it loses.
+#pragma once
+
+#include <string_view>
+
+#include "base/monotone_table.h"
+#include "laws/law_math.h"
+#include "laws/law_numbers.h"
+#include "space/planar.h"
+
+namespace pintle {
+
+struct TableLaw {
+  static constexpr std::string_view kWord = "table";
+  MonotoneTable table;  // [m] -> [N], force not falling
+  bool radial = false;  // a pin: the table begins at (0, 0)
+  int along = 0;        // else the component that it acts in
+
+  static TableLaw typical() {
+    return {MonotoneTable({0, 1e-6, 1e-5, 1e-4, 1e-3}, {0, 2, 70, 900, 1e3}, MonotoneTable::Symmetry::kOdd), true, 0};
+  }
+
+  template <class T>
+  void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
+    using namespace law_math;
+    if (!radial) {
+      out.force[along] = -force_of(in.gap[along]);                                   // (4.1)
+      out.energy = energy_of(in.gap[along]);                                         // (4.2)
+      return;
+    }
+    const T r = sqrt(in.gap[0] * in.gap[0] + in.gap[1] * in.gap[1]);
+    const T secant = where_positive(r, divide(force_of(r), r), T(table.slope(0)));
+    for (int k = 0; k < 2; ++k) out.force[k] = -(secant * in.gap[k]);                // (4.1)
+    out.energy = energy_of(r);                                                       // (4.2)
+  }
+  Planar::Vec engaged_stiffness() const {
+    Planar::Vec k = Planar::Vec::Zero();
+    if (radial) k.head<2>().setConstant(steepest());
+    else k[along] = steepest();
+    return k;
+  }
+
+ private:
+  template <class T>
+  T force_of(const T& e) const {
+    return law_math::through(e, [this](double x) { return table.value(x); }, [this](double x) { return table.slope(x); });
+  }
+  template <class T>
+  T energy_of(const T& e) const {
+    return law_math::through(e, [this](double x) { return table.integral(x); }, [this](double x) { return table.value(x); });
+  }
+  // A table may begin flat; what holds the joint is where it rises.
+  double steepest() const { return table.steepest_secant(); }
+};
+
+}  // namespace pintle
