@@ -10,7 +10,7 @@
 namespace pintle {
 namespace {
 
-constexpr std::string_view kAngularPrefix = "angular_";
+constexpr std::string_view kAngularPrefix = "angular_", kPin = "revolute";
 
 bool is_angular(const KeyInfo& key) {
   return key.key.starts_with(kAngularPrefix);
@@ -119,6 +119,19 @@ void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& l
   check_law(reading, type, law, record, choice);
 }
 
+void read_bearing(ModelReading& reading, const JointTypeInfo& type, const Entry& joint, const std::string& joint_path, std::optional<Bearing>& out) {
+  const Entry* entry = joint.value.table() == nullptr ? nullptr : joint.value.table()->find_entry("bearing");
+  if (entry == nullptr) return;
+  const std::string path = joint_path + ".bearing";
+  if (type.word != kPin) {
+    reading.complaints.add(entry->key_spot, path, "bearing", "a " + std::string(type.word) + " joint has no pin that turns in a bearing", "delete it, or state the bearing of a revolute joint");
+    return;
+  }
+  const Record record = reading.records.read(reading.spec("joint.*.bearing"), entry->value, entry->key_spot, path);
+  out = Bearing{record.word("type"), record.maybe_number("dynamic_load_rating"), record.maybe_number("static_load_rating"), record.maybe_number("fatigue_load_limit"),
+                record.maybe_number("pin_diameter"), record.maybe_number("pin_length")};
+}
+
 void read_joint(ModelReading& reading, const Entry& entry, const Record& defaults) {
   const std::string path = "joint." + entry.key;
   check_name(reading, entry, path);
@@ -148,6 +161,7 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   if (friction != nullptr && joint.ideal)
     reading.complaints.add(record.spot("friction"), path + ".friction", '"' + friction_word + '"', "an ideal joint does not give way, so that nothing says what presses its surfaces together",
                            "ideal = false, or no friction");
+  read_bearing(reading, *type, entry, path, joint.bearing);
   reading.model.joints.push_back(std::move(joint));
 }
 
