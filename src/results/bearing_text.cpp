@@ -10,75 +10,63 @@
 namespace pintle {
 namespace {
 
-using Align = TextTable::Align;
+constexpr double kTurn = 2 * std::numbers::pi, kPerMinute = 60 / kTurn, kDegrees = 360 / kTurn, kMega = 1e6;
 
-constexpr double kTurn = 2 * std::numbers::pi, kMinute = 60, kMega = 1e6;
-
-std::string value(double x) { return std::isnan(x) ? "-" : engineering(x); }
-std::string estimate(double x) { return std::isnan(x) ? "-" : exponent(x); }
-
-std::string section(const std::string& title, const TextTable& table, const std::string& bold, const std::string& plain) {
-  return table.empty() ? "" : fmt::format("\n{}\n{}", title, table.text(bold, plain));
-}
-
-TextTable duty_table(const std::vector<BearingSummary>& bearings) {
-  TextTable table;
-  table.add_column("pin", Align::kLeft);
-  table.add_column("turns", Align::kNumber);
-  table.add_column("swing", Align::kNumber, "deg");
-  for (const char* head : {"mean speed", "peak speed"}) table.add_column(head, Align::kNumber, "1/min");
-  for (const char* head : {"mean force", "peak force"}) table.add_column(head, Align::kNumber, "N");
+BearingTable duty_table(const std::vector<BearingSummary>& bearings) {
+  BearingTable table{"Pins in their bearings (the run counts as a load cycle that repeats)",
+                     {{"turns", ""}, {"swing", "deg"}, {"mean speed", "1/min"}, {"peak speed", "1/min"}, {"mean force", "N"}, {"peak force", "N"}}, {}};
   for (const BearingSummary& one : bearings)
-    table.add_row({one.joint, value(one.path / kTurn), value(one.swing * 360 / kTurn), value(one.mean_speed * kMinute / kTurn), value(one.peak_speed * kMinute / kTurn),
-                   value(one.mean_force), value(one.peak_force)});
+    table.rows.push_back({one.joint, {one.path / kTurn, one.swing * kDegrees, one.mean_speed * kPerMinute, one.peak_speed * kPerMinute, one.mean_force, one.peak_force}});
   return table;
 }
 
-TextTable life_table(const std::vector<BearingSummary>& bearings) {
-  TextTable table;
-  table.add_column("pin", Align::kLeft);
-  table.add_column("P", Align::kNumber, "N");
-  table.add_column("error est.", Align::kNumber, "N");
-  table.add_column("L10", Align::kNumber, "10^6 turns");
-  table.add_column("L10", Align::kNumber, "h");
-  table.add_column("error est.", Align::kNumber, "-");
-  table.add_column("C0/peak", Align::kNumber, "-");
-  table.add_column("Cu/P", Align::kNumber, "-");
+BearingTable life_table(const std::vector<BearingSummary>& bearings) {
+  BearingTable table{"Rolling bearings (P: equivalent load; life L10 of ISO 281)",
+                     {{"P", "N"}, {"error est.", "N", true}, {"L10", "10^6 turns"}, {"L10h", "h"}, {"error est.", "-", true}, {"C0/peak", "-"}, {"Cu/P", "-"}}, {}};
   for (const BearingSummary& one : bearings)
     if (!std::isnan(one.equivalent_load) || !std::isnan(one.static_safety))
-      table.add_row({one.joint, value(one.equivalent_load), estimate(one.equivalent_load_error), value(one.life), value(one.life_hours), estimate(one.life_error),
-                     value(one.static_safety), value(one.fatigue_ratio)});
+      table.rows.push_back({one.joint, {one.equivalent_load, one.equivalent_load_error, one.life, one.life_hours, one.life_error, one.static_safety, one.fatigue_ratio}});
   return table;
 }
 
-TextTable pressure_table(const std::vector<BearingSummary>& bearings) {
-  TextTable table;
-  table.add_column("pin", Align::kLeft);
-  for (const char* head : {"mean p", "peak p"}) table.add_column(head, Align::kNumber, "MPa");
-  for (const char* head : {"mean v", "peak v"}) table.add_column(head, Align::kNumber, "m/s");
-  for (const char* head : {"mean pv", "peak pv"}) table.add_column(head, Align::kNumber, "MPa*m/s");
+BearingTable pressure_table(const std::vector<BearingSummary>& bearings) {
+  BearingTable table{"Plain bearings (p: force over projected area; v: sliding speed)",
+                     {{"mean p", "MPa"}, {"peak p", "MPa"}, {"mean v", "m/s"}, {"peak v", "m/s"}, {"mean pv", "MPa*m/s"}, {"peak pv", "MPa*m/s"}}, {}};
   for (const BearingSummary& one : bearings)
     if (!std::isnan(one.mean_pressure))
-      table.add_row({one.joint, value(one.mean_pressure / kMega), value(one.peak_pressure / kMega), value(one.mean_sliding), value(one.peak_sliding), value(one.mean_pv / kMega),
-                     value(one.peak_pv / kMega)});
+      table.rows.push_back({one.joint, {one.mean_pressure / kMega, one.peak_pressure / kMega, one.mean_sliding, one.peak_sliding, one.mean_pv / kMega, one.peak_pv / kMega}});
   return table;
 }
 
 }  // namespace
 
+std::vector<BearingTable> bearing_tables(const std::vector<BearingSummary>& bearings) {
+  std::vector<BearingTable> tables{duty_table(bearings), life_table(bearings), pressure_table(bearings)};
+  std::erase_if(tables, [](const BearingTable& table) { return table.rows.empty(); });
+  return tables;
+}
+
 std::vector<std::string> bearing_notes(const std::vector<BearingSummary>& bearings) {
   std::vector<std::string> notes;
   for (const BearingSummary& one : bearings)
-    for (const auto& list : {one.wants, one.remarks})
-      for (const std::string& text : list) notes.push_back(fmt::format("joint {}: {}", one.joint, text));
+    for (const auto* list : {&one.wants, &one.remarks})
+      for (const std::string& text : *list) notes.push_back(fmt::format("joint {}: {}", one.joint, text));
   return notes;
 }
 
 std::string bearing_text(const std::vector<BearingSummary>& bearings, const std::string& bold, const std::string& plain) {
-  if (bearings.empty()) return "";
-  std::string text = section("Pins in their bearings (the run counts as a load cycle that repeats)", duty_table(bearings), bold, plain);
-  text += section("Rolling bearings (life L10 of ISO 281)", life_table(bearings), bold, plain);
-  text += section("Plain bearings (pressure on the projected area)", pressure_table(bearings), bold, plain);
+  std::string text;
+  for (const BearingTable& from : bearing_tables(bearings)) {
+    TextTable table;
+    table.add_column("joint", TextTable::Align::kLeft);
+    for (const BearingTable::Head& head : from.heads) table.add_column(head.text, TextTable::Align::kNumber, head.unit);
+    for (const BearingTable::Row& row : from.rows) {
+      std::vector<std::string> cells{row.joint};
+      for (std::size_t i = 0; i < row.values.size(); ++i) cells.push_back(std::isnan(row.values[i]) ? "-" : from.heads[i].estimate ? exponent(row.values[i]) : engineering(row.values[i]));
+      table.add_row(std::move(cells));
+    }
+    text += fmt::format("\n{}\n{}", from.title, table.text(bold, plain));
+  }
   for (const std::string& note : bearing_notes(bearings)) text += "  " + note + "\n";
   return text;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/text/utf8.h"
+#include "io/reading/law_keys.h"
 #include "io/reading/overrides.h"
 #include "io/text.h"
 #include "laws/catalog.h"
@@ -141,10 +142,11 @@ class LawChange {
   void note(const Table& joint, bool friction) {
     const Node* defaults = document_.root.table()->find("defaults");
     const Node* of_joints = defaults == nullptr || defaults->table() == nullptr ? nullptr : defaults->table()->find("joint");
+    const JointTypeInfo* type = find_joint_type(word_at(joint, "type"));
     std::vector<std::string> kept, by_default;
     for (const KeyInfo& info : law_->keys) {
       const std::string key(info.key);
-      if (std::find(stated_.begin(), stated_.end(), key) != stated_.end()) continue;
+      if (std::find(stated_.begin(), stated_.end(), key) != stated_.end() || (type != nullptr && !has_effect(info, *type))) continue;
       if (joint.find(key) != nullptr) kept.push_back(key);
       else if (of_joints != nullptr && of_joints->table() != nullptr && of_joints->table()->find(key) != nullptr) by_default.push_back(key);
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/reading/law_keys.h"
 #include "io/reading/model_reading.h"
 #include "io/text.h"
 #include "joints/catalog.h"
@@ -10,11 +11,7 @@
 namespace pintle {
 namespace {
 
-constexpr std::string_view kAngularPrefix = "angular_", kPin = "revolute";
-
-bool is_angular(const KeyInfo& key) {
-  return key.key.starts_with(kAngularPrefix);
-}
+constexpr std::string_view kPin = "revolute";
 
 std::size_t linear_components(const JointTypeInfo& type) {
   const auto linear = [](const ComponentInfo& component) { return !component.angular; };
@@ -105,10 +102,9 @@ void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& 
 void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record,
               const Record& defaults, LawChoice& choice) {
   choice.word = law.word;
-  const bool has_angle = std::any_of(type.gap.begin(), type.gap.end(), [](const auto& c) { return c.angular; });
   for (const KeyInfo& key : law.keys) {
     const bool stated = record.states(key.key);
-    if (stated && is_angular(key) && !has_angle) {
+    if (stated && !has_effect(key, type)) {
       reading.complaints.add(record.spot(key.key), record.path + "." + std::string(key.key), std::string(key.key),
                              "a " + std::string(type.word) + " joint forbids no angle, so this has no effect",
                              "delete it");
