@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <unordered_map>
 
 #include "bearings/duty.h"
 
@@ -16,16 +17,35 @@ constexpr double kNone = BearingSummary::kNone, kTurn = 2 * std::numbers::pi;
 constexpr double kMillion = 1e6, kHour = 3600;  // [s]
 constexpr double kMostShareOfRating = 0.5;      // ISO 281: of C, for its formula to hold
 
-Duty duty_of(const LoadSummary& load, const Trajectory& run) {
-  const std::string path = "joint." + load.name + ".", on = path + "on_" + load.second_body + ".";
-  const int angle = run.column(path + "angle"), rate = run.column(path + "angle_rate");
-  const int fx = run.column(on + "fx[world]"), fy = run.column(on + "fy[world]");
-  std::vector<DutyRow> rows;
-  if (angle < 0 || rate < 0 || fx < 0 || fy < 0) return Duty({});
-  const auto value = [&run](std::size_t row, int column) { return run.at(row, static_cast<std::size_t>(column)); };
-  for (std::size_t i = 0; i < run.n_rows(); ++i) rows.push_back({run.at(i, 0), value(i, angle), value(i, rate), {value(i, fx), value(i, fy)}});
-  return Duty(std::move(rows));
-}
+/// Columns and loads of a run by name: a large mechanism has very many.
+class NamedParts {
+ public:
+  explicit NamedParts(const Trajectory& run) : run_(run) {
+    for (std::size_t i = 0; i < run.columns.size(); ++i) columns_.emplace(run.columns[i].name, i);
+    for (const LoadSummary& load : run.joints) loads_.emplace(load.name, &load);
+  }
+
+  const LoadSummary* load(const std::string& joint) const {
+    const auto found = loads_.find(joint);
+    return found == loads_.end() ? nullptr : found->second;
+  }
+
+  Duty duty(const LoadSummary& load) const {
+    const std::string path = "joint." + load.name + ".", on = path + "on_" + load.second_body + ".";
+    const auto angle = columns_.find(path + "angle"), rate = columns_.find(path + "angle_rate"), fx = columns_.find(on + "fx[world]"), fy = columns_.find(on + "fy[world]");
+    std::vector<DutyRow> rows;
+    for (const auto& column : {angle, rate, fx, fy})
+      if (column == columns_.end()) return Duty({});
+    for (std::size_t i = 0; i < run_.n_rows(); ++i)
+      rows.push_back({run_.at(i, 0), run_.at(i, angle->second), run_.at(i, rate->second), {run_.at(i, fx->second), run_.at(i, fy->second)}});
+    return Duty(std::move(rows));
+  }
+
+ private:
+  const Trajectory& run_;
+  std::unordered_map<std::string, std::size_t> columns_;
+  std::unordered_map<std::string, const LoadSummary*> loads_;
+};
 
 void add_duty(const Duty& duty, BearingSummary& out) {
   if (duty.n_rows() == 0) {
@@ -97,7 +117,7 @@ std::vector<std::string> missing_sizes(const Bearing& bearing) {
   return wants;
 }
 
-BearingSummary summary_of(const Bearing& bearing, const LoadSummary& load, const Trajectory& run) {
+BearingSummary summary_of(const Bearing& bearing, const LoadSummary& load, const Trajectory& run, const NamedParts& parts) {
   BearingSummary out;
   out.joint = load.name;
   out.mean_force = load.mean;
@@ -105,7 +125,7 @@ BearingSummary summary_of(const Bearing& bearing, const LoadSummary& load, const
   out.force_error = load.error_estimate;
   if (run.outcome == Outcome::kHorizon && load.horizon < run.t_end)
     out.remarks.push_back(fmt::format("the motion is chaotic: the stated error is of the force up to t = {:.5g} s", load.horizon));
-  const Duty duty = duty_of(load, run);
+  const Duty duty = parts.duty(load);
   add_duty(duty, out);
   add_life(bearing, duty, out);
   add_static_safety(bearing, out);
@@ -119,11 +139,13 @@ BearingSummary summary_of(const Bearing& bearing, const LoadSummary& load, const
 double life_exponent(const Bearing& bearing) { return bearing.type == "ball" ? 3 : bearing.type == "roller" ? 10.0 / 3 : kNone; }
 
 std::vector<BearingSummary> bearing_summaries(const Model& model, const Trajectory& run, BearingsOf which) {
+  const auto wanted = [which](const Joint& joint) { return joint.bearing || (which == BearingsOf::kEveryPin && joint.type == "revolute"); };
   std::vector<BearingSummary> out;
+  if (std::none_of(model.joints.begin(), model.joints.end(), wanted)) return out;
+  const NamedParts parts(run);
   for (const Joint& joint : model.joints) {
-    if (!joint.bearing && (which != BearingsOf::kEveryPin || joint.type != "revolute")) continue;
-    const auto load = std::find_if(run.joints.begin(), run.joints.end(), [&joint](const LoadSummary& one) { return one.name == joint.name; });
-    if (load != run.joints.end()) out.push_back(summary_of(joint.bearing.value_or(Bearing{}), *load, run));
+    const LoadSummary* load = wanted(joint) ? parts.load(joint.name) : nullptr;
+    if (load != nullptr) out.push_back(summary_of(joint.bearing.value_or(Bearing{}), *load, run, parts));
   }
   return out;
 }
