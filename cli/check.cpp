@@ -9,6 +9,7 @@
 
 #include "cli/console.h"
 #include "cli/exit_codes.h"
+#include "cli/model_options.h"
 #include "cli/verbs.h"
 #include "io/document.h"
 #include "pintle/check.h"
@@ -27,13 +28,13 @@ constexpr const char* kFooter =
 
 struct CheckOptions {
   std::string model;
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides, laws;
   bool json = false, details = false, quiet = false;
 };
 
 ExitCode check(const CheckOptions& options) {
   const std::string text = read_file(options.model, kMaxFileBytes + 1);
-  const Model model = parse_model(text, options.model, options.overrides);
+  const Model model = parse_model(text, options.model, laws_and_overrides(options.laws, options.overrides));
   const CheckReport report = check_model(model);
   if (options.json) {
     print_out(check_json(report, model.name, options.model));
@@ -54,10 +55,7 @@ void add_check(CLI::App& app, int& exit_code) {
       app.add_subcommand("check", "Check a model without running it: mobility, loops, frequencies, formulas");
   const auto options = std::make_shared<CheckOptions>();
   verb->add_option("MODEL", options->model, "model file (.toml or .json)")->required();
-  verb->add_option("--set", options->overrides,
-                   "change one value of the model, e.g. joint.A.stiffness=2e8 (repeatable)")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
+  add_set_and_law(*verb, options->overrides, options->laws);
   verb->add_flag("--details", options->details, "list every mode, joint component and comparison");
   verb->add_flag("--json", options->json, "print the report as JSON");
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");

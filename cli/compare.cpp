@@ -1,11 +1,14 @@
-// pintle compare: what the compliance of the joints does, beside ideal joints or relative coordinates.
+// pintle compare: what the compliance of the joints does, beside ideal joints or relative coordinates; models and laws side by side.
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "cli/console.h"
 #include "cli/exit_codes.h"
@@ -25,57 +28,130 @@ constexpr const char* kFooter =
     "  pintle compare four_bar.toml\n"
     "  pintle compare four_bar.toml --set defaults.joint.stiffness=1e6 --plot softer.svg\n"
     "  pintle compare four_bar.toml --against relative --set joint.A.ideal=true --set joint.B.ideal=true\n"
+    "  pintle compare four_bar.toml lighter.toml --json\n"
+    "  pintle compare four_bar.toml --law 'joint.B=maxwell,stiffness=2e6,branch_ratio=[1],branch_time=[0.01]' --against ideal\n"
     "\n"
+    "One model is compared with ideal joints, point by point. Several models, or a model with --law, are run side by side: peak, mean\n"
+    "and RMS of each joint's force, with the change from the first; --against then adds the first model with other equations.\n"
     "Digits are the significant figures in which both agree. A difference within the error estimates of both runs is\n"
     "called numerical, a larger one physical: the joints' own compliance.\n\n";
 
 struct CompareOptions : ModelOptions {
+  std::vector<std::string> models;
   std::string against = "ideal", plot;
-  bool json = false, quiet = false;
+  bool against_chosen = false, json = false, quiet = false;
+
+  bool several() const { return models.size() > 1 || !laws.empty(); }
 };
 
-/// The worse of two outcomes.
-ExitCode exit_code_of(const Comparison& comparison) {
-  ExitCode code = kOk;
-  for (const Trajectory* run : {&comparison.first, &comparison.second}) {
-    if (run->outcome == Outcome::kInterrupted) return kStoppedBySignal;
-    if (run->outcome == Outcome::kFailed) code = kIntegrationFailed;
-    if (code != kOk) continue;
-    if (run->outcome == Outcome::kToleranceNotMet) code = kToleranceMissed;
-    if (run->outcome == Outcome::kHorizon) code = kPromisedUntilHorizon;
-    if (run->outcome == Outcome::kRunaway) code = kRanAway;
-    if (run->outcome == Outcome::kEnergyOpen) code = kEnergyOpen;
-  }
-  return code;
+/// One of the models that are run side by side.
+struct Variant {
+  std::string name, path;
+  Model model;
+};
+
+Equations equations_of(const CompareOptions& options) { return options.against == "ideal" ? Equations::kIdeal : Equations::kRelative; }
+
+/// The stem of a model's file where that tells the models apart, else its path.
+std::string name_of(const std::string& path, const std::vector<std::string>& paths) {
+  const auto stem = [](const std::string& file) { return std::filesystem::path(file).stem().string(); };
+  const auto alike = std::count_if(paths.begin(), paths.end(), [&](const std::string& other) { return stem(other) == stem(path); });
+  return alike > 1 ? path : stem(path);
 }
 
-ExitCode compare_model(const CompareOptions& options) {
-  const Model model = read_model_to_run(options).model;
-  const Equations against = options.against == "ideal" ? Equations::kIdeal : Equations::kRelative;
+Variant read_variant(const CompareOptions& options, const std::string& path, const std::string& law) {
+  constexpr std::string_view kJoint = "joint.";
+  ModelOptions one = options;
+  one.model = path;
+  one.laws.clear();
+  if (!law.empty()) one.laws.push_back(law);
+  Variant out{name_of(path, options.models), path, read_model_to_run(one).model};
+  if (!law.empty()) out.name += " " + (law.starts_with(kJoint) ? law.substr(kJoint.size()) : law);
+  return out;
+}
+
+/// Each model as it is and with each law; with --against the first one with other equations too.
+std::vector<Variant> read_variants(const CompareOptions& options) {
+  std::vector<Variant> variants;
+  for (const std::string& path : options.models) {
+    variants.push_back(read_variant(options, path, ""));
+    for (const std::string& law : options.laws) variants.push_back(read_variant(options, path, law));
+  }
+  if (options.against_chosen) {
+    variants.push_back(variants.front());
+    variants.back().name += ", " + to_text(equations_of(options));
+    variants.back().model.simulate.equations = equations_of(options);
+    variants.back().model.simulate.method = "auto";
+  }
+  for (Variant& variant : variants) variant.model.simulate.record = {"all"};
+  return variants;
+}
+
+ProgressReport progress_of(const CompareOptions& options) { return ProgressReport(!options.quiet && is_terminal(STDERR_FILENO) ? ProgressStyle::kLine : ProgressStyle::kNone); }
+
+std::string plot_file(const CompareOptions& options) {
+  return options.plot.empty() ? std::filesystem::path(options.models.front()).stem().string() + "-compare.svg" : options.plot;
+}
+
+/// The same for both kinds of comparison.
+template <class Text, class JsonText>
+void show(const CompareOptions& options, const Plot& picture, const Text& text, const JsonText& json) {
+  const std::string plot = plot_file(options);
+  if (plot != "none") write_file(plot, to_svg(picture));
+  if (options.json) print_out(json());
+  else if (!options.quiet) print_out(text() + (plot == "none" ? "" : "\nPlot: " + plot + "\n"));
+}
+
+ExitCode compare_variants(const CompareOptions& options) {
+  const std::vector<Variant> variants = read_variants(options);
   catch_interrupts();
-  ProgressReport report(!options.quiet && is_terminal(STDERR_FILENO) ? ProgressStyle::kLine : ProgressStyle::kNone);
+  ProgressReport report = progress_of(options);
+  std::vector<NamedRun> runs;
+  std::vector<std::string> paths;
+  std::vector<Outcome> outcomes;
+  for (const Variant& variant : variants) {
+    runs.push_back({variant.name, with_file_name(variant.path, [&] {
+      return simulate(variant.model, [&report](const Progress& progress) {
+        report.show(progress);
+        return !interrupted();
+      });
+    })});
+    paths.push_back(variant.path);
+    outcomes.push_back(runs.back().run.outcome);
+    if (interrupted()) break;
+  }
+  report.clear();
+  const Variants compared = compare(std::move(runs));
+  const std::string& name = variants.front().model.name;
+  show(options, variants_plot(compared, name.empty() ? variants.front().path : name), [&] { return variants_text(compared, wants_colour(STDOUT_FILENO)); }, [&] { return variants_json(compared, paths); });
+  return exit_code_of(outcomes);
+}
+
+ExitCode compare_equations(CompareOptions options) {
+  options.model = options.models.front();
+  const Model model = read_model_to_run(options).model;
+  catch_interrupts();
+  ProgressReport report = progress_of(options);
   const Comparison comparison = with_file_name(options.model, [&] {
-    return compare(model, against, [&report](const Progress& progress) {
+    return compare(model, equations_of(options), [&report](const Progress& progress) {
       report.show(progress);
       return !interrupted();
     });
   });
   report.clear();
   const std::string title = model.name.empty() ? options.model : model.name;
-  const std::string plot = options.plot.empty() ? std::filesystem::path(options.model).stem().string() + "-compare.svg" : options.plot;
-  if (plot != "none") write_file(plot, to_svg(compare_plot(comparison, title)));
-  if (options.json) print_out(compare_json(comparison, model.name, options.model));
-  else if (!options.quiet) print_out(compare_text(comparison, title, wants_colour(STDOUT_FILENO)) + (plot == "none" ? "" : "\nPlot: " + plot + "\n"));
-  return exit_code_of(comparison);
+  show(options, compare_plot(comparison, title), [&] { return compare_text(comparison, title, wants_colour(STDOUT_FILENO)); }, [&] { return compare_json(comparison, model.name, options.model); });
+  return exit_code_of(std::vector<Outcome>{comparison.first.outcome, comparison.second.outcome});
 }
 
 }  // namespace
 
 void add_compare(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("compare", "Compare compliant joints with ideal ones: how many digits agree, and why they differ");
+  CLI::App* verb = app.add_subcommand("compare", "Compare compliant joints with ideal ones, or models and joint laws side by side");
   const auto options = std::make_shared<CompareOptions>();
-  add_model_options(*verb, *options);
-  verb->add_option("--against", options->against, "ideal: every joint ideal; relative: relative coordinates for the joints marked ideal")
+  verb->add_option("MODEL", options->models, "model file (.toml or .json); several: side by side")->required();
+  add_changes(*verb, *options, true, "run each model also with this law of a joint, e.g. joint.A=linear,stiffness=1e7 (repeatable)");
+  CLI::Option* against = verb->add_option("--against", options->against, "ideal: every joint ideal; relative: relative coordinates for the joints marked ideal")
       ->check(CLI::IsMember({"ideal", "relative", "lagrangian"}))
       ->type_name("ideal|relative")
       ->capture_default_str();
@@ -83,7 +159,10 @@ void add_compare(CLI::App& app, int& exit_code) {
   verb->add_flag("--json", options->json, "print the comparison as JSON");
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
   verb->footer(std::string(kFooter) + kExitCodeHelp);
-  verb->callback([options, &exit_code] { exit_code = compare_model(*options); });
+  verb->callback([options, against, &exit_code] {
+    options->against_chosen = against->count() > 0;
+    exit_code = options->several() ? compare_variants(*options) : compare_equations(*options);
+  });
 }
 
 }  // namespace pintle::cli

@@ -48,6 +48,54 @@ TEST_F(CompareVerb, JsonAndNoPicture) {
   EXPECT_EQ(nlohmann::json::parse(synonym.out)["against"], "relative") << synonym.error;
 }
 
+TEST_F(CompareVerb, SeveralModelsSideBySide) {
+  sandbox_.write("heavy.toml", kPendulum);
+  EXPECT_EQ(sandbox_.shell("sed -i 's/1 kg\"/2 kg\"/; s/0.1 kg/0.2 kg/' heavy.toml").exit_code, 0);
+  const Answer answer = sandbox_.pintle("compare pendulum.toml heavy.toml --json");
+  EXPECT_EQ(answer.exit_code, 0) << answer.error;
+  const nlohmann::json json = nlohmann::json::parse(answer.out);
+  ASSERT_EQ(json["runs"].size(), 2U);
+  EXPECT_EQ(json["runs"][1]["name"], "heavy");
+  const nlohmann::json& loads = json["joints"][0]["loads"];
+  for (const char* what : {"peak_change", "mean_change", "rms_change"}) EXPECT_NEAR(loads[1][what].get<double>(), 1, 1e-4) << what;  // twice the weight of the same shape
+  EXPECT_EQ(loads[1]["peak_difference_is"], "physical");
+  EXPECT_EQ(loads[0]["peak_change"], 0);
+  const std::string picture = sandbox_.read("pendulum-compare.svg");
+  EXPECT_TRUE(holds(picture, "heavy") && holds(picture, "Force at pin"));
+  const Answer text = sandbox_.pintle("compare pendulum.toml heavy.toml --plot none");
+  EXPECT_TRUE(holds(text.out, "+100.00 %")) << text.out;
+  EXPECT_TRUE(holds(text.out, "2 runs side by side")) << text.out;
+}
+
+TEST_F(CompareVerb, LawsSideBySide) {
+  const Answer answer = sandbox_.pintle("compare pendulum.toml --plot none --law joint.pin=linear,stiffness=1e5 --law joint.pin=maxwell,branch_ratio=[1],branch_time=[0.01] --against ideal");
+  EXPECT_EQ(answer.exit_code, 0) << answer.error;
+  for (const char* part : {"4 runs side by side", "pendulum pin=linear,stiffness=1e5", "pin=maxwell", "ideal joints", "joint pin: law maxwell instead of linear"}) EXPECT_TRUE(holds(answer.out, part)) << answer.out;
+}
+
+// A joint that is not in both: a dash, and no number.
+TEST_F(CompareVerb, JointsOfOneModelOnly) {
+  sandbox_.write("other.toml", kPendulum);
+  EXPECT_EQ(sandbox_.shell("sed -i 's/joint.pin/joint.hinge/' other.toml").exit_code, 0);
+  const nlohmann::json json = nlohmann::json::parse(sandbox_.pintle("compare pendulum.toml other.toml --json --plot none").out);
+  ASSERT_EQ(json["joints"].size(), 2U);
+  EXPECT_TRUE(json["joints"][0]["loads"][1].is_null());
+  EXPECT_TRUE(json["joints"][1]["loads"][0].is_null());
+  EXPECT_TRUE(json["joints"][1]["loads"][1]["peak_change"].is_null());
+}
+
+TEST_F(CompareVerb, LawIsAnOptionOfRunAndCheck) {
+  const Answer answer = sandbox_.pintle("run pendulum.toml --law joint.pin=maxwell,branch_ratio=[1],branch_time=[0.01]");
+  EXPECT_EQ(answer.exit_code, 0) << answer.error;
+  EXPECT_TRUE(holds(answer.out, "joint pin: law maxwell instead of linear")) << answer.out;
+  EXPECT_EQ(sandbox_.pintle("report pendulum-run").exit_code, 0);  // which reads the model as it was run
+  EXPECT_TRUE(holds(sandbox_.read("pendulum-run.html"), "--law joint.pin=maxwell"));
+  EXPECT_TRUE(holds(sandbox_.pintle("check pendulum.toml --law joint.pin=linear,stiffness=1e5").out, "joint pin: law linear"));
+  const Answer wrong = sandbox_.pintle("check pendulum.toml --law joint.pin=liner");
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_TRUE(holds(wrong.error, "--law:1:11: joint.pin.law") && holds(wrong.error, "linear")) << wrong.error;
+}
+
 TEST_F(CompareVerb, EquationsAreAnOptionOfRun) {
   const Answer answer = sandbox_.pintle("run pendulum.toml --equations ideal");
   EXPECT_EQ(answer.exit_code, 0) << answer.error;

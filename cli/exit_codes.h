@@ -1,6 +1,10 @@
 // What the program says to the shell. docs/reference/exit-codes.md explains each.
 #pragma once
 
+#include <vector>
+
+#include "pintle/trajectory.h"
+
 namespace pintle::cli {
 
 enum ExitCode : int {
@@ -18,6 +22,11 @@ enum ExitCode : int {
   kEnergyOpen = 11,
   kStoppedBySignal = 130,
 };
+
+ExitCode exit_code_of(Outcome outcome);
+
+/// Of several runs: stopped or failed, else that of the first that did not complete.
+ExitCode exit_code_of(const std::vector<Outcome>& outcomes);
 
 /// The same for --help.
 inline constexpr const char* kExitCodeHelp =

@@ -25,10 +25,16 @@ void check_duration(const Model& model, const std::string& text, const std::stri
 
 void add_model_options(CLI::App& verb, ModelOptions& options, bool tolerance) {
   verb.add_option("MODEL", options.model, "model file (.toml or .json)")->required();
-  verb.add_option("--set", options.overrides,
-                  "change one value of the model, e.g. joint.A.stiffness=2e8 (repeatable)")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
+  add_changes(verb, options, tolerance);
+}
+
+void add_set_and_law(CLI::App& verb, std::vector<std::string>& overrides, std::vector<std::string>& laws, const char* law_meaning) {
+  verb.add_option("--set", overrides, "change one value of the model, e.g. joint.A.stiffness=2e8 (repeatable)")->type_name("PATH=VALUE")->allow_extra_args(false);
+  verb.add_option("--law", laws, law_meaning)->type_name("joint.NAME=LAW,...")->allow_extra_args(false);
+}
+
+void add_changes(CLI::App& verb, ModelOptions& options, bool tolerance, const char* law_meaning) {
+  add_set_and_law(verb, options.overrides, options.laws, law_meaning);
   verb.add_option("--duration", options.duration, "model time to run, e.g. 2 or '500 ms'")->type_name("TIME");
   if (!tolerance) return;
   verb.add_option("--tolerance", options.tolerance, "allowed error of each joint force, relative to its peak")
@@ -41,8 +47,15 @@ std::string svg_problem(const std::string& file) {
 
 std::string svg_or_none_problem(const std::string& file) { return file == "none" ? "" : svg_problem(file); }
 
+std::vector<std::string> laws_and_overrides(const std::vector<std::string>& laws, const std::vector<std::string>& overrides) {
+  std::vector<std::string> all;
+  for (const std::string& law : laws) all.push_back("--law " + law);
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return all;
+}
+
 std::vector<std::string> all_overrides(const ModelOptions& options) {
-  std::vector<std::string> overrides = options.overrides;
+  std::vector<std::string> overrides = laws_and_overrides(options.laws, options.overrides);
   const auto add = [&overrides](const char* key, const std::string& value) {
     if (!value.empty()) overrides.push_back(fmt::format("simulate.{}={}", key, value));
   };

@@ -15,19 +15,30 @@ namespace pintle::cli {
 
 struct ModelOptions {
   std::string model;
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides, laws;
   std::string duration, tolerance, tolerance_of, method, equations, max_step;
 };
 
-/// MODEL, --set, --duration and, where the verb has one tolerance, --tolerance.
+/// MODEL, and the changes to it.
 void add_model_options(CLI::App& verb, ModelOptions& options, bool tolerance = true);
+
+inline constexpr const char* kLawMeaning = "choose the law or friction of a joint, e.g. joint.A=linear,stiffness=1e7 (repeatable)";
+
+/// --set and --law.
+void add_set_and_law(CLI::App& verb, std::vector<std::string>& overrides, std::vector<std::string>& laws, const char* law_meaning = kLawMeaning);
+
+/// These, --duration and, where the verb has one tolerance, --tolerance.
+void add_changes(CLI::App& verb, ModelOptions& options, bool tolerance = true, const char* law_meaning = kLawMeaning);
 
 /// Empty for a file that can be drawn into as SVG; else what is wrong with it. For CLI11's check().
 std::string svg_problem(const std::string& file);
 /// The same; "none" will do.
 std::string svg_or_none_problem(const std::string& file);
 
-/// --duration and its kin are --set simulate.duration and its kin.
+/// The laws first, so that --set may change their keys, as parse_model() takes them.
+std::vector<std::string> laws_and_overrides(const std::vector<std::string>& laws, const std::vector<std::string>& overrides);
+
+/// The same; --duration and its kin are --set simulate.duration and its kin.
 std::vector<std::string> all_overrides(const ModelOptions& options);
 
 /// The file's text and the model in it, ready to run. Throws InputError, FileError.

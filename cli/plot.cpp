@@ -13,6 +13,7 @@
 #include "cli/verbs.h"
 #include "results/disk.h"
 #include "results/plots/run_plot.h"
+#include "results/plots/run_polar.h"
 
 namespace pintle::cli {
 namespace {
@@ -24,11 +25,12 @@ constexpr const char* kFooter =
     "  pintle plot four_bar-run --column body.rocker.angle --column body.rocker.spin --x joint.O2.angle\n"
     "  pintle plot four_bar-run --with softer-run --joint O4 --components magnitude\n"
     "  pintle plot four_bar-run --joint O4 --out O4.png --width 500 --dpi 300\n"
+    "  pintle plot four_bar-run --polar A\n"
     "\n"
     "Columns with different units are drawn in stacked panels. The first row of series.csv lists all columns.\n";
 
 struct PlotOptions {
-  std::string run, out;
+  std::string run, out, polar;
   std::vector<std::string> others;
   PlotRequest request;
   double width = 0, dots_per_inch = 192;
@@ -45,8 +47,9 @@ struct PlotOptions {
 std::filesystem::path plot_file(const PlotOptions& options) {
   if (!options.out.empty()) return options.out;
   std::string name = folder_name(options.run);
+  if (!options.polar.empty()) name += "-" + options.polar + "-polar";
   for (const std::string& joint : options.request.joints) name += "-" + joint;
-  if (options.request.joints.empty()) name += "-" + options.request.columns.front();
+  if (options.request.joints.empty() && !options.request.columns.empty()) name += "-" + options.request.columns.front();
   for (const std::string& other : options.others) name += "-with-" + folder_name(other);
   return name + ".svg";
 }
@@ -60,11 +63,38 @@ Plot plot_of_other(const std::string& run, const PlotRequest& request) {
 }
 
 /// Folders alone, where they tell the runs apart.
-void shorten_names(std::vector<NamedPlot>& plots) {
+template <class Named>
+void shorten_names(std::vector<Named>& plots) {
   std::set<std::string> names;
-  for (const NamedPlot& one : plots) names.insert(folder_name(one.name));
+  for (const Named& one : plots) names.insert(folder_name(one.name));
   if (names.size() < plots.size()) return;
-  for (NamedPlot& one : plots) one.name = folder_name(one.name);
+  for (Named& one : plots) one.name = folder_name(one.name);
+}
+
+std::string line_picture(const PlotOptions& options, const RunRecord& run) {
+  Plot made = make_plot(run, options.request);
+  if (!options.others.empty()) {
+    std::vector<NamedPlot> plots{{options.run, std::move(made)}};
+    for (const std::string& other : options.others) plots.push_back({other, plot_of_other(other, options.request)});
+    shorten_names(plots);
+    made = overlay(plots);
+  }
+  if (options.width > 0) made.width = options.width;
+  return to_svg(made);
+}
+
+std::string polar_picture(const PlotOptions& options, const RunRecord& run) {
+  if (!options.request.joints.empty() || !options.request.columns.empty())
+    throw PlotRequestError("found --polar with --joint or --column: they are pictures of their own.\n    Call pintle plot twice.");
+  std::vector<RunRecord> records;
+  for (const std::string& other : options.others) records.push_back(read_run(other));
+  std::vector<PolarRun> runs{{options.run, &run}};
+  for (std::size_t i = 0; i < records.size(); ++i) runs.push_back({options.others[i], &records[i]});
+  shorten_names(runs);
+  PolarPlot made = make_polar_plot(runs, options.polar);
+  if (!options.request.title.empty()) made.title = options.request.title;
+  if (options.width > 0) made.width = options.width;
+  return to_svg(made);
 }
 
 ExitCode plot(const PlotOptions& options, const WritePng& write_png) {
@@ -77,15 +107,7 @@ ExitCode plot(const PlotOptions& options, const WritePng& write_png) {
   const RunRecord run = read_run(options.run);
   std::string picture;
   try {
-    Plot made = make_plot(run, options.request);
-    if (!options.others.empty()) {
-      std::vector<NamedPlot> plots{{options.run, std::move(made)}};
-      for (const std::string& other : options.others) plots.push_back({other, plot_of_other(other, options.request)});
-      shorten_names(plots);
-      made = overlay(plots);
-    }
-    if (options.width > 0) made.width = options.width;
-    picture = to_svg(made);
+    picture = options.polar.empty() ? line_picture(options, run) : polar_picture(options, run);
   } catch (const PlotRequestError& error) {
     print_error(fmt::format("pintle plot: {}\n", error.what()));
     return kCommandLineError;
@@ -121,6 +143,7 @@ void add_plot(CLI::App& app, int& exit_code, const WritePng& write_png) {
   verb->add_option("--column", request.columns, "any column of series.csv (repeatable)")
       ->type_name("NAME")
       ->allow_extra_args(false);
+  verb->add_option("--polar", options->polar, "polar load diagrams of this revolute joint: in world axes, and in those of its marker on either body")->type_name("NAME");
   verb->add_option("--with", options->others, "add another run to the plot (repeatable)")->type_name("RUN")->allow_extra_args(false);
   verb->add_option("--x", request.x, "column on the horizontal axis")->type_name("COLUMN")->capture_default_str();
   verb->add_option("--title", request.title, "title of the plot")->type_name("TEXT");

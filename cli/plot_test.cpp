@@ -33,6 +33,18 @@ TEST_F(PlotVerb, TakesComponentsAsAList) {
   EXPECT_FALSE(holds(answer.out, "|F|"));
 }
 
+TEST_F(PlotVerb, PolarLoadDiagrams) {
+  sandbox_.write("pendulum.toml", pendulum_toml("0.2 s", "10 ms"));
+  EXPECT_EQ(sandbox_.pintle("run pendulum.toml -q").exit_code, 0);
+  const Answer answer = sandbox_.pintle("plot pendulum-run --polar pin");
+  EXPECT_EQ(answer.exit_code, 0) << answer.error;
+  EXPECT_EQ(answer.out, "pendulum-run-pin-polar.svg\n");
+  EXPECT_TRUE(holds(sandbox_.read("pendulum-run-pin-polar.svg"), "axes of its marker on bob"));
+  EXPECT_EQ(sandbox_.pintle("plot pendulum-run --polar pin --with pendulum-run --out both.svg").exit_code, 0);
+  EXPECT_EQ(sandbox_.pintle("plot pendulum-run --polar pin --joint pin").exit_code, 2);
+  EXPECT_EQ(sandbox_.pintle("plot four-run --polar slide").exit_code, 2);
+}
+
 TEST_F(PlotVerb, WrongNamesGiveCode2AndASuggestion) {
   const std::pair<const char*, const char*> mistakes[] = {
       {"--joint 04", "O4"},

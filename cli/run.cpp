@@ -30,6 +30,7 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  pintle run four_bar.toml\n"
     "  pintle run four_bar.toml --set joint.A.stiffness='2e8 N/m' --tolerance 1e-6 --out stiffer\n"
+    "  pintle run four_bar.toml --law 'joint.B=maxwell,stiffness=2e6,branch_ratio=[1],branch_time=[0.01]' --out rubber\n"
     "  pintle run four_bar.toml --json --quiet > summary.json\n"
     "\n"
     "The run folder holds series.csv (two header rows: name and unit) and summary.json. Ctrl-C stops a run and keeps the\n"
@@ -54,26 +55,6 @@ ProgressStyle progress_style(const RunOptions& options) {
 std::filesystem::path run_folder(const RunOptions& options) {
   if (!options.out.empty()) return options.out;
   return std::filesystem::path(options.model).stem().string() + "-run";
-}
-
-ExitCode exit_code_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kCompleted:
-      return kOk;
-    case Outcome::kToleranceNotMet:
-      return kToleranceMissed;
-    case Outcome::kInterrupted:
-      return kStoppedBySignal;
-    case Outcome::kFailed:
-      return kIntegrationFailed;
-    case Outcome::kHorizon:
-      return kPromisedUntilHorizon;
-    case Outcome::kRunaway:
-      return kRanAway;
-    case Outcome::kEnergyOpen:
-      return kEnergyOpen;
-  }
-  return kInternalError;
 }
 
 /// Said where it may matter to somebody; "" elsewhere.

@@ -9,11 +9,13 @@
 namespace pintle::cli {
 namespace fs = std::filesystem;
 
-DrawnRun read_drawn_run(const std::string& folder) {
+DrawnRun read_drawn_run(const std::string& folder, const std::vector<std::string>& changes) {
   DrawnRun drawn{read_run(folder), {}};
   RunStamp& stamp = drawn.run.stamp;
   stamp.model_text = read_model_text(folder, stamp);
-  drawn.model = parse_model(stamp.model_text, (fs::path(folder) / model_file_of(stamp)).string(), stamp.overrides);
+  std::vector<std::string> overrides = stamp.overrides;
+  overrides.insert(overrides.end(), changes.begin(), changes.end());
+  drawn.model = parse_model(stamp.model_text, (fs::path(folder) / model_file_of(stamp)).string(), overrides);
   return drawn;
 }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "pintle/model.h"
 #include "pintle/results.h"
@@ -14,8 +15,8 @@ struct DrawnRun {
   Model model;
 };
 
-/// Throws FileError, with the place, where the folder is damaged.
-DrawnRun read_drawn_run(const std::string& folder);
+/// `changes` are made to the model besides those of the run. Throws FileError, with the place, where the folder is damaged.
+DrawnRun read_drawn_run(const std::string& folder, const std::vector<std::string>& changes = {});
 
 /// The last part of a folder's path.
 std::string folder_name(const std::string& folder);

@@ -14,6 +14,7 @@ namespace pintle::cli {
 void add_run(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
+void add_life(CLI::App& app, int& exit_code);
 void add_stiffen(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 /// Turns a picture into the bytes of a PNG file.

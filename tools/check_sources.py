@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = "base simd space model laws joints linalg system integrators mobility start run batch check studies live results io report sweeps".split()
+ROOMS = "base simd space model laws joints linalg system integrators mobility start bearings run batch check studies live results io report sweeps".split()
 # The folders of a room, in order of dependence; what stands in the room itself is everybody's.
 FOLDERS_OF = {
     "base": "text expression".split(),
@@ -28,6 +28,7 @@ PUBLIC_HEADERS = {
     "expression.h": "base",
     "model.h": "model",
     "trajectory.h": "integrators",
+    "bearings.h": "bearings",
     "simulate.h": "start",
     "live.h": "live",
     "check.h": "mobility",

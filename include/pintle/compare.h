@@ -1,4 +1,5 @@
-// Two runs of one mechanism side by side: compliant joints against ideal ones, or against relative coordinates.
+// Runs side by side: one mechanism with compliant joints against ideal ones, or against relative coordinates, point by point; several
+// variants of a mechanism joint by joint.
 #pragma once
 
 #include <string>
@@ -50,5 +51,32 @@ Comparison compare(const Model& model, Equations against, const Observer& observ
 
 /// The differences of two runs that are there already.
 Comparison compare(const Model& model, Trajectory first, Trajectory second, Equations against);
+
+/// A run and what it is called.
+struct NamedRun {
+  std::string name;
+  Trajectory run;
+};
+
+/// What a joint carries in one of several runs, and how far that is from the first of them.
+struct VariantLoad {
+  bool there = false;  ///< this run has the joint
+  LoadSummary load;
+  double peak_change = 0, mean_change = 0, rms_change = 0;  ///< over the first run's value [-]; not a number where that has none
+  Cause cause = Cause::kNone;                               ///< of the peak's difference
+};
+
+struct VariantJoint {
+  std::string joint;
+  std::vector<VariantLoad> loads;  ///< one per run
+};
+
+struct Variants {
+  std::vector<NamedRun> runs;
+  std::vector<VariantJoint> joints;  ///< by name, in the order in which the runs have them
+};
+
+/// Peak, mean and RMS of every joint's force in each run beside those in the first.
+Variants compare(std::vector<NamedRun> runs);
 
 }  // namespace pintle

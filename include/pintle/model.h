@@ -50,6 +50,17 @@ struct LawChoice {
   friend bool operator==(const LawChoice&, const LawChoice&) = default;
 };
 
+/// What carries a pin: a rolling bearing by the figures of its catalogue, a plain one by its size. What is not stated is absent.
+/// theory/bearings
+struct Bearing {
+  std::string type;  ///< "ball" or "roller"; empty: not stated
+  std::optional<double> dynamic_load_rating{};  ///< C of ISO 281 [N]
+  std::optional<double> static_load_rating{};   ///< C_0 of ISO 76 [N]
+  std::optional<double> fatigue_load_limit{};   ///< C_u of ISO 281 [N]
+  std::optional<double> pin_diameter{}, pin_length{};  ///< of a plain bearing [m]
+  friend bool operator==(const Bearing&, const Bearing&) = default;
+};
+
 /// A joint: a joint displacement (its `type`) between two markers and a law. F is on the first marker, M on the second.
 struct Joint {
   std::string name;
@@ -59,6 +70,7 @@ struct Joint {
   LawChoice law;
   LawChoice friction{"", {}};  ///< of what the joint leaves free; no word: none
   bool ideal = false;  ///< with Equations::kRelative: no force law, the coordinates obey it
+  std::optional<Bearing> bearing{};  ///< of a pin; it does not change the motion
   friend bool operator==(const Joint&, const Joint&) = default;
 };
 
@@ -135,6 +147,7 @@ struct Model {
   std::vector<Spring> springs;
   std::vector<AppliedForce> forces;
   std::vector<Motor> motors;
+  std::vector<std::string> notes;  ///< what reading left out, for the notes of runs and checks
 };
 
 }  // namespace pintle

@@ -11,7 +11,7 @@
 namespace pintle {
 
 /// Reads a model file, TOML or JSON. Each override, "joint.A.stiffness=2e8", replaces or adds one value before anything
-/// is checked. Throws InputError with everything that is wrong, FileError if the file cannot be read.
+/// is checked; "--law joint.A=maxwell,damping=2" chooses a joint's law and drops what only the former one has. Throws InputError with everything that is wrong, FileError if the file cannot be read.
 Model read_model(const std::string& path, const std::vector<std::string>& overrides = {});
 
 /// The same from a text; `file_name` is for messages, and its ending (.toml or .json) tells the form.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,29 @@ struct MotorSummary {
   std::string name, joint, unit;
   double peak_effort = 0, rms_effort = 0, mean_effort = 0;
   double peak_power = 0, mean_power = 0, work = 0;
+};
+
+/// What a pin went through in a run, and what that makes of its bearing; the run counts as a load cycle that repeats. From the rows, and
+/// integrals over them are of the error stated. A value that cannot be had, because a size is not stated or the pin does not turn, is not a
+/// number, and `wants` or `remarks` say why. theory/bearings
+struct BearingSummary {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::string joint;
+  double path = 0;                            ///< angle that pin and bush turn in each other, back and forth added up [rad]
+  double swing = 0;                           ///< from the least to the largest angle [rad]
+  double mean_speed = 0, peak_speed = 0;      ///< of the angle, without its sign [rad/s]
+  double mean_force = 0, peak_force = 0;      ///< of the magnitude [N]
+  double force_error = 0;                     ///< stated for the joint's force [N]
+  double equivalent_load = kNone, equivalent_load_error = kNone;  ///< mean load of equal life, P [N]
+  double life = kNone, life_hours = kNone;    ///< L10 in million turns, and in hours of runs like this one
+  double life_error = kNone;                  ///< of the life, relative [-]
+  double static_safety = kNone;               ///< C_0 over the peak force [-]
+  double fatigue_ratio = kNone;               ///< fatigue load limit over P [-]
+  double mean_pressure = kNone, peak_pressure = kNone;  ///< force over projected area [Pa]
+  double mean_sliding = kNone, peak_sliding = kNone;    ///< speed of the pin's surface in the bush [m/s]
+  double mean_pv = kNone, peak_pv = kNone;    ///< pressure times sliding speed [W/m^2]
+  std::vector<std::string> wants;             ///< "state C (dynamic_load_rating) for a life"
+  std::vector<std::string> remarks;           ///< where the formulas do not hold
 };
 
 /// kinetic + potential + dissipated - supplied stays constant: `drift` is its largest departure [J].
@@ -95,6 +119,7 @@ struct Trajectory {
   std::vector<LoadSummary> joints;
   std::vector<LoadSummary> springs;
   std::vector<MotorSummary> motors;
+  std::vector<BearingSummary> bearings;  ///< of the joints whose model states a bearing
   EnergyAccount energy;
   std::vector<JointEvents> events;  ///< of joints that have any
   Counters counters;

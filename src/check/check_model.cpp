@@ -81,7 +81,8 @@ CheckReport check_model(const Model& model) {
   CheckReport report;
   count(model, report);
   const Assembled unstrained = assembled(model, Start::kUnloaded), loaded = assembled(model, Start::kAssembled);
-  report.notes = loaded.at.notes;
+  report.notes = model.notes;
+  report.notes.insert(report.notes.end(), loaded.at.notes.begin(), loaded.at.notes.end());
   weigh(model, loaded.at.state.q, report);
   report.topology = check_topology(unstrained.system);
   MobilityCheck mobility = check_mobility(unstrained.system, unstrained.at.state.q);

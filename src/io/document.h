@@ -76,6 +76,7 @@ struct Source {
 struct Document {
   std::vector<Source> sources;
   Node root;  // a table
+  std::vector<std::string> notes;  // what changes from the command line kept and left out
 
   Place place(Spot spot) const;
   /// The spot of byte `offset` of a string's value, as it is written (escapes, several lines) in the source.

@@ -32,6 +32,13 @@ std::vector<Complaint> complaints_about(const std::string& text, const std::vect
 }
 
 const std::vector<Mistake> kMistakes{
+    {"[joint.B]", "[joint.O2.bearing]\ntype = \"@needle\"\n\n[joint.B]", "joint.O2.bearing.type", "none of ball, roller"},
+    {"[joint.B]", "[joint.O2.bearing]\ndynamic_load_rating = @0\n\n[joint.B]", "joint.O2.bearing.dynamic_load_rating", "greater than 0"},
+    {"[joint.B]", "[joint.O2.bearing]\ndynamic_load_rating = \"@-5 kN\"\n\n[joint.B]", "joint.O2.bearing.dynamic_load_rating", "greater than 0"},
+    {"[joint.B]", "[joint.O2.bearing]\npin_diameter = \"@20 N\"\n\n[joint.B]", "joint.O2.bearing.pin_diameter", "a length [m] is expected"},
+    {"[joint.B]", "[joint.O2.bearing]\n@pin_diametre = 1\n\n[joint.B]", "joint.O2.bearing.pin_diametre", "no such key", "pin_diameter"},
+    {"angular_stiffness = \"5e5 N*m/rad\"", "@bearing = { type = \"ball\" }", "joint.B.bearing", "a prismatic joint has no pin", "revolute"},
+    {"stiffness = [\"1e6 N/m\", \"2e6 N/m\"]", "bearing = @3", "joint.A.bearing", "a table is expected"},
     {"format = 1\n", "@name2 = 1\nformat = 1\n", "name2", "no such key", "did you mean \"name\"?"},
     {"format = 1\n", "format = @2\n", "format", "newer than the program"},
     {"format = 1\n", "format = @0\n", "format", "at least 1"},
@@ -199,6 +206,35 @@ TEST(Mistakes, OverridesHaveTheirOwnPlaces) {
   EXPECT_EQ(at("body..mass=1"), "--set:1 ");
   EXPECT_EQ(at("simulat.duration=1"), "--set:1 simulat");
   EXPECT_EQ(at("body.crank.mass="), "--set:17 body.crank.mass");
+}
+
+TEST(Mistakes, ChosenLawsHaveTheirOwnPlaces) {
+  const auto at = [](const std::string& law) {
+    const auto complaints = complaints_about(kFullModel, {"simulate.duration=1", "--law " + law});
+    if (complaints.empty()) return std::string("none");
+    const Complaint& first = complaints.front();
+    EXPECT_EQ(first.source_line, law);
+    return first.place.file + ":" + std::to_string(first.place.column) + " " + first.path + ": " + first.because;
+  };
+  const auto begins = [&](const std::string& law, const std::string& with) {
+    const std::string found = at(law);
+    EXPECT_EQ(found.substr(0, with.size()), with) << found;
+  };
+  EXPECT_EQ(at("joint.A=linear,stiffness=1e7"), "none");
+  begins("joint.A=maxwel", "--law:9 joint.A.law: ");
+  begins("joint.Z=linear", "--law:7 joint.Z: the model has no such joint");
+  begins("joint.O4=maxwell,branch_ratio=[1],branch_time=[1],stifness=2", "--law:51 joint.O4.stifness: the law maxwell has no such key");
+  begins("joint.A=linear,stiffness=-2", "--law:26 joint.A.stiffness: ");
+  begins("joint.A=maxwell", "m.toml:61 joint.A");  // a key that the law requires is missed in the joint
+  begins("joint.O4=bushing", "--law:10 joint.O4.law: a gear joint cannot have it");
+  begins("joint.R=lugre", "--law:9 joint.R.friction: a rod joint cannot have it");
+  begins("joint.A=linear,type=fixed", "--law:16 joint.A.type: the law linear has no such key");
+  begins("joint.A=linear,stiffness", "--law:16 joint.A: a key of a law has a value");
+  begins("A=linear", "--law:1 : a law is chosen as joint.NAME=law");
+  begins("joint.A", "--law:1 : a law is chosen as joint.NAME=law");
+  begins("joint.A.law=linear", "--law:1 : a law is chosen as joint.NAME=law");
+  begins("", "--law:1 : a law is chosen as joint.NAME=law");
+  begins("joint.A=3", "--law:9 joint.A.law: ");
 }
 
 TEST(Mistakes, JsonIsLocatedToo) {

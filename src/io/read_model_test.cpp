@@ -187,5 +187,47 @@ TEST(ReadModel, TenThousandBodiesInNoTime) {
       << "far from linear";  // 0.4 s in a release build; sanitizers and busy machines are slow
 }
 
+TEST(ReadModel, Bearings) {
+  const Model model = parse_model(kFullModel, "full.toml",
+                                  {"joint.O2.bearing.type=ball", "joint.O2.bearing.dynamic_load_rating=9.56 kN", "joint.A.bearing={ pin_diameter = \"20 mm\", pin_length = 0.025 }"});
+  ASSERT_TRUE(model.joints[0].bearing && model.joints[1].bearing);
+  EXPECT_EQ(*model.joints[0].bearing, (Bearing{.type = "ball", .dynamic_load_rating = 9560}));
+  EXPECT_EQ(*model.joints[1].bearing, (Bearing{.type = "", .pin_diameter = 0.020, .pin_length = 0.025}));
+  EXPECT_FALSE(model.joints[2].bearing);
+}
+
+// Keys that both laws have stay, those of the former one alone go, and a note says so.
+TEST(ReadModel, ALawIsChosenWithItsKeys) {
+  const Model model = parse_model(kFullModel, "full.toml", {"--law joint.A=maxwell,branch_ratio=[1, 2],branch_time=[\"10 ms\", 0.1],damping='7 N*s/m'"});
+  const LawChoice& law = model.joints[1].law;
+  EXPECT_EQ(law.word, "maxwell");
+  EXPECT_EQ(law.values.at("branch_ratio"), (std::vector<double>{1, 2}));
+  EXPECT_EQ(law.values.at("branch_time"), (std::vector<double>{0.01, 0.1}));
+  EXPECT_EQ(law.values.at("damping"), (std::vector<double>{7}));
+  EXPECT_EQ(law.values.at("stiffness"), (std::vector<double>{1e6, 2e6}));
+  ASSERT_EQ(model.notes.size(), 1U);
+  EXPECT_EQ(model.notes[0], "joint A: law maxwell instead of linear; with the joint's own stiffness");
+  const Model back = parse_model(kFullModel, "full.toml", {"--law joint.A=maxwell,branch_ratio=[1],branch_time=[1]", "--law joint.A=linear", "joint.A.damping=9"});
+  EXPECT_EQ(back.joints[1].law.word, "linear");
+  EXPECT_EQ(back.joints[1].law.values.at("damping"), (std::vector<double>{9}));
+  EXPECT_EQ(back.notes.back(), "joint A: law linear instead of maxwell; with the joint's own stiffness, damping; without branch_ratio, branch_time, which it does not have");
+}
+
+// A word of a friction law chooses the friction; the law that holds the joint stays with its keys.
+TEST(ReadModel, FrictionIsChosenLikeALaw) {
+  const Model model = parse_model(kFullModel, "full.toml", {"--law joint.A=lugre,pin_radius=12 mm"});
+  EXPECT_EQ(model.joints[1].law, parse_model(kFullModel, "full.toml").joints[1].law);
+  EXPECT_EQ(parse_model(kFullModel, "full.toml", {"--law joint.O2=bushing"}).notes.at(0), "joint O2: law bushing instead of linear; with stiffness of defaults.joint");
+  EXPECT_EQ(model.joints[1].friction.word, "lugre");
+  EXPECT_EQ(model.joints[1].friction.values.at("pin_radius"), (std::vector<double>{0.012}));
+  EXPECT_EQ(model.notes.at(0), "joint A: friction lugre");
+}
+
+TEST(ReadModel, AChosenLawKeepsWhatFrictionNeeds) {
+  const Model model = parse_model(kFullModel, "full.toml", {"--law joint.A=lugre,pin_radius=12 mm", "--law joint.A=linear,stiffness=1e7"});
+  EXPECT_EQ(model.joints[1].friction.values.at("pin_radius"), (std::vector<double>{0.012}));
+  EXPECT_EQ(model.joints[1].law.values.at("stiffness"), (std::vector<double>{1e7}));
+}
+
 }  // namespace
 }  // namespace pintle

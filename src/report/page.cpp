@@ -18,6 +18,7 @@ extern const char* const kPageValues;
 extern const char* const kPageClock;
 extern const char* const kPageStage;
 extern const char* const kPageChart;
+extern const char* const kPagePolar;
 extern const char* const kPageMain;
 
 namespace {
@@ -103,7 +104,7 @@ std::string section(const char* id, const char* title, const std::string& conten
 
 std::string script(const Scene& scene, const RunRecord& run, const PageContent& content) {
   std::string html = "<script type=\"application/json\" id=\"run\">" + page_data(scene, run, content) + "</script>\n<script>\n\"use strict\";\n";
-  for (const char* part : {kPageValues, kPageClock, kPageStage, kPageChart, kPageMain}) html += part;
+  for (const char* part : {kPageValues, kPageClock, kPageStage, kPageChart, kPagePolar, kPageMain}) html += part;
   return html + "</script>\n";
 }
 
@@ -123,6 +124,7 @@ std::string report_html(const Model& model, const RunRecord& run, const ReportOp
   html += motion(scene, run);
   if (rows) html += section("plots", "Plots", plots(trajectory, content));
   html += section("forces-of-joints", "Peak joint forces", (trajectory.joints.empty() ? "<p>There are no joints.</p>\n" : force_table(trajectory)) + couple_table(trajectory) + drive_tables(trajectory));
+  if (!trajectory.bearings.empty()) html += section("bearings", "Bearings", bearing_section(trajectory.bearings));
   html += section("energy", "Energy account", energy_table(trajectory.energy));
   html += section("assumed", "Assumptions", assumption_list(model, trajectory));
   html += section("work", "Computation", counter_table(trajectory));

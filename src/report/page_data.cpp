@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -48,6 +49,7 @@ class PageData {
       : scene_(scene), run_(run), trajectory_(run.trajectory), content_(content), all_(trajectory_.columns) {
     for (std::size_t i = 0; i < content.columns.size(); ++i) place_.emplace_back(content.columns[i], static_cast<int>(i));
     std::sort(place_.begin(), place_.end());
+    for (const PinMarkers& pin : scene.pins) pins_.emplace(pin.joint, &pin);
   }
 
   std::string text() const {
@@ -152,8 +154,16 @@ class PageData {
       const std::string on = "joint." + joint.name + ".on_" + joint.second_body + ".";
       list.push_back({{"name", joint.name}, {"peak", joint.peak}, {"peak_time", joint.peak_time}, {"error", joint.error_estimate},
                       {"fx", kept(on + "fx[world]")}, {"fy", kept(on + "fy[world]")}});
+      const auto pin = pins_.find(joint.name);
+      if (pin == pins_.end()) continue;
+      const PinMarkers& markers = *pin->second;
+      list.back()["pin"] = {{"first", side(markers.first, markers.first_marker)}, {"second", side(markers.second, markers.second_marker)}};
     }
     return list;
+  }
+
+  static Json side(const Anchor& at, const MarkerRef& marker) {
+    return {{"body", at.body}, {"axis", at.axis}, {"on", marker.body}, {"marker", marker.body + "." + marker.marker}};
   }
 
   Json point(const Vec2& p) const { return {rounded(p[0], grain_), rounded(p[1], grain_)}; }
@@ -227,6 +237,7 @@ class PageData {
   const PageContent& content_;
   ColumnIndex all_;
   std::vector<std::pair<std::size_t, int>> place_;  // column of the run, place on the page
+  std::map<std::string, const PinMarkers*> pins_;
   double grain_ = 1e-5 * scene_.unit;               // nothing finer can be seen
 };
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "results/bearing_text.h"
 #include "results/force_quality.h"
 #include "results/plots/markup.h"
 #include "results/plots/plot_ticks.h"
@@ -213,6 +214,27 @@ std::string drive_tables(const Trajectory& trajectory) {
     table.end_row();
   }
   return html + "<h3>Springs</h3>\n" + table.html();
+}
+
+std::string bearing_section(const std::vector<BearingSummary>& bearings) {
+  std::string html;
+  for (const BearingTable& from : bearing_tables(bearings)) {
+    HtmlTable table(" class=\"sortable\"");
+    table.head("joint", "", false);
+    for (const BearingTable::Head& head : from.heads) table.head(head.text, head.unit);
+    for (const BearingTable::Row& row : from.rows) {
+      table.begin_row();
+      table.name(escaped_markup(row.joint));
+      for (std::size_t i = 0; i < row.values.size(); ++i) {
+        const double x = row.values[i];
+        table.number(x, std::isnan(x) ? "–" : from.heads[i].estimate ? estimate(x) : value(x));
+      }
+      table.end_row();
+    }
+    html += "<h3>" + escaped_markup(from.title) + "</h3>\n" + table.html();
+  }
+  for (const std::string& note : bearing_notes(bearings)) html += "<p class=\"note\">" + escaped_markup(note) + "</p>\n";
+  return html;
 }
 
 std::string energy_table(const EnergyAccount& energy) {

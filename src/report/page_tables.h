@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "pintle/model.h"
 #include "pintle/results.h"
@@ -19,6 +20,7 @@ std::string facts_line(const Model& model, const Trajectory& trajectory);  ///< 
 std::string force_table(const Trajectory& trajectory);
 std::string couple_table(const Trajectory& trajectory);   ///< "" without any
 std::string drive_tables(const Trajectory& trajectory);   ///< springs and motors
+std::string bearing_section(const std::vector<BearingSummary>& bearings);
 std::string energy_table(const EnergyAccount& energy);
 std::string assumption_list(const Model& model, const Trajectory& trajectory);
 std::string counter_table(const Trajectory& trajectory);

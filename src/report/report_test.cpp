@@ -138,6 +138,29 @@ torque = "1e3/max(0, 0.1 - t)"
   EXPECT_EQ(data_of(html)["rows"], run.trajectory.n_rows());
 }
 
+TEST(Report, PinsTellWhoseAxesTheirPolarDiagramMayHave) {
+  const drawn::DrawnRun drawn = run_of_mechanism("four_bar");
+  const Json data = data_of(report_html(drawn.model, drawn.run));
+  const Json& pin = data["joints"][3]["pin"];
+  EXPECT_EQ(pin["first"]["marker"], "ground.O4");
+  EXPECT_EQ(pin["first"]["body"], kWorld);
+  EXPECT_EQ(pin["second"]["on"], "follower");
+  EXPECT_EQ(data["scene"]["bodies"][pin["second"]["body"].get<std::size_t>()]["name"], "follower");
+  EXPECT_DOUBLE_EQ(pin["second"]["axis"].get<double>(), 0);
+  const drawn::DrawnRun shaper = run_of_mechanism("quick_return");
+  const Json joints = data_of(report_html(shaper.model, shaper.run))["joints"];
+  for (std::size_t i = 0; i < joints.size(); ++i) EXPECT_EQ(joints[i].contains("pin"), shaper.model.joints[i].type == "revolute") << joints[i]["name"];
+}
+
+TEST(Report, BearingsHaveATableOfTheirOwn) {
+  EXPECT_FALSE(holds(report_html(run_of_mechanism("four_bar").model, run_of_mechanism("four_bar").run), "id=\"bearings\""));
+  const drawn::DrawnRun drawn = run_of(read_file(PINTLE_SOURCE_DIR "/mechanisms/four_bar.toml") + "\n[joint.B.bearing]\ntype = \"roller\"\ndynamic_load_rating = \"5 kN\"\n");
+  const std::string html = report_html(drawn.model, drawn.run);
+  EXPECT_TRUE(holds(html, "id=\"bearings\""));
+  EXPECT_TRUE(holds(html, "L10h"));
+  EXPECT_TRUE(holds(html, "joint B: state static_load_rating (C0) for a static safety"));
+}
+
 TEST(Report, VerdictNamesTheWorstJoint) {
   auto [model, run] = run_of_mechanism("four_bar");
   EXPECT_EQ(verdict_on(run.trajectory).kind, Verdict::kGood);

@@ -208,6 +208,8 @@ void SceneMaker::add_arrows() {
     const std::string p = "joint." + joint.name + ".on_" + joint.second.body + ".";
     const int fx = columns_.find(p + "fx[world]"), fy = columns_.find(p + "fy[world]");
     if (at && fx >= 0 && fy >= 0) scene_.arrows.push_back({joint.name, joint.second.body, *at, fx, fy});
+    const auto first = find(joint.first), second = find(joint.second);
+    if (joint.type == "revolute" && first && second) scene_.pins.push_back({joint.name, *first, *second, joint.first, joint.second});
   }
   for (const AppliedForce& load : model_.forces)
     if (const auto at = find(load.on)) scene_.loads.push_back({load.name, *at, load.force, load.body_axes});

@@ -67,6 +67,13 @@ struct ForceArrow {
   int fx = -1, fy = -1;
 };
 
+/// The markers of a revolute joint, whose axes its polar load diagram may have.
+struct PinMarkers {
+  std::string joint;
+  Anchor first, second;
+  MarkerRef first_marker, second_marker;
+};
+
 /// An applied force, a function of time.
 struct LoadArrow {
   std::string name;
@@ -97,6 +104,7 @@ struct Scene {
   std::vector<NamedPoint> labels;
   std::vector<ForceArrow> arrows;
   std::vector<LoadArrow> loads;
+  std::vector<PinMarkers> pins;  ///< those between bodies that were recorded
   Box box;                   ///< what the mechanism and its arrows cover during the run [m]
   double unit = 1;           ///< size of a symbol [m]; a link is 1.5 units wide
   double arrow_length = 0;   ///< of the force `arrow_force` [m]

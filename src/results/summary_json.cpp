@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "results/bearing_text.h"
+
 namespace pintle {
 namespace {
 
@@ -73,6 +75,36 @@ void for_each_entry(Motor& motor, const Visit& visit) requires requires {
   visit("peak_power", motor.peak_power);
   visit("mean_power", motor.mean_power);
   visit("work", motor.work);
+}
+
+template <class Pin, class Visit>
+void for_each_entry(Pin& pin, const Visit& visit) requires requires {
+  pin.equivalent_load;
+}
+{
+  visit("joint", pin.joint);
+  visit("path", pin.path);
+  visit("swing", pin.swing);
+  visit("mean_speed", pin.mean_speed);
+  visit("peak_speed", pin.peak_speed);
+  visit("mean_force", pin.mean_force);
+  visit("peak_force", pin.peak_force);
+  visit("force_error", pin.force_error);
+  visit("equivalent_load", pin.equivalent_load);
+  visit("equivalent_load_error", pin.equivalent_load_error);
+  visit("life", pin.life);
+  visit("life_hours", pin.life_hours);
+  visit("life_error", pin.life_error);
+  visit("static_safety", pin.static_safety);
+  visit("fatigue_ratio", pin.fatigue_ratio);
+  visit("mean_pressure", pin.mean_pressure);
+  visit("peak_pressure", pin.peak_pressure);
+  visit("mean_sliding", pin.mean_sliding);
+  visit("peak_sliding", pin.peak_sliding);
+  visit("mean_pv", pin.mean_pv);
+  visit("peak_pv", pin.peak_pv);
+  visit("wants", pin.wants);
+  visit("remarks", pin.remarks);
 }
 
 template <class Energy, class Visit>
@@ -209,6 +241,7 @@ Summary summary_from(const Json& json) {
   from_json(json.at("joints"), trajectory.joints);
   from_json(json.at("springs"), trajectory.springs);
   from_json(json.at("motors"), trajectory.motors);
+  if (json.contains("bearings")) from_json(json.at("bearings"), trajectory.bearings);  // not in runs of version 0.2
   from_json(json.at("energy"), trajectory.energy);
   from_json(json.at("counters"), trajectory.counters);
   from_json(json.at("columns"), trajectory.columns);
@@ -240,11 +273,16 @@ std::string summary_json(const Trajectory& trajectory, const RunStamp& stamp) {
   json["joints"] = to_json(trajectory.joints);
   json["springs"] = to_json(trajectory.springs);
   json["motors"] = to_json(trajectory.motors);
+  json["bearings"] = to_json(trajectory.bearings);
   json["energy"] = to_json(trajectory.energy);
   json["counters"] = to_json(trajectory.counters);
   json["rows"] = trajectory.n_rows();
   json["columns"] = to_json(trajectory.columns);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string bearing_json(const std::vector<BearingSummary>& bearings) {
+  return Json{{"bearings", to_json(bearings)}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Summary parse_summary(std::string_view text, const std::filesystem::path& path) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "pintle/results.h"
+#include "results/bearing_text.h"
 #include "results/force_quality.h"
 #include "results/text_table.h"
 
@@ -224,6 +225,7 @@ std::string summary_text(const Trajectory& trajectory, const RunStamp& stamp, bo
   text += spring_section(trajectory, style);
   text += motor_section(trajectory, style);
   text += event_section(trajectory, style);
+  text += bearing_text(trajectory.bearings, style.bold, style.plain);
   text += energy_section(trajectory.energy, style);
   text += work_section(trajectory);
   const std::size_t n_notes = trajectory.notes.size(), n_shown = n_notes > kFull ? kCut : n_notes;

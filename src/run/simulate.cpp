@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "pintle/bearings.h"
 #include "run/energy_watch.h"
 #include "run/error_growth.h"
 #include "run/integration.h"
@@ -51,7 +52,8 @@ class Run {
     Assembly assembly = start_of_run(model_, system_, shape_.nominal != nullptr && !shape_.checked ? shape_.nominal->span : 0);
     start_ = std::move(assembly.state);
     span_ = assembly.span;
-    out_.notes = std::move(assembly.notes);
+    out_.notes = model_.notes;
+    out_.notes.insert(out_.notes.end(), assembly.notes.begin(), assembly.notes.end());
     not_unique_ = std::move(assembly.not_unique);
     out_.tolerance = model_.simulate.tolerance;
     choice_.equations = model_.simulate.equations;
@@ -262,6 +264,7 @@ class Run {
       joint.relative_error_estimate = std::max(share_ * relative_difference[j], least);
     }
     if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * model_.simulate.tolerance, chaos_, out_);
+    if (shape_.recorded == Recorded::kColumns) out_.bearings = bearing_summaries(model_, out_);
   }
 
   void fill_events() {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -74,9 +75,14 @@ void relate(std::vector<Difference>& list) {
   }
 }
 
+Cause cause_of(double difference, const LoadSummary& a, const LoadSummary& b) {
+  if (!a.unique || !b.unique) return Cause::kNotUnique;
+  return difference <= kBeyond * (a.error_estimate + b.error_estimate) ? Cause::kNumerical : Cause::kPhysical;
+}
+
 void judge(const LoadSummary& a, const LoadSummary& b, Difference& d) {
   d.error_estimate = a.error_estimate + b.error_estimate;
-  d.cause = !a.unique || !b.unique ? Cause::kNotUnique : d.largest <= kBeyond * d.error_estimate ? Cause::kNumerical : Cause::kPhysical;
+  d.cause = cause_of(d.largest, a, b);
 }
 
 void add_joints(Comparison& c, const std::vector<std::pair<std::size_t, std::size_t>>& rows) {
@@ -131,7 +137,35 @@ void find_softness(const Model& model, Comparison& c) {
   std::stable_sort(c.softness.begin(), c.softness.end(), [](const Softness& a, const Softness& b) { return a.share > b.share; });
 }
 
+VariantLoad variant_load(const LoadSummary& load, const LoadSummary* base) {
+  VariantLoad out{true, load};
+  const auto change = [](double x, double from) { return from > 0 ? (x - from) / from : std::numeric_limits<double>::quiet_NaN(); };
+  const LoadSummary none;
+  const LoadSummary& from = base == nullptr ? none : *base;
+  out.peak_change = change(load.peak, from.peak);
+  out.mean_change = change(load.mean, from.mean);
+  out.rms_change = change(load.rms, from.rms);
+  if (base != nullptr) out.cause = cause_of(std::abs(load.peak - base->peak), load, *base);
+  return out;
+}
+
 }  // namespace
+
+Variants compare(std::vector<NamedRun> runs) {
+  Variants out;
+  std::map<std::string, std::size_t> places;
+  for (const NamedRun& one : runs)
+    for (const LoadSummary& load : one.run.joints)
+      if (places.emplace(load.name, out.joints.size()).second) out.joints.push_back({load.name, std::vector<VariantLoad>(runs.size())});
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (const LoadSummary& load : runs[i].run.joints) {
+      std::vector<VariantLoad>& loads = out.joints[places.at(load.name)].loads;
+      const VariantLoad& base = loads.front();
+      loads[i] = variant_load(load, i == 0 ? &load : base.there ? &base.load : nullptr);
+    }
+  out.runs = std::move(runs);
+  return out;
+}
 
 int agreeing_digits(double relative_difference) {
   if (!(relative_difference < 0.5)) return 0;

@@ -27,6 +27,7 @@ void read_all(ModelReading& reading) {
   read_loads(reading);
   read_motors(reading);
   check_record(reading);
+  reading.model.notes = reading.complaints.document().notes;
 }
 
 Model parse_model(std::string_view text, std::string_view file_name, const std::vector<std::string>& overrides) {

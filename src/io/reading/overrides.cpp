@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/text/utf8.h"
-#include "io/complaints.h"
+#include "io/reading/choose_law.h"
 #include "io/schema/schema.h"
 #include "io/text.h"
 
@@ -26,28 +26,6 @@ void move_spots(Node& node, int source, int shift) {
     }
     *table = std::move(moved);
   }
-}
-
-Node read_override_value(const std::string& text, int source, int column) {
-  constexpr std::string_view kKey = "x = ";
-  const bool one_line = text.find_first_of("\r\n") == std::string::npos;
-  if (one_line) {
-    try {
-      Document document = parse_toml(std::string(kKey) + text, "--set");
-      const std::vector<Entry>& entries = document.root.table()->entries();
-      if (entries.size() == 1 && entries.front().key == "x") {
-        Node value = entries.front().value;
-        move_spots(value, source, column - 1 - static_cast<int>(kKey.size()));
-        return value;
-      }
-    } catch (const InputError&) {
-      // Not TOML: it is a string without its quotes.
-    }
-  }
-  Node node;
-  node.value = text;
-  node.spot = {source, 1, column};
-  return node;
 }
 
 std::vector<std::string> split_path(std::string_view path) {
@@ -105,11 +83,7 @@ class Override {
   // An override changes what the file has: a new body, joint or parameter would be a misspelt one.
   bool refuse_new_name(const Table& table, const std::vector<std::string>& parts, std::size_t i) {
     if (i != 1 || !chooses_names(parts[0])) return false;
-    std::vector<std::string> names;
-    for (const Entry& entry : table.entries()) names.push_back(entry.key);
-    const std::string near = complaints_.did_you_mean(parts[1], names);
-    const std::string kind = parts[0] == "parameters" ? "parameter" : parts[0];
-    complaints_.add(spot_, parts[0] + "." + parts[1], in_quotes(parts[1]), "the model has no such " + kind, near);
+    complain_of_unknown_name(complaints_, table, parts[0], parts[1], spot_);
     return true;
   }
 
@@ -135,10 +109,46 @@ class Override {
   Spot spot_{source_, 1, 1};
 };
 
+constexpr std::string_view kLawOption = "--law ";
+
+Source source_of(const std::string& override_text) {
+  if (!override_text.starts_with(kLawOption)) return {"--set", override_text};
+  return {"--law", override_text.substr(kLawOption.size())};
+}
+
 }  // namespace
 
+Node read_override_value(const std::string& text, int source, int column) {
+  constexpr std::string_view kKey = "x = ";
+  const bool one_line = text.find_first_of("\r\n") == std::string::npos;
+  if (one_line) {
+    try {
+      Document document = parse_toml(std::string(kKey) + text, "--set");
+      const std::vector<Entry>& entries = document.root.table()->entries();
+      if (entries.size() == 1 && entries.front().key == "x") {
+        Node value = entries.front().value;
+        move_spots(value, source, column - 1 - static_cast<int>(kKey.size()));
+        return value;
+      }
+    } catch (const InputError&) {
+      // Not TOML: it is a string without its quotes.
+    }
+  }
+  Node node;
+  node.value = text;
+  node.spot = {source, 1, column};
+  return node;
+}
+
+void complain_of_unknown_name(Complaints& complaints, const Table& section, const std::string& section_name, const std::string& name, Spot spot) {
+  std::vector<std::string> names;
+  for (const Entry& entry : section.entries()) names.push_back(entry.key);
+  const std::string kind = section_name == "parameters" ? "parameter" : section_name;
+  complaints.add(spot, section_name + "." + name, in_quotes(name), "the model has no such " + kind, complaints.did_you_mean(name, names));
+}
+
 void apply_overrides(Document& document, const std::vector<std::string>& overrides) {
-  for (const std::string& text : overrides) document.sources.emplace_back("--set", text);
+  for (const std::string& text : overrides) document.sources.push_back(source_of(text));
   Complaints complaints(document);
   for (std::size_t i = 0; i < overrides.size(); ++i) {
     if (overrides[i].size() > kMaxFileBytes || first_invalid_utf8(overrides[i])) {
@@ -146,7 +156,8 @@ void apply_overrides(Document& document, const std::vector<std::string>& overrid
                      "plain letters");
       continue;
     }
-    Override(document, static_cast<int>(i) + 1, complaints).apply();
+    if (overrides[i].starts_with(kLawOption)) choose_law(document, static_cast<int>(i) + 1, complaints);
+    else Override(document, static_cast<int>(i) + 1, complaints).apply();
   }
   complaints.throw_if_any();
 }

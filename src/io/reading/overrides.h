@@ -4,12 +4,20 @@
 #include <string>
 #include <vector>
 
+#include "io/complaints.h"
 #include "io/document.h"
 
 namespace pintle {
 
 /// Each override is "path.to.key=value". The value is read as TOML if it is that ("2e8", "[0, 1]", "true"), else as a
 /// string ("25 mm", "radau"). Tables on the way are added if they are missing, but no new bodies, joints and so on.
+/// Or it chooses the law of a joint: "--law joint.A=maxwell,damping=2", see choose_law.
 void apply_overrides(Document& document, const std::vector<std::string>& overrides);
+
+/// The value of an override that stands in the source from this column on.
+Node read_override_value(const std::string& text, int source, int column);
+
+/// Complains of a name of the model's own that it does not have; `spot` is where it stands.
+void complain_of_unknown_name(Complaints& complaints, const Table& section, const std::string& section_name, const std::string& name, Spot spot);
 
 }  // namespace pintle

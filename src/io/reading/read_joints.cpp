@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/reading/law_keys.h"
 #include "io/reading/model_reading.h"
 #include "io/text.h"
 #include "joints/catalog.h"
@@ -10,11 +11,7 @@
 namespace pintle {
 namespace {
 
-constexpr std::string_view kAngularPrefix = "angular_";
-
-bool is_angular(const KeyInfo& key) {
-  return key.key.starts_with(kAngularPrefix);
-}
+constexpr std::string_view kPin = "revolute";
 
 std::size_t linear_components(const JointTypeInfo& type) {
   const auto linear = [](const ComponentInfo& component) { return !component.angular; };
@@ -111,10 +108,9 @@ std::vector<double> numbers_of(const KeyInfo& key, const Value& value) {
 void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record,
               const Record& defaults, LawChoice& choice) {
   choice.word = law.word;
-  const bool has_angle = std::any_of(type.gap.begin(), type.gap.end(), [](const auto& c) { return c.angular; });
   for (const KeyInfo& key : law.keys) {
     const bool stated = record.states(key.key);
-    if (stated && is_angular(key) && !has_angle) {
+    if (stated && !has_effect(key, type)) {
       reading.complaints.add(record.spot(key.key), record.path + "." + std::string(key.key), std::string(key.key),
                              "a " + std::string(type.word) + " joint forbids no angle, so this has no effect",
                              "delete it");
@@ -123,6 +119,19 @@ void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& l
     if (value != nullptr) choice.values[std::string(key.key)] = numbers_of(key, *value);
   }
   check_law(reading, type, law, record, choice);
+}
+
+void read_bearing(ModelReading& reading, const JointTypeInfo& type, const Entry& joint, const std::string& joint_path, std::optional<Bearing>& out) {
+  const Entry* entry = joint.value.table() == nullptr ? nullptr : joint.value.table()->find_entry("bearing");
+  if (entry == nullptr) return;
+  const std::string path = joint_path + ".bearing";
+  if (type.word != kPin) {
+    reading.complaints.add(entry->key_spot, path, "bearing", "a " + std::string(type.word) + " joint has no pin that turns in a bearing", "delete it, or state the bearing of a revolute joint");
+    return;
+  }
+  const Record record = reading.records.read(reading.spec("joint.*.bearing"), entry->value, entry->key_spot, path);
+  out = Bearing{record.word("type"), record.maybe_number("dynamic_load_rating"), record.maybe_number("static_load_rating"), record.maybe_number("fatigue_load_limit"),
+                record.maybe_number("pin_diameter"), record.maybe_number("pin_length")};
 }
 
 void read_joint(ModelReading& reading, const Entry& entry, const Record& defaults) {
@@ -157,6 +166,7 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   if (friction != nullptr && law->rubs)
     reading.complaints.add(record.spot("friction"), path + ".friction", '"' + friction_word + '"', "a joint with law \"" + std::string(law->word) + "\" has friction of its own, where the bodies touch",
                            "friction_coefficient, and no friction");
+  read_bearing(reading, *type, entry, path, joint.bearing);
   reading.model.joints.push_back(std::move(joint));
 }
 

@@ -182,7 +182,7 @@ class ChosenChart extends Chart {
 }
 
 const groupOf = (kind, name) => run.groups.find((group) => group.kind === kind && (name === undefined || group.name === name));
-let overviewChart = null, jointChart = null;
+let overviewChart = null, jointChart = null, polarChart = null;
 
 function setUpCharts() {
   const host = byId("charts");
@@ -201,6 +201,12 @@ function setUpCharts() {
     if (group === first) jointChart = chart;
     host.append(chart.figure);
     chart.fitWidth();
+  }
+  const pins = largestFirst.filter((joint) => joint.pin);
+  if (pins.length) {
+    polarChart = new PolarChart(clock, pins);
+    host.append(polarChart.figure);
+    polarChart.fitWidth();
   }
   const more = made("button", { textContent: "Add a plot" });
   more.addEventListener("click", () => {
@@ -230,6 +236,8 @@ function choose(joint) {
     stage.queue();
   }
   for (const row of document.querySelectorAll("#force-table tbody tr")) row.classList.toggle("chosen", row.dataset.joint === joint);
+  const pin = polarChart?.joints.find((one) => one.name === joint);
+  if (pin) polarChart.pick(pin);
   if (!group) return;
   if (jointChart) return jointChart.pick(group, 0);
   jointChart = new ChosenChart(clock, group, 0);

@@ -8,7 +8,6 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "base/text/did_you_mean.h"
 #include "results/plots/plot_ticks.h"
 #include "results/text_table.h"
 
@@ -30,38 +29,6 @@ constexpr std::array<ComponentName, 6> kComponents{{
     {"moment", "m[world]", "M", ""},
 }};
 
-std::string hint(const std::string& word, const std::vector<std::string>& words, std::string_view list_name) {
-  if (const auto meant = did_you_mean(word, words)) return fmt::format("Did you mean \"{}\"?", *meant);
-  std::string list;
-  for (const std::string& entry : words) list += (list.empty() ? "" : ", ") + entry;
-  return fmt::format("{}: {}.", list_name, list.empty() ? "none" : list);
-}
-
-std::vector<double> values_of(const Trajectory& trajectory, int column) {
-  std::vector<double> values(trajectory.n_rows());
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = trajectory.at(i, static_cast<std::size_t>(column));
-  return values;
-}
-
-int find_column(const Trajectory& trajectory, const std::string& name) {
-  const int column = trajectory.column(name);
-  if (column >= 0) return column;
-  std::vector<std::string> names;
-  for (const Column& entry : trajectory.columns) names.push_back(entry.name);
-  throw PlotRequestError(
-      fmt::format("found column \"{}\": the run has no such column.\n    {}", name, hint(name, names, "Its columns")));
-}
-
-const LoadSummary& find_joint(const Trajectory& trajectory, const std::string& name) {
-  std::vector<std::string> names;
-  for (const LoadSummary& joint : trajectory.joints) {
-    if (joint.name == name) return joint;
-    names.push_back(joint.name);
-  }
-  throw PlotRequestError(
-      fmt::format("found joint \"{}\": the run has no such joint.\n    {}", name, hint(name, names, "Its joints")));
-}
-
 const ComponentName& find_component(const std::string& word) {
   std::vector<std::string> words;
   for (const ComponentName& component : kComponents) {
@@ -69,7 +36,7 @@ const ComponentName& find_component(const std::string& word) {
     words.emplace_back(component.word);
   }
   throw PlotRequestError(fmt::format("found component \"{}\": there is no such component.\n    {}", word,
-                                     hint(word, words, "Components")));
+                                     hint_of(word, words, "Components")));
 }
 
 std::string body_on(const LoadSummary& joint, const PlotRequest& request) {
@@ -77,12 +44,6 @@ std::string body_on(const LoadSummary& joint, const PlotRequest& request) {
   if (request.on == joint.first_body || request.on == joint.second_body) return request.on;
   throw PlotRequestError(fmt::format("found body \"{}\": joint {} joins {} and {}.\n    Choose one of these with --on.",
                                      request.on, joint.name, joint.first_body, joint.second_body));
-}
-
-std::vector<double> magnitude(const std::vector<double>& x, const std::vector<double>& y) {
-  std::vector<double> result(x.size());
-  std::transform(x.begin(), x.end(), y.begin(), result.begin(), [](double a, double b) { return std::hypot(a, b); });
-  return result;
 }
 
 class PlotMaker {

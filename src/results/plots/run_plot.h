@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pintle/results.h"
+#include "results/plots/run_columns.h"
 #include "results/plots/svg_plot.h"
 
 namespace pintle {
@@ -18,12 +19,6 @@ struct PlotRequest {
   std::vector<std::string> columns;  ///< these columns as they are
   std::string x = "t";               ///< column along the horizontal axis
   std::string title;                 ///< empty: made from the request
-};
-
-/// A request that the run cannot meet: no such joint, column or component; with what was probably meant.
-class PlotRequestError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 /// Curves of one unit share a panel. Throws PlotRequestError.

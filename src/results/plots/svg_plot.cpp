@@ -9,28 +9,15 @@
 #include <limits>
 #include <string_view>
 
-#include "base/text/utf8.h"
 #include "results/plots/markup.h"
+#include "results/plots/plot_style.h"
 #include "results/plots/plot_ticks.h"
 #include "results/plots/thin_line.h"
 
 namespace pintle {
 namespace {
 
-// Colours that stay apart for colour-blind readers: M. Okabe and K. Ito, Color Universal Design (2008).
-constexpr std::array<const char*, 7> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                              "#e69f00", "#56b4e9", "#222222"};
-constexpr std::array<const char*, 4> kDashes{"", "7 3", "2 2.5", "9 3 2 3"};  // once the colours are used up
-
-constexpr const char* kFont = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
-constexpr double kTitleSize = 16, kTextSize = 12.5, kTickSize = 12;  // [px]
-constexpr double kRight = 22, kLegendRow = 20, kSample = 26, kDotRadius = 2.8, kNarrowestBand = 1.2;
-constexpr double kColumnWidth = 0.5;  // what the eye can tell apart on screen and in print [px]
-
-/// How wide a text is, about [px].
-double text_width(std::string_view text, double size) {
-  return 0.56 * size * static_cast<double>(count_characters(text));
-}
+constexpr double kRight = 22, kLegendRow = 20, kSample = 26, kDotRadius = 2.8, kNarrowestBand = 1.2;  // [px]
 
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -113,11 +100,11 @@ std::size_t style_of(const Panel& panel, std::size_t place) {
 }
 
 std::string colour(const Frame& frame, std::size_t place) {
-  return fmt::format("stroke=\"{}\"", kColours[style_of(frame.panel, place) % kColours.size()]);
+  return fmt::format("stroke=\"{}\"", kPlotColours[style_of(frame.panel, place) % kPlotColours.size()]);
 }
 
 std::string stroke(const Frame& frame, std::size_t place) {
-  const std::string dash = kDashes[style_of(frame.panel, place) / kColours.size() % kDashes.size()];
+  const std::string dash = kPlotDashes[style_of(frame.panel, place) / kPlotColours.size() % kPlotDashes.size()];
   return colour(frame, place) + (dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", dash));
 }
 
@@ -273,7 +260,7 @@ void Picture::draw_band(const Frame& frame, std::size_t index) {
   const Curve& curve = frame.panel.curves[index];
   if (frame.y.log || !(curve.band > 0) || !std::isfinite(curve.band)) return;
   if (frame.height * curve.band / frame.y_scale.factor / (frame.y.high - frame.y.low) < kNarrowestBand) return;
-  put("<path fill=\"{}\" fill-opacity=\"0.2\" d=\"", kColours[style_of(frame.panel, index) % kColours.size()]);
+  put("<path fill=\"{}\" fill-opacity=\"0.2\" d=\"", kPlotColours[style_of(frame.panel, index) % kPlotColours.size()]);
   const std::vector<Point> upper = points_of(frame, curve, curve.band), lower = points_of(frame, curve, -curve.band);
   const auto there = [&](std::size_t i) { return std::isfinite(upper[i].x) && std::isfinite(upper[i].y); };
   for (std::size_t first = 0; first < upper.size();) {  // one area for each part of the curve without a gap
@@ -308,7 +295,7 @@ void Picture::draw_curve(const Frame& frame, std::size_t index) {
 std::string Picture::text() {
   put("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
       "role=\"img\" font-family=\"{2}\" fill=\"#222\">\n",
-      plot_.width, height_, kFont);
+      plot_.width, height_, kPlotFont);
   put("<title>{}</title>\n", escaped_markup(plot_.title));
   put("<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n");
   draw_titles();

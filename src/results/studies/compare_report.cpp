@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "pintle/results.h"
+#include "results/force_quality.h"
 #include "results/text_table.h"
 
 namespace pintle {
@@ -100,6 +102,51 @@ std::vector<double> magnitude(const Trajectory& run, const std::string& path, co
   return out;
 }
 
+std::vector<double> times_of(const Trajectory& run) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < run.n_rows(); ++i) times.push_back(run.at(i, 0));
+  return times;
+}
+
+TextTable runs_table(const Variants& v) {
+  TextTable table;
+  for (const char* head : {"run", "method"}) table.add_column(head, Align::kLeft);
+  for (const char* head : {"steps", "passes"}) table.add_column(head, Align::kNumber);
+  table.add_column("computed in", Align::kNumber, "s");
+  table.add_column("up to t", Align::kNumber, "s");
+  table.add_column("", Align::kLeft);
+  for (const NamedRun& one : v.runs)
+    table.add_row({one.name, one.run.method, fmt::format("{}", one.run.counters.steps), fmt::format("{}", one.run.counters.passes), engineering(one.run.wall_seconds), engineering(one.run.t_end),
+                   to_text(one.run.outcome)});
+  return table;
+}
+
+std::string percent(double change) { return std::isfinite(change) ? fmt::format("{:+.2f} %", 100 * change) : "-"; }
+
+TextTable loads_table(const Variants& v) {
+  TextTable table;
+  for (const char* head : {"joint", "run"}) table.add_column(head, Align::kLeft);
+  for (const char* head : {"peak", "mean", "RMS"}) {
+    table.add_column(head, Align::kNumber, "N");
+    table.add_column("change", Align::kNumber);
+  }
+  table.add_column("error est.", Align::kNumber, "N");
+  table.add_column("peak differs", Align::kLeft);
+  for (const VariantJoint& joint : v.joints)
+    for (std::size_t i = 0; i < v.runs.size(); ++i) {
+      const VariantLoad& one = joint.loads[i];
+      const std::string name = i == 0 ? joint.joint : "";
+      if (!one.there) {
+        table.add_row({name, v.runs[i].name, "-", "", "-", "", "-"});
+        continue;
+      }
+      const auto change = [i](double x) { return i == 0 ? "" : percent(x); };
+      table.add_row({name, v.runs[i].name, engineering(one.load.peak), change(one.peak_change), engineering(one.load.mean), change(one.mean_change), engineering(one.load.rms), change(one.rms_change),
+                     has_force_estimates(v.runs[i].run) ? exponent(one.load.error_estimate) : "-", i == 0 ? "" : word(one.cause)});
+    }
+  return table;
+}
+
 // A few of many values, for dots on a line.
 std::vector<double> sparse(std::vector<double> y) {
   const std::size_t step = std::max<std::size_t>(1, y.size() / kDots);
@@ -141,6 +188,75 @@ std::string compare_json(const Comparison& c, const std::string& model_name, con
   for (const Softness& s : c.softness) json["softness"].push_back({{"joint", s.joint}, {"share", s.share}});
   json["notes"] = c.second.notes;
   return json.dump(2) + "\n";
+}
+
+std::string variants_text(const Variants& v, bool colour) {
+  const std::string bold = colour ? "\x1b[1m" : "", plain = colour ? "\x1b[0m" : "";
+  std::string text = fmt::format("{} runs side by side; changes are of the first\n\n", v.runs.size()) + runs_table(v).text(bold, plain);
+  text += "\nJoint forces (magnitude)\n" + loads_table(v).text(bold, plain);
+  const auto is = [&v](Cause cause) {
+    return std::any_of(v.joints.begin(), v.joints.end(), [cause](const VariantJoint& joint) {
+      return std::any_of(joint.loads.begin() + 1, joint.loads.end(), [cause](const VariantLoad& one) { return one.there && one.cause == cause; });
+    });
+  };
+  if (is(Cause::kNumerical)) text += "  numerical: the peaks differ by no more than the error estimates of both runs\n";
+  if (is(Cause::kPhysical)) text += "  physical: the peaks differ by more than the error estimates\n";
+  for (const NamedRun& one : v.runs) {
+    if (!one.run.message.empty()) text += fmt::format("\n{}: {}\n", one.name, one.run.message);
+    if (!one.run.notes.empty()) text += "\nNotes on " + one.name + "\n";
+    for (const std::string& note : one.run.notes) text += "  " + note + "\n";
+  }
+  return text;
+}
+
+std::string variants_json(const Variants& v, const std::vector<std::string>& model_paths) {
+  Json json;
+  json["runs"] = Json::array();
+  for (std::size_t i = 0; i < v.runs.size(); ++i) {
+    const Trajectory& run = v.runs[i].run;
+    json["runs"].push_back({{"name", v.runs[i].name}, {"model_path", model_paths[i]}, {"method", run.method}, {"outcome", to_text(run.outcome)}, {"message", run.message}, {"t_end", run.t_end},
+                            {"steps", run.counters.steps}, {"passes", run.counters.passes}, {"wall_seconds", run.wall_seconds}, {"notes", run.notes}});
+  }
+  json["joints"] = Json::array();
+  for (const VariantJoint& joint : v.joints) {
+    Json loads = Json::array();
+    for (const VariantLoad& one : joint.loads)
+      loads.push_back(!one.there ? Json() : Json{{"peak", one.load.peak}, {"peak_time", one.load.peak_time}, {"mean", one.load.mean}, {"rms", one.load.rms}, {"error_estimate", one.load.error_estimate},
+                                                 {"peak_change", one.peak_change}, {"mean_change", one.mean_change}, {"rms_change", one.rms_change}, {"peak_difference_is", word(one.cause)}});
+    json["joints"].push_back({{"joint", joint.joint}, {"loads", std::move(loads)}});
+  }
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Plot variants_plot(const Variants& v, const std::string& title) {
+  Plot plot;
+  plot.title = title;
+  for (const NamedRun& one : v.runs) plot.subtitle += (plot.subtitle.empty() ? "" : ", ") + one.name;
+  plot.x_quantity = "Time";
+  plot.x_unit = "s";
+  std::vector<std::pair<double, const VariantJoint*>> order;
+  for (const VariantJoint& joint : v.joints) {
+    double most = 0;
+    for (const VariantLoad& one : joint.loads)
+      if (one.there && std::isfinite(one.peak_change)) most = std::max(most, std::abs(one.peak_change));
+    order.emplace_back(most, &joint);
+  }
+  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (const auto& [change, joint] : order) {
+    if (plot.panels.size() == kMostPlotted) break;
+    Panel panel{"Force at " + joint->joint, "N", {}, false, plot.x_quantity, plot.x_unit};
+    for (std::size_t i = 0; i < v.runs.size(); ++i) {
+      if (!joint->loads[i].there) continue;
+      Curve curve{v.runs[i].name, "", {}};
+      curve.x = times_of(v.runs[i].run);
+      curve.y = magnitude(v.runs[i].run, "joint." + joint->joint + ".on_" + joint->loads[i].load.second_body + ".", curve.x);
+      curve.style = static_cast<int>(i);
+      panel.curves.push_back(std::move(curve));
+    }
+    plot.panels.push_back(std::move(panel));
+  }
+  plot.panel_height = 180;
+  return plot;
 }
 
 Plot compare_plot(const Comparison& c, const std::string& title) {

@@ -20,4 +20,13 @@ std::string compare_json(const Comparison& comparison, const std::string& model_
 /// Both runs' forces at the joints that differ most, and the difference.
 Plot compare_plot(const Comparison& comparison, const std::string& title);
 
+/// Several runs side by side: a table of the runs, and one of the joints with changes in percent of the first run.
+std::string variants_text(const Variants& variants, bool colour = false);
+
+/// Everything but the series, one object. `model_paths` has one entry per run.
+std::string variants_json(const Variants& variants, const std::vector<std::string>& model_paths);
+
+/// The forces of all runs at the joints whose peaks differ most.
+Plot variants_plot(const Variants& variants, const std::string& title);
+
 }  // namespace pintle

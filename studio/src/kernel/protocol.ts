@@ -113,8 +113,6 @@ export interface CatalogKey {
   words?: string[];
   /** A list of any length. */
   list?: boolean;
-  /** It is one of these. */
-  words?: readonly string[];
 }
 
 /** Joint types and laws, with what a form needs. */
@@ -245,6 +243,20 @@ export interface EnergyAccount {
   drift: number;
 }
 
+/** A pin whose model states a bearing. Values that cannot be had are null. */
+export interface BearingAnswer {
+  joint: string;
+  equivalent_load: number;
+  /** L10 [h]. */
+  life_hours: number;
+  static_safety: number;
+  peak_pressure: number;
+  peak_pv: number;
+  /** Sizes that are missing, and where the formulas do not hold. */
+  wants: string[];
+  remarks: string[];
+}
+
 export interface RunAnswer {
   outcome: "completed" | "tolerance_not_met" | "interrupted" | "failed" | "horizon" | "runaway" | "energy_open";
   columns: Column[];
@@ -253,6 +265,7 @@ export interface RunAnswer {
   joints: PeakForce[];
   springs: PeakForce[];
   motors: MotorWork[];
+  bearings?: BearingAnswer[];
   energy: EnergyAccount;
   counters: Record<string, number>;
   method: string;

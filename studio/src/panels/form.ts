@@ -31,11 +31,14 @@ interface SchemaTable {
   required?: string[];
 }
 
-/** Keys of a table of the schema: ["spring"] for [spring.NAME], ["simulate"]. `slides` picks the sliding of two meanings. */
-export function fieldsOf(root: Record<string, unknown> | null, table: string, slides = false): Field[] {
+/** Keys of a table of the schema: ["spring"] for [spring.NAME], ["simulate"]; with `inner` of a table in it: "bearing" for [joint.NAME.bearing].
+ *  Tables are no keys. `slides` picks the sliding of two meanings. */
+export function fieldsOf(root: Record<string, unknown> | null, table: string, slides = false, inner = ""): Field[] {
   const at = (root as SchemaTable | null)?.properties?.[table];
-  const home: SchemaTable | undefined = typeof at?.additionalProperties === "object" ? at.additionalProperties : at;
-  return Object.entries(home?.properties ?? {}).map(([name, property]) => fieldOf(name, property, (home?.required ?? []).includes(name), slides));
+  const outer: SchemaTable | undefined = typeof at?.additionalProperties === "object" ? at.additionalProperties : at;
+  const home = inner ? outer?.properties?.[inner] : outer;
+  const keys = Object.entries(home?.properties ?? {}).filter(([, property]) => property.type !== "object");
+  return keys.map(([name, property]) => fieldOf(name, property, (home?.required ?? []).includes(name), slides));
 }
 
 function fieldOf(name: string, property: SchemaProperty, required: boolean, slides: boolean): Field {

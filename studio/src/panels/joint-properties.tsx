@@ -38,8 +38,36 @@ export function JointProperties({ name }: { name: string }) {
         </section>
       )}
       {joint.type === "gear" && !type && <Pair label="Pitch radii" unit="m" path={["joint", name, "radii"]} names={["first", "second"]} />}
+      {joint.type === "revolute" && <BearingFields name={name} />}
       <Additions joint={joint} />
     </>
+  );
+}
+
+/** Sizes of the bearing, and what the last run makes of them. */
+function BearingFields({ name }: { name: string }) {
+  const schema = useSchema();
+  const found = useStudio((now) => now.run.answer?.bearings?.find((one) => one.joint === name));
+  return (
+    <details>
+      <summary data-tip="Life of a rolling bearing, pressure in a plain one. They do not change the motion.">Bearing</summary>
+      <SchemaFields fields={fieldsOf(schema, "joint", false, "bearing")} path={["joint", name, "bearing"]} />
+      {found && (
+        <dl className="facts">
+          <dt>Equivalent load</dt>
+          <dd>{quantity(found.equivalent_load, "N")}</dd>
+          <dt>Life L10h [h]</dt>
+          <dd>{quantity(found.life_hours, "")}</dd>
+          <dt>Static safety C0/F</dt>
+          <dd>{quantity(found.static_safety, "")}</dd>
+          <dt>Largest pressure</dt>
+          <dd>{quantity(found.peak_pressure, "Pa")}</dd>
+          <dt>Largest pv</dt>
+          <dd>{quantity(found.peak_pv, "W/m^2")}</dd>
+        </dl>
+      )}
+      {found && [...found.wants, ...found.remarks].map((text) => <p className="quiet" key={text}>{text}</p>)}
+    </details>
   );
 }
 

@@ -31,8 +31,8 @@ function tableAt(text: string, offset: number): string {
 
 async function keys(table: string): Promise<Completion[]> {
   const root = await schema().catch(() => null);
-  const kind = table.split(".")[0] ?? "";
-  const fields = table === "" ? [] : fieldsOf(root, kind);
+  const [kind = "", , inner = ""] = table.split(".");
+  const fields = table === "" ? [] : fieldsOf(root, kind, false, inner);
   const head: Completion[] = table === "" ? ["format", "name", "description", "space", "gravity"].map((label) => ({ label, type: "property" })) : [];
   const markers: Completion[] = kind === "body" ? [{ label: "markers.", type: "property", detail: "a point of the body" }] : [];
   return [...head, ...markers, ...fields.map((one): Completion => ({ label: one.name, type: "property", detail: one.unit, info: one.meaning, apply: `${one.name} = ` }))];
@@ -40,7 +40,7 @@ async function keys(table: string): Promise<Completion[]> {
 
 async function values(table: string, name: string): Promise<Completion[]> {
   const { model } = studio.get();
-  const kind = table.split(".")[0] ?? "";
+  const [kind = "", , inner = ""] = table.split(".");
   if (name === "between" || name === "on") {
     const ends = [
       ...model.ground.map((marker) => `ground.${marker.name}`),
@@ -49,7 +49,7 @@ async function values(table: string, name: string): Promise<Completion[]> {
     return ends.map((label) => ({ label, type: "variable" }));
   }
   if (name === "joint" && kind === "motor") return model.joints.map((joint) => ({ label: joint.name, type: "variable", detail: joint.type }));
-  const field = fieldsOf(await schema().catch(() => null), kind).find((one) => one.name === name);
+  const field = fieldsOf(await schema().catch(() => null), kind, false, inner).find((one) => one.name === name);
   if (field?.words) return field.words.map((label) => ({ label, type: "enum" }));
   return [...model.parameters.keys()].map((label) => ({ label, type: "variable" }));
 }

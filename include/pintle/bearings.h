@@ -1,0 +1,20 @@
+// Life of rolling bearings (ISO 281, ISO 76), and pressure and sliding in plain ones, from the forces and angles of a run.
+#pragma once
+
+#include <vector>
+
+#include "pintle/model.h"
+#include "pintle/trajectory.h"
+
+namespace pintle {
+
+/// Of which revolute joints: those whose model states a bearing, or all, as if the others stated an empty one.
+enum class BearingsOf { kStated, kEveryPin };
+
+/// In the order of the model. Only the bearings are read from `model`, whose other values were those of the run. theory/bearings
+std::vector<BearingSummary> bearing_summaries(const Model& model, const Trajectory& run, BearingsOf which = BearingsOf::kStated);
+
+/// Exponent of load and life: 3 of balls, 10/3 of rollers; not a number where the type is not stated [-].
+double life_exponent(const Bearing& bearing);
+
+}  // namespace pintle

@@ -1,0 +1,153 @@
+#include "pintle/bearings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <unordered_map>
+
+#include "bearings/duty.h"
+
+namespace pintle {
+namespace {
+
+constexpr double kNone = BearingSummary::kNone, kTurn = 2 * std::numbers::pi;
+constexpr double kMillion = 1e6, kHour = 3600;  // [s]
+constexpr double kMostShareOfRating = 0.5;      // ISO 281: of C, for its formula to hold
+
+/// Columns and loads of a run by name: a large mechanism has very many.
+class NamedParts {
+ public:
+  explicit NamedParts(const Trajectory& run) : run_(run) {
+    for (std::size_t i = 0; i < run.columns.size(); ++i) columns_.emplace(run.columns[i].name, i);
+    for (const LoadSummary& load : run.joints) loads_.emplace(load.name, &load);
+  }
+
+  const LoadSummary* load(const std::string& joint) const {
+    const auto found = loads_.find(joint);
+    return found == loads_.end() ? nullptr : found->second;
+  }
+
+  Duty duty(const LoadSummary& load) const {
+    const std::string path = "joint." + load.name + ".", on = path + "on_" + load.second_body + ".";
+    const auto angle = columns_.find(path + "angle"), rate = columns_.find(path + "angle_rate"), fx = columns_.find(on + "fx[world]"), fy = columns_.find(on + "fy[world]");
+    std::vector<DutyRow> rows;
+    for (const auto& column : {angle, rate, fx, fy})
+      if (column == columns_.end()) return Duty({});
+    for (std::size_t i = 0; i < run_.n_rows(); ++i)
+      rows.push_back({run_.at(i, 0), run_.at(i, angle->second), run_.at(i, rate->second), {run_.at(i, fx->second), run_.at(i, fy->second)}});
+    return Duty(std::move(rows));
+  }
+
+ private:
+  const Trajectory& run_;
+  std::unordered_map<std::string, std::size_t> columns_;
+  std::unordered_map<std::string, const LoadSummary*> loads_;
+};
+
+void add_duty(const Duty& duty, BearingSummary& out) {
+  if (duty.n_rows() == 0) {
+    out.path = out.swing = out.mean_speed = out.peak_speed = kNone;
+    out.remarks.push_back("its columns were not recorded: add \"joint." + out.joint + "\" to simulate.record");
+    return;
+  }
+  out.path = duty.path();
+  out.swing = duty.swing();
+  out.mean_speed = duty.span() > 0 ? out.path / duty.span() : 0;  // Eq. (1.4)
+  out.peak_speed = duty.peak_rate();
+  if (out.path > 0 && out.swing < kTurn)
+    out.remarks.push_back(fmt::format("it swings by {:.4g} deg and does not turn round: its path counts as turns", out.swing * 360 / kTurn));
+}
+
+// ISO 281. Equations (2.1) to (2.4).
+void add_life(const Bearing& bearing, const Duty& duty, BearingSummary& out) {
+  const double exponent = life_exponent(bearing);
+  if (std::isnan(exponent) || duty.n_rows() == 0) return;
+  if (!(out.path > 0)) {
+    out.remarks.push_back("it does not turn: there is no life by rolling, and the static safety counts");
+    return;
+  }
+  out.equivalent_load = duty.equivalent_load(exponent);
+  const bool estimated = duty.n_rows() > 2;
+  const Duty thinned = estimated ? duty.thinned() : duty;
+  const double coarse_path = thinned.path();
+  out.equivalent_load_error = estimated && coarse_path > 0 ? out.force_error + std::abs(thinned.equivalent_load(exponent) - out.equivalent_load) : kNone;
+  if (bearing.fatigue_load_limit) out.fatigue_ratio = *bearing.fatigue_load_limit / out.equivalent_load;
+  if (!bearing.dynamic_load_rating || !(out.equivalent_load > 0)) return;
+  const double rating = *bearing.dynamic_load_rating;
+  out.life = std::pow(rating / out.equivalent_load, exponent);
+  out.life_hours = out.life * kMillion * kTurn / (out.mean_speed * kHour);
+  out.life_error = exponent * out.equivalent_load_error / out.equivalent_load + std::abs(coarse_path - out.path) / out.path;
+  if (out.equivalent_load > kMostShareOfRating * rating)
+    out.remarks.push_back(fmt::format("P is {:.3g} of C: ISO 281's life does not hold above {:g}", out.equivalent_load / rating, kMostShareOfRating));
+}
+
+// ISO 76. Equation (2.5).
+void add_static_safety(const Bearing& bearing, BearingSummary& out) {
+  if (!bearing.static_load_rating || !(out.peak_force > 0)) return;
+  out.static_safety = *bearing.static_load_rating / out.peak_force;
+  if (out.static_safety < 1) out.remarks.push_back("the peak force exceeds C0: the raceways keep dents");
+}
+
+// Equations (3.1) to (3.3).
+void add_pressure(const Bearing& bearing, const Duty& duty, BearingSummary& out) {
+  if (!bearing.pin_diameter || !bearing.pin_length) return;
+  const double radius = 0.5 * *bearing.pin_diameter, area = *bearing.pin_diameter * *bearing.pin_length;
+  out.mean_pressure = out.mean_force / area;
+  out.peak_pressure = out.peak_force / area;
+  if (duty.n_rows() == 0) return;
+  out.mean_sliding = radius * out.mean_speed;
+  out.peak_sliding = radius * out.peak_speed;
+  out.mean_pv = duty.span() > 0 ? radius / area * duty.load_integral(1) / duty.span() : 0;
+  out.peak_pv = radius / area * duty.peak_power();
+}
+
+std::vector<std::string> missing_sizes(const Bearing& bearing) {
+  const bool rolling = !bearing.type.empty() || bearing.dynamic_load_rating || bearing.static_load_rating || bearing.fatigue_load_limit;
+  const bool plain = bearing.pin_diameter || bearing.pin_length;
+  std::vector<std::string> wants;
+  if (!rolling && !plain) return {"state type and dynamic_load_rating (C) for a life, or pin_diameter and pin_length for a pressure"};
+  if (rolling && bearing.type.empty()) wants.push_back("state type (ball or roller) for an equivalent load and a life");
+  if (rolling && !bearing.dynamic_load_rating) wants.push_back("state dynamic_load_rating (C) for a life");
+  if (rolling && !bearing.static_load_rating) wants.push_back("state static_load_rating (C0) for a static safety");
+  if (plain && !bearing.pin_diameter) wants.push_back("state pin_diameter for a pressure");
+  if (plain && !bearing.pin_length) wants.push_back("state pin_length for a pressure");
+  return wants;
+}
+
+BearingSummary summary_of(const Bearing& bearing, const LoadSummary& load, const Trajectory& run, const NamedParts& parts) {
+  BearingSummary out;
+  out.joint = load.name;
+  out.mean_force = load.mean;
+  out.peak_force = load.peak;
+  out.force_error = load.error_estimate;
+  if (run.outcome == Outcome::kHorizon && load.horizon < run.t_end)
+    out.remarks.push_back(fmt::format("the motion is chaotic: the stated error is of the force up to t = {:.5g} s", load.horizon));
+  const Duty duty = parts.duty(load);
+  add_duty(duty, out);
+  add_life(bearing, duty, out);
+  add_static_safety(bearing, out);
+  add_pressure(bearing, duty, out);
+  out.wants = missing_sizes(bearing);
+  return out;
+}
+
+}  // namespace
+
+double life_exponent(const Bearing& bearing) { return bearing.type == "ball" ? 3 : bearing.type == "roller" ? 10.0 / 3 : kNone; }
+
+std::vector<BearingSummary> bearing_summaries(const Model& model, const Trajectory& run, BearingsOf which) {
+  const auto wanted = [which](const Joint& joint) { return joint.bearing || (which == BearingsOf::kEveryPin && joint.type == "revolute"); };
+  std::vector<BearingSummary> out;
+  if (std::none_of(model.joints.begin(), model.joints.end(), wanted)) return out;
+  const NamedParts parts(run);
+  for (const Joint& joint : model.joints) {
+    const LoadSummary* load = wanted(joint) ? parts.load(joint.name) : nullptr;
+    if (load != nullptr) out.push_back(summary_of(joint.bearing.value_or(Bearing{}), *load, run, parts));
+  }
+  return out;
+}
+
+}  // namespace pintle

@@ -1,0 +1,16 @@
+// Which keys of a law have an effect in a joint.
+#pragma once
+
+#include <algorithm>
+
+#include "base/key_info.h"
+#include "joints/catalog.h"
+
+namespace pintle {
+
+/// Keys "angular_..." are of a forbidden angle, which not every joint has.
+inline bool has_effect(const KeyInfo& key, const JointTypeInfo& type) {
+  return !key.key.starts_with("angular_") || std::any_of(type.gap.begin(), type.gap.end(), [](const ComponentInfo& component) { return component.angular; });
+}
+
+}  // namespace pintle

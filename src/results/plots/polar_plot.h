@@ -1,0 +1,30 @@
+// Paths of a vector's tip as SVG: diagrams side by side over rings of equal length, all of one scale.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pintle {
+
+/// One path, from row to row. The label is plain text.
+struct PolarCurve {
+  std::string label;
+  std::vector<double> x, y;
+};
+
+struct PolarPanel {
+  std::string title, axes;  ///< two lines: "Force on crank", "in the axes of its marker"
+  std::vector<PolarCurve> curves;
+};
+
+/// The first point of each path is marked by a ring, the longest vector by a dot, which the line below the diagram gives in numbers.
+struct PolarPlot {
+  std::string title, subtitle;
+  std::string unit;
+  std::vector<PolarPanel> panels;
+  double width = 960;  ///< [px]
+};
+
+std::string to_svg(const PolarPlot& plot);
+
+}  // namespace pintle

@@ -1,0 +1,50 @@
+#include "results/plots/run_columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text/did_you_mean.h"
+
+namespace pintle {
+
+std::string hint_of(const std::string& word, const std::vector<std::string>& words, std::string_view list_name) {
+  if (const auto meant = did_you_mean(word, words)) return fmt::format("Did you mean \"{}\"?", *meant);
+  std::string list;
+  for (const std::string& entry : words) list += (list.empty() ? "" : ", ") + entry;
+  return fmt::format("{}: {}.", list_name, list.empty() ? "none" : list);
+}
+
+std::vector<double> values_of(const Trajectory& trajectory, int column) {
+  std::vector<double> values(trajectory.n_rows());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = trajectory.at(i, static_cast<std::size_t>(column));
+  return values;
+}
+
+int find_column(const Trajectory& trajectory, const std::string& name) {
+  const int column = trajectory.column(name);
+  if (column >= 0) return column;
+  std::vector<std::string> names;
+  for (const Column& entry : trajectory.columns) names.push_back(entry.name);
+  throw PlotRequestError(
+      fmt::format("found column \"{}\": the run has no such column.\n    {}", name, hint_of(name, names, "Its columns")));
+}
+
+const LoadSummary& find_joint(const Trajectory& trajectory, const std::string& name) {
+  std::vector<std::string> names;
+  for (const LoadSummary& joint : trajectory.joints) {
+    if (joint.name == name) return joint;
+    names.push_back(joint.name);
+  }
+  throw PlotRequestError(
+      fmt::format("found joint \"{}\": the run has no such joint.\n    {}", name, hint_of(name, names, "Its joints")));
+}
+
+std::vector<double> magnitude(const std::vector<double>& x, const std::vector<double>& y) {
+  std::vector<double> result(x.size());
+  std::transform(x.begin(), x.end(), y.begin(), result.begin(), [](double a, double b) { return std::hypot(a, b); });
+  return result;
+}
+
+}  // namespace pintle

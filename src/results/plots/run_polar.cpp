@@ -1,0 +1,58 @@
+#include "results/plots/run_polar.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "results/plots/plot_ticks.h"
+#include "results/text_table.h"
+
+namespace pintle {
+namespace {
+
+const LoadSummary& find_pin(const Trajectory& run, const std::string& name) {
+  const LoadSummary& joint = find_joint(run, name);
+  if (joint.type == "revolute") return joint;
+  throw PlotRequestError(fmt::format("found joint \"{}\" of type {}: polar load diagrams are of pins.\n    Choose a revolute joint, or plot --joint {}.", name, joint.type, name));
+}
+
+void add_curves(const Trajectory& run, const LoadSummary& joint, const std::string& label, PolarPlot& plot) {
+  const std::string path = "joint." + joint.name + ".", on = path + "on_" + joint.second_body + ".";
+  const auto column = [&run](const std::string& name) { return values_of(run, find_column(run, name)); };
+  plot.panels[0].curves.push_back({label, column(on + "fx[world]"), column(on + "fy[world]")});
+  // Along the first marker's axes, of which the second's are turned by the joint's angle. theory/bearing_life Eq. (4.1)
+  const std::vector<double> f1 = column(on + "f1[joint]"), f2 = column(on + "f2[joint]"), angle = column(path + "angle");
+  PolarCurve first{label, {}, {}}, second{label, {}, {}};
+  for (std::size_t i = 0; i < angle.size(); ++i) {
+    const double c = std::cos(angle[i]), s = std::sin(angle[i]);
+    first.x.push_back(-f1[i]);
+    first.y.push_back(-f2[i]);
+    second.x.push_back(c * f1[i] + s * f2[i]);
+    second.y.push_back(-s * f1[i] + c * f2[i]);
+  }
+  plot.panels[1].curves.push_back(std::move(first));
+  plot.panels[2].curves.push_back(std::move(second));
+}
+
+}  // namespace
+
+PolarPlot make_polar_plot(const std::vector<PolarRun>& runs, const std::string& joint) {
+  const RunRecord& leading = *runs.front().run;
+  const LoadSummary& pin = find_pin(leading.trajectory, joint);
+  PolarPlot plot;
+  plot.title = fmt::format("Joint {}: polar load diagrams", joint);
+  plot.subtitle = leading.stamp.model_name.empty() ? leading.stamp.model_path : leading.stamp.model_name;
+  if (runs.size() == 1 && pin.relative_error_estimate > 0)
+    plot.subtitle += fmt::format("{}estimated error {} of the peak", plot.subtitle.empty() ? "" : " – ", printed_number(exponent(pin.relative_error_estimate)));
+  plot.unit = "N";
+  plot.panels = {{"Force on " + pin.second_body, "world axes", {}},
+                 {"Force on " + pin.first_body, "axes of its marker on " + pin.first_body, {}},
+                 {"Force on " + pin.second_body, "axes of its marker on " + pin.second_body, {}}};
+  for (const PolarRun& one : runs) {
+    const Trajectory& run = one.run->trajectory;
+    add_curves(run, find_pin(run, joint), runs.size() == 1 ? "" : one.name, plot);
+  }
+  return plot;
+}
+
+}  // namespace pintle

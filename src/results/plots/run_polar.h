@@ -1,0 +1,23 @@
+// From runs to the polar load diagram of a pin.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pintle/results.h"
+#include "results/plots/polar_plot.h"
+#include "results/plots/run_columns.h"
+
+namespace pintle {
+
+/// A run and what it is called beside others.
+struct PolarRun {
+  std::string name;
+  const RunRecord* run = nullptr;
+};
+
+/// The force of a revolute joint on its second body in world axes, on its first body in the axes of the marker there, and on its second body
+/// in the axes of the marker there; each run is a path. The bodies are those of the first run. Throws PlotRequestError.
+PolarPlot make_polar_plot(const std::vector<PolarRun>& runs, const std::string& joint);
+
+}  // namespace pintle
