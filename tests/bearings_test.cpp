@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "laws/journal_film.h"
+#include "laws/bearings/journal_film.h"
 #include "laws/law.h"
 #include "tests/reference_tables.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "integrators/methods.h"
-#include "laws/contact.h"
+#include "laws/contact/contact.h"
 #include "tests/reference_tables.h"
 
 namespace pintle {

@@ -11,7 +11,7 @@ namespace pintle {
 /// Of which revolute joints: those whose model states a bearing, or all, as if the others stated an empty one.
 enum class BearingsOf { kStated, kEveryPin };
 
-/// In the order of the model. Only the bearings are read from `model`, whose other values were those of the run. theory/bearings
+/// In the order of the model. Only the bearings are read from `model`, whose other values were those of the run. theory/bearing_life
 std::vector<BearingSummary> bearing_summaries(const Model& model, const Trajectory& run, BearingsOf which = BearingsOf::kStated);
 
 /// Exponent of load and life: 3 of balls, 10/3 of rollers; not a number where the type is not stated [-].

@@ -51,7 +51,7 @@ struct LawChoice {
 };
 
 /// What carries a pin: a rolling bearing by the figures of its catalogue, a plain one by its size. What is not stated is absent.
-/// theory/bearings
+/// theory/bearing_life
 struct Bearing {
   std::string type;  ///< "ball" or "roller"; empty: not stated
   std::optional<double> dynamic_load_rating{};  ///< C of ISO 281 [N]

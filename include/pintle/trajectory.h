@@ -45,7 +45,7 @@ struct MotorSummary {
 
 /// What a pin went through in a run, and what that makes of its bearing; the run counts as a load cycle that repeats. From the rows, and
 /// integrals over them are of the error stated. A value that cannot be had, because a size is not stated or the pin does not turn, is not a
-/// number, and `wants` or `remarks` say why. theory/bearings
+/// number, and `wants` or `remarks` say why. theory/bearing_life
 struct BearingSummary {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::string joint;

@@ -15,7 +15,7 @@
 #include <span>
 #include <string_view>
 
-#include "laws/contact.h"
+#include "laws/contact/contact.h"
 #include "laws/law_part.h"
 
 namespace pintle {

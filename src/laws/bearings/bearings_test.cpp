@@ -7,7 +7,7 @@
 #include <string>
 
 #include "laws/catalog.h"
-#include "laws/journal_film.h"
+#include "laws/bearings/journal_film.h"
 
 namespace pintle {
 namespace {

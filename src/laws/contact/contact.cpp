@@ -1,4 +1,4 @@
-#include "laws/contact.h"
+#include "laws/contact/contact.h"
 
 #include <cmath>
 

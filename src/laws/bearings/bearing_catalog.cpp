@@ -8,9 +8,9 @@
 #include <limits>
 #include <numbers>
 
-#include "laws/journal_film.h"
-#include "laws/rolling_bearing.h"
-#include "laws/table.h"
+#include "laws/bearings/journal_film.h"
+#include "laws/bearings/rolling_bearing.h"
+#include "laws/bearings/table.h"
 
 namespace pintle {
 namespace {

@@ -14,7 +14,7 @@
 #include <array>
 #include <cmath>
 
-#include "laws/friction.h"
+#include "laws/friction/friction.h"
 
 namespace pintle {
 

@@ -7,8 +7,8 @@
 
 #include "laws/catalog.h"
 #include "laws/catalog_parts.h"
-#include "laws/guide_contact.h"
-#include "laws/pin_contact.h"
+#include "laws/contact/guide_contact.h"
+#include "laws/contact/pin_contact.h"
 
 namespace pintle {
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "laws/contact.h"
+#include "laws/contact/contact.h"
 #include "laws/law_part.h"
 
 namespace pintle {
