@@ -57,8 +57,10 @@ struct PinContact {
   void cross(int border, const LawInput<double>& in, double* state) const { contact.cross(border, find(in).rate, state[0]); }
 
   double lever() const { return friction.coefficient > 0 ? radius : 0; }
+  /// What stands apart from an edge stays apart when a mechanism is assembled; a pin with clearance is put into the middle.
   Planar::Vec engaged_stiffness() const {
-    const double k = contact.stiffness_at(shape == Shape::kEdge ? 1e-2 * radius : 0.1 * clearance);
+    if (shape == Shape::kEdge) return Planar::Vec::Zero();
+    const double k = contact.stiffness_at(0.1 * clearance);
     return {shape == Shape::kBush ? k : 0, k, 0};
   }
   std::span<const LawColumn> columns() const {
