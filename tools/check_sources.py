@@ -19,6 +19,7 @@ FOLDERS_OF = {
     "integrators": "radau absolute dense relative general ideal".split(),
     "io": "schema reading toml".split(),
     "results": "plots studies".split(),
+    "run": "record errors".split(),
     "sweeps": "storage".split(),
 }
 MAX_IN_FOLDER = 25
