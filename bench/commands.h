@@ -62,6 +62,13 @@ struct SweepOptions {
 };
 nlohmann::ordered_json study_sweeps(const SweepOptions& options);
 
+struct SpaceOptions {
+  double tolerance = 1e-5;
+  int rounds = 15;
+};
+/// Mechanisms in space, and the four-bar in the plane and in space, run in turns.
+nlohmann::ordered_json study_space(const SpaceOptions& options);
+
 /// Spectral radius of a step across taut joints, drawn to `file`.
 nlohmann::ordered_json study_stability(const std::string& file);
 

@@ -28,6 +28,7 @@ struct Options {
   std::vector<int> loops{40, 400, 4000, 40000};
   int scaling_rounds = 7;
   SweepOptions sweeps;
+  SpaceOptions space;
   std::string stability = std::string(PINTLE_SOURCE_DIR) + "/docs/theory/stability.svg";
   std::string micro_filter = ".";
   double micro_time = 0.2;
@@ -123,6 +124,13 @@ void add_sweeps(CLI::App& app, Options& o, Json& out) {
   verb->callback([&] { out["sweeps"] = study_sweeps(o.sweeps); });
 }
 
+void add_space(CLI::App& app, Options& o, Json& out) {
+  CLI::App* verb = app.add_subcommand("space", "Bricard's hinges, and the four-bar in space beside that of the plane");
+  verb->add_option("--tolerance", o.space.tolerance)->check(CLI::PositiveNumber)->capture_default_str();
+  verb->add_option("--rounds", o.space.rounds, "rounds; every mechanism has its turn in each")->check(CLI::PositiveNumber)->capture_default_str();
+  verb->callback([&] { out["space"] = study_space(o.space); });
+}
+
 void add_micro(CLI::App& app, Options& o) {
   CLI::App* verb = app.add_subcommand("micro", "laws, joints, systems, factorisation and single steps");
   verb->add_option("--filter", o.micro_filter, "a regular expression")->capture_default_str();
@@ -166,6 +174,7 @@ int run_program(int argc, char** argv) {
   add_scale(app, options, out);
   add_scaling(app, options, out);
   add_sweeps(app, options, out);
+  add_space(app, options, out);
   add_micro(app, options);
   app.add_subcommand("short", "a short version of peers, stiffness, forces and micro")->callback([&] { out = run_short(); });
   CLI11_PARSE(app, argc, argv);

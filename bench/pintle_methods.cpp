@@ -70,7 +70,7 @@ PintleRun run_stepper(const Problem& problem, const MethodChoice& choice, double
     for (; row < problem.outputs.size() && problem.outputs[row] <= now.t; ++row) {
       const double t = problem.outputs[row];
       const State& at = t < now.t ? stepper->interpolate(t) : now;
-      run.samples.add(t, at.q, at.v, at.force);
+      run.samples.add(at.q, at.v, at.force);
     }
     if (stepper->counters().steps % kLook == 0 && watch.seconds() > problem.cap) break;
   }

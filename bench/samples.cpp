@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "run/recorder.h"
+#include "run/record/force_table.h"
 
 namespace pintle::bench {
 namespace {
@@ -19,11 +19,11 @@ std::vector<double> output_times(double duration, int count) {
   return times;
 }
 
-void Samples::add(double t, const Vecs& q, const Vecs& v, const Vecs& force) {
+void Samples::add(const Vecs& q, const Vecs& v, const Vecs& force) {
   system_->motions(q, v, motions_);
   for (int j = 0; j < system_->n_joints(); ++j) {
-    const JointLoad load = joint_load(*system_, j, t, motions_, force[j]);
-    values_.insert(values_.end(), {load.fx, load.fy, load.couple});
+    const Planar::Vec load = joint_load(*system_, j, motions_, force[j]);
+    values_.insert(values_.end(), load.begin(), load.end());
   }
   ++rows_;
   if (point_.body != kGround) add_place(motions_[point_.body].p + motions_[point_.body].turned(point_.at));
@@ -36,7 +36,7 @@ void Samples::add_by_laws(double t, const Vecs& q, const Vecs& v) {
     const JointKinematics r = system_->kinematics(j, t, motions_);
     force_[j] = respond(system_->joints[j].law, r.gap, r.rate).force;
   }
-  add(t, q, v, force_);
+  add(q, v, force_);
 }
 
 void Samples::add_loads(const std::vector<double>& loads) {

@@ -21,7 +21,7 @@ class Samples {
   explicit Samples(const System& system, FollowedPoint point = {}) : system_(&system), point_(point) {}
 
   /// World force [N] and couple [N*m] of every joint; `force` is the joints' own, conjugate to their gaps.
-  void add(double t, const Vecs& q, const Vecs& v, const Vecs& force);
+  void add(const Vecs& q, const Vecs& v, const Vecs& force);
   /// The same with the forces that the laws give at q, v.
   void add_by_laws(double t, const Vecs& q, const Vecs& v);
   /// The loads as they are: fx, fy, couple of every joint.

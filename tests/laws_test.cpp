@@ -155,15 +155,9 @@ friction = "lugre"
   EXPECT_NEAR(at_end(run, "joint.slide.friction"), -2 * 9.80665 * std::sin(3 * M_PI / 180), 1e-4);
 }
 
-Model rubbing_four_bar() {
-  Model model = reference::mechanism("four_bar");
-  for (Joint& joint : model.joints) joint.friction = {"lugre", {}};
-  return model;
-}
-
 // One turn; the joint forces in every method that steps laws with states.
 TEST(LuGreSlow, FourBarIsTheSameInEveryMethod) {
-  Model model = rubbing_four_bar();
+  Model model = reference::rubbing_four_bar();
   model.simulate.duration = 0.3;
   model.simulate.tolerance = 1e-6;
   const Trajectory truth = completed(model);
@@ -181,7 +175,7 @@ TEST(LuGreSlow, FourBarIsTheSameInEveryMethod) {
 
 // A pin turned at constant speed under a constant load: the couple is N mu(v) r, and starts so.
 TEST(LuGre, SteadySlipCarriesItsCoefficient) {
-  Model model = rubbing_four_bar();
+  Model model = reference::rubbing_four_bar();
   const Trajectory run = completed(model);
   const int force_x = run.column("joint.O2.on_crank.fx[world]"), force_y = run.column("joint.O2.on_crank.fy[world]"), friction = run.column("joint.O2.friction");
   for (std::size_t i = 0; i < run.n_rows(); ++i)
@@ -190,7 +184,7 @@ TEST(LuGre, SteadySlipCarriesItsCoefficient) {
 
 // Over the same turn of the same four-bar without friction.
 TEST(LuGre, FrictionInAllPinsOfAFourBarCostsLessThanTwiceTheIterations) {
-  const Model rubbing = rubbing_four_bar();
+  const Model rubbing = reference::rubbing_four_bar();
   const Trajectory with = completed(rubbing), without = completed(reference::mechanism("four_bar"));
   EXPECT_LT(static_cast<double>(with.counters.steps), 2.75 * static_cast<double>(without.counters.steps));
   EXPECT_LT(static_cast<double>(with.counters.newton_iterations), 1.9 * static_cast<double>(without.counters.newton_iterations));
@@ -199,7 +193,7 @@ TEST(LuGre, FrictionInAllPinsOfAFourBarCostsLessThanTwiceTheIterations) {
 
 // The bristles of four pins turn round within a few thousandths of a second: what is stated holds against a finer run.
 TEST(LuGre, FourBarKeepsWhatItStates) {
-  Model model = rubbing_four_bar();
+  Model model = reference::rubbing_four_bar();
   model.simulate.tolerance = 1e-8;
   const Trajectory truth = completed(model);
   for (const double tolerance : {1e-4, 1e-5}) {

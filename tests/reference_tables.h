@@ -15,6 +15,7 @@
 #include "pintle/simulate.h"
 #include "run/integration.h"
 #include "run/passes.h"
+#include "run/recorder.h"
 #include "start/start.h"
 #include "system/build.h"
 
@@ -64,6 +65,13 @@ inline Table read_table(const std::string& name) {
 /// A mechanism of the collection.
 inline Model mechanism(const std::string& name, const std::vector<std::string>& overrides = {}) {
   return read_model(std::string(PINTLE_SOURCE_DIR) + "/mechanisms/" + name + ".toml", overrides);
+}
+
+/// That of section 8 of the paper with friction in all pins.
+inline Model rubbing_four_bar() {
+  Model model = mechanism("four_bar");
+  for (Joint& joint : model.joints) joint.friction = {"lugre", {}};
+  return model;
 }
 
 inline void set_joints(Model& model, double stiffness, double damping) {

@@ -2,60 +2,25 @@
 // Figures from the benchmark collections named beside them. theory/space.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include "integrators/absolute/radau_stepper.h"
 #include "integrators/dense/dense_output.h"
-#include "start/preload.h"
-#include "start/settle_joints.h"
+#include "run/errors/pass_difference.h"
+#include "run/run_system.h"
 #include "start/start.h"
-#include "system/build.h"
 #include "system/sample_systems_for_tests.h"
+#include "tests/spatial_models.h"
 
 namespace pintle {
 namespace {
 
 using S = Spatial;
-using SpatialSystem = BasicSystem<S>;
-using SpatialState = BasicState<S>;
 using Point = S::Point;
-
-BasicBodyData<S> body(const std::string& name, double mass, const Point& inertia, const Point& gravity) {
-  BasicBodyData<S> b;
-  b.name = name;
-  b.mass << mass, mass, mass, inertia;
-  b.gravity << mass * gravity, 0, 0, 0;
-  return b;
-}
-
-BasicJointData<S> joint(const std::string& name, const std::string& type, int a, const S::Frame& F, int b, const S::Frame& M, double k, double c, double k_turn, double c_turn) {
-  BasicJointData<S> j;
-  j.name = name;
-  j.type = type;
-  j.at = {a, b, F, M};
-  BasicLinearLaw<S> law;
-  const bool hinge = type == "revolute";
-  for (int i = 0; i < S::kDof; ++i) {
-    const bool held = i < S::kDim || (hinge && i != S::kTurn);
-    j.held[i] = held;
-    j.free_mask[i] = held ? 0 : 1;
-    if (!held) continue;
-    law.k[i] = i < S::kDim ? k : k_turn;
-    law.c[i] = i < S::kDim ? c : c_turn;
-  }
-  j.law = law;
-  return j;
-}
-
-SpatialState at(const SpatialSystem& system, const PositionsOf<S>& q, const VecsOf<S>& v) {
-  SpatialState state;
-  state.q = q;
-  state.v = v;
-  start_forces(system, true, state);
-  return state;
-}
+using sample::SpatialSample;
+using sample::SpatialState;
+using sample::SpatialSystem;
 
 // The state at each of the times, and the number of steps.
 struct SpatialRun {
@@ -82,15 +47,15 @@ SpatialRun run(const SpatialSystem& system, const SpatialState& start, const std
 // L. D. Landau, E. M. Lifshitz, Mechanics, section 37: inertias 1, 2, 3 and almost a turn about the second axis. Omega at 5 and 10 s, and when the body has turned
 // over: half a period.
 TEST(Space, AFreeBodyTurnsOverWhenJacobisFunctionsSay) {
-  SpatialSystem system;
-  system.bodies.push_back(body("body", 1, {1, 2, 3}, Point::Zero()));
-  system.finish();
+  SpatialSample free;
+  free.system.bodies.push_back(sample::spatial_body("body", 1, {1, 2, 3}, Point::Zero()));
+  free.system.finish();
   S::Vec v;
   v << 0, 0, 0, 0.01, 5, 0.01;
-  const SpatialState start = at(system, {S::Coordinates{}}, {v});
+  free.start_at({S::Coordinates{}}, {v});
   constexpr double kFlip = 5.02592913815747;
   for (const int stages : {3, 5}) {
-    const SpatialRun done = run(system, start, {2.5, 5, kFlip}, stages == 3 ? 1e-9 : 1e-11, stages);
+    const SpatialRun done = run(free.system, free.start, {2.5, 5, kFlip}, stages == 3 ? 1e-9 : 1e-11, stages);
     EXPECT_LT(done.counters.steps, stages == 3 ? 500u : 170u);
     const auto &at_5 = done.states[1], &flipped = done.states[2];
     EXPECT_NEAR(at_5.v[0][3], -0.011325693900949457, 1e-6);
@@ -107,16 +72,9 @@ TEST(Space, AFreeBodyTurnsOverWhenJacobisFunctionsSay) {
   }
 }
 
-// Z. Terze, A. Mueller, D. Zlatar, Multibody System Dynamics 38 (2016) 201-225, with a spherical joint: 15 kg, 150 rad/s. Forces of ideal joints, as computed with
-// multipliers to 1e-13.
+// Forces of ideal joints, as computed with multipliers to 1e-13.
 TEST(Space, AHeavyTopCarriesTheKnownForces) {
-  SpatialSystem system;
-  system.bodies.push_back(body("top", 15, {0.234375, 0.46875, 0.234375}, {0, 0, -9.81}));
-  system.joints.push_back(joint("ball", "spherical", kGround, S::Frame{}, 0, S::Frame::at({0, -1, 0}, Eigen::Matrix3d::Identity()), 1e9, 1e4, 0, 0));
-  system.finish();
-  S::Vec v;
-  v << 4.61538, 0, 0, 0, 150, -4.61538;
-  const SpatialState start = at(system, {S::Coordinates{{0, 1, 0}, Eigen::Quaterniond::Identity()}}, {v});
+  const auto [system, start, notes] = sample::heavy_top();
   const Point expected[] = {{-640.2364079922062, -148.62771134696467, 136.9293130385287}, {-517.6007394773699, -396.8431014892873, 404.5749251636106}};
   const Eigen::Quaterniond wanted(-0.7082791529743135, 0.4387810881265964, 0.5457283961454085, 0.08939975282398263);
   const SpatialRun close = run(system, start, {0.2, 1.0}, 1e-9, 5);
@@ -132,50 +90,17 @@ TEST(Space, AHeavyTopCarriesTheKnownForces) {
   }
 }
 
-// IFToMM library of benchmark problems, A04: Bricard's mechanism, six hinges in a ring of five rods, one of whose conditions is redundant. P3, the joint of the third
-// and fourth rod, as computed with ideal joints to 1e-12.
-SpatialSystem bricard(double k) {
-  SpatialSystem system;
-  const std::vector<Point> P{{0, 0, 0}, {1, 0, 0}, {1, -1, 0}, {1, -1, 1}, {0, -1, 1}, {0, 0, 1}};
-  const std::vector<Point> axis{Point::UnitY(), Point::UnitZ(), Point::UnitX(), Point::UnitY(), Point::UnitZ(), Point::UnitX()};
-  std::vector<Point> centre;
-  for (int i = 0; i < 5; ++i) {
-    const Point along = P[i + 1] - P[i];
-    Point inertia = Point::Constant(0.08416666666666667);
-    inertia += (0.0016666666666666668 - inertia[0]) * along.cwiseAbs();
-    system.bodies.push_back(body("rod" + std::to_string(i + 1), 1, inertia, {0, -9.81, 0}));
-    centre.push_back(0.5 * (P[i] + P[i + 1]));
-  }
-  for (int j = 0; j < 6; ++j) {
-    const int a = j == 0 ? kGround : j - 1, b = j == 5 ? kGround : j;
-    const auto frame = [&](int on) { return S::Frame::along(on == kGround ? P[j] : Point(P[j] - centre[on]), axis[j]); };
-    system.joints.push_back(joint("P" + std::to_string(j), "revolute", a, frame(a), b, frame(b), k, 1e-4 * k, 0.1 * k, 1e-5 * k));
-  }
-  system.finish();
-  return system;
-}
-SpatialState bricard_start(const SpatialSystem& system) {
-  PositionsOf<S> q;
-  for (const Point& p : {Point(0.5, 0, 0), Point(1, -0.5, 0), Point(1, -1, 0.5), Point(0.5, -1, 1), Point(0, -0.5, 1)}) q.push_back({p, Eigen::Quaterniond::Identity()});
-  BasicSettledStart<S> start;
-  start.state = at(system, q, VecsOf<S>(5, S::Vec::Zero()));
-  settle_joints(system, 10, 0, start);
-  EXPECT_TRUE(start.notes.empty());
-  return start.state;
-}
-
+// P3 as computed with ideal joints to 1e-12.
 TEST(Space, BricardsHingesMoveAsComputed) {
-  const SpatialSystem system = bricard(1e9);
-  const SpatialState start = bricard_start(system);
+  const auto [system, start, notes] = sample::bricard(1e9);
+  EXPECT_TRUE(notes.empty());
   const SpatialRun done = run(system, start, {1, 2, 4, 7, 9, 10}, 1e-5, 5);
   EXPECT_LT(done.counters.steps, 250u);
   const Point expected[] = {{0.5105014611872182, -1.6491675993948074, 0.14012311455318463}, {-0.9693403447776451, -1.2212468949563386, 0.7542780107797513},
                             {0.5248995933913272, -1.6438760013360654, 0.14883584611567457}, {-0.9713738492431965, -1.2145418748558687, 0.7624440171107958},
                             {0.5390642884947408, -1.6384532083403974, 0.1577353783580486},  {0.9999999638063497, -1.0002690126961664, 0.9997309511199182}};
   for (std::size_t i = 0; i < done.states.size(); ++i) {
-    const auto& q = done.states[i].q[2];
-    const Point P3 = q.p + q.r * Point(0, 0, 0.5);
-    EXPECT_LT((P3 - expected[i]).norm(), 2e-6) << i;
+    EXPECT_LT((sample::bricard_p3(done.states[i].q[2]) - expected[i]).norm(), 2e-6) << i;
   }
 }
 
@@ -184,9 +109,9 @@ TEST(Space, BricardsHingesMoveAsComputed) {
 TEST(Space, BricardsReactionsAreRightAndConvergeWithTheStiffness) {
   const std::vector<double> times{1, 2, 4, 7};
   const auto forces = [&times](double k, double tolerance) {
-    const SpatialSystem system = bricard(k);
+    const SpatialSample ring = sample::bricard(k);
     std::vector<S::Vec> all;
-    for (const SpatialState& state : run(system, bricard_start(system), times, tolerance, 5).states)
+    for (const SpatialState& state : run(ring.system, ring.start, times, tolerance, 5).states)
       for (const S::Vec& f : state.force) all.push_back(f);
     return all;
   };
@@ -205,53 +130,17 @@ TEST(Space, BricardsReactionsAreRightAndConvergeWithTheStiffness) {
 
 // A wheel on a hinge: its free turn counts on past half a turn, inside steps too.
 TEST(Space, AHingeCountsTurns) {
-  SpatialSystem system;
-  system.bodies.push_back(body("wheel", 2, {0.1, 0.1, 0.2}, Point::Zero()));
-  system.joints.push_back(joint("axle", "revolute", kGround, S::Frame{}, 0, S::Frame{}, 1e8, 1e4, 1e6, 1e2));
-  system.finish();
+  SpatialSample spinning;
+  spinning.system.bodies.push_back(sample::spatial_body("wheel", 2, {0.1, 0.1, 0.2}, Point::Zero()));
+  spinning.system.joints.push_back(sample::spatial_joint("axle", "revolute", kGround, S::Frame{}, 0, S::Frame{}, {1e8, 1e4, 1e6, 1e2}));
+  spinning.system.finish();
   S::Vec v;
   v << 0, 0, 0, 0, 0, 10;
-  const SpatialState start = at(system, {S::Coordinates{}}, {v});
+  spinning.start_at({S::Coordinates{}}, {v});
   const std::vector<double> times{0.1, 0.3, 0.35, 0.9, 2};
-  const SpatialRun done = run(system, start, times, 1e-8, 5);
+  const SpatialRun done = run(spinning.system, spinning.start, times, 1e-8, 5);
   ASSERT_EQ(done.states.size(), times.size());
   for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(done.states[i].gap[0][S::kTurn], 10 * times[i], 1e-9);
-}
-
-// A component of the plane in space: x, y and the turn about z.
-constexpr std::array<int, Planar::kDof> kInSpace{0, 1, S::kTurn};
-S::Vec in_space(const Planar::Vec& x) {
-  S::Vec y = S::Vec::Zero();
-  for (int k = 0; k < Planar::kDof; ++k) y[kInSpace[k]] = x[k];
-  return y;
-}
-S::Frame in_space(const Planar::Frame& F) { return S::Frame::at({F.p.x(), F.p.y(), 0}, Eigen::AngleAxisd(F.angle, Point::UnitZ()).toRotationMatrix()); }
-
-// A planar system of hinges as one in space, with z axes out of the plane and hinges that hold their tilts.
-SpatialSystem in_space(const System& planar) {
-  SpatialSystem system;
-  for (const BodyData& b : planar.bodies) system.bodies.push_back(body(b.name, b.mass[0], Point(0.4, 0.7, 1) * b.mass[2], {b.gravity[0] / b.mass[0], b.gravity[1] / b.mass[0], 0}));
-  for (const JointData& j : planar.joints) {
-    const LinearLaw& law = *j.law.constant_diagonal();
-    system.joints.push_back(joint(j.name, "revolute", j.at.a, in_space(j.at.F), j.at.b, in_space(j.at.M), law.k[0], law.c[0], law.k[0], law.c[0]));
-  }
-  system.finish();
-  return system;
-}
-SpatialState in_space(const SpatialSystem& system, const State& planar) {
-  SpatialState state;
-  for (const Planar::Vec& q : planar.q) state.q.push_back({{q[0], q[1], 0}, Eigen::Quaterniond(Eigen::AngleAxisd(q[2], Point::UnitZ()))});
-  for (const Planar::Vec& v : planar.v) state.v.push_back(in_space(v));
-  start_forces(system, false, state);
-  const auto put = [](const Vecs& from, VecsOf<S>& to) {
-    for (std::size_t i = 0; i < from.size(); ++i) to[i] = in_space(from[i]);
-  };
-  put(planar.gap, state.gap);
-  put(planar.gap_rate, state.gap_rate);
-  put(planar.gap_accel, state.gap_accel);
-  put(planar.force, state.force);
-  put(planar.a, state.a);
-  return state;
 }
 
 // The paper's four-bar, section 8, in the plane and in space.
@@ -259,11 +148,11 @@ TEST(Space, APlanarFourBarGivesThePlanarForces) {
   const Model model = sample::four_bar(1e8, 3000);
   System planar = build_system(model);
   const State start = start_of_run(model, planar).state;
-  const SpatialSystem system = in_space(planar);
+  const SpatialSystem system = sample::in_space(planar);
   RadauStepper flat(planar, 1e-9, 5);
   BasicRadauStepper<S> deep(system, 1e-9, 5);
   flat.start(start, 1e-3);
-  deep.start(in_space(system, start), 1e-3);
+  deep.start(sample::in_space(system, start), 1e-3);
   const double end = 0.5;
   while (flat.state().t < end) ASSERT_TRUE(flat.step(end)) << flat.failure();
   while (deep.state().t < end) ASSERT_TRUE(deep.step(end)) << deep.failure();
@@ -271,10 +160,171 @@ TEST(Space, APlanarFourBarGivesThePlanarForces) {
   double peak = 0;
   for (const Planar::Vec& f : flat.state().force) peak = std::max(peak, f.head<2>().norm());
   for (std::size_t j = 0; j < planar.joints.size(); ++j) {
-    EXPECT_LT((deep.state().force[j] - in_space(flat.state().force[j])).norm(), 1e-9 * peak) << planar.joints[j].name;
+    EXPECT_LT((deep.state().force[j] - sample::in_space(flat.state().force[j])).norm(), 1e-9 * peak) << planar.joints[j].name;
     EXPECT_LT(std::abs(deep.state().force[j][2]) + std::abs(deep.state().force[j][3]) + std::abs(deep.state().force[j][4]), 1e-9 * peak);
   }
   for (std::size_t b = 0; b < planar.bodies.size(); ++b) EXPECT_LT((deep.state().q[b].p.head<2>() - flat.state().q[b].head<2>()).norm(), 1e-9);
+}
+
+// A run with a stated error at each of three tolerances, against one at 1e-9: what every joint carries is right within the tolerance, and the stated
+// error is between a third of the true one and thirty times it.
+void expect_promise(const SpatialSample& of, double duration, const std::string& what) {
+  SimulateSettings settings;
+  settings.duration = duration;
+  settings.tolerance = 1e-9;
+  const BasicSystemRun<S> truth = run_system(of.system, of.start, settings);
+  ASSERT_EQ(truth.result.outcome, Outcome::kCompleted) << what << ": " << truth.result.message;
+  for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
+    settings.tolerance = tolerance;
+    const BasicSystemRun<S> done = run_system(of.system, of.start, settings);
+    ASSERT_EQ(done.result.outcome, Outcome::kCompleted) << what << ": " << done.result.message;
+    ASSERT_EQ(done.rows.t, truth.rows.t);
+    EXPECT_TRUE(done.result.notes.empty()) << done.result.notes[0];
+    EXPECT_LT(done.result.energy.drift, tolerance * (done.result.energy.kinetic_peak + std::abs(done.result.energy.potential_start))) << what;
+    const PassDifference apart = difference_of_passes(of.system, done.rows, truth.rows, duration);
+    const std::vector<double> relative = relative_differences(of.system, apart);
+    for (std::size_t j = 0; j < of.system.joints.size(); ++j) {
+      const LoadSummary& joint = done.result.joints[j];
+      SCOPED_TRACE(what + ", " + joint.name + ", " + std::to_string(std::log10(tolerance)));
+      EXPECT_LT(relative[j], tolerance);
+      EXPECT_LT(relative[j], 3 * joint.relative_error_estimate);
+      EXPECT_LT(joint.relative_error_estimate, 30 * relative[j]);
+      EXPECT_LT(apart.force[j], 3 * joint.error_estimate);
+      EXPECT_LT(joint.error_estimate, 30 * apart.force[j]);
+      if (!joint.has_moment) continue;
+      EXPECT_LT(apart.couple[j], 3 * joint.moment_error_estimate);
+      EXPECT_LT(joint.moment_error_estimate, 30 * apart.couple[j]);
+    }
+  }
+}
+
+TEST(SpaceRuns, AHeavyTopKeepsWhatItStates) { expect_promise(sample::heavy_top(1), 1, "top"); }
+TEST(SpaceRunsSlow, BricardsHingesKeepWhatTheyState) { expect_promise(sample::bricard(1e9), 10, "Bricard"); }
+TEST(SpaceRuns, AFreeChainKeepsWhatItStates) { expect_promise(sample::free_chain(4, 1e8), 2, "chain"); }
+
+// Nothing acts on the chain: its momentum stays, and its centre goes straight on.
+TEST(SpaceRuns, AFreeChainKeepsItsMomentum) {
+  const SpatialSample chain = sample::free_chain(4, 1e8);
+  SimulateSettings settings;
+  settings.duration = 2;
+  const BasicSystemRun<S> done = run_system(chain.system, chain.start, settings);
+  const std::size_t bodies = chain.system.bodies.size();
+  struct Momenta {
+    Point linear = Point::Zero(), angular = Point::Zero();
+  };
+  const auto momenta = [&](std::size_t row) {
+    Momenta sum;
+    for (std::size_t i = 0; i < bodies; ++i) {
+      const auto& q = done.rows.place[row * bodies + i];
+      const S::Vec p = chain.system.bodies[i].mass.cwiseProduct(done.rows.velocity[row * bodies + i]);
+      sum.linear += p.head<3>();
+      sum.angular += q.p.cross(Point(p.head<3>())) + q.r * Point(p.tail<3>());
+    }
+    return sum;
+  };
+  const Momenta first = momenta(0);
+  for (std::size_t row = 1; row < done.rows.t.size(); ++row) {
+    EXPECT_LT((momenta(row).linear - first.linear).norm(), 1e-9 * first.linear.norm());
+    EXPECT_LT((momenta(row).angular - first.angular).norm(), 1e-6 * first.angular.norm());
+  }
+}
+
+// What the recorder says of a joint is what the laws do: the ball of a top that does not spin hangs with its weight, and the energies are known.
+TEST(SpaceRuns, APendulumsAccountAndPeakAreKnown) {
+  SpatialSample rod;
+  rod.system.bodies.push_back(sample::spatial_body("rod", 2, {1e-3, 0.04, 0.04}, {0, 0, -10}));
+  rod.system.joints.push_back(sample::spatial_joint("hinge", "revolute", kGround, S::Frame::along(Point::Zero(), Point::UnitY()), 0, S::Frame::along({-0.5, 0, 0}, Point::UnitY()), {1e9, 1e5, 1e8, 1e4}));
+  rod.system.finish();
+  rod.start_at({S::Coordinates{{0.5, 0, 0}, Eigen::Quaterniond::Identity()}}, {S::Vec::Zero()}, 1);
+  SimulateSettings settings;
+  settings.duration = 1;
+  settings.output_step = 1e-3;
+  const BasicSystemRun<S> done = run_system(rod.system, rod.start, settings);
+  ASSERT_EQ(done.result.outcome, Outcome::kCompleted) << done.result.message;
+  EXPECT_EQ(done.rows.t.size(), 1001u);
+  EXPECT_EQ(done.result.counters.passes, 2u);
+  ASSERT_EQ(done.result.joints.size(), 1u);
+  const LoadSummary& hinge = done.result.joints[0];
+  EXPECT_TRUE(hinge.has_moment);
+  EXPECT_EQ(hinge.first_body, "ground");
+  EXPECT_EQ(hinge.second_body, "rod");
+  // Straight down it has fallen 0.5 m: m g + m r w^2 with J w^2 / 2 = m g r about the hinge.
+  const double inertia = 0.04 + 2 * 0.25;
+  EXPECT_NEAR(hinge.peak, 20 + 2 * 0.5 * (2 * 20 * 0.5 / inertia), 1e-3);
+  EXPECT_NEAR(done.result.energy.kinetic_peak, 10, 1e-4);
+  EXPECT_LT(done.result.energy.drift, 1e-5);
+}
+
+// The tolerance is of the places: against a run at 1e-9.
+TEST(SpaceRuns, ARunOfTheMotionKeepsItsTolerance) {
+  const SpatialSample top = sample::heavy_top(1);
+  SimulateSettings settings;
+  settings.duration = 1;
+  settings.tolerance = 1e-9;
+  const BasicSystemRun<S> truth = run_system(top.system, top.start, settings);
+  settings.tolerance_of = ToleranceOf::kMotion;
+  for (const double tolerance : {1e-3, 1e-5}) {
+    settings.tolerance = tolerance;
+    const BasicSystemRun<S> done = run_system(top.system, top.start, settings);
+    ASSERT_EQ(done.result.outcome, Outcome::kCompleted) << done.result.message;
+    const double error = motion_difference(top.system, done.rows, truth.rows);
+    EXPECT_LT(error, tolerance);
+    EXPECT_LT(error, 3 * done.result.motion_error);
+  }
+}
+
+// A force that grows e-fold every fifth of a second feeds a body without end, and is named.
+TEST(SpaceRuns, AForceThatFeedsWithoutEndIsNamed) {
+  SpatialSample fed;
+  fed.system.bodies.push_back(sample::spatial_body("body", 1, {1, 2, 3}, Point::Zero()));
+  BasicAppliedData<S> force;
+  force.name = "gale";
+  for (Expression* e : {&force.force[1], &force.force[2], &force.torque[0], &force.torque[1], &force.torque[2]}) *e = sample::expression("0");
+  force.force[0] = sample::expression("exp(5*t)");
+  fed.system.applied.push_back(force);
+  fed.system.finish();
+  fed.start_at({S::Coordinates{}}, {S::Vec::Zero()});
+  SimulateSettings settings;
+  settings.duration = 20;
+  const BasicSystemRun<S> done = run_system(fed.system, fed.start, settings);
+  EXPECT_EQ(done.result.outcome, Outcome::kRunaway);
+  EXPECT_NE(done.result.message.find("force gale feeds it"), std::string::npos) << done.result.message;
+}
+
+TEST(SpaceRuns, SayWhatTheyCannotDo) {
+  SpatialSample top = sample::heavy_top();
+  const auto refusal = [&top](const SpatialState& start, const SimulateSettings& settings) -> std::string {
+    try {
+      run_system(top.system, start, settings);
+      return "";
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+  };
+  SimulateSettings good;
+  good.duration = 0.01;
+  EXPECT_EQ(refusal(top.start, good), "");
+  SimulateSettings settings = good;
+  settings.method = "dopri5";
+  EXPECT_NE(refusal(top.start, settings).find("in space set method"), std::string::npos);
+  settings = good;
+  settings.equations = Equations::kIdeal;
+  EXPECT_NE(refusal(top.start, settings).find("newtonian"), std::string::npos);
+  settings = good;
+  settings.duration = 0;
+  EXPECT_NE(refusal(top.start, settings).find("duration is 0 s"), std::string::npos);
+  settings = good;
+  settings.tolerance = -1;
+  EXPECT_NE(refusal(top.start, settings).find("tolerance is -1"), std::string::npos);
+  SpatialState start = top.start;
+  start.q.clear();
+  EXPECT_NE(refusal(start, good).find("places of 0"), std::string::npos);
+  start = top.start;
+  start.force.clear();
+  EXPECT_NE(refusal(start, good).find("start_forces"), std::string::npos);
+  start = top.start;
+  start.v[0][4] = std::nan("");
+  EXPECT_NE(refusal(start, good).find("not numbers"), std::string::npos);
 }
 
 }  // namespace

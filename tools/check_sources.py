@@ -20,6 +20,7 @@ FOLDERS_OF = {
     "io": "schema reading toml".split(),
     "laws": "friction contact bearings".split(),
     "results": "plots studies".split(),
+    "run": "record errors".split(),
     "sweeps": "storage".split(),
 }
 MAX_IN_FOLDER = 25

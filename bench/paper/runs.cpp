@@ -12,6 +12,7 @@
 #include "pintle/results.h"
 #include "pintle/simulate.h"
 #include "run/integration.h"
+#include "run/recorder.h"
 #include "start/start.h"
 #include "system/build.h"
 

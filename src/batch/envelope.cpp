@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "base/text/did_you_mean.h"
-#include "run/recording.h"
+#include "run/recorder.h"
 #include "system/build.h"
 
 namespace pintle {

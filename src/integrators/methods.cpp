@@ -20,7 +20,8 @@
 namespace pintle {
 namespace {
 
-const State& interpolate_with(DenseOutput& dense, const RadauStepper& method, double t) {
+template <class S>
+const BasicState<S>& interpolate_with(BasicDenseOutput<S>& dense, const BasicRadauStepper<S>& method, double t) {
   return dense.at(t, method.previous(), method.state(), method.nodes());
 }
 const State& interpolate_with(DenseOutput& dense, const Dopri5& method, double t) {
@@ -28,19 +29,19 @@ const State& interpolate_with(DenseOutput& dense, const Dopri5& method, double t
 }
 
 // A method on the equations of free bodies, with dense output.
-template <class Method>
-class BodyStepper final : public Stepper {
+template <class S, class Method>
+class BodyStepper final : public BasicStepper<S> {
  public:
-  BodyStepper(const System& system, Method method) : method_(std::move(method)), dense_(system) {}
+  BodyStepper(const BasicSystem<S>& system, Method method) : method_(std::move(method)), dense_(system) {}
 
   void set_max_step(double h) override { method_.set_max_step(h); }
-  void set_load_scale(const LoadScale& scale) override { method_.set_load_scale(scale); }
-  const LoadScale& load_scale() const override { return method_.load_scale(); }
-  void start(const State& state, double h) override { method_.start(state, h); }
+  void set_load_scale(const BasicLoadScale<S>& scale) override { method_.set_load_scale(scale); }
+  const BasicLoadScale<S>& load_scale() const override { return method_.load_scale(); }
+  void start(const BasicState<S>& state, double h) override { method_.start(state, h); }
   bool step(double t_end) override { return method_.step(t_end); }
-  const State& state() const override { return method_.state(); }
-  const State& previous() const override { return method_.previous(); }
-  const State& interpolate(double t) override { return interpolate_with(dense_, method_, t); }
+  const BasicState<S>& state() const override { return method_.state(); }
+  const BasicState<S>& previous() const override { return method_.previous(); }
+  const BasicState<S>& interpolate(double t) override { return interpolate_with(dense_, method_, t); }
   const Counters& counters() const override { return method_.counters(); }
   const std::string& failure() const override { return method_.failure(); }
   const std::vector<LawCrossing>& crossings() const override { return method_.crossings(); }
@@ -51,8 +52,13 @@ class BodyStepper final : public Stepper {
 
  private:
   Method method_;
-  DenseOutput dense_;
+  BasicDenseOutput<S> dense_;
 };
+
+template <class S>
+std::unique_ptr<BasicStepper<S>> make_radau(const BasicSystem<S>& system, const MethodChoice& choice, double tolerance) {
+  return std::make_unique<BodyStepper<S, BasicRadauStepper<S>>>(system, BasicRadauStepper<S>(system, tolerance, choice.stages, choice.tolerance_of));
+}
 
 constexpr double kHhtAlpha = -0.05;
 constexpr double kKeptVibration = 0.9;  // generalised-alpha's factor per step at very high frequencies
@@ -98,10 +104,17 @@ std::unique_ptr<Stepper> make_stepper(const System& system, const MethodChoice& 
     if (choice.method == "radau") return std::make_unique<TreeRadau>(system, tolerance, choice.stages);
     return std::make_unique<TreeDopri5>(system, tolerance);
   }
-  if (choice.method == "radau") return std::make_unique<BodyStepper<RadauStepper>>(system, RadauStepper(system, tolerance, choice.stages, choice.tolerance_of));
-  if (choice.method == "dopri5") return std::make_unique<BodyStepper<Dopri5>>(system, Dopri5(system, tolerance));
+  if (choice.method == "radau") return make_radau(system, choice, tolerance);
+  if (choice.method == "dopri5") return std::make_unique<BodyStepper<Planar, Dopri5>>(system, Dopri5(system, tolerance));
   if (is_in(kAlphaFamily, choice.method)) return std::make_unique<AlphaStepper>(system, alpha_weights(choice.method), tolerance);
   return make_sundials_stepper(system, choice.method, tolerance);
+}
+
+std::unique_ptr<BasicStepper<Spatial>> make_stepper(const BasicSystem<Spatial>& system, const MethodChoice& choice, double tolerance) {
+  if (choice.equations != Equations::kNewtonian)
+    throw std::invalid_argument("mechanisms in space have the equations of free bodies only: set equations = \"newtonian\", in which every joint is a force law");
+  if (choice.method != "radau") throw std::invalid_argument(fmt::format("method {} is for mechanisms of the plane: in space set method = \"radau\", or \"auto\"", choice.method));
+  return make_radau(system, choice, tolerance);
 }
 
 }  // namespace pintle

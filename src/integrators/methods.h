@@ -24,5 +24,7 @@ std::string why_not(const MethodChoice& choice);
 
 /// A stepper on `system`, which must outlive it. Throws std::invalid_argument with the text of `why_not`.
 std::unique_ptr<Stepper> make_stepper(const System& system, const MethodChoice& choice, double tolerance);
+/// In space: newtonian radau alone.
+std::unique_ptr<BasicStepper<Spatial>> make_stepper(const BasicSystem<Spatial>& system, const MethodChoice& choice, double tolerance);
 
 }  // namespace pintle

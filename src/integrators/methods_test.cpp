@@ -147,5 +147,21 @@ TEST(Methods, SayWhyTheyAreNotToBeHad) {
   EXPECT_EQ(why_not(newtonian("ode45")).find("libsundials-dev") == std::string::npos, has_sundials());
 }
 
+TEST(Methods, InSpaceThereIsRadauAlone) {
+  BasicSystem<Spatial> system;
+  system.finish();
+  const auto refusal = [&system](const MethodChoice& choice) -> std::string {
+    try {
+      make_stepper(system, choice, 1e-5);
+      return "";
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(refusal(newtonian("radau")), "");
+  for (const char* method : {"dopri5", "ode45", "ode23t", "hht", "euler"}) EXPECT_EQ(refusal(newtonian(method)).find("method " + std::string(method) + " is for mechanisms of the plane"), 0u);
+  for (const Equations equations : {Equations::kIdeal, Equations::kRelative}) EXPECT_NE(refusal({equations, "radau", 3}).find("set equations = \"newtonian\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pintle

@@ -10,7 +10,7 @@
 #include "integrators/methods.h"
 #include "live/mouse_spring.h"
 #include "pintle/live.h"
-#include "run/recorder.h"
+#include "run/record/force_table.h"
 #include "start/preload.h"
 #include "start/start.h"
 #include "system/build.h"
@@ -77,8 +77,8 @@ class LiveMotion::Motion {
     system_.motions(state_.q, state_.v, m);
     std::vector<JointForce> out;
     for (std::size_t j = 0; j < model_.joints.size(); ++j) {
-      const JointLoad load = joint_load(system_, static_cast<int>(j), state_.t, m, state_.force[j]);
-      out.push_back({load.fx, load.fy, load.couple});
+      const S::Vec load = joint_load(system_, static_cast<int>(j), m, state_.force[j]);
+      out.push_back({load[0], load[1], load[2]});
     }
     return out;
   }

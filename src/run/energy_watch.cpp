@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <span>
 
 namespace pintle {
 namespace {
@@ -20,34 +17,36 @@ constexpr int kRunaway = 10;             // powers of ten above what can be stor
 constexpr int kCompared = 4;             // of them: the time of the last ones against that of those before
 constexpr double kSteady = 1.5;          // ratio of these times: 1 of an exponential, 100 of constant torque, 3.2 of t^8
 
-double reach(const Placement& at) { return std::max(at.F.p.norm(), at.M.p.norm()); }
+template <class S>
+double reach(const BasicPlacement<S>& at) { return std::max(at.F.p.norm(), at.M.p.norm()); }
 
 // The distance over which weights can work: from the markers, and the bodies' own size.
-double size_of(const System& system) {
+template <class S>
+double size_of(const BasicSystem<S>& system) {
   double size = system.largest_radius_of_gyration();
-  for (const JointData& joint : system.joints) size = std::max(size, reach(joint.at));
+  for (const BasicJointData<S>& joint : system.joints) size = std::max(size, reach(joint.at));
   return size;
 }
 
 }  // namespace
 
-EnergyWatch::EnergyWatch(const System& system, double duration, double tolerance, bool exact_work)
+template <class S>
+BasicEnergyWatch<S>::BasicEnergyWatch(const BasicSystem<S>& system, double duration, double tolerance, bool exact_work)
     : system_(system), duration_(duration), tolerance_(std::max(tolerance, kLeastTolerance)), exact_work_(exact_work) {
-  for (const JointData& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : "negative damping of joint", &joint.name});
-  for (const LoadData& load : system.loads) feeders_.push_back({load.applied ? "force" : load.kind == LoadKind::kEffort ? "motor" : "negative damping of spring", &load.name});
-  for (const AppliedData& force : system.applied) feeders_.push_back({"force", &force.name});
+  for (const BasicJointData<S>& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : "negative damping of joint", &joint.name});
+  for (const BasicLoadData<S>& load : system.loads) feeders_.push_back({load.applied ? "force" : load.kind == LoadKind::kEffort ? "motor" : "negative damping of spring", &load.name});
+  for (const BasicAppliedData<S>& force : system.applied) feeders_.push_back({"force", &force.name});
 }
 
-double EnergyWatch::potential(const State& state) {
+template <class S>
+double BasicEnergyWatch<S>::potential(const BasicState<S>& state) {
   system_.motions(state.q, state.v, m_);
-  double out = system_.external_work(state.t, state.q, m_, state.sliding).potential;
-  for (int j = 0; j < system_.n_joints(); ++j)
-    if (system_.joints[j].servo < 0) out += system_.joints[j].law.energy(law_point(system_, j, state));
-  return out;
+  return system_.external_work(state.t, state.q, m_, state.sliding).potential + energy_of_joints(system_, state);
 }
 
 // Eq. (8.3).
-void EnergyWatch::start(const State& state) {
+template <class S>
+void BasicEnergyWatch<S>::start(const BasicState<S>& state) {
   const double kinetic = system_.kinetic(state.v), size = size_of(system_);
   kinetic_ = kinetic;
   potential_ = potential(state);
@@ -55,16 +54,17 @@ void EnergyWatch::start(const State& state) {
   double elastic = potential_;
   storable_ = kinetic;
   for (std::size_t i = 0; i < system_.bodies.size(); ++i) {
-    const BodyData& body = system_.bodies[i];
-    elastic += body.gravity.dot(state.q[i]);
-    storable_ += body.gravity.head<2>().norm() * size + body.mass[0] * size * size / (duration_ * duration_);
+    const BasicBodyData<S>& body = system_.bodies[i];
+    elastic += body.gravity.template head<S::kDim>().dot(S::position(state.q[i]));
+    storable_ += body.gravity.template head<S::kDim>().norm() * size + body.mass[0] * size * size / (duration_ * duration_);
   }
   storable_ += std::abs(elastic);
   supply_ = state.supply_power;
   loss_ = state.loss_power;
 }
 
-EnergyWatch::Alarm EnergyWatch::see_step(const State& state, double h) {
+template <class S>
+typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicState<S>& state, double h) {
   throughput_ += 0.5 * h * (std::abs(supply_) + std::abs(state.supply_power) + std::abs(loss_) + std::abs(state.loss_power));
   supply_ = state.supply_power;
   loss_ = state.loss_power;
@@ -78,10 +78,12 @@ EnergyWatch::Alarm EnergyWatch::see_step(const State& state, double h) {
   return judge_growth(state);
 }
 
-EnergyWatch::Alarm EnergyWatch::see_end(const State& state) { return judge_account(state); }
+template <class S>
+typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_end(const BasicState<S>& state) { return judge_account(state); }
 
 // Eq. (8.2).
-EnergyWatch::Alarm EnergyWatch::judge_account(const State& state) {
+template <class S>
+typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_account(const BasicState<S>& state) {
   since_judged_ = 0;
   if (!exact_work_) return Alarm::kNone;
   const double stored = potential(state), kinetic = system_.kinetic(state.v);
@@ -98,11 +100,13 @@ EnergyWatch::Alarm EnergyWatch::judge_account(const State& state) {
   return Alarm::kOpen;
 }
 
-void EnergyWatch::say_open(const State& state, double missing, double within) {
-  const bool ideal = std::any_of(system_.joints.begin(), system_.joints.end(), [](const JointData& joint) { return joint.ideal; });
+template <class S>
+void BasicEnergyWatch<S>::say_open(const BasicState<S>& state, double missing, double within) {
+  const bool ideal = std::any_of(system_.joints.begin(), system_.joints.end(), [](const BasicJointData<S>& joint) { return joint.ideal; });
+  const bool loaded = !system_.loads.empty() || !system_.applied.empty();
   const bool sudden = std::abs(missing - missing_) > 0.5 * within;
-  const char* cause = sudden && !system_.has_loads() && ideal ? "likely a singular position of ideal joints: start elsewhere, or give its joints stiffness"
-                      : sudden && system_.has_loads() ? "likely a load or motor that changes within a step there, or has a pole: set a max_step that sees it"
+  const char* cause = sudden && !loaded && ideal ? "likely a singular position of ideal joints: start elsewhere, or give its joints stiffness"
+                      : sudden && loaded ? "likely a load or motor that changes within a step there, or has a pole: set a max_step that sees it"
                       : ideal ? "likely ideal joints near a singular position: give them stiffness"
                               : "likely numbers too far apart in size, or steps too long for what happens in them: check masses, stiffness and loads, or set a max_step";
   message_ = fmt::format("the energy account does not close: {:.3g} J {} by t = {:.6g} s, where errors within the tolerance explain {:.2g} J; {}", std::abs(missing),
@@ -110,7 +114,8 @@ void EnergyWatch::say_open(const State& state, double missing, double within) {
 }
 
 // Eq. (8.4). Only energy that was fed counts: what falls, or what springs give, the mechanism had.
-EnergyWatch::Alarm EnergyWatch::judge_growth(const State& state) {
+template <class S>
+typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_growth(const BasicState<S>& state) {
   const double energy = state.supplied - state.dissipated;
   bool more = false;
   while (reached_ < kDecades && energy > storable_ * std::pow(10.0, reached_)) {
@@ -126,35 +131,32 @@ EnergyWatch::Alarm EnergyWatch::judge_growth(const State& state) {
 }
 
 // Works since the energy left what can be stored, by the powers at the ends of steps.
-void EnergyWatch::add_works(const State& state, double h) {
+template <class S>
+void BasicEnergyWatch<S>::add_works(const BasicState<S>& state, double h) {
   system_.motions(state.q, state.v, m_);
   std::size_t at = 0;
   for (int j = 0; j < system_.n_joints(); ++j, ++at) {
-    const JointData& joint = system_.joints[j];
+    const BasicJointData<S>& joint = system_.joints[j];
     if (joint.servo >= 0) feeders_[at].work += h * state.force[j][joint.servo] * system_.pose(joint.at, m_).rate[joint.servo];
     else if (!joint.ideal) feeders_[at].work += h * std::max(0.0, -joint.law.loss(law_point(system_, j, state)));
   }
-  for (const LoadData& load : system_.loads) {
-    double& work = feeders_[at++].work;
-    if (load.kind == LoadKind::kEffort) work += h * system_.load_effort(load, state.t, m_, state.sliding) * system_.pose(load.at, m_).rate[load.component];
-    else if (load.c < 0) work -= h * load.c * std::pow(load.kind == LoadKind::kSpring ? read(JointDisplacement(Distance{load.free}), system_.pose(load.at, m_)).rate[0] : system_.pose(load.at, m_).rate[load.component], 2);
+  for (const BasicLoadData<S>& load : system_.loads) {
+    const ExternalWork work = system_.work_of(load, state.t, m_, state.sliding);
+    feeders_[at++].work += h * (work.supplied + std::max(0.0, -work.lost));
   }
-  const std::array<double, 1> time{state.t};
-  const auto at_t = [&time](const Expression& e) { return e.value(std::span(time).first(e.variables().size())); };
-  for (const AppliedData& force : system_.applied) {
-    const Planar::Motion& body = m_[force.body];
-    Planar::Point f(at_t(force.fx), at_t(force.fy));
-    if (force.body_axes) f = body.turned(f);
-    feeders_[at++].work += h * (f.dot(body.v + body.w * Planar::perp(body.turned(force.at.p))) + at_t(force.torque) * body.w);
-  }
+  for (const BasicAppliedData<S>& force : system_.applied) feeders_[at++].work += h * system_.power_of(force, state.t, m_);
 }
 
-void EnergyWatch::say_runaway(const State& state, double energy) {
+template <class S>
+void BasicEnergyWatch<S>::say_runaway(const BasicState<S>& state, double energy) {
   const auto most = std::max_element(feeders_.begin(), feeders_.end(), [](const Feeder& a, const Feeder& b) { return a.work < b.work; });
   const double span = decade_[reached_ - 1] - decade_[reached_ - 1 - 2 * kCompared];
   message_ = fmt::format("the motion runs away: at t = {:.4g} s it had been fed {:.3g} J, more than the mechanism stores by itself, and {:.3g} J at t = {:.4g} s, ten times more every {:.2g} s",
                          decade_[0], storable_, energy, state.t, span / (2 * kCompared));
   if (most != feeders_.end() && most->work > 0) message_ += fmt::format("; {} {} feeds it: check the signs of what it depends on", most->kind, *most->name);
 }
+
+template class BasicEnergyWatch<Planar>;
+template class BasicEnergyWatch<Spatial>;
 
 }  // namespace pintle

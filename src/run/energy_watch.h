@@ -8,19 +8,20 @@
 
 namespace pintle {
 
-class EnergyWatch {
+template <class S>
+class BasicEnergyWatch {
  public:
   enum class Alarm { kNone, kRunaway, kOpen };
 
   /// A motion of `duration` [s] whose forces are to be right to `tolerance` [-]. `exact_work`: the method integrates works as it does the
   /// motion, so that the account is as accurate; otherwise it is not judged.
-  EnergyWatch(const System& system, double duration, double tolerance, bool exact_work);
+  BasicEnergyWatch(const BasicSystem<S>& system, double duration, double tolerance, bool exact_work);
 
-  void start(const State& state);
+  void start(const BasicState<S>& state);
   /// The end of a step of h seconds.
-  Alarm see_step(const State& state, double h);
+  Alarm see_step(const BasicState<S>& state, double h);
   /// The end of the motion: the account is judged once more.
-  Alarm see_end(const State& state);
+  Alarm see_end(const BasicState<S>& state);
   /// What the last alarm was about.
   const std::string& message() const { return message_; }
 
@@ -30,15 +31,15 @@ class EnergyWatch {
     const std::string* name;
     double work = 0;  // [J]
   };
-  Alarm judge_account(const State& state);
-  Alarm judge_growth(const State& state);
-  void add_works(const State& state, double h);
-  double potential(const State& state);
-  void say_open(const State& state, double missing, double within);
-  void say_runaway(const State& state, double energy);
+  Alarm judge_account(const BasicState<S>& state);
+  Alarm judge_growth(const BasicState<S>& state);
+  void add_works(const BasicState<S>& state, double h);
+  double potential(const BasicState<S>& state);
+  void say_open(const BasicState<S>& state, double missing, double within);
+  void say_runaway(const BasicState<S>& state, double energy);
 
   static constexpr int kDecades = 64;
-  const System& system_;
+  const BasicSystem<S>& system_;
   double duration_, tolerance_;
   bool exact_work_;
   double storable_ = 0;                  // what the mechanism stores at the start, or its weights over its size [J]
@@ -51,9 +52,10 @@ class EnergyWatch {
   int since_judged_ = 0;
   int reached_ = 0;                      // powers of ten of `storable_`
   double decade_[kDecades] = {};         // when they were [s]
-  std::vector<Planar::Motion> m_;
+  std::vector<typename S::Motion> m_;
   std::vector<Feeder> feeders_;          // joints, loads, applied forces
   std::string message_;
 };
+using EnergyWatch = BasicEnergyWatch<Planar>;
 
 }  // namespace pintle

@@ -38,19 +38,22 @@ class Standstill {
 };
 
 // Whether the energy ends the integration.
-bool alarmed(EnergyWatch::Alarm alarm, const EnergyWatch& energy, Integration& out) {
-  if (alarm == EnergyWatch::Alarm::kNone) return false;
-  out.ended = alarm == EnergyWatch::Alarm::kRunaway ? Ended::kRunaway : Ended::kEnergyOpen;
+template <class S>
+bool alarmed(typename BasicEnergyWatch<S>::Alarm alarm, const BasicEnergyWatch<S>& energy, BasicIntegration<S>& out) {
+  using Alarm = typename BasicEnergyWatch<S>::Alarm;
+  if (alarm == Alarm::kNone) return false;
+  out.ended = alarm == Alarm::kRunaway ? Ended::kRunaway : Ended::kEnergyOpen;
   out.message = energy.message();
   return true;
 }
 
 }  // namespace
 
-Integration integrate(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder) {
-  const std::unique_ptr<Stepper> method = make_stepper(system, plan.choice, plan.tolerance);
-  Stepper& stepper = *method;
-  Integration out;
+template <class S>
+BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>& start, const BasicIntegrationPlan<S>& plan, BasicForceRecorder<S>& recorder) {
+  const std::unique_ptr<BasicStepper<S>> method = make_stepper(system, plan.choice, plan.tolerance);
+  BasicStepper<S>& stepper = *method;
+  BasicIntegration<S> out;
   stepper.set_max_step(plan.max_step);
   if (plan.scale) stepper.set_load_scale(*plan.scale);
   stepper.start(start, plan.first_step);
@@ -65,7 +68,7 @@ Integration integrate(const System& system, const State& start, const Integratio
       out.message = stepper.failure();
       break;
     }
-    const State& now = stepper.state();
+    const BasicState<S>& now = stepper.state();
     recorder.see_step(now, now.t - stepper.previous().t);
     for (double t = static_cast<double>(row) * plan.output_step; t <= now.t && t < almost;
          t = static_cast<double>(++row) * plan.output_step)
@@ -98,5 +101,9 @@ Integration integrate(const System& system, const State& start, const Integratio
   out.remarks = stepper.remarks();
   return out;
 }
+
+template Integration integrate(const System& system, const State& start, const IntegrationPlan& plan, ForceRecorder& recorder);
+template BasicIntegration<Spatial> integrate(const BasicSystem<Spatial>& system, const BasicState<Spatial>& start, const BasicIntegrationPlan<Spatial>& plan,
+                                             BasicForceRecorder<Spatial>& recorder);
 
 }  // namespace pintle

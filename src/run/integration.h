@@ -7,35 +7,40 @@
 
 #include "integrators/methods.h"
 #include "run/energy_watch.h"
-#include "run/recorder.h"
+#include "run/record/force_recorder.h"
 
 namespace pintle {
 
-struct IntegrationPlan {
+template <class S>
+struct BasicIntegrationPlan {
   double duration = 0;
   double output_step = 0;
   double max_step = 0;
   double tolerance = 1e-5;           // of the stepper
   double first_step = 0;
   MethodChoice choice;
-  const LoadScale* scale = nullptr;  // from an earlier pass
-  EnergyWatch* energy = nullptr;     // ends the integration where it raises an alarm
+  const BasicLoadScale<S>* scale = nullptr;  // from an earlier pass
+  BasicEnergyWatch<S>* energy = nullptr;     // ends the integration where it raises an alarm
   std::function<bool(double t)> keep_going;  // called after each step; false stops
 };
+using IntegrationPlan = BasicIntegrationPlan<Planar>;
 
 enum class Ended { kAtEnd, kStopped, kFailed, kRunaway, kEnergyOpen };
 
-struct Integration {
+template <class S>
+struct BasicIntegration {
   Ended ended = Ended::kAtEnd;
   double t = 0;
   std::string message;
   Counters counters;
-  LoadScale scale;
+  BasicLoadScale<S> scale;
   std::vector<LawCrossing> crossings;  // of the borders of laws
   std::vector<std::string> remarks;  // what the method noticed
 };
+using Integration = BasicIntegration<Planar>;
 
 /// Integrates by the plan's method; rows go to `recorder`.
-Integration integrate(const System& system, const State& start, const IntegrationPlan& plan, Recorder& recorder);
+template <class S>
+BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>& start, const BasicIntegrationPlan<S>& plan, BasicForceRecorder<S>& recorder);
 
 }  // namespace pintle

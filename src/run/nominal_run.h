@@ -3,25 +3,29 @@
 
 #include "integrators/load_scale.h"
 #include "pintle/simulate.h"
-#include "run/recorder.h"
+#include "run/record/force_recorder.h"
 
 namespace pintle {
 
 /// How the last integration of a checked run was made, for runs of its like.
-struct NominalRun {
+template <class S>
+struct BasicNominalRun {
   double wanted = 0;     // tolerance of the forces
   double tolerance = 0;  // of the stepper that met it
   int stages = 0;
   double span = 0;       // over which joints are smooth at the start [s]; 0: not found
-  LoadScale scale;
+  BasicLoadScale<S> scale;
 };
+using NominalRun = BasicNominalRun<Planar>;
 
-struct RunShape {
+template <class S>
+struct BasicRunShape {
   Recorded recorded = Recorded::kColumns;
   bool checked = true;  ///< integrated until the error estimates meet the tolerance; otherwise once, and nothing is estimated
-  const NominalRun* nominal = nullptr;  ///< for a run that is not checked
-  NominalRun* measured = nullptr;     ///< filled by one that is
+  const BasicNominalRun<S>* nominal = nullptr;  ///< for a run that is not checked
+  BasicNominalRun<S>* measured = nullptr;      ///< filled by one that is, but for the span
 };
+using RunShape = BasicRunShape<Planar>;
 
 /// `simulate`, bit for bit, as far as it goes.
 Trajectory simulate_reduced(const Model& model, const RunShape& shape, const Observer& observer = {});

@@ -1,339 +1,39 @@
-// A run: assemble, integrate twice with different tolerances, compare the joint forces of the two, tighten until the
-// difference says that the tolerance is met. theory/time section 6.
+// A run of a model of the plane: assemble it, and make the passes.
 #include "pintle/simulate.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
 #include <unordered_set>
 #include <utility>
 
-#include "base/stopwatch.h"
 #include "pintle/bearings.h"
-#include "run/energy_watch.h"
-#include "run/error_growth.h"
-#include "run/integration.h"
-#include "run/nominal_run.h"
-#include "run/pass_difference.h"
-#include "run/passes.h"
-#include "run/promises.h"
+#include "run/recorder.h"
+#include "run/run_passes.h"
 #include "start/start.h"
 #include "system/build.h"
 
 namespace pintle {
 namespace {
 
-constexpr int kMaxPasses = 6;
-constexpr double kLoosest = 1e-4;   // of the second pass: above it steps are bounded by other things, and two passes are alike
-constexpr double kLoosestIdeal = 1e-8;  // ideal joints are a reference, and cheap
-constexpr double kLoosestOfMotion = 1e-3;
-constexpr double kLeastTolerance = 1e-13;
-// The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
-constexpr double kSharePower = 0.8, kShareOfEqual = 3;
-constexpr double kPromised = 0.7;  // of the tolerance: with a smaller stated error the true one keeps to it, which may be a third larger
-constexpr double kAlike = 1.25;  // steps of the finer pass over those of the coarser: with fewer the two say little
-constexpr double kSurest = 0.1;  // of the tolerance of the steps: no error of the motion is stated as smaller
-constexpr std::size_t kManyBodies = 1000;
-constexpr double kRepeated = 0.1;  // tolerance of a pass that is to show whether what two have shown is so, over that of the finer
-constexpr double kFinest = 1e-11;  // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
-constexpr double kOptimism = 2;    // standard errors by which a rate may be smaller before no tolerance is said to help
-constexpr double kLoosestAccount = 1e-3;  // passes are finer than a looser tolerance, and so are their energies
-constexpr int kMostOpen = 2;       // passes made finer because the energy account did not close
-
-class Run {
- public:
-  Run(const Model& model, const Observer& observer, const RunShape& shape) : model_(model), observer_(observer), shape_(shape) {}
-
-  Trajectory go() {
-    announce_assembly();
-    system_ = build_system(model_);
-    Assembly assembly = start_of_run(model_, system_, shape_.nominal != nullptr && !shape_.checked ? shape_.nominal->span : 0);
-    start_ = std::move(assembly.state);
-    span_ = assembly.span;
-    out_.notes = model_.notes;
-    out_.notes.insert(out_.notes.end(), assembly.notes.begin(), assembly.notes.end());
-    not_unique_ = std::move(assembly.not_unique);
-    out_.tolerance = model_.simulate.tolerance;
-    choice_.equations = model_.simulate.equations;
-    choice_.method = model_.simulate.method == "auto" ? usual_method(choice_.equations) : model_.simulate.method;
-    out_.method = choice_.method;
-    choice_.tolerance_of = model_.simulate.tolerance_of;
-    out_.of_motion = choice_.tolerance_of == ToleranceOf::kMotion;
-    make_passes();
-    out_.wall_seconds = clock_.seconds();
-    return std::move(out_);
-  }
-
- private:
-  IntegrationPlan plan(double tolerance) {
-    IntegrationPlan p;
-    p.duration = model_.simulate.duration;
-    p.output_step = output_step_of(model_.simulate, system_.joints.size());
-    p.max_step = model_.simulate.max_step;
-    p.tolerance = tolerance;
-    p.choice = choice_;
-    p.first_step = 1e-4 * p.duration;
-    if (!last_.scale.body.empty()) p.scale = &last_.scale;
-    p.keep_going = [this](double t) { return report(t); };
-    return p;
-  }
-
-  // Of a large mechanism it takes long enough to say so.
-  void announce_assembly() {
-    if (observer_ && model_.bodies.size() > kManyBodies) observer_({0, model_.simulate.duration, 0, clock_.seconds()});
-  }
-
-  bool report(double t) {
-    const double now = clock_.seconds();
-    if (!observer_ || now - reported_ < 0.1) return true;
-    reported_ = now;
-    return observer_({t, model_.simulate.duration, static_cast<int>(out_.counters.passes) + 1, now});
-  }
-
-  // False when it did not reach the end: then the passes before it stand, unless it is the first.
-  bool run_pass(double tolerance) {
-    auto recorder = std::make_unique<Recorder>(model_, system_, shape_.recorded);
-    IntegrationPlan p = plan(tolerance);
-    // Explicit methods take works by the trapezoidal rule, others leave them out of their control.
-    const bool exact_work = choice_.method == "radau" || choice_.equations == Equations::kIdeal;
-    EnergyWatch energy(system_, p.duration, std::max(tolerance, std::min(model_.simulate.tolerance, kLoosestAccount)), exact_work);
-    p.energy = &energy;
-    Integration done = integrate(system_, start_, p, *recorder);
-    count(done.counters);
-    const bool complete = done.ended == Ended::kAtEnd || done.ended == Ended::kRunaway;
-    interrupted_ = complete ? std::pair{Ended::kAtEnd, std::string()} : std::pair{done.ended, done.message};
-    if (!complete && fine_) return false;
-    coarse_ = std::move(fine_);
-    if (coarse_) coarse_->keep_forces_only();
-    fine_ = std::move(recorder);
-    fine_tolerance_ = tolerance;
-    last_ = std::move(done);
-    return complete;
-  }
-
-  void count(const Counters& done) {
-    Counters& c = out_.counters;
-    c.steps += done.steps;
-    c.rejected += done.rejected;
-    c.newton_iterations += done.newton_iterations;
-    c.newton_failures += done.newton_failures;
-    c.evaluations += done.evaluations;
-    c.factorizations += done.factorizations;
-    c.events += done.events;
-    ++c.passes;
-  }
-
-  // A pass whose energy account does not close is not compared with others: a finer one may close it.
-  bool run_closed_pass(double& tolerance) {
-    bool complete = run_pass(tolerance);
-    for (; interrupted_.first == Ended::kEnergyOpen && open_ < kMostOpen && tolerance > kLeastTolerance; ++open_) {
-      if (last_.ended == Ended::kEnergyOpen) fine_.reset();  // it was the first
-      tolerance = std::max(kLeastTolerance, kRepeated * tolerance);
-      complete = run_pass(tolerance);
-    }
-    return complete;
-  }
-
-  // theory/time Eqs. (6.1)-(6.3).
-  void make_passes() {
-    const double wanted = model_.simulate.tolerance;
-    choice_.stages = wanted < kTight ? 5 : 3;
-    double tolerance = std::min(wanted, out_.of_motion ? kLoosestOfMotion : choice_.equations == Equations::kIdeal ? kLoosestIdeal : kLoosest);
-    if (!shape_.checked) {
-      run_pass(tolerance_by_nominal(tolerance));
-      return finish();
-    }
-    if (run_pilot(tolerance)) {
-      do {
-        const double before = fine_tolerance_, steps_before = static_cast<double>(last_.counters.steps);
-        ran_away_ = last_.ended == Ended::kRunaway;
-        if (!run_closed_pass(tolerance)) break;
-        compare(before, steps_before);
-      } while (go_finer(tolerance));
-    }
-    if (shape_.measured != nullptr) *shape_.measured = {wanted, fine_tolerance_, choice_.stages, span_, last_.scale};
-    finish();
-  }
-
-  // `tolerance` is that of the next pass.
-  bool run_pilot(double& tolerance) {
-    double of_pilot = kPilot * tolerance;
-    bool complete = run_closed_pass(of_pilot);
-    const Counters& pilot = last_.counters;
-    if (complete && choice_.method == "radau" && choice_.stages == 3 && static_cast<double>(pilot.newton_iterations) < kEasy * static_cast<double>(pilot.steps)) {
-      choice_.stages = 5;
-      fine_.reset();
-      complete = run_closed_pass(of_pilot);
-    }
-    stages_before_ = choice_.stages;
-    tolerance = std::min(tolerance, of_pilot / kPilot);
-    return complete;
-  }
-
-  // The last two passes, of which the coarser had the tolerance `before` and made so many steps.
-  void compare(double before, double steps_before) {
-    const ForceTable &coarse = coarse_->forces(), &fine = fine_->forces();
-    coarse_tolerance_ = before;
-    difference_ = difference_of_passes(system_, coarse, fine, fine.t.back());
-    alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
-    stages_before_ = choice_.stages;
-    share_ = alike_ || out_.of_motion ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(fine_tolerance_ / before, kSharePower));
-    out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
-    double apart = out_.of_motion ? out_.motion_error : largest_of(relative_differences(system_, difference_));
-    last_growth_ = growth_;
-    growth_ = {};
-    if (apart > kPromised * model_.simulate.tolerance)
-      growth_ = fit_growth(out_.of_motion ? motion_difference_curve(system_, coarse, fine) : force_difference_curve(system_, coarse, fine));
-    if (growth_.exponential && growth_.saturated) share_ = 1;  // a difference that has stopped growing does not tell the finer one's part
-    error_ = share_ * apart;
-  }
-
-  // Whether another pass is made, and with which tolerance.
-  bool go_finer(double& tolerance) {
-    const double wanted = model_.simulate.tolerance;
-    const auto at = [&tolerance](double next) { return tolerance = std::max(kLeastTolerance, next), true; };
-    const bool last_one = out_.counters.passes >= kMaxPasses || tolerance <= kLeastTolerance;
-    if (last_.ended == Ended::kRunaway) return false;
-    if (((alike_ && !doubted_) || ran_away_) && !last_one) {
-      doubted_ = true;
-      if (out_.of_motion) choice_.stages = 5;  // long steps are alike at any tolerance: another order tells
-      return at(kRepeated * tolerance);
-    }
-    if (error_ <= kPromised * wanted) return false;
-    const bool same = growth_.saturated && same_growth(last_growth_, growth_);
-    if (same) chaos_ = growth_;
-    if (last_one) return false;
-    if (growth_.exponential && growth_.saturated) {
-      const double hoped = tolerance_by_growth(growth_.rate - kOptimism * growth_.rate_error, 1);
-      const bool hopeless = hoped < kLeastTolerance || tolerance < kFinest;
-      if (same && hopeless) return false;
-      const double next = std::min(kRepeated * tolerance, hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kSharePower)));
-      if (next < kTight) choice_.stages = 5;
-      return at(next);
-    }
-    const double shrink = 0.5 * std::pow(wanted / error_, 1 / kSharePower);
-    return at(tolerance * std::clamp(shrink, 1e-3, 0.1));
-  }
-
-  // The tolerance with which errors, growing as they do, would be small enough at the end: the difference is the coarser pass's error.
-  // theory/time Eq. (6.9).
-  double tolerance_by_growth(double rate, double power) const {
-    const double at_end = growth_.extrapolated(model_.simulate.duration, rate);
-    return coarse_tolerance_ * std::min(1.0, 0.5 * std::pow(model_.simulate.tolerance / at_end, 1 / power));
-  }
-
-  // Of the only pass: that of the second one, or what was enough for the run that the nominal settings are from.
-  double tolerance_by_nominal(double second) {
-    const NominalRun* nominal = shape_.nominal;
-    if (nominal == nullptr || !(nominal->wanted > 0)) return second;
-    choice_.stages = nominal->stages;
-    last_.scale = nominal->scale;
-    return std::clamp(nominal->tolerance * model_.simulate.tolerance / nominal->wanted, kLeastTolerance, second);
-  }
-
-  // Friction that turns round makes joints ring, within the tolerance of the steps and in all passes alike: their difference does not
-  // show it. Over a joint's peak force.
-  double least_error() const {
-    const bool rubs = std::any_of(system_.joints.begin(), system_.joints.end(), [](const JointData& joint) { return joint.law.rubs(); });
-    return rubs && !out_.of_motion ? kPromised * fine_tolerance_ : 0;
-  }
-
-  void finish() {
-    fine_->fill(out_);
-    fill_events();
-    out_.t_end = last_.t;
-    out_.notes.insert(out_.notes.end(), last_.remarks.begin(), last_.remarks.end());
-    std::vector<double> relative_difference = relative_differences(system_, difference_);
-    const auto worst = std::max_element(relative_difference.begin(), relative_difference.end());
-    const JointData* worst_joint = worst == relative_difference.end() ? nullptr : &system_.joints[static_cast<std::size_t>(worst - relative_difference.begin())];
-    judge(worst_joint);
-    const std::unordered_set<std::string> not_unique(not_unique_.begin(), not_unique_.end());
-    const bool chaotic = out_.outcome == Outcome::kHorizon;
-    const double least = least_error();
-    std::size_t row = 0;
-    for (std::size_t j = 0; j < system_.joints.size(); ++j) {
-      if (system_.joints[j].servo >= 0) continue;
-      LoadSummary& joint = out_.joints[row++];
-      joint.unique = !not_unique.contains(joint.name);
-      joint.horizon = last_.t;
-      if (difference_.force.empty() || chaotic) continue;
-      joint.error_estimate = std::max(share_ * difference_.force[j], least * difference_.peak[j]);
-      joint.moment_error_estimate = share_ * difference_.couple[j];
-      joint.relative_error_estimate = std::max(share_ * relative_difference[j], least);
-    }
-    if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * model_.simulate.tolerance, chaos_, out_);
-    if (shape_.recorded == Recorded::kColumns) out_.bearings = bearing_summaries(model_, out_);
-  }
-
-  void fill_events() {
-    std::vector<JointEvents> of_joint(system_.joints.size());
-    for (const LawCrossing& crossing : last_.crossings) {
-      const JointData& joint = system_.joints[static_cast<std::size_t>(crossing.joint)];
-      of_joint[static_cast<std::size_t>(crossing.joint)].events.push_back({crossing.t, joint.law.parts()[static_cast<std::size_t>(crossing.part)]->border_name(crossing.border, crossing.rising), crossing.seen});
-    }
-    for (std::size_t j = 0; j < of_joint.size(); ++j) {
-      if (of_joint[j].events.empty()) continue;
-      of_joint[j].joint = system_.joints[j].name;
-      for (const LawColumn& column : system_.joints[j].law.columns()) of_joint[j].columns.push_back({column.name, column.unit, column.meaning});
-      out_.events.push_back(std::move(of_joint[j]));
-    }
-  }
-
-  // How it ended; a pass that broke off leaves the results of the one before it.
-  // `worst` has the largest error; none where there is no estimate.
-  void judge(const JointData* worst) {
-    const bool no_estimate = worst == nullptr;
-    const auto& [ended, message] = interrupted_;
-    const bool whole = last_.ended == Ended::kAtEnd, missed = error_ > model_.simulate.tolerance;
-    if (ended == Ended::kStopped) out_.outcome = Outcome::kInterrupted;
-    else if (last_.ended == Ended::kRunaway) out_.outcome = Outcome::kRunaway;
-    else if (ended == Ended::kEnergyOpen) out_.outcome = Outcome::kEnergyOpen;
-    else if (ended == Ended::kFailed && !whole) out_.outcome = Outcome::kFailed;
-    else if (missed && chaos_.exponential && ended == Ended::kAtEnd) out_.outcome = Outcome::kHorizon;
-    else if ((ended == Ended::kFailed && no_estimate) || missed) out_.outcome = Outcome::kToleranceNotMet;
-    if (no_estimate && shape_.checked && !system_.joints.empty()) out_.notes.push_back("stopped before a second integration: the joint forces have no error estimate");
-    if (whole && ended != Ended::kAtEnd)
-      out_.notes.push_back(fmt::format("a finer integration did not reach the end{}; the results are those of the previous one", message.empty() ? "" : " (" + message + ")"));
-    if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)
-      out_.message = fmt::format("the largest {} is estimated at {:.2g} of {}; the tolerance is {:.2g}",
-                                 out_.of_motion ? "position error" : fmt::format("force error, at {} {},", worst->servo < 0 ? "joint" : "motor", worst->name), error_,
-                                 out_.of_motion ? "the longest path of any body" : "the peak force", model_.simulate.tolerance);
-    if (out_.outcome == Outcome::kRunaway) out_.message = last_.message;
-    if (!message.empty() && out_.outcome != Outcome::kCompleted) out_.message += (out_.message.empty() ? "" : "; ") + message;
-  }
-
-  const Model& model_;
-  const Observer& observer_;
-  RunShape shape_;
-  Stopwatch clock_;
-  System system_;
-  State start_;
-  Trajectory out_;
-  std::vector<std::string> not_unique_;
-  MethodChoice choice_;
-  std::unique_ptr<Recorder> coarse_, fine_;
-  double fine_tolerance_ = 0, coarse_tolerance_ = 0, span_ = 0;
-  // Of the last two passes.
-  PassDifference difference_;
-  double share_ = 1, error_ = 0;
-  bool alike_ = false;             // their steps
-  int stages_before_ = 0;          // of the coarser one
-  ErrorGrowth growth_, last_growth_;  // and of the pair before
-  ErrorGrowth chaos_;              // where two pairs have shown the same exponential growth
-  bool doubted_ = false;           // a pass has been made because two were alike
-  bool ran_away_ = false;          // the coarser one
-  int open_ = 0;                   // passes repeated because the energy account did not close
-  Integration last_;
-  std::pair<Ended, std::string> interrupted_{Ended::kAtEnd, ""};
-  double reported_ = 0;
-};
+constexpr std::size_t kManyBodies = 1000;  // of which the assembly takes long enough to say so
 
 }  // namespace
 
-Trajectory simulate(const Model& model, const Observer& observer) { return Run(model, observer, {}).go(); }
+Trajectory simulate_reduced(const Model& model, const RunShape& shape, const Observer& observer) {
+  const Stopwatch clock;
+  if (observer && model.bodies.size() > kManyBodies) observer({0, model.simulate.duration, 0, clock.seconds()});
+  System system = build_system(model);
+  Assembly assembly = start_of_run(model, system, shape.nominal != nullptr && !shape.checked ? shape.nominal->span : 0);
+  Trajectory out;
+  out.notes = model.notes;
+  out.notes.insert(out.notes.end(), assembly.notes.begin(), assembly.notes.end());
+  run_passes<Planar>(system, assembly.state, model.simulate, {[&] { return std::make_unique<Recorder>(model, system, shape.recorded); }, shape, observer, clock}, out);
+  if (shape.measured != nullptr && shape.checked) shape.measured->span = assembly.span;
+  const std::unordered_set<std::string> not_unique(assembly.not_unique.begin(), assembly.not_unique.end());
+  for (LoadSummary& joint : out.joints) joint.unique = !not_unique.contains(joint.name);
+  if (shape.recorded == Recorded::kColumns) out.bearings = bearing_summaries(model, out);
+  out.wall_seconds = clock.seconds();
+  return out;
+}
 
-Trajectory simulate_reduced(const Model& model, const RunShape& shape, const Observer& observer) { return Run(model, observer, shape).go(); }
+Trajectory simulate(const Model& model, const Observer& observer) { return simulate_reduced(model, {}, observer); }
 
 }  // namespace pintle

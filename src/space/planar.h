@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <string_view>
 #include <vector>
 
 namespace pintle {
@@ -17,7 +16,6 @@ template <int N>
 struct PlanarBodyLanes;
 
 struct Planar {
-  static constexpr std::string_view kName = "plane";
   static constexpr int kDof = 3;                         // degrees of freedom of a free body, and components of a relative pose
   static constexpr int kDim = 2;                         // the first of them are translations, the others rotations
   static constexpr int kTurn = 2;                        // component of a relative pose about the joint's axis

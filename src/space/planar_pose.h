@@ -58,6 +58,8 @@ struct PlanarRelativePose {
 
   /// The force of z-components f (conjugate to z, on B) in world axes [N].
   S::Point world_force(const S::Vec& f) const { return {c * f[0] - s * f[1], s * f[0] + c * f[1]}; }
+  /// Its couple on B about M's origin [N*m].
+  double world_couple(const S::Vec& f) const { return f[2]; }
   /// d(GA' f)/dq and d(GB' f)/dq at constant f: the geometric stiffness, 6 x 6 over (qA, qB), symmetric. Eq. (2.9).
   Eigen::Matrix<double, 6, 6> geometric(const S::Vec& f) const;
   /// d(rate)/dq over (qA, qB), 3 x 6. Eq. (2.10). Needs the motions it was made from.

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string_view>
 
 #include "space/rotation.h"
 
@@ -29,7 +28,6 @@ struct SpatialFrame {
 };
 
 struct Spatial {
-  static constexpr std::string_view kName = "space";
   static constexpr int kDof = 6;               // degrees of freedom of a free body, and components of a relative pose
   static constexpr int kDim = 3;               // the first of them are translations, the others rotations
   static constexpr int kTurn = 5;              // component of a relative pose about the joint's axis

@@ -49,8 +49,7 @@ SpatialRelativePose SpatialRelativePose::between(const S::Motion& A, const S::Fr
 }
 
 S::Point SpatialRelativePose::world_couple(const S::Vec& f) const {
-  const auto& n = map.n;
-  return pintle::vector_of(map.RF * Vector3<double>{n.z * f[3] + map.k * n.x * f[5], n.z * f[4] + map.k * n.y * f[5], f[5] - n.x * f[3] - n.y * f[4]});
+  return pintle::vector_of(map.RF * couple_of(map.n, map.k, f[3], f[4], f[5]));
 }
 
 Eigen::Matrix<double, 12, 12> SpatialRelativePose::geometric(const S::Vec& f) const {

@@ -32,6 +32,20 @@ PINTLE_LANES Lanes<N> over_one_plus(const Lanes<N>& n) {
 }
 }  // namespace rotation
 
+/// J w in components 3 to 5 of `rate`: the rates of the tilts and of the turn at the relative angular velocity w; n is M's z axis, both in F's axes, and
+/// k = 1 / (1 + n_z). theory/space Eq. (3.4).
+template <class T, class U, class Rate>
+PINTLE_LANES void put_turning(const Vector3<T>& n, const T& k, const Vector3<U>& w, Rate&& rate) {
+  rate[3] = n.z * w.x - n.x * w.z;
+  rate[4] = n.z * w.y - n.y * w.z;
+  rate[5] = k * (n.x * w.x + n.y * w.y) + w.z;
+}
+/// J' (tilt_x, tilt_y, turn): the couple, in F's axes, of what acts on the tilts and on the turn.
+template <class T, class U>
+PINTLE_LANES Vector3<U> couple_of(const Vector3<T>& n, const T& k, const U& tilt_x, const U& tilt_y, const U& turn) {
+  return {n.z * tilt_x + (k * n.x) * turn, n.z * tilt_y + (k * n.y) * turn, turn - (n.x * tilt_x + n.y * tilt_y)};
+}
+
 /// What z, z' and z'' are made of; T is a number, or one number per stage of a step.
 template <class T>
 struct SpatialPoseGeometry {
@@ -80,13 +94,10 @@ struct SpatialPoseGeometry {
   template <class Body, class Gap>
   PINTLE_LANES void rates(const Body&, const Body&, Gap& rate) const {
     const Vector3<T> at = turned_back(RF, dd);
-    const T k = rotation::over_one_plus(R.zz);
     rate[0] = at.x;
     rate[1] = at.y;
     rate[2] = at.z;
-    rate[3] = R.zz * w.x - R.xz * w.z;
-    rate[4] = R.zz * w.y - R.yz * w.z;
-    rate[5] = k * (R.xz * w.x + R.yz * w.y) + w.z;
+    put_turning(Vector3<T>{R.xz, R.yz, R.zz}, rotation::over_one_plus(R.zz), w, rate);
   }
   /// The convective part of z''. Eqs. (3.5), (3.6).
   template <class Gap>
@@ -205,9 +216,7 @@ struct SpatialGapMap {
     e[0] = v.x;
     e[1] = v.y;
     e[2] = v.z;
-    e[3] = n.z * w.x - n.x * w.z;
-    e[4] = n.z * w.y - n.y * w.z;
-    e[5] = k * (n.x * w.x + n.y * w.y) + w.z;
+    put_turning(n, k, w, e);
     if (!function) return;
     e[0] = gradient[0] * e[0] + gradient[1] * e[1] + gradient[2] * e[2] + gradient[3] * e[3] + gradient[4] * e[4] + gradient[5] * e[5];
     for (int i = 1; i < 6; ++i) e[i] = U(0.0);
@@ -221,8 +230,7 @@ struct SpatialGapMap {
   PINTLE_LANES Wrenches<U> spread(const U* f) const {
     const auto part = [&](int i) { return function ? gradient[i] * f[0] : f[i]; };
     const Vector3<U> force = RF * Vector3<U>{part(0), part(1), part(2)};
-    const U tilt_x = part(3), tilt_y = part(4), turn = part(5);
-    const Vector3<U> couple = RF * Vector3<U>{n.z * tilt_x + (k * n.x) * turn, n.z * tilt_y + (k * n.y) * turn, turn - (n.x * tilt_x + n.y * tilt_y)};
+    const Vector3<U> couple = RF * couple_of(n, k, U(part(3)), U(part(4)), U(part(5)));
     return {force, turned_back(RA, cross(arm_a, force) + couple), turned_back(RB, cross(arm_b, force) + couple)};
   }
   template <class U, class V>

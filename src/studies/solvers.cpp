@@ -14,6 +14,7 @@
 #include "pintle/simulate.h"
 #include "run/integration.h"
 #include "run/passes.h"
+#include "run/recorder.h"
 #include "run/recording.h"
 #include "start/start.h"
 #include "studies/joint_errors.h"

@@ -56,10 +56,10 @@ SpatialWrench wrench(const BasicAppliedData<Spatial>& load, double t, const Spat
   return load.body_axes ? SpatialWrench{body.turned(f), body.turned(couple)} : SpatialWrench{f, couple};
 }
 
-double power_of(const PlanarWrench& w, const Planar::Motion& body, const Planar::Point& arm) {
+double power_on(const Planar::Motion& body, const PlanarWrench& w, const Planar::Point& arm) {
   return w.force.dot(body.v + body.w * Planar::perp(arm)) + w.couple * body.w;
 }
-double power_of(const SpatialWrench& w, const Spatial::Motion& body, const Spatial::Point& arm) {
+double power_on(const Spatial::Motion& body, const SpatialWrench& w, const Spatial::Point& arm) {
   return w.force.dot(body.v + body.w.cross(arm)) + w.couple.dot(body.w);
 }
 
@@ -145,20 +145,27 @@ ExternalWork BasicSystem<S>::external_work(double t, const PositionsOf<S>& q, co
   ExternalWork work;
   for (std::size_t i = 0; i < bodies.size(); ++i) work.potential -= bodies[i].gravity.template head<S::kDim>().dot(S::position(q[i]));
   for (const BasicLoadData<S>& load : loads) {
-    const LoadState s = load_state(load, t, m, sliding);
-    const double gap = s.kinematics.gap[s.slot], rate = s.kinematics.rate[s.slot];
-    if (load.kind == LoadKind::kEffort) {
-      work.supplied += s.effort * rate;
-    } else {
-      work.potential += (load.constant + 0.5 * load.k * gap) * gap;
-      work.lost += load.c * rate * rate;
-    }
+    const ExternalWork own = work_of(load, t, m, sliding);
+    work.potential += own.potential;
+    work.supplied += own.supplied;
+    work.lost += own.lost;
   }
-  for (const BasicAppliedData<S>& force : applied) {
-    const typename S::Motion& body = m[force.body];
-    work.supplied += power_of(wrench(force, t, body), body, body.turned(force.at.p));
-  }
+  for (const BasicAppliedData<S>& force : applied) work.supplied += power_of(force, t, m);
   return work;
+}
+
+template <class S>
+ExternalWork BasicSystem<S>::work_of(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding) const {
+  const LoadState s = load_state(load, t, m, sliding);
+  const double gap = s.kinematics.gap[s.slot], rate = s.kinematics.rate[s.slot];
+  if (load.kind == LoadKind::kEffort) return {0, s.effort * rate, 0};
+  return {(load.constant + 0.5 * load.k * gap) * gap, 0, load.c * rate * rate};
+}
+
+template <class S>
+double BasicSystem<S>::power_of(const BasicAppliedData<S>& force, double t, const std::vector<typename S::Motion>& m) const {
+  const typename S::Motion& body = m[force.body];
+  return power_on(body, wrench(force, t, body), body.turned(force.at.p));
 }
 
 template <class S>
@@ -267,6 +274,8 @@ template double BasicSystem<Planar>::load_effort(const BasicLoadData<Planar>& lo
 template void BasicSystem<Planar>::external(double t, const std::vector<Planar::Motion>& m, VecsOf<Planar>& Q, SlidingModes sliding) const;
 template ExternalWork BasicSystem<Planar>::external_work(double t, const PositionsOf<Planar>& q, const std::vector<Planar::Motion>& m, SlidingModes sliding) const;
 template bool BasicSystem<Planar>::cross_borders(double t, const VecsOf<Planar>& gap, const VecsOf<Planar>& rate, const double* before, const double* after, std::vector<double>& law_state, double& lost) const;
+template ExternalWork BasicSystem<Planar>::work_of(const BasicLoadData<Planar>& load, double t, const std::vector<Planar::Motion>& m, SlidingModes sliding) const;
+template double BasicSystem<Planar>::power_of(const BasicAppliedData<Planar>& force, double t, const std::vector<Planar::Motion>& m) const;
 template void BasicSystem<Planar>::find_switching(double t, const std::vector<Planar::Motion>& m, const VecsOf<Planar>& gap, const VecsOf<Planar>& rate, const std::vector<double>& law_state, SlidingModes sliding, double* value) const;
 template std::optional<SlidingMode> BasicSystem<Planar>::jump_between(double t0, const std::vector<Planar::Motion>& m0, double t1, const std::vector<Planar::Motion>& m1) const;
 template double BasicSystem<Planar>::margin(const SlidingMode& jump, double t, const std::vector<Planar::Motion>& m) const;
@@ -278,6 +287,8 @@ template double BasicSystem<Spatial>::load_effort(const BasicLoadData<Spatial>& 
 template void BasicSystem<Spatial>::external(double t, const std::vector<Spatial::Motion>& m, VecsOf<Spatial>& Q, SlidingModes sliding) const;
 template ExternalWork BasicSystem<Spatial>::external_work(double t, const PositionsOf<Spatial>& q, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;
 template bool BasicSystem<Spatial>::cross_borders(double t, const VecsOf<Spatial>& gap, const VecsOf<Spatial>& rate, const double* before, const double* after, std::vector<double>& law_state, double& lost) const;
+template ExternalWork BasicSystem<Spatial>::work_of(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;
+template double BasicSystem<Spatial>::power_of(const BasicAppliedData<Spatial>& force, double t, const std::vector<Spatial::Motion>& m) const;
 template void BasicSystem<Spatial>::find_switching(double t, const std::vector<Spatial::Motion>& m, const VecsOf<Spatial>& gap, const VecsOf<Spatial>& rate, const std::vector<double>& law_state, SlidingModes sliding, double* value) const;
 template std::optional<SlidingMode> BasicSystem<Spatial>::jump_between(double t0, const std::vector<Spatial::Motion>& m0, double t1, const std::vector<Spatial::Motion>& m1) const;
 template double BasicSystem<Spatial>::margin(const SlidingMode& jump, double t, const std::vector<Spatial::Motion>& m) const;

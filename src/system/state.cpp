@@ -38,6 +38,14 @@ void find_accelerations(const BasicSystem<S>& system, const std::vector<typename
   find_gap_accelerations(system, r, state);
 }
 
+template <class S>
+double energy_of_joints(const BasicSystem<S>& system, const BasicState<S>& state) {
+  double stored = 0;
+  for (int j = 0; j < system.n_joints(); ++j)
+    if (system.joints[j].servo < 0) stored += system.joints[j].law.energy(law_point(system, j, state));
+  return stored;
+}
+
 // Coordinates and vectors of a body begin with its translations.
 template <class Vec>
 constexpr int kTranslations = Vec::SizeAtCompileTime == Planar::kDof ? Planar::kDim : Spatial::kDim;
@@ -76,11 +84,13 @@ template double largest_coordinate(const VecsOf<Spatial>&);
 template double largest_force(const VecsOf<Planar>&);
 template double largest_force(const VecsOf<Spatial>&);
 template void find_gap_accelerations(const BasicSystem<Planar>& system, const std::vector<BasicJointKinematics<Planar>>& r, BasicState<Planar>& state);
+template double energy_of_joints(const BasicSystem<Planar>& system, const BasicState<Planar>& state);
 template void find_law_rates(const BasicSystem<Planar>& system, BasicState<Planar>& state);
 template void rest_laws(const BasicSystem<Planar>& system, BasicState<Planar>& state);
 template void find_accelerations(const BasicSystem<Planar>& system, const std::vector<Planar::Motion>& m, const std::vector<BasicJointKinematics<Planar>>& r, BasicState<Planar>& state);
 template bool is_finite(const BasicState<Planar>& state);
 template void find_gap_accelerations(const BasicSystem<Spatial>& system, const std::vector<BasicJointKinematics<Spatial>>& r, BasicState<Spatial>& state);
+template double energy_of_joints(const BasicSystem<Spatial>& system, const BasicState<Spatial>& state);
 template void find_law_rates(const BasicSystem<Spatial>& system, BasicState<Spatial>& state);
 template void rest_laws(const BasicSystem<Spatial>& system, BasicState<Spatial>& state);
 template void find_accelerations(const BasicSystem<Spatial>& system, const std::vector<Spatial::Motion>& m, const std::vector<BasicJointKinematics<Spatial>>& r, BasicState<Spatial>& state);

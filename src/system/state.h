@@ -40,6 +40,10 @@ void find_gap_accelerations(const BasicSystem<S>& system, const std::vector<Basi
 template <class S>
 void find_accelerations(const BasicSystem<S>& system, const std::vector<typename S::Motion>& m, const std::vector<BasicJointKinematics<S>>& r, BasicState<S>& state);
 
+/// What the laws of all joints store, servos aside [J].
+template <class S>
+double energy_of_joints(const BasicSystem<S>& system, const BasicState<S>& state);
+
 /// The largest coordinate of any body, at least 1e-3: what the rounding of positions, or of velocities, goes with [m or m/s].
 template <class Vec>
 double largest_coordinate(const std::vector<Vec>& x);

@@ -221,6 +221,9 @@ class BasicSystem {
   /// Gravity, springs, applied forces and effort motors: the generalised force on every body. Motors in `sliding` stand at a jump.
   void external(double t, const std::vector<typename S::Motion>& m, VecsOf<S>& Q, SlidingModes sliding = {}) const;
   ExternalWork external_work(double t, const PositionsOf<S>& q, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;
+  /// The part of one load in it, and the power of one applied force [W].
+  ExternalWork work_of(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;
+  double power_of(const BasicAppliedData<S>& force, double t, const std::vector<typename S::Motion>& m) const;
   /// Force (spring: tension; motor: effort) of a load.
   double load_effort(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;
 

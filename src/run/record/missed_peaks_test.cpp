@@ -1,5 +1,5 @@
 // What rows miss is said, and nothing where they miss nothing.
-#include "run/missed_peaks.h"
+#include "run/record/missed_peaks.h"
 
 #include <gtest/gtest.h>
 

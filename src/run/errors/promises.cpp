@@ -1,4 +1,4 @@
-#include "run/promises.h"
+#include "run/errors/promises.h"
 
 #include <fmt/format.h>
 
@@ -13,13 +13,13 @@ struct Statistics {
 };
 
 // Of a joint's force in the rows after `from` [s]; trapezoidal in time.
-Statistics after(const ForceTable& forces, std::size_t joints, std::size_t j, double from) {
+template <class S>
+Statistics after(const BasicForceTable<S>& forces, std::size_t joints, std::size_t j, double from) {
   Statistics out;
   double span = 0;
   for (std::size_t i = 1; i < forces.t.size(); ++i) {
     if (forces.t[i] <= from) continue;
-    const double *a = &forces.world[3 * ((i - 1) * joints + j)], *b = &forces.world[3 * (i * joints + j)];
-    const double last = std::hypot(a[0], a[1]), now = std::hypot(b[0], b[1]), h = forces.t[i] - forces.t[i - 1];
+    const double last = linear_magnitude<S>(forces.world[(i - 1) * joints + j]), now = linear_magnitude<S>(forces.world[i * joints + j]), h = forces.t[i] - forces.t[i - 1];
     out.peak = std::max(out.peak, now);
     out.mean += 0.5 * h * (last + now);
     out.rms += 0.5 * h * (last * last + now * now);
@@ -34,7 +34,8 @@ Statistics after(const ForceTable& forces, std::size_t joints, std::size_t j, do
 
 }  // namespace
 
-void promise_until_horizons(const System& system, const ForceTable& coarse, const ForceTable& fine, double share, double within, const ErrorGrowth& growth, Trajectory& out) {
+template <class S>
+void promise_until_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double within, const ErrorGrowth& growth, Trajectory& out) {
   const std::size_t joints = system.joints.size();
   std::vector<double> horizons = force_horizons(system, coarse, fine, share, within);
   if (out.of_motion) horizons.assign(joints, curve_horizon(motion_difference_curve(system, coarse, fine), within));
@@ -64,5 +65,8 @@ void promise_until_horizons(const System& system, const ForceTable& coarse, cons
       "peaks, means and RMS after that are statistics",
       out.growth.horizon, earliest != nullptr ? " (joint " + earliest->name + ")" : "", 1 / growth.rate, growth.rate, growth.rate_error);
 }
+
+template void promise_until_horizons(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double share, double within, const ErrorGrowth& growth, Trajectory& out);
+template void promise_until_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double within, const ErrorGrowth& growth, Trajectory& out);
 
 }  // namespace pintle

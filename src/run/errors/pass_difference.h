@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "run/recorder.h"
+#include "run/record/force_table.h"
 
 namespace pintle {
 
@@ -14,16 +14,19 @@ struct PassDifference {
 };
 
 /// Over the rows up to time `until` [s].
-PassDifference difference_of_passes(const System& system, const ForceTable& coarse, const ForceTable& fine, double until);
+template <class S>
+PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until);
 
 /// Each joint's largest difference over its peak force or couple [-]. Joints that carry next to nothing are measured by a
 /// small part of the largest of the mechanism; couples at least by that of the largest force at a radius of gyration.
 /// The couple of a pin that rubs is a small part of what its force does: its error is stated, and drives no pass.
-std::vector<double> relative_differences(const System& system, const PassDifference& c);
+template <class S>
+std::vector<double> relative_differences(const BasicSystem<S>& system, const PassDifference& c);
 
 /// Largest difference of a body's place between two passes, over the longest way that one has gone from its start [-]; of centres
 /// and of points at the radius of gyration. theory/time Eq. (6.4).
-double motion_difference(const System& system, const ForceTable& coarse, const ForceTable& fine);
+template <class S>
+double motion_difference(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine);
 
 /// A relative difference [-] as a function of time [s].
 struct DifferenceCurve {
@@ -31,13 +34,16 @@ struct DifferenceCurve {
 };
 
 /// In every common row, the largest relative difference of any joint, by the measures of `relative_differences`.
-DifferenceCurve force_difference_curve(const System& system, const ForceTable& coarse, const ForceTable& fine);
+template <class S>
+DifferenceCurve force_difference_curve(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine);
 /// In every common row, the largest difference of a body's place over the longest way.
-DifferenceCurve motion_difference_curve(const System& system, const ForceTable& coarse, const ForceTable& fine);
+template <class S>
+DifferenceCurve motion_difference_curve(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine);
 
 /// For each joint the last time [s] at which a run that ends there has `share` times its difference within `tolerance` of its peak.
 /// theory/time Eq. (6.10).
-std::vector<double> force_horizons(const System& system, const ForceTable& coarse, const ForceTable& fine, double share, double tolerance);
+template <class S>
+std::vector<double> force_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double tolerance);
 
 /// The last time up to which the curve stays within `tolerance`.
 double curve_horizon(const DifferenceCurve& curve, double tolerance);

@@ -1,4 +1,4 @@
-#include "run/missed_peaks.h"
+#include "run/record/missed_peaks.h"
 
 #include <fmt/format.h>
 
@@ -15,13 +15,16 @@ constexpr double kRowsPerStep = 5;     // show what a step has found
 constexpr double kMostRefined = 1e-3;  // of the output step: a peak that asks for less is a shock
 constexpr const char* kTables = "peaks, means and work in the tables are those of the rows";
 
-double square_of(const State& state, std::size_t j) { return state.force[j].head<2>().squaredNorm(); }
+template <class S>
+double square_of(const BasicState<S>& state, std::size_t j) { return state.force[j].template head<S::kDim>().squaredNorm(); }
 
 }  // namespace
 
-MissedPeaks::MissedPeaks(const System& system) : system_(system), in_rows_(system.joints.size(), 0), at_steps_(system.joints.size()) {}
+template <class S>
+BasicMissedPeaks<S>::BasicMissedPeaks(const BasicSystem<S>& system) : system_(system), in_rows_(system.joints.size(), 0), at_steps_(system.joints.size()) {}
 
-void MissedPeaks::add_row(const State& state, double power, double kinetic) {
+template <class S>
+void BasicMissedPeaks<S>::add_row(const BasicState<S>& state, double power, double kinetic) {
   for (std::size_t j = 0; j < in_rows_.size(); ++j) in_rows_[j] = std::max(in_rows_[j], square_of(state, j));
   if (any_row_) {
     work_ += 0.5 * (power_ + power) * (state.t - t_);
@@ -36,17 +39,20 @@ void MissedPeaks::add_row(const State& state, double power, double kinetic) {
   supplied_ = state.supplied;
 }
 
-void MissedPeaks::add_step(const State& state, double h) {
+template <class S>
+void BasicMissedPeaks<S>::add_step(const BasicState<S>& state, double h) {
   for (std::size_t j = 0; j < at_steps_.size(); ++j)
     if (const double square = square_of(state, j); square > at_steps_[j].square) at_steps_[j] = {square, state.t, h};
 }
 
-std::string MissedPeaks::note(double output_step) const {
+template <class S>
+std::string BasicMissedPeaks<S>::note(double output_step) const {
   const std::string peak = missed_peak(output_step);
   return peak.empty() ? missed_work() : peak;
 }
 
-std::string MissedPeaks::missed_peak(double output_step) const {
+template <class S>
+std::string BasicMissedPeaks<S>::missed_peak(double output_step) const {
   double largest = 0, worst = (1 + kMissed) * (1 + kMissed);
   for (std::size_t j = 0; j < at_steps_.size(); ++j)
     if (system_.joints[j].servo < 0) largest = std::max(largest, at_steps_[j].square);
@@ -66,12 +72,16 @@ std::string MissedPeaks::missed_peak(double output_step) const {
                      known ? fmt::format("output_step = \"{:.1g} s\" resolves it", wanted) : "A shorter output_step resolves it");
 }
 
-std::string MissedPeaks::missed_work() const {
+template <class S>
+std::string BasicMissedPeaks<S>::missed_work() const {
   const double supplied = supplied_ - supplied_before_;
   const double missed = std::abs(work_ - supplied);
   if (!(missed > kMissed * std::max(moved_, std::abs(supplied)) && missed > kNoWork * kinetic_)) return "";
   return fmt::format("output rows are too far apart: their power integrates to {:.5g} J, but {:.5g} J were supplied; {}. A shorter output_step resolves it", work_,
                      supplied, kTables);
 }
+
+template class BasicMissedPeaks<Planar>;
+template class BasicMissedPeaks<Spatial>;
 
 }  // namespace pintle

@@ -1,4 +1,4 @@
-#include "run/error_growth.h"
+#include "run/errors/error_growth.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // Growth of differences along the time: exponentials are found with their rates, powers and offsets are not taken for them.
-#include "run/error_growth.h"
+#include "run/errors/error_growth.h"
 
 #include <gtest/gtest.h>
 

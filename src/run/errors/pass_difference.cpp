@@ -1,0 +1,162 @@
+#include "run/errors/pass_difference.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pintle {
+namespace {
+
+constexpr double kNegligible = 1e-4;         // a joint is measured at least by this part of the mechanism's largest force
+constexpr double kNegligibleOfMotor = 1e-3;  // a motor by this
+
+// Of centres, and of points at `radius` from them across the axis of their turn. theory/time Eq. (6.4).
+template <class S>
+double distance(const typename S::Coordinates& a, const typename S::Coordinates& b, double radius) {
+  const typename S::Vec way = S::difference(a, b);
+  return std::max(linear_magnitude<S>(way), 2 * radius * std::abs(std::sin(0.5 * angular_magnitude<S>(way))));
+}
+
+double relative(double error, double peak, double least) { return error / std::max({peak, least, 1e-300}); }
+
+// What the joints of a mechanism are measured by.
+template <class S>
+struct Measures {
+  double force, couple;  // the largest of the mechanism [N], [N*m]
+  const BasicSystem<S>& system;
+
+  Measures(const BasicSystem<S>& of, const std::vector<double>& peak, const std::vector<double>& peak_couple)
+      : force(largest_of(peak)), couple(std::max(largest_of(peak_couple), force * of.largest_radius_of_gyration())), system(of) {}
+
+  double of_joint(std::size_t j, double force_error, double peak, double couple_error, double peak_couple) const {
+    const double least = system.joints[j].servo >= 0 ? kNegligibleOfMotor : kNegligible;
+    const double of_force = relative(force_error, peak, least * force);
+    return system.joints[j].law.lever() == 0 ? std::max(of_force, relative(couple_error, peak_couple, least * couple)) : of_force;
+  }
+};
+
+// Differences and peaks up to a row.
+template <class S>
+class Growing {
+ public:
+  explicit Growing(std::size_t joints) {
+    for (auto* x : {&c_.force, &c_.couple, &c_.peak, &c_.peak_couple}) x->assign(joints, 0.0);
+  }
+  void add_row(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, std::size_t i) {
+    const std::size_t joints = c_.force.size();
+    for (std::size_t j = 0; j < joints; ++j) {
+      const typename S::Vec& load = fine.world[i * joints + j];
+      c_.peak[j] = std::max(c_.peak[j], linear_magnitude<S>(load));
+      c_.peak_couple[j] = std::max(c_.peak_couple[j], angular_magnitude<S>(load));
+      if (coarse.t[i] != fine.t[i]) continue;
+      const typename S::Vec difference = coarse.world[i * joints + j] - load;
+      c_.force[j] = std::max(c_.force[j], linear_magnitude<S>(difference));
+      c_.couple[j] = std::max(c_.couple[j], angular_magnitude<S>(difference));
+    }
+  }
+  const PassDifference& so_far() const { return c_; }
+
+ private:
+  PassDifference c_;
+};
+
+template <class S>
+std::size_t common_rows(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) { return std::min(coarse.t.size(), fine.t.size()); }
+
+}  // namespace
+
+double largest_of(const std::vector<double>& x) { return x.empty() ? 0 : *std::max_element(x.begin(), x.end()); }
+
+template <class S>
+PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until) {
+  Growing<S> growing(system.joints.size());
+  for (std::size_t i = 0; i < common_rows(coarse, fine) && fine.t[i] <= until; ++i) growing.add_row(coarse, fine, i);
+  return growing.so_far();
+}
+
+template <class S>
+std::vector<double> relative_differences(const BasicSystem<S>& system, const PassDifference& c) {
+  const Measures<S> measures(system, c.peak, c.peak_couple);
+  std::vector<double> out(c.force.size());
+  for (std::size_t j = 0; j < out.size(); ++j) out[j] = measures.of_joint(j, c.force[j], c.peak[j], c.couple[j], c.peak_couple[j]);
+  return out;
+}
+
+template <class S>
+DifferenceCurve motion_difference_curve(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
+  const std::size_t bodies = system.bodies.size();
+  DifferenceCurve curve;
+  double way = 0;
+  for (std::size_t row = 0; row < common_rows(coarse, fine); ++row) {
+    double difference = 0;
+    for (std::size_t i = 0; i < bodies; ++i) {
+      const double radius = system.bodies[i].radius_of_gyration();
+      const typename S::Coordinates& here = fine.place[row * bodies + i];
+      way = std::max(way, distance<S>(here, fine.place[i], radius));
+      if (coarse.t[row] == fine.t[row]) difference = std::max(difference, distance<S>(here, coarse.place[row * bodies + i], radius));
+    }
+    curve.t.push_back(fine.t[row]);
+    curve.e.push_back(difference);
+  }
+  for (double& e : curve.e) e = way > 0 ? e / way : 0;
+  return curve;
+}
+
+template <class S>
+double motion_difference(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
+  return largest_of(motion_difference_curve(system, coarse, fine).e);
+}
+
+template <class S>
+DifferenceCurve force_difference_curve(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
+  const std::size_t joints = system.joints.size();
+  const PassDifference whole = difference_of_passes(system, coarse, fine, fine.t.back());
+  const Measures<S> measures(system, whole.peak, whole.peak_couple);
+  DifferenceCurve curve;
+  for (std::size_t i = 0; i < common_rows(coarse, fine); ++i) {
+    if (coarse.t[i] != fine.t[i]) continue;
+    double e = 0;
+    for (std::size_t j = 0; j < joints; ++j) {
+      const typename S::Vec apart = coarse.world[i * joints + j] - fine.world[i * joints + j];
+      e = std::max(e, measures.of_joint(j, linear_magnitude<S>(apart), whole.peak[j], angular_magnitude<S>(apart), whole.peak_couple[j]));
+    }
+    curve.t.push_back(fine.t[i]);
+    curve.e.push_back(e);
+  }
+  return curve;
+}
+
+template <class S>
+std::vector<double> force_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double tolerance) {
+  const std::size_t joints = system.joints.size();
+  std::vector<double> horizon(joints, 0.0);
+  Growing<S> growing(joints);
+  for (std::size_t i = 0; i < common_rows(coarse, fine); ++i) {
+    growing.add_row(coarse, fine, i);
+    const PassDifference& c = growing.so_far();
+    const Measures<S> measures(system, c.peak, c.peak_couple);
+    for (std::size_t j = 0; j < joints; ++j)
+      if (share * measures.of_joint(j, c.force[j], c.peak[j], c.couple[j], c.peak_couple[j]) <= tolerance) horizon[j] = fine.t[i];
+  }
+  return horizon;
+}
+
+double curve_horizon(const DifferenceCurve& curve, double tolerance) {
+  double horizon = 0;
+  for (std::size_t i = 0; i < curve.t.size() && curve.e[i] <= tolerance; ++i) horizon = curve.t[i];
+  return horizon;
+}
+
+template PassDifference difference_of_passes(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double until);
+template std::vector<double> relative_differences(const BasicSystem<Planar>& system, const PassDifference& c);
+template double motion_difference(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
+template DifferenceCurve force_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
+template DifferenceCurve motion_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
+template std::vector<double> force_horizons(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double share, double tolerance);
+template PassDifference difference_of_passes(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double until);
+template std::vector<double> relative_differences(const BasicSystem<Spatial>& system, const PassDifference& c);
+template double motion_difference(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
+template DifferenceCurve force_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
+template DifferenceCurve motion_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
+template std::vector<double> force_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double tolerance);
+
+}  // namespace pintle

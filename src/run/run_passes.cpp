@@ -1,0 +1,317 @@
+#include "run/run_passes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "run/energy_watch.h"
+#include "run/errors/error_growth.h"
+#include "run/errors/pass_difference.h"
+#include "run/errors/promises.h"
+#include "run/integration.h"
+#include "run/passes.h"
+#include "run/recording.h"
+
+namespace pintle {
+namespace {
+
+constexpr int kMaxPasses = 6;
+constexpr double kLoosest = 1e-4;   // of the second pass: above it steps are bounded by other things, and two passes are alike
+constexpr double kLoosestIdeal = 1e-8;  // ideal joints are a reference, and cheap
+constexpr double kLoosestOfMotion = 1e-3;
+constexpr double kLeastTolerance = 1e-13;
+// The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
+constexpr double kSharePower = 0.8, kShareOfEqual = 3;
+constexpr double kPromised = 0.7;  // of the tolerance: with a smaller stated error the true one keeps to it, which may be a third larger
+constexpr double kAlike = 1.25;  // steps of the finer pass over those of the coarser: with fewer the two say little
+constexpr double kSurest = 0.1;  // of the tolerance of the steps: no error of the motion is stated as smaller
+constexpr double kRepeated = 0.1;  // tolerance of a pass that is to show whether what two have shown is so, over that of the finer
+constexpr double kFinest = 1e-11;  // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
+constexpr double kOptimism = 2;    // standard errors by which a rate may be smaller before no tolerance is said to help
+constexpr double kLoosestAccount = 1e-3;  // passes are finer than a looser tolerance, and so are their energies
+constexpr int kMostOpen = 2;       // passes made finer because the energy account did not close
+
+template <class S>
+class Passes {
+ public:
+  Passes(const BasicSystem<S>& system, const BasicState<S>& start, const SimulateSettings& settings, const BasicPassContext<S>& context, Trajectory& out)
+      : system_(system), start_(start), settings_(settings), context_(context), out_(out) {}
+
+  std::unique_ptr<BasicForceRecorder<S>> go() {
+    out_.tolerance = settings_.tolerance;
+    choice_.equations = settings_.equations;
+    choice_.method = settings_.method == "auto" ? usual_method(choice_.equations) : settings_.method;
+    out_.method = choice_.method;
+    choice_.tolerance_of = settings_.tolerance_of;
+    out_.of_motion = choice_.tolerance_of == ToleranceOf::kMotion;
+    make_passes();
+    return std::move(fine_);
+  }
+
+ private:
+  BasicIntegrationPlan<S> plan(double tolerance) {
+    BasicIntegrationPlan<S> p;
+    p.duration = settings_.duration;
+    p.output_step = output_step_of(settings_, system_.joints.size());
+    p.max_step = settings_.max_step;
+    p.tolerance = tolerance;
+    p.choice = choice_;
+    p.first_step = 1e-4 * p.duration;
+    if (!last_.scale.body.empty()) p.scale = &last_.scale;
+    p.keep_going = [this](double t) { return report(t); };
+    return p;
+  }
+
+  bool report(double t) {
+    const double now = context_.clock.seconds();
+    if (!context_.observer || now - reported_ < 0.1) return true;
+    reported_ = now;
+    return context_.observer({t, settings_.duration, static_cast<int>(out_.counters.passes) + 1, now});
+  }
+
+  // False when it did not reach the end: then the passes before it stand, unless it is the first.
+  bool run_pass(double tolerance) {
+    std::unique_ptr<BasicForceRecorder<S>> recorder = context_.make_recorder();
+    BasicIntegrationPlan<S> p = plan(tolerance);
+    // Explicit methods take works by the trapezoidal rule, others leave them out of their control.
+    const bool exact_work = choice_.method == "radau" || choice_.equations == Equations::kIdeal;
+    BasicEnergyWatch<S> energy(system_, p.duration, std::max(tolerance, std::min(settings_.tolerance, kLoosestAccount)), exact_work);
+    p.energy = &energy;
+    BasicIntegration<S> done = integrate(system_, start_, p, *recorder);
+    count(done.counters);
+    const bool complete = done.ended == Ended::kAtEnd || done.ended == Ended::kRunaway;
+    interrupted_ = complete ? std::pair{Ended::kAtEnd, std::string()} : std::pair{done.ended, done.message};
+    if (!complete && fine_) return false;
+    coarse_ = std::move(fine_);
+    if (coarse_) coarse_->keep_forces_only();
+    fine_ = std::move(recorder);
+    fine_tolerance_ = tolerance;
+    last_ = std::move(done);
+    return complete;
+  }
+
+  void count(const Counters& done) {
+    Counters& c = out_.counters;
+    c.steps += done.steps;
+    c.rejected += done.rejected;
+    c.newton_iterations += done.newton_iterations;
+    c.newton_failures += done.newton_failures;
+    c.evaluations += done.evaluations;
+    c.factorizations += done.factorizations;
+    c.events += done.events;
+    ++c.passes;
+  }
+
+  // A pass whose energy account does not close is not compared with others: a finer one may close it.
+  bool run_closed_pass(double& tolerance) {
+    bool complete = run_pass(tolerance);
+    for (; interrupted_.first == Ended::kEnergyOpen && open_ < kMostOpen && tolerance > kLeastTolerance; ++open_) {
+      if (last_.ended == Ended::kEnergyOpen) fine_.reset();  // it was the first
+      tolerance = std::max(kLeastTolerance, kRepeated * tolerance);
+      complete = run_pass(tolerance);
+    }
+    return complete;
+  }
+
+  // theory/time Eqs. (6.1)-(6.3).
+  void make_passes() {
+    const double wanted = settings_.tolerance;
+    choice_.stages = wanted < kTight ? 5 : 3;
+    double tolerance = std::min(wanted, out_.of_motion ? kLoosestOfMotion : choice_.equations == Equations::kIdeal ? kLoosestIdeal : kLoosest);
+    if (!context_.shape.checked) {
+      run_pass(tolerance_by_nominal(tolerance));
+      return finish();
+    }
+    if (run_pilot(tolerance)) {
+      do {
+        const double before = fine_tolerance_, steps_before = static_cast<double>(last_.counters.steps);
+        ran_away_ = last_.ended == Ended::kRunaway;
+        if (!run_closed_pass(tolerance)) break;
+        compare(before, steps_before);
+      } while (go_finer(tolerance));
+    }
+    if (context_.shape.measured != nullptr) *context_.shape.measured = {wanted, fine_tolerance_, choice_.stages, 0, last_.scale};
+    finish();
+  }
+
+  // `tolerance` is that of the next pass.
+  bool run_pilot(double& tolerance) {
+    double of_pilot = kPilot * tolerance;
+    bool complete = run_closed_pass(of_pilot);
+    const Counters& pilot = last_.counters;
+    if (complete && choice_.method == "radau" && choice_.stages == 3 && static_cast<double>(pilot.newton_iterations) < kEasy * static_cast<double>(pilot.steps)) {
+      choice_.stages = 5;
+      fine_.reset();
+      complete = run_closed_pass(of_pilot);
+    }
+    stages_before_ = choice_.stages;
+    tolerance = std::min(tolerance, of_pilot / kPilot);
+    return complete;
+  }
+
+  // The last two passes, of which the coarser had the tolerance `before` and made so many steps.
+  void compare(double before, double steps_before) {
+    const BasicForceTable<S> &coarse = coarse_->forces(), &fine = fine_->forces();
+    coarse_tolerance_ = before;
+    difference_ = difference_of_passes(system_, coarse, fine, fine.t.back());
+    alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
+    stages_before_ = choice_.stages;
+    share_ = alike_ || out_.of_motion ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(fine_tolerance_ / before, kSharePower));
+    out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
+    double apart = out_.of_motion ? out_.motion_error : largest_of(relative_differences(system_, difference_));
+    last_growth_ = growth_;
+    growth_ = {};
+    if (apart > kPromised * settings_.tolerance)
+      growth_ = fit_growth(out_.of_motion ? motion_difference_curve(system_, coarse, fine) : force_difference_curve(system_, coarse, fine));
+    if (growth_.exponential && growth_.saturated) share_ = 1;  // a difference that has stopped growing does not tell the finer one's part
+    error_ = share_ * apart;
+  }
+
+  // Whether another pass is made, and with which tolerance.
+  bool go_finer(double& tolerance) {
+    const double wanted = settings_.tolerance;
+    const auto at = [&tolerance](double next) { return tolerance = std::max(kLeastTolerance, next), true; };
+    const bool last_one = out_.counters.passes >= kMaxPasses || tolerance <= kLeastTolerance;
+    if (last_.ended == Ended::kRunaway) return false;
+    if (((alike_ && !doubted_) || ran_away_) && !last_one) {
+      doubted_ = true;
+      if (out_.of_motion) choice_.stages = 5;  // long steps are alike at any tolerance: another order tells
+      return at(kRepeated * tolerance);
+    }
+    if (error_ <= kPromised * wanted) return false;
+    const bool same = growth_.saturated && same_growth(last_growth_, growth_);
+    if (same) chaos_ = growth_;
+    if (last_one) return false;
+    if (growth_.exponential && growth_.saturated) {
+      const double hoped = tolerance_by_growth(growth_.rate - kOptimism * growth_.rate_error, 1);
+      const bool hopeless = hoped < kLeastTolerance || tolerance < kFinest;
+      if (same && hopeless) return false;
+      const double next = std::min(kRepeated * tolerance, hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kSharePower)));
+      if (next < kTight) choice_.stages = 5;
+      return at(next);
+    }
+    const double shrink = 0.5 * std::pow(wanted / error_, 1 / kSharePower);
+    return at(tolerance * std::clamp(shrink, 1e-3, 0.1));
+  }
+
+  // The tolerance with which errors, growing as they do, would be small enough at the end: the difference is the coarser pass's error.
+  // theory/time Eq. (6.9).
+  double tolerance_by_growth(double rate, double power) const {
+    const double at_end = growth_.extrapolated(settings_.duration, rate);
+    return coarse_tolerance_ * std::min(1.0, 0.5 * std::pow(settings_.tolerance / at_end, 1 / power));
+  }
+
+  // Of the only pass: that of the second one, or what was enough for the run that the nominal settings are from.
+  double tolerance_by_nominal(double second) {
+    const BasicNominalRun<S>* nominal = context_.shape.nominal;
+    if (nominal == nullptr || !(nominal->wanted > 0)) return second;
+    choice_.stages = nominal->stages;
+    last_.scale = nominal->scale;
+    return std::clamp(nominal->tolerance * settings_.tolerance / nominal->wanted, kLeastTolerance, second);
+  }
+
+  // Friction that turns round makes joints ring, within the tolerance of the steps and in all passes alike: their difference does not
+  // show it. Over a joint's peak force.
+  double least_error() const {
+    const bool rubs = std::any_of(system_.joints.begin(), system_.joints.end(), [](const BasicJointData<S>& joint) { return joint.law.rubs(); });
+    return rubs && !out_.of_motion ? kPromised * fine_tolerance_ : 0;
+  }
+
+  void finish() {
+    fine_->fill(out_);
+    fill_events();
+    out_.t_end = last_.t;
+    out_.notes.insert(out_.notes.end(), last_.remarks.begin(), last_.remarks.end());
+    std::vector<double> relative_difference = relative_differences(system_, difference_);
+    const auto worst = std::max_element(relative_difference.begin(), relative_difference.end());
+    const BasicJointData<S>* worst_joint = worst == relative_difference.end() ? nullptr : &system_.joints[static_cast<std::size_t>(worst - relative_difference.begin())];
+    judge(worst_joint);
+    const bool chaotic = out_.outcome == Outcome::kHorizon;
+    const double least = least_error();
+    std::size_t row = 0;
+    for (std::size_t j = 0; j < system_.joints.size(); ++j) {
+      if (system_.joints[j].servo >= 0) continue;
+      LoadSummary& joint = out_.joints[row++];
+      joint.horizon = last_.t;
+      if (difference_.force.empty() || chaotic) continue;
+      joint.error_estimate = std::max(share_ * difference_.force[j], least * difference_.peak[j]);
+      joint.moment_error_estimate = share_ * difference_.couple[j];
+      joint.relative_error_estimate = std::max(share_ * relative_difference[j], least);
+    }
+    if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, chaos_, out_);
+  }
+
+  void fill_events() {
+    std::vector<JointEvents> of_joint(system_.joints.size());
+    for (const LawCrossing& crossing : last_.crossings) {
+      const BasicJointData<S>& joint = system_.joints[static_cast<std::size_t>(crossing.joint)];
+      of_joint[static_cast<std::size_t>(crossing.joint)].events.push_back({crossing.t, joint.law.parts()[static_cast<std::size_t>(crossing.part)]->border_name(crossing.border, crossing.rising), crossing.seen});
+    }
+    for (std::size_t j = 0; j < of_joint.size(); ++j) {
+      if (of_joint[j].events.empty()) continue;
+      of_joint[j].joint = system_.joints[j].name;
+      for (const LawColumn& column : system_.joints[j].law.columns()) of_joint[j].columns.push_back({column.name, column.unit, column.meaning});
+      out_.events.push_back(std::move(of_joint[j]));
+    }
+  }
+
+  // How it ended; a pass that broke off leaves the results of the one before it.
+  // `worst` has the largest error; none where there is no estimate.
+  void judge(const BasicJointData<S>* worst) {
+    const bool no_estimate = worst == nullptr;
+    const auto& [ended, message] = interrupted_;
+    const bool whole = last_.ended == Ended::kAtEnd, missed = error_ > settings_.tolerance;
+    if (ended == Ended::kStopped) out_.outcome = Outcome::kInterrupted;
+    else if (last_.ended == Ended::kRunaway) out_.outcome = Outcome::kRunaway;
+    else if (ended == Ended::kEnergyOpen) out_.outcome = Outcome::kEnergyOpen;
+    else if (ended == Ended::kFailed && !whole) out_.outcome = Outcome::kFailed;
+    else if (missed && chaos_.exponential && ended == Ended::kAtEnd) out_.outcome = Outcome::kHorizon;
+    else if ((ended == Ended::kFailed && no_estimate) || missed) out_.outcome = Outcome::kToleranceNotMet;
+    if (no_estimate && context_.shape.checked && !system_.joints.empty()) out_.notes.push_back("stopped before a second integration: the joint forces have no error estimate");
+    if (whole && ended != Ended::kAtEnd)
+      out_.notes.push_back(fmt::format("a finer integration did not reach the end{}; the results are those of the previous one", message.empty() ? "" : " (" + message + ")"));
+    if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)
+      out_.message = fmt::format("the largest {} is estimated at {:.2g} of {}; the tolerance is {:.2g}",
+                                 out_.of_motion ? "position error" : fmt::format("force error, at {} {},", worst->servo < 0 ? "joint" : "motor", worst->name), error_,
+                                 out_.of_motion ? "the longest path of any body" : "the peak force", settings_.tolerance);
+    if (out_.outcome == Outcome::kRunaway) out_.message = last_.message;
+    if (!message.empty() && out_.outcome != Outcome::kCompleted) out_.message += (out_.message.empty() ? "" : "; ") + message;
+  }
+
+  const BasicSystem<S>& system_;
+  const BasicState<S>& start_;
+  const SimulateSettings& settings_;
+  const BasicPassContext<S>& context_;
+  Trajectory& out_;
+  MethodChoice choice_;
+  std::unique_ptr<BasicForceRecorder<S>> coarse_, fine_;
+  double fine_tolerance_ = 0, coarse_tolerance_ = 0;
+  // Of the last two passes.
+  PassDifference difference_;
+  double share_ = 1, error_ = 0;
+  bool alike_ = false;             // their steps
+  int stages_before_ = 0;          // of the coarser one
+  ErrorGrowth growth_, last_growth_;  // and of the pair before
+  ErrorGrowth chaos_;              // where two pairs have shown the same exponential growth
+  bool doubted_ = false;           // a pass has been made because two were alike
+  bool ran_away_ = false;          // the coarser one
+  int open_ = 0;                   // passes repeated because the energy account did not close
+  BasicIntegration<S> last_;
+  std::pair<Ended, std::string> interrupted_{Ended::kAtEnd, ""};
+  double reported_ = 0;
+};
+
+}  // namespace
+
+template <class S>
+std::unique_ptr<BasicForceRecorder<S>> run_passes(const BasicSystem<S>& system, const BasicState<S>& start, const SimulateSettings& settings, const BasicPassContext<S>& context, Trajectory& out) {
+  return Passes<S>(system, start, settings, context, out).go();
+}
+
+template std::unique_ptr<ForceRecorder> run_passes(const System& system, const State& start, const SimulateSettings& settings, const BasicPassContext<Planar>& context, Trajectory& out);
+template std::unique_ptr<BasicForceRecorder<Spatial>> run_passes(const BasicSystem<Spatial>& system, const BasicState<Spatial>& start, const SimulateSettings& settings,
+                                                                 const BasicPassContext<Spatial>& context, Trajectory& out);
+
+}  // namespace pintle
