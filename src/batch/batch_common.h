@@ -12,7 +12,7 @@
 #include "start/preload.h"
 #include "batch/batch_work.h"
 #include "integrators/dense/force_samples.h"
-#include "integrators/radau/newton_contraction.h"
+#include "integrators/radau/newton_convergence.h"
 #include "integrators/absolute/pose_blocks.h"
 #include "integrators/radau/step_error.h"
 #include "linalg/complex_lanes.h"

@@ -10,7 +10,7 @@
 #include "batch/batch_projector.h"
 #include "batch/batch_curves.h"
 #include "batch/batch_start.h"
-#include "integrators/radau/newton_contraction.h"
+#include "integrators/radau/newton_convergence.h"
 #include "integrators/radau/radau_table.h"
 #include "integrators/radau/step_error.h"
 #include "linalg/complex_lanes.h"

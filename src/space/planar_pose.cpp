@@ -1,6 +1,6 @@
 #include "space/planar_pose.h"
 
-#include "space/planar_map.h"
+#include "space/planar_joint_jacobian.h"
 
 namespace pintle {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "space/planar_lanes.h"
-#include "space/planar_map.h"
+#include "space/planar_joint_jacobian.h"
 #include "space/planar_pose.h"
 #include "space/spatial.h"
 #include "space/spatial_lanes.h"

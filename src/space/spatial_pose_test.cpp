@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/random_for_tests.h"
-#include "space/planar_map.h"
+#include "space/planar_joint_jacobian.h"
 #include "space/planar_pose.h"
 
 namespace pintle {

@@ -1,4 +1,4 @@
-// The stage solver with its stages in lanes: what it knows. What it does is in lane_stage_solver_steps.h, which is compiled for registers of
+// The stage solver with its stages in lanes: what it knows. What it does is in stage_newton_iteration.h, which is compiled for registers of
 // several widths.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 #include "integrators/radau/stage_lanes.h"
 #include "integrators/absolute/stage_solver.h"
-#include "integrators/radau/newton_contraction.h"
+#include "integrators/radau/newton_convergence.h"
 #include "linalg/block_lu.h"
 
 namespace pintle {

@@ -77,7 +77,7 @@ class BasicRadauStepper {
   void add_power(const BasicJointData<S>& joint, const std::vector<typename S::Motion>& m, const BasicLawPoint<S>& at, const typename S::Vec& force, Power& power) const;
   void find_power();
 
-  // event_location.cpp: steps that end where a force has a kink
+  // event_crossing.cpp: steps that end where a force has a kink
   SwitchingEvent locate_event(double h, bool solved);
   void find_switching(double x, double h, double* value);
   void find_switching_ahead(double d, double* value);

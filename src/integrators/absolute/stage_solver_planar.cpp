@@ -1,4 +1,4 @@
-#include "integrators/absolute/lane_stage_solver_steps.h"
+#include "integrators/absolute/stage_newton_iteration.h"
 
 namespace pintle {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "integrators/radau/event_search.h"
+#include "integrators/radau/event_location.h"
 #include "pintle/trajectory.h"
 #include "system/system.h"
 

@@ -56,7 +56,7 @@ class TreeRadau final : public Stepper {
   void find_curves();
   void follow(double x, TreeState& out) const;
 
-  // tree_event_location.cpp
+  // tree_event_crossing.cpp
   SwitchingEvent locate_event(double h, bool solved);
   void find_switching(double x, double h, double* value);
   void find_switching_ahead(double d, double* value);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "integrators/absolute/stage_solver.h"
-#include "integrators/radau/newton_contraction.h"
+#include "integrators/radau/newton_convergence.h"
 #include "integrators/radau/radau_table.h"
 #include "integrators/relative/tree_instant.h"
 

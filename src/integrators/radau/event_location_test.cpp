@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "integrators/radau/event_search.h"
+#include "integrators/radau/event_location.h"
 
 namespace pintle {
 namespace {

@@ -1,4 +1,4 @@
-#include "integrators/radau/event_search.h"
+#include "integrators/radau/event_location.h"
 
 #include <algorithm>
 #include <cmath>
