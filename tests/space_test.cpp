@@ -7,7 +7,7 @@
 
 #include "integrators/absolute/radau_stepper.h"
 #include "integrators/dense/dense_output.h"
-#include "run/errors/pass_difference.h"
+#include "run/errors/stated_error.h"
 #include "run/run_system.h"
 #include "start/start.h"
 #include "system/sample_systems_for_tests.h"

@@ -8,7 +8,7 @@
 
 #include "run/energy_watch.h"
 #include "run/errors/error_growth.h"
-#include "run/errors/pass_difference.h"
+#include "run/errors/stated_error.h"
 #include "run/errors/promises.h"
 #include "run/integration.h"
 #include "run/passes.h"
@@ -22,8 +22,6 @@ constexpr double kLoosest = 1e-4;   // of the second pass: above it steps are bo
 constexpr double kLoosestIdeal = 1e-8;  // ideal joints are a reference, and cheap
 constexpr double kLoosestOfMotion = 1e-3;
 constexpr double kLeastTolerance = 1e-13;
-// The error of the finer of two passes over their difference: falls as the tolerances' ratio to this power, from here.
-constexpr double kSharePower = 0.8, kShareOfEqual = 3;
 constexpr double kPromised = 0.7;  // of the tolerance: with a smaller stated error the true one keeps to it, which may be a third larger
 constexpr double kAlike = 1.25;  // steps of the finer pass over those of the coarser: with fewer the two say little
 constexpr double kSurest = 0.1;  // of the tolerance of the steps: no error of the motion is stated as smaller
@@ -158,7 +156,7 @@ class Passes {
     difference_ = difference_of_passes(system_, coarse, fine, fine.t.back());
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
     stages_before_ = choice_.stages;
-    share_ = alike_ || out_.of_motion ? 1.0 : std::min(1.0, kShareOfEqual * std::pow(fine_tolerance_ / before, kSharePower));
+    share_ = alike_ || out_.of_motion ? 1.0 : share_of_finer(fine_tolerance_, before);
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
     double apart = out_.of_motion ? out_.motion_error : largest_of(relative_differences(system_, difference_));
     last_growth_ = growth_;
@@ -188,11 +186,11 @@ class Passes {
       const double hoped = tolerance_by_growth(growth_.rate - kOptimism * growth_.rate_error, 1);
       const bool hopeless = hoped < kLeastTolerance || tolerance < kFinest;
       if (same && hopeless) return false;
-      const double next = std::min(kRepeated * tolerance, hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kSharePower)));
+      const double next = std::min(kRepeated * tolerance, hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kErrorPower)));
       if (next < kTight) choice_.stages = 5;
       return at(next);
     }
-    const double shrink = 0.5 * std::pow(wanted / error_, 1 / kSharePower);
+    const double shrink = 0.5 * std::pow(wanted / error_, 1 / kErrorPower);
     return at(tolerance * std::clamp(shrink, 1e-3, 0.1));
   }
 
@@ -229,17 +227,8 @@ class Passes {
     const BasicJointData<S>* worst_joint = worst == relative_difference.end() ? nullptr : &system_.joints[static_cast<std::size_t>(worst - relative_difference.begin())];
     judge(worst_joint);
     const bool chaotic = out_.outcome == Outcome::kHorizon;
-    const double least = least_error();
-    std::size_t row = 0;
-    for (std::size_t j = 0; j < system_.joints.size(); ++j) {
-      if (system_.joints[j].servo >= 0) continue;
-      LoadSummary& joint = out_.joints[row++];
-      joint.horizon = last_.t;
-      if (difference_.force.empty() || chaotic) continue;
-      joint.error_estimate = std::max(share_ * difference_.force[j], least * difference_.peak[j]);
-      joint.moment_error_estimate = share_ * difference_.couple[j];
-      joint.relative_error_estimate = std::max(share_ * relative_difference[j], least);
-    }
+    for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
+    if (!difference_.force.empty() && !chaotic) state_errors(system_, difference_, share_, least_error(), out_.joints);
     if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, chaos_, out_);
   }
 

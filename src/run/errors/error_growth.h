@@ -1,7 +1,7 @@
 // Whether the difference of two passes grows exponentially along the motion, as errors do where it is chaotic. theory/time section 6.1.
 #pragma once
 
-#include "run/errors/pass_difference.h"
+#include "run/errors/stated_error.h"
 
 namespace pintle {
 

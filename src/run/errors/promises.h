@@ -3,7 +3,7 @@
 
 #include "pintle/trajectory.h"
 #include "run/errors/error_growth.h"
-#include "run/errors/pass_difference.h"
+#include "run/errors/stated_error.h"
 
 namespace pintle {
 

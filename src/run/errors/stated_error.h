@@ -1,9 +1,11 @@
-// What two integrations of the same motion say about their errors: how far the joint forces differ, when, and up to which time they agree.
+// The stated errors of the joint forces: what two integrations of the same motion say about them, by how far they differ, when, and up to which time
+// they agree.
 // theory/time section 6.
 #pragma once
 
 #include <vector>
 
+#include "pintle/trajectory.h"
 #include "run/record/force_table.h"
 
 namespace pintle {
@@ -27,6 +29,16 @@ std::vector<double> relative_differences(const BasicSystem<S>& system, const Pas
 /// and of points at the radius of gyration. theory/time Eq. (6.4).
 template <class S>
 double motion_difference(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine);
+
+/// How errors fall with the tolerance: as its power to this. theory/time Eq. (6.2).
+inline constexpr double kErrorPower = 0.8;
+/// The error of the finer of two passes over their difference: falls as the tolerances' ratio to that power, and is all of it where they are alike.
+/// theory/time Eq. (6.2).
+double share_of_finer(double fine_tolerance, double coarse_tolerance);
+
+/// States the errors of the joints that are no servos: `share` of the difference, and at least `least` of the peak. theory/time Eq. (6.1).
+template <class S>
+void state_errors(const BasicSystem<S>& system, const PassDifference& difference, double share, double least, std::vector<LoadSummary>& joints);
 
 /// A relative difference [-] as a function of time [s].
 struct DifferenceCurve {

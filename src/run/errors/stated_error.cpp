@@ -1,4 +1,4 @@
-#include "run/errors/pass_difference.h"
+#include "run/errors/stated_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -146,6 +146,23 @@ double curve_horizon(const DifferenceCurve& curve, double tolerance) {
   return horizon;
 }
 
+double share_of_finer(double fine_tolerance, double coarse_tolerance) {
+  constexpr double kOfEqual = 3;
+  return std::min(1.0, kOfEqual * std::pow(fine_tolerance / coarse_tolerance, kErrorPower));
+}
+
+template <class S>
+void state_errors(const BasicSystem<S>& system, const PassDifference& difference, double share, double least, std::vector<LoadSummary>& joints) {
+  const std::vector<double> relative = relative_differences(system, difference);
+  for (std::size_t j = 0, row = 0; j < system.joints.size(); ++j) {
+    if (system.joints[j].servo >= 0) continue;
+    LoadSummary& joint = joints[row++];
+    joint.error_estimate = std::max(share * difference.force[j], least * difference.peak[j]);
+    joint.moment_error_estimate = share * difference.couple[j];
+    joint.relative_error_estimate = std::max(share * relative[j], least);
+  }
+}
+
 template PassDifference difference_of_passes(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double until);
 template std::vector<double> relative_differences(const BasicSystem<Planar>& system, const PassDifference& c);
 template double motion_difference(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
@@ -158,5 +175,7 @@ template double motion_difference(const BasicSystem<Spatial>& system, const Basi
 template DifferenceCurve force_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
 template DifferenceCurve motion_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
 template std::vector<double> force_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double tolerance);
+template void state_errors(const BasicSystem<Planar>& system, const PassDifference& difference, double share, double least, std::vector<LoadSummary>& joints);
+template void state_errors(const BasicSystem<Spatial>& system, const PassDifference& difference, double share, double least, std::vector<LoadSummary>& joints);
 
 }  // namespace pintle
