@@ -17,8 +17,8 @@ LawSample law_sample(const JointData& joint, const State& assembled, int j, cons
   out.gap_size << gap, gap, resisted[2] > 0 ? std::max(std::abs(assembled.gap[j][2]), kSmall) : kSmall;
   const Response stretched = respond(joint.law, out.gap_size, S::Vec::Zero());
   for (int k = 0; k < S::kDof; ++k) {
-    const double c = stretched.damping(k, k);
-    out.rate_size[k] = out.gap_size[k] * (c > 0 ? stretched.stiffness(k, k) / c : 1);
+    const double stiffness = stretched.stiffness(k, k), c = stretched.damping(k, k);
+    out.rate_size[k] = out.gap_size[k] * (c > 0 && stiffness > 0 ? stiffness / c : 1);  // an oil film has no stiffness at rest
   }
   out.gap = assembled.gap[j];
   out.rate = assembled.gap_rate[j];

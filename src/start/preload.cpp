@@ -107,7 +107,7 @@ void begin_where_it_resists(const BasicLaw<S>& law, const typename S::Vec& force
     if (!(engaged[k] > 0)) continue;
     wanted[k] = force[k];
     out[k] = -force[k] / engaged[k];
-    weak = weak || (force[k] != 0 && !(now.stiffness(k, k) > 0));
+    weak = weak || (force[k] != 0 && now.stiffness.row(k).isZero(0));
   }
   for (int i = 0; weak && i < kDoublings; ++i, out *= 2) {
     typename S::Vec trial = gap;
@@ -121,13 +121,12 @@ void begin_where_it_resists(const BasicLaw<S>& law, const typename S::Vec& force
   }
 }
 
-// Newton's step with the whole tangent, over the components that the law holds.
+// Newton's step with the whole tangent, over the components that answer to their gaps; `missing` has 0 in the others.
 template <class S>
-typename S::Vec newton_step(const BasicResponse<S>& now, const typename S::Vec& force) {
+typename S::Vec newton_step(const BasicResponse<S>& now, const typename S::Vec& engaged, typename S::Vec& missing) {
   typename S::Mat K = now.stiffness;
-  typename S::Vec missing = now.force - force;
   for (int k = 0; k < S::kDof; ++k) {
-    if (now.stiffness(k, k) > 0) continue;
+    if ((engaged[k] > 0 && !now.stiffness.row(k).isZero(0)) || now.stiffness(k, k) > 0) continue;
     K.row(k).setZero();
     K.col(k).setZero();
     K(k, k) = 1;
@@ -147,20 +146,23 @@ void gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const ty
     return;
   }
   begin_where_it_resists(law, force, rate, gap);
+  const typename S::Vec engaged = law.engaged_stiffness();
   for (int i = 0; i < kNewton; ++i) {
     const BasicResponse<S> now = respond(law, gap, rate);
-    typename S::Vec step = newton_step<S>(now, force);
+    typename S::Vec missing = now.force - force;
+    typename S::Vec step = newton_step<S>(now, engaged, missing);
     if (!step.allFinite()) return;
     bool moved = false;
     for (int k = 0; k < S::kDof; ++k) moved = moved || std::abs(step[k]) > 1e-15 * std::abs(gap[k]);
     if (!moved) return;
-    const auto misses = [&](const BasicResponse<S>& at) {
+    const auto misses = [&](const typename S::Vec& there) {
+      const typename S::Vec miss = respond(law, there, rate).force - force;
       double sum = 0;
       for (int k = 0; k < S::kDof; ++k)
-        if (now.stiffness(k, k) > 0) sum += (at.force[k] - force[k]) * (at.force[k] - force[k]);
+        if (missing[k] != 0) sum += miss[k] * miss[k];
       return sum;
     };
-    for (int h = 0; h < kHalvings && !(misses(respond(law, typename S::Vec(gap + step), rate)) <= misses(now)); ++h) step *= 0.5;
+    for (int h = 0; h < kHalvings && !(misses(gap + step) <= missing.squaredNorm()); ++h) step *= 0.5;
     gap += step;
   }
 }
@@ -329,16 +331,13 @@ BasicEffectiveMasses<S> BasicInverseDynamics<S>::effective_masses(const BasicSta
   return masses;
 }
 
+// What a joint leaves free moves as the bodies do.
 template <class S>
-void BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) {
-  if (r_.empty()) {
-    system_.motions(state.q, state.v, m_);
-    system_.joint_kinematics(state.t, m_, r_);
-  }
+void BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
   for (int j = 0; j < system_.n_joints(); ++j) {
     typename S::Vec rate = state.gap_rate[j];
     for (int k = 0; k < S::kDof; ++k)
-      if (system_.joints[j].free_mask[k] != 0) rate[k] = r_[j].rate[k];
+      if (system_.joints[j].free_mask[k] != 0 && !r_.empty()) rate[k] = r_[j].rate[k];
     gap_at_force(system_.joints[j].law, state.force[j], rate, state.gap[j]);
   }
 }
@@ -382,6 +381,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
   for (int pass = 0; pass < kPasses; ++pass) {
     if (pass == 0 && firm) {
       if (!BasicInverseDynamics<S>(*firm).find(state)) break;
+      forces.find_accelerations(state);  // and where the bodies are
     } else if (!forces.find(state)) {
       break;
     }

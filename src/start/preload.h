@@ -39,8 +39,8 @@ class BasicInverseDynamics {
   bool find(BasicState<S>& state);
   /// The accelerations alone.
   bool find_accelerations(BasicState<S>& state);
-  /// The gaps at which the laws give state.force at state.gap_rate; free components turn and slide as the bodies do.
-  void find_gaps(BasicState<S>& state);
+  /// The gaps at which the laws give state.force at state.gap_rate.
+  void find_gaps(BasicState<S>& state) const;
   /// Moves q and v so that the joints have the gaps and rates of the state. Call after `find` near that state.
   void move_onto_gaps(BasicState<S>& state);
   BasicEffectiveMasses<S> effective_masses(const BasicState<S>& state);
@@ -55,7 +55,7 @@ class BasicInverseDynamics {
   BasicGapProjector<S> projector_;
   std::vector<typename S::Motion> m_;
   std::vector<BasicJointKinematics<S>> r_;
-  std::vector<int> rubbing_;  // joints with friction or another force in what they leave free
+  std::vector<int> rubbing_;  // joints with friction
   VecsOf<S> Q_, wanted_, by_law_, moved_, moves_;
 };
 using InverseDynamics = BasicInverseDynamics<Planar>;
