@@ -364,6 +364,154 @@ TEST(Contact, AFallingRodRattlesBetweenItsEnds) {
   EXPECT_NEAR(run.end.q[0][2], 7.77522062845828, 1e-5);
 }
 
+// --- Balances ---
+
+// Two free bodies, a bush and a pin that flies about in it and rubs: nothing acts from outside, so that both momenta stay.
+TEST(Contact, NoMomentumIsLostWherePinAndBushRub) {
+  const Model model = parse_model(R"toml(
+format = 1
+gravity = [0, 0]
+[simulate]
+duration = "0.1 s"
+start = "raw"
+[ground.markers]
+o = { x = 0, y = 0 }
+[body.bush]
+mass = 2
+inertia = 0.02
+position = [0, 0]
+velocity = [0.1, 0]
+angle = 0.3
+spin = 5
+markers.c = { x = 0.1, y = 0.02 }
+[body.pin]
+mass = 1
+inertia = 0.003
+position = [0.2, 0.1]
+velocity = [-0.3, 0.2]
+angle = 0
+spin = -20
+markers.c = { x = -0.11037, y = -0.05134 }
+[joint.b]
+type = "revolute"
+between = ["bush.c", "pin.c"]
+law = "clearance"
+clearance = 0.001
+pin_radius = 0.01
+contact_stiffness = 1e9
+restitution = 0.7
+friction_coefficient = 0.3
+)toml",
+                                  "free.toml");
+  const System system = build_system(model);
+  const auto momenta = [&system](const State& s) {
+    Planar::Vec sum = Planar::Vec::Zero();
+    for (int i = 0; i < 2; ++i) {
+      const Planar::Vec p = system.bodies[i].mass.cwiseProduct(s.v[i]);
+      sum += Planar::Vec(p[0], p[1], p[2] + s.q[i][0] * p[1] - s.q[i][1] * p[0]);
+    }
+    return sum;
+  };
+  System started = build_system(model);
+  const State start = start_of_run(model, started).state;
+  const Followed run = follow(model, 1e-6, 0.1, {});
+  EXPECT_GT(run.contacts.size(), 4u);
+  EXPECT_LE((momenta(run.end) - momenta(start)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_GT(run.end.dissipated, 0.01);
+}
+
+// A block thrown along an edge that it is pressed on: friction takes mu times the impulse of the normal force, whatever that does.
+TEST(Contact, FrictionTakesItsShareOfTheNormalImpulse) {
+  const double mu = 0.25, v0 = 2, g = 9.81;
+  const Model model = parse_model(fmt::format(R"toml(
+format = 1
+gravity = [0, {}]
+[simulate]
+duration = "0.5 s"
+start = "raw"
+[ground.markers]
+o = {{ x = 0, y = 0 }}
+[body.block]
+mass = 2
+inertia = 1e6
+position = [0, 0.001]
+velocity = [{}, 0]
+angle = 0
+spin = 0
+markers.c = {{ x = 0, y = 0 }}
+[joint.edge]
+type = "slot"
+between = ["ground.o", "block.c"]
+law = "contact"
+pin_radius = 0
+contact_stiffness = 1e7
+restitution = 0.5
+friction_coefficient = {}
+)toml",
+                                          -g, v0, mu),
+                              "thrown.toml");
+  const Followed run = follow(model, 1e-7, 0.5, {});
+  EXPECT_GE(run.contacts.size(), 3u);  // it bounces before it slides
+  EXPECT_NEAR(run.end.v[0][0], v0 - mu * (g * 0.5 + run.end.v[0][1]), 1e-8);
+}
+
+// A slider that is loaded beside its middle lies on one wall, and its ends share the load by the lever; beyond an end it tilts between both walls.
+TEST(Contact, TheEndsOfALooseSliderShareItsLoadByTheLever) {
+  const double load = 100, length = 0.1;
+  for (const double arm : {0.02, 0.08}) {
+    const Trajectory run = simulate(parse_model(fmt::format(R"toml(
+format = 1
+gravity = [0, 0]
+[simulate]
+duration = "0.5 s"
+tolerance = 1e-5
+[ground.markers]
+o = {{ x = 0, y = 0 }}
+[body.block]
+mass = 2
+inertia = 0.005
+position = [0, 0]
+velocity = [0, 0]
+angle = 0
+spin = 0
+markers.c = {{ x = 0, y = 0 }}
+markers.f = {{ x = {}, y = 0 }}
+[joint.guide]
+type = "prismatic"
+between = ["ground.o", "block.c"]
+law = "clearance"
+clearance = 0.0001
+guide_length = {}
+contact_stiffness = 1e9
+restitution = 0.2
+[force.f]
+on = "block.f"
+force = [0, {}]
+)toml",
+                                                            arm, length, -load),
+                                                "slider.toml"));
+    ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+    const auto last = [&run](const char* column) { return run.at(run.n_rows() - 1, static_cast<std::size_t>(run.column(column))); };
+    EXPECT_NEAR(last("joint.guide.contact_force_front"), load * (0.5 + arm / length), 1e-2 * load);
+    EXPECT_NEAR(last("joint.guide.contact_force_rear"), std::abs(load * (0.5 - arm / length)), 1e-2 * load);
+    ASSERT_EQ(run.events.size(), 1u);
+    EXPECT_EQ(run.events[0].joint, "guide");
+    EXPECT_EQ(run.events[0].columns.size(), 5u);
+    EXPECT_EQ(run.events[0].events.front().values.size(), 5u);
+  }
+}
+
+TEST(Contact, ARunListsItsTouches) {
+  const Trajectory run = simulate(thrown("contact_stiffness = 1e7\nrestitution = 0.5"));
+  ASSERT_EQ(run.events.size(), 1u);
+  ASSERT_EQ(run.events[0].events.size(), 2u);
+  EXPECT_EQ(run.events[0].events[0].what, "touch");
+  EXPECT_NEAR(run.events[0].events[0].t, 0.02, 1e-8);
+  EXPECT_EQ(run.events[0].columns[3].name, "approach_speed");
+  EXPECT_NEAR(run.events[0].events[0].values[3], 0.5, 1e-8);
+  EXPECT_EQ(run.events[0].events[1].what, "let-go");
+}
+
 // --- Every method ---
 
 TEST(Contact, EveryMethodTouchesAndLetsGo) {
