@@ -77,8 +77,8 @@ void check_gear(ModelReading& reading, const Record& record, const Joint& joint)
                          "mesh = \"external\", or two different radii");
 }
 
-// Whether the law suits the joint, and its values each other.
-void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const LawChoice& choice) {
+// Whether the law suits the joint, and its values, when none is wrong by itself, each other.
+void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const LawChoice& choice, bool complete) {
   const bool friction = law.role == LawRole::kFriction;
   if (!suits(law, type.word)) {
     std::string types;
@@ -95,7 +95,7 @@ void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& 
   setting.one_sided = type.one_sided;
   setting.values = &choice.values;
   setting.keys = law.keys;
-  if (law.fault == nullptr) return;
+  if (law.fault == nullptr || !complete) return;
   const LawFault fault = law.fault(setting);
   if (fault.key.empty()) return;
   const Value* value = record.find(fault.key);
@@ -111,6 +111,7 @@ std::vector<double> numbers_of(const KeyInfo& key, const Value& value) {
 void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record,
               const Record& defaults, LawChoice& choice) {
   choice.word = law.word;
+  bool complete = true;
   const bool has_angle = std::any_of(type.gap.begin(), type.gap.end(), [](const auto& c) { return c.angular; });
   for (const KeyInfo& key : law.keys) {
     const bool stated = record.states(key.key);
@@ -121,8 +122,9 @@ void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& l
     }
     const Value* value = stated || !defaults.states(key.key) ? record.find(key.key) : defaults.find(key.key);
     if (value != nullptr) choice.values[std::string(key.key)] = numbers_of(key, *value);
+    else complete = false;
   }
-  check_law(reading, type, law, record, choice);
+  check_law(reading, type, law, record, choice, complete);
 }
 
 void read_joint(ModelReading& reading, const Entry& entry, const Record& defaults) {
