@@ -74,8 +74,8 @@ void check_gear(ModelReading& reading, const Record& record, const Joint& joint)
                          "mesh = \"external\", or two different radii");
 }
 
-// Whether the law suits the joint, and its values each other.
-void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const LawChoice& choice) {
+// Whether the law suits the joint, and its values, when none is wrong by itself, each other.
+void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const LawChoice& choice, bool complete) {
   const bool friction = law.role == LawRole::kFriction;
   if (!suits(law, type.word)) {
     std::string types;
@@ -92,7 +92,7 @@ void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& 
   setting.one_sided = type.one_sided;
   setting.values = &choice.values;
   setting.keys = law.keys;
-  if (law.fault == nullptr) return;
+  if (law.fault == nullptr || !complete) return;
   const LawFault fault = law.fault(setting);
   if (fault.key.empty()) return;
   const Value* value = record.find(fault.key);
@@ -108,6 +108,7 @@ std::vector<double> numbers_of(const KeyInfo& key, const Value& value) {
 void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record,
               const Record& defaults, LawChoice& choice) {
   choice.word = law.word;
+  bool complete = true;
   for (const KeyInfo& key : law.keys) {
     const bool stated = record.states(key.key);
     if (stated && !has_effect(key, type)) {
@@ -117,8 +118,9 @@ void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& l
     }
     const Value* value = stated || !defaults.states(key.key) ? record.find(key.key) : defaults.find(key.key);
     if (value != nullptr) choice.values[std::string(key.key)] = numbers_of(key, *value);
+    else complete = false;
   }
-  check_law(reading, type, law, record, choice);
+  check_law(reading, type, law, record, choice, complete);
 }
 
 void read_bearing(ModelReading& reading, const JointTypeInfo& type, const Entry& joint, const std::string& joint_path, std::optional<Bearing>& out) {
