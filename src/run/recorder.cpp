@@ -62,7 +62,7 @@ JointLoad joint_load(const System& system, int j, double, const std::vector<S::M
 }
 
 Recorder::Recorder(const Model& model, const System& system, Recorded what)
-    : model_(model), system_(system), what_(what), recording_(choose_recording(model, system)), missed_peaks_(system) {
+    : model_(model), system_(system), what_(what), recording_(choose_recording(model, system)), missed_peaks_(system), stuck_joints_(system) {
   find_drives();
 }
 
@@ -212,6 +212,7 @@ void Recorder::put_row(const State& state) {
   put(state.dissipated);
   put(state.supplied);
   missed_peaks_.add_row(state, supply, kinetic);
+  stuck_joints_.see(state);
 }
 
 void Recorder::fill(Trajectory& out) {
@@ -219,6 +220,7 @@ void Recorder::fill(Trajectory& out) {
   out.values = std::move(values_);
   for (std::string note : {recording_.note, missed_peaks_.note(output_step_of(model_.simulate, system_.joints.size()))})
     if (!note.empty()) out.notes.push_back(std::move(note));
+  for (std::string& note : stuck_joints_.notes()) out.notes.push_back(std::move(note));
   const std::size_t rows = forces_.t.size(), n = system_.joints.size();
   const std::vector<double> weight = time_weights(forces_.t);
   out.joints.clear();

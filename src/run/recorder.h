@@ -7,6 +7,7 @@
 #include "pintle/trajectory.h"
 #include "run/missed_peaks.h"
 #include "run/recording.h"
+#include "run/stuck_joints.h"
 #include "system/state.h"
 
 namespace pintle {
@@ -40,7 +41,9 @@ class Recorder {
   void add(const State& state);
   /// The end of a step of h seconds, between rows or at one.
   void see_step(const State& state, double h) {
-    if (what_ == Recorded::kColumns) missed_peaks_.add_step(state, h);
+    if (what_ != Recorded::kColumns) return;
+    missed_peaks_.add_step(state, h);
+    stuck_joints_.see(state);
   }
   void clear();
   const ForceTable& forces() const { return forces_; }
@@ -71,6 +74,7 @@ class Recorder {
   ForceTable forces_;
   std::vector<Planar::Motion> m_;
   MissedPeaks missed_peaks_;
+  StuckJoints stuck_joints_;
 };
 
 }  // namespace pintle
