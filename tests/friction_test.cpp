@@ -1,8 +1,11 @@
 // Friction in the joints of whole mechanisms: published motions that stick and slip, closed forms of what locks, friction circles.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/reference_tables.h"
@@ -19,6 +22,10 @@ Trajectory completed(const Model& model) {
 double at_end(const Trajectory& run, const std::string& column) { return reference::value(run, run.n_rows() - 1, column); }
 
 double drift(const Trajectory& run) { return run.energy.drift / (run.energy.kinetic_peak + run.energy.dissipated + std::abs(run.energy.supplied)); }
+
+bool says(const Trajectory& run, const std::string& what) {
+  return std::any_of(run.notes.begin(), run.notes.end(), [&what](const std::string& note) { return note.find(what) != std::string::npos; });
+}
 
 // Of a body's x and its rate from the table's columns x and `rate`, row by row.
 std::pair<double, double> largest_differences(const Trajectory& run, const std::string& body, const reference::Table& table, const std::string& rate) {
@@ -50,7 +57,6 @@ between = ["ground.o", "mass.c"]
 friction = "brown-mcphee"
 friction_coefficient = 0.1
 static_friction = 0.15
-transition_speed = "0.001 m/s"
 [motor.pull]
 joint = "slide"
 force = "2 N/m*(0.1 m/s*t - slide)"
@@ -59,7 +65,7 @@ force = "2 N/m*(0.1 m/s*t - slide)"
 TEST(BrownMcPhee, PulledMassSticksAndSlipsAsComputedElsewhere) {
   const auto table = reference::read_table("brown_mcphee_stick_slip");
   for (const double tolerance : {1e-5, 1e-7}) {
-    Model model = parse_model(kPulledMass, "pulled.toml");
+    Model model = parse_model(kPulledMass, "pulled.toml", {"joint.slide.transition_speed=0.001"});
     model.simulate.tolerance = tolerance;
     const Trajectory run = completed(model);
     const auto [x, v] = largest_differences(run, "mass", table, "v");
@@ -67,6 +73,97 @@ TEST(BrownMcPhee, PulledMassSticksAndSlipsAsComputedElsewhere) {
     EXPECT_LT(v, tolerance);
     EXPECT_LT(drift(run), 1e-6);
   }
+}
+
+// Pulled by a spring K at V: stuck until the spring reaches mu_s N, then K y = K (V t - x) - mu_k N swings about zero, from y = d to y = -d, where the
+// mass has stopped, with d = (mu_s - mu_k) N / K, w^2 = K / m. It slips for 2 (pi - atan(w d / V)) / w and sticks for 2 d / V.
+struct StickSlip {
+  double N = 9.81, still = 0.15, kinetic = 0.1, K = 2, V = 0.1, w = std::sqrt(2.0), d = (still - kinetic) * N / K;
+  double first = still * N / (K * V), slips = 2 * (M_PI - std::atan(w * d / V)) / w, period = slips + 2 * d / V;
+
+  /// Place, speed and friction.
+  std::array<double, 3> at(double t) const {
+    if (t < first) return {0, 0, K * V * t};
+    const double cycle = std::floor((t - first) / period), s = t - first - cycle * period;
+    const double y = d * std::cos(w * s) + V / w * std::sin(w * s), place = V * t - kinetic * N / K - y;
+    if (s < slips) return {place, V + w * d * std::sin(w * s) - V * std::cos(w * s), kinetic * N};
+    const double stopped = V * (first + cycle * period + slips) - kinetic * N / K + d;
+    return {stopped, 0, K * (V * t - stopped)};
+  }
+  /// Just stopped: on its stick spring of 1e8 N/m it swings to rest, with the damper's 1500 / s.
+  bool swings(double t) const {
+    const double s = std::fmod(t - first + period, period) - slips;
+    return s >= 0 && s < 0.02;
+  }
+};
+
+TEST(Coulomb, PulledMassSticksAndSlipsAsInClosedForm) {
+  const StickSlip truth;
+  for (const double tolerance : {1e-5, 1e-7}) {
+    Model model = parse_model(kPulledMass, "pulled.toml", {"joint.slide.friction=\"coulomb\"", "simulate.output_step=0.1"});
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = completed(model);
+    for (std::size_t i = 0; i < run.n_rows(); ++i) {
+      const double t = run.at(i, 0);
+      const auto [x, v, friction] = truth.at(t);
+      EXPECT_NEAR(reference::value(run, i, "joint.slide.slide"), x, 2e-7) << t;
+      if (truth.swings(t)) continue;
+      EXPECT_NEAR(reference::value(run, i, "body.mass.vx"), v, 1e-6) << t;
+      EXPECT_NEAR(reference::value(run, i, "joint.slide.friction"), -friction, 1e-6) << t;
+    }
+    EXPECT_LT(drift(run), 1e-6);
+    EXPECT_LT(run.counters.steps, 3000);
+  }
+}
+
+// A block on an incline of tan A = mu (1 + excess), by the direction of gravity. A hand that holds it lets go within a second.
+Model inclined(double excess) {
+  return parse_model(R"toml(
+format = 1
+name = "Block at the friction angle"
+[parameters]
+mu = 0.15
+excess = 0
+angle = "atan(mu*(1 + excess))"
+weight = "9.81 m/s^2"
+pull = "2 kg*weight*sin(angle)"
+[simulate]
+duration = "1000 s"
+output_step = "10 s"
+[ground.markers]
+o = [0, 0]
+[body.block]
+mass = 2
+inertia = 0.01
+position = [0, 0]
+angle = 0
+markers.c = [0, 0]
+[joint.slide]
+type = "prismatic"
+between = ["ground.o", "block.c"]
+friction = "coulomb"
+friction_coefficient = "mu"
+static_friction = "mu"
+[force.weight]
+on = "block.c"
+force = ["pull*smoothstep(0, 1 s, t)", 0]
+)toml", "inclined.toml", {"parameters.excess=" + std::to_string(excess), "gravity=[0, \"-weight*cos(angle)\"]"});
+}
+
+// 1e-6 below the friction angle it stays for 1000 s, on the stretch of its spring; 1e-6 above it slides off with mu g cos A times 1e-6.
+TEST(Coulomb, HoldsUpToTheFrictionAngle) {
+  const Trajectory held = completed(inclined(-1e-6));
+  const double angle = std::atan(0.15), pull = 2 * 9.81 * std::sin(angle), a = 1e-6 * 0.15 * 9.81 * std::cos(angle);
+  for (std::size_t i = 1; i < held.n_rows(); ++i) {
+    EXPECT_NEAR(reference::value(held, i, "joint.slide.slide"), pull / 1e8, 1e-5 * pull / 1e8) << i;
+    EXPECT_NEAR(reference::value(held, i, "joint.slide.slide"), at_end(held, "joint.slide.slide"), 1e-9 * pull / 1e8) << i;
+    EXPECT_EQ(reference::value(held, i, "joint.slide.stuck"), 1) << i;
+  }
+  EXPECT_TRUE(says(held, "joint slide is jammed"));
+  EXPECT_LT(held.counters.steps, 200);
+  const Trajectory slid = completed(inclined(1e-6));
+  EXPECT_NEAR(at_end(slid, "joint.slide.slide"), 0.5 * a * 999 * 999, 1e-4 * a * 0.5e6);
+  EXPECT_FALSE(says(slid, "jammed"));
 }
 
 // The belt is stiff in its rollers and its drive: with a drive of 1e9 N/m the block breaks away so much later that x is off by 6e-7 m.
@@ -134,8 +231,9 @@ TEST(Stribeck, BlockOnAConveyorBeltMovesAsPublished) {
 // From 1 s to 2 s.
 double speed_gained(const Trajectory& run, const std::string& rate) { return at_end(run, rate) - reference::value(run, reference::row_at(run, 1), rate); }
 
-// From the row where the load is whole it moves no farther than bristles bend, mu / s_0, and comes to rest.
-void expect_locked(const Trajectory& run, const std::string& column, std::size_t loaded, double mu) {
+// From the time when the load is whole it moves no farther than bristles bend, mu / s_0, and comes to rest.
+void expect_locked(const Trajectory& run, const std::string& column, double time, double mu) {
+  const std::size_t loaded = reference::row_at(run, time);
   const auto slide = [&](std::size_t i) { return reference::value(run, i, column); };
   for (std::size_t i = loaded; i < run.n_rows(); ++i) EXPECT_LT(std::abs(slide(i) - slide(loaded)), mu / 1e5) << i;
   EXPECT_LT(std::abs(at_end(run, column) - slide(reference::row_at(run, 1.5))), 1e-3 * mu / 1e5);
@@ -199,16 +297,26 @@ force = [0, "-1000 N*smoothstep(0, 0.5 s, t)"]
 //   R (cos A + mu sin A) = W - m_f a tan A,     m_w a = R (sin A - mu cos A) - mu R (cos A + mu sin A)
 TEST(Jamming, WedgeLocksBelowTwiceTheFrictionAngle) {
   const double mu = 0.15, phi = std::atan(mu), hair = 0.1 * M_PI / 180;
-  const Trajectory locked = completed(wedge(2 * phi - hair, mu, 1));
-  expect_locked(locked, "joint.floor.slide", reference::row_at(locked, 0.5), mu);
-  const Trajectory driven = completed(wedge(2 * phi + hair, mu, 1e4));
-  const double A = 2 * phi + hair, c = std::cos(A), s = std::sin(A), t = std::tan(A), W = 1000;
-  const double drive = (s - mu * c) / (c + mu * s) - mu, a = drive * W / (1e4 + drive * 2 * t);
-  EXPECT_NEAR(speed_gained(driven, "joint.floor.slide_rate"), a, 3e-4 * a);
+  for (const char* word : {"lugre", "coulomb"}) {
+    SCOPED_TRACE(word);
+    const auto pressed = [&](double angle, double mass) {
+      Model model = wedge(angle, mu, mass);
+      for (Joint& joint : model.joints)
+        if (!joint.friction.word.empty()) joint.friction.word = word;
+      return completed(model);
+    };
+    expect_locked(pressed(2 * phi - hair, 1), "joint.floor.slide", 0.55, mu);
+    const Trajectory driven = pressed(2 * phi + hair, 1e4);
+    const double A = 2 * phi + hair, c = std::cos(A), s = std::sin(A), t = std::tan(A), W = 1000;
+    const double drive = (s - mu * c) / (c + mu * s) - mu, a = drive * W / (1e4 + drive * 2 * t);
+    EXPECT_NEAR(speed_gained(driven, "joint.floor.slide_rate"), a, 3e-4 * a);
+  }
 }
 
 // A slider pushed along its guide by a force P at 200 mm from it.
-Model pushed(double guide) {
+Model pushed(double guide, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> overrides{"parameters.guide=" + std::to_string(guide)};
+  overrides.insert(overrides.end(), more.begin(), more.end());
   return parse_model(R"toml(
 format = 1
 name = "Pushed beside its guide"
@@ -234,17 +342,29 @@ guide_length = "guide"
 [force.P]
 on = "slider.push"
 force = ["100 N*smoothstep(0, 0.5 s, t)", 0]
-)toml", "pushed.toml", {"parameters.guide=" + std::to_string(guide)});
+)toml", "pushed.toml", overrides);
 }
 
 // Its moment P h presses both edges with P h / L: the guide jams where it is shorter than 2 mu h, else a = P (1 - 2 mu h / L) / m.
 TEST(Jamming, ShortGuideLocksASliderThatIsPushedBesideIt) {
   const double critical = 2 * 0.15 * 0.2;
   const Trajectory jammed = completed(pushed(0.999 * critical));
-  expect_locked(jammed, "joint.guide.slide", reference::row_at(jammed, 0.5), 0.15);
+  expect_locked(jammed, "joint.guide.slide", 0.5, 0.15);
   EXPECT_NEAR(at_end(jammed, "joint.guide.friction"), -100, 1e-5 * 100);
   const Trajectory moved = completed(pushed(1.001 * critical));
   EXPECT_NEAR(speed_gained(moved, "joint.guide.slide_rate"), 100 * (1 - 1 / 1.001), 1e-5 * 0.1);
+}
+
+// With stiction the run says so, unless the guide is long enough.
+TEST(Jamming, IsSaid) {
+  const std::vector<std::string> coulomb{"joint.guide.friction=\"coulomb\"", "joint.guide.friction_preload=1"};
+  const Trajectory jammed = completed(pushed(0.059, coulomb)), moved = completed(pushed(0.062, coulomb));
+  EXPECT_TRUE(says(jammed, "joint guide is jammed")) << jammed.notes.size();
+  EXPECT_TRUE(says(jammed, "up to 100 N"));
+  EXPECT_FALSE(says(moved, "jammed"));
+  EXPECT_EQ(at_end(jammed, "joint.guide.stuck"), 1);
+  EXPECT_EQ(at_end(moved, "joint.guide.stuck"), 0);
+  EXPECT_NEAR(speed_gained(moved, "joint.guide.slide_rate"), 100 * (1 - 0.06 / 0.062) - 0.15, 1e-5 * 3);
 }
 
 constexpr const char* kCircles = R"toml(
@@ -314,7 +434,7 @@ speed = 1
 //   b sin(phi - theta_3) = mu r (s_B - s_A),   F (c sin(phi - theta_4) - mu r (s_B + s_4)) = -T,   T_2 = F (a sin(phi - theta_2) + mu r (s_2 - s_A))
 TEST(FrictionCircles, FourBarCarriesItsLoadAlongTheirTangents) {
   const double a = 0.1, b = 0.5, c = 0.3, circle = 0.2 * 0.02, T = -10;
-  for (const char* word : {"lugre", "stribeck", "brown-mcphee"}) {
+  for (const char* word : {"lugre", "coulomb", "stribeck", "brown-mcphee"}) {
     Model model = parse_model(kCircles, "circles.toml");
     for (Joint& joint : model.joints) joint.friction.word = word;
     const Trajectory run = completed(model);

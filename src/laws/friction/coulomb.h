@@ -1,12 +1,13 @@
 // Coulomb's dry friction with stiction: a joint sticks, held by a spring and a damper in the direction that it leaves free, until friction cannot
 // carry its load, and then slips against the kinetic friction. Where it changes over is a border, on which steps end.
 //
-//   sticking:  F = k_t (u - p) + c_t v         until |F| > mu_s N                       theory/joints Eq. (3.18)
-//   slipping:  F = s mu_k N + mu_v N v         until s v < 0, s = +1 or -1              Eq. (3.19)
+//   sticking:  F = k_t z + c_t v,   z' = v     until |F| > mu_s N                         theory/joints Eq. (3.18)
+//   slipping:  F = s mu_k N + mu_v N v         until s v < 0, s = +1 or -1                Eq. (3.19)
 //
-// u is the place of the slip [m], the radius times the angle or the slide. The states stay as they are in between: the anchor p [m] and the mode s,
-// 0 while it sticks. Slip goes the way of the friction that broke; sticking begins where friction is continuous,
-//   p = u - (F - c_t v) / k_t.                                                          Eq. (3.20)
+// The states are the stretch z of the spring [m] and the mode s, 0 while it sticks, which changes at borders only. z is integrated: as a difference of
+// places of the size of a metre its rounding, times k_t, is a noise in the force that steps are refused for. Slip goes the way of the friction that
+// broke; sticking begins where friction is continuous,
+//   z = (F - c_t v) / k_t.                                                                Eq. (3.20)
 // As everywhere here a stuck joint is no constraint but a direction held by a force law, which makes the forces of several of them unique.
 #pragma once
 
@@ -29,12 +30,14 @@ struct CoulombLaw : Friction {
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
     using namespace law_math;
     const T v = slip(in), N = load(in), mode = in.state[1];
-    rub(where_positive(T(0.5) - abs(mode), held(in), mode * (kinetic * N) + viscous * (N * v)), v, out);
+    const T sticks = T(0.5) - abs(mode);
+    out.state_rate[0] = where_positive(sticks, v, T(0.0));                                                        // (3.18)
+    rub(where_positive(sticks, held(in), mode * (kinetic * N) + viscous * (N * v)), v, out);                      // (3.19)
   }
   /// Slipping, or stuck with nothing on the spring. Slow speeds of a start have no meaning.
   void rest(const LawInput<double>& in, double* state) const {
     const double v = slip(in);
-    state[0] = radius * in.gap[free];
+    state[0] = 0;
     state[1] = std::abs(v) < kStill ? 0 : v > 0 ? 1 : -1;
   }
 
@@ -42,18 +45,19 @@ struct CoulombLaw : Friction {
   /// What still holds; how far slip is from its end; how far from a slip the wrong way, which a break under a falling load may begin with.
   void borders(const LawInput<double>& in, double* value) const {
     const double mode = in.state[1], forward = mode * slip(in);
-    value[0] = mode == 0 ? stuck * load(in) - std::abs(held(in)) + kRounding * stiffness : 1;
+    value[0] = mode == 0 ? stuck * load(in) - std::abs(held(in)) + kUnloaded : 1;
     value[1] = mode == 0 ? 1 : forward + kCrossed;
     value[2] = mode == 0 ? 1 : forward + kStill;
   }
   std::array<int, 3> border_directions() const { return {-1, -1, -1}; }
+  std::string_view border_name(int border, bool) const { return border == 0 ? "slips" : "sticks"; }
   void cross(int border, const LawInput<double>& in, double* state) const {
     if (border == 0) {
       state[1] = held(in) > 0 ? 1 : -1;
       return;
     }
     const double v = slip(in), N = load(in);
-    state[0] = radius * in.gap[free] - (state[1] * kinetic * N + viscous * N * v - damping * v) / stiffness;  // (3.20)
+    state[0] = (state[1] * kinetic * N + viscous * N * v - damping * v) / stiffness;  // (3.20)
     state[1] = 0;
   }
 
@@ -69,10 +73,10 @@ struct CoulombLaw : Friction {
  private:
   static constexpr double kStill = 1e-6;     // [m/s]
   static constexpr double kCrossed = 1e-12;  // a speed that is not the rounding of zero [m/s]
-  static constexpr double kRounding = 1e-15;  // of places [m]
+  static constexpr double kUnloaded = 1e-12;  // a friction that breaks a joint on which nothing presses [N]
 
   template <class T>
-  T held(const LawInput<T>& in) const { return stiffness * (radius * in.gap[free] - in.state[0]) + damping * slip(in); }  // (3.18)
+  T held(const LawInput<T>& in) const { return stiffness * in.state[0] + damping * slip(in); }  // (3.18)
 
   static std::array<LawColumn, 3> with_mode(const Friction& friction) {
     const auto all = friction.columns();

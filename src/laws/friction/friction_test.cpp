@@ -49,7 +49,7 @@ TEST(StribeckLaw, ByHand) {
   EXPECT_NEAR(friction_of(law, pressed, 1), -10, 1e-12);
 }
 
-// A slide that is pressed by 100 N: it breaks at 15 N, 150 um from its anchor, and slips with 10 N. Where it turns round it sticks, and friction is
+// A slide that is pressed by 100 N: it breaks at 15 N, a stretch of 150 um, and slips with 10 N. Where it turns round it sticks, and friction is
 // what it was.
 TEST(CoulombLaw, SticksBreaksAndSticksAgain) {
   CoulombLaw law;
@@ -59,31 +59,34 @@ TEST(CoulombLaw, SticksBreaksAndSticksAgain) {
   law.damping = 50;
   Law joint(LinearLaw{{0, 1e6, 0}, {0, 0, 0}});
   joint.add(std::make_unique<LawPartOf<CoulombLaw>>(law));
-  double state[2], before[3], after[3], lost = 0;
-  const auto at = [&state](const Vec& gap, const Vec& rate) { return LawPoint{0, gap, rate, state}; };
-  const auto crosses = [&](const Vec& gap, const Vec& rate) {
-    joint.borders(at(gap, rate), after);
-    return joint.cross(at(gap, rate), before, after, state, lost);
+  double state[2], rate[2], before[3], after[3], lost = 0;
+  const Vec gap(0.5, -1e-4, 0), still = Vec::Zero(), creep(1e-4, 0, 0), slip(0.2, 0, 0), back(-1e-9, 0, 0);
+  const auto at = [&](const Vec& speed) { return LawPoint{0, gap, speed, state}; };
+  const auto crosses = [&](const Vec& speed) {
+    joint.borders(at(speed), after);
+    return joint.cross(at(speed), before, after, state, lost);
   };
-  const Vec rest(0.5, -1e-4, 0), still = Vec::Zero();
-  joint.rest(at(rest, still), state);
-  EXPECT_EQ(joint.force(at(rest, still))[0], 0);
-  joint.borders(at(rest, still), before);
+  joint.rest(at(still), state);
+  EXPECT_EQ(joint.force(at(still))[0], 0);
+  joint.borders(at(still), before);
   EXPECT_NEAR(before[0], 15, 1e-8);
+  state[0] = 149e-6;
+  EXPECT_FALSE(crosses(still));
+  EXPECT_NEAR(joint.force(at(creep))[0], -14.9 - 50e-4, 1e-9);
+  joint.state_rates(at(creep), rate);
+  EXPECT_EQ(rate[0], 1e-4);
+  state[0] = 151e-6;
+  EXPECT_TRUE(crosses(still));
+  EXPECT_NEAR(joint.force(at(slip))[0], -10, 1e-9);
+  EXPECT_NEAR(joint.loss(at(slip)), 2, 1e-9);
+  joint.state_rates(at(slip), rate);
+  EXPECT_EQ(rate[0], 0);
 
-  const Vec held = rest + Vec(149e-6, 0, 0), broken = rest + Vec(151e-6, 0, 0), creep(1e-4, 0, 0), slip(0.2, 0, 0), back(-1e-9, 0, 0);
-  EXPECT_FALSE(crosses(held, still));
-  EXPECT_NEAR(joint.force(at(held, creep))[0], -14.9 - 50e-4, 1e-9);
-  EXPECT_TRUE(crosses(broken, still));
-  EXPECT_NEAR(joint.force(at(broken, slip))[0], -10, 1e-9);
-  EXPECT_NEAR(joint.loss(at(broken, slip)), 2, 1e-9);
-
-  joint.borders(at(broken, slip), before);
-  const Vec far = rest + Vec(0.3, 0, 0);
-  EXPECT_FALSE(crosses(far, slip));
-  EXPECT_TRUE(crosses(far, back));
-  EXPECT_NEAR(joint.force(at(far, back))[0], -10, 1e-9);
-  EXPECT_NEAR(joint.force(at(far - Vec(200e-6, 0, 0), still))[0], 10, 1e-7);
+  joint.borders(at(slip), before);
+  EXPECT_FALSE(crosses(slip));
+  EXPECT_TRUE(crosses(back));
+  EXPECT_NEAR(joint.force(at(back))[0], -10, 1e-9);
+  EXPECT_NEAR(state[0], 100e-6, 1e-12);
   EXPECT_EQ(lost, 0);
 }
 

@@ -8,6 +8,7 @@
 #include "pintle/trajectory.h"
 #include "run/record/force_table.h"
 #include "run/record/missed_peaks.h"
+#include "run/record/stuck_joints.h"
 
 namespace pintle {
 
@@ -27,7 +28,9 @@ class BasicForceRecorder {
   virtual void add(const BasicState<S>& state);
   /// The end of a step of h seconds, between rows or at one.
   void see_step(const BasicState<S>& state, double h) {
-    if (what_ != Recorded::kForces) missed_peaks_.add_step(state, h);
+    if (what_ == Recorded::kForces) return;
+    missed_peaks_.add_step(state, h);
+    stuck_joints_.see(state);
   }
   const BasicForceTable<S>& forces() const { return forces_; }
   BasicForceTable<S> take_forces() { return std::move(forces_); }
@@ -54,6 +57,7 @@ class BasicForceRecorder {
   bool keeps_places_;
   double output_step_;
   BasicMissedPeaks<S> missed_peaks_;
+  BasicStuckJoints<S> stuck_joints_;
 };
 using ForceRecorder = BasicForceRecorder<Planar>;
 
