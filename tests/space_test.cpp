@@ -167,13 +167,15 @@ TEST(Space, APlanarFourBarGivesThePlanarForces) {
 }
 
 // A run with a stated error at each of three tolerances, against one at 1e-9: what every joint carries is right within the tolerance, and the stated
-// error is between a third of the true one and thirty times it.
+// error is between a third of the true one and thirty times it. Hinges of 1e9 N/m that share a redundant condition cannot have 1e-9 of their forces, which
+// is less than the rounding of places in metres makes of them; that run has to be ten times better than the best.
 void expect_promise(const SpatialSample& of, double duration, const std::string& what) {
   SimulateSettings settings;
   settings.duration = duration;
   settings.tolerance = 1e-9;
   const BasicSystemRun<S> truth = run_system(of.system, of.start, settings);
-  ASSERT_EQ(truth.result.outcome, Outcome::kCompleted) << what << ": " << truth.result.message;
+  ASSERT_EQ(truth.rows.t.back(), duration) << what << ": " << truth.result.message;
+  for (const LoadSummary& joint : truth.result.joints) ASSERT_LT(joint.relative_error_estimate, 1e-8) << what << ": " << truth.result.message;
   for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
     settings.tolerance = tolerance;
     const BasicSystemRun<S> done = run_system(of.system, of.start, settings);
@@ -252,7 +254,7 @@ TEST(SpaceRuns, APendulumsAccountAndPeakAreKnown) {
   const double inertia = 0.04 + 2 * 0.25;
   EXPECT_NEAR(hinge.peak, 20 + 2 * 0.5 * (2 * 20 * 0.5 / inertia), 1e-3);
   EXPECT_NEAR(done.result.energy.kinetic_peak, 10, 1e-4);
-  EXPECT_LT(done.result.energy.drift, 1e-5);
+  EXPECT_LT(done.result.energy.drift, settings.tolerance * done.result.energy.kinetic_peak);
 }
 
 // The tolerance is of the places: against a run at 1e-9.

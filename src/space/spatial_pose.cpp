@@ -4,33 +4,23 @@ namespace pintle {
 namespace {
 
 using S = Spatial;
-using Both = Dual<2 * S::kDof>;  // derivatives by increments of both bodies
+using Matrix = Eigen::Matrix3d;
 
 SpatialBodyView<double> view(const S::Motion& m) { return {components(m.p), components(m.R), components(m.v), components(m.w)}; }
 
-Both variable(double value, int i) { return Both::variable(value, i); }
-
-Matrix3<Both> constant(const Matrix3<double>& R) {
-  return {Both(R.xx), Both(R.xy), Both(R.xz), Both(R.yx), Both(R.yy), Both(R.yz), Both(R.zx), Both(R.zy), Both(R.zz)};
+Matrix matrix_of(const Matrix3<double>& R) {
+  Matrix out;
+  out << R.xx, R.xy, R.xz, R.yx, R.yy, R.yz, R.zx, R.zy, R.zz;
+  return out;
 }
-SpatialFrame<Both> constant(const SpatialFrame<double>& F) { return {{Both(F.p.x), Both(F.p.y), Both(F.p.z)}, constant(F.R)}; }
-
-// A body displaced by increments that are the variables from number `first` on; its velocities in its own axes stay.
-SpatialBodyView<Both> displaced(const SpatialBodyView<double>& body, int first) {
-  const Both x = variable(0, first + 3), y = variable(0, first + 4), z = variable(0, first + 5), one(1.0);
-  const Matrix3<Both> turn{one, -z, y, z, one, -x, -y, x, one};  // to first order, all that derivatives see
-  const Vector3<double> spin = turned_back(body.R, body.w);
-  SpatialBodyView<Both> to;
-  to.p = {variable(body.p.x, first), variable(body.p.y, first + 1), variable(body.p.z, first + 2)};
-  to.R = constant(body.R) * turn;
-  to.v = {Both(body.v.x), Both(body.v.y), Both(body.v.z)};
-  to.w = to.R * Vector3<Both>{Both(spin.x), Both(spin.y), Both(spin.z)};
-  return to;
+// The matrix of a x .
+Matrix crossing(const S::Point& a) {
+  Matrix out;
+  out << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return out;
 }
-
-SpatialPoseGeometry<Both> displaced(const SpatialRelativePose& pose) {
-  return SpatialPoseGeometry<Both>::between(displaced(pose.A, 0), constant(pose.F), displaced(pose.B, S::kDof), constant(pose.M));
-}
+// The derivative of k = 1 / (1 + n_z) by n_z; where k is held, none.
+double slope_of(double n_z, double k) { return 1 + n_z < rotation::kLeastOnePlusCosine ? 0 : -k * k; }
 
 }  // namespace
 
@@ -52,27 +42,48 @@ S::Point SpatialRelativePose::world_couple(const S::Vec& f) const {
   return pintle::vector_of(map.RF * couple_of(map.n, map.k, f[3], f[4], f[5]));
 }
 
+// Eqs. (3.10), (3.11): the changes of force and couple in world axes, then of their moments in those of the bodies.
 Eigen::Matrix<double, 12, 12> SpatialRelativePose::geometric(const S::Vec& f) const {
-  const auto at = SpatialGapMap<Both>::of(displaced(*this));
-  std::array<Both, S::kDof> force, on_a{}, on_b{};
-  for (int k = 0; k < S::kDof; ++k) force[k] = Both(f[k]);
-  at.push(force.data(), on_a, on_b);
-  Eigen::Matrix<double, 12, 12> N;
-  for (int k = 0; k < S::kDof; ++k)
-    for (int c = 0; c < 2 * S::kDof; ++c) {
-      N(k, c) = on_a[k].d[c];
-      N(S::kDof + k, c) = on_b[k].d[c];
-    }
+  const Matrix RA = matrix_of(map.RA), RB = matrix_of(map.RB), RF = matrix_of(map.RF);
+  const double x = map.n.x, y = map.n.y, slope = slope_of(map.n.z, map.k);
+  Matrix D;
+  D << map.k * f[5], 0, f[3] + slope * x * f[5], 0, map.k * f[5], f[4] + slope * y * f[5], -f[3], -f[4], 0;
+  const Matrix pull = crossing(world_force(f)), E = -RF * (D * crossing(pintle::vector_of(map.n))) * RF.transpose();
+  const Matrix b = crossing(pintle::vector_of(map.arm_b));
+  const Matrix of_b = RB.transpose() * (b * pull + crossing(world_couple(f)) + E);
+  const Matrix turned_force = pull * RA, arm = RA.transpose() * pull;
+  Eigen::Matrix<double, 12, 12> N = Eigen::Matrix<double, 12, 12>::Zero();
+  N.block<3, 3>(0, 3) = turned_force;
+  N.block<3, 3>(6, 3) = -turned_force;
+  N.block<3, 3>(3, 0) = -arm;
+  N.block<3, 3>(3, 6) = arm;
+  N.block<3, 3>(3, 3) = RA.transpose() * (pull * crossing(pintle::vector_of(map.arm_a)) + E) * RA;
+  N.block<3, 3>(3, 9) = -RA.transpose() * (pull * b + E) * RB;
+  N.block<3, 3>(9, 3) = -of_b * RA;
+  N.block<3, 3>(9, 9) = of_b * RB;
   return N;
 }
 
+// Eqs. (3.12), (3.13).
 Eigen::Matrix<double, 6, 12> SpatialRelativePose::rate_gradient(const S::Motion&, const S::Motion&) const {
-  std::array<Both, S::kDof> by;
-  const auto g = displaced(*this);
-  g.rates(A, B, by);
-  Eigen::Matrix<double, 6, 12> gradient;
-  for (int k = 0; k < S::kDof; ++k)
-    for (int c = 0; c < 2 * S::kDof; ++c) gradient(k, c) = by[k].d[c];
+  const Matrix RA = matrix_of(map.RA), RB = matrix_of(map.RB), to_F = matrix_of(map.RF).transpose();
+  const S::Point wA = pintle::vector_of(A.w), wB = pintle::vector_of(B.w), w = to_F * (wB - wA);
+  const S::Point arm_a = pintle::vector_of(map.arm_a), arm_b = pintle::vector_of(map.arm_b), spin_b = wB.cross(arm_b);
+  const S::Point at_M = pintle::vector_of(B.v - A.v) + spin_b - wA.cross(arm_a);
+  const Matrix spin_a = to_F * crossing(wA);
+  const auto [x, y, cosine] = map.n;
+  const double k = map.k;
+  Matrix J, H;
+  J << cosine, 0, -x, 0, cosine, -y, k * x, k * y, 1;
+  H << -w.z(), 0, w.x(), 0, -w.z(), w.y(), k * w.x(), k * w.y(), slope_of(cosine, k) * (x * w.x() + y * w.y());
+  const Matrix turning = -(J * to_F * crossing(wB) + H * crossing(pintle::vector_of(map.n)) * to_F);
+  Eigen::Matrix<double, 6, 12> gradient = Eigen::Matrix<double, 6, 12>::Zero();
+  gradient.block<3, 3>(0, 0) = spin_a;
+  gradient.block<3, 3>(0, 6) = -spin_a;
+  gradient.block<3, 3>(0, 3) = to_F * (crossing(at_M) - crossing(arm_a) * crossing(wA)) * RA;
+  gradient.block<3, 3>(0, 9) = (spin_a * crossing(arm_b) - to_F * crossing(spin_b)) * RB;
+  gradient.block<3, 3>(3, 3) = -turning * RA;
+  gradient.block<3, 3>(3, 9) = turning * RB;
   return gradient;
 }
 

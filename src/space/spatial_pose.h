@@ -3,7 +3,6 @@
 // the z axis, the sum of the turns before and after the tilt. Joints are selections of them or functions of them.
 #pragma once
 
-#include "base/dual.h"
 #include "space/spatial.h"
 
 namespace pintle {
@@ -21,11 +20,6 @@ namespace rotation {
 /// both free has no force there for it to multiply. theory/space Eq. (3.4) and section 3.6.
 inline constexpr double kLeastOnePlusCosine = 1e-12;
 inline double over_one_plus(double n) { return 1 / std::max(1 + n, kLeastOnePlusCosine); }
-template <int M>
-Dual<M> over_one_plus(const Dual<M>& n) {
-  const Dual<M> sum = Dual<M>(1.0) + n;
-  return sum.v < kLeastOnePlusCosine ? Dual<M>(1 / kLeastOnePlusCosine) : Dual<M>(1.0) / sum;
-}
 template <int N>
 PINTLE_LANES Lanes<N> over_one_plus(const Lanes<N>& n) {
   return reciprocal(larger(Lanes<N>(1.0) + n, Lanes<N>(kLeastOnePlusCosine)));
@@ -118,13 +112,6 @@ struct SpatialPoseGeometry {
   static Lanes<N> twist(const Lanes<N>& sine, const Lanes<N>& cosine) {
     Lanes<N> angle;
     for (int i = 0; i < N; ++i) angle.set(i, std::atan2(sine[i], cosine[i]));
-    return angle;
-  }
-  template <int M>
-  static Dual<M> twist(const Dual<M>& sine, const Dual<M>& cosine) {
-    Dual<M> angle(std::atan2(sine.v, cosine.v));
-    const double square = sine.v * sine.v + cosine.v * cosine.v;
-    for (int i = 0; i < M; ++i) angle.d[i] = (cosine.v * sine.d[i] - sine.v * cosine.d[i]) / square;
     return angle;
   }
 };
@@ -293,9 +280,9 @@ struct SpatialRelativePose {
   S::Point world_force(const S::Vec& f) const { return pintle::vector_of(map.RF * Vector3<double>{f[0], f[1], f[2]}); }
   /// The couple of f on B about M's origin in world axes [N*m].
   S::Point world_couple(const S::Vec& f) const;
-  /// d(GA' f)/dq and d(GB' f)/dq at constant f: the geometric stiffness, 12 x 12 over (qA, qB), in the bodies' axes. Eq. (3.9).
+  /// d(GA' f)/dq and d(GB' f)/dq at constant f: the geometric stiffness, 12 x 12 over (qA, qB), in the bodies' axes. Eqs. (3.9)-(3.11).
   Eigen::Matrix<double, 12, 12> geometric(const S::Vec& f) const;
-  /// d(rate)/dq over (qA, qB), 6 x 12.
+  /// d(rate)/dq over (qA, qB), 6 x 12, of the motions it was made from. Eqs. (3.12), (3.13).
   Eigen::Matrix<double, 6, 12> rate_gradient(const S::Motion& A, const S::Motion& B) const;
 };
 
