@@ -58,7 +58,7 @@ TEST(Contact, AFreeImpactReturnsWhatItsHysteresisSays) {
         const Followed run = follow(thrown(fmt::format("contact_model = \"{}\"\nrestitution = {}\ncontact_stiffness = 1e7\ncontact_exponent = {}\nleast_approach_speed = 1e-6", word, asked, exponent)), 1e-11, 0.1, {});
         const double h = hysteresis_of(model, asked), e = restitution_of(h);
         EXPECT_NEAR(h * (1 + e), std::log((1 + h) / (1 - h * e)), 1e-12);
-        if (model == ContactModel::kExact) EXPECT_NEAR(e, asked, 1e-12);
+        if (model == ContactModel::kExact) { EXPECT_NEAR(e, asked, 1e-12); }
         ASSERT_EQ(run.contacts.size(), 2u) << word;
         EXPECT_NEAR(run.contacts[0].t, 0.02, 1e-10) << word;
         EXPECT_NEAR(run.end.v[0][1] / 0.5, e, 1e-9) << word << ' ' << asked << ' ' << exponent;
@@ -89,7 +89,7 @@ TEST(Contact, ALinearContactEndsWhereItsForceVanishesOrWhereTheBodiesPart) {
       EXPECT_NEAR(run.end.v[0][1], -speed(lasts), 1e-8) << ratio << ' ' << kept;
       EXPECT_NEAR(run.end.dissipated, 0.5 * m * (v * v - speed(lasts) * speed(lasts)), 1e-8) << ratio << ' ' << kept;
       ASSERT_EQ(run.contacts.size(), 2u);
-      if (kept) EXPECT_NEAR(run.contacts[1].t - run.contacts[0].t, part, 1e-9) << ratio;
+      if (kept) { EXPECT_NEAR(run.contacts[1].t - run.contacts[0].t, part, 1e-9) << ratio; }
     }
   }
 }
