@@ -93,7 +93,23 @@ void plain_start(const BasicSystem<S>& system, BasicState<S>& state) {
 
 namespace {
 
-constexpr int kNewton = 40, kHalvings = 12, kDoublings = 80;
+constexpr int kSpringSteps = 20, kNewton = 40, kHalvings = 12, kDoublings = 80;
+
+// Component by component.
+template <class S>
+void gap_of_springs(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
+  for (int i = 0; i < kSpringSteps; ++i) {
+    const BasicResponse<S> now = respond(law, gap, rate);
+    bool moved = false;
+    for (int k = 0; k < S::kDof; ++k) {
+      if (!(now.stiffness(k, k) > 0)) continue;
+      const double step = (now.force[k] - force[k]) / now.stiffness(k, k);
+      gap[k] += step;
+      moved = moved || std::abs(step) > 1e-15 * std::abs(gap[k]);
+    }
+    if (!moved) break;
+  }
+}
 
 // Where the law does not resist at all (in its play, or at the beginning of a force that rises with a power of the gap), farther out against
 // the force, until there is as much of it.
@@ -140,9 +156,8 @@ typename S::Vec newton_step(const BasicResponse<S>& now, const typename S::Vec& 
 // Newton on the law's own tangent; nothing in free components.
 template <class S>
 void gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
-  if (const auto* linear = law.constant_diagonal()) {
-    for (int k = 0; k < S::kDof; ++k)
-      if (linear->k[k] > 0) gap[k] = -(force[k] + linear->c[k] * rate[k]) / linear->k[k];
+  if (law.constant_diagonal()) {
+    gap_of_springs(law, force, rate, gap);
     return;
   }
   begin_where_it_resists(law, force, rate, gap);
