@@ -18,6 +18,7 @@ FOLDERS_OF = {
     "base": "text expression".split(),
     "integrators": "radau absolute dense relative general ideal".split(),
     "io": "schema reading toml".split(),
+    "laws": "friction".split(),
     "results": "plots studies".split(),
     "sweeps": "storage".split(),
 }

@@ -10,15 +10,15 @@
 #include <string>
 
 #include "base/random_for_tests.h"
-#include "laws/brown_mcphee.h"
 #include "laws/bushing.h"
 #include "laws/catalog.h"
-#include "laws/coulomb.h"
+#include "laws/friction/brown_mcphee.h"
+#include "laws/friction/coulomb.h"
+#include "laws/friction/lugre.h"
+#include "laws/friction/stribeck.h"
 #include "laws/guide_contact.h"
-#include "laws/lugre.h"
 #include "laws/maxwell.h"
 #include "laws/pin_contact.h"
-#include "laws/stribeck.h"
 #include "laws/tension.h"
 
 namespace pintle {

@@ -7,7 +7,7 @@
 // It carries no load at rest: under a load below N mu_s the joint creeps, at v_t artanh(load / (N mu_s)) or slower. That is its design.
 #pragma once
 
-#include "laws/friction.h"
+#include "laws/friction/friction.h"
 
 namespace pintle {
 

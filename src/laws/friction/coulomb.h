@@ -15,7 +15,7 @@
 #include <array>
 #include <cmath>
 
-#include "laws/friction.h"
+#include "laws/friction/friction.h"
 
 namespace pintle {
 

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "laws/friction.h"
+#include "laws/friction/friction.h"
 
 namespace pintle {
 

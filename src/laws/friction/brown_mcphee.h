@@ -7,7 +7,7 @@
 // design. The paper's viscous term does not grow with the load; here it does, as in the other laws.
 #pragma once
 
-#include "laws/friction.h"
+#include "laws/friction/friction.h"
 
 namespace pintle {
 

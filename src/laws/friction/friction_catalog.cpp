@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "laws/brown_mcphee.h"
 #include "laws/catalog_parts.h"
-#include "laws/coulomb.h"
-#include "laws/lugre.h"
-#include "laws/stribeck.h"
+#include "laws/friction/brown_mcphee.h"
+#include "laws/friction/coulomb.h"
+#include "laws/friction/lugre.h"
+#include "laws/friction/stribeck.h"
 
 namespace pintle {
 namespace {

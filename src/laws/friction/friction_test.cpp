@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "laws/brown_mcphee.h"
 #include "laws/catalog.h"
-#include "laws/coulomb.h"
+#include "laws/friction/brown_mcphee.h"
+#include "laws/friction/coulomb.h"
+#include "laws/friction/stribeck.h"
 #include "laws/law.h"
-#include "laws/stribeck.h"
 
 namespace pintle {
 namespace {
