@@ -45,6 +45,7 @@ class StepControl {
   static constexpr int kMaxRetries = 80;
   static constexpr double kShortest = 1e-11;    // of the run: the shortest step that is refused for its error
   static constexpr double kEventAtStart = 1e-5;  // of the usual step: an event this close to its start is crossed
+  static constexpr int kMostCrossed = 24;        // events at the start of one step
   static constexpr double kShrink = 0.5;        // after Newton failed
   static constexpr double kContraction = 0.2;   // of Newton's iteration, that steps are chosen for
   static constexpr double kSteady = 0.9;        // of the error of the trial before: a shorter step has not made it smaller
@@ -81,6 +82,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
   double error_before = 0;                   // of the trial before, over the tolerance
   int steady = 0;                            // trials in a row that were shorter, and no better
   bool renewed = false;                      // the start, for this trial
+  int crossed = 0;                           // events at its start
   SwitchingEvent ahead;                      // the last that was located
   for (int retry = 0; retry < kMaxRetries; ++retry) {
     const double left = t_end - method.t();
@@ -93,7 +95,8 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       refused = true;
       have_history = have_history && retry == 0;
     }
-    SwitchingEvent event = solved || retry > 0 ? method.locate_event(h, solved) : SwitchingEvent{};  // twice unsolved: for a jump on the way?
+    // Twice unsolved: for a jump on the way? Functions that flicker about zero in the last bits are left alone after a while.
+    SwitchingEvent event = (solved || retry > 0) && crossed < kMostCrossed ? method.locate_event(h, solved) : SwitchingEvent{};
     if (const double near = kEventAtStart * usual; event.before * h < near) {  // the far end may lie beyond other events: Taylor's series is better here
       const SwitchingEvent closer = method.locate_event(2 * near, false);
       if (closer.after < 1) {
@@ -110,6 +113,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       ++counters.events;
       event_ = ahead;
       method.cross_event(event.before * h, event);
+      ++crossed;
       method.begin_at_end();
       h = std::max(h, kAfterEvent * usual);
       continue;
