@@ -114,6 +114,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       event_ = ahead;
       method.cross_event(event.before * h, event);
       ++crossed;
+      retry = -1;  // it has moved on
       method.begin_at_end();
       h = std::max(h, kAfterEvent * usual);
       continue;
