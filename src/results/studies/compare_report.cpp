@@ -121,7 +121,11 @@ TextTable runs_table(const Variants& v) {
   return table;
 }
 
-std::string percent(double change) { return std::isfinite(change) ? fmt::format("{:+.2f} %", 100 * change) : "-"; }
+// Small changes with one digit, so that none reads as zero.
+std::string percent(double change) {
+  if (!std::isfinite(change)) return "-";
+  return std::abs(change) >= 1e-3 || change == 0 ? fmt::format("{:+.2f} %", 100 * change) : fmt::format("{:+.1g} %", 100 * change);
+}
 
 TextTable loads_table(const Variants& v) {
   TextTable table;
