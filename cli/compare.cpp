@@ -59,14 +59,22 @@ std::string name_of(const std::string& path, const std::vector<std::string>& pat
   return alike > 1 ? path : stem(path);
 }
 
-Variant read_variant(const CompareOptions& options, const std::string& path, const std::string& law) {
+/// "B=maxwell" where that tells the laws apart, else with its keys.
+std::string name_of_law(const std::string& law, const std::vector<std::string>& laws) {
   constexpr std::string_view kJoint = "joint.";
+  const auto head = [](const std::string& text) { return text.substr(0, text.find(',')); };
+  const auto alike = std::count_if(laws.begin(), laws.end(), [&](const std::string& other) { return head(other) == head(law); });
+  const std::string name = alike > 1 ? law : head(law);
+  return name.starts_with(kJoint) ? name.substr(kJoint.size()) : name;
+}
+
+Variant read_variant(const CompareOptions& options, const std::string& path, const std::string& law) {
   ModelOptions one = options;
   one.model = path;
   one.laws.clear();
   if (!law.empty()) one.laws.push_back(law);
   Variant out{name_of(path, options.models), path, read_model_to_run(one).model};
-  if (!law.empty()) out.name += " " + (law.starts_with(kJoint) ? law.substr(kJoint.size()) : law);
+  if (!law.empty()) out.name += ", " + name_of_law(law, options.laws);
   return out;
 }
 

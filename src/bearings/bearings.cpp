@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kNone = BearingSummary::kNone, kTurn = 2 * std::numbers::pi;
 constexpr double kMillion = 1e6, kHour = 3600;  // [s]
+constexpr double kTurnedBack = 1.001;           // path over swing: a pin that only goes on has 1
 constexpr double kMostShareOfRating = 0.5;      // ISO 281: of C, for its formula to hold
 
 /// Columns and loads of a run by name: a large mechanism has very many.
@@ -57,8 +58,8 @@ void add_duty(const Duty& duty, BearingSummary& out) {
   out.swing = duty.swing();
   out.mean_speed = duty.span() > 0 ? out.path / duty.span() : 0;  // Eq. (1.4)
   out.peak_speed = duty.peak_rate();
-  if (out.path > 0 && out.swing < kTurn)
-    out.remarks.push_back(fmt::format("it swings by {:.4g} deg and does not turn round: its path counts as turns", out.swing * 360 / kTurn));
+  if (out.path > kTurnedBack * out.swing && out.swing < kTurn)
+    out.remarks.push_back(fmt::format("it swings back and forth by {:.4g} deg: its path counts as turns", out.swing * 360 / kTurn));
 }
 
 // ISO 281. Equations (2.1) to (2.4).

@@ -225,7 +225,6 @@ TEST(Mistakes, ChosenLawsHaveTheirOwnPlaces) {
   begins("joint.Z=linear", "--law:7 joint.Z: the model has no such joint");
   begins("joint.O4=maxwell,branch_ratio=[1],branch_time=[1],stifness=2", "--law:51 joint.O4.stifness: the law maxwell has no such key");
   begins("joint.A=linear,stiffness=-2", "--law:26 joint.A.stiffness: ");
-  begins("joint.A=maxwell", "m.toml:61 joint.A");  // a key that the law requires is missed in the joint
   begins("joint.O4=bushing", "--law:10 joint.O4.law: a gear joint cannot have it");
   begins("joint.R=lugre", "--law:9 joint.R.friction: a rod joint cannot have it");
   begins("joint.A=linear,type=fixed", "--law:16 joint.A.type: the law linear has no such key");
@@ -235,6 +234,9 @@ TEST(Mistakes, ChosenLawsHaveTheirOwnPlaces) {
   begins("joint.A.law=linear", "--law:1 : a law is chosen as joint.NAME=law");
   begins("", "--law:1 : a law is chosen as joint.NAME=law");
   begins("joint.A=3", "--law:9 joint.A.law: ");
+  const auto required = complaints_about(kFullModel, {"--law joint.A=maxwell"});
+  ASSERT_EQ(required.size(), 2U);
+  EXPECT_EQ(required[0].path, "joint.A.branch_ratio");
 }
 
 TEST(Mistakes, JsonIsLocatedToo) {

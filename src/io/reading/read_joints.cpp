@@ -38,6 +38,8 @@ TableSpec& joint_spec(ModelReading& reading, const JointTypeInfo* type, const La
 // A joint of a wrong type or law: its keys cannot be judged, but what belongs to all joints can.
 void read_faulty_joint(ModelReading& reading, const Entry& entry, const std::string& path) {
   TableSpec spec = reading.spec("joint.*");
+  for (KeySpec& key : spec.keys)
+    if (key.per_component) key.type = ValueType::kMarker;  // read as nothing: how long its list may be is not known
   if (entry.value.table() != nullptr) {
     for (const Entry& inner : entry.value.table()->entries()) {
       const bool special = !Schema::model().kinds_with("joint.*", inner.key).empty();

@@ -121,7 +121,11 @@ TextTable runs_table(const Variants& v) {
   return table;
 }
 
-std::string percent(double change) { return std::isfinite(change) ? fmt::format("{:+.2f} %", 100 * change) : "-"; }
+// Small changes with one digit, so that none reads as zero.
+std::string percent(double change) {
+  if (!std::isfinite(change)) return "-";
+  return std::abs(change) >= 1e-3 || change == 0 ? fmt::format("{:+.2f} %", 100 * change) : fmt::format("{:+.1g} %", 100 * change);
+}
 
 TextTable loads_table(const Variants& v) {
   TextTable table;
@@ -231,7 +235,7 @@ std::string variants_json(const Variants& v, const std::vector<std::string>& mod
 Plot variants_plot(const Variants& v, const std::string& title) {
   Plot plot;
   plot.title = title;
-  for (const NamedRun& one : v.runs) plot.subtitle += (plot.subtitle.empty() ? "" : ", ") + one.name;
+  plot.subtitle = fmt::format("{} runs side by side", v.runs.size());
   plot.x_quantity = "Time";
   plot.x_unit = "s";
   std::vector<std::pair<double, const VariantJoint*>> order;
