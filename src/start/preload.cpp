@@ -53,10 +53,13 @@ bool drags(const BasicJointData<S>& joint) {
   return false;
 }
 
-// Whether a law keeps how its contact began, which no static gap tells: such a pin starts where the assembly has put it, and flies.
+// Whether a law starts where the assembly has put its joint, loaded or not. One that keeps how its contact began (no static gap tells that) flies from there;
+// one that acts on one side only (and moves gaps to it) may be slack there, as a rope.
 template <class S>
 bool starts_free(const BasicLaw<S>& law) {
-  return std::any_of(law.parts().begin(), law.parts().end(), [](const auto& part) { return part->holds() && part->n_states() > 0 && part->n_borders() > 0; });
+  typename S::Vec gap = -S::Vec::Ones();
+  law.engage(gap);
+  return gap != -S::Vec::Ones() || std::any_of(law.parts().begin(), law.parts().end(), [](const auto& part) { return part->holds() && part->n_states() > 0 && part->n_borders() > 0; });
 }
 
 // The same system with springs in place of laws that do not answer at all where the joints stand, as in their play; none when all do.
