@@ -17,16 +17,15 @@ class LawBorders {
   void start(const State& state) {
     if (!before_.empty()) find(state, before_);
   }
-  /// The share of a step that ends at `end` after which the first border of a law with states is crossed, on a straight line; 1: none is.
-  double first_crossing(const State& end) {
-    double share = 1;
-    if (before_.empty()) return share;
-    find(end, after_);
-    for (std::size_t f = 0; f < after_.size(); ++f) {
-      const SwitchingFunction& function = system_.switching()[f];
-      if (sets_states(function) && function.is_event(before_[f], after_[f])) share = std::min(share, before_[f] / (before_[f] - after_[f]));
-    }
-    return share;
+  /// Whether a step of h that ends at `end` ends before the first border that sets a law's states, or close enough behind it; otherwise h is made shorter
+  /// for another trial. `tries` counts those of one step.
+  bool is_short_enough(const State& end, double& h, int& tries) {
+    const double share = first_crossing(end);
+    if (tries == 0) longest_ = h;
+    if (share >= 1 - kBehind || share * h < kShortest * longest_ || tries >= kMostTries) return true;
+    ++tries;
+    h *= share + 0.5 * kBehind;
+    return false;
   }
   /// Lets the laws set their states where the step that ends at `end` has crossed their borders; what they store less then is dissipated. Whether
   /// any has: forces are to be found anew, what was remembered of the step's curve does not go on, and `note` must follow.
@@ -45,6 +44,21 @@ class LawBorders {
   const std::vector<LawCrossing>& crossings() const { return crossings_; }
 
  private:
+  static constexpr int kMostTries = 12;
+  static constexpr double kBehind = 1e-3;    // of a step: so much may lie behind a border
+  static constexpr double kShortest = 1e-7;  // of the first trial: what is crossed so early has been met already
+
+  // The share of the step after which the first border of a law with states is crossed, on a straight line; 1: none is.
+  double first_crossing(const State& end) {
+    double share = 1;
+    if (before_.empty()) return share;
+    find(end, after_);
+    for (std::size_t f = 0; f < after_.size(); ++f) {
+      const SwitchingFunction& function = system_.switching()[f];
+      if (sets_states(function) && function.is_event(before_[f], after_[f])) share = std::min(share, before_[f] / (before_[f] - after_[f]));
+    }
+    return share;
+  }
   bool sets_states(const SwitchingFunction& function) const {
     return function.owner == SwitchingFunction::Owner::kLaw && system_.joints[static_cast<std::size_t>(function.index)].law.parts()[static_cast<std::size_t>(function.part)]->n_states() > 0;
   }
@@ -57,11 +71,7 @@ class LawBorders {
   std::vector<double> before_, after_;
   std::vector<Planar::Motion> m_;
   std::vector<LawCrossing> crossings_;
+  double longest_ = 0;  // first trial of a step [s]
 };
-
-/// A step that crosses a border is made anew so much shorter that it ends just behind it, so often at most.
-inline constexpr int kMostShortened = 12;
-/// So much of a step may lie behind a border.
-inline constexpr double kBehindBorder = 1e-3;
 
 }  // namespace pintle

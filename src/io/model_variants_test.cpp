@@ -65,7 +65,7 @@ std::vector<std::pair<std::string, double>> numbers_of(const Document& document)
       for (const Entry& key : thing.value.table()->entries()) {
         ModelReading trial(document);
         read_all(trial);
-        if (!varied_key(trial, path + "." + key.key, {0, 1, 1})) continue;
+        if (!varied_key(trial, path + "." + key.key, {0, 1, 1}) || key.key == "balls") continue;  // a whole number
         const auto number = trial.records.read_quantity(key.value, "");
         out.emplace_back(path + "." + key.key, number ? number->si : 0.5);
       }

@@ -46,7 +46,7 @@ double slowest_joint(const BasicSystem<S>& system, const std::vector<BasicJointK
 // Whether a law that holds also resists the motion that the joint leaves free, as an oil film does.
 template <class S>
 bool drags(const BasicJointData<S>& joint) {
-  if (joint.law.constant_diagonal()) return false;
+  if (joint.law.ideal_limit()) return false;
   const BasicResponse<S> still = respond(joint.law, typename S::Vec(S::Vec::Zero()), typename S::Vec(S::Vec::Zero()));
   for (int k = 0; k < S::kDof; ++k)
     if (joint.free_mask[k] != 0 && still.damping(k, k) > 0) return true;
@@ -68,7 +68,7 @@ std::optional<BasicSystem<S>> with_springs_for_play(const BasicSystem<S>& system
   std::optional<BasicSystem<S>> firm;
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicLaw<S>& law = system.joints[j].law;
-    if (law.constant_diagonal() || starts_free(law)) continue;
+    if (law.ideal_limit() || starts_free(law)) continue;
     const typename S::Vec engaged = law.engaged_stiffness();
     const BasicResponse<S> now = respond(law, state.gap[j], state.gap_rate[j]);
     bool open = false;
@@ -166,7 +166,7 @@ typename S::Vec newton_step(const BasicResponse<S>& now, const typename S::Vec& 
 // Newton on the law's own tangent; nothing in free components.
 template <class S>
 void gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
-  if (law.constant_diagonal()) {
+  if (law.ideal_limit()) {
     gap_of_springs(law, force, rate, gap);
     return;
   }
@@ -413,7 +413,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
     forces.find_gaps(state);
     if (pass == 0 && firm)  // what no gap can carry, as a push in a rope, does not act
       for (int j = 0; j < system.n_joints(); ++j)
-        if (!system.joints[j].law.constant_diagonal()) state.force[j] = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]).force;
+        if (!system.joints[j].law.ideal_limit()) state.force[j] = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]).force;
     forces.move_onto_gaps(state);
   }
   balance_start(system, state);

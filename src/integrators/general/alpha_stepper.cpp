@@ -185,9 +185,8 @@ bool AlphaStepper::step(double t_end) {
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
     if (e <= 1) {
       place_end(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
-      if (const double share = borders_.first_crossing(end_); share < 1 - kBehindBorder && shortened++ < kMostShortened) {
+      if (!borders_.is_short_enough(end_, h, shortened)) {
         ++counters_.rejected;
-        h *= share + 0.5 * kBehindBorder;
         continue;
       }
       finish(h);

@@ -92,9 +92,8 @@ bool Dopri5::step(double t_end) {
       end_.v = v_;
       end_.law_state = z_;
       complete(end_);
-      if (const double share = borders_.first_crossing(end_); share < 1 - kBehindBorder && shortened++ < kMostShortened) {
+      if (!borders_.is_short_enough(end_, h, shortened)) {
         ++counters_.rejected;
-        h *= share + 0.5 * kBehindBorder;
         continue;
       }
       end_.dissipated = begin_.dissipated + 0.5 * h * (begin_.loss_power + end_.loss_power);

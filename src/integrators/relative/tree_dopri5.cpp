@@ -133,9 +133,8 @@ bool TreeDopri5::step(double t_end) {
       end_ = stage_;
       end_.t = t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h;
       write(end_, end_state_);
-      if (const double share = borders_.first_crossing(end_state_); share < 1 - kBehindBorder && shortened++ < kMostShortened) {
+      if (!borders_.is_short_enough(end_state_, h, shortened)) {
         ++counters_.rejected;
-        h *= share + 0.5 * kBehindBorder;
         continue;
       }
       end_state_.dissipated = begin_state_.dissipated + 0.5 * h * (begin_state_.loss_power + end_state_.loss_power);
