@@ -212,17 +212,17 @@ void AlphaStepper::place_end(double t, double h) {
 void AlphaStepper::finish(double h) {
   end_.dissipated = begin_.dissipated + 0.5 * h * (begin_.loss_power + end_.loss_power);
   end_.supplied = begin_.supplied + 0.5 * h * (begin_.supply_power + end_.supply_power);
-  const Vecs before_crossing = end_.a;
-  if (borders_.cross(end_)) {
-    force_evaluator_.complete(end_);
-    borders_.note(end_);
-  }
   std::swap(before_, now_);
   now_.v = v_;
   now_.a = a_;
-  for (std::size_t i = 0; i < a_.size(); ++i) now_.a[i] += end_.a[i] - before_crossing[i];  // what the crossing has changed
   now_.law = end_.a;
   now_.h = h;
+  if (borders_.cross(end_)) {  // goes on as from a start
+    force_evaluator_.complete(end_);
+    borders_.note(end_);
+    now_.a = now_.law = end_.a;
+    now_.h = 0;
+  }
   ++counters_.steps;
 }
 
