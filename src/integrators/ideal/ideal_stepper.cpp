@@ -20,7 +20,7 @@ constexpr double kSuspicious = 0.5;    // of the largest: above it no singular p
 constexpr int kSearch = 48;            // positions tried inside a step
 constexpr double kPassing = 1e-2;      // of the usual step: at singular positions so short a step is taken in any case
 constexpr double kCrossing = 0.1;      // of the tolerance times the usual step: so short a step is taken over a jump of a force
-constexpr double kNear = 1e-4;        // of the usual step: rejected steps that are this short are looked at for jumps
+constexpr double kNearJump = 1e-4;    // of the usual step: rejected steps that are this short are looked at for jumps
 constexpr double kForget = 0.99;      // of the usual step, by one that is shorter
 constexpr double kLeastCrossing = 1e-8;  // of the usual step: shorter ones are lost in the rounding of velocities over the step
 constexpr int kMostReported = 5;
@@ -65,7 +65,7 @@ bool IdealStepper::step(double t_end) {
     const double e = take_stages(h) ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
     const double factor = std::isfinite(e) ? std::clamp(0.9 * std::pow(std::max(e, 1e-10), -0.2), 0.2, 5.0) : 0.1;
     const bool passing = equations_.nearly_singular() && h < kPassing * usual_h_ && std::isfinite(e);
-    const bool jumps = e > 1 && h < kNear * smooth_h_ && std::isfinite(e) && crosses_jump();
+    const bool jumps = e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e) && crosses_jump();
     jump_ahead = jump_ahead || jumps;
     // Over the jump; or up to where nothing but rounding is left of the way to it.
     const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && jump_ahead;
