@@ -20,8 +20,8 @@ constexpr double kSuspicious = 0.5;    // of the largest: above it no singular p
 constexpr int kSearch = 48;            // positions tried inside a step
 constexpr double kPassing = 1e-2;      // of the usual step: at singular positions so short a step is taken in any case
 constexpr double kCrossing = 0.1;      // of the tolerance times the usual step: so short a step is taken over a jump of a force
-constexpr double kNearJump = 1e-4;    // of the usual step: rejected steps that are this short are looked at for jumps
-constexpr double kForget = 0.99;      // of the usual step, by one that is shorter
+constexpr double kNearJump = 1e-4;     // of the usual step: rejected steps that are this short are looked at for jumps
+constexpr double kForget = 0.99;       // of the usual step, by one that is shorter
 constexpr double kLeastCrossing = 1e-8;  // of the usual step: shorter ones are lost in the rounding of velocities over the step
 constexpr int kMostReported = 5;
 
