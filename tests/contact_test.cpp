@@ -242,6 +242,17 @@ TEST(Contact, ARunListsItsTouches) {
   EXPECT_EQ(run.events[0].events[1].what, "let-go");
 }
 
+TEST(Contact, BodiesThatStartInsideEachOtherAreRefused) {
+  Model model = thrown("contact_stiffness = 1e7");
+  model.ground[0].position = {0, 0.5};
+  try {
+    simulate(model);
+    ADD_FAILURE() << "it ran";
+  } catch (const AssemblyError& error) {
+    EXPECT_NE(std::string(error.what()).find("joint edge: its bodies start 0.49 m inside each other"), std::string::npos) << error.what();
+  }
+}
+
 // --- Every method ---
 
 TEST(Contact, EveryMethodTouchesAndLetsGo) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -98,6 +99,31 @@ void demand_closed(const System& system, const Vecs& q, const std::vector<bool>&
                         "\n  Try lengths that close the loop, or angles nearer to the intended position.");
 }
 
+// Bodies that a contact finds deep inside each other are on the wrong side of it: the forces would be those of no machine. A law says how deep by its
+// column "penetration".
+void demand_apart(const System& system, const Vecs& q) {
+  constexpr double kDeep = 1e-2;  // of the mechanism's size
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  const Vecs still(q.size(), S::Vec::Zero());
+  kinematics_at(system, 0, q, still, m, r);
+  const double size = mechanism_size(system, q);
+  constexpr std::array<double, kMostLawStates> untouched{};
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const JointData& joint = system.joints[j];
+    const std::vector<LawColumn> columns = joint.law.columns();
+    const auto found = std::find_if(columns.begin(), columns.end(), [](const LawColumn& column) { return column.name == "penetration"; });
+    if (found == columns.end()) continue;
+    std::vector<double> values;
+    const S::Vec none = S::Vec::Zero();
+    joint.law.observe({0, r[j].gap, none, untouched.data()}, none, values);
+    const double depth = values[static_cast<std::size_t>(found - columns.begin())];
+    if (depth > kDeep * size)
+      throw AssemblyError(fmt::format("joint {}: its bodies start {:.4g} m inside each other.\n  Try the other side of the edge (the first marker's axis turned by 180 deg: it presses along +y), or a start position apart from it.",
+                                      joint.name, depth));
+  }
+}
+
 void assemble_positions(const Model& model, System& system, Vecs& q, std::vector<std::string>& notes) {
   std::vector<bool> open(system.joints.size());
   for (int j = 0; j < system.n_joints(); ++j) open[j] = is_open(model, system, j);
@@ -124,6 +150,7 @@ Assembly assemble_bodies(const Model& model, System& system) {
 
 Assembly assemble(const Model& model, System& system) {
   Assembly out = assemble_bodies(model, system);
+  demand_apart(system, out.state.q);
   start_forces(system, model.simulate.start == Start::kAssembled, out.state);
   return out;
 }
