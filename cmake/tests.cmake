@@ -49,7 +49,7 @@ function(pintle_add_tests)
   endif()
   if(NOT PINTLE_WHOLE_RUN_TESTS)
     foreach(long IN ITEMS
-        "tests/(reference_|relative|published|compare|soft_start|held_gas|force_accuracy|motion_accuracy|live|ideal)[a-z_]*"
+        "tests/(reference_|relative|published|compare|soft_start|held_gas|force_accuracy|motion_accuracy|live|ideal|contact|friction|bearings|state_forces)[a-z_]*"
         "integrators/([a-z]+/)?(allocation|alpha_stepper|dense_output|dopri5|event_crossing|methods|radau_[a-z]*|stage_solver)_test"
         "(check/check_frequencies|check/check_mobility|run/simulate|start/assembly|start/start)_test" "system/system_test"
         "cli/(check|solvers|stopped_run)_test")
