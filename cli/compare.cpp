@@ -95,8 +95,6 @@ std::vector<Variant> read_variants(const CompareOptions& options) {
   return variants;
 }
 
-ProgressReport progress_of(const CompareOptions& options) { return ProgressReport(!options.quiet && is_terminal(STDERR_FILENO) ? ProgressStyle::kLine : ProgressStyle::kNone); }
-
 std::string plot_file(const CompareOptions& options) {
   return options.plot.empty() ? std::filesystem::path(options.models.front()).stem().string() + "-compare.svg" : options.plot;
 }
@@ -113,17 +111,12 @@ void show(const CompareOptions& options, const Plot& picture, const Text& text, 
 ExitCode compare_variants(const CompareOptions& options) {
   const std::vector<Variant> variants = read_variants(options);
   catch_interrupts();
-  ProgressReport report = progress_of(options);
+  ProgressReport report(progress_style(options.quiet));
   std::vector<NamedRun> runs;
   std::vector<std::string> paths;
   std::vector<Outcome> outcomes;
   for (const Variant& variant : variants) {
-    runs.push_back({variant.name, with_file_name(variant.path, [&] {
-      return simulate(variant.model, [&report](const Progress& progress) {
-        report.show(progress);
-        return !interrupted();
-      });
-    })});
+    runs.push_back({variant.name, with_file_name(variant.path, [&] { return simulate(variant.model, report.observer()); })});
     paths.push_back(variant.path);
     outcomes.push_back(runs.back().run.outcome);
     if (interrupted()) break;
@@ -139,13 +132,8 @@ ExitCode compare_equations(CompareOptions options) {
   options.model = options.models.front();
   const Model model = read_model_to_run(options).model;
   catch_interrupts();
-  ProgressReport report = progress_of(options);
-  const Comparison comparison = with_file_name(options.model, [&] {
-    return compare(model, equations_of(options), [&report](const Progress& progress) {
-      report.show(progress);
-      return !interrupted();
-    });
-  });
+  ProgressReport report(progress_style(options.quiet));
+  const Comparison comparison = with_file_name(options.model, [&] { return compare(model, equations_of(options), report.observer()); });
   report.clear();
   const std::string title = model.name.empty() ? options.model : model.name;
   show(options, compare_plot(comparison, title), [&] { return compare_text(comparison, title, wants_colour(STDOUT_FILENO)); }, [&] { return compare_json(comparison, model.name, options.model); });

@@ -56,13 +56,8 @@ DrawnRun make_run(const LifeOptions& options) {
   made.model = read_model_to_run(options).model;
   made.run.stamp = {made.model.name, options.model, "", "", ""};
   catch_interrupts();
-  ProgressReport report(!options.quiet && is_terminal(STDERR_FILENO) ? ProgressStyle::kLine : ProgressStyle::kNone);
-  made.run.trajectory = with_file_name(options.model, [&] {
-    return simulate(made.model, [&report](const Progress& progress) {
-      report.show(progress);
-      return !interrupted();
-    });
-  });
+  ProgressReport report(progress_style(options.quiet));
+  made.run.trajectory = with_file_name(options.model, [&] { return simulate(made.model, report.observer()); });
   report.clear();
   return made;
 }

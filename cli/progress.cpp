@@ -1,10 +1,12 @@
 #include "cli/progress.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/interrupt.h"
 #include "pintle/results.h"
 
 namespace pintle::cli {
@@ -27,6 +29,11 @@ std::string dump(const Json& json) {
 
 }  // namespace
 
+ProgressStyle progress_style(bool quiet, std::string_view asked) {
+  if (asked == "json") return ProgressStyle::kJson;
+  return asked == "auto" && !quiet && is_terminal(STDERR_FILENO) ? ProgressStyle::kLine : ProgressStyle::kNone;
+}
+
 double ProgressReport::speed(const Progress& progress) {
   if (progress.pass != pass_start_.pass) pass_start_ = progress;
   const double seconds = progress.wall_seconds - pass_start_.wall_seconds;
@@ -38,6 +45,13 @@ void ProgressReport::show(const Progress& progress) {
   const double now = speed(progress);
   if (style_ == ProgressStyle::kJson) return print_error(progress_json(progress, now) + "\n");
   line_.show(progress_line(progress, now));
+}
+
+Observer ProgressReport::observer() {
+  return [this](const Progress& progress) {
+    show(progress);
+    return !interrupted();
+  };
 }
 
 void ProgressReport::finish(const Trajectory& trajectory, const std::filesystem::path& folder) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "cli/console.h"
 #include "pintle/simulate.h"
@@ -11,11 +12,16 @@ namespace pintle::cli {
 
 enum class ProgressStyle { kNone, kLine, kJson };
 
+/// As --progress asks; "auto": a line where somebody watches.
+ProgressStyle progress_style(bool quiet, std::string_view asked = "auto");
+
 class ProgressReport {
  public:
   explicit ProgressReport(ProgressStyle style) : style_(style) {}
 
   void show(const Progress& progress);
+  /// Shows how far a run has come, and stops it once the user has interrupted it. The report is to outlive it.
+  Observer observer();
   /// Wipes the line, so that other output may follow.
   void clear() { line_.clear(); }
   /// The last JSON object: how it ended and where the results are.

@@ -46,12 +46,6 @@ struct RunOptions : ModelOptions {
   bool quiet = false, json = false, force = false;
 };
 
-ProgressStyle progress_style(const RunOptions& options) {
-  if (options.progress == "json") return ProgressStyle::kJson;
-  const bool watched = options.progress == "auto" && !options.quiet && is_terminal(STDERR_FILENO);
-  return watched ? ProgressStyle::kLine : ProgressStyle::kNone;
-}
-
 std::filesystem::path run_folder(const RunOptions& options) {
   if (!options.out.empty()) return options.out;
   return std::filesystem::path(options.model).stem().string() + "-run";
@@ -93,12 +87,8 @@ ExitCode run(const RunOptions& options) {
                        all_overrides(options), text};
 
   catch_interrupts();
-  ProgressReport report(progress_style(options));
-  const Observer observer = [&report](const Progress& progress) {
-    report.show(progress);
-    return !interrupted();
-  };
-  const Trajectory trajectory = with_file_name(options.model, [&, &ready = model] { return simulate(ready, observer); });
+  ProgressReport report(progress_style(options.quiet, options.progress));
+  const Trajectory trajectory = with_file_name(options.model, [&, &ready = model] { return simulate(ready, report.observer()); });
   report.clear();
   write_run(trajectory, stamp, folder, overwrite);
   report.finish(trajectory, folder);

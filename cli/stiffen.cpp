@@ -57,12 +57,8 @@ ExitCode stiffen_model(StiffenOptions& options) {
   const auto [text, model] = read_model_to_run(options);
   options.request.damping_ratio = options.damping_ratio;
   catch_interrupts();
-  ProgressReport report(!options.quiet && is_terminal(STDERR_FILENO) ? ProgressStyle::kLine : ProgressStyle::kNone);
-  const Observer observer = [&report](const Progress& progress) {
-    report.show(progress);
-    return !interrupted();
-  };
-  const Stiffening found = with_file_name(options.model, [&, &start = model] { return stiffen(start, options.request, observer); });
+  ProgressReport report(progress_style(options.quiet));
+  const Stiffening found = with_file_name(options.model, [&, &start = model] { return stiffen(start, options.request, report.observer()); });
   report.clear();
   const std::string title = model.name.empty() ? options.model : model.name;
   const std::string plot = options.plot.empty() ? std::filesystem::path(options.model).stem().string() + "-stiffen.svg" : options.plot;

@@ -45,11 +45,6 @@ struct SweepOptions : ModelOptions {
   bool quiet = false, json = false;
 };
 
-ProgressStyle progress_style(const SweepOptions& options) {
-  if (options.progress == "json") return ProgressStyle::kJson;
-  return options.progress == "auto" && !options.quiet && is_terminal(STDERR_FILENO) ? ProgressStyle::kLine : ProgressStyle::kNone;
-}
-
 /// What decides the results, as a command; not how the work is spread, nor where they go.
 std::string command_of(const SweepOptions& options) {
   const SweepRequest& r = options.request;
@@ -123,7 +118,7 @@ ExitCode sweep_model(SweepOptions& options) {
   options.run.out = options.out.empty() ? std::filesystem::path(options.model).stem().string() + "-sweep.h5" : options.out;
   options.run.command = command_of(options);
   catch_interrupts();
-  SweepProgressReport report(progress_style(options));
+  SweepProgressReport report(progress_style(options.quiet, options.progress));
   const auto outcome = run_everywhere(options, [&report](const SweepProgress& progress) {
     report.show(progress);
     return !interrupted();
