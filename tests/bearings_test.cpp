@@ -16,13 +16,9 @@
 namespace pintle {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kG = 9.80665;
+using reference::completed;
 
-Trajectory completed(const Model& model) {
-  Trajectory run = simulate(model);
-  EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
-  return run;
-}
+constexpr double kPi = std::numbers::pi, kG = 9.80665;
 
 // A rotor in one oil film, pressed down by a load, its spin held by a servo.
 struct Rotor {

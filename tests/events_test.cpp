@@ -87,7 +87,7 @@ TEST(Events, ABlockTouchesTurnsAndLetsGoWhenItShould) {
   const Model model = bouncing();
   System system = build_system(model);
   const State start = start_of_run(model, system).state;
-  ASSERT_EQ(system.switching().size(), 2u);
+  ASSERT_EQ(system.switching_functions().size(), 2u);
   const Bounces exact;
   for (const int stages : {3, 5})
     for (const double tolerance : {1e-5, 1e-9}) {

@@ -13,15 +13,9 @@
 namespace pintle {
 namespace {
 
-Trajectory completed(const Model& model) {
-  Trajectory run = simulate(model);
-  EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
-  return run;
-}
-
-double at_end(const Trajectory& run, const std::string& column) { return reference::value(run, run.n_rows() - 1, column); }
-
-double drift(const Trajectory& run) { return run.energy.drift / (run.energy.kinetic_peak + run.energy.dissipated + std::abs(run.energy.supplied)); }
+using reference::at_end;
+using reference::completed;
+using reference::drift;
 
 bool says(const Trajectory& run, const std::string& what) {
   return std::any_of(run.notes.begin(), run.notes.end(), [&what](const std::string& note) { return note.find(what) != std::string::npos; });
@@ -38,34 +32,14 @@ std::pair<double, double> largest_differences(const Trajectory& run, const std::
   return {x, v};
 }
 
-constexpr const char* kPulledMass = R"toml(
-format = 1
-name = "Pulled mass"
-gravity = [0, -9.81]
-[simulate]
-duration = "25 s"
-output_step = "0.5 s"
-[ground.markers]
-o = [0, 0]
-[body.mass]
-mass = 1
-inertia = 0.01
-markers.c = [0, 0]
-[joint.slide]
-type = "prismatic"
-between = ["ground.o", "mass.c"]
-friction = "brown-mcphee"
-friction_coefficient = 0.1
-static_friction = 0.15
-[motor.pull]
-joint = "slide"
-force = "2 N/m*(0.1 m/s*t - slide)"
-)toml";
+Model pulled_mass(const std::vector<std::string>& overrides) {
+  return parse_model(reference::pulled_mass(9.81, "friction = \"brown-mcphee\"\nfriction_coefficient = 0.1\nstatic_friction = 0.15\n"), "pulled.toml", overrides);
+}
 
 TEST(BrownMcPhee, PulledMassSticksAndSlipsAsComputedElsewhere) {
   const auto table = reference::read_table("brown_mcphee_stick_slip");
   for (const double tolerance : {1e-5, 1e-7}) {
-    Model model = parse_model(kPulledMass, "pulled.toml", {"joint.slide.transition_speed=0.001"});
+    Model model = pulled_mass({"joint.slide.transition_speed=0.001"});
     model.simulate.tolerance = tolerance;
     const Trajectory run = completed(model);
     const auto [x, v] = largest_differences(run, "mass", table, "v");
@@ -100,7 +74,7 @@ struct StickSlip {
 TEST(Coulomb, PulledMassSticksAndSlipsAsInClosedForm) {
   const StickSlip truth;
   for (const double tolerance : {1e-5, 1e-7}) {
-    Model model = parse_model(kPulledMass, "pulled.toml", {"joint.slide.friction=\"coulomb\"", "simulate.output_step=0.1"});
+    Model model = pulled_mass({"joint.slide.friction=\"coulomb\"", "simulate.output_step=0.1"});
     model.simulate.tolerance = tolerance;
     const Trajectory run = completed(model);
     for (std::size_t i = 0; i < run.n_rows(); ++i) {

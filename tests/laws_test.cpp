@@ -18,6 +18,10 @@
 namespace pintle {
 namespace {
 
+using reference::at_end;
+using reference::completed;
+using reference::drift;
+
 // A clutch that slips: two states, a border, full matrices that are not symmetric.
 struct ClutchLaw {
   static constexpr std::string_view kWord = "clutch";
@@ -71,53 +75,21 @@ void make_known() {
   static_cast<void>(done);
 }
 
-Trajectory completed(const Model& model) {
-  Trajectory run = simulate(model);
-  EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
-  return run;
-}
-
-double at_end(const Trajectory& run, const std::string& column) {
-  const int c = run.column(column);
-  if (c < 0) throw std::logic_error("no column " + column);
-  return run.at(run.n_rows() - 1, c);
-}
-
-double drift(const Trajectory& run) { return run.energy.drift / (run.energy.kinetic_peak + run.energy.dissipated + std::abs(run.energy.supplied)); }
-
-constexpr const char* kPulledMass = R"toml(
-format = 1
-name = "Pulled mass"
-gravity = [0, -1]
-[simulate]
-duration = "25 s"
-output_step = "0.5 s"
-[ground.markers]
-o = [0, 0]
-[body.mass]
-mass = 1
-inertia = 0.01
-markers.c = [0, 0]
-[joint.slide]
-type = "prismatic"
-between = ["ground.o", "mass.c"]
-friction = "lugre"
+// The parameters of the paper, of a load of 1 N.
+constexpr const char* kBristles = R"toml(friction = "lugre"
 friction_coefficient = 1
 static_friction = 1.5
 stribeck_speed = "0.001 m/s"
 bristle_stiffness = 1e5
 bristle_damping = "sqrt(1e5) * 1 s/m"
 viscous_friction = "0.4 s/m"
-[motor.pull]
-joint = "slide"
-force = "2 N/m*(0.1 m/s*t - slide)"
 )toml";
 
-// Canudas de Wit, Olsson, Astrom, Lischinsky 1995; the table is of a Radau code at 1e-11. A load of 1 N.
+// Canudas de Wit, Olsson, Astrom, Lischinsky 1995; the table is of a Radau code at 1e-11.
 TEST(LuGre, PulledMassSticksAndSlipsAsPublished) {
   const auto table = reference::read_table("lugre_stick_slip");
   for (const double tolerance : {1e-5, 1e-7}) {
-    Model model = parse_model(kPulledMass, "pulled.toml");
+    Model model = parse_model(reference::pulled_mass(1, kBristles), "pulled.toml");
     model.simulate.tolerance = tolerance;
     const Trajectory run = completed(model);
     ASSERT_EQ(run.n_rows(), table.rows.size());

@@ -87,6 +87,38 @@ inline double value(const Trajectory& run, std::size_t row, const std::string& c
   return run.at(row, static_cast<std::size_t>(c));
 }
 
+inline double at_end(const Trajectory& run, const std::string& column) { return value(run, run.n_rows() - 1, column); }
+
+inline Trajectory completed(const Model& model) {
+  Trajectory run = simulate(model);
+  EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+  return run;
+}
+
+/// Of the energy account, over the energies that a run has moved.
+inline double drift(const Trajectory& run) { return run.energy.drift / (run.energy.kinetic_peak + run.energy.dissipated + std::abs(run.energy.supplied)); }
+
+/// A mass of 1 kg on a slide, pulled by a spring of 2 N/m whose far end moves at 0.1 m/s; it sticks and slips by the friction that `friction` says.
+inline std::string pulled_mass(double gravity, const std::string& friction) {
+  return "format = 1\ngravity = [0, " + std::to_string(-gravity) + "]" + R"toml(
+[simulate]
+duration = "25 s"
+output_step = "0.5 s"
+[ground.markers]
+o = [0, 0]
+[body.mass]
+mass = 1
+inertia = 0.01
+markers.c = [0, 0]
+[motor.pull]
+joint = "slide"
+force = "2 N/m*(0.1 m/s*t - slide)"
+[joint.slide]
+type = "prismatic"
+between = ["ground.o", "mass.c"]
+)toml" + friction;
+}
+
 /// The row of time t.
 inline std::size_t row_at(const Trajectory& run, double t) {
   for (std::size_t i = 0; i < run.n_rows(); ++i)

@@ -7,6 +7,7 @@
 namespace pintle {
 namespace {
 
+using reference::completed;
 using reference::mechanism;
 using reference::value;
 
@@ -22,12 +23,6 @@ std::vector<std::string> all_but(const Model& model, const std::string& opened) 
   for (const Joint& joint : model.joints)
     if (joint.name != opened) names.push_back(joint.name);
   return names;
-}
-
-Trajectory completed(const Model& model) {
-  Trajectory run = simulate(model);
-  EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
-  return run;
 }
 
 /// Largest differences of two runs of the same rows: of the bodies' columns, and of each joint's force and moment over

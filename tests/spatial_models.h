@@ -149,7 +149,7 @@ inline SpatialSystem in_space(const System& planar) {
   for (const BodyData& b : planar.bodies)
     system.bodies.push_back(spatial_body(b.name, b.mass[0], Spatial::Point(0.4, 0.7, 1) * b.mass[2], {b.gravity[0] / b.mass[0], b.gravity[1] / b.mass[0], 0}));
   for (const JointData& j : planar.joints) {
-    const LinearLaw& law = *j.law.constant_diagonal();
+    const LinearLaw& law = *j.law.as_linear();
     system.joints.push_back(spatial_joint(j.name, "revolute", j.at.a, in_space(j.at.F), j.at.b, in_space(j.at.M), {law.k[0], law.c[0], law.k[0], law.c[0]}));
   }
   system.finish();
