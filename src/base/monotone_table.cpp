@@ -54,7 +54,7 @@ void MonotoneTable::limit_slopes() {
   }
 }
 
-std::size_t MonotoneTable::piece_of(double x) const {
+std::size_t MonotoneTable::interval_of(double x) const {
   const auto above = std::upper_bound(x_.begin() + 1, x_.end() - 1, x);
   return static_cast<std::size_t>(above - x_.begin()) - 1;
 }
@@ -63,7 +63,7 @@ double MonotoneTable::value(double x) const {
   if (odd_ && x < 0) return -value(-x);
   if (x <= x_.front()) return y_.front() + slope_.front() * (x - x_.front());
   if (x >= x_.back()) return y_.back() + slope_.back() * (x - x_.back());
-  const std::size_t i = piece_of(x);
+  const std::size_t i = interval_of(x);
   const double h = x_[i + 1] - x_[i], s = (x - x_[i]) / h, r = 1 - s;
   return y_[i] * (1 + 2 * s) * r * r + y_[i + 1] * (1 + 2 * r) * s * s + h * s * r * (slope_[i] * r - slope_[i + 1] * s);
 }
@@ -72,7 +72,7 @@ double MonotoneTable::slope(double x) const {
   if (odd_ && x < 0) return slope(-x);
   if (x <= x_.front()) return slope_.front();
   if (x >= x_.back()) return slope_.back();
-  const std::size_t i = piece_of(x);
+  const std::size_t i = interval_of(x);
   const double h = x_[i + 1] - x_[i], s = (x - x_[i]) / h, r = 1 - s;
   return 6 * s * r * (y_[i + 1] - y_[i]) / h + slope_[i] * r * (1 - 3 * s) + slope_[i + 1] * s * (3 * s - 2);
 }
@@ -80,7 +80,7 @@ double MonotoneTable::slope(double x) const {
 double MonotoneTable::integral_from_start(double x) const {
   if (x <= x_.front()) return (x - x_.front()) * (y_.front() + 0.5 * slope_.front() * (x - x_.front()));
   if (x >= x_.back()) return integral_.back() + (x - x_.back()) * (y_.back() + 0.5 * slope_.back() * (x - x_.back()));
-  const std::size_t i = piece_of(x);
+  const std::size_t i = interval_of(x);
   const double h = x_[i + 1] - x_[i], s = (x - x_[i]) / h, s2 = s * s, s3 = s2 * s, s4 = s3 * s;
   return integral_[i] + h * (y_[i] * (s - s3 + 0.5 * s4) + y_[i + 1] * (s3 - 0.5 * s4)) +
          h * h * (slope_[i] * (0.5 * s2 - 2 * s3 / 3 + 0.25 * s4) + slope_[i + 1] * (0.25 * s4 - s3 / 3));

@@ -27,7 +27,7 @@ class MonotoneTable {
  private:
   void find_slopes();
   void limit_slopes();
-  std::size_t piece_of(double x) const;
+  std::size_t interval_of(double x) const;
   double integral_from_start(double x) const;
 
   bool odd_ = false;

@@ -149,7 +149,7 @@ bool Batch::is_like_base(const System& variant) const {
   for (std::size_t i = 0; i < variant.bodies.size(); ++i)
     for (int k = 0; k < 3; ++k) heavier = std::max(heavier, variant.bodies[i].mass[k] / plan_.base.bodies[i].mass[k]);
   for (std::size_t j = 0; j < variant.joints.size(); ++j) {
-    const auto &law = *variant.joints[j].law.constant_diagonal(), &base = *plan_.base.joints[j].law.constant_diagonal();
+    const auto &law = *variant.joints[j].law.as_linear(), &base = *plan_.base.joints[j].law.as_linear();
     if (variant.joints[j].at.a != plan_.base.joints[j].at.a || variant.joints[j].at.b != plan_.base.joints[j].at.b) return false;
     for (int k = 0; k < 3; ++k) {
       if ((law.k[k] > 0) != (base.k[k] > 0)) return false;

@@ -21,7 +21,7 @@ void put_vec(int lane, const Planar::Vec& from, VariantVec& to) {
 
 bool BatchMechanism::accepts(const System& system) {
   return !system.has_branches() && std::all_of(system.joints.begin(), system.joints.end(), [](const JointData& joint) {
-    return joint.law.constant_diagonal() && std::holds_alternative<Selection>(joint.displacement);
+    return joint.law.as_linear() && std::holds_alternative<Selection>(joint.displacement);
   });
 }
 
@@ -52,7 +52,7 @@ void BatchMechanism::put(int lane, const System& variant) {
   }
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const JointData& joint = variant.joints[j];
-    const LinearLaw& law = *joint.law.constant_diagonal();
+    const LinearLaw& law = *joint.law.as_linear();
     put_frame(lane, joint.at.F, joints[j].F);
     put_frame(lane, joint.at.M, joints[j].M);
     put_vec(lane, std::get<Selection>(joint.displacement).offset, joints[j].offset);

@@ -158,7 +158,8 @@ class Passes {
     stages_before_ = choice_.stages;
     share_ = alike_ || out_.of_motion ? 1.0 : share_of_finer(fine_tolerance_, before);
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
-    double apart = out_.of_motion ? out_.motion_error : largest_of(relative_differences(system_, difference_));
+    relative_difference_ = relative_differences(system_, difference_);
+    const double apart = out_.of_motion ? out_.motion_error : largest_of(relative_difference_);
     last_growth_ = growth_;
     growth_ = {};
     if (apart > kPromised * settings_.tolerance)
@@ -222,13 +223,12 @@ class Passes {
     fill_events();
     out_.t_end = last_.t;
     out_.notes.insert(out_.notes.end(), last_.remarks.begin(), last_.remarks.end());
-    std::vector<double> relative_difference = relative_differences(system_, difference_);
-    const auto worst = std::max_element(relative_difference.begin(), relative_difference.end());
-    const BasicJointData<S>* worst_joint = worst == relative_difference.end() ? nullptr : &system_.joints[static_cast<std::size_t>(worst - relative_difference.begin())];
+    const auto worst = std::max_element(relative_difference_.begin(), relative_difference_.end());
+    const BasicJointData<S>* worst_joint = worst == relative_difference_.end() ? nullptr : &system_.joints[static_cast<std::size_t>(worst - relative_difference_.begin())];
     judge(worst_joint);
     const bool chaotic = out_.outcome == Outcome::kHorizon;
     for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
-    if (!difference_.force.empty() && !chaotic) state_errors(system_, difference_, share_, least_error(), out_.joints);
+    if (!difference_.force.empty() && !chaotic) state_errors(system_, difference_, relative_difference_, share_, least_error(), out_.joints);
     if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, chaos_, out_);
   }
 
@@ -279,6 +279,7 @@ class Passes {
   double fine_tolerance_ = 0, coarse_tolerance_ = 0;
   // Of the last two passes.
   PassDifference difference_;
+  std::vector<double> relative_difference_;  // of each joint
   double share_ = 1, error_ = 0;
   bool alike_ = false;             // their steps
   int stages_before_ = 0;          // of the coarser one

@@ -152,8 +152,7 @@ double share_of_finer(double fine_tolerance, double coarse_tolerance) {
 }
 
 template <class S>
-void state_errors(const BasicSystem<S>& system, const PassDifference& difference, double share, double least, std::vector<LoadSummary>& joints) {
-  const std::vector<double> relative = relative_differences(system, difference);
+void state_errors(const BasicSystem<S>& system, const PassDifference& difference, const std::vector<double>& relative, double share, double least, std::vector<LoadSummary>& joints) {
   for (std::size_t j = 0, row = 0; j < system.joints.size(); ++j) {
     if (system.joints[j].servo >= 0) continue;
     LoadSummary& joint = joints[row++];
@@ -175,7 +174,7 @@ template double motion_difference(const BasicSystem<Spatial>& system, const Basi
 template DifferenceCurve force_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
 template DifferenceCurve motion_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
 template std::vector<double> force_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double tolerance);
-template void state_errors(const BasicSystem<Planar>& system, const PassDifference& difference, double share, double least, std::vector<LoadSummary>& joints);
-template void state_errors(const BasicSystem<Spatial>& system, const PassDifference& difference, double share, double least, std::vector<LoadSummary>& joints);
+template void state_errors(const BasicSystem<Planar>& system, const PassDifference& difference, const std::vector<double>& relative, double share, double least, std::vector<LoadSummary>& joints);
+template void state_errors(const BasicSystem<Spatial>& system, const PassDifference& difference, const std::vector<double>& relative, double share, double least, std::vector<LoadSummary>& joints);
 
 }  // namespace pintle

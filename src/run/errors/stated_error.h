@@ -36,9 +36,10 @@ inline constexpr double kErrorPower = 0.8;
 /// theory/time Eq. (6.2).
 double share_of_finer(double fine_tolerance, double coarse_tolerance);
 
-/// States the errors of the joints that are no servos: `share` of the difference, and at least `least` of the peak. theory/time Eq. (6.1).
+/// States the errors of the joints that are no servos: `share` of the difference (and of the relative one), and at least `least` of the peak.
+/// theory/time Eq. (6.1).
 template <class S>
-void state_errors(const BasicSystem<S>& system, const PassDifference& difference, double share, double least, std::vector<LoadSummary>& joints);
+void state_errors(const BasicSystem<S>& system, const PassDifference& difference, const std::vector<double>& relative, double share, double least, std::vector<LoadSummary>& joints);
 
 /// A relative difference [-] as a function of time [s].
 struct DifferenceCurve {
