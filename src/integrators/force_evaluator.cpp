@@ -4,15 +4,12 @@ namespace pintle {
 
 template <class S>
 void BasicForceEvaluator<S>::complete(BasicState<S>& state) {
-  system_.motions(state.q, state.v, m_);
-  system_.joint_kinematics(state.t, m_, r_);
+  find_gaps(state);
   const ExternalWork work = system_.external_work(state.t, state.q, m_, state.sliding);
   state.supply_power = work.supplied;
   state.loss_power = work.lost;
   for (int j = 0; j < system_.n_joints(); ++j) {
     const BasicJointData<S>& joint = system_.joints[j];
-    state.gap[j] = r_[j].gap;
-    state.gap_rate[j] = r_[j].rate;
     const BasicLawPoint<S> at = law_point(system_, j, state);
     state.force[j] = joint.law.force(at);
     if (joint.servo >= 0) state.supply_power += state.force[j][joint.servo] * system_.pose(joint.at, m_).rate[joint.servo];
@@ -23,13 +20,18 @@ void BasicForceEvaluator<S>::complete(BasicState<S>& state) {
 }
 
 template <class S>
-void BasicForceEvaluator<S>::find_roots(BasicState<S>& state, double* value) {
+void BasicForceEvaluator<S>::find_gaps(BasicState<S>& state) {
   system_.motions(state.q, state.v, m_);
   system_.joint_kinematics(state.t, m_, r_);
   for (int j = 0; j < system_.n_joints(); ++j) {
     state.gap[j] = r_[j].gap;
     state.gap_rate[j] = r_[j].rate;
   }
+}
+
+template <class S>
+void BasicForceEvaluator<S>::find_roots(BasicState<S>& state, double* value) {
+  find_gaps(state);
   system_.find_switching(state.t, m_, state.gap, state.gap_rate, state.law_state, state.sliding, value);
 }
 

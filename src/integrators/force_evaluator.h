@@ -17,6 +17,8 @@ class BasicForceEvaluator {
   void find_roots(BasicState<S>& state, double* value);
 
  private:
+  void find_gaps(BasicState<S>& state);
+
   const BasicSystem<S>& system_;
   std::vector<typename S::Motion> m_;
   std::vector<BasicJointKinematics<S>> r_;

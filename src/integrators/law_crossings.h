@@ -19,13 +19,12 @@ struct LawCrossing {
 /// Appends what lies between the values of the switching functions `before` and `after`, of which the latter are those of `state`; forces and the laws'
 /// states there are already the new ones. Beyond kMostCrossings nothing is kept.
 template <class S>
-void note_crossings(const BasicSystem<S>& system, const BasicState<S>& state, const double* before, const double* after, std::vector<LawCrossing>& crossings) {
+void record_crossings(const BasicSystem<S>& system, const BasicState<S>& state, const double* before, const double* after, std::vector<LawCrossing>& crossings) {
   constexpr std::size_t kMostCrossings = 100000;
-  for (std::size_t f = 0; f < system.switching().size(); ++f) {
-    const SwitchingFunction& function = system.switching()[f];
-    if (function.owner != SwitchingFunction::Owner::kLaw || !function.is_event(before[f], after[f]) || crossings.size() >= kMostCrossings) continue;
+  for (std::size_t f = 0; f < system.switching_functions().size(); ++f) {
+    const SwitchingFunction& function = system.switching_functions()[f];
+    if (!function.is_crossing(before[f], after[f]) || crossings.size() >= kMostCrossings) continue;
     const BasicLaw<S>& law = system.joints[static_cast<std::size_t>(function.index)].law;
-    if (law.parts()[static_cast<std::size_t>(function.part)]->n_states() == 0) continue;
     LawCrossing& crossing = (crossings.push_back({state.t, function.index, function.part, function.border, after[f] > 0, {}}), crossings.back());
     law.observe(law_point(system, function.index, state), state.force[static_cast<std::size_t>(function.index)], crossing.seen);
   }

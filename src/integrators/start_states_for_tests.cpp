@@ -67,7 +67,7 @@ State loaded_start(const Model& model, const System& system) {
     system.motions(state.q, state.v, m);
     for (int r = 0; r < f.size(); ++r) {
       const auto [j, k] = e.rows[r];
-      misfit[r] = -f[r] / system.joints[j].law.constant_diagonal()->k[k] - system.kinematics(j, state.t, m).gap[k];
+      misfit[r] = -f[r] / system.joints[j].law.as_linear()->k[k] - system.kinematics(j, state.t, m).gap[k];
     }
     const Eigen::MatrixXd MG = e.mass.cwiseInverse().asDiagonal() * e.G.transpose();
     const Eigen::VectorXd move = MG * (e.G * MG).ldlt().solve(misfit);

@@ -14,8 +14,6 @@
 namespace pintle {
 namespace {
 
-constexpr double kAny = -std::numeric_limits<double>::infinity();  // a smallest value that allows all
-
 constexpr std::array<KeyInfo, 4> kLinearKeys{{
     {.key = "stiffness", .unit = "N/m", .fallback = 1e8, .minimum_exclusive = true, .per_component = true,
      .meaning = "force per forbidden displacement"},
@@ -57,14 +55,6 @@ constexpr std::array<KeyInfo, 6> kMaxwellKeys{{
 }};
 
 constexpr std::array<std::string_view, 4> kPoseJoints{"revolute", "prismatic", "fixed", "slot"};
-constexpr std::array<std::string_view, 7> kTwoSided{"revolute", "prismatic", "fixed", "slot", "rod", "gear", "rack"};
-
-// A rope's spring and damper pull only.
-void make_linear(const LawSetting& at, Law& law) {
-  const LinearLaw linear{at.by_component("stiffness", "angular_stiffness"), at.by_component("damping", "angular_damping")};
-  if (at.one_sided) law.add(std::make_unique<LawPartOf<TensionLaw>>(TensionLaw{linear.k[0], linear.c[0]}));
-  else law.set_linear(linear);
-}
 
 Planar::Mat matrix(const LawSetting& at, const char* linear, const char* angular, const std::array<const char*, 3>& beside) {
   Planar::Mat m = at.by_component(linear, angular).asDiagonal();
@@ -157,6 +147,13 @@ std::vector<LawInfo>& laws() {
 }
 
 }  // namespace
+
+// A rope's spring and damper pull only.
+void make_linear(const LawSetting& at, Law& law) {
+  const LinearLaw linear{at.by_component("stiffness", "angular_stiffness"), at.by_component("damping", "angular_damping")};
+  if (at.one_sided) law.add(std::make_unique<LawPartOf<TensionLaw>>(TensionLaw{linear.k[0], linear.c[0]}));
+  else law.set_linear(linear);
+}
 
 double LawSetting::number(std::string_view key, std::size_t place) const {
   const std::vector<double> stated = list(key);

@@ -1,11 +1,21 @@
 // The parts that the catalog of laws is put together from, each a file.
 #pragma once
 
+#include <array>
+#include <limits>
+#include <string_view>
 #include <vector>
 
 #include "laws/catalog.h"
 
 namespace pintle {
+
+inline constexpr double kAny = -std::numeric_limits<double>::infinity();  // a smallest value that allows all
+/// Joint types whose laws push as well as pull.
+inline constexpr std::array<std::string_view, 7> kTwoSided{"revolute", "prismatic", "fixed", "slot", "rod", "gear", "rack"};
+
+/// A spring and a damper in each forbidden component, from "stiffness", "damping" and their angular twins.
+void make_linear(const LawSetting& at, Law& law);
 
 /// Dry friction.
 void add_friction_laws(std::vector<LawInfo>& all);

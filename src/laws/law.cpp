@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace pintle {
@@ -115,6 +116,7 @@ void BasicLaw<S>::visit_parts(const BasicLawPoint<S>& at, const Visit& visit) co
   for (const auto& part : parts_) {
     std::copy(std::begin(so_far.force), std::end(so_far.force), in.before);
     visit(*part, in);
+    if (&part == &parts_.back()) return;
     one.clear();
     part->evaluate(in, one);
     for (int k = 0; k < S::kDof; ++k) so_far.force[k] += one.force[k];
@@ -145,19 +147,13 @@ void BasicLaw<S>::borders(const BasicLawPoint<S>& at, double* value) const {
 }
 
 template <class S>
-bool BasicLaw<S>::cross(const BasicLawPoint<S>& at, const double* before, const double* after, double* state, double& lost) const {
+void BasicLaw<S>::cross(const BasicLawPoint<S>& at, int part, int border, double* state, double& lost) const {
   const double stored = energy(at);
-  bool crossed = false;
-  visit_parts({at.t, at.gap, at.rate, state}, [&](const Part& part, const LawInput<double, S::kDof>& in) {
-    for (int i = 0; i < part.n_borders(); ++i, ++before, ++after) {
-      if (part.n_states() == 0 || !is_event(part.border_direction(i), *before, *after)) continue;
-      part.cross(i, in, state);
-      crossed = true;
-    }
-    state += part.n_states();
+  visit_parts(at, [&, crossed = parts_[static_cast<std::size_t>(part)].get()](const Part& visited, const LawInput<double, S::kDof>& in) {
+    if (&visited == crossed) visited.cross(border, in, state);
+    state += visited.n_states();
   });
-  if (crossed) lost += stored - energy(at);
-  return crossed;
+  lost += stored - energy(at);
 }
 
 template <class S>
@@ -171,6 +167,11 @@ void BasicLaw<S>::rest(const BasicLawPoint<S>& at, double* state) const {
 template <class S>
 bool BasicLaw<S>::rubs() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return !part->holds(); });
+}
+
+template <class S>
+bool BasicLaw<S>::starts_free() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->starts_free(); });
 }
 
 template <class S>
@@ -221,6 +222,13 @@ double BasicLaw<S>::lever() const {
   double lever = 0;
   for (const auto& part : parts_) lever = std::max(lever, part->lever());
   return lever;
+}
+
+template <class S>
+double BasicLaw<S>::penetration(const typename S::Vec& gap) const {
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (const auto& part : parts_) deepest = std::max(deepest, part->penetration(gap));
+  return deepest;
 }
 
 template <class S>

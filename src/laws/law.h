@@ -56,7 +56,7 @@ class BasicLaw {
   void add(std::unique_ptr<Part> part);
 
   /// The springs and dampers, where there is nothing else: constant tangents, one component apart from the other. Otherwise null.
-  const Linear* constant_diagonal() const { return parts_.empty() ? &linear_ : nullptr; }
+  const Linear* as_linear() const { return parts_.empty() ? &linear_ : nullptr; }
   int n_states() const { return n_states_; }
   int n_borders() const;
   const std::vector<std::unique_ptr<Part>>& parts() const { return parts_; }
@@ -91,9 +91,9 @@ class BasicLaw {
   void linearize(const Point& at, Tangents& out) const;
   /// The signed functions of all borders, n_borders() numbers.
   void borders(const BasicLawPoint<S>& at, double* value) const;
-  /// Lets the parts set those of their states that change at borders only, where the values of these were `before` and are `after`; `state` is that
-  /// of `at`. Whether one of a part with states has been crossed. What the law stores less then is added to `lost` [J].
-  bool cross(const Point& at, const double* before, const double* after, double* state, double& lost) const;
+  /// Lets the part set those of its states that change where its border has just been crossed; `state` is that of `at`. What the law stores
+  /// less then is added to `lost` [J].
+  void cross(const Point& at, int part, int border, double* state, double& lost) const;
 
   /// The states of a joint that has long been at this gap and moves at this rate.
   void rest(const Point& at, double* state) const;
@@ -103,10 +103,14 @@ class BasicLaw {
   bool rubs() const;
   /// Whether ideal joints are its limit: springs and dampers hold it, and nothing else does.
   bool ideal_limit() const;
+  /// Whether a start leaves the joint where the assembly has put it: LawPart::starts_free.
+  bool starts_free() const;
   /// Stiffness of what holds, one-sided laws as if they acted.
   Vec engaged_stiffness() const;
   /// The largest lever of its parts [m]; 0: it makes no couple of its own force.
   double lever() const;
+  /// The deepest of its parts': LawPart::penetration.
+  double penetration(const Vec& gap) const;
   /// Moves a gap into the range in which the law holds.
   void engage(Vec& gap) const {
     for (const auto& part : parts_) part->engage(gap);
@@ -132,7 +136,7 @@ using Law = BasicLaw<Planar>;
 /// What keeps a joint together, at rest: where no states are at hand (assembly, starts, checks).
 template <class S>
 BasicResponse<S> respond(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate) {
-  if (const auto* linear = law.constant_diagonal()) return linear->respond(gap, rate);
+  if (const auto* linear = law.as_linear()) return linear->respond(gap, rate);
   return law.holding(gap, rate);
 }
 

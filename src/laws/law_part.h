@@ -1,6 +1,7 @@
 // One of the force laws that act in a joint side by side. A new law is a plain struct that satisfies what LawPartOf asks of it.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -19,9 +20,6 @@ struct LawColumn {
   std::string unit;     // "N*m"
   std::string meaning;  // one line
 };
-
-/// Whether a border that matters in this direction (LawPart::border_direction) is crossed on the way from one value to the other.
-inline bool is_event(int direction, double from, double to) { return (from > 0) != (to > 0) && (direction == 0 || (direction > 0) == (to > 0)); }
 
 template <class S>
 class BasicLawPart {
@@ -54,12 +52,16 @@ class BasicLawPart {
   virtual void cross(int i, const Input<double>& in, double* state) const = 0;
   /// Whether it keeps the joint together. What does not (friction) is left out where gaps that carry loads are looked for.
   virtual bool holds() const = 0;
+  /// Whether a start leaves its joint where the assembly has put it, loaded or not: a rope may be slack there, a pin with clearance apart from its bush.
+  virtual bool starts_free() const = 0;
   /// Stiffness in each component where the law acts; a rope that is slack is looked at as if it were taut.
   virtual Vec engaged_stiffness() const = 0;
   /// What the joint's own force is multiplied by to measure couples that the law makes of it [m]: the radius of a pin that rubs.
   virtual double lever() const = 0;
   /// Moves a gap into the range in which the law acts.
   virtual void engage(Vec& gap) const = 0;
+  /// Depth by which the bodies overlap at this gap [m], negative while apart; of laws without contact minus infinity.
+  virtual double penetration(const Vec& gap) const = 0;
   virtual std::span<const LawColumn> columns() const = 0;
   /// One value per column, where the whole joint has this force on its second body.
   virtual void observe(const Input<double>& in, const Vec& force, double* value) const = 0;
@@ -68,7 +70,7 @@ using LawPart = BasicLawPart<Planar>;
 
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
 /// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), border_directions() (one +1, -1 or 0
-/// each) cross() and border_name(), kHolds = false, columns() with observe(), engage(), lever().
+/// each) cross() and border_name(), kHolds = false, kStartsFree = true, columns() with observe(), engage(), lever(), penetration().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
  public:
@@ -115,6 +117,10 @@ class LawPartOf final : public BasicLawPart<S> {
     if constexpr (requires { P::kHolds; }) return P::kHolds;
     else return true;
   }
+  bool starts_free() const override {
+    if constexpr (requires { P::kStartsFree; }) return P::kStartsFree;
+    else return false;
+  }
   Vec engaged_stiffness() const override {
     if constexpr (requires { law_.engaged_stiffness(); }) return law_.engaged_stiffness();
     else return Vec::Zero();
@@ -125,6 +131,10 @@ class LawPartOf final : public BasicLawPart<S> {
   }
   void engage(Vec& gap) const override {
     if constexpr (requires { law_.engage(gap); }) law_.engage(gap);
+  }
+  double penetration(const Vec& gap) const override {
+    if constexpr (requires { law_.penetration(gap); }) return law_.penetration(gap);
+    else return -std::numeric_limits<double>::infinity();
   }
   std::span<const LawColumn> columns() const override {
     if constexpr (requires { law_.columns(); }) return law_.columns();

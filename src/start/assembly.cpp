@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -99,8 +98,7 @@ void demand_closed(const System& system, const Vecs& q, const std::vector<bool>&
                         "\n  Try lengths that close the loop, or angles nearer to the intended position.");
 }
 
-// Bodies that a contact finds deep inside each other are on the wrong side of it: the forces would be those of no machine. A law says how deep by its
-// column "penetration".
+// Bodies that a contact finds deep inside each other are on the wrong side of it: the forces would be those of no machine.
 void demand_apart(const System& system, const Vecs& q) {
   constexpr double kDeep = 1e-2;  // of the mechanism's size
   std::vector<S::Motion> m;
@@ -108,16 +106,9 @@ void demand_apart(const System& system, const Vecs& q) {
   const Vecs still(q.size(), S::Vec::Zero());
   kinematics_at(system, 0, q, still, m, r);
   const double size = mechanism_size(system, q);
-  constexpr std::array<double, kMostLawStates> untouched{};
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& joint = system.joints[j];
-    const std::vector<LawColumn> columns = joint.law.columns();
-    const auto found = std::find_if(columns.begin(), columns.end(), [](const LawColumn& column) { return column.name == "penetration"; });
-    if (found == columns.end()) continue;
-    std::vector<double> values;
-    const S::Vec none = S::Vec::Zero();
-    joint.law.observe({0, r[j].gap, none, untouched.data()}, none, values);
-    const double depth = values[static_cast<std::size_t>(found - columns.begin())];
+    const double depth = joint.law.penetration(r[j].gap);
     if (depth > kDeep * size)
       throw AssemblyError(fmt::format("joint {}: its bodies start {:.4g} m inside each other.\n  Try the other side of the edge (the first marker's axis turned by 180 deg: it presses along +y), or a start position apart from it.",
                                       joint.name, depth));

@@ -53,22 +53,13 @@ bool drags(const BasicJointData<S>& joint) {
   return false;
 }
 
-// Whether a law starts where the assembly has put its joint, loaded or not. One that keeps how its contact began (no static gap tells that) flies from there;
-// one that acts on one side only (and moves gaps to it) may be slack there, as a rope.
-template <class S>
-bool starts_free(const BasicLaw<S>& law) {
-  typename S::Vec gap = -S::Vec::Ones();
-  law.engage(gap);
-  return gap != -S::Vec::Ones() || std::any_of(law.parts().begin(), law.parts().end(), [](const auto& part) { return part->holds() && part->n_states() > 0 && part->n_borders() > 0; });
-}
-
 // The same system with springs in place of laws that do not answer at all where the joints stand, as in their play; none when all do.
 template <class S>
 std::optional<BasicSystem<S>> with_springs_for_play(const BasicSystem<S>& system, const BasicState<S>& state) {
   std::optional<BasicSystem<S>> firm;
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicLaw<S>& law = system.joints[j].law;
-    if (law.ideal_limit() || starts_free(law)) continue;
+    if (law.ideal_limit() || law.starts_free()) continue;
     const typename S::Vec engaged = law.engaged_stiffness();
     const BasicResponse<S> now = respond(law, state.gap[j], state.gap_rate[j]);
     bool open = false;
@@ -124,7 +115,7 @@ void gap_of_springs(const BasicLaw<S>& law, const typename S::Vec& force, const 
 // the force, until there is as much of it.
 template <class S>
 void begin_where_it_resists(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
-  if (starts_free(law)) return;
+  if (law.starts_free()) return;
   const typename S::Vec engaged = law.engaged_stiffness();
   const BasicResponse<S> now = respond(law, gap, rate);
   typename S::Vec out = S::Vec::Zero(), wanted = S::Vec::Zero();

@@ -1,5 +1,5 @@
-// Time scales of the joints' own dynamics compared with an interval: which gaps follow the slow manifold, which are overdamped
-// (overdamped), which oscillate with the motion. theory/assembly section 5.
+// Time scales of the joints' own dynamics compared with an interval: which gaps follow the slow manifold, which are
+// overdamped, which oscillate with the motion. theory/assembly section 5.
 #pragma once
 
 #include <string>

@@ -110,12 +110,12 @@ TEST(BuildSystem, ServosStandAfterTheJointsInTheMotorsOrder) {
 TEST(BuildSystem, DampingAndStiffnessPerComponent) {
   Model model = model_of("prismatic");
   model.joints[0].law.values = {{"stiffness", {7e5}}, {"damping", {11}}, {"angular_stiffness", {3e4}}, {"angular_damping", {5}}};
-  const LinearLaw prismatic = *build_system(model).joints[0].law.constant_diagonal();
+  const LinearLaw prismatic = *build_system(model).joints[0].law.as_linear();
   EXPECT_EQ(prismatic.k, S::Vec(0, 7e5, 3e4));
   EXPECT_EQ(prismatic.c, S::Vec(0, 11, 5));
   model = model_of("revolute");
   model.joints[0].law.values = {{"stiffness", {1e6, 2e6}}};
-  const LinearLaw revolute = *build_system(model).joints[0].law.constant_diagonal();
+  const LinearLaw revolute = *build_system(model).joints[0].law.as_linear();
   EXPECT_EQ(revolute.k, S::Vec(1e6, 2e6, 0));
   EXPECT_EQ(revolute.c, S::Vec(3e3, 3e3, 0));  // the catalog's fallback
 }

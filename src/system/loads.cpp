@@ -196,13 +196,13 @@ void BasicSystem<S>::find_switching(double t, const std::vector<typename S::Moti
 template <class S>
 bool BasicSystem<S>::cross_borders(double t, const VecsOf<S>& gap, const VecsOf<S>& rate, const double* before, const double* after, std::vector<double>& law_state, double& lost) const {
   bool crossed = false;
-  for (int j = 0; j < n_joints(); ++j) {
-    const BasicJointData<S>& joint = joints[j];
-    const int n = joint.law.n_borders(), skipped = n + (joint.servo >= 0 ? joint.target.n_switches() : 0);
+  for (std::size_t f = 0; f < switching_.size(); ++f) {
+    const SwitchingFunction& function = switching_[f];
+    if (!function.is_crossing(before[f], after[f])) continue;
+    const BasicJointData<S>& joint = joints[function.index];
     double* const state = law_state.data() + joint.first_state;
-    if (n > 0 && joint.law.cross({t, gap[j], rate[j], state}, before, after, state, lost)) crossed = true;
-    before += skipped;
-    after += skipped;
+    joint.law.cross({t, gap[function.index], rate[function.index], state}, function.part, function.border, state, lost);
+    crossed = true;
   }
   return crossed;
 }

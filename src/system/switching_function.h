@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <span>
 
-#include "laws/law_part.h"
-
 namespace pintle {
 
 /// A border of a joint's law, or a kink or jump of an expression. Its value changes its sign there.
@@ -16,9 +14,12 @@ struct SwitchingFunction {
   int part = 0;       // of the joint's law; of an applied force: 0 fx, 1 fy, 2 torque
   int border = 0;     // of that part, or kink of the expression, counted from 0
   int direction = 0;  // +1: an event only where it turns positive; -1: only where it does not stay so; 0: both
+  bool law_has_states = false;  // which crossing it may set
 
   /// Whether going from one value to the other is an event.
-  bool is_event(double from, double to) const { return pintle::is_event(direction, from, to); }
+  bool is_event(double from, double to) const { return (from > 0) != (to > 0) && (direction == 0 || (direction > 0) == (to > 0)); }
+  /// Whether it is one at which a law sets its states.
+  bool is_crossing(double from, double to) const { return law_has_states && is_event(from, to); }
 };
 
 /// Whether all values lie on the same sides.

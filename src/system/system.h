@@ -228,7 +228,7 @@ class BasicSystem {
   double load_effort(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;
 
   /// The borders, kinks and jumps of all laws, loads and servos.
-  const std::vector<SwitchingFunction>& switching() const { return switching_; }
+  const std::vector<SwitchingFunction>& switching_functions() const { return switching_; }
   bool has_branches() const { return !switching_.empty(); }
   /// The value of each. Gaps and rates are the joints'.
   void find_switching(double t, const std::vector<typename S::Motion>& m, const VecsOf<S>& gap, const VecsOf<S>& rate, const std::vector<double>& law_state,

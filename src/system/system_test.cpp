@@ -274,7 +274,7 @@ TEST(System, SaysOnWhichSideOfItsKinksItIs) {
       gap.push_back(r.gap);
       rate.push_back(r.rate);
     }
-    std::vector<double> value(system.switching().size());
+    std::vector<double> value(system.switching_functions().size());
     system.find_switching(t, m, gap, rate, {}, {}, value.data());
     return value;
   };
@@ -286,8 +286,8 @@ TEST(System, SaysOnWhichSideOfItsKinksItIs) {
   ASSERT_EQ(value.size(), 2u);
   EXPECT_NEAR(value[0], 0.01, 1e-15);
   EXPECT_NEAR(value[1], -0.75, 1e-15);
-  EXPECT_EQ(system.name(system.switching()[0]), "border 1 of law \"tension\" in joint rope");
-  EXPECT_EQ(system.name(system.switching()[1]), "kink or jump 1 of motor M (if(t > 1, 2, 3))");
+  EXPECT_EQ(system.name(system.switching_functions()[0]), "border 1 of law \"tension\" in joint rope");
+  EXPECT_EQ(system.name(system.switching_functions()[1]), "kink or jump 1 of motor M (if(t > 1, 2, 3))");
 }
 
 }  // namespace

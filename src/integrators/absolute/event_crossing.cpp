@@ -8,10 +8,6 @@
 namespace pintle {
 namespace {
 
-constexpr double kCrossing = 1e-9;  // of the usual step: the least that is gone to cross
-constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
-constexpr double kMoment = 1e-6;    // of the usual step: to see where accelerations lead
-
 // Taylor's series to the second order.
 Planar::Coordinates along(const Planar::Coordinates& q, double d, const Planar::Vec& v, double half, const Planar::Vec& a) { return q + d * v + half * a; }
 Spatial::Coordinates along(const Spatial::Coordinates& q, double d, const Spatial::Vec& v, double half, const Spatial::Vec& a) {
@@ -88,7 +84,7 @@ SwitchingEvent BasicRadauStepper<S>::locate_event(double h, bool solved) {
 // Moves end_ over the event that it stands just before, by Taylor's series.
 template <class S>
 void BasicRadauStepper<S>::step_over_event(double distance, const SwitchingEvent& event) {
-  const double beyond = std::max(kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
+  const double beyond = std::max(StepControl::kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
   search_.step_over(event, distance, beyond, [this](double d, double* value) {
     const double half = 0.5 * d * d;
     end_.t += d;
@@ -114,11 +110,11 @@ void BasicRadauStepper<S>::cross_event(double distance, const SwitchingEvent& ev
   const double before = end_.t;
   inside_m_ = end_m_;
   step_over_event(distance, event);
-  const bool crossed = system_.cross_borders(end_.t, end_.gap, end_.gap_rate, search_.start(), search_.beyond(), end_.law_state, end_.dissipated);
+  const bool crossed = system_.cross_borders(end_.t, end_.gap, end_.gap_rate, search_.start(), search_.end(), end_.law_state, end_.dissipated);
   leave_sliding(system_, end_.t, end_m_, end_.sliding);
   balance_end();
-  if (crossed) note_crossings(system_, end_, search_.start(), search_.beyond(), crossings_);
-  if (const auto jump = chattering_.crossed(system_, before, inside_m_, end_.t, end_m_, kAtOnce * control_.usual)) {
+  if (crossed) record_crossings(system_, end_, search_.start(), search_.end(), crossings_);
+  if (const auto jump = chattering_.crossed(system_, before, inside_m_, end_.t, end_m_, StepControl::kAtOnce * control_.usual)) {
     const double margin = system_.margin(*jump, end_.t, end_m_);
     enter_sliding(*jump, margin, ramp_size(system_, *jump, end_, control_.usual, tolerance_), end_.sliding, [this] { balance_end(); },
               [&] { return margin_rate(*jump); });
@@ -130,7 +126,7 @@ void BasicRadauStepper<S>::cross_event(double distance, const SwitchingEvent& ev
 // How fast the argument of a jump changes at end_, by what it is a moment later.
 template <class S>
 double BasicRadauStepper<S>::margin_rate(const SlidingMode& jump) {
-  const double d = kMoment * control_.usual;
+  const double d = StepControl::kMoment * control_.usual;
   for (std::size_t b = 0; b < end_.q.size(); ++b) {
     inside_q_[b] = S::moved(end_.q[b], d * end_.v[b]);
     inside_v_[b] = end_.v[b] + d * end_.a[b];
@@ -142,13 +138,15 @@ double BasicRadauStepper<S>::margin_rate(const SlidingMode& jump) {
 // The switching functions at the end of a step. A ramp that the last bits have left is let go, a border that they have crossed is crossed.
 template <class S>
 void BasicRadauStepper<S>::update_switching() {
-  system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, search_.now());
-  const bool crossed = system_.cross_borders(end_.t, end_.gap, end_.gap_rate, search_.start(), search_.now(), end_.law_state, end_.dissipated);
-  if (leave_sliding(system_, end_.t, end_m_, end_.sliding) || crossed) {
-    balance_end();
-    control_.have_history = false;
+  system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, search_.end());
+  const bool crossed = system_.cross_borders(end_.t, end_.gap, end_.gap_rate, search_.start(), search_.end(), end_.law_state, end_.dissipated);
+  if (!leave_sliding(system_, end_.t, end_m_, end_.sliding) && !crossed) {
+    search_.restart();
+    return;
   }
-  if (crossed) note_crossings(system_, end_, search_.start(), search_.beyond(), crossings_);
+  balance_end();
+  control_.have_history = false;
+  if (crossed) record_crossings(system_, end_, search_.start(), search_.end(), crossings_);
   system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, search_.start());
 }
 

@@ -13,7 +13,7 @@ BasicGapProjector<S>::BasicGapProjector(const BasicSystem<S>& system)
       accel_(system.bodies.size()), missing_(system.joints.size()) {
   for (std::size_t j = 0; j < slots_.size(); ++j) {
     const BasicPlacement<S>& at = system.joints[j].at;
-    diagonal_[j] = system.joints[j].law.constant_diagonal() != nullptr;
+    diagonal_[j] = system.joints[j].law.as_linear() != nullptr;
     if (at.a != kGround && at.b != kGround) slots_[j] = system.pattern().slot(at.a, at.b);
   }
 }
@@ -37,7 +37,7 @@ bool BasicGapProjector<S>::factorize(double mu, const VecsOf<S>& gap_at, const V
   lu_.set_diagonal([&](int b, int k) { return mu * mu * system_.bodies[b].mass[k]; });
   for (int j = 0; j < system_.n_joints(); ++j) {
     const BasicLaw<S>& law = system_.joints[j].law;
-    const auto* linear = law.constant_diagonal();
+    const auto* linear = law.as_linear();
     if (linear) {
       weight_[j].diagonal() = linear->k + mu * linear->c;
     } else {

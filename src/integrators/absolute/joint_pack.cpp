@@ -19,7 +19,7 @@ void put(const BasicJointData<S>& data, const BasicSystem<S>& system, int lane, 
     pack.forbidden[k].set(lane, data.free_mask[k] == 0 ? 1 : 0);
     pack.slides = pack.slides || (k < S::kDim && data.free_mask[k] != 0);
     if (const auto* displacement = std::get_if<BasicSelection<S>>(&data.displacement)) pack.offset[k].set(lane, displacement->offset[k]);
-    if (const auto* law = data.law.constant_diagonal()) {
+    if (const auto* law = data.law.as_linear()) {
       pack.k[k].set(lane, law->k[k]);
       pack.c[k].set(lane, law->c[k]);
     }
@@ -33,7 +33,7 @@ std::vector<BasicJointPack<S>> pack_joints(const BasicSystem<S>& system) {
   std::vector<BasicJointPack<S>> packs;
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicJointData<S>& data = system.joints[j];
-    const bool linear = data.law.constant_diagonal() != nullptr, pose = linear && std::holds_alternative<BasicSelection<S>>(data.displacement) && data.servo < 0;
+    const bool linear = data.law.as_linear() != nullptr, pose = linear && std::holds_alternative<BasicSelection<S>>(data.displacement) && data.servo < 0;
     if (!pose || packs.empty() || !packs.back().pose || packs.back().n == 4) {
       BasicJointPack<S>& pack = packs.emplace_back();
       pack.first = j;

@@ -14,7 +14,7 @@ namespace pintle {
 template <class S>
 Symmetry symmetry_of_joints(const BasicSystem<S>& system) {
   for (const BasicJointData<S>& joint : system.joints)
-    if (!joint.law.constant_diagonal()) return Symmetry::kNone;
+    if (!joint.law.as_linear()) return Symmetry::kNone;
   return Symmetry::kSymmetric;
 }
 

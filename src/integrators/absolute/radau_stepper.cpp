@@ -7,14 +7,14 @@ namespace pintle {
 
 template <class S>
 BasicRadauStepper<S>::BasicRadauStepper(const BasicSystem<S>& system, double tolerance, int stages, ToleranceOf tolerance_of)
-    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion), search_(system.switching()),
+    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion), search_(system.switching_functions()),
       solver_(make_stage_solver(system, table_, tolerance, of_motion_ ? Steps::kLong : Steps::kAccurate)), stage_(table_.n), end_point_(make_end_point_projection(system)),
       tails_{std::vector<RowOf4<S>>(system.bodies.size()), std::vector<RowOf4<S>>(system.joints.size()), std::vector<RowOf4<S>>(system.n_law_states() > 0 ? system.joints.size() : 0)}, end_m_(system.bodies.size()) {
   const std::size_t n = system.bodies.size(), m = system.joints.size();
   const VecsOf<S> bodies(n, S::Vec::Zero()), joints(m, S::Vec::Zero());
   const std::vector<double> states(system.n_law_states());
   for (int j = 0; j < system.n_joints(); ++j)
-    if (system.joints[j].servo >= 0 || !system.joints[j].law.constant_diagonal()) powered_.push_back(j);
+    if (system.joints[j].servo >= 0 || !system.joints[j].law.as_linear()) powered_.push_back(j);
   const bool only_last = powered_.empty() && !system.has_loads();  // no other stage is asked for its power
   for (BasicStage<S>& s : stage_) {
     s.a = bodies;

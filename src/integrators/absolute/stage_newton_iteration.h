@@ -1,4 +1,4 @@
-// The stage solver. Included where it is compiled, once for each space.
+// The stage solver, for registers of several widths. Included where it is compiled, once for each space.
 //
 // Simplified Newton on all stages at once: they stand side by side in the lanes of Lanes<N>, and so do the real and complex
 // systems into which their equations fall apart.
@@ -40,7 +40,7 @@ LaneStageSolver<S, N>::LaneStageSolver(const BasicSystem<S>& system, const Radau
     joint.F = S::attachment(data.at.F);
     joint.M = S::attachment(data.at.M);
     joint.servo = static_cast<signed char>(data.servo);
-    if (const BasicLinearLaw<S>* law = data.law.constant_diagonal()) {
+    if (const BasicLinearLaw<S>* law = data.law.as_linear()) {
       joint.linear = true;
       for (int k = 0; k < S::kDof; ++k) {
         joint.k[k] = law->k[k];

@@ -99,7 +99,7 @@ Misfits misfits(const Start& at, const RadauTable& table, double h, const std::v
     }
     double loss = 0;
     for (int j = 0; j < system.n_joints(); ++j)
-      if (system.joints[j].servo < 0 && system.joints[j].law.constant_diagonal()) loss += system.joints[j].law.loss({0, s.gap[j], s.gap_rate[j]});
+      if (system.joints[j].servo < 0 && system.joints[j].law.as_linear()) loss += system.joints[j].law.loss({0, s.gap[j], s.gap_rate[j]});
     note(worst.loss, std::abs(s.loss - loss) / (1 + loss));
     for (int j = 0; j < system.n_joints(); ++j) {
       const Placement& on = system.joints[j].at;

@@ -23,7 +23,7 @@ class LaneForces : public BasicDenseForces<S> {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const BasicJointData<S>& data = system.joints[j];
       joints_[j].map.function = !std::holds_alternative<BasicSelection<S>>(data.displacement);
-      joints_[j].linear = data.law.constant_diagonal();
+      joints_[j].linear = data.law.as_linear();
       if (data.at.a != kGround && data.at.b != kGround) joints_[j].slot = system.pattern().slot(data.at.a, data.at.b);
     }
   }

@@ -166,7 +166,7 @@ bool AlphaStepper::step(double t_end) {
   forces(begin_.t, begin_.q, begin_.v, begin_.law_state, F_begin_);
   double most = 5;  // by which the next step may be longer
   double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
-  int shortened = 0;
+  borders_.begin_step();
   while (true) {
     h = std::min(h, t_end - begin_.t);
     if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
@@ -184,13 +184,13 @@ bool AlphaStepper::step(double t_end) {
     const double e = error(h);
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
     if (e <= 1) {
-      place_end(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
-      if (!borders_.is_short_enough(end_, h, shortened)) {
+      set_end_state(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
+      if (borders_.shorten(end_, h)) {
         ++counters_.rejected;
         continue;
       }
       finish(h);
-      h_ = shortened > 0 ? std::max(h_, h * factor) : h * std::min(factor, most);
+      h_ = borders_.has_shortened() ? std::max(h_, h * factor) : h * std::min(factor, most);
       return true;
     }
     ++counters_.rejected;
@@ -199,7 +199,7 @@ bool AlphaStepper::step(double t_end) {
   }
 }
 
-void AlphaStepper::place_end(double t, double h) {
+void AlphaStepper::set_end_state(double t, double h) {
   end_.t = t;
   end_.q = q_;
   end_.v = v_;
@@ -219,7 +219,7 @@ void AlphaStepper::finish(double h) {
   now_.h = h;
   if (borders_.cross(end_)) {  // goes on as from a start
     force_evaluator_.complete(end_);
-    borders_.note(end_);
+    borders_.record(end_);
     now_.a = now_.law = end_.a;
     now_.h = 0;
   }

@@ -59,7 +59,7 @@ class AlphaStepper final : public Stepper {
   void find_states(double t, const Vecs& q, const Vecs& v, double h);
   double correct(double h);
   double error(double h);
-  void place_end(double t, double h);
+  void set_end_state(double t, double h);
   void finish(double h);
   double weight(double a, double b, double largest) const;
 

@@ -58,7 +58,7 @@ bool Dopri5::step(double t_end) {
   kq_[0] = begin_.v;
   kv_[0] = begin_.a;
   kz_[0] = begin_.law_rate;
-  int shortened = 0;
+  borders_.begin_step();
   while (true) {
     h = std::min(h, t_end - begin_.t);
     if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
@@ -92,7 +92,7 @@ bool Dopri5::step(double t_end) {
       end_.v = v_;
       end_.law_state = z_;
       complete(end_);
-      if (!borders_.is_short_enough(end_, h, shortened)) {
+      if (borders_.shorten(end_, h)) {
         ++counters_.rejected;
         continue;
       }
@@ -100,11 +100,11 @@ bool Dopri5::step(double t_end) {
       end_.supplied = begin_.supplied + 0.5 * h * (begin_.supply_power + end_.supply_power);
       if (borders_.cross(end_)) {
         complete(end_);
-        borders_.note(end_);
+        borders_.record(end_);
       }
       grow_scale();
       ++counters_.steps;
-      h_ = shortened > 0 ? std::max(h_, h * factor) : h * factor;
+      h_ = borders_.has_shortened() ? std::max(h_, h * factor) : h * factor;
       return true;
     }
     ++counters_.rejected;

@@ -8,9 +8,8 @@ namespace pintle {
 FirstOrderOde::FirstOrderOde(const System& system, Energies energies)
     : system_(system), energies_(energies == Energies::kAppended), force_evaluator_(system), tangents_(system), at_(zero_state(system)),
       couplings_(system.bodies.size()) {
-  for (const JointData& joint : system.joints)
-    for (const auto& part : joint.law.parts())
-      if (part->n_states() > 0 && part->n_borders() > 0) n_roots_ = static_cast<int>(system.switching().size());
+  const std::vector<SwitchingFunction>& functions = system.switching_functions();
+  if (std::any_of(functions.begin(), functions.end(), [](const SwitchingFunction& f) { return f.law_has_states; })) n_roots_ = static_cast<int>(functions.size());
   const BlockPattern& p = system.pattern();
   for (int i = 0; i < system.n_bodies(); ++i) couplings_[i].push_back({i, tangents_.place(i, i)});
   for (int k = 0; k < p.n(); ++k)

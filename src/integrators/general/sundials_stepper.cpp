@@ -53,7 +53,7 @@ class SundialsStepper final : public Stepper {
       equations_.flatten(end_, y.data());
       code_->restart(y);
       states_.complete(end_);
-      borders_.note(end_);
+      borders_.record(end_);
     }
     code_->count(counters_);
     return true;

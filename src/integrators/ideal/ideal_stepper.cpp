@@ -87,7 +87,7 @@ bool IdealStepper::crosses_jump() const {
   const auto side = [this](const State& state) {
     std::vector<S::Motion> m;
     system_.motions(state.q, state.v, m);
-    std::vector<double> value(system_.switching().size());
+    std::vector<double> value(system_.switching_functions().size());
     system_.find_switching(state.t, m, state.gap, state.gap_rate, state.law_state, state.sliding, value.data());
     return value;
   };

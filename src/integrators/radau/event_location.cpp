@@ -21,7 +21,7 @@ double curvature(double x0, double y0, double x1, double y1, double x2, double y
 }  // namespace
 
 EventSearch::EventSearch(const std::vector<SwitchingFunction>& functions)
-    : functions_(functions), start_(functions.size()), rows_(functions.size() * (kMostSamples + kLevels + kTrials)) {}
+    : functions_(functions), start_(functions.size()), values_(functions.size() * (kMostSamples + kLevels + kTrials)) {}
 
 SwitchingEvent EventSearch::first(const RadauTable& table, SwitchingValues values_at) {
   std::array<Sample, kMostSamples> samples;

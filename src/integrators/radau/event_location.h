@@ -1,6 +1,7 @@
 // Locates the first event (border, kink or jump) on a step's polynomial. theory/time section 7.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <type_traits>
@@ -41,10 +42,10 @@ class EventSearch {
   /// The values where the step begins, to be filled in at the end of the step before it.
   double* start() { return start_.data(); }
   std::span<const double> start() const { return start_; }
-  /// The values that step_over filled in last.
-  const double* beyond() const { return rows_.data() + static_cast<std::size_t>(kMostSamples) * start_.size(); }
-  /// Room for the values at an instant that are to be compared with those at the start.
-  double* now() { return row(kMostSamples); }
+  /// The values where the step ends, or just beyond the event that step_over has moved over: what those at the start are compared with.
+  double* end() { return row(kMostSamples); }
+  /// The next step begins where this one ends.
+  void restart() { std::copy_n(end(), start_.size(), start_.data()); }
 
   /// Looks at the nodes and half-way between them, and where parabolas through the values say that a function is left and entered again
   /// between two of these; then goes to the first event that is found.
@@ -66,7 +67,7 @@ class EventSearch {
     double share;
     double* value;
   };
-  double* row(int i) { return rows_.data() + static_cast<std::size_t>(i) * start_.size(); }
+  double* row(int i) { return values_.data() + static_cast<std::size_t>(i) * start_.size(); }
   bool has_event(const Sample& from, const Sample& to) const;
   double extremum(const Sample* before, const Sample& left, const Sample& right, const Sample* beyond) const;
   bool search(const Sample* before, const Sample& left, const Sample& right, const Sample* beyond, int level, SwitchingValues values_at, SwitchingEvent& event);
@@ -75,12 +76,12 @@ class EventSearch {
 
   const std::vector<SwitchingFunction>& functions_;
   std::vector<double> start_;
-  std::vector<double> rows_;  // values of the samples, of the extrema of each level, of the trials
+  std::vector<double> values_;  // of the samples, the end, the extrema of each level, the trials: a row each
 };
 
 template <class Move>
 bool EventSearch::step_over(const SwitchingEvent& event, double distance, double beyond, const Move& move) {
-  double* const now = row(kMostSamples);
+  double* const now = end();
   const double before = start_[event.function];
   double gone = 0, next = distance + beyond;
   for (int i = 0; i < kMoves; ++i) {

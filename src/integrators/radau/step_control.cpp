@@ -30,7 +30,7 @@ std::string broken_function(const BasicSystem<S>& system, double t) {
 template <class S>
 std::string StepControl::last_event(const BasicSystem<S>& system, double since) const {
   if (event_.function < 0 || event_.t < since) return {};
-  return fmt::format("{} turns {} at t = {:.9g} s", system.name(system.switching()[static_cast<std::size_t>(event_.function)]), event_.rising ? "positive" : "negative",
+  return fmt::format("{} turns {} at t = {:.9g} s", system.name(system.switching_functions()[static_cast<std::size_t>(event_.function)]), event_.rising ? "positive" : "negative",
                      event_.t);
 }
 

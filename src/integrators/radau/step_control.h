@@ -22,6 +22,11 @@ class StepControl {
   double longest = 0;                    // [s]; 0: no limit
   bool have_history = false;             // the last step's curve goes on into the next one
 
+  // Events, in parts of the usual step.
+  static constexpr double kCrossing = 1e-9;  // the least that is gone to cross one
+  static constexpr double kAtOnce = 1e-2;    // a jump that is crossed again within it may be held
+  static constexpr double kMoment = 1e-6;    // to see where accelerations lead
+
   void start(double h) {
     next = usual = h;
     have_history = false;

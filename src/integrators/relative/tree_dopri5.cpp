@@ -103,7 +103,7 @@ bool TreeDopri5::step(double t_end) {
   ky_[0] = begin_.u;
   ku_[0] = begin_.w;
   kz_[0] = begin_.law_rate;
-  int shortened = 0;
+  borders_.begin_step();
   while (true) {
     h = std::min(h, t_end - begin_.t);
     if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
@@ -133,7 +133,7 @@ bool TreeDopri5::step(double t_end) {
       end_ = stage_;
       end_.t = t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h;
       write(end_, end_state_);
-      if (!borders_.is_short_enough(end_state_, h, shortened)) {
+      if (borders_.shorten(end_state_, h)) {
         ++counters_.rejected;
         continue;
       }
@@ -143,11 +143,11 @@ bool TreeDopri5::step(double t_end) {
         end_.law_state = end_state_.law_state;
         complete(end_);
         write(end_, end_state_);
-        borders_.note(end_state_);
+        borders_.record(end_state_);
       }
       raise_scale();
       ++counters_.steps;
-      h_ = shortened > 0 ? std::max(h_, h * factor) : h * factor;
+      h_ = borders_.has_shortened() ? std::max(h_, h * factor) : h * factor;
       return true;
     }
     ++counters_.rejected;

@@ -137,13 +137,15 @@ void TreeRadau::finish_step(double h) {
   control_.last = h;
   control_.have_history = true;
   if (system_.has_branches()) {  // borders that the last bits have crossed
-    end_at_.find_switching(end_, search_.now());
-    if (end_at_.cross_borders(search_.start(), search_.now(), end_, end_state_.dissipated)) {
+    end_at_.find_switching(end_, search_.end());
+    if (end_at_.cross_borders(search_.start(), search_.end(), end_, end_state_.dissipated)) {
       control_.have_history = false;
-      const std::vector<double> start(search_.start(), search_.start() + system_.switching().size());
       balance_end();
-      return note_crossings(system_, end_state_, start.data(), search_.beyond(), crossings_);
+      record_crossings(system_, end_state_, search_.start(), search_.end(), crossings_);
+      restart_search();
+      return;
     }
+    search_.restart();
   }
   finish_end(w);
 }

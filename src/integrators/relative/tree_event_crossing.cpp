@@ -7,10 +7,6 @@
 namespace pintle {
 namespace {
 
-constexpr double kCrossing = 1e-9;  // of the usual step: the least that is gone to cross
-constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
-constexpr double kMoment = 1e-6;    // of the usual step: to see where accelerations lead
-
 // Gaps and the laws' states a time d later, by Taylor's series.
 void move_carried(double d, TreeState& at) {
   at.gap += d * at.rate + 0.5 * d * d * at.accel;
@@ -61,7 +57,7 @@ SwitchingEvent TreeRadau::locate_event(double h, bool solved) {
 
 // Moves the end over the event that it stands just before, by Taylor's series.
 void TreeRadau::step_over_event(double distance, const SwitchingEvent& event) {
-  const double beyond = std::max(kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
+  const double beyond = std::max(StepControl::kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
   search_.step_over(event, distance, beyond, [this](double d, double* value) {
     const double half = 0.5 * d * d;
     end_.t += d;
@@ -80,22 +76,22 @@ void TreeRadau::cross_event(double distance, const SwitchingEvent& event) {
   const double before = end_.t;
   const std::vector<Planar::Motion> motions_before = end_at_.pose().m;
   step_over_event(distance, event);
-  const bool crossed = end_at_.cross_borders(search_.start(), search_.beyond(), end_, end_state_.dissipated);
-  const std::vector<double> start(search_.start(), search_.start() + system_.switching().size());
+  const bool crossed = end_at_.cross_borders(search_.start(), search_.end(), end_, end_state_.dissipated);
   leave_sliding(system_, end_.t, end_at_.pose().m, sliding_);
   balance_end();
-  if (crossed) note_crossings(system_, end_state_, start.data(), search_.beyond(), crossings_);
-  if (const auto jump = chattering_.crossed(system_, before, motions_before, end_.t, end_at_.pose().m, kAtOnce * control_.usual)) {
+  if (crossed) record_crossings(system_, end_state_, search_.start(), search_.end(), crossings_);
+  if (const auto jump = chattering_.crossed(system_, before, motions_before, end_.t, end_at_.pose().m, StepControl::kAtOnce * control_.usual)) {
     const double margin = system_.margin(*jump, end_.t, end_at_.pose().m);
     enter_sliding(*jump, margin, ramp_size(system_, *jump, end_state_, control_.usual, tolerance_), sliding_, [this] { balance_end(); },
               [&] { return margin_rate(*jump); });
   }
+  restart_search();
   control_.have_history = false;
 }
 
 // How fast the argument of a jump changes at the end, by what it is a moment later.
 double TreeRadau::margin_rate(const SlidingMode& jump) {
-  const double d = kMoment * control_.usual;
+  const double d = StepControl::kMoment * control_.usual;
   inside_at_.place_only(end_.t + d, end_.y + d * end_.u, end_.u + d * end_.w);
   return (system_.margin(jump, inside_at_.t(), inside_at_.pose().m) - system_.margin(jump, end_.t, end_at_.pose().m)) / d;
 }

@@ -10,7 +10,7 @@ using S = Planar;
 using Eigen::VectorXd;
 
 TreeRadau::TreeRadau(const System& system, double tolerance, int stages)
-    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), search_(system.switching()),
+    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), search_(system.switching_functions()),
       tree_(std::make_unique<JointTree>(system)), stages_(system, *tree_, table_, tolerance), end_at_(system, *tree_), inside_at_(end_at_) {
   scale_.body.assign(system.bodies.size(), S::Vec::Zero());
   for (TreeInstant* at : {&end_at_, &inside_at_}) at->set_sliding(sliding_);
@@ -43,11 +43,13 @@ void TreeRadau::start(const State& state, double h) {
   end_state_.supply_power = supplied;
   end_state_.loss_power = lost;
   finish_end(end_.w);
+  restart_search();
 }
 
 bool TreeRadau::step(double t_end) {
   if (leave_sliding(system_, end_.t, end_at_.pose().m, sliding_)) {
     balance_end();
+    restart_search();
     control_.have_history = false;
   }
   if (control_.advance(*this, t_end, tolerance_, n_ + 1, counters_)) return true;
@@ -65,8 +67,12 @@ void TreeRadau::begin_at_end() {
 // What the state of the bodies says about the end, with reactions that go with u' = w.
 void TreeRadau::finish_end(const VectorXd& w) {
   end_at_.write(end_, w, end_state_);
-  if (system_.has_branches()) end_at_.find_switching(end_, search_.start());
   grow_load_scale(system_, end_at_.pose().m, end_at_.Q(), end_state_, scale_);
+}
+
+// The next step begins at the end as it now is.
+void TreeRadau::restart_search() {
+  if (system_.has_branches()) end_at_.find_switching(end_, search_.start());
 }
 
 }  // namespace pintle

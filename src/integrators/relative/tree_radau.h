@@ -64,6 +64,7 @@ class TreeRadau final : public Stepper {
   void step_over_event(double distance, const SwitchingEvent& event);
   double margin_rate(const SlidingMode& jump);
   void balance_end();
+  void restart_search();
 
   const System& system_;
   const RadauTable& table_;

@@ -18,7 +18,7 @@ constexpr double kDifference = 1e-7;   // step of the differences, of a coordina
 
 TreeStages::TreeStages(const System& system, const JointTree& tree, const RadauTable& table, double tolerance)
     : system_(system), tree_(tree), table_(table), n_(table.n), tolerance_(tolerance), state_(table.n),
-      at_(table.n, TreeInstant(system, tree)), beside_(system, tree), switching_(system.switching().size()), switching_beside_(switching_), missing_(table.n), missing_gap_(table.n),
+      at_(table.n, TreeInstant(system, tree)), beside_(system, tree), switching_(system.switching_functions().size()), switching_beside_(switching_), missing_(table.n), missing_gap_(table.n),
       missing_state_(table.n, VectorXd::Zero(system.n_law_states())), law_(tree.laws().size()) {
   const auto make_room = [&](auto& mode) {
     mode.law.resize(tree.laws().size());

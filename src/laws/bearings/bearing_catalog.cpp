@@ -15,11 +15,9 @@
 namespace pintle {
 namespace {
 
-constexpr double kAny = -std::numeric_limits<double>::infinity();  // a smallest value that allows all
 constexpr std::array<std::string_view, 1> kSlides{"prismatic"};
 constexpr std::array<std::string_view, 1> kPins{"revolute"};
 constexpr std::array<std::string_view, 2> kBushed{"revolute", "fixed"};
-constexpr std::array<std::string_view, 7> kTwoSided{"revolute", "prismatic", "fixed", "slot", "rod", "gear", "rack"};
 
 // Defaults of stiffness and damping and their ranges: theory/bearings, section 1, from the paper's sections 4, 5, 7 and 8.
 constexpr std::array<KeyInfo, 5> kGuideKeys{{
@@ -42,10 +40,6 @@ constexpr std::array<KeyInfo, 4> kRubberKeys{{
     {.key = "angular_stiffness", .unit = "N*m/rad", .fallback = 100, .minimum_exclusive = true, .meaning = "moment per forbidden angle, in joints that forbid one"},
     {.key = "angular_damping", .unit = "N*m*s/rad", .fallback = 0.1, .meaning = "moment per rate of that angle"},
 }};
-
-void make_rubber(const LawSetting& at, Law& law) {
-  law.set_linear({at.by_component("stiffness", "angular_stiffness"), at.by_component("damping", "angular_damping")});
-}
 
 constexpr std::array<std::string_view, 2> kElementWords{"lumped", "sum"};
 constexpr std::array<KeyInfo, 12> kRollingKeys{{
@@ -194,7 +188,7 @@ void make_table(const LawSetting& at, Law& law) {
 
 constexpr std::array<LawInfo, 5> kBearings{{
     {.word = "linear-guide", .meaning = "a linear bearing: a spring and a damper, and the resistance to turning of a carriage that carries evenly", .keys = kGuideKeys, .stiffens = true, .joints = kSlides, .make = make_guide},
-    {.word = "rubber-bushing", .meaning = "a soft bushing: a spring and a damper; a torsion spring beside it is the twist of bonded rubber", .keys = kRubberKeys, .stiffens = true, .joints = kBushed, .make = make_rubber},
+    {.word = "rubber-bushing", .meaning = "a soft bushing: a spring and a damper; a torsion spring beside it is the twist of bonded rubber", .keys = kRubberKeys, .stiffens = true, .joints = kBushed, .make = make_linear},
     {.word = "rolling-bearing", .meaning = "a ball or roller bearing: a spring and a damper, or force against deflection from its balls or rollers, with play or preload", .keys = kRollingKeys, .joints = kPins, .make = make_rolling, .fault = rolling_fault},
     {.word = "journal-bearing", .meaning = "a plain bearing: a spring and a damper, or a film of oil between pin and bush", .keys = kJournalKeys, .joints = kPins, .make = make_journal, .fault = journal_fault},
     {.word = "table", .meaning = "a measured force against displacement, by smooth pieces that do not overshoot; of a pin against its length, in every direction alike", .keys = kTableKeys, .joints = kTwoSided, .make = make_table, .fault = table_fault},

@@ -47,7 +47,7 @@ Vec force(const Law& law, const Vec& gap, const Vec& rate = Vec::Zero()) { retur
 // G. H. Sutherland, DETC2008-49020, section 4: radial stiffness and damping of rolling and of lubricated bearings.
 TEST(Bearings, DefaultsLieInThePapersRanges) {
   const auto within = [](const Law& law, int k, double low, double high, double damping_low, double damping_high) {
-    const LinearLaw* linear = law.constant_diagonal();
+    const LinearLaw* linear = law.as_linear();
     ASSERT_NE(linear, nullptr);
     EXPECT_TRUE(linear->k[k] >= low && linear->k[k] <= high);
     EXPECT_TRUE(linear->c[k] >= damping_low && linear->c[k] <= damping_high);
@@ -60,9 +60,9 @@ TEST(Bearings, DefaultsLieInThePapersRanges) {
 
 TEST(LinearGuide, TurnsAgainstAnEvenLoadOverItsCarriage) {
   const Law guide = made("linear-guide", {{"stiffness", {1e8}}, {"damping", {2e3}}, {"carriage_length", {0.12}}}, "prismatic");
-  EXPECT_TRUE(guide.constant_diagonal()->k.isApprox(Vec(0, 1e8, 1.2e5), 1e-14));  // 1e8 * 0.12^2 / 12
-  EXPECT_TRUE(guide.constant_diagonal()->c.isApprox(Vec(0, 2e3, 2.4), 1e-14));
-  EXPECT_EQ(made("linear-guide", {{"angular_stiffness", {7}}}, "prismatic").constant_diagonal()->k[2], 7);
+  EXPECT_TRUE(guide.as_linear()->k.isApprox(Vec(0, 1e8, 1.2e5), 1e-14));  // 1e8 * 0.12^2 / 12
+  EXPECT_TRUE(guide.as_linear()->c.isApprox(Vec(0, 2e3, 2.4), 1e-14));
+  EXPECT_EQ(made("linear-guide", {{"angular_stiffness", {7}}}, "prismatic").as_linear()->k[2], 7);
 }
 
 // T. A. Harris, Rolling Bearing Analysis: d = 4.36e-4 Q^(2/3) / (D^(1/3) cos a) mm, Q = 5 F / (Z cos a); of lines 7.68e-5 Q^0.9 / l^0.8.

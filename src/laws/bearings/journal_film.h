@@ -1,4 +1,4 @@
-// A journal bearing with an oil film that is thin against its radius and cavitates (Reynolds equation, half film after Gumbel): short, after
+// A journal bearing with an oil film that is thin against its radius and cavitates (Reynolds equation, half film after Gümbel): short, after
 // G. B. DuBois and F. W. Ocvirk (NACA Report 1157, 1953), or long, after Sommerfeld. Both for any motion, by the one velocity that squeezes the
 // film (J. F. Booker, Dynamically loaded journal bearings: mobility method of solution, J. Basic Engineering 87 (1965) 537-546):
 //
@@ -106,7 +106,7 @@ struct JournalFilmLaw {
     using namespace law_math;
     const T along[2] = {where_positive(at.speed, divide(at.u[0], at.speed), T(1.0)), where_positive(at.speed, divide(at.u[1], at.speed), T(0.0))};
     T squeezed[2], whole[2];
-    (long_film ? long_half(at, along, squeezed) : short_half(at, along, squeezed));
+    (long_film ? long_film_resistance(at, along, squeezed) : short_film_resistance(at, along, squeezed));
     whole_film(at, whole);
     force[0] = where_positive(at.speed, -(at.speed * (squeezed[0] * along[0] - squeezed[1] * along[1])), -0.5 * whole[0]);
     force[1] = where_positive(at.speed, -(at.speed * (squeezed[0] * along[1] + squeezed[1] * along[0])), -0.5 * whole[1]);
@@ -119,14 +119,14 @@ struct JournalFilmLaw {
   };
 
   template <class T>
-  void short_half(const Squeeze<T>& at, const T (&along)[2], T (&resisted)[2]) const {
+  void short_film_resistance(const Squeeze<T>& at, const T (&along)[2], T (&resisted)[2]) const {
     const Integrals<T> I = integrals(at, along);
     const double size = viscosity * radius * length * length * length;
     resisted[0] = size * I.cc;                                                                             // (3.3)
     resisted[1] = size * I.sc;
   }
   template <class T>
-  void long_half(const Squeeze<T>& at, const T (&along)[2], T (&resisted)[2]) const {
+  void long_film_resistance(const Squeeze<T>& at, const T (&along)[2], T (&resisted)[2]) const {
     const Integrals<T> I = integrals(at, along);
     const double size = 12 * viscosity * radius * radius * radius * length;
     resisted[0] = size * (I.ss - law_math::divide(I.s * I.s, I.one));                                      // (3.5)

@@ -5,20 +5,15 @@
 namespace pintle {
 namespace {
 
-constexpr int kMostIterations = 200;
-
 // ln((1 + h) / (1 - h e)) - h (1 + e), which grows with e and with h; h e < 1.
 double missing(double h, double e) { return std::log1p(h) - std::log1p(-h * e) - h * (1 + e); }
 
 // The root of a function that has one between low and high and changes its sign there from minus to plus.
 template <class F>
 double root(double low, double high, const F& f) {
-  for (int i = 0; i < kMostIterations; ++i) {
-    const double middle = 0.5 * (low + high);
-    if (!(middle > low && middle < high)) break;
-    (f(middle) > 0 ? high : low) = middle;
-  }
-  return 0.5 * (low + high);
+  double middle = 0.5 * (low + high);
+  for (; middle > low && middle < high; middle = 0.5 * (low + high)) (f(middle) > 0 ? high : low) = middle;
+  return middle;
 }
 
 }  // namespace
@@ -29,17 +24,11 @@ double restitution_of(double hysteresis) {
   return root(0.0, std::min(1.0, 1 / h), [h](double e) { return missing(h, e); });
 }
 
-double hysteresis_for(double restitution) {
-  const double e = restitution;
-  if (e >= 1) return 0;
-  return root(0.0, 1 / e, [e](double h) { return h > 0 ? missing(h, e) : -1; });
-}
-
 double hysteresis_of(ContactModel model, double restitution) {
   const double e = restitution;
   switch (model) {
     case ContactModel::kExact:
-      return hysteresis_for(e);
+      return e >= 1 ? 0 : root(0.0, 1 / e, [e](double h) { return h > 0 ? missing(h, e) : -1; });
     case ContactModel::kLankaraniNikravesh:
       return 0.75 * (1 - e * e);
     case ContactModel::kHuntCrossley:

@@ -19,10 +19,8 @@ namespace pintle {
 /// The coefficient of restitution e of a free impact with N = K d^n (1 + h d'/v), whatever K, n, mass and speed: the root of
 /// h (1 + e) = ln((1 + h) / (1 - h e)). theory/contact Eq. (2.3). For h >= 0 [-].
 double restitution_of(double hysteresis);
-/// The h that gives the restitution e, 0 < e <= 1; the inverse of restitution_of.
-double hysteresis_for(double restitution);
 
-/// How the published laws choose h from the restitution asked for.
+/// How the published laws choose h from the restitution asked for; kExact is the inverse of restitution_of.
 enum class ContactModel { kExact, kLankaraniNikravesh, kHuntCrossley, kFlores, kGonthier, kViscous };
 /// h of a model for a restitution 0 < e <= 1; kViscous has none. theory/contact Eqs. (2.4)-(2.7).
 double hysteresis_of(ContactModel model, double restitution);
@@ -97,5 +95,29 @@ struct RampedFriction {
     return where_positive(slip, -coefficient * (normal * share), coefficient * (normal * share));
   }
 };
+
+/// Two surfaces at the point where they are to touch.
+template <class T>
+struct ContactMotion {
+  T depth, rate, slip;  // overlap, negative while apart; d/dt of it; speed along each other [m, m/s, m/s]
+};
+
+/// What acts between them, all zero while they are apart.
+template <class T>
+struct PointForces {
+  T normal, friction;  // N >= 0 unless they attract; along the slip and against it [N]
+  T energy, loss;      // [J, W]
+};
+template <class T>
+PointForces<T> point_forces(const ContactForce& contact, const RampedFriction& friction, const ContactMotion<T>& at, const T& approach) {
+  using namespace law_math;
+  const T none(0.0), touching = where_positive(approach, at.depth, T(-1.0)), depth = where_positive(touching, at.depth, none);
+  PointForces<T> f;
+  f.normal = where_positive(touching, contact.force(depth, at.rate, approach), none);
+  f.friction = friction.force(f.normal, at.slip);
+  f.energy = contact.energy(depth);
+  f.loss = (f.normal - contact.elastic_force(depth)) * at.rate - f.friction * at.slip;
+  return f;
+}
 
 }  // namespace pintle

@@ -19,6 +19,7 @@ namespace pintle {
 
 struct GuideContactLaw {
   static constexpr std::string_view kWord = "clearance";
+  static constexpr bool kStartsFree = true;
   ContactForce contact;
   RampedFriction friction;
   double clearance = 1e-4;  // c, to either side [m]
@@ -27,7 +28,7 @@ struct GuideContactLaw {
   static GuideContactLaw typical() {
     GuideContactLaw law;
     law.contact.stiffness = 1e9;
-    law.contact.hysteresis = hysteresis_for(0.7);
+    law.contact.hysteresis = hysteresis_of(ContactModel::kExact, 0.7);
     law.friction.coefficient = 0.15;
     law.clearance = 2e-4;
     return law;
@@ -36,18 +37,15 @@ struct GuideContactLaw {
   int n_states() const { return kEnds; }
   template <class T>
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
-    using namespace law_math;
-    const T none(0.0), apart(-1.0);
     for (int i = 0; i < kEnds; ++i) {
       const End<T> end = find(in, i);
-      const T touching = where_positive(in.state[i], end.depth, apart), depth = where_positive(touching, end.depth, none);
-      const T normal = where_positive(touching, contact.force(depth, end.rate, in.state[i]), none), rubbing = friction.force(normal, end.slip);
-      const T across = -(normal * end.side);
-      out.force[0] += rubbing;
+      const PointForces<T> f = point_forces<T>(contact, friction, end, in.state[i]);
+      const T across = -(f.normal * end.side);
+      out.force[0] += f.friction;
       out.force[1] += across;
-      out.force[2] += end.arm_x * across - end.arm_y * rubbing;
-      out.energy += contact.energy(depth);
-      out.loss += (normal - contact.elastic_force(depth)) * end.rate - rubbing * end.slip;
+      out.force[2] += end.arm_x * across - end.arm_y * f.friction;
+      out.energy += f.energy;
+      out.loss += f.loss;
     }
   }
   void rest(const LawInput<double>& in, double* state) const {
@@ -87,7 +85,7 @@ struct GuideContactLaw {
     value[4] = 0;
     for (int i = 0; i < kEnds; ++i) {
       const End<double> end = find(in, i);
-      value[i] = in.state[i] > 0 && end.depth > 0 ? contact.force(end.depth, end.rate, in.state[i]) : 0;
+      value[i] = point_forces<double>(contact, friction, end, in.state[i]).normal;
       value[2 + i] = end.depth;
       value[4] += value[i] * std::abs(end.slip);
     }
@@ -96,8 +94,8 @@ struct GuideContactLaw {
  private:
   static constexpr int kEnds = 2;
   template <class T>
-  struct End {
-    T depth, rate, slip, side, arm_x, arm_y;
+  struct End : ContactMotion<T> {
+    T side, arm_x, arm_y;
   };
   template <class T>
   End<T> find(const LawInput<T>& in, int i) const {

@@ -10,6 +10,7 @@
 // balance of moments. Its state is the approach speed while they touch, 0 while they are apart; touch and let-go are borders.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -21,6 +22,7 @@
 namespace pintle {
 
 struct PinContact {
+  static constexpr bool kStartsFree = true;
   enum class Shape { kBush, kSlot, kEdge };
   Shape shape = Shape::kBush;
   ContactForce contact;
@@ -31,17 +33,13 @@ struct PinContact {
   int n_states() const { return 1; }
   template <class T>
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
-    using namespace law_math;
-    const T none(0.0), apart(-1.0);
     const At<T> at = find(in);
-    const T touching = where_positive(in.state[0], at.depth, apart), depth = where_positive(touching, at.depth, none);
-    const T normal = where_positive(touching, contact.force(depth, at.rate, in.state[0]), none);
-    const T rubbing = friction.force(normal, at.slip);
-    out.force[0] = -(normal * at.nx) - rubbing * at.ny;
-    out.force[1] = -(normal * at.ny) + rubbing * at.nx;
-    out.force[2] = radius * rubbing;
-    out.energy = contact.energy(depth);
-    out.loss = (normal - contact.elastic_force(depth)) * at.rate - rubbing * at.slip;
+    const PointForces<T> f = point_forces<T>(contact, friction, at, in.state[0]);
+    out.force[0] = -(f.normal * at.nx) - f.friction * at.ny;
+    out.force[1] = -(f.normal * at.ny) + f.friction * at.nx;
+    out.force[2] = radius * f.friction;
+    out.energy = f.energy;
+    out.loss = f.loss;
   }
   /// One that starts in contact has not approached: the floor stands for its speed.
   void rest(const LawInput<double>& in, double* state) const { state[0] = find(in).depth > 0 ? contact.least_approach : 0; }
@@ -63,6 +61,11 @@ struct PinContact {
     const double k = contact.stiffness_at(0.1 * clearance);
     return {shape == Shape::kBush ? k : 0, k, 0};
   }
+  double penetration(const Planar::Vec& gap) const {
+    LawInput<double> in{};
+    std::copy_n(gap.data(), 3, in.gap);
+    return find(in).depth;
+  }
   std::span<const LawColumn> columns() const {
     static const std::array<LawColumn, 6> all{{{"contact_force", "N", "normal force of the contact"},
                                                {"penetration", "m", "depth by which the surfaces overlap; negative while they are apart"},
@@ -74,8 +77,7 @@ struct PinContact {
   }
   void observe(const LawInput<double>& in, const Planar::Vec&, double* value) const {
     const At<double> at = find(in);
-    const bool touching = in.state[0] > 0 && at.depth > 0;
-    value[0] = touching ? contact.force(at.depth, at.rate, in.state[0]) : 0;
+    value[0] = point_forces<double>(contact, friction, at, in.state[0]).normal;
     value[1] = at.depth;
     value[2] = std::atan2(at.ny, at.nx);
     value[3] = in.state[0];
@@ -85,8 +87,8 @@ struct PinContact {
 
  private:
   template <class T>
-  struct At {
-    T depth, rate, slip, nx, ny;
+  struct At : ContactMotion<T> {
+    T nx, ny;
   };
   template <class T>
   At<T> find(const LawInput<T>& in) const {
@@ -118,7 +120,7 @@ struct ClearanceLaw : PinContact {
   static ClearanceLaw typical() {
     ClearanceLaw law;
     law.contact.stiffness = 1e9;
-    law.contact.hysteresis = hysteresis_for(0.8);
+    law.contact.hysteresis = hysteresis_of(ContactModel::kExact, 0.8);
     law.friction.coefficient = 0.1;
     law.clearance = 2e-4;
     return law;
@@ -132,7 +134,7 @@ struct EdgeContactLaw : PinContact {
     EdgeContactLaw law;
     law.shape = Shape::kEdge;
     law.contact.stiffness = 1e8;
-    law.contact.hysteresis = hysteresis_for(0.6);
+    law.contact.hysteresis = hysteresis_of(ContactModel::kExact, 0.6);
     law.friction.coefficient = 0.2;
     return law;
   }
