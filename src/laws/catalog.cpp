@@ -138,6 +138,7 @@ std::vector<LawInfo> own_laws() {
   add_friction_laws(all);
   add_contact_laws(all);
   add_bearing_laws(all);
+  add_flexure_laws(all);
   return all;
 }
 

@@ -49,6 +49,8 @@ struct LawInfo {
   std::span<const std::string_view> joints{};   // types that it suits; empty: all
   void (*make)(const LawSetting& setting, Law& law) = nullptr;  // adds itself
   LawFault (*fault)(const LawSetting& setting) = nullptr;
+  /// Where the second marker is in the axes of the first while nothing acts, of joints that select from the pose [m]; their gap counts from there.
+  Planar::Point (*rest)(const LawSetting& setting) = nullptr;
 };
 
 /// Every law, in the manual's order.

@@ -21,6 +21,8 @@ void make_linear(const LawSetting& at, Law& law);
 void add_friction_laws(std::vector<LawInfo>& all);
 /// Bearings, oil films and measured forces.
 void add_bearing_laws(std::vector<LawInfo>& all);
+/// Leaf springs, notch hinges, cross-spring pivots.
+void add_flexure_laws(std::vector<LawInfo>& all);
 /// Clearance and contact.
 void add_contact_laws(std::vector<LawInfo>& all);
 

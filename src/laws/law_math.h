@@ -27,6 +27,40 @@ Dual<M> through(const Dual<M>& x, F f, D slope) { return Dual<M>::scaled(f(x.v),
 template <int N, class F, class D>
 Lanes<N> through(const Lanes<N>& x, F f, D) { return each(x, f); }
 
+/// Values of a function of several numbers with its derivatives by each.
+template <int In, int Out>
+struct Slopes {
+  double value[Out] = {};
+  double slope[Out][In] = {};
+};
+
+/// y = f(x) of several numbers at once, where f(x, with_slopes) works in plain ones and gives Slopes.
+template <int In, int Out, class F>
+void through(const double (&x)[In], F f, double (&y)[Out]) {
+  const Slopes<In, Out> at = f(x, false);
+  for (int i = 0; i < Out; ++i) y[i] = at.value[i];
+}
+template <int M, int In, int Out, class F>
+void through(const Dual<M> (&x)[In], F f, Dual<M> (&y)[Out]) {
+  double plain[In];
+  for (int k = 0; k < In; ++k) plain[k] = x[k].v;
+  const Slopes<In, Out> at = f(plain, true);
+  for (int i = 0; i < Out; ++i) {
+    y[i] = Dual<M>(at.value[i]);
+    for (int k = 0; k < In; ++k)
+      for (int m = 0; m < M; ++m) y[i].d[m] += at.slope[i][k] * x[k].d[m];
+  }
+}
+template <int N, int In, int Out, class F>
+void through(const Lanes<N> (&x)[In], F f, Lanes<N> (&y)[Out]) {
+  for (int lane = 0; lane < N; ++lane) {
+    double plain[In];
+    for (int k = 0; k < In; ++k) plain[k] = x[k][lane];
+    const Slopes<In, Out> at = f(plain, false);
+    for (int i = 0; i < Out; ++i) y[i].set(lane, at.value[i]);
+  }
+}
+
 inline double abs(double x) { return std::abs(x); }
 inline double sqrt(double x) { return std::sqrt(x); }
 inline double exp(double x) { return std::exp(x); }

@@ -13,6 +13,9 @@
 #include "laws/friction/brown_mcphee.h"
 #include "laws/bushing.h"
 #include "laws/catalog.h"
+#include "laws/flexures/cross_spring.h"
+#include "laws/flexures/leaf_spring.h"
+#include "laws/flexures/notch_hinge.h"
 #include "laws/friction/coulomb.h"
 #include "laws/contact/guide_contact.h"
 #include "laws/bearings/journal_film.h"
@@ -117,7 +120,7 @@ class AnyLaw : public testing::Test {
   }
 };
 using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GuideContactLaw, ClutchLaw,
-                             TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw>;
+                             TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw, LeafSpringLaw, NotchHingeLaw, CrossSpringLaw>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 
 // Across a border that the law declares there is no difference quotient; anywhere else there must be.

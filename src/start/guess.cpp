@@ -16,7 +16,7 @@ bool joins_points(const JointData& joint) {
 
 bool joins_angles(const JointData& joint) { return joint.type == "fixed" || joint.type == "prismatic"; }
 
-// Puts body `b` onto the joint's other half; `other` is placed already.
+// Puts body `b` onto the joint's other half, as far from it as the joint is at rest; `other` is placed already.
 void put(const JointData& joint, int b, const Model& model, const std::vector<S::Motion>& m, Vecs& q) {
   const bool is_second = joint.at.b == b;
   const int other = is_second ? joint.at.a : joint.at.b;
@@ -25,7 +25,11 @@ void put(const JointData& joint, int b, const Model& model, const std::vector<S:
   if (!model.bodies[b].angle) q[b][2] = joins_angles(joint) ? o.angle + theirs.angle - mine.angle : 0;
   if (model.bodies[b].position) return;
   const S::Motion me = S::Motion::of({0, 0, q[b][2]}, S::Vec::Zero());
-  const S::Point p = o.p + o.turned(theirs.p) - me.turned(mine.p);
+  S::Point p = o.p + o.turned(theirs.p) - me.turned(mine.p);
+  if (const auto* pose = std::get_if<Selection>(&joint.displacement)) {
+    const S::Point apart = S::Motion::of({0, 0, is_second ? o.angle + theirs.angle : q[b][2] + mine.angle}, S::Vec::Zero()).turned(pose->offset.head<2>());
+    p += is_second ? apart : S::Point(-apart);
+  }
   q[b][0] = p.x();
   q[b][1] = p.y();
 }

@@ -80,7 +80,8 @@ class Builder {
     return at;
   }
 
-  static Law make_law(const Joint& joint, const JointTypeInfo& type, const std::array<bool, 3>& held) {
+  // A law with a rest position of its own also says where the gap counts from.
+  static Law make_law(const Joint& joint, const JointTypeInfo& type, const std::array<bool, 3>& held, JointDisplacement& displacement) {
     LawSetting setting;
     setting.joint_type = joint.type;
     setting.held = held;
@@ -100,6 +101,7 @@ class Builder {
         if (const LawFault fault = info->fault(setting); !fault.key.empty()) refuse(fmt::format("joint {}: {}: {}", joint.name, fault.key, fault.why));
       if (choice == &joint.friction && law_info && law_info->rubs) refuse(fmt::format("joint {}: law '{}' has friction of its own", joint.name, joint.law.word));
       info->make(setting, law);
+      if (info->rest) std::get<Selection>(displacement).offset.head<2>() = info->rest(setting);
     }
     return law;
   }
@@ -112,7 +114,7 @@ class Builder {
     data.at = place(joint.first, joint.second);
     data.displacement = info->make(joint.geometry);
     for (const ComponentInfo& gap : info->gap) data.held[gap.place] = true;
-    data.law = make_law(joint, *info, data.held);
+    data.law = make_law(joint, *info, data.held, data.displacement);
     data.ideal = joint.ideal && model_.simulate.equations == Equations::kRelative;
     for (const ComponentInfo& free : info->free) data.free_mask[free.place] = 1;
     system_.joints.push_back(std::move(data));
