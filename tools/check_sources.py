@@ -18,7 +18,7 @@ FOLDERS_OF = {
     "base": "text expression".split(),
     "integrators": "radau absolute dense relative general ideal".split(),
     "io": "schema reading toml".split(),
-    "laws": "friction contact bearings".split(),
+    "laws": "friction contact bearings flexures".split(),
     "results": "plots studies".split(),
     "run": "record errors".split(),
     "sweeps": "storage".split(),

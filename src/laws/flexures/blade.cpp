@@ -110,8 +110,7 @@ bool Blade::is_stable(const Work& work) const {
 }
 
 // Newton's method at one level.
-bool Blade::refine(const Vec3& displacement, BladeShape& shape) const {
-  Work work;
+bool Blade::refine(const Vec3& displacement, BladeShape& shape, Work& work) const {
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kNewton; ++iteration) {
     assemble(shape, displacement, work);
@@ -134,15 +133,17 @@ bool Blade::refine(const Vec3& displacement, BladeShape& shape) const {
   return false;
 }
 
-// With as many functions as the shape takes.
-bool Blade::solve(const Vec3& displacement, BladeShape& shape) const {
+// With as many functions as the shape takes, and changes of it: of exp(k s), whose k is the root of the force along the blade, the coefficients fall as
+// exp(-n^2/k).
+bool Blade::solve(const Vec3& displacement, BladeShape& shape, Work& work) const {
   for (;;) {
-    if (!refine(displacement, shape)) return false;
-    const int n = BladeBasis::at(shape.level).n;
+    if (!refine(displacement, shape, work)) return false;
+    const int n = work.basis->n;
+    const bool follows_changes = n * n >= -std::log(kTail) * std::sqrt(work.turns.abs().maxCoeff());
     double size = std::abs(shape.theta);
     for (int i = 0; i < n; ++i) size = std::max(size, std::abs(shape.c[i]) / std::sqrt(2 * i + 3));
     const double tail = std::max(std::abs(shape.c[n - 1]), std::abs(shape.c[n - 2])) / std::sqrt(2 * n + 1);
-    if (tail <= kTail * size) return true;
+    if (follows_changes && tail <= kTail * size) return true;
     if (shape.level + 1 == BladeBasis::kLevels) return tail <= kRoughTail * size;
     ++shape.level;
   }
@@ -154,6 +155,7 @@ bool Blade::find(const Vec3& displacement, BladeShape& shape) const {
   if (!(parts <= kMostParts) || !std::isfinite(displacement[0])) return false;
   const auto place = [&displacement](double share) { return Vec3(share * share * displacement[0], share * displacement[1], share * displacement[2]); };
   shape = {};
+  Work work;
   double done = 0, part = 1 / parts;
   while (done < 1) {
     const double next = done + part > 1 - 1e-9 ? 1 : done + part, more = next - done;
@@ -162,7 +164,7 @@ bool Blade::find(const Vec3& displacement, BladeShape& shape) const {
     trial.theta = next * displacement[2];
     trial.c[0] += more * bent;
     trial.n[1] -= 2 * more * bent;
-    if (solve(place(next), trial)) {
+    if (solve(place(next), trial, work)) {
       shape = trial;
       done = next;
     } else {

@@ -44,8 +44,8 @@ class Blade {
   void follow_slope(const BladeShape& shape, Work& work) const;
   void assemble(const BladeShape& shape, const Eigen::Vector3d& displacement, Work& work) const;
   bool is_stable(const Work& work) const;
-  bool refine(const Eigen::Vector3d& displacement, BladeShape& shape) const;
-  bool solve(const Eigen::Vector3d& displacement, BladeShape& shape) const;
+  bool refine(const Eigen::Vector3d& displacement, BladeShape& shape, Work& work) const;
+  bool solve(const Eigen::Vector3d& displacement, BladeShape& shape, Work& work) const;
   void find_losses(const Eigen::Vector3d& rate, bool with_slopes, const Work& work, BladeAnswer& out) const;
 
   double axial_, shear_;
