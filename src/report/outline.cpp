@@ -58,6 +58,16 @@ std::vector<Vec2> rectangle(const Vec2& centre, const Vec2& along, const Vec2& h
   return {centre - u - v, centre + u - v, centre + u + v, centre - u + v};
 }
 
+std::vector<Vec2> cubic_curve(const Vec2& a, const Vec2& along_a, const Vec2& b, const Vec2& along_b) {
+  constexpr int kPieces = 16;
+  std::vector<Vec2> points;
+  for (int i = 0; i <= kPieces; ++i) {
+    const double s = static_cast<double>(i) / kPieces, left = 1 - s, square = s * s * (3 - 2 * s);
+    points.push_back((1 - square) * a + square * b + s * left * left * along_a + -s * s * left * along_b);
+  }
+  return points;
+}
+
 std::vector<Vec2> arc(const Vec2& centre, double radius, double from, double to) {
   const int n = std::max(4, static_cast<int>(std::ceil(std::abs(to - from) * 12 / std::numbers::pi)));
   std::vector<Vec2> points;

@@ -27,6 +27,9 @@ Vec2 nearest_on(const Vec2& from, const Vec2& to, const Vec2& p);
 /// A rectangle around `centre`, `half` of its sides along and across `along` (of length 1).
 std::vector<Vec2> rectangle(const Vec2& centre, const Vec2& along, const Vec2& half);
 
+/// Points on the cubic curve from `a` to `b` with these tangents at its ends (Hermite).
+std::vector<Vec2> cubic_curve(const Vec2& a, const Vec2& along_a, const Vec2& b, const Vec2& along_b);
+
 /// Points on an arc, from angle `from` to `to`.
 std::vector<Vec2> arc(const Vec2& centre, double radius, double from, double to);
 

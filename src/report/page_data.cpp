@@ -168,6 +168,7 @@ class PageData {
 
   Json point(const Vec2& p) const { return {rounded(p[0], grain_), rounded(p[1], grain_)}; }
   Json anchor(const Anchor& at) const { return {{"body", at.body}, {"point", point(at.point)}}; }
+  Json end_of(const Anchor& at) const { return {{"body", at.body}, {"point", point(at.point)}, {"axis", at.axis}}; }
   Json spot(const MovingPoint& at) const {
     Json json = anchor(at.at);
     if (at.share != 0) json.update({{"toward", anchor(at.toward)}, {"share", at.share}});
@@ -213,8 +214,8 @@ class PageData {
     for (const Connector& connector : scene_.connectors) {
       Json line = {{0, 0}, {1, 0}};
       if (connector.paint == Paint::kSpring) line = spring_zigzag(connector.teeth);
-      connectors.push_back({{"name", connector.name}, {"paint", style_of(connector.paint).name}, {"from", anchor(connector.from)},
-                            {"to", anchor(connector.to)}, {"line", std::move(line)}});
+      connectors.push_back({{"name", connector.name}, {"paint", style_of(connector.paint).name}, {"from", end_of(connector.from)},
+                            {"to", end_of(connector.to)}, {"line", std::move(line)}, {"length", connector.length}});
     }
     for (const ForceArrow& arrow : scene_.arrows)
       arrows.push_back({{"joint", arrow.joint}, {"on", arrow.on}, {"at", spot(arrow.at)}, {"fx", kept(arrow.fx)}, {"fy", kept(arrow.fy)}});

@@ -1,6 +1,7 @@
 // Where bodies are in a row of a run, and at instants between rows.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -28,6 +29,11 @@ struct Instant {
 
   Vec2 place(const Anchor& anchor) const {
     return anchor.body == kWorld ? anchor.point : poses[static_cast<std::size_t>(anchor.body)].world(anchor.point);
+  }
+  /// The direction of its axis in the world, of length 1.
+  Vec2 along(const Anchor& anchor) const {
+    const Vec2 axis{std::cos(anchor.axis), std::sin(anchor.axis)};
+    return anchor.body == kWorld ? axis : poses[static_cast<std::size_t>(anchor.body)].turned(axis);
   }
   Vec2 place(const MovingPoint& spot) const {
     const Vec2 a = place(spot.at);

@@ -104,7 +104,7 @@ void SceneMaker::add_joint(const Joint& joint) {
                 {{second->body == kWorld ? first->point : second->point}}, 0.5 * u});
   } else if (joint.type == "slot") {
     put(kPins, {Form::kCircle, Paint::kPin, second->body, {{second->point}}, 0.5 * u});
-  } else if (joint.type == "fixed") {
+  } else if (joint.type == "fixed" && !add_flexure(joint, *first, *second)) {
     if (first->body == kWorld || second->body == kWorld) {
       const Anchor &wall = first->body == kWorld ? *first : *second, &held = first->body == kWorld ? *second : *first;
       const Pose at = pose(held.body, 0);

@@ -88,6 +88,11 @@ class SceneMaker {
   Track slide_range(const Anchor& guide, const Anchor& block) const;
   bool first_at(const Vec2& at, std::vector<Vec2>& known) const;  ///< nothing there yet: remembered
 
+  // scene_flexures.cpp
+  bool add_flexure(const Joint& joint, const Anchor& first, const Anchor& second);  ///< false: its law is no flexure's
+  void add_blade(const std::string& name, const Anchor& first, const Anchor& second, double length);
+  void add_neck(const Anchor& at);
+
   const Model& model_;
   const Trajectory& trajectory_;
   ColumnIndex columns_;

@@ -110,6 +110,10 @@ class Drawing {
       const Vec2 across = scene_.unit * normal(unit(d));
       for (const Vec2& p : spring_zigzag(connector.teeth)) points.push_back(px(a + p[0] * d + p[1] * across));
     }
+    if (connector.paint == Paint::kBlade) {
+      points = cubic_curve(a, connector.length * instant_.along(connector.from), b, connector.length * instant_.along(connector.to));
+      for (Vec2& p : points) p = px(p);
+    }
     put("<path d=\"{}\" {}/>\n", path_text(points, false), pen(style_of(connector.paint), kWorld));
   }
 

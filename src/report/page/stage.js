@@ -192,8 +192,22 @@ class Stage {
     g.strokeStyle = this.shade(style.line[+dark.matches], -1);
     g.lineWidth = style.width * pixel;
     g.beginPath();
-    for (const [along, across] of connector.line) g.lineTo(a[0] + along * dx - (across * u * dy) / l, a[1] + along * dy + (across * u * dx) / l);
+    if (connector.length > 0) this.traceBlade(g, a, b, connector, poses);
+    else for (const [along, across] of connector.line) g.lineTo(a[0] + along * dx - (across * u * dy) / l, a[1] + along * dy + (across * u * dx) / l);
     g.stroke();
+  }
+
+  /** A blade: the cubic curve along the axes of both its ends. */
+  traceBlade(g, a, b, connector, poses) {
+    const third = connector.length / 3;
+    const from = this.directionOf(connector.from, poses), to = this.directionOf(connector.to, poses);
+    g.moveTo(a[0], a[1]);
+    g.bezierCurveTo(a[0] + third * from[0], a[1] + third * from[1], b[0] - third * to[0], b[1] - third * to[1], b[0], b[1]);
+  }
+
+  directionOf(at, poses) {
+    const p = poses[at.body + 1], c = Math.cos(at.axis), s = Math.sin(at.axis);
+    return [p.c * c - p.s * s, p.s * c + p.c * s];
   }
 
   /** Points that are followed: "" none, "joints", or the name of one. */

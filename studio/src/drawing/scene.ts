@@ -1,12 +1,12 @@
 // The drawing of a mechanism: built once for each model and zoom, then only moved. One frame sets a transform for each
 // thing that moves; nothing is made or measured in it.
 import { type Point, type Pose, distance, roundedOutline, toWorld } from "../model/geometry";
-import { type End, GROUND, type Joint, type Model, type Spring, markerOf } from "../model/model";
+import { type Blade, type End, GROUND, type Joint, type Model, type Spring, markerOf } from "../model/model";
 import type { Thing } from "../model/operations";
 import type { Camera } from "./camera";
 import { type BodyLook, type Looks, guideEnds } from "./looks";
 import { ForceArrows, drawLoads } from "./loads";
-import { BAR, PIN, centreMark, circle, coil, dashpot, groundGuide, polyline, rackTeeth, rectangle, slot, support, teeth, zigzag } from "./symbols";
+import { BAR, PIN, bend, centreMark, circle, coil, dashpot, groundGuide, polyline, rackTeeth, rectangle, slot, support, teeth, zigzag } from "./symbols";
 import { group, make, path, put } from "./svg";
 
 /** One instant: where bodies are, and what joints carry (fx, fy, moment on the second body, in the order of the model). */
@@ -186,6 +186,7 @@ export class Scene {
   private drawJoint(model: Model, joint: Joint): void {
     if (joint.type === "rod" || joint.type === "rope") return this.drawTie(model, joint);
     if (joint.type === "gear" || joint.type === "rack") return;
+    for (const blade of joint.blades) this.drawBlade(model, joint, blade);
     const end = joint.type === "prismatic" || joint.type === "slot" ? guideEnds(joint).runner : joint.second;
     const marker = markerOf(model, end);
     const at = marker?.at ?? [0, 0];
@@ -223,6 +224,28 @@ export class Scene {
     if (!a || !b) return;
     this.onFrame((frame) => line.setAttribute("d", polyline([this.at(frame, a.body, a.at), this.at(frame, b.body, b.at)])));
     for (const end of [a, b]) this.follow(path(circle(0, 0, PIN - 1), "pin", this.layers.pins), end.body, end.at, 0, false);
+  }
+
+  // The cubic curve that leaves and reaches the clamps along the blade.
+  private drawBlade(model: Model, joint: Joint, blade: Blade): void {
+    const line = path("", "spring blade", this.layers.links);
+    this.register("joint", joint.name, line);
+    const third = (blade.length / 3) * this.scale;
+    const clamp = (end: End, along: number) => {
+      const marker = markerOf(model, end);
+      const angle = (marker?.axis ?? 0) + blade.angle;
+      const [x, y] = marker?.at ?? [0, 0];
+      return { body: end.body, at: [x + along * Math.cos(angle), y + along * Math.sin(angle)] as Point, angle };
+    };
+    const from = clamp(joint.first, blade.from);
+    const to = clamp(joint.second, blade.to);
+    this.onFrame((frame) => {
+      const [x, y] = this.at(frame, from.body, from.at);
+      const [u, v] = this.at(frame, to.body, to.at);
+      const leaves = from.angle + (from.body === GROUND ? 0 : frame.pose(from.body).angle);
+      const arrives = to.angle + (to.body === GROUND ? 0 : frame.pose(to.body).angle);
+      line.setAttribute("d", bend([x, y], leaves, [u, v], arrives, third));
+    });
   }
 
   private drawSpring(model: Model, spring: Spring): void {

@@ -63,6 +63,12 @@ export function dashpot(length: number): string {
   return `M0 0H${f(mid - cup)}M${f(mid - cup)} -7V7M${f(mid - cup)} -7H${f(mid + cup)}M${f(mid - cup)} 7H${f(mid + cup)}M${f(mid)} -5V5M${f(mid)} 0H${f(length)}`;
 }
 
+/** A blade from one point to another, in these directions there (y up), with handles of this length. */
+export function bend([x, y]: Point, leaves: number, [u, v]: Point, arrives: number, handle: number): string {
+  const c = [x + handle * Math.cos(leaves), y - handle * Math.sin(leaves), u - handle * Math.cos(arrives), v + handle * Math.sin(arrives)];
+  return `M${f(x)} ${f(y)}C${c.map(f).join(" ")} ${f(u)} ${f(v)}`;
+}
+
 /** A spiral about the origin. */
 export function coil(radius = 15): string {
   const points: Point[] = [];

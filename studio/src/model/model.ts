@@ -44,6 +44,16 @@ export interface Joint {
   radii: [number, number] | null;
   radius: number | null;
   internal: boolean;
+  /** The blades of a flexure; none for other laws. */
+  blades: Blade[];
+}
+
+/** A blade in the axes of its two markers: where its ends are along its own direction, and that direction against the markers'. */
+export interface Blade {
+  length: number;
+  angle: number;
+  from: number;
+  to: number;
 }
 
 export interface Spring {
@@ -222,7 +232,18 @@ function readJoint(name: string, table: TableNode, number: Reading): Joint {
     radii: point(table.entries.get("radii"), number) as [number, number] | null,
     radius: number(table.entries.get("radius")),
     internal: textOf(table.entries.get("mesh")) === "internal",
+    blades: readBlades(table, number),
   };
+}
+
+function readBlades(table: TableNode, number: Reading): Blade[] {
+  const law = textOf(table.entries.get("law"));
+  const length = number(table.entries.get("length")) ?? 0;
+  if (law === "leaf-spring") return [{ length, angle: 0, from: 0, to: 0 }];
+  if (law !== "cross-spring") return [];
+  const half = (number(table.entries.get("crossing_angle")) ?? Math.PI / 2) / 2;
+  const crossing = number(table.entries.get("crossing")) ?? 0.5;
+  return [half, -half].map((angle) => ({ length, angle, from: -crossing * length, to: (1 - crossing) * length }));
 }
 
 function readSpring(name: string, table: TableNode, number: Reading, torsion: boolean): Spring {

@@ -1,0 +1,47 @@
+// How flexures look: blades between their clamps, necks between two cut-outs.
+#include "laws/catalog.h"
+#include "report/outline.h"
+#include "report/scene_maker.h"
+
+namespace pintle {
+
+bool SceneMaker::add_flexure(const Joint& joint, const Anchor& first, const Anchor& second) {
+  const LawInfo* law = find_law(joint.law.word);
+  if (law == nullptr) return false;
+  LawSetting at;
+  at.values = &joint.law.values;
+  at.keys = law->keys;
+  if (law->word == "leaf-spring") {
+    add_blade(joint.name, first, second, at.number("length"));
+  } else if (law->word == "cross-spring") {
+    const double length = at.number("length"), half = 0.5 * at.number("crossing_angle"), crossing = at.number("crossing");
+    for (const double angle : {half, -half}) {
+      const auto end = [angle](const Anchor& marker, double along) { return Anchor{marker.body, marker.point + along * direction(marker.axis + angle), marker.axis + angle}; };
+      add_blade(joint.name, end(first, -crossing * length), end(second, (1 - crossing) * length), length);
+    }
+  } else if (law->word == "notch-hinge") {
+    add_neck(second.body == kWorld ? first : second);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+// Clamped at both ends: small squares on bodies, a wall on the ground.
+void SceneMaker::add_blade(const std::string& name, const Anchor& first, const Anchor& second, double length) {
+  scene_.connectors.push_back({name, Paint::kBlade, first, second, 0, length});
+  for (const auto& [end, out] : {std::pair(first, 1.0), std::pair(second, -1.0)}) {
+    if (end.body == kWorld) add_wall(end.point, out * direction(end.axis));
+    else add_weld(end);
+    show(end.body, end.point, 0);
+  }
+}
+
+void SceneMaker::add_neck(const Anchor& at) {
+  const double u = scene_.unit;
+  const Vec2 across = normal(direction(at.axis));
+  put(kPins, {Form::kCircle, Paint::kHole, at.body, {{at.point + 0.8 * u * across}, {at.point - 0.8 * u * across}}, 0.65 * u});
+  add_weld(at);
+}
+
+}  // namespace pintle
