@@ -6,7 +6,7 @@ import { EMPTY_MODEL, addBar, addGroundPin, addMotor } from "../model/operations
 import { fitTo, fromScreen, gridStep, toScreen, zoomAt } from "./camera";
 import { hitTest, snap } from "./hit";
 import { looksOf } from "./looks";
-import { groundGuide, rackTeeth } from "./symbols";
+import { bend, groundGuide, rackTeeth } from "./symbols";
 import { finish } from "./tools";
 
 const four = () => readModel(readFileSync(fileURLToPath(new URL("../../../mechanisms/four_bar.toml", import.meta.url)), "utf8"));
@@ -23,6 +23,21 @@ describe("the camera", () => {
     const pixels = gridStep({ scale, x: 0, y: 0 }) * scale;
     expect(pixels).toBeGreaterThanOrEqual(12 - 1e-9);
     expect(pixels).toBeLessThanOrEqual(30 + 1e-9);
+  });
+});
+
+describe("blades of flexures", () => {
+  const joints = (name: string) => readModel(readFileSync(fileURLToPath(new URL(`../../../mechanisms/${name}.toml`, import.meta.url)), "utf8")).joints;
+  it("are one from marker to marker in a leaf spring, two that cross in a cross-spring pivot, none in a pin", () => {
+    expect(joints("parallel_spring_stage")[0]?.blades).toEqual([{ length: 0.1, angle: 0, from: 0, to: 0 }]);
+    const crossed = joints("cross_spring_pendulum")[0]?.blades ?? [];
+    expect(crossed.map((blade) => blade.angle)).toEqual([Math.PI / 4, -Math.PI / 4]);
+    for (const blade of crossed) expect(blade.to - blade.from).toBeCloseTo(blade.length, 12);
+    expect(joints("four_bar").flatMap((joint) => joint.blades)).toEqual([]);
+  });
+  it("leave and reach their ends in the directions of the clamps", () => {
+    expect(bend([0, 0], 0, [90, 10], 0, 30)).toBe("M0 0C30 0 60 10 90 10");
+    expect(bend([0, 0], Math.PI / 2, [0, -90], Math.PI / 2, 30)).toBe("M0 0C0 -30 0 -60 0 -90");
   });
 });
 
