@@ -1,9 +1,11 @@
 #include "start/preload.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "integrators/absolute/gap_projector.h"
 #include "integrators/absolute/radau_stepper.h"
@@ -152,6 +154,103 @@ typename S::Vec newton_step(const BasicResponse<S>& now, const typename S::Vec& 
   return K.partialPivLu().solve(missing);
 }
 
+// A gap as the law's stiffness lets lengths and angles be compared.
+template <class S>
+double size_of_gap(const typename S::Vec& gap, const typename S::Vec& engaged) {
+  const double stiffest = engaged.template head<S::kDim>().maxCoeff(), turning = engaged.template tail<S::kDof - S::kDim>().maxCoeff();
+  const double arm = stiffest > 0 ? std::sqrt(turning / stiffest) : 1;
+  return gap.template head<S::kDim>().norm() + arm * gap.template tail<S::kDof - S::kDim>().norm();
+}
+
+// Whether both gaps are on the same sides of all borders of the law.
+template <class S>
+bool on_same_sides(const BasicLaw<S>& law, const typename S::Vec& a, const typename S::Vec& b, const typename S::Vec& rate) {
+  std::vector<double> at_a(static_cast<std::size_t>(law.n_borders())), at_b(at_a.size());
+  law.borders({0, a, rate, nullptr}, at_a.data());
+  law.borders({0, b, rate, nullptr}, at_b.data());
+  return same_sides(at_a, at_b);
+}
+
+// Newton's method at one load: plain steps, each at most half of the one before. The gap must stay on the side of the law's borders where `from` is.
+template <class S>
+bool settle_at(const BasicLaw<S>& law, const typename S::Vec& from, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
+  constexpr double kRounding = 1e-9;
+  const typename S::Vec engaged = law.engaged_stiffness();
+  double last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kNewton; ++i) {
+    const BasicResponse<S> now = respond(law, gap, rate);
+    typename S::Vec missing = now.force - force;
+    const typename S::Vec step = newton_step<S>(now, engaged, missing);
+    if (!step.allFinite()) return false;
+    const double moved = size_of_gap<S>(step, engaged), size = size_of_gap<S>(gap + step, engaged);
+    const bool rounding = moved <= kRounding * size;
+    if (!(moved <= 0.5 * last)) return rounding && on_same_sides(law, from, gap, rate);
+    gap += step;
+    if (moved <= 1e-15 * size) return on_same_sides(law, from, gap, rate);
+    last = moved;
+  }
+  return false;
+}
+
+// A path of gaps through its last points, by the parabola (or line) through them.
+template <class S>
+class GapPath {
+ public:
+  GapPath(double at, const typename S::Vec& gap) { add(at, gap); }
+  void add(double at, const typename S::Vec& gap) {
+    if (n_ == kPoints) std::rotate(points_.begin(), points_.begin() + 1, points_.end());
+    else ++n_;
+    points_[n_ - 1] = {at, gap};
+  }
+  const typename S::Vec& last() const { return points_[n_ - 1].gap; }
+  typename S::Vec extrapolated(double at) const {
+    typename S::Vec sum = S::Vec::Zero();
+    for (std::size_t i = 0; i < n_; ++i) {
+      double weight = 1;
+      for (std::size_t j = 0; j < n_; ++j)
+        if (j != i) weight *= (at - points_[j].at) / (points_[i].at - points_[j].at);
+      sum += weight * points_[i].gap;
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr std::size_t kPoints = 3;
+  struct Point {
+    double at = 0;
+    typename S::Vec gap;
+  };
+  std::array<Point, kPoints> points_;
+  std::size_t n_ = 0;
+};
+
+// A law without states that resists where it is, such as a blade: the load is raised from what it carries there, in steps short enough for Newton's
+// method, which no border of the law may lie between. False, and the gap as it was, where that does not lead to it. theory/assembly Eq. (3.6).
+template <class S>
+bool follow_load(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
+  constexpr double kFinest = 1e-6;
+  if (law.n_states() > 0 || law.starts_free()) return false;
+  const BasicResponse<S> start = respond(law, gap, rate);
+  const typename S::Vec engaged = law.engaged_stiffness();
+  for (int k = 0; k < S::kDof; ++k)
+    if (engaged[k] > 0 && !(start.stiffness(k, k) > 0)) return false;
+  GapPath<S> path(0, gap);
+  double done = 0;
+  for (double part = 1; done < 1;) {
+    const double next = std::min(1.0, done + part);
+    typename S::Vec trial = path.extrapolated(next);
+    if (settle_at(law, path.last(), typename S::Vec(start.force + next * (force - start.force)), rate, trial)) {
+      path.add(next, trial);
+      done = next;
+      part *= 2;
+    } else if ((part *= 0.5) < kFinest) {
+      return false;
+    }
+  }
+  gap = path.last();
+  return true;
+}
+
 }  // namespace
 
 // Newton on the law's own tangent; nothing in free components.
@@ -161,6 +260,7 @@ void gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const ty
     gap_of_springs(law, force, rate, gap);
     return;
   }
+  if (follow_load(law, force, rate, gap)) return;
   begin_where_it_resists(law, force, rate, gap);
   const typename S::Vec engaged = law.engaged_stiffness();
   for (int i = 0; i < kNewton; ++i) {

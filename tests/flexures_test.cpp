@@ -1,0 +1,185 @@
+// Flexures in whole mechanisms: where loads settle, starts without ringing, frequencies, other equations.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "pintle/check.h"
+#include "tests/reference_tables.h"
+
+namespace pintle {
+namespace {
+
+using reference::at_end;
+using reference::completed;
+using reference::drift;
+using reference::value;
+
+constexpr double kPi = std::numbers::pi, kG = 9.80665;
+
+// Two blades of steel hang from the ground and carry a table, which a force pushes at half their height.
+Model stage(double push, const std::string& rest = "") {
+  return parse_model(fmt::format(R"toml(
+format = 1
+name = "Stage"
+{}
+[simulate]
+duration = "0.3 s"
+output_step = "5 ms"
+tolerance = 1e-6
+[ground.markers]
+left = {{ x = -0.08, y = 0, axis = "-90 deg" }}
+right = {{ x = 0.08, y = 0, axis = "-90 deg" }}
+[body.table]
+mass = 2
+inertia = 6e-3
+markers.left = {{ x = -0.08, y = 0.015, axis = "-90 deg" }}
+markers.right = {{ x = 0.08, y = 0.015, axis = "-90 deg" }}
+markers.middle = [0, 0.065]
+[joint.left]
+type = "fixed"
+between = ["ground.left", "table.left"]
+law = "leaf-spring"
+length = 0.1
+width = 0.03
+thickness = 5e-4
+damping_time = 1e-4
+[joint.right]
+type = "fixed"
+between = ["ground.right", "table.right"]
+law = "leaf-spring"
+length = 0.1
+width = 0.03
+thickness = 5e-4
+damping_time = 1e-4
+[force.push]
+on = "table.middle"
+force = [{}, 0]
+)toml", rest, push), "stage.toml");
+}
+constexpr double kEI = 207e9 * 0.03 * 1.25e-10 / 12, kL = 0.1;
+// Across, of one blade guided in angle under this tension: theory/flexures section 2.
+double guided_stiffness(double tension) {
+  const double k = std::sqrt(tension * kL * kL / kEI);
+  return kEI / (kL * kL * kL) * k * k * k / (k - 2 * std::tanh(0.5 * k));
+}
+
+// No position is stated: the table is put at the ends of the blades. It starts where its weight and a push hold it, and stays.
+TEST(Flexures, StartWhereTheLoadHoldsThem) {
+  const Trajectory idle = completed(stage("0")), pushed = completed(stage("2"));
+  const double x = at_end(pushed, "body.table.x");
+  EXPECT_NEAR(at_end(idle, "body.table.y"), -0.115 - 0.5 * 2 * kG * kL / (207e9 * 0.03 * 5e-4), 1e-10);
+  EXPECT_NEAR(x * 2 * guided_stiffness(kG) / 2, 1, 1e-4);
+  EXPECT_NEAR((at_end(pushed, "body.table.y") - at_end(idle, "body.table.y")) / (0.6 * x * x / kL), 1, 0.02);
+  for (std::size_t i = 0; i < pushed.n_rows(); ++i) {
+    EXPECT_NEAR(value(pushed, i, "body.table.x"), x, 1e-9);
+    for (const char* joint : {"left", "right"})
+      for (const char* column : {"fx[world]", "fy[world]", "m[world]"}) {
+        const std::string name = fmt::format("joint.{}.on_table.{}", joint, column);
+        EXPECT_NEAR(value(pushed, i, name), at_end(pushed, name), 1e-6 * 2 * kG) << name << ' ' << i;
+      }
+  }
+  // The clamps carry the moment F L/4 each, less what the weight takes; and half of the weight.
+  const double moment = 0.5 * 2 * 0.5 * kL - 0.5 * kG * x, stress = moment * 6 / (0.03 * 25e-8) + kG / (0.03 * 5e-4);
+  EXPECT_NEAR(at_end(pushed, "joint.left.bending_stress"), stress, 0.02 * stress);
+}
+
+// A weight at the free end of a long blade bends it far; where, an elastica without stretch says in elliptic integrals (Bisshopp and Drucker 1945). The blade's own
+// stretch is below 1e-6 of its length.
+TEST(Flexures, StartFarBentUnderAWeight) {
+  const double end = 0.9, k = std::sqrt(0.5 * (1 + std::sin(end))), first = std::asin(1 / (k * std::numbers::sqrt2)), alpha = std::comp_ellint_1(k) - std::ellint_1(k, first);
+  const double L = 0.3, EI = 207e9 * 0.02 * 1e-9 / 12, mass = alpha * alpha * EI / (L * L) / kG;
+  const Trajectory run = completed(parse_model(fmt::format(R"toml(
+format = 1
+name = "Weight on a blade"
+[simulate]
+duration = "0.2 s"
+output_step = "20 ms"
+[ground.markers]
+wall = [1, 2]
+[body.weight]
+mass = {:.17g}
+inertia = 1e-4
+markers.clamp = [0, 0]
+[joint.blade]
+type = "fixed"
+between = ["ground.wall", "weight.clamp"]
+law = "leaf-spring"
+length = {}
+width = 0.02
+thickness = 1e-3
+)toml", mass, L), "weight.toml"));
+  for (const std::size_t row : {std::size_t{0}, run.n_rows() - 1}) {
+    EXPECT_NEAR(value(run, row, "body.weight.y"), 2 - L * (1 - 2 / alpha * (std::comp_ellint_2(k) - std::ellint_2(k, first))), 3e-6 * L);
+    EXPECT_NEAR(value(run, row, "body.weight.x"), 1 + L * std::sqrt(2 * std::sin(end)) / alpha, 3e-6 * L);
+    EXPECT_NEAR(value(run, row, "body.weight.angle"), -end, 1e-5);
+    EXPECT_NEAR(value(run, row, "joint.blade.on_weight.fy[world]"), mass * kG, 1e-6 * mass * kG);
+    EXPECT_NEAR(value(run, row, "joint.blade.on_ground.m[world]"), -mass * kG * L * std::sqrt(2 * std::sin(end)) / alpha, 1e-4 * mass * kG * L);
+  }
+}
+
+// Weightless 24 EI/L^3 for both blades; the weight that hangs in them makes them stiffer.
+TEST(Flexures, VibrateAsTheirStiffnessSays) {
+  const double floating = check_model(stage("0", "gravity = [0, 0]")).frequencies.modes.front().frequency;
+  EXPECT_NEAR(floating, std::sqrt(24 * kEI / (kL * kL * kL) / 2), 1e-4 * floating);
+  const double loaded = check_model(stage("0")).frequencies.modes.front().frequency;
+  EXPECT_NEAR(loaded, std::sqrt(2 * guided_stiffness(kG) / 2), 1e-3 * loaded);
+}
+
+TEST(Flexures, MoveWithinTheEnergyAccountAndInAnyEquations) {
+  const std::string push = "\"4*(1 - cos(40*t))\"";
+  const Trajectory free = completed(stage(push));
+  EXPECT_LT(drift(free), 1e-6);
+  double swing = 0;
+  for (std::size_t i = 0; i < free.n_rows(); ++i) swing = std::max(swing, std::abs(value(free, i, "body.table.x")));
+  EXPECT_GT(swing, 3e-3);
+  for (const Equations equations : {Equations::kIdeal, Equations::kRelative}) {
+    Model model = stage(push);
+    model.simulate.equations = equations;
+    const Trajectory other = completed(model);
+    for (std::size_t i = 0; i < free.n_rows(); ++i) {
+      EXPECT_NEAR(value(other, i, "body.table.x"), value(free, i, "body.table.x"), 1e-5 * swing);
+      EXPECT_NEAR(value(other, i, "joint.left.on_table.m[world]"), value(free, i, "joint.left.on_table.m[world]"), 1e-4 * free.joints[0].peak);
+    }
+  }
+}
+
+// Where no equilibrium of the blade is left the run does not go on as if there were one.
+TEST(Flexures, EndTheRunWhereABladeSnaps) {
+  const double euler = 4 * kPi * kPi * kEI / (kL * kL);
+  const Trajectory run = simulate(parse_model(fmt::format(R"toml(
+format = 1
+name = "Strut"
+gravity = [0, 0]
+[simulate]
+duration = "1 s"
+output_step = "10 ms"
+[ground.markers]
+wall = [0, 0]
+[body.piston]
+mass = 1
+inertia = 1e-3
+markers.clamp = [0, 0]
+[joint.guide]
+type = "prismatic"
+between = ["ground.wall", "piston.clamp"]
+[joint.strut]
+type = "fixed"
+between = ["ground.wall", "piston.clamp"]
+law = "leaf-spring"
+length = 0.1
+width = 0.03
+thickness = 5e-4
+damping_time = 1e-3
+[force.press]
+on = "piston.clamp"
+force = ["{:.17g}*t", 0]
+)toml", -2 * euler), "strut.toml"));
+  EXPECT_NE(run.outcome, Outcome::kCompleted);
+  EXPECT_NEAR(run.at(run.n_rows() - 1, 0), 0.5, 0.02);
+}
+
+}  // namespace
+}  // namespace pintle
