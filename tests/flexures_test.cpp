@@ -20,7 +20,7 @@ using reference::value;
 constexpr double kPi = std::numbers::pi, kG = 9.80665;
 
 // Two blades of steel hang from the ground and carry a table, which a force pushes at half their height.
-Model stage(double push, const std::string& rest = "") {
+Model stage(const std::string& push, const std::string& rest = "") {
   return parse_model(fmt::format(R"toml(
 format = 1
 name = "Stage"

@@ -11,10 +11,6 @@ namespace pintle {
 /// make modes a hundred times slower than that.
 inline constexpr double kHeldAbove = 5e-4;
 
-/// The gap at which a law gives `force` at `rate`; components without stiffness stay. theory/assembly Eq. (3.3).
-template <class S>
-void gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap);
-
 /// What a force on a component of a gap has to accelerate, per joint and component [kg or kg*m^2]. Empty when no joint has
 /// a stiffness.
 template <class S>

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "start/chebyshev_nodes.h"
+#include "laws/gap_at_force.h"
 #include "start/preload.h"
 
 namespace pintle {

@@ -7,6 +7,7 @@
 #include "base/random_for_tests.h"
 #include "laws/flexures/blade_basis.h"
 #include "laws/flexures/flexure_laws_for_tests.h"
+#include "laws/gap_at_force.h"
 
 namespace pintle {
 namespace {
@@ -189,6 +190,22 @@ TEST(LeafSpring, LosesByTheRateOfItsStrain) {
     const Vec moves = rate / (2 * h) * (arc(angle + h) - arc(angle - h)), still = arc(angle);
     EXPECT_NEAR(law.loss({0, still, moves, nullptr}), 1e-3 * kEI / kL * rate * rate, 1e-6 * 1e-3 * kEI / kL * rate * rate);
     EXPECT_NEAR(force(law, still, moves)[2] - force(law, still)[2], -1e-3 * kEI / kL * rate, 1e-5 * 1e-3 * kEI / kL * rate);
+  }
+}
+
+// From the unloaded blade to loads that bend it far, of blades whose stiffnesses differ by up to a million.
+TEST(LeafSpring, IsFoundUnderItsLoad) {
+  for (const double thickness : {0.01, 1e-3, 2e-4}) {
+    const Law law = made("leaf-spring", blade(thickness));
+    const double EI = kE * kB * thickness * thickness * thickness / 12;
+    for (const double across : {0.1, 2.0, 10.0})
+      for (const double along : {30.0, 0.0, -1.5}) {
+        const Vec wanted = -EI / (kL * kL) * Vec(along, across, 0.2 * across * kL), still = Vec::Zero();
+        Vec gap = Vec::Zero();
+        gap_at_force(law, wanted, still, gap);
+        EXPECT_LT((force(law, gap) - wanted).norm(), 1e-9 * wanted.norm()) << thickness << ' ' << across << ' ' << along;
+        EXPECT_EQ(observed(law, gap)[1], 1);
+      }
   }
 }
 

@@ -6,6 +6,7 @@
 #include "base/random_for_tests.h"
 #include "laws/flexures/flexure_laws_for_tests.h"
 #include "laws/flexures/notch_hinge.h"
+#include "laws/gap_at_force.h"
 
 namespace pintle {
 namespace {
@@ -127,6 +128,18 @@ TEST(CrossSpring, ShiftsItsCentre) {
       EXPECT_NEAR(gap[0] / (L * angle * angle / (12 * std::cos(0.5 * crossing))), 1, 2 * angle * angle + 2e-3);
       EXPECT_LT(std::abs(gap[1]), 0.1 * gap[0]);
     }
+  }
+}
+
+// Work of the pull on the shift of the centre, (4.4): a pull apart along the bisector takes F L/(6 cos(half of the crossing angle)) off the stiffness.
+TEST(CrossSpring, IsSofterWhenPulledApart) {
+  const double L = 0.05, EI = 207e9 * 0.01 * 1e-12 / 12;
+  const Law pivot = made("cross-spring", {{"length", {L}}, {"width", {0.01}}, {"thickness", {1e-4}}});
+  for (const double pull : {-0.02, 0.01, 0.02}) {
+    Vec gap = Vec::Zero();
+    gap_at_force(pivot, Vec(-pull, 0, 0), Vec(Vec::Zero()), gap);
+    const double stiffness = 1 / tangents(pivot, gap).stiffness.inverse()(2, 2), loaded = 2 * EI / L - pull * L / (6 * std::cos(0.25 * kPi));  // (4.5)
+    EXPECT_NEAR(stiffness, loaded, 2e-3 * loaded) << pull;
   }
 }
 

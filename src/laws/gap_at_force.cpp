@@ -1,0 +1,204 @@
+#include "laws/gap_at_force.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace pintle {
+namespace {
+
+constexpr int kSpringSteps = 20, kNewton = 40, kHalvings = 12, kDoublings = 80;
+
+// Component by component.
+template <class S>
+void gap_of_springs(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
+  for (int i = 0; i < kSpringSteps; ++i) {
+    const BasicResponse<S> now = respond(law, gap, rate);
+    bool moved = false;
+    for (int k = 0; k < S::kDof; ++k) {
+      if (!(now.stiffness(k, k) > 0)) continue;
+      const double step = (now.force[k] - force[k]) / now.stiffness(k, k);
+      gap[k] += step;
+      moved = moved || std::abs(step) > 1e-15 * std::abs(gap[k]);
+    }
+    if (!moved) break;
+  }
+}
+
+// Where the law does not resist at all (in its play, or at the beginning of a force that rises with a power of the gap), farther out against
+// the force, until there is as much of it.
+template <class S>
+void begin_where_it_resists(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
+  if (law.starts_free()) return;
+  const typename S::Vec engaged = law.engaged_stiffness();
+  const BasicResponse<S> now = respond(law, gap, rate);
+  typename S::Vec out = S::Vec::Zero(), wanted = S::Vec::Zero();
+  bool weak = false;
+  for (int k = 0; k < S::kDof; ++k) {
+    if (!(engaged[k] > 0)) continue;
+    wanted[k] = force[k];
+    out[k] = -force[k] / engaged[k];
+    weak = weak || (force[k] != 0 && now.stiffness.row(k).isZero(0));
+  }
+  for (int i = 0; weak && i < kDoublings; ++i, out *= 2) {
+    typename S::Vec trial = gap;
+    for (int k = 0; k < S::kDof; ++k)
+      if (engaged[k] > 0) trial[k] = out[k];
+    const BasicResponse<S> there = respond(law, trial, rate);
+    if (!there.force.allFinite()) return;
+    if (there.force.dot(wanted) < wanted.squaredNorm()) continue;
+    gap = trial;
+    return;
+  }
+}
+
+// Newton's step with the whole tangent, over the components that answer to their gaps; `missing` has 0 in the others.
+template <class S>
+typename S::Vec newton_step(const BasicResponse<S>& now, const typename S::Vec& engaged, typename S::Vec& missing) {
+  typename S::Mat K = now.stiffness;
+  for (int k = 0; k < S::kDof; ++k) {
+    if ((engaged[k] > 0 && !now.stiffness.row(k).isZero(0)) || now.stiffness(k, k) > 0) continue;
+    K.row(k).setZero();
+    K.col(k).setZero();
+    K(k, k) = 1;
+    missing[k] = 0;
+  }
+  return K.partialPivLu().solve(missing);
+}
+
+// A gap as the law's stiffness lets lengths and angles be compared.
+template <class S>
+double size_of_gap(const typename S::Vec& gap, const typename S::Vec& engaged) {
+  const double stiffest = engaged.template head<S::kDim>().maxCoeff(), turning = engaged.template tail<S::kDof - S::kDim>().maxCoeff();
+  const double arm = stiffest > 0 ? std::sqrt(turning / stiffest) : 1;
+  return gap.template head<S::kDim>().norm() + arm * gap.template tail<S::kDof - S::kDim>().norm();
+}
+
+// Whether both gaps are on the same sides of all borders of the law.
+template <class S>
+bool on_same_sides(const BasicLaw<S>& law, const typename S::Vec& a, const typename S::Vec& b, const typename S::Vec& rate) {
+  std::vector<double> at_a(static_cast<std::size_t>(law.n_borders())), at_b(at_a.size());
+  law.borders({0, a, rate, nullptr}, at_a.data());
+  law.borders({0, b, rate, nullptr}, at_b.data());
+  return std::equal(at_a.begin(), at_a.end(), at_b.begin(), [](double x, double y) { return (x > 0) == (y > 0); });
+}
+
+// Newton's method at one load: plain steps, each at most half of the one before. The gap must stay on the side of the law's borders where `from` is.
+template <class S>
+bool settle_at(const BasicLaw<S>& law, const typename S::Vec& from, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
+  constexpr double kRounding = 1e-9;
+  const typename S::Vec engaged = law.engaged_stiffness();
+  double last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kNewton; ++i) {
+    const BasicResponse<S> now = respond(law, gap, rate);
+    typename S::Vec missing = now.force - force;
+    const typename S::Vec step = newton_step<S>(now, engaged, missing);
+    if (!step.allFinite()) return false;
+    const double moved = size_of_gap<S>(step, engaged), size = size_of_gap<S>(gap + step, engaged);
+    const bool rounding = moved <= kRounding * size;
+    if (!(moved <= 0.5 * last)) return rounding && on_same_sides(law, from, gap, rate);
+    gap += step;
+    if (moved <= 1e-15 * size) return on_same_sides(law, from, gap, rate);
+    last = moved;
+  }
+  return false;
+}
+
+// A path of gaps through its last points, by the parabola (or line) through them.
+template <class S>
+class GapPath {
+ public:
+  GapPath(double at, const typename S::Vec& gap) { add(at, gap); }
+  void add(double at, const typename S::Vec& gap) {
+    if (n_ == kPoints) std::rotate(points_.begin(), points_.begin() + 1, points_.end());
+    else ++n_;
+    points_[n_ - 1] = {at, gap};
+  }
+  const typename S::Vec& last() const { return points_[n_ - 1].gap; }
+  typename S::Vec extrapolated(double at) const {
+    typename S::Vec sum = S::Vec::Zero();
+    for (std::size_t i = 0; i < n_; ++i) {
+      double weight = 1;
+      for (std::size_t j = 0; j < n_; ++j)
+        if (j != i) weight *= (at - points_[j].at) / (points_[i].at - points_[j].at);
+      sum += weight * points_[i].gap;
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr std::size_t kPoints = 3;
+  struct Point {
+    double at = 0;
+    typename S::Vec gap;
+  };
+  std::array<Point, kPoints> points_;
+  std::size_t n_ = 0;
+};
+
+// A law without states that resists where it is, such as a blade: the load is raised from what it carries there, in steps short enough for Newton's
+// method, which no border of the law may lie between. False, and the gap as it was, where that does not lead to it. theory/assembly Eq. (3.6).
+template <class S>
+bool follow_load(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
+  constexpr double kFinest = 1e-6;
+  if (law.n_states() > 0 || law.starts_free()) return false;
+  const BasicResponse<S> start = respond(law, gap, rate);
+  const typename S::Vec engaged = law.engaged_stiffness();
+  for (int k = 0; k < S::kDof; ++k)
+    if (engaged[k] > 0 && !(start.stiffness(k, k) > 0)) return false;
+  GapPath<S> path(0, gap);
+  double done = 0;
+  for (double part = 1; done < 1;) {
+    const double next = std::min(1.0, done + part);
+    typename S::Vec trial = path.extrapolated(next);
+    if (settle_at(law, path.last(), typename S::Vec(start.force + next * (force - start.force)), rate, trial)) {
+      path.add(next, trial);
+      done = next;
+      part *= 2;
+    } else if ((part *= 0.5) < kFinest) {
+      return false;
+    }
+  }
+  gap = path.last();
+  return true;
+}
+
+}  // namespace
+
+// Newton on the law's own tangent; nothing in free components.
+template <class S>
+void gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
+  if (law.ideal_limit()) {
+    gap_of_springs(law, force, rate, gap);
+    return;
+  }
+  if (follow_load(law, force, rate, gap)) return;
+  begin_where_it_resists(law, force, rate, gap);
+  const typename S::Vec engaged = law.engaged_stiffness();
+  for (int i = 0; i < kNewton; ++i) {
+    const BasicResponse<S> now = respond(law, gap, rate);
+    typename S::Vec missing = now.force - force;
+    typename S::Vec step = newton_step<S>(now, engaged, missing);
+    if (!step.allFinite()) return;
+    bool moved = false;
+    for (int k = 0; k < S::kDof; ++k) moved = moved || std::abs(step[k]) > 1e-15 * std::abs(gap[k]);
+    if (!moved) return;
+    const auto misses = [&](const typename S::Vec& there) {
+      const typename S::Vec miss = respond(law, there, rate).force - force;
+      double sum = 0;
+      for (int k = 0; k < S::kDof; ++k)
+        if (missing[k] != 0) sum += miss[k] * miss[k];
+      return sum;
+    };
+    for (int h = 0; h < kHalvings && !(misses(gap + step) <= missing.squaredNorm()); ++h) step *= 0.5;
+    gap += step;
+  }
+}
+
+template void gap_at_force(const BasicLaw<Planar>& law, const Planar::Vec& force, const Planar::Vec& rate, Planar::Vec& gap);
+template void gap_at_force(const BasicLaw<Spatial>& law, const Spatial::Vec& force, const Spatial::Vec& rate, Spatial::Vec& gap);
+
+}  // namespace pintle
