@@ -6,8 +6,8 @@
 #include <limits>
 #include <optional>
 
-#include "start/chebyshev_nodes.h"
 #include "laws/gap_at_force.h"
+#include "start/chebyshev_nodes.h"
 #include "start/preload.h"
 
 namespace pintle {
