@@ -1,6 +1,5 @@
 #include "laws/flexures/blade.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -26,6 +25,19 @@ constexpr double kLongest = 4;       // step of the coefficients [rad]
 constexpr double kReach = 0.35, kTurn = 1;  // displacement across and angle that one step of the path may add
 constexpr int kMostParts = 16, kFinest = 512;  // of the path
 constexpr double kSurelyStable = std::numbers::pi * std::numbers::pi;
+
+// Of a symmetric matrix: as many as there are negative pivots (Sylvester's law of inertia).
+int negative_eigenvalues(Square H) {
+  int negative = 0;
+  for (Eigen::Index k = 0; k < H.rows(); ++k) {
+    const double pivot = H(k, k) != 0 ? H(k, k) : std::numeric_limits<double>::min();
+    negative += pivot < 0;
+    const Eigen::Index left = H.rows() - k - 1;
+    const Column below = H.col(k).tail(left);
+    for (Eigen::Index j = 0; j < left; ++j) H.col(k + 1 + j).tail(left) -= (below[j] / pivot) * below;
+  }
+  return negative;
+}
 
 }  // namespace
 
@@ -103,11 +115,7 @@ void Blade::assemble(const BladeShape& shape, const Vec3& displacement, Work& wo
 // Whether the second variation is positive for all changes that leave the ends where they are. It is where no part of the blade carries
 // more than the compression under which a blade buckles that is held against turning alone; else the signs of the eigenvalues say it: two are
 // negative for the two forces, and none else.
-bool Blade::is_stable(const Work& work) const {
-  if (work.turns.minCoeff() > -kSurelyStable) return true;
-  const Eigen::SelfAdjointEigenSolver<Square> solver(work.H, Eigen::EigenvaluesOnly);
-  return (solver.eigenvalues().array() < 0).count() == 2;
-}
+bool Blade::is_stable(const Work& work) const { return work.turns.minCoeff() > -kSurelyStable || negative_eigenvalues(work.H) == 2; }
 
 // Newton's method at one level.
 bool Blade::refine(const Vec3& displacement, BladeShape& shape, Work& work) const {
