@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -71,7 +72,7 @@ TEST(Flexures, StartWhereTheLoadHoldsThem) {
   const Trajectory idle = completed(stage("0")), pushed = completed(stage("2"));
   const double x = at_end(pushed, "body.table.x");
   EXPECT_NEAR(at_end(idle, "body.table.y"), -0.115 - 0.5 * 2 * kG * kL / (207e9 * 0.03 * 5e-4), 1e-10);
-  EXPECT_NEAR(x * 2 * guided_stiffness(kG) / 2, 1, 1e-4);
+  EXPECT_NEAR(x * 2 * guided_stiffness(kG) / 2, 1, 3e-4);
   EXPECT_NEAR((at_end(pushed, "body.table.y") - at_end(idle, "body.table.y")) / (0.6 * x * x / kL), 1, 0.02);
   for (std::size_t i = 0; i < pushed.n_rows(); ++i) {
     EXPECT_NEAR(value(pushed, i, "body.table.x"), x, 1e-9);
@@ -130,13 +131,15 @@ TEST(Flexures, VibrateAsTheirStiffnessSays) {
 
 TEST(Flexures, MoveWithinTheEnergyAccountAndInAnyEquations) {
   const std::string push = "\"4*(1 - cos(40*t))\"";
-  const Trajectory free = completed(stage(push));
+  Model unloaded = stage(push);
+  unloaded.simulate.start = Start::kUnloaded;  // the ideal equations know no other
+  const Trajectory free = completed(unloaded);
   EXPECT_LT(drift(free), 1e-6);
   double swing = 0;
   for (std::size_t i = 0; i < free.n_rows(); ++i) swing = std::max(swing, std::abs(value(free, i, "body.table.x")));
   EXPECT_GT(swing, 3e-3);
   for (const Equations equations : {Equations::kIdeal, Equations::kRelative}) {
-    Model model = stage(push);
+    Model model = unloaded;
     model.simulate.equations = equations;
     const Trajectory other = completed(model);
     for (std::size_t i = 0; i < free.n_rows(); ++i) {
@@ -146,8 +149,8 @@ TEST(Flexures, MoveWithinTheEnergyAccountAndInAnyEquations) {
   }
 }
 
-// Where no equilibrium of the blade is left the run does not go on as if there were one.
-TEST(Flexures, EndTheRunWhereABladeSnaps) {
+// A straight strut that is pressed beyond Euler's load: where no equilibrium is left the run says so.
+TEST(Flexures, SayWhereABladeSnaps) {
   const double euler = 4 * kPi * kPi * kEI / (kL * kL);
   const Trajectory run = simulate(parse_model(fmt::format(R"toml(
 format = 1
@@ -177,8 +180,10 @@ damping_time = 1e-3
 on = "piston.clamp"
 force = ["{:.17g}*t", 0]
 )toml", -2 * euler), "strut.toml"));
-  EXPECT_NE(run.outcome, Outcome::kCompleted);
-  EXPECT_NEAR(run.at(run.n_rows() - 1, 0), 0.5, 0.02);
+  const auto note = std::find_if(run.notes.begin(), run.notes.end(), [](const std::string& n) { return n.starts_with("joint strut lost its equilibrium at t = "); });
+  ASSERT_NE(note, run.notes.end());
+  EXPECT_NEAR(std::stod(note->substr(note->find('=') + 1)), 0.5, 0.01);
+  for (std::size_t i = 0; i < run.n_rows(); ++i) EXPECT_EQ(value(run, i, "joint.strut.equilibrium"), run.at(i, 0) < 0.502) << run.at(i, 0);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace {
 constexpr int kPasses = 6;
 constexpr int kRounds = 4;         // of friction and reactions: each gains the coefficient of friction times a lever ratio
 constexpr int kClosing = 4;        // passes of a projection
+constexpr double kFits = 1e-9;     // of the largest force: gaps that differ by no more fit together
 constexpr double kClosed = 1e-11;  // of what the first pass found: the next one finds nothing
 constexpr int kMostJoints = 300;  // whose masses with closed joints are asked for: the cost grows with the square
 
@@ -293,6 +294,19 @@ void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
 }
 
 template <class S>
+void BasicInverseDynamics<S>::take_forces_of_bodies(BasicState<S>& state) const {
+  double misfit = 0;
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const BasicLaw<S>& law = system_.joints[j].law;
+    if (law.ideal_limit() || law.n_states() > 0 || law.starts_free()) continue;
+    const typename S::Mat K = respond(law, state.gap[j], state.gap_rate[j]).stiffness;
+    misfit = std::max(misfit, (K * (r_[j].gap - state.gap[j])).norm());
+  }
+  if (misfit <= kFits * largest_force(state.force)) return;
+  for (int j = 0; j < system_.n_joints(); ++j) state.force[j] = respond(system_.joints[j].law, r_[j].gap, state.gap_rate[j]).force;
+}
+
+template <class S>
 void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& state) {
   const std::size_t n = system.bodies.size(), joints = system.joints.size();
   state.a.assign(n, S::Vec::Zero());
@@ -315,6 +329,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
       for (int j = 0; j < system.n_joints(); ++j)
         if (!system.joints[j].law.ideal_limit()) state.force[j] = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]).force;
     forces.move_onto_gaps(state);
+    if (pass + 1 < kPasses) forces.take_forces_of_bodies(state);
   }
   balance_start(system, state);
 }

@@ -39,6 +39,9 @@ class BasicInverseDynamics {
   void find_gaps(BasicState<S>& state) const;
   /// Moves q and v so that the joints have the gaps and rates of the state. Call after `find` near that state.
   void move_onto_gaps(BasicState<S>& state);
+  /// After `move_onto_gaps`: where the gaps of laws that are not linear do not fit together, as in overconstrained mechanisms, the forces become those of
+  /// the gaps that the bodies have. theory/assembly Eq. (3.7).
+  void take_forces_of_bodies(BasicState<S>& state) const;
   BasicEffectiveMasses<S> effective_masses(const BasicState<S>& state);
 
  private:

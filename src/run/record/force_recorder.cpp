@@ -11,7 +11,7 @@ namespace pintle {
 template <class S>
 BasicForceRecorder<S>::BasicForceRecorder(const BasicSystem<S>& system, const SimulateSettings& settings, Recorded what)
     : system_(system), what_(what), keeps_places_(what == Recorded::kStates || settings.tolerance_of == ToleranceOf::kMotion),
-      output_step_(output_step_of(settings, system.joints.size())), missed_peaks_(system), stuck_joints_(system) {}
+      output_step_(output_step_of(settings, system.joints.size())), missed_peaks_(system), stuck_joints_(system), lost_equilibria_(system) {}
 
 template <class S>
 void BasicForceRecorder<S>::add(const BasicState<S>& state) {
@@ -33,6 +33,7 @@ void BasicForceRecorder<S>::add_energies(const BasicState<S>& state) {
   energies_.push_back({kinetic, loads.potential + energy_of_joints(system_, state), state.dissipated, state.supplied});
   missed_peaks_.add_row(state, supply, kinetic);
   stuck_joints_.see(state);
+  lost_equilibria_.see(state);
 }
 
 template <class S>
@@ -45,6 +46,7 @@ template <class S>
 void BasicForceRecorder<S>::fill(Trajectory& out) {
   if (std::string note = missed_peaks_.note(output_step_); !note.empty()) out.notes.push_back(std::move(note));
   for (std::string& note : stuck_joints_.notes()) out.notes.push_back(std::move(note));
+  for (std::string& note : lost_equilibria_.notes()) out.notes.push_back(std::move(note));
   const std::size_t rows = forces_.t.size(), n = system_.joints.size();
   const std::vector<double> weight = time_weights(forces_.t);
   out.joints.clear();

@@ -7,6 +7,7 @@
 #include "pintle/model.h"
 #include "pintle/trajectory.h"
 #include "run/record/force_table.h"
+#include "run/record/lost_equilibria.h"
 #include "run/record/missed_peaks.h"
 #include "run/record/stuck_joints.h"
 
@@ -31,6 +32,7 @@ class BasicForceRecorder {
     if (what_ == Recorded::kForces) return;
     missed_peaks_.add_step(state, h);
     stuck_joints_.see(state);
+    lost_equilibria_.see(state);
   }
   const BasicForceTable<S>& forces() const { return forces_; }
   BasicForceTable<S> take_forces() { return std::move(forces_); }
@@ -58,6 +60,7 @@ class BasicForceRecorder {
   double output_step_;
   BasicMissedPeaks<S> missed_peaks_;
   BasicStuckJoints<S> stuck_joints_;
+  BasicLostEquilibria<S> lost_equilibria_;
 };
 using ForceRecorder = BasicForceRecorder<Planar>;
 
