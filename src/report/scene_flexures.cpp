@@ -1,4 +1,6 @@
 // How flexures look: blades between their clamps, necks between two cut-outs.
+#include <utility>
+
 #include "laws/catalog.h"
 #include "report/outline.h"
 #include "report/scene_maker.h"
@@ -15,10 +17,10 @@ bool SceneMaker::add_flexure(const Joint& joint, const Anchor& first, const Anch
     add_blade(joint.name, first, second, at.number("length"));
   } else if (law->word == "cross-spring") {
     const double length = at.number("length"), half = 0.5 * at.number("crossing_angle"), crossing = at.number("crossing");
-    for (const double angle : {half, -half}) {
-      const auto end = [angle](const Anchor& marker, double along) { return Anchor{marker.body, marker.point + along * direction(marker.axis + angle), marker.axis + angle}; };
-      add_blade(joint.name, end(first, -crossing * length), end(second, (1 - crossing) * length), length);
-    }
+    const auto end = [](const Anchor& marker, double angle, double along) { return Anchor{marker.body, marker.point + along * direction(marker.axis + angle), marker.axis + angle}; };
+    for (const double angle : {half, -half}) add_blade(joint.name, end(first, angle, -crossing * length), end(second, angle, (1 - crossing) * length), length);
+    for (const auto& [marker, along] : {std::pair(first, -crossing * length), std::pair(second, (1 - crossing) * length)})  // what the clamps are on
+      if (marker.body != kWorld) put(kBars, {Form::kBar, Paint::kLink, marker.body, {{end(marker, half, along).point, end(marker, -half, along).point}}, 0.8 * scene_.unit});
   } else if (law->word == "notch-hinge") {
     add_neck(second.body == kWorld ? first : second);
   } else {
@@ -40,8 +42,7 @@ void SceneMaker::add_blade(const std::string& name, const Anchor& first, const A
 void SceneMaker::add_neck(const Anchor& at) {
   const double u = scene_.unit;
   const Vec2 across = normal(direction(at.axis));
-  put(kPins, {Form::kCircle, Paint::kHole, at.body, {{at.point + 0.8 * u * across}, {at.point - 0.8 * u * across}}, 0.65 * u});
-  add_weld(at);
+  put(kPins, {Form::kCircle, Paint::kHole, at.body, {{at.point + 0.85 * u * across}, {at.point - 0.85 * u * across}}, 0.65 * u});
 }
 
 }  // namespace pintle

@@ -116,6 +116,25 @@ TEST(Scene, MeshActsWherePitchCirclesTouch) {
   EXPECT_EQ(count(scene, Paint::kPitch), 3u);
 }
 
+// A blade leaves and reaches its clamps along the markers; bent by little it is as long as it is unloaded.
+TEST(Scene, BladesAreCurvesBetweenTheirClamps) {
+  const auto [model, run] = run_of_mechanism("parallel_spring_stage");
+  const Scene scene = make_scene(model, run.trajectory);
+  ASSERT_EQ(scene.connectors.size(), 2u);
+  const Instant instant = instant_at(scene, run.trajectory, 0.5);
+  for (const Connector& blade : scene.connectors) {
+    EXPECT_EQ(blade.paint, Paint::kBlade);
+    const std::vector<Vec2> curve = cubic_curve(instant.place(blade.from), blade.length * instant.along(blade.from), instant.place(blade.to), blade.length * instant.along(blade.to));
+    EXPECT_LT(length(curve.back() - instant.place(blade.to)), 1e-12);
+    EXPECT_LT(length(unit(curve[1] - curve[0]) - Vec2{0, -1}), 0.05);
+    double total = 0;
+    for (std::size_t i = 1; i < curve.size(); ++i) total += length(curve[i] - curve[i - 1]);
+    EXPECT_NEAR(total, 0.1, 2e-5);
+  }
+  const auto pivot = run_of_mechanism("cross_spring_pendulum");
+  EXPECT_EQ(make_scene(pivot.model, pivot.run.trajectory).connectors.size(), 2u);
+}
+
 TEST(Scene, SpringsRodsAndRopesAreConnectors) {
   const auto andrews = run_of_mechanism("andrews");
   const Scene squeezer = make_scene(andrews.model, andrews.run.trajectory);
