@@ -59,7 +59,11 @@ IdealRows choose_ideal_rows(System& system, const Vecs& q) {
     JointData& joint = system.joints[rows[i].joint];
     joint.redundant[rows[i].component] = true;
   }
+  const auto is_ideal = [&system](const CheckRedundancy::Member& member) {
+    return std::any_of(system.joints.begin(), system.joints.end(), [&member](const JointData& joint) { return joint.ideal && joint.name == member.joint; });
+  };
   for (const CheckRedundancy& group : mobility.redundancies) {
+    if (std::none_of(group.members.begin(), group.members.end(), is_ideal)) continue;  // laws share their loads
     out.notes.push_back(fmt::format("ideal joints: {} redundant constraint{} among {}: the motion is unique, these reactions are not", group.degree,
                                     group.degree == 1 ? "" : "s", list_of_members(group)));
     for (const auto& member : group.members)
