@@ -72,7 +72,7 @@ const std::vector<Mistake> kMistakes{
     {"tolerance = 1e-6", "tolerance = @1", "simulate.tolerance", "at most 0.1"},
     {"tolerance = 1e-6", "tolerance = @1e-12", "simulate.tolerance", "at least"},
     {"method = \"radau\"", "method = \"@rk4\"", "simulate.method", "none of auto, radau, dopri5, ode45"},
-    {"stiffness = \"2e8 N/m\"", "@length = 3", "defaults.joint.length", "no such key"},
+    {"stiffness = \"2e8 N/m\"", "@radii = 3", "defaults.joint.radii", "no such key"},
     {"stiffness = \"2e8 N/m\"", "stiffness = @[1, 2]", "defaults.joint.stiffness", "a number is expected"},
     {"[defaults.joint]\n", "[defaults]\n@spring = 1\n[defaults.joint]\n", "defaults.spring", "no such key"},
     {"O2 = [0, 0]", "O2 = @[0, 0, 0, 0]", "ground.markers.O2", "two or three numbers"},
