@@ -54,10 +54,12 @@ TEST(Tables, TheGasOfAnEngineDoesItsIndicatedWorkInACycle) {
   const Trajectory ideal = simulate(motored_engine(Equations::kIdeal, "linear"));
   ASSERT_EQ(ideal.outcome, Outcome::kCompleted) << ideal.message;
   EXPECT_NEAR(motor_of(ideal, "gas").work, work, 1e-5 * work);
-  EXPECT_GT(ideal.counters.events, 300U);  // of the 360 points some lie on straight lines
-  const Trajectory stiff = simulate(motored_engine(Equations::kNewtonian, "linear"));
+  Model model = motored_engine(Equations::kNewtonian, "linear");
+  reference::set_joints(model, 2e10, 3e4);
+  const Trajectory stiff = simulate(model);
   ASSERT_EQ(stiff.outcome, Outcome::kCompleted) << stiff.message;
-  EXPECT_NEAR(motor_of(stiff, "gas").work, work, 2e-3 * work);  // joints give way by a tenth of a millimetre
+  EXPECT_NEAR(motor_of(stiff, "gas").work, work, 1e-4 * work);  // joints give way by a micrometre
+  EXPECT_GT(stiff.counters.events, 200U);                       // one at each point at which the slope changes, in each pass
   EXPECT_LT(std::abs(stiff.energy.drift), 1e-5 * stiff.energy.kinetic_peak);
   const Trajectory smooth = simulate(motored_engine(Equations::kIdeal, "spline"));
   ASSERT_EQ(smooth.outcome, Outcome::kCompleted) << smooth.message;
@@ -77,7 +79,7 @@ x_unit = "rad/s"
 y = [10, 8, 0]
 y_unit = "N*m"
 [simulate]
-duration = "2 s"
+duration = "4 s"
 output_step = "10 ms"
 tolerance = 1e-7
 [ground.markers]
@@ -114,14 +116,14 @@ TEST(Tables, AMotorRunsUpAlongItsCurve) {
   struct Case {
     Equations equations;
     const char* method;
-    double tolerance;  // of the speed, relative
+    double tolerance;  // of the speed, relative; the pin carries no force, so that only steps that end at the knee are as good as the last bits
   };
-  for (const Case& c : {Case{Equations::kNewtonian, "auto", 1e-7}, {Equations::kRelative, "auto", 1e-7}, {Equations::kRelative, "dopri5", 1e-6}, {Equations::kIdeal, "auto", 1e-6}, {Equations::kNewtonian, "ode15s", 1e-4}}) {
+  for (const Case& c : {Case{Equations::kNewtonian, "auto", 1e-7}, {Equations::kRelative, "auto", 1e-7}, {Equations::kRelative, "dopri5", 1e-4}, {Equations::kIdeal, "auto", 1e-6}, {Equations::kNewtonian, "ode15s", 1e-4}}) {
     const Trajectory run = simulate(run_up(c.equations, c.method));
     ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
     const auto spin = static_cast<std::size_t>(run.column("body.disc.spin"));
     for (std::size_t i = 0; i < run.n_rows(); ++i) EXPECT_NEAR(run.at(i, spin), speed_at(run.at(i, 0)), c.tolerance * 114) << c.method << " t = " << run.at(i, 0);
-    EXPECT_NEAR(run.at(run.n_rows() - 1, spin), 24 / 0.21, 0.02);
+    EXPECT_NEAR(run.at(run.n_rows() - 1, spin), 24 / 0.21, 0.01);
   }
 }
 

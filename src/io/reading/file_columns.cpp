@@ -58,14 +58,6 @@ std::vector<Row> rows_of(std::string_view text) {
   return rows;
 }
 
-bool has_words(const Row& row) {
-  return std::any_of(row.cells.begin(), row.cells.end(), [](const std::string& cell) { return !cell.empty() && !number_in(cell); });
-}
-
-bool is_of_units(const Row& row) {
-  return std::all_of(row.cells.begin(), row.cells.end(), [](const std::string& cell) { return !number_in(cell) && parse_unit(cell); });
-}
-
 // "force [N]": the name and the unit.
 struct Heading {
   std::string name;
@@ -80,22 +72,36 @@ Heading heading_of(const std::string& cell) {
 
 class ColumnReader {
  public:
-  ColumnReader(const std::string& file, std::string_view text) : file_(file), rows_(rows_of(text)) {
+  ColumnReader(const std::string& file, std::string_view text, const std::array<ColumnChoice, 2>& choices) : file_(file), rows_(rows_of(text)) {
     if (rows_.empty()) throw FileFault{-1, in_quotes(file), "there are no numbers in it", "columns of numbers"};
-    if (has_words(rows_.front())) first_number_ = rows_.size() > 1 && is_of_units(rows_[1]) ? 2 : 1;
+    for (const std::size_t which : {0U, 1U}) places_[which] = place_of(static_cast<int>(which), choices[which]);
+    const auto is_number = [this](std::size_t row, std::size_t place) { return place < rows_[row].cells.size() && number_in(rows_[row].cells[place]); };
+    const auto is_unit = [this](std::size_t place) { return place < rows_[1].cells.size() && parse_unit(rows_[1].cells[place]); };
+    const bool named = !choices[0].name.empty() || !choices[1].name.empty() || !is_number(0, places_[0]) || !is_number(0, places_[1]);
+    const bool with_units = named && rows_.size() > 1 && !is_number(1, places_[0]) && !is_number(1, places_[1]) && is_unit(places_[0]) && is_unit(places_[1]);
+    first_number_ = with_units ? 2 : named ? 1 : 0;
   }
 
+  FileColumns columns() const {
+    FileColumns out;
+    for (const std::size_t which : {0U, 1U}) out.columns[which] = column_at(places_[which]);
+    for (std::size_t i = first_number_; i < rows_.size(); ++i) out.lines.push_back(rows_[i].line);
+    return out;
+  }
+
+ private:
   std::size_t place_of(int which, const ColumnChoice& choice) const {
     const std::vector<std::string>& first = rows_.front().cells;
     if (choice.name.empty()) {
       if (choice.number >= 1 && choice.number <= first.size()) return choice.number - 1;
       throw FileFault{which, fmt::format("column {}", choice.number), fmt::format("{} has {} {}", file_, first.size(), first.size() == 1 ? "column" : "columns"), fmt::format("1 to {}, or a name of its first row", first.size())};
     }
-    if (first_number_ == 0) throw FileFault{which, in_quotes(choice.name), fmt::format("{} has no names: its first row is of numbers", file_), "the number of the column, counted from 1"};
     std::vector<std::string> names;
     for (const std::string& cell : first) names.push_back(heading_of(cell).name);
     for (std::size_t i = 0; i < first.size(); ++i)
       if (first[i] == choice.name || names[i] == choice.name) return i;
+    if (std::all_of(first.begin(), first.end(), [](const std::string& cell) { return number_in(cell).has_value(); }))
+      throw FileFault{which, in_quotes(choice.name), fmt::format("{} has no names: its first row is of numbers", file_), "the number of the column, counted from 1"};
     const auto near = did_you_mean(choice.name, names);
     throw FileFault{which, in_quotes(choice.name), fmt::format("{} has no such column", file_), near ? "did you mean " + in_quotes(*near) + "?" : fmt::format("one of {}", fmt::join(names, ", "))};
   }
@@ -108,13 +114,6 @@ class ColumnReader {
     return out;
   }
 
-  std::vector<std::size_t> lines() const {
-    std::vector<std::size_t> out;
-    for (std::size_t i = first_number_; i < rows_.size(); ++i) out.push_back(rows_[i].line);
-    return out;
-  }
-
- private:
   double number_at(const Row& row, std::size_t place) const {
     if (place >= row.cells.size()) throw FileFault{-1, fmt::format("{}:{}", file_, row.line), fmt::format("this line has no column {}", place + 1), "as many fields as in the first row"};
     const std::string& cell = row.cells[place];
@@ -124,6 +123,7 @@ class ColumnReader {
 
   const std::string& file_;
   std::vector<Row> rows_;
+  std::array<std::size_t, 2> places_{};
   std::size_t first_number_ = 0;  // the first row that is not a header
 };
 
@@ -131,11 +131,7 @@ class ColumnReader {
 
 FileColumns read_file_columns(const std::string& file, std::string_view text, const std::array<ColumnChoice, 2>& choices) {
   try {
-    const ColumnReader reader(file, text);
-    FileColumns out;
-    for (const int which : {0, 1}) out.columns[static_cast<std::size_t>(which)] = reader.column_at(reader.place_of(which, choices[static_cast<std::size_t>(which)]));
-    out.lines = reader.lines();
-    return out;
+    return ColumnReader(file, text, choices).columns();
   } catch (const CsvFault& fault) {
     throw FileFault{-1, fmt::format("{}:{}: {}", file, fault.line, fault.found), fault.because, "a table as in RFC 4180"};
   }
