@@ -4,10 +4,16 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "pintle/read_model.h"
 
 namespace pintle {
+
+struct Document;
+
+/// The files that a model names, each once.
+std::vector<std::string> files_named_in(const Document& document);
 
 /// Keeps what it has read: a run copies it into its folder.
 class ModelFiles {

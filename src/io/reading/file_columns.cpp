@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/decimal.h"
 #include "base/text/csv_fields.h"
@@ -26,7 +27,7 @@ std::string trimmed(std::string_view text) {
 
 std::optional<double> number_in(const std::string& cell) {
   const Decimal read = read_decimal(cell);
-  return read.whole && read.in_range ? std::optional(read.value) : std::nullopt;
+  return read.whole && read.in_range && std::isfinite(read.value) ? std::optional(read.value) : std::nullopt;
 }
 
 bool is_comment(std::string_view line) { return line.find_first_not_of(" \t\r") == std::string_view::npos || line[line.find_first_not_of(" \t")] == '#'; }

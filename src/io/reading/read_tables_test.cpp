@@ -150,13 +150,15 @@ const std::vector<Mistake> kMistakes{
     {"[table.f]\nfile = \"plain.csv\"\ny_column = \"@M\"\n", "table.f.y_column", "has no names"},
     {"[table.f]\nfile = \"@words.csv\"\n", "table.f.file", "not a number", "", "words.csv:3: \"abc\""},
     {"[table.f]\nfile = \"@comma.csv\"\n", "table.f.file", "not a number", "point", "comma.csv:2: \"0,5\""},
+    {"[table.f]\nfile = \"@infinite.csv\"\n", "table.f.file", "not a number", "", "infinite.csv:2: \"inf\""},
+    {"[table.f]\nx = [0, @inf]\ny = [0, 1]\n", "table.f.x", "finite"},
     {"[table.f]\nfile = \"@short.csv\"\n", "table.f.file", "no column 2", "", "short.csv:2"},
     {"[table.f]\nfile = \"@quote.csv\"\n", "table.f.file", "never closed", "", "quote.csv:1"},
     {"[table.f]\nfile = \"@falls.csv\"\nx_unit = \"rad\"\ny_unit = \"\"\n", "table.f.file", "x must rise", "", "falls.csv:3: 0.5 rad"},
 };
 
 const Files kFiles{{"f.csv", "angle,M\n0,1\n1,2\n"}, {"plain.csv", "0,1\n1,2\n"}, {"words.csv", "angle,M\n0,1\n1,abc\n"}, {"comma.csv", "0;1\n0,5;2\n"}, {"short.csv", "0,1\n1\n"},
-                   {"quote.csv", "0,\"1\n"}, {"falls.csv", "0,1\n1,2\n0.5,3\n"}, {"empty.csv", "# nothing\n\n"}};
+                   {"quote.csv", "0,\"1\n"}, {"falls.csv", "0,1\n1,2\n0.5,3\n"}, {"empty.csv", "# nothing\n\n"}, {"infinite.csv", "0,1\ninf,2\n"}};
 
 TEST(Tables, MistakesAreLocatedAndExplained) {
   for (const Mistake& mistake : kMistakes) {

@@ -16,6 +16,8 @@ export interface OpenedModel {
   text: string;
   /** Of what is in the file; shown again when it is saved. */
   hash: string;
+  /** The texts of the files that the model names, as far as they are in the folder. */
+  files: Record<string, string>;
 }
 
 /** The file was changed by something else since it was opened; `text` is null where it is gone. */
