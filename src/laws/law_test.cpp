@@ -116,7 +116,7 @@ class AnyLaw : public testing::Test {
     return !std::equal(before.begin(), before.end(), after.begin(), [](double x, double y) { return (x > 0) == (y > 0); });
   }
 };
-using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GuideContactLaw, ClutchLaw,
+using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GapContactLaw, GuideContactLaw, ClutchLaw,
                              TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 

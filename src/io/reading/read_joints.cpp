@@ -10,6 +10,7 @@
 #include "io/reading/law_keys.h"
 #include "io/reading/model_reading.h"
 #include "io/text.h"
+#include "joints/cam_profile.h"
 #include "joints/catalog.h"
 #include "laws/catalog.h"
 
@@ -84,6 +85,15 @@ void check_gear(ModelReading& reading, const Record& record, const Joint& joint)
   reading.complaints.add(record.spot("radii"), record.path + ".radii", "two equal radii",
                          "a gear cannot turn inside one of its own size",
                          "mesh = \"external\", or two different radii");
+}
+
+void read_cam(ModelReading& reading, const Record& record, Joint& joint) {
+  if (joint.type != "cam" || !record.states("lift") || !record.states("base_radius")) return;
+  joint.cam = Cam{record.expression("lift"), record.number("base_radius"), record.number("roller_radius"), record.word("follower") == "flat"};
+  if (joint.cam->flat && joint.cam->roller_radius > 0)
+    reading.complaints.add(record.spot("roller_radius"), record.path + ".roller_radius", "roller_radius", "a flat face has no roller", "delete it");
+  if (std::string why = CamProfile(*joint.cam).fault(); !why.empty())
+    reading.complaints.add(record.spot("lift"), record.path + ".lift", in_quotes(joint.cam->lift.text()), std::move(why), "a larger base_radius, a smaller roller, or a lift that changes more gently and ends as it begins");
 }
 
 // Whether the law suits the joint, and its values, when none is wrong by itself, each other.
@@ -203,6 +213,7 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   read_between(reading, record, "joint", joint.first, joint.second);
   read_geometry(*type, record, joint);
   check_gear(reading, record, joint);
+  read_cam(reading, record, joint);
   read_law(reading, *type, *law, record, defaults, joint.law);
   joint.ideal = record.number("ideal") > 0;
   if (friction != nullptr) read_law(reading, *type, *friction, record, defaults, joint.friction);

@@ -44,6 +44,14 @@ export interface Joint {
   radii: [number, number] | null;
   radius: number | null;
   internal: boolean;
+  cam: Cam | null;
+}
+
+/** A cam in the axes of the first marker, and what runs on it. */
+export interface Cam {
+  outline: Point[];
+  /** Of a roller; null: a flat face. */
+  roller: number | null;
 }
 
 export interface Spring {
@@ -88,6 +96,9 @@ export interface Model {
 
 export const GROUND = "ground";
 
+const TURN = 2 * Math.PI;
+const CAM_POINTS = 180;
+
 type Reading = (node: Node | undefined) => number | null;
 
 export function readModel(source: string | Document): Model {
@@ -105,7 +116,7 @@ export function readModel(source: string | Document): Model {
     parameters,
     ground: readMarkers(document, nodeAt(root, ["ground", "markers"]), number),
     bodies,
-    joints: children(root, "joint").map(([name, table]) => readJoint(name, table, number)),
+    joints: children(root, "joint").map(([name, table]) => readJoint(name, table, number, parameters)),
     springs: [
       ...children(root, "spring").map(([name, table]) => readSpring(name, table, number, false)),
       ...children(root, "torsion_spring").map(([name, table]) => readSpring(name, table, number, true)),
@@ -213,7 +224,7 @@ function ends(table: TableNode): { first: End; second: End } {
   return { first: endOf(items[0]), second: endOf(items[1]) };
 }
 
-function readJoint(name: string, table: TableNode, number: Reading): Joint {
+function readJoint(name: string, table: TableNode, number: Reading, parameters: Map<string, number>): Joint {
   return {
     name,
     type: textOf(table.entries.get("type")) ?? "",
@@ -222,7 +233,26 @@ function readJoint(name: string, table: TableNode, number: Reading): Joint {
     radii: point(table.entries.get("radii"), number) as [number, number] | null,
     radius: number(table.entries.get("radius")),
     internal: textOf(table.entries.get("mesh")) === "internal",
+    cam: textOf(table.entries.get("type")) === "cam" ? readCam(table, number, parameters) : null,
   };
+}
+
+// As the kernel has it (docs/theory/cams.md); the lift of a table is not known here and counts as 0.
+function readCam(table: TableNode, number: Reading, parameters: Map<string, number>): Cam {
+  const flat = textOf(table.entries.get("follower")) === "flat";
+  const roller = flat ? 0 : (number(table.entries.get("roller_radius")) ?? 0);
+  const base = number(table.entries.get("base_radius")) ?? 0;
+  const radius = (angle: number) => base + roller + (numberOf(table.entries.get("lift"), (word) => (word === "angle" ? ((angle % TURN) + TURN) % TURN : parameters.get(word))) ?? 0);
+  const outline = Array.from({ length: CAM_POINTS }, (_, i): Point => {
+    const angle = (TURN * i) / CAM_POINTS, d = 1e-5;
+    const r = radius(angle), slope = (radius(angle + d) - radius(angle - d)) / (2 * d);
+    const [ux, uy] = [Math.cos(angle), Math.sin(angle)];
+    if (flat) return [r * ux - slope * uy, r * uy + slope * ux];
+    const [px, py] = [slope * ux - r * uy, slope * uy + r * ux];
+    const length = Math.hypot(px, py) || 1;
+    return [r * ux - (roller * py) / length, r * uy + (roller * px) / length];
+  });
+  return { outline, roller: flat ? null : roller };
 }
 
 function readSpring(name: string, table: TableNode, number: Reading, torsion: boolean): Spring {

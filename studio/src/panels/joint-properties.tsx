@@ -13,7 +13,7 @@ import { type Field, fieldsOf, labelOf, useCatalog, useSchema } from "./form";
 import { Icon } from "./icons";
 
 const TYPE_WORDS: Record<string, string> = {
-  revolute: "pin", prismatic: "slider", fixed: "weld", slot: "pin in a slot", rod: "massless rod", rope: "rope", gear: "gear mesh", rack: "rack and pinion",
+  revolute: "pin", prismatic: "slider", fixed: "weld", slot: "pin in a slot", rod: "massless rod", rope: "rope", gear: "gear mesh", rack: "rack and pinion", cam: "cam and follower",
 };
 
 export function JointProperties({ name }: { name: string }) {
