@@ -6,11 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 namespace pintle {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kSmooth = 1e-3;  // of the radius: a change of slope [m/rad] that rounded numbers may make
 
 Planar::Point direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
@@ -112,6 +114,29 @@ CamContactPlace CamProfile::place(const Planar::Vec& z) const {
   return {angle, std::remainder(std::atan2(-d[0], d[1]) - z[2] - kTurn / 4, kTurn)};  // (2.7)
 }
 
+// A kink of the lift between two angles at which its slope jumps; "" if there is none.
+std::string CamProfile::corner_between(double low, double high) const {
+  constexpr int kHalves = 50;
+  const auto n = static_cast<std::size_t>(cam_.lift.n_switches());
+  const auto signs = [&](double angle) {
+    std::vector<double> value(n);
+    cam_.lift.find_switching(std::array{angle}, value.data());
+    return value;
+  };
+  const std::vector<double> at_low = signs(low), at_high = signs(high);
+  for (std::size_t k = 0; k < n; ++k) {
+    if ((at_low[k] > 0) == (at_high[k] > 0)) continue;
+    double a = low, b = high;
+    for (int i = 0; i < kHalves; ++i) {
+      const double middle = 0.5 * (a + b);
+      ((signs(middle)[k] > 0) == (at_low[k] > 0) ? a : b) = middle;
+    }
+    const double before = radius(a)[1], behind = radius(b)[1];
+    if (std::abs(behind - before) > kSmooth * radius(a)[0]) return fmt::format("the cam has a corner at {:.4g} deg: the slope of the lift jumps from {:.4g} to {:.4g} m/rad", 360 * a / kTurn, before, behind);
+  }
+  return {};
+}
+
 std::string CamProfile::fault() const {
   constexpr int kPoints = 720;
   const std::array<double, 3> start = radius(0), end = radius(std::nextafter(kTurn, 0));
@@ -120,6 +145,8 @@ std::string CamProfile::fault() const {
     const auto [r, d, dd] = radius(angle);
     if (!std::isfinite(r) || !std::isfinite(d) || !std::isfinite(dd)) return fmt::format("the lift or a derivative of it is not finite at {:g} deg", degrees);
     if (!(r > 0)) return fmt::format("the radius at {:g} deg is {:.4g} m", degrees, r);
+    if (i > 0 && !cam_.lift.is_constant())
+      if (std::string corner = corner_between(angle - kTurn / kPoints, angle); !corner.empty()) return corner;
     const double curvature = surface_curvature(angle), roller = cam_.roller_radius;
     if (cam_.flat && !(curvature > 0)) return fmt::format("at {:g} deg the cam would be hollow (radius of curvature {:.4g} m), and a flat face cannot follow it", degrees, curvature);
     if (!cam_.flat && roller > 0 && curvature > -roller && curvature <= 0)
@@ -127,7 +154,7 @@ std::string CamProfile::fault() const {
   }
   constexpr double kClosed = 1e-6;  // of the radius: what rounded numbers in a model may be off
   if (std::abs(end[0] - start[0]) > kClosed * start[0]) return fmt::format("the profile does not close: after a turn the lift is {:.4g} m higher", end[0] - start[0]);
-  if (std::abs(end[1] - start[1]) > 1e3 * kClosed * start[0]) return fmt::format("the profile has a corner where it closes: its slope changes from {:.4g} to {:.4g} m/rad", end[1], start[1]);
+  if (std::abs(end[1] - start[1]) > kSmooth * start[0]) return fmt::format("the profile has a corner where it closes: its slope changes from {:.4g} to {:.4g} m/rad", end[1], start[1]);
   return {};
 }
 

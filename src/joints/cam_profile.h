@@ -39,6 +39,7 @@ class CamProfile {
   };
   Pitch pitch(double angle) const;
   double foot_by_search(const Planar::Point& c) const;
+  std::string corner_between(double low, double high) const;
 
   friend struct CamGap;
   Cam cam_;

@@ -93,7 +93,7 @@ void read_cam(ModelReading& reading, const Record& record, Joint& joint) {
   if (joint.cam->flat && joint.cam->roller_radius > 0)
     reading.complaints.add(record.spot("roller_radius"), record.path + ".roller_radius", "roller_radius", "a flat face has no roller", "delete it");
   if (std::string why = CamProfile(*joint.cam).fault(); !why.empty())
-    reading.complaints.add(record.spot("lift"), record.path + ".lift", in_quotes(joint.cam->lift.text()), std::move(why), "a larger base_radius, a smaller roller, or a lift that changes more gently and ends as it begins");
+    reading.complaints.add(record.spot("lift"), record.path + ".lift", in_quotes(joint.cam->lift.text()), std::move(why), "a lift that is smooth and ends as it begins (a table: interpolation = \"spline\"), a larger base_radius, or a smaller roller");
 }
 
 // Whether the law suits the joint, and its values, when none is wrong by itself, each other.
