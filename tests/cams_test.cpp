@@ -92,10 +92,14 @@ TEST(Cams, AFlatFaceOnAnEccentricCircleMovesByACosine) {
   const std::string joint = "[joint.J]\ntype = \"cam\"\nbetween = [\"cam.O\", \"follower.foot\"]\nbase_radius = \"40 mm\"\nfollower = \"flat\"\nlift = \"10 mm*cos(angle)\"\nlaw = \"contact\"\ncontact_stiffness = 1e10\ncontact_exponent = 1\nrestitution = 0.5\n";
   const Trajectory run = simulate(parse_model(cam_model(joint, w, mass, ""), "flat.toml"));
   ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
-  const std::vector<double> t = column(run, "t"), y = column(run, "body.follower.y"), force = column(run, "joint.J.contact_force");
+  const std::vector<double> t = column(run, "t"), y = column(run, "body.follower.y"), force = column(run, "joint.J.contact_force"), on_cam = column(run, "joint.J.on_cam.m[world]"),
+                            on_face = column(run, "joint.J.on_follower.m[world]");
   for (std::size_t i = 0; i < t.size(); ++i) {
     EXPECT_NEAR(y[i], 0.04 + 0.01 * std::cos(w * t[i]), 1e-6) << t[i];
     EXPECT_NEAR(force[i], mass * (kGravity - 0.01 * w * w * std::cos(w * t[i])), 0.01) << t[i];
+    // The face touches above the centre of the circle, where the force has this lever about the cam's axis.
+    EXPECT_NEAR(on_cam[i], -0.01 * std::sin(w * t[i]) * force[i], 1e-4) << t[i];
+    EXPECT_NEAR(on_face[i], 0.01 * std::sin(w * t[i]) * force[i], 1e-4) << t[i];
   }
 }
 

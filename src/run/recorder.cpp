@@ -13,10 +13,10 @@ namespace {
 
 using S = Planar;
 
-// Couples are told where the joint holds an angle, meshes, or rubs.
+// Couples are told where the joint holds an angle, meshes, or rubs; about the axis of a cam that is its torque.
 bool tells_couple(const JointData& joint) {
   const bool mesh = std::holds_alternative<Mesh>(joint.displacement) || std::holds_alternative<RackMesh>(joint.displacement);
-  return transmits_couple(joint) || mesh || (joint.law.rubs() && joint.free_mask[2] > 0);
+  return transmits_couple(joint) || mesh || joint.cam || (joint.law.rubs() && joint.free_mask[2] > 0);
 }
 
 bool is_servo(const JointData& joint) { return joint.servo >= 0; }

@@ -118,7 +118,7 @@ void make_edge(const LawSetting& at, Law& law) {
 void add_contact_laws(std::vector<LawInfo>& all) {
   all.push_back({.word = "clearance", .meaning = "a pin with clearance in its bush or slot, a slider with clearance in its guide: free flight, impact, contact with friction and wear", .keys = kClearanceKeys,
                  .rubs = true, .joints = kWithClearance, .make = make_clearance, .fault = contact_fault});
-  all.push_back({.word = "contact", .meaning = "a pin or roller (second) on one side of a straight edge, the first marker's axis: stops, feet, wheels, which presses along +y and does not pull; or a follower on its cam, which it may leave", .keys = kEdgeKeys,
+  all.push_back({.word = "contact", .meaning = "a contact that presses and does not pull: of a pin or roller (second) on the +y side of a straight edge, the first marker's axis (stops, feet, wheels), or of a follower on its cam", .keys = kEdgeKeys,
                  .rubs = true, .joints = kOneSided, .make = make_edge, .fault = contact_fault});
 }
 
