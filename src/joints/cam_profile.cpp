@@ -146,7 +146,7 @@ std::string CamProfile::fault() const {
     if (!std::isfinite(r) || !std::isfinite(d) || !std::isfinite(dd)) return fmt::format("the lift or a derivative of it is not finite at {:g} deg", degrees);
     if (!(r > 0)) return fmt::format("the radius at {:g} deg is {:.4g} m", degrees, r);
     if (i > 0 && !cam_.lift.is_constant())
-      if (std::string corner = corner_between(angle - kTurn / kPoints, angle); !corner.empty()) return corner;
+      if (std::string corner = corner_between(kTurn * (i - 1) / kPoints, angle); !corner.empty()) return corner;
     const double curvature = surface_curvature(angle), roller = cam_.roller_radius;
     if (cam_.flat && !(curvature > 0)) return fmt::format("at {:g} deg the cam would be hollow (radius of curvature {:.4g} m), and a flat face cannot follow it", degrees, curvature);
     if (!cam_.flat && roller > 0 && curvature > -roller && curvature <= 0)

@@ -14,6 +14,7 @@
 #include "laws/bushing.h"
 #include "laws/catalog.h"
 #include "laws/friction/coulomb.h"
+#include "laws/contact/gap_contact.h"
 #include "laws/contact/guide_contact.h"
 #include "laws/bearings/journal_film.h"
 #include "laws/friction/lugre.h"
