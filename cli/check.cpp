@@ -12,6 +12,7 @@
 #include "cli/model_options.h"
 #include "cli/verbs.h"
 #include "io/document.h"
+#include "io/model_files.h"
 #include "pintle/check.h"
 #include "pintle/read_model.h"
 #include "results/disk.h"
@@ -34,7 +35,7 @@ struct CheckOptions {
 
 ExitCode check(const CheckOptions& options) {
   const std::string text = read_file(options.model, kMaxFileBytes + 1);
-  const Model model = parse_model(text, options.model, laws_and_overrides(options.laws, options.overrides));
+  const Model model = parse_model(text, options.model, laws_and_overrides(options.laws, options.overrides), ModelFiles(options.model).reader());
   const CheckReport report = check_model(model);
   if (options.json) {
     print_out(check_json(report, model.name, options.model));

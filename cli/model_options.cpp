@@ -5,8 +5,10 @@
 #include <CLI/CLI.hpp>
 
 #include "io/document.h"
+#include "io/model_files.h"
 #include "pintle/read_model.h"
 #include "results/disk.h"
+#include "results/sha256.h"
 
 namespace pintle::cli {
 namespace {
@@ -71,7 +73,9 @@ std::vector<std::string> all_overrides(const ModelOptions& options) {
 ReadModel read_model_to_run(const ModelOptions& options) {
   ReadModel read;
   read.text = read_file(options.model, kMaxFileBytes + 1);
-  read.model = parse_model(read.text, options.model, all_overrides(options));
+  ModelFiles files(options.model);
+  read.model = parse_model(read.text, options.model, all_overrides(options), files.reader());
+  for (const auto& [name, text] : files.texts()) read.files.push_back({name, "sha256:" + sha256(text), text});
   check_duration(read.model, read.text, options.model);
   return read;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pintle/model.h"
+#include "pintle/results.h"
 #include "pintle/simulate.h"
 
 namespace CLI {
@@ -45,6 +46,7 @@ std::vector<std::string> all_overrides(const ModelOptions& options);
 struct ReadModel {
   std::string text;
   Model model;
+  std::vector<ModelFile> files;  ///< that the model names
 };
 ReadModel read_model_to_run(const ModelOptions& options);
 

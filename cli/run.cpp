@@ -81,10 +81,10 @@ void print_results(const Trajectory& trajectory, const RunStamp& stamp, const Ru
 ExitCode run(const RunOptions& options) {
   const std::filesystem::path folder = run_folder(options);
   const Overwrite overwrite = options.force ? Overwrite::kAnyFolder : Overwrite::kRunFolder;
-  const auto [text, model] = read_model_to_run(options);
+  const auto [text, model, files] = read_model_to_run(options);
   check_run_folder(folder, overwrite);
   const RunStamp stamp{model.name, options.model, "sha256:" + sha256(text), PINTLE_VERSION, command_line(),
-                       all_overrides(options), text};
+                       all_overrides(options), text, files};
 
   catch_interrupts();
   ProgressReport report(progress_style(options.quiet, options.progress));

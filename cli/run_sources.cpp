@@ -2,12 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "pintle/read_model.h"
 #include "results/disk.h"
 #include "results/run_folder.h"
 
 namespace pintle::cli {
 namespace fs = std::filesystem;
+namespace {
+
+FileText recorded_files(const fs::path& folder, const std::vector<ModelFile>& files) {
+  return [folder, files](const std::string& name) {
+    const auto it = std::find_if(files.begin(), files.end(), [&](const ModelFile& file) { return file.name == name; });
+    if (it == files.end()) throw FileError(fmt::format("{}: the run did not read this file.\n    Run the model again.", (folder / name).string()));
+    return read_model_file(folder, *it);
+  };
+}
+
+}  // namespace
 
 DrawnRun read_drawn_run(const std::string& folder, const std::vector<std::string>& changes) {
   DrawnRun drawn{read_run(folder), {}};
@@ -15,7 +28,7 @@ DrawnRun read_drawn_run(const std::string& folder, const std::vector<std::string
   stamp.model_text = read_model_text(folder, stamp);
   std::vector<std::string> overrides = stamp.overrides;
   overrides.insert(overrides.end(), changes.begin(), changes.end());
-  drawn.model = parse_model(stamp.model_text, (fs::path(folder) / model_file_of(stamp)).string(), overrides);
+  drawn.model = parse_model(stamp.model_text, (fs::path(folder) / model_file_of(stamp)).string(), overrides, recorded_files(folder, stamp.model_files));
   return drawn;
 }
 

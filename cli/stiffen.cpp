@@ -54,7 +54,7 @@ std::string with_recommended(std::string text, const Stiffening& found, const st
 }
 
 ExitCode stiffen_model(StiffenOptions& options) {
-  const auto [text, model] = read_model_to_run(options);
+  const auto [text, model, files] = read_model_to_run(options);
   options.request.damping_ratio = options.damping_ratio;
   catch_interrupts();
   ProgressReport report(progress_style(options.quiet));

@@ -84,6 +84,18 @@ void MpiProcesses::share(std::string& text) const {
   MPI_Bcast(text.data(), static_cast<int>(size), MPI_BYTE, 0, MPI_COMM_WORLD);
 }
 
+void MpiProcesses::share(std::map<std::string, std::string>& texts) const {
+  std::uint64_t count = texts.size();
+  MPI_Bcast(&count, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+  std::vector<std::pair<std::string, std::string>> list(texts.begin(), texts.end());
+  list.resize(count);
+  for (auto& [name, text] : list) {
+    share(name);
+    share(text);
+  }
+  texts = {list.begin(), list.end()};
+}
+
 void MpiProcesses::abort(int exit_code) const {
   MPI_Abort(MPI_COMM_WORLD, exit_code);
   std::abort();

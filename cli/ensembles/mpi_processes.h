@@ -1,8 +1,10 @@
 // The processes that mpirun or srun have started: the first writes and computes, the others compute.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "pintle/sweep.h"
 #include "sweeps/run_sweep.h"
@@ -22,6 +24,7 @@ class MpiProcesses : public Remote {
   bool is_first() const { return rank_ == 0; }
   /// The first one's model text for all. Whatever else they have from the command line is the same by nature.
   void share(std::string& text) const;
+  void share(std::map<std::string, std::string>& texts) const;
   /// Ends all of them at once, after an error.
   [[noreturn]] void abort(int exit_code) const;
 

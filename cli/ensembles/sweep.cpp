@@ -16,6 +16,8 @@
 #include "cli/interrupt.h"
 #include "cli/model_options.h"
 #include "io/document.h"
+#include "io/model_files.h"
+#include "pintle/read_model.h"
 #include "results/disk.h"
 #include "sweeps/run_sweep.h"
 #include "sweeps/sweep_report.h"
@@ -57,13 +59,23 @@ std::string command_of(const SweepOptions& options) {
   return r.check_every > 1 ? text + fmt::format(" --check-every {}", r.check_every) : text;
 }
 
+// The model, and the files that it names.
+void read_texts(SweepOptions& options) {
+  SweepRequest& request = options.request;
+  request.model_text = read_file(options.model, kMaxFileBytes + 1);
+  ModelFiles files(options.model);
+  parse_model(request.model_text, options.model, request.overrides, files.reader());
+  request.model_files = files.texts();
+}
+
 #ifdef PINTLE_MPI
 
 // On the first process; the others compute for it and give nothing.
 std::optional<SweepOutcome> run_on_all(SweepOptions& options, const SweepObserver& observer) {
   MpiProcesses processes;
-  if (processes.is_first()) options.request.model_text = read_file(options.model, kMaxFileBytes + 1);
+  if (processes.is_first()) read_texts(options);
   processes.share(options.request.model_text);
+  processes.share(options.request.model_files);
   if (!processes.is_first()) {
     try {
       processes.work(options.request, usable_threads(options.run.threads));
@@ -89,7 +101,7 @@ std::optional<SweepOutcome> run_everywhere(SweepOptions& options, const SweepObs
 #ifdef PINTLE_MPI
   if (started_by_mpi()) return run_on_all(options, observer);
 #endif
-  options.request.model_text = read_file(options.model, kMaxFileBytes + 1);
+  read_texts(options);
   return run_sweep(options.request, options.run, observer, nullptr);
 }
 

@@ -61,15 +61,34 @@ struct Bearing {
   friend bool operator==(const Bearing&, const Bearing&) = default;
 };
 
+/// A cam and what follows it. theory/cams
+struct Cam {
+  Expression lift;           ///< over the base circle, of the angle on the cam [m]
+  double base_radius = 0;    ///< of the base circle [m]
+  double roller_radius = 0;  ///< of the follower; 0: a pin [m]
+  bool flat = false;         ///< the follower is a flat face
+  /// The same text may have been read with other parameters, so that its values are compared too.
+  friend bool operator==(const Cam& a, const Cam& b) {
+    bool same = a.base_radius == b.base_radius && a.roller_radius == b.roller_radius && a.flat == b.flat && a.lift.text() == b.lift.text() && a.lift.variables() == b.lift.variables();
+    for (int i = 0; same && i < 60; ++i) {
+      const std::array<double, 1> angle{0.1 * i};
+      const double x = a.lift.value(angle), y = b.lift.value(angle);
+      same = x == y || (x != x && y != y);
+    }
+    return same;
+  }
+};
+
 /// A joint: a joint displacement (its `type`) between two markers and a law. F is on the first marker, M on the second.
 struct Joint {
   std::string name;
-  std::string type;  ///< revolute, prismatic, fixed, slot, rod, rope, gear, rack
+  std::string type;  ///< revolute, prismatic, fixed, slot, rod, rope, gear, rack, cam
   MarkerRef first, second;
   std::map<std::string, double> geometry;  ///< rod, rope: length [m] (absent: as assembled); gear: radius_first, radius_second [m], internal (0 or 1); rack: radius [m]
   LawChoice law;
   LawChoice friction{"", {}};  ///< of what the joint leaves free; no word: none
   bool ideal = false;  ///< with Equations::kRelative: no force law, the coordinates obey it
+  std::optional<Cam> cam{};    ///< of a cam joint
   std::optional<Bearing> bearing{};  ///< of a pin; it does not change the motion
   friend bool operator==(const Joint&, const Joint&) = default;
 };

@@ -10,6 +10,13 @@
 
 namespace pintle {
 
+/// A file that a model names, such as the columns of a table. A run folder has it under the same name.
+struct ModelFile {
+  std::string name;    ///< as the model has it, relative to its folder
+  std::string hash;    ///< "sha256:..."
+  std::string text{};  ///< empty where a run is read back: read_model_file() gives it
+};
+
 /// Where a run came from.
 struct RunStamp {
   std::string model_name;
@@ -19,6 +26,7 @@ struct RunStamp {
   std::string command_line;
   std::vector<std::string> overrides{};  ///< what the command line changed in the model, as parse_model() takes it
   std::string model_text{};              ///< the model file; empty: not known
+  std::vector<ModelFile> model_files{};  ///< that the model names
 };
 
 struct RunRecord {
@@ -52,6 +60,9 @@ RunRecord read_run(const std::filesystem::path& folder);
 /// The model file of a run, from its folder, or from where it was if the folder has none. Throws FileError if it is gone
 /// or not what was run.
 std::string read_model_text(const std::filesystem::path& folder, const RunStamp& stamp);
+
+/// The text of a file that the model of a run names, from the run's folder. Throws FileError if it is gone or not what was run.
+std::string read_model_file(const std::filesystem::path& folder, const ModelFile& file);
 
 /// The text of summary.json: everything in the trajectory but the values.
 std::string summary_json(const Trajectory& trajectory, const RunStamp& stamp);

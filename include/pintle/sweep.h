@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct SweepRequest {
   bool latin = false;                   ///< a Latin hypercube: every value's range evenly filled
   std::vector<std::string> series;      ///< columns to keep at all output times, named as in series.csv
   std::uint64_t check_every = 1;        ///< one sample in so many gets an error estimate and meets the tolerance by it; the others are integrated once, as the base needs it
+  std::map<std::string, std::string> model_files{};  ///< the texts of the files that the model names, by name
 };
 
 struct SweepRun {

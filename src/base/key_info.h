@@ -16,6 +16,7 @@ struct KeyInfo {
   bool per_component = false;      // may be a list, one value per gap component it covers
   bool list = false;               // is a list of any length
   std::span<const std::string_view> words{};  // is one of these; its number among them is the value
+  std::span<const std::string_view> points{};  // is the name of a table, whose x and y stand for these two keys, which are lists
   std::string_view meaning;        // one line
 };
 

@@ -1,10 +1,10 @@
-// A function of one variable through given points, by cubic pieces that rise and fall only where the points do. F. N. Fritsch and R. E.
-// Carlson, Monotone piecewise cubic interpolation, SIAM J. Numerical Analysis 17 (1980) 238-246. The function and its slope are
-// continuous, the curvature jumps at the points. Beyond the ends it is straight.
+// A function of one variable through given points, by cubic pieces that rise and fall only where the points do (base/cubic_curve.h). The
+// function and its slope are continuous, the curvature jumps at the points. Beyond the ends it is straight.
 #pragma once
 
-#include <cstddef>
 #include <vector>
+
+#include "base/cubic_curve.h"
 
 namespace pintle {
 
@@ -17,21 +17,16 @@ class MonotoneTable {
   /// At least two points, x strictly rising. Throws std::invalid_argument where that is not so, or an odd table does not begin at (0, 0).
   MonotoneTable(std::vector<double> x, std::vector<double> y, Symmetry symmetry = Symmetry::kNone);
 
-  double value(double x) const;
-  double slope(double x) const;
+  double value(double x) const { return odd_ && x < 0 ? -curve_.value(-x) : curve_.value(x); }
+  double slope(double x) const { return curve_.slope(odd_ && x < 0 ? -x : x); }
   /// From 0 to x, of the pieces themselves: no quadrature.
-  double integral(double x) const;
+  double integral(double x) const { return curve_.integral(odd_ && x < 0 ? -x : x) - integral_at_zero_; }
   /// The largest slope of the straight lines between neighbouring points.
   double steepest_secant() const;
 
  private:
-  void find_slopes();
-  void limit_slopes();
-  std::size_t interval_of(double x) const;
-  double integral_from_start(double x) const;
-
   bool odd_ = false;
-  std::vector<double> x_, y_, slope_, integral_;  // at the points; integral from the first of them
+  CubicCurve curve_;
   double integral_at_zero_ = 0;
 };
 

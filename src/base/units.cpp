@@ -55,6 +55,7 @@ constexpr std::array kUnits{
     UnitEntry{"kPa", {1e3, kPressure}},
     UnitEntry{"MPa", {1e6, kPressure}},
     UnitEntry{"GPa", {1e9, kPressure}},
+    UnitEntry{"bar", {1e5, kPressure}},
     UnitEntry{"Hz", {1, kPerTime}},
     UnitEntry{"kHz", {1e3, kPerTime}},
     UnitEntry{"rad", {1, kAngle}},

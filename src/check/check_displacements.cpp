@@ -69,7 +69,8 @@ class DisplacementSlopes {
                              const RelativePose& pose, const JointKinematics& here, const Mat36& G, const Vec6& step,
                              const CheckPlace& place) {
     const Mat36 analytic = rate_gradient(link.displacement, pose, motion_of(link.at.a, state.m), motion_of(link.at.b, state.m));
-    const double size = (G.cwiseAbs() * bodies.velocities().cwiseAbs()).maxCoeff() + here.rate.cwiseAbs().maxCoeff();
+    // Rates that cancel in a gap which does not change, as of a cam in its dwell, leave their rounding.
+    const double size = (G.cwiseAbs() * bodies.velocities().cwiseAbs()).maxCoeff() + here.rate.cwiseAbs().maxCoeff() + pose.rate.cwiseAbs().maxCoeff();
     rate_gradient_.slopes(
         used(bodies, analytic), [&](int c, double s) { return bodies.kinematics(s * Vec6::Unit(c)).rate; }, step,
         size / state.length * 1e-3, place);

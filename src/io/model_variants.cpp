@@ -35,13 +35,14 @@ constexpr const char* kVaried = "\x01";
 
 }  // namespace
 
-ModelVariants::ModelVariants(const Document& document, const std::vector<std::string>& paths) : changing_(document) {
-  ModelReading whole(document);
+ModelVariants::ModelVariants(const Document& document, const std::vector<std::string>& paths, const FileText& files) : changing_(document), files_(files) {
+  ModelReading whole(document, files);
   read_all(whole);
   whole.complaints.throw_if_any();
   base_ = std::move(whole.model);
   markers_of_ = std::move(whole.markers_of);
   type_of_joint_ = std::move(whole.type_of_joint);
+  named_tables_ = std::move(whole.tables);
   for (const std::string& path : paths) {
     paths_.push_back(keys_of(path));
     node_at(changing_.root, paths_.back()).value = std::string(kVaried);
@@ -53,17 +54,20 @@ ModelVariants::ModelVariants(const Document& document, const std::vector<std::st
 
 ModelVariants::ModelVariants(const ModelVariants& other)
     : paths_(other.paths_), parameters_(other.parameters_), changing_(other.changing_), base_(other.base_), markers_of_(other.markers_of_),
-      type_of_joint_(other.type_of_joint_), bodies_(other.bodies_), joints_(other.joints_), springs_(other.springs_), forces_(other.forces_),
-      motors_(other.motors_), all_joints_(other.all_joints_), settings_(other.settings_), ground_(other.ground_) {
+      type_of_joint_(other.type_of_joint_),
+      named_tables_(other.named_tables_), files_(other.files_), bodies_(other.bodies_), joints_(other.joints_), springs_(other.springs_), forces_(other.forces_),
+      motors_(other.motors_), all_joints_(other.all_joints_), settings_(other.settings_), ground_(other.ground_), tables_(other.tables_) {
   begin_reading();
 }
 
 ModelVariants::~ModelVariants() = default;
 
 void ModelVariants::begin_reading() {
-  reading_ = std::make_unique<ModelReading>(changing_);
+  reading_ = std::make_unique<ModelReading>(changing_, files_);
   reading_->markers_of = markers_of_;
   reading_->type_of_joint = type_of_joint_;
+  reading_->tables = named_tables_;
+  let_expressions_call_tables(*reading_);
 }
 
 // Whether a varied number, or the name of a parameter that changes, stands somewhere in it. A name inside another one counts too:
@@ -97,13 +101,17 @@ void ModelVariants::leave_out_what_stays() {
     const Node* node = root.find(name);
     return node != nullptr && depends(*node);
   };
-  if (const Node* parameters = root.find("parameters")) {
-    for (std::size_t known = 0; known < parameters_.size();) {  // those made of others that change
+  const auto add_dependent = [this](const Node& section) {
+    std::size_t known = 0;
+    do {  // those made of others that change
       known = parameters_.size();
-      for (const Entry& entry : parameters->table()->entries())
+      for (const Entry& entry : section.table()->entries())
         if (depends(entry.value)) parameters_.insert(entry.key);
-    }
-  }
+    } while (known < parameters_.size());
+  };
+  if (const Node* parameters = root.find("parameters")) add_dependent(*parameters);
+  tables_ = section_depends("table");
+  if (tables_) add_dependent(*root.find("table"));
   all_joints_ = section_depends("defaults");
   ground_ = section_depends("ground");
   settings_ = section_depends("simulate") || section_depends("gravity");
@@ -123,6 +131,7 @@ Model ModelVariants::at(std::span<const double> values) {
   reading.model = Model();
   reading.records.scope.constant_names.clear();
   read_parameters(reading);
+  if (tables_) read_tables(reading);
   if (settings_) read_settings(reading);
   if (!bodies_.empty()) read_bodies(reading);
   if (!joints_.empty()) read_joints(reading);

@@ -14,7 +14,7 @@ namespace pintle {
 class ModelVariants {
  public:
   /// The document must give a model, and the paths must be of numbers in it.
-  ModelVariants(const Document& document, const std::vector<std::string>& paths);
+  ModelVariants(const Document& document, const std::vector<std::string>& paths, const FileText& files = {});
   ModelVariants(const ModelVariants& other);
   ModelVariants& operator=(const ModelVariants&) = delete;
   ~ModelVariants();
@@ -32,14 +32,16 @@ class ModelVariants {
   bool depends(const Node& node) const;
 
   std::vector<std::vector<std::string>> paths_;
-  std::set<std::string> parameters_;  // that change
+  std::set<std::string> parameters_;  // that change, and tables
   Document changing_;                 // the file without what stays as it is
   Model base_;
   std::map<std::string, std::set<std::string>, std::less<>> markers_of_;
   std::map<std::string, std::string, std::less<>> type_of_joint_;
+  std::map<std::string, NamedTable, std::less<>> named_tables_;
+  FileText files_;
   Places bodies_, joints_, springs_, forces_, motors_;
   bool all_joints_ = false;                 // their defaults change
-  bool settings_ = false, ground_ = false;  // change
+  bool settings_ = false, ground_ = false, tables_ = false;  // change
   std::unique_ptr<ModelReading> reading_;
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "io/model_files.h"
 #include "io/variations.h"
 #include "pintle/read_model.h"
 #include "results/disk.h"
@@ -52,8 +53,8 @@ void expect_same_model(const Model& a, const Model& b) {
 }
 
 // The paths of all numbers that a sweep may vary in a document, with their values.
-std::vector<std::pair<std::string, double>> numbers_of(const Document& document) {
-  ModelReading reading(document);
+std::vector<std::pair<std::string, double>> numbers_of(const Document& document, const FileText& files) {
+  ModelReading reading(document, files);
   read_all(reading);
   std::vector<std::pair<std::string, double>> out;
   for (const Entry& section : document.root.table()->entries()) {
@@ -63,7 +64,7 @@ std::vector<std::pair<std::string, double>> numbers_of(const Document& document)
       if (section.key == "parameters") out.emplace_back(path, reading.records.scope.constant(thing.key)->si);
       if (thing.value.table() == nullptr) continue;
       for (const Entry& key : thing.value.table()->entries()) {
-        ModelReading trial(document);
+        ModelReading trial(document, files);
         read_all(trial);
         if (!varied_key(trial, path + "." + key.key, {0, 1, 1}) || key.key == "balls") continue;  // a whole number
         const auto number = trial.records.read_quantity(key.value, "");
@@ -80,17 +81,56 @@ TEST(ModelVariants, AreTheModelsWithOverrides) {
     if (file.path().extension() != ".toml" || file.path().stem() == "n_four_bar_40" || file.path().stem() == "n_four_bar_10") continue;
     const std::string name = file.path().filename().string(), text = read_file(file.path());
     const Document document = parse_document(text, name);
-    for (const auto& [path, value] : numbers_of(document)) {
+    ModelFiles files(file.path());
+    for (const auto& [path, value] : numbers_of(document, files.reader())) {
       SCOPED_TRACE(name + " " + path);
-      ModelVariants variants(document, {path});
+      ModelVariants variants(document, {path}, files.reader());
       for (const double factor : {1.0, 1.01}) {
         const std::vector<double> numbers{factor * value};
-        expect_same_model(variants.at(numbers), parse_model(text, name, {fmt::format("{}={}", path, numbers[0])}));
+        expect_same_model(variants.at(numbers), parse_model(text, name, {fmt::format("{}={}", path, numbers[0])}, files.reader()));
         ++compared;
       }
     }
   }
   EXPECT_GT(compared, 400);
+}
+
+// Tables that depend on a number are read again, and so is what calls them or takes their points.
+TEST(ModelVariants, ReadTablesAgain) {
+  const std::string text = R"(format = 1
+[parameters]
+stroke = "1 mm"
+force = "100 N"
+[table.given]
+x = [0, "stroke"]
+y = [0, "force"]
+[table.other]
+x = [0, 1]
+y = [0, 1]
+[body.a]
+mass = 1
+inertia = 1
+markers.A = [0, 0]
+[ground.markers]
+O = [0, 0]
+[joint.J]
+type = "slot"
+between = ["ground.O", "a.A"]
+law = "table"
+curve = "given"
+[motor.M]
+joint = "J"
+force = "-given(slide) + other(t/1 s)*1 N"
+)";
+  const Document document = parse_document(text, "m.toml");
+  for (const std::string path : {"parameters.stroke", "parameters.force"}) {
+    ModelVariants variants(document, {path});
+    for (const double value : {2e-4, 3.0}) {
+      const Model read = variants.at(std::vector{value}), whole = parse_model(text, "m.toml", {fmt::format("{}={}", path, value)});
+      expect_same_model(read, whole);
+      EXPECT_EQ(read.joints[0].law.values.at(path == "parameters.stroke" ? "displacement" : "force")[1], value);
+    }
+  }
 }
 
 TEST(ModelVariants, GoOnAfterAFaultyOne) {

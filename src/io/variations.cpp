@@ -83,7 +83,8 @@ class KeySearch {
       for (const KeySpec& key : table.keys) keys.push_back(key.key);
       return complain("there is no key " + in_quotes(parts_.back()), reading_.complaints.did_you_mean(parts_.back(), keys));
     }
-    if (spec->type != ValueType::kNumber && spec->type != ValueType::kQuantity && spec->type != ValueType::kExpression)
+    const bool one_number = spec->type == ValueType::kNumber || spec->type == ValueType::kQuantity || spec->type == ValueType::kExpression;
+    if (!one_number || spec->unit == "any")  // a number whose unit depends on others
       return complain("only a key that is one number can vary", "name the number under [parameters], and vary parameters.NAME");
     return VariedKey{spec->unit, spec->dimension, spec->minimum, spec->maximum, spec->minimum_exclusive};
   }

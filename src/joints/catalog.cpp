@@ -15,6 +15,7 @@ constexpr std::array<ComponentInfo, 3> kXYAngle{kX, kY, kTurn};
 constexpr std::array<ComponentInfo, 1> kAcross{{{.name = "across", .place = 1}}};
 constexpr std::array<ComponentInfo, 1> kAlong{{{.name = "along"}}};
 constexpr std::array<ComponentInfo, 1> kPitch{{{.name = "pitch"}}};
+constexpr std::array<ComponentInfo, 1> kNormal{{{.name = "normal"}}};
 constexpr std::array<ComponentInfo, 1> kAngle{kTurn};
 constexpr std::array<ComponentInfo, 1> kSlide{{{.name = "slide"}}};
 constexpr std::array<ComponentInfo, 2> kSlideAngle{{{.name = "slide"}, kTurn}};
@@ -37,7 +38,9 @@ JointDisplacement make_mesh(const Geometry& g) {
 }
 JointDisplacement make_rack(const Geometry& g) { return RackMesh{value(g, "radius", 1), 1, 0}; }
 
-// The gear's keys `radii` and `mesh` are lists and words; the reader turns them into radius_first, radius_second, internal.
+JointDisplacement make_cam(const Geometry&) { return CamGap{}; }
+
+// The gear's keys `radii` and `mesh` are lists and words; the reader turns them into radius_first, radius_second, internal. A cam's profile is the model's.
 std::vector<JointTypeInfo>& types() {
   static std::vector<JointTypeInfo> all{
       {.word = "revolute", .meaning = "a pin: holds two points together, the angle is free", .gap = kXY, .free = kAngle, .keys = {}, .make = make_pose},
@@ -48,6 +51,7 @@ std::vector<JointTypeInfo>& types() {
       {.word = "rope", .meaning = "a rope: limits the distance of two points to its length", .gap = kAlong, .free = {}, .keys = kLength, .one_sided = true, .make = make_distance},
       {.word = "gear", .meaning = "two gears in mesh, centred on the two markers", .gap = kPitch, .free = {}, .keys = {}, .make = make_mesh},
       {.word = "rack", .meaning = "a pinion (first) rolling along a rack (second marker's axis)", .gap = kPitch, .free = {}, .keys = kRackRadius, .make = make_rack},
+      {.word = "cam", .meaning = "a cam (first) and what follows it (second): a roller, a pin or a flat face", .gap = kNormal, .free = {}, .keys = {}, .make = make_cam},
   };
   return all;
 }

@@ -95,4 +95,14 @@ struct FunctionGap {
   GapFunction operator()(const Planar::Vec& z) const { return at(z, parameters.data()); }
 };
 
+class CamProfile;
+
+/// A cam and its follower: how far they are apart along their common normal, less than 0 where they overlap. theory/cams Eqs. (2.2)-(2.6).
+/// The profile belongs to the joint.
+struct CamGap {
+  const CamProfile* profile = nullptr;
+
+  GapFunction operator()(const Planar::Vec& z) const;
+};
+
 }  // namespace pintle

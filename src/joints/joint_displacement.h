@@ -21,7 +21,7 @@ template <class S>
 struct DisplacementsOf;
 template <>
 struct DisplacementsOf<Planar> {
-  using Type = std::variant<Selection, Distance, Mesh, RackMesh, FunctionGap>;
+  using Type = std::variant<Selection, Distance, Mesh, RackMesh, FunctionGap, CamGap>;
 };
 template <>
 struct DisplacementsOf<Spatial> {

@@ -7,6 +7,9 @@
 #include <numbers>
 #include <type_traits>
 
+#include "base/expression/expression_parser.h"
+#include "base/units.h"
+#include "joints/cam_profile.h"
 #include "joints/catalog.h"
 #include "joints/joint_checks_for_tests.h"
 
@@ -39,6 +42,17 @@ GapFunction sum_of_squares(const Planar::Vec& z, const double* p) {
 }
 FunctionGap sample_of(std::type_identity<FunctionGap>, Random& random) {
   return {sum_of_squares, {random.uniform(0.5, 1), random.uniform(0.5, 1), random.uniform(-0.5, 0.5), random.uniform(0.1, 1)}};
+}
+
+// The lift of a cam in the tests.
+Expression wavy_lift() {
+  ParseScope scope;
+  scope.variables = {{"angle", kAngle}};
+  return std::get<ParsedExpression>(parse_expression("0.02 m*cos(angle) + 0.01 m*sin(2*angle)", scope)).expression;
+}
+CamGap sample_of(std::type_identity<CamGap>, Random& random) {
+  static const CamProfile roller(Cam{wavy_lift(), 0.3, 0.1, false}), flat(Cam{wavy_lift(), 0.3, 0, true});
+  return {random.coin() ? &roller : &flat};
 }
 
 template <class V>

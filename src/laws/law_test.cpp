@@ -17,6 +17,7 @@
 #include "laws/flexures/leaf_spring.h"
 #include "laws/flexures/notch_hinge.h"
 #include "laws/friction/coulomb.h"
+#include "laws/contact/gap_contact.h"
 #include "laws/contact/guide_contact.h"
 #include "laws/bearings/journal_film.h"
 #include "laws/friction/lugre.h"
@@ -119,7 +120,7 @@ class AnyLaw : public testing::Test {
     return !std::equal(before.begin(), before.end(), after.begin(), [](double x, double y) { return (x > 0) == (y > 0); });
   }
 };
-using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GuideContactLaw, ClutchLaw,
+using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GapContactLaw, GuideContactLaw, ClutchLaw,
                              TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw, LeafSpringLaw, NotchHingeLaw, CrossSpringLaw>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 

@@ -21,6 +21,7 @@ double SceneMaker::gyration(int body) const {
 void SceneMaker::add_body(int body) {
   const BodySketch& sketch = sketches_[static_cast<std::size_t>(body)];
   add_wheels(body, sketch);
+  add_cams(body, sketch);
   if (!sketch.tracks.empty()) add_tracks(body, sketch);
   else add_link(body, sketch);
   for (const Anchor& block : sketch.blocks) add_block(block);
@@ -56,7 +57,7 @@ void SceneMaker::add_tracks(int body, const BodySketch& sketch) {
 void SceneMaker::add_link(int body, const BodySketch& sketch) {
   const double u = scene_.unit;
   const std::vector<Vec2> hull = convex_hull(sketch.points, 0.6 * u);
-  const bool covered = !sketch.wheels.empty() || !sketch.blocks.empty();
+  const bool covered = !sketch.wheels.empty() || !sketch.blocks.empty() || !sketch.cams.empty() || !sketch.rollers.empty() || !sketch.faces.empty();
   if (hull.size() > 2) {
     put(kPlates, {Form::kBar, Paint::kLink, body, {hull}, kLinkWidth * u, true});
   } else if (hull.size() == 2) {
@@ -105,6 +106,16 @@ void SceneMaker::add_wheels(int body, const BodySketch& sketch) {
     for (int k = 0; k < 5; ++k) holes.paths.push_back({wheel.centre + 0.6 * wheel.radius * direction(2 * std::numbers::pi * k / 5)});
     put(kWheels, std::move(holes));
   }
+}
+
+void SceneMaker::add_cams(int body, const BodySketch& sketch) {
+  const double u = scene_.unit;
+  if (!sketch.cams.empty()) put(kWheels, {Form::kArea, Paint::kGear, body, sketch.cams});
+  for (const Wheel& roller : sketch.rollers) {
+    put(kBlocks, {Form::kCircle, Paint::kGear, body, {{roller.centre}}, std::max(roller.radius, 0.25 * u)});
+    if (roller.radius > u) put(kPins, {Form::kCircle, Paint::kPin, body, {{roller.centre}}, 0.4 * u});
+  }
+  if (!sketch.faces.empty()) put(kBars, {Form::kBar, Paint::kLink, body, sketch.faces, 0.5 * u});
 }
 
 void SceneMaker::add_rack_teeth(int body, const Track& track) {

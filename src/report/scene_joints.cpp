@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "joints/cam_profile.h"
 #include "report/outline.h"
 #include "report/scene_maker.h"
 
@@ -27,6 +28,7 @@ void SceneMaker::sketch_joints() {
     if (!first || !second) continue;
     if (joint.type == "prismatic" || joint.type == "slot") sketch_slider(joint, *first, *second);
     if (joint.type == "rack") sketch_rack(joint, *first, *second);
+    if (joint.cam) sketch_cam(joint, *first, *second);
     if (joint.type != "gear") continue;
     const auto radius = [&joint](const char* key) { return joint.geometry.contains(key) ? joint.geometry.at(key) : 0.0; };
     const bool internal = radius("internal") > 0;
@@ -181,6 +183,30 @@ void SceneMaker::add_ground_ways(const Track& track) {
   hatch(track.to - half * across, track.from - half * across, -1.0 * across);
 }
 
+void SceneMaker::sketch_cam(const Joint& joint, const Anchor& first, const Anchor& second) {
+  constexpr int kPoints = 240;
+  const CamProfile profile(*joint.cam);
+  const Vec2 x = direction(first.axis), y = normal(x);
+  std::vector<Vec2> outline;
+  double size = 0, reach = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    const Planar::Point p = profile.surface(2 * kPi * i / kPoints);
+    outline.push_back(first.point + p[0] * x + p[1] * y);
+    size = std::max(size, p.norm());
+    reach = std::max(reach, std::abs(profile.radius(2 * kPi * i / kPoints)[1]));
+  }
+  sketch_of(first.body).cams.push_back(std::move(outline));
+  show(first.body, first.point, size);
+  if (!joint.cam->flat) {
+    sketch_of(second.body).rollers.push_back({second.point, joint.cam->roller_radius});
+    show(second.body, second.point, joint.cam->roller_radius);
+    return;
+  }
+  const Vec2 along = (1.1 * reach + scene_.unit) * direction(second.axis);  // the contact goes as far along the face as the lift changes
+  sketch_of(second.body).faces.push_back({second.point - along, second.point + along});
+  show(second.body, second.point, length(along));
+}
+
 // Tracks and wheels that do not move. Slots that cross become one opening.
 void SceneMaker::add_ground_slots() {
   const double u = scene_.unit;
@@ -201,6 +227,9 @@ void SceneMaker::add_ground_slots() {
     if (wheel.ring) put(kBack, {Form::kCircle, Paint::kHole, kWorld, {{wheel.centre}}, wheel.radius - 0.3 * u});
     put(kBack, {Form::kCircle, Paint::kPitch, kWorld, {{wheel.centre}}, wheel.radius});
   }
+  if (!ground_.cams.empty()) put(kBack, {Form::kArea, Paint::kGround, kWorld, ground_.cams});
+  if (!ground_.faces.empty()) put(kBack, {Form::kBar, Paint::kGround, kWorld, ground_.faces, 0.5 * u});
+  for (const Wheel& roller : ground_.rollers) put(kBack, {Form::kCircle, Paint::kGround, kWorld, {{roller.centre}}, std::max(roller.radius, 0.25 * u)});
   if (frame.paths.empty()) return;
   put(kBack, std::move(frame));
   put(kBack, std::move(opening));

@@ -30,6 +30,9 @@ struct BodySketch {
   std::vector<Track> tracks;
   std::vector<Wheel> wheels;
   std::vector<Anchor> blocks;  ///< where it is a slider
+  std::vector<std::vector<Vec2>> cams;   ///< their outlines
+  std::vector<Wheel> rollers;            ///< on cams; without a radius: a pin
+  std::vector<std::vector<Vec2>> faces;  ///< flat ones on cams: both ends
 };
 
 class SceneMaker {
@@ -63,6 +66,7 @@ class SceneMaker {
   void add_link(int body, const BodySketch& sketch);
   void add_lone_link(int body, const Vec2& pin);
   void add_wheels(int body, const BodySketch& sketch);
+  void add_cams(int body, const BodySketch& sketch);
   void add_rack_teeth(int body, const Track& track);
   void add_block(const Anchor& at);
   void add_mass_mark(int body);
@@ -72,6 +76,8 @@ class SceneMaker {
   void sketch_joints();
   void sketch_slider(const Joint& joint, const Anchor& first, const Anchor& second);
   void sketch_rack(const Joint& joint, const Anchor& first, const Anchor& second);
+  void sketch_cam(const Joint& joint, const Anchor& first, const Anchor& second);
+  BodySketch& sketch_of(int body) { return body == kWorld ? ground_ : sketches_[static_cast<std::size_t>(body)]; }
   void show(int body, const Track& track);
   void show(int body, const Vec2& centre, double radius);
   void add_joint(const Joint& joint);

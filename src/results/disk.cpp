@@ -98,6 +98,8 @@ bool move_strangers(const fs::path& from, const fs::path& to) {
   for (const fs::directory_entry& entry : fs::directory_iterator(from, unreadable)) {
     const fs::path destination = to / entry.path().filename();
     std::error_code absent;
+    const bool both_folders = entry.is_directory(absent) && !entry.is_symlink(absent) && fs::is_directory(fs::symlink_status(destination, absent));
+    if (both_folders) all = move_strangers(entry.path(), destination) && all;
     if (fs::exists(fs::symlink_status(destination, absent))) continue;
     all = std::rename(entry.path().c_str(), destination.c_str()) == 0 && all;
   }

@@ -31,6 +31,15 @@ void check_columns(const std::vector<Column>& promised, const std::vector<Column
                                   found[i].name, found[i].unit, kSummaryFile, promised[i].name, promised[i].unit));
 }
 
+void write_model_file(const fs::path& path, const std::string& text, const DiskCalls& calls) {
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  if (error) throw file_error(path.parent_path(), "create", error.value());
+  NewFile file(path, calls);
+  file.append(text);
+  file.close();
+}
+
 }  // namespace
 
 void check_run_folder(const fs::path& folder, Overwrite overwrite) {
@@ -69,6 +78,7 @@ void write_run(const Trajectory& trajectory, const RunStamp& stamp, const fs::pa
     model.append(stamp.model_text);
     model.close();
   }
+  for (const ModelFile& file : stamp.model_files) write_model_file(fresh.path() / file.name, file.text, calls);
   fresh.publish();
 }
 
@@ -90,6 +100,14 @@ std::string read_model_text(const fs::path& folder, const RunStamp& stamp) {
   if ("sha256:" + sha256(text) != stamp.input_hash)
     throw FileError(fmt::format("{}: this is not the model that was run: {} has a different hash.\n    Run the model again.", (copied ? copy : original).string(),
                                 kSummaryFile));
+  return text;
+}
+
+std::string read_model_file(const fs::path& folder, const ModelFile& file) {
+  const fs::path path = folder / file.name;
+  if (!fs::exists(path)) throw FileError(fmt::format("{}: the run has lost this file, which its model names.\n    Run the model again.", path.string()));
+  std::string text = read_file(path);
+  if ("sha256:" + sha256(text) != file.hash) throw FileError(fmt::format("{}: this is not the file that was used: {} has a different hash.\n    Run the model again.", path.string(), kSummaryFile));
   return text;
 }
 

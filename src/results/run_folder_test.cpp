@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "results/sample_run_for_tests.h"
+#include "results/sha256.h"
 #include "results/summary_json.h"
 
 namespace pintle {
@@ -50,6 +51,33 @@ TEST(RunFolder, ReadsBackWhatWasWritten) {
   EXPECT_EQ(run.trajectory.column("joint.O4.angle"), 5);
   EXPECT_EQ(run.trajectory.column("joint.O4.angel"), -1);
   EXPECT_EQ(sample::n_entries(scratch.path()), 1U);
+}
+
+TEST(RunFolder, KeepsTheFilesOfTheModel) {
+  const sample::ScratchFolder scratch;
+  RunStamp stamp = sample::stamp();
+  stamp.model_files = {{"data/gas.csv", "sha256:" + sha256("1,2\n"), "1,2\n"}};
+  for (int i = 0; i < 2; ++i) write_run(sample::trajectory(), stamp, scratch / "run");  // the second one replaces the first
+  const RunRecord run = read_run(scratch / "run");
+  ASSERT_EQ(run.stamp.model_files.size(), 1U);
+  EXPECT_EQ(run.stamp.model_files[0].name, "data/gas.csv");
+  EXPECT_EQ(read_model_file(scratch / "run", run.stamp.model_files[0]), "1,2\n");
+  write_file(scratch / "run/data/gas.csv", "1,3\n");
+  EXPECT_NE(message_of([&] { read_model_file(scratch / "run", run.stamp.model_files[0]); }).find("different hash"), std::string::npos);
+  fs::remove(scratch / "run/data/gas.csv");
+  EXPECT_NE(message_of([&] { read_model_file(scratch / "run", run.stamp.model_files[0]); }).find("has lost this file"), std::string::npos);
+}
+
+// Also in a folder that holds a file of the model.
+TEST(RunFolder, LeavesFilesOfOthersInFoldersOfTheModel) {
+  const sample::ScratchFolder scratch;
+  RunStamp stamp = sample::stamp();
+  stamp.model_files = {{"data/gas.csv", "sha256:" + sha256("1"), "1"}};
+  write_run(sample::trajectory(), stamp, scratch / "run");
+  write_file(scratch / "run/data/mine.txt", "mine");
+  write_run(sample::trajectory(), stamp, scratch / "run");
+  EXPECT_EQ(read_file(scratch / "run/data/mine.txt"), "mine");
+  EXPECT_EQ(read_file(scratch / "run/data/gas.csv"), "1");
 }
 
 TEST(RunFolder, KeepsEveryBitOfAwkwardNumbers) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/decimal.h"
+#include "base/text/csv_fields.h"
 
 namespace pintle {
 namespace {
@@ -39,82 +40,28 @@ std::optional<double> number(std::string_view field) {
   return read.whole && read.in_range ? std::optional(read.value) : std::nullopt;
 }
 
-/// Walks through the fields of a table and knows where it is.
-class FieldReader {
- public:
-  FieldReader(std::string_view text, const std::filesystem::path& path) : rest_(text), path_(path) {}
-
-  bool at_end() const { return rest_.empty(); }
-
-  /// The next field of this row; after the row's last one `row_done()` is true.
-  std::string next() {
-    row_done_ = false;
-    field_line_ = line_;
-    field_column_ = column_;
-    std::string field = !rest_.empty() && rest_.front() == '"' ? take_quoted() : take_plain();
-    finish_field();
-    return field;
-  }
-
-  bool row_done() const { return row_done_; }
-
-  [[noreturn]] void fail(std::string_view found, std::string_view because) const {
-    throw FileError(
-        fmt::format("{}:{}:{}: series\n    found {}: {}.", path_.string(), field_line_, field_column_, found, because));
-  }
-
- private:
-  std::string take_plain() {
-    const std::size_t n = std::min(rest_.find_first_of(",\r\n"), rest_.size());
-    const std::string field(rest_.substr(0, n));
-    drop(n);
-    return field;
-  }
-
-  std::string take_quoted() {
-    std::string field;
-    drop(1);
-    while (!rest_.empty()) {
-      const char c = rest_.front();
-      drop(1);
-      if (c == '\n') next_line();
-      if (c != '"') {
-        field += c;
-      } else if (!rest_.empty() && rest_.front() == '"') {
-        field += '"';
-        drop(1);
-      } else {
-        return field;
-      }
+void read_columns(CsvFields& reader, Trajectory& trajectory) {
+  trajectory.columns.clear();
+  trajectory.values.clear();
+  if (reader.at_end()) reader.fail("an empty file", "a header row of column names is expected");
+  do {
+    trajectory.columns.push_back({reader.next(), {}, {}});
+  } while (!reader.row_done());
+  const std::size_t n_columns = trajectory.columns.size();
+  for (std::size_t row = 0; row == 0 || !reader.at_end(); ++row) {
+    if (reader.at_end()) reader.fail("no second row", "a header row of units is expected");
+    for (std::size_t i = 0; i < n_columns; ++i) {
+      std::string field = reader.next();
+      const std::optional<double> value = row == 0 ? 0 : number(field);
+      if (!value) reader.fail(fmt::format("\"{}\"", field), "it is not a number");
+      if (row == 0) trajectory.columns[i].unit = std::move(field);
+      if (row > 0) trajectory.values.push_back(*value);
+      if (reader.row_done() != (i + 1 == n_columns))
+        reader.fail(fmt::format("{} {} fields", reader.row_done() ? "only" : "more than", i + 1),
+                    fmt::format("the header row has {}", n_columns));
     }
-    fail("a quote", "it is never closed");
   }
-
-  void finish_field() {
-    if (!rest_.empty() && rest_.front() == ',') return drop(1);
-    if (rest_.substr(0, 2) == kLineEnd) drop(1);
-    if (!rest_.empty() && rest_.front() != '\n')
-      fail("text after a quoted field", "expected a comma or the end of the line");
-    if (!rest_.empty()) drop(1);
-    next_line();
-    row_done_ = true;
-  }
-
-  void drop(std::size_t n) {
-    rest_.remove_prefix(n);
-    column_ += n;
-  }
-
-  void next_line() {
-    ++line_;
-    column_ = 1;
-  }
-
-  std::string_view rest_;
-  const std::filesystem::path& path_;
-  std::size_t line_ = 1, column_ = 1, field_line_ = 1, field_column_ = 1;
-  bool row_done_ = false;
-};
+}
 
 }  // namespace
 
@@ -135,26 +82,11 @@ void write_series(const Trajectory& trajectory, const std::function<void(std::st
 }
 
 void read_series(std::string_view text, const std::filesystem::path& path, Trajectory& trajectory) {
-  FieldReader reader(text, path);
-  trajectory.columns.clear();
-  trajectory.values.clear();
-  if (reader.at_end()) reader.fail("an empty file", "a header row of column names is expected");
-  do {
-    trajectory.columns.push_back({reader.next(), {}, {}});
-  } while (!reader.row_done());
-  const std::size_t n_columns = trajectory.columns.size();
-  for (std::size_t row = 0; row == 0 || !reader.at_end(); ++row) {
-    if (reader.at_end()) reader.fail("no second row", "a header row of units is expected");
-    for (std::size_t i = 0; i < n_columns; ++i) {
-      std::string field = reader.next();
-      const std::optional<double> value = row == 0 ? 0 : number(field);
-      if (!value) reader.fail(fmt::format("\"{}\"", field), "it is not a number");
-      if (row == 0) trajectory.columns[i].unit = std::move(field);
-      if (row > 0) trajectory.values.push_back(*value);
-      if (reader.row_done() != (i + 1 == n_columns))
-        reader.fail(fmt::format("{} {} fields", reader.row_done() ? "only" : "more than", i + 1),
-                    fmt::format("the header row has {}", n_columns));
-    }
+  CsvFields reader(text);
+  try {
+    read_columns(reader, trajectory);
+  } catch (const CsvFault& fault) {
+    throw FileError(fmt::format("{}:{}:{}: series\n    found {}: {}.", path.string(), fault.line, fault.column, fault.found, fault.because));
   }
 }
 

@@ -157,6 +157,15 @@ void for_each_entry(Named& column, const Visit& visit) requires requires {
   visit("about", column.about);
 }
 
+template <class File, class Visit>
+void for_each_entry(File& file, const Visit& visit) requires requires {
+  file.hash;
+}
+{
+  visit("name", file.name);
+  visit("hash", file.hash);
+}
+
 template <class Stamp, class Visit>
 void for_each_entry(Stamp& stamp, const Visit& visit) requires requires {
   stamp.model_path;
@@ -228,6 +237,7 @@ Summary summary_from(const Json& json) {
   Trajectory& trajectory = summary.run.trajectory;
   from_json(json, summary.run.stamp);
   if (json.contains("overrides")) load(json.at("overrides"), summary.run.stamp.overrides);  // not in runs of version 0.1
+  if (json.contains("model_files")) from_json(json.at("model_files"), summary.run.stamp.model_files);
   trajectory.outcome = outcome_from(json.at("outcome").get<std::string>());
   load(json.at("message"), trajectory.message);
   load(json.at("notes"), trajectory.notes);
@@ -260,6 +270,7 @@ std::string summary_json(const Trajectory& trajectory, const RunStamp& stamp) {
   Json json = {{kMarker, kFormat}};
   json.update(to_json(stamp));
   json["overrides"] = stamp.overrides;
+  if (!stamp.model_files.empty()) json["model_files"] = to_json(stamp.model_files);
   json["outcome"] = to_text(trajectory.outcome);
   json["message"] = trajectory.message;
   json["notes"] = trajectory.notes;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "joints/cam_profile.h"
 #include "run/record/time_averages.h"
 
 namespace pintle {
@@ -12,10 +13,10 @@ namespace {
 
 using S = Planar;
 
-// Couples are told where the joint holds an angle, meshes, or rubs.
+// Couples are told where the joint holds an angle, meshes, or rubs; about the axis of a cam that is its torque.
 bool tells_couple(const JointData& joint) {
   const bool mesh = std::holds_alternative<Mesh>(joint.displacement) || std::holds_alternative<RackMesh>(joint.displacement);
-  return transmits_couple(joint) || mesh || (joint.law.rubs() && joint.free_mask[2] > 0);
+  return transmits_couple(joint) || mesh || joint.cam || (joint.law.rubs() && joint.free_mask[2] > 0);
 }
 
 bool is_servo(const JointData& joint) { return joint.servo >= 0; }
@@ -78,6 +79,8 @@ std::vector<Column> Recorder::columns() const {
     if (joint.free_mask[2] > 0) column(p + "angle", "rad", "angle of " + second + "'s marker relative to " + first + "'s");
     if (joint.free_mask[0] > 0) column(p + "slide_rate", "m/s", "rate of the slide");
     else if (joint.free_mask[2] > 0) column(p + "angle_rate", "rad/s", "rate of the angle");
+    if (joint.cam) column(p + "cam_angle", "rad", "where the follower is on the cam, from its marker's x axis, -pi to pi");
+    if (joint.cam && !joint.cam->flat()) column(p + "pressure_angle", "rad", "from the y axis of the second marker, along which the follower moves, to the normal of the contact");
     for (LawColumn& law : joint.law.columns()) column(p + law.name, law.unit.c_str(), std::move(law.meaning));
   }
   for (const LoadData& load : system_.loads) {
@@ -116,6 +119,11 @@ void Recorder::put_joint(int j, const S::Vec& load) {
   if (joint.free_mask[2] > 0) put(pose.z[2]);
   if (joint.free_mask[0] > 0) put(pose.rate[0]);
   else if (joint.free_mask[2] > 0) put(pose.rate[2]);
+  if (joint.cam) {
+    const CamContactPlace at = joint.cam->place(pose.z);
+    put(at.angle);
+    if (!joint.cam->flat()) put(at.pressure_angle);
+  }
 }
 
 void Recorder::add(const State& state) {

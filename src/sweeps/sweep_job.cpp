@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "io/reading/overrides.h"
+#include "pintle/results.h"
 #include "results/sha256.h"
 
 namespace pintle {
@@ -14,11 +15,23 @@ std::string hash_of(const SweepRequest& r) {
   std::string text = fmt::format("{} {} {} {} {} {}", PINTLE_VERSION, r.zip, r.samples, r.seed, r.latin, r.check_every);
   const auto add = [&text](const std::string& part) { text += fmt::format("\n{} {}", part.size(), part); };
   add(r.model_text);
+  for (const auto& [name, file] : r.model_files) {
+    add(name);
+    add(file);
+  }
   for (const auto* list : {&r.overrides, &r.vary, &r.series}) {
     add(fmt::format("{}", list->size()));
     for (const std::string& part : *list) add(part);
   }
   return sha256(text);
+}
+
+FileText files_of(const SweepRequest& request) {
+  return [files = request.model_files](const std::string& name) {
+    const auto it = files.find(name);
+    if (it == files.end()) throw FileError(name + ": this file was not given with the model.");
+    return it->second;
+  };
 }
 
 [[noreturn]] void refuse(const Document& document, std::string path, std::string found, std::string because, std::string suggestion) {
@@ -47,7 +60,8 @@ SweepJob::SweepJob(const SweepRequest& request) {
   apply_overrides(document, request.overrides);
   const int first_source = static_cast<int>(document.sources.size());
   for (const std::string& text : request.vary) document.sources.emplace_back("--vary", text);
-  ModelReading reading(document);
+  const FileText files = files_of(request);
+  ModelReading reading(document, files);
   read_all(reading);
   reading.complaints.throw_if_any();
   plan_ = SweepPlan(request, reading, first_source);
@@ -59,9 +73,9 @@ SweepJob::SweepJob(const SweepRequest& request) {
   } catch (const std::invalid_argument& error) {
     refuse(document, "--series", "an unknown column", error.what(), "");
   }
-  variants_ = std::make_unique<ModelVariants>(document, plan_.paths());
+  variants_ = std::make_unique<ModelVariants>(document, plan_.paths(), files);
   if (!request.series.empty()) check_times(document, plan_, base, *variants_);
-  origin_ = {request.model_text, request.model_name, base.name.empty() ? request.model_name : base.name, "", hash_of(request), PINTLE_VERSION, request.seed, std::max<std::uint64_t>(1, request.check_every),
+  origin_ = {request.model_files, request.model_text, request.model_name, base.name.empty() ? request.model_name : base.name, "", hash_of(request), PINTLE_VERSION, request.seed, std::max<std::uint64_t>(1, request.check_every),
              base.simulate.tolerance, engine_->output_step(), engine_->n_times(),
              engine_->joints(), request.series, engine_->series_units()};
 }

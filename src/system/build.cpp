@@ -11,6 +11,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "joints/cam_profile.h"
 #include "joints/catalog.h"
 #include "laws/catalog.h"
 
@@ -113,6 +114,11 @@ class Builder {
     data.type = joint.type;
     data.at = place(joint.first, joint.second);
     data.displacement = info->make(joint.geometry);
+    if (auto* gap = std::get_if<CamGap>(&data.displacement)) {
+      if (!joint.cam) refuse(fmt::format("joint {}: a cam needs a profile", joint.name));
+      data.cam = std::make_shared<const CamProfile>(*joint.cam);
+      gap->profile = data.cam.get();
+    }
     for (const ComponentInfo& gap : info->gap) data.held[gap.place] = true;
     data.law = make_law(joint, *info, data.held, data.displacement);
     data.ideal = joint.ideal && model_.simulate.equations == Equations::kRelative;

@@ -20,6 +20,7 @@ Model model_of(const std::string& type) {
   model.bodies = {sample::body("a", 1, 0.1, {{"P", {0.3, -0.4}, 0.5}}), sample::body("b", 2, 0.2, {{"P", {-0.6, 0.2}, -0.8}})};
   model.joints = {sample::joint("j", type, {"a", "P"}, {"b", "P"}, 1e3, 10)};
   if (type == "gear") model.joints[0].geometry = {{"radius_first", 0.3}, {"radius_second", 0.5}};
+  if (type == "cam") model.joints[0].cam = Cam{sample::expression("0.02*cos(angle) + 0.01*sin(2*angle)", {"angle"}), 0.3, 0.05, false};
   if (type == "rack") model.joints[0].geometry = {{"radius", 0.3}};
   return model;
 }

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "base/text/utf8.h"
+#include "pintle/results.h"
 #include "pintle/simulate.h"
 
 namespace pintle::studio {
@@ -69,6 +70,16 @@ std::array<double, 2> point_argument(const Json& arguments, const char* key) {
   const auto number = [](const Json& x) { return x.is_number() && std::isfinite(x.get<double>()); };
   if (it == arguments.end() || !it->is_array() || it->size() != 2 || !number((*it)[0]) || !number((*it)[1])) malformed(key, "two numbers");
   return {(*it)[0].get<double>(), (*it)[1].get<double>()};
+}
+
+FileText files_argument(const Exchange& call) {
+  const auto it = call.arguments.find("files");
+  if (it == call.arguments.end()) return {};
+  return [files = *it](const std::string& name) {
+    const auto file = files.find(name);
+    if (file == files.end() || !file->is_string()) throw FileError(fmt::format("{}: the page does not have this file", name));
+    return file->get<std::string>();
+  };
 }
 
 std::string name_for(std::string_view text) {

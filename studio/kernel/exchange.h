@@ -10,6 +10,7 @@
 
 #include "pintle/complaint.h"
 #include "pintle/model.h"
+#include "pintle/read_model.h"
 #include "studio/kernel/calls.h"
 
 namespace pintle::studio {
@@ -42,6 +43,9 @@ struct Exchange {
 std::string text_argument(const Exchange& call, const char* key);
 double number_argument(const Json& arguments, const char* key);
 std::array<double, 2> point_argument(const Json& arguments, const char* key);
+
+/// The files that the page has of those that the model may name: "files", an object of texts by name. It may be absent.
+FileText files_argument(const Exchange& call);
 
 /// "model.json" for text that begins with a brace, else "model.toml".
 std::string name_for(std::string_view text);

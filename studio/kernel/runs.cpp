@@ -87,7 +87,7 @@ struct Asked {
 
 Asked model_asked_for(const Exchange& call) {
   std::string text = text_argument(call, "text");
-  Model model = parse_model(text, name_for(text), overrides_of(call.arguments));
+  Model model = parse_model(text, name_for(text), overrides_of(call.arguments), files_argument(call));
   demand_duration(model);
   return {std::move(text), std::move(model)};
 }

@@ -80,7 +80,7 @@ MotionSessions::Names MotionSessions::names_of(const Model& model) {
 
 Json MotionSessions::open_drag(Exchange& call) {
   const std::string text = text_argument(call, "text");
-  const Model model = parse_model(text, name_for(text));
+  const Model model = parse_model(text, name_for(text), {}, files_argument(call));
   if (model.bodies.empty()) throw CallFault("There is nothing to move: the model has no bodies.", "Draw a link first.");
   make_room(drags_);
   const int id = next_++;
@@ -126,7 +126,7 @@ void MotionSessions::start_like(const Live& other, Model& model) {
 
 Json MotionSessions::open_live(Exchange& call) {
   const std::string text = text_argument(call, "text");
-  Model model = parse_model(text, name_for(text));
+  Model model = parse_model(text, name_for(text), {}, files_argument(call));
   if (model.bodies.empty()) throw CallFault("There is nothing to move: the model has no bodies.", "Draw a link first.");
   if (call.arguments.contains("like")) {
     const auto it = lives_.find(static_cast<int>(number_argument(call.arguments, "like")));

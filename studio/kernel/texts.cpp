@@ -137,7 +137,7 @@ Json read(Exchange& call) {
   try {
     const Document document = parse_document(text, name);
     out["model"] = Json::parse(pintle::to_json(document));
-    out["resolved"] = resolved(parse_model(text, name));
+    out["resolved"] = resolved(parse_model(text, name, {}, files_argument(call)));
     out["ok"] = true;
     out["complaints"] = Json::array();
   } catch (const InputError& error) {
@@ -176,7 +176,7 @@ Json format(Exchange& call) {
 
 Json check(Exchange& call) {
   const std::string text = text_argument(call, "text");
-  const Model model = parse_model(text, name_for(text));
+  const Model model = parse_model(text, name_for(text), {}, files_argument(call));
   const CheckReport report = check_model(model);
   Json out = Json::parse(check_json(report, model.name, ""));
   out["warnings"] = warnings_of(report);

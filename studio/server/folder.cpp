@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/document.h"
+#include "io/model_files.h"
 #include "pintle/results.h"
 #include "results/disk.h"
 #include "results/sha256.h"
@@ -87,7 +88,27 @@ ModelText ModelFolder::open(std::string_view path) const {
     throw Refusal(422, "This file is not UTF-8 text.");
   }
   std::string hash = sha256(text);
-  return {std::move(text), std::move(hash)};
+  std::map<std::string, std::string> files = files_of(path, text);
+  return {std::move(text), std::move(hash), std::move(files)};
+}
+
+std::map<std::string, std::string> ModelFolder::files_of(std::string_view path, const std::string& text) const {
+  std::map<std::string, std::string> files;
+  std::vector<std::string> names;
+  try {
+    names = files_named_in(parse_document(text, path));
+  } catch (const InputError&) {
+    return files;  // the page says what is wrong with it
+  }
+  for (const std::string& name : names) {
+    try {
+      const std::optional<fs::path> file = folder_.find((fs::path(path).parent_path() / name).generic_string());
+      if (file && fs::file_size(*file) <= kMaxFileBytes) files[name] = read_file(*file);
+    } catch (const std::runtime_error&) {
+      continue;  // out of the folder, or not readable: the model is complained about where it names it
+    }
+  }
+  return files;
 }
 
 ModelFolder::Saved ModelFolder::save(std::string_view path, const std::string& text, const std::optional<std::string>& expected) {

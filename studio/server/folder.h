@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -36,6 +37,7 @@ struct ModelFile {
 
 struct ModelText {
   std::string text, hash;
+  std::map<std::string, std::string> files{};  // the texts of the files that it names, as far as they are in the folder
 };
 
 class ModelFolder {
@@ -57,6 +59,7 @@ class ModelFolder {
 
  private:
   static void demand_model_name(std::string_view path);
+  std::map<std::string, std::string> files_of(std::string_view path, const std::string& text) const;
   Folder folder_;
   std::mutex saving_;
 };

@@ -196,7 +196,7 @@ Reply RequestRouter::list() const {
 Reply RequestRouter::open(const std::string& query) const {
   const std::string path = query_value(query, "path");
   const ModelText model = models_.open(path);
-  return json_reply(200, {{"path", path}, {"text", model.text}, {"hash", model.hash}});
+  return json_reply(200, {{"path", path}, {"text", model.text}, {"hash", model.hash}, {"files", model.files}});
 }
 
 Reply RequestRouter::save(const Request& request) {

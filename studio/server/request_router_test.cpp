@@ -129,6 +129,14 @@ TEST_F(StudioRequestRouter, ListsAndOpensModels) {
   EXPECT_EQ(ask("GET", "/api/model?path=bytes.toml").status, 422);
 }
 
+// Those that lie in the folder, below the model's own.
+TEST_F(StudioRequestRouter, GivesTheFilesThatAModelNames) {
+  write("models/sub/f.csv", "1,2\n");
+  write("models/sub/tables.toml", "table.a.file = \"f.csv\"\ntable.b.file = \"none.csv\"\ntable.c.file = \"../../outside/secret.toml\"\ntable.d.file = \"../a.toml\"\ntable.e.file = \".hidden\"\ntable.f = 3\n");
+  EXPECT_EQ(ask_json("GET", "/api/model?path=sub%2Ftables.toml")["files"], Json({{"f.csv", "1,2\n"}}));
+  EXPECT_EQ(ask_json("GET", "/api/model?path=a.toml")["files"], Json::object());
+}
+
 TEST_F(StudioRequestRouter, SavesWhatHasNotBeenChangedByOthers) {
   const std::string hash = ask_json("GET", "/api/model?path=a.toml")["hash"];
   const auto save = [&](const std::string& path, const std::string& text, const Json& expected) {

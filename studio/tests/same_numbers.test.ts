@@ -21,6 +21,11 @@ const texts = new Map(
     .filter((name) => name.endsWith(".toml"))
     .map((name) => [name, readFileSync(join(root, "mechanisms", name), "utf8")]),
 );
+const files = Object.fromEntries(
+  readdirSync(join(root, "mechanisms"))
+    .filter((name) => name.endsWith(".csv"))
+    .map((name) => [name, readFileSync(join(root, "mechanisms", name), "utf8")]),
+);
 // Those whose whole run is a matter of a second.
 const runs = [...texts.keys()].filter((name) => !/andrews|n_four_bar_40|n_four_bar_10|n_four_bar_2|five_bar/.test(name));
 
@@ -32,7 +37,7 @@ interface Call {
 let module: KernelModule;
 
 function native(calls: Call[]): unknown[] {
-  const input = calls.map((call) => JSON.stringify(call)).join("\n") + "\n";
+  const input = calls.map((call) => JSON.stringify({ ...call, arguments: { ...call.arguments, files } })).join("\n") + "\n";
   const out = execFileSync(answers, { input, maxBuffer: 1 << 30 });
   const values: unknown[] = [];
   for (let at = 0; at < out.length; ) {
@@ -44,7 +49,7 @@ function native(calls: Call[]): unknown[] {
 }
 
 function inWasm(calls: Call[]): unknown[] {
-  return calls.map((each) => module.call(each.call, each.arguments).value);
+  return calls.map((each) => module.call(each.call, { ...each.arguments, files }).value);
 }
 
 /** The largest difference over the largest size, entry by entry of both lists. */

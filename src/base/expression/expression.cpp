@@ -50,7 +50,7 @@ double Expression::gradient(std::span<const double> values, std::span<double> gr
 int Expression::n_switches() const {
   int n = 0;
   if (program_)
-    for (const Instruction& step : program_->code) n += pintle::n_switches(step.op);
+    for (const Instruction& step : program_->code) n += program_->n_switches(step);
   return n;
 }
 

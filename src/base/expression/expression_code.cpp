@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pintle {
 
@@ -45,6 +46,16 @@ void ExpressionCode::apply_op(Op op, bool varies) {
   if (all_finite && !std::isfinite(result)) went_out_of_range_ = true;
   code_.resize(code_.size() - n);
   code_.push_back({Op::kConstant, 0, result});
+}
+
+void ExpressionCode::apply_table(std::shared_ptr<const TableFunction> table, bool varies) {
+  if (!varies) {
+    code_.back().constant = table->value(code_.back().constant);
+    return;
+  }
+  const auto place = std::find(tables_.begin(), tables_.end(), table);
+  code_.push_back({Op::kTable, static_cast<std::uint32_t>(place - tables_.begin()), 0});
+  if (place == tables_.end()) tables_.push_back(std::move(table));
 }
 
 double ExpressionCode::top_constant() const {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "base/expression/expression_program.h"
@@ -15,19 +16,22 @@ class ExpressionCode {
   void push_variable(std::size_t index);
   /// Applies `op` to the topmost operands; if none of them varies, they become one constant.
   void apply_op(Op op, bool varies);
+  /// The same with a table for the topmost one.
+  void apply_table(std::shared_ptr<const TableFunction> table, bool varies);
 
   /// The constant on top of the stack; 0 if a variable expression is there.
   double top_constant() const;
   /// Did apply_op make something infinite or undefined of finite constants?
   bool went_out_of_range() const { return went_out_of_range_; }
   bool overflows_stack() const { return deepest_ > kStackSize; }
-  const std::vector<Instruction>& instructions() const { return code_; }
+  Expression::Program program() const { return {code_, tables_}; }
 
  private:
   void push(const Instruction& instruction);
   double folded(Op op) const;
 
   std::vector<Instruction> code_;
+  std::vector<std::shared_ptr<const TableFunction>> tables_;
   std::size_t depth_ = 0;
   std::size_t deepest_ = 0;
   bool went_out_of_range_ = false;

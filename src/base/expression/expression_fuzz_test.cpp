@@ -35,16 +35,17 @@ ParseScope scope() {
     if (name == "broken") return Quantity{std::nan(""), kMass};
     return std::nullopt;
   };
-  return {constant, {"crank"}, {{"t", kTime}, {"x", kBareNumber}, {"a-b.angle", kAngle}}};
+  const auto curve = std::make_shared<const TableFunction>(std::vector<double>{0, 1, 3}, std::vector<double>{2, 0, 2}, TableInterpolation::kLinear, TableOutside::kHold, 3);
+  return {constant, {"crank"}, {{"t", kTime}, {"x", kBareNumber}, {"a-b.angle", kAngle}}, {{"curve", kBareNumber, kLength, curve}}};
 }
 
 std::string tokens_at_random(Dice& dice) {
-  constexpr std::array<const char*, 48> kTokens{
+  constexpr std::array<const char*, 50> kTokens{
       "1",    "2.5",   "3e8",  "0",    ".",        "t",    "x",           "crank",   "a-b.angle", "broken",
       "sin(", "sqrt(", "pow(", "min(", "if(",      "abs(", "atan2(",      "log(",    "step(",     "(",
       ")",    ")",     ",",    "+",    "-",        "*",    "/",           "^",       "<",         ">=",
       "m",    "mm",    "N",    "s",    "deg",      "rpm",  "kg",          " ",       " ",         "^2",
-      "^-1",  "pi",    "e",    "=",    "\xC2\xB7", "\xC2", "smoothstep(", "\xC2\xB0"};
+      "^-1",  "pi",    "e",    "=",    "\xC2\xB7", "\xC2", "smoothstep(", "\xC2\xB0",       "curve(", "curve"};
   std::string text;
   for (std::size_t n = 1 + dice.roll(24); n > 0; --n) text += kTokens[dice.roll(kTokens.size())];
   return text;

@@ -63,14 +63,16 @@ double Expression::gradient(std::span<const double> values, std::span<double> gr
 void Expression::find_switching(std::span<const double> values, double* value, const Ramp* ramp) const {
   if (!program_) return;
   run_at(*program_, values, [&](std::size_t i, std::span<const double> x, double& result) {
-    const Op op = program_->code[i].op;
-    pintle::find_switching(op, x, value);
+    const Instruction& step = program_->code[i];
+    const Op op = step.op;
+    if (op == Op::kTable && program_->tables[step.index]->has_kinks()) value[0] = program_->tables[step.index]->switching(x[0]);
+    else pintle::find_switching(op, x, value);
     if (ramp && i == ramp->jump) {
       const double share = ramp->share_at(margin_of(x));
       value[0] = std::max(-share, share - 1);
       result = on_side(op, 1);
     }
-    value += pintle::n_switches(op);
+    value += program_->n_switches(step);
   });
 }
 

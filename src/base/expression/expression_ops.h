@@ -7,6 +7,8 @@
 #include <span>
 #include <string_view>
 
+#include "base/table_function.h"
+
 namespace pintle {
 
 enum class Op : unsigned char {
@@ -30,6 +32,7 @@ enum class Op : unsigned char {
   kAbs,
   kSign,
   kStep,
+  kTable,  // values, derivatives and kinks are those of the program's table: expression_program.h
   // two operands
   kAdd,
   kSubtract,
@@ -51,7 +54,7 @@ enum class Op : unsigned char {
 /// Number of operands.
 constexpr int arity(Op op) {
   if (op <= Op::kVariable) return 0;
-  if (op <= Op::kStep) return 1;
+  if (op <= Op::kTable) return 1;
   return op <= Op::kGreaterEqual ? 2 : 3;
 }
 
@@ -88,6 +91,7 @@ constexpr int n_switches(Op op) {
 /// A number for each of them that is positive on one side only: not at the kink itself where that belongs to the other side.
 void find_switching(Op op, std::span<const double> operands, double* value);
 
+inline double apply(const TableFunction& table, double a) { return table.value(a); }
 double apply(Op op, double a);
 double apply(Op op, double a, double b);
 double apply(Op op, double a, double b, double c);

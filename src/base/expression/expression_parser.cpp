@@ -105,7 +105,7 @@ class ExpressionParser {
     Expression result;
     result.text_ = std::string(text_);
     result.variables_ = variables_;
-    result.program_ = std::make_shared<const Expression::Program>(Expression::Program{code_.instructions()});
+    result.program_ = std::make_shared<const Expression::Program>(code_.program());
     return result;
   }
 
@@ -247,6 +247,10 @@ class ExpressionParser {
       at_ = behind;
       return parse_call(*function, start);
     }
+    if (const ParseScope::Table* table = is_called ? find_table(word, scope_) : nullptr) {
+      at_ = behind;
+      return parse_call(*table, start);
+    }
     if (find_variable(word) && !has_member(start + word.size())) return variable(word.size());
     if (const std::optional<double> value = built_in_constant(word)) {
       at_ += word.size();
@@ -319,6 +323,17 @@ class ExpressionParser {
     Operand result = result_of(function, arguments, start);
     result.offset = start;
     return emit(function.op, result, start);
+  }
+
+  Operand parse_call(const ParseScope::Table& table, std::size_t start) {
+    const std::size_t opened = at_++;
+    const Operand argument = parse_sum(0);
+    skip();
+    if (at_ < text_.size() && text_[at_] == ',') throw ParseProblem{at_, "", "table " + table.name + " takes 1 argument", table.name + "(x)"};
+    close_parenthesis(opened);
+    checked({argument, check_argument(argument, table)}, argument.offset);
+    code_.apply_table(table.function, argument.varies);
+    return {table.result, false, argument.varies, argument.varies ? 0 : code_.top_constant(), start};
   }
 
   void expect_comma(const FunctionInfo& function, std::size_t opened) {
@@ -395,7 +410,7 @@ std::variant<ParsedExpression, ParseProblem> parse_expression(std::string_view t
 std::variant<Quantity, ParseProblem> parse_quantity(std::string_view text, const ParseScope& scope) {
   const auto parsed = scope.variables.empty()
                           ? parse_expression(text, scope)
-                          : parse_expression(text, ParseScope{scope.constant, scope.constant_names, {}});
+                          : parse_expression(text, ParseScope{scope.constant, scope.constant_names, {}, scope.tables});
   if (const auto* problem = std::get_if<ParseProblem>(&parsed)) return *problem;
   const auto& found = std::get<ParsedExpression>(parsed);
   return Quantity{found.expression.value({}), found.dimension};

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/table_function.h"
 #include "pintle/expression.h"
 
 namespace pintle {
@@ -30,6 +32,13 @@ struct ParseScope {
   /// Variables; a name is letters, digits and _, or has one dot and then - too before it: "hip-pin.angle". A dotted
   /// name wins over what its parts could mean.
   std::vector<std::pair<std::string, Dimension>> variables;
+  /// Tables that are called as functions: NAME(x).
+  struct Table {
+    std::string name;
+    Dimension argument, result;
+    std::shared_ptr<const TableFunction> function;
+  };
+  std::vector<Table> tables{};
 };
 
 /// What is wrong, at a byte offset of the text. `found` and `suggestion` may be empty.

@@ -83,11 +83,21 @@ std::string known_names(const ParseScope& scope) {
 
 }  // namespace
 
+const ParseScope::Table* find_table(std::string_view word, const ParseScope& scope) {
+  const auto it = std::find_if(scope.tables.begin(), scope.tables.end(), [&](const ParseScope::Table& table) { return table.name == word; });
+  return it == scope.tables.end() ? nullptr : &*it;
+}
+
+DimensionProblem check_argument(const Operand& argument, const ParseScope::Table& table) {
+  if (fits(argument.dimension, table.argument)) return {};
+  return {to_words(argument.dimension), "table " + table.name + " is a function of " + to_words(table.argument), "what its x is: " + to_words(table.argument)};
+}
+
 bool is_known_name(std::string_view word, const ParseScope& scope) {
   const bool is_variable = std::any_of(scope.variables.begin(), scope.variables.end(),
                                        [&](const auto& variable) { return variable.first == word; });
   const auto& names = scope.constant_names;
-  return is_variable || find_function(word) || word == "pi" || word == "e" ||
+  return is_variable || find_function(word) || find_table(word, scope) || word == "pi" || word == "e" ||
          std::find(names.begin(), names.end(), word) != names.end();
 }
 
@@ -121,9 +131,11 @@ ParseProblem unknown_name(std::string_view word, std::size_t at, const ParseScop
   if (word == "t" && scope.variables.empty())
     return {at, in_quotes(word), "time is available only in forces, torques and motors; this is a constant",
             "a number, or 1 t for a tonne"};
+  if (find_table(word, scope)) return {at, in_quotes(word), "a table is called as a function", std::string(word) + "(x)"};
   if (is_unit_symbol(word)) return {at, in_quotes(word), "a unit needs a number in front of it", "1 " + std::string(word)};
   std::vector<std::string_view> names(scope.constant_names.begin(), scope.constant_names.end());
   for (const auto& variable : scope.variables) names.push_back(variable.first);
+  for (const ParseScope::Table& table : scope.tables) names.push_back(table.name);
   for (const FunctionInfo& function : function_catalog()) names.push_back(function.name);
   names.push_back("pi");
   const std::optional<std::string> guess = did_you_mean(word, names);

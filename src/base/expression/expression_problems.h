@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "base/expression/expression_dimensions.h"
 #include "base/expression/expression_parser.h"
 
 namespace pintle {
@@ -20,7 +21,13 @@ ParseProblem unknown_name(std::string_view word, std::size_t at, const ParseScop
 /// The word at `at` stands where a unit should be and is none.
 ParseProblem unknown_unit(std::string_view word, std::size_t at);
 
-/// Is the word a variable, a constant or a function here?
+/// The table that is called by this word, or null.
+const ParseScope::Table* find_table(std::string_view word, const ParseScope& scope);
+
+/// Why a table does not take this argument; "" if it does.
+DimensionProblem check_argument(const Operand& argument, const ParseScope::Table& table);
+
+/// Is the word a variable, a constant, a function or a table here?
 bool is_known_name(std::string_view word, const ParseScope& scope);
 
 }  // namespace pintle

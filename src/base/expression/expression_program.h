@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "base/expression/expression_ops.h"
+#include "base/table_function.h"
 #include "pintle/expression.h"
 
 namespace pintle {
@@ -15,12 +17,16 @@ inline constexpr std::size_t kStackSize = 128;
 
 struct Instruction {
   Op op = Op::kConstant;
-  std::uint32_t variable = 0;  // kVariable: its index
+  std::uint32_t index = 0;  // kVariable: of the variable; kTable: of the table
   double constant = 0;         // kConstant: its value
 };
 
 struct Expression::Program {
   std::vector<Instruction> code;  // leaves one value; never more than kStackSize of them on the way
+  std::vector<std::shared_ptr<const TableFunction>> tables{};
+
+  /// How many kinks and jumps an instruction has inside its range.
+  int n_switches(const Instruction& step) const { return step.op == Op::kTable ? tables[step.index]->has_kinks() : pintle::n_switches(step.op); }
 };
 
 }  // namespace pintle

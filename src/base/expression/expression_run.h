@@ -19,12 +19,12 @@ T run(const Expression::Program& program, const MakeConstant& constant, const Ma
     const Instruction& step = program.code[i];
     const auto n = static_cast<std::size_t>(arity(step.op));
     if (n == 0) {
-      stack[top++] = step.op == Op::kConstant ? constant(step.constant) : variable(step.variable);
+      stack[top++] = step.op == Op::kConstant ? constant(step.constant) : variable(step.index);
       continue;
     }
     top -= n;
     const T* x = stack.data() + top;
-    T result = n == 1 ? apply(step.op, x[0]) : n == 2 ? apply(step.op, x[0], x[1]) : apply(step.op, x[0], x[1], x[2]);
+    T result = step.op == Op::kTable ? apply(*program.tables[step.index], x[0]) : n == 1 ? apply(step.op, x[0]) : n == 2 ? apply(step.op, x[0], x[1]) : apply(step.op, x[0], x[1], x[2]);
     after(i, std::span<const T>(x, n), result);
     stack[top++] = result;
   }

@@ -118,6 +118,11 @@ Jet smoothstep(const Jet& a, const Jet& b, const Jet& x) {
 
 }  // namespace
 
+Jet apply(const TableFunction& table, const Jet& a) {
+  const TableFunction::Values f = table.at(a.value);
+  return chain(f.value, Slopes1{f.first, f.second}, a);
+}
+
 Jet apply(Op op, const Jet& a) {
   const double value = apply(op, a.value);
   return chain(value, slopes_of(op, a.value, value), a);

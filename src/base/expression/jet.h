@@ -14,6 +14,7 @@ struct Jet {
   double second;
 };
 
+Jet apply(const TableFunction& table, const Jet& a);
 Jet apply(Op op, const Jet& a);
 Jet apply(Op op, const Jet& a, const Jet& b);
 Jet apply(Op op, const Jet& a, const Jet& b, const Jet& c);

@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "io/model_files.h"
 #include "io/reading/model_reading.h"
 #include "io/reading/overrides.h"
 #include "io/variations.h"
@@ -9,8 +10,8 @@
 namespace pintle {
 namespace {
 
-Model model_of(const Document& document) {
-  ModelReading reading(document);
+Model model_of(const Document& document, const FileText& files) {
+  ModelReading reading(document, files);
   read_all(reading);
   read_variations(reading);
   reading.complaints.throw_if_any();
@@ -21,6 +22,7 @@ Model model_of(const Document& document) {
 
 void read_all(ModelReading& reading) {
   read_parameters(reading);
+  read_tables(reading);
   read_settings(reading);
   read_bodies(reading);
   read_joints(reading);
@@ -30,14 +32,14 @@ void read_all(ModelReading& reading) {
   reading.model.notes = reading.complaints.document().notes;
 }
 
-Model parse_model(std::string_view text, std::string_view file_name, const std::vector<std::string>& overrides) {
+Model parse_model(std::string_view text, std::string_view file_name, const std::vector<std::string>& overrides, const FileText& files) {
   Document document = parse_document(text, file_name);
   apply_overrides(document, overrides);
-  return model_of(document);
+  return model_of(document, files);
 }
 
 Model read_model(const std::string& path, const std::vector<std::string>& overrides) {
-  return parse_model(read_file(path, kMaxFileBytes + 1), path, overrides);
+  return parse_model(read_file(path, kMaxFileBytes + 1), path, overrides, ModelFiles(path).reader());
 }
 
 }  // namespace pintle

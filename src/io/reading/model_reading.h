@@ -7,23 +7,34 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "io/complaints.h"
 #include "io/reading/record.h"
 #include "io/schema/schema.h"
 #include "pintle/model.h"
+#include "pintle/read_model.h"
 
 namespace pintle {
 
+/// A table of the model, as expressions call it, and its points [SI]; none: it was complained about.
+struct NamedTable {
+  ParseScope::Table in_scope;
+  std::vector<double> x, y;
+};
+
 /// What the steps share.
 struct ModelReading {
-  explicit ModelReading(const Document& document)
-      : root(*document.root.table()), complaints(document), records(complaints) {}
+  explicit ModelReading(const Document& document, FileText files = {})
+      : root(*document.root.table()), complaints(document), records(complaints), file_text(std::move(files)) {}
 
   const Table& root;
   Complaints complaints;
   RecordReader records;
   Model model;
+  FileText file_text;                                                    // of the files that tables name; empty: there are none
+  std::map<std::string, NamedTable, std::less<>> tables;                 // by name
   std::map<std::string, std::set<std::string>, std::less<>> markers_of;  // by body, "ground" among them
   std::map<std::string, std::string, std::less<>> type_of_joint;         // by joint, also of joints with faults
   std::map<std::string, TableSpec, std::less<>> specs;                   // assembled ones, by path and kind
@@ -34,8 +45,11 @@ struct ModelReading {
 
 void read_settings(ModelReading& reading);    // the file's head, [simulate]
 void read_parameters(ModelReading& reading);  // first: every other value may use them
+void read_tables(ModelReading& reading);      // [table]: the expressions of what follows may call them
 void read_bodies(ModelReading& reading);      // [ground], [body]
 void read_joints(ModelReading& reading);      // [defaults.joint], [joint]
+/// Expressions may call `reading.tables` from then on.
+void let_expressions_call_tables(ModelReading& reading);
 /// Expressions "of joints" then read coordinates of joints, bodies and markers.
 void let_expressions_read_coordinates(ModelReading& reading);
 void read_loads(ModelReading& reading);       // [spring], [torsion_spring], [force]

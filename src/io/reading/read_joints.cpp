@@ -1,10 +1,16 @@
 // [defaults.joint] and [joint].
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/units.h"
 #include "io/reading/law_keys.h"
 #include "io/reading/model_reading.h"
 #include "io/text.h"
+#include "joints/cam_profile.h"
 #include "joints/catalog.h"
 #include "laws/catalog.h"
 
@@ -24,14 +30,19 @@ std::string word_ahead(const Node& joint, std::string_view key) {
   return node == nullptr || node->string() == nullptr ? std::string() : *node->string();
 }
 
-TableSpec& joint_spec(ModelReading& reading, const JointTypeInfo* type, const LawInfo* law, const std::string& friction) {
+TableSpec& joint_spec(ModelReading& reading, const Node& joint, const JointTypeInfo* type, const LawInfo* law, const std::string& friction) {
   const std::string type_word(type == nullptr ? "" : type->word);
   const std::string law_word(law == nullptr ? "" : law->word);
-  // The specs are made by spec() and belong to `reading`, so they may be completed here: how many entries lists have.
+  // The specs are made by spec() and belong to `reading`, so they may be completed here: how many entries lists have, and which
+  // keys a table stands for.
   TableSpec& spec = const_cast<TableSpec&>(reading.spec("joint.*", type_word, law_word, friction));
   for (KeySpec& key : spec.keys) {
     if (key.per_component && type != nullptr) key.count = linear_components(*type);
   }
+  for (const KeyInfo& key : law == nullptr ? std::span<const KeyInfo>() : law->keys)
+    for (const std::string_view point : key.points)
+      for (KeySpec& given : spec.keys)
+        if (given.key == point) given.required = joint.table() == nullptr || joint.table()->find(key.key) == nullptr;
   return spec;
 }
 
@@ -76,6 +87,15 @@ void check_gear(ModelReading& reading, const Record& record, const Joint& joint)
                          "mesh = \"external\", or two different radii");
 }
 
+void read_cam(ModelReading& reading, const Record& record, Joint& joint) {
+  if (joint.type != "cam" || !record.states("lift") || !record.states("base_radius")) return;
+  joint.cam = Cam{record.expression("lift"), record.number("base_radius"), record.number("roller_radius"), record.word("follower") == "flat"};
+  if (joint.cam->flat && joint.cam->roller_radius > 0)
+    reading.complaints.add(record.spot("roller_radius"), record.path + ".roller_radius", "roller_radius", "a flat face has no roller", "delete it");
+  if (std::string why = CamProfile(*joint.cam).fault(); !why.empty())
+    reading.complaints.add(record.spot("lift"), record.path + ".lift", in_quotes(joint.cam->lift.text()), std::move(why), "a lift that is smooth and ends as it begins (a table: interpolation = \"spline\"), a larger base_radius, or a smaller roller");
+}
+
 // Whether the law suits the joint, and its values, when none is wrong by itself, each other.
 void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const LawChoice& choice, bool complete) {
   const bool friction = law.role == LawRole::kFriction;
@@ -101,6 +121,34 @@ void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& 
   reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : fault.key, fault.why, fault.remedy);
 }
 
+// The points of the table that a key names, as the values of the two keys that they stand for.
+bool take_points(ModelReading& reading, const KeyInfo& key, const LawInfo& law, const Record& record, const Value& named, LawChoice& choice) {
+  const std::string path = record.path + "." + std::string(key.key);
+  const std::string& name = named.words.front();
+  const auto complain = [&](std::string because, std::string suggestion) {
+    reading.complaints.add(named.node->spot, path, in_quotes(name), std::move(because), std::move(suggestion));
+    return false;
+  };
+  const auto it = reading.tables.find(name);
+  if (it == reading.tables.end()) {
+    std::vector<std::string> names;
+    for (const auto& [known, table] : reading.tables) names.push_back(known);
+    return complain("the model has no such table", names.empty() ? "[table." + name + "] with x and y" : reading.complaints.did_you_mean(name, names));
+  }
+  const NamedTable& table = it->second;
+  if (table.x.empty()) return false;  // complained about where it stands
+  for (const std::string_view stated : key.points)
+    if (record.states(stated)) return complain(std::string(stated) + " states the points too", "delete one of them");
+  const std::array<const std::vector<double>*, 2> points{&table.x, &table.y};
+  const std::array<const Dimension*, 2> dimensions{&table.in_scope.argument, &table.in_scope.result};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto info = std::find_if(law.keys.begin(), law.keys.end(), [&](const KeyInfo& one) { return one.key == key.points[i]; });
+    if (auto problem = check_dimension(*dimensions[i], parse_unit(info->unit)->dimension)) return complain(fmt::format("its {} is {}, and {}", i == 0 ? "x" : "y", to_words(*dimensions[i]), *problem), "a table of another kind");
+    choice.values[std::string(info->key)] = *points[i];
+  }
+  return true;
+}
+
 // As a law takes it: numbers, or the place of a word among the key's.
 std::vector<double> numbers_of(const KeyInfo& key, const Value& value) {
   if (key.words.empty()) return value.numbers;
@@ -111,6 +159,7 @@ void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& l
               const Record& defaults, LawChoice& choice) {
   choice.word = law.word;
   bool complete = true;
+  std::vector<std::string> missing;  // unless a table gives them
   for (const KeyInfo& key : law.keys) {
     const bool stated = record.states(key.key);
     if (stated && !has_effect(key, type)) {
@@ -119,9 +168,12 @@ void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& l
                              "delete it");
     }
     const Value* value = stated || !defaults.states(key.key) ? record.find(key.key) : defaults.find(key.key);
-    if (value != nullptr) choice.values[std::string(key.key)] = numbers_of(key, *value);
-    else complete = false;
+    if (!key.points.empty()) {
+      if (value != nullptr && !take_points(reading, key, law, record, *value, choice)) complete = false;
+    } else if (value != nullptr) choice.values[std::string(key.key)] = numbers_of(key, *value);
+    else if (choice.values.count(std::string(key.key)) == 0) missing.push_back(std::string(key.key));
   }
+  for (const std::string& key : missing) complete = complete && choice.values.count(key) > 0;
   check_law(reading, type, law, record, choice, complete);
 }
 
@@ -154,13 +206,14 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
     return;
   }
   const std::string kind = "a " + std::string(type->word) + " joint";
-  const Record record = reading.records.read(joint_spec(reading, type, law, friction == nullptr ? "" : friction_word), entry.value, entry.key_spot, path, kind);
+  const Record record = reading.records.read(joint_spec(reading, entry.value, type, law, friction == nullptr ? "" : friction_word), entry.value, entry.key_spot, path, kind);
   Joint joint;
   joint.name = entry.key;
   joint.type = type->word;
   read_between(reading, record, "joint", joint.first, joint.second);
   read_geometry(*type, record, joint);
   check_gear(reading, record, joint);
+  read_cam(reading, record, joint);
   read_law(reading, *type, *law, record, defaults, joint.law);
   joint.ideal = record.number("ideal") > 0;
   if (friction != nullptr) read_law(reading, *type, *friction, record, defaults, joint.friction);

@@ -18,6 +18,8 @@ std::string example_line(const KeySpec& key) {
       return start + "\"crank.A\"";
     case ValueType::kMarkerNames:
       return start + "[\"ground.A\", \"crank.A\"]";
+    case ValueType::kTableName:
+      return start + "\"curve\", the name of a table";
     case ValueType::kJointName:
       return start + "\"O2\", the name of a joint";
     case ValueType::kQuantities:

@@ -127,6 +127,7 @@ std::optional<Value> RecordReader::read_value(const Node& node, const KeySpec& s
     case ValueType::kWord:
     case ValueType::kMarkerName:
     case ValueType::kJointName:
+    case ValueType::kTableName:
       good = read_word(node, spec, path, value);
       break;
     case ValueType::kWords:
@@ -146,6 +147,9 @@ std::optional<Value> RecordReader::read_value(const Node& node, const KeySpec& s
       break;
     case ValueType::kTruth:
       good = read_truth(node, spec, path, value);
+      break;
+    case ValueType::kColumn:
+      good = node.string() != nullptr ? read_word(node, spec, path, value) : read_integer(node, spec, path, value);
       break;
     case ValueType::kMarker:
       break;  // markers stand in tables of their own: read_marker

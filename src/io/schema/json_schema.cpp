@@ -91,7 +91,10 @@ Json type_schema(const KeySpec& spec) {
     case ValueType::kWord:
     case ValueType::kMarkerName:
     case ValueType::kJointName:
+    case ValueType::kTableName:
       return word_schema(spec);
+    case ValueType::kColumn:
+      return Json{{"type", {"string", "integer"}}};
     case ValueType::kWords:
     case ValueType::kMarkerNames:
       return list_schema(word_schema(spec), spec.count, spec.count);

@@ -28,6 +28,7 @@ error. Parameter names may be used anywhere; "expression of" in a table lists fu
 
 - operators: `+ - * / ^`, unary `-`, comparisons `< > <= >=` (1 or 0), parentheses
 - functions: `sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign min max pow step(x) smoothstep(a, b, x) if(condition, then, else)`
+- tables: `NAME(x)` of a [`[table.NAME]`](#tablename)
 - constants: `pi`, `e`
 )";
 
@@ -90,6 +91,10 @@ std::string type_text(const KeySpec& spec) {
       return "list of two `\"body.marker\"`";
     case ValueType::kJointName:
       return "name of a joint";
+    case ValueType::kTableName:
+      return "name of a table";
+    case ValueType::kColumn:
+      return "text or integer";
     default:
       return spec.per_component ? "number, or a list with one per linear gap component" : "number";
   }

@@ -1,5 +1,7 @@
 #include "io/schema/schema.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +18,7 @@ extern const char* const kModelToml;  // schema/model.schema.toml
 
 namespace {
 
-constexpr std::array<std::pair<std::string_view, ValueType>, 14> kTypes{{
+constexpr std::array<std::pair<std::string_view, ValueType>, 16> kTypes{{
     {"integer", ValueType::kInteger},
     {"text", ValueType::kText},
     {"word", ValueType::kWord},
@@ -31,6 +33,8 @@ constexpr std::array<std::pair<std::string_view, ValueType>, 14> kTypes{{
     {"marker_name", ValueType::kMarkerName},
     {"marker_names", ValueType::kMarkerNames},
     {"joint_name", ValueType::kJointName},
+    {"table_name", ValueType::kTableName},
+    {"column", ValueType::kColumn},
 }};
 
 [[noreturn]] void schema_fault(const std::string& what) {
@@ -159,12 +163,13 @@ KeySpec spec_of(const KeyInfo& info) {
     if (info.words.empty()) spec.fallback->value = info.fallback;
     else spec.fallback->value = spec.words.at(static_cast<std::size_t>(info.fallback));
   }
-  if (info.words.empty()) return spec;
-  spec.type = ValueType::kWord;
-  spec.type_word = "word";
-  spec.words.assign(info.words.begin(), info.words.end());
-  spec.minimum.reset();
-  if (!info.required) spec.fallback->value = spec.words[static_cast<std::size_t>(info.fallback)];
+  if (!info.points.empty()) {
+    spec.type = ValueType::kTableName;
+    spec.type_word = "table_name";
+    spec.minimum.reset();
+    spec.fallback.reset();
+    spec.otherwise = fmt::format("{}", fmt::join(info.points, " and "));
+  }
   return spec;
 }
 

@@ -28,6 +28,8 @@ enum class ValueType {
   kMarkerName,
   kMarkerNames,
   kJointName,
+  kTableName,
+  kColumn,
 };
 
 /// One key of a table.

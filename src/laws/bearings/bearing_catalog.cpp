@@ -153,9 +153,11 @@ void make_journal(const LawSetting& at, Law& law) {
                                                                      at.number("roughness"), at.number("contact_stiffness"), at.number("film") == 2}));
 }
 
-constexpr std::array<KeyInfo, 5> kTableKeys{{
+constexpr std::array<std::string_view, 2> kTablePoints{"displacement", "force"};
+constexpr std::array<KeyInfo, 6> kTableKeys{{
     {.key = "displacement", .unit = "m", .minimum = kAny, .required = true, .list = true, .meaning = "of the table's points, rising; where the first is 0 the table is completed to both sides"},
     {.key = "force", .unit = "N", .minimum = kAny, .required = true, .list = true, .meaning = "with which the joint resists at these displacements, not falling"},
+    {.key = "curve", .unit = "", .points = kTablePoints, .meaning = "a table of the model whose points these are, instead of the two lists"},
     {.key = "damping", .unit = "N*s/m", .meaning = "of a damper beside it"},
     {.key = "angular_stiffness", .unit = "N*m/rad", .fallback = 1e6, .minimum_exclusive = true, .meaning = "moment per forbidden rotation, for joints that forbid it"},
     {.key = "angular_damping", .unit = "N*m*s/rad", .fallback = 30, .meaning = "moment per rate of forbidden rotation"},

@@ -7,6 +7,7 @@
 
 #include "laws/catalog.h"
 #include "laws/catalog_parts.h"
+#include "laws/contact/gap_contact.h"
 #include "laws/contact/guide_contact.h"
 #include "laws/contact/pin_contact.h"
 
@@ -19,7 +20,7 @@ constexpr std::array<std::string_view, 2> kAttraction{"cut-off", "kept"};
 constexpr KeyInfo kClearance{.key = "clearance", .unit = "m", .minimum_exclusive = true, .required = true,
                              .meaning = "radius of the bush less that of the pin; in a slot or guide the play to either side"};
 constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .minimum_exclusive = true, .meaning = "of the pin, which is on the second body; of a slider, at the edges of its ends"};
-constexpr KeyInfo kRollerRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .meaning = "of the pin or roller on the second body; 0: a point"};
+constexpr KeyInfo kRollerRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .meaning = "of the pin or roller on the second body; 0: a point. Of a cam's follower, for the stiffness only"};
 constexpr KeyInfo kModel{.key = "contact_model", .unit = "", .words = kModels,
                          .meaning = "damping of the contact; only exact returns the restitution that is asked for, linear is a spring and a damper"};
 constexpr KeyInfo kRestitution{.key = "restitution", .unit = "", .fallback = 0.8, .minimum_exclusive = true, .meaning = "speed after a free impact over the speed before, at most 1"};
@@ -43,7 +44,7 @@ constexpr std::array<KeyInfo, 14> kEdgeKeys{{kRollerRadius, kModel, kRestitution
                                              kFriction, kRampStart, kRampEnd}};
 
 constexpr std::array<std::string_view, 3> kWithClearance{"revolute", "slot", "prismatic"};
-constexpr std::array<std::string_view, 1> kOnEdge{"slot"};
+constexpr std::array<std::string_view, 2> kOneSided{"slot", "cam"};
 
 constexpr double kFlat = std::numeric_limits<double>::infinity();
 
@@ -53,6 +54,7 @@ LawFault contact_fault(const LawSetting& at) {
   const double restitution = at.number("restitution"), start = at.number("friction_start_speed"), end = at.number("friction_full_speed");
   if (restitution > 1) return {"restitution", fmt::format("{:g} is above 1: every impact would gain energy", restitution), "a value between 0 and 1, such as 0.8"};
   if (!(end > start)) return {"friction_full_speed", fmt::format("{:g} m/s is not above friction_start_speed, {:g} m/s", end, start), "a larger speed"};
+  if (at.joint_type == "cam" && at.number("friction_coefficient") > 0) return {"friction_coefficient", "a cam and its follower touch without friction", "delete it"};
   const double poisson = at.number("poisson_ratio");
   if (poisson > 0.5) return {"poisson_ratio", fmt::format("{:g} is above 0.5, that of what keeps its volume", poisson), "0.3 for metals"};
   const bool linear = model_of(at) == ContactModel::kViscous, stated = at.number("contact_stiffness") > 0;
@@ -104,6 +106,7 @@ void make_clearance(const LawSetting& at, Law& law) {
 }
 
 void make_edge(const LawSetting& at, Law& law) {
+  if (at.joint_type == "cam") return law.add(std::make_unique<LawPartOf<GapContactLaw>>(GapContactLaw{contact_of(at, kFlat)}));
   EdgeContactLaw contact;
   contact.shape = PinContact::Shape::kEdge;
   set_contact(at, contact);
@@ -115,8 +118,8 @@ void make_edge(const LawSetting& at, Law& law) {
 void add_contact_laws(std::vector<LawInfo>& all) {
   all.push_back({.word = "clearance", .meaning = "a pin with clearance in its bush or slot, a slider with clearance in its guide: free flight, impact, contact with friction and wear", .keys = kClearanceKeys,
                  .rubs = true, .joints = kWithClearance, .make = make_clearance, .fault = contact_fault});
-  all.push_back({.word = "contact", .meaning = "a pin or roller (second) on one side of a straight edge, the first marker's axis: stops, feet, wheels; it presses along +y and does not pull", .keys = kEdgeKeys,
-                 .rubs = true, .joints = kOnEdge, .make = make_edge, .fault = contact_fault});
+  all.push_back({.word = "contact", .meaning = "a contact that presses and does not pull: of a pin or roller (second) on the +y side of a straight edge, the first marker's axis (stops, feet, wheels), or of a follower on its cam", .keys = kEdgeKeys,
+                 .rubs = true, .joints = kOneSided, .make = make_edge, .fault = contact_fault});
 }
 
 }  // namespace pintle

@@ -49,6 +49,15 @@ void write_origin(hid_t file, const SweepOrigin& origin) {
   const Hdf5 model(H5Dopen2(file, "model", H5P_DEFAULT), H5Dclose, "model");
   write_attribute(model, "name", origin.model_name);
   write_attribute(model, "title", origin.title);
+  if (origin.model_files.empty()) return;
+  std::vector<std::string> names, texts;
+  for (const auto& [name, text] : origin.model_files) {
+    names.push_back(name);
+    texts.push_back(text);
+  }
+  const Hdf5 files = make_group(file, "model_files");
+  write_texts(files, "names", names);
+  write_texts(files, "texts", texts);
 }
 
 // The tables of the file, and a block of rows of each on the way to them.

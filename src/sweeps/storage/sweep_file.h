@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ inline constexpr const char* kNoHdf5 =
 
 /// What is not a result but says where the results come from. Nothing in it depends on how the work was spread.
 struct SweepOrigin {
+  std::map<std::string, std::string> model_files;  // that the model names, by name
   std::string model_text, model_name, title, command, plan, version;
   std::uint64_t seed = 0, check_every = 1;
   double tolerance = 0, output_step = 0;

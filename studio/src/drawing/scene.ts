@@ -1,7 +1,7 @@
 // The drawing of a mechanism: built once for each model and zoom, then only moved. One frame sets a transform for each
 // thing that moves; nothing is made or measured in it.
 import { type Point, type Pose, distance, roundedOutline, toWorld } from "../model/geometry";
-import { type Blade, type End, GROUND, type Joint, type Model, type Spring, markerOf } from "../model/model";
+import { type Blade, type Cam, type End, GROUND, type Joint, type Model, type Spring, markerOf } from "../model/model";
 import type { Thing } from "../model/operations";
 import type { Camera } from "./camera";
 import { type BodyLook, type Looks, guideEnds } from "./looks";
@@ -55,6 +55,7 @@ export class Scene {
     this.pan(camera);
     for (const guide of looks.guides) this.drawGuide(guide);
     for (const gear of looks.gears) this.drawGear(gear);
+    for (const joint of model.joints) if (joint.cam) this.drawCam(model, joint, joint.cam);
     // Blocks and discs lie under the bars that are pinned to them.
     const looked = model.bodies.map((body, i) => ({ name: body.name, look: looks.bodies.get(body.name) ?? ({ kind: "mass" } as BodyLook), i }));
     for (const under of [true, false]) for (const { name, look, i } of looked) if ((look.kind !== "bar") === under) this.drawBody(name, look, i);
@@ -63,6 +64,7 @@ export class Scene {
     for (const joint of model.joints) this.drawJoint(model, joint);
     for (const spring of model.springs) this.drawSpring(model, spring);
     this.drawRacks(model);
+    this.drawFollowers(model);
     drawLoads(this, model);
     if (options.labels && model.joints.length <= MOST_LABELS) this.drawLabels(model);
     this.arrows = options.forces ? new ForceArrows(this.layers.forces, model, options.forceScale) : null;
@@ -145,6 +147,28 @@ export class Scene {
     if (!gear.internal) path(circle(0, 0, Math.max(radius * 0.2, 7)) + `M0 ${-radius * 0.85}V${-radius * 0.5}`, "detail", one);
   }
 
+  private drawCam(model: Model, joint: Joint, cam: Cam): void {
+    const one = group("gear", this.layers.bodies);
+    const marker = markerOf(model, joint.first);
+    this.register("joint", joint.name, one);
+    this.follow(one, joint.first.body, marker?.at ?? [0, 0], marker?.axis ?? 0);
+    path(polyline(cam.outline.map((p) => this.local(p)), true), "solid", one);
+  }
+
+  // What runs on cams: a roller, or the line of a flat face.
+  private drawFollowers(model: Model): void {
+    for (const joint of model.joints) {
+      if (!joint.cam) continue;
+      const marker = markerOf(model, joint.second);
+      const one = group("gear", this.layers.links);
+      this.register("joint", joint.name, one);
+      this.follow(one, joint.second.body, marker?.at ?? [0, 0], marker?.axis ?? 0);
+      const reach = Math.max(...joint.cam.outline.map(([x, y]) => Math.hypot(x, y))) * this.scale;
+      if (joint.cam.roller === null) path(polyline([[-reach, 0], [reach, 0]]), "solid", one);
+      else path(circle(0, 0, Math.max(joint.cam.roller * this.scale, 3)), "solid", one);
+    }
+  }
+
   private drawRacks(model: Model): void {
     for (const joint of model.joints) {
       if (joint.type !== "rack") continue;
@@ -185,7 +209,7 @@ export class Scene {
 
   private drawJoint(model: Model, joint: Joint): void {
     if (joint.type === "rod" || joint.type === "rope") return this.drawTie(model, joint);
-    if (joint.type === "gear" || joint.type === "rack") return;
+    if (joint.type === "gear" || joint.type === "rack" || joint.type === "cam") return;
     for (const blade of joint.blades) this.drawBlade(model, joint, blade);
     const end = joint.type === "prismatic" || joint.type === "slot" ? guideEnds(joint).runner : joint.second;
     const marker = markerOf(model, end);

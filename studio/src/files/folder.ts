@@ -1,5 +1,6 @@
 // The folder of `pintle studio`, where the page comes from that program: models are opened from it and saved into it.
 import { asFault, noteSaved, openText, say, showFaults } from "../actions";
+import { keepNamedFile } from "../kernel/named-files";
 import { type NativeServer, sessionToken } from "../kernel/native";
 import { kernel } from "../play/kernel-session";
 import { studio } from "../state";
@@ -68,7 +69,8 @@ export async function showFolder(): Promise<void> {
 export async function openFromFolder(path: string): Promise<void> {
   if (!server) return;
   try {
-    const { text, hash } = await server.open(path);
+    const { text, hash, files } = await server.open(path);
+    for (const [name, table] of Object.entries(files)) keepNamedFile(name, table);
     const model = await asModel(path, text);
     openText(model.text, model.fileName, model.converted ? { savedText: "" } : { home: { kind: "folder", folder: server.folder, path, hash } });
     showFaults();

@@ -14,7 +14,7 @@ const server = {
   folder: "models",
   model: null as string | null,
   list: async () => [],
-  open: async (path: string) => ({ path, text: files.get(path)!, hash: files.get(path)! }),
+  open: async (path: string) => ({ path, text: files.get(path)!, hash: files.get(path)!, files: {} }),
   save: async (path: string, text: string, expected: string | null) => {
     await new Promise((resolve) => setTimeout(resolve, 5));
     const now = files.get(path) ?? null;

@@ -1,5 +1,9 @@
-// The collection: every mechanism of the repository, as a text.
+// The collection: every mechanism of the repository, as a text, and the files that they name.
+import { keepNamedFile } from "../kernel/named-files";
+
 const files = import.meta.glob("../../../mechanisms/*.toml", { query: "?raw", import: "default", eager: true }) as Record<string, string>;
+const tables = import.meta.glob("../../../mechanisms/*.csv", { query: "?raw", import: "default", eager: true }) as Record<string, string>;
+for (const [path, text] of Object.entries(tables)) keepNamedFile(path.replace(/^.*\//, ""), text);
 
 export interface Template {
   file: string;
@@ -10,7 +14,7 @@ export interface Template {
 }
 
 const ORDER = [
-  "four_bar", "slider_crank", "pendulum", "quick_return", "gear_train", "crane_bushing", "six_bar", "toggle_press", "scissor_lift", "trammel", "two_loop_engine",
+  "four_bar", "slider_crank", "engine", "pendulum", "quick_return", "cam_follower", "gear_train", "crane_bushing", "six_bar", "toggle_press", "scissor_lift", "trammel", "two_loop_engine",
   "inverted_slider_crank", "robot_arm", "andrews", "five_bar_parallelogram", "rope_pendulum", "weld_beam", "loose_ball_bearing", "lubricated_crank",
   "slider_crank_clearance", "worn_linkage", "four_bar_clearance", "scotch_yoke_play", "loose_piston", "hopper", "strut_on_tyre", "bar_clamp", "stick_slip", "conveyor_belt",
 ];

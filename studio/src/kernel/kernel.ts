@@ -2,6 +2,7 @@
 // questions, for the motion while it plays, for checks, runs and reports; so that nothing that takes long holds up anything else.
 import { KernelFault } from "./fault";
 import type { FromWorker, ToWorker } from "./messages";
+import { withNamedFiles } from "./named-files";
 import { findNativeServer, type NativeServer } from "./native";
 import type {
   AssemblyAnswer, Catalog, CheckReport, Fault, Hold, LiveFrame, LiveStart, ModelTree, Pull, ReadAnswer, RunAnswer, RunProgress,
@@ -98,7 +99,7 @@ class Line {
     const result = new Promise((resolve, reject) => {
       this.pending.set(id, { resolve, reject, onProgress: options.onProgress });
       try {
-        this.start().postMessage({ id, call: name, args, kernelUrl: this.kernelUrl, goOn: options.goOn } satisfies ToWorker);
+        this.start().postMessage({ id, call: name, args: withNamedFiles(args), kernelUrl: this.kernelUrl, goOn: options.goOn } satisfies ToWorker);
       } catch (error) {
         this.pending.delete(id);
         reject(new KernelFault({ kind: "missing", message: `The kernel cannot be called: ${String(error)}`, hint: "Reload the page." }));

@@ -1,6 +1,7 @@
 // The server of `pintle studio`, where the page comes from it: the native kernel for long runs, and the models of the folder that it
 // was started in. docs/reference/studio-server.md
 import { KernelFault } from "./fault";
+import { withNamedFiles } from "./named-files";
 import { unpacked } from "./packed";
 import type { RunAnswer, RunProgress } from "./protocol";
 
@@ -15,6 +16,8 @@ export interface OpenedModel {
   text: string;
   /** Of what is in the file; shown again when it is saved. */
   hash: string;
+  /** The texts of the files that the model names, as far as they are in the folder. */
+  files: Record<string, string>;
 }
 
 /** The file was changed by something else since it was opened; `text` is null where it is gone. */
@@ -104,7 +107,7 @@ function runOn(questions: Questions, text: string, set: Record<string, string>, 
   let path: string | undefined;
   const stop = () => path && questions.ask(path, "DELETE").catch(() => undefined);
   const result = (async () => {
-    path = `runs/${(await questions.json<{ id: number }>("runs", "POST", { text, set })).id}`;
+    path = `runs/${(await questions.json<{ id: number }>("runs", "POST", withNamedFiles({ text, set }))).id}`;
     if (cancelled) await stop();
     for (;;) {
       const now = await questions.json<{ state: "running" | "done"; progress?: RunProgress | null }>(path);

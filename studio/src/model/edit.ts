@@ -218,7 +218,7 @@ function* statementsIn(table: TableNode): Generator<Span> {
   }
 }
 
-const ORDER = ["parameters", "simulate", "defaults", "ground", "body", "joint", "spring", "torsion_spring", "force", "motor", "variation"];
+const ORDER = ["parameters", "table", "simulate", "defaults", "ground", "body", "joint", "spring", "torsion_spring", "force", "motor", "variation"];
 
 function rank(path: readonly string[]): number {
   const at = ORDER.indexOf(path[0] ?? "");

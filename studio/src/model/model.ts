@@ -46,6 +46,7 @@ export interface Joint {
   internal: boolean;
   /** The blades of a flexure; none for other laws. */
   blades: Blade[];
+  cam: Cam | null;
 }
 
 /** A blade in the axes of its two markers: where its ends are along its own direction, and that direction against the markers'. */
@@ -54,6 +55,13 @@ export interface Blade {
   angle: number;
   from: number;
   to: number;
+}
+
+/** A cam in the axes of the first marker, and what runs on it. */
+export interface Cam {
+  outline: Point[];
+  /** Of a roller; null: a flat face. */
+  roller: number | null;
 }
 
 export interface Spring {
@@ -98,6 +106,9 @@ export interface Model {
 
 export const GROUND = "ground";
 
+const TURN = 2 * Math.PI;
+const CAM_POINTS = 180;
+
 type Reading = (node: Node | undefined) => number | null;
 
 export function readModel(source: string | Document): Model {
@@ -115,7 +126,7 @@ export function readModel(source: string | Document): Model {
     parameters,
     ground: readMarkers(document, nodeAt(root, ["ground", "markers"]), number),
     bodies,
-    joints: children(root, "joint").map(([name, table]) => readJoint(name, table, number)),
+    joints: children(root, "joint").map(([name, table]) => readJoint(name, table, number, parameters)),
     springs: [
       ...children(root, "spring").map(([name, table]) => readSpring(name, table, number, false)),
       ...children(root, "torsion_spring").map(([name, table]) => readSpring(name, table, number, true)),
@@ -223,7 +234,7 @@ function ends(table: TableNode): { first: End; second: End } {
   return { first: endOf(items[0]), second: endOf(items[1]) };
 }
 
-function readJoint(name: string, table: TableNode, number: Reading): Joint {
+function readJoint(name: string, table: TableNode, number: Reading, parameters: Map<string, number>): Joint {
   return {
     name,
     type: textOf(table.entries.get("type")) ?? "",
@@ -233,6 +244,7 @@ function readJoint(name: string, table: TableNode, number: Reading): Joint {
     radius: number(table.entries.get("radius")),
     internal: textOf(table.entries.get("mesh")) === "internal",
     blades: readBlades(table, number),
+    cam: textOf(table.entries.get("type")) === "cam" ? readCam(table, number, parameters) : null,
   };
 }
 
@@ -244,6 +256,24 @@ function readBlades(table: TableNode, number: Reading): Blade[] {
   const half = (number(table.entries.get("crossing_angle")) ?? Math.PI / 2) / 2;
   const crossing = number(table.entries.get("crossing")) ?? 0.5;
   return [half, -half].map((angle) => ({ length, angle, from: -crossing * length, to: (1 - crossing) * length }));
+}
+
+// As the kernel has it (docs/theory/cams.md); the lift of a table is not known here and counts as 0.
+function readCam(table: TableNode, number: Reading, parameters: Map<string, number>): Cam {
+  const flat = textOf(table.entries.get("follower")) === "flat";
+  const roller = flat ? 0 : (number(table.entries.get("roller_radius")) ?? 0);
+  const base = number(table.entries.get("base_radius")) ?? 0;
+  const radius = (angle: number) => base + roller + (numberOf(table.entries.get("lift"), (word) => (word === "angle" ? ((angle % TURN) + TURN) % TURN : parameters.get(word))) ?? 0);
+  const outline = Array.from({ length: CAM_POINTS }, (_, i): Point => {
+    const angle = (TURN * i) / CAM_POINTS, d = 1e-5;
+    const r = radius(angle), slope = (radius(angle + d) - radius(angle - d)) / (2 * d);
+    const [ux, uy] = [Math.cos(angle), Math.sin(angle)];
+    if (flat) return [r * ux - slope * uy, r * uy + slope * ux];
+    const [px, py] = [slope * ux - r * uy, slope * uy + r * ux];
+    const length = Math.hypot(px, py) || 1;
+    return [r * ux - (roller * py) / length, r * uy + (roller * px) / length];
+  });
+  return { outline, roller: flat ? null : roller };
 }
 
 function readSpring(name: string, table: TableNode, number: Reading, torsion: boolean): Spring {

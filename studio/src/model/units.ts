@@ -15,6 +15,7 @@ const ANGLE: Dimension = [0, 0, 0, 1];
 const FORCE: Dimension = [1, 1, -2, 0];
 const ENERGY: Dimension = [2, 1, -2, 0];
 const POWER: Dimension = [2, 1, -3, 0];
+const PRESSURE: Dimension = [-1, 1, -2, 0];
 const INCH = 0.0254;
 const TURN = 2 * Math.PI;
 
@@ -47,6 +48,11 @@ export const UNITS: Readonly<Record<string, Unit>> = {
   kJ: { factor: 1e3, dimension: ENERGY },
   W: { factor: 1, dimension: POWER },
   kW: { factor: 1e3, dimension: POWER },
+  Pa: { factor: 1, dimension: PRESSURE },
+  kPa: { factor: 1e3, dimension: PRESSURE },
+  MPa: { factor: 1e6, dimension: PRESSURE },
+  GPa: { factor: 1e9, dimension: PRESSURE },
+  bar: { factor: 1e5, dimension: PRESSURE },
   Hz: { factor: 1, dimension: [0, 0, -1, 0] },
   kHz: { factor: 1e3, dimension: [0, 0, -1, 0] },
   rad: { factor: 1, dimension: ANGLE },

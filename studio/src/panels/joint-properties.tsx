@@ -13,7 +13,7 @@ import { type Field, fieldsOf, labelOf, useCatalog, useSchema } from "./form";
 import { Icon } from "./icons";
 
 const TYPE_WORDS: Record<string, string> = {
-  revolute: "pin", prismatic: "slider", fixed: "weld", slot: "pin in a slot", rod: "massless rod", rope: "rope", gear: "gear mesh", rack: "rack and pinion",
+  revolute: "pin", prismatic: "slider", fixed: "weld", slot: "pin in a slot", rod: "massless rod", rope: "rope", gear: "gear mesh", rack: "rack and pinion", cam: "cam and follower",
 };
 
 export function JointProperties({ name }: { name: string }) {
@@ -38,9 +38,22 @@ export function JointProperties({ name }: { name: string }) {
         </section>
       )}
       {joint.type === "gear" && !type && <Pair label="Pitch radii" unit="m" path={["joint", name, "radii"]} names={["first", "second"]} />}
+      {joint.cam && <CamFields name={name} />}
       {joint.type === "revolute" && <BearingFields name={name} />}
       <Additions joint={joint} />
     </>
+  );
+}
+
+const CAM_KEYS = ["lift", "base_radius", "follower", "roller_radius"];
+
+function CamFields({ name }: { name: string }) {
+  const schema = useSchema();
+  return (
+    <section>
+      <h3>Profile</h3>
+      <SchemaFields fields={fieldsOf(schema, "joint", false).filter((field) => CAM_KEYS.includes(field.name))} path={["joint", name]} />
+    </section>
   );
 }
 

@@ -5,7 +5,7 @@ import { schema } from "../play/kernel-session";
 import { studio } from "../state";
 import { UNITS } from "../model/units";
 
-const TABLES = ["parameters", "simulate", "defaults.joint", "ground.markers", "body.", "joint.", "spring.", "torsion_spring.", "force.", "motor.", "variation."];
+const TABLES = ["parameters", "table.", "simulate", "defaults.joint", "ground.markers", "body.", "joint.", "spring.", "torsion_spring.", "force.", "motor.", "variation."];
 
 export async function complete(context: CompletionContext): Promise<CompletionResult | null> {
   const line = context.state.doc.lineAt(context.pos);

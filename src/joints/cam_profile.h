@@ -1,0 +1,48 @@
+// The profile of a cam, as a lift over its base circle, and the gap between it and what follows it. theory/cams
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "joints/gap_function.h"
+#include "pintle/model.h"
+
+namespace pintle {
+
+struct CamContactPlace {
+  double angle = 0, pressure_angle = 0;
+};
+
+/// Polar angles are measured on the cam, from the x axis of its marker, counter-clockwise.
+class CamProfile {
+ public:
+  explicit CamProfile(const Cam& cam) : cam_(cam) {}
+
+  bool flat() const { return cam_.flat; }
+  /// With first and second derivative by the angle [m]. Of a roller or pin: the polar radius of the pitch curve, on which its centre goes
+  /// round the cam, Eq. (1.1). Of a flat face: its distance from the cam's axis when the angle is that of its normal, Eq. (1.2).
+  std::array<double, 3> radius(double angle) const;
+  /// The polar angle of the point of the pitch curve that is nearest to c, Eq. (2.1).
+  double foot(const Planar::Point& c) const;
+  /// A point of the cam's surface, Eqs. (1.3), (1.4); the angle is that of radius().
+  Planar::Point surface(double angle) const;
+  /// Radius of curvature of the surface there, Eqs. (1.5), (1.6) [m]. Where it is not positive on a convex part, the follower cannot follow.
+  double surface_curvature(double angle) const;
+  /// Where the follower is at a relative pose: polar angle, Eq. (2.1), and the angle from the y axis of its marker to the normal, Eq. (2.7) [rad].
+  CamContactPlace place(const Planar::Vec& z) const;
+  /// Why no follower can run on it; "" if one can.
+  std::string fault() const;
+
+ private:
+  struct Pitch {
+    Planar::Point p, d, dd;  // with its derivatives by the angle
+  };
+  Pitch pitch(double angle) const;
+  double foot_by_search(const Planar::Point& c) const;
+  std::string corner_between(double low, double high) const;
+
+  friend struct CamGap;
+  Cam cam_;
+};
+
+}  // namespace pintle
