@@ -9,13 +9,17 @@ namespace pintle {
 struct KeyInfo {
   std::string_view key;
   std::string_view unit;           // "N/m"; "" for a pure number
+  std::string_view angular_unit{};  // of a value in a joint's free coordinate, where that is an angle: "N*m/rad"; "": the same unit everywhere
   double fallback = 0;             // value when absent
   double minimum = 0;              // smallest value allowed
   bool minimum_exclusive = false;  // the minimum itself is refused
   bool required = false;
   bool per_component = false;      // may be a list, one value per gap component it covers
   bool list = false;               // is a list of any length
+  bool of_time = false;            // may be an expression of t
+  bool of_signals = false;         // is an expression of t, of the joint's own free coordinate and of the coordinates of joints and bodies
   std::span<const std::string_view> words{};  // is one of these; its number among them is the value
+  std::string_view otherwise{};    // what its absence means, where that is no number
   std::string_view meaning;        // one line
 };
 

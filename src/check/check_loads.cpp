@@ -98,14 +98,7 @@ class LoadSlopes {
 // The values an effort expression reads.
 std::vector<double> signal_values(const System& system, const LoadData& load, const CheckState& state) {
   std::vector<double> values;
-  for (const Signal& signal : load.signals) {
-    if (signal.is_time) {
-      values.push_back(state.t);
-      continue;
-    }
-    const RelativePose pose = system.pose(signal.at, state.m);
-    values.push_back(signal.rate ? pose.rate[signal.component] : pose.z[signal.component]);
-  }
+  for (const Signal& signal : load.signals) values.push_back(system.value_of(signal, state.t, state.m));
   return values;
 }
 
@@ -125,7 +118,7 @@ void expression_slopes(const Expression& law, const std::vector<double>& at, con
   }
 }
 
-// A function of t that a servo follows: first and second derivative.
+// A function of t that a driven component follows: first and second derivative.
 void target_slopes(const Expression& target, double t, double duration, const CheckPlace& place, Comparisons& tally) {
   if (target.variables().empty()) return;
   const auto at = [&target](double time) { return target.second_order(std::array<double, 1>{time}, 0); };
@@ -178,15 +171,15 @@ void check_expressions(const System& system, const std::vector<CheckState>& stat
     for (const LoadData& load : system.loads) {
       if (load.kind != LoadKind::kEffort) continue;
       const auto values = signal_values(system, load, state);
-      const CheckPlace place{"motor", load.name, state.number};
+      const CheckPlace place{load.owner, load.name, state.number};
       expression_slopes(load.law, values, place, slopes);
       finite.vanishes(std::isfinite(load.law.value(values)) ? 0 : 1, 1, place);
     }
     for (const JointData& joint : system.joints)
-      if (joint.servo >= 0) target_slopes(joint.target, state.t, duration, {"motor", joint.name, state.number}, slopes);
+      if (joint.driven >= 0) target_slopes(joint.target, state.t, duration, {joint.servo >= 0 ? "motor" : "joint", joint.name, state.number}, slopes);
   }
   for (const JointData& joint : system.joints)
-    if (joint.servo >= 0) finite_over_time(joint.target, duration, {"motor", joint.name, 0}, finite);
+    if (joint.driven >= 0) finite_over_time(joint.target, duration, {joint.servo >= 0 ? "motor" : "joint", joint.name, 0}, finite);
   for (const AppliedData& force : system.applied)
     for (const Expression* e : {&force.fx, &force.fy, &force.torque})
       finite_over_time(*e, duration, {"force", force.name, 0}, finite);

@@ -138,6 +138,7 @@ std::vector<LawInfo> own_laws() {
   add_friction_laws(all);
   add_contact_laws(all);
   add_bearing_laws(all);
+  add_stop_laws(all);
   return all;
 }
 
@@ -174,6 +175,8 @@ Planar::Vec LawSetting::by_component(std::string_view linear, std::string_view a
     if (held[k]) x[k] = k == 2 ? number(angular) : number(linear, place++);
   return x;
 }
+
+std::string_view key_of(LawRole role) { return role == LawRole::kHolds ? "law" : role == LawRole::kFriction ? "friction" : "stops"; }
 
 std::span<const LawInfo> law_catalog() { return laws(); }
 

@@ -27,7 +27,7 @@ class BasicEnergyWatch {
 
  private:
   struct Feeder {
-    const char* kind;
+    std::string_view kind;
     const std::string* name;
     double work = 0;  // [J]
   };

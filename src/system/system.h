@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -56,7 +57,7 @@ struct BasicPlacement {
 };
 using Placement = BasicPlacement<Planar>;
 
-/// A gap with a law: a joint of the model, or the servo of a motor (then `target` says what its coordinate follows).
+/// A gap with a law: a joint of the model, or the servo of a motor.
 template <class S>
 struct BasicJointData {
   std::string name;
@@ -67,28 +68,31 @@ struct BasicJointData {
   bool ideal = false;          // its gap is kept at zero by the equations, its law is not asked
   std::array<bool, S::kDof> redundant{};  // components of an ideal joint that other ideal joints keep already
   int servo = -1;              // component that a servo drives, -1: not a servo
+  int driven = -1;             // component whose gap is what is left of it after `target`: a servo's, or the length of a rod or rope; -1: none
   bool keeps_speed = false;    // servo of a constant speed
   double start = 0;            // constant-speed servo: coordinate as assembled
   double speed = 0;            // constant-speed servo [rad/s or m/s]
-  Expression target;           // servo that follows a function of t; the coordinate is start + speed t + target(t)
+  int pushed_by = -1;          // the first of two loads that push along its gap and are part of its force in results: the pressures in a cylinder
+  Expression target;           // what a driven component follows; it is start + speed t + target(t)
   typename S::Vec free_mask = S::Vec::Zero();  // 1 in components that are free coordinates
   std::array<bool, S::kDof> held{};  // components that the joint forbids
   int first_state = 0;         // of the law, among those of all joints
 };
 using JointData = BasicJointData<Planar>;
 
-/// What a servo's coordinate is to be at time t, with its rate and acceleration.
+/// What a driven component is to be at time t, with its rate and acceleration.
 template <class S>
-std::array<double, 3> servo_target(const BasicJointData<S>& joint, double t);
+std::array<double, 3> target_of(const BasicJointData<S>& joint, double t);
 
 /// What the expression of an effort reads: the time, or a component of the relative pose of two frames (or its rate), which are those of a joint,
-/// or the ground's and one on a body.
+/// or the ground's and one on a body; or the distance of these two.
 template <class S>
 struct BasicSignal {
   bool is_time = true;
   BasicPlacement<S> at;
   int component = 0;
   bool rate = false;
+  bool along = false;  // the distance, in component 0
 };
 using Signal = BasicSignal<Planar>;
 
@@ -104,11 +108,17 @@ struct BasicLoadData {
   double k = 0, c = 0;   // [N/m, N*s/m] or [N*m/rad, N*m*s/rad]
   double free = 0;       // length or angle without elastic force
   double constant = 0;   // a spring without stiffness: its preload at any length [N] or [N*m]
-  Expression law;        // motors: effort on the second body
+  Expression law;        // efforts: factor * law on the second body
+  double factor = 1;     // 1, or the area of a piston, of which the law is the pressure [m^2]
   std::vector<BasicSignal<S>> signals;
-  bool applied = false;  // an effort that is an applied force along a component, not a motor's
+  bool along = false;    // an effort along the line between the two points, in component 0
+  std::string_view owner = "motor";  // whose effort it is, for messages
 };
 using LoadData = BasicLoadData<Planar>;
+
+/// What a load acts along; its component, or the first, is the gap.
+template <class S>
+BasicDisplacement<S> displacement_of(const BasicLoadData<S>& load);
 
 /// Signals that an expression may read.
 inline constexpr int kMaxSignals = 16;
@@ -215,14 +225,18 @@ class BasicSystem {
   typename S::RelativePose pose(const BasicPlacement<S>& at, const std::vector<typename S::Motion>& m) const {
     return S::RelativePose::between(motion_of(at.a, m), at.F, motion_of(at.b, m), at.M);
   }
-  /// Gap, rate, Jacobians and convective term of joint j at time t (a servo's target taken off).
+  /// Gap, rate, Jacobians and convective term of joint j at time t (the target of a driven component taken off).
   BasicJointKinematics<S> kinematics(int j, double t, const std::vector<typename S::Motion>& m) const;
   void joint_kinematics(double t, const std::vector<typename S::Motion>& m, std::vector<BasicJointKinematics<S>>& out) const;
+  /// Power that the drive of a joint delivers at this force, 0 where there is none [W]: a servo's in its coordinate, or what changes the length of a rod or rope.
+  double drive_power(const BasicJointData<S>& joint, double t, const std::vector<typename S::Motion>& m, const Vec& force) const;
   /// Gravity, springs, applied forces and effort motors: the generalised force on every body. Motors in `sliding` stand at a jump.
   void external(double t, const std::vector<typename S::Motion>& m, VecsOf<S>& Q, SlidingModes sliding = {}) const;
   ExternalWork external_work(double t, const PositionsOf<S>& q, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;
   /// The part of one load in it, and the power of one applied force [W].
   ExternalWork work_of(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;
+  /// What an effort's expression reads.
+  double value_of(const BasicSignal<S>& signal, double t, const std::vector<typename S::Motion>& m) const;
   double power_of(const BasicAppliedData<S>& force, double t, const std::vector<typename S::Motion>& m) const;
   /// Force (spring: tension; motor: effort) of a load.
   double load_effort(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;

@@ -91,6 +91,7 @@ std::string type_text(const KeySpec& spec) {
     case ValueType::kJointName:
       return "name of a joint";
     default:
+      if (!spec.variables.empty()) return "number, or expression of `t`";
       return spec.per_component ? "number, or a list with one per linear gap component" : "number";
   }
 }

@@ -13,14 +13,13 @@
 namespace pintle {
 namespace {
 
-constexpr std::array<std::string_view, 6> kModels{"exact", "lankarani-nikravesh", "hunt-crossley", "flores", "gonthier", "linear"};
 constexpr std::array<std::string_view, 2> kAttraction{"cut-off", "kept"};
 
 constexpr KeyInfo kClearance{.key = "clearance", .unit = "m", .minimum_exclusive = true, .required = true,
                              .meaning = "radius of the bush less that of the pin; in a slot or guide the play to either side"};
 constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .minimum_exclusive = true, .meaning = "of the pin, which is on the second body; of a slider, at the edges of its ends"};
 constexpr KeyInfo kRollerRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .meaning = "of the pin or roller on the second body; 0: a point"};
-constexpr KeyInfo kModel{.key = "contact_model", .unit = "", .words = kModels,
+constexpr KeyInfo kModel{.key = "contact_model", .unit = "", .words = kContactModels,
                          .meaning = "damping of the contact; only exact returns the restitution that is asked for, linear is a spring and a damper"};
 constexpr KeyInfo kRestitution{.key = "restitution", .unit = "", .fallback = 0.8, .minimum_exclusive = true, .meaning = "speed after a free impact over the speed before, at most 1"};
 constexpr KeyInfo kStiffness{.key = "contact_stiffness", .unit = "", .meaning = "force at a depth of 1 m [N/m^contact_exponent]; 0: Hertz' of elastic_modulus, pin_radius and clearance"};
