@@ -64,15 +64,13 @@ struct Bearing {
 /// A joint: a joint displacement (its `type`) between two markers and a law. F is on the first marker, M on the second.
 struct Joint {
   std::string name;
-  std::string type;  ///< revolute, prismatic, fixed, slot, rod, rope, gear, rack, cylinder
+  std::string type;  ///< revolute, prismatic, fixed, slot, rod, rope, gear, rack
   MarkerRef first, second;
-  std::map<std::string, double> geometry;  ///< rod, rope: length [m] (absent: as assembled); gear: radius_first, radius_second [m], internal (0 or 1); rack: radius [m]; cylinder: bore, rod_diameter [m]
+  std::map<std::string, double> geometry;  ///< rod, rope: length [m] (absent: as assembled); gear: radius_first, radius_second [m], internal (0 or 1); rack: radius [m]
   LawChoice law;
   LawChoice friction{"", {}};  ///< of what the joint leaves free; no word: none
   LawChoice stops{"", {}};     ///< of its angle or slide; no word: none
-  /// Keys of its type that are functions. rod, rope: a `length` of t [m], which geometry has not then; cylinder: `pressure` and `rod_pressure` [Pa]
-  /// of t, "length", "length_rate" and the coordinates that motors read.
-  std::map<std::string, Expression> functions{};
+  std::map<std::string, Expression> functions{};  ///< keys of its type that are functions of t: a rod's or rope's `length` [m], which geometry has not then
   bool ideal = false;  ///< with Equations::kRelative: no force law, the coordinates obey it
   std::optional<Bearing> bearing{};  ///< of a pin; it does not change the motion
 };

@@ -17,7 +17,6 @@ struct KeyInfo {
   bool per_component = false;      // may be a list, one value per gap component it covers
   bool list = false;               // is a list of any length
   bool of_time = false;            // may be an expression of t
-  bool of_signals = false;         // is an expression of t, of the joint's own free coordinate and of the coordinates of joints and bodies
   std::span<const std::string_view> words{};  // is one of these; its number among them is the value
   std::string_view otherwise{};    // what its absence means, where that is no number
   std::string_view meaning;        // one line

@@ -19,9 +19,14 @@ std::string_view kind_of(const LoadData& load) {
     case LoadKind::kTorsionSpring:
       return "torsion spring";
     case LoadKind::kEffort:
-      return load.owner;
+      return "motor";
   }
   return "load";
+}
+
+JointDisplacement displacement_of(const LoadData& load) {
+  if (load.kind == LoadKind::kSpring) return Distance{load.free};
+  return Selection{S::Vec::Unit(load.component) * (load.kind == LoadKind::kTorsionSpring ? load.free : 0.0)};
 }
 
 CheckState disturbed(const CheckState& from, const System& system, double duration, int number) {

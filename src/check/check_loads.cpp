@@ -98,7 +98,14 @@ class LoadSlopes {
 // The values an effort expression reads.
 std::vector<double> signal_values(const System& system, const LoadData& load, const CheckState& state) {
   std::vector<double> values;
-  for (const Signal& signal : load.signals) values.push_back(system.value_of(signal, state.t, state.m));
+  for (const Signal& signal : load.signals) {
+    if (signal.is_time) {
+      values.push_back(state.t);
+      continue;
+    }
+    const RelativePose pose = system.pose(signal.at, state.m);
+    values.push_back(signal.rate ? pose.rate[signal.component] : pose.z[signal.component]);
+  }
   return values;
 }
 
@@ -171,7 +178,7 @@ void check_expressions(const System& system, const std::vector<CheckState>& stat
     for (const LoadData& load : system.loads) {
       if (load.kind != LoadKind::kEffort) continue;
       const auto values = signal_values(system, load, state);
-      const CheckPlace place{load.owner, load.name, state.number};
+      const CheckPlace place{"motor", load.name, state.number};
       expression_slopes(load.law, values, place, slopes);
       finite.vanishes(std::isfinite(load.law.value(values)) ? 0 : 1, 1, place);
     }

@@ -27,7 +27,7 @@ class BasicEnergyWatch {
 
  private:
   struct Feeder {
-    std::string_view kind;
+    const char* kind;
     const std::string* name;
     double work = 0;  // [J]
   };

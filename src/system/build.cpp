@@ -233,7 +233,7 @@ class Builder {
     LoadData load;
     load.name = force.name;
     load.kind = LoadKind::kEffort;
-    load.owner = "force";
+    load.applied = true;
     load.at.a = kGround;
     load.at.b = on;
     load.at.F = S::Frame::at({0, 0}, 0);

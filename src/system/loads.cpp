@@ -7,13 +7,26 @@
 namespace pintle {
 namespace {
 
+template <class S>
+BasicDisplacement<S> displacement_of(const BasicLoadData<S>& load) {
+  if (load.kind == LoadKind::kSpring) return BasicDistance<S>{load.free};
+  return BasicSelection<S>{typename S::Vec(S::Vec::Unit(load.component) * (load.kind == LoadKind::kTorsionSpring ? load.free : 0.0))};
+}
+
+template <class S>
+double value_of(const BasicSystem<S>& system, const BasicSignal<S>& signal, double t, const std::vector<typename S::Motion>& m) {
+  if (signal.is_time) return t;
+  const typename S::RelativePose pose = system.pose(signal.at, m);
+  return signal.rate ? pose.rate[signal.component] : pose.z[signal.component];
+}
+
 // Values of the signals an effort expression reads.
 template <class S>
 std::array<double, kMaxSignals> signal_values(const BasicSystem<S>& system, const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m) {
   std::array<double, kMaxSignals> values{};
   const std::size_t n = std::min<std::size_t>(load.signals.size(), kMaxSignals);
   for (std::size_t s = 0; s < n; ++s) {
-    values[s] = system.value_of(load.signals[s], t, m);
+    values[s] = value_of(system, load.signals[s], t, m);
   }
   return values;
 }
@@ -73,27 +86,7 @@ Spatial::Mat turning_tangent(const BasicAppliedData<Spatial>& force, const Spati
   return dq;
 }
 
-// Where a signal is read.
-template <class S>
-BasicDisplacement<S> displacement_of(const BasicSignal<S>& signal) {
-  if (signal.along) return BasicDistance<S>{0};
-  return BasicSelection<S>{};
-}
-
 }  // namespace
-
-template <class S>
-BasicDisplacement<S> displacement_of(const BasicLoadData<S>& load) {
-  if (load.kind == LoadKind::kSpring || load.along) return BasicDistance<S>{load.free};
-  return BasicSelection<S>{typename S::Vec(S::Vec::Unit(load.component) * (load.kind == LoadKind::kTorsionSpring ? load.free : 0.0))};
-}
-
-template <class S>
-double BasicSystem<S>::value_of(const BasicSignal<S>& signal, double t, const std::vector<typename S::Motion>& m) const {
-  if (signal.is_time) return t;
-  const BasicJointKinematics<S> r = read(displacement_of(signal), pose(signal.at, m));
-  return signal.rate ? r.rate[signal.component] : r.gap[signal.component];
-}
 
 template <class S>
 const Expression::Ramp* BasicSystem<S>::ramp_of(const BasicLoadData<S>& load, SlidingModes sliding) const {
@@ -115,8 +108,7 @@ typename BasicSystem<S>::LoadState BasicSystem<S>::load_state(const BasicLoadDat
     const auto at = std::span(values).first(n);
     const auto slopes = std::span(state.df_dsignal).first(n);
     const Expression::Ramp* ramp = ramp_of(load, sliding);
-    state.effort = load.factor * (ramp ? load.law.gradient(at, slopes, *ramp) : load.law.gradient(at, slopes));
-    for (double& slope : slopes) slope *= load.factor;
+    state.effort = ramp ? load.law.gradient(at, slopes, *ramp) : load.law.gradient(at, slopes);
   } else {
     state.effort = -(load.constant + load.k * state.kinematics.gap[state.slot] + load.c * state.kinematics.rate[state.slot]);
     state.df_dgap = -load.k;
@@ -256,14 +248,12 @@ void BasicSystem<S>::load_tangents(const BasicLoadData<S>& load, double t, const
     if (signal.is_time) continue;
     const BasicPlacement<S>& at = signal.at;
     const typename S::RelativePose p = pose(at, m);
-    const BasicDisplacement<S> read_at = displacement_of(signal);
-    const BasicJointKinematics<S> r = read(read_at, p);
-    const auto slope = rate_gradient(read_at, p, motion_of(at.a, m), motion_of(at.b, m));
+    const auto slope = p.rate_gradient(motion_of(at.a, m), motion_of(at.b, m));
     const std::array<int, 2> source{at.a, at.b};
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j) {
         if (body[i] == kGround || source[j] == kGround) continue;
-        const Row dz = j == 0 ? r.GA().row(signal.component) : r.GB().row(signal.component);
+        const Row dz = j == 0 ? p.GA().row(signal.component) : p.GB().row(signal.component);
         const Row dq = signal.rate ? Row(slope.template block<1, n>(signal.component, n * j)) : dz;
         const Mat zero = Mat::Zero();
         out.push_back({body[i], source[j], G[i].transpose() * (s.df_dsignal[k] * dq),
@@ -278,10 +268,6 @@ void BasicSystem<S>::applied_tangents(const BasicAppliedData<S>& force, double t
   out.push_back({force.body, force.body, turning_tangent(force, wrench(force, t, body), body), Mat::Zero()});
 }
 
-template BasicDisplacement<Planar> displacement_of(const LoadData& load);
-template BasicDisplacement<Spatial> displacement_of(const BasicLoadData<Spatial>& load);
-template double BasicSystem<Planar>::value_of(const Signal& signal, double t, const std::vector<Planar::Motion>& m) const;
-template double BasicSystem<Spatial>::value_of(const BasicSignal<Spatial>& signal, double t, const std::vector<Spatial::Motion>& m) const;
 template const Expression::Ramp* BasicSystem<Planar>::ramp_of(const BasicLoadData<Planar>& load, SlidingModes sliding) const;
 template BasicSystem<Planar>::LoadState BasicSystem<Planar>::load_state(const BasicLoadData<Planar>& load, double t, const std::vector<Planar::Motion>& m, SlidingModes sliding) const;
 template double BasicSystem<Planar>::load_effort(const BasicLoadData<Planar>& load, double t, const std::vector<Planar::Motion>& m, SlidingModes sliding) const;

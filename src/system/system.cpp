@@ -70,7 +70,7 @@ std::string BasicSystem<S>::name(const SwitchingFunction& function) const {
     return fmt::format("border {} of law \"{}\" in joint {}", function.border + 1, joints[at].law.parts()[static_cast<std::size_t>(function.part)]->word(), joints[at].name);
   const auto kink = [&function](const std::string& of, const Expression& e) { return fmt::format("kink or jump {} of {} ({})", function.border + 1, of, e.text()); };
   if (function.owner == Owner::kDrive) return kink((joints[at].servo >= 0 ? "motor " : "the length of joint ") + joints[at].name, joints[at].target);
-  if (function.owner == Owner::kMotor) return kink(fmt::format("{} {}", loads[at].owner, loads[at].name), loads[at].law);
+  if (function.owner == Owner::kMotor) return kink((loads[at].applied ? "force " : "motor ") + loads[at].name, loads[at].law);
   const BasicAppliedData<S>& force = applied[at];
   return kink("force " + force.name, *force.functions()[static_cast<std::size_t>(function.part)]);
 }

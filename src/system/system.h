@@ -9,7 +9,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -72,7 +71,6 @@ struct BasicJointData {
   bool keeps_speed = false;    // servo of a constant speed
   double start = 0;            // constant-speed servo: coordinate as assembled
   double speed = 0;            // constant-speed servo [rad/s or m/s]
-  int pushed_by = -1;          // the first of two loads that push along its gap and are part of its force in results: the pressures in a cylinder
   Expression target;           // what a driven component follows; it is start + speed t + target(t)
   typename S::Vec free_mask = S::Vec::Zero();  // 1 in components that are free coordinates
   std::array<bool, S::kDof> held{};  // components that the joint forbids
@@ -85,14 +83,13 @@ template <class S>
 std::array<double, 3> target_of(const BasicJointData<S>& joint, double t);
 
 /// What the expression of an effort reads: the time, or a component of the relative pose of two frames (or its rate), which are those of a joint,
-/// or the ground's and one on a body; or the distance of these two.
+/// or the ground's and one on a body.
 template <class S>
 struct BasicSignal {
   bool is_time = true;
   BasicPlacement<S> at;
   int component = 0;
   bool rate = false;
-  bool along = false;  // the distance, in component 0
 };
 using Signal = BasicSignal<Planar>;
 
@@ -108,17 +105,11 @@ struct BasicLoadData {
   double k = 0, c = 0;   // [N/m, N*s/m] or [N*m/rad, N*m*s/rad]
   double free = 0;       // length or angle without elastic force
   double constant = 0;   // a spring without stiffness: its preload at any length [N] or [N*m]
-  Expression law;        // efforts: factor * law on the second body
-  double factor = 1;     // 1, or the area of a piston, of which the law is the pressure [m^2]
+  Expression law;        // motors: effort on the second body
   std::vector<BasicSignal<S>> signals;
-  bool along = false;    // an effort along the line between the two points, in component 0
-  std::string_view owner = "motor";  // whose effort it is, for messages
+  bool applied = false;  // an effort that is an applied force along a component, not a motor's
 };
 using LoadData = BasicLoadData<Planar>;
-
-/// What a load acts along; its component, or the first, is the gap.
-template <class S>
-BasicDisplacement<S> displacement_of(const BasicLoadData<S>& load);
 
 /// Signals that an expression may read.
 inline constexpr int kMaxSignals = 16;
@@ -235,8 +226,6 @@ class BasicSystem {
   ExternalWork external_work(double t, const PositionsOf<S>& q, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;
   /// The part of one load in it, and the power of one applied force [W].
   ExternalWork work_of(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;
-  /// What an effort's expression reads.
-  double value_of(const BasicSignal<S>& signal, double t, const std::vector<typename S::Motion>& m) const;
   double power_of(const BasicAppliedData<S>& force, double t, const std::vector<typename S::Motion>& m) const;
   /// Force (spring: tension; motor: effort) of a load.
   double load_effort(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;

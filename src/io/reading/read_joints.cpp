@@ -64,7 +64,7 @@ void read_faulty_joint(ModelReading& reading, const Entry& entry, const std::str
 void read_geometry(const JointTypeInfo& type, const Record& record, Joint& joint) {
   for (const KeyInfo& key : type.keys) {
     if (const auto number = record.maybe_number(key.key)) joint.geometry[std::string(key.key)] = *number;
-    else if ((key.of_time && record.states(key.key)) || key.of_signals) joint.functions[std::string(key.key)] = record.expression(key.key);
+    else if (key.of_time && record.states(key.key)) joint.functions[std::string(key.key)] = record.expression(key.key);
   }
   if (type.word != "gear") return;
   if (const auto radii = record.maybe_pair("radii")) {

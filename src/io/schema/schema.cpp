@@ -156,11 +156,6 @@ KeySpec spec_of(const KeyInfo& info, const JointTypeInfo* type) {
   spec.meaning = info.meaning;
   spec.otherwise = info.otherwise;
   if (info.of_time) spec.variables = {"t"};
-  if (info.of_signals) {
-    spec.type = ValueType::kExpression;
-    spec.type_word = "expression";
-    spec.variables = {"t", "length", "length_rate", "joints"};
-  }
   if (std::isfinite(info.minimum)) spec.minimum = info.minimum;
   spec.minimum_exclusive = info.minimum_exclusive;
   spec.required = info.required;
