@@ -182,7 +182,7 @@ bool BasicLaw<S>::has_friction() const {
 template <class S>
 std::optional<StopBreach> BasicLaw<S>::breach(const typename S::Vec& gap) const {
   for (const auto& part : parts_)
-    if (std::optional<StopBreach> beyond = part->breach(gap)) return beyond;
+    if (std::optional<StopBreach> beyond = part->stops() ? part->breach(gap) : std::nullopt) return beyond;
   return {};
 }
 

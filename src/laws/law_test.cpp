@@ -18,6 +18,7 @@
 #include "laws/bearings/journal_film.h"
 #include "laws/friction/lugre.h"
 #include "laws/maxwell.h"
+#include "laws/contact/backlash.h"
 #include "laws/contact/pin_contact.h"
 #include "laws/contact/stops.h"
 #include "laws/bearings/rolling_bearing.h"
@@ -117,7 +118,7 @@ class AnyLaw : public testing::Test {
     return !std::equal(before.begin(), before.end(), after.begin(), [](double x, double y) { return (x > 0) == (y > 0); });
   }
 };
-using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GuideContactLaw, HardStops, CushionedStops, ClutchLaw,
+using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GuideContactLaw, HardStops, CushionedStops, BacklashLaw, ClutchLaw,
                              TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 

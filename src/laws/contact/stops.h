@@ -6,6 +6,7 @@
 // otherwise; touch and let-go are borders. A stop that is not stated stands at infinity.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -54,9 +55,7 @@ struct StopContact {
       contact.borders(at.depth, at.rate, in.state[side], value);
     }
   }
-  static std::string border_name(int border, bool rising) {
-    return std::string(ContactForce::border_name(border % kBorders, rising)) + (border % kBorders < 2 ? " of the " : " at the ") + name(border / kBorders) + " stop";
-  }
+  static std::string border_name(int border, bool rising) { return called(border, rising, border / kBorders == kUpper ? "upper stop" : "lower stop"); }
   void cross(int border, const LawInput<double>& in, double* state) const {
     const int side = border / kBorders;
     contact.cross(border % kBorders, find(in, side).rate, state[side]);
@@ -90,7 +89,10 @@ struct StopContact {
   static constexpr int kSides = 2, kUpper = 1, kBorders = 3;
 
   static constexpr double sign(int side) { return side == kUpper ? 1 : -1; }
-  static const char* name(int side) { return side == kUpper ? "upper" : "lower"; }
+  // "touch of the upper stop".
+  static std::string called(int border, bool rising, const char* what) {
+    return std::string(ContactForce::border_name(border % kBorders, rising)) + (border % kBorders < 2 ? " of the " : " at the ") + what;
+  }
   double limit(int side) const { return side == kUpper ? upper : lower; }
   bool stands(int side) const { return std::isfinite(limit(side)); }
 
