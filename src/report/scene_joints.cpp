@@ -248,7 +248,7 @@ void SceneMaker::add_stops(const Joint& joint) {
     if (stop == joint.stops.values.end()) continue;
     const double at = stop->second.front();
     const Vec2 along = direction(turns ? first->axis + at + centre : first->axis), across = normal(along);
-    if (turns) marks.paths.push_back({first->point + 0.9 * u * along, first->point + 2.6 * u * along});
+    if (turns) marks.paths.push_back({first->point + 1.2 * u * along, first->point + 3.4 * u * along});
     else marks.paths.push_back({first->point + at * along - 1.3 * u * across, first->point + at * along + 1.3 * u * across});
   }
   put(kMarks, std::move(marks));
