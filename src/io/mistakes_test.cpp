@@ -33,6 +33,7 @@ std::vector<Complaint> complaints_about(const std::string& text, const std::vect
 
 const std::vector<Mistake> kMistakes{
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"@soft\"\nbetween", "joint.O2.stops", "none of hard, cushioned"},
+    {"type = \"revolute\"\nbetween", "type = \"revolute\"\n@upper_stop = 1\nbetween", "joint.O2.upper_stop", "belongs to stops = \"hard\" or stops = \"cushioned\""},
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"@hard\"\nstop_stiffness = 1\nbetween", "joint.O2.stops", "neither lower_stop nor upper_stop"},
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"hard\"\nstop_stiffness = 1\nlower_stop = \"@90 deg\"\nupper_stop = 1\nbetween", "joint.O2.lower_stop", "is not below upper_stop"},
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"hard\"\nstop_stiffness = 1\nupper_stop = \"@5 mm\"\nbetween", "joint.O2.upper_stop", "an angle [rad] is expected"},
