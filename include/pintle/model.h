@@ -2,10 +2,12 @@
 // Everything is SI and radians. A planar quantity uses x and y; angles turn about +z, counter-clockwise.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "pintle/expression.h"
@@ -87,10 +89,17 @@ struct Joint {
   std::map<std::string, double> geometry;  ///< rod, rope: length [m] (absent: as assembled); gear: radius_first, radius_second [m], internal (0 or 1); rack: radius [m]
   LawChoice law;
   LawChoice friction{"", {}};  ///< of what the joint leaves free; no word: none
+  LawChoice stops{"", {}};     ///< of its angle or slide; no word: none
+  std::map<std::string, Expression> functions{};  ///< keys of its type that are functions of t: a rod's or rope's `length` [m], which geometry has not then
   bool ideal = false;  ///< with Equations::kRelative: no force law, the coordinates obey it
   std::optional<Cam> cam{};    ///< of a cam joint
   std::optional<Bearing> bearing{};  ///< of a pin; it does not change the motion
-  friend bool operator==(const Joint&, const Joint&) = default;
+  /// Functions are compared by their text.
+  friend bool operator==(const Joint& a, const Joint& b) {
+    const auto values = [](const Joint& j) { return std::tie(j.name, j.type, j.first, j.second, j.geometry, j.law, j.friction, j.stops, j.ideal, j.bearing); };
+    return values(a) == values(b) && std::equal(a.functions.begin(), a.functions.end(), b.functions.begin(), b.functions.end(),
+                                                [](const auto& f, const auto& g) { return f.first == g.first && f.second.text() == g.second.text(); });
+  }
 };
 
 /// A spring-damper along the line between two markers, or (torsion) in the angle between them.

@@ -9,14 +9,17 @@ namespace pintle {
 struct KeyInfo {
   std::string_view key;
   std::string_view unit;           // "N/m"; "" for a pure number
+  std::string_view angular_unit{};  // of a value in a joint's free coordinate, where that is an angle: "N*m/rad"; "": the same unit everywhere
   double fallback = 0;             // value when absent
   double minimum = 0;              // smallest value allowed
   bool minimum_exclusive = false;  // the minimum itself is refused
   bool required = false;
   bool per_component = false;      // may be a list, one value per gap component it covers
   bool list = false;               // is a list of any length
+  bool of_time = false;            // may be an expression of t
   std::span<const std::string_view> words{};  // is one of these; its number among them is the value
   std::span<const std::string_view> points{};  // is the name of a table, whose x and y stand for these two keys, which are lists
+  std::string_view otherwise{};    // what its absence means, where that is no number
   std::string_view meaning;        // one line
 };
 

@@ -65,7 +65,7 @@ void BatchMechanism::put(int lane, const System& variant) {
 void BatchMechanism::take_off_target(std::size_t j, const VariantLanes& t, BatchJointKinematics& r) const {
   const int s = joints[j].servo;
   for (int lane = 0; lane < kVariantLanes; ++lane) {
-    const auto target = servo_target(variant_[lane]->joints[j], t[lane]);
+    const auto target = target_of(variant_[lane]->joints[j], t[lane]);
     r.gap[s].v[lane] -= target[0];
     r.rate[s].v[lane] -= target[1];
     r.bias[s].v[lane] -= target[2];
@@ -73,7 +73,7 @@ void BatchMechanism::take_off_target(std::size_t j, const VariantLanes& t, Batch
 }
 
 void BatchMechanism::take_off_accel(std::size_t j, const VariantLanes& t, VariantVec& bias) const {
-  for (int lane = 0; lane < kVariantLanes; ++lane) bias[joints[j].servo].v[lane] -= servo_target(variant_[lane]->joints[j], t[lane])[2];
+  for (int lane = 0; lane < kVariantLanes; ++lane) bias[joints[j].servo].v[lane] -= target_of(variant_[lane]->joints[j], t[lane])[2];
 }
 
 void BatchMechanism::take_motions(const std::vector<BatchMotion>& m, int lane) {

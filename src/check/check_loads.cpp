@@ -125,7 +125,7 @@ void expression_slopes(const Expression& law, const std::vector<double>& at, con
   }
 }
 
-// A function of t that a servo follows: first and second derivative.
+// A function of t that a driven component follows: first and second derivative.
 void target_slopes(const Expression& target, double t, double duration, const CheckPlace& place, Comparisons& tally) {
   if (target.variables().empty()) return;
   const auto at = [&target](double time) { return target.second_order(std::array<double, 1>{time}, 0); };
@@ -183,10 +183,10 @@ void check_expressions(const System& system, const std::vector<CheckState>& stat
       finite.vanishes(std::isfinite(load.law.value(values)) ? 0 : 1, 1, place);
     }
     for (const JointData& joint : system.joints)
-      if (joint.servo >= 0) target_slopes(joint.target, state.t, duration, {"motor", joint.name, state.number}, slopes);
+      if (joint.driven >= 0) target_slopes(joint.target, state.t, duration, {joint.servo >= 0 ? "motor" : "joint", joint.name, state.number}, slopes);
   }
   for (const JointData& joint : system.joints)
-    if (joint.servo >= 0) finite_over_time(joint.target, duration, {"motor", joint.name, 0}, finite);
+    if (joint.driven >= 0) finite_over_time(joint.target, duration, {joint.servo >= 0 ? "motor" : "joint", joint.name, 0}, finite);
   for (const AppliedData& force : system.applied)
     for (const Expression* e : {&force.fx, &force.fy, &force.torque})
       finite_over_time(*e, duration, {"force", force.name, 0}, finite);

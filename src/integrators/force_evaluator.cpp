@@ -12,8 +12,8 @@ void BasicForceEvaluator<S>::complete(BasicState<S>& state) {
     const BasicJointData<S>& joint = system_.joints[j];
     const BasicLawPoint<S> at = law_point(system_, j, state);
     state.force[j] = joint.law.force(at);
-    if (joint.servo >= 0) state.supply_power += state.force[j][joint.servo] * system_.pose(joint.at, m_).rate[joint.servo];
-    else state.loss_power += joint.law.loss(at);
+    state.supply_power += system_.drive_power(joint, state.t, m_, state.force[j]);
+    if (joint.servo < 0) state.loss_power += joint.law.loss(at);
   }
   find_law_rates(system_, state);
   find_accelerations(system_, m_, r_, state);

@@ -32,6 +32,17 @@ std::vector<Complaint> complaints_about(const std::string& text, const std::vect
 }
 
 const std::vector<Mistake> kMistakes{
+    {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"@soft\"\nbetween", "joint.O2.stops", "none of hard, cushioned"},
+    {"type = \"revolute\"\nbetween", "type = \"revolute\"\n@upper_stop = 1\nbetween", "joint.O2.upper_stop", "belongs to stops = \"hard\" or stops = \"cushioned\""},
+    {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"@hard\"\nstop_stiffness = 1\nbetween", "joint.O2.stops", "neither lower_stop nor upper_stop"},
+    {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"hard\"\nstop_stiffness = 1\nlower_stop = \"@90 deg\"\nupper_stop = 1\nbetween", "joint.O2.lower_stop", "is not below upper_stop"},
+    {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"hard\"\nstop_stiffness = 1\nupper_stop = \"@5 mm\"\nbetween", "joint.O2.upper_stop", "an angle [rad] is expected"},
+    {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"hard\"\nstop_stiffness = \"@1 N/m\"\nupper_stop = 2\nbetween", "joint.O2.stop_stiffness", "is expected"},
+    {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"hard\"\nstop_stiffness = 1\nupper_stop = 2\nstop_restitution = @1.5\nbetween", "joint.O2.stop_restitution", "would gain energy"},
+    {"angular_stiffness = \"5e5 N*m/rad\"", "stops = \"cushioned\"\nstop_stiffness = 1\nstop_damping = 1\nstop_cushion = \"@3 deg\"\nupper_stop = 2", "joint.B.stop_cushion", "a length [m] is expected"},
+    {"radius = \"30 mm\"", "radius = \"30 mm\"\nstops = \"@hard\"\nstop_stiffness = 1\nupper_stop = 2", "joint.K.stops", "a rack joint cannot have it"},
+    {"length = \"1 m\"", "length = \"@2 m/s*t\"", "joint.R.length", "greater than 0"},
+    {"length = \"1 m\"", "length = \"@1 s + t\"", "joint.R.length", "a length [m] is expected"},
     {"[joint.B]", "[joint.O2.bearing]\ntype = \"@needle\"\n\n[joint.B]", "joint.O2.bearing.type", "none of ball, roller"},
     {"[joint.B]", "[joint.O2.bearing]\ndynamic_load_rating = @0\n\n[joint.B]", "joint.O2.bearing.dynamic_load_rating", "greater than 0"},
     {"[joint.B]", "[joint.O2.bearing]\ndynamic_load_rating = \"@-5 kN\"\n\n[joint.B]", "joint.O2.bearing.dynamic_load_rating", "greater than 0"},

@@ -68,7 +68,7 @@ class KeySearch {
   TableSpec spec_of_thing(const Table& thing) const {
     if (parts_[0] == "joint") {
       const std::string law = word_in(thing, "law");
-      return Schema::model().assemble("joint.*", word_in(thing, "type"), law.empty() ? "linear" : law, word_in(thing, "friction"));
+      return Schema::model().assemble("joint.*", word_in(thing, "type"), law.empty() ? "linear" : law, word_in(thing, "friction"), word_in(thing, "stops"));
     }
     if (parts_[0] != "motor") return Schema::model().assemble(parts_[0] + ".*");
     const auto joint = reading_.type_of_joint.find(word_in(thing, "joint"));

@@ -21,7 +21,7 @@ constexpr std::array<ComponentInfo, 1> kSlide{{{.name = "slide"}}};
 constexpr std::array<ComponentInfo, 2> kSlideAngle{{{.name = "slide"}, kTurn}};
 
 constexpr std::array<KeyInfo, 1> kLength{{
-    {.key = "length", .unit = "m", .minimum_exclusive = true, .meaning = "distance between the points; default: as assembled"},
+    {.key = "length", .unit = "m", .minimum_exclusive = true, .of_time = true, .meaning = "distance between the points; as a function of t it is driven: a winch, an actuator"},
 }};
 constexpr std::array<KeyInfo, 1> kRackRadius{{
     {.key = "radius", .unit = "m", .minimum_exclusive = true, .required = true, .meaning = "pitch radius of the pinion (the first body)"},

@@ -139,6 +139,7 @@ std::vector<LawInfo> own_laws() {
   add_contact_laws(all);
   add_bearing_laws(all);
   add_flexure_laws(all);
+  add_stop_laws(all);
   return all;
 }
 
@@ -175,6 +176,8 @@ Planar::Vec LawSetting::by_component(std::string_view linear, std::string_view a
     if (held[k]) x[k] = k == 2 ? number(angular) : number(linear, place++);
   return x;
 }
+
+std::string_view key_of(LawRole role) { return role == LawRole::kHolds ? "law" : role == LawRole::kFriction ? "friction" : "stops"; }
 
 std::span<const LawInfo> law_catalog() { return laws(); }
 

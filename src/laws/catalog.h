@@ -14,8 +14,10 @@
 
 namespace pintle {
 
-/// What a law does in a joint. Each joint has one that holds it, and may have friction beside it.
-enum class LawRole { kHolds, kFriction };
+/// What a law does in a joint. Each joint has one that holds it; friction and stops may act beside it in what it leaves free.
+enum class LawRole { kHolds, kFriction, kStops };
+/// The key of a joint that chooses its law of this role: "law", "friction", "stops".
+std::string_view key_of(LawRole role);
 
 /// The joint that a law is made for, and the values of its keys.
 struct LawSetting {

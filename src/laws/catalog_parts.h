@@ -25,5 +25,9 @@ void add_bearing_laws(std::vector<LawInfo>& all);
 void add_flexure_laws(std::vector<LawInfo>& all);
 /// Clearance and contact.
 void add_contact_laws(std::vector<LawInfo>& all);
+/// Stops of what a joint leaves free.
+void add_stop_laws(std::vector<LawInfo>& all);
+/// Words of `contact_model` and the like, in the order of ContactModel.
+inline constexpr std::array<std::string_view, 6> kContactModels{"exact", "lankarani-nikravesh", "hunt-crossley", "flores", "gonthier", "linear"};
 
 }  // namespace pintle

@@ -170,6 +170,23 @@ bool BasicLaw<S>::rubs() const {
 }
 
 template <class S>
+bool BasicLaw<S>::has_stops() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->stops(); });
+}
+
+template <class S>
+bool BasicLaw<S>::has_friction() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return !part->holds() && !part->stops(); });
+}
+
+template <class S>
+std::optional<StopBreach> BasicLaw<S>::breach(const typename S::Vec& gap) const {
+  for (const auto& part : parts_)
+    if (std::optional<StopBreach> beyond = part->stops() ? part->breach(gap) : std::nullopt) return beyond;
+  return {};
+}
+
+template <class S>
 bool BasicLaw<S>::starts_free() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->starts_free(); });
 }
@@ -240,13 +257,23 @@ std::vector<LawColumn> BasicLaw<S>::columns() const {
 
 template <class S>
 void BasicLaw<S>::observe(const BasicLawPoint<S>& at, const typename S::Vec& force, std::vector<double>& values) const {
-  LawInput<double, S::kDof> in = input_at(at);
-  for (const auto& part : parts_) {
-    const std::size_t n = part->columns().size(), first = values.size();
+  // The given force is better than what the laws make of the gap, but it is that of all parts.
+  typename S::Vec beside = S::Vec::Zero();  // those that do not hold, together
+  const auto own_force = [](const Part& part, const LawInput<double, S::kDof>& in) -> typename S::Vec {
+    LawOutput<double, S::kDof> one;
+    one.clear();
+    if (!part.holds()) part.evaluate(in, one);
+    return Eigen::Map<const typename S::Vec>(one.force);
+  };
+  const auto n_beside = std::count_if(parts_.begin(), parts_.end(), [](const auto& part) { return !part->holds(); });
+  if (n_beside > 1) visit_parts(at, [&](const Part& part, const LawInput<double, S::kDof>& in) { beside += own_force(part, in); });
+  visit_parts(at, [&](const Part& part, const LawInput<double, S::kDof>& in) {
+    const std::size_t n = part.columns().size(), first = values.size();
     values.resize(first + n);
-    if (n > 0) part->observe(in, force, values.data() + first);
-    in.state += part->n_states();
-  }
+    if (n == 0) return;
+    const typename S::Vec others = n_beside > 1 && !part.holds() ? typename S::Vec(beside - own_force(part, in)) : typename S::Vec(S::Vec::Zero());
+    part.observe(in, force - others, values.data() + first);
+  });
 }
 
 template class BasicLaw<Planar>;

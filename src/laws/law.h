@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <concepts>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -99,8 +100,13 @@ class BasicLaw {
   void rest(const Point& at, double* state) const;
   /// What keeps the joint together, with its states at rest: force, static stiffness, damping.
   BasicResponse<S> holding(const Vec& gap, const Vec& rate) const;
-  /// Whether anything acts beside what holds, such as friction in a free direction.
+  /// Whether anything acts beside what holds, such as friction or a stop in a free direction.
   bool rubs() const;
+  /// Whether a part is the stops of what the joint leaves free; whether one that is not acts there.
+  bool has_stops() const;
+  bool has_friction() const;
+  /// The stop that this gap is beyond.
+  std::optional<StopBreach> breach(const Vec& gap) const;
   /// Whether ideal joints are its limit: springs and dampers hold it, and nothing else does.
   bool ideal_limit() const;
   /// Whether a start leaves the joint where the assembly has put it: LawPart::starts_free.

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,14 @@ struct LawColumn {
   std::string name;     // "friction"
   std::string unit;     // "N*m"
   std::string meaning;  // one line
+};
+
+/// A coordinate beyond a stop.
+struct StopBreach {
+  bool upper = false;  // which stop
+  int component = 0;   // of the relative pose
+  double stop = 0;     // where it stands [m] or [rad]
+  double depth = 0;    // how far the coordinate is beyond it
 };
 
 template <class S>
@@ -52,6 +61,8 @@ class BasicLawPart {
   virtual void cross(int i, const Input<double>& in, double* state) const = 0;
   /// Whether it keeps the joint together. What does not (friction) is left out where gaps that carry loads are looked for.
   virtual bool holds() const = 0;
+  /// Whether it is the stops of what the joint leaves free.
+  virtual bool stops() const = 0;
   /// Whether a start leaves its joint where the assembly has put it, loaded or not: a rope may be slack there, a pin with clearance apart from its bush.
   virtual bool starts_free() const = 0;
   /// Stiffness in each component where the law acts; a rope that is slack is looked at as if it were taut.
@@ -62,15 +73,17 @@ class BasicLawPart {
   virtual void engage(Vec& gap) const = 0;
   /// Depth by which the bodies overlap at this gap [m], negative while apart; of laws without contact minus infinity.
   virtual double penetration(const Vec& gap) const = 0;
+  /// The stop that this gap is beyond; none: it is between them.
+  virtual std::optional<StopBreach> breach(const Vec& gap) const = 0;
   virtual std::span<const LawColumn> columns() const = 0;
-  /// One value per column, where the whole joint has this force on its second body.
+  /// One value per column, where the whole joint has this force on its second body, less what other parts add that do not hold it.
   virtual void observe(const Input<double>& in, const Vec& force, double* value) const = 0;
 };
 using LawPart = BasicLawPart<Planar>;
 
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
 /// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), border_directions() (one +1, -1 or 0
-/// each) cross() and border_name(), kHolds = false, kStartsFree = true, columns() with observe(), engage(), lever(), penetration().
+/// each) cross() and border_name(), kHolds = false, kStops = true, kStartsFree = true, columns() with observe(), engage(), lever(), penetration(), breach().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
  public:
@@ -117,6 +130,10 @@ class LawPartOf final : public BasicLawPart<S> {
     if constexpr (requires { P::kHolds; }) return P::kHolds;
     else return true;
   }
+  bool stops() const override {
+    if constexpr (requires { P::kStops; }) return P::kStops;
+    else return false;
+  }
   bool starts_free() const override {
     if constexpr (requires { P::kStartsFree; }) return P::kStartsFree;
     else return false;
@@ -135,6 +152,10 @@ class LawPartOf final : public BasicLawPart<S> {
   double penetration(const Vec& gap) const override {
     if constexpr (requires { law_.penetration(gap); }) return law_.penetration(gap);
     else return -std::numeric_limits<double>::infinity();
+  }
+  std::optional<StopBreach> breach(const Vec& gap) const override {
+    if constexpr (requires { law_.breach(gap); }) return law_.breach(gap);
+    else return {};
   }
   std::span<const LawColumn> columns() const override {
     if constexpr (requires { law_.columns(); }) return law_.columns();

@@ -22,7 +22,9 @@
 #include "laws/bearings/journal_film.h"
 #include "laws/friction/lugre.h"
 #include "laws/maxwell.h"
+#include "laws/contact/backlash.h"
 #include "laws/contact/pin_contact.h"
+#include "laws/contact/stops.h"
 #include "laws/bearings/rolling_bearing.h"
 #include "laws/friction/stribeck.h"
 #include "laws/bearings/table.h"
@@ -120,7 +122,7 @@ class AnyLaw : public testing::Test {
     return !std::equal(before.begin(), before.end(), after.begin(), [](double x, double y) { return (x > 0) == (y > 0); });
   }
 };
-using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GapContactLaw, GuideContactLaw, ClutchLaw,
+using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GapContactLaw, GuideContactLaw, HardStops, CushionedStops, BacklashLaw, ClutchLaw,
                              TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw, LeafSpringLaw, NotchHingeLaw, CrossSpringLaw>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 
@@ -350,6 +352,35 @@ TEST(TensionLaw, HasItsBorderWhereStated) {
     EXPECT_EQ(respond(rope, below, v).stiffness(0, 0), 0);
     EXPECT_EQ(respond(rope, above, v).stiffness(0, 0), law.k);
   }
+}
+
+// A spring of 100 N*m/rad behind stops at -1 and 2 rad; damping 3 (0.5)^2 - 2 (0.5)^3 = 1/2 of 8 N*m*s/rad in the middle of the cushion.
+TEST(Stops, ByHand) {
+  CushionedStops stops;
+  stops.contact.stiffness = 100;
+  stops.contact.exponent = 1;
+  stops.contact.viscous = 8;
+  stops.contact.cushion = 0.2;
+  stops.lower = -1;
+  stops.upper = 2;
+  const Law law = stops;
+  std::array<double, 2> state{};
+  const auto moment = [&](double angle, double rate, bool touched) {
+    const Vec gap(0, 0, angle), speed(0, 0, rate);
+    law.rest({0, gap, speed, state.data()}, state.data());
+    if (!touched) state = {};
+    return law.force({0, gap, speed, state.data()})[2];
+  };
+  EXPECT_NEAR(moment(2.1, 0.3, true), -(100 * 0.1 + 0.5 * 8 * 0.3), 1e-12);
+  EXPECT_DOUBLE_EQ(moment(2.5, 0.3, true), -(100 * 0.5 + 8 * 0.3));
+  EXPECT_DOUBLE_EQ(moment(2.1, -3, true), 0);  // the damper would pull
+  EXPECT_NEAR(moment(-1.1, -0.3, true), 100 * 0.1 + 0.5 * 8 * 0.3, 1e-12);
+  EXPECT_EQ(moment(0.5, 4, true), 0);
+  EXPECT_EQ(moment(2.1, 0.3, false), 0);
+  ASSERT_TRUE(law.breach({0, 0, -1.25}));
+  EXPECT_FALSE(law.breach({0, 0, -1.25})->upper);
+  EXPECT_DOUBLE_EQ(law.breach({0, 0, -1.25})->depth, 0.25);
+  EXPECT_FALSE(law.breach({5, 5, 1.9}));
 }
 
 // K = [2 1 0; 1 3 -1; 0 -1 4], preload (1, 0, 2), rest at (0.1, 0, 0): by hand.

@@ -148,7 +148,7 @@ class LiveMotion::Motion {
       JointData joint = mouse_spring("pull", pull.body, pull.point, 1);
       joint.law = i == kAlongX ? LinearLaw{{k, 0, 0}, {0, 0, 0}} : i == kAlongY ? LinearLaw{{0, k, 0}, {0, 0, 0}} : LinearLaw{{0, 0, 0}, {c, c, 0}};
       if (i < kDamper) {
-        joint.servo = i;
+        joint.servo = joint.driven = i;
         joint.keeps_speed = true;
         joint.start = at[i];
       }

@@ -52,7 +52,10 @@ Scene SceneMaker::make() {
   sketch_joints();
   for (std::size_t i = 0; i < model_.bodies.size(); ++i)
     if (scene_.bodies[i].recorded()) add_body(static_cast<int>(i));
-  for (const Joint& joint : model_.joints) add_joint(joint);
+  for (const Joint& joint : model_.joints) {
+    add_joint(joint);
+    add_stops(joint);
+  }
   add_ground_slots();
   for (const Motor& motor : model_.motors) add_motor(motor);
   add_connectors();

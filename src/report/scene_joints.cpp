@@ -262,6 +262,27 @@ void SceneMaker::add_motor(const Motor& motor) {
   put(kMarks, std::move(heads));
 }
 
+// A stroke across the slide, or one away from the pin, at each stop: in the first body's axes, in which the coordinate is measured. The stroke of an
+// angle stands where it stops the centre of the second body.
+void SceneMaker::add_stops(const Joint& joint) {
+  const auto first = find(joint.first), second = find(joint.second);
+  if (joint.stops.word.empty() || !first || !second) return;
+  const double u = scene_.unit;
+  const bool turns = joint.type == "revolute";
+  const bool centred = length(second->point) < 1e-6 * u || second->body == kWorld;
+  const double centre = centred ? 0 : std::atan2(-second->point[1], -second->point[0]) - second->axis;
+  Shape marks{Form::kLine, Paint::kStop, first->body, {}};
+  for (const char* key : {"lower_stop", "upper_stop"}) {
+    const auto stop = joint.stops.values.find(key);
+    if (stop == joint.stops.values.end()) continue;
+    const double at = stop->second.front();
+    const Vec2 along = direction(turns ? first->axis + at + centre : first->axis), across = normal(along);
+    if (turns) marks.paths.push_back({first->point + 1.2 * u * along, first->point + 3.4 * u * along});
+    else marks.paths.push_back({first->point + at * along - 1.3 * u * across, first->point + at * along + 1.3 * u * across});
+  }
+  put(kMarks, std::move(marks));
+}
+
 void SceneMaker::add_spiral(const Anchor& at) {
   std::vector<Vec2> spiral;
   constexpr int kTurns = 3, kPerTurn = 24;

@@ -89,6 +89,7 @@ class SceneMaker {
   void add_wall(const Vec2& at, const Vec2& out);
   void add_weld(const Anchor& at);
   void add_motor(const Motor& motor);
+  void add_stops(const Joint& joint);
   void add_spiral(const Anchor& at);
   void hatch(const Vec2& from, const Vec2& to, const Vec2& side);
   Track slide_range(const Anchor& guide, const Anchor& block) const;

@@ -33,7 +33,7 @@ double size_of(const BasicSystem<S>& system) {
 template <class S>
 BasicEnergyWatch<S>::BasicEnergyWatch(const BasicSystem<S>& system, double duration, double tolerance, bool exact_work)
     : system_(system), duration_(duration), tolerance_(std::max(tolerance, kLeastTolerance)), exact_work_(exact_work) {
-  for (const BasicJointData<S>& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : "negative damping of joint", &joint.name});
+  for (const BasicJointData<S>& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : joint.driven >= 0 ? "the length of joint" : "negative damping of joint", &joint.name});
   for (const BasicLoadData<S>& load : system.loads) feeders_.push_back({load.applied ? "force" : load.kind == LoadKind::kEffort ? "motor" : "negative damping of spring", &load.name});
   for (const BasicAppliedData<S>& force : system.applied) feeders_.push_back({"force", &force.name});
 }
@@ -137,8 +137,8 @@ void BasicEnergyWatch<S>::add_works(const BasicState<S>& state, double h) {
   std::size_t at = 0;
   for (int j = 0; j < system_.n_joints(); ++j, ++at) {
     const BasicJointData<S>& joint = system_.joints[j];
-    if (joint.servo >= 0) feeders_[at].work += h * state.force[j][joint.servo] * system_.pose(joint.at, m_).rate[joint.servo];
-    else if (!joint.ideal) feeders_[at].work += h * std::max(0.0, -joint.law.loss(law_point(system_, j, state)));
+    feeders_[at].work += h * system_.drive_power(joint, state.t, m_, state.force[j]);
+    if (joint.servo < 0 && !joint.ideal) feeders_[at].work += h * std::max(0.0, -joint.law.loss(law_point(system_, j, state)));
   }
   for (const BasicLoadData<S>& load : system_.loads) {
     const ExternalWork work = system_.work_of(load, state.t, m_, state.sliding);

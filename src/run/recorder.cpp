@@ -16,7 +16,7 @@ using S = Planar;
 // Couples are told where the joint holds an angle, meshes, or rubs; about the axis of a cam that is its torque.
 bool tells_couple(const JointData& joint) {
   const bool mesh = std::holds_alternative<Mesh>(joint.displacement) || std::holds_alternative<RackMesh>(joint.displacement);
-  return transmits_couple(joint) || mesh || joint.cam || (joint.law.rubs() && joint.free_mask[2] > 0);
+  return transmits_couple(joint) || mesh || joint.cam || (joint.law.has_friction() && joint.free_mask[2] > 0);
 }
 
 bool is_servo(const JointData& joint) { return joint.servo >= 0; }
@@ -81,6 +81,10 @@ std::vector<Column> Recorder::columns() const {
     else if (joint.free_mask[2] > 0) column(p + "angle_rate", "rad/s", "rate of the angle");
     if (joint.cam) column(p + "cam_angle", "rad", "where the follower is on the cam, from its marker's x axis, -pi to pi");
     if (joint.cam && !joint.cam->flat()) column(p + "pressure_angle", "rad", "from the y axis of the second marker, along which the follower moves, to the normal of the contact");
+    if (joint.driven >= 0) {
+      column(p + "length", "m", "length to which joint " + joint.name + " is driven");
+      column(p + "drive_power", "W", "power that what drives the length of joint " + joint.name + " delivers");
+    }
     for (LawColumn& law : joint.law.columns()) column(p + law.name, law.unit.c_str(), std::move(law.meaning));
   }
   for (const LoadData& load : system_.loads) {
@@ -143,6 +147,10 @@ void Recorder::put_row(const State& state) {
   for (int j = 0; j < system_.n_joints(); ++j, ++load) {
     if (is_servo(system_.joints[j]) || !recording_.joint[j]) continue;
     put_joint(j, *load);
+    if (const JointData& joint = system_.joints[j]; joint.driven >= 0) {
+      put(target_of(joint, state.t)[0]);
+      put(system_.drive_power(joint, state.t, m_, state.force[j]));
+    }
     system_.joints[j].law.observe(law_point(system_, j, state), state.force[j], values_);
   }
   for (const LoadData& spring : system_.loads)

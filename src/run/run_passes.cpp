@@ -214,7 +214,7 @@ class Passes {
   // Friction that turns round makes joints ring, within the tolerance of the steps and in all passes alike: their difference does not
   // show it. Over a joint's peak force.
   double least_error() const {
-    const bool rubs = std::any_of(system_.joints.begin(), system_.joints.end(), [](const BasicJointData<S>& joint) { return joint.law.rubs(); });
+    const bool rubs = std::any_of(system_.joints.begin(), system_.joints.end(), [](const BasicJointData<S>& joint) { return joint.law.has_friction(); });
     return rubs && !out_.of_motion ? kPromised * fine_tolerance_ : 0;
   }
 

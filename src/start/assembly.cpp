@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "pintle/simulate.h"
@@ -98,6 +99,16 @@ void demand_closed(const System& system, const Vecs& q, const std::vector<bool>&
                         "\n  Try lengths that close the loop, or angles nearer to the intended position.");
 }
 
+// A coordinate far beyond a stop is a start that was not meant. Angles count turns.
+void demand_within_stops(const JointData& joint, double at, const StopBreach& breach, double most) {
+  if (!(breach.depth > most)) return;
+  const bool turns = breach.component == 2;
+  const double unit = turns ? std::numbers::pi / 180 : 1, turn = 2 * std::numbers::pi;
+  std::string advice = turns && breach.depth > turn - std::numbers::pi ? "Angles count turns: try the angles of its bodies a whole turn apart." : "Try a start position between the stops, or move the stop.";
+  throw AssemblyError(fmt::format("joint {}: it starts with its {} at {:.6g} {}, beyond its {}_stop of {:.6g} {}.\n  {}", joint.name, turns ? "angle" : "slide", at / unit, turns ? "deg" : "m",
+                                  breach.upper ? "upper" : "lower", breach.stop / unit, turns ? "deg" : "m", advice));
+}
+
 // Bodies that a contact finds deep inside each other are on the wrong side of it: the forces would be those of no machine.
 void demand_apart(const System& system, const Vecs& q) {
   constexpr double kDeep = 1e-2;  // of the mechanism's size
@@ -108,6 +119,7 @@ void demand_apart(const System& system, const Vecs& q) {
   const double size = mechanism_size(system, q);
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& joint = system.joints[j];
+    if (const auto breach = joint.law.breach(r[j].gap)) demand_within_stops(joint, r[j].gap[breach->component], *breach, kDeep * (breach->component == 2 ? 1 : size));
     const double depth = joint.law.penetration(r[j].gap);
     if (depth > kDeep * size)
       throw AssemblyError(fmt::format("joint {}: its bodies start {:.4g} m inside each other.\n  Try the other side of the edge (the first marker's axis turned by 180 deg: it presses along +y), or a start position apart from it.",

@@ -30,11 +30,14 @@ Assembly start_of_free_bodies(const Model& model, System& system, double known_s
   return assembly;
 }
 
-// Equations that keep a gap at zero do not ask the joint's law, and so do not know of its friction either.
+// Equations that keep a gap at zero do not ask the joint's law, and so do not know of its friction and its stops either.
 template <class IsIdeal>
-void note_lost_friction(const System& system, const IsIdeal& is_ideal, std::vector<std::string>& notes) {
-  for (int j = 0; j < system.n_joints(); ++j)
-    if (is_ideal(j) && system.joints[j].law.rubs()) notes.push_back(fmt::format("joint {} is ideal: its friction is not in these equations", system.joints[j].name));
+void note_lost_laws(const System& system, const IsIdeal& is_ideal, std::vector<std::string>& notes) {
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const JointData& joint = system.joints[j];
+    if (is_ideal(j) && joint.law.has_friction()) notes.push_back(fmt::format("joint {} is ideal: its friction is not in these equations", joint.name));
+    if (is_ideal(j) && joint.law.has_stops()) notes.push_back(fmt::format("joint {} is ideal: its stops are not in these equations, so that it moves through them", joint.name));
+  }
 }
 
 }  // namespace
@@ -42,14 +45,14 @@ void note_lost_friction(const System& system, const IsIdeal& is_ideal, std::vect
 Assembly start_of_run(const Model& model, System& system, double known_span) {
   if (model.simulate.equations == Equations::kIdeal) {
     Assembly assembly = ideal_start(model, system);
-    note_lost_friction(system, [&system](int j) { return system.joints[j].ideal; }, assembly.notes);
+    note_lost_laws(system, [&system](int j) { return system.joints[j].ideal; }, assembly.notes);
     return assembly;
   }
   if (model.simulate.equations != Equations::kRelative) return start_of_free_bodies(model, system, known_span);
   const JointTree tree(system);
   Assembly assembly = tree.all_free() ? start_of_free_bodies(model, system, known_span) : start_over_tree(model, system);
   for (std::string& line : tree.notes()) assembly.notes.push_back(std::move(line));
-  note_lost_friction(system, [&tree](int j) { return tree.in_tree(j); }, assembly.notes);
+  note_lost_laws(system, [&tree](int j) { return tree.in_tree(j); }, assembly.notes);
   return assembly;
 }
 

@@ -90,20 +90,22 @@ class Builder {
     for (const ComponentInfo& free : type.free) setting.free[free.place] = true;
     Law law;
     const LawInfo* law_info = find_law(joint.law.word);
-    for (const LawChoice* choice : {&joint.law, &joint.friction}) {
-      if (choice->word.empty()) continue;
+    const auto add = [&](const LawChoice* choice, LawRole role) {
+      if (choice->word.empty()) return;
       const LawInfo* info = find_law(choice->word);
-      if (!info || (choice == &joint.friction) != (info->role == LawRole::kFriction))
-        refuse(fmt::format("joint {}: there is no {} '{}'", joint.name, choice == &joint.friction ? "friction" : "law", choice->word));
+      if (!info || info->role != role) refuse(fmt::format("joint {}: there is no {} '{}'", joint.name, key_of(role), choice->word));
       if (!suits(*info, joint.type)) refuse(fmt::format("joint {}: a {} joint has no law '{}'", joint.name, joint.type, choice->word));
       setting.values = &choice->values;
       setting.keys = info->keys;
       if (info->fault)
         if (const LawFault fault = info->fault(setting); !fault.key.empty()) refuse(fmt::format("joint {}: {}: {}", joint.name, fault.key, fault.why));
-      if (choice == &joint.friction && law_info && law_info->rubs) refuse(fmt::format("joint {}: law '{}' has friction of its own", joint.name, joint.law.word));
+      if (role == LawRole::kFriction && law_info && law_info->rubs) refuse(fmt::format("joint {}: law '{}' has friction of its own", joint.name, joint.law.word));
       info->make(setting, law);
       if (info->rest) std::get<Selection>(displacement).offset.head<2>() = info->rest(setting);
-    }
+    };
+    add(&joint.law, LawRole::kHolds);
+    add(&joint.friction, LawRole::kFriction);
+    add(&joint.stops, LawRole::kStops);
     return law;
   }
   void add_joint(const Joint& joint) {
@@ -123,6 +125,12 @@ class Builder {
     data.law = make_law(joint, *info, data.held, data.displacement);
     data.ideal = joint.ideal && model_.simulate.equations == Equations::kRelative;
     for (const ComponentInfo& free : info->free) data.free_mask[free.place] = 1;
+    if (const auto length = joint.functions.find("length"); length != joint.functions.end()) {
+      if (!std::holds_alternative<Distance>(data.displacement)) refuse(fmt::format("joint {}: a {} joint has no length that is driven", joint.name, joint.type));
+      data.displacement = Distance{0};
+      data.driven = 0;
+      data.target = length->second;
+    }
     system_.joints.push_back(std::move(data));
   }
 
@@ -143,7 +151,7 @@ class Builder {
     servo.name = motor.name;
     servo.type = "motor";
     servo.at = driven.at;
-    servo.servo = component;
+    servo.servo = servo.driven = component;
     LinearLaw law;
     law.k[component] = motor.stiffness;
     law.c[component] = motor.damping;
@@ -252,8 +260,11 @@ class Builder {
 
 const Joint* model_joint(const Model& model, std::size_t j) { return j < model.joints.size() ? &model.joints[j] : nullptr; }
 
+// A rod or rope whose length is what it is when assembled.
+bool is_measured(const Joint& joint) { return !joint.functions.contains("length") && !joint.geometry.contains("length"); }
+
 void settle_joint(const Joint& joint, const RelativePose& pose, JointDisplacement& displacement, std::vector<std::string>& notes) {
-  if (auto* distance = std::get_if<Distance>(&displacement); distance && !joint.geometry.contains("length")) {
+  if (auto* distance = std::get_if<Distance>(&displacement); distance && is_measured(joint)) {
     distance->length = std::hypot(pose.z[0], pose.z[1]);
     notes.push_back(fmt::format("joint {}: length {:.9g} m, as assembled", joint.name, distance->length));
   }
@@ -274,7 +285,7 @@ bool is_open(const Model& model, const System& system, int j) {
   const JointData& data = system.joints[j];
   if (data.servo >= 0) return data.keeps_speed;
   return std::holds_alternative<Mesh>(data.displacement) || std::holds_alternative<RackMesh>(data.displacement) ||
-         (std::holds_alternative<Distance>(data.displacement) && !model.joints[j].geometry.contains("length"));
+         (std::holds_alternative<Distance>(data.displacement) && is_measured(model.joints[j]));
 }
 
 void unwind(const Vecs& q, System& system) {
@@ -301,10 +312,11 @@ void fix_assembled_values(const Model& model, const Vecs& q, System& system, std
       data.start = pose.z[data.servo];
     }
   }
+  const auto first_spring = static_cast<std::size_t>(std::count_if(model.motors.begin(), model.motors.end(), [](const Motor& motor) { return motor.kind == MotorKind::kEffort; }));
   for (std::size_t s = 0; s < model.springs.size(); ++s) {
     const Spring& spring = model.springs[s];
     if (spring.free_length) continue;
-    LoadData& load = system.loads[system.loads.size() - model.springs.size() + s];
+    LoadData& load = system.loads[first_spring + s];
     const RelativePose pose = system.pose(load.at, m);
     const double now = spring.torsion ? pose.z[2] : std::hypot(pose.z[0], pose.z[1]);
     const bool elastic = spring.stiffness > 0;

@@ -198,6 +198,19 @@ TEST(Settle, FreeLengthIsTheAssembledOneLessThePreload) {
   EXPECT_EQ(settled(model, notes).loads[0].free, 0.9);
 }
 
+// Forces that read coordinates are loads too, behind the springs.
+TEST(Settle, FreeLengthIsTheSpringsOwnBesideAForceThatReads) {
+  std::vector<std::string> notes;
+  Model model = hanging();
+  AppliedForce force;
+  force.name = "push";
+  force.on = model.springs[0].second;
+  force.force[0] = sample::expression("rod.x", {"rod.x"});
+  model.forces.push_back(std::move(force));
+  ASSERT_EQ(build_system(model).loads.size(), 2u);
+  EXPECT_NEAR(settled(model, notes).loads[0].free, 2, 1e-15);
+}
+
 TEST(Settle, ADamperWithoutStiffnessHasNoForceAtRest) {
   std::vector<std::string> notes;
   Model model = hanging();

@@ -182,7 +182,7 @@ void BasicSystem<S>::find_switching(double t, const std::vector<typename S::Moti
     const BasicJointData<S>& joint = joints[j];
     joint.law.borders({t, gap[j], rate[j], law_state.data() + joint.first_state}, value);
     value += joint.law.n_borders();
-    if (joint.servo >= 0) find_at_t(joint.target);
+    if (joint.driven >= 0) find_at_t(joint.target);
   }
   for (const BasicLoadData<S>& load : loads) {
     if (load.kind != LoadKind::kEffort || load.law.n_switches() == 0) continue;

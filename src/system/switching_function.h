@@ -8,9 +8,9 @@ namespace pintle {
 
 /// A border of a joint's law, or a kink or jump of an expression. Its value changes its sign there.
 struct SwitchingFunction {
-  enum class Owner { kLaw, kServo, kMotor, kForce };
+  enum class Owner { kLaw, kDrive, kMotor, kForce };
   Owner owner = Owner::kLaw;
-  int index = 0;      // of the joint (laws, servos), the load (motors) or the applied force
+  int index = 0;      // of the joint (laws, drives), the load (motors) or the applied force
   int part = 0;       // of the joint's law; of an applied force: 0 fx, 1 fy, 2 torque
   int border = 0;     // of that part, or kink of the expression, counted from 0
   int direction = 0;  // +1: an event only where it turns positive; -1: only where it does not stay so; 0: both

@@ -8,7 +8,7 @@
 namespace pintle {
 
 template <class S>
-std::array<double, 3> servo_target(const BasicJointData<S>& joint, double t) {
+std::array<double, 3> target_of(const BasicJointData<S>& joint, double t) {
   auto target = joint.target.variables().empty() ? std::array<double, 3>{joint.target.value({}), 0, 0}
                                                  : joint.target.second_order(std::array{t}, 0);
   target[0] += joint.start + joint.speed * t;
@@ -54,7 +54,7 @@ void BasicSystem<S>::list_switching() {
         switching_.push_back({SwitchingFunction::Owner::kLaw, j, p, border, part->border_direction(border), part->n_states() > 0});
       ++p;
     }
-    if (joints[j].servo >= 0) list(SwitchingFunction::Owner::kServo, j, 0, joints[j].target);
+    if (joints[j].driven >= 0) list(SwitchingFunction::Owner::kDrive, j, 0, joints[j].target);
   }
   for (int l = 0; l < static_cast<int>(loads.size()); ++l)
     if (loads[l].kind == LoadKind::kEffort) list(SwitchingFunction::Owner::kMotor, l, 0, loads[l].law);
@@ -69,7 +69,7 @@ std::string BasicSystem<S>::name(const SwitchingFunction& function) const {
   if (function.owner == Owner::kLaw)
     return fmt::format("border {} of law \"{}\" in joint {}", function.border + 1, joints[at].law.parts()[static_cast<std::size_t>(function.part)]->word(), joints[at].name);
   const auto kink = [&function](const std::string& of, const Expression& e) { return fmt::format("kink or jump {} of {} ({})", function.border + 1, of, e.text()); };
-  if (function.owner == Owner::kServo) return kink("motor " + joints[at].name, joints[at].target);
+  if (function.owner == Owner::kDrive) return kink((joints[at].servo >= 0 ? "motor " : "the length of joint ") + joints[at].name, joints[at].target);
   if (function.owner == Owner::kMotor) return kink((loads[at].applied ? "force " : "motor ") + loads[at].name, loads[at].law);
   const BasicAppliedData<S>& force = applied[at];
   return kink("force " + force.name, *force.functions()[static_cast<std::size_t>(function.part)]);
@@ -85,12 +85,19 @@ template <class S>
 BasicJointKinematics<S> BasicSystem<S>::kinematics(int j, double t, const std::vector<typename S::Motion>& m) const {
   const BasicJointData<S>& joint = joints[j];
   BasicJointKinematics<S> r = read(joint.displacement, pose(joint.at, m));
-  if (joint.servo < 0) return r;
-  const auto target = servo_target(joint, t);
-  r.gap[joint.servo] -= target[0];
-  r.rate[joint.servo] -= target[1];
-  r.bias[joint.servo] -= target[2];
+  if (joint.driven < 0) return r;
+  const auto target = target_of(joint, t);
+  r.gap[joint.driven] -= target[0];
+  r.rate[joint.driven] -= target[1];
+  r.bias[joint.driven] -= target[2];
   return r;
+}
+
+// theory/joints Eqs. (4.5), (4.6).
+template <class S>
+double BasicSystem<S>::drive_power(const BasicJointData<S>& joint, double t, const std::vector<typename S::Motion>& m, const Vec& force) const {
+  if (joint.servo >= 0) return force[joint.servo] * pose(joint.at, m).rate[joint.servo];
+  return joint.driven >= 0 ? force[joint.driven] * target_of(joint, t)[1] : 0;
 }
 
 template <class S>
@@ -138,8 +145,8 @@ double BasicSystem<S>::largest_radius_of_gyration() const {
   return largest;
 }
 
-template std::array<double, 3> servo_target(const BasicJointData<Planar>& joint, double t);
-template std::array<double, 3> servo_target(const BasicJointData<Spatial>& joint, double t);
+template std::array<double, 3> target_of(const BasicJointData<Planar>& joint, double t);
+template std::array<double, 3> target_of(const BasicJointData<Spatial>& joint, double t);
 
 template class BasicSystem<Planar>;
 template class BasicSystem<Spatial>;

@@ -56,7 +56,7 @@ struct BasicPlacement {
 };
 using Placement = BasicPlacement<Planar>;
 
-/// A gap with a law: a joint of the model, or the servo of a motor (then `target` says what its coordinate follows).
+/// A gap with a law: a joint of the model, or the servo of a motor.
 template <class S>
 struct BasicJointData {
   std::string name;
@@ -68,19 +68,20 @@ struct BasicJointData {
   bool ideal = false;          // its gap is kept at zero by the equations, its law is not asked
   std::array<bool, S::kDof> redundant{};  // components of an ideal joint that other ideal joints keep already
   int servo = -1;              // component that a servo drives, -1: not a servo
+  int driven = -1;             // component whose gap is what is left of it after `target`: a servo's, or the length of a rod or rope; -1: none
   bool keeps_speed = false;    // servo of a constant speed
   double start = 0;            // constant-speed servo: coordinate as assembled
   double speed = 0;            // constant-speed servo [rad/s or m/s]
-  Expression target;           // servo that follows a function of t; the coordinate is start + speed t + target(t)
+  Expression target;           // what a driven component follows; it is start + speed t + target(t)
   typename S::Vec free_mask = S::Vec::Zero();  // 1 in components that are free coordinates
   std::array<bool, S::kDof> held{};  // components that the joint forbids
   int first_state = 0;         // of the law, among those of all joints
 };
 using JointData = BasicJointData<Planar>;
 
-/// What a servo's coordinate is to be at time t, with its rate and acceleration.
+/// What a driven component is to be at time t, with its rate and acceleration.
 template <class S>
-std::array<double, 3> servo_target(const BasicJointData<S>& joint, double t);
+std::array<double, 3> target_of(const BasicJointData<S>& joint, double t);
 
 /// What the expression of an effort reads: the time, or a component of the relative pose of two frames (or its rate), which are those of a joint,
 /// or the ground's and one on a body.
@@ -216,9 +217,11 @@ class BasicSystem {
   typename S::RelativePose pose(const BasicPlacement<S>& at, const std::vector<typename S::Motion>& m) const {
     return S::RelativePose::between(motion_of(at.a, m), at.F, motion_of(at.b, m), at.M);
   }
-  /// Gap, rate, Jacobians and convective term of joint j at time t (a servo's target taken off).
+  /// Gap, rate, Jacobians and convective term of joint j at time t (the target of a driven component taken off).
   BasicJointKinematics<S> kinematics(int j, double t, const std::vector<typename S::Motion>& m) const;
   void joint_kinematics(double t, const std::vector<typename S::Motion>& m, std::vector<BasicJointKinematics<S>>& out) const;
+  /// Power that the drive of a joint delivers at this force, 0 where there is none [W]: a servo's in its coordinate, or what changes the length of a rod or rope.
+  double drive_power(const BasicJointData<S>& joint, double t, const std::vector<typename S::Motion>& m, const Vec& force) const;
   /// Gravity, springs, applied forces and effort motors: the generalised force on every body. Motors in `sliding` stand at a jump.
   void external(double t, const std::vector<typename S::Motion>& m, VecsOf<S>& Q, SlidingModes sliding = {}) const;
   ExternalWork external_work(double t, const PositionsOf<S>& q, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;

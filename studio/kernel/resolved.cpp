@@ -37,6 +37,7 @@ Json joint(const Joint& j) {
           {"geometry", Json(j.geometry)},
           {"law", {{"word", j.law.word}, {"values", Json(j.law.values)}}},
           {"friction", {{"word", j.friction.word}, {"values", Json(j.friction.values)}}},
+          {"stops", {{"word", j.stops.word}, {"values", Json(j.stops.values)}}},
           {"ideal", j.ideal}};
 }
 

@@ -21,7 +21,9 @@ namespace {
 Json key_json(const KeyInfo& key) {
   Json out = {{"name", key.key}, {"unit", key.unit.empty() ? "-" : key.unit}, {"meaning", key.meaning}};
   if (std::isfinite(key.minimum)) out["minimum"] = key.minimum;
-  if (!key.required && key.words.empty()) out["default"] = key.fallback;
+  if (!key.angular_unit.empty()) out["angular_unit"] = key.angular_unit;
+  if (!key.required && key.words.empty() && key.otherwise.empty()) out["default"] = key.fallback;
+  if (!key.otherwise.empty()) out["otherwise"] = key.otherwise;
   if (!key.words.empty()) out["words"] = std::vector<std::string>(key.words.begin(), key.words.end());
   if (!key.required && !key.words.empty()) out["default"] = out["words"][static_cast<std::size_t>(key.fallback)];
   if (key.list) out["list"] = true;
@@ -119,7 +121,7 @@ Json schema(Exchange&) { return Json::parse(json_schema()); }
 Json catalog(Exchange&) {
   Json laws = Json::array(), types = Json::array();
   for (const LawInfo& law : law_catalog())
-    laws.push_back({{"word", law.word}, {"meaning", law.meaning}, {"friction", law.role == LawRole::kFriction}, {"keys", keys_json(law.keys)}});
+    laws.push_back({{"word", law.word}, {"meaning", law.meaning}, {"role", key_of(law.role)}, {"keys", keys_json(law.keys)}});
   for (const JointTypeInfo& type : joint_type_catalog()) {
     Json free = Json::array(), gap = Json::array(), words = Json::array();
     for (const LawInfo& law : law_catalog())

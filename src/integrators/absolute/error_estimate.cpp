@@ -106,8 +106,8 @@ typename BasicRadauStepper<S>::Power BasicRadauStepper<S>::power_of_loads(double
 
 template <class S>
 void BasicRadauStepper<S>::add_power(const BasicJointData<S>& joint, const std::vector<typename S::Motion>& m, const BasicLawPoint<S>& at, const typename S::Vec& force, Power& power) const {
-  if (joint.servo >= 0) power[0] += force[joint.servo] * system_.pose(joint.at, m).rate[joint.servo];
-  else power[1] += joint.law.loss(at);
+  power[0] += system_.drive_power(joint, at.t, m, force);
+  if (joint.servo < 0) power[1] += joint.law.loss(at);
 }
 
 // At end_.

@@ -52,7 +52,7 @@ class LaneStageSolver : public BasicStageSolver<S> {
     bool linear = false;     // springs and dampers
     bool function = false;   // its gap is a function of the pose
     bool loses = false;      // power, as a spring and a damper that no motor drives
-    signed char servo = -1;  // component that a servo drives
+    signed char driven = -1;  // component that follows a target
     BlockPattern::Slot slot{};  // of its bodies, A before B
   };
   // What a joint has whose law is more than springs and dampers.
@@ -126,7 +126,7 @@ class LaneStageSolver : public BasicStageSolver<S> {
   std::vector<Body> bodies_;                  // in that order
   std::vector<Joint> joints_;                 // in the order of their last bodies
   std::vector<General> general_;
-  std::vector<L> target_accel_;               // of servos' targets, by joint of the system; empty: there is no servo
+  std::vector<L> target_accel_;               // of targets, by joint of the system; empty: nothing is driven
   VecsOf<S> Q_;                                    // of one stage, by body of the system
   std::vector<BlockVec<L, S::kDof>> loads_on_;      // and on the ground: gravity and loads at the stages, where there are loads
   std::vector<typename S::Motion> motions_;       // of one stage, by body of the system, where anything asks for them

@@ -92,13 +92,13 @@ void LaneStageSolver<S, N>::begin_joint(const BasicState<S>& begin, const Curve&
   place_joint(begin, joint, change, sum);
 }
 
-// The accelerations that servos are to follow.
+// The accelerations that driven components are to follow.
 template <class S, int N>
 void LaneStageSolver<S, N>::find_targets(double t, double h) {
   for (std::size_t j = 0; j < target_accel_.size(); ++j) {
     const BasicJointData<S>& joint = system_.joints[j];
-    if (joint.servo < 0 || joint.target.variables().empty()) continue;
-    for (int s = 0; s < N; ++s) target_accel_[j].set(s, servo_target(joint, t + table_.c[s] * h)[2]);
+    if (joint.driven < 0 || joint.target.variables().empty()) continue;
+    for (int s = 0; s < N; ++s) target_accel_[j].set(s, target_of(joint, t + table_.c[s] * h)[2]);
   }
 }
 

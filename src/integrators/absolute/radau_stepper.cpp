@@ -14,7 +14,7 @@ BasicRadauStepper<S>::BasicRadauStepper(const BasicSystem<S>& system, double tol
   const VecsOf<S> bodies(n, S::Vec::Zero()), joints(m, S::Vec::Zero());
   const std::vector<double> states(system.n_law_states());
   for (int j = 0; j < system.n_joints(); ++j)
-    if (system.joints[j].servo >= 0 || !system.joints[j].law.as_linear()) powered_.push_back(j);
+    if (system.joints[j].driven >= 0 || !system.joints[j].law.as_linear()) powered_.push_back(j);
   const bool only_last = powered_.empty() && !system.has_loads();  // no other stage is asked for its power
   for (BasicStage<S>& s : stage_) {
     s.a = bodies;

@@ -27,7 +27,7 @@ LaneStageSolver<S, N>::LaneStageSolver(const BasicSystem<S>& system, const Radau
   for (std::size_t b = 0; b < n_bodies(); ++b) bodies_[b].index = system.pattern().row_at(static_cast<int>(b));
   const int ground = static_cast<int>(n_bodies());
   const auto body = [&](int index) { return index == kGround ? ground : system.pattern().position(index); };
-  bool servos = false;
+  bool driven = false;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const BasicJointData<S>& data = system.joints[j];
     Joint& joint = joints_[j];
@@ -39,7 +39,7 @@ LaneStageSolver<S, N>::LaneStageSolver(const BasicSystem<S>& system, const Radau
     joint.function = !std::holds_alternative<BasicSelection<S>>(data.displacement);
     joint.F = S::attachment(data.at.F);
     joint.M = S::attachment(data.at.M);
-    joint.servo = static_cast<signed char>(data.servo);
+    joint.driven = static_cast<signed char>(data.driven);
     if (const BasicLinearLaw<S>* law = data.law.as_linear()) {
       joint.linear = true;
       for (int k = 0; k < S::kDof; ++k) {
@@ -56,10 +56,10 @@ LaneStageSolver<S, N>::LaneStageSolver(const BasicSystem<S>& system, const Radau
       general.matrix.resize(N * states * N * states);
       general.move.resize(N * states);
     }
-    joint.loses = joint.linear && data.servo < 0;
+    joint.loses = joint.linear && data.driven < 0;
     simple_ = simple_ && joint.loses;
     poses_ = poses_ && joint.linear && !joint.function;
-    servos = servos || data.servo >= 0;
+    driven = driven || data.driven >= 0;
     if (data.at.a != kGround && data.at.b != kGround) joint.slot = pattern_.slot(joint.a, joint.b);
   }
   simple_ = simple_ && !loads_;
@@ -67,7 +67,7 @@ LaneStageSolver<S, N>::LaneStageSolver(const BasicSystem<S>& system, const Radau
   by_first_.resize(large_ ? joints_.size() : 0);
   std::iota(by_first_.begin(), by_first_.end(), 0);
   std::stable_sort(by_first_.begin(), by_first_.end(), [this](int i, int j) { return joints_[i].first < joints_[j].first; });
-  if (servos) target_accel_.assign(joints_.size(), L::all(0));
+  if (driven) target_accel_.assign(joints_.size(), L::all(0));
 }
 
 template <class S, int N>
@@ -238,7 +238,7 @@ void LaneStageSolver<S, N>::assemble_joint(Joint& joint, const typename S::templ
   joint.frozen.push(f, rhs_[joint.a], rhs_[joint.b]);
 }
 
-// The map of a joint and its convective acceleration; of a servo less than the target's.
+// The map of a joint and its convective acceleration; of a driven component less than the target's.
 template <class S, int N>
 typename S::template GapMap<Lanes<N>> LaneStageSolver<S, N>::find_map(const Joint& joint, L (&bias)[S::kDof]) const {
   const auto pose = S::template PoseGeometry<L>::between(bodies_[joint.a].view(), joint.F, bodies_[joint.b].view(), joint.M);
@@ -250,7 +250,7 @@ typename S::template GapMap<Lanes<N>> LaneStageSolver<S, N>::find_map(const Join
     bias[0] = find_gradient(joint, map);
     for (int k = 1; k < S::kDof; ++k) bias[k] = L::all(0);
   }
-  if (joint.servo >= 0) bias[joint.servo] -= target_accel_[joint.index];
+  if (joint.driven >= 0) bias[joint.driven] -= target_accel_[joint.index];
   return map;
 }
 

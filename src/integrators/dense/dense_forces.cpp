@@ -124,7 +124,7 @@ class LaneForces : public BasicDenseForces<S> {
     }
   }
 
-  // The map of joint j, what its bodies make of the gap's rate, and the convective acceleration; of a servo less than its target's.
+  // The map of joint j, what its bodies make of the gap's rate, and the convective acceleration; of a driven component less than its target's.
   void read(std::size_t j, L (&rate)[S::kDof], L (&bias)[S::kDof]) {
     const BasicJointData<S>& data = system_.joints[j];
     Joint& joint = joints_[j];
@@ -144,11 +144,11 @@ class LaneForces : public BasicDenseForces<S> {
       pose.rates(A.view(), B.view(), rate);
       pose.biases(bias);
     }
-    if (data.servo < 0) return;
+    if (data.driven < 0) return;
     for (int s = 0; s < kN; ++s) {
-      const auto target = servo_target(data, t_[s]);
-      rate[data.servo].set(s, rate[data.servo][s] - target[1]);
-      bias[data.servo].set(s, bias[data.servo][s] - target[2]);
+      const auto target = target_of(data, t_[s]);
+      rate[data.driven].set(s, rate[data.driven][s] - target[1]);
+      bias[data.driven].set(s, bias[data.driven][s] - target[2]);
     }
   }
 

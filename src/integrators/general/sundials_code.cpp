@@ -254,6 +254,7 @@ struct SundialsCode::Workspace {
   }
   bool advance(double to, int task) {
     const int flag = calls->advance(memory, to, y.get(), &t, task);
+    at_root = flag == CV_ROOT_RETURN;
     if (flag >= 0) return true;
     char* name = calls->flag_name(flag);
     failure = fmt::format("SUNDIALS gave up at t = {:.9g} s: {}", t, name);
@@ -284,6 +285,7 @@ struct SundialsCode::Workspace {
   const Calls* calls = nullptr;
   void* memory = nullptr;
   double t, stop = 0;
+  bool at_root = false;
   Counters before_restart;
   std::string failure;
 };
@@ -301,6 +303,7 @@ void SundialsCode::stop_at(double t) {
 }
 bool SundialsCode::step() { return w_->advance(w_->stop, CV_ONE_STEP); }
 bool SundialsCode::advance_to(double t) { return w_->advance(t, CV_NORMAL); }
+bool SundialsCode::at_root() const { return w_->at_root; }
 double SundialsCode::t() const { return w_->t; }
 const double* SundialsCode::y() const { return N_VGetArrayPointer(w_->y.get()); }
 
@@ -308,7 +311,8 @@ const double* SundialsCode::interpolate(double t) {
   return w_->calls->interpolate(w_->memory, t, 0, w_->between.get()) < 0 ? nullptr : N_VGetArrayPointer(w_->between.get());
 }
 
-void SundialsCode::restart(const std::vector<double>& y) {
+void SundialsCode::restart(double t, const std::vector<double>& y) {
+  w_->t = t;
   w_->add_counts(w_->before_restart);
   std::copy(y.begin(), y.end(), N_VGetArrayPointer(w_->y.get()));
   must(w_->calls->restart(w_->memory, w_->t, w_->y.get()), "restarting");

@@ -42,8 +42,10 @@ class SundialsCode {
   bool step();
   /// Steps until t is passed; y is then the solution at t. Call stop_at(t) before to end a step there.
   bool advance_to(double t);
-  /// Goes on from y at t(), as from a start.
-  void restart(const std::vector<double>& y);
+  /// Goes on from y at t, as from a start.
+  void restart(double t, const std::vector<double>& y);
+  /// Whether the last step ended on a root of the equations' switching functions.
+  bool at_root() const;
   double t() const;
   const double* y() const;
   /// The solution at a time inside the last step, by the code's own interpolation; null when it has none there.

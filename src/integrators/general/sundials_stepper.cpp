@@ -15,6 +15,7 @@ namespace pintle {
 namespace {
 
 constexpr int kDenseBodies = 8;          // more have their Newton matrices factorised by KLU
+constexpr double kBehind = 1e-7;         // of a step that ended on the root of a border without crossing it
 constexpr double kDoesNotSteer = 1e100;  // absolute tolerance of the energies [J]
 
 class SundialsStepper final : public Stepper {
@@ -48,10 +49,10 @@ class SundialsStepper final : public Stepper {
     }
     equations_.unflatten(code_->t(), code_->y(), end_);
     states_.complete(end_);
-    if (borders_.cross(end_)) {
+    if (borders_.cross(end_) || (code_->at_root() && cross_just_behind())) {
       std::vector<double> y(equations_.size());
       equations_.flatten(end_, y.data());
-      code_->restart(y);
+      code_->restart(end_.t, y);
       states_.complete(end_);
       borders_.record(end_);
     }
@@ -75,6 +76,18 @@ class SundialsStepper final : public Stepper {
   const std::vector<LawCrossing>& crossings() const override { return borders_.crossings(); }
 
  private:
+  // The root that a step has ended on may be just before a border, or exactly on it.
+  bool cross_just_behind() {
+    const double* y = code_->interpolate(end_.t + kBehind * (end_.t - begin_.t));
+    if (!y) return false;
+    between_ = end_;
+    equations_.unflatten(end_.t + kBehind * (end_.t - begin_.t), y, end_);
+    states_.complete(end_);
+    if (borders_.cross(end_)) return true;
+    end_ = between_;
+    return false;
+  }
+
   std::string name_;
   SundialsChoice choice_;
   double tolerance_, max_step_ = 0;

@@ -161,8 +161,8 @@ bool IdealEquations::complete(State& state) {
   state.loss_power = work.lost;
   for (int j = 0; j < system_.n_joints(); ++j) {
     const JointData& joint = system_.joints[j];
-    if (joint.servo >= 0) state.supply_power += state.force[j][joint.servo] * system_.pose(joint.at, m_).rate[joint.servo];
-    else if (!joint.ideal) state.loss_power += respond(joint.law, state.gap[j], state.gap_rate[j]).loss;
+    state.supply_power += system_.drive_power(joint, state.t, m_, state.force[j]);
+    if (joint.servo < 0 && !joint.ideal) state.loss_power += respond(joint.law, state.gap[j], state.gap_rate[j]).loss;
   }
   return state.a.empty() || std::isfinite(state.a[0].sum());
 }

@@ -18,9 +18,9 @@ std::string broken_function(const BasicSystem<S>& system, double t) {
       for (const Expression* e : force.functions())
         if (!std::isfinite(e->value(std::span(time).first(e->variables().size())))) return "force " + force.name;
     for (const BasicJointData<S>& joint : system.joints)
-      if (joint.servo >= 0)
-        for (const double x : servo_target(joint, at))
-          if (!std::isfinite(x)) return "motor " + joint.name;
+      if (joint.driven >= 0)
+        for (const double x : target_of(joint, at))
+          if (!std::isfinite(x)) return (joint.servo >= 0 ? "motor " : "the length of joint ") + joint.name;
   }
   return {};
 }

@@ -100,8 +100,8 @@ std::array<double, 2> TreeInstant::power(const TreeState& at) const {
     const JointData& joint = system_.joints[tree_.laws()[l]];
     const Eigen::Index i = 3 * static_cast<Eigen::Index>(l);
     const S::Vec gap = at.gap.segment<3>(i), rate = at.rate.segment<3>(i);
-    if (joint.servo >= 0) out[0] += at.force[i + joint.servo] * system_.pose(joint.at, pose_.m).rate[joint.servo];
-    else out[1] += joint.law.loss({t_, gap, rate, at.law_state.data() + joint.first_state});
+    out[0] += system_.drive_power(joint, t_, pose_.m, at.force.segment<3>(i));
+    if (joint.servo < 0) out[1] += joint.law.loss({t_, gap, rate, at.law_state.data() + joint.first_state});
   }
   return out;
 }

@@ -77,14 +77,14 @@ class LawChange {
     Node word = read_override_value(pieces_.front().value, source_, spot(word_at_byte).column);
     word_ = word.string() == nullptr ? "" : *word.string();
     law_ = find_law(word_);
-    const bool friction = law_ != nullptr && law_->role == LawRole::kFriction;
-    const std::string key = friction ? "friction" : "law";
+    const LawRole role = law_ != nullptr ? law_->role : LawRole::kHolds;
+    const std::string key(key_of(role));
     former_ = word_at(*joint, key);
-    if (former_.empty() && !friction) former_ = "linear";
-    if (law_ != nullptr) leave_out_former_keys(*joint, friction);
+    if (former_.empty() && role == LawRole::kHolds) former_ = "linear";
+    if (law_ != nullptr) leave_out_former_keys(*joint, role);
     put(*joint, key, spot(pieces_.front().at), std::move(word));
     for (std::size_t i = 1; i < pieces_.size(); ++i) state(*joint, pieces_[i]);
-    if (law_ != nullptr) note(*joint, friction);
+    if (law_ != nullptr) note(*joint, role);
   }
 
  private:
@@ -112,13 +112,18 @@ class LawChange {
   }
 
   // Those that only the former law has.
-  void leave_out_former_keys(Table& joint, bool friction) {
+  void leave_out_former_keys(Table& joint, LawRole role) {
     const LawInfo* former = find_law(former_);
-    const std::string beside_word = word_at(joint, friction ? "law" : "friction");
-    const LawInfo* beside = find_law(beside_word.empty() && friction ? "linear" : beside_word);
+    const auto stays = [&](std::string_view key) {
+      for (const LawRole other : {LawRole::kHolds, LawRole::kFriction, LawRole::kStops}) {
+        const std::string word = word_at(joint, key_of(other));
+        if (other != role && has_key(find_law(word.empty() && other == LawRole::kHolds ? "linear" : word), key)) return true;
+      }
+      return has_key(law_, key);
+    };
     Table kept;
     for (const Entry& entry : joint.entries()) {
-      if (has_key(former, entry.key) && !has_key(law_, entry.key) && !has_key(beside, entry.key)) left_out_.push_back(entry.key);
+      if (has_key(former, entry.key) && !stays(entry.key)) left_out_.push_back(entry.key);
       else kept.append(entry.key, entry.key_spot, entry.value);
     }
     joint = std::move(kept);
@@ -139,7 +144,7 @@ class LawChange {
     put(joint, piece.key, spot(piece.at), read_override_value(piece.value, source_, spot(piece.at + piece.key.size() + 1).column));
   }
 
-  void note(const Table& joint, bool friction) {
+  void note(const Table& joint, LawRole role) {
     const Node* defaults = document_.root.table()->find("defaults");
     const Node* of_joints = defaults == nullptr || defaults->table() == nullptr ? nullptr : defaults->table()->find("joint");
     const JointTypeInfo* type = find_joint_type(word_at(joint, "type"));
@@ -150,7 +155,7 @@ class LawChange {
       if (joint.find(key) != nullptr) kept.push_back(key);
       else if (of_joints != nullptr && of_joints->table() != nullptr && of_joints->table()->find(key) != nullptr) by_default.push_back(key);
     }
-    std::string text = fmt::format("joint {}: {} {}", name_, friction ? "friction" : "law", word_);
+    std::string text = fmt::format("joint {}: {} {}", name_, key_of(role), word_);
     if (!former_.empty() && former_ != word_) text += " instead of " + former_;
     if (!kept.empty()) text += "; with the joint's own " + listed(kept);
     if (!by_default.empty()) text += "; with " + listed(by_default) + " of defaults.joint";

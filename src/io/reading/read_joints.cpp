@@ -30,12 +30,17 @@ std::string word_ahead(const Node& joint, std::string_view key) {
   return node == nullptr || node->string() == nullptr ? std::string() : *node->string();
 }
 
-TableSpec& joint_spec(ModelReading& reading, const Node& joint, const JointTypeInfo* type, const LawInfo* law, const std::string& friction) {
+const LawInfo* law_of_role(std::string_view word, LawRole role) {
+  const LawInfo* law = find_law(word);
+  return law != nullptr && law->role == role ? law : nullptr;
+}
+
+TableSpec& joint_spec(ModelReading& reading, const Node& joint, const JointTypeInfo* type, const LawInfo* law, const std::string& friction, const std::string& stops) {
   const std::string type_word(type == nullptr ? "" : type->word);
   const std::string law_word(law == nullptr ? "" : law->word);
   // The specs are made by spec() and belong to `reading`, so they may be completed here: how many entries lists have, and which
   // keys a table stands for.
-  TableSpec& spec = const_cast<TableSpec&>(reading.spec("joint.*", type_word, law_word, friction));
+  TableSpec& spec = const_cast<TableSpec&>(reading.spec("joint.*", type_word, law_word, friction, stops));
   for (KeySpec& key : spec.keys) {
     if (key.per_component && type != nullptr) key.count = linear_components(*type);
   }
@@ -70,6 +75,7 @@ void read_faulty_joint(ModelReading& reading, const Entry& entry, const std::str
 void read_geometry(const JointTypeInfo& type, const Record& record, Joint& joint) {
   for (const KeyInfo& key : type.keys) {
     if (const auto number = record.maybe_number(key.key)) joint.geometry[std::string(key.key)] = *number;
+    else if (key.of_time && record.states(key.key)) joint.functions[std::string(key.key)] = record.expression(key.key);
   }
   if (type.word != "gear") return;
   if (const auto radii = record.maybe_pair("radii")) {
@@ -98,11 +104,10 @@ void read_cam(ModelReading& reading, const Record& record, Joint& joint) {
 
 // Whether the law suits the joint, and its values, when none is wrong by itself, each other.
 void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const LawChoice& choice, bool complete) {
-  const bool friction = law.role == LawRole::kFriction;
   if (!suits(law, type.word)) {
     std::string types;
     for (const std::string_view one : law.joints) types += (types.empty() ? "" : ", ") + std::string(one);
-    const std::string key = friction ? "friction" : "law";
+    const std::string key(key_of(law.role));
     reading.complaints.add(record.spot(key), record.path + "." + key, '"' + choice.word + '"', "a " + std::string(type.word) + " joint cannot have it",
                            "it is for joints of type " + types);
     return;
@@ -155,8 +160,10 @@ std::vector<double> numbers_of(const KeyInfo& key, const Value& value) {
   return {static_cast<double>(std::find(key.words.begin(), key.words.end(), value.words.front()) - key.words.begin())};
 }
 
-void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record,
+// `stated_joint` is the joint's table: a key in it that has no value was complained about.
+void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const Node& stated_joint,
               const Record& defaults, LawChoice& choice) {
+  const auto is_stated = [&stated_joint](std::string_view key) { return stated_joint.table() != nullptr && stated_joint.table()->find(key) != nullptr; };
   choice.word = law.word;
   bool complete = true;
   std::vector<std::string> missing;  // unless a table gives them
@@ -171,7 +178,7 @@ void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& l
     if (!key.points.empty()) {
       if (value != nullptr && !take_points(reading, key, law, record, *value, choice)) complete = false;
     } else if (value != nullptr) choice.values[std::string(key.key)] = numbers_of(key, *value);
-    else if (choice.values.count(std::string(key.key)) == 0) missing.push_back(std::string(key.key));
+    else if (choice.values.count(std::string(key.key)) == 0 && (key.otherwise.empty() || is_stated(key.key))) missing.push_back(std::string(key.key));
   }
   for (const std::string& key : missing) complete = complete && choice.values.count(key) > 0;
   check_law(reading, type, law, record, choice, complete);
@@ -195,18 +202,18 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   check_name(reading, entry, path);
   const std::string law_word = word_ahead(entry.value, "law");
   const JointTypeInfo* type = find_joint_type(word_ahead(entry.value, "type"));
-  const LawInfo* law = find_law(law_word.empty() ? "linear" : law_word);
-  if (law != nullptr && law->role != LawRole::kHolds) law = nullptr;
+  const LawInfo* law = law_of_role(law_word.empty() ? "linear" : law_word, LawRole::kHolds);
   const std::string friction_word = word_ahead(entry.value, "friction");
-  const LawInfo* friction = find_law(friction_word);
-  if (friction != nullptr && friction->role != LawRole::kFriction) friction = nullptr;
+  const LawInfo* friction = law_of_role(friction_word, LawRole::kFriction);
+  const std::string stops_word = word_ahead(entry.value, "stops");
+  const LawInfo* stops = law_of_role(stops_word, LawRole::kStops);
   reading.type_of_joint[entry.key] = type == nullptr ? "" : std::string(type->word);
   if (type == nullptr || law == nullptr) {
     read_faulty_joint(reading, entry, path);
     return;
   }
   const std::string kind = "a " + std::string(type->word) + " joint";
-  const Record record = reading.records.read(joint_spec(reading, entry.value, type, law, friction == nullptr ? "" : friction_word), entry.value, entry.key_spot, path, kind);
+  const Record record = reading.records.read(joint_spec(reading, entry.value, type, law, friction == nullptr ? "" : friction_word, stops == nullptr ? "" : stops_word), entry.value, entry.key_spot, path, kind);
   Joint joint;
   joint.name = entry.key;
   joint.type = type->word;
@@ -214,9 +221,10 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   read_geometry(*type, record, joint);
   check_gear(reading, record, joint);
   read_cam(reading, record, joint);
-  read_law(reading, *type, *law, record, defaults, joint.law);
+  read_law(reading, *type, *law, record, entry.value, defaults, joint.law);
   joint.ideal = record.number("ideal") > 0;
-  if (friction != nullptr) read_law(reading, *type, *friction, record, defaults, joint.friction);
+  if (friction != nullptr) read_law(reading, *type, *friction, record, entry.value, defaults, joint.friction);
+  if (stops != nullptr) read_law(reading, *type, *stops, record, entry.value, defaults, joint.stops);
   if (friction != nullptr && joint.ideal)
     reading.complaints.add(record.spot("friction"), path + ".friction", '"' + friction_word + '"', "an ideal joint does not give way, so that nothing says what presses its surfaces together",
                            "ideal = false, or no friction");

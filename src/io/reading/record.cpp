@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/text.h"
+#include "laws/catalog.h"
 
 namespace pintle {
 namespace {
@@ -27,6 +28,15 @@ std::string example_line(const KeySpec& key) {
     default:
       return start + number;
   }
+}
+
+// The laws that have this key, as a joint chooses them: stops = "hard" or stops = "cushioned".
+std::string laws_with(std::string_view key) {
+  std::string list;
+  for (const LawInfo& law : law_catalog())
+    if (std::any_of(law.keys.begin(), law.keys.end(), [key](const KeyInfo& info) { return info.key == key; }))
+      list += (list.empty() ? "" : " or ") + std::string(key_of(law.role)) + " = " + in_quotes(std::string(law.word));
+  return list;
 }
 
 }  // namespace
@@ -121,6 +131,10 @@ void RecordReader::complain_of_key(const TableSpec& spec, const Entry& entry, co
     for (const std::string& owner : owners) list += (list.empty() ? "" : ", ") + owner;
     complaints_.add(entry.key_spot, path, entry.key, "this key is for " + list + " only, and this is " + kind,
                     "delete it");
+    return;
+  }
+  if (const std::string laws = spec.law_keys ? laws_with(entry.key) : std::string(); !laws.empty()) {
+    complaints_.add(entry.key_spot, path, entry.key, "this key belongs to " + laws, "state one of them, or delete the key");
     return;
   }
   std::vector<std::string> candidates = spec.children;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/text/text_scanner.h"
 #include "base/units.h"
 #include "io/reading/record.h"
 #include "io/text.h"
@@ -57,6 +58,16 @@ std::string list_example(const KeySpec& spec) {
   for (const Node& item : *spec.fallback->array())
     text += (text.empty() ? "" : ", ") + (item.real() != nullptr ? short_number(*item.real()) : describe(item));
   return "[" + text + "]";
+}
+
+// Whether the variable t stands in a text.
+bool mentions_time(const Node& node) {
+  const std::string* text = node.string();
+  if (text == nullptr) return false;
+  const auto in_word = [text](std::size_t at) { return at < text->size() && (is_word_part((*text)[at]) || (*text)[at] == '.'); };
+  for (std::size_t at = text->find('t'); at != std::string::npos; at = text->find('t', at + 1))
+    if (!in_word(at + 1) && (at == 0 || !in_word(at - 1))) return true;
+  return false;
 }
 
 }  // namespace
@@ -134,8 +145,10 @@ std::optional<Value> RecordReader::read_value(const Node& node, const KeySpec& s
     case ValueType::kMarkerNames:
       good = read_words(node, spec, path, value);
       break;
-    case ValueType::kNumber:
     case ValueType::kQuantity:
+      good = !spec.variables.empty() && mentions_time(node) ? read_function_of_time(node, spec, path, value) : read_numbers(node, spec, path, value);
+      break;
+    case ValueType::kNumber:
     case ValueType::kQuantities:
       good = read_numbers(node, spec, path, value);
       break;
@@ -278,6 +291,13 @@ bool RecordReader::read_expression(const Node& node, const KeySpec& spec, const 
   }
   value.expressions.push_back(std::move(parsed.expression));
   return true;
+}
+
+// An expression of t that is in the key's range at the start.
+bool RecordReader::read_function_of_time(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
+  if (!read_expression(node, spec, path, value)) return false;
+  const double start = 0;
+  return in_range(value.expressions.back().value(std::span(&start, 1)), node, spec, path);
 }
 
 bool RecordReader::read_list(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {

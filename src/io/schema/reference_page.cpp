@@ -96,6 +96,7 @@ std::string type_text(const KeySpec& spec) {
     case ValueType::kColumn:
       return "text or integer";
     default:
+      if (!spec.variables.empty()) return "number, or expression of `t`";
       return spec.per_component ? "number, or a list with one per linear gap component" : "number";
   }
 }

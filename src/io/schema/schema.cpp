@@ -54,12 +54,16 @@ std::optional<double> number_of(const Table& table, std::string_view key) {
 
 std::vector<std::string> words_of_catalog(std::string_view catalog) {
   std::vector<std::string> words;
+  const auto list = [&words](LawRole role) {
+    for (const LawInfo& law : law_catalog())
+      if (law.role == role) words.emplace_back(law.word);
+  };
   if (catalog == "laws") {
-    for (const LawInfo& law : law_catalog())
-      if (law.role == LawRole::kHolds) words.emplace_back(law.word);
+    list(LawRole::kHolds);
   } else if (catalog == "friction laws") {
-    for (const LawInfo& law : law_catalog())
-      if (law.role == LawRole::kFriction) words.emplace_back(law.word);
+    list(LawRole::kFriction);
+  } else if (catalog == "stop laws") {
+    list(LawRole::kStops);
   } else if (catalog == "joint types") {
     for (const JointTypeInfo& type : joint_type_catalog()) words.emplace_back(type.word);
   } else {
@@ -127,27 +131,35 @@ TableSpec read_table(const Table& table) {
   return spec;
 }
 
-void add_law_keys(TableSpec& table, std::string_view law, std::string_view friction) {
+void add_law_keys(TableSpec& table, const JointTypeInfo* type, const std::array<std::string_view, 3>& words) {
+  const bool all = words.front().empty();
   for (const LawInfo& info : law_catalog()) {
-    if (!law.empty() && info.word != law && info.word != friction) continue;
+    if (!all && std::find(words.begin(), words.end(), info.word) == words.end()) continue;
     for (const KeyInfo& key : info.keys) {
       if (table.find(key.key) != nullptr) continue;
-      table.keys.push_back(spec_of(key));
-      if (law.empty()) table.keys.back().required = false;  // of one law only
+      table.keys.push_back(spec_of(key, type));
+      if (all) table.keys.back().required = false;  // of one law only
     }
   }
 }
 
 }  // namespace
 
-KeySpec spec_of(const KeyInfo& info) {
+KeySpec spec_of(const KeyInfo& info, const JointTypeInfo* type) {
   KeySpec spec;
   spec.key = info.key;
   spec.type = info.list ? ValueType::kQuantities : ValueType::kQuantity;
   spec.type_word = info.list ? "quantities" : info.unit.empty() ? "number" : "quantity";
   spec.unit = info.unit;
+  if (!info.angular_unit.empty() && type != nullptr && !type->free.empty() && type->free.front().angular) spec.unit = info.angular_unit;
   spec.dimension = dimension_of(spec.unit);
+  if (!info.angular_unit.empty() && type == nullptr) {
+    spec.unit += " or " + std::string(info.angular_unit);
+    spec.dimension = kBareNumber;
+  }
   spec.meaning = info.meaning;
+  spec.otherwise = info.otherwise;
+  if (info.of_time) spec.variables = {"t"};
   if (std::isfinite(info.minimum)) spec.minimum = info.minimum;
   spec.minimum_exclusive = info.minimum_exclusive;
   spec.required = info.required;
@@ -158,7 +170,7 @@ KeySpec spec_of(const KeyInfo& info) {
     spec.words.assign(info.words.begin(), info.words.end());
     spec.minimum.reset();
   }
-  if (!info.required) {
+  if (!info.required && info.otherwise.empty()) {
     spec.fallback = Node{};
     if (info.words.empty()) spec.fallback->value = info.fallback;
     else spec.fallback->value = spec.words.at(static_cast<std::size_t>(info.fallback));
@@ -189,7 +201,7 @@ const Schema& Schema::model() {
   return schema;
 }
 
-TableSpec Schema::assemble(std::string_view path, std::string_view when, std::string_view law, std::string_view friction) const {
+TableSpec Schema::assemble(std::string_view path, std::string_view when, std::string_view law, std::string_view friction, std::string_view stops) const {
   TableSpec out;
   bool found = false;
   for (const TableSpec& table : tables_) {
@@ -208,7 +220,7 @@ TableSpec Schema::assemble(std::string_view path, std::string_view when, std::st
       if (!key.required) out.keys.back().otherwise = "as assembled";
     }
   }
-  if (out.law_keys) add_law_keys(out, law, friction);
+  if (out.law_keys) add_law_keys(out, find_joint_type(when), {law, friction, stops});
   return out;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/key_info.h"
 #include "io/document.h"
+#include "joints/catalog.h"
 #include "pintle/expression.h"
 
 namespace pintle {
@@ -37,7 +38,7 @@ struct KeySpec {
   std::string key;
   ValueType type = ValueType::kText;
   std::string type_word;  ///< the type as the schema calls it
-  std::string unit;       ///< "" for a pure number, "any" for parameters
+  std::string unit;       ///< "" for a pure number, "any" for parameters, "m or rad" where it depends on the kind of joint
   Dimension dimension;    ///< of the unit; `any` for "any"
   std::string meaning;
   std::string otherwise;         ///< what an absent key means, in words
@@ -76,8 +77,8 @@ class Schema {
   const std::vector<TableSpec>& tables() const { return tables_; }
 
   /// Everything that may stand at `path` in a thing of kind `when`: the keys for all, those of this kind, and those of
-  /// the catalogs (of all laws when `law` is empty, else of it and of `friction`). The table must exist.
-  TableSpec assemble(std::string_view path, std::string_view when = {}, std::string_view law = {}, std::string_view friction = {}) const;
+  /// the catalogs (of all laws when `law` is empty, else of it, of `friction` and of `stops`). The table must exist.
+  TableSpec assemble(std::string_view path, std::string_view when = {}, std::string_view law = {}, std::string_view friction = {}, std::string_view stops = {}) const;
 
   /// The tables that may stand in the table at `path`, by key; "*" for names that the user chooses.
   std::vector<std::string> children(std::string_view path) const;
@@ -90,7 +91,7 @@ class Schema {
   std::vector<TableSpec> tables_;
 };
 
-/// A key of a catalog as a key of the format.
-KeySpec spec_of(const KeyInfo& info);
+/// A key of a catalog as a key of the format, in a joint of type `type`; null: in any.
+KeySpec spec_of(const KeyInfo& info, const JointTypeInfo* type = nullptr);
 
 }  // namespace pintle

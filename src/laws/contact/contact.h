@@ -3,6 +3,7 @@
 //   N = K d^n (1 + g d') + c d'          theory/contact Eq. (1.1)
 //   V = K d^(n+1) / (n+1)                Eq. (1.2)
 //   g = h / v                            Eq. (1.3)
+//   c = c_0 (3 x^2 - 2 x^3),  x = min(1, d/L)                  Eq. (1.4), where the damping grows over a cushion's length L; else c = c_0
 //
 // v is the approach speed: d' at the touch, kept for as long as they touch, and at least the floor. A state of the law, 0 while they are apart.
 // Where N < 0 the bodies would attract each other: N = 0 instead, and the elastic power left is lost, unless attraction is wanted.
@@ -34,7 +35,8 @@ struct ContactForce {
   double exponent = 1.5;       // n [-]
   double hysteresis = 0;       // h [-]
   double fixed_damping = 0;    // g, where it does not depend on the approach speed [s/m]
-  double viscous = 0;          // c [N*s/m]
+  double viscous = 0;          // c_0 [N*s/m]
+  double cushion = 0;          // L; 0: all of c_0 acts from the touch on [m]
   double least_approach = 1e-3;  // floor of v [m/s]
   bool attracts = false;
 
@@ -43,11 +45,18 @@ struct ContactForce {
   T damping(const T& approach) const {
     return T(fixed_damping) + law_math::divide(T(hysteresis), law_math::where_positive(approach - T(least_approach), approach, T(least_approach)));
   }
+  /// c at this depth.
+  template <class T>
+  T viscous_at(const T& depth) const {
+    if (!(cushion > 0)) return T(viscous);
+    const T share = (1 / cushion) * depth, x = law_math::where_positive(share - T(1.0), T(1.0), share);
+    return viscous * (x * x * (T(3.0) - 2.0 * x));                                                              // (1.4)
+  }
   /// N for d > 0.
   template <class T>
   T force(const T& depth, const T& rate, const T& approach) const {
     using namespace law_math;
-    const T elastic = stiffness * pow(depth, exponent), whole = elastic * (T(1.0) + damping(approach) * rate) + viscous * rate;
+    const T elastic = stiffness * pow(depth, exponent), whole = elastic * (T(1.0) + damping(approach) * rate) + viscous_at(depth) * rate;
     return attracts ? whole : where_positive(whole, whole, T(0.0));
   }
   template <class T>
@@ -57,6 +66,7 @@ struct ContactForce {
   /// Positive where the force is.
   double pressing(double depth, double rate, double approach) const {
     if (attracts) return 1;
+    if (cushion > 0) return depth > 0 ? 1 + viscous_at(depth) / elastic_force(depth) * rate : 1;
     if (viscous > 0) return depth + (viscous / stiffness) * rate;  // such contacts have n = 1 and no h
     return 1 + damping(approach) * rate;
   }

@@ -1,4 +1,4 @@
-// The catalog's entries of pins with clearance and of contact with an edge.
+// The catalog's entries of pins with clearance, of contact with an edge, and of teeth with play.
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -7,6 +7,7 @@
 
 #include "laws/catalog.h"
 #include "laws/catalog_parts.h"
+#include "laws/contact/backlash.h"
 #include "laws/contact/gap_contact.h"
 #include "laws/contact/guide_contact.h"
 #include "laws/contact/pin_contact.h"
@@ -14,14 +15,13 @@
 namespace pintle {
 namespace {
 
-constexpr std::array<std::string_view, 6> kModels{"exact", "lankarani-nikravesh", "hunt-crossley", "flores", "gonthier", "linear"};
 constexpr std::array<std::string_view, 2> kAttraction{"cut-off", "kept"};
 
 constexpr KeyInfo kClearance{.key = "clearance", .unit = "m", .minimum_exclusive = true, .required = true,
                              .meaning = "radius of the bush less that of the pin; in a slot or guide the play to either side"};
 constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .minimum_exclusive = true, .meaning = "of the pin, which is on the second body; of a slider, at the edges of its ends"};
 constexpr KeyInfo kRollerRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .meaning = "of the pin or roller on the second body; 0: a point. Of a cam's follower, for the stiffness only"};
-constexpr KeyInfo kModel{.key = "contact_model", .unit = "", .words = kModels,
+constexpr KeyInfo kModel{.key = "contact_model", .unit = "", .words = kContactModels,
                          .meaning = "damping of the contact; only exact returns the restitution that is asked for, linear is a spring and a damper"};
 constexpr KeyInfo kRestitution{.key = "restitution", .unit = "", .fallback = 0.8, .minimum_exclusive = true, .meaning = "speed after a free impact over the speed before, at most 1"};
 constexpr KeyInfo kStiffness{.key = "contact_stiffness", .unit = "", .meaning = "force at a depth of 1 m [N/m^contact_exponent]; 0: Hertz' of elastic_modulus, pin_radius and clearance"};
@@ -43,6 +43,12 @@ constexpr std::array<KeyInfo, 16> kClearanceKeys{{kClearance, kPinRadius, kGuide
 constexpr std::array<KeyInfo, 14> kEdgeKeys{{kRollerRadius, kModel, kRestitution, kStiffness, kExponent, kModulus, kPoisson, kFixedDamping, kViscous, kLeastApproach, kAttracts,
                                              kFriction, kRampStart, kRampEnd}};
 
+constexpr KeyInfo kBacklash{.key = "backlash", .unit = "m", .minimum_exclusive = true, .required = true, .meaning = "circumferential play between the flanks, on the pitch circles"};
+constexpr KeyInfo kToothStiffness{.key = "contact_stiffness", .unit = "", .minimum_exclusive = true, .required = true, .meaning = "of the teeth along the pitch circles: force at a depth of 1 m [N/m^contact_exponent]"};
+constexpr KeyInfo kToothExponent{.key = "contact_exponent", .unit = "", .fallback = 1, .minimum = 1, .meaning = "the force goes as the depth to this power; 1: teeth that bend"};
+constexpr std::array<KeyInfo, 9> kBacklashKeys{{kBacklash, kModel, kRestitution, kToothStiffness, kToothExponent, kFixedDamping, kViscous, kLeastApproach, kAttracts}};
+
+constexpr std::array<std::string_view, 2> kMeshes{"gear", "rack"};
 constexpr std::array<std::string_view, 3> kWithClearance{"revolute", "slot", "prismatic"};
 constexpr std::array<std::string_view, 2> kOneSided{"slot", "cam"};
 
@@ -53,7 +59,8 @@ ContactModel model_of(const LawSetting& at) { return static_cast<ContactModel>(s
 LawFault contact_fault(const LawSetting& at) {
   const double restitution = at.number("restitution"), start = at.number("friction_start_speed"), end = at.number("friction_full_speed");
   if (restitution > 1) return {"restitution", fmt::format("{:g} is above 1: every impact would gain energy", restitution), "a value between 0 and 1, such as 0.8"};
-  if (!(end > start)) return {"friction_full_speed", fmt::format("{:g} m/s is not above friction_start_speed, {:g} m/s", end, start), "a larger speed"};
+  const bool rubs = start > 0 || end > 0;  // teeth have no such keys
+  if (rubs && !(end > start)) return {"friction_full_speed", fmt::format("{:g} m/s is not above friction_start_speed, {:g} m/s", end, start), "a larger speed"};
   if (at.joint_type == "cam" && at.number("friction_coefficient") > 0) return {"friction_coefficient", "a cam and its follower touch without friction", "delete it"};
   const double poisson = at.number("poisson_ratio");
   if (poisson > 0.5) return {"poisson_ratio", fmt::format("{:g} is above 0.5, that of what keeps its volume", poisson), "0.3 for metals"};
@@ -113,6 +120,13 @@ void make_edge(const LawSetting& at, Law& law) {
   law.add(std::make_unique<LawPartOf<EdgeContactLaw>>(contact));
 }
 
+void make_backlash(const LawSetting& at, Law& law) {
+  BacklashLaw mesh;
+  mesh.set_play(at.number("backlash"));
+  mesh.contact = contact_of(at, kFlat);
+  law.add(std::make_unique<LawPartOf<BacklashLaw>>(mesh));
+}
+
 }  // namespace
 
 void add_contact_laws(std::vector<LawInfo>& all) {
@@ -120,6 +134,8 @@ void add_contact_laws(std::vector<LawInfo>& all) {
                  .rubs = true, .joints = kWithClearance, .make = make_clearance, .fault = contact_fault});
   all.push_back({.word = "contact", .meaning = "a contact that presses and does not pull: of a pin or roller (second) on the +y side of a straight edge, the first marker's axis (stops, feet, wheels), or of a follower on its cam", .keys = kEdgeKeys,
                  .rubs = true, .joints = kOneSided, .make = make_edge, .fault = contact_fault});
+  all.push_back({.word = "backlash", .meaning = "teeth with play between their flanks: free travel, impact, and contact of one flank or the other", .keys = kBacklashKeys,
+                 .rubs = true, .joints = kMeshes, .make = make_backlash, .fault = contact_fault});
 }
 
 }  // namespace pintle

@@ -30,7 +30,8 @@ struct Measures {
   double of_joint(std::size_t j, double force_error, double peak, double couple_error, double peak_couple) const {
     const double least = system.joints[j].servo >= 0 ? kNegligibleOfMotor : kNegligible;
     const double of_force = relative(force_error, peak, least * force);
-    return system.joints[j].law.lever() == 0 ? std::max(of_force, relative(couple_error, peak_couple, least * couple)) : of_force;
+    const bool of_couple = system.joints[j].law.lever() == 0 || system.joints[j].law.has_stops();
+    return of_couple ? std::max(of_force, relative(couple_error, peak_couple, least * couple)) : of_force;
   }
 };
 

@@ -27,8 +27,7 @@ template <class S>
 void BasicForceRecorder<S>::add_energies(const BasicState<S>& state) {
   const ExternalWork loads = system_.external_work(state.t, state.q, m_, state.sliding);
   double supply = loads.supplied;
-  for (int j = 0; j < system_.n_joints(); ++j)
-    if (const BasicJointData<S>& joint = system_.joints[j]; joint.servo >= 0) supply += state.force[j][joint.servo] * system_.pose(joint.at, m_).rate[joint.servo];
+  for (int j = 0; j < system_.n_joints(); ++j) supply += system_.drive_power(system_.joints[j], state.t, m_, state.force[j]);
   const double kinetic = system_.kinetic(state.v);
   energies_.push_back({kinetic, loads.potential + energy_of_joints(system_, state), state.dissipated, state.supplied});
   missed_peaks_.add_row(state, supply, kinetic);

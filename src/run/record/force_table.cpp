@@ -17,7 +17,7 @@ bool transmits_couple(const BasicJointData<S>& joint) {
   const typename S::Vec stiffness = joint.law.engaged_stiffness();
   for (int k = S::kDim; k < S::kDof; ++k)
     if (joint.held[k] && stiffness[k] > 0) return true;
-  return false;
+  return joint.law.has_stops() && joint.free_mask.template head<S::kDim>().isZero();
 }
 
 template Planar::Vec joint_load(const System& system, int j, const std::vector<Planar::Motion>& m, const Planar::Vec& force);

@@ -21,7 +21,7 @@ using ForceTable = BasicForceTable<Planar>;
 template <class S>
 typename S::Vec joint_load(const BasicSystem<S>& system, int j, const std::vector<typename S::Motion>& m, const typename S::Vec& force);
 
-/// Whether the joint's law can pass on a couple.
+/// Whether the joint's law can pass on a couple: it holds an angle, or stops it.
 template <class S>
 bool transmits_couple(const BasicJointData<S>& joint);
 

@@ -104,9 +104,13 @@ export interface CatalogKey {
   name: string;
   /** SI unit of the value: "N/m", "-" for a pure number. */
   unit: string;
+  /** The unit in joints whose free coordinate is an angle, where it is another one. */
+  angular_unit?: string;
   meaning: string;
   /** Absent: the key must be stated, or is found otherwise. */
   default?: number | string;
+  /** What it means that the key is absent, where that is no number. */
+  otherwise?: string;
   /** Smallest value that is taken. */
   minimum?: number;
   /** The key is one of these words. */
@@ -127,7 +131,7 @@ export interface Catalog {
     geometry: CatalogKey[];
     laws: string[];
   }[];
-  laws: { word: string; meaning: string; /** It rubs beside the law that holds the joint. */ friction?: boolean; keys: CatalogKey[] }[];
+  laws: { word: string; meaning: string; /** The key of a joint that chooses it. */ role: "law" | "friction" | "stops"; keys: CatalogKey[] }[];
   methods: string[];
 }
 

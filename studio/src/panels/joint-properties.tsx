@@ -118,8 +118,7 @@ function LawFields({ joint, catalog }: { joint: Joint; catalog: Catalog | null }
   if (!catalog) return <p className="quiet">The laws are loading…</p>;
   const type = catalog.joint_types.find((one) => one.word === joint.type);
   const suits = catalog.laws.filter((law) => !type || type.laws.length === 0 || type.laws.includes(law.word));
-  const allowed = suits.filter((law) => !law.friction);
-  const frictions = suits.filter((law) => law.friction);
+  const allowed = suits.filter((law) => law.role === "law");
   const law = catalog.laws.find((one) => one.word === joint.law);
   const turns = joint.type === "prismatic" || joint.type === "fixed";
   const keys = (law?.keys ?? []).filter((key) => turns || !key.name.startsWith("angular_"));
@@ -138,7 +137,8 @@ function LawFields({ joint, catalog }: { joint: Joint; catalog: Catalog | null }
       {law && <p className="quiet">{law.meaning}</p>}
       {joint.law === "linear" && <Presets joint={joint} />}
       <Keys keys={keys} path={["joint", joint.name]} />
-      {frictions.length > 0 && <FrictionFields name={joint.name} laws={frictions} />}
+      <LawsBeside joint={joint} role="friction" label="Friction" laws={suits.filter((law) => law.role === "friction")} />
+      <LawsBeside joint={joint} role="stops" label="Stops" laws={suits.filter((law) => law.role === "stops")} />
       <label className="check">
         <input type="checkbox" checked={ideal === true} onChange={(event) => setLiteral(["joint", joint.name, "ideal"], event.target.checked ? true : null, "Ideal joint")} />
         <span data-tip='With equations "relative" (Model, Simulation), this joint is rigid'>Rigid (ideal)</span>
@@ -147,25 +147,43 @@ function LawFields({ joint, catalog }: { joint: Joint; catalog: Catalog | null }
   );
 }
 
-/** Friction of what the joint leaves free, beside its law. */
-function FrictionFields({ name, laws }: { name: string; laws: Catalog["laws"] }) {
-  const word = useLiteral(["joint", name, "friction"]);
+/** Friction or stops of what the joint leaves free, beside its law. */
+function LawsBeside({ joint, role, label, laws }: { joint: Joint; role: "friction" | "stops"; label: string; laws: Catalog["laws"] }) {
+  const name = joint.name;
+  const word = useLiteral(["joint", name, role]);
+  if (laws.length === 0) return null;
+  const unitsOf = (keys: readonly CatalogKey[]) => keys.map((key) => (joint.type === "revolute" && key.angular_unit ? { ...key, unit: key.angular_unit } : key));
   const law = laws.find((one) => one.word === word);
   const change = (next: string) => {
     const draft = new Draft(studio.get().model.document);
-    for (const key of law?.keys ?? []) draft.remove(["joint", name, key.name]);
-    if (next) draft.set(["joint", name, "friction"], next);
-    else draft.remove(["joint", name, "friction"]);
-    edit(draft.apply(), `Friction of ${name}`);
+    const chosen = laws.find((one) => one.word === next);
+    for (const key of law?.keys ?? []) if (!chosen?.keys.some((one) => one.name === key.name)) draft.remove(["joint", name, key.name]);
+    if (next) draft.set(["joint", name, role], next);
+    else draft.remove(["joint", name, role]);
+    const has = (key: string) => law?.keys.some((one) => one.name === key) ?? false;
+    for (const key of unitsOf(chosen?.keys ?? [])) {
+      const start = STOP_STARTS[key.name]?.[joint.type === "revolute" ? 1 : 0] ?? starter(key);
+      const needed = (key.default === undefined && key.otherwise === undefined) || key.name === "upper_stop";
+      if (needed && !has(key.name)) draft.set(["joint", name, key.name], start);
+    }
+    edit(draft.apply(), `${label} of ${name}`);
   };
   return (
     <>
-      <Choice label="Friction" value={law?.word ?? ""} options={[{ value: "", label: "none" }, ...laws.map((one) => ({ value: one.word, label: one.word }))]} onChange={change} />
+      <Choice label={label} value={law?.word ?? ""} options={[{ value: "", label: "none" }, ...laws.map((one) => ({ value: one.word, label: one.word }))]} onChange={change} />
       {law && <p className="quiet">{law.meaning}</p>}
-      {law && <Keys keys={law.keys} path={["joint", name]} />}
+      {law && <Keys keys={unitsOf(law.keys)} path={["joint", name]} />}
     </>
   );
 }
+
+/** What new stops begin with, on a slide and on an angle. */
+const STOP_STARTS: Record<string, readonly [string, string]> = {
+  upper_stop: ["100 mm", "90 deg"],
+  stop_stiffness: ["1e6 N/m", "1e4 N*m/rad"],
+  stop_damping: ["1e3 N*s/m", "10 N*m*s/rad"],
+  stop_cushion: ["10 mm", "5 deg"],
+};
 
 const lawName = (word: string) => (word === "linear" ? "linear (stiffness and damping)" : word.replace(/_/g, " "));
 
@@ -216,7 +234,7 @@ function Keys({ keys, path }: { keys: readonly CatalogKey[]; path: readonly stri
           unit={key.unit === "-" ? "" : key.unit}
           path={[...path, key.name]}
           meaning={key.meaning}
-          fallback={own[key.name] !== undefined ? `${String(own[key.name])}` : key.default !== undefined ? String(key.default) : undefined}
+          fallback={own[key.name] !== undefined ? `${String(own[key.name])}` : key.default !== undefined ? String(key.default) : key.otherwise}
         />
       ))}
     </>

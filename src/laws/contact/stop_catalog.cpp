@@ -1,0 +1,90 @@
+// The catalog's entries of stops.
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+#include "laws/catalog.h"
+#include "laws/catalog_parts.h"
+#include "laws/contact/stops.h"
+
+namespace pintle {
+namespace {
+
+constexpr KeyInfo kLower{.key = "lower_stop", .unit = "m", .angular_unit = "rad", .fallback = -StopContact::kNowhere, .minimum = kAny, .otherwise = "no lower stop",
+                         .meaning = "smallest angle or slide of the joint: where the stop is touched"};
+constexpr KeyInfo kUpper{.key = "upper_stop", .unit = "m", .angular_unit = "rad", .fallback = StopContact::kNowhere, .minimum = kAny, .otherwise = "no upper stop",
+                         .meaning = "largest angle or slide of the joint: where the stop is touched"};
+constexpr KeyInfo kStiffness{.key = "stop_stiffness", .unit = "N/m", .angular_unit = "N*m/rad", .minimum_exclusive = true, .required = true,
+                             .meaning = "force or moment at a depth of 1 m or 1 rad behind a stop; it goes as the depth to the power of stop_exponent"};
+constexpr KeyInfo kExponent{.key = "stop_exponent", .unit = "", .fallback = 1, .minimum = 1, .meaning = "1: a spring; 1.5: Hertz' contact of a ball; 1 in the linear model"};
+constexpr KeyInfo kModel{.key = "stop_model", .unit = "", .words = kContactModels,
+                         .meaning = "damping of the stops; only exact returns the restitution that is asked for, linear is a spring and a damper"};
+constexpr KeyInfo kRestitution{.key = "stop_restitution", .unit = "", .fallback = 0.8, .minimum_exclusive = true, .meaning = "speed after a free impact over the speed before, at most 1"};
+constexpr KeyInfo kFixedDamping{.key = "stop_damping_factor", .unit = "s/m", .angular_unit = "s/rad", .meaning = "damping over elastic force and speed, instead of restitution and approach speed"};
+constexpr KeyInfo kViscous{.key = "stop_damping", .unit = "N*s/m", .angular_unit = "N*m*s/rad", .meaning = "of the linear model"};
+constexpr KeyInfo kLeastApproach{.key = "stop_least_speed", .unit = "m/s", .angular_unit = "rad/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "floor of the approach speed that the restitution refers to"};
+constexpr KeyInfo kCushion{.key = "stop_cushion", .unit = "m", .angular_unit = "rad", .minimum_exclusive = true, .required = true, .meaning = "depth behind a stop over which the damping grows from 0 to stop_damping"};
+constexpr KeyInfo kGrownDamping{.key = "stop_damping", .unit = "N*s/m", .angular_unit = "N*m*s/rad", .required = true, .meaning = "force or moment per speed, at the depth of stop_cushion and beyond"};
+
+constexpr std::array<KeyInfo, 9> kHardKeys{{kLower, kUpper, kStiffness, kExponent, kModel, kRestitution, kFixedDamping, kViscous, kLeastApproach}};
+constexpr std::array<KeyInfo, 6> kCushionedKeys{{kLower, kUpper, kStiffness, kExponent, kCushion, kGrownDamping}};
+
+constexpr std::array<std::string_view, 3> kWithStops{"revolute", "prismatic", "slot"};
+
+LawFault stop_fault(const LawSetting& at) {
+  const double lower = at.number("lower_stop"), upper = at.number("upper_stop");
+  if (!std::isfinite(lower) && !std::isfinite(upper)) return {"stops", "neither lower_stop nor upper_stop says where they are", "lower_stop, upper_stop or both"};
+  if (!(lower < upper)) return {"lower_stop", fmt::format("{:g} is not below upper_stop, {:g}: nothing is left between them", lower, upper), "the smaller of the two as lower_stop"};
+  return {};
+}
+
+LawFault hard_fault(const LawSetting& at) {
+  if (LawFault fault = stop_fault(at); !fault.key.empty()) return fault;
+  const double restitution = at.number("stop_restitution");
+  if (restitution > 1) return {"stop_restitution", fmt::format("{:g} is above 1: every impact would gain energy", restitution), "a value between 0 and 1, such as 0.8"};
+  const bool linear = static_cast<ContactModel>(static_cast<int>(at.number("stop_model"))) == ContactModel::kViscous;
+  if (!linear && at.number("stop_damping") > 0) return {"stop_damping", "it is the damper of the linear model only", "stop_model = \"linear\", or stop_restitution instead"};
+  return {};
+}
+
+template <class Stops>
+Stops stops_of(const LawSetting& at) {
+  Stops law;
+  law.free = at.free[0] ? 0 : 2;
+  law.lower = at.number("lower_stop");
+  law.upper = at.number("upper_stop");
+  law.contact.stiffness = at.number("stop_stiffness");
+  law.contact.exponent = at.number("stop_exponent");
+  law.contact.viscous = at.number("stop_damping");
+  return law;
+}
+
+void make_hard(const LawSetting& at, Law& law) {
+  auto stops = stops_of<HardStops>(at);
+  ContactForce& contact = stops.contact;
+  const auto model = static_cast<ContactModel>(static_cast<int>(at.number("stop_model")));
+  const bool linear = model == ContactModel::kViscous;
+  if (linear) contact.exponent = 1;
+  contact.fixed_damping = linear ? 0 : at.number("stop_damping_factor");
+  contact.hysteresis = linear || contact.fixed_damping > 0 ? 0 : hysteresis_of(model, at.number("stop_restitution"));
+  contact.least_approach = at.number("stop_least_speed");
+  law.add(std::make_unique<LawPartOf<HardStops>>(stops));
+}
+
+void make_cushioned(const LawSetting& at, Law& law) {
+  auto stops = stops_of<CushionedStops>(at);
+  stops.contact.cushion = at.number("stop_cushion");
+  law.add(std::make_unique<LawPartOf<CushionedStops>>(stops));
+}
+
+}  // namespace
+
+void add_stop_laws(std::vector<LawInfo>& all) {
+  all.push_back({.word = "hard", .meaning = "stops of the joint's angle or slide, by the contact models of law \"contact\": impact with a restitution, rest on the stop", .keys = kHardKeys,
+                 .role = LawRole::kStops, .joints = kWithStops, .make = make_hard, .fault = hard_fault});
+  all.push_back({.word = "cushioned", .meaning = "stops of the joint's angle or slide with an end cushion: a spring, and a damper that grows with the depth (the IMPACT function of Adams)", .keys = kCushionedKeys,
+                 .role = LawRole::kStops, .joints = kWithStops, .make = make_cushioned, .fault = stop_fault});
+}
+
+}  // namespace pintle
