@@ -15,8 +15,10 @@ struct DrawnRun {
   RunRecord run;
 };
 
-inline DrawnRun run_of(const std::string& toml) {
+inline DrawnRun run_of(const std::string& toml, double duration = 0, double tolerance = 0) {
   DrawnRun drawn{parse_model(toml, "model.toml"), {}};
+  if (duration > 0) drawn.model.simulate.duration = duration;
+  if (tolerance > 0) drawn.model.simulate.tolerance = tolerance;
   drawn.run.trajectory = simulate(drawn.model);
   drawn.run.stamp = {drawn.model.name, "model.toml", "sha256:00", "0.1.0", "pintle run model.toml", {}, toml};
   return drawn;
@@ -25,6 +27,11 @@ inline DrawnRun run_of(const std::string& toml) {
 /// A mechanism of the collection.
 inline DrawnRun run_of_mechanism(const std::string& name) {
   return run_of(read_file(PINTLE_SOURCE_DIR "/mechanisms/" + name + ".toml"));
+}
+
+/// Its first `duration` [s], at a tolerance that is enough for pictures.
+inline DrawnRun sketch_of_mechanism(const std::string& name, double duration) {
+  return run_of(read_file(PINTLE_SOURCE_DIR "/mechanisms/" + name + ".toml"), duration, 1e-2);
 }
 
 }  // namespace pintle::drawn

@@ -14,6 +14,7 @@ namespace pintle {
 namespace {
 
 using drawn::run_of_mechanism;
+using drawn::sketch_of_mechanism;
 
 std::size_t count(const Scene& scene, Paint paint) {
   return static_cast<std::size_t>(std::count_if(scene.shapes.begin(), scene.shapes.end(), [paint](const Shape& shape) { return shape.paint == paint; }));
@@ -118,10 +119,10 @@ TEST(Scene, MeshActsWherePitchCirclesTouch) {
 
 // A blade leaves and reaches its clamps along the markers; bent by little it is as long as it is unloaded.
 TEST(Scene, BladesAreCurvesBetweenTheirClamps) {
-  const auto [model, run] = run_of_mechanism("parallel_spring_stage");
+  const auto [model, run] = sketch_of_mechanism("parallel_spring_stage", 0.3);
   const Scene scene = make_scene(model, run.trajectory);
   ASSERT_EQ(scene.connectors.size(), 2u);
-  const Instant instant = instant_at(scene, run.trajectory, 0.5);
+  const Instant instant = instant_at(scene, run.trajectory, 0.3);
   for (const Connector& blade : scene.connectors) {
     EXPECT_EQ(blade.paint, Paint::kBlade);
     const std::vector<Vec2> curve = cubic_curve(instant.place(blade.from), blade.length * instant.along(blade.from), instant.place(blade.to), blade.length * instant.along(blade.to));
@@ -131,7 +132,7 @@ TEST(Scene, BladesAreCurvesBetweenTheirClamps) {
     for (std::size_t i = 1; i < curve.size(); ++i) total += length(curve[i] - curve[i - 1]);
     EXPECT_NEAR(total, 0.1, 2e-5);
   }
-  const auto pivot = run_of_mechanism("cross_spring_pendulum");
+  const auto pivot = sketch_of_mechanism("cross_spring_pendulum", 4);
   EXPECT_EQ(make_scene(pivot.model, pivot.run.trajectory).connectors.size(), 2u);
 }
 
