@@ -17,7 +17,7 @@ const Gallery = lazy(() => import("./panels/gallery").then((module) => ({ defaul
 const Palette = lazy(() => import("./panels/palette").then((module) => ({ default: module.Palette })));
 const FolderDialog = lazy(() => import("./panels/folder").then((module) => ({ default: module.FolderDialog })));
 const SaveDialog = lazy(() => import("./panels/save").then((module) => ({ default: module.SaveDialog })));
-const DraftsDialog = lazy(() => import("./panels/drafts").then((module) => ({ default: module.DraftsDialog })));
+const DraftsDialog = lazy(() => import("./panels/properties/drafts").then((module) => ({ default: module.DraftsDialog })));
 const Help = lazy(() => import("./panels/help").then((module) => ({ default: module.Help })));
 
 export function App() {

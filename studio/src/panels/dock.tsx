@@ -1,14 +1,14 @@
 // The panel below the drawing: what the run says.
 import { Suspense, lazy } from "react";
 import { type DockTab, studio, useStudio } from "../state";
-import { EnergyPanel } from "./energy";
+import { EnergyPanel } from "./results/energy";
 import { Fence } from "./fence";
-import { ForcesPanel } from "./forces";
-import { ProblemsPanel, useProblems } from "./problems";
+import { ForcesPanel } from "./results/forces";
+import { ProblemsPanel, useProblems } from "./results/problems";
 import { TabList } from "./tabs";
-import { RunLine } from "./run-line";
+import { RunLine } from "./results/run-line";
 
-const PlotsPanel = lazy(() => import("./plots").then((module) => ({ default: module.PlotsPanel })));
+const PlotsPanel = lazy(() => import("./results/plots").then((module) => ({ default: module.PlotsPanel })));
 
 export function Dock() {
   const tab = useStudio((now) => now.dock);

@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
 import type { Column, PeakForce, RunAnswer } from "../kernel/protocol";
 import { quantity } from "../model/units";
-import { estimateOf } from "./estimate";
-import { chosenSeries, seriesOf } from "./series";
+import { estimateOf } from "./results/estimate";
+import { chosenSeries, seriesOf } from "./results/series";
 
 const peak = (error_estimate: number, unique = true) => ({ peak: 100, error_estimate, relative_error_estimate: error_estimate / 100, unique }) as PeakForce;
 // What JSON makes of a NaN.

@@ -2,8 +2,8 @@
 import { Suspense, lazy } from "react";
 import { type SideTab, studio, useStudio } from "../state";
 import { Fence } from "./fence";
-import { ModelPanel } from "./model-panel";
-import { Properties } from "./properties";
+import { ModelPanel } from "./properties/model-panel";
+import { Properties } from "./properties/properties";
 import { TabList } from "./tabs";
 
 const TextEditor = lazy(() => import("../text/editor").then((module) => ({ default: module.TextEditor })));

@@ -1,6 +1,6 @@
 // Completion from the schema: tables after "[", keys at the beginning of a line, words and names of the model in quotes.
 import type { Completion, CompletionContext, CompletionResult } from "@codemirror/autocomplete";
-import { fieldsOf } from "../panels/form";
+import { fieldsOf } from "../panels/properties/form";
 import { schema } from "../play/kernel-session";
 import { studio } from "../state";
 import { UNITS } from "../model/units";

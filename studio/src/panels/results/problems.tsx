@@ -1,12 +1,12 @@
 // What is wrong, where, and what to do about it: from the text, the assembly, the check and the run.
-import { edit, editText, select } from "../actions";
-import type { Warning } from "../kernel/protocol";
-import { Draft } from "../model/edit";
-import { removeThings } from "../model/removal";
-import { player } from "../play/player";
-import { type StudioState, studio, useStudio } from "../state";
-import { quantity } from "../model/units";
-import { Icon } from "./icons";
+import { edit, editText, select } from "../../actions";
+import type { Warning } from "../../kernel/protocol";
+import { Draft } from "../../model/edit";
+import { removeThings } from "../../model/removal";
+import { player } from "../../play/player";
+import { type StudioState, studio, useStudio } from "../../state";
+import { quantity } from "../../model/units";
+import { Icon } from "../icons";
 import { useMemo } from "react";
 
 export interface Problem {
@@ -102,7 +102,7 @@ function replaceAt(line: number, column: number, word: string): void {
 
 function showLine(line: number, column: number): void {
   studio.set({ side: "text" });
-  void import("../text/editor").then((module) => module.showPlace(line, column));
+  void import("../../text/editor").then((module) => module.showPlace(line, column));
 }
 
 const ICONS = { error: "warning", warning: "warning", note: "help" } as const;

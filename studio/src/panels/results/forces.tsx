@@ -1,9 +1,9 @@
 // Peak forces of joints and springs, with what is known of their error; and what the motors did.
-import { select } from "../actions";
-import type { PeakForce } from "../kernel/protocol";
-import { quantity, shortNumber } from "../model/units";
-import { player } from "../play/player";
-import { useStudio } from "../state";
+import { select } from "../../actions";
+import type { PeakForce } from "../../kernel/protocol";
+import { quantity, shortNumber } from "../../model/units";
+import { player } from "../../play/player";
+import { useStudio } from "../../state";
 import { type Estimate, estimateOf } from "./estimate";
 
 export function ForcesPanel() {

@@ -1,12 +1,12 @@
 // The model as a whole: parameters, gravity, how it is run.
 import { useState } from "react";
-import { edit } from "../actions";
-import { Draft } from "../model/edit";
-import { quantity, shortNumber } from "../model/units";
-import { studio, useStudio } from "../state";
+import { edit } from "../../actions";
+import { Draft } from "../../model/edit";
+import { quantity, shortNumber } from "../../model/units";
+import { studio, useStudio } from "../../state";
 import { Pair, Quantity, TextQuantity, setLiteral, useLiteral } from "./fields";
 import { type Field, fieldsOf, labelOf, useSchema } from "./form";
-import { Icon } from "./icons";
+import { Icon } from "../icons";
 import { SchemaField } from "./joint-properties";
 
 export function ModelPanel() {

@@ -1,5 +1,5 @@
 // What can be plotted: the run's columns, and the size of each joint's force, which is what one asks for first.
-import type { RunAnswer } from "../kernel/protocol";
+import type { RunAnswer } from "../../kernel/protocol";
 
 export interface Series {
   id: string;

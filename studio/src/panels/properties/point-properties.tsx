@@ -1,11 +1,11 @@
 // A point of a link or of the ground: where it is, and the direction of its axis.
-import { place } from "../actions";
-import { evaluate } from "../model/expression";
-import type { Literal } from "../model/edit";
-import { GROUND, worldPoint } from "../model/model";
-import { movePoint } from "../model/reshape";
-import { writeLength } from "../model/units";
-import { studio, useStudio } from "../state";
+import { place } from "../../actions";
+import { evaluate } from "../../model/expression";
+import type { Literal } from "../../model/edit";
+import { GROUND, worldPoint } from "../../model/model";
+import { movePoint } from "../../model/reshape";
+import { writeLength } from "../../model/units";
+import { studio, useStudio } from "../../state";
 import { Quantity } from "./fields";
 
 export function PointProperties({ name }: { name: string }) {

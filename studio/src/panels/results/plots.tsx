@@ -2,11 +2,11 @@
 import { useEffect, useMemo, useRef, useState } from "react";
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
-import { prettyUnit, shortNumber } from "../model/units";
-import { player } from "../play/player";
-import { studio, useStudio } from "../state";
+import { prettyUnit, shortNumber } from "../../model/units";
+import { player } from "../../play/player";
+import { studio, useStudio } from "../../state";
 import { Nothing } from "./forces";
-import { Icon } from "./icons";
+import { Icon } from "../icons";
 import { type Series, chosenSeries, resample, seriesOf } from "./series";
 
 export function PlotsPanel() {

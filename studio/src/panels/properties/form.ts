@@ -1,7 +1,7 @@
 // The fields of a form, from the schema of the model format and the kernel's catalog: names, units, meanings, defaults.
 import { useEffect, useState } from "react";
-import type { Catalog } from "../kernel/protocol";
-import { catalog, schema } from "../play/kernel-session";
+import type { Catalog } from "../../kernel/protocol";
+import { catalog, schema } from "../../play/kernel-session";
 
 export interface Field {
   name: string;

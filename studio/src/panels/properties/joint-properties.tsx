@@ -1,16 +1,16 @@
 // Joints, springs, loads and motors: forms made from the catalog and the schema.
-import { drawn, edit, select } from "../actions";
-import type { Catalog, CatalogKey, PeakForce } from "../kernel/protocol";
-import { Draft } from "../model/edit";
-import type { Joint } from "../model/model";
-import { addMotor, addTorsionSpring } from "../model/operations";
-import { quantity } from "../model/units";
-import { player } from "../play/player";
-import { studio, useStudio } from "../state";
-import { estimateOf } from "./estimate";
+import { drawn, edit, select } from "../../actions";
+import type { Catalog, CatalogKey, PeakForce } from "../../kernel/protocol";
+import { Draft } from "../../model/edit";
+import type { Joint } from "../../model/model";
+import { addMotor, addTorsionSpring } from "../../model/operations";
+import { quantity } from "../../model/units";
+import { player } from "../../play/player";
+import { studio, useStudio } from "../../state";
+import { estimateOf } from "../results/estimate";
 import { Choice, Pair, TextQuantity, setLiteral, useLiteral } from "./fields";
 import { type Field, fieldsOf, labelOf, useCatalog, useSchema } from "./form";
-import { Icon } from "./icons";
+import { Icon } from "../icons";
 
 const TYPE_WORDS: Record<string, string> = {
   revolute: "pin", prismatic: "slider", fixed: "weld", slot: "pin in a slot", rod: "massless rod", rope: "rope", gear: "gear mesh", rack: "rack and pinion", cam: "cam and follower",

@@ -1,7 +1,7 @@
 // The energy account: what was there, what came in, what went, and what does not add up.
-import type { RunAnswer } from "../kernel/protocol";
-import { quantity, shortNumber } from "../model/units";
-import { useStudio } from "../state";
+import type { RunAnswer } from "../../kernel/protocol";
+import { quantity, shortNumber } from "../../model/units";
+import { useStudio } from "../../state";
 import { Nothing } from "./forces";
 
 export function EnergyPanel() {

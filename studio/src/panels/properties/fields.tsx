@@ -1,11 +1,11 @@
 // Fields with units. A number keeps the unit that its author chose; an expression stays an expression and shows its value.
 import { useEffect, useId, useState } from "react";
-import { edit } from "../actions";
-import { Draft, type Literal } from "../model/edit";
-import { evaluate } from "../model/expression";
-import { type Plain, nodeAt, plain } from "../model/toml";
-import { CHOICES, prettyUnit, shortNumber, unitFactor } from "../model/units";
-import { studio, useStudio } from "../state";
+import { edit } from "../../actions";
+import { Draft, type Literal } from "../../model/edit";
+import { evaluate } from "../../model/expression";
+import { type Plain, nodeAt, plain } from "../../model/toml";
+import { CHOICES, prettyUnit, shortNumber, unitFactor } from "../../model/units";
+import { studio, useStudio } from "../../state";
 
 /** The literal at a path: what stands in the text, or undefined. A key, so that React sees when it changes. */
 export function useLiteral(path: readonly string[]): Plain | undefined {

@@ -1,9 +1,9 @@
 // One line on the state of the run: computing, done in so much, stopped.
-import { cancelRun } from "../play/kernel-session";
-import { quantity } from "../model/units";
-import { runCommand } from "../commands";
-import { useStudio } from "../state";
-import { Icon } from "./icons";
+import { cancelRun } from "../../play/kernel-session";
+import { quantity } from "../../model/units";
+import { runCommand } from "../../commands";
+import { useStudio } from "../../state";
+import { Icon } from "../icons";
 
 export function RunLine() {
   const run = useStudio((now) => now.run);

@@ -1,16 +1,16 @@
 // A link: its size, its shape and material, and what follows from them unless it is stated.
-import { edit, place, select } from "../actions";
-import { Draft, type Literal } from "../model/edit";
-import { evaluate } from "../model/expression";
-import { type Body, markerOf, poseOf } from "../model/model";
-import { toggleTrace } from "../model/operations";
-import { applyShape, barLength, setBarAngle, setBarLength } from "../model/reshape";
-import { MATERIALS, type Shape, likelyBar, writeShape } from "../model/shape";
-import { direction, toWorld } from "../model/geometry";
-import { writeAngle, writeLength } from "../model/units";
-import { studio, useStudio } from "../state";
+import { edit, place, select } from "../../actions";
+import { Draft, type Literal } from "../../model/edit";
+import { evaluate } from "../../model/expression";
+import { type Body, markerOf, poseOf } from "../../model/model";
+import { toggleTrace } from "../../model/operations";
+import { applyShape, barLength, setBarAngle, setBarLength } from "../../model/reshape";
+import { MATERIALS, type Shape, likelyBar, writeShape } from "../../model/shape";
+import { direction, toWorld } from "../../model/geometry";
+import { writeAngle, writeLength } from "../../model/units";
+import { studio, useStudio } from "../../state";
 import { Choice, Pair, Quantity, TextQuantity } from "./fields";
-import { Icon } from "./icons";
+import { Icon } from "../icons";
 
 const value = (literal: Literal | null, unit: number): number | null => {
   if (literal === null) return null;

@@ -1,10 +1,10 @@
 // Unsaved work of other tabs, kept in this browser.
 import { useState } from "react";
-import { forgetDraft, openDraft, otherDrafts } from "../files/autosave";
-import { draftName } from "../files/drafts";
-import { studio } from "../state";
-import { Dialog } from "./dialog";
-import { Icon } from "./icons";
+import { forgetDraft, openDraft, otherDrafts } from "../../files/autosave";
+import { draftName } from "../../files/drafts";
+import { studio } from "../../state";
+import { Dialog } from "../dialog";
+import { Icon } from "../icons";
 
 export function DraftsDialog() {
   const [drafts, setDrafts] = useState(otherDrafts);

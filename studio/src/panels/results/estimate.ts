@@ -1,5 +1,5 @@
-import type { PeakForce, RunAnswer } from "../kernel/protocol";
-import { quantity, shortNumber } from "../model/units";
+import type { PeakForce, RunAnswer } from "../../kernel/protocol";
+import { quantity, shortNumber } from "../../model/units";
 
 // As in the report (src/report/page_tables.cpp): a run that stopped early has no second pass to compare with, and its 0 says nothing.
 // A number that is none arrives as null.

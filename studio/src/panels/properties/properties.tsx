@@ -1,13 +1,13 @@
 // What is selected, and all that can be said about it.
-import { edit, meshSelection, removeSelection, select } from "../actions";
-import { type Model, gearRadius } from "../model/model";
-import { NAME, type Kind, namesOf } from "../model/names";
-import type { Thing } from "../model/operations";
-import { renameThing } from "../model/removal";
-import { studio, useStudio } from "../state";
+import { edit, meshSelection, removeSelection, select } from "../../actions";
+import { type Model, gearRadius } from "../../model/model";
+import { NAME, type Kind, namesOf } from "../../model/names";
+import type { Thing } from "../../model/operations";
+import { renameThing } from "../../model/removal";
+import { studio, useStudio } from "../../state";
 import { BodyProperties } from "./body-properties";
 import { NameField } from "./fields";
-import { Icon } from "./icons";
+import { Icon } from "../icons";
 import { JointProperties, LoadProperties, MotorProperties, SpringProperties } from "./joint-properties";
 import { PointProperties } from "./point-properties";
 
