@@ -11,6 +11,7 @@ namespace pintle {
 namespace {
 
 constexpr int kSpringSteps = 20, kNewton = 40, kHalvings = 12, kDoublings = 80;
+constexpr double kCarried = 1e-6;  // of a force: what may be missing where no step leads nearer to it
 
 // Component by component.
 template <class S>
@@ -143,7 +144,7 @@ class GapPath {
 // method, which no border of the law may lie between. False, and the gap as it was, where that does not lead to it. theory/assembly Eq. (3.6).
 template <class S>
 bool follow_load(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
-  constexpr double kFinest = 1e-6;
+  constexpr double kFinest = 1e-3;
   if (law.n_states() > 0 || law.starts_free()) return false;
   const BasicResponse<S> start = respond(law, gap, rate);
   const typename S::Vec engaged = law.engaged_stiffness();
@@ -170,22 +171,22 @@ bool follow_load(const BasicLaw<S>& law, const typename S::Vec& force, const typ
 
 // Newton on the law's own tangent; nothing in free components.
 template <class S>
-void gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
+bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
   if (law.ideal_limit()) {
     gap_of_springs(law, force, rate, gap);
-    return;
+    return true;
   }
-  if (follow_load(law, force, rate, gap)) return;
+  if (follow_load(law, force, rate, gap)) return true;
   begin_where_it_resists(law, force, rate, gap);
   const typename S::Vec engaged = law.engaged_stiffness();
   for (int i = 0; i < kNewton; ++i) {
     const BasicResponse<S> now = respond(law, gap, rate);
     typename S::Vec missing = now.force - force;
     typename S::Vec step = newton_step<S>(now, engaged, missing);
-    if (!step.allFinite()) return;
+    if (!step.allFinite()) return false;
     bool moved = false;
     for (int k = 0; k < S::kDof; ++k) moved = moved || std::abs(step[k]) > 1e-15 * std::abs(gap[k]);
-    if (!moved) return;
+    if (!moved) return true;
     const auto misses = [&](const typename S::Vec& there) {
       const typename S::Vec miss = respond(law, there, rate).force - force;
       double sum = 0;
@@ -193,12 +194,15 @@ void gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const ty
         if (missing[k] != 0) sum += miss[k] * miss[k];
       return sum;
     };
-    for (int h = 0; h < kHalvings && !(misses(gap + step) <= missing.squaredNorm()); ++h) step *= 0.5;
+    int halvings = 0;
+    for (; halvings < kHalvings && !(misses(gap + step) <= missing.squaredNorm()); ++halvings) step *= 0.5;
+    if (halvings == kHalvings) return law.starts_free() || missing.norm() <= kCarried * force.norm();  // no step leads nearer
     gap += step;
   }
+  return true;
 }
 
-template void gap_at_force(const BasicLaw<Planar>& law, const Planar::Vec& force, const Planar::Vec& rate, Planar::Vec& gap);
-template void gap_at_force(const BasicLaw<Spatial>& law, const Spatial::Vec& force, const Spatial::Vec& rate, Spatial::Vec& gap);
+template bool gap_at_force(const BasicLaw<Planar>& law, const Planar::Vec& force, const Planar::Vec& rate, Planar::Vec& gap);
+template bool gap_at_force(const BasicLaw<Spatial>& law, const Spatial::Vec& force, const Spatial::Vec& rate, Spatial::Vec& gap);
 
 }  // namespace pintle

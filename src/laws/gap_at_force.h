@@ -5,8 +5,9 @@
 
 namespace pintle {
 
-/// The gap at which a law gives `force` at `rate`, from the given one; components without stiffness stay.
+/// The gap at which a law gives `force` at `rate`, from the given one; components without stiffness stay. False where the law has been found not to carry
+/// the force: then the gap is none that does.
 template <class S>
-void gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap);
+bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap);
 
 }  // namespace pintle

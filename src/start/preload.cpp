@@ -259,13 +259,15 @@ BasicEffectiveMasses<S> BasicInverseDynamics<S>::effective_masses(const BasicSta
 
 // What a joint leaves free moves as the bodies do.
 template <class S>
-void BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
+bool BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
+  bool carried = true;
   for (int j = 0; j < system_.n_joints(); ++j) {
     typename S::Vec rate = state.gap_rate[j];
     for (int k = 0; k < S::kDof; ++k)
       if (system_.joints[j].free_mask[k] != 0 && !r_.empty()) rate[k] = r_[j].rate[k];
-    gap_at_force(system_.joints[j].law, state.force[j], rate, state.gap[j]);
+    carried = gap_at_force(system_.joints[j].law, state.force[j], rate, state.gap[j]) && carried;
   }
+  return carried;
 }
 
 // Eq. (3.4).

@@ -35,8 +35,8 @@ class BasicInverseDynamics {
   bool find(BasicState<S>& state);
   /// The accelerations alone.
   bool find_accelerations(BasicState<S>& state);
-  /// The gaps at which the laws give state.force at state.gap_rate.
-  void find_gaps(BasicState<S>& state) const;
+  /// The gaps at which the laws give state.force at state.gap_rate. False when one has been found not to carry its force.
+  bool find_gaps(BasicState<S>& state) const;
   /// Moves q and v so that the joints have the gaps and rates of the state. Call after `find` near that state.
   void move_onto_gaps(BasicState<S>& state);
   /// After `move_onto_gaps`: where the gaps of laws that are not linear do not fit together, as in overconstrained mechanisms, the forces become those of

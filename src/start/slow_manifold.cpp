@@ -67,8 +67,7 @@ class BasicSlowManifold {
       if (node > 0) follow(at, nodes_.x[node - 1], nodes_.x[node]);
       set_accel(at, nodes_.x[node]);
       at.gap_rate = rate_[node];
-      if (!forces_.find(at)) return kDiverged;
-      forces_.find_gaps(at);
+      if (!forces_.find(at) || !forces_.find_gaps(at)) return kDiverged;
       next_[node] = at.gap;
       force_[node] = at.force;
     }

@@ -87,13 +87,15 @@ bool TreeInverseDynamics::push_by_friction(TreeState& state) {
   return any;
 }
 
-void TreeInverseDynamics::find_gaps(TreeState& state) const {
+bool TreeInverseDynamics::find_gaps(TreeState& state) const {
+  bool carried = true;
   for (std::size_t l = 0; l < at_.tree().laws().size(); ++l) {
     const Index i = 3 * static_cast<Index>(l);
     S::Vec gap = state.gap.segment<3>(i);
-    gap_at_force(law_of(at_, l), state.force.segment<3>(i), state.rate.segment<3>(i), gap);
+    carried = gap_at_force(law_of(at_, l), state.force.segment<3>(i), state.rate.segment<3>(i), gap) && carried;
     state.gap.segment<3>(i) = gap;
   }
+  return carried;
 }
 
 void TreeInverseDynamics::move_onto_gaps(TreeState& state) {
@@ -176,8 +178,7 @@ class TreeSlowManifold {
       if (node > 0) follow(at, nodes_.x[node - 1], nodes_.x[node]);
       at.accel = accel_.col(node);
       at.rate = rate_.col(node);
-      if (!forces_.find(at)) return kDiverged;
-      forces_.find_gaps(at);
+      if (!forces_.find(at) || !forces_.find_gaps(at)) return kDiverged;
       if (!at.gap.allFinite()) return kDiverged;
       next.col(node) = at.gap;
     }

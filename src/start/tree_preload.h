@@ -13,8 +13,8 @@ class TreeInverseDynamics {
 
   /// w and forces at y, u for which the gaps accelerate as state.accel says. False when no joint is stiff. Eq. (6.3).
   bool find(TreeState& state);
-  /// The gaps at which the laws give state.force at state.rate.
-  void find_gaps(TreeState& state) const;
+  /// The gaps at which the laws give state.force at state.rate. False when one has been found not to carry its force.
+  bool find_gaps(TreeState& state) const;
   /// Moves y and u so that the bodies have the gaps and rates of the state.
   void move_onto_gaps(TreeState& state);
   /// What the laws really give at the state's gaps, and the accelerations that go with it. Gaps that no stiffness holds, and
