@@ -144,7 +144,7 @@ class GapPath {
 // method, which no border of the law may lie between. False, and the gap as it was, where that does not lead to it. theory/assembly Eq. (3.6).
 template <class S>
 bool follow_load(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
-  constexpr double kFinest = 1e-3;
+  constexpr double kFirst = 1e-6, kLater = 1e-2;  // shortest step: part of the load, as thin blades that are bent far begin, and of what has been reached
   if (law.n_states() > 0 || law.starts_free()) return false;
   const BasicResponse<S> start = respond(law, gap, rate);
   const typename S::Vec engaged = law.engaged_stiffness();
@@ -159,7 +159,7 @@ bool follow_load(const BasicLaw<S>& law, const typename S::Vec& force, const typ
       path.add(next, trial);
       done = next;
       part *= 2;
-    } else if ((part *= 0.5) < kFinest) {
+    } else if ((part *= 0.5) < std::max(kFirst, kLater * done)) {
       return false;
     }
   }
