@@ -42,38 +42,46 @@ void limit_slopes(const Pieces& p, std::vector<double>& slope) {
   }
 }
 
-// Solves a tridiagonal system of equations in place, by Gauss. The diagonal dominates.
-void solve_tridiagonal(const std::vector<double>& below, std::vector<double> diagonal, const std::vector<double>& above, std::vector<double>& right) {
-  const std::size_t n = diagonal.size();
-  for (std::size_t i = 1; i < n; ++i) {
-    const double factor = below[i] / diagonal[i - 1];
-    diagonal[i] -= factor * above[i - 1];
-    right[i] -= factor * right[i - 1];
+// The tridiagonal equations of a spline's slopes. Their diagonal dominates.
+struct SplineEquations {
+  std::vector<double> below, diagonal, above, right;
+  explicit SplineEquations(std::size_t n) : below(n), diagonal(n), above(n), right(n) {}
+  // The second derivative is continuous at point i, between pieces a and b.
+  void join(const Pieces& p, std::size_t i, std::size_t a, std::size_t b) {
+    below[i] = 1 / p.h[a];
+    above[i] = 1 / p.h[b];
+    diagonal[i] = 2 * (below[i] + above[i]);                           // (2.4)
+    right[i] = 3 * (p.secant[a] * below[i] + p.secant[b] * above[i]);  // (2.4)
   }
-  right[n - 1] /= diagonal[n - 1];
-  for (std::size_t i = n - 1; i-- > 0;) right[i] = (right[i] - above[i] * right[i + 1]) / diagonal[i];
-}
+  // By Gauss.
+  std::vector<double> solve(std::vector<double> x) const {
+    const std::size_t n = x.size();
+    std::vector<double> pivot = diagonal;
+    for (std::size_t i = 1; i < n; ++i) {
+      const double factor = below[i] / pivot[i - 1];
+      pivot[i] -= factor * above[i - 1];
+      x[i] -= factor * x[i - 1];
+    }
+    x[n - 1] /= pivot[n - 1];
+    for (std::size_t i = n - 1; i-- > 0;) x[i] = (x[i] - above[i] * x[i + 1]) / pivot[i];
+    return x;
+  }
+};
 
 // Continuity of the second derivative at every point of a closed curve: tridiagonal but for two corners, which the formula of Sherman and
 // Morrison takes back.
 std::vector<double> periodic_spline_slopes(const Pieces& p) {
   const std::size_t n = p.size();
   if (n == 1) return {0, 0};
-  std::vector<double> below(n), diagonal(n), above(n), slope(n), corner(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t before = i == 0 ? n - 1 : i - 1;
-    below[i] = 1 / p.h[before];
-    above[i] = 1 / p.h[i];
-    diagonal[i] = 2 * (below[i] + above[i]);  // (2.4)
-    slope[i] = 3 * (p.secant[before] * below[i] + p.secant[i] * above[i]);  // (2.4)
-  }
-  const double gamma = -diagonal[0], wrap = 1 / p.h[n - 1];
-  diagonal[0] -= gamma;
-  diagonal[n - 1] -= wrap * wrap / gamma;
+  SplineEquations equations(n);
+  for (std::size_t i = 0; i < n; ++i) equations.join(p, i, i == 0 ? n - 1 : i - 1, i);
+  const double gamma = -equations.diagonal[0], wrap = 1 / p.h[n - 1];
+  equations.diagonal[0] -= gamma;
+  equations.diagonal[n - 1] -= wrap * wrap / gamma;
+  std::vector<double> slope = equations.solve(equations.right), corner(n);
   corner[0] = gamma;
   corner[n - 1] = wrap;
-  solve_tridiagonal(below, diagonal, above, slope);
-  solve_tridiagonal(below, diagonal, above, corner);
+  corner = equations.solve(corner);
   const double factor = (slope[0] + wrap / gamma * slope[n - 1]) / (1 + corner[0] + wrap / gamma * corner[n - 1]);
   for (std::size_t i = 0; i < n; ++i) slope[i] -= factor * corner[i];
   slope.push_back(slope[0]);
@@ -147,19 +155,13 @@ std::vector<double> spline_slopes(const std::vector<double>& x, const std::vecto
   const Pieces p(x, y);
   if (ends == CurveEnds::kPeriodic) return periodic_spline_slopes(p);
   const std::size_t n = p.size();
-  std::vector<double> below(n + 1), diagonal(n + 1), above(n + 1), slope(n + 1);
-  for (std::size_t i = 1; i < n; ++i) {
-    below[i] = 1 / p.h[i - 1];
-    above[i] = 1 / p.h[i];
-    diagonal[i] = 2 * (below[i] + above[i]);  // (2.4)
-    slope[i] = 3 * (p.secant[i - 1] * below[i] + p.secant[i] * above[i]);  // (2.4)
-  }
-  diagonal[0] = diagonal[n] = 2;
-  above[0] = below[n] = 1;
-  slope[0] = 3 * p.secant[0];  // (2.5)
-  slope[n] = 3 * p.secant[n - 1];  // (2.5)
-  solve_tridiagonal(below, diagonal, above, slope);
-  return slope;
+  SplineEquations equations(n + 1);
+  for (std::size_t i = 1; i < n; ++i) equations.join(p, i, i - 1, i);
+  equations.diagonal[0] = equations.diagonal[n] = 2;
+  equations.above[0] = equations.below[n] = 1;
+  equations.right[0] = 3 * p.secant[0];      // (2.5)
+  equations.right[n] = 3 * p.secant[n - 1];  // (2.5)
+  return equations.solve(equations.right);
 }
 
 }  // namespace pintle
