@@ -15,25 +15,17 @@ CrossSpringLaw::CrossSpringLaw(const BladeSize& blade, double half_angle, double
   for (int k = 0; k < 3; ++k) straight_[k] = -out.force[k].d[k];
 }
 
-// Eq. (4.1).
-std::array<double, 3> CrossSpringLaw::end_of(double side, const double* gap) const {
-  const double half = std::sin(0.5 * gap[2]), less = 2 * half * half, sine = std::sin(gap[2]);
-  const double ux = cos_, uy = side * sin_, qx = arm_ * ux, qy = arm_ * uy;
-  const double dx = gap[0] - qx * less - qy * sine, dy = gap[1] + qx * sine - qy * less;
-  return {ux * dx + uy * dy, ux * dy - uy * dx, gap[2]};
-}
-
 void CrossSpringLaw::borders(const LawInput<double>& in, double* value) const {
   value[0] = 1;
   for (const double side : {1.0, -1.0})
-    if (!blade_.stress(end_of(side, in.gap).data()).found) value[0] = -1;
+    if (!stress(side, in.gap).found) value[0] = -1;
 }
 
 void CrossSpringLaw::observe(const LawInput<double>& in, const Planar::Vec&, double* value) const {
   value[0] = 0;
   value[1] = 1;
   for (const double side : {1.0, -1.0}) {
-    const LeafSpringLaw::Stress blade = blade_.stress(end_of(side, in.gap).data());
+    const LeafSpringLaw::Stress blade = stress(side, in.gap);
     if (!blade.found) value[1] = 0;
     value[0] = blade.found ? std::max(value[0], blade.largest) : blade.largest;
   }

@@ -2,6 +2,7 @@
 // which run from the first body to the second. theory/flexures Eqs. (4.1), (4.2).
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string_view>
 
@@ -18,16 +19,12 @@ struct CrossSpringLaw {
 
   template <class T>
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
-    using namespace law_math;
-    const T half = sin(0.5 * in.gap[2]), sine = sin(in.gap[2]), cosine = cos(in.gap[2]), less = 2.0 * (half * half);  // 1 - cosine
     for (const double side : {1.0, -1.0}) {
-      const double ux = cos_, uy = side * sin_, qx = arm_ * ux, qy = arm_ * uy;  // along the blade; its end on the second body
-      const T armx = qx * cosine - qy * sine, army = qx * sine + qy * cosine;
-      const T dx = in.gap[0] - qx * less - qy * sine, dy = in.gap[1] + qx * sine - qy * less;                        // (4.1)
-      const T vx = in.rate[0] - in.rate[2] * army, vy = in.rate[1] + in.rate[2] * armx;
+      const End<T> at = end_of(side, in.gap);
+      const double ux = cos_, uy = side * sin_;  // along the blade
+      const T vx = in.rate[0] - in.rate[2] * at.arm_y, vy = in.rate[1] + in.rate[2] * at.arm_x;
       LawInput<T> end = in;
-      end.gap[0] = ux * dx + uy * dy;
-      end.gap[1] = ux * dy - uy * dx;
+      std::copy_n(at.gap, 3, end.gap);
       end.rate[0] = ux * vx + uy * vy;
       end.rate[1] = ux * vy - uy * vx;
       LawOutput<T> blade;
@@ -36,7 +33,7 @@ struct CrossSpringLaw {
       const T fx = ux * blade.force[0] - uy * blade.force[1], fy = uy * blade.force[0] + ux * blade.force[1];        // (4.2)
       out.force[0] += fx;
       out.force[1] += fy;
-      out.force[2] += blade.force[2] + armx * fy - army * fx;
+      out.force[2] += blade.force[2] + at.arm_x * fy - at.arm_y * fx;
       out.energy += blade.energy;
       out.loss += blade.loss;
     }
@@ -50,8 +47,21 @@ struct CrossSpringLaw {
   void observe(const LawInput<double>& in, const Planar::Vec& force, double* value) const;
 
  private:
-  /// The displacement of the end of the blade on this side, in its own axes.
-  std::array<double, 3> end_of(double side, const double* gap) const;
+  /// The end of a blade on the second body: how far it is displaced, in the axes of the blade, and where it is from the second marker.
+  template <class T>
+  struct End {
+    T gap[3];
+    T arm_x, arm_y;  // [m]
+  };
+  template <class T>
+  End<T> end_of(double side, const T* gap) const {
+    using namespace law_math;
+    const double ux = cos_, uy = side * sin_, qx = arm_ * ux, qy = arm_ * uy;
+    const T half = sin(0.5 * gap[2]), sine = sin(gap[2]), cosine = cos(gap[2]), less = 2.0 * (half * half);  // 1 - cosine
+    const T dx = gap[0] - qx * less - qy * sine, dy = gap[1] + qx * sine - qy * less;                                // (4.1)
+    return {{ux * dx + uy * dy, ux * dy - uy * dx, gap[2]}, qx * cosine - qy * sine, qx * sine + qy * cosine};
+  }
+  LeafSpringLaw::Stress stress(double side, const double* gap) const { return blade_.stress(end_of(side, gap).gap); }
 
   LeafSpringLaw blade_;
   double cos_, sin_, arm_;  // of the half angle; from the crossing to the ends on the second body [m]
