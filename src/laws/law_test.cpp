@@ -21,6 +21,7 @@
 #include "laws/contact/guide_contact.h"
 #include "laws/bearings/journal_film.h"
 #include "laws/friction/lugre.h"
+#include "laws/law_setting_for_tests.h"
 #include "laws/maxwell.h"
 #include "laws/contact/backlash.h"
 #include "laws/contact/pin_contact.h"
@@ -305,15 +306,6 @@ TEST(LawCatalog, EveryWordIsALaw) {
   }
   EXPECT_EQ(find_law("lineer"), nullptr);
   EXPECT_THROW(register_law({.word = "linear", .meaning = "twice", .keys = {}}), std::logic_error);
-}
-
-LawSetting setting_of(const LawInfo& info, const std::map<std::string, std::vector<double>>& values) {
-  LawSetting at;
-  at.joint_type = "fixed";
-  at.held = {true, true, true};
-  at.values = &values;
-  at.keys = info.keys;
-  return at;
 }
 
 TEST(LinearLaw, ByHand) {

@@ -8,6 +8,7 @@
 #include "laws/catalog.h"
 #include "laws/catalog_parts.h"
 #include "laws/contact/backlash.h"
+#include "laws/contact/damping_keys.h"
 #include "laws/contact/gap_contact.h"
 #include "laws/contact/guide_contact.h"
 #include "laws/contact/pin_contact.h"
@@ -54,35 +55,28 @@ constexpr std::array<std::string_view, 2> kOneSided{"slot", "cam"};
 
 constexpr double kFlat = std::numeric_limits<double>::infinity();
 
-ContactModel model_of(const LawSetting& at) { return static_cast<ContactModel>(static_cast<int>(at.number("contact_model"))); }
+constexpr DampingKeys kDamping{"contact_model", "restitution", "damping_factor", "contact_damping", "contact_exponent", "least_approach_speed"};
 
 LawFault contact_fault(const LawSetting& at) {
-  const double restitution = at.number("restitution"), start = at.number("friction_start_speed"), end = at.number("friction_full_speed");
-  if (restitution > 1) return {"restitution", fmt::format("{:g} is above 1: every impact would gain energy", restitution), "a value between 0 and 1, such as 0.8"};
+  if (LawFault fault = kDamping.fault(at); !fault.key.empty()) return fault;
+  const double start = at.number("friction_start_speed"), end = at.number("friction_full_speed");
   const bool rubs = start > 0 || end > 0;  // teeth have no such keys
   if (rubs && !(end > start)) return {"friction_full_speed", fmt::format("{:g} m/s is not above friction_start_speed, {:g} m/s", end, start), "a larger speed"};
   if (at.joint_type == "cam" && at.number("friction_coefficient") > 0) return {"friction_coefficient", "a cam and its follower touch without friction", "delete it"};
   const double poisson = at.number("poisson_ratio");
   if (poisson > 0.5) return {"poisson_ratio", fmt::format("{:g} is above 0.5, that of what keeps its volume", poisson), "0.3 for metals"};
-  const bool linear = model_of(at) == ContactModel::kViscous, stated = at.number("contact_stiffness") > 0;
+  const bool linear = kDamping.model_of(at) == ContactModel::kViscous, stated = at.number("contact_stiffness") > 0;
   if (linear && !stated) return {"contact_model", "the linear model has no stiffness from elastic_modulus", "state contact_stiffness in N/m"};
-  if (!linear && at.number("contact_damping") > 0) return {"contact_damping", "it is the damper of the linear model only", "contact_model = \"linear\", or restitution instead"};
   if (at.joint_type != "revolute" && !stated && !(at.number("pin_radius") > 0)) return {"pin_radius", "a point has no Hertzian stiffness", "a radius, or contact_stiffness"};
   return {};
 }
 
 // bearing: the radius that the pin's surface lies in.
 ContactForce contact_of(const LawSetting& at, double bearing) {
-  const ContactModel model = model_of(at);
-  const bool linear = model == ContactModel::kViscous;
   ContactForce contact;
   contact.stiffness = at.number("contact_stiffness");
   if (!(contact.stiffness > 0)) contact.stiffness = hertz_stiffness(at.number("elastic_modulus"), at.number("poisson_ratio"), at.number("pin_radius"), bearing);
-  contact.exponent = linear ? 1 : at.number("contact_exponent");
-  contact.fixed_damping = linear ? 0 : at.number("damping_factor");
-  contact.hysteresis = linear || contact.fixed_damping > 0 ? 0 : hysteresis_of(model, at.number("restitution"));
-  contact.viscous = linear ? at.number("contact_damping") : 0;
-  contact.least_approach = at.number("least_approach_speed");
+  kDamping.set(at, contact);
   contact.attracts = at.number("attraction") > 0;
   return contact;
 }

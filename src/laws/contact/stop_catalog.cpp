@@ -6,6 +6,7 @@
 
 #include "laws/catalog.h"
 #include "laws/catalog_parts.h"
+#include "laws/contact/damping_keys.h"
 #include "laws/contact/stops.h"
 
 namespace pintle {
@@ -30,6 +31,7 @@ constexpr KeyInfo kGrownDamping{.key = "stop_damping", .unit = "N*s/m", .angular
 constexpr std::array<KeyInfo, 9> kHardKeys{{kLower, kUpper, kStiffness, kExponent, kModel, kRestitution, kFixedDamping, kViscous, kLeastApproach}};
 constexpr std::array<KeyInfo, 6> kCushionedKeys{{kLower, kUpper, kStiffness, kExponent, kCushion, kGrownDamping}};
 
+constexpr DampingKeys kDamping{"stop_model", "stop_restitution", "stop_damping_factor", "stop_damping", "stop_exponent", "stop_least_speed"};
 constexpr std::array<std::string_view, 3> kWithStops{"revolute", "prismatic", "slot"};
 
 LawFault stop_fault(const LawSetting& at) {
@@ -41,11 +43,7 @@ LawFault stop_fault(const LawSetting& at) {
 
 LawFault hard_fault(const LawSetting& at) {
   if (LawFault fault = stop_fault(at); !fault.key.empty()) return fault;
-  const double restitution = at.number("stop_restitution");
-  if (restitution > 1) return {"stop_restitution", fmt::format("{:g} is above 1: every impact would gain energy", restitution), "a value between 0 and 1, such as 0.8"};
-  const bool linear = static_cast<ContactModel>(static_cast<int>(at.number("stop_model"))) == ContactModel::kViscous;
-  if (!linear && at.number("stop_damping") > 0) return {"stop_damping", "it is the damper of the linear model only", "stop_model = \"linear\", or stop_restitution instead"};
-  return {};
+  return kDamping.fault(at);
 }
 
 template <class Stops>
@@ -55,25 +53,19 @@ Stops stops_of(const LawSetting& at) {
   law.lower = at.number("lower_stop");
   law.upper = at.number("upper_stop");
   law.contact.stiffness = at.number("stop_stiffness");
-  law.contact.exponent = at.number("stop_exponent");
-  law.contact.viscous = at.number("stop_damping");
   return law;
 }
 
 void make_hard(const LawSetting& at, Law& law) {
   auto stops = stops_of<HardStops>(at);
-  ContactForce& contact = stops.contact;
-  const auto model = static_cast<ContactModel>(static_cast<int>(at.number("stop_model")));
-  const bool linear = model == ContactModel::kViscous;
-  if (linear) contact.exponent = 1;
-  contact.fixed_damping = linear ? 0 : at.number("stop_damping_factor");
-  contact.hysteresis = linear || contact.fixed_damping > 0 ? 0 : hysteresis_of(model, at.number("stop_restitution"));
-  contact.least_approach = at.number("stop_least_speed");
+  kDamping.set(at, stops.contact);
   law.add(std::make_unique<LawPartOf<HardStops>>(stops));
 }
 
 void make_cushioned(const LawSetting& at, Law& law) {
   auto stops = stops_of<CushionedStops>(at);
+  stops.contact.exponent = at.number("stop_exponent");
+  stops.contact.viscous = at.number("stop_damping");
   stops.contact.cushion = at.number("stop_cushion");
   law.add(std::make_unique<LawPartOf<CushionedStops>>(stops));
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "laws/catalog.h"
+#include "laws/law_setting_for_tests.h"
 
 namespace pintle::flexure {
 
@@ -16,14 +16,6 @@ using Vec = Planar::Vec;
 using Mat = Planar::Mat;
 using Values = std::map<std::string, std::vector<double>>;
 
-inline LawSetting setting_of(const LawInfo& info, const Values& values) {
-  LawSetting at;
-  at.joint_type = "fixed";
-  at.held = {true, true, true};
-  at.values = &values;
-  at.keys = info.keys;
-  return at;
-}
 inline Law made(const char* word, const Values& values) {
   const LawInfo& info = *find_law(word);
   const LawSetting at = setting_of(info, values);
