@@ -18,8 +18,8 @@ struct Companion {
 };
 
 constexpr Companion kCompanions[] = {
-    {"sweep", kSweepDescription, "pintle-sweep", "build and install both"},
-    {"film", kFilmDescription, "pintle-pictures", "build and install both"},
+    {"sweep", kSweepDescription, "pintle-sweep", "make build, which builds both"},
+    {"film", kFilmDescription, "pintle-pictures", "make build, which builds both"},
     {"studio", kStudioDescription, "pintle-studio", "install libcpp-httplib-dev, build again, and install both"},
 };
 
