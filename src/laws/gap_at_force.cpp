@@ -144,7 +144,8 @@ class GapPath {
 // method, which no border of the law may lie between. False, and the gap as it was, where that does not lead to it. theory/assembly Eq. (3.6).
 template <class S>
 bool follow_load(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
-  constexpr double kFirst = 1e-6, kLater = 1e-2;  // shortest step: part of the load, as thin blades that are bent far begin, and of what has been reached
+  // The shortest step, as a part of the load and of what has been reached. Thin blades that are bent far are not found with steps above 1e-5, or above 1e-2.
+  constexpr double kFirst = 1e-6, kLater = 1e-3;
   if (law.n_states() > 0 || law.starts_free()) return false;
   const BasicResponse<S> start = respond(law, gap, rate);
   const typename S::Vec engaged = law.engaged_stiffness();

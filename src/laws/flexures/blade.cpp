@@ -21,7 +21,6 @@ constexpr double kSettled = 1e-10;   // relative step after which the error is i
 constexpr double kRounding = 1e-6;   // relative step below which one that does not shrink is rounding
 constexpr double kTail = 1e-8;       // share of the last coefficients; energy and forces are wrong by its square
 constexpr double kRoughTail = 1e-4;  // the same with all the functions that there are
-constexpr double kLongest = 4;       // step of the coefficients [rad]
 constexpr double kReach = 0.35, kTurn = 1;  // displacement across and angle that one step of the path may add
 constexpr int kMostParts = 16, kFinest = 512;  // of the path
 constexpr double kSurelyStable = std::numbers::pi * std::numbers::pi;
@@ -127,9 +126,8 @@ bool Blade::refine(const Vec3& displacement, BladeShape& shape, Work& work) cons
     if (!step.allFinite()) return false;
     const int n = work.basis->n;
     const double turned = step.head(n).norm(), pushed = step.tail(2).norm();
-    const double shrink = turned > kLongest ? kLongest / turned : 1;
-    for (int i = 0; i < n; ++i) shape.c[i] += shrink * step[i];
-    for (int k = 0; k < 2; ++k) shape.n[k] += shrink * step[n + k];
+    for (int i = 0; i < n; ++i) shape.c[i] += step[i];
+    for (int k = 0; k < 2; ++k) shape.n[k] += step[n + k];
     const double angles = Eigen::Map<const Eigen::VectorXd>(shape.c, n).norm() + std::abs(shape.theta), forces = std::hypot(shape.n[0], shape.n[1]) + angles;
     const double relative = std::max(angles > 0 ? turned / angles : 0, forces > 0 ? pushed / forces : 0);
     if (relative <= kSettled || (relative < kRounding && relative > 0.5 * last)) {
