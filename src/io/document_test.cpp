@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "io/hash.h"
+#include "results/disk.h"
 
 namespace pintle {
 namespace {
@@ -42,6 +43,12 @@ TEST(Document, TomlValuesKnowTheirPlaces) {
   expect_spot(at(document, {"b"}).spot, 2, 5);
   expect_spot((*at(document, {"b"}).array())[1].spot, 2, 10);
   expect_spot(at(document, {"c", "d"}).spot, 3, 11);
+}
+
+// Read without the guard: the program's own schema needs none.
+TEST(Document, TheGuardHasNothingAgainstTheSchema) {
+  const std::string schema = read_file(PINTLE_SOURCE_DIR "/schema/model.schema.toml");
+  EXPECT_TRUE(same_tree(parse_toml(schema, "model.schema.toml").root, parse_own_toml(schema, "model.schema.toml").root));
 }
 
 TEST(Document, JsonValuesKnowTheirPlaces) {

@@ -197,7 +197,7 @@ Schema::Schema(const Document& document) {
 }
 
 const Schema& Schema::model() {
-  static const Schema schema(parse_toml(kModelToml, "model.schema.toml"));
+  static const Schema schema(parse_own_toml(kModelToml, "model.schema.toml"));
   return schema;
 }
 

@@ -19,20 +19,20 @@ class TomlConverter {
  public:
   explicit TomlConverter(const Document& document) : document_(document) {}
 
-  Node convert(const toml::node& node, const std::string& path, int depth) {
+  Node convert(const toml::node& node, int depth) {
     Node out;
     out.spot = spot_of(node.source());
     if (depth > kMaxDepth) {
-      complain(out.spot, path, "tables or lists nested too deeply", "at most 64 levels are read", "a flatter model");
+      complain(out.spot, "tables or lists nested too deeply", "at most 64 levels are read", "a flatter model");
     } else if (const toml::table* table = node.as_table()) {
-      out.value = convert_table(*table, path, depth);
+      out.value = convert_table(*table, depth);
     } else if (const toml::array* array = node.as_array()) {
       Array items;
       items.reserve(array->size());
-      for (const toml::node& item : *array) items.push_back(convert(item, path, depth + 1));
+      for (const toml::node& item : *array) items.push_back(convert(item, depth + 1));
       out.value = std::move(items);
     } else {
-      convert_scalar(node, path, out);
+      convert_scalar(node, out);
     }
     return out;
   }
@@ -44,7 +44,7 @@ class TomlConverter {
     return {0, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
   }
 
-  Table convert_table(const toml::table& table, const std::string& path, int depth) {
+  Table convert_table(const toml::table& table, int depth) {
     std::vector<std::pair<Spot, toml::table::const_iterator>> order;
     order.reserve(table.size());
     for (auto it = table.begin(); it != table.end(); ++it) order.emplace_back(spot_of(it->first.source()), it);
@@ -52,15 +52,18 @@ class TomlConverter {
       return std::pair(a.first.line, a.first.column) < std::pair(b.first.line, b.first.column);
     });
     Table out;
+    const std::size_t length = path_.size();
     for (const auto& [spot, it] : order) {
       std::string key(it->first.str());
-      const std::string inner = path.empty() ? key : path + "." + key;
-      out.append(std::move(key), spot, convert(it->second, inner, depth + 1));
+      if (length > 0) path_ += '.';
+      path_ += key;
+      out.append(std::move(key), spot, convert(it->second, depth + 1));
+      path_.resize(length);
     }
     return out;
   }
 
-  void convert_scalar(const toml::node& node, const std::string& path, Node& out) {
+  void convert_scalar(const toml::node& node, Node& out) {
     if (const auto* string = node.as_string()) {
       out.value = string->get();
       out.spot = inside_quotes(out.spot);
@@ -69,11 +72,11 @@ class TomlConverter {
     } else if (const auto* real = node.as_floating_point()) {
       out.value = real->get();
       if (!std::isfinite(real->get()))
-        complain(out.spot, path, number_text(out), "numbers must be finite", "a number below 1e308");
+        complain(out.spot, number_text(out), "numbers must be finite", "a number below 1e308");
     } else if (const auto* truth = node.as_boolean()) {
       out.value = truth->get();
     } else {
-      complain(out.spot, path, "a date or a time", "models have no dates", "write it as a string in quotes");
+      complain(out.spot, "a date or a time", "models have no dates", "write it as a string in quotes");
     }
   }
 
@@ -86,12 +89,12 @@ class TomlConverter {
     return next_line ? Spot{spot.source, spot.line + 1, 1} : Spot{spot.source, spot.line, spot.column + 3};
   }
 
-  void complain(Spot spot, const std::string& path, std::string found, std::string because,
-                std::string suggestion = {}) {
-    complaints.push_back(document_.complaint(spot, path, std::move(found), std::move(because), std::move(suggestion)));
+  void complain(Spot spot, std::string found, std::string because, std::string suggestion = {}) {
+    complaints.push_back(document_.complaint(spot, path_, std::move(found), std::move(because), std::move(suggestion)));
   }
 
   const Document& document_;
+  std::string path_;  // of what is being converted
 };
 
 // The parser names the key between quotes and points at its value: back to the key, if it is on the same line.
@@ -137,23 +140,33 @@ Complaint syntax_complaint(const Document& document, const toml::parse_error& er
   return document.complaint(spot, "", advice->found, std::string(words), advice->suggestion);
 }
 
-}  // namespace
-
-Document parse_toml(std::string_view text, std::string_view file_name) {
+Document document_of(std::string_view text, std::string_view file_name) {
   Document document;
   document.sources.emplace_back(std::string(file_name), std::string(text));
-  if (const std::optional<TomlProblem> problem = first_toml_problem(text)) {
-    throw InputError({document.complaint(problem->spot, "", problem->found, problem->because, problem->suggestion)});
-  }
+  return document;
+}
+
+Document converted(Document document, std::string_view text, std::string_view file_name) {
   try {
     const toml::table table = toml::parse(text, file_name);
     TomlConverter converter(document);
-    document.root = converter.convert(table, "", 0);
+    document.root = converter.convert(table, 0);
     if (!converter.complaints.empty()) throw InputError(std::move(converter.complaints));
   } catch (const toml::parse_error& error) {
     throw InputError({syntax_complaint(document, error)});
   }
   return document;
 }
+
+}  // namespace
+
+Document parse_toml(std::string_view text, std::string_view file_name) {
+  Document document = document_of(text, file_name);
+  if (const std::optional<TomlProblem> problem = first_toml_problem(text))
+    throw InputError({document.complaint(problem->spot, "", problem->found, problem->because, problem->suggestion)});
+  return converted(std::move(document), text, file_name);
+}
+
+Document parse_own_toml(std::string_view text, std::string_view file_name) { return converted(document_of(text, file_name), text, file_name); }
 
 }  // namespace pintle
