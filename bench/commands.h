@@ -1,6 +1,7 @@
 // The sub-commands: each prints its tables and returns them as JSON.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -71,6 +72,18 @@ nlohmann::ordered_json study_space(const SpaceOptions& options);
 
 /// Spectral radius of a step across taut joints, drawn to `file`.
 nlohmann::ordered_json study_stability(const std::string& file);
+
+struct BatteryOptions {
+  int count = 240, first = 0;      // models, and the number of the first
+  std::uint64_t seed = 1;
+  std::vector<std::string> kinds;  // empty: all
+  double time = 0;                 // begins no model after so many seconds; 0: no limit
+  double cap = 20;                 // processor time of a run [s]; of its truth three times that
+  std::string folder;              // for the tables and the models that broke a promise; empty: none are written
+  bool verbose = false;            // names each model on standard error
+};
+/// Random mechanisms: true against stated errors, joint by joint.
+nlohmann::ordered_json run_battery(const BatteryOptions& options);
 
 /// Google Benchmark; `filter` is a regular expression. An empty `json_file` writes none.
 void run_micro(const std::string& filter, double min_time, const std::string& json_file);

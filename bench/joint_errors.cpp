@@ -10,12 +10,15 @@ struct Difference {
   double force = 0, couple = 0, peak = 0, peak_couple = 0;
 };
 
+// Up to the time until which both promise the force.
 Difference compare(const Trajectory& run, const Trajectory& reference, const LoadSummary& joint) {
+  const auto same = std::find_if(reference.joints.begin(), reference.joints.end(), [&joint](const LoadSummary& j) { return j.name == joint.name; });
+  const double until = std::min(joint.horizon, same == reference.joints.end() ? joint.horizon : same->horizon);
   const std::string prefix = "joint." + joint.name + ".on_" + joint.second_body + ".";
   const int fx = run.column(prefix + "fx[world]"), fy = run.column(prefix + "fy[world]"),
             m = run.column(prefix + "m[world]");
   Difference d;
-  for (std::size_t i = 0; i < reference.n_rows(); ++i) {
+  for (std::size_t i = 0; i < reference.n_rows() && reference.at(i, 0) <= until; ++i) {
     const double x = reference.at(i, fx), y = reference.at(i, fy);
     d.peak = std::max(d.peak, std::hypot(x, y));
     d.force = std::max(d.force, std::hypot(run.at(i, fx) - x, run.at(i, fy) - y));

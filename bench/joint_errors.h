@@ -11,7 +11,7 @@ namespace pintle::bench {
 
 struct JointError {
   std::string joint;
-  double error = 0;     // largest over the output times, of the joint's peak force or couple [-]
+  double error = 0;     // largest over the output times up to its horizon, of the joint's peak force or couple [-]
   double of_force = 0;  // the part of the force alone [-]
   bool couple = false;  // whether it is the couple that is worse
   double estimate = 0;  // as stated by the run [-]

@@ -29,6 +29,7 @@ struct Options {
   int scaling_rounds = 7;
   SweepOptions sweeps;
   SpaceOptions space;
+  BatteryOptions battery;
   std::string stability = std::string(PINTLE_SOURCE_DIR) + "/docs/theory/stability.svg";
   std::string micro_filter = ".";
   double micro_time = 0.2;
@@ -131,6 +132,19 @@ void add_space(CLI::App& app, Options& o, Json& out) {
   verb->callback([&] { out["space"] = study_space(o.space); });
 }
 
+void add_battery(CLI::App& app, Options& o, Json& out) {
+  CLI::App* verb = app.add_subcommand("battery", "random mechanisms of many kinds: true and stated force errors, exit codes");
+  verb->add_option("--count", o.battery.count, "mechanisms")->check(CLI::PositiveNumber)->capture_default_str();
+  verb->add_option("--first", o.battery.first, "number of the first one")->check(CLI::NonNegativeNumber)->capture_default_str();
+  verb->add_option("--seed", o.battery.seed)->capture_default_str();
+  verb->add_option("--kind", o.battery.kinds, "kinds (default: all); one kind and --first make a single model again")->delimiter(',');
+  verb->add_option("--time", o.battery.time, "begin no mechanism after so many seconds");
+  verb->add_option("--cap", o.battery.cap, "processor time limit of a run in seconds")->capture_default_str();
+  verb->add_option("--out", o.battery.folder, "folder for the tables, every run, and the models that broke a promise");
+  verb->add_flag("--verbose", o.battery.verbose, "name each mechanism when it begins");
+  verb->callback([&] { out["battery"] = run_battery(o.battery); });
+}
+
 void add_micro(CLI::App& app, Options& o) {
   CLI::App* verb = app.add_subcommand("micro", "laws, joints, systems, factorisation and single steps");
   verb->add_option("--filter", o.micro_filter, "a regular expression")->capture_default_str();
@@ -175,6 +189,7 @@ int run_program(int argc, char** argv) {
   add_scaling(app, options, out);
   add_sweeps(app, options, out);
   add_space(app, options, out);
+  add_battery(app, options, out);
   add_micro(app, options);
   app.add_subcommand("short", "a short version of peers, stiffness, forces and micro")->callback([&] { out = run_short(); });
   CLI11_PARSE(app, argc, argv);

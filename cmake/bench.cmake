@@ -1,11 +1,12 @@
 # pintle-bench: micro-benchmarks, work-precision curves and the peers, side by side in one program.
 pintle_sources(sources ${PROJECT_SOURCE_DIR}/bench)
+pintle_sources(battery ${PROJECT_SOURCE_DIR}/bench/battery)
 if(NOT sources)
   message(STATUS "bench/ has no sources: pintle-bench is not built")
   return()
 endif()
 find_package(benchmark REQUIRED)
-add_executable(pintle_bench ${sources})
+add_executable(pintle_bench ${sources} ${battery})
 set_target_properties(pintle_bench PROPERTIES
   OUTPUT_NAME pintle-bench RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)

@@ -1,0 +1,29 @@
+// Complete mechanisms, with loads, joints and a duration: one function per kind.
+#pragma once
+
+#include "bench/battery/dice.h"
+#include "bench/battery/mechanism_text.h"
+
+namespace pintle::bench {
+
+MechanismText redundant(Dice& dice);
+MechanismText pre_stressed(Dice& dice);
+MechanismText locked(Dice& dice);
+MechanismText dead_centres(Dice& dice);
+MechanismText toggle(Dice& dice);
+
+MechanismText soft_joints(Dice& dice);   // bushing, maxwell, rubber-bushing, table
+MechanismText bearings(Dice& dice);      // rolling-bearing, journal-bearing, linear-guide
+MechanismText clearance(Dice& dice);
+MechanismText contact(Dice& dice);
+MechanismText friction(Dice& dice);
+MechanismText stops(Dice& dice);
+MechanismText flexures(Dice& dice);
+
+MechanismText gears(Dice& dice);
+MechanismText backlash(Dice& dice);
+MechanismText ropes(Dice& dice);
+MechanismText rods(Dice& dice);          // massless, of fixed and of driven length
+MechanismText cams(Dice& dice);
+
+}  // namespace pintle::bench

@@ -1,0 +1,78 @@
+// A mechanism in the making, drawn in its start position in world axes, and the model file that it becomes.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pintle::bench {
+
+struct Point {
+  double x = 0, y = 0;
+};
+double distance(Point a, Point b);
+double direction(Point from, Point to);  // [rad]
+/// At a distance and in a direction. Used with braces, which draw random arguments in their order.
+struct Polar : Point {
+  Polar(Point from, double length, double angle) : Point{from.x + length * std::cos(angle), from.y + length * std::sin(angle)} {}
+};
+Point middle(Point a, Point b, double share = 0.5);
+
+/// Values as they stand in a model file.
+using Keys = std::map<std::string, std::string>;
+std::string number_text(double x);
+std::string quoted(const std::string& words);
+/// As fmt::format makes it. Used with braces, which draw random arguments in their order.
+struct Text : std::string {
+  template <class... Values>
+  Text(fmt::format_string<const Values&...> pattern, const Values&... values) : std::string(fmt::format(pattern, values...)) {}
+};
+
+struct BodyText {
+  std::string name;
+  Point centre;
+  double angle = 0, mass = 1, inertia = 1;
+  std::optional<double> spin{};
+  bool held = false;  // its angle and spin are the start's; assembly finds the others
+  std::vector<std::pair<std::string, std::string>> markers{};
+};
+
+struct JointText {
+  std::string name, type, first, second;
+  Keys keys{};
+  double length = 0;  // by which angular stiffness is scaled [m]
+};
+
+class MechanismText {
+ public:
+  /// `axis` is in world axes [rad]. Give "body.marker".
+  std::string on_ground(Point at, double axis = 0);
+  std::string on(const std::string& body, Point at, double axis = 0);
+
+  BodyText& add_body(const std::string& name, Point centre, double angle, double mass, double inertia);
+  JointText& add_joint(const std::string& name, const std::string& type, const std::string& first, const std::string& second);
+  JointText& add_pin(const std::string& name, const std::string& first_body, const std::string& second_body, Point at);  // "ground" too
+  /// "spring.s1", "motor.drive" ..
+  void add(const std::string& table, Keys keys) { others_.emplace_back(table, std::move(keys)); }
+  bool has(const std::string& table) const;
+
+  BodyText& body(const std::string& name);
+  JointText& joint(const std::string& name);
+  std::vector<BodyText> bodies;
+  std::vector<JointText> joints;
+  Point gravity{0, -9.81};
+  double duration = 1;  // [s]
+  double weight = 0;    // largest moment that gravity could have: the scale of loads [N*m]
+
+  std::string text(const std::string& title) const;
+
+ private:
+  std::vector<std::pair<std::string, std::string>> ground_;
+  std::vector<std::pair<std::string, Keys>> others_;
+};
+
+}  // namespace pintle::bench
