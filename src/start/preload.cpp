@@ -17,6 +17,9 @@ constexpr int kRounds = 4;         // of friction and reactions: each gains the 
 constexpr int kClosing = 4;        // passes of a projection
 constexpr double kFits = 1e-9;     // of the largest force: gaps that differ by no more fit together
 constexpr double kClosed = 1e-11;  // of what the first pass found: the next one finds nothing
+constexpr double kMostGrowth = 2;  // of the largest force, in a pass that comes nearer to its end
+constexpr double kSameGap = 16 * std::numeric_limits<double>::epsilon();  // of the largest coordinate: the same but for rounding
+constexpr double kSameRate = 1e-9;                                        // of the largest speed
 constexpr int kMostJoints = 300;  // whose masses with closed joints are asked for: the cost grows with the square
 
 // What a force of a joint does to its own two bodies: the acceleration of the gap per unit of force, component by component.
@@ -93,20 +96,22 @@ void plain_start(const BasicSystem<S>& system, BasicState<S>& state) {
 
 }  // namespace
 
-// Gaps that carry no stiffness are those of the positions.
+// Gaps that carry no stiffness are those of the positions. So are those that the bodies cannot take, as in redundant joints: the first
+// step would find others, and other forces, than the first row shows. theory/time Eq. (4.3).
 template <class S>
 void balance_start(const BasicSystem<S>& system, BasicState<S>& state) {
   std::vector<typename S::Motion> m;
   std::vector<BasicJointKinematics<S>> r;
   system.motions(state.q, state.v, m);
   system.joint_kinematics(state.t, m, r);
+  const double same_gap = kSameGap * largest_coordinate(state.q), same_rate = kSameRate * largest_coordinate(state.v);
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicJointData<S>& joint = system.joints[j];
     const BasicResponse<S> response = respond(joint.law, state.gap[j], state.gap_rate[j]);
     for (int k = 0; k < S::kDof; ++k) {
-      if (response.stiffness(k, k) > 0) continue;
-      state.gap[j][k] = r[j].gap[k];
-      state.gap_rate[j][k] = r[j].rate[k];
+      const bool carries = response.stiffness(k, k) > 0;
+      if (!carries || std::abs(r[j].gap[k] - state.gap[j][k]) > same_gap) state.gap[j][k] = r[j].gap[k];
+      if (!carries || std::abs(r[j].rate[k] - state.gap_rate[j][k]) > same_rate) state.gap_rate[j][k] = r[j].rate[k];
     }
   }
   rest_laws(system, state);
@@ -320,6 +325,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
   BasicInverseDynamics<S> forces(system);
   const std::optional<BasicSystem<S>> firm = with_springs_for_play(system, state);
   for (int pass = 0; pass < kPasses; ++pass) {
+    const BasicState<S> before = state;
     if (pass == 0 && firm) {
       if (!BasicInverseDynamics<S>(*firm).find(state)) break;
       forces.find_accelerations(state);  // and where the bodies are
@@ -330,6 +336,11 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
     if (pass == 0 && firm)  // what no gap can carry, as a push in a rope, does not act
       for (int j = 0; j < system.n_joints(); ++j)
         if (!system.joints[j].law.ideal_limit()) state.force[j] = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]).force;
+    // Where joints have given way, redundant ones may hold what was free: what the projection then takes for held is not, and the passes diverge.
+    if (pass > (firm ? 1 : 0) && largest_force(state.force) > kMostGrowth * largest_force(before.force)) {
+      state = before;
+      break;
+    }
     forces.move_onto_gaps(state);
     if (pass + 1 < kPasses) forces.take_forces_of_bodies(state);
   }

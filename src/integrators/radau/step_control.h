@@ -101,8 +101,9 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       have_history = have_history && retry == 0;
     }
     // Twice unsolved: for a jump on the way? Functions that flicker about zero in the last bits are left alone after a while.
-    SwitchingEvent event = (solved || retry > 0) && crossed < kMostCrossed ? method.locate_event(h, solved) : SwitchingEvent{};
-    if (const double near = kEventAtStart * usual; event.before * h < near) {  // the far end may lie beyond other events: Taylor's series is better here
+    const bool flickering = crossed >= kMostCrossed;
+    SwitchingEvent event = (solved || retry > 0) && !flickering ? method.locate_event(h, solved) : SwitchingEvent{};
+    if (const double near = kEventAtStart * usual; event.before * h < near && !flickering) {  // the far end may lie beyond other events: Taylor's series is better here
       const SwitchingEvent closer = method.locate_event(2 * near, false);
       if (closer.after < 1) {
         event = closer;
