@@ -153,10 +153,10 @@ class Passes {
   void compare(double before, double steps_before) {
     const BasicForceTable<S> &coarse = coarse_->forces(), &fine = fine_->forces();
     coarse_tolerance_ = before;
-    difference_ = difference_of_passes(system_, coarse, fine, fine.t.back());
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
     stages_before_ = choice_.stages;
     share_ = alike_ || out_.of_motion ? 1.0 : share_of_finer(fine_tolerance_, before);
+    difference_ = difference_of_passes(system_, coarse, fine, fine.t.back(), share_);
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
     relative_difference_ = relative_differences(system_, difference_);
     const double apart = out_.of_motion ? out_.motion_error : largest_of(relative_difference_);
@@ -164,8 +164,15 @@ class Passes {
     growth_ = {};
     if (apart > kPromised * settings_.tolerance)
       growth_ = fit_growth(out_.of_motion ? motion_difference_curve(system_, coarse, fine) : force_difference_curve(system_, coarse, fine));
-    if (growth_.exponential && growth_.saturated) share_ = 1;  // a difference that has stopped growing does not tell the finer one's part
-    error_ = share_ * apart;
+    if (growth_.exponential && growth_.saturated) take_all(coarse, fine);
+    error_ = share_ * (out_.of_motion ? out_.motion_error : largest_of(relative_difference_));
+  }
+
+  // A difference that has stopped growing does not tell the finer one's part.
+  void take_all(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
+    share_ = 1;
+    difference_ = difference_of_passes(system_, coarse, fine, fine.t.back(), share_);
+    relative_difference_ = relative_differences(system_, difference_);
   }
 
   // Whether another pass is made, and with which tolerance.

@@ -35,11 +35,12 @@ struct Measures {
   }
 };
 
-// Differences and peaks up to a row.
+// Differences and peaks up to a row. Where the finer pass has no shorter steps, nothing says that it is better: all of the difference is its
+// error there, so that `share` of what is kept is.
 template <class S>
 class Growing {
  public:
-  explicit Growing(std::size_t joints) {
+  Growing(std::size_t joints, double share) : all_(1 / share) {
     for (auto* x : {&c_.force, &c_.couple, &c_.peak, &c_.peak_couple}) x->assign(joints, 0.0);
   }
   void add_row(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, std::size_t i) {
@@ -49,7 +50,7 @@ class Growing {
       c_.peak[j] = std::max(c_.peak[j], linear_magnitude<S>(load));
       c_.peak_couple[j] = std::max(c_.peak_couple[j], angular_magnitude<S>(load));
       if (coarse.t[i] != fine.t[i]) continue;
-      const typename S::Vec difference = coarse.world[i * joints + j] - load;
+      const typename S::Vec difference = (fine.step[i] < coarse.step[i] ? 1 : all_) * (coarse.world[i * joints + j] - load);
       c_.force[j] = std::max(c_.force[j], linear_magnitude<S>(difference));
       c_.couple[j] = std::max(c_.couple[j], angular_magnitude<S>(difference));
     }
@@ -57,6 +58,7 @@ class Growing {
   const PassDifference& so_far() const { return c_; }
 
  private:
+  double all_;  // over the share
   PassDifference c_;
 };
 
@@ -68,8 +70,8 @@ std::size_t common_rows(const BasicForceTable<S>& coarse, const BasicForceTable<
 double largest_of(const std::vector<double>& x) { return x.empty() ? 0 : *std::max_element(x.begin(), x.end()); }
 
 template <class S>
-PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until) {
-  Growing<S> growing(system.joints.size());
+PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until, double share) {
+  Growing<S> growing(system.joints.size(), share);
   for (std::size_t i = 0; i < common_rows(coarse, fine) && fine.t[i] <= until; ++i) growing.add_row(coarse, fine, i);
   return growing.so_far();
 }
@@ -110,7 +112,7 @@ double motion_difference(const BasicSystem<S>& system, const BasicForceTable<S>&
 template <class S>
 DifferenceCurve force_difference_curve(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
   const std::size_t joints = system.joints.size();
-  const PassDifference whole = difference_of_passes(system, coarse, fine, fine.t.back());
+  const PassDifference whole = difference_of_passes(system, coarse, fine, fine.t.back(), 1.0);
   const Measures<S> measures(system, whole.peak, whole.peak_couple);
   DifferenceCurve curve;
   for (std::size_t i = 0; i < common_rows(coarse, fine); ++i) {
@@ -130,7 +132,7 @@ template <class S>
 std::vector<double> force_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double tolerance) {
   const std::size_t joints = system.joints.size();
   std::vector<double> horizon(joints, 0.0);
-  Growing<S> growing(joints);
+  Growing<S> growing(joints, share);
   for (std::size_t i = 0; i < common_rows(coarse, fine); ++i) {
     growing.add_row(coarse, fine, i);
     const PassDifference& c = growing.so_far();
@@ -163,13 +165,13 @@ void state_errors(const BasicSystem<S>& system, const PassDifference& difference
   }
 }
 
-template PassDifference difference_of_passes(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double until);
+template PassDifference difference_of_passes(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double until, double share);
 template std::vector<double> relative_differences(const BasicSystem<Planar>& system, const PassDifference& c);
 template double motion_difference(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template DifferenceCurve force_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template DifferenceCurve motion_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template std::vector<double> force_horizons(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double share, double tolerance);
-template PassDifference difference_of_passes(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double until);
+template PassDifference difference_of_passes(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double until, double share);
 template std::vector<double> relative_differences(const BasicSystem<Spatial>& system, const PassDifference& c);
 template double motion_difference(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
 template DifferenceCurve force_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);

@@ -15,9 +15,10 @@ struct PassDifference {
   std::vector<double> force, couple, peak, peak_couple;
 };
 
-/// Over the rows up to time `until` [s].
+/// Over the rows up to time `until` [s]. `share` of it is the error of the finer pass: rows where its steps are no shorter than the coarser
+/// one's count all the more. theory/time Eq. (6.2).
 template <class S>
-PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until);
+PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until, double share);
 
 /// Each joint's largest difference over its peak force or couple [-]. Joints that carry next to nothing are measured by a
 /// small part of the largest of the mechanism; couples at least by that of the largest force at a radius of gyration.

@@ -17,6 +17,7 @@ template <class S>
 void BasicForceRecorder<S>::add(const BasicState<S>& state) {
   system_.motions(state.q, state.v, m_);
   forces_.t.push_back(state.t);
+  forces_.step.push_back(step_);
   if (keeps_places_) forces_.place.insert(forces_.place.end(), state.q.begin(), state.q.end());
   if (what_ == Recorded::kStates) forces_.velocity.insert(forces_.velocity.end(), state.v.begin(), state.v.end());
   for (int j = 0; j < system_.n_joints(); ++j) forces_.world.push_back(joint_load(system_, j, m_, state.force[j]));

@@ -29,6 +29,7 @@ class BasicForceRecorder {
   virtual void add(const BasicState<S>& state);
   /// The end of a step of h seconds, between rows or at one.
   void see_step(const BasicState<S>& state, double h) {
+    step_ = h;
     if (what_ == Recorded::kForces) return;
     missed_peaks_.add_step(state, h);
     stuck_joints_.see(state);
@@ -58,6 +59,7 @@ class BasicForceRecorder {
 
   bool keeps_places_;
   double output_step_;
+  double step_ = 0;  // the last [s]
   BasicMissedPeaks<S> missed_peaks_;
   BasicStuckJoints<S> stuck_joints_;
   BasicLostEquilibria<S> lost_equilibria_;

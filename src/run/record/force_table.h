@@ -10,7 +10,8 @@ namespace pintle {
 
 template <class S>
 struct BasicForceTable {
-  std::vector<double> t;  // [s]
+  std::vector<double> t;     // [s]
+  std::vector<double> step;  // of the integration, that the time lies in or ends; 0 at the start [s]
   PositionsOf<S> place;   // row-major: per time, per body; where it is kept
   VecsOf<S> velocity;     // the same
   VecsOf<S> world;        // row-major: per time, per joint: force [N] and couple [N*m] on the second body, as `joint_load` gives them
