@@ -26,6 +26,7 @@ constexpr double kPromised = 0.7;  // of the tolerance: with a smaller stated er
 constexpr double kAlike = 1.25;  // steps of the finer pass over those of the coarser: with fewer the two say little
 constexpr double kSurest = 0.1;  // of the tolerance of the steps: no error of the motion is stated as smaller
 constexpr double kRepeated = 0.1;  // tolerance of a pass that is to show whether what two have shown is so, over that of the finer
+constexpr double kShorter = 0.5;  // longest step of a pass whose tolerance would not shorten its steps, over the mean one before
 constexpr double kFinest = 1e-11;  // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
 constexpr double kOptimism = 2;    // standard errors by which a rate may be smaller before no tolerance is said to help
 constexpr double kLoosestAccount = 1e-3;  // passes are finer than a looser tolerance, and so are their energies
@@ -53,7 +54,7 @@ class Passes {
     BasicIntegrationPlan<S> p;
     p.duration = settings_.duration;
     p.output_step = output_step_of(settings_, system_.joints.size());
-    p.max_step = settings_.max_step;
+    p.max_step = longest_ > 0 && !(settings_.max_step > 0 && settings_.max_step < longest_) ? longest_ : settings_.max_step;
     p.tolerance = tolerance;
     p.choice = choice_;
     p.first_step = 1e-4 * p.duration;
@@ -155,7 +156,7 @@ class Passes {
     coarse_tolerance_ = before;
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
     stages_before_ = choice_.stages;
-    share_ = alike_ || out_.of_motion ? 1.0 : share_of_finer(fine_tolerance_, before);
+    share_ = alike_ || out_.of_motion ? 1.0 : longest_ > 0 ? share_of_finer(std::pow(kShorter, choice_.stages + 1), 1) : share_of_finer(fine_tolerance_, before);
     difference_ = difference_of_passes(system_, coarse, fine, fine.t.back(), share_);
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
     relative_difference_ = relative_differences(system_, difference_);
@@ -185,6 +186,11 @@ class Passes {
       doubted_ = true;
       if (out_.of_motion) choice_.stages = 5;  // long steps are alike at any tolerance: another order tells
       return at(kRepeated * tolerance);
+    }
+    // Alike again: it is not the tolerance that limits the steps.
+    if (alike_ && !out_.of_motion && longest_ == 0 && !last_one && choice_.method == "radau") {
+      longest_ = kShorter * settings_.duration / static_cast<double>(last_.counters.steps);
+      return at(tolerance);
     }
     if (error_ <= kPromised * wanted) return false;
     const bool same = growth_.saturated && same_growth(last_growth_, growth_);
@@ -293,6 +299,7 @@ class Passes {
   ErrorGrowth growth_, last_growth_;  // and of the pair before
   ErrorGrowth chaos_;              // where two pairs have shown the same exponential growth
   bool doubted_ = false;           // a pass has been made because two were alike
+  double longest_ = 0;             // step of passes from now on, because tolerances have not shortened them [s]
   bool ran_away_ = false;          // the coarser one
   int open_ = 0;                   // passes repeated because the energy account did not close
   BasicIntegration<S> last_;
