@@ -46,6 +46,7 @@ class Battery {
   explicit Battery(const BatteryOptions& options) : options_(options) {
     limits_.run = options.cap;
     limits_.truth = 3 * options.cap;
+    limits_.truth_tolerance = options.truth;
     if (options.folder.empty()) return;
     std::filesystem::create_directories(options.folder);
     list_.open(std::filesystem::path(options.folder) / "runs.csv");

@@ -78,6 +78,7 @@ struct BatteryOptions {
   std::uint64_t seed = 1;
   std::vector<std::string> kinds;  // empty: all
   double time = 0;                 // begins no model after so many seconds; 0: no limit
+  double truth = 1e-7;             // tolerance of the runs that the others are compared with
   double cap = 20;                 // processor time of a run [s]; of its truth three times that
   std::string folder;              // for the tables and the models that broke a promise; empty: none are written
   bool verbose = false;            // names each model on standard error

@@ -139,6 +139,7 @@ void add_battery(CLI::App& app, Options& o, Json& out) {
   verb->add_option("--seed", o.battery.seed)->capture_default_str();
   verb->add_option("--kind", o.battery.kinds, "kinds (default: all); one kind and --first make a single model again")->delimiter(',');
   verb->add_option("--time", o.battery.time, "begin no mechanism after so many seconds");
+  verb->add_option("--truth", o.battery.truth, "tolerance of the runs that the others are compared with")->capture_default_str();
   verb->add_option("--cap", o.battery.cap, "processor time limit of a run in seconds")->capture_default_str();
   verb->add_option("--out", o.battery.folder, "folder for the tables, every run, and the models that broke a promise");
   verb->add_flag("--verbose", o.battery.verbose, "name each mechanism when it begins");

@@ -49,7 +49,7 @@ function(pintle_add_tests)
   endif()
   if(NOT PINTLE_WHOLE_RUN_TESTS)
     foreach(long IN ITEMS
-        "tests/(reference_|relative|published|compare|soft_start|held_gas|force_accuracy|motion_accuracy|live|ideal|contact|friction|bearings|state_forces|stops|driven_length|backlash|cams|flexures|tables|taut_mechanisms|large_models|space_test|tight_tolerance)[a-z_]*"
+        "tests/(battery|reference_|relative|published|compare|soft_start|held_gas|force_accuracy|motion_accuracy|live|ideal|contact|friction|bearings|state_forces|stops|driven_length|backlash|cams|flexures|tables|taut_mechanisms|large_models|space_test|tight_tolerance)[a-z_]*"
         "integrators/([a-z]+/)?(allocation|alpha_stepper|dense_output|dopri5|event_crossing|methods|radau_[a-z]*|stage_solver)_test"
         "(run/simulate|start/assembly|start/start)_test" "system/system_test"
         "(laws/flexures/(leaf_spring|pivots)|integrators/relative/tree_methods|linalg/block_pattern|batch/envelope|report/scene|check/check_[a-z_]*)_test"
@@ -59,6 +59,10 @@ function(pintle_add_tests)
   endif()
   if(NOT all)
     return()
+  endif()
+  if("${PROJECT_SOURCE_DIR}/tests/battery_test.cpp" IN_LIST all)  # its mechanisms are those of pintle-bench
+    file(GLOB battery CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/bench/battery/*.cpp)
+    list(APPEND all ${battery} ${PROJECT_SOURCE_DIR}/bench/joint_errors.cpp)
   endif()
   list(APPEND all ${samples})
   pintle_test_program(pintle_tests SOURCES ${all} LINK $<TARGET_NAME_IF_EXISTS:pintle_verbs> pintle_report pintle_sweeps pintle_studio_server)

@@ -49,7 +49,7 @@ double off_cubic(const Trajectory& run, std::size_t row, const std::string& pref
 
 // A start whose forces are not those of the motion is wrong at every tolerance, so that no run at a smaller one shows it.
 void look_at_start(TrueMotion& truth) {
-  constexpr double kSudden = 10, kSeen = 1e-5;
+  constexpr double kSudden = 10, kSeen = 1e-3;
   if (truth.dense.n_rows() < 8) return;
   double largest = 0;
   for (const LoadSummary& joint : truth.dense.joints) largest = std::max(largest, joint.peak);

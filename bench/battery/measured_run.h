@@ -24,7 +24,7 @@ struct TrueMotion {
 
 struct BatteryLimits {
   double run = 20, truth = 60;  // processor time [s]
-  double truth_tolerance = 1e-8;
+  double truth_tolerance = 1e-7;
 };
 
 TrueMotion true_motion(const RandomMechanism& mechanism, const BatteryLimits& limits);
