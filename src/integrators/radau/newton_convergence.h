@@ -29,8 +29,6 @@ class NewtonContraction {
     if (rate > 2 || (rate > 0.95 && iteration > 2)) return Verdict::kHopeless;
     before_last_ = last_;
     last_ = size;
-    // The first correction of a step has no rate of its own, and a longer step than the last contracts less.
-    if (iteration == 0 && size > 1) return Verdict::kGoOn;
     return rate < 1 && rate / (1 - rate) * size < kShare ? Verdict::kDone : Verdict::kGoOn;
   }
 
