@@ -95,6 +95,8 @@ class PlotMaker {
       curve.y =
           component.column.empty() ? magnitude(column("fx[world]"), column("fy[world]")) : column(component.column);
       curve.band = moment ? joint.moment_error_estimate : joint.error_estimate;
+      if (component.column.empty() && plot_.x_quantity == "Time")
+        curve.mark = Mark{joint.peak_time, joint.peak, fmt::format("peak {:.5g} N at {:.5g} s", joint.peak, joint.peak_time)};
       panel_for(moment ? "N*m" : "N", moment ? "Couple" + on : "Force" + on + axes())
           .curves.push_back(std::move(curve));
     }
