@@ -9,6 +9,7 @@
 #include "pintle/results.h"
 #include "results/bearing_text.h"
 #include "results/force_quality.h"
+#include "results/heat.h"
 #include "results/text_table.h"
 
 namespace pintle {
@@ -24,8 +25,6 @@ struct Style {
 
 constexpr std::size_t kFull = 200;  // a longer list is cut to its largest entries
 constexpr std::size_t kCut = 20;
-constexpr double kNoHeat = 1e-6;      // of the energy that moves: a run that loses less shows no heat
-constexpr double kLittleHeat = 1e-3;  // of all that is lost: joints below are left out
 
 /// The entries to print, in their order: all, or of a long list the largest by `size`.
 template <class Entry, class Size>
@@ -195,20 +194,16 @@ std::string event_section(const Trajectory& trajectory, const Style& style) {
   return section("Events in joints (most heat: since the joint's event before; events.csv has all)", table, style);
 }
 
-// Of joints that turn a share of all that is lost into heat which anyone would look at.
 std::string heat_section(const Trajectory& trajectory, const Style& style) {
-  const EnergyAccount& energy = trajectory.energy;
-  if (!(energy.dissipated > kNoHeat * std::max(energy.kinetic_peak, std::abs(energy.supplied)))) return "";
   TextTable table;
   table.add_column("joint", Align::kLeft);
   table.add_column("heat", Align::kNumber, "J");
   table.add_column("mean power", Align::kNumber, "W");
   table.add_column("of all", Align::kNumber, "-");
-  std::vector<const LoadSummary*> joints = pointers(trajectory.joints);
-  std::erase_if(joints, [&](const LoadSummary* load) { return !(load->heat > kLittleHeat * energy.dissipated); });
+  const auto joints = joints_with_heat(trajectory);
   for (const LoadSummary* load : shown(joints, [](const LoadSummary& one) { return one.heat; }))
-    table.add_row({load->name, engineering(load->heat), engineering(trajectory.t_end > 0 ? load->heat / trajectory.t_end : 0), engineering(load->heat / energy.dissipated)});
-  return section("Heat in joints", table, style) + (table.empty() ? "" : rest_line(joints.size()));
+    table.add_row({load->name, engineering(load->heat), engineering(load->heat / trajectory.t_end), engineering(load->heat / trajectory.energy.dissipated)});
+  return section("Heat in joints", table, style) + rest_line(joints.size());
 }
 
 std::string energy_section(const EnergyAccount& energy, const Style& style) {

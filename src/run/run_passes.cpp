@@ -154,6 +154,7 @@ class Passes {
     const BasicForceTable<S> &coarse = coarse_->forces(), &fine = fine_->forces();
     coarse_tolerance_ = before;
     difference_ = difference_of_passes(system_, coarse, fine, fine.t.back());
+    include_peaks(coarse_->loads(), fine_->loads(), difference_);
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
     stages_before_ = choice_.stages;
     share_ = alike_ || out_.of_motion ? 1.0 : share_of_finer(fine_tolerance_, before);

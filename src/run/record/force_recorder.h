@@ -36,6 +36,8 @@ class BasicForceRecorder {
   void finish(const BasicState<S>& state);
   const BasicForceTable<S>& forces() const { return forces_; }
   BasicForceTable<S> take_forces() { return std::move(forces_); }
+  /// Of a run that has started.
+  const BasicLoadRecorder<S>& loads() const { return *loads_; }
   /// Heat of the joint of each of the stepper's crossings, up to it [J].
   const std::vector<double>& heat_at_crossings() const { return heat_at_crossings_; }
   /// Forgets what only the result shows.
@@ -49,7 +51,6 @@ class BasicForceRecorder {
   };
   /// What is sampled beside the joint loads; none.
   virtual const typename BasicLoadRecorder<S>::Signals* signals() const { return nullptr; }
-  const BasicLoadRecorder<S>& loads() const { return *loads_; }
 
   const BasicSystem<S>& system_;
   Recorded what_;
