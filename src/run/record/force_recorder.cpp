@@ -72,7 +72,7 @@ void BasicForceRecorder<S>::fill(Trajectory& out) {
     s.type = joint.type;
     s.first_body = body_name(system_, joint.at.a);
     s.second_body = body_name(system_, joint.at.b);
-    s.has_moment = transmits_couple(joint) || joint.law.lever() > 0;
+    s.has_moment = has_couple(joint);
     const LoadStatistics force = loads_->force(j), couple = loads_->couple(j);
     s.peak = force.peak;
     s.peak_time = force.peak_time;

@@ -17,6 +17,7 @@ BasicLoadRecorder<S>::BasicLoadRecorder(const BasicSystem<S>& system, int n_samp
   work_.resize(joints, 0);
   stored_.resize(joints, 0);
   signal_.resize(static_cast<std::size_t>(n_signals_));
+  for (const BasicJointData<S>& joint : system.joints) has_couple_.push_back(has_couple(joint));
 }
 
 template <class S>
@@ -65,7 +66,7 @@ void BasicLoadRecorder<S>::add_step(BasicStepper<S>& stepper) {
   const double* at = samples_.data();
   for (std::size_t j = 0; j < force_.size(); ++j, at += S::kDof) {
     add_curve<kForce>(grid_, at, stride_, t0, h, force_[j]);
-    add_curve<kCouple>(grid_, at + kForce, stride_, t0, h, couple_[j]);
+    if (has_couple_[j]) add_curve<kCouple>(grid_, at + kForce, stride_, t0, h, couple_[j]);
   }
   for (std::size_t j = 0; j < work_.size(); ++j, ++at)
     for (int i = 0; i <= last; ++i) work_[j] += h * grid_.integral()[static_cast<std::size_t>(i)] * at[static_cast<std::ptrdiff_t>(i) * stride_];

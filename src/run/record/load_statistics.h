@@ -52,6 +52,7 @@ class BasicLoadRecorder {
   std::vector<double> samples_;  // instants, then the loads of all joints, the powers on their gaps, the signals
   std::vector<typename S::Motion> m_;
   std::vector<CurveSums> force_, couple_, signal_;
+  std::vector<bool> has_couple_;
   std::vector<double> work_, stored_;  // of each joint's force on its gap since the start; stored at the start [J]
   double begin_ = 0, end_ = 0;
 };

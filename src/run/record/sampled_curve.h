@@ -17,7 +17,8 @@ struct CurveSums {
 class CurveGrid {
  public:
   static constexpr int kMost = 7, kIntervals = 16, kPoints = kIntervals + 1;
-  using Weights = std::array<double, kMost>;
+  using Weights = std::array<double, kMost>;        // of the samples; those that are not there have 0
+  using AtPoints = std::array<double, kPoints>;
 
   /// n samples, from 2 to kMost, at the extrema of the Chebyshev polynomial of degree n - 1; a polynomial of that degree is met exactly.
   explicit CurveGrid(int n);
@@ -25,6 +26,8 @@ class CurveGrid {
   int n() const { return n_; }
   double instant(int sample) const { return x_[static_cast<std::size_t>(sample)]; }
   const Weights& at_point(int point) const { return at_point_[static_cast<std::size_t>(point)]; }
+  /// Weights of one sample at all points.
+  const AtPoints& of_sample(int sample) const { return of_sample_[static_cast<std::size_t>(sample)]; }
   /// Of the integral of the polynomial over the step, in units of the step.
   const Weights& integral() const { return integral_; }
   /// Weights of the samples at any share of the step.
@@ -34,6 +37,7 @@ class CurveGrid {
   int n_;
   Weights x_{}, barycentric_{}, integral_{};
   std::array<Weights, kPoints> at_point_{};
+  std::array<AtPoints, kMost> of_sample_{};
 };
 
 /// Adds a step of h seconds from t0 to `sums` of the size of a vector of n components, whose samples are `samples[i * stride + c]`.
