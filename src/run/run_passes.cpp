@@ -157,7 +157,7 @@ class Passes {
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
     stages_before_ = choice_.stages;
     share_ = alike_ || out_.of_motion ? 1.0 : longest_ > 0 ? share_of_finer(std::pow(kShorter, choice_.stages + 1), 1) : share_of_finer(fine_tolerance_, before);
-    difference_ = difference_of_passes(system_, coarse, fine, fine.t.back(), share_);
+    find_difference(coarse, fine);
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
     relative_difference_ = relative_differences(system_, difference_);
     const double apart = out_.of_motion ? out_.motion_error : largest_of(relative_difference_);
@@ -172,8 +172,13 @@ class Passes {
   // A difference that has stopped growing does not tell the finer one's part.
   void take_all(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
     share_ = 1;
-    difference_ = difference_of_passes(system_, coarse, fine, fine.t.back(), share_);
+    find_difference(coarse, fine);
     relative_difference_ = relative_differences(system_, difference_);
+  }
+
+  void find_difference(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
+    difference_ = difference_of_passes(system_, coarse, fine, fine.t.back(), share_);
+    include_peaks(coarse_->loads(), fine_->loads(), difference_);
   }
 
   // Whether another pass is made, and with which tolerance.
@@ -245,16 +250,24 @@ class Passes {
     if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, chaos_, out_);
   }
 
+  // With what each joint has lost since its event before.
   void fill_events() {
     std::vector<JointEvents> of_joint(system_.joints.size());
-    for (const LawCrossing& crossing : last_.crossings) {
-      const BasicJointData<S>& joint = system_.joints[static_cast<std::size_t>(crossing.joint)];
-      of_joint[static_cast<std::size_t>(crossing.joint)].events.push_back({crossing.t, joint.law.parts()[static_cast<std::size_t>(crossing.part)]->border_name(crossing.border, crossing.rising), crossing.seen});
+    const std::vector<double>& heat = fine_->heat_at_crossings();
+    const bool with_heat = heat.size() == last_.crossings.size();
+    std::vector<double> lost(system_.joints.size(), 0);
+    for (std::size_t i = 0; i < last_.crossings.size(); ++i) {
+      const LawCrossing& crossing = last_.crossings[i];
+      const auto j = static_cast<std::size_t>(crossing.joint);
+      JointEvent event{crossing.t, system_.joints[j].law.parts()[static_cast<std::size_t>(crossing.part)]->border_name(crossing.border, crossing.rising), crossing.seen};
+      if (with_heat) event.values.push_back(heat[i] - std::exchange(lost[j], heat[i]));
+      of_joint[j].events.push_back(std::move(event));
     }
     for (std::size_t j = 0; j < of_joint.size(); ++j) {
       if (of_joint[j].events.empty()) continue;
       of_joint[j].joint = system_.joints[j].name;
       for (const LawColumn& column : system_.joints[j].law.columns()) of_joint[j].columns.push_back({column.name, column.unit, column.meaning});
+      if (with_heat) of_joint[j].columns.push_back({"heat", "J", "what the joint has turned into heat since its event before"});
       out_.events.push_back(std::move(of_joint[j]));
     }
   }
