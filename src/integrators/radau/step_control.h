@@ -91,7 +91,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
   SwitchingEvent ahead;                      // the last that was located
   for (int retry = 0; retry < kMaxRetries; ++retry) {
     const double left = t_end - method.t();
-    if (h > left || left - h < 1e-3 * h) h = left;
+    if (h > left || (!up_to_event && left - h < 1e-3 * h)) h = left;
     else if (!up_to_event && left < 1.7 * h) h = 0.5 * left;
     if (h <= 16 * std::numeric_limits<double>::epsilon() * std::max(std::abs(method.t()), std::abs(t_end))) break;
     const bool solved = method.attempt(h);
