@@ -157,6 +157,13 @@ void make_linear(const LawSetting& at, Law& law) {
   else law.set_linear(linear);
 }
 
+void LawSetting::bound_by(const std::map<std::string, double>& geometry) {
+  const auto stroke = geometry.find("stroke");
+  if (stroke == geometry.end()) return;
+  lower_end = 0;
+  upper_end = stroke->second;
+}
+
 double LawSetting::number(std::string_view key, std::size_t place) const {
   const std::vector<double> stated = list(key);
   if (!stated.empty()) return stated[std::min(place, stated.size() - 1)];
@@ -177,7 +184,7 @@ Planar::Vec LawSetting::by_component(std::string_view linear, std::string_view a
   return x;
 }
 
-std::string_view key_of(LawRole role) { return role == LawRole::kHolds ? "law" : role == LawRole::kFriction ? "friction" : "stops"; }
+std::string_view key_of(LawRole role) { return role == LawRole::kHolds ? "law" : role == LawRole::kFriction ? "friction" : role == LawRole::kStops ? "stops" : "detent"; }
 
 std::span<const LawInfo> law_catalog() { return laws(); }
 

@@ -160,6 +160,7 @@ KeySpec spec_of(const KeyInfo& info, const JointTypeInfo* type) {
   spec.meaning = info.meaning;
   spec.otherwise = info.otherwise;
   if (info.of_time) spec.variables = {"t"};
+  spec.variables.insert(spec.variables.end(), info.also_of.begin(), info.also_of.end());
   if (std::isfinite(info.minimum)) spec.minimum = info.minimum;
   spec.minimum_exclusive = info.minimum_exclusive;
   spec.required = info.required;
@@ -217,7 +218,7 @@ TableSpec Schema::assemble(std::string_view path, std::string_view when, std::st
       out.keys.push_back(spec_of(key));
       // A geometry that may be left out is measured when assembled, so it has no value of its own.
       out.keys.back().fallback.reset();
-      if (!key.required) out.keys.back().otherwise = "as assembled";
+      if (!key.required && key.otherwise.empty()) out.keys.back().otherwise = "as assembled";
     }
   }
   if (out.law_keys) add_law_keys(out, find_joint_type(when), {law, friction, stops});
