@@ -140,6 +140,7 @@ std::vector<LawInfo> own_laws() {
   add_bearing_laws(all);
   add_flexure_laws(all);
   add_stop_laws(all);
+  add_detent_laws(all);
   return all;
 }
 

@@ -266,7 +266,7 @@ void SceneMaker::add_motor(const Motor& motor) {
 // angle stands where it stops the centre of the second body.
 void SceneMaker::add_stops(const Joint& joint) {
   const auto first = find(joint.first), second = find(joint.second);
-  if (joint.stops.word.empty() || !first || !second) return;
+  if (joint.stops.word.empty() || joint.type == "cylinder" || !first || !second) return;
   const double u = scene_.unit;
   const bool turns = joint.type == "revolute";
   const bool centred = length(second->point) < 1e-6 * u || second->body == kWorld;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "start/ideal_rows.h"
@@ -30,12 +31,14 @@ Assembly start_of_free_bodies(const Model& model, System& system, double known_s
   return assembly;
 }
 
-// Equations that keep a gap at zero do not ask the joint's law, and so do not know of its friction and its stops either.
+// Equations that keep a gap at zero do not ask the joint's law, and so do not know of its friction, its detent and its stops either.
 template <class IsIdeal>
 void note_lost_laws(const System& system, const IsIdeal& is_ideal, std::vector<std::string>& notes) {
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& joint = system.joints[j];
     if (is_ideal(j) && joint.law.has_friction()) notes.push_back(fmt::format("joint {} is ideal: its friction is not in these equations", joint.name));
+    const auto is_detent = [](const auto& part) { return !part->holds() && !part->rubs() && !part->stops() && !part->feeds(); };
+    if (is_ideal(j) && std::any_of(joint.law.parts().begin(), joint.law.parts().end(), is_detent)) notes.push_back(fmt::format("joint {} is ideal: its detent is not in these equations", joint.name));
     if (is_ideal(j) && joint.law.has_stops()) notes.push_back(fmt::format("joint {} is ideal: its stops are not in these equations, so that it moves through them", joint.name));
   }
 }

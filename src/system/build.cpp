@@ -126,6 +126,7 @@ class Builder {
     if (!type.gap.empty()) add(&joint.law, LawRole::kHolds);
     add(&joint.friction, LawRole::kFriction);
     add(&joint.stops, LawRole::kStops);
+    add(&joint.detent, LawRole::kDetent);
     return law;
   }
   void add_joint(const Joint& joint) {

@@ -115,7 +115,7 @@ class LawChange {
   void leave_out_former_keys(Table& joint, LawRole role) {
     const LawInfo* former = find_law(former_);
     const auto stays = [&](std::string_view key) {
-      for (const LawRole other : {LawRole::kHolds, LawRole::kFriction, LawRole::kStops}) {
+      for (const LawRole other : {LawRole::kHolds, LawRole::kFriction, LawRole::kStops, LawRole::kDetent}) {
         const std::string word = word_at(joint, key_of(other));
         if (other != role && has_key(find_law(word.empty() && other == LawRole::kHolds ? "linear" : word), key)) return true;
       }

@@ -35,12 +35,13 @@ const LawInfo* law_of_role(std::string_view word, LawRole role) {
   return law != nullptr && law->role == role ? law : nullptr;
 }
 
-TableSpec& joint_spec(ModelReading& reading, const Node& joint, const JointTypeInfo* type, const LawInfo* law, const std::string& friction, const std::string& stops) {
+TableSpec& joint_spec(ModelReading& reading, const Node& joint, const JointTypeInfo* type, const LawInfo* law, const std::string& friction, const std::string& stops,
+                      const std::string& detent) {
   const std::string type_word(type == nullptr ? "" : type->word);
   const std::string law_word(law == nullptr ? "" : law->word);
   // The specs are made by spec() and belong to `reading`, so they may be completed here: how many entries lists have, and which
   // keys a table stands for.
-  TableSpec& spec = const_cast<TableSpec&>(reading.spec("joint.*", type_word, law_word, friction, stops));
+  TableSpec& spec = const_cast<TableSpec&>(reading.spec("joint.*", type_word, law_word, friction, stops, detent));
   for (KeySpec& key : spec.keys) {
     if (key.per_component && type != nullptr) key.count = linear_components(*type);
   }
@@ -220,13 +221,16 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   const LawInfo* friction = law_of_role(friction_word, LawRole::kFriction);
   const std::string stops_word = word_ahead(entry.value, "stops");
   const LawInfo* stops = law_of_role(stops_word, LawRole::kStops);
+  const std::string detent_word = word_ahead(entry.value, "detent");
+  const LawInfo* detent = law_of_role(detent_word, LawRole::kDetent);
   reading.type_of_joint[entry.key] = type == nullptr ? "" : std::string(type->word);
   if (type == nullptr || law == nullptr) {
     read_faulty_joint(reading, entry, path);
     return;
   }
   const std::string kind = "a " + std::string(type->word) + " joint";
-  const Record record = reading.records.read(joint_spec(reading, entry.value, type, law, friction == nullptr ? "" : friction_word, stops == nullptr ? "" : stops_word), entry.value, entry.key_spot, path, kind);
+  const Record record = reading.records.read(joint_spec(reading, entry.value, type, law, friction == nullptr ? "" : friction_word, stops == nullptr ? "" : stops_word,
+                                                         detent == nullptr ? "" : detent_word), entry.value, entry.key_spot, path, kind);
   Joint joint;
   joint.name = entry.key;
   joint.type = type->word;
@@ -239,6 +243,7 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   joint.ideal = record.number("ideal") > 0;
   if (friction != nullptr) read_law(reading, *type, *friction, record, entry.value, defaults, joint, joint.friction);
   if (stops != nullptr) read_law(reading, *type, *stops, record, entry.value, defaults, joint, joint.stops);
+  if (detent != nullptr) read_law(reading, *type, *detent, record, entry.value, defaults, joint, joint.detent);
   if (friction != nullptr && joint.ideal)
     reading.complaints.add(record.spot("friction"), path + ".friction", '"' + friction_word + '"', "an ideal joint does not give way, so that nothing says what presses its surfaces together",
                            "ideal = false, or no friction");

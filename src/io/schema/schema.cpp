@@ -64,6 +64,8 @@ std::vector<std::string> words_of_catalog(std::string_view catalog) {
     list(LawRole::kFriction);
   } else if (catalog == "stop laws") {
     list(LawRole::kStops);
+  } else if (catalog == "detent laws") {
+    list(LawRole::kDetent);
   } else if (catalog == "joint types") {
     for (const JointTypeInfo& type : joint_type_catalog()) words.emplace_back(type.word);
   } else {
@@ -131,7 +133,7 @@ TableSpec read_table(const Table& table) {
   return spec;
 }
 
-void add_law_keys(TableSpec& table, const JointTypeInfo* type, const std::array<std::string_view, 3>& words) {
+void add_law_keys(TableSpec& table, const JointTypeInfo* type, const std::array<std::string_view, 4>& words) {
   const bool all = words.front().empty();
   for (const LawInfo& info : law_catalog()) {
     if (!all && std::find(words.begin(), words.end(), info.word) == words.end()) continue;
@@ -202,7 +204,8 @@ const Schema& Schema::model() {
   return schema;
 }
 
-TableSpec Schema::assemble(std::string_view path, std::string_view when, std::string_view law, std::string_view friction, std::string_view stops) const {
+TableSpec Schema::assemble(std::string_view path, std::string_view when, std::string_view law, std::string_view friction, std::string_view stops,
+                           std::string_view detent) const {
   TableSpec out;
   bool found = false;
   for (const TableSpec& table : tables_) {
@@ -221,7 +224,7 @@ TableSpec Schema::assemble(std::string_view path, std::string_view when, std::st
       if (!key.required && key.otherwise.empty()) out.keys.back().otherwise = "as assembled";
     }
   }
-  if (out.law_keys) add_law_keys(out, find_joint_type(when), {law, friction, stops});
+  if (out.law_keys) add_law_keys(out, find_joint_type(when), {law, friction, stops, detent});
   return out;
 }
 
