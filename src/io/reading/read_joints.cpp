@@ -104,8 +104,8 @@ void read_cam(ModelReading& reading, const Record& record, Joint& joint) {
 }
 
 // Whether the values of the type's keys go together.
-void check_geometry(ModelReading& reading, const JointTypeInfo& type, const Record& record, const Joint& joint) {
-  if (type.has_ends && record.word("stops").empty())
+void check_geometry(ModelReading& reading, const JointTypeInfo& type, const Record& record, const Node& stated_joint, const Joint& joint) {
+  if (type.has_ends && stated_joint.table() != nullptr && stated_joint.table()->find("stops") == nullptr)
     reading.complaints.add(record.spot("stops"), record.path, "no stops", "the " + std::string(type.free.front().name) + " ends somewhere", "stops = \"hard\" or \"cushioned\", with stop_stiffness");
   const bool complete = std::all_of(type.keys.begin(), type.keys.end(), [&](const KeyInfo& key) { return !key.required || joint.geometry.contains(std::string(key.key)); });
   if (type.fault == nullptr || !complete) return;
@@ -237,7 +237,7 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   read_between(reading, record, "joint", joint.first, joint.second);
   read_geometry(*type, record, joint);
   check_gear(reading, record, joint);
-  check_geometry(reading, *type, record, joint);
+  check_geometry(reading, *type, record, entry.value, joint);
   read_cam(reading, record, joint);
   read_law(reading, *type, *law, record, entry.value, defaults, joint, joint.law);
   joint.ideal = record.number("ideal") > 0;

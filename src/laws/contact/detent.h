@@ -1,6 +1,6 @@
 // A detent: a ball, pressed by a spring, that sinks into notches of what moves past it.
 //
-//   f = -r (F_0 + k y) y'(u),   V = F_0 y + 1/2 k y^2,   u = r (z - z_0)       theory/contact Eqs. (8.1), (8.4)
+//   f = -r (F_0 + k y) y'(u),   V = F_0 y + 1/2 k y^2,   u = r (z - z_0)       theory/contact Eq. (8.1)
 //
 // z is the coordinate that the joint leaves free, r the radius at which the ball runs (1 for slides), y(u) how far the notch has lifted the ball. The
 // slope of the force has a kink where the ball reaches the edge of a notch and where it leaves it: borders.
@@ -86,7 +86,7 @@ struct DetentLaw {
   // V, V' and V'' along u.
   double energy(double u) const {
     const double y = profile.at(u).y;
-    return (preload + 0.5 * rate * y) * y;  // (8.4)
+    return (preload + 0.5 * rate * y) * y;  // (8.1)
   }
   double push(double u) const {
     const BallLift lift = profile.at(u);

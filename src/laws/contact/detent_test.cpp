@@ -70,7 +70,9 @@ TEST(Detent, BreaksAwayAtTheEdge) {
     out[turns ? 2 : 0] = 3.05e-3 / radius;
     next[2] = std::numbers::pi / 6 + 1e-3 / radius;
     EXPECT_NEAR(law.energy({0, out, Vec::Map(still), nullptr}), 20e-3 + 0.5 * 5e3 * 1e-6, 1e-15);
-    if (turns) EXPECT_NEAR(law.energy({0, next, Vec::Map(still), nullptr}), (20 + 2.5e3 * kNotch.at(1e-3).y) * kNotch.at(1e-3).y, 1e-12);
+    if (!turns) continue;
+    const double again = kNotch.at(1e-3).y;
+    EXPECT_NEAR(law.energy({0, next, Vec::Map(still), nullptr}), (20 + 2.5e3 * again) * again, 1e-12);
   }
 }
 
