@@ -285,8 +285,8 @@ class Builder {
 
 const Joint* model_joint(const Model& model, std::size_t j) { return j < model.joints.size() ? &model.joints[j] : nullptr; }
 
-// A rod or rope whose length is what it is when assembled.
-bool is_measured(const Joint& joint) { return !joint.functions.contains("length") && !joint.geometry.contains("length"); }
+// A rod or rope whose length is what it is when assembled; that of a cylinder is stated.
+bool is_measured(const Joint& joint) { return !joint.functions.contains("length") && !joint.geometry.contains("length") && joint.type != "cylinder"; }
 
 void settle_joint(const Joint& joint, const RelativePose& pose, JointDisplacement& displacement, std::vector<std::string>& notes) {
   if (auto* distance = std::get_if<Distance>(&displacement); distance && is_measured(joint)) {
