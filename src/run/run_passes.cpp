@@ -154,7 +154,6 @@ class Passes {
     const BasicForceTable<S> &coarse = coarse_->forces(), &fine = fine_->forces();
     coarse_tolerance_ = before;
     difference_ = difference_of_passes(system_, coarse, fine, fine.t.back());
-    include_peaks(coarse_->loads(), fine_->loads(), difference_);
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
     stages_before_ = choice_.stages;
     share_ = alike_ || out_.of_motion ? 1.0 : share_of_finer(fine_tolerance_, before);
@@ -229,7 +228,10 @@ class Passes {
     judge(worst_joint);
     const bool chaotic = out_.outcome == Outcome::kHorizon;
     for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
-    if (!difference_.force.empty() && !chaotic) state_errors(system_, difference_, relative_difference_, share_, least_error(), out_.joints);
+    if (!difference_.force.empty() && !chaotic) {
+      include_peaks(fine_->loads(), difference_);
+      state_errors(system_, difference_, relative_differences(system_, difference_), share_, least_error(), out_.joints);
+    }
     if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, chaos_, out_);
   }
 

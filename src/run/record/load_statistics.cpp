@@ -70,7 +70,7 @@ void BasicLoadRecorder<S>::add_step(BasicStepper<S>& stepper) {
   }
   for (std::size_t j = 0; j < work_.size(); ++j, ++at)
     for (int i = 0; i <= last; ++i) work_[j] += h * grid_.integral()[static_cast<std::size_t>(i)] * at[static_cast<std::ptrdiff_t>(i) * stride_];
-  for (CurveSums& sums : signal_) add_curve<1>(grid_, at++, stride_, t0, h, sums);
+  for (CurveSums& sums : signal_) add_curve<1, Sums::kWithSign>(grid_, at++, stride_, t0, h, sums);
 }
 
 template <class S>
