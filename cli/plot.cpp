@@ -26,6 +26,7 @@ constexpr const char* kFooter =
     "  pintle plot four_bar-run --with softer-run --joint O4 --components magnitude\n"
     "  pintle plot four_bar-run --joint O4 --out O4.png --width 500 --dpi 300\n"
     "  pintle plot four_bar-run --polar A\n"
+    "  pintle plot worn-run --x joint.B.contact_angle --column joint.B.penetration --every 0.012 --from 1.2\n"
     "\n"
     "Columns with different units are drawn in stacked panels. The first row of series.csv lists all columns.\n";
 
@@ -146,6 +147,8 @@ void add_plot(CLI::App& app, int& exit_code, const WritePng& write_png) {
   verb->add_option("--polar", options->polar, "polar load diagrams of this revolute joint: in world axes, and in those of its marker on either body")->type_name("NAME");
   verb->add_option("--with", options->others, "add another run to the plot (repeatable)")->type_name("RUN")->allow_extra_args(false);
   verb->add_option("--x", request.x, "column on the horizontal axis")->type_name("COLUMN")->capture_default_str();
+  verb->add_option("--every", request.every, "a Poincare section: dots at times so far apart, the period of a motor")->type_name("SECONDS");
+  verb->add_option("--from", request.from, "the first of these times: later than what the start leaves behind")->type_name("SECONDS")->capture_default_str();
   verb->add_option("--title", request.title, "title of the plot")->type_name("TEXT");
   verb->add_option("-o,--out", options->out, "file to write, .svg or .png, - for SVG on standard output (default: <run>-<what>.svg)")
       ->type_name("FILE");

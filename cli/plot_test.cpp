@@ -45,6 +45,23 @@ TEST_F(PlotVerb, PolarLoadDiagrams) {
   EXPECT_EQ(sandbox_.pintle("plot four-run --polar slide").exit_code, 2);
 }
 
+// A pendulum's rows are 10 ms apart.
+TEST_F(PlotVerb, PoincareSections) {
+  sandbox_.write("pendulum.toml", pendulum_toml("0.2 s", "10 ms"));
+  EXPECT_EQ(sandbox_.pintle("run pendulum.toml -q").exit_code, 0);
+  const Answer section = sandbox_.pintle("plot pendulum-run --x joint.pin.angle --column joint.pin.angle_rate --every 0.04 --from 0.02 --out -");
+  ASSERT_EQ(section.exit_code, 0) << section.error;
+  EXPECT_TRUE(holds(section.out, "every 0.04 s from 0.02 s: 5 points")) << section.out;
+  std::size_t dots = 0;
+  for (std::size_t at = section.out.find("<circle"); at != std::string::npos; at = section.out.find("<circle", at + 1)) ++dots;
+  EXPECT_EQ(dots, 5u);
+  const Answer between = sandbox_.pintle("plot pendulum-run --x joint.pin.angle --column joint.pin.angle_rate --every 0.025 --out -");
+  EXPECT_EQ(between.exit_code, 2);
+  EXPECT_TRUE(holds(between.error, "found no row at t = 0.025 s")) << between.error;
+  EXPECT_TRUE(holds(sandbox_.pintle("plot pendulum-run --column joint.pin.angle --every 0.04 --from 3").error, "ends before it"));
+  EXPECT_EQ(sandbox_.pintle("plot pendulum-run --column joint.pin.angle --every -1").exit_code, 2);
+}
+
 TEST_F(PlotVerb, WrongNamesGiveCode2AndASuggestion) {
   const std::pair<const char*, const char*> mistakes[] = {
       {"--joint 04", "O4"},

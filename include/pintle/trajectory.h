@@ -17,7 +17,7 @@ struct Column {
   std::string about;
 };
 
-/// What one joint (or motor, or spring) carried, over the whole run. Magnitudes of the force [N] on the second body, and
+/// What one joint (or motor, or spring) carried, over the whole run, between the rows of the table as at them. Magnitudes of the force [N] on the second body, and
 /// of the couple [N*m] about the second marker where the joint transmits one (`has_moment`).
 struct LoadSummary {
   std::string name;
@@ -27,6 +27,7 @@ struct LoadSummary {
   double peak_time = 0;                ///< [s]
   bool has_moment = false;
   double peak_moment = 0, rms_moment = 0, mean_moment = 0;
+  double heat = 0;                     ///< what the joint has turned into heat [J]; of springs 0
   double error_estimate = 0;           ///< largest error of the force over the run [N]; 0 also where a run stopped before its second integration
   double moment_error_estimate = 0;    ///< largest error of the couple [N*m]
   double relative_error_estimate = 0;  ///< the larger of the two, each over the joint's peak [-]

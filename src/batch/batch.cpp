@@ -6,7 +6,6 @@
 #include "batch/batch_work.h"
 #include "integrators/absolute/radau_stepper.h"
 #include "pintle/simulate.h"
-#include "run/recording.h"
 #include "start/start.h"
 #include "start/time_scales.h"
 #include "system/build.h"
@@ -32,39 +31,16 @@ bool is_for_batches(const Model& model) {
          (s.method == "auto" || s.method == "radau") && s.duration > 0;
 }
 
-// The rows of `integrate`, step by step.
-class Rows {
- public:
-  Rows(double duration, double output_step) : duration_(duration), step_(output_step), almost_(duration * (1 - 1e-12)) {}
-
-  BatchStep of_step(double t0, double t1) {
-    BatchStep out;
-    out.share = (t1 - t0) / duration_;
-    for (double t = time(); t <= t1 && t < almost_; ++row_, t = time()) {
-      if (t == t1) out.at_end = true;
-      else out.inside.push_back((t - t0) / (t1 - t0));
-    }
-    if (t1 >= almost_) out.at_end = true;
-    return out;
-  }
-
- private:
-  double time() const { return static_cast<double>(row_) * step_; }
-  double duration_, step_, almost_;
-  std::size_t row_ = 1;
-};
-
 // The lengths of the base's steps. False where it does not get to the end.
 bool find_steps(const State& start, BatchPlan& plan) {
   RadauStepper stepper(plan.base, plan.tolerance);
   stepper.set_max_step(plan.max_step);
   stepper.set_load_scale(plan.scale);
   stepper.start(start, 1e-4 * plan.duration);
-  Rows rows(plan.duration, plan.output_step);
   plan.steps.clear();
   while (stepper.state().t < plan.duration * (1 - 1e-12)) {
     if (plan.steps.size() > kMostSteps || !stepper.step(plan.duration)) return false;
-    plan.steps.push_back(rows.of_step(stepper.previous().t, stepper.state().t));
+    plan.steps.push_back((stepper.state().t - stepper.previous().t) / plan.duration);
   }
   return true;
 }
@@ -117,7 +93,6 @@ std::optional<BatchPlan> plan_batch(const Model& base, const NominalRun& nominal
   if (!(start.settled_over > 0)) return std::nullopt;
   plan.slack = slack_of(plan.base, start.state, nominal.span);
   plan.duration = base.simulate.duration;
-  plan.output_step = output_step_of(base.simulate, plan.base.joints.size());
   plan.max_step = base.simulate.max_step;
   plan.wanted = nominal.wanted;
   plan.span = start.settled_over / plan.duration;
@@ -136,7 +111,6 @@ Batch::~Batch() = default;
 bool Batch::accepts(const Model& variant) const {
   const SimulateSettings& s = variant.simulate;
   return is_for_batches(variant) && s.tolerance == plan_.wanted && variant.bodies.size() == plan_.base.bodies.size() &&
-         is_near(output_step_of(s, plan_.base.joints.size()) / s.duration, plan_.output_step / plan_.duration) &&
          is_near(s.max_step / s.duration, plan_.max_step / plan_.duration);
 }
 
@@ -187,8 +161,8 @@ std::array<BatchResult, kVariantLanes> Batch::run() {
     result.unsettled = work_->unsettled()[lane];
     result.good = std::isfinite(result.error) && result.error <= plan_.most_error && result.unsettled <= kUnsettled * plan_.wanted;
     for (const BatchPeak& peak : work_->peaks()) {
-      result.joints.push_back({std::sqrt(peak.square[lane]), peak.time[lane], peak.couple[lane]});
-      result.good = result.good && std::isfinite(peak.square[lane] + peak.couple[lane]);
+      result.joints.push_back({std::sqrt(peak.square[lane]), peak.time[lane], std::sqrt(peak.couple_square[lane])});
+      result.good = result.good && std::isfinite(peak.square[lane] + peak.couple_square[lane]);
     }
   }
   filled_.fill(false);

@@ -18,7 +18,7 @@ namespace pintle {
 /// How the base is integrated, and with it the variants.
 struct BatchPlan {
   System base;
-  double duration = 0, output_step = 0, max_step = 0;  // [s]
+  double duration = 0, max_step = 0;                   // [s]
   double wanted = 0;                                   // tolerance of the forces
   double tolerance = 0, of_newton = 0;                 // of the steps, of the iterations in them
   double most_error = 0;                               // of a variant's steps, over their tolerance
@@ -26,7 +26,7 @@ struct BatchPlan {
   int sweeps = 2;                                      // of their motion there
   double slack = 1;                                    // the base's joints may be so much slower without being soft
   LoadScale scale;
-  std::vector<BatchStep> steps;
+  std::vector<double> steps;                           // shares of the duration
 };
 
 /// None where `base` is of a kind, or has a start, that a batch does not take, or where its batch's peaks are not those of `run`, the

@@ -1,5 +1,4 @@
-// The joint forces of variants between the ends of a step, and the largest at times of results. What DenseOutput does: theory/time
-// section 5.
+// The joint forces of variants along a step, and the largest of them. What DenseOutput and LoadRecorder do: theory/time section 5.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include "batch/batch_projector.h"
 #include "integrators/dense/force_samples.h"
 #include "integrators/radau/radau_table.h"
+#include "run/record/sampled_curve.h"
 
 namespace pintle::PINTLE_BATCH {
 
@@ -33,13 +33,17 @@ class BatchCurves {
   }
 
   void forget() { std::fill(peaks_.begin(), peaks_.end(), BatchPeak{}); }
-  /// Forces at the times `inside`, as shares of the step.
-  void look_inside(const BatchState& begin, const BatchState& end, const BatchNodes& nodes, const std::vector<double>& inside) {
-    find(begin, end, nodes);
-    look_along(inside, begin.t, end.t - begin.t);
-  }
+  /// The start, and the force there.
   PINTLE_PART void look_at(const VariantLanes& t, const VariantVecs& force) {
-    for (std::size_t j = 0; j < peaks_.size(); ++j) look_at(j, t, force[j]);
+    for (std::size_t j = 0; j < peaks_.size(); ++j) {
+      raise(peaks_[j].square, peaks_[j].time, force[j][0] * force[j][0] + force[j][1] * force[j][1], t);
+      raise(peaks_[j].couple_square, peaks_[j].couple_time, force[j][2] * force[j][2], t);
+    }
+  }
+  /// A step.
+  void look_along(const BatchState& begin, const BatchState& end, const BatchNodes& nodes) {
+    find(begin, end, nodes);
+    find_peaks(begin.t, end.t - begin.t);
   }
   const std::vector<BatchPeak>& peaks() const { return peaks_; }
 
@@ -86,40 +90,47 @@ class BatchCurves {
       projector_.balance(r_, Q_, here_.accel, here_.force, move_);
       sampled_[i] = here_.force;
     }
-    for (std::size_t j = 0; j < r_.size(); ++j)
-      for (int c = 0; c < 3; ++c) {
-        VariantLanes f[kSamples + 2];
-        for (int i = 0; i < kSamples + 2; ++i) f[i] = sampled_[i][j][c];
-        for (int k = 0; k < kSamples + 2; ++k) {
-          VariantLanes sum(0.0);
-          for (int i = 0; i < kSamples + 2; ++i) sum += samples_.to_powers[k][i] * f[i];
-          sampled_[k][j][c] = sum;  // from here on coefficients of powers
-        }
-      }
   }
 
-  PINTLE_PART void look_along(const std::vector<double>& inside, const VariantLanes& t0, const VariantLanes& h) {
-    for (const double x : inside) look_at_share(x, t0 + x * h);
-  }
-  PINTLE_LANES void look_at_share(double x, const VariantLanes& t) {
+  // theory/time Eq. (5.3)
+  PINTLE_PART void find_peaks(const VariantLanes& t0, const VariantLanes& h) {
     for (std::size_t j = 0; j < peaks_.size(); ++j) {
-      VariantVec f = sampled_[kSamples + 1][j];
-      for (int k = kSamples; k >= 0; --k)
-        for (int c = 0; c < 3; ++c) f[c] = x * f[c] + sampled_[k][j][c];
-      look_at(j, t, f);
+      VariantLanes square[CurveGrid::kPoints], couple_square[CurveGrid::kPoints];
+      for (int p = 0; p < CurveGrid::kPoints; ++p) {
+        const CurveGrid::Weights& weight = grid_.at_point(p);
+        VariantVec f;
+        for (int c = 0; c < 3; ++c) {
+          VariantLanes sum(0.0);
+          for (int i = 0; i < kSamples + 2; ++i) sum += weight[static_cast<std::size_t>(i)] * sampled_[i][j][c];
+          f[c] = sum;
+        }
+        square[p] = f[0] * f[0] + f[1] * f[1];
+        couple_square[p] = f[2] * f[2];
+      }
+      find_peak(square, t0, h, peaks_[j].square, peaks_[j].time);
+      find_peak(couple_square, t0, h, peaks_[j].couple_square, peaks_[j].couple_time);
     }
   }
-  PINTLE_LANES void look_at(std::size_t j, const VariantLanes& t, const VariantVec& f) {
-    BatchPeak& peak = peaks_[j];
-    const VariantLanes square = f[0] * f[0] + f[1] * f[1];
-    peak.time = where_larger(square, peak.square, t, peak.time);
-    peak.square = larger(peak.square, square);
-    peak.couple = larger(peak.couple, sizes(f[2]));
+  // Of the points of the grid, and of the parabolas through three neighbours.
+  PINTLE_LANES void find_peak(const VariantLanes* square, const VariantLanes& t0, const VariantLanes& h, VariantLanes& peak, VariantLanes& time) {
+    constexpr double d = 1.0 / CurveGrid::kIntervals;
+    for (int p = 1; p < CurveGrid::kPoints; ++p) {
+      raise(peak, time, square[p], t0 + p * d * h);
+      if (p == CurveGrid::kIntervals) break;
+      const VariantLanes rise = square[p + 1] - square[p - 1], bend = 2.0 * square[p] - square[p + 1] - square[p - 1];
+      const VariantLanes share = rise * reciprocal(2.0 * bend), top = square[p] + 0.25 * rise * share;
+      raise(peak, time, where_larger(2.0 * bend, sizes(rise), top, square[p]), t0 + (VariantLanes(static_cast<double>(p)) + share) * d * h);
+    }
+  }
+  PINTLE_LANES void raise(VariantLanes& peak, VariantLanes& time, const VariantLanes& square, const VariantLanes& t) {
+    time = where_larger(square, peak, t, time);
+    peak = larger(peak, square);
   }
 
   BatchMechanism& mechanism_;
   const RadauTable& table_ = RadauTable::of(N);
   const ForceSamples& samples_ = ForceSamples::of(table_);
+  const CurveGrid grid_{ForceSamples::kAll};
   BatchProjector projector_;
   std::vector<BatchMotion> m_;
   std::vector<BatchJointKinematics> r_;

@@ -26,7 +26,7 @@ class Work final : public BatchWork {
     state_ = assembled_;
     start_.find(state_, plan_.span * duration_, plan_.sweeps, unsettled_);
     steps_.start(state_);
-    for (const BatchStep& step : plan_.steps) steps_.step(step, duration_);
+    for (const double share : plan_.steps) steps_.step(share, duration_);
   }
   const VariantLanes& unsettled() const override { return unsettled_; }
   const VariantLanes& worst() const override { return steps_.worst(); }

@@ -61,15 +61,10 @@ struct BatchState {
       : t(0.0), q(bodies + 1), v(bodies + 1), a(bodies + 1), gap(joints), rate(joints), accel(joints), force(joints) {}
 };
 
-struct BatchStep {
-  double share = 0;            // of the duration
-  std::vector<double> inside;  // times of results, as shares of the step
-  bool at_end = false;         // there is a result at its end
-};
-
-/// The largest forces so far, at times of results.
+/// The largest loads so far.
 struct BatchPeak {
-  VariantLanes square = VariantLanes(0.0), time = VariantLanes(0.0), couple = VariantLanes(0.0);  // of the magnitude [N^2], when [s], [N*m]
+  VariantLanes square = VariantLanes(0.0), time = VariantLanes(0.0);                // of the force [N^2], when [s]
+  VariantLanes couple_square = VariantLanes(0.0), couple_time = VariantLanes(0.0);  // of the couple [N^2*m^2]
 };
 
 class BatchMechanism {

@@ -46,9 +46,9 @@ class BatchSteps {
     curves_.look_at(end_.t, end_.force);
   }
 
-  void step(const BatchStep& plan, const VariantLanes& duration) {
+  /// `share` is that of the duration.
+  void step(double share, const VariantLanes& duration) {
     std::swap(begin_, end_);
-    const double share = plan.share;
     const VariantLanes h = share * duration;
     predict(have_nodes_ ? share / last_share_ : 0);
     solve(h);
@@ -57,8 +57,7 @@ class BatchSteps {
     worst_ = larger(worst_, error);
     finish(h);
     look_for_nonsense();
-    if (!plan.inside.empty()) curves_.look_inside(begin_, end_, nodes_, plan.inside);
-    if (plan.at_end) curves_.look_at(end_.t, end_.force);
+    curves_.look_along(begin_, end_, nodes_);
     last_share_ = share;
     have_nodes_ = true;
   }

@@ -136,10 +136,10 @@ TEST(Batch, WhatIsNotForOneIsRefused) {
   const auto plan = plan_for(four_bar());
   ASSERT_TRUE(plan.has_value());
   Batch batch(*plan);
-  Model longer = four_bar(), finer = four_bar();
-  longer.simulate.output_step = longer.simulate.duration / 100;
+  Model fewer_rows = four_bar(), finer = four_bar();
+  fewer_rows.simulate.output_step = fewer_rows.simulate.duration / 100;
   finer.simulate.tolerance = 1e-6;
-  EXPECT_FALSE(batch.accepts(longer));
+  EXPECT_TRUE(batch.accepts(fewer_rows)) << "peaks do not depend on the rows";
   EXPECT_FALSE(batch.accepts(finer));
   EXPECT_FALSE(batch.put(0, four_bar(1e6))) << "its joints are soft";
 }

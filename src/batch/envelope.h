@@ -21,7 +21,7 @@ struct Variant {
   bool checked = true;  ///< its errors are estimated and the tolerance is met, as by `simulate`; otherwise one integration
 };
 
-/// The largest force of a joint over the output times of a run.
+/// The largest force of a joint over a run.
 struct JointPeak {
   double force = 0;   ///< magnitude [N]
   double time = 0;    ///< of the largest force [s]

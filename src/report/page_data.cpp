@@ -28,7 +28,7 @@ bool is_derived(const std::string& name, const std::vector<std::string>& first_p
 
 Json rounded(double x, double step) { return step > 0 ? Json(std::round(x / step) * step + 0.0) : Json(x); }
 
-/// Where the largest joints, `most` of them, have their peaks.
+/// The rows on both sides of the peaks of the largest joints, `most` of them.
 std::vector<std::size_t> peak_rows(const Trajectory& trajectory, std::size_t most) {
   std::vector<std::pair<double, double>> peaks;  // force, time
   for (const LoadSummary& joint : trajectory.joints) peaks.emplace_back(joint.peak, joint.peak_time);
@@ -38,8 +38,15 @@ std::vector<std::size_t> peak_rows(const Trajectory& trajectory, std::size_t mos
   for (const auto& [peak, time] : peaks) times.push_back(time);
   std::sort(times.begin(), times.end());
   std::vector<std::size_t> rows;
+  if (trajectory.n_rows() == 0) return rows;
+  const std::size_t last = trajectory.n_rows() - 1;
+  const double first = trajectory.at(0, 0);
+  const auto peak_between = [&](double from, double to) {
+    const auto next = std::lower_bound(times.begin(), times.end(), from);
+    return next != times.end() && *next <= to;
+  };
   for (std::size_t row = 0; row < trajectory.n_rows(); ++row)
-    if (std::binary_search(times.begin(), times.end(), trajectory.at(row, 0))) rows.push_back(row);
+    if (peak_between(row == 0 ? first : trajectory.at(row - 1, 0), trajectory.at(std::min(row + 1, last), 0))) rows.push_back(row);
   return rows;
 }
 

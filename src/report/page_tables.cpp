@@ -9,6 +9,7 @@
 
 #include "results/bearing_text.h"
 #include "results/force_quality.h"
+#include "results/heat.h"
 #include "results/plots/markup.h"
 #include "results/plots/plot_ticks.h"
 #include "results/text_table.h"
@@ -175,6 +176,23 @@ std::string couple_table(const Trajectory& trajectory) {
     table.end_row();
   }
   return any ? "<h3>Couples about the second marker</h3>\n" + table.html() : "";
+}
+
+std::string heat_table(const Trajectory& trajectory) {
+  const std::vector<const LoadSummary*> joints = joints_with_heat(trajectory);
+  if (joints.empty()) return "";
+  HtmlTable table(" class=\"sortable\"");
+  table.head("joint", "", false);
+  table.head("heat", "J");
+  table.head("mean power", "W");
+  table.head("of all");
+  for (const LoadSummary* joint : joints) {
+    table.begin_row();
+    table.name(escaped_markup(joint->name));
+    for (const double x : {joint->heat, joint->heat / trajectory.t_end, joint->heat / trajectory.energy.dissipated}) table.number(x);
+    table.end_row();
+  }
+  return "<h3>Heat in joints</h3>\n" + table.html();
 }
 
 std::string drive_tables(const Trajectory& trajectory) {

@@ -65,7 +65,7 @@ TEST(Scene, ArrowsCarryTheForcesOfTheTable) {
     const auto arrow = std::find_if(scene.arrows.begin(), scene.arrows.end(), [&](const ForceArrow& a) { return a.joint == joint.name; });
     ASSERT_NE(arrow, scene.arrows.end());
     EXPECT_EQ(arrow->on, joint.second_body);
-    EXPECT_NEAR(length(instant.forces[static_cast<std::size_t>(arrow - scene.arrows.begin())]), joint.peak, 1e-9 * joint.peak);
+    EXPECT_NEAR(length(instant.forces[static_cast<std::size_t>(arrow - scene.arrows.begin())]), joint.peak, 1e-3 * joint.peak) << "rows are a degree of crank apart";
   }
 }
 

@@ -1,8 +1,10 @@
 #include "results/series_csv.h"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -68,16 +70,19 @@ void read_columns(CsvFields& reader, Trajectory& trajectory) {
 void write_series(const Trajectory& trajectory, const std::function<void(std::string_view)>& append) {
   append(header_row(trajectory, &Column::name));
   append(header_row(trajectory, &Column::unit));
-  fmt::memory_buffer row;
+  std::string row;
+  std::array<char, 32> number;  // the shortest text of a double has at most 24 characters
   const std::size_t n_columns = trajectory.columns.size();
   for (std::size_t i = 0; i < trajectory.n_rows(); ++i) {
     row.clear();
     for (std::size_t j = 0; j < n_columns; ++j) {
       if (j > 0) row.push_back(',');
-      fmt::format_to(std::back_inserter(row), "{}", trajectory.at(i, j));
+      // Straight into an array: two thirds of the work of an appending iterator.
+      const char* end = fmt::format_to(number.data(), FMT_COMPILE("{}"), trajectory.at(i, j));
+      row.append(number.data(), static_cast<std::size_t>(end - number.data()));
     }
     row.append(kLineEnd);
-    append({row.data(), row.size()});
+    append(row);
   }
 }
 

@@ -48,6 +48,7 @@ void for_each_entry(Load& load, const Visit& visit) requires requires {
   visit("peak_moment", load.peak_moment);
   visit("rms_moment", load.rms_moment);
   visit("mean_moment", load.mean_moment);
+  visit("heat", load.heat);
   visit("error_estimate", load.error_estimate);
   visit("moment_error_estimate", load.moment_error_estimate);
   visit("relative_error_estimate", load.relative_error_estimate);
@@ -201,9 +202,9 @@ void load(const Json& json, T& value) {
   json.get_to(value);
 }
 
-// Runs of version 0.1 before ideal joints have no "unique", older ones no error of couples; those of 0.2 have no events and no horizons.
+// Runs of version 0.1 before ideal joints have no "unique", older ones no error of couples; those of 0.2 have no events, horizons and heat.
 bool is_newer(std::string_view key) {
-  constexpr std::array kNewer{"unique", "moment_error_estimate", "events", "horizon", "peak_after", "rms_after", "mean_after", "peak_scatter", "rms_scatter", "mean_scatter"};
+  constexpr std::array kNewer{"unique", "heat", "moment_error_estimate", "events", "horizon", "peak_after", "rms_after", "mean_after", "peak_scatter", "rms_scatter", "mean_scatter"};
   return std::any_of(kNewer.begin(), kNewer.end(), [key](const char* newer) { return key == newer; });
 }
 

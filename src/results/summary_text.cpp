@@ -9,6 +9,7 @@
 #include "pintle/results.h"
 #include "results/bearing_text.h"
 #include "results/force_quality.h"
+#include "results/heat.h"
 #include "results/text_table.h"
 
 namespace pintle {
@@ -168,25 +169,41 @@ std::string event_section(const Trajectory& trajectory, const Style& style) {
   table.add_column("count", Align::kNumber);
   for (const char* head : {"first", "last"}) table.add_column(head, Align::kNumber, "s");
   table.add_column("fastest approach", Align::kNumber, "m/s");
+  table.add_column("most heat", Align::kNumber, "J");
   for (const JointEvents& joint : trajectory.events) {
     std::vector<std::string> kinds;
     for (const JointEvent& event : joint.events)
       if (std::find(kinds.begin(), kinds.end(), event.what) == kinds.end()) kinds.push_back(event.what);
-    const auto approach = static_cast<std::size_t>(
-        std::find_if(joint.columns.begin(), joint.columns.end(), [](const Column& column) { return column.name == "approach_speed"; }) - joint.columns.begin());
+    const auto place = [&](const char* name) {
+      return static_cast<std::size_t>(std::find_if(joint.columns.begin(), joint.columns.end(), [&](const Column& column) { return column.name == name; }) - joint.columns.begin());
+    };
+    const std::size_t approach = place("approach_speed"), heat = place("heat");
     for (const std::string& kind : kinds) {
       std::size_t count = 0;
-      double first = 0, last = 0, fastest = 0;
+      double first = 0, last = 0, fastest = 0, hottest = 0;
       for (const JointEvent& event : joint.events) {
         if (event.what != kind) continue;
         if (count++ == 0) first = event.t;
         last = event.t;
         if (approach < event.values.size()) fastest = std::max(fastest, event.values[approach]);
+        if (heat < event.values.size()) hottest = std::max(hottest, event.values[heat]);
       }
-      table.add_row({joint.joint, kind, fmt::format("{}", count), engineering(first), engineering(last), fastest > 0 ? engineering(fastest) : ""});
+      table.add_row({joint.joint, kind, fmt::format("{}", count), engineering(first), engineering(last), fastest > 0 ? engineering(fastest) : "", hottest > 0 ? engineering(hottest) : ""});
     }
   }
-  return section("Events in joints (events.csv has all)", table, style);
+  return section("Events in joints (most heat: since the joint's event before; events.csv has all)", table, style);
+}
+
+std::string heat_section(const Trajectory& trajectory, const Style& style) {
+  TextTable table;
+  table.add_column("joint", Align::kLeft);
+  table.add_column("heat", Align::kNumber, "J");
+  table.add_column("mean power", Align::kNumber, "W");
+  table.add_column("of all", Align::kNumber, "-");
+  const auto joints = joints_with_heat(trajectory);
+  for (const LoadSummary* load : shown(joints, [](const LoadSummary& one) { return one.heat; }))
+    table.add_row({load->name, engineering(load->heat), engineering(load->heat / trajectory.t_end), engineering(load->heat / trajectory.energy.dissipated)});
+  return section("Heat in joints", table, style) + rest_line(joints.size());
 }
 
 std::string energy_section(const EnergyAccount& energy, const Style& style) {
@@ -225,6 +242,7 @@ std::string summary_text(const Trajectory& trajectory, const RunStamp& stamp, bo
   text += spring_section(trajectory, style);
   text += motor_section(trajectory, style);
   text += event_section(trajectory, style);
+  text += heat_section(trajectory, style);
   text += bearing_text(trajectory.bearings, style.bold, style.plain);
   text += energy_section(trajectory.energy, style);
   text += work_section(trajectory);

@@ -67,6 +67,22 @@ TEST(SummaryText, ErrorsThatWereNotEstimatedAreNoZeros) {
   EXPECT_EQ(text.find("exceeds the tolerance"), std::string::npos);
 }
 
+// Of the 2 J that are lost here. What a stiff joint loses to rounding is not listed, nor anything where next to nothing of the energy is lost.
+TEST(SummaryText, ListsTheJointsThatTurnWorkIntoHeat) {
+  Trajectory trajectory = sample::trajectory();
+  trajectory.energy.kinetic_peak = 10;
+  trajectory.energy.dissipated = 2;
+  trajectory.joints[1].heat = 1.5;
+  trajectory.joints[0].heat = 1e-9;
+  const std::string text = summary_text(trajectory, {});
+  const std::size_t at = text.find("Heat in joints");
+  ASSERT_NE(at, std::string::npos) << text;
+  EXPECT_NE(text.find("slide     1.5000           3.0000      0.75000", at), std::string::npos) << text.substr(at);
+  EXPECT_EQ(text.substr(at, text.find("\n\n", at) - at).find("O4"), std::string::npos) << text.substr(at);
+  trajectory.energy.kinetic_peak = 1e7;
+  EXPECT_EQ(summary_text(trajectory, {}).find("Heat in joints"), std::string::npos);
+}
+
 TEST(SummaryText, EmptyTrajectoryIsNoAccident) {
   EXPECT_NE(summary_text({}, {}).find("completed"), std::string::npos);
 }

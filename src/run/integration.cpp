@@ -37,6 +37,10 @@ class Standstill {
   int steps_ = 0;
 };
 
+// Samples of the loads in a step. Steps may hold much of a period of the motion, and the dense output of radau has as many samples of the forces; other methods
+// on free bodies resolve the vibrations of the joints.
+int load_samples(const MethodChoice& choice) { return choice.method == "radau" || choice.equations != Equations::kNewtonian ? CurveGrid::kMost : 3; }
+
 // Whether the energy ends the integration.
 template <class S>
 bool alarmed(typename BasicEnergyWatch<S>::Alarm alarm, const BasicEnergyWatch<S>& energy, BasicIntegration<S>& out) {
@@ -57,7 +61,7 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
   stepper.set_max_step(plan.max_step);
   if (plan.scale) stepper.set_load_scale(*plan.scale);
   stepper.start(start, plan.first_step);
-  recorder.add(stepper.state());
+  recorder.start(stepper.state(), load_samples(plan.choice));
   if (plan.energy) plan.energy->start(stepper.state());
   std::size_t row = 1;
   const double end = plan.duration, almost = end * (1 - 1e-12);
@@ -69,7 +73,7 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
       break;
     }
     const BasicState<S>& now = stepper.state();
-    recorder.see_step(now, now.t - stepper.previous().t);
+    recorder.see_step(stepper);
     for (double t = static_cast<double>(row) * plan.output_step; t <= now.t && t < almost;
          t = static_cast<double>(++row) * plan.output_step)
       recorder.add(stepper.interpolate(t));
@@ -93,7 +97,7 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
     }
   }
   if (plan.energy && out.ended == Ended::kAtEnd) alarmed(plan.energy->see_end(stepper.state()), *plan.energy, out);
-  if (stepper.state().t > recorder.forces().t.back()) recorder.add(stepper.state());
+  recorder.finish(stepper.state());
   out.t = stepper.state().t;
   out.counters = stepper.counters();
   out.scale = stepper.load_scale();

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "joints/cam_profile.h"
-#include "run/record/time_averages.h"
 
 namespace pintle {
 namespace {
@@ -38,6 +37,32 @@ void Recorder::find_drives() {
   for (const Motor& motor : model_.motors) {
     const bool effort = motor.kind == MotorKind::kEffort;
     drives_.push_back(effort ? Drive{-1, static_cast<int>(load++)} : Drive{static_cast<int>(servo++), -1});
+  }
+  for (std::size_t i = 0; i < system_.loads.size(); ++i)
+    if (system_.loads[i].kind != LoadKind::kEffort) springs_.push_back(static_cast<int>(i));
+}
+
+double Recorder::effort_of(const Drive& drive, const State& state, const std::vector<S::Motion>& m) const {
+  return drive.joint >= 0 ? state.force[drive.joint][component(drive)] : system_.load_effort(system_.loads[drive.load], state.t, m, state.sliding);
+}
+
+double Recorder::power_of(const Drive& drive, double effort, const std::vector<S::Motion>& m) const {
+  const Placement& at = drive.joint >= 0 ? system_.joints[drive.joint].at : system_.loads[drive.load].at;
+  return effort * system_.pose(at, m).rate[component(drive)];
+}
+
+// Tension, or moment on the second body.
+double Recorder::effort_of_spring(const LoadData& spring, double t, const std::vector<S::Motion>& m) const {
+  const double effort = system_.load_effort(spring, t, m);
+  return spring.kind == LoadKind::kSpring ? -effort : effort;
+}
+
+void Recorder::put_signals(const State& state, const std::vector<S::Motion>& m, double* out) const {
+  for (const int spring : springs_) *out++ = effort_of_spring(system_.loads[spring], state.t, m);
+  for (const Drive& drive : drives_) {
+    const double effort = effort_of(drive, state, m);
+    *out++ = effort;
+    *out++ = power_of(drive, effort, m);
   }
 }
 
@@ -159,16 +184,11 @@ void Recorder::put_row(const State& state) {
     if (is_stroke(system_.joints[j])) put(state.force[j][0]);
     system_.joints[j].law.observe(law_point(system_, j, state), state.force[j], values_);
   }
-  for (const LoadData& spring : system_.loads)
-    if (spring.kind == LoadKind::kSpring) put(-system_.load_effort(spring, state.t, m_));
-    else if (spring.kind == LoadKind::kTorsionSpring) put(system_.load_effort(spring, state.t, m_));
+  for (const int spring : springs_) put(effort_of_spring(system_.loads[spring], state.t, m_));
   for (const Drive& drive : drives_) {
-    const bool servo = drive.joint >= 0;
-    const double effort = servo ? state.force[drive.joint][component(drive)]
-                                : system_.load_effort(system_.loads[drive.load], state.t, m_, state.sliding);
-    const Placement& at = servo ? system_.joints[drive.joint].at : system_.loads[drive.load].at;
+    const double effort = effort_of(drive, state, m_);
     put(effort);
-    put(effort * system_.pose(at, m_).rate[component(drive)]);
+    put(power_of(drive, effort, m_));
   }
   const Energies& energies = energies_.back();
   put(energies.kinetic);
@@ -183,36 +203,28 @@ void Recorder::fill(Trajectory& out) {
   if (!recording_.note.empty()) out.notes.push_back(recording_.note);
   ForceRecorder::fill(out);
   if (what_ != Recorded::kColumns) return;
-  const std::size_t rows = forces_.t.size();
-  const std::vector<double> weight = time_weights(forces_.t);
-  const auto column_sums = [&](const std::string& name) {
-    TimeAverages sums;
-    const int c = out.column(name);
-    for (std::size_t i = 0; c >= 0 && i < rows; ++i) sums.add(forces_.t[i], weight[i], out.at(i, c));
-    return sums;
-  };
+  int signal = 0;
   out.springs.clear();
   for (const Spring& spring : model_.springs) {
-    const TimeAverages s = column_sums("spring." + spring.name + (spring.torsion ? ".moment" : ".force"));
+    const LoadStatistics of = loads().signal(signal++);
     LoadSummary summary;
     summary.name = spring.name;
     summary.type = spring.torsion ? "torsion_spring" : "spring";
     summary.first_body = spring.first.body;
     summary.second_body = spring.second.body;
-    summary.peak_time = s.peak_time;
+    summary.peak_time = of.peak_time;
     summary.has_moment = spring.torsion;
-    (spring.torsion ? summary.peak_moment : summary.peak) = std::abs(s.peak);
-    (spring.torsion ? summary.rms_moment : summary.rms) = std::sqrt(s.square);
-    (spring.torsion ? summary.mean_moment : summary.mean) = s.mean;
+    (spring.torsion ? summary.peak_moment : summary.peak) = std::abs(of.peak);
+    (spring.torsion ? summary.rms_moment : summary.rms) = of.rms;
+    (spring.torsion ? summary.mean_moment : summary.mean) = of.mean;
     out.springs.push_back(summary);
   }
   out.motors.clear();
-  const double span = rows > 0 ? forces_.t.back() - forces_.t.front() : 0;
-  for (const Motor& motor : model_.motors) {
-    const TimeAverages effort = column_sums("motor." + motor.name + ".effort"), power = column_sums("motor." + motor.name + ".power");
-    const int c = out.column("motor." + motor.name + ".effort");
-    out.motors.push_back({motor.name, motor.joint, c >= 0 ? out.columns[c].unit : "", effort.peak, std::sqrt(effort.square), effort.mean,
-                          power.peak, power.mean, power.mean * span});
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const Motor& motor = model_.motors[i];
+    const LoadStatistics effort = loads().signal(signal++), power = loads().signal(signal++);
+    out.motors.push_back({motor.name, motor.joint, component(drives_[i]) == 0 ? "N" : "N*m", effort.peak, effort.rms, effort.mean, power.peak, power.mean,
+                          power.mean * loads().span()});
   }
 }
 

@@ -10,7 +10,7 @@
 
 namespace pintle {
 
-class Recorder final : public ForceRecorder {
+class Recorder final : public ForceRecorder, private LoadRecorder::Signals {
  public:
   Recorder(const Model& model, const System& system, Recorded what = Recorded::kColumns);
 
@@ -28,12 +28,20 @@ class Recorder final : public ForceRecorder {
   };
   int component(const Drive& d) const { return d.joint >= 0 ? system_.joints[d.joint].servo : system_.loads[d.load].component; }
   void find_drives();
+  // Forces of springs, then effort and power of each motor.
+  const Signals* signals() const override { return this; }
+  int n_signals() const override { return static_cast<int>(springs_.size() + 2 * drives_.size()); }
+  void put_signals(const State& state, const std::vector<Planar::Motion>& m, double* out) const override;
+  double effort_of(const Drive& drive, const State& state, const std::vector<Planar::Motion>& m) const;
+  double power_of(const Drive& drive, double effort, const std::vector<Planar::Motion>& m) const;
+  double effort_of_spring(const LoadData& spring, double t, const std::vector<Planar::Motion>& m) const;
   void put(double x) { values_.push_back(x); }
   void put_row(const State& state);
   void put_joint(int j, const Planar::Vec& load);
 
   const Model& model_;
   std::vector<Drive> drives_;
+  std::vector<int> springs_;  // among the loads, in the order of the model
   Recording recording_;
   std::vector<double> values_;
 };

@@ -228,20 +228,31 @@ class Passes {
     judge(worst_joint);
     const bool chaotic = out_.outcome == Outcome::kHorizon;
     for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
-    if (!difference_.force.empty() && !chaotic) state_errors(system_, difference_, relative_difference_, share_, least_error(), out_.joints);
+    if (!difference_.force.empty() && !chaotic) {
+      include_peaks(fine_->loads(), difference_);
+      state_errors(system_, difference_, relative_differences(system_, difference_), share_, least_error(), out_.joints);
+    }
     if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, chaos_, out_);
   }
 
+  // With what each joint has lost since its event before.
   void fill_events() {
     std::vector<JointEvents> of_joint(system_.joints.size());
-    for (const LawCrossing& crossing : last_.crossings) {
-      const BasicJointData<S>& joint = system_.joints[static_cast<std::size_t>(crossing.joint)];
-      of_joint[static_cast<std::size_t>(crossing.joint)].events.push_back({crossing.t, joint.law.parts()[static_cast<std::size_t>(crossing.part)]->border_name(crossing.border, crossing.rising), crossing.seen});
+    const std::vector<double>& heat = fine_->heat_at_crossings();
+    const bool with_heat = heat.size() == last_.crossings.size();
+    std::vector<double> lost(system_.joints.size(), 0);
+    for (std::size_t i = 0; i < last_.crossings.size(); ++i) {
+      const LawCrossing& crossing = last_.crossings[i];
+      const auto j = static_cast<std::size_t>(crossing.joint);
+      JointEvent event{crossing.t, system_.joints[j].law.parts()[static_cast<std::size_t>(crossing.part)]->border_name(crossing.border, crossing.rising), crossing.seen};
+      if (with_heat) event.values.push_back(heat[i] - std::exchange(lost[j], heat[i]));
+      of_joint[j].events.push_back(std::move(event));
     }
     for (std::size_t j = 0; j < of_joint.size(); ++j) {
       if (of_joint[j].events.empty()) continue;
       of_joint[j].joint = system_.joints[j].name;
       for (const LawColumn& column : system_.joints[j].law.columns()) of_joint[j].columns.push_back({column.name, column.unit, column.meaning});
+      if (with_heat) of_joint[j].columns.push_back({"heat", "J", "what the joint has turned into heat since its event before"});
       out_.events.push_back(std::move(of_joint[j]));
     }
   }

@@ -55,24 +55,38 @@ bool drags(const BasicJointData<S>& joint) {
   return false;
 }
 
-// The same system with springs in place of laws that do not answer at all where the joints stand, as in their play; none when all do.
+// Whether a law does not answer at all in some component in which it would hold its joint, as in its play.
 template <class S>
-std::optional<BasicSystem<S>> with_springs_for_play(const BasicSystem<S>& system, const BasicState<S>& state) {
-  std::optional<BasicSystem<S>> firm;
-  for (int j = 0; j < system.n_joints(); ++j) {
-    const BasicLaw<S>& law = system.joints[j].law;
-    if (law.ideal_limit() || law.starts_free()) continue;
-    const typename S::Vec engaged = law.engaged_stiffness();
-    const BasicResponse<S> now = respond(law, state.gap[j], state.gap_rate[j]);
-    bool open = false;
-    for (int k = 0; k < S::kDof; ++k) open = open || (engaged[k] > 0 && !(now.stiffness(k, k) > 0) && !(now.damping(k, k) > 0));
-    if (!open) continue;
-    if (!firm) firm = system;
+bool is_open(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate) {
+  const typename S::Vec engaged = law.engaged_stiffness();
+  const BasicResponse<S> now = respond(law, gap, rate);
+  for (int k = 0; k < S::kDof; ++k)
+    if (engaged[k] > 0 && !(now.stiffness(k, k) > 0) && !(now.damping(k, k) > 0)) return true;
+  return false;
+}
+
+// The same system with springs in place of the laws of `open` joints; none where there are none.
+template <class S>
+std::optional<BasicSystem<S>> with_springs(const BasicSystem<S>& system, const std::vector<int>& open) {
+  if (open.empty()) return std::nullopt;
+  BasicSystem<S> firm = system;
+  for (const int j : open) {
     BasicLinearLaw<S> spring;
-    spring.k = engaged;
-    firm->joints[j].law = BasicLaw<S>(spring);
+    spring.k = system.joints[j].law.engaged_stiffness();
+    firm.joints[j].law = BasicLaw<S>(spring);
   }
   return firm;
+}
+
+// In place of laws that do not answer where the joints stand; what starts free is left alone.
+template <class S>
+std::optional<BasicSystem<S>> with_springs_for_play(const BasicSystem<S>& system, const BasicState<S>& state) {
+  std::vector<int> open;
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const BasicLaw<S>& law = system.joints[j].law;
+    if (!law.ideal_limit() && !law.starts_free() && is_open(law, state.gap[j], state.gap_rate[j])) open.push_back(j);
+  }
+  return with_springs(system, open);
 }
 
 template <class S>
@@ -270,27 +284,48 @@ bool BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
   return carried;
 }
 
-// Eq. (3.4).
+// The joints that start free and do not touch where the bodies are.
+template <class S>
+std::vector<int> BasicInverseDynamics<S>::apart() const {
+  std::vector<int> out;
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const BasicLaw<S>& law = system_.joints[j].law;
+    if (!law.ideal_limit() && law.starts_free() && is_open(law, r_[j].gap, r_[j].rate)) out.push_back(j);
+  }
+  return out;
+}
+
+// Eq. (3.4). Joints that are apart stay as far apart as they are: the bodies beside them give way together.
 template <class S>
 void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
+  system_.motions(state.q, state.v, m_);
+  system_.joint_kinematics(state.t, m_, r_);
+  const std::vector<int> apart_now = apart();
+  const std::optional<BasicSystem<S>> firm = with_springs(system_, apart_now);
+  std::optional<BasicGapProjector<S>> holding;
+  if (firm) holding.emplace(*firm);
+  BasicGapProjector<S>& projector = holding ? *holding : projector_;
+  const double mu = kHeldAbove * slowest_joint(system_, r_);
+  if (!std::isfinite(mu) || !projector.prepare(r_, mu, state.gap, state.gap_rate)) return;
+  VecsOf<S> gap = state.gap;
+  for (const int j : apart_now) gap[j] = r_[j].gap;
   for (int pass = 0; pass < kClosing; ++pass) {
-    system_.motions(state.q, state.v, m_);
-    system_.joint_kinematics(state.t, m_, r_);
-    if (pass == 0) {
-      const double mu = kHeldAbove * slowest_joint(system_, r_);
-      if (!std::isfinite(mu) || !projector_.prepare(r_, mu, state.gap, state.gap_rate)) return;
+    if (pass > 0) {
+      system_.motions(state.q, state.v, m_);
+      system_.joint_kinematics(state.t, m_, r_);
     }
-    for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap[j] - r_[j].gap;
+    for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = gap[j] - r_[j].gap;
     moves_.assign(state.v.size(), S::Vec::Zero());
-    projector_.close(wanted_, moves_);
+    projector.close(wanted_, moves_);
     for (std::size_t i = 0; i < moves_.size(); ++i) S::move(state.q[i], moves_[i]);
   }
   system_.motions(state.q, state.v, m_);
   system_.joint_kinematics(state.t, m_, r_);
-  VecsOf<S> dv(state.v.size(), S::Vec::Zero());
+  VecsOf<S> dv(state.v.size(), S::Vec::Zero()), rate = state.gap_rate;
+  for (const int j : apart_now) rate[j] = r_[j].rate;
   for (int pass = 0; pass < kClosing; ++pass) {
-    for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = state.gap_rate[j] - r_[j].rate - from_bodies(j, dv);
-    projector_.close(wanted_, dv);
+    for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = rate[j] - r_[j].rate - from_bodies(j, dv);
+    projector.close(wanted_, dv);
   }
   for (std::size_t i = 0; i < dv.size(); ++i) state.v[i] += dv[i];
 }

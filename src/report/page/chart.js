@@ -48,7 +48,7 @@ class Chart {
     this.figure.remove();
   }
 
-  /** { title, unit, curves: [{ label, sub, values }] } */
+  /** { title, unit, curves: [{ label, sub, values, peak: [t, value] or undefined }] } */
   show(content) {
     this.content = content;
     this.draw(this.figure.clientWidth || 620);
@@ -69,7 +69,7 @@ class Chart {
   range() {
     let low = Infinity, high = -Infinity;
     for (const curve of this.content.curves)
-      for (const y of curve.values) {
+      for (const y of curve.peak ? [curve.peak[1], ...curve.values] : curve.values) {
         if (y < low) low = y;
         if (y > high) high = y;
       }
@@ -104,6 +104,7 @@ class Chart {
     svg.setAttribute("aria-label", `${title}: ${curves.map((c) => c.label + c.sub).join(", ")} in ${this.scale.unit || "1"} over time`);
     this.drawAxes(ticks, low, high);
     curves.forEach((curve, i) => svg.append(this.drawCurve(curve, i)));
+    curves.forEach((curve, i) => curve.peak && svg.append(this.drawPeak(curve, i)));
     this.cursor = drawn("path", { class: "cursor" });
     this.dots = curves.map((_, i) => drawn("circle", { class: "cursor-dot", r: 3.4, fill: curveColour(i) }));
     svg.append(this.cursor, ...this.dots);
@@ -159,6 +160,12 @@ class Chart {
     }
     flush();
     return drawn("path", { class: "curve", d, stroke: curveColour(index), "stroke-dasharray": curveDash(index) });
+  }
+
+  drawPeak(curve, index) {
+    const [t, y] = curve.peak, dot = drawn("circle", { class: "peak", cx: this.px(t).toFixed(1), cy: this.py(y).toFixed(1), r: 2.6, fill: curveColour(index) });
+    dot.append(drawn("title", {}, `peak ${fixed(y / this.scale.factor, this.decimals)} ${this.scale.unit}`));
+    return dot;
   }
 
   drawLegend() {

@@ -137,12 +137,18 @@ function overview() {
   return {
     title: "Joint forces, magnitude",
     unit: "N",
-    curves: joints.map((joint) => ({ label: joint.name, sub: "", values: curveValues({ of: [joint.fx, joint.fy] }) })),
+    curves: joints.map((joint) => ({ label: joint.name, sub: "", values: curveValues({ of: [joint.fx, joint.fy] }), peak: [joint.peak_time, joint.peak] })),
   };
 }
 
 function contentOf(group, quantity) {
-  return { title: `${group.kind} ${group.name}: ${quantity.title}`, unit: quantity.unit, curves: quantity.curves.map((curve) => ({ ...curve, values: curveValues(curve) })) };
+  return { title: `${group.kind} ${group.name}: ${quantity.title}`, unit: quantity.unit, curves: quantity.curves.map((curve) => ({ ...curve, values: curveValues(curve), peak: peakOf(group, curve) })) };
+}
+
+/** When the size of a joint's force is largest and how large it is: between the rows, perhaps. */
+function peakOf(group, curve) {
+  const joint = group.kind === "Joint" ? run.joints.find((one) => one.name === group.name) : undefined;
+  return joint && curve.of?.length === 2 && curve.of[0] === joint.fx && curve.of[1] === joint.fy ? [joint.peak_time, joint.peak] : undefined;
 }
 
 /** A chart with two lists to choose from: of what, and which quantity. */

@@ -46,11 +46,15 @@ std::string body_on(const LoadSummary& joint, const PlotRequest& request) {
                                      request.on, joint.name, joint.first_body, joint.second_body));
 }
 
+constexpr double kNearRow = 1e-6;  // of a period: a row so near to a time of the section is at it
+constexpr int kRowsOfPeriod = 100; // that are proposed
+
 class PlotMaker {
  public:
   PlotMaker(const RunRecord& run, const PlotRequest& request) : run_(run), request_(request) {}
 
   Plot make() {
+    choose_rows();
     add_x();
     for (const std::string& joint : request_.joints) add_joint(find_joint(run_.trajectory, joint));
     for (const std::string& column : request_.columns) add_column(column);
@@ -60,14 +64,44 @@ class PlotMaker {
     plot_.subtitle = subtitle();
     if (plot_.title.empty()) std::swap(plot_.title, plot_.subtitle);
     if (plot_.panels.size() > 1) plot_.panel_height = 200;
+    if (is_section())
+      for (Panel& panel : plot_.panels)
+        for (Curve& curve : panel.curves) curve.dots = true;
     return std::move(plot_);
   }
 
  private:
+  bool is_section() const { return request_.every != 0; }
+
+  // All, or those one period apart.
+  void choose_rows() {
+    const std::vector<double> t = values_of(run_.trajectory, 0);
+    for (std::size_t row = 0; row < t.size() && !is_section(); ++row) rows_.push_back(row);
+    if (!is_section()) return;
+    if (!(request_.every > 0) || !std::isfinite(request_.from)) throw PlotRequestError(fmt::format("found --every {:g}: a period in seconds is expected.\n    Choose one above 0.", request_.every));
+    for (std::size_t period = 0; !t.empty(); ++period) {
+      const double wanted = request_.from + static_cast<double>(period) * request_.every, near = kNearRow * request_.every;
+      if (wanted > t.back() + near) break;
+      const auto row = std::lower_bound(t.begin(), t.end(), wanted - near);
+      if (row == t.end() || *row > wanted + near)
+        throw PlotRequestError(fmt::format("found no row at t = {:.9g} s, one of the times {:.9g} s apart.\n    Run again with an output_step that divides the period, such as --set simulate.output_step={:.9g}.",
+                                           wanted, request_.every, request_.every / kRowsOfPeriod));
+      rows_.push_back(static_cast<std::size_t>(row - t.begin()));
+    }
+    if (rows_.empty()) throw PlotRequestError(fmt::format("found --from {:g}: the run ends before it, at {:g} s.\n    Choose an earlier time.", request_.from, t.empty() ? 0 : t.back()));
+  }
+
+  std::vector<double> values(int column) const {
+    const std::vector<double> all = values_of(run_.trajectory, column);
+    std::vector<double> chosen;
+    for (const std::size_t row : rows_) chosen.push_back(all[row]);
+    return chosen;
+  }
+
   void add_x() {
     const int column = find_column(run_.trajectory, request_.x);
     const Column& about = run_.trajectory.columns[static_cast<std::size_t>(column)];
-    plot_.x = values_of(run_.trajectory, column);
+    plot_.x = values(column);
     plot_.x_unit = about.unit;
     plot_.x_quantity = about.name == "t" ? "Time" : about.name;
   }
@@ -84,7 +118,7 @@ class PlotMaker {
     const std::string prefix = fmt::format("joint.{}.on_{}.", joint.name, body);
     const bool alone = request_.joints.size() == 1;
     const auto column = [&](std::string_view name) {
-      return values_of(run_.trajectory, find_column(run_.trajectory, prefix + std::string(name)));
+      return values(find_column(run_.trajectory, prefix + std::string(name)));
     };
     for (const std::string& word : request_.components) {
       const ComponentName& component = find_component(word);
@@ -95,6 +129,8 @@ class PlotMaker {
       curve.y =
           component.column.empty() ? magnitude(column("fx[world]"), column("fy[world]")) : column(component.column);
       curve.band = moment ? joint.moment_error_estimate : joint.error_estimate;
+      if (component.column.empty() && plot_.x_quantity == "Time" && !is_section())
+        curve.mark = Mark{joint.peak_time, joint.peak, fmt::format("peak {:.5g} N at {:.5g} s", joint.peak, joint.peak_time)};
       panel_for(moment ? "N*m" : "N", moment ? "Couple" + on : "Force" + on + axes())
           .curves.push_back(std::move(curve));
     }
@@ -116,7 +152,7 @@ class PlotMaker {
     const std::string& unit = run_.trajectory.columns[static_cast<std::size_t>(column)].unit;
     Panel& panel = panel_for(unit, name);
     if (!panel.curves.empty() && panel.quantity == panel.curves.front().label) panel.quantity = "Value";
-    panel.curves.push_back({name, "", values_of(run_.trajectory, column)});
+    panel.curves.push_back({name, "", values(column)});
   }
 
   std::string made_title() const {
@@ -134,6 +170,7 @@ class PlotMaker {
     double worst = 0;
     for (const std::string& joint : request_.joints)
       worst = std::max(worst, find_joint(run_.trajectory, joint).relative_error_estimate);
+    if (is_section()) text += fmt::format("{}every {:.6g} s from {:.6g} s: {} points", text.empty() ? "" : " – ", request_.every, request_.from, rows_.size());
     if (worst > 0) text += fmt::format("{}estimated error {} of the peak", text.empty() ? "" : " – ", printed_number(exponent(worst)));
     return text;
   }
@@ -141,6 +178,7 @@ class PlotMaker {
   const RunRecord& run_;
   const PlotRequest& request_;
   Plot plot_;
+  std::vector<std::size_t> rows_;  // of the run, in the plot
 };
 
 }  // namespace

@@ -18,6 +18,8 @@ struct PlotRequest {
   std::string on;                    ///< ... on this body; empty: on each joint's second
   std::vector<std::string> columns;  ///< these columns as they are
   std::string x = "t";               ///< column along the horizontal axis
+  double every = 0;                  ///< a Poincare section: a dot for each of these periods [s]; 0: lines through all rows
+  double from = 0;                   ///< ... the first at this time [s]
   std::string title;                 ///< empty: made from the request
 };
 

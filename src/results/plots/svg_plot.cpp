@@ -33,6 +33,7 @@ struct Range {
   void cover(const Curve& curve, bool positive) {
     Range own;
     own.cover(curve.y, positive);
+    if (curve.mark) own.cover(std::vector{curve.mark->y}, positive);
     const double band = std::isfinite(curve.band) && !positive ? curve.band : 0;
     low = std::min(low, own.low - band);
     high = std::max(high, own.high + band);
@@ -123,6 +124,7 @@ class Picture {
   void draw_legend(const Frame& frame);
   void draw_curve(const Frame& frame, std::size_t index);
   void draw_band(const Frame& frame, std::size_t index);
+  void draw_mark(const Frame& frame, std::size_t index);
   std::vector<Point> points_of(const Frame& frame, const Curve& curve, double shift = 0) const;
   void draw_dots(const Frame& frame, const std::vector<Point>& points, std::size_t index);
 
@@ -292,6 +294,13 @@ void Picture::draw_curve(const Frame& frame, std::size_t index) {
   put("\"/>\n");
 }
 
+void Picture::draw_mark(const Frame& frame, std::size_t index) {
+  const std::optional<Mark>& mark = frame.panel.curves[index].mark;
+  if (!mark) return;
+  put("<circle class=\"mark\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\" fill=\"{}\"><title>{}</title></circle>\n", frame.px(mark->x / frame.x_scale.factor),
+      frame.py(mark->y / frame.y_scale.factor), kDotRadius, kPlotColours[style_of(frame.panel, index) % kPlotColours.size()], escaped_markup(mark->title));
+}
+
 std::string Picture::text() {
   put("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
       "role=\"img\" font-family=\"{2}\" fill=\"#222\">\n",
@@ -306,6 +315,7 @@ std::string Picture::text() {
     draw_legend(frame);
     for (std::size_t i = frame.panel.curves.size(); i-- > 0;) draw_band(frame, i);
     for (std::size_t i = frame.panel.curves.size(); i-- > 0;) draw_curve(frame, i);
+    for (std::size_t i = 0; i < frame.panel.curves.size(); ++i) draw_mark(frame, i);
   }
   put("</svg>\n");
   return std::move(out_);

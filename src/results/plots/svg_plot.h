@@ -1,10 +1,17 @@
 // Line plots as SVG, fit for print: panels one above the other over a common x axis.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace pintle {
+
+/// A point of a line that is marked, at its true place beside the points of the line.
+struct Mark {
+  double x = 0, y = 0;
+  std::string title;  ///< "peak 674.08 N at 0.58945 s"; shown by the pointer
+};
 
 /// One line. The label is plain text; `subscript` follows it lowered ("F" and "x").
 struct Curve {
@@ -15,6 +22,7 @@ struct Curve {
   std::vector<double> x{};  ///< in a panel with an x axis of its own
   double band = 0;          ///< half the width of a band around the line, an error [unit]
   int style = -1;           ///< which colour (the first seven solid, then the same dashed), and named even when alone; -1: by its place
+  std::optional<Mark> mark{};
 };
 
 /// One set of axes; all its curves share the unit.

@@ -75,6 +75,14 @@ PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicFor
 }
 
 template <class S>
+void include_peaks(const BasicLoadRecorder<S>& fine, PassDifference& c) {
+  for (std::size_t j = 0; j < c.force.size(); ++j) {
+    c.peak[j] = std::max(c.peak[j], fine.force(static_cast<int>(j)).peak);
+    c.peak_couple[j] = std::max(c.peak_couple[j], fine.couple(static_cast<int>(j)).peak);
+  }
+}
+
+template <class S>
 std::vector<double> relative_differences(const BasicSystem<S>& system, const PassDifference& c) {
   const Measures<S> measures(system, c.peak, c.peak_couple);
   std::vector<double> out(c.force.size());
@@ -164,6 +172,8 @@ void state_errors(const BasicSystem<S>& system, const PassDifference& difference
 }
 
 template PassDifference difference_of_passes(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double until);
+template void include_peaks(const BasicLoadRecorder<Planar>& fine, PassDifference& c);
+template void include_peaks(const BasicLoadRecorder<Spatial>& fine, PassDifference& c);
 template std::vector<double> relative_differences(const BasicSystem<Planar>& system, const PassDifference& c);
 template double motion_difference(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template DifferenceCurve force_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);

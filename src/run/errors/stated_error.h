@@ -7,6 +7,7 @@
 
 #include "pintle/trajectory.h"
 #include "run/record/force_table.h"
+#include "run/record/load_statistics.h"
 
 namespace pintle {
 
@@ -18,6 +19,10 @@ struct PassDifference {
 /// Over the rows up to time `until` [s].
 template <class S>
 PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until);
+
+/// Adds what the rows do not show: the peaks between them.
+template <class S>
+void include_peaks(const BasicLoadRecorder<S>& fine, PassDifference& c);
 
 /// Each joint's largest difference over its peak force or couple [-]. Joints that carry next to nothing are measured by a
 /// small part of the largest of the mechanism; couples at least by that of the largest force at a radius of gyration.

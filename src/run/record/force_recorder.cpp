@@ -3,15 +3,37 @@
 #include <algorithm>
 #include <cmath>
 
-#include "run/record/time_averages.h"
-#include "run/recording.h"
 
 namespace pintle {
 
 template <class S>
 BasicForceRecorder<S>::BasicForceRecorder(const BasicSystem<S>& system, const SimulateSettings& settings, Recorded what)
     : system_(system), what_(what), keeps_places_(what == Recorded::kStates || settings.tolerance_of == ToleranceOf::kMotion),
-      output_step_(output_step_of(settings, system.joints.size())), missed_peaks_(system), stuck_joints_(system), lost_equilibria_(system) {}
+      stuck_joints_(system), lost_equilibria_(system) {}
+
+template <class S>
+void BasicForceRecorder<S>::start(const BasicState<S>& state, int n_samples) {
+  loads_.emplace(system_, n_samples, what_ != Recorded::kForces, what_ == Recorded::kColumns ? signals() : nullptr);
+  loads_->start(state);
+  add(state);
+}
+
+template <class S>
+void BasicForceRecorder<S>::see_step(BasicStepper<S>& stepper) {
+  loads_->add_step(stepper);
+  if (what_ == Recorded::kForces) return;
+  const BasicState<S>& state = stepper.state();
+  for (std::size_t i = heat_at_crossings_.size(); i < stepper.crossings().size(); ++i) heat_at_crossings_.push_back(loads_->heat(stepper.crossings()[i].joint, state));
+  stuck_joints_.see(state);
+  lost_equilibria_.see(state);
+}
+
+template <class S>
+void BasicForceRecorder<S>::finish(const BasicState<S>& state) {
+  if (state.t > forces_.t.back()) add(state);
+  if (what_ == Recorded::kForces) return;
+  for (int j = 0; j < system_.n_joints(); ++j) heat_.push_back(loads_->heat(j, state));
+}
 
 template <class S>
 void BasicForceRecorder<S>::add(const BasicState<S>& state) {
@@ -26,11 +48,7 @@ void BasicForceRecorder<S>::add(const BasicState<S>& state) {
 template <class S>
 void BasicForceRecorder<S>::add_energies(const BasicState<S>& state) {
   const ExternalWork loads = system_.external_work(state.t, state.q, m_, state.sliding);
-  double supply = loads.supplied;
-  for (int j = 0; j < system_.n_joints(); ++j) supply += system_.drive_power(system_.joints[j], state.t, m_, state.force[j]);
-  const double kinetic = system_.kinetic(state.v);
-  energies_.push_back({kinetic, loads.potential + energy_of_joints(system_, state), state.dissipated, state.supplied});
-  missed_peaks_.add_row(state, supply, kinetic);
+  energies_.push_back({system_.kinetic(state.v), loads.potential + energy_of_joints(system_, state), state.dissipated, state.supplied});
   stuck_joints_.see(state);
   lost_equilibria_.see(state);
 }
@@ -43,13 +61,10 @@ void BasicForceRecorder<S>::keep_forces_only() {
 
 template <class S>
 void BasicForceRecorder<S>::fill(Trajectory& out) {
-  if (std::string note = missed_peaks_.note(output_step_); !note.empty()) out.notes.push_back(std::move(note));
   for (std::string& note : stuck_joints_.notes()) out.notes.push_back(std::move(note));
   for (std::string& note : lost_equilibria_.notes()) out.notes.push_back(std::move(note));
-  const std::size_t rows = forces_.t.size(), n = system_.joints.size();
-  const std::vector<double> weight = time_weights(forces_.t);
   out.joints.clear();
-  for (std::size_t j = 0; j < n; ++j) {
+  for (int j = 0; j < system_.n_joints(); ++j) {
     const BasicJointData<S>& joint = system_.joints[j];
     if (joint.servo >= 0) continue;
     LoadSummary s;
@@ -57,22 +72,18 @@ void BasicForceRecorder<S>::fill(Trajectory& out) {
     s.type = joint.type;
     s.first_body = body_name(system_, joint.at.a);
     s.second_body = body_name(system_, joint.at.b);
-    s.has_moment = transmits_couple(joint) || joint.law.lever() > 0;
-    TimeAverages force, moment;
-    for (std::size_t i = 0; i < rows; ++i) {
-      const typename S::Vec& load = forces_.world[i * n + j];
-      force.add(forces_.t[i], weight[i], linear_magnitude<S>(load));
-      moment.add(forces_.t[i], weight[i], angular_magnitude<S>(load));
-    }
+    s.has_moment = has_couple(joint);
+    const LoadStatistics force = loads_->force(j), couple = loads_->couple(j);
     s.peak = force.peak;
     s.peak_time = force.peak_time;
     s.mean = force.mean;
-    s.rms = std::sqrt(force.square);
+    s.rms = force.rms;
     if (s.has_moment) {
-      s.peak_moment = moment.peak;
-      s.mean_moment = moment.mean;
-      s.rms_moment = std::sqrt(moment.square);
+      s.peak_moment = couple.peak;
+      s.mean_moment = couple.mean;
+      s.rms_moment = couple.rms;
     }
+    if (!heat_.empty()) s.heat = heat_[j];
     out.joints.push_back(s);
   }
   if (!energies_.empty()) fill_account(out.energy);

@@ -1,14 +1,15 @@
-// Records what a run needs of its states whatever the space: joint forces, energies, what rows miss; and summarises the load of every joint.
+// Records what a run needs of its states whatever the space: joint forces, energies, and between the rows the statistics of all loads.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "pintle/model.h"
 #include "pintle/trajectory.h"
 #include "run/record/force_table.h"
+#include "run/record/load_statistics.h"
 #include "run/record/lost_equilibria.h"
-#include "run/record/missed_peaks.h"
 #include "run/record/stuck_joints.h"
 
 namespace pintle {
@@ -25,26 +26,31 @@ class BasicForceRecorder {
   BasicForceRecorder(const BasicSystem<S>& system, const SimulateSettings& settings, Recorded what);
   virtual ~BasicForceRecorder() = default;
 
+  /// The start of a run, and its first row. In every step loads are sampled `n_samples` times.
+  void start(const BasicState<S>& state, int n_samples);
   /// Adds a row. Called in the order of time.
   virtual void add(const BasicState<S>& state);
-  /// The end of a step of h seconds, between rows or at one.
-  void see_step(const BasicState<S>& state, double h) {
-    if (what_ == Recorded::kForces) return;
-    missed_peaks_.add_step(state, h);
-    stuck_joints_.see(state);
-    lost_equilibria_.see(state);
-  }
+  /// A step has been made.
+  void see_step(BasicStepper<S>& stepper);
+  /// The end of the run, and its last row.
+  void finish(const BasicState<S>& state);
   const BasicForceTable<S>& forces() const { return forces_; }
   BasicForceTable<S> take_forces() { return std::move(forces_); }
+  /// Of a run that has started.
+  const BasicLoadRecorder<S>& loads() const { return *loads_; }
+  /// Heat of the joint of each of the stepper's crossings, up to it [J].
+  const std::vector<double>& heat_at_crossings() const { return heat_at_crossings_; }
   /// Forgets what only the result shows.
   virtual void keep_forces_only();
-  /// Summaries of the joints, the energy account, notes on what the rows miss.
+  /// Summaries of the joints, the energy account, notes.
   virtual void fill(Trajectory& trajectory);
 
  protected:
   struct Energies {
     double kinetic, potential, dissipated, supplied;  // [J]
   };
+  /// What is sampled beside the joint loads; none.
+  virtual const typename BasicLoadRecorder<S>::Signals* signals() const { return nullptr; }
 
   const BasicSystem<S>& system_;
   Recorded what_;
@@ -57,8 +63,8 @@ class BasicForceRecorder {
   void fill_account(EnergyAccount& account) const;
 
   bool keeps_places_;
-  double output_step_;
-  BasicMissedPeaks<S> missed_peaks_;
+  std::optional<BasicLoadRecorder<S>> loads_;  // from the start
+  std::vector<double> heat_, heat_at_crossings_;  // of each joint over the run, and as above [J]
   BasicStuckJoints<S> stuck_joints_;
   BasicLostEquilibria<S> lost_equilibria_;
 };

@@ -20,9 +20,16 @@ bool transmits_couple(const BasicJointData<S>& joint) {
   return joint.law.has_stops() && joint.free_mask.template head<S::kDim>().isZero();
 }
 
+template <class S>
+bool has_couple(const BasicJointData<S>& joint) {
+  return joint.servo >= 0 || transmits_couple(joint) || joint.law.lever() > 0;
+}
+
 template Planar::Vec joint_load(const System& system, int j, const std::vector<Planar::Motion>& m, const Planar::Vec& force);
 template Spatial::Vec joint_load(const BasicSystem<Spatial>& system, int j, const std::vector<Spatial::Motion>& m, const Spatial::Vec& force);
 template bool transmits_couple(const JointData& joint);
 template bool transmits_couple(const BasicJointData<Spatial>& joint);
+template bool has_couple(const JointData& joint);
+template bool has_couple(const BasicJointData<Spatial>& joint);
 
 }  // namespace pintle

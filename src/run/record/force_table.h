@@ -24,6 +24,9 @@ typename S::Vec joint_load(const BasicSystem<S>& system, int j, const std::vecto
 /// Whether the joint's law can pass on a couple: it holds an angle, or stops it.
 template <class S>
 bool transmits_couple(const BasicJointData<S>& joint);
+/// Whether it has one at all: it transmits it, rubs, or is a servo.
+template <class S>
+bool has_couple(const BasicJointData<S>& joint);
 
 template <int n>
 double magnitude(const double* x) {

@@ -124,6 +124,7 @@ function makePlot(element: HTMLElement, series: readonly Series[], time: Float64
     scales: { x: { time: false } },
     cursor: { drag: { x: true, y: false, dist: 8 }, points: { size: 7 }, bind: { dblclick: (plot) => () => (plot.setData(data), null) } },
     series: [{ label: "t" }, ...lines],
+    hooks: { draw: [(plot) => drawPeaks(plot, series, colours)] },
     axes: [{ font, stroke: ink, size: 30, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid, width: 1, size: 4 }, values: (_, splits) => splits.map((value) => `${shortNumber(value, 5)} s`) }, ...(units.length > 0 ? units : [""]).slice(0, 4).map(axis)],
   };
   const plot = new uPlot(options, data, element);
@@ -131,6 +132,19 @@ function makePlot(element: HTMLElement, series: readonly Series[], time: Float64
   plot.over.addEventListener("pointermove", () => player.touch());
   plot.over.addEventListener("pointerleave", () => player.touch());
   return plot;
+}
+
+/** A dot on every line that knows its peak. */
+function drawPeaks(plot: uPlot, series: readonly Series[], colours: readonly string[]) {
+  plot.ctx.save();
+  series.forEach((one, i) => {
+    if (!one.peak) return;
+    plot.ctx.beginPath();
+    plot.ctx.arc(plot.valToPos(one.peak.t, "x", true), plot.valToPos(one.peak.value, one.unit, true), 3 * devicePixelRatio, 0, 2 * Math.PI);
+    plot.ctx.fillStyle = colours[i % 6]!;
+    plot.ctx.fill();
+  });
+  plot.ctx.restore();
 }
 
 function Legend({ series, kept, onRemove }: { series: readonly Series[]; kept: readonly Series[] | null; onRemove: (id: string) => void }) {

@@ -8,6 +8,8 @@ export interface Series {
   group: string;
   about: string;
   values: () => Float64Array;
+  /** Where it is largest, and how large: between the rows, perhaps. */
+  peak?: { t: number; value: number };
 }
 
 const WORDS: Record<string, string> = {
@@ -29,6 +31,7 @@ export function seriesOf(answer: RunAnswer): Series[] {
       group: `Joint ${joint.name}`,
       about: `Magnitude of the force in joint ${joint.name}`,
       values: () => fx.map((value, i) => Math.hypot(value, fy[i]!)),
+      peak: { t: joint.peak_time, value: joint.peak },
     });
   }
   answer.columns.forEach((column, i) => {

@@ -1,0 +1,13 @@
+// Which joints turn so much into heat that one would look at it.
+#pragma once
+
+#include <vector>
+
+#include "pintle/trajectory.h"
+
+namespace pintle {
+
+/// In their order; none where the run loses next to nothing of the energy that moves.
+std::vector<const LoadSummary*> joints_with_heat(const Trajectory& run);
+
+}  // namespace pintle

@@ -1,0 +1,61 @@
+// Peaks, means and root mean squares of all loads over a run, and the heat of every joint: from curves through samples inside every step, so that
+// they do not depend on the output rows. theory/time section 5.1.
+#pragma once
+
+#include <vector>
+
+#include "integrators/stepper.h"
+#include "run/record/sampled_curve.h"
+
+namespace pintle {
+
+/// Over the whole run.
+struct LoadStatistics {
+  double peak = 0, peak_time = 0, mean = 0, rms = 0;  // of the size; of a scalar peak and mean with their signs; [s]
+};
+
+template <class S>
+class BasicLoadRecorder {
+ public:
+  /// Scalars beside the joint loads: efforts of motors, their powers, forces of springs.
+  class Signals {
+   public:
+    virtual ~Signals() = default;
+    virtual int n_signals() const = 0;
+    virtual void put_signals(const BasicState<S>& state, const std::vector<typename S::Motion>& m, double* out) const = 0;
+  };
+
+  /// n_samples in a step: CurveGrid. `with_heat`: also what joints lose. `signals`, if any, must outlive the recorder.
+  BasicLoadRecorder(const BasicSystem<S>& system, int n_samples, bool with_heat, const Signals* signals);
+
+  void start(const BasicState<S>& state);
+  void add_step(BasicStepper<S>& stepper);
+
+  LoadStatistics force(int joint) const { return over_run(force_[static_cast<std::size_t>(joint)]); }
+  LoadStatistics couple(int joint) const { return over_run(couple_[static_cast<std::size_t>(joint)]); }
+  LoadStatistics signal(int i) const { return over_run(signal_[static_cast<std::size_t>(i)]); }
+  double span() const { return end_ - begin_; }  // [s]
+  /// What the law of a joint has turned into heat from the start up to `state`, the end of the last step [J]. theory/time Eq. (5.4)
+  double heat(int joint, const BasicState<S>& state) const;
+
+ private:
+  static constexpr int kForce = S::kDim, kCouple = S::kDof - S::kDim;
+  double stored(int joint, const BasicState<S>& state) const;
+  void sample(int i, const BasicState<S>& state);
+  LoadStatistics over_run(const CurveSums& sums) const;
+
+  const BasicSystem<S>& system_;
+  CurveGrid grid_;
+  bool with_heat_;
+  const Signals* signals_;
+  int n_signals_, stride_;
+  std::vector<double> samples_;  // instants, then the loads of all joints, the powers on their gaps, the signals
+  std::vector<typename S::Motion> m_;
+  std::vector<CurveSums> force_, couple_, signal_;
+  std::vector<bool> has_couple_;
+  std::vector<double> work_, stored_;  // of each joint's force on its gap since the start; stored at the start [J]
+  double begin_ = 0, end_ = 0;
+};
+using LoadRecorder = BasicLoadRecorder<Planar>;
+
+}  // namespace pintle

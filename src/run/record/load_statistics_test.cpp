@@ -1,0 +1,132 @@
+// Peaks, means and RMS are those of the forces' curves, whatever the output step; heat is the loss of each joint.
+#include "run/record/load_statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "integrators/dense/force_samples.h"
+#include "pintle/simulate.h"
+#include "run/record/sampled_curve.h"
+#include "system/sample_systems_for_tests.h"
+
+namespace pintle {
+namespace {
+
+// Of a curve in the plane, in `steps` equal steps over 1 s.
+template <class Curve>
+CurveSums sums_of(const Curve& curve, int steps, int n_samples) {
+  const CurveGrid grid(n_samples);
+  CurveSums sums;
+  std::vector<double> samples(static_cast<std::size_t>(2 * n_samples));
+  const double h = 1.0 / steps;
+  for (int step = 0; step < steps; ++step) {
+    for (int i = 0; i < n_samples; ++i) {
+      const auto [x, y] = curve((step + grid.instant(i)) * h);
+      samples[static_cast<std::size_t>(2 * i)] = x;
+      samples[static_cast<std::size_t>(2 * i + 1)] = y;
+    }
+    add_curve<2>(grid, samples.data(), 2, step * h, h, sums);
+  }
+  return sums;
+}
+
+TEST(CurveGrid, SamplesWhereDenseOutputFindsTheForces) {
+  const CurveGrid grid(CurveGrid::kMost);
+  ASSERT_EQ(CurveGrid::kMost, ForceSamples::kAll);
+  for (int i = 0; i < CurveGrid::kMost; ++i) EXPECT_EQ(grid.instant(i), ForceSamples::of(RadauTable::of(3)).x[static_cast<std::size_t>(i)]);
+}
+
+TEST(CurveGrid, MeetsPolynomialsAndTheirIntegrals) {
+  for (const int n : {2, 3, 7}) {
+    const CurveGrid grid(n);
+    for (int power = 0; power < n; ++power) {
+      double integral = 0;
+      for (int i = 0; i < n; ++i) integral += grid.integral()[static_cast<std::size_t>(i)] * std::pow(grid.instant(i), power);
+      EXPECT_NEAR(integral, 1.0 / (power + 1), 1e-14);
+      for (const double x : {0.0, 0.1, 0.5, 0.77, 1.0}) {
+        const CurveGrid::Weights weight = grid.weights(x);
+        double value = 0;
+        for (int i = 0; i < n; ++i) value += weight[static_cast<std::size_t>(i)] * std::pow(grid.instant(i), power);
+        EXPECT_NEAR(value, std::pow(x, power), 1e-14) << n << " samples, power " << power;
+      }
+    }
+  }
+}
+
+// An ellipse with the half axes 3 and 1, once round: the size is largest at its ends, and its square has the mean 5.
+TEST(CurveSums, OfAnEllipse) {
+  const auto ellipse = [](double t) { return std::pair{3 * std::cos(2 * std::numbers::pi * (t - 0.28)), std::sin(2 * std::numbers::pi * (t - 0.28))}; };
+  const double mean = 12 * std::comp_ellint_2(std::sqrt(8.0 / 9)) / (2 * std::numbers::pi);
+  for (const int steps : {5, 7, 16}) {
+    const CurveSums sums = sums_of(ellipse, steps, 7);
+    EXPECT_NEAR(sums.peak, 3, 1e-5) << steps;
+    EXPECT_LT(std::min(std::abs(sums.peak_time - 0.28), std::abs(sums.peak_time - 0.78)), 1e-4) << steps;
+    EXPECT_NEAR(sums.square, 5, 1e-5) << steps;
+    EXPECT_NEAR(sums.integral, mean, 1e-5) << steps;
+  }
+  EXPECT_NEAR(sums_of(ellipse, 100, 3).peak, 3, 1e-5);
+}
+
+TEST(CurveSums, PeaksAtEndsAndJustInside) {
+  for (const double top : {0.0, 0.003, 0.031, 0.5, 0.96, 0.999, 1.0}) {
+    const CurveSums sums = sums_of([top](double t) { return std::pair{2 - (t - top) * (t - top), 0.0}; }, 1, 7);
+    EXPECT_NEAR(sums.peak, 2, 1e-12) << top;
+    EXPECT_NEAR(sums.peak_time, top, 1e-6) << top;
+  }
+}
+
+// The pin's force is largest as the rod hangs down, at 0.484 s: rows 0.3 s apart know nothing of it.
+TEST(LoadStatistics, DoNotDependOnTheRows) {
+  Model model = sample::pendulum(2e8, 3500);
+  model.simulate.duration = 0.9;
+  const auto with = [&](double output_step) {
+    model.simulate.output_step = output_step;
+    return simulate(model).joints.at(0);
+  };
+  const LoadSummary few = with(0.3), many = with(1e-4);
+  EXPECT_NEAR(few.peak, many.peak, 1e-9 * many.peak);
+  EXPECT_NEAR(few.mean, many.mean, 1e-9 * many.mean);
+  EXPECT_NEAR(few.rms, many.rms, 1e-9 * many.rms);
+  EXPECT_NEAR(few.peak_time, many.peak_time, 1e-9);
+}
+
+// Through the rows alone, 10^5 of them.
+TEST(LoadStatistics, AreThoseOfVeryManyRows) {
+  Model model = sample::four_bar(1e8, 3000);
+  model.simulate.duration = 0.6;
+  model.simulate.output_step = 6e-6;
+  const Trajectory run = simulate(model);
+  for (const LoadSummary& joint : run.joints) {
+    const std::string on = "joint." + joint.name + ".on_" + joint.second_body;
+    const int x = run.column(on + ".fx[world]"), y = run.column(on + ".fy[world]");
+    ASSERT_GE(std::min(x, y), 0);
+    double peak = 0, mean = 0, square = 0;
+    const auto size = [&](std::size_t row) { return std::hypot(run.at(row, static_cast<std::size_t>(x)), run.at(row, static_cast<std::size_t>(y))); };
+    for (std::size_t row = 1; row < run.n_rows(); ++row) {
+      const double h = (run.at(row, 0) - run.at(row - 1, 0)) / run.t_end, a = size(row - 1), b = size(row);
+      peak = std::max({peak, a, b});
+      mean += 0.5 * h * (a + b);
+      square += 0.5 * h * (a * a + b * b);
+    }
+    EXPECT_NEAR(joint.peak, peak, 1e-6 * peak) << joint.name;
+    EXPECT_NEAR(joint.mean, mean, 1e-6 * mean) << joint.name;
+    EXPECT_NEAR(joint.rms, std::sqrt(square), 1e-6 * joint.rms) << joint.name;
+  }
+}
+
+// What all joints lose is what the run loses: nothing else here does.
+TEST(LoadStatistics, HeatAddsUpToWhatIsLost) {
+  Model model = sample::four_bar(1e6, 300);
+  model.simulate.duration = 0.6;
+  const Trajectory run = simulate(model);
+  double heat = 0;
+  for (const LoadSummary& joint : run.joints) heat += joint.heat;
+  ASSERT_GT(run.energy.dissipated, 0);
+  EXPECT_NEAR(heat, run.energy.dissipated, 1e-3 * run.energy.dissipated);
+}
+
+}  // namespace
+}  // namespace pintle

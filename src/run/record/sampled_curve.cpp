@@ -1,0 +1,123 @@
+#include "run/record/sampled_curve.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace pintle {
+namespace {
+
+constexpr double kNear = 0.9;   // of the square of the peak so far: a step whose grid stays below is not searched
+constexpr int kRefinements = 3; // of a peak between the points of the grid; each interval is a quarter of the one before
+constexpr double kFiner = 0.25;
+
+template <int n>
+double square_at(const CurveGrid& grid, double x, const double* samples, int stride, std::array<double, n>& value) {
+  const CurveGrid::Weights weight = grid.weights(x);
+  value.fill(0);
+  for (int i = 0; i < grid.n(); ++i)
+    for (int c = 0; c < n; ++c) value[static_cast<std::size_t>(c)] += weight[static_cast<std::size_t>(i)] * samples[i * stride + c];
+  double square = 0;
+  for (const double component : value) square += component * component;
+  return square;
+}
+
+// One component at all points.
+void along_grid(const CurveGrid& grid, const double* samples, int stride, CurveGrid::AtPoints& value) {
+  value.fill(0);
+  for (int i = 0; i < grid.n(); ++i) {
+    const CurveGrid::AtPoints& weight = grid.of_sample(i);
+    const double sample = samples[i * stride];
+    for (std::size_t p = 0; p < value.size(); ++p) value[p] += weight[p] * sample;
+  }
+}
+
+// Simpson's rule. theory/time Eq. (5.2)
+constexpr CurveGrid::AtPoints kSimpson = [] {
+  constexpr double third = 1.0 / (3 * CurveGrid::kIntervals);
+  CurveGrid::AtPoints weight{};
+  for (std::size_t p = 0; p < weight.size(); ++p) weight[p] = p == 0 || p + 1 == weight.size() ? third : p % 2 == 1 ? 4 * third : 2 * third;
+  return weight;
+}();
+
+// Where the parabola through three squares a distance d apart, the middle one at x, has its top; x where it has none. theory/time Eq. (5.3)
+double top_of_parabola(double x, double d, double before, double here, double after) {
+  const double bend = before - 2 * here + after;
+  return bend < 0 ? std::clamp(x + 0.5 * d * (before - after) / bend, x - d, x + d) : before > after ? x - d : after > before ? x + d : x;
+}
+
+}  // namespace
+
+CurveGrid::CurveGrid(int n) : n_(n) {
+  for (int i = 0; i < n; ++i) {
+    x_[static_cast<std::size_t>(i)] = 0.5 * (1 - std::cos(std::numbers::pi * i / (n - 1)));
+    barycentric_[static_cast<std::size_t>(i)] = (i % 2 == 0 ? 1 : -1) * (i == 0 || i == n - 1 ? 0.5 : 1);
+  }
+  for (std::size_t p = 0; p < at_point_.size(); ++p) {
+    at_point_[p] = weights(static_cast<double>(p) / kIntervals);
+    for (std::size_t i = 0; i < of_sample_.size(); ++i) of_sample_[i][p] = at_point_[p][i];
+  }
+  // Gauss's rule with four points is exact for polynomials of degree 7.
+  constexpr std::array<double, 2> kGauss{0.33998104358485626, 0.86113631159405258}, kWeight{0.65214515486254614, 0.34785484513745386};
+  for (std::size_t g = 0; g < kGauss.size(); ++g)
+    for (const double side : {-1.0, 1.0}) {
+      const Weights w = weights(0.5 * (1 + side * kGauss[g]));
+      for (std::size_t i = 0; i < w.size(); ++i) integral_[i] += 0.5 * kWeight[g] * w[i];
+    }
+}
+
+CurveGrid::Weights CurveGrid::weights(double x) const {
+  Weights out{};
+  double sum = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n_); ++i) {
+    if (x == x_[i]) {
+      out.fill(0);
+      out[i] = 1;
+      return out;
+    }
+    sum += out[i] = barycentric_[i] / (x - x_[i]);
+  }
+  for (double& w : out) w /= sum;
+  return out;
+}
+
+template <int n, Sums kind>
+void add_curve(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums) {
+  static_assert(n == 1 || kind == Sums::kOfSize);
+  CurveGrid::AtPoints square{}, component;
+  for (int c = 0; c < n; ++c) {
+    along_grid(grid, samples + c, stride, component);
+    for (std::size_t p = 0; p < square.size(); ++p) square[p] += component[p] * component[p];
+  }
+  double integral = 0, of_square = 0;
+  for (std::size_t p = 0; p < square.size(); ++p) {
+    const double weight = kSimpson[p];
+    integral += weight * (kind == Sums::kWithSign ? component[p] : std::sqrt(square[p]));
+    of_square += weight * square[p];
+  }
+  sums.integral += h * integral;
+  sums.square += h * of_square;
+  const auto largest = std::max_element(square.begin(), square.end());
+  if (!(*largest > kNear * sums.peak * sums.peak)) return;
+  double d = 1.0 / CurveGrid::kIntervals, x = static_cast<double>(largest - square.begin()) * d, best = *largest;
+  std::array<double, n> value;
+  const auto at = [&](double share) { return square_at<n>(grid, share, samples, stride, value); };
+  for (int pass = 0; pass < kRefinements; ++pass, d *= kFiner) {
+    const double middle = std::clamp(x, d, 1 - d);
+    const double top = top_of_parabola(middle, d, at(middle - d), at(middle), at(middle + d)), there = at(top);
+    if (there > best) {
+      best = there;
+      x = top;
+    }
+  }
+  if (!(best > sums.peak * sums.peak)) return;
+  at(x);
+  sums.peak = kind == Sums::kWithSign ? value[0] : std::sqrt(best);
+  sums.peak_time = t0 + x * h;
+}
+
+template void add_curve<1, Sums::kWithSign>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
+template void add_curve<1>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
+template void add_curve<2>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
+template void add_curve<3>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
+
+}  // namespace pintle

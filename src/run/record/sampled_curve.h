@@ -1,0 +1,49 @@
+// Curves of the loads inside a step: polynomials through samples, evaluated on an even grid, from which integrals and peaks are taken.
+// theory/time section 5.1.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+namespace pintle {
+
+/// Of a step, or of several: what a curve did. Integrals are not divided by the time yet.
+struct CurveSums {
+  double peak = 0, peak_time = 0;         // of the largest size, a scalar's with its sign; [s]
+  double integral = 0, square = 0;        // over time: of the size, a scalar's with its sign; of its square
+};
+
+/// The instants of a step at which curves are sampled, at most kMost, and the even grid on which they are evaluated. Shares of the step.
+class CurveGrid {
+ public:
+  static constexpr int kMost = 7, kIntervals = 16, kPoints = kIntervals + 1;
+  using Weights = std::array<double, kMost>;        // of the samples; those that are not there have 0
+  using AtPoints = std::array<double, kPoints>;
+
+  /// n samples, from 2 to kMost, at the extrema of the Chebyshev polynomial of degree n - 1; a polynomial of that degree is met exactly.
+  explicit CurveGrid(int n);
+
+  int n() const { return n_; }
+  double instant(int sample) const { return x_[static_cast<std::size_t>(sample)]; }
+  const Weights& at_point(int point) const { return at_point_[static_cast<std::size_t>(point)]; }
+  /// Weights of one sample at all points.
+  const AtPoints& of_sample(int sample) const { return of_sample_[static_cast<std::size_t>(sample)]; }
+  /// Of the integral of the polynomial over the step, in units of the step.
+  const Weights& integral() const { return integral_; }
+  /// Weights of the samples at any share of the step.
+  Weights weights(double x) const;
+
+ private:
+  int n_;
+  Weights x_{}, barycentric_{}, integral_{};
+  std::array<Weights, kPoints> at_point_{};
+  std::array<AtPoints, kMost> of_sample_{};
+};
+
+enum class Sums { kOfSize, kWithSign };
+/// Adds a step of h seconds from t0 to `sums` of the size of a vector of n components, whose samples are `samples[i * stride + c]`; or of a scalar with
+/// its sign.
+template <int n, Sums kind = Sums::kOfSize>
+void add_curve(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
+
+}  // namespace pintle
