@@ -11,7 +11,7 @@ namespace pintle {
 template <class S>
 BasicForceRecorder<S>::BasicForceRecorder(const BasicSystem<S>& system, const SimulateSettings& settings, Recorded what)
     : system_(system), what_(what), keeps_places_(what == Recorded::kStates || settings.tolerance_of == ToleranceOf::kMotion),
-      output_step_(output_step_of(settings, system.joints.size())), missed_peaks_(system), stuck_joints_(system), lost_equilibria_(system) {}
+      output_step_(output_step_of(settings, system.joints.size())), missed_peaks_(system), stuck_joints_(system), lost_equilibria_(system), drive_peaks_(system) {}
 
 template <class S>
 void BasicForceRecorder<S>::add(const BasicState<S>& state) {

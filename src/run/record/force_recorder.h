@@ -6,6 +6,7 @@
 
 #include "pintle/model.h"
 #include "pintle/trajectory.h"
+#include "run/record/drive_peaks.h"
 #include "run/record/force_table.h"
 #include "run/record/lost_equilibria.h"
 #include "run/record/missed_peaks.h"
@@ -33,7 +34,11 @@ class BasicForceRecorder {
     missed_peaks_.add_step(state, h);
     stuck_joints_.see(state);
     lost_equilibria_.see(state);
+    drive_peaks_.see(state);
   }
+  const std::vector<DrivePeak<S>>& drive_peaks() const { return drive_peaks_.all(); }
+  /// Of the last row.
+  const std::vector<typename S::Motion>& last_motions() const { return m_; }
   const BasicForceTable<S>& forces() const { return forces_; }
   BasicForceTable<S> take_forces() { return std::move(forces_); }
   /// Forgets what only the result shows.
@@ -61,6 +66,7 @@ class BasicForceRecorder {
   BasicMissedPeaks<S> missed_peaks_;
   BasicStuckJoints<S> stuck_joints_;
   BasicLostEquilibria<S> lost_equilibria_;
+  BasicDrivePeaks<S> drive_peaks_;
 };
 using ForceRecorder = BasicForceRecorder<Planar>;
 
