@@ -14,7 +14,8 @@ namespace {
 using S = Planar;
 
 constexpr double kYielding = 1e-4;  // of the stiffest joint: what is softer is not asked to stay closed
-constexpr double kHeld = 1e-9;      // weight of the bodies' places beside that of the gaps
+constexpr double kHeld = 1e-9;      // weight of the bodies' places beside that of the gaps: squares of smaller singular values are zero
+constexpr double kMisfits = 30, kLoosest = 1e-2;  // singular values that count as zero, over the misfit of the joints; at most
 constexpr double kStride = 0.02;    // of the typical arm, along the motion
 constexpr double kNoticed = 1e-6;   // of a radian, or of the arm: a drive that asks for less beyond a limit is at it
 constexpr double kNothing = 1e-7;   // a projection that leaves less is rounding
@@ -29,7 +30,8 @@ class RigidMotion {
     read(q);
     length_ = arm_length(system, r_);
     metric_ = S::Vec(1, 1, length_ * length_);
-    held_.assign(q.size(), kHeld * metric_);
+    held_.resize(q.size());
+    hold(kHeld);
     choose_rows();
   }
 
@@ -38,6 +40,17 @@ class RigidMotion {
   // The coordinate less what the drive asks for, at what has been read.
   double gap() const { return r_[drive_].gap[component()]; }
   void read(const Vecs& q) { kinematics_at(system_, t_, q, still_, m_, r_); }
+
+  // What joints that ask for different lengths leave open makes the Jacobian's rank uncertain: so much of a motion counts as free.
+  void allow_misfit() {
+    double misfit = 0;
+    for (std::size_t j = 0; j < gaps_.size(); ++j) {
+      const S::Vec gap = wanted_[j] - gap_to_close(system_.joints[j], r_[j]);
+      misfit = std::max(misfit, std::sqrt(gap.dot(weight_[j].cwiseProduct(gap))));
+    }
+    const double tolerance = std::min(kMisfits * misfit / length_, kLoosest);
+    hold(std::max(kHeld, tolerance * tolerance));
+  }
 
   // Moves q the least by which all joints close, with `driven` the drive too; reads it. False if they do not.
   bool close(Vecs& q, bool driven = false) {
@@ -74,7 +87,7 @@ class RigidMotion {
     const double before = largest(motion);
     if (!equations_.prepare(r_, weight_, held_)) return 0;
     for (int pass = 0; pass < 2; ++pass) {
-      for (S::Vec& x : motion) x = kHeld * x.cwiseProduct(metric_);
+      for (S::Vec& x : motion) x = share_ * x.cwiseProduct(metric_);
       motion = equations_.solve(motion);
     }
     const double after = largest(motion);
@@ -95,6 +108,10 @@ class RigidMotion {
   }
 
  private:
+  void hold(double share) {
+    share_ = share;
+    for (S::Vec& weight : held_) weight = share * metric_;
+  }
   int component() const { return system_.joints[drive_].driven; }
   double unit(int k) const { return k == 2 ? length_ * length_ : 1; }
   double size(const S::Vec& x) const { return std::sqrt(x.dot(metric_.cwiseProduct(x))); }
@@ -133,7 +150,8 @@ class RigidMotion {
   Vecs weight_, wanted_, gaps_;  // of the joints' gaps
   double length_ = 1;
   S::Vec metric_ = S::Vec::Ones();
-  Vecs held_;
+  Vecs held_;  // weights of the bodies' places
+  double share_ = kHeld;
   std::vector<S::Motion> m_;
   std::vector<JointKinematics> r_;
 };
@@ -145,8 +163,10 @@ class LimitSearch {
 
   std::optional<DriveLimit> run() {
     Vecs q = q_;
-    if (motion_.close(q, true)) return std::nullopt;
+    if (motion_.close(q, true) && std::abs(motion_.gap()) < noticed()) return std::nullopt;
     motion_.read(q_);
+    motion_.close(q_);
+    motion_.allow_misfit();
     if (!motion_.close(q_)) return std::nullopt;
     ahead_ = motion_.gap() < 0 ? 1 : -1;
     for (int turn = 0; turn < kMostTurns; ++turn) {
@@ -268,14 +288,15 @@ class LimitSearch {
         for (const Pin& last : pins) {
           if (first.joint >= last.joint || first.joint == middle.joint || last.joint == middle.joint) continue;
           const int one = shared(first, middle), other = shared(middle, last);
-          if (one == kGround || other == kGround || one == other) continue;
           const S::Point to_first = middle.p - first.p, to_last = last.p - middle.p;
+          if (one == kGround || other == kGround || one == other || std::min(to_first.norm(), to_last.norm()) < kApart * motion_.length()) continue;
           if (along(to_first, to_last) && along(to_first, middle.force)) return {first.joint, middle.joint, last.joint};
         }
     return {};
   }
 
   static constexpr double kFlat = 1e-5;    // of the gradient: less is a turning point
+  static constexpr double kApart = 1e-3;   // of the typical arm: pins that are nearer stand in each other
   static constexpr double kInLine = 1e-4;  // sine of the angle between two lines that are one
 
   const System& system_;
