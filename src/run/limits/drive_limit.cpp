@@ -73,7 +73,7 @@ class RigidMotion {
     return closed;
   }
 
-  // What the coordinate changes by, per motion of the bodies, as a motion of theirs: theory/limits (1.2).
+  // What the coordinate changes by, per motion of the bodies, as a motion of theirs: s of theory/limits (1.2).
   Vecs gradient() const {
     Vecs s(still_);
     add_force(system_.joints[drive_].at, r_[drive_], S::Vec(S::Vec::Unit(component())), s);
