@@ -129,7 +129,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     if (event.after < 1) {
       up_to_event = true;
       const bool at_end = solved && left - event.before * h <= kLastBits * rounding;  // then there is nothing behind it
-      h = at_end ? std::min(event.before * h, left) - 2 * rounding : h * event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort);  // so that the last stage is not on it
+      h = at_end ? std::min(event.before * h, left) - 2 * rounding : h * (event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort));  // so that the last stage is not on it
       if (solved) ++counters.rejected;
       continue;
     }
