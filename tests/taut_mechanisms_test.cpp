@@ -74,6 +74,18 @@ TEST(TautMechanismsSlow, ForcesAreThoseOfShortSteps) {
   }
 }
 
+// A clamp that is all but at rest: its forces follow from where it is, not from what it accelerates, and steps as long as the motion would miss them.
+TEST(TautMechanisms, StepsFollowLoadsThatStiffenWithPlaces) {
+  for (const double duration : {0.97, 0.99, 1.0, 1.01}) {
+    const Trajectory run = simulate(taut_model("toggle_under_load", duration));
+    ASSERT_EQ(run.outcome, Outcome::kCompleted) << duration << ": " << run.message;
+    EXPECT_LT(run.counters.steps, 2700u) << duration;
+    if (duration == 1) {
+      EXPECT_LT(largest_error(run, resolved(taut_model("toggle_under_load", duration), 2e-3)), 1e-5);
+    }
+  }
+}
+
 // In line, stroke less rest is what piece and joints yield by, in series: for the toggle 5.2 mm at 1e7 and three times 1e8 N/m, for the press
 // 2 mm at 2e8 and three times 1e9 N/m, with 1157.6 N of weights on its pins. What is moving still adds a little.
 TEST(TautMechanisms, BarsInLineCarryWhatStiffnessesInSeriesDo) {
