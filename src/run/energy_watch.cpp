@@ -83,7 +83,7 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_end(const BasicStat
 
 template <class S>
 double BasicEnergyWatch<S>::turnover() const {
-  return std::max(expected_, std::max({kinetic_peak_, swing_, throughput_, storable_}) + kPerExchange * exchanged_);
+  return std::max({kinetic_peak_, swing_, throughput_, storable_}) + kPerExchange * exchanged_;
 }
 
 // Eq. (8.2).
@@ -95,7 +95,7 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_account(const Bas
   swing_ = std::max(swing_, std::abs(stored - potential_));
   const double missing = kinetic + stored + state.dissipated - state.supplied - total_;
   const double largest = std::max({kinetic, std::abs(stored), std::abs(potential_), std::abs(state.supplied), std::abs(state.dissipated)});
-  const double within = kExplained * tolerance_ * turnover() + kRounding * largest;
+  const double within = kExplained * tolerance_ * std::max(expected_, turnover()) + kRounding * largest;
   if (std::abs(missing) <= within) {
     missing_ = missing;
     return Alarm::kNone;

@@ -19,7 +19,7 @@ class BasicEnergyWatch {
 
   /// The energy that an earlier integration of the same motion has turned over, by whose loads this one measures its errors [J].
   void expect(double turnover) { expected_ = turnover; }
-  /// The energy turned over so far, or expected. Eq. (8.2)
+  /// The energy turned over so far. Eq. (8.2)
   double turnover() const;
 
   void start(const BasicState<S>& state);

@@ -70,7 +70,6 @@ TEST(EnergyWatch, AQuietBeginningIsJudgedByWhatAnEarlierPassHasTurnedOver) {
   again.start(p.state);
   EXPECT_LT(again.turnover(), 1e3);
   again.expect(whole.turnover());
-  EXPECT_EQ(again.turnover(), whole.turnover());
   p.state.supplied += 0.05;
   EXPECT_EQ(again.see_end(p.state), Alarm::kNone);
   p.state.supplied += 100 * whole.turnover();
