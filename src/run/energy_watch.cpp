@@ -81,6 +81,11 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicSta
 template <class S>
 typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_end(const BasicState<S>& state) { return judge_account(state); }
 
+template <class S>
+double BasicEnergyWatch<S>::turnover() const {
+  return std::max({kinetic_peak_, swing_, throughput_, storable_}) + kPerExchange * exchanged_;
+}
+
 // Eq. (8.2).
 template <class S>
 typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_account(const BasicState<S>& state) {
@@ -89,9 +94,8 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_account(const Bas
   const double stored = potential(state), kinetic = system_.kinetic(state.v);
   swing_ = std::max(swing_, std::abs(stored - potential_));
   const double missing = kinetic + stored + state.dissipated - state.supplied - total_;
-  const double turnover = std::max({kinetic_peak_, swing_, throughput_, storable_}) + kPerExchange * exchanged_;
   const double largest = std::max({kinetic, std::abs(stored), std::abs(potential_), std::abs(state.supplied), std::abs(state.dissipated)});
-  const double within = kExplained * tolerance_ * turnover + kRounding * largest;
+  const double within = kExplained * tolerance_ * std::max(expected_, turnover()) + kRounding * largest;
   if (std::abs(missing) <= within) {
     missing_ = missing;
     return Alarm::kNone;

@@ -76,8 +76,10 @@ class Passes {
     // Explicit methods take works by the trapezoidal rule, others leave them out of their control.
     const bool exact_work = choice_.method == "radau" || choice_.equations == Equations::kIdeal;
     BasicEnergyWatch<S> energy(system_, p.duration, std::max(tolerance, std::min(settings_.tolerance, kLoosestAccount)), exact_work);
+    if (p.scale) energy.expect(turnover_);
     p.energy = &energy;
     BasicIntegration<S> done = integrate(system_, start_, p, *recorder);
+    turnover_ = done.ended == Ended::kAtEnd ? energy.turnover() : 0;
     count(done.counters);
     const bool complete = done.ended == Ended::kAtEnd || done.ended == Ended::kRunaway;
     interrupted_ = complete ? std::pair{Ended::kAtEnd, std::string()} : std::pair{done.ended, done.message};
@@ -298,6 +300,7 @@ class Passes {
   ErrorGrowth chaos_;              // where two pairs have shown the same exponential growth
   bool doubted_ = false;           // a pass has been made because two were alike
   bool ran_away_ = false;          // the coarser one
+  double turnover_ = 0;            // energy that the last pass has turned over, if its account closed [J]
   int open_ = 0;                   // passes repeated because the energy account did not close
   BasicIntegration<S> last_;
   std::pair<Ended, std::string> interrupted_{Ended::kAtEnd, ""};
