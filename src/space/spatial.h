@@ -120,10 +120,7 @@ struct Spatial {
 
     static Frame at(const Point& p, const Eigen::Matrix3d& R) { return {p, R}; }
     /// With its z axis along `axis`, which need not have length one. Throws nothing: a zero axis is taken as z.
-    static Frame along(const Point& p, const Point& axis) {
-      if (!(axis.norm() > 0)) return {p, Eigen::Matrix3d::Identity()};
-      return {p, Eigen::Quaterniond::FromTwoVectors(Point::UnitZ(), axis).toRotationMatrix()};
-    }
+    static Frame along(const Point& p, const Point& axis);
   };
 
   using AttachmentFrame = SpatialFrame<double>;
