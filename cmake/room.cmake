@@ -13,21 +13,28 @@ function(pintle_sources out folder)
   set(${out} ${sources} PARENT_SCOPE)
 endfunction()
 
-# What nearly every source reads is parsed once: for pintle_system and the rooms on its right, and for pintle_results and what else is
-# quick to build. No source relies on it: the studio's kernel is compiled without.
+# What nearly every source of a room reads is parsed once. Three rooms own what is shared by those after them: space, for laws to linalg and
+# for io; system, with the mechanism itself, for integrators to live; results, for what else is quick to build. No source relies on it: the
+# studio's kernel is compiled without.
 function(pintle_precompile name quick)
+  set(of_space space laws joints linalg io)
   if(quick)
-    set(owner pintle_results)
+    set(owner results)
+  elseif(name IN_LIST of_space)
+    set(owner space)
   else()
-    set(owner pintle_system)
+    set(owner system)
   endif()
-  if(EMSCRIPTEN OR NOT TARGET ${owner})
+  if(EMSCRIPTEN OR NOT TARGET pintle_${owner})
     return()
-  elseif(owner STREQUAL "pintle_${name}")
-    target_precompile_headers(pintle_${name} PRIVATE
-      <fmt/format.h> <Eigen/Core> <algorithm> <cmath> <functional> <map> <optional> <string> <variant> <vector>)
-  else()
-    target_precompile_headers(pintle_${name} REUSE_FROM ${owner})
+  elseif(NOT owner STREQUAL name)
+    target_precompile_headers(pintle_${name} REUSE_FROM pintle_${owner})
+    return()
+  endif()
+  target_precompile_headers(pintle_${name} PRIVATE
+    <fmt/format.h> <Eigen/Core> <algorithm> <cmath> <functional> <map> <optional> <string> <variant> <vector>)
+  if(owner STREQUAL "system")
+    target_precompile_headers(pintle_${name} PRIVATE "${PROJECT_SOURCE_DIR}/src/system/state.h")
   endif()
 endfunction()
 
