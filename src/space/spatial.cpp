@@ -45,9 +45,12 @@ Spatial::Vec Spatial::Motion::wrench(const Point& force, const Point& couple, co
   return f;
 }
 
+// By the shortest turn of z onto the axis; of the half turns onto -z, that about x.
 Spatial::Frame Spatial::Frame::along(const Point& p, const Point& axis) {
-  if (!(axis.norm() > 0)) return {p, Eigen::Matrix3d::Identity()};
-  return {p, Eigen::Quaterniond::FromTwoVectors(Point::UnitZ(), axis).toRotationMatrix()};
+  const double across = std::hypot(axis.x(), axis.y());
+  if (across == 0) return {p, axis.z() < 0 ? Eigen::Matrix3d(Point(1, -1, -1).asDiagonal()) : Eigen::Matrix3d::Identity()};
+  const double half = 0.5 * std::atan2(across, axis.z()), sine = std::sin(half) / across;
+  return {p, Eigen::Quaterniond(std::cos(half), -sine * axis.y(), sine * axis.x(), 0).toRotationMatrix()};
 }
 
 }  // namespace pintle
