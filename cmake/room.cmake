@@ -42,6 +42,15 @@ function(pintle_precompile name quick)
   endif()
 endfunction()
 
+# With PINTLE_UNITY six sources of the target are compiled as one, so that what they share is read and instantiated once. Names in their
+# unnamed namespaces must differ for that. What steps call is left apart: its speed depends on what the compiler sees together.
+set(PINTLE_UNITED_ROOMS check results io report sweeps)
+function(pintle_unite target)
+  if(PINTLE_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  endif()
+endfunction()
+
 # pintle_room(NAME [QUICK] [LINK libraries...]): the target of the current folder, linked to every room on its left. Laws and
 # joints do not see each other, and only sweeps see batch, which a program without ensembles need not build. A room without a source is
 # a header-only target. QUICK: its speed does not matter.
@@ -63,6 +72,9 @@ function(pintle_room name)
       target_link_libraries(pintle_${name} PRIVATE pintle_quick_build)
     endif()
     pintle_precompile(${name} ${arg_QUICK})
+    if(name IN_LIST PINTLE_UNITED_ROOMS)
+      pintle_unite(pintle_${name})
+    endif()
   else()
     add_library(pintle_${name} INTERFACE)
     target_link_libraries(pintle_${name} INTERFACE ${left} ${arg_LINK})
