@@ -169,20 +169,8 @@ inline void add_force(const BasicPlacement<S>& at, const BasicJointKinematics<S>
 }
 
 /// The moment -w x I w of a spinning body, in its axes, and its slope by the velocity. theory/space Eq. (4.2).
-inline Spatial::Vec gyroscopic_force(const BasicBodyData<Spatial>& body, const Spatial::Motion& m) {
-  Spatial::Vec f;
-  f << Eigen::Vector3d::Zero(), Eigen::Vector3d(body.mass.tail<3>().cwiseProduct(m.w_body)).cross(m.w_body);
-  return f;
-}
-inline Spatial::Mat gyroscopic_tangent(const BasicBodyData<Spatial>& body, const Spatial::Motion& m) {
-  Spatial::Mat slope = Spatial::Mat::Zero();
-  const Eigen::Vector3d I = body.mass.tail<3>(), spin = I.cwiseProduct(m.w_body);
-  for (int c = 0; c < 3; ++c) {
-    const Eigen::Vector3d unit = Eigen::Vector3d::Unit(c);
-    slope.block<3, 1>(3, 3 + c) = spin.cross(unit) + I[c] * unit.cross(m.w_body);
-  }
-  return slope;
-}
+Spatial::Vec gyroscopic_force(const BasicBodyData<Spatial>& body, const Spatial::Motion& m);
+Spatial::Mat gyroscopic_tangent(const BasicBodyData<Spatial>& body, const Spatial::Motion& m);
 
 /// Forces that are not a joint's, and their energy bookkeeping.
 struct ExternalWork {
