@@ -8,7 +8,7 @@ namespace pintle {
 const std::vector<PaintStyle>& all_paints() {
   constexpr Shades kNone{"", ""}, kTint{"tint", "tint"}, kBackground{"paper", "paper"};
   static const std::vector<PaintStyle> paints{
-      {Paint::kGround, "ground", {"#e4e4de", "#343a41"}, kInkShades, 1.3, ""},
+      {Paint::kEarth, "ground", {"#e4e4de", "#343a41"}, kInkShades, 1.3, ""},
       {Paint::kHatch, "hatch", kNone, kNoteShades, 1, ""},
       {Paint::kGuide, "guide", {"#e4e4de", "#4a525b"}, kInkShades, 1.2, ""},
       {Paint::kLink, "link", kTint, kInkShades, 1.3, ""},
