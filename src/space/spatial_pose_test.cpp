@@ -80,9 +80,9 @@ TEST(SpatialFrame, AlongHasItsAxisThere) {
   for (int i = 0; i < 20; ++i) axes.push_back(random.vector<Point>(-2, 2));
   for (const Point& axis : axes) {
     const Eigen::Matrix3d R = S::Frame::along({1, 2, 3}, axis).R;
-    EXPECT_LT((R.col(2) - axis.normalized()).norm(), 4e-16) << axis.transpose();
-    EXPECT_LT((R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), 1e-15);
-    EXPECT_NEAR(R.determinant(), 1, 1e-15);
+    EXPECT_LT((R.col(2) - axis.normalized()).norm(), 2e-15) << axis.transpose();
+    EXPECT_LT((R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), 4e-15);
+    EXPECT_NEAR(R.determinant(), 1, 4e-15);
   }
   EXPECT_EQ(S::Frame::along({1, 2, 3}, Point::Zero()).R, Eigen::Matrix3d::Identity());
 }
