@@ -5,6 +5,8 @@ PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 60
 
 CONFIGURE := cmake -G Ninja -S .
+# What is seldom changed and built again: small sources of a room are compiled together.
+RELEASE   := -DPINTLE_TESTS=OFF -DPINTLE_UNITY=ON
 BUILD     := cmake --build
 CLANG     := clang++-14
 # Suites that take long under sanitizers in a build without the whole runs (cmake/tests.cmake).
@@ -36,12 +38,12 @@ setup:
 	@tools/setup.sh build
 
 build: setup
-	@$(CONFIGURE) -B build/release -DPINTLE_TESTS=OFF >/dev/null
+	@$(CONFIGURE) -B build/release $(RELEASE) >/dev/null
 	@$(BUILD) build/release -j $(JOBS)
 
 # The program alone: neither ensembles, pictures, the studio's server nor the library to install.
 build-demo: setup
-	@$(CONFIGURE) -B build/release -DPINTLE_TESTS=OFF >/dev/null
+	@$(CONFIGURE) -B build/release $(RELEASE) >/dev/null
 	@$(BUILD) build/release -j $(JOBS) --target pintle_cli
 
 demo: build-demo
@@ -100,7 +102,7 @@ test-sanitized:
 .PHONY: build/clang test-sanitized
 build/clang:
 	@$(CONFIGURE) -B build/clang -DCMAKE_CXX_COMPILER=$(CLANG) -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" \
-	  -DPINTLE_WHOLE_RUN_TESTS=$(or $(WHOLE),ON) -DPINTLE_CLI=$(or $(CLI),ON) -DPINTLE_SANITIZE=ON -DPINTLE_FUZZ=$(or $(FUZZ),ON) -DPINTLE_WERROR=ON >/dev/null
+	  -DPINTLE_WHOLE_RUN_TESTS=$(or $(WHOLE),ON) -DPINTLE_CLI=$(or $(CLI),ON) -DPINTLE_SANITIZE=ON -DPINTLE_FUZZ=$(or $(FUZZ),ON) -DPINTLE_WERROR=ON -DPINTLE_UNITY=ON >/dev/null
 	@$(BUILD) build/clang -j $(JOBS)
 
 fuzz:
@@ -118,7 +120,7 @@ bench:
 
 # Both programs need nothing beyond what the program itself needs.
 build/release/bin/%: setup
-	@$(CONFIGURE) -B build/release -DPINTLE_TESTS=OFF >/dev/null
+	@$(CONFIGURE) -B build/release $(RELEASE) >/dev/null
 	@$(BUILD) build/release -j $(JOBS) --target $(subst -,_,$*)
 
 paper: build/release/bin/pintle-paper

@@ -2,7 +2,6 @@
 // theory/time section 4.1.
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -10,8 +9,7 @@
 #include <stdexcept>
 
 #include "bench/commands.h"
-#include "integrators/radau/radau_table.h"
-#include "integrators/radau/step_error.h"
+#include "integrators/radau/linear_step.h"
 #include "results/plots/svg_plot.h"
 
 namespace pintle::bench {
@@ -19,42 +17,13 @@ namespace {
 
 constexpr double kOutOfLine = 0.1;  // omega_c over omega_N, Eq. (4.9)
 
-// One coordinate of unit mass in a step of 1 s, pulled back with the frequency `pull`; a joint whose gap it changes by 1 in the stages
-// and by `end` at the end. Eqs. (3.5), (4.2), (4.7), (4.8).
-double spectral_radius(const RadauTable& table, double pull, double end, bool held) {
-  using Eigen::MatrixXd;
-  using Eigen::VectorXd;
-  const int n = table.n;
-  const double k = std::pow(kOutOfLine * pull, 2), mu = kProjectionShare * table.real_eigenvalue;
-  const double hold = held ? std::max(0.0, pull * pull - std::pow(table.real_eigenvalue, 2)) : 0, Z = mu * mu + hold + k * end * end;
-  const MatrixXd A = table.A, A2 = table.A2, matrix = MatrixXd::Identity(n, n) + (pull * pull + k) * A2;
-  const auto answer = [&](double gap) {
-    double x = 0;
-    for (double rest = k * end * gap / Z; const int pass : {0, 1, 2}) {
-      if (pass > 0) rest *= hold / Z;
-      x += rest;
-    }
-    return x;
-  };
-  Eigen::Matrix2d step;
-  for (int column = 0; column < 2; ++column) {
-    const double x0 = 1 - column, v0 = column;
-    const VectorXd a = matrix.partialPivLu().solve(-(pull * pull + k * end) * (VectorXd::Constant(n, x0) + v0 * VectorXd(table.c)));
-    const double moved = A2.row(n - 1).dot(a), gained = A.row(n - 1).dot(a);
-    double x = x0 + v0 + moved, v = v0 + gained;
-    for (int pass = 0; pass < 2; ++pass) {
-      x += answer(end * (x0 + v0) + moved - end * x);
-      v += answer(end * v0 + gained - end * v);
-    }
-    step.col(column) << x, v;
-  }
-  return step.eigenvalues().cwiseAbs().maxCoeff();
-}
-
 double largest_radius(const RadauTable& table, double pull, bool held) {
   double largest = 0;
   for (int i = 0; i <= 70; ++i)
-    for (const double sign : {-1.0, 1.0}) largest = std::max(largest, spectral_radius(table, pull, sign * std::pow(10.0, -0.1 * i), held));
+    for (const double sign : {-1.0, 1.0}) {
+      const linear_step::Gap joint{1, sign * std::pow(10.0, -0.1 * i), std::pow(kOutOfLine * pull, 2)};
+      largest = std::max(largest, linear_step::spectral_radius(table, pull * pull, {joint}, held));
+    }
   return largest;
 }
 

@@ -21,7 +21,7 @@
 namespace pintle::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kCheckFooter =
     "Examples:\n"
     "  pintle check four_bar.toml\n"
     "  pintle check four_bar.toml --set parameters.theta='90 deg' --details\n"
@@ -60,7 +60,7 @@ void add_check(CLI::App& app, int& exit_code) {
   verb->add_flag("--details", options->details, "list every mode, joint component and comparison");
   verb->add_flag("--json", options->json, "print the report as JSON");
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
-  verb->footer(std::string(kFooter) + kExitCodeHelp);
+  verb->footer(std::string(kCheckFooter) + kExitCodeHelp);
   verb->callback([options, &exit_code] { exit_code = check(*options); });
 }
 

@@ -23,7 +23,7 @@
 namespace pintle::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kCompareFooter =
     "Examples:\n"
     "  pintle compare four_bar.toml\n"
     "  pintle compare four_bar.toml --set defaults.joint.stiffness=1e6 --plot softer.svg\n"
@@ -154,7 +154,7 @@ void add_compare(CLI::App& app, int& exit_code) {
   verb->add_option("--plot", options->plot, "picture to write (default: <name of the model file>-compare.svg; none: no picture)")->type_name("FILE.svg")->check(svg_or_none_problem, "", "");
   verb->add_flag("--json", options->json, "print the comparison as JSON");
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
-  verb->footer(std::string(kFooter) + kExitCodeHelp);
+  verb->footer(std::string(kCompareFooter) + kExitCodeHelp);
   verb->callback([options, against, &exit_code] {
     options->against_chosen = against->count() > 0;
     exit_code = options->several() ? compare_variants(*options) : compare_equations(*options);

@@ -14,7 +14,7 @@
 namespace pintle::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kConvertFooter =
     "Examples:\n"
     "  pintle convert four_bar.toml --out four_bar.json\n"
     "  pintle convert four_bar.json --to toml\n"
@@ -51,7 +51,7 @@ void add_convert(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"toml", "json"}))
       ->type_name("toml|json");
   verb->add_option("-o,--out", options->out, "file to write (default: standard output)")->type_name("FILE");
-  verb->footer(kFooter);
+  verb->footer(kConvertFooter);
   verb->callback([options, &exit_code] {
     convert(*options);
     exit_code = kOk;

@@ -16,7 +16,7 @@
 namespace pintle::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kFmtFooter =
     "Examples:\n"
     "  pintle fmt four_bar.toml            # rewrites the file if its layout needs changes\n"
     "  pintle fmt --check mechanisms/*.toml # exit code 3 if any is not; changes nothing\n"
@@ -53,7 +53,7 @@ void add_fmt(CLI::App& app, int& exit_code) {
   verb->add_option("MODEL", options->models, "model files (.toml)")->required();
   CLI::Option* check = verb->add_flag("--check", options->check, "report needed changes without making them");
   verb->add_flag("--stdout", options->to_stdout, "print the result and leave the file alone")->excludes(check);
-  verb->footer(kFooter);
+  verb->footer(kFmtFooter);
   verb->callback([options, &exit_code] { exit_code = format_files(*options); });
 }
 

@@ -21,7 +21,7 @@
 namespace pintle::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kLifeFooter =
     "Examples:\n"
     "  pintle life four_bar.toml\n"
     "  pintle life four_bar-run --set joint.O4.bearing.type=ball --set joint.O4.bearing.dynamic_load_rating='9.56 kN'\n"
@@ -93,7 +93,7 @@ void add_life(CLI::App& app, int& exit_code) {
   add_changes(*verb, *options);
   verb->add_flag("--json", options->json, "print the table as JSON, in SI units");
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
-  verb->footer(std::string(kFooter) + kExitCodeHelp);
+  verb->footer(std::string(kLifeFooter) + kExitCodeHelp);
   verb->callback([options, &exit_code] { exit_code = life(*options); });
 }
 

@@ -18,7 +18,7 @@
 namespace pintle::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kPlotFooter =
     "Examples:\n"
     "  pintle plot four_bar-run --joint O4\n"
     "  pintle plot four_bar-run --joint O2 --joint O4 --components magnitude --out forces.svg\n"
@@ -154,7 +154,7 @@ void add_plot(CLI::App& app, int& exit_code, const WritePng& write_png) {
       ->type_name("FILE");
   verb->add_option("--width", options->width, "width of the picture, at 96 pixels per inch (default: 760)")->type_name("PIXELS")->check(CLI::Range(200.0, 10000.0));
   verb->add_option("--dpi", options->dots_per_inch, "dots per inch of a PNG")->type_name("DOTS")->check(CLI::Range(36.0, 1200.0))->capture_default_str();
-  verb->footer(kFooter);
+  verb->footer(kPlotFooter);
   verb->callback([options, &exit_code, write_png] { exit_code = plot(*options, write_png); });
 }
 

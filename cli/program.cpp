@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kAbout =
     "Planar mechanism dynamics: every joint is a force law, every joint force a result.";
-constexpr const char* kFooter =
+constexpr const char* kProgramFooter =
     "Example:\n"
     "  pintle run mechanisms/four_bar.toml\n"
     "  pintle plot four_bar-run --joint O4 --out O4.svg\n"
@@ -60,7 +60,7 @@ int run_program(int argc, char** argv, std::initializer_list<AddVerb> verbs) {
   keep_freed_memory();
   remember_command_line(argc, argv);
   CLI::App app(kAbout, "pintle");
-  app.footer(kFooter);
+  app.footer(kProgramFooter);
   app.set_version_flag("--version", "pintle " PINTLE_VERSION);
   app.require_subcommand(1);
   int exit_code = kOk;

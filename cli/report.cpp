@@ -15,7 +15,7 @@
 namespace pintle::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kReportFooter =
     "Examples:\n"
     "  pintle report four_bar-run\n"
     "  pintle report four_bar-run --out four-bar.html\n"
@@ -50,7 +50,7 @@ void add_report(CLI::App& app, int& exit_code) {
   verb->add_option("RUN", options->run, "run folder")->required();
   verb->add_option("-o,--out", options->out, "file to write, - for standard output (default: <run>.html)")->type_name("FILE");
   verb->add_flag("--force", options->force, "replace a file that is not an earlier report");
-  verb->footer(kFooter);
+  verb->footer(kReportFooter);
   verb->callback([options, &exit_code] { exit_code = report(*options); });
 }
 

@@ -26,7 +26,7 @@
 namespace pintle::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kRunFooter =
     "Examples:\n"
     "  pintle run four_bar.toml\n"
     "  pintle run four_bar.toml --set joint.A.stiffness='2e8 N/m' --tolerance 1e-6 --out stiffer\n"
@@ -118,7 +118,7 @@ void add_run(CLI::App& app, int& exit_code) {
       ->type_name("auto|none|json");
   verb->add_flag("--json", options->json, "print summary.json instead of the table");
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
-  verb->footer(std::string(kFooter) + kExitCodeHelp);
+  verb->footer(std::string(kRunFooter) + kExitCodeHelp);
   verb->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -12,7 +12,7 @@
 namespace pintle::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kSchemaFooter =
     "Examples:\n"
     "  pintle schema --out pintle.schema.json     # then, as the first line of a model:  #:schema ./pintle.schema.json\n"
     "  pintle schema --reference | less\n";
@@ -29,7 +29,7 @@ void add_schema(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<SchemaOptions>();
   verb->add_flag("--reference", options->reference, "the reference page, in Markdown");
   verb->add_option("-o,--out", options->out, "file to write (default: standard output)")->type_name("FILE");
-  verb->footer(kFooter);
+  verb->footer(kSchemaFooter);
   verb->callback([options, &exit_code] {
     const std::string text = options->reference ? reference_markdown() : json_schema();
     options->out.empty() ? print_out(text) : write_file(options->out, text);

@@ -20,7 +20,7 @@
 namespace pintle::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kSolversFooter =
     "Examples:\n"
     "  pintle solvers four_bar.toml\n"
     "  pintle solvers four_bar.toml --methods radau,ode15s,hht --tolerances 1e-4,1e-6,1e-8 --plot work.svg\n"
@@ -96,7 +96,7 @@ void add_solvers(CLI::App& app, int& exit_code) {
   verb->add_option("--plot", options->plot, "plot force error over time and over evaluations")->type_name("FILE.svg")->check(svg_problem, "", "");
   verb->add_flag("--json", options->json, "print everything as JSON");
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
-  verb->footer(std::string(kFooter) + kExitCodeHelp);
+  verb->footer(std::string(kSolversFooter) + kExitCodeHelp);
   verb->callback([options, &exit_code] { exit_code = solvers(*options); });
 }
 

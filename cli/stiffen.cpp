@@ -21,7 +21,7 @@
 namespace pintle::cli {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kStiffenFooter =
     "Examples:\n"
     "  pintle stiffen four_bar.toml --digits 4\n"
     "  pintle stiffen four_bar.toml --joint O4 --digits 6 --damping-ratio 0.1\n"
@@ -91,7 +91,7 @@ void add_stiffen(CLI::App& app, int& exit_code) {
   verb->add_option("--plot", options->plot, "picture to write (default: <name of the model file>-stiffen.svg; none: no picture)")->type_name("FILE.svg")->check(svg_or_none_problem, "", "");
   verb->add_flag("--json", options->json, "print the result as JSON");
   verb->add_flag("-q,--quiet", options->quiet, "print nothing but errors");
-  verb->footer(std::string(kFooter) + kExitCodeHelp);
+  verb->footer(std::string(kStiffenFooter) + kExitCodeHelp);
   verb->callback([options, &exit_code] { exit_code = stiffen_model(*options); });
 }
 

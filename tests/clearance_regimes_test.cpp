@@ -1,5 +1,5 @@
 // A slider-crank with a worn pin: where the pin stands at the start, and motions that repeat with the crank beside motions that never do.
-// theory/contact section 8.
+// theory/contact section 9.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -226,8 +226,9 @@ force = [0, {}]
     EXPECT_NEAR(last("joint.guide.contact_force_rear"), std::abs(load * (0.5 - arm / length)), 1e-2 * load);
     ASSERT_EQ(run.events.size(), 1u);
     EXPECT_EQ(run.events[0].joint, "guide");
-    EXPECT_EQ(run.events[0].columns.size(), 5u);
-    EXPECT_EQ(run.events[0].events.front().values.size(), 5u);
+    ASSERT_EQ(run.events[0].columns.size(), 6u);  // the law's and the heat
+    EXPECT_EQ(run.events[0].columns.back().name, "heat");
+    EXPECT_EQ(run.events[0].events.front().values.size(), 6u);
   }
 }
 

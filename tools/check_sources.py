@@ -20,7 +20,7 @@ FOLDERS_OF = {
     "io": "schema reading toml".split(),
     "laws": "friction contact bearings flexures".split(),
     "results": "plots studies".split(),
-    "run": "record errors".split(),
+    "run": "record errors limits".split(),
     "sweeps": "storage".split(),
 }
 MAX_IN_FOLDER = 25

@@ -84,19 +84,20 @@ struct Cam {
 /// A joint: a joint displacement (its `type`) between two markers and a law. F is on the first marker, M on the second.
 struct Joint {
   std::string name;
-  std::string type;  ///< revolute, prismatic, fixed, slot, rod, rope, gear, rack, cam
+  std::string type;  ///< revolute, prismatic, fixed, slot, rod, rope, cylinder, gear, rack, cam
   MarkerRef first, second;
-  std::map<std::string, double> geometry;  ///< rod, rope: length [m] (absent: as assembled); gear: radius_first, radius_second [m], internal (0 or 1); rack: radius [m]
+  std::map<std::string, double> geometry;  ///< rod, rope: length [m] (absent: as assembled); cylinder: closed_length, stroke, bore, rod_diameter [m], its pressures [Pa]; gear: radius_first, radius_second [m], internal (0 or 1); rack: radius [m]
   LawChoice law;
   LawChoice friction{"", {}};  ///< of what the joint leaves free; no word: none
   LawChoice stops{"", {}};     ///< of its angle or slide; no word: none
-  std::map<std::string, Expression> functions{};  ///< keys of its type that are functions of t: a rod's or rope's `length` [m], which geometry has not then
+  LawChoice detent{"", {}};    ///< of its angle or slide; no word: none
+  std::map<std::string, Expression> functions{};  ///< keys of its type that are functions, which geometry has not then: a rod's or rope's `length` of t [m], the pressures in a cylinder [Pa]
   bool ideal = false;  ///< with Equations::kRelative: no force law, the coordinates obey it
   std::optional<Cam> cam{};    ///< of a cam joint
   std::optional<Bearing> bearing{};  ///< of a pin; it does not change the motion
   /// Functions are compared by their text.
   friend bool operator==(const Joint& a, const Joint& b) {
-    const auto values = [](const Joint& j) { return std::tie(j.name, j.type, j.first, j.second, j.geometry, j.law, j.friction, j.stops, j.ideal, j.bearing); };
+    const auto values = [](const Joint& j) { return std::tie(j.name, j.type, j.first, j.second, j.geometry, j.law, j.friction, j.stops, j.detent, j.ideal, j.bearing); };
     return values(a) == values(b) && std::equal(a.functions.begin(), a.functions.end(), b.functions.begin(), b.functions.end(),
                                                 [](const auto& f, const auto& g) { return f.first == g.first && f.second.text() == g.second.text(); });
   }

@@ -17,6 +17,7 @@ struct KeyInfo {
   bool per_component = false;      // may be a list, one value per gap component it covers
   bool list = false;               // is a list of any length
   bool of_time = false;            // may be an expression of t
+  std::span<const std::string_view> also_of{};  // and of these variables
   std::span<const std::string_view> words{};  // is one of these; its number among them is the value
   std::span<const std::string_view> points{};  // is the name of a table, whose x and y stand for these two keys, which are lists
   std::string_view otherwise{};    // what its absence means, where that is no number

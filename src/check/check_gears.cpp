@@ -27,9 +27,10 @@ std::vector<FreeRate> free_rates(const System& system, const Vecs& q, const Vecs
   std::vector<FreeRate> out;
   for (const JointData& joint : system.joints) {
     if (joint.servo >= 0) continue;
-    const S::Vec rate = system.pose(joint.at, m).rate;
+    const S::Vec rate = read(joint.displacement, system.pose(joint.at, m)).rate;
+    const char* length = std::holds_alternative<Selection>(joint.displacement) ? "slide" : "stroke";
     for (const int k : {0, 2})
-      if (joint.free_mask[k] > 0) out.push_back({joint.name, k == 2 ? "angle" : "slide", rate[k], k == 2});
+      if (joint.free_mask[k] > 0) out.push_back({joint.name, k == 2 ? "angle" : length, rate[k], k == 2});
   }
   return out;
 }

@@ -5,7 +5,11 @@
 
 namespace pintle {
 
+namespace {
+
 using S = Planar;
+
+}  // namespace
 
 LawSample law_sample(const JointData& joint, const State& assembled, int j, const CheckState& state) {
   constexpr double kSmall = 1e-6;  // of the mechanism's length, where the assembled gap says nothing

@@ -1,7 +1,10 @@
 #include "joints/catalog.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -18,10 +21,22 @@ constexpr std::array<ComponentInfo, 1> kPitch{{{.name = "pitch"}}};
 constexpr std::array<ComponentInfo, 1> kNormal{{{.name = "normal"}}};
 constexpr std::array<ComponentInfo, 1> kAngle{kTurn};
 constexpr std::array<ComponentInfo, 1> kSlide{{{.name = "slide"}}};
+constexpr std::array<ComponentInfo, 1> kStroke{{{.name = "stroke"}}};
 constexpr std::array<ComponentInfo, 2> kSlideAngle{{{.name = "slide"}, kTurn}};
 
 constexpr std::array<KeyInfo, 1> kLength{{
     {.key = "length", .unit = "m", .minimum_exclusive = true, .of_time = true, .meaning = "distance between the points; as a function of t it is driven: a winch, an actuator"},
+}};
+constexpr double kAny = -std::numeric_limits<double>::infinity();  // a smallest value that allows all
+constexpr std::array<std::string_view, 2> kOfStroke{"stroke", "stroke_rate"};
+constexpr std::array<KeyInfo, 7> kCylinder{{
+    {.key = "bore", .unit = "m", .minimum_exclusive = true, .required = true, .meaning = "diameter of the piston"},
+    {.key = "rod_diameter", .unit = "m", .minimum_exclusive = true, .required = true, .meaning = "diameter of the rod, below the bore"},
+    {.key = "closed_length", .unit = "m", .minimum_exclusive = true, .required = true, .meaning = "distance between the points with the rod in"},
+    {.key = "stroke", .unit = "m", .minimum_exclusive = true, .required = true, .meaning = "how far the rod comes out"},
+    {.key = "cap_pressure", .unit = "Pa", .minimum = kAny, .of_time = true, .also_of = kOfStroke, .otherwise = "that of the surroundings", .meaning = "on the whole piston; it pushes the rod out"},
+    {.key = "rod_pressure", .unit = "Pa", .minimum = kAny, .of_time = true, .also_of = kOfStroke, .otherwise = "that of the surroundings", .meaning = "on the piston's side with the rod; it pushes the rod in"},
+    {.key = "ambient_pressure", .unit = "Pa", .otherwise = "0: pressures are those over the surroundings'", .meaning = "of the surroundings, where pressures are absolute: 1.01325 bar"},
 }};
 constexpr std::array<KeyInfo, 1> kRackRadius{{
     {.key = "radius", .unit = "m", .minimum_exclusive = true, .required = true, .meaning = "pitch radius of the pinion (the first body)"},
@@ -33,6 +48,17 @@ double value(const Geometry& geometry, const char* key, double otherwise) {
 }
 JointDisplacement make_pose(const Geometry&) { return Selection{}; }
 JointDisplacement make_distance(const Geometry& g) { return Distance{value(g, "length", 0)}; }
+JointDisplacement make_stroke(const Geometry& g) { return Distance{value(g, "closed_length", 0)}; }
+GeometryFault cylinder_fault(const Geometry& g) {
+  constexpr double kAtmosphere = 101325;  // standard [Pa]
+  const double bore = value(g, "bore", 1), rod = value(g, "rod_diameter", 0), ambient = value(g, "ambient_pressure", 0);
+  if (rod >= bore) return {"rod_diameter", fmt::format("the rod of {:g} m does not fit into the bore of {:g} m", rod, bore), "a rod thinner than the bore"};
+  const double vacuum = ambient > 0 ? 0 : -kAtmosphere;
+  for (const char* key : {"cap_pressure", "rod_pressure"})
+    if (value(g, key, 0) < vacuum)
+      return {key, fmt::format("this is below vacuum, which is at {:g} Pa {}", vacuum, ambient > 0 ? "where ambient_pressure makes pressures absolute" : "over the surroundings"), "the other chamber's pressure, if the cylinder is to pull"};
+  return {};
+}
 JointDisplacement make_mesh(const Geometry& g) {
   return Mesh{value(g, "radius_first", 1), value(g, "radius_second", 1), value(g, "internal", 0) > 0 ? -1.0 : 1.0, 0};
 }
@@ -49,6 +75,8 @@ std::vector<JointTypeInfo>& types() {
       {.word = "slot", .meaning = "a pin (second) in a straight slot (first marker's axis)", .gap = kAcross, .free = kSlideAngle, .keys = {}, .make = make_pose},
       {.word = "rod", .meaning = "a massless rod: keeps two points at a distance", .gap = kAlong, .free = {}, .keys = kLength, .make = make_distance},
       {.word = "rope", .meaning = "a rope: limits the distance of two points to its length", .gap = kAlong, .free = {}, .keys = kLength, .one_sided = true, .make = make_distance},
+      {.word = "cylinder", .meaning = "a hydraulic or pneumatic cylinder, pinned at two points: pressure times area pushes or pulls along the line between them", .gap = {}, .free = kStroke, .keys = kCylinder, .has_ends = true, .make = make_stroke,
+       .fault = cylinder_fault},
       {.word = "gear", .meaning = "two gears in mesh, centred on the two markers", .gap = kPitch, .free = {}, .keys = {}, .make = make_mesh},
       {.word = "rack", .meaning = "a pinion (first) rolling along a rack (second marker's axis)", .gap = kPitch, .free = {}, .keys = kRackRadius, .make = make_rack},
       {.word = "cam", .meaning = "a cam (first) and what follows it (second): a roller, a pin or a flat face", .gap = kNormal, .free = {}, .keys = {}, .make = make_cam},

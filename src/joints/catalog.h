@@ -13,6 +13,11 @@ namespace pintle {
 
 using Geometry = std::map<std::string, double>;  // values of a type's own keys
 
+/// Why values of a type's keys do not go together; no key: they do.
+struct GeometryFault {
+  std::string key, why, remedy;
+};
+
 /// A gap component or a free coordinate: its name ("x", "angle", "slide"), its place in the relative pose (a gap that is a function
 /// stands in the first), and whether it is an angle [rad] or a length [m].
 struct ComponentInfo {
@@ -28,7 +33,9 @@ struct JointTypeInfo {
   std::span<const ComponentInfo> free;  // what is left: coordinates that motors, plots and expressions use
   std::span<const KeyInfo> keys;        // geometry: model.joints[].geometry by key
   bool one_sided = false;               // it pulls and does not push
+  bool has_ends = false;                // of its free coordinate, a length that no motor drives and no expression reads: it needs stops
   JointDisplacement (*make)(const Geometry& geometry) = nullptr;  // the gap
+  GeometryFault (*fault)(const Geometry& geometry) = nullptr;
 };
 
 /// Every joint type, in the manual's order.

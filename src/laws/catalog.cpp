@@ -140,6 +140,7 @@ std::vector<LawInfo> own_laws() {
   add_bearing_laws(all);
   add_flexure_laws(all);
   add_stop_laws(all);
+  add_detent_laws(all);
   return all;
 }
 
@@ -155,6 +156,13 @@ void make_linear(const LawSetting& at, Law& law) {
   const LinearLaw linear{at.by_component("stiffness", "angular_stiffness"), at.by_component("damping", "angular_damping")};
   if (at.one_sided) law.add(std::make_unique<LawPartOf<TensionLaw>>(TensionLaw{linear.k[0], linear.c[0]}));
   else law.set_linear(linear);
+}
+
+void LawSetting::bound_by(const std::map<std::string, double>& geometry) {
+  const auto stroke = geometry.find("stroke");
+  if (stroke == geometry.end()) return;
+  lower_end = 0;
+  upper_end = stroke->second;
 }
 
 double LawSetting::number(std::string_view key, std::size_t place) const {
@@ -177,7 +185,7 @@ Planar::Vec LawSetting::by_component(std::string_view linear, std::string_view a
   return x;
 }
 
-std::string_view key_of(LawRole role) { return role == LawRole::kHolds ? "law" : role == LawRole::kFriction ? "friction" : "stops"; }
+std::string_view key_of(LawRole role) { return role == LawRole::kHolds ? "law" : role == LawRole::kFriction ? "friction" : role == LawRole::kStops ? "stops" : "detent"; }
 
 std::span<const LawInfo> law_catalog() { return laws(); }
 

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,9 +16,11 @@
 
 namespace pintle {
 
-/// What a law does in a joint. Each joint has one that holds it; friction and stops may act beside it in what it leaves free.
-enum class LawRole { kHolds, kFriction, kStops };
-/// The key of a joint that chooses its law of this role: "law", "friction", "stops".
+class Chambers;
+
+/// What a law does in a joint. Each joint has one that holds it; friction, stops and a detent may act beside it in what it leaves free.
+enum class LawRole { kHolds, kFriction, kStops, kDetent };
+/// The key of a joint that chooses its law of this role: "law", "friction", "stops", "detent".
 std::string_view key_of(LawRole role);
 
 /// The joint that a law is made for, and the values of its keys.
@@ -25,9 +29,14 @@ struct LawSetting {
   std::array<bool, 3> held{};  // components of the relative pose; a gap that is a function stands in the first
   std::array<bool, 3> free{};
   bool one_sided = false;      // the joint pulls and does not push
+  double lower_end = -std::numeric_limits<double>::infinity();  // of what it leaves free: those of a stroke [m]
+  double upper_end = std::numeric_limits<double>::infinity();
+  std::shared_ptr<const Chambers> chambers{};  // of a cylinder, where the law is made
   const std::map<std::string, std::vector<double>>* values = nullptr;
   std::span<const KeyInfo> keys;
 
+  /// Takes its ends from the stroke in a joint's geometry, where there is one.
+  void bound_by(const std::map<std::string, double>& geometry);
   /// A value as stated, or the key's default; of a list the entry for this place, or its last one.
   double number(std::string_view key, std::size_t place = 0) const;
   /// A list as stated; empty where there is none.

@@ -27,6 +27,8 @@ void add_flexure_laws(std::vector<LawInfo>& all);
 void add_contact_laws(std::vector<LawInfo>& all);
 /// Stops of what a joint leaves free.
 void add_stop_laws(std::vector<LawInfo>& all);
+/// Detents of what a joint leaves free.
+void add_detent_laws(std::vector<LawInfo>& all);
 /// Words of `contact_model` and the like, in the order of ContactModel.
 inline constexpr std::array<std::string_view, 6> kContactModels{"exact", "lankarani-nikravesh", "hunt-crossley", "flores", "gonthier", "linear"};
 

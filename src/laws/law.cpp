@@ -176,7 +176,20 @@ bool BasicLaw<S>::has_stops() const {
 
 template <class S>
 bool BasicLaw<S>::has_friction() const {
-  return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return !part->holds() && !part->stops(); });
+  return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->rubs(); });
+}
+
+template <class S>
+bool BasicLaw<S>::feeds() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->feeds(); });
+}
+
+template <class S>
+double BasicLaw<S>::supply(const BasicLawPoint<S>& at) const {
+  double power = 0;
+  for (const auto& part : parts_)
+    if (part->feeds()) power += part->supply(input_at(at));
+  return power;
 }
 
 template <class S>

@@ -102,9 +102,12 @@ class BasicLaw {
   BasicResponse<S> holding(const Vec& gap, const Vec& rate) const;
   /// Whether anything acts beside what holds, such as friction or a stop in a free direction.
   bool rubs() const;
-  /// Whether a part is the stops of what the joint leaves free; whether one that is not acts there.
+  /// Whether a part is the stops of what the joint leaves free; whether one is its dry friction.
   bool has_stops() const;
   bool has_friction() const;
+  /// Whether power comes in through a part, as through the pressure in a cylinder; and that power [W]. It depends on no states.
+  bool feeds() const;
+  double supply(const Point& at) const;
   /// The stop that this gap is beyond.
   std::optional<StopBreach> breach(const Vec& gap) const;
   /// Whether ideal joints are its limit: springs and dampers hold it, and nothing else does.

@@ -63,6 +63,11 @@ class BasicLawPart {
   virtual bool holds() const = 0;
   /// Whether it is the stops of what the joint leaves free.
   virtual bool stops() const = 0;
+  /// Whether it is dry friction of what the joint leaves free.
+  virtual bool rubs() const = 0;
+  /// Whether power comes in through it from outside, as through the pressure in a cylinder; and that power, a function of time, gap and rate [W].
+  virtual bool feeds() const = 0;
+  virtual double supply(const Input<double>& in) const = 0;
   /// Whether a start leaves its joint where the assembly has put it, loaded or not: a rope may be slack there, a pin with clearance apart from its bush.
   virtual bool starts_free() const = 0;
   /// Stiffness in each component where the law acts; a rope that is slack is looked at as if it were taut.
@@ -83,7 +88,8 @@ using LawPart = BasicLawPart<Planar>;
 
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
 /// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), border_directions() (one +1, -1 or 0
-/// each) cross() and border_name(), kHolds = false, kStops = true, kStartsFree = true, columns() with observe(), engage(), lever(), penetration(), breach().
+/// each) cross() and border_name(), kHolds = false, kStops = true, kRubs = false (of what neither holds nor stops), kStartsFree = true, supply(in),
+/// columns() with observe(), engage(), lever(), penetration(), breach().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
  public:
@@ -133,6 +139,17 @@ class LawPartOf final : public BasicLawPart<S> {
   bool stops() const override {
     if constexpr (requires { P::kStops; }) return P::kStops;
     else return false;
+  }
+  bool rubs() const override {
+    if constexpr (requires { P::kRubs; }) return P::kRubs;
+    else return !holds() && !stops();
+  }
+  bool feeds() const override {
+    return requires(const Input<double>& in) { law_.supply(in); };
+  }
+  double supply(const Input<double>& in) const override {
+    if constexpr (requires { law_.supply(in); }) return law_.supply(in);
+    else return 0;
   }
   bool starts_free() const override {
     if constexpr (requires { P::kStartsFree; }) return P::kStartsFree;

@@ -7,9 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <numbers>
 #include <string>
 
+#include "base/expression/expression_parser.h"
 #include "base/random_for_tests.h"
+#include "base/units.h"
 #include "laws/friction/brown_mcphee.h"
 #include "laws/bushing.h"
 #include "laws/catalog.h"
@@ -23,7 +27,9 @@
 #include "laws/friction/lugre.h"
 #include "laws/law_setting_for_tests.h"
 #include "laws/maxwell.h"
+#include "laws/pressure.h"
 #include "laws/contact/backlash.h"
+#include "laws/contact/detent.h"
 #include "laws/contact/pin_contact.h"
 #include "laws/contact/stops.h"
 #include "laws/bearings/rolling_bearing.h"
@@ -85,6 +91,19 @@ struct WholeBearingLaw : RollingBearingLaw {
   static WholeBearingLaw typical() { return {{5e9, 1.5, 300, 0, 0, 1e-6, 0.5, {}}}; }
 };
 
+ChamberPressure pressure(std::string_view text) {
+  ParseScope scope;
+  for (const char* variable : {"t", "stroke", "stroke_rate", "x"}) scope.variables.emplace_back(variable, kBareNumber);
+  return ChamberPressure(std::get<ParsedExpression>(parse_expression(text, scope)).expression);
+}
+
+// Pressures that are functions of everything that they may read.
+struct GasPressureLaw : PressureLaw {
+  static GasPressureLaw typical() {
+    return {{std::make_shared<const Chambers>(0.05, 0.03, 1e5, pressure("2e6*(1 + 0.3*sin(20*t))/(1 + 4*stroke^2)"), pressure("3e5 + 1e4*stroke_rate*abs(stroke_rate)"))}};
+  }
+};
+
 struct Point {
   Vec gap, rate, before;
   std::array<double, kMostLawStates> state{};
@@ -124,7 +143,7 @@ class AnyLaw : public testing::Test {
   }
 };
 using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GapContactLaw, GuideContactLaw, HardStops, CushionedStops, BacklashLaw, ClutchLaw,
-                             TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw, LeafSpringLaw, NotchHingeLaw, CrossSpringLaw>;
+                             TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw, LeafSpringLaw, NotchHingeLaw, CrossSpringLaw, PressureLaw, GasPressureLaw, DetentLaw>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 
 // Across a border that the law declares there is no difference quotient; anywhere else there must be.
@@ -182,7 +201,7 @@ TYPED_TEST(AnyLaw, HoldsByAForceThatIsDownhillInItsEnergy) {
   }
 }
 
-// Power put in by the force = what the energy loses less what turns into heat; the energy changes with gap and states.
+// Power put in by the force = what the energy loses, less what turns into heat, and what is supplied; the energy changes with gap and states.
 TYPED_TEST(AnyLaw, PowerIsAccountedFor) {
   if (this->law_.parts().front()->word() == ClutchLaw::kWord) return;
   for (int i = 0; i < kPoints; ++i) {
@@ -206,9 +225,9 @@ TYPED_TEST(AnyLaw, PowerIsAccountedFor) {
       size += std::abs(part);
       rounding += 1e-14 * std::abs(this->law_.energy(this->at(p))) * std::abs(column < 3 ? p.rate[column] : z_rate[column - 3]) / h;
     }
-    const double loss = this->law_.loss(this->at(p));
+    const double loss = this->law_.loss(this->at(p)), supplied = this->law_.supply(this->at(p));
     size += std::abs(loss) + force.cwiseAbs().dot(p.rate.cwiseAbs());
-    EXPECT_NEAR(force.dot(p.rate) + energy_rate + loss, 0, 1e-6 * size + rounding);
+    EXPECT_NEAR(force.dot(p.rate) + energy_rate + loss - supplied, 0, 1e-6 * size + rounding);
     if (this->law_.parts().front()->holds()) {
       EXPECT_GE(loss, -1e-12 * size);
     }
@@ -373,6 +392,22 @@ TEST(Stops, ByHand) {
   EXPECT_FALSE(law.breach({0, 0, -1.25})->upper);
   EXPECT_DOUBLE_EQ(law.breach({0, 0, -1.25})->depth, 0.25);
   EXPECT_FALSE(law.breach({5, 5, 1.9}));
+}
+
+// A piston of 100 mm on a rod of 60 mm: areas of 25 pi and 16 pi cm^2.
+TEST(PressureLaw, ByHand) {
+  const PressureLaw law{std::make_shared<const Chambers>(0.1, 0.06, 1e5, ChamberPressure(Expression::constant(2.1e6)), ChamberPressure(Expression::constant(0.6e6)))};
+  const double pi = std::numbers::pi, push = 25e-4 * pi * 2e6 - 16e-4 * pi * 0.5e6;
+  const Vec stroke(0.2, 0, 0), rate(-0.3, 0, 0);
+  const LawPoint at{0, stroke, rate};
+  EXPECT_NEAR(Law(law).force(at)[0], push, 1e-9);
+  EXPECT_NEAR(Law(law).supply(at), -0.3 * push, 1e-9);
+  std::vector<double> columns;
+  Law(law).observe(at, {push, 0, 0}, columns);
+  const std::vector<double> expected{0.2, -0.3, 2.1e6, 0.6e6, 5e3 * pi, 0.8e3 * pi, -7.5e-4 * pi, 4.8e-4 * pi, -0.3 * push};
+  ASSERT_EQ(columns.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(columns[i], expected[i], 1e-12 * std::abs(expected[i])) << i;
+  EXPECT_THROW(pressure("2*x"), std::invalid_argument);
 }
 
 // K = [2 1 0; 1 3 -1; 0 -1 4], preload (1, 0, 2), rest at (0.1, 0, 0): by hand.

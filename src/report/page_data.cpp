@@ -223,6 +223,9 @@ class PageData {
       if (connector.paint == Paint::kSpring) line = spring_zigzag(connector.teeth);
       connectors.push_back({{"name", connector.name}, {"paint", style_of(connector.paint).name}, {"from", end_of(connector.from)},
                             {"to", end_of(connector.to)}, {"line", std::move(line)}, {"length", connector.length}});
+      if (connector.paint != Paint::kBarrel) continue;
+      connectors.back()["barrel"] = Connector::kBarrelOfLength * connector.length;
+      connectors.back()["half_width"] = Connector::kHalfBarrel * scene_.unit;
     }
     for (const ForceArrow& arrow : scene_.arrows)
       arrows.push_back({{"joint", arrow.joint}, {"on", arrow.on}, {"at", spot(arrow.at)}, {"fx", kept(arrow.fx)}, {"fy", kept(arrow.fy)}});

@@ -8,7 +8,7 @@ namespace pintle {
 const std::vector<PaintStyle>& all_paints() {
   constexpr Shades kNone{"", ""}, kTint{"tint", "tint"}, kBackground{"paper", "paper"};
   static const std::vector<PaintStyle> paints{
-      {Paint::kGround, "ground", {"#e4e4de", "#343a41"}, kInkShades, 1.3, ""},
+      {Paint::kEarth, "ground", {"#e4e4de", "#343a41"}, kInkShades, 1.3, ""},
       {Paint::kHatch, "hatch", kNone, kNoteShades, 1, ""},
       {Paint::kGuide, "guide", {"#e4e4de", "#4a525b"}, kInkShades, 1.2, ""},
       {Paint::kLink, "link", kTint, kInkShades, 1.3, ""},
@@ -23,6 +23,7 @@ const std::vector<PaintStyle>& all_paints() {
       {Paint::kSpring, "spring", kNone, {"#14784f", "#57c795"}, 1.6, ""},
       {Paint::kRod, "rod", kNone, kInkShades, 2.4, ""},
       {Paint::kRope, "rope", kNone, {"#7a5a2e", "#d1a867"}, 1.8, ""},
+      {Paint::kBarrel, "barrel", {"#e4e4de", "#343a41"}, kInkShades, 1.3, ""},
       {Paint::kBlade, "blade", kNone, {"#14784f", "#57c795"}, 2.6, ""},
       {Paint::kStop, "stop", kNone, {"#a05a00", "#ffb74d"}, 2.2, ""},
       {Paint::kMotor, "motor", {"#8a3ffc", "#b692ff"}, {"#8a3ffc", "#b692ff"}, 1.8, ""},

@@ -159,6 +159,10 @@ void SceneMaker::add_connectors() {
   for (const Joint& joint : model_.joints) {
     if (joint.type == "rod") connect(joint.name, joint.first, joint.second, Paint::kRod);
     if (joint.type == "rope") connect(joint.name, joint.first, joint.second, Paint::kRope);
+    if (joint.type != "cylinder") continue;
+    const std::size_t before = scene_.connectors.size();
+    connect(joint.name, joint.first, joint.second, Paint::kBarrel);
+    for (std::size_t i = before; i < scene_.connectors.size(); ++i) scene_.connectors[i].length = joint.geometry.at("closed_length");
   }
   for (const Spring& spring : model_.springs) {
     if (!spring.torsion) connect(spring.name, spring.first, spring.second, Paint::kSpring);

@@ -29,7 +29,7 @@ struct MovingPoint {
 };
 
 /// What a shape stands for; paints.h says how each looks.
-enum class Paint { kGround, kHatch, kGuide, kLink, kGear, kPitch, kHole, kBlock, kWeld, kPin, kMass, kMassLight, kSpring, kRod, kRope, kBlade, kMotor, kStop };
+enum class Paint { kEarth, kHatch, kGuide, kLink, kGear, kPitch, kHole, kBlock, kWeld, kPin, kMass, kMassLight, kSpring, kRod, kRope, kBarrel, kBlade, kMotor, kStop };
 
 enum class Form {
   kBar,     ///< paths drawn with a round pen as wide as `size`, outlined as one; closed paths are filled
@@ -47,13 +47,14 @@ struct Shape {
   bool closed = false;
 };
 
-/// Drawn between two anchors that move: a spring as a zigzag, a rod, a rope, a blade as a curve that leaves and reaches them along their axes.
+/// Drawn between two anchors that move: a spring as a zigzag, a rod, a rope, a cylinder as a barrel with its rod, a blade as a curve that leaves and reaches them along their axes.
 struct Connector {
   std::string name;
   Paint paint = Paint::kSpring;
   Anchor from, to;
   int teeth = 0;      ///< of a spring's zigzag
-  double length = 0;  ///< of a blade [m]
+  double length = 0;  ///< of a blade; between the ends of a cylinder with its rod in [m]
+  static constexpr double kBarrelOfLength = 0.93, kHalfBarrel = 1.1;  ///< of a cylinder: barrel and rod over that length; half the barrel's width in units
 };
 
 struct NamedPoint {

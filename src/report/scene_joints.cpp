@@ -132,7 +132,7 @@ void SceneMaker::hatch(const Vec2& from, const Vec2& to, const Vec2& side) {
     lines.paths.push_back({start, start + stroke});
   }
   put(kBack, std::move(lines));
-  put(kBack, {Form::kLine, Paint::kGround, kWorld, {{from, to}}});
+  put(kBack, {Form::kLine, Paint::kEarth, kWorld, {{from, to}}});
 }
 
 /// Which way a body lies from a point of the ground, on average: of length 1 if always the same way.
@@ -156,7 +156,7 @@ void SceneMaker::add_ground_pin(const Vec2& at, int body) {
   if (dot(usual_way(at, body), down) > kHangs) down = -1.0 * down;
   const Vec2 across = normal(down);
   const Vec2 base = at + 2.1 * u * down;
-  put(kBack, {Form::kArea, Paint::kGround, kWorld, {{at, base + 1.25 * u * across, base - 1.25 * u * across}}});
+  put(kBack, {Form::kArea, Paint::kEarth, kWorld, {{at, base + 1.25 * u * across, base - 1.25 * u * across}}});
   hatch(base - 1.9 * u * across, base + 1.9 * u * across, down);
 }
 
@@ -210,12 +210,12 @@ void SceneMaker::sketch_cam(const Joint& joint, const Anchor& first, const Ancho
 // Tracks and wheels that do not move. Slots that cross become one opening.
 void SceneMaker::add_ground_slots() {
   const double u = scene_.unit;
-  Shape frame{Form::kBar, Paint::kGround, kWorld, {}, 2.5 * u}, opening{Form::kBar, Paint::kHole, kWorld, {}, 1.15 * u};
+  Shape frame{Form::kBar, Paint::kEarth, kWorld, {}, 2.5 * u}, opening{Form::kBar, Paint::kHole, kWorld, {}, 1.15 * u};
   for (const Track& track : ground_.tracks) {
     if (track.kind == Track::kGuide) add_ground_ways(track);
     if (track.kind == Track::kRack) {
       const Vec2 off = 1.05 * u * track.other_side;
-      put(kBack, {Form::kBar, Paint::kGround, kWorld, {{track.from + off, track.to + off}}, 1.5 * u});
+      put(kBack, {Form::kBar, Paint::kEarth, kWorld, {{track.from + off, track.to + off}}, 1.5 * u});
       add_rack_teeth(kWorld, track);
     }
     if (track.kind != Track::kSlot) continue;
@@ -223,13 +223,13 @@ void SceneMaker::add_ground_slots() {
     opening.paths.push_back({track.from, track.to});
   }
   for (const Wheel& wheel : ground_.wheels) {
-    put(kBack, {Form::kCircle, Paint::kGround, kWorld, {{wheel.centre}}, wheel.radius + (wheel.ring ? 1.6 : 0.3) * u});
+    put(kBack, {Form::kCircle, Paint::kEarth, kWorld, {{wheel.centre}}, wheel.radius + (wheel.ring ? 1.6 : 0.3) * u});
     if (wheel.ring) put(kBack, {Form::kCircle, Paint::kHole, kWorld, {{wheel.centre}}, wheel.radius - 0.3 * u});
     put(kBack, {Form::kCircle, Paint::kPitch, kWorld, {{wheel.centre}}, wheel.radius});
   }
-  if (!ground_.cams.empty()) put(kBack, {Form::kArea, Paint::kGround, kWorld, ground_.cams});
-  if (!ground_.faces.empty()) put(kBack, {Form::kBar, Paint::kGround, kWorld, ground_.faces, 0.5 * u});
-  for (const Wheel& roller : ground_.rollers) put(kBack, {Form::kCircle, Paint::kGround, kWorld, {{roller.centre}}, std::max(roller.radius, 0.25 * u)});
+  if (!ground_.cams.empty()) put(kBack, {Form::kArea, Paint::kEarth, kWorld, ground_.cams});
+  if (!ground_.faces.empty()) put(kBack, {Form::kBar, Paint::kEarth, kWorld, ground_.faces, 0.5 * u});
+  for (const Wheel& roller : ground_.rollers) put(kBack, {Form::kCircle, Paint::kEarth, kWorld, {{roller.centre}}, std::max(roller.radius, 0.25 * u)});
   if (frame.paths.empty()) return;
   put(kBack, std::move(frame));
   put(kBack, std::move(opening));
@@ -266,7 +266,7 @@ void SceneMaker::add_motor(const Motor& motor) {
 // angle stands where it stops the centre of the second body.
 void SceneMaker::add_stops(const Joint& joint) {
   const auto first = find(joint.first), second = find(joint.second);
-  if (joint.stops.word.empty() || !first || !second) return;
+  if (joint.stops.word.empty() || joint.type == "cylinder" || !first || !second) return;
   const double u = scene_.unit;
   const bool turns = joint.type == "revolute";
   const bool centred = length(second->point) < 1e-6 * u || second->body == kWorld;

@@ -102,7 +102,17 @@ class Drawing {
     }
   }
 
+  // The barrel from its point on, and the rod with its piston, as long as the barrel, from the other one back.
+  void draw_cylinder(const Connector& connector) {
+    const Vec2 a = instant_.place(connector.from), b = instant_.place(connector.to), along = unit(b - a);
+    const Vec2 across = Connector::kHalfBarrel * scene_.unit * normal(along), barrel = Connector::kBarrelOfLength * connector.length * along, piston = b - barrel;
+    const PaintStyle& style = style_of(connector.paint);
+    put("<path d=\"{}\" {} fill=\"{}\"/>\n", path_text({px(a - across), px(a + barrel - across), px(a + barrel + across), px(a + across)}, true), pen(style, kWorld), style.fill[options_.dark]);
+    put("<path d=\"{}{}\" {}/>\n", path_text({px(piston), px(b)}, false), path_text({px(piston - across), px(piston + across)}, false), pen(style_of(Paint::kRod), kWorld));
+  }
+
   void draw_connector(const Connector& connector) {
+    if (connector.paint == Paint::kBarrel) return draw_cylinder(connector);
     const Vec2 a = instant_.place(connector.from), b = instant_.place(connector.to), d = b - a;
     std::vector<Vec2> points{px(a), px(b)};
     if (connector.paint == Paint::kSpring) {

@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kMarker = "pintle_run";  // its value is the format's number
-constexpr int kFormat = 1;
+constexpr int kRunFormat = 1;
 
 constexpr std::array<std::pair<Outcome, const char*>, 7> kOutcomes{{
     {Outcome::kCompleted, "completed"},
@@ -231,9 +231,9 @@ Outcome outcome_from(const std::string& word) {
 }
 
 Summary summary_from(const Json& json) {
-  if (const int format = json.at(kMarker).get<int>(); format != kFormat)
+  if (const int format = json.at(kMarker).get<int>(); format != kRunFormat)
     throw std::invalid_argument(
-        fmt::format("run format {} is not known to this version, which reads {}", format, kFormat));
+        fmt::format("run format {} is not known to this version, which reads {}", format, kRunFormat));
   Summary summary;
   Trajectory& trajectory = summary.run.trajectory;
   from_json(json, summary.run.stamp);
@@ -268,7 +268,7 @@ std::string to_text(Outcome outcome) {
 }
 
 std::string summary_json(const Trajectory& trajectory, const RunStamp& stamp) {
-  Json json = {{kMarker, kFormat}};
+  Json json = {{kMarker, kRunFormat}};
   json.update(to_json(stamp));
   json["overrides"] = stamp.overrides;
   if (!stamp.model_files.empty()) json["model_files"] = to_json(stamp.model_files);

@@ -33,7 +33,7 @@ double size_of(const BasicSystem<S>& system) {
 template <class S>
 BasicEnergyWatch<S>::BasicEnergyWatch(const BasicSystem<S>& system, double duration, double tolerance, bool exact_work)
     : system_(system), duration_(duration), tolerance_(std::max(tolerance, kLeastTolerance)), exact_work_(exact_work) {
-  for (const BasicJointData<S>& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : joint.driven >= 0 ? "the length of joint" : "negative damping of joint", &joint.name});
+  for (const BasicJointData<S>& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : joint.driven >= 0 ? "the length of joint" : joint.law.feeds() ? "the pressure in joint" : "negative damping of joint", &joint.name});
   for (const BasicLoadData<S>& load : system.loads) feeders_.push_back({load.applied ? "force" : load.kind == LoadKind::kEffort ? "motor" : "negative damping of spring", &load.name});
   for (const BasicAppliedData<S>& force : system.applied) feeders_.push_back({"force", &force.name});
 }
@@ -81,6 +81,11 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicSta
 template <class S>
 typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_end(const BasicState<S>& state) { return judge_account(state); }
 
+template <class S>
+double BasicEnergyWatch<S>::turnover() const {
+  return std::max({kinetic_peak_, swing_, throughput_, storable_}) + kPerExchange * exchanged_;
+}
+
 // Eq. (8.2).
 template <class S>
 typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_account(const BasicState<S>& state) {
@@ -89,9 +94,8 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::judge_account(const Bas
   const double stored = potential(state), kinetic = system_.kinetic(state.v);
   swing_ = std::max(swing_, std::abs(stored - potential_));
   const double missing = kinetic + stored + state.dissipated - state.supplied - total_;
-  const double turnover = std::max({kinetic_peak_, swing_, throughput_, storable_}) + kPerExchange * exchanged_;
   const double largest = std::max({kinetic, std::abs(stored), std::abs(potential_), std::abs(state.supplied), std::abs(state.dissipated)});
-  const double within = kExplained * tolerance_ * turnover + kRounding * largest;
+  const double within = kExplained * tolerance_ * std::max(expected_, turnover()) + kRounding * largest;
   if (std::abs(missing) <= within) {
     missing_ = missing;
     return Alarm::kNone;

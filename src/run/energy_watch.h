@@ -17,6 +17,11 @@ class BasicEnergyWatch {
   /// motion, so that the account is as accurate; otherwise it is not judged.
   BasicEnergyWatch(const BasicSystem<S>& system, double duration, double tolerance, bool exact_work);
 
+  /// The energy that an earlier integration of the same motion has turned over, by whose loads this one measures its errors [J].
+  void expect(double turnover) { expected_ = turnover; }
+  /// The energy turned over so far. Eq. (8.2)
+  double turnover() const;
+
   void start(const BasicState<S>& state);
   /// The end of a step of h seconds.
   Alarm see_step(const BasicState<S>& state, double h);
@@ -46,6 +51,7 @@ class BasicEnergyWatch {
   double total_ = 0, potential_ = 0;     // at the start [J]
   double kinetic_peak_ = 0, swing_ = 0;  // largest kinetic energy, largest change of the potential one [J]
   double kinetic_ = 0, exchanged_ = 0;   // at the last step; the sum of its changes by their size [J]
+  double expected_ = 0;                  // turnover [J]
   double throughput_ = 0;                // of supply and loss together, by their size [J]
   double supply_ = 0, loss_ = 0;         // powers at the last step [W]
   double missing_ = 0;                   // of the account when last judged [J]

@@ -57,6 +57,25 @@ TEST(EnergyWatch, WhatErrorsWithinTheToleranceExplainIsNoAlarm) {
   EXPECT_EQ(unheard.see_end(p.state), Alarm::kNone);
 }
 
+// Errors of a motion that begins quietly are measured by the loads of what comes later, once these are known.
+TEST(EnergyWatch, AQuietBeginningIsJudgedByWhatAnEarlierPassHasTurnedOver) {
+  Pendulum p;
+  EnergyWatch whole(p.system, 2, 1e-6, true), again(p.system, 2, 1e-6, true);
+  whole.start(p.state);
+  State later = p.state;
+  later.supplied = later.dissipated = 1e4;
+  later.supply_power = later.loss_power = 1e7;
+  whole.see_step(later, 1e-3);
+  EXPECT_GT(whole.turnover(), 1e3);
+  again.start(p.state);
+  EXPECT_LT(again.turnover(), 1e3);
+  again.expect(whole.turnover());
+  p.state.supplied += 0.05;
+  EXPECT_EQ(again.see_end(p.state), Alarm::kNone);
+  p.state.supplied += 100 * whole.turnover();
+  EXPECT_EQ(again.see_end(p.state), Alarm::kOpen);
+}
+
 // Work that is fed and stored nowhere (the account is not judged): only how it grows counts.
 TEST(EnergyWatch, ExponentialFeedingIsARunawayAndAPowerOfTimeIsNot) {
   const auto alarm = [](const auto& fed) {

@@ -37,9 +37,9 @@ class Standstill {
   int steps_ = 0;
 };
 
-// Samples of the loads in a step. Steps of radau may hold much of a period, and their dense output has as many samples of the forces; other methods
-// resolve all vibrations.
-int load_samples(const MethodChoice& choice) { return choice.method == "radau" ? CurveGrid::kMost : 3; }
+// Samples of the loads in a step. Steps may hold much of a period of the motion, and the dense output of radau has as many samples of the forces; other methods
+// on free bodies resolve the vibrations of the joints.
+int load_samples(const MethodChoice& choice) { return choice.method == "radau" || choice.equations != Equations::kNewtonian ? CurveGrid::kMost : 3; }
 
 // Whether the energy ends the integration.
 template <class S>

@@ -18,6 +18,10 @@ bool tells_couple(const JointData& joint) {
   return transmits_couple(joint) || mesh || joint.cam || (joint.law.has_friction() && joint.free_mask[2] > 0);
 }
 
+// A coordinate of the relative pose is free to slide; what a gap that is a function leaves free is the law's to tell.
+bool slides(const JointData& joint) { return joint.free_mask[0] > 0 && std::holds_alternative<Selection>(joint.displacement); }
+bool is_stroke(const JointData& joint) { return joint.free_mask[0] > 0 && !slides(joint); }
+
 bool is_servo(const JointData& joint) { return joint.servo >= 0; }
 
 }  // namespace
@@ -100,9 +104,9 @@ std::vector<Column> Recorder::columns() const {
     column(p + "on_" + first + ".fx[world]", "N", what + first + ", world x");
     column(p + "on_" + first + ".fy[world]", "N", what + first + ", world y");
     if (couple) column(p + "on_" + first + ".m[world]", "N*m", "couple that joint " + joint.name + " exerts on " + first + ", about its marker");
-    if (joint.free_mask[0] > 0) column(p + "slide", "m", "displacement along the axis of the joint's frame on " + first);
+    if (slides(joint)) column(p + "slide", "m", "displacement along the axis of the joint's frame on " + first);
     if (joint.free_mask[2] > 0) column(p + "angle", "rad", "angle of " + second + "'s marker relative to " + first + "'s");
-    if (joint.free_mask[0] > 0) column(p + "slide_rate", "m/s", "rate of the slide");
+    if (slides(joint)) column(p + "slide_rate", "m/s", "rate of the slide");
     else if (joint.free_mask[2] > 0) column(p + "angle_rate", "rad/s", "rate of the angle");
     if (joint.cam) column(p + "cam_angle", "rad", "where the follower is on the cam, from its marker's x axis, -pi to pi");
     if (joint.cam && !joint.cam->flat()) column(p + "pressure_angle", "rad", "from the y axis of the second marker, along which the follower moves, to the normal of the contact");
@@ -110,6 +114,7 @@ std::vector<Column> Recorder::columns() const {
       column(p + "length", "m", "length to which joint " + joint.name + " is driven");
       column(p + "drive_power", "W", "power that what drives the length of joint " + joint.name + " delivers");
     }
+    if (is_stroke(joint)) column(p + "force", "N", "with which joint " + joint.name + " pushes its ends apart");
     for (LawColumn& law : joint.law.columns()) column(p + law.name, law.unit.c_str(), std::move(law.meaning));
   }
   for (const LoadData& load : system_.loads) {
@@ -144,9 +149,9 @@ void Recorder::put_joint(int j, const S::Vec& load) {
   // The reaction acts at the second marker; about the first one it has the moment of the gap as well.
   const S::Point d(pose.c * pose.z[0] - pose.s * pose.z[1], pose.s * pose.z[0] + pose.c * pose.z[1]);
   if (couple) put(-load[2] - S::cross(d, {load[0], load[1]}));
-  if (joint.free_mask[0] > 0) put(pose.z[0]);
+  if (slides(joint)) put(pose.z[0]);
   if (joint.free_mask[2] > 0) put(pose.z[2]);
-  if (joint.free_mask[0] > 0) put(pose.rate[0]);
+  if (slides(joint)) put(pose.rate[0]);
   else if (joint.free_mask[2] > 0) put(pose.rate[2]);
   if (joint.cam) {
     const CamContactPlace at = joint.cam->place(pose.z);
@@ -176,6 +181,7 @@ void Recorder::put_row(const State& state) {
       put(target_of(joint, state.t)[0]);
       put(system_.drive_power(joint, state.t, m_, state.force[j]));
     }
+    if (is_stroke(system_.joints[j])) put(state.force[j][0]);
     system_.joints[j].law.observe(law_point(system_, j, state), state.force[j], values_);
   }
   for (const int spring : springs_) put(effort_of_spring(system_.loads[spring], state.t, m_));

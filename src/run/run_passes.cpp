@@ -77,8 +77,10 @@ class Passes {
     // Explicit methods take works by the trapezoidal rule, others leave them out of their control.
     const bool exact_work = choice_.method == "radau" || choice_.equations == Equations::kIdeal;
     BasicEnergyWatch<S> energy(system_, p.duration, std::max(tolerance, std::min(settings_.tolerance, kLoosestAccount)), exact_work);
+    if (p.scale) energy.expect(turnover_);
     p.energy = &energy;
     BasicIntegration<S> done = integrate(system_, start_, p, *recorder);
+    turnover_ = done.ended == Ended::kAtEnd ? energy.turnover() : 0;
     count(done.counters);
     const bool complete = done.ended == Ended::kAtEnd || done.ended == Ended::kRunaway;
     interrupted_ = complete ? std::pair{Ended::kAtEnd, std::string()} : std::pair{done.ended, done.message};
@@ -178,7 +180,6 @@ class Passes {
 
   void find_difference(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
     difference_ = difference_of_passes(system_, coarse, fine, fine.t.back(), share_);
-    include_peaks(coarse_->loads(), fine_->loads(), difference_);
   }
 
   // Whether another pass is made, and with which tolerance.
@@ -246,7 +247,10 @@ class Passes {
     judge(worst_joint);
     const bool chaotic = out_.outcome == Outcome::kHorizon;
     for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
-    if (!difference_.force.empty() && !chaotic) state_errors(system_, difference_, relative_difference_, share_, least_error(), out_.joints);
+    if (!difference_.force.empty() && !chaotic) {
+      include_peaks(fine_->loads(), difference_);
+      state_errors(system_, difference_, relative_differences(system_, difference_), share_, least_error(), out_.joints);
+    }
     if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, chaos_, out_);
   }
 
@@ -314,6 +318,7 @@ class Passes {
   bool doubted_ = false;           // a pass has been made because two were alike
   double longest_ = 0;             // step of passes from now on, because tolerances have not shortened them [s]
   bool ran_away_ = false;          // the coarser one
+  double turnover_ = 0;            // energy that the last pass has turned over, if its account closed [J]
   int open_ = 0;                   // passes repeated because the energy account did not close
   BasicIntegration<S> last_;
   std::pair<Ended, std::string> interrupted_{Ended::kAtEnd, ""};

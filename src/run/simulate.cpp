@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pintle/bearings.h"
+#include "run/limits/limit_notes.h"
 #include "run/recorder.h"
 #include "run/run_passes.h"
 #include "start/start.h"
@@ -25,11 +26,15 @@ Trajectory simulate_reduced(const Model& model, const RunShape& shape, const Obs
   Trajectory out;
   out.notes = model.notes;
   out.notes.insert(out.notes.end(), assembly.notes.begin(), assembly.notes.end());
-  run_passes<Planar>(system, assembly.state, model.simulate, {[&] { return std::make_unique<Recorder>(model, system, shape.recorded); }, shape, observer, clock}, out);
+  const std::unique_ptr<ForceRecorder> recorder = run_passes<Planar>(system, assembly.state, model.simulate, {[&] { return std::make_unique<Recorder>(model, system, shape.recorded); }, shape, observer, clock}, out);
   if (shape.measured != nullptr && shape.checked) shape.measured->span = assembly.span;
   const std::unordered_set<std::string> not_unique(assembly.not_unique.begin(), assembly.not_unique.end());
   for (LoadSummary& joint : out.joints) joint.unique = !not_unique.contains(joint.name);
-  if (shape.recorded == Recorded::kColumns) out.bearings = bearing_summaries(model, out);
+  if (shape.recorded == Recorded::kColumns) {
+    out.bearings = bearing_summaries(model, out);
+    const std::vector<std::string> limits = limit_notes(system, assembly.state, model.simulate, out, *recorder);
+    out.notes.insert(out.notes.begin(), limits.begin(), limits.end());
+  }
   out.wall_seconds = clock.seconds();
   return out;
 }

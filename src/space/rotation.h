@@ -128,18 +128,10 @@ template <class T>
 PINTLE_LANES T square_of(const Vector3<T>& a) { return a.x * a.x + a.y * a.y + a.z * a.z; }
 
 /// The rotation as a unit quaternion. Eq. (1.1).
-inline Eigen::Quaterniond quaternion(const Eigen::Vector3d& turn) {
-  const double square = turn.squaredNorm(), f = functions(0.25 * square).once, half = 0.5 * f;
-  return {std::cos(0.5 * std::sqrt(square)), half * turn.x(), half * turn.y(), half * turn.z()};
-}
+Eigen::Quaterniond quaternion(const Eigen::Vector3d& turn);
 
 /// The rotation vector of a unit quaternion, of at most half a turn. Eq. (1.3).
-inline Eigen::Vector3d vector_of(const Eigen::Quaterniond& r) {
-  const double sine = r.vec().norm();
-  if (sine == 0) return Eigen::Vector3d::Zero();
-  const double half = std::atan2(sine, std::abs(r.w()));
-  return (r.w() < 0 ? -2 : 2) * half / sine * r.vec();
-}
+Eigen::Vector3d vector_of(const Eigen::Quaterniond& r);
 
 }  // namespace rotation
 }  // namespace pintle

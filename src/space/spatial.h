@@ -1,5 +1,6 @@
 // Space: six degrees of freedom a body, the position of its centre of mass in world axes and an orientation, which is advanced on the
 // group of rotations. Angular velocities and moments are in body axes, along which the inertia is diagonal. theory/space.
+// What multiplies matrices is in the source: nearly every other source reads this header.
 #pragma once
 
 #include <Eigen/Core>
@@ -53,31 +54,18 @@ struct Spatial {
 
   static Coordinates at_origin() { return {}; }
   /// dq: displacement in world axes, rotation vector in body axes. theory/space Eq. (1.1).
-  static void move(Coordinates& q, const Vec& dq) {
-    q.p += dq.head<3>();
-    q.r = (q.r * rotation::quaternion(dq.tail<3>())).normalized();
-  }
+  static void move(Coordinates& q, const Vec& dq);
   static Coordinates moved(const Coordinates& q, const Vec& dq) {
     Coordinates to = q;
     move(to, dq);
     return to;
   }
   /// What moves q0 to q1, by at most half a turn.
-  static Vec difference(const Coordinates& q1, const Coordinates& q0) {
-    Vec d;
-    d << q1.p - q0.p, rotation::vector_of(q0.r.conjugate() * q1.r);
-    return d;
-  }
+  static Vec difference(const Coordinates& q1, const Coordinates& q0);
   /// The rate of a displacement dq that began where the velocity v is measured from. Eq. (1.4).
-  static Vec rate_of_increment(const Vec& dq, const Vec& v) {
-    const Vector3<double> turn{dq[3], dq[4], dq[5]}, w{v[3], v[4], v[5]};
-    const auto rate = rotation::rate(turn, w, rotation::functions(rotation::square_of(turn)).inverse);
-    Vec r;
-    r << v.head<3>(), rate.x, rate.y, rate.z;
-    return r;
-  }
+  static Vec rate_of_increment(const Vec& dq, const Vec& v);
   static const Point& position(const Coordinates& q) { return q.p; }
-  static bool is_finite(const Coordinates& q) { return q.p.allFinite() && q.r.coeffs().allFinite(); }
+  static bool is_finite(const Coordinates& q);
   /// Whole turns about the joint's axis such that the pose is nearest to `reference`.
   static void count_turns(const Vec& reference, Vec& z) {
     constexpr double turn = 2 * std::numbers::pi;
@@ -92,25 +80,11 @@ struct Spatial {
     Point w = Point::Zero();                             // angular velocity, world axes [rad/s]
     Point w_body = Point::Zero();                        // in body axes
 
-    static Motion of(const Coordinates& q, const Vec& v) {
-      Motion m;
-      m.p = q.p;
-      m.R = q.r.toRotationMatrix();
-      m.set_velocity(v);
-      return m;
-    }
-    void set_velocity(const Vec& x) {
-      v = x.head<3>();
-      w_body = x.tail<3>();
-      w = R * w_body;
-    }
-    Point turned(const Point& r) const { return R * r; }
+    static Motion of(const Coordinates& q, const Vec& v);
+    void set_velocity(const Vec& x);
+    Point turned(const Point& r) const;
     /// A force and a couple on the body at its centre of mass, in world axes, as a generalised force; r: the point where the force acts, from there.
-    Vec wrench(const Point& force, const Point& couple, const Point& r) const {
-      Vec f;
-      f << force, R.transpose() * (couple + r.cross(force));
-      return f;
-    }
+    Vec wrench(const Point& force, const Point& couple, const Point& r) const;
   };
 
   /// A frame fixed in a body: its origin [m] and its axes, in body axes. A joint's axis is the z axis of its frames.
@@ -120,10 +94,7 @@ struct Spatial {
 
     static Frame at(const Point& p, const Eigen::Matrix3d& R) { return {p, R}; }
     /// With its z axis along `axis`, which need not have length one. Throws nothing: a zero axis is taken as z.
-    static Frame along(const Point& p, const Point& axis) {
-      if (!(axis.norm() > 0)) return {p, Eigen::Matrix3d::Identity()};
-      return {p, Eigen::Quaterniond::FromTwoVectors(Point::UnitZ(), axis).toRotationMatrix()};
-    }
+    static Frame along(const Point& p, const Point& axis);
   };
 
   using AttachmentFrame = SpatialFrame<double>;

@@ -74,6 +74,19 @@ Eigen::Matrix<double, 6, 12> jacobian(const S::RelativePose& pose) {
   return G;
 }
 
+TEST(SpatialFrame, AlongHasItsAxisThere) {
+  Random random(5);
+  std::vector<Point> axes{{0, 0, 2}, {0, 0, -3}, {1e-9, 2e-9, -1}, {-1e-200, 0, -1}, {1e-7, 0, 1}, {0, -1, 0}};
+  for (int i = 0; i < 20; ++i) axes.push_back(random.vector<Point>(-2, 2));
+  for (const Point& axis : axes) {
+    const Eigen::Matrix3d R = S::Frame::along({1, 2, 3}, axis).R;
+    EXPECT_LT((R.col(2) - axis.normalized()).norm(), 2e-15) << axis.transpose();
+    EXPECT_LT((R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), 4e-15);
+    EXPECT_NEAR(R.determinant(), 1, 4e-15);
+  }
+  EXPECT_EQ(S::Frame::along({1, 2, 3}, Point::Zero()).R, Eigen::Matrix3d::Identity());
+}
+
 TEST(SpatialPose, IsWhereTheFramesWerePut) {
   Random random(1);
   for (const double tilt : kTilts) {

@@ -103,9 +103,10 @@ void demand_closed(const System& system, const Vecs& q, const std::vector<bool>&
 void demand_within_stops(const JointData& joint, double at, const StopBreach& breach, double most) {
   if (!(breach.depth > most)) return;
   const bool turns = breach.component == 2;
+  const char* coordinate = turns ? "angle" : std::holds_alternative<Selection>(joint.displacement) ? "slide" : "stroke";
   const double unit = turns ? std::numbers::pi / 180 : 1, turn = 2 * std::numbers::pi;
   std::string advice = turns && breach.depth > turn - std::numbers::pi ? "Angles count turns: try the angles of its bodies a whole turn apart." : "Try a start position between the stops, or move the stop.";
-  throw AssemblyError(fmt::format("joint {}: it starts with its {} at {:.6g} {}, beyond its {}_stop of {:.6g} {}.\n  {}", joint.name, turns ? "angle" : "slide", at / unit, turns ? "deg" : "m",
+  throw AssemblyError(fmt::format("joint {}: it starts with its {} at {:.6g} {}, beyond its {}_stop of {:.6g} {}.\n  {}", joint.name, coordinate, at / unit, turns ? "deg" : "m",
                                   breach.upper ? "upper" : "lower", breach.stop / unit, turns ? "deg" : "m", advice));
 }
 

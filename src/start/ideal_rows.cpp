@@ -45,7 +45,7 @@ std::vector<int> dependent_rows(const System& system, const std::vector<Constrai
 }  // namespace
 
 void make_ideal(System& system) {
-  for (JointData& joint : system.joints) joint.ideal = joint.law.ideal_limit();
+  for (JointData& joint : system.joints) joint.ideal = joint.law.ideal_limit() && !joint.law.feeds();
 }
 
 IdealRows choose_ideal_rows(System& system, const Vecs& q) {

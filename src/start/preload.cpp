@@ -355,6 +355,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
   state.gap = state.gap_rate = state.gap_accel = state.force = VecsOf<S>(joints, S::Vec::Zero());
   plain_start(system, state);
   if (!preload || joints == 0) return;
+  const BasicState<S> unloaded = state;
   for (auto& x : state.gap_rate) x.setZero();
   for (auto& x : state.gap_accel) x.setZero();
   BasicInverseDynamics<S> forces(system);
@@ -380,6 +381,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
     if (pass + 1 < kPasses) forces.take_forces_of_bodies(state);
   }
   balance_start(system, state);
+  if (!is_finite(state)) state = unloaded;  // next to a singular position joints would give way more than the mechanism is large
 }
 
 template void balance_start(const BasicSystem<Planar>& system, BasicState<Planar>& state);

@@ -57,9 +57,11 @@ bool is_runaway(const BasicSystem<S>& system, const BasicState<S>& attempt, cons
   return system.largest_speed(change) > std::max(kMostHaste * system.largest_speed(given.v), kMostLever * largest_gap_rate(system, attempt));
 }
 
-// Whether sweeps that have not converged came near. Forces far above those of the given state are no attempt at all.
+// Whether sweeps that have not converged came near. Forces far above those of the given state are no attempt at all, nor is what diverged.
 template <class S>
-bool is_near(const BasicState<S>& attempt, const BasicState<S>& given) { return largest_force(attempt.force) <= kMostGrowth * largest_force(given.force); }
+bool is_near(const BasicState<S>& attempt, const BasicState<S>& given) {
+  return is_finite(attempt) && largest_force(attempt.force) <= kMostGrowth * largest_force(given.force);
+}
 
 // Fast joints ride their slow motion; where that is not found the state stays, or with `keep_best` is the best attempt. Over which
 // time it was found; 0: it was not.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "start/ideal_rows.h"
@@ -30,13 +31,17 @@ Assembly start_of_free_bodies(const Model& model, System& system, double known_s
   return assembly;
 }
 
-// Equations that keep a gap at zero do not ask the joint's law, and so do not know of its friction and its stops either.
+// Equations that keep a gap at zero do not ask the joint's law, and so do not know of its friction, its detent and its stops either.
 template <class IsIdeal>
 void note_lost_laws(const System& system, const IsIdeal& is_ideal, std::vector<std::string>& notes) {
   for (int j = 0; j < system.n_joints(); ++j) {
+    if (!is_ideal(j)) continue;
     const JointData& joint = system.joints[j];
-    if (is_ideal(j) && joint.law.has_friction()) notes.push_back(fmt::format("joint {} is ideal: its friction is not in these equations", joint.name));
-    if (is_ideal(j) && joint.law.has_stops()) notes.push_back(fmt::format("joint {} is ideal: its stops are not in these equations, so that it moves through them", joint.name));
+    const auto is_detent = [](const auto& part) { return !part->holds() && !part->rubs() && !part->stops() && !part->feeds(); };
+    const std::string name = "joint " + joint.name + (joint.law.feeds() ? "" : " is ideal");
+    if (joint.law.has_friction()) notes.push_back(name + ": its friction is not in these equations");
+    if (std::any_of(joint.law.parts().begin(), joint.law.parts().end(), is_detent)) notes.push_back(name + ": its detent is not in these equations");
+    if (joint.law.has_stops()) notes.push_back(name + ": its stops are not in these equations, so that it moves through them");
   }
 }
 
@@ -45,7 +50,7 @@ void note_lost_laws(const System& system, const IsIdeal& is_ideal, std::vector<s
 Assembly start_of_run(const Model& model, System& system, double known_span) {
   if (model.simulate.equations == Equations::kIdeal) {
     Assembly assembly = ideal_start(model, system);
-    note_lost_laws(system, [&system](int j) { return system.joints[j].ideal; }, assembly.notes);
+    note_lost_laws(system, [&system](int j) { return system.joints[j].ideal || system.joints[j].law.feeds(); }, assembly.notes);
     return assembly;
   }
   if (model.simulate.equations != Equations::kRelative) return start_of_free_bodies(model, system, known_span);

@@ -92,10 +92,12 @@ void add_joints(Comparison& c, const std::vector<std::pair<std::size_t, std::siz
     Quantity force{a.name, "", {}}, couple{a.name, "", {}};
     if (add_column(c, path + "fx[world]", force) && add_column(c, path + "fy[world]", force)) {
       c.forces.push_back(measure(c, force, rows));
+      c.forces.back().peak = std::max(c.forces.back().peak, b.peak);
       judge(a, b, c.forces.back());
     }
     if (a.has_moment && add_column(c, path + "m[world]", couple)) {
       c.couples.push_back(measure(c, couple, rows));
+      c.couples.back().peak = std::max(c.couples.back().peak, b.peak_moment);
       judge(a, b, c.couples.back());
     }
   }

@@ -14,6 +14,7 @@
 #include "joints/cam_profile.h"
 #include "joints/catalog.h"
 #include "laws/catalog.h"
+#include "laws/pressure.h"
 
 namespace pintle {
 namespace {
@@ -81,14 +82,33 @@ class Builder {
     return at;
   }
 
+  // A chamber whose pressure is not stated is open.
+  static std::shared_ptr<const Chambers> chambers_of(const Joint& joint) {
+    const auto number = [&joint](const char* key, double otherwise) {
+      const auto at = joint.geometry.find(key);
+      return at == joint.geometry.end() ? otherwise : at->second;
+    };
+    const double ambient = number("ambient_pressure", 0);
+    const auto pressure = [&](const char* key) {
+      const auto at = joint.functions.find(key);
+      return ChamberPressure(at == joint.functions.end() ? Expression::constant(number(key, ambient)) : at->second);
+    };
+    return std::make_shared<const Chambers>(number("bore", 0), number("rod_diameter", 0), ambient, pressure("cap_pressure"), pressure("rod_pressure"));
+  }
+
   // A law with a rest position of its own also says where the gap counts from.
   static Law make_law(const Joint& joint, const JointTypeInfo& type, const std::array<bool, 3>& held, JointDisplacement& displacement) {
     LawSetting setting;
     setting.joint_type = joint.type;
     setting.held = held;
     setting.one_sided = type.one_sided;
+    setting.bound_by(joint.geometry);
     for (const ComponentInfo& free : type.free) setting.free[free.place] = true;
     Law law;
+    if (joint.type == "cylinder") {
+      setting.chambers = chambers_of(joint);
+      law.add(std::make_unique<LawPartOf<PressureLaw>>(PressureLaw{setting.chambers}));
+    }
     const LawInfo* law_info = find_law(joint.law.word);
     const auto add = [&](const LawChoice* choice, LawRole role) {
       if (choice->word.empty()) return;
@@ -103,9 +123,10 @@ class Builder {
       info->make(setting, law);
       if (info->rest) std::get<Selection>(displacement).offset.head<2>() = info->rest(setting);
     };
-    add(&joint.law, LawRole::kHolds);
+    if (!type.gap.empty()) add(&joint.law, LawRole::kHolds);
     add(&joint.friction, LawRole::kFriction);
     add(&joint.stops, LawRole::kStops);
+    add(&joint.detent, LawRole::kDetent);
     return law;
   }
   void add_joint(const Joint& joint) {
@@ -116,6 +137,9 @@ class Builder {
     data.type = joint.type;
     data.at = place(joint.first, joint.second);
     data.displacement = info->make(joint.geometry);
+    if (info->fault)
+      if (const GeometryFault fault = info->fault(joint.geometry); !fault.key.empty()) refuse(fmt::format("joint {}: {}: {}", joint.name, fault.key, fault.why));
+    if (info->has_ends && joint.stops.word.empty()) refuse(fmt::format("joint {}: a {} needs stops", joint.name, joint.type));
     if (auto* gap = std::get_if<CamGap>(&data.displacement)) {
       if (!joint.cam) refuse(fmt::format("joint {}: a cam needs a profile", joint.name));
       data.cam = std::make_shared<const CamProfile>(*joint.cam);
@@ -141,6 +165,7 @@ class Builder {
   }
   void add_motor(const Motor& motor) {
     const JointData& driven = system_.joints[joint(motor.joint)];
+    if (!std::holds_alternative<Selection>(driven.displacement)) refuse(fmt::format("motor {}: a {} joint has no coordinate for a motor", motor.name, driven.type));
     const int component = driven.free_mask[0] > 0 ? 0 : 2;
     if (driven.free_mask[component] == 0) refuse(fmt::format("motor {}: joint {} leaves nothing free", motor.name, motor.joint));
     if (motor.kind == MotorKind::kEffort) {
@@ -260,8 +285,8 @@ class Builder {
 
 const Joint* model_joint(const Model& model, std::size_t j) { return j < model.joints.size() ? &model.joints[j] : nullptr; }
 
-// A rod or rope whose length is what it is when assembled.
-bool is_measured(const Joint& joint) { return !joint.functions.contains("length") && !joint.geometry.contains("length"); }
+// A rod or rope whose length is what it is when assembled; that of a cylinder is stated.
+bool is_measured(const Joint& joint) { return !joint.functions.contains("length") && !joint.geometry.contains("length") && joint.type != "cylinder"; }
 
 void settle_joint(const Joint& joint, const RelativePose& pose, JointDisplacement& displacement, std::vector<std::string>& notes) {
   if (auto* distance = std::get_if<Distance>(&displacement); distance && is_measured(joint)) {

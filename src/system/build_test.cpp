@@ -21,6 +21,10 @@ Model model_of(const std::string& type) {
   model.joints = {sample::joint("j", type, {"a", "P"}, {"b", "P"}, 1e3, 10)};
   if (type == "gear") model.joints[0].geometry = {{"radius_first", 0.3}, {"radius_second", 0.5}};
   if (type == "cam") model.joints[0].cam = Cam{sample::expression("0.02*cos(angle) + 0.01*sin(2*angle)", {"angle"}), 0.3, 0.05, false};
+  if (type == "cylinder") {
+    model.joints[0].geometry = {{"bore", 0.1}, {"rod_diameter", 0.06}, {"closed_length", 0.5}, {"stroke", 0.4}};
+    model.joints[0].stops = {"hard", {{"stop_stiffness", {1e6}}}};
+  }
   if (type == "rack") model.joints[0].geometry = {{"radius", 0.3}};
   return model;
 }

@@ -5,6 +5,23 @@
 #include "system/system.h"
 
 namespace pintle {
+
+Spatial::Vec gyroscopic_force(const BasicBodyData<Spatial>& body, const Spatial::Motion& m) {
+  Spatial::Vec f;
+  f << Eigen::Vector3d::Zero(), Eigen::Vector3d(body.mass.tail<3>().cwiseProduct(m.w_body)).cross(m.w_body);
+  return f;
+}
+
+Spatial::Mat gyroscopic_tangent(const BasicBodyData<Spatial>& body, const Spatial::Motion& m) {
+  Spatial::Mat slope = Spatial::Mat::Zero();
+  const Eigen::Vector3d I = body.mass.tail<3>(), spin = I.cwiseProduct(m.w_body);
+  for (int c = 0; c < 3; ++c) {
+    const Eigen::Vector3d unit = Eigen::Vector3d::Unit(c);
+    slope.block<3, 1>(3, 3 + c) = spin.cross(unit) + I[c] * unit.cross(m.w_body);
+  }
+  return slope;
+}
+
 namespace {
 
 template <class S>

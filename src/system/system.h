@@ -169,20 +169,8 @@ inline void add_force(const BasicPlacement<S>& at, const BasicJointKinematics<S>
 }
 
 /// The moment -w x I w of a spinning body, in its axes, and its slope by the velocity. theory/space Eq. (4.2).
-inline Spatial::Vec gyroscopic_force(const BasicBodyData<Spatial>& body, const Spatial::Motion& m) {
-  Spatial::Vec f;
-  f << Eigen::Vector3d::Zero(), Eigen::Vector3d(body.mass.tail<3>().cwiseProduct(m.w_body)).cross(m.w_body);
-  return f;
-}
-inline Spatial::Mat gyroscopic_tangent(const BasicBodyData<Spatial>& body, const Spatial::Motion& m) {
-  Spatial::Mat slope = Spatial::Mat::Zero();
-  const Eigen::Vector3d I = body.mass.tail<3>(), spin = I.cwiseProduct(m.w_body);
-  for (int c = 0; c < 3; ++c) {
-    const Eigen::Vector3d unit = Eigen::Vector3d::Unit(c);
-    slope.block<3, 1>(3, 3 + c) = spin.cross(unit) + I[c] * unit.cross(m.w_body);
-  }
-  return slope;
-}
+Spatial::Vec gyroscopic_force(const BasicBodyData<Spatial>& body, const Spatial::Motion& m);
+Spatial::Mat gyroscopic_tangent(const BasicBodyData<Spatial>& body, const Spatial::Motion& m);
 
 /// Forces that are not a joint's, and their energy bookkeeping.
 struct ExternalWork {
@@ -220,7 +208,7 @@ class BasicSystem {
   /// Gap, rate, Jacobians and convective term of joint j at time t (the target of a driven component taken off).
   BasicJointKinematics<S> kinematics(int j, double t, const std::vector<typename S::Motion>& m) const;
   void joint_kinematics(double t, const std::vector<typename S::Motion>& m, std::vector<BasicJointKinematics<S>>& out) const;
-  /// Power that the drive of a joint delivers at this force, 0 where there is none [W]: a servo's in its coordinate, or what changes the length of a rod or rope.
+  /// Power that the drive of a joint delivers at this force, 0 where there is none [W]: a servo's in its coordinate, what changes the length of a rod or rope, the fluid in a cylinder.
   double drive_power(const BasicJointData<S>& joint, double t, const std::vector<typename S::Motion>& m, const Vec& force) const;
   /// Gravity, springs, applied forces and effort motors: the generalised force on every body. Motors in `sliding` stand at a jump.
   void external(double t, const std::vector<typename S::Motion>& m, VecsOf<S>& Q, SlidingModes sliding = {}) const;

@@ -38,6 +38,7 @@ Json joint(const Joint& j) {
           {"law", {{"word", j.law.word}, {"values", Json(j.law.values)}}},
           {"friction", {{"word", j.friction.word}, {"values", Json(j.friction.values)}}},
           {"stops", {{"word", j.stops.word}, {"values", Json(j.stops.values)}}},
+          {"detent", {{"word", j.detent.word}, {"values", Json(j.detent.values)}}},
           {"ideal", j.ideal}};
 }
 

@@ -14,8 +14,22 @@ template <class S>
 bool BasicRadauStepper<S>::error_estimate(double h, double& error) {
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!end_point_->prepare(begin_.t + h, mu, stage_[n_ - 1], tails_)) return false;
-  error = of_motion_ ? motion_tail() : end_point_->error(tails_, scale_);
+  error = of_motion_ ? motion_tail() : std::max(end_point_->error(tails_, scale_), change_of_loads(h));
   return std::isfinite(error);
+}
+
+// What the loads change by where the bodies are moved onto their gaps: positions are known no better. theory/time Eq. (3.20).
+template <class S>
+double BasicRadauStepper<S>::change_of_loads(double h) {
+  if (system_.loads.empty() && system_.applied.empty()) return 0;
+  load_change_.assign(system_.bodies.size(), S::Vec::Zero());
+  const std::vector<RowOf4<S>>& moves = end_point_->corrections();
+  system_.external_tangents(begin_.t + h, stage_[n_ - 1].m, [&](int i, int j, const typename S::Mat& dq, const typename S::Mat&) {
+    for (int c = 0; c < S::kDof; ++c) load_change_[i] += dq.col(c) * moves[j][c][3];
+  }, end_.sliding);
+  double largest = 0;
+  for (std::size_t b = 0; b < load_change_.size(); ++b) largest = std::max(largest, load_change_[b].cwiseAbs().cwiseQuotient(scale_.body[b]).maxCoeff());
+  return kPlaceError * largest;
 }
 
 // Legendre coefficients of the body forces M a, as accelerations that the bodies can yield to within the step: stiff joints hold back
@@ -120,6 +134,7 @@ void BasicRadauStepper<S>::find_power() {
 }
 
 template bool BasicRadauStepper<Planar>::error_estimate(double h, double& error);
+template double BasicRadauStepper<Planar>::change_of_loads(double h);
 template double BasicRadauStepper<Planar>::motion_tail();
 template void BasicRadauStepper<Planar>::finish_step(double h);
 template void BasicRadauStepper<Planar>::find_increments(double h);
@@ -128,6 +143,7 @@ template BasicRadauStepper<Planar>::Power BasicRadauStepper<Planar>::power_of_lo
 template void BasicRadauStepper<Planar>::add_power(const BasicJointData<Planar>& joint, const std::vector<Planar::Motion>& m, const BasicLawPoint<Planar>& at, const Planar::Vec& force, Power& power) const;
 template void BasicRadauStepper<Planar>::find_power();
 template bool BasicRadauStepper<Spatial>::error_estimate(double h, double& error);
+template double BasicRadauStepper<Spatial>::change_of_loads(double h);
 template double BasicRadauStepper<Spatial>::motion_tail();
 template void BasicRadauStepper<Spatial>::finish_step(double h);
 template void BasicRadauStepper<Spatial>::find_increments(double h);

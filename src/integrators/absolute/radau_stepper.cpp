@@ -34,6 +34,7 @@ BasicRadauStepper<S>::BasicRadauStepper(const BasicSystem<S>& system, double tol
     nodes_.increment_bend = bodies;
   }
   scale_.body = bodies;
+  if (system.has_loads()) load_change_ = bodies;
   if (!system.has_branches()) return;
   inside_q_.assign(n, S::at_origin());
   inside_v_ = bodies;

@@ -24,6 +24,19 @@ bool keeps(const JointData& joint, int component) {
   return joint.ideal && joint.law.engaged_stiffness()[component] > 0;
 }
 
+// What pushes from outside, as the pressures in a cylinder do. Friction and stops beside it have states, which these equations do not carry.
+S::Vec pushing(const JointData& joint, double t, const JointKinematics& r) {
+  LawInput<double> in{};
+  in.t = t;
+  std::copy_n(r.gap.data(), S::kDof, in.gap);
+  std::copy_n(r.rate.data(), S::kDof, in.rate);
+  LawOutput<double> out;
+  out.clear();
+  for (const auto& part : joint.law.parts())
+    if (part->feeds()) part->evaluate(in, out);
+  return Eigen::Map<const S::Vec>(out.force);
+}
+
 }  // namespace
 
 IdealEquations::IdealEquations(const System& system) : system_(system), still_(system.bodies.size(), S::Vec::Zero()) {
@@ -173,7 +186,7 @@ void IdealEquations::fill_joints(State& state) {
     const JointData& joint = system_.joints[j];
     state.gap[j] = r_[j].gap;
     state.gap_rate[j] = r_[j].rate;
-    state.force[j] = joint.ideal ? S::Vec(S::Vec::Zero()) : respond(joint.law, r_[j].gap, r_[j].rate).force;
+    state.force[j] = joint.ideal ? S::Vec(S::Vec::Zero()) : S::Vec(respond(joint.law, r_[j].gap, r_[j].rate).force + pushing(joint, state.t, r_[j]));
   }
   for (const Row& row : rows_) state.gap[row.joint][row.component] = state.gap_rate[row.joint][row.component] = 0;
 }

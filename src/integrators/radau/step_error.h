@@ -13,6 +13,9 @@ constexpr double kGapError = 3;
 /// Error of the joints' forces over the last coefficient of what laws with states add to the loads on bodies. theory/time Eq. (3.18).
 constexpr double kStateError = 30;
 
+/// Error of the bodies' places over what moves them onto their gaps. theory/time Eq. (3.20).
+constexpr double kPlaceError = 10;
+
 /// What the next coefficients of a series will be like: its last ones fall off by this ratio, at most 1.
 inline double fall_off(double last, double before, double before_that) {
   return std::min(1.0, std::max(last / before, std::sqrt(last / before_that)));

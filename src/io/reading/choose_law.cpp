@@ -54,7 +54,7 @@ bool has_key(const LawInfo* law, std::string_view key) {
   return law != nullptr && std::any_of(law->keys.begin(), law->keys.end(), [key](const KeyInfo& info) { return info.key == key; });
 }
 
-std::string word_at(const Table& table, std::string_view key) {
+std::string chosen_word(const Table& table, std::string_view key) {
   const Node* node = table.find(key);
   return node == nullptr || node->string() == nullptr ? std::string() : *node->string();
 }
@@ -79,7 +79,7 @@ class LawChange {
     law_ = find_law(word_);
     const LawRole role = law_ != nullptr ? law_->role : LawRole::kHolds;
     const std::string key(key_of(role));
-    former_ = word_at(*joint, key);
+    former_ = chosen_word(*joint, key);
     if (former_.empty() && role == LawRole::kHolds) former_ = "linear";
     if (law_ != nullptr) leave_out_former_keys(*joint, role);
     put(*joint, key, spot(pieces_.front().at), std::move(word));
@@ -115,8 +115,8 @@ class LawChange {
   void leave_out_former_keys(Table& joint, LawRole role) {
     const LawInfo* former = find_law(former_);
     const auto stays = [&](std::string_view key) {
-      for (const LawRole other : {LawRole::kHolds, LawRole::kFriction, LawRole::kStops}) {
-        const std::string word = word_at(joint, key_of(other));
+      for (const LawRole other : {LawRole::kHolds, LawRole::kFriction, LawRole::kStops, LawRole::kDetent}) {
+        const std::string word = chosen_word(joint, key_of(other));
         if (other != role && has_key(find_law(word.empty() && other == LawRole::kHolds ? "linear" : word), key)) return true;
       }
       return has_key(law_, key);
@@ -147,7 +147,7 @@ class LawChange {
   void note(const Table& joint, LawRole role) {
     const Node* defaults = document_.root.table()->find("defaults");
     const Node* of_joints = defaults == nullptr || defaults->table() == nullptr ? nullptr : defaults->table()->find("joint");
-    const JointTypeInfo* type = find_joint_type(word_at(joint, "type"));
+    const JointTypeInfo* type = find_joint_type(chosen_word(joint, "type"));
     std::vector<std::string> kept, by_default;
     for (const KeyInfo& info : law_->keys) {
       const std::string key(info.key);

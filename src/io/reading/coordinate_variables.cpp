@@ -13,7 +13,7 @@ using Variables = std::vector<std::pair<std::string, Dimension>>;
 
 void add_joint(const std::string& name, const std::string& type_word, Variables& variables) {
   const JointTypeInfo* type = find_joint_type(type_word);
-  if (type == nullptr || type->free.empty()) return;
+  if (type == nullptr || type->free.empty() || type->has_ends) return;
   for (const ComponentInfo& coordinate : type->free) {
     variables.emplace_back(name + "." + std::string(coordinate.name), coordinate.angular ? kAngle : kLength);
     variables.emplace_back(name + "." + std::string(coordinate.name) + "_rate", coordinate.angular ? kAngularSpeed : kLinearSpeed);

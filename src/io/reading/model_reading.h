@@ -40,7 +40,8 @@ struct ModelReading {
   std::map<std::string, TableSpec, std::less<>> specs;                   // assembled ones, by path and kind
 
   /// The assembled table of the schema, made once.
-  const TableSpec& spec(const std::string& path, const std::string& when = {}, const std::string& law = {}, const std::string& friction = {}, const std::string& stops = {});
+  const TableSpec& spec(const std::string& path, const std::string& when = {}, const std::string& law = {}, const std::string& friction = {}, const std::string& stops = {},
+                        const std::string& detent = {});
 };
 
 void read_settings(ModelReading& reading);    // the file's head, [simulate]

@@ -35,12 +35,13 @@ const LawInfo* law_of_role(std::string_view word, LawRole role) {
   return law != nullptr && law->role == role ? law : nullptr;
 }
 
-TableSpec& joint_spec(ModelReading& reading, const Node& joint, const JointTypeInfo* type, const LawInfo* law, const std::string& friction, const std::string& stops) {
+TableSpec& joint_spec(ModelReading& reading, const Node& joint, const JointTypeInfo* type, const LawInfo* law, const std::string& friction, const std::string& stops,
+                      const std::string& detent) {
   const std::string type_word(type == nullptr ? "" : type->word);
   const std::string law_word(law == nullptr ? "" : law->word);
   // The specs are made by spec() and belong to `reading`, so they may be completed here: how many entries lists have, and which
   // keys a table stands for.
-  TableSpec& spec = const_cast<TableSpec&>(reading.spec("joint.*", type_word, law_word, friction, stops));
+  TableSpec& spec = const_cast<TableSpec&>(reading.spec("joint.*", type_word, law_word, friction, stops, detent));
   for (KeySpec& key : spec.keys) {
     if (key.per_component && type != nullptr) key.count = linear_components(*type);
   }
@@ -102,8 +103,20 @@ void read_cam(ModelReading& reading, const Record& record, Joint& joint) {
     reading.complaints.add(record.spot("lift"), record.path + ".lift", in_quotes(joint.cam->lift.text()), std::move(why), "a lift that is smooth and ends as it begins (a table: interpolation = \"spline\"), a larger base_radius, or a smaller roller");
 }
 
+// Whether the values of the type's keys go together.
+void check_geometry(ModelReading& reading, const JointTypeInfo& type, const Record& record, const Node& stated_joint, const Joint& joint) {
+  if (type.has_ends && stated_joint.table() != nullptr && stated_joint.table()->find("stops") == nullptr)
+    reading.complaints.add(record.spot("stops"), record.path, "no stops", "the " + std::string(type.free.front().name) + " ends somewhere", "stops = \"hard\" or \"cushioned\", with stop_stiffness");
+  const bool complete = std::all_of(type.keys.begin(), type.keys.end(), [&](const KeyInfo& key) { return !key.required || joint.geometry.contains(std::string(key.key)); });
+  if (type.fault == nullptr || !complete) return;
+  const GeometryFault fault = type.fault(joint.geometry);
+  if (fault.key.empty()) return;
+  const Value* value = record.find(fault.key);
+  reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : fault.key, fault.why, fault.remedy);
+}
+
 // Whether the law suits the joint, and its values, when none is wrong by itself, each other.
-void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const LawChoice& choice, bool complete) {
+void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const Joint& joint, const LawChoice& choice, bool complete) {
   if (!suits(law, type.word)) {
     std::string types;
     for (const std::string_view one : law.joints) types += (types.empty() ? "" : ", ") + std::string(one);
@@ -117,6 +130,7 @@ void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& 
   for (const ComponentInfo& gap : type.gap) setting.held[gap.place] = true;
   for (const ComponentInfo& free : type.free) setting.free[free.place] = true;
   setting.one_sided = type.one_sided;
+  setting.bound_by(joint.geometry);
   setting.values = &choice.values;
   setting.keys = law.keys;
   if (law.fault == nullptr || !complete) return;
@@ -162,7 +176,7 @@ std::vector<double> numbers_of(const KeyInfo& key, const Value& value) {
 
 // `stated_joint` is the joint's table: a key in it that has no value was complained about.
 void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const Node& stated_joint,
-              const Record& defaults, LawChoice& choice) {
+              const Record& defaults, const Joint& joint, LawChoice& choice) {
   const auto is_stated = [&stated_joint](std::string_view key) { return stated_joint.table() != nullptr && stated_joint.table()->find(key) != nullptr; };
   choice.word = law.word;
   bool complete = true;
@@ -181,7 +195,7 @@ void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& l
     else if (choice.values.count(std::string(key.key)) == 0 && (key.otherwise.empty() || is_stated(key.key))) missing.push_back(std::string(key.key));
   }
   for (const std::string& key : missing) complete = complete && choice.values.count(key) > 0;
-  check_law(reading, type, law, record, choice, complete);
+  check_law(reading, type, law, record, joint, choice, complete);
 }
 
 void read_bearing(ModelReading& reading, const JointTypeInfo& type, const Entry& joint, const std::string& joint_path, std::optional<Bearing>& out) {
@@ -207,24 +221,29 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   const LawInfo* friction = law_of_role(friction_word, LawRole::kFriction);
   const std::string stops_word = word_ahead(entry.value, "stops");
   const LawInfo* stops = law_of_role(stops_word, LawRole::kStops);
+  const std::string detent_word = word_ahead(entry.value, "detent");
+  const LawInfo* detent = law_of_role(detent_word, LawRole::kDetent);
   reading.type_of_joint[entry.key] = type == nullptr ? "" : std::string(type->word);
   if (type == nullptr || law == nullptr) {
     read_faulty_joint(reading, entry, path);
     return;
   }
   const std::string kind = "a " + std::string(type->word) + " joint";
-  const Record record = reading.records.read(joint_spec(reading, entry.value, type, law, friction == nullptr ? "" : friction_word, stops == nullptr ? "" : stops_word), entry.value, entry.key_spot, path, kind);
+  const Record record = reading.records.read(joint_spec(reading, entry.value, type, law, friction == nullptr ? "" : friction_word, stops == nullptr ? "" : stops_word,
+                                                         detent == nullptr ? "" : detent_word), entry.value, entry.key_spot, path, kind);
   Joint joint;
   joint.name = entry.key;
   joint.type = type->word;
   read_between(reading, record, "joint", joint.first, joint.second);
   read_geometry(*type, record, joint);
   check_gear(reading, record, joint);
+  check_geometry(reading, *type, record, entry.value, joint);
   read_cam(reading, record, joint);
-  read_law(reading, *type, *law, record, entry.value, defaults, joint.law);
+  read_law(reading, *type, *law, record, entry.value, defaults, joint, joint.law);
   joint.ideal = record.number("ideal") > 0;
-  if (friction != nullptr) read_law(reading, *type, *friction, record, entry.value, defaults, joint.friction);
-  if (stops != nullptr) read_law(reading, *type, *stops, record, entry.value, defaults, joint.stops);
+  if (friction != nullptr) read_law(reading, *type, *friction, record, entry.value, defaults, joint, joint.friction);
+  if (stops != nullptr) read_law(reading, *type, *stops, record, entry.value, defaults, joint, joint.stops);
+  if (detent != nullptr) read_law(reading, *type, *detent, record, entry.value, defaults, joint, joint.detent);
   if (friction != nullptr && joint.ideal)
     reading.complaints.add(record.spot("friction"), path + ".friction", '"' + friction_word + '"', "an ideal joint does not give way, so that nothing says what presses its surfaces together",
                            "ideal = false, or no friction");

@@ -23,9 +23,9 @@ std::string coordinate_of(ModelReading& reading, const Entry& entry, const std::
   }
   const JointTypeInfo* type = find_joint_type(it->second);
   if (type == nullptr) return {};
-  if (!type->free.empty()) return std::string(type->free.front().name);
+  if (!type->free.empty() && !type->has_ends) return std::string(type->free.front().name);
   reading.complaints.add(joint->spot, path + ".joint", in_quotes(*joint->string()),
-                         "a " + it->second + " joint leaves no coordinate free for a motor",
+                         type->has_ends ? "a " + it->second + " is driven by its pressures" : "a " + it->second + " joint leaves no coordinate free for a motor",
                          "a revolute, prismatic or slot joint");
   return {};
 }

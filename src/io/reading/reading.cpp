@@ -23,11 +23,12 @@ std::vector<std::string> keys_of(const std::map<std::string, std::set<std::strin
 
 }  // namespace
 
-const TableSpec& ModelReading::spec(const std::string& path, const std::string& when, const std::string& law, const std::string& friction, const std::string& stops) {
-  const std::string key = path + ' ' + when + ' ' + law + ' ' + friction + ' ' + stops;
+const TableSpec& ModelReading::spec(const std::string& path, const std::string& when, const std::string& law, const std::string& friction, const std::string& stops,
+                                     const std::string& detent) {
+  const std::string key = path + ' ' + when + ' ' + law + ' ' + friction + ' ' + stops + ' ' + detent;
   const auto it = specs.find(key);
   if (it != specs.end()) return it->second;
-  return specs.emplace(key, Schema::model().assemble(path, when, law, friction, stops)).first->second;
+  return specs.emplace(key, Schema::model().assemble(path, when, law, friction, stops, detent)).first->second;
 }
 
 const Table& section(ModelReading& reading, std::string_view key) {

@@ -60,13 +60,14 @@ std::string list_example(const KeySpec& spec) {
   return "[" + text + "]";
 }
 
-// Whether the variable t stands in a text.
-bool mentions_time(const Node& node) {
+// Whether one of these variables stands in a text.
+bool mentions(const Node& node, const std::vector<std::string>& variables) {
   const std::string* text = node.string();
   if (text == nullptr) return false;
   const auto in_word = [text](std::size_t at) { return at < text->size() && (is_word_part((*text)[at]) || (*text)[at] == '.'); };
-  for (std::size_t at = text->find('t'); at != std::string::npos; at = text->find('t', at + 1))
-    if (!in_word(at + 1) && (at == 0 || !in_word(at - 1))) return true;
+  for (const std::string& variable : variables)
+    for (std::size_t at = text->find(variable); at != std::string::npos; at = text->find(variable, at + 1))
+      if (!in_word(at + variable.size()) && (at == 0 || !in_word(at - 1))) return true;
   return false;
 }
 
@@ -146,7 +147,7 @@ std::optional<Value> RecordReader::read_value(const Node& node, const KeySpec& s
       good = read_words(node, spec, path, value);
       break;
     case ValueType::kQuantity:
-      good = !spec.variables.empty() && mentions_time(node) ? read_function_of_time(node, spec, path, value) : read_numbers(node, spec, path, value);
+      good = mentions(node, spec.variables) ? read_function_of_time(node, spec, path, value) : read_numbers(node, spec, path, value);
       break;
     case ValueType::kNumber:
     case ValueType::kQuantities:
@@ -255,6 +256,8 @@ void RecordReader::set_variables(const KeySpec& spec, std::string_view text) {
     if (variable == "slide") scope.variables.emplace_back("slide", kLength);
     if (variable == "angle_rate") scope.variables.emplace_back("angle_rate", kAngularSpeed);
     if (variable == "slide_rate") scope.variables.emplace_back("slide_rate", kLinearSpeed);
+    if (variable == "stroke") scope.variables.emplace_back("stroke", kLength);
+    if (variable == "stroke_rate") scope.variables.emplace_back("stroke_rate", kLinearSpeed);
     if (variable == "joints" && joint_variables) joint_variables(text, scope.variables);
   }
   const bool has_rate = std::find(spec.variables.begin(), spec.variables.end(), "rate") != spec.variables.end();
@@ -293,9 +296,10 @@ bool RecordReader::read_expression(const Node& node, const KeySpec& spec, const 
   return true;
 }
 
-// An expression of t that is in the key's range at the start.
+// An expression that is in the key's range at the start, where it is one of t.
 bool RecordReader::read_function_of_time(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
   if (!read_expression(node, spec, path, value)) return false;
+  if (value.expressions.back().variables() != std::vector<std::string>{"t"}) return true;
   const double start = 0;
   return in_range(value.expressions.back().value(std::span(&start, 1)), node, spec, path);
 }

@@ -96,7 +96,7 @@ std::string type_text(const KeySpec& spec) {
     case ValueType::kColumn:
       return "text or integer";
     default:
-      if (!spec.variables.empty()) return "number, or expression of `t`";
+      if (!spec.variables.empty()) return "number, or expression of " + list_of(spec.variables, ", ");
       return spec.per_component ? "number, or a list with one per linear gap component" : "number";
   }
 }
@@ -150,7 +150,7 @@ std::vector<KeySpec> specs_of(std::span<const KeyInfo> keys, bool measured_when_
     specs.push_back(spec_of(key));
     if (!measured_when_absent) continue;
     specs.back().fallback.reset();
-    specs.back().otherwise = "as assembled";
+    if (key.otherwise.empty()) specs.back().otherwise = "as assembled";
   }
   return specs;
 }

@@ -64,6 +64,8 @@ std::vector<std::string> words_of_catalog(std::string_view catalog) {
     list(LawRole::kFriction);
   } else if (catalog == "stop laws") {
     list(LawRole::kStops);
+  } else if (catalog == "detent laws") {
+    list(LawRole::kDetent);
   } else if (catalog == "joint types") {
     for (const JointTypeInfo& type : joint_type_catalog()) words.emplace_back(type.word);
   } else {
@@ -131,7 +133,7 @@ TableSpec read_table(const Table& table) {
   return spec;
 }
 
-void add_law_keys(TableSpec& table, const JointTypeInfo* type, const std::array<std::string_view, 3>& words) {
+void add_law_keys(TableSpec& table, const JointTypeInfo* type, const std::array<std::string_view, 4>& words) {
   const bool all = words.front().empty();
   for (const LawInfo& info : law_catalog()) {
     if (!all && std::find(words.begin(), words.end(), info.word) == words.end()) continue;
@@ -160,6 +162,7 @@ KeySpec spec_of(const KeyInfo& info, const JointTypeInfo* type) {
   spec.meaning = info.meaning;
   spec.otherwise = info.otherwise;
   if (info.of_time) spec.variables = {"t"};
+  spec.variables.insert(spec.variables.end(), info.also_of.begin(), info.also_of.end());
   if (std::isfinite(info.minimum)) spec.minimum = info.minimum;
   spec.minimum_exclusive = info.minimum_exclusive;
   spec.required = info.required;
@@ -201,7 +204,8 @@ const Schema& Schema::model() {
   return schema;
 }
 
-TableSpec Schema::assemble(std::string_view path, std::string_view when, std::string_view law, std::string_view friction, std::string_view stops) const {
+TableSpec Schema::assemble(std::string_view path, std::string_view when, std::string_view law, std::string_view friction, std::string_view stops,
+                           std::string_view detent) const {
   TableSpec out;
   bool found = false;
   for (const TableSpec& table : tables_) {
@@ -217,10 +221,10 @@ TableSpec Schema::assemble(std::string_view path, std::string_view when, std::st
       out.keys.push_back(spec_of(key));
       // A geometry that may be left out is measured when assembled, so it has no value of its own.
       out.keys.back().fallback.reset();
-      if (!key.required) out.keys.back().otherwise = "as assembled";
+      if (!key.required && key.otherwise.empty()) out.keys.back().otherwise = "as assembled";
     }
   }
-  if (out.law_keys) add_law_keys(out, find_joint_type(when), {law, friction, stops});
+  if (out.law_keys) add_law_keys(out, find_joint_type(when), {law, friction, stops, detent});
   return out;
 }
 

@@ -77,8 +77,9 @@ class Schema {
   const std::vector<TableSpec>& tables() const { return tables_; }
 
   /// Everything that may stand at `path` in a thing of kind `when`: the keys for all, those of this kind, and those of
-  /// the catalogs (of all laws when `law` is empty, else of it, of `friction` and of `stops`). The table must exist.
-  TableSpec assemble(std::string_view path, std::string_view when = {}, std::string_view law = {}, std::string_view friction = {}, std::string_view stops = {}) const;
+  /// the catalogs (of all laws when `law` is empty, else of it, of `friction`, of `stops` and of `detent`). The table must exist.
+  TableSpec assemble(std::string_view path, std::string_view when = {}, std::string_view law = {}, std::string_view friction = {}, std::string_view stops = {},
+                     std::string_view detent = {}) const;
 
   /// The tables that may stand in the table at `path`, by key; "*" for names that the user chooses.
   std::vector<std::string> children(std::string_view path) const;

@@ -1,4 +1,5 @@
 // The catalog's entries of stops.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -12,10 +13,10 @@
 namespace pintle {
 namespace {
 
-constexpr KeyInfo kLower{.key = "lower_stop", .unit = "m", .angular_unit = "rad", .fallback = -StopContact::kNowhere, .minimum = kAny, .otherwise = "no lower stop",
-                         .meaning = "smallest angle or slide of the joint: where the stop is touched"};
-constexpr KeyInfo kUpper{.key = "upper_stop", .unit = "m", .angular_unit = "rad", .fallback = StopContact::kNowhere, .minimum = kAny, .otherwise = "no upper stop",
-                         .meaning = "largest angle or slide of the joint: where the stop is touched"};
+constexpr KeyInfo kLower{.key = "lower_stop", .unit = "m", .angular_unit = "rad", .fallback = -StopContact::kNowhere, .minimum = kAny, .otherwise = "no lower stop; of a cylinder 0",
+                         .meaning = "smallest angle, slide or stroke of the joint: where the stop is touched"};
+constexpr KeyInfo kUpper{.key = "upper_stop", .unit = "m", .angular_unit = "rad", .fallback = StopContact::kNowhere, .minimum = kAny, .otherwise = "no upper stop; of a cylinder its stroke",
+                         .meaning = "largest angle, slide or stroke of the joint: where the stop is touched"};
 constexpr KeyInfo kStiffness{.key = "stop_stiffness", .unit = "N/m", .angular_unit = "N*m/rad", .minimum_exclusive = true, .required = true,
                              .meaning = "force or moment at a depth of 1 m or 1 rad behind a stop; it goes as the depth to the power of stop_exponent"};
 constexpr KeyInfo kExponent{.key = "stop_exponent", .unit = "", .fallback = 1, .minimum = 1, .meaning = "1: a spring; 1.5: Hertz' contact of a ball; 1 in the linear model"};
@@ -32,10 +33,16 @@ constexpr std::array<KeyInfo, 9> kHardKeys{{kLower, kUpper, kStiffness, kExponen
 constexpr std::array<KeyInfo, 6> kCushionedKeys{{kLower, kUpper, kStiffness, kExponent, kCushion, kGrownDamping}};
 
 constexpr DampingKeys kDamping{"stop_model", "stop_restitution", "stop_damping_factor", "stop_damping", "stop_exponent", "stop_least_speed"};
-constexpr std::array<std::string_view, 3> kWithStops{"revolute", "prismatic", "slot"};
+constexpr std::array<std::string_view, 4> kWithStops{"revolute", "prismatic", "slot", "cylinder"};
+
+// Where none is stated, a stroke ends of itself.
+double lower_of(const LawSetting& at) { return std::max(at.number("lower_stop"), at.lower_end); }
+double upper_of(const LawSetting& at) { return std::min(at.number("upper_stop"), at.upper_end); }
 
 LawFault stop_fault(const LawSetting& at) {
-  const double lower = at.number("lower_stop"), upper = at.number("upper_stop");
+  const double lower = lower_of(at), upper = upper_of(at);
+  if (std::isfinite(at.number("lower_stop")) && at.number("lower_stop") < lower) return {"lower_stop", fmt::format("the stroke ends before, at {:g} m", lower), "a stop inside the stroke, or none: it is at the end then"};
+  if (std::isfinite(at.number("upper_stop")) && at.number("upper_stop") > upper) return {"upper_stop", fmt::format("the stroke ends before, at {:g} m", upper), "a stop inside the stroke, or none: it is at the end then"};
   if (!std::isfinite(lower) && !std::isfinite(upper)) return {"stops", "neither lower_stop nor upper_stop says where they are", "lower_stop, upper_stop or both"};
   if (!(lower < upper)) return {"lower_stop", fmt::format("{:g} is not below upper_stop, {:g}: nothing is left between them", lower, upper), "the smaller of the two as lower_stop"};
   return {};
@@ -50,8 +57,8 @@ template <class Stops>
 Stops stops_of(const LawSetting& at) {
   Stops law;
   law.free = at.free[0] ? 0 : 2;
-  law.lower = at.number("lower_stop");
-  law.upper = at.number("upper_stop");
+  law.lower = lower_of(at);
+  law.upper = upper_of(at);
   law.contact.stiffness = at.number("stop_stiffness");
   return law;
 }
@@ -73,9 +80,9 @@ void make_cushioned(const LawSetting& at, Law& law) {
 }  // namespace
 
 void add_stop_laws(std::vector<LawInfo>& all) {
-  all.push_back({.word = "hard", .meaning = "stops of the joint's angle or slide, by the contact models of law \"contact\": impact with a restitution, rest on the stop", .keys = kHardKeys,
+  all.push_back({.word = "hard", .meaning = "stops of the joint's angle, slide or stroke, by the contact models of law \"contact\": impact with a restitution, rest on the stop", .keys = kHardKeys,
                  .role = LawRole::kStops, .joints = kWithStops, .make = make_hard, .fault = hard_fault});
-  all.push_back({.word = "cushioned", .meaning = "stops of the joint's angle or slide with an end cushion: a spring, and a damper that grows with the depth (the IMPACT function of Adams)", .keys = kCushionedKeys,
+  all.push_back({.word = "cushioned", .meaning = "stops of the joint's angle, slide or stroke with an end cushion: a spring, and a damper that grows with the depth (the IMPACT function of Adams)", .keys = kCushionedKeys,
                  .role = LawRole::kStops, .joints = kWithStops, .make = make_cushioned, .fault = stop_fault});
 }
 

@@ -71,8 +71,8 @@ struct StopContact {
   std::span<const LawColumn> columns() const {
     static const std::array<LawColumn, 2> turn{{{"stop_moment", "N*m", "moment of the stops on the second body"},
                                                 {"stop_depth", "rad", "how far the angle is beyond a stop; negative: to the nearer one"}}};
-    static const std::array<LawColumn, 2> slide{{{"stop_force", "N", "force of the stops on the second body, along the slide"},
-                                                 {"stop_depth", "m", "how far the slide is beyond a stop; negative: to the nearer one"}}};
+    static const std::array<LawColumn, 2> slide{{{"stop_force", "N", "force of the stops on the second body, along the slide or the stroke"},
+                                                 {"stop_depth", "m", "how far the slide or the stroke is beyond a stop; negative: to the nearer one"}}};
     return free == 2 ? turn : slide;
   }
   void observe(const LawInput<double>& in, const Planar::Vec&, double* value) const {

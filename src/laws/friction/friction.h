@@ -3,14 +3,18 @@
 //   v = r w (pins) or the rate of the slide;      N = |reaction| + N_0                             theory/joints Eq. (3.14)
 //   a slide with a guide:  N = |F/2 + M/L| + |F/2 - M/L| + N_0 = max(|F|, 2 |M|/L) + N_0           Eq. (3.15)
 //
+//   seals of a cylinder:   N = N_0 + A_s (|p_c - p_0| + |p_r - p_0|)                               theory/cylinders Eq. (3.1)
+//
 // F is the force across a slide and M its moment about the second marker, the middle of the guide: they press its edges, both on the
 // same side or one on either side. The reaction is that of the laws before this one in the same joint.
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <string_view>
 
+#include "laws/chambers.h"
 #include "laws/law_math.h"
 #include "laws/law_part.h"
 
@@ -24,6 +28,8 @@ struct Friction {
   double preload = 0;                // N_0 [N]
   double kinetic = 0.1, stuck = 0.15;  // coefficients [-]
   double viscous = 0;                // friction per slip speed and load [s/m]
+  double seal_area = 0;              // A_s, on which pressure presses the seals of a cylinder [m^2]
+  std::shared_ptr<const Chambers> chambers{};  // of that cylinder
 
   template <class T>
   T slip(const LawInput<T>& in) const { return radius * in.rate[free]; }
@@ -33,6 +39,7 @@ struct Friction {
   T load(const LawInput<T>& in) const {
     using namespace law_math;
     const T* f = in.before;
+    if (chambers) return T(preload) + seal_area * chambers->on_seals(in);                                     // cylinders (3.1)
     if (free == 2) return T(preload) + sqrt(f[0] * f[0] + f[1] * f[1]);                                       // (3.14)
     if (!(guide > 0)) return T(preload) + abs(f[1]);
     const T half = 0.5 * f[1], edge = (1 / guide) * f[2];
@@ -49,7 +56,7 @@ struct Friction {
   double lever() const { return free == 2 ? radius : 0; }
   std::span<const LawColumn> columns() const {
     static const std::array<LawColumn, 2> pin{{{"friction", "N*m", "moment of friction on the second body"}, {"friction_power", "W", "power that friction turns into heat"}}};
-    static const std::array<LawColumn, 2> slide{{{"friction", "N", "force of friction on the second body, along the slide"}, {"friction_power", "W", "power that friction turns into heat"}}};
+    static const std::array<LawColumn, 2> slide{{{"friction", "N", "force of friction on the second body, along the slide or the stroke"}, {"friction_power", "W", "power that friction turns into heat"}}};
     return free == 2 ? pin : slide;
   }
   /// Nothing else acts in the direction that is left free.

@@ -21,38 +21,43 @@ constexpr KeyInfo kStribeck{.key = "stribeck_speed", .unit = "m/s", .fallback = 
 constexpr KeyInfo kViscous{.key = "viscous_friction", .unit = "s/m", .meaning = "friction per slip speed and load"};
 constexpr KeyInfo kPreload{.key = "friction_preload", .unit = "N", .meaning = "presses the surfaces together besides the joint's own force"};
 
-constexpr std::array<KeyInfo, 9> kLuGreKeys{{
+constexpr KeyInfo kSealArea{.key = "seal_area", .unit = "m^2", .meaning = "of a cylinder: where the pressure in its chambers, over that of the surroundings, presses seals against bore and rod"};
+
+constexpr std::array<KeyInfo, 10> kLuGreKeys{{
     kKinetic, kStatic, kPinRadius, kGuide, kStribeck,
     {.key = "bristle_stiffness", .unit = "m^-1", .fallback = 1e5, .minimum_exclusive = true, .meaning = "friction before slip, per displacement and load; slip begins at static_friction over this"},
     {.key = "bristle_damping", .unit = "s/m", .fallback = 10, .meaning = "the same per rate of the bristles"},
-    kViscous, kPreload,
+    kViscous, kPreload, kSealArea,
 }};
 
-constexpr std::array<KeyInfo, 8> kCoulombKeys{{
+constexpr std::array<KeyInfo, 9> kCoulombKeys{{
     kKinetic, kStatic, kPinRadius, kGuide,
     {.key = "stick_stiffness", .unit = "N/m", .fallback = 1e8, .minimum_exclusive = true, .meaning = "friction before slip, per displacement where it rubs"},
     {.key = "stick_damping", .unit = "N*s/m", .fallback = 3e3, .meaning = "the same per speed"},
-    kViscous, kPreload,
+    kViscous, kPreload, kSealArea,
 }};
 
-constexpr std::array<KeyInfo, 7> kBrownMcPheeKeys{{
+constexpr std::array<KeyInfo, 8> kBrownMcPheeKeys{{
     kKinetic, kStatic, kPinRadius, kGuide,
     {.key = "transition_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip at which friction is largest; below it a joint creeps that should stick"},
-    kViscous, kPreload,
+    kViscous, kPreload, kSealArea,
 }};
 
-constexpr std::array<KeyInfo, 8> kStribeckKeys{{
+constexpr std::array<KeyInfo, 9> kStribeckKeys{{
     kKinetic, kStatic, kPinRadius, kGuide, kStribeck,
     {.key = "transition_speed", .unit = "m/s", .fallback = 1e-4, .minimum_exclusive = true, .meaning = "friction rises with tanh(slip / transition_speed); about this fast a joint creeps that should stick"},
-    kViscous, kPreload,
+    kViscous, kPreload, kSealArea,
 }};
 
-constexpr std::array<std::string_view, 2> kRubbing{"revolute", "prismatic"};
+constexpr std::string_view kCylinder = "cylinder";
+constexpr std::array<std::string_view, 3> kRubbing{"revolute", "prismatic", kCylinder};
 
 LawFault friction_fault(const LawSetting& at) {
   if (at.number("static_friction") < at.number("friction_coefficient"))
     return {"static_friction", fmt::format("{:g} is below the kinetic coefficient of {:g}: what slips would be held more firmly than what rests", at.number("static_friction"), at.number("friction_coefficient")),
             "static_friction not below friction_coefficient"};
+  if (at.joint_type != kCylinder && at.number("seal_area") > 0) return {"seal_area", "only cylinders have seals", "delete it; friction_preload is a constant load"};
+  if (at.joint_type == kCylinder && at.number("guide_length") > 0) return {"guide_length", "the guide of a cylinder's rod carries no load: the force acts along it", "delete it"};
   if (at.free[2] && at.number("guide_length") > 0) return {"guide_length", "a pin transmits no moment that could press the edges of a guide", "delete it"};
   return {};
 }
@@ -67,6 +72,8 @@ void set_friction(const LawSetting& at, Friction& friction) {
   friction.kinetic = at.number("friction_coefficient");
   friction.stuck = at.number("static_friction");
   friction.viscous = at.number("viscous_friction");
+  friction.seal_area = at.number("seal_area");
+  friction.chambers = at.chambers;
 }
 
 void make_lugre(const LawSetting& at, Law& law) {

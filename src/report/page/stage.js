@@ -192,8 +192,29 @@ class Stage {
     g.strokeStyle = this.shade(style.line[+dark.matches], -1);
     g.lineWidth = style.width * pixel;
     g.beginPath();
+    if (connector.paint === "barrel") {
+      this.drawCylinder(g, a, [dx / l, dy / l], b, connector, style);
+      return;
+    }
     if (connector.length > 0) this.traceBlade(g, a, b, connector, poses);
     else for (const [along, across] of connector.line) g.lineTo(a[0] + along * dx - (across * u * dy) / l, a[1] + along * dy + (across * u * dx) / l);
+    g.stroke();
+  }
+
+  /** The barrel from its point on, and the rod with its piston, as long as the barrel, from the other one back. */
+  drawCylinder(g, a, [x, y], b, { barrel, half_width: w }, style) {
+    const corner = (from, along, across) => [from[0] + along * x - across * w * y, from[1] + along * y + across * w * x];
+    for (const [along, across] of [[0, -1], [barrel, -1], [barrel, 1], [0, 1]]) g.lineTo(...corner(a, along, across));
+    g.closePath();
+    g.fillStyle = this.shade(style.fill[+dark.matches], -1);
+    g.fill();
+    g.stroke();
+    g.lineWidth *= run.paints.styles.rod.width / style.width;
+    g.beginPath();
+    g.moveTo(...corner(b, -barrel, 0));
+    g.lineTo(...b);
+    g.moveTo(...corner(b, -barrel, -1));
+    g.lineTo(...corner(b, -barrel, 1));
     g.stroke();
   }
 

@@ -12,7 +12,7 @@ namespace pintle {
 namespace {
 
 constexpr double kSteady = 1e-9;  // a range below this part of the values is none
-constexpr double kMargin = 0.05;  // free room above and below the data, of their range
+constexpr double kRoom = 0.05;  // free room above and below the data, of their range
 
 struct Prefix {
   int exponent;
@@ -71,7 +71,7 @@ Axis make_axis(double low, double high, int n_ticks, bool tight) {
   }
   const double step = round_step((high - low) / n_ticks);
   if (tight) return {low, high, step, false};
-  const double margin = kMargin * (high - low);
+  const double margin = kRoom * (high - low);
   const bool from_zero = low >= 0 && low < margin, to_zero = high <= 0 && high > -margin;
   return {from_zero ? 0 : low - margin, to_zero ? 0 : high + margin, step, false};
 }

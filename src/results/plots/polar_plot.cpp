@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kMargin = 18, kAround = 26, kHead = 40, kRow = 19, kSample = 22, kDot = 3.4;  // [px]
 constexpr int kRings = 4, kSpokes = 12;
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kCircle = 2 * std::numbers::pi;
 
 /// The row of the longest vector; the first of several.
 std::size_t longest(const PolarCurve& curve) {
@@ -94,7 +94,7 @@ class PolarPicture {
   void draw_rings() {
     put("<g fill=\"none\" stroke=\"#e2e2e2\">\n");
     for (int i = 0; i < kSpokes; ++i) {
-      const double angle = kTurn * i / kSpokes;
+      const double angle = kCircle * i / kSpokes;
       put("<path d=\"M{:.2f} {:.2f}L{:.2f} {:.2f}\"/>\n", middle_x(), middle_y(), middle_x() + pixels(rings_.high) * std::cos(angle), middle_y() - pixels(rings_.high) * std::sin(angle));
     }
     for (const double ring : rings_.ticks())
@@ -105,7 +105,7 @@ class PolarPicture {
     put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">x</text>\n", middle_x() + end + 3, middle_y() + 4, kTickSize);
     put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" text-anchor=\"middle\">y</text>\n", middle_x(), middle_y() - end - 4, kTickSize);
     put("<g font-size=\"10.5\" fill=\"#555\" text-anchor=\"middle\">\n");
-    const double slant = -0.125 * kTurn, cosine = std::cos(slant), sine = std::sin(slant);
+    const double slant = -0.125 * kCircle, cosine = std::cos(slant), sine = std::sin(slant);
     const std::vector<double> ticks = rings_.ticks();
     for (const double ring : ticks)
       if (ring > 0)
@@ -136,7 +136,7 @@ class PolarPicture {
     const double x = curve.x[peak], y = curve.y[peak], line = top_ + side_ + 14 + kRow * static_cast<double>(index);
     put("<path d=\"M{:.1f} {:.1f}h{}\" {} stroke-width=\"2.2\"/>\n", left_, line - 4, kSample, stroke(index));
     put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">{}peak {} {} at {:.1f}°</text>\n", left_ + kSample + 6, line, kTickSize, curve.label.empty() ? "" : escaped_markup(curve.label) + ": ",
-        engineering(std::hypot(x, y)), escaped_markup(printed_unit(plot_.unit)), std::atan2(y, x) * 360 / kTurn);
+        engineering(std::hypot(x, y)), escaped_markup(printed_unit(plot_.unit)), std::atan2(y, x) * 360 / kCircle);
   }
 
   const PolarPlot& plot_;

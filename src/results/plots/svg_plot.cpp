@@ -17,7 +17,7 @@
 namespace pintle {
 namespace {
 
-constexpr double kRight = 22, kLegendRow = 20, kSample = 26, kDotRadius = 2.8, kNarrowestBand = 1.2;  // [px]
+constexpr double kRight = 22, kLegendRow = 20, kLineSample = 26, kDotRadius = 2.8, kNarrowestBand = 1.2;  // [px]
 
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -65,7 +65,7 @@ std::vector<LegendEntry> lay_out_legend(const Panel& panel, double width) {
   std::vector<LegendEntry> entries;
   LegendEntry next;
   for (const Curve& curve : panel.curves) {
-    const double entry_width = kSample + 26 + text_width(curve.label, kTextSize) + text_width(curve.subscript, 9);
+    const double entry_width = kLineSample + 26 + text_width(curve.label, kTextSize) + text_width(curve.subscript, 9);
     if (next.x > 0 && next.x + entry_width > width) next = {0, next.row + 1};
     entries.push_back(next);
     next.x += entry_width;
@@ -231,10 +231,10 @@ void Picture::draw_legend(const Frame& frame) {
     const Curve& curve = frame.panel.curves[i];
     const double x = frame.left + frame.legend[i].x, y = first_row + kLegendRow * frame.legend[i].row;
     if (curve.dots && !curve.joined)
-      draw_dots(frame, {{x + kSample / 2, y - 4}}, i);
+      draw_dots(frame, {{x + kLineSample / 2, y - 4}}, i);
     else
-      put("<path d=\"M{:.1f} {:.1f}h{}\" {} stroke-width=\"2.2\"/>\n", x, y - 4, kSample, stroke(frame, i));
-    put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">{}", x + kSample + 6, y, kTextSize, escaped_markup(curve.label));
+      put("<path d=\"M{:.1f} {:.1f}h{}\" {} stroke-width=\"2.2\"/>\n", x, y - 4, kLineSample, stroke(frame, i));
+    put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">{}", x + kLineSample + 6, y, kTextSize, escaped_markup(curve.label));
     if (!curve.subscript.empty()) put("<tspan dy=\"3\" font-size=\"9.5\">{}</tspan>", escaped_markup(curve.subscript));
     put("</text>\n");
   }

@@ -8,7 +8,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
+constexpr int kCheckFormat = 1;
 
 template <class List, class Make>
 Json array(const List& list, Make&& make) {
@@ -97,7 +97,7 @@ Json frequencies(const CheckFrequencies& f) {
 
 std::string check_json(const CheckReport& report, const std::string& model_name, const std::string& model_path) {
   Json json = {
-      {"pintle_check", kFormat}, {"model", model_name}, {"model_path", model_path}, {"passed", report.passed()}};
+      {"pintle_check", kCheckFormat}, {"model", model_name}, {"model_path", model_path}, {"passed", report.passed()}};
   json["bodies"] = report.n_bodies;
   json["joints"] = report.n_joints;
   json["springs"] = report.n_springs;

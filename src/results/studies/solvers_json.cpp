@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
+constexpr int kSolversFormat = 1;
 
 Json known(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
@@ -43,7 +43,7 @@ std::string solvers_json(const SolverStudy& study, const std::string& model_name
   for (const SolverOrder& order : study.orders)
     orders.push_back({{"method", order.method}, {"order", known(order.order)}, {"runs", order.runs}});
   const SolverTruth& t = study.truth;
-  const Json out{{"pintle_solvers", kFormat},
+  const Json out{{"pintle_solvers", kSolversFormat},
                  {"model_name", model_name},
                  {"model_path", model_path},
                  {"duration", study.duration},

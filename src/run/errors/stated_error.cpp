@@ -77,14 +77,10 @@ PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicFor
 }
 
 template <class S>
-void include_peaks(const BasicLoadRecorder<S>& coarse, const BasicLoadRecorder<S>& fine, PassDifference& c) {
-  const auto include = [](const LoadStatistics& one, const LoadStatistics& other, double& difference, double& peak) {
-    difference = std::max(difference, std::abs(one.peak - other.peak));
-    peak = std::max(peak, other.peak);
-  };
+void include_peaks(const BasicLoadRecorder<S>& fine, PassDifference& c) {
   for (std::size_t j = 0; j < c.force.size(); ++j) {
-    include(coarse.force(static_cast<int>(j)), fine.force(static_cast<int>(j)), c.force[j], c.peak[j]);
-    include(coarse.couple(static_cast<int>(j)), fine.couple(static_cast<int>(j)), c.couple[j], c.peak_couple[j]);
+    c.peak[j] = std::max(c.peak[j], fine.force(static_cast<int>(j)).peak);
+    c.peak_couple[j] = std::max(c.peak_couple[j], fine.couple(static_cast<int>(j)).peak);
   }
 }
 
@@ -178,8 +174,8 @@ void state_errors(const BasicSystem<S>& system, const PassDifference& difference
 }
 
 template PassDifference difference_of_passes(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double until, double share);
-template void include_peaks(const BasicLoadRecorder<Planar>& coarse, const BasicLoadRecorder<Planar>& fine, PassDifference& c);
-template void include_peaks(const BasicLoadRecorder<Spatial>& coarse, const BasicLoadRecorder<Spatial>& fine, PassDifference& c);
+template void include_peaks(const BasicLoadRecorder<Planar>& fine, PassDifference& c);
+template void include_peaks(const BasicLoadRecorder<Spatial>& fine, PassDifference& c);
 template std::vector<double> relative_differences(const BasicSystem<Planar>& system, const PassDifference& c);
 template double motion_difference(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template DifferenceCurve force_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);

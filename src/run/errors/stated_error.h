@@ -21,9 +21,9 @@ struct PassDifference {
 template <class S>
 PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until, double share);
 
-/// Adds what the rows do not show: peaks between them, and by how much those of the passes differ.
+/// Adds what the rows do not show: the peaks between them.
 template <class S>
-void include_peaks(const BasicLoadRecorder<S>& coarse, const BasicLoadRecorder<S>& fine, PassDifference& c);
+void include_peaks(const BasicLoadRecorder<S>& fine, PassDifference& c);
 
 /// Each joint's largest difference over its peak force or couple [-]. Joints that carry next to nothing are measured by a
 /// small part of the largest of the mechanism; couples at least by that of the largest force at a radius of gyration.

@@ -9,7 +9,7 @@ namespace pintle {
 template <class S>
 BasicForceRecorder<S>::BasicForceRecorder(const BasicSystem<S>& system, const SimulateSettings& settings, Recorded what)
     : system_(system), what_(what), keeps_places_(what == Recorded::kStates || settings.tolerance_of == ToleranceOf::kMotion),
-      stuck_joints_(system), lost_equilibria_(system) {}
+      stuck_joints_(system), lost_equilibria_(system), drive_peaks_(system) {}
 
 template <class S>
 void BasicForceRecorder<S>::start(const BasicState<S>& state, int n_samples) {
@@ -27,6 +27,7 @@ void BasicForceRecorder<S>::see_step(BasicStepper<S>& stepper) {
   for (std::size_t i = heat_at_crossings_.size(); i < stepper.crossings().size(); ++i) heat_at_crossings_.push_back(loads_->heat(stepper.crossings()[i].joint, state));
   stuck_joints_.see(state);
   lost_equilibria_.see(state);
+  drive_peaks_.see(state);
 }
 
 template <class S>

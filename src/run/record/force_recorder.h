@@ -7,6 +7,7 @@
 
 #include "pintle/model.h"
 #include "pintle/trajectory.h"
+#include "run/record/drive_peaks.h"
 #include "run/record/force_table.h"
 #include "run/record/load_statistics.h"
 #include "run/record/lost_equilibria.h"
@@ -34,6 +35,9 @@ class BasicForceRecorder {
   void see_step(BasicStepper<S>& stepper);
   /// The end of the run, and its last row.
   void finish(const BasicState<S>& state);
+  const std::vector<DrivePeak<S>>& drive_peaks() const { return drive_peaks_.all(); }
+  /// Of the last row.
+  const std::vector<typename S::Motion>& last_motions() const { return m_; }
   const BasicForceTable<S>& forces() const { return forces_; }
   BasicForceTable<S> take_forces() { return std::move(forces_); }
   /// Of a run that has started.
@@ -68,6 +72,7 @@ class BasicForceRecorder {
   std::vector<double> heat_, heat_at_crossings_;  // of each joint over the run, and as above [J]
   BasicStuckJoints<S> stuck_joints_;
   BasicLostEquilibria<S> lost_equilibria_;
+  BasicDrivePeaks<S> drive_peaks_;
 };
 using ForceRecorder = BasicForceRecorder<Planar>;
 

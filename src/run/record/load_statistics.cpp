@@ -40,6 +40,13 @@ void BasicLoadRecorder<S>::start(const BasicState<S>& state) {
   for (std::size_t i = 0; i < signal_.size(); ++i) first(signal_[i], samples_[static_cast<std::size_t>(stride_ - n_signals_) + i]);
 }
 
+// Of the joint's force on its gap, less what its law is fed with from outside.
+template <class S>
+double BasicLoadRecorder<S>::power_on_gap(int j, const BasicState<S>& state) const {
+  const BasicLaw<S>& law = system_.joints[static_cast<std::size_t>(j)].law;
+  return state.force[j].dot(state.gap_rate[j]) - (law.feeds() ? law.supply(law_point(system_, j, state)) : 0);
+}
+
 template <class S>
 void BasicLoadRecorder<S>::sample(int i, const BasicState<S>& state) {
   double* out = samples_.data() + static_cast<std::ptrdiff_t>(i) * stride_;
@@ -48,7 +55,7 @@ void BasicLoadRecorder<S>::sample(int i, const BasicState<S>& state) {
     const typename S::Vec load = joint_load(system_, j, m_, state.force[j]);
     for (int c = 0; c < S::kDof; ++c) *out++ = load[c];
   }
-  for (int j = 0; j < system_.n_joints(); ++j) *out++ = with_heat_ ? state.force[j].dot(state.gap_rate[j]) : 0;
+  for (int j = 0; j < system_.n_joints(); ++j) *out++ = with_heat_ ? power_on_gap(j, state) : 0;
   if (signals_ != nullptr) signals_->put_signals(state, m_, out);
 }
 
@@ -70,7 +77,7 @@ void BasicLoadRecorder<S>::add_step(BasicStepper<S>& stepper) {
   }
   for (std::size_t j = 0; j < work_.size(); ++j, ++at)
     for (int i = 0; i <= last; ++i) work_[j] += h * grid_.integral()[static_cast<std::size_t>(i)] * at[static_cast<std::ptrdiff_t>(i) * stride_];
-  for (CurveSums& sums : signal_) add_curve<1>(grid_, at++, stride_, t0, h, sums);
+  for (CurveSums& sums : signal_) add_curve<1, Sums::kWithSign>(grid_, at++, stride_, t0, h, sums);
 }
 
 template <class S>

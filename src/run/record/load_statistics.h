@@ -41,6 +41,7 @@ class BasicLoadRecorder {
  private:
   static constexpr int kForce = S::kDim, kCouple = S::kDof - S::kDim;
   double stored(int joint, const BasicState<S>& state) const;
+  double power_on_gap(int j, const BasicState<S>& state) const;
   void sample(int i, const BasicState<S>& state);
   LoadStatistics over_run(const CurveSums& sums) const;
 
@@ -53,7 +54,7 @@ class BasicLoadRecorder {
   std::vector<typename S::Motion> m_;
   std::vector<CurveSums> force_, couple_, signal_;
   std::vector<bool> has_couple_;
-  std::vector<double> work_, stored_;  // of each joint's force on its gap since the start; stored at the start [J]
+  std::vector<double> work_, stored_;  // of each joint's force on its gap since the start, less what feeds it; stored at the start [J]
   double begin_ = 0, end_ = 0;
 };
 using LoadRecorder = BasicLoadRecorder<Planar>;

@@ -80,8 +80,9 @@ CurveGrid::Weights CurveGrid::weights(double x) const {
   return out;
 }
 
-template <int n>
+template <int n, Sums kind>
 void add_curve(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums) {
+  static_assert(n == 1 || kind == Sums::kOfSize);
   CurveGrid::AtPoints square{}, component;
   for (int c = 0; c < n; ++c) {
     along_grid(grid, samples + c, stride, component);
@@ -90,7 +91,7 @@ void add_curve(const CurveGrid& grid, const double* samples, int stride, double 
   double integral = 0, of_square = 0;
   for (std::size_t p = 0; p < square.size(); ++p) {
     const double weight = kSimpson[p];
-    integral += weight * (n == 1 ? component[p] : std::sqrt(square[p]));
+    integral += weight * (kind == Sums::kWithSign ? component[p] : std::sqrt(square[p]));
     of_square += weight * square[p];
   }
   sums.integral += h * integral;
@@ -110,10 +111,11 @@ void add_curve(const CurveGrid& grid, const double* samples, int stride, double 
   }
   if (!(best > sums.peak * sums.peak)) return;
   at(x);
-  sums.peak = n == 1 ? value[0] : std::sqrt(best);
+  sums.peak = kind == Sums::kWithSign ? value[0] : std::sqrt(best);
   sums.peak_time = t0 + x * h;
 }
 
+template void add_curve<1, Sums::kWithSign>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
 template void add_curve<1>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
 template void add_curve<2>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
 template void add_curve<3>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);

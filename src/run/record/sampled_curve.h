@@ -40,8 +40,10 @@ class CurveGrid {
   std::array<AtPoints, kMost> of_sample_{};
 };
 
-/// Adds a step of h seconds from t0 to `sums` of the size of a vector of n components, whose samples are `samples[i * stride + c]`.
-template <int n>
+enum class Sums { kOfSize, kWithSign };
+/// Adds a step of h seconds from t0 to `sums` of the size of a vector of n components, whose samples are `samples[i * stride + c]`; or of a scalar with
+/// its sign.
+template <int n, Sums kind = Sums::kOfSize>
 void add_curve(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
 
 }  // namespace pintle

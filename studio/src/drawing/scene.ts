@@ -6,7 +6,7 @@ import type { Thing } from "../model/operations";
 import type { Camera } from "./camera";
 import { type BodyLook, type Looks, guideEnds } from "./looks";
 import { ForceArrows, drawLoads } from "./loads";
-import { BAR, PIN, bend, centreMark, circle, coil, dashpot, groundGuide, polyline, rackTeeth, rectangle, slot, support, teeth, zigzag } from "./symbols";
+import { BAR, PIN, bend, centreMark, circle, coil, cylinder, dashpot, groundGuide, polyline, rackTeeth, rectangle, slot, support, teeth, zigzag } from "./symbols";
 import { group, make, path, put } from "./svg";
 
 /** One instant: where bodies are, and what joints carry (fx, fy, moment on the second body, in the order of the model). */
@@ -209,6 +209,7 @@ export class Scene {
 
   private drawJoint(model: Model, joint: Joint): void {
     if (joint.type === "rod" || joint.type === "rope") return this.drawTie(model, joint);
+    if (joint.closedLength !== null) return this.drawCylinder(model, joint, joint.closedLength * this.scale);
     if (joint.type === "gear" || joint.type === "rack" || joint.type === "cam") return;
     for (const blade of joint.blades) this.drawBlade(model, joint, blade);
     const end = joint.type === "prismatic" || joint.type === "slot" ? guideEnds(joint).runner : joint.second;
@@ -247,6 +248,24 @@ export class Scene {
     const [a, b] = [joint.first, joint.second].map((end) => ({ body: end.body, at: markerOf(model, end)?.at ?? ([0, 0] as Point) }));
     if (!a || !b) return;
     this.onFrame((frame) => line.setAttribute("d", polyline([this.at(frame, a.body, a.at), this.at(frame, b.body, b.at)])));
+    for (const end of [a, b]) this.follow(path(circle(0, 0, PIN - 1), "pin", this.layers.pins), end.body, end.at, 0, false);
+  }
+
+  private drawCylinder(model: Model, joint: Joint, closed: number): void {
+    const one = group("cylinder", this.layers.links);
+    const barrel = path("", "barrel", one);
+    const rod = path("", "tie rod", one);
+    this.register("joint", joint.name, one);
+    const [a, b] = [joint.first, joint.second].map((end) => ({ body: end.body, at: markerOf(model, end)?.at ?? ([0, 0] as Point) }));
+    if (!a || !b) return;
+    this.onFrame((frame) => {
+      const [x, y] = this.at(frame, a.body, a.at);
+      const [u, v] = this.at(frame, b.body, b.at);
+      const shape = cylinder(distance([x, y], [u, v]), closed);
+      barrel.setAttribute("d", shape.barrel);
+      rod.setAttribute("d", shape.rod);
+      put(one, x, y, -Math.atan2(v - y, u - x));
+    });
     for (const end of [a, b]) this.follow(path(circle(0, 0, PIN - 1), "pin", this.layers.pins), end.body, end.at, 0, false);
   }
 

@@ -63,6 +63,13 @@ export function dashpot(length: number): string {
   return `M0 0H${f(mid - cup)}M${f(mid - cup)} -7V7M${f(mid - cup)} -7H${f(mid + cup)}M${f(mid - cup)} 7H${f(mid + cup)}M${f(mid)} -5V5M${f(mid)} 0H${f(length)}`;
 }
 
+/** A cylinder along x: the barrel from its point on, and the rod with its piston, as long as the barrel, back from its own end. */
+export function cylinder(length: number, closed: number): { barrel: string; rod: string } {
+  const long = 0.93 * closed;
+  const piston = length - long;
+  return { barrel: `M0 -9H${f(long)}V9H0Z`, rod: `M${f(piston)} 0H${f(length)}M${f(piston)} -9V9` };
+}
+
 /** A blade from one point to another, in these directions there (y up), with handles of this length. */
 export function bend([x, y]: Point, leaves: number, [u, v]: Point, arrives: number, handle: number): string {
   const c = [x + handle * Math.cos(leaves), y - handle * Math.sin(leaves), u - handle * Math.cos(arrives), v + handle * Math.sin(arrives)];

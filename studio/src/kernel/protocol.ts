@@ -131,7 +131,7 @@ export interface Catalog {
     geometry: CatalogKey[];
     laws: string[];
   }[];
-  laws: { word: string; meaning: string; /** The key of a joint that chooses it. */ role: "law" | "friction" | "stops"; keys: CatalogKey[] }[];
+  laws: { word: string; meaning: string; /** The key of a joint that chooses it. */ role: "law" | "friction" | "stops" | "detent"; keys: CatalogKey[] }[];
   methods: string[];
 }
 

@@ -44,6 +44,8 @@ export interface Joint {
   radii: [number, number] | null;
   radius: number | null;
   internal: boolean;
+  /** Between the ends of a cylinder with its rod in; null for other types. */
+  closedLength: number | null;
   /** The blades of a flexure; none for other laws. */
   blades: Blade[];
   cam: Cam | null;
@@ -243,6 +245,7 @@ function readJoint(name: string, table: TableNode, number: Reading, parameters: 
     radii: point(table.entries.get("radii"), number) as [number, number] | null,
     radius: number(table.entries.get("radius")),
     internal: textOf(table.entries.get("mesh")) === "internal",
+    closedLength: textOf(table.entries.get("type")) === "cylinder" ? (number(table.entries.get("closed_length")) ?? 0) : null,
     blades: readBlades(table, number),
     cam: textOf(table.entries.get("type")) === "cam" ? readCam(table, number, parameters) : null,
   };

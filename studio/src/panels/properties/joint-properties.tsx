@@ -13,7 +13,7 @@ import { type Field, fieldsOf, labelOf, useCatalog, useSchema } from "./form";
 import { Icon } from "../icons";
 
 const TYPE_WORDS: Record<string, string> = {
-  revolute: "pin", prismatic: "slider", fixed: "weld", slot: "pin in a slot", rod: "massless rod", rope: "rope", gear: "gear mesh", rack: "rack and pinion", cam: "cam and follower",
+  revolute: "pin", prismatic: "slider", fixed: "weld", slot: "pin in a slot", rod: "massless rod", rope: "rope", cylinder: "hydraulic or pneumatic cylinder", gear: "gear mesh", rack: "rack and pinion", cam: "cam and follower",
 };
 
 export function JointProperties({ name }: { name: string }) {
@@ -120,6 +120,7 @@ function LawFields({ joint, catalog }: { joint: Joint; catalog: Catalog | null }
   const suits = catalog.laws.filter((law) => !type || type.laws.length === 0 || type.laws.includes(law.word));
   const allowed = suits.filter((law) => law.role === "law");
   const law = catalog.laws.find((one) => one.word === joint.law);
+  const holds = !type || type.gap.length > 0;
   const turns = joint.type === "prismatic" || joint.type === "fixed";
   const keys = (law?.keys ?? []).filter((key) => turns || !key.name.startsWith("angular_"));
   const change = (word: string) => {
@@ -133,22 +134,27 @@ function LawFields({ joint, catalog }: { joint: Joint; catalog: Catalog | null }
   return (
     <section>
       <h3 data-tip="Force of the joint against its deflection">Law</h3>
-      <Choice label="Law" value={joint.law} options={allowed.map((one) => ({ value: one.word, label: lawName(one.word) }))} onChange={change} />
-      {law && <p className="quiet">{law.meaning}</p>}
-      {joint.law === "linear" && <Presets joint={joint} />}
-      <Keys keys={keys} path={["joint", joint.name]} />
+      {holds && (
+        <>
+          <Choice label="Law" value={joint.law} options={allowed.map((one) => ({ value: one.word, label: lawName(one.word) }))} onChange={change} />
+          {law && <p className="quiet">{law.meaning}</p>}
+          {joint.law === "linear" && <Presets joint={joint} />}
+          <Keys keys={keys} path={["joint", joint.name]} />
+        </>
+      )}
       <LawsBeside joint={joint} role="friction" label="Friction" laws={suits.filter((law) => law.role === "friction")} />
       <LawsBeside joint={joint} role="stops" label="Stops" laws={suits.filter((law) => law.role === "stops")} />
-      <label className="check">
+      <LawsBeside joint={joint} role="detent" label="Detent" laws={suits.filter((law) => law.role === "detent")} />
+      {holds && <label className="check">
         <input type="checkbox" checked={ideal === true} onChange={(event) => setLiteral(["joint", joint.name, "ideal"], event.target.checked ? true : null, "Ideal joint")} />
         <span data-tip='With equations "relative" (Model, Simulation), this joint is rigid'>Rigid (ideal)</span>
-      </label>
+      </label>}
     </section>
   );
 }
 
-/** Friction or stops of what the joint leaves free, beside its law. */
-function LawsBeside({ joint, role, label, laws }: { joint: Joint; role: "friction" | "stops"; label: string; laws: Catalog["laws"] }) {
+/** Friction, stops or a detent of what the joint leaves free, beside its law. */
+function LawsBeside({ joint, role, label, laws }: { joint: Joint; role: "friction" | "stops" | "detent"; label: string; laws: Catalog["laws"] }) {
   const name = joint.name;
   const word = useLiteral(["joint", name, role]);
   if (laws.length === 0) return null;
@@ -162,8 +168,8 @@ function LawsBeside({ joint, role, label, laws }: { joint: Joint; role: "frictio
     else draft.remove(["joint", name, role]);
     const has = (key: string) => law?.keys.some((one) => one.name === key) ?? false;
     for (const key of unitsOf(chosen?.keys ?? [])) {
-      const start = STOP_STARTS[key.name]?.[joint.type === "revolute" ? 1 : 0] ?? starter(key);
-      const needed = (key.default === undefined && key.otherwise === undefined) || key.name === "upper_stop";
+      const start = STARTS[key.name]?.[joint.type === "revolute" ? 1 : 0] ?? starter(key);
+      const needed = (key.default === undefined && key.otherwise === undefined) || key.name === "upper_stop" || (key.name === "detent_radius" && joint.type === "revolute");
       if (needed && !has(key.name)) draft.set(["joint", name, key.name], start);
     }
     edit(draft.apply(), `${label} of ${name}`);
@@ -177,12 +183,17 @@ function LawsBeside({ joint, role, label, laws }: { joint: Joint; role: "frictio
   );
 }
 
-/** What new stops begin with, on a slide and on an angle. */
-const STOP_STARTS: Record<string, readonly [string, string]> = {
+/** What new stops and detents begin with, on a slide and on an angle. */
+const STARTS: Record<string, readonly [string, string]> = {
   upper_stop: ["100 mm", "90 deg"],
   stop_stiffness: ["1e6 N/m", "1e4 N*m/rad"],
   stop_damping: ["1e3 N*s/m", "10 N*m*s/rad"],
   stop_cushion: ["10 mm", "5 deg"],
+  ball_radius: ["3 mm", "3 mm"],
+  notch_radius: ["5 mm", "5 mm"],
+  notch_width: ["5 mm", "5 mm"],
+  detent_preload: ["20 N", "20 N"],
+  detent_radius: ["20 mm", "20 mm"],
 };
 
 const lawName = (word: string) => (word === "linear" ? "linear (stiffness and damping)" : word.replace(/_/g, " "));

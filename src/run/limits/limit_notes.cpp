@@ -1,0 +1,149 @@
+#include "run/limits/limit_notes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "integrators/methods.h"
+#include "run/limits/drive_limit.h"
+
+namespace pintle {
+namespace {
+
+constexpr int kHalvings = 40;
+constexpr double kFinestReplay = 1e-6, kLoosestReplay = 1e-4;  // tolerances of the steps that find the instant
+constexpr double kFirstStep = 1e-4, kLittle = 0.01;            // of the duration
+
+// What has been found about a drive.
+struct Finding {
+  DrivePeak<Planar> peak;
+  DriveLimit limit;
+  double t;              // when the mechanism came there, at first when it was seen to have been [s]
+  bool pushed;           // the run went on
+  bool alone;            // no other drive is at a limit
+};
+
+// Integrates again up to the instant at which the limit is reached first, which is found in the dense output of the step that takes it there.
+class Arrival {
+ public:
+  Arrival(const System& system, const State& start, const SimulateSettings& settings, const Trajectory& run) : system_(system), start_(start), settings_(settings), run_(run) {}
+
+  // With several drives no coordinate has a limit of its own: then it is the first instant at which they ask for what cannot be.
+  void refine(Finding& finding) const {
+    const int drive = finding.peak.joint;
+    const JointData& joint = system_.joints[static_cast<std::size_t>(drive)];
+    const double t = first([&](const State& state) {
+      if (finding.alone) return finding.limit.ahead * (drive_value(joint, state.gap[static_cast<std::size_t>(drive)][joint.driven], state.t) - finding.limit.value) >= 0;
+      const auto limit = find_drive_limit(system_, state.q, state.t, drive);
+      if (limit) finding.limit = *limit;
+      return limit.has_value();
+    }, finding.t);
+    if (t >= 0) finding.t = t;
+  }
+
+ private:
+  // Negative: not before t_end.
+  template <class Reached>
+  double first(Reached reached, double t_end) const {
+    MethodChoice choice;
+    choice.equations = settings_.equations;
+    choice.method = run_.method;
+    choice.tolerance_of = settings_.tolerance_of;
+    const auto stepper = make_stepper(system_, choice, std::clamp(settings_.tolerance, kFinestReplay, kLoosestReplay));
+    stepper->set_max_step(settings_.max_step);
+    stepper->start(start_, kFirstStep * settings_.duration);
+    if (reached(stepper->state())) return stepper->state().t;
+    for (std::uint64_t i = 0; i < run_.counters.steps && stepper->state().t < t_end * (1 - 1e-12); ++i) {
+      if (!stepper->step(t_end)) return -1;
+      if (!reached(stepper->state())) continue;
+      double low = stepper->previous().t, high = stepper->state().t;
+      for (int k = 0; k < kHalvings; ++k) {
+        const double middle = 0.5 * (low + high);
+        (reached(stepper->interpolate(middle)) ? high : low) = middle;
+      }
+      return high;
+    }
+    return -1;
+  }
+
+  const System& system_;
+  const State& start_;
+  const SimulateSettings& settings_;
+  const Trajectory& run_;
+};
+
+// The joint whose coordinate a servo drives.
+const JointData& driven_joint(const System& system, const JointData& drive) {
+  const auto same = [&drive](const JointData& joint) {
+    return joint.servo < 0 && joint.at.a == drive.at.a && joint.at.b == drive.at.b && joint.at.F.p == drive.at.F.p && joint.at.M.p == drive.at.M.p;
+  };
+  const auto found = std::find_if(system.joints.begin(), system.joints.end(), same);
+  return drive.servo < 0 || found == system.joints.end() ? drive : *found;
+}
+
+std::string in_line(const System& system, const DriveLimit& limit) {
+  if (limit.in_line.size() != 3) return "";
+  const auto name = [&](int i) { return system.joints[static_cast<std::size_t>(limit.in_line[static_cast<std::size_t>(i)])].name; };
+  return fmt::format(", where joints {}, {} and {} are in line", name(0), name(1), name(2));
+}
+
+std::string note(const System& system, const Finding& finding) {
+  const DriveLimit& limit = finding.limit;
+  const DrivePeak<Planar>& peak = finding.peak;
+  const JointData& drive = system.joints[static_cast<std::size_t>(peak.joint)];
+  const bool angle = drive.driven == 2, servo = drive.servo >= 0;
+  const std::string what = servo ? fmt::format("the {} of joint {}", angle ? "angle" : "slide", driven_joint(system, drive).name) : fmt::format("the length of joint {}", drive.name);
+  const double beyond = limit.ahead * (drive_value(drive, peak.lag, peak.t) - limit.value);
+  const double unit = angle ? 180 / std::numbers::pi : 1000;
+  const char* unit_name = angle ? "deg" : "mm";
+  std::string text = fmt::format("the mechanism came to its limit at t = {:.4g} s: {} can go no further than {:.6g} {}{}{}", finding.t, what, limit.value * unit, unit_name,
+                                 finding.alone ? "" : " while the other motors are where they were then", in_line(system, limit));
+  if (!finding.pushed) return text + fmt::format("; {} {} asks for more", servo ? "motor" : "what drives joint", drive.name);
+  text += fmt::format(". {} {} went on pushing: with {:.5g} {} at t = {:.4g} s, {:.3g} {} behind", servo ? "Motor" : "What drives joint", drive.name, peak.effort,
+                      angle ? "N*m" : "N", peak.t, std::abs(peak.lag) * unit, unit_name);
+  if (finding.alone && beyond > 0) text += fmt::format(", the joints having given way by {:.3g} {}", beyond * unit, unit_name);
+  return text;
+}
+
+Vecs places(const std::vector<Planar::Motion>& m) {
+  Vecs q;
+  for (const Planar::Motion& body : m) q.emplace_back(body.p[0], body.p[1], body.angle);
+  return q;
+}
+
+// Where its effort was largest, and where the run ended. Where it could not go on also a little later, from its start too: the last
+// places may be no mechanism's.
+std::optional<Finding> look_at(const System& system, const State& start, const SimulateSettings& settings, const Trajectory& run, const Vecs& last, const DrivePeak<Planar>& peak) {
+  const auto found = [&](const Vecs& q, double t) { return find_drive_limit(system, q, t, peak.joint); };
+  if (!peak.q.empty())
+    if (auto limit = found(peak.q, peak.t_seen)) return Finding{peak, *limit, peak.t_seen, true, true};
+  if (auto limit = found(last, run.t_end)) return Finding{peak, *limit, run.t_end, true, true};
+  const bool stopped = run.outcome == Outcome::kFailed || run.outcome == Outcome::kRunaway || run.outcome == Outcome::kEnergyOpen;
+  if (stopped)
+    for (const Vecs* from : {&last, &start.q})
+      if (auto limit = found(*from, run.t_end + kLittle * settings.duration)) return Finding{peak, *limit, run.t_end, false, true};
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::string> limit_notes(const System& system, const State& start, const SimulateSettings& settings, const Trajectory& run, const ForceRecorder& recorder) {
+  std::vector<Finding> findings;
+  if (recorder.drive_peaks().empty()) return {};
+  const Vecs last = places(recorder.last_motions());
+  for (const DrivePeak<Planar>& peak : recorder.drive_peaks())
+    if (auto finding = look_at(system, start, settings, run, last, peak)) findings.push_back(std::move(*finding));
+  std::vector<std::string> notes;
+  const Arrival arrival(system, start, settings, run);
+  for (Finding& finding : findings) {
+    finding.alone = findings.size() == 1;
+    if (finding.pushed) arrival.refine(finding);
+    notes.push_back(note(system, finding));
+  }
+  return notes;
+}
+
+}  // namespace pintle

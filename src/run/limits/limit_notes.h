@@ -1,0 +1,17 @@
+// Tells the user of a mechanism that a drive has brought to its limit. theory/limits
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pintle/model.h"
+#include "pintle/trajectory.h"
+#include "run/record/force_recorder.h"
+
+namespace pintle {
+
+/// One note for each drive that a run has shown to push against a limit: when it came there, where that is, which joints are in line,
+/// how hard the drive pushed. The instant is found by integrating up to it again. `run` is finished, `recorder` that of its last pass.
+std::vector<std::string> limit_notes(const System& system, const State& start, const SimulateSettings& settings, const Trajectory& run, const ForceRecorder& recorder);
+
+}  // namespace pintle

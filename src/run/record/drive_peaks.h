@@ -1,0 +1,52 @@
+// The largest effort of every drive during a run, and where the bodies were when it had grown most of the way there: whether they
+// had come to a limit is asked after the run.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "system/state.h"
+
+namespace pintle {
+
+/// What a servo, or what drives the length of a joint, had to do.
+template <class S>
+struct DrivePeak {
+  int joint = 0;                        // of the system
+  double effort = 0, lag = 0, t = 0;    // the largest, without its sign; the drive's gap then; and when
+  double seen = 0, t_seen = 0;          // effort of which the places are known, and when
+  PositionsOf<S> q;                     // the places then
+};
+
+template <class S>
+class BasicDrivePeaks {
+ public:
+  explicit BasicDrivePeaks(const BasicSystem<S>& system) {
+    for (int j = 0; j < system.n_joints(); ++j)
+      if (system.joints[j].driven >= 0) components_.push_back(system.joints[j].driven), peaks_.push_back({.joint = j, .q = {}});
+  }
+  /// The end of a step.
+  void see(const BasicState<S>& state) {
+    for (std::size_t i = 0; i < peaks_.size(); ++i) {
+      DrivePeak<S>& peak = peaks_[i];
+      const double effort = std::abs(state.force[peak.joint][components_[i]]);
+      if (!(effort > peak.effort)) continue;
+      peak.effort = effort;
+      peak.lag = state.gap[peak.joint][components_[i]];
+      peak.t = state.t;
+      if (effort < kGrown * peak.seen) continue;
+      peak.seen = effort;
+      peak.t_seen = state.t;
+      peak.q = state.q;
+    }
+  }
+  const std::vector<DrivePeak<S>>& all() const { return peaks_; }
+
+ private:
+  static constexpr double kGrown = 1.25;  // places are copied again when the effort has grown by so much: seldom
+
+  std::vector<int> components_;  // of the gaps
+  std::vector<DrivePeak<S>> peaks_;
+};
+
+}  // namespace pintle
