@@ -24,7 +24,7 @@ void make_soft(Dice& dice, JointText& joint) {
   // Slots are not bushed, sliders not by rubber.
   constexpr std::array kLaws{"bushing", "maxwell", "table", "rubber-bushing"};
   const std::string word = kLaws[joint.type == "slot" ? dice.integer(1, 2) : dice.integer(0, guides(joint) ? 2 : 3)];
-  keys["law"] = quoted(word);
+  keys["law"] = in_quotes(word);
   turn_stiffness(dice, joint);
   const double k = word == "rubber-bushing" ? dice.log_uniform(5e4, 1e6) : dice.log_uniform(1e5, 5e7), c = k * dice.log_uniform(1e-5, 1e-3);
   keys["damping"] = number_text(c);
@@ -46,23 +46,23 @@ void make_soft(Dice& dice, JointText& joint) {
 void make_bearing(Dice& dice, JointText& joint) {
   Keys& keys = joint.keys;
   if (guides(joint)) {
-    keys["law"] = quoted("linear-guide");
+    keys["law"] = in_quotes("linear-guide");
     keys["carriage_length"] = number_text(dice.uniform(0.04, 0.15));
     return;
   }
   if (joint.type != "revolute") return;
   const bool rolling = dice.chance(0.6), detailed = dice.chance(0.6);
-  keys["law"] = quoted(rolling ? "rolling-bearing" : "journal-bearing");
+  keys["law"] = in_quotes(rolling ? "rolling-bearing" : "journal-bearing");
   if (rolling && detailed) {
     const bool balls = dice.chance(0.7), sum = dice.chance(0.4);
     keys[balls ? "balls" : "rollers"] = std::to_string(dice.integer(7, 14));
     keys[balls ? "ball_diameter" : "roller_length"] = number_text(dice.uniform(5e-3, 12e-3));
     keys["damping"] = number_text(dice.log_uniform(1e3, 1e4));
-    if (sum) keys["elements"] = quoted("sum");
+    if (sum) keys["elements"] = in_quotes("sum");
     if (dice.chance(0.5)) keys["play"] = number_text(dice.uniform(2e-6, 2e-5));
     else if (sum) keys["preload"] = number_text(dice.uniform(5, 100));
   } else if (detailed) {
-    keys["film"] = quoted(dice.chance(0.7) ? "short" : "long");
+    keys["film"] = in_quotes(dice.chance(0.7) ? "short" : "long");
     const double radius = dice.uniform(5e-3, 2e-2);
     keys["journal_radius"] = number_text(radius);
     keys["bearing_length"] = number_text(radius * dice.uniform(0.5, 1));
@@ -79,7 +79,7 @@ void make_bearing(Dice& dice, JointText& joint) {
 void choose_contact_model(Dice& dice, Keys& keys, const std::string& prefix) {
   const std::string model = dice.pick(kContactModels);
   const bool stop = prefix == "stop_";
-  keys[prefix + "model"] = quoted(model);
+  keys[prefix + "model"] = in_quotes(model);
   if (model == "linear") keys[prefix + "damping"] = number_text(stop ? dice.log_uniform(0.1, 10) : dice.log_uniform(100, 5e3));
   else keys[stop ? "stop_restitution" : "restitution"] = number_text(dice.uniform(0.3, 0.95));
 }
@@ -110,7 +110,7 @@ MechanismText bearings(Dice& dice) {
 MechanismText clearance(Dice& dice) {
   MechanismText m = one_loop(dice);
   JointText& worn = m.joints[static_cast<std::size_t>(dice.integer(1, 2))];
-  worn.keys["law"] = quoted("clearance");
+  worn.keys["law"] = in_quotes("clearance");
   worn.keys["clearance"] = number_text(dice.log_uniform(5e-5, 5e-4));
   worn.keys["pin_radius"] = number_text(dice.uniform(5e-3, 1.5e-2));
   choose_contact_model(dice, worn.keys, "contact_");
@@ -144,7 +144,7 @@ MechanismText contact(Dice& dice) {
     touching = m.on("block", block.centre);
   }
   JointText& joint = m.add_joint("floor", "slot", edge, touching);
-  joint.keys["law"] = quoted("contact");
+  joint.keys["law"] = in_quotes("contact");
   joint.keys["pin_radius"] = number_text(radius);
   choose_contact_model(dice, joint.keys, "contact_");
   joint.keys["contact_stiffness"] = number_text(dice.log_uniform(1e5, 1e9));
@@ -165,7 +165,7 @@ MechanismText friction(Dice& dice) {
     if (joint.type == "slot" || (any && dice.chance(0.5))) continue;
     any = true;
     const double kinetic = dice.uniform(0.03, 0.4);
-    joint.keys["friction"] = quoted(mixed ? dice.pick(std::array{"lugre", "coulomb", "brown-mcphee", "stribeck"}) : law);
+    joint.keys["friction"] = in_quotes(mixed ? dice.pick(std::array{"lugre", "coulomb", "brown-mcphee", "stribeck"}) : law);
     joint.keys["friction_coefficient"] = number_text(kinetic);
     joint.keys["static_friction"] = number_text(kinetic * dice.uniform(1, 1.6));
     if (joint.type == "revolute") joint.keys["pin_radius"] = number_text(dice.uniform(4e-3, 2e-2));
@@ -184,7 +184,7 @@ MechanismText stops(Dice& dice) {
   JointText& joint = m.joints.front();
   const double angle = m.bodies.front().angle;
   const bool hard = dice.chance(0.6);
-  joint.keys["stops"] = quoted(hard ? "hard" : "cushioned");
+  joint.keys["stops"] = in_quotes(hard ? "hard" : "cushioned");
   if (dice.chance(0.8)) joint.keys["lower_stop"] = number_text(angle - dice.uniform(0.05, 0.6));
   if (dice.chance(0.8) || joint.keys.count("lower_stop") == 0) joint.keys["upper_stop"] = number_text(angle + dice.uniform(0.05, 0.6));
   joint.keys["stop_stiffness"] = number_text(dice.log_uniform(300, 1e6));
@@ -217,7 +217,7 @@ MechanismText flexures(Dice& dice) {
     for (const double x : {-0.08, 0.08}) {
       const std::string top = m.on_ground({x, 0}, kDown), low = m.on("table", {x, -length}, kDown);
       JointText& joint = m.add_joint(x < 0 ? "left" : "right", "fixed", top, low);
-      joint.keys["law"] = quoted("leaf-spring");
+      joint.keys["law"] = in_quotes("leaf-spring");
       joint.keys["length"] = number_text(length);
       joint.keys["thickness"] = number_text(thickness);
       blade(joint);
@@ -226,14 +226,14 @@ MechanismText flexures(Dice& dice) {
     m.add_body("table", {0, -length}, 0, mass, mass * 1e-3);
     const std::string top = m.on_ground({0, 0}, kDown), low = m.on("table", {0, 0}, kDown);
     JointText& joint = m.add_joint("pivot", "fixed", top, low);
-    joint.keys["law"] = quoted(which == 1 ? "cross-spring" : "notch-hinge");
+    joint.keys["law"] = in_quotes(which == 1 ? "cross-spring" : "notch-hinge");
     joint.keys["thickness"] = number_text(which == 1 ? thickness : dice.uniform(3e-4, 2e-3));
     if (which == 1) joint.keys["length"] = number_text(0.05);
     else joint.keys["radius"] = number_text(dice.uniform(5e-3, 2e-2));
     blade(joint);
   }
   const double push = mass * dice.log_uniform(0.1, 3);
-  m.add("force.push", {{"on", quoted(m.on("table", m.body("table").centre))}, {"force", Text{"[{}, 0]", quoted(Text{"{:.4g}*sin({:.4g}*t)", push, dice.uniform(2, 30) / m.duration})}}});
+  m.add("force.push", {{"on", in_quotes(m.on("table", m.body("table").centre))}, {"force", Text{"[{}, 0]", in_quotes(Text{"{:.4g}*sin({:.4g}*t)", push, dice.uniform(2, 30) / m.duration})}}});
   if (dice.chance(0.5)) {
     const Point hook = m.body("table").centre;
     add_bar(m, dice, "rod", hook, Polar{hook, dice.uniform(0.05, 0.2), kDown + dice.uniform(-0.3, 0.3)}).spin = 0;

@@ -190,22 +190,22 @@ std::string waving(Dice& dice, double size, double duration) {
   const double w = dice.uniform(1, 12) / duration;
   switch (dice.integer(0, 3)) {
     case 0: return number_text(size);
-    case 1: return quoted(Text{"{:.4g}*sin({:.4g}*t + {:.3g})", size, w, dice.uniform(0, 6)});
-    case 2: return quoted(Text{"{:.4g}*smoothstep({:.4g}, {:.4g}, t)", size, 0.1 * duration, dice.uniform(0.2, 0.6) * duration});
-    default: return quoted(Text{"if(t < {:.4g}, {:.4g}, 0)", dice.uniform(0.1, 0.8) * duration, size});
+    case 1: return in_quotes(Text{"{:.4g}*sin({:.4g}*t + {:.3g})", size, w, dice.uniform(0, 6)});
+    case 2: return in_quotes(Text{"{:.4g}*smoothstep({:.4g}, {:.4g}, t)", size, 0.1 * duration, dice.uniform(0.2, 0.6) * duration});
+    default: return in_quotes(Text{"if(t < {:.4g}, {:.4g}, 0)", dice.uniform(0.1, 0.8) * duration, size});
   }
 }
 
 void add_motor(MechanismText& m, Dice& dice) {
   BodyText& crank = m.body("crank");
-  Keys motor{{"joint", quoted("A")}};
+  Keys motor{{"joint", in_quotes("A")}};
   const double torque = m.weight * dice.signed_log_uniform(0.1, 3);
   if (dice.chance(0.4)) return drive_crank(m, dice);
   if (dice.chance(0.5)) {
-    motor["torque"] = quoted(Text{"{:.4g}*(1 - rate/({:.4g}))", torque, torque > 0 ? dice.uniform(5, 40) : -dice.uniform(5, 40)});
+    motor["torque"] = in_quotes(Text{"{:.4g}*(1 - rate/({:.4g}))", torque, torque > 0 ? dice.uniform(5, 40) : -dice.uniform(5, 40)});
   } else {
     crank.spin = 0;
-    motor["position"] = quoted(Text{"{} + {:.3g}*(1 - cos({:.4g}*t))", number_text(crank.angle), dice.uniform(-0.6, 0.6), dice.uniform(2, 10) / m.duration});
+    motor["position"] = in_quotes(Text{"{} + {:.3g}*(1 - cos({:.4g}*t))", number_text(crank.angle), dice.uniform(-0.6, 0.6), dice.uniform(2, 10) / m.duration});
     motor["stiffness"] = number_text(dice.log_uniform(1e3, 1e6));
     motor["damping"] = number_text(dice.log_uniform(1, 1e3));
   }
@@ -217,7 +217,7 @@ void add_motor(MechanismText& m, Dice& dice) {
 void drive_crank(MechanismText& m, Dice& dice) {
   BodyText& crank = m.body("crank");
   if (!crank.spin || *crank.spin == 0) crank.spin = dice.signed_uniform(1, 12);
-  Keys motor{{"joint", quoted("A")}, {"speed", number_text(*crank.spin)}};
+  Keys motor{{"joint", in_quotes("A")}, {"speed", number_text(*crank.spin)}};
   if (dice.chance(0.5)) {
     motor["stiffness"] = number_text(dice.log_uniform(1e2, 1e6));
     motor["damping"] = number_text(dice.log_uniform(0.1, 1e3));
@@ -233,21 +233,21 @@ void add_loads(MechanismText& m, Dice& dice) {
   for (int i = 1, n = dice.integer(0, 2); i <= n; ++i) {
     const std::string body = dice.pick(m.bodies).name;
     const Point at = m.body(body).centre, post = Polar{at, dice.uniform(0.2, 0.6), dice.uniform(-kPi, kPi)};
-    Keys spring{{"between", Text{"[{}, {}]", quoted(m.on_ground(post)), quoted(m.on(body, at))}}, {"stiffness", number_text(dice.log_uniform(10, 5e3))}};
+    Keys spring{{"between", Text{"[{}, {}]", in_quotes(m.on_ground(post)), in_quotes(m.on(body, at))}}, {"stiffness", number_text(dice.log_uniform(10, 5e3))}};
     if (dice.chance(0.5)) spring["damping"] = number_text(dice.log_uniform(0.1, 100));
     spring["free_length"] = number_text(distance(at, post) * dice.uniform(0.5, 1.2));
     m.add(Text{"spring.s{}", i}, spring);
   }
   const JointText& A = m.joints.front();
   if (A.type == "revolute" && dice.chance(0.2))
-    m.add("torsion_spring.t", {{"between", Text{"[{}, {}]", quoted(A.first), quoted(A.second)}}, {"stiffness", number_text(m.weight * dice.log_uniform(0.3, 10))},
+    m.add("torsion_spring.t", {{"between", Text{"[{}, {}]", in_quotes(A.first), in_quotes(A.second)}}, {"stiffness", number_text(m.weight * dice.log_uniform(0.3, 10))},
                                {"damping", number_text(dice.chance(0.5) ? 0 : dice.log_uniform(1e-3, 0.3))}, {"free_angle", number_text(m.bodies.front().angle + dice.uniform(-1, 1))}});
   if (dice.chance(0.35)) {
     const std::string body = dice.pick(m.bodies).name;
-    Keys load{{"on", quoted(m.on(body, m.body(body).centre))}};
+    Keys load{{"on", in_quotes(m.on(body, m.body(body).centre))}};
     if (dice.chance(0.5)) load["torque"] = waving(dice, m.weight * dice.signed_log_uniform(0.05, 2), m.duration);
     else load["force"] = Text{"[{}, {}]", waving(dice, force * dice.signed_log_uniform(0.05, 2), m.duration), waving(dice, force * dice.uniform(-1, 1), m.duration)};
-    if (load.count("force") != 0 && dice.chance(0.3)) load["axes"] = quoted("body");
+    if (load.count("force") != 0 && dice.chance(0.3)) load["axes"] = in_quotes("body");
     m.add("force.push", load);
   }
   if (!m.has("motor.") && m.bodies.front().name == "crank" && dice.chance(0.4)) add_motor(m, dice);

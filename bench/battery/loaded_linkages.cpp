@@ -57,8 +57,8 @@ MechanismText taut_chain(Dice& dice) {
   }
   const Point end{bars * length, 0};
   const std::string at = m.on(before, end), post = m.on_ground({end.x + 0.1, 0});
-  m.add("spring.pull", {{"between", Text{"[{}, {}]", quoted(at), quoted(post)}}, {"stiffness", number_text(dice.log_uniform(1e3, 1e6))}, {"preload", number_text(tension)}});
-  m.add("force.push", {{"on", quoted(m.on("crank", {length, 0}))}, {"force", Text{"[0, {}]", quoted(Text{"{:.4g}*sin({:.4g}*t)", tension * dice.uniform(0.01, 0.3), dice.uniform(2, 60)})}}});
+  m.add("spring.pull", {{"between", Text{"[{}, {}]", in_quotes(at), in_quotes(post)}}, {"stiffness", number_text(dice.log_uniform(1e3, 1e6))}, {"preload", number_text(tension)}});
+  m.add("force.push", {{"on", in_quotes(m.on("crank", {length, 0}))}, {"force", Text{"[0, {}]", in_quotes(Text{"{:.4g}*sin({:.4g}*t)", tension * dice.uniform(0.01, 0.3), dice.uniform(2, 60)})}}});
   return m;
 }
 
@@ -167,11 +167,11 @@ MechanismText toggle(Dice& dice) {
   const std::string guide = m.on_ground({0, 0}), carriage = m.on("slider", C);
   m.add_joint("S", "prismatic", guide, carriage);
   const std::string post = m.on_ground({C.x + 0.2, 0}), nose = m.on("slider", C);
-  m.add("spring.work", {{"between", Text{"[{}, {}]", quoted(nose), quoted(post)}}, {"stiffness", number_text(dice.log_uniform(1e4, 1e6))}, {"damping", number_text(dice.log_uniform(1, 1e3))},
+  m.add("spring.work", {{"between", Text{"[{}, {}]", in_quotes(nose), in_quotes(post)}}, {"stiffness", number_text(dice.log_uniform(1e4, 1e6))}, {"damping", number_text(dice.log_uniform(1, 1e3))},
                         {"free_length", number_text(0.2 + (dice.chance(0.5) ? 0 : dice.uniform(-0.01, 0.01)))}});
   choose_duration(m, dice, 0.1, 1);
   const double push = dice.log_uniform(10, 5e3);
-  m.add("force.push", {{"on", quoted(m.on("crank", B))}, {"force", Text{"[0, {}]", quoted(Text{"-{:.4g}*sin({:.4g}*t)", push, dice.uniform(2, 12) / m.duration})}}});
+  m.add("force.push", {{"on", in_quotes(m.on("crank", B))}, {"force", Text{"[0, {}]", in_quotes(Text{"-{:.4g}*sin({:.4g}*t)", push, dice.uniform(2, 12) / m.duration})}}});
   fill_joints(m, dice);
   return m;
 }

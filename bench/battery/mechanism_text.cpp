@@ -14,7 +14,7 @@ Point middle(Point a, Point b, double share) { return {a.x + share * (b.x - a.x)
 
 // Twelve digits: the same text on every machine, whatever the last bits of its cosine, and loops that close to rounding.
 std::string number_text(double x) { return fmt::format("{:.12g}", x == 0 ? 0.0 : x); }
-std::string quoted(const std::string& words) { return '"' + words + '"'; }
+std::string in_quotes(const std::string& words) { return '"' + words + '"'; }
 
 namespace {
 
@@ -66,7 +66,7 @@ BodyText& MechanismText::body(const std::string& name) { return named(bodies, na
 JointText& MechanismText::joint(const std::string& name) { return named(joints, name); }
 
 std::string MechanismText::text(const std::string& title) const {
-  std::string out = fmt::format("format = 1\nname = {}\ngravity = [{}, {}]\n\n[simulate]\nduration = {}\n", quoted(title), number_text(gravity.x), number_text(gravity.y), number_text(duration));
+  std::string out = fmt::format("format = 1\nname = {}\ngravity = [{}, {}]\n\n[simulate]\nduration = {}\n", in_quotes(title), number_text(gravity.x), number_text(gravity.y), number_text(duration));
   out += "\n[ground.markers]\n";
   for (const auto& [name, value] : ground_) out += fmt::format("{} = {}\n", name, value);
   for (const BodyText& b : bodies) {
@@ -80,7 +80,7 @@ std::string MechanismText::text(const std::string& title) const {
     for (const auto& [key, value] : list) out += fmt::format("{} = {}\n", key, value);
   };
   for (const JointText& j : joints) {
-    out += fmt::format("\n[joint.{}]\ntype = {}\nbetween = [{}, {}]\n", j.name, quoted(j.type), quoted(j.first), quoted(j.second));
+    out += fmt::format("\n[joint.{}]\ntype = {}\nbetween = [{}, {}]\n", j.name, in_quotes(j.type), in_quotes(j.first), in_quotes(j.second));
     keys(j.keys);
   }
   for (const auto& [table, list] : others_) {

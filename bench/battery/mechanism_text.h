@@ -25,7 +25,7 @@ Point middle(Point a, Point b, double share = 0.5);
 /// Values as they stand in a model file.
 using Keys = std::map<std::string, std::string>;
 std::string number_text(double x);
-std::string quoted(const std::string& words);
+std::string in_quotes(const std::string& words);
 /// As fmt::format makes it. Used with braces, which draw random arguments in their order.
 struct Text : std::string {
   template <class... Values>

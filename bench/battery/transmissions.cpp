@@ -33,7 +33,7 @@ MechanismText gear_row(Dice& dice, bool with_play) {
     const std::string first = m.on(before, {x, 0}), second = m.on(name, {at, 0});
     JointText& mesh = m.add_joint(Text{"mesh{}", i - 1}, "gear", first, second);
     mesh.keys["radii"] = Text{"[{}, {}]", number_text(radius), number_text(next)};
-    if (internal) mesh.keys["mesh"] = quoted("internal");
+    if (internal) mesh.keys["mesh"] = in_quotes("internal");
     before = name, radius = next, x = at;
   }
   m.body("crank").spin = dice.chance(0.3) ? 0 : dice.uniform(-20, 20);
@@ -45,7 +45,7 @@ MechanismText gear_row(Dice& dice, bool with_play) {
     m.add_joint("rack", "rack", wheel, teeth).keys["radius"] = number_text(radius);
   } else if (dice.chance(0.6)) {
     const JointText& pin = m.joint("O_" + before);
-    m.add("torsion_spring.brake", {{"between", Text{"[{}, {}]", quoted(pin.first), quoted(pin.second)}}, {"stiffness", number_text(dice.log_uniform(0.3, 30))}, {"damping", number_text(dice.log_uniform(1e-3, 0.1))}});
+    m.add("torsion_spring.brake", {{"between", Text{"[{}, {}]", in_quotes(pin.first), in_quotes(pin.second)}}, {"stiffness", number_text(dice.log_uniform(0.3, 30))}, {"damping", number_text(dice.log_uniform(1e-3, 0.1))}});
   }
   return m;
 }
@@ -55,7 +55,7 @@ MechanismText gear_row(Dice& dice, bool with_play) {
 MechanismText gears(Dice& dice) {
   MechanismText m = gear_row(dice, false);
   choose_duration(m, dice, 0.1, 1);
-  m.add("motor.drive", {{"joint", quoted("A")}, {"torque", quoted(Text{"{:.3g}*sin({:.3g}*t + {:.2g})", dice.uniform(0.2, 5), dice.uniform(2, 20) / m.duration, dice.uniform(0, 3)})}});
+  m.add("motor.drive", {{"joint", in_quotes("A")}, {"torque", in_quotes(Text{"{:.3g}*sin({:.3g}*t + {:.2g})", dice.uniform(0.2, 5), dice.uniform(2, 20) / m.duration, dice.uniform(0, 3)})}});
   fill_joints(m, dice);
   return m;
 }
@@ -64,11 +64,11 @@ MechanismText backlash(Dice& dice) {
   MechanismText m = gear_row(dice, true);
   choose_duration(m, dice, 0.05, 0.4);
   JointText& mesh = m.joint("mesh1");
-  mesh.keys["law"] = quoted("backlash");
+  mesh.keys["law"] = in_quotes("backlash");
   mesh.keys["backlash"] = number_text(dice.log_uniform(5e-5, 5e-4));
   mesh.keys["contact_stiffness"] = number_text(dice.log_uniform(1e6, 1e8));
   mesh.keys["restitution"] = number_text(dice.uniform(0.3, 0.9));
-  m.add("motor.drive", {{"joint", quoted("A")}, {"torque", quoted(Text{"{:.3g}*sin({:.3g}*t)", dice.uniform(0.2, 5), dice.uniform(4, 30) / m.duration})}});
+  m.add("motor.drive", {{"joint", in_quotes("A")}, {"torque", in_quotes(Text{"{:.3g}*sin({:.3g}*t)", dice.uniform(0.2, 5), dice.uniform(4, 30) / m.duration})}});
   fill_joints(m, dice, 1e6, 1e9);
   return m;
 }
@@ -99,7 +99,7 @@ MechanismText ropes(Dice& dice) {
     load.held = true;
     const std::string first = m.on_ground({0, 0}), second = m.on("load", end);
     rope("rope", first, second, length * (dice.chance(0.5) ? 1 : 1.02));
-    if (dice.chance(0.5)) m.add("force.gust", {{"on", quoted(m.on("load", load.centre))}, {"force", Text{"[{}, 0]", quoted(Text{"{:.3g}*sin({:.3g}*t)", load.mass * dice.uniform(1, 10), dice.uniform(2, 12)})}}});
+    if (dice.chance(0.5)) m.add("force.gust", {{"on", in_quotes(m.on("load", load.centre))}, {"force", Text{"[{}, 0]", in_quotes(Text{"{:.3g}*sin({:.3g}*t)", load.mass * dice.uniform(1, 10), dice.uniform(2, 12)})}}});
   }
   fill_joints(m, dice, 1e6, 1e9);
   return m;
@@ -117,7 +117,7 @@ MechanismText rods(Dice& dice) {
     const Point foot{0, -0.05};
     const double length = distance(foot, C);
     const std::string first = m.on_ground(foot), second = m.on("crank", C);
-    m.add_joint("actuator", "rod", first, second).keys["length"] = quoted(Text{"{} + {:.3g}*(1 - cos({:.3g}*t))", number_text(length), dice.signed_uniform(2e-3, 2e-2), dice.uniform(3, 20) / m.duration});
+    m.add_joint("actuator", "rod", first, second).keys["length"] = in_quotes(Text{"{} + {:.3g}*(1 - cos({:.3g}*t))", number_text(length), dice.signed_uniform(2e-3, 2e-2), dice.uniform(3, 20) / m.duration});
   } else {
     const Point B = Polar{{0, 0}, dice.uniform(0.05, 0.2), dice.uniform(-kPi, kPi)};
     BodyText& driver = add_bar(m, dice, "driver", {0, 0}, B);
@@ -133,7 +133,7 @@ MechanismText rods(Dice& dice) {
   const bool turned = m.has("motor.");
   if (!turned) {
     BodyText& crank = m.body("crank");
-    m.add("torsion_spring.t", {{"between", Text{"[{}, {}]", quoted(m.joints.front().first), quoted(m.joints.front().second)}}, {"stiffness", number_text(dice.log_uniform(0.5, 50))}, {"free_angle", number_text(crank.angle + dice.uniform(-0.5, 0.5))}});
+    m.add("torsion_spring.t", {{"between", Text{"[{}, {}]", in_quotes(m.joints.front().first), in_quotes(m.joints.front().second)}}, {"stiffness", number_text(dice.log_uniform(0.5, 50))}, {"free_angle", number_text(crank.angle + dice.uniform(-0.5, 0.5))}});
   }
   return m;
 }
@@ -156,18 +156,18 @@ MechanismText cams(Dice& dice) {
   JointText& touch = m.add_joint("cam", "cam", wheel, edge);
   const int harmonic = flat ? 1 : dice.integer(1, 2);
   touch.keys["base_radius"] = number_text(base);
-  touch.keys["lift"] = quoted(Text{"{:.4g}*(1 - cos({}*angle))", 0.5 * lift / (harmonic * harmonic), harmonic});
-  if (flat) touch.keys["follower"] = quoted("flat");
+  touch.keys["lift"] = in_quotes(Text{"{:.4g}*(1 - cos({}*angle))", 0.5 * lift / (harmonic * harmonic), harmonic});
+  if (flat) touch.keys["follower"] = in_quotes("flat");
   else touch.keys["roller_radius"] = number_text(roller);
   if (dice.chance(0.6)) {
-    touch.keys["law"] = quoted("contact");
+    touch.keys["law"] = in_quotes("contact");
     touch.keys["contact_stiffness"] = number_text(dice.log_uniform(1e6, 3e8));
     touch.keys["contact_exponent"] = "1";
     touch.keys["restitution"] = number_text(dice.uniform(0.3, 0.9));
   }
   const std::string seat = m.on_ground({0, height + 0.2}), top = m.on("follower", {0, height + 0.05});
-  m.add("spring.return", {{"between", Text{"[{}, {}]", quoted(seat), quoted(top)}}, {"stiffness", number_text(dice.log_uniform(500, 2e4))}, {"preload", number_text(-dice.log_uniform(10, 500))}});
-  m.add("motor.drive", {{"joint", quoted("A")}, {"speed", number_text(speed)}, {"stiffness", number_text(dice.log_uniform(1e3, 1e6))}, {"damping", number_text(dice.log_uniform(1, 100))}});
+  m.add("spring.return", {{"between", Text{"[{}, {}]", in_quotes(seat), in_quotes(top)}}, {"stiffness", number_text(dice.log_uniform(500, 2e4))}, {"preload", number_text(-dice.log_uniform(10, 500))}});
+  m.add("motor.drive", {{"joint", in_quotes("A")}, {"speed", number_text(speed)}, {"stiffness", number_text(dice.log_uniform(1e3, 1e6))}, {"damping", number_text(dice.log_uniform(1, 100))}});
   m.duration = 1e-3 * std::round(1e3 * dice.uniform(0.5, 1.5) * 2 * kPi / std::abs(speed));
   fill_joints(m, dice, 1e6, 1e9);
   return m;
