@@ -80,7 +80,7 @@ TEST_P(ForceAccuracy, IsWithinTheToleranceAndWellEstimated) {
     model.simulate.tolerance = tolerance;
     const Trajectory run = simulate(model);
     ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
-    model.simulate.tolerance = tolerance / 1000;
+    model.simulate.tolerance = 1e-9;
     const Trajectory fine = simulate(model);
     ASSERT_EQ(fine.n_rows(), run.n_rows());
     const Differences d = differences(run, fine, model);

@@ -158,7 +158,7 @@ class Passes {
     coarse_tolerance_ = before;
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
     stages_before_ = choice_.stages;
-    share_ = alike_ || out_.of_motion ? 1.0 : longest_ > 0 ? share_of_finer(std::pow(kShorter, choice_.stages + 1), 1) : share_of_finer(fine_tolerance_, before);
+    share_ = alike_ || out_.of_motion ? 1.0 : longest_ > 0 ? share_of_finer(std::pow(kShorter, choice_.stages), 1) : share_of_finer(fine_tolerance_, before);
     find_difference(coarse, fine);
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
     relative_difference_ = relative_differences(system_, difference_);
@@ -193,12 +193,12 @@ class Passes {
       if (out_.of_motion) choice_.stages = 5;  // long steps are alike at any tolerance: another order tells
       return at(kRepeated * tolerance);
     }
-    // Alike again: it is not the tolerance that limits the steps.
-    if (alike_ && !out_.of_motion && longest_ == 0 && !last_one && choice_.method == "radau") {
+    if (error_ <= kPromised * wanted) {
+      // Alike again, and it is not the tolerance that limits the steps: that the passes agree says little.
+      if (!alike_ || out_.of_motion || longest_ > 0 || last_one || choice_.method != "radau") return false;
       longest_ = kShorter * settings_.duration / static_cast<double>(last_.counters.steps);
       return at(tolerance);
     }
-    if (error_ <= kPromised * wanted) return false;
     const bool same = growth_.saturated && same_growth(last_growth_, growth_);
     if (same) chaos_ = growth_;
     if (last_one) return false;

@@ -118,14 +118,15 @@ void balance_start(const BasicSystem<S>& system, BasicState<S>& state) {
   std::vector<BasicJointKinematics<S>> r;
   system.motions(state.q, state.v, m);
   system.joint_kinematics(state.t, m, r);
-  const double same_gap = kSameGap * largest_coordinate(state.q), same_rate = kSameRate * largest_coordinate(state.v);
+  const double same_gap = kSameGap * largest_coordinate(state.q), same_rate = kSameRate * largest_coordinate(state.v), same_force = kFits * largest_force(state.force);
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicJointData<S>& joint = system.joints[j];
     const BasicResponse<S> response = respond(joint.law, state.gap[j], state.gap_rate[j]);
     for (int k = 0; k < S::kDof; ++k) {
-      const bool carries = response.stiffness(k, k) > 0;
-      if (!carries || std::abs(r[j].gap[k] - state.gap[j][k]) > same_gap) state.gap[j][k] = r[j].gap[k];
-      if (!carries || std::abs(r[j].rate[k] - state.gap_rate[j][k]) > same_rate) state.gap_rate[j][k] = r[j].rate[k];
+      const double stiffness = response.stiffness(k, k), misfit = std::abs(r[j].gap[k] - state.gap[j][k]);
+      const double misfit_of_rate = std::abs(r[j].rate[k] - state.gap_rate[j][k]);
+      if (!(stiffness > 0) || (misfit > same_gap && stiffness * misfit > same_force)) state.gap[j][k] = r[j].gap[k];
+      if (!(stiffness > 0) || (misfit_of_rate > same_rate && response.damping(k, k) * misfit_of_rate > same_force)) state.gap_rate[j][k] = r[j].rate[k];
     }
   }
   rest_laws(system, state);
@@ -348,6 +349,15 @@ void BasicInverseDynamics<S>::take_forces_of_bodies(BasicState<S>& state) const 
   for (int j = 0; j < system_.n_joints(); ++j) state.force[j] = respond(system_.joints[j].law, r_[j].gap, state.gap_rate[j]).force;
 }
 
+// Whether a body has moved by more than the mechanism is large.
+template <class S>
+bool moves_too_far(const BasicState<S>& from, const BasicState<S>& to) {
+  const double size = largest_coordinate(from.q);
+  for (std::size_t i = 0; i < from.q.size(); ++i)
+    if (!(S::difference(from.q[i], to.q[i]).template head<S::kDim>().norm() <= size)) return true;
+  return false;
+}
+
 template <class S>
 void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& state) {
   const std::size_t n = system.bodies.size(), joints = system.joints.size();
@@ -374,6 +384,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
         if (!system.joints[j].law.ideal_limit()) state.force[j] = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]).force;
     // Where joints have given way, redundant ones may hold what was free: what the projection then takes for held is not, and the passes diverge.
     if (pass > (firm ? 1 : 0) && largest_force(state.force) > kMostGrowth * largest_force(before.force)) {
+      if (moves_too_far(unloaded, before)) return void(state = unloaded);
       state = before;
       break;
     }

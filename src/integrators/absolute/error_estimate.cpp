@@ -14,7 +14,7 @@ template <class S>
 bool BasicRadauStepper<S>::error_estimate(double h, double& error) {
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!end_point_->prepare(begin_.t + h, mu, stage_[n_ - 1], tails_)) return false;
-  error = of_motion_ ? motion_tail() : std::max(end_point_->error(tails_, scale_), change_of_loads(h));
+  error = of_motion_ ? motion_tail() : std::max({end_point_->error(tails_, scale_), change_of_loads(h), friction_tail()});
   return std::isfinite(error);
 }
 
@@ -30,6 +30,22 @@ double BasicRadauStepper<S>::change_of_loads(double h) {
   double largest = 0;
   for (std::size_t b = 0; b < load_change_.size(); ++b) largest = std::max(largest, load_change_[b].cwiseAbs().cwiseQuotient(scale_.body[b]).maxCoeff());
   return kPlaceError * largest;
+}
+
+// What joints rub with may act on next to no mass. theory/time Eq. (3.21).
+template <class S>
+double BasicRadauStepper<S>::friction_tail() const {
+  TailSize size;
+  for (const auto& [j, free] : rubbing_) {
+    const typename S::Vec load = load_on(system_.joints[j].at, scale_);
+    typename S::Vec tail[3];
+    for (int back = 0; back < 3; ++back) {
+      tail[back] = table_.to_legendre(n_ - back, 0) * begin_.force[j];
+      for (int s = 0; s < n_; ++s) tail[back] += table_.to_legendre(n_ - back, s + 1) * stage_[s].force[j];
+    }
+    for (int k = 0; k < S::kDof; ++k) size.add((free[k] / load[k]) * Lanes<4>::of({tail[0][k], tail[1][k], tail[2][k], 0}));
+  }
+  return size.value();
 }
 
 // Legendre coefficients of the body forces M a, as accelerations that the bodies can yield to within the step: stiff joints hold back
@@ -135,6 +151,7 @@ void BasicRadauStepper<S>::find_power() {
 
 template bool BasicRadauStepper<Planar>::error_estimate(double h, double& error);
 template double BasicRadauStepper<Planar>::change_of_loads(double h);
+template double BasicRadauStepper<Planar>::friction_tail() const;
 template double BasicRadauStepper<Planar>::motion_tail();
 template void BasicRadauStepper<Planar>::finish_step(double h);
 template void BasicRadauStepper<Planar>::find_increments(double h);
@@ -144,6 +161,7 @@ template void BasicRadauStepper<Planar>::add_power(const BasicJointData<Planar>&
 template void BasicRadauStepper<Planar>::find_power();
 template bool BasicRadauStepper<Spatial>::error_estimate(double h, double& error);
 template double BasicRadauStepper<Spatial>::change_of_loads(double h);
+template double BasicRadauStepper<Spatial>::friction_tail() const;
 template double BasicRadauStepper<Spatial>::motion_tail();
 template void BasicRadauStepper<Spatial>::finish_step(double h);
 template void BasicRadauStepper<Spatial>::find_increments(double h);

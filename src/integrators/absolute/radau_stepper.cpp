@@ -15,6 +15,10 @@ BasicRadauStepper<S>::BasicRadauStepper(const BasicSystem<S>& system, double tol
   const std::vector<double> states(system.n_law_states());
   for (int j = 0; j < system.n_joints(); ++j)
     if (system.joints[j].driven >= 0 || !system.joints[j].law.as_linear()) powered_.push_back(j);
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const BasicLaw<S>& law = system.joints[j].law;
+    if (law.has_friction() && law.n_states() == 0) rubbing_.emplace_back(j, (law.engaged_stiffness().array() > 0).select(S::Vec::Zero(), S::Vec::Ones()));
+  }
   const bool only_last = powered_.empty() && !system.has_loads();  // no other stage is asked for its power
   for (BasicStage<S>& s : stage_) {
     s.a = bodies;

@@ -69,6 +69,7 @@ class BasicRadauStepper {
   // error_estimate.cpp: the error of a step and its end
   bool error_estimate(double h, double& error);
   double change_of_loads(double h);           // where the bodies are moved onto their gaps
+  double friction_tail() const;               // of forces in free directions that no mass shows
   double motion_tail();                       // as accelerations that the bodies can yield to
   void finish_step(double h);                 // fills end_ and nodes_
   void find_increments(double h);             // of the nodes, in curved spaces
@@ -104,6 +105,7 @@ class BasicRadauStepper {
   std::unique_ptr<BasicEndPointProjection<S>> end_point_;
   BasicStageTails<S> tails_;
   VecsOf<S> load_change_;
+  std::vector<std::pair<int, typename S::Vec>> rubbing_;  // joints without bristles, and 1 where they rub
   std::vector<int> powered_;                  // joints whose power no stage has summed up
   PositionsOf<S> inside_q_;
   VecsOf<S> inside_v_, inside_gap_, inside_rate_;
