@@ -27,6 +27,8 @@ constexpr double kAlike = 1.25;  // steps of the finer pass over those of the co
 constexpr double kSurest = 0.1;  // of the tolerance of the steps: no error of the motion is stated as smaller
 constexpr double kRepeated = 0.1;  // tolerance of a pass that is to show whether what two have shown is so, over that of the finer
 constexpr double kShorter = 0.5;  // longest step of a pass whose tolerance would not shorten its steps, over the mean one before
+constexpr double kNearRounding = 1e-8;  // below it stiff joints may feel rounding, and steps multiply:
+constexpr std::uint64_t kLong = 10000;  // after a pass of so many steps the next one goes there by a tenth at a time
 constexpr double kFinest = 1e-11;  // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
 constexpr double kOptimism = 2;    // standard errors by which a rate may be smaller before no tolerance is said to help
 constexpr double kLoosestAccount = 1e-3;  // passes are finer than a looser tolerance, and so are their energies
@@ -211,7 +213,8 @@ class Passes {
       return at(next);
     }
     const double shrink = 0.5 * std::pow(wanted / error_, 1 / kErrorPower);
-    return at(tolerance * std::clamp(shrink, 1e-3, 0.1));
+    const double least = last_.counters.steps > kLong ? std::min(kRepeated * tolerance, kNearRounding) : 0;
+    return at(std::max(least, tolerance * std::clamp(shrink, 1e-3, kRepeated)));
   }
 
   // The tolerance with which errors, growing as they do, would be small enough at the end: the difference is the coarser pass's error.
