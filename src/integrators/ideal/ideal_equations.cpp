@@ -18,7 +18,6 @@ constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 constexpr int kMostModes = 300;       // rows for which eigenvectors are taken; beyond, redundant rows are left out
 constexpr double kDamped = 1e-9;      // pivots below it are lifted, so that forces stay finite at singular positions ...
 constexpr double kMisfit = 30;        // ... and below the square of so many times the misfit that redundant rows leave
-constexpr double kNearlySingular = 1e5;  // times as much: there the nearest closed position may be on another branch
 
 bool keeps(const JointData& joint, int component) {
   return joint.ideal && joint.law.engaged_stiffness()[component] > 0;
@@ -228,6 +227,18 @@ bool IdealEquations::close_velocities(double t, const Vecs& q, Vecs& v) {
   return true;
 }
 
+bool IdealEquations::keep_tangential(double t, const Vecs& q, Vecs& displacement) {
+  if (rows_.empty()) return true;
+  read(t, q, still_);
+  if (!factorize()) return false;
+  Eigen::VectorXd multipliers;
+  for (int pass = 0; pass <= kRefinements; ++pass) {
+    solve(-rates(displacement), multipliers);
+    push(multipliers, displacement);
+  }
+  return true;
+}
+
 void IdealEquations::measure_misfit(double t, const Vecs& q) {
   read(t, q, still_);
   double worst = 0;
@@ -235,13 +246,12 @@ void IdealEquations::measure_misfit(double t, const Vecs& q) {
   damped_ = std::max(kDamped, kMisfit * kMisfit * worst * worst);
 }
 
-bool IdealEquations::nearly_singular() const { return smallest_pivot_ < kNearlySingular * damped_; }
+double IdealEquations::independence() const { return rows_.empty() ? 1 : std::sqrt(std::max(0.0, smallest_pivot_)); }
 
 double IdealEquations::independence(double t, const Vecs& q) {
   if (rows_.empty()) return 1;
   read(t, q, still_);
-  if (!factorize()) return 0;
-  return std::sqrt(std::max(0.0, smallest_pivot_));
+  return factorize() ? independence() : 0;
 }
 
 Eigen::VectorXd IdealEquations::nearest_dependency() const {

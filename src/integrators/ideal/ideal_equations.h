@@ -34,12 +34,14 @@ class IdealEquations {
   /// cannot be closed, or not from here.
   bool close_positions(double t, Vecs& q);
   bool close_velocities(double t, const Vecs& q, Vecs& v);
+  /// Takes from a displacement of q what changes gaps: what is left is shortest in the mass norm from it.
+  bool keep_tangential(double t, const Vecs& q, Vecs& displacement);
 
   /// How independent the rows are: the root of the smallest pivot of their scaled matrix, 1 when they are orthogonal and 0
   /// at a singular position [-].
   double independence(double t, const Vecs& q);
-  /// The position last asked about is close to one where rows lose independence.
-  bool nearly_singular() const;
+  /// The same at the position last asked about.
+  double independence() const;
   /// Takes what redundant rows leave open at the closed position q into account. Call once, before steps.
   void measure_misfit(double t, const Vecs& q);
   /// The rows' combination that is closest to none at all, of unit norm, at the position last asked about.

@@ -17,13 +17,19 @@ using namespace dormand_prince;
 
 constexpr double kSingular = 1e-4;     // of the largest independence met: a position counts as singular below it
 constexpr double kSuspicious = 0.5;    // of the largest: above it no singular position is looked for
+constexpr double kTooNear = 3e-4;      // of the largest: no stage lies nearer to a singular position
+constexpr double kFewDigits = 3e-2;    // of the largest: nearer, forces lose too many digits, in proportion to its fourth power
+constexpr double kShareBefore = 0.55;  // of a step over a singular position: it lies in the widest gap between the stages, from 0.3 to 0.8
+constexpr double kClearance = 0.2;     // of it, that no stage is nearer than
+constexpr double kNearStep = 0.8, kNextButOne = 1.6;  // steps to a singular position: it is stepped over; with the next one it is
+constexpr double kOtherStages = 0.85;  // over a step with a stage that was too near
 constexpr int kSearch = 48;            // positions tried inside a step
-constexpr double kPassing = 1e-2;      // of the usual step: at singular positions so short a step is taken in any case
 constexpr double kCrossing = 0.1;      // of the tolerance times the usual step: so short a step is taken over a jump of a force
 constexpr double kNearJump = 1e-4;     // of the usual step: rejected steps that are this short are looked at for jumps
 constexpr double kForget = 0.99;       // of the usual step, by one that is shorter
 constexpr double kLeastCrossing = 1e-8;  // of the usual step: shorter ones are lost in the rounding of velocities over the step
 constexpr int kMostReported = 5;
+constexpr std::size_t kCertain = 5;    // states whose forces have most of their digits are kept
 
 }  // namespace
 
@@ -44,40 +50,73 @@ void IdealStepper::start(const State& state, double h) {
   if (lost > 1e-6 * before)
     remarks_.push_back(fmt::format("ideal joints: the stated velocities are inconsistent; an impulse in the joints dissipates {:.3g} J at the start", lost));
   begin_ = inside_ = stage_ = end_;
-  most_independent_ = equations_.independence(end_.t, end_.q);
+  certain_.clear();
+  certain_independence_.clear();
+  keep_certain();
+  for (Vecs* x : {&jerk_, &error_q_, &error_v_}) x->assign(end_.a.size(), S::Vec::Zero());
+  most_independent_ = independence_ = equations_.independence(end_.t, end_.q);
   grow_scale();
+}
+
+// But not at one, as at the start.
+bool IdealStepper::near_singular_position() const {
+  return independence_ < kSuspicious * most_independent_ && independence_ > 0.5 * kTooNear * most_independent_;
+}
+
+bool IdealStepper::passes_too_near(double independence) const { return independence < kTooNear * most_independent_; }
+
+// A step of h, or one like it that leads to a singular position ahead or over it, so that no stage is near to it. The independence of the
+// constraints falls in proportion to the distance there. theory/ideal Eq. (3.2).
+double IdealStepper::around_singular_position(double h) {
+  clear_h_ = 0;
+  if (!near_singular_position()) return h;
+  constexpr double kAhead = 1e-3;
+  Vecs ahead = begin_.q;
+  for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] += kAhead * h * begin_.v[i];
+  const double fall = independence_ - equations_.independence(begin_.t + kAhead * h, ahead);
+  if (!(fall > 0)) return h;
+  const double distance = kAhead * h * independence_ / fall;
+  clear_h_ = kTooNear * most_independent_ / kClearance * distance / independence_;
+  h = std::max(h, clear_h_);
+  if (distance < kNearStep * h) return distance / kShareBefore;
+  return distance < kNextButOne * h ? distance - kShareBefore * h : h;
 }
 
 bool IdealStepper::step(double t_end) {
   if (!failure_.empty()) return false;
   begin_ = end_;
-  double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
+  double wanted = max_step_ > 0 ? std::min(h_, max_step_) : h_;
   bool at_once = true, jump_ahead = false;
   const double rounding = std::numeric_limits<double>::epsilon() * std::abs(t_end);
   const double crossing_h = std::max(std::max(kCrossing * tolerance_, kLeastCrossing) * smooth_h_, 1e3 * rounding);
   while (true) {
-    h = std::min(h, t_end - begin_.t);
+    const double left = t_end - begin_.t, h = std::min(around_singular_position(wanted), left);
     if (h <= 16 * rounding) {
       failure_ = fmt::format("ideal joints: the step size became too small at t = {:.9g} s{}", begin_.t,
-                             equations_.nearly_singular() ? ", near a position where the constraints are not independent" : "");
+                             passes_too_near(least_independence_) ? ", near a position where the constraints are not independent" : "");
       return false;
     }
-    const double e = take_stages(h) ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
+    const bool solved = take_stages(h);
+    if (solved && h < left && passes_too_near(least_independence_) && near_singular_position()) {
+      ++counters_.rejected;
+      wanted *= kOtherStages;
+      continue;
+    }
+    const double e = solved ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
     const double factor = std::isfinite(e) ? std::clamp(0.9 * std::pow(std::max(e, 1e-10), -0.2), 0.2, 5.0) : 0.1;
-    const bool passing = equations_.nearly_singular() && h < kPassing * usual_h_ && std::isfinite(e);
     const bool jumps = e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e) && crosses_jump();
     jump_ahead = jump_ahead || jumps;
     // Over the jump; or up to where nothing but rounding is left of the way to it.
     const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && jump_ahead;
-    if ((e <= 1 || passing || crossing) && finish(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h)) {
-      h_ = crossing ? kCrossing * smooth_h_ : h * (passing ? std::max(1.0, factor) : factor);
+    const bool shortest = h < 2 * clear_h_ && std::isfinite(e);  // that steps over the singular position
+    if ((e <= 1 || crossing || shortest) && finish(left - h < 1e-14 * t_end ? t_end : begin_.t + h, h)) {
+      h_ = crossing ? kCrossing * smooth_h_ : h * factor;
       if (at_once) smooth_h_ = std::max(h, kForget * smooth_h_);  // steps that come to a jump nearer and nearer are short because of it
-      if (!equations_.nearly_singular() && !crossing) usual_h_ = h;
       return true;
     }
     ++counters_.rejected;
     at_once = false;
-    h *= std::min(factor, 0.5);
+    wanted = h * std::min(factor, 0.5);
   }
 }
 
@@ -94,7 +133,37 @@ bool IdealStepper::crosses_jump() const {
   return !same_sides(side(begin_), side(stage_));
 }
 
+// Puts the stage onto the branch of the motion: where the branch's tangent at the start of the step says as much as the stage. The nearest
+// closed position may be on another branch, or distorted by it; Taylor's series leads to one on this. theory/ideal Eq. (3.3).
+bool IdealStepper::onto_branch() {
+  constexpr int kPasses = 3;
+  const double after = stage_.t - begin_.t;
+  branch_ = begin_.q;
+  for (std::size_t i = 0; i < branch_.size(); ++i) branch_[i] += after * (begin_.v[i] + after * (begin_.a[i] / 2 + after * jerk_[i] / 6));
+  Vecs away(branch_.size());
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (std::size_t i = 0; i < away.size(); ++i) away[i] = stage_.q[i] - branch_[i];
+    if (!equations_.keep_tangential(begin_.t, begin_.q, away)) return false;
+    for (std::size_t i = 0; i < away.size(); ++i) branch_[i] += away[i];
+    if (!equations_.close_positions(stage_.t, branch_)) return false;
+  }
+  stage_.q = branch_;
+  return equations_.close_velocities(stage_.t, stage_.q, stage_.v) && equations_.complete(stage_);
+}
+
+// Towards a singular position the rates of states that do not close their loops grow beyond all bounds, those on the motion's branch do
+// not: there every stage is closed.
 bool IdealStepper::take_stages(double h) {
+  const double suspicious = kSuspicious * most_independent_;
+  closed_ = near_singular_position();
+  if (!find_stages(h)) return false;
+  if (closed_ || least_independence_ > suspicious || independence_ < suspicious) return true;
+  closed_ = true;
+  return find_stages(h);
+}
+
+bool IdealStepper::find_stages(double h) {
+  least_independence_ = independence_;
   kq_[0] = begin_.v;
   kv_[0] = begin_.a;
   power_[0] = {begin_.supply_power, begin_.loss_power};
@@ -111,7 +180,8 @@ bool IdealStepper::take_stages(double h) {
     }
     ++counters_.evaluations;
     ++counters_.factorizations;
-    if (!equations_.complete(stage_)) return false;
+    if (closed_ ? !onto_branch() : !equations_.complete(stage_)) return false;
+    least_independence_ = std::min(least_independence_, equations_.independence());
     kq_[s] = stage_.v;
     kv_[s] = stage_.a;
     power_[s] = {stage_.supply_power, stage_.loss_power};
@@ -129,7 +199,7 @@ bool IdealStepper::finish(double t, double h) {
   end_.t = t;
   end_.q = stage_.q;
   end_.v = stage_.v;
-  if (equations_.nearly_singular() ? !equations_.complete(end_) : !onto_constraints(end_)) return false;
+  if (passes_too_near(least_independence_) ? !equations_.complete(end_) : !onto_constraints(end_)) return false;
   end_.supplied = begin_.supplied;
   end_.dissipated = begin_.dissipated;
   for (int s = 0; s < kStages - 1; ++s) {
@@ -137,22 +207,28 @@ bool IdealStepper::finish(double t, double h) {
     end_.dissipated += h * kA[kStages - 1][s] * power_[s][1];
   }
   ++counters_.steps;
+  for (std::size_t i = 0; i < jerk_.size(); ++i) jerk_[i] = (end_.a[i] - begin_.a[i]) / h;
   grow_scale();
   look_for_singular_position();
+  keep_certain();
   return true;
 }
 
-// The embedded error as load: what would give it as an acceleration over the step, over the loads of the body.
-double IdealStepper::error(double h) const {
-  double worst = 0;
-  for (int i = 0; i < system_.n_bodies(); ++i) {
-    S::Vec dq = S::Vec::Zero(), dv = S::Vec::Zero();
+// The embedded error as load: what would give it as an acceleration over the step, over the loads of the body. Where stages are closed, only
+// what moves the mechanism: the rest is closed again, and grows towards a singular position.
+double IdealStepper::error(double h) {
+  for (std::size_t i = 0; i < error_q_.size(); ++i) {
+    error_q_[i].setZero();
+    error_v_[i].setZero();
     for (int s = 0; s < kStages; ++s) {
-      dq += kE[s] * kq_[s][i];
-      dv += kE[s] * kv_[s][i];
+      error_q_[i] += kE[s] / h * kq_[s][i];
+      error_v_[i] += kE[s] * kv_[s][i];
     }
-    const S::Vec load = scale_.body[i].cwiseQuotient(system_.bodies[i].mass);
-    const S::Vec d = dv.cwiseAbs().cwiseMax((dq / h).cwiseAbs()).cwiseQuotient(load);
+  }
+  if (closed_ && !(equations_.keep_tangential(begin_.t, begin_.q, error_q_) && equations_.keep_tangential(begin_.t, begin_.q, error_v_))) return std::numeric_limits<double>::infinity();
+  double worst = 0;
+  for (std::size_t i = 0; i < error_q_.size(); ++i) {
+    const S::Vec d = error_v_[i].cwiseAbs().cwiseMax(error_q_[i].cwiseAbs()).cwiseProduct(system_.bodies[i].mass).cwiseQuotient(scale_.body[i]);
     worst = std::max(worst, d.maxCoeff());
     if (!std::isfinite(d.sum())) return std::numeric_limits<double>::infinity();
   }
@@ -181,9 +257,51 @@ void IdealStepper::grow_scale() {
 
 const State& IdealStepper::interpolate(double t) {
   inside_ = dense_.at(t, begin_, end_);
-  if (equations_.independence(t, inside_.q) > 0 && equations_.nearly_singular()) equations_.complete(inside_);
-  else onto_constraints(inside_);
+  const bool certain = equations_.independence(t, inside_.q) > kFewDigits * most_independent_;
+  if (certain) {
+    onto_constraints(inside_);
+  } else {
+    equations_.complete(inside_);
+    interpolate_forces(inside_);
+  }
   return inside_;
+}
+
+// Beside a singular position forces and accelerations are those of the curve through the last states that are not. theory/ideal section 3.
+void IdealStepper::interpolate_forces(State& state) {
+  if (certain_.size() < 2) return;
+  for (Vecs* x : {&state.a, &state.force, &state.gap_accel})
+    for (S::Vec& each : *x) each.setZero();
+  state.supply_power = state.loss_power = 0;
+  for (const State& node : certain_) {
+    double weight = 1;
+    for (const State& other : certain_)
+      if (&other != &node) weight *= (state.t - other.t) / (node.t - other.t);
+    for (std::size_t i = 0; i < state.a.size(); ++i) state.a[i] += weight * node.a[i];
+    for (std::size_t j = 0; j < state.force.size(); ++j) {
+      state.force[j] += weight * node.force[j];
+      state.gap_accel[j] += weight * node.gap_accel[j];
+    }
+    state.supply_power += weight * node.supply_power;
+    state.loss_power += weight * node.loss_power;
+  }
+}
+
+// The newest, and others as far from each other as the curve through them has to reach.
+void IdealStepper::keep_certain() {
+  if (independence_ < kFewDigits * most_independent_) return interpolate_forces(end_);
+  const std::size_t n = certain_.size();
+  if (n > 1 && std::abs(certain_independence_[n - 2] - independence_) < 0.5 * kFewDigits * most_independent_) {
+    certain_.back() = end_;
+    certain_independence_.back() = independence_;
+    return;
+  }
+  if (n == kCertain) {
+    certain_.erase(certain_.begin());
+    certain_independence_.erase(certain_independence_.begin());
+  }
+  certain_.push_back(end_);
+  certain_independence_.push_back(independence_);
 }
 
 // A position where the constraints lose rank may lie inside the step: their independence falls towards it and grows after it.
@@ -194,6 +312,7 @@ void IdealStepper::look_for_singular_position() {
   };
   constexpr double kNear = 1e-3;
   const double first = at(0), last = at(1);
+  independence_ = last;
   most_independent_ = std::max(most_independent_, last);
   if (std::min(first, last) > kSuspicious * most_independent_) return;
   if (!(at(kNear) < first) || !(at(1 - kNear) < last)) return;

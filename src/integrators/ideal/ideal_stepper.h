@@ -30,27 +30,40 @@ class IdealStepper final : public Stepper {
 
  private:
   bool take_stages(double h);
+  bool find_stages(double h);
+  bool onto_branch();
+  double around_singular_position(double h);
+  bool passes_too_near(double independence) const;
+  bool near_singular_position() const;
+  void keep_certain();
+  void interpolate_forces(State& state);
   bool onto_constraints(State& state);
   bool finish(double t, double h);
-  double error(double h) const;
+  double error(double h);
   bool crosses_jump() const;
   void grow_scale();
   void look_for_singular_position();
   void report_singular_position(double t);
 
   const System& system_;
-  double tolerance_, max_step_ = 0, h_ = 0, usual_h_ = 0;  // the next step; the last away from singular positions
+  double tolerance_, max_step_ = 0, h_ = 0;  // the next step
   double smooth_h_ = 0;                                     // the last that was taken at once, or the first that was proposed
   IdealEquations equations_;
   DenseOutput dense_;
   State begin_, end_, inside_, stage_;
+  std::vector<State> certain_;  // of those that were not beside a singular position
+  std::vector<double> certain_independence_;
+  Vecs jerk_, branch_, error_q_, error_v_;  // of the bodies at the start of the step; places; accelerations
+  double clear_h_ = 0;                      // of the shortest step over the singular position ahead [s]
+  bool closed_ = false;                     // the stages are
   std::array<Vecs, 7> kq_, kv_;
   std::array<std::array<double, 2>, 7> power_{};  // supplied, lost [W]
   LoadScale scale_;
   Counters counters_;
   std::string failure_;
   std::vector<std::string> remarks_;
-  double most_independent_ = 0;
+  double most_independent_ = 0, independence_ = 0;  // the largest met; that at the end
+  double least_independence_ = 0;                   // in the stages
   int n_singular_ = 0;
 };
 
