@@ -28,6 +28,7 @@ constexpr double kCrossing = 0.1;      // of the tolerance times the usual step:
 constexpr double kNearJump = 1e-4;     // of the usual step: rejected steps that are this short are looked at for jumps
 constexpr double kForget = 0.99;       // of the usual step, by one that is shorter
 constexpr double kLeastCrossing = 1e-8;  // of the usual step: shorter ones are lost in the rounding of velocities over the step
+constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();  // of the largest velocity or acceleration: errors do not show below it
 constexpr int kMostReported = 5;
 constexpr std::size_t kCertain = 5;    // states whose forces have most of their digits are kept
 
@@ -227,8 +228,10 @@ double IdealStepper::error(double h) {
   }
   if (closed_ && !(equations_.keep_tangential(begin_.t, begin_.q, error_q_) && equations_.keep_tangential(begin_.t, begin_.q, error_v_))) return std::numeric_limits<double>::infinity();
   double worst = 0;
+  const double of_velocities = kRounding * largest_coordinate(begin_.v) / h, of_accelerations = kRounding * largest_coordinate(begin_.a);
+  const auto above = [](const S::Vec& x, double rounding) { return S::Vec((x.cwiseAbs().array() - rounding).max(0)); };
   for (std::size_t i = 0; i < error_q_.size(); ++i) {
-    const S::Vec d = error_v_[i].cwiseAbs().cwiseMax(error_q_[i].cwiseAbs()).cwiseProduct(system_.bodies[i].mass).cwiseQuotient(scale_.body[i]);
+    const S::Vec d = above(error_v_[i], of_accelerations).cwiseMax(above(error_q_[i], of_velocities)).cwiseProduct(system_.bodies[i].mass).cwiseQuotient(scale_.body[i]);
     worst = std::max(worst, d.maxCoeff());
     if (!std::isfinite(d.sum())) return std::numeric_limits<double>::infinity();
   }
@@ -289,7 +292,12 @@ void IdealStepper::interpolate_forces(State& state) {
 
 // The newest, and others as far from each other as the curve through them has to reach.
 void IdealStepper::keep_certain() {
-  if (independence_ < kFewDigits * most_independent_) return interpolate_forces(end_);
+  if (independence_ < kFewDigits * most_independent_) {
+    const Vecs a = end_.a;  // what moves the mechanism in it has all its digits, and the next step begins with it
+    interpolate_forces(end_);
+    end_.a = a;
+    return;
+  }
   const std::size_t n = certain_.size();
   if (n > 1 && std::abs(certain_independence_[n - 2] - independence_) < 0.5 * kFewDigits * most_independent_) {
     certain_.back() = end_;
