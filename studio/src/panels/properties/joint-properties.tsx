@@ -13,7 +13,7 @@ import { type Field, fieldsOf, labelOf, useCatalog, useSchema } from "./form";
 import { Icon } from "../icons";
 
 const TYPE_WORDS: Record<string, string> = {
-  revolute: "pin", prismatic: "slider", fixed: "weld", slot: "pin in a slot", rod: "massless rod", rope: "rope", cylinder: "hydraulic or pneumatic cylinder", gear: "gear mesh", rack: "rack and pinion", cam: "cam and follower",
+  revolute: "pin", prismatic: "slider", fixed: "weld", slot: "pin in a slot", rod: "massless rod", rope: "rope", belt: "run of a belt", cylinder: "hydraulic or pneumatic cylinder", gear: "gear mesh", rack: "rack and pinion", cam: "cam and follower",
 };
 
 export function JointProperties({ name }: { name: string }) {
