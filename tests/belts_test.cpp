@@ -53,6 +53,18 @@ TEST(Belts, ADriveCarriesItsMomentByTheDifferenceOfItsRuns) {
   }
 }
 
+// Euler and Eytelwein: exp(mu wrap) between the runs on both sides of a post, theory/joints Eqs. (2.17), (2.18).
+TEST(Belts, ARopeSlipsRoundAPostAsEulerSays) {
+  const Trajectory run = completed(mechanism("bollard"));
+  const double ratio = std::exp(0.2 * 3 * kPi), a = kG * (100 - 10 * ratio) / (100 + 10 * ratio);
+  for (const double t : {0.1, 0.3, 0.6}) {
+    const std::size_t row = reference::row_at(run, t);
+    EXPECT_NEAR(value(run, row, "joint.down.tension"), 100 * (kG - a), 5e-5 * 780);  // the rope on the post weighs a gram
+    EXPECT_NEAR(value(run, row, "joint.up.tension"), 10 * (kG + a), 5e-5 * 780);
+    EXPECT_NEAR(value(run, row, "body.load.vy"), -0.5 - a * t, 2e-4);
+  }
+}
+
 TEST(Belts, CheckStatesTheirRatio) {
   const CheckReport report = check_model(mechanism("belt_drive"));
   ASSERT_EQ(report.gears.size(), 2u);
