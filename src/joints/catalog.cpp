@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -48,8 +49,11 @@ constexpr std::array<KeyInfo, 5> kBelt{{
     {.key = "second_side", .unit = "", .words = kSides, .otherwise = "that of the first disc", .meaning = "where it reaches the second disc, seen in the same way; the other side: crossed"},
     {.key = "stretch", .unit = "m", .minimum = kAny, .otherwise = "0: taut without load", .meaning = "how much longer than unloaded the run is when assembled: its tension over its stiffness; negative: slack"},
 }};
-constexpr std::array<KeyInfo, 1> kRackRadius{{
+constexpr KeyInfo kPressureAngle{.key = "pressure_angle", .unit = "rad", .otherwise = "not stated: no such columns", .meaning = "of the teeth, 20 deg mostly: for the results' radial force, which pushes both apart, and their normal force; neither acts on the bodies"};
+constexpr std::array<KeyInfo, 1> kGear{{kPressureAngle}};
+constexpr std::array<KeyInfo, 2> kRack{{
     {.key = "radius", .unit = "m", .minimum_exclusive = true, .required = true, .meaning = "pitch radius of the pinion (the first body)"},
+    kPressureAngle,
 }};
 
 double value(const Geometry& geometry, const char* key, double otherwise) {
@@ -67,6 +71,11 @@ GeometryFault cylinder_fault(const Geometry& g) {
   for (const char* key : {"cap_pressure", "rod_pressure"})
     if (value(g, key, 0) < vacuum)
       return {key, fmt::format("this is below vacuum, which is at {:g} Pa {}", vacuum, ambient > 0 ? "where ambient_pressure makes pressures absolute" : "over the surroundings"), "the other chamber's pressure, if the cylinder is to pull"};
+  return {};
+}
+GeometryFault teeth_fault(const Geometry& g) {
+  constexpr double kMost = std::numbers::pi / 4;
+  if (const double angle = value(g, "pressure_angle", 0); angle > kMost) return {"pressure_angle", fmt::format("{:.4g} rad is more than 45 deg", angle), "20 deg, of most gears"};
   return {};
 }
 JointDisplacement make_mesh(const Geometry& g) {
@@ -103,8 +112,8 @@ std::vector<JointTypeInfo>& types() {
        .fault = belt_fault},
       {.word = "cylinder", .meaning = "a hydraulic or pneumatic cylinder, pinned at two points: pressure times area pushes or pulls along the line between them", .gap = {}, .free = kStroke, .keys = kCylinder, .has_ends = true, .make = make_stroke,
        .fault = cylinder_fault},
-      {.word = "gear", .meaning = "two gears in mesh, centred on the two markers", .gap = kPitch, .free = {}, .keys = {}, .make = make_mesh},
-      {.word = "rack", .meaning = "a pinion (first) rolling along a rack (second marker's axis)", .gap = kPitch, .free = {}, .keys = kRackRadius, .make = make_rack},
+      {.word = "gear", .meaning = "two gears in mesh, centred on the two markers", .gap = kPitch, .free = {}, .keys = kGear, .make = make_mesh, .fault = teeth_fault},
+      {.word = "rack", .meaning = "a pinion (first) rolling along a rack (second marker's axis)", .gap = kPitch, .free = {}, .keys = kRack, .make = make_rack, .fault = teeth_fault},
       {.word = "cam", .meaning = "a cam (first) and what follows it (second): a roller, a pin or a flat face", .gap = kNormal, .free = {}, .keys = {}, .make = make_cam},
   };
   return all;

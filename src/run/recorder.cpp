@@ -23,6 +23,14 @@ bool tells_couple(const JointData& joint) {
 bool slides(const JointData& joint) { return joint.free_mask[0] > 0 && std::holds_alternative<Selection>(joint.displacement); }
 bool is_stroke(const JointData& joint) { return joint.free_mask[0] > 0 && !slides(joint); }
 
+// Of the teeth of a mesh; 0: not stated.
+double pressure_angle_of(const Model& model, int j) {
+  if (j >= static_cast<int>(model.joints.size())) return 0;
+  const auto& geometry = model.joints[j].geometry;
+  const auto angle = geometry.find("pressure_angle");
+  return angle == geometry.end() ? 0 : angle->second;
+}
+
 bool is_servo(const JointData& joint) { return joint.servo >= 0; }
 
 }  // namespace
@@ -119,6 +127,10 @@ std::vector<Column> Recorder::columns() const {
       column(p + "tension", "N", "tension of belt " + joint.name);
       column(p + "run", "m", "length of its free run");
     }
+    if (pressure_angle_of(model_, static_cast<int>(j)) > 0) {
+      column(p + "radial_force", "N", "with which the teeth push both apart, by their pressure angle; it is not in the forces on the bodies");
+      column(p + "normal_force", "N", "on the flank of a tooth");
+    }
     if (is_stroke(joint)) column(p + "force", "N", "with which joint " + joint.name + " pushes its ends apart");
     for (LawColumn& law : joint.law.columns()) column(p + law.name, law.unit.c_str(), std::move(law.meaning));
   }
@@ -189,6 +201,11 @@ void Recorder::put_row(const State& state) {
     if (const auto belt = belt_of(system_.joints[j].displacement)) {
       put(-state.force[j][0]);
       put(belt->run(system_.pose(system_.joints[j].at, m_).z));
+    }
+    if (const double angle = pressure_angle_of(model_, j); angle > 0) {
+      const double tangential = std::abs(state.force[j][0]);
+      put(tangential * std::tan(angle));  // theory/joints Eq. (2.19)
+      put(tangential / std::cos(angle));
     }
     if (is_stroke(system_.joints[j])) put(state.force[j][0]);
     system_.joints[j].law.observe(law_point(system_, j, state), state.force[j], values_);

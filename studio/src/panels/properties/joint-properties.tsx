@@ -33,7 +33,8 @@ export function JointProperties({ name }: { name: string }) {
       {type && type.geometry.length > 0 && (
         <section>
           <h3>Geometry</h3>
-          {joint.type === "gear" ? <Pair label="Pitch radii" unit="m" path={["joint", name, "radii"]} names={["first", "second"]} /> : <Keys keys={type.geometry} path={["joint", name]} />}
+          {joint.type === "gear" && <Pair label="Pitch radii" unit="m" path={["joint", name, "radii"]} names={["first", "second"]} />}
+          <Keys keys={type.geometry} path={["joint", name]} />
           {joint.type === "gear" && <Mesh name={name} />}
         </section>
       )}
