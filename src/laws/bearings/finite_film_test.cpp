@@ -120,6 +120,19 @@ TEST(FiniteFilm, IsExactWhereThePinIsCentred) {
   }
 }
 
+// Whichever way oil may leave besides, it resists less.
+TEST(FiniteFilm, ResistsLessThanBothOfItsLimits) {
+  for (const double slender : kSlender)
+    for (const double e : {0.01, 0.5, 0.95, 0.999})
+      for (double turn = 0; turn < 3.15; turn += 0.21) {
+        const Resistance finite = of_law(slender, Flow::kBoth, e, turn), narrow = of_law(slender, Flow::kAxial, e, turn), wide = of_law(slender, Flow::kAround, e, turn);
+        EXPECT_GT(finite.along, 0);
+        EXPECT_LT(finite.along, std::min(narrow.along, wide.along));
+        EXPECT_LE(std::abs(finite.across), std::min(std::abs(narrow.across), std::abs(wide.across)));
+        EXPECT_GE(finite.across * narrow.across, 0);
+      }
+}
+
 // Along its velocity the film never resists less than Reynolds' equation says, theory/bearings Eq. (3.7). How
 // close it comes, in parts of the force: squeezed, turning steadily, and where the pin leaves the thin film.
 TEST(FiniteFilm, IsCloseToReynoldsEquation) {
