@@ -37,16 +37,18 @@ void Comparisons::slope(const Eigen::VectorXd& slope, const Curve& curve, double
                         const CheckPlace& place) {
   constexpr int kShrinks = 4;     // each to a tenth
   constexpr double kKink = 1e-2;  // one-sided slopes that differ so much at the shortest step, of the scale
-  double best = INFINITY, bend = 0;
+  constexpr double kSteady = 0.1; // a kink bends the slope by as much at every step: a smooth curve by less at shorter ones, rounding by more
+  double best = INFINITY, bend = 0, bend_before = 0;
   for (int shrink = 0; shrink <= kShrinks; ++shrink, step /= 10) {
     const Difference d = difference(curve, step);
     const double size = std::max({scale, largest(slope), largest(d.central)});
     const double mismatch = relative(largest(slope - d.central), size);
     best = std::isnan(mismatch) ? mismatch : std::min(best, mismatch);
     if (best <= item_.tolerance || std::isnan(best)) return count(best, place);
+    bend_before = bend;
     bend = d.bend / size;
   }
-  if (bend > kKink) {
+  if (bend > kKink || (std::abs(bend - bend_before) < kSteady * bend && best <= bend)) {
     ++item_.at_kinks;
     return;
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "joints/belt.h"
 #include "mobility/rank.h"
 
 namespace pintle {
@@ -64,6 +65,8 @@ std::vector<CheckGear> check_gears(const System& system) {
     } else if (const auto* rack = std::get_if<RackMesh>(&joint.displacement)) {
       gear.ratio = rack->side * rack->radius;
       gear.unit = "m/rad";
+    } else if (const auto belt = belt_of(joint.displacement); belt && belt->radius_first != 0 && belt->radius_second != 0) {
+      gear.ratio = belt->radius_first / belt->radius_second;
     } else {
       continue;
     }

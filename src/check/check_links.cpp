@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "joints/belt.h"
 #include "mobility/constraint_rows.h"
 
 namespace pintle {
@@ -80,7 +81,7 @@ std::vector<CheckState> check_states(const Model& model, const System& system, c
 LinkSteps link_steps(const CheckLink& link, const RelativePose& pose, double arm) {
   constexpr double kShort = 1e-3;
   const bool direction_counts =
-      std::holds_alternative<Distance>(link.displacement) || std::holds_alternative<Mesh>(link.displacement);
+      std::holds_alternative<Distance>(link.displacement) || std::holds_alternative<Mesh>(link.displacement) || belt_of(link.displacement);
   const double reach = std::max({pose.arm_a.norm(), pose.arm_b.norm(), 1e-12});
   const double length = direction_counts ? pose.z.head<2>().norm() : arm;
   return {kShort * length, kShort * (direction_counts ? std::min(1.0, length / reach) : 1.0)};

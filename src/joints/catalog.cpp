@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
+
+#include "joints/belt.h"
 
 namespace pintle {
 namespace {
@@ -38,8 +41,19 @@ constexpr std::array<KeyInfo, 7> kCylinder{{
     {.key = "rod_pressure", .unit = "Pa", .minimum = kAny, .of_time = true, .also_of = kOfStroke, .otherwise = "that of the surroundings", .meaning = "on the piston's side with the rod; it pushes the rod in"},
     {.key = "ambient_pressure", .unit = "Pa", .otherwise = "0: pressures are those over the surroundings'", .meaning = "of the surroundings, where pressures are absolute: 1.01325 bar"},
 }};
-constexpr std::array<KeyInfo, 1> kRackRadius{{
+constexpr std::array<std::string_view, 2> kSides{"left", "right"};
+constexpr std::array<KeyInfo, 5> kBelt{{
+    {.key = "first_radius", .unit = "m", .otherwise = "0: the belt ends in the marker", .meaning = "of the disc about the first marker, up to the middle of the belt"},
+    {.key = "second_radius", .unit = "m", .otherwise = "0: the belt ends in the marker", .meaning = "of the disc about the second marker"},
+    {.key = "first_side", .unit = "", .words = kSides, .otherwise = "left", .meaning = "where the belt leaves the first disc, seen from there towards the second"},
+    {.key = "second_side", .unit = "", .words = kSides, .otherwise = "that of the first disc", .meaning = "where it reaches the second disc, seen in the same way; the other side: crossed"},
+    {.key = "stretch", .unit = "m", .minimum = kAny, .otherwise = "0: taut without load", .meaning = "how much longer than unloaded the run is when assembled: its tension over its stiffness; negative: slack"},
+}};
+constexpr KeyInfo kPressureAngle{.key = "pressure_angle", .unit = "rad", .otherwise = "not stated: no such columns", .meaning = "of the teeth, 20 deg mostly: for the results' radial force, which pushes both apart, and their normal force; neither acts on the bodies"};
+constexpr std::array<KeyInfo, 1> kGear{{kPressureAngle}};
+constexpr std::array<KeyInfo, 2> kRack{{
     {.key = "radius", .unit = "m", .minimum_exclusive = true, .required = true, .meaning = "pitch radius of the pinion (the first body)"},
+    kPressureAngle,
 }};
 
 double value(const Geometry& geometry, const char* key, double otherwise) {
@@ -59,10 +73,29 @@ GeometryFault cylinder_fault(const Geometry& g) {
       return {key, fmt::format("this is below vacuum, which is at {:g} Pa {}", vacuum, ambient > 0 ? "where ambient_pressure makes pressures absolute" : "over the surroundings"), "the other chamber's pressure, if the cylinder is to pull"};
   return {};
 }
+GeometryFault teeth_fault(const Geometry& g) {
+  constexpr double kMost = std::numbers::pi / 4;
+  if (const double angle = value(g, "pressure_angle", 0); angle > kMost) return {"pressure_angle", fmt::format("{:.4g} rad is more than 45 deg", angle), "20 deg, of most gears"};
+  return {};
+}
 JointDisplacement make_mesh(const Geometry& g) {
   return Mesh{value(g, "radius_first", 1), value(g, "radius_second", 1), value(g, "internal", 0) > 0 ? -1.0 : 1.0, 0};
 }
 JointDisplacement make_rack(const Geometry& g) { return RackMesh{value(g, "radius", 1), 1, 0}; }
+
+// A side is the place of its word.
+JointDisplacement make_belt(const Geometry& g) {
+  const double first = value(g, "first_side", 0), second = value(g, "second_side", first);
+  const auto signed_radius = [&g](const char* key, double side) { return value(g, key, 0) * (side > 0 ? -1 : 1); };
+  return function_of({signed_radius("first_radius", first), signed_radius("second_radius", second), 0});
+}
+GeometryFault belt_fault(const Geometry& g) {
+  const double first = value(g, "first_radius", 0), second = value(g, "second_radius", 0);
+  if (first == 0 && second == 0) return {"first_radius", "a belt winds onto one disc at least", "first_radius, or type = \"rope\" between two points"};
+  if (second == 0 && g.contains("second_side")) return {"second_side", "the belt ends in the second marker, which has no sides", "second_radius, or delete it"};
+  if (first == 0 && g.contains("first_side")) return {"first_side", "the belt ends in the first marker, which has no sides", "first_radius, or delete it"};
+  return {};
+}
 
 JointDisplacement make_cam(const Geometry&) { return CamGap{}; }
 
@@ -75,10 +108,12 @@ std::vector<JointTypeInfo>& types() {
       {.word = "slot", .meaning = "a pin (second) in a straight slot (first marker's axis)", .gap = kAcross, .free = kSlideAngle, .keys = {}, .make = make_pose},
       {.word = "rod", .meaning = "a massless rod: keeps two points at a distance", .gap = kAlong, .free = {}, .keys = kLength, .make = make_distance},
       {.word = "rope", .meaning = "a rope: limits the distance of two points to its length", .gap = kAlong, .free = {}, .keys = kLength, .one_sided = true, .make = make_distance},
+      {.word = "belt", .meaning = "a free run of a belt, or a rope on a drum: it winds onto discs about its markers without slip, and pulls only", .gap = kAlong, .free = {}, .keys = kBelt, .one_sided = true, .make = make_belt,
+       .fault = belt_fault},
       {.word = "cylinder", .meaning = "a hydraulic or pneumatic cylinder, pinned at two points: pressure times area pushes or pulls along the line between them", .gap = {}, .free = kStroke, .keys = kCylinder, .has_ends = true, .make = make_stroke,
        .fault = cylinder_fault},
-      {.word = "gear", .meaning = "two gears in mesh, centred on the two markers", .gap = kPitch, .free = {}, .keys = {}, .make = make_mesh},
-      {.word = "rack", .meaning = "a pinion (first) rolling along a rack (second marker's axis)", .gap = kPitch, .free = {}, .keys = kRackRadius, .make = make_rack},
+      {.word = "gear", .meaning = "two gears in mesh, centred on the two markers", .gap = kPitch, .free = {}, .keys = kGear, .make = make_mesh, .fault = teeth_fault},
+      {.word = "rack", .meaning = "a pinion (first) rolling along a rack (second marker's axis)", .gap = kPitch, .free = {}, .keys = kRack, .make = make_rack, .fault = teeth_fault},
       {.word = "cam", .meaning = "a cam (first) and what follows it (second): a roller, a pin or a flat face", .gap = kNormal, .free = {}, .keys = {}, .make = make_cam},
   };
   return all;

@@ -82,7 +82,10 @@ struct LuGreGuide : LuGreLaw {
 };
 // Other formulas of the bearings.
 struct LongFilmLaw : JournalFilmLaw {
-  static LongFilmLaw typical() { return {{0.03, 0.2, 4e-5, 0.05, 2e-6, 5e8, true}}; }
+  static LongFilmLaw typical() { return {{0.03, 0.2, 4e-5, 0.05, 2e-6, 5e8, Flow::kAround}}; }
+};
+struct FiniteFilmLaw : JournalFilmLaw {
+  static FiniteFilmLaw typical() { return {{0.03, 0.06, 4e-5, 0.05, 2e-6, 1e9, Flow::kBoth}}; }
 };
 struct LooseBearingLaw : RollingBearingLaw {
   static LooseBearingLaw typical() { return {{5e9, 10.0 / 9, 300, 2e-5, 0, 1e-6, 0.5, {}}}; }
@@ -143,7 +146,7 @@ class AnyLaw : public testing::Test {
   }
 };
 using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GapContactLaw, GuideContactLaw, HardStops, CushionedStops, BacklashLaw, ClutchLaw,
-                             TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw, LeafSpringLaw, NotchHingeLaw, CrossSpringLaw, PressureLaw, GasPressureLaw, DetentLaw>;
+                             TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw, FiniteFilmLaw, LeafSpringLaw, NotchHingeLaw, CrossSpringLaw, PressureLaw, GasPressureLaw, DetentLaw>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 
 // Across a border that the law declares there is no difference quotient; anywhere else there must be.

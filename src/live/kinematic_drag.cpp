@@ -22,8 +22,9 @@ constexpr double kWorthwhile = 1e-3;   // of a move: how far the point goes
 constexpr int kMostMoves = 24;
 constexpr int kHoldIterations = 30, kCloseIterations = 100;
 
-// Everything that the user states about positions is a place to start from, not one to keep.
+// Everything that the user states about positions is a place to start from, not one to keep. Belts are as long as their way.
 Model free_to_move(Model model) {
+  for (Joint& joint : model.joints) joint.geometry.erase("stretch");
   for (Body& body : model.bodies) {
     body.hold = {false, false, false};
     body.position = Vec2{0, 0};  // stated: all bodies resist alike
@@ -43,7 +44,7 @@ class KinematicDrag::Linkage {
     for (int j = 0; j < n_before; ++j) open_.push_back(is_open(model, system_, j));
     PositionSearch(model, system_, open_).run(q_);
     std::vector<std::string> notes;
-    fix_assembled_values(model, q_, system_, notes);
+    fix_assembled_values(model_, q_, system_, notes);
     for (int j = 0; j < n_before; ++j) open_[j] = system_.joints[j].servo >= 0;  // motors let go
     add_hold();
     measure();

@@ -223,6 +223,7 @@ class PageData {
       if (connector.paint == Paint::kSpring) line = spring_zigzag(connector.teeth);
       connectors.push_back({{"name", connector.name}, {"paint", style_of(connector.paint).name}, {"from", end_of(connector.from)},
                             {"to", end_of(connector.to)}, {"line", std::move(line)}, {"length", connector.length}});
+      if (connector.radii[0] != 0 || connector.radii[1] != 0) connectors.back()["radii"] = connector.radii;
       if (connector.paint != Paint::kBarrel) continue;
       connectors.back()["barrel"] = Connector::kBarrelOfLength * connector.length;
       connectors.back()["half_width"] = Connector::kHalfBarrel * scene_.unit;

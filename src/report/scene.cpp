@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "joints/belt.h"
+#include "joints/catalog.h"
 #include "report/scene_maker.h"
 
 namespace pintle {
@@ -159,10 +161,15 @@ void SceneMaker::add_connectors() {
   for (const Joint& joint : model_.joints) {
     if (joint.type == "rod") connect(joint.name, joint.first, joint.second, Paint::kRod);
     if (joint.type == "rope") connect(joint.name, joint.first, joint.second, Paint::kRope);
-    if (joint.type != "cylinder") continue;
+    const auto belt = belt_of(find_joint_type(joint.type)->make(joint.geometry));
+    const bool cylinder = joint.type == "cylinder";
+    if (!belt && !cylinder) continue;
     const std::size_t before = scene_.connectors.size();
-    connect(joint.name, joint.first, joint.second, Paint::kBarrel);
-    for (std::size_t i = before; i < scene_.connectors.size(); ++i) scene_.connectors[i].length = joint.geometry.at("closed_length");
+    connect(joint.name, joint.first, joint.second, belt ? Paint::kRope : Paint::kBarrel);
+    for (std::size_t i = before; i < scene_.connectors.size(); ++i) {
+      if (belt) scene_.connectors[i].radii = {belt->radius_first, belt->radius_second};
+      else scene_.connectors[i].length = joint.geometry.at("closed_length");
+    }
   }
   for (const Spring& spring : model_.springs) {
     if (!spring.torsion) connect(spring.name, spring.first, spring.second, Paint::kSpring);
@@ -195,7 +202,7 @@ void SceneMaker::add_labels() {
   std::vector<Known> known;
   for (const Joint& joint : model_.joints) {
     const auto at = spot_of(joint);
-    if (!at || joint.type == "rod" || joint.type == "rope") continue;
+    if (!at || joint.type == "rod" || joint.type == "rope" || joint.type == "belt") continue;
     const Known here{place(*at, 0), place(*at, middle)};
     const auto same = std::find_if(known.begin(), known.end(), [&](const Known& other) {
       return distance(here.start, other.start) < scene_.unit && distance(here.middle, other.middle) < scene_.unit;

@@ -47,13 +47,14 @@ struct Shape {
   bool closed = false;
 };
 
-/// Drawn between two anchors that move: a spring as a zigzag, a rod, a rope, a cylinder as a barrel with its rod, a blade as a curve that leaves and reaches them along their axes.
+/// Drawn between two anchors that move: a spring as a zigzag, a rod, a rope, a belt from disc to disc, a cylinder as a barrel with its rod, a blade as a curve that leaves and reaches them along their axes.
 struct Connector {
   std::string name;
   Paint paint = Paint::kSpring;
   Anchor from, to;
   int teeth = 0;      ///< of a spring's zigzag
   double length = 0;  ///< of a blade; between the ends of a cylinder with its rod in [m]
+  std::array<double, 2> radii{0, 0};  ///< of the discs of a belt, positive where it is on their left [m]
   static constexpr double kBarrelOfLength = 0.93, kHalfBarrel = 1.1;  ///< of a cylinder: barrel and rod over that length; half the barrel's width in units
 };
 

@@ -28,6 +28,7 @@ void SceneMaker::sketch_joints() {
     if (!first || !second) continue;
     if (joint.type == "prismatic" || joint.type == "slot") sketch_slider(joint, *first, *second);
     if (joint.type == "rack") sketch_rack(joint, *first, *second);
+    if (joint.type == "belt") sketch_discs(joint, *first, *second);
     if (joint.cam) sketch_cam(joint, *first, *second);
     if (joint.type != "gear") continue;
     const auto radius = [&joint](const char* key) { return joint.geometry.contains(key) ? joint.geometry.at(key) : 0.0; };
@@ -38,6 +39,19 @@ void SceneMaker::sketch_joints() {
     if (second->body != kWorld) sketches_[static_cast<std::size_t>(second->body)].wheels.push_back({second->point, b, internal && b > a});
     else ground_.wheels.push_back({second->point, b, internal && b > a});
   }
+}
+
+// The runs of a belt share their discs.
+void SceneMaker::sketch_discs(const Joint& joint, const Anchor& first, const Anchor& second) {
+  const auto add = [&](const Anchor& at, const char* key) {
+    const auto radius = joint.geometry.find(key);
+    if (radius == joint.geometry.end() || !(radius->second > 0)) return;
+    std::vector<Wheel>& wheels = sketch_of(at.body).wheels;
+    const auto same = [&](const Wheel& wheel) { return wheel.radius == radius->second && wheel.centre == at.point; };
+    if (std::none_of(wheels.begin(), wheels.end(), same)) wheels.push_back({at.point, radius->second, false});
+  };
+  add(first, "first_radius");
+  add(second, "second_radius");
 }
 
 Track SceneMaker::slide_range(const Anchor& guide, const Anchor& block) const {

@@ -76,6 +76,7 @@ class SceneMaker {
   void sketch_joints();
   void sketch_slider(const Joint& joint, const Anchor& first, const Anchor& second);
   void sketch_rack(const Joint& joint, const Anchor& first, const Anchor& second);
+  void sketch_discs(const Joint& joint, const Anchor& first, const Anchor& second);
   void sketch_cam(const Joint& joint, const Anchor& first, const Anchor& second);
   BodySketch& sketch_of(int body) { return body == kWorld ? ground_ : sketches_[static_cast<std::size_t>(body)]; }
   void show(int body, const Track& track);

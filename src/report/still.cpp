@@ -114,7 +114,8 @@ class Drawing {
   void draw_connector(const Connector& connector) {
     if (connector.paint == Paint::kBarrel) return draw_cylinder(connector);
     const Vec2 a = instant_.place(connector.from), b = instant_.place(connector.to), d = b - a;
-    std::vector<Vec2> points{px(a), px(b)};
+    const std::array<Vec2, 2> run = belt_run(a, b, connector.radii);
+    std::vector<Vec2> points{px(run[0]), px(run[1])};
     if (connector.paint == Paint::kSpring) {
       points.clear();
       const Vec2 across = scene_.unit * normal(unit(d));
@@ -237,6 +238,13 @@ Trace make_trace(const Scene& scene, const Trajectory& trajectory, const std::st
   const auto meant = did_you_mean(point, names);
   throw std::invalid_argument(fmt::format("found point \"{}\": no moving body has it.\n    {}", point,
                                           meant ? fmt::format("Did you mean \"{}\"?", *meant) : "Points: " + (list.empty() ? "none" : list) + "."));
+}
+
+std::array<Vec2, 2> belt_run(const Vec2& a, const Vec2& b, const std::array<double, 2>& radii) {
+  const Vec2 d = b - a;
+  const double w = radii[1] - radii[0], far = std::max(length(d), std::abs(w)), t = std::sqrt((far - w) * (far + w));
+  const Vec2 left = far > 0 ? 1 / (far * far) * (t * normal(d) - w * d) : Vec2{0, 0};
+  return {a + radii[0] * left, b + radii[1] * left};
 }
 
 std::vector<Vec2> spring_zigzag(int teeth) {

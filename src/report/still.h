@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <array>
 #include <vector>
 
 #include "report/poses.h"
@@ -37,6 +38,9 @@ struct StillFrame {
 StillFrame frame_for(const Scene& scene, const StillOptions& options);
 
 std::string still_svg(const Scene& scene, const Instant& instant, const StillOptions& options, const std::vector<Trace>& traces = {});
+
+/// Both ends of a belt between discs about `a` and `b`; their radii are positive where it is on their left.
+std::array<Vec2, 2> belt_run(const Vec2& a, const Vec2& b, const std::array<double, 2>& radii);
 
 /// The zigzag of a spring of length 1 along x, from 0 to 1; y is in units.
 std::vector<Vec2> spring_zigzag(int teeth);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "joints/belt.h"
 #include "joints/cam_profile.h"
 
 namespace pintle {
@@ -14,13 +15,21 @@ using S = Planar;
 
 // Couples are told where the joint holds an angle, meshes, or rubs; about the axis of a cam that is its torque.
 bool tells_couple(const JointData& joint) {
-  const bool mesh = std::holds_alternative<Mesh>(joint.displacement) || std::holds_alternative<RackMesh>(joint.displacement);
+  const bool mesh = std::holds_alternative<Mesh>(joint.displacement) || std::holds_alternative<RackMesh>(joint.displacement) || belt_of(joint.displacement);
   return transmits_couple(joint) || mesh || joint.cam || (joint.law.has_friction() && joint.free_mask[2] > 0);
 }
 
 // A coordinate of the relative pose is free to slide; what a gap that is a function leaves free is the law's to tell.
 bool slides(const JointData& joint) { return joint.free_mask[0] > 0 && std::holds_alternative<Selection>(joint.displacement); }
 bool is_stroke(const JointData& joint) { return joint.free_mask[0] > 0 && !slides(joint); }
+
+// Of the teeth of a mesh; 0: not stated.
+double pressure_angle_of(const Model& model, int j) {
+  if (j >= static_cast<int>(model.joints.size())) return 0;
+  const auto& geometry = model.joints[j].geometry;
+  const auto angle = geometry.find("pressure_angle");
+  return angle == geometry.end() ? 0 : angle->second;
+}
 
 bool is_servo(const JointData& joint) { return joint.servo >= 0; }
 
@@ -114,6 +123,14 @@ std::vector<Column> Recorder::columns() const {
       column(p + "length", "m", "length to which joint " + joint.name + " is driven");
       column(p + "drive_power", "W", "power that what drives the length of joint " + joint.name + " delivers");
     }
+    if (belt_of(joint.displacement)) {
+      column(p + "tension", "N", "tension of belt " + joint.name);
+      column(p + "run", "m", "length of its free run");
+    }
+    if (pressure_angle_of(model_, static_cast<int>(j)) > 0) {
+      column(p + "radial_force", "N", "with which the teeth push both apart, by their pressure angle; it is not in the forces on the bodies");
+      column(p + "normal_force", "N", "on the flank of a tooth");
+    }
     if (is_stroke(joint)) column(p + "force", "N", "with which joint " + joint.name + " pushes its ends apart");
     for (LawColumn& law : joint.law.columns()) column(p + law.name, law.unit.c_str(), std::move(law.meaning));
   }
@@ -180,6 +197,15 @@ void Recorder::put_row(const State& state) {
     if (const JointData& joint = system_.joints[j]; joint.driven >= 0) {
       put(target_of(joint, state.t)[0]);
       put(system_.drive_power(joint, state.t, m_, state.force[j]));
+    }
+    if (const auto belt = belt_of(system_.joints[j].displacement)) {
+      put(-state.force[j][0]);
+      put(belt->run(system_.pose(system_.joints[j].at, m_).z));
+    }
+    if (const double angle = pressure_angle_of(model_, j); angle > 0) {
+      const double tangential = std::abs(state.force[j][0]);
+      put(tangential * std::tan(angle));  // theory/joints Eq. (2.19)
+      put(tangential / std::cos(angle));
     }
     if (is_stroke(system_.joints[j])) put(state.force[j][0]);
     system_.joints[j].law.observe(law_point(system_, j, state), state.force[j], values_);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "joints/belt.h"
 #include "pintle/simulate.h"
 #include "start/guess.h"
 #include "start/position_search.h"
@@ -110,6 +111,13 @@ void demand_within_stops(const JointData& joint, double at, const StopBreach& br
                                   breach.upper ? "upper" : "lower", breach.stop / unit, turns ? "deg" : "m", advice));
 }
 
+// A run between discs of which one contains the other, or between crossed ones that overlap, has no length.
+void demand_reach(const JointData& joint, const Belt& belt, const S::Vec& z) {
+  const double apart = std::hypot(z[0], z[1]), least = std::abs(belt.w());
+  if (apart > least) return;
+  throw AssemblyError(fmt::format("joint {}: its discs are {:.4g} m apart, and the belt has no way between them: that takes more than {:.4g} m.\n  Try smaller radii, other sides, or markers further apart.", joint.name, apart, least));
+}
+
 // Bodies that a contact finds deep inside each other are on the wrong side of it: the forces would be those of no machine.
 void demand_apart(const System& system, const Vecs& q) {
   constexpr double kDeep = 1e-2;  // of the mechanism's size
@@ -121,6 +129,7 @@ void demand_apart(const System& system, const Vecs& q) {
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& joint = system.joints[j];
     if (const auto breach = joint.law.breach(r[j].gap)) demand_within_stops(joint, r[j].gap[breach->component], *breach, kDeep * (breach->component == 2 ? 1 : size));
+    if (const auto belt = belt_of(joint.displacement)) demand_reach(joint, *belt, system.pose(joint.at, m).z);
     const double depth = joint.law.penetration(r[j].gap);
     if (depth > kDeep * size)
       throw AssemblyError(fmt::format("joint {}: its bodies start {:.4g} m inside each other.\n  Try the other side of the edge (the first marker's axis turned by 180 deg: it presses along +y), or a start position apart from it.",

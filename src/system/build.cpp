@@ -11,6 +11,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "joints/belt.h"
 #include "joints/cam_profile.h"
 #include "joints/catalog.h"
 #include "laws/catalog.h"
@@ -293,6 +294,11 @@ void settle_joint(const Joint& joint, const RelativePose& pose, JointDisplacemen
     distance->length = std::hypot(pose.z[0], pose.z[1]);
     notes.push_back(fmt::format("joint {}: length {:.9g} m, as assembled", joint.name, distance->length));
   }
+  if (auto belt = belt_of(displacement)) {
+    const auto stretch = joint.geometry.find("stretch");
+    belt->length += (*belt)(pose.z).gap - (stretch == joint.geometry.end() ? 0 : stretch->second);
+    displacement = function_of(*belt);
+  }
   if (auto* mesh = std::get_if<Mesh>(&displacement)) mesh->phase -= (*mesh)(pose.z).gap;
   if (auto* rack = std::get_if<RackMesh>(&displacement)) {
     // The pinion's centre in the rack's axes: minus the rack's place in the pinion's, turned.
@@ -310,7 +316,7 @@ bool is_open(const Model& model, const System& system, int j) {
   const JointData& data = system.joints[j];
   if (data.servo >= 0) return data.keeps_speed;
   return std::holds_alternative<Mesh>(data.displacement) || std::holds_alternative<RackMesh>(data.displacement) ||
-         (std::holds_alternative<Distance>(data.displacement) && is_measured(model.joints[j]));
+         belt_of(data.displacement) || (std::holds_alternative<Distance>(data.displacement) && is_measured(model.joints[j]));
 }
 
 void unwind(const Vecs& q, System& system) {

@@ -26,6 +26,7 @@ Model model_of(const std::string& type) {
     model.joints[0].stops = {"hard", {{"stop_stiffness", {1e6}}}};
   }
   if (type == "rack") model.joints[0].geometry = {{"radius", 0.3}};
+  if (type == "belt") model.joints[0].geometry = {{"first_radius", 0.1}, {"second_radius", 0.3}, {"second_side", 1}};
   return model;
 }
 

@@ -73,9 +73,17 @@ void read_faulty_joint(ModelReading& reading, const Entry& entry, const std::str
   read_between(reading, record, "joint", first, second);
 }
 
+// As a law or a joint type takes it: numbers, or the place of a word among the key's.
+std::vector<double> numbers_of(const KeyInfo& key, const Value& value) {
+  if (key.words.empty()) return value.numbers;
+  return {static_cast<double>(std::find(key.words.begin(), key.words.end(), value.words.front()) - key.words.begin())};
+}
+
 void read_geometry(const JointTypeInfo& type, const Record& record, Joint& joint) {
   for (const KeyInfo& key : type.keys) {
-    if (const auto number = record.maybe_number(key.key)) joint.geometry[std::string(key.key)] = *number;
+    if (!key.words.empty()) {
+      if (record.states(key.key)) joint.geometry[std::string(key.key)] = numbers_of(key, *record.find(key.key)).front();
+    } else if (const auto number = record.maybe_number(key.key)) joint.geometry[std::string(key.key)] = *number;
     else if (key.of_time && record.states(key.key)) joint.functions[std::string(key.key)] = record.expression(key.key);
   }
   if (type.word != "gear") return;
@@ -166,12 +174,6 @@ bool take_points(ModelReading& reading, const KeyInfo& key, const LawInfo& law, 
     choice.values[std::string(info->key)] = *points[i];
   }
   return true;
-}
-
-// As a law takes it: numbers, or the place of a word among the key's.
-std::vector<double> numbers_of(const KeyInfo& key, const Value& value) {
-  if (key.words.empty()) return value.numbers;
-  return {static_cast<double>(std::find(key.words.begin(), key.words.end(), value.words.front()) - key.words.begin())};
 }
 
 // `stated_joint` is the joint's table: a key in it that has no value was complained about.

@@ -117,13 +117,13 @@ void make_rolling(const LawSetting& at, Law& law) {
   law.add(std::make_unique<LawPartOf<RollingBearingLaw>>(bearing));
 }
 
-constexpr std::array<std::string_view, 3> kFilmWords{"linear", "short", "long"};
+constexpr std::array<std::string_view, 4> kFilmWords{"linear", "short", "long", "finite"};
 constexpr std::array<KeyInfo, 9> kJournalKeys{{
-    {.key = "film", .unit = "", .words = kFilmWords, .meaning = "a spring and a damper; or an oil film that cavitates, of a short or a long bearing"},
+    {.key = "film", .unit = "", .words = kFilmWords, .meaning = "a spring and a damper; or an oil film that cavitates, of a short bearing, a long one, or one of finite length"},
     {.key = "stiffness", .unit = "N/m", .fallback = 5e7, .minimum_exclusive = true, .meaning = "radial, with film = \"linear\"; 1e7 to 10e7 N/m"},
     {.key = "damping", .unit = "N*s/m", .fallback = 3e5, .meaning = "radial, with film = \"linear\"; 1e5 to 5e5 N*s/m"},
     {.key = "journal_radius", .unit = "m", .meaning = "of a film: radius of the pin"},
-    {.key = "bearing_length", .unit = "m", .meaning = "of a film: along the axis; short up to about half the diameter, long from twice the diameter on"},
+    {.key = "bearing_length", .unit = "m", .meaning = "of a film: along the axis; a finite film suits any, a short one up to a quarter of the diameter, a long one sealed ends"},
     {.key = "radial_clearance", .unit = "m", .meaning = "of a film: radius of the bush less that of the pin"},
     {.key = "viscosity", .unit = "N*s/m^2", .meaning = "of a film: dynamic viscosity of the oil, 0.1 for 100 cP"},
     {.key = "roughness", .unit = "m", .fallback = 1e-6, .minimum_exclusive = true, .meaning = "of a film: its least thickness, at which the surfaces touch"},
@@ -135,7 +135,7 @@ LawFault journal_fault(const LawSetting& at) {
   constexpr std::array<std::array<const char*, 2>, 4> kNeeded{{{"journal_radius", "\"20 mm\""}, {"bearing_length", "\"20 mm\""}, {"radial_clearance", "\"30 um\""}, {"viscosity", "\"0.03 N*s/m^2\""}}};
   for (const auto& [key, example] : kNeeded) {
     if (film && at.number(key) == 0) return {key, fmt::format("an oil film needs its {}, greater than 0", key), fmt::format("{} = {}", key, example)};
-    if (!film && at.number(key) > 0) return {key, "a spring and a damper have no film", "film = \"short\", or delete it"};
+    if (!film && at.number(key) > 0) return {key, "a spring and a damper have no film", "film = \"finite\", or delete it"};
   }
   if (film && at.number("radial_clearance") >= 0.1 * at.number("journal_radius"))
     return {"radial_clearance", "the film is thin against the radius in this theory", "about a thousandth of the radius"};
@@ -149,8 +149,10 @@ void make_journal(const LawSetting& at, Law& law) {
     law.set_linear({{at.number("stiffness"), at.number("stiffness"), 0}, {at.number("damping"), at.number("damping"), 0}});
     return;
   }
+  using Flow = JournalFilmLaw::Flow;
+  constexpr std::array<Flow, 3> kFlows{Flow::kAxial, Flow::kAround, Flow::kBoth};  // of the words behind "linear"
   law.add(std::make_unique<LawPartOf<JournalFilmLaw>>(JournalFilmLaw{at.number("journal_radius"), at.number("bearing_length"), at.number("radial_clearance"), at.number("viscosity"),
-                                                                     at.number("roughness"), at.number("contact_stiffness"), at.number("film") == 2}));
+                                                                     at.number("roughness"), at.number("contact_stiffness"), kFlows.at(static_cast<std::size_t>(at.number("film")) - 1)}));
 }
 
 constexpr std::array<std::string_view, 2> kTablePoints{"displacement", "force"};

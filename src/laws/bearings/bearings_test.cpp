@@ -192,7 +192,7 @@ TEST(JournalBearing, HalfFilmsMakeAWholeOne) {
 
 // Only relative motion matters: where the bush carries F and where the pin does, with any common turning.
 TEST(JournalBearing, DoesNotCareWhichBodyIsThePin) {
-  for (const double film : {1.0, 2.0}) {
+  for (const double film : {1.0, 2.0, 3.0}) {
     const Law bearing = made("journal-bearing", oil(film));
     const Eigen::Vector2d e(1.3e-5, -2.1e-5), v(0.002, 0.001);  // of the pin, in axes that turn with the bush at wb
     const double wb = 40, wp = 150;

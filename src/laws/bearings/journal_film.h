@@ -1,10 +1,12 @@
 // A journal bearing with an oil film that is thin against its radius and cavitates (Reynolds equation, half film after Gümbel): short, after
-// G. B. DuBois and F. W. Ocvirk (NACA Report 1157, 1953), or long, after Sommerfeld. Both for any motion, by the one velocity that squeezes the
-// film (J. F. Booker, Dynamically loaded journal bearings: mobility method of solution, J. Basic Engineering 87 (1965) 537-546):
+// G. B. DuBois and F. W. Ocvirk (NACA Report 1157, 1953), long, after Sommerfeld, or of finite length, between both after P. C. Warner (J. Basic
+// Engineering 85 (1963) 247-255). All for any motion, by the one velocity that squeezes the film (J. F. Booker, Dynamically loaded journal
+// bearings: mobility method of solution, J. Basic Engineering 87 (1965) 537-546):
 //
 //   u = e' - (w/2) z x e,      h = c - e.n                                        theory/bearings Eqs. (3.1), (3.2)
 //   F = -mu R L^3 int (u.n) n / h^3   over the half u.n > 0   (short)              Eq. (3.3)
-//   M = -2 pi mu w R^3 L / sqrt(c^2 - e^2) - (e x F)/2                             Eq. (3.7)
+//   F_i = F_i,long G(3 F_i,short / F_i,long),  G(x) = 1 - tanh(sqrt x)/sqrt x   (finite)   Eq. (3.6)
+//   M = -2 pi mu w R^3 L / sqrt(c^2 - e^2) - (e x F)/2                             Eq. (3.9)
 //
 // F and M act on the second body, e is its place and w its spin against the first: either may carry the pin. Where the film would be
 // thinner than the roughness it stays as thick as that, and the surfaces touch: a spring takes over.
@@ -29,7 +31,8 @@ struct JournalFilmLaw {
   double viscosity = 0.03;         // mu, dynamic [Pa*s]
   double roughness = 1e-6;         // 0 < roughness < clearance: the thinnest film [m]
   double contact_stiffness = 1e9;  // of the surfaces where they touch [N/m]
-  bool long_film = false;          // no flow along the axis; else none around it
+  enum class Flow { kAxial, kAround, kBoth };
+  Flow flow = Flow::kAxial;        // of the oil: along the axis (short), around the pin (long), or both ways
 
   static JournalFilmLaw typical() { return {}; }
 
@@ -38,7 +41,7 @@ struct JournalFilmLaw {
     using namespace law_math;
     const Film<T> film = film_at(in);
     const T touch = film.r - T(clearance - roughness), depth = where_positive(touch, touch, T(0.0));
-    const T push = where_positive(touch, divide(contact_stiffness * depth, film.r), T(0.0));               // (3.8)
+    const T push = where_positive(touch, divide(contact_stiffness * depth, film.r), T(0.0));               // (3.10)
     for (int k = 0; k < 2; ++k) out.force[k] = film.force[k] - push * in.gap[k];
     out.force[2] = film.moment;
     out.energy = 0.5 * contact_stiffness * (depth * depth);
@@ -63,7 +66,7 @@ struct JournalFilmLaw {
     const double turns = std::abs(in.rate[2]) / (2 * std::numbers::pi), load = std::hypot(force[0], force[1]), slender = radius / clearance;
     value[0] = film.r / clearance;
     value[1] = clearance - film.r;
-    value[2] = load > 0 ? viscosity * turns * 2 * radius * length / load * slender * slender : 0;          // (3.6)
+    value[2] = load > 0 ? viscosity * turns * 2 * radius * length / load * slender * slender : 0;          // (3.8)
     value[3] = film.loss;
   }
 
@@ -95,8 +98,8 @@ struct JournalFilmLaw {
     at.D = sqrt((T(clearance) - e) * (T(clearance) + e));
     half_film(at, film.force);
     const T drag = (2 * std::numbers::pi * viscosity * radius * radius * radius * length) * divide(w, at.D);
-    film.moment = -drag - 0.5 * (at.e[0] * film.force[1] - at.e[1] * film.force[0]);                       // (3.7)
-    film.loss = drag * w - (film.force[0] * at.u[0] + film.force[1] * at.u[1]);                            // (3.9)
+    film.moment = -drag - 0.5 * (at.e[0] * film.force[1] - at.e[1] * film.force[0]);                       // (3.9)
+    film.loss = drag * w - (film.force[0] * at.u[0] + film.force[1] * at.u[1]);                            // (3.11)
     return film;
   }
 
@@ -106,46 +109,66 @@ struct JournalFilmLaw {
     using namespace law_math;
     const T along[2] = {where_positive(at.speed, divide(at.u[0], at.speed), T(1.0)), where_positive(at.speed, divide(at.u[1], at.speed), T(0.0))};
     T squeezed[2], whole[2];
-    (long_film ? long_film_resistance(at, along, squeezed) : short_film_resistance(at, along, squeezed));
+    resistance(integrals(at, along), squeezed);
     whole_film(at, whole);
     force[0] = where_positive(at.speed, -(at.speed * (squeezed[0] * along[0] - squeezed[1] * along[1])), -0.5 * whole[0]);
     force[1] = where_positive(at.speed, -(at.speed * (squeezed[0] * along[1] + squeezed[1] * along[0])), -0.5 * whole[1]);
   }
 
-  // Integrals of cos^a sin^b / h^3 over the half circle about `along`, theory/bearings Eq. (3.4).
+  double short_size() const { return viscosity * radius * length * length * length; }
+  double long_size() const { return 12 * viscosity * radius * radius * radius * length; }
+
+  // Integrals of cos^a sin^b / h^3 over the half circle about `along`, theory/bearings Eq. (3.4); those with an odd power of the sine over B, the
+  // part of the eccentricity across `along`, with which they vanish.
   template <class T>
   struct Integrals {
     T one, c, s, cc, sc, ss;
+    T B;
   };
 
+  // Along and across the velocity.
   template <class T>
-  void short_film_resistance(const Squeeze<T>& at, const T (&along)[2], T (&resisted)[2]) const {
-    const Integrals<T> I = integrals(at, along);
-    const double size = viscosity * radius * length * length * length;
-    resisted[0] = size * I.cc;                                                                             // (3.3)
-    resisted[1] = size * I.sc;
-  }
-  template <class T>
-  void long_film_resistance(const Squeeze<T>& at, const T (&along)[2], T (&resisted)[2]) const {
-    const Integrals<T> I = integrals(at, along);
-    const double size = 12 * viscosity * radius * radius * radius * length;
-    resisted[0] = size * (I.ss - law_math::divide(I.s * I.s, I.one));                                      // (3.5)
-    resisted[1] = size * (law_math::divide(I.s * I.c, I.one) - I.sc);
+  void resistance(const Integrals<T>& I, T (&resisted)[2]) const {
+    using namespace law_math;
+    const T shorts[2] = {short_size() * I.cc, short_size() * I.sc};                                        // (3.3), over B across
+    const T along = I.ss - divide(I.B * I.B * (I.s * I.s), I.one), across = divide(I.s * I.c, I.one) - I.sc;
+    const T longs[2] = {long_size() * along, long_size() * across};                                        // (3.5), likewise
+    for (int k = 0; k < 2; ++k) resisted[k] = flow == Flow::kAxial ? shorts[k] : flow == Flow::kAround ? longs[k] : between(shorts[k], longs[k]);
+    resisted[1] = resisted[1] * I.B;
   }
   // A film that does not cavitate, against u.
   template <class T>
   void whole_film(const Squeeze<T>& at, T (&resisted)[2]) const {
     using namespace law_math;
-    const T D3 = at.D * at.D * at.D, eu = at.e[0] * at.u[0] + at.e[1] * at.u[1];
-    const T e2 = at.e[0] * at.e[0] + at.e[1] * at.e[1];
-    const T around = T(2 * clearance * clearance) + e2;
-    const double size = std::numbers::pi * viscosity * radius * length * (long_film ? 12 * radius * radius : length * length);
-    const T straight = long_film ? divide(T(2.0), at.D * around) : divide(T(1.0), D3);
-    const T towards = long_film ? divide(T(3.0), D3 * around) : divide(T(3.0), D3 * at.D * at.D);
-    for (int k = 0; k < 2; ++k) resisted[k] = size * (straight * at.u[k] + (towards * eu) * at.e[k]);       // (3.10)
+    const T D2 = at.D * at.D, D3 = D2 * at.D, eu = at.e[0] * at.u[0] + at.e[1] * at.u[1], e2 = at.e[0] * at.e[0] + at.e[1] * at.e[1];
+    const double thin = std::numbers::pi * short_size(), thick = std::numbers::pi * long_size();
+    const T across_short = divide(T(thin), D3), across_long = divide(T(2 * thick), at.D * (T(2 * clearance * clearance) + e2));   // (3.12)
+    const T along_short = across_short + divide(3 * (thin * e2), D3 * D2), along_long = divide(T(thick), D3);
+    const auto of = [this](const T& a, const T& b) { return flow == Flow::kAxial ? a : flow == Flow::kAround ? b : between(a, b); };
+    const T across = of(across_short, across_long), more = of(along_short, along_long) - across, off = e2 - T(kCentred * clearance * clearance);
+    const T towards = where_positive(off, divide(more, e2), T(0.0));
+    for (int k = 0; k < 2; ++k) resisted[k] = across * at.u[k] + (towards * eu) * at.e[k];
+  }
+  static constexpr double kCentred = 1e-24;  // of clearance squared: no direction to the pin, and the same resistance in all
+
+  // Between the force of a short film and that of a long one.
+  template <class T>
+  static T between(const T& shorter, const T& longer) {
+    return longer * law_math::through(3 * law_math::divide(shorter, longer), leakage, leakage_slope);      // (3.6)
+  }
+  // G(x) = 1 - tanh(k)/k of x = k^2 > 0, and its derivative; for small x by Lambert's continued fraction of tanh, in which nothing cancels.
+  static double leakage(double x) {
+    if (x > 1) return 1 - std::tanh(std::sqrt(x)) / std::sqrt(x);
+    double rest = 0;
+    for (int odd = 19; odd > 1; odd -= 2) rest = x / (odd + rest);
+    return rest / (1 + rest);
+  }
+  static double leakage_slope(double x) {
+    const double G = leakage(x);
+    return (x * (1 - G) * (1 - G) - G) / (2 * x);
   }
 
-  // By t = tan(psi/2), with which h (1 + t^2) = Q = A t^2 - 2 B t + C: N_k of t^k / Q^3 from -1 to 1. theory/bearings Eq. (3.11)
+  // By t = tan(psi/2), with which h (1 + t^2) = Q = A t^2 - 2 B t + C: N_k of t^k / Q^3 from -1 to 1. theory/bearings Eq. (3.13)
   template <class T>
   Integrals<T> integrals(const Squeeze<T>& at, const T (&along)[2]) const {
     using namespace law_math;
@@ -154,25 +177,23 @@ struct JournalFilmLaw {
     moments(at.D, forward, B, towards);
     moments_away(at.D, -forward, B, away);
     for (int k = 0; k < 5; ++k) N[k] = where_positive(-forward - at.D, away[k], towards[k]);
-    return {2 * (N[0] + 2 * N[2] + N[4]), 2 * (N[0] - N[4]), 4 * (N[1] + N[3]), 2 * (N[0] - 2 * N[2] + N[4]), 4 * (N[1] - N[3]), 8 * N[2]};
+    return {2 * (N[0] + 2 * N[2] + N[4]), 2 * (N[0] - N[4]), 4 * (N[1] + N[3]), 2 * (N[0] - 2 * N[2] + N[4]), 4 * (N[1] - N[3]), 8 * N[2], B};
   }
-  // Reduced to the integrals I_k of t^k / Q^2 and J of 1/Q.
+  // Reduced to the integrals I_k of t^k / Q^2 and J of 1/Q. N_1, N_3 and I_1 are over B.
   template <class T>
   void moments(const T& D, const T& forward, const T& B, T (&N)[5]) const {
     using namespace law_math;
     const T c(clearance), A = c + forward, C = c - forward, J = divide(atan2(D, -forward), D), W = D * D + forward * forward;
-    const T p = divide(c + B, 2 * W), m = divide(c - B, 2 * W), p2 = p * p, m2 = m * m;  // 1/Q at t = 1 and -1
+    const T each = divide(T(1.0), W), ends = clearance * (forward * each), B2 = B * B;
     const T half = divide(T(0.5), D * D), quarter = 0.5 * half;
-    const T I0 = half * ((A - B) * p + (A + B) * m + A * J);
-    const T I1 = half * ((B - C) * p + (B + C) * m + B * J);
-    const T I2 = half * ((B - C) * p - (B + C) * m + C * J);
-    N[0] = quarter * ((A - B) * p2 + (A + B) * m2 + 3 * (A * I0));
-    N[1] = quarter * ((B - C) * p2 + (B + C) * m2 + 3 * (B * I0));
-    N[2] = quarter * ((B - C) * p2 - (B + C) * m2 + 2 * (B * I1) + C * I0);
-    N[3] = quarter * ((A - B) * p2 - (A + B) * m2 + 3 * (B * I2));
-    N[4] = quarter * ((B - C) * p2 - (B + C) * m2 + 3 * (C * I2));
+    const T I0 = half * (T(1.0) + ends + A * J), I1 = half * (forward * each + J), I2 = half * (ends - T(1.0) + C * J);
+    N[0] = quarter * (each * (clearance * ends + 0.5 * C) + 3 * (A * I0));
+    N[1] = quarter * (each * (ends - T(0.5)) + 3 * I0);
+    N[2] = quarter * (each * (clearance * ends - 0.5 * A) + 2 * (B2 * I1) + C * I0);
+    N[3] = quarter * (each * (ends + T(0.5)) + 3 * I2);
+    N[4] = quarter * (each * (clearance * ends - 0.5 * A) + 3 * (C * I2));
   }
-  // The same where the pin moves out of its eccentricity, E = -forward > 0: what cancels for small D is taken out. Eq. (3.12)
+  // The same where the pin moves out of its eccentricity, E = -forward > 0: what cancels for small D is taken out. Eq. (3.14)
   template <class T>
   void moments_away(const T& D, const T& E, const T& B, T (&N)[5]) const {
     using namespace law_math;
@@ -180,9 +201,9 @@ struct JournalFilmLaw {
     const T inverse = divide(one, W * W), tilted = divide((W + E2) * inverse, E3);
     const T bent = divide(through(divide(D2, E2), arc_rest, arc_rest_slope), E3 * E2);
     N[0] = 0.25 * (E * inverse + A * (2 * inverse + A * (tilted + 1.5 * bent)));
-    N[1] = 0.25 * (B * (inverse + A * (tilted + 1.5 * bent)));
+    N[1] = 0.25 * (inverse + A * (tilted + 1.5 * bent));
     N[2] = 0.25 * (B2 * tilted + divide(one, 3 * E3) + bent * (1.5 * B2 + 0.5 * D2));
-    N[3] = 0.25 * (B * (C * (tilted + 1.5 * bent) - inverse));
+    N[3] = 0.25 * (C * (tilted + 1.5 * bent) - inverse);
     N[4] = 0.25 * (C * (A * tilted + 1.5 * (C * bent) + divide(T(2.0), E2 * W)) + E * inverse);
   }
   // (atan(x)/x - 1/(1 + z) - 2 z/3) / z^2 of z = x^2, and its derivative; by the power series where that would cancel.

@@ -187,7 +187,7 @@ class Stage {
 
   drawConnector(g, connector, poses) {
     const pixel = this.enter(g, poses[0]), style = run.paints.styles[connector.paint];
-    const a = this.placeOf(connector.from, poses), b = this.placeOf(connector.to, poses);
+    const [a, b] = this.runOf(this.placeOf(connector.from, poses), this.placeOf(connector.to, poses), connector.radii);
     const dx = b[0] - a[0], dy = b[1] - a[1], l = Math.hypot(dx, dy) || 1, u = run.scene.unit;
     g.strokeStyle = this.shade(style.line[+dark.matches], -1);
     g.lineWidth = style.width * pixel;
@@ -199,6 +199,14 @@ class Stage {
     if (connector.length > 0) this.traceBlade(g, a, b, connector, poses);
     else for (const [along, across] of connector.line) g.lineTo(a[0] + along * dx - (across * u * dy) / l, a[1] + along * dy + (across * u * dx) / l);
     g.stroke();
+  }
+
+  /** From disc to disc where a belt has them; a radius is positive where the belt is on the left of its disc. */
+  runOf(a, b, radii) {
+    if (!radii) return [a, b];
+    const [r, s] = radii, dx = b[0] - a[0], dy = b[1] - a[1], w = s - r, far = Math.max(Math.hypot(dx, dy), Math.abs(w)), t = Math.sqrt((far - w) * (far + w));
+    const x = (-t * dy - w * dx) / (far * far), y = (t * dx - w * dy) / (far * far);
+    return [[a[0] + r * x, a[1] + r * y], [b[0] + s * x, b[1] + s * y]];
   }
 
   /** The barrel from its point on, and the rod with its piston, as long as the barrel, from the other one back. */

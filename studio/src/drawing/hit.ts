@@ -76,7 +76,7 @@ function hitConnector(model: Model, at: Point, reach: number, poses?: Poses): Hi
     if (met) return { thing: { kind: spring.torsion ? "torsion_spring" : "spring", name: spring.name }, end: null, body: null };
   }
   for (const joint of model.joints) {
-    if (["rod", "rope", "cylinder"].includes(joint.type) && near(joint.first, joint.second)) return { thing: { kind: "joint", name: joint.name }, end: null, body: null };
+    if (["rod", "rope", "belt", "cylinder"].includes(joint.type) && near(joint.first, joint.second)) return { thing: { kind: "joint", name: joint.name }, end: null, body: null };
   }
   return null;
 }

@@ -79,6 +79,7 @@ function gearsOf(model: Model): GearLook[] {
       add(joint.first, joint.radii?.[0], joint.internal && (joint.radii?.[0] ?? 0) > (joint.radii?.[1] ?? 0));
       add(joint.second, joint.radii?.[1], joint.internal && (joint.radii?.[1] ?? 0) > (joint.radii?.[0] ?? 0));
     } else if (joint.type === "rack") add(joint.first, joint.radius);
+    else if (joint.type === "belt") [joint.first, joint.second].forEach((end, i) => add(end, Math.abs(joint.discs[i] ?? 0)));
   }
   return gears;
 }

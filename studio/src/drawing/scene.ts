@@ -6,7 +6,7 @@ import type { Thing } from "../model/operations";
 import type { Camera } from "./camera";
 import { type BodyLook, type Looks, guideEnds } from "./looks";
 import { ForceArrows, drawLoads } from "./loads";
-import { BAR, PIN, bend, centreMark, circle, coil, cylinder, dashpot, groundGuide, polyline, rackTeeth, rectangle, slot, support, teeth, zigzag } from "./symbols";
+import { BAR, PIN, beltRun, bend, centreMark, circle, coil, cylinder, dashpot, groundGuide, polyline, rackTeeth, rectangle, slot, support, teeth, zigzag } from "./symbols";
 import { group, make, path, put } from "./svg";
 
 /** One instant: where bodies are, and what joints carry (fx, fy, moment on the second body, in the order of the model). */
@@ -208,7 +208,7 @@ export class Scene {
   }
 
   private drawJoint(model: Model, joint: Joint): void {
-    if (joint.type === "rod" || joint.type === "rope") return this.drawTie(model, joint);
+    if (joint.type === "rod" || joint.type === "rope" || joint.type === "belt") return this.drawTie(model, joint);
     if (joint.closedLength !== null) return this.drawCylinder(model, joint, joint.closedLength * this.scale);
     if (joint.type === "gear" || joint.type === "rack" || joint.type === "cam") return;
     for (const blade of joint.blades) this.drawBlade(model, joint, blade);
@@ -243,11 +243,11 @@ export class Scene {
   }
 
   private drawTie(model: Model, joint: Joint): void {
-    const line = path("", joint.type === "rope" ? "tie rope" : "tie rod", this.layers.links);
+    const line = path("", joint.type === "rod" ? "tie rod" : "tie rope", this.layers.links);
     this.register("joint", joint.name, line);
     const [a, b] = [joint.first, joint.second].map((end) => ({ body: end.body, at: markerOf(model, end)?.at ?? ([0, 0] as Point) }));
     if (!a || !b) return;
-    this.onFrame((frame) => line.setAttribute("d", polyline([this.at(frame, a.body, a.at), this.at(frame, b.body, b.at)])));
+    this.onFrame((frame) => line.setAttribute("d", polyline(beltRun(this.at(frame, a.body, a.at), this.at(frame, b.body, b.at), joint.discs.map((radius) => -radius * this.scale)))));
     for (const end of [a, b]) this.follow(path(circle(0, 0, PIN - 1), "pin", this.layers.pins), end.body, end.at, 0, false);
   }
 
@@ -317,7 +317,7 @@ export class Scene {
     for (const joint of model.joints) {
       const end = joint.second.body === GROUND ? joint.first : joint.second;
       const marker = markerOf(model, end);
-      if (!marker || ["gear", "rack", "rod", "rope"].includes(joint.type)) continue;
+      if (!marker || ["gear", "rack", "rod", "rope", "belt"].includes(joint.type)) continue;
       const word = make("text", { class: "label", dx: 10, dy: -10 }, this.layers.labels);
       word.textContent = joint.name;
       const key = `${end.body}.${end.marker}`;

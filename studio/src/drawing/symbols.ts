@@ -70,6 +70,16 @@ export function cylinder(length: number, closed: number): { barrel: string; rod:
   return { barrel: `M0 -9H${f(long)}V9H0Z`, rod: `M${f(piston)} 0H${f(length)}M${f(piston)} -9V9` };
 }
 
+/** Both ends of a belt between discs about two points; a radius is positive where the belt, seen from the first, is turned +90 degrees from the middle. */
+export function beltRun([x, y]: Point, [u, v]: Point, [first = 0, second = 0]: readonly number[]): [Point, Point] {
+  const w = second - first;
+  const far = Math.max(Math.hypot(u - x, v - y), Math.abs(w));
+  if (far === 0) return [[x, y], [u, v]];
+  const t = Math.sqrt((far - w) * (far + w));
+  const [a, b] = [(-t * (v - y) - w * (u - x)) / far ** 2, (t * (u - x) - w * (v - y)) / far ** 2];
+  return [[x + first * a, y + first * b], [u + second * a, v + second * b]];
+}
+
 /** A blade from one point to another, in these directions there (y up), with handles of this length. */
 export function bend([x, y]: Point, leaves: number, [u, v]: Point, arrives: number, handle: number): string {
   const c = [x + handle * Math.cos(leaves), y - handle * Math.sin(leaves), u - handle * Math.cos(arrives), v + handle * Math.sin(arrives)];

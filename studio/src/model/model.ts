@@ -43,6 +43,8 @@ export interface Joint {
   /** Numbers of the joint's own: radii, radius, length. */
   radii: [number, number] | null;
   radius: number | null;
+  /** Radii of a belt's discs, positive where it is on their left; 0 where it ends in the marker. */
+  discs: [number, number];
   internal: boolean;
   /** Between the ends of a cylinder with its rod in; null for other types. */
   closedLength: number | null;
@@ -244,11 +246,19 @@ function readJoint(name: string, table: TableNode, number: Reading, parameters: 
     law: textOf(table.entries.get("law")) ?? "linear",
     radii: point(table.entries.get("radii"), number) as [number, number] | null,
     radius: number(table.entries.get("radius")),
+    discs: textOf(table.entries.get("type")) === "belt" ? readDiscs(table, number) : [0, 0],
     internal: textOf(table.entries.get("mesh")) === "internal",
     closedLength: textOf(table.entries.get("type")) === "cylinder" ? (number(table.entries.get("closed_length")) ?? 0) : null,
     blades: readBlades(table, number),
     cam: textOf(table.entries.get("type")) === "cam" ? readCam(table, number, parameters) : null,
   };
+}
+
+// Of a belt: positive where it is on the left of the disc.
+function readDiscs(table: TableNode, number: Reading): [number, number] {
+  const [first, second] = ["first", "second"].map((end) => ({ radius: number(table.entries.get(`${end}_radius`)) ?? 0, side: textOf(table.entries.get(`${end}_side`)) }));
+  const signed = (radius: number, side: string | null | undefined) => (side === "right" ? -radius : radius);
+  return [signed(first?.radius ?? 0, first?.side), signed(second?.radius ?? 0, second?.side ?? first?.side)];
 }
 
 function readBlades(table: TableNode, number: Reading): Blade[] {

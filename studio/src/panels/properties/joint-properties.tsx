@@ -13,7 +13,7 @@ import { type Field, fieldsOf, labelOf, useCatalog, useSchema } from "./form";
 import { Icon } from "../icons";
 
 const TYPE_WORDS: Record<string, string> = {
-  revolute: "pin", prismatic: "slider", fixed: "weld", slot: "pin in a slot", rod: "massless rod", rope: "rope", cylinder: "hydraulic or pneumatic cylinder", gear: "gear mesh", rack: "rack and pinion", cam: "cam and follower",
+  revolute: "pin", prismatic: "slider", fixed: "weld", slot: "pin in a slot", rod: "massless rod", rope: "rope", belt: "run of a belt", cylinder: "hydraulic or pneumatic cylinder", gear: "gear mesh", rack: "rack and pinion", cam: "cam and follower",
 };
 
 export function JointProperties({ name }: { name: string }) {
@@ -33,7 +33,8 @@ export function JointProperties({ name }: { name: string }) {
       {type && type.geometry.length > 0 && (
         <section>
           <h3>Geometry</h3>
-          {joint.type === "gear" ? <Pair label="Pitch radii" unit="m" path={["joint", name, "radii"]} names={["first", "second"]} /> : <Keys keys={type.geometry} path={["joint", name]} />}
+          {joint.type === "gear" && <Pair label="Pitch radii" unit="m" path={["joint", name, "radii"]} names={["first", "second"]} />}
+          <Keys keys={type.geometry} path={["joint", name]} />
           {joint.type === "gear" && <Mesh name={name} />}
         </section>
       )}

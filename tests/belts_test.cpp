@@ -1,0 +1,153 @@
+// Belts and ropes on drums in whole runs, against closed forms.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "pintle/check.h"
+#include "tests/reference_tables.h"
+
+namespace pintle {
+namespace {
+
+using reference::at_end;
+using reference::completed;
+using reference::mechanism;
+using reference::value;
+
+constexpr double kG = 9.80665, kPi = std::numbers::pi;
+
+TEST(Belts, AtwoodsMachineFallsAsItsInertiaSays) {
+  const Trajectory run = completed(mechanism("atwood"));
+  const double m1 = 8, m2 = 13, r = 0.1, a = (m2 - m1) * kG / (m1 + m2 + 0.115 / (r * r));
+  for (std::size_t i = 0; i < run.n_rows(); ++i) {
+    const double t = run.at(i, 0);
+    EXPECT_NEAR(value(run, i, "joint.left.tension"), m1 * (kG + a), 1e-8) << t;
+    EXPECT_NEAR(value(run, i, "joint.right.tension"), m2 * (kG - a), 1e-8) << t;
+    const auto since = [&run, i](const char* column) { return value(run, i, column) - value(run, 0, column); };  // the start stretches axle and rope
+    EXPECT_NEAR(since("body.heavy.y"), -0.5 * a * t * t, 1e-9) << t;
+    EXPECT_NEAR(since("body.pulley.angle"), -0.5 * a * t * t / r, 1e-8) << t;
+    EXPECT_NEAR(since("joint.left.run"), -0.5 * a * t * t, 1e-9) << t;
+  }
+}
+
+// The couple of both runs on a pulley is its radius times the difference of their tensions; angles go as the radii.
+TEST(Belts, ADriveCarriesItsMomentByTheDifferenceOfItsRuns) {
+  const Trajectory run = completed(mechanism("belt_drive"));
+  const std::size_t last = run.n_rows() - 1;
+  const double difference = at_end(run, "joint.upper.tension") - at_end(run, "joint.lower.tension"), sum = at_end(run, "joint.upper.tension") + at_end(run, "joint.lower.tension");
+  EXPECT_NEAR(at_end(run, "body.shaft.spin"), 100, 0.01);  // where the lines of motor and fan meet; the run has 2e-4 of its way left
+  EXPECT_NEAR(at_end(run, "body.fan.spin") / at_end(run, "body.shaft.spin"), 1.0 / 3, 1e-6);
+  EXPECT_NEAR(0.15 * difference, -at_end(run, "motor.air.effort"), 1e-2);
+  EXPECT_NEAR(0.05 * difference, at_end(run, "motor.drive.effort"), 1e-2);
+  // 400 N each, less what the bearings give way by: every run is as much shorter as its ends are nearer.
+  const double nearer = 2 * (sum * std::cos(std::asin(0.2))) / 1e8, stiffness = 6e4 / std::sqrt(0.24);
+  EXPECT_NEAR(sum, 800 - 2 * stiffness * nearer * std::cos(std::asin(0.2)), 1e-3 * 800);
+  for (const char* joint : {"upper", "lower"}) {
+    const std::string p = fmt::format("joint.{}.", joint);
+    const double side = std::string(joint) == "upper" ? 1 : -1;
+    EXPECT_NEAR(value(run, last, p + "on_fan.m[world]"), side * 0.15 * at_end(run, p + "tension"), 1e-9);
+    EXPECT_NEAR(value(run, last, p + "on_shaft.m[world]"), -side * 0.05 * at_end(run, p + "tension"), 1e-9);
+  }
+}
+
+// Euler and Eytelwein: exp(mu wrap) between the runs on both sides of a post, theory/joints Eqs. (2.17), (2.18).
+TEST(Belts, ARopeSlipsRoundAPostAsEulerSays) {
+  const Trajectory run = completed(mechanism("bollard"));
+  const double ratio = std::exp(0.2 * 3 * kPi), a = kG * (100 - 10 * ratio) / (100 + 10 * ratio);
+  for (const double t : {0.1, 0.3, 0.6}) {
+    const std::size_t row = reference::row_at(run, t);
+    EXPECT_NEAR(value(run, row, "joint.down.tension"), 100 * (kG - a), 5e-5 * 780);  // the rope on the post weighs a gram
+    EXPECT_NEAR(value(run, row, "joint.up.tension"), 10 * (kG + a), 5e-5 * 780);
+    EXPECT_NEAR(value(run, row, "body.load.vy"), -0.5 - a * t, 2e-4);
+  }
+}
+
+TEST(Belts, CheckStatesTheirRatio) {
+  const CheckReport report = check_model(mechanism("belt_drive"));
+  ASSERT_EQ(report.gears.size(), 2u);
+  EXPECT_NEAR(report.gears[0].ratio, 1.0 / 3, 1e-15);
+  EXPECT_TRUE(report.passed());
+}
+
+std::string hoist(const std::string& keys) {
+  return fmt::format(R"toml(
+format = 1
+[simulate]
+duration = "2 s"
+output_step = "0.01 s"
+[ground.markers]
+axle = [0, 0]
+[body.drum]
+mass = 20
+inertia = 0.4
+position = [0, 0]
+angle = 0
+spin = 0
+hold = ["angle"]
+markers.axle = [0, 0]
+[body.load]
+mass = 50
+inertia = 2
+position = ["0.2 m", "-8 m"]
+velocity = [0, 0]
+angle = 0
+spin = 0
+markers.eye = [0, 0]
+[joint.axle]
+type = "revolute"
+between = ["ground.axle", "drum.axle"]
+ideal = true
+[motor.drive]
+joint = "axle"
+position = "1.5*pi*(t/1 s - sin(pi*t/1 s)/pi)"
+[joint.rope]
+type = "belt"
+between = ["drum.axle", "load.eye"]
+{}
+)toml",
+                     keys);
+}
+constexpr const char* kRope = "first_radius = 0.2\nstretch = \"50 kg*9.80665 m/s^2/(2e6 N/m)\"\nstiffness = 2e6\ndamping = 2e3\n";
+
+// A drum that turns by one and a half turns lifts its load by that times its circumference. The rope carries m (g + r alpha), the motor r times that
+// and the drum's inertia.
+TEST(Belts, ADrumHoistsItsLoad) {
+  const Trajectory run = completed(parse_model(hoist(kRope), "hoist.toml"));
+  const double r = 0.2, m = 50, inertia = 0.4;
+  EXPECT_NEAR(at_end(run, "joint.axle.angle"), 3 * kPi, 1e-3);
+  EXPECT_NEAR(at_end(run, "body.load.y"), -8 + r * 3 * kPi, 1e-3);
+  EXPECT_NEAR(at_end(run, "joint.rope.run"), 8 - r * 3 * kPi, 1e-3);
+  for (const double t : {0.7, 1.0, 1.6}) {  // the rope's ringing at 200 rad/s has died away
+    const std::size_t row = reference::row_at(run, t);
+    const double alpha = 1.5 * kPi * kPi * std::sin(kPi * t), tension = m * (kG + r * alpha);
+    EXPECT_NEAR(value(run, row, "joint.rope.tension"), tension, 5e-4 * tension) << t;
+    EXPECT_NEAR(value(run, row, "motor.drive.effort"), r * tension + inertia * alpha, 1e-3 * r * tension) << t;
+  }
+  EXPECT_LT(run.energy.drift, 1e-5 * run.energy.supplied);
+}
+
+TEST(Belts, SayWhatIsWrong) {
+  const auto complaint = [](const std::string& keys) -> std::string {
+    try {
+      simulate(parse_model(hoist(keys), "hoist.toml"));
+    } catch (const InputError& error) {
+      return error.what();
+    } catch (const AssemblyError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto says = [&complaint](const std::string& keys, const std::string& words) { EXPECT_NE(complaint(keys).find(words), std::string::npos) << keys << '\n' << complaint(keys); };
+  says("", "a belt winds onto one disc at least");
+  says("first_radius = -0.2", "this must be at least 0 m");
+  says("first_radius = 0.2\nfirst_side = \"top\"", "it is none of left, right");
+  says("first_radius = 0.2\nsecond_side = \"left\"", "the belt ends in the second marker");
+  says("second_radius = 0.2\nfirst_side = \"left\"", "the belt ends in the first marker");
+  says("first_radius = 9", "its discs are 8.002 m apart, and the belt has no way between them: that takes more than 9 m");
+}
+
+}  // namespace
+}  // namespace pintle
