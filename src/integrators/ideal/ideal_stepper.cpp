@@ -77,9 +77,11 @@ double IdealStepper::around_singular_position(double h) {
   const double fall = independence_ - equations_.independence(begin_.t + kAhead * h, ahead);
   if (!(fall > 0)) return h;
   const double distance = kAhead * h * independence_ / fall;
-  clear_h_ = kTooNear * most_independent_ / kClearance * distance / independence_;
-  h = std::max(h, clear_h_);
-  if (distance < kNearStep * h) return distance / kShareBefore;
+  const double clear = kTooNear * most_independent_ / kClearance * distance / independence_;
+  if (distance < kNearStep * std::max(h, clear)) {
+    clear_h_ = clear;
+    return distance / kShareBefore;
+  }
   return distance < kNextButOne * h ? distance - kShareBefore * h : h;
 }
 
@@ -98,7 +100,7 @@ bool IdealStepper::step(double t_end) {
       return false;
     }
     const bool solved = take_stages(h);
-    if (solved && h < left && passes_too_near(least_independence_) && near_singular_position()) {
+    if (solved && h < left && passes_too_near(least_independence_) && near_singular_position() && wanted > clear_h_) {
       ++counters_.rejected;
       wanted *= kOtherStages;
       continue;
