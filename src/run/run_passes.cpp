@@ -44,6 +44,7 @@ class Passes {
     choice_.method = settings_.method == "auto" ? usual_method(choice_.equations) : settings_.method;
     out_.method = choice_.method;
     choice_.tolerance_of = settings_.tolerance_of;
+    choice_.penalty = settings_.penalty;
     out_.of_motion = choice_.tolerance_of == ToleranceOf::kMotion;
     make_passes();
     return std::move(fine_);
@@ -120,7 +121,7 @@ class Passes {
   void make_passes() {
     const double wanted = settings_.tolerance;
     choice_.stages = wanted < kTight ? 5 : 3;
-    double tolerance = std::min(wanted, out_.of_motion ? kLoosestOfMotion : choice_.equations == Equations::kIdeal ? kLoosestIdeal : kLoosest);
+    double tolerance = std::min(wanted, out_.of_motion ? kLoosestOfMotion : choice_.equations == Equations::kIdeal || choice_.equations == Equations::kPenalty ? kLoosestIdeal : kLoosest);
     if (!context_.shape.checked) {
       run_pass(tolerance_by_nominal(tolerance));
       return finish();

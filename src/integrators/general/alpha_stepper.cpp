@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace pintle {
 namespace {
@@ -25,9 +26,9 @@ double AlphaWeights::velocity_error() const {
   return 0.5 * (1 - g) * d * d + 0.5 * g * ahead * ahead + offset - 1.0 / 6;
 }
 
-AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance)
+AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance, std::unique_ptr<KeptJoints> ideal_joints)
     : system_(system), weights_(weights), beta_(weights.beta()), gamma_(weights.gamma()), tolerance_(tolerance),
-      newton_tolerance_(std::min(tolerance, kLoosestNewton)), force_evaluator_(system), borders_(system), tangents_(system), lu_(system.pattern()),
+      newton_tolerance_(std::min(tolerance, kLoosestNewton)), kept_(std::move(ideal_joints)), force_evaluator_(system), borders_(system), tangents_(system), lu_(system.pattern()),
       begin_(zero_state(system)), end_(begin_), between_(begin_), a_before_(begin_.q), a_now_(begin_.q), q_(begin_.q), v_(begin_.q), a_(begin_.q), F_begin_(begin_.q),
       F_(begin_.q), work_(system.bodies.size()) {
   before_ = now_ = {begin_.q, begin_.q, begin_.q, 0};
@@ -35,8 +36,12 @@ AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, do
 
 void AlphaStepper::start(const State& state, double h) {
   begin_ = end_ = state;
-  force_evaluator_.complete(end_);
-  borders_.start(end_);
+  if (!kept_) {
+    force_evaluator_.complete(end_);
+    borders_.start(end_);
+  } else if (!kept_->close(end_)) {
+    failure_ = "ideal joints cannot be closed at the start";
+  }
   now_ = {end_.v, end_.a, end_.a, 0};
   h_ = h;
 }
@@ -47,16 +52,17 @@ void AlphaStepper::set_lag(double h, const Knot& knot, Vecs& a) const {
   for (std::size_t i = 0; i < a.size(); ++i) a[i] = share == 1 ? knot.a[i] : knot.law[i] + share * (knot.a[i] - knot.law[i]);
 }
 
-// F = Q + G' law(gap, rate).
+// F = Q + G' law(gap, rate), or with what keeps ideal joints.
 void AlphaStepper::forces(double t, const Vecs& q, const Vecs& v, std::vector<double>& law_state, Vecs& F) {
+  ++counters_.evaluations;
+  if (kept_) return kept_->find_forces(t, q, v, F);
   system_.accelerations(t, q, v, F, law_state.data());
   for (int i = 0; i < system_.n_bodies(); ++i) F[i] = F[i].cwiseProduct(system_.bodies[i].mass);
-  ++counters_.evaluations;
 }
 
 // The laws' own states at the end of a step of h, by the trapezoidal rule, joint by joint.
 void AlphaStepper::find_states(double t, const Vecs& q, const Vecs& v, double h) {
-  if (z_.empty()) return;
+  if (z_.empty() || kept_) return;
   system_.motions(q, v, m_);
   LawTangents law;
   LawImpedance<double> follows;
@@ -101,7 +107,7 @@ double AlphaStepper::correct(double h) {
   const double t = begin_.t + h, new_a = 1 - weights_.accelerations, new_F = 1 - weights_.forces;
   find_states(t, q_, v_, h);
   forces(t, q_, v_, z_, F_);
-  tangents_.find(t, q_, v_, z_, 2 / h);
+  tangents_.find(t, q_, v_, z_, 2 / h, kept_.get());
   tangents_.combine(new_a, new_F * h * h * beta_, new_F * h * gamma_, lu_);
   ++counters_.factorizations;
   ++counters_.newton_iterations;
@@ -129,15 +135,18 @@ bool AlphaStepper::solve(double h) {
   a_ = a_now_;
   z_ = begin_.law_state;
   place(h);
+  if (kept_) kept_->begin_step(begin_, h * h * beta_);
   const double enough = kNewtonShare * newton_tolerance_ / tolerance_.relative;
   double last = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kMaxIterations; ++i) {
+  bool solved = false;
+  for (int i = 0; i < kMaxIterations && !solved; ++i) {
     const double size = correct(h);
     if (!std::isfinite(size) || (i > 2 && size > 2 * last)) return false;
-    if (size < std::max(enough, 1e-2 * kRounding)) return true;
+    solved = size < std::max(enough, 1e-2 * kRounding);
     last = size;
   }
-  return last < 1;  // at the rounding of stiff forces corrections shrink no more
+  solved = solved || last < 1;  // at the rounding of stiff forces corrections shrink no more
+  return solved && (!kept_ || kept_->project(begin_.t + h, q_, v_, a_));
 }
 
 // theory/solvers Eqs. (3.5), (3.6), in units of the tolerance.
@@ -159,11 +168,17 @@ double AlphaStepper::error(double h) {
   return std::isfinite(sum) ? worst : std::numeric_limits<double>::infinity();
 }
 
+void AlphaStepper::find_begin_forces() {
+  if (!kept_) return forces(begin_.t, begin_.q, begin_.v, begin_.law_state, F_begin_);
+  for (int i = 0; i < system_.n_bodies(); ++i) F_begin_[i] = system_.bodies[i].mass.cwiseProduct(begin_.a[i]);
+}
+
 bool AlphaStepper::step(double t_end) {
+  if (!failure_.empty()) return false;
   begin_ = end_;
   largest_q_ = largest_coordinate(begin_.q);
   largest_v_ = largest_coordinate(begin_.v);
-  forces(begin_.t, begin_.q, begin_.v, begin_.law_state, F_begin_);
+  find_begin_forces();
   double most = 5;  // by which the next step may be longer
   double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
   borders_.begin_step();
@@ -184,8 +199,9 @@ bool AlphaStepper::step(double t_end) {
     const double e = error(h);
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
     if (e <= 1) {
-      set_end_state(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
-      if (borders_.shorten(end_, h)) {
+      const bool found = set_end_state(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
+      if (!found) h *= 0.25;
+      if (!found || crosses_border(h)) {
         ++counters_.rejected;
         continue;
       }
@@ -199,13 +215,15 @@ bool AlphaStepper::step(double t_end) {
   }
 }
 
-void AlphaStepper::set_end_state(double t, double h) {
+bool AlphaStepper::set_end_state(double t, double h) {
   end_.t = t;
   end_.q = q_;
   end_.v = v_;
+  if (kept_) return kept_->complete(end_);
   find_states(t, q_, v_, h);
   end_.law_state = z_;
   force_evaluator_.complete(end_);
+  return true;
 }
 
 // Energies by the trapezoidal rule, which is of the method's order.
@@ -217,7 +235,7 @@ void AlphaStepper::finish(double h) {
   now_.a = a_;
   now_.law = end_.a;
   now_.h = h;
-  if (borders_.cross(end_)) {  // goes on as from a start
+  if (!kept_ && borders_.cross(end_)) {  // goes on as from a start
     force_evaluator_.complete(end_);
     borders_.record(end_);
     now_.a = now_.law = end_.a;
@@ -240,6 +258,16 @@ const State& AlphaStepper::interpolate(double t) {
     cubic(begin_.v[i], begin_.a[i], end_.v[i], end_.a[i], between_.v[i]);
     between_.a[i] = r * begin_.a[i] + s * end_.a[i];
   }
+  if (!kept_) interpolate_forces(s);
+  else if (!kept_->close(between_)) kept_->complete(between_);
+  between_.dissipated = begin_.dissipated + 0.5 * h * s * (begin_.loss_power + between_.loss_power);
+  between_.supplied = begin_.supplied + 0.5 * h * s * (begin_.supply_power + between_.supply_power);
+  return between_;
+}
+
+// Gaps on straight lines, and the laws' forces there.
+void AlphaStepper::interpolate_forces(double s) {
+  const double r = 1 - s;
   for (int j = 0; j < system_.n_joints(); ++j) {
     between_.gap[j] = r * begin_.gap[j] + s * end_.gap[j];
     between_.gap_rate[j] = r * begin_.gap_rate[j] + s * end_.gap_rate[j];
@@ -252,9 +280,6 @@ const State& AlphaStepper::interpolate(double t) {
   for (int j = 0; j < system_.n_joints(); ++j) between_.force[j] = system_.joints[j].law.force(law_point(system_, j, between_));
   between_.loss_power = r * begin_.loss_power + s * end_.loss_power;
   between_.supply_power = r * begin_.supply_power + s * end_.supply_power;
-  between_.dissipated = begin_.dissipated + 0.5 * h * s * (begin_.loss_power + between_.loss_power);
-  between_.supplied = begin_.supplied + 0.5 * h * s * (begin_.supply_power + between_.supply_power);
-  return between_;
 }
 
 }  // namespace pintle

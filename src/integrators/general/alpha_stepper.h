@@ -1,7 +1,8 @@
-// The trapezoidal rule, HHT-alpha and the generalised-alpha method on M a = F(t, q, v), joint forces read from the laws:
-// one family with two parameters. theory/solvers section 3.
+// The trapezoidal rule, HHT-alpha and the generalised-alpha method on M a = F(t, q, v), joint forces read from the laws, theory/solvers
+// section 3; or with ideal joints, theory/penalty section 2. One family with two parameters.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "integrators/force_evaluator.h"
@@ -33,7 +34,8 @@ struct AlphaWeights {
 
 class AlphaStepper final : public Stepper {
  public:
-  AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance);
+  /// `ideal_joints`: where there are any.
+  AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance, std::unique_ptr<KeptJoints> ideal_joints = nullptr);
 
   void set_max_step(double h) override { max_step_ = h; }
   void set_load_scale(const LoadScale&) override {}
@@ -46,6 +48,7 @@ class AlphaStepper final : public Stepper {
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
   const std::vector<LawCrossing>& crossings() const override { return borders_.crossings(); }
+  std::vector<std::string> remarks() const override { return kept_ ? std::vector<std::string>{kept_->remark()} : std::vector<std::string>{}; }
 
  private:
   struct Knot {     // a time that has been reached
@@ -54,12 +57,15 @@ class AlphaStepper final : public Stepper {
   };
   void set_lag(double h, const Knot& knot, Vecs& a) const;
   bool solve(double h);
+  void find_begin_forces();
+  void interpolate_forces(double s);
   void place(double h);
   void forces(double t, const Vecs& q, const Vecs& v, std::vector<double>& law_state, Vecs& F);
   void find_states(double t, const Vecs& q, const Vecs& v, double h);
   double correct(double h);
   double error(double h);
-  void set_end_state(double t, double h);
+  bool set_end_state(double t, double h);
+  bool crosses_border(double& h) { return !kept_ && borders_.shorten(end_, h); }
   void finish(double h);
   double weight(double a, double b, double largest) const;
 
@@ -68,6 +74,7 @@ class AlphaStepper final : public Stepper {
   double beta_, gamma_;
   UsualTolerance tolerance_;
   double newton_tolerance_, max_step_ = 0, h_ = 0;
+  std::unique_ptr<KeptJoints> kept_;
   ForceEvaluator force_evaluator_;
   LawBorders borders_;
   ForceTangents tangents_;

@@ -1,5 +1,7 @@
 #include "integrators/ideal/ideal_equations.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -39,12 +41,13 @@ S::Vec pushing(const JointData& joint, double t, const JointKinematics& r) {
 
 }  // namespace
 
-IdealEquations::IdealEquations(const System& system) : system_(system), still_(system.bodies.size(), S::Vec::Zero()) {
+IdealEquations::IdealEquations(const System& system, Equations equations, const PenaltySettings& penalty)
+    : system_(system), equations_(equations), penalty_(penalty), still_(system.bodies.size(), S::Vec::Zero()) {
   for (int j = 0; j < system.n_joints(); ++j)
     for (int k = 0; k < S::kDof; ++k)
       if (keeps(system.joints[j], k)) {
         rows_.push_back({j, k});
-        n_redundant_ += system.joints[j].redundant[k];
+        n_redundant_ += !has_penalties() && system.joints[j].redundant[k];
       }
   if (rows_.size() > kMostModes && n_redundant_ > 0) {
     std::erase_if(rows_, [&](const Row& row) { return system.joints[row.joint].redundant[row.component]; });
@@ -100,7 +103,16 @@ bool IdealEquations::factorize() {
   for (int e = 0; e < matrix_.nonZeros(); ++e)
     if (row_of_entry_[e] == column_of_entry_[e]) scale_[row_of_entry_[e]] = 1 / std::sqrt(std::max(values[e], std::numeric_limits<double>::min()));
   for (int e = 0; e < matrix_.nonZeros(); ++e) values[e] *= scale_[row_of_entry_[e]] * scale_[column_of_entry_[e]];
-  return n_redundant_ == 0 ? factorize_sparse() : find_modes();
+  return has_penalties() ? factorize_with_penalties() : n_redundant_ == 0 ? factorize_sparse() : find_modes();
+}
+
+// theory/penalty Eq. (1.4).
+bool IdealEquations::factorize_with_penalties() {
+  if (first_scale_.size() == 0) first_scale_ = scale_;
+  for (int e = 0; e < matrix_.nonZeros(); ++e)
+    if (const int row = row_of_entry_[e]; row == column_of_entry_[e]) matrix_.valuePtr()[e] += scale_[row] * scale_[row] / penalty(row);
+  factors_.factorize(matrix_);
+  return factors_.info() == Eigen::Success;
 }
 
 bool IdealEquations::factorize_sparse() {
@@ -152,21 +164,45 @@ void IdealEquations::push(const Eigen::VectorXd& multipliers, Vecs& x) const {
   }
 }
 
-bool IdealEquations::complete(State& state) {
+// With a penalty, theory/penalty Eq. (1.3).
+Eigen::VectorXd IdealEquations::add_reactions(Vecs& a) const {
+  const bool penalized = equations_ == Equations::kPenalty;
+  const double w = penalty_.frequency;
+  Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size())), change;
+  for (int pass = 0; pass <= kRefinements && !rows_.empty(); ++pass) {
+    Eigen::VectorXd missing = -rates(a);                                                    // (1.3)
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const auto [joint, k] = rows_[i];
+      missing[i] -= r_[joint].bias[k];
+      if (penalized) missing[i] -= 2 * penalty_.damping * w * r_[joint].rate[k] + w * w * r_[joint].gap[k] + multipliers[i] / penalty(i);
+    }
+    solve(missing, change);
+    multipliers += change;
+    push(change, a);
+  }
+  return multipliers;
+}
+
+void IdealEquations::find_other_forces(State& state) {
   read(state.t, state.q, state.v);
   fill_joints(state);
   system_.external(state.t, m_, state.a);
   for (int j = 0; j < system_.n_joints(); ++j) add_force(system_.joints[j].at, r_[j], state.force[j], state.a);
+}
+
+void IdealEquations::add_kept_forces(const Vecs& force, Vecs& on_bodies) const {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Placement& at = system_.joints[rows_[i].joint].at;
+    for (const auto& [body, side] : {std::pair{at.a, 0}, std::pair{at.b, 1}})
+      if (body != kGround) on_bodies[body] += jacobian(i, side).transpose() * force[rows_[i].joint][rows_[i].component];
+  }
+}
+
+bool IdealEquations::complete(State& state) {
+  find_other_forces(state);
   for (int i = 0; i < system_.n_bodies(); ++i) state.a[i] = state.a[i].cwiseQuotient(system_.bodies[i].mass);
   if (!factorize()) return false;
-  Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(scale_.size()), change;
-  for (int pass = 0; pass <= kRefinements && !rows_.empty(); ++pass) {
-    Eigen::VectorXd missing = -rates(state.a);                                              // (1.3)
-    for (std::size_t i = 0; i < rows_.size(); ++i) missing[i] -= r_[rows_[i].joint].bias[rows_[i].component];
-    solve(missing, change);
-    multipliers += change;
-    push(change, state.a);
-  }
+  const Eigen::VectorXd multipliers = add_reactions(state.a);
   for (std::size_t i = 0; i < rows_.size(); ++i) state.force[rows_[i].joint][rows_[i].component] = multipliers[i];
   find_gap_accelerations(system_, r_, state);
   const ExternalWork work = system_.external_work(state.t, state.q, m_);
@@ -188,7 +224,15 @@ void IdealEquations::fill_joints(State& state) {
     state.gap_rate[j] = r_[j].rate;
     state.force[j] = joint.ideal ? S::Vec(S::Vec::Zero()) : S::Vec(respond(joint.law, r_[j].gap, r_[j].rate).force + pushing(joint, state.t, r_[j]));
   }
-  for (const Row& row : rows_) state.gap[row.joint][row.component] = state.gap_rate[row.joint][row.component] = 0;
+  for (const auto [joint, k] : rows_) state.gap[joint][k] = state.gap_rate[joint][k] = 0;
+}
+
+void IdealEquations::measure_violation() {
+  for (const auto [joint, k] : rows_) violation_[k == 2] = std::max(violation_[k == 2], std::abs(r_[joint].gap[k]));
+}
+
+std::string IdealEquations::violation_text(const std::string& method) const {
+  return fmt::format("{}: the constraints of ideal joints are violated by at most {:.1e} m and {:.1e} rad", method, violation_[0], violation_[1]);
 }
 
 bool IdealEquations::close_positions(double t, Vecs& q) {
@@ -207,9 +251,14 @@ bool IdealEquations::close_positions(double t, Vecs& q) {
       largest = (V * (V.transpose() * scale_.cwiseProduct(missing))).cwiseQuotient(scale_).cwiseAbs().maxCoeff();
     }
     if (largest <= kRounding * size_) return true;
+    solve(missing, multipliers);
+    if (has_penalties()) {
+      largest = 0;
+      for (std::size_t k = 0; k < rows_.size(); ++k) largest = std::max(largest, std::abs(missing[k] - multipliers[k] / penalty(k)));
+      if (largest <= kRounding * size_) return true;
+    }
     if (!(largest < before)) return largest <= 1e3 * kRounding * size_;  // rounding, or no way to close
     before = largest;
-    solve(missing, multipliers);
     push(multipliers, q);                                                                   // (1.4)
   }
   return before <= 1e-9 * size_;
@@ -225,6 +274,13 @@ bool IdealEquations::close_velocities(double t, const Vecs& q, Vecs& v) {
     solve(missing, multipliers);
     push(multipliers, v);                                                                   // (1.5)
   }
+  return true;
+}
+
+bool IdealEquations::close_accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a) {
+  read(t, q, v);
+  if (!factorize()) return false;
+  add_reactions(a);
   return true;
 }
 

@@ -27,8 +27,8 @@ constexpr int kMostReported = 5;
 
 }  // namespace
 
-IdealStepper::IdealStepper(const System& system, double tolerance)
-    : system_(system), tolerance_(tolerance), equations_(system), dense_(system) {
+IdealStepper::IdealStepper(const System& system, double tolerance, Equations equations, const PenaltySettings& penalty)
+    : system_(system), projects_(equations == Equations::kIdeal), tolerance_(tolerance), equations_(system, equations, penalty), dense_(system) {
   for (auto* k : {&kq_, &kv_})
     for (auto& x : *k) x.resize(system.bodies.size());
   scale_.body.assign(system.bodies.size(), S::Vec::Zero());
@@ -44,7 +44,7 @@ void IdealStepper::start(const State& state, double h) {
   if (lost > 1e-6 * before)
     remarks_.push_back(fmt::format("ideal joints: the stated velocities are inconsistent; an impulse in the joints dissipates {:.3g} J at the start", lost));
   begin_ = inside_ = stage_ = end_;
-  most_independent_ = equations_.independence(end_.t, end_.q);
+  if (projects_) most_independent_ = equations_.independence(end_.t, end_.q);
   grow_scale();
 }
 
@@ -129,7 +129,7 @@ bool IdealStepper::finish(double t, double h) {
   end_.t = t;
   end_.q = stage_.q;
   end_.v = stage_.v;
-  if (equations_.nearly_singular() ? !equations_.complete(end_) : !onto_constraints(end_)) return false;
+  if (projects_ && !equations_.nearly_singular() ? !onto_constraints(end_) : !equations_.complete(end_)) return false;
   end_.supplied = begin_.supplied;
   end_.dissipated = begin_.dissipated;
   for (int s = 0; s < kStages - 1; ++s) {
@@ -138,7 +138,8 @@ bool IdealStepper::finish(double t, double h) {
   }
   ++counters_.steps;
   grow_scale();
-  look_for_singular_position();
+  if (projects_) look_for_singular_position();
+  else equations_.measure_violation();
   return true;
 }
 
@@ -181,9 +182,15 @@ void IdealStepper::grow_scale() {
 
 const State& IdealStepper::interpolate(double t) {
   inside_ = dense_.at(t, begin_, end_);
-  if (equations_.independence(t, inside_.q) > 0 && equations_.nearly_singular()) equations_.complete(inside_);
+  if (!projects_ || (equations_.independence(t, inside_.q) > 0 && equations_.nearly_singular())) equations_.complete(inside_);
   else onto_constraints(inside_);
   return inside_;
+}
+
+std::vector<std::string> IdealStepper::remarks() const {
+  std::vector<std::string> all = remarks_;
+  if (!projects_) all.push_back(equations_.violation_text("penalties"));
+  return all;
 }
 
 // A position where the constraints lose rank may lie inside the step: their independence falls towards it and grows after it.

@@ -162,7 +162,14 @@ std::vector<double> sparse(std::vector<double> y) {
 }  // namespace
 
 std::string to_text(Equations equations) {
-  return equations == Equations::kIdeal ? "ideal joints" : equations == Equations::kRelative ? "relative coordinates" : "compliant joints";
+  switch (equations) {
+    case Equations::kNewtonian: return "compliant joints";
+    case Equations::kRelative: return "relative coordinates";
+    case Equations::kIdeal: return "ideal joints";
+    case Equations::kPenalty: return "ideal joints by penalties";
+    case Equations::kAugmentedLagrangian: return "ideal joints by augmented Lagrangian";
+  }
+  return "";
 }
 
 std::string compare_text(const Comparison& c, const std::string& title, bool colour) {
@@ -184,7 +191,7 @@ std::string compare_json(const Comparison& c, const std::string& model_name, con
   Json json;
   json["model"] = model_name;
   json["model_path"] = model_path;
-  json["against"] = c.against == Equations::kIdeal ? "ideal" : c.against == Equations::kRelative ? "relative" : "newtonian";
+  json["against"] = to_word(c.against);
   json["forces"] = to_json(c.forces);
   json["couples"] = to_json(c.couples);
   json["coordinates"] = to_json(c.coordinates);
