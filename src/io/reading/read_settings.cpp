@@ -50,8 +50,8 @@ void check_method(ModelReading& reading, const Record& record, const std::string
 void check_penalty(ModelReading& reading, const Record& record) {
   if (reading.model.simulate.equations == Equations::kPenalty) return;
   for (const char* key : {"penalty", "penalty_frequency", "penalty_damping"})
-    if (record.find(key) != nullptr)
-      reading.complaints.add(record.spot(key), std::string("simulate.") + key, key, std::string("the ") + to_word(reading.model.simulate.equations) + " equations have no penalty to choose",
+    if (record.states(key))
+      reading.complaints.add(record.spot(key), std::string("simulate.") + key, fmt::format("{:g}", record.number(key)), std::string("the ") + to_word(reading.model.simulate.equations) + " equations have no penalty to choose",
                              "equations = \"penalty\"");
 }
 
