@@ -15,6 +15,9 @@ using S = Planar;
 constexpr int kMaxIterations = 10;
 constexpr double kNewtonShare = 0.01;       // of the tolerance: a last correction that is small enough
 constexpr double kLoosestNewton = 1e-5;     // forces are k times positions: solved at least to this, whatever the tolerance
+constexpr double kPassing = 0.1;            // of the usual step: with ideal joints so short a step is taken in any case, theory/penalty section 2
+constexpr double kBeyond = 2;              // the next step after one of these, over it
+constexpr double kForget = 0.99;            // of the usual step, by one that is shorter
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
@@ -28,7 +31,7 @@ double AlphaWeights::velocity_error() const {
 
 AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance, std::unique_ptr<KeptJoints> ideal_joints)
     : system_(system), weights_(weights), beta_(weights.beta()), gamma_(weights.gamma()), tolerance_(tolerance),
-      newton_tolerance_(std::min(tolerance, kLoosestNewton)), kept_(std::move(ideal_joints)), force_evaluator_(system), borders_(system), tangents_(system), lu_(system.pattern()),
+      newton_tolerance_(ideal_joints ? kLoosestNewton : std::min(tolerance, kLoosestNewton)), kept_(std::move(ideal_joints)), force_evaluator_(system), borders_(system), tangents_(system), lu_(system.pattern()),
       begin_(zero_state(system)), end_(begin_), between_(begin_), a_before_(begin_.q), a_now_(begin_.q), q_(begin_.q), v_(begin_.q), a_(begin_.q), F_begin_(begin_.q),
       F_(begin_.q), work_(system.bodies.size()) {
   before_ = now_ = {begin_.q, begin_.q, begin_.q, 0};
@@ -119,13 +122,14 @@ double AlphaStepper::correct(double h) {
   }
   lu_.solve(work_);
   double size = 0, sum = 0;
+  const double of_v = kept_ ? 0 : h * gamma_;  // velocities on constraints are those of their projection
   for (std::size_t i = 0; i < a_.size(); ++i)
     for (int k = 0; k < S::kDof; ++k) {
       const double da = work_[i][k];
       sum += da;
       a_[i][k] += da;
       size = std::max({size, h * h * beta_ * std::abs(da) / weight(begin_.q[i][k], q_[i][k], largest_q_),
-                       h * gamma_ * std::abs(da) / weight(begin_.v[i][k], v_[i][k], largest_v_)});
+                       of_v * std::abs(da) / weight(begin_.v[i][k], v_[i][k], largest_v_)});
     }
   place(h);
   return std::isfinite(sum) ? size : std::numeric_limits<double>::infinity();
@@ -197,8 +201,9 @@ bool AlphaStepper::step(double t_end) {
       continue;
     }
     const double e = error(h);
+    const bool passing = kept_ && e > 1 && h < kPassing * usual_h_ && std::isfinite(e);
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
-    if (e <= 1) {
+    if (e <= 1 || passing) {
       const bool found = set_end_state(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
       if (!found) h *= 0.25;
       if (!found || crosses_border(h)) {
@@ -206,6 +211,8 @@ bool AlphaStepper::step(double t_end) {
         continue;
       }
       finish(h);
+      if (passing) return pass(h);
+      usual_h_ = std::max(h, kForget * usual_h_);
       h_ = borders_.has_shortened() ? std::max(h_, h * factor) : h * std::min(factor, most);
       return true;
     }
@@ -213,6 +220,21 @@ bool AlphaStepper::step(double t_end) {
     most = 1;
     h *= std::min(factor, 0.8);
   }
+}
+
+// Singular positions and jumps of forces are behind a step that is so short.
+bool AlphaStepper::pass(double h) {
+  if (n_passed_++ == 0) first_passed_ = begin_.t;
+  h_ = kBeyond * h;
+  return true;
+}
+
+std::vector<std::string> AlphaStepper::remarks() const {
+  std::vector<std::string> out;
+  if (kept_) out.push_back(kept_->remark());
+  if (n_passed_ > 0)
+    out.push_back(fmt::format("{} steps were taken with an error above the tolerance, the first at t = {:.6g} s: singular positions or jumps of forces", n_passed_, first_passed_));
+  return out;
 }
 
 bool AlphaStepper::set_end_state(double t, double h) {

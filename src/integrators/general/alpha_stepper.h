@@ -48,7 +48,7 @@ class AlphaStepper final : public Stepper {
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
   const std::vector<LawCrossing>& crossings() const override { return borders_.crossings(); }
-  std::vector<std::string> remarks() const override { return kept_ ? std::vector<std::string>{kept_->remark()} : std::vector<std::string>{}; }
+  std::vector<std::string> remarks() const override;
 
  private:
   struct Knot {     // a time that has been reached
@@ -67,13 +67,14 @@ class AlphaStepper final : public Stepper {
   bool set_end_state(double t, double h);
   bool crosses_border(double& h) { return !kept_ && borders_.shorten(end_, h); }
   void finish(double h);
+  bool pass(double h);
   double weight(double a, double b, double largest) const;
 
   const System& system_;
   AlphaWeights weights_;
   double beta_, gamma_;
   UsualTolerance tolerance_;
-  double newton_tolerance_, max_step_ = 0, h_ = 0;
+  double newton_tolerance_, max_step_ = 0, h_ = 0, usual_h_ = 0;
   std::unique_ptr<KeptJoints> kept_;
   ForceEvaluator force_evaluator_;
   LawBorders borders_;
@@ -86,6 +87,8 @@ class AlphaStepper final : public Stepper {
   std::vector<double> z_;               // the laws' own states there
   std::vector<Planar::Motion> m_;
   std::vector<BlockVec<double, Planar::kDof>> work_;
+  int n_passed_ = 0;                    // steps whose error was above the tolerance
+  double first_passed_ = 0;             // [s]
   double largest_q_ = 1, largest_v_ = 1;
   LoadScale no_scale_;
   Counters counters_;

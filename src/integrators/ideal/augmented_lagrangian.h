@@ -12,7 +12,7 @@ namespace pintle {
 class AugmentedLagrangian final : public KeptJoints {
  public:
   /// `factor`: of the penalties in the iteration, over what resists them in a step. The result does not depend on it.
-  explicit AugmentedLagrangian(const System& system, double factor = 1e3);
+  explicit AugmentedLagrangian(const System& system, double factor = 1e7);
 
   bool close(State& state) override;
   bool complete(State& state) override { return equations_.complete(state); }
