@@ -42,7 +42,7 @@ void AlphaStepper::start(const State& state, double h) {
   if (!kept_) {
     force_evaluator_.complete(end_);
     borders_.start(end_);
-  } else if (!kept_->close(end_)) {
+  } else if (!kept_->start(end_)) {
     failure_ = "ideal joints cannot be closed at the start";
   }
   now_ = {end_.v, end_.a, end_.a, 0};
@@ -280,8 +280,8 @@ const State& AlphaStepper::interpolate(double t) {
     cubic(begin_.v[i], begin_.a[i], end_.v[i], end_.a[i], between_.v[i]);
     between_.a[i] = r * begin_.a[i] + s * end_.a[i];
   }
-  if (!kept_) interpolate_forces(s);
-  else if (!kept_->close(between_)) kept_->complete(between_);
+  if (kept_) kept_->complete(between_);
+  else interpolate_forces(s);
   between_.dissipated = begin_.dissipated + 0.5 * h * s * (begin_.loss_power + between_.loss_power);
   between_.supplied = begin_.supplied + 0.5 * h * s * (begin_.supply_power + between_.supply_power);
   return between_;

@@ -13,7 +13,7 @@ class KeptJoints {
   virtual ~KeptJoints() = default;
 
   /// Moves positions and velocities onto the constraints; then as `complete`.
-  virtual bool close(State& state) = 0;
+  virtual bool start(State& state) = 0;
   /// Fills in everything of `state` but t, q and v. False when that cannot be found.
   virtual bool complete(State& state) = 0;
   /// Before the iteration of a step from `begin`, in which an acceleration moves its body by `reach` times itself [s^2].

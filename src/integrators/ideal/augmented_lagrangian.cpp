@@ -10,9 +10,7 @@ AugmentedLagrangian::AugmentedLagrangian(const System& system, double factor)
     : system_(system), factor_(factor), equations_(system, Equations::kAugmentedLagrangian), multipliers_(system.joints.size(), S::Vec::Zero()), stiffness_(multipliers_),
       iterate_(zero_state(system)) {}
 
-bool AugmentedLagrangian::close(State& state) {
-  return equations_.close_positions(state.t, state.q) && equations_.close_velocities(state.t, state.q, state.v) && equations_.complete(state);
-}
+bool AugmentedLagrangian::start(State& state) { return close_loops(system_, state) && equations_.complete(state); }
 
 // theory/penalty Eq. (2.5).
 void AugmentedLagrangian::begin_step(const State& begin, double reach) {

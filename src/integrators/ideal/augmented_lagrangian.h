@@ -14,7 +14,7 @@ class AugmentedLagrangian final : public KeptJoints {
   /// `factor`: of the penalties in the iteration, over what resists them in a step. The result does not depend on it.
   explicit AugmentedLagrangian(const System& system, double factor = 1e7);
 
-  bool close(State& state) override;
+  bool start(State& state) override;
   bool complete(State& state) override { return equations_.complete(state); }
   void begin_step(const State& begin, double reach) override;
   void find_forces(double t, const Vecs& q, const Vecs& v, Vecs& F) override;

@@ -251,17 +251,17 @@ bool IdealEquations::close_positions(double t, Vecs& q) {
       largest = (V * (V.transpose() * scale_.cwiseProduct(missing))).cwiseQuotient(scale_).cwiseAbs().maxCoeff();
     }
     if (largest <= kRounding * size_) return true;
-    solve(missing, multipliers);
-    if (has_penalties()) {
-      largest = 0;
-      for (std::size_t k = 0; k < rows_.size(); ++k) largest = std::max(largest, std::abs(missing[k] - multipliers[k] / penalty(k)));
-      if (largest <= kRounding * size_) return true;
-    }
     if (!(largest < before)) return largest <= 1e3 * kRounding * size_;  // rounding, or no way to close
     before = largest;
+    solve(missing, multipliers);
     push(multipliers, q);                                                                   // (1.4)
   }
   return before <= 1e-9 * size_;
+}
+
+bool close_loops(const System& system, State& state) {
+  IdealEquations equations(system);
+  return equations.close_positions(state.t, state.q) && equations.close_velocities(state.t, state.q, state.v);
 }
 
 bool IdealEquations::close_velocities(double t, const Vecs& q, Vecs& v) {

@@ -104,4 +104,7 @@ class IdealEquations {
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes_;
 };
 
+/// Positions and velocities of a start onto the constraints, whatever keeps them afterwards.
+bool close_loops(const System& system, State& state);
+
 }  // namespace pintle

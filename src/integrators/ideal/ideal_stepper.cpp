@@ -38,8 +38,8 @@ void IdealStepper::start(const State& state, double h) {
   end_ = state;
   h_ = smooth_h_ = h;
   const double before = system_.kinetic(end_.v);
-  if (!onto_constraints(end_)) failure_ = "ideal joints cannot be closed at the start: the loops do not close, or the position is singular";
-  equations_.measure_misfit(end_.t, end_.q);
+  if (!(projects_ ? onto_constraints(end_) : close_loops(system_, end_) && equations_.complete(end_))) failure_ = "ideal joints cannot be closed at the start: the loops do not close, or the position is singular";
+  if (projects_) equations_.measure_misfit(end_.t, end_.q);
   const double lost = before - system_.kinetic(end_.v);
   if (lost > 1e-6 * before)
     remarks_.push_back(fmt::format("ideal joints: the stated velocities are inconsistent; an impulse in the joints dissipates {:.3g} J at the start", lost));
