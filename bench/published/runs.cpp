@@ -32,7 +32,7 @@ void set_joints(Model& model, double stiffness, double damping) {
 }
 
 bool run(Model model, bool ideal, Report& report, Trajectory& out) {
-  if (ideal) model.simulate.equations = Equations::kIdeal;
+  if (ideal && !has_constraints(model.simulate.equations)) model.simulate.equations = Equations::kIdeal;
   try {
     out = simulate(model);
   } catch (const std::invalid_argument& error) {
