@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "bench/commands.h"
@@ -11,6 +12,7 @@
 #include "bench/stopwatch.h"
 #include "integrators/general/alpha_stepper.h"
 #include "integrators/ideal/augmented_lagrangian.h"
+#include "integrators/ideal/tree_augmented.h"
 
 namespace pintle::bench {
 namespace {
@@ -21,30 +23,33 @@ constexpr double kTruth = 1e-9, kCompliantTruth = 1e-9;
 constexpr double kFactor = 1e3;     // of the penalties in the iteration: about what its authors choose
 constexpr double kNoControl = 1e6;  // a tolerance at which no step is shortened
 
-// Steps of one length that end at the outputs; the forces are those of the state, or the multipliers that the iteration ended with.
+// Steps of one length that end at the outputs; the forces are those of the state, and the multipliers that the iteration ended with.
 struct FixedSteps {
   Samples forces, multipliers;
   double seconds = 0, steps = 0;
 };
 
-FixedSteps fixed_steps(const Problem& problem, const AlphaWeights& weights, int per_output) {
+FixedSteps fixed_steps(const Problem& problem, const AlphaWeights& weights, bool relative, int per_output) {
   FixedSteps out{Samples(*problem.system), Samples(*problem.system)};
   auto kept = std::make_unique<AugmentedLagrangian>(*problem.system, kFactor);
   const AugmentedLagrangian& inside = *kept;
   const Stopwatch watch;
-  AlphaStepper stepper(*problem.system, weights, kNoControl, std::move(kept));
+  std::unique_ptr<Stepper> stepper;
+  if (relative) stepper = std::make_unique<TreeAugmented>(*problem.system, weights, kNoControl);
+  else stepper = std::make_unique<AlphaStepper>(*problem.system, weights, kNoControl, std::move(kept));
   double begin = 0;
-  stepper.start(*problem.start, problem.outputs.front() / per_output);
+  stepper->start(*problem.start, problem.outputs.front() / per_output);
   for (const double end : problem.outputs) {
-    stepper.set_max_step((end - begin) / per_output * (1 + 1e-12));
-    while (stepper.state().t < end)
-      if (!stepper.step(end)) throw std::runtime_error(stepper.failure());
-    out.forces.add(stepper.state().q, stepper.state().v, stepper.state().force);
-    out.multipliers.add(stepper.state().q, stepper.state().v, inside.multipliers());
+    stepper->set_max_step((end - begin) / per_output * (1 + 1e-12));
+    while (stepper->state().t < end)
+      if (!stepper->step(end)) throw std::runtime_error(stepper->failure());
+    const State& now = stepper->state();
+    out.forces.add(now.q, now.v, now.force);
+    if (!relative) out.multipliers.add(now.q, now.v, inside.multipliers());
     begin = end;
   }
   out.seconds = watch.seconds();
-  out.steps = static_cast<double>(stepper.counters().steps);
+  out.steps = static_cast<double>(stepper->counters().steps);
   return out;
 }
 
@@ -59,8 +64,9 @@ class Study {
     for (const double tolerance : {1e-3, 1e-5, 1e-7}) add("compliant joints, radau", tolerance, compliant_problem_, {Equations::kNewtonian, "radau", 3}, compliant);
     for (const double tolerance : {1e-3, 1e-5, 1e-7}) add("multipliers, dopri5", tolerance, ideal_problem_, {Equations::kIdeal, "dopri5"}, truth);
     for (const auto& [factor, frequency] : {std::pair{1e5, 10.0}, {1e7, 10.0}, {1e9, 10.0}, {1e7, 100.0}, {1e9, 100.0}}) add_penalty(factor, frequency, truth);
-    for (const int per_output : {1, 2, 4, 8, 16}) add_augmented("trapezoidal", AlphaWeights::trapezoidal(), per_output, truth);
-    for (const int per_output : {1, 2, 4, 8, 16}) add_augmented("HHT", AlphaWeights::hht(-0.05), per_output, truth);
+    for (const bool relative : {false, true})
+      for (const auto& [rule, weights] : {std::pair{"trapezoidal", AlphaWeights::trapezoidal()}, {"HHT", AlphaWeights::hht(-0.05)}})
+        for (const int per_output : {1, 2, 4, 8, 16}) add_augmented(rule, weights, relative, per_output, truth);
     table_.print();
     return table_.json();
   }
@@ -97,11 +103,11 @@ class Study {
     add_run("penalty, dopri5", fmt::format("{:.0e}, {:g} rad/s", factor, frequency), kFine, ideal_problem_, choice, truth);
   }
 
-  void add_augmented(const std::string& rule, const AlphaWeights& weights, int per_output, const Samples& truth) {
-    FixedSteps run = fixed_steps(ideal_problem_, weights, per_output);
-    for (int i = 1; i < kRepetitions; ++i) run.seconds = std::min(run.seconds, fixed_steps(ideal_problem_, weights, per_output).seconds);
-    row("augmented Lagrangian, " + rule, fmt::format("steps of {:.2g} ms", 1e3 * ideal_problem_.outputs.front() / per_output), run.steps, run.seconds, run.forces.error(truth),
-        run.multipliers.error(truth));
+  void add_augmented(const char* rule, const AlphaWeights& weights, bool relative, int per_output, const Samples& truth) {
+    FixedSteps run = fixed_steps(ideal_problem_, weights, relative, per_output);
+    for (int i = 1; i < kRepetitions; ++i) run.seconds = std::min(run.seconds, fixed_steps(ideal_problem_, weights, relative, per_output).seconds);
+    row(fmt::format("augmented{}, {}", relative ? ", relative" : "", rule), fmt::format("steps of {:.2g} ms", 1e3 * ideal_problem_.outputs.front() / per_output), run.steps, run.seconds,
+        run.forces.error(truth), run.multipliers.error(truth));
   }
 
   ReadyModel compliant_, ideal_;

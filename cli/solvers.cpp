@@ -40,7 +40,7 @@ constexpr const char* kSolversFooter =
     "(Adams), hht (alpha = -0.05), generalised_alpha (spectral radius 0.9).\n"
     "\n"
     "With --set simulate.equations=ideal the methods are ways to keep constraints: multipliers (the reference), penalty,\n"
-    "augmented_lagrangian (trapezoidal rule), augmented_lagrangian_hht.\n\n";
+    "augmented_lagrangian (trapezoidal rule), augmented_lagrangian_hht, and both in relative coordinates.\n\n";
 
 struct SolversOptions : ModelOptions {
   std::string plot;

@@ -20,7 +20,7 @@ struct Way {
   const char* equations;
   const char* method;
 };
-constexpr Way kWays[] = {{"penalty", "dopri5"}, {"augmented_lagrangian", "trapezoidal"}, {"augmented_lagrangian", "hht"}};
+constexpr Way kWays[] = {{"penalty", "dopri5"}, {"augmented_lagrangian", "trapezoidal"}, {"augmented_lagrangian", "hht"}, {"relative_augmented_lagrangian", "trapezoidal"}, {"relative_augmented_lagrangian", "hht"}};
 
 std::vector<std::string> by(const Way& way, std::vector<std::string> more) {
   more.push_back(std::string("simulate.equations=") + way.equations);
@@ -116,7 +116,7 @@ TEST(PenaltyRuns, RedundantJointsHaveFiniteForces) {
 
 TEST(PenaltyRuns, AreComparedWithCompliantJoints) {
   const Model model = reference::mechanism("four_bar", {"simulate.tolerance=1e-4"});
-  for (const Equations against : {Equations::kPenalty, Equations::kAugmentedLagrangian}) {
+  for (const Equations against : {Equations::kPenalty, Equations::kAugmentedLagrangian, Equations::kRelativeAugmented}) {
     const Comparison c = compare(model, against);
     ASSERT_EQ(c.second.outcome, Outcome::kCompleted) << c.second.message;
     ASSERT_FALSE(c.forces.empty());

@@ -143,8 +143,8 @@ enum class Start { kAssembled, kUnloaded, kRaw };
 /// The equations of motion. kNewtonian: every joint is a force law. kRelative: joints marked `ideal` are obeyed by
 /// relative coordinates over a spanning tree, every other joint is a force law. kIdeal: every joint with a linear law is a
 /// constraint with Lagrange multipliers. kPenalty: the same constraints, each opposed by a penalty on its acceleration, rate and
-/// violation. kAugmentedLagrangian: the same constraints, with multipliers that are found in the iteration of an implicit step.
-enum class Equations { kNewtonian, kRelative, kIdeal, kPenalty, kAugmentedLagrangian };
+/// violation. kAugmentedLagrangian: the same constraints, with multipliers that are found in the iteration of an implicit step. kRelativeAugmented: that in relative coordinates, for what closes their loops.
+enum class Equations { kNewtonian, kRelative, kIdeal, kPenalty, kAugmentedLagrangian, kRelativeAugmented };
 
 /// The word of the model file.
 inline const char* to_word(Equations equations) {
@@ -154,6 +154,7 @@ inline const char* to_word(Equations equations) {
     case Equations::kIdeal: return "ideal";
     case Equations::kPenalty: return "penalty";
     case Equations::kAugmentedLagrangian: return "augmented_lagrangian";
+    case Equations::kRelativeAugmented: return "relative_augmented_lagrangian";
   }
   return "";
 }

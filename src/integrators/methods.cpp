@@ -15,6 +15,7 @@
 #include "integrators/general/sundials_stepper.h"
 #include "integrators/ideal/augmented_lagrangian.h"
 #include "integrators/ideal/ideal_stepper.h"
+#include "integrators/ideal/tree_augmented.h"
 #include "integrators/relative/tree_dopri5.h"
 #include "integrators/relative/tree_radau.h"
 
@@ -72,6 +73,8 @@ bool is_in(const List& list, std::string_view word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
+bool is_augmented(Equations equations) { return equations == Equations::kAugmentedLagrangian || equations == Equations::kRelativeAugmented; }
+
 AlphaWeights alpha_weights(std::string_view method) {
   return method == "hht"                 ? AlphaWeights::hht(kHhtAlpha)
          : method == "generalised_alpha" ? AlphaWeights::generalised(kKeptVibration)
@@ -81,14 +84,15 @@ AlphaWeights alpha_weights(std::string_view method) {
 }  // namespace
 
 std::string usual_method(Equations equations) {
-  return equations == Equations::kIdeal || equations == Equations::kPenalty ? "dopri5" : equations == Equations::kAugmentedLagrangian ? "ode23t" : "radau";
+  if (is_augmented(equations)) return "ode23t";
+  return has_constraints(equations) ? "dopri5" : "radau";
 }
 
 std::string why_not(const MethodChoice& choice) {
   const bool sundials = is_in(kFromSundials, choice.method), alpha = is_in(kAlphaFamily, choice.method);
-  const bool augmented = choice.equations == Equations::kAugmentedLagrangian;
-  const bool has_radau = choice.equations == Equations::kNewtonian || choice.equations == Equations::kRelative;
-  if (augmented ? alpha : choice.method == "dopri5" || (choice.method == "radau" && has_radau)) return "";
+  const bool augmented = is_augmented(choice.equations), tree = choice.equations == Equations::kRelativeAugmented;
+  const bool has_radau = !has_constraints(choice.equations);
+  if (augmented ? alpha && !(tree && choice.method == "generalised_alpha") : choice.method == "dopri5" || (choice.method == "radau" && has_radau)) return "";
   if (choice.equations != Equations::kNewtonian)
     return (sundials || alpha) && !augmented
                ? fmt::format("method {} needs joints that are force laws (equations = \"newtonian\")", choice.method)
@@ -107,6 +111,7 @@ std::unique_ptr<Stepper> make_stepper(const System& system, const MethodChoice& 
     return std::make_unique<IdealStepper>(system, tolerance, choice.equations, choice.penalty);
   if (choice.equations == Equations::kAugmentedLagrangian)
     return std::make_unique<AlphaStepper>(system, alpha_weights(choice.method), tolerance, std::make_unique<AugmentedLagrangian>(system));
+  if (choice.equations == Equations::kRelativeAugmented) return std::make_unique<TreeAugmented>(system, alpha_weights(choice.method), tolerance);
   if (choice.equations == Equations::kRelative) {
     if (choice.method == "radau") return std::make_unique<TreeRadau>(system, tolerance, choice.stages);
     return std::make_unique<TreeDopri5>(system, tolerance);

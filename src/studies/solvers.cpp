@@ -39,10 +39,12 @@ struct ConstraintMethod {
   Equations equations;
   const char* method;
 };
-constexpr std::array<ConstraintMethod, 4> kConstraintMethods{{{"multipliers", Equations::kIdeal, "dopri5"},
+constexpr std::array<ConstraintMethod, 6> kConstraintMethods{{{"multipliers", Equations::kIdeal, "dopri5"},
                                                               {"penalty", Equations::kPenalty, "dopri5"},
                                                               {"augmented_lagrangian", Equations::kAugmentedLagrangian, "ode23t"},
-                                                              {"augmented_lagrangian_hht", Equations::kAugmentedLagrangian, "hht"}}};
+                                                              {"augmented_lagrangian_hht", Equations::kAugmentedLagrangian, "hht"},
+                                                              {"relative_augmented_lagrangian", Equations::kRelativeAugmented, "ode23t"},
+                                                              {"relative_augmented_lagrangian_hht", Equations::kRelativeAugmented, "hht"}}};
 
 MethodChoice choice_of(const Model& model, const std::string& word, double tolerance) {
   MethodChoice choice{Equations::kNewtonian, word, tolerance < kTight ? 5 : 3};

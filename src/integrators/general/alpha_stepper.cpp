@@ -22,13 +22,6 @@ constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-// theory/solvers Eq. (3.6).
-double AlphaWeights::velocity_error() const {
-  const double g = gamma(), d = lag(), ahead = 1 + d;
-  const double offset = 0.5 * (1 - forces - (1 - accelerations) * ahead * ahead - accelerations * d * d);
-  return 0.5 * (1 - g) * d * d + 0.5 * g * ahead * ahead + offset - 1.0 / 6;
-}
-
 AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance, std::unique_ptr<KeptJoints> ideal_joints)
     : system_(system), weights_(weights), beta_(weights.beta()), gamma_(weights.gamma()), tolerance_(tolerance),
       newton_tolerance_(ideal_joints ? kLoosestNewton : std::min(tolerance, kLoosestNewton)), kept_(std::move(ideal_joints)), force_evaluator_(system), borders_(system), tangents_(system), lu_(system.pattern()),
@@ -52,7 +45,7 @@ void AlphaStepper::start(const State& state, double h) {
 // theory/solvers Eq. (3.7): the lag of the accelerations goes with the step; here it becomes that of a step of h.
 void AlphaStepper::set_lag(double h, const Knot& knot, Vecs& a) const {
   const double share = weights_.lag() != 0 && knot.h > 0 ? h / knot.h : 1;
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] = share == 1 ? knot.a[i] : knot.law[i] + share * (knot.a[i] - knot.law[i]);
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = weights_.lagged(share, knot.a[i], knot.law[i]);
 }
 
 // F = Q + G' law(gap, rate), or with what keeps ideal joints.
@@ -96,8 +89,8 @@ void AlphaStepper::find_states(double t, const Vecs& q, const Vecs& v, double h)
 // theory/solvers Eq. (3.2): where the accelerations a_ take positions and velocities.
 void AlphaStepper::place(double h) {
   for (std::size_t i = 0; i < q_.size(); ++i) {
-    q_[i] = begin_.q[i] + h * begin_.v[i] + h * h * ((0.5 - beta_) * a_now_[i] + beta_ * a_[i]);
-    v_[i] = begin_.v[i] + h * ((1 - gamma_) * a_now_[i] + gamma_ * a_[i]);
+    q_[i] = weights_.position(h, begin_.q[i], begin_.v[i], a_now_[i], a_[i]);
+    v_[i] = weights_.velocity(h, begin_.v[i], a_now_[i], a_[i]);
   }
 }
 
@@ -153,21 +146,14 @@ bool AlphaStepper::solve(double h) {
   return solved && (!kept_ || kept_->project(begin_.t + h, q_, v_, a_));
 }
 
-// theory/solvers Eqs. (3.5), (3.6), in units of the tolerance.
+// In units of the tolerance.
 double AlphaStepper::error(double h) {
-  const double e_q = std::abs(weights_.position_error()) * h * h * h, e_v = std::abs(weights_.velocity_error()) * h * h * h;
   double worst = 0, sum = 0;
   for (std::size_t i = 0; i < a_.size(); ++i)
     for (int k = 0; k < S::kDof; ++k) {
-      const double slope_v = (v_[i][k] - begin_.v[i][k]) / h, slope_a = (a_[i][k] - a_now_[i][k]) / h;
-      double q3 = slope_a, v3 = slope_a / h;  // a first step knows no more: too large a guess
-      if (now_.h > 0) {
-        q3 = 2 * (slope_v - (begin_.v[i][k] - before_.v[i][k]) / now_.h) / (h + now_.h);
-        v3 = 2 * (slope_a - (a_now_[i][k] - a_before_[i][k]) / now_.h) / (h + now_.h);
-      }
-      sum += q3 + v3;
-      worst = std::max({worst, e_q * std::abs(q3) / weight(begin_.q[i][k], q_[i][k], largest_q_),
-                        e_v * std::abs(v3) / weight(begin_.v[i][k], v_[i][k], largest_v_)});
+      const auto [e_q, e_v] = weights_.local_errors(h, now_.h, {before_.v[i][k], a_before_[i][k], begin_.v[i][k], a_now_[i][k], v_[i][k], a_[i][k]});
+      sum += e_q + e_v;
+      worst = std::max({worst, e_q / weight(begin_.q[i][k], q_[i][k], largest_q_), e_v / weight(begin_.v[i][k], v_[i][k], largest_v_)});
     }
   return std::isfinite(sum) ? worst : std::numeric_limits<double>::infinity();
 }

@@ -7,30 +7,12 @@
 
 #include "integrators/force_evaluator.h"
 #include "integrators/law_borders.h"
+#include "integrators/general/alpha_weights.h"
 #include "integrators/general/force_tangents.h"
 #include "integrators/general/usual_tolerance.h"
 #include "integrators/stepper.h"
 
 namespace pintle {
-
-/// Weights of the old end of a step: of the accelerations and of the forces. theory/solvers Eqs. (3.1)-(3.3).
-struct AlphaWeights {
-  double accelerations = 0, forces = 0;
-
-  static AlphaWeights trapezoidal() { return {}; }
-  /// Hilber, Hughes and Taylor, -1/3 <= alpha <= 0.
-  static AlphaWeights hht(double alpha) { return {0, -alpha}; }
-  /// Chung and Hulbert, with the factor that very fast vibrations keep per step.
-  static AlphaWeights generalised(double radius) { return {(2 * radius - 1) / (radius + 1), radius / (radius + 1)}; }
-
-  double gamma() const { return 0.5 - accelerations + forces; }
-  double beta() const { return 0.25 * (0.5 + gamma()) * (0.5 + gamma()); }
-  /// The accelerations are those of a time that lies this part of a step behind the end's (ahead where positive).
-  double lag() const { return accelerations - forces; }
-  /// What a step adds to the error: this times h^3 q''' in positions, h^3 v''' in velocities.
-  double position_error() const { return beta() + 0.5 * lag() - 1.0 / 6; }
-  double velocity_error() const;
-};
 
 class AlphaStepper final : public Stepper {
  public:

@@ -23,7 +23,7 @@ void AugmentedLagrangian::begin_step(const State& begin, double reach) {
   begins_ = true;
 }
 
-// theory/penalty Eq. (2.4): after each iteration; at its begin the multipliers are those of the step's begin.
+// theory/penalty Eqs. (2.3), (2.4).
 void AugmentedLagrangian::take_over() {
   if (!begins_)
     for (const auto [joint, k] : equations_.rows()) multipliers_[joint][k] -= stiffness_[joint][k] * equations_.gap(joint)[k];

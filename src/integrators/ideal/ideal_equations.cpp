@@ -22,10 +22,6 @@ constexpr double kDamped = 1e-9;      // pivots below it are lifted, so that for
 constexpr double kMisfit = 30;        // ... and below the square of so many times the misfit that redundant rows leave
 constexpr double kNearlySingular = 1e5;  // times as much: there the nearest closed position may be on another branch
 
-bool keeps(const JointData& joint, int component) {
-  return joint.ideal && joint.law.engaged_stiffness()[component] > 0;
-}
-
 // What pushes from outside, as the pressures in a cylinder do. Friction and stops beside it have states, which these equations do not carry.
 S::Vec pushing(const JointData& joint, double t, const JointKinematics& r) {
   LawInput<double> in{};
@@ -40,6 +36,8 @@ S::Vec pushing(const JointData& joint, double t, const JointKinematics& r) {
 }
 
 }  // namespace
+
+bool keeps(const JointData& joint, int component) { return joint.ideal && joint.law.engaged_stiffness()[component] > 0; }
 
 IdealEquations::IdealEquations(const System& system, Equations equations, const PenaltySettings& penalty)
     : system_(system), equations_(equations), penalty_(penalty), still_(system.bodies.size(), S::Vec::Zero()) {

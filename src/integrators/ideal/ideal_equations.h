@@ -21,6 +21,9 @@
 
 namespace pintle {
 
+/// Whether this component of the joint's gap is a constraint.
+bool keeps(const JointData& joint, int component);
+
 class IdealEquations {
  public:
   /// Takes the rows from JointData::ideal and JointData::redundant. `equations`: kIdeal; kPenalty, where forces are what penalties make of the

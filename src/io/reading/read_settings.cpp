@@ -36,12 +36,13 @@ void check_times(ModelReading& reading, const Record& record) {
 // Which methods solve which equations.
 void check_method(ModelReading& reading, const Record& record, const std::string& equations) {
   const std::string& method = reading.model.simulate.method;
-  const bool augmented = equations == "augmented_lagrangian", explicit_only = equations == "ideal" || equations == "penalty";
-  const bool in_alpha_family = method == "ode23t" || method == "hht" || method == "generalised_alpha";
+  const bool relative = equations == "relative_augmented_lagrangian", augmented = relative || equations == "augmented_lagrangian", explicit_only = equations == "ideal" || equations == "penalty";
+  const bool in_alpha_family = method == "ode23t" || method == "hht" || (method == "generalised_alpha" && !relative);
   const bool fits = method == "auto" || equations == "newtonian" || (augmented ? in_alpha_family : method == "dopri5" || (equations == "relative" && method == "radau"));
   if (fits) return;
   reading.complaints.add(record.spot("method"), "simulate.method", in_quotes(method), "this method does not solve the " + equations + " equations",
-                         augmented       ? "\"auto\", \"trapezoidal\", \"hht\" or \"generalised_alpha\""
+                         relative        ? "\"auto\", \"trapezoidal\" or \"hht\""
+                         : augmented     ? "\"auto\", \"trapezoidal\", \"hht\" or \"generalised_alpha\""
                          : explicit_only ? "\"auto\" or \"dopri5\""
                                          : "\"auto\", \"radau\" or \"dopri5\"");
 }
@@ -56,7 +57,7 @@ void check_penalty(ModelReading& reading, const Record& record) {
 }
 
 Equations equations_of(const std::string& word) {
-  for (const Equations e : {Equations::kRelative, Equations::kIdeal, Equations::kPenalty, Equations::kAugmentedLagrangian})
+  for (const Equations e : {Equations::kRelative, Equations::kIdeal, Equations::kPenalty, Equations::kAugmentedLagrangian, Equations::kRelativeAugmented})
     if (word == to_word(e)) return e;
   return Equations::kNewtonian;
 }

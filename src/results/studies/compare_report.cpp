@@ -168,6 +168,7 @@ std::string to_text(Equations equations) {
     case Equations::kIdeal: return "ideal joints";
     case Equations::kPenalty: return "ideal joints by penalties";
     case Equations::kAugmentedLagrangian: return "ideal joints by augmented Lagrangian";
+    case Equations::kRelativeAugmented: return "relative coordinates by augmented Lagrangian";
   }
   return "";
 }
