@@ -29,7 +29,7 @@ std::vector<std::string> by(const Way& way, std::vector<std::string> more) {
 }
 
 // A01, 10 s: motion, energy (the library's is zero), and the rod's tension m (v^2 - g y)/L.
-TEST(PublishedPenalty, PendulumIsThatOfTheLibrary) {
+TEST(SlowPublishedPenalty, PendulumIsThatOfTheLibrary) {
   const nlohmann::json known = published("iftomm_a01");
   for (const Way& way : kWays) {
     const Model model = read_model(std::string(PINTLE_SOURCE_DIR) + "/bench/published/simple_pendulum.toml", by(way, {"simulate.tolerance=1e-2", "simulate.max_step=0.5e-3"}));
@@ -51,7 +51,7 @@ TEST(PublishedPenalty, PendulumIsThatOfTheLibrary) {
 }
 
 // A02 with N = 2 through ten of its singular positions, to the library's class of high precision.
-TEST(PublishedPenalty, NFourBarKeepsItsBranch) {
+TEST(SlowPublishedPenalty, NFourBarKeepsItsBranch) {
   const nlohmann::json known = published("iftomm_a02");
   for (const Way& way : kWays) {
     std::vector<std::string> settings{"simulate.tolerance=1e-2", "simulate.max_step=1e-3", "simulate.duration=5"};

@@ -17,7 +17,7 @@ struct Joints {
   bool ideal() const { return equations != Equations::kNewtonian; }
 };
 constexpr Joints kStiffest{}, kIdeal{1e12, Equations::kIdeal}, kPenalty{1e12, Equations::kPenalty}, kTrapezoidal{1e12, Equations::kAugmentedLagrangian, "ode23t"},
-    kHht{1e12, Equations::kAugmentedLagrangian, "hht"};
+    kHht{1e12, Equations::kAugmentedLagrangian, "hht"}, kTree{1e12, Equations::kRelativeAugmented, "ode23t"};
 
 constexpr double kPendulumStep = 0.5e-3, kLoopsStep = 1e-3;  // of the augmented Lagrangian, which its authors use with steps of one length [s]
 constexpr double kAugmentedTolerance = 1e-2;                     // with such steps
@@ -26,13 +26,14 @@ constexpr double kA02Frequency = 500;        // of the penalty, at which it keep
 void set_equations(const Joints& joints, double step, Model& model) {
   model.simulate.equations = joints.equations;
   model.simulate.method = joints.method;
-  if (joints.equations != Equations::kAugmentedLagrangian) return;
+  if (joints.equations != Equations::kAugmentedLagrangian && joints.equations != Equations::kRelativeAugmented) return;
   model.simulate.max_step = step;
   model.simulate.tolerance = kAugmentedTolerance;
 }
 
 std::string text_of(const Joints& joints) {
   if (!has_constraints(joints.equations) || joints.equations == Equations::kIdeal) return joints_text(joints.k, joints.ideal());
+  if (joints.equations == Equations::kRelativeAugmented) return "augmented, relative";
   return joints.equations == Equations::kPenalty ? "penalty" : fmt::format("augmented, {}", joints.method == std::string("hht") ? "HHT" : "trapezoidal");
 }
 
@@ -77,8 +78,9 @@ void measure_a02(Report& report) {
   const double high = facts["tolerance"]["high precision [m]"], low = facts["tolerance"]["low precision [m]"],
                energy = facts["tolerance"]["energy [J]"];
   for (const int n : {1, 2, 10, 40})
-    for (const Joints& joints : {Joints{1e8}, kIdeal, kPenalty, kTrapezoidal, kHht}) {
+    for (const Joints& joints : {Joints{1e8}, kIdeal, kPenalty, kTrapezoidal, kHht, kTree}) {
       if (n == 10 && joints.ideal() && joints.equations != Equations::kIdeal) continue;
+      if (n > 2 && joints.equations == Equations::kRelativeAugmented) continue;  // its matrices are dense
       Model model = model_of(fmt::format("n_four_bar_{}", n));
       set_joints(model, joints.k, 3000);
       set_equations(joints, kLoopsStep, model);
