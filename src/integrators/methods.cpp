@@ -15,6 +15,7 @@
 #include "integrators/general/sundials_stepper.h"
 #include "integrators/ideal/augmented_lagrangian.h"
 #include "integrators/ideal/ideal_stepper.h"
+#include "integrators/ideal/penalty_forces.h"
 #include "integrators/ideal/tree_augmented.h"
 #include "integrators/relative/tree_dopri5.h"
 #include "integrators/relative/tree_radau.h"
@@ -90,8 +91,9 @@ std::string usual_method(Equations equations) {
 
 std::string why_not(const MethodChoice& choice) {
   const bool sundials = is_in(kFromSundials, choice.method), alpha = is_in(kAlphaFamily, choice.method);
-  const bool augmented = is_augmented(choice.equations), tree = choice.equations == Equations::kRelativeAugmented;
+  const bool augmented = is_augmented(choice.equations), penalty = choice.equations == Equations::kPenalty, tree = choice.equations == Equations::kRelativeAugmented;
   const bool has_radau = !has_constraints(choice.equations);
+  if (penalty && alpha) return "";
   if (augmented ? alpha && !(tree && choice.method == "generalised_alpha") : choice.method == "dopri5" || (choice.method == "radau" && has_radau)) return "";
   if (choice.equations != Equations::kNewtonian)
     return (sundials || alpha) && !augmented
@@ -107,6 +109,8 @@ std::string why_not(const MethodChoice& choice) {
 
 std::unique_ptr<Stepper> make_stepper(const System& system, const MethodChoice& choice, double tolerance) {
   if (const std::string reason = why_not(choice); !reason.empty()) throw std::invalid_argument(reason);
+  if (choice.equations == Equations::kPenalty && choice.method != "dopri5")
+    return std::make_unique<AlphaStepper>(system, alpha_weights(choice.method), tolerance, std::make_unique<PenaltyForces>(system, choice.penalty));
   if (choice.equations == Equations::kIdeal || choice.equations == Equations::kPenalty)
     return std::make_unique<IdealStepper>(system, tolerance, choice.equations, choice.penalty);
   if (choice.equations == Equations::kAugmentedLagrangian)

@@ -40,8 +40,8 @@ class Standstill {
 // Samples of the loads in a step. Steps may hold much of a period of the motion, and the dense output of radau has as many samples of the forces; other methods
 // on free bodies resolve the vibrations of the joints, and those of the alpha family make short steps.
 int load_samples(const MethodChoice& choice) {
-  const bool short_steps = choice.equations == Equations::kNewtonian || choice.equations == Equations::kAugmentedLagrangian || choice.equations == Equations::kRelativeAugmented;
-  return choice.method == "radau" || !short_steps ? CurveGrid::kMost : 3;
+  const bool long_steps = choice.method == "radau" || (choice.method == "dopri5" && choice.equations != Equations::kNewtonian);
+  return long_steps ? CurveGrid::kMost : 3;
 }
 
 // Whether the energy ends the integration.

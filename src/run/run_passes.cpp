@@ -121,7 +121,7 @@ class Passes {
   void make_passes() {
     const double wanted = settings_.tolerance;
     choice_.stages = wanted < kTight ? 5 : 3;
-    double tolerance = std::min(wanted, out_.of_motion ? kLoosestOfMotion : choice_.equations == Equations::kIdeal || choice_.equations == Equations::kPenalty ? kLoosestIdeal : kLoosest);
+    double tolerance = std::min(wanted, out_.of_motion ? kLoosestOfMotion : has_constraints(choice_.equations) && choice_.method == "dopri5" ? kLoosestIdeal : kLoosest);
     if (!context_.shape.checked) {
       run_pass(tolerance_by_nominal(tolerance));
       return finish();

@@ -39,8 +39,9 @@ struct ConstraintMethod {
   Equations equations;
   const char* method;
 };
-constexpr std::array<ConstraintMethod, 6> kConstraintMethods{{{"multipliers", Equations::kIdeal, "dopri5"},
+constexpr std::array<ConstraintMethod, 7> kConstraintMethods{{{"multipliers", Equations::kIdeal, "dopri5"},
                                                               {"penalty", Equations::kPenalty, "dopri5"},
+                                                              {"penalty_trapezoidal", Equations::kPenalty, "ode23t"},
                                                               {"augmented_lagrangian", Equations::kAugmentedLagrangian, "ode23t"},
                                                               {"augmented_lagrangian_hht", Equations::kAugmentedLagrangian, "hht"},
                                                               {"relative_augmented_lagrangian", Equations::kRelativeAugmented, "ode23t"},

@@ -128,14 +128,14 @@ TEST(CompareSolvers, RefusesWhatMakesNoSense) {
   EXPECT_THROW(compare_solvers(relative, {}), std::invalid_argument);
 }
 
-// Six ways to keep the same constraints, against the first at a tighter tolerance.
+// Seven ways to keep the same constraints, against the first at a tighter tolerance.
 TEST(CompareSolvers, WaysToKeepConstraints) {
   Model ideal = stiff_pendulum();
   ideal.simulate.equations = Equations::kIdeal;
   SolverStudyOptions options;
   options.tolerances = {1e-4, 1e-6};
   const SolverStudy study = compare_solvers(ideal, options);
-  ASSERT_EQ(study.runs.size(), 12U);
+  ASSERT_EQ(study.runs.size(), 14U);
   const std::vector<std::string> words = solver_methods(Equations::kIdeal);
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     const SolverRun& run = study.runs[i];

@@ -24,7 +24,7 @@ constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
 AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance, std::unique_ptr<KeptJoints> ideal_joints)
     : system_(system), weights_(weights), beta_(weights.beta()), gamma_(weights.gamma()), tolerance_(tolerance),
-      newton_tolerance_(ideal_joints ? kLoosestNewton : std::min(tolerance, kLoosestNewton)), kept_(std::move(ideal_joints)), force_evaluator_(system), borders_(system), tangents_(system), lu_(system.pattern()),
+      newton_tolerance_(ideal_joints && ideal_joints->projects() ? kLoosestNewton : std::min(tolerance, kLoosestNewton)), kept_(std::move(ideal_joints)), force_evaluator_(system), borders_(system), tangents_(system), lu_(system.pattern()),
       begin_(zero_state(system)), end_(begin_), between_(begin_), a_before_(begin_.q), a_now_(begin_.q), q_(begin_.q), v_(begin_.q), a_(begin_.q), F_begin_(begin_.q),
       F_(begin_.q), work_(system.bodies.size()) {
   before_ = now_ = {begin_.q, begin_.q, begin_.q, 0};
@@ -115,7 +115,7 @@ double AlphaStepper::correct(double h) {
   }
   lu_.solve(work_);
   double size = 0, sum = 0;
-  const double of_v = kept_ ? 0 : h * gamma_;  // velocities on constraints are those of their projection
+  const double of_v = projects() ? 0 : h * gamma_;  // velocities on constraints are those of their projection
   for (std::size_t i = 0; i < a_.size(); ++i)
     for (int k = 0; k < S::kDof; ++k) {
       const double da = work_[i][k];

@@ -1,5 +1,5 @@
 // The trapezoidal rule, HHT-alpha and the generalised-alpha method on M a = F(t, q, v), joint forces read from the laws, theory/solvers
-// section 3; or with ideal joints, theory/penalty section 2. One family with two parameters.
+// section 3; or with ideal joints, theory/penalty. One family with two parameters.
 #pragma once
 
 #include <memory>
@@ -47,6 +47,7 @@ class AlphaStepper final : public Stepper {
   double correct(double h);
   double error(double h);
   bool set_end_state(double t, double h);
+  bool projects() const { return kept_ && kept_->projects(); }
   bool crosses_border(double& h) { return !kept_ && borders_.shorten(end_, h); }
   void finish(double h);
   bool pass(double h);

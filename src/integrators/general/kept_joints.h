@@ -23,7 +23,8 @@ class KeptJoints {
   /// Of every joint, at the last iterate: the force, and what opposes a gap. Joints that are not ideal have none.
   virtual const Vecs& force() const = 0;
   virtual const Vecs& stiffness() const = 0;
-  /// After the iteration: velocities and accelerations onto the constraints.
+  /// Whether steps end on the constraints, by `project` after the iteration: velocities and accelerations onto them.
+  virtual bool projects() const { return true; }
   virtual bool project(double t, const Vecs& q, Vecs& v, Vecs& a) = 0;
   /// For the notes of the run.
   virtual std::string remark() const = 0;

@@ -8,6 +8,7 @@
 #include "integrators/general/alpha_stepper.h"
 #include "integrators/ideal/augmented_lagrangian.h"
 #include "integrators/ideal/ideal_stepper.h"
+#include "integrators/ideal/penalty_forces.h"
 #include "integrators/ideal/tree_augmented.h"
 #include "integrators/start_states_for_tests.h"
 
@@ -96,6 +97,30 @@ TEST(PenaltyEquations, DependentConstraintsShareByTheirPenalties) {
   ASSERT_TRUE(IdealEquations(both, Equations::kPenalty).complete(b));
   EXPECT_LT((b.force[3] - b.force[4]).norm(), 1e-6 * a.force[3].norm());
   EXPECT_LT((b.force[3] + b.force[4] - a.force[3]).norm(), 1e-5 * a.force[3].norm());
+}
+
+// The same penalties by an implicit method, as their authors use them.
+TEST(PenaltyEquations, TrapezoidalRuleAndHhtHaveTheirOrder) {
+  const Model model = light_four_bar();
+  const System system = ideal_system(model);
+  const PenaltySettings penalty{1e5, 20, 1};
+  const State start = sample::plain_start(model, system);
+  constexpr double kEnd = 0.1;
+  IdealStepper truth(system, 1e-9, Equations::kPenalty, penalty);
+  truth.start(start, 1e-4);
+  while (truth.state().t < kEnd) ASSERT_TRUE(truth.step(kEnd)) << truth.failure();
+  for (const AlphaWeights& weights : {AlphaWeights::trapezoidal(), AlphaWeights::hht(-0.05)}) {
+    std::vector<double> errors;
+    for (const double h : {4e-3, 2e-3, 1e-3, 5e-4}) {
+      AlphaStepper stepper(system, weights, 1e-1, std::make_unique<PenaltyForces>(system, penalty));
+      stepper.set_max_step(h);
+      stepper.start(start, h);
+      while (stepper.state().t < kEnd) ASSERT_TRUE(stepper.step(kEnd)) << stepper.failure();
+      EXPECT_EQ(stepper.counters().steps, static_cast<std::uint64_t>(std::lround(kEnd / h)));
+      errors.push_back(distance(stepper.state(), truth.state()));
+    }
+    EXPECT_GT(sample::measured_order(errors), 1.8) << weights.forces;
+  }
 }
 
 struct Error {

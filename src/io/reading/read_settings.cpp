@@ -36,14 +36,15 @@ void check_times(ModelReading& reading, const Record& record) {
 // Which methods solve which equations.
 void check_method(ModelReading& reading, const Record& record, const std::string& equations) {
   const std::string& method = reading.model.simulate.method;
-  const bool relative = equations == "relative_augmented_lagrangian", augmented = relative || equations == "augmented_lagrangian", explicit_only = equations == "ideal" || equations == "penalty";
+  const bool relative = equations == "relative_augmented_lagrangian", augmented = relative || equations == "augmented_lagrangian", penalty = equations == "penalty";
   const bool in_alpha_family = method == "ode23t" || method == "hht" || (method == "generalised_alpha" && !relative);
-  const bool fits = method == "auto" || equations == "newtonian" || (augmented ? in_alpha_family : method == "dopri5" || (equations == "relative" && method == "radau"));
+  const bool fits = method == "auto" || equations == "newtonian" || (penalty && in_alpha_family) || (augmented ? in_alpha_family : method == "dopri5" || (equations == "relative" && method == "radau"));
   if (fits) return;
   reading.complaints.add(record.spot("method"), "simulate.method", in_quotes(method), "this method does not solve the " + equations + " equations",
                          relative        ? "\"auto\", \"trapezoidal\" or \"hht\""
                          : augmented     ? "\"auto\", \"trapezoidal\", \"hht\" or \"generalised_alpha\""
-                         : explicit_only ? "\"auto\" or \"dopri5\""
+                         : penalty       ? "\"auto\", \"dopri5\", \"trapezoidal\", \"hht\" or \"generalised_alpha\""
+                         : equations == "ideal" ? "\"auto\" or \"dopri5\""
                                          : "\"auto\", \"radau\" or \"dopri5\"");
 }
 
