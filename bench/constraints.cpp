@@ -20,7 +20,7 @@ namespace {
 constexpr int kOutputs = 100;
 constexpr int kRepetitions = 5;
 constexpr double kTruth = 1e-9, kCompliantTruth = 1e-9;
-constexpr double kFactor = 1e3;     // of the penalties in the iteration: about what its authors choose
+constexpr double kFactor = 1e3;     // of the penalties in the iteration: small, so that the multipliers converge as far as the steps let them
 constexpr double kNoControl = 1e6;  // a tolerance at which no step is shortened
 
 // Steps of one length that end at the outputs; the forces are those of the state, and the multipliers that the iteration ended with.

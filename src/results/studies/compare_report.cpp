@@ -69,6 +69,7 @@ std::string explanation(const Comparison& c) {
   if (any(c.forces, Cause::kNumerical)) text += "  numerical: within the error estimates of both runs; a smaller tolerance would reduce it\n";
   if (any(c.forces, Cause::kPhysical) || any(c.couples, Cause::kPhysical)) {
     text += "  physical: larger than the error estimates; it comes from joint compliance and goes as 1 / stiffness\n";
+    if (c.against == Equations::kPenalty) text += "    the penalties' own error is in it too, and goes as 1 / penalty\n";
     if (!c.softness.empty() && c.softness.front().share > 0)
       text += fmt::format("    {} stores {:.0f} % of the joints' elastic energy{}\n", c.softness.front().joint, 100 * c.softness.front().share,
                           c.softness.front().share > kMainShare ? ", most of it" : ", the largest share");
