@@ -37,6 +37,21 @@ S::Vec pushing(const JointData& joint, double t, const JointKinematics& r) {
 
 }  // namespace
 
+S::Vec force_without_states(const JointData& joint, double t, const JointKinematics& r) {
+  return joint.ideal ? S::Vec(S::Vec::Zero()) : S::Vec(respond(joint.law, r.gap, r.rate).force + pushing(joint, t, r));
+}
+
+void find_powers(const System& system, const std::vector<S::Motion>& m, State& state) {
+  const ExternalWork work = system.external_work(state.t, state.q, m);
+  state.supply_power = work.supplied;
+  state.loss_power = work.lost;
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const JointData& joint = system.joints[j];
+    state.supply_power += system.drive_power(joint, state.t, m, state.force[j]);
+    if (joint.servo < 0 && !joint.ideal) state.loss_power += respond(joint.law, state.gap[j], state.gap_rate[j]).loss;
+  }
+}
+
 bool keeps(const JointData& joint, int component) { return joint.ideal && joint.law.engaged_stiffness()[component] > 0; }
 
 IdealEquations::IdealEquations(const System& system, Equations equations, const PenaltySettings& penalty)
@@ -203,24 +218,16 @@ bool IdealEquations::complete(State& state) {
   const Eigen::VectorXd multipliers = add_reactions(state.a);
   for (std::size_t i = 0; i < rows_.size(); ++i) state.force[rows_[i].joint][rows_[i].component] = multipliers[i];
   find_gap_accelerations(system_, r_, state);
-  const ExternalWork work = system_.external_work(state.t, state.q, m_);
-  state.supply_power = work.supplied;
-  state.loss_power = work.lost;
-  for (int j = 0; j < system_.n_joints(); ++j) {
-    const JointData& joint = system_.joints[j];
-    state.supply_power += system_.drive_power(joint, state.t, m_, state.force[j]);
-    if (joint.servo < 0 && !joint.ideal) state.loss_power += respond(joint.law, state.gap[j], state.gap_rate[j]).loss;
-  }
+  find_powers(system_, m_, state);
   return state.a.empty() || std::isfinite(state.a[0].sum());
 }
 
 // Gaps and rates, and the forces of joints that have a law; what ideal joints keep is exactly closed.
 void IdealEquations::fill_joints(State& state) {
   for (int j = 0; j < system_.n_joints(); ++j) {
-    const JointData& joint = system_.joints[j];
     state.gap[j] = r_[j].gap;
     state.gap_rate[j] = r_[j].rate;
-    state.force[j] = joint.ideal ? S::Vec(S::Vec::Zero()) : S::Vec(respond(joint.law, r_[j].gap, r_[j].rate).force + pushing(joint, state.t, r_[j]));
+    state.force[j] = force_without_states(system_.joints[j], state.t, r_[j]);
   }
   for (const auto [joint, k] : rows_) state.gap[joint][k] = state.gap_rate[joint][k] = 0;
 }

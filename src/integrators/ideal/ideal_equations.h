@@ -21,6 +21,12 @@
 
 namespace pintle {
 
+/// The force of a joint that keeps its law, with what pushes it from outside. Friction and the like have states, which these equations do
+/// not carry.
+Planar::Vec force_without_states(const JointData& joint, double t, const JointKinematics& r);
+/// Supplied and lost power of a state that is complete but for them.
+void find_powers(const System& system, const std::vector<Planar::Motion>& m, State& state);
+
 /// Whether this component of the joint's gap is a constraint.
 bool keeps(const JointData& joint, int component);
 

@@ -43,6 +43,7 @@ void TreeAugmented::start(const State& state, double h) {
   tree_->place(end_.y, Vector::Zero(tree_->n()), pose);
   tree_->read_rates(pose, end_state_.v, end_.u);
   end_.law_state = state.law_state;
+  end_.law_rate = state.law_rate;
   complete(end_, end_state_);
   own_w_ = law_w_ = end_.w;
   h_ = h;
@@ -52,9 +53,9 @@ void TreeAugmented::start(const State& state, double h) {
 void TreeAugmented::find_law_forces(TreeState& state) {
   at_.gaps(state.gap);
   at_.rates(state.rate);
+  state.force.resize(at_.n_gaps());
+  for (int l = 0; l < static_cast<int>(tree_->laws().size()); ++l) state.force.segment<3>(3 * l) = force_without_states(system_.joints[tree_->laws()[static_cast<std::size_t>(l)]], at_.t(), at_.kinematics(l));
   for (const Row& row : rows_) state.gap[index(row)] = state.rate[index(row)] = 0;
-  at_.forces(state, state.force, state.law_rate);
-  for (const Row& row : rows_) state.force[index(row)] = 0;
 }
 
 // theory/penalty Eq. (5.4), at the instant.
@@ -102,9 +103,7 @@ void TreeAugmented::complete(TreeState& state, State& out) {
   at_.accelerate(state.w);
   at_.gap_accelerations(state.accel);
   at_.write(state, state.w, out);
-  const auto [supplied, lost] = at_.power(state);
-  out.supply_power = supplied;
-  out.loss_power = lost;
+  find_powers(system_, at_.pose().m, out);
 }
 
 // theory/penalty Eqs. (5.5), (5.6).
@@ -280,6 +279,7 @@ const State& TreeAugmented::interpolate(double t) {
   inside_.y = cubic(begin_.y, begin_.u, end_.y, end_.u);
   inside_.u = cubic(begin_.u, begin_.w, end_.u, end_.w);
   inside_.law_state = begin_.law_state;
+  inside_.law_rate = begin_.law_rate;
   complete(inside_, inside_state_);
   inside_state_.dissipated = begin_state_.dissipated + 0.5 * h * s * (begin_state_.loss_power + inside_state_.loss_power);
   inside_state_.supplied = begin_state_.supplied + 0.5 * h * s * (begin_state_.supply_power + inside_state_.supply_power);
