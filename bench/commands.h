@@ -70,6 +70,9 @@ struct SpaceOptions {
 /// Mechanisms in space, and the four-bar in the plane and in space, run in turns.
 nlohmann::ordered_json study_space(const SpaceOptions& options);
 
+/// Ways to keep constraints on the four-bar: joint forces by penalties and by the augmented Lagrangian beside Pintle's own.
+nlohmann::ordered_json study_constraints();
+
 /// Spectral radius of a step across taut joints, drawn to `file`.
 nlohmann::ordered_json study_stability(const std::string& file);
 

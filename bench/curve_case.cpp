@@ -135,7 +135,7 @@ std::vector<Contestant> CurveCase::contestants() const {
 void CurveCase::add_own(std::vector<Contestant>& list) const {
   const auto own = [&](const char* name, const std::string& group, Equations equations, const char* method, int stages, std::vector<double> ladder,
                        ToleranceOf tolerance_of = ToleranceOf::kForces) {
-    const bool ideal = equations == Equations::kIdeal;
+    const bool ideal = has_constraints(equations);
     const Problem* const problem = ideal ? &ideal_problem_ : &compliant_problem_;
     const auto run = [=](double tolerance) { return run_stepper(*problem, {equations, method, stages, tolerance_of}, tolerance).measured(); };
     const std::string& solves = ideal ? kIdeal : kCompliant;
@@ -147,6 +147,10 @@ void CurveCase::add_own(std::vector<Contestant>& list) const {
   own("Pintle, order 9 of motion", group::kPintle, Equations::kNewtonian, "radau", 5, decades(-1, -9), ToleranceOf::kMotion);
   own("Pintle, dopri5", group::kExplicit, Equations::kNewtonian, "dopri5", 3, decades(-2, -6));
   own("Pintle, ideal joints", group::kPintleIdeal, Equations::kIdeal, "dopri5", 3, decades(-3, -10));
+  own("Penalty, dopri5", group::kPenalty, Equations::kPenalty, "dopri5", 3, decades(-2, -8));
+  own("Augmented Lagrangian, trapezoidal rule", group::kAugmented, Equations::kAugmentedLagrangian, "ode23t", 3, decades(-2, -8));
+  own("Augmented Lagrangian, HHT", group::kAugmented, Equations::kAugmentedLagrangian, "hht", 3, decades(-2, -8));
+  if (n_bodies() <= kDenseBodies) own("Augmented Lagrangian, relative coordinates", group::kAugmented, Equations::kRelativeAugmented, "ode23t", 3, decades(-2, -8));
   if (about_.small)
     list.push_back({"Pintle, whole run", group::kWholeRun, kCompliant,
                     [this](double tolerance) { return whole_run(*compliant_, compliant_problem_, tolerance); }, decades(-2, -6),

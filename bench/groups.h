@@ -11,10 +11,10 @@ inline const std::string kCompliant = "compliant", kIdeal = "ideal";  // the equ
 namespace group {
 inline const std::string kPintle = "Pintle", kWholeRun = "Pintle, whole run", kExplicit = "Pintle, dopri5", kSundials = "SUNDIALS",
                          kSimbodyBushings = "Simbody, bushings", kPintleIdeal = "Pintle, ideal joints", kSimbodyIdeal = "Simbody, ideal joints",
-                         kMujoco = "MuJoCo, ideal joints";
-inline const std::array<std::string, 8> kAll{kPintle, kWholeRun, kExplicit, kSundials, kSimbodyBushings, kPintleIdeal, kSimbodyIdeal, kMujoco};
+                         kMujoco = "MuJoCo, ideal joints", kPenalty = "Penalty", kAugmented = "Augmented Lagrangian";
+inline const std::array<std::string, 10> kAll{kPintle, kWholeRun, kExplicit, kSundials, kSimbodyBushings, kPintleIdeal, kPenalty, kAugmented, kSimbodyIdeal, kMujoco};
 /// Of the picture's line: a colour for each program, dashed for ideal joints.
-inline const std::array<int, 8> kStyle{0, 1, 2, 3, 4, 7, 11, 12};
+inline const std::array<int, 10> kStyle{0, 1, 2, 3, 4, 7, 13, 9, 11, 12};
 }  // namespace group
 
 }  // namespace pintle::bench

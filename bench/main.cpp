@@ -192,6 +192,7 @@ int run_program(int argc, char** argv) {
   add_space(app, options, out);
   add_battery(app, options, out);
   add_micro(app, options);
+  app.add_subcommand("constraints", "the four-bar by penalties and augmented Lagrangian: the table of theory/penalty")->callback([&] { out["constraints"] = study_constraints(); });
   app.add_subcommand("short", "a short version of peers, stiffness, forces and micro")->callback([&] { out = run_short(); });
   CLI11_PARSE(app, argc, argv);
   if (app.get_subcommands().empty()) out["curves"] = measure_curves(options.curves);

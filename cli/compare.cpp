@@ -50,7 +50,11 @@ struct Variant {
   Model model;
 };
 
-Equations equations_of(const CompareOptions& options) { return options.against == "ideal" ? Equations::kIdeal : Equations::kRelative; }
+Equations equations_of(const CompareOptions& options) {
+  for (const Equations equations : {Equations::kIdeal, Equations::kPenalty, Equations::kAugmentedLagrangian, Equations::kRelativeAugmented})
+    if (options.against == to_word(equations)) return equations;
+  return Equations::kRelative;
+}
 
 /// The stem of a model's file where that tells the models apart, else its path.
 std::string name_of(const std::string& path, const std::vector<std::string>& paths) {
@@ -147,9 +151,9 @@ void add_compare(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<CompareOptions>();
   verb->add_option("MODEL", options->models, "model file (.toml or .json); several: side by side")->required();
   add_changes(*verb, *options, true, "run each model also with this law of a joint, e.g. joint.A=linear,stiffness=1e7 (repeatable)");
-  CLI::Option* against = verb->add_option("--against", options->against, "ideal: every joint ideal; relative: relative coordinates for the joints marked ideal")
-      ->check(CLI::IsMember({"ideal", "relative", "lagrangian"}))
-      ->type_name("ideal|relative")
+  CLI::Option* against = verb->add_option("--against", options->against, "ideal: every joint ideal; relative: relative coordinates for the joints marked ideal; penalty, augmented_lagrangian, relative_augmented_lagrangian: every joint ideal, by these methods")
+      ->check(CLI::IsMember({"ideal", "relative", "lagrangian", "penalty", "augmented_lagrangian", "relative_augmented_lagrangian"}))
+      ->type_name("NAME")
       ->capture_default_str();
   verb->add_option("--plot", options->plot, "picture to write (default: <name of the model file>-compare.svg; none: no picture)")->type_name("FILE.svg")->check(svg_or_none_problem, "", "");
   verb->add_flag("--json", options->json, "print the comparison as JSON");

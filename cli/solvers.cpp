@@ -24,6 +24,7 @@ constexpr const char* kSolversFooter =
     "Examples:\n"
     "  pintle solvers four_bar.toml\n"
     "  pintle solvers four_bar.toml --methods radau,ode15s,hht --tolerances 1e-4,1e-6,1e-8 --plot work.svg\n"
+    "  pintle solvers four_bar.toml --set simulate.equations=ideal\n"
     "  pintle solvers pendulum.toml --set joint.pin.stiffness=1e9 --duration '0.2 s' --json\n"
     "\n"
     "Every method integrates the model once per tolerance, from the same start. Its joint forces are compared at the\n"
@@ -36,7 +37,10 @@ constexpr const char* kSolversFooter =
     "\n"
     "radau and dopri5 are Pintle's own and control the error of the joint forces. The others control that of positions and\n"
     "velocities, as general integrators do: ode45 (Dormand-Prince), ode23t (trapezoidal rule), ode15s (BDF), ode113\n"
-    "(Adams), hht (alpha = -0.05), generalised_alpha (spectral radius 0.9).\n\n";
+    "(Adams), hht (alpha = -0.05), generalised_alpha (spectral radius 0.9).\n"
+    "\n"
+    "With --set simulate.equations=ideal the methods are ways to keep constraints: multipliers (the reference), penalty,\n"
+    "augmented_lagrangian (trapezoidal rule), augmented_lagrangian_hht, and both in relative coordinates.\n\n";
 
 struct SolversOptions : ModelOptions {
   std::string plot;
@@ -74,7 +78,8 @@ ExitCode solvers(const SolversOptions& options) {
 void add_solvers(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("solvers", "Compare the integration methods on a model: cost, joint-force error, vibration");
   const auto options = std::make_shared<SolversOptions>();
-  const std::vector<std::string> known = options->study.methods;
+  std::vector<std::string> known = solver_methods(Equations::kNewtonian);
+  for (std::string& word : solver_methods(Equations::kIdeal)) known.push_back(std::move(word));
   add_model_options(*verb, *options, false);
   verb->add_option("--methods", options->study.methods, "methods to compare")
       ->type_name("LIST")

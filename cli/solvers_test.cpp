@@ -51,7 +51,7 @@ TEST_F(SolversVerb, SaysWhatIsWrong) {
   EXPECT_TRUE(holds(answer.error, "euler"));
   EXPECT_EQ(sandbox_.pintle("solvers pendulum.toml --tolerances -1").exit_code, 2);
   EXPECT_EQ(sandbox_.pintle("solvers nothing.toml").exit_code, 6);
-  answer = sandbox_.pintle("solvers pendulum.toml --set simulate.equations=ideal");
+  answer = sandbox_.pintle("solvers pendulum.toml --set simulate.equations=relative");
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_TRUE(holds(answer.error, "newtonian")) << answer.error;
 }

@@ -39,7 +39,7 @@ nlohmann::json read_facts(const std::string& name);
 Model model_of(const std::string& name, const std::vector<std::string>& overrides = {});
 void set_joints(Model& model, double stiffness, double damping);
 
-/// simulate(), with the equations of ideal joints if `ideal`; false and a line in the report if they are not there.
+/// simulate(), with multipliers if `ideal` and the model chooses no other way to keep constraints; false and a line in the report if they are not there.
 bool run(Model model, bool ideal, Report& report, Trajectory& out);
 
 /// "k = 1e10" or "ideal".

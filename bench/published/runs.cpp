@@ -32,17 +32,17 @@ void set_joints(Model& model, double stiffness, double damping) {
 }
 
 bool run(Model model, bool ideal, Report& report, Trajectory& out) {
-  if (ideal) model.simulate.equations = Equations::kIdeal;
+  if (ideal && !has_constraints(model.simulate.equations)) model.simulate.equations = Equations::kIdeal;
   try {
     out = simulate(model);
   } catch (const std::invalid_argument& error) {
     if (!ideal) throw;
-    report.skipped.push_back(fmt::format("{} with ideal joints: {}", model.name, error.what()));
+    report.skipped.push_back(fmt::format("{} with {} equations: {}", model.name, to_word(model.simulate.equations), error.what()));
     return false;
   }
   if (out.outcome == Outcome::kFailed || out.outcome == Outcome::kInterrupted) {
     if (!ideal) throw std::runtime_error(model.name + ": " + out.message);
-    report.skipped.push_back(fmt::format("{} with ideal joints: {}", model.name, out.message));
+    report.skipped.push_back(fmt::format("{} with {} equations: {}", model.name, to_word(model.simulate.equations), out.message));
     return false;
   }
   return true;

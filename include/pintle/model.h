@@ -142,8 +142,32 @@ enum class Start { kAssembled, kUnloaded, kRaw };
 
 /// The equations of motion. kNewtonian: every joint is a force law. kRelative: joints marked `ideal` are obeyed by
 /// relative coordinates over a spanning tree, every other joint is a force law. kIdeal: every joint with a linear law is a
-/// constraint with Lagrange multipliers.
-enum class Equations { kNewtonian, kRelative, kIdeal };
+/// constraint with Lagrange multipliers. kPenalty: the same constraints, each opposed by a penalty on its acceleration, rate and
+/// violation. kAugmentedLagrangian: the same constraints, with multipliers that are found in the iteration of an implicit step. kRelativeAugmented: that in relative coordinates, for what closes their loops.
+enum class Equations { kNewtonian, kRelative, kIdeal, kPenalty, kAugmentedLagrangian, kRelativeAugmented };
+
+/// The word of the model file.
+inline const char* to_word(Equations equations) {
+  switch (equations) {
+    case Equations::kNewtonian: return "newtonian";
+    case Equations::kRelative: return "relative";
+    case Equations::kIdeal: return "ideal";
+    case Equations::kPenalty: return "penalty";
+    case Equations::kAugmentedLagrangian: return "augmented_lagrangian";
+    case Equations::kRelativeAugmented: return "relative_augmented_lagrangian";
+  }
+  return "";
+}
+
+/// Whether joints with a linear law are constraints.
+constexpr bool has_constraints(Equations e) { return e != Equations::kNewtonian && e != Equations::kRelative; }
+
+/// With kPenalty.
+struct PenaltySettings {
+  double factor = 1e7;    ///< of a constraint's penalty, over the mass that resists it at the start [-]
+  double frequency = 10;  ///< at which violations die away [rad/s]
+  double damping = 1;     ///< ratio of it [-]
+};
 
 /// What the tolerance is of. kForces: of each joint force, over its peak. kMotion: of the place of every body, over the longest
 /// way that one has gone; vibrations too small to matter for that are damped out, not followed, and the joint forces are as
@@ -162,6 +186,7 @@ struct SimulateSettings {
   double max_step = 0;       ///< [s]; 0: none
   /// Bodies and joints whose columns the results keep: "joint.pin", "body.*", "all". Empty: all, unless there are very many.
   std::vector<std::string> record;
+  PenaltySettings penalty;
 };
 
 struct Model {

@@ -10,8 +10,11 @@
 
 namespace pintle {
 
+/// The words of the methods that are compared on a model with these equations: kNewtonian, or one with constraints. Others have none.
+std::vector<std::string> solver_methods(Equations equations);
+
 struct SolverStudyOptions {
-  std::vector<std::string> methods{"radau", "dopri5", "ode45", "ode23t", "ode15s", "ode113", "hht", "generalised_alpha"};
+  std::vector<std::string> methods;  ///< none: all
   std::vector<double> tolerances{1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
   double time_limit = 10;         ///< of one integration [s]
   double truth_tolerance = 1e-9;  ///< of the run that all are measured against
@@ -70,8 +73,9 @@ struct SolverStudy {
 /// Called between steps; return false to stop.
 using KeepGoing = std::function<bool()>;
 
-/// Runs every method at every tolerance from the same start. Throws AssemblyError, and std::invalid_argument for a word
-/// that is no method, a tolerance that is not positive, or equations that are not Newtonian.
+/// Runs every method at every tolerance from the same start. On a model with constraints the truth is that of multipliers, and the
+/// methods are ways to keep constraints. Throws AssemblyError, and std::invalid_argument for a word that is no method, a tolerance
+/// that is not positive, or relative coordinates.
 SolverStudy compare_solvers(const Model& model, const SolverStudyOptions& options, const KeepGoing& keep_going = {});
 
 }  // namespace pintle

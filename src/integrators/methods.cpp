@@ -13,7 +13,10 @@
 #include "integrators/general/alpha_stepper.h"
 #include "integrators/general/dopri5.h"
 #include "integrators/general/sundials_stepper.h"
+#include "integrators/ideal/augmented_lagrangian.h"
 #include "integrators/ideal/ideal_stepper.h"
+#include "integrators/ideal/penalty_forces.h"
+#include "integrators/ideal/tree_augmented.h"
 #include "integrators/relative/tree_dopri5.h"
 #include "integrators/relative/tree_radau.h"
 
@@ -71,6 +74,8 @@ bool is_in(const List& list, std::string_view word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
+bool is_augmented(Equations equations) { return equations == Equations::kAugmentedLagrangian || equations == Equations::kRelativeAugmented; }
+
 AlphaWeights alpha_weights(std::string_view method) {
   return method == "hht"                 ? AlphaWeights::hht(kHhtAlpha)
          : method == "generalised_alpha" ? AlphaWeights::generalised(kKeptVibration)
@@ -79,14 +84,19 @@ AlphaWeights alpha_weights(std::string_view method) {
 
 }  // namespace
 
-std::string usual_method(Equations equations) { return equations == Equations::kIdeal ? "dopri5" : "radau"; }
+std::string usual_method(Equations equations) {
+  if (is_augmented(equations)) return "ode23t";
+  return has_constraints(equations) ? "dopri5" : "radau";
+}
 
 std::string why_not(const MethodChoice& choice) {
   const bool sundials = is_in(kFromSundials, choice.method), alpha = is_in(kAlphaFamily, choice.method);
-  const bool ours = choice.method == "dopri5" || (choice.method == "radau" && choice.equations != Equations::kIdeal);
-  if (ours) return "";
+  const bool augmented = is_augmented(choice.equations), penalty = choice.equations == Equations::kPenalty, tree = choice.equations == Equations::kRelativeAugmented;
+  const bool has_radau = !has_constraints(choice.equations);
+  if (penalty && alpha) return "";
+  if (augmented ? alpha && !(tree && choice.method == "generalised_alpha") : choice.method == "dopri5" || (choice.method == "radau" && has_radau)) return "";
   if (choice.equations != Equations::kNewtonian)
-    return sundials || alpha
+    return (sundials || alpha) && !augmented
                ? fmt::format("method {} needs joints that are force laws (equations = \"newtonian\")", choice.method)
                : fmt::format("there is no method {} for these equations", choice.method);
   if (sundials && !has_sundials())
@@ -99,7 +109,13 @@ std::string why_not(const MethodChoice& choice) {
 
 std::unique_ptr<Stepper> make_stepper(const System& system, const MethodChoice& choice, double tolerance) {
   if (const std::string reason = why_not(choice); !reason.empty()) throw std::invalid_argument(reason);
-  if (choice.equations == Equations::kIdeal) return std::make_unique<IdealStepper>(system, tolerance);
+  if (choice.equations == Equations::kPenalty && choice.method != "dopri5")
+    return std::make_unique<AlphaStepper>(system, alpha_weights(choice.method), tolerance, std::make_unique<PenaltyForces>(system, choice.penalty));
+  if (choice.equations == Equations::kIdeal || choice.equations == Equations::kPenalty)
+    return std::make_unique<IdealStepper>(system, tolerance, choice.equations, choice.penalty);
+  if (choice.equations == Equations::kAugmentedLagrangian)
+    return std::make_unique<AlphaStepper>(system, alpha_weights(choice.method), tolerance, std::make_unique<AugmentedLagrangian>(system));
+  if (choice.equations == Equations::kRelativeAugmented) return std::make_unique<TreeAugmented>(system, alpha_weights(choice.method), tolerance);
   if (choice.equations == Equations::kRelative) {
     if (choice.method == "radau") return std::make_unique<TreeRadau>(system, tolerance, choice.stages);
     return std::make_unique<TreeDopri5>(system, tolerance);

@@ -14,6 +14,7 @@ struct MethodChoice {
   std::string method = "radau";  ///< never "auto"
   int stages = 3;                ///< of radau, 3 or 5
   ToleranceOf tolerance_of = ToleranceOf::kForces;  ///< kMotion: newtonian radau only
+  PenaltySettings penalty{};     ///< of Equations::kPenalty
 };
 
 /// What "auto" stands for.

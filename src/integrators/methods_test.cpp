@@ -142,6 +142,11 @@ TEST(Methods, SayWhyTheyAreNotToBeHad) {
       EXPECT_NE(reason.find("force laws"), std::string::npos);
       EXPECT_THROW(make_stepper(system, {equations, method, 3}, 1e-5), std::invalid_argument);
     }
+  for (const char* method : {"ode23t", "hht", "generalised_alpha"}) EXPECT_EQ(why_not({Equations::kAugmentedLagrangian, method}), "");
+  for (const char* method : {"dopri5", "ode23t", "hht", "generalised_alpha"}) EXPECT_EQ(why_not({Equations::kPenalty, method}), "");
+  EXPECT_FALSE(why_not({Equations::kPenalty, "radau"}).empty());
+  EXPECT_FALSE(why_not({Equations::kAugmentedLagrangian, "dopri5"}).empty());
+  EXPECT_FALSE(why_not({Equations::kRelativeAugmented, "generalised_alpha"}).empty());
   EXPECT_FALSE(why_not(newtonian("euler")).empty());
   EXPECT_EQ(why_not(newtonian("hht")), "");
   EXPECT_EQ(why_not(newtonian("ode45")).find("libsundials-dev") == std::string::npos, has_sundials());

@@ -128,6 +128,21 @@ TEST(ReadModel, SynonymsStandForTheirWords) {
     EXPECT_EQ(parse_model(kFullModel, "x.toml", std::vector<std::string>{word}).simulate.equations, Equations::kRelative) << word;
 }
 
+TEST(ReadModel, PenaltiesAndAugmentedLagrangian) {
+  const auto read = [](std::vector<std::string> overrides) {
+    overrides.push_back("simulate.method=auto");
+    return parse_model(kFullModel, "x.toml", overrides).simulate;
+  };
+  for (const Equations e : {Equations::kNewtonian, Equations::kRelative, Equations::kIdeal, Equations::kPenalty, Equations::kAugmentedLagrangian, Equations::kRelativeAugmented})
+    EXPECT_EQ(read({std::string("simulate.equations=") + to_word(e)}).equations, e);
+  EXPECT_EQ(read({"simulate.equations=penalty"}).penalty.factor, 1e7);
+  const SimulateSettings chosen = read({"simulate.equations=penalty", "simulate.penalty=1e5", "simulate.penalty_frequency=300 rpm", "simulate.penalty_damping=0.7"});
+  EXPECT_EQ(chosen.penalty.factor, 1e5);
+  EXPECT_NEAR(chosen.penalty.frequency, 10 * std::numbers::pi, 1e-12);
+  EXPECT_EQ(chosen.penalty.damping, 0.7);
+  EXPECT_EQ(parse_model(kFullModel, "x.toml", {"simulate.equations=augmented_lagrangian", "simulate.method=trapezoidal"}).simulate.method, "ode23t");
+}
+
 // The rate of a free coordinate has the coordinate's name in it; `rate` alone is that of the slide, where there is one.
 TEST(ReadModel, RatesOfFreeCoordinates) {
   for (const char* law : {"motor.M.torque=5 N*m - 0.1*angle_rate", "motor.M.torque=5 N*m - 0.1*rate", "motor.M.torque=5 N*m - 0.2*B.slide_rate"})

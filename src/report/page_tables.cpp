@@ -280,6 +280,9 @@ std::string assumption_list(const Model& model, const Trajectory& trajectory) {
     case Equations::kNewtonian: item("Every joint is a force law: it deflects under its force."); break;
     case Equations::kRelative: item("Joints marked ideal are rigid; every other joint is a force law."); break;
     case Equations::kIdeal: item("Every joint with a linear law is an ideal constraint."); break;
+    case Equations::kPenalty: item("Every joint with a linear law is an ideal constraint, kept by a penalty."); break;
+    case Equations::kAugmentedLagrangian: item("Every joint with a linear law is an ideal constraint, kept by the augmented Lagrangian method."); break;
+    case Equations::kRelativeAugmented: item("Every joint with a linear law is an ideal constraint: relative coordinates, and the augmented Lagrangian method for what closes loops."); break;
   }
   switch (settings.start) {
     case Start::kAssembled: item("The start is assembled: positions, velocities and the preload of every joint are computed."); break;

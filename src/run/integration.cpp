@@ -38,8 +38,11 @@ class Standstill {
 };
 
 // Samples of the loads in a step. Steps may hold much of a period of the motion, and the dense output of radau has as many samples of the forces; other methods
-// on free bodies resolve the vibrations of the joints.
-int load_samples(const MethodChoice& choice) { return choice.method == "radau" || choice.equations != Equations::kNewtonian ? CurveGrid::kMost : 3; }
+// on free bodies resolve the vibrations of the joints, and those of the alpha family make short steps.
+int load_samples(const MethodChoice& choice) {
+  const bool long_steps = choice.method == "radau" || (choice.method == "dopri5" && choice.equations != Equations::kNewtonian);
+  return long_steps ? CurveGrid::kMost : 3;
+}
 
 // Whether the energy ends the integration.
 template <class S>

@@ -47,6 +47,7 @@ class Passes {
     choice_.method = settings_.method == "auto" ? usual_method(choice_.equations) : settings_.method;
     out_.method = choice_.method;
     choice_.tolerance_of = settings_.tolerance_of;
+    choice_.penalty = settings_.penalty;
     out_.of_motion = choice_.tolerance_of == ToleranceOf::kMotion;
     make_passes();
     return std::move(fine_);
@@ -123,7 +124,7 @@ class Passes {
   void make_passes() {
     const double wanted = settings_.tolerance;
     choice_.stages = wanted < kTight ? 5 : 3;
-    double tolerance = std::min(wanted, out_.of_motion ? kLoosestOfMotion : choice_.equations == Equations::kIdeal ? kLoosestIdeal : kLoosest);
+    double tolerance = std::min(wanted, out_.of_motion ? kLoosestOfMotion : has_constraints(choice_.equations) && choice_.method == "dopri5" ? kLoosestIdeal : kLoosest);
     if (!context_.shape.checked) {
       run_pass(tolerance_by_nominal(tolerance));
       return finish();

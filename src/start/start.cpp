@@ -48,7 +48,7 @@ void note_lost_laws(const System& system, const IsIdeal& is_ideal, std::vector<s
 }  // namespace
 
 Assembly start_of_run(const Model& model, System& system, double known_span) {
-  if (model.simulate.equations == Equations::kIdeal) {
+  if (has_constraints(model.simulate.equations)) {
     Assembly assembly = ideal_start(model, system);
     note_lost_laws(system, [&system](int j) { return system.joints[j].ideal || system.joints[j].law.feeds(); }, assembly.notes);
     return assembly;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,6 +12,7 @@
 
 #include "base/stopwatch.h"
 #include "check/check_frequencies.h"
+#include "integrators/methods.h"
 #include "pintle/simulate.h"
 #include "run/integration.h"
 #include "run/passes.h"
@@ -31,12 +33,34 @@ constexpr int kRepetitions = 5;
 constexpr double kShort = 0.05;                          // a run that is repeated, at most [s]
 constexpr double kStepsRatio = 2;                        // between the runs that it is taken from, at least
 
+// Ways to keep constraints; the first is that of the truth.
+struct ConstraintMethod {
+  const char* word;
+  Equations equations;
+  const char* method;
+};
+constexpr std::array<ConstraintMethod, 7> kConstraintMethods{{{"multipliers", Equations::kIdeal, "dopri5"},
+                                                              {"penalty", Equations::kPenalty, "dopri5"},
+                                                              {"penalty_trapezoidal", Equations::kPenalty, "ode23t"},
+                                                              {"augmented_lagrangian", Equations::kAugmentedLagrangian, "ode23t"},
+                                                              {"augmented_lagrangian_hht", Equations::kAugmentedLagrangian, "hht"},
+                                                              {"relative_augmented_lagrangian", Equations::kRelativeAugmented, "ode23t"},
+                                                              {"relative_augmented_lagrangian_hht", Equations::kRelativeAugmented, "hht"}}};
+
+MethodChoice choice_of(const Model& model, const std::string& word, double tolerance) {
+  MethodChoice choice{Equations::kNewtonian, word, tolerance < kTight ? 5 : 3};
+  for (const ConstraintMethod& way : kConstraintMethods)
+    if (has_constraints(model.simulate.equations) && word == way.word) choice = {way.equations, way.method};
+  choice.penalty = model.simulate.penalty;
+  return choice;
+}
+
 void check_options(const Model& model, const SolverStudyOptions& options) {
-  if (model.simulate.equations != Equations::kNewtonian)
-    throw std::invalid_argument("methods are compared on joints that are force laws: equations = \"newtonian\"");
-  const std::vector<std::string> known = SolverStudyOptions{}.methods;
+  const std::vector<std::string> known = solver_methods(model.simulate.equations);
+  if (known.empty()) throw std::invalid_argument("methods are compared on joints that are force laws, or ideal joints: equations = \"newtonian\" or \"ideal\"");
   for (const std::string& method : options.methods)
-    if (std::find(known.begin(), known.end(), method) == known.end()) throw std::invalid_argument("there is no method " + method);
+    if (std::find(known.begin(), known.end(), method) == known.end())
+      throw std::invalid_argument(fmt::format("there is no method {} for {} equations", method, to_word(model.simulate.equations)));
   for (const double tolerance : options.tolerances)
     if (!(tolerance > 0 && tolerance < 1)) throw std::invalid_argument(fmt::format("a tolerance of {:g} is not between 0 and 1", tolerance));
 }
@@ -57,7 +81,7 @@ class Study {
     find_truth();
     if (!out_.truth.complete) return std::move(out_);
     choose_window();
-    for (const std::string& method : options_.methods) try_method(method);
+    for (const std::string& method : options_.methods.empty() ? solver_methods(model_.simulate.equations) : options_.methods) try_method(method);
     return std::move(out_);
   }
 
@@ -67,9 +91,12 @@ class Study {
     return !out_.interrupted;
   }
 
+  bool constrained() const { return has_constraints(model_.simulate.equations); }
+
   void find_truth() {
     Model model = model_;
-    model.simulate.method = "radau";
+    if (constrained()) model.simulate.equations = Equations::kIdeal;
+    model.simulate.method = "auto";
     model.simulate.tolerance = options_.truth_tolerance;
     truth_ = simulate(model, [this](const Progress&) { return go_on(); });
     SolverTruth& truth = out_.truth;
@@ -82,7 +109,7 @@ class Study {
   }
 
   void choose_window() {
-    const CheckFrequencies frequencies = check_frequencies(system_, start_, -1);
+    const CheckFrequencies frequencies = constrained() ? CheckFrequencies{} : check_frequencies(system_, start_, -1);
     for (const CheckComponent& c : frequencies.components)
       if (c.frequency > 0) out_.slowest_vibration = out_.slowest_vibration > 0 ? std::min(out_.slowest_vibration, c.frequency) : c.frequency;
     const double periods = out_.slowest_vibration > 0 ? kWindowPeriods * 2 * std::numbers::pi / out_.slowest_vibration : 0;
@@ -92,7 +119,7 @@ class Study {
   }
 
   void try_method(const std::string& method) {
-    if (const std::string reason = why_not({Equations::kNewtonian, method, 3}); !reason.empty()) {
+    if (const std::string reason = why_not(choice_of(model_, method, 1)); !reason.empty()) {
       out_.notes.push_back(reason);
       return;
     }
@@ -108,7 +135,7 @@ class Study {
     p.max_step = model_.simulate.max_step;
     p.tolerance = tolerance;
     p.first_step = 1e-4 * p.duration;
-    p.choice = {Equations::kNewtonian, method, tolerance < kTight ? 5 : 3};
+    p.choice = choice_of(model_, method, tolerance);
     return p;
   }
 
@@ -202,6 +229,14 @@ class Study {
 };
 
 }  // namespace
+
+std::vector<std::string> solver_methods(Equations equations) {
+  if (equations == Equations::kNewtonian) return {"radau", "dopri5", "ode45", "ode23t", "ode15s", "ode113", "hht", "generalised_alpha"};
+  std::vector<std::string> words;
+  if (has_constraints(equations))
+    for (const ConstraintMethod& way : kConstraintMethods) words.push_back(way.word);
+  return words;
+}
 
 SolverStudy compare_solvers(const Model& model, const SolverStudyOptions& options, const KeepGoing& keep_going) {
   return Study(model, options, keep_going).go();

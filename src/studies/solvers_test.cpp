@@ -120,9 +120,29 @@ TEST(CompareSolvers, RefusesWhatMakesNoSense) {
   options = {};
   options.tolerances = {0};
   EXPECT_THROW(compare_solvers(stiff_pendulum(), options), std::invalid_argument);
+  options = {};
+  options.methods = {"penalty"};
+  EXPECT_THROW(compare_solvers(stiff_pendulum(), options), std::invalid_argument);
+  Model relative = stiff_pendulum();
+  relative.simulate.equations = Equations::kRelative;
+  EXPECT_THROW(compare_solvers(relative, {}), std::invalid_argument);
+}
+
+// Seven ways to keep the same constraints, against the first at a tighter tolerance.
+TEST(CompareSolvers, WaysToKeepConstraints) {
   Model ideal = stiff_pendulum();
   ideal.simulate.equations = Equations::kIdeal;
-  EXPECT_THROW(compare_solvers(ideal, {}), std::invalid_argument);
+  SolverStudyOptions options;
+  options.tolerances = {1e-4, 1e-6};
+  const SolverStudy study = compare_solvers(ideal, options);
+  ASSERT_EQ(study.runs.size(), 14U);
+  const std::vector<std::string> words = solver_methods(Equations::kIdeal);
+  for (std::size_t i = 0; i < study.runs.size(); ++i) {
+    const SolverRun& run = study.runs[i];
+    EXPECT_EQ(run.method, words[i / 2]);
+    ASSERT_EQ(run.end, SolverEnd::kCompleted) << run.method << run.message;
+    EXPECT_LT(run.force_error, i % 2 == 0 ? 1e-2 : 1e-4) << run.method;
+  }
 }
 
 }  // namespace

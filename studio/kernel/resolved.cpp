@@ -70,10 +70,6 @@ Json motor(const Motor& m) {
           {"law", m.law.text()},      {"stiffness", m.stiffness}, {"damping", m.damping}};
 }
 
-const char* word(Equations equations) {
-  return equations == Equations::kIdeal ? "ideal" : equations == Equations::kRelative ? "relative" : "newtonian";
-}
-
 const char* word(Start start) { return start == Start::kRaw ? "raw" : start == Start::kUnloaded ? "unloaded" : "assembled"; }
 
 }  // namespace
@@ -87,7 +83,7 @@ Json resolved(const Model& model) {
           {"output_step", run.output_step},
           {"tolerance", run.tolerance},
           {"method", run.method},
-          {"equations", word(run.equations)},
+          {"equations", to_word(run.equations)},
           {"start", word(run.start)},
           {"ground", array(model.ground, marker)},
           {"bodies", array(model.bodies, body)},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace pintle {
 namespace {
@@ -14,20 +15,16 @@ using S = Planar;
 constexpr int kMaxIterations = 10;
 constexpr double kNewtonShare = 0.01;       // of the tolerance: a last correction that is small enough
 constexpr double kLoosestNewton = 1e-5;     // forces are k times positions: solved at least to this, whatever the tolerance
+constexpr double kPassing = 0.1;            // of the usual step: with ideal joints so short a step is taken in any case, theory/penalty section 2
+constexpr double kBeyond = 2;              // the next step after one of these, over it
+constexpr double kForget = 0.99;            // of the usual step, by one that is shorter
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-// theory/solvers Eq. (3.6).
-double AlphaWeights::velocity_error() const {
-  const double g = gamma(), d = lag(), ahead = 1 + d;
-  const double offset = 0.5 * (1 - forces - (1 - accelerations) * ahead * ahead - accelerations * d * d);
-  return 0.5 * (1 - g) * d * d + 0.5 * g * ahead * ahead + offset - 1.0 / 6;
-}
-
-AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance)
+AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance, std::unique_ptr<KeptJoints> ideal_joints)
     : system_(system), weights_(weights), beta_(weights.beta()), gamma_(weights.gamma()), tolerance_(tolerance),
-      newton_tolerance_(std::min(tolerance, kLoosestNewton)), force_evaluator_(system), borders_(system), tangents_(system), lu_(system.pattern()),
+      newton_tolerance_(ideal_joints && ideal_joints->projects() ? kLoosestNewton : std::min(tolerance, kLoosestNewton)), kept_(std::move(ideal_joints)), force_evaluator_(system), borders_(system), tangents_(system), lu_(system.pattern()),
       begin_(zero_state(system)), end_(begin_), between_(begin_), a_before_(begin_.q), a_now_(begin_.q), q_(begin_.q), v_(begin_.q), a_(begin_.q), F_begin_(begin_.q),
       F_(begin_.q), work_(system.bodies.size()) {
   before_ = now_ = {begin_.q, begin_.q, begin_.q, 0};
@@ -35,8 +32,12 @@ AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, do
 
 void AlphaStepper::start(const State& state, double h) {
   begin_ = end_ = state;
-  force_evaluator_.complete(end_);
-  borders_.start(end_);
+  if (!kept_) {
+    force_evaluator_.complete(end_);
+    borders_.start(end_);
+  } else if (!kept_->start(end_)) {
+    failure_ = "ideal joints cannot be closed at the start";
+  }
   now_ = {end_.v, end_.a, end_.a, 0};
   h_ = h;
 }
@@ -44,19 +45,20 @@ void AlphaStepper::start(const State& state, double h) {
 // theory/solvers Eq. (3.7): the lag of the accelerations goes with the step; here it becomes that of a step of h.
 void AlphaStepper::set_lag(double h, const Knot& knot, Vecs& a) const {
   const double share = weights_.lag() != 0 && knot.h > 0 ? h / knot.h : 1;
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] = share == 1 ? knot.a[i] : knot.law[i] + share * (knot.a[i] - knot.law[i]);
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = weights_.lagged(share, knot.a[i], knot.law[i]);
 }
 
-// F = Q + G' law(gap, rate).
+// F = Q + G' law(gap, rate), or with what keeps ideal joints.
 void AlphaStepper::forces(double t, const Vecs& q, const Vecs& v, std::vector<double>& law_state, Vecs& F) {
+  ++counters_.evaluations;
+  if (kept_) return kept_->find_forces(t, q, v, F);
   system_.accelerations(t, q, v, F, law_state.data());
   for (int i = 0; i < system_.n_bodies(); ++i) F[i] = F[i].cwiseProduct(system_.bodies[i].mass);
-  ++counters_.evaluations;
 }
 
 // The laws' own states at the end of a step of h, by the trapezoidal rule, joint by joint.
 void AlphaStepper::find_states(double t, const Vecs& q, const Vecs& v, double h) {
-  if (z_.empty()) return;
+  if (z_.empty() || kept_) return;
   system_.motions(q, v, m_);
   LawTangents law;
   LawImpedance<double> follows;
@@ -87,8 +89,8 @@ void AlphaStepper::find_states(double t, const Vecs& q, const Vecs& v, double h)
 // theory/solvers Eq. (3.2): where the accelerations a_ take positions and velocities.
 void AlphaStepper::place(double h) {
   for (std::size_t i = 0; i < q_.size(); ++i) {
-    q_[i] = begin_.q[i] + h * begin_.v[i] + h * h * ((0.5 - beta_) * a_now_[i] + beta_ * a_[i]);
-    v_[i] = begin_.v[i] + h * ((1 - gamma_) * a_now_[i] + gamma_ * a_[i]);
+    q_[i] = weights_.position(h, begin_.q[i], begin_.v[i], a_now_[i], a_[i]);
+    v_[i] = weights_.velocity(h, begin_.v[i], a_now_[i], a_[i]);
   }
 }
 
@@ -101,7 +103,7 @@ double AlphaStepper::correct(double h) {
   const double t = begin_.t + h, new_a = 1 - weights_.accelerations, new_F = 1 - weights_.forces;
   find_states(t, q_, v_, h);
   forces(t, q_, v_, z_, F_);
-  tangents_.find(t, q_, v_, z_, 2 / h);
+  tangents_.find(t, q_, v_, z_, 2 / h, kept_.get());
   tangents_.combine(new_a, new_F * h * h * beta_, new_F * h * gamma_, lu_);
   ++counters_.factorizations;
   ++counters_.newton_iterations;
@@ -113,13 +115,14 @@ double AlphaStepper::correct(double h) {
   }
   lu_.solve(work_);
   double size = 0, sum = 0;
+  const double of_v = projects() ? 0 : h * gamma_;  // velocities on constraints are those of their projection
   for (std::size_t i = 0; i < a_.size(); ++i)
     for (int k = 0; k < S::kDof; ++k) {
       const double da = work_[i][k];
       sum += da;
       a_[i][k] += da;
       size = std::max({size, h * h * beta_ * std::abs(da) / weight(begin_.q[i][k], q_[i][k], largest_q_),
-                       h * gamma_ * std::abs(da) / weight(begin_.v[i][k], v_[i][k], largest_v_)});
+                       of_v * std::abs(da) / weight(begin_.v[i][k], v_[i][k], largest_v_)});
     }
   place(h);
   return std::isfinite(sum) ? size : std::numeric_limits<double>::infinity();
@@ -129,41 +132,43 @@ bool AlphaStepper::solve(double h) {
   a_ = a_now_;
   z_ = begin_.law_state;
   place(h);
+  if (kept_) kept_->begin_step(begin_, h * h * beta_);
   const double enough = kNewtonShare * newton_tolerance_ / tolerance_.relative;
   double last = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kMaxIterations; ++i) {
+  bool solved = false;
+  for (int i = 0; i < kMaxIterations && !solved; ++i) {
     const double size = correct(h);
     if (!std::isfinite(size) || (i > 2 && size > 2 * last)) return false;
-    if (size < std::max(enough, 1e-2 * kRounding)) return true;
+    solved = size < std::max(enough, 1e-2 * kRounding);
     last = size;
   }
-  return last < 1;  // at the rounding of stiff forces corrections shrink no more
+  solved = solved || last < 1;  // at the rounding of stiff forces corrections shrink no more
+  return solved && (!kept_ || kept_->project(begin_.t + h, q_, v_, a_));
 }
 
-// theory/solvers Eqs. (3.5), (3.6), in units of the tolerance.
+// In units of the tolerance.
 double AlphaStepper::error(double h) {
-  const double e_q = std::abs(weights_.position_error()) * h * h * h, e_v = std::abs(weights_.velocity_error()) * h * h * h;
   double worst = 0, sum = 0;
   for (std::size_t i = 0; i < a_.size(); ++i)
     for (int k = 0; k < S::kDof; ++k) {
-      const double slope_v = (v_[i][k] - begin_.v[i][k]) / h, slope_a = (a_[i][k] - a_now_[i][k]) / h;
-      double q3 = slope_a, v3 = slope_a / h;  // a first step knows no more: too large a guess
-      if (now_.h > 0) {
-        q3 = 2 * (slope_v - (begin_.v[i][k] - before_.v[i][k]) / now_.h) / (h + now_.h);
-        v3 = 2 * (slope_a - (a_now_[i][k] - a_before_[i][k]) / now_.h) / (h + now_.h);
-      }
-      sum += q3 + v3;
-      worst = std::max({worst, e_q * std::abs(q3) / weight(begin_.q[i][k], q_[i][k], largest_q_),
-                        e_v * std::abs(v3) / weight(begin_.v[i][k], v_[i][k], largest_v_)});
+      const auto [e_q, e_v] = weights_.local_errors(h, now_.h, {before_.v[i][k], a_before_[i][k], begin_.v[i][k], a_now_[i][k], v_[i][k], a_[i][k]});
+      sum += e_q + e_v;
+      worst = std::max({worst, e_q / weight(begin_.q[i][k], q_[i][k], largest_q_), e_v / weight(begin_.v[i][k], v_[i][k], largest_v_)});
     }
   return std::isfinite(sum) ? worst : std::numeric_limits<double>::infinity();
 }
 
+void AlphaStepper::find_begin_forces() {
+  if (!kept_) return forces(begin_.t, begin_.q, begin_.v, begin_.law_state, F_begin_);
+  for (int i = 0; i < system_.n_bodies(); ++i) F_begin_[i] = system_.bodies[i].mass.cwiseProduct(begin_.a[i]);
+}
+
 bool AlphaStepper::step(double t_end) {
+  if (!failure_.empty()) return false;
   begin_ = end_;
   largest_q_ = largest_coordinate(begin_.q);
   largest_v_ = largest_coordinate(begin_.v);
-  forces(begin_.t, begin_.q, begin_.v, begin_.law_state, F_begin_);
+  find_begin_forces();
   double most = 5;  // by which the next step may be longer
   double h = max_step_ > 0 ? std::min(h_, max_step_) : h_;
   borders_.begin_step();
@@ -182,14 +187,18 @@ bool AlphaStepper::step(double t_end) {
       continue;
     }
     const double e = error(h);
+    const bool passing = kept_ && e > 1 && h < kPassing * usual_h_ && std::isfinite(e);
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
-    if (e <= 1) {
-      set_end_state(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
-      if (borders_.shorten(end_, h)) {
+    if (e <= 1 || passing) {
+      const bool found = set_end_state(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
+      if (!found) h *= 0.25;
+      if (!found || crosses_border(h)) {
         ++counters_.rejected;
         continue;
       }
       finish(h);
+      if (passing) return pass(h);
+      usual_h_ = std::max(h, kForget * usual_h_);
       h_ = borders_.has_shortened() ? std::max(h_, h * factor) : h * std::min(factor, most);
       return true;
     }
@@ -199,13 +208,30 @@ bool AlphaStepper::step(double t_end) {
   }
 }
 
-void AlphaStepper::set_end_state(double t, double h) {
+// Singular positions and jumps of forces are behind a step that is so short.
+bool AlphaStepper::pass(double h) {
+  if (n_passed_++ == 0) first_passed_ = begin_.t;
+  h_ = kBeyond * h;
+  return true;
+}
+
+std::vector<std::string> AlphaStepper::remarks() const {
+  std::vector<std::string> out;
+  if (kept_) out.push_back(kept_->remark());
+  if (n_passed_ > 0)
+    out.push_back(fmt::format("{} steps were taken with an error above the tolerance, the first at t = {:.6g} s: singular positions or jumps of forces", n_passed_, first_passed_));
+  return out;
+}
+
+bool AlphaStepper::set_end_state(double t, double h) {
   end_.t = t;
   end_.q = q_;
   end_.v = v_;
+  if (kept_) return kept_->complete(end_);
   find_states(t, q_, v_, h);
   end_.law_state = z_;
   force_evaluator_.complete(end_);
+  return true;
 }
 
 // Energies by the trapezoidal rule, which is of the method's order.
@@ -217,7 +243,7 @@ void AlphaStepper::finish(double h) {
   now_.a = a_;
   now_.law = end_.a;
   now_.h = h;
-  if (borders_.cross(end_)) {  // goes on as from a start
+  if (!kept_ && borders_.cross(end_)) {  // goes on as from a start
     force_evaluator_.complete(end_);
     borders_.record(end_);
     now_.a = now_.law = end_.a;
@@ -240,6 +266,16 @@ const State& AlphaStepper::interpolate(double t) {
     cubic(begin_.v[i], begin_.a[i], end_.v[i], end_.a[i], between_.v[i]);
     between_.a[i] = r * begin_.a[i] + s * end_.a[i];
   }
+  if (kept_) kept_->complete(between_);
+  else interpolate_forces(s);
+  between_.dissipated = begin_.dissipated + 0.5 * h * s * (begin_.loss_power + between_.loss_power);
+  between_.supplied = begin_.supplied + 0.5 * h * s * (begin_.supply_power + between_.supply_power);
+  return between_;
+}
+
+// Gaps on straight lines, and the laws' forces there.
+void AlphaStepper::interpolate_forces(double s) {
+  const double r = 1 - s;
   for (int j = 0; j < system_.n_joints(); ++j) {
     between_.gap[j] = r * begin_.gap[j] + s * end_.gap[j];
     between_.gap_rate[j] = r * begin_.gap_rate[j] + s * end_.gap_rate[j];
@@ -252,9 +288,6 @@ const State& AlphaStepper::interpolate(double t) {
   for (int j = 0; j < system_.n_joints(); ++j) between_.force[j] = system_.joints[j].law.force(law_point(system_, j, between_));
   between_.loss_power = r * begin_.loss_power + s * end_.loss_power;
   between_.supply_power = r * begin_.supply_power + s * end_.supply_power;
-  between_.dissipated = begin_.dissipated + 0.5 * h * s * (begin_.loss_power + between_.loss_power);
-  between_.supplied = begin_.supplied + 0.5 * h * s * (begin_.supply_power + between_.supply_power);
-  return between_;
 }
 
 }  // namespace pintle

@@ -1,39 +1,23 @@
-// The trapezoidal rule, HHT-alpha and the generalised-alpha method on M a = F(t, q, v), joint forces read from the laws:
-// one family with two parameters. theory/solvers section 3.
+// The trapezoidal rule, HHT-alpha and the generalised-alpha method on M a = F(t, q, v), joint forces read from the laws, theory/solvers
+// section 3; or with ideal joints, theory/penalty. One family with two parameters.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "integrators/force_evaluator.h"
 #include "integrators/law_borders.h"
+#include "integrators/general/alpha_weights.h"
 #include "integrators/general/force_tangents.h"
 #include "integrators/general/usual_tolerance.h"
 #include "integrators/stepper.h"
 
 namespace pintle {
 
-/// Weights of the old end of a step: of the accelerations and of the forces. theory/solvers Eqs. (3.1)-(3.3).
-struct AlphaWeights {
-  double accelerations = 0, forces = 0;
-
-  static AlphaWeights trapezoidal() { return {}; }
-  /// Hilber, Hughes and Taylor, -1/3 <= alpha <= 0.
-  static AlphaWeights hht(double alpha) { return {0, -alpha}; }
-  /// Chung and Hulbert, with the factor that very fast vibrations keep per step.
-  static AlphaWeights generalised(double radius) { return {(2 * radius - 1) / (radius + 1), radius / (radius + 1)}; }
-
-  double gamma() const { return 0.5 - accelerations + forces; }
-  double beta() const { return 0.25 * (0.5 + gamma()) * (0.5 + gamma()); }
-  /// The accelerations are those of a time that lies this part of a step behind the end's (ahead where positive).
-  double lag() const { return accelerations - forces; }
-  /// What a step adds to the error: this times h^3 q''' in positions, h^3 v''' in velocities.
-  double position_error() const { return beta() + 0.5 * lag() - 1.0 / 6; }
-  double velocity_error() const;
-};
-
 class AlphaStepper final : public Stepper {
  public:
-  AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance);
+  /// `ideal_joints`: where there are any.
+  AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance, std::unique_ptr<KeptJoints> ideal_joints = nullptr);
 
   void set_max_step(double h) override { max_step_ = h; }
   void set_load_scale(const LoadScale&) override {}
@@ -46,6 +30,7 @@ class AlphaStepper final : public Stepper {
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
   const std::vector<LawCrossing>& crossings() const override { return borders_.crossings(); }
+  std::vector<std::string> remarks() const override;
 
  private:
   struct Knot {     // a time that has been reached
@@ -54,20 +39,26 @@ class AlphaStepper final : public Stepper {
   };
   void set_lag(double h, const Knot& knot, Vecs& a) const;
   bool solve(double h);
+  void find_begin_forces();
+  void interpolate_forces(double s);
   void place(double h);
   void forces(double t, const Vecs& q, const Vecs& v, std::vector<double>& law_state, Vecs& F);
   void find_states(double t, const Vecs& q, const Vecs& v, double h);
   double correct(double h);
   double error(double h);
-  void set_end_state(double t, double h);
+  bool set_end_state(double t, double h);
+  bool projects() const { return kept_ && kept_->projects(); }
+  bool crosses_border(double& h) { return !kept_ && borders_.shorten(end_, h); }
   void finish(double h);
+  bool pass(double h);
   double weight(double a, double b, double largest) const;
 
   const System& system_;
   AlphaWeights weights_;
   double beta_, gamma_;
   UsualTolerance tolerance_;
-  double newton_tolerance_, max_step_ = 0, h_ = 0;
+  double newton_tolerance_, max_step_ = 0, h_ = 0, usual_h_ = 0;
+  std::unique_ptr<KeptJoints> kept_;
   ForceEvaluator force_evaluator_;
   LawBorders borders_;
   ForceTangents tangents_;
@@ -79,6 +70,8 @@ class AlphaStepper final : public Stepper {
   std::vector<double> z_;               // the laws' own states there
   std::vector<Planar::Motion> m_;
   std::vector<BlockVec<double, Planar::kDof>> work_;
+  int n_passed_ = 0;                    // steps whose error was above the tolerance
+  double first_passed_ = 0;             // [s]
   double largest_q_ = 1, largest_v_ = 1;
   LoadScale no_scale_;
   Counters counters_;

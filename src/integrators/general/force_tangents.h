@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "integrators/general/kept_joints.h"
 #include "linalg/block_lu.h"
 #include "system/system.h"
 
@@ -18,8 +19,8 @@ class ForceTangents {
   explicit ForceTangents(const System& system);
 
   /// dF/dq and dF/dv of F = Q + G' law(gap, rate, states). States that follow within a step of a method which advances them by
-  /// dz = dz' / mu are eliminated; at mu = infinity they stay what they are, and `states` says how they act.
-  void find(double t, const Vecs& q, const Vecs& v, const std::vector<double>& law_state, double mu = std::numeric_limits<double>::infinity());
+  /// dz = dz' / mu are eliminated; at mu = infinity they stay what they are, and `states` says how they act. Ideal joints are as `kept` says.
+  void find(double t, const Vecs& q, const Vecs& v, const std::vector<double>& law_state, double mu = std::numeric_limits<double>::infinity(), const KeptJoints* kept = nullptr);
 
   /// A joint whose law has states of its own, at the last `find`.
   struct StateTangents {
@@ -39,7 +40,7 @@ class ForceTangents {
   void combine(double mass, double by_q, double by_v, BlockLu<double, Planar::kDof>& lu) const;
 
  private:
-  void add_joint(int j, double t, const std::vector<double>& law_state, double mu);
+  void add_joint(int j, double t, const std::vector<double>& law_state, double mu, const KeptJoints* kept);
 
   const System& system_;
   std::vector<Planar::Motion> motions_;

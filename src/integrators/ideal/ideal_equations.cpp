@@ -1,5 +1,7 @@
 #include "integrators/ideal/ideal_equations.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,10 +21,6 @@ constexpr int kMostModes = 300;       // rows for which eigenvectors are taken; 
 constexpr double kDamped = 1e-9;      // pivots below it are lifted, so that forces stay finite at singular positions ...
 constexpr double kMisfit = 30;        // ... and below the square of so many times the misfit that redundant rows leave
 
-bool keeps(const JointData& joint, int component) {
-  return joint.ideal && joint.law.engaged_stiffness()[component] > 0;
-}
-
 // What pushes from outside, as the pressures in a cylinder do. Friction and stops beside it have states, which these equations do not carry.
 S::Vec pushing(const JointData& joint, double t, const JointKinematics& r) {
   LawInput<double> in{};
@@ -38,12 +36,30 @@ S::Vec pushing(const JointData& joint, double t, const JointKinematics& r) {
 
 }  // namespace
 
-IdealEquations::IdealEquations(const System& system) : system_(system), still_(system.bodies.size(), S::Vec::Zero()) {
+S::Vec force_without_states(const JointData& joint, double t, const JointKinematics& r) {
+  return joint.ideal ? S::Vec(S::Vec::Zero()) : S::Vec(respond(joint.law, r.gap, r.rate).force + pushing(joint, t, r));
+}
+
+void find_powers(const System& system, const std::vector<S::Motion>& m, State& state) {
+  const ExternalWork work = system.external_work(state.t, state.q, m);
+  state.supply_power = work.supplied;
+  state.loss_power = work.lost;
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const JointData& joint = system.joints[j];
+    state.supply_power += system.drive_power(joint, state.t, m, state.force[j]);
+    if (joint.servo < 0 && !joint.ideal) state.loss_power += respond(joint.law, state.gap[j], state.gap_rate[j]).loss;
+  }
+}
+
+bool keeps(const JointData& joint, int component) { return joint.ideal && joint.law.engaged_stiffness()[component] > 0; }
+
+IdealEquations::IdealEquations(const System& system, Equations equations, const PenaltySettings& penalty)
+    : system_(system), equations_(equations), penalty_(penalty), still_(system.bodies.size(), S::Vec::Zero()) {
   for (int j = 0; j < system.n_joints(); ++j)
     for (int k = 0; k < S::kDof; ++k)
       if (keeps(system.joints[j], k)) {
         rows_.push_back({j, k});
-        n_redundant_ += system.joints[j].redundant[k];
+        n_redundant_ += !has_penalties() && system.joints[j].redundant[k];
       }
   if (rows_.size() > kMostModes && n_redundant_ > 0) {
     std::erase_if(rows_, [&](const Row& row) { return system.joints[row.joint].redundant[row.component]; });
@@ -99,7 +115,16 @@ bool IdealEquations::factorize() {
   for (int e = 0; e < matrix_.nonZeros(); ++e)
     if (row_of_entry_[e] == column_of_entry_[e]) scale_[row_of_entry_[e]] = 1 / std::sqrt(std::max(values[e], std::numeric_limits<double>::min()));
   for (int e = 0; e < matrix_.nonZeros(); ++e) values[e] *= scale_[row_of_entry_[e]] * scale_[column_of_entry_[e]];
-  return n_redundant_ == 0 ? factorize_sparse() : find_modes();
+  return has_penalties() ? factorize_with_penalties() : n_redundant_ == 0 ? factorize_sparse() : find_modes();
+}
+
+// theory/penalty Eq. (1.4).
+bool IdealEquations::factorize_with_penalties() {
+  if (first_scale_.size() == 0) first_scale_ = scale_;
+  for (int e = 0; e < matrix_.nonZeros(); ++e)
+    if (const int row = row_of_entry_[e]; row == column_of_entry_[e]) matrix_.valuePtr()[e] += scale_[row] * scale_[row] / penalty(row);
+  factors_.factorize(matrix_);
+  return factors_.info() == Eigen::Success;
 }
 
 bool IdealEquations::factorize_sparse() {
@@ -151,43 +176,70 @@ void IdealEquations::push(const Eigen::VectorXd& multipliers, Vecs& x) const {
   }
 }
 
-bool IdealEquations::complete(State& state) {
+// With a penalty, theory/penalty Eq. (1.3).
+Eigen::VectorXd IdealEquations::add_reactions(Vecs& a) const {
+  const bool penalized = equations_ == Equations::kPenalty;
+  const double w = penalty_.frequency;
+  Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows_.size())), change;
+  for (int pass = 0; pass <= kRefinements && !rows_.empty(); ++pass) {
+    Eigen::VectorXd missing = -rates(a);                                                    // (1.3)
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const auto [joint, k] = rows_[i];
+      missing[i] -= r_[joint].bias[k];
+      if (penalized) missing[i] -= 2 * penalty_.damping * w * r_[joint].rate[k] + w * w * r_[joint].gap[k] + multipliers[i] / penalty(i);
+    }
+    solve(missing, change);
+    multipliers += change;
+    push(change, a);
+  }
+  return multipliers;
+}
+
+void IdealEquations::find_other_forces(State& state) {
   read(state.t, state.q, state.v);
   fill_joints(state);
   system_.external(state.t, m_, state.a);
   for (int j = 0; j < system_.n_joints(); ++j) add_force(system_.joints[j].at, r_[j], state.force[j], state.a);
+}
+
+void IdealEquations::add_kept_forces(const Vecs& force, Vecs& on_bodies) const {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Placement& at = system_.joints[rows_[i].joint].at;
+    for (const auto& [body, side] : {std::pair{at.a, 0}, std::pair{at.b, 1}})
+      if (body != kGround) on_bodies[body] += jacobian(i, side).transpose() * force[rows_[i].joint][rows_[i].component];
+  }
+}
+
+bool IdealEquations::complete(State& state) {
+  find_other_forces(state);
   for (int i = 0; i < system_.n_bodies(); ++i) state.a[i] = state.a[i].cwiseQuotient(system_.bodies[i].mass);
   if (!factorize()) return false;
-  Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(scale_.size()), change;
-  for (int pass = 0; pass <= kRefinements && !rows_.empty(); ++pass) {
-    Eigen::VectorXd missing = -rates(state.a);                                              // (1.3)
-    for (std::size_t i = 0; i < rows_.size(); ++i) missing[i] -= r_[rows_[i].joint].bias[rows_[i].component];
-    solve(missing, change);
-    multipliers += change;
-    push(change, state.a);
-  }
+  const Eigen::VectorXd multipliers = add_reactions(state.a);
   for (std::size_t i = 0; i < rows_.size(); ++i) state.force[rows_[i].joint][rows_[i].component] = multipliers[i];
   find_gap_accelerations(system_, r_, state);
-  const ExternalWork work = system_.external_work(state.t, state.q, m_);
-  state.supply_power = work.supplied;
-  state.loss_power = work.lost;
-  for (int j = 0; j < system_.n_joints(); ++j) {
-    const JointData& joint = system_.joints[j];
-    state.supply_power += system_.drive_power(joint, state.t, m_, state.force[j]);
-    if (joint.servo < 0 && !joint.ideal) state.loss_power += respond(joint.law, state.gap[j], state.gap_rate[j]).loss;
-  }
+  find_powers(system_, m_, state);
   return state.a.empty() || std::isfinite(state.a[0].sum());
 }
 
 // Gaps and rates, and the forces of joints that have a law; what ideal joints keep is exactly closed.
 void IdealEquations::fill_joints(State& state) {
   for (int j = 0; j < system_.n_joints(); ++j) {
-    const JointData& joint = system_.joints[j];
     state.gap[j] = r_[j].gap;
     state.gap_rate[j] = r_[j].rate;
-    state.force[j] = joint.ideal ? S::Vec(S::Vec::Zero()) : S::Vec(respond(joint.law, r_[j].gap, r_[j].rate).force + pushing(joint, state.t, r_[j]));
+    state.force[j] = force_without_states(system_.joints[j], state.t, r_[j]);
   }
-  for (const Row& row : rows_) state.gap[row.joint][row.component] = state.gap_rate[row.joint][row.component] = 0;
+  for (const auto [joint, k] : rows_) state.gap[joint][k] = state.gap_rate[joint][k] = 0;
+}
+
+void IdealEquations::measure_violation() {
+  for (const auto [joint, k] : rows_) violation_[k == 2] = std::max(violation_[k == 2], std::abs(r_[joint].gap[k]));
+}
+
+std::string IdealEquations::violation_text(const std::string& method) const {
+  std::string text = fmt::format("{}: the constraints of ideal joints are violated by at most {:.1e} m and {:.1e} rad", method, violation_[0], violation_[1]);
+  if (equations_ == Equations::kPenalty)
+    text += fmt::format("; the stated force errors are those of the integration, to which the penalties add of the order of 1/penalty, {:.0e} of a force", 1 / penalty_.factor);
+  return text;
 }
 
 bool IdealEquations::close_positions(double t, Vecs& q) {
@@ -214,6 +266,11 @@ bool IdealEquations::close_positions(double t, Vecs& q) {
   return before <= 1e-9 * size_;
 }
 
+bool close_loops(const System& system, State& state) {
+  IdealEquations equations(system);
+  return equations.close_positions(state.t, state.q) && equations.close_velocities(state.t, state.q, state.v);
+}
+
 bool IdealEquations::close_velocities(double t, const Vecs& q, Vecs& v) {
   Eigen::VectorXd multipliers;
   for (int pass = 0; pass <= kRefinements && !rows_.empty(); ++pass) {
@@ -236,6 +293,13 @@ bool IdealEquations::keep_tangential(double t, const Vecs& q, Vecs& displacement
     solve(-rates(displacement), multipliers);
     push(multipliers, displacement);
   }
+  return true;
+}
+
+bool IdealEquations::close_accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a) {
+  read(t, q, v);
+  if (!factorize()) return false;
+  add_reactions(a);
   return true;
 }
 

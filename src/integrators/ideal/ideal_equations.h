@@ -1,26 +1,40 @@
-// Ideal joints: constraints with Lagrange multipliers, kept on their manifold. theory/ideal.
+// Ideal joints: constraints with Lagrange multipliers, kept on their manifold, theory/ideal, or constraints with penalties,
+// theory/penalty.
 //
 //     M a = Q + G' f,   G a + bias = 0      for the accelerations a and the joint forces f of an instant
 //
 // G has a row for every gap component that an ideal joint keeps. Joints that are not ideal act by their law. The rows'
 // matrix G M^-1 G' is sparse along the joint graph and factorised by LDL'. With redundant rows its eigenvectors are taken,
 // as many as there are independent rows: the loops close as well as they can, and the forces are the smallest that do.
+// A penalty alpha adds 1/alpha to the diagonal, whatever the rows are: theory/penalty Eq. (1.4). So dependent rows need no care.
 #pragma once
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+#include <array>
 #include <string>
 #include <vector>
 
+#include "pintle/model.h"
 #include "system/state.h"
 
 namespace pintle {
 
+/// The force of a joint that keeps its law, with what pushes it from outside. Friction and the like have states, which these equations do
+/// not carry.
+Planar::Vec force_without_states(const JointData& joint, double t, const JointKinematics& r);
+/// Supplied and lost power of a state that is complete but for them.
+void find_powers(const System& system, const std::vector<Planar::Motion>& m, State& state);
+
+/// Whether this component of the joint's gap is a constraint.
+bool keeps(const JointData& joint, int component);
+
 class IdealEquations {
  public:
-  /// Takes the rows from JointData::ideal and JointData::redundant.
-  explicit IdealEquations(const System& system);
+  /// Takes the rows from JointData::ideal and JointData::redundant. `equations`: kIdeal; kPenalty, where forces are what penalties make of the
+  /// constraints' accelerations, rates and violations; kAugmentedLagrangian, where penalties only serve to find the multipliers.
+  explicit IdealEquations(const System& system, Equations equations = Equations::kIdeal, const PenaltySettings& penalty = {});
 
   struct Row {
     int joint, component;
@@ -30,12 +44,30 @@ class IdealEquations {
   /// Fills in everything of `state` but t, q and v: accelerations, joint forces, gaps (those kept are zero), powers. False
   /// when the rows' matrix cannot be factorised.
   bool complete(State& state);
+  /// Of `complete` only what needs no multiplier: gaps, forces of joints that have a law, and in state.a the forces on the bodies with them.
+  void find_other_forces(State& state);
+  /// on_bodies += G' f, of the components that ideal joints keep, where `find_other_forces` was asked last.
+  void add_kept_forces(const Vecs& force, Vecs& on_bodies) const;
+  /// Gaps are those at this position and motion from now on.
+  void look_at(double t, const Vecs& q, const Vecs& v) { read(t, q, v); }
+  const Planar::Vec& gap(int joint) const { return r_[joint].gap; }
+
   /// The shortest displacement, in the mass norm, that closes the gaps, and the same for velocities. False when the loops
   /// cannot be closed, or not from here.
   bool close_positions(double t, Vecs& q);
   bool close_velocities(double t, const Vecs& q, Vecs& v);
   /// Takes from a displacement of q what changes gaps: what is left is shortest in the mass norm from it.
   bool keep_tangential(double t, const Vecs& q, Vecs& displacement);
+  bool close_accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a);
+
+  /// With penalties: the mass that resists a row, at the first position asked about, and its penalty [kg or kg*m^2]. theory/penalty Eq. (1.2).
+  double resisting_mass(std::size_t row) const { return first_scale_[row] * first_scale_[row]; }
+  double penalty(std::size_t row) const { return penalty_.factor * resisting_mass(row); }
+  /// Looks at the gaps of what ideal joints keep, at the position last asked about. The largest so far: of lengths [m] and of angles [rad].
+  void measure_violation();
+  const std::array<double, 2>& violation() const { return violation_; }
+  /// As a remark on a method.
+  std::string violation_text(const std::string& method) const;
 
   /// How independent the rows are: the root of the smallest pivot of their scaled matrix, 1 when they are orthogonal and 0
   /// at a singular position [-].
@@ -50,15 +82,20 @@ class IdealEquations {
  private:
   void read(double t, const Vecs& q, const Vecs& v);
   bool factorize();
+  bool has_penalties() const { return equations_ != Equations::kIdeal; }
   bool factorize_sparse();
+  bool factorize_with_penalties();
   bool find_modes();
   void solve(const Eigen::VectorXd& wanted, Eigen::VectorXd& multipliers) const;
   Eigen::VectorXd rates(const Vecs& x) const;                        // G x
   void push(const Eigen::VectorXd& multipliers, Vecs& x) const;      // x += M^-1 G' multipliers
   void fill_joints(State& state);
+  Eigen::VectorXd add_reactions(Vecs& a) const;                      // a += M^-1 G' f; f
   const Eigen::RowVector3d& jacobian(std::size_t row, int side) const { return jacobian_[2 * row + side]; }
 
   const System& system_;
+  Equations equations_;
+  PenaltySettings penalty_;
   std::vector<Row> rows_;
   struct Product {  // of two rows over a body they share
     int entry, row, other, side, other_side, body;
@@ -68,7 +105,8 @@ class IdealEquations {
   std::vector<int> row_of_entry_, column_of_entry_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
   std::vector<Eigen::RowVector3d> jacobian_;
-  Eigen::VectorXd scale_;
+  Eigen::VectorXd scale_, first_scale_;  // roots of the masses that resist the rows: here, and where they were first asked for
+  std::array<double, 2> violation_{};
   std::vector<Planar::Motion> m_;
   std::vector<JointKinematics> r_;
   Vecs still_;
@@ -76,5 +114,8 @@ class IdealEquations {
   int n_redundant_ = 0;                 // rows too many, when all are kept
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes_;
 };
+
+/// Positions and velocities of a start onto the constraints, whatever keeps them afterwards.
+bool close_loops(const System& system, State& state);
 
 }  // namespace pintle

@@ -34,8 +34,8 @@ constexpr std::size_t kCertain = 5;    // states whose forces have most of their
 
 }  // namespace
 
-IdealStepper::IdealStepper(const System& system, double tolerance)
-    : system_(system), tolerance_(tolerance), equations_(system), dense_(system) {
+IdealStepper::IdealStepper(const System& system, double tolerance, Equations equations, const PenaltySettings& penalty)
+    : system_(system), projects_(equations == Equations::kIdeal), tolerance_(tolerance), equations_(system, equations, penalty), dense_(system) {
   for (auto* k : {&kq_, &kv_})
     for (auto& x : *k) x.resize(system.bodies.size());
   scale_.body.assign(system.bodies.size(), S::Vec::Zero());
@@ -45,8 +45,8 @@ void IdealStepper::start(const State& state, double h) {
   end_ = state;
   h_ = smooth_h_ = h;
   const double before = system_.kinetic(end_.v);
-  if (!onto_constraints(end_)) failure_ = "ideal joints cannot be closed at the start: the loops do not close, or the position is singular";
-  equations_.measure_misfit(end_.t, end_.q);
+  if (!(projects_ ? onto_constraints(end_) : close_loops(system_, end_) && equations_.complete(end_))) failure_ = "ideal joints cannot be closed at the start: the loops do not close, or the position is singular";
+  if (projects_) equations_.measure_misfit(end_.t, end_.q);
   const double lost = before - system_.kinetic(end_.v);
   if (lost > 1e-6 * before)
     remarks_.push_back(fmt::format("ideal joints: the stated velocities are inconsistent; an impulse in the joints dissipates {:.3g} J at the start", lost));
@@ -55,7 +55,7 @@ void IdealStepper::start(const State& state, double h) {
   certain_independence_.clear();
   keep_certain();
   for (Vecs* x : {&jerk_, &error_q_, &error_v_}) x->assign(end_.a.size(), S::Vec::Zero());
-  most_independent_ = independence_ = equations_.independence(end_.t, end_.q);
+  most_independent_ = independence_ = projects_ ? equations_.independence(end_.t, end_.q) : 1;
   grow_scale();
 }
 
@@ -184,7 +184,7 @@ bool IdealStepper::find_stages(double h) {
     ++counters_.evaluations;
     ++counters_.factorizations;
     if (closed_ ? !onto_branch() : !equations_.complete(stage_)) return false;
-    least_independence_ = std::min(least_independence_, equations_.independence());
+    if (projects_) least_independence_ = std::min(least_independence_, equations_.independence());
     kq_[s] = stage_.v;
     kv_[s] = stage_.a;
     power_[s] = {stage_.supply_power, stage_.loss_power};
@@ -202,7 +202,7 @@ bool IdealStepper::finish(double t, double h) {
   end_.t = t;
   end_.q = stage_.q;
   end_.v = stage_.v;
-  if (passes_too_near(least_independence_) ? !equations_.complete(end_) : !onto_constraints(end_)) return false;
+  if (!projects_ || passes_too_near(least_independence_) ? !equations_.complete(end_) : !onto_constraints(end_)) return false;
   end_.supplied = begin_.supplied;
   end_.dissipated = begin_.dissipated;
   for (int s = 0; s < kStages - 1; ++s) {
@@ -212,6 +212,10 @@ bool IdealStepper::finish(double t, double h) {
   ++counters_.steps;
   for (std::size_t i = 0; i < jerk_.size(); ++i) jerk_[i] = (end_.a[i] - begin_.a[i]) / h;
   grow_scale();
+  if (!projects_) {
+    equations_.measure_violation();
+    return true;
+  }
   look_for_singular_position();
   keep_certain();
   return true;
@@ -262,6 +266,10 @@ void IdealStepper::grow_scale() {
 
 const State& IdealStepper::interpolate(double t) {
   inside_ = dense_.at(t, begin_, end_);
+  if (!projects_) {
+    equations_.complete(inside_);
+    return inside_;
+  }
   const bool certain = equations_.independence(t, inside_.q) > kFewDigits * most_independent_;
   if (certain) {
     onto_constraints(inside_);
@@ -312,6 +320,12 @@ void IdealStepper::keep_certain() {
   }
   certain_.push_back(end_);
   certain_independence_.push_back(independence_);
+}
+
+std::vector<std::string> IdealStepper::remarks() const {
+  std::vector<std::string> all = remarks_;
+  if (!projects_) all.push_back(equations_.violation_text("penalties"));
+  return all;
 }
 
 // A position where the constraints lose rank may lie inside the step: their independence falls towards it and grows after it.

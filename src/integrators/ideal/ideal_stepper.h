@@ -1,5 +1,6 @@
 // Time integration with ideal joints: Dormand-Prince 5(4) on the accelerations from the multipliers, with positions and
-// velocities projected onto the constraints after every step. theory/ideal section 2.
+// velocities projected onto the constraints after every step, theory/ideal section 2; or on those of the penalties, with nothing
+// projected, theory/penalty section 1.
 #pragma once
 
 #include <array>
@@ -14,7 +15,8 @@ namespace pintle {
 
 class IdealStepper final : public Stepper {
  public:
-  IdealStepper(const System& system, double tolerance);
+  /// `equations`: kIdeal or kPenalty.
+  IdealStepper(const System& system, double tolerance, Equations equations = Equations::kIdeal, const PenaltySettings& penalty = {});
 
   void set_max_step(double h) override { max_step_ = h; }
   void set_load_scale(const LoadScale& scale) override { scale_ = scale; }
@@ -26,7 +28,7 @@ class IdealStepper final : public Stepper {
   const State& interpolate(double t) override;
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
-  std::vector<std::string> remarks() const override { return remarks_; }
+  std::vector<std::string> remarks() const override;
 
  private:
   bool take_stages(double h);
@@ -46,6 +48,7 @@ class IdealStepper final : public Stepper {
   void report_singular_position(double t);
 
   const System& system_;
+  bool projects_;
   double tolerance_, max_step_ = 0, h_ = 0;  // the next step
   double smooth_h_ = 0;                                     // the last that was taken at once, or the first that was proposed
   IdealEquations equations_;

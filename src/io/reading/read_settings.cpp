@@ -36,10 +36,31 @@ void check_times(ModelReading& reading, const Record& record) {
 // Which methods solve which equations.
 void check_method(ModelReading& reading, const Record& record, const std::string& equations) {
   const std::string& method = reading.model.simulate.method;
-  const bool fits = method == "auto" || method == "dopri5" || equations == "newtonian" || (equations == "relative" && method == "radau");
+  const bool relative = equations == "relative_augmented_lagrangian", augmented = relative || equations == "augmented_lagrangian", penalty = equations == "penalty";
+  const bool in_alpha_family = method == "ode23t" || method == "hht" || (method == "generalised_alpha" && !relative);
+  const bool fits = method == "auto" || equations == "newtonian" || (penalty && in_alpha_family) || (augmented ? in_alpha_family : method == "dopri5" || (equations == "relative" && method == "radau"));
   if (fits) return;
   reading.complaints.add(record.spot("method"), "simulate.method", in_quotes(method), "this method does not solve the " + equations + " equations",
-                         equations == "ideal" ? "method = \"auto\"" : "\"auto\", \"radau\" or \"dopri5\"");
+                         relative        ? "\"auto\", \"trapezoidal\" or \"hht\""
+                         : augmented     ? "\"auto\", \"trapezoidal\", \"hht\" or \"generalised_alpha\""
+                         : penalty       ? "\"auto\", \"dopri5\", \"trapezoidal\", \"hht\" or \"generalised_alpha\""
+                         : equations == "ideal" ? "\"auto\" or \"dopri5\""
+                                         : "\"auto\", \"radau\" or \"dopri5\"");
+}
+
+// A penalty that no equations use is a slip.
+void check_penalty(ModelReading& reading, const Record& record) {
+  if (reading.model.simulate.equations == Equations::kPenalty) return;
+  for (const char* key : {"penalty", "penalty_frequency", "penalty_damping"})
+    if (record.states(key))
+      reading.complaints.add(record.spot(key), std::string("simulate.") + key, fmt::format("{:g}", record.number(key)), std::string("the ") + to_word(reading.model.simulate.equations) + " equations have no penalty to choose",
+                             "equations = \"penalty\"");
+}
+
+Equations equations_of(const std::string& word) {
+  for (const Equations e : {Equations::kRelative, Equations::kIdeal, Equations::kPenalty, Equations::kAugmentedLagrangian, Equations::kRelativeAugmented})
+    if (word == to_word(e)) return e;
+  return Equations::kNewtonian;
 }
 
 // Only the implicit method can step over what a motion does not feel.
@@ -63,12 +84,13 @@ void read_simulate(ModelReading& reading) {
   simulate.max_step = record.number("max_step");
   if (const std::string method = record.word("method"); !method.empty()) simulate.method = method;
   const std::string equations = record.word("equations");
-  simulate.equations = equations == "ideal"        ? Equations::kIdeal
-                       : equations == "relative" ? Equations::kRelative
-                                                   : Equations::kNewtonian;
+  simulate.equations = equations_of(equations);
+  simulate.penalty = {record.number("penalty", simulate.penalty.factor), record.number("penalty_frequency", simulate.penalty.frequency),
+                      record.number("penalty_damping", simulate.penalty.damping)};
   if (record.word("tolerance_of") == "motion") simulate.tolerance_of = ToleranceOf::kMotion;
   check_method(reading, record, equations);
   check_tolerance_of(reading, record);
+  check_penalty(reading, record);
   const std::string start = record.word("start");
   simulate.start = start == "raw" ? Start::kRaw : start == "unloaded" ? Start::kUnloaded : Start::kAssembled;
   if (const Value* names = record.find("record")) simulate.record = names->words;

@@ -69,6 +69,7 @@ std::string explanation(const Comparison& c) {
   if (any(c.forces, Cause::kNumerical)) text += "  numerical: within the error estimates of both runs; a smaller tolerance would reduce it\n";
   if (any(c.forces, Cause::kPhysical) || any(c.couples, Cause::kPhysical)) {
     text += "  physical: larger than the error estimates; it comes from joint compliance and goes as 1 / stiffness\n";
+    if (c.against == Equations::kPenalty) text += "    the penalties' own error is in it too, and goes as 1 / penalty\n";
     if (!c.softness.empty() && c.softness.front().share > 0)
       text += fmt::format("    {} stores {:.0f} % of the joints' elastic energy{}\n", c.softness.front().joint, 100 * c.softness.front().share,
                           c.softness.front().share > kMainShare ? ", most of it" : ", the largest share");
@@ -162,7 +163,15 @@ std::vector<double> sparse(std::vector<double> y) {
 }  // namespace
 
 std::string to_text(Equations equations) {
-  return equations == Equations::kIdeal ? "ideal joints" : equations == Equations::kRelative ? "relative coordinates" : "compliant joints";
+  switch (equations) {
+    case Equations::kNewtonian: return "compliant joints";
+    case Equations::kRelative: return "relative coordinates";
+    case Equations::kIdeal: return "ideal joints";
+    case Equations::kPenalty: return "ideal joints by penalties";
+    case Equations::kAugmentedLagrangian: return "ideal joints by augmented Lagrangian";
+    case Equations::kRelativeAugmented: return "relative coordinates by augmented Lagrangian";
+  }
+  return "";
 }
 
 std::string compare_text(const Comparison& c, const std::string& title, bool colour) {
@@ -184,7 +193,7 @@ std::string compare_json(const Comparison& c, const std::string& model_name, con
   Json json;
   json["model"] = model_name;
   json["model_path"] = model_path;
-  json["against"] = c.against == Equations::kIdeal ? "ideal" : c.against == Equations::kRelative ? "relative" : "newtonian";
+  json["against"] = to_word(c.against);
   json["forces"] = to_json(c.forces);
   json["couples"] = to_json(c.couples);
   json["coordinates"] = to_json(c.coordinates);
