@@ -90,7 +90,9 @@ TEST(Ideal, StiffJointsTendToIt) {
 
 // Two four-bars in a row pass through positions where all bars are in line; the exact motion goes straight on.
 TEST(Ideal, GoesThroughSingularPositionsAndNamesThem) {
-  const Trajectory run = ideal_run("n_four_bar_2", {"simulate.duration=4"});
+  const Trajectory run = simulate(reference::mechanism("n_four_bar_2", {"simulate.equations=\"ideal\"", "simulate.duration=4"}));
+  EXPECT_EQ(run.outcome, Outcome::kToleranceNotMet);  // the weight of the bars pushes them across the branch
+  EXPECT_NE(run.message.find("have no bound at the singular position near t = "), std::string::npos) << run.message;
   const reference::Table exact = reference::read_table("n_four_bar_2");
   for (std::size_t i = 0; i < exact.rows.size() && exact.at(i, "t") <= 4; ++i) {
     const std::size_t row = reference::row_at(run, exact.at(i, "t"));

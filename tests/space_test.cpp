@@ -191,12 +191,13 @@ void expect_promise(const SpatialSample& of, double duration, const std::string&
       const LoadSummary& joint = done.result.joints[j];
       SCOPED_TRACE(what + ", " + joint.name + ", " + std::to_string(std::log10(tolerance)));
       EXPECT_LT(relative[j], tolerance);
-      EXPECT_LT(relative[j], 3 * joint.relative_error_estimate);
+      const LoadSummary& exact = truth.result.joints[j];
+      EXPECT_LT(relative[j], 3 * joint.relative_error_estimate + exact.relative_error_estimate);
       EXPECT_LT(joint.relative_error_estimate, most * relative[j]);
-      EXPECT_LT(apart.force[j], 3 * joint.error_estimate);
+      EXPECT_LT(apart.force[j], 3 * joint.error_estimate + exact.error_estimate);
       EXPECT_LT(joint.error_estimate, most * apart.force[j]);
       if (!joint.has_moment) continue;
-      EXPECT_LT(apart.couple[j], 3 * joint.moment_error_estimate);
+      EXPECT_LT(apart.couple[j], 3 * joint.moment_error_estimate + exact.moment_error_estimate);
       EXPECT_LT(joint.moment_error_estimate, most * apart.couple[j]);
     }
   }
@@ -248,7 +249,7 @@ TEST(SpaceRuns, APendulumsAccountAndPeakAreKnown) {
   const BasicSystemRun<S> done = run_system(rod.system, rod.start, settings);
   ASSERT_EQ(done.result.outcome, Outcome::kCompleted) << done.result.message;
   EXPECT_EQ(done.rows.t.size(), 1001u);
-  EXPECT_EQ(done.result.counters.passes, 2u);
+  EXPECT_GE(done.result.counters.passes, 2u);
   ASSERT_EQ(done.result.joints.size(), 1u);
   const LoadSummary& hinge = done.result.joints[0];
   EXPECT_TRUE(hinge.has_moment);

@@ -41,6 +41,8 @@ class BasicStepper {
   }
   /// What the method noticed on its way, for the user.
   virtual std::vector<std::string> remarks() const { return {}; }
+  /// When reactions have been met first that have no bound, as those of ideal joints at singular positions may [s]; negative: never.
+  virtual double unbounded_reactions() const { return -1; }
 };
 using Stepper = BasicStepper<Planar>;
 

@@ -106,6 +106,7 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
   out.scale = stepper.load_scale();
   out.crossings = stepper.crossings();
   out.remarks = stepper.remarks();
+  out.unbounded_reactions = stepper.unbounded_reactions();
   return out;
 }
 

@@ -29,7 +29,6 @@ constexpr double kRepeated = 0.1;  // tolerance of a pass that is to show whethe
 constexpr double kShorter = 0.5;  // longest step of a pass whose tolerance would not shorten its steps, over the mean one before
 constexpr double kNearRounding = 1e-8;  // below it stiff joints may feel rounding, and steps multiply:
 constexpr std::uint64_t kLong = 10000;  // after a pass of so many steps the next one goes there by a tenth at a time
-constexpr double kStays = 0.5;     // of the error of ideal joints: at singular positions their reactions may have no bound, and no tolerance helps
 constexpr double kFinest = 1e-11;  // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
 constexpr double kOptimism = 2;    // standard errors by which a rate may be smaller before no tolerance is said to help
 constexpr double kLoosestAccount = 1e-3;  // passes are finer than a looser tolerance, and so are their energies
@@ -172,9 +171,7 @@ class Passes {
     if (apart > kPromised * settings_.tolerance)
       growth_ = fit_growth(out_.of_motion ? motion_difference_curve(system_, coarse, fine) : force_difference_curve(system_, coarse, fine));
     if (growth_.exponential && growth_.saturated) take_all(coarse, fine);
-    const double error_before = error_;
     error_ = share_ * (out_.of_motion ? out_.motion_error : largest_of(relative_difference_));
-    unbounded_ = choice_.equations == Equations::kIdeal && error_before > 0 && error_ > kStays * error_before;
   }
 
   // By which errors have fallen since the pass before: as its tolerance, or less where its steps have shrunk by less than that asks for.
@@ -200,7 +197,7 @@ class Passes {
     const double wanted = settings_.tolerance;
     const auto at = [&tolerance](double next) { return tolerance = std::max(kLeastTolerance, next), true; };
     const bool last_one = out_.counters.passes >= kMaxPasses || tolerance <= kLeastTolerance;
-    if (last_.ended == Ended::kRunaway) return false;
+    if (last_.ended == Ended::kRunaway || (last_.unbounded_reactions >= 0 && !out_.of_motion)) return false;
     if (((alike_ && !doubted_) || ran_away_) && !last_one) {
       doubted_ = true;
       if (out_.of_motion) choice_.stages = 5;  // long steps are alike at any tolerance: another order tells
@@ -214,7 +211,7 @@ class Passes {
     }
     const bool same = growth_.saturated && same_growth(last_growth_, growth_);
     if (same) chaos_ = growth_;
-    if (last_one || unbounded_) return false;
+    if (last_one) return false;
     if (growth_.exponential && growth_.saturated) {
       const double hoped = tolerance_by_growth(growth_.rate - kOptimism * growth_.rate_error, 1);
       const bool hopeless = hoped < kLeastTolerance || tolerance < kFinest;
@@ -295,7 +292,8 @@ class Passes {
   void judge(const BasicJointData<S>* worst) {
     const bool no_estimate = worst == nullptr;
     const auto& [ended, message] = interrupted_;
-    const bool whole = last_.ended == Ended::kAtEnd, missed = error_ > settings_.tolerance;
+    const bool unbounded = last_.unbounded_reactions >= 0 && !out_.of_motion;
+    const bool whole = last_.ended == Ended::kAtEnd, missed = error_ > settings_.tolerance || unbounded;
     if (ended == Ended::kStopped) out_.outcome = Outcome::kInterrupted;
     else if (last_.ended == Ended::kRunaway) out_.outcome = Outcome::kRunaway;
     else if (ended == Ended::kEnergyOpen) out_.outcome = Outcome::kEnergyOpen;
@@ -309,7 +307,7 @@ class Passes {
       out_.message = fmt::format("the largest {} is estimated at {:.2g} of {}; the tolerance is {:.2g}",
                                  out_.of_motion ? "position error" : fmt::format("force error, at {} {},", worst->servo < 0 ? "joint" : "motor", worst->name), error_,
                                  out_.of_motion ? "the longest path of any body" : "the peak force", settings_.tolerance);
-    if (out_.outcome == Outcome::kToleranceNotMet && unbounded_) out_.message += "; no smaller tolerance helps: at a singular position the reactions of ideal joints may have no bound, give them stiffness";
+    if (unbounded && out_.outcome == Outcome::kToleranceNotMet) out_.message = fmt::format("the reactions of ideal joints have no bound at the singular position near t = {:.6g} s, whatever the tolerance: give these joints stiffness", last_.unbounded_reactions);
     if (out_.outcome == Outcome::kRunaway) out_.message = last_.message;
     if (!message.empty() && out_.outcome != Outcome::kCompleted) out_.message += (out_.message.empty() ? "" : "; ") + message;
   }
@@ -330,7 +328,6 @@ class Passes {
   int stages_before_ = 0;          // of the coarser one
   ErrorGrowth growth_, last_growth_;  // and of the pair before
   ErrorGrowth chaos_;              // where two pairs have shown the same exponential growth
-  bool unbounded_ = false;         // errors of ideal joints that no tolerance makes smaller
   bool doubted_ = false;           // a pass has been made because two were alike
   double longest_ = 0;             // step of passes from now on, because tolerances have not shortened them [s]
   bool ran_away_ = false;          // the coarser one

@@ -20,6 +20,7 @@ constexpr double kSuspicious = 0.5;    // of the largest: above it no singular p
 constexpr double kTooNear = 3e-4;      // of the largest: no stage lies nearer to a singular position
 constexpr double kFewDigits = 3e-2;    // of the largest: nearer, forces lose too many digits, in proportion to its fourth power
 constexpr double kShareBefore = 0.55;  // of a step over a singular position: it lies in the widest gap between the stages, from 0.3 to 0.8
+constexpr double kLongest = 4;         // of the last step away from singular positions: beside them the error that counts may be next to none
 constexpr double kClearance = 0.2;     // of it, that no stage is nearer than
 constexpr double kNearStep = 0.8, kNextButOne = 1.6;  // steps to a singular position: it is stepped over; with the next one it is
 constexpr double kOtherStages = 0.85;  // over a step with a stage that was too near
@@ -29,6 +30,7 @@ constexpr double kNearJump = 1e-4;     // of the usual step: rejected steps that
 constexpr double kForget = 0.99;       // of the usual step, by one that is shorter
 constexpr double kLeastCrossing = 1e-8;  // of the usual step: shorter ones are lost in the rounding of velocities over the step
 constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();  // of the largest velocity or acceleration: errors do not show below it
+constexpr double kUnbounded = 1e-3;    // of the largest reaction where the last certain state is: what grows as 1/d counts above it
 constexpr int kMostReported = 5;
 constexpr std::size_t kCertain = 5;    // states whose forces have most of their digits are kept
 
@@ -43,7 +45,7 @@ IdealStepper::IdealStepper(const System& system, double tolerance, Equations equ
 
 void IdealStepper::start(const State& state, double h) {
   end_ = state;
-  h_ = smooth_h_ = h;
+  h_ = smooth_h_ = usual_h_ = h;
   const double before = system_.kinetic(end_.v);
   if (!(projects_ ? onto_constraints(end_) : close_loops(system_, end_) && equations_.complete(end_))) failure_ = "ideal joints cannot be closed at the start: the loops do not close, or the position is singular";
   if (projects_) equations_.measure_misfit(end_.t, end_.q);
@@ -114,6 +116,8 @@ bool IdealStepper::step(double t_end) {
     const bool shortest = h < 2 * clear_h_ && std::isfinite(e);  // that steps over the singular position
     if ((e <= 1 || crossing || shortest) && finish(left - h < 1e-14 * t_end ? t_end : begin_.t + h, h)) {
       h_ = crossing ? kCrossing * smooth_h_ : h * factor;
+      if (closed_) h_ = std::min(h_, kLongest * usual_h_);
+      else if (!crossing) usual_h_ = h;
       if (at_once) smooth_h_ = std::max(h, kForget * smooth_h_);  // steps that come to a jump nearer and nearer are short because of it
       return true;
     }
@@ -300,9 +304,30 @@ void IdealStepper::interpolate_forces(State& state) {
   }
 }
 
+// Reactions that go as 1/d towards a singular position: their product with the independence d does not go to zero with it.
+void IdealStepper::look_for_unbounded_reactions() {
+  const std::size_t n = certain_.size();
+  if (unbounded_at_ >= 0 || n < 3) return;
+  const double nearest = certain_independence_.back();
+  double largest = 0, residue = 0;
+  for (std::size_t j = 0; j < end_.force.size(); ++j) {
+    S::Vec product = S::Vec::Zero();  // at d = 0
+    for (std::size_t i = 0; i < n; ++i) {
+      double weight = certain_independence_[i];
+      for (std::size_t k = 0; k < n; ++k)
+        if (k != i) weight *= certain_independence_[k] / (certain_independence_[k] - certain_independence_[i]);
+      product += weight * certain_[i].force[j];
+    }
+    residue = std::max(residue, product.head<2>().norm());
+    largest = std::max(largest, certain_.back().force[j].head<2>().norm());
+  }
+  if (residue > kUnbounded * nearest * largest) unbounded_at_ = end_.t;
+}
+
 // The newest, and others as far from each other as the curve through them has to reach.
 void IdealStepper::keep_certain() {
   if (independence_ < kFewDigits * most_independent_) {
+    look_for_unbounded_reactions();
     const Vecs a = end_.a;  // what moves the mechanism in it has all its digits, and the next step begins with it
     interpolate_forces(end_);
     end_.a = a;

@@ -29,6 +29,7 @@ class IdealStepper final : public Stepper {
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
   std::vector<std::string> remarks() const override;
+  double unbounded_reactions() const override { return unbounded_at_; }
 
  private:
   bool take_stages(double h);
@@ -38,6 +39,7 @@ class IdealStepper final : public Stepper {
   bool passes_too_near(double independence) const;
   bool near_singular_position() const;
   void keep_certain();
+  void look_for_unbounded_reactions();
   void interpolate_forces(State& state);
   bool onto_constraints(State& state);
   bool finish(double t, double h);
@@ -49,7 +51,7 @@ class IdealStepper final : public Stepper {
 
   const System& system_;
   bool projects_;
-  double tolerance_, max_step_ = 0, h_ = 0;  // the next step
+  double tolerance_, max_step_ = 0, h_ = 0, usual_h_ = 0;  // the next step; the last away from singular positions
   double smooth_h_ = 0;                                     // the last that was taken at once, or the first that was proposed
   IdealEquations equations_;
   DenseOutput dense_;
@@ -57,6 +59,7 @@ class IdealStepper final : public Stepper {
   std::vector<State> certain_;  // of those that were not beside a singular position
   std::vector<double> certain_independence_;
   Vecs jerk_, branch_, error_q_, error_v_;  // of the bodies at the start of the step; places; accelerations
+  double unbounded_at_ = -1;                // [s]
   double clear_h_ = 0;                      // of the shortest step over the singular position ahead [s]
   bool closed_ = false;                     // the stages are
   std::array<Vecs, 7> kq_, kv_;
