@@ -149,5 +149,32 @@ TEST(Belts, SayWhatIsWrong) {
   says("first_radius = 9", "its discs are 8.002 m apart, and the belt has no way between them: that takes more than 9 m");
 }
 
+// A weight on a rope that is exactly as long as its way is at rest under its load; on a longer one it falls.
+TEST(Ropes, ATautOneCarriesFromTheStart) {
+  const auto hung = [](const std::string& length) {
+    return simulate(parse_model(R"toml(format = 1
+[simulate]
+duration = 1
+[ground.markers]
+o = [0, 0]
+[body.load]
+mass = 50
+inertia = 1
+position = [0, -1]
+markers.hook = [0, 0]
+[joint.rope]
+type = "rope"
+between = ["ground.o", "load.hook"]
+stiffness = 2e6
+damping = 500
+)toml" + length, "hung.toml"));
+  };
+  const double weight = 50 * 9.80665;
+  const Trajectory taut = hung(""), slack = hung("length = 1.001\n");
+  EXPECT_NEAR(taut.joints[0].peak, weight, 1e-9 * weight);
+  EXPECT_NEAR(taut.joints[0].rms, weight, 1e-9 * weight);
+  EXPECT_GT(slack.joints[0].peak, 2 * weight);
+}
+
 }  // namespace
 }  // namespace pintle

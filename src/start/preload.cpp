@@ -92,6 +92,23 @@ std::optional<BasicSystem<S>> with_springs_for_play(const BasicSystem<S>& system
   return with_springs(system, open);
 }
 
+// What starts free but stands at the border of its law to rounding, as a rope that is taut without load, is taken for taut: it may carry.
+template <class S>
+void tauten(const BasicSystem<S>& system, BasicState<S>& state) {
+  const double rounding = kSameGap * largest_coordinate(state.q);
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const BasicLaw<S>& law = system.joints[j].law;
+    if (law.ideal_limit() || !law.starts_free() || !is_open(law, state.gap[j], state.gap_rate[j])) continue;
+    const typename S::Vec engaged = law.engaged_stiffness();
+    for (int k = 0; k < S::kDof; ++k)
+      for (const double way : {rounding, -rounding}) {
+        typename S::Vec gap = state.gap[j];
+        gap[k] += way;
+        if (engaged[k] > 0 && respond(law, gap, state.gap_rate[j]).stiffness(k, k) >= engaged[k]) state.gap[j] = gap;
+      }
+  }
+}
+
 template <class S>
 void plain_start(const BasicSystem<S>& system, BasicState<S>& state) {
   std::vector<typename S::Motion> m;
@@ -292,11 +309,11 @@ bool BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
 
 // The joints that start free and do not touch where the bodies are.
 template <class S>
-std::vector<int> BasicInverseDynamics<S>::apart() const {
+std::vector<int> BasicInverseDynamics<S>::apart(const BasicState<S>& state) const {
   std::vector<int> out;
   for (int j = 0; j < system_.n_joints(); ++j) {
     const BasicLaw<S>& law = system_.joints[j].law;
-    if (!law.ideal_limit() && law.starts_free() && is_open(law, r_[j].gap, r_[j].rate)) out.push_back(j);
+    if (!law.ideal_limit() && law.starts_free() && is_open(law, r_[j].gap, r_[j].rate) && is_open(law, state.gap[j], state.gap_rate[j])) out.push_back(j);
   }
   return out;
 }
@@ -306,7 +323,7 @@ template <class S>
 void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
   system_.motions(state.q, state.v, m_);
   system_.joint_kinematics(state.t, m_, r_);
-  const std::vector<int> apart_now = apart();
+  const std::vector<int> apart_now = apart(state);
   const std::optional<BasicSystem<S>> firm = with_springs(system_, apart_now);
   std::optional<BasicGapProjector<S>> holding;
   if (firm) holding.emplace(*firm);
@@ -368,6 +385,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
   const BasicState<S> unloaded = state;
   for (auto& x : state.gap_rate) x.setZero();
   for (auto& x : state.gap_accel) x.setZero();
+  tauten(system, state);
   BasicInverseDynamics<S> forces(system);
   const std::optional<BasicSystem<S>> firm = with_springs_for_play(system, state);
   for (int pass = 0; pass < kPasses; ++pass) {

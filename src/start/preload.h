@@ -45,7 +45,7 @@ class BasicInverseDynamics {
   BasicEffectiveMasses<S> effective_masses(const BasicState<S>& state);
 
  private:
-  std::vector<int> apart() const;
+  std::vector<int> apart(const BasicState<S>& state) const;
   typename S::Vec from_bodies(int j, const VecsOf<S>& x) const;
   double largest_held(const VecsOf<S>& gap) const;
   void push_by_laws(BasicState<S>& state);

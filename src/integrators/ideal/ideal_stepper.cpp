@@ -53,11 +53,11 @@ void IdealStepper::start(const State& state, double h) {
   if (lost > 1e-6 * before)
     remarks_.push_back(fmt::format("ideal joints: the stated velocities are inconsistent; an impulse in the joints dissipates {:.3g} J at the start", lost));
   begin_ = inside_ = stage_ = end_;
+  for (Vecs* x : {&jerk_, &error_q_, &error_v_}) x->assign(end_.a.size(), S::Vec::Zero());
+  most_independent_ = independence_ = projects_ ? equations_.independence(end_.t, end_.q) : 1;
   certain_.clear();
   certain_independence_.clear();
   keep_certain();
-  for (Vecs* x : {&jerk_, &error_q_, &error_v_}) x->assign(end_.a.size(), S::Vec::Zero());
-  most_independent_ = independence_ = projects_ ? equations_.independence(end_.t, end_.q) : 1;
   grow_scale();
 }
 
