@@ -97,6 +97,8 @@ class PowerAccount {
       power -= Q[i].dot(state_.v[i]);
       size += Q[i].cwiseAbs().dot(state_.v[i].cwiseAbs());
     }
+    std::vector<S::Motion> at_rest;
+    system_.motions(state_.q, Vecs(state_.v.size(), S::Vec::Zero()), at_rest);
     for (int j = 0; j < system_.n_joints(); ++j) {
       const JointKinematics r = system_.kinematics(j, state_.t, state_.m);
       const Placement& at = system_.joints[j].at;
@@ -104,7 +106,7 @@ class PowerAccount {
       double on_bodies = 0;
       if (at.a != kGround) on_bodies += (r.GA().transpose() * law.force).dot(state_.v[at.a]);
       if (at.b != kGround) on_bodies += (r.GB().transpose() * law.force).dot(state_.v[at.b]);
-      const double drive = on_bodies - law.force.dot(r.rate);  // a servo's target moves
+      const double drive = -law.force.dot(system_.kinematics(j, state_.t, at_rest).rate);  // a servo's target moves
       power += -on_bodies + drive - law.loss;
       size += std::abs(on_bodies) + std::abs(drive) + law.loss;
     }
