@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/lagrange_weights.h"
+
 namespace pintle {
 
 struct ChebyshevNodes {
@@ -32,11 +34,7 @@ struct ChebyshevNodes {
   /// Lagrange weights of the nodes at s.
   Eigen::Matrix<double, kN, 1> weights(double s) const {
     Eigen::Matrix<double, kN, 1> v;
-    for (int i = 0; i < kN; ++i) {
-      v[i] = 1;
-      for (int j = 0; j < kN; ++j)
-        if (j != i) v[i] *= (s - x[j]) / (x[i] - x[j]);
-    }
+    lagrange_weights(x, 0, kN, s, v);
     return v;
   }
 };

@@ -9,7 +9,6 @@ namespace pintle {
 namespace {
 
 using S = Planar;
-using Eigen::VectorXd;
 
 constexpr double kStiffAtLeast = 1e12;    // of a tree joint's law while it is assembled, and at least that of every other [N/m]
 constexpr double kRelaxation = 1e-5;      // its damping over its stiffness [s]
@@ -51,11 +50,7 @@ double natural_step(const System& system, const State& start, double duration) {
 void take_over(const JointTree& tree, const System& system, const SimulateSettings& settings, State& state) {
   TreeState start;
   TreeInverseDynamics forces(system, tree);
-  TreePose pose;
-  start.t = state.t;
-  tree.read_positions(state.q, start.y);
-  tree.place(start.y, VectorXd::Zero(tree.n()), pose);
-  tree.read_rates(pose, state.v, start.u);
+  read_coordinates(tree, state, start);
   const bool preload = settings.start == Start::kAssembled && !tree.laws().empty();
   start_tree_forces(forces, preload, start);
   write(forces, start, state);

@@ -3,6 +3,8 @@
 #include <array>
 #include <type_traits>
 
+#include "integrators/dense/cubic_hermite.h"
+
 namespace pintle {
 namespace {
 
@@ -34,11 +36,6 @@ void interpolate(const Hermite& H, double h, const Vecs& x0, const Vecs& v0, con
   }
 }
 
-double cubic(double s, double h, double x0, double v0, double x1, double v1) {
-  const double r = 1 - s;
-  return x0 + s * s * (3 - 2 * s) * (x1 - x0) + h * s * r * (r * v0 - s * v1);
-}
-
 }  // namespace
 
 template <class S>
@@ -63,7 +60,7 @@ const BasicState<S>& BasicDenseOutput<S>::at(double t, const BasicState<S>& begi
       const typename S::Vec dq = S::difference(end.q[i], begin.q[i]), rate = S::rate_of_increment(dq, end.v[i]);
       const typename S::Vec dv = end.v[i] - begin.v[i];
       out_.q[i] = S::moved(begin.q[i], s * s * (3 - 2 * s) * dq + h * s * r * (r * begin.v[i] - s * rate));
-      out_.v[i] = begin.v[i] + s * s * (3 - 2 * s) * dv + h * s * r * (r * begin.a[i] - s * end.a[i]);
+      out_.v[i] = cubic_hermite(s, h, begin.v[i], begin.a[i], end.v[i], end.a[i]);
       out_.a[i] = 6 * s * r / h * dv + r * (1 - 3 * s) * begin.a[i] + s * (3 * s - 2) * end.a[i];
     }
   } else {
@@ -73,10 +70,10 @@ const BasicState<S>& BasicDenseOutput<S>::at(double t, const BasicState<S>& begi
               out_.gap_accel);
   out_.t = t;
   out_.sliding = begin.sliding;
-  out_.dissipated = cubic(s, h, begin.dissipated, begin.loss_power, end.dissipated, end.loss_power);
-  out_.supplied = cubic(s, h, begin.supplied, begin.supply_power, end.supplied, end.supply_power);
+  out_.dissipated = cubic_hermite(s, h, begin.dissipated, begin.loss_power, end.dissipated, end.loss_power);
+  out_.supplied = cubic_hermite(s, h, begin.supplied, begin.supply_power, end.supplied, end.supply_power);
   for (std::size_t z = 0; z < out_.law_state.size(); ++z)
-    out_.law_state[z] = cubic(s, h, begin.law_state[z], begin.law_rate[z], end.law_state[z], end.law_rate[z]);
+    out_.law_state[z] = cubic_hermite(s, h, begin.law_state[z], begin.law_rate[z], end.law_state[z], end.law_rate[z]);
   for (int j = 0; j < system_.n_joints(); ++j) out_.force[j] = system_.joints[j].law.force(law_point(system_, j, out_));
   find_law_rates(system_, out_);
   return out_;

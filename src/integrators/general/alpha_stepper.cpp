@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "integrators/dense/cubic_hermite.h"
+
 namespace pintle {
 namespace {
 
@@ -15,16 +17,13 @@ using S = Planar;
 constexpr int kMaxIterations = 10;
 constexpr double kNewtonShare = 0.01;       // of the tolerance: a last correction that is small enough
 constexpr double kLoosestNewton = 1e-5;     // forces are k times positions: solved at least to this, whatever the tolerance
-constexpr double kPassing = 0.1;            // of the usual step: with ideal joints so short a step is taken in any case, theory/penalty section 2
-constexpr double kBeyond = 2;              // the next step after one of these, over it
-constexpr double kForget = 0.99;            // of the usual step, by one that is shorter
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance, std::unique_ptr<KeptJoints> ideal_joints)
+AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance, std::unique_ptr<ConstraintForces> ideal_joints)
     : system_(system), weights_(weights), beta_(weights.beta()), gamma_(weights.gamma()), tolerance_(tolerance),
-      newton_tolerance_(ideal_joints && ideal_joints->projects() ? kLoosestNewton : std::min(tolerance, kLoosestNewton)), kept_(std::move(ideal_joints)), force_evaluator_(system), borders_(system), tangents_(system), lu_(system.pattern()),
+      newton_tolerance_(ideal_joints && ideal_joints->projects() ? kLoosestNewton : std::min(tolerance, kLoosestNewton)), constraints_(std::move(ideal_joints)), force_evaluator_(system), borders_(system), tangents_(system), lu_(system.pattern()),
       begin_(zero_state(system)), end_(begin_), between_(begin_), a_before_(begin_.q), a_now_(begin_.q), q_(begin_.q), v_(begin_.q), a_(begin_.q), F_begin_(begin_.q),
       F_(begin_.q), work_(system.bodies.size()) {
   before_ = now_ = {begin_.q, begin_.q, begin_.q, 0};
@@ -32,10 +31,10 @@ AlphaStepper::AlphaStepper(const System& system, const AlphaWeights& weights, do
 
 void AlphaStepper::start(const State& state, double h) {
   begin_ = end_ = state;
-  if (!kept_) {
+  if (!constraints_) {
     force_evaluator_.complete(end_);
     borders_.start(end_);
-  } else if (!kept_->start(end_)) {
+  } else if (!constraints_->start(end_)) {
     failure_ = "ideal joints cannot be closed at the start";
   }
   now_ = {end_.v, end_.a, end_.a, 0};
@@ -51,14 +50,14 @@ void AlphaStepper::set_lag(double h, const Knot& knot, Vecs& a) const {
 // F = Q + G' law(gap, rate), or with what keeps ideal joints.
 void AlphaStepper::forces(double t, const Vecs& q, const Vecs& v, std::vector<double>& law_state, Vecs& F) {
   ++counters_.evaluations;
-  if (kept_) return kept_->find_forces(t, q, v, F);
+  if (constraints_) return constraints_->find_forces(t, q, v, F);
   system_.accelerations(t, q, v, F, law_state.data());
   for (int i = 0; i < system_.n_bodies(); ++i) F[i] = F[i].cwiseProduct(system_.bodies[i].mass);
 }
 
 // The laws' own states at the end of a step of h, by the trapezoidal rule, joint by joint.
 void AlphaStepper::find_states(double t, const Vecs& q, const Vecs& v, double h) {
-  if (z_.empty() || kept_) return;
+  if (z_.empty() || constraints_) return;
   system_.motions(q, v, m_);
   LawTangents law;
   LawImpedance<double> follows;
@@ -94,16 +93,12 @@ void AlphaStepper::place(double h) {
   }
 }
 
-double AlphaStepper::weight(double a, double b, double largest) const {
-  return tolerance_.relative * std::max(std::abs(a), std::abs(b)) + tolerance_.absolute + kRounding * largest;
-}
-
 // One Newton correction, theory/solvers Eq. (3.4); how large it is, in units of the tolerance.
 double AlphaStepper::correct(double h) {
   const double t = begin_.t + h, new_a = 1 - weights_.accelerations, new_F = 1 - weights_.forces;
   find_states(t, q_, v_, h);
   forces(t, q_, v_, z_, F_);
-  tangents_.find(t, q_, v_, z_, 2 / h, kept_.get());
+  tangents_.find(t, q_, v_, z_, 2 / h, constraints_.get());
   tangents_.combine(new_a, new_F * h * h * beta_, new_F * h * gamma_, lu_);
   ++counters_.factorizations;
   ++counters_.newton_iterations;
@@ -121,8 +116,8 @@ double AlphaStepper::correct(double h) {
       const double da = work_[i][k];
       sum += da;
       a_[i][k] += da;
-      size = std::max({size, h * h * beta_ * std::abs(da) / weight(begin_.q[i][k], q_[i][k], largest_q_),
-                       of_v * std::abs(da) / weight(begin_.v[i][k], v_[i][k], largest_v_)});
+      size = std::max({size, h * h * beta_ * std::abs(da) / tolerance_.weight(begin_.q[i][k], q_[i][k], largest_q_),
+                       of_v * std::abs(da) / tolerance_.weight(begin_.v[i][k], v_[i][k], largest_v_)});
     }
   place(h);
   return std::isfinite(sum) ? size : std::numeric_limits<double>::infinity();
@@ -132,7 +127,7 @@ bool AlphaStepper::solve(double h) {
   a_ = a_now_;
   z_ = begin_.law_state;
   place(h);
-  if (kept_) kept_->begin_step(begin_, h * h * beta_);
+  if (constraints_) constraints_->begin_step(begin_, h * h * beta_);
   const double enough = kNewtonShare * newton_tolerance_ / tolerance_.relative;
   double last = std::numeric_limits<double>::infinity();
   bool solved = false;
@@ -143,7 +138,7 @@ bool AlphaStepper::solve(double h) {
     last = size;
   }
   solved = solved || last < 1;  // at the rounding of stiff forces corrections shrink no more
-  return solved && (!kept_ || kept_->project(begin_.t + h, q_, v_, a_));
+  return solved && (!constraints_ || constraints_->project(begin_.t + h, q_, v_, a_));
 }
 
 // In units of the tolerance.
@@ -153,13 +148,13 @@ double AlphaStepper::error(double h) {
     for (int k = 0; k < S::kDof; ++k) {
       const auto [e_q, e_v] = weights_.local_errors(h, now_.h, {before_.v[i][k], a_before_[i][k], begin_.v[i][k], a_now_[i][k], v_[i][k], a_[i][k]});
       sum += e_q + e_v;
-      worst = std::max({worst, e_q / weight(begin_.q[i][k], q_[i][k], largest_q_), e_v / weight(begin_.v[i][k], v_[i][k], largest_v_)});
+      worst = std::max({worst, e_q / tolerance_.weight(begin_.q[i][k], q_[i][k], largest_q_), e_v / tolerance_.weight(begin_.v[i][k], v_[i][k], largest_v_)});
     }
   return std::isfinite(sum) ? worst : std::numeric_limits<double>::infinity();
 }
 
 void AlphaStepper::find_begin_forces() {
-  if (!kept_) return forces(begin_.t, begin_.q, begin_.v, begin_.law_state, F_begin_);
+  if (!constraints_) return forces(begin_.t, begin_.q, begin_.v, begin_.law_state, F_begin_);
   for (int i = 0; i < system_.n_bodies(); ++i) F_begin_[i] = system_.bodies[i].mass.cwiseProduct(begin_.a[i]);
 }
 
@@ -187,9 +182,9 @@ bool AlphaStepper::step(double t_end) {
       continue;
     }
     const double e = error(h);
-    const bool passing = kept_ && e > 1 && h < kPassing * usual_h_ && std::isfinite(e);
+    const bool forced = constraints_ && forced_.forces(e, h);
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
-    if (e <= 1 || passing) {
+    if (e <= 1 || forced) {
       const bool found = set_end_state(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
       if (!found) h *= 0.25;
       if (!found || crosses_border(h)) {
@@ -197,8 +192,11 @@ bool AlphaStepper::step(double t_end) {
         continue;
       }
       finish(h);
-      if (passing) return pass(h);
-      usual_h_ = std::max(h, kForget * usual_h_);
+      if (forced) {
+        h_ = forced_.take(begin_.t, h);
+        return true;
+      }
+      forced_.see_usual(h);
       h_ = borders_.has_shortened() ? std::max(h_, h * factor) : h * std::min(factor, most);
       return true;
     }
@@ -208,18 +206,9 @@ bool AlphaStepper::step(double t_end) {
   }
 }
 
-// Singular positions and jumps of forces are behind a step that is so short.
-bool AlphaStepper::pass(double h) {
-  if (n_passed_++ == 0) first_passed_ = begin_.t;
-  h_ = kBeyond * h;
-  return true;
-}
-
 std::vector<std::string> AlphaStepper::remarks() const {
-  std::vector<std::string> out;
-  if (kept_) out.push_back(kept_->remark());
-  if (n_passed_ > 0)
-    out.push_back(fmt::format("{} steps were taken with an error above the tolerance, the first at t = {:.6g} s: singular positions or jumps of forces", n_passed_, first_passed_));
+  std::vector<std::string> out = forced_.remarks();
+  if (constraints_) out.insert(out.begin(), constraints_->remark());
   return out;
 }
 
@@ -227,7 +216,7 @@ bool AlphaStepper::set_end_state(double t, double h) {
   end_.t = t;
   end_.q = q_;
   end_.v = v_;
-  if (kept_) return kept_->complete(end_);
+  if (constraints_) return constraints_->complete(end_);
   find_states(t, q_, v_, h);
   end_.law_state = z_;
   force_evaluator_.complete(end_);
@@ -243,7 +232,7 @@ void AlphaStepper::finish(double h) {
   now_.a = a_;
   now_.law = end_.a;
   now_.h = h;
-  if (!kept_ && borders_.cross(end_)) {  // goes on as from a start
+  if (!constraints_ && borders_.cross(end_)) {  // goes on as from a start
     force_evaluator_.complete(end_);
     borders_.record(end_);
     now_.a = now_.law = end_.a;
@@ -257,16 +246,13 @@ const State& AlphaStepper::interpolate(double t) {
   if (t == end_.t) return end_;
   if (t == begin_.t) return begin_;
   const double h = end_.t - begin_.t, s = (t - begin_.t) / h, r = 1 - s;
-  const auto cubic = [&](const auto& x0, const auto& d0, const auto& x1, const auto& d1, auto& x) {
-    x = x0 + s * s * (3 - 2 * s) * (x1 - x0) + h * s * r * (r * d0 - s * d1);
-  };
   between_.t = t;
   for (std::size_t i = 0; i < q_.size(); ++i) {
-    cubic(begin_.q[i], begin_.v[i], end_.q[i], end_.v[i], between_.q[i]);
-    cubic(begin_.v[i], begin_.a[i], end_.v[i], end_.a[i], between_.v[i]);
+    between_.q[i] = cubic_hermite(s, h, begin_.q[i], begin_.v[i], end_.q[i], end_.v[i]);
+    between_.v[i] = cubic_hermite(s, h, begin_.v[i], begin_.a[i], end_.v[i], end_.a[i]);
     between_.a[i] = r * begin_.a[i] + s * end_.a[i];
   }
-  if (kept_) kept_->complete(between_);
+  if (constraints_) constraints_->complete(between_);
   else interpolate_forces(s);
   between_.dissipated = begin_.dissipated + 0.5 * h * s * (begin_.loss_power + between_.loss_power);
   between_.supplied = begin_.supplied + 0.5 * h * s * (begin_.supply_power + between_.supply_power);

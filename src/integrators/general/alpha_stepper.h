@@ -9,6 +9,7 @@
 #include "integrators/law_borders.h"
 #include "integrators/general/alpha_weights.h"
 #include "integrators/general/force_tangents.h"
+#include "integrators/general/forced_steps.h"
 #include "integrators/general/usual_tolerance.h"
 #include "integrators/stepper.h"
 
@@ -17,7 +18,7 @@ namespace pintle {
 class AlphaStepper final : public Stepper {
  public:
   /// `ideal_joints`: where there are any.
-  AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance, std::unique_ptr<KeptJoints> ideal_joints = nullptr);
+  AlphaStepper(const System& system, const AlphaWeights& weights, double tolerance, std::unique_ptr<ConstraintForces> ideal_joints = nullptr);
 
   void set_max_step(double h) override { max_step_ = h; }
   void set_load_scale(const LoadScale&) override {}
@@ -47,18 +48,16 @@ class AlphaStepper final : public Stepper {
   double correct(double h);
   double error(double h);
   bool set_end_state(double t, double h);
-  bool projects() const { return kept_ && kept_->projects(); }
-  bool crosses_border(double& h) { return !kept_ && borders_.shorten(end_, h); }
+  bool projects() const { return constraints_ && constraints_->projects(); }
+  bool crosses_border(double& h) { return !constraints_ && borders_.shorten(end_, h); }
   void finish(double h);
-  bool pass(double h);
-  double weight(double a, double b, double largest) const;
 
   const System& system_;
   AlphaWeights weights_;
   double beta_, gamma_;
   UsualTolerance tolerance_;
-  double newton_tolerance_, max_step_ = 0, h_ = 0, usual_h_ = 0;
-  std::unique_ptr<KeptJoints> kept_;
+  double newton_tolerance_, max_step_ = 0, h_ = 0;
+  std::unique_ptr<ConstraintForces> constraints_;
   ForceEvaluator force_evaluator_;
   LawBorders borders_;
   ForceTangents tangents_;
@@ -70,8 +69,7 @@ class AlphaStepper final : public Stepper {
   std::vector<double> z_;               // the laws' own states there
   std::vector<Planar::Motion> m_;
   std::vector<BlockVec<double, Planar::kDof>> work_;
-  int n_passed_ = 0;                    // steps whose error was above the tolerance
-  double first_passed_ = 0;             // [s]
+  ForcedSteps forced_;                  // with ideal joints
   double largest_q_ = 1, largest_v_ = 1;
   LoadScale no_scale_;
   Counters counters_;

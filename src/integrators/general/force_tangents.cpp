@@ -26,15 +26,15 @@ int ForceTangents::place(int row, int column) const {
 }
 
 // theory/solvers Eq. (1.3).
-void ForceTangents::add_joint(int j, double t, const std::vector<double>& law_state, double mu, const KeptJoints* kept) {
+void ForceTangents::add_joint(int j, double t, const std::vector<double>& law_state, double mu, const ConstraintForces* constraints) {
   const JointData& joint = system_.joints[j];
   const S::Motion &A = motion_of(joint.at.a, motions_), &B = motion_of(joint.at.b, motions_);
   const JointKinematics r = system_.kinematics(j, t, motions_);
   const RelativePose pose = system_.pose(joint.at, motions_);
-  if (kept != nullptr && joint.ideal) {
+  if (constraints != nullptr && joint.ideal) {
     law_.n = 0;
-    law_.force = kept->force()[j];
-    law_.stiffness = kept->stiffness()[j].asDiagonal();
+    law_.force = constraints->force()[j];
+    law_.stiffness = constraints->stiffness()[j].asDiagonal();
     law_.damping.setZero();
   } else {
     joint.law.linearize({t, r.gap, r.rate, law_state.data() + joint.first_state}, law_);
@@ -63,12 +63,12 @@ void ForceTangents::add_joint(int j, double t, const std::vector<double>& law_st
     }
 }
 
-void ForceTangents::find(double t, const Vecs& q, const Vecs& v, const std::vector<double>& law_state, double mu, const KeptJoints* kept) {
+void ForceTangents::find(double t, const Vecs& q, const Vecs& v, const std::vector<double>& law_state, double mu, const ConstraintForces* constraints) {
   states_.clear();
   system_.motions(q, v, motions_);
   std::fill(by_q_.begin(), by_q_.end(), S::Mat::Zero());
   std::fill(by_v_.begin(), by_v_.end(), S::Mat::Zero());
-  for (int j = 0; j < system_.n_joints(); ++j) add_joint(j, t, law_state, mu, kept);
+  for (int j = 0; j < system_.n_joints(); ++j) add_joint(j, t, law_state, mu, constraints);
   system_.external_tangents(t, motions_, [this](int i, int j, const S::Mat& dq, const S::Mat& dv) {
     const int at = place(i, j);
     by_q_[at] += dq;

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "integrators/general/kept_joints.h"
+#include "integrators/general/constraint_forces.h"
 #include "linalg/block_lu.h"
 #include "system/system.h"
 
@@ -19,8 +19,8 @@ class ForceTangents {
   explicit ForceTangents(const System& system);
 
   /// dF/dq and dF/dv of F = Q + G' law(gap, rate, states). States that follow within a step of a method which advances them by
-  /// dz = dz' / mu are eliminated; at mu = infinity they stay what they are, and `states` says how they act. Ideal joints are as `kept` says.
-  void find(double t, const Vecs& q, const Vecs& v, const std::vector<double>& law_state, double mu = std::numeric_limits<double>::infinity(), const KeptJoints* kept = nullptr);
+  /// dz = dz' / mu are eliminated; at mu = infinity they stay what they are, and `states` says how they act. Ideal joints are as `constraints` says.
+  void find(double t, const Vecs& q, const Vecs& v, const std::vector<double>& law_state, double mu = std::numeric_limits<double>::infinity(), const ConstraintForces* constraints = nullptr);
 
   /// A joint whose law has states of its own, at the last `find`.
   struct StateTangents {
@@ -40,7 +40,7 @@ class ForceTangents {
   void combine(double mass, double by_q, double by_v, BlockLu<double, Planar::kDof>& lu) const;
 
  private:
-  void add_joint(int j, double t, const std::vector<double>& law_state, double mu, const KeptJoints* kept);
+  void add_joint(int j, double t, const std::vector<double>& law_state, double mu, const ConstraintForces* constraints);
 
   const System& system_;
   std::vector<Planar::Motion> motions_;

@@ -1,12 +1,22 @@
 // The tolerance as used by a general integrator. theory/solvers Eq. (1.4).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace pintle {
 
 /// The error of a component y of q or v may be relative * |y| + absolute; with the ratio of MATLAB's defaults.
 struct UsualTolerance {
   double relative, absolute;  // [-]; [m, rad, m/s, rad/s]
   explicit UsualTolerance(double tolerance) : relative(tolerance), absolute(1e-3 * tolerance) {}
+
+  /// The error that a component may have which is a and b at the ends of a step; `largest` of all there, whose rounding it has at least.
+  double weight(double a, double b, double largest) const {
+    constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+    return relative * std::max(std::abs(a), std::abs(b)) + absolute + kRounding * largest;
+  }
 };
 
 }  // namespace pintle

@@ -35,11 +35,11 @@ void AugmentedLagrangian::find_forces(double t, const Vecs& q, const Vecs& v, Ve
   iterate_.t = t;
   iterate_.q = q;
   iterate_.v = v;
-  equations_.find_other_forces(iterate_);
+  equations_.find_applied_forces(iterate_);
   take_over();
   F = iterate_.a;
   for (const auto [joint, k] : equations_.rows()) iterate_.force[joint][k] = multipliers_[joint][k] - stiffness_[joint][k] * equations_.gap(joint)[k];
-  equations_.add_kept_forces(iterate_.force, F);
+  equations_.add_constraint_forces(iterate_.force, F);
 }
 
 bool AugmentedLagrangian::project(double t, const Vecs& q, Vecs& v, Vecs& a) {

@@ -4,12 +4,12 @@
 
 #include <string>
 
-#include "integrators/general/kept_joints.h"
+#include "integrators/general/constraint_forces.h"
 #include "integrators/ideal/ideal_equations.h"
 
 namespace pintle {
 
-class AugmentedLagrangian final : public KeptJoints {
+class AugmentedLagrangian final : public ConstraintForces {
  public:
   /// `factor`: of the penalties in the iteration, over what resists them in a step. The result does not depend on it.
   explicit AugmentedLagrangian(const System& system, double factor = 1e7);

@@ -51,13 +51,13 @@ void find_powers(const System& system, const std::vector<S::Motion>& m, State& s
   }
 }
 
-bool keeps(const JointData& joint, int component) { return joint.ideal && joint.law.engaged_stiffness()[component] > 0; }
+bool is_constrained(const JointData& joint, int component) { return joint.ideal && joint.law.engaged_stiffness()[component] > 0; }
 
 IdealEquations::IdealEquations(const System& system, Equations equations, const PenaltySettings& penalty)
     : system_(system), equations_(equations), penalty_(penalty), still_(system.bodies.size(), S::Vec::Zero()) {
   for (int j = 0; j < system.n_joints(); ++j)
     for (int k = 0; k < S::kDof; ++k)
-      if (keeps(system.joints[j], k)) {
+      if (is_constrained(system.joints[j], k)) {
         rows_.push_back({j, k});
         n_redundant_ += !has_penalties() && system.joints[j].redundant[k];
       }
@@ -195,14 +195,14 @@ Eigen::VectorXd IdealEquations::add_reactions(Vecs& a) const {
   return multipliers;
 }
 
-void IdealEquations::find_other_forces(State& state) {
+void IdealEquations::find_applied_forces(State& state) {
   read(state.t, state.q, state.v);
   fill_joints(state);
   system_.external(state.t, m_, state.a);
   for (int j = 0; j < system_.n_joints(); ++j) add_force(system_.joints[j].at, r_[j], state.force[j], state.a);
 }
 
-void IdealEquations::add_kept_forces(const Vecs& force, Vecs& on_bodies) const {
+void IdealEquations::add_constraint_forces(const Vecs& force, Vecs& on_bodies) const {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Placement& at = system_.joints[rows_[i].joint].at;
     for (const auto& [body, side] : {std::pair{at.a, 0}, std::pair{at.b, 1}})
@@ -211,7 +211,7 @@ void IdealEquations::add_kept_forces(const Vecs& force, Vecs& on_bodies) const {
 }
 
 bool IdealEquations::complete(State& state) {
-  find_other_forces(state);
+  find_applied_forces(state);
   for (int i = 0; i < system_.n_bodies(); ++i) state.a[i] = state.a[i].cwiseQuotient(system_.bodies[i].mass);
   if (!factorize()) return false;
   const Eigen::VectorXd multipliers = add_reactions(state.a);
@@ -284,16 +284,17 @@ bool IdealEquations::close_velocities(double t, const Vecs& q, Vecs& v) {
   return true;
 }
 
-bool IdealEquations::keep_tangential(double t, const Vecs& q, Vecs& displacement) {
-  if (rows_.empty()) return true;
+bool IdealEquations::find_tangent(double t, const Vecs& q) {
   read(t, q, still_);
-  if (!factorize()) return false;
+  return factorize();
+}
+
+void IdealEquations::project_onto_tangent(Vecs& displacement) const {
   Eigen::VectorXd multipliers;
-  for (int pass = 0; pass <= kRefinements; ++pass) {
+  for (int pass = 0; pass <= kRefinements && !rows_.empty(); ++pass) {
     solve(-rates(displacement), multipliers);
     push(multipliers, displacement);
   }
-  return true;
 }
 
 bool IdealEquations::close_accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a) {
@@ -314,8 +315,7 @@ double IdealEquations::independence() const { return rows_.empty() ? 1 : std::sq
 
 double IdealEquations::independence(double t, const Vecs& q) {
   if (rows_.empty()) return 1;
-  read(t, q, still_);
-  return factorize() ? independence() : 0;
+  return find_tangent(t, q) ? independence() : 0;
 }
 
 Eigen::VectorXd IdealEquations::nearest_dependency() const {

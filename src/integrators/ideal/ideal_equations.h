@@ -28,7 +28,7 @@ Planar::Vec force_without_states(const JointData& joint, double t, const JointKi
 void find_powers(const System& system, const std::vector<Planar::Motion>& m, State& state);
 
 /// Whether this component of the joint's gap is a constraint.
-bool keeps(const JointData& joint, int component);
+bool is_constrained(const JointData& joint, int component);
 
 class IdealEquations {
  public:
@@ -45,9 +45,9 @@ class IdealEquations {
   /// when the rows' matrix cannot be factorised.
   bool complete(State& state);
   /// Of `complete` only what needs no multiplier: gaps, forces of joints that have a law, and in state.a the forces on the bodies with them.
-  void find_other_forces(State& state);
-  /// on_bodies += G' f, of the components that ideal joints keep, where `find_other_forces` was asked last.
-  void add_kept_forces(const Vecs& force, Vecs& on_bodies) const;
+  void find_applied_forces(State& state);
+  /// on_bodies += G' f, of the components that ideal joints keep, where `find_applied_forces` was asked last.
+  void add_constraint_forces(const Vecs& force, Vecs& on_bodies) const;
   /// Gaps are those at this position and motion from now on.
   void look_at(double t, const Vecs& q, const Vecs& v) { read(t, q, v); }
   const Planar::Vec& gap(int joint) const { return r_[joint].gap; }
@@ -56,8 +56,10 @@ class IdealEquations {
   /// cannot be closed, or not from here.
   bool close_positions(double t, Vecs& q);
   bool close_velocities(double t, const Vecs& q, Vecs& v);
-  /// Takes from a displacement of q what changes gaps: what is left is shortest in the mass norm from it.
-  bool keep_tangential(double t, const Vecs& q, Vecs& displacement);
+  /// Looks at q for `project_onto_tangent`. False when the rows' matrix cannot be factorised.
+  bool find_tangent(double t, const Vecs& q);
+  /// Takes from a displacement of the position last looked at what changes gaps: what is left is nearest to it in the mass norm.
+  void project_onto_tangent(Vecs& displacement) const;
   bool close_accelerations(double t, const Vecs& q, const Vecs& v, Vecs& a);
 
   /// With penalties: the mass that resists a row, at the first position asked about, and its penalty [kg or kg*m^2]. theory/penalty Eq. (1.2).
@@ -76,6 +78,8 @@ class IdealEquations {
   double independence() const;
   /// Takes what redundant rows leave open at the closed position q into account. Call once, before steps.
   void measure_misfit(double t, const Vecs& q);
+  /// As others of the same system have found it.
+  void take_misfit(const IdealEquations& other) { damped_ = other.damped_; }
   /// The rows' combination that is closest to none at all, of unit norm, at the position last asked about.
   Eigen::VectorXd nearest_dependency() const;
 

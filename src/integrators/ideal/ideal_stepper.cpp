@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/lagrange_weights.h"
 #include "integrators/dormand_prince.h"
 
 namespace pintle {
@@ -30,9 +31,9 @@ constexpr double kNearJump = 1e-4;     // of the usual step: rejected steps that
 constexpr double kForget = 0.99;       // of the usual step, by one that is shorter
 constexpr double kLeastCrossing = 1e-8;  // of the usual step: shorter ones are lost in the rounding of velocities over the step
 constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();  // of the largest velocity or acceleration: errors do not show below it
-constexpr double kUnbounded = 1e-3;    // of the largest reaction where the last certain state is: what grows as 1/d counts above it
+constexpr double kUnbounded = 1e-3;    // of the largest reaction where the last accurate state is: what grows as 1/d counts above it
 constexpr int kMostReported = 5;
-constexpr std::size_t kCertain = 5;    // states whose forces have most of their digits are kept
+constexpr std::size_t kAccurate = 5;   // states whose forces have most of their digits are kept
 
 }  // namespace
 
@@ -55,24 +56,23 @@ void IdealStepper::start(const State& state, double h) {
   begin_ = inside_ = stage_ = end_;
   for (Vecs* x : {&jerk_, &error_q_, &error_v_}) x->assign(end_.a.size(), S::Vec::Zero());
   most_independent_ = independence_ = projects_ ? equations_.independence(end_.t, end_.q) : 1;
-  certain_.clear();
-  certain_independence_.clear();
-  keep_certain();
+  accurate_.clear();
+  keep_accurate();
   grow_scale();
 }
 
 // But not at one, as at the start.
-bool IdealStepper::near_singular_position() const {
+bool IdealStepper::is_near_singular_position() const {
   return independence_ < kSuspicious * most_independent_ && independence_ > 0.5 * kTooNear * most_independent_;
 }
 
-bool IdealStepper::passes_too_near(double independence) const { return independence < kTooNear * most_independent_; }
+bool IdealStepper::is_too_near(double independence) const { return independence < kTooNear * most_independent_; }
 
 // A step of h, or one like it that leads to a singular position ahead or over it, so that no stage is near to it. The independence of the
 // constraints falls in proportion to the distance there. theory/ideal Eq. (3.2).
-double IdealStepper::around_singular_position(double h) {
+double IdealStepper::step_around_singular_position(double h) {
   clear_h_ = 0;
-  if (!near_singular_position()) return h;
+  if (!is_near_singular_position()) return h;
   constexpr double kAhead = 1e-3;
   Vecs ahead = begin_.q;
   for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] += kAhead * h * begin_.v[i];
@@ -95,14 +95,14 @@ bool IdealStepper::step(double t_end) {
   const double rounding = std::numeric_limits<double>::epsilon() * std::abs(t_end);
   const double crossing_h = std::max(std::max(kCrossing * tolerance_, kLeastCrossing) * smooth_h_, 1e3 * rounding);
   while (true) {
-    const double left = t_end - begin_.t, h = std::min(around_singular_position(wanted), left);
+    const double left = t_end - begin_.t, h = std::min(step_around_singular_position(wanted), left);
     if (h <= 16 * rounding) {
       failure_ = fmt::format("ideal joints: the step size became too small at t = {:.9g} s{}", begin_.t,
-                             passes_too_near(least_independence_) ? ", near a position where the constraints are not independent" : "");
+                             is_too_near(least_independence_) ? ", near a position where the constraints are not independent" : "");
       return false;
     }
     const bool solved = take_stages(h);
-    if (solved && h < left && passes_too_near(least_independence_) && near_singular_position() && wanted > clear_h_) {
+    if (solved && h < left && is_too_near(least_independence_) && is_near_singular_position() && wanted > clear_h_) {
       ++counters_.rejected;
       wanted *= kOtherStages;
       continue;
@@ -150,7 +150,7 @@ bool IdealStepper::onto_branch() {
   Vecs away(branch_.size());
   for (int pass = 0; pass < kPasses; ++pass) {
     for (std::size_t i = 0; i < away.size(); ++i) away[i] = stage_.q[i] - branch_[i];
-    if (!equations_.keep_tangential(begin_.t, begin_.q, away)) return false;
+    at_begin_->project_onto_tangent(away);
     for (std::size_t i = 0; i < away.size(); ++i) branch_[i] += away[i];
     if (!equations_.close_positions(stage_.t, branch_)) return false;
   }
@@ -162,14 +162,24 @@ bool IdealStepper::onto_branch() {
 // not: there every stage is closed.
 bool IdealStepper::take_stages(double h) {
   const double suspicious = kSuspicious * most_independent_;
-  closed_ = near_singular_position();
-  if (!find_stages(h)) return false;
-  if (closed_ || least_independence_ > suspicious || independence_ < suspicious) return true;
+  closed_ = is_near_singular_position();
+  if (closed_) return find_tangent() && evaluate_stages(h);
+  if (!evaluate_stages(h)) return false;
+  if (least_independence_ > suspicious || independence_ < suspicious) return true;
   closed_ = true;
-  return find_stages(h);
+  return find_tangent() && evaluate_stages(h);
 }
 
-bool IdealStepper::find_stages(double h) {
+// That of the branch at the start of the step, by equations of its own: others look at the stages meanwhile.
+bool IdealStepper::find_tangent() {
+  if (!at_begin_) {
+    at_begin_ = std::make_unique<IdealEquations>(system_);
+    at_begin_->take_misfit(equations_);
+  }
+  return at_begin_->find_tangent(begin_.t, begin_.q);
+}
+
+bool IdealStepper::evaluate_stages(double h) {
   least_independence_ = independence_;
   kq_[0] = begin_.v;
   kv_[0] = begin_.a;
@@ -206,7 +216,7 @@ bool IdealStepper::finish(double t, double h) {
   end_.t = t;
   end_.q = stage_.q;
   end_.v = stage_.v;
-  if (!projects_ || passes_too_near(least_independence_) ? !equations_.complete(end_) : !onto_constraints(end_)) return false;
+  if (!projects_ || is_too_near(least_independence_) ? !equations_.complete(end_) : !onto_constraints(end_)) return false;
   end_.supplied = begin_.supplied;
   end_.dissipated = begin_.dissipated;
   for (int s = 0; s < kStages - 1; ++s) {
@@ -221,7 +231,7 @@ bool IdealStepper::finish(double t, double h) {
     return true;
   }
   look_for_singular_position();
-  keep_certain();
+  keep_accurate();
   return true;
 }
 
@@ -236,7 +246,10 @@ double IdealStepper::error(double h) {
       error_v_[i] += kE[s] * kv_[s][i];
     }
   }
-  if (closed_ && !(equations_.keep_tangential(begin_.t, begin_.q, error_q_) && equations_.keep_tangential(begin_.t, begin_.q, error_v_))) return std::numeric_limits<double>::infinity();
+  if (closed_) {
+    at_begin_->project_onto_tangent(error_q_);
+    at_begin_->project_onto_tangent(error_v_);
+  }
   double worst = 0;
   const double of_velocities = kRounding * largest_coordinate(begin_.v) / h, of_accelerations = kRounding * largest_coordinate(begin_.a);
   const auto above = [](const S::Vec& x, double rounding) { return S::Vec((x.cwiseAbs().array() - rounding).max(0)); };
@@ -274,8 +287,7 @@ const State& IdealStepper::interpolate(double t) {
     equations_.complete(inside_);
     return inside_;
   }
-  const bool certain = equations_.independence(t, inside_.q) > kFewDigits * most_independent_;
-  if (certain) {
+  if (equations_.independence(t, inside_.q) > kFewDigits * most_independent_) {
     onto_constraints(inside_);
   } else {
     equations_.complete(inside_);
@@ -286,46 +298,44 @@ const State& IdealStepper::interpolate(double t) {
 
 // Beside a singular position forces and accelerations are those of the curve through the last states that are not. theory/ideal section 3.
 void IdealStepper::interpolate_forces(State& state) {
-  if (certain_.size() < 2) return;
+  if (accurate_.size() < 2) return;
   for (Vecs* x : {&state.a, &state.force, &state.gap_accel})
     for (S::Vec& each : *x) each.setZero();
   state.supply_power = state.loss_power = 0;
-  for (const State& node : certain_) {
-    double weight = 1;
-    for (const State& other : certain_)
-      if (&other != &node) weight *= (state.t - other.t) / (node.t - other.t);
-    for (std::size_t i = 0; i < state.a.size(); ++i) state.a[i] += weight * node.a[i];
+  std::array<double, kAccurate> times{}, weight{};
+  for (std::size_t i = 0; i < accurate_.size(); ++i) times[i] = accurate_[i].state.t;
+  lagrange_weights(times, 0, accurate_.size(), state.t, weight);
+  for (std::size_t n = 0; n < accurate_.size(); ++n) {
+    const State& node = accurate_[n].state;
+    for (std::size_t i = 0; i < state.a.size(); ++i) state.a[i] += weight[n] * node.a[i];
     for (std::size_t j = 0; j < state.force.size(); ++j) {
-      state.force[j] += weight * node.force[j];
-      state.gap_accel[j] += weight * node.gap_accel[j];
+      state.force[j] += weight[n] * node.force[j];
+      state.gap_accel[j] += weight[n] * node.gap_accel[j];
     }
-    state.supply_power += weight * node.supply_power;
-    state.loss_power += weight * node.loss_power;
+    state.supply_power += weight[n] * node.supply_power;
+    state.loss_power += weight[n] * node.loss_power;
   }
 }
 
 // Reactions that go as 1/d towards a singular position: their product with the independence d does not go to zero with it.
 void IdealStepper::look_for_unbounded_reactions() {
-  const std::size_t n = certain_.size();
+  const std::size_t n = accurate_.size();
   if (unbounded_at_ >= 0 || n < 3) return;
-  const double nearest = certain_independence_.back();
+  std::array<double, kAccurate> d{}, weight{};
+  for (std::size_t i = 0; i < n; ++i) d[i] = accurate_[i].independence;
+  lagrange_weights(d, 0, n, 0, weight);
   double largest = 0, residue = 0;
   for (std::size_t j = 0; j < end_.force.size(); ++j) {
     S::Vec product = S::Vec::Zero();  // at d = 0
-    for (std::size_t i = 0; i < n; ++i) {
-      double weight = certain_independence_[i];
-      for (std::size_t k = 0; k < n; ++k)
-        if (k != i) weight *= certain_independence_[k] / (certain_independence_[k] - certain_independence_[i]);
-      product += weight * certain_[i].force[j];
-    }
+    for (std::size_t i = 0; i < n; ++i) product += weight[i] * d[i] * accurate_[i].state.force[j];
     residue = std::max(residue, product.head<2>().norm());
-    largest = std::max(largest, certain_.back().force[j].head<2>().norm());
+    largest = std::max(largest, accurate_.back().state.force[j].head<2>().norm());
   }
-  if (residue > kUnbounded * nearest * largest) unbounded_at_ = end_.t;
+  if (residue > kUnbounded * d[n - 1] * largest) unbounded_at_ = end_.t;
 }
 
 // The newest, and others as far from each other as the curve through them has to reach.
-void IdealStepper::keep_certain() {
+void IdealStepper::keep_accurate() {
   if (independence_ < kFewDigits * most_independent_) {
     look_for_unbounded_reactions();
     const Vecs a = end_.a;  // what moves the mechanism in it has all its digits, and the next step begins with it
@@ -333,18 +343,10 @@ void IdealStepper::keep_certain() {
     end_.a = a;
     return;
   }
-  const std::size_t n = certain_.size();
-  if (n > 1 && std::abs(certain_independence_[n - 2] - independence_) < 0.5 * kFewDigits * most_independent_) {
-    certain_.back() = end_;
-    certain_independence_.back() = independence_;
-    return;
-  }
-  if (n == kCertain) {
-    certain_.erase(certain_.begin());
-    certain_independence_.erase(certain_independence_.begin());
-  }
-  certain_.push_back(end_);
-  certain_independence_.push_back(independence_);
+  const std::size_t n = accurate_.size();
+  if (n > 1 && std::abs(accurate_[n - 2].independence - independence_) < 0.5 * kFewDigits * most_independent_) accurate_.pop_back();
+  else if (n == kAccurate) accurate_.erase(accurate_.begin());
+  accurate_.push_back({end_, independence_});
 }
 
 std::vector<std::string> IdealStepper::remarks() const {
@@ -360,7 +362,7 @@ void IdealStepper::look_for_singular_position() {
     return equations_.independence(t, share <= 0 ? begin_.q : share >= 1 ? end_.q : dense_.at(t, begin_, end_).q);
   };
   constexpr double kNear = 1e-3;
-  const double first = at(0), last = at(1);
+  const double first = independence_, last = at(1);
   independence_ = last;
   most_independent_ = std::max(most_independent_, last);
   if (std::min(first, last) > kSuspicious * most_independent_) return;

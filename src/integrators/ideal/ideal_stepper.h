@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,12 +34,13 @@ class IdealStepper final : public Stepper {
 
  private:
   bool take_stages(double h);
-  bool find_stages(double h);
+  bool evaluate_stages(double h);
+  bool find_tangent();
   bool onto_branch();
-  double around_singular_position(double h);
-  bool passes_too_near(double independence) const;
-  bool near_singular_position() const;
-  void keep_certain();
+  double step_around_singular_position(double h);
+  bool is_too_near(double independence) const;
+  bool is_near_singular_position() const;
+  void keep_accurate();
   void look_for_unbounded_reactions();
   void interpolate_forces(State& state);
   bool onto_constraints(State& state);
@@ -54,10 +56,14 @@ class IdealStepper final : public Stepper {
   double tolerance_, max_step_ = 0, h_ = 0, usual_h_ = 0;  // the next step; the last away from singular positions
   double smooth_h_ = 0;                                     // the last that was taken at once, or the first that was proposed
   IdealEquations equations_;
+  std::unique_ptr<IdealEquations> at_begin_;                // made when a singular position is near
   DenseOutput dense_;
   State begin_, end_, inside_, stage_;
-  std::vector<State> certain_;  // of those that were not beside a singular position
-  std::vector<double> certain_independence_;
+  struct AccurateState {        // not beside a singular position
+    State state;
+    double independence;
+  };
+  std::vector<AccurateState> accurate_;
   Vecs jerk_, branch_, error_q_, error_v_;  // of the bodies at the start of the step; places; accelerations
   double unbounded_at_ = -1;                // [s]
   double clear_h_ = 0;                      // of the shortest step over the singular position ahead [s]

@@ -4,12 +4,12 @@
 
 #include <string>
 
-#include "integrators/general/kept_joints.h"
+#include "integrators/general/constraint_forces.h"
 #include "integrators/ideal/ideal_equations.h"
 
 namespace pintle {
 
-class PenaltyForces final : public KeptJoints {
+class PenaltyForces final : public ConstraintForces {
  public:
   PenaltyForces(const System& system, const PenaltySettings& penalty);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "integrators/dense/cubic_hermite.h"
 #include "integrators/ideal/ideal_equations.h"
 
 namespace pintle {
@@ -19,7 +20,6 @@ constexpr double kEnough = 1e-9;        // a last correction, of the coordinates
 constexpr double kFactor = 1e7;         // of the penalties in the iteration, over what resists them in a step
 constexpr double kProjection = 1e-7;    // added to the rows' scaled matrix: dependent rows need no care
 constexpr int kPasses = 2;              // of a projection
-constexpr double kPassing = 0.1, kBeyond = 2, kForget = 0.99;  // as in AlphaStepper
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
 double largest_of(const Eigen::VectorXd& x) { return std::max(1e-3, x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0); }
@@ -30,18 +30,14 @@ TreeAugmented::TreeAugmented(const System& system, const AlphaWeights& weights, 
     : system_(system), weights_(weights), tolerance_(tolerance), tree_(std::make_unique<JointTree>(system)), at_(system, *tree_) {
   for (int l = 0; l < static_cast<int>(tree_->laws().size()); ++l)
     for (int k = 0; k < S::kDof; ++k)
-      if (keeps(system.joints[tree_->laws()[l]], k)) rows_.push_back({l, k});
+      if (is_constrained(system.joints[tree_->laws()[l]], k)) rows_.push_back({l, k});
   multipliers_ = stiffness_ = Vector::Zero(static_cast<Index>(rows_.size()));
 }
 
 void TreeAugmented::start(const State& state, double h) {
   end_state_ = state;
   if (!close_loops(system_, end_state_)) failure_ = "ideal joints cannot be closed at the start";
-  end_.t = state.t;
-  tree_->read_positions(end_state_.q, end_.y);
-  TreePose pose;
-  tree_->place(end_.y, Vector::Zero(tree_->n()), pose);
-  tree_->read_rates(pose, end_state_.v, end_.u);
+  read_coordinates(*tree_, end_state_, end_);
   end_.law_state = state.law_state;
   end_.law_rate = state.law_rate;
   complete(end_, end_state_);
@@ -206,16 +202,12 @@ bool TreeAugmented::solve(double h) {
   return false;
 }
 
-double TreeAugmented::weight(double a, double b, double largest) const {
-  return tolerance_.relative * std::max(std::abs(a), std::abs(b)) + tolerance_.absolute + kRounding * largest;
-}
-
 double TreeAugmented::error(double h) {
   double worst = 0;
   for (Index i = 0; i < trial_.w.size(); ++i) {
     const bool known = h_before_ > 0;
     const auto [e_y, e_u] = weights_.local_errors(h, h_before_, {known ? u_before_[i] : 0, known ? w_lagged_before_[i] : 0, begin_.u[i], w_begin_[i], trial_.u[i], trial_.w[i]});
-    worst = std::max({worst, e_y / weight(begin_.y[i], trial_.y[i], largest_y_), e_u / weight(begin_.u[i], trial_.u[i], largest_u_)});
+    worst = std::max({worst, e_y / tolerance_.weight(begin_.y[i], trial_.y[i], largest_y_), e_u / tolerance_.weight(begin_.u[i], trial_.u[i], largest_u_)});
     if (!std::isfinite(e_y + e_u)) return std::numeric_limits<double>::infinity();
   }
   return worst;
@@ -239,12 +231,11 @@ bool TreeAugmented::step(double t_end) {
     const bool solved = solve(h);
     const double e = solved ? error(h) : 0;
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
-    const bool passing = e > 1 && h < kPassing * usual_h_ && std::isfinite(e);
-    if (solved && (e <= 1 || passing)) {
+    const bool forced = forced_.forces(e, h);
+    if (solved && (e <= 1 || forced)) {
       finish(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
-      if (passing && n_passed_++ == 0) first_passed_ = begin_.t;
-      if (!passing) usual_h_ = std::max(h, kForget * usual_h_);
-      h_ = passing ? kBeyond * h : h * std::min(factor, most);
+      if (!forced) forced_.see_usual(h);
+      h_ = forced ? forced_.take(begin_.t, h) : h * std::min(factor, most);
       return failure_.empty();
     }
     ++(solved ? counters_.rejected : counters_.newton_failures);
@@ -271,13 +262,10 @@ void TreeAugmented::finish(double t, double h) {
 const State& TreeAugmented::interpolate(double t) {
   if (t == end_.t) return end_state_;
   if (t == begin_.t) return begin_state_;
-  const double h = end_.t - begin_.t, s = (t - begin_.t) / h, r = 1 - s;
-  const auto cubic = [&](const Vector& x0, const Vector& d0, const Vector& x1, const Vector& d1) -> Vector {
-    return x0 + s * s * (3 - 2 * s) * (x1 - x0) + h * s * r * (r * d0 - s * d1);
-  };
+  const double h = end_.t - begin_.t, s = (t - begin_.t) / h;
   inside_.t = t;
-  inside_.y = cubic(begin_.y, begin_.u, end_.y, end_.u);
-  inside_.u = cubic(begin_.u, begin_.w, end_.u, end_.w);
+  inside_.y = cubic_hermite(s, h, begin_.y, begin_.u, end_.y, end_.u);
+  inside_.u = cubic_hermite(s, h, begin_.u, begin_.w, end_.u, end_.w);
   inside_.law_state = begin_.law_state;
   inside_.law_rate = begin_.law_rate;
   complete(inside_, inside_state_);
@@ -288,8 +276,7 @@ const State& TreeAugmented::interpolate(double t) {
 
 std::vector<std::string> TreeAugmented::remarks() const {
   std::vector<std::string> out{fmt::format("augmented Lagrangian in {} relative coordinates: the {} constraints that close loops are violated by at most {:.1e} m or rad", tree_->n(), rows_.size(), violation_)};
-  if (n_passed_ > 0)
-    out.push_back(fmt::format("{} steps were taken with an error above the tolerance, the first at t = {:.6g} s: singular positions or jumps of forces", n_passed_, first_passed_));
+  for (std::string& remark : forced_.remarks()) out.push_back(std::move(remark));
   return out;
 }
 

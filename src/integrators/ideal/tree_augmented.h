@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "integrators/general/alpha_weights.h"
+#include "integrators/general/forced_steps.h"
 #include "integrators/general/usual_tolerance.h"
 #include "integrators/relative/tree_instant.h"
 #include "integrators/stepper.h"
@@ -51,7 +52,6 @@ class TreeAugmented final : public Stepper {
   double correct(double h);
   void add_tangents(double h);
   double error(double h);
-  double weight(double a, double b, double largest) const;
   void finish(double t, double h);
 
   const System& system_;
@@ -60,7 +60,7 @@ class TreeAugmented final : public Stepper {
   std::unique_ptr<JointTree> tree_;
   TreeInstant at_;
   std::vector<Row> rows_;
-  double max_step_ = 0, h_ = 0, usual_h_ = 0, h_before_ = 0;
+  double max_step_ = 0, h_ = 0, h_before_ = 0;
   // Projections: A H^-1 A' of the rows, scaled to a unit diagonal.
   Eigen::LLT<Eigen::MatrixXd> mass_, rows_matrix_;
   Eigen::MatrixXd A_, pull_;  // the rows' part of A; H^-1 A'
@@ -71,8 +71,8 @@ class TreeAugmented final : public Stepper {
   Vector own_w_, law_w_, w_before_, u_before_;    // accelerations at the begin: the method's own, those of the forces; the begin before
   Vector w_begin_, w_lagged_before_;              // the same for this step
   Vector multipliers_, stiffness_;                // of rows
-  double largest_y_ = 1, largest_u_ = 1, violation_ = 0, first_passed_ = 0;
-  int n_passed_ = 0;
+  double largest_y_ = 1, largest_u_ = 1, violation_ = 0;
+  ForcedSteps forced_;
   State begin_state_, end_state_, inside_state_;
   LoadScale no_scale_;
   Counters counters_;

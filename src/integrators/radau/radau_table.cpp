@@ -4,6 +4,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "base/lagrange_weights.h"
+
 namespace pintle {
 namespace {
 
@@ -87,13 +89,8 @@ void RadauTable::diagonalize() {
 }
 
 RadauTable::Vec RadauTable::weights_of_last(int count, double x) const {
-  const int first = n + 1 - count;
   Vec w = Vec::Zero(n + 1);
-  for (int i = first; i <= n; ++i) {
-    w[i] = 1;
-    for (int j = first; j <= n; ++j)
-      if (i != j) w[i] *= (x - nodes[j]) / (nodes[i] - nodes[j]);
-  }
+  lagrange_weights(nodes, static_cast<std::size_t>(n + 1 - count), static_cast<std::size_t>(n + 1), x, w);
   return w;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "integrators/dense/cubic_hermite.h"
 #include "integrators/dormand_prince.h"
 #include "integrators/load_scale.h"
 
@@ -25,11 +26,6 @@ void quintic(double s, double h, const std::array<const VectorXd*, 3>& begin, co
   const VectorXd c3 = 10 * d - 4 * dv + 0.5 * da, c4 = -15 * d + 7 * dv - da, c5 = 6 * d - 3 * dv + 0.5 * da;
   x = *begin[0] + s * h * *begin[1] + 0.5 * s2 * h * h * *begin[2] + s3 * c3 + s4 * c4 + s4 * s * c5;
   v = *begin[1] + s * h * *begin[2] + (3 * s2 * c3 + 4 * s3 * c4 + 5 * s4 * c5) / h;
-}
-
-double cubic(double s, double h, double x0, double v0, double x1, double v1) {
-  const double r = 1 - s;
-  return x0 + s * s * (3 - 2 * s) * (x1 - x0) + h * s * r * (r * v0 - s * v1);
 }
 
 }  // namespace
@@ -63,11 +59,7 @@ void TreeDopri5::write(TreeState& at, State& state) {
 void TreeDopri5::start(const State& state, double h) {
   end_state_ = state;
   h_ = h;
-  end_.t = state.t;
-  tree_->read_positions(state.q, end_.y);
-  TreePose pose;
-  tree_->place(end_.y, VectorXd::Zero(tree_->n()), pose);
-  tree_->read_rates(pose, state.v, end_.u);
+  read_coordinates(*tree_, state, end_);
   end_.law_state = state.law_state;
   complete(end_);
   write(end_, end_state_);
@@ -197,7 +189,7 @@ const State& TreeDopri5::interpolate(double t) {
   quintic(s, h, {&begin_.y, &begin_.u, &begin_.w}, {&end_.y, &end_.u, &end_.w}, now.y, now.u);
   now.law_state = begin_.law_state;
   for (std::size_t z = 0; z < now.law_state.size(); ++z)
-    now.law_state[z] = cubic(s, h, begin_.law_state[z], begin_.law_rate[z], end_.law_state[z], end_.law_rate[z]);
+    now.law_state[z] = cubic_hermite(s, h, begin_.law_state[z], begin_.law_rate[z], end_.law_state[z], end_.law_rate[z]);
   complete(now);
   quintic(s, h, {&begin_.gap, &begin_.rate, &begin_.accel}, {&end_.gap, &end_.rate, &end_.accel}, now.gap, now.rate);
   at_.forces(now, now.force, now.law_rate);
@@ -205,8 +197,8 @@ const State& TreeDopri5::interpolate(double t) {
   at_.imbalance(now.force, now.w);
   now.w = mass_.solve(-now.w);
   write(now, inside_state_);
-  inside_state_.dissipated = cubic(s, h, begin_state_.dissipated, begin_state_.loss_power, end_state_.dissipated, end_state_.loss_power);
-  inside_state_.supplied = cubic(s, h, begin_state_.supplied, begin_state_.supply_power, end_state_.supplied, end_state_.supply_power);
+  inside_state_.dissipated = cubic_hermite(s, h, begin_state_.dissipated, begin_state_.loss_power, end_state_.dissipated, end_state_.loss_power);
+  inside_state_.supplied = cubic_hermite(s, h, begin_state_.supplied, begin_state_.supply_power, end_state_.supplied, end_state_.supply_power);
   return inside_state_;
 }
 

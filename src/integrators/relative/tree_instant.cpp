@@ -158,6 +158,14 @@ void TreeInstant::write(const TreeState& at, const VectorXd& w, State& state) {
   }
 }
 
+void read_coordinates(const JointTree& tree, const State& state, TreeState& out) {
+  out.t = state.t;
+  tree.read_positions(state.q, out.y);
+  TreePose pose;
+  tree.place(out.y, VectorXd::Zero(tree.n()), pose);
+  tree.read_rates(pose, state.v, out.u);
+}
+
 void read_carried(const JointTree& tree, const State& state, TreeState& out) {
   const auto n = static_cast<Eigen::Index>(3 * tree.laws().size());
   for (VectorXd* x : {&out.gap, &out.rate, &out.accel, &out.force}) x->resize(n);

@@ -87,6 +87,8 @@ class TreeInstant {
   Eigen::MatrixXd H_, J_, A_;
 };
 
+/// Time, coordinates and their rates of `state`.
+void read_coordinates(const JointTree& tree, const State& state, TreeState& out);
 /// The carried part of `state`: gaps, rates, accelerations and forces of the joints that stay laws.
 void read_carried(const JointTree& tree, const State& state, TreeState& out);
 

@@ -30,11 +30,7 @@ void TreeRadau::start(const State& state, double h) {
   control_.start(h);
   sliding_ = state.sliding;
   chattering_.forget();
-  end_.t = state.t;
-  tree_->read_positions(state.q, end_.y);
-  TreePose pose;
-  tree_->place(end_.y, VectorXd::Zero(tree_->n()), pose);
-  tree_->read_rates(pose, state.v, end_.u);
+  read_coordinates(*tree_, state, end_);
   read_carried(*tree_, state, end_);
   end_at_.place(end_.t, end_.y, end_.u);
   projector_.prepare(end_at_, 1, end_);

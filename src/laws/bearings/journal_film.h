@@ -109,7 +109,7 @@ struct JournalFilmLaw {
     using namespace law_math;
     const T along[2] = {where_positive(at.speed, divide(at.u[0], at.speed), T(1.0)), where_positive(at.speed, divide(at.u[1], at.speed), T(0.0))};
     T squeezed[2], whole[2];
-    resistance(integrals(at, along), squeezed);
+    half_film_resistance(integrals(at, along), squeezed);
     whole_film(at, whole);
     force[0] = where_positive(at.speed, -(at.speed * (squeezed[0] * along[0] - squeezed[1] * along[1])), -0.5 * whole[0]);
     force[1] = where_positive(at.speed, -(at.speed * (squeezed[0] * along[1] + squeezed[1] * along[0])), -0.5 * whole[1]);
@@ -126,14 +126,18 @@ struct JournalFilmLaw {
     T B;
   };
 
-  // Along and across the velocity.
+  // What the flow makes of the short and of the long film's.
   template <class T>
-  void resistance(const Integrals<T>& I, T (&resisted)[2]) const {
+  T of_flow(const T& in_short, const T& in_long) const { return flow == Flow::kAxial ? in_short : flow == Flow::kAround ? in_long : between(in_short, in_long); }
+
+  // Of a film that cavitates, along and across the velocity, over the speed.
+  template <class T>
+  void half_film_resistance(const Integrals<T>& I, T (&resisted)[2]) const {
     using namespace law_math;
     const T shorts[2] = {short_size() * I.cc, short_size() * I.sc};                                        // (3.3), over B across
     const T along = I.ss - divide(I.B * I.B * (I.s * I.s), I.one), across = divide(I.s * I.c, I.one) - I.sc;
     const T longs[2] = {long_size() * along, long_size() * across};                                        // (3.5), likewise
-    for (int k = 0; k < 2; ++k) resisted[k] = flow == Flow::kAxial ? shorts[k] : flow == Flow::kAround ? longs[k] : between(shorts[k], longs[k]);
+    for (int k = 0; k < 2; ++k) resisted[k] = of_flow(shorts[k], longs[k]);
     resisted[1] = resisted[1] * I.B;
   }
   // A film that does not cavitate, against u.
@@ -144,8 +148,7 @@ struct JournalFilmLaw {
     const double thin = std::numbers::pi * short_size(), thick = std::numbers::pi * long_size();
     const T across_short = divide(T(thin), D3), across_long = divide(T(2 * thick), at.D * (T(2 * clearance * clearance) + e2));   // (3.12)
     const T along_short = across_short + divide(3 * (thin * e2), D3 * D2), along_long = divide(T(thick), D3);
-    const auto of = [this](const T& a, const T& b) { return flow == Flow::kAxial ? a : flow == Flow::kAround ? b : between(a, b); };
-    const T across = of(across_short, across_long), more = of(along_short, along_long) - across, off = e2 - T(kCentred * clearance * clearance);
+    const T across = of_flow(across_short, across_long), more = of_flow(along_short, along_long) - across, off = e2 - T(kCentred * clearance * clearance);
     const T towards = where_positive(off, divide(more, e2), T(0.0));
     for (int k = 0; k < 2; ++k) resisted[k] = across * at.u[k] + (towards * eu) * at.e[k];
   }

@@ -8,9 +8,9 @@
 
 namespace pintle {
 
-class KeptJoints {
+class ConstraintForces {
  public:
-  virtual ~KeptJoints() = default;
+  virtual ~ConstraintForces() = default;
 
   /// Moves positions and velocities onto the constraints; then as `complete`.
   virtual bool start(State& state) = 0;

@@ -1,0 +1,13 @@
+// The cubic through both ends of a step with their derivatives. theory/time section 5, theory/solvers section 4.
+#pragma once
+
+namespace pintle {
+
+/// At the share s of a step of h; x and its derivative d at the begin and at the end. X: a number or a vector.
+template <class X>
+X cubic_hermite(double s, double h, const X& x0, const X& d0, const X& x1, const X& d1) {
+  const double r = 1 - s;
+  return x0 + s * s * (3 - 2 * s) * (x1 - x0) + h * s * r * (r * d0 - s * d1);
+}
+
+}  // namespace pintle

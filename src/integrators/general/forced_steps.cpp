@@ -1,0 +1,31 @@
+#include "integrators/general/forced_steps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pintle {
+namespace {
+
+constexpr double kShort = 0.1;    // of the usual step
+constexpr double kNext = 2;       // the next step over one of these
+constexpr double kForget = 0.99;  // of the usual step, by one that is shorter
+
+}  // namespace
+
+bool ForcedSteps::forces(double error, double h) const { return error > 1 && h < kShort * usual_ && std::isfinite(error); }
+
+double ForcedSteps::take(double t, double h) {
+  if (n_++ == 0) first_ = t;
+  return kNext * h;
+}
+
+void ForcedSteps::see_usual(double h) { usual_ = std::max(h, kForget * usual_); }
+
+std::vector<std::string> ForcedSteps::remarks() const {
+  if (n_ == 0) return {};
+  return {fmt::format("{} steps were taken with an error above the tolerance, the first at t = {:.6g} s: singular positions or jumps of forces", n_, first_)};
+}
+
+}  // namespace pintle
