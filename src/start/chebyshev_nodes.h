@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/lagrange_weights.h"
+#include "linalg/lagrange_weights.h"
 
 namespace pintle {
 

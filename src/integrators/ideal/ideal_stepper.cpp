@@ -7,8 +7,8 @@
 #include <limits>
 #include <numeric>
 
-#include "base/lagrange_weights.h"
 #include "integrators/dormand_prince.h"
+#include "linalg/lagrange_weights.h"
 
 namespace pintle {
 namespace {

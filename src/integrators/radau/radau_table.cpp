@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "base/lagrange_weights.h"
+#include "linalg/lagrange_weights.h"
 
 namespace pintle {
 namespace {
