@@ -50,11 +50,7 @@ struct Variant {
   Model model;
 };
 
-Equations equations_of(const CompareOptions& options) {
-  for (const Equations equations : {Equations::kIdeal, Equations::kPenalty, Equations::kAugmentedLagrangian, Equations::kRelativeAugmented})
-    if (options.against == to_word(equations)) return equations;
-  return Equations::kRelative;
-}
+Equations equations_of(const CompareOptions& options) { return to_equations(equations_words().at(options.against)); }
 
 /// The stem of a model's file where that tells the models apart, else its path.
 std::string name_of(const std::string& path, const std::vector<std::string>& paths) {
@@ -152,7 +148,7 @@ void add_compare(CLI::App& app, int& exit_code) {
   verb->add_option("MODEL", options->models, "model file (.toml or .json); several: side by side")->required();
   add_changes(*verb, *options, true, "run each model also with this law of a joint, e.g. joint.A=linear,stiffness=1e7 (repeatable)");
   CLI::Option* against = verb->add_option("--against", options->against, "ideal: every joint ideal; relative: relative coordinates for the joints marked ideal; penalty, augmented_lagrangian, relative_augmented_lagrangian: every joint ideal, by these methods")
-      ->check(CLI::IsMember({"ideal", "relative", "lagrangian", "penalty", "augmented_lagrangian", "relative_augmented_lagrangian"}))
+      ->check(CLI::IsMember(equations_names(false)))
       ->type_name("NAME")
       ->capture_default_str();
   verb->add_option("--plot", options->plot, "picture to write (default: <name of the model file>-compare.svg; none: no picture)")->type_name("FILE.svg")->check(svg_or_none_problem, "", "");

@@ -6,6 +6,7 @@
 
 #include "io/document.h"
 #include "io/model_files.h"
+#include "io/schema/schema.h"
 #include "pintle/read_model.h"
 #include "results/disk.h"
 #include "results/sha256.h"
@@ -41,6 +42,23 @@ void add_changes(CLI::App& verb, ModelOptions& options, bool tolerance, const ch
   if (!tolerance) return;
   verb.add_option("--tolerance", options.tolerance, "allowed error of each joint force, relative to its peak")
       ->type_name("NUMBER");
+}
+
+const std::map<std::string, std::string>& equations_words() {
+  static const std::map<std::string, std::string> words = [] {
+    const KeySpec key = *Schema::model().assemble("simulate").find("equations");
+    std::map<std::string, std::string> all(key.synonyms.begin(), key.synonyms.end());
+    for (const std::string& word : key.words) all.emplace(word, word);
+    return all;
+  }();
+  return words;
+}
+
+std::vector<std::string> equations_names(bool newtonian) {
+  std::vector<std::string> names;
+  for (const auto& [name, word] : equations_words())
+    if (newtonian || word != to_word(Equations::kNewtonian)) names.push_back(name);
+  return names;
 }
 
 std::string svg_problem(const std::string& file) {

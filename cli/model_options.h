@@ -1,6 +1,7 @@
 // What every verb that runs a model asks for: the file, changes to it, duration, tolerance.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,11 @@ void add_set_and_law(CLI::App& verb, std::vector<std::string>& overrides, std::v
 
 /// These, --duration and, where the verb has one tolerance, --tolerance.
 void add_changes(CLI::App& verb, ModelOptions& options, bool tolerance = true, const char* law_meaning = kLawMeaning);
+
+/// The words for equations, and what each stands for in the model file.
+const std::map<std::string, std::string>& equations_words();
+/// Of these words all, or all but newtonian.
+std::vector<std::string> equations_names(bool newtonian);
 
 /// Empty for a file that can be drawn into as SVG; else what is wrong with it. For CLI11's check().
 std::string svg_problem(const std::string& file);

@@ -109,7 +109,7 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(Schema::model().assemble("simulate").find("method")->words))
       ->type_name("NAME");
   verb->add_option("--equations", options->equations, "newtonian: every joint a force law; relative: relative coordinates for joints marked ideal; ideal: every joint a constraint; penalty, augmented_lagrangian, relative_augmented_lagrangian: the same by the methods of Bayo and Cuadrado")
-      ->check(CLI::IsMember({"newtonian", "relative", "ideal", "lagrangian", "penalty", "augmented_lagrangian", "relative_augmented_lagrangian"}))
+      ->check(CLI::IsMember(equations_names(true)))
       ->type_name("NAME");
   verb->add_option("-o,--out", options->out, "run folder (default: <name of the model file>-run)")->type_name("FOLDER");
   verb->add_flag("--force", options->force, "write into a folder that is not an earlier run; its files are kept");

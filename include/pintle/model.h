@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -157,6 +158,13 @@ inline const char* to_word(Equations equations) {
     case Equations::kRelativeAugmented: return "relative_augmented_lagrangian";
   }
   return "";
+}
+
+/// Of a word of the model file; kNewtonian for all others.
+inline Equations to_equations(std::string_view word) {
+  for (const Equations e : {Equations::kRelative, Equations::kIdeal, Equations::kPenalty, Equations::kAugmentedLagrangian, Equations::kRelativeAugmented})
+    if (word == to_word(e)) return e;
+  return Equations::kNewtonian;
 }
 
 /// Whether joints with a linear law are constraints.

@@ -23,14 +23,6 @@ bool tells_couple(const JointData& joint) {
 bool slides(const JointData& joint) { return joint.free_mask[0] > 0 && std::holds_alternative<Selection>(joint.displacement); }
 bool is_stroke(const JointData& joint) { return joint.free_mask[0] > 0 && !slides(joint); }
 
-// Of the teeth of a mesh; 0: not stated.
-double pressure_angle_of(const Model& model, int j) {
-  if (j >= static_cast<int>(model.joints.size())) return 0;
-  const auto& geometry = model.joints[j].geometry;
-  const auto angle = geometry.find("pressure_angle");
-  return angle == geometry.end() ? 0 : angle->second;
-}
-
 bool is_servo(const JointData& joint) { return joint.servo >= 0; }
 
 }  // namespace
@@ -38,6 +30,9 @@ bool is_servo(const JointData& joint) { return joint.servo >= 0; }
 Recorder::Recorder(const Model& model, const System& system, Recorded what)
     : ForceRecorder(system, model.simulate, what), model_(model), recording_(choose_recording(model, system)) {
   find_drives();
+  pressure_angle_.assign(system.joints.size(), 0.0);
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    if (const auto angle = model.joints[j].geometry.find("pressure_angle"); angle != model.joints[j].geometry.end()) pressure_angle_[j] = angle->second;
 }
 
 // Servos and efforts stand in the system in the order of the motors.
@@ -127,7 +122,7 @@ std::vector<Column> Recorder::columns() const {
       column(p + "tension", "N", "tension of belt " + joint.name);
       column(p + "run", "m", "length of its free run");
     }
-    if (pressure_angle_of(model_, static_cast<int>(j)) > 0) {
+    if (pressure_angle_[j] > 0) {
       column(p + "radial_force", "N", "with which the teeth push both apart, by their pressure angle; it is not in the forces on the bodies");
       column(p + "normal_force", "N", "on the flank of a tooth");
     }
@@ -202,7 +197,7 @@ void Recorder::put_row(const State& state) {
       put(-state.force[j][0]);
       put(belt->run(system_.pose(system_.joints[j].at, m_).z));
     }
-    if (const double angle = pressure_angle_of(model_, j); angle > 0) {
+    if (const double angle = pressure_angle_[j]; angle > 0) {
       const double tangential = std::abs(state.force[j][0]);
       put(tangential * std::tan(angle));  // theory/joints Eq. (2.19)
       put(tangential / std::cos(angle));

@@ -160,7 +160,7 @@ class Passes {
     const BasicForceTable<S> &coarse = coarse_->forces(), &fine = fine_->forces();
     coarse_tolerance_ = before;
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
-    share_ = alike_ || out_.of_motion ? 1.0 : longest_ > 0 ? share_of_finer(std::pow(kShorter, choice_.stages), 1) : share_of_finer(fall_of_errors(before, steps_before), 1);
+    share_ = alike_ || out_.of_motion ? 1.0 : share_of_finer(fall_of_errors(before, steps_before));
     stages_before_ = choice_.stages;
     find_difference(coarse, fine);
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
@@ -174,8 +174,9 @@ class Passes {
     error_ = share_ * (out_.of_motion ? out_.motion_error : largest_of(relative_difference_));
   }
 
-  // By which errors have fallen since the pass before: as its tolerance, or less where its steps have shrunk by less than that asks for.
+  // To which part errors have fallen since the pass before: as its tolerance, or less where its steps have shrunk by less than that asks for.
   double fall_of_errors(double before, double steps_before) const {
+    if (longest_ > 0) return std::pow(kShorter, choice_.stages);
     const double of_tolerance = fine_tolerance_ / before;
     if (choice_.method != "radau" || choice_.stages != stages_before_) return of_tolerance;
     return std::max(of_tolerance, std::pow(steps_before / static_cast<double>(last_.counters.steps), choice_.stages + 1));

@@ -57,12 +57,6 @@ void check_penalty(ModelReading& reading, const Record& record) {
                              "equations = \"penalty\"");
 }
 
-Equations equations_of(const std::string& word) {
-  for (const Equations e : {Equations::kRelative, Equations::kIdeal, Equations::kPenalty, Equations::kAugmentedLagrangian, Equations::kRelativeAugmented})
-    if (word == to_word(e)) return e;
-  return Equations::kNewtonian;
-}
-
 // Only the implicit method can step over what a motion does not feel.
 void check_tolerance_of(ModelReading& reading, const Record& record) {
   const SimulateSettings& simulate = reading.model.simulate;
@@ -84,7 +78,7 @@ void read_simulate(ModelReading& reading) {
   simulate.max_step = record.number("max_step");
   if (const std::string method = record.word("method"); !method.empty()) simulate.method = method;
   const std::string equations = record.word("equations");
-  simulate.equations = equations_of(equations);
+  simulate.equations = to_equations(equations);
   simulate.penalty = {record.number("penalty", simulate.penalty.factor), record.number("penalty_frequency", simulate.penalty.frequency),
                       record.number("penalty_damping", simulate.penalty.damping)};
   if (record.word("tolerance_of") == "motion") simulate.tolerance_of = ToleranceOf::kMotion;

@@ -157,9 +157,9 @@ double curve_horizon(const DifferenceCurve& curve, double tolerance) {
   return horizon;
 }
 
-double share_of_finer(double fine_tolerance, double coarse_tolerance) {
+double share_of_finer(double fall) {
   constexpr double kOfEqual = 3;
-  return std::min(1.0, kOfEqual * std::pow(fine_tolerance / coarse_tolerance, kErrorPower));
+  return std::min(1.0, kOfEqual * std::pow(fall, kErrorPower));
 }
 
 template <class S>

@@ -38,9 +38,9 @@ double motion_difference(const BasicSystem<S>& system, const BasicForceTable<S>&
 
 /// How errors fall with the tolerance: as its power to this. theory/time Eq. (6.2).
 inline constexpr double kErrorPower = 0.8;
-/// The error of the finer of two passes over their difference: falls as the tolerances' ratio to that power, and is all of it where they are alike.
+/// The error of the finer of two passes over their difference, where tolerances or steps let errors fall to this part: all of it where they are alike.
 /// theory/time Eq. (6.2).
-double share_of_finer(double fine_tolerance, double coarse_tolerance);
+double share_of_finer(double fall);
 
 /// States the errors of the joints that are no servos: `share` of the difference (and of the relative one), and at least `least` of the peak.
 /// theory/time Eq. (6.1).
