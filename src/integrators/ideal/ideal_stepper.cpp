@@ -22,9 +22,7 @@ constexpr double kTooNear = 3e-4;      // of the largest: no stage lies nearer t
 constexpr double kFewDigits = 3e-2;    // of the largest: nearer, forces lose too many digits, in proportion to its fourth power
 constexpr double kShareBefore = 0.55;  // of a step over a singular position: it lies in the widest gap between the stages, from 0.3 to 0.8
 constexpr double kLongest = 4;         // of the last step away from singular positions: beside them the error that counts may be next to none
-constexpr double kClearance = 0.2;     // of it, that no stage is nearer than
-constexpr double kNearStep = 0.8, kNextButOne = 1.6;  // steps to a singular position: it is stepped over; with the next one it is
-constexpr double kOtherStages = 0.85;  // over a step with a stage that was too near
+constexpr double kNearStep = 0.8;      // nearer than so many steps the position is stepped over; nearer than twice as many with the next one
 constexpr int kSearch = 48;            // positions tried inside a step
 constexpr double kCrossing = 0.1;      // of the tolerance times the usual step: so short a step is taken over a jump of a force
 constexpr double kNearJump = 1e-4;     // of the usual step: rejected steps that are this short are looked at for jumps
@@ -79,12 +77,12 @@ double IdealStepper::step_around_singular_position(double h) {
   const double fall = independence_ - equations_.independence(begin_.t + kAhead * h, ahead);
   if (!(fall > 0)) return h;
   const double distance = kAhead * h * independence_ / fall;
-  const double clear = kTooNear * most_independent_ / kClearance * distance / independence_;
+  const double clear = kTooNear * most_independent_ / (kShareBefore - kC[2]) * distance / independence_;
   if (distance < kNearStep * std::max(h, clear)) {
     clear_h_ = clear;
     return distance / kShareBefore;
   }
-  return distance < kNextButOne * h ? distance - kShareBefore * h : h;
+  return distance < 2 * kNearStep * h ? distance - kShareBefore * h : h;
 }
 
 bool IdealStepper::step(double t_end) {
@@ -101,13 +99,7 @@ bool IdealStepper::step(double t_end) {
                              is_too_near(least_independence_) ? ", near a position where the constraints are not independent" : "");
       return false;
     }
-    const bool solved = take_stages(h);
-    if (solved && h < left && is_too_near(least_independence_) && is_near_singular_position() && wanted > clear_h_) {
-      ++counters_.rejected;
-      wanted *= kOtherStages;
-      continue;
-    }
-    const double e = solved ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
+    const double e = take_stages(h) ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
     const double factor = std::isfinite(e) ? std::clamp(0.9 * std::pow(std::max(e, 1e-10), -0.2), 0.2, 5.0) : 0.1;
     const bool jumps = e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e) && crosses_jump();
     jump_ahead = jump_ahead || jumps;
