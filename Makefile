@@ -15,7 +15,7 @@ say        = @printf '\n=== %s\n' "$(1)"
 
 .PHONY: help setup build build-demo demo test install bench fuzz web-check studio studio-test studio-browser-test format clean
 .PHONY: paper figure9 published
-.PHONY: check-sources test-release test-package test-clang
+.PHONY: check-sources test-release test-package test-clang mutants
 
 help:
 	@echo "make demo       install missing packages, build, run the paper's four-bar, write its report"
@@ -31,6 +31,7 @@ help:
 	@echo "make studio-test  the studio's tests in Node; the WebAssembly kernel gives the native one's numbers"
 	@echo "make studio-browser-test  the built studio in chromium: drawing, every template, broken models, axe, sizes"
 	@echo "make web-check  compile the library with emscripten"
+	@echo "make mutants    changes lines of the sources and lists what no test notices: a night; ROOMS=laws SAMPLE=4: an hour"
 	@echo "make format     clang-format every source"
 	@echo "make clean      remove build/ and out/"
 
@@ -109,6 +110,10 @@ fuzz:
 	@tools/setup.sh build test
 	@$(MAKE) --no-print-directory build/clang
 	@tools/fuzz.sh build/clang $(FUZZ_SECONDS)
+
+mutants:
+	@tools/setup.sh build test
+	@python3 tools/mutants.py --jobs $(JOBS) $(if $(ROOMS),--rooms $(ROOMS)) $(if $(SAMPLE),--sample $(SAMPLE))
 
 bench:
 	@tools/setup.sh build bench

@@ -70,6 +70,14 @@ struct SpaceOptions {
 /// Mechanisms in space, and the four-bar in the plane and in space, run in turns.
 nlohmann::ordered_json study_space(const SpaceOptions& options);
 
+struct RealJointOptions {
+  std::vector<double> tolerances{1e-3, 1e-5};
+  int rounds = 5;
+  double cap = 20;  // seconds for a run of the peer
+};
+/// Clearance and friction beside the same mechanisms without them, and beside a general stiff solver.
+nlohmann::ordered_json study_real_joints(const RealJointOptions& options);
+
 /// Ways to keep constraints on the four-bar: joint forces by penalties and by the augmented Lagrangian beside Pintle's own.
 nlohmann::ordered_json study_constraints();
 

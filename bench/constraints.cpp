@@ -45,7 +45,7 @@ FixedSteps fixed_steps(const Problem& problem, const AlphaWeights& weights, bool
       if (!stepper->step(end)) throw std::runtime_error(stepper->failure());
     const State& now = stepper->state();
     out.forces.add(now.q, now.v, now.force);
-    if (!relative) out.multipliers.add(now.q, now.v, inside.multipliers());
+    if (!relative) out.multipliers.add(now.q, now.v, inside.force());
     begin = end;
   }
   out.seconds = watch.seconds();

@@ -29,6 +29,7 @@ struct Options {
   int scaling_rounds = 7;
   SweepOptions sweeps;
   SpaceOptions space;
+  RealJointOptions joints;
   BatteryOptions battery;
   std::string stability = std::string(PINTLE_SOURCE_DIR) + "/docs/theory/stability.svg";
   std::string micro_filter = ".";
@@ -132,6 +133,14 @@ void add_space(CLI::App& app, Options& o, Json& out) {
   verb->callback([&] { out["space"] = study_space(o.space); });
 }
 
+void add_joints(CLI::App& app, Options& o, Json& out) {
+  CLI::App* verb = app.add_subcommand("joints", "what clearance and friction cost, beside the mechanism without them and beside SUNDIALS' BDF");
+  verb->add_option("--tolerances", o.joints.tolerances)->delimiter(',')->capture_default_str();
+  verb->add_option("--rounds", o.joints.rounds, "rounds; each mechanism with and without in each")->check(CLI::PositiveNumber)->capture_default_str();
+  verb->add_option("--cap", o.joints.cap, "time limit of a run of the peer in seconds")->capture_default_str();
+  verb->callback([&] { out["joints"] = study_real_joints(o.joints); });
+}
+
 void add_battery(CLI::App& app, Options& o, Json& out) {
   CLI::App* verb = app.add_subcommand("battery", "random mechanisms of many kinds: true and stated force errors, exit codes");
   verb->add_option("--count", o.battery.count, "mechanisms")->check(CLI::PositiveNumber)->capture_default_str();
@@ -190,6 +199,7 @@ int run_program(int argc, char** argv) {
   add_scaling(app, options, out);
   add_sweeps(app, options, out);
   add_space(app, options, out);
+  add_joints(app, options, out);
   add_battery(app, options, out);
   add_micro(app, options);
   app.add_subcommand("constraints", "the four-bar by penalties and augmented Lagrangian: the table of theory/penalty")->callback([&] { out["constraints"] = study_constraints(); });

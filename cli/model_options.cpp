@@ -44,14 +44,27 @@ void add_changes(CLI::App& verb, ModelOptions& options, bool tolerance, const ch
       ->type_name("NUMBER");
 }
 
+namespace {
+
+// The words of a key of [simulate] and their synonyms, and what each stands for.
+std::map<std::string, std::string> words_of(const char* key) {
+  const KeySpec spec = *Schema::model().assemble("simulate").find(key);
+  std::map<std::string, std::string> all(spec.synonyms.begin(), spec.synonyms.end());
+  for (const std::string& word : spec.words) all.emplace(word, word);
+  return all;
+}
+
+}  // namespace
+
 const std::map<std::string, std::string>& equations_words() {
-  static const std::map<std::string, std::string> words = [] {
-    const KeySpec key = *Schema::model().assemble("simulate").find("equations");
-    std::map<std::string, std::string> all(key.synonyms.begin(), key.synonyms.end());
-    for (const std::string& word : key.words) all.emplace(word, word);
-    return all;
-  }();
+  static const std::map<std::string, std::string> words = words_of("equations");
   return words;
+}
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, word] : words_of("method")) names.push_back(name);
+  return names;
 }
 
 std::vector<std::string> equations_names(bool newtonian) {

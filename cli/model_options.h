@@ -34,7 +34,9 @@ void add_changes(CLI::App& verb, ModelOptions& options, bool tolerance = true, c
 
 /// The words for equations, and what each stands for in the model file.
 const std::map<std::string, std::string>& equations_words();
-/// Of these words all, or all but newtonian.
+/// The words for methods.
+std::vector<std::string> method_names();
+/// Of the words for equations all, or all but newtonian.
 std::vector<std::string> equations_names(bool newtonian);
 
 /// Empty for a file that can be drawn into as SVG; else what is wrong with it. For CLI11's check().

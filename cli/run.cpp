@@ -17,7 +17,6 @@
 #include "cli/model_options.h"
 #include "cli/progress.h"
 #include "cli/verbs.h"
-#include "io/schema/schema.h"
 #include "pintle/results.h"
 #include "pintle/simulate.h"
 #include "results/disk.h"
@@ -106,7 +105,7 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"forces", "motion"}))
       ->type_name("forces|motion");
   verb->add_option("--method", options->method, "integration method")
-      ->check(CLI::IsMember(Schema::model().assemble("simulate").find("method")->words))
+      ->check(CLI::IsMember(method_names()))
       ->type_name("NAME");
   verb->add_option("--equations", options->equations, "newtonian: every joint a force law; relative: relative coordinates for joints marked ideal; ideal: every joint a constraint; penalty, augmented_lagrangian, relative_augmented_lagrangian: the same by the methods of Bayo and Cuadrado")
       ->check(CLI::IsMember(equations_names(true)))

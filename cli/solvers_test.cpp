@@ -61,6 +61,9 @@ TEST_F(SolversVerb, RunTakesTheMethodsToo) {
   const Answer answer = sandbox_.pintle("run pendulum.toml --method ode23t --tolerance 1e-3 --json");
   EXPECT_EQ(answer.exit_code, 0) << answer.error << answer.out;
   EXPECT_EQ(nlohmann::json::parse(answer.out)["method"], "ode23t");
+  const Answer synonym = sandbox_.pintle("run pendulum.toml --method trapezoidal --tolerance 1e-3 --json");
+  EXPECT_EQ(synonym.exit_code, 0) << synonym.error;
+  EXPECT_EQ(nlohmann::json::parse(synonym.out)["method"], "ode23t");
 }
 
 }  // namespace

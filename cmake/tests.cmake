@@ -49,7 +49,7 @@ function(pintle_add_tests)
   endif()
   if(NOT PINTLE_WHOLE_RUN_TESTS)
     foreach(long IN ITEMS
-        "tests/(battery|reference_|relative|published|compare|soft_start|held_gas|force_accuracy|motion_accuracy|live|ideal|contact|friction|bearings|state_forces|stops|driven_length|backlash|cams|cylinders|detents|flexures|tables|taut_mechanisms|singular_positions|large_models|space_test|tight_tolerance|belts|gears|penalty)[a-z_]*"
+        "tests/(battery|reference_|relative|published|compare|soft_start|held_gas|force_accuracy|motion_accuracy|live|ideal|contact|friction|bearings|state_forces|stops|driven_length|backlash|cams|cylinders|detents|flexures|tables|taut_mechanisms|singular_positions|large_models|space_test|tight_tolerance|belts|gears|penalty|wear|rubber|real_joints)[a-z_]*"
         "integrators/([a-z]+/)?(allocation|alpha_stepper|dense_output|dopri5|event_crossing|methods|penalty|radau_[a-z]*|stage_solver)_test"
         "(run/simulate|start/assembly|start/start)_test" "system/system_test"
         "(laws/flexures/(leaf_spring|pivots)|integrators/relative/tree_methods|linalg/block_pattern|batch/envelope|report/scene|check/check_[a-z_]*)_test"
@@ -67,6 +67,15 @@ function(pintle_add_tests)
   list(APPEND all ${samples})
   pintle_test_program(pintle_tests SOURCES ${all} LINK $<TARGET_NAME_IF_EXISTS:pintle_verbs> pintle_report pintle_sweeps pintle_studio_server)
   target_precompile_headers(pintle_tests PRIVATE "${PROJECT_SOURCE_DIR}/src/system/state.h")
+  # Inline functions are in many objects, and the linker takes the first: those of the library, which are optimized, and not those of the tests.
+  set(rooms "")
+  foreach(room IN LISTS PINTLE_ROOMS)
+    get_target_property(type pintle_${room} TYPE)
+    if(type STREQUAL "STATIC_LIBRARY")
+      string(APPEND rooms ",$<TARGET_FILE:pintle_${room}>")
+    endif()
+  endforeach()
+  target_link_options(pintle_tests PRIVATE "LINKER:--whole-archive${rooms},--no-whole-archive")
   if(TARGET pintle_cli)
     add_dependencies(pintle_tests pintle_cli pintle_sweep_cli pintle_pictures_cli)
     if(TARGET pintle_studio_cli)

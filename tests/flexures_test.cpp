@@ -87,11 +87,32 @@ TEST(SlowFlexures, StartWhereTheLoadHoldsThem) {
   EXPECT_NEAR(at_end(pushed, "joint.left.bending_stress"), stress, 0.02 * stress);
 }
 
+// A cantilever with a force across at its end, in elliptic integrals (Bisshopp and Drucker 1945): length, bending stiffness and the force are 1, 1 and alpha^2.
+class Elastica {
+ public:
+  double k, first, alpha;  // modulus, amplitude at the root, root of the load
+
+  explicit Elastica(double end) : k(std::sqrt(0.5 * (1 + std::sin(end)))), first(std::asin(1 / (k * std::numbers::sqrt2))), alpha(std::comp_ellint_1(k) - std::ellint_1(k, first)) {}
+  struct Point {
+    double along, across, slope;
+  };
+  /// At the arc length s, where F(amplitude) = F(first) + alpha s.
+  Point at(double s) const {
+    double low = first, high = 0.5 * kPi;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      (std::ellint_1(k, middle) - std::ellint_1(k, first) < alpha * s ? low : high) = middle;
+    }
+    return {2 * k / alpha * (std::cos(first) - std::cos(high)), s - 2 / alpha * (std::ellint_2(k, high) - std::ellint_2(k, first)), 2 * std::asin(k * std::sin(high)) - 0.5 * kPi};
+  }
+};
+
 // A weight at the free end of a long blade bends it far; where, an elastica without stretch says in elliptic integrals (Bisshopp and Drucker 1945). The blade's own
 // stretch is below 1e-6 of its length.
 TEST(SlowFlexures, StartFarBentUnderAWeight) {
-  const double end = 0.9, k = std::sqrt(0.5 * (1 + std::sin(end))), first = std::asin(1 / (k * std::numbers::sqrt2)), alpha = std::comp_ellint_1(k) - std::ellint_1(k, first);
-  const double L = 0.3, EI = 207e9 * 0.02 * 1e-9 / 12, mass = alpha * alpha * EI / (L * L) / kG;
+  const Elastica elastica(0.9);
+  const Elastica::Point end = elastica.at(1);
+  const double L = 0.3, EI = 207e9 * 0.02 * 1e-9 / 12, mass = elastica.alpha * elastica.alpha * EI / (L * L) / kG;
   const Trajectory run = completed(parse_model(fmt::format(R"toml(
 format = 1
 name = "Weight on a blade"
@@ -113,11 +134,84 @@ width = 0.02
 thickness = 1e-3
 )toml", mass, L), "weight.toml"));
   for (const std::size_t row : {std::size_t{0}, run.n_rows() - 1}) {
-    EXPECT_NEAR(value(run, row, "body.weight.y"), 2 - L * (1 - 2 / alpha * (std::comp_ellint_2(k) - std::ellint_2(k, first))), 3e-6 * L);
-    EXPECT_NEAR(value(run, row, "body.weight.x"), 1 + L * std::sqrt(2 * std::sin(end)) / alpha, 3e-6 * L);
-    EXPECT_NEAR(value(run, row, "body.weight.angle"), -end, 1e-5);
+    EXPECT_NEAR(value(run, row, "body.weight.y"), 2 - L * end.across, 3e-6 * L);
+    EXPECT_NEAR(value(run, row, "body.weight.x"), 1 + L * end.along, 3e-6 * L);
+    EXPECT_NEAR(value(run, row, "body.weight.angle"), -end.slope, 1e-5);
     EXPECT_NEAR(value(run, row, "joint.blade.on_weight.fy[world]"), mass * kG, 1e-6 * mass * kG);
-    EXPECT_NEAR(value(run, row, "joint.blade.on_ground.m[world]"), -mass * kG * L * std::sqrt(2 * std::sin(end)) / alpha, 1e-4 * mass * kG * L);
+    EXPECT_NEAR(value(run, row, "joint.blade.on_ground.m[world]"), -mass * kG * L * end.along, 1e-4 * mass * kG * L);
+  }
+}
+
+// `n` blades in a row, with small bodies between them and at the end, on which a force pulls across.
+Model blades_in_a_row(int n, double length, const std::string& pull, const std::string& start) {
+  std::string text = fmt::format(R"toml(
+format = 1
+name = "Blades in a row"
+gravity = [0, 0]
+[simulate]
+duration = "0.2 s"
+output_step = "20 ms"
+start = "{}"
+[ground.markers]
+end = [1, 2]
+[force.pull]
+on = "b{}.end"
+force = [0, "-{}"]
+)toml", start, n, pull);
+  for (int i = 1; i <= n; ++i)
+    text += fmt::format(R"toml(
+[body.b{0}]
+mass = 1e-4
+inertia = 1e-8
+markers.end = [0, 0]
+[joint.blade{0}]
+type = "fixed"
+between = ["{1}.end", "b{0}.end"]
+law = "leaf-spring"
+length = {2}
+width = 0.02
+thickness = 1e-3
+damping_time = 1e-3
+)toml", i, i == 1 ? "ground" : fmt::format("b{}", i - 1), length / n);
+  return parse_model(text, "blades.toml");
+}
+
+// Places, slopes and the forces and moments between the parts are the elastica's there, but for its stretch of 1e-6 of its length.
+void expect_elastica(const Trajectory& run, std::size_t row, int n, double length, double pull, const Elastica& elastica) {
+  for (int i = 1; i <= n; ++i) {
+    const Elastica::Point point = elastica.at(static_cast<double>(i) / n), before = elastica.at((i - 1.0) / n);
+    const std::string body = fmt::format("body.b{}.", i), joint = fmt::format("joint.blade{}.on_{}.", i, i == 1 ? "ground" : fmt::format("b{}", i - 1));
+    EXPECT_NEAR(value(run, row, body + "x"), 1 + length * point.along, 1e-5 * length) << i << " of " << n;
+    EXPECT_NEAR(value(run, row, body + "y"), 2 - length * point.across, 1e-5 * length) << i << " of " << n;
+    EXPECT_NEAR(value(run, row, body + "angle"), -point.slope, 1e-5) << i << " of " << n;
+    EXPECT_NEAR(value(run, row, joint + "fx[world]"), 0, 1e-5 * pull) << i << " of " << n;
+    EXPECT_NEAR(value(run, row, joint + "fy[world]"), -pull, 1e-5 * pull) << i << " of " << n;
+    EXPECT_NEAR(value(run, row, joint + "m[world]"), -pull * length * (elastica.at(1).along - before.along), 1e-5 * pull * length) << i << " of " << n;
+  }
+}
+
+// Cut into 3 or 6, a blade is the one that it was, where a force that grows slowly leaves it. One integration: its end is an equilibrium, whatever the way there.
+TEST(SlowFlexures, BladesInARowAreTheElasticaThatTheyAreCutFrom) {
+  const double L = 0.3, EI = 207e9 * 0.02 * 1e-9 / 12;
+  for (const auto& [n, end] : {std::pair{3, 0.9}, {6, 1.3}}) {
+    const Elastica elastica(end);
+    const double pull = elastica.alpha * elastica.alpha * EI / (L * L);
+    Trajectory run;
+    const Integration done = reference::integrate_once(blades_in_a_row(n, L, fmt::format("{} N*smoothstep(0 s, 0.1 s, t)", pull), "unloaded"), 1e-3, 3, nullptr, &run);
+    ASSERT_EQ(done.ended, Ended::kAtEnd) << done.message;
+    expect_elastica(run, run.n_rows() - 1, n, L, pull, elastica);
+  }
+}
+
+// Under a load that bends them by a quarter of a right angle, they start there.
+TEST(SlowFlexures, BladesInARowStartBent) {
+  const double L = 0.3, EI = 207e9 * 0.02 * 1e-9 / 12;
+  const Elastica elastica(0.4);
+  const double pull = elastica.alpha * elastica.alpha * EI / (L * L);
+  for (const int n : {3, 6}) {
+    const Trajectory run = completed(blades_in_a_row(n, L, fmt::format("{} N", pull), "assembled"));
+    expect_elastica(run, 0, n, L, pull, elastica);
+    expect_elastica(run, run.n_rows() - 1, n, L, pull, elastica);
   }
 }
 

@@ -70,7 +70,7 @@ inline Model mechanism(const std::string& name, const std::vector<std::string>& 
 /// That of section 8 of the paper with friction in all pins.
 inline Model rubbing_four_bar() {
   Model model = mechanism("four_bar");
-  for (Joint& joint : model.joints) joint.friction = {"lugre", {}};
+  for (Joint& joint : model.joints) joint.friction = {"lugre", {{"pin_radius", {0.01}}}};
   return model;
 }
 

@@ -62,7 +62,8 @@ void make_bearing(Dice& dice, JointText& joint) {
     if (dice.chance(0.5)) keys["play"] = number_text(dice.uniform(2e-6, 2e-5));
     else if (sum) keys["preload"] = number_text(dice.uniform(5, 100));
   } else if (detailed) {
-    keys["film"] = in_quotes(dice.chance(0.7) ? "short" : "long");
+    const double share = dice.uniform(0, 1);
+    keys["film"] = in_quotes(share < 0.4 ? "short" : share < 0.7 ? "finite" : "long");
     const double radius = dice.uniform(5e-3, 2e-2);
     keys["journal_radius"] = number_text(radius);
     keys["bearing_length"] = number_text(radius * dice.uniform(0.5, 1));
@@ -82,6 +83,19 @@ void choose_contact_model(Dice& dice, Keys& keys, const std::string& prefix) {
   keys[prefix + "model"] = in_quotes(model);
   if (model == "linear") keys[prefix + "damping"] = number_text(stop ? dice.log_uniform(0.1, 10) : dice.log_uniform(100, 5e3));
   else keys[stop ? "stop_restitution" : "restitution"] = number_text(dice.uniform(0.3, 0.95));
+}
+
+// A slider that is loose in its guide too.
+void loosen_guide(MechanismText& m, Dice& dice) {
+  for (JointText& joint : m.joints) {
+    if (!guides(joint)) continue;
+    joint.keys["law"] = in_quotes("clearance");
+    joint.keys["clearance"] = number_text(dice.log_uniform(3e-5, 3e-4));
+    joint.keys["guide_length"] = number_text(dice.uniform(0.03, 0.1));
+    choose_contact_model(dice, joint.keys, "contact_");
+    if (joint.keys["contact_model"] == "\"linear\"") joint.keys["contact_exponent"] = "1";
+    joint.keys["contact_stiffness"] = number_text(dice.log_uniform(1e6, 1e8));
+  }
 }
 
 }  // namespace
@@ -118,6 +132,7 @@ MechanismText clearance(Dice& dice) {
   if (dice.chance(0.5)) worn.keys["friction_coefficient"] = number_text(dice.uniform(0.02, 0.2));
   if (dice.chance(0.7)) drive_crank(m, dice);
   m.duration = 1e-3 * std::round(1e3 * dice.log_uniform(0.02, 0.2));
+  if (dice.chance(0.4)) loosen_guide(m, dice);
   fill_joints(m, dice, 1e6, 1e9);
   return m;
 }

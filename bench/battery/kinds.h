@@ -26,4 +26,9 @@ MechanismText ropes(Dice& dice);
 MechanismText rods(Dice& dice);          // massless, of fixed and of driven length
 MechanismText cams(Dice& dice);
 
+MechanismText belts(Dice& dice);
+MechanismText cylinders(Dice& dice);
+MechanismText detents(Dice& dice);
+MechanismText controlled(Dice& dice);    // motors and forces that read the motion
+
 }  // namespace pintle::bench

@@ -49,7 +49,11 @@ const std::vector<MechanismKind>& mechanism_kinds() {
       {"backlash", "gears with play", backlash, true},
       {"ropes", "ropes, taut and slack", ropes, true},
       {"rods", "massless rods and actuators", rods},
-      {"cams", "grooved cams and contacts", cams, true}};
+      {"cams", "grooved cams and contacts", cams, true},
+      {"belts", "belt drives and drums", belts},
+      {"cylinders", "booms on cylinders", cylinders, true},
+      {"detents", "knobs with notches", detents, true},
+      {"controlled", "motors and forces that read the motion", controlled}};
   return kinds;
 }
 

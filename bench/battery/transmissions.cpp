@@ -50,6 +50,14 @@ MechanismText gear_row(Dice& dice, bool with_play) {
   return m;
 }
 
+// Teeth that push their wheels apart.
+void choose_pressure_angle(MechanismText& m, Dice& dice) {
+  const bool stated = dice.chance(0.6);
+  const double angle = dice.uniform(0.25, 0.45);
+  for (JointText& joint : m.joints)
+    if (stated && (joint.type == "gear" || joint.type == "rack")) joint.keys["pressure_angle"] = number_text(angle);
+}
+
 }  // namespace
 
 MechanismText gears(Dice& dice) {
@@ -57,6 +65,7 @@ MechanismText gears(Dice& dice) {
   choose_duration(m, dice, 0.1, 1);
   m.add("motor.drive", {{"joint", in_quotes("A")}, {"torque", in_quotes(Text{"{:.3g}*sin({:.3g}*t + {:.2g})", dice.uniform(0.2, 5), dice.uniform(2, 20) / m.duration, dice.uniform(0, 3)})}});
   fill_joints(m, dice);
+  choose_pressure_angle(m, dice);
   return m;
 }
 
@@ -70,6 +79,7 @@ MechanismText backlash(Dice& dice) {
   mesh.keys["restitution"] = number_text(dice.uniform(0.3, 0.9));
   m.add("motor.drive", {{"joint", in_quotes("A")}, {"torque", in_quotes(Text{"{:.3g}*sin({:.3g}*t)", dice.uniform(0.2, 5), dice.uniform(4, 30) / m.duration})}});
   fill_joints(m, dice, 1e6, 1e9);
+  choose_pressure_angle(m, dice);
   return m;
 }
 

@@ -61,6 +61,7 @@ struct Bearing {
   std::optional<double> static_load_rating{};   ///< C_0 of ISO 76 [N]
   std::optional<double> fatigue_load_limit{};   ///< C_u of ISO 281 [N]
   std::optional<double> pin_diameter{}, pin_length{};  ///< of a plain bearing [m]
+  std::optional<double> wear_coefficient{};            ///< of its bush: volume that wears per force and way of slip [m^2/N]
   friend bool operator==(const Bearing&, const Bearing&) = default;
 };
 

@@ -63,6 +63,7 @@ struct BearingSummary {
   double mean_pressure = kNone, peak_pressure = kNone;  ///< force over projected area [Pa]
   double mean_sliding = kNone, peak_sliding = kNone;    ///< speed of the pin's surface in the bush [m/s]
   double mean_pv = kNone, peak_pv = kNone;    ///< pressure times sliding speed [W/m^2]
+  double bush_depth = kNone, bush_depth_angle = kNone;  ///< that a pin with clearance has worn off its bush where it is most, and the middle of that sector [m], [rad]
   std::vector<std::string> wants;             ///< "state C (dynamic_load_rating) for a life"
   std::vector<std::string> remarks;           ///< where the formulas do not hold
 };
@@ -110,6 +111,13 @@ struct JointEvents {
   std::vector<JointEvent> events;  ///< in the order of time
 };
 
+/// Where a pin with clearance and its bush rub each other: what Archard's law multiplies, the integral of the normal force over the way of slip, by sectors
+/// of equal width that begin at the x axis of the first marker (bush) and of the second one (pin), counter-clockwise. theory/bearing_life section 5
+struct JointWear {
+  std::string joint;
+  std::vector<double> bush, pin;  ///< [N*m]
+};
+
 struct Trajectory {
   std::vector<Column> columns;    ///< the first is the time
   std::vector<double> values;     ///< row-major, n_rows x columns.size()
@@ -123,6 +131,7 @@ struct Trajectory {
   std::vector<BearingSummary> bearings;  ///< of the joints whose model states a bearing
   EnergyAccount energy;
   std::vector<JointEvents> events;  ///< of joints that have any
+  std::vector<JointWear> wear;      ///< of pins with clearance
   Counters counters;
   std::string method;        ///< the one used
   double tolerance = 0;      ///< asked for

@@ -105,9 +105,23 @@ void add_pressure(const Bearing& bearing, const Duty& duty, BearingSummary& out)
   out.peak_pv = radius / area * duty.peak_power();
 }
 
+// Equation (5.2).
+void add_wear(const Bearing& bearing, const Trajectory& run, BearingSummary& out) {
+  if (!bearing.wear_coefficient || !bearing.pin_diameter || !bearing.pin_length) return;
+  const auto wear = std::find_if(run.wear.begin(), run.wear.end(), [&out](const JointWear& one) { return one.joint == out.joint; });
+  if (wear == run.wear.end()) {
+    out.remarks.push_back("only a pin with clearance tells where it wears: law = \"clearance\"");
+    return;
+  }
+  const auto most = std::max_element(wear->bush.begin(), wear->bush.end());
+  const double width = kTurn / static_cast<double>(wear->bush.size());
+  out.bush_depth = *bearing.wear_coefficient * *most / (0.5 * *bearing.pin_diameter * width * *bearing.pin_length);
+  out.bush_depth_angle = width * (static_cast<double>(most - wear->bush.begin()) + 0.5);
+}
+
 std::vector<std::string> missing_sizes(const Bearing& bearing) {
   const bool rolling = !bearing.type.empty() || bearing.dynamic_load_rating || bearing.static_load_rating || bearing.fatigue_load_limit;
-  const bool plain = bearing.pin_diameter || bearing.pin_length;
+  const bool plain = bearing.pin_diameter || bearing.pin_length || bearing.wear_coefficient;
   std::vector<std::string> wants;
   if (!rolling && !plain) return {"state type and dynamic_load_rating (C) for a life, or pin_diameter and pin_length for a pressure"};
   if (rolling && bearing.type.empty()) wants.push_back("state type (ball or roller) for an equivalent load and a life");
@@ -131,6 +145,7 @@ BearingSummary summary_of(const Bearing& bearing, const LoadSummary& load, const
   add_life(bearing, duty, out);
   add_static_safety(bearing, out);
   add_pressure(bearing, duty, out);
+  add_wear(bearing, run, out);
   out.wants = missing_sizes(bearing);
   return out;
 }

@@ -238,6 +238,31 @@ TEST(ReadModel, FrictionIsChosenLikeALaw) {
   EXPECT_EQ(model.notes.at(0), "joint A: friction lugre");
 }
 
+TEST(ReadModel, DefaultsGiveWhatALawRequires) {
+  const auto model = [](const std::string& defaults, const std::string& law) {
+    return parse_model("format = 1\n[defaults.joint]\n" + defaults + R"toml(
+[table.measured]
+x = [0, 1e-4, 1e-3]
+y = [0, 10, 200]
+[ground.markers]
+o = [0, 0]
+[body.bob]
+mass = 1
+inertia = 1
+position = [0, 0]
+angle = 0
+markers.o = [0, 0]
+[joint.pin]
+type = "revolute"
+between = ["ground.o", "bob.o"]
+)toml" + law,
+                       "defaults.toml");
+  };
+  EXPECT_EQ(model("clearance = 2e-4", "law = \"clearance\"").joints.at(0).law.values.at("clearance"), (std::vector<double>{2e-4}));
+  EXPECT_EQ(model("curve = \"measured\"", "law = \"table\"").joints.at(0).law.values.at("force"), (std::vector<double>{0, 10, 200}));
+  EXPECT_THROW(model("stiffness = 1e8", "law = \"clearance\""), InputError);
+}
+
 TEST(ReadModel, AChosenLawKeepsWhatFrictionNeeds) {
   const Model model = parse_model(kFullModel, "full.toml", {"--law joint.A=lugre,pin_radius=12 mm", "--law joint.A=linear,stiffness=1e7"});
   EXPECT_EQ(model.joints[1].friction.values.at("pin_radius"), (std::vector<double>{0.012}));

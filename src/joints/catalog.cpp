@@ -49,7 +49,7 @@ constexpr std::array<KeyInfo, 5> kBelt{{
     {.key = "second_side", .unit = "", .words = kSides, .otherwise = "that of the first disc", .meaning = "where it reaches the second disc, seen in the same way; the other side: crossed"},
     {.key = "stretch", .unit = "m", .minimum = kAny, .otherwise = "0: taut without load", .meaning = "how much longer than unloaded the run is when assembled: its tension over its stiffness; negative: slack"},
 }};
-constexpr KeyInfo kPressureAngle{.key = "pressure_angle", .unit = "rad", .otherwise = "not stated: no such columns", .meaning = "of the teeth, 20 deg mostly: for the results' radial force, which pushes both apart, and their normal force; neither acts on the bodies"};
+constexpr KeyInfo kPressureAngle{.key = "pressure_angle", .unit = "rad", .otherwise = "0: no radial force", .meaning = "of the teeth, 20 deg mostly: with it they also push both apart"};
 constexpr std::array<KeyInfo, 1> kGear{{kPressureAngle}};
 constexpr std::array<KeyInfo, 2> kRack{{
     {.key = "radius", .unit = "m", .minimum_exclusive = true, .required = true, .meaning = "pitch radius of the pinion (the first body)"},
@@ -79,9 +79,9 @@ GeometryFault teeth_fault(const Geometry& g) {
   return {};
 }
 JointDisplacement make_mesh(const Geometry& g) {
-  return Mesh{value(g, "radius_first", 1), value(g, "radius_second", 1), value(g, "internal", 0) > 0 ? -1.0 : 1.0, 0};
+  return Mesh{value(g, "radius_first", 1), value(g, "radius_second", 1), value(g, "internal", 0) > 0 ? -1.0 : 1.0, 0, value(g, "pressure_angle", 0) > 0};
 }
-JointDisplacement make_rack(const Geometry& g) { return RackMesh{value(g, "radius", 1), 1, 0}; }
+JointDisplacement make_rack(const Geometry& g) { return RackMesh{value(g, "radius", 1), 1, 0, value(g, "pressure_angle", 0) > 0}; }
 
 // A side is the place of its word.
 JointDisplacement make_belt(const Geometry& g) {

@@ -17,6 +17,14 @@ struct BasicGapFunction {
 };
 using GapFunction = BasicGapFunction<Planar>;
 
+/// Calls use(component, function) for what p, which answers a pose with functions of it, has: its gap, and what it leaves free beside it.
+template <class P, class Vec, class Use>
+void visit_functions(const P& p, const Vec& z, Use&& use) {
+  use(0, p(z));
+  if constexpr (requires { p.opening(z); })
+    if (p.gap_functions() > 1) use(1, p.opening(z));
+}
+
 /// Rod and rope: the distance of the two points less the length. theory/joints Eq. (2.11). Undefined at zero distance;
 /// there the direction is taken along F's x axis.
 template <class S>
@@ -50,6 +58,17 @@ struct Mesh {
   double radius_first = 1, radius_second = 1;  // pitch radii [m]
   double sign = 1;
   double phase = 0;                            // makes the gap zero as assembled [m]
+  bool opens = false;                          // teeth push the gears apart: the opening counts
+
+  int gap_functions() const { return opens ? 2 : 1; }
+  /// How much further the centres are apart, or nearer in an internal mesh, than where the pitch circles touch. Eq. (2.20)
+  GapFunction opening(const Planar::Vec& z) const {
+    GapFunction g = Distance{std::abs(radius_first + sign * radius_second)}(z);
+    g.gap *= sign;
+    g.gradient *= sign;
+    g.hessian *= sign;
+    return g;
+  }
 
   GapFunction operator()(const Planar::Vec& z) const {
     GapFunction g;
@@ -73,6 +92,21 @@ struct RackMesh {
   double radius = 1;  // [m]
   double side = 1;
   double phase = 0;   // [m]
+  bool opens = false;  // teeth push the pinion off the rack: the opening counts
+
+  int gap_functions() const { return opens ? 2 : 1; }
+  /// How much further the pinion's centre is from the rack than its pitch radius. Eq. (2.20)
+  GapFunction opening(const Planar::Vec& z) const {
+    GapFunction g;
+    const double c = side * std::cos(z[2]), s = side * std::sin(z[2]);
+    const double along = z[0] * c + z[1] * s, across = z[0] * s - z[1] * c;
+    g.gap = across - radius;
+    g.gradient << s, -c, along;
+    g.hessian(2, 2) = -across;
+    g.hessian(0, 2) = g.hessian(2, 0) = c;
+    g.hessian(1, 2) = g.hessian(2, 1) = s;
+    return g;
+  }
 
   GapFunction operator()(const Planar::Vec& z) const {
     GapFunction g;

@@ -3,33 +3,18 @@
 namespace pintle {
 namespace {
 
-// A scalar gap g(z): its kinematics by the chain rule, theory/joints Eq. (2.14).
-template <class S>
-BasicJointKinematics<S> read_scalar(const BasicGapFunction<S>& g, const typename S::RelativePose& pose) {
-  const auto first = [](double x) -> typename S::Vec { return S::Vec::Unit(0) * x; };
-  BasicJointKinematics<S> r;
-  r.gap = first(g.gap);
-  r.rate = first(g.gradient.dot(pose.rate));
-  r.bias = first(g.gradient.dot(pose.bias) + pose.rate.dot(g.hessian * pose.rate));
-  r.map = S::template GapMap<double>::of(pose);
-  r.map.function = true;
-  for (int k = 0; k < S::kDof; ++k) r.map.gradient[k] = g.gradient[k];
-  return r;
-}
-
-template <class S, class F>
-auto visit_scalar(const BasicDisplacement<S>& displacement, const typename S::Vec& z, F&& use) {
-  return std::visit(
+// Calls use(component, function) for every function of a displacement; there are none where its gap is the relative pose itself.
+template <class S, class Use>
+void for_each_function(const BasicDisplacement<S>& displacement, const typename S::Vec& z, Use&& use) {
+  std::visit(
       [&](const auto& p) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(p)>, BasicSelection<S>>) {
-          return use(static_cast<const BasicGapFunction<S>*>(nullptr), p.offset);
-        } else {
-          const BasicGapFunction<S> g = p(z);
-          return use(&g, typename S::Vec(S::Vec::Zero()));
-        }
+        if constexpr (!std::is_same_v<std::decay_t<decltype(p)>, BasicSelection<S>>) visit_functions(p, z, use);
       },
       displacement);
 }
+
+template <class S>
+bool selects(const BasicDisplacement<S>& displacement) { return std::holds_alternative<BasicSelection<S>>(displacement); }
 
 template <class Pose>
 auto both(const Pose& pose) {
@@ -41,35 +26,53 @@ auto both(const Pose& pose) {
 
 }  // namespace
 
+// theory/joints Eq. (2.14).
 template <class S>
 BasicJointKinematics<S> DisplacementReader<S>::read(const Displacement& displacement, const Pose& pose) {
   if (const auto* plain = std::get_if<BasicSelection<S>>(&displacement)) return pintle::read(*plain, pose);
-  return visit_scalar<S>(displacement, pose.z, [&](const BasicGapFunction<S>* g, const Vec&) { return read_scalar<S>(*g, pose); });
+  BasicJointKinematics<S> r;
+  r.gap = r.rate = r.bias = Vec::Zero();
+  r.map = S::template GapMap<double>::of(pose);
+  for_each_function<S>(displacement, pose.z, [&](int k, const BasicGapFunction<S>& g) {
+    r.gap[k] = g.gap;
+    r.rate[k] = g.gradient.dot(pose.rate);
+    r.bias[k] = g.gradient.dot(pose.bias) + pose.rate.dot(g.hessian * pose.rate);
+    r.map.functions = k + 1;
+    for (int c = 0; c < S::kDof; ++c) r.map.gradient[k][c] = g.gradient[c];
+  });
+  return r;
 }
 
 template <class S>
 auto DisplacementReader<S>::to_pose_force(const Displacement& displacement, const Pose& pose, const Vec& force) -> Vec {
-  return visit_scalar<S>(displacement, pose.z, [&](const BasicGapFunction<S>* g, const Vec&) -> Vec { return g ? Vec(g->gradient * force[0]) : force; });
+  if (selects<S>(displacement)) return force;
+  Vec f = Vec::Zero();
+  for_each_function<S>(displacement, pose.z, [&](int k, const BasicGapFunction<S>& g) { f += g.gradient * force[k]; });
+  return f;
 }
 
 template <class S>
 auto DisplacementReader<S>::geometric_stiffness(const Displacement& displacement, const Pose& pose, const Vec& force) -> Both {
-  return visit_scalar<S>(displacement, pose.z, [&](const BasicGapFunction<S>* g, const Vec&) -> Both {
-    if (!g) return pose.geometric(force);
-    const auto G = both(pose);
-    return pose.geometric(g->gradient * force[0]) + force[0] * G.transpose() * g->hessian * G;
+  if (selects<S>(displacement)) return pose.geometric(force);
+  Vec f = Vec::Zero();
+  typename S::Mat bend = S::Mat::Zero();
+  for_each_function<S>(displacement, pose.z, [&](int k, const BasicGapFunction<S>& g) {
+    f += g.gradient * force[k];
+    bend += force[k] * g.hessian;
   });
+  const auto G = both(pose);
+  return pose.geometric(f) + G.transpose() * bend * G;
 }
 
 template <class S>
 auto DisplacementReader<S>::rate_gradient(const Displacement& displacement, const Pose& pose, const typename S::Motion& A, const typename S::Motion& B) -> RateGradient {
   const RateGradient of_pose = pose.rate_gradient(A, B);
-  return visit_scalar<S>(displacement, pose.z, [&](const BasicGapFunction<S>* g, const Vec&) -> RateGradient {
-    if (!g) return of_pose;
-    RateGradient r = RateGradient::Zero();
-    r.row(0) = g->gradient.transpose() * of_pose + (g->hessian * pose.rate).transpose() * both(pose);
-    return r;
+  if (selects<S>(displacement)) return of_pose;
+  RateGradient r = RateGradient::Zero();
+  for_each_function<S>(displacement, pose.z, [&](int k, const BasicGapFunction<S>& g) {
+    r.row(k) = g.gradient.transpose() * of_pose + (g.hessian * pose.rate).transpose() * both(pose);
   });
+  return r;
 }
 
 template struct DisplacementReader<Planar>;

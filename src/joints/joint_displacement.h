@@ -12,6 +12,8 @@ namespace pintle {
 template <class S>
 struct BasicSelection {
   typename S::Vec offset = S::Vec::Zero();  // e.g. full turns of a weld's angle
+
+  static int gap_functions() { return 0; }
 };
 
 using Selection = BasicSelection<Planar>;
@@ -31,7 +33,7 @@ template <class S>
 using BasicDisplacement = typename DisplacementsOf<S>::Type;
 using JointDisplacement = BasicDisplacement<Planar>;
 
-/// The gap between two bodies as a law wants it; scalar gaps stand in component 0.
+/// The gap between two bodies as a law wants it; functions of the pose stand in its first components.
 ///   rate = GA vA + GB vB,   gap'' = GA aA + GB aB + bias
 template <class S>
 struct BasicJointKinematics {
@@ -62,6 +64,17 @@ struct DisplacementReader {
   static Both geometric_stiffness(const Displacement& displacement, const Pose& pose, const Vec& force);
   static RateGradient rate_gradient(const Displacement& displacement, const Pose& pose, const typename S::Motion& A, const typename S::Motion& B);
 };
+/// How many components of the gap are functions of the pose; 0: it is the pose itself.
+template <class Displacement>
+int count_functions(const Displacement& displacement) {
+  return std::visit(
+      [](const auto& p) {
+        if constexpr (requires { p.gap_functions(); }) return p.gap_functions();
+        else return 1;
+      },
+      displacement);
+}
+
 /// The space of a relative pose.
 template <class Pose>
 using SpaceOf = typename Pose::S;

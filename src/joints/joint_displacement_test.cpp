@@ -26,10 +26,10 @@ constexpr double kPi = std::numbers::pi;
 Selection sample_of(std::type_identity<Selection>, Random& random) { return {{0, 0, 2 * kPi * random.below(3)}}; }
 Distance sample_of(std::type_identity<Distance>, Random& random) { return {random.uniform(0.1, 3)}; }
 Mesh sample_of(std::type_identity<Mesh>, Random& random) {
-  return {random.uniform(0.5, 1), random.uniform(1.2, 2), random.coin() ? 1.0 : -1.0, random.uniform(-0.1, 0.1)};
+  return {random.uniform(0.5, 1), random.uniform(1.2, 2), random.coin() ? 1.0 : -1.0, random.uniform(-0.1, 0.1), random.coin()};
 }
 RackMesh sample_of(std::type_identity<RackMesh>, Random& random) {
-  return {random.uniform(0.1, 1), random.coin() ? 1.0 : -1.0, random.uniform(-0.1, 0.1)};
+  return {random.uniform(0.1, 1), random.coin() ? 1.0 : -1.0, random.uniform(-0.1, 0.1), random.coin()};
 }
 
 GapFunction sum_of_squares(const Planar::Vec& z, const double* p) {
@@ -131,6 +131,16 @@ TEST(Distance, HasADirectionEvenAtZero) {
   EXPECT_EQ(g.gap, -2);
   EXPECT_EQ(g.gradient, Vec(1, 0, 0));
   EXPECT_TRUE(g.hessian.allFinite());
+}
+
+// Centres 0.1 m further apart open an external mesh, and close an internal one; a pinion 0.1 m further from its rack opens it on either side.
+TEST(Mesh, OpensAsItsCentresSeparate) {
+  EXPECT_NEAR((Mesh{1, 2, 1, 0, true}).opening({0, 3.1, 0.4}).gap, 0.1, 1e-15);
+  EXPECT_NEAR((Mesh{2, 1, -1, 0, true}).opening({0, 1.1, 0.4}).gap, -0.1, 1e-15);
+  for (const double side : {1.0, -1.0}) EXPECT_NEAR((RackMesh{0.5, side, 0, true}).opening({0.7, -0.6 * side, 0}).gap, 0.1, 1e-15);
+  EXPECT_EQ(count_functions(JointDisplacement(Mesh{1, 2, 1, 0, true})), 2);
+  EXPECT_EQ(count_functions(JointDisplacement(Mesh{1, 2, 1, 0})), 1);
+  EXPECT_EQ(count_functions(JointDisplacement(Selection{})), 0);
 }
 
 // Wheels of 1 m and 2 m on a fixed frame: the second turns back by half the angle of the first.

@@ -44,7 +44,7 @@ constexpr std::array<KeyInfo, 16> kBushingKeys{{
     {.key = "offset_angle", .unit = "rad", .minimum = kAny, .meaning = "angle of the second marker against the first at rest"},
 }};
 
-constexpr std::array<KeyInfo, 6> kMaxwellKeys{{
+constexpr std::array<KeyInfo, 9> kMaxwellKeys{{
     {.key = "stiffness", .unit = "N/m", .fallback = 5e5, .minimum_exclusive = true, .per_component = true, .meaning = "what is left when all branches have relaxed"},
     {.key = "damping", .unit = "N*s/m", .fallback = 500, .per_component = true, .meaning = "of a damper beside the branches"},
     {.key = "angular_stiffness", .unit = "N*m/rad", .fallback = 100, .minimum_exclusive = true, .meaning = "the same for a forbidden angle"},
@@ -52,6 +52,9 @@ constexpr std::array<KeyInfo, 6> kMaxwellKeys{{
     {.key = "branch_ratio", .unit = "", .minimum_exclusive = true, .required = true, .list = true,
      .meaning = "stiffness of each relaxing branch over the relaxed one, a list, in every forbidden component alike"},
     {.key = "branch_time", .unit = "s", .minimum_exclusive = true, .required = true, .list = true, .meaning = "time in which the force of each branch falls to 1/e, a list as long"},
+    {.key = "hardening", .unit = "m^-2", .meaning = "of the relaxed spring in the held lengths: at a displacement r it is stiffer by the share hardening*r^2"},
+    {.key = "hysteresis_force", .unit = "N", .meaning = "largest friction inside the rubber, in the held lengths, whatever the speed"},
+    {.key = "hysteresis_displacement", .unit = "m", .minimum_exclusive = true, .otherwise = "wanted with hysteresis_force", .meaning = "displacement from a turning point in which that friction comes near to its largest by all but 1/e"},
 }};
 
 constexpr std::array<std::string_view, 4> kPoseJoints{"revolute", "prismatic", "fixed", "slot"};
@@ -112,17 +115,28 @@ LawFault bushing_fault(const LawSetting& at) {
 
 void make_bushing(const LawSetting& at, Law& law) { law.add(std::make_unique<LawPartOf<BushingLaw>>(bushing_of(at))); }
 
+// Where rubber hardens or rubs inside.
+std::vector<int> held_lengths(const LawSetting& at) {
+  std::vector<int> all;
+  for (int k = 0; k < 2; ++k)
+    if (at.held[k] && (at.number("hardening") > 0 || at.number("hysteresis_force") > 0)) all.push_back(k);
+  return all;
+}
+
 LawFault maxwell_fault(const LawSetting& at) {
   const std::size_t ratios = at.list("branch_ratio").size(), times = at.list("branch_time").size();
   if (ratios != times) return {"branch_time", fmt::format("{} times for {} branches", times, ratios), "one time for each entry of branch_ratio"};
   const auto held = static_cast<std::size_t>(std::count(at.held.begin(), at.held.end(), true));
-  if (held * ratios > static_cast<std::size_t>(kMostLawStates))
+  if (at.number("hysteresis_force") > 0 && !(at.number("hysteresis_displacement") > 0))
+    return {"hysteresis_displacement", "the friction inside the rubber grows over a displacement, which is not stated", "hysteresis_displacement = \"0.1 mm\", or what it is"};
+  if (held * ratios + held_lengths(at).size() > static_cast<std::size_t>(kMostLawStates))
     return {"branch_ratio", fmt::format("{} branches in {} components are more than {} states", ratios, held, kMostLawStates), "fewer branches"};
   return {};
 }
 
 void make_maxwell(const LawSetting& at, Law& law) {
-  MaxwellLaw maxwell{at.by_component("stiffness", "angular_stiffness"), at.by_component("damping", "angular_damping"), {}};
+  MaxwellLaw maxwell{at.by_component("stiffness", "angular_stiffness"), at.by_component("damping", "angular_damping"), {}, at.number("hardening"), at.number("hysteresis_force"), 1, held_lengths(at)};
+  if (maxwell.hysteresis_force > 0) maxwell.hysteresis_displacement = at.number("hysteresis_displacement");
   const std::vector<double> ratio = at.list("branch_ratio"), time = at.list("branch_time");
   for (int k = 0; k < 3; ++k)
     for (std::size_t b = 0; at.held[k] && b < ratio.size(); ++b) maxwell.branches.push_back({k, ratio[b] * maxwell.k[k], time[b]});
@@ -133,7 +147,7 @@ std::vector<LawInfo> own_laws() {
   std::vector<LawInfo> all{
       {.word = "linear", .meaning = "a spring and a damper in each forbidden displacement (the paper's axioms)", .keys = kLinearKeys, .stiffens = true, .make = make_linear},
       {.word = "bushing", .meaning = "full matrices of stiffness and damping, with a preload and a rest position of its own", .keys = kBushingKeys, .joints = kPoseJoints, .make = make_bushing, .fault = bushing_fault},
-      {.word = "maxwell", .meaning = "rubber: a spring, a damper, and branches of both in series that relax", .keys = kMaxwellKeys, .joints = kTwoSided, .make = make_maxwell, .fault = maxwell_fault},
+      {.word = "maxwell", .meaning = "rubber: a spring that may harden, a damper, branches of both in series that relax, and friction inside", .keys = kMaxwellKeys, .joints = kTwoSided, .make = make_maxwell, .fault = maxwell_fault},
   };
   add_friction_laws(all);
   add_contact_laws(all);

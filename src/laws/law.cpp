@@ -180,13 +180,29 @@ bool BasicLaw<S>::has_friction() const {
 }
 
 template <class S>
+bool BasicLaw<S>::follows() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->follows(); });
+}
+
+template <class S>
+typename S::Vec BasicLaw<S>::following(const Vec& force) const {
+  LawInput<double, S::kDof> in{};
+  std::copy_n(force.data(), S::kDof, in.before);
+  LawOutput<double, S::kDof> out;
+  out.clear();
+  for (const auto& part : parts_)
+    if (part->follows()) part->evaluate(in, out);
+  return Eigen::Map<const typename S::Vec>(out.force);
+}
+
+template <class S>
 bool BasicLaw<S>::feeds() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->feeds(); });
 }
 
 template <class S>
-double BasicLaw<S>::supply(const BasicLawPoint<S>& at) const {
-  double power = 0;
+double BasicLaw<S>::supply(const BasicLawPoint<S>& at, const Vec& force) const {
+  double power = follows() ? following(force).dot(at.rate) : 0;
   for (const auto& part : parts_)
     if (part->feeds()) power += part->supply(input_at(at));
   return power;

@@ -105,9 +105,14 @@ class BasicLaw {
   /// Whether a part is the stops of what the joint leaves free; whether one is its dry friction.
   bool has_stops() const;
   bool has_friction() const;
-  /// Whether power comes in through a part, as through the pressure in a cylinder; and that power [W]. It depends on no states.
+  /// Whether the force of a part follows from those before it alone; and all such forces, where the joint has this force otherwise. They have no
+  /// potential: their power comes in from outside.
+  bool follows() const;
+  Vec following(const Vec& force) const;
+  /// Whether power comes in through a part, as through the pressure in a cylinder.
   bool feeds() const;
-  double supply(const Point& at) const;
+  /// The power that comes in where the joint has this force [W]. It depends on no states.
+  double supply(const Point& at, const Vec& force) const;
   /// The stop that this gap is beyond.
   std::optional<StopBreach> breach(const Vec& gap) const;
   /// Whether ideal joints are its limit: springs and dampers hold it, and nothing else does.

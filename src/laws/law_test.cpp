@@ -28,6 +28,7 @@
 #include "laws/law_setting_for_tests.h"
 #include "laws/maxwell.h"
 #include "laws/pressure.h"
+#include "laws/separating_force.h"
 #include "laws/contact/backlash.h"
 #include "laws/contact/detent.h"
 #include "laws/contact/pin_contact.h"
@@ -77,6 +78,23 @@ struct LuGreGuide : LuGreLaw {
     law.radius = 1;
     law.guide = 0.05;
     law.preload = 3;
+    return law;
+  }
+};
+// Surfaces that stick.
+struct GrippingPin : ClearanceLaw {
+  static GrippingPin typical() {
+    GrippingPin law;
+    static_cast<ClearanceLaw&>(law) = ClearanceLaw::typical();
+    law.grip = StickSlip{0.1, 0.15, 0, 1e7, 300};
+    return law;
+  }
+};
+struct GrippingGuide : GuideContactLaw {
+  static GrippingGuide typical() {
+    GrippingGuide law;
+    static_cast<GuideContactLaw&>(law) = GuideContactLaw::typical();
+    law.grip = StickSlip{0.15, 0.2, 0, 1e7, 300};
     return law;
   }
 };
@@ -146,7 +164,7 @@ class AnyLaw : public testing::Test {
   }
 };
 using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GapContactLaw, GuideContactLaw, HardStops, CushionedStops, BacklashLaw, ClutchLaw,
-                             TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw, FiniteFilmLaw, LeafSpringLaw, NotchHingeLaw, CrossSpringLaw, PressureLaw, GasPressureLaw, DetentLaw>;
+                             TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw, FiniteFilmLaw, LeafSpringLaw, NotchHingeLaw, CrossSpringLaw, PressureLaw, GasPressureLaw, DetentLaw, SeparatingForce, GrippingPin, GrippingGuide>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 
 // Across a border that the law declares there is no difference quotient; anywhere else there must be.
@@ -228,7 +246,7 @@ TYPED_TEST(AnyLaw, PowerIsAccountedFor) {
       size += std::abs(part);
       rounding += 1e-14 * std::abs(this->law_.energy(this->at(p))) * std::abs(column < 3 ? p.rate[column] : z_rate[column - 3]) / h;
     }
-    const double loss = this->law_.loss(this->at(p)), supplied = this->law_.supply(this->at(p));
+    const double loss = this->law_.loss(this->at(p)), supplied = this->law_.supply(this->at(p), force);
     size += std::abs(loss) + force.cwiseAbs().dot(p.rate.cwiseAbs());
     EXPECT_NEAR(force.dot(p.rate) + energy_rate + loss - supplied, 0, 1e-6 * size + rounding);
     if (this->law_.parts().front()->holds()) {
@@ -404,7 +422,7 @@ TEST(PressureLaw, ByHand) {
   const Vec stroke(0.2, 0, 0), rate(-0.3, 0, 0);
   const LawPoint at{0, stroke, rate};
   EXPECT_NEAR(Law(law).force(at)[0], push, 1e-9);
-  EXPECT_NEAR(Law(law).supply(at), -0.3 * push, 1e-9);
+  EXPECT_NEAR(Law(law).supply(at, Vec::Zero()), -0.3 * push, 1e-9);
   std::vector<double> columns;
   Law(law).observe(at, {push, 0, 0}, columns);
   const std::vector<double> expected{0.2, -0.3, 2.1e6, 0.6e6, 5e3 * pi, 0.8e3 * pi, -7.5e-4 * pi, 4.8e-4 * pi, -0.3 * push};

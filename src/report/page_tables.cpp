@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "results/bearing_text.h"
+#include "results/plots/run_polar.h"
 #include "results/force_quality.h"
 #include "results/heat.h"
 #include "results/plots/markup.h"
@@ -234,23 +235,37 @@ std::string drive_tables(const Trajectory& trajectory) {
   return html + "<h3>Springs</h3>\n" + table.html();
 }
 
+namespace {
+
+std::string html_of(const BearingTable& from) {
+  HtmlTable table(" class=\"sortable\"");
+  table.head("joint", "", false);
+  for (const BearingTable::Head& head : from.heads) table.head(head.text, head.unit);
+  for (const BearingTable::Row& row : from.rows) {
+    table.begin_row();
+    table.name(escaped_markup(row.joint));
+    for (std::size_t i = 0; i < row.values.size(); ++i) {
+      const double x = row.values[i];
+      table.number(x, std::isnan(x) ? "–" : from.heads[i].estimate ? estimate(x) : value(x));
+    }
+    table.end_row();
+  }
+  return "<h3>" + escaped_markup(from.title) + "</h3>\n" + table.html();
+}
+
+}  // namespace
+
+std::string wear_section(const RunRecord& run) {
+  const BearingTable table = wear_table(run.trajectory.wear);
+  if (table.rows.empty()) return "";
+  std::string html = html_of(table);
+  for (const BearingTable::Row& row : table.rows) html += "<figure class=\"wear\">\n" + to_svg(make_wear_plot({{"", &run}}, row.joint)) + "</figure>\n";
+  return html;
+}
+
 std::string bearing_section(const std::vector<BearingSummary>& bearings) {
   std::string html;
-  for (const BearingTable& from : bearing_tables(bearings)) {
-    HtmlTable table(" class=\"sortable\"");
-    table.head("joint", "", false);
-    for (const BearingTable::Head& head : from.heads) table.head(head.text, head.unit);
-    for (const BearingTable::Row& row : from.rows) {
-      table.begin_row();
-      table.name(escaped_markup(row.joint));
-      for (std::size_t i = 0; i < row.values.size(); ++i) {
-        const double x = row.values[i];
-        table.number(x, std::isnan(x) ? "–" : from.heads[i].estimate ? estimate(x) : value(x));
-      }
-      table.end_row();
-    }
-    html += "<h3>" + escaped_markup(from.title) + "</h3>\n" + table.html();
-  }
+  for (const BearingTable& from : bearing_tables(bearings)) html += html_of(from);
   for (const std::string& note : bearing_notes(bearings)) html += "<p class=\"note\">" + escaped_markup(note) + "</p>\n";
   return html;
 }

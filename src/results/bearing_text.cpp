@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "results/text_table.h"
 
@@ -38,10 +40,46 @@ BearingTable pressure_table(const std::vector<BearingSummary>& bearings) {
   return table;
 }
 
+BearingTable depth_table(const std::vector<BearingSummary>& bearings) {
+  BearingTable table{"Worn bushes (depth that this run has worn off where it is most)", {{"depth", "um"}, {"at", "deg"}}, {}};
+  for (const BearingSummary& one : bearings)
+    if (!std::isnan(one.bush_depth)) table.rows.push_back({one.joint, {1e6 * one.bush_depth, kDegrees * one.bush_depth_angle}});
+  return table;
+}
+
+// The middle of the sector that is worn most, in degrees.
+double most_worn(const std::vector<double>& sectors) {
+  return (static_cast<double>(std::max_element(sectors.begin(), sectors.end()) - sectors.begin()) + 0.5) * 360 / static_cast<double>(sectors.size());
+}
+
+std::string text_of(const BearingTable& from, const std::string& bold, const std::string& plain) {
+  TextTable table;
+  table.add_column("joint", TextTable::Align::kLeft);
+  for (const BearingTable::Head& head : from.heads) table.add_column(head.text, TextTable::Align::kNumber, head.unit);
+  for (const BearingTable::Row& row : from.rows) {
+    std::vector<std::string> cells{row.joint};
+    for (std::size_t i = 0; i < row.values.size(); ++i) cells.push_back(std::isnan(row.values[i]) ? "-" : from.heads[i].estimate ? exponent(row.values[i]) : engineering(row.values[i]));
+    table.add_row(std::move(cells));
+  }
+  return fmt::format("\n{}\n{}", from.title, table.text(bold, plain));
+}
+
 }  // namespace
 
+BearingTable wear_table(const std::vector<JointWear>& wear) {
+  BearingTable table{"Wear of pins with clearance (normal force times way of slip; directions from the x axes of the markers)", {{"work", "J"}, {"bush most at", "deg"}, {"pin most at", "deg"}}, {}};
+  for (const JointWear& one : wear)
+    if (const double work = std::accumulate(one.bush.begin(), one.bush.end(), 0.0); work > 0) table.rows.push_back({one.joint, {work, most_worn(one.bush), most_worn(one.pin)}});
+  return table;
+}
+
+std::string wear_text(const std::vector<JointWear>& wear, const std::string& bold, const std::string& plain) {
+  const BearingTable table = wear_table(wear);
+  return table.rows.empty() ? "" : text_of(table, bold, plain);
+}
+
 std::vector<BearingTable> bearing_tables(const std::vector<BearingSummary>& bearings) {
-  std::vector<BearingTable> tables{duty_table(bearings), life_table(bearings), pressure_table(bearings)};
+  std::vector<BearingTable> tables{duty_table(bearings), life_table(bearings), pressure_table(bearings), depth_table(bearings)};
   std::erase_if(tables, [](const BearingTable& table) { return table.rows.empty(); });
   return tables;
 }
@@ -56,17 +94,7 @@ std::vector<std::string> bearing_notes(const std::vector<BearingSummary>& bearin
 
 std::string bearing_text(const std::vector<BearingSummary>& bearings, const std::string& bold, const std::string& plain) {
   std::string text;
-  for (const BearingTable& from : bearing_tables(bearings)) {
-    TextTable table;
-    table.add_column("joint", TextTable::Align::kLeft);
-    for (const BearingTable::Head& head : from.heads) table.add_column(head.text, TextTable::Align::kNumber, head.unit);
-    for (const BearingTable::Row& row : from.rows) {
-      std::vector<std::string> cells{row.joint};
-      for (std::size_t i = 0; i < row.values.size(); ++i) cells.push_back(std::isnan(row.values[i]) ? "-" : from.heads[i].estimate ? exponent(row.values[i]) : engineering(row.values[i]));
-      table.add_row(std::move(cells));
-    }
-    text += fmt::format("\n{}\n{}", from.title, table.text(bold, plain));
-  }
+  for (const BearingTable& from : bearing_tables(bearings)) text += text_of(from, bold, plain);
   for (const std::string& note : bearing_notes(bearings)) text += "  " + note + "\n";
   return text;
 }

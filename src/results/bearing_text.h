@@ -23,8 +23,13 @@ struct BearingTable {
   std::vector<Row> rows;
 };
 
-/// The duty of each pin; life and static safety; pressure and sliding. Those without rows are left out.
+/// The duty of each pin; life and static safety; pressure and sliding; depth of wear. Those without rows are left out.
 std::vector<BearingTable> bearing_tables(const std::vector<BearingSummary>& bearings);
+
+/// What pins with clearance and their bushes rub off each other, and in which direction most.
+BearingTable wear_table(const std::vector<JointWear>& wear);
+/// For the console, beginning with an empty line; nothing where there is no wear.
+std::string wear_text(const std::vector<JointWear>& wear, const std::string& bold = "", const std::string& plain = "");
 
 /// "joint B: state ...", once for each size that is missing and each remark.
 std::vector<std::string> bearing_notes(const std::vector<BearingSummary>& bearings);

@@ -104,8 +104,20 @@ void for_each_entry(Pin& pin, const Visit& visit) requires requires {
   visit("peak_sliding", pin.peak_sliding);
   visit("mean_pv", pin.mean_pv);
   visit("peak_pv", pin.peak_pv);
+  visit("bush_depth", pin.bush_depth);
+  visit("bush_depth_angle", pin.bush_depth_angle);
   visit("wants", pin.wants);
   visit("remarks", pin.remarks);
+}
+
+template <class Wear, class Visit>
+void for_each_entry(Wear& wear, const Visit& visit) requires requires {
+  wear.bush;
+}
+{
+  visit("joint", wear.joint);
+  visit("bush", wear.bush);
+  visit("pin", wear.pin);
 }
 
 template <class Energy, class Visit>
@@ -202,9 +214,9 @@ void load(const Json& json, T& value) {
   json.get_to(value);
 }
 
-// Runs of version 0.1 before ideal joints have no "unique", older ones no error of couples; those of 0.2 have no events, horizons and heat.
+// Runs of version 0.1 before ideal joints have no "unique", older ones no error of couples; those of 0.2 have no events, horizons, heat and wear.
 bool is_newer(std::string_view key) {
-  constexpr std::array kNewer{"unique", "heat", "moment_error_estimate", "events", "horizon", "peak_after", "rms_after", "mean_after", "peak_scatter", "rms_scatter", "mean_scatter"};
+  constexpr std::array kNewer{"unique", "heat", "moment_error_estimate", "events", "horizon", "peak_after", "rms_after", "mean_after", "peak_scatter", "rms_scatter", "mean_scatter", "bush_depth", "bush_depth_angle"};
   return std::any_of(kNewer.begin(), kNewer.end(), [key](const char* newer) { return key == newer; });
 }
 
@@ -253,6 +265,7 @@ Summary summary_from(const Json& json) {
   from_json(json.at("springs"), trajectory.springs);
   from_json(json.at("motors"), trajectory.motors);
   if (json.contains("bearings")) from_json(json.at("bearings"), trajectory.bearings);  // not in runs of version 0.2
+  if (json.contains("wear")) from_json(json.at("wear"), trajectory.wear);
   from_json(json.at("energy"), trajectory.energy);
   from_json(json.at("counters"), trajectory.counters);
   from_json(json.at("columns"), trajectory.columns);
@@ -286,6 +299,7 @@ std::string summary_json(const Trajectory& trajectory, const RunStamp& stamp) {
   json["springs"] = to_json(trajectory.springs);
   json["motors"] = to_json(trajectory.motors);
   json["bearings"] = to_json(trajectory.bearings);
+  if (!trajectory.wear.empty()) json["wear"] = to_json(trajectory.wear);
   json["energy"] = to_json(trajectory.energy);
   json["counters"] = to_json(trajectory.counters);
   json["rows"] = trajectory.n_rows();

@@ -244,6 +244,7 @@ std::string summary_text(const Trajectory& trajectory, const RunStamp& stamp, bo
   text += event_section(trajectory, style);
   text += heat_section(trajectory, style);
   text += bearing_text(trajectory.bearings, style.bold, style.plain);
+  text += wear_text(trajectory.wear, style.bold, style.plain);
   text += energy_section(trajectory.energy, style);
   text += work_section(trajectory);
   const std::size_t n_notes = trajectory.notes.size(), n_shown = n_notes > kFull ? kCut : n_notes;

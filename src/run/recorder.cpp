@@ -30,9 +30,6 @@ bool is_servo(const JointData& joint) { return joint.servo >= 0; }
 Recorder::Recorder(const Model& model, const System& system, Recorded what)
     : ForceRecorder(system, model.simulate, what), model_(model), recording_(choose_recording(model, system)) {
   find_drives();
-  pressure_angle_.assign(system.joints.size(), 0.0);
-  for (std::size_t j = 0; j < model.joints.size(); ++j)
-    if (const auto angle = model.joints[j].geometry.find("pressure_angle"); angle != model.joints[j].geometry.end()) pressure_angle_[j] = angle->second;
 }
 
 // Servos and efforts stand in the system in the order of the motors.
@@ -122,10 +119,6 @@ std::vector<Column> Recorder::columns() const {
       column(p + "tension", "N", "tension of belt " + joint.name);
       column(p + "run", "m", "length of its free run");
     }
-    if (pressure_angle_[j] > 0) {
-      column(p + "radial_force", "N", "with which the teeth push both apart, by their pressure angle; it is not in the forces on the bodies");
-      column(p + "normal_force", "N", "on the flank of a tooth");
-    }
     if (is_stroke(joint)) column(p + "force", "N", "with which joint " + joint.name + " pushes its ends apart");
     for (LawColumn& law : joint.law.columns()) column(p + law.name, law.unit.c_str(), std::move(law.meaning));
   }
@@ -196,11 +189,6 @@ void Recorder::put_row(const State& state) {
     if (const auto belt = belt_of(system_.joints[j].displacement)) {
       put(-state.force[j][0]);
       put(belt->run(system_.pose(system_.joints[j].at, m_).z));
-    }
-    if (const double angle = pressure_angle_[j]; angle > 0) {
-      const double tangential = std::abs(state.force[j][0]);
-      put(tangential * std::tan(angle));  // theory/joints Eq. (2.19)
-      put(tangential / std::cos(angle));
     }
     if (is_stroke(system_.joints[j])) put(state.force[j][0]);
     system_.joints[j].law.observe(law_point(system_, j, state), state.force[j], values_);

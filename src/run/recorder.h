@@ -41,7 +41,6 @@ class Recorder final : public ForceRecorder, private LoadRecorder::Signals {
 
   const Model& model_;
   std::vector<Drive> drives_;
-  std::vector<double> pressure_angle_;  // of every joint's teeth; 0: not stated [rad]
   std::vector<int> springs_;  // among the loads, in the order of the model
   Recording recording_;
   std::vector<double> values_;

@@ -7,12 +7,13 @@
 namespace pintle {
 
 /// From forces of a gap to forces on bodies, and from accelerations of bodies to that of the gap: G' and G of a pose, times
-/// the gradient where the gap is a function of the pose. T is a number, or one number per stage of a step.
+/// the gradients where components of the gap are functions of the pose. T is a number, or one number per stage of a step.
 template <class T>
 struct PlanarGapMap {
-  T c, s, ax, ay, bx, by;  // as in PlanarPoseGeometry
-  T gradient[3];           // of a gap that is a function
-  bool function = false;
+  static constexpr int kMostFunctions = 2;
+  T c, s, ax, ay, bx, by;         // as in PlanarPoseGeometry
+  T gradient[kMostFunctions][3];  // of the first components, where they are functions
+  int functions = 0;              // how many are; then there are no others
 
   void set(const PlanarPoseGeometry<T>& pose) {
     c = pose.c;
@@ -23,15 +24,21 @@ struct PlanarGapMap {
     by = pose.by;
   }
   static PlanarGapMap of(const PlanarRelativePose& pose) {
-    return {pose.c, pose.s, pose.arm_a.x(), pose.arm_a.y(), pose.arm_b.x(), pose.arm_b.y(), {}, false};
+    return {pose.c, pose.s, pose.arm_a.x(), pose.arm_a.y(), pose.arm_b.x(), pose.arm_b.y(), {}, 0};
   }
   /// The same map in every lane.
   static PlanarGapMap same(const PlanarGapMap<double>& g) {
-    return {T(g.c), T(g.s), T(g.ax), T(g.ay), T(g.bx), T(g.by), {T(g.gradient[0]), T(g.gradient[1]), T(g.gradient[2])}, g.function};
+    PlanarGapMap map{T(g.c), T(g.s), T(g.ax), T(g.ay), T(g.bx), T(g.by), {}, g.functions};
+    for (int f = 0; f < g.functions; ++f)
+      for (int k = 0; k < 3; ++k) map.gradient[f][k] = T(g.gradient[f][k]);
+    return map;
   }
   /// The map of one lane.
   PlanarGapMap<double> lane(int i) const {
-    return {c[i], s[i], ax[i], ay[i], bx[i], by[i], {gradient[0][i], gradient[1][i], gradient[2][i]}, function};
+    PlanarGapMap<double> map{c[i], s[i], ax[i], ay[i], bx[i], by[i], {}, functions};
+    for (int f = 0; f < functions; ++f)
+      for (int k = 0; k < 3; ++k) map.gradient[f][k] = gradient[f][k][i];
+    return map;
   }
 
   /// G of the first and of the second body, 3 x 3.
@@ -44,8 +51,13 @@ struct PlanarGapMap {
   /// G' f.
   template <class U>
   OnBodies<U> spread(const U* f) const {
-    const U f0 = function ? gradient[0] * f[0] : f[0], f1 = function ? gradient[1] * f[0] : f[1],
-            f2 = function ? gradient[2] * f[0] : f[2];
+    U f0 = functions > 0 ? gradient[0][0] * f[0] : f[0], f1 = functions > 0 ? gradient[0][1] * f[0] : f[1],
+      f2 = functions > 0 ? gradient[0][2] * f[0] : f[2];
+    if (functions > 1) {
+      f0 += gradient[1][0] * f[1];
+      f1 += gradient[1][1] * f[1];
+      f2 += gradient[1][2] * f[1];
+    }
     OnBodies<U> r;
     r.fx = c * f0 - s * f1;
     r.fy = s * f0 + c * f1;
@@ -94,12 +106,17 @@ struct PlanarGapMap {
     e[0] = c * x + s * y;
     e[1] = c * y - s * x;
     e[2] = on_b[2] - on_a[2];
-    if (!function) return;
-    e[0] = gradient[0] * e[0] + gradient[1] * e[1] + gradient[2] * e[2];
-    e[1] = e[2] = U();
+    if (functions == 0) return;
+    const U first = along(0, e), second = functions > 1 ? along(1, e) : U();
+    e[0] = first;
+    e[1] = second;
+    e[2] = U();
   }
 
  private:
+  // A function's share in what the pose sees.
+  template <class U>
+  U along(int f, const U* e) const { return gradient[f][0] * e[0] + gradient[f][1] * e[1] + gradient[f][2] * e[2]; }
   static double size(double x) { return std::abs(x); }
   template <int N>
   static Lanes<N> size(const Lanes<N>& x) { return sizes(x); }
@@ -107,10 +124,10 @@ struct PlanarGapMap {
   Planar::Mat rows(T xx, T xy, T xt, T yx, T yy, T yt, T tt) const {
     Planar::Mat G;
     G << xx, xy, xt, yx, yy, yt, 0, 0, tt;
-    if (!function) return G;
-    const Eigen::RowVector3d row = gradient[0] * G.row(0) + gradient[1] * G.row(1) + gradient[2] * G.row(2);
-    G << row, Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero();
-    return G;
+    if (functions == 0) return G;
+    Planar::Mat of_functions = Planar::Mat::Zero();
+    for (int f = 0; f < functions; ++f) of_functions.row(f) = gradient[f][0] * G.row(0) + gradient[f][1] * G.row(1) + gradient[f][2] * G.row(2);
+    return of_functions;
   }
 };
 

@@ -123,8 +123,9 @@ struct SpatialGapMap {
   Matrix3<T> RA, RB, RF;
   Vector3<T> arm_a, arm_b, n;  // n: M's z axis in F's axes
   T k;                         // 1 / (1 + n_z)
-  T gradient[6];               // of a gap that is a function
-  bool function = false;
+  static constexpr int kMostFunctions = 1;
+  T gradient[kMostFunctions][6];  // of the first component, where it is a function
+  int functions = 0;              // 1 if so; then there are no others
 
   PINTLE_LANES void set(const SpatialPoseGeometry<T>& pose) {
     RA = pose.RA;
@@ -138,7 +139,7 @@ struct SpatialGapMap {
   static SpatialGapMap of(const SpatialPoseGeometry<T>& pose) {
     SpatialGapMap map;
     map.set(pose);
-    for (T& g : map.gradient) g = T(0.0);
+    for (T& g : map.gradient[0]) g = T(0.0);
     return map;
   }
   static SpatialGapMap of(const SpatialRelativePose& pose);
@@ -147,14 +148,14 @@ struct SpatialGapMap {
   static SpatialGapMap same(const SpatialGapMap<double>& g) {
     SpatialGapMap map;
     map.each(g, [](T& to, double from) { to = T(from); });
-    map.function = g.function;
+    map.functions = g.functions;
     return map;
   }
   /// The map of one lane.
   SpatialGapMap<double> lane(int i) const {
     SpatialGapMap<double> map;
     map.each(*this, [i](double& to, const T& from) { to = from[i]; });
-    map.function = function;
+    map.functions = functions;
     return map;
   }
   template <class Other, class Put>
@@ -166,7 +167,7 @@ struct SpatialGapMap {
     put_vector(arm_b, from.arm_b, put);
     put_vector(n, from.n, put);
     put(k, from.k);
-    for (int i = 0; i < 6; ++i) put(gradient[i], from.gradient[i]);
+    for (int i = 0; i < 6; ++i) put(gradient[0][i], from.gradient[0][i]);
   }
 
   /// G of the first and of the second body, 6 x 6.
@@ -204,8 +205,9 @@ struct SpatialGapMap {
     e[1] = v.y;
     e[2] = v.z;
     put_turning(n, k, w, e);
-    if (!function) return;
-    e[0] = gradient[0] * e[0] + gradient[1] * e[1] + gradient[2] * e[2] + gradient[3] * e[3] + gradient[4] * e[4] + gradient[5] * e[5];
+    if (functions == 0) return;
+    const T* g = gradient[0];
+    e[0] = g[0] * e[0] + g[1] * e[1] + g[2] * e[2] + g[3] * e[3] + g[4] * e[4] + g[5] * e[5];
     for (int i = 1; i < 6; ++i) e[i] = U(0.0);
   }
 
@@ -215,7 +217,7 @@ struct SpatialGapMap {
 
   template <class U>
   PINTLE_LANES Wrenches<U> spread(const U* f) const {
-    const auto part = [&](int i) { return function ? gradient[i] * f[0] : f[i]; };
+    const auto part = [&](int i) { return functions > 0 ? gradient[0][i] * f[0] : f[i]; };
     const Vector3<U> force = RF * Vector3<U>{part(0), part(1), part(2)};
     const Vector3<U> couple = RF * couple_of(n, k, U(part(3)), U(part(4)), U(part(5)));
     return {force, turned_back(RA, cross(arm_a, force) + couple), turned_back(RB, cross(arm_b, force) + couple)};

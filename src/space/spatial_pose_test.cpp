@@ -141,8 +141,8 @@ TEST(SpatialPose, PushIsTheTransposeOfGatherAlsoThroughAGradient) {
   for (const double tilt : kTilts)
     for (const bool function : {false, true}) {
       S::RelativePose pose = pair(random, tilt).pose();
-      pose.map.function = function;
-      for (double& g : pose.map.gradient) g = random.uniform(-1, 1);
+      pose.map.functions = function;
+      for (double& g : pose.map.gradient[0]) g = random.uniform(-1, 1);
       const S::Vec f = random.vector<S::Vec>(-3, 3);
       const Both x = random.vector<Both>(-1, 1), on = wrenches(pose, f);
       S::Vec e;
@@ -329,17 +329,17 @@ TEST(SpatialPose, LanesAreThePlainNumbers) {
   auto map = SpatialGapMap<L>::of(g);
   for (int k = 0; k < 6; ++k) {
     f[k] = L(0.0);
-    for (int i = 0; i < 4; ++i) f[k].set(i, random.uniform(-1, 1)), map.gradient[k].set(i, random.uniform(-1, 1));
+    for (int i = 0; i < 4; ++i) f[k].set(i, random.uniform(-1, 1)), map.gradient[0][k].set(i, random.uniform(-1, 1));
   }
   for (const bool function : {false, true}) {
-    map.function = function;
+    map.functions = function;
     map.wrenches(f, on_a, on_b);
     map.gather(on_b, on_a, e);
     for (int i = 0; i < 4; ++i) {
       SpatialGapMap<double> plain = poses[i].map;
-      plain.function = function;
+      plain.functions = function;
       double force[6], wrench_a[6], wrench_b[6], change[6], lane_a[6], lane_b[6];
-      for (int k = 0; k < 6; ++k) force[k] = f[k][i], plain.gradient[k] = map.gradient[k][i];
+      for (int k = 0; k < 6; ++k) force[k] = f[k][i], plain.gradient[0][k] = map.gradient[0][k][i];
       plain.wrenches(force, wrench_a, wrench_b);
       plain.gather(wrench_b, wrench_a, change);
       map.lane(i).wrenches(force, lane_a, lane_b);

@@ -16,6 +16,7 @@
 #include "joints/catalog.h"
 #include "laws/catalog.h"
 #include "laws/pressure.h"
+#include "laws/separating_force.h"
 
 namespace pintle {
 namespace {
@@ -125,6 +126,7 @@ class Builder {
       if (info->rest) std::get<Selection>(displacement).offset.head<2>() = info->rest(setting);
     };
     if (!type.gap.empty()) add(&joint.law, LawRole::kHolds);
+    if (count_functions(displacement) > 1) law.add(std::make_unique<LawPartOf<SeparatingForce>>(SeparatingForce{joint.geometry.at("pressure_angle")}));
     add(&joint.friction, LawRole::kFriction);
     add(&joint.stops, LawRole::kStops);
     add(&joint.detent, LawRole::kDetent);
@@ -150,6 +152,7 @@ class Builder {
     data.law = make_law(joint, *info, data.held, data.displacement);
     data.ideal = joint.ideal && model_.simulate.equations == Equations::kRelative;
     for (const ComponentInfo& free : info->free) data.free_mask[free.place] = 1;
+    if (count_functions(data.displacement) > 1) data.free_mask[1] = 1;  // the opening of teeth
     if (const auto length = joint.functions.find("length"); length != joint.functions.end()) {
       if (!std::holds_alternative<Distance>(data.displacement)) refuse(fmt::format("joint {}: a {} joint has no length that is driven", joint.name, joint.type));
       data.displacement = Distance{0};

@@ -1,52 +1,22 @@
 // The WebAssembly kernel against the native one: the same calls, answered by both. PINTLE_ANSWERS is the native program
 // (build/test/bin/pintle-answers), PINTLE_WASM the module; without them there is nothing to compare, and make studio-test sets both.
-import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, readdirSync } from "node:fs";
-import { join, resolve } from "node:path";
+import { join } from "node:path";
 import { beforeAll, describe, expect, it } from "vitest";
 import { startModule, type KernelModule } from "../src/kernel/module";
-import { unpacked } from "../src/kernel/packed";
 import type { AssemblyAnswer, CheckReport, LiveFrame, ReadAnswer, RunAnswer } from "../src/kernel/protocol";
+import { answers, type Call, files, native, root, texts } from "./native-answers";
 
-const root = resolve(__dirname, "../..");
-const answers = process.env.PINTLE_ANSWERS ?? join(root, "build/test/bin/pintle-answers");
 const wasm = process.env.PINTLE_WASM ?? join(root, "build/web/bin/pintle.wasm");
 const demanded = process.env.PINTLE_ANSWERS !== undefined;
 
 /** Of what is computed from the same numbers by a few operations. */
 const kSame = 1e-12;
 
-const texts = new Map(
-  readdirSync(join(root, "mechanisms"))
-    .filter((name) => name.endsWith(".toml"))
-    .map((name) => [name, readFileSync(join(root, "mechanisms", name), "utf8")]),
-);
-const files = Object.fromEntries(
-  readdirSync(join(root, "mechanisms"))
-    .filter((name) => name.endsWith(".csv"))
-    .map((name) => [name, readFileSync(join(root, "mechanisms", name), "utf8")]),
-);
 // Those whose whole run is a matter of a second.
 const runs = [...texts.keys()].filter((name) => !/andrews|n_four_bar_40|n_four_bar_10|n_four_bar_2|five_bar/.test(name));
 
-interface Call {
-  call: string;
-  arguments: Record<string, unknown>;
-}
-
 let module: KernelModule;
-
-function native(calls: Call[]): unknown[] {
-  const input = calls.map((call) => JSON.stringify({ ...call, arguments: { ...call.arguments, files } })).join("\n") + "\n";
-  const out = execFileSync(answers, { input, maxBuffer: 1 << 30 });
-  const values: unknown[] = [];
-  for (let at = 0; at < out.length; ) {
-    const size = Number(out.readBigUInt64LE(at));
-    values.push(unpacked(new Uint8Array(out.subarray(at + 8, at + 8 + size)).buffer).value);
-    at += 8 + size;
-  }
-  return values;
-}
 
 function inWasm(calls: Call[]): unknown[] {
   return calls.map((each) => module.call(each.call, { ...each.arguments, files }).value);

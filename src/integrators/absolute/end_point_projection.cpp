@@ -194,7 +194,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
 
   // What the joints' forces at the last stage do against motions across them, into pulled_.
   void add_pull(const BasicJointPack<S>& joints, const BasicStage<S>& last) {
-    if (joints.map.function) return add_pull_of(joints.first, system_, last.m, last.force[joints.first], pulled_);
+    if (joints.map.functions > 0) return add_pull_of(joints.first, system_, last.m, last.force[joints.first], pulled_);
     L force[S::kDof];
     for (int k = 0; k < S::kDof; ++k) force[k] = joints.load(last.force, k);
     const auto pull = PullAcross<S, L>::of(joints.map, force, joints.forbidden);

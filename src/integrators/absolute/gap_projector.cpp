@@ -45,7 +45,7 @@ bool BasicGapProjector<S>::factorize(double mu, const VecsOf<S>& gap_at, const V
       weight_[j] = response.stiffness + mu * response.damping;
     }
     if (moved) weight_[j] = (*moved)[j].asDiagonal() * weight_[j] * (*moved)[j].asDiagonal();
-    if (linear && !joint_kinematics_[j].map.function)
+    if (linear && joint_kinematics_[j].map.functions == 0)
       PoseBlocks<S, double>::of(joint_kinematics_[j].map, typename S::Vec(weight_[j].diagonal()).data()).add_to(lu_, system_.joints[j].at, slots_[j]);
     else add_gap_blocks(lu_, system_.joints[j].at, slots_[j], joint_kinematics_[j].map, weight_[j]);
   }

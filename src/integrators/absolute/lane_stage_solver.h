@@ -50,7 +50,7 @@ class LaneStageSolver : public BasicStageSolver<S> {
     int first, last;         // of them but the ground
     int general = -1;        // among general_, where the law is more than springs and dampers
     bool linear = false;     // springs and dampers
-    bool function = false;   // its gap is a function of the pose
+    int functions = 0;       // components of its gap that are functions of the pose; 0: it is the pose
     bool loses = false;      // power, as a spring and a damper that no motor drives
     signed char driven = -1;  // component that follows a target
     BlockPattern::Slot slot{};  // of its bodies, A before B
@@ -88,7 +88,7 @@ class LaneStageSolver : public BasicStageSolver<S> {
   void find_balanced_loads();
   void assemble_joint(Joint& joint, const typename S::template GapMap<L>& map, const L (&bias)[S::kDof]);
   typename S::template GapMap<L> find_map(const Joint& joint, L (&bias)[S::kDof]) const;
-  L find_gradient(const Joint& joint, typename S::template GapMap<L>& map) const;
+  void find_gradients(const Joint& joint, typename S::template GapMap<L>& map, L (&bias)[S::kDof]) const;
   void begin_matrix(double h);
   void add_loads(const BasicState<S>& begin, double h);
   void linearize(const BasicState<S>& begin, Joint& joint, const typename S::template GapMap<L>& map);

@@ -55,7 +55,7 @@ void LaneStageSolver<S, N>::linearize(const BasicState<S>& begin, Joint& joint, 
   }
   typename S::Vec force;
   for (int k = 0; k < S::kDof; ++k) force[k] = joint.force[k][i];
-  if (S::kCurved || joint.function) {
+  if (S::kCurved || joint.functions > 0) {
     X weight[S::kDof * S::kDof];
     for (int k = 0; k < S::kDof * S::kDof; ++k) weight[k] = k % (S::kDof + 1) == 0 ? joint.k[k / (S::kDof + 1)] * one + joint.c[k / (S::kDof + 1)] * mu_ : X(0.0);
     add_joint(joint, weight, force);

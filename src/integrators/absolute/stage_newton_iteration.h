@@ -36,7 +36,7 @@ LaneStageSolver<S, N>::LaneStageSolver(const BasicSystem<S>& system, const Radau
     joint.b = body(data.at.b);
     joint.first = std::min(joint.a, joint.b);
     joint.last = joint.a == ground || joint.b == ground ? joint.first : std::max(joint.a, joint.b);
-    joint.function = !std::holds_alternative<BasicSelection<S>>(data.displacement);
+    joint.functions = count_functions(data.displacement);
     joint.F = S::attachment(data.at.F);
     joint.M = S::attachment(data.at.M);
     joint.driven = static_cast<signed char>(data.driven);
@@ -58,7 +58,7 @@ LaneStageSolver<S, N>::LaneStageSolver(const BasicSystem<S>& system, const Radau
     }
     joint.loses = joint.linear && data.driven < 0;
     simple_ = simple_ && joint.loses;
-    poses_ = poses_ && joint.linear && !joint.function;
+    poses_ = poses_ && joint.linear && joint.functions == 0;
     driven = driven || data.driven >= 0;
     if (data.at.a != kGround && data.at.b != kGround) joint.slot = pattern_.slot(joint.a, joint.b);
   }
@@ -243,37 +243,32 @@ template <class S, int N>
 typename S::template GapMap<Lanes<N>> LaneStageSolver<S, N>::find_map(const Joint& joint, L (&bias)[S::kDof]) const {
   const auto pose = S::template PoseGeometry<L>::between(bodies_[joint.a].view(), joint.F, bodies_[joint.b].view(), joint.M);
   typename S::template GapMap<L> map;
-  map.function = joint.function;
+  map.functions = joint.functions;
   map.set(pose);
   pose.biases(bias);
-  if (joint.function) {
-    bias[0] = find_gradient(joint, map);
-    for (int k = 1; k < S::kDof; ++k) bias[k] = L::all(0);
-  }
+  if (joint.functions > 0) find_gradients(joint, map, bias);
   if (joint.driven >= 0) bias[joint.driven] -= target_accel_[joint.index];
   return map;
 }
 
-// A gap that is a function of the pose: its gradient into the map; its convective acceleration is returned. theory/joints
-// Eq. (2.14).
+// A gap of functions of the pose: their gradients into the map, their convective accelerations into `bias`. theory/joints Eq. (2.14).
 template <class S, int N>
-Lanes<N> LaneStageSolver<S, N>::find_gradient(const Joint& joint, typename S::template GapMap<L>& map) const {
+void LaneStageSolver<S, N>::find_gradients(const Joint& joint, typename S::template GapMap<L>& map, L (&bias)[S::kDof]) const {
   const BasicJointData<S>& data = system_.joints[joint.index];
   const Body &A = bodies_[joint.a], &B = bodies_[joint.b];
-  L bias;
+  for (L& b : bias) b = L::all(0);
   for (int s = 0; s < N; ++s) {
     const typename S::RelativePose z = S::RelativePose::between(A.motion(s), data.at.F, B.motion(s), data.at.M);
     std::visit(
         [&](const auto& displacement) {
-          if constexpr (!std::is_same_v<std::decay_t<decltype(displacement)>, BasicSelection<S>>) {
-            const auto g = displacement(z.z);
-            for (int k = 0; k < S::kDof; ++k) map.gradient[k].set(s, g.gradient[k]);
-            bias.set(s, g.gradient.dot(z.bias) + z.rate.dot(g.hessian * z.rate));
-          }
+          if constexpr (!std::is_same_v<std::decay_t<decltype(displacement)>, BasicSelection<S>>)
+            visit_functions(displacement, z.z, [&](int f, const BasicGapFunction<S>& g) {
+              for (int k = 0; k < S::kDof; ++k) map.gradient[f][k].set(s, g.gradient[k]);
+              bias[f].set(s, g.gradient.dot(z.bias) + z.rate.dot(g.hessian * z.rate));
+            });
         },
         data.displacement);
   }
-  return bias;
 }
 
 // The way back: the corrections of bodies and joints, and where they lead. Eq. (3.11). Their size is returned: as body forces, and what

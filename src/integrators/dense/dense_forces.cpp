@@ -22,7 +22,7 @@ class LaneForces : public BasicDenseForces<S> {
       for (int k = 0; k < S::kDof; ++k) loads_on_[b][k] = L::all(system.bodies[b].gravity[k]);
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const BasicJointData<S>& data = system.joints[j];
-      joints_[j].map.function = !std::holds_alternative<BasicSelection<S>>(data.displacement);
+      joints_[j].map.functions = count_functions(data.displacement);
       joints_[j].linear = data.law.as_linear();
       if (data.at.a != kGround && data.at.b != kGround) joints_[j].slot = system.pattern().slot(data.at.a, data.at.b);
     }
@@ -131,11 +131,11 @@ class LaneForces : public BasicDenseForces<S> {
     const typename S::template BodyLanes<kN>&A = bodies_[body(data.at.a)], &B = bodies_[body(data.at.b)];
     const auto pose = S::template PoseGeometry<L>::between(A.view(), S::attachment(data.at.F), B.view(), S::attachment(data.at.M));
     joint.map.set(pose);
-    if (joint.map.function) {
+    if (joint.map.functions > 0) {
       for (int s = 0; s < kN; ++s) {
         const BasicJointKinematics<S> r = pintle::read(data.displacement, S::RelativePose::between(A.motion(s), data.at.F, B.motion(s), data.at.M));
         for (int k = 0; k < S::kDof; ++k) {
-          joint.map.gradient[k].set(s, r.map.gradient[k]);
+          for (int f = 0; f < joint.map.functions; ++f) joint.map.gradient[f][k].set(s, r.map.gradient[f][k]);
           rate[k].set(s, r.rate[k]);
           bias[k].set(s, r.bias[k]);
         }
@@ -162,7 +162,7 @@ class LaneForces : public BasicDenseForces<S> {
       read(j, rate, bias);
       find_weight(j, mu);
       for (int k = 0; k < S::kDof; ++k) joint.rate[k] -= rate[k];
-      if (joint.linear && !joint.map.function) PoseBlocks<S, L>::of(joint.map, joint.weight).add_to(lu_, system_.joints[j].at, joint.slot);
+      if (joint.linear && joint.map.functions == 0) PoseBlocks<S, L>::of(joint.map, joint.weight).add_to(lu_, system_.joints[j].at, joint.slot);
       else add_joint(j);
     }
     lu_.factorize();

@@ -18,13 +18,11 @@ class AugmentedLagrangian final : public ConstraintForces {
   bool complete(State& state) override { return equations_.complete(state); }
   void begin_step(const State& begin, double reach) override;
   void find_forces(double t, const Vecs& q, const Vecs& v, Vecs& F) override;
+  /// Those that the iteration of the last step has found, which are not the joint forces that go with projected accelerations: section 3.
   const Vecs& force() const override { return multipliers_; }
   const Vecs& stiffness() const override { return stiffness_; }
   bool project(double t, const Vecs& q, Vecs& v, Vecs& a) override;
   std::string remark() const override { return equations_.violation_text("augmented Lagrangian"); }
-
-  /// Those that the iteration of the last step has found, which are not the joint forces that go with projected accelerations: section 3.
-  const Vecs& multipliers() const { return multipliers_; }
 
  private:
   void take_over();

@@ -13,6 +13,8 @@ namespace {
 
 using S = Planar;
 
+constexpr int kMostFollowing = 50;    // passes over forces that follow from reactions; the second one changes nothing where the teeth's centres are held
+constexpr double kFollowed = 1e-12;   // of their size: they change no more
 constexpr int kRefinements = 1;       // of the multipliers, against the accelerations they give
 constexpr int kMaxClosing = 12;       // Newton iterations on the loops
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
@@ -61,6 +63,8 @@ IdealEquations::IdealEquations(const System& system, Equations equations, const 
         rows_.push_back({j, k});
         n_redundant_ += !has_penalties() && system.joints[j].redundant[k];
       }
+  for (int j = 0; j < system.n_joints(); ++j)
+    if (system.joints[j].ideal && system.joints[j].law.follows()) following_.push_back(j);
   if (rows_.size() > kMostModes && n_redundant_ > 0) {
     std::erase_if(rows_, [&](const Row& row) { return system.joints[row.joint].redundant[row.component]; });
     n_redundant_ = 0;
@@ -202,20 +206,52 @@ void IdealEquations::find_applied_forces(State& state) {
   for (int j = 0; j < system_.n_joints(); ++j) add_force(system_.joints[j].at, r_[j], state.force[j], state.a);
 }
 
-void IdealEquations::add_constraint_forces(const Vecs& force, Vecs& on_bodies) const {
+void IdealEquations::add_constraint_forces(Vecs& force, Vecs& on_bodies) const {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Placement& at = system_.joints[rows_[i].joint].at;
     for (const auto& [body, side] : {std::pair{at.a, 0}, std::pair{at.b, 1}})
       if (body != kGround) on_bodies[body] += jacobian(i, side).transpose() * force[rows_[i].joint][rows_[i].component];
   }
+  for (const int j : following_) {
+    const S::Vec beside = system_.joints[j].law.following(force[j]);
+    add_force(system_.joints[j].at, r_[j], beside, on_bodies);
+    force[j] += beside;
+  }
+}
+
+void IdealEquations::find_reactions(State& state) const {
+  const Eigen::VectorXd multipliers = add_reactions(state.a);
+  for (std::size_t i = 0; i < rows_.size(); ++i) state.force[rows_[i].joint][rows_[i].component] = multipliers[i];
+}
+
+// From the accelerations without reactions. The reactions on teeth hardly change with what the teeth do to bearings, so that this converges at once.
+bool IdealEquations::find_following_forces(const Vecs& applied, State& state) const {
+  for (int pass = 0; pass < kMostFollowing; ++pass) {
+    double change = 0, size = 0;
+    state.a = applied;
+    for (const int j : following_) {
+      const JointData& joint = system_.joints[j];
+      S::Vec held = state.force[j].cwiseProduct(S::Vec(S::Vec::Ones() - joint.free_mask));
+      const S::Vec beside = joint.law.following(held);
+      change = std::max(change, (held + beside - state.force[j]).cwiseAbs().maxCoeff());
+      size = std::max(size, beside.cwiseAbs().maxCoeff());
+      state.force[j] = held + beside;
+      for (const auto& [body, G] : {std::pair{joint.at.a, r_[j].GA()}, std::pair{joint.at.b, r_[j].GB()}})
+        if (body != kGround) state.a[body] += (G.transpose() * beside).cwiseQuotient(system_.bodies[body].mass);
+    }
+    find_reactions(state);
+    if (change <= kFollowed * size) return true;
+  }
+  return false;
 }
 
 bool IdealEquations::complete(State& state) {
   find_applied_forces(state);
   for (int i = 0; i < system_.n_bodies(); ++i) state.a[i] = state.a[i].cwiseQuotient(system_.bodies[i].mass);
   if (!factorize()) return false;
-  const Eigen::VectorXd multipliers = add_reactions(state.a);
-  for (std::size_t i = 0; i < rows_.size(); ++i) state.force[rows_[i].joint][rows_[i].component] = multipliers[i];
+  const Vecs applied = following_.empty() ? Vecs{} : state.a;
+  find_reactions(state);
+  if (!following_.empty() && !find_following_forces(applied, state)) return false;
   find_gap_accelerations(system_, r_, state);
   find_powers(system_, m_, state);
   return state.a.empty() || std::isfinite(state.a[0].sum());

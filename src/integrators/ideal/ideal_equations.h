@@ -46,8 +46,8 @@ class IdealEquations {
   bool complete(State& state);
   /// Of `complete` only what needs no multiplier: gaps, forces of joints that have a law, and in state.a the forces on the bodies with them.
   void find_applied_forces(State& state);
-  /// on_bodies += G' f, of the components that ideal joints keep, where `find_applied_forces` was asked last.
-  void add_constraint_forces(const Vecs& force, Vecs& on_bodies) const;
+  /// on_bodies += G' f, of the components that ideal joints keep and of what follows from them, where `find_applied_forces` was asked last.
+  void add_constraint_forces(Vecs& force, Vecs& on_bodies) const;
   /// Gaps are those at this position and motion from now on.
   void look_at(double t, const Vecs& q, const Vecs& v) { read(t, q, v); }
   const Planar::Vec& gap(int joint) const { return r_[joint].gap; }
@@ -94,10 +94,13 @@ class IdealEquations {
   Eigen::VectorXd rates(const Vecs& x) const;                        // G x
   void push(const Eigen::VectorXd& multipliers, Vecs& x) const;      // x += M^-1 G' multipliers
   void fill_joints(State& state);
+  void find_reactions(State& state) const;
+  bool find_following_forces(const Vecs& applied, State& state) const;
   Eigen::VectorXd add_reactions(Vecs& a) const;                      // a += M^-1 G' f; f
   const Eigen::RowVector3d& jacobian(std::size_t row, int side) const { return jacobian_[2 * row + side]; }
 
   const System& system_;
+  std::vector<int> following_;          // ideal joints part of whose force follows from the reaction: teeth with a pressure angle
   Equations equations_;
   PenaltySettings penalty_;
   std::vector<Row> rows_;

@@ -152,7 +152,7 @@ Error augmented_error(const Model& model, const State& truth, const AlphaWeights
   AlphaStepper stepper(system, weights, 1e6, std::move(kept));
   go_to_end(stepper, sample::plain_start(model, system), h);
   State iteration = stepper.state();
-  iteration.force = inside.multipliers();
+  iteration.force = inside.force();
   return {distance(stepper.state(), truth), distance(iteration, truth)};
 }
 

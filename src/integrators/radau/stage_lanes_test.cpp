@@ -33,18 +33,23 @@ GapMap<T> map_of(const PoseGeometry<T>& pose) {
   return map;
 }
 
-// Gradient of a gap that is a function of the pose.
-bool find_gradient(const JointDisplacement& displacement, const Vec& z, Vec& gradient) {
-  return std::visit(
+// Gradients of a gap of functions of the pose, into a lane of the map.
+template <class Map>
+void find_gradients(const JointDisplacement& displacement, const Vec& z, int lane, Map& map) {
+  map.functions = count_functions(displacement);
+  std::visit(
       [&](const auto& p) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(p)>, Selection>) return false;
-        else return gradient = p(z).gradient, true;
+        if constexpr (!std::is_same_v<std::decay_t<decltype(p)>, Selection>)
+          visit_functions(p, z, [&](int f, const GapFunction& g) {
+            for (int k = 0; k < 3; ++k) map.gradient[f][k].set(lane, g.gradient[k]);
+          });
       },
       displacement);
 }
 
 const std::vector<JointDisplacement>& every_kind_of_displacement() {
-  static const std::vector<JointDisplacement> all{Selection{}, Distance{0.8}, Mesh{0.3, 0.7, 1, 0}, Mesh{0.3, 0.7, -1, 0.1}, RackMesh{0.4, 1, 0}, RackMesh{0.4, -1, 0.2}};
+  static const std::vector<JointDisplacement> all{Selection{}, Distance{0.8}, Mesh{0.3, 0.7, 1, 0}, Mesh{0.3, 0.7, -1, 0.1}, RackMesh{0.4, 1, 0}, RackMesh{0.4, -1, 0.2},
+                                                  Mesh{0.3, 0.7, 1, 0, true}, Mesh{0.3, 0.7, -1, 0.1, true}, RackMesh{0.4, -1, 0.2, true}};
   return all;
 }
 
@@ -67,17 +72,11 @@ struct Poses {
     }
     pose = PoseGeometry<Lanes<N>>::between(A.view(), couple[0].F, B.view(), couple[0].M);
     map = map_of(pose);
-    for (int i = 0; i < N; ++i) {
-      Vec gradient;
-      map.function = find_gradient(displacement, couple[i].pose().z, gradient);
-      for (int k = 0; k < 3 && map.function; ++k) map.gradient[k].set(i, gradient[k]);
-    }
+    for (int i = 0; i < N; ++i) find_gradients(displacement, couple[i].pose().z, i, map);
   }
   // The map at one of them.
   GapMap<double> frozen(int i) const {
-    GapMap<double> one{map.c[i], map.s[i], map.ax[i], map.ay[i], map.bx[i], map.by[i], {}, map.function};
-    for (int k = 0; k < 3 && map.function; ++k) one.gradient[k] = map.gradient[k][i];
-    return one;
+    return map.lane(i);
   }
 };
 

@@ -123,6 +123,18 @@ void check_geometry(ModelReading& reading, const JointTypeInfo& type, const Reco
   reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : fault.key, fault.why, fault.remedy);
 }
 
+// What is wrong with points that the model does not state here is wrong with the table that gives them: "displacement" is its x, "force" its y.
+void blame_the_table(const LawInfo& law, const Record& record, LawFault& fault) {
+  if (record.states(fault.key)) return;
+  for (const KeyInfo& key : law.keys) {
+    const auto point = std::find(key.points.begin(), key.points.end(), fault.key);
+    if (point == key.points.end() || !record.states(key.key)) continue;
+    fault.key = key.key;
+    fault.why = fmt::format("its {}: {}", point == key.points.begin() ? 'x' : 'y', fault.why);
+    return;
+  }
+}
+
 // Whether the law suits the joint, and its values, when none is wrong by itself, each other.
 void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const Joint& joint, const LawChoice& choice, bool complete) {
   if (!suits(law, type.word)) {
@@ -142,8 +154,9 @@ void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& 
   setting.values = &choice.values;
   setting.keys = law.keys;
   if (law.fault == nullptr || !complete) return;
-  const LawFault fault = law.fault(setting);
+  LawFault fault = law.fault(setting);
   if (fault.key.empty()) return;
+  blame_the_table(law, record, fault);
   const Value* value = record.find(fault.key);
   reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : fault.key, fault.why, fault.remedy);
 }
@@ -210,7 +223,15 @@ void read_bearing(ModelReading& reading, const JointTypeInfo& type, const Entry&
   }
   const Record record = reading.records.read(reading.spec("joint.*.bearing"), entry->value, entry->key_spot, path);
   out = Bearing{record.word("type"), record.maybe_number("dynamic_load_rating"), record.maybe_number("static_load_rating"), record.maybe_number("fatigue_load_limit"),
-                record.maybe_number("pin_diameter"), record.maybe_number("pin_length")};
+                record.maybe_number("pin_diameter"), record.maybe_number("pin_length"), record.maybe_number("wear_coefficient")};
+}
+
+// What [defaults.joint] states, itself or by the table that it names, no joint must.
+void do_without(const LawInfo& law, const Record& defaults, TableSpec& spec) {
+  const auto given = [&](const std::string& key) {
+    return defaults.states(key) || std::any_of(law.keys.begin(), law.keys.end(), [&](const KeyInfo& info) { return defaults.states(info.key) && std::find(info.points.begin(), info.points.end(), key) != info.points.end(); });
+  };
+  for (KeySpec& key : spec.keys) key.required = key.required && !given(key.key);
 }
 
 void read_joint(ModelReading& reading, const Entry& entry, const Record& defaults) {
@@ -231,8 +252,9 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
     return;
   }
   const std::string kind = "a " + std::string(type->word) + " joint";
-  const Record record = reading.records.read(joint_spec(reading, entry.value, type, law, friction == nullptr ? "" : friction_word, stops == nullptr ? "" : stops_word,
-                                                         detent == nullptr ? "" : detent_word), entry.value, entry.key_spot, path, kind);
+  TableSpec spec = joint_spec(reading, entry.value, type, law, friction == nullptr ? "" : friction_word, stops == nullptr ? "" : stops_word, detent == nullptr ? "" : detent_word);
+  do_without(*law, defaults, spec);
+  const Record record = reading.records.read(spec, entry.value, entry.key_spot, path, kind);
   Joint joint;
   joint.name = entry.key;
   joint.type = type->word;

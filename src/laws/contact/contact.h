@@ -10,6 +10,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -31,6 +32,8 @@ double hysteresis_of(ContactModel model, double restitution);
 double hertz_stiffness(double modulus, double poisson, double journal, double bearing);
 
 struct ContactForce {
+  static constexpr int kBorders = 3, kTouch = 0, kLetGo = 1;
+  static constexpr std::array<int, kBorders> kDirections{1, -1, 0};
   double stiffness = 1e10;     // K [N/m^n]
   double exponent = 1.5;       // n [-]
   double hysteresis = 0;       // h [-]
@@ -78,12 +81,12 @@ struct ContactForce {
     value[2] = touching ? pressing(depth, rate, approach) : 1;
   }
   static constexpr std::string_view border_name(int border, bool rising) {
-    return border == 0 ? "touch" : border == 1 ? "let-go" : rising ? "force returns" : "force vanishes";
+    return border == kTouch ? "touch" : border == kLetGo ? "let-go" : rising ? "force returns" : "force vanishes";
   }
   /// What becomes of the approach speed where that border has been crossed, at this rate.
   void cross(int border, double rate, double& approach) const {
-    if (border == 0) approach = std::max(rate, least_approach);
-    if (border == 1) approach = 0;
+    if (border == kTouch) approach = std::max(rate, least_approach);
+    if (border == kLetGo) approach = 0;
   }
   /// The stiffness at a depth, for what only asks how stiff a joint is [N/m].
   double stiffness_at(double depth) const { return stiffness * exponent * std::pow(depth, exponent - 1); }
@@ -112,21 +115,21 @@ struct ContactMotion {
   T depth, rate, slip;  // overlap, negative while apart; d/dt of it; speed along each other [m, m/s, m/s]
 };
 
-/// What acts between them, all zero while they are apart.
+/// What acts between them, all zero while they are apart; friction is that of who calls.
 template <class T>
 struct PointForces {
   T normal, friction;  // N >= 0 unless they attract; along the slip and against it [N]
   T energy, loss;      // [J, W]
 };
 template <class T>
-PointForces<T> point_forces(const ContactForce& contact, const RampedFriction& friction, const ContactMotion<T>& at, const T& approach) {
+PointForces<T> point_forces(const ContactForce& contact, const ContactMotion<T>& at, const T& approach) {
   using namespace law_math;
   const T none(0.0), touching = where_positive(approach, at.depth, T(-1.0)), depth = where_positive(touching, at.depth, none);
   PointForces<T> f;
   f.normal = where_positive(touching, contact.force(depth, at.rate, approach), none);
-  f.friction = friction.force(f.normal, at.slip);
+  f.friction = none;
   f.energy = contact.energy(depth);
-  f.loss = (f.normal - contact.elastic_force(depth)) * at.rate - f.friction * at.slip;
+  f.loss = (f.normal - contact.elastic_force(depth)) * at.rate;
   return f;
 }
 

@@ -37,12 +37,16 @@ constexpr KeyInfo kFriction{.key = "friction_coefficient", .unit = "", .meaning 
 constexpr KeyInfo kRampStart{.key = "friction_start_speed", .unit = "m/s", .meaning = "slip below which there is no friction"};
 constexpr KeyInfo kRampEnd{.key = "friction_full_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip above which there is all of it"};
 
+constexpr KeyInfo kStiction{.key = "static_friction", .unit = "", .minimum_exclusive = true, .otherwise = "no stiction: friction on a ramp", .meaning = "coefficient at which slip begins, not below friction_coefficient: with it surfaces stick that do not slip"};
+constexpr KeyInfo kStickStiffness{.key = "stick_stiffness", .unit = "N/m", .fallback = 1e8, .minimum_exclusive = true, .meaning = "of surfaces that stick, along each other"};
+constexpr KeyInfo kStickDamping{.key = "stick_damping", .unit = "N*s/m", .fallback = 3e3, .meaning = "the same per speed"};
+
 constexpr KeyInfo kGuideLength{.key = "guide_length", .unit = "m", .fallback = 0.05, .minimum_exclusive = true, .meaning = "of a slider: between its two ends, which touch the guide"};
 
-constexpr std::array<KeyInfo, 16> kClearanceKeys{{kClearance, kPinRadius, kGuideLength, kModel, kRestitution, kStiffness, kExponent, kModulus, kPoisson, kFixedDamping, kViscous, kLeastApproach, kAttracts,
-                                                  kFriction, kRampStart, kRampEnd}};
-constexpr std::array<KeyInfo, 14> kEdgeKeys{{kRollerRadius, kModel, kRestitution, kStiffness, kExponent, kModulus, kPoisson, kFixedDamping, kViscous, kLeastApproach, kAttracts,
-                                             kFriction, kRampStart, kRampEnd}};
+constexpr std::array<KeyInfo, 19> kClearanceKeys{{kClearance, kPinRadius, kGuideLength, kModel, kRestitution, kStiffness, kExponent, kModulus, kPoisson, kFixedDamping, kViscous, kLeastApproach, kAttracts,
+                                                  kFriction, kStiction, kRampStart, kRampEnd, kStickStiffness, kStickDamping}};
+constexpr std::array<KeyInfo, 17> kEdgeKeys{{kRollerRadius, kModel, kRestitution, kStiffness, kExponent, kModulus, kPoisson, kFixedDamping, kViscous, kLeastApproach, kAttracts,
+                                             kFriction, kStiction, kRampStart, kRampEnd, kStickStiffness, kStickDamping}};
 
 constexpr KeyInfo kBacklash{.key = "backlash", .unit = "m", .minimum_exclusive = true, .required = true, .meaning = "circumferential play between the flanks, on the pitch circles"};
 constexpr KeyInfo kToothStiffness{.key = "contact_stiffness", .unit = "", .minimum_exclusive = true, .required = true, .meaning = "of the teeth along the pitch circles: force at a depth of 1 m [N/m^contact_exponent]"};
@@ -62,7 +66,9 @@ LawFault contact_fault(const LawSetting& at) {
   const double start = at.number("friction_start_speed"), end = at.number("friction_full_speed");
   const bool rubs = start > 0 || end > 0;  // teeth have no such keys
   if (rubs && !(end > start)) return {"friction_full_speed", fmt::format("{:g} m/s is not above friction_start_speed, {:g} m/s", end, start), "a larger speed"};
-  if (at.joint_type == "cam" && at.number("friction_coefficient") > 0) return {"friction_coefficient", "a cam and its follower touch without friction", "delete it"};
+  if (const double stuck = at.number("static_friction"); stuck > 0 && stuck < at.number("friction_coefficient"))
+    return {"static_friction", fmt::format("{:g} is below friction_coefficient, {:g}: what slips would be held more firmly than what rests", stuck, at.number("friction_coefficient")), "static_friction not below friction_coefficient"};
+  if (at.joint_type == "cam" && (at.number("friction_coefficient") > 0 || at.number("static_friction") > 0)) return {"friction_coefficient", "a cam and its follower touch without friction", "delete it"};
   const double poisson = at.number("poisson_ratio");
   if (poisson > 0.5) return {"poisson_ratio", fmt::format("{:g} is above 0.5, that of what keeps its volume", poisson), "0.3 for metals"};
   const bool linear = kDamping.model_of(at) == ContactModel::kViscous, stated = at.number("contact_stiffness") > 0;
@@ -81,13 +87,16 @@ ContactForce contact_of(const LawSetting& at, double bearing) {
   return contact;
 }
 
-RampedFriction friction_of(const LawSetting& at) { return {at.number("friction_coefficient"), at.number("friction_start_speed"), at.number("friction_full_speed")}; }
+void set_friction(const LawSetting& at, RubbingContact& law) {
+  law.friction = {at.number("friction_coefficient"), at.number("friction_start_speed"), at.number("friction_full_speed")};
+  if (const double stuck = at.number("static_friction"); stuck > 0) law.grip = StickSlip{law.friction.coefficient, stuck, 0, at.number("stick_stiffness"), at.number("stick_damping")};
+}
 
 void set_contact(const LawSetting& at, PinContact& law) {
   law.radius = at.number("pin_radius");
   law.clearance = at.number("clearance");
   law.contact = contact_of(at, law.shape == PinContact::Shape::kBush ? law.radius + law.clearance : kFlat);
-  law.friction = friction_of(at);
+  set_friction(at, law);
 }
 
 void make_clearance(const LawSetting& at, Law& law) {
@@ -96,7 +105,7 @@ void make_clearance(const LawSetting& at, Law& law) {
     guide.clearance = at.number("clearance");
     guide.length = at.number("guide_length");
     guide.contact = contact_of(at, kFlat);
-    guide.friction = friction_of(at);
+    set_friction(at, guide);
     law.add(std::make_unique<LawPartOf<GuideContactLaw>>(guide));
     return;
   }

@@ -29,7 +29,7 @@ struct GapContactLaw {
   int n_states() const { return 1; }
   template <class T>
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
-    const PointForces<T> f = point_forces<T>(contact, {}, motion(in), in.state[0]);
+    const PointForces<T> f = point_forces<T>(contact, motion(in), in.state[0]);
     out.force[0] = f.normal;
     out.energy = f.energy;
     out.loss = f.loss;
@@ -53,7 +53,7 @@ struct GapContactLaw {
     return all;
   }
   void observe(const LawInput<double>& in, const Planar::Vec&, double* value) const {
-    value[0] = point_forces<double>(contact, {}, motion(in), in.state[0]).normal;
+    value[0] = point_forces<double>(contact, motion(in), in.state[0]).normal;
     value[1] = -in.gap[0];
     value[2] = in.state[0];
   }

@@ -3,7 +3,7 @@
 //   x_i = x + l_i cos a,  y_i = y + l_i sin a,  l = (L/2, -L/2)      theory/contact Eq. (4.4)
 //   d_i = |y_i| - c,  n_i = sign y_i,  v_i = x_i'                    Eq. (4.5)
 //
-// Each end has a contact of its own, with its own approach speed as a state; force and friction push at that point.
+// Each end has a contact of its own, with its own states; force and friction push at that point.
 #pragma once
 
 #include <array>
@@ -12,16 +12,14 @@
 #include <string>
 #include <string_view>
 
-#include "laws/contact/contact.h"
+#include "laws/contact/rubbing_contact.h"
 #include "laws/law_part.h"
 
 namespace pintle {
 
-struct GuideContactLaw {
+struct GuideContactLaw : RubbingContact {
   static constexpr std::string_view kWord = "clearance";
   static constexpr bool kStartsFree = true;
-  ContactForce contact;
-  RampedFriction friction;
   double clearance = 1e-4;  // c, to either side [m]
   double length = 0.05;     // L, between the ends [m]
 
@@ -34,12 +32,13 @@ struct GuideContactLaw {
     return law;
   }
 
-  int n_states() const { return kEnds; }
+  int n_states() const { return kEnds * RubbingContact::n_states(); }
   template <class T>
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
     for (int i = 0; i < kEnds; ++i) {
       const End<T> end = find(in, i);
-      const PointForces<T> f = point_forces<T>(contact, friction, end, in.state[i]);
+      const int first = i * RubbingContact::n_states();
+      const PointForces<T> f = forces<T>(end, in.state + first, out.state_rate + first);
       const T across = -(f.normal * end.side);
       out.force[0] += f.friction;
       out.force[1] += across;
@@ -49,24 +48,21 @@ struct GuideContactLaw {
     }
   }
   void rest(const LawInput<double>& in, double* state) const {
-    for (int i = 0; i < kEnds; ++i) state[i] = find(in, i).depth > 0 ? contact.least_approach : 0;
+    for (int i = 0; i < kEnds; ++i) RubbingContact::rest(find(in, i), state + i * RubbingContact::n_states());
   }
 
-  int n_borders() const { return 3 * kEnds; }
-  static constexpr std::array<int, 6> kDirections{1, -1, 0, 1, -1, 0};
-  std::span<const int> border_directions() const { return kDirections; }
+  int n_borders() const { return kEnds * RubbingContact::n_borders(); }
+  int border_direction(int border) const { return RubbingContact::border_direction(border % RubbingContact::n_borders()); }
   void borders(const LawInput<double>& in, double* value) const {
-    for (int i = 0; i < kEnds; ++i) {
-      const End<double> end = find(in, i);
-      contact.borders(end.depth, end.rate, in.state[i], value + 3 * i);
-    }
+    for (int i = 0; i < kEnds; ++i) RubbingContact::borders(find(in, i), in.state + i * RubbingContact::n_states(), value + i * RubbingContact::n_borders());
   }
-  static std::string border_name(int border, bool rising) {
-    return std::string(border < 3 ? "front " : "rear ") + std::string(ContactForce::border_name(border % 3, rising));
+  std::string border_name(int border, bool rising) const {
+    const int n = RubbingContact::n_borders();
+    return std::string(border < n ? "front " : "rear ") + std::string(RubbingContact::border_name(border % n, rising));
   }
   void cross(int border, const LawInput<double>& in, double* state) const {
-    const int i = border / 3;
-    contact.cross(border % 3, find(in, i).rate, state[i]);
+    const int n = RubbingContact::n_borders(), i = border / n;
+    RubbingContact::cross(border % n, find(in, i), state + i * RubbingContact::n_states());
   }
 
   Planar::Vec engaged_stiffness() const {
@@ -85,7 +81,7 @@ struct GuideContactLaw {
     value[4] = 0;
     for (int i = 0; i < kEnds; ++i) {
       const End<double> end = find(in, i);
-      value[i] = point_forces<double>(contact, friction, end, in.state[i]).normal;
+      value[i] = forces(end, in.state + i * RubbingContact::n_states()).normal;
       value[2 + i] = end.depth;
       value[4] += value[i] * std::abs(end.slip);
     }

@@ -7,7 +7,7 @@
 //   on the second body: force -N n + F_t t, couple R F_t; F_t against the slip v_t                 Eq. (4.3)
 //
 // The pin, of radius R, is on the second body. Force and slip are those of one point, at the pin's surface, so that nothing is missing in the
-// balance of moments. Its state is the approach speed while they touch, 0 while they are apart; touch and let-go are borders.
+// balance of moments.
 #pragma once
 
 #include <algorithm>
@@ -16,45 +16,33 @@
 #include <span>
 #include <string_view>
 
-#include "laws/contact/contact.h"
+#include "laws/contact/rubbing_contact.h"
 #include "laws/law_part.h"
 
 namespace pintle {
 
-struct PinContact {
+struct PinContact : RubbingContact {
   static constexpr bool kStartsFree = true;
   enum class Shape { kBush, kSlot, kEdge };
   Shape shape = Shape::kBush;
-  ContactForce contact;
-  RampedFriction friction;
   double clearance = 1e-4;  // c, radial, or to either side [m]
   double radius = 0.01;     // R [m]
 
-  int n_states() const { return 1; }
   template <class T>
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
     const At<T> at = find(in);
-    const PointForces<T> f = point_forces<T>(contact, friction, at, in.state[0]);
+    const PointForces<T> f = forces<T>(at, in.state, out.state_rate);
     out.force[0] = -(f.normal * at.nx) - f.friction * at.ny;
     out.force[1] = -(f.normal * at.ny) + f.friction * at.nx;
     out.force[2] = radius * f.friction;
     out.energy = f.energy;
     out.loss = f.loss;
   }
-  /// One that starts in contact has not approached: the floor stands for its speed.
-  void rest(const LawInput<double>& in, double* state) const { state[0] = find(in).depth > 0 ? contact.least_approach : 0; }
+  void rest(const LawInput<double>& in, double* state) const { RubbingContact::rest(find(in), state); }
+  void borders(const LawInput<double>& in, double* value) const { RubbingContact::borders(find(in), in.state, value); }
+  void cross(int border, const LawInput<double>& in, double* state) const { RubbingContact::cross(border, find(in), state); }
 
-  int n_borders() const { return 3; }
-  static constexpr std::array<int, 3> kDirections{1, -1, 0};
-  std::span<const int> border_directions() const { return kDirections; }
-  void borders(const LawInput<double>& in, double* value) const {
-    const At<double> at = find(in);
-    contact.borders(at.depth, at.rate, in.state[0], value);
-  }
-  static constexpr std::string_view border_name(int border, bool rising) { return ContactForce::border_name(border, rising); }
-  void cross(int border, const LawInput<double>& in, double* state) const { contact.cross(border, find(in).rate, state[0]); }
-
-  double lever() const { return friction.coefficient > 0 ? radius : 0; }
+  double lever() const { return rubs() ? radius : 0; }
   /// What stands apart from an edge stays apart when a mechanism is assembled; a pin with clearance is put into the middle.
   Planar::Vec engaged_stiffness() const {
     if (shape == Shape::kEdge) return Planar::Vec::Zero();
@@ -67,22 +55,24 @@ struct PinContact {
     return find(in).depth;
   }
   std::span<const LawColumn> columns() const {
-    static const std::array<LawColumn, 6> all{{{"contact_force", "N", "normal force of the contact"},
+    static const std::array<LawColumn, 7> all{{{"contact_force", "N", "normal force of the contact"},
                                                {"penetration", "m", "depth by which the surfaces overlap; negative while they are apart"},
                                                {"contact_angle", "rad", "direction of the contact's normal, from the x axis of the first marker"},
                                                {"approach_speed", "m/s", "speed at which this contact began; 0 while apart"},
                                                {"slip", "m/s", "speed of the pin's surface along the other one"},
-                                               {"wear_power", "W", "normal force times speed of slip: its integral is what Archard's law multiplies"}}};
-    return all;
+                                               {"wear_power", "W", "normal force times speed of slip: its integral is what Archard's law multiplies"},
+                                               {"stuck", "", "1 while the surfaces stick, 0 while they slip or are apart"}}};
+    return std::span(all).first(grip ? 7 : 6);
   }
   void observe(const LawInput<double>& in, const Planar::Vec&, double* value) const {
     const At<double> at = find(in);
-    value[0] = point_forces<double>(contact, friction, at, in.state[0]).normal;
+    value[0] = forces(at, in.state).normal;
     value[1] = at.depth;
     value[2] = std::atan2(at.ny, at.nx);
     value[3] = in.state[0];
     value[4] = at.slip;
     value[5] = value[0] * std::abs(at.slip);
+    if (grip) value[6] = sticks(in.state) ? 1 : 0;
   }
 
  private:

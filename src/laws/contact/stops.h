@@ -32,7 +32,7 @@ struct StopContact {
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
     for (int side = 0; side < kSides; ++side) {
       if (!stands(side)) continue;
-      const PointForces<T> f = point_forces<T>(contact, {}, find(in, side), in.state[side]);
+      const PointForces<T> f = point_forces<T>(contact, find(in, side), in.state[side]);
       out.force[free] -= sign(side) * f.normal;                                                                  // (6.2)
       out.energy += f.energy;
       out.loss += f.loss;

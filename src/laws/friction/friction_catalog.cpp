@@ -15,7 +15,7 @@ namespace {
 // Of friction by any law.
 constexpr KeyInfo kKinetic{.key = "friction_coefficient", .unit = "", .fallback = 0.1, .minimum_exclusive = true, .meaning = "kinetic friction: of steady fast slip"};
 constexpr KeyInfo kStatic{.key = "static_friction", .unit = "", .fallback = 0.15, .minimum_exclusive = true, .meaning = "coefficient at which slip begins; not below the kinetic one"};
-constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .minimum_exclusive = true, .meaning = "where a pin rubs"};
+constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .minimum_exclusive = true, .otherwise = "a pin has none without it", .meaning = "where a pin rubs; of no other joint"};
 constexpr KeyInfo kGuide{.key = "guide_length", .unit = "m", .meaning = "of a slider, centred on the second marker: its moment presses the edges; 0: only the force across does"};
 constexpr KeyInfo kStribeck{.key = "stribeck_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip at which friction has fallen most of the way to kinetic"};
 constexpr KeyInfo kViscous{.key = "viscous_friction", .unit = "s/m", .meaning = "friction per slip speed and load"};
@@ -50,7 +50,10 @@ constexpr std::array<KeyInfo, 9> kStribeckKeys{{
 }};
 
 constexpr std::string_view kCylinder = "cylinder";
-constexpr std::array<std::string_view, 3> kRubbing{"revolute", "prismatic", kCylinder};
+constexpr std::array<std::string_view, 4> kRubbing{"revolute", "prismatic", "slot", kCylinder};
+
+// Turns and does not slide.
+bool is_pin(const LawSetting& at) { return at.free[2] && !at.free[0]; }
 
 LawFault friction_fault(const LawSetting& at) {
   if (at.number("static_friction") < at.number("friction_coefficient"))
@@ -58,13 +61,14 @@ LawFault friction_fault(const LawSetting& at) {
             "static_friction not below friction_coefficient"};
   if (at.joint_type != kCylinder && at.number("seal_area") > 0) return {"seal_area", "only cylinders have seals", "delete it; friction_preload is a constant load"};
   if (at.joint_type == kCylinder && at.number("guide_length") > 0) return {"guide_length", "the guide of a cylinder's rod carries no load: the force acts along it", "delete it"};
+  if (is_pin(at) && !(at.number("pin_radius") > 0)) return {"pin_radius", "a pin rubs at its radius, which is not stated", "pin_radius = \"10 mm\", or what it is"};
   if (at.free[2] && at.number("guide_length") > 0) return {"guide_length", "a pin transmits no moment that could press the edges of a guide", "delete it"};
   return {};
 }
 
 // What its law has in common with others.
 void set_friction(const LawSetting& at, Friction& friction) {
-  const bool pin = at.free[2];
+  const bool pin = is_pin(at);
   friction.free = pin ? 2 : 0;
   friction.radius = pin ? at.number("pin_radius") : 1;
   friction.guide = pin ? 0 : at.number("guide_length");

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "results/plots/plot_ticks.h"
 #include "results/text_table.h"
@@ -34,7 +36,45 @@ void add_curves(const Trajectory& run, const LoadSummary& joint, const std::stri
   plot.panels[2].curves.push_back(std::move(second));
 }
 
+const JointWear& find_wear(const Trajectory& run, const LoadSummary& joint) {
+  const auto found = std::find_if(run.wear.begin(), run.wear.end(), [&joint](const JointWear& one) { return one.joint == joint.name; });
+  if (found != run.wear.end()) return *found;
+  throw PlotRequestError(fmt::format("joint \"{}\" has no clearance: only pins with law = \"clearance\" tell their wear.", joint.name));
+}
+
+// Sectors as arcs about the centre.
+PolarCurve around(const std::string& label, const std::vector<double>& sectors) {
+  constexpr int kPerSector = 5;
+  PolarCurve curve{label, {}, {}};
+  const double width = 2 * std::numbers::pi / static_cast<double>(sectors.size());
+  for (std::size_t i = 0; i <= sectors.size(); ++i)
+    for (int k = 0; k <= kPerSector && (i < sectors.size() || k == 0); ++k) {
+      const double radius = sectors[i % sectors.size()], angle = width * (static_cast<double>(i) + static_cast<double>(k) / kPerSector);
+      curve.x.push_back(radius * std::cos(angle));
+      curve.y.push_back(radius * std::sin(angle));
+    }
+  return curve;
+}
+
 }  // namespace
+
+PolarPlot make_wear_plot(const std::vector<PolarRun>& runs, const std::string& joint) {
+  const RunRecord& leading = *runs.front().run;
+  const LoadSummary& pin = find_pin(leading.trajectory, joint);
+  PolarPlot plot;
+  plot.title = fmt::format("Joint {}: wear of bush and pin", joint);
+  plot.subtitle = fmt::format("{}normal force times way of slip, per {:g} deg", leading.stamp.model_name.empty() ? "" : leading.stamp.model_name + " – ",
+                              360.0 / static_cast<double>(find_wear(leading.trajectory, pin).bush.size()));
+  plot.unit = "J";
+  plot.panels = {{"Bush on " + pin.first_body, "axes of its marker", {}}, {"Pin on " + pin.second_body, "axes of its marker", {}}};
+  for (const PolarRun& one : runs) {
+    const JointWear& wear = find_wear(one.run->trajectory, find_pin(one.run->trajectory, joint));
+    const std::string label = runs.size() == 1 ? "" : one.name;
+    plot.panels[0].curves.push_back(around(label, wear.bush));
+    plot.panels[1].curves.push_back(around(label, wear.pin));
+  }
+  return plot;
+}
 
 PolarPlot make_polar_plot(const std::vector<PolarRun>& runs, const std::string& joint) {
   const RunRecord& leading = *runs.front().run;

@@ -1,4 +1,4 @@
-// From runs to the polar load diagram of a pin.
+// From runs to the polar load diagram of a pin, and to that of its wear.
 #pragma once
 
 #include <string>
@@ -19,5 +19,9 @@ struct PolarRun {
 /// The force of a revolute joint on its second body in world axes, on its first body in the axes of the marker there, and on its second body
 /// in the axes of the marker there; each run is a path. The bodies are those of the first run. Throws PlotRequestError.
 PolarPlot make_polar_plot(const std::vector<PolarRun>& runs, const std::string& joint);
+
+/// What the pin of this joint, which has clearance, and its bush have rubbed off each other, by directions in the axes of their markers. Throws
+/// PlotRequestError.
+PolarPlot make_wear_plot(const std::vector<PolarRun>& runs, const std::string& joint);
 
 }  // namespace pintle

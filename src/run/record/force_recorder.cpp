@@ -89,6 +89,7 @@ void BasicForceRecorder<S>::fill(Trajectory& out) {
     if (!heat_.empty()) s.heat = heat_[j];
     out.joints.push_back(s);
   }
+  if (what_ != Recorded::kForces) out.wear = loads_->wear().result();
   if (!energies_.empty()) fill_account(out.energy);
 }
 

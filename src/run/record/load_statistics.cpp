@@ -8,7 +8,7 @@ namespace pintle {
 
 template <class S>
 BasicLoadRecorder<S>::BasicLoadRecorder(const BasicSystem<S>& system, int n_samples, bool with_heat, const Signals* signals)
-    : system_(system), grid_(n_samples), with_heat_(with_heat), signals_(signals), n_signals_(signals == nullptr ? 0 : signals->n_signals()) {
+    : system_(system), grid_(n_samples), with_heat_(with_heat), signals_(signals), n_signals_(signals == nullptr ? 0 : signals->n_signals()), wear_(system) {
   const std::size_t joints = system.joints.size();
   stride_ = static_cast<int>(joints) * (S::kDof + 1) + n_signals_;
   samples_.resize(static_cast<std::size_t>(grid_.n() * stride_));
@@ -44,7 +44,7 @@ void BasicLoadRecorder<S>::start(const BasicState<S>& state) {
 template <class S>
 double BasicLoadRecorder<S>::power_on_gap(int j, const BasicState<S>& state) const {
   const BasicLaw<S>& law = system_.joints[static_cast<std::size_t>(j)].law;
-  return state.force[j].dot(state.gap_rate[j]) - (law.feeds() ? law.supply(law_point(system_, j, state)) : 0);
+  return state.force[j].dot(state.gap_rate[j]) - law.supply(law_point(system_, j, state), state.force[j]);
 }
 
 template <class S>
@@ -59,13 +59,24 @@ void BasicLoadRecorder<S>::sample(int i, const BasicState<S>& state) {
   if (signals_ != nullptr) signals_->put_signals(state, m_, out);
 }
 
+// Wear of a sample that stands for so much time, unless it is 0.
+template <class S>
+void BasicLoadRecorder<S>::sample(int i, const BasicState<S>& state, double wear_time) {
+  sample(i, state);
+  if (wear_time > 0) wear_.add(state, wear_time * grid_.integral()[static_cast<std::size_t>(i)]);
+}
+
 template <class S>
 void BasicLoadRecorder<S>::add_step(BasicStepper<S>& stepper) {
   const double t0 = stepper.previous().t, h = stepper.state().t - t0;
   const int last = grid_.n() - 1;
-  sample(0, stepper.previous());
-  for (int i = 1; i < last; ++i) sample(i, stepper.interpolate(t0 + grid_.instant(i) * h));
-  sample(last, stepper.state());
+  const bool wears = with_heat_ && !wear_.empty();
+  const int parts = wears ? wear_.parts(stepper.previous(), stepper.state()) : 0;
+  const double wear_time = wears && parts == 0 ? h : 0;
+  sample(0, stepper.previous(), wear_time);
+  for (int i = 1; i < last; ++i) sample(i, stepper.interpolate(t0 + grid_.instant(i) * h), wear_time);
+  sample(last, stepper.state(), wear_time);
+  for (int i = 0; i < parts; ++i) wear_.add(stepper.interpolate(t0 + (i + 0.5) / parts * h), h / parts);
   if (end_ == begin_)  // what stands for a run without a step
     for (auto* all : {&force_, &couple_, &signal_})
       for (CurveSums& sums : *all) sums.integral = sums.square = 0;

@@ -6,6 +6,7 @@
 
 #include "integrators/stepper.h"
 #include "run/record/sampled_curve.h"
+#include "run/record/wear_tally.h"
 
 namespace pintle {
 
@@ -25,7 +26,7 @@ class BasicLoadRecorder {
     virtual void put_signals(const BasicState<S>& state, const std::vector<typename S::Motion>& m, double* out) const = 0;
   };
 
-  /// n_samples in a step: CurveGrid. `with_heat`: also what joints lose. `signals`, if any, must outlive the recorder.
+  /// n_samples in a step: CurveGrid. `with_heat`: also what joints lose, and what wears. `signals`, if any, must outlive the recorder.
   BasicLoadRecorder(const BasicSystem<S>& system, int n_samples, bool with_heat, const Signals* signals);
 
   void start(const BasicState<S>& state);
@@ -37,12 +38,14 @@ class BasicLoadRecorder {
   double span() const { return end_ - begin_; }  // [s]
   /// What the law of a joint has turned into heat from the start up to `state`, the end of the last step [J]. theory/time Eq. (5.4)
   double heat(int joint, const BasicState<S>& state) const;
+  const BasicWearTally<S>& wear() const { return wear_; }
 
  private:
   static constexpr int kForce = S::kDim, kCouple = S::kDof - S::kDim;
   double stored(int joint, const BasicState<S>& state) const;
   double power_on_gap(int j, const BasicState<S>& state) const;
   void sample(int i, const BasicState<S>& state);
+  void sample(int i, const BasicState<S>& state, double wear_time);
   LoadStatistics over_run(const CurveSums& sums) const;
 
   const BasicSystem<S>& system_;
@@ -56,6 +59,7 @@ class BasicLoadRecorder {
   std::vector<bool> has_couple_;
   std::vector<double> work_, stored_;  // of each joint's force on its gap since the start, less what feeds it; stored at the start [J]
   double begin_ = 0, end_ = 0;
+  BasicWearTally<S> wear_;
 };
 using LoadRecorder = BasicLoadRecorder<Planar>;
 

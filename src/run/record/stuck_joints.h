@@ -1,10 +1,12 @@
-// Joints whose friction held them from the first step of a run to the last: a table of forces alone does not show that they are jammed.
+// Joints that friction holds from the first step of a run to the last, or through the last half of it: a table of forces alone does not show that they
+// are jammed, or have come to rest.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,39 +28,47 @@ class BasicStuckJoints {
   }
   /// The end of a step, or an output row.
   void see(const BasicState<S>& state) {
+    if (!begin_) begin_ = state.t;
+    end_ = state.t;
     for (Joint& joint : held_) {
-      if (!joint.stuck) continue;
       values_.clear();
       system_.joints[joint.index].law.observe(law_point(system_, joint.index, state), state.force[joint.index], values_);
-      joint.stuck = values_[joint.at_stuck] > 0;
+      const bool stuck = values_[joint.at_stuck] > 0;
+      if (stuck && !joint.since) joint = {joint.index, joint.at_friction, joint.at_stuck, joint.unit, state.t};
+      if (!stuck) joint.since.reset();
+      if (!stuck) continue;
       joint.friction = std::max(joint.friction, std::abs(values_[joint.at_friction]));
       joint.force = std::max(joint.force, state.force[joint.index].cwiseProduct(typename S::Vec(S::Vec::Ones() - system_.joints[joint.index].free_mask)).norm());
     }
   }
-  /// One for each joint that never slipped although its friction had something to carry.
+  /// One for each joint that does not slip any more although its friction has something to carry.
   std::vector<std::string> notes() const {
     std::vector<std::string> notes;
     for (const Joint& joint : held_) {
       const double lever = system_.joints[joint.index].law.lever();
-      if (!joint.stuck || !(joint.friction > kCarries * joint.force * (lever > 0 ? lever : 1))) continue;
-      notes.push_back(fmt::format("joint {} is jammed: it would move without its friction, which held it for the whole run and carried up to {:.4g} {}",
-                                  system_.joints[joint.index].name, joint.friction, joint.unit));
+      if (!joint.since || end_ - *joint.since < kLong * (end_ - *begin_) || !(joint.friction > kCarries * joint.force * (lever > 0 ? lever : 1))) continue;
+      const std::string& name = system_.joints[joint.index].name;
+      if (*joint.since == *begin_) notes.push_back(fmt::format("joint {} is jammed: it would move without its friction, which held it for the whole run and carried up to {:.4g} {}", name, joint.friction, joint.unit));
+      else notes.push_back(fmt::format("joint {} sticks from t = {:.5g} s to the end: its friction has carried up to {:.4g} {} since then", name, *joint.since, joint.friction, joint.unit));
     }
     return notes;
   }
 
  private:
   static constexpr double kCarries = 1e-6;  // of the joint's force: less is rounding
+  static constexpr double kLong = 0.5;      // of the run
   struct Joint {
     int index;
     std::size_t at_friction, at_stuck;  // among the law's columns
     std::string unit;
-    bool stuck = true;
+    std::optional<double> since{};  // it sticks [s]
     double friction = 0, force = 0;  // the largest; of what is held
   };
 
   const BasicSystem<S>& system_;
   std::vector<Joint> held_;
+  std::optional<double> begin_;  // what has been seen [s]
+  double end_ = 0;
   std::vector<double> values_;  // reused so that steps do not allocate
 };
 

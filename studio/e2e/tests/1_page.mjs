@@ -57,7 +57,7 @@ export const tests = {
       }
       for (const select of ["]", "joint", "motor"]) {
         if (select === "]") await page.keyboard.press("]");
-        else await page.evaluate((kind) => window.pintleStudio.set({ selection: [{ kind, name: window.pintleStudio.get().model[`${kind}s`][0].name }] }), select);
+        else await page.evaluate((kind) => window.pintleStudio.set({ dock: "plots", selection: [{ kind, name: window.pintleStudio.get().model[`${kind}s`][0].name }] }), select);
         await page.waitForTimeout(200);
         assert.deepEqual(await violations(page), [], `${colorScheme}, properties of ${select}`);
       }

@@ -178,4 +178,73 @@ export const tests = {
     assert.deepEqual(page.faults, []);
     await page.context().close();
   },
+
+  async "a selected pin has its polar load diagram beside the plots"(world) {
+    const page = await world.visit();
+    await openTemplate(page, "four_bar.toml");
+    await settled(page);
+    assert.equal(await page.locator(".polar").count(), 0);
+    await page.evaluate(() => window.pintleStudio.set({ selection: [{ kind: "joint", name: "A" }] }));
+    const picture = page.locator(".polar svg");
+    const rings = page.locator(".polar .ring");
+    assert.deepEqual(await rings.allTextContents(), ["200 N", "400 N", "600 N"]);
+    const seen = new Set();
+    for (const [axes, about] of [["world", "coupler, world axes"], ["first", "crank, bush's axes"], ["second", "coupler, pin's axes"]]) {
+      await page.locator(".polar select").selectOption(axes);
+      assert.match(await picture.getAttribute("aria-label"), new RegExp(`^Force on ${about}; largest 624\\.\\d+ N at -?\\d+°$`));
+      seen.add(await page.locator(".polar .series").getAttribute("d"));
+      await shot(page, `run-polar-${axes}`);
+    }
+    assert.equal(seen.size, 3);
+    await page.locator(".polar button").press("Enter");
+    const { mode, peak } = await state(page, "(now) => ({ mode: now.mode, peak: now.run.answer.joints.find((one) => one.name === 'A').peak_time })");
+    assert.equal(mode, "replay");
+    const clock = () => page.locator(".clock").textContent();
+    assert(Math.abs(Number.parseFloat(await clock()) - peak) < 2e-3, `${await clock()}, not ${peak} s`);
+    const before = await page.locator(".polar .hand").getAttribute("d");
+    const box = await picture.boundingBox();
+    await page.mouse.click(box.x + box.width * 0.3, box.y + box.height * 0.4);
+    await page.waitForFunction((old) => document.querySelector(".polar .hand").getAttribute("d") !== old, before);
+    await page.keyboard.press("b");
+    await page.locator(".polar .kept").waitFor({ state: "attached" });
+    await page.evaluate(() => window.pintleStudio.set({ selection: [{ kind: "body", name: "crank" }] }));
+    await picture.waitFor({ state: "detached" });
+    assert.deepEqual(page.faults, []);
+    await page.context().close();
+  },
+
+  async "a law that is chosen in a joint's properties has what it needs, and changes the run"(world) {
+    const page = await world.visit();
+    await openTemplate(page, "four_bar.toml");
+    await settled(page);
+    await page.evaluate(() => window.pintleStudio.set({ selection: [{ kind: "joint", name: "A" }] }));
+    const text = () => state(page, "(now) => now.history.text");
+    const peak = () => state(page, "(now) => now.run.answer.joints.find((one) => one.name === 'A').peak");
+    const first = { text: await text(), peak: await peak() };
+    const choose = async (label, word) => {
+      const [before, serial] = [await text(), await state(page, "(now) => now.run.serial")];
+      await page.getByLabel(label, { exact: true }).selectOption(word);
+      await page.waitForFunction((old) => window.pintleStudio.get().run.serial > old, serial, { timeout: 60_000 });
+      await settled(page);
+      assert.equal(await state(page, "(now) => now.complaints.length"), 0, word);
+      const after = await text();
+      return { peak: await peak(), lines: after.split("\n").filter((line) => !before.split("\n").includes(line)).join("; ") };
+    };
+    const clearance = await choose("Law", "clearance");
+    assert.equal(clearance.lines, 'law = "clearance"; clearance = "0.5 mm"');
+    const maxwell = await choose("Law", "maxwell");
+    assert.equal(maxwell.lines, 'law = "maxwell"; branch_ratio = [1]; branch_time = ["0.1 s"]');
+    const rubbing = await choose("Friction", "lugre");
+    assert.equal(rubbing.lines, 'friction = "lugre"; pin_radius = "10 mm"');
+    await shot(page, "run-law");
+    const peaks = [first, clearance, maxwell, rubbing].map((one) => one.peak);
+    assert.equal(new Set(peaks).size, 4, peaks.join(", "));
+    await choose("Friction", "");
+    const last = await choose("Law", "linear");
+    assert.equal(last.peak, first.peak);
+    assert.equal((await text()).replace('\nlaw = "linear"', ""), first.text);
+    assert.deepEqual(page.faults, []);
+    await page.context().close();
+    return peaks.map((one) => `${one.toFixed(2)} N`).join(", ");
+  },
 };

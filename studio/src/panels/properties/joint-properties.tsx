@@ -10,6 +10,7 @@ import { studio, useStudio } from "../../state";
 import { estimateOf } from "../results/estimate";
 import { Choice, Pair, TextQuantity, setLiteral, useLiteral } from "./fields";
 import { type Field, fieldsOf, labelOf, useCatalog, useSchema } from "./form";
+import { type Role, chooseLaw } from "./law-choice";
 import { Icon } from "../icons";
 
 const TYPE_WORDS: Record<string, string> = {
@@ -124,28 +125,20 @@ function LawFields({ joint, catalog }: { joint: Joint; catalog: Catalog | null }
   const holds = !type || type.gap.length > 0;
   const turns = joint.type === "prismatic" || joint.type === "fixed";
   const keys = (law?.keys ?? []).filter((key) => turns || !key.name.startsWith("angular_"));
-  const change = (word: string) => {
-    const draft = new Draft(studio.get().model.document).set(["joint", joint.name, "law"], word);
-    const next = catalog.laws.find((one) => one.word === word);
-    // Values that the new law does not know would be errors.
-    for (const key of law?.keys ?? []) if (!next?.keys.some((one) => one.name === key.name)) draft.remove(["joint", joint.name, key.name]);
-    for (const key of next?.keys ?? []) if (key.default === undefined && law?.keys.every((one) => one.name !== key.name)) draft.set(["joint", joint.name, key.name], key.list ? [starter(key)] : starter(key));
-    edit(draft.apply(), `Law of ${joint.name}`);
-  };
   return (
     <section>
       <h3 data-tip="Force of the joint against its deflection">Law</h3>
       {holds && (
         <>
-          <Choice label="Law" value={joint.law} options={allowed.map((one) => ({ value: one.word, label: lawName(one.word) }))} onChange={change} />
+          <Choice label="Law" value={joint.law} options={allowed.map((one) => ({ value: one.word, label: lawName(one.word) }))} onChange={(word) => void chooseLaw(catalog, joint, "law", word)} />
           {law && <p className="quiet">{law.meaning}</p>}
           {joint.law === "linear" && <Presets joint={joint} />}
           <Keys keys={keys} path={["joint", joint.name]} />
         </>
       )}
-      <LawsBeside joint={joint} role="friction" label="Friction" laws={suits.filter((law) => law.role === "friction")} />
-      <LawsBeside joint={joint} role="stops" label="Stops" laws={suits.filter((law) => law.role === "stops")} />
-      <LawsBeside joint={joint} role="detent" label="Detent" laws={suits.filter((law) => law.role === "detent")} />
+      <LawsBeside joint={joint} catalog={catalog} role="friction" label="Friction" suits={suits} />
+      <LawsBeside joint={joint} catalog={catalog} role="stops" label="Stops" suits={suits} />
+      <LawsBeside joint={joint} catalog={catalog} role="detent" label="Detent" suits={suits} />
       {holds && <label className="check">
         <input type="checkbox" checked={ideal === true} onChange={(event) => setLiteral(["joint", joint.name, "ideal"], event.target.checked ? true : null, "Ideal joint")} />
         <span data-tip='With equations "relative" (Model, Simulation), this joint is rigid'>Rigid (ideal)</span>
@@ -155,54 +148,22 @@ function LawFields({ joint, catalog }: { joint: Joint; catalog: Catalog | null }
 }
 
 /** Friction, stops or a detent of what the joint leaves free, beside its law. */
-function LawsBeside({ joint, role, label, laws }: { joint: Joint; role: "friction" | "stops" | "detent"; label: string; laws: Catalog["laws"] }) {
-  const name = joint.name;
-  const word = useLiteral(["joint", name, role]);
+function LawsBeside({ joint, catalog, suits, role, label }: { joint: Joint; catalog: Catalog; suits: Catalog["laws"]; role: Exclude<Role, "law">; label: string }) {
+  const word = useLiteral(["joint", joint.name, role]);
+  const laws = suits.filter((one) => one.role === role);
   if (laws.length === 0) return null;
   const unitsOf = (keys: readonly CatalogKey[]) => keys.map((key) => (joint.type === "revolute" && key.angular_unit ? { ...key, unit: key.angular_unit } : key));
   const law = laws.find((one) => one.word === word);
-  const change = (next: string) => {
-    const draft = new Draft(studio.get().model.document);
-    const chosen = laws.find((one) => one.word === next);
-    for (const key of law?.keys ?? []) if (!chosen?.keys.some((one) => one.name === key.name)) draft.remove(["joint", name, key.name]);
-    if (next) draft.set(["joint", name, role], next);
-    else draft.remove(["joint", name, role]);
-    const has = (key: string) => law?.keys.some((one) => one.name === key) ?? false;
-    for (const key of unitsOf(chosen?.keys ?? [])) {
-      const start = STARTS[key.name]?.[joint.type === "revolute" ? 1 : 0] ?? starter(key);
-      const needed = (key.default === undefined && key.otherwise === undefined) || key.name === "upper_stop" || (key.name === "detent_radius" && joint.type === "revolute");
-      if (needed && !has(key.name)) draft.set(["joint", name, key.name], start);
-    }
-    edit(draft.apply(), `${label} of ${name}`);
-  };
   return (
     <>
-      <Choice label={label} value={law?.word ?? ""} options={[{ value: "", label: "none" }, ...laws.map((one) => ({ value: one.word, label: one.word }))]} onChange={change} />
+      <Choice label={label} value={law?.word ?? ""} options={[{ value: "", label: "none" }, ...laws.map((one) => ({ value: one.word, label: one.word }))]} onChange={(next) => void chooseLaw(catalog, joint, role, next)} />
       {law && <p className="quiet">{law.meaning}</p>}
-      {law && <Keys keys={unitsOf(law.keys)} path={["joint", name]} />}
+      {law && <Keys keys={unitsOf(law.keys)} path={["joint", joint.name]} />}
     </>
   );
 }
 
-/** What new stops and detents begin with, on a slide and on an angle. */
-const STARTS: Record<string, readonly [string, string]> = {
-  upper_stop: ["100 mm", "90 deg"],
-  stop_stiffness: ["1e6 N/m", "1e4 N*m/rad"],
-  stop_damping: ["1e3 N*s/m", "10 N*m*s/rad"],
-  stop_cushion: ["10 mm", "5 deg"],
-  ball_radius: ["3 mm", "3 mm"],
-  notch_radius: ["5 mm", "5 mm"],
-  notch_width: ["5 mm", "5 mm"],
-  detent_preload: ["20 N", "20 N"],
-  detent_radius: ["20 mm", "20 mm"],
-};
-
 const lawName = (word: string) => (word === "linear" ? "linear (stiffness and damping)" : word.replace(/_/g, " "));
-
-function starter(key: CatalogKey): string | number {
-  const value = key.minimum && key.minimum > 0 ? key.minimum : 1e-3;
-  return key.unit && key.unit !== "-" ? `${value} ${key.unit}` : value;
-}
 
 /** Usual values of real joints. */
 const PRESETS: { label: string; tip: string; stiffness: string; damping: string }[] = [

@@ -7,7 +7,8 @@ import { player } from "../../play/player";
 import { studio, useStudio } from "../../state";
 import { Nothing } from "./forces";
 import { Icon } from "../icons";
-import { type Series, chosenSeries, resample, seriesOf } from "./series";
+import { PolarDiagram, usePin } from "./polar-diagram";
+import { type Series, chosenSeries, nearest, resample, seriesOf } from "./series";
 
 export function PlotsPanel() {
   const answer = useStudio((now) => now.run.answer);
@@ -17,14 +18,16 @@ export function PlotsPanel() {
   const all = useMemo(() => (answer ? seriesOf(answer) : []), [answer]);
   const chosen = useMemo(() => (answer ? chosenSeries(all, plotted, answer) : []), [all, plotted, answer]);
   const other = useMemo(() => (kept ? { time: kept.answer.values[0]!, series: seriesOf(kept.answer) } : null), [kept]);
+  const pin = usePin(answer);
   if (!answer || (answer.values[0]?.length ?? 0) < 2) return <Nothing />;
   const toggle = (id: string) => {
     const ids = chosen.map((one) => one.id);
     studio.set({ plotted: ids.includes(id) ? ids.filter((one) => one !== id) : [...ids, id] });
   };
   return (
-    <div className="plots">
+    <div className={pin ? "plots with-polar" : "plots"}>
       <Plot key={theme} series={chosen} time={answer.values[0]!} kept={other} />
+      {pin && <PolarDiagram answer={answer} joint={pin} kept={kept?.answer ?? null} />}
       <Legend series={chosen} kept={other?.series ?? null} onRemove={toggle} />
       <Chooser all={all} chosen={chosen} onToggle={toggle} />
     </div>
@@ -72,11 +75,6 @@ function Plot({ series, time, kept }: PlotProps) {
     };
   }, [series, time, kept]);
   return <div className="plot" ref={home} role="img" aria-label={`Plot of ${series.map((one) => one.label).join(", ") || "nothing"} over time`} />;
-}
-
-function nearest(time: Float64Array, t: number): number {
-  const span = (time[time.length - 1] ?? 1) / Math.max(time.length - 1, 1);
-  return Math.min(Math.max(Math.round(t / span), 0), time.length - 1);
 }
 
 /** The lines that the kept run has too, in the order in which they follow those of the run itself. */

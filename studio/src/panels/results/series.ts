@@ -1,5 +1,5 @@
 // What can be plotted: the run's columns, and the size of each joint's force, which is what one asks for first.
-import type { RunAnswer } from "../../kernel/protocol";
+import type { PeakForce, RunAnswer } from "../../kernel/protocol";
 
 export interface Series {
   id: string;
@@ -17,12 +17,17 @@ const WORDS: Record<string, string> = {
   m: "moment", slide: "slide", slide_rate: "rate of slide", angle_rate: "rate of angle", effort: "effort", power: "power",
 };
 
+/** A column of a joint; in `frame` the force on its second body. */
+export function jointValues(answer: RunAnswer, joint: PeakForce, quantity: string, frame: "" | "world" | "joint" = ""): Float64Array | undefined {
+  const feels = frame && joint.second_body;
+  return answer.values[answer.columns.findIndex((one) => one.kind === "joint" && one.of === joint.name && one.quantity === quantity && one.frame === frame && one.feels === feels)];
+}
+
 export function seriesOf(answer: RunAnswer): Series[] {
   const list: Series[] = [];
   for (const joint of answer.joints) {
-    const at = (quantity: string) => answer.columns.findIndex((one) => one.kind === "joint" && one.of === joint.name && one.quantity === quantity && one.frame === "world" && one.feels === joint.second_body);
-    const fx = answer.values[at("fx")];
-    const fy = answer.values[at("fy")];
+    const fx = jointValues(answer, joint, "fx", "world");
+    const fy = jointValues(answer, joint, "fy", "world");
     if (!fx || !fy) continue;
     list.push({
       id: `joint.${joint.name}.|F|`,
@@ -63,6 +68,12 @@ export function chosenSeries(all: readonly Series[], plotted: readonly string[] 
   const among = (ids: readonly string[]) => ids.map((id) => all.find((one) => one.id === id)).filter((one): one is Series => one !== undefined);
   const found = plotted ? among(plotted) : [];
   return found.length > 0 || plotted?.length === 0 ? found : among(firstSeries(answer));
+}
+
+/** The row of a time: rows are a step apart. */
+export function nearest(time: Float64Array, t: number): number {
+  const span = (time[time.length - 1] ?? 1) / Math.max(time.length - 1, 1);
+  return Math.min(Math.max(Math.round(t / span), 0), time.length - 1);
 }
 
 /** Values at other times, for two runs in one plot; outside of the run there are none. */

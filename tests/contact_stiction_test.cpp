@@ -1,0 +1,127 @@
+// Surfaces in contact that stick: blocks and rollers on a slope, in closed form.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/reference_tables.h"
+
+namespace pintle {
+namespace {
+
+using reference::at_end;
+using reference::completed;
+using reference::value;
+
+constexpr double kG = 9.80665;
+
+// A body on the +y side of an edge that falls by `slope` (its tangent) to the right; its centre is the pin, of `radius`.
+Model on_slope(double slope, double radius, const std::string& friction, const std::string& method = "radau") {
+  const double angle = std::atan(slope), c = std::cos(angle), s = std::sin(angle);
+  return parse_model(fmt::format(R"toml(
+format = 1
+[simulate]
+duration = "0.5 s"
+output_step = "5 ms"
+tolerance = 1e-6
+method = "{}"
+[ground.markers]
+slope = [0, 0, "{:.17g} rad"]
+[body.block]
+mass = 2
+inertia = {:.17g}
+position = [{:.17g}, {:.17g}]
+angle = 0
+velocity = [0, 0]
+spin = 0
+markers.c = [0, 0]
+[joint.floor]
+type = "slot"
+between = ["ground.slope", "block.c"]
+law = "contact"
+pin_radius = {}
+contact_model = "linear"
+contact_stiffness = 1e7
+contact_damping = 2e3
+contact_exponent = 1
+{}
+)toml",
+                                 method, -angle, radius > 0 ? 0.5 * 2 * radius * radius : 1e-3, radius * s, radius * c, radius, friction),
+                     "slope.toml");
+}
+
+double along(const Trajectory& run, std::size_t row, double slope) {
+  const double angle = std::atan(slope);
+  return value(run, row, "body.block.x") * std::cos(angle) - value(run, row, "body.block.y") * std::sin(angle);
+}
+
+constexpr const char* kStiction = "friction_coefficient = 0.2\nstatic_friction = 0.3";
+
+// Under a push that grows to a thousandth less or more than what the static coefficient holds.
+TEST(ContactStiction, ABlockHoldsUpToTheStaticCoefficient) {
+  const auto pushed = [](double share) {
+    const double push = share * 0.3 * 2 * kG;
+    return completed(on_slope(0, 0, fmt::format("{}\n[force.push]\non = \"block.c\"\nforce = [\"{:.17g}*smoothstep(0, 0.3, t)\", 0]", kStiction, push)));
+  };
+  const Trajectory held = pushed(0.999), broken = pushed(1.001);
+  EXPECT_NEAR(at_end(held, "body.block.x"), 0.999 * 0.3 * 2 * kG / 1e8, 1e-10);
+  EXPECT_EQ(at_end(held, "joint.floor.stuck"), 1);
+  EXPECT_GT(at_end(broken, "body.block.x"), 0.01);
+  EXPECT_EQ(at_end(broken, "joint.floor.stuck"), 0);
+}
+
+// Steeper than its static coefficient a block slides against the kinetic one.
+TEST(ContactStiction, ABlockSlidesOnASteepSlope) {
+  const Trajectory slid = completed(on_slope(0.3 + 1e-2, 0, kStiction));
+  EXPECT_EQ(at_end(slid, "joint.floor.stuck"), 0);
+  const double slope = 0.3 + 1e-2, accel = kG * (std::sin(std::atan(slope)) - 0.2 * std::cos(std::atan(slope)));
+  EXPECT_NEAR(along(slid, slid.n_rows() - 1, slope), 0.5 * accel * 0.25, 2e-3 * accel);
+}
+
+// On a ramp of friction it would creep.
+TEST(ContactStiction, WithoutItABlockCreeps) {
+  const Trajectory run = completed(on_slope(0.1, 0, "friction_coefficient = 0.2"));
+  EXPECT_NEAR(along(run, run.n_rows() - 1, 0.1), 0.5 * 0.5e-3, 5e-6);  // half of friction_full_speed
+}
+
+// A disc rolls with two thirds of the acceleration as long as friction suffices, up to three times the static coefficient, and slips beyond; in every method.
+TEST(ContactStiction, ARollerRollsUntilItSlips) {
+  for (const char* method : {"radau", "dopri5", "ode15s"}) {
+    const double slope = 0.5, angle = std::atan(slope);
+    const Trajectory rolls = completed(on_slope(slope, 0.05, kStiction, method));
+    const std::size_t last = rolls.n_rows() - 1;
+    const double way = along(rolls, last, slope) - along(rolls, 0, slope), accel = 2.0 / 3 * kG * std::sin(angle);
+    EXPECT_NEAR(way, 0.5 * accel * 0.25, 1e-5) << method;
+    EXPECT_NEAR(at_end(rolls, "body.block.spin"), -accel * 0.5 / 0.05, 1e-3) << method;
+    EXPECT_EQ(at_end(rolls, "joint.floor.stuck"), 1) << method;
+  }
+  const double slope = 1, angle = std::atan(slope);
+  const Trajectory slips = completed(on_slope(slope, 0.05, kStiction));
+  const std::size_t last = slips.n_rows() - 1;
+  const double accel = kG * (std::sin(angle) - 0.2 * std::cos(angle));
+  EXPECT_NEAR(along(slips, last, slope) - along(slips, 0, slope), 0.5 * accel * 0.25, 2e-3 * accel);
+  EXPECT_NEAR(at_end(slips, "body.block.spin"), -0.2 * kG * std::cos(angle) * 2 / 0.05 * 0.5, 0.2);
+  EXPECT_EQ(at_end(slips, "joint.floor.stuck"), 0);
+}
+
+// A ball that strikes a floor askew without bouncing sticks where its slip has ended, and rolls on with 2/3 of its speed (a disc).
+TEST(ContactStiction, SlidingEndsInRollingAndIsAnEvent) {
+  Model model = on_slope(0, 0.05, kStiction);
+  model.bodies[0].velocity = {{1.5, 0}};
+  const Trajectory run = completed(model);
+  EXPECT_NEAR(at_end(run, "body.block.vx"), 1.0, 2e-3);
+  EXPECT_NEAR(at_end(run, "body.block.spin"), -20, 4e-2);
+  ASSERT_EQ(run.events.size(), 1U);
+  double sticks = -1;
+  for (const JointEvent& event : run.events.front().events)
+    if (event.what == "sticks" && sticks < 0) sticks = event.t;
+  EXPECT_NEAR(sticks, 0.5 / (0.2 * kG), 2e-3);  // slip falls by 3 mu g t
+}
+
+TEST(ContactStiction, RefusesAStaticCoefficientBelowTheKineticOne) {
+  EXPECT_THROW(on_slope(0.1, 0.05, "friction_coefficient = 0.4\nstatic_friction = 0.3"), InputError);
+}
+
+}  // namespace
+}  // namespace pintle

@@ -1,0 +1,261 @@
+#!/usr/bin/env python3
+"""Changes one sign, comparison, condition or constant at a time, and lists what no test notices.
+
+Every room of src/ gets a sample of its lines, drawn from a seed. A mutant is built in a copy of the tree (build/mutants) and has to survive the room's own
+tests first, then the whole suite. Results are kept in build/mutants/results.json after each mutant, so that a run that is stopped goes on where it was.
+What is equivalent to the original, and why, stands in tools/equivalent_mutants.txt.
+
+    tools/mutants.py --rooms laws,joints --sample 6     # a few minutes a mutant; all rooms take a night
+    tools/mutants.py --write docs/mutants.md            # the table of what has been run
+"""
+import argparse
+import collections
+import json
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+WORK = ROOT / "build" / "mutants"
+TREE, BUILD, RESULTS = WORK / "tree", WORK / "build", WORK / "results.json"
+EQUIVALENT = ROOT / "tools" / "equivalent_mutants.txt"
+
+NUMBER = r"(?<![\w.])(?:\d+\.?\d*(?:e[+-]?\d+)?|\.\d+)(?![\w.])"
+# What is looked for, and what each of its finds is replaced by.
+CHANGES = [
+    ("sign", r" \+ ", lambda m: " - "),
+    ("sign", r" - ", lambda m: " + "),
+    ("sign", r" \+= ", lambda m: " -= "),
+    ("sign", r" -= ", lambda m: " += "),
+    ("comparison", r" (<=?|>=?) (?!\w+>)", lambda m: " " + {"<": ">=", "<=": ">", ">": "<=", ">=": "<"}[m.group(1)] + " "),
+    ("comparison", r" (==|!=) ", lambda m: " " + {"==": "!=", "!=": "=="}[m.group(1)] + " "),
+    ("condition", r" (&&|\|\|) ", lambda m: " " + {"&&": "||", "||": "&&"}[m.group(1)] + " "),
+    ("condition", r"\bif \((?!constexpr)", lambda m: "if (!("),
+    ("constant", NUMBER, lambda m: "1" if float(m.group(0)) == 0 else f"(2 * {m.group(0)})"),
+]
+# Declarations, where a number is a size or a comparison a template's bracket; loops, which then hang or read beyond an end, as everybody notices.
+NO_SITE = re.compile(r"^\s*(for \(|//|/\*|\*|#|template|using|namespace|case |static_assert|struct|class|enum|friend|\"|EXPECT|ASSERT)|operator|\[\]|std::array<|Matrix<|Lanes<|\.reserve\(|\.resize\(")
+
+
+def say(text):
+    print(text, flush=True)
+
+
+def rooms_of(tree):
+    return sorted(p.name for p in (tree / "src").iterdir() if p.is_dir())
+
+
+def sources_of(tree, room):
+    files = [p for p in (tree / "src" / room).rglob("*") if p.suffix in (".h", ".cpp") and not re.search(r"_test\.cpp$|_for_tests\.", p.name)]
+    return sorted(files)
+
+
+def without_words(line):
+    """The line with its strings and its comment blanked out, of the same length."""
+    line = re.sub(r'"(\\.|[^"\\])*"', lambda m: '"' + "_" * (len(m.group(0)) - 2) + '"', line)
+    return re.sub(r"//.*$", lambda m: " " * len(m.group(0)), line)
+
+
+def closing(text, start):
+    depth = 0
+    for i in range(start, len(text)):
+        depth += {"(": 1, ")": -1}.get(text[i], 0)
+        if depth == 0:
+            return i
+    return -1
+
+
+def sites_of(tree, room):
+    """(file, line number, kind, line, changed line) of everything that may be changed in a room."""
+    sites = []
+    for path in sources_of(tree, room):
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            bare = without_words(line)
+            if NO_SITE.search(bare):
+                continue
+            for kind, pattern, change in CHANGES:
+                for m in re.finditer(pattern, bare):
+                    new = change(m)
+                    changed = line[: m.start()] + new + line[m.end() :]
+                    if new == "if (!(":
+                        end = closing(bare, m.end() - 1)
+                        if end < 0 or " = " in bare[m.end() : end]:
+                            continue
+                        changed = line[: m.start()] + "if (!(" + line[m.end() : end] + "))" + line[end + 1 :]
+                    sites.append((str(path.relative_to(tree)), number, kind, line, changed))
+    return sites
+
+
+def run(command, seconds, **more):
+    """The exit code, and None where the time was up."""
+    try:
+        return subprocess.run(command, timeout=seconds, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, **more).returncode
+    except subprocess.TimeoutExpired:
+        return None
+
+
+def copy_tree():
+    """What the working tree has, so that files that have not changed keep their times."""
+    listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.splitlines()
+    for name in listed:
+        source, target = ROOT / name, TREE / name
+        if not source.is_file():
+            continue
+        if target.is_file() and target.read_bytes() == source.read_bytes():
+            continue
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(source, target)
+        os.utime(target)
+    kept = set(listed)
+    for path in TREE.rglob("*"):
+        if path.is_file() and str(path.relative_to(TREE)) not in kept:
+            path.unlink()
+
+
+def configure():
+    more = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
+    subprocess.run(["cmake", "-G", "Ninja", "-S", str(TREE), "-B", str(BUILD), *more], check=True, stdout=subprocess.DEVNULL)
+
+
+class Suites:
+    """Builds and runs the tests of one room and all tests."""
+
+    def __init__(self, jobs, skip_all):
+        self.jobs, self.skip_all, self.usual = jobs, skip_all, {}
+
+    def build(self, target):
+        return run(["ninja", "-C", str(BUILD), f"-j{self.jobs}", target], 3600) == 0
+
+    def has_tests(self, room):
+        return any((TREE / "src" / room).rglob("*_test.cpp"))
+
+    def measure(self, room):
+        """Before anything is changed: the room's tests pass, and take so long."""
+        if not self.has_tests(room):
+            return
+        start = time.time()
+        program = self.program(room)
+        if not self.build(f"pintle_{room}_tests") or run([program], 1800, cwd=TREE) != 0:
+            sys.exit(f"the tests of {room} fail before anything is changed")
+        self.usual[room] = time.time() - start
+
+    def program(self, room):
+        found = [p for p in BUILD.rglob(f"pintle_{room}_tests") if p.is_file()]
+        return str(found[0]) if found else str(BUILD / "bin" / f"pintle_{room}_tests")
+
+    def verdict(self, room):
+        if self.has_tests(room):
+            if not self.build(f"pintle_{room}_tests"):
+                return "does not compile"
+            if run([self.program(room)], 60 + 5 * self.usual[room], cwd=TREE) != 0:
+                return "the room's tests"
+        if self.skip_all:
+            return "not by the room's tests"
+        if not self.build("all"):
+            return "does not compile"
+        code = run(["ctest", "--test-dir", str(BUILD), f"-j{self.jobs}", "--timeout", "600", "--stop-on-failure"], 7200)
+        return "nobody" if code == 0 else "all tests"
+
+
+def load_results():
+    return json.loads(RESULTS.read_text()) if RESULTS.exists() else []
+
+
+def test_rooms(options):
+    WORK.mkdir(parents=True, exist_ok=True)
+    copy_tree()
+    configure()
+    suites, results = Suites(options.jobs, options.room_tests_only), load_results()
+    done = {(r["file"], r["line"], r["changed"]) for r in results}
+    for room in options.rooms or rooms_of(TREE):
+        suites.measure(room)
+        sites = sites_of(TREE, room)
+        random.Random(f"{options.seed} {room}").shuffle(sites)
+        counted = 0
+        for file, number, kind, line, changed in sites:
+            if counted >= options.sample:
+                break
+            if (file, line, changed) in done:
+                counted += next(r for r in results if (r["file"], r["line"], r["changed"]) == (file, line, changed))["noticed_by"] != "does not compile"
+                continue
+            path = TREE / file
+            original = path.read_text()
+            lines = original.split("\n")
+            lines[number - 1] = changed
+            path.write_text("\n".join(lines))
+            try:
+                noticed = suites.verdict(room)
+            finally:
+                path.write_text(original)
+            counted += noticed != "does not compile"
+            results.append({"room": room, "file": file, "number": number, "kind": kind, "line": line, "changed": changed, "noticed_by": noticed})
+            RESULTS.write_text(json.dumps(results, indent=1))
+            say(f"{room:12} {noticed:24} {file}:{number}: {changed.strip()}")
+
+
+def equivalents():
+    """(file, changed line) -> why no test can notice it."""
+    known = {}
+    if EQUIVALENT.exists():
+        for entry in EQUIVALENT.read_text().splitlines():
+            if entry and not entry.startswith("#"):
+                file, changed, why = (part.strip() for part in entry.split(" | ", 2))
+                known[file, changed] = why
+    return known
+
+
+def page(results):
+    known = equivalents()
+    rooms = collections.defaultdict(collections.Counter)
+    survivors = []
+    for r in results:
+        if r["noticed_by"] in ("does not compile", "not by the room's tests"):
+            continue
+        why = known.get((r["file"], r["changed"].strip()))
+        kind = "equivalent" if r["noticed_by"] == "nobody" and why else r["noticed_by"]
+        rooms[r["room"]][kind] += 1
+        if r["noticed_by"] == "nobody":
+            survivors.append((r, why))
+    out = ["# Tests that notice", "",
+           "`make mutants` changes one sign, comparison, condition or constant of the sources at a time, in a sample of lines drawn from a seed, and runs the tests of the room, then all tests. A change that nobody notices",
+           "is either given a test or explained as equivalent. The table is of what has been run so far; one room, or a larger sample, is `make mutants ROOMS=laws SAMPLE=20`.", "",
+           "| room | changed | noticed by its tests | by all tests | equivalent | unnoticed | noticed |", "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"]
+    total = collections.Counter()
+    for room in sorted(rooms) + ["all"]:
+        c = rooms[room] if room != "all" else total
+        own, whole, same, nobody = c["the room's tests"], c["all tests"], c["equivalent"], c["nobody"]
+        real = own + whole + nobody
+        out.append(f"| {room} | {real + same} | {own} | {whole} | {same} | {nobody} | {100 * (own + whole) // max(1, real)} % |")
+        if room != "all":
+            total.update(c)
+    out += ["", "## Nobody noticed", ""]
+    for r, why in survivors:
+        out += [f"- `{r['file']}`: `{r['line'].strip()}` as `{r['changed'].strip()}`" + (f". Equivalent: {why}" if why else "")]
+    return "\n".join(out) + "\n"
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("--rooms", type=lambda words: [w for w in words.split(",") if w], default=[], help="rooms of src/, with commas between (default: all)")
+    options.add_argument("--sample", type=int, default=8, help="mutants of a room that compile")
+    options.add_argument("--seed", default="1")
+    options.add_argument("--jobs", type=int, default=os.cpu_count())
+    options.add_argument("--room-tests-only", action="store_true", help="quickly: what the room's own tests do not notice is left at that")
+    options.add_argument("--write", type=Path, help="only write the page of the results")
+    options = options.parse_args()
+    if options.write is None:
+        test_rooms(options)
+    text = page(load_results())
+    if options.write:
+        options.write.write_text(text)
+    else:
+        say("\n" + text)
+
+
+if __name__ == "__main__":
+    main()
