@@ -121,6 +121,7 @@ TEST(ContactStiction, SlidingEndsInRollingAndIsAnEvent) {
 
 TEST(ContactStiction, RefusesAStaticCoefficientBelowTheKineticOne) {
   EXPECT_THROW(on_slope(0.1, 0.05, "friction_coefficient = 0.4\nstatic_friction = 0.3"), InputError);
+  EXPECT_THROW(on_slope(0.1, 0.05, "static_friction = 0.3"), InputError);  // what slips would not rub
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // What the pressure angle of teeth does in gears and racks.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -69,6 +71,167 @@ TEST(Gears, TeethPushApartInEveryFormulation) {
     }
     if (testing::Test::HasFailure()) FAIL() << keys.front();
   }
+}
+
+// A sun of 40 mm turns a planet of 20 mm that rolls in a fixed ring of 80 mm, on a carrier of 60 mm. The sun pushes the planet outwards and the ring
+// pushes it inwards; the carrier's pin carries the difference and what the planet needs on its way round.
+constexpr const char* kPlanetary = R"toml(
+format = 1
+gravity = [0, 0]
+[simulate]
+duration = "0.2 s"
+equations = "{}"
+[defaults.joint]
+stiffness = 1e9
+damping = 1e4
+[ground.markers]
+O = [0, 0]
+[body.sun]
+mass = 1
+inertia = 1e-3
+position = [0, 0]
+angle = 0
+spin = 0
+hold = ["angle"]
+markers.O = [0, 0]
+[body.planet]
+mass = 0.5
+inertia = 1e-4
+position = [0.06, 0]
+angle = 0
+markers.P = [0, 0]
+[body.carrier]
+mass = 1
+inertia = 5e-3
+position = [0, 0]
+angle = 0
+markers.O = [0, 0]
+markers.P = [0.06, 0]
+[joint.S]
+type = "revolute"
+between = ["ground.O", "sun.O"]
+[joint.C]
+type = "revolute"
+between = ["ground.O", "carrier.O"]
+[joint.P]
+type = "revolute"
+between = ["carrier.P", "planet.P"]
+[joint.sun]
+type = "gear"
+between = ["sun.O", "planet.P"]
+radii = [0.04, 0.02]
+pressure_angle = "{} deg"
+[joint.ring]
+type = "gear"
+between = ["ground.O", "planet.P"]
+radii = [0.08, 0.02]
+mesh = "internal"
+pressure_angle = "{} deg"
+[motor.drive]
+joint = "S"
+torque = 4
+[motor.load]
+joint = "C"
+torque = "-8 - 0.4*rate"
+)toml";
+
+TEST(Gears, ARingPushesItsPlanetInwards) {
+  for (const char* equations : {"newtonian", "ideal"})
+    for (const double degrees : {20.0, 40.0}) {
+      const Trajectory run = completed(parse_model(fmt::format(fmt::runtime(kPlanetary), equations, degrees, degrees), "planetary.toml"));
+      const double tangent = std::tan(degrees * std::numbers::pi / 180);
+      for (const std::size_t row : {run.n_rows() / 2, run.n_rows() - 1}) {
+        const double x = value(run, row, "body.planet.x"), y = value(run, row, "body.planet.y"), r = std::hypot(x, y), w = value(run, row, "body.carrier.spin");
+        const auto along = [&](const std::string& joint, bool radial) {
+          const double fx = value(run, row, "joint." + joint + ".on_planet.fx[world]"), fy = value(run, row, "joint." + joint + ".on_planet.fy[world]");
+          return radial ? (fx * x + fy * y) / r : (fy * x - fx * y) / r;
+        };
+        const double sun = std::abs(along("sun", false)), ring = std::abs(along("ring", false)), size = 1e-3 * std::max(sun, ring);
+        EXPECT_NEAR(along("sun", true), sun * tangent, size) << equations << " " << degrees;
+        EXPECT_NEAR(along("ring", true), -ring * tangent, size) << equations << " " << degrees;
+        EXPECT_NEAR(along("P", true), ring * tangent - sun * tangent - 0.5 * w * w * r, 3 * size) << equations << " " << degrees;
+      }
+    }
+}
+
+// A gear that floats between two others at a right angle: what the teeth push with changes what they carry, whatever the pressure angle.
+TEST(Gears, AFloatingGearIsCarriedByItsTeeth) {
+  const auto carried = [](const char* equations, double degrees) {
+    const Trajectory run = completed(parse_model(fmt::format(fmt::runtime(R"toml(
+format = 1
+gravity = [0, 0]
+[simulate]
+duration = "20 ms"
+equations = "{}"
+[defaults.joint]
+stiffness = 1e9
+damping = 1e4
+[ground.markers]
+O = [0, 0]
+Q = [0.06, 0.06]
+[body.a]
+mass = 1
+inertia = 1e-3
+position = [0, 0]
+angle = 0
+spin = 0
+hold = ["angle"]
+markers.O = [0, 0]
+[body.c]
+mass = 1
+inertia = 1e-3
+position = [0.06, 0.06]
+angle = 0
+spin = 0
+markers.O = [0, 0]
+[body.b]
+mass = 1
+inertia = 1e-3
+position = [0.06, 0]
+angle = 0
+markers.O = [0, 0]
+[joint.A]
+type = "revolute"
+between = ["ground.O", "a.O"]
+[joint.C]
+type = "revolute"
+between = ["ground.Q", "c.O"]
+[joint.ab]
+type = "gear"
+between = ["a.O", "b.O"]
+radii = [0.03, 0.03]
+pressure_angle = "{} deg"
+[joint.bc]
+type = "gear"
+between = ["b.O", "c.O"]
+radii = [0.03, 0.03]
+pressure_angle = "{} deg"
+[spring.hold]
+between = ["ground.O", "b.O"]
+stiffness = 1e5
+[spring.hold2]
+between = ["ground.Q", "b.O"]
+stiffness = 1e5
+[motor.drive]
+joint = "A"
+torque = 4
+)toml"),
+                                                                 equations, degrees, degrees),
+                                                     "floating.toml"));
+    return value(run, run.n_rows() / 2, "joint.ab.normal_force");  // the ringing of the start is over
+  };
+  for (const double degrees : {20.0, 40.0, 44.0}) EXPECT_NEAR(carried("ideal", degrees), carried("newtonian", degrees), 3e-4 * carried("ideal", degrees)) << degrees;
+}
+
+TEST(Gears, TeethWithPlayPushApartToo) {
+  const Trajectory run = completed(mechanism("gear_train", {"--law joint.mesh=backlash,backlash=0.1 mm,contact_stiffness=2.8e8,restitution=0.5", "simulate.duration=\"0.1 s\""}));
+  double largest = 0;
+  for (std::size_t i = 0; i < run.n_rows(); ++i) {
+    const double tangential = std::abs(value(run, i, "joint.mesh.on_gear2.fy[world]")), radial = value(run, i, "joint.mesh.on_gear2.fx[world]");
+    EXPECT_NEAR(radial, tangential * std::tan(kAngle), 1e-4 * tangential + 1e-9) << i;
+    largest = std::max(largest, radial);
+  }
+  EXPECT_GT(largest, 30);
 }
 
 TEST(Gears, RefuseAPressureAngleOfMoreThan45Degrees) {

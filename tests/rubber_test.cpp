@@ -115,6 +115,7 @@ TEST(Rubber, WantsTheWayOverWhichItRubs) {
   };
   EXPECT_NE(refused("hysteresis_force=10").find("hysteresis_displacement"), std::string::npos);
   EXPECT_EQ(refused("hysteresis_force=10,hysteresis_displacement=1e-4"), "");
+  EXPECT_EQ(refused("branch_ratio=[1,1,1,1,1,1],branch_time=[1,2,3,4,5,6],hardening=1e5"), "");  // hardening needs no states
 }
 
 // A pin pressed into its slot by 30 N.

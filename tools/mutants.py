@@ -15,6 +15,7 @@ import os
 import random
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -92,10 +93,13 @@ def sites_of(tree, room):
 
 
 def run(command, seconds, **more):
-    """The exit code, and None where the time was up."""
+    """The exit code, and None where the time was up: then the command is ended with all that it has started."""
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True, **more)
     try:
-        return subprocess.run(command, timeout=seconds, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, **more).returncode
+        return process.wait(timeout=seconds)
     except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
         return None
 
 
@@ -211,6 +215,8 @@ def equivalents():
 
 def page(results):
     known = equivalents()
+    there = {(str(path.relative_to(ROOT)), line) for room in rooms_of(ROOT) for path in sources_of(ROOT, room) for line in path.read_text().splitlines()}
+    results = [r for r in results if (r["file"], r["line"]) in there]
     rooms = collections.defaultdict(collections.Counter)
     survivors = []
     for r in results:

@@ -90,7 +90,9 @@ MechanismText cylinders(Dice& dice) {
   keys["stop_cushion"] = number_text(stroke * dice.uniform(0.02, 0.1));
   if (dice.chance(0.5)) {
     keys["friction"] = in_quotes("brown-mcphee");
-    keys["friction_coefficient"] = number_text(dice.uniform(0.02, 0.2));
+    const double kinetic = dice.uniform(0.02, 0.2);
+    keys["friction_coefficient"] = number_text(kinetic);
+    keys["static_friction"] = number_text(kinetic * dice.uniform(1, 1.5));
     keys["friction_preload"] = number_text(dice.uniform(1, 50));
   }
   fill_joints(m, dice, 1e6, 1e9);

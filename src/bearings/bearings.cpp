@@ -110,10 +110,12 @@ void add_wear(const Bearing& bearing, const Trajectory& run, BearingSummary& out
   if (!bearing.wear_coefficient || !bearing.pin_diameter || !bearing.pin_length) return;
   const auto wear = std::find_if(run.wear.begin(), run.wear.end(), [&out](const JointWear& one) { return one.joint == out.joint; });
   if (wear == run.wear.end()) {
-    out.remarks.push_back("only a pin with clearance tells where it wears: law = \"clearance\"");
+    const bool loose = run.column("joint." + out.joint + ".wear_power") >= 0;
+    out.remarks.push_back(loose ? "this run does not tell where it wears: run it again" : "only a pin with clearance tells where it wears: law = \"clearance\"");
     return;
   }
   const auto most = std::max_element(wear->bush.begin(), wear->bush.end());
+  if (!(*most > 0)) return;
   const double width = kTurn / static_cast<double>(wear->bush.size());
   out.bush_depth = *bearing.wear_coefficient * *most / (0.5 * *bearing.pin_diameter * width * *bearing.pin_length);
   out.bush_depth_angle = width * (static_cast<double>(most - wear->bush.begin()) + 0.5);

@@ -129,7 +129,8 @@ LawFault maxwell_fault(const LawSetting& at) {
   const auto held = static_cast<std::size_t>(std::count(at.held.begin(), at.held.end(), true));
   if (at.number("hysteresis_force") > 0 && !(at.number("hysteresis_displacement") > 0))
     return {"hysteresis_displacement", "the friction inside the rubber grows over a displacement, which is not stated", "hysteresis_displacement = \"0.1 mm\", or what it is"};
-  if (held * ratios + held_lengths(at).size() > static_cast<std::size_t>(kMostLawStates))
+  const std::size_t inside = at.number("hysteresis_force") > 0 ? held_lengths(at).size() : 0;
+  if (held * ratios + inside > static_cast<std::size_t>(kMostLawStates))
     return {"branch_ratio", fmt::format("{} branches in {} components are more than {} states", ratios, held, kMostLawStates), "fewer branches"};
   return {};
 }

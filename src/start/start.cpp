@@ -52,7 +52,7 @@ Assembly start_of_run(const Model& model, System& system, double known_span) {
     Assembly assembly = ideal_start(model, system);
     note_lost_laws(system, [&system](int j) { return system.joints[j].ideal || system.joints[j].law.feeds(); }, assembly.notes);
     for (const JointData& joint : system.joints)
-      if (model.simulate.equations == Equations::kRelativeAugmented && joint.law.follows()) assembly.notes.push_back("joint " + joint.name + ": its teeth push nothing apart in these equations");
+      if (model.simulate.equations == Equations::kRelativeAugmented && joint.law.follows()) assembly.notes.push_back("joint " + joint.name + ": its teeth push nothing apart in these equations, whatever its radial_force says");
     return assembly;
   }
   if (model.simulate.equations != Equations::kRelative) return start_of_free_bodies(model, system, known_span);

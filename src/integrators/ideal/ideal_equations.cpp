@@ -13,8 +13,8 @@ namespace {
 
 using S = Planar;
 
-constexpr int kMostFollowing = 50;    // passes over forces that follow from reactions; the second one changes nothing where the teeth's centres are held
-constexpr double kFollowed = 1e-12;   // of their size: they change no more
+constexpr int kOpening = 1;           // component of a mesh
+constexpr int kMostSigns = 30;        // passes over the signs of the forces on teeth; the first one finds them unless centres float
 constexpr int kRefinements = 1;       // of the multipliers, against the accelerations they give
 constexpr int kMaxClosing = 12;       // Newton iterations on the loops
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
@@ -63,12 +63,12 @@ IdealEquations::IdealEquations(const System& system, Equations equations, const 
         rows_.push_back({j, k});
         n_redundant_ += !has_penalties() && system.joints[j].redundant[k];
       }
-  for (int j = 0; j < system.n_joints(); ++j)
-    if (system.joints[j].ideal && system.joints[j].law.follows()) following_.push_back(j);
   if (rows_.size() > kMostModes && n_redundant_ > 0) {
     std::erase_if(rows_, [&](const Row& row) { return system.joints[row.joint].redundant[row.component]; });
     n_redundant_ = 0;
   }
+  for (int i = 0; i < static_cast<int>(rows_.size()); ++i)
+    if (system.joints[rows_[i].joint].law.follows()) following_.push_back({rows_[i].joint, i});
   std::vector<std::vector<std::pair<int, int>>> on_body(system.bodies.size());  // row, side
   for (int i = 0; i < static_cast<int>(rows_.size()); ++i) {
     const Placement& at = system.joints[rows_[i].joint].at;
@@ -212,7 +212,7 @@ void IdealEquations::add_constraint_forces(Vecs& force, Vecs& on_bodies) const {
     for (const auto& [body, side] : {std::pair{at.a, 0}, std::pair{at.b, 1}})
       if (body != kGround) on_bodies[body] += jacobian(i, side).transpose() * force[rows_[i].joint][rows_[i].component];
   }
-  for (const int j : following_) {
+  for (const auto [j, row] : following_) {
     const S::Vec beside = system_.joints[j].law.following(force[j]);
     add_force(system_.joints[j].at, r_[j], beside, on_bodies);
     force[j] += beside;
@@ -224,25 +224,47 @@ void IdealEquations::find_reactions(State& state) const {
   for (std::size_t i = 0; i < rows_.size(); ++i) state.force[rows_[i].joint][rows_[i].component] = multipliers[i];
 }
 
-// From the accelerations without reactions. The reactions on teeth hardly change with what the teeth do to bearings, so that this converges at once.
+// All reactions to a unit force along the opening of a mesh.
+Eigen::VectorXd IdealEquations::reactions_to_opening(int joint) const {
+  const Placement& at = system_.joints[joint].at;
+  Vecs a(system_.bodies.size(), S::Vec::Zero());
+  for (const auto& [body, G] : {std::pair{at.a, r_[joint].GA()}, std::pair{at.b, r_[joint].GB()}})
+    if (body != kGround) a[body] += (G.transpose() * S::Vec::Unit(kOpening)).cwiseQuotient(system_.bodies[body].mass);
+  Eigen::VectorXd reactions;
+  solve(-rates(a), reactions);
+  return reactions;
+}
+
+// The teeth's reactions f, which are f0 without what they do to the bearings, from f = f0 + C |f|, for the signs of f that agree with it.
 bool IdealEquations::find_following_forces(const Vecs& applied, State& state) const {
-  for (int pass = 0; pass < kMostFollowing; ++pass) {
-    double change = 0, size = 0;
-    state.a = applied;
-    for (const int j : following_) {
-      const JointData& joint = system_.joints[j];
-      S::Vec held = state.force[j].cwiseProduct(S::Vec(S::Vec::Ones() - joint.free_mask));
-      const S::Vec beside = joint.law.following(held);
-      change = std::max(change, (held + beside - state.force[j]).cwiseAbs().maxCoeff());
-      size = std::max(size, beside.cwiseAbs().maxCoeff());
-      state.force[j] = held + beside;
-      for (const auto& [body, G] : {std::pair{joint.at.a, r_[j].GA()}, std::pair{joint.at.b, r_[j].GB()}})
-        if (body != kGround) state.a[body] += (G.transpose() * beside).cwiseQuotient(system_.bodies[body].mass);
-    }
-    find_reactions(state);
-    if (change <= kFollowed * size) return true;
+  const auto n = static_cast<Eigen::Index>(following_.size());
+  Eigen::MatrixXd C(n, n);
+  Eigen::VectorXd f0(n), f, sign(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const Follower& teeth = following_[static_cast<std::size_t>(k)];
+    const Eigen::VectorXd reactions = system_.joints[teeth.joint].law.following(S::Vec::Unit(0))[kOpening] * reactions_to_opening(teeth.joint);
+    for (Eigen::Index i = 0; i < n; ++i) C(i, k) = reactions[following_[static_cast<std::size_t>(i)].row];
+    f0[k] = state.force[teeth.joint][0];
+    sign[k] = f0[k] < 0 ? -1 : 1;
   }
-  return false;
+  for (int pass = 0;; ++pass) {
+    f = (Eigen::MatrixXd::Identity(n, n) - C * sign.asDiagonal()).partialPivLu().solve(f0);
+    const Eigen::VectorXd found = (f.array() < 0).select(-Eigen::VectorXd::Ones(n), Eigen::VectorXd::Ones(n));
+    if (found == sign) break;
+    if (pass == kMostSigns) return false;
+    sign = found;
+  }
+  state.a = applied;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const int j = following_[static_cast<std::size_t>(k)].joint;
+    const Placement& at = system_.joints[j].at;
+    const S::Vec beside = system_.joints[j].law.following(f[k] * S::Vec::Unit(0));
+    for (const auto& [body, G] : {std::pair{at.a, r_[j].GA()}, std::pair{at.b, r_[j].GB()}})
+      if (body != kGround) state.a[body] += (G.transpose() * beside).cwiseQuotient(system_.bodies[body].mass);
+    state.force[j] = beside;
+  }
+  find_reactions(state);
+  return true;
 }
 
 bool IdealEquations::complete(State& state) {

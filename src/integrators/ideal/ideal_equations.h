@@ -96,11 +96,15 @@ class IdealEquations {
   void fill_joints(State& state);
   void find_reactions(State& state) const;
   bool find_following_forces(const Vecs& applied, State& state) const;
+  Eigen::VectorXd reactions_to_opening(int joint) const;
   Eigen::VectorXd add_reactions(Vecs& a) const;                      // a += M^-1 G' f; f
   const Eigen::RowVector3d& jacobian(std::size_t row, int side) const { return jacobian_[2 * row + side]; }
 
   const System& system_;
-  std::vector<int> following_;          // ideal joints part of whose force follows from the reaction: teeth with a pressure angle
+  struct Follower {
+    int joint, row;
+  };
+  std::vector<Follower> following_;     // ideal joints part of whose force follows from the reaction, that of a row: teeth with a pressure angle
   Equations equations_;
   PenaltySettings penalty_;
   std::vector<Row> rows_;

@@ -120,7 +120,7 @@ void check_geometry(ModelReading& reading, const JointTypeInfo& type, const Reco
   const GeometryFault fault = type.fault(joint.geometry);
   if (fault.key.empty()) return;
   const Value* value = record.find(fault.key);
-  reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : fault.key, fault.why, fault.remedy);
+  reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : "no " + fault.key, fault.why, fault.remedy);
 }
 
 // What is wrong with points that the model does not state here is wrong with the table that gives them: "displacement" is its x, "force" its y.
@@ -158,7 +158,7 @@ void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& 
   if (fault.key.empty()) return;
   blame_the_table(law, record, fault);
   const Value* value = record.find(fault.key);
-  reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : fault.key, fault.why, fault.remedy);
+  reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : "no " + fault.key, fault.why, fault.remedy);
 }
 
 // The points of the table that a key names, as the values of the two keys that they stand for.

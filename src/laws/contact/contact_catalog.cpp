@@ -66,6 +66,7 @@ LawFault contact_fault(const LawSetting& at) {
   const double start = at.number("friction_start_speed"), end = at.number("friction_full_speed");
   const bool rubs = start > 0 || end > 0;  // teeth have no such keys
   if (rubs && !(end > start)) return {"friction_full_speed", fmt::format("{:g} m/s is not above friction_start_speed, {:g} m/s", end, start), "a larger speed"};
+  if (at.number("static_friction") > 0 && !(at.number("friction_coefficient") > 0)) return {"friction_coefficient", "what sticks by static_friction rubs when it slips", "friction_coefficient, at most static_friction"};
   if (const double stuck = at.number("static_friction"); stuck > 0 && stuck < at.number("friction_coefficient"))
     return {"static_friction", fmt::format("{:g} is below friction_coefficient, {:g}: what slips would be held more firmly than what rests", stuck, at.number("friction_coefficient")), "static_friction not below friction_coefficient"};
   if (at.joint_type == "cam" && (at.number("friction_coefficient") > 0 || at.number("static_friction") > 0)) return {"friction_coefficient", "a cam and its follower touch without friction", "delete it"};

@@ -70,12 +70,14 @@ struct GuideContactLaw : RubbingContact {
     return {0, 2 * k, 0.5 * k * length * length};
   }
   std::span<const LawColumn> columns() const {
-    static const std::array<LawColumn, 5> all{{{"contact_force_front", "N", "normal force at the end ahead, along the guide's axis"},
+    static const std::array<LawColumn, 7> all{{{"contact_force_front", "N", "normal force at the end ahead, along the guide's axis"},
                                                {"contact_force_rear", "N", "normal force at the other end"},
                                                {"penetration_front", "m", "depth by which the end ahead overlaps a wall; negative while apart"},
                                                {"penetration_rear", "m", "the same of the other end"},
-                                               {"wear_power", "W", "normal forces times speeds of slip"}}};
-    return all;
+                                               {"wear_power", "W", "normal forces times speeds of slip"},
+                                               {"stuck_front", "", "1 while the end ahead sticks, 0 while it slips or is apart"},
+                                               {"stuck_rear", "", "the same of the other end"}}};
+    return std::span(all).first(grip ? 7 : 5);
   }
   void observe(const LawInput<double>& in, const Planar::Vec&, double* value) const {
     value[4] = 0;
@@ -83,7 +85,9 @@ struct GuideContactLaw : RubbingContact {
       const End<double> end = find(in, i);
       value[i] = forces(end, in.state + i * RubbingContact::n_states()).normal;
       value[2 + i] = end.depth;
-      value[4] += value[i] * std::abs(end.slip);
+      const double* end_state = in.state + i * RubbingContact::n_states();
+      value[4] += wear_power(value[i], end.slip, end_state);
+      if (grip) value[5 + i] = sticks(end_state) ? 1 : 0;
     }
   }
 

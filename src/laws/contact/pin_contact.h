@@ -71,7 +71,7 @@ struct PinContact : RubbingContact {
     value[2] = std::atan2(at.ny, at.nx);
     value[3] = in.state[0];
     value[4] = at.slip;
-    value[5] = value[0] * std::abs(at.slip);
+    value[5] = wear_power(value[0], at.slip, in.state);
     if (grip) value[6] = sticks(in.state) ? 1 : 0;
   }
 

@@ -4,7 +4,9 @@
 // let-go are borders, and with stiction stick and slip. theory/contact sections 1 and 3.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -64,6 +66,8 @@ struct RubbingContact {
     contact.cross(border, at.rate, state[0]);
     if (grip && border == ContactForce::kTouch) StickSlip::rest(at.slip, state + 1);
   }
+  /// What Archard's law multiplies: surfaces that stick move by their springs only.
+  double wear_power(double normal, double slip, const double* state) const { return sticks(state) ? 0 : std::max(0.0, normal) * std::abs(slip); }
   bool sticks(const double* state) const { return grip && state[0] > 0 && StickSlip::sticks(state + 1); }
 
  private:

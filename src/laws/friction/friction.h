@@ -1,6 +1,6 @@
 // What the laws of friction in joints have in common: what slips, what presses, and what is told of it.
 //
-//   v = r w (pins) or the rate of the slide;      N = |reaction| + N_0                             theory/joints Eq. (3.14)
+//   v = r w (pins) or the rate of the slide (sliders, slots);      N = |reaction| + N_0                             theory/joints Eq. (3.14)
 //   a slide with a guide:  N = |F/2 + M/L| + |F/2 - M/L| + N_0 = max(|F|, 2 |M|/L) + N_0           Eq. (3.15)
 //
 //   seals of a cylinder:   N = N_0 + A_s (|p_c - p_0| + |p_r - p_0|)                               theory/cylinders Eq. (3.1)
@@ -22,7 +22,7 @@ namespace pintle {
 
 struct Friction {
   static constexpr bool kHolds = false;
-  int free = 2;                      // component that slips: 2 of a pin, 0 of a slide
+  int free = 2;                      // component that slips: 2 of a pin, 0 of a slider or slot
   double radius = 0.01;              // of the pin [m]; 1 for slides
   double guide = 0;                  // length L of a slide's guide [m]; 0: its moment does not press
   double preload = 0;                // N_0 [N]

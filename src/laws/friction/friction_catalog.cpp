@@ -15,7 +15,7 @@ namespace {
 // Of friction by any law.
 constexpr KeyInfo kKinetic{.key = "friction_coefficient", .unit = "", .fallback = 0.1, .minimum_exclusive = true, .meaning = "kinetic friction: of steady fast slip"};
 constexpr KeyInfo kStatic{.key = "static_friction", .unit = "", .fallback = 0.15, .minimum_exclusive = true, .meaning = "coefficient at which slip begins; not below the kinetic one"};
-constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .minimum_exclusive = true, .otherwise = "a pin has none without it", .meaning = "where a pin rubs; of no other joint"};
+constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .minimum_exclusive = true, .otherwise = "required of a pin", .meaning = "where a pin rubs; of no other joint"};
 constexpr KeyInfo kGuide{.key = "guide_length", .unit = "m", .meaning = "of a slider, centred on the second marker: its moment presses the edges; 0: only the force across does"};
 constexpr KeyInfo kStribeck{.key = "stribeck_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip at which friction has fallen most of the way to kinetic"};
 constexpr KeyInfo kViscous{.key = "viscous_friction", .unit = "s/m", .meaning = "friction per slip speed and load"};
@@ -62,7 +62,7 @@ LawFault friction_fault(const LawSetting& at) {
   if (at.joint_type != kCylinder && at.number("seal_area") > 0) return {"seal_area", "only cylinders have seals", "delete it; friction_preload is a constant load"};
   if (at.joint_type == kCylinder && at.number("guide_length") > 0) return {"guide_length", "the guide of a cylinder's rod carries no load: the force acts along it", "delete it"};
   if (is_pin(at) && !(at.number("pin_radius") > 0)) return {"pin_radius", "a pin rubs at its radius, which is not stated", "pin_radius = \"10 mm\", or what it is"};
-  if (at.free[2] && at.number("guide_length") > 0) return {"guide_length", "a pin transmits no moment that could press the edges of a guide", "delete it"};
+  if (at.free[2] && at.number("guide_length") > 0) return {"guide_length", "a joint that turns transmits no moment that could press the edges of a guide", "delete it"};
   return {};
 }
 
