@@ -119,6 +119,51 @@ TEST(ContactStiction, SlidingEndsInRollingAndIsAnEvent) {
   EXPECT_NEAR(sticks, 0.5 / (0.2 * kG), 2e-3);  // slip falls by 3 mu g t
 }
 
+// A slider that is loose in a guide of 6 degrees lies on it with both ends, which hold it up to 16.7 degrees and slide beyond.
+TEST(ContactStiction, TheEndsOfALooseSliderHoldItOnASlope) {
+  const auto run = [](double degrees) {
+    const double angle = -degrees * 3.14159265358979324 / 180;
+    return completed(parse_model(fmt::format(R"toml(
+format = 1
+[simulate]
+duration = "0.3 s"
+tolerance = 1e-4
+[ground.markers]
+guide = [0, 0, "{0} deg"]
+[body.slider]
+mass = 1
+inertia = 1e-3
+position = [{1:.17g}, {2:.17g}]
+angle = 0
+velocity = [0, 0]
+spin = 0
+markers.s = [0, 0, "{0} deg"]
+[joint.guide]
+type = "prismatic"
+between = ["ground.guide", "slider.s"]
+law = "clearance"
+clearance = "0.1 mm"
+guide_length = "50 mm"
+contact_model = "linear"
+contact_stiffness = 1e7
+contact_damping = 2e3
+contact_exponent = 1
+friction_coefficient = 0.2
+static_friction = 0.3
+)toml",
+                                             -degrees, 1e-4 * std::sin(angle), -1e-4 * std::cos(angle)),
+                                 "slider.toml"));
+  };
+  const Trajectory held = run(6), slid = run(20);
+  for (const char* end : {"joint.guide.stuck_front", "joint.guide.stuck_rear"}) {
+    EXPECT_EQ(at_end(held, end), 1);
+    EXPECT_EQ(at_end(slid, end), 0);
+  }
+  EXPECT_NEAR(at_end(held, "joint.guide.slide_rate"), 0, 1e-9);
+  const double angle = 20 * 3.14159265358979324 / 180, accel = kG * (std::sin(angle) - 0.2 * std::cos(angle));
+  EXPECT_NEAR(at_end(slid, "joint.guide.slide_rate"), 0.3 * accel, 0.02 * accel);
+}
+
 TEST(ContactStiction, RefusesAStaticCoefficientBelowTheKineticOne) {
   EXPECT_THROW(on_slope(0.1, 0.05, "friction_coefficient = 0.4\nstatic_friction = 0.3"), InputError);
   EXPECT_THROW(on_slope(0.1, 0.05, "static_friction = 0.3"), InputError);  // what slips would not rub
