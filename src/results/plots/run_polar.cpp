@@ -39,7 +39,7 @@ void add_curves(const Trajectory& run, const LoadSummary& joint, const std::stri
 const JointWear& find_wear(const Trajectory& run, const LoadSummary& joint) {
   const auto found = std::find_if(run.wear.begin(), run.wear.end(), [&joint](const JointWear& one) { return one.joint == joint.name; });
   if (found != run.wear.end()) return *found;
-  throw PlotRequestError(fmt::format("joint \"{}\" has no clearance: only pins with law = \"clearance\" tell their wear.", joint.name));
+  throw PlotRequestError(fmt::format("joint \"{}\" tells no wear: only pins with law = \"clearance\" do.\n    Choose another joint; runs of older versions have no wear, so run their models again.", joint.name));
 }
 
 // Sectors as arcs about the centre.
