@@ -3,6 +3,7 @@
 #include <httplib.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -62,11 +63,15 @@ void WebServer::serve(studio::RequestRouter& router, const std::function<bool()>
   // [^] rather than a dot: a dot leaves out line ends.
   constexpr const char* kAnything = R"([\s\S]*)";
   server.Get(kAnything, answer).Post(kAnything, answer).Put(kAnything, answer).Delete(kAnything, answer).Patch(kAnything, answer).Options(kAnything, answer);
+  // A server that does not run yet cannot be stopped.
+  std::atomic<bool> ended = false;
   std::thread watch([&] {
     while (goes_on()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    while (!server.is_running() && !ended) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     server.stop();
   });
   server.listen_after_bind();
+  ended = true;
   watch.join();
 }
 

@@ -1,17 +1,21 @@
 #include "joints/belt.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace pintle {
 namespace {
 
-// The angles of discs and of the way between them are known up to full turns. A belt gives way little and may be slack by much.
-constexpr double kMostStretch = 0.1;  // of what a whole turn winds
+// Of what a whole turn winds: what a belt may be stretched by at least, and at most; and over its stretch as assembled.
+constexpr double kLeastRange = 0.1, kMostRange = 0.5, kOverAssembled = 3;
 
-GapFunction gap_at(const Planar::Vec& z, const double* parameters) { return Belt{parameters[0], parameters[1], parameters[2]}(z); }
+GapFunction gap_at(const Planar::Vec& z, const double* parameters) { return Belt{parameters[0], parameters[1], parameters[2], parameters[3]}(z); }
 
 }  // namespace
+
+double Belt::turn() const { return 2 * std::numbers::pi * std::abs(w()); }
+double Belt::most_stretch() const { return std::clamp(kOverAssembled * stretch, kLeastRange * turn(), kMostRange * turn()); }
 
 double Belt::run(const Planar::Vec& z) const {
   const double distance = std::hypot(z[0], z[1]), apart = std::abs(w());
@@ -23,7 +27,7 @@ GapFunction Belt::operator()(const Planar::Vec& z) const {
   const double apart = std::abs(w()), t = run(z);
   const double a = std::atan2(z[1], z[0]) + (t > 0 || apart > 0 ? std::atan2(w(), t) : 0), c = std::cos(a), s = std::sin(a);  // (2.15)
   g.gap = t + w() * a - radius_second * z[2] - length;                                                                      // (2.16)
-  if (const double turn = 2 * std::numbers::pi * apart; turn > 0) g.gap -= turn * std::ceil(g.gap / turn - kMostStretch);
+  if (const double whole = turn(); whole > 0) g.gap -= whole * std::ceil((g.gap - most_stretch()) / whole);
   g.gradient << c, s, -radius_second;
   if (!(t > 0)) return g;
   g.hessian(0, 0) = s * s / t;
@@ -32,12 +36,12 @@ GapFunction Belt::operator()(const Planar::Vec& z) const {
   return g;
 }
 
-FunctionGap function_of(const Belt& belt) { return {gap_at, {belt.radius_first, belt.radius_second, belt.length}}; }
+FunctionGap function_of(const Belt& belt) { return {gap_at, {belt.radius_first, belt.radius_second, belt.length, belt.stretch}}; }
 
 std::optional<Belt> belt_of(const JointDisplacement& displacement) {
   const auto* function = std::get_if<FunctionGap>(&displacement);
   if (!function || function->at != gap_at) return {};
-  return Belt{function->parameters[0], function->parameters[1], function->parameters[2]};
+  return Belt{function->parameters[0], function->parameters[1], function->parameters[2], function->parameters[3]};
 }
 
 }  // namespace pintle

@@ -16,8 +16,13 @@ namespace pintle {
 struct Belt {
   double radius_first = 0, radius_second = 0;  // r1, r2, signed [m]
   double length = 0;                           // of the belt, less what is wound where all angles are 0 [m]
+  double stretch = 0;                          // as assembled [m]
 
   double w() const { return radius_second - radius_first; }
+  /// What a whole turn of one disc about the other winds [m]. Angles are known up to full turns, so the gap is up to this.
+  double turn() const;
+  /// The largest gap: a belt gives way little and may be slack by much, and is taken to be slack beyond [m].
+  double most_stretch() const;
   /// t, 0 where there is no way between the discs [m].
   double run(const Planar::Vec& z) const;
   GapFunction operator()(const Planar::Vec& z) const;

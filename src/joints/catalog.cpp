@@ -87,9 +87,12 @@ JointDisplacement make_rack(const Geometry& g) { return RackMesh{value(g, "radiu
 JointDisplacement make_belt(const Geometry& g) {
   const double first = value(g, "first_side", 0), second = value(g, "second_side", first);
   const auto signed_radius = [&g](const char* key, double side) { return value(g, key, 0) * (side > 0 ? -1 : 1); };
-  return function_of({signed_radius("first_radius", first), signed_radius("second_radius", second), 0});
+  return function_of({signed_radius("first_radius", first), signed_radius("second_radius", second), 0, value(g, "stretch", 0)});
 }
 GeometryFault belt_fault(const Geometry& g) {
+  if (const Belt belt = *belt_of(make_belt(g)); belt.turn() > 0 && belt.stretch > 0.9 * belt.most_stretch())
+    return {"stretch", fmt::format("{:.4g} m is much of the {:.4g} m that a turn winds off the one disc and not onto the other: a taut belt cannot be told from a slack one", belt.stretch, belt.turn()),
+            "equal radii, or a stiffer belt with less stretch"};
   const double first = value(g, "first_radius", 0), second = value(g, "second_radius", 0);
   if (first == 0 && second == 0) return {"first_radius", "a belt winds onto one disc at least", "first_radius, or type = \"rope\" between two points"};
   if (second == 0 && g.contains("second_side")) return {"second_side", "the belt ends in the second marker, which has no sides", "second_radius, or delete it"};
