@@ -5,7 +5,7 @@ set(PINTLE_SUITES_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/list_suites.cmake)
 function(pintle_test_program name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE pintle_flags ${arg_LINK} GTest::gtest GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE pintle_flags ${arg_LINK} Eigen3::Eigen GTest::gtest GTest::gtest_main)
   target_compile_options(${name} PRIVATE -O0)  # they are built more often than run
   target_precompile_headers(${name} PRIVATE <gtest/gtest.h> <fmt/format.h> <Eigen/Dense>)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})

@@ -143,9 +143,10 @@ class Suites:
         if not self.has_tests(room):
             return
         start = time.time()
-        program = self.program(room)
-        if not self.build(f"pintle_{room}_tests") or run([program], 1800, cwd=TREE) != 0:
-            sys.exit(f"the tests of {room} fail before anything is changed")
+        if not self.build(f"pintle_{room}_tests"):
+            sys.exit(f"the tests of {room} do not compile before anything is changed: ninja -C {BUILD} pintle_{room}_tests")
+        if run([self.program(room)], 1800, cwd=TREE) != 0:
+            sys.exit(f"the tests of {room} fail before anything is changed: {self.program(room)}")
         self.usual[room] = time.time() - start
 
     def program(self, room):
