@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "tests/reference_tables.h"
@@ -122,7 +123,7 @@ TEST(ContactStiction, SlidingEndsInRollingAndIsAnEvent) {
 // A slider that is loose in a guide of 6 degrees lies on it with both ends, which hold it up to 16.7 degrees and slide beyond.
 TEST(ContactStiction, TheEndsOfALooseSliderHoldItOnASlope) {
   const auto run = [](double degrees) {
-    const double angle = -degrees * 3.14159265358979324 / 180;
+    const double angle = -degrees * std::numbers::pi / 180;
     return completed(parse_model(fmt::format(R"toml(
 format = 1
 [simulate]
@@ -160,7 +161,7 @@ static_friction = 0.3
     EXPECT_EQ(at_end(slid, end), 0);
   }
   EXPECT_NEAR(at_end(held, "joint.guide.slide_rate"), 0, 1e-9);
-  const double angle = 20 * 3.14159265358979324 / 180, accel = kG * (std::sin(angle) - 0.2 * std::cos(angle));
+  const double angle = 20 * std::numbers::pi / 180, accel = kG * (std::sin(angle) - 0.2 * std::cos(angle));
   EXPECT_NEAR(at_end(slid, "joint.guide.slide_rate"), 0.3 * accel, 0.02 * accel);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "tests/reference_tables.h"
@@ -86,7 +87,7 @@ position = "0.002*sin({:.17g}*t)"
 stiffness = 1e9
 damping = 1e4
 )toml",
-                                 cycles / speed, 0.02 / speed, 2 * 3.14159265358979324 * speed),
+                                 cycles / speed, 0.02 / speed, 2 * std::numbers::pi * speed),
                      "to_and_fro.toml");
 }
 

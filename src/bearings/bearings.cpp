@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "bearings/duty.h"
+#include "bearings/worn_sector.h"
 
 namespace pintle {
 namespace {
@@ -114,11 +115,10 @@ void add_wear(const Bearing& bearing, const Trajectory& run, BearingSummary& out
     out.remarks.push_back(loose ? "this run does not tell where it wears: run it again" : "only a pin with clearance tells where it wears: law = \"clearance\"");
     return;
   }
-  const auto most = std::max_element(wear->bush.begin(), wear->bush.end());
-  if (!(*most > 0)) return;
-  const double width = kTurn / static_cast<double>(wear->bush.size());
-  out.bush_depth = *bearing.wear_coefficient * *most / (0.5 * *bearing.pin_diameter * width * *bearing.pin_length);
-  out.bush_depth_angle = width * (static_cast<double>(most - wear->bush.begin()) + 0.5);
+  const WornSector most = most_worn(wear->bush);
+  if (!(most.work > 0)) return;
+  out.bush_depth = *bearing.wear_coefficient * most.work / (0.5 * *bearing.pin_diameter * most.width() * *bearing.pin_length);
+  out.bush_depth_angle = most.angle();
 }
 
 std::vector<std::string> missing_sizes(const Bearing& bearing) {

@@ -14,8 +14,8 @@ GapFunction gap_at(const Planar::Vec& z, const double* parameters) { return Belt
 
 }  // namespace
 
-double Belt::turn() const { return 2 * std::numbers::pi * std::abs(w()); }
-double Belt::most_stretch() const { return std::clamp(kOverAssembled * stretch, kLeastRange * turn(), kMostRange * turn()); }
+double Belt::wound_per_turn() const { return 2 * std::numbers::pi * std::abs(w()); }
+double Belt::most_stretch() const { return std::clamp(kOverAssembled * stretch, kLeastRange * wound_per_turn(), kMostRange * wound_per_turn()); }
 
 double Belt::run(const Planar::Vec& z) const {
   const double distance = std::hypot(z[0], z[1]), apart = std::abs(w());
@@ -27,7 +27,7 @@ GapFunction Belt::operator()(const Planar::Vec& z) const {
   const double apart = std::abs(w()), t = run(z);
   const double a = std::atan2(z[1], z[0]) + (t > 0 || apart > 0 ? std::atan2(w(), t) : 0), c = std::cos(a), s = std::sin(a);  // (2.15)
   g.gap = t + w() * a - radius_second * z[2] - length;                                                                      // (2.16)
-  if (const double whole = turn(); whole > 0) g.gap -= whole * std::ceil((g.gap - most_stretch()) / whole);
+  if (const double whole = wound_per_turn(); whole > 0) g.gap -= whole * std::ceil((g.gap - most_stretch()) / whole);
   g.gradient << c, s, -radius_second;
   if (!(t > 0)) return g;
   g.hessian(0, 0) = s * s / t;

@@ -3,16 +3,6 @@
 namespace pintle {
 namespace {
 
-// Calls use(component, function) for every function of a displacement; there are none where its gap is the relative pose itself.
-template <class S, class Use>
-void for_each_function(const BasicDisplacement<S>& displacement, const typename S::Vec& z, Use&& use) {
-  std::visit(
-      [&](const auto& p) {
-        if constexpr (!std::is_same_v<std::decay_t<decltype(p)>, BasicSelection<S>>) visit_functions(p, z, use);
-      },
-      displacement);
-}
-
 template <class S>
 bool selects(const BasicDisplacement<S>& displacement) { return std::holds_alternative<BasicSelection<S>>(displacement); }
 
@@ -33,7 +23,7 @@ BasicJointKinematics<S> DisplacementReader<S>::read(const Displacement& displace
   BasicJointKinematics<S> r;
   r.gap = r.rate = r.bias = Vec::Zero();
   r.map = S::template GapMap<double>::of(pose);
-  for_each_function<S>(displacement, pose.z, [&](int k, const BasicGapFunction<S>& g) {
+  for_each_function(displacement, pose.z, [&](int k, const BasicGapFunction<S>& g) {
     r.gap[k] = g.gap;
     r.rate[k] = g.gradient.dot(pose.rate);
     r.bias[k] = g.gradient.dot(pose.bias) + pose.rate.dot(g.hessian * pose.rate);
@@ -47,7 +37,7 @@ template <class S>
 auto DisplacementReader<S>::to_pose_force(const Displacement& displacement, const Pose& pose, const Vec& force) -> Vec {
   if (selects<S>(displacement)) return force;
   Vec f = Vec::Zero();
-  for_each_function<S>(displacement, pose.z, [&](int k, const BasicGapFunction<S>& g) { f += g.gradient * force[k]; });
+  for_each_function(displacement, pose.z, [&](int k, const BasicGapFunction<S>& g) { f += g.gradient * force[k]; });
   return f;
 }
 
@@ -56,7 +46,7 @@ auto DisplacementReader<S>::geometric_stiffness(const Displacement& displacement
   if (selects<S>(displacement)) return pose.geometric(force);
   Vec f = Vec::Zero();
   typename S::Mat bend = S::Mat::Zero();
-  for_each_function<S>(displacement, pose.z, [&](int k, const BasicGapFunction<S>& g) {
+  for_each_function(displacement, pose.z, [&](int k, const BasicGapFunction<S>& g) {
     f += g.gradient * force[k];
     bend += force[k] * g.hessian;
   });
@@ -69,7 +59,7 @@ auto DisplacementReader<S>::rate_gradient(const Displacement& displacement, cons
   const RateGradient of_pose = pose.rate_gradient(A, B);
   if (selects<S>(displacement)) return of_pose;
   RateGradient r = RateGradient::Zero();
-  for_each_function<S>(displacement, pose.z, [&](int k, const BasicGapFunction<S>& g) {
+  for_each_function(displacement, pose.z, [&](int k, const BasicGapFunction<S>& g) {
     r.row(k) = g.gradient.transpose() * of_pose + (g.hessian * pose.rate).transpose() * both(pose);
   });
   return r;

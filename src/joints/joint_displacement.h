@@ -75,6 +75,16 @@ int count_functions(const Displacement& displacement) {
       displacement);
 }
 
+/// Calls use(component, function) for every component of the gap that is a function of the pose z.
+template <class Displacement, class Vec, class Use>
+void for_each_function(const Displacement& displacement, const Vec& z, Use&& use) {
+  std::visit(
+      [&](const auto& p) {
+        if constexpr (!requires { p.offset; }) visit_functions(p, z, use);
+      },
+      displacement);
+}
+
 /// The space of a relative pose.
 template <class Pose>
 using SpaceOf = typename Pose::S;

@@ -180,18 +180,18 @@ bool BasicLaw<S>::has_friction() const {
 }
 
 template <class S>
-bool BasicLaw<S>::follows() const {
-  return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->follows(); });
+bool BasicLaw<S>::depends_on_reaction_alone() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->depends_on_reaction_alone(); });
 }
 
 template <class S>
-typename S::Vec BasicLaw<S>::following(const Vec& force) const {
+typename S::Vec BasicLaw<S>::force_on_reaction(const Vec& reaction) const {
   LawInput<double, S::kDof> in{};
-  std::copy_n(force.data(), S::kDof, in.before);
+  std::copy_n(reaction.data(), S::kDof, in.before);
   LawOutput<double, S::kDof> out;
   out.clear();
   for (const auto& part : parts_)
-    if (part->follows()) part->evaluate(in, out);
+    if (part->depends_on_reaction_alone()) part->evaluate(in, out);
   return Eigen::Map<const typename S::Vec>(out.force);
 }
 
@@ -202,7 +202,7 @@ bool BasicLaw<S>::feeds() const {
 
 template <class S>
 double BasicLaw<S>::supply(const BasicLawPoint<S>& at, const Vec& force) const {
-  double power = follows() ? following(force).dot(at.rate) : 0;
+  double power = depends_on_reaction_alone() ? force_on_reaction(force).dot(at.rate) : 0;
   for (const auto& part : parts_)
     if (part->feeds()) power += part->supply(input_at(at));
   return power;

@@ -105,10 +105,10 @@ class BasicLaw {
   /// Whether a part is the stops of what the joint leaves free; whether one is its dry friction.
   bool has_stops() const;
   bool has_friction() const;
-  /// Whether the force of a part follows from those before it alone; and all such forces, where the joint has this force otherwise. They have no
+  /// Whether the force of a part depends on those before it alone; and all such forces, where the joint has this reaction. They have no
   /// potential: their power comes in from outside.
-  bool follows() const;
-  Vec following(const Vec& force) const;
+  bool depends_on_reaction_alone() const;
+  Vec force_on_reaction(const Vec& reaction) const;
   /// Whether power comes in through a part, as through the pressure in a cylinder.
   bool feeds() const;
   /// The power that comes in where the joint has this force [W]. It depends on no states.

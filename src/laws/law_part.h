@@ -66,7 +66,7 @@ class BasicLawPart {
   /// Whether it is dry friction of what the joint leaves free.
   virtual bool rubs() const = 0;
   /// Whether its force is a function of that of the parts before it and of nothing else: where the joint is ideal, it has this force too.
-  virtual bool follows() const = 0;
+  virtual bool depends_on_reaction_alone() const = 0;
   /// Whether power comes in through it from outside, as through the pressure in a cylinder; and that power, a function of time, gap and rate [W].
   virtual bool feeds() const = 0;
   virtual double supply(const Input<double>& in) const = 0;
@@ -90,7 +90,7 @@ using LawPart = BasicLawPart<Planar>;
 
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
 /// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), border_directions() (one +1, -1 or 0
-/// each, or border_direction(i)) cross() and border_name(), kHolds = false, kStops = true, kRubs = false (of what neither holds nor stops), kFollows = true, kStartsFree = true, supply(in),
+/// each, or border_direction(i)) cross() and border_name(), kHolds = false, kStops = true, kRubs = false (of what neither holds nor stops), kOnReactionAlone = true, kStartsFree = true, supply(in),
 /// columns() with observe(), engage(), lever(), penetration(), breach().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
@@ -147,8 +147,8 @@ class LawPartOf final : public BasicLawPart<S> {
     if constexpr (requires { P::kRubs; }) return P::kRubs;
     else return !holds() && !stops();
   }
-  bool follows() const override {
-    if constexpr (requires { P::kFollows; }) return P::kFollows;
+  bool depends_on_reaction_alone() const override {
+    if constexpr (requires { P::kOnReactionAlone; }) return P::kOnReactionAlone;
     else return false;
   }
   bool feeds() const override {

@@ -40,7 +40,7 @@ struct MaxwellLaw {
 
   static MaxwellLaw typical() { return {{1e6, 2e6, 300}, {200, 100, 0.5}, {{0, 5e5, 0.01}, {0, 2e5, 0.3}, {1, 1e6, 0.01}, {2, 200, 0.02}}, 1e6, 300, 2e-4, {0, 1}}; }
 
-  int n_states() const { return static_cast<int>(branches.size() + (rubs_inside() ? lengths.size() : 0)); }
+  int n_states() const { return static_cast<int>(branches.size() + (has_hysteresis() ? lengths.size() : 0)); }
   template <class T>
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
     for (int i = 0; i < 3; ++i) {
@@ -57,7 +57,7 @@ struct MaxwellLaw {
       out.loss += (1 / branch.tau) * (force * stretch);
     }
     if (hardening > 0) harden(in, out);
-    if (rubs_inside()) rub_inside(in, out);
+    if (has_hysteresis()) rub_inside(in, out);
   }
   void rest(const LawInput<double>& in, double* state) const {
     for (std::size_t b = 0; b < branches.size(); ++b) state[b] = in.gap[branches[b].component];
@@ -66,7 +66,7 @@ struct MaxwellLaw {
   Planar::Vec engaged_stiffness() const { return k; }
 
  private:
-  bool rubs_inside() const { return hysteresis_force > 0; }
+  bool has_hysteresis() const { return hysteresis_force > 0; }
   template <class T>
   void harden(const LawInput<T>& in, LawOutput<T>& out) const {
     T q(0.0), r2(0.0);
@@ -82,19 +82,19 @@ struct MaxwellLaw {
     using namespace law_math;
     const std::size_t first = branches.size();
     const double stiffness = hysteresis_force / hysteresis_displacement;
-    T speed2(0.0), z2(0.0);
+    T speed_squared(0.0), stretch_squared(0.0);
     for (std::size_t i = 0; i < lengths.size(); ++i) {
-      speed2 += in.rate[lengths[i]] * in.rate[lengths[i]];
-      z2 += in.state[first + i] * in.state[first + i];
+      speed_squared += in.rate[lengths[i]] * in.rate[lengths[i]];
+      stretch_squared += in.state[first + i] * in.state[first + i];
     }
-    const T share = (1 / hysteresis_displacement) * (lengths.size() == 1 ? T(abs(in.rate[lengths.front()])) : T(sqrt(speed2)));
+    const T share = (1 / hysteresis_displacement) * sqrt(speed_squared);
     for (std::size_t i = 0; i < lengths.size(); ++i) {
       const T z = in.state[first + i];
       out.force[lengths[i]] -= stiffness * z;                               // (3.22)
       out.state_rate[first + i] = in.rate[lengths[i]] - share * z;          // (3.22)
     }
-    out.energy += (0.5 * stiffness) * z2;
-    out.loss += stiffness * (share * z2);
+    out.energy += (0.5 * stiffness) * stretch_squared;
+    out.loss += stiffness * (share * stretch_squared);
   }
 };
 

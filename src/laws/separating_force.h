@@ -17,7 +17,7 @@ namespace pintle {
 
 struct SeparatingForce {
   static constexpr std::string_view kWord = "separating-force";
-  static constexpr bool kHolds = false, kRubs = false, kFollows = true;
+  static constexpr bool kHolds = false, kRubs = false, kOnReactionAlone = true;
   double pressure_angle = 0.35;  // [rad]
 
   static SeparatingForce typical() { return {}; }

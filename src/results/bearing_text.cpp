@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "bearings/worn_sector.h"
 #include "results/text_table.h"
 
 namespace pintle {
@@ -47,11 +47,6 @@ BearingTable depth_table(const std::vector<BearingSummary>& bearings) {
   return table;
 }
 
-// The middle of the sector that is worn most, in degrees.
-double most_worn(const std::vector<double>& sectors) {
-  return (static_cast<double>(std::max_element(sectors.begin(), sectors.end()) - sectors.begin()) + 0.5) * 360 / static_cast<double>(sectors.size());
-}
-
 std::string text_of(const BearingTable& from, const std::string& bold, const std::string& plain) {
   TextTable table;
   table.add_column("joint", TextTable::Align::kLeft);
@@ -69,7 +64,7 @@ std::string text_of(const BearingTable& from, const std::string& bold, const std
 BearingTable wear_table(const std::vector<JointWear>& wear) {
   BearingTable table{"Wear of pins with clearance (normal force times way of slip; directions from the x axes of the markers)", {{"work", "J"}, {"bush most at", "deg"}, {"pin most at", "deg"}}, {}};
   for (const JointWear& one : wear)
-    if (const double work = std::accumulate(one.bush.begin(), one.bush.end(), 0.0); work > 0) table.rows.push_back({one.joint, {work, most_worn(one.bush), most_worn(one.pin)}});
+    if (const double work = std::accumulate(one.bush.begin(), one.bush.end(), 0.0); work > 0) table.rows.push_back({one.joint, {work, most_worn(one.bush).degrees(), most_worn(one.pin).degrees()}});
   return table;
 }
 

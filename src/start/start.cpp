@@ -37,7 +37,7 @@ void note_lost_laws(const System& system, const IsIdeal& is_ideal, std::vector<s
   for (int j = 0; j < system.n_joints(); ++j) {
     if (!is_ideal(j)) continue;
     const JointData& joint = system.joints[j];
-    const auto is_detent = [](const auto& part) { return !part->holds() && !part->rubs() && !part->stops() && !part->feeds() && !part->follows(); };
+    const auto is_detent = [](const auto& part) { return !part->holds() && !part->rubs() && !part->stops() && !part->feeds() && !part->depends_on_reaction_alone(); };
     const std::string name = "joint " + joint.name + (joint.law.feeds() ? "" : " is ideal");
     if (joint.law.has_friction()) notes.push_back(name + ": its friction is not in these equations");
     if (std::any_of(joint.law.parts().begin(), joint.law.parts().end(), is_detent)) notes.push_back(name + ": its detent is not in these equations");
@@ -52,7 +52,7 @@ Assembly start_of_run(const Model& model, System& system, double known_span) {
     Assembly assembly = ideal_start(model, system);
     note_lost_laws(system, [&system](int j) { return system.joints[j].ideal || system.joints[j].law.feeds(); }, assembly.notes);
     for (const JointData& joint : system.joints)
-      if (model.simulate.equations == Equations::kRelativeAugmented && joint.law.follows()) assembly.notes.push_back("joint " + joint.name + ": its teeth push nothing apart in these equations, whatever its radial_force says");
+      if (model.simulate.equations == Equations::kRelativeAugmented && joint.law.depends_on_reaction_alone()) assembly.notes.push_back("joint " + joint.name + ": its teeth push nothing apart in these equations, whatever its radial_force says");
     return assembly;
   }
   if (model.simulate.equations != Equations::kRelative) return start_of_free_bodies(model, system, known_span);

@@ -97,7 +97,7 @@ BasicJointKinematics<S> BasicSystem<S>::kinematics(int j, double t, const std::v
 template <class S>
 double BasicSystem<S>::drive_power(const BasicJointData<S>& joint, double t, const std::vector<typename S::Motion>& m, const Vec& force) const {
   if (joint.servo >= 0) return force[joint.servo] * pose(joint.at, m).rate[joint.servo];
-  if (joint.law.feeds() || joint.law.follows()) {
+  if (joint.law.feeds() || joint.law.depends_on_reaction_alone()) {
     const BasicJointKinematics<S> r = read(joint.displacement, pose(joint.at, m));
     return joint.law.supply({t, r.gap, r.rate}, force);
   }

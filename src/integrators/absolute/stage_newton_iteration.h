@@ -259,15 +259,10 @@ void LaneStageSolver<S, N>::find_gradients(const Joint& joint, typename S::templ
   for (L& b : bias) b = L::all(0);
   for (int s = 0; s < N; ++s) {
     const typename S::RelativePose z = S::RelativePose::between(A.motion(s), data.at.F, B.motion(s), data.at.M);
-    std::visit(
-        [&](const auto& displacement) {
-          if constexpr (!std::is_same_v<std::decay_t<decltype(displacement)>, BasicSelection<S>>)
-            visit_functions(displacement, z.z, [&](int f, const BasicGapFunction<S>& g) {
-              for (int k = 0; k < S::kDof; ++k) map.gradient[f][k].set(s, g.gradient[k]);
-              bias[f].set(s, g.gradient.dot(z.bias) + z.rate.dot(g.hessian * z.rate));
-            });
-        },
-        data.displacement);
+    for_each_function(data.displacement, z.z, [&](int f, const BasicGapFunction<S>& g) {
+      for (int k = 0; k < S::kDof; ++k) map.gradient[f][k].set(s, g.gradient[k]);
+      bias[f].set(s, g.gradient.dot(z.bias) + z.rate.dot(g.hessian * z.rate));
+    });
   }
 }
 

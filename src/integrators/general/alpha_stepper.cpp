@@ -182,7 +182,7 @@ bool AlphaStepper::step(double t_end) {
       continue;
     }
     const double e = error(h);
-    const bool forced = constraints_ && forced_.forces(e, h);
+    const bool forced = constraints_ && forced_.must_take(e, h);
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
     if (e <= 1 || forced) {
       const bool found = set_end_state(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
@@ -193,10 +193,10 @@ bool AlphaStepper::step(double t_end) {
       }
       finish(h);
       if (forced) {
-        h_ = forced_.take(begin_.t, h);
+        h_ = forced_.record_forced_step(begin_.t, h);
         return true;
       }
-      forced_.see_usual(h);
+      forced_.record_step(h);
       h_ = borders_.has_shortened() ? std::max(h_, h * factor) : h * std::min(factor, most);
       return true;
     }

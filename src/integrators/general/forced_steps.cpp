@@ -14,14 +14,14 @@ constexpr double kForget = 0.99;  // of the usual step, by one that is shorter
 
 }  // namespace
 
-bool ForcedSteps::forces(double error, double h) const { return error > 1 && h < kShort * usual_ && std::isfinite(error); }
+bool ForcedSteps::must_take(double error, double h) const { return error > 1 && h < kShort * usual_ && std::isfinite(error); }
 
-double ForcedSteps::take(double t, double h) {
+double ForcedSteps::record_forced_step(double t, double h) {
   if (n_++ == 0) first_ = t;
   return kNext * h;
 }
 
-void ForcedSteps::see_usual(double h) { usual_ = std::max(h, kForget * usual_); }
+void ForcedSteps::record_step(double h) { usual_ = std::max(h, kForget * usual_); }
 
 std::vector<std::string> ForcedSteps::remarks() const {
   if (n_ == 0) return {};

@@ -11,11 +11,11 @@ namespace pintle {
 class ForcedSteps {
  public:
   /// Whether a step of h with this error over the tolerance is one of them.
-  bool forces(double error, double h) const;
+  bool must_take(double error, double h) const;
   /// Such a step has been taken from `t`. Returns the next one.
-  double take(double t, double h);
+  double record_forced_step(double t, double h);
   /// Another step has been taken.
-  void see_usual(double h);
+  void record_step(double h);
   /// For the notes of the run: how many, and when the first; nothing where there was none.
   std::vector<std::string> remarks() const;
 

@@ -14,7 +14,6 @@ namespace {
 using S = Planar;
 
 constexpr int kOpening = 1;           // component of a mesh
-constexpr int kMostSigns = 30;        // passes over the signs of the forces on teeth; the first one finds them unless centres float
 constexpr int kRefinements = 1;       // of the multipliers, against the accelerations they give
 constexpr int kMaxClosing = 12;       // Newton iterations on the loops
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
@@ -68,7 +67,7 @@ IdealEquations::IdealEquations(const System& system, Equations equations, const 
     n_redundant_ = 0;
   }
   for (int i = 0; i < static_cast<int>(rows_.size()); ++i)
-    if (system.joints[rows_[i].joint].law.follows()) following_.push_back({rows_[i].joint, i});
+    if (system.joints[rows_[i].joint].law.depends_on_reaction_alone()) teeth_.push_back({rows_[i].joint, i});
   std::vector<std::vector<std::pair<int, int>>> on_body(system.bodies.size());  // row, side
   for (int i = 0; i < static_cast<int>(rows_.size()); ++i) {
     const Placement& at = system.joints[rows_[i].joint].at;
@@ -212,8 +211,8 @@ void IdealEquations::add_constraint_forces(Vecs& force, Vecs& on_bodies) const {
     for (const auto& [body, side] : {std::pair{at.a, 0}, std::pair{at.b, 1}})
       if (body != kGround) on_bodies[body] += jacobian(i, side).transpose() * force[rows_[i].joint][rows_[i].component];
   }
-  for (const auto [j, row] : following_) {
-    const S::Vec beside = system_.joints[j].law.following(force[j]);
+  for (const auto [j, row] : teeth_) {
+    const S::Vec beside = system_.joints[j].law.force_on_reaction(force[j]);
     add_force(system_.joints[j].at, r_[j], beside, on_bodies);
     force[j] += beside;
   }
@@ -224,43 +223,46 @@ void IdealEquations::find_reactions(State& state) const {
   for (std::size_t i = 0; i < rows_.size(); ++i) state.force[rows_[i].joint][rows_[i].component] = multipliers[i];
 }
 
-// All reactions to a unit force along the opening of a mesh.
-Eigen::VectorXd IdealEquations::reactions_to_opening(int joint) const {
+// By a force of a joint on its bodies.
+void IdealEquations::accelerate(int joint, const S::Vec& force, Vecs& a) const {
   const Placement& at = system_.joints[joint].at;
-  Vecs a(system_.bodies.size(), S::Vec::Zero());
   for (const auto& [body, G] : {std::pair{at.a, r_[joint].GA()}, std::pair{at.b, r_[joint].GB()}})
-    if (body != kGround) a[body] += (G.transpose() * S::Vec::Unit(kOpening)).cwiseQuotient(system_.bodies[body].mass);
+    if (body != kGround) a[body] += (G.transpose() * force).cwiseQuotient(system_.bodies[body].mass);
+}
+
+// All reactions to a unit force along the opening of a mesh.
+Eigen::VectorXd IdealEquations::reactions_to_unit_opening_force(int joint) const {
+  Vecs a(system_.bodies.size(), S::Vec::Zero());
+  accelerate(joint, S::Vec::Unit(kOpening), a);
   Eigen::VectorXd reactions;
   solve(-rates(a), reactions);
   return reactions;
 }
 
 // The teeth's reactions f, which are f0 without what they do to the bearings, from f = f0 + C |f|, for the signs of f that agree with it.
-bool IdealEquations::find_following_forces(const Vecs& applied, State& state) const {
-  const auto n = static_cast<Eigen::Index>(following_.size());
+bool IdealEquations::find_reaction_dependent_forces(const Vecs& applied, State& state) const {
+  const auto n = static_cast<Eigen::Index>(teeth_.size());
   Eigen::MatrixXd C(n, n);
   Eigen::VectorXd f0(n), f, sign(n);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const Follower& teeth = following_[static_cast<std::size_t>(k)];
-    const Eigen::VectorXd reactions = system_.joints[teeth.joint].law.following(S::Vec::Unit(0))[kOpening] * reactions_to_opening(teeth.joint);
-    for (Eigen::Index i = 0; i < n; ++i) C(i, k) = reactions[following_[static_cast<std::size_t>(i)].row];
+    const Teeth& teeth = teeth_[static_cast<std::size_t>(k)];
+    const Eigen::VectorXd reactions = system_.joints[teeth.joint].law.force_on_reaction(S::Vec::Unit(0))[kOpening] * reactions_to_unit_opening_force(teeth.joint);
+    for (Eigen::Index i = 0; i < n; ++i) C(i, k) = reactions[teeth_[static_cast<std::size_t>(i)].row];
     f0[k] = state.force[teeth.joint][0];
     sign[k] = f0[k] < 0 ? -1 : 1;
   }
-  for (int pass = 0;; ++pass) {
+  for (Eigen::Index pass = 0;; ++pass) {
     f = (Eigen::MatrixXd::Identity(n, n) - C * sign.asDiagonal()).partialPivLu().solve(f0);
     const Eigen::VectorXd found = (f.array() < 0).select(-Eigen::VectorXd::Ones(n), Eigen::VectorXd::Ones(n));
     if (found == sign) break;
-    if (pass == kMostSigns) return false;
+    if (pass > n) return false;
     sign = found;
   }
   state.a = applied;
   for (Eigen::Index k = 0; k < n; ++k) {
-    const int j = following_[static_cast<std::size_t>(k)].joint;
-    const Placement& at = system_.joints[j].at;
-    const S::Vec beside = system_.joints[j].law.following(f[k] * S::Vec::Unit(0));
-    for (const auto& [body, G] : {std::pair{at.a, r_[j].GA()}, std::pair{at.b, r_[j].GB()}})
-      if (body != kGround) state.a[body] += (G.transpose() * beside).cwiseQuotient(system_.bodies[body].mass);
+    const int j = teeth_[static_cast<std::size_t>(k)].joint;
+    const S::Vec beside = system_.joints[j].law.force_on_reaction(f[k] * S::Vec::Unit(0));
+    accelerate(j, beside, state.a);
     state.force[j] = beside;
   }
   find_reactions(state);
@@ -271,9 +273,9 @@ bool IdealEquations::complete(State& state) {
   find_applied_forces(state);
   for (int i = 0; i < system_.n_bodies(); ++i) state.a[i] = state.a[i].cwiseQuotient(system_.bodies[i].mass);
   if (!factorize()) return false;
-  const Vecs applied = following_.empty() ? Vecs{} : state.a;
+  const Vecs applied = teeth_.empty() ? Vecs{} : state.a;
   find_reactions(state);
-  if (!following_.empty() && !find_following_forces(applied, state)) return false;
+  if (!teeth_.empty() && !find_reaction_dependent_forces(applied, state)) return false;
   find_gap_accelerations(system_, r_, state);
   find_powers(system_, m_, state);
   return state.a.empty() || std::isfinite(state.a[0].sum());

@@ -95,16 +95,17 @@ class IdealEquations {
   void push(const Eigen::VectorXd& multipliers, Vecs& x) const;      // x += M^-1 G' multipliers
   void fill_joints(State& state);
   void find_reactions(State& state) const;
-  bool find_following_forces(const Vecs& applied, State& state) const;
-  Eigen::VectorXd reactions_to_opening(int joint) const;
+  bool find_reaction_dependent_forces(const Vecs& applied, State& state) const;
+  Eigen::VectorXd reactions_to_unit_opening_force(int joint) const;
+  void accelerate(int joint, const Planar::Vec& force, Vecs& a) const;  // a += M^-1 G' force
   Eigen::VectorXd add_reactions(Vecs& a) const;                      // a += M^-1 G' f; f
   const Eigen::RowVector3d& jacobian(std::size_t row, int side) const { return jacobian_[2 * row + side]; }
 
   const System& system_;
-  struct Follower {
+  struct Teeth {
     int joint, row;
   };
-  std::vector<Follower> following_;     // ideal joints part of whose force follows from the reaction, that of a row: teeth with a pressure angle
+  std::vector<Teeth> teeth_;     // ideal joints part of whose force follows from the reaction, that of a row: teeth with a pressure angle
   Equations equations_;
   PenaltySettings penalty_;
   std::vector<Row> rows_;

@@ -231,11 +231,11 @@ bool TreeAugmented::step(double t_end) {
     const bool solved = solve(h);
     const double e = solved ? error(h) : 0;
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
-    const bool forced = forced_.forces(e, h);
+    const bool forced = forced_.must_take(e, h);
     if (solved && (e <= 1 || forced)) {
       finish(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
-      if (!forced) forced_.see_usual(h);
-      h_ = forced ? forced_.take(begin_.t, h) : h * std::min(factor, most);
+      if (!forced) forced_.record_step(h);
+      h_ = forced ? forced_.record_forced_step(begin_.t, h) : h * std::min(factor, most);
       return failure_.empty();
     }
     ++(solved ? counters_.rejected : counters_.newton_failures);

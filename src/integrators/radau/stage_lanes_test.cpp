@@ -37,14 +37,9 @@ GapMap<T> map_of(const PoseGeometry<T>& pose) {
 template <class Map>
 void find_gradients(const JointDisplacement& displacement, const Vec& z, int lane, Map& map) {
   map.functions = count_functions(displacement);
-  std::visit(
-      [&](const auto& p) {
-        if constexpr (!std::is_same_v<std::decay_t<decltype(p)>, Selection>)
-          visit_functions(p, z, [&](int f, const GapFunction& g) {
-            for (int k = 0; k < 3; ++k) map.gradient[f][k].set(lane, g.gradient[k]);
-          });
-      },
-      displacement);
+  for_each_function(displacement, z, [&](int f, const GapFunction& g) {
+    for (int k = 0; k < 3; ++k) map.gradient[f][k].set(lane, g.gradient[k]);
+  });
 }
 
 const std::vector<JointDisplacement>& every_kind_of_displacement() {

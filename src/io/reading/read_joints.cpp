@@ -111,6 +111,13 @@ void read_cam(ModelReading& reading, const Record& record, Joint& joint) {
     reading.complaints.add(record.spot("lift"), record.path + ".lift", in_quotes(joint.cam->lift.text()), std::move(why), "a lift that is smooth and ends as it begins (a table: interpolation = \"spline\"), a larger base_radius, or a smaller roller");
 }
 
+// A fault of a law or of a geometry, where its key stands.
+template <class Fault>
+void complain_of(const Fault& fault, const Record& record, ModelReading& reading) {
+  const Value* value = record.find(fault.key);
+  reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : "no " + fault.key, fault.why, fault.remedy);
+}
+
 // Whether the values of the type's keys go together.
 void check_geometry(ModelReading& reading, const JointTypeInfo& type, const Record& record, const Node& stated_joint, const Joint& joint) {
   if (type.has_ends && stated_joint.table() != nullptr && stated_joint.table()->find("stops") == nullptr)
@@ -119,8 +126,7 @@ void check_geometry(ModelReading& reading, const JointTypeInfo& type, const Reco
   if (type.fault == nullptr || !complete) return;
   const GeometryFault fault = type.fault(joint.geometry);
   if (fault.key.empty()) return;
-  const Value* value = record.find(fault.key);
-  reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : "no " + fault.key, fault.why, fault.remedy);
+  complain_of(fault, record, reading);
 }
 
 // What is wrong with points that the model does not state here is wrong with the table that gives them: "displacement" is its x, "force" its y.
@@ -157,8 +163,7 @@ void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& 
   LawFault fault = law.fault(setting);
   if (fault.key.empty()) return;
   blame_the_table(law, record, fault);
-  const Value* value = record.find(fault.key);
-  reading.complaints.add(record.spot(fault.key), record.path + "." + fault.key, value != nullptr && value->node != nullptr ? describe(*value->node) : "no " + fault.key, fault.why, fault.remedy);
+  complain_of(fault, record, reading);
 }
 
 // The points of the table that a key names, as the values of the two keys that they stand for.

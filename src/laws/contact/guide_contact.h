@@ -37,8 +37,7 @@ struct GuideContactLaw : RubbingContact {
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
     for (int i = 0; i < kEnds; ++i) {
       const End<T> end = find(in, i);
-      const int first = i * RubbingContact::n_states();
-      const PointForces<T> f = forces<T>(end, in.state + first, out.state_rate + first);
+      const PointForces<T> f = forces<T>(end, in.state + first_state(i), out.state_rate + first_state(i));
       const T across = -(f.normal * end.side);
       out.force[0] += f.friction;
       out.force[1] += across;
@@ -48,13 +47,13 @@ struct GuideContactLaw : RubbingContact {
     }
   }
   void rest(const LawInput<double>& in, double* state) const {
-    for (int i = 0; i < kEnds; ++i) RubbingContact::rest(find(in, i), state + i * RubbingContact::n_states());
+    for (int i = 0; i < kEnds; ++i) RubbingContact::rest(find(in, i), state + first_state(i));
   }
 
   int n_borders() const { return kEnds * RubbingContact::n_borders(); }
   int border_direction(int border) const { return RubbingContact::border_direction(border % RubbingContact::n_borders()); }
   void borders(const LawInput<double>& in, double* value) const {
-    for (int i = 0; i < kEnds; ++i) RubbingContact::borders(find(in, i), in.state + i * RubbingContact::n_states(), value + i * RubbingContact::n_borders());
+    for (int i = 0; i < kEnds; ++i) RubbingContact::borders(find(in, i), in.state + first_state(i), value + i * RubbingContact::n_borders());
   }
   std::string border_name(int border, bool rising) const {
     const int n = RubbingContact::n_borders();
@@ -62,7 +61,7 @@ struct GuideContactLaw : RubbingContact {
   }
   void cross(int border, const LawInput<double>& in, double* state) const {
     const int n = RubbingContact::n_borders(), i = border / n;
-    RubbingContact::cross(border % n, find(in, i), state + i * RubbingContact::n_states());
+    RubbingContact::cross(border % n, find(in, i), state + first_state(i));
   }
 
   Planar::Vec engaged_stiffness() const {
@@ -83,15 +82,16 @@ struct GuideContactLaw : RubbingContact {
     value[4] = 0;
     for (int i = 0; i < kEnds; ++i) {
       const End<double> end = find(in, i);
-      value[i] = forces(end, in.state + i * RubbingContact::n_states()).normal;
+      value[i] = forces(end, in.state + first_state(i)).normal;
       value[2 + i] = end.depth;
-      const double* end_state = in.state + i * RubbingContact::n_states();
+      const double* end_state = in.state + first_state(i);
       value[4] += wear_power(value[i], end.slip, end_state);
       if (grip) value[5 + i] = sticks(end_state) ? 1 : 0;
     }
   }
 
  private:
+  int first_state(int end) const { return end * RubbingContact::n_states(); }
   static constexpr int kEnds = 2;
   template <class T>
   struct End : ContactMotion<T> {
