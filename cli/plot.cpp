@@ -26,13 +26,14 @@ constexpr const char* kPlotFooter =
     "  pintle plot four_bar-run --with softer-run --joint O4 --components magnitude\n"
     "  pintle plot four_bar-run --joint O4 --out O4.png --width 500 --dpi 300\n"
     "  pintle plot four_bar-run --polar A\n"
+    "  pintle plot worn-run --orbit B\n"
     "  pintle plot worn-run --wear B\n"
     "  pintle plot worn-run --x joint.B.contact_angle --column joint.B.penetration --every 0.012 --from 1.2\n"
     "\n"
     "Columns with different units are drawn in stacked panels. The first row of series.csv lists all columns.\n";
 
 struct PlotOptions {
-  std::string run, out, polar, wear;
+  std::string run, out, polar, orbit, wear;
   std::vector<std::string> others;
   PlotRequest request;
   double width = 0, dots_per_inch = 192;
@@ -50,6 +51,7 @@ std::filesystem::path plot_file(const PlotOptions& options) {
   if (!options.out.empty()) return options.out;
   std::string name = folder_name(options.run);
   if (!options.polar.empty()) name += "-" + options.polar + "-polar";
+  if (!options.orbit.empty()) name += "-" + options.orbit + "-orbit";
   if (!options.wear.empty()) name += "-" + options.wear + "-wear";
   for (const std::string& joint : options.request.joints) name += "-" + joint;
   if (options.request.joints.empty() && !options.request.columns.empty()) name += "-" + options.request.columns.front();
@@ -87,14 +89,15 @@ std::string line_picture(const PlotOptions& options, const RunRecord& run) {
 }
 
 std::string polar_picture(const PlotOptions& options, const RunRecord& run) {
-  if (!options.request.joints.empty() || !options.request.columns.empty() || (!options.polar.empty() && !options.wear.empty()))
-    throw PlotRequestError("--polar and --wear are pictures of their own, and take no --joint or --column.\n    Call pintle plot twice.");
+  const bool alone = !options.polar.empty() + !options.orbit.empty() + !options.wear.empty() == 1;
+  if (!options.request.joints.empty() || !options.request.columns.empty() || !alone)
+    throw PlotRequestError("--polar, --orbit and --wear are pictures of their own, and take no --joint or --column.\n    Call pintle plot twice.");
   std::vector<RunRecord> records;
   for (const std::string& other : options.others) records.push_back(read_run(other));
   std::vector<PolarRun> runs{{options.run, &run}};
   for (std::size_t i = 0; i < records.size(); ++i) runs.push_back({options.others[i], &records[i]});
   shorten_names(runs);
-  PolarPlot made = options.wear.empty() ? make_polar_plot(runs, options.polar) : make_wear_plot(runs, options.wear);
+  PolarPlot made = !options.polar.empty() ? make_polar_plot(runs, options.polar) : !options.orbit.empty() ? make_orbit_plot(runs, options.orbit) : make_wear_plot(runs, options.wear);
   if (!options.request.title.empty()) made.title = options.request.title;
   if (options.width > 0) made.width = options.width;
   return to_svg(made);
@@ -110,7 +113,7 @@ ExitCode plot(const PlotOptions& options, const WritePng& write_png) {
   const RunRecord run = read_run(options.run);
   std::string picture;
   try {
-    picture = options.polar.empty() && options.wear.empty() ? line_picture(options, run) : polar_picture(options, run);
+    picture = options.polar.empty() && options.orbit.empty() && options.wear.empty() ? line_picture(options, run) : polar_picture(options, run);
   } catch (const PlotRequestError& error) {
     print_error(fmt::format("pintle plot: {}\n", error.what()));
     return kCommandLineError;
@@ -147,6 +150,7 @@ void add_plot(CLI::App& app, int& exit_code, const WritePng& write_png) {
       ->type_name("NAME")
       ->allow_extra_args(false);
   verb->add_option("--polar", options->polar, "polar load diagrams of this revolute joint: in world axes, and in those of its marker on either body")->type_name("NAME");
+  verb->add_option("--orbit", options->orbit, "where the pin of this revolute joint, which has clearance, a film or a bearing, goes in its bush")->type_name("NAME");
   verb->add_option("--wear", options->wear, "what the pin of this revolute joint, which has clearance, and its bush rub off each other, by directions around them")->type_name("NAME");
   verb->add_option("--with", options->others, "add another run to the plot (repeatable)")->type_name("RUN")->allow_extra_args(false);
   verb->add_option("--x", request.x, "column on the horizontal axis")->type_name("COLUMN")->capture_default_str();

@@ -29,7 +29,7 @@ TEST_P(RealJointsSlow, RunToTheirEndWithinTheTolerance) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Collection, RealJointsSlow,
-                         testing::Values("worn_linkage", "scotch_yoke_play", "loose_piston", "cam_follower", "stick_slip", "conveyor_belt", "bar_clamp", "bollard", "lubricated_crank", "loose_ball_bearing", "door_stops",
+                         testing::Values("worn_linkage", "scotch_yoke_play", "loose_piston", "cam_follower", "wheel_over_bump", "jaw_coupling", "stick_slip", "conveyor_belt", "bar_clamp", "bollard", "lubricated_crank", "loose_ball_bearing", "door_stops",
                                          "air_cylinder", "excavator_boom", "selector_switch", "parallel_spring_stage", "cross_spring_pendulum"),
                          [](const testing::TestParamInfo<const char*>& one) { return std::string(one.param); });
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "pintle/check.h"
 #include "tests/reference_tables.h"
 
 namespace pintle {
@@ -80,14 +81,56 @@ torque = "-8 N*m/rad*(wheel.m.angle - 0.2 rad)"
   EXPECT_NEAR(run.at(run.n_rows() - 1, angle), 0.1 * std::cos(4.0), 1e-7);  // sqrt(8 / 0.5) = 4 rad/s
 }
 
-TEST(StateForces, InTheAxesOfTheBodyTheyReadTimeOnly) {
-  const std::string force = "[force.f]\non = \"block.c\"\naxes = \"body\"\nforce = [\"-50 N/m*block.x\", 0]";
-  try {
-    parse_model(held_by(force.c_str()), "force.toml");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("block.x acts in the world's axes"), std::string::npos) << error.what();
+// A thruster at the corner of a body that flies and turns: its force, less the faster it goes, in the body's axes and in the world's.
+std::string thrusted_by(const char* axes, const char* force, const char* equations) {
+  return fmt::format(R"toml(
+format = 1
+[simulate]
+duration = "2 s"
+tolerance = 1e-7
+equations = "{}"
+[ground.markers]
+o = [0, 0]
+[body.craft]
+mass = 2
+inertia = 0.3
+position = [0, 0]
+angle = 0.3
+velocity = [1, 2]
+spin = 0.5
+markers.c = [0, 0]
+markers.jet = [-0.2, 0.1, "40 deg"]
+[body.bob]
+mass = 0.5
+inertia = 0.01
+position = [0, -1]
+angle = 0
+markers.top = [0, 0.6]
+[joint.pin]
+type = "revolute"
+between = ["craft.c", "bob.top"]
+[force.jet]
+on = "craft.jet"
+axes = "{}"
+force = {}
+)toml",
+                     equations, axes, force);
+}
+
+TEST(StateForces, InTheAxesOfTheBodyTheyAreThoseInTheWorldTurnedWithIt) {
+  const std::string x = "(30 N - 4 N*s/m*craft.vx)", y = "(2 N*s/rad*craft.spin + 5 N/m*bob.y)", c = "cos(craft.angle)", s = "sin(craft.angle)";
+  const std::string in_body = fmt::format("[\"{}\", \"{}\"]", x, y), in_world = fmt::format("[\"{0}*{2} - {1}*{3}\", \"{0}*{3} + {1}*{2}\"]", x, y, c, s);
+  for (const char* equations : {"newtonian", "ideal"}) {
+    const Trajectory body = simulate(parse_model(thrusted_by("body", in_body.c_str(), equations), "body.toml")), world = simulate(parse_model(thrusted_by("world", in_world.c_str(), equations), "world.toml"));
+    ASSERT_EQ(body.outcome, Outcome::kCompleted) << body.message;
+    ASSERT_EQ(world.outcome, Outcome::kCompleted) << world.message;
+    for (std::size_t i = 0; i < body.n_rows(); i += 20)
+      for (const char* name : {"body.craft.x", "body.craft.y", "body.craft.angle", "joint.pin.on_bob.fx[world]", "joint.pin.on_bob.fy[world]", "energy.supplied"})
+        EXPECT_NEAR(reference::value(body, i, name), reference::value(world, i, name), 2e-6 * (1 + std::abs(reference::value(world, i, name)))) << name << ' ' << i << ' ' << equations;
   }
+  const CheckReport report = check_model(parse_model(thrusted_by("body", in_body.c_str(), "newtonian"), "body.toml"));
+  EXPECT_TRUE(report.jacobians.passed());
+  EXPECT_TRUE(report.energy.passed());
 }
 
 }  // namespace

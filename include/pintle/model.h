@@ -65,28 +65,42 @@ struct Bearing {
   friend bool operator==(const Bearing&, const Bearing&) = default;
 };
 
+/// Whether two functions of one variable are the same: a text may have been read with other parameters, so that values between two places are compared too.
+inline bool same_profile(const Expression& a, const Expression& b, double from, double to) {
+  bool same = a.text() == b.text() && a.variables() == b.variables();
+  for (int i = 0; same && i < 60; ++i) {
+    const std::array<double, 1> at{from + (to - from) * i / 60};
+    const double x = a.value(at), y = b.value(at);
+    same = x == y || (x != x && y != y);
+  }
+  return same;
+}
+
 /// A cam and what follows it. theory/cams
 struct Cam {
   Expression lift;           ///< over the base circle, of the angle on the cam [m]
   double base_radius = 0;    ///< of the base circle [m]
   double roller_radius = 0;  ///< of the follower; 0: a pin [m]
   bool flat = false;         ///< the follower is a flat face
-  /// The same text may have been read with other parameters, so that its values are compared too.
   friend bool operator==(const Cam& a, const Cam& b) {
-    bool same = a.base_radius == b.base_radius && a.roller_radius == b.roller_radius && a.flat == b.flat && a.lift.text() == b.lift.text() && a.lift.variables() == b.lift.variables();
-    for (int i = 0; same && i < 60; ++i) {
-      const std::array<double, 1> angle{0.1 * i};
-      const double x = a.lift.value(angle), y = b.lift.value(angle);
-      same = x == y || (x != x && y != y);
-    }
-    return same;
+    return a.base_radius == b.base_radius && a.roller_radius == b.roller_radius && a.flat == b.flat && same_profile(a.lift, b.lift, 0, 6);
+  }
+};
+
+/// A curved edge and the roller above it. theory/cams section 4
+struct Edge {
+  Expression height;         ///< over the x axis of the first marker, of x along it [m]
+  double roller_radius = 0;  ///< of what runs on it; 0: a point [m]
+  double from = 0, to = 0;   ///< the part of x that is drawn and checked; beyond it the edge goes on as its expression does [m]
+  friend bool operator==(const Edge& a, const Edge& b) {
+    return a.roller_radius == b.roller_radius && a.from == b.from && a.to == b.to && same_profile(a.height, b.height, a.from, a.to);
   }
 };
 
 /// A joint: a joint displacement (its `type`) between two markers and a law. F is on the first marker, M on the second.
 struct Joint {
   std::string name;
-  std::string type;  ///< revolute, prismatic, fixed, slot, rod, rope, cylinder, gear, rack, cam
+  std::string type;  ///< revolute, prismatic, fixed, slot, rod, rope, belt, cylinder, gear, rack, cam, edge
   MarkerRef first, second;
   std::map<std::string, double> geometry;  ///< rod, rope: length [m] (absent: as assembled); cylinder: closed_length, stroke, bore, rod_diameter [m], its pressures [Pa]; gear: radius_first, radius_second [m], internal (0 or 1); rack: radius [m]
   LawChoice law;
@@ -96,6 +110,7 @@ struct Joint {
   std::map<std::string, Expression> functions{};  ///< keys of its type that are functions, which geometry has not then: a rod's or rope's `length` of t [m], the pressures in a cylinder [Pa]
   bool ideal = false;  ///< with Equations::kRelative: no force law, the coordinates obey it
   std::optional<Cam> cam{};    ///< of a cam joint
+  std::optional<Edge> edge{};  ///< of an edge joint
   std::optional<Bearing> bearing{};  ///< of a pin; it does not change the motion
   /// Functions are compared by their text.
   friend bool operator==(const Joint& a, const Joint& b) {

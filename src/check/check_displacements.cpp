@@ -26,8 +26,8 @@ class DisplacementSlopes {
     step << steps.length, steps.length, steps.angle, steps.length, steps.length, steps.angle;
     Mat36 G;
     G << here.GA(), here.GB();
-    look_at_gap(bodies, G, step, place);
-    look_at_rates(bodies, here, G, steps, place);
+    look_at_gap(bodies, link, G, step, place);
+    look_at_rates(bodies, link, here, G, steps, place);
     look_at_rate_gradient(bodies, link, state, pose, here, G, step, place);
     look_at_geometric(bodies, link, pose, step, place);
   }
@@ -45,12 +45,19 @@ class DisplacementSlopes {
     return columns;
   }
 
-  void look_at_gap(DisturbedLink& bodies, const Mat36& G, const Vec6& step, const CheckPlace& place) {
-    jacobian_.slopes(
-        used(bodies, G), [&](int c, double s) { return bodies.kinematics(s * Vec6::Unit(c)).gap; }, step, 0, place);
+  // The rate of a slip is no rate of a gap.
+  static void leave_out_slip(const CheckLink& link, auto&& rows) {
+    if (link.slip >= 0) rows.row(link.slip).setZero();
   }
 
-  void look_at_rates(DisturbedLink& bodies, const JointKinematics& here, const Mat36& G, const LinkSteps& steps,
+  void look_at_gap(DisturbedLink& bodies, const CheckLink& link, const Mat36& G, const Vec6& step, const CheckPlace& place) {
+    Mat36 of_gap = G;
+    leave_out_slip(link, of_gap);
+    jacobian_.slopes(
+        used(bodies, of_gap), [&](int c, double s) { return bodies.kinematics(s * Vec6::Unit(c)).gap; }, step, 0, place);
+  }
+
+  void look_at_rates(DisturbedLink& bodies, const CheckLink& link, const JointKinematics& here, const Mat36& G, const LinkSteps& steps,
                      const CheckPlace& place) {
     const Vec6 v = bodies.velocities();
     const double spin = std::max(std::abs(v[2]), std::abs(v[5]));
@@ -58,8 +65,10 @@ class DisplacementSlopes {
     const double hurry = std::max(spin / steps.angle, approach / steps.length);  // steps per second
     const double dt = hurry > 0 ? 1 / hurry : 1e-3;
     const double size = (G.cwiseAbs() * v.cwiseAbs()).maxCoeff() + here.rate.cwiseAbs().maxCoeff();
+    S::Vec of_gap = here.rate;
+    leave_out_slip(link, of_gap);
     rate_.slope(
-        here.rate, [&](double s) -> Eigen::VectorXd { return bodies.kinematics(Vec6::Zero(), s).gap; }, dt, size, place);
+        of_gap, [&](double s) -> Eigen::VectorXd { return bodies.kinematics(Vec6::Zero(), s).gap; }, dt, size, place);
     bias_.slope(
         here.bias, [&](double s) -> Eigen::VectorXd { return bodies.kinematics(Vec6::Zero(), s).rate; }, dt,
         size* std::max(spin, hurry * 1e-3), place);
@@ -78,7 +87,7 @@ class DisplacementSlopes {
 
   void look_at_geometric(DisturbedLink& bodies, const CheckLink& link, const RelativePose& pose, const Vec6& step,
                          const CheckPlace& place) {
-    const S::Vec f = std::holds_alternative<Selection>(link.displacement) ? S::Vec(0.7, -1.1, 0.4) : S::Vec(1.3, 0, 0);
+    const S::Vec f = std::holds_alternative<Selection>(link.displacement) ? S::Vec(0.7, -1.1, 0.4) : S::Vec(1.3, link.slip == kSlip ? -0.6 : 0, 0);
     const Eigen::MatrixXd analytic = geometric_stiffness(link.displacement, pose, f);
     geometric_.slopes(
         used(bodies, analytic),

@@ -23,7 +23,7 @@ void for_each_sample(const System& system, const State& assembled, const std::ve
 
 // Forces that are typical of a law: of its elastic part at the sample's sizes.
 S::Vec typical_force(const Law& law, const LawSample& at) {
-  return respond(law, at.gap_size, S::Vec::Zero()).force.cwiseAbs();
+  return respond(law, at.loaded, S::Vec::Zero()).force.cwiseAbs();
 }
 
 void downhill(const Law& law, const LawSample& at, const CheckPlace& place, Comparisons& tally) {
@@ -61,7 +61,7 @@ void check_law_slopes(const System& system, const State& assembled, const std::v
                       CheckBattery& battery) {
   Comparisons stiffness("law stiffness", kSlopeTolerance), damping("law damping", kSlopeTolerance);
   for_each_sample(system, assembled, states, [&](const Law& law, const LawSample& at, const CheckPlace& place) {
-    const Response r = respond(law, at.gap, at.rate), typical = respond(law, at.gap_size, S::Vec::Zero());
+    const Response r = respond(law, at.gap, at.rate), typical = respond(law, at.loaded, S::Vec::Zero());
     for (int k = 0; k < S::kDof; ++k) {
       const S::Vec unit = S::Vec::Unit(k);
       stiffness.slope(

@@ -5,6 +5,7 @@
 
 #include "joints/belt.h"
 #include "mobility/constraint_rows.h"
+#include "system/load_displacement.h"
 
 namespace pintle {
 namespace {
@@ -20,14 +21,9 @@ std::string_view kind_of(const LoadData& load) {
     case LoadKind::kTorsionSpring:
       return "torsion spring";
     case LoadKind::kEffort:
-      return "motor";
+      return load.applied ? "force" : "motor";
   }
   return "load";
-}
-
-JointDisplacement displacement_of(const LoadData& load) {
-  if (load.kind == LoadKind::kSpring) return Distance{load.free};
-  return Selection{S::Vec::Unit(load.component) * (load.kind == LoadKind::kTorsionSpring ? load.free : 0.0)};
 }
 
 CheckState disturbed(const CheckState& from, const System& system, double duration, int number) {
@@ -50,9 +46,9 @@ std::vector<CheckLink> check_links(const System& system) {
   std::vector<CheckLink> links;
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& joint = system.joints[j];
-    links.push_back({joint.servo >= 0 ? "motor" : "joint", joint.name, joint.at, joint.displacement, j});
+    links.push_back({joint.servo >= 0 ? "motor" : "joint", joint.name, joint.at, joint.displacement, j, has_slip(joint.displacement) ? kSlip : -1});
   }
-  for (const LoadData& load : system.loads) links.push_back({kind_of(load), load.name, load.at, displacement_of(load), -1});
+  for (const LoadData& load : system.loads) links.push_back({kind_of(load), load.name, load.at, displacement_of(load), -1, acts_in_body_axes(load) ? 0 : -1});
   return links;
 }
 

@@ -15,6 +15,7 @@ struct CheckLink {
   Placement at;
   JointDisplacement displacement;
   int joint = -1;  // of the system; -1: a load
+  int slip = -1;   // component whose rate is no rate of its value; -1: none
 };
 std::vector<CheckLink> check_links(const System& system);
 

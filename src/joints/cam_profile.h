@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "joints/gap_function.h"
+#include "joints/curve_gap.h"
 #include "pintle/model.h"
 
 namespace pintle {
@@ -34,12 +34,7 @@ class CamProfile {
   std::string fault() const;
 
  private:
-  struct Pitch {
-    Planar::Point p, d, dd;  // with its derivatives by the angle
-  };
-  Pitch pitch(double angle) const;
-  double foot_by_search(const Planar::Point& c) const;
-  std::string corner_between(double low, double high) const;
+  CurvePoint pitch(double angle) const;
 
   friend struct CamGap;
   Cam cam_;

@@ -43,7 +43,7 @@ TEST(CamGap, IsTheDistanceFromAnEccentricCircle) {
   for (int i = 0; i < 300; ++i) {
     const double distance = std::abs(random.of_any_size(2e-2, 10)), direction = random.uniform(-4, 4);
     const Planar::Vec z(0.01 + distance * std::cos(direction), distance * std::sin(direction), random.uniform(-3, 3));
-    const GapFunction g = gap(z);
+    const GapFunction g = gap.gap_and_slip(z)[0];
     EXPECT_NEAR(g.gap, distance - 0.052, 1e-13 * (1 + distance));
     EXPECT_NEAR(g.gradient[0], std::cos(direction), 1e-10);
     EXPECT_NEAR(g.gradient[1], std::sin(direction), 1e-10);
@@ -64,7 +64,7 @@ TEST(CamGap, IsTheDistanceFromTheNearestPoint) {
       const double at = angle - 0.3 + 0.6 * k / 20000, p = profile.radius(at)[0];
       least = std::min(least, std::hypot(r * std::cos(angle) - p * std::cos(at), r * std::sin(angle) - p * std::sin(at)));
     }
-    EXPECT_NEAR(std::abs(gap({r * std::cos(angle), r * std::sin(angle), 0}).gap), least, 1e-8) << angle << " " << out;
+    EXPECT_NEAR(std::abs(gap.gap_and_slip({r * std::cos(angle), r * std::sin(angle), 0})[0].gap), least, 1e-8) << angle << " " << out;
   }
 }
 
@@ -74,7 +74,7 @@ TEST(CamGap, OfAFlatFaceOnAnEccentricCircle) {
   for (double turn = -7; turn < 7; turn += 0.37) {
     const Planar::Point m(-std::sin(turn), std::cos(turn)), along(std::cos(turn), std::sin(turn));
     const Planar::Point on_face = Planar::Point(0.01, 0) + 0.043 * m + 0.2 * along;  // 3 mm off the circle
-    EXPECT_NEAR(gap({on_face[0], on_face[1], turn}).gap, 0.003, 1e-15) << turn;
+    EXPECT_NEAR(gap.gap_and_slip({on_face[0], on_face[1], turn})[0].gap, 0.003, 1e-15) << turn;
   }
 }
 

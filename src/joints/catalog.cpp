@@ -101,8 +101,9 @@ GeometryFault belt_fault(const Geometry& g) {
 }
 
 JointDisplacement make_cam(const Geometry&) { return CamGap{}; }
+JointDisplacement make_edge(const Geometry&) { return EdgeGap{}; }
 
-// The gear's keys `radii` and `mesh` are lists and words; the reader turns them into radius_first, radius_second, internal. A cam's profile is the model's.
+// The gear's keys `radii` and `mesh` are lists and words; the reader turns them into radius_first, radius_second, internal. The profiles of cams and edges are the model's.
 std::vector<JointTypeInfo>& types() {
   static std::vector<JointTypeInfo> all{
       {.word = "revolute", .meaning = "a pin: holds two points together, the angle is free", .gap = kXY, .free = kAngle, .keys = {}, .make = make_pose},
@@ -118,6 +119,7 @@ std::vector<JointTypeInfo>& types() {
       {.word = "gear", .meaning = "two gears in mesh, centred on the two markers", .gap = kPitch, .free = {}, .keys = kGear, .make = make_mesh, .fault = teeth_fault},
       {.word = "rack", .meaning = "a pinion (first) rolling along a rack (second marker's axis)", .gap = kPitch, .free = {}, .keys = kRack, .make = make_rack, .fault = teeth_fault},
       {.word = "cam", .meaning = "a cam (first) and what follows it (second): a roller, a pin or a flat face", .gap = kNormal, .free = {}, .keys = {}, .make = make_cam},
+      {.word = "edge", .meaning = "a pin, roller or wheel (second) on the +y side of a curved edge (first): ramps, tracks, roads", .gap = kNormal, .free = {}, .keys = {}, .make = make_edge},
   };
   return all;
 }

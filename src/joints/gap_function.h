@@ -17,12 +17,29 @@ struct BasicGapFunction {
 };
 using GapFunction = BasicGapFunction<Planar>;
 
-/// Calls use(component, function) for what p, which answers a pose with functions of it, has: its gap, and what it leaves free beside it.
+/// The turn of the second frame against the first one.
+inline GapFunction turn_of(const Planar::Vec& z) {
+  GapFunction g;
+  g.gap = z[2];
+  g.gradient[2] = 1;
+  return g;
+}
+
+/// Calls use(component, function) for what p, which answers a pose with functions of it, has: its gap, and what it leaves free beside it: an opening and a turn,
+/// or a slip.
 template <class P, class Vec, class Use>
 void visit_functions(const P& p, const Vec& z, Use&& use) {
-  use(0, p(z));
-  if constexpr (requires { p.opening(z); })
-    if (p.gap_functions() > 1) use(1, p.opening(z));
+  if constexpr (requires { p.gap_and_slip(z); }) {
+    const auto both = p.gap_and_slip(z);
+    use(0, both[0]);
+    use(1, both[1]);
+  } else {
+    use(0, p(z));
+    if constexpr (requires { p.opening(z); }) {
+      if (p.gap_functions() > 1) use(1, p.opening(z));
+      if (p.gap_functions() > 2) use(2, turn_of(z));
+    }
+  }
 }
 
 /// Rod and rope: the distance of the two points less the length. theory/joints Eq. (2.11). Undefined at zero distance;
@@ -59,8 +76,9 @@ struct Mesh {
   double sign = 1;
   double phase = 0;                            // makes the gap zero as assembled [m]
   bool opens = false;                          // teeth push the gears apart: the opening counts
+  bool rubs = false;                           // teeth rub: the turn counts
 
-  int gap_functions() const { return opens ? 2 : 1; }
+  int gap_functions() const { return rubs ? 3 : opens ? 2 : 1; }
   /// How much further the centres are apart, or nearer in an internal mesh, than where the pitch circles touch. Eq. (2.20)
   GapFunction opening(const Planar::Vec& z) const {
     GapFunction g = Distance{std::abs(radius_first + sign * radius_second)}(z);
@@ -93,8 +111,9 @@ struct RackMesh {
   double side = 1;
   double phase = 0;   // [m]
   bool opens = false;  // teeth push the pinion off the rack: the opening counts
+  bool rubs = false;   // teeth rub: the turn counts
 
-  int gap_functions() const { return opens ? 2 : 1; }
+  int gap_functions() const { return rubs ? 3 : opens ? 2 : 1; }
   /// How much further the pinion's centre is from the rack than its pitch radius. Eq. (2.20)
   GapFunction opening(const Planar::Vec& z) const {
     GapFunction g;
@@ -131,12 +150,23 @@ struct FunctionGap {
 
 class CamProfile;
 
-/// A cam and its follower: how far they are apart along their common normal, less than 0 where they overlap. theory/cams Eqs. (2.2)-(2.6).
-/// The profile belongs to the joint.
+/// A cam and its follower: how far they are apart along their common normal, less than 0 where they overlap, and how fast they slip along each other.
+/// theory/cams Eqs. (2.2)-(2.9). The profile belongs to the joint.
 struct CamGap {
   const CamProfile* profile = nullptr;
 
-  GapFunction operator()(const Planar::Vec& z) const;
+  static int gap_functions() { return 2; }
+  std::array<GapFunction, 2> gap_and_slip(const Planar::Vec& z) const;
+};
+
+class EdgeProfile;
+
+/// A pin, roller or wheel and the curved edge below it, in the same way. theory/cams section 4. The profile belongs to the joint.
+struct EdgeGap {
+  const EdgeProfile* profile = nullptr;
+
+  static int gap_functions() { return 2; }
+  std::array<GapFunction, 2> gap_and_slip(const Planar::Vec& z) const;
 };
 
 }  // namespace pintle

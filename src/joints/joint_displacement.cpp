@@ -60,7 +60,7 @@ auto DisplacementReader<S>::rate_gradient(const Displacement& displacement, cons
   if (selects<S>(displacement)) return of_pose;
   RateGradient r = RateGradient::Zero();
   for_each_function(displacement, pose.z, [&](int k, const BasicGapFunction<S>& g) {
-    r.row(k) = g.gradient.transpose() * of_pose + (g.hessian * pose.rate).transpose() * both(pose);
+    r.row(k) = g.gradient.transpose() * of_pose + pose.rate.transpose() * g.hessian * both(pose);
   });
   return r;
 }

@@ -23,7 +23,7 @@ template <class S>
 struct DisplacementsOf;
 template <>
 struct DisplacementsOf<Planar> {
-  using Type = std::variant<Selection, Distance, Mesh, RackMesh, FunctionGap, CamGap>;
+  using Type = std::variant<Selection, Distance, Mesh, RackMesh, FunctionGap, CamGap, EdgeGap>;
 };
 template <>
 struct DisplacementsOf<Spatial> {
@@ -73,6 +73,19 @@ int count_functions(const Displacement& displacement) {
         else return 1;
       },
       displacement);
+}
+
+/// Component 1 of a displacement that slips: its rate is a speed along the surfaces, and its gap no function of the pose but what is carried.
+constexpr int kSlip = 1;
+template <class Displacement>
+bool has_slip(const Displacement& displacement) {
+  return std::visit([](const auto& p) { return requires(const Planar::Vec& z) { p.gap_and_slip(z); }; }, displacement);
+}
+
+/// Lets the turn of gears against each other, or of a pinion against its rack, be a component of the gap: 2, for the friction of their teeth.
+inline void let_teeth_rub(JointDisplacement& displacement) {
+  if (auto* gears = std::get_if<Mesh>(&displacement)) gears->rubs = true;
+  if (auto* rack = std::get_if<RackMesh>(&displacement)) rack->rubs = true;
 }
 
 /// Calls use(component, function) for every component of the gap that is a function of the pose z.

@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "joints/cam_profile.h"
 #include "joints/catalog.h"
+#include "joints/edge_profile.h"
 #include "joints/joint_checks_for_tests.h"
 
 namespace pintle {
@@ -26,10 +27,10 @@ constexpr double kPi = std::numbers::pi;
 Selection sample_of(std::type_identity<Selection>, Random& random) { return {{0, 0, 2 * kPi * random.below(3)}}; }
 Distance sample_of(std::type_identity<Distance>, Random& random) { return {random.uniform(0.1, 3)}; }
 Mesh sample_of(std::type_identity<Mesh>, Random& random) {
-  return {random.uniform(0.5, 1), random.uniform(1.2, 2), random.coin() ? 1.0 : -1.0, random.uniform(-0.1, 0.1), random.coin()};
+  return {random.uniform(0.5, 1), random.uniform(1.2, 2), random.coin() ? 1.0 : -1.0, random.uniform(-0.1, 0.1), random.coin(), random.coin()};
 }
 RackMesh sample_of(std::type_identity<RackMesh>, Random& random) {
-  return {random.uniform(0.1, 1), random.coin() ? 1.0 : -1.0, random.uniform(-0.1, 0.1), random.coin()};
+  return {random.uniform(0.1, 1), random.coin() ? 1.0 : -1.0, random.uniform(-0.1, 0.1), random.coin(), random.coin()};
 }
 
 GapFunction sum_of_squares(const Planar::Vec& z, const double* p) {
@@ -53,6 +54,14 @@ Expression wavy_lift() {
 CamGap sample_of(std::type_identity<CamGap>, Random& random) {
   static const CamProfile roller(Cam{wavy_lift(), 0.3, 0.1, false}), flat(Cam{wavy_lift(), 0.3, 0, true});
   return {random.coin() ? &roller : &flat};
+}
+
+EdgeGap sample_of(std::type_identity<EdgeGap>, Random& random) {
+  ParseScope scope;
+  scope.variables = {{"x", kLength}};
+  static const Expression hills = std::get<ParsedExpression>(parse_expression("0.02 m*sin(x/1 m) - 0.01 m*cos(2*x/1 m)", scope)).expression;
+  static const EdgeProfile wheel(Edge{hills, 0.3, -5, 5}), point(Edge{hills, 0, -5, 5});
+  return {random.coin() ? &wheel : &point};
 }
 
 template <class V>
@@ -140,6 +149,7 @@ TEST(Mesh, OpensAsItsCentresSeparate) {
   for (const double side : {1.0, -1.0}) EXPECT_NEAR((RackMesh{0.5, side, 0, true}).opening({0.7, -0.6 * side, 0}).gap, 0.1, 1e-15);
   EXPECT_EQ(count_functions(JointDisplacement(Mesh{1, 2, 1, 0, true})), 2);
   EXPECT_EQ(count_functions(JointDisplacement(Mesh{1, 2, 1, 0})), 1);
+  EXPECT_EQ(count_functions(JointDisplacement(Mesh{1, 2, 1, 0, false, true})), 3);
   EXPECT_EQ(count_functions(JointDisplacement(Selection{})), 0);
 }
 

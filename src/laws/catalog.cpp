@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/text/article.h"
 #include "laws/bushing.h"
 #include "laws/catalog_parts.h"
 #include "laws/maxwell.h"
@@ -94,7 +95,7 @@ LawFault bushing_fault(const LawSetting& at) {
   for (int k = 0; k < 3; ++k)
     for (const char* key : kOf[k])
       if (!at.held[k] && at.number(key) != 0)
-        return {key, fmt::format("a {} joint leaves {} free, so that nothing can act there", at.joint_type, kNames[k]), "delete it, or another type of joint"};
+        return {key, fmt::format("{} joint leaves {} free, so that nothing can act there", with_article(at.joint_type), kNames[k]), "delete it, or another type of joint"};
   const BushingLaw law = bushing_of(at);
   for (const auto& [m, word, beside] : {std::tuple(&law.K, "stiffness", &kStiffnessBeside), std::tuple(&law.C, "damping", &kDampingBeside)}) {
     if (is_semi_definite(*m)) continue;
@@ -173,7 +174,8 @@ void make_linear(const LawSetting& at, Law& law) {
   else law.set_linear(linear);
 }
 
-void LawSetting::bound_by(const std::map<std::string, double>& geometry) {
+void LawSetting::take(const std::map<std::string, double>& geometry) {
+  if (const auto angle = geometry.find("pressure_angle"); angle != geometry.end()) pressure_angle = angle->second;
   const auto stroke = geometry.find("stroke");
   if (stroke == geometry.end()) return;
   lower_end = 0;

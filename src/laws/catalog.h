@@ -31,12 +31,13 @@ struct LawSetting {
   bool one_sided = false;      // the joint pulls and does not push
   double lower_end = -std::numeric_limits<double>::infinity();  // of what it leaves free: those of a stroke [m]
   double upper_end = std::numeric_limits<double>::infinity();
+  double pressure_angle = 0;   // of teeth [rad]
   std::shared_ptr<const Chambers> chambers{};  // of a cylinder, where the law is made
   const std::map<std::string, std::vector<double>>* values = nullptr;
   std::span<const KeyInfo> keys;
 
-  /// Takes its ends from the stroke in a joint's geometry, where there is one.
-  void bound_by(const std::map<std::string, double>& geometry);
+  /// Takes from a joint's geometry what laws ask of it, where it is there: ends from the stroke, the pressure angle.
+  void take(const std::map<std::string, double>& geometry);
   /// A value as stated, or the key's default; of a list the entry for this place, or its last one.
   double number(std::string_view key, std::size_t place = 0) const;
   /// A list as stated; empty where there is none.

@@ -163,7 +163,7 @@ class AnyLaw : public testing::Test {
     return !std::equal(before.begin(), before.end(), after.begin(), [](double x, double y) { return (x > 0) == (y > 0); });
   }
 };
-using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GapContactLaw, GuideContactLaw, HardStops, CushionedStops, BacklashLaw, ClutchLaw,
+using Laws = testing::Types<TensionLaw, BushingLaw, MaxwellLaw, LuGreLaw, CoulombLaw, BrownMcPheeLaw, StribeckLaw, LuGreGuide, ClearanceLaw, EdgeContactLaw, GapContactLaw, RoadContactLaw, GuideContactLaw, HardStops, CushionedStops, BacklashLaw, ClutchLaw,
                              TableLaw, RollingBearingLaw, LooseBearingLaw, WholeBearingLaw, JournalFilmLaw, LongFilmLaw, FiniteFilmLaw, LeafSpringLaw, NotchHingeLaw, CrossSpringLaw, PressureLaw, GasPressureLaw, DetentLaw, SeparatingForce, GrippingPin, GrippingGuide>;
 TYPED_TEST_SUITE(AnyLaw, Laws);
 

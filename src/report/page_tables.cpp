@@ -255,6 +255,13 @@ std::string html_of(const BearingTable& from) {
 
 }  // namespace
 
+std::string orbit_section(const RunRecord& run) {
+  std::string html;
+  for (const LoadSummary& joint : run.trajectory.joints)
+    if (joint.type == "revolute" && has_orbit(run.trajectory, joint.name)) html += "<figure class=\"wear\">\n" + to_svg(make_orbit_plot({{"", &run}}, joint.name)) + "</figure>\n";
+  return html;
+}
+
 std::string wear_section(const RunRecord& run) {
   const BearingTable table = wear_table(run.trajectory.wear);
   if (table.rows.empty()) return "";

@@ -22,6 +22,8 @@ std::string couple_table(const Trajectory& trajectory);   ///< "" without any
 std::string heat_table(const Trajectory& trajectory);     ///< "" where joints lose next to nothing
 std::string drive_tables(const Trajectory& trajectory);   ///< springs and motors
 std::string bearing_section(const std::vector<BearingSummary>& bearings);
+/// Where pins that are not held by springs go in their bushes: a picture of each; empty where there is none.
+std::string orbit_section(const RunRecord& run);
 /// What pins with clearance wear off, with a picture of each; empty where nothing has worn.
 std::string wear_section(const RunRecord& run);
 std::string energy_table(const EnergyAccount& energy);

@@ -115,7 +115,7 @@ void SceneMaker::add_cams(int body, const BodySketch& sketch) {
     put(kBlocks, {Form::kCircle, Paint::kGear, body, {{roller.centre}}, std::max(roller.radius, 0.25 * u)});
     if (roller.radius > u) put(kPins, {Form::kCircle, Paint::kPin, body, {{roller.centre}}, 0.4 * u});
   }
-  if (!sketch.faces.empty()) put(kBars, {Form::kBar, Paint::kLink, body, sketch.faces, 0.5 * u});
+  if (!sketch.faces.empty()) put(kBars, {Form::kBar, Paint::kLink, body, sketch.faces, kThick * u});
 }
 
 void SceneMaker::add_rack_teeth(int body, const Track& track) {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "joints/cam_profile.h"
+#include "joints/edge_profile.h"
 #include "report/outline.h"
 #include "report/scene_maker.h"
 
@@ -30,6 +31,7 @@ void SceneMaker::sketch_joints() {
     if (joint.type == "rack") sketch_rack(joint, *first, *second);
     if (joint.type == "belt") sketch_discs(joint, *first, *second);
     if (joint.cam) sketch_cam(joint, *first, *second);
+    if (joint.edge) sketch_edge(joint, *first, *second);
     if (joint.type != "gear") continue;
     const auto radius = [&joint](const char* key) { return joint.geometry.contains(key) ? joint.geometry.at(key) : 0.0; };
     const bool internal = radius("internal") > 0;
@@ -221,6 +223,23 @@ void SceneMaker::sketch_cam(const Joint& joint, const Anchor& first, const Ancho
   show(second.body, second.point, length(along));
 }
 
+// Its upper side is the edge.
+void SceneMaker::sketch_edge(const Joint& joint, const Anchor& first, const Anchor& second) {
+  constexpr int kPoints = 240;
+  const EdgeProfile profile(*joint.edge);
+  const Vec2 x = direction(first.axis), y = normal(x);
+  std::vector<Vec2> line;
+  for (int i = 0; i <= kPoints; ++i) {
+    const CurvePoint at = profile.at(profile.from() + (profile.to() - profile.from()) * i / kPoints);
+    const Planar::Point below = at.p - 0.5 * kThick * scene_.unit * at.normal();
+    line.push_back(first.point + below[0] * x + below[1] * y);
+    show(first.body, line.back(), 0);
+  }
+  sketch_of(first.body).faces.push_back(std::move(line));
+  sketch_of(second.body).rollers.push_back({second.point, profile.roller_radius()});
+  show(second.body, second.point, profile.roller_radius());
+}
+
 // Tracks and wheels that do not move. Slots that cross become one opening.
 void SceneMaker::add_ground_slots() {
   const double u = scene_.unit;
@@ -242,7 +261,7 @@ void SceneMaker::add_ground_slots() {
     put(kBack, {Form::kCircle, Paint::kPitch, kWorld, {{wheel.centre}}, wheel.radius});
   }
   if (!ground_.cams.empty()) put(kBack, {Form::kArea, Paint::kEarth, kWorld, ground_.cams});
-  if (!ground_.faces.empty()) put(kBack, {Form::kBar, Paint::kEarth, kWorld, ground_.faces, 0.5 * u});
+  if (!ground_.faces.empty()) put(kBack, {Form::kBar, Paint::kEarth, kWorld, ground_.faces, kThick * u});
   for (const Wheel& roller : ground_.rollers) put(kBack, {Form::kCircle, Paint::kEarth, kWorld, {{roller.centre}}, std::max(roller.radius, 0.25 * u)});
   if (frame.paths.empty()) return;
   put(kBack, std::move(frame));

@@ -31,8 +31,8 @@ struct BodySketch {
   std::vector<Wheel> wheels;
   std::vector<Anchor> blocks;  ///< where it is a slider
   std::vector<std::vector<Vec2>> cams;   ///< their outlines
-  std::vector<Wheel> rollers;            ///< on cams; without a radius: a pin
-  std::vector<std::vector<Vec2>> faces;  ///< flat ones on cams: both ends
+  std::vector<Wheel> rollers;            ///< on cams and edges; without a radius: a pin
+  std::vector<std::vector<Vec2>> faces;  ///< flat ones on cams, edges: lines of points
 };
 
 class SceneMaker {
@@ -78,6 +78,8 @@ class SceneMaker {
   void sketch_rack(const Joint& joint, const Anchor& first, const Anchor& second);
   void sketch_discs(const Joint& joint, const Anchor& first, const Anchor& second);
   void sketch_cam(const Joint& joint, const Anchor& first, const Anchor& second);
+  void sketch_edge(const Joint& joint, const Anchor& first, const Anchor& second);
+  static constexpr double kThick = 0.5;  ///< of faces and edges [units]
   BodySketch& sketch_of(int body) { return body == kWorld ? ground_ : sketches_[static_cast<std::size_t>(body)]; }
   void show(int body, const Track& track);
   void show(int body, const Vec2& centre, double radius);

@@ -7,20 +7,24 @@
 
 #include "joints/belt.h"
 #include "joints/cam_profile.h"
+#include "joints/edge_profile.h"
 
 namespace pintle {
 namespace {
 
 using S = Planar;
 
-// Couples are told where the joint holds an angle, meshes, or rubs; about the axis of a cam that is its torque.
+// Couples are told where the joint holds an angle, meshes, or something acts on the angle that it leaves free: friction, stops, a detent. About the axis of a cam that is
+// its torque.
 bool tells_couple(const JointData& joint) {
   const bool mesh = std::holds_alternative<Mesh>(joint.displacement) || std::holds_alternative<RackMesh>(joint.displacement) || belt_of(joint.displacement);
-  return transmits_couple(joint) || mesh || joint.cam || (joint.law.has_friction() && joint.free_mask[2] > 0);
+  return transmits_couple(joint) || mesh || joint.cam || joint.edge || (joint.free_mask[2] > 0 && (joint.law.rubs() || joint.law.has_stops()));
 }
 
 // A coordinate of the relative pose is free to slide; what a gap that is a function leaves free is the law's to tell.
 bool slides(const JointData& joint) { return joint.free_mask[0] > 0 && std::holds_alternative<Selection>(joint.displacement); }
+// Pins whose place in their bush is of interest: those that are not held by springs.
+bool has_orbit(const JointData& joint) { return joint.type == "revolute" && !joint.law.ideal_limit(); }
 bool is_stroke(const JointData& joint) { return joint.free_mask[0] > 0 && !slides(joint); }
 
 bool is_servo(const JointData& joint) { return joint.servo >= 0; }
@@ -109,8 +113,11 @@ std::vector<Column> Recorder::columns() const {
     if (joint.free_mask[2] > 0) column(p + "angle", "rad", "angle of " + second + "'s marker relative to " + first + "'s");
     if (slides(joint)) column(p + "slide_rate", "m/s", "rate of the slide");
     else if (joint.free_mask[2] > 0) column(p + "angle_rate", "rad/s", "rate of the angle");
+    if (has_orbit(joint))
+      for (const char* axis : {"x", "y"}) column(p + "pin_" + axis, "m", "where the pin is in its bush: the second marker, along " + std::string(axis) + " of the joint's frame on " + first);
     if (joint.cam) column(p + "cam_angle", "rad", "where the follower is on the cam, from its marker's x axis, -pi to pi");
     if (joint.cam && !joint.cam->flat()) column(p + "pressure_angle", "rad", "from the y axis of the second marker, along which the follower moves, to the normal of the contact");
+    if (joint.edge) column(p + "contact_x", "m", "where the contact is, along the x axis of the first marker");
     if (joint.driven >= 0) {
       column(p + "length", "m", "length to which joint " + joint.name + " is driven");
       column(p + "drive_power", "W", "power that what drives the length of joint " + joint.name + " delivers");
@@ -158,11 +165,14 @@ void Recorder::put_joint(int j, const S::Vec& load) {
   if (joint.free_mask[2] > 0) put(pose.z[2]);
   if (slides(joint)) put(pose.rate[0]);
   else if (joint.free_mask[2] > 0) put(pose.rate[2]);
+  if (has_orbit(joint))
+    for (int k : {0, 1}) put(pose.z[k]);
   if (joint.cam) {
     const CamContactPlace at = joint.cam->place(pose.z);
     put(at.angle);
     if (!joint.cam->flat()) put(at.pressure_angle);
   }
+  if (joint.edge) put(joint.edge->nearest({pose.z[0], pose.z[1]}));
 }
 
 void Recorder::add(const State& state) {

@@ -10,7 +10,7 @@ namespace pintle {
 /// the gradients where components of the gap are functions of the pose. T is a number, or one number per stage of a step.
 template <class T>
 struct PlanarGapMap {
-  static constexpr int kMostFunctions = 2;
+  static constexpr int kMostFunctions = 3;
   T c, s, ax, ay, bx, by;         // as in PlanarPoseGeometry
   T gradient[kMostFunctions][3];  // of the first components, where they are functions
   int functions = 0;              // how many are; then there are no others
@@ -53,10 +53,10 @@ struct PlanarGapMap {
   OnBodies<U> spread(const U* f) const {
     U f0 = functions > 0 ? gradient[0][0] * f[0] : f[0], f1 = functions > 0 ? gradient[0][1] * f[0] : f[1],
       f2 = functions > 0 ? gradient[0][2] * f[0] : f[2];
-    if (functions > 1) {
-      f0 += gradient[1][0] * f[1];
-      f1 += gradient[1][1] * f[1];
-      f2 += gradient[1][2] * f[1];
+    for (int k = 1; k < functions; ++k) {
+      f0 += gradient[k][0] * f[k];
+      f1 += gradient[k][1] * f[k];
+      f2 += gradient[k][2] * f[k];
     }
     OnBodies<U> r;
     r.fx = c * f0 - s * f1;
@@ -107,10 +107,10 @@ struct PlanarGapMap {
     e[1] = c * y - s * x;
     e[2] = on_b[2] - on_a[2];
     if (functions == 0) return;
-    const U first = along(0, e), second = functions > 1 ? along(1, e) : U();
+    const U first = along(0, e), second = functions > 1 ? along(1, e) : U(), third = functions > 2 ? along(2, e) : U();
     e[0] = first;
     e[1] = second;
-    e[2] = U();
+    e[2] = third;
   }
 
  private:

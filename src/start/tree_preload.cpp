@@ -102,7 +102,7 @@ void TreeInverseDynamics::move_onto_gaps(TreeState& state) {
   if (!prepare(state)) return;
   VectorXd now;
   for (int pass = 0; pass < 4; ++pass) {
-    at_.gaps(now);
+    at_.gaps(now, &state);
     state.y += projector_.close(state.gap - now);
     at_.place(state.t, state.y, state.u);
   }

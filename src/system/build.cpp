@@ -11,9 +11,11 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "base/text/article.h"
 #include "joints/belt.h"
 #include "joints/cam_profile.h"
 #include "joints/catalog.h"
+#include "joints/edge_profile.h"
 #include "laws/catalog.h"
 #include "laws/pressure.h"
 #include "laws/separating_force.h"
@@ -104,7 +106,7 @@ class Builder {
     setting.joint_type = joint.type;
     setting.held = held;
     setting.one_sided = type.one_sided;
-    setting.bound_by(joint.geometry);
+    setting.take(joint.geometry);
     for (const ComponentInfo& free : type.free) setting.free[free.place] = true;
     Law law;
     if (joint.type == "cylinder") {
@@ -116,7 +118,7 @@ class Builder {
       if (choice->word.empty()) return;
       const LawInfo* info = find_law(choice->word);
       if (!info || info->role != role) refuse(fmt::format("joint {}: there is no {} '{}'", joint.name, key_of(role), choice->word));
-      if (!suits(*info, joint.type)) refuse(fmt::format("joint {}: a {} joint has no law '{}'", joint.name, joint.type, choice->word));
+      if (!suits(*info, joint.type)) refuse(fmt::format("joint {}: {} joint has no law '{}'", joint.name, with_article(joint.type), choice->word));
       setting.values = &choice->values;
       setting.keys = info->keys;
       if (info->fault)
@@ -126,7 +128,8 @@ class Builder {
       if (info->rest) std::get<Selection>(displacement).offset.head<2>() = info->rest(setting);
     };
     if (!type.gap.empty()) add(&joint.law, LawRole::kHolds);
-    if (count_functions(displacement) > 1) law.add(std::make_unique<LawPartOf<SeparatingForce>>(SeparatingForce{joint.geometry.at("pressure_angle")}));
+    if (setting.pressure_angle > 0) law.add(std::make_unique<LawPartOf<SeparatingForce>>(SeparatingForce{setting.pressure_angle}));
+    if (!joint.friction.word.empty()) let_teeth_rub(displacement);
     add(&joint.friction, LawRole::kFriction);
     add(&joint.stops, LawRole::kStops);
     add(&joint.detent, LawRole::kDetent);
@@ -148,13 +151,18 @@ class Builder {
       data.cam = std::make_shared<const CamProfile>(*joint.cam);
       gap->profile = data.cam.get();
     }
+    if (auto* gap = std::get_if<EdgeGap>(&data.displacement)) {
+      if (!joint.edge) refuse(fmt::format("joint {}: an edge needs a height", joint.name));
+      data.edge = std::make_shared<const EdgeProfile>(*joint.edge);
+      gap->profile = data.edge.get();
+    }
     for (const ComponentInfo& gap : info->gap) data.held[gap.place] = true;
     data.law = make_law(joint, *info, data.held, data.displacement);
     data.ideal = joint.ideal && model_.simulate.equations == Equations::kRelative;
     for (const ComponentInfo& free : info->free) data.free_mask[free.place] = 1;
-    if (count_functions(data.displacement) > 1) data.free_mask[1] = 1;  // the opening of teeth
+    for (int k = 1; k < count_functions(data.displacement); ++k) data.free_mask[k] = 1;  // the opening and turn of teeth, the slip of surfaces
     if (const auto length = joint.functions.find("length"); length != joint.functions.end()) {
-      if (!std::holds_alternative<Distance>(data.displacement)) refuse(fmt::format("joint {}: a {} joint has no length that is driven", joint.name, joint.type));
+      if (!std::holds_alternative<Distance>(data.displacement)) refuse(fmt::format("joint {}: {} joint has no length that is driven", joint.name, with_article(joint.type)));
       data.displacement = Distance{0};
       data.driven = 0;
       data.target = length->second;
@@ -169,7 +177,7 @@ class Builder {
   }
   void add_motor(const Motor& motor) {
     const JointData& driven = system_.joints[joint(motor.joint)];
-    if (!std::holds_alternative<Selection>(driven.displacement)) refuse(fmt::format("motor {}: a {} joint has no coordinate for a motor", motor.name, driven.type));
+    if (!std::holds_alternative<Selection>(driven.displacement)) refuse(fmt::format("motor {}: {} joint has no coordinate for a motor", motor.name, with_article(driven.type)));
     const int component = driven.free_mask[0] > 0 ? 0 : 2;
     if (driven.free_mask[component] == 0) refuse(fmt::format("motor {}: joint {} leaves nothing free", motor.name, motor.joint));
     if (motor.kind == MotorKind::kEffort) {
@@ -261,20 +269,21 @@ class Builder {
       system_.applied.push_back({force.name, on, frame(force.on), force.force[0], force.force[1], force.torque, force.body_axes});
       return;
     }
-    if (force.body_axes) refuse(fmt::format("force {}: in the axes of the body it may read t only", force.name));
     for (int component = 0; component < 3; ++component)
       if (!along[component]->variables().empty() || along[component]->value({}) != 0) add_effort(force, on, component, *along[component]);
   }
-  // Along the place of the point as seen from the ground, or its angle.
+  // Along the place of the point as seen from the ground, or the ground's as seen from the point in its body's axes; or the angle.
   void add_effort(const AppliedForce& force, int on, int component, const Expression& law) {
     LoadData load;
     load.name = force.name;
     load.kind = LoadKind::kEffort;
     load.applied = true;
-    load.at.a = kGround;
-    load.at.b = on;
-    load.at.F = S::Frame::at({0, 0}, 0);
-    load.at.M = frame(force.on);
+    const bool in_body_axes = force.body_axes && component < 2;
+    const S::Frame ground = S::Frame::at({0, 0}, 0), point = frame(force.on);
+    load.at.a = in_body_axes ? on : kGround;
+    load.at.b = in_body_axes ? kGround : on;
+    load.at.F = in_body_axes ? S::Frame::at(point.p, 0) : ground;
+    load.at.M = in_body_axes ? ground : point;
     load.component = component;
     load.law = law;
     read_signals("force", "", component, load);

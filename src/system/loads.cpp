@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 
-#include "system/system.h"
+#include "system/load_displacement.h"
 
 namespace pintle {
 
@@ -23,12 +23,6 @@ Spatial::Mat gyroscopic_tangent(const BasicBodyData<Spatial>& body, const Spatia
 }
 
 namespace {
-
-template <class S>
-BasicDisplacement<S> displacement_of(const BasicLoadData<S>& load) {
-  if (load.kind == LoadKind::kSpring) return BasicDistance<S>{load.free};
-  return BasicSelection<S>{typename S::Vec(S::Vec::Unit(load.component) * (load.kind == LoadKind::kTorsionSpring ? load.free : 0.0))};
-}
 
 template <class S>
 double value_of(const BasicSystem<S>& system, const BasicSignal<S>& signal, double t, const std::vector<typename S::Motion>& m) {
@@ -118,7 +112,7 @@ typename BasicSystem<S>::LoadState BasicSystem<S>::load_state(const BasicLoadDat
   state.displacement = displacement_of(load);
   state.pose = pose(load.at, m);
   state.kinematics = read(state.displacement, state.pose);
-  state.slot = load.kind == LoadKind::kSpring ? 0 : load.component;
+  state.slot = slot_of(load);
   if (load.kind == LoadKind::kEffort) {
     const auto values = signal_values(*this, load, t, m);
     const std::size_t n = load.signals.size();

@@ -63,7 +63,8 @@ struct BasicJointData {
   std::string type;
   BasicPlacement<S> at;
   BasicDisplacement<S> displacement;
-  std::shared_ptr<const CamProfile> cam{};  // that the displacement of a cam reads
+  std::shared_ptr<const CamProfile> cam{};    // that the displacement of a cam reads
+  std::shared_ptr<const EdgeProfile> edge{};  // that of an edge
   BasicLaw<S> law;
   bool ideal = false;          // its gap is kept at zero by the equations, its law is not asked
   std::array<bool, S::kDof> redundant{};  // components of an ideal joint that other ideal joints keep already

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/article.h"
+
 namespace pintle {
 namespace {
 
@@ -78,7 +80,7 @@ void JointTree::open_the_rest() {
     if (carries_coordinates(joint))
       opened_.push_back(fmt::format("joint {} is opened: it closes a loop with the ideal {}; its force law acts", joint.name, loop_of(j)));
     else
-      opened_.push_back(fmt::format("joint {} is opened: a {} has no free coordinates of its own; its force law acts", joint.name, joint.type));
+      opened_.push_back(fmt::format("joint {} is opened: {} has no free coordinates of its own; its force law acts", joint.name, with_article(joint.type)));
   }
 }
 

@@ -131,7 +131,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     load_motions(m);
   }
 
-  // In curved spaces the geometry knows turns but for whole ones: those are the carried gap's.
+  // In curved spaces the geometry knows turns but for whole ones: those are the carried gap's. So is how far surfaces have slipped.
   Kinematics read(const BasicJointPack<S>& joints, double t, const std::vector<typename S::Motion>& m, typename S::template GapMap<L>& map,
                   const BasicStage<S>& carried) const {
     Kinematics r;
@@ -146,7 +146,8 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
         }
       return r;
     }
-    const BasicJointKinematics<S> one = system_.kinematics(joints.first, t, m);
+    BasicJointKinematics<S> one = system_.kinematics(joints.first, t, m);
+    if (has_slip(system_.joints[joints.first].displacement)) one.gap[kSlip] = carried.gap[joints.first][kSlip];
     for (int k = 0; k < S::kDof; ++k) {
       r.gap[k] = L::all(one.gap[k]);
       r.rate[k] = L::all(one.rate[k]);

@@ -9,5 +9,12 @@ X cubic_hermite(double s, double h, const X& x0, const X& d0, const X& x1, const
   const double r = 1 - s;
   return x0 + s * s * (3 - 2 * s) * (x1 - x0) + h * s * r * (r * d0 - s * d1);
 }
+/// Its derivative by time.
+template <class X>
+X cubic_hermite_slope(double s, double h, const X& x0, const X& d0, const X& x1, const X& d1) {
+  const double r = 1 - s;
+  const X change = x1 - x0;
+  return 6 * s * r / h * change + r * (1 - 3 * s) * d0 + s * (3 * s - 2) * d1;
+}
 
 }  // namespace pintle

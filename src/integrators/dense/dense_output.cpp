@@ -46,6 +46,8 @@ BasicDenseOutput<S>::BasicDenseOutput(const BasicSystem<S>& system)
   out_.gap = out_.gap_rate = out_.gap_accel = out_.force = VecsOf<S>(system.joints.size(), S::Vec::Zero());
   out_.law_state.resize(system.n_law_states());
   out_.law_rate.resize(system.n_law_states());
+  for (int j = 0; j < system.n_joints(); ++j)
+    if (has_slip(system.joints[j].displacement)) slipping_.push_back(static_cast<std::size_t>(j));
 }
 
 template <class S>
@@ -58,16 +60,21 @@ const BasicState<S>& BasicDenseOutput<S>::at(double t, const BasicState<S>& begi
     const double r = 1 - s;
     for (std::size_t i = 0; i < out_.q.size(); ++i) {
       const typename S::Vec dq = S::difference(end.q[i], begin.q[i]), rate = S::rate_of_increment(dq, end.v[i]);
-      const typename S::Vec dv = end.v[i] - begin.v[i];
       out_.q[i] = S::moved(begin.q[i], s * s * (3 - 2 * s) * dq + h * s * r * (r * begin.v[i] - s * rate));
       out_.v[i] = cubic_hermite(s, h, begin.v[i], begin.a[i], end.v[i], end.a[i]);
-      out_.a[i] = 6 * s * r / h * dv + r * (1 - 3 * s) * begin.a[i] + s * (3 * s - 2) * end.a[i];
+      out_.a[i] = cubic_hermite_slope(s, h, begin.v[i], begin.a[i], end.v[i], end.a[i]);
     }
   } else {
     interpolate(H, h, begin.q, begin.v, begin.a, end.q, end.v, end.a, out_.q, out_.v, out_.a);
   }
   interpolate(H, h, begin.gap, begin.gap_rate, begin.gap_accel, end.gap, end.gap_rate, end.gap_accel, out_.gap, out_.gap_rate,
               out_.gap_accel);
+  for (const std::size_t j : slipping_) {  // how far surfaces have slipped no state need know
+    const double v0 = begin.gap_rate[j][kSlip], v1 = end.gap_rate[j][kSlip], a0 = begin.gap_accel[j][kSlip], a1 = end.gap_accel[j][kSlip];
+    out_.gap[j][kSlip] = begin.gap[j][kSlip];
+    out_.gap_rate[j][kSlip] = cubic_hermite(s, h, v0, a0, v1, a1);
+    out_.gap_accel[j][kSlip] = cubic_hermite_slope(s, h, v0, a0, v1, a1);
+  }
   out_.t = t;
   out_.sliding = begin.sliding;
   out_.dissipated = cubic_hermite(s, h, begin.dissipated, begin.loss_power, end.dissipated, end.loss_power);

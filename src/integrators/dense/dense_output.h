@@ -42,6 +42,7 @@ class BasicDenseOutput {
   std::unique_ptr<BasicDenseForces<S>> dense_forces_;  // made with the room for curves
   typename BasicDenseForces<S>::Sampled sampled_;
   BasicState<S> out_;
+  std::vector<std::size_t> slipping_;  // joints with a slip
   // The last step's curves, found when they are first asked for.
   double curves_from_ = 0, curves_to_ = 0;
   int n_ = 0, n_force_ = 0;  // coefficients of accelerations, of forces

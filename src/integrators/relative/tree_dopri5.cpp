@@ -192,6 +192,11 @@ const State& TreeDopri5::interpolate(double t) {
     now.law_state[z] = cubic_hermite(s, h, begin_.law_state[z], begin_.law_rate[z], end_.law_state[z], end_.law_rate[z]);
   complete(now);
   quintic(s, h, {&begin_.gap, &begin_.rate, &begin_.accel}, {&end_.gap, &end_.rate, &end_.accel}, now.gap, now.rate);
+  for (std::size_t l = 0; l < tree_->laws().size(); ++l) {
+    if (!has_slip(system_.joints[tree_->laws()[l]].displacement)) continue;
+    const Eigen::Index i = 3 * static_cast<Eigen::Index>(l) + kSlip;  // how far surfaces have slipped no state need know
+    now.rate[i] = cubic_hermite(s, h, begin_.rate[i], begin_.accel[i], end_.rate[i], end_.accel[i]);
+  }
   at_.forces(now, now.force, now.law_rate);
   at_.accelerate(VectorXd::Zero(tree_->n()));
   at_.imbalance(now.force, now.w);

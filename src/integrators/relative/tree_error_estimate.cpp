@@ -158,7 +158,7 @@ void TreeRadau::move_onto_gaps() {
   end_at_.place_only(end_.t, end_.y, end_.u);
   VectorXd now;
   for (int pass = 0; pass < 2; ++pass) {
-    end_at_.gaps(now);
+    end_at_.gaps(now, &end_);
     const VectorXd wanted = end_.gap - now;
     if (pass > 0 && largest(wanted) < rounding) break;
     end_.y += projector_.close(wanted);
@@ -178,7 +178,7 @@ void TreeRadau::move_onto_gaps() {
 void TreeRadau::take_gaps() {
   const double rounding = 16 * std::numeric_limits<double>::epsilon() * largest_coordinate(end_at_.pose().q);
   VectorXd now;
-  end_at_.gaps(now);
+  end_at_.gaps(now, &end_);
   for (Index i = 0; i < now.size(); ++i)
     if (std::abs(now[i] - end_.gap[i]) > rounding) end_.gap[i] = now[i];
   end_at_.rates(end_.rate);

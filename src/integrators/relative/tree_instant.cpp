@@ -41,9 +41,13 @@ void TreeInstant::imbalance(const VectorXd& f, VectorXd& out) {
   out = -out;
 }
 
-void TreeInstant::gaps(VectorXd& out) const {
+void TreeInstant::gaps(VectorXd& out, const TreeState* carried) const {
   out.resize(n_gaps());
-  for (std::size_t l = 0; l < r_.size(); ++l) out.segment<3>(3 * static_cast<Eigen::Index>(l)) = r_[l].gap;
+  for (std::size_t l = 0; l < r_.size(); ++l) {
+    const Eigen::Index i = 3 * static_cast<Eigen::Index>(l);
+    out.segment<3>(i) = r_[l].gap;
+    if (carried && has_slip(system_.joints[tree_.laws()[l]].displacement)) out[i + kSlip] = carried->gap[i + kSlip];
+  }
 }
 
 void TreeInstant::rates(VectorXd& out) const {

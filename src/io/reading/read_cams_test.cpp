@@ -1,7 +1,8 @@
-// Cams in model files: their profile, from an expression or a table, and every mistake.
+// Cams and curved edges in model files: their profile, from an expression or a table, and every mistake.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -61,12 +62,28 @@ TEST(ReadCams, ATableNeedsASmoothInterpolation) {
 }
 
 // @ stands before the character that is to be blamed.
+struct Mistake {
+  const char* joint;
+  const char* path;
+  const char* because;
+};
+
+void expect_complaint(std::string text, const Mistake& mistake) {
+  const std::size_t mark = text.find('@');
+  ASSERT_NE(mark, std::string::npos);
+  text.erase(mark, 1);
+  const int line = 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(mark), '\n'));
+  const int column = static_cast<int>(mark - text.rfind('\n', mark - 1));
+  const auto complaints = complaints_about(text);
+  std::string all;
+  for (const Complaint& complaint : complaints) all += to_text(complaint) + "\n";
+  EXPECT_TRUE(std::any_of(complaints.begin(), complaints.end(),
+                          [&](const Complaint& c) { return c.place.line == line && c.place.column == column && c.path == mistake.path && c.because.find(mistake.because) != std::string::npos; }))
+      << "wanted " << line << ":" << column << " " << mistake.path << ": " << mistake.because << "\ngot\n" << all;
+  EXPECT_LE(complaints.size(), 2U) << all;
+}
+
 TEST(ReadCams, MistakesAreLocatedAndExplained) {
-  struct Mistake {
-    const char* joint;
-    const char* path;
-    const char* because;
-  };
   const std::vector<Mistake> mistakes{
       {"base_radius = 0.04\nlift = \"@5 mm*angle\"\n", "joint.J.lift", "does not close"},
       {"base_radius = 0.04\nlift = \"@5 s\"\n", "joint.J.lift", "a length [m] is expected"},
@@ -78,24 +95,36 @@ TEST(ReadCams, MistakesAreLocatedAndExplained) {
       {"base_radius = 0.04\nfollower = \"@knife\"\nlift = 0\n", "joint.J.follower", "none of roller, flat"},
       {"base_radius = 0.04\nfollower = \"flat\"\nroller_radius = @0.01\nlift = 0\n", "joint.J.roller_radius", "has no roller"},
       {"base_radius = 0.04\nlift = 0\nlaw = \"@clearance\"\nclearance = 1e-3\n", "joint.J.law", "a cam joint cannot have it"},
-      {"base_radius = 0.04\nlift = 0\nlaw = \"contact\"\nfriction_coefficient = @0.1\n", "joint.J.friction_coefficient", "without friction"},
+      {"base_radius = 0.04\nlift = 0\nlaw = \"contact\"\nfriction_coefficient = 0.1\nstatic_friction = @0.05\n", "joint.J.static_friction", "below friction_coefficient"},
+      {"base_radius = 0.04\nlift = 0\nfriction = \"coulomb\"\nguide_length = @0.1\n", "joint.J.guide_length", "have no guide"},
       {"base_radius = 0.04\nlift = 0\n@radius = 1\n", "joint.J.radius", "rack joints only"},
+  };
+  for (const Mistake& mistake : mistakes) expect_complaint(cam_model(mistake.joint), mistake);
+}
+
+// Of a curved edge, whose table is complete but for what is tried.
+TEST(ReadEdges, MistakesAreLocatedAndExplained) {
+  const std::string complete = "from = \"-1 m\"\nto = \"1 m\"\n";
+  const std::vector<Mistake> mistakes{
+      {"height = \"@0.1 m*abs(x/(1 m))\"\nfrom = \"-1 m\"\nto = \"1 m\"\n", "joint.J.height", "a corner at"},
+      {"height = \"@x^2/(0.2 m)\"\nroller_radius = 0.2\nfrom = \"-1 m\"\nto = \"1 m\"\n", "joint.J.height", "touch in two places"},
+      {"height = \"@1 m^2/x\"\nfrom = \"-1 m\"\nto = \"1 m\"\n", "joint.J.height", "not finite"},
+      {"height = \"@angle\"\nfrom = \"-1 m\"\nto = \"1 m\"\n", "joint.J.height", ""},
+      {"height = 0\nfrom = 1\nto = @1\n", "joint.J.to", "not above from"},
+      {"height = 0\nfrom = 0\nto = 1\n@base_radius = 1\n", "joint.J.base_radius", "cam joints only"},
   };
   for (const Mistake& mistake : mistakes) {
     std::string text = cam_model(mistake.joint);
-    const std::size_t mark = text.find('@');
-    ASSERT_NE(mark, std::string::npos);
-    text.erase(mark, 1);
-    const int line = 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(mark), '\n'));
-    const int column = static_cast<int>(mark - text.rfind('\n', mark - 1));
-    const auto complaints = complaints_about(text);
-    std::string all;
-    for (const Complaint& complaint : complaints) all += to_text(complaint) + "\n";
-    EXPECT_TRUE(std::any_of(complaints.begin(), complaints.end(),
-                            [&](const Complaint& c) { return c.place.line == line && c.place.column == column && c.path == mistake.path && c.because.find(mistake.because) != std::string::npos; }))
-        << "wanted " << line << ":" << column << " " << mistake.path << ": " << mistake.because << "\ngot\n" << all;
-    EXPECT_LE(complaints.size(), 2U) << all;
+    text.replace(text.find("\"cam\""), 5, "\"edge\"");
+    expect_complaint(text, mistake);
   }
+  std::string text = cam_model("height = \"0.1 m*sin(x/(1 m))\"\nroller_radius = \"5 cm\"\n" + complete);
+  text.replace(text.find("\"cam\""), 5, "\"edge\"");
+  const Model model = parse_model(text, "m.toml");
+  ASSERT_TRUE(model.joints[0].edge);
+  EXPECT_DOUBLE_EQ(model.joints[0].edge->roller_radius, 0.05);
+  EXPECT_DOUBLE_EQ(model.joints[0].edge->height.value(std::vector{0.5}), 0.1 * std::sin(0.5));
+  EXPECT_EQ(model.joints[0].edge->from, -1);
 }
 
 }  // namespace

@@ -6,12 +6,14 @@
 #include <array>
 #include <utility>
 
+#include "base/text/article.h"
 #include "base/units.h"
 #include "io/reading/law_keys.h"
 #include "io/reading/model_reading.h"
 #include "io/text.h"
 #include "joints/cam_profile.h"
 #include "joints/catalog.h"
+#include "joints/edge_profile.h"
 #include "laws/catalog.h"
 
 namespace pintle {
@@ -111,6 +113,17 @@ void read_cam(ModelReading& reading, const Record& record, Joint& joint) {
     reading.complaints.add(record.spot("lift"), record.path + ".lift", in_quotes(joint.cam->lift.text()), std::move(why), "a lift that is smooth and ends as it begins (a table: interpolation = \"spline\"), a larger base_radius, or a smaller roller");
 }
 
+void read_edge(ModelReading& reading, const Record& record, Joint& joint) {
+  if (joint.type != "edge" || !record.states("height") || !record.states("from") || !record.states("to")) return;
+  joint.edge = Edge{record.expression("height"), record.number("roller_radius"), record.number("from"), record.number("to")};
+  if (!(joint.edge->to > joint.edge->from)) {
+    reading.complaints.add(record.spot("to"), record.path + ".to", fmt::format("{:g} m", joint.edge->to), fmt::format("this is not above from, {:g} m", joint.edge->from), "a larger x");
+    return;
+  }
+  if (std::string why = EdgeProfile(*joint.edge).fault(); !why.empty())
+    reading.complaints.add(record.spot("height"), record.path + ".height", in_quotes(joint.edge->height.text()), std::move(why), "a height that is smooth (a table: interpolation = \"spline\"; a corner: rounded with smoothstep), or a smaller roller");
+}
+
 // A fault of a law or of a geometry, where its key stands.
 template <class Fault>
 void complain_of(const Fault& fault, const Record& record, ModelReading& reading) {
@@ -147,7 +160,7 @@ void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& 
     std::string types;
     for (const std::string_view one : law.joints) types += (types.empty() ? "" : ", ") + std::string(one);
     const std::string key(key_of(law.role));
-    reading.complaints.add(record.spot(key), record.path + "." + key, '"' + choice.word + '"', "a " + std::string(type.word) + " joint cannot have it",
+    reading.complaints.add(record.spot(key), record.path + "." + key, '"' + choice.word + '"', with_article(type.word) + " joint cannot have it",
                            "it is for joints of type " + types);
     return;
   }
@@ -156,7 +169,7 @@ void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& 
   for (const ComponentInfo& gap : type.gap) setting.held[gap.place] = true;
   for (const ComponentInfo& free : type.free) setting.free[free.place] = true;
   setting.one_sided = type.one_sided;
-  setting.bound_by(joint.geometry);
+  setting.take(joint.geometry);
   setting.values = &choice.values;
   setting.keys = law.keys;
   if (law.fault == nullptr || !complete) return;
@@ -205,7 +218,7 @@ void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& l
     const bool stated = record.states(key.key);
     if (stated && !has_effect(key, type)) {
       reading.complaints.add(record.spot(key.key), record.path + "." + std::string(key.key), std::string(key.key),
-                             "a " + std::string(type.word) + " joint forbids no angle, so this has no effect",
+                             with_article(type.word) + " joint forbids no angle, so this has no effect",
                              "delete it");
     }
     const Value* value = stated || !defaults.states(key.key) ? record.find(key.key) : defaults.find(key.key);
@@ -223,7 +236,7 @@ void read_bearing(ModelReading& reading, const JointTypeInfo& type, const Entry&
   if (entry == nullptr) return;
   const std::string path = joint_path + ".bearing";
   if (type.word != kPin) {
-    reading.complaints.add(entry->key_spot, path, "bearing", "a " + std::string(type.word) + " joint has no pin that turns in a bearing", "delete it, or state the bearing of a revolute joint");
+    reading.complaints.add(entry->key_spot, path, "bearing", with_article(type.word) + " joint has no pin that turns in a bearing", "delete it, or state the bearing of a revolute joint");
     return;
   }
   const Record record = reading.records.read(reading.spec("joint.*.bearing"), entry->value, entry->key_spot, path);
@@ -256,7 +269,7 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
     read_faulty_joint(reading, entry, path);
     return;
   }
-  const std::string kind = "a " + std::string(type->word) + " joint";
+  const std::string kind = with_article(type->word) + " joint";
   TableSpec spec = joint_spec(reading, entry.value, type, law, friction == nullptr ? "" : friction_word, stops == nullptr ? "" : stops_word, detent == nullptr ? "" : detent_word);
   do_without(*law, defaults, spec);
   const Record record = reading.records.read(spec, entry.value, entry.key_spot, path, kind);
@@ -268,6 +281,7 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   check_gear(reading, record, joint);
   check_geometry(reading, *type, record, entry.value, joint);
   read_cam(reading, record, joint);
+  read_edge(reading, record, joint);
   read_law(reading, *type, *law, record, entry.value, defaults, joint, joint.law);
   joint.ideal = record.number("ideal") > 0;
   if (friction != nullptr) read_law(reading, *type, *friction, record, entry.value, defaults, joint, joint.friction);

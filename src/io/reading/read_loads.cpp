@@ -52,10 +52,6 @@ void read_force(ModelReading& reading, const Entry& entry) {
   force.force = {record.expression("force", 0), record.expression("force", 1)};
   force.torque = record.expression("torque");
   force.body_axes = record.word("axes") == "body";
-  for (const Expression* e : {&force.force[0], &force.force[1], &force.torque})
-    for (const std::string& variable : e->variables())
-      if (force.body_axes && variable != "t")
-        reading.complaints.add(record.spot("axes"), path + ".axes", "\"body\"", "a force that reads " + variable + " acts in the world's axes", "axes = \"world\", with its components there");
   reading.model.forces.push_back(std::move(force));
 }
 

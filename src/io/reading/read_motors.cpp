@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/text/article.h"
 #include "io/reading/model_reading.h"
 #include "io/text.h"
 #include "joints/catalog.h"
@@ -25,7 +26,7 @@ std::string coordinate_of(ModelReading& reading, const Entry& entry, const std::
   if (type == nullptr) return {};
   if (!type->free.empty() && !type->has_ends) return std::string(type->free.front().name);
   reading.complaints.add(joint->spot, path + ".joint", in_quotes(*joint->string()),
-                         type->has_ends ? "a " + it->second + " is driven by its pressures" : "a " + it->second + " joint leaves no coordinate free for a motor",
+                         type->has_ends ? with_article(it->second) + " is driven by its pressures" : with_article(it->second) + " joint leaves no coordinate free for a motor",
                          "a revolute, prismatic or slot joint");
   return {};
 }

@@ -57,7 +57,7 @@ class TableReader {
 
   void check_name() {
     const std::string& name = entry_.key;
-    constexpr std::array<std::string_view, 8> kVariables{"t", "angle", "slide", "rate", "angle_rate", "slide_rate", "stroke", "stroke_rate"};
+    constexpr std::array<std::string_view, 9> kVariables{"t", "x", "angle", "slide", "rate", "angle_rate", "slide_rate", "stroke", "stroke_rate"};
     const bool variable = std::find(kVariables.begin(), kVariables.end(), name) != kVariables.end();
     const auto& parameters = reading_.records.scope.constant_names;
     if (!is_identifier(name)) complain("", entry_.key_spot, in_quotes(name), "a table is called by its name, which is a letter, then letters, digits and _", "no other character in it");

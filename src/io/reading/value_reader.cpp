@@ -252,6 +252,7 @@ void RecordReader::set_variables(const KeySpec& spec, std::string_view text) {
   scope.variables.clear();
   for (const std::string& variable : spec.variables) {
     if (variable == "t") scope.variables.emplace_back("t", kTime);
+    if (variable == "x") scope.variables.emplace_back("x", kLength);
     if (variable == "angle") scope.variables.emplace_back("angle", kAngle);
     if (variable == "slide") scope.variables.emplace_back("slide", kLength);
     if (variable == "angle_rate") scope.variables.emplace_back("angle_rate", kAngularSpeed);

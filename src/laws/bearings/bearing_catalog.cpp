@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/text/article.h"
 #include "laws/bearings/journal_film.h"
 #include "laws/bearings/rolling_bearing.h"
 #include "laws/bearings/table.h"
@@ -176,7 +177,7 @@ LawFault table_fault(const LawSetting& at) {
   }
   if (!(force.back() > force.front())) return {"force", "it is the same everywhere, so that it holds nothing", "forces that rise"};
   if (x.front() == 0 && force.front() != 0) return {"force", "a table that begins at 0 is completed to both sides, and its force there is 0", "0 as the first force, or a table that begins below 0"};
-  if (at.held[0] && at.held[1] && x.front() != 0) return {"displacement", fmt::format("a {} joint is displaced in any direction, so that its table begins at 0", at.joint_type), "displacement = [0, ...]"};
+  if (at.held[0] && at.held[1] && x.front() != 0) return {"displacement", with_article(at.joint_type) + " joint is displaced in any direction, so that its table begins at 0", "displacement = [0, ...]"};
   return {};
 }
 

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 2> kAttraction{"cut-off", "kept"};
 constexpr KeyInfo kClearance{.key = "clearance", .unit = "m", .minimum_exclusive = true, .required = true,
                              .meaning = "radius of the bush less that of the pin; in a slot or guide the play to either side"};
 constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .minimum_exclusive = true, .meaning = "of the pin, which is on the second body; of a slider, at the edges of its ends"};
-constexpr KeyInfo kRollerRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .meaning = "of the pin or roller on the second body; 0: a point. Of a cam's follower, for the stiffness only"};
+constexpr KeyInfo kRollerRadius{.key = "pin_radius", .unit = "m", .fallback = 0.01, .meaning = "of the pin or roller on the second body; 0: a point. On cams and curved edges for the stiffness only: their roller_radius is where it touches"};
 constexpr KeyInfo kModel{.key = "contact_model", .unit = "", .words = kContactModels,
                          .meaning = "damping of the contact; only exact returns the restitution that is asked for, linear is a spring and a damper"};
 constexpr KeyInfo kRestitution{.key = "restitution", .unit = "", .fallback = 0.8, .minimum_exclusive = true, .meaning = "speed after a free impact over the speed before, at most 1"};
@@ -55,7 +55,7 @@ constexpr std::array<KeyInfo, 9> kBacklashKeys{{kBacklash, kModel, kRestitution,
 
 constexpr std::array<std::string_view, 2> kMeshes{"gear", "rack"};
 constexpr std::array<std::string_view, 3> kWithClearance{"revolute", "slot", "prismatic"};
-constexpr std::array<std::string_view, 2> kOneSided{"slot", "cam"};
+constexpr std::array<std::string_view, 3> kOneSided{"slot", "cam", "edge"};
 
 constexpr double kFlat = std::numeric_limits<double>::infinity();
 
@@ -69,7 +69,6 @@ LawFault contact_fault(const LawSetting& at) {
   if (at.number("static_friction") > 0 && !(at.number("friction_coefficient") > 0)) return {"friction_coefficient", "what sticks by static_friction rubs when it slips", "friction_coefficient, at most static_friction"};
   if (const double stuck = at.number("static_friction"); stuck > 0 && stuck < at.number("friction_coefficient"))
     return {"static_friction", fmt::format("{:g} is below friction_coefficient, {:g}: what slips would be held more firmly than what rests", stuck, at.number("friction_coefficient")), "static_friction not below friction_coefficient"};
-  if (at.joint_type == "cam" && (at.number("friction_coefficient") > 0 || at.number("static_friction") > 0)) return {"friction_coefficient", "a cam and its follower touch without friction", "delete it"};
   const double poisson = at.number("poisson_ratio");
   if (poisson > 0.5) return {"poisson_ratio", fmt::format("{:g} is above 0.5, that of what keeps its volume", poisson), "0.3 for metals"};
   const bool linear = kDamping.model_of(at) == ContactModel::kViscous, stated = at.number("contact_stiffness") > 0;
@@ -117,7 +116,14 @@ void make_clearance(const LawSetting& at, Law& law) {
 }
 
 void make_edge(const LawSetting& at, Law& law) {
-  if (at.joint_type == "cam") return law.add(std::make_unique<LawPartOf<GapContactLaw>>(GapContactLaw{contact_of(at, kFlat)}));
+  if (at.joint_type != "slot") {
+    GapContactLaw surfaces;
+    surfaces.contact = contact_of(at, kFlat);
+    set_friction(at, surfaces);
+    if (at.joint_type == "cam") law.add(std::make_unique<LawPartOf<GapContactLaw>>(surfaces));
+    else law.add(std::make_unique<LawPartOf<RoadContactLaw>>(RoadContactLaw{surfaces}));
+    return;
+  }
   EdgeContactLaw contact;
   contact.shape = PinContact::Shape::kEdge;
   set_contact(at, contact);
@@ -136,10 +142,10 @@ void make_backlash(const LawSetting& at, Law& law) {
 void add_contact_laws(std::vector<LawInfo>& all) {
   all.push_back({.word = "clearance", .meaning = "a pin with clearance in its bush or slot, a slider with clearance in its guide: free flight, impact, contact with friction and wear", .keys = kClearanceKeys,
                  .rubs = true, .joints = kWithClearance, .make = make_clearance, .fault = contact_fault});
-  all.push_back({.word = "contact", .meaning = "a contact that presses and does not pull: of a pin or roller (second) on the +y side of a straight edge, the first marker's axis (stops, feet, wheels), or of a follower on its cam", .keys = kEdgeKeys,
+  all.push_back({.word = "contact", .meaning = "a contact that presses and does not pull: of a pin or roller (second) on the +y side of a straight edge, the first marker's axis (stops, feet, wheels), of a follower on its cam, or of what runs on a curved edge", .keys = kEdgeKeys,
                  .rubs = true, .joints = kOneSided, .make = make_edge, .fault = contact_fault});
   all.push_back({.word = "backlash", .meaning = "teeth with play between their flanks: free travel, impact, and contact of one flank or the other", .keys = kBacklashKeys,
-                 .rubs = true, .joints = kMeshes, .make = make_backlash, .fault = contact_fault});
+                 .joints = kMeshes, .make = make_backlash, .fault = contact_fault});
 }
 
 }  // namespace pintle

@@ -3,6 +3,8 @@
 //   v = r w (pins) or the rate of the slide (sliders, slots);      N = |reaction| + N_0                             theory/joints Eq. (3.14)
 //   a slide with a guide:  N = |F/2 + M/L| + |F/2 - M/L| + N_0 = max(|F|, 2 |M|/L) + N_0           Eq. (3.15)
 //
+//   a cam, an edge:  v the slip of the surfaces, N = |F| + N_0, F the force between them          theory/cams section 3
+//   teeth:           v = l w, w the turn of one gear against the other,  N = |F|/cos alpha + N_0   theory/joints section 2.5
 //   seals of a cylinder:   N = N_0 + A_s (|p_c - p_0| + |p_r - p_0|)                               theory/cylinders Eq. (3.1)
 //
 // F is the force across a slide and M its moment about the second marker, the middle of the guide: they press its edges, both on the
@@ -22,8 +24,9 @@ namespace pintle {
 
 struct Friction {
   static constexpr bool kHolds = false;
-  int free = 2;                      // component that slips: 2 of a pin, 0 of a slider or slot
-  double radius = 0.01;              // of the pin [m]; 1 for slides
+  int free = 2;                      // component that slips: 2 of a pin, 1 of surfaces, 0 of a slider or slot
+  double radius = 0.01;              // of the pin; l of teeth, how far from the pitch point they touch on average [m]; 1 for slides
+  double normal = 0;                 // load per force across the one gap of surfaces and teeth; 0: other joints [-]
   double guide = 0;                  // length L of a slide's guide [m]; 0: its moment does not press
   double preload = 0;                // N_0 [N]
   double kinetic = 0.1, stuck = 0.15;  // coefficients [-]
@@ -40,6 +43,7 @@ struct Friction {
     using namespace law_math;
     const T* f = in.before;
     if (chambers) return T(preload) + seal_area * chambers->on_seals(in);                                     // cylinders (3.1)
+    if (normal > 0) return T(preload) + normal * abs(f[0]);
     if (free == 2) return T(preload) + sqrt(f[0] * f[0] + f[1] * f[1]);                                       // (3.14)
     if (!(guide > 0)) return T(preload) + abs(f[1]);
     const T half = 0.5 * f[1], edge = (1 / guide) * f[2];
@@ -56,7 +60,7 @@ struct Friction {
   double lever() const { return free == 2 ? radius : 0; }
   std::span<const LawColumn> columns() const {
     static const std::array<LawColumn, 2> pin{{{"friction", "N*m", "moment of friction on the second body"}, {"friction_power", "W", "power that friction turns into heat"}}};
-    static const std::array<LawColumn, 2> slide{{{"friction", "N", "force of friction on the second body, along the slide or the stroke"}, {"friction_power", "W", "power that friction turns into heat"}}};
+    static const std::array<LawColumn, 2> slide{{{"friction", "N", "force of friction on the second body, along what slides"}, {"friction_power", "W", "power that friction turns into heat"}}};
     return free == 2 ? pin : slide;
   }
   /// Nothing else acts in the direction that is left free.

@@ -1,5 +1,6 @@
 // The catalog's entries of dry friction.
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <memory>
 
@@ -16,6 +17,7 @@ namespace {
 constexpr KeyInfo kKinetic{.key = "friction_coefficient", .unit = "", .fallback = 0.1, .minimum_exclusive = true, .meaning = "kinetic friction: of steady fast slip"};
 constexpr KeyInfo kStatic{.key = "static_friction", .unit = "", .fallback = 0.15, .minimum_exclusive = true, .meaning = "coefficient at which slip begins; not below the kinetic one"};
 constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .minimum_exclusive = true, .otherwise = "required of a pin", .meaning = "where a pin rubs; of no other joint"};
+constexpr KeyInfo kTeeth{.key = "sliding_distance", .unit = "m", .minimum_exclusive = true, .otherwise = "required of gears and racks", .meaning = "where teeth rub: how far from the pitch point they touch on average, about 1.2 modules; of no other joint"};
 constexpr KeyInfo kGuide{.key = "guide_length", .unit = "m", .meaning = "of a slider, centred on the second marker: its moment presses the edges; 0: only the force across does"};
 constexpr KeyInfo kStribeck{.key = "stribeck_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip at which friction has fallen most of the way to kinetic"};
 constexpr KeyInfo kViscous{.key = "viscous_friction", .unit = "s/m", .meaning = "friction per slip speed and load"};
@@ -23,35 +25,37 @@ constexpr KeyInfo kPreload{.key = "friction_preload", .unit = "N", .meaning = "p
 
 constexpr KeyInfo kSealArea{.key = "seal_area", .unit = "m^2", .meaning = "of a cylinder: where the pressure in its chambers, over that of the surroundings, presses seals against bore and rod"};
 
-constexpr std::array<KeyInfo, 10> kLuGreKeys{{
-    kKinetic, kStatic, kPinRadius, kGuide, kStribeck,
+constexpr std::array<KeyInfo, 11> kLuGreKeys{{
+    kKinetic, kStatic, kPinRadius, kTeeth, kGuide, kStribeck,
     {.key = "bristle_stiffness", .unit = "m^-1", .fallback = 1e5, .minimum_exclusive = true, .meaning = "friction before slip, per displacement and load; slip begins at static_friction over this"},
     {.key = "bristle_damping", .unit = "s/m", .fallback = 10, .meaning = "the same per rate of the bristles"},
     kViscous, kPreload, kSealArea,
 }};
 
-constexpr std::array<KeyInfo, 9> kCoulombKeys{{
-    kKinetic, kStatic, kPinRadius, kGuide,
+constexpr std::array<KeyInfo, 10> kCoulombKeys{{
+    kKinetic, kStatic, kPinRadius, kTeeth, kGuide,
     {.key = "stick_stiffness", .unit = "N/m", .fallback = 1e8, .minimum_exclusive = true, .meaning = "friction before slip, per displacement where it rubs"},
     {.key = "stick_damping", .unit = "N*s/m", .fallback = 3e3, .meaning = "the same per speed"},
     kViscous, kPreload, kSealArea,
 }};
 
-constexpr std::array<KeyInfo, 8> kBrownMcPheeKeys{{
-    kKinetic, kStatic, kPinRadius, kGuide,
+constexpr std::array<KeyInfo, 9> kBrownMcPheeKeys{{
+    kKinetic, kStatic, kPinRadius, kTeeth, kGuide,
     {.key = "transition_speed", .unit = "m/s", .fallback = 1e-3, .minimum_exclusive = true, .meaning = "slip at which friction is largest; below it a joint creeps that should stick"},
     kViscous, kPreload, kSealArea,
 }};
 
-constexpr std::array<KeyInfo, 9> kStribeckKeys{{
-    kKinetic, kStatic, kPinRadius, kGuide, kStribeck,
+constexpr std::array<KeyInfo, 10> kStribeckKeys{{
+    kKinetic, kStatic, kPinRadius, kTeeth, kGuide, kStribeck,
     {.key = "transition_speed", .unit = "m/s", .fallback = 1e-4, .minimum_exclusive = true, .meaning = "friction rises with tanh(slip / transition_speed); about this fast a joint creeps that should stick"},
     kViscous, kPreload, kSealArea,
 }};
 
 constexpr std::string_view kCylinder = "cylinder";
-constexpr std::array<std::string_view, 4> kRubbing{"revolute", "prismatic", "slot", kCylinder};
+constexpr std::array<std::string_view, 8> kRubbing{"revolute", "prismatic", "slot", kCylinder, "gear", "rack", "cam", "edge"};
 
+bool has_surfaces(const LawSetting& at) { return at.joint_type == "cam" || at.joint_type == "edge"; }
+bool has_teeth(const LawSetting& at) { return at.joint_type == "gear" || at.joint_type == "rack"; }
 // Turns and does not slide.
 bool is_pin(const LawSetting& at) { return at.free[2] && !at.free[0]; }
 
@@ -61,6 +65,9 @@ LawFault friction_fault(const LawSetting& at) {
             "static_friction not below friction_coefficient"};
   if (at.joint_type != kCylinder && at.number("seal_area") > 0) return {"seal_area", "only cylinders have seals", "delete it; friction_preload is a constant load"};
   if (at.joint_type == kCylinder && at.number("guide_length") > 0) return {"guide_length", "the guide of a cylinder's rod carries no load: the force acts along it", "delete it"};
+  if ((has_surfaces(at) || has_teeth(at)) && at.number("guide_length") > 0) return {"guide_length", "surfaces that touch in a point have no guide", "delete it"};
+  if (has_teeth(at) && !(at.number("sliding_distance") > 0)) return {"sliding_distance", "teeth slide on each other at some distance from the pitch point, which is not stated", "about 1.2 modules: sliding_distance = \"2.4 mm\" of a module of 2 mm"};
+  if (!has_teeth(at) && at.number("sliding_distance") > 0) return {"sliding_distance", "only gears and racks have teeth", "delete it"};
   if (is_pin(at) && !(at.number("pin_radius") > 0)) return {"pin_radius", "a pin rubs at its radius, which is not stated", "pin_radius = \"10 mm\", or what it is"};
   if (at.free[2] && at.number("guide_length") > 0) return {"guide_length", "a joint that turns transmits no moment that could press the edges of a guide", "delete it"};
   return {};
@@ -68,9 +75,10 @@ LawFault friction_fault(const LawSetting& at) {
 
 // What its law has in common with others.
 void set_friction(const LawSetting& at, Friction& friction) {
-  const bool pin = is_pin(at);
-  friction.free = pin ? 2 : 0;
-  friction.radius = pin ? at.number("pin_radius") : 1;
+  const bool pin = is_pin(at), teeth = has_teeth(at);
+  friction.free = pin || teeth ? 2 : has_surfaces(at) ? 1 : 0;
+  friction.radius = pin ? at.number("pin_radius") : teeth ? at.number("sliding_distance") : 1;
+  friction.normal = teeth ? 1 / std::cos(at.pressure_angle) : has_surfaces(at) ? 1 : 0;
   friction.guide = pin ? 0 : at.number("guide_length");
   friction.preload = at.number("friction_preload");
   friction.kinetic = at.number("friction_coefficient");

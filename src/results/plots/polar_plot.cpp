@@ -35,6 +35,7 @@ std::size_t longest(const PolarCurve& curve) {
 
 double largest(const PolarPlot& plot) {
   double most = 0;
+  for (const PolarPanel& panel : plot.panels) most = std::max(most, panel.limit);
   for (const PolarPanel& panel : plot.panels)
     for (const PolarCurve& curve : panel.curves)
       if (!curve.x.empty()) most = std::max(most, std::hypot(curve.x[longest(curve)], curve.y[longest(curve)]));
@@ -87,6 +88,7 @@ class PolarPicture {
     put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" font-weight=\"bold\" text-anchor=\"middle\">{}</text>\n", middle_x(), top_ - 24, kTextSize, escaped_markup(panel.title));
     put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" fill=\"#555\" text-anchor=\"middle\">{}</text>\n", middle_x(), top_ - 8, kTickSize, escaped_markup(panel.axes));
     draw_rings();
+    if (panel.limit > 0) put("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"none\" stroke=\"#444\" stroke-width=\"1.4\"/>\n", middle_x(), middle_y(), pixels(panel.limit / scale_.factor));
     for (std::size_t i = panel.curves.size(); i-- > 0;) draw_curve(panel.curves[i], i);
     for (std::size_t i = 0; i < panel.curves.size(); ++i) describe(panel.curves[i], i);
   }
@@ -133,10 +135,11 @@ class PolarPicture {
   void describe(const PolarCurve& curve, std::size_t index) {
     if (curve.x.empty()) return;
     const std::size_t peak = longest(curve);
+    const bool small = scale_.factor < 1;  // micrometres are read more easily than powers of metres
     const double x = curve.x[peak], y = curve.y[peak], line = top_ + side_ + 14 + kRow * static_cast<double>(index);
     put("<path d=\"M{:.1f} {:.1f}h{}\" {} stroke-width=\"2.2\"/>\n", left_, line - 4, kSample, stroke(index));
     put("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\">{}peak {} {} at {:.1f}°</text>\n", left_ + kSample + 6, line, kTickSize, curve.label.empty() ? "" : escaped_markup(curve.label) + ": ",
-        engineering(std::hypot(x, y)), escaped_markup(printed_unit(plot_.unit)), std::atan2(y, x) * 360 / kCircle);
+        engineering(std::hypot(x, y) / (small ? scale_.factor : 1)), escaped_markup(small ? scale_.unit : printed_unit(plot_.unit)), std::atan2(y, x) * 360 / kCircle);
   }
 
   const PolarPlot& plot_;

@@ -15,6 +15,7 @@ struct PolarCurve {
 struct PolarPanel {
   std::string title, axes;  ///< two lines: "Force on crank", "in the axes of its marker"
   std::vector<PolarCurve> curves;
+  double limit = 0;  ///< radius of a circle that bounds the paths, drawn boldly; 0: there is none
 };
 
 /// The first point of each path is marked by a ring, the longest vector by a dot, which the line below the diagram gives in numbers.

@@ -36,6 +36,19 @@ void add_curves(const Trajectory& run, const LoadSummary& joint, const std::stri
   plot.panels[2].curves.push_back(std::move(second));
 }
 
+// From what the law tells of the pin's distance: how far it is beyond the clearance, or its share of it. 0: nothing.
+double radial_clearance(const Trajectory& run, const std::string& path) {
+  const auto column = [&](const char* name) { return run.column(path + name); };
+  const int x = column("pin_x"), y = column("pin_y"), beyond = column("penetration"), share = column("eccentricity");
+  for (std::size_t i = 0; i < run.n_rows(); ++i) {
+    const auto at = [&run, i](int c) { return run.at(i, static_cast<std::size_t>(c)); };
+    const double distance = std::hypot(at(x), at(y));
+    if (beyond >= 0) return distance - at(beyond);
+    if (share >= 0 && at(share) > 0.01) return distance / at(share);
+  }
+  return 0;
+}
+
 const JointWear& find_wear(const Trajectory& run, const LoadSummary& joint) {
   const auto found = std::find_if(run.wear.begin(), run.wear.end(), [&joint](const JointWear& one) { return one.joint == joint.name; });
   if (found != run.wear.end()) return *found;
@@ -72,6 +85,37 @@ PolarPlot make_wear_plot(const std::vector<PolarRun>& runs, const std::string& j
     const std::string label = runs.size() == 1 ? "" : one.name;
     plot.panels[0].curves.push_back(around(label, wear.bush));
     plot.panels[1].curves.push_back(around(label, wear.pin));
+  }
+  return plot;
+}
+
+bool has_orbit(const Trajectory& run, const std::string& joint) { return run.column("joint." + joint + ".pin_x") >= 0; }
+
+PolarPlot make_orbit_plot(const std::vector<PolarRun>& runs, const std::string& joint) {
+  const RunRecord& leading = *runs.front().run;
+  const LoadSummary& pin = find_pin(leading.trajectory, joint);
+  PolarPlot plot;
+  plot.title = fmt::format("Joint {}: orbit of the pin in its bush", joint);
+  plot.subtitle = leading.stamp.model_name.empty() ? leading.stamp.model_path : leading.stamp.model_name;
+  plot.unit = "m";
+  plot.panels = {{"Pin on " + pin.second_body, "axes of the bush's marker on " + pin.first_body, {}}, {"Pin on " + pin.second_body, "axes of its own marker", {}}};
+  for (const PolarRun& one : runs) {
+    const Trajectory& run = one.run->trajectory;
+    find_pin(run, joint);
+    if (!has_orbit(run, joint))
+      throw PlotRequestError(fmt::format("joint \"{}\" tells no orbit: only pins that springs do not hold do, such as those with law = \"clearance\".\n    Choose another joint; runs of older versions have no orbits, so run their models again.", joint));
+    const std::string path = "joint." + joint + ".", label = runs.size() == 1 ? "" : one.name;
+    const auto column = [&](const char* name) { return values_of(run, find_column(run, path + name)); };
+    const std::vector<double> x = column("pin_x"), y = column("pin_y"), angle = column("angle");
+    PolarCurve on_pin{label, {}, {}};
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double c = std::cos(angle[i]), s = std::sin(angle[i]);
+      on_pin.x.push_back(c * x[i] + s * y[i]);
+      on_pin.y.push_back(c * y[i] - s * x[i]);
+    }
+    if (&one == &runs.front()) plot.panels[0].limit = plot.panels[1].limit = radial_clearance(run, path);
+    plot.panels[0].curves.push_back({label, x, y});
+    plot.panels[1].curves.push_back(std::move(on_pin));
   }
   return plot;
 }

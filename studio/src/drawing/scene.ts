@@ -1,7 +1,7 @@
 // The drawing of a mechanism: built once for each model and zoom, then only moved. One frame sets a transform for each
 // thing that moves; nothing is made or measured in it.
 import { type Point, type Pose, distance, roundedOutline, toWorld } from "../model/geometry";
-import { type Blade, type Cam, type End, GROUND, type Joint, type Model, type Spring, markerOf } from "../model/model";
+import { type Blade, type End, GROUND, type Joint, type Model, type Profile, type Spring, markerOf } from "../model/model";
 import type { Thing } from "../model/operations";
 import type { Camera } from "./camera";
 import { type BodyLook, type Looks, guideEnds } from "./looks";
@@ -55,7 +55,7 @@ export class Scene {
     this.pan(camera);
     for (const guide of looks.guides) this.drawGuide(guide);
     for (const gear of looks.gears) this.drawGear(gear);
-    for (const joint of model.joints) if (joint.cam) this.drawCam(model, joint, joint.cam);
+    for (const joint of model.joints) if (joint.profile) this.drawProfile(model, joint, joint.profile);
     // Blocks and discs lie under the bars that are pinned to them.
     const looked = model.bodies.map((body, i) => ({ name: body.name, look: looks.bodies.get(body.name) ?? ({ kind: "mass" } as BodyLook), i }));
     for (const under of [true, false]) for (const { name, look, i } of looked) if ((look.kind !== "bar") === under) this.drawBody(name, look, i);
@@ -147,25 +147,25 @@ export class Scene {
     if (!gear.internal) path(circle(0, 0, Math.max(radius * 0.2, 7)) + `M0 ${-radius * 0.85}V${-radius * 0.5}`, "detail", one);
   }
 
-  private drawCam(model: Model, joint: Joint, cam: Cam): void {
+  private drawProfile(model: Model, joint: Joint, profile: Profile): void {
     const one = group("gear", this.layers.bodies);
     const marker = markerOf(model, joint.first);
     this.register("joint", joint.name, one);
     this.follow(one, joint.first.body, marker?.at ?? [0, 0], marker?.axis ?? 0);
-    path(polyline(cam.outline.map((p) => this.local(p)), true), "solid", one);
+    path(polyline(profile.outline.map((p) => this.local(p)), true), "solid", one);
   }
 
-  // What runs on cams: a roller, or the line of a flat face.
+  // What runs on cams and edges: a roller, or the line of a flat face.
   private drawFollowers(model: Model): void {
     for (const joint of model.joints) {
-      if (!joint.cam) continue;
+      if (!joint.profile) continue;
       const marker = markerOf(model, joint.second);
       const one = group("gear", this.layers.links);
       this.register("joint", joint.name, one);
       this.follow(one, joint.second.body, marker?.at ?? [0, 0], marker?.axis ?? 0);
-      const reach = Math.max(...joint.cam.outline.map(([x, y]) => Math.hypot(x, y))) * this.scale;
-      if (joint.cam.roller === null) path(polyline([[-reach, 0], [reach, 0]]), "solid", one);
-      else path(circle(0, 0, Math.max(joint.cam.roller * this.scale, 3)), "solid", one);
+      const reach = Math.max(...joint.profile.outline.map(([x, y]) => Math.hypot(x, y))) * this.scale;
+      if (joint.profile.roller === null) path(polyline([[-reach, 0], [reach, 0]]), "solid", one);
+      else path(circle(0, 0, Math.max(joint.profile.roller * this.scale, 3)), "solid", one);
     }
   }
 

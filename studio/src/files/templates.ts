@@ -16,7 +16,7 @@ export interface Template {
 const ORDER = [
   "four_bar", "slider_crank", "engine", "pendulum", "quick_return", "cam_follower", "gear_train", "belt_drive", "atwood", "bollard", "crane_bushing", "six_bar", "toggle_press", "scissor_lift", "trammel", "two_loop_engine",
   "inverted_slider_crank", "robot_arm", "andrews", "five_bar_parallelogram", "rope_pendulum", "weld_beam", "loose_ball_bearing", "lubricated_crank", "oil_film_rotor",
-  "slider_crank_clearance", "worn_linkage", "four_bar_clearance", "scotch_yoke_play", "loose_piston", "hopper", "strut_on_tyre", "bar_clamp", "stick_slip", "conveyor_belt",
+  "slider_crank_clearance", "worn_linkage", "four_bar_clearance", "scotch_yoke_play", "loose_piston", "hopper", "strut_on_tyre", "wheel_over_bump", "jaw_coupling", "bar_clamp", "stick_slip", "conveyor_belt",
 ];
 
 export const TEMPLATES: readonly Template[] = Object.entries(files)

@@ -50,7 +50,7 @@ export interface Joint {
   closedLength: number | null;
   /** The blades of a flexure; none for other laws. */
   blades: Blade[];
-  cam: Cam | null;
+  profile: Profile | null;
 }
 
 /** A blade in the axes of its two markers: where its ends are along its own direction, and that direction against the markers'. */
@@ -61,8 +61,8 @@ export interface Blade {
   to: number;
 }
 
-/** A cam in the axes of the first marker, and what runs on it. */
-export interface Cam {
+/** The outline of a cam or a curved edge in the axes of the first marker, and what runs on it. */
+export interface Profile {
   outline: Point[];
   /** Of a roller; null: a flat face. */
   roller: number | null;
@@ -111,7 +111,7 @@ export interface Model {
 export const GROUND = "ground";
 
 const TURN = 2 * Math.PI;
-const CAM_POINTS = 180;
+const PROFILE_POINTS = 180;
 
 type Reading = (node: Node | undefined) => number | null;
 
@@ -250,7 +250,7 @@ function readJoint(name: string, table: TableNode, number: Reading, parameters: 
     internal: textOf(table.entries.get("mesh")) === "internal",
     closedLength: textOf(table.entries.get("type")) === "cylinder" ? (number(table.entries.get("closed_length")) ?? 0) : null,
     blades: readBlades(table, number),
-    cam: textOf(table.entries.get("type")) === "cam" ? readCam(table, number, parameters) : null,
+    profile: readProfile(table, number, parameters),
   };
 }
 
@@ -271,14 +271,30 @@ function readBlades(table: TableNode, number: Reading): Blade[] {
   return [half, -half].map((angle) => ({ length, angle, from: -crossing * length, to: (1 - crossing) * length }));
 }
 
+function readProfile(table: TableNode, number: Reading, parameters: Map<string, number>): Profile | null {
+  const type = textOf(table.entries.get("type"));
+  return type === "cam" ? readCam(table, number, parameters) : type === "edge" ? readEdge(table, number, parameters) : null;
+}
+
+// A band below the edge; the height of a table is not known here and counts as 0.
+function readEdge(table: TableNode, number: Reading, parameters: Map<string, number>): Profile {
+  const [from, to] = [number(table.entries.get("from")) ?? 0, number(table.entries.get("to")) ?? 0];
+  const thick = 0.02 * (to - from);
+  const edge = Array.from({ length: PROFILE_POINTS + 1 }, (_, i): Point => {
+    const x = from + ((to - from) * i) / PROFILE_POINTS;
+    return [x, numberOf(table.entries.get("height"), (word) => (word === "x" ? x : parameters.get(word))) ?? 0];
+  });
+  return { outline: [...edge, ...edge.map(([x, y]): Point => [x, y - thick]).reverse()], roller: number(table.entries.get("roller_radius")) ?? 0 };
+}
+
 // As the kernel has it (docs/theory/cams.md); the lift of a table is not known here and counts as 0.
-function readCam(table: TableNode, number: Reading, parameters: Map<string, number>): Cam {
+function readCam(table: TableNode, number: Reading, parameters: Map<string, number>): Profile {
   const flat = textOf(table.entries.get("follower")) === "flat";
   const roller = flat ? 0 : (number(table.entries.get("roller_radius")) ?? 0);
   const base = number(table.entries.get("base_radius")) ?? 0;
   const radius = (angle: number) => base + roller + (numberOf(table.entries.get("lift"), (word) => (word === "angle" ? ((angle % TURN) + TURN) % TURN : parameters.get(word))) ?? 0);
-  const outline = Array.from({ length: CAM_POINTS }, (_, i): Point => {
-    const angle = (TURN * i) / CAM_POINTS, d = 1e-5;
+  const outline = Array.from({ length: PROFILE_POINTS }, (_, i): Point => {
+    const angle = (TURN * i) / PROFILE_POINTS, d = 1e-5;
     const r = radius(angle), slope = (radius(angle + d) - radius(angle - d)) / (2 * d);
     const [ux, uy] = [Math.cos(angle), Math.sin(angle)];
     if (flat) return [r * ux - slope * uy, r * uy + slope * ux];

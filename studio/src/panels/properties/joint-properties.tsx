@@ -14,7 +14,7 @@ import { type Role, chooseLaw } from "./law-choice";
 import { Icon } from "../icons";
 
 const TYPE_WORDS: Record<string, string> = {
-  revolute: "pin", prismatic: "slider", fixed: "weld", slot: "pin in a slot", rod: "massless rod", rope: "rope", belt: "run of a belt", cylinder: "hydraulic or pneumatic cylinder", gear: "gear mesh", rack: "rack and pinion", cam: "cam and follower",
+  revolute: "pin", prismatic: "slider", fixed: "weld", slot: "pin in a slot", rod: "massless rod", rope: "rope", belt: "run of a belt", cylinder: "hydraulic or pneumatic cylinder", gear: "gear mesh", rack: "rack and pinion", cam: "cam and follower", edge: "roller on a curved edge",
 };
 
 export function JointProperties({ name }: { name: string }) {
@@ -40,21 +40,21 @@ export function JointProperties({ name }: { name: string }) {
         </section>
       )}
       {joint.type === "gear" && !type && <Pair label="Pitch radii" unit="m" path={["joint", name, "radii"]} names={["first", "second"]} />}
-      {joint.cam && <CamFields name={name} />}
+      {joint.profile && <ProfileFields joint={joint} />}
       {joint.type === "revolute" && <BearingFields name={name} />}
       <Additions joint={joint} />
     </>
   );
 }
 
-const CAM_KEYS = ["lift", "base_radius", "follower", "roller_radius"];
+const PROFILE_KEYS: Record<string, readonly string[]> = { cam: ["lift", "base_radius", "follower", "roller_radius"], edge: ["height", "from", "to", "roller_radius"] };
 
-function CamFields({ name }: { name: string }) {
+function ProfileFields({ joint }: { joint: Joint }) {
   const schema = useSchema();
   return (
     <section>
       <h3>Profile</h3>
-      <SchemaFields fields={fieldsOf(schema, "joint", false).filter((field) => CAM_KEYS.includes(field.name))} path={["joint", name]} />
+      <SchemaFields fields={fieldsOf(schema, "joint", false).filter((field) => PROFILE_KEYS[joint.type]?.includes(field.name))} path={["joint", joint.name]} />
     </section>
   );
 }

@@ -1,7 +1,7 @@
 import { expect, it } from "vitest";
 import { readModel } from "./model";
 
-const cam = (keys: string) => readModel(`[parameters]\nr = "40 mm"\n[joint.J]\ntype = "cam"\nbetween = ["a.O", "b.P"]\nbase_radius = "r"\n${keys}`).joints[0]!.cam!;
+const cam = (keys: string) => readModel(`[parameters]\nr = "40 mm"\n[joint.J]\ntype = "cam"\nbetween = ["a.O", "b.P"]\nbase_radius = "r"\n${keys}`).joints[0]!.profile!;
 
 // A circle of 40 mm, 10 mm off the axis, under a roller of 12 mm and under a flat face.
 it("draws the surface of a cam", () => {
@@ -14,4 +14,13 @@ it("draws the surface of a cam", () => {
 
 it("draws the base circle where the lift is not known", () => {
   for (const [x, y] of cam('lift = "table(angle)"\n').outline) expect(Math.hypot(x, y)).toBeCloseTo(0.04, 8);
+});
+
+// A hill of 10 cm, whose upper side is the edge.
+it("draws a band below a curved edge", () => {
+  const { outline, roller } = readModel(`[joint.J]\ntype = "edge"\nbetween = ["ground.O", "b.P"]\nheight = "0.1 m - x^2/(1 m)"\nfrom = -0.3\nto = "30 cm"\nroller_radius = 0.05\n`).joints[0]!.profile!;
+  expect(roller).toBe(0.05);
+  expect(outline[0]).toEqual([-0.3, expect.closeTo(0.01, 12)]);
+  expect(Math.max(...outline.map(([, y]) => y))).toBeCloseTo(0.1, 12);
+  expect(outline.at(-1)).toEqual([-0.3, expect.closeTo(0.01 - 0.012, 12)]);
 });

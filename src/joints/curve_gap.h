@@ -1,0 +1,66 @@
+// What is on the outer side of a plane curve: its distance, the nearest point, and how it slips along. theory/cams sections 2 and 4.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "joints/gap_function.h"
+#include "pintle/expression.h"
+
+namespace pintle {
+
+/// A point of a curve with its derivatives by the parameter. The outer side is on the right of d.
+struct CurvePoint {
+  Planar::Point p, d, dd;
+
+  Planar::Point tangent() const { return d.normalized(); }
+  Planar::Point normal() const { return {tangent()[1], -tangent()[0]}; }
+  /// 1/m, positive where it is convex as seen from outside.
+  double curvature() const { return Planar::cross(d, dd) / (d.squaredNorm() * d.norm()); }
+};
+
+/// Of a point c and the curve's nearest one to it: component 0 how far it is from the curve, Eqs. (2.2)-(2.4); component 1 the speed along the curve, in
+/// the direction of d, of the surface of a disc of this radius about c, Eq. (2.8). It is of a slip, which is no rate of a function of the pose: its value is
+/// 0, and the derivative of its gradient, row i by z_k, not symmetric.
+std::array<GapFunction, 2> gap_and_slip_over(const CurvePoint& nearest, const Planar::Point& c, double radius);
+
+/// Newton's method for (c - P) P' = 0, Eq. (2.1), from a parameter near the nearest point; none where it does not lead to one.
+template <class Curve>
+std::optional<double> nearest_point(const Curve& curve, const Planar::Point& c, double parameter) {
+  constexpr int kMost = 20, kMany = 8;
+  for (int i = 0; i < kMost; ++i) {
+    const CurvePoint at = curve(parameter);
+    const double bend = (c - at.p).dot(at.dd) - at.d.squaredNorm();
+    if (!(bend < 0)) return {};  // not near a nearest point
+    const double step = -(c - at.p).dot(at.d) / bend;
+    parameter += step;
+    if (std::abs(step) < 1e-15 * (1 + std::abs(parameter)) || (i > kMany && std::abs(step) < 1e-13)) return parameter;
+  }
+  return {};
+}
+
+/// The same from the nearest of many points between two parameters, by halves between its neighbours.
+template <class Curve>
+double nearest_of_many(const Curve& curve, const Planar::Point& c, double low, double high) {
+  constexpr int kPoints = 360, kHalves = 60;
+  const double apart = (high - low) / kPoints;
+  int best = 0;
+  for (int i = 1; i <= kPoints; ++i)
+    if ((c - curve(low + apart * i).p).norm() < (c - curve(low + apart * best).p).norm()) best = i;
+  double before = low + apart * (best - 1), behind = low + apart * (best + 1);
+  for (int i = 0; i < kHalves; ++i) {
+    const double middle = 0.5 * (before + behind);
+    const CurvePoint at = curve(middle);
+    ((c - at.p).dot(at.d) > 0 ? before : behind) = middle;
+  }
+  return 0.5 * (before + behind);
+}
+
+/// Where the slope of a function of one variable jumps by more than `least` between two places, with the slopes on either side; none: nowhere.
+struct Corner {
+  double at, slope_before, slope_behind;
+};
+std::optional<Corner> corner_between(const Expression& f, double low, double high, double least);
+
+}  // namespace pintle

@@ -1,0 +1,52 @@
+#include "joints/edge_profile.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace pintle {
+namespace {
+
+constexpr double kSmooth = 1e-3;  // change of slope that rounded numbers may make [-]
+
+}  // namespace
+
+CurvePoint EdgeProfile::at(double x) const {
+  const auto [h, slope, bend] = edge_.height.is_constant() ? std::array{edge_.height.value({}), 0.0, 0.0} : edge_.height.second_order(std::array{x}, 0);
+  return {{x, h}, {-1, -slope}, {0, bend}};
+}
+
+// No point can be nearer than by the way down that is not within this way along the line.
+double EdgeProfile::nearest(const Planar::Point& c) const {
+  const auto curve = [this](double u) { return at(-u); };
+  if (const auto found = nearest_point(curve, c, -c[0])) return -*found;
+  const double way = (c - at(c[0]).p).norm();
+  return -nearest_of_many(curve, c, -c[0] - way, -c[0] + way);
+}
+
+std::array<GapFunction, 2> EdgeGap::gap_and_slip(const Planar::Vec& z) const {
+  const Planar::Point c(z[0], z[1]);
+  std::array<GapFunction, 2> g = gap_and_slip_over(profile->at(profile->nearest(c)), c, profile->roller_radius());
+  g[0].gap -= profile->roller_radius();
+  g[1].gradient = -g[1].gradient;  // along x
+  g[1].hessian = -g[1].hessian;
+  return g;
+}
+
+std::string EdgeProfile::fault() const {
+  constexpr int kPoints = 720;
+  const double apart = (edge_.to - edge_.from) / kPoints;
+  for (int i = 0; i <= kPoints; ++i) {
+    const double x = edge_.from + apart * i;
+    const CurvePoint here = at(x);
+    if (!here.p.allFinite() || !here.d.allFinite() || !here.dd.allFinite()) return fmt::format("the height or a derivative of it is not finite at {:.4g} m", x);
+    if (i > 0 && !edge_.height.is_constant())
+      if (const auto corner = corner_between(edge_.height, x - apart, x, kSmooth))
+        return fmt::format("the edge has a corner at {:.4g} m: its slope jumps from {:.4g} to {:.4g}", corner->at, corner->slope_before, corner->slope_behind);
+    if (const double curvature = here.curvature(); curvature * edge_.roller_radius < -1)
+      return fmt::format("at {:.4g} m the edge is more hollow (radius of curvature {:.4g} m) than the roller is round: it would touch in two places", x, -1 / curvature);
+  }
+  return {};
+}
+
+}  // namespace pintle

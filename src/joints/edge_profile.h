@@ -1,0 +1,30 @@
+// A curved edge, a height over a straight line, and the gap between it and a pin, roller or wheel above it. theory/cams section 4.
+#pragma once
+
+#include <string>
+
+#include "joints/curve_gap.h"
+#include "pintle/model.h"
+
+namespace pintle {
+
+/// x is measured along the x axis of the first marker.
+class EdgeProfile {
+ public:
+  explicit EdgeProfile(const Edge& edge) : edge_(edge) {}
+
+  double roller_radius() const { return edge_.roller_radius; }
+  double from() const { return edge_.from; }
+  double to() const { return edge_.to; }
+  /// The point at x, with derivatives by -x: what is above it is on the outer side.
+  CurvePoint at(double x) const;
+  /// x of the point that is nearest to c. Eq. (2.1)
+  double nearest(const Planar::Point& c) const;
+  /// Why no roller can run along it; "" if one can.
+  std::string fault() const;
+
+ private:
+  Edge edge_;
+};
+
+}  // namespace pintle
