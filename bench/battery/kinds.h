@@ -25,6 +25,7 @@ MechanismText backlash(Dice& dice);
 MechanismText ropes(Dice& dice);
 MechanismText rods(Dice& dice);          // massless, of fixed and of driven length
 MechanismText cams(Dice& dice);
+MechanismText surfaces(Dice& dice);      // cams, curved edges and teeth that rub
 
 MechanismText belts(Dice& dice);
 MechanismText cylinders(Dice& dice);

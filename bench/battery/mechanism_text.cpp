@@ -73,6 +73,7 @@ std::string MechanismText::text(const std::string& title) const {
     out += fmt::format("\n[body.{}]\nmass = {}\ninertia = {}\nposition = [{}, {}]\nangle = {}\n", b.name, number_text(b.mass), number_text(b.inertia), number_text(b.centre.x), number_text(b.centre.y),
                        number_text(b.angle));
     if (b.spin) out += fmt::format("spin = {}\n", number_text(*b.spin));
+    if (b.velocity) out += fmt::format("velocity = [{}, {}]\n", number_text(b.velocity->x), number_text(b.velocity->y));
     if (b.held) out += "hold = [\"angle\"]\n";
     for (const auto& [name, value] : b.markers) out += fmt::format("markers.{} = {}\n", name, value);
   }

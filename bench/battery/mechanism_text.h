@@ -37,6 +37,7 @@ struct BodyText {
   Point centre;
   double angle = 0, mass = 1, inertia = 1;
   std::optional<double> spin{};
+  std::optional<Point> velocity{};
   bool held = false;  // its angle and spin are the start's; assembly finds the others
   std::vector<std::pair<std::string, std::string>> markers{};
 };

@@ -50,6 +50,7 @@ const std::vector<MechanismKind>& mechanism_kinds() {
       {"ropes", "ropes, taut and slack", ropes, true},
       {"rods", "massless rods and actuators", rods},
       {"cams", "grooved cams and contacts", cams, true},
+      {"surfaces", "cams, curved edges and teeth that rub", surfaces, true},
       {"belts", "belt drives and drums", belts},
       {"cylinders", "booms on cylinders", cylinders, true},
       {"detents", "knobs with notches", detents, true},
