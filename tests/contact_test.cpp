@@ -6,9 +6,11 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "laws/contact/contact.h"
 #include "tests/contact_runs.h"
+#include "tests/reference_tables.h"
 
 namespace pintle {
 namespace {
@@ -265,6 +267,76 @@ TEST(Contact, EveryMethodTouchesAndLetsGo) {
     ASSERT_EQ(run.contacts.size(), 2u) << method;
     EXPECT_NEAR(run.contacts[0].t, 0.02, 1e-5) << method;
     EXPECT_NEAR(run.end.v[0][1], 0.25, 1e-3) << method;
+  }
+}
+
+// A block that falls 10 mm on an edge of 1e8 N/m and 1e4 N s/m. The contact's steps are a ten thousandth of the flight's; those before a let-go that lies ahead
+// begin at their own length, not at that of the flight. m d'' = m g - k d - c d' while k d + c d' > 0, then flight.
+TEST(LinearContact, BouncesAsInClosedFormAndComesToRest) {
+  constexpr double kG = 9.80665, kMass = 2, kStiff = 1e8, kDamp = 1e4, kHeight = 0.01;
+  const double decay = kDamp / (2 * kMass), w = std::sqrt(kStiff / kMass - decay * decay), rest = kMass * kG / kStiff;
+  struct Flight {
+    double begin, speed;  // upwards
+  };
+  std::vector<Flight> flights;
+  double touch = std::sqrt(2 * kHeight / kG), speed = kG * touch;
+  for (int bounce = 0; bounce < 3; ++bounce) {
+    const auto motion = [&](double s) {
+      const double A = -rest, B = (speed + decay * A) / w, e = std::exp(-decay * s), c = std::cos(w * s), n = std::sin(w * s);
+      return std::array{rest + e * (A * c + B * n), e * ((w * B - decay * A) * c - (w * A + decay * B) * n)};
+    };
+    double low = 1e-5, high = 6e-4;  // the force is zero between
+    for (int k = 0; k < 60; ++k) {
+      const double s = 0.5 * (low + high);
+      const auto [depth, rate] = motion(s);
+      (kStiff * depth + kDamp * rate > 0 ? low : high) = s;
+    }
+    const auto [depth, rate] = motion(low);
+    const double apart = (-rate - std::sqrt(rate * rate - 2 * kG * depth)) / kG;
+    flights.push_back({touch + low + apart, -(rate + kG * apart)});
+    touch = flights.back().begin + 2 * flights.back().speed / kG;
+    speed = flights.back().speed;
+  }
+  for (const double tolerance : {1e-4, 1e-5}) {
+    Model model = parse_model(R"toml(
+format = 1
+[simulate]
+duration = "0.4 s"
+output_step = "1 ms"
+[ground.markers]
+O = [0, 0]
+[body.block]
+mass = 2
+inertia = 0.0025
+position = [0, "10 mm"]
+angle = 0
+velocity = [0, 0]
+spin = 0
+markers.c = [0, 0]
+[joint.edge]
+type = "slot"
+between = ["ground.O", "block.c"]
+law = "contact"
+pin_radius = 0
+contact_model = "linear"
+contact_stiffness = 1e8
+contact_damping = 1e4
+contact_exponent = 1
+)toml",
+                              "falls.toml");
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = reference::completed(model);
+    int compared = 0;
+    for (std::size_t i = 0; i < run.n_rows(); ++i)
+      for (const Flight& flight : flights) {
+        const double s = run.at(i, 0) - flight.begin;
+        if (s < 0 || s > 2 * flight.speed / kG) continue;
+        EXPECT_NEAR(reference::value(run, i, "body.block.y"), flight.speed * s - 0.5 * kG * s * s, 1e-7) << run.at(i, 0);
+        ++compared;
+      }
+    EXPECT_GT(compared, 50);
+    EXPECT_NEAR(reference::at_end(run, "joint.edge.contact_force"), kMass * kG, 1e-4);
+    EXPECT_LT(run.counters.steps, 10000) << tolerance;
   }
 }
 

@@ -60,6 +60,7 @@ class StepControl {
   static constexpr double kAboveRounding = 2;     // that of one step is not that of the next
   static constexpr double kShort = 0.9;         // of the way to an event that is only guessed at
   static constexpr double kAfterEvent = 0.3;    // of the usual step
+  static constexpr double kOnTheWay = 0.01;     // of the way to an event: a step that ends so soon, for its error, is a usual one
   static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;
 
   static constexpr double kSame = 0.95, kSameAbove = 1.1;  // a factor near 1 keeps the step, and with it the factorised Jacobians
@@ -167,6 +168,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     last_error_ = std::max(error, kLeastError);
     if (refused) factor = std::min(factor, 1.0);
     if (counters.steps > 0) factor = std::min(factor, of_contraction(method.contraction()));
+    if (up_to_event && h < kOnTheWay * (ahead.t - method.t())) up_to_event = false;
     method.finish_step(h);
     ++counters.steps;
     accept(h, factor, up_to_event);
