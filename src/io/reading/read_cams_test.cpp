@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pintle/read_model.h"
@@ -117,6 +118,11 @@ TEST(ReadEdges, MistakesAreLocatedAndExplained) {
     std::string text = cam_model(mistake.joint);
     text.replace(text.find("\"cam\""), 5, "\"edge\"");
     expect_complaint(text, mistake);
+  }
+  for (const auto& [outside, fits] : {std::pair{"extend", true}, {"hold", false}}) {  // a table that is held beyond its end has a corner there
+    std::string road = cam_model("height = \"road(x)\"\n" + complete, std::string("[table.road]\nx = [-1, 0, 1]\ny = [0, 0.1, 0.3]\nx_unit = \"m\"\ny_unit = \"m\"\ninterpolation = \"spline\"\noutside = \"") + outside + "\"\n");
+    road.replace(road.find("\"cam\""), 5, "\"edge\"");
+    EXPECT_EQ(complaints_about(road).empty(), fits) << outside;
   }
   std::string text = cam_model("height = \"0.1 m*sin(x/(1 m))\"\nroller_radius = \"5 cm\"\n" + complete);
   text.replace(text.find("\"cam\""), 5, "\"edge\"");

@@ -121,7 +121,7 @@ void read_edge(ModelReading& reading, const Record& record, Joint& joint) {
     return;
   }
   if (std::string why = EdgeProfile(*joint.edge).fault(); !why.empty())
-    reading.complaints.add(record.spot("height"), record.path + ".height", in_quotes(joint.edge->height.text()), std::move(why), "a height that is smooth (a table: interpolation = \"spline\"; a corner: rounded with smoothstep), or a smaller roller");
+    reading.complaints.add(record.spot("height"), record.path + ".height", in_quotes(joint.edge->height.text()), std::move(why), "a height that is smooth (a table: interpolation = \"spline\", outside = \"extend\"; a corner: rounded with smoothstep), or a smaller roller");
 }
 
 // A fault of a law or of a geometry, where its key stands.
