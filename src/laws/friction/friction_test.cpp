@@ -9,7 +9,6 @@
 #include "laws/friction/brown_mcphee.h"
 #include "laws/catalog.h"
 #include "laws/friction/coulomb.h"
-#include "laws/friction/stick_slip.h"
 #include "laws/law.h"
 #include "laws/friction/stribeck.h"
 
@@ -131,20 +130,6 @@ TEST(Friction, RefusesAPinWithoutRadiusOrWithAGuideAndSlipHeldMoreFirmlyThanRest
     EXPECT_EQ(info.fault(at).key, "");
     at.values = &weak;
     EXPECT_EQ(info.fault(at).key, "static_friction");
-  }
-}
-
-// As after a corner of a track: the slip is against its mode, which no border has seen to change. It is braked, not driven.
-TEST(StickSlip, ASlipThatHasBeenTurnedRoundIsBraked) {
-  const StickSlip surfaces{0.1, 0.15, 0, 1e8, 3e3};
-  for (const double mode : {1.0, -1.0}) {
-    const double state[] = {0, mode};
-    const StickSlipForce<double> onwards = surfaces.force(0.5 * mode, 100.0, state), turned = surfaces.force(-0.5 * mode, 100.0, state);
-    EXPECT_DOUBLE_EQ(onwards.friction, 10 * mode);
-    EXPECT_DOUBLE_EQ(onwards.loss, 5);
-    EXPECT_DOUBLE_EQ(turned.friction, -10 * mode);
-    EXPECT_DOUBLE_EQ(turned.loss, 5);
-    EXPECT_DOUBLE_EQ(surfaces.force(-1e-9 * mode, 100.0, state).friction, 10 * mode);  // of rounding, which a border is for
   }
 }
 

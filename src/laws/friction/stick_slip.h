@@ -34,9 +34,7 @@ struct StickSlip {
   template <class T>
   StickSlipForce<T> force(const T& v, const T& N, const T* state) const {
     using namespace law_math;
-    // A slip that an impact has turned round within a step is braked like any other, until its mode is found out at the border.
-    const T mode = state[1], sticks = T(0.5) - abs(mode), none(0.0), way = where_positive(mode * v + T(kStill), mode, none - mode);
-    const T slips = way * (kinetic * N) + viscous * (N * v);
+    const T mode = state[1], sticks = T(0.5) - abs(mode), none(0.0), slips = mode * (kinetic * N) + viscous * (N * v);
     StickSlipForce<T> f;
     f.stretch_rate = where_positive(sticks, v, none);                                                     // (3.18)
     f.friction = where_positive(sticks, held(v, state), slips);                                           // (3.19)
