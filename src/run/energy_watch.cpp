@@ -13,6 +13,7 @@ constexpr double kExplained = 30;        // times tolerance and turnover: what e
 constexpr double kPerExchange = 0.01;    // part of the energy that goes to and fro: errors add up in long runs
 constexpr double kLeastTolerance = 1e-7; // below it rounding makes the account
 constexpr double kRounding = 1e-11;      // of the largest entry
+constexpr double kGiven = 0.01;          // of the turnover: heat below zero that nothing explains
 constexpr int kRunaway = 10;             // powers of ten above what can be stored. Eq. (8.4)
 constexpr int kCompared = 4;             // of them: the time of the last ones against that of those before
 constexpr double kSteady = 1.5;          // ratio of these times: 1 of an exponential, 100 of constant torque, 3.2 of t^8
@@ -79,7 +80,12 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicSta
 }
 
 template <class S>
-typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_end(const BasicState<S>& state) { return judge_account(state); }
+typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_end(const BasicState<S>& state) {
+  if (const Alarm alarm = judge_account(state); alarm != Alarm::kNone) return alarm;
+  if (!exact_work_ || state.dissipated > -kGiven * turnover()) return Alarm::kNone;
+  message_ = fmt::format("joints and dampers have given {:.3g} J, and can only take: likely a damping below zero, or friction whose slip jumped within a step, as at a corner of an edge", -state.dissipated);
+  return Alarm::kOpen;
+}
 
 template <class S>
 double BasicEnergyWatch<S>::turnover() const {

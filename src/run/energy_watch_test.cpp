@@ -47,6 +47,19 @@ TEST(EnergyWatch, TheEndIsJudgedToo) {
   EXPECT_EQ(watch.see_end(p.state), Alarm::kOpen);
 }
 
+// The account closes, but what can only take has given.
+TEST(EnergyWatch, HeatBelowZeroIsNoticedAtTheEnd) {
+  for (const double given : {1e-3, 5.0}) {
+    Pendulum p;
+    EnergyWatch watch(p.system, 2, 1e-5, true);
+    watch.start(p.state);
+    p.state.dissipated -= given;
+    p.state.supplied -= given;
+    EXPECT_EQ(watch.see_end(p.state), given > 1 ? Alarm::kOpen : Alarm::kNone) << given;
+    EXPECT_EQ(watch.message().find("have given 5 J") != std::string::npos, given > 1) << watch.message();
+  }
+}
+
 TEST(EnergyWatch, WhatErrorsWithinTheToleranceExplainIsNoAlarm) {
   Pendulum p;
   EnergyWatch loose(p.system, 2, 1e-3, true), tight(p.system, 2, 1e-6, true), unheard(p.system, 2, 1e-6, false);
