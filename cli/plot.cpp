@@ -39,6 +39,8 @@ struct PlotOptions {
   double width = 0, dots_per_inch = 192;
 
   bool png() const { return out.ends_with(".png"); }
+  /// Pictures of a pin that are asked for: polar diagrams, the orbit, wear.
+  int pictures_of_pins() const { return !polar.empty() + !orbit.empty() + !wear.empty(); }
   /// Devices and pipes have no ending.
   bool drawable() const {
     const auto type = std::filesystem::status(out).type();
@@ -89,8 +91,7 @@ std::string line_picture(const PlotOptions& options, const RunRecord& run) {
 }
 
 std::string polar_picture(const PlotOptions& options, const RunRecord& run) {
-  const bool alone = !options.polar.empty() + !options.orbit.empty() + !options.wear.empty() == 1;
-  if (!options.request.joints.empty() || !options.request.columns.empty() || !alone)
+  if (!options.request.joints.empty() || !options.request.columns.empty() || options.pictures_of_pins() > 1)
     throw PlotRequestError("--polar, --orbit and --wear are pictures of their own, and take no --joint or --column.\n    Call pintle plot twice.");
   std::vector<RunRecord> records;
   for (const std::string& other : options.others) records.push_back(read_run(other));
@@ -113,7 +114,7 @@ ExitCode plot(const PlotOptions& options, const WritePng& write_png) {
   const RunRecord run = read_run(options.run);
   std::string picture;
   try {
-    picture = options.polar.empty() && options.orbit.empty() && options.wear.empty() ? line_picture(options, run) : polar_picture(options, run);
+    picture = options.pictures_of_pins() == 0 ? line_picture(options, run) : polar_picture(options, run);
   } catch (const PlotRequestError& error) {
     print_error(fmt::format("pintle plot: {}\n", error.what()));
     return kCommandLineError;

@@ -18,22 +18,29 @@ const LoadSummary& find_pin(const Trajectory& run, const std::string& name) {
   throw PlotRequestError(fmt::format("found joint \"{}\" of type {}: polar load diagrams are of pins.\n    Choose a revolute joint, or plot --joint {}.", name, joint.type, name));
 }
 
+// A vector along the axes of the first marker, in those of the second one, which are turned by the joint's angle. theory/bearing_life Eq. (4.1)
+PolarCurve in_axes_of_second(const std::string& label, const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& angle) {
+  PolarCurve curve{label, {}, {}};
+  for (std::size_t i = 0; i < angle.size(); ++i) {
+    const double c = std::cos(angle[i]), s = std::sin(angle[i]);
+    curve.x.push_back(c * x[i] + s * y[i]);
+    curve.y.push_back(-s * x[i] + c * y[i]);
+  }
+  return curve;
+}
+
 void add_curves(const Trajectory& run, const LoadSummary& joint, const std::string& label, PolarPlot& plot) {
   const std::string path = "joint." + joint.name + ".", on = path + "on_" + joint.second_body + ".";
   const auto column = [&run](const std::string& name) { return values_of(run, find_column(run, name)); };
   plot.panels[0].curves.push_back({label, column(on + "fx[world]"), column(on + "fy[world]")});
-  // Along the first marker's axes, of which the second's are turned by the joint's angle. theory/bearing_life Eq. (4.1)
-  const std::vector<double> f1 = column(on + "f1[joint]"), f2 = column(on + "f2[joint]"), angle = column(path + "angle");
-  PolarCurve first{label, {}, {}}, second{label, {}, {}};
-  for (std::size_t i = 0; i < angle.size(); ++i) {
-    const double c = std::cos(angle[i]), s = std::sin(angle[i]);
+  const std::vector<double> f1 = column(on + "f1[joint]"), f2 = column(on + "f2[joint]");
+  PolarCurve first{label, {}, {}};
+  for (std::size_t i = 0; i < f1.size(); ++i) {
     first.x.push_back(-f1[i]);
     first.y.push_back(-f2[i]);
-    second.x.push_back(c * f1[i] + s * f2[i]);
-    second.y.push_back(-s * f1[i] + c * f2[i]);
   }
   plot.panels[1].curves.push_back(std::move(first));
-  plot.panels[2].curves.push_back(std::move(second));
+  plot.panels[2].curves.push_back(in_axes_of_second(label, f1, f2, column(path + "angle")));
 }
 
 // From what the law tells of the pin's distance: how far it is beyond the clearance, or its share of it. 0: nothing.
@@ -106,16 +113,10 @@ PolarPlot make_orbit_plot(const std::vector<PolarRun>& runs, const std::string& 
       throw PlotRequestError(fmt::format("joint \"{}\" tells no orbit: only pins that springs do not hold do, such as those with law = \"clearance\".\n    Choose another joint; runs of older versions have no orbits, so run their models again.", joint));
     const std::string path = "joint." + joint + ".", label = runs.size() == 1 ? "" : one.name;
     const auto column = [&](const char* name) { return values_of(run, find_column(run, path + name)); };
-    const std::vector<double> x = column("pin_x"), y = column("pin_y"), angle = column("angle");
-    PolarCurve on_pin{label, {}, {}};
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      const double c = std::cos(angle[i]), s = std::sin(angle[i]);
-      on_pin.x.push_back(c * x[i] + s * y[i]);
-      on_pin.y.push_back(c * y[i] - s * x[i]);
-    }
+    const std::vector<double> x = column("pin_x"), y = column("pin_y");
     if (&one == &runs.front()) plot.panels[0].limit = plot.panels[1].limit = radial_clearance(run, path);
     plot.panels[0].curves.push_back({label, x, y});
-    plot.panels[1].curves.push_back(std::move(on_pin));
+    plot.panels[1].curves.push_back(in_axes_of_second(label, x, y, column("angle")));
   }
   return plot;
 }
