@@ -23,7 +23,7 @@ class BatchSteps {
       : mechanism_(mechanism), tolerance_(plan.tolerance), of_newton_(plan.of_newton), n_(mechanism.n_bodies()), projector_(mechanism), real_(mechanism.pattern(), Symmetry::kSymmetric),
         pair_(mechanism.pattern(), Symmetry::kSymmetric), begin_(n_, mechanism.joints.size()), end_(begin_), over_scale_(n_), over_joint_(mechanism.joints.size()),
         real_rhs_(n_ + 1), pair_rhs_(n_ + 1), real_e_(mechanism.joints.size()), pair_e_(mechanism.joints.size()), m_(n_ + 1),
-        r_(mechanism.joints.size()), frozen_(mechanism.joints.size()), wanted_(mechanism.joints.size()), move_(n_ + 1), tail_(n_ + 1),
+        r_(mechanism.joints.size()), frozen_(mechanism.joints.size()), wanted_(mechanism.joints.size()), move_(n_ + 1), tail_(n_ + 1), loads_at_end_(n_ + 1),
         nodes_(n_, mechanism.joints.size()), curves_(mechanism) {
     for (Stage& s : stage_) s = Stage(n_, mechanism.joints.size());
     for (std::size_t i = 0; i < n_; ++i)
@@ -395,7 +395,8 @@ class BatchSteps {
     move_ = last.a;
     find_missing(mechanism_, r_, last.accel, &BatchJointKinematics::bias, move_, wanted_);
     projector_.close(wanted_, move_);
-    projector_.improve_forces(last.Q, move_, end_.force);
+    mechanism_.external(end_.t, m_, loads_at_end_);  // those of the stage are from before its last correction
+    projector_.improve_forces(loads_at_end_, move_, end_.force);
     nodes_.force[N] = end_.force;
   }
 
@@ -433,7 +434,7 @@ class BatchSteps {
   std::vector<BatchMotion> m_;
   std::vector<BatchJointKinematics> r_;
   std::vector<GapMap<VariantLanes>> frozen_;
-  VariantVecs wanted_, move_, tail_;
+  VariantVecs wanted_, move_, tail_, loads_at_end_;
   BatchNodes nodes_;
   BatchCurves curves_;
   VariantLanes mu_, mu2_, over_mu2_, worst_;

@@ -2,7 +2,8 @@
 //
 //   f_1 = |f_0| tan alpha                                                                  theory/joints Eq. (2.19)
 //
-// f_0 is the force of the laws before this one, along the pitch circles; component 1 is the opening of the mesh, theory/joints Eq. (2.20).
+// f_0 is the force of the laws before this one, along the pitch circles; component 1 is the opening of the mesh, theory/joints Eq. (2.20). Where f_0 changes its sign
+// the teeth change the flank, and f_1 has a kink: steps end there, for it acts between pins that carry it and accelerates next to nothing.
 #pragma once
 
 #include <array>
@@ -24,6 +25,10 @@ struct SeparatingForce {
 
   template <class T>
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const { out.force[1] = std::tan(pressure_angle) * law_math::abs(in.before[0]); }
+
+  int n_borders() const { return 1; }
+  void borders(const LawInput<double>& in, double* value) const { value[0] = in.before[0]; }
+  std::string_view border_name(int, bool) const { return "other flank"; }
 
   std::span<const LawColumn> columns() const {
     static const std::array<LawColumn, 2> all{{{"radial_force", "N", "with which the teeth push both apart, by their pressure angle"}, {"normal_force", "N", "on the flank of a tooth"}}};

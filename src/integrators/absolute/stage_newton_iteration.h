@@ -95,6 +95,7 @@ bool LaneStageSolver<S, N>::solve_stages(const BasicState<S>& begin, double h, c
     const auto verdict = contraction_.judge(iteration, correction, tolerance_);
     if (verdict == NewtonContraction::Verdict::kDone) {
       if (!begin.sliding.empty()) find_balanced_loads();
+      else if (loads_ && correction > NewtonContraction::kShare * tolerance_) find_loads(begin, h);  // they are those before the last correction
       return true;
     }
     const bool hopeless = verdict == NewtonContraction::Verdict::kHopeless;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kNegligible = 1e-4;         // a joint is measured at least by this part of the mechanism's largest force
 constexpr double kNegligibleOfMotor = 1e-3;  // a motor by this
+constexpr double kOfEqual = 3;               // share of the finer pass, over how errors fall; of ringing only the square root of that is trusted
 
 // Of centres, and of points at `radius` from them across the axis of their turn. theory/time Eq. (6.4).
 template <class S>
@@ -35,12 +36,12 @@ struct Measures {
   }
 };
 
-// Differences and peaks up to a row. Where the finer pass has no shorter steps, nothing says that it is better: all of the difference is its
-// error there, so that `share` of what is kept is.
+// Differences and peaks up to a row. All of a difference is the finer pass's error, so that `share` of what is kept is, where nothing says that it is
+// better: where its steps are no shorter, and where the difference alternates from row to row.
 template <class S>
 class Growing {
  public:
-  Growing(std::size_t joints, double share) : all_(1 / share) {
+  Growing(std::size_t joints, double share) : all_(1 / share), of_ringing_(std::min(1.0, std::sqrt(kOfEqual * share)) / share) {
     for (auto* x : {&c_.force, &c_.couple, &c_.peak, &c_.peak_couple}) x->assign(joints, 0.0);
   }
   void add_row(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, std::size_t i) {
@@ -50,15 +51,31 @@ class Growing {
       c_.peak[j] = std::max(c_.peak[j], linear_magnitude<S>(load));
       c_.peak_couple[j] = std::max(c_.peak_couple[j], angular_magnitude<S>(load));
       if (coarse.t[i] != fine.t[i]) continue;
-      const typename S::Vec difference = (fine.step[i] < coarse.step[i] ? 1 : all_) * (coarse.world[i * joints + j] - load);
-      c_.force[j] = std::max(c_.force[j], linear_magnitude<S>(difference));
-      c_.couple[j] = std::max(c_.couple[j], angular_magnitude<S>(difference));
+      const typename S::Vec difference = apart(coarse, fine, i, j);
+      const auto part = [&](const auto& magnitude) {
+        const double size = magnitude(difference);
+        return size * (fine.step[i] < coarse.step[i] ? std::max(1.0, of_ringing_ * alternation(coarse, fine, i, j, size, magnitude)) : all_);
+      };
+      c_.force[j] = std::max(c_.force[j], part(linear_magnitude<S>));
+      c_.couple[j] = std::max(c_.couple[j], part(angular_magnitude<S>));
     }
   }
   const PassDifference& so_far() const { return c_; }
 
  private:
-  double all_;  // over the share
+  typename S::Vec apart(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, std::size_t i, std::size_t j) const {
+    const std::size_t at = i * c_.force.size() + j;
+    return coarse.world[at] - fine.world[at];
+  }
+  // 1 where a difference changes its sign from row to row, or is that of one row alone; 0 where it is a straight line. theory/time Eq. (6.11).
+  template <class Magnitude>
+  double alternation(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, std::size_t i, std::size_t j, double size, const Magnitude& magnitude) const {
+    if (i == 0 || i + 1 >= std::min(coarse.t.size(), fine.t.size()) || !(size > 0)) return 0;
+    const typename S::Vec before = apart(coarse, fine, i - 1, j), after = apart(coarse, fine, i + 1, j);
+    return magnitude(typename S::Vec(before - 2 * apart(coarse, fine, i, j) + after)) / (magnitude(before) + 2 * size + magnitude(after));
+  }
+
+  double all_, of_ringing_;  // over the share
   PassDifference c_;
 };
 
@@ -158,7 +175,6 @@ double curve_horizon(const DifferenceCurve& curve, double tolerance) {
 }
 
 double share_of_finer(double fall) {
-  constexpr double kOfEqual = 3;
   return std::min(1.0, kOfEqual * std::pow(fall, kErrorPower));
 }
 
