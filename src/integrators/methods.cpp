@@ -45,6 +45,10 @@ class BodyStepper final : public BasicStepper<S> {
   const BasicState<S>& state() const override { return method_.state(); }
   const BasicState<S>& previous() const override { return method_.previous(); }
   const BasicState<S>& interpolate(double t) override { return interpolate_with(dense_, method_, t); }
+  const BasicStepNodes<S>* nodes() const override {
+    if constexpr (requires { method_.nodes(); }) return &method_.nodes();
+    else return nullptr;
+  }
   const Counters& counters() const override { return method_.counters(); }
   const std::string& failure() const override { return method_.failure(); }
   const std::vector<LawCrossing>& crossings() const override { return method_.crossings(); }

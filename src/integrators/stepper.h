@@ -12,6 +12,9 @@
 namespace pintle {
 
 template <class S>
+struct BasicStepNodes;
+
+template <class S>
 class BasicStepper {
  public:
   virtual ~BasicStepper() = default;
@@ -30,6 +33,8 @@ class BasicStepper {
   virtual const BasicState<S>& previous() const = 0;
   /// The state at a time inside the last step.
   virtual const BasicState<S>& interpolate(double t) = 0;
+  /// The inside of the last step, of methods that keep it; otherwise null.
+  virtual const BasicStepNodes<S>* nodes() const { return nullptr; }
   virtual const Counters& counters() const = 0;
   virtual const std::string& failure() const = 0;
   /// The last event, if the method locates events and it came after `since`: whose it is, and when. Otherwise empty.

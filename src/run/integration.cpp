@@ -77,6 +77,7 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
     }
     const BasicState<S>& now = stepper.state();
     recorder.see_step(stepper);
+    if (plan.ringing && stepper.nodes() != nullptr) plan.ringing->see_step(*stepper.nodes(), now.t - stepper.previous().t);
     for (double t = static_cast<double>(row) * plan.output_step; t <= now.t && t < almost;
          t = static_cast<double>(++row) * plan.output_step)
       recorder.add(stepper.interpolate(t));

@@ -7,6 +7,7 @@
 
 #include "integrators/methods.h"
 #include "run/energy_watch.h"
+#include "run/errors/ringing_loss.h"
 #include "run/record/force_recorder.h"
 
 namespace pintle {
@@ -21,6 +22,7 @@ struct BasicIntegrationPlan {
   MethodChoice choice;
   const BasicLoadScale<S>* scale = nullptr;  // from an earlier pass
   BasicEnergyWatch<S>* energy = nullptr;     // ends the integration where it raises an alarm
+  BasicRingingLoss<S>* ringing = nullptr;    // sees the steps of methods that keep their inside
   std::function<bool(double t)> keep_going;  // called after each step; false stops
 };
 using IntegrationPlan = BasicIntegrationPlan<Planar>;

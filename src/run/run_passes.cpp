@@ -38,7 +38,7 @@ template <class S>
 class Passes {
  public:
   Passes(const BasicSystem<S>& system, const BasicState<S>& start, const SimulateSettings& settings, const BasicPassContext<S>& context, Trajectory& out)
-      : system_(system), start_(start), settings_(settings), context_(context), out_(out) {}
+      : system_(system), start_(start), settings_(settings), context_(context), out_(out), ringing_(system, start), fine_ringing_(ringing_) {}
 
   std::unique_ptr<BasicForceRecorder<S>> go() {
     out_.tolerance = settings_.tolerance;
@@ -82,6 +82,8 @@ class Passes {
     BasicEnergyWatch<S> energy(system_, p.duration, std::max(tolerance, std::min(settings_.tolerance, kLoosestAccount)), exact_work);
     if (p.scale) energy.expect(turnover_);
     p.energy = &energy;
+    BasicRingingLoss<S> ringing = ringing_;
+    p.ringing = &ringing;
     BasicIntegration<S> done = integrate(system_, start_, p, *recorder);
     turnover_ = done.ended == Ended::kAtEnd ? energy.turnover() : 0;
     count(done.counters);
@@ -91,6 +93,7 @@ class Passes {
     coarse_ = std::move(fine_);
     if (coarse_) coarse_->keep_forces_only();
     fine_ = std::move(recorder);
+    fine_ringing_ = std::move(ringing);
     fine_tolerance_ = tolerance;
     last_ = std::move(done);
     return complete;
@@ -160,7 +163,11 @@ class Passes {
     const BasicForceTable<S> &coarse = coarse_->forces(), &fine = fine_->forces();
     coarse_tolerance_ = before;
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
-    share_ = alike_ || out_.of_motion ? 1.0 : share_of_finer(fall_of_errors(before, steps_before));
+    const double fall = fall_of_errors(before, steps_before), plain = largest_of(relative_differences(system_, difference_of_passes(system_, coarse, fine, fine.t.back(), {})));
+    share_ = alike_ || out_.of_motion ? 1.0 : share_of_finer(fall);
+    ringing_share_ = std::max(share_, share_of_ringing(fall));
+    if (plain_ > 0) ringing_share_ = std::max(share_, std::min(ringing_share_, share_of_finer(plain / plain_)));  // as the differences have fallen
+    plain_ = plain;
     stages_before_ = choice_.stages;
     find_difference(coarse, fine);
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
@@ -172,6 +179,7 @@ class Passes {
       growth_ = fit_growth(out_.of_motion ? motion_difference_curve(system_, coarse, fine) : force_difference_curve(system_, coarse, fine));
     if (growth_.exponential && growth_.saturated) take_all(coarse, fine);
     error_ = share_ * (out_.of_motion ? out_.motion_error : largest_of(relative_difference_));
+    if (!out_.of_motion) error_ = std::max(error_, largest_of(relative_ringing(system_, difference_, fine_ringing_)));
   }
 
   // To which part errors have fallen since the pass before: as its tolerance, or less where its steps have shrunk by less than that asks for.
@@ -184,13 +192,13 @@ class Passes {
 
   // A difference that has stopped growing does not tell the finer one's part.
   void take_all(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
-    share_ = 1;
+    share_ = ringing_share_ = 1;
     find_difference(coarse, fine);
     relative_difference_ = relative_differences(system_, difference_);
   }
 
   void find_difference(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
-    difference_ = difference_of_passes(system_, coarse, fine, fine.t.back(), share_);
+    difference_ = difference_of_passes(system_, coarse, fine, fine.t.back(), {share_, ringing_share_});
   }
 
   // Whether another pass is made, and with which tolerance.
@@ -261,7 +269,7 @@ class Passes {
     for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
     if (!difference_.force.empty() && !chaotic) {
       include_peaks(fine_->loads(), difference_);
-      state_errors(system_, difference_, relative_differences(system_, difference_), share_, least_error(), out_.joints);
+      state_errors(system_, difference_, fine_ringing_, share_, least_error(), out_.joints);
     }
     if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, chaos_, out_);
   }
@@ -318,13 +326,16 @@ class Passes {
   const SimulateSettings& settings_;
   const BasicPassContext<S>& context_;
   Trajectory& out_;
+  const BasicRingingLoss<S> ringing_;  // before a pass
+  BasicRingingLoss<S> fine_ringing_;
   MethodChoice choice_;
   std::unique_ptr<BasicForceRecorder<S>> coarse_, fine_;
   double fine_tolerance_ = 0, coarse_tolerance_ = 0;
   // Of the last two passes.
   PassDifference difference_;
   std::vector<double> relative_difference_;  // of each joint
-  double share_ = 1, error_ = 0;
+  double share_ = 1, ringing_share_ = 1, error_ = 0;
+  double plain_ = 0;               // largest relative difference of the last two, all of it
   bool alike_ = false;             // their steps
   int stages_before_ = 0;          // of the coarser one
   ErrorGrowth growth_, last_growth_;  // and of the pair before

@@ -139,16 +139,26 @@ void balance_start(const BasicSystem<S>& system, BasicState<S>& state) {
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicJointData<S>& joint = system.joints[j];
     const BasicResponse<S> response = respond(joint.law, state.gap[j], state.gap_rate[j]);
+    const typename S::Vec mobility = own_mobility(system, joint.at, r[j]);
     for (int k = 0; k < S::kDof; ++k) {
       const double stiffness = response.stiffness(k, k), misfit = std::abs(r[j].gap[k] - state.gap[j][k]);
       const double misfit_of_rate = std::abs(r[j].rate[k] - state.gap_rate[j][k]);
       if (!(stiffness > 0) || (misfit > same_gap && stiffness * misfit > same_force)) state.gap[j][k] = r[j].gap[k];
-      if (!(stiffness > 0) || (misfit_of_rate > same_rate && response.damping(k, k) * misfit_of_rate > same_force)) state.gap_rate[j][k] = r[j].rate[k];
+      const double ringing = mobility[k] > 0 ? std::sqrt(stiffness / mobility[k]) : 0;  // force per rate
+      if (!(stiffness > 0) || (misfit_of_rate > same_rate && std::max(response.damping(k, k), ringing) * misfit_of_rate > same_force)) state.gap_rate[j][k] = r[j].rate[k];
     }
   }
   rest_laws(system, state);
   for (int j = 0; j < system.n_joints(); ++j) state.force[j] = system.joints[j].law.force(law_point(system, j, state));
   find_accelerations(system, m, r, state);
+}
+
+// 1 in the components that joints hold, whatever rubs in the others.
+template <class S>
+VecsOf<S> held_components(const BasicSystem<S>& system) {
+  VecsOf<S> held;
+  for (const BasicJointData<S>& joint : system.joints) held.push_back(S::Vec::Ones() - joint.free_mask);
+  return held;
 }
 
 template <class S>
@@ -329,7 +339,8 @@ void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
   if (firm) holding.emplace(*firm);
   BasicGapProjector<S>& projector = holding ? *holding : projector_;
   const double mu = kHeldAbove * slowest_joint(system_, r_);
-  if (!std::isfinite(mu) || !projector.prepare(r_, mu, state.gap, state.gap_rate)) return;
+  const VecsOf<S> held = held_components(system_);
+  if (!std::isfinite(mu) || !projector.prepare(r_, mu, state.gap, state.gap_rate, &held)) return;
   VecsOf<S> gap = state.gap;
   for (const int j : apart_now) gap[j] = r_[j].gap;
   for (int pass = 0; pass < kClosing; ++pass) {

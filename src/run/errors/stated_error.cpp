@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kNegligible = 1e-4;         // a joint is measured at least by this part of the mechanism's largest force
 constexpr double kNegligibleOfMotor = 1e-3;  // a motor by this
-constexpr double kOfEqual = 3;               // share of the finer pass, over how errors fall; of ringing only the square root of that is trusted
+constexpr double kOfEqual = 3;               // share of the finer pass, over how errors fall
 
 // Of centres, and of points at `radius` from them across the axis of their turn. theory/time Eq. (6.4).
 template <class S>
@@ -41,7 +41,7 @@ struct Measures {
 template <class S>
 class Growing {
  public:
-  Growing(std::size_t joints, double share) : all_(1 / share), of_ringing_(std::min(1.0, std::sqrt(kOfEqual * share)) / share) {
+  Growing(std::size_t joints, const FinerShare& share) : all_(1 / share.rule), of_ringing_(share.ringing / share.rule) {
     for (auto* x : {&c_.force, &c_.couple, &c_.peak, &c_.peak_couple}) x->assign(joints, 0.0);
   }
   void add_row(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, std::size_t i) {
@@ -87,7 +87,7 @@ std::size_t common_rows(const BasicForceTable<S>& coarse, const BasicForceTable<
 double largest_of(const std::vector<double>& x) { return x.empty() ? 0 : *std::max_element(x.begin(), x.end()); }
 
 template <class S>
-PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until, double share) {
+PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until, const FinerShare& share) {
   Growing<S> growing(system.joints.size(), share);
   for (std::size_t i = 0; i < common_rows(coarse, fine) && fine.t[i] <= until; ++i) growing.add_row(coarse, fine, i);
   return growing.so_far();
@@ -106,6 +106,14 @@ std::vector<double> relative_differences(const BasicSystem<S>& system, const Pas
   const Measures<S> measures(system, c.peak, c.peak_couple);
   std::vector<double> out(c.force.size());
   for (std::size_t j = 0; j < out.size(); ++j) out[j] = measures.of_joint(j, c.force[j], c.peak[j], c.couple[j], c.peak_couple[j]);
+  return out;
+}
+
+template <class S>
+std::vector<double> relative_ringing(const BasicSystem<S>& system, const PassDifference& c, const BasicRingingLoss<S>& ringing) {
+  const Measures<S> measures(system, c.peak, c.peak_couple);
+  std::vector<double> out(c.force.size());
+  for (std::size_t j = 0; j < out.size(); ++j) out[j] = measures.of_joint(j, ringing.force(j), c.peak[j], ringing.couple(j), c.peak_couple[j]);
   return out;
 }
 
@@ -137,7 +145,7 @@ double motion_difference(const BasicSystem<S>& system, const BasicForceTable<S>&
 template <class S>
 DifferenceCurve force_difference_curve(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
   const std::size_t joints = system.joints.size();
-  const PassDifference whole = difference_of_passes(system, coarse, fine, fine.t.back(), 1.0);
+  const PassDifference whole = difference_of_passes(system, coarse, fine, fine.t.back(), {});
   const Measures<S> measures(system, whole.peak, whole.peak_couple);
   DifferenceCurve curve;
   for (std::size_t i = 0; i < common_rows(coarse, fine); ++i) {
@@ -157,7 +165,7 @@ template <class S>
 std::vector<double> force_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double tolerance) {
   const std::size_t joints = system.joints.size();
   std::vector<double> horizon(joints, 0.0);
-  Growing<S> growing(joints, share);
+  Growing<S> growing(joints, {share, share});
   for (std::size_t i = 0; i < common_rows(coarse, fine); ++i) {
     growing.add_row(coarse, fine, i);
     const PassDifference& c = growing.so_far();
@@ -174,22 +182,22 @@ double curve_horizon(const DifferenceCurve& curve, double tolerance) {
   return horizon;
 }
 
-double share_of_finer(double fall) {
-  return std::min(1.0, kOfEqual * std::pow(fall, kErrorPower));
-}
+double share_of_finer(double fall) { return std::min(1.0, kOfEqual * std::pow(fall, kErrorPower)); }
+double share_of_ringing(double fall) { return std::min(1.0, kOfEqual * std::pow(fall, kErrorPower / 2)); }
 
 template <class S>
-void state_errors(const BasicSystem<S>& system, const PassDifference& difference, const std::vector<double>& relative, double share, double least, std::vector<LoadSummary>& joints) {
+void state_errors(const BasicSystem<S>& system, const PassDifference& difference, const BasicRingingLoss<S>& ringing, double share, double least, std::vector<LoadSummary>& joints) {
+  const std::vector<double> apart = relative_differences(system, difference), lost = relative_ringing(system, difference, ringing);
   for (std::size_t j = 0, row = 0; j < system.joints.size(); ++j) {
     if (system.joints[j].servo >= 0) continue;
     LoadSummary& joint = joints[row++];
-    joint.error_estimate = std::max(share * difference.force[j], least * difference.peak[j]);
-    joint.moment_error_estimate = share * difference.couple[j];
-    joint.relative_error_estimate = std::max(share * relative[j], least);
+    joint.error_estimate = std::max({share * difference.force[j], ringing.force(j), least * difference.peak[j]});
+    joint.moment_error_estimate = std::max(share * difference.couple[j], ringing.couple(j));
+    joint.relative_error_estimate = std::max({share * apart[j], lost[j], least});
   }
 }
 
-template PassDifference difference_of_passes(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double until, double share);
+template PassDifference difference_of_passes(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double until, const FinerShare& share);
 template void include_peaks(const BasicLoadRecorder<Planar>& fine, PassDifference& c);
 template void include_peaks(const BasicLoadRecorder<Spatial>& fine, PassDifference& c);
 template std::vector<double> relative_differences(const BasicSystem<Planar>& system, const PassDifference& c);
@@ -197,13 +205,15 @@ template double motion_difference(const BasicSystem<Planar>& system, const Basic
 template DifferenceCurve force_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template DifferenceCurve motion_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template std::vector<double> force_horizons(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double share, double tolerance);
-template PassDifference difference_of_passes(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double until, double share);
+template PassDifference difference_of_passes(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double until, const FinerShare& share);
 template std::vector<double> relative_differences(const BasicSystem<Spatial>& system, const PassDifference& c);
 template double motion_difference(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
 template DifferenceCurve force_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
 template DifferenceCurve motion_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
 template std::vector<double> force_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double tolerance);
-template void state_errors(const BasicSystem<Planar>& system, const PassDifference& difference, const std::vector<double>& relative, double share, double least, std::vector<LoadSummary>& joints);
-template void state_errors(const BasicSystem<Spatial>& system, const PassDifference& difference, const std::vector<double>& relative, double share, double least, std::vector<LoadSummary>& joints);
+template std::vector<double> relative_ringing(const BasicSystem<Planar>& system, const PassDifference& c, const BasicRingingLoss<Planar>& ringing);
+template void state_errors(const BasicSystem<Planar>& system, const PassDifference& difference, const BasicRingingLoss<Planar>& ringing, double share, double least, std::vector<LoadSummary>& joints);
+template std::vector<double> relative_ringing(const BasicSystem<Spatial>& system, const PassDifference& c, const BasicRingingLoss<Spatial>& ringing);
+template void state_errors(const BasicSystem<Spatial>& system, const PassDifference& difference, const BasicRingingLoss<Spatial>& ringing, double share, double least, std::vector<LoadSummary>& joints);
 
 }  // namespace pintle

@@ -1,0 +1,64 @@
+#include "run/errors/ringing_loss.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "laws/law.h"
+#include "run/record/force_table.h"
+#include "start/preload.h"
+
+namespace pintle {
+namespace {
+
+// The slower of the roots of m s^2 + c s + k, or the real part of both. theory/assembly Eq. (5.2)
+double decay_of(double m, double c, double k) {
+  const double root = c * c - 4 * m * k;
+  return root < 0 ? c / (2 * m) : 2 * k / (c + std::sqrt(root));
+}
+
+}  // namespace
+
+template <class S>
+BasicRingingLoss<S>::BasicRingingLoss(const BasicSystem<S>& system, const BasicState<S>& start)
+    : mass_(system.joints.size(), S::Vec::Zero()), decay_(mass_), lost_(mass_), force_(system.joints.size()), couple_(force_) {
+  const BasicEffectiveMasses<S> masses = BasicInverseDynamics<S>(system).effective_masses(start);
+  for (std::size_t j = 0; j < masses.closed.size(); ++j) {
+    const BasicResponse<S> response = respond(system.joints[j].law, start.gap[j], start.gap_rate[j]);
+    for (int k = 0; k < S::kDof; ++k) {
+      const double m = masses.closed[j][k];
+      if (!(response.stiffness(k, k) > 0) || !(m > 0)) continue;
+      mass_[j][k] = m;
+      decay_[j][k] = decay_of(m, response.damping(k, k), response.stiffness(k, k));
+    }
+  }
+}
+
+// The acceleration of a gap is next to nothing but for its ringing. Where the curve through the stages misses what the step began with by J, of a ringing of
+// amplitude A, the step has taken J^2 / 2A off it: the methods' errors at their ends go with the square of those of their curves.
+template <class S>
+void BasicRingingLoss<S>::see_step(const BasicStepNodes<S>& nodes, double h) {
+  const RadauTable& table = *nodes.table;
+  for (std::size_t j = 0; j < lost_.size(); ++j)
+    for (int k = 0; k < S::kDof; ++k) {
+      if (mass_[j][k] == 0) continue;
+      double missed = nodes.gap_accel[0][j][k], amplitude = std::abs(missed);
+      for (int s = 0; s < table.n; ++s) {
+        const double x = nodes.gap_accel[s + 1][j][k];
+        missed -= table.stages_to_powers(0, s) * x;
+        amplitude = std::max(amplitude, std::abs(x));
+      }
+      missed = std::min(std::abs(missed), amplitude);
+      const double kept = std::exp(-decay_[j][k] * h);
+      lost_[j][k] = kept * lost_[j][k];
+      if (amplitude > 0) lost_[j][k] += kept * mass_[j][k] * missed * missed / (2 * amplitude);
+    }
+  for (std::size_t j = 0; j < lost_.size(); ++j) {
+    force_[j] = std::max(force_[j], linear_magnitude<S>(lost_[j]));
+    couple_[j] = std::max(couple_[j], angular_magnitude<S>(lost_[j]));
+  }
+}
+
+template class BasicRingingLoss<Planar>;
+template class BasicRingingLoss<Spatial>;
+
+}  // namespace pintle

@@ -1,0 +1,30 @@
+// What long steps take off the vibrations of the joints: a ringing that is smaller than the tolerance of the steps dies in all passes alike, and where the
+// joint damps it less the true force goes on ringing. theory/time Eqs. (6.12), (6.13).
+#pragma once
+
+#include <vector>
+
+#include "integrators/radau/step_nodes.h"
+#include "system/state.h"
+
+namespace pintle {
+
+template <class S>
+class BasicRingingLoss {
+ public:
+  /// Of a run from `start`.
+  BasicRingingLoss(const BasicSystem<S>& system, const BasicState<S>& start);
+
+  /// A step of h seconds has been made.
+  void see_step(const BasicStepNodes<S>& nodes, double h);
+  /// The largest force by which joint j lacks ringing so far [N], and the largest couple [N*m].
+  double force(std::size_t j) const { return force_[j]; }
+  double couple(std::size_t j) const { return couple_[j]; }
+
+ private:
+  VecsOf<S> mass_, decay_;  // what a component's force accelerates; the rate at which the joint damps its own vibration [1/s]
+  VecsOf<S> lost_;          // [N], [N*m]
+  std::vector<double> force_, couple_;
+};
+
+}  // namespace pintle
