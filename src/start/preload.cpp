@@ -12,15 +12,15 @@
 namespace pintle {
 namespace {
 
-constexpr int kPasses = 6;
-constexpr int kRounds = 4;         // of friction and reactions: each gains the coefficient of friction times a lever ratio
-constexpr int kClosing = 4;        // passes of a projection
-constexpr double kFits = 1e-9;     // of the largest force: gaps that differ by no more fit together
-constexpr double kClosed = 1e-11;  // of what the first pass found: the next one finds nothing
-constexpr double kMostGrowth = 2;  // of the largest force, in a pass that comes nearer to its end
+constexpr int kPasses = 6;                                                // of forces and gaps in turns, at most
+constexpr int kRounds = 4;                                                // of friction and reactions: each gains the coefficient of friction times a lever ratio
+constexpr int kClosing = 4;                                               // passes of a projection onto closed gaps, at most
+constexpr double kFits = 1e-9;                                            // of the largest force: gaps that differ by no more fit together
+constexpr double kClosed = 1e-11;                                         // of what the first pass found: the next one finds nothing
+constexpr double kMostGrowth = 2;                                         // of the largest force, in a pass that comes nearer to its end
 constexpr double kSameGap = 16 * std::numeric_limits<double>::epsilon();  // of the largest coordinate: the same but for rounding
-constexpr double kSameRate = 1e-9;                                        // of the largest speed
-constexpr int kMostJoints = 300;  // whose masses with closed joints are asked for: the cost grows with the square
+constexpr double kSameRate = 1e-9;                                        // of the largest speed: the same but for rounding
+constexpr int kMostJoints = 300;                                          // whose masses with closed joints are asked for: the cost grows with the square
 
 // What a force of a joint does to its own two bodies: the acceleration of the gap per unit of force, component by component.
 template <class S>

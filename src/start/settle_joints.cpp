@@ -13,15 +13,14 @@
 namespace pintle {
 namespace {
 
-constexpr double kScoutTolerance = 1e-3;
-constexpr int kScoutSteps = 3;
-constexpr int kSpans = 4;         // tried, each a quarter of the one before
-constexpr double kSettled = 0.1;  // relative change of the gaps in the last sweep that is taken for convergence
-constexpr double kMostGrowth = 2;  // of the largest joint force, by an attempt that has not converged
-// Change of a body's speed, over the largest speed and over the largest rate of a gap: beyond both it is not the joints' giving way.
-constexpr double kMostHaste = 1e-3, kMostLever = 30;
-constexpr double kExact = 1e-6;   // the same, with nothing left to settle
-constexpr double kEntirely = 0.99;  // of its slow motion: with this share a soft joint counts as going with the motion
+constexpr double kScoutTolerance = 1e-3;  // of the rough integration that finds a natural step
+constexpr int kScoutSteps = 3;            // of that integration: the last one counts
+constexpr int kSpans = 4;                 // times over which the slow motion is looked for, each a quarter of the one before
+constexpr double kSettled = 0.1;          // relative change of the gaps in the last sweep that is taken for convergence
+constexpr double kMostGrowth = 2;         // of the largest joint force, by an attempt that has not converged
+constexpr double kMostHaste = 1e-3, kMostLever = 30;  // change of a body's speed that is the joints' giving way: over the largest speed, at most; or over the largest rate of a gap, at most
+constexpr double kExact = 1e-6;                       // relative change of the gaps below which nothing is left to settle
+constexpr double kEntirely = 0.99;                    // of its slow motion: with this share a soft joint counts as going with the motion
 constexpr const char* kNotSettled =
     "no transient-free start was found (a force jumps at the start, or a long chain has modes slower than its motion): joint forces may ring from the start. All passes start alike, so the stated "
     "errors do not include this";

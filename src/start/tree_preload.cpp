@@ -18,9 +18,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using S = Planar;
 
-constexpr int kPasses = 6, kSweeps = 5, kRounds = 4;
-constexpr double kSlow = 5e-4;  // of the slowest joint by itself: faster modes are held
-constexpr double kDiverged = 1e300, kConverged = 1e-10;  // relative change of a sweep
+constexpr int kPasses = 6, kSweeps = 5, kRounds = 4;     // of forces and gaps in turns, at most; sweeps over the joints, at most; rounds of friction and reactions
+constexpr double kSlow = 5e-4;                           // of the slowest joint by itself: faster modes are held
+constexpr double kDiverged = 1e300, kConverged = 1e-10;  // relative change of a sweep, before the first; below which sweeps end
 
 const Law& law_of(const TreeInstant& at, std::size_t l) { return at.system().joints[at.tree().laws()[l]].law; }
 

@@ -11,10 +11,10 @@ namespace {
 using S = Planar;
 
 constexpr double kStiffAtLeast = 1e12;    // of a tree joint's law while it is assembled, and at least that of every other [N/m]
-constexpr double kRelaxation = 1e-5;      // its damping over its stiffness [s]
+constexpr double kRelaxation = 1e-5;      // damping of such a law over its stiffness [s]
 constexpr double kScoutTolerance = 1e-3;  // of the rough integration that finds a natural step
-constexpr int kScoutSteps = 3;
-constexpr int kSpans = 4;                 // tried, each a quarter of the one before
+constexpr int kScoutSteps = 3;            // of that integration: the last one counts
+constexpr int kSpans = 4;                 // times over which the slow motion is looked for, each a quarter of the one before
 constexpr double kSettled = 0.1;          // relative change of the gaps in the last sweep that is taken for convergence
 
 // Laws for the tree's joints so stiff that they give way by nothing that matters.

@@ -14,10 +14,10 @@ namespace {
 
 using S = Planar;
 
-constexpr int kMaxIterations = 10;
-constexpr double kNewtonShare = 0.01;       // of the tolerance: a last correction that is small enough
-constexpr double kLoosestNewton = 1e-5;     // forces are k times positions: solved at least to this, whatever the tolerance
-constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+constexpr int kMaxIterations = 10;                                         // of Newton's method, at most
+constexpr double kNewtonShare = 0.01;                                      // of the tolerance: a last correction that is small enough
+constexpr double kLoosestNewton = 1e-5;                                    // forces are k times positions: solved at least to this, whatever the tolerance
+constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();  // of the size of the unknowns: corrections below it are rounding
 
 }  // namespace
 

@@ -14,7 +14,7 @@ struct UsualTolerance {
 
   /// The error that a component may have which is a and b at the ends of a step; `largest` of all there, whose rounding it has at least.
   double weight(double a, double b, double largest) const {
-    constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+    constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();  // of the largest component: no error is asked to be smaller
     return relative * std::max(std::abs(a), std::abs(b)) + absolute + kRounding * largest;
   }
 };

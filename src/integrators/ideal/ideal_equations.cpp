@@ -13,10 +13,10 @@ namespace {
 
 using S = Planar;
 
-constexpr int kOpening = 1;           // component of a mesh
-constexpr int kRefinements = 1;       // of the multipliers, against the accelerations they give
-constexpr int kMaxClosing = 12;       // Newton iterations on the loops
-constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+constexpr int kOpening = 1;                                               // component of a mesh
+constexpr int kRefinements = 1;                                           // of the multipliers, against the accelerations that they give
+constexpr int kMaxClosing = 12;                                           // Newton iterations on the loops, at most
+constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();  // of the largest coordinate: loops that miss by no more are closed; and lift of every pivot
 
 constexpr int kMostModes = 300;       // rows for which eigenvectors are taken; beyond, redundant rows are left out
 constexpr double kDamped = 1e-9;      // pivots below it are lifted, so that forces stay finite at singular positions ...

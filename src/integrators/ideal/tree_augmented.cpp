@@ -15,12 +15,12 @@ namespace {
 using S = Planar;
 using Eigen::Index;
 
-constexpr int kMaxIterations = 20;
-constexpr double kEnough = 1e-9;        // a last correction, of the coordinates: the iteration is not quadratic
-constexpr double kFactor = 1e7;         // of the penalties in the iteration, over what resists them in a step
-constexpr double kProjection = 1e-7;    // added to the rows' scaled matrix: dependent rows need no care
-constexpr int kPasses = 2;              // of a projection
-constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+constexpr int kMaxIterations = 20;                                         // of Newton's method, at most
+constexpr double kEnough = 1e-9;                                           // a correction that is the last, over the largest coordinate: the iteration is not quadratic
+constexpr double kFactor = 1e7;                                            // of the penalties in the iteration, over what resists them in a step
+constexpr double kProjection = 1e-7;                                       // added to the rows' scaled matrix: dependent rows need no care
+constexpr int kPasses = 2;                                                 // of a projection
+constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();  // of the largest coordinate: corrections below it are rounding
 
 double largest_of(const Eigen::VectorXd& x) { return std::max(1e-3, x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0); }
 

@@ -7,7 +7,7 @@ namespace pintle {
 namespace {
 
 constexpr double kNegligible = 1e-4;         // a joint is measured at least by this part of the mechanism's largest force
-constexpr double kNegligibleOfMotor = 1e-3;  // a motor by this
+constexpr double kNegligibleOfMotor = 1e-3;  // a motor is measured at least by this part of it
 
 // Of centres, and of points at `radius` from them across the axis of their turn. theory/time Eq. (6.4).
 template <class S>
@@ -158,7 +158,7 @@ double curve_horizon(const DifferenceCurve& curve, double tolerance) {
 }
 
 double share_of_finer(double fall) {
-  constexpr double kOfEqual = 3;
+  constexpr double kOfEqual = 3;  // share of the difference that is the finer pass's error, where the finer pass is as coarse
   return std::min(1.0, kOfEqual * std::pow(fall, kErrorPower));
 }
 
