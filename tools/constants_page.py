@@ -6,7 +6,11 @@ import re
 # What counts as an effect: of the mean of steps or evaluations over the runs; of the error of one run, over the tolerance.
 COST, ERROR = 0.01, 0.1
 LARGEST = 15
-PROMISED = (0, 9)  # exit codes of runs that promise their forces
+
+
+def promises(row):
+    """Whether the run promises its forces."""
+    return row.exit in (0, 9) and "--tolerance-of motion" not in row.run
 
 
 def by_case(rows):
@@ -25,9 +29,9 @@ class Effect:
         finished = [(row, was) for row, was in both if row.exit == was.exit]
         self.steps = mean_change([(row.steps, was.steps) for row, was in finished])
         self.evaluations = mean_change([(row.evaluations, was.evaluations) for row, was in finished])
-        promised = [(row, was) for row, was in both if row.exit in PROMISED]
+        promised = [(row, was) for row, was in both if promises(row)]
         self.error, self.worst = max(((row.true, row.run) for row, _ in promised), default=(0, ""))
-        self.error_change = max((abs(row.true - was.true) for row, was in promised if was.exit in PROMISED), default=0)
+        self.error_change = max((abs(row.true - was.true) for row, was in promised if promises(was)), default=0)
         self.broken = [(row.run, row.true) for row, was in promised if row.true > 1 and was.true <= 1]
         self.ends = [(row.run, was.exit, row.exit) for row, was in both if row.exit != was.exit]
 
@@ -89,7 +93,7 @@ def place_of(constant):
     return constant.file.rsplit("/", 1)[0]
 
 
-def page(measured, skipped, rows, runs, of_methods):
+def page(measured, skipped, rows, runs, noise):
     cases = by_case(rows)
     usual = cases.get(("", "", 1.0), {})
     effects = {}
@@ -98,7 +102,7 @@ def page(measured, skipped, rows, runs, of_methods):
     out = ["# Constants of the numerics", "",
            f"What the {len(measured)} named numbers of the numerics decide, and what becomes of {len(runs)} runs when each of them is halved and doubled. `make constants` measures and writes this page: it reads names, values",
            "and meanings from the sources (the comment at each constant), builds a copy that reads each constant through a factor, and makes the runs below with `pintle run`.", ""]
-    out += how_to_read(runs, usual, of_methods)
+    out += how_to_read(runs, usual, [Effect(cases[case], usual) for case in noise if case in cases])
     out += largest(effects)
     out += without_effect(effects)
     for place in dict.fromkeys(place_of(c) for c in measured):
@@ -112,17 +116,20 @@ def page(measured, skipped, rows, runs, of_methods):
     return "\n".join(out) + "\n"
 
 
-def how_to_read(runs, usual, of_methods):
-    worst = max((row for row in usual.values() if row.exit in PROMISED), key=lambda row: row.true, default=None)
+def how_to_read(runs, usual, noise):
+    worst = max((row for row in usual.values() if promises(row)), key=lambda row: row.true, default=None)
     out = ["- *Steps* and *evaluations* are of all passes of a run together; a column has the change of their geometric mean over the runs, so that each run counts alike.",
            "- *Error* is the largest true error of a joint force over the tolerance, in the worst run that promises its forces: against rows of a run whose tolerance is a thousandth (not below 1e-9), as a part",
            f"  of each joint's peak. With the constants as they are it is {worst.true:.2g}, in {short(worst.run)}. **Bold**: a run that kept to its tolerance has lost it." if worst else "",
            "- *Same*: every number of every run is the same to the last bit.",
            "- A constant of one method is measured on the runs of that method. Counts are halved to the next whole number below.", "",
            "| run | steps | evaluations | error | exit code |", "| --- | ---: | ---: | ---: | ---: |"]
+    if noise:
+        cost = max(max(abs(e.steps), abs(e.evaluations)) for e in noise)
+        out.insert(-3, f"- What a change by a billionth or a hundred-millionth of `kSafety`, which cannot matter, does to the runs: up to {percent(cost)[1:]} of steps or evaluations, {max(e.error_change for e in noise):.2g} of an error. Contacts make another sequence of steps of any change.")
     for run in runs:
         row = usual.get(run)
-        out.append(f"| `{run}` | {row.steps} | {row.evaluations} | {row.true:.2g} | {row.exit} |" if row and row.exit in PROMISED else f"| `{run}` | {row.steps} | {row.evaluations} | | {row.exit} |" if row else f"| `{run}` | | | | |")
+        out.append(f"| `{run}` | {row.steps} | {row.evaluations} | {row.true:.2g} | {row.exit} |" if row and promises(row) else f"| `{run}` | {row.steps} | {row.evaluations} | | {row.exit} |" if row else f"| `{run}` | | | | |")
     return out + [""]
 
 
