@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "integrators/dormand_prince.h"
+#include "integrators/thresholds.h"
 #include "linalg/lagrange_weights.h"
 
 namespace pintle {
@@ -26,7 +27,6 @@ constexpr double kNearStep = 0.8;                                         // ste
 constexpr int kSearch = 48;                                               // positions tried inside a step for the one where the constraints are most dependent, at most
 constexpr double kCrossing = 0.1;                                         // of the tolerance times the usual step: so short a step is taken over a jump of a force
 constexpr double kNearJump = 1e-4;                                        // of the usual step: rejected steps that are this short are looked at for jumps
-constexpr double kForget = 0.99;                                          // of the usual step that is kept in mind, by each step that is shorter
 constexpr double kLeastCrossing = 1e-8;                                   // of the usual step: shorter ones are lost in the rounding of velocities over the step
 constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();  // of the largest velocity or acceleration: errors do not show below it
 constexpr double kUnbounded = 1e-3;                                       // of the largest reaction where the last accurate state is: what grows as 1/d counts above it
@@ -254,7 +254,6 @@ double IdealStepper::error(double h) {
 }
 
 void IdealStepper::grow_scale() {
-  constexpr double kNegligible = 1e-4;  // of the largest load of the mechanism: a joint is measured at least by it
   double largest = 0;
   for (int i = 0; i < system_.n_bodies(); ++i) largest = std::max({largest, scale_.body[i][0], system_.bodies[i].mass[0] * end_.a[i].head<2>().norm()});
   largest = std::max(largest, largest_force(end_.force));

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "integrators/radau/event_location.h"
+#include "integrators/thresholds.h"
 #include "pintle/trajectory.h"
 #include "system/system.h"
 
@@ -49,7 +50,6 @@ class StepControl {
  private:
   static constexpr int kMaxRetries = 80;          // trials of one step, at most
   static constexpr double kShortest = 1e-11;      // of the run: the shortest step that is refused for its error
-  static constexpr double kLastBits = 16;         // times the rounding of the time: no step is shorter
   static constexpr double kEventAtStart = 1e-5;   // of the usual step: an event this close to its start is crossed
   static constexpr int kMostCrossed = 24;         // events that are crossed at the start of one step, at most
   static constexpr double kShrink = 0.5;          // of the step, after Newton's iteration failed; the most that its contraction shortens the next one
@@ -94,11 +94,11 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
   int crossed = 0;                           // events at its start
   SwitchingEvent ahead;                      // the last that was located
   for (int retry = 0; retry < kMaxRetries; ++retry) {
-    const double left = t_end - method.t(), rounding = std::numeric_limits<double>::epsilon() * std::max(std::abs(method.t()), std::abs(t_end));
-    if (crossed > 0 && left <= kLastBits * rounding) return true;  // the last event was at the end
+    const double left = t_end - method.t(), last_bits = kLastBits * std::max(std::abs(method.t()), std::abs(t_end));
+    if (crossed > 0 && left <= last_bits) return true;  // the last event was at the end
     if (h > left || (!up_to_event && left - h < 1e-3 * h)) h = left;
     else if (!up_to_event && left < 1.7 * h) h = 0.5 * left;
-    if (h <= kLastBits * rounding) break;
+    if (h <= last_bits) break;
     const bool solved = method.attempt(h);
     if (!solved) {
       ++counters.newton_failures;
@@ -132,8 +132,8 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     }
     if (event.after < 1) {
       up_to_event = true;
-      const bool at_end = solved && left - event.before * h <= kLastBits * rounding;  // then there is nothing behind it
-      h = at_end ? std::min(event.before * h, left) - 2 * rounding : h * (event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort));  // so that the last stage is not on it
+      const bool at_end = solved && left - event.before * h <= last_bits;  // then there is nothing behind it
+      h = at_end ? std::min(event.before * h, left) - last_bits / 8 : h * (event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort));  // so that the last stage is not on it
       if (solved) ++counters.rejected;
       continue;
     }

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/thresholds.h"
+
 namespace pintle {
 namespace {
 
-constexpr double kNegligible = 1e-4;         // a joint is measured at least by this part of the mechanism's largest force
 constexpr double kNegligibleOfMotor = 1e-3;  // a motor is measured at least by this part of it
 
 // Of centres, and of points at `radius` from them across the axis of their turn. theory/time Eq. (6.4).
