@@ -13,12 +13,12 @@
 namespace pintle {
 namespace {
 
-constexpr int kClosing = 4;                                               // passes of a projection onto closed gaps, at most
-constexpr double kFits = 1e-9;                                            // of the largest force: gaps that differ by no more fit together
-constexpr double kClosed = 1e-11;                                         // of what the first pass found: the next one finds nothing
-constexpr double kMostGrowth = 2;                                         // of the largest force, in a pass that comes nearer to its end
-constexpr double kSameRate = 1e-9;                                        // of the largest speed: the same but for rounding
-constexpr int kMostJoints = 300;                                          // whose masses with closed joints are asked for: the cost grows with the square
+constexpr int kClosing = 4;         // passes of a projection onto closed gaps, at most
+constexpr double kFits = 1e-9;      // of the largest force: gaps that differ by no more fit together
+constexpr double kClosed = 1e-11;   // of what the first pass found: the next one finds nothing
+constexpr double kMostGrowth = 2;   // of the largest force, in a pass that comes nearer to its end
+constexpr double kSameRate = 1e-9;  // of the largest speed: the same but for rounding
+constexpr int kMostJoints = 300;    // whose masses with closed joints are asked for: the cost grows with the square
 
 // What a force of a joint does to its own two bodies: the acceleration of the gap per unit of force, component by component.
 template <class S>

@@ -17,21 +17,20 @@ namespace {
 using S = Planar;
 using namespace dormand_prince;
 
-constexpr double kSingular = 1e-4;                                        // of the largest independence met: a position counts as singular below it
-constexpr double kSuspicious = 0.5;                                       // of the largest: above it no singular position is looked for
-constexpr double kTooNear = 3e-4;                                         // of the largest: no stage lies nearer to a singular position
-constexpr double kFewDigits = 3e-2;                                       // of the largest: nearer, forces lose too many digits, in proportion to its fourth power
-constexpr double kShareBefore = 0.55;                                     // of a step over a singular position: it lies in the widest gap between the stages, from 0.3 to 0.8
-constexpr double kLongest = 4;                                            // of the last step away from singular positions: beside them the error that counts may be next to none
-constexpr double kNearStep = 0.8;                                         // steps to a singular position: nearer than so many it is stepped over, nearer than twice as many with the next step
-constexpr int kSearch = 48;                                               // positions tried inside a step for the one where the constraints are most dependent, at most
-constexpr double kCrossing = 0.1;                                         // of the tolerance times the usual step: so short a step is taken over a jump of a force
-constexpr double kNearJump = 1e-4;                                        // of the usual step: rejected steps that are this short are looked at for jumps
-constexpr double kLeastCrossing = 1e-8;                                   // of the usual step: shorter ones are lost in the rounding of velocities over the step
-constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();  // of the largest velocity or acceleration: errors do not show below it
-constexpr double kUnbounded = 1e-3;                                       // of the largest reaction where the last accurate state is: what grows as 1/d counts above it
+constexpr double kSingular = 1e-4;       // of the largest independence met: a position counts as singular below it
+constexpr double kSuspicious = 0.5;      // of the largest: above it no singular position is looked for
+constexpr double kTooNear = 3e-4;        // of the largest: no stage lies nearer to a singular position
+constexpr double kFewDigits = 3e-2;      // of the largest: nearer, forces lose too many digits, in proportion to its fourth power
+constexpr double kShareBefore = 0.55;    // of a step over a singular position: it lies in the widest gap between the stages, from 0.3 to 0.8
+constexpr double kLongest = 4;           // of the last step away from singular positions: beside them the error that counts may be next to none
+constexpr double kNearStep = 0.8;        // steps to a singular position: nearer than so many it is stepped over, nearer than twice as many with the next step
+constexpr int kSearch = 48;              // positions tried inside a step for the one where the constraints are most dependent, at most
+constexpr double kCrossing = 0.1;        // of the tolerance times the usual step: so short a step is taken over a jump of a force
+constexpr double kNearJump = 1e-4;       // of the usual step: rejected steps that are this short are looked at for jumps
+constexpr double kLeastCrossing = 1e-8;  // of the usual step: shorter ones are lost in the rounding of velocities over the step
+constexpr double kUnbounded = 1e-3;      // of the largest reaction where the last accurate state is: what grows as 1/d counts above it
 constexpr int kMostReported = 5;
-constexpr std::size_t kAccurate = 5;  // states kept whose forces have most of their digits: forces at singular positions are drawn through them
+constexpr std::size_t kAccurate = 5;     // states kept whose forces have most of their digits: forces at singular positions are drawn through them
 
 }  // namespace
 
@@ -243,7 +242,7 @@ double IdealStepper::error(double h) {
     at_begin_->project_onto_tangent(error_v_);
   }
   double worst = 0;
-  const double of_velocities = kRounding * largest_coordinate(begin_.v) / h, of_accelerations = kRounding * largest_coordinate(begin_.a);
+  const double of_velocities = kLastBits * largest_coordinate(begin_.v) / h, of_accelerations = kLastBits * largest_coordinate(begin_.a);
   const auto above = [](const S::Vec& x, double rounding) { return S::Vec((x.cwiseAbs().array() - rounding).max(0)); };
   for (std::size_t i = 0; i < error_q_.size(); ++i) {
     const S::Vec d = above(error_v_[i], of_accelerations).cwiseMax(above(error_q_[i], of_velocities)).cwiseProduct(system_.bodies[i].mass).cwiseQuotient(scale_.body[i]);
@@ -359,7 +358,7 @@ void IdealStepper::look_for_singular_position() {
   if (std::min(first, last) > kSuspicious * most_independent_) return;
   if (!(at(kNear) < first) || !(at(1 - kNear) < last)) return;
   double low = 0, high = 1;
-  for (int i = 0; i < kSearch && high - low > 1e-12; ++i) {
+  for (int i = 0; i < kSearch; ++i) {
     const double third = (high - low) / 3;
     if (at(low + third) < at(high - third)) high -= third;
     else low += third;
