@@ -8,7 +8,6 @@
 
 #include "integrators/absolute/radau_stepper.h"
 #include "start/slow_manifold.h"
-#include "start/slow_sweeps.h"
 #include "start/time_scales.h"
 
 namespace pintle {

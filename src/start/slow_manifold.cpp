@@ -10,7 +10,6 @@
 
 #include "start/chebyshev_nodes.h"
 #include "start/preload.h"
-#include "start/slow_sweeps.h"
 
 namespace pintle {
 namespace {

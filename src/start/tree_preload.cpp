@@ -10,7 +10,7 @@
 #include "laws/gap_at_force.h"
 #include "start/chebyshev_nodes.h"
 #include "start/preload.h"
-#include "start/slow_sweeps.h"
+#include "start/slow_manifold.h"
 
 namespace pintle {
 namespace {

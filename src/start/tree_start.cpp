@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "integrators/relative/tree_radau.h"
-#include "start/slow_sweeps.h"
+#include "start/slow_manifold.h"
 #include "start/tree_preload.h"
 
 namespace pintle {
