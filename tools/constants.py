@@ -16,6 +16,7 @@ import collections
 import concurrent.futures
 import csv
 import fnmatch
+import hashlib
 import json
 import math
 import os
@@ -225,7 +226,7 @@ def build():
         sys.exit("the copy does not compile: a constant that has to be one for the compiler belongs in tools/unmeasured_constants.txt")
 
 
-Row = collections.namedtuple("Row", "constant value factor run exit steps refused evaluations passes stated true same seconds")
+Row = collections.namedtuple("Row", "program constant value factor run exit steps refused evaluations passes stated true same seconds")
 
 
 def forces_of(folder):
@@ -274,9 +275,9 @@ def with_tolerance(arguments, tolerance):
 class MeasuredRun:
     """One of RUNS as it is, and what it should have been."""
 
-    def __init__(self, text):
-        self.text, self.arguments = text, shlex.split(text)
-        usual, truth = folder_of("usual", text), folder_of("truth", text)
+    def __init__(self, text, program):
+        self.text, self.program, self.arguments = text, program, shlex.split(text)
+        usual, truth = folder_of(f"usual-{program}", text), folder_of("truth", text)
         if not (usual / "summary.json").exists():
             run_once(self.arguments, usual, 60)
         self.tolerance = json.loads((usual / "summary.json").read_text())["tolerance"]
@@ -292,12 +293,12 @@ class MeasuredRun:
             (self.changed / name).unlink(missing_ok=True)
         code, took = run_once(self.arguments, self.changed, 20, f"{constant}={factor:.17g}" if constant else "")
         if not (self.changed / "summary.json").exists():
-            return Row(constant, value, factor, self.text, code, 0, 0, 0, 0, 0, 0, 0, round(took, 3))
+            return Row(self.program, constant, value, factor, self.text, code, 0, 0, 0, 0, 0, 0, 0, round(took, 3))
         summary = json.loads((self.changed / "summary.json").read_text())
         counters, same = summary["counters"], (self.changed / "series.csv").read_bytes() == self.content
         error = self.usual_error if same else true_error(forces_of(self.changed), self.truth, horizon_of(self.changed)) / self.tolerance
         stated = max(j["relative_error_estimate"] for j in summary["joints"]) / self.tolerance
-        return Row(constant, value, factor, self.text, code, counters["steps"], counters["rejected"], counters["evaluations"], counters["passes"], float(f"{stated:.4g}"),
+        return Row(self.program, constant, value, factor, self.text, code, counters["steps"], counters["rejected"], counters["evaluations"], counters["passes"], float(f"{stated:.4g}"),
                    float(f"{error:.4g}"), int(same), round(took, 3))
 
 
@@ -311,7 +312,7 @@ def load_rows():
     if not RESULTS.exists():
         return []
     with RESULTS.open(newline="") as file:
-        return [Row(r["constant"], r["value"], float(r["factor"]), r["run"], int(r["exit"]), int(r["steps"]), int(r["refused"]), int(r["evaluations"]), int(r["passes"]),
+        return [Row(r["program"], r["constant"], r["value"], float(r["factor"]), r["run"], int(r["exit"]), int(r["steps"]), int(r["refused"]), int(r["evaluations"]), int(r["passes"]),
                     float(r["stated"]), float(r["true"]), int(r["same"]), float(r["seconds"])) for r in csv.DictReader(file)]
 
 
@@ -323,8 +324,10 @@ def built():
 
 def measure(seconds, jobs):
     """Whether all constants are done."""
-    end, runs = time.time() + seconds, {text: MeasuredRun(text) for text in RUNS}
-    done = {(r.constant, r.value, r.factor) for r in load_rows()}
+    end, program = time.time() + seconds, hashlib.sha256(PROGRAM.read_bytes()).hexdigest()[:8]
+    runs = {text: MeasuredRun(text, program) for text in RUNS}
+    rows = load_rows()
+    done = {(r.constant, r.value, r.factor) for r in rows if r.constant or r.program == program}
     wanted = [("", "", 1.0)] + NOISE + [(key, value, factor) for key, value in built() for factor in FACTORS]
     missing = [case for case in wanted if case not in done]
     for count, case in enumerate(missing):

@@ -24,7 +24,7 @@ class Effect:
     """What became of the runs with one factor."""
 
     def __init__(self, rows, usual):
-        both = [(row, usual[run]) for run, row in rows.items() if run in usual]
+        both = [(row, usual[row.program, run]) for run, row in rows.items() if (row.program, run) in usual]
         self.same = all(row.same and row.steps == was.steps and row.evaluations == was.evaluations and row.exit == was.exit for row, was in both)
         finished = [(row, was) for row, was in both if row.exit == was.exit]
         self.steps = mean_change([(row.steps, was.steps) for row, was in finished])
@@ -95,14 +95,15 @@ def place_of(constant):
 
 def page(measured, skipped, rows, runs, noise):
     cases = by_case(rows)
-    usual = cases.get(("", "", 1.0), {})
+    usual = {(row.program, row.run): row for row in rows if not row.constant}
     effects = {}
     for c in measured:
         effects[c] = [Effect(found, usual) if (found := cases.get((f"{c.file}:{c.name}", c.value, factor))) else None for factor in (0.5, 2.0)]
     out = ["# Constants of the numerics", "",
            f"What the {len(measured)} named numbers of the numerics decide, and what becomes of {len(runs)} runs when each of them is halved and doubled. `make constants` measures and writes this page: it reads names, values",
            "and meanings from the sources (the comment at each constant), builds a copy that reads each constant through a factor, and makes the runs below with `pintle run`.", ""]
-    out += how_to_read(runs, usual, [Effect(cases[case], usual) for case in noise if case in cases])
+    last = next((row.program for row in reversed(rows) if not row.constant), "")
+    out += how_to_read(runs, {run: row for (program, run), row in usual.items() if program == last}, [Effect(cases[case], usual) for case in noise if case in cases])
     out += largest(effects)
     out += without_effect(effects)
     for place in dict.fromkeys(place_of(c) for c in measured):

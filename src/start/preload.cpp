@@ -14,10 +14,8 @@ namespace pintle {
 namespace {
 
 constexpr int kClosing = 4;         // passes of a projection onto closed gaps, at most
-constexpr double kFits = 1e-9;      // of the largest force: gaps that differ by no more fit together
+constexpr double kFits = 1e-9;      // of the largest force, or speed: gaps, or rates, that differ by no more fit together
 constexpr double kClosed = 1e-11;   // of what the first pass found: the next one finds nothing
-constexpr double kMostGrowth = 2;   // of the largest force, in a pass that comes nearer to its end
-constexpr double kSameRate = 1e-9;  // of the largest speed: the same but for rounding
 constexpr int kMostJoints = 300;    // whose masses with closed joints are asked for: the cost grows with the square
 
 // What a force of a joint does to its own two bodies: the acceleration of the gap per unit of force, component by component.
@@ -133,7 +131,7 @@ void balance_start(const BasicSystem<S>& system, BasicState<S>& state) {
   std::vector<BasicJointKinematics<S>> r;
   system.motions(state.q, state.v, m);
   system.joint_kinematics(state.t, m, r);
-  const double same_gap = kLastBits * largest_coordinate(state.q), same_rate = kSameRate * largest_coordinate(state.v), same_force = kFits * largest_force(state.force);
+  const double same_gap = kLastBits * largest_coordinate(state.q), same_rate = kFits * largest_coordinate(state.v), same_force = kFits * largest_force(state.force);
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicJointData<S>& joint = system.joints[j];
     const BasicResponse<S> response = respond(joint.law, state.gap[j], state.gap_rate[j]);

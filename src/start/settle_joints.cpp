@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "integrators/absolute/radau_stepper.h"
+#include "start/preload.h"
 #include "start/slow_manifold.h"
 #include "start/time_scales.h"
 
 namespace pintle {
 namespace {
 
-constexpr double kMostGrowth = 2;                     // of the largest joint force, by an attempt that has not converged
 constexpr double kMostHaste = 1e-3, kMostLever = 30;  // change of a body's speed that is the joints' giving way: over the largest speed, at most; or over the largest rate of a gap, at most
 constexpr double kExact = 1e-6;                       // relative change of the gaps below which nothing is left to settle
 constexpr double kEntirely = 0.99;                    // of its slow motion: with this share a soft joint counts as going with the motion

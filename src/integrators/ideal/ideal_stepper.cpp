@@ -28,6 +28,7 @@ constexpr int kSearch = 48;              // positions tried inside a step for th
 constexpr double kCrossing = 0.1;        // of the tolerance times the usual step: so short a step is taken over a jump of a force
 constexpr double kNearJump = 1e-4;       // of the usual step: rejected steps that are this short are looked at for jumps
 constexpr double kLeastCrossing = 1e-8;  // of the usual step: shorter ones are lost in the rounding of velocities over the step
+constexpr double kAhead = 1e-3;          // of the step: how far inside of its ends is looked whether the independence falls
 constexpr double kUnbounded = 1e-3;      // of the largest reaction where the last accurate state is: what grows as 1/d counts above it
 constexpr int kMostReported = 5;
 constexpr std::size_t kAccurate = 5;     // states kept whose forces have most of their digits: forces at singular positions are drawn through them
@@ -70,7 +71,6 @@ bool IdealStepper::is_too_near(double independence) const { return independence 
 double IdealStepper::step_around_singular_position(double h) {
   clear_h_ = 0;
   if (!is_near_singular_position()) return h;
-  constexpr double kAhead = 1e-3;  // of the step: how far ahead the fall of the independence is taken
   Vecs ahead = begin_.q;
   for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] += kAhead * h * begin_.v[i];
   const double fall = independence_ - equations_.independence(begin_.t + kAhead * h, ahead);
@@ -351,12 +351,11 @@ void IdealStepper::look_for_singular_position() {
     const double t = begin_.t + share * (end_.t - begin_.t);
     return equations_.independence(t, share <= 0 ? begin_.q : share >= 1 ? end_.q : dense_.at(t, begin_, end_).q);
   };
-  constexpr double kNear = 1e-3;  // of the step: where at its ends the independence has to fall inwards for a singular position to lie inside
   const double first = independence_, last = at(1);
   independence_ = last;
   most_independent_ = std::max(most_independent_, last);
   if (std::min(first, last) > kSuspicious * most_independent_) return;
-  if (!(at(kNear) < first) || !(at(1 - kNear) < last)) return;
+  if (!(at(kAhead) < first) || !(at(1 - kAhead) < last)) return;
   double low = 0, high = 1;
   for (int i = 0; i < kSearch; ++i) {
     const double third = (high - low) / 3;
