@@ -86,6 +86,7 @@ OF_METHODS = [
     ("integrators/radau/*", r"^(?!.*(--method|--equations (ideal|augmented|relative_)))"),
     ("integrators/absolute/*", r"^(?!.*(--method|--equations (ideal|augmented|relative_)))"),
     ("laws/flexures/*", r"spring"),
+    ("run/limits/*", r"dead_centre|limit|wrong_sign|robot|slider_crank.toml --duration"),
 ]
 
 DECLARATION = re.compile(r"^(?P<indent>\s*)(?P<words>(?:(?:inline|static)\s+)*)constexpr\s+(?P<type>double|int|long|std::size_t|std::uint64_t)\s+(?P<rest>k[A-Z]\w*\s*(?:\[[^\]]*\]|=|\{).*)$")
@@ -226,7 +227,7 @@ def build():
         sys.exit("the copy does not compile: a constant that has to be one for the compiler belongs in tools/unmeasured_constants.txt")
 
 
-Row = collections.namedtuple("Row", "program constant value factor run exit steps refused evaluations passes stated true same seconds")
+Row = collections.namedtuple("Row", "program constant value factor run exit steps refused evaluations passes stated true same notes seconds")
 
 
 def forces_of(folder):
@@ -286,6 +287,7 @@ class MeasuredRun:
             code, took = run_once(with_tolerance(self.arguments, finer), truth, 60)
             say(f"truth in {took:.1f} s, exit code {code}: {text}")
         self.truth, self.content, self.changed = forces_of(truth), (usual / "series.csv").read_bytes(), folder_of("changed", text)
+        self.notes = notes_of(usual)
         self.usual_error = true_error(forces_of(usual), self.truth, horizon_of(usual)) / self.tolerance
 
     def row(self, constant, value, factor):
@@ -293,13 +295,19 @@ class MeasuredRun:
             (self.changed / name).unlink(missing_ok=True)
         code, took = run_once(self.arguments, self.changed, 20, f"{constant}={factor:.17g}" if constant else "")
         if not (self.changed / "summary.json").exists():
-            return Row(self.program, constant, value, factor, self.text, code, 0, 0, 0, 0, 0, 0, 0, round(took, 3))
+            return Row(self.program, constant, value, factor, self.text, code, 0, 0, 0, 0, 0, 0, 0, 0, round(took, 3))
         summary = json.loads((self.changed / "summary.json").read_text())
         counters, same = summary["counters"], (self.changed / "series.csv").read_bytes() == self.content
         error = self.usual_error if same else true_error(forces_of(self.changed), self.truth, horizon_of(self.changed)) / self.tolerance
         stated = max(j["relative_error_estimate"] for j in summary["joints"]) / self.tolerance
         return Row(self.program, constant, value, factor, self.text, code, counters["steps"], counters["rejected"], counters["evaluations"], counters["passes"], float(f"{stated:.4g}"),
-                   float(f"{error:.4g}"), int(same), round(took, 3))
+                   float(f"{error:.4g}"), int(same), int(notes_of(self.changed) == self.notes), round(took, 3))
+
+
+def notes_of(folder):
+    """What the run says in words. Numbers in them have few digits."""
+    summary = json.loads((folder / "summary.json").read_text())
+    return [summary["message"], *summary["notes"]]
 
 
 def horizon_of(folder):
@@ -313,7 +321,7 @@ def load_rows():
         return []
     with RESULTS.open(newline="") as file:
         return [Row(r["program"], r["constant"], r["value"], float(r["factor"]), r["run"], int(r["exit"]), int(r["steps"]), int(r["refused"]), int(r["evaluations"]), int(r["passes"]),
-                    float(r["stated"]), float(r["true"]), int(r["same"]), float(r["seconds"])) for r in csv.DictReader(file)]
+                    float(r["stated"]), float(r["true"]), int(r["same"]), int(r["notes"]), float(r["seconds"])) for r in csv.DictReader(file)]
 
 
 def built():

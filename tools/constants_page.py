@@ -25,7 +25,8 @@ class Effect:
 
     def __init__(self, rows, usual):
         both = [(row, usual[row.program, run]) for run, row in rows.items() if (row.program, run) in usual]
-        self.same = all(row.same and row.steps == was.steps and row.evaluations == was.evaluations and row.exit == was.exit for row, was in both)
+        self.notes = [row.run for row, was in both if row.exit == was.exit and not row.notes]
+        self.same = not self.notes and all(row.same and row.steps == was.steps and row.evaluations == was.evaluations and row.exit == was.exit for row, was in both)
         finished = [(row, was) for row, was in both if row.exit == was.exit]
         self.steps = mean_change([(row.steps, was.steps) for row, was in finished])
         self.evaluations = mean_change([(row.evaluations, was.evaluations) for row, was in finished])
@@ -36,7 +37,7 @@ class Effect:
         self.ends = [(row.run, was.exit, row.exit) for row, was in both if row.exit != was.exit]
 
     def visible(self):
-        return abs(self.steps) >= COST or abs(self.evaluations) >= COST or self.error_change > ERROR or bool(self.ends)
+        return abs(self.steps) >= COST or abs(self.evaluations) >= COST or self.error_change > ERROR or bool(self.ends or self.notes)
 
 
 def mean_change(pairs):
@@ -69,11 +70,13 @@ def code_of(exit_code):
     return "no end in 20 s" if exit_code == -1 else f"signal {-exit_code}" if exit_code < 0 else str(exit_code)
 
 
-def ends_of(effects):
+def ends_of(effects, notes=True):
     out = []
     for word, effect in zip(("halved", "doubled"), effects):
-        if effect and effect.ends:
-            runs = [f"{short(run)}: {was} to {code_of(now)}" for run, was, now in effect.ends]
+        runs = [f"{short(run)}: {was} to {code_of(now)}" for run, was, now in effect.ends] if effect else []
+        if notes and effect and effect.notes:
+            runs.append("other notes in " + ", ".join(short(run) for run in effect.notes[:2]) + (f" and {len(effect.notes) - 2} more" if len(effect.notes) > 2 else ""))
+        if runs:
             out.append(f"{word}: " + "; ".join(runs[:3]) + (f" and {len(runs) - 3} more" if len(runs) > 3 else ""))
     return "; ".join(out)
 
@@ -122,7 +125,9 @@ def how_to_read(runs, usual, noise):
     out = ["- *Steps* and *evaluations* are of all passes of a run together; a column has the change of their geometric mean over the runs, so that each run counts alike.",
            "- *Error* is the largest true error of a joint force over the tolerance, in the worst run that promises its forces: against rows of a run whose tolerance is a thousandth (not below 1e-9), as a part",
            f"  of each joint's peak. With the constants as they are it is {worst.true:.2g}, in {short(worst.run)}. **Bold**: a run that kept to its tolerance has lost it." if worst else "",
-           "- *Same*: every number of every run is the same to the last bit.",
+           "- *Same*: every number of every run is the same to the last bit, and what the runs say in notes.",
+           "- A constant of the start decides from which state a run starts. Where no start without ringing is found, as the notes of rope_pendulum and redundant-1-127 say, another constant means another motion,",
+           "  and the error has the distance of the two.",
            "- A constant of one method is measured on the runs of that method. Counts are halved to the next whole number below.", "",
            "| run | steps | evaluations | error | exit code |", "| --- | ---: | ---: | ---: | ---: |"]
     if noise:
@@ -149,7 +154,7 @@ def largest(effects):
         if broken:
             out.append(f"| {named(c)} | {shown(c.value)} | " + "; ".join(f"{word}: {true:.2g} in {short(run)}" for word, run, true in broken) + " |")
     out += ["", "On how runs end:", "", "| constant | value | exit codes |", "| --- | ---: | --- |"]
-    out += [f"| {named(c)} | {shown(c.value)} | {ends_of(pair)} |" for c, pair in effects.items() if ends_of(pair)]
+    out += [f"| {named(c)} | {shown(c.value)} | {ends_of(pair, False)} |" for c, pair in effects.items() if ends_of(pair, False)]
     return out + [""]
 
 
@@ -158,7 +163,7 @@ def without_effect(effects):
     same = [c for c, pair in known.items() if all(e.same for e in pair)]
     little = [c for c, pair in known.items() if c not in same and not any(e.visible() for e in pair)]
     out = ["## Without visible effect", "",
-           f"{len(same) + len(little)} of {len(known)} change neither steps nor evaluations by a hundredth, no error by a tenth of the tolerance, and no exit code. They are either for what these runs do not meet, or they could",
+           f"{len(same) + len(little)} of {len(known)} change neither steps nor evaluations by a hundredth, no error by a tenth of the tolerance, no exit code and no note. They are either for what these runs do not meet, or they could",
            "go.", "", f"{len(little)} of them change something:", ""]
     out += listed(little) + ["", f"With {len(same)} every number of every run is the same to the last bit:", ""]
     return out + listed(same) + [""]
@@ -177,7 +182,7 @@ def shown(value):
 
 
 def table(place, effects):
-    out = [f"## {place}", "", "| constant | value | what it decides | halved: steps | evaluations | error | doubled: steps | evaluations | error | exit codes |",
+    out = [f"## {place}", "", "| constant | value | what it decides | halved: steps | evaluations | error | doubled: steps | evaluations | error | exit codes, notes |",
            "| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | --- |"]
     for c, pair in effects.items():
         out.append(f"| {named(c)} | {shown(c.value)} | {sentence(c.comment)} | " + " | ".join(cells(pair[0]) + cells(pair[1])) + f" | {ends_of(pair)} |")
