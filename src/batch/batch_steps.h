@@ -13,7 +13,6 @@
 #include "integrators/radau/newton_convergence.h"
 #include "integrators/radau/radau_table.h"
 #include "integrators/radau/step_error.h"
-#include "integrators/thresholds.h"
 #include "linalg/complex_lanes.h"
 
 namespace pintle::PINTLE_BATCH {
@@ -231,7 +230,7 @@ class BatchSteps {
     for (int lane = 0; lane < kVariantLanes; ++lane) {
       if (active[lane] == 0) continue;
       const double size = change[lane] / of_newton_;
-      if (change[lane] < kLastBits) {
+      if (change[lane] < NewtonContraction::kRounding) {
         active.v[lane] = 0;
         continue;
       }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
-
-#include "integrators/thresholds.h"
 
 namespace pintle {
 namespace {
 
+constexpr int kHalvings = 46;     // of an interval between two samples: how well an event is located
 constexpr double kInside = 1e-6;  // of an interval: an extremum this close to its end is the end's
 constexpr double kUnsure = 0.1;   // of a parabola's curvature: what two of them that agree may still be wrong by
 constexpr int kSecants = 16;      // steps of the secant before the search goes on by halvings
@@ -98,6 +98,7 @@ int EventSearch::first_crossing(const Sample& low, const Sample& high, double& s
 // Narrows an interval down to its first event by secants. Where the same end stays twice, its value counts less (N. Anderson and
 // A. Bjorck, 1973), so that both ends approach the event. What secants have not located is halved.
 SwitchingEvent EventSearch::locate(const Sample& left, const Sample& right, SwitchingValues values_at) {
+  const double resolution = std::max(std::ldexp(right.share - left.share, -kHalvings), 4 * std::numeric_limits<double>::epsilon());
   std::array<double*, kTrials> free{row(kMostSamples + kLevels), row(kMostSamples + kLevels + 1), row(kMostSamples + kLevels + 2)};
   Sample low{left.share, free[0]}, high{right.share, free[1]};
   std::copy_n(left.value, start_.size(), low.value);
@@ -106,10 +107,10 @@ SwitchingEvent EventSearch::locate(const Sample& left, const Sample& right, Swit
   double share = 0, weight = 1;  // of the value at the end that stayed
   bool was_high = false;
   int function = first_crossing(low, high, share);
-  for (int k = 0; high.share - low.share > kLastBits; ++k) {
+  for (int k = 0; high.share - low.share > resolution; ++k) {
     const double middle = low.share + 0.5 * (high.share - low.share);
     double at = k < kSecants && std::isfinite(share) ? share : middle;
-    at = std::clamp(at, low.share + 0.5 * kLastBits, high.share - 0.5 * kLastBits);
+    at = std::clamp(at, low.share + 0.5 * resolution, high.share - 0.5 * resolution);
     if (!(at > low.share && at < high.share)) break;
     values_at(at, trial);
     const Sample tried{at, trial};

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "integrators/thresholds.h"
-
 namespace pintle {
 
 /// Frozen Jacobians make good iterations and bad ones alternate: two of them, or the last step's, tell the contraction.
@@ -14,6 +12,7 @@ class NewtonContraction {
   enum class Verdict { kGoOn, kDone, kHopeless };
   static constexpr int kMaxIterations = 14;   // of a step, at most
   static constexpr double kShare = 0.05;      // of the tolerance, left to the iteration
+  static constexpr double kRounding = 1e-15;  // of the loads: a residual that needs no correction
 
   /// Before a step's first iteration.
   void start() { last_ = before_last_ = seen_ = 0; }
@@ -22,7 +21,7 @@ class NewtonContraction {
   Verdict judge(int iteration, double correction, double tolerance) {
     const double size = correction / tolerance;
     if (!std::isfinite(size)) return Verdict::kHopeless;
-    if (size * tolerance < kLastBits) return Verdict::kDone;
+    if (size * tolerance < kRounding) return Verdict::kDone;
     double rate = iteration == 0 ? std::pow(std::clamp(contraction_, 1e-3, kSlow), 0.8) : size / last_;
     if (iteration == 1) rate = std::max(rate, std::min(contraction_, std::sqrt(rate)));
     if (iteration > 1) rate = std::max(rate, std::sqrt(size / before_last_));
