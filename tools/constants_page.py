@@ -36,8 +36,11 @@ class Effect:
         self.broken = [(row.run, row.true) for row, was in promised if row.true > 1 and was.true <= 1]
         self.ends = [(row.run, was.exit, row.exit) for row, was in both if row.exit != was.exit]
 
-    def visible(self):
-        return abs(self.steps) >= COST or abs(self.evaluations) >= COST or self.error_change > ERROR or bool(self.ends or self.notes)
+    def cost(self):
+        return max(abs(self.steps), abs(self.evaluations))
+
+    def visible(self, cost=COST, error=ERROR):
+        return self.cost() >= cost or self.error_change > error or bool(self.ends or self.notes)
 
 
 def mean_change(pairs):
@@ -106,9 +109,10 @@ def page(measured, skipped, rows, runs, noise):
            f"What the {len(measured)} named numbers of the numerics decide, and what becomes of {len(runs)} runs when each of them is halved and doubled. `make constants` measures and writes this page: it reads names, values",
            "and meanings from the sources (the comment at each constant), builds a copy that reads each constant through a factor, and makes the runs below with `pintle run`.", ""]
     last = next((row.program for row in reversed(rows) if not row.constant), "")
-    out += how_to_read(runs, {run: row for (program, run), row in usual.items() if program == last}, [Effect(cases[case], usual) for case in noise if case in cases])
+    effects_of_noise = [Effect(cases[case], usual) for case in noise if case in cases]
+    out += how_to_read(runs, {run: row for (program, run), row in usual.items() if program == last}, effects_of_noise)
     out += largest(effects)
-    out += without_effect(effects)
+    out += without_effect(effects, effects_of_noise)
     for place in dict.fromkeys(place_of(c) for c in measured):
         out += table(place, {c: e for c, e in effects.items() if place_of(c) == place})
     out += ["## Not measured", "", "Tables of coefficients are not listed.", "", "| where | constants | why |", "| --- | --- | --- |"]
@@ -131,12 +135,18 @@ def how_to_read(runs, usual, noise):
            "- A constant of one method is measured on the runs of that method. Counts are halved to the next whole number below.", "",
            "| run | steps | evaluations | error | exit code |", "| --- | ---: | ---: | ---: | ---: |"]
     if noise:
-        cost = max(max(abs(e.steps), abs(e.evaluations)) for e in noise)
-        out.insert(-3, f"- What a change by a billionth or a hundred-millionth of `kSafety`, which cannot matter, does to the runs: up to {percent(cost)[1:]} of steps or evaluations, {max(e.error_change for e in noise):.2g} of an error. Contacts make another sequence of steps of any change.")
+        cost, error = level(noise)
+        out.insert(-3, f"- Noise: a change of `kSafety` by a billionth or a hundred-millionth, which cannot matter, makes up to {percent(cost)[1:]} of steps or evaluations and {error:.2g} of an error. Contacts")
+        out.insert(-3, "  make another sequence of steps of any change.")
     for run in runs:
         row = usual.get(run)
         out.append(f"| `{run}` | {row.steps} | {row.evaluations} | {row.true:.2g} | {row.exit} |" if row and promises(row) else f"| `{run}` | {row.steps} | {row.evaluations} | | {row.exit} |" if row else f"| `{run}` | | | | |")
     return out + [""]
+
+
+def level(noise):
+    """What is no larger says nothing: of cost, of an error."""
+    return max((e.cost() for e in noise), default=0), max((e.error_change for e in noise), default=0)
 
 
 def size(effects):
@@ -148,7 +158,7 @@ def largest(effects):
     out = ["## The largest effects", "", "On cost:", "", "| constant | value | halved: evaluations | doubled: evaluations |", "| --- | ---: | ---: | ---: |"]
     for c in sorted(effects, key=lambda c: -size(effects[c]))[:LARGEST]:
         out.append(f"| {named(c)} | {shown(c.value)} | " + " | ".join("" if e is None else "same" if e.same else percent(e.evaluations) for e in effects[c]) + " |")
-    out += ["", "On the promise, where a run loses its tolerance without saying so:", "", "| constant | value | error over the tolerance |", "| --- | ---: | --- |"]
+    out += ["", "On the promise, where a run that still promises its forces has lost its tolerance:", "", "| constant | value | error over the tolerance |", "| --- | ---: | --- |"]
     for c, pair in effects.items():
         broken = [(word, run, true) for word, e in zip(("halved", "doubled"), pair) if e for run, true in e.broken]
         if broken:
@@ -158,15 +168,20 @@ def largest(effects):
     return out + [""]
 
 
-def without_effect(effects):
+def without_effect(effects, noise):
     known = {c: pair for c, pair in effects.items() if all(pair)}
     same = [c for c, pair in known.items() if all(e.same for e in pair)]
     little = [c for c, pair in known.items() if c not in same and not any(e.visible() for e in pair)]
+    cost, error = level(noise)
+    drowned = [c for c, pair in known.items() if c not in same and c not in little and not any(e.visible(max(COST, 1.001 * cost), max(ERROR, 1.001 * error)) for e in pair)]
     out = ["## Without visible effect", "",
            f"{len(same) + len(little)} of {len(known)} change neither steps nor evaluations by a hundredth, no error by a tenth of the tolerance, no exit code and no note. They are either for what these runs do not meet, or they could",
            "go.", "", f"{len(little)} of them change something:", ""]
     out += listed(little) + ["", f"With {len(same)} every number of every run is the same to the last bit:", ""]
-    return out + listed(same) + [""]
+    out += listed(same)
+    if drowned:
+        out += ["", f"The effect of {len(drowned)} more is not larger than the noise:", "", *listed(drowned)]
+    return out + [""]
 
 
 def listed(constants):
