@@ -65,6 +65,7 @@ tests/models/four_bar_at_its_limit.toml
 tests/models/cart_and_pole_wrong_sign.toml
 mechanisms/robot_arm.toml --equations relative --duration 0.5
 mechanisms/four_bar.toml --equations relative
+mechanisms/four_bar.toml --equations relative --set joint.O2.ideal=true --set joint.A.ideal=true --set joint.O4.ideal=true
 mechanisms/four_bar.toml --equations ideal
 mechanisms/n_four_bar_1.toml --equations ideal --duration 2
 mechanisms/four_bar.toml --equations augmented_lagrangian
