@@ -15,7 +15,7 @@ say        = @printf '\n=== %s\n' "$(1)"
 
 .PHONY: help setup build build-demo demo test install bench fuzz web-check studio studio-test studio-browser-test format clean
 .PHONY: paper figure9 published
-.PHONY: check-sources test-release test-package test-clang mutants
+.PHONY: check-sources test-release test-package test-clang mutants constants
 
 help:
 	@echo "make demo       install missing packages, build, run the paper's four-bar, write its report"
@@ -32,6 +32,7 @@ help:
 	@echo "make studio-browser-test  the built studio in chromium: drawing, every template, broken models, axe, sizes"
 	@echo "make web-check  compile the library with emscripten"
 	@echo "make mutants    changes lines of the sources and lists what no test notices: a night; ROOMS=laws SAMPLE=4: an hour"
+	@echo "make constants  what becomes of runs when each constant of the numerics is halved and doubled: an hour; docs/theory/constants.md"
 	@echo "make format     clang-format every source"
 	@echo "make clean      remove build/ and out/"
 
@@ -68,6 +69,7 @@ check-sources:
 	$(call say,order of rooms and habits)
 	@bash -n tools/setup.sh tools/web_check.sh tools/studio.sh
 	@python3 tools/check_sources.py
+	@python3 tools/constants.py --check
 
 test-release:
 	$(call say,release build and all tests)
@@ -114,6 +116,10 @@ fuzz:
 mutants:
 	@tools/setup.sh build test
 	@python3 tools/mutants.py --jobs $(JOBS) $(if $(ROOMS),--rooms $(ROOMS)) $(if $(SAMPLE),--sample $(SAMPLE))
+
+constants:
+	@tools/setup.sh build
+	@python3 tools/constants.py --build --seconds 86400 --write
 
 bench:
 	@tools/setup.sh build bench

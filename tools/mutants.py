@@ -103,27 +103,28 @@ def run(command, seconds, **more):
         return None
 
 
-def copy_tree():
-    """What the working tree has, so that files that have not changed keep their times."""
+def copy_tree(tree, changed=lambda name, content: content):
+    """What the working tree has, so that files that have not changed keep their times; `changed` may put something else in a file's place."""
     listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.splitlines()
     for name in listed:
-        source, target = ROOT / name, TREE / name
+        source, target = ROOT / name, tree / name
         if not source.is_file():
             continue
-        if target.is_file() and target.read_bytes() == source.read_bytes():
+        content = changed(name, source.read_bytes())
+        if target.is_file() and target.read_bytes() == content:
             continue
         target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(source, target)
-        os.utime(target)
+        target.write_bytes(content)
+        shutil.copymode(source, target)
     kept = set(listed)
-    for path in TREE.rglob("*"):
-        if path.is_file() and str(path.relative_to(TREE)) not in kept:
+    for path in tree.rglob("*"):
+        if path.is_file() and str(path.relative_to(tree)) not in kept:
             path.unlink()
 
 
-def configure():
-    more = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
-    subprocess.run(["cmake", "-G", "Ninja", "-S", str(TREE), "-B", str(BUILD), *more], check=True, stdout=subprocess.DEVNULL)
+def configure(tree, build, *options):
+    cached = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
+    subprocess.run(["cmake", "-G", "Ninja", "-S", str(tree), "-B", str(build), *cached, *options], check=True, stdout=subprocess.DEVNULL)
 
 
 class Suites:
@@ -173,8 +174,8 @@ def load_results():
 
 def test_rooms(options):
     WORK.mkdir(parents=True, exist_ok=True)
-    copy_tree()
-    configure()
+    copy_tree(TREE)
+    configure(TREE, BUILD)
     suites, results = Suites(options.jobs, options.room_tests_only), load_results()
     done = {(r["file"], r["line"], r["changed"]) for r in results}
     for room in options.rooms or rooms_of(TREE):

@@ -5,6 +5,7 @@
 
 #include "batch/batch_work.h"
 #include "integrators/absolute/radau_stepper.h"
+#include "integrators/thresholds.h"
 #include "pintle/simulate.h"
 #include "start/start.h"
 #include "start/time_scales.h"
@@ -18,7 +19,6 @@ namespace {
 constexpr double kLoosest = 1000, kTighten = 3.1622776601683795, kShare = 0.1, kWorse = 4;
 constexpr double kOfNewton = 0.2;  // tolerance of iterations over that of steps
 constexpr int kMostIterations = 10;  // in a step of the base: with more, shorter steps are cheaper, and a variant may not converge
-constexpr double kNegligible = 1e-4;  // of the largest load of the mechanism
 constexpr double kMostSlack = 16, kLeastSlack = 1.2;  // of the base's joints, before one of them would count as soft
 constexpr double kUnsettled = 0.01;  // of the tolerance: what another sweep would change at the start
 constexpr double kWellSettled = 0.2;  // of that, for the base

@@ -46,8 +46,8 @@ class LawBorders {
   const std::vector<LawCrossing>& crossings() const { return crossings_; }
 
  private:
-  static constexpr int kMostShortened = 12;  // times, in one step
-  static constexpr double kBehind = 1e-3;    // of a step: so much may lie behind a border
+  static constexpr int kMostShortened = 12;  // times that one step is shortened for borders, at most
+  static constexpr double kBehind = 1e-3;    // of a step: so much of it may lie behind a border
   static constexpr double kShortest = 1e-7;  // of the first trial: what is crossed so early has been met already
 
   // The share of the step after which the first border of a law with states is crossed, on a straight line; 1: none is.

@@ -20,7 +20,7 @@ struct LawCrossing {
 /// states there are already the new ones. Beyond kMostCrossings nothing is kept.
 template <class S>
 void record_crossings(const BasicSystem<S>& system, const BasicState<S>& state, const double* before, const double* after, std::vector<LawCrossing>& crossings) {
-  constexpr std::size_t kMostCrossings = 100000;
+  constexpr std::size_t kMostCrossings = 100000;  // crossings of borders that are kept for events.csv
   for (std::size_t f = 0; f < system.switching_functions().size(); ++f) {
     const SwitchingFunction& function = system.switching_functions()[f];
     if (!function.is_crossing(before[f], after[f]) || crossings.size() >= kMostCrossings) continue;

@@ -67,7 +67,7 @@ std::unique_ptr<BasicStepper<S>> make_radau(const BasicSystem<S>& system, const 
   return std::make_unique<BodyStepper<S, BasicRadauStepper<S>>>(system, BasicRadauStepper<S>(system, tolerance, choice.stages, choice.tolerance_of));
 }
 
-constexpr double kHhtAlpha = -0.05;
+constexpr double kHhtAlpha = -0.05;     // alpha of Hilber, Hughes and Taylor: damping of fast vibration
 constexpr double kKeptVibration = 0.9;  // generalised-alpha's factor per step at very high frequencies
 
 constexpr std::array<std::string_view, 3> kFromSundials{"ode45", "ode15s", "ode113"};

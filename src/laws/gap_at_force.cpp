@@ -10,8 +10,8 @@
 namespace pintle {
 namespace {
 
-constexpr int kSpringSteps = 20, kNewton = 40, kHalvings = 12, kDoublings = 80;
-constexpr double kCarried = 1e-6;  // of a force: what may be missing where no step leads nearer to it
+constexpr int kSpringSteps = 20, kNewton = 40, kHalvings = 12, kDoublings = 80;  // passes over the components' own springs; Newton iterations for a gap, at most; halvings of one step, at most; doublings of the way out of a play, at most
+constexpr double kCarried = 1e-6;                                                // of a force: what may be missing where no step leads nearer to it
 
 // Component by component.
 template <class S>
@@ -90,7 +90,7 @@ bool on_same_sides(const BasicLaw<S>& law, const typename S::Vec& a, const typen
 // Newton's method at one load: plain steps, each at most half of the one before. The gap must stay on the side of the law's borders where `from` is.
 template <class S>
 bool settle_at(const BasicLaw<S>& law, const typename S::Vec& from, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
-  constexpr double kRounding = 1e-9;
+  constexpr double kRounding = 1e-9;  // of the gap: a step that is shorter is rounding
   const typename S::Vec engaged = law.engaged_stiffness();
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kNewton; ++i) {

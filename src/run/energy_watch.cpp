@@ -8,15 +8,15 @@
 namespace pintle {
 namespace {
 
-constexpr int kJudgedEvery = 8;          // steps
-constexpr double kExplained = 30;        // times tolerance and turnover: what errors of the forces explain. Eq. (8.2)
-constexpr double kPerExchange = 0.01;    // part of the energy that goes to and fro: errors add up in long runs
-constexpr double kLeastTolerance = 1e-7; // below it rounding makes the account
-constexpr double kRounding = 1e-11;      // of the largest entry
-constexpr double kGiven = 0.01;          // of the turnover: heat below zero that nothing explains
-constexpr int kRunaway = 10;             // powers of ten above what can be stored. Eq. (8.4)
-constexpr int kCompared = 4;             // of them: the time of the last ones against that of those before
-constexpr double kSteady = 1.5;          // ratio of these times: 1 of an exponential, 100 of constant torque, 3.2 of t^8
+constexpr int kJudgedEvery = 8;           // steps between two looks at the account
+constexpr double kExplained = 30;         // times tolerance and turnover: what errors of the forces explain. Eq. (8.2)
+constexpr double kPerExchange = 0.01;     // part of the energy that goes to and fro: errors add up in long runs
+constexpr double kLeastTolerance = 1e-7;  // below it rounding makes the account, and it is judged by this
+constexpr double kRounding = 1e-11;       // of the largest entry: what rounding may leave open
+constexpr double kGiven = 0.01;           // of the turnover: heat below zero that nothing explains
+constexpr int kRunaway = 10;              // powers of ten above what can be stored. Eq. (8.4)
+constexpr int kCompared = 4;              // powers of ten: the time of the last ones is compared with that of those before
+constexpr double kSteady = 1.5;           // ratio of these times: 1 of an exponential, 100 of constant torque, 3.2 of t^8
 
 template <class S>
 double reach(const BasicPlacement<S>& at) { return std::max(at.F.p.norm(), at.M.p.norm()); }

@@ -12,7 +12,7 @@ namespace pintle {
 
 namespace {
 
-constexpr std::uint64_t kMaxSteps = 20'000'000;  // of one integration
+constexpr std::uint64_t kMaxSteps = 20'000'000;  // of one integration, at most
 
 // Notices a motion that needs ever shorter steps: one that blows up without end.
 class Standstill {
@@ -31,8 +31,8 @@ class Standstill {
   double since() const { return since_; }
 
  private:
-  static constexpr int kSteps = 20000;
-  static constexpr double kLeastShare = 1e-6;  // of the duration, in that many steps
+  static constexpr int kSteps = 20000;         // of a motion that stands still: one that blows up
+  static constexpr double kLeastShare = 1e-6;  // of the duration, that so many steps have to go
   double least_, since_ = 0, end_ = 0;
   int steps_ = 0;
 };

@@ -17,22 +17,21 @@
 namespace pintle {
 namespace {
 
-constexpr int kMaxPasses = 6;
-constexpr double kLoosest = 1e-4;   // of the second pass: above it steps are bounded by other things, and two passes are alike
-constexpr double kLoosestIdeal = 1e-8;  // ideal joints are a reference, and cheap
-constexpr double kLoosestOfMotion = 1e-3;
-constexpr double kLeastTolerance = 1e-13;
-constexpr double kPromised = 0.7;  // of the tolerance: with a smaller stated error the true one keeps to it, which may be a third larger
-constexpr double kAlike = 1.25;  // steps of the finer pass over those of the coarser: with fewer the two say little
-constexpr double kSurest = 0.1;  // of the tolerance of the steps: no error of the motion is stated as smaller
-constexpr double kRepeated = 0.1;  // tolerance of a pass that is to show whether what two have shown is so, over that of the finer
-constexpr double kShorter = 0.5;  // longest step of a pass whose tolerance would not shorten its steps, over the mean one before
-constexpr double kNearRounding = 1e-8;  // below it stiff joints may feel rounding, and steps multiply:
-constexpr std::uint64_t kLong = 10000;  // after a pass of so many steps the next one goes there by a tenth at a time
-constexpr double kFinest = 1e-11;  // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
-constexpr double kOptimism = 2;    // standard errors by which a rate may be smaller before no tolerance is said to help
-constexpr double kLoosestAccount = 1e-3;  // passes are finer than a looser tolerance, and so are their energies
-constexpr int kMostOpen = 2;       // passes made finer because the energy account did not close
+constexpr int kMaxPasses = 6;              // of a run, at most
+constexpr double kLoosest = 1e-4;          // of the second pass: above it steps are bounded by other things, and two passes are alike
+constexpr double kLoosestIdeal = 1e-8;     // the same for ideal joints, which are a reference, and cheap
+constexpr double kLoosestOfMotion = 1e-3;  // the same where the tolerance is of the motion; no pass is looser, and no energy account
+constexpr double kLeastTolerance = 1e-13;  // of any pass: below it all is rounding
+constexpr double kPromised = 0.7;          // of the tolerance: with a smaller stated error the true one keeps to it, which may be a third larger
+constexpr double kAlike = 1.25;            // steps of the finer pass over those of the coarser: with fewer the two say little
+constexpr double kSurest = 0.1;            // of the tolerance of the steps: no error of the motion is stated as smaller
+constexpr double kRepeated = 0.1;          // tolerance of a pass that is to show whether what two have shown is so, over that of the finer
+constexpr double kShorter = 0.5;           // longest step of a pass whose tolerance would not shorten its steps, over the mean one before
+constexpr double kNearRounding = 1e-8;     // tolerance below which stiff joints may feel rounding, and steps multiply
+constexpr std::uint64_t kLong = 10000;     // after a pass of so many steps the next one goes there by a tenth at a time
+constexpr double kFinest = 1e-11;          // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
+constexpr double kOptimism = 2;            // standard errors by which a rate may be smaller before no tolerance is said to help
+constexpr int kMostOpen = 2;               // passes made finer because the energy account did not close
 
 template <class S>
 class Passes {
@@ -79,7 +78,7 @@ class Passes {
     BasicIntegrationPlan<S> p = plan(tolerance);
     // Explicit methods take works by the trapezoidal rule, others leave them out of their control.
     const bool exact_work = choice_.method == "radau" || choice_.equations == Equations::kIdeal;
-    BasicEnergyWatch<S> energy(system_, p.duration, std::max(tolerance, std::min(settings_.tolerance, kLoosestAccount)), exact_work);
+    BasicEnergyWatch<S> energy(system_, p.duration, std::max(tolerance, std::min(settings_.tolerance, kLoosestOfMotion)), exact_work);
     if (p.scale) energy.expect(turnover_);
     p.energy = &energy;
     BasicRingingLoss<S> ringing = ringing_;

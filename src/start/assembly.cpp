@@ -120,7 +120,7 @@ void demand_reach(const JointData& joint, const Belt& belt, const S::Vec& z) {
 
 // Bodies that a contact finds deep inside each other are on the wrong side of it: the forces would be those of no machine.
 void demand_apart(const System& system, const Vecs& q) {
-  constexpr double kDeep = 1e-2;  // of the mechanism's size
+  constexpr double kDeep = 1e-2;  // of the mechanism's size: bodies that are deeper in each other are on the wrong side of a contact
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
   const Vecs still(q.size(), S::Vec::Zero());

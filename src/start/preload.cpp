@@ -7,20 +7,16 @@
 
 #include "integrators/absolute/gap_projector.h"
 #include "integrators/absolute/radau_stepper.h"
+#include "integrators/thresholds.h"
 #include "laws/gap_at_force.h"
 
 namespace pintle {
 namespace {
 
-constexpr int kPasses = 6;
-constexpr int kRounds = 4;         // of friction and reactions: each gains the coefficient of friction times a lever ratio
-constexpr int kClosing = 4;        // passes of a projection
-constexpr double kFits = 1e-9;     // of the largest force: gaps that differ by no more fit together
-constexpr double kClosed = 1e-11;  // of what the first pass found: the next one finds nothing
-constexpr double kMostGrowth = 2;  // of the largest force, in a pass that comes nearer to its end
-constexpr double kSameGap = 16 * std::numeric_limits<double>::epsilon();  // of the largest coordinate: the same but for rounding
-constexpr double kSameRate = 1e-9;                                        // of the largest speed
-constexpr int kMostJoints = 300;  // whose masses with closed joints are asked for: the cost grows with the square
+constexpr int kClosing = 4;         // passes of a projection onto closed gaps, at most
+constexpr double kFits = 1e-9;      // of the largest force, or speed: gaps, or rates, that differ by no more fit together
+constexpr double kClosed = 1e-11;   // of what the first pass found: the next one finds nothing
+constexpr int kMostJoints = 300;    // whose masses with closed joints are asked for: the cost grows with the square
 
 // What a force of a joint does to its own two bodies: the acceleration of the gap per unit of force, component by component.
 template <class S>
@@ -95,7 +91,7 @@ std::optional<BasicSystem<S>> with_springs_for_play(const BasicSystem<S>& system
 // What starts free but stands at the border of its law to rounding, as a rope that is taut without load, is taken for taut: it may carry.
 template <class S>
 void tauten(const BasicSystem<S>& system, BasicState<S>& state) {
-  const double rounding = kSameGap * largest_coordinate(state.q);
+  const double rounding = kLastBits * largest_coordinate(state.q);
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicLaw<S>& law = system.joints[j].law;
     if (law.ideal_limit() || !law.starts_free() || !is_open(law, state.gap[j], state.gap_rate[j])) continue;
@@ -135,7 +131,7 @@ void balance_start(const BasicSystem<S>& system, BasicState<S>& state) {
   std::vector<BasicJointKinematics<S>> r;
   system.motions(state.q, state.v, m);
   system.joint_kinematics(state.t, m, r);
-  const double same_gap = kSameGap * largest_coordinate(state.q), same_rate = kSameRate * largest_coordinate(state.v), same_force = kFits * largest_force(state.force);
+  const double same_gap = kLastBits * largest_coordinate(state.q), same_rate = kFits * largest_coordinate(state.v), same_force = kFits * largest_force(state.force);
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicJointData<S>& joint = system.joints[j];
     const BasicResponse<S> response = respond(joint.law, state.gap[j], state.gap_rate[j]);
@@ -238,7 +234,7 @@ double BasicInverseDynamics<S>::largest_held(const VecsOf<S>& gap) const {
 template <class S>
 bool BasicInverseDynamics<S>::find(BasicState<S>& state) {
   // Friction goes with the reactions: they are found again with the friction of the ones before.
-  for (int round = 0; round < (rubbing_.empty() ? 1 : kRounds); ++round) {
+  for (int round = 0; round < (rubbing_.empty() ? 1 : kFrictionRounds); ++round) {
     if (!find_accelerations(state)) return false;
     for (int pass = 0; pass < kClosing; ++pass) {
       const double change = projector_.improve_forces(Q_, state.a, state.force);
@@ -399,7 +395,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
   tauten(system, state);
   BasicInverseDynamics<S> forces(system);
   const std::optional<BasicSystem<S>> firm = with_springs_for_play(system, state);
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < kPreloadPasses; ++pass) {
     const BasicState<S> before = state;
     if (pass == 0 && firm) {
       if (!BasicInverseDynamics<S>(*firm).find(state)) break;
@@ -418,7 +414,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
       break;
     }
     forces.move_onto_gaps(state);
-    if (pass + 1 < kPasses) forces.take_forces_of_bodies(state);
+    if (pass + 1 < kPreloadPasses) forces.take_forces_of_bodies(state);
   }
   balance_start(system, state);
   if (!is_finite(state)) state = unloaded;  // next to a singular position joints would give way more than the mechanism is large

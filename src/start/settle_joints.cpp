@@ -7,35 +7,25 @@
 #include <utility>
 
 #include "integrators/absolute/radau_stepper.h"
+#include "start/preload.h"
 #include "start/slow_manifold.h"
 #include "start/time_scales.h"
 
 namespace pintle {
 namespace {
 
-constexpr double kScoutTolerance = 1e-3;
-constexpr int kScoutSteps = 3;
-constexpr int kSpans = 4;         // tried, each a quarter of the one before
-constexpr double kSettled = 0.1;  // relative change of the gaps in the last sweep that is taken for convergence
-constexpr double kMostGrowth = 2;  // of the largest joint force, by an attempt that has not converged
-// Change of a body's speed, over the largest speed and over the largest rate of a gap: beyond both it is not the joints' giving way.
-constexpr double kMostHaste = 1e-3, kMostLever = 30;
-constexpr double kExact = 1e-6;   // the same, with nothing left to settle
-constexpr double kEntirely = 0.99;  // of its slow motion: with this share a soft joint counts as going with the motion
+constexpr double kMostHaste = 1e-3, kMostLever = 30;  // change of a body's speed that is the joints' giving way: over the largest speed, at most; or over the largest rate of a gap, at most
+constexpr double kExact = 1e-6;                       // relative change of the gaps below which nothing is left to settle
+constexpr double kEntirely = 0.99;                    // of its slow motion: with this share a soft joint counts as going with the motion
 constexpr const char* kNotSettled =
     "no transient-free start was found (a force jumps at the start, or a long chain has modes slower than its motion): joint forces may ring from the start. All passes start alike, so the stated "
     "errors do not include this";
 
-// Half a step that a rough integration takes, once it is under way: the gaps are smooth over about that time. Rounded to a
-// part of the duration, so that it does not change with every slight change of the model: where a joint is as slow as the
-// motion, what is called its slow motion depends on the span.
+// Half a step that a rough integration takes. Rounded to a part of the duration, so that it does not change with every slight change of the
+// model: where a joint is as slow as the motion, what is called its slow motion depends on the span.
 template <class S>
 double smooth_span(const BasicSystem<S>& system, const BasicState<S>& start, double duration) {
-  BasicRadauStepper<S> scout(system, kScoutTolerance);
-  scout.start(start, 1e-3 * duration);
-  for (int i = 0; i < kScoutSteps; ++i)
-    if (!scout.step(duration)) return 0;
-  const double half = 0.5 * (scout.state().t - scout.previous().t);
+  const double half = 0.5 * natural_step<BasicRadauStepper<S>>(system, start, duration);
   return half > 0 ? duration * std::exp2(std::floor(std::log2(half / duration))) : 0;
 }
 

@@ -15,16 +15,14 @@ namespace pintle {
 namespace {
 
 constexpr int kNodes = ChebyshevNodes::kN;
-constexpr int kSweeps = 5;
 constexpr int kOrders = 6;               // sweeps in which soft joints go with the motion
 constexpr double kSmallForce = 0.05;     // of the largest: the change of a force is measured by this at least
-constexpr int kHalvings = 30;            // of the stretch that the forces' curves may need
+constexpr int kHalvings = 30;            // of the stretch that the forces' curves may need, at most
 constexpr double kResolved = 1e-4;       // of the forces: what the last coefficients of a resolved curve may be
 constexpr int kLeap = 4;                 // halvings at once, of a stretch that is far from resolved
-constexpr double kShortOfMotion = 0.25;  // of a stretch that is just resolved
+constexpr double kShortOfMotion = 0.25;  // of a stretch that is just resolved: what is used of it
 constexpr double kEager = 0.7;           // of a step of the motion, over the time constant of the fastest resolved joint
-constexpr double kMostSteps = 300;       // from one node to the next
-constexpr double kDiverged = 1e300, kConverged = 1e-10;  // relative change of a sweep
+constexpr double kMostSteps = 300;       // of the motion from one node to the next, at most
 
 using Nodes = ChebyshevNodes;
 template <class S>

@@ -2,10 +2,31 @@
 // fixed-point iteration on polynomials. theory/assembly Eqs. (4.1)-(4.4), and section 5 for soft joints.
 #pragma once
 
+#include <limits>
+
 #include "start/time_scales.h"
 #include "system/state.h"
 
 namespace pintle {
+
+// Of free bodies, and over a tree.
+inline constexpr int kSweeps = 5;            // over the joints, at most
+inline constexpr double kConverged = 1e-10;  // relative change of the gaps below which sweeps end
+inline constexpr double kDiverged = std::numeric_limits<double>::infinity();
+inline constexpr double kSettled = 0.1;      // relative change of the gaps in the last sweep that is taken for convergence
+inline constexpr int kSpans = 4;             // times over which the slow motion is looked for, each a quarter of the one before
+
+/// A step that a rough integration by `Method` takes, once it is under way: the gaps are smooth over about that time. 0: it takes none.
+template <class Method, class System, class State>
+double natural_step(const System& system, const State& start, double duration) {
+  constexpr double kScoutTolerance = 1e-3;  // of the rough integration
+  constexpr int kScoutSteps = 3;            // of it: the last one counts
+  Method scout(system, kScoutTolerance);
+  scout.start(start, 1e-3 * duration);
+  for (int i = 0; i < kScoutSteps; ++i)
+    if (!scout.step(duration)) return 0;
+  return scout.state().t - scout.previous().t;
+}
 
 /// A stretch of time, at most `longest`, that is short against the motion with closed joints: a quarter of one over which a
 /// polynomial follows its forces. No stiffness enters, so that it says the same whatever the joints are. 0 when there is none.
@@ -15,7 +36,7 @@ double span_of_motion(const BasicSystem<S>& system, const BasicState<S>& state, 
 template <class S>
 struct BasicSoftStart {
   bool placed = false;    // false: the state is as it was
-  double change = 1e300;  // relative, of the gaps in the last sweep
+  double change = kDiverged;  // relative, of the gaps in the last sweep
   VecsOf<S> share;             // per component: how far it goes with the motion, 1 entirely (fast ones do), 0 not at all
 };
 using SoftStart = BasicSoftStart<Planar>;

@@ -11,7 +11,7 @@ namespace {
 
 // theory/assembly Eq. (5.3). A gap is fast when its slower rate is this many times 1/span: then sweeps of section 4 gain digits, and what they leave
 // out is below (span/kFast)^2 of the force's curvature. Damping settles a rate at once when the faster one is kSettles times.
-constexpr double kFast = 20, kSettles = 100;
+constexpr double kFast = 20, kSettles = 100;  // slower rate of a gap over 1/span, above which it is fast; ratio of its two rates above which damping settles the faster one at once
 
 struct Rates {
   double slow = 0, fast = 0;  // [1/s]

@@ -6,9 +6,11 @@
 #include <limits>
 #include <optional>
 
+#include "integrators/thresholds.h"
 #include "laws/gap_at_force.h"
 #include "start/chebyshev_nodes.h"
 #include "start/preload.h"
+#include "start/slow_manifold.h"
 
 namespace pintle {
 namespace {
@@ -18,9 +20,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using S = Planar;
 
-constexpr int kPasses = 6, kSweeps = 5, kRounds = 4;
-constexpr double kSlow = 5e-4;  // of the slowest joint by itself: faster modes are held
-constexpr double kDiverged = 1e300, kConverged = 1e-10;  // relative change of a sweep
 
 const Law& law_of(const TreeInstant& at, std::size_t l) { return at.system().joints[at.tree().laws()[l]].law; }
 
@@ -43,7 +42,7 @@ double slowest_joint(const TreeInstant& at) {
 bool TreeInverseDynamics::prepare(const TreeState& state) {
   at_.place(state.t, state.y, state.u);
   at_.find_matrices();
-  const double mu = kSlow * slowest_joint(at_);
+  const double mu = kHeldAbove * slowest_joint(at_);
   return std::isfinite(mu) && mu > 0 && projector_.prepare(at_, mu, state, TreeProjector::Laws::kHolding);
 }
 
@@ -51,7 +50,7 @@ bool TreeInverseDynamics::find(TreeState& state) {
   if (!prepare(state)) return false;
   const bool rubs = push_by_friction(state);
   for (int pass = 0; pass < 2; ++pass) projector_.balance(at_, state.accel, true, state.force, state.w);
-  for (int round = 1; rubs && round < kRounds; ++round) {
+  for (int round = 1; rubs && round < kFrictionRounds; ++round) {
     find_gaps(state);
     push_by_friction(state);
     projector_.balance(at_, state.accel, true, state.force, state.w);
@@ -115,7 +114,7 @@ void TreeInverseDynamics::move_onto_gaps(TreeState& state) {
 
 void TreeInverseDynamics::balance(TreeState& state) {
   at_.place(state.t, state.y, state.u);
-  const double rounding = 16 * std::numeric_limits<double>::epsilon() * largest_coordinate(at_.pose().q);
+  const double rounding = kLastBits * largest_coordinate(at_.pose().q);
   VectorXd now, now_rate;
   at_.gaps(now);
   at_.rates(now_rate);
@@ -142,7 +141,7 @@ void start_tree_forces(TreeInverseDynamics& forces, bool preload, TreeState& sta
   state.accel = VectorXd::Zero(state.gap.size());
   if (preload) {
     state.rate.setZero();
-    for (int pass = 0; pass < kPasses; ++pass) {
+    for (int pass = 0; pass < kPreloadPasses; ++pass) {
       if (!forces.find(state)) break;
       forces.find_gaps(state);
       forces.move_onto_gaps(state);

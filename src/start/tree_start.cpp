@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "integrators/relative/tree_radau.h"
+#include "start/slow_manifold.h"
 #include "start/tree_preload.h"
 
 namespace pintle {
@@ -11,11 +12,7 @@ namespace {
 using S = Planar;
 
 constexpr double kStiffAtLeast = 1e12;    // of a tree joint's law while it is assembled, and at least that of every other [N/m]
-constexpr double kRelaxation = 1e-5;      // its damping over its stiffness [s]
-constexpr double kScoutTolerance = 1e-3;  // of the rough integration that finds a natural step
-constexpr int kScoutSteps = 3;
-constexpr int kSpans = 4;                 // tried, each a quarter of the one before
-constexpr double kSettled = 0.1;          // relative change of the gaps in the last sweep that is taken for convergence
+constexpr double kRelaxation = 1e-5;      // damping of such a law over its stiffness [s]
 
 // Laws for the tree's joints so stiff that they give way by nothing that matters.
 void stiffen(const JointTree& tree, System& system) {
@@ -38,15 +35,6 @@ void write(TreeInverseDynamics& forces, const TreeState& from, State& to) {
   forces.instant().write(from, from.w, to);
 }
 
-// A step that a rough integration takes, once it is under way: the gaps are smooth over about that time.
-double natural_step(const System& system, const State& start, double duration) {
-  TreeRadau scout(system, kScoutTolerance);
-  scout.start(start, 1e-3 * duration);
-  for (int i = 0; i < kScoutSteps; ++i)
-    if (!scout.step(duration)) return 0;
-  return scout.state().t - scout.previous().t;
-}
-
 void take_over(const JointTree& tree, const System& system, const SimulateSettings& settings, State& state) {
   TreeState start;
   TreeInverseDynamics forces(system, tree);
@@ -55,7 +43,7 @@ void take_over(const JointTree& tree, const System& system, const SimulateSettin
   start_tree_forces(forces, preload, start);
   write(forces, start, state);
   if (!preload) return;
-  double span = 0.5 * natural_step(system, state, settings.duration);
+  double span = 0.5 * natural_step<TreeRadau>(system, state, settings.duration);
   for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25)
     if (move_tree_onto_slow_manifold(system, tree, span, start) < kSettled) break;
   write(forces, start, state);

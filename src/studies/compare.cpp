@@ -8,10 +8,11 @@
 #include <map>
 #include <utility>
 
+#include "integrators/thresholds.h"
+
 namespace pintle {
 namespace {
 
-constexpr double kNegligible = 1e-4;  // a quantity is measured at least by this part of the largest of its unit
 constexpr double kBeyond = 2;         // times the error estimates: more is physical
 constexpr int kMostDigits = 15;
 

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/thresholds.h"
+
 namespace pintle {
 namespace {
 
-constexpr double kNegligible = 1e-4;  // a joint is measured at least by this part of the mechanism's largest force
 
 double largest_size(const Trajectory& run, int x, int y) {
   double most = 0;

@@ -65,7 +65,7 @@ class Builder {
   }
   // A long row of markers, such as the ground's of many mechanisms, is indexed when it is first asked.
   const Marker* find_marker(const std::vector<Marker>& row, const std::string& name) const {
-    constexpr std::size_t kFew = 16;
+    constexpr std::size_t kFew = 16;  // markers of a body that are looked through one by one; with more they are indexed
     if (row.size() <= kFew) {
       const auto it = std::find_if(row.begin(), row.end(), [&name](const Marker& marker) { return marker.name == name; });
       return it == row.end() ? nullptr : &*it;

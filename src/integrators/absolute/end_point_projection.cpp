@@ -9,13 +9,11 @@
 #include "integrators/radau/joint_pull.h"
 #include "integrators/radau/stage_lanes.h"
 #include "integrators/radau/step_error.h"
+#include "integrators/thresholds.h"
 #include "simd/processor_registers.h"
 
 namespace pintle {
 namespace {
-
-// Of the largest position or velocity: what its rounding leaves of a gap, or of its rate.
-constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 
 constexpr int kTautPasses = 2;  // besides the first: they leave the cube of what one pass leaves, Eq. (4.8)
 
@@ -87,8 +85,8 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
   }
 
   void project(const BasicStage<S>& last, double h, BasicState<S>& end, std::vector<typename S::Motion>& m, BasicLoadScale<S>& scale) {
-    const double rounding = kRounding * largest_coordinate(last.q), fastest = largest_coordinate(last.v);
-    const double rounding_of_rate = std::max(kRounding * fastest, std::min(rounding / std::abs(h), kMostOfRates * fastest));
+    const double rounding = kLastBits * largest_coordinate(last.q), fastest = largest_coordinate(last.v);
+    const double rounding_of_rate = std::max(kLastBits * fastest, std::min(rounding / std::abs(h), kMostOfRates * fastest));
     for (std::size_t b = 0; b < n_bodies(); ++b)
       {
         typename S::Vec dq;

@@ -8,16 +8,16 @@
 #include <utility>
 
 #include "integrators/dense/cubic_hermite.h"
+#include "integrators/thresholds.h"
 
 namespace pintle {
 namespace {
 
 using S = Planar;
 
-constexpr int kMaxIterations = 10;
-constexpr double kNewtonShare = 0.01;       // of the tolerance: a last correction that is small enough
-constexpr double kLoosestNewton = 1e-5;     // forces are k times positions: solved at least to this, whatever the tolerance
-constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+constexpr int kMaxIterations = 10;                                         // of Newton's method, at most
+constexpr double kNewtonShare = 0.01;                                      // of the tolerance: a last correction that is small enough
+constexpr double kLoosestNewton = 1e-5;                                    // forces are k times positions: solved at least to this, whatever the tolerance
 
 }  // namespace
 
@@ -80,7 +80,7 @@ void AlphaStepper::find_states(double t, const Vecs& q, const Vecs& v, double h)
         change = std::max(change, std::abs(move));
         size = std::max(size, std::abs(z_[first + z]));
       }
-      if (!(change > kRounding * size)) break;
+      if (!(change > kLastBits * size)) break;
     }
   }
 }
@@ -134,7 +134,7 @@ bool AlphaStepper::solve(double h) {
   for (int i = 0; i < kMaxIterations && !solved; ++i) {
     const double size = correct(h);
     if (!std::isfinite(size) || (i > 2 && size > 2 * last)) return false;
-    solved = size < std::max(enough, 1e-2 * kRounding);
+    solved = size < std::max(enough, 1e-2 * kLastBits);
     last = size;
   }
   solved = solved || last < 1;  // at the rounding of stiff forces corrections shrink no more
@@ -169,7 +169,7 @@ bool AlphaStepper::step(double t_end) {
   borders_.begin_step();
   while (true) {
     h = std::min(h, t_end - begin_.t);
-    if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
+    if (h <= kLastBits * std::abs(t_end)) {
       failure_ = fmt::format("the step size became too small at t = {:.9g} s", begin_.t);
       return false;
     }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "integrators/dormand_prince.h"
+#include "integrators/thresholds.h"
 
 namespace pintle {
 namespace {
@@ -61,7 +62,7 @@ bool Dopri5::step(double t_end) {
   borders_.begin_step();
   while (true) {
     h = std::min(h, t_end - begin_.t);
-    if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
+    if (h <= kLastBits * std::abs(t_end)) {
       failure_ = fmt::format("the step size became too small at t = {:.9g} s", begin_.t);
       return false;
     }

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/thresholds.h"
+
 namespace pintle {
 namespace {
 
-constexpr double kShort = 0.1;    // of the usual step
-constexpr double kNext = 2;       // the next step over one of these
-constexpr double kForget = 0.99;  // of the usual step, by one that is shorter
+constexpr double kShort = 0.1;    // of the usual step: shorter ones are taken whatever their error, since a jump lies in them
+constexpr double kNext = 2;       // the next step over one that was taken so
 
 }  // namespace
 

@@ -22,7 +22,7 @@ namespace {
 
 using Family = SundialsChoice::Family;
 
-constexpr long kMaxSteps = 20'000'000;  // of one call
+constexpr long kMaxSteps = 20'000'000;  // steps of one call, at most
 
 template <class T>
 using Owned = std::unique_ptr<T, void (*)(T*)>;

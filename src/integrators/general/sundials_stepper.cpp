@@ -14,9 +14,9 @@
 namespace pintle {
 namespace {
 
-constexpr int kDenseBodies = 8;          // more have their Newton matrices factorised by KLU
-constexpr double kBehind = 1e-7;         // of a step that ended on the root of a border without crossing it
-constexpr double kDoesNotSteer = 1e100;  // absolute tolerance of the energies [J]
+constexpr int kDenseBodies = 8;          // more bodies have their Newton matrices factorised by KLU
+constexpr double kBehind = 1e-7;         // of a step that ended on the root of a border without crossing it: so far the next one goes behind it
+constexpr double kDoesNotSteer = 1e100;  // absolute tolerance of the energies, which so do not steer steps [J]
 
 class SundialsStepper final : public Stepper {
  public:

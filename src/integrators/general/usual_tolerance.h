@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "integrators/thresholds.h"
 
 namespace pintle {
 
@@ -14,8 +15,7 @@ struct UsualTolerance {
 
   /// The error that a component may have which is a and b at the ends of a step; `largest` of all there, whose rounding it has at least.
   double weight(double a, double b, double largest) const {
-    constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
-    return relative * std::max(std::abs(a), std::abs(b)) + absolute + kRounding * largest;
+    return relative * std::max(std::abs(a), std::abs(b)) + absolute + kLastBits * largest;
   }
 };
 

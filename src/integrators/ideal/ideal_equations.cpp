@@ -8,15 +8,16 @@
 #include <map>
 #include <utility>
 
+#include "integrators/thresholds.h"
+
 namespace pintle {
 namespace {
 
 using S = Planar;
 
-constexpr int kOpening = 1;           // component of a mesh
-constexpr int kRefinements = 1;       // of the multipliers, against the accelerations they give
-constexpr int kMaxClosing = 12;       // Newton iterations on the loops
-constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+constexpr int kOpening = 1;      // component of a mesh
+constexpr int kRefinements = 1;  // of the multipliers, against the accelerations that they give
+constexpr int kMaxClosing = 12;  // Newton iterations on the loops, at most
 
 constexpr int kMostModes = 300;       // rows for which eigenvectors are taken; beyond, redundant rows are left out
 constexpr double kDamped = 1e-9;      // pivots below it are lifted, so that forces stay finite at singular positions ...
@@ -131,13 +132,13 @@ bool IdealEquations::factorize_with_penalties() {
 }
 
 bool IdealEquations::factorize_sparse() {
-  factors_.setShift(kRounding);
+  factors_.setShift(kLastBits);
   factors_.factorize(matrix_);
   if (factors_.info() != Eigen::Success) return false;
   smallest_pivot_ = factors_.vectorD().minCoeff();
   if (smallest_pivot_ >= damped_) return true;
   const double missing = 1 - std::max(0.0, smallest_pivot_) / damped_;
-  factors_.setShift(kRounding + damped_ * missing * missing);
+  factors_.setShift(kLastBits + damped_ * missing * missing);
   factors_.factorize(matrix_);
   return factors_.info() == Eigen::Success && factors_.vectorD().minCoeff() > 0;
 }
@@ -317,8 +318,8 @@ bool IdealEquations::close_positions(double t, Vecs& q) {
       const auto V = modes_.eigenvectors().rightCols(scale_.size() - n_redundant_);
       largest = (V * (V.transpose() * scale_.cwiseProduct(missing))).cwiseQuotient(scale_).cwiseAbs().maxCoeff();
     }
-    if (largest <= kRounding * size_) return true;
-    if (!(largest < before)) return largest <= 1e3 * kRounding * size_;  // rounding, or no way to close
+    if (largest <= kLastBits * size_) return true;
+    if (!(largest < before)) return largest <= 1e3 * kLastBits * size_;  // rounding, or no way to close
     before = largest;
     solve(missing, multipliers);
     push(multipliers, q);                                                                   // (1.4)

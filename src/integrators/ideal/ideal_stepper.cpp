@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "integrators/dormand_prince.h"
+#include "integrators/thresholds.h"
 #include "linalg/lagrange_weights.h"
 
 namespace pintle {
@@ -16,22 +17,21 @@ namespace {
 using S = Planar;
 using namespace dormand_prince;
 
-constexpr double kSingular = 1e-4;     // of the largest independence met: a position counts as singular below it
-constexpr double kSuspicious = 0.5;    // of the largest: above it no singular position is looked for
-constexpr double kTooNear = 3e-4;      // of the largest: no stage lies nearer to a singular position
-constexpr double kFewDigits = 3e-2;    // of the largest: nearer, forces lose too many digits, in proportion to its fourth power
-constexpr double kShareBefore = 0.55;  // of a step over a singular position: it lies in the widest gap between the stages, from 0.3 to 0.8
-constexpr double kLongest = 4;         // of the last step away from singular positions: beside them the error that counts may be next to none
-constexpr double kNearStep = 0.8;      // nearer than so many steps the position is stepped over; nearer than twice as many with the next one
-constexpr int kSearch = 48;            // positions tried inside a step
-constexpr double kCrossing = 0.1;      // of the tolerance times the usual step: so short a step is taken over a jump of a force
-constexpr double kNearJump = 1e-4;     // of the usual step: rejected steps that are this short are looked at for jumps
-constexpr double kForget = 0.99;       // of the usual step, by one that is shorter
+constexpr double kSingular = 1e-4;       // of the largest independence met: a position counts as singular below it
+constexpr double kSuspicious = 0.5;      // of the largest: above it no singular position is looked for
+constexpr double kTooNear = 3e-4;        // of the largest: no stage lies nearer to a singular position
+constexpr double kFewDigits = 3e-2;      // of the largest: nearer, forces lose too many digits, in proportion to its fourth power
+constexpr double kShareBefore = 0.55;    // of a step over a singular position: it lies in the widest gap between the stages, from 0.3 to 0.8
+constexpr double kLongest = 4;           // of the last step away from singular positions: beside them the error that counts may be next to none
+constexpr double kNearStep = 0.8;        // steps to a singular position: nearer than so many it is stepped over, nearer than twice as many with the next step
+constexpr int kSearch = 48;              // positions tried inside a step for the one where the constraints are most dependent, at most
+constexpr double kCrossing = 0.1;        // of the tolerance times the usual step: so short a step is taken over a jump of a force
+constexpr double kNearJump = 1e-4;       // of the usual step: rejected steps that are this short are looked at for jumps
 constexpr double kLeastCrossing = 1e-8;  // of the usual step: shorter ones are lost in the rounding of velocities over the step
-constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();  // of the largest velocity or acceleration: errors do not show below it
-constexpr double kUnbounded = 1e-3;    // of the largest reaction where the last accurate state is: what grows as 1/d counts above it
+constexpr double kAhead = 1e-3;          // of the step: how far inside of its ends is looked whether the independence falls
+constexpr double kUnbounded = 1e-3;      // of the largest reaction where the last accurate state is: what grows as 1/d counts above it
 constexpr int kMostReported = 5;
-constexpr std::size_t kAccurate = 5;   // states whose forces have most of their digits are kept
+constexpr std::size_t kAccurate = 5;     // states kept whose forces have most of their digits: forces at singular positions are drawn through them
 
 }  // namespace
 
@@ -71,7 +71,6 @@ bool IdealStepper::is_too_near(double independence) const { return independence 
 double IdealStepper::step_around_singular_position(double h) {
   clear_h_ = 0;
   if (!is_near_singular_position()) return h;
-  constexpr double kAhead = 1e-3;
   Vecs ahead = begin_.q;
   for (std::size_t i = 0; i < ahead.size(); ++i) ahead[i] += kAhead * h * begin_.v[i];
   const double fall = independence_ - equations_.independence(begin_.t + kAhead * h, ahead);
@@ -135,7 +134,7 @@ bool IdealStepper::crosses_jump() const {
 // Puts the stage onto the branch of the motion: where the branch's tangent at the start of the step says as much as the stage. The nearest
 // closed position may be on another branch, or distorted by it; Taylor's series leads to one on this. theory/ideal Eq. (3.3).
 bool IdealStepper::onto_branch() {
-  constexpr int kPasses = 3;
+  constexpr int kPasses = 3;  // projections of a stage onto its branch of the motion
   const double after = stage_.t - begin_.t;
   branch_ = begin_.q;
   for (std::size_t i = 0; i < branch_.size(); ++i) branch_[i] += after * (begin_.v[i] + after * (begin_.a[i] / 2 + after * jerk_[i] / 6));
@@ -243,7 +242,7 @@ double IdealStepper::error(double h) {
     at_begin_->project_onto_tangent(error_v_);
   }
   double worst = 0;
-  const double of_velocities = kRounding * largest_coordinate(begin_.v) / h, of_accelerations = kRounding * largest_coordinate(begin_.a);
+  const double of_velocities = kLastBits * largest_coordinate(begin_.v) / h, of_accelerations = kLastBits * largest_coordinate(begin_.a);
   const auto above = [](const S::Vec& x, double rounding) { return S::Vec((x.cwiseAbs().array() - rounding).max(0)); };
   for (std::size_t i = 0; i < error_q_.size(); ++i) {
     const S::Vec d = above(error_v_[i], of_accelerations).cwiseMax(above(error_q_[i], of_velocities)).cwiseProduct(system_.bodies[i].mass).cwiseQuotient(scale_.body[i]);
@@ -254,7 +253,6 @@ double IdealStepper::error(double h) {
 }
 
 void IdealStepper::grow_scale() {
-  constexpr double kNegligible = 1e-4;  // of the largest load of the mechanism
   double largest = 0;
   for (int i = 0; i < system_.n_bodies(); ++i) largest = std::max({largest, scale_.body[i][0], system_.bodies[i].mass[0] * end_.a[i].head<2>().norm()});
   largest = std::max(largest, largest_force(end_.force));
@@ -353,14 +351,13 @@ void IdealStepper::look_for_singular_position() {
     const double t = begin_.t + share * (end_.t - begin_.t);
     return equations_.independence(t, share <= 0 ? begin_.q : share >= 1 ? end_.q : dense_.at(t, begin_, end_).q);
   };
-  constexpr double kNear = 1e-3;
   const double first = independence_, last = at(1);
   independence_ = last;
   most_independent_ = std::max(most_independent_, last);
   if (std::min(first, last) > kSuspicious * most_independent_) return;
-  if (!(at(kNear) < first) || !(at(1 - kNear) < last)) return;
+  if (!(at(kAhead) < first) || !(at(1 - kAhead) < last)) return;
   double low = 0, high = 1;
-  for (int i = 0; i < kSearch && high - low > 1e-12; ++i) {
+  for (int i = 0; i < kSearch; ++i) {
     const double third = (high - low) / 3;
     if (at(low + third) < at(high - third)) high -= third;
     else low += third;

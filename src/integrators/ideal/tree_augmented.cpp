@@ -8,6 +8,7 @@
 
 #include "integrators/dense/cubic_hermite.h"
 #include "integrators/ideal/ideal_equations.h"
+#include "integrators/thresholds.h"
 
 namespace pintle {
 namespace {
@@ -15,12 +16,11 @@ namespace {
 using S = Planar;
 using Eigen::Index;
 
-constexpr int kMaxIterations = 20;
-constexpr double kEnough = 1e-9;        // a last correction, of the coordinates: the iteration is not quadratic
-constexpr double kFactor = 1e7;         // of the penalties in the iteration, over what resists them in a step
-constexpr double kProjection = 1e-7;    // added to the rows' scaled matrix: dependent rows need no care
-constexpr int kPasses = 2;              // of a projection
-constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+constexpr int kMaxIterations = 20;                                         // of Newton's method, at most
+constexpr double kEnough = 1e-9;                                           // a correction that is the last, over the largest coordinate: the iteration is not quadratic
+constexpr double kFactor = 1e7;                                            // of the penalties in the iteration, over what resists them in a step
+constexpr double kProjection = 1e-7;                                       // added to the rows' scaled matrix: dependent rows need no care
+constexpr int kPasses = 2;                                                 // of a projection
 
 double largest_of(const Eigen::VectorXd& x) { return std::max(1e-3, x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0); }
 
@@ -196,7 +196,7 @@ bool TreeAugmented::solve(double h) {
   for (int i = 0; i < kMaxIterations; ++i) {
     const double size = correct(h);
     if (!std::isfinite(size) || (i > 2 && size > 2 * last)) return false;
-    if (size < std::max(kEnough, kRounding) * largest_y_) return project(trial_.t, trial_.u, trial_.w);
+    if (size < std::max(kEnough, kLastBits) * largest_y_) return project(trial_.t, trial_.u, trial_.w);
     last = size;
   }
   return false;
@@ -222,7 +222,7 @@ bool TreeAugmented::step(double t_end) {
   double h = max_step_ > 0 ? std::min(h_, max_step_) : h_, most = 5;
   while (true) {
     h = std::min(h, t_end - begin_.t);
-    if (h <= kRounding * std::abs(t_end)) {
+    if (h <= kLastBits * std::abs(t_end)) {
       failure_ = fmt::format("the step size became too small at t = {:.9g} s", begin_.t);
       return false;
     }

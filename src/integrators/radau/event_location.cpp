@@ -8,10 +8,10 @@
 namespace pintle {
 namespace {
 
-constexpr int kHalvings = 46;         // of an interval between two samples: how well an event is located
-constexpr double kInside = 1e-6;      // of an interval: an extremum this close to its end is the end's
-constexpr double kUnsure = 0.1;       // of a parabola's curvature: what two of them that agree may still be wrong by
-constexpr int kSecants = 16;          // after so many, halvings
+constexpr int kHalvings = 46;     // of an interval between two samples: how well an event is located
+constexpr double kInside = 1e-6;  // of an interval: an extremum this close to its end is the end's
+constexpr double kUnsure = 0.1;   // of a parabola's curvature: what two of them that agree may still be wrong by
+constexpr int kSecants = 16;      // steps of the secant before the search goes on by halvings
 
 // Second divided difference over three points.
 double curvature(double x0, double y0, double x1, double y1, double x2, double y2) {

@@ -10,9 +10,9 @@ namespace pintle {
 class NewtonContraction {
  public:
   enum class Verdict { kGoOn, kDone, kHopeless };
-  static constexpr int kMaxIterations = 14;
+  static constexpr int kMaxIterations = 14;   // of a step, at most
   static constexpr double kShare = 0.05;      // of the tolerance, left to the iteration
-  static constexpr double kRounding = 1e-15;  // of the loads: no correction
+  static constexpr double kRounding = 1e-15;  // of the loads: a residual that needs no correction
 
   /// Before a step's first iteration.
   void start() { last_ = before_last_ = seen_ = 0; }

@@ -25,7 +25,7 @@ double legendre(int degree, double x) {
 RadauTable::Vec radau_nodes(int n) {
   RadauTable::Vec c(n);
   const auto f = [n](double x) { return legendre(n, x) - legendre(n - 1, x); };
-  constexpr int kIntervals = 1000;
+  constexpr int kIntervals = 1000;  // of (0, 1), in which the method's nodes are looked for: no two are in one
   int found = 0;
   for (int i = 0; i < kIntervals && found < n - 1; ++i) {
     double low = static_cast<double>(i) / kIntervals, high = (i + 1.0) / kIntervals;
@@ -97,7 +97,7 @@ RadauTable::Vec RadauTable::weights_of_last(int count, double x) const {
 RadauTable::Vec RadauTable::weights(double x) const { return weights_of_last(n + 1, x); }
 
 RadauTable::Vec RadauTable::continuation(double share, double ratio) const {
-  constexpr double kParabola = 1.3, kLine = 1.8;  // measured: fewest iterations in steps that grow, as many as ever in those that do not
+  constexpr double kParabola = 1.3, kLine = 1.8;  // step over the last one, above which stages are guessed by a parabola, which takes the fewest iterations in steps that grow; above which by a line
   const double size = std::abs(ratio);
   return weights_of_last(size > kLine ? 2 : size > kParabola ? 3 : n + 1, 1 + share * ratio);
 }

@@ -11,7 +11,7 @@ namespace {
 // The applied force or the driven coordinate that is not a number at t or just after; empty: all are.
 template <class S>
 std::string broken_function(const BasicSystem<S>& system, double t) {
-  constexpr double kJustAfter = 1e-9;
+  constexpr double kJustAfter = 1e-9;  // of the time: how long after an instant a function has to be a number too
   for (const double at : {t, t + kJustAfter * std::max(std::abs(t), 1e-3)}) {
     const std::array<double, 1> time{at};
     for (const BasicAppliedData<S>& force : system.applied)

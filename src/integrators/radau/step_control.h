@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "integrators/radau/event_location.h"
+#include "integrators/thresholds.h"
 #include "pintle/trajectory.h"
 #include "system/system.h"
 
@@ -23,9 +24,9 @@ class StepControl {
   bool have_history = false;             // the last step's curve goes on into the next one
 
   // Events, in parts of the usual step.
-  static constexpr double kCrossing = 1e-9;  // the least that is gone to cross one
-  static constexpr double kAtOnce = 1e-2;    // a jump that is crossed again within it may be held
-  static constexpr double kMoment = 1e-6;    // to see where accelerations lead
+  static constexpr double kCrossing = 1e-9;  // of the usual step: the least that is gone to cross an event
+  static constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
+  static constexpr double kMoment = 1e-6;    // of the usual step: how far is looked to see where accelerations lead
 
   void start(double h) {
     next = usual = h;
@@ -47,25 +48,24 @@ class StepControl {
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
 
  private:
-  static constexpr int kMaxRetries = 80;
-  static constexpr double kShortest = 1e-11;    // of the run: the shortest step that is refused for its error
-  static constexpr double kLastBits = 16;       // times the rounding of the time: no step is shorter
-  static constexpr double kEventAtStart = 1e-5;  // of the usual step: an event this close to its start is crossed
-  static constexpr int kMostCrossed = 24;        // events at the start of one step
-  static constexpr double kShrink = 0.5;        // after Newton failed
-  static constexpr double kContraction = 0.2;   // of Newton's iteration, that steps are chosen for
-  static constexpr double kSteady = 0.9;        // of the error of the trial before: a shorter step has not made it smaller
-  static constexpr int kMostSteady = 3;         // such trials: the error is that of the accelerations that the step starts with
+  static constexpr int kMaxRetries = 80;          // trials of one step, at most
+  static constexpr double kShortest = 1e-11;      // of the run: the shortest step that is refused for its error
+  static constexpr double kEventAtStart = 1e-5;   // of the usual step: an event this close to its start is crossed
+  static constexpr int kMostCrossed = 24;         // events that are crossed at the start of one step, at most
+  static constexpr double kShrink = 0.5;          // of the step, after Newton's iteration failed; the most that its contraction shortens the next one
+  static constexpr double kContraction = 0.2;     // of Newton's iteration, that steps are chosen for
+  static constexpr double kSteady = 0.9;          // of the error of the trial before: a shorter step has not made it smaller
+  static constexpr int kMostSteady = 3;           // such trials, after which the error counts as that of the accelerations that the step starts with
   static constexpr double kMostRounding = 1e-11;  // of the loads, a hundredth of the least tolerance: what may pass for rounding
-  static constexpr double kAboveRounding = 2;     // that of one step is not that of the next
-  static constexpr double kShort = 0.9;         // of the way to an event that is only guessed at
-  static constexpr double kAfterEvent = 0.3;    // of the usual step
+  static constexpr double kAboveRounding = 2;     // times the rounding that has been met is taken off the error: that of one step is not that of the next
+  static constexpr double kShort = 0.9;           // of the way to an event that is only guessed at: so far the step goes
+  static constexpr double kAfterEvent = 0.3;      // of the usual step: the first step after an event, where nothing is known of it
   // Of the way to an event: a step that ends so soon, for its error, is a usual one. Of the block in LinearContact half of it refuses 2400 steps and double of it
   // 630, where this refuses 1100; not a step changes in the worn pins and wheels of the collection. With all of the way, pins that stick take twice the steps.
   static constexpr double kOnTheWay = 0.01;
-  static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;
+  static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;  // of the step for which the error would be the tolerance; the least ratio of two steps; the largest; the largest after the first step
 
-  static constexpr double kSame = 0.95, kSameAbove = 1.1;  // a factor near 1 keeps the step, and with it the factorised Jacobians
+  static constexpr double kSame = 0.95, kSameAbove = 1.1;  // ratio of two steps from which on the step is kept, and with it the factorised Jacobians; up to which it is
 
   static constexpr double kLeastError = 0.01;  // over the tolerance: a smaller one says nothing about its growth
 
@@ -94,11 +94,11 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
   int crossed = 0;                           // events at its start
   SwitchingEvent ahead;                      // the last that was located
   for (int retry = 0; retry < kMaxRetries; ++retry) {
-    const double left = t_end - method.t(), rounding = std::numeric_limits<double>::epsilon() * std::max(std::abs(method.t()), std::abs(t_end));
-    if (crossed > 0 && left <= kLastBits * rounding) return true;  // the last event was at the end
+    const double left = t_end - method.t(), last_bits = kLastBits * std::max(std::abs(method.t()), std::abs(t_end));
+    if (crossed > 0 && left <= last_bits) return true;  // the last event was at the end
     if (h > left || (!up_to_event && left - h < 1e-3 * h)) h = left;
     else if (!up_to_event && left < 1.7 * h) h = 0.5 * left;
-    if (h <= kLastBits * rounding) break;
+    if (h <= last_bits) break;
     const bool solved = method.attempt(h);
     if (!solved) {
       ++counters.newton_failures;
@@ -132,8 +132,8 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     }
     if (event.after < 1) {
       up_to_event = true;
-      const bool at_end = solved && left - event.before * h <= kLastBits * rounding;  // then there is nothing behind it
-      h = at_end ? std::min(event.before * h, left) - 2 * rounding : h * (event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort));  // so that the last stage is not on it
+      const bool at_end = solved && left - event.before * h <= last_bits;  // then there is nothing behind it
+      h = at_end ? std::min(event.before * h, left) - last_bits / 8 : h * (event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort));  // so that the last stage is not on it
       if (solved) ++counters.rejected;
       continue;
     }

@@ -9,6 +9,7 @@
 #include "integrators/dense/cubic_hermite.h"
 #include "integrators/dormand_prince.h"
 #include "integrators/load_scale.h"
+#include "integrators/thresholds.h"
 
 namespace pintle {
 namespace {
@@ -98,7 +99,7 @@ bool TreeDopri5::step(double t_end) {
   borders_.begin_step();
   while (true) {
     h = std::min(h, t_end - begin_.t);
-    if (h <= 16 * std::numeric_limits<double>::epsilon() * std::abs(t_end)) {
+    if (h <= kLastBits * std::abs(t_end)) {
       failure_ = fmt::format("the step size became too small at t = {:.9g} s", begin_.t);
       return false;
     }

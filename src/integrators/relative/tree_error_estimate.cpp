@@ -7,6 +7,7 @@
 #include "integrators/load_scale.h"
 #include "integrators/radau/step_error.h"
 #include "integrators/relative/tree_radau.h"
+#include "integrators/thresholds.h"
 
 namespace pintle {
 namespace {
@@ -152,9 +153,8 @@ void TreeRadau::finish_step(double h) {
 
 // Coordinates and rates, each in one pass, and a second where the first has left more than rounding. Eq. (6.2).
 void TreeRadau::move_onto_gaps() {
-  const double epsilon = 16 * std::numeric_limits<double>::epsilon();
-  const double rounding = epsilon * largest_coordinate(stages_.instant(n_ - 1).pose().q);
-  const double rounding_of_rate = epsilon * largest_coordinate(stages_.instant(n_ - 1).pose().v);
+  const double rounding = kLastBits * largest_coordinate(stages_.instant(n_ - 1).pose().q);
+  const double rounding_of_rate = kLastBits * largest_coordinate(stages_.instant(n_ - 1).pose().v);
   end_at_.place_only(end_.t, end_.y, end_.u);
   VectorXd now;
   for (int pass = 0; pass < 2; ++pass) {
@@ -176,7 +176,7 @@ void TreeRadau::move_onto_gaps() {
 
 // The carried gap, but the geometry's where no motion could bring it there (redundant joints). theory/time Eq. (4.3).
 void TreeRadau::take_gaps() {
-  const double rounding = 16 * std::numeric_limits<double>::epsilon() * largest_coordinate(end_at_.pose().q);
+  const double rounding = kLastBits * largest_coordinate(end_at_.pose().q);
   VectorXd now;
   end_at_.gaps(now, &end_);
   for (Index i = 0; i < now.size(); ++i)

@@ -31,7 +31,7 @@ class TreeProjector {
   Eigen::MatrixXd weighted(const Eigen::MatrixXd& x) const;  // row-scaled w x
   void set_held_mass(const Eigen::MatrixXd& J, const Eigen::MatrixXd& H, const Eigen::VectorXd& taut);
   Eigen::VectorXd forces_for(const Eigen::VectorXd& on_coordinates) const;
-  static constexpr int kPasses = 2;                          // where bodies are held, besides the first
+  static constexpr int kPasses = 2;  // of the projection where bodies are held, besides the first
 
   Eigen::LLT<Eigen::MatrixXd> mass_;
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;

@@ -12,7 +12,7 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using S = Planar;
 
-constexpr double kDifference = 1e-7;   // step of the differences, of a coordinate's size and at least of 1
+constexpr double kDifference = 1e-7;  // step of the difference quotients, of a coordinate's size and at least of 1
 
 }  // namespace
 

@@ -61,7 +61,7 @@ struct GapContactLaw : RubbingContact {
 
  private:
   static constexpr int kSlipping = 1;          // component of the slip
-  static constexpr double kUsualDepth = 1e-6;  // [m]
+  static constexpr double kUsualDepth = 1e-6;  // where the stiffness stands for the contact's, in guesses and in checks [m]
   template <class T>
   static ContactMotion<T> motion(const LawInput<T>& in) {
     return {T(0.0) - in.gap[0], T(0.0) - in.rate[0], in.rate[kSlipping]};

@@ -101,7 +101,7 @@ struct PinContact : RubbingContact {
     at.slip = at.nx * in.rate[1] - at.ny * in.rate[0] + radius * in.rate[2];
     return at;
   }
-  static constexpr double kCentred = 1e-6;
+  static constexpr double kCentred = 1e-6;  // of the clearance: a pin this near to the centre has no direction to the bush, and no force
 };
 
 struct ClearanceLaw : PinContact {

@@ -16,13 +16,13 @@ using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kUnknown
 using Field = Eigen::Array<double, Eigen::Dynamic, 1, 0, kPoints, 1>;  // one number per point of the quadrature
 using Vec3 = Eigen::Vector3d;
 
-constexpr int kNewton = 30;
-constexpr double kSettled = 1e-10;   // relative step after which the error is its square
-constexpr double kRounding = 1e-6;   // relative step below which one that does not shrink is rounding
-constexpr double kTail = 1e-8;       // share of the last coefficients; energy and forces are wrong by its square
-constexpr double kRoughTail = 1e-4;  // the same with all the functions that there are
-constexpr double kReach = 0.35, kTurn = 1;  // displacement across and angle that one step of the path may add
-constexpr int kMostParts = 16, kFinest = 512;  // of the path
+constexpr int kNewton = 30;                    // most iterations for the shape of a blade
+constexpr double kSettled = 1e-10;             // relative step after which the error is its square
+constexpr double kRounding = 1e-6;             // relative step below which one that does not shrink is rounding
+constexpr double kTail = 1e-8;                 // share of the last coefficients; energy and forces are wrong by its square
+constexpr double kRoughTail = 1e-4;            // the same with all the functions that there are
+constexpr double kReach = 0.35, kTurn = 1;     // displacement across that one step of the path may add, over the length; angle that it may add [rad]
+constexpr int kMostParts = 16, kFinest = 512;  // steps of the path, at most; parts into which the path is halved, at most
 constexpr double kSurelyStable = std::numbers::pi * std::numbers::pi;
 
 // Of a symmetric matrix: as many as there are negative pivots (Sylvester's law of inertia).

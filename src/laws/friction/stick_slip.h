@@ -68,7 +68,7 @@ struct StickSlip {
   }
 
  private:
-  static constexpr double kStill = 1e-6;      // [m/s]
+  static constexpr double kStill = 1e-6;      // a slip that counts as none [m/s]
   static constexpr double kCrossed = 1e-12;   // a speed that is not the rounding of zero [m/s]
   static constexpr double kUnloaded = 1e-12;  // a friction that breaks surfaces on which nothing presses [N]
 

@@ -7,15 +7,15 @@
 namespace pintle {
 namespace {
 
-constexpr double kSaturated = 0.03;     // of the peak: differences above it no longer grow as small ones do
-constexpr double kFitted = 1e-6;        // of that, the smallest difference that is fitted
-constexpr int kMostBlocks = 32, kLeastBlocks = 8;
-constexpr double kLeastGain = 4.6;      // of the logarithm over the fit: a factor of a hundred
-constexpr double kLeastBend = -0.28;    // second over first Legendre coefficient: 0 of an exponential, -0.56 of any power of time
-constexpr double kMostPower = 4;        // of time: errors of phases grow with its first or second, forces' with little more
-constexpr double kSure = 5;             // standard errors that a rate is above zero
-constexpr double kSurePair = 3;         // that two rates may be apart
-constexpr double kSameRate = 0.3;       // of the rate, besides
+constexpr double kSaturated = 0.03;                // of the peak: differences above it no longer grow as small ones do
+constexpr double kFitted = 1e-6;                   // of that: the smallest difference that is fitted
+constexpr int kMostBlocks = 32, kLeastBlocks = 8;  // of rows, whose largest difference is fitted; with fewer nothing is fitted
+constexpr double kLeastGain = 4.6;                 // of the logarithm over the fit: a factor of a hundred
+constexpr double kLeastBend = -0.28;               // second over first Legendre coefficient: 0 of an exponential, -0.56 of any power of time
+constexpr double kMostPower = 4;                   // of time: errors of phases grow with its first or second, forces' with little more
+constexpr double kSure = 5;                        // standard errors that a rate is above zero
+constexpr double kSurePair = 3;                    // standard errors that two rates may be apart
+constexpr double kSameRate = 0.3;                  // of the rate, that two rates may be apart besides
 
 struct Blocks {
   int n = 0;
@@ -98,7 +98,7 @@ double bend(const Blocks& b) {
 }  // namespace
 
 double ErrorGrowth::extrapolated(double t, double with_rate) const {
-  constexpr double kMost = 600;  // keeps the number finite
+  constexpr double kMost = 600;  // exponent, at most: keeps the number finite
   return level * std::exp(std::min(kMost, with_rate * (t - until)));
 }
 

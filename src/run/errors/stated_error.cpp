@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/thresholds.h"
+
 namespace pintle {
 namespace {
 
-constexpr double kNegligible = 1e-4;         // a joint is measured at least by this part of the mechanism's largest force
-constexpr double kNegligibleOfMotor = 1e-3;  // a motor by this
-constexpr double kOfEqual = 3;               // share of the finer pass, over how errors fall
+constexpr double kNegligibleOfMotor = 1e-3;  // a motor is measured at least by this part of it
+constexpr double kOfEqual = 3;               // share of the difference that is the finer pass's error, where the finer pass is as coarse
 
 // Of centres, and of points at `radius` from them across the axis of their turn. theory/time Eq. (6.4).
 template <class S>

@@ -13,13 +13,13 @@ namespace {
 
 using S = Planar;
 
-constexpr double kYielding = 1e-4;  // of the stiffest joint: what is softer is not asked to stay closed
-constexpr double kHeld = 1e-9;      // weight of the bodies' places beside that of the gaps: squares of smaller singular values are zero
-constexpr double kMisfits = 30, kLoosest = 1e-2;  // singular values that count as zero, over the misfit of the joints; at most
-constexpr double kStride = 0.02;    // of the typical arm, along the motion
-constexpr double kNoticed = 1e-6;   // of a radian, or of the arm: a drive that asks for less beyond a limit is at it
-constexpr double kNothing = 1e-7;   // a projection that leaves less is rounding
-constexpr int kMostStrides = 4000, kMostIterations = 30, kMostTurns = 20, kHalvings = 50;
+constexpr double kYielding = 1e-4;                                                         // of the stiffest joint: what is softer is not asked to stay closed
+constexpr double kHeld = 1e-9;                                                             // weight of the bodies' places beside that of the gaps: squares of smaller singular values are zero
+constexpr double kMisfits = 30, kLoosest = 1e-2;                                           // singular values that count as zero, over the misfit of the joints; the same, at most
+constexpr double kStride = 0.02;                                                           // of the typical arm: a stride along the motion
+constexpr double kNoticed = 1e-6;                                                          // of a radian, or of the arm: a drive that asks for less beyond a limit is at it
+constexpr double kNothing = 1e-7;                                                          // what a projection leaves of a direction, below which it is rounding
+constexpr int kMostStrides = 4000, kMostIterations = 30, kMostTurns = 20, kHalvings = 50;  // along one way, at most; iterations to close the joints, at most; turns, at most; halvings for a turning point
 
 // The motion that the joints leave when they stay closed, while the drives other than one stay where they are.
 class RigidMotion {
@@ -295,7 +295,7 @@ class LimitSearch {
     return {};
   }
 
-  static constexpr double kFlat = 1e-5;    // of the gradient: less is a turning point
+  static constexpr double kFlat = 1e-5;    // slope of the drive's coordinate along the motion, below which it is at a turning point
   static constexpr double kApart = 1e-3;   // of the typical arm: pins that are nearer stand in each other
   static constexpr double kInLine = 1e-4;  // sine of the angle between two lines that are one
 

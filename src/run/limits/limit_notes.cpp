@@ -13,9 +13,9 @@
 namespace pintle {
 namespace {
 
-constexpr int kHalvings = 40;
-constexpr double kFinestReplay = 1e-6, kLoosestReplay = 1e-4;  // tolerances of the steps that find the instant
-constexpr double kFirstStep = 1e-4, kLittle = 0.01;            // of the duration
+constexpr int kHalvings = 40;                                  // of the step in which a limit is reached
+constexpr double kFinestReplay = 1e-6, kLoosestReplay = 1e-4;  // tolerance of the steps that find the instant, at least; at most
+constexpr double kFirstStep = 1e-4, kLittle = 0.01;            // of the duration: the first of these steps; of the duration: how soon after a run that has stopped its drive would be at a limit
 
 // What has been found about a drive.
 struct Finding {

@@ -6,9 +6,9 @@
 namespace pintle {
 namespace {
 
-constexpr double kNear = 0.9;   // of the square of the peak so far: a step whose grid stays below is not searched
-constexpr int kRefinements = 3; // of a peak between the points of the grid; each interval is a quarter of the one before
-constexpr double kFiner = 0.25;
+constexpr double kNear = 0.9;    // of the square of the peak so far: a step whose grid stays below is not searched
+constexpr int kRefinements = 3;  // of a peak between the points of the grid; each interval is a quarter of the one before
+constexpr double kFiner = 0.25;  // interval of a refinement over that of the one before
 
 template <int n>
 double square_at(const CurveGrid& grid, double x, const double* samples, int stride, std::array<double, n>& value) {

@@ -56,7 +56,7 @@ class BasicStuckJoints {
 
  private:
   static constexpr double kCarries = 1e-6;  // of the joint's force: less is rounding
-  static constexpr double kLong = 0.5;      // of the run
+  static constexpr double kLong = 0.5;      // of the run, that a joint has to stick for a note
   struct Joint {
     int index;
     std::size_t at_friction, at_stuck;  // among the law's columns

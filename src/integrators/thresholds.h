@@ -1,0 +1,17 @@
+// Thresholds that several methods, and what judges them, have in common.
+#pragma once
+
+#include <limits>
+
+namespace pintle {
+
+/// What rounding may make of a number that is computed from others, over the largest of these.
+inline constexpr double kLastBits = 16 * std::numeric_limits<double>::epsilon();
+
+/// A joint is measured at least by this part of the mechanism's largest force. theory/time Eq. (6.1).
+inline constexpr double kNegligible = 1e-4;
+
+/// Of the usual step that is kept in mind, by each step that is shorter: one in which something is met does not make steps short.
+inline constexpr double kForget = 0.99;
+
+}  // namespace pintle
