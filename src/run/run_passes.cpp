@@ -162,11 +162,7 @@ class Passes {
     const BasicForceTable<S> &coarse = coarse_->forces(), &fine = fine_->forces();
     coarse_tolerance_ = before;
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
-    const double fall = fall_of_errors(before, steps_before), plain = largest_of(relative_differences(system_, difference_of_passes(system_, coarse, fine, fine.t.back(), {})));
-    share_ = alike_ || out_.of_motion ? 1.0 : share_of_finer(fall);
-    ringing_share_ = std::max(share_, share_of_ringing(fall));
-    if (plain_ > 0) ringing_share_ = std::max(share_, std::min(ringing_share_, share_of_finer(plain / plain_)));  // as the differences have fallen
-    plain_ = plain;
+    share_ = alike_ || out_.of_motion ? 1.0 : share_of_finer(fall_of_errors(before, steps_before));
     stages_before_ = choice_.stages;
     find_difference(coarse, fine);
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
@@ -191,13 +187,13 @@ class Passes {
 
   // A difference that has stopped growing does not tell the finer one's part.
   void take_all(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
-    share_ = ringing_share_ = 1;
+    share_ = 1;
     find_difference(coarse, fine);
     relative_difference_ = relative_differences(system_, difference_);
   }
 
   void find_difference(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
-    difference_ = difference_of_passes(system_, coarse, fine, fine.t.back(), {share_, ringing_share_});
+    difference_ = difference_of_passes(system_, coarse, fine, fine.t.back(), share_);
   }
 
   // Whether another pass is made, and with which tolerance.
@@ -333,8 +329,7 @@ class Passes {
   // Of the last two passes.
   PassDifference difference_;
   std::vector<double> relative_difference_;  // of each joint
-  double share_ = 1, ringing_share_ = 1, error_ = 0;
-  double plain_ = 0;               // largest relative difference of the last two, all of it
+  double share_ = 1, error_ = 0;
   bool alike_ = false;             // their steps
   int stages_before_ = 0;          // of the coarser one
   ErrorGrowth growth_, last_growth_;  // and of the pair before

@@ -46,7 +46,7 @@ void promise_until_horizons(const BasicSystem<S>& system, const BasicForceTable<
     if (system.joints[j].servo >= 0) continue;
     LoadSummary& joint = out.joints[row++];
     joint.horizon = horizons[j];
-    const PassDifference until = difference_of_passes(system, coarse, fine, joint.horizon, {share, share});
+    const PassDifference until = difference_of_passes(system, coarse, fine, joint.horizon, share);
     joint.error_estimate = share * until.force[j];
     joint.moment_error_estimate = share * until.couple[j];
     joint.relative_error_estimate = share * relative_differences(system, until)[j];

@@ -1,5 +1,5 @@
 // What long steps take off the vibrations of the joints: a ringing that is smaller than the tolerance of the steps dies in all passes alike, and where the
-// joint damps it less the true force goes on ringing. theory/time Eqs. (6.12), (6.13).
+// joint damps it less the true force goes on ringing. theory/time Eqs. (6.11), (6.12).
 #pragma once
 
 #include <vector>

@@ -37,12 +37,12 @@ struct Measures {
   }
 };
 
-// Differences and peaks up to a row. All of a difference is the finer pass's error, so that `share` of what is kept is, where nothing says that it is
-// better: where its steps are no shorter, and where the difference alternates from row to row.
+// Differences and peaks up to a row. Where the finer pass has no shorter steps, nothing says that it is better: all of the difference is its
+// error there, so that `share` of what is kept is.
 template <class S>
 class Growing {
  public:
-  Growing(std::size_t joints, const FinerShare& share) : all_(1 / share.rule), of_ringing_(share.ringing / share.rule) {
+  Growing(std::size_t joints, double share) : all_(1 / share) {
     for (auto* x : {&c_.force, &c_.couple, &c_.peak, &c_.peak_couple}) x->assign(joints, 0.0);
   }
   void add_row(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, std::size_t i) {
@@ -52,31 +52,15 @@ class Growing {
       c_.peak[j] = std::max(c_.peak[j], linear_magnitude<S>(load));
       c_.peak_couple[j] = std::max(c_.peak_couple[j], angular_magnitude<S>(load));
       if (coarse.t[i] != fine.t[i]) continue;
-      const typename S::Vec difference = apart(coarse, fine, i, j);
-      const auto part = [&](const auto& magnitude) {
-        const double size = magnitude(difference);
-        return size * (fine.step[i] < coarse.step[i] ? std::max(1.0, of_ringing_ * alternation(coarse, fine, i, j, size, magnitude)) : all_);
-      };
-      c_.force[j] = std::max(c_.force[j], part(linear_magnitude<S>));
-      c_.couple[j] = std::max(c_.couple[j], part(angular_magnitude<S>));
+      const typename S::Vec difference = (fine.step[i] < coarse.step[i] ? 1 : all_) * (coarse.world[i * joints + j] - load);
+      c_.force[j] = std::max(c_.force[j], linear_magnitude<S>(difference));
+      c_.couple[j] = std::max(c_.couple[j], angular_magnitude<S>(difference));
     }
   }
   const PassDifference& so_far() const { return c_; }
 
  private:
-  typename S::Vec apart(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, std::size_t i, std::size_t j) const {
-    const std::size_t at = i * c_.force.size() + j;
-    return coarse.world[at] - fine.world[at];
-  }
-  // 1 where a difference changes its sign from row to row, or is that of one row alone; 0 where it is a straight line. theory/time Eq. (6.11).
-  template <class Magnitude>
-  double alternation(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, std::size_t i, std::size_t j, double size, const Magnitude& magnitude) const {
-    if (i == 0 || i + 1 >= std::min(coarse.t.size(), fine.t.size()) || !(size > 0)) return 0;
-    const typename S::Vec before = apart(coarse, fine, i - 1, j), after = apart(coarse, fine, i + 1, j);
-    return magnitude(typename S::Vec(before - 2 * apart(coarse, fine, i, j) + after)) / (magnitude(before) + 2 * size + magnitude(after));
-  }
-
-  double all_, of_ringing_;  // over the share
+  double all_;  // over the share
   PassDifference c_;
 };
 
@@ -88,7 +72,7 @@ std::size_t common_rows(const BasicForceTable<S>& coarse, const BasicForceTable<
 double largest_of(const std::vector<double>& x) { return x.empty() ? 0 : *std::max_element(x.begin(), x.end()); }
 
 template <class S>
-PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until, const FinerShare& share) {
+PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until, double share) {
   Growing<S> growing(system.joints.size(), share);
   for (std::size_t i = 0; i < common_rows(coarse, fine) && fine.t[i] <= until; ++i) growing.add_row(coarse, fine, i);
   return growing.so_far();
@@ -146,7 +130,7 @@ double motion_difference(const BasicSystem<S>& system, const BasicForceTable<S>&
 template <class S>
 DifferenceCurve force_difference_curve(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
   const std::size_t joints = system.joints.size();
-  const PassDifference whole = difference_of_passes(system, coarse, fine, fine.t.back(), {});
+  const PassDifference whole = difference_of_passes(system, coarse, fine, fine.t.back(), 1.0);
   const Measures<S> measures(system, whole.peak, whole.peak_couple);
   DifferenceCurve curve;
   for (std::size_t i = 0; i < common_rows(coarse, fine); ++i) {
@@ -166,7 +150,7 @@ template <class S>
 std::vector<double> force_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double tolerance) {
   const std::size_t joints = system.joints.size();
   std::vector<double> horizon(joints, 0.0);
-  Growing<S> growing(joints, {share, share});
+  Growing<S> growing(joints, share);
   for (std::size_t i = 0; i < common_rows(coarse, fine); ++i) {
     growing.add_row(coarse, fine, i);
     const PassDifference& c = growing.so_far();
@@ -184,7 +168,6 @@ double curve_horizon(const DifferenceCurve& curve, double tolerance) {
 }
 
 double share_of_finer(double fall) { return std::min(1.0, kOfEqual * std::pow(fall, kErrorPower)); }
-double share_of_ringing(double fall) { return std::min(1.0, kOfEqual * std::pow(fall, kErrorPower / 2)); }
 
 template <class S>
 void state_errors(const BasicSystem<S>& system, const PassDifference& difference, const BasicRingingLoss<S>& ringing, double share, double least, std::vector<LoadSummary>& joints) {
@@ -198,7 +181,7 @@ void state_errors(const BasicSystem<S>& system, const PassDifference& difference
   }
 }
 
-template PassDifference difference_of_passes(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double until, const FinerShare& share);
+template PassDifference difference_of_passes(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double until, double share);
 template void include_peaks(const BasicLoadRecorder<Planar>& fine, PassDifference& c);
 template void include_peaks(const BasicLoadRecorder<Spatial>& fine, PassDifference& c);
 template std::vector<double> relative_differences(const BasicSystem<Planar>& system, const PassDifference& c);
@@ -206,7 +189,7 @@ template double motion_difference(const BasicSystem<Planar>& system, const Basic
 template DifferenceCurve force_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template DifferenceCurve motion_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template std::vector<double> force_horizons(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double share, double tolerance);
-template PassDifference difference_of_passes(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double until, const FinerShare& share);
+template PassDifference difference_of_passes(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double until, double share);
 template std::vector<double> relative_differences(const BasicSystem<Spatial>& system, const PassDifference& c);
 template double motion_difference(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
 template DifferenceCurve force_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);

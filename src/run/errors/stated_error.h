@@ -17,15 +17,10 @@ struct PassDifference {
   std::vector<double> force, couple, peak, peak_couple;
 };
 
-/// Which part of the difference of two passes is the error of the finer one, as a rule, and where the difference alternates from row to row.
-struct FinerShare {
-  double rule = 1, ringing = 1;
-};
-
-/// Over the rows up to time `until` [s]. `share.rule` of it is the error of the finer pass: rows of which more is count all the more.
-/// theory/time Eqs. (6.2), (6.11).
+/// Over the rows up to time `until` [s]. `share` of it is the error of the finer pass: rows where its steps are no shorter than the coarser
+/// one's count all the more. theory/time Eq. (6.2).
 template <class S>
-PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until, const FinerShare& share);
+PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until, double share);
 
 /// Adds what the rows do not show: the peaks between them.
 template <class S>
@@ -37,7 +32,7 @@ void include_peaks(const BasicLoadRecorder<S>& fine, PassDifference& c);
 template <class S>
 std::vector<double> relative_differences(const BasicSystem<S>& system, const PassDifference& c);
 
-/// The ringing that the steps of a pass have taken off each joint's force, by the same measures [-]. theory/time Eq. (6.13).
+/// The ringing that the steps of a pass have taken off each joint's force, by the same measures [-]. theory/time Eq. (6.12).
 template <class S>
 std::vector<double> relative_ringing(const BasicSystem<S>& system, const PassDifference& c, const BasicRingingLoss<S>& ringing);
 
@@ -51,8 +46,6 @@ inline constexpr double kErrorPower = 0.8;
 /// The error of the finer of two passes over their difference, where tolerances or steps let errors fall to this part: all of it where they are alike.
 /// theory/time Eq. (6.2).
 double share_of_finer(double fall);
-/// The same of ringing, of which passes may damp as much as they resolve: less is trusted of how errors fall. theory/time Eq. (6.11).
-double share_of_ringing(double fall);
 
 /// States the errors of the joints that are no servos: `share` of the difference, at least the ringing that is lost, and at least `least` of the peak.
 /// theory/time Eq. (6.1).
