@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "dynamics/time_scales.h"
 #include "integrators/absolute/radau_stepper.h"
 #include "start/slow_manifold.h"
-#include "start/time_scales.h"
 
 namespace pintle {
 namespace {

@@ -2,7 +2,7 @@
 // fixed-point iteration on polynomials. theory/assembly Eqs. (4.1)-(4.4), and section 5 for soft joints.
 #pragma once
 
-#include "start/time_scales.h"
+#include "dynamics/time_scales.h"
 #include "system/state.h"
 
 namespace pintle {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <optional>
 
+#include "dynamics/inverse_dynamics.h"
 #include "laws/gap_at_force.h"
-#include "start/chebyshev_nodes.h"
-#include "start/preload.h"
+#include "linalg/chebyshev_nodes.h"
 
 namespace pintle {
 namespace {

@@ -24,7 +24,7 @@ using Vec = Planar::Vec;
 // A model at an instant, ready for a step.
 struct Start {
   Model model;
-  System system;
+  const System system;
   State begin;
   LoadScale scale;
 
