@@ -10,7 +10,6 @@
 #include "pintle/simulate.h"
 #include "run/passes.h"
 #include "start/start.h"
-#include "system/build.h"
 
 namespace pintle::bench {
 namespace {
@@ -117,9 +116,7 @@ RunPasses run_passes(const Problem& problem, double tolerance) {
   return {std::move(pilot), std::move(reported)};
 }
 
-ReadyModel::ReadyModel(Model from) : model(std::move(from)), system(build_system(model)) {
-  start = start_of_run(model, system).state;
-}
+ReadyModel::ReadyModel(Model from) : model(std::move(from)), assembly(start_of_run(model)) {}
 
 Problem ReadyModel::problem(int outputs) const {
   Problem p;

@@ -4,6 +4,7 @@
 #include "bench/problem.h"
 #include "integrators/methods.h"
 #include "pintle/model.h"
+#include "start/start.h"
 
 namespace pintle::bench {
 
@@ -34,9 +35,10 @@ struct ReadyModel {
   ReadyModel(const ReadyModel&) = delete;
   ReadyModel& operator=(const ReadyModel&) = delete;
 
-  Model model;
-  System system;
-  State start;
+  const Model model;
+  const Assembly assembly;
+  const System& system = assembly.system;
+  const State& start = assembly.state;
   Problem problem(int outputs) const;
   /// The marker "body.marker".
   FollowedPoint point(const MarkerRef& marker) const;

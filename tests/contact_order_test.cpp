@@ -70,8 +70,9 @@ struct Flight {
 Flight fly(int stages, double tolerance, double max_step = 0) {
   const double lasts = contact_time();
   const Model model = thrown();
-  System system = build_system(model);
-  const State start = start_of_run(model, system).state;
+  const Assembly assembly = start_of_run(model);
+  const System& system = assembly.system;
+  const State& start = assembly.state;
   const auto stepper = make_stepper(system, {.stages = stages}, tolerance);
   if (max_step > 0) stepper->set_max_step(max_step);
   stepper->start(start, max_step > 0 ? max_step : 1e-4);

@@ -28,8 +28,9 @@ struct Followed {
 
 // The borders that the laws cross, as steps end there.
 inline Followed follow(const Model& model, double tolerance, double t_end, MethodChoice choice) {
-  System system = build_system(model);
-  const State start = start_of_run(model, system).state;
+  const Assembly assembly = start_of_run(model);
+  const System& system = assembly.system;
+  const State& start = assembly.state;
   choice.equations = model.simulate.equations;
   const auto stepper = make_stepper(system, choice, tolerance);
   stepper->start(start, 1e-4 * t_end);

@@ -85,8 +85,9 @@ struct Bounces {
 
 TEST(Events, ABlockTouchesTurnsAndLetsGoWhenItShould) {
   const Model model = bouncing();
-  System system = build_system(model);
-  const State start = start_of_run(model, system).state;
+  const Assembly assembly = start_of_run(model);
+  const System& system = assembly.system;
+  const State& start = assembly.state;
   ASSERT_EQ(system.switching_functions().size(), 2u);
   const Bounces exact;
   for (const int stages : {3, 5})

@@ -102,9 +102,9 @@ TEST(ForceAccuracyOfTheCompressor, AStepWithoutAValueIsRefused) {
   model.simulate.duration = 0.1;
   model.simulate.output_step = 0.01;
   for (const double first_step : {8e-5, 1e-3, 0.02}) {
-    System system = build_system(model);
-    RadauStepper stepper(system, 1e-2);
-    stepper.start(start_of_run(model, system).state, first_step);
+    const Assembly start = start_of_run(model);
+    RadauStepper stepper(start.system, 1e-2);
+    stepper.start(start.state, first_step);
     bool going = true;
     while (going && stepper.state().t < 0.1) going = stepper.step(0.8);
     EXPECT_TRUE(going) << stepper.failure();

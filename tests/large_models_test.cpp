@@ -8,7 +8,6 @@
 
 #include "pintle/simulate.h"
 #include "run/recording.h"
-#include "start/assembly.h"
 #include "start/start.h"
 #include "system/build.h"
 
@@ -20,8 +19,7 @@ TEST(LargeModels, AChainWithoutPositionsIsPutTogether) {
   Model model = chain_model(kBars);
   for (Body& bar : model.bodies) bar.position.reset();
   model.simulate.start = Start::kUnloaded;
-  System system = build_system(model);
-  const Assembly assembly = assemble(model, system);
+  const Assembly assembly = assemble(model);
   for (const int i : {0, 1, 777, kBars - 1}) {
     EXPECT_NEAR(assembly.state.q[i][0], i + 0.5, 1e-6);
     EXPECT_NEAR(assembly.state.q[i][1], 0, 1e-6);
@@ -31,9 +29,8 @@ TEST(LargeModels, AChainWithoutPositionsIsPutTogether) {
 // Two hundred loops sway along the ladder slower than they swing: the start must not take that for the joints' giving way.
 TEST(LargeModels, ALongLadderStartsWithItsSpeeds) {
   const Model model = ladder_model(200);
-  System system = build_system(model);
-  const Assembly start = start_of_run(model, system);
-  for (int i = 0; i < system.n_bodies(); ++i) EXPECT_NEAR(start.state.v[i][2], model.bodies[i].spin.value(), 1e-4) << system.bodies[i].name;
+  const Assembly start = start_of_run(model);
+  for (int i = 0; i < start.system.n_bodies(); ++i) EXPECT_NEAR(start.state.v[i][2], model.bodies[i].spin.value(), 1e-4) << start.system.bodies[i].name;
 }
 
 // Let go level, each bar's end must fall as the next one's beginning does: F_i + 4 F_i+1 + F_i+2 = 0 and 4 F_0 + 2 F_1 = m g, whose

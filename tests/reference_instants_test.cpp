@@ -11,19 +11,16 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 
 struct AtStart {
-  System system;
-  State state;
+  const Assembly start;
   std::vector<Planar::Motion> m;
 
-  explicit AtStart(const Model& model) : system(build_system(model)), state(start_of_run(model, system).state) {
-    system.motions(state.q, state.v, m);
-  }
+  explicit AtStart(const Model& model) : start(start_of_run(model)) { start.system.motions(start.state.q, start.state.v, m); }
   /// On the second body, world axes.
-  Planar::Point force(int j) const { return system.pose(system.joints[j].at, m).world_force(state.force[j]); }
+  Planar::Point force(int j) const { return start.system.pose(start.system.joints[j].at, m).world_force(start.state.force[j]); }
 };
 
 void expect_force(const AtStart& at, int j, double x, double y, double tolerance) {
-  EXPECT_LT((at.force(j) - Planar::Point(x, y)).norm(), tolerance) << at.system.joints[j].name << ": " << at.force(j).transpose();
+  EXPECT_LT((at.force(j) - Planar::Point(x, y)).norm(), tolerance) << at.start.system.joints[j].name << ": " << at.force(j).transpose();
 }
 
 Motor torque(const std::string& joint, double moment) {
@@ -68,12 +65,12 @@ TEST(ReferenceInstants, NortonFourBar) {
   model.forces = {force, moment};
   model.motors = {torque("O2", 27.48101259725779)};
   const AtStart at(model);
-  EXPECT_NEAR(at.state.v[0][2], omega, 1e-5);
-  EXPECT_NEAR(at.state.v[1][2], -5.869354068454683, 1e-5);
-  EXPECT_NEAR(at.state.v[2][2], 7.931634292031013, 1e-5);
-  EXPECT_NEAR(at.state.a[0][2], -40, 1e-2);
-  EXPECT_NEAR(at.state.a[1][2], 120.8968454372914, 1e-2);
-  EXPECT_NEAR(at.state.a[2][2], 276.28909907606584, 1e-2);
+  EXPECT_NEAR(at.start.state.v[0][2], omega, 1e-5);
+  EXPECT_NEAR(at.start.state.v[1][2], -5.869354068454683, 1e-5);
+  EXPECT_NEAR(at.start.state.v[2][2], 7.931634292031013, 1e-5);
+  EXPECT_NEAR(at.start.state.a[0][2], -40, 1e-2);
+  EXPECT_NEAR(at.start.state.a[1][2], 120.8968454372914, 1e-2);
+  EXPECT_NEAR(at.start.state.a[2][2], 276.28909907606584, 1e-2);
   expect_force(at, 0, -523.3317925899651, -479.69445218665345, 5e-3);
   expect_force(at, 1, -525.4669389652903, -446.3327900721997, 5e-3);  // of the crank on the coupler
   expect_force(at, 2, 5.942015427557443, -388.9158665153362, 5e-3);   // of the coupler on the rocker
@@ -106,7 +103,7 @@ TEST(ReferenceInstants, MarghituSliderCrank) {
   model.forces = {load};
   model.motors = {torque("A", 151.49242404917499)};
   const AtStart at(model);
-  EXPECT_NEAR(at.state.a[0][2], 0, 1e-2);
+  EXPECT_NEAR(at.start.state.a[0][2], 0, 1e-2);
   expect_force(at, 0, -102.82842712474618, 116.41421356237309, 2e-3);
   expect_force(at, 1, -102.47487373415292, 106.76776695296637, 2e-3);
   expect_force(at, 2, -101.41421356237309, 97.12132034355965, 2e-3);

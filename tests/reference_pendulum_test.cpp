@@ -73,9 +73,9 @@ TEST(ReferencePendulum, ARawStartIsFollowedInAllDigits) {
 // The dashpot's part of the pin force stays below 1e-4 of the spring's peak.
 TEST(ReferencePendulum, TheDashpotCarriesNextToNothing) {
   const Model model = reference::mechanism("pendulum");
-  System system = build_system(model);
-  RadauStepper stepper(system, 1e-6);
-  stepper.start(start_of_run(model, system).state, 1e-3);
+  const Assembly start = start_of_run(model);
+  RadauStepper stepper(start.system, 1e-6);
+  stepper.start(start.state, 1e-3);
   double spring = 0, dashpot = 0;
   while (stepper.state().t < 2) {
     ASSERT_TRUE(stepper.step(2)) << stepper.failure();

@@ -17,7 +17,6 @@
 #include "run/passes.h"
 #include "run/recorder.h"
 #include "start/start.h"
-#include "system/build.h"
 
 namespace pintle::reference {
 
@@ -155,8 +154,9 @@ inline void expect_body(const Trajectory& run, std::size_t row, const std::strin
 
 /// One integration of the model from its start; `stages` 0: the explicit method.
 inline Integration integrate_once(const Model& model, double tolerance, int stages, const LoadScale* scale, Trajectory* out = nullptr) {
-  System system = build_system(model);
-  const State start = start_of_run(model, system).state;
+  const Assembly assembly = start_of_run(model);
+  const System& system = assembly.system;
+  const State& start = assembly.state;
   IntegrationPlan plan;
   plan.duration = model.simulate.duration;
   plan.output_step = model.simulate.output_step > 0 ? model.simulate.output_step : plan.duration / 500;

@@ -17,10 +17,9 @@ State crane_with_pins(const std::string& stiffness) {
   for (const char* pin : {"O", "Q", "H_boom", "H_tie"})
     for (const std::string& value : {"stiffness=" + stiffness, std::string("damping=500")}) settings.push_back("joint." + std::string(pin) + "." + value);
   const Model model = reference::mechanism("crane_bushing", settings);
-  System system = build_system(model);
-  State state = start_of_run(model, system).state;
-  EXPECT_EQ(system.joints[kBushing].name, "bushing");
-  return state;
+  const Assembly start = start_of_run(model);
+  EXPECT_EQ(start.system.joints[kBushing].name, "bushing");
+  return start.state;
 }
 
 // The difference goes as the pins' compliance, and is nothing where that is.

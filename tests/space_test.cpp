@@ -146,8 +146,9 @@ TEST(Space, AHingeCountsTurns) {
 // The paper's four-bar, section 8, in the plane and in space.
 TEST(Space, APlanarFourBarGivesThePlanarForces) {
   const Model model = sample::four_bar(1e8, 3000);
-  System planar = build_system(model);
-  const State start = start_of_run(model, planar).state;
+  const Assembly assembly = start_of_run(model);
+  const System& planar = assembly.system;
+  const State& start = assembly.state;
   const SpatialSystem system = sample::in_space(planar);
   RadauStepper flat(planar, 1e-9, 5);
   BasicRadauStepper<S> deep(system, 1e-9, 5);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "integrators/absolute/radau_stepper.h"
-#include "start/preload.h"
+#include "start/start.h"
 
 namespace pintle {
 namespace {

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "start/preload.h"
-#include "start/settle_joints.h"
+#include "start/start.h"
 #include "system/build.h"
 
 namespace pintle::sample {

@@ -4,6 +4,8 @@
   - a file in src/<room> includes nothing of a room on its right; laws and joints do not see each other;
   - a file in src/<room>/<folder> includes nothing of a folder of that room on its right;
   - nothing in src/ includes the program, tests or benchmarks; a public header includes public headers only;
+  - outside src/start nothing of that room but start/start.h is included;
+  - no reference to a System is without const: what changes a system returns another;
   - no file has more than 500 lines, no function more than 100;
   - no vague names in files and types; no notes to self;
   - no constant or type of one name in two headers: the linker would give one's value or code to the readers of the other.
@@ -12,7 +14,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = "base simd space model laws joints linalg system integrators mobility start bearings run batch check studies live results io report sweeps".split()
+ROOMS = "base simd space model laws joints linalg system kinematics integrators mobility dynamics start bearings run batch check studies live results io report sweeps".split()
 # The folders of a room, in order of dependence; what stands in the room itself is everybody's.
 FOLDERS_OF = {
     "base": "text expression".split(),
@@ -44,6 +46,8 @@ MAX_FILE, MAX_FUNCTION = 500, 100
 VAGUE = {"manager", "handler", "util", "utils", "helper", "helpers", "misc", "data2", "tmp"}
 NOTE = re.compile(r"\b(" + "TO" + "DO|FIX" + "ME|XX" + r"X)\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
+START_DOOR = "start/start.h"
+CHANGEABLE_SYSTEM = re.compile(r"(?<!const )\b(?:System|SpatialSystem|BasicSystem<\w+>)\s*&")
 TYPE = re.compile(r"^\s*(?:class|struct|enum class|enum|namespace)\s+(\w+)")
 SHARED_NAME = re.compile(
     r"^inline\s+(?:constexpr|const)\b[^=({]*?\b(?P<constant>k[A-Z]\w*)\s*[={(;\[]|^(?:struct|class|enum class)\s+(?P<type>\w+)\s*(?:final\s*)?(?::[^:].*)?\{"
@@ -86,6 +90,8 @@ def folder_may_include(path, target):
 
 def include_breach(path, target):
     parts = path.parts
+    if target.startswith("start/") and target != START_DOOR and parts[:2] != ("src", "start"):
+        return f"{target} is behind the door of its room: include {START_DOOR}"
     if parts[0] == "include" and not target.startswith("pintle/"):
         return f"a public header includes the internal {target}"
     if parts[0] == "src" and len(parts) > 2:
@@ -133,6 +139,8 @@ def breaches(root, path):
         if include := INCLUDE.match(line):
             if breach := include_breach(path, include[1]):
                 yield number, breach
+        if CHANGEABLE_SYSTEM.search(line.split("//")[0]):
+            yield number, "a reference to a System that is not const: take it by value and return another"
         if (named := TYPE.match(line)) and (vague := words(named[1]) & VAGUE):
             yield number, f"the name {named[1]} says '{', '.join(sorted(vague))}': name what it is"
 

@@ -22,7 +22,7 @@ compile() {
 }
 export -f compile
 
-rooms=(base simd space model laws joints linalg system integrators mobility start bearings run check studies live results io)
+rooms=(base simd space model laws joints linalg system kinematics integrators mobility dynamics start bearings run check studies live results io)
 sources=$( (find "${rooms[@]/#/src/}" -name '*.cpp'; find studio/kernel -maxdepth 1 -name '*.cpp') | grep -v '_tests\?\.cpp$' | sort)
 xargs -P "$(nproc)" -I{} bash -c "compile {} $out" <<<"$sources"
 echo "web_check: $(wc -l <<<"$sources") sources of the studio's kernel compile with emscripten"

@@ -9,7 +9,6 @@
 #include "bench/paper/runs.h"
 #include "integrators/methods.h"
 #include "start/start.h"
-#include "system/build.h"
 
 namespace pintle::paper {
 namespace {
@@ -186,9 +185,9 @@ Item make_figure_7() {
 Item make_dashpot() {
   Item item{"dashpot", "Damper forces", {}, {}, {}, {}, {}};
   const Model model = pendulum(Start::kAssembled);
-  System system = build_system(model);
-  const auto stepper = make_stepper(system, {}, 1e-7);
-  stepper->start(start_of_run(model, system).state, 1e-3);
+  const Assembly start = start_of_run(model);
+  const auto stepper = make_stepper(start.system, {}, 1e-7);
+  stepper->start(start.state, 1e-3);
   double spring = 0, damper = 0, ratio = 0, at = 0, ratio_x = 0;
   for (double t = 1e-3; t < 2; t += 1e-3) {
     while (stepper->state().t < t)

@@ -14,7 +14,6 @@
 #include "run/integration.h"
 #include "run/recorder.h"
 #include "start/start.h"
-#include "system/build.h"
 
 namespace pintle::paper {
 namespace {
@@ -43,8 +42,9 @@ Trajectory run(const Model& model, bool tolerance_may_fail) {
 }
 
 SingleRun run_once(const Model& model, const std::string& method, double tolerance, double max_step) {
-  System system = build_system(model);
-  const State start = start_of_run(model, system).state;
+  const Assembly assembly = start_of_run(model);
+  const System& system = assembly.system;
+  const State& start = assembly.state;
   IntegrationPlan plan;
   plan.duration = model.simulate.duration;
   plan.output_step = model.simulate.output_step;

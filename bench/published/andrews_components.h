@@ -10,7 +10,6 @@
 
 #include "integrators/methods.h"
 #include "start/start.h"
-#include "system/build.h"
 
 namespace pintle::published {
 
@@ -50,8 +49,9 @@ struct End {
 };
 
 inline End end_of(const Model& model, double tolerance) {
-  System system = build_system(model);
-  const State start = start_of_run(model, system).state;
+  const Assembly assembly = start_of_run(model);
+  const System& system = assembly.system;
+  const State& start = assembly.state;
   MethodChoice choice;
   choice.equations = model.simulate.equations;
   choice.method = usual_method(choice.equations);

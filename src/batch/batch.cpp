@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "batch/batch_work.h"
+#include "dynamics/time_scales.h"
 #include "integrators/absolute/radau_stepper.h"
 #include "integrators/thresholds.h"
 #include "pintle/simulate.h"
 #include "start/start.h"
-#include "start/time_scales.h"
 #include "system/build.h"
 
 namespace pintle {
@@ -86,11 +87,11 @@ bool is_near(double x, double y) { return std::abs(x - y) <= 1e-9 * std::abs(y);
 
 std::optional<BatchPlan> plan_batch(const Model& base, const NominalRun& nominal, const Trajectory& run) {
   if (!is_for_batches(base) || !(nominal.wanted > 0) || !(nominal.span > 0)) return std::nullopt;
-  BatchPlan plan;
-  plan.base = build_system(base);
-  if (!BatchMechanism::accepts(plan.base)) return std::nullopt;
-  const Assembly start = start_of_run(base, plan.base, nominal.span);
+  if (!BatchMechanism::accepts(build_system(base))) return std::nullopt;
+  const Assembly start = start_of_run(base, nominal.span);
   if (!(start.settled_over > 0)) return std::nullopt;
+  BatchPlan plan;
+  plan.base = start.system;
   plan.slack = slack_of(plan.base, start.state, nominal.span);
   plan.duration = base.simulate.duration;
   plan.max_step = base.simulate.max_step;
@@ -136,12 +137,11 @@ bool Batch::is_like_base(const System& variant) const {
 }
 
 bool Batch::put(int lane, const Model& variant) {
-  System& system = variant_[lane];
-  system = build_system(variant, &plan_.base);
-  if (!is_like_base(system)) return false;
-  const Assembly assembly = assemble_bodies(variant, system);
+  Assembly assembly = assemble_bodies(variant, &plan_.base);
+  if (!is_like_base(assembly.system)) return false;
+  variant_[lane] = std::move(assembly.system);
   const auto board = [&](int i) {
-    work_->put(i, system, assembly.state.q, assembly.state.v, variant.simulate.duration);
+    work_->put(i, variant_[lane], assembly.state.q, assembly.state.v, variant.simulate.duration);
   };
   if (filled_ == std::array<bool, kVariantLanes>{})
     for (int i = 0; i < kVariantLanes; ++i) board(i);  // lanes that stay empty have numbers, too

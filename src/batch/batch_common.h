@@ -8,12 +8,12 @@
 #include <memory>
 #include <vector>
 
-#include "start/chebyshev_nodes.h"
-#include "start/preload.h"
 #include "batch/batch_work.h"
+#include "dynamics/inverse_dynamics.h"
+#include "integrators/absolute/pose_blocks.h"
 #include "integrators/dense/force_samples.h"
 #include "integrators/radau/newton_convergence.h"
-#include "integrators/absolute/pose_blocks.h"
 #include "integrators/radau/step_error.h"
+#include "linalg/chebyshev_nodes.h"
 #include "linalg/complex_lanes.h"
 #include "simd/processor_registers.h"

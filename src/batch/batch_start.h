@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "batch/batch_projector.h"
-#include "start/chebyshev_nodes.h"
-#include "start/preload.h"
+#include "dynamics/inverse_dynamics.h"
+#include "linalg/chebyshev_nodes.h"
 
 namespace pintle::PINTLE_BATCH {
 

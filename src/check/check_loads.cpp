@@ -13,26 +13,21 @@ using S = Planar;
 
 constexpr long kMaxLoadWork = 20'000'000;  // bodies times loads: beyond, the whole is compared only
 
-// A system with all bodies and a single load, without weight.
-class OneLoad {
- public:
-  explicit OneLoad(const System& system) : one_(system) {
-    for (BodyData& body : one_.bodies) body.gravity.setZero();
-  }
-  const System& with(const LoadData& load) {
-    one_.loads = {load};
-    one_.applied.clear();
-    return one_;
-  }
-  const System& with(const AppliedData& force) {
-    one_.loads.clear();
-    one_.applied = {force};
-    return one_;
-  }
-
- private:
-  System one_;
-};
+// A system with all bodies and a single load, without weight and joints.
+System weightless(const System& system) {
+  System bodies;
+  bodies.bodies = system.bodies;
+  for (BodyData& body : bodies.bodies) body.gravity.setZero();
+  return bodies;
+}
+System with_load(System bodies, const LoadData& load) {
+  bodies.loads = {load};
+  return bodies;
+}
+System with_load(System bodies, const AppliedData& force) {
+  bodies.applied = {force};
+  return bodies;
+}
 
 std::vector<int> bodies_of(const LoadData& load) {
   std::vector<int> bodies{load.at.a, load.at.b};
@@ -154,7 +149,7 @@ void check_load_slopes(const System& system, const std::vector<CheckState>& stat
   LoadSlopes slopes;
   const long work =
       static_cast<long>(system.n_bodies()) * static_cast<long>(system.loads.size() + system.applied.size());
-  OneLoad one(system);
+  const System bodies = weightless(system);
   std::vector<CheckLink> links = check_links(system);
   links.erase(links.begin(), links.begin() + system.n_joints());
   for (const CheckState& state : states) {
@@ -163,10 +158,10 @@ void check_load_slopes(const System& system, const std::vector<CheckState>& stat
       const LoadData& load = system.loads[i];
       const double length = link_steps(links[i], system.pose(load.at, state.m), state.length).length * 1e3;
       if (!(length > 1e-9)) continue;  // two points in one place have no direction
-      slopes.look(one.with(load), state, bodies_of(load), {links[i].kind, load.name, state.number}, length);
+      slopes.look(with_load(bodies, load), state, bodies_of(load), {links[i].kind, load.name, state.number}, length);
     }
     for (const AppliedData& force : system.applied)
-      slopes.look(one.with(force), state, {force.body}, {"force", force.name, state.number}, state.length);
+      slopes.look(with_load(bodies, force), state, {force.body}, {"force", force.name, state.number}, state.length);
   }
   slopes.report(battery);
 }

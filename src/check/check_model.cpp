@@ -8,30 +8,22 @@
 #include "mobility/mobility.h"
 #include "pintle/check.h"
 #include "pintle/simulate.h"
-#include "start/assembly.h"
-#include "system/build.h"
+#include "start/start.h"
 
 namespace pintle {
 namespace {
 
-struct Assembled {
-  System system;
-  Assembly at;
-};
-
-Assembled assembled(const Model& model, Start start) {
+Assembly assembled(const Model& model, Start start) {
   Model as = model;
   as.simulate.start = start;
-  Assembled out{build_system(as), {}};
   try {
-    out.at = assemble(as, out.system);
+    return assemble(as);
   } catch (const AssemblyError&) {
     if (model.simulate.start != Start::kRaw) throw;
-    as.simulate.start = Start::kRaw;  // its gaps are meant
-    out.system = build_system(as);
-    out.at = assemble(as, out.system);
-    out.at.notes.push_back("checked at the stated positions, where gaps are wider than after assembly");
   }
+  as.simulate.start = Start::kRaw;  // its gaps are meant
+  Assembly out = assemble(as);
+  out.notes.push_back("checked at the stated positions, where gaps are wider than after assembly");
   return out;
 }
 
@@ -80,25 +72,25 @@ CheckBattery energy_battery(const System& system, const State& assembled, const 
 CheckReport check_model(const Model& model) {
   CheckReport report;
   count(model, report);
-  const Assembled unstrained = assembled(model, Start::kUnloaded), loaded = assembled(model, Start::kAssembled);
+  const Assembly unstrained = assembled(model, Start::kUnloaded), loaded = assembled(model, Start::kAssembled);
   report.notes = model.notes;
-  report.notes.insert(report.notes.end(), loaded.at.notes.begin(), loaded.at.notes.end());
-  weigh(model, loaded.at.state.q, report);
+  report.notes.insert(report.notes.end(), loaded.notes.begin(), loaded.notes.end());
+  weigh(model, loaded.state.q, report);
   report.topology = check_topology(unstrained.system);
-  MobilityCheck mobility = check_mobility(unstrained.system, unstrained.at.state.q);
+  MobilityCheck mobility = check_mobility(unstrained.system, unstrained.state.q);
   report.mobility = std::move(mobility.counts);
   report.redundancies = std::move(mobility.redundancies);
   report.gears = check_gears(unstrained.system);
   if (!report.gears.empty()) {
-    TrainCheck train = check_train(model, unstrained.system, unstrained.at.state.q, report.mobility);
+    TrainCheck train = check_train(model, unstrained.system, unstrained.state.q, report.mobility);
     report.transmission_of = std::move(train.reference);
     report.transmission = std::move(train.ratios);
   }
-  report.frequencies = check_frequencies(loaded.system, loaded.at.state, report.mobility.mobility_driven);
-  const auto states = check_states(model, loaded.system, loaded.at.state);
+  report.frequencies = check_frequencies(loaded.system, loaded.state, report.mobility.mobility_driven);
+  const auto states = check_states(model, loaded.system, loaded.state);
   const double duration = model.simulate.duration > 0 ? model.simulate.duration : 1;
-  report.jacobians = jacobian_battery(loaded.system, loaded.at.state, states, duration);
-  report.energy = energy_battery(loaded.system, loaded.at.state, states);
+  report.jacobians = jacobian_battery(loaded.system, loaded.state, states, duration);
+  report.energy = energy_battery(loaded.system, loaded.state, states);
   return report;
 }
 

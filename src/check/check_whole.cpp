@@ -136,6 +136,11 @@ class PowerAccount {
   const CheckState& state_;
 };
 
+System without_joint_forces(System system) {
+  for (JointData& joint : system.joints) joint.law = LinearLaw{};
+  return system;
+}
+
 }  // namespace
 
 void check_whole_slopes(const System& system, const std::vector<CheckState>& states, CheckBattery& battery) {
@@ -160,10 +165,9 @@ void check_whole_slopes(const System& system, const std::vector<CheckState>& sta
 void check_power_account(const System& system, const std::vector<CheckState>& states, CheckBattery& battery) {
   constexpr double kRounding = 1e-8;  // of the energies, with room: differences cannot see less
   Comparisons account("power balance of the mechanism", kSlopeTolerance);
-  System loads_alone = system;  // joint forces of disturbed states would drown the others
-  for (JointData& joint : loads_alone.joints) joint.law = LinearLaw{};
+  const System loads_alone = without_joint_forces(system);  // joint forces of disturbed states would drown the others
   for (const CheckState& state : states) {
-    for (const System* part : {&system, static_cast<const System*>(&loads_alone)}) {
+    for (const System* part : {&system, &loads_alone}) {
       const PowerAccount powers(*part, state);
       double size = 0;
       const double expected = powers.expected(size);

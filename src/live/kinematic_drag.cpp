@@ -3,10 +3,10 @@
 #include <cmath>
 #include <utility>
 
+#include "kinematics/guess.h"
+#include "kinematics/position_search.h"
 #include "live/mouse_spring.h"
 #include "pintle/live.h"
-#include "start/guess.h"
-#include "start/position_search.h"
 #include "system/build.h"
 
 namespace pintle {
@@ -33,22 +33,30 @@ Model free_to_move(Model model) {
   return model;
 }
 
+// A complete system, and positions that close it as far as they can.
+struct Closed {
+  System system;
+  Vecs q;
+};
+
+Closed close_from_guess(const Model& stated, const Model& free) {
+  System system = build_system(free);
+  Vecs q = guess_positions(stated, system);
+  system = unwind(std::move(system), q);
+  std::vector<bool> open;
+  for (int j = 0; j < system.n_joints(); ++j) open.push_back(is_open(stated, system, j));
+  PositionSearch(stated, system, open).run(q);
+  std::vector<std::string> notes;
+  system = fix_assembled_values(free, std::move(system), q, notes);
+  return {std::move(system), std::move(q)};
+}
+
 }  // namespace
 
 class KinematicDrag::Linkage {
  public:
-  explicit Linkage(const Model& model) : model_(free_to_move(model)), system_(build_system(model)) {
-    q_ = guess_positions(model, system_);
-    unwind(q_, system_);
-    const int n_before = system_.n_joints();
-    for (int j = 0; j < n_before; ++j) open_.push_back(is_open(model, system_, j));
-    PositionSearch(model, system_, open_).run(q_);
-    std::vector<std::string> notes;
-    fix_assembled_values(model_, q_, system_, notes);
-    for (int j = 0; j < n_before; ++j) open_[j] = system_.joints[j].servo >= 0;  // motors let go
-    add_hold();
-    measure();
-  }
+  explicit Linkage(const Model& model) : Linkage(model, free_to_move(model)) {}
+
 
   bool assemble(const std::optional<Hold>& hold) {
     const Vecs before = q_;
@@ -80,22 +88,25 @@ class KinematicDrag::Linkage {
   }
 
  private:
-  // A pin between the world and whatever body is held, the last joint of the system.
-  void add_hold() {
-    const double stiffest = largest_stiffness(system_);
-    system_.joints.push_back(mouse_spring("hold", 0, {0, 0}, stiffest > 0 ? kSoft * stiffest : 1));
-    system_.finish();
+  Linkage(const Model& stated, const Model& free) : Linkage(close_from_guess(stated, free), free) {}
+  Linkage(Closed closed, const Model& free) : model_(free), own_(std::move(closed.system)), q_(std::move(closed.q)) {
+    for (const JointData& joint : own_.joints) open_.push_back(joint.servo >= 0);  // motors let go
     open_.push_back(true);
+    const double stiffest = largest_stiffness(own_);
+    hold_ = mouse_spring("hold", 0, {0, 0}, stiffest > 0 ? kSoft * stiffest : 1);
+    system_ = with_joints(own_, {hold_});
+    measure();
   }
 
   S::Point point_now(const Hold& hold) const { return in_world(q_[hold.body], hold.point); }
 
   // Towards the target in moves short enough that the linkage does not turn over, as long as they bring the point nearer.
   void follow(const Hold& hold) {
-    if (hold.body < 0 || hold.body >= system_.n_bodies()) return;
-    Placement& at = system_.joints.back().at;
+    if (hold.body < 0 || hold.body >= own_.n_bodies()) return;
+    Placement& at = hold_.at;
     at.b = hold.body;
     at.M = S::Frame::at({hold.point[0], hold.point[1]}, 0);
+    system_ = with_joints(own_, {hold_});
     const S::Point target(hold.target[0], hold.target[1]);
     const double size = mechanism_size(system_, q_);
     double left = (target - point_now(hold)).norm();
@@ -103,6 +114,7 @@ class KinematicDrag::Linkage {
       const double move = std::min(left, kLongestMove * size);
       const S::Point from = point_now(hold), to = from + (move / left) * (target - from);
       at.F = S::Frame::at({to.x(), to.y()}, 0);
+      system_ = with_joints(own_, {hold_});
       const Vecs before = q_;
       open_.back() = false;
       PositionSearch(model_, system_, open_).run(q_, kHoldIterations);
@@ -133,8 +145,10 @@ class KinematicDrag::Linkage {
   }
 
   Model model_;
-  System system_;
-  Vecs q_, best_;  // best_: the last poses that closed
+  const System own_;  // without the hold
+  JointData hold_;    // a pin between the world and whatever body is held
+  System system_;     // with it, the last joint
+  Vecs q_, best_;     // best_: the last poses that closed
   std::vector<bool> open_;
   std::vector<double> gaps_;
   std::vector<S::Motion> m_;

@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "base/stopwatch.h"
+#include "dynamics/inverse_dynamics.h"
 #include "integrators/methods.h"
 #include "live/mouse_spring.h"
 #include "pintle/live.h"
 #include "run/record/force_table.h"
-#include "start/preload.h"
 #include "start/start.h"
 #include "system/build.h"
 
@@ -28,25 +28,24 @@ constexpr double kSoftest = 1e-3;         // of the stiffest joint: the stiffest
 constexpr double kPullDamping = 0.7;      // of critical
 constexpr std::size_t kMostJoints = 120;  // whose masses with closed joints are asked for
 
+Model as_live(Model model) {
+  if (model.bodies.empty()) throw std::invalid_argument("the model has no bodies that could move");
+  model.simulate.equations = Equations::kNewtonian;
+  if (!(model.simulate.duration > 0)) model.simulate.duration = 1;
+  return model;
+}
+
 }  // namespace
 
 class LiveMotion::Motion {
  public:
-  explicit Motion(const Model& model) : model_(model) {
-    model_.simulate.equations = Equations::kNewtonian;
-    if (model_.bodies.empty()) throw std::invalid_argument("the model has no bodies that could move");
-    if (!(model_.simulate.duration > 0)) model_.simulate.duration = 1;
-    system_ = build_system(model_);
-    n_own_ = system_.joints.size();
-    if (const double stiffest = largest_stiffness(system_); stiffest > 0) stiffest_ = stiffest;
-    Assembly start = start_of_run(model_, system_);
-    state_ = std::move(start.state);
-    notes_ = std::move(start.notes);
+  explicit Motion(const Model& model) : model_(as_live(model)), start_(start_of_run(model_)), state_(start_.state), n_own_(own().joints.size()) {
+    if (const double stiffest = largest_stiffness(own()); stiffest > 0) stiffest_ = stiffest;
     restart(kFirstStep);
   }
 
   void pull(const std::optional<Pull>& pull) {
-    if (pull && (pull->body < 0 || pull->body >= system_.n_bodies())) throw std::invalid_argument("there is no such body to pull");
+    if (pull && (pull->body < 0 || pull->body >= own().n_bodies())) throw std::invalid_argument("there is no such body to pull");
     const bool other = pull_ && (!pull || pull_->body != pull->body || pull_->point != pull->point || pull_->stiffness != pull->stiffness);
     if (other) release();
     if (pull && !pull_) hold(*pull);
@@ -70,14 +69,14 @@ class LiveMotion::Motion {
   const std::string& failure() const { return failure_; }
   const State& state() const { return state_; }
   std::uint64_t steps() const { return steps_; }
-  const std::vector<std::string>& notes() const { return notes_; }
+  const std::vector<std::string>& notes() const { return start_.notes; }
 
   std::vector<JointForce> joint_forces() const {
     std::vector<S::Motion> m;
-    system_.motions(state_.q, state_.v, m);
+    system().motions(state_.q, state_.v, m);
     std::vector<JointForce> out;
     for (std::size_t j = 0; j < model_.joints.size(); ++j) {
-      const S::Vec load = joint_load(system_, static_cast<int>(j), m, state_.force[j]);
+      const S::Vec load = joint_load(system(), static_cast<int>(j), m, state_.force[j]);
       out.push_back({load[0], load[1], load[2]});
     }
     return out;
@@ -85,14 +84,17 @@ class LiveMotion::Motion {
 
   Energies energies() const {
     std::vector<S::Motion> m;
-    system_.motions(state_.q, state_.v, m);
-    Energies out{system_.kinetic(state_.v), system_.external_work(state_.t, state_.q, m).potential, state_.dissipated, state_.supplied};
+    system().motions(state_.q, state_.v, m);
+    Energies out{system().kinetic(state_.v), system().external_work(state_.t, state_.q, m).potential, state_.dissipated, state_.supplied};
     for (std::size_t j = 0; j < n_own_; ++j)
-      if (system_.joints[j].servo < 0) out.potential += system_.joints[j].law.energy(law_point(system_, static_cast<int>(j), state_));
+      if (system().joints[j].servo < 0) out.potential += system().joints[j].law.energy(law_point(system(), static_cast<int>(j), state_));
     return out;
   }
 
  private:
+  const System& own() const { return start_.system; }
+  const System& system() const { return pulled_ ? *pulled_ : own(); }
+
   // No step: the state stays, and another one is tried from it when asked again. A kink of a force just at the end of the frame
   // can be in the way: then the frame ends a little later.
   bool step(double end) {
@@ -128,8 +130,8 @@ class LiveMotion::Motion {
 
   // From the state as it is, with whatever pulls now.
   void restart(double first_step) {
-    balance_start(system_, state_);
-    stepper_ = make_stepper(system_, {Equations::kNewtonian, "radau", 3}, kTolerance);
+    balance_start(system(), state_);
+    stepper_ = make_stepper(system(), {Equations::kNewtonian, "radau", 3}, kTolerance);
     stepper_->start(state_, std::max(first_step, 1e-9));
     changed_ = false;
   }
@@ -137,7 +139,6 @@ class LiveMotion::Motion {
   // The pull is three joints behind the model's own: a spring along x and one along y, each a servo whose target moves with
   // constant speed during a frame, so that no force jumps when the hand has moved on; and a damper against the world.
   enum { kAlongX, kAlongY, kDamper, kPullJoints };
-  JointData& pull_joint(int k) { return system_.joints[n_own_ + k]; }
 
   void hold(const Pull& pull) {
     const S::Point at = in_world(state_.q[pull.body], pull.point);
@@ -152,44 +153,43 @@ class LiveMotion::Motion {
         joint.keeps_speed = true;
         joint.start = at[i];
       }
-      system_.joints.push_back(std::move(joint));
+      pull_joints_.push_back(std::move(joint));
     }
-    for (Vecs* x : {&state_.gap, &state_.gap_rate, &state_.gap_accel, &state_.force}) x->resize(system_.joints.size(), S::Vec::Zero());
-    system_.finish();
-    read_pull();
-    changed_ = true;
+    for (Vecs* x : {&state_.gap, &state_.gap_rate, &state_.gap_accel, &state_.force}) x->resize(n_own_ + kPullJoints, S::Vec::Zero());
+    take_pull_joints();
   }
 
   void release() {
     if (!pull_) return;
     pull_.reset();
-    system_.joints.resize(n_own_);
     for (Vecs* x : {&state_.gap, &state_.gap_rate, &state_.gap_accel, &state_.force}) x->resize(n_own_);
-    system_.finish();
-    changed_ = true;
+    pull_joints_.clear();
+    take_pull_joints();
   }
 
   // From where the targets are now to where the hand is, within dt.
   void lead(double dt) {
     bool moved = false;
     for (int i = 0; i < kDamper; ++i) {
-      JointData& spring = pull_joint(i);
+      JointData& spring = pull_joints_[i];
       const double now = spring.start + spring.speed * state_.t, speed = (pull_->target[i] - now) / dt;
       if (speed == spring.speed) continue;
       spring.start = now - speed * state_.t;
       spring.speed = speed;
       moved = true;
     }
-    if (!moved) return;
-    read_pull();
-    changed_ = true;
+    if (moved) take_pull_joints();
   }
 
-  void read_pull() {
+  // Another system, which the stepper does not know: the next step starts anew.
+  void take_pull_joints() {
+    stepper_.reset();
+    changed_ = true;
+    pulled_ = pull_joints_.empty() ? nullptr : std::make_unique<const System>(with_joints(own(), pull_joints_));
     std::vector<S::Motion> m;
-    system_.motions(state_.q, state_.v, m);
-    for (std::size_t j = n_own_; j < system_.joints.size(); ++j) {
-      const JointKinematics r = system_.kinematics(static_cast<int>(j), state_.t, m);
+    system().motions(state_.q, state_.v, m);
+    for (std::size_t j = n_own_; j < system().joints.size(); ++j) {
+      const JointKinematics r = system().kinematics(static_cast<int>(j), state_.t, m);
       state_.gap[j] = r.gap;
       state_.gap_rate[j] = r.rate;
     }
@@ -197,34 +197,33 @@ class LiveMotion::Motion {
 
   // What a force at the held point has to move, in the direction in which it moves most easily.
   double mass_at(const Pull& pull) const {
-    const double own = system_.bodies[pull.body].mass[0];
-    double mass = own;
+    const double alone = own().bodies[pull.body].mass[0];
+    double mass = alone;
     if (n_own_ > kMostJoints) {
-      for (const BodyData& each : system_.bodies) mass = std::max(mass, each.mass[0]);
+      for (const BodyData& each : own().bodies) mass = std::max(mass, each.mass[0]);
     } else {
-      System pinned = system_;
-      pinned.joints.push_back(mouse_spring("pull", pull.body, pull.point, 1));
-      pinned.finish();
+      const System pinned = with_joints(own(), {mouse_spring("pull", pull.body, pull.point, 1)});
       State there = state_;
       for (Vecs* x : {&there.gap, &there.gap_rate, &there.gap_accel, &there.force}) x->push_back(S::Vec::Zero());
       const EffectiveMasses masses = InverseDynamics(pinned).effective_masses(there);
       if (!masses.closed.empty()) mass = std::min(masses.closed.back()[0], masses.closed.back()[1]);
     }
-    return std::isfinite(mass) && mass > 0 ? mass : own;
+    return std::isfinite(mass) && mass > 0 ? mass : alone;
   }
 
   Model model_;
-  System system_;
+  const Assembly start_;
+  std::vector<JointData> pull_joints_;
+  std::unique_ptr<const System> pulled_;  // with them; none while nothing pulls
   State state_;
-  std::size_t n_own_ = 0;        // joints but for the pull
-  double stiffest_ = 1e300;      // of them [N/m]
+  std::size_t n_own_ = 0;                 // joints but for the pull
+  double stiffest_ = 1e300;               // of them [N/m]
   std::unique_ptr<Stepper> stepper_;
   std::optional<Pull> pull_;
   bool changed_ = false;
   double last_step_ = kFirstStep;
   std::uint64_t steps_ = 0;
   std::string failure_;
-  std::vector<std::string> notes_;
 };
 
 LiveMotion::LiveMotion(const Model& model) : motion_(std::make_unique<Motion>(model)) {}

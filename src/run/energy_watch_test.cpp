@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "start/start.h"
-#include "system/build.h"
 #include "system/sample_systems_for_tests.h"
 
 namespace pintle {
@@ -16,8 +15,9 @@ using Alarm = EnergyWatch::Alarm;
 
 struct Pendulum {
   Model model = sample::pendulum(1e8, 1000);
-  System system = build_system(model);
-  State state = start_of_run(model, system, 0).state;
+  const Assembly start = start_of_run(model);
+  const System& system = start.system;
+  State state = start.state;
 };
 
 Alarm after_steps(EnergyWatch& watch, const State& state, int steps) {

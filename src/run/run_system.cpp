@@ -29,7 +29,7 @@ void check(const BasicSystem<S>& system, const BasicState<S>& start) {
          fmt::format("the start has places of {} and velocities of {} bodies, the system {} bodies: give one of each for every body", start.q.size(), start.v.size(), bodies));
   demand(start.a.size() == bodies && start.gap.size() == joints && start.gap_rate.size() == joints && start.gap_accel.size() == joints && start.force.size() == joints &&
              start.law_state.size() == static_cast<std::size_t>(system.n_law_states()) && start.law_rate.size() == start.law_state.size(),
-         "the start has no accelerations, gaps or forces that go with its places and velocities: call start_forces (start/preload.h) before the run");
+         "the start has no accelerations, gaps or forces that go with its places and velocities: call start_forces (start/start.h) before the run");
   demand(start.t == 0, fmt::format("the start is at t = {} s: a run begins at 0", start.t));
   demand(is_finite(start), "the start has components that are not numbers: check places, velocities, masses and laws");
 }

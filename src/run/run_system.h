@@ -14,7 +14,7 @@ struct BasicSystemRun {
 using SystemRun = BasicSystemRun<Planar>;
 
 /// Runs `system` from `start` as `settings` say; their start and record are not looked at. `start` is complete, at t = 0: places and velocities are
-/// the caller's, `start_forces` (start/preload.h) finds what goes with them, `settle_joints` (start/settle_joints.h) puts joints onto their
+/// the caller's, `start_forces` (start/start.h) finds what goes with them, `settle_joints` puts joints onto their
 /// slow motion, so that none rings. In space the stated errors are of the magnitudes of force and couple of every joint, as in the plane.
 /// Throws std::invalid_argument for a start or settings that cannot be; a numerical failure or an interruption is a value in the outcome.
 template <class S>

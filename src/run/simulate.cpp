@@ -9,7 +9,6 @@
 #include "run/recorder.h"
 #include "run/run_passes.h"
 #include "start/start.h"
-#include "system/build.h"
 
 namespace pintle {
 namespace {
@@ -21,18 +20,17 @@ constexpr std::size_t kManyBodies = 1000;  // of which the assembly takes long e
 Trajectory simulate_reduced(const Model& model, const RunShape& shape, const Observer& observer) {
   const Stopwatch clock;
   if (observer && model.bodies.size() > kManyBodies) observer({0, model.simulate.duration, 0, clock.seconds()});
-  System system = build_system(model);
-  Assembly assembly = start_of_run(model, system, shape.nominal != nullptr && !shape.checked ? shape.nominal->span : 0);
+  const Assembly start = start_of_run(model, shape.nominal != nullptr && !shape.checked ? shape.nominal->span : 0);
   Trajectory out;
   out.notes = model.notes;
-  out.notes.insert(out.notes.end(), assembly.notes.begin(), assembly.notes.end());
-  const std::unique_ptr<ForceRecorder> recorder = run_passes<Planar>(system, assembly.state, model.simulate, {[&] { return std::make_unique<Recorder>(model, system, shape.recorded); }, shape, observer, clock}, out);
-  if (shape.measured != nullptr && shape.checked) shape.measured->span = assembly.span;
-  const std::unordered_set<std::string> not_unique(assembly.not_unique.begin(), assembly.not_unique.end());
+  out.notes.insert(out.notes.end(), start.notes.begin(), start.notes.end());
+  const std::unique_ptr<ForceRecorder> recorder = run_passes<Planar>(start.system, start.state, model.simulate, {[&] { return std::make_unique<Recorder>(model, start.system, shape.recorded); }, shape, observer, clock}, out);
+  if (shape.measured != nullptr && shape.checked) shape.measured->span = start.span;
+  const std::unordered_set<std::string> not_unique(start.not_unique.begin(), start.not_unique.end());
   for (LoadSummary& joint : out.joints) joint.unique = !not_unique.contains(joint.name);
   if (shape.recorded == Recorded::kColumns) {
     out.bearings = bearing_summaries(model, out);
-    const std::vector<std::string> limits = limit_notes(system, assembly.state, model.simulate, out, *recorder);
+    const std::vector<std::string> limits = limit_notes(start.system, start.state, model.simulate, out, *recorder);
     out.notes.insert(out.notes.begin(), limits.begin(), limits.end());
   }
   out.wall_seconds = clock.seconds();

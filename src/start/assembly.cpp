@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "joints/belt.h"
+#include "kinematics/guess.h"
+#include "kinematics/position_search.h"
 #include "pintle/simulate.h"
-#include "start/guess.h"
-#include "start/position_search.h"
-#include "start/preload.h"
+#include "start/start_forces.h"
 #include "system/build.h"
 
 namespace pintle {
@@ -137,35 +137,40 @@ void demand_apart(const System& system, const Vecs& q) {
   }
 }
 
-void assemble_positions(const Model& model, System& system, Vecs& q, std::vector<std::string>& notes) {
+// `system` complete, and the positions q closed, from a guess.
+System assemble_positions(const Model& model, System system, Vecs& q, std::vector<std::string>& notes) {
   std::vector<bool> open(system.joints.size());
   for (int j = 0; j < system.n_joints(); ++j) open[j] = is_open(model, system, j);
-  unwind(q, system);
+  system = unwind(std::move(system), q);
   if (model.simulate.start != Start::kRaw || !all_positions_stated(model)) PositionSearch(model, system, open).run(q);
   if (model.simulate.start != Start::kRaw) demand_closed(system, q, open, notes);
-  fix_assembled_values(model, q, system, notes);
+  return fix_assembled_values(model, std::move(system), q, notes);
 }
 
-}  // namespace
-
-Assembly assemble_bodies(const Model& model, System& system) {
+Assembly put_bodies(const Model& model, System system) {
   Assembly out;
   State& state = out.state;
   state.q = guess_positions(model, system);
   const Vecs guess = state.q;
-  assemble_positions(model, system, state.q, out.notes);
+  out.system = assemble_positions(model, std::move(system), state.q, out.notes);
   for (std::size_t i = 0; i < guess.size(); ++i)
     if (model.bodies[i].position) out.largest_move = std::max(out.largest_move, (state.q[i] - guess[i]).head<2>().norm());
   state.v = stated_velocities(model);
-  if (model.simulate.start != Start::kRaw) assemble_velocities(model, system, state.q, state.v);
+  if (model.simulate.start != Start::kRaw) assemble_velocities(model, out.system, state.q, state.v);
   return out;
 }
 
-Assembly assemble(const Model& model, System& system) {
-  Assembly out = assemble_bodies(model, system);
-  demand_apart(system, out.state.q);
-  start_forces(system, model.simulate.start == Start::kAssembled, out.state);
+}  // namespace
+
+Assembly assemble_bodies(const Model& model, const System* like) { return put_bodies(model, build_system(model, like)); }
+
+Assembly assemble_system(const Model& model, System system) {
+  Assembly out = put_bodies(model, std::move(system));
+  demand_apart(out.system, out.state.q);
+  start_forces(out.system, model.simulate.start == Start::kAssembled, out.state);
   return out;
 }
+
+Assembly assemble(const Model& model) { return assemble_system(model, build_system(model)); }
 
 }  // namespace pintle

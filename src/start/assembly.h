@@ -6,18 +6,25 @@
 
 #include "pintle/model.h"
 #include "start/settle_joints.h"
+#include "system/system.h"
 
 namespace pintle {
 
+/// A mechanism that has been put together: its system, complete, and the state that it starts from.
 struct Assembly : BasicSettledStart<Planar> {
+  System system;
   std::vector<std::string> not_unique;  // ideal equations: joints whose reactions they do not determine
   double largest_move = 0;              // of a centre of mass that was stated [m]
 };
 
-/// Positions and velocities only; the state has no forces yet. Completes `system`. Throws AssemblyError when a loop cannot close.
-Assembly assemble_bodies(const Model& model, System& system);
+/// Assembles `model`. Throws AssemblyError when a loop cannot close.
+Assembly assemble(const Model& model);
 
-/// Assembles `model`; completes `system` (made by build_system from it). Throws AssemblyError when a loop cannot close.
-Assembly assemble(const Model& model, System& system);
+/// Positions and velocities only; the state has no forces yet. `like`: a system of which the model's may be a variant. Throws
+/// AssemblyError when a loop cannot close.
+Assembly assemble_bodies(const Model& model, const System* like = nullptr);
+
+/// As `assemble`, of a system that build_system has made from `model`.
+Assembly assemble_system(const Model& model, System system);
 
 }  // namespace pintle

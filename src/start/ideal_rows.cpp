@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "mobility/mobility.h"
 #include "mobility/rank.h"
@@ -44,11 +45,12 @@ std::vector<int> dependent_rows(const System& system, const std::vector<Constrai
 
 }  // namespace
 
-void make_ideal(System& system) {
+System make_ideal(System system) {
   for (JointData& joint : system.joints) joint.ideal = joint.law.ideal_limit() && !joint.law.feeds();
+  return system;
 }
 
-IdealRows choose_ideal_rows(System& system, const Vecs& q) {
+IdealRows choose_ideal_rows(System system, const Vecs& q) {
   IdealRows out;
   const MobilityCheck mobility = check_mobility(system, q);
   const std::vector<JointKinematics> joint_kinematics = kinematics_at_rest(system, mobility.regular);
@@ -69,6 +71,7 @@ IdealRows choose_ideal_rows(System& system, const Vecs& q) {
     for (const auto& member : group.members)
       if (std::find(out.not_unique.begin(), out.not_unique.end(), member.joint) == out.not_unique.end()) out.not_unique.push_back(member.joint);
   }
+  out.system = std::move(system);
   return out;
 }
 

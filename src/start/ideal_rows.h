@@ -9,15 +9,16 @@
 namespace pintle {
 
 struct IdealRows {
+  System system;                        // with JointData::redundant
   std::vector<std::string> notes;       // what is redundant and what was left out
   std::vector<std::string> not_unique;  // joints whose reactions the ideal equations do not determine
 };
 
-/// Marks every joint of a linear law, and every servo, as ideal.
-void make_ideal(System& system);
+/// `system` with every joint of a linear law, and every servo, marked as ideal.
+[[nodiscard]] System make_ideal(System system);
 
-/// Sets JointData::redundant at the assembled positions q. Reactions of the components left out are zero. theory/ideal
+/// Which components are redundant at the assembled positions q. Reactions of the components left out are zero. theory/ideal
 /// section 3.
-IdealRows choose_ideal_rows(System& system, const Vecs& q);
+[[nodiscard]] IdealRows choose_ideal_rows(System system, const Vecs& q);
 
 }  // namespace pintle

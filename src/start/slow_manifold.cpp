@@ -8,8 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "start/chebyshev_nodes.h"
-#include "start/preload.h"
+#include "dynamics/inverse_dynamics.h"
+#include "linalg/chebyshev_nodes.h"
+#include "start/start_forces.h"
 
 namespace pintle {
 namespace {

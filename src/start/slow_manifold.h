@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "start/time_scales.h"
+#include "dynamics/time_scales.h"
 #include "system/state.h"
 
 namespace pintle {

@@ -8,26 +8,27 @@
 #include "start/ideal_rows.h"
 #include "start/settle_joints.h"
 #include "start/tree_start.h"
+#include "system/build.h"
 #include "system/tree.h"
 
 namespace pintle {
 namespace {
 
 // Ideal joints carry no preload: the loops are closed as they are.
-Assembly ideal_start(Model model, System& system) {
+Assembly ideal_start(Model model) {
   if (model.simulate.start == Start::kAssembled) model.simulate.start = Start::kUnloaded;
-  Assembly assembly = assemble(model, system);
-  make_ideal(system);
-  IdealRows rows = choose_ideal_rows(system, assembly.state.q);
+  Assembly assembly = assemble(model);
+  IdealRows rows = choose_ideal_rows(make_ideal(std::move(assembly.system)), assembly.state.q);
+  assembly.system = std::move(rows.system);
   assembly.notes.insert(assembly.notes.end(), rows.notes.begin(), rows.notes.end());
   assembly.not_unique = std::move(rows.not_unique);
   return assembly;
 }
 
-Assembly start_of_free_bodies(const Model& model, System& system, double known_span) {
-  Assembly assembly = assemble(model, system);
-  if (model.simulate.start != Start::kAssembled || system.joints.empty()) return assembly;
-  settle_joints(system, model.simulate.duration, known_span, assembly);
+Assembly start_of_free_bodies(const Model& model, System system, double known_span) {
+  Assembly assembly = assemble_system(model, std::move(system));
+  if (model.simulate.start != Start::kAssembled || assembly.system.joints.empty()) return assembly;
+  settle_joints(assembly.system, model.simulate.duration, known_span, assembly);
   return assembly;
 }
 
@@ -47,15 +48,17 @@ void note_lost_laws(const System& system, const IsIdeal& is_ideal, std::vector<s
 
 }  // namespace
 
-Assembly start_of_run(const Model& model, System& system, double known_span) {
+Assembly start_of_run(const Model& model, double known_span) {
   if (has_constraints(model.simulate.equations)) {
-    Assembly assembly = ideal_start(model, system);
+    Assembly assembly = ideal_start(model);
+    const System& system = assembly.system;
     note_lost_laws(system, [&system](int j) { return system.joints[j].ideal || system.joints[j].law.feeds(); }, assembly.notes);
     for (const JointData& joint : system.joints)
       if (model.simulate.equations == Equations::kRelativeAugmented && joint.law.depends_on_reaction_alone()) assembly.notes.push_back("joint " + joint.name + ": its teeth push nothing apart in these equations, whatever its radial_force says");
     return assembly;
   }
-  if (model.simulate.equations != Equations::kRelative) return start_of_free_bodies(model, system, known_span);
+  System system = build_system(model);
+  if (model.simulate.equations != Equations::kRelative) return start_of_free_bodies(model, std::move(system), known_span);
   const JointTree tree(system);
   Assembly assembly = tree.all_free() ? start_of_free_bodies(model, system, known_span) : start_over_tree(model, system);
   for (std::string& line : tree.notes()) assembly.notes.push_back(std::move(line));

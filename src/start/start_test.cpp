@@ -37,8 +37,7 @@ Model pushed(double k, double c, double w) {
 
 State started(Model model) {
   if (model.simulate.duration == 0) model.simulate.duration = 1;
-  System system = build_system(model);
-  return start_of_run(model, system).state;
+  return start_of_run(model).state;
 }
 
 // The motion without free vibration: x = F0/k + Im F1 / (k - m w^2 + i c w) at t = 0.
@@ -81,9 +80,9 @@ TEST(Start, DoesNotDependOnTheDurationOfTheRun) {
 TEST(Start, JournalBearingsCarryTheForcesOfIdealJoints) {
   Model model = sample::four_bar(1e7, 5e5);
   model.simulate.duration = 1;
-  System system = build_system(model);
-  const State state = start_of_run(model, system).state;
-  const DenseEquations e(system, 0, state.q, state.v);
+  const Assembly start = start_of_run(model);
+  const State& state = start.state;
+  const DenseEquations e(start.system, 0, state.q, state.v);
   const Eigen::VectorXd ideal = e.reactions();
   const double peak = ideal.cwiseAbs().maxCoeff();
   for (int r = 0; r < ideal.size(); ++r) EXPECT_NEAR(state.force[e.rows[r].first][e.rows[r].second], ideal[r], 1e-3 * peak) << r;
@@ -126,10 +125,7 @@ TEST(Start, TheForcesOfSoftJointsRunOnSmoothly) {
 
 // Where a force jumps at once no start is free of ringing, and the notes say so.
 TEST(Start, NotesSayWhatStartsOnItsOwn) {
-  const auto notes = [](const Model& model) {
-    System system = build_system(model);
-    return start_of_run(model, system).notes;
-  };
+  const auto notes = [](const Model& model) { return start_of_run(model).notes; };
   const auto mention = [](const std::vector<std::string>& lines, const char* what) {
     return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) { return line.find(what) != std::string::npos; });
   };

@@ -6,10 +6,10 @@
 #include <limits>
 #include <optional>
 
+#include "dynamics/inverse_dynamics.h"
 #include "integrators/thresholds.h"
 #include "laws/gap_at_force.h"
-#include "start/chebyshev_nodes.h"
-#include "start/preload.h"
+#include "linalg/chebyshev_nodes.h"
 #include "start/slow_manifold.h"
 
 namespace pintle {

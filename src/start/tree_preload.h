@@ -1,4 +1,4 @@
-// Preload and slow manifold at the start, over a joint tree: the counterpart of preload.h and slow_manifold.h for free
+// Preload and slow manifold at the start, over a joint tree: the counterpart of start_forces.h and slow_manifold.h for free
 // bodies. theory/tree section 8.
 #pragma once
 

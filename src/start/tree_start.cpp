@@ -1,6 +1,7 @@
 #include "start/tree_start.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "integrators/relative/tree_radau.h"
 #include "start/slow_manifold.h"
@@ -14,8 +15,8 @@ using S = Planar;
 constexpr double kStiffAtLeast = 1e12;    // of a tree joint's law while it is assembled, and at least that of every other [N/m]
 constexpr double kRelaxation = 1e-5;      // damping of such a law over its stiffness [s]
 
-// Laws for the tree's joints so stiff that they give way by nothing that matters.
-void stiffen(const JointTree& tree, System& system) {
+// With laws for the tree's joints so stiff that they give way by nothing that matters.
+System stiffened(System system, const JointTree& tree) {
   double stiffest = kStiffAtLeast, size = 0;
   for (const int j : tree.laws())
     stiffest = std::max(stiffest, system.joints[j].law.engaged_stiffness().head<2>().maxCoeff());
@@ -28,6 +29,12 @@ void stiffen(const JointTree& tree, System& system) {
     law.c = kRelaxation * law.k;
     joint.law = law;
   }
+  return system;
+}
+
+System with_laws_of(System system, const System& other) {
+  for (int j = 0; j < system.n_joints(); ++j) system.joints[j].law = other.joints[j].law;
+  return system;
 }
 
 void write(TreeInverseDynamics& forces, const TreeState& from, State& to) {
@@ -51,14 +58,10 @@ void take_over(const JointTree& tree, const System& system, const SimulateSettin
 
 }  // namespace
 
-Assembly start_over_tree(const Model& model, System& system) {
-  const JointTree tree(system);
-  System stiff = system;
-  stiffen(tree, stiff);
-  Assembly assembly = assemble(model, stiff);
-  for (int j = 0; j < system.n_joints(); ++j) stiff.joints[j].law = system.joints[j].law;
-  system = std::move(stiff);
-  take_over(tree, system, model.simulate, assembly.state);
+Assembly start_over_tree(const Model& model, const System& system) {
+  Assembly assembly = assemble_system(model, stiffened(system, JointTree(system)));
+  assembly.system = with_laws_of(std::move(assembly.system), system);
+  take_over(JointTree(assembly.system), assembly.system, model.simulate, assembly.state);
   return assembly;
 }
 

@@ -20,7 +20,6 @@
 #include "run/recording.h"
 #include "start/start.h"
 #include "studies/joint_errors.h"
-#include "system/build.h"
 
 namespace pintle {
 namespace {
@@ -65,19 +64,21 @@ void check_options(const Model& model, const SolverStudyOptions& options) {
     if (!(tolerance > 0 && tolerance < 1)) throw std::invalid_argument(fmt::format("a tolerance of {:g} is not between 0 and 1", tolerance));
 }
 
+Model as_studied(Model model, const SolverStudyOptions& options) {
+  check_options(model, options);
+  model.simulate.record = {"all"};
+  return model;
+}
+
 class Study {
  public:
   Study(const Model& model, const SolverStudyOptions& options, const KeepGoing& keep_going)
-      : model_(model), options_(options), keep_going_(keep_going) {}
+      : model_(as_studied(model, options)), options_(options), keep_going_(keep_going), start_(start_of_run(model_)) {}
 
   SolverStudy go() {
-    check_options(model_, options_);
-    model_.simulate.record = {"all"};
-    system_ = build_system(model_);
-    model_.simulate.output_step = output_step_of(model_.simulate, system_.joints.size());
+    model_.simulate.output_step = output_step_of(model_.simulate, start_.system.joints.size());
     out_.duration = model_.simulate.duration;
     out_.output_step = model_.simulate.output_step;
-    start_ = start_of_run(model_, system_).state;
     find_truth();
     if (!out_.truth.complete) return std::move(out_);
     choose_window();
@@ -109,7 +110,7 @@ class Study {
   }
 
   void choose_window() {
-    const CheckFrequencies frequencies = constrained() ? CheckFrequencies{} : check_frequencies(system_, start_, -1);
+    const CheckFrequencies frequencies = constrained() ? CheckFrequencies{} : check_frequencies(start_.system, start_.state, -1);
     for (const CheckComponent& c : frequencies.components)
       if (c.frequency > 0) out_.slowest_vibration = out_.slowest_vibration > 0 ? std::min(out_.slowest_vibration, c.frequency) : c.frequency;
     const double periods = out_.slowest_vibration > 0 ? kWindowPeriods * 2 * std::numbers::pi / out_.slowest_vibration : 0;
@@ -143,11 +144,11 @@ class Study {
     SolverRun run;
     run.method = method;
     run.tolerance = tolerance;
-    Recorder recorder(model_, system_);
+    Recorder recorder(model_, start_.system);
     IntegrationPlan p = plan(method, tolerance);
     const Stopwatch clock;
     p.keep_going = [&](double) { return clock.seconds() < options_.time_limit && go_on(); };
-    const Integration done = integrate(system_, start_, p, recorder);
+    const Integration done = integrate(start_.system, start_.state, p, recorder);
     run.seconds = clock.seconds();
     run.t_end = done.t;
     run.message = done.message;
@@ -170,9 +171,9 @@ class Study {
   void find_least_time(const std::string& method, double tolerance, SolverRun& run) const {
     const double first = run.seconds;
     for (int i = 1; i < kRepetitions && first < kShort; ++i) {
-      Recorder recorder(model_, system_);
+      Recorder recorder(model_, start_.system);
       const Stopwatch clock;
-      integrate(system_, start_, plan(method, tolerance), recorder);
+      integrate(start_.system, start_.state, plan(method, tolerance), recorder);
       run.seconds = std::min(run.seconds, clock.seconds());
     }
   }
@@ -182,7 +183,7 @@ class Study {
       run.force_error = run.position_error = run.angle_error = run.vibration = run.vibration_of_peak = run.energy_drift = kUnknown;
       return;
     }
-    const JointErrors errors(truth_, system_.largest_radius_of_gyration());
+    const JointErrors errors(truth_, start_.system.largest_radius_of_gyration());
     const JointErrors::Worst force = errors.force_error(trajectory), vibration = errors.vibration(trajectory, half_window_);
     const auto positions = errors.position_errors(trajectory);
     run.force_error = force.relative;
@@ -221,8 +222,7 @@ class Study {
   Model model_;
   const SolverStudyOptions& options_;
   const KeepGoing& keep_going_;
-  System system_;
-  State start_;
+  const Assembly start_;
   Trajectory truth_;
   std::size_t half_window_ = 1;
   SolverStudy out_;

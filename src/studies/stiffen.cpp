@@ -11,16 +11,15 @@
 #include <set>
 #include <utility>
 
-#include "check/check_frequencies.h"
-#include "mobility/mobility.h"
-#include "mobility/constraint_rows.h"
-#include "start/start.h"
 #include "base/text/did_you_mean.h"
-#include "pintle/compare.h"
-#include "laws/catalog.h"
-#include "pintle/complaint.h"
+#include "check/check_frequencies.h"
 #include "joints/catalog.h"
-#include "system/build.h"
+#include "laws/catalog.h"
+#include "mobility/constraint_rows.h"
+#include "mobility/mobility.h"
+#include "pintle/compare.h"
+#include "pintle/complaint.h"
+#include "start/start.h"
 
 namespace pintle {
 namespace {
@@ -91,11 +90,10 @@ class Procedure {
 
   // Lengths, masses, and which joints are soft by intention.
   void measure_mechanism() {
-    System system = build_system(model_);
-    const Assembly assembly = start_of_run(model_, system);
-    length_ = arm_length(system, kinematics_at_rest(system, assembly.state.q));
-    redundancies_ = check_mobility(system, assembly.state.q).redundancies;
-    for (const CheckComponent& c : check_frequencies(system, assembly.state, -1).components) {
+    const Assembly start = start_of_run(model_);
+    length_ = arm_length(start.system, kinematics_at_rest(start.system, start.state.q));
+    redundancies_ = check_mobility(start.system, start.state.q).redundancies;
+    for (const CheckComponent& c : check_frequencies(start.system, start.state, -1).components) {
       double& mass = mass_[c.component == "angle" ? c.joint + ".angle" : c.joint];
       mass = mass > 0 ? std::min(mass, c.effective_mass) : c.effective_mass;
     }

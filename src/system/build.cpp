@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include "base/text/article.h"
 #include "joints/belt.h"
@@ -331,7 +332,7 @@ bool is_open(const Model& model, const System& system, int j) {
          belt_of(data.displacement) || (std::holds_alternative<Distance>(data.displacement) && is_measured(model.joints[j]));
 }
 
-void unwind(const Vecs& q, System& system) {
+System unwind(System system, const Vecs& q) {
   std::vector<S::Motion> m;
   system.motions(q, Vecs(q.size(), S::Vec::Zero()), m);
   const double turn = 2 * std::numbers::pi;
@@ -340,10 +341,11 @@ void unwind(const Vecs& q, System& system) {
     if (!selection || joint.servo >= 0 || !joint.held[2]) continue;
     selection->offset[2] = turn * std::round(system.pose(joint.at, m).z[2] / turn);
   }
+  return system;
 }
 
-void fix_assembled_values(const Model& model, const Vecs& q, System& system, std::vector<std::string>& notes) {
-  unwind(q, system);
+System fix_assembled_values(const Model& model, System system, const Vecs& q, std::vector<std::string>& notes) {
+  system = unwind(std::move(system), q);
   std::vector<S::Motion> m;
   system.motions(q, Vecs(q.size(), S::Vec::Zero()), m);
   for (std::size_t j = 0; j < system.joints.size(); ++j) {
@@ -369,6 +371,14 @@ void fix_assembled_values(const Model& model, const Vecs& q, System& system, std
     notes.push_back(fmt::format("{} {}: free {} {:.9g} {}, from the assembled position", spring.torsion ? "torsion_spring" : "spring",
                                 spring.name, spring.torsion ? "angle" : "length", load.free, spring.torsion ? "rad" : "m"));
   }
+  return system;
+}
+
+System with_joints(const System& system, const std::vector<JointData>& joints) {
+  System out = system;
+  out.joints.insert(out.joints.end(), joints.begin(), joints.end());
+  out.finish(&system);
+  return out;
 }
 
 }  // namespace pintle

@@ -1,23 +1,30 @@
 // From a model to a system: names become indices, law words become laws.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "pintle/model.h"
 #include "system/system.h"
 
 namespace pintle {
 
 /// The system of a model. What depends on the assembled positions (a rod without a stated length, gear phases, free
-/// lengths, where a constant-speed drive starts) is still open: `fix_assembled_values` fixes it. Throws std::invalid_argument on names
-/// that do not exist; models from files have been checked before. `like`: a system that this one may be a variant of.
-System build_system(const Model& model, const System* like = nullptr);
+/// lengths, where a constant-speed drive starts) is still open: `fix_assembled_values` fixes it, as every start does (start/start.h).
+/// Throws std::invalid_argument on names that do not exist; models from files have been checked before. `like`: a system that this
+/// one may be a variant of.
+[[nodiscard]] System build_system(const Model& model, const System* like = nullptr);
 
 /// Is the gap of joint j known before assembly? Not so for rods without length, gears, racks and constant-speed drives.
 bool is_open(const Model& model, const System& system, int j);
 
-/// Fixes what depends on the assembled positions q. `notes` receives a line for each value that was assumed.
-void fix_assembled_values(const Model& model, const Vecs& q, System& system, std::vector<std::string>& notes);
+/// `system` with what depends on the assembled positions q. `notes` receives a line for each value that was assumed.
+[[nodiscard]] System fix_assembled_values(const Model& model, System system, const Vecs& q, std::vector<std::string>& notes);
 
-/// Turns welds and sliders by whole turns so that their angle is within half a turn of zero at q.
-void unwind(const Vecs& q, System& system);
+/// `system` with welds and sliders turned by whole turns, so that their angle is within half a turn of zero at q.
+[[nodiscard]] System unwind(System system, const Vecs& q);
+
+/// `system` with more joints behind its own.
+[[nodiscard]] System with_joints(const System& system, const std::vector<JointData>& joints);
 
 }  // namespace pintle

@@ -25,14 +25,11 @@ std::vector<S::Motion> motions(const System& system, const Vecs& q, const Vecs& 
 
 // A system in a random state, its joints settled there.
 struct Instant {
-  System system;
   double t = 0.37;
   Vecs settled, q, v;
+  const System system;
 
-  Instant(const Model& model, Random& random) : system(build_system(model)) {
-    sample::random_state(random, model.bodies.size(), settled, v);
-    std::vector<std::string> notes;
-    fix_assembled_values(model, settled, system, notes);
+  Instant(const Model& model, Random& random) : system(settle(model, random)) {
     sample::random_state(random, model.bodies.size(), q, v);
   }
   Vecs external(int body, bool in_v, const Vec& move) const {
@@ -40,6 +37,13 @@ struct Instant {
     (in_v ? y : x)[body] += move;
     system.external(t, motions(system, x, y), Q);
     return Q;
+  }
+
+ private:
+  System settle(const Model& model, Random& random) {
+    sample::random_state(random, model.bodies.size(), settled, v);
+    std::vector<std::string> notes;
+    return fix_assembled_values(model, build_system(model), settled, notes);
   }
 };
 
@@ -161,18 +165,18 @@ TEST(System, AccelerationsDoNotDependOnTheOrderOfBodies) {
   std::reverse(shuffled.springs.begin(), shuffled.springs.end());
   for (int i = 0; i < kStates; ++i) {
     const Instant at(model, random);
-    System other = build_system(shuffled);
+    const System open = build_system(shuffled);
     Vecs settled(at.q.size()), q(at.q.size()), v(at.q.size()), a, b;
     std::vector<std::size_t> place(at.q.size());
     for (std::size_t k = 0; k < place.size(); ++k)
-      while (other.bodies[place[k]].name != at.system.bodies[k].name) ++place[k];
+      while (open.bodies[place[k]].name != at.system.bodies[k].name) ++place[k];
     for (std::size_t k = 0; k < place.size(); ++k) {
       settled[place[k]] = at.settled[k];
       q[place[k]] = at.q[k];
       v[place[k]] = at.v[k];
     }
     std::vector<std::string> notes;
-    fix_assembled_values(shuffled, settled, other, notes);
+    const System other = fix_assembled_values(shuffled, open, settled, notes);
     at.system.accelerations(at.t, at.q, at.v, a);
     other.accelerations(at.t, q, v, b);
     for (std::size_t k = 0; k < place.size(); ++k) EXPECT_LT((a[k] - b[place[k]]).norm(), 1e-12 * (1 + a[k].norm()));

@@ -25,6 +25,11 @@ System with_ideal(const std::vector<std::string>& names, bool free = false) {
   return system;
 }
 
+System all_ideal(System system) {
+  for (JointData& joint : system.joints) joint.ideal = true;
+  return system;
+}
+
 // Trees that grow along joints from their first body and from their second, on the ground and afloat, of every type.
 const std::vector<System>& trees() {
   static const std::vector<System> all{with_ideal({}),         with_ideal({"g", "r", "p", "f"}), with_ideal({"h", "p", "f", "s"}),
@@ -186,8 +191,7 @@ TEST(JointTree, ServosAndPlainJointsStayLaws) {
 }
 
 TEST(JointTree, ALoopOfIdealJointsIsOpenedOnceAndSaid) {
-  System system = build_system(sample::four_bar(1e8, 3000));
-  for (JointData& joint : system.joints) joint.ideal = true;
+  const System system = all_ideal(build_system(sample::four_bar(1e8, 3000)));
   const JointTree tree(system);
   EXPECT_EQ(tree.n(), 3);
   ASSERT_EQ(tree.laws().size(), 1u);
@@ -199,11 +203,10 @@ TEST(JointTree, ALoopOfIdealJointsIsOpenedOnceAndSaid) {
 }
 
 TEST(JointTree, AJointBesideAnotherIsALoopOfTwo) {
-  System system = build_system(sample::pendulum(1e8, 3000));
-  system.joints.push_back(system.joints[0]);
-  system.joints[1].name = "twin";
-  for (JointData& joint : system.joints) joint.ideal = true;
-  system.finish();
+  const System pendulum = build_system(sample::pendulum(1e8, 3000));
+  JointData twin = pendulum.joints[0];
+  twin.name = "twin";
+  const System system = all_ideal(with_joints(pendulum, {twin}));
   const JointTree tree(system);
   EXPECT_EQ(tree.n(), 1);
   EXPECT_EQ(tree.notes()[0], "joint twin is opened: it closes a loop with the ideal joint pin; its force law acts");

@@ -19,7 +19,7 @@ using S = Planar;
 
 // A last stage somewhere, whose gaps and rates are beside those of its poses by up to `off`.
 struct LastStage {
-  System system;
+  const System system;
   double t = 0.3;
   Stage stage;
 

@@ -14,7 +14,7 @@ using sample::Random;
 // The four-bar, every body knocked out of its place by up to `size`.
 struct Knocked {
   Model model;
-  System system;
+  const System system;
   State state;
 
   Knocked(double k, double size) : model(sample::four_bar(k, 3000)), system(build_system(model)), state(sample::plain_start(model, system)) {

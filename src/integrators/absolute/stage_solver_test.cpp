@@ -24,7 +24,7 @@ using Vec = Planar::Vec;
 // A model at an instant, ready for a step.
 struct Start {
   Model model;
-  System system;
+  const System system;
   State begin;
   LoadScale scale;
 
@@ -260,9 +260,13 @@ TEST(StageSolver, EquationsWithoutSolutionAreNotSolved) {
 }
 
 TEST(StageSolver, SingularMatrixIsAFailure) {
-  Start at(sample::oscillator());
-  at.system.bodies[0].mass.setZero();
-  for (const int stages : {3, 5}) EXPECT_FALSE(solves(at, stages, 0.01));
+  const Start at(sample::oscillator());
+  System massless = at.system;
+  massless.bodies[0].mass.setZero();
+  for (const int stages : {3, 5}) {
+    Counters counters;
+    EXPECT_FALSE(make_stage_solver(massless, RadauTable::of(stages), 1e-6)->solve(at.begin, 0.01, nullptr, 0, at.scale, counters));
+  }
 }
 
 // What is no number from 0.1 s on: in an applied force, a motor's law, a servo's target.

@@ -19,7 +19,7 @@ constexpr Through kNodes[] = {Through::kThreeNodes, Through::kFiveNodes};
 // One step of h from a settled start.
 struct OneStep {
   Through through;
-  System system;
+  const System system;
   State start;
   RadauStepper stepper;
   DenseOutput dense;

@@ -101,18 +101,18 @@ TEST(AlphaStepper, StepsErrByTheirErrorConstants) {
 
 // The undamped spring of k = m w^2 in a joint: exactly linear.
 struct Spring {
-  Model model;
-  System system;
-  State from;
+  const Model model = mass_on_spring();
+  const System system = build_system(model);
+  const State from = sample::plain_start(model, system);
 
-  Spring() {
+  static Model mass_on_spring() {
+    Model model;
     model.gravity = {0, 0};
     model.ground = {{"O", {0, 0}, 0}};
     model.bodies = {sample::body("mass", 1, 1, {{"C", {0, 0}, 0}})};
     sample::put_at(model.bodies[0], 1, 0, 0);
     model.joints = {sample::joint("pin", "revolute", {"ground", "O"}, {"mass", "C"}, 1, 0)};
-    system = build_system(model);
-    from = sample::plain_start(model, system);
+    return model;
   }
   static double energy(const State& s) { return 0.5 * (s.v[0].squaredNorm() + s.q[0].squaredNorm()); }
 };

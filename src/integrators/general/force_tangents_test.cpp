@@ -11,7 +11,7 @@ namespace {
 
 // A random state of the model that holds everything, and the plain equations there.
 struct Everything {
-  System system;
+  const System system;
   State state;
   std::vector<double> y;
   FirstOrderOde equations;
@@ -30,8 +30,7 @@ struct Everything {
     Vecs q, v;
     sample::random_state(random, system.bodies.size(), q, v);
     std::vector<std::string> notes;
-    fix_assembled_values(model, q, system, notes);
-    return system;
+    return fix_assembled_values(model, std::move(system), q, notes);
   }
   // d f / d y by central differences, column k.
   std::vector<double> column(int k) {

@@ -16,13 +16,14 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using S = Planar;
 
-// Six bodies with joints and loads of every kind, some joints ideal.
-System everything(const std::vector<std::string>& ideal) {
-  System system = build_system(sample::everything());
+System with_ideal(System system, const std::vector<std::string>& names) {
   for (JointData& joint : system.joints)
-    for (const std::string& name : ideal) joint.ideal = joint.ideal || joint.name == name;
+    for (const std::string& name : names) joint.ideal = joint.ideal || joint.name == name;
   return system;
 }
+
+// Six bodies with joints and loads of every kind, some joints ideal.
+System everything(const std::vector<std::string>& ideal) { return with_ideal(build_system(sample::everything()), ideal); }
 
 // Everywhere within a turn, turning slowly; gaps as the bodies leave them.
 State start_of(const System& system) {
@@ -146,8 +147,7 @@ TEST(TreeMethods, TheInsideOfAStepJoinsItsEnds) {
 
 // Displacements whose gaps close, forces whose accelerations are the gaps': where every mode is stiff for the question.
 TEST(TreeProjector, ClosesGapsAndBalancesForces) {
-  System system = build_system(sample::four_bar(1e8, 3000));
-  for (JointData& joint : system.joints) joint.ideal = joint.name != "B";
+  const System system = with_ideal(build_system(sample::four_bar(1e8, 3000)), {"O2", "A", "O4"});
   const JointTree tree(system);
   TreeInstant at(system, tree);
   const State start = start_of(system);

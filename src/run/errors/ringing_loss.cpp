@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/inverse_dynamics.h"
 #include "laws/law.h"
 #include "run/record/force_table.h"
-#include "start/preload.h"
 
 namespace pintle {
 namespace {

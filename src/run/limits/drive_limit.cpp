@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "kinematics/position_search.h"
 #include "mobility/constraint_rows.h"
 #include "run/record/force_table.h"
-#include "start/position_search.h"
 
 namespace pintle {
 namespace {

@@ -1,10 +1,10 @@
-#include "start/time_scales.h"
+#include "dynamics/time_scales.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "start/preload.h"
+#include "dynamics/inverse_dynamics.h"
 
 namespace pintle {
 namespace {

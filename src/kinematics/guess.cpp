@@ -1,4 +1,4 @@
-#include "start/guess.h"
+#include "kinematics/guess.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "start/position_search.h"
+#include "kinematics/position_search.h"
 
 #include <algorithm>
 #include <cmath>

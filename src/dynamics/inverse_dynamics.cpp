@@ -1,4 +1,4 @@
-#include "start/preload.h"
+#include "dynamics/inverse_dynamics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,14 +11,7 @@
 #include "laws/gap_at_force.h"
 
 namespace pintle {
-namespace {
 
-constexpr int kClosing = 4;         // passes of a projection onto closed gaps, at most
-constexpr double kFits = 1e-9;      // of the largest force, or speed: gaps, or rates, that differ by no more fit together
-constexpr double kClosed = 1e-11;   // of what the first pass found: the next one finds nothing
-constexpr int kMostJoints = 300;    // whose masses with closed joints are asked for: the cost grows with the square
-
-// What a force of a joint does to its own two bodies: the acceleration of the gap per unit of force, component by component.
 template <class S>
 typename S::Vec own_mobility(const BasicSystem<S>& system, const BasicPlacement<S>& at, const BasicJointKinematics<S>& r) {
   typename S::Vec mobility = S::Vec::Zero();
@@ -26,6 +19,12 @@ typename S::Vec own_mobility(const BasicSystem<S>& system, const BasicPlacement<
   if (at.b != kGround) mobility += r.GB().cwiseAbs2() * system.bodies[at.b].mass.cwiseInverse();
   return mobility;
 }
+
+namespace {
+
+constexpr int kClosing = 4;         // passes of a projection onto closed gaps, at most
+constexpr double kClosed = 1e-11;   // of what the first pass found: the next one finds nothing
+constexpr int kMostJoints = 300;    // whose masses with closed joints are asked for: the cost grows with the square
 
 // The slowest frequency that a joint's stiffness gives to the two bodies it connects, over all joints (of components with
 // `moved`, when given).
@@ -54,9 +53,10 @@ bool drags(const BasicJointData<S>& joint) {
   return false;
 }
 
-// Whether a law does not answer at all in some component in which it would hold its joint, as in its play.
+}  // namespace
+
 template <class S>
-bool is_open(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate) {
+bool is_in_play(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate) {
   const typename S::Vec engaged = law.engaged_stiffness();
   const BasicResponse<S> now = respond(law, gap, rate);
   for (int k = 0; k < S::kDof; ++k)
@@ -64,89 +64,16 @@ bool is_open(const BasicLaw<S>& law, const typename S::Vec& gap, const typename 
   return false;
 }
 
-// The same system with springs in place of the laws of `open` joints; none where there are none.
 template <class S>
-std::optional<BasicSystem<S>> with_springs(const BasicSystem<S>& system, const std::vector<int>& open) {
-  if (open.empty()) return std::nullopt;
+std::optional<BasicSystem<S>> with_springs(const BasicSystem<S>& system, const std::vector<int>& joints) {
+  if (joints.empty()) return std::nullopt;
   BasicSystem<S> firm = system;
-  for (const int j : open) {
+  for (const int j : joints) {
     BasicLinearLaw<S> spring;
     spring.k = system.joints[j].law.engaged_stiffness();
     firm.joints[j].law = BasicLaw<S>(spring);
   }
   return firm;
-}
-
-// In place of laws that do not answer where the joints stand; what starts free is left alone.
-template <class S>
-std::optional<BasicSystem<S>> with_springs_for_play(const BasicSystem<S>& system, const BasicState<S>& state) {
-  std::vector<int> open;
-  for (int j = 0; j < system.n_joints(); ++j) {
-    const BasicLaw<S>& law = system.joints[j].law;
-    if (!law.ideal_limit() && !law.starts_free() && is_open(law, state.gap[j], state.gap_rate[j])) open.push_back(j);
-  }
-  return with_springs(system, open);
-}
-
-// What starts free but stands at the border of its law to rounding, as a rope that is taut without load, is taken for taut: it may carry.
-template <class S>
-void tauten(const BasicSystem<S>& system, BasicState<S>& state) {
-  const double rounding = kLastBits * largest_coordinate(state.q);
-  for (int j = 0; j < system.n_joints(); ++j) {
-    const BasicLaw<S>& law = system.joints[j].law;
-    if (law.ideal_limit() || !law.starts_free() || !is_open(law, state.gap[j], state.gap_rate[j])) continue;
-    const typename S::Vec engaged = law.engaged_stiffness();
-    for (int k = 0; k < S::kDof; ++k)
-      for (const double way : {rounding, -rounding}) {
-        typename S::Vec gap = state.gap[j];
-        gap[k] += way;
-        if (engaged[k] > 0 && respond(law, gap, state.gap_rate[j]).stiffness(k, k) >= engaged[k]) state.gap[j] = gap;
-      }
-  }
-}
-
-template <class S>
-void plain_start(const BasicSystem<S>& system, BasicState<S>& state) {
-  std::vector<typename S::Motion> m;
-  std::vector<BasicJointKinematics<S>> r;
-  system.motions(state.q, state.v, m);
-  system.joint_kinematics(state.t, m, r);
-  for (int j = 0; j < system.n_joints(); ++j) {
-    state.gap[j] = r[j].gap;
-    state.gap_rate[j] = r[j].rate;
-  }
-  rest_laws(system, state);
-  system.accelerations(state.t, state.q, state.v, state.a, state.law_state.data());
-  for (int j = 0; j < system.n_joints(); ++j) state.force[j] = system.joints[j].law.force(law_point(system, j, state));
-  find_gap_accelerations(system, r, state);
-}
-
-}  // namespace
-
-// Gaps that carry no stiffness are those of the positions. So are those that the bodies cannot take, as in redundant joints: the first
-// step would find others, and other forces, than the first row shows. theory/time Eq. (4.3).
-template <class S>
-void balance_start(const BasicSystem<S>& system, BasicState<S>& state) {
-  std::vector<typename S::Motion> m;
-  std::vector<BasicJointKinematics<S>> r;
-  system.motions(state.q, state.v, m);
-  system.joint_kinematics(state.t, m, r);
-  const double same_gap = kLastBits * largest_coordinate(state.q), same_rate = kFits * largest_coordinate(state.v), same_force = kFits * largest_force(state.force);
-  for (int j = 0; j < system.n_joints(); ++j) {
-    const BasicJointData<S>& joint = system.joints[j];
-    const BasicResponse<S> response = respond(joint.law, state.gap[j], state.gap_rate[j]);
-    const typename S::Vec mobility = own_mobility(system, joint.at, r[j]);
-    for (int k = 0; k < S::kDof; ++k) {
-      const double stiffness = response.stiffness(k, k), misfit = std::abs(r[j].gap[k] - state.gap[j][k]);
-      const double misfit_of_rate = std::abs(r[j].rate[k] - state.gap_rate[j][k]);
-      if (!(stiffness > 0) || (misfit > same_gap && stiffness * misfit > same_force)) state.gap[j][k] = r[j].gap[k];
-      const double ringing = mobility[k] > 0 ? std::sqrt(stiffness / mobility[k]) : 0;  // force per rate
-      if (!(stiffness > 0) || (misfit_of_rate > same_rate && std::max(response.damping(k, k), ringing) * misfit_of_rate > same_force)) state.gap_rate[j][k] = r[j].rate[k];
-    }
-  }
-  rest_laws(system, state);
-  for (int j = 0; j < system.n_joints(); ++j) state.force[j] = system.joints[j].law.force(law_point(system, j, state));
-  find_accelerations(system, m, r, state);
 }
 
 // 1 in the components that joints hold, whatever rubs in the others.
@@ -245,7 +172,6 @@ bool BasicInverseDynamics<S>::find(BasicState<S>& state) {
   return true;
 }
 
-
 template <class S>
 bool BasicInverseDynamics<S>::find_accelerations(BasicState<S>& state) {
   system_.motions(state.q, state.v, m_);
@@ -319,7 +245,7 @@ std::vector<int> BasicInverseDynamics<S>::apart(const BasicState<S>& state) cons
   std::vector<int> out;
   for (int j = 0; j < system_.n_joints(); ++j) {
     const BasicLaw<S>& law = system_.joints[j].law;
-    if (!law.ideal_limit() && law.starts_free() && is_open(law, r_[j].gap, r_[j].rate) && is_open(law, state.gap[j], state.gap_rate[j])) out.push_back(j);
+    if (!law.ideal_limit() && law.starts_free() && is_in_play(law, r_[j].gap, r_[j].rate) && is_in_play(law, state.gap[j], state.gap_rate[j])) out.push_back(j);
   }
   return out;
 }
@@ -373,57 +299,12 @@ void BasicInverseDynamics<S>::take_forces_of_bodies(BasicState<S>& state) const 
   for (int j = 0; j < system_.n_joints(); ++j) state.force[j] = respond(system_.joints[j].law, r_[j].gap, state.gap_rate[j]).force;
 }
 
-// Whether a body has moved by more than the mechanism is large.
-template <class S>
-bool moves_too_far(const BasicState<S>& from, const BasicState<S>& to) {
-  const double size = largest_coordinate(from.q);
-  for (std::size_t i = 0; i < from.q.size(); ++i)
-    if (!(S::difference(from.q[i], to.q[i]).template head<S::kDim>().norm() <= size)) return true;
-  return false;
-}
-
-template <class S>
-void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& state) {
-  const std::size_t n = system.bodies.size(), joints = system.joints.size();
-  state.a.assign(n, S::Vec::Zero());
-  state.gap = state.gap_rate = state.gap_accel = state.force = VecsOf<S>(joints, S::Vec::Zero());
-  plain_start(system, state);
-  if (!preload || joints == 0) return;
-  const BasicState<S> unloaded = state;
-  for (auto& x : state.gap_rate) x.setZero();
-  for (auto& x : state.gap_accel) x.setZero();
-  tauten(system, state);
-  BasicInverseDynamics<S> forces(system);
-  const std::optional<BasicSystem<S>> firm = with_springs_for_play(system, state);
-  for (int pass = 0; pass < kPreloadPasses; ++pass) {
-    const BasicState<S> before = state;
-    if (pass == 0 && firm) {
-      if (!BasicInverseDynamics<S>(*firm).find(state)) break;
-      forces.find_accelerations(state);  // and where the bodies are
-    } else if (!forces.find(state)) {
-      break;
-    }
-    forces.find_gaps(state);
-    if (pass == 0 && firm)  // what no gap can carry, as a push in a rope, does not act
-      for (int j = 0; j < system.n_joints(); ++j)
-        if (!system.joints[j].law.ideal_limit()) state.force[j] = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]).force;
-    // Where joints have given way, redundant ones may hold what was free: what the projection then takes for held is not, and the passes diverge.
-    if (pass > (firm ? 1 : 0) && largest_force(state.force) > kMostGrowth * largest_force(before.force)) {
-      if (moves_too_far(unloaded, before)) return void(state = unloaded);
-      state = before;
-      break;
-    }
-    forces.move_onto_gaps(state);
-    if (pass + 1 < kPreloadPasses) forces.take_forces_of_bodies(state);
-  }
-  balance_start(system, state);
-  if (!is_finite(state)) state = unloaded;  // next to a singular position joints would give way more than the mechanism is large
-}
-
-template void balance_start(const BasicSystem<Planar>& system, BasicState<Planar>& state);
-template void start_forces(const BasicSystem<Planar>& system, bool preload, BasicState<Planar>& state);
-template void balance_start(const BasicSystem<Spatial>& system, BasicState<Spatial>& state);
-template void start_forces(const BasicSystem<Spatial>& system, bool preload, BasicState<Spatial>& state);
+template Planar::Vec own_mobility(const BasicSystem<Planar>& system, const BasicPlacement<Planar>& at, const BasicJointKinematics<Planar>& r);
+template Spatial::Vec own_mobility(const BasicSystem<Spatial>& system, const BasicPlacement<Spatial>& at, const BasicJointKinematics<Spatial>& r);
+template bool is_in_play<Planar>(const BasicLaw<Planar>& law, const Planar::Vec& gap, const Planar::Vec& rate);
+template bool is_in_play<Spatial>(const BasicLaw<Spatial>& law, const Spatial::Vec& gap, const Spatial::Vec& rate);
+template std::optional<BasicSystem<Planar>> with_springs(const BasicSystem<Planar>& system, const std::vector<int>& joints);
+template std::optional<BasicSystem<Spatial>> with_springs(const BasicSystem<Spatial>& system, const std::vector<int>& joints);
 
 template class BasicInverseDynamics<Planar>;
 template class BasicInverseDynamics<Spatial>;

@@ -1,6 +1,8 @@
-// Joint preload at the start: the forces that the motion needs, with the gaps, gap rates and gap accelerations that
-// carry them, so that a run starts on the slow manifold and excites no ringing. theory/assembly section 3.
+// Inverse dynamics: the joint forces that a given motion takes, the gaps that carry them, and what a joint force has to accelerate. theory/assembly sections 3 and 5.
 #pragma once
+
+#include <optional>
+#include <vector>
 
 #include "integrators/absolute/gap_projector.h"
 #include "system/state.h"
@@ -13,6 +15,7 @@ inline constexpr double kHeldAbove = 5e-4;
 inline constexpr int kPreloadPasses = 6;   // of forces and gaps in turns, at most
 inline constexpr int kFrictionRounds = 4;  // of friction and reactions: each gains the coefficient of friction times a lever ratio
 inline constexpr double kMostGrowth = 2;   // of the largest joint force, by an attempt at a start that has not converged
+inline constexpr double kFits = 1e-9;      // of the largest force, or speed: gaps, or rates, that differ by no more fit together
 
 /// What a force on a component of a gap has to accelerate, per joint and component [kg or kg*m^2]. Empty when no joint has
 /// a stiffness.
@@ -22,6 +25,18 @@ struct BasicEffectiveMasses {
   VecsOf<S> alone;   // of the joint's own two bodies; 0 where they do not move the gap
 };
 using EffectiveMasses = BasicEffectiveMasses<Planar>;
+
+/// What a force of a joint does to its own two bodies: the acceleration of the gap per unit of force, component by component.
+template <class S>
+typename S::Vec own_mobility(const BasicSystem<S>& system, const BasicPlacement<S>& at, const BasicJointKinematics<S>& r);
+
+/// Whether a law does not answer at all in some component in which it would hold its joint, as in its play.
+template <class S>
+bool is_in_play(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate);
+
+/// The same system with springs in place of the laws of these joints; none where there are none.
+template <class S>
+std::optional<BasicSystem<S>> with_springs(const BasicSystem<S>& system, const std::vector<int>& joints);
 
 /// The joint forces that a given motion takes, and the gaps that carry them.
 template <class S>
@@ -62,14 +77,5 @@ class BasicInverseDynamics {
   VecsOf<S> Q_, wanted_, by_law_, moved_, moves_;
 };
 using InverseDynamics = BasicInverseDynamics<Planar>;
-
-/// Accelerations that the joint forces really give at the state's gaps, and the gap accelerations that go with them.
-template <class S>
-void balance_start(const BasicSystem<S>& system, BasicState<S>& state);
-
-/// Completes `state` (q, v given): accelerations, gaps and forces. With `preload` the positions and velocities are moved
-/// by the (small) joint deflections; without it the joints start as the positions leave them.
-template <class S>
-void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& state);
 
 }  // namespace pintle

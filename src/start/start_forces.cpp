@@ -1,0 +1,138 @@
+#include "start/start_forces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "dynamics/inverse_dynamics.h"
+#include "integrators/thresholds.h"
+
+namespace pintle {
+namespace {
+
+// In place of laws that do not answer where the joints stand; what starts free is left alone.
+template <class S>
+std::optional<BasicSystem<S>> with_springs_for_play(const BasicSystem<S>& system, const BasicState<S>& state) {
+  std::vector<int> open;
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const BasicLaw<S>& law = system.joints[j].law;
+    if (!law.ideal_limit() && !law.starts_free() && is_in_play(law, state.gap[j], state.gap_rate[j])) open.push_back(j);
+  }
+  return with_springs(system, open);
+}
+
+// What starts free but stands at the border of its law to rounding, as a rope that is taut without load, is taken for taut: it may carry.
+template <class S>
+void tauten(const BasicSystem<S>& system, BasicState<S>& state) {
+  const double rounding = kLastBits * largest_coordinate(state.q);
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const BasicLaw<S>& law = system.joints[j].law;
+    if (law.ideal_limit() || !law.starts_free() || !is_in_play(law, state.gap[j], state.gap_rate[j])) continue;
+    const typename S::Vec engaged = law.engaged_stiffness();
+    for (int k = 0; k < S::kDof; ++k)
+      for (const double way : {rounding, -rounding}) {
+        typename S::Vec gap = state.gap[j];
+        gap[k] += way;
+        if (engaged[k] > 0 && respond(law, gap, state.gap_rate[j]).stiffness(k, k) >= engaged[k]) state.gap[j] = gap;
+      }
+  }
+}
+
+template <class S>
+void plain_start(const BasicSystem<S>& system, BasicState<S>& state) {
+  std::vector<typename S::Motion> m;
+  std::vector<BasicJointKinematics<S>> r;
+  system.motions(state.q, state.v, m);
+  system.joint_kinematics(state.t, m, r);
+  for (int j = 0; j < system.n_joints(); ++j) {
+    state.gap[j] = r[j].gap;
+    state.gap_rate[j] = r[j].rate;
+  }
+  rest_laws(system, state);
+  system.accelerations(state.t, state.q, state.v, state.a, state.law_state.data());
+  for (int j = 0; j < system.n_joints(); ++j) state.force[j] = system.joints[j].law.force(law_point(system, j, state));
+  find_gap_accelerations(system, r, state);
+}
+
+// Whether a body has moved by more than the mechanism is large.
+template <class S>
+bool moves_too_far(const BasicState<S>& from, const BasicState<S>& to) {
+  const double size = largest_coordinate(from.q);
+  for (std::size_t i = 0; i < from.q.size(); ++i)
+    if (!(S::difference(from.q[i], to.q[i]).template head<S::kDim>().norm() <= size)) return true;
+  return false;
+}
+
+}  // namespace
+
+// Gaps that carry no stiffness are those of the positions. So are those that the bodies cannot take, as in redundant joints: the first
+// step would find others, and other forces, than the first row shows. theory/time Eq. (4.3).
+template <class S>
+void balance_start(const BasicSystem<S>& system, BasicState<S>& state) {
+  std::vector<typename S::Motion> m;
+  std::vector<BasicJointKinematics<S>> r;
+  system.motions(state.q, state.v, m);
+  system.joint_kinematics(state.t, m, r);
+  const double same_gap = kLastBits * largest_coordinate(state.q), same_rate = kFits * largest_coordinate(state.v), same_force = kFits * largest_force(state.force);
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const BasicJointData<S>& joint = system.joints[j];
+    const BasicResponse<S> response = respond(joint.law, state.gap[j], state.gap_rate[j]);
+    const typename S::Vec mobility = own_mobility(system, joint.at, r[j]);
+    for (int k = 0; k < S::kDof; ++k) {
+      const double stiffness = response.stiffness(k, k), misfit = std::abs(r[j].gap[k] - state.gap[j][k]);
+      const double misfit_of_rate = std::abs(r[j].rate[k] - state.gap_rate[j][k]);
+      if (!(stiffness > 0) || (misfit > same_gap && stiffness * misfit > same_force)) state.gap[j][k] = r[j].gap[k];
+      const double ringing = mobility[k] > 0 ? std::sqrt(stiffness / mobility[k]) : 0;  // force per rate
+      if (!(stiffness > 0) || (misfit_of_rate > same_rate && std::max(response.damping(k, k), ringing) * misfit_of_rate > same_force)) state.gap_rate[j][k] = r[j].rate[k];
+    }
+  }
+  rest_laws(system, state);
+  for (int j = 0; j < system.n_joints(); ++j) state.force[j] = system.joints[j].law.force(law_point(system, j, state));
+  find_accelerations(system, m, r, state);
+}
+
+template <class S>
+void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& state) {
+  const std::size_t n = system.bodies.size(), joints = system.joints.size();
+  state.a.assign(n, S::Vec::Zero());
+  state.gap = state.gap_rate = state.gap_accel = state.force = VecsOf<S>(joints, S::Vec::Zero());
+  plain_start(system, state);
+  if (!preload || joints == 0) return;
+  const BasicState<S> unloaded = state;
+  for (auto& x : state.gap_rate) x.setZero();
+  for (auto& x : state.gap_accel) x.setZero();
+  tauten(system, state);
+  BasicInverseDynamics<S> forces(system);
+  const std::optional<BasicSystem<S>> firm = with_springs_for_play(system, state);
+  for (int pass = 0; pass < kPreloadPasses; ++pass) {
+    const BasicState<S> before = state;
+    if (pass == 0 && firm) {
+      if (!BasicInverseDynamics<S>(*firm).find(state)) break;
+      forces.find_accelerations(state);  // and where the bodies are
+    } else if (!forces.find(state)) {
+      break;
+    }
+    forces.find_gaps(state);
+    if (pass == 0 && firm)  // what no gap can carry, as a push in a rope, does not act
+      for (int j = 0; j < system.n_joints(); ++j)
+        if (!system.joints[j].law.ideal_limit()) state.force[j] = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]).force;
+    // Where joints have given way, redundant ones may hold what was free: what the projection then takes for held is not, and the passes diverge.
+    if (pass > (firm ? 1 : 0) && largest_force(state.force) > kMostGrowth * largest_force(before.force)) {
+      if (moves_too_far(unloaded, before)) return void(state = unloaded);
+      state = before;
+      break;
+    }
+    forces.move_onto_gaps(state);
+    if (pass + 1 < kPreloadPasses) forces.take_forces_of_bodies(state);
+  }
+  balance_start(system, state);
+  if (!is_finite(state)) state = unloaded;  // next to a singular position joints would give way more than the mechanism is large
+}
+
+template void balance_start(const BasicSystem<Planar>& system, BasicState<Planar>& state);
+template void start_forces(const BasicSystem<Planar>& system, bool preload, BasicState<Planar>& state);
+template void balance_start(const BasicSystem<Spatial>& system, BasicState<Spatial>& state);
+template void start_forces(const BasicSystem<Spatial>& system, bool preload, BasicState<Spatial>& state);
+
+}  // namespace pintle

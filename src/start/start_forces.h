@@ -1,0 +1,18 @@
+// Joint preload at the start: the forces that the motion needs, with the gaps, gap rates and gap accelerations that
+// carry them, so that a run starts on the slow manifold and excites no ringing. theory/assembly section 3.
+#pragma once
+
+#include "system/state.h"
+
+namespace pintle {
+
+/// Accelerations that the joint forces really give at the state's gaps, and the gap accelerations that go with them.
+template <class S>
+void balance_start(const BasicSystem<S>& system, BasicState<S>& state);
+
+/// Completes `state` (q, v given): accelerations, gaps and forces. With `preload` the positions and velocities are moved
+/// by the (small) joint deflections; without it the joints start as the positions leave them.
+template <class S>
+void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& state);
+
+}  // namespace pintle
