@@ -34,7 +34,7 @@ BasicRingingLoss<S>::BasicRingingLoss(const BasicSystem<S>& system, const BasicS
 }
 
 // The acceleration of a gap is next to nothing but for its ringing. Where the curve through the stages misses what the step began with by J, of a ringing of
-// amplitude A, the step has taken J^2 / 2A off it: the methods' errors at their ends go with the square of those of their curves.
+// amplitude A, the step has taken about J^2 / A off it: the methods' errors at their ends go with the square of those of their curves.
 template <class S>
 void BasicRingingLoss<S>::see_step(const BasicStepNodes<S>& nodes, double h) {
   const RadauTable& table = *nodes.table;
@@ -48,9 +48,8 @@ void BasicRingingLoss<S>::see_step(const BasicStepNodes<S>& nodes, double h) {
         amplitude = std::max(amplitude, std::abs(x));
       }
       missed = std::min(std::abs(missed), amplitude);
-      const double kept = std::exp(-decay_[j][k] * h);
-      lost_[j][k] = kept * lost_[j][k];
-      if (amplitude > 0) lost_[j][k] += kept * mass_[j][k] * missed * missed / (2 * amplitude);
+      if (!(amplitude > 0)) continue;
+      lost_[j][k] = std::exp(-decay_[j][k] * h) * (lost_[j][k] + mass_[j][k] * missed * missed / amplitude);
     }
   for (std::size_t j = 0; j < lost_.size(); ++j) {
     force_[j] = std::max(force_[j], linear_magnitude<S>(lost_[j]));

@@ -43,8 +43,9 @@ TEST(RingingLoss, IsWhatStepsTakeOffAVibration) {
     for (const double angle : {1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 20.0}) {
       const Loss loss = loss_of_ringing(stages, angle, 0, 40);
       if (loss.true_one < 1e-9) continue;  // rounding
-      EXPECT_GT(loss.said, loss.true_one / 4) << stages << " stages, " << angle;
-      EXPECT_LT(loss.said, 4 * loss.true_one) << stages << " stages, " << angle;
+      const double least = angle > 6 ? 0.2 : 0.33;  // unresolved, it depends on the phase in which the step begins
+      EXPECT_GT(loss.said, least * loss.true_one) << stages << " stages, " << angle;
+      EXPECT_LT(loss.said, 2 * loss.true_one) << stages << " stages, " << angle;
     }
 }
 
@@ -53,7 +54,7 @@ TEST(RingingLoss, IsNeverMoreThanThereWas) {
   for (const int stages : {3, 5}) {
     const Loss loss = loss_of_ringing(stages, 1000, 0, 30);
     EXPECT_NEAR(loss.true_one, kAmplitude, 1e-3);
-    EXPECT_NEAR(loss.said, kAmplitude, 0.6 * kAmplitude);
+    EXPECT_NEAR(loss.said, kAmplitude, 0.1 * kAmplitude);
   }
 }
 
