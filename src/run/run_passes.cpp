@@ -174,7 +174,6 @@ class Passes {
       growth_ = fit_growth(out_.of_motion ? motion_difference_curve(system_, coarse, fine) : force_difference_curve(system_, coarse, fine));
     if (growth_.exponential && growth_.saturated) take_all(coarse, fine);
     error_ = share_ * (out_.of_motion ? out_.motion_error : largest_of(relative_difference_));
-    if (!out_.of_motion) error_ = std::max(error_, largest_of(relative_ringing(system_, difference_, fine_ringing_)));
   }
 
   // To which part errors have fallen since the pass before: as its tolerance, or less where its steps have shrunk by less than that asks for.
@@ -264,7 +263,7 @@ class Passes {
     for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
     if (!difference_.force.empty() && !chaotic) {
       include_peaks(fine_->loads(), difference_);
-      state_errors(system_, difference_, fine_ringing_, share_, least_error(), out_.joints);
+      state_errors<S>(system_, difference_, share_, {least_error(), fine_ringing_, fine_tolerance_}, out_.joints);
     }
     if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, chaos_, out_);
   }

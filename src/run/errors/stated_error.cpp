@@ -95,14 +95,6 @@ std::vector<double> relative_differences(const BasicSystem<S>& system, const Pas
 }
 
 template <class S>
-std::vector<double> relative_ringing(const BasicSystem<S>& system, const PassDifference& c, const BasicRingingLoss<S>& ringing) {
-  const Measures<S> measures(system, c.peak, c.peak_couple);
-  std::vector<double> out(c.force.size());
-  for (std::size_t j = 0; j < out.size(); ++j) out[j] = measures.of_joint(j, ringing.force(j), c.peak[j], ringing.couple(j), c.peak_couple[j]);
-  return out;
-}
-
-template <class S>
 DifferenceCurve motion_difference_curve(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
   const std::size_t bodies = system.bodies.size();
   DifferenceCurve curve;
@@ -170,14 +162,17 @@ double curve_horizon(const DifferenceCurve& curve, double tolerance) {
 double share_of_finer(double fall) { return std::min(1.0, kOfEqual * std::pow(fall, kErrorPower)); }
 
 template <class S>
-void state_errors(const BasicSystem<S>& system, const PassDifference& difference, const BasicRingingLoss<S>& ringing, double share, double least, std::vector<LoadSummary>& joints) {
-  const std::vector<double> apart = relative_differences(system, difference), lost = relative_ringing(system, difference, ringing);
+void state_errors(const BasicSystem<S>& system, const PassDifference& difference, double share, const BasicLeastError<S>& least, std::vector<LoadSummary>& joints) {
+  const Measures<S> measures(system, difference.peak, difference.peak_couple);
   for (std::size_t j = 0, row = 0; j < system.joints.size(); ++j) {
     if (system.joints[j].servo >= 0) continue;
+    const double peak = difference.peak[j], peak_couple = difference.peak_couple[j];
+    const double force = std::max(share * difference.force[j], std::min(least.ringing.force(j), least.tolerance * peak));
+    const double couple = std::max(share * difference.couple[j], std::min(least.ringing.couple(j), least.tolerance * peak_couple));
     LoadSummary& joint = joints[row++];
-    joint.error_estimate = std::max({share * difference.force[j], ringing.force(j), least * difference.peak[j]});
-    joint.moment_error_estimate = std::max(share * difference.couple[j], ringing.couple(j));
-    joint.relative_error_estimate = std::max({share * apart[j], lost[j], least});
+    joint.error_estimate = std::max(force, least.of_peak * peak);
+    joint.moment_error_estimate = couple;
+    joint.relative_error_estimate = std::max(measures.of_joint(j, force, peak, couple, peak_couple), least.of_peak);
   }
 }
 
@@ -195,9 +190,7 @@ template double motion_difference(const BasicSystem<Spatial>& system, const Basi
 template DifferenceCurve force_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
 template DifferenceCurve motion_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
 template std::vector<double> force_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double tolerance);
-template std::vector<double> relative_ringing(const BasicSystem<Planar>& system, const PassDifference& c, const BasicRingingLoss<Planar>& ringing);
-template void state_errors(const BasicSystem<Planar>& system, const PassDifference& difference, const BasicRingingLoss<Planar>& ringing, double share, double least, std::vector<LoadSummary>& joints);
-template std::vector<double> relative_ringing(const BasicSystem<Spatial>& system, const PassDifference& c, const BasicRingingLoss<Spatial>& ringing);
-template void state_errors(const BasicSystem<Spatial>& system, const PassDifference& difference, const BasicRingingLoss<Spatial>& ringing, double share, double least, std::vector<LoadSummary>& joints);
+template void state_errors(const BasicSystem<Planar>& system, const PassDifference& difference, double share, const BasicLeastError<Planar>& least, std::vector<LoadSummary>& joints);
+template void state_errors(const BasicSystem<Spatial>& system, const PassDifference& difference, double share, const BasicLeastError<Spatial>& least, std::vector<LoadSummary>& joints);
 
 }  // namespace pintle

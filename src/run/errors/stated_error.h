@@ -32,10 +32,6 @@ void include_peaks(const BasicLoadRecorder<S>& fine, PassDifference& c);
 template <class S>
 std::vector<double> relative_differences(const BasicSystem<S>& system, const PassDifference& c);
 
-/// The ringing that the steps of a pass have taken off each joint's force, by the same measures [-]. theory/time Eq. (6.12).
-template <class S>
-std::vector<double> relative_ringing(const BasicSystem<S>& system, const PassDifference& c, const BasicRingingLoss<S>& ringing);
-
 /// Largest difference of a body's place between two passes, over the longest way that one has gone from its start [-]; of centres
 /// and of points at the radius of gyration. theory/time Eq. (6.4).
 template <class S>
@@ -47,10 +43,17 @@ inline constexpr double kErrorPower = 0.8;
 /// theory/time Eq. (6.2).
 double share_of_finer(double fall);
 
-/// States the errors of the joints that are no servos: `share` of the difference, at least the ringing that is lost, and at least `least` of the peak.
-/// theory/time Eq. (6.1).
+/// What a joint's error is at least.
 template <class S>
-void state_errors(const BasicSystem<S>& system, const PassDifference& difference, const BasicRingingLoss<S>& ringing, double share, double least, std::vector<LoadSummary>& joints);
+struct BasicLeastError {
+  double of_peak = 0;                    // [-]
+  const BasicRingingLoss<S>& ringing;    // that the steps have damped,
+  double tolerance = 0;                  // of these: no more of the peak is lost unnoticed
+};
+
+/// States the errors of the joints that are no servos: `share` of the difference, and at least `least`. theory/time Eqs. (6.1), (6.12).
+template <class S>
+void state_errors(const BasicSystem<S>& system, const PassDifference& difference, double share, const BasicLeastError<S>& least, std::vector<LoadSummary>& joints);
 
 /// A relative difference [-] as a function of time [s].
 struct DifferenceCurve {
