@@ -34,7 +34,7 @@ TREE, BUILD, RESULTS = WORK / "tree", WORK / "build", WORK / "results.csv"
 PROGRAM = BUILD / "bin" / "pintle"
 UNMEASURED = ROOT / "tools" / "unmeasured_constants.txt"
 PAGE = ROOT / "docs" / "theory" / "constants.md"
-ROOMS = ["laws", "linalg", "system", "integrators", "start", "run", "batch", "studies", "live"]
+ROOMS = ["laws", "linalg", "system", "kinematics", "integrators", "dynamics", "start", "run", "batch", "studies", "live"]
 FACTORS = [0.5, 2.0]
 # What runs make of a change that cannot matter: whatever is no larger says nothing.
 NOISE = [("integrators/radau/step_control.h:kSafety", "noise", 1 + sign * size) for size in (1e-9, 1e-8) for sign in (1, -1)]

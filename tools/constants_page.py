@@ -132,7 +132,8 @@ def how_to_read(runs, usual, noise):
            "- *Same*: every number of every run is the same to the last bit, and what the runs say in notes.",
            "- A constant of the start decides from which state a run starts. Where no start without ringing is found, as the notes of rope_pendulum and redundant-1-127 say, another constant means another motion,",
            "  and the error has the distance of the two.",
-           "- A constant of one method is measured on the runs of that method. Counts are halved to the next whole number below.", "",
+           "- A constant of one method is measured on the runs of that method. Counts are halved to the next whole number below.",
+           "- Measurements go on where they were stopped, also after the program has changed: each row is compared with the runs of its own program.", "",
            "| run | steps | evaluations | error | exit code |", "| --- | ---: | ---: | ---: | ---: |"]
     if noise:
         cost, error = level(noise)
