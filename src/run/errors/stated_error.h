@@ -46,9 +46,9 @@ double share_of_finer(double fall);
 /// What a joint's error is at least.
 template <class S>
 struct BasicLeastError {
-  double of_peak = 0;                    // [-]
-  const BasicRingingLoss<S>& ringing;    // that the steps have damped,
-  double tolerance = 0;                  // of these: no more of the peak is lost unnoticed
+  double of_peak = 0;                  // of the joint's peak force [-]
+  const BasicRingingLoss<S>& ringing;  // what the steps have damped: no more of it than `tolerance` of the peak goes unnoticed
+  double tolerance = 0;                // of the steps [-]
 };
 
 /// States the errors of the joints that are no servos: `share` of the difference, and at least `least`. theory/time Eqs. (6.1), (6.12).
