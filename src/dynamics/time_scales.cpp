@@ -13,24 +13,19 @@ namespace {
 // out is below (span/kFast)^2 of the force's curvature. Damping settles a rate at once when the faster one is kSettles times.
 constexpr double kFast = 20, kSettles = 100;  // slower rate of a gap over 1/span, above which it is fast; ratio of its two rates above which damping settles the faster one at once
 
-struct Rates {
-  double slow = 0, fast = 0;  // [1/s]
-};
-
-// theory/assembly Eq. (5.2): the roots of m s^2 + c s + k = 0 in magnitude.
-Rates own_rates(double m, double c, double k) {
-  const double root = c * c - 4 * m * k;
-  if (root < 0) return {std::sqrt(k / m), std::sqrt(k / m)};
-  const double sum = c + std::sqrt(root);
-  return {2 * k / sum, sum / (2 * m)};
-}
-
 template <class Vec>
 bool any(const std::vector<Vec>& x) {
   return std::any_of(x.begin(), x.end(), [](const Vec& y) { return !y.isZero(); });
 }
 
 }  // namespace
+
+OwnRates own_rates(double m, double c, double k) {
+  const double root = c * c - 4 * m * k;
+  if (root < 0) return {std::sqrt(k / m), std::sqrt(k / m), c / (2 * m)};
+  const double sum = c + std::sqrt(root), slow = 2 * k / sum;
+  return {slow, sum / (2 * m), slow};
+}
 
 template <class S>
 bool BasicTimeScales<S>::any_soft() const { return any(overdamped) || any(resolved); }
@@ -49,23 +44,23 @@ BasicTimeScales<S> measure_time_scales(const BasicSystem<S>& system, const Basic
   const BasicEffectiveMasses<S> masses = BasicInverseDynamics<S>(system).effective_masses(state);
   for (std::size_t j = 0; j < masses.closed.size(); ++j) {
     const BasicResponse<S> response = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]);
-    Rates both[S::kDof];
+    OwnRates both[S::kDof];
     for (int i = 0; i < S::kDof; ++i) {
       const double k = response.stiffness(i, i), m = masses.closed[j][i];
       if (k > 0 && m > 0) both[i] = own_rates(m, response.damping(i, i), k);
     }
     // All directions of a point are treated alike: the slowest decides.
     const auto point = std::span(both).template first<S::kDim>();
-    const auto slower = [](const Rates& a, const Rates& b) { return a.slow < b.slow; };
-    if (const Rates slowest = *std::min_element(point.rbegin(), point.rend(), slower); slowest.slow > 0) std::fill(point.begin(), point.end(), slowest);
+    const auto slower = [](const OwnRates& a, const OwnRates& b) { return a.slow < b.slow; };
+    if (const OwnRates slowest = *std::min_element(point.rbegin(), point.rend(), slower); slowest.slow > 0) std::fill(point.begin(), point.end(), slowest);
     for (int i = 0; i < S::kDof; ++i) {
-      const Rates& rates = both[i];
+      const OwnRates& rates = both[i];
       time_scales.slow_rate[j][i] = rates.slow;
       if (rates.slow == 0 || rates.slow * span > kFast) continue;
       const bool settles = rates.fast * span > kSettles;
       (settles ? time_scales.overdamped : time_scales.resolved)[j][i] = 1;
       if (settles || !(masses.alone[j][i] > 0)) continue;
-      const Rates alone = own_rates(masses.alone[j][i], response.damping(i, i), response.stiffness(i, i));
+      const OwnRates alone = own_rates(masses.alone[j][i], response.damping(i, i), response.stiffness(i, i));
       time_scales.fastest = std::max(time_scales.fastest, alone.fast);
     }
   }

@@ -22,6 +22,13 @@ struct BasicTimeScales {
 };
 using TimeScales = BasicTimeScales<Planar>;
 
+/// How a gap moves by itself: the roots of m s^2 + c s + k = 0. theory/assembly Eq. (5.2).
+struct OwnRates {
+  double slow = 0, fast = 0;  // their magnitudes [1/s]
+  double decay = 0;           // the smaller of their real parts, without its sign [1/s]
+};
+OwnRates own_rates(double m, double c, double k);
+
 /// No joint is soft.
 template <class S>
 BasicTimeScales<S> all_fast(const BasicSystem<S>& system);

@@ -37,7 +37,7 @@ template <class S>
 class Passes {
  public:
   Passes(const BasicSystem<S>& system, const BasicState<S>& start, const SimulateSettings& settings, const BasicPassContext<S>& context, Trajectory& out)
-      : system_(system), start_(start), settings_(settings), context_(context), out_(out), ringing_(system, start), fine_ringing_(ringing_) {}
+      : system_(system), start_(start), settings_(settings), context_(context), out_(out), fine_ringing_(system, start) {}
 
   std::unique_ptr<BasicForceRecorder<S>> go() {
     out_.tolerance = settings_.tolerance;
@@ -81,8 +81,9 @@ class Passes {
     BasicEnergyWatch<S> energy(system_, p.duration, std::max(tolerance, std::min(settings_.tolerance, kLoosestOfMotion)), exact_work);
     if (p.scale) energy.expect(turnover_);
     p.energy = &energy;
-    BasicRingingLoss<S> ringing = ringing_;
-    p.ringing = &ringing;
+    BasicRingingLoss<S> ringing = fine_ringing_;
+    ringing.start_again();
+    if (context_.shape.checked) p.ringing = &ringing;  // otherwise no error is stated
     BasicIntegration<S> done = integrate(system_, start_, p, *recorder);
     turnover_ = done.ended == Ended::kAtEnd ? energy.turnover() : 0;
     count(done.counters);
@@ -320,7 +321,6 @@ class Passes {
   const SimulateSettings& settings_;
   const BasicPassContext<S>& context_;
   Trajectory& out_;
-  const BasicRingingLoss<S> ringing_;  // before a pass
   BasicRingingLoss<S> fine_ringing_;
   MethodChoice choice_;
   std::unique_ptr<BasicForceRecorder<S>> coarse_, fine_;

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "dynamics/inverse_dynamics.h"
 #include "dynamics/time_scales.h"
 #include "integrators/absolute/radau_stepper.h"
 #include "start/slow_manifold.h"
+#include "start/start_forces.h"
 
 namespace pintle {
 namespace {

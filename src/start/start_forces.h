@@ -6,6 +6,10 @@
 
 namespace pintle {
 
+// Of free bodies, and over a tree.
+inline constexpr int kPreloadPasses = 6;  // of forces and gaps in turns, at most
+inline constexpr double kMostGrowth = 2;  // of the largest joint force, by an attempt at a start that has not converged
+
 /// Accelerations that the joint forces really give at the state's gaps, and the gap accelerations that go with them.
 template <class S>
 void balance_start(const BasicSystem<S>& system, BasicState<S>& state);

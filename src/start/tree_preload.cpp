@@ -11,6 +11,7 @@
 #include "laws/gap_at_force.h"
 #include "linalg/chebyshev_nodes.h"
 #include "start/slow_manifold.h"
+#include "start/start_forces.h"
 
 namespace pintle {
 namespace {

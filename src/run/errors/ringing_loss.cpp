@@ -4,31 +4,35 @@
 #include <cmath>
 
 #include "dynamics/inverse_dynamics.h"
+#include "dynamics/time_scales.h"
 #include "laws/law.h"
 #include "run/record/force_table.h"
 
 namespace pintle {
-namespace {
-
-// The slower of the roots of m s^2 + c s + k, or the real part of both. theory/assembly Eq. (5.2)
-double decay_of(double m, double c, double k) {
-  const double root = c * c - 4 * m * k;
-  return root < 0 ? c / (2 * m) : 2 * k / (c + std::sqrt(root));
-}
-
-}  // namespace
 
 template <class S>
-BasicRingingLoss<S>::BasicRingingLoss(const BasicSystem<S>& system, const BasicState<S>& start)
-    : mass_(system.joints.size(), S::Vec::Zero()), decay_(mass_), lost_(mass_), force_(system.joints.size()), couple_(force_) {
-  const BasicEffectiveMasses<S> masses = BasicInverseDynamics<S>(system).effective_masses(start);
+BasicRingingLoss<S>::BasicRingingLoss(const BasicSystem<S>& system, const BasicState<S>& start) : system_(&system), start_(&start) {
+  start_again();
+}
+
+template <class S>
+void BasicRingingLoss<S>::start_again() {
+  lost_.assign(system_->joints.size(), S::Vec::Zero());
+  force_.assign(lost_.size(), 0.0);
+  couple_ = force_;
+}
+
+template <class S>
+void BasicRingingLoss<S>::find_masses() {
+  mass_ = decay_ = VecsOf<S>(lost_.size(), S::Vec::Zero());
+  const BasicEffectiveMasses<S> masses = BasicInverseDynamics<S>(*system_).effective_masses(*start_);
   for (std::size_t j = 0; j < masses.closed.size(); ++j) {
-    const BasicResponse<S> response = respond(system.joints[j].law, start.gap[j], start.gap_rate[j]);
+    const BasicResponse<S> response = respond(system_->joints[j].law, start_->gap[j], start_->gap_rate[j]);
     for (int k = 0; k < S::kDof; ++k) {
       const double m = masses.closed[j][k];
       if (!(response.stiffness(k, k) > 0) || !(m > 0)) continue;
       mass_[j][k] = m;
-      decay_[j][k] = decay_of(m, response.damping(k, k), response.stiffness(k, k));
+      decay_[j][k] = own_rates(m, response.damping(k, k), response.stiffness(k, k)).decay;
     }
   }
 }
@@ -37,6 +41,7 @@ BasicRingingLoss<S>::BasicRingingLoss(const BasicSystem<S>& system, const BasicS
 // amplitude A, the step has taken about J^2 / A off it: the methods' errors at their ends go with the square of those of their curves.
 template <class S>
 void BasicRingingLoss<S>::see_step(const BasicStepNodes<S>& nodes, double h) {
+  if (mass_.empty()) find_masses();
   const RadauTable& table = *nodes.table;
   for (std::size_t j = 0; j < lost_.size(); ++j)
     for (int k = 0; k < S::kDof; ++k) {

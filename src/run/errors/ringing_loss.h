@@ -12,8 +12,10 @@ namespace pintle {
 template <class S>
 class BasicRingingLoss {
  public:
-  /// Of a run from `start`.
+  /// Of a run from `start`; both must outlive it.
   BasicRingingLoss(const BasicSystem<S>& system, const BasicState<S>& start);
+  /// Before another pass.
+  void start_again();
 
   /// A step of h seconds has been made.
   void see_step(const BasicStepNodes<S>& nodes, double h);
@@ -22,7 +24,11 @@ class BasicRingingLoss {
   double couple(std::size_t j) const { return couple_[j]; }
 
  private:
-  VecsOf<S> mass_, decay_;  // what a component's force accelerates; the rate at which the joint damps its own vibration [1/s]
+  void find_masses();
+
+  const BasicSystem<S>* system_;
+  const BasicState<S>* start_;
+  VecsOf<S> mass_, decay_;  // what a component's force accelerates; the rate at which the joint damps its own vibration [1/s]; empty before the first step
   VecsOf<S> lost_;          // [N], [N*m]
   std::vector<double> force_, couple_;
 };
