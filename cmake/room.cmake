@@ -44,11 +44,17 @@ endfunction()
 
 # With PINTLE_UNITY six sources of the target are compiled as one, so that what they share is read and instantiated once. Names in their
 # unnamed namespaces must differ for that. What steps call is left apart: its speed depends on what the compiler sees together.
+# Under the sanitizers nothing is fast, and all rooms are united; PINTLE_APART has what compiles long by itself, and catalogs whose keys have the same names.
 set(PINTLE_UNITED_ROOMS check results io report sweeps)
+set(PINTLE_APART "(stage_solver_[a-z]*|end_point_projection|dense_forces|batch_[0-9]*|[a-z]*_catalog|tree_augmented|leaf_spring)\\.cpp$")
 function(pintle_unite target)
-  if(PINTLE_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  if(NOT PINTLE_UNITY)
+    return()
   endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "${PINTLE_APART}")
+  set_source_files_properties(${sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # pintle_room(NAME [QUICK] [LINK libraries...]): the target of the current folder, linked to every room on its left. Laws and
@@ -72,7 +78,7 @@ function(pintle_room name)
       target_link_libraries(pintle_${name} PRIVATE pintle_quick_build)
     endif()
     pintle_precompile(${name} ${arg_QUICK})
-    if(name IN_LIST PINTLE_UNITED_ROOMS)
+    if(name IN_LIST PINTLE_UNITED_ROOMS OR PINTLE_SANITIZE)
       pintle_unite(pintle_${name})
     endif()
   else()

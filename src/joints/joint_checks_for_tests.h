@@ -85,6 +85,17 @@ inline void expect_derivatives(const JointDisplacement& displacement, const Coup
   expect_close<Eigen::Matrix<double, 3, 6>>(rate_gradient(displacement, c.pose(), c.A(), c.B()),
                                             slopes<3>(c, [&](const Couple& x) { return Vec(kinematics(displacement, x).rate); }), 1e-7,
                                             "gradient of the rate");
+  if (!has_slip(displacement)) {
+    // The third derivative of a function of the pose is left out.
+    const auto third = slopes<3>(c, [&](const Couple& x) {
+      Vec bent = Vec::Zero();
+      for_each_function(displacement, x.pose().z, [&](int k, const auto& g) { bent[k] = c.pose().rate.dot(g.hessian * c.pose().rate); });
+      return bent;
+    });
+    expect_close<Eigen::Matrix<double, 3, 6>>(bias_gradient(displacement, c.pose(), c.A(), c.B()),
+                                              slopes<3>(c, [&](const Couple& x) { return Vec(kinematics(displacement, x).bias); }) - third, 1e-6,
+                                              "gradient of the convective term");
+  }
   const auto geometric = geometric_stiffness(displacement, c.pose(), force);
   expect_close<Eigen::Matrix<double, 6, 6>>(
       geometric, slopes<6>(c, [&](const Couple& x) { return Vec6(jacobian(kinematics(displacement, x)).transpose() * force); }), 1e-7,

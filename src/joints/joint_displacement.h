@@ -63,6 +63,8 @@ struct DisplacementReader {
   static Vec to_pose_force(const Displacement& displacement, const Pose& pose, const Vec& force);
   static Both geometric_stiffness(const Displacement& displacement, const Pose& pose, const Vec& force);
   static RateGradient rate_gradient(const Displacement& displacement, const Pose& pose, const typename S::Motion& A, const typename S::Motion& B);
+  static RateGradient bias_gradient(const Displacement& displacement, const Pose& pose, const typename S::Motion& A, const typename S::Motion& B)
+    requires(!S::kCurved);
 };
 /// How many components of the gap are functions of the pose; 0: it is the pose itself.
 template <class Displacement>
@@ -122,6 +124,12 @@ auto geometric_stiffness(const Displacement& displacement, const Pose& pose, con
 template <class Displacement, class Pose, class Motion>
 auto rate_gradient(const Displacement& displacement, const Pose& pose, const Motion& A, const Motion& B) {
   return DisplacementReader<SpaceOf<Pose>>::rate_gradient(displacement, pose, A, B);
+}
+
+/// d(bias)/dq over (qA, qB) at constant velocities; of a gap that is a function of the pose without the function's third derivative. In the plane.
+template <class Displacement, class Pose, class Motion>
+auto bias_gradient(const Displacement& displacement, const Pose& pose, const Motion& A, const Motion& B) {
+  return DisplacementReader<SpaceOf<Pose>>::bias_gradient(displacement, pose, A, B);
 }
 
 }  // namespace pintle

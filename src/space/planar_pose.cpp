@@ -33,4 +33,17 @@ Eigen::Matrix<double, 3, 6> PlanarRelativePose::rate_gradient(const S::Motion& A
   return g;
 }
 
+Eigen::Matrix<double, 3, 6> PlanarRelativePose::bias_gradient(const S::Motion& A, const S::Motion& B) const {
+  Eigen::Matrix<double, 3, 6> g = Eigen::Matrix<double, 3, 6>::Zero();
+  Eigen::Matrix2d to_F;
+  to_F << c, s, -s, c;
+  // In world axes (2.3) is -wA^2 arm_a - 2 wA J (vM - vA) - wB^2 arm_b, with vM the velocity of M's origin.
+  const double wa = A.w, relative = A.w - B.w;
+  g.block<2, 2>(0, 0) = wa * wa * to_F;
+  g.block<2, 2>(0, 3) = -wa * wa * to_F;
+  g.block<2, 1>(0, 2) = S::Point(bias.y(), -bias.x());
+  g.block<2, 1>(0, 5) = -relative * relative * (to_F * S::perp(arm_b));
+  return g;
+}
+
 }  // namespace pintle

@@ -64,6 +64,8 @@ struct PlanarRelativePose {
   Eigen::Matrix<double, 6, 6> geometric(const S::Vec& f) const;
   /// d(rate)/dq over (qA, qB), 3 x 6. Eq. (2.10). Needs the motions it was made from.
   Eigen::Matrix<double, 3, 6> rate_gradient(const S::Motion& A, const S::Motion& B) const;
+  /// d(bias)/dq over (qA, qB) at constant velocities, 3 x 6. Eq. (2.22). Needs the motions it was made from.
+  Eigen::Matrix<double, 3, 6> bias_gradient(const S::Motion& A, const S::Motion& B) const;
 };
 
 template <class T>

@@ -262,6 +262,95 @@ void JointTree::jacobian(const TreePose& pose, Eigen::MatrixXd& J) const {
   }
 }
 
+// From the pivot of a body's turning coordinate to its centre of mass: what (2.2) turns for S. None: zero.
+S::Point JointTree::lever(const TreePose& pose, int body) const {
+  const Link& link = link_[body];
+  if (link.joint < 0 || link.turn < 0) return S::Point::Zero();
+  const S::Vec turn = pose.S[body].col(link.turn);
+  return turn[2] * S::Point(turn.y(), -turn.x());
+}
+
+void JointTree::motion_slopes(const TreePose& pose, const Vecs& a, TreeMotionSlopes& out) const {
+  for (Eigen::MatrixXd* x : {&out.velocity, &out.acceleration, &out.acceleration_by_rate}) x->setZero(3 * static_cast<Eigen::Index>(link_.size()), n_);
+  const auto at = [](int body, const Vecs& x) { return body == kGround ? S::Vec(S::Vec::Zero()) : x[body]; };
+  // Velocity and acceleration of the point of a body that stands `arm` from its centre of mass.
+  const auto velocity_of = [](const S::Vec& v, const S::Point& arm) { return S::Point(v.head<2>() + v[2] * S::perp(arm)); };
+  const auto acceleration_of = [](const S::Vec& v, const S::Vec& x, const S::Point& arm) {
+    return S::Point(x.head<2>() + x[2] * S::perp(arm) - v[2] * v[2] * arm);
+  };
+  struct Coordinate {
+    bool turns;
+    double sign;       // turning: of the angle
+    S::Point v, a;     // turning: the pivot's; sliding: what each metre adds everywhere
+    S::Point by_rate;  // sliding: what each metre per second adds to accelerations
+  };
+  std::vector<Coordinate> coordinate(static_cast<std::size_t>(n_));
+  for (const int body : order_) {
+    const Link& link = link_[body];
+    for (int k = 0; k < link.count; ++k) {
+      const S::Vec column = pose.S[body].col(k);
+      Coordinate& c = coordinate[link.first + k];
+      c.turns = column[2] != 0;
+      c.sign = column[2];
+      if (c.turns) {  // about a point of the body, or, where the joint is passed from its second body, of its parent
+        const bool own = link.forward || link.joint < 0;
+        const S::Point to_pivot = own ? S::Point(-lever(pose, body)) : S::Point(pose.arm[body] - lever(pose, body));
+        const int carrier = own ? body : link.parent;
+        c.v = velocity_of(at(carrier, pose.v), to_pivot);
+        c.a = acceleration_of(at(carrier, pose.v), at(carrier, a), to_pivot);
+        c.by_rate.setZero();
+      } else {  // along an axis that turns with the parent, or with the body
+        const int carrier = link.joint < 0 ? kGround : link.forward ? link.parent : body;
+        const S::Point axis = column.head<2>();
+        const double w = at(carrier, pose.v)[2];
+        c.v = w * S::perp(axis);
+        c.a = at(carrier, a)[2] * S::perp(axis) - w * w * axis;
+        c.by_rate = 2 * w * S::perp(axis);
+      }
+    }
+    for (int b = body; b != kGround; b = link_[b].parent)
+      for (int k = link_[b].first; k < link_[b].first + link_[b].count; ++k) {
+        const Coordinate& c = coordinate[k];
+        const S::Point v = c.turns ? S::Point(c.sign * S::perp(pose.v[body].head<2>() - c.v)) : c.v;
+        const S::Point x = c.turns ? S::Point(c.sign * S::perp(a[body].head<2>() - c.a)) : c.a;
+        out.velocity.block<2, 1>(3 * body, k) = v;
+        out.acceleration.block<2, 1>(3 * body, k) = x;
+        out.acceleration_by_rate.block<2, 1>(3 * body, k) = c.turns ? S::Point(2 * v) : c.by_rate;
+      }
+  }
+}
+
+void JointTree::geometric_stiffness(const TreePose& pose, const Vecs& g, Eigen::MatrixXd& out) const {
+  out.setZero(n_, n_);
+  std::vector<S::Point> force(g.size());               // of a body and all that it carries
+  std::vector<double> virial(g.size(), 0.0);           // the sum of their arms about its centre of mass times their forces
+  for (std::size_t i = 0; i < g.size(); ++i) force[i] = g[i].head<2>();
+  for (auto at = order_.rbegin(); at != order_.rend(); ++at) {
+    const int body = *at;
+    const Link& link = link_[body];
+    const int turn = link.joint < 0 ? 2 : link.turn;
+    const double about_pivot = virial[body] + lever(pose, body).dot(force[body]);
+    // The coordinate nearer to the tips turns or moves what hangs on it; only turns before it feel that.
+    const auto turns_before = [&](bool own, auto&& use) {
+      if (own && turn >= 0) use(link.first + turn, pose.S[body](2, turn));
+      for (int b = link.parent; b != kGround; b = link_[b].parent) {
+        const int k = link_[b].joint < 0 ? 2 : link_[b].turn;
+        if (k >= 0) use(link_[b].first + k, pose.S[b](2, k));
+      }
+    };
+    if (turn >= 0)
+      turns_before(true, [&](int k, double sign) { out(link.first + turn, k) = out(k, link.first + turn) = -pose.S[body](2, turn) * sign * about_pivot; });
+    for (int slide = 0; slide < link.count; ++slide) {
+      if (slide == turn) continue;
+      const double across = S::perp(pose.S[body].col(slide).head<2>()).dot(force[body]);
+      turns_before(!link.forward && link.joint >= 0, [&](int k, double sign) { out(link.first + slide, k) = out(k, link.first + slide) = sign * across; });
+    }
+    if (link.parent == kGround) continue;
+    force[link.parent] += force[body];
+    virial[link.parent] += virial[body] + pose.arm[body].dot(force[body]);
+  }
+}
+
 void JointTree::reactions(const TreePose& pose, const Vecs& a, const Vecs& Q, Vecs& force) const {
   Vecs needed(Q.size());
   for (std::size_t i = 0; i < Q.size(); ++i) needed[i] = system_.bodies[i].mass.cwiseProduct(a[i]) - Q[i];  // (4.1)

@@ -23,6 +23,14 @@ struct TreePose {
   Vecs c;                          // acceleration on a parent that does not accelerate, with coordinates that do not
 };
 
+/// How the bodies' motion depends on coordinates y and rates u at constant u' = w: three rows for each body, a column for each
+/// coordinate. The slope of velocities over rates is the Jacobian.
+struct TreeMotionSlopes {
+  Eigen::MatrixXd velocity;              // dv/dy
+  Eigen::MatrixXd acceleration;          // da/dy
+  Eigen::MatrixXd acceleration_by_rate;  // da/du
+};
+
 class JointTree {
  public:
   using S = Planar;
@@ -56,6 +64,10 @@ class JointTree {
   void mass(const TreePose& pose, Eigen::MatrixXd& H) const;
   /// dv/du, three rows for each body. Eq. (2.5).
   void jacobian(const TreePose& pose, Eigen::MatrixXd& J) const;
+  /// The slopes of the bodies' motion, at accelerations a. Eqs. (2.7), (2.8).
+  void motion_slopes(const TreePose& pose, const Vecs& a, TreeMotionSlopes& out) const;
+  /// d(J' g)/dy at constant forces g on the bodies; symmetric. Eq. (3.5).
+  void geometric_stiffness(const TreePose& pose, const Vecs& g, Eigen::MatrixXd& out) const;
   /// Forces of the tree's joints: what their subtrees need for accelerations a under the forces Q. Eqs. (4.1), (4.2).
   /// Other joints' entries are left alone.
   void reactions(const TreePose& pose, const Vecs& a, const Vecs& Q, Vecs& force) const;
@@ -67,6 +79,7 @@ class JointTree {
     bool forward = true;        // the parent is the joint's first body
     int slide = -1, turn = -1;  // column of S
   };
+  S::Point lever(const TreePose& pose, int body) const;
   void grow(int from, const std::vector<std::vector<int>>& ideal_at);
   void open_the_rest();
   std::string loop_of(int joint) const;

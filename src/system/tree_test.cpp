@@ -141,6 +141,51 @@ TEST_P(JointTrees, GatheredForcesDoTheBodiesWork) {
   EXPECT_NEAR(on_coordinates.dot(u), power, 1e-12 * (1 + std::abs(power)));
 }
 
+TEST_P(JointTrees, SlopesOfTheMotionAreItsDifferences) {
+  const double h = 1e-5;
+  const VectorXd w = random_vector(random, tree.n());
+  const auto motion_at = [&](const VectorXd& y_there, const VectorXd& u_there) {
+    TreePose there;
+    Vecs a;
+    tree.place(y_there, u_there, there);
+    tree.accelerate(there, w, a);
+    return std::pair(stacked(there.v), stacked(a));
+  };
+  Vecs a;
+  TreeMotionSlopes slopes;
+  tree.accelerate(pose, w, a);
+  tree.motion_slopes(pose, a, slopes);
+  for (int k = 0; k < tree.n(); ++k) {
+    const VectorXd step = h * VectorXd::Unit(tree.n(), k);
+    const auto [v1, a1] = motion_at(y + step, u);
+    const auto [v0, a0] = motion_at(y - step, u);
+    EXPECT_LT(((v1 - v0) / (2 * h) - slopes.velocity.col(k)).cwiseAbs().maxCoeff(), 1e-7) << k;
+    EXPECT_LT(((a1 - a0) / (2 * h) - slopes.acceleration.col(k)).cwiseAbs().maxCoeff(), 1e-6) << k;
+    EXPECT_LT(((motion_at(y, u + step).second - motion_at(y, u - step).second) / (2 * h) - slopes.acceleration_by_rate.col(k)).cwiseAbs().maxCoeff(), 1e-7) << k;
+  }
+}
+
+TEST_P(JointTrees, ForcesChangeOnCoordinatesByTheGeometricStiffness) {
+  const double h = 1e-5;
+  Vecs force(system.bodies.size());
+  for (auto& f : force) f = random.vector<S::Vec>(-5, 5);
+  const auto gathered_at = [&](const VectorXd& there) {
+    TreePose at;
+    Vecs on_bodies = force;
+    VectorXd on_coordinates;
+    tree.place(there, u, at);
+    tree.gather(at, on_bodies, on_coordinates);
+    return on_coordinates;
+  };
+  MatrixXd stiffness;
+  tree.geometric_stiffness(pose, force, stiffness);
+  EXPECT_EQ((stiffness - stiffness.transpose()).norm(), 0);
+  for (int k = 0; k < tree.n(); ++k) {
+    const VectorXd step = h * VectorXd::Unit(tree.n(), k);
+    EXPECT_LT(((gathered_at(y + step) - gathered_at(y - step)) / (2 * h) - stiffness.col(k)).cwiseAbs().maxCoeff(), 1e-7) << k;
+  }
+}
+
 // M a = Q + G' f for every body by itself, with f of the tree's joints from the inward pass, when the coordinates' equations hold.
 TEST_P(JointTrees, ReactionsBalanceEveryBody) {
   Vecs Q, a, needed(system.bodies.size()), force(system.joints.size(), S::Vec::Zero());

@@ -83,7 +83,7 @@ void BasicRadauStepper<S>::finish_step(double h) {
   nodes_.force[n_] = end_.force;
   if (S::kCurved) find_increments(h);
   control_.have_history = true;
-  if (system_.has_branches()) update_switching();
+  this->update_switching();
   control_.last = h;
 }
 

@@ -1,8 +1,4 @@
-// Steps that end where a law or a load has a kink or a jump: found on the step's own curve, approached from before, and
-// crossed by a step too short to matter. theory/time section 7.
-#include <algorithm>
-#include <limits>
-
+// Where free bodies and their joints are inside a step, ahead of it and beyond its end: what its events ask for. theory/time section 7.
 #include "integrators/absolute/radau_stepper.h"
 
 namespace pintle {
@@ -16,7 +12,6 @@ Spatial::Coordinates along(const Spatial::Coordinates& q, double d, const Spatia
 
 }  // namespace
 
-// The switching functions at share x of the step, on the curve through its stages.
 template <class S>
 void BasicRadauStepper<S>::find_switching(double x, double h, double* value) {
   RadauTable::Vec v(n_), q(n_);
@@ -58,7 +53,6 @@ void BasicRadauStepper<S>::find_switching(double x, double h, double* value) {
   system_.find_switching(begin_.t + x * h, inside_m_, inside_gap_, inside_rate_, inside_law_state_, begin_.sliding, value);
 }
 
-// The same a time d ahead of the start, by Taylor's series: all there is to go by when the stages are not solved.
 template <class S>
 void BasicRadauStepper<S>::find_switching_ahead(double d, double* value) {
   const double half = 0.5 * d * d;
@@ -76,81 +70,43 @@ void BasicRadauStepper<S>::find_switching_ahead(double d, double* value) {
 }
 
 template <class S>
-SwitchingEvent BasicRadauStepper<S>::locate_event(double h, bool solved) {
-  if (!system_.has_branches()) return {};
-  return search_.first(table_, [&](double x, double* value) { solved ? find_switching(x, h, value) : find_switching_ahead(x * h, value); });
+void BasicRadauStepper<S>::find_switching_at_end(double* value) const {
+  system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, value);
 }
 
-// Moves end_ over the event that it stands just before, by Taylor's series.
 template <class S>
-void BasicRadauStepper<S>::step_over_event(double distance, const SwitchingEvent& event) {
-  const double beyond = std::max(StepControl::kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(end_.t));
-  search_.step_over(event, distance, beyond, [this](double d, double* value) {
-    const double half = 0.5 * d * d;
-    end_.t += d;
-    end_.supplied += d * end_.supply_power;
-    end_.dissipated += d * end_.loss_power;
-    for (std::size_t b = 0; b < end_.q.size(); ++b) {
-      end_.q[b] = along(end_.q[b], d, end_.v[b], half, end_.a[b]);
-      end_.v[b] += d * end_.a[b];
-    }
-    for (std::size_t j = 0; j < end_.gap.size(); ++j) {
-      end_.gap[j] += d * end_.gap_rate[j] + half * end_.gap_accel[j];
-      end_.gap_rate[j] += d * end_.gap_accel[j];
-    }
-    for (std::size_t z = 0; z < end_.law_state.size(); ++z) end_.law_state[z] += d * end_.law_rate[z];
-    system_.motions(end_.q, end_.v, end_m_);
-    system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, value);
-  });
-}
-
-// Over the event; forces and accelerations renewed there. A jump that comes back at once is held.
-template <class S>
-void BasicRadauStepper<S>::cross_event(double distance, const SwitchingEvent& event) {
-  const double before = end_.t;
-  inside_m_ = end_m_;
-  step_over_event(distance, event);
-  const bool crossed = system_.cross_borders(end_.t, end_.gap, end_.gap_rate, search_.start(), search_.end(), end_.law_state, end_.dissipated);
-  leave_sliding(system_, end_.t, end_m_, end_.sliding);
-  balance_end();
-  if (crossed) record_crossings(system_, end_, search_.start(), search_.end(), crossings_);
-  if (const auto jump = chattering_.crossed(system_, before, inside_m_, end_.t, end_m_, StepControl::kAtOnce * control_.usual)) {
-    const double margin = system_.margin(*jump, end_.t, end_m_);
-    enter_sliding(*jump, margin, ramp_size(system_, *jump, end_, control_.usual, tolerance_), end_.sliding, [this] { balance_end(); },
-              [&] { return margin_rate(*jump); });
+void BasicRadauStepper<S>::move_end(double d) {
+  const double half = 0.5 * d * d;
+  end_.t += d;
+  end_.supplied += d * end_.supply_power;
+  end_.dissipated += d * end_.loss_power;
+  for (std::size_t b = 0; b < end_.q.size(); ++b) {
+    end_.q[b] = along(end_.q[b], d, end_.v[b], half, end_.a[b]);
+    end_.v[b] += d * end_.a[b];
   }
-  system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, search_.start());
-  control_.have_history = false;
+  for (std::size_t j = 0; j < end_.gap.size(); ++j) {
+    end_.gap[j] += d * end_.gap_rate[j] + half * end_.gap_accel[j];
+    end_.gap_rate[j] += d * end_.gap_accel[j];
+  }
+  for (std::size_t z = 0; z < end_.law_state.size(); ++z) end_.law_state[z] += d * end_.law_rate[z];
+  system_.motions(end_.q, end_.v, end_m_);
 }
 
-// How fast the argument of a jump changes at end_, by what it is a moment later.
 template <class S>
-double BasicRadauStepper<S>::margin_rate(const SlidingMode& jump) {
-  const double d = StepControl::kMoment * control_.usual;
+const std::vector<typename S::Motion>& BasicRadauStepper<S>::motions_after(double d) {
   for (std::size_t b = 0; b < end_.q.size(); ++b) {
     inside_q_[b] = S::moved(end_.q[b], d * end_.v[b]);
     inside_v_[b] = end_.v[b] + d * end_.a[b];
   }
   system_.motions(inside_q_, inside_v_, inside_m_);
-  return (system_.margin(jump, end_.t + d, inside_m_) - system_.margin(jump, end_.t, end_m_)) / d;
+  return inside_m_;
 }
 
-// The switching functions at the end of a step. A ramp that the last bits have left is let go, a border that they have crossed is crossed.
 template <class S>
-void BasicRadauStepper<S>::update_switching() {
-  system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, search_.end());
-  const bool crossed = system_.cross_borders(end_.t, end_.gap, end_.gap_rate, search_.start(), search_.end(), end_.law_state, end_.dissipated);
-  if (!leave_sliding(system_, end_.t, end_m_, end_.sliding) && !crossed) {
-    search_.restart();
-    return;
-  }
-  balance_end();
-  control_.have_history = false;
-  if (crossed) record_crossings(system_, end_, search_.start(), search_.end(), crossings_);
-  system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, search_.start());
+bool BasicRadauStepper<S>::cross_borders() {
+  return system_.cross_borders(end_.t, end_.gap, end_.gap_rate, search_.start(), search_.end(), end_.law_state, end_.dissipated);
 }
 
-// What the laws and loads really give at end_.
 template <class S>
 void BasicRadauStepper<S>::balance_end() {
   system_.joint_kinematics(end_.t, end_m_, end_r_);
@@ -162,19 +118,17 @@ void BasicRadauStepper<S>::balance_end() {
 
 template void BasicRadauStepper<Planar>::find_switching(double x, double h, double* value);
 template void BasicRadauStepper<Planar>::find_switching_ahead(double d, double* value);
-template SwitchingEvent BasicRadauStepper<Planar>::locate_event(double h, bool solved);
-template void BasicRadauStepper<Planar>::step_over_event(double distance, const SwitchingEvent& event);
-template void BasicRadauStepper<Planar>::cross_event(double distance, const SwitchingEvent& event);
-template double BasicRadauStepper<Planar>::margin_rate(const SlidingMode& jump);
-template void BasicRadauStepper<Planar>::update_switching();
+template void BasicRadauStepper<Planar>::find_switching_at_end(double* value) const;
+template void BasicRadauStepper<Planar>::move_end(double d);
+template const std::vector<Planar::Motion>& BasicRadauStepper<Planar>::motions_after(double d);
+template bool BasicRadauStepper<Planar>::cross_borders();
 template void BasicRadauStepper<Planar>::balance_end();
 template void BasicRadauStepper<Spatial>::find_switching(double x, double h, double* value);
 template void BasicRadauStepper<Spatial>::find_switching_ahead(double d, double* value);
-template SwitchingEvent BasicRadauStepper<Spatial>::locate_event(double h, bool solved);
-template void BasicRadauStepper<Spatial>::step_over_event(double distance, const SwitchingEvent& event);
-template void BasicRadauStepper<Spatial>::cross_event(double distance, const SwitchingEvent& event);
-template double BasicRadauStepper<Spatial>::margin_rate(const SlidingMode& jump);
-template void BasicRadauStepper<Spatial>::update_switching();
+template void BasicRadauStepper<Spatial>::find_switching_at_end(double* value) const;
+template void BasicRadauStepper<Spatial>::move_end(double d);
+template const std::vector<Spatial::Motion>& BasicRadauStepper<Spatial>::motions_after(double d);
+template bool BasicRadauStepper<Spatial>::cross_borders();
 template void BasicRadauStepper<Spatial>::balance_end();
 
 }  // namespace pintle

@@ -7,7 +7,7 @@ namespace pintle {
 
 template <class S>
 BasicRadauStepper<S>::BasicRadauStepper(const BasicSystem<S>& system, double tolerance, int stages, ToleranceOf tolerance_of)
-    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion), search_(system.switching_functions()),
+    : Events(system), system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion),
       solver_(make_stage_solver(system, table_, tolerance, of_motion_ ? Steps::kLong : Steps::kAccurate)), stage_(table_.n), end_point_(make_end_point_projection(system)),
       tails_{std::vector<RowOf4<S>>(system.bodies.size()), std::vector<RowOf4<S>>(system.joints.size()), std::vector<RowOf4<S>>(system.n_law_states() > 0 ? system.joints.size() : 0)}, end_m_(system.bodies.size()) {
   const std::size_t n = system.bodies.size(), m = system.joints.size();
@@ -65,8 +65,7 @@ void BasicRadauStepper<S>::start(const BasicState<S>& state, double h) {
   last.Q.assign(system_.bodies.size(), S::Vec::Zero());
   system_.external(end_.t, end_m_, last.Q, end_.sliding);
   find_power();
-  chattering_.forget();
-  if (system_.has_branches()) system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, search_.start());
+  this->start_events();
   grow_load_scale(system_, end_m_, last.Q, end_, scale_);
   if (unloaded()) foresee_loads(h);
 }

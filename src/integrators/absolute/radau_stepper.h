@@ -16,18 +16,16 @@
 #include <string>
 #include <vector>
 
-#include "integrators/law_crossings.h"
 #include "integrators/absolute/end_point_projection.h"
 #include "integrators/radau/motion_scale.h"
 #include "integrators/absolute/stage_solver.h"
-#include "integrators/radau/sliding_mode.h"
-#include "integrators/radau/step_control.h"
+#include "integrators/radau/step_events.h"
 #include "pintle/model.h"
 
 namespace pintle {
 
 template <class S>
-class BasicRadauStepper {
+class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
  public:
   /// `stages` is 3 (order 5) or 5 (order 9).
   BasicRadauStepper(const BasicSystem<S>& system, double tolerance, int stages = 3, ToleranceOf tolerance_of = ToleranceOf::kForces);
@@ -79,14 +77,20 @@ class BasicRadauStepper {
   void add_power(const BasicJointData<S>& joint, const std::vector<typename S::Motion>& m, const BasicLawPoint<S>& at, const typename S::Vec& force, Power& power) const;
   void find_power();
 
-  // event_crossing.cpp: steps that end where a force has a kink
-  SwitchingEvent locate_event(double h, bool solved);
+  // event_crossing.cpp: what StepEvents asks for
+  using Events = StepEvents<BasicRadauStepper<S>, S>;
+  friend Events;
+  using Events::control_, Events::search_, Events::crossings_;
+  double end_time() const { return end_.t; }
+  const std::vector<typename S::Motion>& end_motions() const { return end_m_; }
+  const BasicState<S>& end_state() const { return end_; }
+  std::vector<SlidingMode>& sliding() { return end_.sliding; }
   void find_switching(double x, double h, double* value);
   void find_switching_ahead(double d, double* value);
-  void cross_event(double distance, const SwitchingEvent& event);
-  void step_over_event(double distance, const SwitchingEvent& event);
-  void update_switching();
-  double margin_rate(const SlidingMode& jump);
+  void find_switching_at_end(double* value) const;
+  void move_end(double d);
+  const std::vector<typename S::Motion>& motions_after(double d);
+  bool cross_borders();
   void balance_end();
 
   const BasicSystem<S>& system_;
@@ -96,9 +100,6 @@ class BasicRadauStepper {
   const bool of_motion_;                      // the tolerance is
   BasicMotionScale<S> motion_scale_;
   BasicState<S> begin_, end_;
-  StepControl control_;
-  EventSearch search_;
-  BasicChatteringDetector<S> chattering_;
   std::unique_ptr<BasicStageSolver<S>> solver_;
   std::vector<BasicStage<S>> stage_;
   BasicStepNodes<S> nodes_;
@@ -115,7 +116,6 @@ class BasicRadauStepper {
   BasicLoadScale<S> scale_;
   Counters counters_;
   std::string failure_;
-  std::vector<LawCrossing> crossings_;
 };
 using RadauStepper = BasicRadauStepper<Planar>;
 

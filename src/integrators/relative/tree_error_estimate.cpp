@@ -137,18 +137,8 @@ void TreeRadau::finish_step(double h) {
   nodes_.force.col(n_) = end_.force;
   control_.last = h;
   control_.have_history = true;
-  if (system_.has_branches()) {  // borders that the last bits have crossed
-    end_at_.find_switching(end_, search_.end());
-    if (end_at_.cross_borders(search_.start(), search_.end(), end_, end_state_.dissipated)) {
-      control_.have_history = false;
-      balance_end();
-      record_crossings(system_, end_state_, search_.start(), search_.end(), crossings_);
-      restart_search();
-      return;
-    }
-    search_.restart();
-  }
   finish_end(w);
+  update_switching();
 }
 
 // Coordinates and rates, each in one pass, and a second where the first has left more than rounding. Eq. (6.2).

@@ -67,6 +67,60 @@ void TreeInstant::find_matrices() {
   }
 }
 
+void TreeInstant::slopes(const VectorXd& f, TreeSlopes& out) {
+  tree_.motion_slopes(pose_, a_, moved_);
+  // M a - Q - G' f on the bodies, and how it changes.
+  of_forces_ = moved_.acceleration;
+  of_forces_by_rate_ = moved_.acceleration_by_rate;
+  for (std::size_t i = 0; i < Q_.size(); ++i) {
+    const S::Vec& mass = system_.bodies[i].mass;
+    on_bodies_[i] = mass.cwiseProduct(a_[i]) - Q_[i];
+    for (Eigen::MatrixXd* x : {&of_forces_, &of_forces_by_rate_}) x->middleRows<3>(3 * static_cast<Eigen::Index>(i)).array().colwise() *= mass.array();
+  }
+  const auto rows = [](Eigen::MatrixXd& x, int body) { return x.middleRows<3>(3 * body); };
+  system_.external_tangents(
+      t_, pose_.m,
+      [&](int i, int j, const S::Mat& dq, const S::Mat& dv) {
+        rows(of_forces_, i) -= dq * rows(J_, j) + dv * rows(moved_.velocity, j);
+        rows(of_forces_by_rate_, i) -= dv * rows(J_, j);
+      },
+      sliding());
+  out.gap.setZero(n_gaps(), n());
+  out.gap_by_rate.setZero(n_gaps(), n());
+  for (std::size_t l = 0; l < r_.size(); ++l) {
+    const JointData& joint = system_.joints[tree_.laws()[l]];
+    const Eigen::Index row = 3 * static_cast<Eigen::Index>(l);
+    const S::Vec force = f.segment<3>(row);
+    add_force(joint.at, r_[l], -force, on_bodies_);
+    const std::array<int, 2> body{joint.at.a, joint.at.b};
+    const std::array<S::Mat, 2> G{r_[l].GA(), r_[l].GB()};
+    std::array<S::Motion, 2> motion{motion_of(body[0], pose_.m), motion_of(body[1], pose_.m)}, accelerated = motion;
+    for (int i = 0; i < 2; ++i) {
+      const S::Vec a = body[i] == kGround ? S::Vec(S::Vec::Zero()) : a_[body[i]];
+      accelerated[i].v = a.head<2>();
+      accelerated[i].w = a[2];
+    }
+    // d(G' f)/dq; d(G v)/dq, which is the rate of G too; d(G a)/dq; d(bias)/dq.
+    const RelativePose pose = RelativePose::between(motion[0], joint.at.F, motion[1], joint.at.M);
+    const auto geometric = geometric_stiffness(joint.displacement, pose, force);
+    const auto turning = rate_gradient(joint.displacement, pose, motion[0], motion[1]);
+    const auto by_acceleration =
+        rate_gradient(joint.displacement, RelativePose::between(accelerated[0], joint.at.F, accelerated[1], joint.at.M), accelerated[0], accelerated[1]);
+    const auto by_bias = bias_gradient(joint.displacement, pose, motion[0], motion[1]);
+    for (int i = 0; i < 2; ++i) {
+      if (body[i] == kGround) continue;
+      const S::Mat rate = turning.template block<3, 3>(0, 3 * i), place = by_acceleration.template block<3, 3>(0, 3 * i) + by_bias.template block<3, 3>(0, 3 * i);
+      out.gap.middleRows<3>(row) += G[i] * rows(moved_.acceleration, body[i]) + 2 * rate * rows(moved_.velocity, body[i]) + place * rows(J_, body[i]);
+      out.gap_by_rate.middleRows<3>(row) += G[i] * rows(moved_.acceleration_by_rate, body[i]) + 2 * rate * rows(J_, body[i]);
+      for (int j = 0; j < 2; ++j)
+        if (body[j] != kGround) rows(of_forces_, body[i]) -= geometric.template block<3, 3>(3 * i, 3 * j) * rows(J_, body[j]);
+    }
+  }
+  tree_.geometric_stiffness(pose_, on_bodies_, out.balance);
+  out.balance.noalias() += J_.transpose() * of_forces_;
+  out.balance_by_rate.noalias() = J_.transpose() * of_forces_by_rate_;
+}
+
 void TreeInstant::linearize(int law, const TreeState& at, LawTangents& out) const {
   const JointData& joint = system_.joints[tree_.laws()[law]];
   const S::Vec gap = at.gap.segment<3>(3 * law), rate = at.rate.segment<3>(3 * law);

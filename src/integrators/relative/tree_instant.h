@@ -19,6 +19,12 @@ struct TreeState {
   std::vector<double> law_state, law_rate;  // of the laws' own states, as in State
 };
 
+/// What depends on coordinates and rates beside the laws, at constant accelerations and law forces. theory/tree Eq. (5.4).
+struct TreeSlopes {
+  Eigen::MatrixXd balance, balance_by_rate;  // of what is missing in the balance
+  Eigen::MatrixXd gap, gap_by_rate;          // of the gaps' accelerations
+};
+
 class TreeInstant {
  public:
   TreeInstant(const System& system, const JointTree& tree);
@@ -58,6 +64,9 @@ class TreeInstant {
   const Eigen::MatrixXd& J() const { return J_; }
   const Eigen::MatrixXd& A() const { return A_; }
 
+  /// At the accelerations given last and the law forces f, after `find_matrices`. Eqs. (5.7), (5.8).
+  void slopes(const Eigen::VectorXd& f, TreeSlopes& out);
+
   /// The tangents of `law` at its part of what the state carries.
   void linearize(int law, const TreeState& at, LawTangents& out) const;
   /// The laws' states as those of joints that have long been as `at` says.
@@ -86,6 +95,8 @@ class TreeInstant {
   std::vector<JointKinematics> r_;  // of the joints that stay laws
   Vecs Q_, a_, on_bodies_, gap_, rate_;
   Eigen::MatrixXd H_, J_, A_;
+  TreeMotionSlopes moved_;
+  Eigen::MatrixXd of_forces_, of_forces_by_rate_;  // what the forces on the bodies change by, per coordinate and per rate
 };
 
 /// Time, coordinates and their rates of `state`.

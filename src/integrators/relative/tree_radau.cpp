@@ -10,7 +10,7 @@ using S = Planar;
 using Eigen::VectorXd;
 
 TreeRadau::TreeRadau(const System& system, double tolerance, int stages)
-    : system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), search_(system.switching_functions()),
+    : StepEvents(system), system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance),
       tree_(std::make_unique<JointTree>(system)), stages_(system, *tree_, table_, tolerance), end_at_(system, *tree_), inside_at_(end_at_) {
   scale_.body.assign(system.bodies.size(), S::Vec::Zero());
   for (TreeInstant* at : {&end_at_, &inside_at_}) at->set_sliding(sliding_);
@@ -29,7 +29,6 @@ void TreeRadau::start(const State& state, double h) {
   end_state_ = state;
   control_.start(h);
   sliding_ = state.sliding;
-  chattering_.forget();
   read_coordinates(*tree_, state, end_);
   read_carried(*tree_, state, end_);
   end_at_.place(end_.t, end_.y, end_.u);
@@ -39,15 +38,10 @@ void TreeRadau::start(const State& state, double h) {
   end_state_.supply_power = supplied;
   end_state_.loss_power = lost;
   finish_end(end_.w);
-  restart_search();
+  start_events();
 }
 
 bool TreeRadau::step(double t_end) {
-  if (leave_sliding(system_, end_.t, end_at_.pose().m, sliding_)) {
-    balance_end();
-    restart_search();
-    control_.have_history = false;
-  }
   if (control_.advance(*this, t_end, tolerance_, n_ + 1, counters_)) return true;
   std::vector<std::pair<double, int>> residuals;
   for (const int j : tree_->laws()) residuals.emplace_back(stages_.residual(j), j);
@@ -64,11 +58,6 @@ void TreeRadau::begin_at_end() {
 void TreeRadau::finish_end(const VectorXd& w) {
   end_at_.write(end_, w, end_state_);
   grow_load_scale(system_, end_at_.pose().m, end_at_.Q(), end_state_, scale_);
-}
-
-// The next step begins at the end as it now is.
-void TreeRadau::restart_search() {
-  if (system_.has_branches()) end_at_.find_switching(end_, search_.start());
 }
 
 }  // namespace pintle

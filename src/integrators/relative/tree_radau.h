@@ -6,15 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "integrators/radau/sliding_mode.h"
-#include "integrators/radau/step_control.h"
+#include "integrators/radau/step_events.h"
 #include "integrators/relative/tree_projector.h"
 #include "integrators/relative/tree_stages.h"
 #include "integrators/stepper.h"
 
 namespace pintle {
 
-class TreeRadau final : public Stepper {
+class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
  public:
   /// `stages` is 3 (order 5) or 5 (order 9).
   TreeRadau(const System& system, double tolerance, int stages = 3);
@@ -56,23 +55,24 @@ class TreeRadau final : public Stepper {
   void find_curves();
   void follow(double x, TreeState& out) const;
 
-  // tree_event_crossing.cpp
-  SwitchingEvent locate_event(double h, bool solved);
+  // tree_event_crossing.cpp: what StepEvents asks for
+  friend StepEvents;
+  double end_time() const { return end_.t; }
+  const std::vector<Planar::Motion>& end_motions() const { return end_at_.pose().m; }
+  const State& end_state() const { return end_state_; }
+  std::vector<SlidingMode>& sliding() { return sliding_; }
   void find_switching(double x, double h, double* value);
   void find_switching_ahead(double d, double* value);
-  void cross_event(double distance, const SwitchingEvent& event);
-  void step_over_event(double distance, const SwitchingEvent& event);
-  double margin_rate(const SlidingMode& jump);
+  void find_switching_at_end(double* value) { end_at_.find_switching(end_, value); }
+  void move_end(double d);
+  const std::vector<Planar::Motion>& motions_after(double d);
+  bool cross_borders() { return end_at_.cross_borders(search_.start(), search_.end(), end_, end_state_.dissipated); }
   void balance_end();
-  void restart_search();
 
   const System& system_;
   const RadauTable& table_;
   const int n_;  // stages
   double tolerance_;
-  StepControl control_;
-  EventSearch search_;
-  ChatteringDetector chattering_;
   std::vector<SlidingMode> sliding_;
   std::unique_ptr<JointTree> tree_;
   TreeStages stages_;
@@ -91,7 +91,6 @@ class TreeRadau final : public Stepper {
   LoadScale scale_;
   Counters counters_;
   std::string failure_;
-  std::vector<LawCrossing> crossings_;
 };
 
 }  // namespace pintle

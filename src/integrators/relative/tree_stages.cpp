@@ -12,13 +12,11 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using S = Planar;
 
-constexpr double kDifference = 1e-7;  // step of the difference quotients, of a coordinate's size and at least of 1
-
 }  // namespace
 
 TreeStages::TreeStages(const System& system, const JointTree& tree, const RadauTable& table, double tolerance)
     : system_(system), tree_(tree), table_(table), n_(table.n), tolerance_(tolerance), state_(table.n),
-      at_(table.n, TreeInstant(system, tree)), beside_(system, tree), switching_(system.switching_functions().size()), switching_beside_(switching_), missing_(table.n), missing_gap_(table.n),
+      at_(table.n, TreeInstant(system, tree)), missing_(table.n), missing_gap_(table.n),
       missing_state_(table.n, VectorXd::Zero(system.n_law_states())), law_(tree.laws().size()) {
   const auto make_room = [&](auto& mode) {
     mode.law.resize(tree.laws().size());
@@ -26,7 +24,7 @@ TreeStages::TreeStages(const System& system, const JointTree& tree, const RadauT
   };
   make_room(real_);
   for (auto& mode : pair_) make_room(mode);
-  for (TreeState& s : state_) s.force = VectorXd::Zero(beside_.n_gaps());
+  for (TreeState& s : state_) s.force = VectorXd::Zero(at_[0].n_gaps());
 }
 
 bool TreeStages::solve(const TreeState& begin, double h, const TreeNodes* before, double last_h, const LoadScale& scale, Counters& counters) {
@@ -53,7 +51,6 @@ bool TreeStages::solve(const TreeState& begin, double h, const TreeNodes* before
 
 void TreeStages::set_sliding(const std::vector<SlidingMode>& sliding) {
   for (TreeInstant& at : at_) at.set_sliding(sliding);
-  beside_.set_sliding(sliding);
 }
 
 void TreeStages::predict(const TreeState& begin, double h, const TreeNodes* before, double last_h) {
@@ -125,45 +122,13 @@ void TreeStages::find_residuals() {
   }
 }
 
-// The laws' tangents, exact, and the slopes of everything else by differences of the recursions, at the predicted middle stage.
+// At the predicted middle stage. Eq. (5.4).
 void TreeStages::linearize() {
-  const int i = n_ / 2;
-  const TreeState& state = state_[i];
-  TreeInstant& at = at_[i];
+  const TreeState& state = state_[n_ / 2];
+  TreeInstant& at = at_[n_ / 2];
   at.find_matrices();
   for (std::size_t l = 0; l < law_.size(); ++l) at.linearize(static_cast<int>(l), state, law_[l]);
-  at.gap_accelerations(accel_);
-  if (system_.has_branches()) at.find_switching(state, switching_.data());
-  const Index n = tree_.n(), m = at.n_gaps();
-  for (Eigen::MatrixXd* x : {&Dy_, &Du_}) x->setZero(n, n);
-  for (Eigen::MatrixXd* x : {&Ey_, &Eu_}) x->setZero(m, n);
-  for (int k = 0; k < n; ++k) {
-    differentiate(k, false, missing_[i], accel_);
-    differentiate(k, true, missing_[i], accel_);
-  }
-}
-
-// One-sided, to the side that lies before a kink.
-void TreeStages::differentiate(int k, bool of_rate, const VectorXd& balance, const VectorXd& accel) {
-  const TreeState& state = state_[n_ / 2];
-  double step = kDifference * std::max(1.0, std::abs(of_rate ? state.u[k] : state.y[k]));
-  for (int attempt = 0; attempt < 2; ++attempt, step = -step) {
-    y_ = state.y;
-    u_ = state.u;
-    (of_rate ? u_ : y_)[k] += step;
-    beside_.place(state.t, y_, u_);
-    // A ramp is narrower than the difference, but goes on beyond its ends.
-    if (system_.has_branches() && beside_.sliding().empty()) {
-      beside_.find_switching(state, switching_beside_.data());
-      if (!same_sides(switching_, switching_beside_)) continue;
-    }
-    beside_.accelerate(state.w);
-    beside_.imbalance(state.force, balance_);
-    (of_rate ? Du_ : Dy_).col(k) = (balance_ - balance) / step;
-    beside_.gap_accelerations(balance_);
-    (of_rate ? Eu_ : Ey_).col(k) = (balance_ - accel) / step;
-    return;
-  }
+  at.slopes(state.force, slopes_);
 }
 
 // Eq. (5.5).
@@ -171,7 +136,7 @@ template <class Scalar>
 bool TreeStages::factorize(Mode<Scalar>& mode) {
   const TreeInstant& at = at_[n_ / 2];
   const Scalar once = Scalar(1) / mode.mu, twice = once * once;
-  mode.gaps = at.A().template cast<Scalar>() + once * Eu_.template cast<Scalar>() + twice * Ey_.template cast<Scalar>();
+  mode.gaps = at.A().template cast<Scalar>() + once * slopes_.gap_by_rate.template cast<Scalar>() + twice * slopes_.gap.template cast<Scalar>();
   mode.pull.resize(tree_.n(), at.n_gaps());
   for (std::size_t l = 0; l < law_.size(); ++l) {
     const Index i = 3 * static_cast<Index>(l);
@@ -180,7 +145,7 @@ bool TreeStages::factorize(Mode<Scalar>& mode) {
     for (int k = 0; k < 9; ++k) weight(k / 3, k % 3) = twice * mode.law[l].weight[k];
     mode.pull.template middleCols<3>(i) = at.A().middleRows<3>(i).transpose().template cast<Scalar>() * weight;
   }
-  Matrix<Scalar> matrix = at.H().template cast<Scalar>() + once * Du_.template cast<Scalar>() + twice * Dy_.template cast<Scalar>();
+  Matrix<Scalar> matrix = at.H().template cast<Scalar>() + once * slopes_.balance_by_rate.template cast<Scalar>() + twice * slopes_.balance.template cast<Scalar>();
   matrix.noalias() += mode.pull * mode.gaps;
   if (!std::isfinite(std::abs(matrix.sum()))) return false;
   mode.lu.compute(matrix);

@@ -42,7 +42,6 @@ class TreeStages {
   double find_forces(const LoadScale& scale);
   void find_residuals();
   void linearize();
-  void differentiate(int k, bool of_rate, const Eigen::VectorXd& balance, const Eigen::VectorXd& accel);
   bool factorize(double h);
   double correct(const LoadScale& scale);
 
@@ -74,11 +73,9 @@ class TreeStages {
   NewtonContraction contraction_;
   std::vector<TreeState> state_;
   std::vector<TreeInstant> at_;
-  TreeInstant beside_;                          // for differences
-  std::vector<double> switching_, switching_beside_;
   std::vector<Eigen::VectorXd> missing_, missing_gap_, missing_state_;
-  Eigen::VectorXd y_, u_, balance_, accel_, force_;
-  Eigen::MatrixXd Dy_, Du_, Ey_, Eu_;           // slopes of the balance and of the gaps' accelerations
+  Eigen::VectorXd force_;
+  TreeSlopes slopes_;
   std::vector<LawTangents> law_;
   std::vector<double> law_rate_;
   Mode<double> real_;

@@ -1,0 +1,111 @@
+// Steps that end where a law or a load has a kink or a jump: found on the step's own curve, approached from before, and crossed by a step
+// too short to matter. The same for free bodies and over a joint tree. theory/time section 7.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "integrators/law_crossings.h"
+#include "integrators/radau/sliding_mode.h"
+#include "integrators/radau/step_control.h"
+
+namespace pintle {
+
+/// `Method` derives from it and answers
+///   find_switching(x, h, value)       the switching functions at share x of the step, on the curve through its stages
+///   find_switching_ahead(d, value)    a time d ahead of the start, by Taylor's series: all there is to go by where the stages are not solved
+///   find_switching_at_end(value)
+///   end_time(), end_motions(), end_state(), sliding()
+///   move_end(d)                       the end, its work included, by Taylor's series
+///   motions_after(d)                  those a moment after the end
+///   cross_borders()                   System::cross_borders between the values of `search_`
+///   balance_end()                     what laws and loads really give at the end: forces, accelerations, powers
+template <class Method, class S>
+class StepEvents {
+ protected:
+  explicit StepEvents(const BasicSystem<S>& system)
+      : search_(system.switching_functions()), events_of_(system), motions_before_(system.has_branches() ? system.bodies.size() : 0) {}
+
+  void start_events();
+  SwitchingEvent locate_event(double h, bool solved);
+  /// Over the event `distance` after the end, with forces and accelerations renewed there. A jump that comes back at once is held.
+  void cross_event(double distance, const SwitchingEvent& event);
+  /// At the end of a step: a ramp that the last bits have left is let go, a border that they have crossed is crossed.
+  void update_switching();
+
+  StepControl control_;
+  EventSearch search_;
+  std::vector<LawCrossing> crossings_;
+
+ private:
+  Method& method() { return static_cast<Method&>(*this); }
+  void restart_search() { method().find_switching_at_end(search_.start()); }
+  double margin_rate(const SlidingMode& jump);
+  void record() { record_crossings(events_of_, method().end_state(), search_.start(), search_.end(), crossings_); }
+
+  const BasicSystem<S>& events_of_;
+  BasicChatteringDetector<S> chattering_;
+  std::vector<typename S::Motion> motions_before_;
+};
+
+template <class Method, class S>
+void StepEvents<Method, S>::start_events() {
+  chattering_.forget();
+  if (events_of_.has_branches()) restart_search();
+}
+
+template <class Method, class S>
+SwitchingEvent StepEvents<Method, S>::locate_event(double h, bool solved) {
+  if (!events_of_.has_branches()) return {};
+  return search_.first(RadauTable::of(method().n_), [&](double x, double* value) {
+    solved ? method().find_switching(x, h, value) : method().find_switching_ahead(x * h, value);
+  });
+}
+
+template <class Method, class S>
+void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& event) {
+  const double before = method().end_time();
+  motions_before_ = method().end_motions();
+  const double beyond = std::max(StepControl::kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(before));
+  search_.step_over(event, distance, beyond, [this](double d, double* value) {
+    method().move_end(d);
+    method().find_switching_at_end(value);
+  });
+  const bool crossed = method().cross_borders();
+  leave_sliding(events_of_, method().end_time(), method().end_motions(), method().sliding());
+  method().balance_end();
+  if (crossed) record();
+  const double now = method().end_time();
+  if (const auto jump = chattering_.crossed(events_of_, before, motions_before_, now, method().end_motions(), StepControl::kAtOnce * control_.usual)) {
+    const double margin = events_of_.margin(*jump, now, method().end_motions());
+    const RampSize size = ramp_size(events_of_, *jump, method().end_state(), control_.usual, method().tolerance_);
+    enter_sliding(*jump, margin, size, method().sliding(), [this] { method().balance_end(); }, [&] { return margin_rate(*jump); });
+  }
+  restart_search();
+  control_.have_history = false;
+}
+
+// How fast the argument of a jump changes at the end, by what it is a moment later.
+template <class Method, class S>
+double StepEvents<Method, S>::margin_rate(const SlidingMode& jump) {
+  const double d = StepControl::kMoment * control_.usual, t = method().end_time();
+  return (events_of_.margin(jump, t + d, method().motions_after(d)) - events_of_.margin(jump, t, method().end_motions())) / d;
+}
+
+template <class Method, class S>
+void StepEvents<Method, S>::update_switching() {
+  if (!events_of_.has_branches()) return;
+  method().find_switching_at_end(search_.end());
+  const bool crossed = method().cross_borders();
+  if (!leave_sliding(events_of_, method().end_time(), method().end_motions(), method().sliding()) && !crossed) {
+    search_.restart();
+    return;
+  }
+  method().balance_end();
+  control_.have_history = false;
+  if (crossed) record();
+  restart_search();
+}
+
+}  // namespace pintle

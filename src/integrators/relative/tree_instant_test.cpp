@@ -1,0 +1,74 @@
+// What Newton's method over a joint tree takes for slopes, against differences.
+#include "integrators/relative/tree_instant.h"
+
+#include <gtest/gtest.h>
+
+#include "system/sample_systems_for_tests.h"
+
+namespace pintle {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using S = Planar;
+using sample::Random;
+
+VectorXd random_vector(Random& random, int n, double size) {
+  VectorXd x(n);
+  for (double& value : x) value = random.uniform(-size, size);
+  return x;
+}
+
+// Loads of every kind, joints of every kind as laws beside the tree, which is passed from first bodies and from second ones.
+TEST(TreeInstant, SlopesAreDifferencesOfTheBalanceAndOfTheGaps) {
+  const double h = 1e-5;
+  for (const char* ideal : {"grpf", "hpfs", "rpfs", "gsf", ""}) {
+    System system = build_system(sample::everything());
+    for (JointData& joint : system.joints) {
+      joint.ideal = joint.name.size() == 1 && std::string(ideal).find(joint.name) != std::string::npos;
+      if (joint.type == "fixed") std::get<Selection>(joint.displacement).offset[2] = 2 * std::numbers::pi;
+    }
+    const JointTree tree(system);
+    Random random(11);
+    TreeInstant at(system, tree);
+    const int n = tree.n();
+    const VectorXd y = random_vector(random, n, 1.5), u = random_vector(random, n, 1.5), w = random_vector(random, n, 3), f = random_vector(random, at.n_gaps(), 5);
+    const double t = 0.31;
+    TreeSlopes slopes;
+    at.place(t, y, u);
+    at.accelerate(w);
+    at.find_matrices();
+    at.slopes(f, slopes);
+    std::vector<bool> exact(tree.laws().size());  // gaps that are no functions of the pose, of which a third derivative is left out
+    int counted = 0;
+    for (std::size_t l = 0; l < exact.size(); ++l) counted += exact[l] = count_functions(system.joints[tree.laws()[l]].displacement) == 0;
+    ASSERT_GT(counted, 0);
+    const auto equations_at = [&](const VectorXd& y_there, const VectorXd& u_there) {
+      TreeInstant there(system, tree);
+      VectorXd balance, gaps;
+      there.place(t, y_there, u_there);
+      there.accelerate(w);
+      there.imbalance(f, balance);
+      there.gap_accelerations(gaps);
+      return std::pair(balance, gaps);
+    };
+    for (int k = 0; k < n; ++k) {
+      const VectorXd step = h * VectorXd::Unit(n, k);
+      for (const bool of_rate : {false, true}) {
+        const auto [b1, g1] = of_rate ? equations_at(y, u + step) : equations_at(y + step, u);
+        const auto [b0, g0] = of_rate ? equations_at(y, u - step) : equations_at(y - step, u);
+        const VectorXd balance = (b1 - b0) / (2 * h), gaps = (g1 - g0) / (2 * h);
+        const VectorXd found = (of_rate ? slopes.balance_by_rate : slopes.balance).col(k), of_gaps = (of_rate ? slopes.gap_by_rate : slopes.gap).col(k);
+        EXPECT_LT((balance - found).cwiseAbs().maxCoeff(), 1e-6 * (1 + balance.cwiseAbs().maxCoeff())) << ideal << " " << k << of_rate;
+        for (std::size_t l = 0; l < exact.size(); ++l) {
+          if (!exact[l] && !of_rate) continue;
+          const auto row = 3 * static_cast<Eigen::Index>(l);
+          EXPECT_LT((gaps - of_gaps).segment<3>(row).cwiseAbs().maxCoeff(), 1e-6 * (1 + gaps.cwiseAbs().maxCoeff())) << ideal << " " << k << of_rate << system.joints[tree.laws()[l]].name;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pintle
