@@ -1,4 +1,5 @@
 // Friction in the joints of whole mechanisms: published motions that stick and slip, closed forms of what locks, friction circles.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -329,16 +330,19 @@ TEST(Jamming, ShortGuideLocksASliderThatIsPushedBesideIt) {
   EXPECT_NEAR(speed_gained(moved, "joint.guide.slide_rate"), 100 * (1 - 1 / 1.001), 1e-5 * 0.1);
 }
 
-// With stiction the run says so, unless the guide is long enough.
+// The run says so, unless the guide is long enough.
 TEST(Jamming, IsSaid) {
-  const std::vector<std::string> coulomb{"joint.guide.friction=\"coulomb\"", "joint.guide.friction_preload=1"};
-  const Trajectory jammed = completed(pushed(0.059, coulomb)), moved = completed(pushed(0.062, coulomb));
-  EXPECT_TRUE(says(jammed, "joint guide is jammed")) << jammed.notes.size();
-  EXPECT_TRUE(says(jammed, "up to 100 N"));
-  EXPECT_FALSE(says(moved, "jammed"));
-  EXPECT_EQ(at_end(jammed, "joint.guide.stuck"), 1);
-  EXPECT_EQ(at_end(moved, "joint.guide.stuck"), 0);
-  EXPECT_NEAR(speed_gained(moved, "joint.guide.slide_rate"), 100 * (1 - 0.06 / 0.062) - 0.15, 1e-5 * 3);
+  for (const char* word : {"coulomb", "lugre"}) {
+    SCOPED_TRACE(word);
+    const std::vector<std::string> changes{fmt::format("joint.guide.friction=\"{}\"", word), "joint.guide.friction_preload=1"};
+    const Trajectory jammed = completed(pushed(0.059, changes)), moved = completed(pushed(0.062, changes));
+    EXPECT_TRUE(says(jammed, "joint guide is jammed")) << jammed.notes.size();
+    EXPECT_TRUE(says(jammed, "up to 100 N"));
+    EXPECT_FALSE(says(moved, "jammed"));
+    EXPECT_EQ(at_end(jammed, "joint.guide.stuck"), 1);
+    EXPECT_EQ(at_end(moved, "joint.guide.stuck"), 0);
+    EXPECT_NEAR(speed_gained(moved, "joint.guide.slide_rate"), 100 * (1 - 0.06 / 0.062) - 0.15, 1e-5 * 3);
+  }
 }
 
 constexpr const char* kCircles = R"toml(

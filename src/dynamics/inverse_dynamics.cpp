@@ -217,9 +217,11 @@ BasicEffectiveMasses<S> BasicInverseDynamics<S>::effective_masses(const BasicSta
       for (int pass = 0; pass < kClosing; ++pass) {
         for (int i = 0; i < system_.n_joints(); ++i) wanted_[i] = -from_bodies(i, a);
         wanted_[j][c] += 1;
+        if (largest_held(wanted_) <= kClosed) break;
         projector_.close(wanted_, a);
       }
-      for (int pass = 0; pass < kClosing; ++pass) projector_.improve_forces(no_load, a, force);
+      for (int pass = 0; pass < kClosing; ++pass)
+        if (projector_.improve_forces(no_load, a, force) <= kClosed * largest_force(force)) break;
       masses.closed[j][c] = std::max(masses.closed[j][c], force[j][c]);  // where no motion can change it alone, the force is 0
     }
   }

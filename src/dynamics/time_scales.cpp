@@ -35,7 +35,7 @@ bool BasicTimeScales<S>::any_resolved() const { return any(resolved); }
 template <class S>
 BasicTimeScales<S> all_fast(const BasicSystem<S>& system) {
   const VecsOf<S> none(system.joints.size(), S::Vec::Zero());
-  return {none, none, none};
+  return {none, none, none, {}};
 }
 
 template <class S>
@@ -64,6 +64,7 @@ BasicTimeScales<S> measure_time_scales(const BasicSystem<S>& system, const Basic
       time_scales.fastest = std::max(time_scales.fastest, alone.fast);
     }
   }
+  time_scales.effective_mass = masses.closed;
   return time_scales;
 }
 

@@ -15,6 +15,7 @@ struct BasicTimeScales {
   /// settles the rate at once. Resolved: the whole dynamics of the gap is part of the motion.
   VecsOf<S> overdamped, resolved;
   VecsOf<S> slow_rate;      // the slower of the gap's own two rates [1/s]; 0 without a stiffness
+  VecsOf<S> effective_mass;  // BasicEffectiveMasses::closed, where it was measured
   double fastest = 0;  // the fastest rate of resolved components, with their own two bodies alone [1/s]
 
   bool any_soft() const;

@@ -37,7 +37,7 @@ template <class S>
 class Passes {
  public:
   Passes(const BasicSystem<S>& system, const BasicState<S>& start, const SimulateSettings& settings, const BasicPassContext<S>& context, Trajectory& out)
-      : system_(system), start_(start), settings_(settings), context_(context), out_(out), fine_ringing_(system, start) {}
+      : system_(system), start_(start), settings_(settings), context_(context), out_(out), fine_ringing_(system, start, context.effective_mass) {}
 
   std::unique_ptr<BasicForceRecorder<S>> go() {
     out_.tolerance = settings_.tolerance;

@@ -17,6 +17,7 @@ struct BasicPassContext {
   BasicRunShape<S> shape;
   const Observer& observer;
   Stopwatch clock;  // since the run began
+  const VecsOf<S>* effective_mass = nullptr;  // of the joints, as the start has found it [kg], [kg*m^2]
 };
 
 /// Integrates the motion of `system` from `start` until the stated errors of the joint forces (or of the motion) meet the settings' tolerance, or

@@ -24,7 +24,7 @@ Trajectory simulate_reduced(const Model& model, const RunShape& shape, const Obs
   Trajectory out;
   out.notes = model.notes;
   out.notes.insert(out.notes.end(), start.notes.begin(), start.notes.end());
-  const std::unique_ptr<ForceRecorder> recorder = run_passes<Planar>(start.system, start.state, model.simulate, {[&] { return std::make_unique<Recorder>(model, start.system, shape.recorded); }, shape, observer, clock}, out);
+  const std::unique_ptr<ForceRecorder> recorder = run_passes<Planar>(start.system, start.state, model.simulate, {[&] { return std::make_unique<Recorder>(model, start.system, shape.recorded); }, shape, observer, clock, &start.effective_mass}, out);
   if (shape.measured != nullptr && shape.checked) shape.measured->span = start.span;
   const std::unordered_set<std::string> not_unique(start.not_unique.begin(), start.not_unique.end());
   for (LoadSummary& joint : out.joints) joint.unique = !not_unique.contains(joint.name);

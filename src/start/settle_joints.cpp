@@ -105,6 +105,7 @@ void settle_joints(const BasicSystem<S>& system, double duration, double known_s
   const double span = known_span > 0 ? known_span : span_of_motion(system, state, 4 * duration);
   start.span = span;
   const BasicTimeScales<S> time_scales = measure_time_scales(system, state, span);
+  start.effective_mass = time_scales.effective_mass;
   if (span > 0 && time_scales.any_soft()) return settle_soft_joints(system, time_scales, span, start);
   start.settled_over = settle_fast_joints(system, all_fast(system), smooth_span(system, state, duration), true, state);
   if (start.settled_over == 0) start.notes.push_back(kNotSettled);

@@ -15,6 +15,7 @@ struct BasicSettledStart {
   BasicState<S> state;             // t = 0
   std::vector<std::string> notes;  // what was assumed
   double span = 0;                 // over which the joints are smooth, where it was looked for [s]
+  VecsOf<S> effective_mass;        // that a joint's force accelerates while other gaps stay closed, BasicEffectiveMasses::closed, where it was looked for
   double settled_over = 0;         // the joints' slow motion was found over this time [s]; 0: it was not, or not looked for
 };
 

@@ -34,10 +34,7 @@ struct CoulombLaw : Friction {
   std::string_view border_name(int border, bool) const { return StickSlip::border_name(border); }
   void cross(int border, const LawInput<double>& in, double* state) const { surfaces().cross(border, slip(in), load(in), state); }
 
-  std::span<const LawColumn> columns() const {
-    static const std::array<LawColumn, 3> pin = with_mode(Friction{}), slide = with_mode(Friction{.free = 0});
-    return free == 2 ? pin : slide;
-  }
+  std::span<const LawColumn> columns() const { return columns_with_mode(); }
   void observe(const LawInput<double>& in, const Planar::Vec& force, double* value) const {
     Friction::observe(in, force, value);
     value[2] = StickSlip::sticks(in.state) ? 1 : 0;
@@ -45,10 +42,6 @@ struct CoulombLaw : Friction {
 
  private:
   StickSlip surfaces() const { return {kinetic, stuck, viscous, stiffness, damping}; }
-  static std::array<LawColumn, 3> with_mode(const Friction& friction) {
-    const auto all = friction.columns();
-    return {all[0], all[1], {"stuck", "", "1 while the joint sticks, 0 while it slips"}};
-  }
 };
 
 }  // namespace pintle

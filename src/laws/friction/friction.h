@@ -70,6 +70,15 @@ struct Friction {
   }
 
  protected:
+  /// Those and whether the joint sticks.
+  std::span<const LawColumn> columns_with_mode() const {
+    static const auto with_mode = [](const Friction& friction) {
+      const auto all = friction.columns();
+      return std::array<LawColumn, 3>{all[0], all[1], {"stuck", "", "1 while the joint sticks, 0 while it slips"}};
+    };
+    static const std::array<LawColumn, 3> pin = with_mode(Friction{}), slide = with_mode(Friction{.free = 0});
+    return free == 2 ? pin : slide;
+  }
   /// Coefficient of steady slip that falls from the static one to the kinetic one with the speed over that of Stribeck (squared). Eq. (3.12)
   template <class T>
   T stribeck_coefficient(const T& v, double stribeck) const {

@@ -39,7 +39,16 @@ struct LuGreLaw : Friction {
     state[0] = v / std::max(std::abs(v), stribeck) * coefficient(v) / bristle_stiffness;
   }
 
+  std::span<const LawColumn> columns() const { return columns_with_mode(); }
+  /// Bristles that could bend farther at this speed stick.
+  void observe(const LawInput<double>& in, const Planar::Vec& force, double* value) const {
+    Friction::observe(in, force, value);
+    value[2] = bristle_stiffness * std::abs(in.state[0]) < kBent * coefficient(slip(in)) ? 1 : 0;
+  }
+
  private:
+  static constexpr double kBent = 0.999;  // of the deflection of steady slip: bristles that are bent so far slip
+
   template <class T>
   T coefficient(const T& v) const { return stribeck_coefficient(v, stribeck); }
 };

@@ -11,7 +11,8 @@
 namespace pintle {
 
 template <class S>
-BasicRingingLoss<S>::BasicRingingLoss(const BasicSystem<S>& system, const BasicState<S>& start) : system_(&system), start_(&start) {
+BasicRingingLoss<S>::BasicRingingLoss(const BasicSystem<S>& system, const BasicState<S>& start, const VecsOf<S>* effective_mass)
+    : system_(&system), start_(&start), known_mass_(effective_mass) {
   start_again();
 }
 
@@ -25,11 +26,11 @@ void BasicRingingLoss<S>::start_again() {
 template <class S>
 void BasicRingingLoss<S>::find_masses() {
   mass_ = decay_ = VecsOf<S>(lost_.size(), S::Vec::Zero());
-  const BasicEffectiveMasses<S> masses = BasicInverseDynamics<S>(*system_).effective_masses(*start_);
-  for (std::size_t j = 0; j < masses.closed.size(); ++j) {
+  const VecsOf<S> closed = known_mass_ == nullptr || known_mass_->empty() ? BasicInverseDynamics<S>(*system_).effective_masses(*start_).closed : *known_mass_;
+  for (std::size_t j = 0; j < closed.size(); ++j) {
     const BasicResponse<S> response = respond(system_->joints[j].law, start_->gap[j], start_->gap_rate[j]);
     for (int k = 0; k < S::kDof; ++k) {
-      const double m = masses.closed[j][k];
+      const double m = closed[j][k];
       if (!(response.stiffness(k, k) > 0) || !(m > 0)) continue;
       mass_[j][k] = m;
       decay_[j][k] = own_rates(m, response.damping(k, k), response.stiffness(k, k)).decay;

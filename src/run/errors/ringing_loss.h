@@ -12,8 +12,8 @@ namespace pintle {
 template <class S>
 class BasicRingingLoss {
  public:
-  /// Of a run from `start`; both must outlive it.
-  BasicRingingLoss(const BasicSystem<S>& system, const BasicState<S>& start);
+  /// Of a run from `start`, with the masses BasicEffectiveMasses::closed there where they are known; all must outlive it.
+  BasicRingingLoss(const BasicSystem<S>& system, const BasicState<S>& start, const VecsOf<S>* effective_mass = nullptr);
   /// Before another pass.
   void start_again();
 
@@ -28,6 +28,7 @@ class BasicRingingLoss {
 
   const BasicSystem<S>* system_;
   const BasicState<S>* start_;
+  const VecsOf<S>* known_mass_;
   VecsOf<S> mass_, decay_;  // what a component's force accelerates; the rate at which the joint damps its own vibration [1/s]; empty before the first step
   VecsOf<S> lost_;          // [N], [N*m]
   std::vector<double> force_, couple_;
