@@ -216,13 +216,29 @@ void JointTree::accelerate(const TreePose& pose, const Eigen::VectorXd& w, Vecs&
   }
 }
 
-void JointTree::gather(const TreePose& pose, Vecs& on_bodies, Eigen::VectorXd& on_coordinates) const {
-  on_coordinates.resize(n_);
+template <int Columns>
+void JointTree::gather_columns(const TreePose& pose, Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, Columns>> on_bodies,
+                               Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, Columns>> on_coordinates) const {
   for (auto body = order_.rbegin(); body != order_.rend(); ++body) {
     const Link& link = link_[*body];
-    for (int k = 0; k < link.count; ++k) on_coordinates[link.first + k] = pose.S[*body].col(k).dot(on_bodies[*body]);
-    if (link.parent != kGround) on_bodies[link.parent] += about_parent(pose.arm[*body], on_bodies[*body]);
+    const auto here = on_bodies.template middleRows<3>(3 * *body);
+    for (int k = 0; k < link.count; ++k) on_coordinates.row(link.first + k) = pose.S[*body].col(k).transpose() * here;
+    if (link.parent == kGround) continue;
+    auto parent = on_bodies.template middleRows<3>(3 * link.parent);
+    const S::Point& arm = pose.arm[*body];
+    parent += here;  // about the parent's centre: transpose of `carried`
+    parent.row(2) += arm.x() * here.row(1) - arm.y() * here.row(0);
   }
+}
+
+void JointTree::gather(const TreePose& pose, Vecs& on_bodies, Eigen::VectorXd& on_coordinates) const {
+  on_coordinates.resize(n_);
+  if (!on_bodies.empty()) gather_columns<1>(pose, Eigen::VectorXd::Map(on_bodies.front().data(), 3 * static_cast<Eigen::Index>(on_bodies.size())), on_coordinates);
+}
+
+void JointTree::gather(const TreePose& pose, Eigen::MatrixXd& on_bodies, Eigen::MatrixXd& on_coordinates) const {
+  on_coordinates.resize(n_, on_bodies.cols());
+  gather_columns<Eigen::Dynamic>(pose, on_bodies, on_coordinates);
 }
 
 void JointTree::mass(const TreePose& pose, Eigen::MatrixXd& H) const {

@@ -60,6 +60,8 @@ class JointTree {
   void accelerate(const TreePose& pose, const Eigen::VectorXd& w, Vecs& a) const;
   /// on_coordinates = J' on_bodies; on_bodies becomes what each body and all it carries feel, about its centre of mass. Eq. (3.1).
   void gather(const TreePose& pose, Vecs& on_bodies, Eigen::VectorXd& on_coordinates) const;
+  /// The same of several columns, with three rows for each body.
+  void gather(const TreePose& pose, Eigen::MatrixXd& on_bodies, Eigen::MatrixXd& on_coordinates) const;
   /// The mass matrix of composite bodies. Eqs. (3.2), (3.3).
   void mass(const TreePose& pose, Eigen::MatrixXd& H) const;
   /// dv/du, three rows for each body. Eq. (2.5).
@@ -80,6 +82,9 @@ class JointTree {
     int slide = -1, turn = -1;  // column of S
   };
   S::Point lever(const TreePose& pose, int body) const;
+  template <int Columns>
+  void gather_columns(const TreePose& pose, Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, Columns>> on_bodies,
+                      Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, Columns>> on_coordinates) const;
   void grow(int from, const std::vector<std::vector<int>>& ideal_at);
   void open_the_rest();
   std::string loop_of(int joint) const;

@@ -116,9 +116,10 @@ void TreeInstant::slopes(const VectorXd& f, TreeSlopes& out) {
         if (body[j] != kGround) rows(of_forces_, body[i]) -= geometric.template block<3, 3>(3 * i, 3 * j) * rows(J_, body[j]);
     }
   }
-  tree_.geometric_stiffness(pose_, on_bodies_, out.balance);
-  out.balance.noalias() += J_.transpose() * of_forces_;
-  out.balance_by_rate.noalias() = J_.transpose() * of_forces_by_rate_;
+  tree_.geometric_stiffness(pose_, on_bodies_, geometric_);
+  tree_.gather(pose_, of_forces_, out.balance);
+  tree_.gather(pose_, of_forces_by_rate_, out.balance_by_rate);
+  out.balance += geometric_;
 }
 
 void TreeInstant::linearize(int law, const TreeState& at, LawTangents& out) const {

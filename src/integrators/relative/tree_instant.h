@@ -97,6 +97,7 @@ class TreeInstant {
   Eigen::MatrixXd H_, J_, A_;
   TreeMotionSlopes moved_;
   Eigen::MatrixXd of_forces_, of_forces_by_rate_;  // what the forces on the bodies change by, per coordinate and per rate
+  Eigen::MatrixXd geometric_;
 };
 
 /// Time, coordinates and their rates of `state`.
