@@ -44,9 +44,10 @@ endfunction()
 
 # With PINTLE_UNITY six sources of the target are compiled as one, so that what they share is read and instantiated once. Names in their
 # unnamed namespaces must differ for that. What steps call is left apart: its speed depends on what the compiler sees together.
-# Under the sanitizers nothing is fast, and all rooms are united; PINTLE_APART has what compiles long by itself, and catalogs whose keys have the same names.
+# Under the sanitizers nothing is fast, and all rooms are united; PINTLE_APART has what compiles long by itself, catalogs
+# and profiles that call the same things alike, and classes that are instantiated in several sources.
 set(PINTLE_UNITED_ROOMS check results io report sweeps)
-set(PINTLE_APART "(stage_solver_[a-z]*|end_point_projection|dense_forces|batch_[0-9]*|[a-z]*_catalog|tree_augmented|leaf_spring)\\.cpp$")
+set(PINTLE_APART "(stage_solver_[a-z]*|end_point_projection|dense_forces|batch_[0-9]*|[a-z_]*catalog|tree_augmented|leaf_spring|system|radau_stepper|edge_profile|limit_notes)\\.cpp$")
 function(pintle_unite target)
   if(NOT PINTLE_UNITY)
     return()

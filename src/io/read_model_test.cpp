@@ -82,6 +82,61 @@ TEST(ReadModel, JointsTakeTheirOwnValuesThenDefaultsThenTheCatalogs) {
   EXPECT_EQ(values(2, "angular_damping"), std::vector<double>{7});
 }
 
+// One key rubs in all joints that can: not in rods, nor where a joint's law rubs itself, nor where the joint says otherwise.
+TEST(ReadModel, FrictionOfTheDefaultsIsThatOfAllJointsThatCanHaveIt) {
+  const std::string text = R"toml(
+format = 1
+[simulate]
+duration = 1
+[defaults.joint]
+friction = "coulomb"
+pin_radius = "10 mm"
+friction_coefficient = 0.12
+[ground.markers]
+o = [0, 0]
+p = [1, 0]
+[body.a]
+mass = 1
+inertia = 1
+markers.o = [0, 0]
+markers.p = [1, 0]
+[joint.pin]
+type = "revolute"
+between = ["ground.o", "a.o"]
+[joint.lugre]
+type = "revolute"
+between = ["ground.o", "a.o"]
+friction = "lugre"
+friction_coefficient = 0.05
+[joint.smooth]
+type = "revolute"
+between = ["ground.o", "a.o"]
+friction = "none"
+[joint.rod]
+type = "rod"
+between = ["ground.p", "a.p"]
+length = 1
+[joint.worn]
+type = "revolute"
+between = ["ground.o", "a.o"]
+law = "clearance"
+clearance = "0.1 mm"
+[joint.rigid]
+type = "revolute"
+between = ["ground.o", "a.o"]
+ideal = true
+)toml";
+  const Model model = parse_model(text, "x.toml");
+  const auto friction = [&](std::size_t i) { return model.joints[i].friction.word; };
+  ASSERT_EQ(model.joints.size(), 6U);
+  EXPECT_EQ(friction(0), "coulomb");
+  EXPECT_EQ(model.joints[0].friction.values.at("friction_coefficient"), std::vector<double>{0.12});
+  EXPECT_EQ(friction(1), "lugre");
+  EXPECT_EQ(model.joints[1].friction.values.at("friction_coefficient"), std::vector<double>{0.05});
+  EXPECT_EQ(model.joints[1].friction.values.at("pin_radius"), std::vector<double>{0.01});
+  for (std::size_t i = 2; i < 6; ++i) EXPECT_EQ(friction(i), "") << model.joints[i].name;
+}
+
 TEST(ReadModel, GeometryOfJoints) {
   const Model model = full();
   EXPECT_EQ(model.joints[3].geometry.at("radius_first"), 0.02);

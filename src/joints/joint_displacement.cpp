@@ -66,15 +66,12 @@ auto DisplacementReader<S>::rate_gradient(const Displacement& displacement, cons
 }
 
 // theory/joints Eq. (2.23).
-template <class S>
-auto DisplacementReader<S>::bias_gradient(const Displacement& displacement, const Pose& pose, const typename S::Motion& A, const typename S::Motion& B) -> RateGradient
-  requires(!S::kCurved)
-{
-  const RateGradient of_pose = pose.bias_gradient(A, B);
-  if (selects<S>(displacement)) return of_pose;
-  const RateGradient of_rate = pose.rate_gradient(A, B);
-  RateGradient r = RateGradient::Zero();
-  for_each_function(displacement, pose.z, [&](int k, const BasicGapFunction<S>& g) {
+Eigen::Matrix<double, 3, 6> bias_gradient(const JointDisplacement& displacement, const RelativePose& pose, const Planar::Motion& A, const Planar::Motion& B) {
+  const auto of_pose = pose.bias_gradient(A, B);
+  if (selects<Planar>(displacement)) return of_pose;
+  const auto of_rate = pose.rate_gradient(A, B);
+  Eigen::Matrix<double, 3, 6> r = Eigen::Matrix<double, 3, 6>::Zero();
+  for_each_function(displacement, pose.z, [&](int k, const GapFunction& g) {
     r.row(k) = g.gradient.transpose() * of_pose + pose.bias.transpose() * g.hessian * both(pose) + 2 * pose.rate.transpose() * g.hessian * of_rate;
   });
   return r;

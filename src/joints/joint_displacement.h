@@ -63,8 +63,6 @@ struct DisplacementReader {
   static Vec to_pose_force(const Displacement& displacement, const Pose& pose, const Vec& force);
   static Both geometric_stiffness(const Displacement& displacement, const Pose& pose, const Vec& force);
   static RateGradient rate_gradient(const Displacement& displacement, const Pose& pose, const typename S::Motion& A, const typename S::Motion& B);
-  static RateGradient bias_gradient(const Displacement& displacement, const Pose& pose, const typename S::Motion& A, const typename S::Motion& B)
-    requires(!S::kCurved);
 };
 /// How many components of the gap are functions of the pose; 0: it is the pose itself.
 template <class Displacement>
@@ -127,9 +125,6 @@ auto rate_gradient(const Displacement& displacement, const Pose& pose, const Mot
 }
 
 /// d(bias)/dq over (qA, qB) at constant velocities; of a gap that is a function of the pose without the function's third derivative. In the plane.
-template <class Displacement, class Pose, class Motion>
-auto bias_gradient(const Displacement& displacement, const Pose& pose, const Motion& A, const Motion& B) {
-  return DisplacementReader<SpaceOf<Pose>>::bias_gradient(displacement, pose, A, B);
-}
+Eigen::Matrix<double, 3, 6> bias_gradient(const JointDisplacement& displacement, const RelativePose& pose, const Planar::Motion& A, const Planar::Motion& B);
 
 }  // namespace pintle

@@ -3,8 +3,11 @@
 #include <algorithm>
 
 namespace pintle {
+namespace {
 
 using S = Planar;
+
+}  // namespace
 
 JointData mouse_spring(const std::string& name, int body, const Vec2& point, double k) {
   JointData joint;

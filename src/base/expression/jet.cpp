@@ -6,7 +6,7 @@
 namespace pintle {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 // Partial derivatives of a function of one and of two arguments.
 struct Slopes1 {
@@ -66,7 +66,7 @@ Slopes1 slopes_of(Op op, double x, double f) {
     case Op::kStep:
       return {0, 0};
     default:
-      return {kNan, kNan};
+      return {kNoNumber, kNoNumber};
   }
 }
 
@@ -104,7 +104,7 @@ Slopes2 slopes_of(Op op, double a, double b, double f) {
     case Op::kAtan2:
       return atan2_slopes(a, b);
     default:
-      return {kNan, kNan, kNan, kNan, kNan};
+      return {kNoNumber, kNoNumber, kNoNumber, kNoNumber, kNoNumber};
   }
 }
 
@@ -147,7 +147,7 @@ Jet apply(Op op, const Jet& a, const Jet& b) {
 
 Jet apply(Op op, const Jet& a, const Jet& b, const Jet& c) {
   if (op == Op::kSmoothstep) return smoothstep(a, b, c);
-  if (op != Op::kIf || std::isnan(a.value)) return {kNan, kNan, kNan};
+  if (op != Op::kIf || std::isnan(a.value)) return {kNoNumber, kNoNumber, kNoNumber};
   return a.value != 0 ? b : c;
 }
 

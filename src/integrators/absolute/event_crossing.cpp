@@ -14,15 +14,7 @@ Spatial::Coordinates along(const Spatial::Coordinates& q, double d, const Spatia
 
 template <class S>
 void BasicRadauStepper<S>::find_switching(double x, double h, double* value) {
-  RadauTable::Vec v(n_), q(n_);
-  for (int i = 0; i < n_; ++i) {
-    double power = x;
-    v[i] = q[i] = 0;
-    for (int k = 0; k < n_; ++k, power *= x) {
-      v[i] += table_.stages_to_powers(k, i) * power / (k + 1);
-      q[i] += table_.stages_to_powers(k, i) * power * x / ((k + 1) * (k + 2));
-    }
-  }
+  const auto [v, q] = table_.stage_integrals(x);
   for (std::size_t b = 0; b < inside_q_.size(); ++b) {
     if constexpr (S::kCurved) {
       typename S::Vec dq = S::Vec::Zero();

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "integrators/dense/curve_weights.h"
 #include "integrators/dense/dense_forces.h"
 #include "integrators/radau/step_nodes.h"
 #include "system/state.h"
@@ -24,9 +25,7 @@ class BasicDenseOutput {
   const BasicState<S>& at(double t, const BasicState<S>& begin, const BasicState<S>& end, const BasicStepNodes<S>& nodes);
 
  private:
-  static constexpr int kMost = ForceSamples::kAll;              // coefficients at most
-  static_assert(kMost >= RadauTable::kMaxNodes);
-  using Powers = std::array<double, kMost>;
+  static constexpr int kMost = CurveWeights::kMost;                 // coefficients at most
   using Coefficients = std::array<typename S::Vec, kMost>;          // of powers of the share of the step
   struct Curve {
     Coefficients c;              // of the acceleration

@@ -5,7 +5,11 @@
 
 namespace pintle {
 
+namespace {
+
 using S = Planar;
+
+}  // namespace
 
 ForceTangents::ForceTangents(const System& system)
     : system_(system), joint_places_(system.joints.size()),

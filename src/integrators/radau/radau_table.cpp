@@ -96,6 +96,18 @@ RadauTable::Vec RadauTable::weights_of_last(int count, double x) const {
 
 RadauTable::Vec RadauTable::weights(double x) const { return weights_of_last(n + 1, x); }
 
+RadauTable::StageIntegrals RadauTable::stage_integrals(double x) const {
+  StageIntegrals weights{Vec::Zero(n), Vec::Zero(n)};
+  for (int i = 0; i < n; ++i) {
+    double power = x;
+    for (int k = 0; k < n; ++k, power *= x) {
+      weights.first[i] += stages_to_powers(k, i) * power / (k + 1);
+      weights.second[i] += stages_to_powers(k, i) * power * x / ((k + 1) * (k + 2));
+    }
+  }
+  return weights;
+}
+
 RadauTable::Vec RadauTable::continuation(double share, double ratio) const {
   constexpr double kParabola = 1.3, kLine = 1.8;  // step over the last one, above which stages are guessed by a parabola, which takes the fewest iterations in steps that grow; above which by a line
   const double size = std::abs(ratio);

@@ -33,6 +33,12 @@ struct RadauTable {
   /// Lagrange weights of the nodes at x.
   Vec weights(double x) const;
 
+  /// Weights of the stages, c_1 .. c_n, in the first and the second integral from 0 to x of the curve through them.
+  struct StageIntegrals {
+    Vec first, second;
+  };
+  StageIntegrals stage_integrals(double x) const;
+
   /// Weights of the nodes for the first guess at a share of the next step, which is `ratio` times as long: the curve goes on. Into a
   /// longer step goes one of lower degree through the last nodes, because that of the full degree swings away there.
   Vec continuation(double share, double ratio) const;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "integrators/dense/curve_weights.h"
 #include "integrators/radau/joint_pull.h"
 #include "integrators/load_scale.h"
 #include "integrators/radau/step_error.h"
@@ -202,8 +203,8 @@ void TreeRadau::find_curves() {
   curves_.power = nodes_.power * to_powers;
   VectorXd once(n_ + 1), twice(n_ + 1);
   for (int k = 0; k <= n_; ++k) {
-    once[k] = h / (k + 1);
-    twice[k] = h * h / ((k + 1) * (k + 2));
+    once[k] = CurveWeights::whole(k, h);
+    twice[k] = CurveWeights::whole_twice(k, h);
   }
   curves_.bend_u = end_.u - begin_.u - curves_.w * once;
   curves_.bend_y = end_.y - begin_.y - h * begin_.u - curves_.w * twice;
@@ -215,21 +216,16 @@ void TreeRadau::find_curves() {
 }
 
 void TreeRadau::follow(double x, TreeState& out) const {
-  const double h = end_.t - begin_.t, hermite = x * x * (3 - 2 * x);
-  VectorXd value(n_ + 1), once(n_ + 1), twice(n_ + 1);
-  double power = 1;
-  for (int k = 0; k <= n_; ++k, power *= x) {
-    value[k] = power;
-    once[k] = h * power * x / (k + 1);
-    twice[k] = once[k] * h * x / (k + 2);
-  }
+  const double h = end_.t - begin_.t;
+  const CurveWeights weights(x, h);
+  const auto value = VectorXd::Map(weights.value.data(), n_ + 1), once = VectorXd::Map(weights.first.data(), n_ + 1), twice = VectorXd::Map(weights.second.data(), n_ + 1);
   out.t = begin_.t + x * h;
   out.w = curves_.w * value;
   out.u = begin_.u + x * curves_.bend_u + curves_.w * once;
-  out.y = begin_.y + x * h * begin_.u + hermite * curves_.bend_y + curves_.w * twice;
+  out.y = begin_.y + x * h * begin_.u + weights.bend * curves_.bend_y + curves_.w * twice;
   out.accel = curves_.accel * value;
   out.rate = begin_.rate + x * curves_.bend_rate + curves_.accel * once;
-  out.gap = begin_.gap + x * h * begin_.rate + hermite * curves_.bend_gap + curves_.accel * twice;
+  out.gap = begin_.gap + x * h * begin_.rate + weights.bend * curves_.bend_gap + curves_.accel * twice;
   out.force = curves_.force * value;
   const RadauTable::Vec weight = table_.weights(x);
   out.law_state.assign(begin_.law_state.size(), 0.0);
@@ -259,9 +255,9 @@ const State& TreeRadau::interpolate(double t) {
     projector_.balance(inside_at_, now.accel, false, now.force, w);
   }
   inside_at_.write(now, w, inside_state_);
-  double power = 1;
+  const CurveWeights weights(x, h);
   Eigen::Vector2d work = x * curves_.bend_work;
-  for (int k = 0; k <= n_; ++k, power *= x) work += curves_.power.col(k) * (h * power * x / (k + 1));
+  for (int k = 0; k <= n_; ++k) work += curves_.power.col(k) * weights.first[k];
   inside_state_.supplied = begin_state_.supplied + work[0];
   inside_state_.dissipated = begin_state_.dissipated + work[1];
   return inside_state_;

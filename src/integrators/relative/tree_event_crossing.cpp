@@ -20,18 +20,14 @@ void TreeRadau::find_switching(double x, double h, double* value) {
   at.y = begin_.y + x * h * begin_.u;
   at.rate = begin_.rate;
   at.gap = begin_.gap + x * h * begin_.rate;
+  const auto [first, second] = table_.stage_integrals(x);
   for (int i = 0; i < n_; ++i) {
-    double power = x, first = 0, second = 0;
-    for (int k = 0; k < n_; ++k, power *= x) {
-      first += table_.stages_to_powers(k, i) * power / (k + 1);
-      second += table_.stages_to_powers(k, i) * power * x / ((k + 1) * (k + 2));
-    }
     const TreeState& stage = stages_.states()[i];
-    at.u += h * first * stage.w;
-    at.y += h * h * second * stage.w;
-    at.rate += h * first * stage.accel;
-    at.gap += h * h * second * stage.accel;
-    for (std::size_t z = 0; z < at.law_state.size(); ++z) at.law_state[z] += h * first * stage.law_rate[z];
+    at.u += h * first[i] * stage.w;
+    at.y += h * h * second[i] * stage.w;
+    at.rate += h * first[i] * stage.accel;
+    at.gap += h * h * second[i] * stage.accel;
+    for (std::size_t z = 0; z < at.law_state.size(); ++z) at.law_state[z] += h * first[i] * stage.law_rate[z];
   }
   inside_at_.place_only(begin_.t + x * h, at.y, at.u);
   inside_at_.find_switching(at, value);

@@ -5,9 +5,12 @@
 #include "integrators/load_scale.h"
 
 namespace pintle {
+namespace {
 
 using S = Planar;
 using Eigen::VectorXd;
+
+}  // namespace
 
 TreeRadau::TreeRadau(const System& system, double tolerance, int stages)
     : StepEvents(system), system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance),

@@ -37,6 +37,16 @@ const LawInfo* law_of_role(std::string_view word, LawRole role) {
   return law != nullptr && law->role == role ? law : nullptr;
 }
 
+// Friction of the joint's own words, or else that of the defaults where the joint can have it.
+const LawInfo* friction_of(const Node& joint, const JointTypeInfo* type, const LawInfo* law, const Record& defaults) {
+  if (joint.table() != nullptr && joint.table()->find("friction") != nullptr) return law_of_role(word_ahead(joint, "friction"), LawRole::kFriction);
+  if (type == nullptr || law == nullptr || !defaults.states("friction")) return nullptr;
+  const LawInfo* friction = law_of_role(defaults.word("friction"), LawRole::kFriction);
+  const Node* ideal = joint.table() == nullptr ? nullptr : joint.table()->find("ideal");
+  const bool rigid = ideal != nullptr && ideal->truth() != nullptr && *ideal->truth();
+  return friction != nullptr && suits(*friction, type->word) && !law->rubs && !rigid ? friction : nullptr;
+}
+
 TableSpec& joint_spec(ModelReading& reading, const Node& joint, const JointTypeInfo* type, const LawInfo* law, const std::string& friction, const std::string& stops,
                       const std::string& detent) {
   const std::string type_word(type == nullptr ? "" : type->word);
@@ -258,8 +268,8 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   const std::string law_word = word_ahead(entry.value, "law");
   const JointTypeInfo* type = find_joint_type(word_ahead(entry.value, "type"));
   const LawInfo* law = law_of_role(law_word.empty() ? "linear" : law_word, LawRole::kHolds);
-  const std::string friction_word = word_ahead(entry.value, "friction");
-  const LawInfo* friction = law_of_role(friction_word, LawRole::kFriction);
+  const LawInfo* friction = friction_of(entry.value, type, law, defaults);
+  const std::string friction_word(friction == nullptr ? "" : friction->word);
   const std::string stops_word = word_ahead(entry.value, "stops");
   const LawInfo* stops = law_of_role(stops_word, LawRole::kStops);
   const std::string detent_word = word_ahead(entry.value, "detent");
@@ -270,7 +280,7 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
     return;
   }
   const std::string kind = with_article(type->word) + " joint";
-  TableSpec spec = joint_spec(reading, entry.value, type, law, friction == nullptr ? "" : friction_word, stops == nullptr ? "" : stops_word, detent == nullptr ? "" : detent_word);
+  TableSpec spec = joint_spec(reading, entry.value, type, law, friction_word, stops == nullptr ? "" : stops_word, detent == nullptr ? "" : detent_word);
   do_without(*law, defaults, spec);
   const Record record = reading.records.read(spec, entry.value, entry.key_spot, path, kind);
   Joint joint;

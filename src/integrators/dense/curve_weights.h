@@ -1,0 +1,30 @@
+// What the powers of the share x of a step, the coefficients of an acceleration or a rate, come to at x. theory/time Eq. (5.1).
+#pragma once
+
+#include <array>
+
+#include "integrators/dense/force_samples.h"
+
+namespace pintle {
+
+struct CurveWeights {
+  static constexpr int kMost = ForceSamples::kAll;
+  static_assert(kMost >= RadauTable::kMaxNodes);
+  std::array<double, kMost> value, first, second;  // of the coefficients: the value, and its first and second integrals over time from the start of the step
+  double bend;                                     // of what the second integral misses the far end by; the first takes x of it
+
+  /// At the share x of a step of h seconds.
+  CurveWeights(double x, double h) : bend(x * x * (3 - 2 * x)) {
+    double power = 1;
+    for (int k = 0; k < kMost; ++k, power *= x) {
+      value[k] = power;
+      first[k] = h * power * x / (k + 1);
+      second[k] = first[k] * h * x / (k + 2);
+    }
+  }
+  /// Those of the integrals at the far end.
+  static double whole(int k, double h) { return h / (k + 1); }
+  static double whole_twice(int k, double h) { return h * h / ((k + 1) * (k + 2)); }
+};
+
+}  // namespace pintle
