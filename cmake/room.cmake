@@ -47,7 +47,7 @@ endfunction()
 # Under the sanitizers nothing is fast, and all rooms are united; PINTLE_APART has what compiles long by itself, catalogs
 # and profiles that call the same things alike, and classes that are instantiated in several sources.
 set(PINTLE_UNITED_ROOMS check results io report sweeps)
-set(PINTLE_APART "(stage_solver_[a-z]*|end_point_projection|dense_forces|batch_[0-9]*|[a-z_]*catalog|tree_augmented|leaf_spring|system|radau_stepper|edge_profile|limit_notes)\\.cpp$")
+set(PINTLE_APART "(stage_solver_[a-z]*|end_point_projection|dense_forces|batch_[0-9]*|[a-z_]*catalog|tree_augmented|leaf_spring|system|radau_stepper|edge_profile|limit_notes|blade_basis)\\.cpp$")
 function(pintle_unite target)
   if(NOT PINTLE_UNITY)
     return()
