@@ -10,7 +10,7 @@ RELEASE   := -DPINTLE_TESTS=OFF -DPINTLE_UNITY=ON
 BUILD     := cmake --build
 CLANG     := clang++-14
 # Line numbers in the sanitizers' traces: a quarter of the time to build.
-LINES     := -g1
+DEBUG_INFO := -g1
 # Suites that take long under sanitizers in a build without the whole runs (cmake/tests.cmake).
 LONG := Slow|Scene|BlockPattern|Envelope|LargeModels|CompareSolvers|TreeMethods|CheckDifferences|CheckBatteries
 say        = @printf '\n=== %s\n' "$(1)"
@@ -96,7 +96,7 @@ build/test:
 # make test-sanitized has them all, make fuzz looks for more.
 test-clang:
 	$(call say,$(CLANG) without warnings; tests under the sanitizers)
-	@$(MAKE) --no-print-directory build/clang WHOLE=OFF CLI=OFF FUZZ=OFF LINES=
+	@$(MAKE) --no-print-directory build/clang WHOLE=OFF CLI=OFF FUZZ=OFF DEBUG_INFO=
 	@ctest --test-dir build/clang -j $(JOBS) --output-on-failure --no-tests=error -E '$(LONG)'
 
 test-sanitized:
@@ -106,7 +106,7 @@ test-sanitized:
 
 .PHONY: build/clang test-sanitized
 build/clang:
-	@$(CONFIGURE) -B build/clang -DCMAKE_CXX_COMPILER=$(CLANG) -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 $(LINES)" \
+	@$(CONFIGURE) -B build/clang -DCMAKE_CXX_COMPILER=$(CLANG) -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG="-O1 $(DEBUG_INFO)" \
 	  -DPINTLE_WHOLE_RUN_TESTS=$(or $(WHOLE),ON) -DPINTLE_CLI=$(or $(CLI),ON) -DPINTLE_SANITIZE=ON -DPINTLE_FUZZ=$(or $(FUZZ),ON) -DPINTLE_WERROR=ON -DPINTLE_UNITY=ON >/dev/null
 	@$(BUILD) build/clang -j $(JOBS)
 

@@ -147,6 +147,18 @@ Model everything(bool free) {
   return model;
 }
 
+System with_ideal(System system, const std::vector<std::string>& names) {
+  for (JointData& joint : system.joints)
+    for (const std::string& name : names) joint.ideal = joint.ideal || joint.name == name;
+  return system;
+}
+
+Eigen::VectorXd random_vector(Random& random, int n, double size) {
+  Eigen::VectorXd x(n);
+  for (double& value : x) value = random.uniform(-size, size);
+  return x;
+}
+
 void random_state(Random& random, std::size_t n_bodies, Vecs& q, Vecs& v) {
   q.clear();
   v.clear();

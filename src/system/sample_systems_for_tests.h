@@ -52,6 +52,11 @@ Motor motor(const std::string& name, const std::string& of, MotorKind kind, Expr
 /// `free`: nothing touches the ground, and there is no gravity nor applied force.
 Model everything(bool free = false);
 
+/// Marks the joints of these names as ideal.
+System with_ideal(System system, const std::vector<std::string>& names);
+
+Eigen::VectorXd random_vector(Random& random, int n, double size);
+
 /// Positions and velocities of all bodies at random, no two centres of mass close to each other.
 void random_state(Random& random, std::size_t n_bodies, Vecs& q, Vecs& v);
 

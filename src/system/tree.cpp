@@ -21,8 +21,13 @@ double offset(const JointData& joint, int component) { return std::get<Selection
 
 // How a rigid motion of the parent moves a body `arm` away. Eq. (2.2).
 S::Vec carried(const S::Point& arm, const S::Vec& x) { return {x[0] - arm.y() * x[2], x[1] + arm.x() * x[2], x[2]}; }
-// The same force and moment about a point `arm` before. Transpose of `carried`.
-S::Vec about_parent(const S::Point& arm, const S::Vec& f) { return {f[0], f[1], f[2] + S::cross(arm, {f[0], f[1]})}; }
+// The same forces and moments, one in a column, about a point `arm` before. Transpose of `carried`.
+template <class Forces>
+Eigen::Matrix<double, 3, Forces::ColsAtCompileTime> about_parent(const S::Point& arm, const Forces& f) {
+  Eigen::Matrix<double, 3, Forces::ColsAtCompileTime> moved = f;
+  moved.row(2) += arm.x() * f.row(1) - arm.y() * f.row(0);
+  return moved;
+}
 
 }  // namespace
 
@@ -224,10 +229,7 @@ void JointTree::gather_columns(const TreePose& pose, Eigen::Ref<Eigen::Matrix<do
     const auto here = on_bodies.template middleRows<3>(3 * *body);
     for (int k = 0; k < link.count; ++k) on_coordinates.row(link.first + k) = pose.S[*body].col(k).transpose() * here;
     if (link.parent == kGround) continue;
-    auto parent = on_bodies.template middleRows<3>(3 * link.parent);
-    const S::Point& arm = pose.arm[*body];
-    parent += here;  // about the parent's centre: transpose of `carried`
-    parent.row(2) += arm.x() * here.row(1) - arm.y() * here.row(0);
+    on_bodies.template middleRows<3>(3 * link.parent) += about_parent(pose.arm[*body], here);
   }
 }
 

@@ -17,9 +17,7 @@ using S = Planar;
 using sample::Random;
 
 System with_ideal(const std::vector<std::string>& names, bool free = false) {
-  System system = build_system(sample::everything(free));
-  for (JointData& joint : system.joints)
-    for (const std::string& name : names) joint.ideal = joint.ideal || joint.name == name;
+  System system = sample::with_ideal(build_system(sample::everything(free)), names);
   for (JointData& joint : system.joints)
     if (joint.type == "fixed") std::get<Selection>(joint.displacement).offset[2] = 2 * std::numbers::pi;
   return system;
@@ -37,11 +35,7 @@ const std::vector<System>& trees() {
   return all;
 }
 
-VectorXd random_vector(Random& random, int n) {
-  VectorXd x(n);
-  for (int i = 0; i < n; ++i) x[i] = random.uniform(-1.5, 1.5);
-  return x;
-}
+VectorXd random_vector(Random& random, int n) { return sample::random_vector(random, n, 1.5); }
 
 VectorXd stacked(const Vecs& x) {
   VectorXd out(3 * static_cast<Eigen::Index>(x.size()));

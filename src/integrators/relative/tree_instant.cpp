@@ -32,11 +32,16 @@ void TreeInstant::gap_accelerations(VectorXd& out) const {
   }
 }
 
-// Eq. (3.4).
-void TreeInstant::imbalance(const VectorXd& f, VectorXd& out) {
+// Q + G' f - M a of every body.
+void TreeInstant::leave_over(const VectorXd& f) {
   for (std::size_t i = 0; i < Q_.size(); ++i) on_bodies_[i] = Q_[i] - system_.bodies[i].mass.cwiseProduct(a_[i]);
   for (std::size_t l = 0; l < r_.size(); ++l)
     add_force(system_.joints[tree_.laws()[l]].at, r_[l], f.segment<3>(3 * static_cast<Eigen::Index>(l)), on_bodies_);
+}
+
+// Eq. (3.4).
+void TreeInstant::imbalance(const VectorXd& f, VectorXd& out) {
+  leave_over(f);
   tree_.gather(pose_, on_bodies_, out);
   out = -out;
 }
@@ -69,14 +74,11 @@ void TreeInstant::find_matrices() {
 
 void TreeInstant::slopes(const VectorXd& f, TreeSlopes& out) {
   tree_.motion_slopes(pose_, a_, moved_);
-  // M a - Q - G' f on the bodies, and how it changes.
+  // How M a - Q - G' f changes.
   of_forces_ = moved_.acceleration;
   of_forces_by_rate_ = moved_.acceleration_by_rate;
-  for (std::size_t i = 0; i < Q_.size(); ++i) {
-    const S::Vec& mass = system_.bodies[i].mass;
-    on_bodies_[i] = mass.cwiseProduct(a_[i]) - Q_[i];
-    for (Eigen::MatrixXd* x : {&of_forces_, &of_forces_by_rate_}) x->middleRows<3>(3 * static_cast<Eigen::Index>(i)).array().colwise() *= mass.array();
-  }
+  for (std::size_t i = 0; i < Q_.size(); ++i)
+    for (Eigen::MatrixXd* x : {&of_forces_, &of_forces_by_rate_}) x->middleRows<3>(3 * static_cast<Eigen::Index>(i)).array().colwise() *= system_.bodies[i].mass.array();
   const auto rows = [](Eigen::MatrixXd& x, int body) { return x.middleRows<3>(3 * body); };
   system_.external_tangents(
       t_, pose_.m,
@@ -91,7 +93,6 @@ void TreeInstant::slopes(const VectorXd& f, TreeSlopes& out) {
     const JointData& joint = system_.joints[tree_.laws()[l]];
     const Eigen::Index row = 3 * static_cast<Eigen::Index>(l);
     const S::Vec force = f.segment<3>(row);
-    add_force(joint.at, r_[l], -force, on_bodies_);
     const std::array<int, 2> body{joint.at.a, joint.at.b};
     const std::array<S::Mat, 2> G{r_[l].GA(), r_[l].GB()};
     std::array<S::Motion, 2> motion{motion_of(body[0], pose_.m), motion_of(body[1], pose_.m)}, accelerated = motion;
@@ -101,7 +102,7 @@ void TreeInstant::slopes(const VectorXd& f, TreeSlopes& out) {
       accelerated[i].w = a[2];
     }
     // d(G' f)/dq; d(G v)/dq, which is the rate of G too; d(G a)/dq; d(bias)/dq.
-    const RelativePose pose = RelativePose::between(motion[0], joint.at.F, motion[1], joint.at.M);
+    const RelativePose pose = system_.pose(joint.at, pose_.m);
     const auto geometric = geometric_stiffness(joint.displacement, pose, force);
     const auto turning = rate_gradient(joint.displacement, pose, motion[0], motion[1]);
     const auto by_acceleration =
@@ -116,10 +117,11 @@ void TreeInstant::slopes(const VectorXd& f, TreeSlopes& out) {
         if (body[j] != kGround) rows(of_forces_, body[i]) -= geometric.template block<3, 3>(3 * i, 3 * j) * rows(J_, body[j]);
     }
   }
+  leave_over(f);
   tree_.geometric_stiffness(pose_, on_bodies_, geometric_);
   tree_.gather(pose_, of_forces_, out.balance);
   tree_.gather(pose_, of_forces_by_rate_, out.balance_by_rate);
-  out.balance += geometric_;
+  out.balance -= geometric_;
 }
 
 void TreeInstant::linearize(int law, const TreeState& at, LawTangents& out) const {

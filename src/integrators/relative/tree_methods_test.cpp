@@ -16,11 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using S = Planar;
 
-System with_ideal(System system, const std::vector<std::string>& names) {
-  for (JointData& joint : system.joints)
-    for (const std::string& name : names) joint.ideal = joint.ideal || joint.name == name;
-  return system;
-}
+using sample::with_ideal;
 
 // Six bodies with joints and loads of every kind, some joints ideal.
 System everything(const std::vector<std::string>& ideal) { return with_ideal(build_system(sample::everything()), ideal); }

@@ -41,7 +41,7 @@ void TreeRadau::start(const State& state, double h) {
   end_state_.supply_power = supplied;
   end_state_.loss_power = lost;
   finish_end(end_.w);
-  start_events();
+  reset_events();
 }
 
 bool TreeRadau::step(double t_end) {
