@@ -9,11 +9,11 @@
 namespace pintle::sample {
 namespace {
 
-const std::string kPendulum = pendulum_toml("0.2 s", "10 ms");
+const std::string kCompared = pendulum_toml("0.2 s", "10 ms");
 
 class CompareVerb : public testing::Test {
  protected:
-  CompareVerb() { sandbox_.write("pendulum.toml", kPendulum); }
+  CompareVerb() { sandbox_.write("pendulum.toml", kCompared); }
   Sandbox sandbox_;
 };
 using StiffenVerb = CompareVerb;
@@ -49,7 +49,7 @@ TEST_F(CompareVerb, JsonAndNoPicture) {
 }
 
 TEST_F(CompareVerb, SeveralModelsSideBySide) {
-  sandbox_.write("heavy.toml", kPendulum);
+  sandbox_.write("heavy.toml", kCompared);
   EXPECT_EQ(sandbox_.shell("sed -i 's/1 kg\"/2 kg\"/; s/0.1 kg/0.2 kg/' heavy.toml").exit_code, 0);
   const Answer answer = sandbox_.pintle("compare pendulum.toml heavy.toml --json");
   EXPECT_EQ(answer.exit_code, 0) << answer.error;
@@ -75,7 +75,7 @@ TEST_F(CompareVerb, LawsSideBySide) {
 
 // A joint that is not in both: a dash, and no number.
 TEST_F(CompareVerb, JointsOfOneModelOnly) {
-  sandbox_.write("other.toml", kPendulum);
+  sandbox_.write("other.toml", kCompared);
   EXPECT_EQ(sandbox_.shell("sed -i 's/joint.pin/joint.hinge/' other.toml").exit_code, 0);
   const nlohmann::json json = nlohmann::json::parse(sandbox_.pintle("compare pendulum.toml other.toml --json --plot none").out);
   ASSERT_EQ(json["joints"].size(), 2U);
@@ -121,7 +121,7 @@ TEST_F(StiffenVerb, NoAnswerHasAnExitCodeAndAReason) {
   const nlohmann::json json = nlohmann::json::parse(answer.out);
   EXPECT_FALSE(json["found"]);
   EXPECT_FALSE(json["reason"].get<std::string>().empty());
-  EXPECT_EQ(sandbox_.read("pendulum.toml"), kPendulum);
+  EXPECT_EQ(sandbox_.read("pendulum.toml"), kCompared);
 }
 
 TEST_F(StiffenVerb, AMisspeltJointIsNamed) {

@@ -8,11 +8,11 @@
 namespace pintle::sample {
 namespace {
 
-const std::string kPendulum = pendulum_toml("0.2 s", "10 ms");
+const std::string kRunModel = pendulum_toml("0.2 s", "10 ms");
 
 class RunVerb : public testing::Test {
  protected:
-  RunVerb() { sandbox_.write("pendulum.toml", kPendulum); }
+  RunVerb() { sandbox_.write("pendulum.toml", kRunModel); }
   Sandbox sandbox_;
 };
 

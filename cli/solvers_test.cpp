@@ -9,11 +9,11 @@
 namespace pintle::sample {
 namespace {
 
-const std::string kPendulum = pendulum_toml("0.1 s", "1 ms");
+const std::string kShortPendulum = pendulum_toml("0.1 s", "1 ms");
 
 class SolversVerb : public testing::Test {
  protected:
-  SolversVerb() { sandbox_.write("pendulum.toml", kPendulum); }
+  SolversVerb() { sandbox_.write("pendulum.toml", kShortPendulum); }
   Sandbox sandbox_;
 };
 

@@ -8,7 +8,7 @@
 namespace pintle::sample {
 namespace {
 
-const std::string kPendulum = pendulum_toml("0.2 s", "10 ms");
+const std::string kStopped = pendulum_toml("0.2 s", "10 ms");
 
 // A run of many hours.
 constexpr const char* kLong =
@@ -16,7 +16,7 @@ constexpr const char* kLong =
 
 class StoppedRun : public testing::Test {
  protected:
-  StoppedRun() { sandbox_.write("pendulum.toml", kPendulum); }
+  StoppedRun() { sandbox_.write("pendulum.toml", kStopped); }
   std::string stopped_by(const char* signal) { return signalled(signal, 2, kLong); }
   /// Nothing is left beside the run folder: no temporary folder, no half a file.
   std::string others() { return sandbox_.shell("ls -A | grep -v -e pendulum -e '^[.]out$' -e '^[.]error$'").out; }

@@ -67,6 +67,7 @@ function(pintle_add_tests)
   list(APPEND all ${samples})
   pintle_test_program(pintle_tests SOURCES ${all} LINK $<TARGET_NAME_IF_EXISTS:pintle_verbs> pintle_report pintle_sweeps pintle_studio_server)
   target_precompile_headers(pintle_tests PRIVATE "${PROJECT_SOURCE_DIR}/src/system/state.h")
+  pintle_unite(pintle_tests)
   # Inline functions are in many objects, and the linker takes the first: those of the library, which are optimized, and not those of the tests.
   set(rooms "")
   foreach(room IN LISTS PINTLE_ROOMS)

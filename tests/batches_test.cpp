@@ -12,11 +12,11 @@
 namespace pintle {
 namespace {
 
-constexpr double kTolerance = 1e-4;
+constexpr double kSweepTolerance = 1e-4;
 
 Model collected(const std::string& name) {
   Model model = read_model(PINTLE_SOURCE_DIR "/mechanisms/" + name + ".toml");
-  model.simulate.tolerance = kTolerance;
+  model.simulate.tolerance = kSweepTolerance;
   return model;
 }
 
@@ -46,7 +46,7 @@ TEST_P(Batches, PeaksAreWithinTheTolerance) {
     for (const LoadSummary& joint : truth.joints) largest = std::max(largest, joint.peak);
     ASSERT_EQ(results[i].joints.size(), truth.joints.size());
     for (std::size_t j = 0; j < truth.joints.size(); ++j)
-      EXPECT_NEAR(results[i].joints[j].force, truth.joints[j].peak, kTolerance * std::max(truth.joints[j].peak, 1e-4 * largest)) << truth.joints[j].name << ' ' << factors[i];
+      EXPECT_NEAR(results[i].joints[j].force, truth.joints[j].peak, kSweepTolerance * std::max(truth.joints[j].peak, 1e-4 * largest)) << truth.joints[j].name << ' ' << factors[i];
   }
 }
 

@@ -6,9 +6,9 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <string>
 
+#include "base/constants.h"
 #include "laws/bearings/journal_film.h"
 #include "laws/law.h"
 #include "tests/reference_tables.h"
@@ -17,8 +17,6 @@ namespace pintle {
 namespace {
 
 using reference::completed;
-
-constexpr double kPi = std::numbers::pi, kG = 9.80665;
 
 // A rotor in one oil film, pressed down by a load, its spin held by a servo.
 struct Rotor {
@@ -183,14 +181,14 @@ play = "60 um"
 // It falls 30 micrometres, rebounds from a spring, and comes back: nothing is lost.
 TEST(RollingBearing, FallsThroughItsPlayAndReboundsWhenItShould) {
   const Trajectory run = completed(parse_model(kLoose, "loose.toml"));
-  const double h = 30e-6, k = 1e7, m = 2, speed = std::sqrt(2 * kG * h), w = std::sqrt(k / m), touch = speed / kG;
-  const double contact = 2 * (kPi - std::atan(speed * w / kG)) / w, flight = 2 * touch;
+  const double h = 30e-6, k = 1e7, m = 2, speed = std::sqrt(2 * kStandardGravity * h), w = std::sqrt(k / m), touch = speed / kStandardGravity;
+  const double contact = 2 * (kPi - std::atan(speed * w / kStandardGravity)) / w, flight = 2 * touch;
   const auto times = [&](double first) { return static_cast<std::uint64_t>((0.03 - first) / (contact + flight)) + 1; };
   EXPECT_EQ(run.counters.events, run.counters.passes * (times(touch) + times(touch + contact)));
   const int y = run.column("body.ring.y");
   for (std::size_t i = 0; i < run.n_rows(); ++i) {
     const double since = std::fmod(run.at(i, 0) + touch, contact + flight);  // the last let-go
-    if (since < flight) EXPECT_NEAR(run.at(i, y), -0.5 * kG * std::pow(since - touch, 2), 1e-9) << run.at(i, 0);
+    if (since < flight) EXPECT_NEAR(run.at(i, y), -0.5 * kStandardGravity * std::pow(since - touch, 2), 1e-9) << run.at(i, 0);
     else EXPECT_LT(run.at(i, y), -h + 1e-9);
   }
   EXPECT_LT(run.energy.drift, 1e-6 * run.energy.kinetic_peak);
@@ -207,7 +205,7 @@ TEST(RollingBearing, StartsWhereItsLoadHolds) {
     keys["damping"] = {3500};
     if (!play) keys["play"] = {0};
     const Trajectory run = completed(model);
-    const double Q = (play ? 5 : 4.37) * 2 * kG / 8, depth = 1e-3 * 4.36e-4 * std::pow(Q, 2.0 / 3) / std::cbrt(10.0) + (play ? 30e-6 : 0);
+    const double Q = (play ? 5 : 4.37) * 2 * kStandardGravity / 8, depth = 1e-3 * 4.36e-4 * std::pow(Q, 2.0 / 3) / std::cbrt(10.0) + (play ? 30e-6 : 0);
     for (const std::size_t i : {std::size_t{0}, run.n_rows() - 1}) {
       EXPECT_NEAR(run.at(i, run.column("body.ring.y")), -depth, 1e-8 * depth) << i;
       EXPECT_NEAR(run.at(i, run.column("joint.bearing.element_load")), Q, 1e-6 * Q) << i;
@@ -219,7 +217,7 @@ TEST(RollingBearing, StartsWhereItsLoadHolds) {
 TEST(Table, CarriesALoadAtTheDisplacementOfItsPoint) {
   Model model = parse_model(kLoose, "loose.toml");
   model.simulate.start = Start::kAssembled;
-  const double weight = 2 * kG;
+  const double weight = 2 * kStandardGravity;
   model.joints[0].law = {"table", {{"displacement", {0, 1e-5, 3e-5, 1e-4}}, {"force", {0, 0.2 * weight, weight, 9 * weight}}, {"damping", {500}}}};
   const Trajectory run = completed(model);
   for (const std::size_t i : {std::size_t{0}, run.n_rows() - 1}) EXPECT_NEAR(run.at(i, run.column("body.ring.y")), -3e-5, 1e-11) << i;

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "base/constants.h"
 #include "pintle/check.h"
 #include "tests/reference_tables.h"
 
@@ -17,15 +17,13 @@ using reference::completed;
 using reference::mechanism;
 using reference::value;
 
-constexpr double kG = 9.80665, kPi = std::numbers::pi;
-
 TEST(Belts, AtwoodsMachineFallsAsItsInertiaSays) {
   const Trajectory run = completed(mechanism("atwood"));
-  const double m1 = 8, m2 = 13, r = 0.1, a = (m2 - m1) * kG / (m1 + m2 + 0.115 / (r * r));
+  const double m1 = 8, m2 = 13, r = 0.1, a = (m2 - m1) * kStandardGravity / (m1 + m2 + 0.115 / (r * r));
   for (std::size_t i = 0; i < run.n_rows(); ++i) {
     const double t = run.at(i, 0);
-    EXPECT_NEAR(value(run, i, "joint.left.tension"), m1 * (kG + a), 1e-8) << t;
-    EXPECT_NEAR(value(run, i, "joint.right.tension"), m2 * (kG - a), 1e-8) << t;
+    EXPECT_NEAR(value(run, i, "joint.left.tension"), m1 * (kStandardGravity + a), 1e-8) << t;
+    EXPECT_NEAR(value(run, i, "joint.right.tension"), m2 * (kStandardGravity - a), 1e-8) << t;
     const auto since = [&run, i](const char* column) { return value(run, i, column) - value(run, 0, column); };  // the start stretches axle and rope
     EXPECT_NEAR(since("body.heavy.y"), -0.5 * a * t * t, 1e-9) << t;
     EXPECT_NEAR(since("body.pulley.angle"), -0.5 * a * t * t / r, 1e-8) << t;
@@ -56,11 +54,11 @@ TEST(Belts, ADriveCarriesItsMomentByTheDifferenceOfItsRuns) {
 // Euler and Eytelwein: exp(mu wrap) between the runs on both sides of a post, theory/joints Eqs. (2.17), (2.18).
 TEST(Belts, ARopeSlipsRoundAPostAsEulerSays) {
   const Trajectory run = completed(mechanism("bollard"));
-  const double ratio = std::exp(0.2 * 3 * kPi), a = kG * (100 - 10 * ratio) / (100 + 10 * ratio);
+  const double ratio = std::exp(0.2 * 3 * kPi), a = kStandardGravity * (100 - 10 * ratio) / (100 + 10 * ratio);
   for (const double t : {0.1, 0.3, 0.6}) {
     const std::size_t row = reference::row_at(run, t);
-    EXPECT_NEAR(value(run, row, "joint.down.tension"), 100 * (kG - a), 5e-5 * 780);  // the rope on the post weighs a gram
-    EXPECT_NEAR(value(run, row, "joint.up.tension"), 10 * (kG + a), 5e-5 * 780);
+    EXPECT_NEAR(value(run, row, "joint.down.tension"), 100 * (kStandardGravity - a), 5e-5 * 780);  // the rope on the post weighs a gram
+    EXPECT_NEAR(value(run, row, "joint.up.tension"), 10 * (kStandardGravity + a), 5e-5 * 780);
     EXPECT_NEAR(value(run, row, "body.load.vy"), -0.5 - a * t, 2e-4);
   }
 }
@@ -122,7 +120,7 @@ TEST(Belts, ADrumHoistsItsLoad) {
   EXPECT_NEAR(at_end(run, "joint.rope.run"), 8 - r * 3 * kPi, 1e-3);
   for (const double t : {0.7, 1.0, 1.6}) {  // the rope's ringing at 200 rad/s has died away
     const std::size_t row = reference::row_at(run, t);
-    const double alpha = 1.5 * kPi * kPi * std::sin(kPi * t), tension = m * (kG + r * alpha);
+    const double alpha = 1.5 * kPi * kPi * std::sin(kPi * t), tension = m * (kStandardGravity + r * alpha);
     EXPECT_NEAR(value(run, row, "joint.rope.tension"), tension, 5e-4 * tension) << t;
     EXPECT_NEAR(value(run, row, "motor.drive.effort"), r * tension + inertia * alpha, 1e-3 * r * tension) << t;
   }

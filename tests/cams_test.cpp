@@ -4,19 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "tests/reference_tables.h"
 
 namespace pintle {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi, kGravity = 9.80665;
-
 // A cam on a pin, turned clockwise at constant speed, and a follower that slides above it.
-std::string cam_model(const std::string& joint, double speed, double mass, const std::string& rest) {
+std::string turning_cam(const std::string& joint, double speed, double mass, const std::string& rest) {
   return R"toml(
 format = 1
 name = "Cam"
@@ -68,7 +66,7 @@ TEST(Cams, AnEccentricCircleIsARod) {
   const std::string law = "stiffness = \"1e7 N/m\"\ndamping = \"2e3 N*s/m\"\n";
   const std::string cam = "[joint.J]\ntype = \"cam\"\nbetween = [\"cam.O\", \"follower.foot\"]\nbase_radius = \"40 mm\"\nroller_radius = \"12 mm\"\nlift = \"10 mm*cos(angle) + sqrt((52 mm)^2 - (10 mm*sin(angle))^2) - 52 mm\"\nlaw = \"linear\"\n" + law;
   const std::string rod = "[joint.J]\ntype = \"rod\"\nlength = \"52 mm\"\nbetween = [\"cam.E\", \"follower.foot\"]\n" + law;
-  const Trajectory a = simulate(parse_model(cam_model(cam, 30, 2, ""), "a.toml")), b = simulate(parse_model(cam_model(rod, 30, 2, ""), "b.toml"));
+  const Trajectory a = simulate(parse_model(turning_cam(cam, 30, 2, ""), "a.toml")), b = simulate(parse_model(turning_cam(rod, 30, 2, ""), "b.toml"));
   ASSERT_EQ(a.outcome, Outcome::kCompleted) << a.message;
   ASSERT_EQ(b.outcome, Outcome::kCompleted) << b.message;
   for (const char* name : {"joint.J.on_follower.fx[world]", "joint.J.on_follower.fy[world]", "joint.guide.on_follower.fx[world]"}) {
@@ -90,13 +88,13 @@ TEST(Cams, AnEccentricCircleIsARod) {
 TEST(Cams, AFlatFaceOnAnEccentricCircleMovesByACosine) {
   const double w = 25, mass = 2;
   const std::string joint = "[joint.J]\ntype = \"cam\"\nbetween = [\"cam.O\", \"follower.foot\"]\nbase_radius = \"40 mm\"\nfollower = \"flat\"\nlift = \"10 mm*cos(angle)\"\nlaw = \"contact\"\ncontact_stiffness = 1e10\ncontact_exponent = 1\nrestitution = 0.5\n";
-  const Trajectory run = simulate(parse_model(cam_model(joint, w, mass, ""), "flat.toml"));
+  const Trajectory run = simulate(parse_model(turning_cam(joint, w, mass, ""), "flat.toml"));
   ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
   const std::vector<double> t = column(run, "t"), y = column(run, "body.follower.y"), force = column(run, "joint.J.contact_force"), on_cam = column(run, "joint.J.on_cam.m[world]"),
                             on_face = column(run, "joint.J.on_follower.m[world]");
   for (std::size_t i = 0; i < t.size(); ++i) {
     EXPECT_NEAR(y[i], 0.04 + 0.01 * std::cos(w * t[i]), 1e-6) << t[i];
-    EXPECT_NEAR(force[i], mass * (kGravity - 0.01 * w * w * std::cos(w * t[i])), 0.01) << t[i];
+    EXPECT_NEAR(force[i], mass * (kStandardGravity - 0.01 * w * w * std::cos(w * t[i])), 0.01) << t[i];
     // The face touches above the centre of the circle, where the force has this lever about the cam's axis.
     EXPECT_NEAR(on_cam[i], -0.01 * std::sin(w * t[i]) * force[i], 1e-4) << t[i];
     EXPECT_NEAR(on_face[i], 0.01 * std::sin(w * t[i]) * force[i], 1e-4) << t[i];
@@ -106,18 +104,18 @@ TEST(Cams, AFlatFaceOnAnEccentricCircleMovesByACosine) {
 // lift = h/2 (1 - cos(angle)) under a spring: the least of m g + F + k s + m s'' w^2 over m |s''|, at the top.
 TEST(Cams, ASpringLosesItsFollowerAtTheSpeedOfTheForceBalance) {
   const double mass = 0.8, preload = 100, stiffness = 4000, lift = 0.02;
-  const double critical = std::sqrt((mass * kGravity + preload + stiffness * lift) / (mass * lift / 2));
+  const double critical = std::sqrt((mass * kStandardGravity + preload + stiffness * lift) / (mass * lift / 2));
   const auto run_at = [&](double speed) {
     const std::string joint = "[joint.J]\ntype = \"cam\"\nbetween = [\"cam.O\", \"follower.foot\"]\nbase_radius = \"60 mm\"\nfollower = \"flat\"\nlift = \"10 mm*(1 - cos(angle))\"\nlaw = \"contact\"\ncontact_stiffness = 1e9\ncontact_exponent = 1\nrestitution = 0.5\n";
     const std::string spring = "[spring.S]\nbetween = [\"ground.seat\", \"follower.foot\"]\nstiffness = 4000\npreload = -100\n";
-    return simulate(parse_model(cam_model(joint, speed, mass, spring), "spring.toml"));
+    return simulate(parse_model(turning_cam(joint, speed, mass, spring), "spring.toml"));
   };
   const Trajectory on = run_at(0.99 * critical), off = run_at(1.02 * critical);
   ASSERT_EQ(on.outcome, Outcome::kCompleted) << on.message;
   ASSERT_EQ(off.outcome, Outcome::kCompleted) << off.message;
   const std::vector<double> pressed = column(on, "joint.J.contact_force"), lost = column(off, "joint.J.contact_force"), depth = column(off, "joint.J.penetration");
   EXPECT_GT(*std::min_element(pressed.begin(), pressed.end()), 0);
-  EXPECT_NEAR(*std::min_element(pressed.begin(), pressed.end()), (1 - 0.99 * 0.99) * (mass * kGravity + preload + stiffness * lift), 0.2);
+  EXPECT_NEAR(*std::min_element(pressed.begin(), pressed.end()), (1 - 0.99 * 0.99) * (mass * kStandardGravity + preload + stiffness * lift), 0.2);
   EXPECT_EQ(*std::min_element(lost.begin(), lost.end()), 0);
   EXPECT_LT(*std::min_element(depth.begin(), depth.end()), 0);
 }
@@ -136,7 +134,7 @@ TEST(Cams, ACycloidalRiseHasItsAccelerations) {
     if (x < 0 || x >= 1) continue;
     const double s = rise * (x - std::sin(kTurn * x) / kTurn), acceleration = kTurn * rise * std::sin(kTurn * x) / (up * up) * w * w;
     EXPECT_NEAR(y[i], 0.092 + s, 1e-5) << t[i];  // the joints give way by micrometres
-    EXPECT_NEAR(force[i], mass * (kGravity + acceleration) + 150 + 8000 * s, 2) << t[i];
+    EXPECT_NEAR(force[i], mass * (kStandardGravity + acceleration) + 150 + 8000 * s, 2) << t[i];
     most = std::max(most, acceleration);
   }
   EXPECT_NEAR(most, kTurn * rise / (up * up) * w * w, 0.1);

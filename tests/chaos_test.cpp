@@ -9,7 +9,7 @@
 namespace pintle {
 namespace {
 
-Model mechanism(const std::string& name, double duration, double tolerance) {
+Model chaotic_mechanism(const std::string& name, double duration, double tolerance) {
   Model model = read_model(std::string(PINTLE_SOURCE_DIR) + "/mechanisms/" + name + ".toml");
   if (duration > 0) model.simulate.duration = duration;
   model.simulate.tolerance = tolerance;
@@ -17,7 +17,7 @@ Model mechanism(const std::string& name, double duration, double tolerance) {
 }
 
 TEST(Chaos, ADoublePendulumIsPromisedUpToItsHorizonAtTheCostOfAnOrdinaryRun) {
-  const Trajectory run = simulate(mechanism("double_pendulum", 30, 1e-5));
+  const Trajectory run = simulate(chaotic_mechanism("double_pendulum", 30, 1e-5));
   ASSERT_EQ(run.outcome, Outcome::kHorizon) << run.message;
   EXPECT_EQ(run.t_end, 30);
   EXPECT_LE(run.counters.passes, 3u);
@@ -40,10 +40,10 @@ TEST(Chaos, ADoublePendulumIsPromisedUpToItsHorizonAtTheCostOfAnOrdinaryRun) {
 
 // Against a run that is right for that long.
 TEST(Chaos, ForcesAreRightUpToTheHorizon) {
-  const Trajectory fine = simulate(mechanism("double_pendulum", 10, 1e-8));
+  const Trajectory fine = simulate(chaotic_mechanism("double_pendulum", 10, 1e-8));
   ASSERT_EQ(fine.outcome, Outcome::kCompleted) << fine.message;
   for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6}) {
-    const Trajectory run = simulate(mechanism("double_pendulum", 60, tolerance));
+    const Trajectory run = simulate(chaotic_mechanism("double_pendulum", 60, tolerance));
     ASSERT_EQ(run.outcome, Outcome::kHorizon) << tolerance << run.message;
     for (const LoadSummary& joint : run.joints) {
       const std::string column = "joint." + joint.name + ".on_" + joint.second_body;
@@ -63,7 +63,7 @@ TEST(Chaos, WhatASmallerToleranceMeetsALargerOneMeets) {
   for (const double duration : {8.0, 10.0, 12.0, 14.0, 16.0}) {
     bool met = false;  // by a smaller tolerance
     for (const double tolerance : {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
-      const Trajectory run = simulate(mechanism("double_pendulum", duration, tolerance));
+      const Trajectory run = simulate(chaotic_mechanism("double_pendulum", duration, tolerance));
       const bool now = run.outcome == Outcome::kCompleted;
       EXPECT_TRUE(now || !met) << duration << " s at " << tolerance << ": " << run.message;
       met = met || now;
@@ -75,7 +75,7 @@ TEST(Chaos, WhatASmallerToleranceMeetsALargerOneMeets) {
 TEST(Chaos, RegularMotionsAreNotChaotic) {
   for (const char* name : {"pendulum", "four_bar", "slider_crank", "n_four_bar_1", "five_bar_parallelogram", "six_bar", "andrews", "quick_return"})
     for (const double tolerance : {1e-3, 1e-5}) {
-      const Trajectory run = simulate(mechanism(name, 0, tolerance));
+      const Trajectory run = simulate(chaotic_mechanism(name, 0, tolerance));
       EXPECT_EQ(run.outcome, Outcome::kCompleted) << name << " at " << tolerance << ": " << run.message;
       EXPECT_EQ(run.growth.rate, 0) << name;
     }
@@ -83,14 +83,14 @@ TEST(Chaos, RegularMotionsAreNotChaotic) {
 
 // Errors of phase grow with the time; steps that are all alike keep passes from agreeing.
 TEST(Chaos, AMotionThatIsBadlyIntegratedMissesItsTolerance) {
-  Model model = mechanism("pendulum", 200, 1e-12);
+  Model model = chaotic_mechanism("pendulum", 200, 1e-12);
   const Trajectory run = simulate(model);
   EXPECT_EQ(run.outcome, Outcome::kToleranceNotMet) << run.message;
   EXPECT_EQ(run.growth.rate, 0);
 }
 
 TEST(Chaos, AStartThatRingsIsNotChaotic) {
-  Model model = mechanism("four_bar", 0, 1e-5);
+  Model model = chaotic_mechanism("four_bar", 0, 1e-5);
   model.simulate.start = Start::kUnloaded;
   for (Joint& joint : model.joints)
     for (double& c : joint.law.values["damping"]) c = 0;
@@ -101,7 +101,7 @@ TEST(Chaos, AStartThatRingsIsNotChaotic) {
 }
 
 TEST(Chaos, TheSummaryStatesHorizonsAndGrowth) {
-  const Trajectory run = simulate(mechanism("double_pendulum", 20, 1e-6));
+  const Trajectory run = simulate(chaotic_mechanism("double_pendulum", 20, 1e-6));
   ASSERT_EQ(run.outcome, Outcome::kHorizon);
   const std::string json = summary_json(run, {}), text = summary_text(run, {});
   EXPECT_NE(json.find("\"outcome\": \"horizon\""), std::string::npos);

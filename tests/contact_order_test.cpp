@@ -13,10 +13,10 @@
 namespace pintle {
 namespace {
 
-constexpr double kMass = 2, kStiffness = 1e4, kSpeed = 0.5, kRestitution = 0.7, kEnd = 0.5, kTouch = 0.02;
+constexpr double kThrownMass = 2, kWallStiffness = 1e4, kSpeed = 0.5, kRestitution = 0.7, kEnd = 0.5, kTouch = 0.02;
 
 // A block 10 mm above an edge flies towards it.
-Model thrown() {
+Model thrown_block() {
   return parse_model(fmt::format(R"toml(
 format = 1
 gravity = [0, 0]
@@ -42,7 +42,7 @@ contact_stiffness = {}
 contact_exponent = 1
 restitution = {}
 )toml",
-                                 kMass, kSpeed * kTouch, kSpeed, kStiffness, kRestitution),
+                                 kThrownMass, kSpeed * kTouch, kSpeed, kWallStiffness, kRestitution),
                      "thrown.toml");
 }
 
@@ -55,8 +55,8 @@ double contact_time() {
   double sum = 0;
   for (int i = 0; i < kPoints; ++i) {
     const double angle = std::numbers::pi * (i + 0.5) / kPoints, x = middle + radius * std::cos(angle);
-    const double depth = kSpeed * std::sqrt(2 * kMass / kStiffness * (integral(1) - integral(x)));
-    sum += radius * std::sin(angle) * kMass * kSpeed / (kStiffness * depth * (1 + h * x));
+    const double depth = kSpeed * std::sqrt(2 * kThrownMass / kWallStiffness * (integral(1) - integral(x)));
+    sum += radius * std::sin(angle) * kThrownMass * kSpeed / (kWallStiffness * depth * (1 + h * x));
   }
   return sum * std::numbers::pi / kPoints;
 }
@@ -69,7 +69,7 @@ struct Flight {
 
 Flight fly(int stages, double tolerance, double max_step = 0) {
   const double lasts = contact_time();
-  const Model model = thrown();
+  const Model model = thrown_block();
   const Assembly assembly = start_of_run(model);
   const System& system = assembly.system;
   const State& start = assembly.state;
@@ -88,7 +88,7 @@ Flight fly(int stages, double tolerance, double max_step = 0) {
     out.longest = std::max(out.longest, to - from);
   }
   out.position = std::abs(stepper->state().q[0][1] - kRestitution * kSpeed * (kEnd - kTouch - lasts));
-  out.impulse = std::abs(kMass * (stepper->state().v[0][1] + kSpeed) - kMass * (1 + kRestitution) * kSpeed);
+  out.impulse = std::abs(kThrownMass * (stepper->state().v[0][1] + kSpeed) - kThrownMass * (1 + kRestitution) * kSpeed);
   return out;
 }
 

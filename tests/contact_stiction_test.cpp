@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/constants.h"
 #include "tests/reference_tables.h"
 
 namespace pintle {
@@ -14,8 +15,6 @@ namespace {
 using reference::at_end;
 using reference::completed;
 using reference::value;
-
-constexpr double kG = 9.80665;
 
 // A body on the +y side of an edge that falls by `slope` (its tangent) to the right; its centre is the pin, of `radius`.
 Model on_slope(double slope, double radius, const std::string& friction, const std::string& method = "radau") {
@@ -62,11 +61,11 @@ constexpr const char* kStiction = "friction_coefficient = 0.2\nstatic_friction =
 // Under a push that grows to a thousandth less or more than what the static coefficient holds.
 TEST(ContactStiction, ABlockHoldsUpToTheStaticCoefficient) {
   const auto pushed = [](double share) {
-    const double push = share * 0.3 * 2 * kG;
+    const double push = share * 0.3 * 2 * kStandardGravity;
     return completed(on_slope(0, 0, fmt::format("{}\n[force.push]\non = \"block.c\"\nforce = [\"{:.17g}*smoothstep(0, 0.3, t)\", 0]", kStiction, push)));
   };
   const Trajectory held = pushed(0.999), broken = pushed(1.001);
-  EXPECT_NEAR(at_end(held, "body.block.x"), 0.999 * 0.3 * 2 * kG / 1e8, 1e-10);
+  EXPECT_NEAR(at_end(held, "body.block.x"), 0.999 * 0.3 * 2 * kStandardGravity / 1e8, 1e-10);
   EXPECT_EQ(at_end(held, "joint.floor.stuck"), 1);
   EXPECT_GT(at_end(broken, "body.block.x"), 0.01);
   EXPECT_EQ(at_end(broken, "joint.floor.stuck"), 0);
@@ -76,7 +75,7 @@ TEST(ContactStiction, ABlockHoldsUpToTheStaticCoefficient) {
 TEST(ContactStiction, ABlockSlidesOnASteepSlope) {
   const Trajectory slid = completed(on_slope(0.3 + 1e-2, 0, kStiction));
   EXPECT_EQ(at_end(slid, "joint.floor.stuck"), 0);
-  const double slope = 0.3 + 1e-2, accel = kG * (std::sin(std::atan(slope)) - 0.2 * std::cos(std::atan(slope)));
+  const double slope = 0.3 + 1e-2, accel = kStandardGravity * (std::sin(std::atan(slope)) - 0.2 * std::cos(std::atan(slope)));
   EXPECT_NEAR(along(slid, slid.n_rows() - 1, slope), 0.5 * accel * 0.25, 2e-3 * accel);
 }
 
@@ -92,7 +91,7 @@ TEST(ContactStiction, ARollerRollsUntilItSlips) {
     const double slope = 0.5, angle = std::atan(slope);
     const Trajectory rolls = completed(on_slope(slope, 0.05, kStiction, method));
     const std::size_t last = rolls.n_rows() - 1;
-    const double way = along(rolls, last, slope) - along(rolls, 0, slope), accel = 2.0 / 3 * kG * std::sin(angle);
+    const double way = along(rolls, last, slope) - along(rolls, 0, slope), accel = 2.0 / 3 * kStandardGravity * std::sin(angle);
     EXPECT_NEAR(way, 0.5 * accel * 0.25, 1e-5) << method;
     EXPECT_NEAR(at_end(rolls, "body.block.spin"), -accel * 0.5 / 0.05, 1e-3) << method;
     EXPECT_EQ(at_end(rolls, "joint.floor.stuck"), 1) << method;
@@ -100,9 +99,9 @@ TEST(ContactStiction, ARollerRollsUntilItSlips) {
   const double slope = 1, angle = std::atan(slope);
   const Trajectory slips = completed(on_slope(slope, 0.05, kStiction));
   const std::size_t last = slips.n_rows() - 1;
-  const double accel = kG * (std::sin(angle) - 0.2 * std::cos(angle));
+  const double accel = kStandardGravity * (std::sin(angle) - 0.2 * std::cos(angle));
   EXPECT_NEAR(along(slips, last, slope) - along(slips, 0, slope), 0.5 * accel * 0.25, 2e-3 * accel);
-  EXPECT_NEAR(at_end(slips, "body.block.spin"), -0.2 * kG * std::cos(angle) * 2 / 0.05 * 0.5, 0.2);
+  EXPECT_NEAR(at_end(slips, "body.block.spin"), -0.2 * kStandardGravity * std::cos(angle) * 2 / 0.05 * 0.5, 0.2);
   EXPECT_EQ(at_end(slips, "joint.floor.stuck"), 0);
 }
 
@@ -117,7 +116,7 @@ TEST(ContactStiction, SlidingEndsInRollingAndIsAnEvent) {
   double sticks = -1;
   for (const JointEvent& event : run.events.front().events)
     if (event.what == "sticks" && sticks < 0) sticks = event.t;
-  EXPECT_NEAR(sticks, 0.5 / (0.2 * kG), 2e-3);  // slip falls by 3 mu g t
+  EXPECT_NEAR(sticks, 0.5 / (0.2 * kStandardGravity), 2e-3);  // slip falls by 3 mu g t
 }
 
 // A slider that is loose in a guide of 6 degrees lies on it with both ends, which hold it up to 16.7 degrees and slide beyond.
@@ -161,7 +160,7 @@ static_friction = 0.3
     EXPECT_EQ(at_end(slid, end), 0);
   }
   EXPECT_NEAR(at_end(held, "joint.guide.slide_rate"), 0, 1e-9);
-  const double angle = 20 * std::numbers::pi / 180, accel = kG * (std::sin(angle) - 0.2 * std::cos(angle));
+  const double angle = 20 * std::numbers::pi / 180, accel = kStandardGravity * (std::sin(angle) - 0.2 * std::cos(angle));
   EXPECT_NEAR(at_end(slid, "joint.guide.slide_rate"), 0.3 * accel, 0.02 * accel);
 }
 

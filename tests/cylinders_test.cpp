@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "base/constants.h"
 #include "pintle/complaint.h"
 #include "pintle/simulate.h"
 #include "tests/reference_tables.h"
@@ -19,13 +19,13 @@ using reference::completed;
 using reference::drift;
 using reference::value;
 
-constexpr double kPi = std::numbers::pi, kMass = 40;
+constexpr double kPistonMass = 40;
 constexpr double kCap = 25e-4 * kPi, kRod = 16e-4 * kPi;  // of 100/60 mm [m^2]
 
 const std::string kHard = "stops = \"hard\"\nstop_stiffness = \"1e7 N/m\"\n";
 
 // A mass on a slide, pushed by a cylinder of 100/60 mm that is 100 mm out.
-std::string pushed(const std::string& more, const std::string& duration = "0.2 s") {
+std::string pushed_piston(const std::string& more, const std::string& duration = "0.2 s") {
   return fmt::format(R"toml(
 format = 1
 gravity = [0, 0]
@@ -54,9 +54,9 @@ rod_diameter = "60 mm"
 closed_length = "500 mm"
 {}
 )toml",
-                     duration, kMass, more);
+                     duration, kPistonMass, more);
 }
-Model ram(const std::string& more, const std::string& duration = "0.2 s") { return parse_model(pushed(more, duration), "ram.toml"); }
+Model ram(const std::string& more, const std::string& duration = "0.2 s") { return parse_model(pushed_piston(more, duration), "ram.toml"); }
 
 // F = p_c A_c - p_r A_r, x = F t^2/2m, flows A v, power F v.
 TEST(Cylinders, ConstantPressureAcceleratesEvenly) {
@@ -67,7 +67,7 @@ TEST(Cylinders, ConstantPressureAcceleratesEvenly) {
     model.joints[0].ideal = equations == Equations::kRelative;
     const Trajectory run = completed(model);
     for (std::size_t i = 0; i < run.n_rows(); i += 50) {
-      const double v = force / kMass * value(run, i, "t");
+      const double v = force / kPistonMass * value(run, i, "t");
       EXPECT_NEAR(value(run, i, "joint.ram.force"), force, 1e-6 * force);
       EXPECT_NEAR(value(run, i, "joint.ram.on_block.fx[world]"), force, 1e-6 * force);
       EXPECT_NEAR(value(run, i, "joint.ram.stroke_rate"), v, 1e-6);
@@ -75,7 +75,7 @@ TEST(Cylinders, ConstantPressureAcceleratesEvenly) {
       EXPECT_NEAR(value(run, i, "joint.ram.rod_flow"), -kRod * v, 1e-8);
       EXPECT_NEAR(value(run, i, "joint.ram.hydraulic_power"), force * v, 1e-3);
     }
-    const double way = 0.5 * force / kMass * 0.04;
+    const double way = 0.5 * force / kPistonMass * 0.04;
     EXPECT_NEAR(at_end(run, "joint.ram.stroke"), 0.1 + way, 1e-7);
     EXPECT_NEAR(run.energy.supplied, force * way, 1e-6 * force * way);
     EXPECT_LT(drift(run), 1e-6 * force * way);
@@ -150,7 +150,7 @@ upper_stop = "350 mm"
 stop_stiffness = "4e4 N/m"
 stop_damping = "5e4 N*s/m"
 stop_cushion = "30 mm")";
-  const std::string text = pushed(air, "0.5 s");
+  const std::string text = pushed_piston(air, "0.5 s");
   const auto given = [](double stroke) { return 7e5 * kCap * 0.15 / 0.4 * (1 - std::pow(0.15 / (stroke + 0.05), 0.4)) - 101325 * kCap * (stroke - 0.1); };
   const double work = given(0.35);
   for (const char* method : {"radau", "dopri5"}) {
@@ -158,7 +158,7 @@ stop_cushion = "30 mm")";
     model.simulate.method = method;
     const Trajectory run = completed(model);
     for (std::size_t i = 0; i < run.n_rows() && value(run, i, "joint.ram.stroke") <= 0.35; ++i)
-      EXPECT_NEAR(value(run, i, "joint.ram.stroke_rate"), std::sqrt(2 * given(value(run, i, "joint.ram.stroke")) / kMass), 2e-5);
+      EXPECT_NEAR(value(run, i, "joint.ram.stroke_rate"), std::sqrt(2 * given(value(run, i, "joint.ram.stroke")) / kPistonMass), 2e-5);
     EXPECT_GT(run.energy.dissipated, 0.9 * work);
     EXPECT_LT(drift(run), 1e-5 * work);
     EXPECT_LT(at_end(run, "joint.ram.stroke"), 0.4);
@@ -186,7 +186,7 @@ TEST(Cylinders, SealsRubMoreUnderPressure) {
 // A valve that opens at once is a jump that a step ends on.
 TEST(Cylinders, AValveThatOpensIsAnEvent) {
   const Trajectory run = completed(ram(kHard + "stroke = \"2 m\"\ncap_pressure = \"if(t < 0.05 s, 0 bar, 1 bar)\""));
-  EXPECT_NEAR(at_end(run, "joint.ram.stroke_rate"), 1e5 * kCap / kMass * 0.15, 1e-6);
+  EXPECT_NEAR(at_end(run, "joint.ram.stroke_rate"), 1e5 * kCap / kPistonMass * 0.15, 1e-6);
   EXPECT_EQ(value(run, 0, "joint.ram.force"), 0);
 }
 
@@ -201,21 +201,21 @@ std::string complaint(const std::string& text) {
 
 TEST(Cylinders, BadInputIsLocated) {
   const std::string good = kHard + "stroke = \"1 m\"\n";
-  EXPECT_EQ(complaint(pushed(good)), "");
-  std::string thick = pushed(good);
+  EXPECT_EQ(complaint(pushed_piston(good)), "");
+  std::string thick = pushed_piston(good);
   thick.replace(thick.find("60 mm"), 5, "101 mm");
   EXPECT_NE(complaint(thick).find("rod_diameter"), std::string::npos);
   EXPECT_NE(complaint(thick).find("ram.toml:25"), std::string::npos) << complaint(thick);
-  EXPECT_NE(complaint(pushed(good + "rod_pressure = \"-2 bar\"")).find("below vacuum"), std::string::npos);
-  EXPECT_EQ(complaint(pushed(good + "rod_pressure = \"-0.9 bar\"")), "");
-  EXPECT_NE(complaint(pushed(good + "rod_pressure = \"-0.9 bar\"\nambient_pressure = \"1 bar\"")).find("below vacuum"), std::string::npos);
-  EXPECT_NE(complaint(pushed(kHard + "stroke = 0")).find("joint.ram.stroke"), std::string::npos);
-  EXPECT_NE(complaint(pushed("stroke = \"1 m\"")).find("stops"), std::string::npos);
-  EXPECT_NE(complaint(pushed(good + "upper_stop = \"1.2 m\"")).find("upper_stop"), std::string::npos);
-  EXPECT_NE(complaint(pushed(good + "cap_pressure = \"1 bar*slide\"")).find("cap_pressure"), std::string::npos);
-  EXPECT_NE(complaint(pushed(good + "cap_pressure = \"1 N\"")).find("cap_pressure"), std::string::npos);
-  EXPECT_NE(complaint(pushed(good + "friction = \"stribeck\"\nguide_length = 0.1")).find("guide_length"), std::string::npos);
-  EXPECT_NE(complaint(pushed(good + "[motor.m]\njoint = \"ram\"\nforce = \"1 N\"")).find("driven by its pressures"), std::string::npos);
+  EXPECT_NE(complaint(pushed_piston(good + "rod_pressure = \"-2 bar\"")).find("below vacuum"), std::string::npos);
+  EXPECT_EQ(complaint(pushed_piston(good + "rod_pressure = \"-0.9 bar\"")), "");
+  EXPECT_NE(complaint(pushed_piston(good + "rod_pressure = \"-0.9 bar\"\nambient_pressure = \"1 bar\"")).find("below vacuum"), std::string::npos);
+  EXPECT_NE(complaint(pushed_piston(kHard + "stroke = 0")).find("joint.ram.stroke"), std::string::npos);
+  EXPECT_NE(complaint(pushed_piston("stroke = \"1 m\"")).find("stops"), std::string::npos);
+  EXPECT_NE(complaint(pushed_piston(good + "upper_stop = \"1.2 m\"")).find("upper_stop"), std::string::npos);
+  EXPECT_NE(complaint(pushed_piston(good + "cap_pressure = \"1 bar*slide\"")).find("cap_pressure"), std::string::npos);
+  EXPECT_NE(complaint(pushed_piston(good + "cap_pressure = \"1 N\"")).find("cap_pressure"), std::string::npos);
+  EXPECT_NE(complaint(pushed_piston(good + "friction = \"stribeck\"\nguide_length = 0.1")).find("guide_length"), std::string::npos);
+  EXPECT_NE(complaint(pushed_piston(good + "[motor.m]\njoint = \"ram\"\nforce = \"1 N\"")).find("driven by its pressures"), std::string::npos);
   EXPECT_THROW(completed(ram(kHard + "stroke = \"50 mm\"")), AssemblyError);
 }
 

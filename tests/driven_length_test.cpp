@@ -17,7 +17,7 @@ using reference::at_end;
 using reference::completed;
 using reference::drift;
 
-constexpr double kG = 9.81, kMass = 200;
+constexpr double kWeightPerMass = 9.81, kLoad = 200;
 
 // A load on the hook of a winch.
 Model winch(const std::string& length, const std::string& duration, double stiffness = 1e8) {
@@ -42,7 +42,7 @@ length = "{}"
 stiffness = {}
 damping = 2e4
 )toml",
-                                 -kG, duration, kMass, length, stiffness),
+                                 -kWeightPerMass, duration, kLoad, length, stiffness),
                      "winch.toml");
 }
 
@@ -62,19 +62,19 @@ TEST(DrivenLength, AWinchCarriesTheLoadAndItsAcceleration) {
     model.simulate.equations = rope ? Equations::kNewtonian : Equations::kRelative;
     if (rope) {  // ropes start without a load, unless they are stretched already
       model.simulate.start = Start::kRaw;
-      model.bodies[0].position = {0, 1 - kMass * (kG + a) / 1e8};
+      model.bodies[0].position = {0, 1 - kLoad * (kWeightPerMass + a) / 1e8};
       model.bodies[0].velocity = {0, 0};
       model.bodies[0].spin = 0;
     }
     const Trajectory run = completed(model);
     for (std::size_t i = 0; i < run.n_rows(); ++i) {
-      EXPECT_NEAR(reference::value(run, i, column), kMass * (kG + a), 1e-5 * kMass * kG);
-      EXPECT_NEAR(reference::value(run, i, "joint.rope.drive_power"), kMass * (kG + a) * a * reference::value(run, i, "t"), 1e-4 * kMass * kG);
+      EXPECT_NEAR(reference::value(run, i, column), kLoad * (kWeightPerMass + a), 1e-5 * kLoad * kWeightPerMass);
+      EXPECT_NEAR(reference::value(run, i, "joint.rope.drive_power"), kLoad * (kWeightPerMass + a) * a * reference::value(run, i, "t"), 1e-4 * kLoad * kWeightPerMass);
       EXPECT_NEAR(reference::value(run, i, "joint.rope.length"), 5 - 0.5 * a * std::pow(reference::value(run, i, "t"), 2), 1e-12);
     }
     const double height = 0.5 * a * end * end;
-    EXPECT_NEAR(run.energy.supplied, kMass * (kG + a) * height, 1e-5 * kMass * kG * height);
-    EXPECT_LT(drift(run), 1e-6 * kMass * kG * height);
+    EXPECT_NEAR(run.energy.supplied, kLoad * (kWeightPerMass + a) * height, 1e-5 * kLoad * kWeightPerMass * height);
+    EXPECT_LT(drift(run), 1e-6 * kLoad * kWeightPerMass * height);
   }
 }
 
@@ -84,8 +84,8 @@ TEST(DrivenLength, AnIdealRodIsALinkWhoseLengthIsGiven) {
   model.joints[0].type = "rod";
   model.simulate.equations = Equations::kIdeal;
   const Trajectory run = completed(model);
-  for (std::size_t i = 0; i < run.n_rows(); ++i) EXPECT_NEAR(reference::value(run, i, "joint.rope.on_load.fy[world]"), kMass * (kG + 0.8), 1e-5 * kMass * kG);
-  EXPECT_NEAR(run.energy.supplied, kMass * (kG + 0.8) * 1.6, 1e-3);
+  for (std::size_t i = 0; i < run.n_rows(); ++i) EXPECT_NEAR(reference::value(run, i, "joint.rope.on_load.fy[world]"), kLoad * (kWeightPerMass + 0.8), 1e-5 * kLoad * kWeightPerMass);
+  EXPECT_NEAR(run.energy.supplied, kLoad * (kWeightPerMass + 0.8) * 1.6, 1e-3);
   EXPECT_LT(drift(run), 1e-4);
 }
 
@@ -118,7 +118,7 @@ damping = 1e5
                             "pendulum.toml");
   const double angle = std::atan2(0.6, 0.8);
   std::array<double, 2> y{angle, 0};
-  const auto slope = [&](double t, const std::array<double, 2>& at) -> std::array<double, 2> { return {at[1], -(2 * rate(t) * at[1] + kG * std::sin(at[0])) / length(t)}; };
+  const auto slope = [&](double t, const std::array<double, 2>& at) -> std::array<double, 2> { return {at[1], -(2 * rate(t) * at[1] + kWeightPerMass * std::sin(at[0])) / length(t)}; };
   constexpr int kSteps = 30000;
   const double h = 3.0 / kSteps;
   for (int i = 0; i < kSteps; ++i) {
@@ -128,7 +128,7 @@ damping = 1e5
     for (int n = 0; n < 2; ++n) y[n] += h / 6 * (k1[n] + 2 * k2[n] + 2 * k3[n] + k4[n]);
   }
   // m (L th'^2 + g cos th - L'') is what the rod carries.
-  const double force = length(3) * y[1] * y[1] + kG * std::cos(y[0]) + 1.8 * std::sin(9.0);
+  const double force = length(3) * y[1] * y[1] + kWeightPerMass * std::cos(y[0]) + 1.8 * std::sin(9.0);
   for (const Equations equations : {Equations::kNewtonian, Equations::kIdeal}) {
     model.simulate.equations = equations;
     const Trajectory run = completed(model);
@@ -143,8 +143,8 @@ damping = 1e5
 TEST(DrivenLength, ARopeLetDownFasterThanItsLoadFallsIsSlack) {
   const Trajectory run = completed(winch("5 m + 6 m/s^2*t^2", "0.3 s"));
   EXPECT_LT(std::abs(at_end(run, "joint.rope.on_load.fy[world]")), 1e-9);
-  EXPECT_NEAR(at_end(run, "body.load.vy"), -kG * 0.3, 1e-3);
-  EXPECT_LT(most_of(run, "joint.rope.drive_power"), 1e-2 * kMass * kG);
+  EXPECT_NEAR(at_end(run, "body.load.vy"), -kWeightPerMass * 0.3, 1e-3);
+  EXPECT_LT(most_of(run, "joint.rope.drive_power"), 1e-2 * kLoad * kWeightPerMass);
 }
 
 TEST(DrivenLength, AWrongLengthIsRefused) {

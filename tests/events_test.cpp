@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "integrators/absolute/radau_stepper.h"
 #include "laws/catalog.h"
 #include "laws/law_math.h"
@@ -38,7 +39,7 @@ void make_pad(const LawSetting& at, Law& law) {
   law.set_linear({{0, 1e7, 1e5}, {0, 1e3, 10}});
   law.add(std::make_unique<LawPartOf<PadLaw>>(PadLaw{at.number("pad_stiffness")}));
 }
-void make_known() {
+void register_events() {
   static const bool done = [] {
     register_law({.word = "pad", .meaning = "of a test", .keys = kPadKeys, .make = make_pad});
     return true;
@@ -46,10 +47,10 @@ void make_known() {
   static_cast<void>(done);
 }
 
-constexpr double kMass = 2, kGravity = 9.80665, kHeight = 0.3, kStiffness = 4e3;
+constexpr double kFallingMass = 2, kHeight = 0.3, kFloorStiffness = 4e3;
 
 Model bouncing() {
-  make_known();
+  register_events();
   return parse_model(R"toml(
 format = 1
 name = "Bouncing block"
@@ -76,8 +77,8 @@ law = "pad"
 
 // Falls, is on the pad from `touch` on for `contact`, and flies for `flight`; the same again and again, as nothing is lost.
 struct Bounces {
-  double speed = std::sqrt(2 * kGravity * kHeight), w = std::sqrt(kStiffness / kMass);
-  double touch = speed / kGravity, flight = 2 * touch, contact = 2 * (std::numbers::pi - std::atan(speed * w / kGravity)) / w;
+  double speed = std::sqrt(2 * kStandardGravity * kHeight), w = std::sqrt(kFloorStiffness / kFallingMass);
+  double touch = speed / kStandardGravity, flight = 2 * touch, contact = 2 * (std::numbers::pi - std::atan(speed * w / kStandardGravity)) / w;
 
   // Touch, turning point, let-go, touch ..
   double event(int i) const { return touch + i / 3 * (contact + flight) + 0.5 * contact * (i % 3); }
@@ -123,7 +124,7 @@ TEST(Events, ARunCountsThemAndKeepsItsTolerance) {
     const int y = run.column("body.block.y");
     for (std::size_t i = 0; i < run.n_rows(); ++i) {
       const double since = std::fmod(run.at(i, 0) + 0.5 * exact.flight, exact.contact + exact.flight);  // the last let-go
-      if (since < exact.flight) EXPECT_NEAR(run.at(i, y), kHeight - 0.5 * kGravity * std::pow(since - 0.5 * exact.flight, 2), 2e-5) << run.at(i, 0);
+      if (since < exact.flight) EXPECT_NEAR(run.at(i, y), kHeight - 0.5 * kStandardGravity * std::pow(since - 0.5 * exact.flight, 2), 2e-5) << run.at(i, 0);
       else EXPECT_LT(run.at(i, y), 1e-6);
     }
     EXPECT_LT(run.energy.drift, 1e-5 * run.energy.kinetic_peak);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/constants.h"
 #include "pintle/check.h"
 #include "tests/reference_tables.h"
 
@@ -17,8 +18,6 @@ using reference::at_end;
 using reference::completed;
 using reference::drift;
 using reference::value;
-
-constexpr double kPi = std::numbers::pi, kG = 9.80665;
 
 // Two blades of steel hang from the ground and carry a table, which a force pushes at half their height.
 Model stage(const std::string& push, const std::string& rest = "") {
@@ -60,30 +59,30 @@ on = "table.middle"
 force = [{}, 0]
 )toml", rest, push), "stage.toml");
 }
-constexpr double kEI = 207e9 * 0.03 * 1.25e-10 / 12, kL = 0.1;
+constexpr double kBladeEI = 207e9 * 0.03 * 1.25e-10 / 12, kL = 0.1;
 // Across, of one blade guided in angle under this tension: theory/flexures section 2.
 double guided_stiffness(double tension) {
-  const double k = std::sqrt(tension * kL * kL / kEI);
-  return kEI / (kL * kL * kL) * k * k * k / (k - 2 * std::tanh(0.5 * k));
+  const double k = std::sqrt(tension * kL * kL / kBladeEI);
+  return kBladeEI / (kL * kL * kL) * k * k * k / (k - 2 * std::tanh(0.5 * k));
 }
 
 // No position is stated: the table is put at the ends of the blades. It starts where its weight and a push hold it, and stays.
 TEST(SlowFlexures, StartWhereTheLoadHoldsThem) {
   const Trajectory idle = completed(stage("0")), pushed = completed(stage("2"));
   const double x = at_end(pushed, "body.table.x");
-  EXPECT_NEAR(at_end(idle, "body.table.y"), -0.115 - 0.5 * 2 * kG * kL / (207e9 * 0.03 * 5e-4), 1e-10);
-  EXPECT_NEAR(x * 2 * guided_stiffness(kG) / 2, 1, 3e-4);
+  EXPECT_NEAR(at_end(idle, "body.table.y"), -0.115 - 0.5 * 2 * kStandardGravity * kL / (207e9 * 0.03 * 5e-4), 1e-10);
+  EXPECT_NEAR(x * 2 * guided_stiffness(kStandardGravity) / 2, 1, 3e-4);
   EXPECT_NEAR((at_end(pushed, "body.table.y") - at_end(idle, "body.table.y")) / (0.6 * x * x / kL), 1, 0.02);
   for (std::size_t i = 0; i < pushed.n_rows(); ++i) {
     EXPECT_NEAR(value(pushed, i, "body.table.x"), x, 1e-9);
     for (const char* joint : {"left", "right"})
       for (const char* column : {"fx[world]", "fy[world]", "m[world]"}) {
         const std::string name = fmt::format("joint.{}.on_table.{}", joint, column);
-        EXPECT_NEAR(value(pushed, i, name), at_end(pushed, name), 1e-6 * 2 * kG) << name << ' ' << i;
+        EXPECT_NEAR(value(pushed, i, name), at_end(pushed, name), 1e-6 * 2 * kStandardGravity) << name << ' ' << i;
       }
   }
   // The clamps carry the moment F L/4 each, less what the weight takes; and half of the weight.
-  const double moment = 0.5 * 2 * 0.5 * kL - 0.5 * kG * x, stress = moment * 6 / (0.03 * 25e-8) + kG / (0.03 * 5e-4);
+  const double moment = 0.5 * 2 * 0.5 * kL - 0.5 * kStandardGravity * x, stress = moment * 6 / (0.03 * 25e-8) + kStandardGravity / (0.03 * 5e-4);
   EXPECT_NEAR(at_end(pushed, "joint.left.bending_stress"), stress, 0.02 * stress);
 }
 
@@ -112,7 +111,7 @@ class Elastica {
 TEST(SlowFlexures, StartFarBentUnderAWeight) {
   const Elastica elastica(0.9);
   const Elastica::Point end = elastica.at(1);
-  const double L = 0.3, EI = 207e9 * 0.02 * 1e-9 / 12, mass = elastica.alpha * elastica.alpha * EI / (L * L) / kG;
+  const double L = 0.3, EI = 207e9 * 0.02 * 1e-9 / 12, mass = elastica.alpha * elastica.alpha * EI / (L * L) / kStandardGravity;
   const Trajectory run = completed(parse_model(fmt::format(R"toml(
 format = 1
 name = "Weight on a blade"
@@ -137,8 +136,8 @@ thickness = 1e-3
     EXPECT_NEAR(value(run, row, "body.weight.y"), 2 - L * end.across, 3e-6 * L);
     EXPECT_NEAR(value(run, row, "body.weight.x"), 1 + L * end.along, 3e-6 * L);
     EXPECT_NEAR(value(run, row, "body.weight.angle"), -end.slope, 1e-5);
-    EXPECT_NEAR(value(run, row, "joint.blade.on_weight.fy[world]"), mass * kG, 1e-6 * mass * kG);
-    EXPECT_NEAR(value(run, row, "joint.blade.on_ground.m[world]"), -mass * kG * L * end.along, 1e-4 * mass * kG * L);
+    EXPECT_NEAR(value(run, row, "joint.blade.on_weight.fy[world]"), mass * kStandardGravity, 1e-6 * mass * kStandardGravity);
+    EXPECT_NEAR(value(run, row, "joint.blade.on_ground.m[world]"), -mass * kStandardGravity * L * end.along, 1e-4 * mass * kStandardGravity * L);
   }
 }
 
@@ -218,9 +217,9 @@ TEST(SlowFlexures, BladesInARowStartBent) {
 // Weightless 24 EI/L^3 for both blades; the weight that hangs in them makes them stiffer.
 TEST(SlowFlexures, VibrateAsTheirStiffnessSays) {
   const double floating = check_model(stage("0", "gravity = [0, 0]")).frequencies.modes.front().frequency;
-  EXPECT_NEAR(floating, std::sqrt(24 * kEI / (kL * kL * kL) / 2), 1e-4 * floating);
+  EXPECT_NEAR(floating, std::sqrt(24 * kBladeEI / (kL * kL * kL) / 2), 1e-4 * floating);
   const double loaded = check_model(stage("0")).frequencies.modes.front().frequency;
-  EXPECT_NEAR(loaded, std::sqrt(2 * guided_stiffness(kG) / 2), 1e-3 * loaded);
+  EXPECT_NEAR(loaded, std::sqrt(2 * guided_stiffness(kStandardGravity) / 2), 1e-3 * loaded);
 }
 
 TEST(SlowFlexures, MoveWithinTheEnergyAccountAndInRelativeCoordinates) {
@@ -247,12 +246,12 @@ TEST(SlowFlexures, StartInRunsShorterThanTheirPeriod) {
   model.simulate.duration = 0.02;
   const Trajectory run = completed(model);
   EXPECT_LT(run.counters.steps, 1000u);
-  EXPECT_NEAR(value(run, 0, "joint.pivot.on_pendulum.fy[world]"), 0.5 * kG, 1e-6 * 0.5 * kG);
+  EXPECT_NEAR(value(run, 0, "joint.pivot.on_pendulum.fy[world]"), 0.5 * kStandardGravity, 1e-6 * 0.5 * kStandardGravity);
 }
 
 // A straight strut that is pressed beyond Euler's load: where no equilibrium is left the run says so.
 TEST(SlowFlexures, SayWhereABladeSnaps) {
-  const double euler = 4 * kPi * kPi * kEI / (kL * kL);
+  const double euler = 4 * kPi * kPi * kBladeEI / (kL * kL);
   const Trajectory run = simulate(parse_model(fmt::format(R"toml(
 format = 1
 name = "Strut"

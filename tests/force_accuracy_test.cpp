@@ -8,21 +8,21 @@
 namespace pintle {
 namespace {
 
-constexpr double kNegligible = 1e-4;  // of the mechanism's largest force: what a joint is measured by at least
+constexpr double kUnloaded = 1e-4;  // of the mechanism's largest force: what a joint is measured by at least
 constexpr double kRounding = 1e-10;
 
-struct Case {
+struct TimedMechanism {
   const char* name;
   double duration;
   double least = 1.0 / 3;  // estimate over error
 };
 // `duration`: shortened where the mechanism repeats itself or takes long. The gear train's passes take nearly the same steps at
 // any tolerance, so that their difference says little; its errors are far below what was asked for.
-constexpr Case kCases[] = {{"pendulum", 2},       {"weld_beam", 0.5},     {"rope_pendulum", 0.5}, {"trammel", 1},
+constexpr TimedMechanism kMechanismsInPlane[] = {{"pendulum", 2},       {"weld_beam", 0.5},     {"rope_pendulum", 0.5}, {"trammel", 1},
                            {"four_bar", 0.62},    {"inverted_slider_crank", 0.31}, {"gear_train", 0.3, 0.1},    {"crane_bushing", 0.5},
                            {"slider_crank", 0.1}, {"quick_return", 0.5}};
 
-struct Differences {
+struct JointDifferences {
   double force = 0, estimate = 0;  // over the joints' peaks
   std::string joint;
 };
@@ -41,7 +41,7 @@ double peak_couple(const Trajectory& run, const std::string& joint) {
 std::string column_of(const LoadSummary& joint) { return "joint." + joint.name + ".on_" + joint.second_body; }
 
 // Largest differences over the joints, each over its peak force or couple, as the program measures its own error.
-Differences differences(const Trajectory& run, const Trajectory& fine, const Model& model) {
+JointDifferences joint_differences(const Trajectory& run, const Trajectory& fine, const Model& model) {
   double force = 0, moment = 0, radius = 0;
   for (const Body& body : model.bodies) radius = std::max(radius, std::sqrt(body.inertia / body.mass));
   for (const LoadSummary& joint : fine.joints) {
@@ -49,16 +49,16 @@ Differences differences(const Trajectory& run, const Trajectory& fine, const Mod
     moment = std::max(moment, peak_couple(fine, column_of(joint)));
   }
   moment = std::max(moment, force * radius);
-  Differences d;
+  JointDifferences d;
   for (std::size_t j = 0; j < fine.joints.size(); ++j) {
     const LoadSummary& joint = fine.joints[j];
     const std::string column = column_of(joint);
-    const double couple_scale = std::max(peak_couple(fine, column), kNegligible * moment);
+    const double couple_scale = std::max(peak_couple(fine, column), kUnloaded * moment);
     double largest = 0;
     for (std::size_t row = 0; row < run.n_rows(); ++row) {
       const double fx = reference::value(fine, row, column + ".fx[world]"), fy = reference::value(fine, row, column + ".fy[world]");
       largest = std::max(largest, std::hypot(reference::value(run, row, column + ".fx[world]") - fx, reference::value(run, row, column + ".fy[world]") - fy) /
-                                      std::max(joint.peak, kNegligible * force));
+                                      std::max(joint.peak, kUnloaded * force));
       largest = std::max(largest, std::abs(couple(run, row, column) - couple(fine, row, column)) / couple_scale);
     }
     if (largest > d.force) {
@@ -70,7 +70,7 @@ Differences differences(const Trajectory& run, const Trajectory& fine, const Mod
   return d;
 }
 
-class ForceAccuracy : public testing::TestWithParam<Case> {};
+class ForceAccuracy : public testing::TestWithParam<TimedMechanism> {};
 
 TEST_P(ForceAccuracy, IsWithinTheToleranceAndWellEstimated) {
   Model model = reference::mechanism(GetParam().name);
@@ -83,7 +83,7 @@ TEST_P(ForceAccuracy, IsWithinTheToleranceAndWellEstimated) {
     model.simulate.tolerance = 1e-9;
     const Trajectory fine = simulate(model);
     ASSERT_EQ(fine.n_rows(), run.n_rows());
-    const Differences d = differences(run, fine, model);
+    const JointDifferences d = joint_differences(run, fine, model);
     std::printf("  %-22s tolerance %.0e: error %.2e (%s), estimate %.2e, ratio %.2f, %d steps\n", GetParam().name, tolerance, d.force,
                 d.joint.c_str(), d.estimate, d.estimate / d.force, static_cast<int>(run.counters.steps));
     EXPECT_LE(d.force, tolerance) << d.joint;
@@ -93,7 +93,7 @@ TEST_P(ForceAccuracy, IsWithinTheToleranceAndWellEstimated) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Collection, ForceAccuracy, testing::ValuesIn(kCases), [](const auto& c) { return std::string(c.param.name); });
+INSTANTIATE_TEST_SUITE_P(Collection, ForceAccuracy, testing::ValuesIn(kMechanismsInPlane), [](const auto& c) { return std::string(c.param.name); });
 
 // A long trial step carries the compressor's piston past its ceiling, where the gas law has no value: such a step is refused,
 // and not taken for one that begins on a kink.

@@ -289,7 +289,7 @@ TEST(Jamming, WedgeLocksBelowTwiceTheFrictionAngle) {
 }
 
 // A slider pushed along its guide by a force P at 200 mm from it.
-Model pushed(double guide, const std::vector<std::string>& more = {}) {
+Model pushed_block(double guide, const std::vector<std::string>& more = {}) {
   std::vector<std::string> overrides{"parameters.guide=" + std::to_string(guide)};
   overrides.insert(overrides.end(), more.begin(), more.end());
   return parse_model(R"toml(
@@ -323,10 +323,10 @@ force = ["100 N*smoothstep(0, 0.5 s, t)", 0]
 // Its moment P h presses both edges with P h / L: the guide jams where it is shorter than 2 mu h, else a = P (1 - 2 mu h / L) / m.
 TEST(Jamming, ShortGuideLocksASliderThatIsPushedBesideIt) {
   const double critical = 2 * 0.15 * 0.2;
-  const Trajectory jammed = completed(pushed(0.999 * critical, {"simulate.tolerance=1e-8"}));  // bristles near their limit creep with every error of a step
+  const Trajectory jammed = completed(pushed_block(0.999 * critical, {"simulate.tolerance=1e-8"}));  // bristles near their limit creep with every error of a step
   expect_locked(jammed, "joint.guide.slide", 0.5, 0.15);
   EXPECT_NEAR(at_end(jammed, "joint.guide.friction"), -100, 1e-5 * 100);
-  const Trajectory moved = completed(pushed(1.001 * critical));
+  const Trajectory moved = completed(pushed_block(1.001 * critical));
   EXPECT_NEAR(speed_gained(moved, "joint.guide.slide_rate"), 100 * (1 - 1 / 1.001), 1e-5 * 0.1);
 }
 
@@ -335,7 +335,7 @@ TEST(Jamming, IsSaid) {
   for (const char* word : {"coulomb", "lugre"}) {
     SCOPED_TRACE(word);
     const std::vector<std::string> changes{fmt::format("joint.guide.friction=\"{}\"", word), "joint.guide.friction_preload=1"};
-    const Trajectory jammed = completed(pushed(0.059, changes)), moved = completed(pushed(0.062, changes));
+    const Trajectory jammed = completed(pushed_block(0.059, changes)), moved = completed(pushed_block(0.062, changes));
     EXPECT_TRUE(says(jammed, "joint guide is jammed")) << jammed.notes.size();
     EXPECT_TRUE(says(jammed, "up to 100 N"));
     EXPECT_FALSE(says(moved, "jammed"));

@@ -23,7 +23,7 @@ using reference::completed;
 using reference::drift;
 
 // A clutch that slips: two states, a border, full matrices that are not symmetric.
-struct ClutchLaw {
+struct SlippingClutch {
   static constexpr std::string_view kWord = "clutch";
   double k = 0, c = 0, grip = 0, rate = 0;
 
@@ -50,7 +50,7 @@ constexpr std::array<KeyInfo, 2> kClutchKeys{{{.key = "clutch_stiffness", .unit 
                                               {.key = "clutch_rate", .unit = "s^-1", .fallback = 30, .minimum_exclusive = true, .meaning = "of a test"}}};
 void make_clutch(const LawSetting& at, Law& law) {
   const double k = at.number("clutch_stiffness");
-  law.add(std::make_unique<LawPartOf<ClutchLaw>>(ClutchLaw{k, 2e-3 * k, 0.5 * k, at.number("clutch_rate")}));
+  law.add(std::make_unique<LawPartOf<SlippingClutch>>(SlippingClutch{k, 2e-3 * k, 0.5 * k, at.number("clutch_rate")}));
 }
 
 // A gap that is no function of the catalog: two points stay on a hyperbola x y = product.
@@ -66,7 +66,7 @@ constexpr std::array<ComponentInfo, 1> kProduct{{{.name = "product"}}};
 constexpr std::array<KeyInfo, 1> kHyperbolaKeys{{{.key = "product", .unit = "m", .required = true, .meaning = "of a test"}}};
 
 // Before the first model is read.
-void make_known() {
+void register_laws() {
   static const bool done = [] {
     register_law({.word = "clutch", .meaning = "of a test", .keys = kClutchKeys, .make = make_clutch});
     register_joint_type({.word = "hyperbola", .meaning = "of a test", .gap = kProduct, .free = {}, .keys = kHyperbolaKeys, .make = make_hyperbola});
@@ -350,7 +350,7 @@ law = "clutch"
 )toml";
 
 TEST(AnyLawSlow, OfATestRunsInEveryMethod) {
-  make_known();
+  register_laws();
   Model model = parse_model(kClutched, "clutched.toml");
   model.simulate.tolerance = 1e-7;
   const Trajectory truth = completed(model);
@@ -367,7 +367,7 @@ TEST(AnyLawSlow, OfATestRunsInEveryMethod) {
 }
 
 TEST(AnyLaw, OfATestRunsInRelativeCoordinates) {
-  make_known();
+  register_laws();
   Model model = parse_model(kClutched, "clutched.toml", {"joint.A.ideal=true", "simulate.equations=\"relative\"", "joint.A.stiffness=1e12"});
   const Trajectory tree = completed(model);
   model.simulate.method = "dopri5";
@@ -381,7 +381,7 @@ TEST(AnyLaw, OfATestRunsInRelativeCoordinates) {
 }
 
 TEST(AnyLaw, OfATestRunsInSweeps) {
-  make_known();
+  register_laws();
   const Model base = parse_model(kClutched, "clutched.toml");
   std::vector<Variant> variants;
   for (const double factor : {0.9, 1.1}) {
@@ -397,7 +397,7 @@ TEST(AnyLaw, OfATestRunsInSweeps) {
 }
 
 TEST(AnyLaw, OfATestRunsLive) {
-  make_known();
+  register_laws();
   const Model model = parse_model(kClutched, "clutched.toml");
   const Trajectory truth = completed(model);
   LiveMotion live(model);
@@ -407,7 +407,7 @@ TEST(AnyLaw, OfATestRunsLive) {
 
 // A bead on a hyperbola: energy is kept, and the gap's own force law answers with the promised error.
 TEST(AnyJointType, OfATestRuns) {
-  make_known();
+  register_laws();
   Model model = parse_model(R"toml(
 format = 1
 name = "Bead on a hyperbola"

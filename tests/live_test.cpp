@@ -16,7 +16,7 @@ namespace {
 
 const std::string kMechanisms = PINTLE_SOURCE_DIR "/mechanisms/";
 
-Model mechanism(const std::string& name) { return read_model(kMechanisms + name + ".toml"); }
+Model live_mechanism(const std::string& name) { return read_model(kMechanisms + name + ".toml"); }
 
 int body_index(const Model& model, const std::string& name) {
   for (std::size_t i = 0; i < model.bodies.size(); ++i)
@@ -42,7 +42,7 @@ Vec2 world_point(const PlanarPose& pose, const Vec2& point) {
 }
 
 TEST(Live, FollowsTheRunOfTheSameModel) {
-  const Model model = mechanism("four_bar");
+  const Model model = live_mechanism("four_bar");
   const Trajectory run = simulate(model);
   LiveMotion live(model);
   const double dt = 1.0 / 60;
@@ -66,7 +66,7 @@ TEST(Live, FollowsTheRunOfTheSameModel) {
 }
 
 TEST(Live, KeepsItsEnergyAccountWhilePulled) {
-  const Model model = mechanism("pendulum");
+  const Model model = live_mechanism("pendulum");
   LiveMotion live(model);
   const double start = total(live.energies());
   const PlanarPose pose = live.poses()[0];
@@ -85,7 +85,7 @@ TEST(Live, KeepsItsEnergyAccountWhilePulled) {
 }
 
 TEST(Live, AHeldLinkComesToThePull) {
-  const Model model = mechanism("rope_pendulum");
+  const Model model = live_mechanism("rope_pendulum");
   LiveMotion live(model);
   const PlanarPose pose = live.poses()[0];
   const Vec2 target{pose[0] + 0.05, pose[1] + 0.05};
@@ -103,7 +103,7 @@ TEST(Live, SurvivesEveryMechanismBeingPulledAbout) {
   for (const std::string& name : all_mechanisms()) {
     if (name == "n_four_bar_40") continue;
     SCOPED_TRACE(name);
-    const Model model = mechanism(name);
+    const Model model = live_mechanism(name);
     LiveMotion live(model);
     const int n = static_cast<int>(model.bodies.size());
     for (int i = 0; i < 24; ++i) {
@@ -125,7 +125,7 @@ TEST(Live, SurvivesEveryMechanismBeingPulledAbout) {
 }
 
 TEST(Live, TakesFewStepsForAFrame) {
-  LiveMotion live(mechanism("six_bar"));
+  LiveMotion live(live_mechanism("six_bar"));
   for (int i = 0; i < 60; ++i) ASSERT_TRUE(live.advance(1.0 / 60));
   EXPECT_LT(live.steps(), 60u * 5u);
   const PlanarPose pose = live.poses()[0];
@@ -138,21 +138,21 @@ TEST(Live, TakesFewStepsForAFrame) {
 }
 
 TEST(Live, RefusesABodyThatIsNotThere) {
-  LiveMotion live(mechanism("pendulum"));
+  LiveMotion live(live_mechanism("pendulum"));
   EXPECT_THROW(live.pull(Pull{7, {0, 0}, {0, 0}, 0}), std::invalid_argument);
 }
 
 TEST(KinematicDrag, ClosesEveryMechanism) {
   for (const std::string& name : all_mechanisms()) {
     SCOPED_TRACE(name);
-    KinematicDrag drag(mechanism(name));
+    KinematicDrag drag(live_mechanism(name));
     EXPECT_TRUE(drag.assemble());
     for (const double gap : drag.gaps()) EXPECT_LT(gap, 1e-4);
   }
 }
 
 TEST(KinematicDrag, TurnsACrankByHand) {
-  const Model model = mechanism("four_bar");
+  const Model model = live_mechanism("four_bar");
   KinematicDrag drag(model);
   ASSERT_TRUE(drag.assemble());
   const int crank = body_index(model, "crank");
@@ -168,7 +168,7 @@ TEST(KinematicDrag, TurnsACrankByHand) {
 }
 
 TEST(KinematicDrag, ReachesAsFarAsTheJointsAllow) {
-  const Model model = mechanism("four_bar");
+  const Model model = live_mechanism("four_bar");
   KinematicDrag drag(model);
   ASSERT_TRUE(drag.assemble());
   const int crank = body_index(model, "crank");
@@ -179,7 +179,7 @@ TEST(KinematicDrag, ReachesAsFarAsTheJointsAllow) {
 }
 
 TEST(KinematicDrag, SaysWhichJointsStayOpen) {
-  Model model = mechanism("four_bar");
+  Model model = live_mechanism("four_bar");
   model.ground[1].position = {60, 0};
   KinematicDrag drag(model);
   EXPECT_FALSE(drag.assemble());

@@ -8,15 +8,15 @@ namespace pintle {
 namespace {
 
 // The angle that matters is the crank's: in these mechanisms no point is off by more than it times the longest arm.
-struct Case {
+struct Coordinate {
   const char* name;
   const char* column;
   double duration;
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const Coordinate& c, std::ostream* out) { *out << c.name; }
 
-Trajectory run_of(const Case& c, ToleranceOf of, double tolerance) {
+Trajectory run_with(const Coordinate& c, ToleranceOf of, double tolerance) {
   Model model = reference::mechanism(c.name);
   model.simulate.duration = c.duration;
   model.simulate.output_step = c.duration / 50;
@@ -25,40 +25,40 @@ Trajectory run_of(const Case& c, ToleranceOf of, double tolerance) {
   return simulate(model);
 }
 
-double largest_difference(const Trajectory& a, const Trajectory& b, const char* column) {
+double column_difference(const Trajectory& a, const Trajectory& b, const char* column) {
   double worst = 0;
   for (std::size_t row = 0; row < a.n_rows(); ++row) worst = std::max(worst, std::abs(reference::value(a, row, column) - reference::value(b, row, column)));
   return worst;
 }
 
-class MotionAccuracy : public testing::TestWithParam<Case> {};
+class MotionAccuracy : public testing::TestWithParam<Coordinate> {};
 
 TEST_P(MotionAccuracy, IsAsAskedForAndAsStated) {
-  const Case c = GetParam();
-  const Trajectory truth = run_of(c, ToleranceOf::kForces, 1e-7);
+  const Coordinate c = GetParam();
+  const Trajectory truth = run_with(c, ToleranceOf::kForces, 1e-7);
   ASSERT_EQ(truth.outcome, Outcome::kCompleted) << truth.message;
   for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
-    const Trajectory run = run_of(c, ToleranceOf::kMotion, tolerance);
+    const Trajectory run = run_with(c, ToleranceOf::kMotion, tolerance);
     ASSERT_EQ(run.outcome, Outcome::kCompleted) << tolerance << ": " << run.message;
     EXPECT_TRUE(run.of_motion);
     EXPECT_LE(run.motion_error, tolerance);
-    const double error = largest_difference(run, truth, c.column);  // of a way of one or two lengths
+    const double error = column_difference(run, truth, c.column);  // of a way of one or two lengths
     EXPECT_LE(error, 3 * tolerance);
     EXPECT_LE(error, 10 * run.motion_error + 1e-9);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Mechanisms, MotionAccuracy,
-                         testing::Values(Case{"pendulum", "body.rod.x", 4}, Case{"four_bar", "body.coupler.x", 1}, Case{"n_four_bar_1", "body.crank0.x", 2},
-                                         Case{"inverted_slider_crank", "body.crank.x", 1}),
+                         testing::Values(Coordinate{"pendulum", "body.rod.x", 4}, Coordinate{"four_bar", "body.coupler.x", 1}, Coordinate{"n_four_bar_1", "body.crank0.x", 2},
+                                         Coordinate{"inverted_slider_crank", "body.crank.x", 1}),
                          [](const auto& one) { return std::string(one.param.name); });
 
 TEST(MotionAccuracySteps, AreThoseOfTheMotion) {
-  const Case many{"n_four_bar_10", "body.crank0.x", 4};
-  const Trajectory forces = run_of(many, ToleranceOf::kForces, 1e-3), motion = run_of(many, ToleranceOf::kMotion, 1e-3);
+  const Coordinate many{"n_four_bar_10", "body.crank0.x", 4};
+  const Trajectory forces = run_with(many, ToleranceOf::kForces, 1e-3), motion = run_with(many, ToleranceOf::kMotion, 1e-3);
   ASSERT_EQ(motion.outcome, Outcome::kCompleted) << motion.message;
   EXPECT_LT(motion.counters.steps * 5, forces.counters.steps);
-  EXPECT_LE(largest_difference(motion, forces, many.column), 3e-3);
+  EXPECT_LE(column_difference(motion, forces, many.column), 3e-3);
 }
 
 TEST(MotionAccuracySteps, StiffnessDoesNotMatter) {

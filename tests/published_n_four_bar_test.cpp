@@ -10,7 +10,7 @@ namespace {
 
 using reference::value;
 
-nlohmann::json facts() {
+nlohmann::json n_four_bar_facts() {
   std::ifstream file(std::string(PINTLE_SOURCE_DIR) + "/bench/published/iftomm_a02.json");
   return nlohmann::json::parse(file);
 }
@@ -26,7 +26,7 @@ double energy_error(const Trajectory& run) {
 TEST(SlowPublishedNFourBar, FortyLoopsFollowTheSolutionFile) {
   const Trajectory run = simulate(reference::mechanism("n_four_bar_40", {"simulate.duration=1"}));
   ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
-  const nlohmann::json known = facts();
+  const nlohmann::json known = n_four_bar_facts();
   int rows = 0;
   for (const auto& at : known["published"]["rows"]) {
     if (at[0].get<double>() > 1) continue;
@@ -44,7 +44,7 @@ TEST(PublishedNFourBar, TwoLoopsKeepTheirEnergyThroughEightPassages) {
   ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
   const double turned = value(run, 0, "body.crank0.angle") - value(run, run.n_rows() - 1, "body.crank0.angle");
   EXPECT_GT(turned, 4 * std::numbers::pi);
-  const nlohmann::json known = facts();
+  const nlohmann::json known = n_four_bar_facts();
   EXPECT_LT(energy_error(run), known["tolerance"]["energy [J]"].get<double>());
   for (const auto& at : known["exact_2"]["rows"]) {
     if (at[0].get<double>() > 4) continue;
@@ -60,7 +60,7 @@ TEST(PublishedNFourBar, IdealLoopsFollowTheExactMotion) {
   model.simulate.equations = Equations::kIdeal;
   const Trajectory run = simulate(model);
   ASSERT_NE(run.outcome, Outcome::kFailed) << run.message;
-  const nlohmann::json known = facts();
+  const nlohmann::json known = n_four_bar_facts();
   for (const auto& at : known["exact_2"]["rows"]) {
     const std::size_t row = reference::row_at(run, at[0]);
     EXPECT_NEAR(2 * value(run, row, "body.crank0.x"), at[1].get<double>(), 1e-3);

@@ -10,7 +10,7 @@ namespace {
 
 using reference::value;
 
-nlohmann::json facts() {
+nlohmann::json pendulum_facts() {
   std::ifstream file(std::string(PINTLE_SOURCE_DIR) + "/bench/published/iftomm_a01.json");
   return nlohmann::json::parse(file);
 }
@@ -22,7 +22,7 @@ Trajectory swing(double k) {
   return simulate(model);
 }
 
-double largest_difference(const Trajectory& run, const nlohmann::json& rows) {
+double largest_distance(const Trajectory& run, const nlohmann::json& rows) {
   double largest = 0;
   for (const auto& at : rows) {
     const double t = at[0];
@@ -36,9 +36,9 @@ double largest_difference(const Trajectory& run, const nlohmann::json& rows) {
 TEST(PublishedPendulum, MotionIsThePublishedOne) {
   const Trajectory run = swing(1e12);
   ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
-  const nlohmann::json known = facts();
-  EXPECT_LT(largest_difference(run, known["exact"]["rows"]), 1e-7);
-  EXPECT_LT(largest_difference(run, known["published"]["rows"]), 1e-6);  // printed to six places
+  const nlohmann::json known = pendulum_facts();
+  EXPECT_LT(largest_distance(run, known["exact"]["rows"]), 1e-7);
+  EXPECT_LT(largest_distance(run, known["published"]["rows"]), 1e-6);  // printed to six places
   for (std::size_t row = 0; row < run.n_rows(); ++row)
     EXPECT_LT(std::abs(value(run, row, "energy.kinetic") + value(run, row, "energy.potential")), 5e-5);  // the library's is zero
 }
@@ -58,14 +58,14 @@ TEST(PublishedPendulum, IdealRodGivesThePublishedMotion) {
   model.simulate.equations = Equations::kIdeal;
   const Trajectory run = simulate(model);
   ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
-  const nlohmann::json known = facts();
-  EXPECT_LT(largest_difference(run, known["exact"]["rows"]), 1e-7);
-  EXPECT_LT(largest_difference(run, known["published"]["rows"]), 1e-6);
+  const nlohmann::json known = pendulum_facts();
+  EXPECT_LT(largest_distance(run, known["exact"]["rows"]), 1e-7);
+  EXPECT_LT(largest_distance(run, known["published"]["rows"]), 1e-6);
 }
 
 TEST(PublishedPendulum, TheRodsComplianceIsAllTheDifference) {
-  const nlohmann::json exact = facts()["exact"]["rows"];
-  const double soft = largest_difference(swing(1e7), exact), stiff = largest_difference(swing(1e8), exact);
+  const nlohmann::json exact = pendulum_facts()["exact"]["rows"];
+  const double soft = largest_distance(swing(1e7), exact), stiff = largest_distance(swing(1e8), exact);
   EXPECT_NEAR(soft / stiff, 10, 0.2);
 }
 

@@ -11,7 +11,7 @@
 namespace pintle {
 namespace {
 
-constexpr double kNegligible = 1e-4;  // of the mechanism's largest force: what a joint is measured by at least
+constexpr double kSmallForce = 1e-4;  // of the mechanism's largest force: what a joint is measured by at least
 
 class RealJointsSlow : public testing::TestWithParam<const char*> {};
 
@@ -21,7 +21,7 @@ TEST_P(RealJointsSlow, RunToTheirEndWithinTheTolerance) {
   const Trajectory coarse = reference::completed(model);
   model.simulate.tolerance = 1e-5;
   const Trajectory fine = reference::completed(model);
-  const std::vector<bench::JointError> errors = bench::joint_errors(model, coarse, fine, kNegligible);
+  const std::vector<bench::JointError> errors = bench::joint_errors(model, coarse, fine, kSmallForce);
   ASSERT_FALSE(errors.empty());
   const bench::JointError& worst = bench::worst_of(errors);
   EXPECT_LT(worst.error, 1e-3) << worst.joint;

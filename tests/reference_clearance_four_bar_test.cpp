@@ -28,11 +28,11 @@ struct Motion {
   std::vector<std::array<double, 6>> rows;
   std::vector<double> contacts;
 };
-struct Difference {
+struct MotionDifference {
   double angle = 0, force = 0, time = 0;
 };
-Difference difference(const Motion& a, const Motion& b) {
-  Difference most;
+MotionDifference motion_difference(const Motion& a, const Motion& b) {
+  MotionDifference most;
   EXPECT_EQ(a.rows.size(), b.rows.size());
   EXPECT_EQ(a.contacts.size(), b.contacts.size());
   for (std::size_t i = 0; i < std::min(a.rows.size(), b.rows.size()); ++i) {
@@ -43,8 +43,8 @@ Difference difference(const Motion& a, const Motion& b) {
   for (std::size_t i = 0; i < std::min(a.contacts.size(), b.contacts.size()); ++i) most.time = std::max(most.time, std::abs(a.contacts[i] - b.contacts[i]));
   return most;
 }
-void expect_same(const Motion& a, const Motion& b) {
-  const Difference most = difference(a, b);
+void expect_same_motion(const Motion& a, const Motion& b) {
+  const MotionDifference most = motion_difference(a, b);
   EXPECT_LT(most.angle, kAngleLimit);
   EXPECT_LT(most.force, kForceLimit);
   EXPECT_LT(most.time, kTimeLimit);
@@ -164,7 +164,7 @@ class LooseFourBar {
 
 // --- The model ---
 
-Model four_bar(double friction) {
+Model worn_four_bar(double friction) {
   return parse_model(fmt::format(R"toml(
 format = 1
 gravity = [0, 0]
@@ -235,7 +235,7 @@ between = ["ground.o4", "follower.o4"]
 }
 
 Motion run_of(double friction) {
-  const Trajectory run = reference::completed(four_bar(friction));
+  const Trajectory run = reference::completed(worn_four_bar(friction));
   Motion motion;
   for (std::size_t i = 0; i < run.n_rows(); ++i) {
     const auto at = [&run, i](const char* column) { return reference::value(run, i, column); };
@@ -268,15 +268,15 @@ Motion two_point_table() {
 
 TEST(ClearanceFourBar, WithoutFrictionItIsTheTable) {
   const Motion known = frictionless_table();
-  expect_same(run_of(0), known);
-  expect_same(LooseFourBar(0, LooseFourBar::Arms::kOnePoint).solve(), known);
+  expect_same_motion(run_of(0), known);
+  expect_same_motion(LooseFourBar(0, LooseFourBar::Arms::kOnePoint).solve(), known);
 }
 
 // Step by step, with both methods.
 TEST(ClearanceFourBar, StepsTouchAndLetGoWhenTheyShould) {
   const std::vector<double> known = frictionless_table().contacts;
   for (const int stages : {3, 5}) {
-    const Followed run = follow(four_bar(0), stages == 3 ? 1e-8 : 1e-10, kDuration, {.stages = stages});
+    const Followed run = follow(worn_four_bar(0), stages == 3 ? 1e-8 : 1e-10, kDuration, {.stages = stages});
     ASSERT_EQ(run.contacts.size(), known.size());
     for (std::size_t i = 0; i < known.size(); ++i) EXPECT_NEAR(run.contacts[i].t, known[i], kTimeLimit) << i;
   }
@@ -285,10 +285,10 @@ TEST(ClearanceFourBar, StepsTouchAndLetGoWhenTheyShould) {
 TEST(ClearanceFourBar, WithFrictionItIsTheTableButForThePointOfContact) {
   const Motion run = run_of(kFriction), known = two_point_table();
   const Motion one = LooseFourBar(kFriction, LooseFourBar::Arms::kOnePoint).solve(), two = LooseFourBar(kFriction, LooseFourBar::Arms::kTwoPoints).solve();
-  expect_same(run, one);
-  expect_same(two, known);
+  expect_same_motion(run, one);
+  expect_same_motion(two, known);
   // What the second point changes: more than the tables leave open, and the same from equations to equations as from run to table.
-  const Difference expected = difference(one, two), found = difference(run, known);
+  const MotionDifference expected = motion_difference(one, two), found = motion_difference(run, known);
   EXPECT_NEAR(found.angle, expected.angle, kAngleLimit);
   EXPECT_NEAR(found.force, expected.force, kForceLimit);
   EXPECT_NEAR(found.time, expected.time, kTimeLimit);

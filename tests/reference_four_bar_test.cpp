@@ -22,7 +22,7 @@ constexpr Force kForces[] = {{"O2.on_crank", "F12x", "F12y"},
                              {"O4.on_follower", "F14x", "F14y"}};
 
 // Two pins in a row give way by 6 micrometres each, and by ten times that per second.
-constexpr reference::Limits kLimits{1.5e-5, 5e-6, 2e-4, 5e-5};
+constexpr reference::Limits kFourBarLimits{1.5e-5, 5e-6, 2e-4, 5e-5};
 
 TEST(ReferenceFourBar, ForcesAreThoseOfIdealJointsOverTheWholeTurn) {
   const Trajectory run = simulate(reference::mechanism("four_bar"));
@@ -44,9 +44,9 @@ TEST(ReferenceFourBar, AllEighteenStatesAreThoseOfIdealJoints) {
   for (std::size_t i = 0; i < ideal.rows.size(); ++i) {
     const std::size_t row = reference::row_at(run, ideal.at(i, "t"));
     const double theta = ideal.at(i, "theta2"), omega = ideal.at(i, "omega2"), ax = std::cos(theta), ay = std::sin(theta);
-    expect_body(run, row, "crank", {0, 0, 0, 0, theta, omega}, -0.5, 0, kLimits);
-    expect_body(run, row, "coupler", {ax, ay, -omega * ay, omega * ax, ideal.at(i, "theta3"), ideal.at(i, "omega3")}, -2, 0, kLimits);
-    expect_body(run, row, "follower", {6, 0, 0, 0, ideal.at(i, "theta4"), ideal.at(i, "omega4")}, -2, 0, kLimits);
+    expect_body(run, row, "crank", {0, 0, 0, 0, theta, omega}, -0.5, 0, kFourBarLimits);
+    expect_body(run, row, "coupler", {ax, ay, -omega * ay, omega * ax, ideal.at(i, "theta3"), ideal.at(i, "omega3")}, -2, 0, kFourBarLimits);
+    expect_body(run, row, "follower", {6, 0, 0, 0, ideal.at(i, "theta4"), ideal.at(i, "omega4")}, -2, 0, kFourBarLimits);
   }
 }
 

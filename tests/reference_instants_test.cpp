@@ -1,14 +1,13 @@
 // Joint forces at one instant, from text books: a motor's moment and what it takes at the pins.
 #include <gtest/gtest.h>
 
+#include "base/constants.h"
 #include "base/expression/expression_parser.h"
 #include "system/sample_systems_for_tests.h"
 #include "tests/reference_tables.h"
 
 namespace pintle {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct AtStart {
   const Assembly start;

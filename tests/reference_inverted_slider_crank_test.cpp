@@ -10,12 +10,12 @@ namespace {
 using reference::expect_body;
 using reference::value;
 
-constexpr int kSamples = 37;
+constexpr int kAngles = 37;
 
-struct Pin {
+struct PinColumns {
   const char *column, *x, *y;
 };
-constexpr Pin kPins[] = {{"O2.on_crank", "F12x", "F12y"}, {"A.on_block", "F23x", "F23y"}, {"O4.on_guide", "F14x", "F14y"}};
+constexpr PinColumns kPins[] = {{"O2.on_crank", "F12x", "F12y"}, {"A.on_block", "F23x", "F23y"}, {"O4.on_guide", "F14x", "F14y"}};
 
 Model model_with(double factor) {
   Model model = reference::mechanism("inverted_slider_crank", {"simulate.duration=pi/10"});
@@ -26,14 +26,14 @@ Model model_with(double factor) {
 }
 
 // Largest differences from ideal joints over the turn, over the peaks: pins, force of the guide, moment of the guide.
-struct Differences {
+struct PinDifferences {
   double pins = 0, force = 0, moment = 0, along = 0;
 };
-Differences differences(const Trajectory& run, const reference::Table& ideal) {
-  Differences d;
-  for (std::size_t i = 0; i < kSamples; ++i) {
+PinDifferences pin_differences(const Trajectory& run, const reference::Table& ideal) {
+  PinDifferences d;
+  for (std::size_t i = 0; i < kAngles; ++i) {
     const std::size_t row = reference::row_at(run, ideal.at(i, "t"));
-    for (const Pin& pin : kPins)
+    for (const PinColumns& pin : kPins)
       d.pins = std::max(d.pins, reference::force_error(run, row, pin.column, ideal.at(i, pin.x), ideal.at(i, pin.y)) / ideal.peak(pin.x, pin.y));
     d.along = std::max(d.along, std::abs(value(run, row, "joint.P.on_block.f1[joint]")) / ideal.peak("N43"));
     d.force = std::max(d.force, std::abs(value(run, row, "joint.P.on_block.f2[joint]") - ideal.at(i, "N43")) / ideal.peak("N43"));
@@ -46,10 +46,10 @@ Differences differences(const Trajectory& run, const reference::Table& ideal) {
 // that at 1e8 N/m, measured 5e-4 of the peaks, falls in proportion to the compliance.
 TEST(ReferenceInvertedSliderCrank, ForcesTendToThoseOfIdealJoints) {
   const reference::Table ideal = reference::read_table("inverted_slider_crank");
-  ASSERT_EQ(ideal.rows.size(), kSamples);
+  ASSERT_EQ(ideal.rows.size(), kAngles);
   const Trajectory file = simulate(model_with(1)), stiffer = simulate(model_with(10)), stiffest = simulate(model_with(1000));
   for (const Trajectory* run : {&file, &stiffer, &stiffest}) ASSERT_EQ(run->outcome, Outcome::kCompleted) << run->message;
-  const Differences one = differences(file, ideal), ten = differences(stiffer, ideal), thousand = differences(stiffest, ideal);
+  const PinDifferences one = pin_differences(file, ideal), ten = pin_differences(stiffer, ideal), thousand = pin_differences(stiffest, ideal);
   for (const auto& [d, limit] : {std::pair{one, 6e-4}, std::pair{ten, 1e-4}, std::pair{thousand, 2e-5}}) {
     EXPECT_LT(d.pins, limit);
     EXPECT_LT(d.force, limit);
@@ -78,19 +78,19 @@ TEST(ReferenceInvertedSliderCrank, CompliantForcesAreThoseOfAnExplicitRun) {
   }
 }
 
-constexpr reference::Limits kLimits{5e-6, 5e-6, 1e-4, 5e-4};
+constexpr reference::Limits kPinLimits{5e-6, 5e-6, 1e-4, 5e-4};
 
 // With joints of 1e10 N/m, which give way by 20 nanometres.
 TEST(ReferenceInvertedSliderCrank, AllEighteenStates) {
   const reference::Table ideal = reference::read_table("inverted_slider_crank");
   const Trajectory run = simulate(model_with(100));
-  for (std::size_t i = 0; i < kSamples; ++i) {
+  for (std::size_t i = 0; i < kAngles; ++i) {
     const std::size_t row = reference::row_at(run, ideal.at(i, "t"));
     const double theta = ideal.at(i, "theta2"), omega = ideal.at(i, "omega2"), guide = ideal.at(i, "theta4"), spin = ideal.at(i, "omega4");
     const double ax = 0.1 * std::cos(theta), ay = 0.1 * std::sin(theta);
-    expect_body(run, row, "crank", {0, 0, 0, 0, theta, omega}, -0.05, 0, kLimits);
-    expect_body(run, row, "block", {ax, ay, -omega * ay, omega * ax, guide, spin}, -0.02, 0, kLimits);
-    expect_body(run, row, "guide", {0.25, 0, 0, 0, guide, spin}, -0.18, 0.02, kLimits);
+    expect_body(run, row, "crank", {0, 0, 0, 0, theta, omega}, -0.05, 0, kPinLimits);
+    expect_body(run, row, "block", {ax, ay, -omega * ay, omega * ax, guide, spin}, -0.02, 0, kPinLimits);
+    expect_body(run, row, "guide", {0.25, 0, 0, 0, guide, spin}, -0.18, 0.02, kPinLimits);
     EXPECT_NEAR(value(run, row, "joint.P.slide") + 0.16, ideal.at(i, "s"), 5e-6) << i;
   }
 }

@@ -27,11 +27,11 @@ std::vector<std::string> all_but(const Model& model, const std::string& opened) 
 
 /// Largest differences of two runs of the same rows: of the bodies' columns, and of each joint's force and moment over
 /// peak (at least a thousandth of the largest joint's).
-struct Differences {
+struct LargestDifferences {
   double bodies = 0, forces = 0;
 };
-Differences compare(const Trajectory& a, const Trajectory& b) {
-  Differences out;
+LargestDifferences compare_runs(const Trajectory& a, const Trajectory& b) {
+  LargestDifferences out;
   EXPECT_EQ(a.n_rows(), b.n_rows());
   double largest = 0;
   for (const LoadSummary& joint : a.joints) largest = std::max(largest, joint.peak);
@@ -72,7 +72,7 @@ TEST(RelativeFourBar, WhicheverJointIsOpenedMotionAndForcesAreThoseOfFreeBodies)
   const Trajectory free = completed(model);
   for (const Joint& opened : model.joints) {
     const Trajectory run = completed(over_tree(model, all_but(model, opened.name)));
-    const Differences d = compare(free, run);
+    const LargestDifferences d = compare_runs(free, run);
     EXPECT_LT(d.bodies, 3e-8) << opened.name;
     EXPECT_LT(d.forces, 1e-7) << opened.name;
     EXPECT_LT(run.energy.drift, 1e-12 * run.energy.kinetic_peak) << opened.name;
@@ -81,11 +81,11 @@ TEST(RelativeFourBar, WhicheverJointIsOpenedMotionAndForcesAreThoseOfFreeBodies)
 
 // What is left of the difference is the other joints' compliance: it goes with 1/k.
 TEST(RelativeFourBar, TheDifferenceFromFreeBodiesGoesWithTheirCompliance) {
-  std::vector<Differences> differences;
+  std::vector<LargestDifferences> differences;
   for (const double k : {1e9, 1e10}) {
     Model model = stiff("four_bar", k, 3000 * std::sqrt(k / 1e8));
     model.simulate.tolerance = 1e-8;
-    differences.push_back(compare(completed(model), completed(over_tree(model, all_but(model, "B")))));
+    differences.push_back(compare_runs(completed(model), completed(over_tree(model, all_but(model, "B")))));
   }
   EXPECT_NEAR(differences[0].bodies / differences[1].bodies, 10, 1);
   EXPECT_NEAR(differences[0].forces / differences[1].forces, 10, 1);
@@ -107,7 +107,7 @@ TEST(RelativeFourBar, ForcesAreThoseOfIdealJoints) {
 TEST(RelativeFourBar, WithoutIdealJointsTheEquationsAreThoseOfFreeBodies) {
   Model model = mechanism("four_bar");
   model.simulate.tolerance = 1e-8;
-  const Differences d = compare(completed(model), completed(over_tree(model, {})));
+  const LargestDifferences d = compare_runs(completed(model), completed(over_tree(model, {})));
   EXPECT_LT(d.bodies, 1e-9);
   EXPECT_LT(d.forces, 1e-8);
 }
@@ -115,7 +115,7 @@ TEST(RelativeFourBar, WithoutIdealJointsTheEquationsAreThoseOfFreeBodies) {
 TEST(RelativeFourBar, ALoopOfIdealJointsIsOpenedAndTheNotesSayWhere) {
   const Model model = mechanism("four_bar");
   const Trajectory one = completed(over_tree(model, {"O2", "A", "O4"})), all = completed(over_tree(model, all_but(model, "")));
-  const Differences d = compare(one, all);
+  const LargestDifferences d = compare_runs(one, all);
   EXPECT_EQ(d.bodies, 0);
   EXPECT_EQ(d.forces, 0);
   const auto noted = [&all](const std::string& line) { return std::find(all.notes.begin(), all.notes.end(), line) != all.notes.end(); };
@@ -161,7 +161,7 @@ TEST(RelativeFourBar, ImplicitAndExplicitMethodAgree) {
   model.simulate.tolerance = 1e-7;
   const Trajectory implicit = completed(model);
   model.simulate.method = "dopri5";
-  const Differences d = compare(implicit, completed(model));
+  const LargestDifferences d = compare_runs(implicit, completed(model));
   EXPECT_LT(d.bodies, 1e-7);
   EXPECT_LT(d.forces, 1e-6);
 }
@@ -206,7 +206,7 @@ TEST(RelativeRobotArm, AnOpenChainMovesAndLoadsAsFreeBodies) {
     return out;
   };
   const Model tree = over_tree(model, {"shoulder", "elbow", "wrist", "grip"});
-  const Differences d = compare(run(model), run(tree));
+  const LargestDifferences d = compare_runs(run(model), run(tree));
   EXPECT_LT(d.bodies, 1e-6);
   EXPECT_LT(d.forces, 1e-6);
 }
@@ -218,7 +218,7 @@ TEST(RelativeSliderCrank, WhicheverJointIsOpenedMotionAndForcesAreThoseOfFreeBod
   const Trajectory free = completed(model);
   for (const Joint& opened : model.joints) {
     const Trajectory run = completed(over_tree(model, all_but(model, opened.name)));
-    const Differences d = compare(free, run);
+    const LargestDifferences d = compare_runs(free, run);
     EXPECT_LT(d.bodies, 1e-6) << opened.name;
     EXPECT_LT(d.forces, 1e-6) << opened.name;
     EXPECT_LT(run.energy.drift, 1e-6 * run.energy.kinetic_peak) << opened.name;
@@ -231,7 +231,7 @@ TEST(RelativeInvertedSliderCrank, WhicheverJointIsOpenedMotionAndForcesAreThoseO
   const Trajectory free = completed(model);
   for (const Joint& opened : model.joints) {
     const Trajectory run = completed(over_tree(model, all_but(model, opened.name)));
-    const Differences d = compare(free, run);
+    const LargestDifferences d = compare_runs(free, run);
     EXPECT_LT(d.bodies, 1e-6) << opened.name;
     EXPECT_LT(d.forces, 1e-6) << opened.name;
     EXPECT_LT(run.energy.drift, 1e-9 * run.energy.kinetic_peak) << opened.name;
@@ -259,7 +259,7 @@ TEST(RelativeRope, AnOpenedRopePullsAndHangsLooseAsBetweenFreeBodies) {
   bool taut = false, loose = false;
   for (std::size_t i = 0; i < run.n_rows(); ++i) (value(run, i, "joint.rope.on_second.f1[joint]") != 0 ? taut : loose) = true;
   EXPECT_TRUE(taut && loose);
-  const Differences d = compare(free, run);
+  const LargestDifferences d = compare_runs(free, run);
   EXPECT_LT(d.bodies, 1e-5);
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/constants.h"
 #include "tests/reference_tables.h"
 
 namespace pintle {
@@ -15,8 +16,6 @@ namespace {
 using reference::at_end;
 using reference::completed;
 using reference::value;
-
-constexpr double kG = 9.80665;
 
 // 20 kg on a pin of rubber: k r (1 + a r^2) = m g.
 TEST(Rubber, AWeightSinksIntoItAsItHardens) {
@@ -45,7 +44,7 @@ branch_time = [0.05]
 )toml",
                                                    "weight.toml"));
   double r = 1e-3;
-  for (int i = 0; i < 50; ++i) r -= (1e5 * r * (1 + 1e5 * r * r) - 20 * kG) / (1e5 * (1 + 3e5 * r * r));
+  for (int i = 0; i < 50; ++i) r -= (1e5 * r * (1 + 1e5 * r * r) - 20 * kStandardGravity) / (1e5 * (1 + 3e5 * r * r));
   EXPECT_NEAR(value(run, 0, "body.weight.y"), -r, 1e-9);
   EXPECT_NEAR(at_end(run, "body.weight.y"), -r, 1e-7);
 }

@@ -22,14 +22,14 @@ struct Pose {
   double x, y, angle;
 };
 
-struct Bar {
+struct PinnedBar {
   std::string name, markers;
 };
 
 struct Kind {
   std::string name, ground, joints;
   double start;  // angle of the crank
-  std::vector<Bar> bars;  // the crank first
+  std::vector<PinnedBar> bars;  // the crank first
   std::function<std::vector<Pose>(double)> branch;  // where the bars are at an angle of the crank
 };
 
@@ -60,7 +60,7 @@ Kind equal_slider_crank() {
 }
 
 // A four-bar of these lengths, on the branch that `coupler` and `rocker` give.
-Kind four_bar(const std::string& name, double ground, double crank, double coupler, double rocker, double start, std::function<std::pair<double, double>(double)> angles) {
+Kind four_bar_kind(const std::string& name, double ground, double crank, double coupler, double rocker, double start, std::function<std::pair<double, double>(double)> angles) {
   const auto half = [](double length) { return fmt::format("markers.from = [{:.16g}, 0]\nmarkers.to = [{:.16g}, 0]", -length / 2, length / 2); };
   return {name, fmt::format("O2 = [0, 0]\nO4 = [{:.16g}, 0]", ground),
           pin("O2", "ground.O2", "crank.from") + pin("A", "crank.to", "coupler.from") + pin("B", "coupler.to", "rocker.to") + pin("O4", "ground.O4", "rocker.from"), start,
@@ -74,13 +74,13 @@ Kind four_bar(const std::string& name, double ground, double crank, double coupl
 }
 
 Kind parallelogram() {
-  return four_bar("Parallelogram", 0.5, 0.2, 0.5, 0.2, 1.0, [](double a) { return std::pair{0.0, a}; });
+  return four_bar_kind("Parallelogram", 0.5, 0.2, 0.5, 0.2, 1.0, [](double a) { return std::pair{0.0, a}; });
 }
 
 // Short crank and rocker that turn against each other: tan(psi/2) = k tan(a/2) with the ratio k of the sum and the difference of the lengths.
 Kind antiparallelogram() {
   const double ground = 0.5, crank = 0.2, k = (ground + crank) / (ground - crank);
-  return four_bar("Antiparallelogram", ground, crank, ground, crank, 1.0, [=](double a) {
+  return four_bar_kind("Antiparallelogram", ground, crank, ground, crank, 1.0, [=](double a) {
     const double turns = std::floor((a + M_PI) / (2 * M_PI)), psi = -2 * (std::atan(k * std::tan(a / 2)) + M_PI * turns);
     const double x = ground + crank * (std::cos(psi) - std::cos(a)), y = crank * (std::sin(psi) - std::sin(a));
     return std::pair{std::atan2(y, x), psi};
@@ -89,7 +89,7 @@ Kind antiparallelogram() {
 
 // Crank and ground are equal, and so are coupler and rocker: these come to lie on each other at every turn.
 Kind kite() {
-  return four_bar("Kite", 0.2, 0.2, 0.4, 0.4, 1.0, [](double a) {
+  return four_bar_kind("Kite", 0.2, 0.2, 0.4, 0.4, 1.0, [](double a) {
     const double along = 0.2 * std::cos(a / 2) + std::sqrt(0.16 - 0.04 * std::pow(std::sin(a / 2), 2));
     const double straight = std::atan2(-0.2 * std::sin(a / 2), along - 0.2 * std::cos(a / 2));  // from the line of symmetry
     return std::pair{a / 2 + straight, a / 2 - straight};
@@ -122,7 +122,7 @@ Kind three_cranks() {
 
 std::vector<Kind> kinds() { return {equal_slider_crank(), parallelogram(), antiparallelogram(), kite(), slotted_lever(), three_cranks()}; }
 
-double turned(double angle) { return std::remainder(angle, 2 * M_PI); }
+double angle_from(double angle) { return std::remainder(angle, 2 * M_PI); }
 
 // Kinetic energy over half the square of the crank's speed.
 double inertia(const Kind& kind, double angle) {
@@ -132,7 +132,7 @@ double inertia(const Kind& kind, double angle) {
   for (std::size_t i = 0; i < kind.bars.size(); ++i) {
     const auto slope = [&](double Pose::*of, bool turn) {
       const double inner = p[2][i].*of - p[1][i].*of, outer = p[3][i].*of - p[0][i].*of;
-      return (8 * (turn ? turned(inner) : inner) - (turn ? turned(outer) : outer)) / (12 * kStep);
+      return (8 * (turn ? angle_from(inner) : inner) - (turn ? angle_from(outer) : outer)) / (12 * kStep);
     };
     sum += std::pow(slope(&Pose::x, false), 2) + std::pow(slope(&Pose::y, false), 2) + 0.01 * std::pow(slope(&Pose::angle, true), 2);
   }
@@ -154,7 +154,7 @@ void expect_on_branch(const Kind& kind, double gravity, const Trajectory& run, d
       const std::string body = "body." + kind.bars[i].name;
       ASSERT_NEAR(reference::value(run, row, body + ".x"), at[i].x, within) << body << row;
       ASSERT_NEAR(reference::value(run, row, body + ".y"), at[i].y, within) << body << row;
-      ASSERT_NEAR(turned(reference::value(run, row, body + ".angle") - at[i].angle), 0, 10 * within) << body << row;
+      ASSERT_NEAR(angle_from(reference::value(run, row, body + ".angle") - at[i].angle), 0, 10 * within) << body << row;
     }
     ASSERT_NEAR(reference::value(run, row, "body.crank.spin"), std::sqrt((energy - 2 * gravity * height(kind, angle)) / inertia(kind, angle)), 100 * within) << row;
   }
@@ -165,14 +165,14 @@ bool names_singular_positions(const Trajectory& run) {
   return std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("singular position at t = ") != std::string::npos; });
 }
 
-Trajectory ideal_run(const Kind& kind, double gravity) {
+Trajectory ideal_run_of(const Kind& kind, double gravity) {
   return simulate(parse_model(text(kind, gravity, "duration = 2.5\noutput_step = 0.01\ntolerance = 1e-3\nequations = \"ideal\""), kind.name));
 }
 
 TEST(SingularPositionsSlow, IdealJointsGoOnAlongTheSmoothBranch) {
   for (const Kind& kind : kinds()) {
     SCOPED_TRACE(kind.name);
-    const Trajectory run = ideal_run(kind, 0);
+    const Trajectory run = ideal_run_of(kind, 0);
     EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
     EXPECT_LT(run.energy.drift, 1e-7 * run.energy.kinetic_peak);
     EXPECT_TRUE(names_singular_positions(run));
@@ -184,7 +184,7 @@ TEST(SingularPositionsSlow, IdealJointsGoOnAlongTheSmoothBranch) {
 TEST(SingularPositionsSlow, IdealJointsGoOnUnderLoadsToo) {
   for (const Kind& kind : kinds()) {
     SCOPED_TRACE(kind.name);
-    const Trajectory run = ideal_run(kind, 0.5);
+    const Trajectory run = ideal_run_of(kind, 0.5);
     EXPECT_TRUE(run.outcome == Outcome::kCompleted || run.outcome == Outcome::kToleranceNotMet) << run.message;
     EXPECT_LT(run.energy.drift, 1e-7 * run.energy.kinetic_peak);
     EXPECT_TRUE(names_singular_positions(run));
@@ -193,7 +193,7 @@ TEST(SingularPositionsSlow, IdealJointsGoOnUnderLoadsToo) {
 }
 
 TEST(SingularPositionsSlow, ReactionsOfAFreeParallelogramAreThoseOfTurningCranks) {
-  const Trajectory run = ideal_run(parallelogram(), 0);
+  const Trajectory run = ideal_run_of(parallelogram(), 0);
   for (const LoadSummary& joint : run.joints) {
     const double exact = joint.name == "A" || joint.name == "B" ? 0.5 * kSpin * kSpin * 0.2 : 0.5 * kSpin * kSpin * 0.2 + 0.1 * kSpin * kSpin;
     EXPECT_NEAR(joint.peak, exact, 1e-4 * exact) << joint.name;

@@ -18,10 +18,10 @@ using reference::at_end;
 using reference::completed;
 using reference::drift;
 
-constexpr double kMass = 2, kInertia = 0.05;
+constexpr double kDoorMass = 2, kInertia = 0.05;
 
 // A mass on a slide with stops at -0.1 m and 0.2 m, thrown at 0.5 m/s from the middle between them.
-Model thrown(const std::string& stops, const std::string& duration = "2 s") {
+Model thrown_door(const std::string& stops, const std::string& duration = "2 s") {
   return parse_model(fmt::format(R"toml(
 format = 1
 gravity = [0, 0]
@@ -44,7 +44,7 @@ lower_stop = "-100 mm"
 upper_stop = "200 mm"
 {}
 )toml",
-                                 duration, kMass, stops),
+                                 duration, kDoorMass, stops),
                      "thrown.toml");
 }
 
@@ -83,7 +83,7 @@ torque = "{} N*m"
 TEST(Stops, BetweenTwoHardStopsAMassKeepsTheRestitutionAskedFor) {
   const double e = 0.7, way = 0.3;
   for (const double exponent : {1.0, 1.5}) {
-    const Followed run = follow(thrown(fmt::format("stops = \"hard\"\nstop_stiffness = 1e6\nstop_exponent = {}\nstop_restitution = {}\nstop_least_speed = 1e-6", exponent, e), "4 s"), 1e-10, 4, {});
+    const Followed run = follow(thrown_door(fmt::format("stops = \"hard\"\nstop_stiffness = 1e6\nstop_exponent = {}\nstop_restitution = {}\nstop_least_speed = 1e-6", exponent, e), "4 s"), 1e-10, 4, {});
     ASSERT_GE(run.contacts.size(), 5u);
     EXPECT_NEAR(run.contacts[0].t, 0.15 / 0.5, 1e-9);
     double speed = 0.5;
@@ -93,14 +93,14 @@ TEST(Stops, BetweenTwoHardStopsAMassKeepsTheRestitutionAskedFor) {
       EXPECT_NEAR(run.contacts[i + 1].t - run.contacts[i].t, way / speed, 1e-7 * way / speed) << exponent << ' ' << i;
     }
     EXPECT_NEAR(std::abs(run.end.v[0][0]), speed * (run.contacts.size() % 2 == 0 ? e : 1), 1e-8);
-    EXPECT_NEAR(run.end.dissipated, 0.5 * kMass * (0.25 - run.end.v[0][0] * run.end.v[0][0]), 1e-8);
+    EXPECT_NEAR(run.end.dissipated, 0.5 * kDoorMass * (0.25 - run.end.v[0][0] * run.end.v[0][0]), 1e-8);
   }
 }
 
 // The first half of an impact against a spring without loss: a quarter of its period to the depth v sqrt(m/k), half a period in all.
 TEST(Stops, AnElasticStopIsHalfAPeriodOfItsSpring) {
-  const double k = 2e4, w = std::sqrt(k / kMass);
-  Model model = thrown(fmt::format("stops = \"hard\"\nstop_stiffness = {}\nstop_restitution = 1", k));
+  const double k = 2e4, w = std::sqrt(k / kDoorMass);
+  Model model = thrown_door(fmt::format("stops = \"hard\"\nstop_stiffness = {}\nstop_restitution = 1", k));
   const Followed run = follow(model, 1e-10, 0.5, {});
   ASSERT_EQ(run.contacts.size(), 2u);
   EXPECT_NEAR(run.contacts[1].t - run.contacts[0].t, M_PI / w, 1e-8);
@@ -162,7 +162,7 @@ TEST(Stops, ACushionBrakesAsItsEquationSays) {
 
 // Friction beside a stop is what it is without one: a joint force along the slide is the sum of both, and each has a column of its own.
 TEST(Stops, FrictionAndStopsHaveColumnsOfTheirOwn) {
-  const Trajectory run = completed(thrown("stops = \"hard\"\nstop_stiffness = 1e5\nstop_restitution = 0.6\nfriction = \"stribeck\"\nfriction_coefficient = 0.2\nstatic_friction = 0.2\nfriction_preload = 1", "1 s"));
+  const Trajectory run = completed(thrown_door("stops = \"hard\"\nstop_stiffness = 1e5\nstop_restitution = 0.6\nfriction = \"stribeck\"\nfriction_coefficient = 0.2\nstatic_friction = 0.2\nfriction_preload = 1", "1 s"));
   double most = 0, stop = 0;
   for (std::size_t i = 0; i < run.n_rows(); ++i) {
     const double friction = reference::value(run, i, "joint.slide.friction"), at_stop = reference::value(run, i, "joint.slide.stop_force");
@@ -177,7 +177,7 @@ TEST(Stops, FrictionAndStopsHaveColumnsOfTheirOwn) {
 
 // A slot's pin runs along it between stops and turns freely; in a loose pin's bush the stops of the angle act beside the clearance.
 TEST(Stops, StandBesideEveryLawOfTheJoint) {
-  Model slot = thrown("stops = \"hard\"\nstop_stiffness = 1e6");
+  Model slot = thrown_door("stops = \"hard\"\nstop_stiffness = 1e6");
   slot.joints[0].type = "slot";
   EXPECT_EQ(completed(slot).events[0].events[0].what, "touch of the upper stop");
   const Trajectory loose = completed(door("law = \"clearance\"\nclearance = 0.0001\ncontact_stiffness = 1e8\nrestitution = 0.5\nupper_stop = 0.4\nstops = \"hard\"\nstop_stiffness = 600\nstop_restitution = 0.3", 1, 0));
@@ -189,7 +189,7 @@ TEST(Stops, EveryMethodTouchesAndLetsGo) {
     MethodChoice choice{.method = method};
     if (!why_not(choice).empty()) continue;
     const double tolerance = method == "radau" || method == "dopri5" ? 1e-7 : method.starts_with("ode") ? 1e-9 : 1e-8;
-    const Followed run = follow(thrown("stops = \"hard\"\nstop_stiffness = 1e6\nstop_restitution = 0.5", "0.6 s"), tolerance, 0.6, choice);
+    const Followed run = follow(thrown_door("stops = \"hard\"\nstop_stiffness = 1e6\nstop_restitution = 0.5", "0.6 s"), tolerance, 0.6, choice);
     ASSERT_EQ(run.contacts.size(), 2u) << method;
     EXPECT_NEAR(run.contacts[0].t, 0.3, 1e-4) << method;
     EXPECT_NEAR(run.end.v[0][0], -0.25, 1e-3) << method;
@@ -197,7 +197,7 @@ TEST(Stops, EveryMethodTouchesAndLetsGo) {
 }
 
 TEST(Stops, OfJointsThatAreForceLawsActInRelativeCoordinates) {
-  Model model = thrown("stops = \"hard\"\nstop_stiffness = 1e6\nstop_restitution = 0.5", "0.6 s");
+  Model model = thrown_door("stops = \"hard\"\nstop_stiffness = 1e6\nstop_restitution = 0.5", "0.6 s");
   model.simulate.equations = Equations::kRelative;
   for (const std::string method : {"radau", "dopri5"}) {
     const Followed run = follow(model, 1e-7, 0.6, {.method = method});
@@ -210,7 +210,7 @@ TEST(Stops, OfIdealJointsAreLostAndSaidToBe) {
   const auto says = [](const Trajectory& run) {
     return std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("joint slide is ideal: its stops are not in these equations") != std::string::npos; });
   };
-  Model model = thrown("stops = \"hard\"\nstop_stiffness = 1e6");
+  Model model = thrown_door("stops = \"hard\"\nstop_stiffness = 1e6");
   model.simulate.equations = Equations::kIdeal;
   EXPECT_TRUE(says(completed(model)));
   model.simulate.equations = Equations::kRelative;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "pintle/check.h"
 #include "tests/reference_tables.h"
 
@@ -15,8 +16,6 @@ namespace {
 
 using reference::completed;
 using reference::value;
-
-constexpr double kG = 9.80665;
 
 // A disc of 2 kg and 50 mm on the surface of a joint of `keys`; released at `position`.
 Model disc_on(const std::string& keys, const std::string& simulate, const std::string& position, double inertia, const std::string& motion = "velocity = [0, 0]\nspin = 0") {
@@ -83,7 +82,7 @@ void expect_rolling_down_a_cylinder(const std::string& surface) {
       slips_at = angle;
       break;
     }
-    const double centripetal = 4.0 / 3 * kG * (std::cos(kFirst) - std::cos(angle)), normal = kMass * (kG * std::cos(angle) - centripetal), friction = kMass * kG * std::sin(angle) / 3;
+    const double centripetal = 4.0 / 3 * kStandardGravity * (std::cos(kFirst) - std::cos(angle)), normal = kMass * (kStandardGravity * std::cos(angle) - centripetal), friction = kMass * kStandardGravity * std::sin(angle) / 3;
     ++rows;
     EXPECT_NEAR(value(run, i, "joint.J.contact_force"), normal, 2e-3) << angle;
     EXPECT_NEAR(value(run, i, "joint.J.on_disc.m[world]"), -friction * 0.05, 2e-3 * 0.05) << angle;
@@ -110,7 +109,7 @@ TEST(EdgeContact, ADiscRollsToAndFroInAHollow) {
   constexpr double kArm = 0.45, kSwing = 0.017453292519943295;
   const Trajectory run = completed(disc_on(std::string("type = \"edge\"\nheight = \"0.5 m - sqrt(0.25 m^2 - x^2)\"\nfrom = -0.3\nto = 0.3\nroller_radius = 0.05\n") + kRough, "duration = \"3 s\"",
                                            fmt::format("[{:.17g}, {:.17g}]", kArm * std::sin(kSwing), 0.5 - kArm * std::cos(kSwing)), kDisc));
-  const double w = std::sqrt(2 * kG / (3 * kArm)), slower = 1 - kSwing * kSwing / 16;  // period of a pendulum, to second order
+  const double w = std::sqrt(2 * kStandardGravity / (3 * kArm)), slower = 1 - kSwing * kSwing / 16;  // period of a pendulum, to second order
   for (std::size_t i = 0; i < run.n_rows(); i += 100) {
     const double t = value(run, i, "t");
     EXPECT_NEAR(value(run, i, "body.disc.x"), kArm * std::sin(kSwing * std::cos(w * slower * t)), 2e-6) << t;

@@ -6,15 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "base/table_function.h"
+#include "base/constants.h"
+#include "base/tables/table_function.h"
 #include "io/reading/file_columns.h"
 #include "results/disk.h"
 #include "tests/reference_tables.h"
 
 namespace pintle {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 const MotorSummary& motor_of(const Trajectory& run, const std::string& name) {
   return *std::find_if(run.motors.begin(), run.motors.end(), [&](const MotorSummary& motor) { return motor.name == name; });

@@ -14,7 +14,7 @@
 namespace pintle {
 namespace {
 
-Model collected(const std::string& name, double tolerance) {
+Model collected_taut(const std::string& name, double tolerance) {
   Model model = read_model(std::string(PINTLE_SOURCE_DIR) + "/mechanisms/" + name + ".toml");
   model.simulate.tolerance = tolerance;
   return model;
@@ -34,7 +34,7 @@ Trajectory resolved(Model model, double longest) {
 }
 
 // Over each joint's peak, as runs measure their own errors.
-double largest_error(const Trajectory& run, const Trajectory& fine) {
+double largest_force_error(const Trajectory& run, const Trajectory& fine) {
   double largest = 0, worst = 0;
   for (const LoadSummary& joint : fine.joints) largest = std::max(largest, joint.peak);
   for (const LoadSummary& joint : fine.joints) {
@@ -53,23 +53,23 @@ double peak(const Trajectory& run, const std::string& joint) {
   return 0;
 }
 
-struct Case {
+struct TautCase {
   const char* model;
   double duration;
   std::uint64_t loose, steps;  // at most, at 1e-3 and 1e-5: twice what has been measured
   double longest;              // step of the run to compare with
 };
-constexpr Case kCases[] = {{"toggle_under_load", 2, 450, 1300, 1e-3}, {"press_at_dead_centre", 2, 550, 850, 1e-3}, {"shallow_truss", 1, 800, 2000, 2e-4}, {"chain_pulled_taut", 0.5, 20000, 40000, 1e-4}};
+constexpr TautCase kTautCases[] = {{"toggle_under_load", 2, 450, 1300, 1e-3}, {"press_at_dead_centre", 2, 550, 850, 1e-3}, {"shallow_truss", 1, 800, 2000, 2e-4}, {"chain_pulled_taut", 0.5, 20000, 40000, 1e-4}};
 
 TEST(TautMechanismsSlow, ForcesAreThoseOfShortSteps) {
-  for (const Case& c : kCases) {
+  for (const TautCase& c : kTautCases) {
     const Trajectory fine = resolved(taut_model(c.model, c.duration), c.longest);
     ASSERT_EQ(fine.outcome, Outcome::kCompleted) << c.model << ": " << fine.message;
     for (const double tolerance : {1e-3, 1e-5}) {
       const Trajectory run = simulate(taut_model(c.model, c.duration, tolerance));
       ASSERT_EQ(run.outcome, Outcome::kCompleted) << c.model << ": " << run.message;
       EXPECT_LT(run.counters.steps, tolerance > 1e-4 ? c.loose : c.steps) << c.model;
-      EXPECT_LT(largest_error(run, fine), tolerance) << c.model;
+      EXPECT_LT(largest_force_error(run, fine), tolerance) << c.model;
     }
   }
 }
@@ -81,7 +81,7 @@ TEST(TautMechanisms, StepsFollowLoadsThatStiffenWithPlaces) {
     ASSERT_EQ(run.outcome, Outcome::kCompleted) << duration << ": " << run.message;
     EXPECT_LT(run.counters.steps, 2700u) << duration;
     if (duration == 1) {
-      EXPECT_LT(largest_error(run, resolved(taut_model("toggle_under_load", duration), 2e-3)), 1e-5);
+      EXPECT_LT(largest_force_error(run, resolved(taut_model("toggle_under_load", duration), 2e-3)), 1e-5);
     }
   }
 }
@@ -103,7 +103,7 @@ TEST(TautMechanisms, BarsInLineCarryWhatStiffnessesInSeriesDo) {
 TEST(TautMechanisms, ATrussIsPressedThroughAlongItsEquilibria) {
   const double k = 1e7, c = 2000, span = 0.5, rise = 0.02, L0 = std::hypot(span, rise), mass = 5 + 2.0 / 3, w = std::numbers::pi / 2;
   for (const double tolerance : {1e-3, 1e-5}) {
-    const Trajectory run = simulate(collected("snap_through_truss", tolerance));
+    const Trajectory run = simulate(collected_taut("snap_through_truss", tolerance));
     ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
     EXPECT_LT(run.counters.steps, 320u);
     double limit_load = 0;
@@ -121,7 +121,7 @@ TEST(TautMechanisms, ATrussIsPressedThroughAlongItsEquilibria) {
 // Pulled taut, the bars carry T/d with d the distance of their line from the motor's pin, and swing about that.
 TEST(TautMechanisms, ALockedFourBarCarriesItsMotorsTorque) {
   for (const double tolerance : {1e-3, 1e-5}) {
-    const Trajectory run = simulate(collected("locked_four_bar", tolerance));
+    const Trajectory run = simulate(collected_taut("locked_four_bar", tolerance));
     ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
     EXPECT_LT(run.counters.steps, tolerance > 1e-4 ? 1700u : 3600u);
     double mean = 0;
@@ -141,7 +141,7 @@ bool noted(const Trajectory& run, const std::string& text) {
 
 // A crank of 200 mm on 300 mm of ground, with 440 mm between their ends at the limit: 122.005 deg.
 TEST(TautMechanisms, TheRunSaysThatTheMechanismHasComeToItsLimit) {
-  const Model locked = collected("locked_four_bar", 1e-4);
+  const Model locked = collected_taut("locked_four_bar", 1e-4);
   for (const Equations equations : {Equations::kNewtonian, Equations::kRelative}) {
     Model model = locked;
     model.simulate.equations = equations;
@@ -168,7 +168,7 @@ TEST(TautMechanisms, TheRunSaysThatTheMechanismHasComeToItsLimit) {
 
 // Ideal joints cannot give way: the run ends there, and says why.
 TEST(TautMechanisms, IdealJointsStopAtTheLimit) {
-  Model model = collected("locked_four_bar", 1e-5);
+  Model model = collected_taut("locked_four_bar", 1e-5);
   model.simulate.equations = Equations::kIdeal;
   const Trajectory run = simulate(model);
   EXPECT_NE(run.outcome, Outcome::kCompleted);
@@ -177,7 +177,7 @@ TEST(TautMechanisms, IdealJointsStopAtTheLimit) {
 
 // A start that no preload can be found for, half a hundredth of a degree before the limit, and a switch of the command's formula where the run ends.
 TEST(TautMechanisms, StartsAndEndsAtSpecialPlacesAreNoFailures) {
-  Model model = collected("locked_four_bar", 1e-4);
+  Model model = collected_taut("locked_four_bar", 1e-4);
   const double crank = 122.0 * std::numbers::pi / 180, ax = 0.2 * std::cos(crank), ay = 0.2 * std::sin(crank), line = std::atan2(-ay, 0.3 - ax);
   sample::put_at(model.bodies[0], 0.5 * ax, 0.5 * ay, crank);
   sample::put_at(model.bodies[1], 0.75 * ax + 0.25 * 0.3, 0.75 * ay, line + 0.01);
@@ -186,7 +186,7 @@ TEST(TautMechanisms, StartsAndEndsAtSpecialPlacesAreNoFailures) {
   const Trajectory run = simulate(model);
   EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
   EXPECT_TRUE(noted(run, "came to its limit"));
-  Model truss = collected("snap_through_truss", 1e-5);
+  Model truss = collected_taut("snap_through_truss", 1e-5);
   truss.motors[0].law = sample::expression("0.02 - 0.04*smoothstep(0, 4, t)");
   const Trajectory pressed = simulate(truss);
   EXPECT_EQ(pressed.outcome, Outcome::kCompleted) << pressed.message;
@@ -203,7 +203,7 @@ TEST(TautMechanismsSlow, AFourBarIsPulledTautAndLetGo) {
     EXPECT_LT(run.counters.steps, 40000u) << duration;
     EXPECT_NEAR(peak(run, "B"), duration > 0.4 ? 1.500000e6 : 1.494053e6, 10) << duration;
     if (duration == 0.6) {
-      EXPECT_LT(largest_error(run, resolved(model, 2e-5)), 1e-5);
+      EXPECT_LT(largest_force_error(run, resolved(model, 2e-5)), 1e-5);
     }
   }
 }
@@ -228,7 +228,7 @@ TEST(TautMechanismsSlow, RelativeCoordinatesHoldTautBodiesAlike) {
     EXPECT_LT(run.counters.steps, 20000u) << duration;
     EXPECT_NEAR(peak(run, "B"), 1.99995e6, 100) << duration;
     if (duration == 0.6) {
-      EXPECT_LT(largest_error(run, resolved(model, 1e-4)), 1e-5);
+      EXPECT_LT(largest_force_error(run, resolved(model, 1e-4)), 1e-5);
     }
   }
 }

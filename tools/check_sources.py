@@ -17,7 +17,7 @@ import sys
 ROOMS = "base simd space model laws joints linalg system kinematics integrators mobility dynamics start bearings run batch check studies live results io report sweeps".split()
 # The folders of a room, in order of dependence; what stands in the room itself is everybody's.
 FOLDERS_OF = {
-    "base": "text expression".split(),
+    "base": "text tables expression".split(),
     "integrators": "radau absolute dense relative general ideal".split(),
     "io": "schema reading toml".split(),
     "laws": "friction contact bearings flexures".split(),

@@ -1,13 +1,11 @@
+#include "base/constants.h"
 #include "bench/battery/linkages.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace pintle::bench {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // To the millimetre, so that files are easy to read.
 Point rounded(Point p) { return {1e-3 * std::round(1e3 * p.x), 1e-3 * std::round(1e3 * p.y)}; }

@@ -1,14 +1,12 @@
 // Linkages where the force in the joints rules: redundant, pre-stressed, at their limit, through dead centres, toggles.
 #include <cmath>
-#include <numbers>
 
+#include "base/constants.h"
 #include "bench/battery/kinds.h"
 #include "bench/battery/linkages.h"
 
 namespace pintle::bench {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Equal cranks that carry one coupler: more of them than it needs.
 MechanismText parallel_cranks(Dice& dice, int cranks, double misfit) {

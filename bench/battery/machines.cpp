@@ -1,14 +1,12 @@
 // Belts, cylinders, detents, and what reads the motion: controllers and walls.
 #include <cmath>
-#include <numbers>
 
+#include "base/constants.h"
 #include "bench/battery/kinds.h"
 #include "bench/battery/linkages.h"
 
 namespace pintle::bench {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 void add_pulley(MechanismText& m, Dice& dice, const std::string& name, const std::string& pin, Point centre, double radius) {
   const double mass = dice.log_uniform(0.5, 10);

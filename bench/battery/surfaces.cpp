@@ -1,15 +1,13 @@
 // Curved surfaces and teeth that rub: followers on cams, wheels and skids on edges, gears.
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "base/constants.h"
 #include "bench/battery/kinds.h"
 #include "bench/battery/linkages.h"
 
 namespace pintle::bench {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 void choose_surfaces(Dice& dice, Keys& keys) {
   keys["law"] = in_quotes("contact");

@@ -1,14 +1,12 @@
 // Gears, ropes, rods and cams.
 #include <cmath>
-#include <numbers>
 
+#include "base/constants.h"
 #include "bench/battery/kinds.h"
 #include "bench/battery/linkages.h"
 
 namespace pintle::bench {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 void add_wheel(MechanismText& m, Dice& dice, const std::string& name, Point centre, double radius) {
   const double mass = dice.log_uniform(0.2, 3);

@@ -4,12 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "pintle/model.h"
 #include "pintle/trajectory.h"
 
 namespace pintle::paper {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 /// A model of mechanisms/.
 Model mechanism(const std::string& name, const std::vector<std::string>& overrides = {});

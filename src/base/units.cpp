@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numbers>
 
+#include "base/constants.h"
 #include "base/unit_scanner.h"
 
 namespace pintle {
@@ -15,7 +15,6 @@ struct UnitEntry {
   Unit unit;
 };
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr Dimension kPerTime{{0, 0, -1, 0}, false};
 constexpr Dimension kPower{{2, 1, -3, 0}, false};
 constexpr Dimension kPressure{{-1, 1, -2, 0}, false};

@@ -1,15 +1,13 @@
+#include "base/constants.h"
 #include "base/units.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <set>
 
 namespace pintle {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 struct KnownUnit {
   const char* text;

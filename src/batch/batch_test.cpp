@@ -17,12 +17,12 @@
 namespace pintle {
 namespace {
 
-constexpr double kTolerance = 1e-4;
+constexpr double kBatchTolerance = 1e-4;
 
-Model four_bar(double stiffness = 1e8, double mass = 1) {
+Model batch_model(double stiffness = 1e8, double mass = 1) {
   Model model = sample::four_bar(stiffness, 3000);
   model.simulate.duration = 0.63;
-  model.simulate.tolerance = kTolerance;
+  model.simulate.tolerance = kBatchTolerance;
   model.bodies[1].mass *= mass;
   return model;
 }
@@ -31,7 +31,7 @@ Model four_bar(double stiffness = 1e8, double mass = 1) {
 Model loaded_pendulum(double pull = 5) {
   Model model = sample::pendulum(2e8, 3500);
   model.simulate.duration = 2;
-  model.simulate.tolerance = kTolerance;
+  model.simulate.tolerance = kBatchTolerance;
   model.springs = {sample::spring("coil", true, {"ground", "O"}, {"rod", "O"}, 3, 0.1)};
   AppliedForce force;
   force.name = "pull";
@@ -44,7 +44,7 @@ Model loaded_pendulum(double pull = 5) {
 
 // The crank is light, and follows a motor.
 Model driven_four_bar(double speed = 10) {
-  Model model = four_bar();
+  Model model = batch_model();
   model.bodies[0].inertia = 0.1;
   Motor motor = sample::motor("drive", model.joints[0].name, MotorKind::kPosition, sample::expression(std::to_string(speed) + "*t + 0.05*sin(2*t)"));
   motor.stiffness = 1e8;
@@ -67,13 +67,13 @@ void expect_near(const BatchResult& result, const BatchPlan& plan, Model model) 
   for (std::size_t j = 0; j < result.joints.size(); ++j) {
     if (plan.base.joints[j].servo >= 0) continue;
     const LoadSummary& joint = truth.joints[row++];
-    EXPECT_NEAR(result.joints[j].force, joint.peak, kTolerance * joint.peak) << joint.name;
+    EXPECT_NEAR(result.joints[j].force, joint.peak, kBatchTolerance * joint.peak) << joint.name;
     EXPECT_NEAR(result.joints[j].time, joint.peak_time, 0.005 * model.simulate.duration) << joint.name;
   }
 }
 
 TEST(Batch, PeaksAreThoseOfRuns) {
-  const std::vector<std::vector<Model>> kinds{{four_bar(), four_bar(5e7), four_bar(1e9), four_bar(1e8, 1.3)},
+  const std::vector<std::vector<Model>> kinds{{batch_model(), batch_model(5e7), batch_model(1e9), batch_model(1e8, 1.3)},
                                               {loaded_pendulum(), loaded_pendulum(5.5), loaded_pendulum(4)},
                                               {driven_four_bar(), driven_four_bar(10.5)}};
   for (const std::vector<Model>& variants : kinds) {
@@ -87,13 +87,13 @@ TEST(Batch, PeaksAreThoseOfRuns) {
 }
 
 TEST(Batch, DependsOnNoNeighbour) {
-  const auto plan = plan_for(four_bar());
+  const auto plan = plan_for(batch_model());
   ASSERT_TRUE(plan.has_value());
   Batch batch(*plan);
-  const Model variant = four_bar(8e7, 1.1);
+  const Model variant = batch_model(8e7, 1.1);
   ASSERT_TRUE(batch.put(5, variant));
   const BatchResult alone = batch.run()[5];
-  for (int lane = 0; lane < kVariantLanes; ++lane) ASSERT_TRUE(batch.put(lane, lane == 2 ? variant : four_bar((5 + lane) * 1e7, 1 + 0.2 * lane)));
+  for (int lane = 0; lane < kVariantLanes; ++lane) ASSERT_TRUE(batch.put(lane, lane == 2 ? variant : batch_model((5 + lane) * 1e7, 1 + 0.2 * lane)));
   const BatchResult among = batch.run()[2];
   ASSERT_TRUE(alone.good && among.good);
   for (std::size_t j = 0; j < alone.joints.size(); ++j) {
@@ -124,24 +124,24 @@ TEST(Batch, WidthsOfRegistersGiveTheSameBits) {
 #endif
 
 TEST(Batch, WhatIsNotForOneIsRefused) {
-  Model motion = four_bar(), raw = four_bar(), jump = loaded_pendulum();
+  Model motion = batch_model(), raw = batch_model(), jump = loaded_pendulum();
   motion.simulate.tolerance_of = ToleranceOf::kMotion;
   raw.simulate.start = Start::kRaw;
   jump.forces[0].torque = sample::expression("sign(t - 1)");
   EXPECT_FALSE(plan_for(motion).has_value());
   EXPECT_FALSE(plan_for(raw).has_value());
   EXPECT_FALSE(plan_for(jump).has_value());
-  EXPECT_FALSE(plan_for(four_bar(1e5)).has_value()) << "its joints are soft";
+  EXPECT_FALSE(plan_for(batch_model(1e5)).has_value()) << "its joints are soft";
 
-  const auto plan = plan_for(four_bar());
+  const auto plan = plan_for(batch_model());
   ASSERT_TRUE(plan.has_value());
   Batch batch(*plan);
-  Model fewer_rows = four_bar(), finer = four_bar();
+  Model fewer_rows = batch_model(), finer = batch_model();
   fewer_rows.simulate.output_step = fewer_rows.simulate.duration / 100;
   finer.simulate.tolerance = 1e-6;
   EXPECT_TRUE(batch.accepts(fewer_rows)) << "peaks do not depend on the rows";
   EXPECT_FALSE(batch.accepts(finer));
-  EXPECT_FALSE(batch.put(0, four_bar(1e6))) << "its joints are soft";
+  EXPECT_FALSE(batch.put(0, batch_model(1e6))) << "its joints are soft";
 }
 
 // Much faster than the base: its steps are too long for it. The envelope comes from a run of its own.
@@ -162,7 +162,7 @@ TEST(Batch, AVariantThatNeedsShorterStepsSaysSo) {
   Model fine = fast;
   fine.simulate.tolerance = 1e-7;
   const Trajectory truth = simulate(fine);
-  for (std::size_t j = 0; j < truth.joints.size(); ++j) EXPECT_NEAR(results[0].joints[j].force, truth.joints[j].peak, kTolerance * truth.joints[j].peak);
+  for (std::size_t j = 0; j < truth.joints.size(); ++j) EXPECT_NEAR(results[0].joints[j].force, truth.joints[j].peak, kBatchTolerance * truth.joints[j].peak);
 }
 
 }  // namespace

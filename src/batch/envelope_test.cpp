@@ -11,7 +11,7 @@
 namespace pintle {
 namespace {
 
-Model four_bar(double stiffness, double tolerance) {
+Model envelope_model(double stiffness, double tolerance) {
   Model model = sample::four_bar(stiffness, 3000);
   model.simulate.duration = 0.63;
   model.simulate.tolerance = tolerance;
@@ -21,7 +21,7 @@ Model four_bar(double stiffness, double tolerance) {
 bool always() { return true; }
 
 TEST(Envelope, OfACheckedVariantIsTheRunBitForBit) {
-  const Model model = four_bar(1e8, 1e-4);
+  const Model model = envelope_model(1e8, 1e-4);
   const Trajectory run = simulate(model);
   const EnvelopeEngine engine(model, {{"joint.B.on_follower.fx[world]", "body.crank.angle"}, false});
   for (const bool series : {false, true}) {
@@ -47,11 +47,11 @@ TEST(Envelope, OfACheckedVariantIsTheRunBitForBit) {
 // One integration is as accurate as asked, it only does not prove it.
 TEST(Envelope, OfAnUncheckedVariantIsWithinTheTolerance) {
   for (const double stiffness : {1e6, 1e8, 1e10}) {
-    const Trajectory truth = simulate(four_bar(stiffness, 1e-8));
+    const Trajectory truth = simulate(envelope_model(stiffness, 1e-8));
     for (const double tolerance : {1e-3, 1e-4, 1e-6}) {
-      const Model model = four_bar(stiffness, tolerance);
+      const Model model = envelope_model(stiffness, tolerance);
       const std::vector<Variant> variants{{model, false}};
-      const auto results = EnvelopeEngine(four_bar(1e8, tolerance), {{}, true}).run(variants, always);
+      const auto results = EnvelopeEngine(envelope_model(1e8, tolerance), {{}, true}).run(variants, always);
       EXPECT_EQ(results[0].passes, 1u);
       for (std::size_t j = 0; j < truth.joints.size(); ++j) {
         EXPECT_NEAR(results[0].joints[j].force, truth.joints[j].peak, tolerance * truth.joints[j].peak) << stiffness << ' ' << tolerance;
@@ -62,9 +62,9 @@ TEST(Envelope, OfAnUncheckedVariantIsWithinTheTolerance) {
 }
 
 TEST(Envelope, DependsOnNoNeighbour) {
-  const Model base = four_bar(1e8, 1e-4);
+  const Model base = envelope_model(1e8, 1e-4);
   std::vector<Variant> variants;
-  for (const double stiffness : {1e6, 3e7, 1e8, 1e9}) variants.push_back({four_bar(stiffness, 1e-4), true});
+  for (const double stiffness : {1e6, 3e7, 1e8, 1e9}) variants.push_back({envelope_model(stiffness, 1e-4), true});
   const EnvelopeEngine engine(base, {});
   const auto together = engine.run(variants, always);
   for (std::size_t i = 0; i < variants.size(); ++i) {
@@ -74,7 +74,7 @@ TEST(Envelope, DependsOnNoNeighbour) {
 }
 
 TEST(Envelope, AVariantThatCannotBeAssembledIsAResult) {
-  const Model base = four_bar(1e8, 1e-4);
+  const Model base = envelope_model(1e8, 1e-4);
   Model open = base;
   open.ground[1].position = {20, 0};
   const std::vector<Variant> variants{{open, true}, {base, true}};
@@ -86,7 +86,7 @@ TEST(Envelope, AVariantThatCannotBeAssembledIsAResult) {
 }
 
 TEST(Envelope, StopsWhenTold) {
-  const Model base = four_bar(1e8, 1e-4);
+  const Model base = envelope_model(1e8, 1e-4);
   const std::vector<Variant> variants{{base, true}};
   EXPECT_TRUE(EnvelopeEngine(base, {}).run(variants, [] { return false; }).empty());
 }
@@ -104,7 +104,7 @@ TEST(Envelope, CountsTheRowsOfARun) {
 
 TEST(Envelope, AMisspeltColumnIsNamed) {
   try {
-    EnvelopeEngine(four_bar(1e8, 1e-4), {{"body.crank.angel"}, false});
+    EnvelopeEngine(envelope_model(1e8, 1e-4), {{"body.crank.angel"}, false});
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("body.crank.angle"), std::string::npos) << error.what();

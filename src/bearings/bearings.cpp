@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <unordered_map>
 
+#include "base/constants.h"
 #include "bearings/duty.h"
 #include "bearings/worn_sector.h"
 
 namespace pintle {
 namespace {
 
-constexpr double kNone = BearingSummary::kNone, kTurn = 2 * std::numbers::pi;
+constexpr double kNone = BearingSummary::kNone;
 constexpr double kMillion = 1e6, kHour = 3600;  // [s]
 constexpr double kTurnedBack = 1.001;           // path over swing: a pin that only goes on has 1
 constexpr double kMostShareOfRating = 0.5;      // ISO 281: of C, for its formula to hold

@@ -6,14 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "base/constants.h"
 #include "bearings/duty.h"
 
 namespace pintle {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// A run of one pin, row by row: t, fx, fy, angle, rate.
 struct PinRun {
@@ -47,7 +45,7 @@ Bearing ball(double dynamic, double stationary = 5000) { return {.type = "ball",
 Bearing plain(double diameter, double length) { return {.type = "", .pin_diameter = diameter, .pin_length = length}; }
 
 /// Steady turning under a steady load.
-PinRun steady(const Bearing& bearing, double force, double rate, double time = 1, int rows = 11) {
+PinRun steady_run(const Bearing& bearing, double force, double rate, double time = 1, int rows = 11) {
   PinRun pin(bearing);
   for (int i = 0; i < rows; ++i) {
     const double t = time * i / (rows - 1);
@@ -58,7 +56,7 @@ PinRun steady(const Bearing& bearing, double force, double rate, double time = 1
 }
 
 TEST(Bearings, SteadyLoadAndSpeed) {
-  const BearingSummary one = steady(ball(10000), 1000, 100).summary();
+  const BearingSummary one = steady_run(ball(10000), 1000, 100).summary();
   EXPECT_NEAR(one.path, 100, 1e-10);
   EXPECT_NEAR(one.mean_speed, 100, 1e-10);
   EXPECT_NEAR(one.equivalent_load, 1000, 1e-9);
@@ -71,7 +69,7 @@ TEST(Bearings, SteadyLoadAndSpeed) {
 
 // ISO 281 with the figures of a catalogue: a 6204 with C = 13.5 kN under 2 kN at 1000 turns a minute; 6.75^3 = 307.546875 million turns.
 TEST(Bearings, LifeByHand) {
-  const BearingSummary one = steady(ball(13500), 2000, 1000 * 2 * kPi / 60).summary();
+  const BearingSummary one = steady_run(ball(13500), 2000, 1000 * 2 * kPi / 60).summary();
   EXPECT_NEAR(one.life, 307.546875, 1e-8);
   EXPECT_NEAR(one.life_hours, 5125.78125, 1e-6);
 }
@@ -79,7 +77,7 @@ TEST(Bearings, LifeByHand) {
 TEST(Bearings, RollersHaveTenThirds) {
   Bearing bearing = ball(10000);
   bearing.type = "roller";
-  EXPECT_NEAR(steady(bearing, 1000, 10).summary().life, 2154.4346900, 1e-6);  // 10^(10/3)
+  EXPECT_NEAR(steady_run(bearing, 1000, 10).summary().life, 2154.4346900, 1e-6);  // 10^(10/3)
 }
 
 // 1 kN at 50 rad/s, then 2 kN at 100 rad/s, as long: the path weighs, not the time.
@@ -152,7 +150,7 @@ TEST(Bearings, ForceErrorPassesToTheLoad) {
 }
 
 TEST(Bearings, PlainBearingByHand) {
-  const BearingSummary one = steady(plain(0.020, 0.025), 1000, 30).summary();
+  const BearingSummary one = steady_run(plain(0.020, 0.025), 1000, 30).summary();
   EXPECT_NEAR(one.mean_pressure, 2e6, 1e-6);  // 1000 N on 500 mm^2
   EXPECT_NEAR(one.peak_pressure, 2e6, 1e-6);
   EXPECT_NEAR(one.mean_sliding, 0.3, 1e-12);
@@ -170,7 +168,7 @@ TEST(Bearings, MeanPvIsOfTheProduct) {
 }
 
 TEST(Bearings, SaysWhatItWants) {
-  const auto wants = [](Bearing bearing) { return steady(bearing, 1000, 10).summary().wants; };
+  const auto wants = [](Bearing bearing) { return steady_run(bearing, 1000, 10).summary().wants; };
   EXPECT_EQ(wants({}).size(), 1U);
   EXPECT_EQ(wants({.type = "ball"}), (std::vector<std::string>{"state dynamic_load_rating (C) for a life", "state static_load_rating (C0) for a static safety"}));
   EXPECT_EQ(wants({.type = "", .dynamic_load_rating = 1e4, .static_load_rating = 1e4}), std::vector<std::string>{"state type (ball or roller) for an equivalent load and a life"});
@@ -182,14 +180,14 @@ TEST(Bearings, RemarksWhereTheFormulasEnd) {
   const auto remark = [](const BearingSummary& one, const char* part) {
     return std::any_of(one.remarks.begin(), one.remarks.end(), [part](const std::string& text) { return text.find(part) != std::string::npos; });
   };
-  EXPECT_TRUE(remark(steady(ball(1900), 1000, 10).summary(), "ISO 281"));
-  EXPECT_FALSE(remark(steady(ball(2100), 1000, 10).summary(), "ISO 281"));
-  EXPECT_TRUE(remark(steady(ball(1e4, 900), 1000, 10).summary(), "dents"));
-  const BearingSummary still = steady(ball(1e4), 1000, 0).summary();
+  EXPECT_TRUE(remark(steady_run(ball(1900), 1000, 10).summary(), "ISO 281"));
+  EXPECT_FALSE(remark(steady_run(ball(2100), 1000, 10).summary(), "ISO 281"));
+  EXPECT_TRUE(remark(steady_run(ball(1e4, 900), 1000, 10).summary(), "dents"));
+  const BearingSummary still = steady_run(ball(1e4), 1000, 0).summary();
   EXPECT_TRUE(remark(still, "does not turn"));
   EXPECT_TRUE(std::isnan(still.life));
   EXPECT_NEAR(still.static_safety, 5, 1e-12);
-  PinRun unrecorded = steady(ball(1e4), 1000, 10);
+  PinRun unrecorded = steady_run(ball(1e4), 1000, 10);
   unrecorded.run.columns[3].name = "joint.C.angle";
   EXPECT_TRUE(remark(unrecorded.summary(), "simulate.record"));
   EXPECT_NEAR(unrecorded.summary().static_safety, 5, 1e-12);
@@ -198,11 +196,11 @@ TEST(Bearings, RemarksWhereTheFormulasEnd) {
 TEST(Bearings, FatigueLimitBesideTheLoad) {
   Bearing bearing = ball(1e4);
   bearing.fatigue_load_limit = 250;
-  EXPECT_NEAR(steady(bearing, 1000, 10).summary().fatigue_ratio, 0.25, 1e-12);
+  EXPECT_NEAR(steady_run(bearing, 1000, 10).summary().fatigue_ratio, 0.25, 1e-12);
 }
 
 TEST(Bearings, OnlyStatedOnesUnlessAllAreAskedFor) {
-  PinRun pin = steady(ball(1e4), 1000, 10);
+  PinRun pin = steady_run(ball(1e4), 1000, 10);
   pin.model.joints.front().bearing.reset();
   EXPECT_TRUE(bearing_summaries(pin.model, pin.run).empty());
   ASSERT_EQ(bearing_summaries(pin.model, pin.run, BearingsOf::kEveryPin).size(), 1U);

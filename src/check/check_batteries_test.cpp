@@ -65,13 +65,13 @@ TEST_P(EveryType, PassesBothBatteries) {
   Model model;
   const std::string type = GetParam();
   model.ground = {{"O", {0.1, -0.2}, 0.3}, {"P", {-1, 0.4}, 0}};
-  model.bodies = {sample::bar("bar", 2, 0.3, {0.5, 0.4}, 0.7, {{"O", {-0.4, 0.1}, 0.2}, {"P", {0.3, 0.2}, -0.5}}),
-                  sample::bar("other", 3, 0.1, {1.1, 0.1}, -0.4, {{"O", {0.1, 0.2}, 1.1}, {"P", {-0.2, 0.1}, 0}})};
-  Joint tested = sample::joint("tested", type, {"bar", "P"}, {"other", "O"});
+  model.bodies = {checked::bar("bar", 2, 0.3, {0.5, 0.4}, 0.7, {{"O", {-0.4, 0.1}, 0.2}, {"P", {0.3, 0.2}, -0.5}}),
+                  checked::bar("other", 3, 0.1, {1.1, 0.1}, -0.4, {{"O", {0.1, 0.2}, 1.1}, {"P", {-0.2, 0.1}, 0}})};
+  Joint tested = checked::joint("tested", type, {"bar", "P"}, {"other", "O"});
   if (type == "gear") tested.geometry = {{"radius_first", 0.2}, {"radius_second", 0.5}, {"internal", 1}};
   if (type == "belt") tested.geometry = {{"first_radius", 0.1}, {"second_radius", 0.15}, {"stretch", 1e-3}};
   if (type == "rack") tested.geometry = {{"radius", 0.2}};
-  model.joints = {sample::joint("pin", "revolute", {"ground", "O"}, {"bar", "O"}), tested};
+  model.joints = {checked::joint("pin", "revolute", {"ground", "O"}, {"bar", "O"}), tested};
   Spring spring;
   spring.name = "spring";
   spring.first = {"ground", "P"};
@@ -103,14 +103,14 @@ TEST(CheckBatteries, RopeAtItsKink) {
   Model model;
   model.gravity = {0, 0};
   model.ground = {{"O", {0, 0}, 0}};
-  model.bodies = {sample::bar("load", 2, 0.3, {1, 0}, 0, {{"top", {0, 0}, 0}})};
-  Joint rope = sample::joint("rope", "rope", {"ground", "O"}, {"load", "top"}, 1e6, 200);
+  model.bodies = {checked::bar("load", 2, 0.3, {1, 0}, 0, {{"top", {0, 0}, 0}})};
+  Joint rope = checked::joint("rope", "rope", {"ground", "O"}, {"load", "top"}, 1e6, 200);
   rope.geometry = {{"length", 1}};
   model.joints = {rope};
   EXPECT_EQ(failures(check_model(model)), "");
   // The kink is as much of one when the joint beside it is ten thousand times as stiff.
-  model.bodies.push_back(sample::bar("arm", 20, 3, {0, 0}, 0, {{"O", {0, 0}, 0}}));
-  model.joints.push_back(sample::joint("pin", "revolute", {"ground", "O"}, {"arm", "O"}, 1e10, 1e5));
+  model.bodies.push_back(checked::bar("arm", 20, 3, {0, 0}, 0, {{"O", {0, 0}, 0}}));
+  model.joints.push_back(checked::joint("pin", "revolute", {"ground", "O"}, {"arm", "O"}, 1e10, 1e5));
   EXPECT_EQ(failures(check_model(model)), "");
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 // Along the bar the pin moves the mass alone, 1/m = 1/kg; across it also turns it, 1/m + r^2/I = 1 + 3 = 4 /kg.
 TEST(CheckFrequencies, BarOnAPin) {
-  const CheckFrequencies f = check_model(sample::pendulum()).frequencies;
+  const CheckFrequencies f = check_model(checked::pendulum()).frequencies;
   const double k = 2e8, c = 3500, slow = std::sqrt(k), fast = std::sqrt(4 * k);
   ASSERT_EQ(f.components.size(), 2u);
   EXPECT_NEAR(f.components[0].effective_mass, 0.25, 1e-6);
@@ -38,7 +38,7 @@ TEST(CheckFrequencies, DormandPrinceStep) {
 }
 
 TEST(CheckFrequencies, AsManyModesAsConstraints) {
-  const CheckFrequencies f = check_model(sample::four_bar(1, 4, 4, 6, 60 * sample::kDegree)).frequencies;
+  const CheckFrequencies f = check_model(checked::four_bar(1, 4, 4, 6, 60 * kDegree)).frequencies;
   EXPECT_EQ(f.modes.size(), 8u);
   EXPECT_GT(f.modes.front().frequency, 10);
   EXPECT_LE(f.modes.front().frequency, f.modes.back().frequency);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
 #include "joints/belt.h"
 #include "mobility/constraint_rows.h"
 #include "system/load_displacement.h"
@@ -27,7 +28,7 @@ std::string_view kind_of(const LoadData& load) {
 }
 
 CheckState disturbed(const CheckState& from, const System& system, double duration, int number) {
-  constexpr double kShift = 0.02, kTurn = 0.05;  // of the length; [rad]
+  constexpr double kShift = 0.02;  // of the length; [rad]
   CheckState state = from;
   Noise noise(77u + static_cast<unsigned>(number));
   state.number = number;

@@ -21,7 +21,7 @@ std::vector<std::string> members(const CheckRedundancy& group) {
 }
 
 TEST(CheckMobility, FourBarHasOneFreedomAndOneLoop) {
-  const CheckReport report = check_model(sample::four_bar(1, 4, 4, 6, 60 * sample::kDegree));
+  const CheckReport report = check_model(checked::four_bar(1, 4, 4, 6, 60 * kDegree));
   EXPECT_EQ(report.mobility.freedoms, 9);
   EXPECT_EQ(report.mobility.constraints, 8);
   EXPECT_EQ(report.mobility.gruebler, 1);
@@ -41,7 +41,7 @@ TEST(CheckMobility, FourBarHasOneFreedomAndOneLoop) {
 // themselves. A crank's own x axis carries all of it at A, the ground's x and y axes share it at O.
 TEST(CheckMobility, ParallelogramMovesAgainstGrueblersCount) {
   for (const double error : {0.0, 1e-5}) {
-    const CheckReport report = check_model(sample::five_bar_parallelogram(error));
+    const CheckReport report = check_model(checked::five_bar_parallelogram(error));
     EXPECT_EQ(report.mobility.gruebler, 0) << error;
     EXPECT_EQ(report.mobility.mobility, 1) << error;
     EXPECT_EQ(report.mobility.redundant, 1) << error;
@@ -62,7 +62,7 @@ TEST(CheckMobility, ParallelogramMovesAgainstGrueblersCount) {
 
 // All bars in one line: for an instant the links may move in two ways; an inch further they cannot.
 TEST(CheckMobility, ChangePointIsASingularPosition) {
-  const CheckReport report = check_model(sample::four_bar(1, 3, 1, 3, 0));
+  const CheckReport report = check_model(checked::four_bar(1, 3, 1, 3, 0));
   EXPECT_EQ(report.mobility.rank, 7);
   EXPECT_EQ(report.mobility.rank_nearby, 8);
   EXPECT_TRUE(report.mobility.singular_position());
@@ -72,8 +72,8 @@ TEST(CheckMobility, ChangePointIsASingularPosition) {
 }
 
 TEST(CheckMobility, BodiesWithoutGroundAreNamed) {
-  Model model = sample::pendulum();
-  model.bodies.push_back(sample::bar("loose", 1, 1, {3, 0}, 0, {{"a", {0, 0}, 0}}));
+  Model model = checked::pendulum();
+  model.bodies.push_back(checked::bar("loose", 1, 1, {3, 0}, 0, {{"a", {0, 0}, 0}}));
   const CheckReport report = check_model(model);
   EXPECT_EQ(report.topology.floating, (std::vector<std::vector<std::string>>{{"loose"}}));
   EXPECT_EQ(report.topology.n_loops, 0);
@@ -83,10 +83,10 @@ TEST(CheckMobility, BodiesWithoutGroundAreNamed) {
 // Two joints between the same two bodies are a loop of two; two pins there are two constraints too many by... none:
 // 4 constraints, 3 freedoms, rank 3.
 TEST(CheckMobility, TwoPinsOnOneBodyAreOneTooMany) {
-  Model model = sample::pendulum();
+  Model model = checked::pendulum();
   model.ground.push_back({"tip", {0, 1}, 0});
   model.bodies[0].markers.push_back({"tip", {0.5, 0}, 0});
-  model.joints.push_back(sample::joint("tip", "revolute", {"ground", "tip"}, {"rod", "tip"}));
+  model.joints.push_back(checked::joint("tip", "revolute", {"ground", "tip"}, {"rod", "tip"}));
   const CheckReport report = check_model(model);
   EXPECT_EQ(report.mobility.gruebler, -1);
   EXPECT_EQ(report.mobility.mobility, 0);
@@ -98,7 +98,7 @@ TEST(CheckMobility, TwoPinsOnOneBodyAreOneTooMany) {
 }
 
 TEST(CheckGears, RatiosOfPairsAndOfTheTrain) {
-  const CheckReport report = check_model(sample::gear_train());
+  const CheckReport report = check_model(checked::gear_train());
   EXPECT_EQ(report.mobility.mobility, 1);
   EXPECT_EQ(report.mobility.redundant, 0);
   EXPECT_EQ(report.topology.n_loops, 2);
@@ -115,7 +115,7 @@ TEST(CheckGears, RatiosOfPairsAndOfTheTrain) {
 
 // A ladder of parallelograms, large enough for the sparse way: each loop is one constraint short of Gruebler's count.
 TEST(CheckMobility, LargeMechanismsAgreeWithSmallOnes) {
-  Model model = sample::five_bar_parallelogram(0);
+  Model model = checked::five_bar_parallelogram(0);
   const Model one = model;
   for (int copy = 1; copy < 40; ++copy)
     for (const Body& body : one.bodies) {

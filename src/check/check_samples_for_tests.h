@@ -2,15 +2,13 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "pintle/model.h"
 
-namespace pintle::sample {
-
-constexpr double kDegree = std::numbers::pi / 180;
+namespace pintle::checked {
 
 inline Body bar(const std::string& name, double mass, double inertia, Vec2 centre, double angle,
                 std::vector<Marker> markers) {
@@ -111,4 +109,4 @@ inline Model gear_train() {
   return model;
 }
 
-}  // namespace pintle::sample
+}  // namespace pintle::checked

@@ -77,7 +77,7 @@ TEST(Allocations, TheHookCounts) {
 }
 
 // A pendulum with every kind of load, and the four-bar with a drive.
-std::vector<Model> models() {
+std::vector<Model> stepped_models() {
   Model loaded = sample::pendulum(1e8, 3000);
   loaded.ground.push_back({"H", {1, 2}, 0});
   loaded.motors = {sample::motor("M", "pin", MotorKind::kEffort,
@@ -98,7 +98,7 @@ std::vector<Model> models() {
 }
 
 TEST(Allocations, NoneBetweenAcceptedImplicitSteps) {
-  for (const Model& model : models())
+  for (const Model& model : stepped_models())
     for (const int stages : {3, 5}) {
       const System system = build_system(model);
       RadauStepper stepper(system, 1e-6, stages);
@@ -136,7 +136,7 @@ TEST(Allocations, NoneAcrossEvents) {
 }
 
 TEST(Allocations, NoneBetweenAcceptedExplicitSteps) {
-  for (const Model& model : models()) {
+  for (const Model& model : stepped_models()) {
     const System system = build_system(model);
     Dopri5 stepper(system, 1e-3);
     stepper.start(sample::plain_start(model, system), 1e-6);
@@ -151,7 +151,7 @@ TEST(Allocations, NoneBetweenAcceptedExplicitSteps) {
 }
 
 TEST(Allocations, NoneForStatesInsideAStep) {
-  for (const Model& model : models()) {
+  for (const Model& model : stepped_models()) {
     const System system = build_system(model);
     RadauStepper stepper(system, 1e-6, 5);
     DenseOutput dense(system);

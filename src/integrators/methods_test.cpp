@@ -21,7 +21,7 @@ std::vector<std::string> methods() {
   return list;
 }
 
-std::unique_ptr<Stepper> run(const System& system, const State& from, const std::string& method, double tolerance, double duration) {
+std::unique_ptr<Stepper> run_method(const System& system, const State& from, const std::string& method, double tolerance, double duration) {
   std::unique_ptr<Stepper> stepper = make_stepper(system, newtonian(method), tolerance);
   stepper->start(from, 1e-4 * duration);
   while (stepper->state().t < duration)
@@ -52,7 +52,7 @@ TEST(Methods, AgreeOnTheForcesOfAStiffPendulum) {
   truth->start(from, 1e-5);
   while (truth->state().t < duration) ASSERT_TRUE(truth->step(duration));
   for (const std::string& method : methods()) {
-    const auto stepper = run(system, from, method, 1e-9, duration);
+    const auto stepper = run_method(system, from, method, 1e-9, duration);
     EXPECT_EQ(stepper->state().t, duration);
     // Order 2 leaves an error of about 1e-6 of the state at this tolerance, the others less.
     EXPECT_LT(sample::largest_difference(stepper->state().force, truth->state().force), 1e-4) << method;
@@ -71,7 +71,7 @@ TEST(Methods, KeepTheEnergyAccountOfADrivenOscillator) {
   const State from = sample::plain_start(model, system);
   for (const std::string& method : methods()) {
     if (method == "dopri5") continue;  // its account is the trapezoidal rule's over long steps
-    const auto loose = run(system, from, method, 1e-4, 2), tight = run(system, from, method, 1e-8, 2);
+    const auto loose = run_method(system, from, method, 1e-4, 2), tight = run_method(system, from, method, 1e-8, 2);
     const double before = energy(system, from);
     EXPECT_NEAR(energy(system, tight->state()), before, 1e-4) << method;
     EXPECT_GT(std::abs(tight->state().dissipated), 1) << method;
@@ -86,7 +86,7 @@ TEST(Methods, ErrorsFollowTheTolerance) {
   for (const std::string& method : methods()) {
     double last = 1e9;
     for (const double tolerance : {1e-4, 1e-6, 1e-8}) {
-      const auto stepper = run(system, sample::plain_start(model, system), method, tolerance, 2);
+      const auto stepper = run_method(system, sample::plain_start(model, system), method, tolerance, 2);
       const double error = std::abs(stepper->state().q[0][0] - sample::oscillator_at(2)[0]);
       EXPECT_LT(error, last) << method << " at " << tolerance;
       EXPECT_LT(error, 2000 * tolerance) << method;
@@ -127,7 +127,7 @@ TEST(Methods, ManyBodiesAreNoDifferentMatter) {
   }
   const System system = build_system(model);
   const State from = sample::plain_start(model, system);
-  const auto bdf = run(system, from, "ode15s", 1e-8, 0.2), erk = run(system, from, "ode45", 1e-9, 0.2), trapezoidal = run(system, from, "ode23t", 1e-9, 0.2);
+  const auto bdf = run_method(system, from, "ode15s", 1e-8, 0.2), erk = run_method(system, from, "ode45", 1e-9, 0.2), trapezoidal = run_method(system, from, "ode23t", 1e-9, 0.2);
   EXPECT_LT(sample::largest_difference(bdf->state().q, erk->state().q), 1e-5);
   EXPECT_LT(sample::largest_difference(trapezoidal->state().q, erk->state().q), 1e-5);
 }

@@ -63,13 +63,13 @@ Growth growth(const Ratios& ratio, double sign, double tolerance, int stages) {
 }
 
 template <class Check>
-void over_the_plane(Check check) {
+void over_taut_ratios(Check check) {
   for (const double pull : {1.0, 3.0, 10.0, 30.0, 100.0, 1000.0})
     for (const double stiffer : {5.0, 10.0, 30.0, 100.0, 1000.0})
       for (const double damping : {0.0, 0.1, 1.0, 10.0}) check(Ratios{pull, stiffer * pull, damping});
 }
 
-std::string words(const Ratios& r, double sign, int stages) {
+std::string ratio_words(const Ratios& r, double sign, int stages) {
   return (sign > 0 ? "pulled, " : "pushed, ") + std::to_string(stages) + " stages, " + std::to_string(r.pull) + ", " + std::to_string(r.joints) + ", " + std::to_string(r.damping);
 }
 
@@ -77,10 +77,10 @@ std::string words(const Ratios& r, double sign, int stages) {
 TEST(TautSteps, NothingGrows) {
   for (const int stages : {3, 5})
     for (const double sign : {1.0, -1.0})
-      over_the_plane([&](const Ratios& ratio) {
+      over_taut_ratios([&](const Ratios& ratio) {
         const Growth g = growth(ratio, sign, 1e-12, stages);
-        EXPECT_LT(g.motion, 1 + 1e-6) << words(ratio, sign, stages);
-        EXPECT_LT(g.force, 1e-6) << words(ratio, sign, stages);
+        EXPECT_LT(g.motion, 1 + 1e-6) << ratio_words(ratio, sign, stages);
+        EXPECT_LT(g.force, 1e-6) << ratio_words(ratio, sign, stages);
       });
 }
 
@@ -91,12 +91,12 @@ TEST(TautSteps, WhatTheToleranceLeavesDoesNotGrow) {
   int steps = 0, most = 0;
   for (const int stages : {3, 5})
     for (const double sign : {1.0, -1.0})
-      over_the_plane([&](const Ratios& ratio) {
+      over_taut_ratios([&](const Ratios& ratio) {
         const Growth g = growth(ratio, sign, 1e-4, stages);
         steps += g.steps;
         most += kSteps;
-        EXPECT_LT(g.motion * kOff, 1e-4) << words(ratio, sign, stages);
-        EXPECT_LT(g.force, 1e-5) << words(ratio, sign, stages);
+        EXPECT_LT(g.motion * kOff, 1e-4) << ratio_words(ratio, sign, stages);
+        EXPECT_LT(g.force, 1e-5) << ratio_words(ratio, sign, stages);
       });
   EXPECT_GT(steps, 0.85 * most);  // nearly all are solved
 }

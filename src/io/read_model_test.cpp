@@ -6,14 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/constants.h"
 #include "io/test_models.h"
 #include "io/writers.h"
 #include "pintle/results.h"
 
 namespace pintle {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Model full() {
   return parse_model(kFullModel, "full.toml");
@@ -135,6 +134,19 @@ ideal = true
   EXPECT_EQ(model.joints[1].friction.values.at("friction_coefficient"), std::vector<double>{0.05});
   EXPECT_EQ(model.joints[1].friction.values.at("pin_radius"), std::vector<double>{0.01});
   for (std::size_t i = 2; i < 6; ++i) EXPECT_EQ(friction(i), "") << model.joints[i].name;
+  EXPECT_EQ(parse_model(text, "x.toml", std::vector<std::string>{"defaults.joint.friction=none"}).joints[0].friction.word, "");
+}
+
+// A spring with a wrong value is not also said to have none.
+TEST(ReadModel, ASpringWithAWrongStiffnessIsComplainedAboutOnce) {
+  try {
+    parse_model("format = 1\n[simulate]\nduration = 1\n[ground.markers]\no = [0, 0]\n[body.a]\nmass = 1\ninertia = 1\nmarkers.c = [0, 0]\n"
+                "[spring.s]\nbetween = [\"ground.o\", \"a.c\"]\nstiffness = \"40 N*m/rad\"\n", "x.toml");
+    FAIL();
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.complaints().size(), 1u);
+    EXPECT_EQ(error.complaints()[0].path, "spring.s.stiffness");
+  }
 }
 
 TEST(ReadModel, GeometryOfJoints) {

@@ -1,15 +1,14 @@
+#include "base/constants.h"
 #include "joints/cam_profile.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace pintle {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kSmooth = 1e-3;  // of the radius: a change of slope [m/rad] that rounded numbers may make
 
 Planar::Point direction(double angle) { return {std::cos(angle), std::sin(angle)}; }

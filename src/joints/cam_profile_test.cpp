@@ -4,16 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "base/constants.h"
 #include "base/expression/expression_parser.h"
 #include "base/random_for_tests.h"
 #include "base/units.h"
 
 namespace pintle {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 Expression lift(const std::string& text) {
   ParseScope scope;

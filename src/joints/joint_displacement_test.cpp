@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <type_traits>
 
+#include "base/constants.h"
 #include "base/expression/expression_parser.h"
 #include "base/units.h"
 #include "joints/cam_profile.h"
@@ -21,8 +21,6 @@ using S = Planar;
 using Vec = Planar::Vec;
 using sample::Couple;
 using sample::Random;
-
-constexpr double kPi = std::numbers::pi;
 
 Selection sample_of(std::type_identity<Selection>, Random& random) { return {{0, 0, 2 * kPi * random.below(3)}}; }
 Distance sample_of(std::type_identity<Distance>, Random& random) { return {random.uniform(0.1, 3)}; }

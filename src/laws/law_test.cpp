@@ -45,7 +45,7 @@ using Vec = Planar::Vec;
 using Mat = Planar::Mat;
 using sample::Random;
 
-constexpr int kPoints = 300;
+constexpr int kSamplePoints = 300;
 
 // A law that only tests know: two states, a border, full matrices.
 struct ClutchLaw {
@@ -170,7 +170,7 @@ TYPED_TEST_SUITE(AnyLaw, Laws);
 // Across a border that the law declares there is no difference quotient; anywhere else there must be.
 TYPED_TEST(AnyLaw, TangentsAreDifferences) {
   int borders = 0;
-  for (int i = 0; i < kPoints; ++i) {
+  for (int i = 0; i < kSamplePoints; ++i) {
     const Point p = random_point(this->random_);
     LawTangents r;
     this->law_.linearize(this->at(p), r);
@@ -205,12 +205,12 @@ TYPED_TEST(AnyLaw, TangentsAreDifferences) {
       }
     }
   }
-  EXPECT_LE(borders, this->law_.n_borders() > 0 ? kPoints / 4 : 0);
+  EXPECT_LE(borders, this->law_.n_borders() > 0 ? kSamplePoints / 4 : 0);
 }
 
 TYPED_TEST(AnyLaw, HoldsByAForceThatIsDownhillInItsEnergy) {
   if (this->law_.parts().front()->word() == ClutchLaw::kWord) return;  // it keeps no account of energy
-  for (int i = 0; i < kPoints; ++i) {
+  for (int i = 0; i < kSamplePoints; ++i) {
     const Point p = random_point(this->random_);
     const Vec still = Vec::Zero();
     const Response r = respond(this->law_, p.gap, still);
@@ -225,7 +225,7 @@ TYPED_TEST(AnyLaw, HoldsByAForceThatIsDownhillInItsEnergy) {
 // Power put in by the force = what the energy loses, less what turns into heat, and what is supplied; the energy changes with gap and states.
 TYPED_TEST(AnyLaw, PowerIsAccountedFor) {
   if (this->law_.parts().front()->word() == ClutchLaw::kWord) return;
-  for (int i = 0; i < kPoints; ++i) {
+  for (int i = 0; i < kSamplePoints; ++i) {
     const Point p = random_point(this->random_);
     const Vec force = this->law_.force(this->at(p));
     std::array<double, kMostLawStates> z_rate{};
@@ -298,7 +298,7 @@ TYPED_TEST(AnyLaw, IsFiniteAtZeroAndFarOut) {
 }
 
 TYPED_TEST(AnyLaw, RestsWhereItsStatesDoNotChange) {
-  for (int i = 0; i < kPoints; ++i) {
+  for (int i = 0; i < kSamplePoints; ++i) {
     Point p = random_point(this->random_);
     p.rate.setZero();
     this->law_.rest(this->at(p), p.state.data());

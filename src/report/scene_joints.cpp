@@ -1,8 +1,8 @@
 // How joints look: pins, supports, guides, slots, meshes, welds; and the motors and springs in them.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/constants.h"
 #include "joints/cam_profile.h"
 #include "joints/edge_profile.h"
 #include "report/outline.h"
@@ -10,8 +10,6 @@
 
 namespace pintle {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 bool is_ground(const MarkerRef& ref) { return ref.body == "ground"; }
 

@@ -16,7 +16,7 @@ namespace {
 using drawn::run_of_mechanism;
 using drawn::sketch_of_mechanism;
 
-std::size_t count(const Scene& scene, Paint paint) {
+std::size_t count_shapes(const Scene& scene, Paint paint) {
   return static_cast<std::size_t>(std::count_if(scene.shapes.begin(), scene.shapes.end(), [paint](const Shape& shape) { return shape.paint == paint; }));
 }
 
@@ -25,9 +25,9 @@ bool inside(const Box& box, const Vec2& p) { return p[0] >= box.low[0] && p[0] <
 TEST(Scene, FourBarHasThreeLinksFourPinsTwoSupports) {
   const auto [model, run] = run_of_mechanism("four_bar");
   const Scene scene = make_scene(model, run.trajectory);
-  EXPECT_EQ(count(scene, Paint::kLink), 3u);
-  EXPECT_EQ(count(scene, Paint::kPin), 4u);
-  EXPECT_EQ(count(scene, Paint::kHatch), 2u);
+  EXPECT_EQ(count_shapes(scene, Paint::kLink), 3u);
+  EXPECT_EQ(count_shapes(scene, Paint::kPin), 4u);
+  EXPECT_EQ(count_shapes(scene, Paint::kHatch), 2u);
   EXPECT_EQ(scene.arrows.size(), 4u);
   EXPECT_EQ(scene.n_unseen, 0u);
 }
@@ -114,7 +114,7 @@ TEST(Scene, MeshActsWherePitchCirclesTouch) {
   const Vec2 at = instant_at(scene, run.trajectory, 0.2).place(mesh->at);
   EXPECT_NEAR(at[0], 0.020, 1e-5);
   EXPECT_NEAR(at[1], 0, 1e-5);
-  EXPECT_EQ(count(scene, Paint::kPitch), 3u);
+  EXPECT_EQ(count_shapes(scene, Paint::kPitch), 3u);
 }
 
 // A blade leaves and reaches its clamps along the markers; bent by little it is as long as it is unloaded.
@@ -169,7 +169,7 @@ TEST(Scene, WhatWasNotRecordedIsNotDrawn) {
   const Trajectory trajectory = simulate(model);
   const Scene scene = make_scene(model, trajectory);
   EXPECT_EQ(scene.n_unseen, 2u);
-  EXPECT_EQ(count(scene, Paint::kLink), 1u);
+  EXPECT_EQ(count_shapes(scene, Paint::kLink), 1u);
   for (const Shape& shape : scene.shapes) EXPECT_LE(shape.body, 0);
 }
 

@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "base/constants.h"
 #include "bearings/worn_sector.h"
 #include "results/text_table.h"
 
 namespace pintle {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi, kPerMinute = 60 / kTurn, kDegrees = 360 / kTurn, kMega = 1e6;
+constexpr double kPerMinute = 60 / kTurn, kDegrees = 360 / kTurn, kMega = 1e6;
 
 BearingTable duty_table(const std::vector<BearingSummary>& bearings) {
   BearingTable table{"Pins in their bearings (the run counts as a load cycle that repeats)",

@@ -125,15 +125,15 @@ TEST(Rotation, LanesAreThePlainNumbers) {
   for (int i = 0; i < 5; ++i) {
     const auto v = components(turns[i]);
     const auto g = rotation::functions(rotation::square_of(v));
-    const auto S = rotation::matrix(v, g);
+    const auto plain = rotation::matrix(v, g);
     const auto one = rotation::rate(v, components(spin), g.inverse);
     EXPECT_EQ(f.once[i], g.once) << i;
     EXPECT_EQ(f.twice[i], g.twice) << i;
     EXPECT_EQ(f.inverse[i], g.inverse) << i;
-    EXPECT_EQ(R.xx[i], S.xx);
-    EXPECT_EQ(R.xy[i], S.xy);
-    EXPECT_EQ(R.zx[i], S.zx);
-    EXPECT_EQ(R.zz[i], S.zz);
+    EXPECT_EQ(R.xx[i], plain.xx);
+    EXPECT_EQ(R.xy[i], plain.xy);
+    EXPECT_EQ(R.zx[i], plain.zx);
+    EXPECT_EQ(R.zz[i], plain.zz);
     EXPECT_EQ(rate.x[i], one.x);
     EXPECT_EQ(rate.y[i], one.y);
     EXPECT_EQ(rate.z[i], one.z);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "base/constants.h"
 #include "integrators/general/dopri5.h"
 #include "integrators/start_states_for_tests.h"
 #include "pintle/simulate.h"
@@ -16,8 +17,6 @@ namespace {
 using sample::DenseEquations;
 using sample::FourBarPose;
 using sample::Random;
-
-constexpr double kPi = std::numbers::pi;
 
 struct Assembled {
   const Assembly result;
@@ -49,7 +48,7 @@ struct Assembled {
 };
 
 // Without preload, so that positions can be compared with those of ideal joints.
-Model four_bar(double theta2 = kPi / 3, double k = 1e8) {
+Model four_bar_at(double theta2 = kPi / 3, double k = 1e8) {
   Model model = sample::four_bar(k, 3000, theta2);
   model.simulate.start = Start::kUnloaded;
   return model;
@@ -66,7 +65,7 @@ void knock(Model& model, Random& random, double size) {
 TEST(Assembly, ClosesTheLoopFromRoughGuesses) {
   Random random(1);
   for (int i = 0; i < 40; ++i) {
-    Model model = four_bar(random.uniform(-kPi, kPi));
+    Model model = four_bar_at(random.uniform(-kPi, kPi));
     knock(model, random, 0.4);
     EXPECT_LT(Assembled(model).open(), 1e-12) << i;
   }
@@ -75,7 +74,7 @@ TEST(Assembly, ClosesTheLoopFromRoughGuesses) {
 TEST(Assembly, ClosesAtAnyStiffness) {
   Random random(2);
   for (const double k : {1e3, 1e6, 1e10, 1e12}) {
-    Model model = four_bar(1, k);
+    Model model = four_bar_at(1, k);
     knock(model, random, 0.3);
     EXPECT_LT(Assembled(model).open(), 1e-12) << k;
   }
@@ -83,7 +82,7 @@ TEST(Assembly, ClosesAtAnyStiffness) {
 
 TEST(Assembly, LeavesAGoodStateAlone) {
   for (const double theta2 : {0.0, 0.7, kPi / 3, 2.0, 4.0}) {
-    const Model model = four_bar(theta2);
+    const Model model = four_bar_at(theta2);
     const Assembled at(model);
     EXPECT_LT(at.result.largest_move, 1e-13);
     for (std::size_t i = 0; i < model.bodies.size(); ++i) {
@@ -98,7 +97,7 @@ TEST(Assembly, LeavesAGoodStateAlone) {
 // Assembling twice gives the same again.
 TEST(Assembly, IsAtRestInItsOwnResult) {
   Random random(3);
-  Model model = four_bar();
+  Model model = four_bar_at();
   knock(model, random, 0.3);
   const Assembled first(model);
   for (std::size_t i = 0; i < model.bodies.size(); ++i) sample::put_at(model.bodies[i], first.state().q[i][0], first.state().q[i][1], first.state().q[i][2]);
@@ -110,7 +109,7 @@ TEST(Assembly, KeepsTheBranchOfTheGuess) {
   Random random(4);
   for (int i = 0; i < 20; ++i)
     for (const bool above : {true, false}) {
-      Model model = four_bar();
+      Model model = four_bar_at();
       if (!above)
         for (Body& b : model.bodies) {  // mirrored at the ground line: the other branch, the crank at -60 degrees
           (*b.position)[1] *= -1;
@@ -128,7 +127,7 @@ TEST(Assembly, KeepsTheBranchOfTheGuess) {
 
 TEST(Assembly, DoesNotMoveWhatIsHeld) {
   Random random(5);
-  Model model = four_bar();
+  Model model = four_bar_at();
   knock(model, random, 0.3);
   model.bodies[0].hold = {false, false, true};
   model.bodies[0].angle = 1.0;
@@ -139,7 +138,7 @@ TEST(Assembly, DoesNotMoveWhatIsHeld) {
 }
 
 TEST(Assembly, FindsWhatIsNotStated) {
-  Model model = four_bar();
+  Model model = four_bar_at();
   for (const int i : {1, 2}) {
     model.bodies[i].position.reset();
     model.bodies[i].velocity.reset();
@@ -157,7 +156,7 @@ TEST(Assembly, FindsWhatIsNotStated) {
 }
 
 TEST(Assembly, ALoopThatCannotCloseIsNamed) {
-  Model model = four_bar();
+  Model model = four_bar_at();
   for (Marker& marker : model.bodies[1].markers) marker.position[0] *= 0.1;  // a coupler of 0.4 m: 1 + 0.4 + 4 < 6
   try {
     static_cast<void>(assemble(model));
@@ -176,7 +175,7 @@ TEST(Assembly, ALoopThatCannotCloseIsNamed) {
 TEST(Assembly, InconsistentVelocitiesGoToTheNearestInTheMassNorm) {
   Random random(6);
   for (int i = 0; i < 10; ++i) {
-    Model model = four_bar(random.uniform(0, 6));
+    Model model = four_bar_at(random.uniform(0, 6));
     model.bodies[0].inertia = random.uniform(1, 10);
     Vecs stated;
     for (Body& b : model.bodies) {
@@ -197,7 +196,7 @@ TEST(Assembly, InconsistentVelocitiesGoToTheNearestInTheMassNorm) {
 
 // The paper's start: the crank turns at 10 rad/s, coupler and follower stand still. The flywheel hardly notices.
 TEST(Assembly, CrankSpeedSurvivesAnInconsistentStart) {
-  Model model = four_bar();
+  Model model = four_bar_at();
   for (const int i : {1, 2}) {
     model.bodies[i].velocity = Vec2{0, 0};
     model.bodies[i].spin = 0;
@@ -210,7 +209,7 @@ TEST(Assembly, CrankSpeedSurvivesAnInconsistentStart) {
 }
 
 TEST(Assembly, UnstatedVelocitiesFollowTheCrankInFull) {
-  Model model = four_bar();
+  Model model = four_bar_at();
   for (const int i : {1, 2}) {
     model.bodies[i].velocity.reset();
     model.bodies[i].spin.reset();
@@ -222,7 +221,7 @@ TEST(Assembly, UnstatedVelocitiesFollowTheCrankInFull) {
 }
 
 TEST(Assembly, ADriveGivesTheVelocities) {
-  Model model = four_bar();
+  Model model = four_bar_at();
   for (Body& b : model.bodies) {
     b.velocity.reset();
     b.spin.reset();
@@ -236,7 +235,7 @@ TEST(Assembly, ADriveGivesTheVelocities) {
 }
 
 TEST(Assembly, ARawStartIsTakenAsStated) {
-  Model model = four_bar();
+  Model model = four_bar_at();
   Random random(7);
   knock(model, random, 1e-4);
   model.simulate.start = Start::kRaw;

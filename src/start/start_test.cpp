@@ -14,14 +14,14 @@ namespace {
 
 using sample::DenseEquations;
 
-constexpr double kMass = 2, kSteady = 10, kSwing = 3;  // kg, N, N
+constexpr double kPushedMass = 2, kSteady = 10, kSwing = 3;  // kg, N, N
 
 // A body pinned at its centre, pushed along x by F(t) = kSteady + kSwing sin(w t).
-Model pushed(double k, double c, double w) {
+Model pushed_mass(double k, double c, double w) {
   Model model;
   model.gravity = {0, 0};
   model.ground = {{"O", {0, 0}, 0}};
-  model.bodies = {sample::body("block", kMass, 1, {{"O", {0, 0}, 0}})};
+  model.bodies = {sample::body("block", kPushedMass, 1, {{"O", {0, 0}, 0}})};
   sample::put_at(model.bodies[0], 0, 0, 0);
   model.joints = {sample::joint("pin", "revolute", {"ground", "O"}, {"block", "O"}, k, c)};
   AppliedForce force;
@@ -43,9 +43,9 @@ State started(Model model) {
 // The motion without free vibration: x = F0/k + Im F1 / (k - m w^2 + i c w) at t = 0.
 TEST(Start, ASpringSlowEnoughStartsOnItsForcedMotion) {
   for (const auto& [k, c] : {std::pair{2e4, 1.0}, {2e4, 100.0}, {2e3, 20.0}}) {
-    const double w = 0.1 * std::sqrt(k / kMass);
-    const std::complex<double> swing = kSwing / std::complex<double>(k - kMass * w * w, c * w);
-    const State state = started(pushed(k, c, w));
+    const double w = 0.1 * std::sqrt(k / kPushedMass);
+    const std::complex<double> swing = kSwing / std::complex<double>(k - kPushedMass * w * w, c * w);
+    const State state = started(pushed_mass(k, c, w));
     EXPECT_NEAR(k * state.q[0][0], kSteady + k * swing.imag(), 1e-5 * kSteady) << k << " " << c;
     EXPECT_NEAR(k * state.v[0][0] / w, k * swing.real(), 1e-5 * kSteady) << k << " " << c;
   }
@@ -53,21 +53,21 @@ TEST(Start, ASpringSlowEnoughStartsOnItsForcedMotion) {
 
 // Slow against its load: nothing but the gap that carries it, at rest.
 TEST(Start, ASpringMuchSlowerThanItsLoadStartsAtRestUnderIt) {
-  const double k = 200, w = 100 * std::sqrt(k / kMass);
-  const State state = started(pushed(k, 0.5, w));
+  const double k = 200, w = 100 * std::sqrt(k / kPushedMass);
+  const State state = started(pushed_mass(k, 0.5, w));
   EXPECT_NEAR(k * state.q[0][0], kSteady, 1e-3 * kSteady);
   EXPECT_NEAR(k * state.v[0][0] / w, 0, 1e-3 * kSteady);
 }
 
 // Relaxation k/c no faster than the load: where it starts is free, but spring and damper together carry the load.
 TEST(Start, AnOverdampedJointCarriesItsLoadFromTheStart) {
-  const State state = started(pushed(1e7, 5e5, 10));
+  const State state = started(pushed_mass(1e7, 5e5, 10));
   EXPECT_NEAR(-state.force[0][0], kSteady, 1e-5 * kSteady);
   EXPECT_NEAR(-state.force[0][0], 1e7 * state.gap[0][0] + 5e5 * state.gap_rate[0][0], 1e-9);
 }
 
 TEST(Start, DoesNotDependOnTheDurationOfTheRun) {
-  Model model = pushed(2e3, 20, 5);
+  Model model = pushed_mass(2e3, 20, 5);
   const State one = started(model);
   model.simulate.duration = 0.37;
   const State other = started(model);
@@ -129,12 +129,12 @@ TEST(Start, NotesSayWhatStartsOnItsOwn) {
   const auto mention = [](const std::vector<std::string>& lines, const char* what) {
     return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) { return line.find(what) != std::string::npos; });
   };
-  EXPECT_TRUE(mention(notes(pushed(200, 0.5, 1000)), "joint pin"));
-  EXPECT_FALSE(mention(notes(pushed(2e8, 3000, 10)), "joint pin"));
+  EXPECT_TRUE(mention(notes(pushed_mass(200, 0.5, 1000)), "joint pin"));
+  EXPECT_FALSE(mention(notes(pushed_mass(2e8, 3000, 10)), "joint pin"));
   Model stiff = sample::four_bar(1e8, 3000);
   stiff.simulate.duration = 1;
   EXPECT_TRUE(notes(stiff).empty());
-  Model jumping = pushed(2e8, 3000, 10);
+  Model jumping = pushed_mass(2e8, 3000, 10);
   jumping.forces[0].force[0] = sample::expression("10 + 5*sign(t)");
   EXPECT_TRUE(mention(notes(jumping), "no transient-free start"));
 }

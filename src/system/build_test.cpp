@@ -82,12 +82,12 @@ TEST_P(JointType, GapIsZeroWhereItIsSettledOpen) {
   EXPECT_NEAR(system.kinematics(0, 0, m).gap[0], 0, 1e-14);
 }
 
-std::vector<std::string> words() {
+std::vector<std::string> catalog_words() {
   std::vector<std::string> all;
   for (const JointTypeInfo& info : joint_type_catalog()) all.emplace_back(info.word);
   return all;
 }
-INSTANTIATE_TEST_SUITE_P(Catalog, JointType, testing::ValuesIn(words()), [](const auto& type) { return type.param; });
+INSTANTIATE_TEST_SUITE_P(Catalog, JointType, testing::ValuesIn(catalog_words()), [](const auto& type) { return type.param; });
 
 TEST(BuildSystem, KeepsNamesAndOrder) {
   const System system = build_system(sample::four_bar(1e8, 3000));
@@ -182,24 +182,24 @@ Model hanging() {
   return model;
 }
 
-System settled(const Model& model, std::vector<std::string>& notes) {
+System settled_system(const Model& model, std::vector<std::string>& notes) {
   return fix_assembled_values(model, build_system(model), {{0.5, 0, 0}}, notes);
 }
 
 TEST(Settle, FreeLengthIsTheAssembledOneLessThePreload) {
   std::vector<std::string> notes;
   Model model = hanging();
-  EXPECT_NEAR(settled(model, notes).loads[0].free, 2, 1e-15);
+  EXPECT_NEAR(settled_system(model, notes).loads[0].free, 2, 1e-15);
   EXPECT_EQ(notes.size(), 1u);
   model.springs[0].preload = 30;
-  const System tense = settled(model, notes);
+  const System tense = settled_system(model, notes);
   EXPECT_NEAR(tense.loads[0].free, 1.7, 1e-15);
   std::vector<S::Motion> m;
   tense.motions({{0.5, 0, 0}}, {{0, 0, 0}}, m);
   EXPECT_NEAR(tense.load_effort(tense.loads[0], 0, m), -30, 1e-12);
   model.springs[0].preload.reset();
   model.springs[0].free_length = 0.9;
-  EXPECT_EQ(settled(model, notes).loads[0].free, 0.9);
+  EXPECT_EQ(settled_system(model, notes).loads[0].free, 0.9);
 }
 
 // Forces that read coordinates are loads too, behind the springs.
@@ -212,14 +212,14 @@ TEST(Settle, FreeLengthIsTheSpringsOwnBesideAForceThatReads) {
   force.force[0] = sample::expression("rod.x", {"rod.x"});
   model.forces.push_back(std::move(force));
   ASSERT_EQ(build_system(model).loads.size(), 2u);
-  EXPECT_NEAR(settled(model, notes).loads[0].free, 2, 1e-15);
+  EXPECT_NEAR(settled_system(model, notes).loads[0].free, 2, 1e-15);
 }
 
 TEST(Settle, ADamperWithoutStiffnessHasNoForceAtRest) {
   std::vector<std::string> notes;
   Model model = hanging();
   model.springs[0].stiffness = 0;
-  const System system = settled(model, notes);
+  const System system = settled_system(model, notes);
   std::vector<S::Motion> m;
   system.motions({{0.5, 0, 0}}, {{0, 3, 0}}, m);
   EXPECT_NEAR(system.load_effort(system.loads[0], 0, m), 3, 1e-12);  // shortens at 3 m/s: it pushes
@@ -231,7 +231,7 @@ TEST(Settle, APreloadWithoutStiffnessPullsAtAnyLength) {
   Model model = hanging();
   model.springs[0].stiffness = model.springs[0].damping = 0;
   model.springs[0].preload = 30;
-  const System system = settled(model, notes);
+  const System system = settled_system(model, notes);
   std::vector<S::Motion> m;
   for (const double lift : {0.0, 0.5, -1.0}) {
     system.motions({{0.5, lift, 0}}, {{0, 3, 0}}, m);
@@ -246,7 +246,7 @@ TEST(Settle, TorsionPreloadTurnsTowardsSmallerAngles) {
   Model model = hanging();
   model.springs = {sample::spring("T", true, {"ground", "O"}, {"rod", "O"}, 4, 0)};
   model.springs[0].preload = 2;
-  const System system = settled(model, notes);
+  const System system = settled_system(model, notes);
   Vecs Q;
   std::vector<S::Motion> m;
   system.motions({{0.5, 0, 0}}, {{0, 0, 0}}, m);

@@ -11,25 +11,25 @@
 namespace pintle::studio {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-std::string four_bar() { return read_file(PINTLE_SOURCE_DIR "/mechanisms/four_bar.toml"); }
+std::string four_bar_text() { return read_file(PINTLE_SOURCE_DIR "/mechanisms/four_bar.toml"); }
 
 struct Called {
-  Json value, fault;
+  OrderedJson value, fault;
   std::vector<std::vector<double>> arrays;
-  const std::vector<double>& array(const Json& marked) const { return arrays.at(marked.at("f64").get<std::size_t>()); }
+  const std::vector<double>& array(const OrderedJson& marked) const { return arrays.at(marked.at("f64").get<std::size_t>()); }
 };
 
-Called call(Kernel& kernel, const char* name, const Json& arguments, const OnProgress& on_progress = {}) {
+Called call(Kernel& kernel, const char* name, const OrderedJson& arguments, const OnProgress& on_progress = {}) {
   Answer answer = kernel.call(name, arguments.dump(), on_progress);
-  const Json json = Json::parse(answer.text);
-  return {json.value("value", Json()), json.value("fault", Json()), std::move(answer.arrays)};
+  const OrderedJson json = OrderedJson::parse(answer.text);
+  return {json.value("value", OrderedJson()), json.value("fault", OrderedJson()), std::move(answer.arrays)};
 }
 
 TEST(StudioCalls, ReadsAModelAndWritesItAgain) {
   Kernel kernel;
-  const Called read = call(kernel, "read", {{"text", four_bar()}});
+  const Called read = call(kernel, "read", {{"text", four_bar_text()}});
   ASSERT_TRUE(read.value["ok"].get<bool>());
   EXPECT_EQ(read.value["model"]["body"]["crank"]["mass"], "1 kg");
   EXPECT_EQ(read.value["resolved"]["bodies"].size(), 3U);
@@ -43,12 +43,12 @@ TEST(StudioCalls, ReadsAModelAndWritesItAgain) {
 
 TEST(StudioCalls, ComplaintsHaveAPlaceAndALength) {
   Kernel kernel;
-  std::string text = four_bar();
+  std::string text = four_bar_text();
   text.replace(text.find("1e8 N/m"), 7, "1e8 kg!");
   const Called read = call(kernel, "read", {{"text", text}});
   EXPECT_FALSE(read.value["ok"].get<bool>());
   EXPECT_TRUE(read.value.contains("model"));
-  const Json& complaint = read.value["complaints"].at(0);
+  const OrderedJson& complaint = read.value["complaints"].at(0);
   EXPECT_EQ(complaint["line"], 26);
   EXPECT_GE(complaint["length"].get<int>(), 1);
   EXPECT_EQ(complaint["key"], "defaults.joint.stiffness");
@@ -58,8 +58,8 @@ TEST(StudioCalls, ComplaintsHaveAPlaceAndALength) {
 
 TEST(StudioCalls, EditsOneValueAndLeavesTheRest) {
   Kernel kernel;
-  const Called edited = call(kernel, "edit", {{"text", four_bar()}, {"path", {"body", "crank", "mass"}}, {"value", "2 kg"}});
-  std::string expected = four_bar();
+  const Called edited = call(kernel, "edit", {{"text", four_bar_text()}, {"path", {"body", "crank", "mass"}}, {"value", "2 kg"}});
+  std::string expected = four_bar_text();
   expected.replace(expected.find("\"1 kg\""), 6, "\"2 kg\"");
   EXPECT_EQ(edited.value["text"], expected);
 }
@@ -67,8 +67,8 @@ TEST(StudioCalls, EditsOneValueAndLeavesTheRest) {
 TEST(StudioCalls, ARunHasColumnsPeaksAndProgress) {
   Kernel kernel;
   double last = 0;
-  const Called run = call(kernel, "run", {{"text", four_bar()}}, [&last](std::string_view text) {
-    const double fraction = Json::parse(text)["fraction"].get<double>();
+  const Called run = call(kernel, "run", {{"text", four_bar_text()}}, [&last](std::string_view text) {
+    const double fraction = OrderedJson::parse(text)["fraction"].get<double>();
     EXPECT_GE(fraction, last);
     EXPECT_LE(fraction, 1);
     last = fraction;
@@ -78,7 +78,7 @@ TEST(StudioCalls, ARunHasColumnsPeaksAndProgress) {
   EXPECT_NEAR(run.value["joints"][3]["peak"].get<double>(), 180.7, 0.05);
   ASSERT_EQ(run.value["columns"].size(), run.value["values"].size());
   for (std::size_t c = 0; c < run.value["columns"].size(); ++c) {
-    const Json& column = run.value["columns"][c];
+    const OrderedJson& column = run.value["columns"][c];
     EXPECT_EQ(run.array(run.value["values"][c]).size(), 361U);
     if (column["name"] != "joint.O4.on_follower.fx[world]") continue;
     EXPECT_EQ(column["kind"], "joint");
@@ -91,7 +91,7 @@ TEST(StudioCalls, ARunHasColumnsPeaksAndProgress) {
 
 TEST(StudioCalls, AReportIsThatOfTheRun) {
   Kernel kernel;
-  const std::string html = call(kernel, "report", {{"text", four_bar()}}).value["html"].get<std::string>();
+  const std::string html = call(kernel, "report", {{"text", four_bar_text()}}).value["html"].get<std::string>();
   EXPECT_EQ(html.find("<!doctype html>"), 0U) << html.substr(0, 100);
   EXPECT_NE(html.find("180.7"), std::string::npos);
   EXPECT_EQ(html.find("https://"), std::string::npos);
@@ -108,7 +108,7 @@ TEST(StudioCalls, ACancelledRunKeepsWhatItHas) {
 
 TEST(StudioCalls, ChecksAndNamesWhatHoldsAMechanism) {
   Kernel kernel;
-  std::string text = four_bar();
+  std::string text = four_bar_text();
   const Called moving = call(kernel, "check", {{"text", text}});
   EXPECT_EQ(moving.value["mobility"]["mobility"], 1);
   EXPECT_TRUE(moving.value["warnings"].empty());
@@ -143,18 +143,18 @@ damping = 1000
 
 TEST(StudioCalls, DragsAndPlays) {
   Kernel kernel;
-  const Called opened = call(kernel, "open_drag", {{"text", four_bar()}});
-  const Json hold = {{"body", "crank"}, {"point", {0.5, 0}}, {"target", {0, 1}}};
+  const Called opened = call(kernel, "open_drag", {{"text", four_bar_text()}});
+  const OrderedJson hold = {{"body", "crank"}, {"point", {0.5, 0}}, {"target", {0, 1}}};
   const Called dragged = call(kernel, "drag", {{"id", opened.value["id"]}, {"hold", hold}});
   ASSERT_TRUE(dragged.value["ok"].get<bool>());
   EXPECT_NEAR(dragged.array(dragged.value["poses"]).at(1), 0.5, 1e-3);
-  const Called live = call(kernel, "open_live", {{"text", four_bar()}});
+  const Called live = call(kernel, "open_live", {{"text", four_bar_text()}});
   const Called frame = call(kernel, "advance", {{"id", live.value["id"]}, {"dt", 0.02}, {"pull", hold}});
   EXPECT_TRUE(frame.value["error"].is_null());
   EXPECT_NEAR(frame.value["t"].get<double>(), 0.02, 1e-12);
   EXPECT_EQ(frame.array(frame.value["joint_forces"]).size(), 12U);
   const Called free = call(kernel, "advance", {{"id", live.value["id"]}, {"dt", 0.02}, {"pull", nullptr}});
-  const Called alike = call(kernel, "open_live", {{"text", four_bar()}, {"like", live.value["id"]}});
+  const Called alike = call(kernel, "open_live", {{"text", four_bar_text()}, {"like", live.value["id"]}});
   EXPECT_NEAR(alike.array(alike.value["poses"]).at(2), free.array(free.value["poses"]).at(2), 1e-4);
   call(kernel, "close_live", {{"id", live.value["id"]}});
   EXPECT_FALSE(call(kernel, "advance", {{"id", live.value["id"]}, {"dt", 0.02}}).fault.is_null());
@@ -166,7 +166,7 @@ TEST(StudioCalls, EveryMistakeIsAFault) {
                                         {"run", R"({"text": 7})"}, {"run", R"({"text": ""})"}, {"drag", R"({"id": 9})"}, {"drag", R"({"id": 1e400})"},
                                         {"advance", R"({"id": "x"})"}, {"open_live", R"({"text": "format = 1"})"}, {"edit", R"({"text": "a = 1", "path": 3})"},
                                         {"write", R"({"model": [1]})"}, {"check", R"({"text": "format = 1\n[body.a]\nmass = 1\n"})"}}) {
-    const Json json = Json::parse(kernel.call(name, arguments).text);
+    const OrderedJson json = OrderedJson::parse(kernel.call(name, arguments).text);
     ASSERT_TRUE(json.contains("fault")) << name << " " << arguments;
     EXPECT_FALSE(json["fault"]["message"].get<std::string>().empty());
   }

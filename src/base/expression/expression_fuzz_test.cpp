@@ -29,7 +29,7 @@ class Dice {
   std::uint64_t state_ = 20080803;
 };
 
-ParseScope scope() {
+ParseScope fuzz_scope() {
   const auto constant = [](std::string_view name) -> std::optional<Quantity> {
     if (name == "crank") return Quantity{0.1, kLength};
     if (name == "broken") return Quantity{std::nan(""), kMass};
@@ -70,7 +70,7 @@ std::string tree_at_random(Dice& dice, int depth) {
 
 // Returns whether the text was accepted.
 bool digest(const std::string& text) {
-  const auto parsed = parse_expression(text, scope());
+  const auto parsed = parse_expression(text, fuzz_scope());
   if (const auto* problem = std::get_if<ParseProblem>(&parsed)) {
     EXPECT_LE(problem->offset, text.size()) << text;
     EXPECT_FALSE(problem->because.empty()) << text;

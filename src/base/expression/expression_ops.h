@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "base/table_function.h"
+#include "base/tables/table_function.h"
 
 namespace pintle {
 

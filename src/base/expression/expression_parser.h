@@ -14,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/table_function.h"
+#include "base/tables/table_function.h"
 #include "pintle/expression.h"
 
 namespace pintle {

@@ -7,7 +7,7 @@
 namespace pintle {
 namespace {
 
-ParseScope scope() {
+ParseScope length_scope() {
   const auto constant = [](std::string_view name) -> std::optional<Quantity> {
     if (name == "crank") return Quantity{0.1, kLength};
     return std::nullopt;
@@ -24,7 +24,7 @@ struct Fault {
 };
 
 void expect_problem(const Fault& fault) {
-  const auto parsed = parse_expression(fault.text, scope());
+  const auto parsed = parse_expression(fault.text, length_scope());
   ASSERT_TRUE(std::holds_alternative<ParseProblem>(parsed)) << fault.text;
   const auto& problem = std::get<ParseProblem>(parsed);
   EXPECT_EQ(problem.offset, fault.offset) << fault.text << ": " << problem.because;
@@ -129,14 +129,14 @@ TEST(ExpressionProblem, Limits) {
     for (std::size_t i = 0; i < n; ++i) text += close;
     return text;
   };
-  EXPECT_FALSE(std::holds_alternative<ParseProblem>(parse_expression(nested("(", 150, "t", ")"), scope())));
-  EXPECT_FALSE(std::holds_alternative<ParseProblem>(parse_expression(nested("sin(", 150, "1", ")"), scope())));
+  EXPECT_FALSE(std::holds_alternative<ParseProblem>(parse_expression(nested("(", 150, "t", ")"), length_scope())));
+  EXPECT_FALSE(std::holds_alternative<ParseProblem>(parse_expression(nested("sin(", 150, "1", ")"), length_scope())));
   expect_problem({nested("(", 300, "t", ")"), 200, "", "too deeply", ""});
   expect_problem({nested("-", 300, "t", ""), 200, "", "too deeply", ""});
   expect_problem({nested("2^", 300, "t", ""), 400, "", "too deeply", ""});
   expect_problem({nested("max(t, ", 190, "t", ")"), 0, "", "too deeply", ""});  // too many operands wait
   expect_problem({std::string(5000, ' '), 0, "", "longer than", ""});
-  EXPECT_FALSE(std::holds_alternative<ParseProblem>(parse_expression(nested("t + ", 900, "t", ""), scope())));
+  EXPECT_FALSE(std::holds_alternative<ParseProblem>(parse_expression(nested("t + ", 900, "t", ""), length_scope())));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/expression/expression_ops.h"
-#include "base/table_function.h"
+#include "base/tables/table_function.h"
 #include "pintle/expression.h"
 
 namespace pintle {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Dimension kPressure{{-1, 1, -2, 0}, false};
 
-ParseScope scope() {
+ParseScope table_scope() {
   const auto table = [](std::vector<double> x, std::vector<double> y, TableInterpolation how, std::optional<double> period = {}) {
     return std::make_shared<const TableFunction>(std::move(x), std::move(y), how, TableOutside::kHold, period);
   };
@@ -31,33 +31,33 @@ ParseScope scope() {
   return all;
 }
 
-Expression expression_of(const char* text) {
-  const auto parsed = parse_expression(text, scope());
+Expression expression_with_tables(const char* text) {
+  const auto parsed = parse_expression(text, table_scope());
   const auto* problem = std::get_if<ParseProblem>(&parsed);
   EXPECT_FALSE(problem) << text << ": " << (problem ? problem->because : "");
   return problem ? Expression() : std::get<ParsedExpression>(parsed).expression;
 }
 
-Dimension dimension_of(const char* text) { return std::get<ParsedExpression>(parse_expression(text, scope())).dimension; }
+Dimension dimension_of(const char* text) { return std::get<ParsedExpression>(parse_expression(text, table_scope())).dimension; }
 
 ParseProblem problem_of(const char* text) {
-  const auto parsed = parse_expression(text, scope());
+  const auto parsed = parse_expression(text, table_scope());
   const auto* problem = std::get_if<ParseProblem>(&parsed);
   EXPECT_TRUE(problem) << text;
   return problem ? *problem : ParseProblem();
 }
 
 TEST(ExpressionTables, AreCalledAsFunctions) {
-  const Expression e = expression_of("-area*(pressure(O.angle) - pressure(0.5))");
+  const Expression e = expression_with_tables("-area*(pressure(O.angle) - pressure(0.5))");
   EXPECT_EQ(e.variables(), std::vector<std::string>{"O.angle"});
   EXPECT_NEAR(e.value(std::array{1.5}), -0.01 * (6e5 - 5e5), 1e-9);
   EXPECT_NEAR(e.value(std::array{1.5 + 4 * std::numbers::pi}), -0.01 * (6e5 - 5e5), 1e-6);
-  EXPECT_DOUBLE_EQ(expression_of("curve(200 rad/s)").value({}), 9);
-  EXPECT_DOUBLE_EQ(expression_of("bare(bare(x))").value(std::array{1.0}), expression_of("bare(x)").value(std::array{2.0}));
+  EXPECT_DOUBLE_EQ(expression_with_tables("curve(200 rad/s)").value({}), 9);
+  EXPECT_DOUBLE_EQ(expression_with_tables("bare(bare(x))").value(std::array{1.0}), expression_with_tables("bare(x)").value(std::array{2.0}));
 }
 
 TEST(ExpressionTables, HaveExactDerivatives) {
-  const Expression e = expression_of("curve(O.rate + 3*sin(O.angle))*(1 + 0.1*pressure(2*O.angle)/(1e5 Pa)) + bare(0.2*x)*O.rate*(1 N*m*s)");
+  const Expression e = expression_with_tables("curve(O.rate + 3*sin(O.angle))*(1 + 0.1*pressure(2*O.angle)/(1e5 Pa)) + bare(0.2*x)*O.rate*(1 N*m*s)");
   const std::array<double, 3> at{130, 0.37, 4.5};
   ASSERT_EQ(e.variables(), (std::vector<std::string>{"O.rate", "O.angle", "x"}));
   std::array<double, 3> gradient;
@@ -78,7 +78,7 @@ TEST(ExpressionTables, HaveExactDerivatives) {
 
 // One switching function for each call of a table with kinks, wherever it stands.
 TEST(ExpressionTables, SwitchAtTheirKinks) {
-  const Expression e = expression_of("abs(x) + pressure(2*x)/(1 Pa) + bare(x)");
+  const Expression e = expression_with_tables("abs(x) + pressure(2*x)/(1 Pa) + bare(x)");
   ASSERT_EQ(e.n_switches(), 3);  // bare is held at its ends, where its slope jumps
   const auto at = [&](double x) {
     std::array<double, 3> value;
@@ -93,7 +93,7 @@ TEST(ExpressionTables, SwitchAtTheirKinks) {
   EXPECT_GT(at(1)[2], 0);
   EXPECT_LT(at(-0.1)[2], 0);
   EXPECT_LT(at(3.1)[2], 0);
-  EXPECT_EQ(expression_of("curve(100 rad/s)*x").n_switches(), 0);  // a constant
+  EXPECT_EQ(expression_with_tables("curve(100 rad/s)*x").n_switches(), 0);  // a constant
 }
 
 TEST(ExpressionTables, HaveUnits) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/constants.h"
 #include "base/expression/expression_ops.h"
 #include "base/expression/expression_parser.h"
 #include "base/units.h"
@@ -12,7 +13,6 @@
 namespace pintle {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::optional<Quantity> constant_named(std::string_view name) {
@@ -22,22 +22,22 @@ std::optional<Quantity> constant_named(std::string_view name) {
   return std::nullopt;
 }
 
-ParseScope scope() {
+ParseScope crank_scope() {
   return {constant_named,
           {"crank", "ratio"},
           {{"t", kTime}, {"angle", kAngle}, {"rate", kAngularSpeed}, {"hip-pin.angle", kAngle}, {"2a.slide", kLength}}};
 }
 
-struct Case {
+struct Valued {
   const char* text;
   double value;
   Dimension dimension;
 };
 
 // Every variable is 0.5.
-void expect_values(std::span<const Case> cases) {
-  for (const Case& expected : cases) {
-    const auto parsed = parse_expression(expected.text, scope());
+void expect_values(std::span<const Valued> cases) {
+  for (const Valued& expected : cases) {
+    const auto parsed = parse_expression(expected.text, crank_scope());
     const auto* problem = std::get_if<ParseProblem>(&parsed);
     ASSERT_FALSE(problem) << expected.text << ": " << problem->offset << " " << problem->because;
     const auto& found = std::get<ParsedExpression>(parsed);
@@ -50,7 +50,7 @@ void expect_values(std::span<const Case> cases) {
 }
 
 TEST(ExpressionValue, NumbersWithUnits) {
-  const Case cases[] = {
+  const Valued cases[] = {
       {"0", 0, kBareNumber},
       {" 2.5e-3 ", 2.5e-3, kBareNumber},
       {".5", 0.5, kBareNumber},
@@ -86,7 +86,7 @@ TEST(ExpressionValue, NumbersWithUnits) {
 }
 
 TEST(ExpressionValue, OperatorsAndTheirOrder) {
-  const Case cases[] = {
+  const Valued cases[] = {
       {"1 + 2*3", 7, kBareNumber},
       {"(1 + 2)*3", 9, kBareNumber},
       {"10 - 4 - 3", 3, kBareNumber},
@@ -113,7 +113,7 @@ TEST(ExpressionValue, OperatorsAndTheirOrder) {
 }
 
 TEST(ExpressionValue, Functions) {
-  const Case cases[] = {
+  const Valued cases[] = {
       {"sin(30 deg)", 0.5, kBareNumber},
       {"cos(pi)", -1, kBareNumber},
       {"tan(45 deg)", 1, kBareNumber},
@@ -153,7 +153,7 @@ TEST(ExpressionValue, Functions) {
 }
 
 TEST(ExpressionValue, Variables) {
-  const Case cases[] = {
+  const Valued cases[] = {
       {"t", 0.5, kTime},
       {"5 N*m - 0.1*rate", 4.95, kTorque},
       {"10 N*sin(2*t)", 10 * std::sin(1.0), kForce},
@@ -178,7 +178,7 @@ TEST(ExpressionValue, Variables) {
 }
 
 TEST(ExpressionValue, VariablesComeInOrderOfAppearance) {
-  const auto parsed = parse_expression("2*rate*t + rate + 0*angle", scope());
+  const auto parsed = parse_expression("2*rate*t + rate + 0*angle", crank_scope());
   ASSERT_TRUE(std::holds_alternative<ParsedExpression>(parsed));
   const Expression& expression = std::get<ParsedExpression>(parsed).expression;
   EXPECT_EQ(expression.variables(), (std::vector<std::string>{"rate", "t", "angle"}));
@@ -203,7 +203,7 @@ TEST(ExpressionValue, BadArgumentsGiveNoFiniteNumberAndNoThrow) {
       {"exp(t/1 s)", 1000}, {"min(t, 1)", kNan},       {"min(1, t)", kNan}, {"max(1, t)", kNan},
       {"step(t)", kNan},    {"if(t < 1, 1, 2)", kNan}, {"sign(t)", kNan},   {"smoothstep(0, 1, t)", kNan}};
   for (const auto& [text, t] : cases) {
-    const auto parsed = parse_expression(text, scope());
+    const auto parsed = parse_expression(text, crank_scope());
     ASSERT_FALSE(std::holds_alternative<ParseProblem>(parsed)) << text << std::get<ParseProblem>(parsed).because;
     const std::array<double, 1> values{t};
     EXPECT_FALSE(std::isfinite(std::get<ParsedExpression>(parsed).expression.value(values))) << text;
@@ -211,12 +211,12 @@ TEST(ExpressionValue, BadArgumentsGiveNoFiniteNumberAndNoThrow) {
 }
 
 TEST(ExpressionValue, QuantitiesAndBrokenConstants) {
-  const auto quantity = parse_quantity("2*crank", scope());
+  const auto quantity = parse_quantity("2*crank", crank_scope());
   EXPECT_DOUBLE_EQ(std::get<Quantity>(quantity).si, 0.2);
-  EXPECT_TRUE(std::holds_alternative<ParseProblem>(parse_quantity("2*t", scope())));
+  EXPECT_TRUE(std::holds_alternative<ParseProblem>(parse_quantity("2*t", crank_scope())));
   EXPECT_DOUBLE_EQ(std::get<Quantity>(parse_quantity("2 t")).si, 2000);  // tonnes where no t is a variable
   for (const char* text : {"broken + 1 m", "sqrt(broken)", "2 m^2*sin(broken)", "(2 m)^broken"}) {
-    const auto broken = parse_quantity(text, scope());
+    const auto broken = parse_quantity(text, crank_scope());
     ASSERT_TRUE(std::holds_alternative<Quantity>(broken)) << text;
     EXPECT_TRUE(std::isnan(std::get<Quantity>(broken).si)) << text;
   }

@@ -13,7 +13,7 @@ namespace {
 
 using sample::expression;
 
-constexpr double kTolerance = 1e-6;
+constexpr double kCrossingTolerance = 1e-6;
 
 // The pendulum with a vertical force at its middle.
 Model pushed_pendulum(const std::string& force) {
@@ -27,7 +27,7 @@ Model pushed_pendulum(const std::string& force) {
   return model;
 }
 
-State run_to(const System& system, const State& from, double end, double tolerance, int stages) {
+State run_up_to(const System& system, const State& from, double end, double tolerance, int stages) {
   RadauStepper stepper(system, tolerance, stages);
   stepper.start(from, 1e-5);
   while (stepper.state().t < end)
@@ -42,7 +42,7 @@ struct Ends {
 };
 Ends follow_steps(const System& system, const State& from, double end, double event, int stages) {
   Ends ends;
-  RadauStepper stepper(system, kTolerance, stages);
+  RadauStepper stepper(system, kCrossingTolerance, stages);
   stepper.start(from, 1e-4);
   while (stepper.state().t < end) {
     if (!stepper.step(end)) throw std::runtime_error(stepper.failure());
@@ -73,17 +73,17 @@ TEST(EventLocation, ForcesAreThoseOfARunSplitAtTheKnownTime) {
       const Model whole = pushed_pendulum(event.force), before = pushed_pendulum(event.before), after = pushed_pendulum(event.after);
       const System system = build_system(whole), first = build_system(before), second = build_system(after);
       const State start = sample::settled_start(before, first, 0.05);
-      const State middle = run_to(first, start, event.time, 1e-11, 5);
+      const State middle = run_up_to(first, start, event.time, 1e-11, 5);
       // From the middle on with the forces of the second half: the accelerations jump, the gaps do not.
       State there = middle;
       Dopri5(second, 1).complete(there);
       there.gap = middle.gap;
       there.force = middle.force;
       for (const double later : {3e-4, 2e-3, 0.2}) {
-        const State exact = run_to(second, there, event.time + later, 1e-11, 5);
-        const State found = run_to(system, start, event.time + later, kTolerance, stages);
-        EXPECT_LT(sample::largest_difference(found.force, exact.force), 10 * 40 * kTolerance) << event.force << " " << stages << " " << later;
-        EXPECT_LT(sample::largest_difference(found.q, exact.q), kTolerance) << event.force << " " << stages << " " << later;
+        const State exact = run_up_to(second, there, event.time + later, 1e-11, 5);
+        const State found = run_up_to(system, start, event.time + later, kCrossingTolerance, stages);
+        EXPECT_LT(sample::largest_difference(found.force, exact.force), 10 * 40 * kCrossingTolerance) << event.force << " " << stages << " " << later;
+        EXPECT_LT(sample::largest_difference(found.q, exact.q), kCrossingTolerance) << event.force << " " << stages << " " << later;
       }
     }
 }
@@ -125,7 +125,7 @@ TEST(EventLocation, DryFrictionTurnsWhereItShould) {
   const DryFriction friction;
   const System system = build_system(friction.model);
   for (const int stages : {3, 5}) {
-    RadauStepper stepper(system, kTolerance, stages);
+    RadauStepper stepper(system, kCrossingTolerance, stages);
     stepper.start(sample::loaded_start(friction.model, system), 1e-4);
     double nearest[3] = {1, 1, 1};
     while (stepper.state().t < 2.2) {
@@ -133,10 +133,10 @@ TEST(EventLocation, DryFrictionTurnsWhereItShould) {
       const State& s = stepper.state();
       for (int n = 0; n < 3; ++n) nearest[n] = std::min(nearest[n], std::abs(s.t - (n + 1) * DryFriction::kHalf));
       // The shift of a kink by dt moves what follows by kRate * 0.5 * dt at the most.
-      EXPECT_NEAR(s.q[0][0], DryFriction::position(s.t), 3 * kTolerance) << s.t << " " << stages;
+      EXPECT_NEAR(s.q[0][0], DryFriction::position(s.t), 3 * kCrossingTolerance) << s.t << " " << stages;
       EXPECT_NEAR(s.force[0][0] + s.force[0][1], 2 * 9.80665, 1e-4) << s.t << " " << stages;
     }
-    for (const double distance : nearest) EXPECT_LT(distance, 3 * kTolerance) << stages;
+    for (const double distance : nearest) EXPECT_LT(distance, 3 * kCrossingTolerance) << stages;
     EXPECT_LE(stepper.counters().steps, 150u) << stages;
   }
 }
@@ -150,14 +150,14 @@ TEST(EventLocation, OneWayDragIsThatOfASplitRun) {
   const System system = build_system(one_way), with = build_system(both), without = build_system(none);
   const State start = sample::loaded_start(none, without);
   // Without drag the first half period is pi/5; then back with it.
-  const State turn = run_to(without, start, DryFriction::kHalf, 1e-11, 5);
+  const State turn = run_up_to(without, start, DryFriction::kHalf, 1e-11, 5);
   EXPECT_NEAR(turn.v[0][0], 0, 1e-9);
-  const State exact = run_to(with, turn, 1.1, 1e-11, 5);
+  const State exact = run_up_to(with, turn, 1.1, 1e-11, 5);
   for (const int stages : {3, 5}) {
-    const State found = run_to(system, start, 1.1, kTolerance, stages);
-    EXPECT_NEAR(found.q[0][0], exact.q[0][0], 3 * kTolerance);
-    EXPECT_LT(sample::largest_difference(found.force, exact.force), 20 * 10 * kTolerance);
-    EXPECT_LT(follow_steps(system, start, 1.1, DryFriction::kHalf, stages).nearest, 3 * kTolerance);
+    const State found = run_up_to(system, start, 1.1, kCrossingTolerance, stages);
+    EXPECT_NEAR(found.q[0][0], exact.q[0][0], 3 * kCrossingTolerance);
+    EXPECT_LT(sample::largest_difference(found.force, exact.force), 20 * 10 * kCrossingTolerance);
+    EXPECT_LT(follow_steps(system, start, 1.1, DryFriction::kHalf, stages).nearest, 3 * kCrossingTolerance);
   }
 }
 
@@ -165,7 +165,7 @@ TEST(EventLocation, OneWayDragIsThatOfASplitRun) {
 TEST(EventLocation, AFirstStepFarTooLongIsOnlyShortened) {
   const Model model = sample::pendulum(1e8, 10);  // starts without its load: vibrates at 20 000 rad/s
   const System system = build_system(model);
-  const State start = sample::plain_start(model, system), exact = run_to(system, start, 1e-3, 1e-9, 5);
+  const State start = sample::plain_start(model, system), exact = run_up_to(system, start, 1e-3, 1e-9, 5);
   for (const double first_step : {1e-2, 1.0, 100.0}) {
     RadauStepper stepper(system, 1e-4);
     stepper.start(start, first_step);

@@ -28,7 +28,7 @@ struct Knocked {
   }
 };
 
-Eigen::VectorXd stacked(const Vecs& x) {
+Eigen::VectorXd stacked_rows(const Vecs& x) {
   Eigen::VectorXd y(3 * static_cast<int>(x.size()));
   for (std::size_t i = 0; i < x.size(); ++i) y.segment<3>(3 * static_cast<int>(i)) = x[i];
   return y;
@@ -65,7 +65,7 @@ TEST(GapProjector, OnePassIsTheDenseSolution) {
     for (int r = 0; r < w.size(); ++r) w[r] = wanted[e.rows[r].first][e.rows[r].second];
     const Eigen::MatrixXd left = Eigen::MatrixXd((mu * mu * e.mass).asDiagonal()) + W * e.G.transpose() * e.G;
     const Eigen::VectorXd expected = left.ldlt().solve(W * e.G.transpose() * w);
-    EXPECT_LT((stacked(x) - expected).norm(), 1e-8 * expected.norm()) << mu;
+    EXPECT_LT((stacked_rows(x) - expected).norm(), 1e-8 * expected.norm()) << mu;
   }
 }
 
@@ -79,7 +79,7 @@ TEST(GapProjector, MovesNothingAlongFreeMotions) {
   projector.close(wanted, x);
   const sample::DenseEquations e(at.system, 0, at.state.q, at.state.v);
   const Eigen::VectorXd free = e.G.fullPivLu().kernel().col(0);
-  EXPECT_LT(std::abs(free.dot(e.mass.cwiseProduct(stacked(x)))), 1e-9 * free.cwiseProduct(e.mass).norm() * stacked(x).norm());
+  EXPECT_LT(std::abs(free.dot(e.mass.cwiseProduct(stacked_rows(x)))), 1e-9 * free.cwiseProduct(e.mass).norm() * stacked_rows(x).norm());
 }
 
 // Repeated passes lead to the forces of M a = Q + G' f for the accelerations of ideal joints.

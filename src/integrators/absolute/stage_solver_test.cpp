@@ -49,7 +49,7 @@ std::vector<Stage> room_for(const System& system, int stages) {
   return std::vector<Stage>(stages, Stage{bodies, bodies, bodies, bodies, joints, joints, joints, joints, {}, {}, std::vector<Planar::Motion>(bodies.size())});
 }
 
-double largest(const Vec& x) { return x.cwiseAbs().maxCoeff(); }
+double largest_entry(const Vec& x) { return x.cwiseAbs().maxCoeff(); }
 
 // Eq. (3.5): what x, x' and x'' at stage i leave of collocation, relative to their size.
 double collocation_misfit(const RadauTable& table, int i, double h, const Vec& x0, const Vec& v0, const Vec& x, const Vec& v,
@@ -60,9 +60,9 @@ double collocation_misfit(const RadauTable& table, int i, double h, const Vec& x
     x_expected += h * h * table.A2(i, k) * a[k];
   }
   double size = 0;
-  for (const Vec& ak : a) size = std::max(size, largest(ak));
-  return std::max(largest(v - v_expected) / (largest(v0) + std::abs(h) * size + 1e-300),
-                  largest(x - x_expected) / (largest(x0) + std::abs(h) * largest(v0) + h * h * size + 1e-300));
+  for (const Vec& ak : a) size = std::max(size, largest_entry(ak));
+  return std::max(largest_entry(v - v_expected) / (largest_entry(v0) + std::abs(h) * size + 1e-300),
+                  largest_entry(x - x_expected) / (largest_entry(x0) + std::abs(h) * largest_entry(v0) + h * h * size + 1e-300));
 }
 
 // Relative to sizes; what remains is that of the iteration or, in the first, of rounding.
@@ -94,7 +94,7 @@ Misfits misfits(const Start& at, const RadauTable& table, double h, const std::v
       note(worst.collocation, collocation_misfit(table, i, h, at.begin.q[b], at.begin.v[b], s.q[b], s.v[b], over_stages(&Stage::a, b)));
       note(worst.pose, std::max({(s.m[b].p - m[b].p).norm(), (s.m[b].v - m[b].v).norm(), std::abs(s.m[b].angle - m[b].angle),
                                  std::abs(s.m[b].w - m[b].w), std::abs(s.m[b].c - m[b].c), std::abs(s.m[b].s - m[b].s)}));
-      note(worst.motion, largest((s.Q[b] - Q[b]).cwiseQuotient(at.scale.body[b])));
+      note(worst.motion, largest_entry((s.Q[b] - Q[b]).cwiseQuotient(at.scale.body[b])));
       left[b] = system.bodies[b].mass.cwiseProduct(s.a[b]) - Q[b];
     }
     double loss = 0;
@@ -106,18 +106,18 @@ Misfits misfits(const Start& at, const RadauTable& table, double h, const std::v
       note(worst.collocation,
            collocation_misfit(table, i, h, at.begin.gap[j], at.begin.gap_rate[j], s.gap[j], s.gap_rate[j], over_stages(&Stage::gap_accel, j)));
       const Vec f = system.joints[j].law.force({0, s.gap[j], s.gap_rate[j]});
-      note(worst.force, largest(s.force[j] - f) / (1 + largest(f)));
+      note(worst.force, largest_entry(s.force[j] - f) / (1 + largest_entry(f)));
       Vec accel = r[j].bias;
-      double size = 1 + largest(r[j].bias);
+      double size = 1 + largest_entry(r[j].bias);
       for (const auto& [body, G] : {std::pair{on.a, r[j].GA()}, std::pair{on.b, r[j].GB()}}) {
         if (body == kGround) continue;
         left[body] -= G.transpose() * f;
         accel += G * s.a[body];
-        size = std::max(size, largest(G * s.a[body]));
+        size = std::max(size, largest_entry(G * s.a[body]));
       }
-      note(worst.gap, largest(s.gap_accel[j] - accel) / size);
+      note(worst.gap, largest_entry(s.gap_accel[j] - accel) / size);
     }
-    for (std::size_t b = 0; b < left.size(); ++b) note(worst.motion, largest(left[b].cwiseQuotient(at.scale.body[b])));
+    for (std::size_t b = 0; b < left.size(); ++b) note(worst.motion, largest_entry(left[b].cwiseQuotient(at.scale.body[b])));
   }
   return worst;
 }
@@ -381,7 +381,7 @@ TEST(StageSolver, IterationStopsWithinItsTolerance) {
         double error = 0;
         for (int i = 0; i < stages; ++i)
           for (std::size_t b = 0; b < at.system.bodies.size(); ++b)
-            error = std::max(error, largest(at.system.bodies[b].mass.cwiseProduct(found[i].a[b] - exact[i].a[b]).cwiseQuotient(at.scale.body[b])));
+            error = std::max(error, largest_entry(at.system.bodies[b].mass.cwiseProduct(found[i].a[b] - exact[i].a[b]).cwiseQuotient(at.scale.body[b])));
         double force_error = 0;
         for (int i = 0; i < stages; ++i) force_error = std::max(force_error, sample::largest_difference(found[i].force, exact[i].force));
         EXPECT_LE(error, 0.2 * tolerance) << stages << " stages, step " << h;  // measured: 0.05 of both

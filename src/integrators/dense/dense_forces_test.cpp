@@ -63,7 +63,7 @@ Vecs forces_at(const System& system, const AlongStep& along, const State& begin,
   return at.force;
 }
 
-void compare(const char* what, const Model& model, State (*start)(const Model&, const System&), int stages, double h) {
+void compare_with_steps(const char* what, const Model& model, State (*start)(const Model&, const System&), int stages, double h) {
   const System system = build_system(model);
   RadauStepper stepper(system, 1e-8, stages);
   stepper.start(start(model, system), h);
@@ -85,13 +85,13 @@ void compare(const char* what, const Model& model, State (*start)(const Model&, 
   }
 }
 
-State settled(const Model& model, const System& system) { return sample::settled_start(model, system, 0.05); }
+State settled_after(const Model& model, const System& system) { return sample::settled_start(model, system, 0.05); }
 
 TEST(DenseForces, AreThoseOfOneInstantAfterTheOther) {
   for (const int stages : {3, 5}) {
-    compare("pendulum", sample::pendulum(1e8, 3500), settled, stages, 0.02);
-    compare("four-bar", sample::four_bar(1e8, 3000), settled, stages, 0.005);
-    compare("everything", sample::everything(), sample::plain_start, stages, 2e-5);  // gears, ropes, springs, motors that follow a function
+    compare_with_steps("pendulum", sample::pendulum(1e8, 3500), settled_after, stages, 0.02);
+    compare_with_steps("four-bar", sample::four_bar(1e8, 3000), settled_after, stages, 0.005);
+    compare_with_steps("everything", sample::everything(), sample::plain_start, stages, 2e-5);  // gears, ropes, springs, motors that follow a function
   }
 }
 
@@ -101,7 +101,7 @@ TEST(DenseForces, AnInstantWithoutAnAnswerKeepsWhatTheNodesSay) {
   const System system = build_system(model);
   const double h = 0.005;
   RadauStepper stepper(system, 1e-8);
-  stepper.start(settled(model, system), h);
+  stepper.start(settled_after(model, system), h);
   ASSERT_TRUE(stepper.trial(h));
   StepNodes nodes = stepper.nodes();
   nodes.gap_accel[1][0][0] = std::numeric_limits<double>::quiet_NaN();

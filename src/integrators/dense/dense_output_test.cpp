@@ -38,15 +38,15 @@ struct OneStep {
   }
 };
 
-struct Case {
+struct Interval {
   Model model;
   double step;
 };
-std::vector<Case> cases() { return {{sample::pendulum(1e8, 3500), 0.05}, {sample::four_bar(1e8, 3000), 0.0125}, {sample::four_bar(1e11, 9e4), 0.0125}}; }
+std::vector<Interval> cases() { return {{sample::pendulum(1e8, 3500), 0.05}, {sample::four_bar(1e8, 3000), 0.0125}, {sample::four_bar(1e11, 9e4), 0.0125}}; }
 
-std::vector<std::pair<Case, Through>> all_cases() {
-  std::vector<std::pair<Case, Through>> all;
-  for (const Case& c : cases())
+std::vector<std::pair<Interval, Through>> all_cases() {
+  std::vector<std::pair<Interval, Through>> all;
+  for (const Interval& c : cases())
     for (const Through through : kNodes) all.emplace_back(c, through);
   return all;
 }

@@ -21,7 +21,7 @@ const std::vector<std::pair<const char*, AlphaWeights>>& family() {
   return list;
 }
 
-State run_fixed(const System& system, const State& from, const AlphaWeights& weights, double duration, int n) {
+State run_alpha(const System& system, const State& from, const AlphaWeights& weights, double duration, int n) {
   AlphaStepper stepper(system, weights, kNoControl);
   stepper.set_max_step(duration / n);
   stepper.start(from, duration / n);
@@ -39,7 +39,7 @@ void expect_second_order(const Model& model, const State& from, double duration,
   for (const auto& [name, weights] : family()) {
     std::vector<double> q, v, f;
     for (int k = 0; k < 4; ++k, n *= 2) {
-      const State end = run_fixed(system, from, weights, duration, n);
+      const State end = run_alpha(system, from, weights, duration, n);
       q.push_back(sample::largest_difference(end.q, truth.state().q));
       v.push_back(sample::largest_difference(end.v, truth.state().v));
       f.push_back(sample::largest_difference(end.force, truth.state().force));
@@ -63,7 +63,7 @@ TEST(AlphaStepper, IsOfOrderTwoOnASoftFourBar) {
 }
 
 // A body of mass 1 pushed by a force that only depends on time.
-Model pushed(const char* force) {
+Model pushed_by(const char* force) {
   Model model;
   model.gravity = {0, 0};
   model.bodies = {sample::body("mass", 1, 1, {{"C", {0, 0}, 0}})};
@@ -80,11 +80,11 @@ Model pushed(const char* force) {
 // with F = t that of q is 1, and v is exact.
 TEST(AlphaStepper, StepsErrByTheirErrorConstants) {
   for (const auto& [name, weights] : family()) {
-    const Model square = pushed("t^2"), line = pushed("t");
+    const Model square = pushed_by("t^2"), line = pushed_by("t");
     const System of_square = build_system(square), of_line = build_system(line);
     const double h = 0.1;
     const auto error = [&weights = weights, h](const System& system, const Model& model, int steps, bool velocity) {
-      const State end = run_fixed(system, sample::plain_start(model, system), weights, steps * h, steps);
+      const State end = run_alpha(system, sample::plain_start(model, system), weights, steps * h, steps);
       const double t = steps * h;
       return velocity ? end.v[0][0] - t * t * t / 3 : end.q[0][0] - t * t * t / 6;
     };
@@ -92,7 +92,7 @@ TEST(AlphaStepper, StepsErrByTheirErrorConstants) {
     const double in_v = error(of_square, square, n + 1, true) - error(of_square, square, n, true);
     EXPECT_NEAR(in_v, 2 * weights.velocity_error() * h * h * h, 1e-11) << name;
     // What the first steps left in v runs on.
-    const State end = run_fixed(of_line, sample::plain_start(line, of_line), weights, n * h, n);
+    const State end = run_alpha(of_line, sample::plain_start(line, of_line), weights, n * h, n);
     const double v_error = end.v[0][0] - n * n * h * h / 2;
     const double in_q = error(of_line, line, n + 1, false) - error(of_line, line, n, false) - h * v_error;
     EXPECT_NEAR(in_q, weights.position_error() * h * h * h, 1e-11) << name;
@@ -121,7 +121,7 @@ struct Spring {
 TEST(AlphaStepper, TrapezoidalRuleDoesNotDamp) {
   const Spring spring;
   for (const double h : {0.05, 1.0, 40.0}) {
-    const State end = run_fixed(spring.system, spring.from, AlphaWeights::trapezoidal(), 400 * h, 400);
+    const State end = run_alpha(spring.system, spring.from, AlphaWeights::trapezoidal(), 400 * h, 400);
     EXPECT_NEAR(Spring::energy(end) / Spring::energy(spring.from), 1, 1e-10) << h;
   }
 }
@@ -162,7 +162,7 @@ TEST(AlphaStepper, ClosesItsEnergyAccountToItsOrder) {
   };
   for (const auto& [name, weights] : family()) {
     std::vector<double> drift;
-    for (const int n : {200, 400, 800}) drift.push_back(std::abs(total(run_fixed(system, from, weights, 2, n)) - total(from)));
+    for (const int n : {200, 400, 800}) drift.push_back(std::abs(total(run_alpha(system, from, weights, 2, n)) - total(from)));
     EXPECT_GT(sample::measured_order(drift), 1.9) << name;
   }
 }

@@ -13,13 +13,13 @@ namespace {
 
 using sample::expression;
 
-constexpr double kTolerance = 1e-6, kMass = 2, kFriction = 3;
+constexpr double kBlockTolerance = 1e-6, kBlockMass = 2, kFriction = 3;
 
 // A block in a guide with dry friction; `drive` is what pushes it besides, an expression of t and slide.
 Model sticking_block(const std::string& drive) {
   Model model;
   model.ground = {{"O", {0, 0}, 0}};
-  model.bodies = {sample::body("block", kMass, 0.1, {{"C", {0, 0}, 0}})};
+  model.bodies = {sample::body("block", kBlockMass, 0.1, {{"C", {0, 0}, 0}})};
   sample::put_at(model.bodies[0], 1.5, 0, 0);
   model.joints = {sample::joint("guide", "prismatic", {"ground", "O"}, {"block", "C"}, 1e8, 3000)};
   model.motors = {sample::motor("friction", "guide", MotorKind::kEffort, expression("if(rate > 0, -3, 3)", {"rate"})),
@@ -47,7 +47,7 @@ void follow_all(Model model, double end, std::uint64_t most_steps, const Look& l
       choice.equations = model.simulate.equations;
       choice.method = "radau";
       choice.stages = stages;
-      const auto stepper = make_stepper(system, choice, kTolerance);
+      const auto stepper = make_stepper(system, choice, kBlockTolerance);
       stepper->start(tree ? sample::plain_start(model, system) : sample::loaded_start(model, system), 1e-4);
       while (stepper->state().t < end) {
         ASSERT_TRUE(stepper->step(end)) << stepper->failure();
@@ -62,9 +62,9 @@ TEST(SlidingModes, ABlockComesToRestOffItsSpringsLength) {
   const double rest = 4 * std::numbers::pi / 5;
   follow_all(sticking_block("50*(1 - slide)"), 6, 250, [&](const System& system, const State& s) {
     if (s.t < rest + 1e-3) return;
-    EXPECT_NEAR(s.q[0][0], 1.02, 5 * kTolerance) << s.t;
-    EXPECT_NEAR(s.v[0][0], 0, 5 * kTolerance) << s.t;
-    EXPECT_NEAR(friction_of(system, s), 1, 300 * kTolerance) << s.t;
+    EXPECT_NEAR(s.q[0][0], 1.02, 5 * kBlockTolerance) << s.t;
+    EXPECT_NEAR(s.v[0][0], 0, 5 * kBlockTolerance) << s.t;
+    EXPECT_NEAR(friction_of(system, s), 1, 300 * kBlockTolerance) << s.t;
   });
 }
 
@@ -72,12 +72,12 @@ TEST(SlidingModes, ABlockComesToRestOffItsSpringsLength) {
 TEST(SlidingModes, ABlockSticksUntilItIsPushedHardEnough) {
   const double loose = kFriction / 10;
   follow_all(sticking_block("10*t + 0*slide"), 1, 150, [&](const System& system, const State& s) {
-    const double x = s.t < loose ? 0 : 10 / (6 * kMass) * std::pow(s.t - loose, 3);
-    EXPECT_NEAR(s.q[0][0], 1.5 + x, 10 * kTolerance) << s.t;
+    const double x = s.t < loose ? 0 : 10 / (6 * kBlockMass) * std::pow(s.t - loose, 3);
+    EXPECT_NEAR(s.q[0][0], 1.5 + x, 10 * kBlockTolerance) << s.t;
     const bool near_a_change = s.t < 1e-3 || std::abs(s.t - loose) < 1e-3;
     const double friction = s.t < loose ? -10 * s.t : -kFriction;
     if (!near_a_change) {
-      EXPECT_NEAR(friction_of(system, s), friction, 20 * kTolerance) << s.t;
+      EXPECT_NEAR(friction_of(system, s), friction, 20 * kBlockTolerance) << s.t;
     }
   });
 }
@@ -87,7 +87,7 @@ TEST(SlidingModes, AJumpThatLetsThroughIsNotSlidOn) {
   Model model = sticking_block("20 + 0*t*slide");
   follow_all(model, 0.5, 100, [&](const System&, const State& s) {
     EXPECT_TRUE(s.sliding.empty());
-    EXPECT_NEAR(s.q[0][0], 1.5 + 0.5 * 17 / kMass * s.t * s.t, 10 * kTolerance);
+    EXPECT_NEAR(s.q[0][0], 1.5 + 0.5 * 17 / kBlockMass * s.t * s.t, 10 * kBlockTolerance);
   });
 }
 

@@ -28,7 +28,7 @@ between = ["cam.O", "follower.foot"]
 )" + joint;
 }
 
-std::vector<Complaint> complaints_about(const std::string& text) {
+std::vector<Complaint> complaints_about_cam(const std::string& text) {
   try {
     parse_model(text, "m.toml");
   } catch (const InputError& error) {
@@ -56,26 +56,26 @@ TEST(ReadCams, AnExpressionOrATableIsTheLift) {
 
 // Straight lines have corners.
 TEST(ReadCams, ATableNeedsASmoothInterpolation) {
-  const auto complaints = complaints_about(cam_model("base_radius = 0.05\nlift = \"rise(angle)\"\n", "[table.rise]\nx = [0, 90, 180, 270]\nx_unit = \"deg\"\ny = [0, 2, 5, 2]\ny_unit = \"mm\"\nperiod = 360\n"));
+  const auto complaints = complaints_about_cam(cam_model("base_radius = 0.05\nlift = \"rise(angle)\"\n", "[table.rise]\nx = [0, 90, 180, 270]\nx_unit = \"deg\"\ny = [0, 2, 5, 2]\ny_unit = \"mm\"\nperiod = 360\n"));
   ASSERT_EQ(complaints.size(), 1U);
   EXPECT_NE(complaints[0].because.find("a corner at 90 deg"), std::string::npos) << complaints[0].because;
   EXPECT_NE(complaints[0].suggestion.find("spline"), std::string::npos);
 }
 
 // @ stands before the character that is to be blamed.
-struct Mistake {
+struct CamMistake {
   const char* joint;
   const char* path;
   const char* because;
 };
 
-void expect_complaint(std::string text, const Mistake& mistake) {
+void expect_complaint(std::string text, const CamMistake& mistake) {
   const std::size_t mark = text.find('@');
   ASSERT_NE(mark, std::string::npos);
   text.erase(mark, 1);
   const int line = 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(mark), '\n'));
   const int column = static_cast<int>(mark - text.rfind('\n', mark - 1));
-  const auto complaints = complaints_about(text);
+  const auto complaints = complaints_about_cam(text);
   std::string all;
   for (const Complaint& complaint : complaints) all += to_text(complaint) + "\n";
   EXPECT_TRUE(std::any_of(complaints.begin(), complaints.end(),
@@ -85,7 +85,7 @@ void expect_complaint(std::string text, const Mistake& mistake) {
 }
 
 TEST(ReadCams, MistakesAreLocatedAndExplained) {
-  const std::vector<Mistake> mistakes{
+  const std::vector<CamMistake> mistakes{
       {"base_radius = 0.04\nlift = \"@5 mm*angle\"\n", "joint.J.lift", "does not close"},
       {"base_radius = 0.04\nlift = \"@5 s\"\n", "joint.J.lift", "a length [m] is expected"},
       {"base_radius = 0.04\nlift = \"@t\"\n", "joint.J.lift", ""},
@@ -100,13 +100,13 @@ TEST(ReadCams, MistakesAreLocatedAndExplained) {
       {"base_radius = 0.04\nlift = 0\nfriction = \"coulomb\"\nguide_length = @0.1\n", "joint.J.guide_length", "have no guide"},
       {"base_radius = 0.04\nlift = 0\n@radius = 1\n", "joint.J.radius", "rack joints only"},
   };
-  for (const Mistake& mistake : mistakes) expect_complaint(cam_model(mistake.joint), mistake);
+  for (const CamMistake& mistake : mistakes) expect_complaint(cam_model(mistake.joint), mistake);
 }
 
 // Of a curved edge, whose table is complete but for what is tried.
 TEST(ReadEdges, MistakesAreLocatedAndExplained) {
   const std::string complete = "from = \"-1 m\"\nto = \"1 m\"\n";
-  const std::vector<Mistake> mistakes{
+  const std::vector<CamMistake> mistakes{
       {"height = \"@0.1 m*abs(x/(1 m))\"\nfrom = \"-1 m\"\nto = \"1 m\"\n", "joint.J.height", "a corner at"},
       {"height = \"@x^2/(0.2 m)\"\nroller_radius = 0.2\nfrom = \"-1 m\"\nto = \"1 m\"\n", "joint.J.height", "touch in two places"},
       {"height = \"@1 m^2/x\"\nfrom = \"-1 m\"\nto = \"1 m\"\n", "joint.J.height", "not finite"},
@@ -114,7 +114,7 @@ TEST(ReadEdges, MistakesAreLocatedAndExplained) {
       {"height = 0\nfrom = 1\nto = @1\n", "joint.J.to", "not above from"},
       {"height = 0\nfrom = 0\nto = 1\n@base_radius = 1\n", "joint.J.base_radius", "cam joints only"},
   };
-  for (const Mistake& mistake : mistakes) {
+  for (const CamMistake& mistake : mistakes) {
     std::string text = cam_model(mistake.joint);
     text.replace(text.find("\"cam\""), 5, "\"edge\"");
     expect_complaint(text, mistake);
@@ -122,7 +122,7 @@ TEST(ReadEdges, MistakesAreLocatedAndExplained) {
   for (const auto& [outside, fits] : {std::pair{"extend", true}, {"hold", false}}) {  // a table that is held beyond its end has a corner there
     std::string road = cam_model("height = \"road(x)\"\n" + complete, std::string("[table.road]\nx = [-1, 0, 1]\ny = [0, 0.1, 0.3]\nx_unit = \"m\"\ny_unit = \"m\"\ninterpolation = \"spline\"\noutside = \"") + outside + "\"\n");
     road.replace(road.find("\"cam\""), 5, "\"edge\"");
-    EXPECT_EQ(complaints_about(road).empty(), fits) << outside;
+    EXPECT_EQ(complaints_about_cam(road).empty(), fits) << outside;
   }
   std::string text = cam_model("height = \"0.1 m*sin(x/(1 m))\"\nroller_radius = \"5 cm\"\n" + complete);
   text.replace(text.find("\"cam\""), 5, "\"edge\"");

@@ -12,8 +12,10 @@ void check_preload(ModelReading& reading, const Record& record, const std::strin
                          "each determines the other", "delete one of them");
 }
 
-void check_spring_does_something(ModelReading& reading, const Record& record, const Spring& spring) {
-  if (record.states("stiffness") || record.states("damping") || spring.preload) return;
+// A value that was complained about would have done something.
+void check_spring_does_something(ModelReading& reading, const Table& stated, const Record& record, const Spring& spring) {
+  for (const char* key : {"stiffness", "damping", "preload"})
+    if (stated.find(key) != nullptr) return;
   reading.complaints.add(record.table_spot, record.path, "neither stiffness nor damping nor preload",
                          "such a spring does nothing",
                          spring.torsion ? "stiffness = \"10 N*m/rad\"" : "stiffness = \"1e3 N/m\"");
@@ -33,7 +35,7 @@ void read_spring(ModelReading& reading, const Entry& entry, bool torsion) {
   spring.damping = record.number("damping");
   spring.free_length = record.maybe_number(free_key);
   spring.preload = record.maybe_number("preload");
-  if (entry.value.table() != nullptr) check_spring_does_something(reading, record, spring);
+  if (entry.value.table() != nullptr) check_spring_does_something(reading, *entry.value.table(), record, spring);
   check_preload(reading, record, free_key);
   reading.model.springs.push_back(std::move(spring));
 }

@@ -46,7 +46,7 @@ double torque_at(const std::string& text, double angle, const Files& files = {})
   return model.motors[0].law.value(std::vector{angle});
 }
 
-std::vector<Complaint> complaints_about(const std::string& text, const FileText& files) {
+std::vector<Complaint> complaints_with_files(const std::string& text, const FileText& files) {
   try {
     parse_model(text, "m.toml", {}, files);
   } catch (const InputError& error) {
@@ -108,7 +108,7 @@ TEST(Tables, SurviveConversion) {
 }
 
 // @ stands before the character that is to be blamed.
-struct Mistake {
+struct TableMistake {
   const char* table;
   const char* path;
   const char* because;
@@ -116,7 +116,7 @@ struct Mistake {
   const char* found = "";
 };
 
-const std::vector<Mistake> kMistakes{
+const std::vector<TableMistake> kTableMistakes{
     {"[table.@a-b]\nx = [0, 1]\ny = [0, 1]\n", "table.a-b", "letters, digits and _"},
     {"[table.@sin]\nx = [0, 1]\ny = [0, 1]\n", "table.sin", "name of a unit, a function"},
     {"[table.@rate]\nx = [0, 1]\ny = [0, 1]\n", "table.rate", "a variable", "rate_table"},
@@ -161,14 +161,14 @@ const Files kFiles{{"f.csv", "angle,M\n0,1\n1,2\n"}, {"plain.csv", "0,1\n1,2\n"}
                    {"quote.csv", "0,\"1\n"}, {"falls.csv", "0,1\n1,2\n0.5,3\n"}, {"empty.csv", "# nothing\n\n"}, {"infinite.csv", "0,1\ninf,2\n"}};
 
 TEST(Tables, MistakesAreLocatedAndExplained) {
-  for (const Mistake& mistake : kMistakes) {
+  for (const TableMistake& mistake : kTableMistakes) {
     std::string text = with_table(mistake.table);
     const std::size_t mark = text.find('@');
     ASSERT_NE(mark, std::string::npos) << mistake.table;
     text.erase(mark, 1);
     const int line = 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(mark), '\n'));
     const int column = static_cast<int>(mark - text.rfind('\n', mark - 1));
-    const auto complaints = complaints_about(text, text_in(kFiles));
+    const auto complaints = complaints_with_files(text, text_in(kFiles));
     std::string all;
     for (const Complaint& complaint : complaints) all += to_text(complaint) + "\n";
     const bool found = std::any_of(complaints.begin(), complaints.end(), [&](const Complaint& c) {
@@ -181,7 +181,7 @@ TEST(Tables, MistakesAreLocatedAndExplained) {
 }
 
 TEST(Tables, InFilesNeedFiles) {
-  const auto complaints = complaints_about(with_table("[table.f]\nfile = \"f.csv\"\n", "f(angle)"), {});
+  const auto complaints = complaints_with_files(with_table("[table.f]\nfile = \"f.csv\"\n", "f(angle)"), {});
   ASSERT_EQ(complaints.size(), 1U);
   EXPECT_EQ(complaints[0].path, "table.f.file");
   EXPECT_NE(complaints[0].because.find("only the text of the model is known"), std::string::npos);
@@ -189,13 +189,13 @@ TEST(Tables, InFilesNeedFiles) {
 
 // Who calls a faulty table is not blamed.
 TEST(Tables, AreBlamedOnce) {
-  EXPECT_EQ(complaints_about(with_table("[table.f]\nx = [0, 0]\ny = [1, 2]\n", "f(angle)"), {}).size(), 1U);
-  EXPECT_EQ(complaints_about(with_table("[table.f]\nx = [0, \"1 m\"]\ny = [1, 2]\n", "f(angle)"), {}).at(0).path, "motor.M.torque");
+  EXPECT_EQ(complaints_with_files(with_table("[table.f]\nx = [0, 0]\ny = [1, 2]\n", "f(angle)"), {}).size(), 1U);
+  EXPECT_EQ(complaints_with_files(with_table("[table.f]\nx = [0, \"1 m\"]\ny = [1, 2]\n", "f(angle)"), {}).at(0).path, "motor.M.torque");
 }
 
 TEST(Tables, OfLawsAreOfTheirKind) {
   const auto about = [](const std::string& tables, const std::string& keys) {
-    const auto complaints = complaints_about("format = 1\n" + tables + kRest + "torque = 0\n[joint.J]\ntype = \"slot\"\nbetween = [\"ground.O\", \"crank.A\"]\nlaw = \"table\"\n" + keys, {});
+    const auto complaints = complaints_with_files("format = 1\n" + tables + kRest + "torque = 0\n[joint.J]\ntype = \"slot\"\nbetween = [\"ground.O\", \"crank.A\"]\nlaw = \"table\"\n" + keys, {});
     return complaints.size() == 1 ? complaints[0].path + ": " + complaints[0].because : std::to_string(complaints.size()) + " complaints";
   };
   const std::string good = "[table.f]\nx = [0, \"1 m\"]\ny = [0, \"1 N\"]\n";

@@ -62,8 +62,6 @@ std::vector<std::string> words_of_catalog(std::string_view catalog) {
     list(LawRole::kHolds);
   } else if (catalog == "friction laws") {
     list(LawRole::kFriction);
-  } else if (catalog == "friction laws or none") {
-    list(LawRole::kFriction);
     words.emplace_back("none");
   } else if (catalog == "stop laws") {
     list(LawRole::kStops);

@@ -3,9 +3,9 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <numbers>
 #include <string>
 
+#include "base/constants.h"
 #include "laws/catalog.h"
 #include "laws/bearings/journal_film.h"
 
@@ -14,9 +14,8 @@ namespace {
 
 using Vec = Planar::Vec;
 using Values = std::map<std::string, std::vector<double>>;
-constexpr double kPi = std::numbers::pi;
 
-LawSetting setting_of(const LawInfo& info, const Values& values, std::string_view type = "revolute") {
+LawSetting bearing_setting(const LawInfo& info, const Values& values, std::string_view type = "revolute") {
   LawSetting at;
   at.joint_type = type;
   at.held = {type != "prismatic", true, type != "revolute"};
@@ -28,7 +27,7 @@ LawSetting setting_of(const LawInfo& info, const Values& values, std::string_vie
 
 Law made(const char* word, const Values& values, std::string_view type = "revolute") {
   const LawInfo& info = *find_law(word);
-  const LawSetting at = setting_of(info, values, type);
+  const LawSetting at = bearing_setting(info, values, type);
   EXPECT_EQ(info.fault ? info.fault(at).key : "", "");
   Law law;
   info.make(at, law);
@@ -37,7 +36,7 @@ Law made(const char* word, const Values& values, std::string_view type = "revolu
 
 LawFault fault_of(const char* word, const Values& values, std::string_view type = "revolute") {
   const LawInfo& info = *find_law(word);
-  const LawFault fault = info.fault(setting_of(info, values, type));
+  const LawFault fault = info.fault(bearing_setting(info, values, type));
   EXPECT_EQ(fault.key.empty(), fault.remedy.empty());
   return fault;
 }
@@ -128,9 +127,9 @@ TEST(RollingBearing, IsFreeInItsPlayAndNeverPulls) {
   EXPECT_LT(border({2.5e-5, 0, 0}, {-0.06, 0, 0}), 0);
 }
 
-constexpr double kR = 0.025, kL = 0.02, kC = 40e-6, kMu = 0.04, kSpin = 150;
+constexpr double kR = 0.025, kBushLength = 0.02, kC = 40e-6, kMu = 0.04, kSpin = 150;
 Values oil(double film) {
-  return {{"film", {film}}, {"journal_radius", {kR}}, {"bearing_length", {kL}}, {"radial_clearance", {kC}}, {"viscosity", {kMu}}, {"roughness", {1e-7}}};
+  return {{"film", {film}}, {"journal_radius", {kR}}, {"bearing_length", {kBushLength}}, {"radial_clearance", {kC}}, {"viscosity", {kMu}}, {"roughness", {1e-7}}};
 }
 
 // DuBois and Ocvirk, NACA Report 1157: S (L/D)^2 = (1-e^2)^2 / (pi e sqrt(pi^2 (1-e^2) + 16 e^2)), tan(attitude) = pi sqrt(1-e^2) / (4 e).
@@ -141,7 +140,7 @@ TEST(JournalBearing, HasOcvirksSommerfeldNumberAndAttitude) {
       const Vec gap(e * kC * std::cos(turn), e * kC * std::sin(turn), 0.4), rate(0, 0, kSpin), f = force(bearing, gap, rate);
       std::vector<double> columns;
       bearing.observe({0, gap, rate, nullptr}, f, columns);
-      const double ratio = kL / (2 * kR), chart = (1 - e * e) * (1 - e * e) / (kPi * e * std::sqrt(kPi * kPi * (1 - e * e) + 16 * e * e));
+      const double ratio = kBushLength / (2 * kR), chart = (1 - e * e) * (1 - e * e) / (kPi * e * std::sqrt(kPi * kPi * (1 - e * e) + 16 * e * e));
       EXPECT_NEAR(columns[2] * ratio * ratio, chart, 1e-11 * chart) << e;
       EXPECT_NEAR(columns[0], e, 1e-12);
       EXPECT_NEAR(columns[1], kC * (1 - e), 1e-12 * kC);
@@ -155,7 +154,7 @@ TEST(JournalBearing, HasOcvirksSommerfeldNumberAndAttitude) {
 // Sommerfeld's half film: 6 pi e and 12 e^2 over (2 + e^2), times mu w R L (R/c)^2.
 TEST(JournalBearing, ALongFilmHasSommerfeldsForces) {
   const Law bearing = made("journal-bearing", oil(2));
-  const double size = kMu * kSpin * kR * kL * kR * kR / (kC * kC);
+  const double size = kMu * kSpin * kR * kBushLength * kR * kR / (kC * kC);
   for (const double e : {1e-3, 0.2, 0.5, 0.8, 0.95}) {
     const Vec f = force(bearing, {e * kC, 0, 0}, {0, 0, kSpin});
     EXPECT_NEAR(f[0], -size * 12 * e * e / ((2 + e * e) * (1 - e * e)), 1e-9 * size * e);
@@ -166,7 +165,7 @@ TEST(JournalBearing, ALongFilmHasSommerfeldsForces) {
 // A centred pin is squeezed with pi/2 mu R L^3 / c^3 against its motion, and turning alone does nothing (Petroff: a couple).
 TEST(JournalBearing, IsRegularWhereThePinIsCentred) {
   const Law bearing = made("journal-bearing", oil(1));
-  const double c = kPi / 2 * kMu * kR * kL * kL * kL / (kC * kC * kC), petroff = 2 * kPi * kMu * kR * kR * kR * kL / kC;
+  const double c = kPi / 2 * kMu * kR * kBushLength * kBushLength * kBushLength / (kC * kC * kC), petroff = 2 * kPi * kMu * kR * kR * kR * kBushLength / kC;
   const Vec f = force(bearing, Vec::Zero(), {0.003, -0.004, kSpin});
   EXPECT_TRUE(f.isApprox(Vec(-0.003 * c, 0.004 * c, -petroff * kSpin), 1e-12));
   LawTangents r;
@@ -181,7 +180,7 @@ TEST(JournalBearing, IsRegularWhereThePinIsCentred) {
 // What is squeezed to and fro adds up to a film that does not cavitate: pi (1 + 2 e^2) / (1 - e^2)^(5/2) and pi / (1 - e^2)^(3/2).
 TEST(JournalBearing, HalfFilmsMakeAWholeOne) {
   const Law bearing = made("journal-bearing", oil(1));
-  const double e = 0.6, size = kMu * kR * kL * kL * kL / (kC * kC * kC), s = 1 - e * e;
+  const double e = 0.6, size = kMu * kR * kBushLength * kBushLength * kBushLength / (kC * kC * kC), s = 1 - e * e;
   for (const double angle : {0.0, 0.4, 1.1, kPi / 2, 2.0, 3.0}) {
     const Vec rate(0.01 * std::cos(angle), 0.01 * std::sin(angle), 0), gap(e * kC, 0, 0);
     const Vec whole = force(bearing, gap, rate) - force(bearing, gap, -rate);

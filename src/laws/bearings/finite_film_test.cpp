@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "base/constants.h"
 #include "laws/bearings/journal_film.h"
 #include "laws/law.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 using Vec = Planar::Vec;
 using Flow = JournalFilmLaw::Flow;
-constexpr double kPi = std::numbers::pi, kRadius = 0.02, kClearance = 20e-6, kViscosity = 0.03;
+constexpr double kRadius = 0.02, kClearance = 20e-6, kViscosity = 0.03;
 
 Law bearing(double slender, Flow flow) {
   JournalFilmLaw law;
@@ -139,7 +139,6 @@ TEST(FiniteFilm, IsCloseToReynoldsEquation) {
   struct Region {
     double least_turn, most_turn, most_e, allowed;
   };
-  constexpr double kDegree = kPi / 180;
   for (const Region& region : {Region{0, 60, 0.9, 0.07}, {75, 90, 0.5, 0.09}, {75, 90, 0.9, 0.20}, {105, 180, 0.9, 0.30}}) {
     double most = 0;
     for (const double slender : kSlender)

@@ -1,4 +1,4 @@
-// A force that is measured: a table of force against displacement, by cubic pieces that rise as the points do (base/monotone_table.h).
+// A force that is measured: a table of force against displacement, by cubic pieces that rise as the points do (base/tables/monotone_table.h).
 //
 //   f = -F(e)  of a joint that holds one length;   f = -F(|e|) e/|e|  of a pin         theory/bearings Eq. (4.1)
 //   V = integral of F from 0 to e                                                      Eq. (4.2)
@@ -8,7 +8,7 @@
 
 #include <string_view>
 
-#include "base/monotone_table.h"
+#include "base/tables/monotone_table.h"
 #include "laws/law_math.h"
 #include "laws/law_numbers.h"
 #include "space/planar.h"

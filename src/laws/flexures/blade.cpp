@@ -1,3 +1,4 @@
+#include "base/constants.h"
 #include "laws/flexures/blade.h"
 
 #include <Eigen/LU>
@@ -21,7 +22,7 @@ constexpr double kSettled = 1e-10;             // relative step after which the 
 constexpr double kRounding = 1e-6;             // relative step below which one that does not shrink is rounding
 constexpr double kTail = 1e-8;                 // share of the last coefficients; energy and forces are wrong by its square
 constexpr double kRoughTail = 1e-4;            // the same with all the functions that there are
-constexpr double kReach = 0.35, kTurn = 1;     // displacement across that one step of the path may add, over the length; angle that it may add [rad]
+constexpr double kReach = 0.35;     // displacement across that one step of the path may add, over the length; angle that it may add [rad]
 constexpr int kMostParts = 16, kFinest = 512;  // steps of the path, at most; parts into which the path is halved, at most
 constexpr double kSurelyStable = std::numbers::pi * std::numbers::pi;
 

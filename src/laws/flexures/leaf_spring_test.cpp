@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "base/constants.h"
 #include "base/random_for_tests.h"
 #include "laws/flexures/blade_basis.h"
 #include "laws/flexures/flexure_laws_for_tests.h"
@@ -13,7 +13,6 @@ namespace pintle {
 namespace {
 
 using namespace flexure;
-constexpr double kPi = std::numbers::pi;
 constexpr double kL = 0.2, kB = 0.03, kT = 4e-3, kE = 200e9;
 constexpr double kEI = kE * kB * kT * kT * kT / 12, kEA = kE * kB * kT;
 constexpr double kStretch = kEI / (kEA * kL * kL);  // compliance of the blade without dimension

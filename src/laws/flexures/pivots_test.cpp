@@ -1,8 +1,8 @@
 // Notch hinges and cross-spring pivots against published formulas.
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "base/constants.h"
 #include "base/random_for_tests.h"
 #include "laws/flexures/flexure_laws_for_tests.h"
 #include "laws/flexures/notch_hinge.h"
@@ -12,25 +12,24 @@ namespace pintle {
 namespace {
 
 using namespace flexure;
-constexpr double kPi = std::numbers::pi;
-constexpr double kE = 71e9, kB = 0.012;
+constexpr double kAluminium = 71e9, kNeckWidth = 0.012;
 
-NotchSize notch(double thickness, double x, double y) { return {thickness, x, y, kB, kE, kE / 2.66}; }
+NotchSize notch(double thickness, double x, double y) { return {thickness, x, y, kNeckWidth, kAluminium, kAluminium / 2.66}; }
 
 // J. M. Paros and L. Weisbord, Machine Design 37 (1965): bending and stretching of a hinge of two half circles, with b = t/(2 R).
 TEST(NotchHinge, HasParosAndWeisbordsCompliance) {
   const double R = 5e-3;
   for (const double t : {1e-5, 1e-4, 1e-3, 5e-3}) {
     const double b = t / (2 * R), g = 1 + b, d = 2 * b + b * b;
-    const double bending = 3 / (2 * kE * kB * R * R) / d * ((1 + b) / (g * g) + (3 + 2 * b + b * b) / (g * d) + 6 * (1 + b) / std::pow(d, 1.5) * std::atan(std::sqrt((2 + b) / b)));
-    const double axial = (2 * (1 + b) / std::sqrt(d) * std::atan(std::sqrt((2 + b) / b)) - kPi / 2) / (kE * kB);
+    const double bending = 3 / (2 * kAluminium * kNeckWidth * R * R) / d * ((1 + b) / (g * g) + (3 + 2 * b + b * b) / (g * d) + 6 * (1 + b) / std::pow(d, 1.5) * std::atan(std::sqrt((2 + b) / b)));
+    const double axial = (2 * (1 + b) / std::sqrt(d) * std::atan(std::sqrt((2 + b) / b)) - kPi / 2) / (kAluminium * kNeckWidth);
     const NotchCompliance hinge = compliance_of(notch(t, R, R));
     EXPECT_NEAR(hinge.bending, bending, 1e-11 * bending) << t;
     EXPECT_NEAR(hinge.axial, axial, 1e-11 * axial) << t;
   }
   const NotchCompliance thin = compliance_of(notch(5e-5, R, R));  // their short forms, of thin necks
-  EXPECT_NEAR(thin.bending / (9 * kPi * std::sqrt(R) / (2 * kE * kB * std::pow(5e-5, 2.5))), 1, 0.01);
-  EXPECT_NEAR(thin.axial / ((kPi * std::sqrt(R / 5e-5) - 2.57) / (kE * kB)), 1, 0.01);
+  EXPECT_NEAR(thin.bending / (9 * kPi * std::sqrt(R) / (2 * kAluminium * kNeckWidth * std::pow(5e-5, 2.5))), 1, 0.01);
+  EXPECT_NEAR(thin.axial / ((kPi * std::sqrt(R / 5e-5) - 2.57) / (kAluminium * kNeckWidth)), 1, 0.01);
 }
 
 // S. T. Smith, V. G. Badami, J. S. Dale, Y. Xu, Review of Scientific Instruments 68 (1997) 1474-1483: elliptic ones.
@@ -39,7 +38,7 @@ TEST(NotchHinge, OfAnEllipseIsThatOfACircleDrawnOut) {
     const NotchCompliance circle = compliance_of(notch(t, 4e-3, 4e-3)), ellipse = compliance_of(notch(t, 12e-3, 4e-3));
     EXPECT_NEAR(ellipse.bending, 3 * circle.bending, 1e-12 * ellipse.bending);
     EXPECT_NEAR(ellipse.axial, 3 * circle.axial, 1e-12 * ellipse.axial);
-    const double shear = 1.2 * circle.axial * kE / (kE / 2.66), bent = circle.transverse - shear;
+    const double shear = 1.2 * circle.axial * kAluminium / (kAluminium / 2.66), bent = circle.transverse - shear;
     EXPECT_NEAR(ellipse.transverse, 27 * bent + 3 * shear, 1e-12 * ellipse.transverse);
   }
 }
@@ -54,26 +53,26 @@ TEST(NotchHinge, GivesAcrossByBendingAndShear) {
     sum += weight * R * std::cos(angle) * 12 * x * x / (h * h * h);
     thin += weight * R * std::cos(angle) / h;
   }
-  EXPECT_NEAR(compliance_of(notch(t, R, R)).transverse, sum / (kE * kB) + 1.2 * thin / (kE / 2.66 * kB), 1e-9 * sum / (kE * kB));
+  EXPECT_NEAR(compliance_of(notch(t, R, R)).transverse, sum / (kAluminium * kNeckWidth) + 1.2 * thin / (kAluminium / 2.66 * kNeckWidth), 1e-9 * sum / (kAluminium * kNeckWidth));
 }
 
 // R. E. Peterson's factor of two deep notches in bending, as S. T. Smith, Flexures (2000) prints it for these hinges: (2.7 t + 5.4 R)/(8 R + t) + 0.325.
 TEST(NotchHinge, ConcentratesStressAsPetersonSays) {
   for (const double t : {1e-4, 1e-3, 5e-3}) {
-    const double R = 5e-3, k = NotchHingeLaw::of(notch(t, R, R), 0).stress_by_moment / (6 / (kB * t * t));
+    const double R = 5e-3, k = NotchHingeLaw::of(notch(t, R, R), 0).stress_by_moment / (6 / (kNeckWidth * t * t));
     EXPECT_NEAR(k / ((2.7 * t + 5.4 * R) / (8 * R + t) + 0.325), 1, 0.03) << t;
   }
 }
 
 TEST(NotchHinge, ByItsKeys) {
-  const Law hinge = made("notch-hinge", {{"thickness", {1e-3}}, {"radius", {5e-3}}, {"width", {kB}}, {"elastic_modulus", {kE}}, {"poisson_ratio", {0.33}}, {"plane", {1}}, {"damping_time", {2e-4}}});
+  const Law hinge = made("notch-hinge", {{"thickness", {1e-3}}, {"radius", {5e-3}}, {"width", {kNeckWidth}}, {"elastic_modulus", {kAluminium}}, {"poisson_ratio", {0.33}}, {"plane", {1}}, {"damping_time", {2e-4}}});
   const NotchCompliance narrow = compliance_of(notch(1e-3, 5e-3, 5e-3));
   const Vec k = hinge.engaged_stiffness();
   EXPECT_NEAR(k[2], 1 / narrow.bending / (1 - 0.33 * 0.33), 1e-9 * k[2]);
   EXPECT_TRUE(tangents(hinge, Vec::Zero()).stiffness.isApprox(k.asDiagonal().toDenseMatrix(), 1e-12));
   EXPECT_TRUE(tangents(hinge, Vec::Zero()).damping.isApprox((2e-4 * k).asDiagonal().toDenseMatrix(), 1e-12));
   const double stress = observed(hinge, {1e-7, 0, 1e-3})[0];
-  EXPECT_NEAR(stress, std::pow(1.1, 0.45) * 6 * k[2] * 1e-3 / (kB * 1e-6) + (k[0] * 1e-7) / (kB * 1e-3), 1e-3 * stress);
+  EXPECT_NEAR(stress, std::pow(1.1, 0.45) * 6 * k[2] * 1e-3 / (kNeckWidth * 1e-6) + (k[0] * 1e-7) / (kNeckWidth * 1e-3), 1e-3 * stress);
 }
 
 TEST(Pivots, DoNotKnowWhichEndIsFirst) {

@@ -19,7 +19,7 @@ using Vec = Planar::Vec;
 
 // A slide on a spring that gives the reaction, at the speed v along it.
 template <class P>
-double friction_of(P law, const Vec& reaction, double v) {
+double friction_law_force(P law, const Vec& reaction, double v) {
   law.free = 0;
   law.radius = 1;
   Law joint(LinearLaw{{0, 1e6, 1e3}, {0, 0, 0}});
@@ -35,18 +35,18 @@ TEST(BrownMcPheeLaw, ByHand) {
   law.viscous = 2;
   const Vec pressed(0, 100, 0);
   // The second term is 1 at v_t and 2 / 1.75^2 at twice that; the viscous one 0.002 and 0.004 of the load.
-  EXPECT_NEAR(friction_of(law, pressed, 1e-3), -100 * (0.1 * std::tanh(4.0) + 0.05 + 0.002), 1e-12);
-  EXPECT_NEAR(friction_of(law, pressed, -2e-3), 100 * (0.1 * std::tanh(8.0) + 0.05 * 0.65306122448979592 + 0.004), 1e-12);
-  EXPECT_NEAR(friction_of(law, pressed, 10), -100 * (0.1 + 20), 1e-9 * 2000);
+  EXPECT_NEAR(friction_law_force(law, pressed, 1e-3), -100 * (0.1 * std::tanh(4.0) + 0.05 + 0.002), 1e-12);
+  EXPECT_NEAR(friction_law_force(law, pressed, -2e-3), 100 * (0.1 * std::tanh(8.0) + 0.05 * 0.65306122448979592 + 0.004), 1e-12);
+  EXPECT_NEAR(friction_law_force(law, pressed, 10), -100 * (0.1 + 20), 1e-9 * 2000);
 }
 
 TEST(StribeckLaw, ByHand) {
   StribeckLaw law;
   law.preload = 7;
   const Vec pressed(0, -93, 0);
-  EXPECT_NEAR(friction_of(law, pressed, 1e-4), -100 * (0.1 + 0.05 * std::exp(-0.01)) * 0.76159415595576489, 1e-12);
-  EXPECT_NEAR(friction_of(law, pressed, -1e-3), 100 * (0.1 + 0.05 / M_E) * std::tanh(10.0), 1e-12);
-  EXPECT_NEAR(friction_of(law, pressed, 1), -10, 1e-12);
+  EXPECT_NEAR(friction_law_force(law, pressed, 1e-4), -100 * (0.1 + 0.05 * std::exp(-0.01)) * 0.76159415595576489, 1e-12);
+  EXPECT_NEAR(friction_law_force(law, pressed, -1e-3), 100 * (0.1 + 0.05 / M_E) * std::tanh(10.0), 1e-12);
+  EXPECT_NEAR(friction_law_force(law, pressed, 1), -10, 1e-12);
 }
 
 // A slide that is pressed by 100 N: it breaks at 15 N, a stretch of 150 um, and slips with 10 N. Where it turns round it sticks, and friction is
@@ -103,10 +103,10 @@ TEST(Friction, MomentPressesTheEdgesOfAGuide) {
   for (const double moment : {0.0, 2.4, -2.4, 10.0, -10.0}) {
     law.guide = 0.05;
     const double load = std::abs(moment) < 2.5 ? 100 : 400;
-    EXPECT_NEAR(friction_of(law, {0, 100, moment}, 1), -0.1 * load, 1e-12) << moment;
-    EXPECT_NEAR(friction_of(law, {0, -100, moment}, 1), -0.1 * load, 1e-12) << moment;
+    EXPECT_NEAR(friction_law_force(law, {0, 100, moment}, 1), -0.1 * load, 1e-12) << moment;
+    EXPECT_NEAR(friction_law_force(law, {0, -100, moment}, 1), -0.1 * load, 1e-12) << moment;
     law.guide = 0;
-    EXPECT_NEAR(friction_of(law, {0, 100, moment}, 1), -10, 1e-12) << moment;
+    EXPECT_NEAR(friction_law_force(law, {0, 100, moment}, 1), -10, 1e-12) << moment;
   }
 }
 

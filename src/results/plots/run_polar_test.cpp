@@ -12,7 +12,7 @@
 namespace pintle {
 namespace {
 
-constexpr double kMass = 2, kArm = 0.5, kSpin = 3, kForce = kMass * kArm * kSpin * kSpin, kAxis = 0.3;
+constexpr double kSpunMass = 2, kArm = 0.5, kSpin = 3, kForce = kSpunMass * kArm * kSpin * kSpin, kAxis = 0.3;
 
 RunRecord turning() {
   Model model;
@@ -22,7 +22,7 @@ RunRecord turning() {
   model.ground = {{"O", {0, 0}, 0}};
   Body body;
   body.name = "bob";
-  body.mass = kMass;
+  body.mass = kSpunMass;
   body.inertia = 0.1;
   body.position = Vec2{kArm, 0};
   body.angle = 0;

@@ -14,7 +14,7 @@
 namespace pintle {
 namespace {
 
-bool holds(const std::string& text, std::string_view part) {
+bool svg_holds(const std::string& text, std::string_view part) {
   return text.find(part) != std::string::npos;
 }
 
@@ -122,15 +122,15 @@ TEST(SvgPlot, EscapesNamesAndSurvivesEmptyAndBadData) {
   Plot plot;
   plot.title = "A & <B>";
   plot.subtitle = "\"q\"\x01";
-  EXPECT_TRUE(holds(to_svg(plot), "A &amp; &lt;B&gt;"));
-  EXPECT_FALSE(holds(to_svg(plot), "\x01"));
+  EXPECT_TRUE(svg_holds(to_svg(plot), "A &amp; &lt;B&gt;"));
+  EXPECT_FALSE(svg_holds(to_svg(plot), "\x01"));
   const double inf = std::numeric_limits<double>::infinity();
   plot.x = {0, 1, 2, 3};
   plot.panels = {{"F", "N", {{"F", "x", {1, std::nan(""), inf, 2}}}}, {"empty", "", {{"e", "", {}}}}};
   const std::string svg = to_svg(plot);
-  EXPECT_FALSE(holds(svg, "nan"));
-  EXPECT_FALSE(holds(svg, "inf"));
-  EXPECT_TRUE(holds(svg, "F [N]"));
+  EXPECT_FALSE(svg_holds(svg, "nan"));
+  EXPECT_FALSE(svg_holds(svg, "inf"));
+  EXPECT_TRUE(svg_holds(svg, "F [N]"));
 }
 
 TEST(SvgPlot, PowersOfTenLieOnAStraightLineOfLogAxes) {
@@ -148,19 +148,19 @@ TEST(SvgPlot, PowersOfTenLieOnAStraightLineOfLogAxes) {
   EXPECT_NEAR(x[1] - x[0], x[2] - x[1], 0.011);
   EXPECT_NEAR(y[1] - y[0], y[2] - y[1], 0.011);
   EXPECT_LT(y[2], y[0]);
-  EXPECT_TRUE(holds(svg, "10²"));
+  EXPECT_TRUE(svg_holds(svg, "10²"));
 }
 
 TEST(SvgPlot, ACurveMayChooseItsLine) {
   Plot plot;
   plot.x = {1, 2};
   plot.panels = {{"F", "N", {{"A", "", {1, 2}}, {"B", "", {2, 3}}}}};
-  const auto colours = [](const std::string& svg) { return std::pair{holds(svg, "#0072b2"), holds(svg, "#d55e00")}; };
+  const auto colours = [](const std::string& svg) { return std::pair{svg_holds(svg, "#0072b2"), svg_holds(svg, "#d55e00")}; };
   EXPECT_EQ(colours(to_svg(plot)), std::pair(true, true));
-  EXPECT_FALSE(holds(to_svg(plot), "dasharray"));
+  EXPECT_FALSE(svg_holds(to_svg(plot), "dasharray"));
   plot.panels[0].curves[1].style = 7;  // the first colour again, dashed
   EXPECT_EQ(colours(to_svg(plot)), std::pair(true, false));
-  EXPECT_TRUE(holds(to_svg(plot), "dasharray"));
+  EXPECT_TRUE(svg_holds(to_svg(plot), "dasharray"));
 }
 
 TEST(RunPlot, ForcesOfOneJointNameBodyAndAxes) {
@@ -245,7 +245,7 @@ TEST(SvgPlot, BandFarWiderThanTheDataStaysInTheFrame) {
     EXPECT_LT(y, plot.panel_height + 40);
   }
   EXPECT_EQ(points, 4);
-  EXPECT_TRUE(holds(svg, ">0.4<"));
+  EXPECT_TRUE(svg_holds(svg, ">0.4<"));
 }
 
 }  // namespace

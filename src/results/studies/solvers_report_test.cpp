@@ -36,16 +36,16 @@ SolverStudy small_study() {
   return study;
 }
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(SolversReport, TextSaysWhatTheTruthIsAndWhoWasStopped) {
   const std::string text = solvers_text(small_study(), "Four-bar");
-  EXPECT_TRUE(holds(text, "Reference: radau, tolerance 1e-09"));
-  EXPECT_TRUE(holds(text, "3.0e-10"));
-  EXPECT_TRUE(holds(text, "stopped at t = 0.25 s"));
-  EXPECT_TRUE(holds(text, "running mean"));
-  EXPECT_FALSE(holds(text, "nan"));
-  EXPECT_FALSE(holds(text, "\x1b"));
+  EXPECT_TRUE(contains(text, "Reference: radau, tolerance 1e-09"));
+  EXPECT_TRUE(contains(text, "3.0e-10"));
+  EXPECT_TRUE(contains(text, "stopped at t = 0.25 s"));
+  EXPECT_TRUE(contains(text, "running mean"));
+  EXPECT_FALSE(contains(text, "nan"));
+  EXPECT_FALSE(contains(text, "\x1b"));
 }
 
 TEST(SolversReport, JsonHasEveryRunAndNoNumberWhereNoneIsKnown) {
@@ -58,7 +58,7 @@ TEST(SolversReport, JsonHasEveryRunAndNoNumberWhereNoneIsKnown) {
   EXPECT_EQ(json["truth"]["error_estimate"], 3e-10);
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
+std::size_t count_in(const std::string& text, const std::string& part) {
   std::size_t n = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
   return n;
@@ -67,18 +67,18 @@ std::size_t count(const std::string& text, const std::string& part) {
 // Equal factors are equal lengths: the dots of error 0.1 and 0.01 lie one power of ten apart, as the grid lines do.
 TEST(SolversReport, PictureHasLogarithmicAxes) {
   const std::string svg = to_svg(solvers_plot(small_study(), "Four-bar"));
-  EXPECT_EQ(count(svg, "<circle"), 4U);  // two runs with an error, in two panels
-  EXPECT_TRUE(holds(svg, ">10\u207b\u00b9<"));
-  EXPECT_TRUE(holds(svg, "Wall time [ms]"));
-  EXPECT_TRUE(holds(svg, "Evaluations"));
-  EXPECT_FALSE(holds(svg, "nan"));
-  EXPECT_FALSE(holds(svg, "inf"));
+  EXPECT_EQ(count_in(svg, "<circle"), 4U);  // two runs with an error, in two panels
+  EXPECT_TRUE(contains(svg, ">10\u207b\u00b9<"));
+  EXPECT_TRUE(contains(svg, "Wall time [ms]"));
+  EXPECT_TRUE(contains(svg, "Evaluations"));
+  EXPECT_FALSE(contains(svg, "nan"));
+  EXPECT_FALSE(contains(svg, "inf"));
 }
 
 TEST(SolversReport, PictureOfNothingIsAPicture) {
   SolverStudy study = small_study();
   study.runs.clear();
-  EXPECT_TRUE(holds(to_svg(solvers_plot(study, "")), "</svg>"));
+  EXPECT_TRUE(contains(to_svg(solvers_plot(study, "")), "</svg>"));
 }
 
 }  // namespace

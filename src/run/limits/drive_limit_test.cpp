@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "base/constants.h"
 #include "system/build.h"
 #include "system/sample_systems_for_tests.h"
 
 namespace pintle {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct Bar {
   const char* name;
@@ -55,7 +53,7 @@ Planar::Point meeting(const Planar::Point& p, double a, const Planar::Point& r, 
   return p + along / d.norm() * d + across / d.norm() * Planar::perp(d);
 }
 
-Linkage four_bar(double ground, double crank, double coupler, double rocker, double angle, const std::string& position) {
+Linkage driven_four_bar(double ground, double crank, double coupler, double rocker, double angle, const std::string& position) {
   const Planar::Point O(0, 0), A(crank * std::cos(angle), crank * std::sin(angle)), C(ground, 0), B = meeting(A, coupler, C, rocker);
   Linkage four({{"O", O}, {"C", C}}, {{"crank", "O", "A", O, A}, {"coupler", "A", "B", A, B}, {"rocker", "C", "B", C, B}});
   four.pin("O", "ground", "crank");
@@ -69,7 +67,7 @@ Linkage four_bar(double ground, double crank, double coupler, double rocker, dou
 TEST(DriveLimit, IsWhereCouplerAndRockerAreInLine) {
   const double limit = std::acos((0.09 + 0.04 - 0.44 * 0.44) / 0.12);
   for (const double sign : {1.0, -1.0}) {
-    const auto found = four_bar(0.3, 0.2, 0.22, 0.22, 90 * kDegree, sign > 0 ? "3" : "-3").limit();
+    const auto found = driven_four_bar(0.3, 0.2, 0.22, 0.22, 90 * kDegree, sign > 0 ? "3" : "-3").limit();
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->value, sign * limit, 1e-9);
     EXPECT_EQ(found->ahead, sign > 0 ? 1 : -1);
@@ -77,21 +75,21 @@ TEST(DriveLimit, IsWhereCouplerAndRockerAreInLine) {
     EXPECT_NEAR(std::abs(std::sin(found->q[1][2] - found->q[2][2])), 0, 1e-6);
   }
   // Folded: coupler and rocker on each other.
-  const auto folded = four_bar(0.3, 0.25, 0.3, 0.1, 60 * kDegree, "0").limit();
+  const auto folded = driven_four_bar(0.3, 0.25, 0.3, 0.1, 60 * kDegree, "0").limit();
   ASSERT_TRUE(folded);
   EXPECT_NEAR(folded->value, std::acos((0.09 + 0.0625 - 0.04) / 0.15), 1e-9);
   EXPECT_EQ(folded->ahead, -1);
 }
 
 TEST(DriveLimit, NothingWhereTheDriveCanBeWhereItShould) {
-  EXPECT_FALSE(four_bar(0.3, 0.2, 0.22, 0.22, 90 * kDegree, "121.9*pi/180").limit());
-  EXPECT_TRUE(four_bar(0.3, 0.2, 0.22, 0.22, 90 * kDegree, "122.1*pi/180").limit());
-  EXPECT_FALSE(four_bar(0.3, 0.1, 0.25, 0.25, 90 * kDegree, "300*pi/180").limit());  // a crank: it lags, no more
-  EXPECT_FALSE(four_bar(0.3, 0.1, 0.3, 0.1, 60 * kDegree, "200*pi/180").limit());    // a parallelogram, through its flat position
+  EXPECT_FALSE(driven_four_bar(0.3, 0.2, 0.22, 0.22, 90 * kDegree, "121.9*pi/180").limit());
+  EXPECT_TRUE(driven_four_bar(0.3, 0.2, 0.22, 0.22, 90 * kDegree, "122.1*pi/180").limit());
+  EXPECT_FALSE(driven_four_bar(0.3, 0.1, 0.25, 0.25, 90 * kDegree, "300*pi/180").limit());  // a crank: it lags, no more
+  EXPECT_FALSE(driven_four_bar(0.3, 0.1, 0.3, 0.1, 60 * kDegree, "200*pi/180").limit());    // a parallelogram, through its flat position
 }
 
 TEST(DriveLimit, JointsThatGiveWayAreClosedFirst) {
-  Linkage four = four_bar(0.3, 0.2, 0.22, 0.22, 121 * kDegree, "3");
+  Linkage four = driven_four_bar(0.3, 0.2, 0.22, 0.22, 121 * kDegree, "3");
   four.q[0] += Planar::Vec(-0.002, 0.001, 0.02);
   four.q[1] += Planar::Vec(0.003, 0.002, -0.01);
   const auto found = four.limit();
@@ -101,7 +99,7 @@ TEST(DriveLimit, JointsThatGiveWayAreClosedFirst) {
 
 // The limit is that of the loop, whatever hangs on it or doubles its bars: also if these do not fit exactly.
 TEST(DriveLimit, FreeAndRedundantBodiesDoNotMatter) {
-  Linkage four = four_bar(0.3, 0.2, 0.22, 0.22, 90 * kDegree, "3");
+  Linkage four = driven_four_bar(0.3, 0.2, 0.22, 0.22, 90 * kDegree, "3");
   const double limit = four.limit()->value;
   Linkage hanging = four;
   hanging.model.bodies.push_back(sample::body("weight", 0.2, 1e-3, {{"B", {-0.1, 0}, 0}}));

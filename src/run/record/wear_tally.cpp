@@ -1,3 +1,4 @@
+#include "base/constants.h"
 #include "run/record/wear_tally.h"
 
 #include <algorithm>
@@ -36,7 +37,6 @@ const std::vector<double>& BasicWearTally<S>::observe(const Worn& worn, const Ba
 
 template <class S>
 int BasicWearTally<S>::parts(const BasicState<S>& begin, const BasicState<S>& end) const {
-  constexpr double kTurn = 2 * std::numbers::pi;
   constexpr int kPerSector = 4;
   double most = 0;  // [sectors]
   for (const Worn& worn : worn_) {

@@ -1,4 +1,4 @@
-#include "base/cubic_curve.h"
+#include "base/tables/cubic_curve.h"
 
 #include <algorithm>
 #include <cmath>

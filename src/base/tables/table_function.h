@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/cubic_curve.h"
+#include "base/tables/cubic_curve.h"
 
 namespace pintle {
 

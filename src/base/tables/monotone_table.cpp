@@ -1,4 +1,4 @@
-#include "base/monotone_table.h"
+#include "base/tables/monotone_table.h"
 
 #include <algorithm>
 #include <cstddef>

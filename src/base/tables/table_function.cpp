@@ -1,4 +1,4 @@
-#include "base/table_function.h"
+#include "base/tables/table_function.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
-#include "base/table_function.h"
+#include "base/tables/table_function.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "base/constants.h"
 #include "base/random_for_tests.h"
 
 namespace pintle {
@@ -15,7 +15,6 @@ namespace {
 using enum TableInterpolation;
 using enum TableOutside;
 
-constexpr double kTurn = 2 * std::numbers::pi;
 constexpr TableInterpolation kAll[] = {kLinear, kMonotone, kSpline};
 
 // A wave with the period 2 pi, known at n places of different widths, from x = -1 on.
