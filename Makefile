@@ -64,7 +64,6 @@ test:
 	@$(MAKE) --no-print-directory test-release
 	@$(MAKE) --no-print-directory test-package
 	@$(MAKE) --no-print-directory test-clang
-	@if command -v em++ >/dev/null; then tools/web_check.sh; else echo "web-check skipped: no em++ (make web-check installs it)"; fi
 	$(call say,all tests passed)
 
 check-sources:

@@ -31,6 +31,26 @@ TEST(Belts, AtwoodsMachineFallsAsItsInertiaSays) {
   }
 }
 
+// A motor that follows a speed over time: by theory/joints (4.7) the car rises by the integral of the speed, and while that is even the ropes carry the weights.
+TEST(Belts, ALiftRisesAsFarAsItsSpeedGoes) {
+  const Trajectory run = completed(mechanism("goods_lift"));
+  const auto risen = [&run](double t) { return value(run, reference::row_at(run, t), "body.car.y") - value(run, 0, "body.car.y"); };
+  EXPECT_NEAR(risen(1), 1.25 * 2 * (0.125 - 0.03125), 2e-3);  // of a ramp of 2 s: 2 (x^3 - x^4/2) at x = 1/2; the ropes give way by m a/k
+  EXPECT_NEAR(risen(11), 10, 1e-4);
+  const std::size_t begin = reference::row_at(run, 3), end = reference::row_at(run, 8), even = reference::row_at(run, 5);
+  const auto since_start = [&run, even](const char* column) { return value(run, even, column) - value(run, 0, column); };
+  EXPECT_NEAR(risen(5), 5 - since_start("joint.car_rope.tension") / 1.2e6 + 0.5 * since_start("motor.drive.effort") / 1e6, 2e-6);  // less what rope and servo give way by
+  EXPECT_NEAR(value(run, even, "body.sheave.spin"), -2.5, 1e-3);
+  const auto mean = [&](const char* column) {
+    double sum = 0;
+    for (std::size_t row = begin; row < end; ++row) sum += value(run, row, column);
+    return sum / static_cast<double>(end - begin);
+  };
+  EXPECT_NEAR(mean("joint.car_rope.tension"), 800 * kStandardGravity, 1);  // the ropes ring about their loads
+  EXPECT_NEAR(mean("joint.weight_rope.tension"), 1000 * kStandardGravity, 1);
+  EXPECT_NEAR(mean("motor.drive.effort"), 0.5 * 200 * kStandardGravity, 1);
+}
+
 // The couple of both runs on a pulley is its radius times the difference of their tensions; angles go as the radii.
 TEST(Belts, ADriveCarriesItsMomentByTheDifferenceOfItsRuns) {
   const Trajectory run = completed(mechanism("belt_drive"));

@@ -275,10 +275,10 @@ TEST(Contact, EveryMethodTouchesAndLetsGo) {
 TEST(LinearContact, BouncesAsInClosedFormAndComesToRest) {
   constexpr double kG = 9.80665, kMass = 2, kStiff = 1e8, kDamp = 1e4, kHeight = 0.01;
   const double decay = kDamp / (2 * kMass), w = std::sqrt(kStiff / kMass - decay * decay), rest = kMass * kG / kStiff;
-  struct Flight {
+  struct FreeFlight {
     double begin, speed;  // upwards
   };
-  std::vector<Flight> flights;
+  std::vector<FreeFlight> flights;
   double touch = std::sqrt(2 * kHeight / kG), speed = kG * touch;
   for (int bounce = 0; bounce < 3; ++bounce) {
     const auto motion = [&](double s) {
@@ -328,7 +328,7 @@ contact_exponent = 1
     const Trajectory run = reference::completed(model);
     int compared = 0;
     for (std::size_t i = 0; i < run.n_rows(); ++i)
-      for (const Flight& flight : flights) {
+      for (const FreeFlight& flight : flights) {
         const double s = run.at(i, 0) - flight.begin;
         if (s < 0 || s > 2 * flight.speed / kG) continue;
         EXPECT_NEAR(reference::value(run, i, "body.block.y"), flight.speed * s - 0.5 * kG * s * s, 1e-7) << run.at(i, 0);

@@ -114,7 +114,7 @@ struct Joint {
   std::optional<Bearing> bearing{};  ///< of a pin; it does not change the motion
   /// Functions are compared by their text.
   friend bool operator==(const Joint& a, const Joint& b) {
-    const auto values = [](const Joint& j) { return std::tie(j.name, j.type, j.first, j.second, j.geometry, j.law, j.friction, j.stops, j.detent, j.ideal, j.bearing); };
+    const auto values = [](const Joint& j) { return std::tie(j.name, j.type, j.first, j.second, j.geometry, j.law, j.friction, j.stops, j.detent, j.ideal, j.cam, j.edge, j.bearing); };
     return values(a) == values(b) && std::equal(a.functions.begin(), a.functions.end(), b.functions.begin(), b.functions.end(),
                                                 [](const auto& f, const auto& g) { return f.first == g.first && f.second.text() == g.second.text(); });
   }
@@ -144,7 +144,7 @@ struct AppliedForce {
 enum class MotorKind { kEffort, kSpeed, kPosition };
 
 /// A motor in a joint's free coordinate. kEffort: torque or force = expression of t, the coordinate ("angle" or
-/// "slide"), "rate", and "J.angle", "J.slide", "J.rate" of other joints. kSpeed: a constant, coordinate(0) + speed*t is
+/// "slide"), "rate", and "J.angle", "J.slide", "J.rate" of other joints. kSpeed: of t or a constant; the coordinate from its assembled value on at this speed is
 /// held by a servo. kPosition: expression of t, followed by a servo.
 struct Motor {
   std::string name;

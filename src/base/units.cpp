@@ -204,7 +204,7 @@ std::string to_words(const Dimension& dimension) {
 
 std::optional<std::string> check_dimension(const Dimension& found, const Dimension& wanted) {
   if (fits(found, wanted)) return std::nullopt;
-  return to_words(wanted) + " is expected here";
+  return to_words(wanted) + " is expected here, not " + to_words(found);
 }
 
 }  // namespace pintle

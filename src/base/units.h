@@ -61,7 +61,7 @@ std::string to_unit_text(const Dimension& dimension);
 /// In words and units: "a length [m]", "a bare number", "a quantity in [kg*m/s^3]".
 std::string to_words(const Dimension& dimension);
 
-/// Nothing if `found` may stand where `wanted` belongs, otherwise the reason: "a mass [kg] is expected here".
+/// Nothing if `found` may stand where `wanted` belongs, otherwise the reason: "a mass [kg] is expected here, not a length [m]".
 std::optional<std::string> check_dimension(const Dimension& found, const Dimension& wanted);
 
 }  // namespace pintle

@@ -112,7 +112,7 @@ TEST(Units, WhatFits) {
   EXPECT_FALSE(fits(kAngle, kLength));
   EXPECT_FALSE(fits(kStiffness, kAngularStiffness));
   EXPECT_EQ(check_dimension(kAngle, kPureNumber), std::nullopt);
-  EXPECT_EQ(check_dimension(kAngle, kLength), "a length [m] is expected here");
+  EXPECT_EQ(check_dimension(kAngle, kLength), "a length [m] is expected here, not an angle [rad]");
 }
 
 TEST(Units, ExponentsDoNotOverflow) {

@@ -51,6 +51,17 @@ TEST(CheckDifferences, KinksAreLeftOutAndSharpBendsAreNot) {
   EXPECT_FALSE(tally.item().passed());
 }
 
+// The end of a smooth step: its slope is 0, and the differences say so in the limit only.
+TEST(CheckDifferences, SlopesWhoseSlopeJumpsAreLeftOut) {
+  const auto start = [](double s) { return one(s > 0 ? 3 * s * s - 2 * s * s * s : 0.0); };
+  Comparisons right("smooth step", 1e-6), wrong("smooth step", 1e-6);
+  right.slope(one(0), start, 1e-3, 0, kHere);
+  EXPECT_EQ(right.item().at_kinks, 1);
+  EXPECT_EQ(right.item().comparisons, 0);
+  wrong.slope(one(0.3), start, 1e-3, 0, kHere);
+  EXPECT_FALSE(wrong.item().passed());
+}
+
 TEST(CheckDifferences, ANumberThatIsNoneDoesNotPass) {
   Comparisons tally("nan", 1e-6);
   tally.slope(

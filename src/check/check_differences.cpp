@@ -38,17 +38,22 @@ void Comparisons::slope(const Eigen::VectorXd& slope, const Curve& curve, double
   constexpr int kShrinks = 4;     // each to a tenth
   constexpr double kKink = 1e-2;  // one-sided slopes that differ so much at the shortest step, of the scale
   constexpr double kSteady = 0.1; // a kink bends the slope by as much at every step: a smooth curve by less at shorter ones, rounding by more
-  double best = INFINITY, bend = 0, bend_before = 0;
+  constexpr double kFalls = 0.2;  // of the error at steps ten times as long: it goes to nothing, and the slope is right, though the curve's bend jumps
+  double best = INFINITY, bend = 0, bend_before = 0, error = INFINITY;
+  bool falls = true;
   for (int shrink = 0; shrink <= kShrinks; ++shrink, step /= 10) {
     const Difference d = difference(curve, step);
     const double size = std::max({scale, largest(slope), largest(d.central)});
-    const double mismatch = relative(largest(slope - d.central), size);
+    const double error_before = error;
+    error = largest(slope - d.central);
+    falls = falls && (shrink == 0 || error < kFalls * error_before);
+    const double mismatch = relative(error, size);
     best = std::isnan(mismatch) ? mismatch : std::min(best, mismatch);
     if (best <= item_.tolerance || std::isnan(best)) return count(best, place);
     bend_before = bend;
     bend = d.bend / size;
   }
-  if (bend > kKink || (std::abs(bend - bend_before) < kSteady * bend && best <= bend)) {
+  if (falls || bend > kKink || (std::abs(bend - bend_before) < kSteady * bend && best <= bend)) {
     ++item_.at_kinks;
     return;
   }

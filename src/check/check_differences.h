@@ -25,7 +25,7 @@ class Comparisons {
   /// Is `slope` the derivative of `curve` at 0? Mismatch relative to `scale` or to the slope, whichever is larger.
   /// Starts with differences of fourth order over steps of `step`; shrinks them while they disagree, so that a sharp
   /// bend is not taken for a mistake. Where the slopes on both sides differ for good, the curve has a kink, and nothing
-  /// is said.
+  /// is said; nor where the differences go to `slope` as the steps do, as at the ends of a smooth step.
   void slope(const Eigen::VectorXd& slope, const Curve& curve, double step, double scale, const CheckPlace& place);
   /// Columns of `slopes` against curve(column, s); all have the matrix's scale, or `floor` if that is larger.
   template <class CurveOfColumn>

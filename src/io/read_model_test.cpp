@@ -278,6 +278,21 @@ TEST(ReadModel, Bearings) {
   EXPECT_FALSE(model.joints[2].bearing);
 }
 
+TEST(ReadModel, ABearingHasThePinThatRubs) {
+  const auto with_radius = [](const std::string& radius) {
+    return parse_model(kFullModel, "full.toml", {"joint.A.friction=coulomb", "joint.A.friction_coefficient=0.1", "joint.A.pin_radius=" + radius, "joint.A.bearing={ pin_diameter = \"20 mm\", pin_length = 0.025 }"});
+  };
+  EXPECT_EQ(with_radius("10 mm").joints[1].bearing->pin_diameter, 0.020);
+  try {
+    with_radius("20 mm");
+    FAIL();
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.complaints().size(), 1u);
+    EXPECT_EQ(error.complaints()[0].path, "joint.A.bearing.pin_diameter");
+    EXPECT_EQ(error.complaints()[0].because, "the joint's own pin_radius is 0.02 m, which is another pin");
+  }
+}
+
 // Keys that both laws have stay, those of the former one alone go, and a note says so.
 TEST(ReadModel, ALawIsChosenWithItsKeys) {
   const Model model = parse_model(kFullModel, "full.toml", {"--law joint.A=maxwell,branch_ratio=[1, 2],branch_time=[\"10 ms\", 0.1],damping='7 N*s/m'"});

@@ -39,8 +39,7 @@ class Standstill {
 
 // Samples of the loads in a step. Steps may hold much of a period of the motion, and the dense output of radau has as many samples of the forces; other methods
 // on free bodies resolve the vibrations of the joints, and those of the alpha family make short steps.
-int load_samples(LoadSamples samples, const MethodChoice& choice) {
-  if (samples == LoadSamples::kEnds) return 2;
+int load_samples(const MethodChoice& choice) {
   const bool long_steps = choice.method == "radau" || (choice.method == "dopri5" && choice.equations != Equations::kNewtonian);
   return long_steps ? CurveGrid::kMost : 3;
 }
@@ -65,7 +64,7 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
   stepper.set_max_step(plan.max_step);
   if (plan.scale) stepper.set_load_scale(*plan.scale);
   stepper.start(start, plan.first_step);
-  recorder.start(stepper.state(), load_samples(plan.load_samples, plan.choice));
+  recorder.start(stepper.state(), load_samples(plan.choice));
   if (plan.energy) plan.energy->start(stepper.state());
   std::size_t row = 1;
   const double end = plan.duration, almost = end * (1 - 1e-12);

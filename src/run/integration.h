@@ -12,9 +12,6 @@
 
 namespace pintle {
 
-/// Where in a step loads are sampled, for their peaks and means: inside too, or only at its ends, of a pass whose loads nobody asks for.
-enum class LoadSamples { kInside, kEnds };
-
 template <class S>
 struct BasicIntegrationPlan {
   double duration = 0;
@@ -23,7 +20,6 @@ struct BasicIntegrationPlan {
   double tolerance = 1e-5;           // of the stepper
   double first_step = 0;
   MethodChoice choice;
-  LoadSamples load_samples = LoadSamples::kInside;
   const BasicLoadScale<S>* scale = nullptr;  // from an earlier pass
   BasicEnergyWatch<S>* energy = nullptr;     // ends the integration where it raises an alarm
   BasicRingingLoss<S>* ringing = nullptr;    // sees the steps of methods that keep their inside

@@ -72,12 +72,10 @@ class Passes {
     return context_.observer({t, settings_.duration, static_cast<int>(out_.counters.passes) + 1, now});
   }
 
-  // False when it did not reach the end: then the passes before it stand, unless it is the first. A pass that is only compared with those
-  // after it need not know its peaks.
-  bool run_pass(double tolerance, LoadSamples samples = LoadSamples::kInside) {
+  // False when it did not reach the end: then the passes before it stand, unless it is the first.
+  bool run_pass(double tolerance) {
     std::unique_ptr<BasicForceRecorder<S>> recorder = context_.make_recorder();
     BasicIntegrationPlan<S> p = plan(tolerance);
-    p.load_samples = samples;
     // Explicit methods take works by the trapezoidal rule, others leave them out of their control.
     const bool exact_work = choice_.method == "radau" || choice_.equations == Equations::kIdeal;
     BasicEnergyWatch<S> energy(system_, p.duration, std::max(tolerance, std::min(settings_.tolerance, kLoosestOfMotion)), exact_work);
@@ -114,12 +112,12 @@ class Passes {
   }
 
   // A pass whose energy account does not close is not compared with others: a finer one may close it.
-  bool run_closed_pass(double& tolerance, LoadSamples samples = LoadSamples::kInside) {
-    bool complete = run_pass(tolerance, samples);
+  bool run_closed_pass(double& tolerance) {
+    bool complete = run_pass(tolerance);
     for (; interrupted_.first == Ended::kEnergyOpen && open_ < kMostOpen && tolerance > kLeastTolerance; ++open_) {
       if (last_.ended == Ended::kEnergyOpen) fine_.reset();  // it was the first
       tolerance = std::max(kLeastTolerance, kRepeated * tolerance);
-      complete = run_pass(tolerance, samples);
+      complete = run_pass(tolerance);
     }
     return complete;
   }
@@ -148,12 +146,12 @@ class Passes {
   // `tolerance` is that of the next pass.
   bool run_pilot(double& tolerance) {
     double of_pilot = kPilot * tolerance;
-    bool complete = run_closed_pass(of_pilot, LoadSamples::kEnds);
+    bool complete = run_closed_pass(of_pilot);
     const Counters& pilot = last_.counters;
     if (complete && choice_.method == "radau" && choice_.stages == 3 && static_cast<double>(pilot.newton_iterations) < kEasy * static_cast<double>(pilot.steps)) {
       choice_.stages = 5;
       fine_.reset();
-      complete = run_closed_pass(of_pilot, LoadSamples::kEnds);
+      complete = run_closed_pass(of_pilot);
     }
     stages_before_ = choice_.stages;
     tolerance = std::min(tolerance, of_pilot / kPilot);
@@ -306,7 +304,7 @@ class Passes {
     else if (ended == Ended::kFailed && !whole) out_.outcome = Outcome::kFailed;
     else if (missed && chaos_.exponential && ended == Ended::kAtEnd) out_.outcome = Outcome::kHorizon;
     else if ((ended == Ended::kFailed && no_estimate) || missed) out_.outcome = Outcome::kToleranceNotMet;
-    if (no_estimate && context_.shape.checked && !system_.joints.empty()) out_.notes.push_back("stopped before a second integration: the joint forces have no error estimate, and their peaks, means and heats are those of the ends of steps");
+    if (no_estimate && context_.shape.checked && !system_.joints.empty()) out_.notes.push_back("stopped before a second integration: the joint forces have no error estimate");
     if (whole && ended != Ended::kAtEnd)
       out_.notes.push_back(fmt::format("a finer integration did not reach the end{}; the results are those of the previous one", message.empty() ? "" : " (" + message + ")"));
     if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)

@@ -20,6 +20,7 @@
 #include "laws/catalog.h"
 #include "laws/pressure.h"
 #include "laws/separating_force.h"
+#include "system/travel.h"
 
 namespace pintle {
 namespace {
@@ -197,8 +198,12 @@ class Builder {
     servo.displacement = Selection{};
     servo.held[component] = true;
     servo.keeps_speed = motor.kind == MotorKind::kSpeed;
-    if (servo.keeps_speed) servo.speed = motor.law.value({});
-    else servo.target = motor.law;
+    if (servo.keeps_speed && motor.law.variables().empty()) {
+      servo.speed = motor.law.value({});
+    } else {
+      servo.target = motor.law;
+      if (servo.keeps_speed) servo.travel = std::make_shared<const Travel>(motor.law, model_.simulate.duration > 0 ? model_.simulate.duration : 1);
+    }
     system_.joints.push_back(std::move(servo));
   }
   LoadData effort(const Motor& motor, const JointData& driven, int component) const {

@@ -5,10 +5,16 @@
 #include <algorithm>
 #include <array>
 
+#include "system/travel.h"
+
 namespace pintle {
 
 template <class S>
 std::array<double, 3> target_of(const BasicJointData<S>& joint, double t) {
+  if (joint.travel) {
+    const auto speed = joint.target.second_order(std::array{t}, 0);
+    return {joint.start + joint.travel->at(t), speed[0], speed[1]};
+  }
   auto target = joint.target.variables().empty() ? std::array<double, 3>{joint.target.value({}), 0, 0}
                                                  : joint.target.second_order(std::array{t}, 0);
   target[0] += joint.start + joint.speed * t;

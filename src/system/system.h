@@ -57,6 +57,8 @@ struct BasicPlacement {
 using Placement = BasicPlacement<Planar>;
 
 /// A gap with a law: a joint of the model, or the servo of a motor.
+class Travel;
+
 template <class S>
 struct BasicJointData {
   std::string name;
@@ -70,10 +72,11 @@ struct BasicJointData {
   std::array<bool, S::kDof> redundant{};  // components of an ideal joint that other ideal joints keep already
   int servo = -1;              // component that a servo drives, -1: not a servo
   int driven = -1;             // component whose gap is what is left of it after `target`: a servo's, or the length of a rod or rope; -1: none
-  bool keeps_speed = false;    // servo of a constant speed
-  double start = 0;            // constant-speed servo: coordinate as assembled
+  bool keeps_speed = false;    // servo of a speed
+  double start = 0;            // such a servo: coordinate as assembled
   double speed = 0;            // constant-speed servo [rad/s or m/s]
   Expression target;           // what a driven component follows; it is start + speed t + target(t)
+  std::shared_ptr<const Travel> travel{};  // of a servo whose speed is `target`: it follows start + travel
   typename S::Vec free_mask = S::Vec::Zero();  // 1 in components that are free coordinates
   std::array<bool, S::kDof> held{};  // components that the joint forbids
   int first_state = 0;         // of the law, among those of all joints

@@ -129,8 +129,8 @@ ParseProblem no_operand(std::string_view text, std::size_t at) {
 
 ParseProblem unknown_name(std::string_view word, std::size_t at, const ParseScope& scope) {
   if (word == "t" && scope.variables.empty())
-    return {at, in_quotes(word), "this is a constant: time may stand in forces, torques, and in the torque, force or position of a motor",
-            "a number; position for a motor whose speed changes; 1 t for a tonne"};
+    return {at, in_quotes(word), "this is a constant: time may stand in forces, torques, and in the torque, force, speed or position of a motor",
+            "a number; 1 t for a tonne"};
   if (find_table(word, scope)) return {at, in_quotes(word), "a table is called as a function", std::string(word) + "(x)"};
   if (is_unit_symbol(word)) return {at, in_quotes(word), "a unit needs a number in front of it", "1 " + std::string(word)};
   std::vector<std::string_view> names(scope.constant_names.begin(), scope.constant_names.end());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "base/text/article.h"
@@ -211,7 +212,7 @@ bool take_points(ModelReading& reading, const KeyInfo& key, const LawInfo& law, 
   const std::array<const Dimension*, 2> dimensions{&table.in_scope.argument, &table.in_scope.result};
   for (std::size_t i = 0; i < 2; ++i) {
     const auto info = std::find_if(law.keys.begin(), law.keys.end(), [&](const KeyInfo& one) { return one.key == key.points[i]; });
-    if (auto problem = check_dimension(*dimensions[i], parse_unit(info->unit)->dimension)) return complain(fmt::format("its {} is {}, and {}", i == 0 ? "x" : "y", to_words(*dimensions[i]), *problem), "a table of another kind");
+    if (auto problem = check_dimension(*dimensions[i], parse_unit(info->unit)->dimension)) return complain(fmt::format("its {}: {}", i == 0 ? "x" : "y", *problem), "a table of another kind");
     choice.values[std::string(info->key)] = *points[i];
   }
   return true;
@@ -252,6 +253,17 @@ void read_bearing(ModelReading& reading, const JointTypeInfo& type, const Entry&
   const Record record = reading.records.read(reading.spec("joint.*.bearing"), entry->value, entry->key_spot, path);
   out = Bearing{record.word("type"), record.maybe_number("dynamic_load_rating"), record.maybe_number("static_load_rating"), record.maybe_number("fatigue_load_limit"),
                 record.maybe_number("pin_diameter"), record.maybe_number("pin_length"), record.maybe_number("wear_coefficient")};
+}
+
+// The pin that rubs and the pin that presses are one.
+void check_pin_size(ModelReading& reading, const Record& record, const Entry& joint, const Joint& out) {
+  if (!out.bearing || !out.bearing->pin_diameter || !record.states("pin_radius")) return;
+  const std::optional<double> radius = record.maybe_number("pin_radius");
+  const double diameter = *out.bearing->pin_diameter;
+  if (!radius || std::abs(2 * *radius - diameter) <= 1e-6 * diameter) return;
+  const Entry& bearing = *joint.value.table()->find_entry("bearing");
+  reading.complaints.add(bearing.value.table()->find_entry("pin_diameter")->value.spot, record.path + ".bearing.pin_diameter", fmt::format("{:.6g} m", diameter),
+                         fmt::format("the joint's own pin_radius is {:.6g} m, which is another pin", *radius), fmt::format("pin_diameter = {:.6g}, or the radius that fits", 2 * *radius));
 }
 
 // What [defaults.joint] states, itself or by the table that it names, no joint must.
@@ -304,6 +316,7 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
     reading.complaints.add(record.spot("friction"), path + ".friction", '"' + friction_word + '"', "a joint with law \"" + std::string(law->word) + "\" has friction of its own, where the bodies touch",
                            "friction_coefficient, and no friction");
   read_bearing(reading, *type, entry, path, joint.bearing);
+  check_pin_size(reading, record, entry, joint);
   reading.model.joints.push_back(std::move(joint));
 }
 

@@ -83,7 +83,8 @@ void read_motor(ModelReading& reading, const Entry& entry, std::map<std::string,
   motor.damping = record.number("damping", motor.damping);
   if (record.states("speed")) {
     motor.kind = MotorKind::kSpeed;
-    motor.law = Expression::constant(record.number("speed"));
+    const std::optional<double> constant = record.maybe_number("speed");
+    motor.law = constant ? Expression::constant(*constant) : record.expression("speed");
   } else {
     motor.kind = record.states("position") ? MotorKind::kPosition : MotorKind::kEffort;
     motor.law = record.expression(motor.kind == MotorKind::kPosition ? "position" : effort);

@@ -201,7 +201,7 @@ TEST(Tables, OfLawsAreOfTheirKind) {
   const std::string good = "[table.f]\nx = [0, \"1 m\"]\ny = [0, \"1 N\"]\n";
   EXPECT_EQ(about(good, "curve = \"g\"\n"), "joint.J.curve: the model has no such table");
   EXPECT_EQ(about(good, "curve = \"f\"\nforce = [0, 1]\n"), "joint.J.curve: force states the points too");
-  EXPECT_EQ(about("[table.f]\nx = [0, \"1 s\"]\ny = [0, \"1 N\"]\n", "curve = \"f\"\n"), "joint.J.curve: its x is a time [s], and a length [m] is expected here");
+  EXPECT_EQ(about("[table.f]\nx = [0, \"1 s\"]\ny = [0, \"1 N\"]\n", "curve = \"f\"\n"), "joint.J.curve: its x: a length [m] is expected here, not a time [s]");
   EXPECT_EQ(about("[table.f]\nx = [0, \"1 m\"]\ny = [0, \"-1 N\"]\n", "curve = \"f\"\n"), "joint.J.curve: its y: entry 2, -1 N, is below the one before it, 0 N: such a joint is not stable there");
   EXPECT_EQ(about("[table.f]\nx = [0, \"1 m\"]\ny = [\"1 N\", \"2 N\"]\n", "curve = \"f\"\n"), "joint.J.curve: its y: a table that begins at 0 is completed to both sides, and its force there is 0");
   EXPECT_EQ(about(good, "displacement = [0, 1]\nforce = [0, \"-1 N\"]\n").substr(0, 14), "joint.J.force:");  // as it stands there
