@@ -89,7 +89,7 @@ class FilmMaker {
     const double begin = trajectory_.at(0, 0), end = trajectory_.at(trajectory_.n_rows() - 1, 0);
     if (const double slack = 1e-9 * (end - begin); !(t >= begin - slack && t <= end + slack))
       throw Usage(fmt::format("found --still \"{}\": the run goes from {:.6g} s to {:.6g} s.", options_.still, begin, end));
-    const std::string svg = frame(t);
+    const std::string svg = frame(t, true);
     write_file(file, file.extension() == ".png" ? png_of(svg, options_.dots_per_inch) : svg);
   }
 
@@ -120,7 +120,11 @@ class FilmMaker {
   }
 
  private:
-  std::string frame(double t) const { return still_svg(scene_, instant_at(scene_, trajectory_, t), look_, traces_); }
+  std::string frame(double t, bool whole_arrows = false) const {
+    StillOptions look = look_;
+    look.whole_arrows = whole_arrows;
+    return still_svg(scene_, instant_at(scene_, trajectory_, t), look, traces_);
+  }
 
   /// Without a last odd row or column, which half-sized colour planes cannot have.
   static Pixels even(Pixels pixels) {

@@ -45,6 +45,7 @@ std::string still(const Scene& scene, const Trajectory& trajectory) {
   const double t = joint ? joint->peak_time : trajectory.at(0, 0);
   StillOptions options;
   options.most_height = 620;
+  options.whole_arrows = true;
   std::string svg = still_svg(scene, instant_at(scene, trajectory, t), options);
   constexpr std::string_view kNamespace = " xmlns=\"http://www.w3.org/2000/svg\"";  // which HTML does not need
   if (const std::size_t at = svg.find(kNamespace); at != std::string::npos) svg.erase(at, kNamespace.size());

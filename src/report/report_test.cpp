@@ -278,6 +278,21 @@ TEST(Still, TraceFollowsItsPoint) {
   }
 }
 
+// A force of three times the longest arrow: cut in a film, whose scale is the run's, and whole in a still of its own.
+TEST(Still, ArrowsAreCutOrNot) {
+  const auto [model, run] = run_of_mechanism("four_bar");
+  const Scene scene = make_scene(model, run.trajectory);
+  Instant instant = instant_at(scene, run.trajectory, 0);
+  instant.forces.front() = {3 * Scene::kLongestArrow * scene.arrow_force, 0};
+  StillOptions options;
+  const std::string cut = still_svg(scene, instant, options);
+  options.whole_arrows = true;
+  const std::string whole = still_svg(scene, instant, options);
+  EXPECT_TRUE(holds(cut, "500 N, two heads: more than drawn</text>"));
+  EXPECT_FALSE(holds(whole, "two heads"));
+  EXPECT_TRUE(holds(whole, "1000 N</text>") || holds(whole, "2000 N</text>")) << whole.substr(whole.rfind("<text"));
+}
+
 TEST(Still, ArrowsAreInScale) {
   const auto [model, run] = run_of_mechanism("four_bar");
   const Scene scene = make_scene(model, run.trajectory);

@@ -153,17 +153,29 @@ class Drawing {
   void draw_forces() {
     if (!(scene_.arrow_force > 0)) return;
     put("<g stroke-linecap=\"butt\">\n");
-    const double per_newton = scene_.arrow_length / scene_.arrow_force;
+    const double full = options_.whole_arrows ? std::max(scene_.arrow_force, largest_force() / Scene::kLongestArrow) : scene_.arrow_force;
+    const double per_newton = scene_.arrow_length / full;
+    bool any_cut = false;
     const auto draw = [&](const Vec2& at, const Vec2& force, const char* colour) {
       const double size = length(force) * per_newton, most = Scene::kLongestArrow * scene_.arrow_length;
       if (!std::isfinite(size) || size * frame_.scale < 1) return;
-      draw_arrow(px(at), px(at + std::min(size, most) * unit(force)), size > most, colour);
+      const bool cut = size > most * (1 + 1e-9);
+      any_cut = any_cut || cut;
+      draw_arrow(px(at), px(at + std::min(size, most) * unit(force)), cut, colour);
     };
     for (std::size_t i = 0; i < scene_.loads.size(); ++i) draw(instant_.place(scene_.loads[i].at), instant_.loads[i], kLoadShades[options_.dark]);
     for (std::size_t i = 0; i < scene_.arrows.size(); ++i) draw(instant_.place(scene_.arrows[i].at), instant_.forces[i], kForceShades[options_.dark]);
-    const double nice = scale_force(scene_.arrow_force), bar = nice * per_newton * frame_.scale;
+    const double nice = scale_force(full), bar = nice * per_newton * frame_.scale;
     draw_arrow({14, frame_.height - 16}, {14 + bar, frame_.height - 16}, false, kForceShades[options_.dark]);
-    put("</g>\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"12\" fill=\"{}\">{}</text>\n", 22 + bar, frame_.height - 12, kInkShades[options_.dark], scale_text(nice));
+    put("</g>\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"12\" fill=\"{}\">{}</text>\n", 22 + bar, frame_.height - 12, kInkShades[options_.dark], scale_text(nice) + (any_cut ? ", two heads: more than drawn" : ""));
+  }
+
+  double largest_force() const {
+    double largest = 0;
+    for (const auto* all : {&instant_.loads, &instant_.forces})
+      for (const Vec2& force : *all)
+        if (std::isfinite(length(force))) largest = std::max(largest, length(force));
+    return largest;
   }
 
   void draw_labels() {

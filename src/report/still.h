@@ -14,6 +14,7 @@ struct StillOptions {
   double width = 760;       ///< [px]
   double most_height = 1e9; ///< [px]; a taller picture is made narrower
   bool forces = true;       ///< arrows at joints, and their scale
+  bool whole_arrows = false;  ///< none is cut: where that of the run is too large for this instant, the scale is its own
   bool names = true;        ///< of joints
   bool masses = false;      ///< marks at the centres of mass
   bool clock = true;        ///< the time, in a corner

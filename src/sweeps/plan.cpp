@@ -38,7 +38,11 @@ class AxisReader {
     if (!key) return axis;
     key_ = *key;
     axis.unit = key_.unit;
-    const std::size_t dots = text_.find("..", equals);
+    const std::size_t dots = text_.find("..", equals), colon = text_.find(':', equals);
+    if (dots == std::string::npos && colon != std::string::npos) {
+      complain(colon, "a range has two dots between its ends", kExample);
+      return axis;
+    }
     axis.values = dots == std::string::npos ? list(equals + 1) : range(equals + 1, dots);
     return axis;
   }

@@ -90,6 +90,7 @@ TEST(SweepPlan, SaysWhatIsWrong) {
   says("joint.pn.stiffness=1,2", "pin");
   says("joint.pin.stiffness=1e6..1e9 N:log:3", "stiffness [N/m] is expected");
   says("joint.pin.stiffness=1e6..1e9", "needs a spacing");
+  says("joint.pin.stiffness=1e6:1e9:log:16", "two dots between its ends");
   says("joint.pin.stiffness=1e6..1e9:cubic:3", "lin or log");
   says("joint.pin.stiffness=1e6..1e9:log:1", "whole number");
   says("joint.pin.damping=0..1e3:log:3", "the same sign");

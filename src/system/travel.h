@@ -20,7 +20,7 @@ class Travel {
   std::size_t n_stretches() const { return stretches_.size(); }
 
  private:
-  static constexpr int kDegree = 16;
+  static constexpr int kDegree = 16;  // of the polynomial on a stretch
   using Values = std::array<double, kDegree + 1>;
   struct Stretch {
     double begin, end, before;                     // [s], and the way up to it

@@ -285,9 +285,11 @@ class Stage {
     if (!(force > 0)) return;
     const zoom = this.now.scale / this.fitting.scale; // arrows grow with the zoom, but slower
     const perNewton = (length * this.fitting.scale * Math.sqrt(zoom) * this.arrowFactor) / force, most = run.scene.arrow_most * perNewton * force;
+    let anyCut = false;
     const show = (at, xs, ys, colour) => {
       const fx = valueAt(xs, this.clock.place), fy = valueAt(ys, this.clock.place), size = Math.hypot(fx, fy) * perNewton;
       if (!(size >= 1)) return;
+      anyCut ||= size > most;
       const k = Math.min(size, most) / Math.hypot(fx, fy), [x, y] = this.toPixels(this.placeOf(at, poses));
       this.drawArrow(g, x, y, x + k * fx, y - k * fy, size > most, colour);
     };
@@ -301,7 +303,7 @@ class Stage {
     g.font = "12.5px system-ui, Helvetica, Arial, sans-serif";
     g.textAlign = "left";
     const scale = scaleFor(nice, "N");
-    g.fillText(`${Number((nice / scale.factor).toPrecision(3))} ${scale.unit}`, 20 + nice * perNewton, this.height - 10);
+    g.fillText(`${Number((nice / scale.factor).toPrecision(3))} ${scale.unit}${anyCut ? ", two heads: more than drawn" : ""}`, 20 + nice * perNewton, this.height - 10);
   }
 
   /** `cut`: it would be longer, and gets a second head. */

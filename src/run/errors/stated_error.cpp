@@ -87,6 +87,15 @@ void include_peaks(const BasicLoadRecorder<S>& fine, PassDifference& c) {
 }
 
 template <class S>
+void include_peak_differences(const BasicLoadRecorder<S>& coarse, const BasicLoadRecorder<S>& fine, PassDifference& c) {
+  for (std::size_t j = 0; j < c.force.size(); ++j) {
+    const int joint = static_cast<int>(j);
+    c.force[j] = std::max(c.force[j], std::abs(coarse.force(joint).peak - fine.force(joint).peak));
+    c.couple[j] = std::max(c.couple[j], std::abs(coarse.couple(joint).peak - fine.couple(joint).peak));
+  }
+}
+
+template <class S>
 std::vector<double> relative_differences(const BasicSystem<S>& system, const PassDifference& c) {
   const Measures<S> measures(system, c.peak, c.peak_couple);
   std::vector<double> out(c.force.size());
@@ -178,6 +187,8 @@ void state_errors(const BasicSystem<S>& system, const PassDifference& difference
 
 template PassDifference difference_of_passes(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double until, double share);
 template void include_peaks(const BasicLoadRecorder<Planar>& fine, PassDifference& c);
+template void include_peak_differences(const BasicLoadRecorder<Planar>& coarse, const BasicLoadRecorder<Planar>& fine, PassDifference& c);
+template void include_peak_differences(const BasicLoadRecorder<Spatial>& coarse, const BasicLoadRecorder<Spatial>& fine, PassDifference& c);
 template void include_peaks(const BasicLoadRecorder<Spatial>& fine, PassDifference& c);
 template std::vector<double> relative_differences(const BasicSystem<Planar>& system, const PassDifference& c);
 template double motion_difference(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);

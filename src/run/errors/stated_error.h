@@ -26,6 +26,10 @@ PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicFor
 template <class S>
 void include_peaks(const BasicLoadRecorder<S>& fine, PassDifference& c);
 
+/// Adds by how much the passes' peaks differ, wherever they are: between the rows, too, they have to agree. theory/time Eq. (6.2).
+template <class S>
+void include_peak_differences(const BasicLoadRecorder<S>& coarse, const BasicLoadRecorder<S>& fine, PassDifference& c);
+
 /// Each joint's largest difference over its peak force or couple [-]. Joints that carry next to nothing are measured by a
 /// small part of the largest of the mechanism; couples at least by that of the largest force at a radius of gyration.
 /// The couple of a pin that rubs is a small part of what its force does: its error is stated, and drives no pass.
