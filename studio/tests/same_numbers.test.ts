@@ -12,6 +12,8 @@ const demanded = process.env.PINTLE_ANSWERS !== undefined;
 
 /** Of what is computed from the same numbers by a few operations. */
 const kSame = 1e-12;
+/** Of the forces at the start: the time over which its slow motion is looked for follows from a rough integration, whose last bits differ. */
+const kStart = 1e-5;
 
 // Those whose whole run is a matter of a second.
 const runs = [...texts.keys()].filter((name) => !/andrews|n_four_bar_40|n_four_bar_10|n_four_bar_2|five_bar/.test(name));
@@ -98,11 +100,12 @@ describe.skipIf(!ready)("the same numbers", { timeout: 120_000 }, () => {
     both.forEach(([a, b], i) => {
       expect(b.outcome, runs[i]).toBe(a.outcome);
       expect(b.columns, runs[i]).toEqual(a.columns);
+      if (a.outcome === "horizon") return; // a chaotic motion: its peaks are beyond what is promised
       const largest = Math.max(...a.joints.map((joint) => joint.peak));
       a.joints.forEach((joint, j) => {
         const other = b.joints[j];
         if (!other) throw new Error("a joint is missing");
-        const allowed = joint.error_estimate + other.error_estimate + kSame * largest;
+        const allowed = joint.error_estimate + other.error_estimate + kSame * largest + (joint.peak_time === 0 ? kStart * joint.peak : 0);
         expect(Math.abs(joint.peak - other.peak), `${runs[i]} ${joint.name}`).toBeLessThanOrEqual(allowed);
       });
     });
