@@ -19,7 +19,8 @@ export const tests = {
       assert.deepEqual(run.slice(0, 1).concat(run.slice(2)), ["done", "", 0], `${file}: ${run}`);
       const before = await pose(page);
       await page.keyboard.press("Space");
-      await page.waitForTimeout(300);
+      // Masses that stick move after a while only.
+      for (let waited = 0; waited < 5000 && (await pose(page)) === before; waited += 300) await page.waitForTimeout(300);
       await page.keyboard.press("Space");
       assert.notEqual(await pose(page), before, `${file} does not move`);
       await shot(page, `template-${file.replace(".toml", "")}`);

@@ -27,7 +27,7 @@ export const tests = {
     assert(!svg.includes("var(--"), "colours of the page in the SVG");
     const report = (await exported(page, "report")).toString();
     assert.match(report, /: Pintle report<\/title>/);
-    assert.match(report, /674\.07 N/);
+    assert.match(report, /674\.08 N/);
     await page.getByRole("button", { name: "Play", exact: true }).click();
     const gif = await exported(page, "GIF");
     assert.equal(gif.subarray(0, 6).toString(), "GIF89a");
