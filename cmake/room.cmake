@@ -44,7 +44,7 @@ endfunction()
 
 # With PINTLE_UNITY six sources of the target are compiled as one, so that what they share is read and instantiated once. Names in their
 # unnamed namespaces must differ for that. What steps call is left apart: its speed depends on what the compiler sees together.
-# Under the sanitizers nothing is fast, and all rooms are united, as the tests are always: a third of their time to compile. PINTLE_APART has
+# Under the sanitizers nothing is fast, and all rooms are united, as the tests are always. PINTLE_APART has
 # what compiles long by itself, catalogs and profiles that call the same things alike, classes that are instantiated in several sources, and
 # tests in space, whose short names are those of the tests in the plane.
 set(PINTLE_UNITED_ROOMS check results io report sweeps)

@@ -1,8 +1,9 @@
-#include "base/constants.h"
 #include "bench/battery/linkages.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "base/constants.h"
 
 namespace pintle::bench {
 namespace {

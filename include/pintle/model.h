@@ -144,8 +144,8 @@ struct AppliedForce {
 enum class MotorKind { kEffort, kSpeed, kPosition };
 
 /// A motor in a joint's free coordinate. kEffort: torque or force = expression of t, the coordinate ("angle" or
-/// "slide"), "rate", and "J.angle", "J.slide", "J.rate" of other joints. kSpeed: of t or a constant; the coordinate from its assembled value on at this speed is
-/// held by a servo. kPosition: expression of t, followed by a servo.
+/// "slide"), "rate", and "J.angle", "J.slide", "J.rate" of other joints. kSpeed: expression of t or a constant; a servo
+/// moves the coordinate at this speed, from its assembled value on. kPosition: expression of t, followed by a servo.
 struct Motor {
   std::string name;
   std::string joint;

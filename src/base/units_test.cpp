@@ -1,10 +1,11 @@
-#include "base/constants.h"
 #include "base/units.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
+
+#include "base/constants.h"
 
 namespace pintle {
 namespace {

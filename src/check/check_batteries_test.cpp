@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "check/check_differences.h"
+#include "check/check_links.h"
 #include "check/check_samples_for_tests.h"
+#include "system/build.h"
 
 namespace pintle {
 namespace {
@@ -67,6 +69,27 @@ TEST(CheckDifferences, ANumberThatIsNoneDoesNotPass) {
   tally.slope(
       one(1), [](double) { return one(NAN); }, 1e-3, 0, kHere);
   EXPECT_FALSE(tally.item().passed());
+}
+
+// Far enough from it to see every term, and not so far that joints carry loads of another order.
+TEST(CheckStates, AreNearTheAssembledOne) {
+  const Model model = checked::four_bar(1, 4, 4, 6, kPi / 3);
+  const System system = build_system(model);
+  State assembled;
+  for (const Body& body : model.bodies) {
+    assembled.q.push_back({(*body.position)[0], (*body.position)[1], *body.angle});
+    assembled.v.push_back({0, 0, 0});
+  }
+  const std::vector<CheckState> states = check_states(model, system, assembled);
+  ASSERT_EQ(states.size(), 4u);
+  for (std::size_t state = 1; state < states.size(); ++state)
+    for (std::size_t body = 0; body < assembled.q.size(); ++body) {
+      const Planar::Vec moved = states[state].q[body] - assembled.q[body];
+      EXPECT_NE(moved[2], 0);
+      EXPECT_LE(std::abs(moved[2]), 0.05);
+      EXPECT_NE(moved.head<2>().norm(), 0);
+      EXPECT_LE(moved.head<2>().cwiseAbs().maxCoeff(), 0.02 * states[state].length);
+    }
 }
 
 // A body held by one joint of each type, far from symmetric.

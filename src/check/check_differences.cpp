@@ -38,7 +38,7 @@ void Comparisons::slope(const Eigen::VectorXd& slope, const Curve& curve, double
   constexpr int kShrinks = 4;     // each to a tenth
   constexpr double kKink = 1e-2;  // one-sided slopes that differ so much at the shortest step, of the scale
   constexpr double kSteady = 0.1; // a kink bends the slope by as much at every step: a smooth curve by less at shorter ones, rounding by more
-  constexpr double kFalls = 0.2;  // of the error at steps ten times as long: it goes to nothing, and the slope is right, though the curve's bend jumps
+  constexpr double kFalls = 0.2;  // of the error at steps ten times as long: 0.1 where the slope is right and jumps itself, 1 where it is wrong
   double best = INFINITY, bend = 0, bend_before = 0, error = INFINITY;
   bool falls = true;
   for (int shrink = 0; shrink <= kShrinks; ++shrink, step /= 10) {

@@ -1,10 +1,11 @@
-#include "base/constants.h"
 #include "joints/cam_profile.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <optional>
+
+#include "base/constants.h"
 
 namespace pintle {
 namespace {

@@ -159,7 +159,7 @@ class Drawing {
     const auto draw = [&](const Vec2& at, const Vec2& force, const char* colour) {
       const double size = length(force) * per_newton, most = Scene::kLongestArrow * scene_.arrow_length;
       if (!std::isfinite(size) || size * frame_.scale < 1) return;
-      const bool cut = size > most * (1 + 1e-9);
+      const bool cut = !options_.whole_arrows && size > most;
       any_cut = any_cut || cut;
       draw_arrow(px(at), px(at + std::min(size, most) * unit(force)), cut, colour);
     };

@@ -20,7 +20,7 @@
 #include "laws/catalog.h"
 #include "laws/pressure.h"
 #include "laws/separating_force.h"
-#include "system/travel.h"
+#include "system/speed_integral.h"
 
 namespace pintle {
 namespace {
@@ -202,7 +202,7 @@ class Builder {
       servo.speed = motor.law.value({});
     } else {
       servo.target = motor.law;
-      if (servo.keeps_speed) servo.travel = std::make_shared<const Travel>(motor.law, model_.simulate.duration > 0 ? model_.simulate.duration : 1);
+      if (servo.keeps_speed) servo.speed_integral = std::make_shared<const SpeedIntegral>(motor.law, model_.simulate.duration > 0 ? model_.simulate.duration : 1);
     }
     system_.joints.push_back(std::move(servo));
   }

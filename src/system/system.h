@@ -56,9 +56,9 @@ struct BasicPlacement {
 };
 using Placement = BasicPlacement<Planar>;
 
-/// A gap with a law: a joint of the model, or the servo of a motor.
-class Travel;
+class SpeedIntegral;
 
+/// A gap with a law: a joint of the model, or the servo of a motor.
 template <class S>
 struct BasicJointData {
   std::string name;
@@ -76,7 +76,7 @@ struct BasicJointData {
   double start = 0;            // such a servo: coordinate as assembled
   double speed = 0;            // constant-speed servo [rad/s or m/s]
   Expression target;           // what a driven component follows; it is start + speed t + target(t)
-  std::shared_ptr<const Travel> travel{};  // of a servo whose speed is `target`: it follows start + travel
+  std::shared_ptr<const SpeedIntegral> speed_integral{};  // of a servo whose speed is `target`: it follows start + speed_integral
   typename S::Vec free_mask = S::Vec::Zero();  // 1 in components that are free coordinates
   std::array<bool, S::kDof> held{};  // components that the joint forbids
   int first_state = 0;         // of the law, among those of all joints

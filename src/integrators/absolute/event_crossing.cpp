@@ -46,7 +46,7 @@ void BasicRadauStepper<S>::find_switching(double x, double h, double* value) {
 }
 
 template <class S>
-void BasicRadauStepper<S>::extrapolate_switching(double d, double* value) {
+void BasicRadauStepper<S>::extrapolate_switching_functions(double d, double* value) {
   const double half = 0.5 * d * d;
   for (std::size_t b = 0; b < end_.q.size(); ++b) {
     inside_q_[b] = along(begin_.q[b], d, begin_.v[b], half, begin_.a[b]);
@@ -67,7 +67,7 @@ void BasicRadauStepper<S>::find_switching_at_end(double* value) const {
 }
 
 template <class S>
-void BasicRadauStepper<S>::extrapolate_end(double d) {
+void BasicRadauStepper<S>::extrapolate_end_state(double d) {
   const double half = 0.5 * d * d;
   end_.t += d;
   end_.supplied += d * end_.supply_power;
@@ -109,16 +109,16 @@ void BasicRadauStepper<S>::balance_end() {
 }
 
 template void BasicRadauStepper<Planar>::find_switching(double x, double h, double* value);
-template void BasicRadauStepper<Planar>::extrapolate_switching(double d, double* value);
+template void BasicRadauStepper<Planar>::extrapolate_switching_functions(double d, double* value);
 template void BasicRadauStepper<Planar>::find_switching_at_end(double* value) const;
-template void BasicRadauStepper<Planar>::extrapolate_end(double d);
+template void BasicRadauStepper<Planar>::extrapolate_end_state(double d);
 template const std::vector<Planar::Motion>& BasicRadauStepper<Planar>::motions_after(double d);
 template bool BasicRadauStepper<Planar>::cross_borders();
 template void BasicRadauStepper<Planar>::balance_end();
 template void BasicRadauStepper<Spatial>::find_switching(double x, double h, double* value);
-template void BasicRadauStepper<Spatial>::extrapolate_switching(double d, double* value);
+template void BasicRadauStepper<Spatial>::extrapolate_switching_functions(double d, double* value);
 template void BasicRadauStepper<Spatial>::find_switching_at_end(double* value) const;
-template void BasicRadauStepper<Spatial>::extrapolate_end(double d);
+template void BasicRadauStepper<Spatial>::extrapolate_end_state(double d);
 template const std::vector<Spatial::Motion>& BasicRadauStepper<Spatial>::motions_after(double d);
 template bool BasicRadauStepper<Spatial>::cross_borders();
 template void BasicRadauStepper<Spatial>::balance_end();

@@ -65,7 +65,7 @@ void BasicRadauStepper<S>::start(const BasicState<S>& state, double h) {
   last.Q.assign(system_.bodies.size(), S::Vec::Zero());
   system_.external(end_.t, end_m_, last.Q, end_.sliding);
   find_power();
-  this->reset_events();
+  this->reset_event_detection();
   grow_load_scale(system_, end_m_, last.Q, end_, scale_);
   if (unloaded()) foresee_loads(h);
 }

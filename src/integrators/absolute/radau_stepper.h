@@ -86,9 +86,9 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   const BasicState<S>& end_state() const { return end_; }
   std::vector<SlidingMode>& sliding() { return end_.sliding; }
   void find_switching(double x, double h, double* value);
-  void extrapolate_switching(double d, double* value);
+  void extrapolate_switching_functions(double d, double* value);
   void find_switching_at_end(double* value) const;
-  void extrapolate_end(double d);
+  void extrapolate_end_state(double d);
   const std::vector<typename S::Motion>& motions_after(double d);
   bool cross_borders();
   void balance_end();

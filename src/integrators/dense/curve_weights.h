@@ -11,10 +11,10 @@ struct CurveWeights {
   static constexpr int kMost = ForceSamples::kAll;
   static_assert(kMost >= RadauTable::kMaxNodes);
   std::array<double, kMost> value, first, second;  // of the coefficients: the value, and its first and second integrals over time from the start of the step
-  double end_correction;                           // of what the second integral misses the far end by; the first takes x of it
+  double end_mismatch_weight;                           // of what the second integral misses the far end by; the first takes x of it
 
   /// At the share x of a step of h seconds.
-  CurveWeights(double x, double h) : end_correction(x * x * (3 - 2 * x)) {
+  CurveWeights(double x, double h) : end_mismatch_weight(x * x * (3 - 2 * x)) {
     double power = 1;
     for (int k = 0; k < kMost; ++k, power *= x) {
       value[k] = power;
@@ -23,8 +23,8 @@ struct CurveWeights {
     }
   }
   /// Those of the integrals at the far end.
-  static double first_at_end(int k, double h) { return h / (k + 1); }
-  static double second_at_end(int k, double h) { return h * h / ((k + 1) * (k + 2)); }
+  static double first_integral_at_end(int k, double h) { return h / (k + 1); }
+  static double second_integral_at_end(int k, double h) { return h * h / ((k + 1) * (k + 2)); }
 };
 
 }  // namespace pintle

@@ -121,7 +121,7 @@ void BasicDenseOutput<S>::follow(double t, const BasicState<S>& begin, const Bas
       const Curve& curve = curves[i];
       typename S::Vec a = curve.c[0], v = v0[i] + x * curve.bend_v + first[0] * a, q;
       constexpr bool flat = std::is_same_v<std::decay_t<decltype(x0[i])>, typename S::Vec>;
-      if constexpr (flat) q = x0[i] + x * h * v0[i] + weights.end_correction * curve.bend_q + second[0] * a;
+      if constexpr (flat) q = x0[i] + x * h * v0[i] + weights.end_mismatch_weight * curve.bend_q + second[0] * a;
       for (int k = 1; k < n_; ++k) {
         a += value[k] * curve.c[k];
         v += first[k] * curve.c[k];
@@ -137,7 +137,7 @@ void BasicDenseOutput<S>::follow(double t, const BasicState<S>& begin, const Bas
   along(body_, begin.q, begin.v, out_.q, out_.v, out_.a);
   if constexpr (S::kCurved)
     for (std::size_t i = 0; i < increment_.size(); ++i) {
-      typename S::Vec dq = weights.end_correction * increment_bend_[i];
+      typename S::Vec dq = weights.end_mismatch_weight * increment_bend_[i];
       for (int k = 0; k < n_; ++k) dq += first[k] * increment_[i][k];
       out_.q[i] = S::moved(begin.q[i], dq);
     }
@@ -189,8 +189,8 @@ void BasicDenseOutput<S>::find_curves(const BasicState<S>& begin, const BasicSta
       if constexpr (flat) curve.bend_q = x1[i] - x0[i] - h * v0[i];
       for (int k = 0; k < n_; ++k) {
         curve.c[k] = coefficient(k, a, i);
-        curve.bend_v -= CurveWeights::first_at_end(k, h) * curve.c[k];
-        curve.bend_q -= CurveWeights::second_at_end(k, h) * curve.c[k];
+        curve.bend_v -= CurveWeights::first_integral_at_end(k, h) * curve.c[k];
+        curve.bend_q -= CurveWeights::second_integral_at_end(k, h) * curve.c[k];
       }
     }
   };
@@ -204,7 +204,7 @@ void BasicDenseOutput<S>::find_curves(const BasicState<S>& begin, const BasicSta
     for (int i = 0; i < 2; ++i) {
       power_[k][i] = 0;
       for (int node = 0; node < n_; ++node) power_[k][i] += table.to_powers(k, node) * nodes.power[node][i];
-      bend_work_[i] -= CurveWeights::first_at_end(k, h) * power_[k][i];
+      bend_work_[i] -= CurveWeights::first_integral_at_end(k, h) * power_[k][i];
     }
   }
 }

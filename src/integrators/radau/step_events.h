@@ -14,10 +14,10 @@ namespace pintle {
 
 /// `Method` derives from it and answers
 ///   find_switching(x, h, value)       the switching functions at share x of the step, on the curve through its stages
-///   extrapolate_switching(d, value)   a time d ahead of the start, by Taylor's series: all there is to go by where the stages are not solved
+///   extrapolate_switching_functions(d, value)   a time d ahead of the start, by Taylor's series: all there is to go by where the stages are not solved
 ///   find_switching_at_end(value)
 ///   end_time(), end_motions(), end_state(), sliding()
-///   extrapolate_end(d)                the end, its work included, by Taylor's series
+///   extrapolate_end_state(d)                the end, its work included, by Taylor's series
 ///   motions_after(d)                  those a moment after the end
 ///   cross_borders()                   System::cross_borders between the values of `search_`
 ///   balance_end()                     what laws and loads really give at the end: forces, accelerations, powers
@@ -27,7 +27,7 @@ class StepEvents {
   explicit StepEvents(const BasicSystem<S>& system)
       : search_(system.switching_functions()), events_of_(system), motions_before_(system.has_branches() ? system.bodies.size() : 0) {}
 
-  void reset_events();
+  void reset_event_detection();
   SwitchingEvent locate_event(double h, bool solved);
   /// Over the event `distance` after the end, with forces and accelerations renewed there. A jump that comes back at once is held.
   void cross_event(double distance, const SwitchingEvent& event);
@@ -50,7 +50,7 @@ class StepEvents {
 };
 
 template <class Method, class S>
-void StepEvents<Method, S>::reset_events() {
+void StepEvents<Method, S>::reset_event_detection() {
   chattering_.forget();
   if (events_of_.has_branches()) restart_search();
 }
@@ -59,7 +59,7 @@ template <class Method, class S>
 SwitchingEvent StepEvents<Method, S>::locate_event(double h, bool solved) {
   if (!events_of_.has_branches()) return {};
   return search_.first(RadauTable::of(method().n_), [&](double x, double* value) {
-    solved ? method().find_switching(x, h, value) : method().extrapolate_switching(x * h, value);
+    solved ? method().find_switching(x, h, value) : method().extrapolate_switching_functions(x * h, value);
   });
 }
 
@@ -69,7 +69,7 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
   motions_before_ = method().end_motions();
   const double beyond = std::max(StepControl::kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(before));
   search_.step_over(event, distance, beyond, [this](double d, double* value) {
-    method().extrapolate_end(d);
+    method().extrapolate_end_state(d);
     method().find_switching_at_end(value);
   });
   const bool crossed = method().cross_borders();

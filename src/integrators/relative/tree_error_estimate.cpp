@@ -203,8 +203,8 @@ void TreeRadau::find_curves() {
   curves_.power = nodes_.power * to_powers;
   VectorXd once(n_ + 1), twice(n_ + 1);
   for (int k = 0; k <= n_; ++k) {
-    once[k] = CurveWeights::first_at_end(k, h);
-    twice[k] = CurveWeights::second_at_end(k, h);
+    once[k] = CurveWeights::first_integral_at_end(k, h);
+    twice[k] = CurveWeights::second_integral_at_end(k, h);
   }
   curves_.bend_u = end_.u - begin_.u - curves_.w * once;
   curves_.bend_y = end_.y - begin_.y - h * begin_.u - curves_.w * twice;
@@ -222,10 +222,10 @@ void TreeRadau::follow(double x, TreeState& out) const {
   out.t = begin_.t + x * h;
   out.w = curves_.w * value;
   out.u = begin_.u + x * curves_.bend_u + curves_.w * once;
-  out.y = begin_.y + x * h * begin_.u + weights.end_correction * curves_.bend_y + curves_.w * twice;
+  out.y = begin_.y + x * h * begin_.u + weights.end_mismatch_weight * curves_.bend_y + curves_.w * twice;
   out.accel = curves_.accel * value;
   out.rate = begin_.rate + x * curves_.bend_rate + curves_.accel * once;
-  out.gap = begin_.gap + x * h * begin_.rate + weights.end_correction * curves_.bend_gap + curves_.accel * twice;
+  out.gap = begin_.gap + x * h * begin_.rate + weights.end_mismatch_weight * curves_.bend_gap + curves_.accel * twice;
   out.force = curves_.force * value;
   const RadauTable::Vec weight = table_.weights(x);
   out.law_state.assign(begin_.law_state.size(), 0.0);

@@ -33,7 +33,7 @@ void TreeRadau::find_switching(double x, double h, double* value) {
   inside_at_.find_switching(at, value);
 }
 
-void TreeRadau::extrapolate_switching(double d, double* value) {
+void TreeRadau::extrapolate_switching_functions(double d, double* value) {
   const double half = 0.5 * d * d;
   inside_at_.place_only(begin_.t + d, begin_.y + d * begin_.u + half * begin_.w, begin_.u + d * begin_.w);
   TreeState at = begin_;
@@ -41,7 +41,7 @@ void TreeRadau::extrapolate_switching(double d, double* value) {
   inside_at_.find_switching(at, value);
 }
 
-void TreeRadau::extrapolate_end(double d) {
+void TreeRadau::extrapolate_end_state(double d) {
   end_.t += d;
   end_state_.supplied += d * end_state_.supply_power;
   end_state_.dissipated += d * end_state_.loss_power;

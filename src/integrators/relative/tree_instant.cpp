@@ -10,7 +10,7 @@ using Eigen::VectorXd;
 
 TreeInstant::TreeInstant(const System& system, const JointTree& tree)
     : system_(system), tree_(tree), r_(tree.laws().size()), Q_(system.bodies.size()), a_(system.bodies.size(), S::Vec::Zero()),
-      on_bodies_(system.bodies.size()), gap_(system.joints.size(), S::Vec::Zero()), rate_(gap_) {}
+      gap_(system.joints.size(), S::Vec::Zero()), rate_(gap_), on_bodies_(system.bodies.size()) {}
 
 void TreeInstant::place_only(double t, const VectorXd& y, const VectorXd& u) {
   t_ = t;
@@ -33,7 +33,7 @@ void TreeInstant::gap_accelerations(VectorXd& out) const {
 }
 
 // Q + G' f - M a of every body.
-void TreeInstant::leave_over(const VectorXd& f) {
+void TreeInstant::find_unbalanced_forces(const VectorXd& f) {
   for (std::size_t i = 0; i < Q_.size(); ++i) on_bodies_[i] = Q_[i] - system_.bodies[i].mass.cwiseProduct(a_[i]);
   for (std::size_t l = 0; l < r_.size(); ++l)
     add_force(system_.joints[tree_.laws()[l]].at, r_[l], f.segment<3>(3 * static_cast<Eigen::Index>(l)), on_bodies_);
@@ -41,7 +41,7 @@ void TreeInstant::leave_over(const VectorXd& f) {
 
 // Eq. (3.4).
 void TreeInstant::imbalance(const VectorXd& f, VectorXd& out) {
-  leave_over(f);
+  find_unbalanced_forces(f);
   tree_.gather(pose_, on_bodies_, out);
   out = -out;
 }
@@ -117,7 +117,7 @@ void TreeInstant::slopes(const VectorXd& f, TreeSlopes& out) {
         if (body[j] != kGround) rows(of_forces_, body[i]) -= geometric.template block<3, 3>(3 * i, 3 * j) * rows(J_, body[j]);
     }
   }
-  leave_over(f);
+  find_unbalanced_forces(f);
   tree_.geometric_stiffness(pose_, on_bodies_, geometric_);
   tree_.gather(pose_, of_forces_, out.balance);
   tree_.gather(pose_, of_forces_by_rate_, out.balance_by_rate);

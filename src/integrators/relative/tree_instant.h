@@ -85,7 +85,7 @@ class TreeInstant {
   void write(const TreeState& at, const Eigen::VectorXd& w, State& state);
 
  private:
-  void leave_over(const Eigen::VectorXd& f);
+  void find_unbalanced_forces(const Eigen::VectorXd& f);
   void spread_gaps(const TreeState& at);
 
   const System& system_;
@@ -94,9 +94,8 @@ class TreeInstant {
   double t_ = 0;
   TreePose pose_;
   std::vector<JointKinematics> r_;  // of the joints that stay laws
-  Vecs Q_, a_;
-  Vecs on_bodies_;  // what leave_over finds
-  Vecs gap_, rate_;
+  Vecs Q_, a_, gap_, rate_;
+  Vecs on_bodies_;  // what find_unbalanced_forces finds, and other forces of the moment
   Eigen::MatrixXd H_, J_, A_;
   TreeMotionSlopes moved_;
   Eigen::MatrixXd of_forces_, of_forces_by_rate_;  // what the forces on the bodies change by, per coordinate and per rate

@@ -41,7 +41,7 @@ void TreeRadau::start(const State& state, double h) {
   end_state_.supply_power = supplied;
   end_state_.loss_power = lost;
   finish_end(end_.w);
-  reset_events();
+  reset_event_detection();
 }
 
 bool TreeRadau::step(double t_end) {

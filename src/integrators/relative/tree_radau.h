@@ -62,9 +62,9 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   const State& end_state() const { return end_state_; }
   std::vector<SlidingMode>& sliding() { return sliding_; }
   void find_switching(double x, double h, double* value);
-  void extrapolate_switching(double d, double* value);
+  void extrapolate_switching_functions(double d, double* value);
   void find_switching_at_end(double* value) { end_at_.find_switching(end_, value); }
-  void extrapolate_end(double d);
+  void extrapolate_end_state(double d);
   const std::vector<Planar::Motion>& motions_after(double d);
   bool cross_borders() { return end_at_.cross_borders(search_.start(), search_.end(), end_, end_state_.dissipated); }
   void balance_end();

@@ -1,15 +1,15 @@
-#include "base/constants.h"
 #include "run/record/wear_tally.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/constants.h"
 
 namespace pintle {
 namespace {
 
 std::size_t sector_of(double angle, int n) {
-  const double turns = angle / (2 * std::numbers::pi), share = turns - std::floor(turns);
+  const double turns = angle / kTurn, share = turns - std::floor(turns);
   return std::min(static_cast<std::size_t>(n * share), static_cast<std::size_t>(n - 1));
 }
 

@@ -1,0 +1,40 @@
+// The integral of a speed over time.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "pintle/expression.h"
+
+namespace pintle {
+
+/// How far a speed goes, theory/joints Eq. (4.7): from Chebyshev polynomials on panels that are as short as the speed's curve asks for, to rounding.
+class SpeedIntegral {
+ public:
+  /// `speed`: of t alone [rad/s or m/s]. What lies beyond `duration` [s], above 0, is found anew whenever it is asked for.
+  SpeedIntegral(Expression speed, double duration);
+
+  /// From time 0 to t, not below 0 [rad or m]. Not a number where the speed is none.
+  double up_to(double t) const;
+  std::size_t n_panels() const { return panels_.size(); }
+
+ private:
+  static constexpr int kPolynomialDegree = 16;  // on a panel
+  using Coefficients = std::array<double, kPolynomialDegree + 1>;
+  struct Panel {
+    double begin, end, before;                                // [s], and the integral up to it
+    std::array<double, kPolynomialDegree + 2> coefficients;  // of the integral in it, 0 at its begin
+    double up_to(double t) const;
+  };
+
+  Coefficients chebyshev_coefficients(double begin, double end) const;
+  void append_panels(double begin, double end, std::vector<Panel>& panels) const;
+  static Panel integrated_panel(double begin, double end, double before, const Coefficients& of_speed);
+
+  Expression speed_;
+  double duration_, largest_ = 0;  // [s]; a bound of the speed in it
+  std::vector<Panel> panels_;
+};
+
+}  // namespace pintle
