@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -10,9 +11,9 @@
 namespace pintle {
 namespace {
 
-constexpr int kPanels = 32;               // of a duration at least: a pulse is seen that lasts about a three-hundredth of it
-constexpr double kNegligible = 1e-15;     // of what the largest speed goes in the duration: what a panel's last coefficients may be in it
-constexpr std::size_t kMost = 200'000;    // panels, beyond which none is halved: 34 MB of a speed that no polynomial follows
+constexpr int kPanels = 32;             // of a duration at least: of 200 pulses that last 1/300 of it all are seen; with 16, two in three
+constexpr std::size_t kMost = 200'000;  // panels, beyond which none is halved: 34 MB and 1.6 s for a speed that no polynomial follows
+constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();  // of the whole way: what a panel may miss
 
 // The sum of coefficients times Chebyshev polynomials at x in [-1, 1] (Clenshaw).
 template <std::size_t n>
@@ -65,7 +66,7 @@ void SpeedIntegral::append_panels(double begin, double end, std::vector<Panel>& 
   const Coefficients c = chebyshev_coefficients(begin, end);
   const double rest = std::max({std::abs(c[kPolynomialDegree]), std::abs(c[kPolynomialDegree - 1]), std::abs(c[kPolynomialDegree - 2])});
   const double size = std::accumulate(c.begin(), c.end(), largest_, [](double sum, double x) { return sum + std::abs(x); });
-  const bool resolved = !(rest * (end - begin) > kNegligible * size * duration_);  // also where the speed is not a number
+  const bool resolved = !(rest * (end - begin) > kRounding * size * duration_);  // also where the speed is not a number
   const double middle = 0.5 * (begin + end);
   if (resolved || panels.size() > kMost || !(begin < middle && middle < end)) {
     panels.push_back(integrated_panel(begin, end, panels.empty() ? 0 : panels.back().up_to(begin), c));
