@@ -145,6 +145,7 @@ const std::vector<Mistake> kMistakes{
     {"torque = \"5 N*m - 0.1*rate + B.slide*2 N\"", "@force = 1", "motor.M.force", "sliding joints only"},
     {"torque = \"5 N*m - 0.1*rate + B.slide*2 N\"", "torque = \"@B.slyde*2 N\"", "motor.M.torque", "", "B.slide"},
     {"speed = \"0.1 m/s\"", "speed = \"@10 rpm\"", "motor.V.speed", "is expected"},
+    {"speed = \"0.1 m/s\"", "speed = \"0.1 m/s*sin(@x)\"", "motor.V.speed", "not defined", "one of t"},
     {"joint = \"A\"\n", "joint = \"@B\"\n", "motor.W.joint", "is already a servo"},
 };
 
