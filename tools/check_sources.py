@@ -8,6 +8,7 @@
   - no reference to a System is without const: what changes a system returns another;
   - no file has more than 500 lines, no function more than 100;
   - no vague names in files and types; no notes to self;
+  - every file that states the program's version states that of CMakeLists.txt;
   - no constant or type of one name in two headers: the linker would give one's value or code to the readers of the other.
 """
 import pathlib
@@ -46,6 +47,13 @@ MAX_FILE, MAX_FUNCTION = 500, 100
 VAGUE = {"manager", "handler", "util", "utils", "helper", "helpers", "misc", "data2", "tmp"}
 NOTE = re.compile(r"\b(" + "TO" + "DO|FIX" + "ME|XX" + r"X)\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
+# Where the version stands; of a version that is asked for, the part that breaks nothing may be left out.
+VERSIONED = {
+    "CMakeLists.txt": re.compile(r"^project\(Pintle VERSION ([\d.]+)"),
+    "CITATION.cff": re.compile(r"^version: ([\d.]+)"),
+    "studio/package.json": re.compile(r'^  "version": "([\d.]+)"'),
+    "examples/outside/CMakeLists.txt": re.compile(r"^find_package\(Pintle ([\d.]+)"),
+}
 START_DOOR = "start/start.h"
 CHANGEABLE_SYSTEM = re.compile(r"(?<!const )\b(?:System|SpatialSystem|BasicSystem<\w+>)\s*&")
 TYPE = re.compile(r"^\s*(?:class|struct|enum class|enum|namespace)\s+(\w+)")
@@ -161,6 +169,19 @@ def twin_names(headers):
                 yield path, number, f"{place[0]}:{place[1]} has {name} too: the linker would mix the two"
 
 
+def other_versions(root):
+    """(path, line, message) of every version that is not the program's."""
+    version = None
+    for path, pattern in VERSIONED.items():
+        stated = [(number, found[1]) for number, line in enumerate((root / path).read_text(encoding="utf-8").splitlines(), 1) if (found := pattern.match(line))]
+        if not stated:
+            yield path, 1, "the version is missing"
+        for number, here in stated:
+            version = version or here
+            if version != here and not version.startswith(here + "."):
+                yield path, number, f"version {here}, but the program's is {version}"
+
+
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent).resolve()
     count, files, headers = 0, 0, []
@@ -175,7 +196,7 @@ def main():
                 count += 1
             if file.suffix == ".h":
                 headers.append((path, file.read_text(encoding="utf-8").splitlines()))
-    for path, line, message in [*twin_names(headers), *crowds(root)]:
+    for path, line, message in [*twin_names(headers), *crowds(root), *other_versions(root)]:
         print(f"{path}:{line}: {message}")
         count += 1
     print(f"check_sources: {files} files, {count} breach{'' if count == 1 else 'es'}")
