@@ -114,6 +114,17 @@ TEST_F(StudioServer, ServesItsPageAndItsModels) {
   EXPECT_TRUE(fs::exists(folder_ / "b.toml"));
 }
 
+TEST_F(StudioServer, SendsCompressedPagesAsTheyAre) {
+  const std::string packed = "compressed elsewhere: " + std::string(5000, 'x');  // long enough to be worth compressing again
+  std::ofstream(folder_ / ".pages/index.html.br") << packed;
+  const std::string answer = ask("GET /", "Accept-Encoding: gzip, br\r\n");
+  EXPECT_EQ(status(answer), 200);
+  EXPECT_NE(answer.find("Content-Encoding: br\r\n"), std::string::npos) << answer.substr(0, 1000);
+  EXPECT_TRUE(answer.ends_with("\r\n\r\n" + packed));
+  EXPECT_TRUE(ask("GET /").ends_with("\r\n\r\n<p>studio"));
+  EXPECT_EQ(ask("HEAD /", "Accept-Encoding: br\r\n").find(packed), std::string::npos);
+}
+
 TEST_F(StudioServer, IsNotThereForOtherMachines) {
   EXPECT_EQ(connect_to("127.0.0.2"), -1);  // listens at 127.0.0.1 alone, not at every address
 }

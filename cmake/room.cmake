@@ -13,11 +13,11 @@ function(pintle_sources out folder)
   set(${out} ${sources} PARENT_SCOPE)
 endfunction()
 
-# What nearly every source of a room reads is parsed once. Three rooms own what is shared by those after them: space, for laws to linalg and
-# for io; system, with the mechanism itself, for integrators to live; results, for what else is quick to build. No source relies on it: the
+# What nearly every source of a room reads is parsed once. Three rooms own what is shared by those after them: space, for laws to linalg;
+# system, with the mechanism itself, for integrators to live; results, for what else is quick to build. No source relies on it: the
 # studio's kernel is compiled without.
 function(pintle_precompile name quick)
-  set(of_space space laws joints linalg io)
+  set(of_space space laws joints linalg)
   if(quick)
     set(owner results)
   elseif(name IN_LIST of_space)
@@ -43,12 +43,10 @@ function(pintle_precompile name quick)
 endfunction()
 
 # With PINTLE_UNITY six sources of the target are compiled as one, so that what they share is read and instantiated once. Names in their
-# unnamed namespaces must differ for that. What steps call is left apart: its speed depends on what the compiler sees together.
-# Under the sanitizers nothing is fast, and all rooms are united, as the tests are always. PINTLE_APART has
-# what compiles long by itself, catalogs and profiles that call the same things alike, classes that are instantiated in several sources, and
+# unnamed namespaces must differ for that. PINTLE_APART has what compiles long by itself, what is slower in company (sampled_curve), catalogs
+# and profiles that call the same things alike, classes that are instantiated in several sources or have members of unnamed namespaces, and
 # tests in space, whose short names are those of the tests in the plane.
-set(PINTLE_UNITED_ROOMS check results io report sweeps)
-set(PINTLE_APART "(stage_solver_[a-z]*|end_point_projection|dense_forces|batch_[0-9]*|[a-z_]*catalog|tree_augmented|leaf_spring|system|radau_stepper|edge_profile|limit_notes|blade_basis|(space|spatial)[a-z_]*_test)\\.cpp$")
+set(PINTLE_APART "(stage_solver_[a-z]*|end_point_projection|dense_forces|batch_[0-9]*|[a-z_]*catalog|tree_augmented|leaf_spring|system|radau_stepper|edge_profile|sampled_curve|sundials_code|limit_notes|blade_basis|(space|spatial)[a-z_]*_test)\\.cpp$")
 function(pintle_unite target)
   if(NOT PINTLE_UNITY)
     return()
@@ -80,9 +78,7 @@ function(pintle_room name)
       target_link_libraries(pintle_${name} PRIVATE pintle_quick_build)
     endif()
     pintle_precompile(${name} ${arg_QUICK})
-    if(name IN_LIST PINTLE_UNITED_ROOMS OR PINTLE_SANITIZE)
-      pintle_unite(pintle_${name})
-    endif()
+    pintle_unite(pintle_${name})
   else()
     add_library(pintle_${name} INTERFACE)
     target_link_libraries(pintle_${name} INTERFACE ${left} ${arg_LINK})

@@ -24,7 +24,7 @@ kernel() {
   cmake --build build/web -j "$jobs"
   mkdir -p studio/public/kernel
   cmp -s build/web/bin/pintle.wasm studio/public/kernel/pintle.wasm || cp build/web/bin/pintle.wasm studio/public/kernel/
-  echo "studio: kernel of $(stat -c %s build/web/bin/pintle.wasm) bytes, $(gzip -9 -c build/web/bin/pintle.wasm | wc -c) compressed"
+  echo "studio: kernel of $(stat -c %s build/web/bin/pintle.wasm) bytes, $(gzip -9 -c build/web/bin/pintle.wasm | wc -c) as gzip"
 }
 
 packages() {
@@ -41,7 +41,7 @@ pages() {
   [ -f studio/public/kernel/pintle.wasm ] || fail "the kernel is not built (tools/studio.sh kernel)"
   packages
   (cd studio && npm run --silent build)
-  echo "studio: build/studio is $(find build/studio -type f ! -name '*.map' -exec gzip -9 -c {} \; | wc -c) bytes compressed"
+  echo "studio: build/studio is $(find build/studio -type f -name '*.br' -exec cat {} + | wc -c) bytes compressed"
 }
 
 run_tests() {

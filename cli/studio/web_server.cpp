@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <thread>
 
 #include "pintle/results.h"
@@ -15,6 +16,15 @@ namespace {
 constexpr const char* kAddress = "127.0.0.1";
 constexpr std::size_t kLargestBody = std::size_t{96} << 20U;  // the largest model, as JSON text
 constexpr int kPatience = 5;                                  // of a connection that says nothing [s]
+
+// The library compresses the text that it sends, unless it is asked for it in parts.
+void set_compressed(std::string body, const char* type, httplib::Response& to) {
+  const auto kept = std::make_shared<const std::string>(std::move(body));
+  to.set_content_provider(kept->size(), type, [kept](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+    sink.write(kept->data() + offset, length);
+    return true;
+  });
+}
 
 studio::Request request_of(const httplib::Request& from) {
   studio::Request request{from.method, from.target, {}, from.body};
@@ -57,8 +67,13 @@ void WebServer::serve(studio::RequestRouter& router, const std::function<bool()>
   const auto answer = [&router](const httplib::Request& from, httplib::Response& to) {
     studio::Reply reply = router.answer(request_of(from));
     to.status = reply.status;
-    for (const auto& [name, value] : reply.headers) to.set_header(name.c_str(), value);
-    to.set_content(std::move(reply.body), reply.type.c_str());
+    bool compressed = false;
+    for (const auto& [name, value] : reply.headers) {
+      to.set_header(name.c_str(), value);
+      compressed = compressed || name == "Content-Encoding";
+    }
+    if (compressed) set_compressed(std::move(reply.body), reply.type.c_str(), to);
+    else to.set_content(std::move(reply.body), reply.type.c_str());
   };
   // [^] rather than a dot: a dot leaves out line ends.
   constexpr const char* kAnything = R"([\s\S]*)";

@@ -302,13 +302,13 @@ void BasicInverseDynamics<S>::take_forces_of_bodies(BasicState<S>& state) const 
 }
 
 template Planar::Vec own_mobility(const BasicSystem<Planar>& system, const BasicPlacement<Planar>& at, const BasicJointKinematics<Planar>& r);
-template Spatial::Vec own_mobility(const BasicSystem<Spatial>& system, const BasicPlacement<Spatial>& at, const BasicJointKinematics<Spatial>& r);
+PINTLE_IN_SPACE(template Spatial::Vec own_mobility(const BasicSystem<Spatial>& system, const BasicPlacement<Spatial>& at, const BasicJointKinematics<Spatial>& r);)
 template bool is_in_play<Planar>(const BasicLaw<Planar>& law, const Planar::Vec& gap, const Planar::Vec& rate);
-template bool is_in_play<Spatial>(const BasicLaw<Spatial>& law, const Spatial::Vec& gap, const Spatial::Vec& rate);
+PINTLE_IN_SPACE(template bool is_in_play<Spatial>(const BasicLaw<Spatial>& law, const Spatial::Vec& gap, const Spatial::Vec& rate);)
 template std::optional<BasicSystem<Planar>> with_springs(const BasicSystem<Planar>& system, const std::vector<int>& joints);
-template std::optional<BasicSystem<Spatial>> with_springs(const BasicSystem<Spatial>& system, const std::vector<int>& joints);
+PINTLE_IN_SPACE(template std::optional<BasicSystem<Spatial>> with_springs(const BasicSystem<Spatial>& system, const std::vector<int>& joints);)
 
 template class BasicInverseDynamics<Planar>;
-template class BasicInverseDynamics<Spatial>;
+PINTLE_IN_SPACE(template class BasicInverseDynamics<Spatial>;)
 
 }  // namespace pintle

@@ -70,10 +70,10 @@ BasicTimeScales<S> measure_time_scales(const BasicSystem<S>& system, const Basic
 
 template BasicTimeScales<Planar> all_fast(const BasicSystem<Planar>& system);
 template BasicTimeScales<Planar> measure_time_scales(const BasicSystem<Planar>& system, const BasicState<Planar>& state, double span);
-template BasicTimeScales<Spatial> all_fast(const BasicSystem<Spatial>& system);
-template BasicTimeScales<Spatial> measure_time_scales(const BasicSystem<Spatial>& system, const BasicState<Spatial>& state, double span);
+PINTLE_IN_SPACE(template BasicTimeScales<Spatial> all_fast(const BasicSystem<Spatial>& system);)
+PINTLE_IN_SPACE(template BasicTimeScales<Spatial> measure_time_scales(const BasicSystem<Spatial>& system, const BasicState<Spatial>& state, double span);)
 
 template struct BasicTimeScales<Planar>;
-template struct BasicTimeScales<Spatial>;
+PINTLE_IN_SPACE(template struct BasicTimeScales<Spatial>;)
 
 }  // namespace pintle

@@ -47,9 +47,9 @@ BasicState<S> zero_state(const BasicSystem<S>& system) {
 }
 
 template BasicState<Planar> zero_state(const BasicSystem<Planar>& system);
-template BasicState<Spatial> zero_state(const BasicSystem<Spatial>& system);
+PINTLE_IN_SPACE(template BasicState<Spatial> zero_state(const BasicSystem<Spatial>& system);)
 
 template class BasicForceEvaluator<Planar>;
-template class BasicForceEvaluator<Spatial>;
+PINTLE_IN_SPACE(template class BasicForceEvaluator<Spatial>;)
 
 }  // namespace pintle

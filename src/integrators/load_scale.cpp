@@ -17,6 +17,6 @@ void grow_load_scale(const BasicSystem<S>& system, const std::vector<typename S:
 }
 
 template void grow_load_scale(const BasicSystem<Planar>& system, const std::vector<Planar::Motion>& m, const VecsOf<Planar>& Q, const BasicState<Planar>& state, BasicLoadScale<Planar>& scale);
-template void grow_load_scale(const BasicSystem<Spatial>& system, const std::vector<Spatial::Motion>& m, const VecsOf<Spatial>& Q, const BasicState<Spatial>& state, BasicLoadScale<Spatial>& scale);
+PINTLE_IN_SPACE(template void grow_load_scale(const BasicSystem<Spatial>& system, const std::vector<Spatial::Motion>& m, const VecsOf<Spatial>& Q, const BasicState<Spatial>& state, BasicLoadScale<Spatial>& scale);)
 
 }  // namespace pintle

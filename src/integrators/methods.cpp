@@ -130,11 +130,13 @@ std::unique_ptr<Stepper> make_stepper(const System& system, const MethodChoice& 
   return make_sundials_stepper(system, choice.method, tolerance);
 }
 
+#ifndef PINTLE_PLANAR_ONLY
 std::unique_ptr<BasicStepper<Spatial>> make_stepper(const BasicSystem<Spatial>& system, const MethodChoice& choice, double tolerance) {
   if (choice.equations != Equations::kNewtonian)
     throw std::invalid_argument("mechanisms in space have the equations of free bodies only: set equations = \"newtonian\", in which every joint is a force law");
   if (choice.method != "radau") throw std::invalid_argument(fmt::format("method {} is for mechanisms of the plane: in space set method = \"radau\", or \"auto\"", choice.method));
   return make_radau(system, choice, tolerance);
 }
+#endif
 
 }  // namespace pintle

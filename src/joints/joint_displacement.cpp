@@ -78,6 +78,6 @@ Eigen::Matrix<double, 3, 6> bias_gradient(const JointDisplacement& displacement,
 }
 
 template struct DisplacementReader<Planar>;
-template struct DisplacementReader<Spatial>;
+PINTLE_IN_SPACE(template struct DisplacementReader<Spatial>;)
 
 }  // namespace pintle

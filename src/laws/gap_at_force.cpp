@@ -204,6 +204,6 @@ bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const ty
 }
 
 template bool gap_at_force(const BasicLaw<Planar>& law, const Planar::Vec& force, const Planar::Vec& rate, Planar::Vec& gap);
-template bool gap_at_force(const BasicLaw<Spatial>& law, const Spatial::Vec& force, const Spatial::Vec& rate, Spatial::Vec& gap);
+PINTLE_IN_SPACE(template bool gap_at_force(const BasicLaw<Spatial>& law, const Spatial::Vec& force, const Spatial::Vec& rate, Spatial::Vec& gap);)
 
 }  // namespace pintle

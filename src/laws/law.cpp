@@ -306,6 +306,6 @@ void BasicLaw<S>::observe(const BasicLawPoint<S>& at, const typename S::Vec& for
 }
 
 template class BasicLaw<Planar>;
-template class BasicLaw<Spatial>;
+PINTLE_IN_SPACE(template class BasicLaw<Spatial>;)
 
 }  // namespace pintle

@@ -167,6 +167,6 @@ void BasicEnergyWatch<S>::say_runaway(const BasicState<S>& state, double energy)
 }
 
 template class BasicEnergyWatch<Planar>;
-template class BasicEnergyWatch<Spatial>;
+PINTLE_IN_SPACE(template class BasicEnergyWatch<Spatial>;)
 
 }  // namespace pintle

@@ -112,7 +112,6 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
 }
 
 template Integration integrate(const System& system, const State& start, const IntegrationPlan& plan, ForceRecorder& recorder);
-template BasicIntegration<Spatial> integrate(const BasicSystem<Spatial>& system, const BasicState<Spatial>& start, const BasicIntegrationPlan<Spatial>& plan,
-                                             BasicForceRecorder<Spatial>& recorder);
+PINTLE_IN_SPACE(template BasicIntegration<Spatial> integrate(const BasicSystem<Spatial>& system, const BasicState<Spatial>& start, const BasicIntegrationPlan<Spatial>& plan, BasicForceRecorder<Spatial>& recorder);)
 
 }  // namespace pintle

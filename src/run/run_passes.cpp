@@ -353,7 +353,6 @@ std::unique_ptr<BasicForceRecorder<S>> run_passes(const BasicSystem<S>& system, 
 }
 
 template std::unique_ptr<ForceRecorder> run_passes(const System& system, const State& start, const SimulateSettings& settings, const BasicPassContext<Planar>& context, Trajectory& out);
-template std::unique_ptr<BasicForceRecorder<Spatial>> run_passes(const BasicSystem<Spatial>& system, const BasicState<Spatial>& start, const SimulateSettings& settings,
-                                                                 const BasicPassContext<Spatial>& context, Trajectory& out);
+PINTLE_IN_SPACE(template std::unique_ptr<BasicForceRecorder<Spatial>> run_passes(const BasicSystem<Spatial>& system, const BasicState<Spatial>& start, const SimulateSettings& settings, const BasicPassContext<Spatial>& context, Trajectory& out);)
 
 }  // namespace pintle

@@ -49,6 +49,6 @@ BasicSystemRun<S> run_system(const BasicSystem<S>& system, const BasicState<S>& 
 }
 
 template SystemRun run_system(const System& system, const State& start, const SimulateSettings& settings, const Observer& observer);
-template BasicSystemRun<Spatial> run_system(const BasicSystem<Spatial>& system, const BasicState<Spatial>& start, const SimulateSettings& settings, const Observer& observer);
+PINTLE_IN_SPACE(template BasicSystemRun<Spatial> run_system(const BasicSystem<Spatial>& system, const BasicState<Spatial>& start, const SimulateSettings& settings, const Observer& observer);)
 
 }  // namespace pintle

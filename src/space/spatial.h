@@ -11,6 +11,13 @@
 
 #include "space/rotation.h"
 
+/// What is instantiated for bodies in space, and left out of a program that has mechanisms of the plane only.
+#ifdef PINTLE_PLANAR_ONLY
+#define PINTLE_IN_SPACE(...)
+#else
+#define PINTLE_IN_SPACE(...) __VA_ARGS__
+#endif
+
 namespace pintle {
 
 template <class T>

@@ -112,6 +112,6 @@ void settle_joints(const BasicSystem<S>& system, double duration, double known_s
 }
 
 template void settle_joints(const BasicSystem<Planar>& system, double duration, double known_span, BasicSettledStart<Planar>& start);
-template void settle_joints(const BasicSystem<Spatial>& system, double duration, double known_span, BasicSettledStart<Spatial>& start);
+PINTLE_IN_SPACE(template void settle_joints(const BasicSystem<Spatial>& system, double duration, double known_span, BasicSettledStart<Spatial>& start);)
 
 }  // namespace pintle

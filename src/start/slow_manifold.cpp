@@ -343,8 +343,8 @@ double move_onto_slow_manifold(const BasicSystem<S>& system, const BasicTimeScal
 template double span_of_motion(const BasicSystem<Planar>& system, const BasicState<Planar>& state, double longest);
 template BasicSoftStart<Planar> place_soft_joints(const BasicSystem<Planar>& system, const BasicTimeScales<Planar>& time_scales, double span, BasicState<Planar>& state);
 template double move_onto_slow_manifold(const BasicSystem<Planar>& system, const BasicTimeScales<Planar>& time_scales, double span, BasicState<Planar>& state);
-template double span_of_motion(const BasicSystem<Spatial>& system, const BasicState<Spatial>& state, double longest);
-template BasicSoftStart<Spatial> place_soft_joints(const BasicSystem<Spatial>& system, const BasicTimeScales<Spatial>& time_scales, double span, BasicState<Spatial>& state);
-template double move_onto_slow_manifold(const BasicSystem<Spatial>& system, const BasicTimeScales<Spatial>& time_scales, double span, BasicState<Spatial>& state);
+PINTLE_IN_SPACE(template double span_of_motion(const BasicSystem<Spatial>& system, const BasicState<Spatial>& state, double longest);)
+PINTLE_IN_SPACE(template BasicSoftStart<Spatial> place_soft_joints(const BasicSystem<Spatial>& system, const BasicTimeScales<Spatial>& time_scales, double span, BasicState<Spatial>& state);)
+PINTLE_IN_SPACE(template double move_onto_slow_manifold(const BasicSystem<Spatial>& system, const BasicTimeScales<Spatial>& time_scales, double span, BasicState<Spatial>& state);)
 
 }  // namespace pintle

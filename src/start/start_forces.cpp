@@ -132,7 +132,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
 
 template void balance_start(const BasicSystem<Planar>& system, BasicState<Planar>& state);
 template void start_forces(const BasicSystem<Planar>& system, bool preload, BasicState<Planar>& state);
-template void balance_start(const BasicSystem<Spatial>& system, BasicState<Spatial>& state);
-template void start_forces(const BasicSystem<Spatial>& system, bool preload, BasicState<Spatial>& state);
+PINTLE_IN_SPACE(template void balance_start(const BasicSystem<Spatial>& system, BasicState<Spatial>& state);)
+PINTLE_IN_SPACE(template void start_forces(const BasicSystem<Spatial>& system, bool preload, BasicState<Spatial>& state);)
 
 }  // namespace pintle

@@ -292,18 +292,18 @@ template std::optional<SlidingMode> BasicSystem<Planar>::jump_between(double t0,
 template double BasicSystem<Planar>::margin(const SlidingMode& jump, double t, const std::vector<Planar::Motion>& m) const;
 template void BasicSystem<Planar>::load_tangents(const BasicLoadData<Planar>& load, double t, const std::vector<Planar::Motion>& m, SlidingModes sliding, std::vector<Tangent>& out) const;
 template void BasicSystem<Planar>::applied_tangents(const BasicAppliedData<Planar>& force, double t, const std::vector<Planar::Motion>& m, std::vector<Tangent>& out) const;
-template const Expression::Ramp* BasicSystem<Spatial>::ramp_of(const BasicLoadData<Spatial>& load, SlidingModes sliding) const;
-template BasicSystem<Spatial>::LoadState BasicSystem<Spatial>::load_state(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;
-template double BasicSystem<Spatial>::load_effort(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;
-template void BasicSystem<Spatial>::external(double t, const std::vector<Spatial::Motion>& m, VecsOf<Spatial>& Q, SlidingModes sliding) const;
-template ExternalWork BasicSystem<Spatial>::external_work(double t, const PositionsOf<Spatial>& q, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;
-template bool BasicSystem<Spatial>::cross_borders(double t, const VecsOf<Spatial>& gap, const VecsOf<Spatial>& rate, const double* before, const double* after, std::vector<double>& law_state, double& lost) const;
-template ExternalWork BasicSystem<Spatial>::work_of(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;
-template double BasicSystem<Spatial>::power_of(const BasicAppliedData<Spatial>& force, double t, const std::vector<Spatial::Motion>& m) const;
-template void BasicSystem<Spatial>::find_switching(double t, const std::vector<Spatial::Motion>& m, const VecsOf<Spatial>& gap, const VecsOf<Spatial>& rate, const std::vector<double>& law_state, SlidingModes sliding, double* value) const;
-template std::optional<SlidingMode> BasicSystem<Spatial>::jump_between(double t0, const std::vector<Spatial::Motion>& m0, double t1, const std::vector<Spatial::Motion>& m1) const;
-template double BasicSystem<Spatial>::margin(const SlidingMode& jump, double t, const std::vector<Spatial::Motion>& m) const;
-template void BasicSystem<Spatial>::load_tangents(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding, std::vector<Tangent>& out) const;
-template void BasicSystem<Spatial>::applied_tangents(const BasicAppliedData<Spatial>& force, double t, const std::vector<Spatial::Motion>& m, std::vector<Tangent>& out) const;
+PINTLE_IN_SPACE(template const Expression::Ramp* BasicSystem<Spatial>::ramp_of(const BasicLoadData<Spatial>& load, SlidingModes sliding) const;)
+PINTLE_IN_SPACE(template BasicSystem<Spatial>::LoadState BasicSystem<Spatial>::load_state(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;)
+PINTLE_IN_SPACE(template double BasicSystem<Spatial>::load_effort(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;)
+PINTLE_IN_SPACE(template void BasicSystem<Spatial>::external(double t, const std::vector<Spatial::Motion>& m, VecsOf<Spatial>& Q, SlidingModes sliding) const;)
+PINTLE_IN_SPACE(template ExternalWork BasicSystem<Spatial>::external_work(double t, const PositionsOf<Spatial>& q, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;)
+PINTLE_IN_SPACE(template bool BasicSystem<Spatial>::cross_borders(double t, const VecsOf<Spatial>& gap, const VecsOf<Spatial>& rate, const double* before, const double* after, std::vector<double>& law_state, double& lost) const;)
+PINTLE_IN_SPACE(template ExternalWork BasicSystem<Spatial>::work_of(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;)
+PINTLE_IN_SPACE(template double BasicSystem<Spatial>::power_of(const BasicAppliedData<Spatial>& force, double t, const std::vector<Spatial::Motion>& m) const;)
+PINTLE_IN_SPACE(template void BasicSystem<Spatial>::find_switching(double t, const std::vector<Spatial::Motion>& m, const VecsOf<Spatial>& gap, const VecsOf<Spatial>& rate, const std::vector<double>& law_state, SlidingModes sliding, double* value) const;)
+PINTLE_IN_SPACE(template std::optional<SlidingMode> BasicSystem<Spatial>::jump_between(double t0, const std::vector<Spatial::Motion>& m0, double t1, const std::vector<Spatial::Motion>& m1) const;)
+PINTLE_IN_SPACE(template double BasicSystem<Spatial>::margin(const SlidingMode& jump, double t, const std::vector<Spatial::Motion>& m) const;)
+PINTLE_IN_SPACE(template void BasicSystem<Spatial>::load_tangents(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding, std::vector<Tangent>& out) const;)
+PINTLE_IN_SPACE(template void BasicSystem<Spatial>::applied_tangents(const BasicAppliedData<Spatial>& force, double t, const std::vector<Spatial::Motion>& m, std::vector<Tangent>& out) const;)
 
 }  // namespace pintle

@@ -80,20 +80,20 @@ bool is_finite(const BasicState<S>& state) {
 }
 
 template double largest_coordinate(const VecsOf<Planar>&);
-template double largest_coordinate(const VecsOf<Spatial>&);
+PINTLE_IN_SPACE(template double largest_coordinate(const VecsOf<Spatial>&);)
 template double largest_force(const VecsOf<Planar>&);
-template double largest_force(const VecsOf<Spatial>&);
+PINTLE_IN_SPACE(template double largest_force(const VecsOf<Spatial>&);)
 template void find_gap_accelerations(const BasicSystem<Planar>& system, const std::vector<BasicJointKinematics<Planar>>& r, BasicState<Planar>& state);
 template double energy_of_joints(const BasicSystem<Planar>& system, const BasicState<Planar>& state);
 template void find_law_rates(const BasicSystem<Planar>& system, BasicState<Planar>& state);
 template void rest_laws(const BasicSystem<Planar>& system, BasicState<Planar>& state);
 template void find_accelerations(const BasicSystem<Planar>& system, const std::vector<Planar::Motion>& m, const std::vector<BasicJointKinematics<Planar>>& r, BasicState<Planar>& state);
 template bool is_finite(const BasicState<Planar>& state);
-template void find_gap_accelerations(const BasicSystem<Spatial>& system, const std::vector<BasicJointKinematics<Spatial>>& r, BasicState<Spatial>& state);
-template double energy_of_joints(const BasicSystem<Spatial>& system, const BasicState<Spatial>& state);
-template void find_law_rates(const BasicSystem<Spatial>& system, BasicState<Spatial>& state);
-template void rest_laws(const BasicSystem<Spatial>& system, BasicState<Spatial>& state);
-template void find_accelerations(const BasicSystem<Spatial>& system, const std::vector<Spatial::Motion>& m, const std::vector<BasicJointKinematics<Spatial>>& r, BasicState<Spatial>& state);
-template bool is_finite(const BasicState<Spatial>& state);
+PINTLE_IN_SPACE(template void find_gap_accelerations(const BasicSystem<Spatial>& system, const std::vector<BasicJointKinematics<Spatial>>& r, BasicState<Spatial>& state);)
+PINTLE_IN_SPACE(template double energy_of_joints(const BasicSystem<Spatial>& system, const BasicState<Spatial>& state);)
+PINTLE_IN_SPACE(template void find_law_rates(const BasicSystem<Spatial>& system, BasicState<Spatial>& state);)
+PINTLE_IN_SPACE(template void rest_laws(const BasicSystem<Spatial>& system, BasicState<Spatial>& state);)
+PINTLE_IN_SPACE(template void find_accelerations(const BasicSystem<Spatial>& system, const std::vector<Spatial::Motion>& m, const std::vector<BasicJointKinematics<Spatial>>& r, BasicState<Spatial>& state);)
+PINTLE_IN_SPACE(template bool is_finite(const BasicState<Spatial>& state);)
 
 }  // namespace pintle

@@ -156,9 +156,9 @@ double BasicSystem<S>::largest_radius_of_gyration() const {
 }
 
 template std::array<double, 3> target_of(const BasicJointData<Planar>& joint, double t);
-template std::array<double, 3> target_of(const BasicJointData<Spatial>& joint, double t);
+PINTLE_IN_SPACE(template std::array<double, 3> target_of(const BasicJointData<Spatial>& joint, double t);)
 
 template class BasicSystem<Planar>;
-template class BasicSystem<Spatial>;
+PINTLE_IN_SPACE(template class BasicSystem<Spatial>;)
 
 }  // namespace pintle

@@ -1,12 +1,11 @@
-// A small server of a static folder on the loopback, for the browser tests.
-import { createReadStream, existsSync, statSync } from "node:fs";
+// A small server of the built pages on the loopback, for the browser tests. Like `pintle studio` it sends what is compressed.
+import { existsSync, readFileSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join, normalize, resolve, sep } from "node:path";
-import { createGzip } from "node:zlib";
 
 const TYPES = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".wasm": "application/wasm", ".svg": "image/svg+xml", ".json": "application/json" };
 
-/** Resolves to {url, sent, close}; `sent` counts the compressed bytes of each path. */
+/** Resolves to {url, sent, close}; `sent` has the bytes sent of each path. */
 export function serve(folder) {
   const root = resolve(folder);
   const sent = new Map();
@@ -17,12 +16,11 @@ export function serve(folder) {
       response.writeHead(404).end();
       return;
     }
-    response.writeHead(200, { "content-type": TYPES[extname(file)] ?? "application/octet-stream", "content-encoding": "gzip" });
-    const packed = createReadStream(file).pipe(createGzip());
-    let size = 0;
-    packed.on("data", (part) => (size += part.length));
-    packed.on("end", () => sent.set(path, size));
-    packed.pipe(response);
+    const compressed = existsSync(`${file}.br`);
+    const body = readFileSync(compressed ? `${file}.br` : file);
+    response.writeHead(200, { "content-type": TYPES[extname(file)] ?? "application/octet-stream", ...(compressed && { "content-encoding": "br" }) });
+    sent.set(path, body.length);
+    response.end(body);
   });
   return new Promise((done) => {
     server.listen(0, "127.0.0.1", () => done({ url: `http://127.0.0.1:${server.address().port}/`, sent, close: () => server.close() }));

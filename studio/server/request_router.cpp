@@ -57,6 +57,19 @@ bool same_secret(const std::string& a, const std::string& b) {
   return difference == 0;
 }
 
+// Whether the browser takes `coding`, one of a list such as "gzip, deflate, br;q=0.5".
+bool accepts(const Request& request, std::string_view coding) {
+  std::string listed = request.header("accept-encoding");
+  std::erase(listed, ' ');
+  for (std::size_t at = 0; at < listed.size();) {
+    const std::size_t end = std::min(listed.find(',', at), listed.size());
+    const std::string_view one = std::string_view(listed).substr(at, end - at);
+    if (one.substr(0, one.find(';')) == coding) return one.find(";q=0") == one.npos || one.find_first_of("123456789", one.find(';')) != one.npos;
+    at = end + 1;
+  }
+  return false;
+}
+
 // The value of `key` in "a=1&b=2".
 std::string query_value(const std::string& query, const std::string& key) {
   std::size_t at = 0;
@@ -154,7 +167,9 @@ Reply RequestRouter::page(const Request& request, const std::string& path) const
   const std::string name = path == "/" ? "index.html" : path.substr(std::min<std::size_t>(1, path.size()));
   const std::optional<std::filesystem::path> file = pages_.find(name);
   if (!file) throw Refusal(404, "There is no such page.");
-  Reply reply{200, type_of(*file), read_file(*file), {}};
+  const std::optional<std::filesystem::path> packed = accepts(request, "br") ? pages_.find(name + ".br") : std::nullopt;
+  Reply reply{200, type_of(*file), read_file(packed.value_or(*file)), {{"Vary", "Accept-Encoding"}}};
+  if (packed) reply.headers.emplace_back("Content-Encoding", "br");
   // The names of what Vite builds change with their content.
   reply.headers.emplace_back("Cache-Control", name.starts_with("assets/") ? "public, max-age=31536000, immutable" : "no-cache");
   return reply;

@@ -66,6 +66,21 @@ TEST_F(StudioRequestRouter, GivesItsPagesWithAPolicy) {
   EXPECT_EQ(ask("POST", "/").status, 405);
 }
 
+TEST_F(StudioRequestRouter, SendsCompressedPagesToBrowsersThatAcceptThem) {
+  write("pages/index.html.br", "packed");
+  const auto page = [&](const std::string& target, const std::string& accepted) {
+    Request asked = request("GET", target);
+    asked.headers.emplace("accept-encoding", accepted);
+    const Reply reply = router_->answer(asked);
+    EXPECT_EQ(reply.type, target == "/" ? "text/html; charset=utf-8" : "text/javascript; charset=utf-8");
+    const bool labelled = std::find(reply.headers.begin(), reply.headers.end(), std::pair<std::string, std::string>("Content-Encoding", "br")) != reply.headers.end();
+    return std::pair(reply.body, labelled);
+  };
+  for (const char* accepted : {"br", "gzip, deflate, br, zstd", "gzip,br;q=0.5"}) EXPECT_EQ(page("/", accepted), std::pair(std::string("packed"), true)) << accepted;
+  for (const char* accepted : {"", "gzip", "brotli", "br;q=0", "gzip, br; q=0.0"}) EXPECT_EQ(page("/", accepted), std::pair(std::string("<p>studio"), false)) << accepted;
+  EXPECT_EQ(page("/assets/a.js", "br"), std::pair(std::string("1"), false)) << "there is nothing compressed beside it";
+}
+
 TEST_F(StudioRequestRouter, NoPathLeadsOut) {
   for (const char* target : {"/../outside/secret.toml", "/%2e%2e/outside/secret.toml", "/..%2foutside/secret.toml", "/%2e%2e%2foutside%2fsecret.toml", "/..\\outside\\secret.toml",
                              "/..%5coutside%5csecret.toml", "/%252e%252e/outside/secret.toml", "//etc/passwd", "/assets/../../outside/secret.toml", "/assets//a.js",

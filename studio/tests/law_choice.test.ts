@@ -12,7 +12,7 @@ const ask = <T>(call: string, text = "") => native([{ call, arguments: { text } 
 const read = (text: string) => ask<ReadAnswer>("read", text);
 // The program is waited for; between two of its answers the test runner has its turn.
 vi.mock("../src/play/kernel-session", () => ({ kernel: { read: (text: string) => new Promise((answered) => setImmediate(() => answered(read(text)))) } }));
-const { chooseLaw } = await import("../src/panels/properties/law-choice");
+const { chooseDefaultFriction, chooseLaw } = await import("../src/panels/properties/law-choice");
 
 const ready = existsSync(answers);
 const catalog = ready ? ask<Catalog>("catalog") : ({ joint_types: [], laws: [], methods: [] } satisfies Catalog);
@@ -52,6 +52,22 @@ describe.skipIf(!ready)("a law that is chosen", { timeout: 120_000 }, () => {
     const last = await chosen("A", "law", "linear");
     expect([linesOnlyIn(last, first), linesOnlyIn(first, last)]).toEqual([['law = "linear"'], []]);
     expect(peak(last).peak).toBe(peak(first).peak);
+  });
+
+  it("is friction of all joints, of which one says otherwise", async () => {
+    const first = texts.get("four_bar.toml")!;
+    openText(first, "four_bar.toml");
+    await chooseDefaultFriction(catalog, "coulomb");
+    const everywhere = studio.get().history.text;
+    expect(linesOnlyIn(everywhere, first)).toEqual(['friction = "coulomb"', 'pin_radius = "10 mm"']);
+    expect(complaints(everywhere)).toEqual([]);
+    const friction = (text: string) => complaints(text).length === 0 && ask<RunAnswer>("run", text).joints.map((one) => one.peak);
+    const none = await chosen("A", "friction", "none");
+    expect(linesOnlyIn(none, everywhere)).toEqual(['friction = "none"']);
+    expect(friction(none)).not.toEqual(friction(everywhere));
+    await chosen("A", "friction", "");
+    await chooseDefaultFriction(catalog, "");
+    expect(linesOnlyIn(studio.get().history.text, first)).toEqual([]);
   });
 
   // From a joint with nothing but a linear law.

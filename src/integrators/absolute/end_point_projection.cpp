@@ -461,6 +461,6 @@ std::unique_ptr<BasicEndPointProjection<S>> make_end_point_projection(const Basi
 }
 
 template std::unique_ptr<BasicEndPointProjection<Planar>> make_end_point_projection(const BasicSystem<Planar>& system);
-template std::unique_ptr<BasicEndPointProjection<Spatial>> make_end_point_projection(const BasicSystem<Spatial>& system);
+PINTLE_IN_SPACE(template std::unique_ptr<BasicEndPointProjection<Spatial>> make_end_point_projection(const BasicSystem<Spatial>& system);)
 
 }  // namespace pintle

@@ -159,15 +159,15 @@ template void BasicRadauStepper<Planar>::add_work(double h);
 template BasicRadauStepper<Planar>::Power BasicRadauStepper<Planar>::power_of_loads(double t, const PositionsOf<Planar>& q, const std::vector<Planar::Motion>& m) const;
 template void BasicRadauStepper<Planar>::add_power(const BasicJointData<Planar>& joint, const std::vector<Planar::Motion>& m, const BasicLawPoint<Planar>& at, const Planar::Vec& force, Power& power) const;
 template void BasicRadauStepper<Planar>::find_power();
-template bool BasicRadauStepper<Spatial>::error_estimate(double h, double& error);
-template double BasicRadauStepper<Spatial>::change_of_loads(double h);
-template double BasicRadauStepper<Spatial>::friction_tail() const;
-template double BasicRadauStepper<Spatial>::motion_tail();
-template void BasicRadauStepper<Spatial>::finish_step(double h);
-template void BasicRadauStepper<Spatial>::find_increments(double h);
-template void BasicRadauStepper<Spatial>::add_work(double h);
-template BasicRadauStepper<Spatial>::Power BasicRadauStepper<Spatial>::power_of_loads(double t, const PositionsOf<Spatial>& q, const std::vector<Spatial::Motion>& m) const;
-template void BasicRadauStepper<Spatial>::add_power(const BasicJointData<Spatial>& joint, const std::vector<Spatial::Motion>& m, const BasicLawPoint<Spatial>& at, const Spatial::Vec& force, Power& power) const;
-template void BasicRadauStepper<Spatial>::find_power();
+PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::error_estimate(double h, double& error);)
+PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::change_of_loads(double h);)
+PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::friction_tail() const;)
+PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::motion_tail();)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::finish_step(double h);)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::find_increments(double h);)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::add_work(double h);)
+PINTLE_IN_SPACE(template BasicRadauStepper<Spatial>::Power BasicRadauStepper<Spatial>::power_of_loads(double t, const PositionsOf<Spatial>& q, const std::vector<Spatial::Motion>& m) const;)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::add_power(const BasicJointData<Spatial>& joint, const std::vector<Spatial::Motion>& m, const BasicLawPoint<Spatial>& at, const Spatial::Vec& force, Power& power) const;)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::find_power();)
 
 }  // namespace pintle

@@ -115,12 +115,12 @@ template void BasicRadauStepper<Planar>::extrapolate_end_state(double d);
 template const std::vector<Planar::Motion>& BasicRadauStepper<Planar>::motions_after(double d);
 template bool BasicRadauStepper<Planar>::cross_borders();
 template void BasicRadauStepper<Planar>::balance_end();
-template void BasicRadauStepper<Spatial>::find_switching(double x, double h, double* value);
-template void BasicRadauStepper<Spatial>::extrapolate_switching_functions(double d, double* value);
-template void BasicRadauStepper<Spatial>::find_switching_at_end(double* value) const;
-template void BasicRadauStepper<Spatial>::extrapolate_end_state(double d);
-template const std::vector<Spatial::Motion>& BasicRadauStepper<Spatial>::motions_after(double d);
-template bool BasicRadauStepper<Spatial>::cross_borders();
-template void BasicRadauStepper<Spatial>::balance_end();
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::find_switching(double x, double h, double* value);)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::extrapolate_switching_functions(double d, double* value);)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::find_switching_at_end(double* value) const;)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::extrapolate_end_state(double d);)
+PINTLE_IN_SPACE(template const std::vector<Spatial::Motion>& BasicRadauStepper<Spatial>::motions_after(double d);)
+PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::cross_borders();)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::balance_end();)
 
 }  // namespace pintle

@@ -102,6 +102,6 @@ void BasicGapProjector<S>::balance(const VecsOf<S>& Q, const VecsOf<S>& gap_acce
 }
 
 template class BasicGapProjector<Planar>;
-template class BasicGapProjector<Spatial>;
+PINTLE_IN_SPACE(template class BasicGapProjector<Spatial>;)
 
 }  // namespace pintle

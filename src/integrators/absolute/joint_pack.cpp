@@ -47,6 +47,6 @@ std::vector<BasicJointPack<S>> pack_joints(const BasicSystem<S>& system) {
 }
 
 template std::vector<BasicJointPack<Planar>> pack_joints(const BasicSystem<Planar>& system);
-template std::vector<BasicJointPack<Spatial>> pack_joints(const BasicSystem<Spatial>& system);
+PINTLE_IN_SPACE(template std::vector<BasicJointPack<Spatial>> pack_joints(const BasicSystem<Spatial>& system);)
 
 }  // namespace pintle

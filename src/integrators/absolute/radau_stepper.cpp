@@ -110,6 +110,6 @@ bool BasicRadauStepper<S>::trial(double h) {
 }
 
 template class BasicRadauStepper<Planar>;
-template class BasicRadauStepper<Spatial>;
+PINTLE_IN_SPACE(template class BasicRadauStepper<Spatial>;)
 
 }  // namespace pintle

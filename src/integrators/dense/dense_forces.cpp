@@ -354,6 +354,6 @@ std::unique_ptr<BasicDenseForces<S>> make_dense_forces(const BasicSystem<S>& sys
 }
 
 template std::unique_ptr<BasicDenseForces<Planar>> make_dense_forces(const BasicSystem<Planar>& system);
-template std::unique_ptr<BasicDenseForces<Spatial>> make_dense_forces(const BasicSystem<Spatial>& system);
+PINTLE_IN_SPACE(template std::unique_ptr<BasicDenseForces<Spatial>> make_dense_forces(const BasicSystem<Spatial>& system);)
 
 }  // namespace pintle

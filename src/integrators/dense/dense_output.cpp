@@ -223,6 +223,6 @@ void BasicDenseOutput<S>::find_forces(const BasicState<S>& begin, const BasicSta
 }
 
 template class BasicDenseOutput<Planar>;
-template class BasicDenseOutput<Spatial>;
+PINTLE_IN_SPACE(template class BasicDenseOutput<Spatial>;)
 
 }  // namespace pintle

@@ -34,6 +34,6 @@ void add_pull_of(int j, const BasicSystem<S>& system, const std::vector<typename
 }
 
 template void add_pull_of(int j, const BasicSystem<Planar>& system, const std::vector<Planar::Motion>& m, const Planar::Vec& force, std::vector<BodyPull<Planar>>& pulled);
-template void add_pull_of(int j, const BasicSystem<Spatial>& system, const std::vector<Spatial::Motion>& m, const Spatial::Vec& force, std::vector<BodyPull<Spatial>>& pulled);
+PINTLE_IN_SPACE(template void add_pull_of(int j, const BasicSystem<Spatial>& system, const std::vector<Spatial::Motion>& m, const Spatial::Vec& force, std::vector<BodyPull<Spatial>>& pulled);)
 
 }  // namespace pintle

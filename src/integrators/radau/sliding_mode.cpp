@@ -42,10 +42,10 @@ RampSize ramp_size(const BasicSystem<S>& system, const SlidingMode& jump, const 
 
 template bool leave_sliding(const BasicSystem<Planar>& system, double t, const std::vector<Planar::Motion>& m, std::vector<SlidingMode>& sliding);
 template RampSize ramp_size(const BasicSystem<Planar>& system, const SlidingMode& jump, const BasicState<Planar>& state, double usual_step, double tolerance);
-template bool leave_sliding(const BasicSystem<Spatial>& system, double t, const std::vector<Spatial::Motion>& m, std::vector<SlidingMode>& sliding);
-template RampSize ramp_size(const BasicSystem<Spatial>& system, const SlidingMode& jump, const BasicState<Spatial>& state, double usual_step, double tolerance);
+PINTLE_IN_SPACE(template bool leave_sliding(const BasicSystem<Spatial>& system, double t, const std::vector<Spatial::Motion>& m, std::vector<SlidingMode>& sliding);)
+PINTLE_IN_SPACE(template RampSize ramp_size(const BasicSystem<Spatial>& system, const SlidingMode& jump, const BasicState<Spatial>& state, double usual_step, double tolerance);)
 
 template class BasicChatteringDetector<Planar>;
-template class BasicChatteringDetector<Spatial>;
+PINTLE_IN_SPACE(template class BasicChatteringDetector<Spatial>;)
 
 }  // namespace pintle

@@ -48,8 +48,8 @@ std::string no_step_message(const BasicSystem<S>& system, double t, double h, st
 }
 
 template std::string no_step_message(const BasicSystem<Planar>& system, double t, double h, std::vector<std::pair<double, int>> residuals, const std::string& event);
-template std::string no_step_message(const BasicSystem<Spatial>& system, double t, double h, std::vector<std::pair<double, int>> residuals, const std::string& event);
+PINTLE_IN_SPACE(template std::string no_step_message(const BasicSystem<Spatial>& system, double t, double h, std::vector<std::pair<double, int>> residuals, const std::string& event);)
 template std::string StepControl::last_event(const BasicSystem<Planar>& system, double since) const;
-template std::string StepControl::last_event(const BasicSystem<Spatial>& system, double since) const;
+PINTLE_IN_SPACE(template std::string StepControl::last_event(const BasicSystem<Spatial>& system, double since) const;)
 
 }  // namespace pintle

@@ -67,6 +67,6 @@ void promise_until_horizons(const BasicSystem<S>& system, const BasicForceTable<
 }
 
 template void promise_until_horizons(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double share, double within, const ErrorGrowth& growth, Trajectory& out);
-template void promise_until_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double within, const ErrorGrowth& growth, Trajectory& out);
+PINTLE_IN_SPACE(template void promise_until_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double within, const ErrorGrowth& growth, Trajectory& out);)
 
 }  // namespace pintle

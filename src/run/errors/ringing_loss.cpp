@@ -64,6 +64,6 @@ void BasicRingingLoss<S>::see_step(const BasicStepNodes<S>& nodes, double h) {
 }
 
 template class BasicRingingLoss<Planar>;
-template class BasicRingingLoss<Spatial>;
+PINTLE_IN_SPACE(template class BasicRingingLoss<Spatial>;)
 
 }  // namespace pintle

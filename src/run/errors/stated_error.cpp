@@ -188,20 +188,20 @@ void state_errors(const BasicSystem<S>& system, const PassDifference& difference
 template PassDifference difference_of_passes(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double until, double share);
 template void include_peaks(const BasicLoadRecorder<Planar>& fine, PassDifference& c);
 template void include_peak_differences(const BasicLoadRecorder<Planar>& coarse, const BasicLoadRecorder<Planar>& fine, PassDifference& c);
-template void include_peak_differences(const BasicLoadRecorder<Spatial>& coarse, const BasicLoadRecorder<Spatial>& fine, PassDifference& c);
-template void include_peaks(const BasicLoadRecorder<Spatial>& fine, PassDifference& c);
+PINTLE_IN_SPACE(template void include_peak_differences(const BasicLoadRecorder<Spatial>& coarse, const BasicLoadRecorder<Spatial>& fine, PassDifference& c);)
+PINTLE_IN_SPACE(template void include_peaks(const BasicLoadRecorder<Spatial>& fine, PassDifference& c);)
 template std::vector<double> relative_differences(const BasicSystem<Planar>& system, const PassDifference& c);
 template double motion_difference(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template DifferenceCurve force_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template DifferenceCurve motion_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template std::vector<double> force_horizons(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double share, double tolerance);
-template PassDifference difference_of_passes(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double until, double share);
-template std::vector<double> relative_differences(const BasicSystem<Spatial>& system, const PassDifference& c);
-template double motion_difference(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
-template DifferenceCurve force_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
-template DifferenceCurve motion_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);
-template std::vector<double> force_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double tolerance);
+PINTLE_IN_SPACE(template PassDifference difference_of_passes(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double until, double share);)
+PINTLE_IN_SPACE(template std::vector<double> relative_differences(const BasicSystem<Spatial>& system, const PassDifference& c);)
+PINTLE_IN_SPACE(template double motion_difference(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);)
+PINTLE_IN_SPACE(template DifferenceCurve force_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);)
+PINTLE_IN_SPACE(template DifferenceCurve motion_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);)
+PINTLE_IN_SPACE(template std::vector<double> force_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double tolerance);)
 template void state_errors(const BasicSystem<Planar>& system, const PassDifference& difference, double share, const BasicLeastError<Planar>& least, std::vector<LoadSummary>& joints);
-template void state_errors(const BasicSystem<Spatial>& system, const PassDifference& difference, double share, const BasicLeastError<Spatial>& least, std::vector<LoadSummary>& joints);
+PINTLE_IN_SPACE(template void state_errors(const BasicSystem<Spatial>& system, const PassDifference& difference, double share, const BasicLeastError<Spatial>& least, std::vector<LoadSummary>& joints);)
 
 }  // namespace pintle

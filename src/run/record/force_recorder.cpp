@@ -111,6 +111,6 @@ void BasicForceRecorder<S>::fill_account(EnergyAccount& e) const {
 }
 
 template class BasicForceRecorder<Planar>;
-template class BasicForceRecorder<Spatial>;
+PINTLE_IN_SPACE(template class BasicForceRecorder<Spatial>;)
 
 }  // namespace pintle

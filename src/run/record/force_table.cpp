@@ -26,10 +26,10 @@ bool has_couple(const BasicJointData<S>& joint) {
 }
 
 template Planar::Vec joint_load(const System& system, int j, const std::vector<Planar::Motion>& m, const Planar::Vec& force);
-template Spatial::Vec joint_load(const BasicSystem<Spatial>& system, int j, const std::vector<Spatial::Motion>& m, const Spatial::Vec& force);
+PINTLE_IN_SPACE(template Spatial::Vec joint_load(const BasicSystem<Spatial>& system, int j, const std::vector<Spatial::Motion>& m, const Spatial::Vec& force);)
 template bool transmits_couple(const JointData& joint);
-template bool transmits_couple(const BasicJointData<Spatial>& joint);
+PINTLE_IN_SPACE(template bool transmits_couple(const BasicJointData<Spatial>& joint);)
 template bool has_couple(const JointData& joint);
-template bool has_couple(const BasicJointData<Spatial>& joint);
+PINTLE_IN_SPACE(template bool has_couple(const BasicJointData<Spatial>& joint);)
 
 }  // namespace pintle

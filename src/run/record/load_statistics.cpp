@@ -105,6 +105,6 @@ double BasicLoadRecorder<S>::heat(int joint, const BasicState<S>& state) const {
 }
 
 template class BasicLoadRecorder<Planar>;
-template class BasicLoadRecorder<Spatial>;
+PINTLE_IN_SPACE(template class BasicLoadRecorder<Spatial>;)
 
 }  // namespace pintle

@@ -6,7 +6,7 @@
 namespace pintle {
 namespace {
 
-constexpr double kNear = 0.9;    // of the square of the peak so far: a step whose grid stays below is not searched
+constexpr double kNear = 0.98;   // of the square of the peak so far: a step whose grid, and the parabola through its largest points, stay below is not searched
 constexpr int kRefinements = 3;  // of a peak between the points of the grid; each interval is a quarter of the one before
 constexpr double kFiner = 0.25;  // interval of a refinement over that of the one before
 
@@ -39,10 +39,14 @@ constexpr CurveGrid::AtPoints kSimpson = [] {
   return weight;
 }();
 
-// Where the parabola through three squares a distance d apart, the middle one at x, has its top; x where it has none. theory/time Eq. (5.3)
-double top_of_parabola(double x, double d, double before, double here, double after) {
+// Where the parabola through three squares, one distance apart, has its top, from the middle one in units of that distance. theory/time Eq. (5.3)
+double top_of_parabola(double before, double here, double after) {
   const double bend = before - 2 * here + after;
-  return bend < 0 ? std::clamp(x + 0.5 * d * (before - after) / bend, x - d, x + d) : before > after ? x - d : after > before ? x + d : x;
+  return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) : before > after ? -1 : after > before ? 1 : 0;
+}
+
+double on_parabola(double x, double before, double here, double after) {
+  return here + 0.5 * x * (after - before + x * (before - 2 * here + after));
 }
 
 }  // namespace
@@ -96,20 +100,30 @@ void add_curve(const CurveGrid& grid, const double* samples, int stride, double 
   }
   sums.integral += h * integral;
   sums.square += h * of_square;
-  const auto largest = std::max_element(square.begin(), square.end());
-  if (!(*largest > kNear * sums.peak * sums.peak)) return;
-  double d = 1.0 / CurveGrid::kIntervals, x = static_cast<double>(largest - square.begin()) * d, best = *largest;
+  const double beaten = sums.peak * sums.peak;
+  const auto largest = static_cast<std::size_t>(std::max_element(square.begin(), square.end()) - square.begin());
+  const std::size_t middle = std::clamp<std::size_t>(largest, 1, CurveGrid::kIntervals - 1);
+  double before = square[middle - 1], here = square[middle], after = square[middle + 1], top = top_of_parabola(before, here, after);
+  double best = square[largest];
+  if (!(std::max(best, on_parabola(top, before, here, after)) > kNear * beaten)) return;
+  double d = 1.0 / CurveGrid::kIntervals, from = static_cast<double>(middle) * d, x = static_cast<double>(largest) * d;
   std::array<double, n> value;
   const auto at = [&](double share) { return square_at<n>(grid, share, samples, stride, value); };
-  for (int pass = 0; pass < kRefinements; ++pass, d *= kFiner) {
-    const double middle = std::clamp(x, d, 1 - d);
-    const double top = top_of_parabola(middle, d, at(middle - d), at(middle), at(middle + d)), there = at(top);
+  for (int pass = 0;; ++pass) {
+    const double there = at(from + top * d);
     if (there > best) {
       best = there;
-      x = top;
+      x = from + top * d;
     }
+    if (pass + 1 == kRefinements) break;
+    d *= kFiner;
+    from = std::clamp(x, d, 1 - d);
+    before = at(from - d);
+    here = at(from);
+    after = at(from + d);
+    top = top_of_parabola(before, here, after);
   }
-  if (!(best > sums.peak * sums.peak)) return;
+  if (!(best > beaten)) return;
   at(x);
   sums.peak = kind == Sums::kWithSign ? value[0] : std::sqrt(best);
   sums.peak_time = t0 + x * h;

@@ -66,6 +66,6 @@ std::vector<JointWear> BasicWearTally<S>::result() const {
 }
 
 template class BasicWearTally<Planar>;
-template class BasicWearTally<Spatial>;
+PINTLE_IN_SPACE(template class BasicWearTally<Spatial>;)
 
 }  // namespace pintle

@@ -10,7 +10,7 @@ import { studio, useStudio } from "../../state";
 import { estimateOf } from "../results/estimate";
 import { Choice, Pair, TextQuantity, setLiteral, useLiteral } from "./fields";
 import { type Field, fieldsOf, labelOf, useCatalog, useSchema } from "./form";
-import { type Role, chooseLaw } from "./law-choice";
+import { type Role, chooseDefaultFriction, chooseLaw } from "./law-choice";
 import { Icon } from "../icons";
 
 const TYPE_WORDS: Record<string, string> = {
@@ -147,16 +147,25 @@ function LawFields({ joint, catalog }: { joint: Joint; catalog: Catalog | null }
   );
 }
 
-/** Friction, stops or a detent of what the joint leaves free, beside its law. */
+/** Friction, stops or a detent of what the joint leaves free, beside its law. What the model's defaults say holds for a joint that says nothing. */
 function LawsBeside({ joint, catalog, suits, role, label }: { joint: Joint; catalog: Catalog; suits: Catalog["laws"]; role: Exclude<Role, "law">; label: string }) {
   const word = useLiteral(["joint", joint.name, role]);
+  const inherited = useLiteral(["defaults", "joint", role]);
   const laws = suits.filter((one) => one.role === role);
   if (laws.length === 0) return null;
   const unitsOf = (keys: readonly CatalogKey[]) => keys.map((key) => (joint.type === "revolute" && key.angular_unit ? { ...key, unit: key.angular_unit } : key));
-  const law = laws.find((one) => one.word === word);
+  const fallback = laws.find((one) => one.word === inherited);
+  const law = word === null || word === undefined ? fallback : laws.find((one) => one.word === word);
+  const none = fallback ? [{ value: "", label: `${fallback.word} (default)` }, { value: "none", label: "none" }] : [{ value: "", label: "none" }];
+  const shown = String(word ?? "");
   return (
     <>
-      <Choice label={label} value={law?.word ?? ""} options={[{ value: "", label: "none" }, ...laws.map((one) => ({ value: one.word, label: one.word }))]} onChange={(next) => void chooseLaw(catalog, joint, role, next)} />
+      <Choice
+        label={label}
+        value={shown === "none" && !fallback ? "" : shown}
+        options={[...none, ...laws.map((one) => ({ value: one.word, label: one.word }))]}
+        onChange={(next) => void chooseLaw(catalog, joint, role, next)}
+      />
       {law && <p className="quiet">{law.meaning}</p>}
       {law && <Keys keys={unitsOf(law.keys)} path={["joint", joint.name]} />}
     </>
@@ -188,6 +197,27 @@ function Presets({ joint }: { joint: Joint }) {
         </button>
       ))}
     </div>
+  );
+}
+
+/** Dry friction of every joint that can have it, unless it says otherwise. */
+export function DefaultFriction({ catalog }: { catalog: Catalog | null }) {
+  const word = useLiteral(["defaults", "joint", "friction"]);
+  const laws = catalog?.laws.filter((one) => one.role === "friction") ?? [];
+  if (!catalog || laws.length === 0) return null;
+  const law = laws.find((one) => one.word === word);
+  return (
+    <>
+      <Choice
+        label="Friction"
+        meaning="Dry friction of all joints that can have it, unless they say otherwise"
+        value={law?.word ?? ""}
+        options={[{ value: "", label: "none" }, ...laws.map((one) => ({ value: one.word, label: one.word }))]}
+        onChange={(next) => void chooseDefaultFriction(catalog, next)}
+      />
+      {law && <p className="quiet">{law.meaning}</p>}
+      {law && <Keys keys={law.keys} path={["defaults", "joint"]} />}
+    </>
   );
 }
 

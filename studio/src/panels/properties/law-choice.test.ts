@@ -14,7 +14,7 @@ vi.mock("../../play/kernel-session", () => ({
     },
   },
 }));
-const { chooseLaw } = await import("./law-choice");
+const { chooseDefaultFriction, chooseLaw } = await import("./law-choice");
 
 const key = (name: string, more: Partial<CatalogKey> = {}): CatalogKey => ({ name, unit: "m", meaning: "", ...more });
 const CATALOG: Catalog = {
@@ -59,6 +59,27 @@ it("friction of a pin has the pin's radius, which the kernel misses in pins only
   missed = () => ({});
   await choose("friction", "lugre");
   expect(text()).toBe(`${MODEL}friction = "lugre"\n`);
+});
+
+it("friction of all joints has what any of them misses, and leaves keys that a joint's law shares", async () => {
+  openText(`${MODEL}law = "clearance"\nclearance = "1 mm"\n`, "a.toml");
+  missed = without("pin_radius");
+  await chooseDefaultFriction(CATALOG, "lugre");
+  const defaults = text().replace(`${MODEL}law = "clearance"\nclearance = "1 mm"\n`, "");
+  expect(defaults.trim()).toBe(`[defaults.joint]\nfriction = "lugre"\npin_radius = "10 mm"`);
+  await chooseDefaultFriction(CATALOG, "");
+  expect(text()).toContain(`pin_radius = "10 mm"`); // the law with clearance reads it
+  expect(text()).not.toContain("lugre");
+  undo();
+  expect(text()).toContain(`friction = "lugre"`);
+});
+
+it("friction of the defaults keeps a joint's radius when its law goes", async () => {
+  openText(`[defaults.joint]\nfriction = "lugre"\n\n${MODEL}law = "clearance"\nclearance = "1 mm"\npin_radius = "7 mm"\n`, "a.toml");
+  await choose("law", "linear");
+  expect(text()).toBe(`[defaults.joint]\nfriction = "lugre"\n\n${MODEL}law = "linear"\npin_radius = "7 mm"\n`);
+  await choose("friction", "none");
+  expect(text()).toContain(`friction = "none"`);
 });
 
 it("a key that another law of the joint knows too keeps its value", async () => {

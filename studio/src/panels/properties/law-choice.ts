@@ -13,40 +13,64 @@ export type Role = Law["role"];
 
 const ROLES: readonly Role[] = ["law", "friction", "stops", "detent"];
 
-/** An empty word takes the law of this role away. One step of undo. */
+/** An empty word takes the law of this role away, or leaves it to the model's defaults. One step of undo. */
 export async function chooseLaw(catalog: Catalog, joint: Joint, role: Role, word: string): Promise<void> {
-  const { document } = studio.get().model;
-  const path = ["joint", joint.name];
-  const find = (at: Role, called: string) => catalog.laws.find((one) => one.role === at && one.word === called);
+  const { root } = studio.get().model.document;
   const stated = (at: Role) => {
-    const node = nodeAt(document.root, [...path, at]);
-    return find(at, at === "law" ? joint.law : node ? String(plain(node)) : "");
+    const node = nodeAt(root, ["joint", joint.name, at]) ?? nodeAt(root, ["defaults", "joint", at]);
+    return find(catalog, at, at === "law" ? joint.law : node ? String(plain(node)) : "");
   };
-  const law = find(role, word);
-  const keys = [law, ...ROLES.filter((one) => one !== role).map(stated)].flatMap((one) => one?.keys ?? []);
+  const others = ROLES.filter((one) => one !== role).map(stated);
+  await choose(catalog, { path: ["joint", joint.name], complainer: `joint.${joint.name}`, turns: joint.type === "revolute" }, role, word, stated(role), others);
+}
+
+/** Dry friction of all joints that can have it; an empty word takes it away. One step of undo. */
+export async function chooseDefaultFriction(catalog: Catalog, word: string): Promise<void> {
+  const { document, joints } = studio.get().model;
+  const stated = (path: string[]) => {
+    const node = nodeAt(document.root, path);
+    return find(catalog, "friction", node ? String(plain(node)) : "");
+  };
+  const path = ["defaults", "joint"];
+  const others = joints.flatMap((joint) => [find(catalog, "law", joint.law), stated(["joint", joint.name, "friction"])]);
+  await choose(catalog, { path, turns: false }, "friction", word, stated([...path, "friction"]), others);
+}
+
+/** Where a law is chosen: the table, whose complaints tell what is missing there (any joint's, if no one is named), and whether its lengths are angles. */
+interface Place {
+  path: readonly string[];
+  complainer?: string;
+  turns: boolean;
+}
+
+const find = (catalog: Catalog, role: Role, word: string) => catalog.laws.find((one) => one.role === role && one.word === word);
+
+async function choose(catalog: Catalog, place: Place, role: Role, word: string, before: Law | undefined, others: readonly (Law | undefined)[]): Promise<void> {
+  const { document } = studio.get().model;
+  const law = find(catalog, role, word);
+  const keys = [law, ...others].flatMap((one) => one?.keys ?? []);
   const draft = new Draft(document);
-  // Values that no law of the joint knows any more would be errors.
-  for (const { name } of stated(role)?.keys ?? []) if (keys.every((one) => one.name !== name)) draft.remove([...path, name]);
-  if (word) draft.set([...path, role], word);
-  else draft.remove([...path, role]);
-  const text = law ? await withMissingKeys(draft.apply(), joint, law) : draft.apply();
+  // Values that no law knows any more would be errors.
+  for (const { name } of before?.keys ?? []) if (keys.every((one) => one.name !== name)) draft.remove([...place.path, name]);
+  if (word) draft.set([...place.path, role], word);
+  else draft.remove([...place.path, role]);
+  const text = law ? await withMissingKeys(draft.apply(), place, law) : draft.apply();
   if (studio.get().model.document !== document) return; // the answer came too late: there is another text
-  edit(text, `${role.charAt(0).toUpperCase()}${role.slice(1)} of ${joint.name}`);
+  edit(text, `${role.charAt(0).toUpperCase()}${role.slice(1)} of ${place.complainer ? place.path.at(-1) : "all joints"}`);
 }
 
 /** States the keys of the law that the kernel misses. It asks again, because some are missed only when others are there. */
-async function withMissingKeys(text: string, joint: Joint, law: Law): Promise<string> {
+async function withMissingKeys(text: string, place: Place, law: Law): Promise<string> {
   const tried = new Set<string>();
-  const turns = joint.type === "revolute";
   for (;;) {
     const complaints = await kernel.read(text).then((answer) => answer.complaints, () => []);
     const { root } = parseToml(text);
-    const missing = law.keys.filter((key) => !tried.has(key.name) && !nodeAt(root, ["joint", joint.name, key.name]) && complaints.some((one) => misses(one, joint.name, law.role, key)));
+    const missing = law.keys.filter((key) => !tried.has(key.name) && !nodeAt(root, [...place.path, key.name]) && complaints.some((one) => misses(one, place, law.role, key)));
     if (missing.length === 0) return text;
     const draft = new Draft(text);
     for (const key of missing) {
       tried.add(key.name);
-      draft.set(["joint", joint.name, key.name], startOf(key, turns));
+      draft.set([...place.path, key.name], startOf(key, place.turns));
     }
     text = draft.apply();
   }
@@ -54,10 +78,11 @@ async function withMissingKeys(text: string, joint: Joint, law: Law): Promise<st
 
 /** Of what a law misses without naming one key, such as where its stops are, the hint names those that would do. A key with a default is not missing,
  *  even if its default does not go with another value. */
-function misses(complaint: Complaint, joint: string, role: Role, key: CatalogKey): boolean {
+function misses(complaint: Complaint, { complainer }: Place, role: Role, key: CatalogKey): boolean {
   if (key.default) return false;
-  if (complaint.key === `joint.${joint}.${role}`) return key.otherwise !== undefined && key.name in STARTS && complaint.hint.includes(key.name);
-  return complaint.key === `joint.${joint}.${key.name}`;
+  const of = (name: string) => (complainer ? complaint.key === `${complainer}.${name}` : complaint.key.startsWith("joint.") && complaint.key.endsWith(`.${name}`));
+  if (of(role)) return key.otherwise !== undefined && key.name in STARTS && complaint.hint.includes(key.name);
+  return of(key.name);
 }
 
 /** What keys begin with that have no default: on a length, and on an angle if that is another value. */

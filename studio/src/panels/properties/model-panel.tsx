@@ -5,9 +5,9 @@ import { Draft } from "../../model/edit";
 import { quantity, shortNumber } from "../../model/units";
 import { studio, useStudio } from "../../state";
 import { Pair, Quantity, TextQuantity, setLiteral, useLiteral } from "./fields";
-import { type Field, fieldsOf, labelOf, useSchema } from "./form";
+import { type Field, fieldsOf, labelOf, useCatalog, useSchema } from "./form";
 import { Icon } from "../icons";
-import { SchemaField } from "./joint-properties";
+import { DefaultFriction, SchemaField } from "./joint-properties";
 
 export function ModelPanel() {
   return (
@@ -96,12 +96,14 @@ const LAW_UNITS: [string, string, string][] = [
 ];
 
 function JointDefaults() {
+  const catalog = useCatalog();
   return (
     <details>
       <summary data-tip="For joints without values of their own">Defaults of all joints</summary>
       {LAW_UNITS.map(([name, unit, fallback]) => (
         <TextQuantity key={name} label={labelOf(name)} unit={unit} path={["defaults", "joint", name]} fallback={fallback} />
       ))}
+      <DefaultFriction catalog={catalog} />
     </details>
   );
 }
