@@ -1,21 +1,23 @@
 import react from "@vitejs/plugin-react";
 import { readdirSync, readFileSync, statSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
+import { join, resolve } from "node:path";
 import { promisify } from "node:util";
 import { brotliCompress, constants } from "node:zlib";
 import type { Plugin } from "vite";
 import { defineConfig } from "vitest/config";
 
 const compress = promisify(brotliCompress);
-const OUT = "../build/studio";
 
 /** Beside each file of the built studio the same compressed, `.br`: what servers send to a browser that accepts it. */
 function compressed(): Plugin {
+  let folder = "";
   return {
     name: "compressed",
     apply: "build",
+    configResolved(config) {
+      folder = resolve(config.root, config.build.outDir);
+    },
     async closeBundle() {
-      const folder = join(import.meta.dirname, OUT);
       const files = readdirSync(folder, { recursive: true, encoding: "utf8" }).map((name) => join(folder, name));
       const packed = files.filter((file) => !/\.(map|br)$/.test(file) && statSync(file).isFile());
       await Promise.all(
@@ -35,7 +37,7 @@ export default defineConfig({
   worker: { format: "es" },
   build: {
     target: "es2022",
-    outDir: OUT,
+    outDir: "../build/studio",
     emptyOutDir: true,
   },
   test: {

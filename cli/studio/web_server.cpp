@@ -67,12 +67,8 @@ void WebServer::serve(studio::RequestRouter& router, const std::function<bool()>
   const auto answer = [&router](const httplib::Request& from, httplib::Response& to) {
     studio::Reply reply = router.answer(request_of(from));
     to.status = reply.status;
-    bool compressed = false;
-    for (const auto& [name, value] : reply.headers) {
-      to.set_header(name.c_str(), value);
-      compressed = compressed || name == "Content-Encoding";
-    }
-    if (compressed) set_compressed(std::move(reply.body), reply.type.c_str(), to);
+    for (const auto& [name, value] : reply.headers) to.set_header(name.c_str(), value);
+    if (to.has_header("Content-Encoding")) set_compressed(std::move(reply.body), reply.type.c_str(), to);
     else to.set_content(std::move(reply.body), reply.type.c_str());
   };
   // [^] rather than a dot: a dot leaves out line ends.

@@ -33,16 +33,16 @@ SpeedIntegral::SpeedIntegral(Expression speed, double duration) : speed_(std::mo
   for (int i = 0; i < kPanels; ++i) append_panels(border(i), border(i + 1), panels_);
 }
 
-double SpeedIntegral::Panel::up_to(double t) const { return before + chebyshev_sum(coefficients, 2 * (t - begin) / (end - begin) - 1); }
+double SpeedIntegral::Panel::integral_to(double t) const { return before + chebyshev_sum(coefficients, 2 * (t - begin) / (end - begin) - 1); }
 
-double SpeedIntegral::up_to(double t) const {
+double SpeedIntegral::integral_to(double t) const {
   if (t > panels_.back().end) {
     std::vector<Panel> beyond{panels_.back()};
     append_panels(panels_.back().end, t, beyond);
-    return beyond.back().up_to(t);
+    return beyond.back().integral_to(t);
   }
   const auto after = std::upper_bound(panels_.begin(), panels_.end(), t, [](double time, const Panel& panel) { return time < panel.begin; });
-  return (after == panels_.begin() ? *after : *(after - 1)).up_to(t);
+  return (after == panels_.begin() ? *after : *(after - 1)).integral_to(t);
 }
 
 // Of the speed, from its values at the extrema of the last polynomial.
@@ -69,7 +69,7 @@ void SpeedIntegral::append_panels(double begin, double end, std::vector<Panel>& 
   const bool resolved = !(rest * (end - begin) > kRounding * size * duration_);  // also where the speed is not a number
   const double middle = 0.5 * (begin + end);
   if (resolved || panels.size() > kMost || !(begin < middle && middle < end)) {
-    panels.push_back(integrated_panel(begin, end, panels.empty() ? 0 : panels.back().up_to(begin), c));
+    panels.push_back(integrate_panel(begin, end, panels.empty() ? 0 : panels.back().integral_to(begin), c));
     return;
   }
   append_panels(begin, middle, panels);
@@ -77,7 +77,7 @@ void SpeedIntegral::append_panels(double begin, double end, std::vector<Panel>& 
 }
 
 // The integral of T_k is T_{k+1} / (2 (k + 1)) - T_{k-1} / (2 (k - 1)), and T_1 for k = 0, T_2 / 4 for k = 1.
-SpeedIntegral::Panel SpeedIntegral::integrated_panel(double begin, double end, double before, const Coefficients& of_speed) {
+SpeedIntegral::Panel SpeedIntegral::integrate_panel(double begin, double end, double before, const Coefficients& of_speed) {
   Panel panel{begin, end, before, {}};
   const double half = 0.5 * (end - begin);
   const auto speed = [&of_speed](std::size_t k) { return k < of_speed.size() ? of_speed[k] : 0; };

@@ -16,7 +16,7 @@ class SpeedIntegral {
   SpeedIntegral(Expression speed, double duration);
 
   /// From time 0 to t, not below 0 [rad or m]. Not a number where the speed is none.
-  double up_to(double t) const;
+  double integral_to(double t) const;
   std::size_t n_panels() const { return panels_.size(); }
 
  private:
@@ -25,12 +25,12 @@ class SpeedIntegral {
   struct Panel {
     double begin, end, before;                                // [s], and the integral up to it
     std::array<double, kPolynomialDegree + 2> coefficients;  // of the integral in it, 0 at its begin
-    double up_to(double t) const;
+    double integral_to(double t) const;
   };
 
   Coefficients chebyshev_coefficients(double begin, double end) const;
   void append_panels(double begin, double end, std::vector<Panel>& panels) const;
-  static Panel integrated_panel(double begin, double end, double before, const Coefficients& of_speed);
+  static Panel integrate_panel(double begin, double end, double before, const Coefficients& of_speed);
 
   Expression speed_;
   double duration_, largest_ = 0;  // [s]; a bound of the speed in it

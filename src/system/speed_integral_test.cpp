@@ -27,7 +27,7 @@ void expect_way(const std::string& speed, double duration, double until, const s
   const SpeedIntegral integral(speed_of(speed), duration);
   for (int i = 0; i <= 1000; ++i) {
     const double t = until * i / 1000;
-    EXPECT_NEAR(integral.up_to(t), way(t), error) << speed << " at " << t;
+    EXPECT_NEAR(integral.integral_to(t), way(t), error) << speed << " at " << t;
   }
 }
 
@@ -55,8 +55,8 @@ TEST(SpeedIntegral, KeepsToThePanelsThatItNeeds) {
 
 TEST(SpeedIntegral, IsNoNumberWhereTheSpeedIsNone) {
   const SpeedIntegral integral(speed_of("sqrt(1 - t/(1 s))"), 2);
-  EXPECT_NEAR(integral.up_to(0.5), 2.0 / 3 * (1 - std::pow(0.5, 1.5)), 1e-12);
-  EXPECT_TRUE(std::isnan(integral.up_to(1.5)));
+  EXPECT_NEAR(integral.integral_to(0.5), 2.0 / 3 * (1 - std::pow(0.5, 1.5)), 1e-12);
+  EXPECT_TRUE(std::isnan(integral.integral_to(1.5)));
 }
 
 }  // namespace

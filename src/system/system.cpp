@@ -13,7 +13,7 @@ template <class S>
 std::array<double, 3> target_of(const BasicJointData<S>& joint, double t) {
   if (joint.speed_integral) {
     const auto speed = joint.target.second_order(std::array{t}, 0);
-    return {joint.start + joint.speed_integral->up_to(t), speed[0], speed[1]};
+    return {joint.start + joint.speed_integral->integral_to(t), speed[0], speed[1]};
   }
   auto target = joint.target.variables().empty() ? std::array<double, 3>{joint.target.value({}), 0, 0}
                                                  : joint.target.second_order(std::array{t}, 0);

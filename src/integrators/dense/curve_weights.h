@@ -11,7 +11,7 @@ struct CurveWeights {
   static constexpr int kMost = ForceSamples::kAll;
   static_assert(kMost >= RadauTable::kMaxNodes);
   std::array<double, kMost> value, first, second;  // of the coefficients: the value, and its first and second integrals over time from the start of the step
-  double end_mismatch_weight;                           // of what the second integral misses the far end by; the first takes x of it
+  double end_mismatch_weight;                      // of what the second integral misses the far end by; the first takes x of it
 
   /// At the share x of a step of h seconds.
   CurveWeights(double x, double h) : end_mismatch_weight(x * x * (3 - 2 * x)) {

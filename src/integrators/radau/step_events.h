@@ -13,14 +13,14 @@
 namespace pintle {
 
 /// `Method` derives from it and answers
-///   find_switching(x, h, value)       the switching functions at share x of the step, on the curve through its stages
+///   find_switching(x, h, value)                 the switching functions at share x of the step, on the curve through its stages
 ///   extrapolate_switching_functions(d, value)   a time d ahead of the start, by Taylor's series: all there is to go by where the stages are not solved
 ///   find_switching_at_end(value)
 ///   end_time(), end_motions(), end_state(), sliding()
-///   extrapolate_end_state(d)                the end, its work included, by Taylor's series
-///   motions_after(d)                  those a moment after the end
-///   cross_borders()                   System::cross_borders between the values of `search_`
-///   balance_end()                     what laws and loads really give at the end: forces, accelerations, powers
+///   extrapolate_end_state(d)                    the end, its work included, by Taylor's series
+///   motions_after(d)                            those a moment after the end
+///   cross_borders()                             System::cross_borders between the values of `search_`
+///   balance_end()                               what laws and loads really give at the end: forces, accelerations, powers
 template <class Method, class S>
 class StepEvents {
  protected:

@@ -77,7 +77,7 @@ class RecordReader {
   bool read_integer(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
   bool read_numbers(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
   bool read_expression(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
-  bool is_function(const Node& node, const KeySpec& spec) const;
+  bool is_function_of_time(const Node& node, const KeySpec& spec) const;
   bool read_function_of_time(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
   bool read_list(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
   bool in_range(double number, const Node& node, const KeySpec& spec, const std::string& path);

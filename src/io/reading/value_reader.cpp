@@ -148,7 +148,7 @@ std::optional<Value> RecordReader::read_value(const Node& node, const KeySpec& s
       good = read_words(node, spec, path, value);
       break;
     case ValueType::kQuantity:
-      good = is_function(node, spec) ? read_function_of_time(node, spec, path, value) : read_numbers(node, spec, path, value);
+      good = is_function_of_time(node, spec) ? read_function_of_time(node, spec, path, value) : read_numbers(node, spec, path, value);
       break;
     case ValueType::kNumber:
     case ValueType::kQuantities:
@@ -298,13 +298,13 @@ bool RecordReader::read_expression(const Node& node, const KeySpec& spec, const 
   return true;
 }
 
-// An expression that is in the key's range at the start, where it is one of t.
 // What is no number is taken for a function, so that its complaint says what it may read.
-bool RecordReader::is_function(const Node& node, const KeySpec& spec) const {
+bool RecordReader::is_function_of_time(const Node& node, const KeySpec& spec) const {
   if (spec.variables.empty() || node.string() == nullptr) return false;
   return mentions(node, spec.variables) || std::holds_alternative<ParseProblem>(parse_quantity(*node.string(), scope));
 }
 
+// An expression that is in the key's range at the start, where it is one of t.
 bool RecordReader::read_function_of_time(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
   if (!read_expression(node, spec, path, value)) return false;
   if (value.expressions.back().variables() != std::vector<std::string>{"t"}) return true;

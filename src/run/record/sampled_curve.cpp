@@ -39,15 +39,15 @@ constexpr CurveGrid::AtPoints kSimpson = [] {
   return weight;
 }();
 
-// Where the parabola through three squares, one distance apart, has its top, from the middle one in units of that distance. theory/time Eq. (5.3)
-double top_of_parabola(double before, double here, double after) {
-  const double bend = before - 2 * here + after;
-  return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) : before > after ? -1 : after > before ? 1 : 0;
-}
+// Through three squares an even distance apart; x counts from the middle one in units of that distance. theory/time Eq. (5.3)
+struct Parabola {
+  double before, here, after;
 
-double on_parabola(double x, double before, double here, double after) {
-  return here + 0.5 * x * (after - before + x * (before - 2 * here + after));
-}
+  double bend() const { return before - 2 * here + after; }
+  double value(double x) const { return here + 0.5 * x * (after - before + x * bend()); }
+  /// The largest of its three points at an end, where it has no top.
+  double top() const { return bend() < 0 ? std::clamp(0.5 * (before - after) / bend(), -1.0, 1.0) : before > after ? -1 : after > before ? 1 : 0; }
+};
 
 }  // namespace
 
@@ -103,25 +103,23 @@ void add_curve(const CurveGrid& grid, const double* samples, int stride, double 
   const double beaten = sums.peak * sums.peak;
   const auto largest = static_cast<std::size_t>(std::max_element(square.begin(), square.end()) - square.begin());
   const std::size_t middle = std::clamp<std::size_t>(largest, 1, CurveGrid::kIntervals - 1);
-  double before = square[middle - 1], here = square[middle], after = square[middle + 1], top = top_of_parabola(before, here, after);
+  Parabola parabola{square[middle - 1], square[middle], square[middle + 1]};
   double best = square[largest];
-  if (!(std::max(best, on_parabola(top, before, here, after)) > kNear * beaten)) return;
+  if (!(std::max(best, parabola.value(parabola.top())) > kNear * beaten)) return;
   double d = 1.0 / CurveGrid::kIntervals, from = static_cast<double>(middle) * d, x = static_cast<double>(largest) * d;
   std::array<double, n> value;
   const auto at = [&](double share) { return square_at<n>(grid, share, samples, stride, value); };
-  for (int pass = 0;; ++pass) {
-    const double there = at(from + top * d);
+  for (int pass = 0; pass < kRefinements; ++pass) {
+    if (pass > 0) {
+      d *= kFiner;
+      from = std::clamp(x, d, 1 - d);
+      parabola = {at(from - d), at(from), at(from + d)};
+    }
+    const double top = from + parabola.top() * d, there = at(top);
     if (there > best) {
       best = there;
-      x = from + top * d;
+      x = top;
     }
-    if (pass + 1 == kRefinements) break;
-    d *= kFiner;
-    from = std::clamp(x, d, 1 - d);
-    before = at(from - d);
-    here = at(from);
-    after = at(from + d);
-    top = top_of_parabola(before, here, after);
   }
   if (!(best > beaten)) return;
   at(x);

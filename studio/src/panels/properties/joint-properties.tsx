@@ -155,19 +155,28 @@ function LawsBeside({ joint, catalog, suits, role, label }: { joint: Joint; cata
   if (laws.length === 0) return null;
   const unitsOf = (keys: readonly CatalogKey[]) => keys.map((key) => (joint.type === "revolute" && key.angular_unit ? { ...key, unit: key.angular_unit } : key));
   const fallback = laws.find((one) => one.word === inherited);
-  const law = word === null || word === undefined ? fallback : laws.find((one) => one.word === word);
+  const law = word === undefined ? fallback : laws.find((one) => one.word === word);
   const none = fallback ? [{ value: "", label: `${fallback.word} (default)` }, { value: "none", label: "none" }] : [{ value: "", label: "none" }];
-  const shown = String(word ?? "");
   return (
     <>
       <Choice
         label={label}
-        value={shown === "none" && !fallback ? "" : shown}
-        options={[...none, ...laws.map((one) => ({ value: one.word, label: one.word }))]}
+        value={word === "none" && !fallback ? "" : String(word ?? "")}
+        options={[...none, ...optionsOf(laws)]}
         onChange={(next) => void chooseLaw(catalog, joint, role, next)}
       />
-      {law && <p className="quiet">{law.meaning}</p>}
-      {law && <Keys keys={unitsOf(law.keys)} path={["joint", joint.name]} />}
+      {law && <LawKeys law={{ ...law, keys: unitsOf(law.keys) }} path={["joint", joint.name]} />}
+    </>
+  );
+}
+
+const optionsOf = (laws: Catalog["laws"]) => laws.map((one) => ({ value: one.word, label: one.word }));
+
+function LawKeys({ law, path }: { law: Catalog["laws"][number]; path: readonly string[] }) {
+  return (
+    <>
+      <p className="quiet">{law.meaning}</p>
+      <Keys keys={law.keys} path={path} />
     </>
   );
 }
@@ -212,11 +221,10 @@ export function DefaultFriction({ catalog }: { catalog: Catalog | null }) {
         label="Friction"
         meaning="Dry friction of all joints that can have it, unless they say otherwise"
         value={law?.word ?? ""}
-        options={[{ value: "", label: "none" }, ...laws.map((one) => ({ value: one.word, label: one.word }))]}
+        options={[{ value: "", label: "none" }, ...optionsOf(laws)]}
         onChange={(next) => void chooseDefaultFriction(catalog, next)}
       />
-      {law && <p className="quiet">{law.meaning}</p>}
-      {law && <Keys keys={law.keys} path={["defaults", "joint"]} />}
+      {law && <LawKeys law={law} path={["defaults", "joint"]} />}
     </>
   );
 }

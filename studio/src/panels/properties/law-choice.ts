@@ -15,72 +15,66 @@ const ROLES: readonly Role[] = ["law", "friction", "stops", "detent"];
 
 /** An empty word takes the law of this role away, or leaves it to the model's defaults. One step of undo. */
 export async function chooseLaw(catalog: Catalog, joint: Joint, role: Role, word: string): Promise<void> {
-  const { root } = studio.get().model.document;
-  const stated = (at: Role) => {
-    const node = nodeAt(root, ["joint", joint.name, at]) ?? nodeAt(root, ["defaults", "joint", at]);
-    return find(catalog, at, at === "law" ? joint.law : node ? String(plain(node)) : "");
-  };
-  const others = ROLES.filter((one) => one !== role).map(stated);
-  await choose(catalog, { path: ["joint", joint.name], complainer: `joint.${joint.name}`, turns: joint.type === "revolute" }, role, word, stated(role), others);
+  const stated = (at: Role) => (at === "law" ? find(catalog, at, joint.law) : (statedLaw(catalog, at, joint) ?? statedLaw(catalog, at, null)));
+  await choose(catalog, joint, role, word, stated(role), ROLES.filter((one) => one !== role).map(stated));
 }
 
 /** Dry friction of all joints that can have it; an empty word takes it away. One step of undo. */
 export async function chooseDefaultFriction(catalog: Catalog, word: string): Promise<void> {
-  const { document, joints } = studio.get().model;
-  const stated = (path: string[]) => {
-    const node = nodeAt(document.root, path);
-    return find(catalog, "friction", node ? String(plain(node)) : "");
-  };
-  const path = ["defaults", "joint"];
-  const others = joints.flatMap((joint) => [find(catalog, "law", joint.law), stated(["joint", joint.name, "friction"])]);
-  await choose(catalog, { path, turns: false }, "friction", word, stated([...path, "friction"]), others);
+  const others = studio.get().model.joints.flatMap((joint) => [find(catalog, "law", joint.law), statedLaw(catalog, "friction", joint)]);
+  await choose(catalog, null, "friction", word, statedLaw(catalog, "friction", null), others);
 }
 
-/** Where a law is chosen: the table, whose complaints tell what is missing there (any joint's, if no one is named), and whether its lengths are angles. */
-interface Place {
-  path: readonly string[];
-  complainer?: string;
-  turns: boolean;
-}
+/** Whose law it is: a joint's, or with null that of all joints that say nothing. */
+type Owner = Joint | null;
+
+const tableOf = (owner: Owner) => (owner ? ["joint", owner.name] : ["defaults", "joint"]);
 
 const find = (catalog: Catalog, role: Role, word: string) => catalog.laws.find((one) => one.role === role && one.word === word);
 
-async function choose(catalog: Catalog, place: Place, role: Role, word: string, before: Law | undefined, others: readonly (Law | undefined)[]): Promise<void> {
+function statedLaw(catalog: Catalog, role: Role, owner: Owner): Law | undefined {
+  const node = nodeAt(studio.get().model.document.root, [...tableOf(owner), role]);
+  return node && find(catalog, role, String(plain(node)));
+}
+
+async function choose(catalog: Catalog, owner: Owner, role: Role, word: string, before: Law | undefined, others: readonly (Law | undefined)[]): Promise<void> {
   const { document } = studio.get().model;
+  const table = tableOf(owner);
   const law = find(catalog, role, word);
   const keys = [law, ...others].flatMap((one) => one?.keys ?? []);
   const draft = new Draft(document);
   // Values that no law knows any more would be errors.
-  for (const { name } of before?.keys ?? []) if (keys.every((one) => one.name !== name)) draft.remove([...place.path, name]);
-  if (word) draft.set([...place.path, role], word);
-  else draft.remove([...place.path, role]);
-  const text = law ? await withMissingKeys(draft.apply(), place, law) : draft.apply();
+  for (const { name } of before?.keys ?? []) if (keys.every((one) => one.name !== name)) draft.remove([...table, name]);
+  if (word) draft.set([...table, role], word);
+  else draft.remove([...table, role]);
+  const text = law ? await withMissingKeys(draft.apply(), owner, law) : draft.apply();
   if (studio.get().model.document !== document) return; // the answer came too late: there is another text
-  edit(text, `${role.charAt(0).toUpperCase()}${role.slice(1)} of ${place.complainer ? place.path.at(-1) : "all joints"}`);
+  edit(text, `${role.charAt(0).toUpperCase()}${role.slice(1)} of ${owner?.name ?? "all joints"}`);
 }
 
 /** States the keys of the law that the kernel misses. It asks again, because some are missed only when others are there. */
-async function withMissingKeys(text: string, place: Place, law: Law): Promise<string> {
+async function withMissingKeys(text: string, owner: Owner, law: Law): Promise<string> {
+  const table = tableOf(owner);
   const tried = new Set<string>();
   for (;;) {
     const complaints = await kernel.read(text).then((answer) => answer.complaints, () => []);
     const { root } = parseToml(text);
-    const missing = law.keys.filter((key) => !tried.has(key.name) && !nodeAt(root, [...place.path, key.name]) && complaints.some((one) => misses(one, place, law.role, key)));
+    const missing = law.keys.filter((key) => !tried.has(key.name) && !nodeAt(root, [...table, key.name]) && complaints.some((one) => misses(one, owner, law.role, key)));
     if (missing.length === 0) return text;
     const draft = new Draft(text);
     for (const key of missing) {
       tried.add(key.name);
-      draft.set([...place.path, key.name], startOf(key, place.turns));
+      draft.set([...table, key.name], startOf(key, owner?.type === "revolute"));
     }
     text = draft.apply();
   }
 }
 
-/** Of what a law misses without naming one key, such as where its stops are, the hint names those that would do. A key with a default is not missing,
+/** Of what a law misses without naming one key, such as where its stops are, the hint names those that would do. What all joints share is missed by any of them. A key with a default is not missing,
  *  even if its default does not go with another value. */
-function misses(complaint: Complaint, { complainer }: Place, role: Role, key: CatalogKey): boolean {
+function misses(complaint: Complaint, owner: Owner, role: Role, key: CatalogKey): boolean {
   if (key.default) return false;
-  const of = (name: string) => (complainer ? complaint.key === `${complainer}.${name}` : complaint.key.startsWith("joint.") && complaint.key.endsWith(`.${name}`));
+  const of = (name: string) => (owner ? complaint.key === `joint.${owner.name}.${name}` : complaint.key.startsWith("joint.") && complaint.key.endsWith(`.${name}`));
   if (of(role)) return key.otherwise !== undefined && key.name in STARTS && complaint.hint.includes(key.name);
   return of(key.name);
 }
