@@ -27,13 +27,13 @@ std::string_view kind_of(const LoadData& load) {
 }
 
 CheckState disturbed(const CheckState& from, const System& system, double duration, int number) {
-  constexpr double kShift = 0.02, kTwist = 0.05;  // of the length; [rad]
+  constexpr double kShift = 0.02;  // of the length; [rad]
   CheckState state = from;
   Noise noise(77u + static_cast<unsigned>(number));
   state.number = number;
   state.t = duration * (0.5 + 0.5 * noise());
   for (int i = 0; i < system.n_bodies(); ++i) {
-    state.q[i] += noise.vec().cwiseProduct(S::Vec(kShift * state.length, kShift * state.length, kTwist));
+    state.q[i] += noise.vec().cwiseProduct(S::Vec(kShift * state.length, kShift * state.length, kShift));
     state.v[i] += state.speed * noise.vec().cwiseProduct(S::Vec(1, 1, 1 / state.length));
   }
   system.motions(state.q, state.v, state.m);

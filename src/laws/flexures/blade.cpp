@@ -21,8 +21,7 @@ constexpr double kSettled = 1e-10;             // relative step after which the 
 constexpr double kRounding = 1e-6;             // relative step below which one that does not shrink is rounding
 constexpr double kTail = 1e-8;                 // share of the last coefficients; energy and forces are wrong by its square
 constexpr double kRoughTail = 1e-4;            // the same with all the functions that there are
-constexpr double kReach = 0.35, kMostTurn = 1;  // displacement across that one step of the path may add, over the length; angle that it may add [rad]
-constexpr int kMostParts = 16, kFinest = 512;  // steps of the path, at most; parts into which the path is halved, at most
+constexpr int kFinest = 512;                   // parts into which the path is halved, at most
 constexpr double kSurelyStable = std::numbers::pi * std::numbers::pi;
 
 // Of a symmetric matrix: as many as there are negative pivots (Sylvester's law of inertia).
@@ -155,14 +154,13 @@ bool Blade::solve(const Vec3& displacement, BladeShape& shape, Work& work) const
   }
 }
 
-// Eq. (2.9): along a path from the straight blade, in one step where that is small.
+// Eq. (2.9): along a path from the straight blade, in one step where that is found.
 bool Blade::find(const Vec3& displacement, BladeShape& shape) const {
-  const double parts = std::ceil(std::max({1.0, std::abs(displacement[1]) / kReach, std::abs(displacement[2]) / kMostTurn}));
-  if (!(parts <= kMostParts) || !std::isfinite(displacement[0])) return false;
+  if (!displacement.allFinite()) return false;
   const auto place = [&displacement](double share) { return Vec3(share * share * displacement[0], share * displacement[1], share * displacement[2]); };
   shape = {};
   Work work;
-  double done = 0, part = 1 / parts;
+  double done = 0, part = 1;
   while (done < 1) {
     const double next = done + part > 1 - 1e-9 ? 1 : done + part, more = next - done;
     BladeShape trial = shape;
