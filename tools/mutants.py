@@ -26,6 +26,8 @@ WORK = ROOT / "build" / "mutants"
 TREE, BUILD, RESULTS = WORK / "tree", WORK / "build", WORK / "results.json"
 EQUIVALENT = ROOT / "tools" / "equivalent_mutants.txt"
 
+ROOM_ONLY = "not by the room's tests"
+
 NUMBER = r"(?<![\w.])(?:\d+\.?\d*(?:e[+-]?\d+)?|\.\d+)(?![\w.])"
 # What is looked for, and what each of its finds is replaced by.
 CHANGES = [
@@ -161,7 +163,7 @@ class Suites:
             if run([self.program(room)], 60 + 5 * self.usual[room], cwd=TREE) != 0:
                 return "the room's tests"
         if self.skip_all:
-            return "not by the room's tests"
+            return ROOM_ONLY
         if not self.build("all"):
             return "does not compile"
         code = run(["ctest", "--test-dir", str(BUILD), f"-j{self.jobs}", "--timeout", "600", "--stop-on-failure"], 7200)
@@ -177,7 +179,9 @@ def test_rooms(options):
     copy_tree(TREE)
     configure(TREE, BUILD)
     suites, results = Suites(options.jobs, options.room_tests_only), load_results()
-    done = {(r["file"], r["line"], r["changed"]) for r in results}
+    if not options.room_tests_only:  # what only the room's tests have seen goes on to all tests
+        results = [r for r in results if r["noticed_by"] != ROOM_ONLY]
+    done = {(r["file"], r["line"], r["changed"]): r["noticed_by"] for r in results}
     for room in options.rooms or rooms_of(TREE):
         suites.measure(room)
         sites = sites_of(TREE, room)
@@ -187,7 +191,7 @@ def test_rooms(options):
             if counted >= options.sample:
                 break
             if (file, line, changed) in done:
-                counted += next(r for r in results if (r["file"], r["line"], r["changed"]) == (file, line, changed))["noticed_by"] != "does not compile"
+                counted += done[file, line, changed] != "does not compile"
                 continue
             path = TREE / file
             original = path.read_text()
@@ -222,7 +226,7 @@ def page(results):
     rooms = collections.defaultdict(collections.Counter)
     survivors = []
     for r in results:
-        if r["noticed_by"] in ("does not compile", "not by the room's tests"):
+        if r["noticed_by"] in ("does not compile", ROOM_ONLY):
             continue
         why = known.get((r["file"], r["changed"].strip()))
         kind = "equivalent" if r["noticed_by"] == "nobody" and why else r["noticed_by"]

@@ -24,6 +24,7 @@ namespace {
 
 constexpr int kClosing = 4;         // passes of a projection onto closed gaps, at most
 constexpr double kClosed = 1e-11;   // of what the first pass found: the next one finds nothing
+constexpr double kRedundant = 1e-3;  // of forces on all joints: what is left of it at a joint that others make redundant
 constexpr int kMostJoints = 300;    // whose masses with closed joints are asked for: the cost grows with the square
 
 // The slowest frequency that a joint's stiffness gives to the two bodies it connects, over all joints (of components with
@@ -176,6 +177,7 @@ template <class S>
 bool BasicInverseDynamics<S>::find_accelerations(BasicState<S>& state) {
   system_.motions(state.q, state.v, m_);
   system_.joint_kinematics(state.t, m_, r_);
+  take_curved_gaps_of_bodies(state);
   const VecsOf<S>* moved = moved_.empty() ? nullptr : &moved_;
   const double mu = kHeldAbove * slowest_joint(system_, r_, moved);
   if (!std::isfinite(mu) || !(mu > 0)) return false;
@@ -236,7 +238,8 @@ bool BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
     typename S::Vec rate = state.gap_rate[j];
     for (int k = 0; k < S::kDof; ++k)
       if (system_.joints[j].free_mask[k] != 0 && !r_.empty()) rate[k] = r_[j].rate[k];
-    carried = gap_at_force(system_.joints[j].law, state.force[j], rate, state.gap[j]) && carried;
+    if (steps_by_tangent(j, rate)) step_to_force(system_.joints[j].law, state.force[j], rate, moved_.empty() ? typename S::Vec(S::Vec::Ones()) : moved_[j], state.gap[j]);
+    else carried = gap_at_force(system_.joints[j].law, state.force[j], rate, state.gap[j]) && carried;
   }
   return carried;
 }
@@ -289,16 +292,68 @@ void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
 }
 
 template <class S>
-void BasicInverseDynamics<S>::take_forces_of_bodies(BasicState<S>& state) const {
+bool BasicInverseDynamics<S>::take_forces_of_bodies(BasicState<S>& state) {
   double misfit = 0;
   for (int j = 0; j < system_.n_joints(); ++j) {
+    if (!is_curved(j)) continue;
     const BasicLaw<S>& law = system_.joints[j].law;
-    if (law.ideal_limit() || law.n_states() > 0 || law.starts_free()) continue;
-    const typename S::Mat K = respond(law, state.gap[j], state.gap_rate[j]).stiffness;
-    misfit = std::max(misfit, (K * (r_[j].gap - state.gap[j])).norm());
+    const typename S::Vec& rate = state.gap_rate[j];
+    const typename S::Vec apart = steps_by_tangent(j, rate) ? typename S::Vec(respond(law, r_[j].gap, rate).force - state.force[j])
+                                                            : typename S::Vec(respond(law, state.gap[j], rate).stiffness * (r_[j].gap - state.gap[j]));
+    misfit = std::max(misfit, apart.norm());
   }
-  if (misfit <= kFits * largest_force(state.force)) return;
+  if (misfit <= kFits * largest_force(state.force)) return false;
   for (int j = 0; j < system_.n_joints(); ++j) state.force[j] = respond(system_.joints[j].law, r_[j].gap, state.gap_rate[j]).force;
+  return true;
+}
+
+// A law that is a function of its gap and rate, and not a linear one.
+template <class S>
+bool BasicInverseDynamics<S>::is_curved(int j) const {
+  const BasicLaw<S>& law = system_.joints[j].law;
+  return !law.ideal_limit() && law.n_states() == 0 && !law.starts_free();
+}
+
+// A joint is redundant with others where a force of its own is left of those that move nothing.
+template <class S>
+void BasicInverseDynamics<S>::step_by_tangents_where_redundant(const BasicState<S>& state) {
+  const auto joints = static_cast<int>(system_.joints.size());
+  std::vector<bool> curved(joints);
+  for (int j = 0; j < joints; ++j) curved[j] = is_curved(j);
+  if (std::find(curved.begin(), curved.end(), true) == curved.end()) return;
+  system_.motions(state.q, state.v, m_);
+  system_.joint_kinematics(state.t, m_, r_);
+  const double mu = kHeldAbove * slowest_joint(system_, r_);
+  const VecsOf<S> held = held_components(system_), none(system_.bodies.size(), S::Vec::Zero());
+  if (!std::isfinite(mu) || !(mu > 0) || !projector_.prepare(r_, mu, state.gap, state.gap_rate, &held)) return;
+  VecsOf<S> force(joints), a = none;
+  for (int j = 0; j < joints; ++j)
+    for (int k = 0; k < S::kDof; ++k) force[j][k] = held[j][k] * std::cos(1.0 + S::kDof * j + k);  // of no direction in particular
+  const double given = largest_force(force);
+  for (int pass = 0; pass < kClosing; ++pass) projector_.improve_forces(none, a, force);
+  by_tangent_.assign(joints, false);
+  for (int j = 0; j < joints; ++j) by_tangent_[j] = curved[j] && force[j].norm() > kRedundant * given;
+}
+
+// Where a law does not answer at all, as in its play, its tangent leads nowhere.
+template <class S>
+bool BasicInverseDynamics<S>::steps_by_tangent(int j, const typename S::Vec& rate) const {
+  if (!is_by_tangent(static_cast<std::size_t>(j))) return false;
+  const BasicLaw<S>& law = system_.joints[j].law;
+  const typename S::Vec engaged = law.engaged_stiffness();
+  const BasicResponse<S> now = respond(law, r_[j].gap, rate);
+  for (int k = 0; k < S::kDof; ++k)
+    if (engaged[k] > 0 && !(now.stiffness(k, k) > 0)) return false;
+  return true;
+}
+
+template <class S>
+void BasicInverseDynamics<S>::take_curved_gaps_of_bodies(BasicState<S>& state) const {
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    if (!steps_by_tangent(j, state.gap_rate[j])) continue;
+    state.gap[j] = r_[j].gap;
+    state.force[j] = respond(system_.joints[j].law, r_[j].gap, state.gap_rate[j]).force;
+  }
 }
 
 template Planar::Vec own_mobility(const BasicSystem<Planar>& system, const BasicPlacement<Planar>& at, const BasicJointKinematics<Planar>& r);

@@ -55,12 +55,18 @@ class BasicInverseDynamics {
   bool find_gaps(BasicState<S>& state) const;
   /// Moves q and v so that the joints have the gaps and rates of the state. Call after `find` near that state.
   void move_onto_gaps(BasicState<S>& state);
-  /// After `move_onto_gaps`: where the gaps of laws that are not linear do not fit together, as in overconstrained mechanisms, the forces become those of
-  /// the gaps that the bodies have. theory/assembly Eq. (3.7).
-  void take_forces_of_bodies(BasicState<S>& state) const;
+  /// From now on the gaps and forces of laws that are not linear, in joints that others make redundant, are improved by tangents, from those that the
+  /// bodies have: found joint by joint they would not fit together. theory/assembly Eq. (3.7).
+  void step_by_tangents_where_redundant(const BasicState<S>& state);
+  bool is_by_tangent(std::size_t j) const { return !by_tangent_.empty() && by_tangent_[j]; }
+  /// After `move_onto_gaps`: where gaps do not fit together, the forces become those of the gaps that the bodies have. Whether they did not fit.
+  bool take_forces_of_bodies(BasicState<S>& state);
   BasicEffectiveMasses<S> effective_masses(const BasicState<S>& state);
 
  private:
+  bool is_curved(int j) const;
+  bool steps_by_tangent(int j, const typename S::Vec& rate) const;
+  void take_curved_gaps_of_bodies(BasicState<S>& state) const;
   std::vector<int> apart(const BasicState<S>& state) const;
   typename S::Vec from_bodies(int j, const VecsOf<S>& x) const;
   double largest_held(const VecsOf<S>& gap) const;
@@ -71,7 +77,8 @@ class BasicInverseDynamics {
   BasicGapProjector<S> projector_;
   std::vector<typename S::Motion> m_;
   std::vector<BasicJointKinematics<S>> r_;
-  std::vector<int> rubbing_;  // joints with friction
+  std::vector<int> rubbing_;      // joints with friction
+  std::vector<bool> by_tangent_;  // joints whose gaps are found by tangents; empty where there is none
   VecsOf<S> Q_, wanted_, by_law_, moved_, moves_;
 };
 using InverseDynamics = BasicInverseDynamics<Planar>;

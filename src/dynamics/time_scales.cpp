@@ -18,6 +18,16 @@ bool any(const std::vector<Vec>& x) {
   return std::any_of(x.begin(), x.end(), [](const Vec& y) { return !y.isZero(); });
 }
 
+// Directions of a point that are equally stiff are treated alike: the slowest decides.
+template <class Vec>
+void slow_down_equals(const Vec& engaged, std::span<OwnRates> rates) {
+  for (std::size_t i = 0; i < rates.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      OwnRates &a = rates[i], &b = rates[k];
+      if (engaged[i] == engaged[k] && a.slow > 0 && b.slow > 0) a = b = b.slow < a.slow ? b : a;
+    }
+}
+
 }  // namespace
 
 OwnRates own_rates(double m, double c, double k) {
@@ -49,10 +59,7 @@ BasicTimeScales<S> measure_time_scales(const BasicSystem<S>& system, const Basic
       const double k = response.stiffness(i, i), m = masses.closed[j][i];
       if (k > 0 && m > 0) both[i] = own_rates(m, response.damping(i, i), k);
     }
-    // All directions of a point are treated alike: the slowest decides.
-    const auto point = std::span(both).template first<S::kDim>();
-    const auto slower = [](const OwnRates& a, const OwnRates& b) { return a.slow < b.slow; };
-    if (const OwnRates slowest = *std::min_element(point.rbegin(), point.rend(), slower); slowest.slow > 0) std::fill(point.begin(), point.end(), slowest);
+    slow_down_equals(system.joints[j].law.engaged_stiffness(), std::span(both).template first<S::kDim>());
     for (int i = 0; i < S::kDof; ++i) {
       const OwnRates& rates = both[i];
       time_scales.slow_rate[j][i] = rates.slow;

@@ -56,12 +56,12 @@ void begin_where_it_resists(const BasicLaw<S>& law, const typename S::Vec& force
   }
 }
 
-// Newton's step with the whole tangent, over the components that answer to their gaps; `missing` has 0 in the others.
+// Newton's step with the whole tangent, over the components that may move and answer to their gaps; `missing` has 0 in the others.
 template <class S>
-typename S::Vec newton_step(const BasicResponse<S>& now, const typename S::Vec& engaged, typename S::Vec& missing) {
+typename S::Vec newton_step(const BasicResponse<S>& now, const typename S::Vec& engaged, typename S::Vec& missing, const typename S::Vec& moved = S::Vec::Ones()) {
   typename S::Mat K = now.stiffness;
   for (int k = 0; k < S::kDof; ++k) {
-    if ((engaged[k] > 0 && !now.stiffness.row(k).isZero(0)) || now.stiffness(k, k) > 0) continue;
+    if (moved[k] != 0 && ((engaged[k] > 0 && !now.stiffness.row(k).isZero(0)) || now.stiffness(k, k) > 0)) continue;
     K.row(k).setZero();
     K.col(k).setZero();
     K(k, k) = 1;
@@ -203,7 +203,17 @@ bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const ty
   return true;
 }
 
+template <class S>
+void step_to_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const typename S::Vec& moved, typename S::Vec& gap) {
+  const BasicResponse<S> now = respond(law, gap, rate);
+  typename S::Vec missing = now.force - force;
+  const typename S::Vec step = newton_step<S>(now, law.engaged_stiffness(), missing, moved);
+  if (step.allFinite()) gap += step;
+}
+
 template bool gap_at_force(const BasicLaw<Planar>& law, const Planar::Vec& force, const Planar::Vec& rate, Planar::Vec& gap);
 PINTLE_IN_SPACE(template bool gap_at_force(const BasicLaw<Spatial>& law, const Spatial::Vec& force, const Spatial::Vec& rate, Spatial::Vec& gap);)
+template void step_to_force(const BasicLaw<Planar>& law, const Planar::Vec& force, const Planar::Vec& rate, const Planar::Vec& moved, Planar::Vec& gap);
+PINTLE_IN_SPACE(template void step_to_force(const BasicLaw<Spatial>& law, const Spatial::Vec& force, const Spatial::Vec& rate, const Spatial::Vec& moved, Spatial::Vec& gap);)
 
 }  // namespace pintle

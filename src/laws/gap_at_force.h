@@ -10,4 +10,8 @@ namespace pintle {
 template <class S>
 bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap);
 
+/// One step of Newton's method to it, with the law's tangent at the given gap, in the components that are 1 in `moved`.
+template <class S>
+void step_to_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const typename S::Vec& moved, typename S::Vec& gap);
+
 }  // namespace pintle

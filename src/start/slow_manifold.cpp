@@ -37,6 +37,7 @@ class BasicSlowManifold {
     for (auto* c : {&gap_, &rate_, &accel_})
       for (auto& x : *c) x.assign(system.joints.size(), S::Vec::Zero());
     share_.assign(system.joints.size(), S::Vec::Ones());
+    forces_.step_by_tangents_where_redundant(start);
   }
 
   // All joints go with the motion, each as far as `share` says.
@@ -51,7 +52,7 @@ class BasicSlowManifold {
     released_ = true;
     if (time_scales_.any_resolved()) forces_.leave_to_laws(time_scales_.resolved);
     for (auto& gap : gap_)
-      for (std::size_t j = 0; j < gap.size(); ++j) gap[j] = soft(j).cwiseProduct(start_.gap[j]);
+      for (std::size_t j = 0; j < gap.size(); ++j) gap[j] = forces_.is_by_tangent(j) ? start_.gap[j] : typename S::Vec(soft(j).cwiseProduct(start_.gap[j]));
     differentiate();
     swept_ = true;
     for (std::size_t j = 0; j < start_.gap.size(); ++j) rate_[0][j] += time_scales_.overdamped[j].cwiseProduct(start_.gap_rate[j]);

@@ -104,8 +104,10 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
   for (auto& x : state.gap_accel) x.setZero();
   tauten(system, state);
   BasicInverseDynamics<S> forces(system);
+  forces.step_by_tangents_where_redundant(state);
   const std::optional<BasicSystem<S>> firm = with_springs_for_play(system, state);
-  for (int pass = 0; pass < kPreloadPasses; ++pass) {
+  bool fits = true;
+  for (int pass = 0; pass < (fits ? kPreloadPasses : kRedundantPasses); ++pass) {
     const BasicState<S> before = state;
     if (pass == 0 && firm) {
       if (!BasicInverseDynamics<S>(*firm).find(state)) break;
@@ -124,7 +126,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
       break;
     }
     forces.move_onto_gaps(state);
-    if (pass + 1 < kPreloadPasses) forces.take_forces_of_bodies(state);
+    fits = !forces.take_forces_of_bodies(state);
   }
   balance_start(system, state);
   if (!is_finite(state)) state = unloaded;  // next to a singular position joints would give way more than the mechanism is large
