@@ -314,25 +314,29 @@ bool BasicInverseDynamics<S>::is_curved(int j) const {
   return !law.ideal_limit() && law.n_states() == 0 && !law.starts_free();
 }
 
+template <class S>
+void BasicInverseDynamics<S>::step_by_tangents() {
+  by_tangent_.assign(system_.joints.size(), false);
+  for (int j = 0; j < system_.n_joints(); ++j) by_tangent_[j] = is_curved(j);
+}
+
 // A joint is redundant with others where a force of its own is left of those that move nothing.
 template <class S>
 void BasicInverseDynamics<S>::step_by_tangents_where_redundant(const BasicState<S>& state) {
   const auto joints = static_cast<int>(system_.joints.size());
-  std::vector<bool> curved(joints);
-  for (int j = 0; j < joints; ++j) curved[j] = is_curved(j);
-  if (std::find(curved.begin(), curved.end(), true) == curved.end()) return;
+  step_by_tangents();
+  if (std::find(by_tangent_.begin(), by_tangent_.end(), true) == by_tangent_.end()) return;
   system_.motions(state.q, state.v, m_);
   system_.joint_kinematics(state.t, m_, r_);
   const double mu = kHeldAbove * slowest_joint(system_, r_);
   const VecsOf<S> held = held_components(system_), none(system_.bodies.size(), S::Vec::Zero());
-  if (!std::isfinite(mu) || !(mu > 0) || !projector_.prepare(r_, mu, state.gap, state.gap_rate, &held)) return;
-  VecsOf<S> force(joints), a = none;
+  if (!std::isfinite(mu) || !(mu > 0) || !projector_.prepare(r_, mu, state.gap, state.gap_rate, &held)) return by_tangent_.clear();
+  VecsOf<S> force(joints);
   for (int j = 0; j < joints; ++j)
     for (int k = 0; k < S::kDof; ++k) force[j][k] = held[j][k] * std::cos(1.0 + S::kDof * j + k);  // of no direction in particular
   const double given = largest_force(force);
-  for (int pass = 0; pass < kClosing; ++pass) projector_.improve_forces(none, a, force);
-  by_tangent_.assign(joints, false);
-  for (int j = 0; j < joints; ++j) by_tangent_[j] = curved[j] && force[j].norm() > kRedundant * given;
+  for (int pass = 0; pass < kClosing; ++pass) projector_.improve_forces(none, none, force);
+  for (int j = 0; j < joints; ++j) by_tangent_[j] = by_tangent_[j] && force[j].norm() > kRedundant * given;
 }
 
 // Where a law does not answer at all, as in its play, its tangent leads nowhere.

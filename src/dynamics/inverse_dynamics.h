@@ -55,8 +55,10 @@ class BasicInverseDynamics {
   bool find_gaps(BasicState<S>& state) const;
   /// Moves q and v so that the joints have the gaps and rates of the state. Call after `find` near that state.
   void move_onto_gaps(BasicState<S>& state);
-  /// From now on the gaps and forces of laws that are not linear, in joints that others make redundant, are improved by tangents, from those that the
-  /// bodies have: found joint by joint they would not fit together. theory/assembly Eq. (3.7).
+  /// From now on the gaps and forces of laws that are not linear are improved by tangents, from those that the bodies have: all that the laws are asked
+  /// for lies near where the bodies are. theory/assembly Eq. (3.7).
+  void step_by_tangents();
+  /// The same in joints that others make redundant alone: found joint by joint, their gaps would not fit together.
   void step_by_tangents_where_redundant(const BasicState<S>& state);
   bool is_by_tangent(std::size_t j) const { return !by_tangent_.empty() && by_tangent_[j]; }
   /// After `move_onto_gaps`: where gaps do not fit together, the forces become those of the gaps that the bodies have. Whether they did not fit.

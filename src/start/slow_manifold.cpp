@@ -37,7 +37,7 @@ class BasicSlowManifold {
     for (auto* c : {&gap_, &rate_, &accel_})
       for (auto& x : *c) x.assign(system.joints.size(), S::Vec::Zero());
     share_.assign(system.joints.size(), S::Vec::Ones());
-    forces_.step_by_tangents_where_redundant(start);
+    forces_.step_by_tangents();
   }
 
   // All joints go with the motion, each as far as `share` says.
