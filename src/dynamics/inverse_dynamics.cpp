@@ -25,6 +25,7 @@ namespace {
 constexpr int kClosing = 4;         // passes of a projection onto closed gaps, at most
 constexpr double kClosed = 1e-11;   // of what the first pass found: the next one finds nothing
 constexpr double kRedundant = 1e-3;  // of forces on all joints: what is left of it at a joint that others make redundant
+constexpr int kMostHalvings = 6;     // of the way to another place, on which a law does not come across a border, at most
 constexpr int kMostJoints = 300;    // whose masses with closed joints are asked for: the cost grows with the square
 
 // The slowest frequency that a joint's stiffness gives to the two bodies it connects, over all joints (of components with
@@ -52,6 +53,16 @@ bool drags(const BasicJointData<S>& joint) {
   for (int k = 0; k < S::kDof; ++k)
     if (joint.free_mask[k] != 0 && still.damping(k, k) > 0) return true;
   return false;
+}
+
+// Whether a law answers in all components in which it would hold its joint.
+template <class S>
+bool resists(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate) {
+  const typename S::Vec engaged = law.engaged_stiffness();
+  const BasicResponse<S> now = respond(law, gap, rate);
+  for (int k = 0; k < S::kDof; ++k)
+    if (engaged[k] > 0 && !(now.stiffness(k, k) > 0)) return false;
+  return true;
 }
 
 }  // namespace
@@ -238,7 +249,7 @@ bool BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
     typename S::Vec rate = state.gap_rate[j];
     for (int k = 0; k < S::kDof; ++k)
       if (system_.joints[j].free_mask[k] != 0 && !r_.empty()) rate[k] = r_[j].rate[k];
-    if (steps_by_tangent(j, rate)) step_to_force(system_.joints[j].law, state.force[j], rate, moved_.empty() ? typename S::Vec(S::Vec::Ones()) : moved_[j], state.gap[j]);
+    if (is_by_tangent(static_cast<std::size_t>(j)) && steps_by_tangent(j, r_[j].gap, rate)) step_to_force(system_.joints[j].law, state.force[j], rate, moved_.empty() ? typename S::Vec(S::Vec::Ones()) : moved_[j], state.gap[j]);
     else carried = gap_at_force(system_.joints[j].law, state.force[j], rate, state.gap[j]) && carried;
   }
   return carried;
@@ -292,13 +303,35 @@ void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
 }
 
 template <class S>
+void BasicInverseDynamics<S>::stay_inside_borders(const BasicState<S>& before, BasicState<S>& state) {
+  if (std::find(by_tangent_.begin(), by_tangent_.end(), true) == by_tangent_.end()) return;
+  VecsOf<S> gap_before(r_.size());
+  system_.motions(before.q, before.v, m_);
+  system_.joint_kinematics(before.t, m_, r_);
+  for (std::size_t j = 0; j < r_.size(); ++j) gap_before[j] = r_[j].gap;
+  const auto crosses = [&](int j) {
+    const BasicLaw<S>& law = system_.joints[j].law;
+    const typename S::Vec& rate = state.gap_rate[j];
+    return steps_by_tangent(j, gap_before[j], rate) && steps_by_tangent(j, r_[j].gap, rate) && !on_same_sides(law, gap_before[j], r_[j].gap, rate);
+  };
+  for (int halvings = 0;; ++halvings) {
+    system_.motions(state.q, state.v, m_);
+    system_.joint_kinematics(state.t, m_, r_);
+    bool any = false;
+    for (int j = 0; j < system_.n_joints(); ++j) any = any || crosses(j);
+    if (!any || halvings == kMostHalvings) return;
+    for (std::size_t i = 0; i < state.q.size(); ++i) state.q[i] = S::moved(before.q[i], 0.5 * S::difference(state.q[i], before.q[i]));
+  }
+}
+
+template <class S>
 bool BasicInverseDynamics<S>::take_forces_of_bodies(BasicState<S>& state) {
   double misfit = 0;
   for (int j = 0; j < system_.n_joints(); ++j) {
     if (!is_curved(j)) continue;
     const BasicLaw<S>& law = system_.joints[j].law;
     const typename S::Vec& rate = state.gap_rate[j];
-    const typename S::Vec apart = steps_by_tangent(j, rate) ? typename S::Vec(respond(law, r_[j].gap, rate).force - state.force[j])
+    const typename S::Vec apart = steps_by_tangent(j, r_[j].gap, rate) ? typename S::Vec(respond(law, r_[j].gap, rate).force - state.force[j])
                                                             : typename S::Vec(respond(law, state.gap[j], rate).stiffness * (r_[j].gap - state.gap[j]));
     misfit = std::max(misfit, apart.norm());
   }
@@ -336,25 +369,19 @@ void BasicInverseDynamics<S>::step_by_tangents_where_redundant(const BasicState<
     for (int k = 0; k < S::kDof; ++k) force[j][k] = held[j][k] * std::cos(1.0 + S::kDof * j + k);  // of no direction in particular
   const double given = largest_force(force);
   for (int pass = 0; pass < kClosing; ++pass) projector_.improve_forces(none, none, force);
-  for (int j = 0; j < joints; ++j) by_tangent_[j] = by_tangent_[j] && force[j].norm() > kRedundant * given;
+  for (int j = 0; j < joints; ++j) by_tangent_[j] = steps_by_tangent(j, r_[j].gap, state.gap_rate[j]) && force[j].norm() > kRedundant * given;
 }
 
 // Where a law does not answer at all, as in its play, its tangent leads nowhere.
 template <class S>
-bool BasicInverseDynamics<S>::steps_by_tangent(int j, const typename S::Vec& rate) const {
-  if (!is_by_tangent(static_cast<std::size_t>(j))) return false;
-  const BasicLaw<S>& law = system_.joints[j].law;
-  const typename S::Vec engaged = law.engaged_stiffness();
-  const BasicResponse<S> now = respond(law, r_[j].gap, rate);
-  for (int k = 0; k < S::kDof; ++k)
-    if (engaged[k] > 0 && !(now.stiffness(k, k) > 0)) return false;
-  return true;
+bool BasicInverseDynamics<S>::steps_by_tangent(int j, const typename S::Vec& gap, const typename S::Vec& rate) const {
+  return is_by_tangent(static_cast<std::size_t>(j)) && resists(system_.joints[j].law, gap, rate);
 }
 
 template <class S>
 void BasicInverseDynamics<S>::take_curved_gaps_of_bodies(BasicState<S>& state) const {
   for (int j = 0; j < system_.n_joints(); ++j) {
-    if (!steps_by_tangent(j, state.gap_rate[j])) continue;
+    if (!steps_by_tangent(j, r_[j].gap, state.gap_rate[j])) continue;
     state.gap[j] = r_[j].gap;
     state.force[j] = respond(system_.joints[j].law, r_[j].gap, state.gap_rate[j]).force;
   }

@@ -61,13 +61,16 @@ class BasicInverseDynamics {
   /// The same in joints that others make redundant alone: found joint by joint, their gaps would not fit together.
   void step_by_tangents_where_redundant(const BasicState<S>& state);
   bool is_by_tangent(std::size_t j) const { return !by_tangent_.empty() && by_tangent_[j]; }
+  /// After `move_onto_gaps`: halves the way from `before` while a law that is improved by tangents, and resists at both ends of the way, comes to the other
+  /// side of a border of its own: a blade would snap there, and its law leads to no place where it holds its load.
+  void stay_inside_borders(const BasicState<S>& before, BasicState<S>& state);
   /// After `move_onto_gaps`: where gaps do not fit together, the forces become those of the gaps that the bodies have. Whether they did not fit.
   bool take_forces_of_bodies(BasicState<S>& state);
   BasicEffectiveMasses<S> effective_masses(const BasicState<S>& state);
 
  private:
   bool is_curved(int j) const;
-  bool steps_by_tangent(int j, const typename S::Vec& rate) const;
+  bool steps_by_tangent(int j, const typename S::Vec& gap, const typename S::Vec& rate) const;
   void take_curved_gaps_of_bodies(BasicState<S>& state) const;
   std::vector<int> apart(const BasicState<S>& state) const;
   typename S::Vec from_bodies(int j, const VecsOf<S>& x) const;

@@ -8,6 +8,15 @@
 #include <vector>
 
 namespace pintle {
+
+template <class S>
+bool on_same_sides(const BasicLaw<S>& law, const typename S::Vec& a, const typename S::Vec& b, const typename S::Vec& rate) {
+  std::vector<double> at_a(static_cast<std::size_t>(law.n_borders())), at_b(at_a.size());
+  law.borders({0, a, rate, nullptr}, at_a.data());
+  law.borders({0, b, rate, nullptr}, at_b.data());
+  return std::equal(at_a.begin(), at_a.end(), at_b.begin(), [](double x, double y) { return (x > 0) == (y > 0); });
+}
+
 namespace {
 
 constexpr int kSpringSteps = 20, kNewton = 40, kHalvings = 12, kDoublings = 80;  // passes over the components' own springs; Newton iterations for a gap, at most; halvings of one step, at most; doublings of the way out of a play, at most
@@ -76,15 +85,6 @@ double size_of_gap(const typename S::Vec& gap, const typename S::Vec& engaged) {
   const double stiffest = engaged.template head<S::kDim>().maxCoeff(), turning = engaged.template tail<S::kDof - S::kDim>().maxCoeff();
   const double arm = stiffest > 0 ? std::sqrt(turning / stiffest) : 1;
   return gap.template head<S::kDim>().norm() + arm * gap.template tail<S::kDof - S::kDim>().norm();
-}
-
-// Whether both gaps are on the same sides of all borders of the law.
-template <class S>
-bool on_same_sides(const BasicLaw<S>& law, const typename S::Vec& a, const typename S::Vec& b, const typename S::Vec& rate) {
-  std::vector<double> at_a(static_cast<std::size_t>(law.n_borders())), at_b(at_a.size());
-  law.borders({0, a, rate, nullptr}, at_a.data());
-  law.borders({0, b, rate, nullptr}, at_b.data());
-  return std::equal(at_a.begin(), at_a.end(), at_b.begin(), [](double x, double y) { return (x > 0) == (y > 0); });
 }
 
 // Newton's method at one load: plain steps, each at most half of the one before. The gap must stay on the side of the law's borders where `from` is.
@@ -213,6 +213,8 @@ void step_to_force(const BasicLaw<S>& law, const typename S::Vec& force, const t
 
 template bool gap_at_force(const BasicLaw<Planar>& law, const Planar::Vec& force, const Planar::Vec& rate, Planar::Vec& gap);
 PINTLE_IN_SPACE(template bool gap_at_force(const BasicLaw<Spatial>& law, const Spatial::Vec& force, const Spatial::Vec& rate, Spatial::Vec& gap);)
+template bool on_same_sides(const BasicLaw<Planar>& law, const Planar::Vec& a, const Planar::Vec& b, const Planar::Vec& rate);
+PINTLE_IN_SPACE(template bool on_same_sides(const BasicLaw<Spatial>& law, const Spatial::Vec& a, const Spatial::Vec& b, const Spatial::Vec& rate);)
 template void step_to_force(const BasicLaw<Planar>& law, const Planar::Vec& force, const Planar::Vec& rate, const Planar::Vec& moved, Planar::Vec& gap);
 PINTLE_IN_SPACE(template void step_to_force(const BasicLaw<Spatial>& law, const Spatial::Vec& force, const Spatial::Vec& rate, const Spatial::Vec& moved, Spatial::Vec& gap);)
 

@@ -14,4 +14,8 @@ bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const ty
 template <class S>
 void step_to_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const typename S::Vec& moved, typename S::Vec& gap);
 
+/// Whether both gaps are on the same sides of all borders of the law.
+template <class S>
+bool on_same_sides(const BasicLaw<S>& law, const typename S::Vec& a, const typename S::Vec& b, const typename S::Vec& rate);
+
 }  // namespace pintle

@@ -126,6 +126,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
       break;
     }
     forces.move_onto_gaps(state);
+    if (pass < kCarefulPasses) forces.stay_inside_borders(before, state);
     fits = !forces.take_forces_of_bodies(state);
   }
   balance_start(system, state);

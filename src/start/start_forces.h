@@ -9,6 +9,7 @@ namespace pintle {
 // Of free bodies, and over a tree.
 inline constexpr int kPreloadPasses = 6;     // of forces and gaps in turns, at most
 inline constexpr int kRedundantPasses = 30;  // where gaps do not fit together yet
+inline constexpr int kCarefulPasses = 15;    // of these that cross no border of a law, at first
 inline constexpr double kMostGrowth = 2;  // of the largest joint force, by an attempt at a start that has not converged
 
 /// Accelerations that the joint forces really give at the state's gaps, and the gap accelerations that go with them.

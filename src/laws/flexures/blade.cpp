@@ -22,6 +22,7 @@ constexpr double kRounding = 1e-6;             // relative step below which one 
 constexpr double kTail = 1e-8;                 // share of the last coefficients; energy and forces are wrong by its square
 constexpr double kRoughTail = 1e-4;            // the same with all the functions that there are
 constexpr int kFinest = 512;                   // parts into which the path is halved, at most
+constexpr double kMostTension = 1e5;           // in units of EI/L^2: beyond, functions of the basis do not follow the bend at the clamps
 constexpr double kSurelyStable = std::numbers::pi * std::numbers::pi;
 
 // Of a symmetric matrix: as many as there are negative pivots (Sylvester's law of inertia).
@@ -156,7 +157,7 @@ bool Blade::solve(const Vec3& displacement, BladeShape& shape, Work& work) const
 
 // Eq. (2.9): along a path from the straight blade, in one step where that is found.
 bool Blade::find(const Vec3& displacement, BladeShape& shape) const {
-  if (!displacement.allFinite()) return false;
+  if (!displacement.allFinite() || std::hypot(1 + displacement[0], displacement[1]) - 1 > axial_ * kMostTension) return false;
   const auto place = [&displacement](double share) { return Vec3(share * share * displacement[0], share * displacement[1], share * displacement[2]); };
   shape = {};
   Work work;
