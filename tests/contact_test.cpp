@@ -256,6 +256,42 @@ TEST(Contact, BodiesThatStartInsideEachOtherAreRefused) {
   }
 }
 
+// A pendulum that falls onto a floor starts as one without a floor, whatever the duration: what it does not touch does not hold it.
+TEST(Contact, AFloorBelowDoesNotMatterAtTheStart) {
+  const auto pendulum = [](double duration, const std::string& floor) {
+    return parse_model(fmt::format(R"toml(
+format = 1
+name = "Pendulum over a floor"
+[simulate]
+duration = {}
+[ground.markers]
+pin = [0, 0]
+floor = [0, -0.25]
+[body.rod]
+mass = 0.16
+inertia = 1.9e-3
+position = [0.14, 0.065]
+angle = 0.44
+spin = -2.5
+hold = ["angle"]
+markers.pin = [-0.15, 0]
+markers.tip = [0.15, 0]
+[joint.pin]
+type = "revolute"
+between = ["ground.pin", "rod.pin"]
+stiffness = 1e8
+damping = 1e3
+{})toml", duration, floor), "floor.toml");
+  };
+  const std::string floor = "[joint.floor]\ntype = \"slot\"\nbetween = [\"ground.floor\", \"rod.tip\"]\nlaw = \"contact\"\ncontact_exponent = 1\ncontact_stiffness = 1e9\npin_radius = 4e-3\nrestitution = 0.4\n";
+  for (const double duration : {1e-5, 0.02}) {
+    const Trajectory with = simulate(pendulum(duration, floor)), without = simulate(pendulum(duration, ""));
+    EXPECT_TRUE(with.notes.empty()) << with.notes.front();
+    for (const char* column : {"joint.pin.on_rod.fx[world]", "joint.pin.on_rod.fy[world]"})
+      for (const std::size_t row : {std::size_t{0}, with.n_rows() - 1}) EXPECT_NEAR(with.at(row, with.column(column)), without.at(row, without.column(column)), 1e-5) << column << ' ' << duration;
+  }
+}
+
 // --- Every method ---
 
 TEST(Contact, EveryMethodTouchesAndLetsGo) {

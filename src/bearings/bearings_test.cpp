@@ -124,6 +124,18 @@ TEST(Bearings, LoadInPhaseWithTheSpeedAndItsStatedError) {
   }
 }
 
+// Between two rows the load goes straight from one to the other, in both directions.
+TEST(Bearings, LoadsGoStraightBetweenRows) {
+  const BearingSummary one = PinRun(ball(10000)).add(0, 900, -200, 0, 1).add(1, -100, 700, 1, 1).summary();
+  constexpr int kParts = 1000;
+  double cubes = 0;
+  for (int i = 0; i < kParts; ++i) {
+    const double x = (i + 0.5) / kParts;
+    cubes += std::pow(std::hypot(900 - 1000 * x, -200 + 900 * x), 3) / kParts;
+  }
+  EXPECT_NEAR(one.equivalent_load, std::cbrt(cubes), 1e-3 * one.equivalent_load);
+}
+
 // A load that goes round with the pin is cut short between rows: the stated error says by how much.
 TEST(Bearings, TurningLoad) {
   PinRun pin(ball(10000));

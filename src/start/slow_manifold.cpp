@@ -38,6 +38,8 @@ class BasicSlowManifold {
       for (auto& x : *c) x.assign(system.joints.size(), S::Vec::Zero());
     share_.assign(system.joints.size(), S::Vec::Ones());
     forces_.step_by_tangents();
+    for (std::size_t j = 0; j < system.joints.size(); ++j)
+      if (is_apart(j)) put_at_start(j);
   }
 
   // All joints go with the motion, each as far as `share` says.
@@ -51,8 +53,11 @@ class BasicSlowManifold {
     if (!soft_) return;
     released_ = true;
     if (time_scales_.any_resolved()) forces_.leave_to_laws(time_scales_.resolved);
-    for (auto& gap : gap_)
-      for (std::size_t j = 0; j < gap.size(); ++j) gap[j] = forces_.is_by_tangent(j) ? start_.gap[j] : typename S::Vec(soft(j).cwiseProduct(start_.gap[j]));
+    for (std::size_t j = 0; j < system_.joints.size(); ++j) {
+      if (forces_.is_by_tangent(j)) put_at_start(j);
+      else if (!is_apart(j))
+        for (auto& gap : gap_) gap[j] = soft(j).cwiseProduct(start_.gap[j]);
+    }
     differentiate();
     swept_ = true;
     for (std::size_t j = 0; j < start_.gap.size(); ++j) rate_[0][j] += time_scales_.overdamped[j].cwiseProduct(start_.gap_rate[j]);
@@ -125,6 +130,17 @@ class BasicSlowManifold {
   const VecsOf<S>& rate() const { return rate_[0]; }
 
  private:
+  // A rope that is slack, a roller above its floor: it stays as it is.
+  bool is_apart(std::size_t j) const {
+    const BasicLaw<S>& law = system_.joints[j].law;
+    if (law.ideal_limit() || !law.starts_free()) return false;
+    const BasicResponse<S> now = respond(law, start_.gap[j], start_.gap_rate[j]);
+    return now.stiffness.isZero(0) && now.damping.isZero(0);
+  }
+  void put_at_start(std::size_t j) {
+    for (auto& gap : gap_) gap[j] = start_.gap[j];
+  }
+
   typename S::Vec soft(std::size_t j) const { return time_scales_.overdamped[j] + time_scales_.resolved[j]; }
 
   void put(int node, BasicState<S>& at) const {
