@@ -445,5 +445,55 @@ TEST(FrictionCircles, FourBarCarriesItsLoadAlongTheirTangents) {
   }
 }
 
+// A load on a rope hangs from a drum that a rubbing pin holds: it does not begin by sinking into the friction, and no joint rings. A coefficient that is
+// stated alone is that of rest, too. What the pin cannot hold begins to turn.
+TEST(Stiction, CarriesItsLoadFromTheStart) {
+  const auto drum = [](double coefficient, double mass) {
+    return parse_model(fmt::format(R"toml(
+format = 1
+name = "Load on a drum"
+[simulate]
+duration = "0.1 s"
+[ground.markers]
+o = [0, 0]
+[body.drum]
+mass = 8
+inertia = 0.04
+position = [0, 0]
+angle = 0
+markers.o = [0, 0]
+[body.load]
+mass = {}
+inertia = 0.1
+position = [-0.1, -1]
+angle = 0
+markers.eye = [0, 0]
+[joint.pin]
+type = "revolute"
+between = ["ground.o", "drum.o"]
+friction = "coulomb"
+friction_coefficient = {}
+pin_radius = 0.05
+[joint.rope]
+type = "belt"
+between = ["drum.o", "load.eye"]
+first_radius = 0.1
+first_side = "right"
+stiffness = 1e6
+damping = 300
+)toml", mass, coefficient), "drum.toml");
+  };
+  const double weight = kStandardGravity;
+  const Trajectory held = completed(drum(0.3, 1));
+  for (std::size_t i = 0; i < held.n_rows(); ++i) {
+    EXPECT_NEAR(reference::value(held, i, "joint.rope.on_load.fy[world]"), weight, 1e-5 * weight) << i;
+    EXPECT_NEAR(reference::value(held, i, "joint.pin.friction"), -0.1 * weight, 1e-5 * weight) << i;
+    EXPECT_EQ(reference::value(held, i, "joint.pin.stuck"), 1) << i;
+  }
+  const Trajectory turning = completed(drum(0.3, 2));  // 2 N m against 1.5
+  EXPECT_EQ(at_end(turning, "joint.pin.stuck"), 0);
+  EXPECT_GT(std::abs(at_end(turning, "joint.pin.angle_rate")), 0.1);
+}
+
 }  // namespace
 }  // namespace pintle

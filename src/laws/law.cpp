@@ -165,6 +165,23 @@ void BasicLaw<S>::rest(const BasicLawPoint<S>& at, double* state) const {
 }
 
 template <class S>
+int BasicLaw<S>::sticking_component() const {
+  for (const auto& part : parts_)
+    if (part->sticking_component() >= 0) return part->sticking_component();
+  return -1;
+}
+
+template <class S>
+bool BasicLaw<S>::stick(const BasicLawPoint<S>& at, double force, double* state) const {
+  bool sticks = false;
+  visit_parts({at.t, at.gap, at.rate, state}, [&](const Part& part, const LawInput<double, S::kDof>& in) {
+    if (part.sticking_component() >= 0) sticks = part.stick(in, force, state);
+    state += part.n_states();
+  });
+  return sticks;
+}
+
+template <class S>
 bool BasicLaw<S>::rubs() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return !part->holds(); });
 }

@@ -65,6 +65,10 @@ class BasicLawPart {
   virtual bool stops() const = 0;
   /// Whether it is dry friction of what the joint leaves free.
   virtual bool rubs() const = 0;
+  /// The free component in which it can hold its joint at rest, as dry friction that sticks does; -1: none.
+  virtual int sticking_component() const = 0;
+  /// Sets its states so that, at rest, it carries `force` in that component; false where it slips.
+  virtual bool stick(const Input<double>& in, double force, double* state) const = 0;
   /// Whether its force is a function of that of the parts before it and of nothing else: where the joint is ideal, it has this force too.
   virtual bool depends_on_reaction_alone() const = 0;
   /// Whether power comes in through it from outside, as through the pressure in a cylinder; and that power, a function of time, gap and rate [W].
@@ -91,7 +95,7 @@ using LawPart = BasicLawPart<Planar>;
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
 /// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), border_directions() (one +1, -1 or 0
 /// each, or border_direction(i)) cross() and border_name(), kHolds = false, kStops = true, kRubs = false (of what neither holds nor stops), kOnReactionAlone = true, kStartsFree = true, supply(in),
-/// columns() with observe(), engage(), lever(), penetration(), breach().
+/// columns() with observe(), engage(), lever(), penetration(), breach(), sticking_component() with stick().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
  public:
@@ -146,6 +150,14 @@ class LawPartOf final : public BasicLawPart<S> {
   bool rubs() const override {
     if constexpr (requires { P::kRubs; }) return P::kRubs;
     else return !holds() && !stops();
+  }
+  int sticking_component() const override {
+    if constexpr (requires { law_.sticking_component(); }) return law_.sticking_component();
+    else return -1;
+  }
+  bool stick(const Input<double>& in, double force, double* state) const override {
+    if constexpr (requires { law_.stick(in, force, state); }) return law_.stick(in, force, state);
+    else return false;
   }
   bool depends_on_reaction_alone() const override {
     if constexpr (requires { P::kOnReactionAlone; }) return P::kOnReactionAlone;

@@ -164,9 +164,14 @@ Assembly put_bodies(const Model& model, System system) {
 
 Assembly assemble_bodies(const Model& model, const System* like) { return put_bodies(model, build_system(model, like)); }
 
-Assembly assemble_system(const Model& model, System system) {
+Assembly assemble_unloaded(const Model& model, System system) {
   Assembly out = put_bodies(model, std::move(system));
   demand_apart(out.system, out.state.q);
+  return out;
+}
+
+Assembly assemble_system(const Model& model, System system) {
+  Assembly out = assemble_unloaded(model, std::move(system));
   start_forces(out.system, model.simulate.start == Start::kAssembled, out.state);
   return out;
 }

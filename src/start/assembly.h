@@ -24,7 +24,10 @@ Assembly assemble(const Model& model);
 /// AssemblyError when a loop cannot close.
 Assembly assemble_bodies(const Model& model, const System* like = nullptr);
 
-/// As `assemble`, of a system that build_system has made from `model`.
+/// Of a system that build_system has made from `model`: its positions and velocities, without forces in the joints.
+Assembly assemble_unloaded(const Model& model, System system);
+
+/// As `assemble`, of such a system.
 Assembly assemble_system(const Model& model, System system);
 
 }  // namespace pintle

@@ -7,6 +7,8 @@
 
 #include "start/ideal_rows.h"
 #include "start/settle_joints.h"
+#include "start/start_forces.h"
+#include "start/stiction.h"
 #include "start/tree_start.h"
 #include "system/build.h"
 #include "system/tree.h"
@@ -26,9 +28,13 @@ Assembly ideal_start(Model model) {
 }
 
 Assembly start_of_free_bodies(const Model& model, System system, double known_span) {
-  Assembly assembly = assemble_system(model, std::move(system));
-  if (model.simulate.start != Start::kAssembled || assembly.system.joints.empty()) return assembly;
+  Assembly assembly = assemble_unloaded(model, std::move(system));
+  const BasicSettledStart<Planar> unloaded = assembly;
+  const bool loaded = model.simulate.start == Start::kAssembled;
+  start_forces(assembly.system, loaded, assembly.state);
+  if (!loaded || assembly.system.joints.empty()) return assembly;
   settle_joints(assembly.system, model.simulate.duration, known_span, assembly);
+  hold_by_friction(assembly.system, unloaded, model.simulate.duration, known_span, assembly);
   return assembly;
 }
 

@@ -27,6 +27,8 @@ struct CoulombLaw : Friction {
     out.loss = f.loss;
   }
   void rest(const LawInput<double>& in, double* state) const { StickSlip::rest(slip(in), state); }
+  int sticking_component() const { return component_of_pin_or_slide(); }
+  bool stick(const LawInput<double>& in, double force, double* state) const { return surfaces().stick(-force / radius, load(in), state); }
 
   int n_borders() const { return StickSlip::kBorders; }
   void borders(const LawInput<double>& in, double* value) const { surfaces().borders(slip(in), load(in), in.state, value); }

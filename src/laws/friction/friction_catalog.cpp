@@ -1,4 +1,5 @@
 // The catalog's entries of dry friction.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ namespace {
 
 // Of friction by any law.
 constexpr KeyInfo kKinetic{.key = "friction_coefficient", .unit = "", .fallback = 0.1, .minimum_exclusive = true, .meaning = "kinetic friction: of steady fast slip"};
-constexpr KeyInfo kStatic{.key = "static_friction", .unit = "", .fallback = 0.15, .minimum_exclusive = true, .meaning = "coefficient at which slip begins; not below the kinetic one"};
+constexpr KeyInfo kStatic{.key = "static_friction", .unit = "", .minimum_exclusive = true, .otherwise = "0.15, or friction_coefficient where that is more", .meaning = "coefficient at which slip begins; not below the kinetic one"};
 constexpr KeyInfo kPinRadius{.key = "pin_radius", .unit = "m", .minimum_exclusive = true, .otherwise = "required of a pin", .meaning = "where a pin rubs; of no other joint"};
 constexpr KeyInfo kTeeth{.key = "sliding_distance", .unit = "m", .minimum_exclusive = true, .otherwise = "required of gears and racks", .meaning = "where teeth rub: how far from the pitch point they touch on average, about 1.2 modules; of no other joint"};
 constexpr KeyInfo kGuide{.key = "guide_length", .unit = "m", .meaning = "of a slider, centred on the second marker: its moment presses the edges; 0: only the force across does"};
@@ -59,9 +60,16 @@ bool has_teeth(const LawSetting& at) { return at.joint_type == "gear" || at.join
 // Turns and does not slide.
 bool is_pin(const LawSetting& at) { return at.free[2] && !at.free[0]; }
 
+// The coefficient at which slip begins.
+double static_friction(const LawSetting& at) {
+  constexpr double kUsual = 0.15;
+  const double stated = at.number("static_friction");
+  return stated > 0 ? stated : std::max(kUsual, at.number("friction_coefficient"));
+}
+
 LawFault friction_fault(const LawSetting& at) {
-  if (at.number("static_friction") < at.number("friction_coefficient"))
-    return {"static_friction", fmt::format("{:g} is below the kinetic coefficient of {:g}: what slips would be held more firmly than what rests", at.number("static_friction"), at.number("friction_coefficient")),
+  if (const double stuck = static_friction(at); stuck < at.number("friction_coefficient"))
+    return {"static_friction", fmt::format("{:g} is below the kinetic coefficient of {:g}: what slips would be held more firmly than what rests", stuck, at.number("friction_coefficient")),
             "static_friction not below friction_coefficient"};
   if (at.joint_type != kCylinder && at.number("seal_area") > 0) return {"seal_area", "only cylinders have seals", "delete it; friction_preload is a constant load"};
   if (at.joint_type == kCylinder && at.number("guide_length") > 0) return {"guide_length", "the guide of a cylinder's rod carries no load: the force acts along it", "delete it"};
@@ -82,7 +90,7 @@ void set_friction(const LawSetting& at, Friction& friction) {
   friction.guide = pin ? 0 : at.number("guide_length");
   friction.preload = at.number("friction_preload");
   friction.kinetic = at.number("friction_coefficient");
-  friction.stuck = at.number("static_friction");
+  friction.stuck = static_friction(at);
   friction.viscous = at.number("viscous_friction");
   friction.seal_area = at.number("seal_area");
   friction.chambers = at.chambers;

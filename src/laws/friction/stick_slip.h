@@ -48,6 +48,13 @@ struct StickSlip {
     state[0] = 0;
     state[1] = std::abs(v) < kStill ? 0 : v > 0 ? 1 : -1;
   }
+  /// Stuck under a friction; false where the surfaces cannot carry it.
+  bool stick(double friction, double N, double* state) const {
+    if (!(std::abs(friction) < stuck * N)) return false;
+    state[0] = friction / stiffness;
+    state[1] = 0;
+    return true;
+  }
 
   /// What still holds; how far slip is from its end; how far from a slip the wrong way, which a break under a falling load may begin with.
   void borders(double v, double N, const double* state, double* value) const {
