@@ -62,7 +62,7 @@ bool is_pin(const LawSetting& at) { return at.free[2] && !at.free[0]; }
 
 // The coefficient at which slip begins.
 double static_friction(const LawSetting& at) {
-  constexpr double kUsual = 0.15;
+  constexpr double kUsual = 0.15;  // where neither coefficient is stated, or the kinetic one is less
   const double stated = at.number("static_friction");
   return stated > 0 ? stated : std::max(kUsual, at.number("friction_coefficient"));
 }
