@@ -15,8 +15,9 @@ namespace {
 
 using S = Planar;
 
-constexpr double kAtRest = 1e-6;   // slip speed of a joint that is at rest [m/s or rad/s]
-constexpr double kIdle = 1e-6;     // of the friction that a joint can have: one that needs no more to stay at rest needs none
+constexpr double kAtRest = 1e-6;     // slip speed of a joint that is at rest [m/s or rad/s]
+constexpr double kIdle = 1e-6;       // of the friction that a joint can have: one that needs no more to stay at rest needs none
+constexpr double kUsualJoint = 1e8;  // what holds a joint whose law has no stiffness of its own [N/m]
 
 // Holds one component where it is.
 struct LockLaw {
@@ -45,7 +46,7 @@ std::vector<JointKinematics> kinematics_of(const System& system, const State& st
 double lock_stiffness(const JointData& joint, int component, double arm) {
   const S::Vec engaged = joint.law.engaged_stiffness();
   const double k = std::max(engaged[0], engaged[1]);
-  return (k > 0 ? k : 1e8) * (component == 2 ? arm * arm : 1);
+  return (k > 0 ? k : kUsualJoint) * (component == 2 ? arm * arm : 1);
 }
 
 // Whether a joint that is at rest needs friction to stay there: more than next to nothing of what it can have.
