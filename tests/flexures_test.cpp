@@ -87,7 +87,7 @@ TEST(SlowFlexures, StartWhereTheLoadHoldsThem) {
 }
 
 // Thin blades of unlike widths, up to three quarters of their length aside: what stretches them is millions of times stiffer than what bends them, along a curve, and
-// each knows only its own. A start that finds their gaps one by one puts the table kilometres away.
+// each knows only its own. A start that finds their gaps one by one puts the table hundreds of metres away.
 TEST(SlowFlexures, StartUnlikeBladesTogether) {
   const double mass = 0.37, thickness = 3e-4, width = 0.01, weight = mass * kStandardGravity;
   for (const double push : {0.5, 1.5, 5.0, 10.0, 40.0}) {
