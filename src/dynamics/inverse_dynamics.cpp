@@ -22,11 +22,11 @@ typename S::Vec own_mobility(const BasicSystem<S>& system, const BasicPlacement<
 
 namespace {
 
-constexpr int kClosing = 4;         // passes of a projection onto closed gaps, at most
-constexpr double kClosed = 1e-11;   // of what the first pass found: the next one finds nothing
+constexpr int kClosing = 4;          // passes of a projection onto closed gaps, at most
+constexpr double kClosed = 1e-11;    // of what the first pass found: the next one finds nothing
 constexpr double kRedundant = 1e-3;  // of forces on all joints: what is left of it at a joint that others make redundant
 constexpr int kMostHalvings = 6;     // of the way to another place, on which a law does not come across a border, at most
-constexpr int kMostJoints = 300;    // whose masses with closed joints are asked for: the cost grows with the square
+constexpr int kMostJoints = 300;     // whose masses with closed joints are asked for: the cost grows with the square
 
 // The slowest frequency that a joint's stiffness gives to the two bodies it connects, over all joints (of components with
 // `moved`, when given).
@@ -53,16 +53,6 @@ bool drags(const BasicJointData<S>& joint) {
   for (int k = 0; k < S::kDof; ++k)
     if (joint.free_mask[k] != 0 && still.damping(k, k) > 0) return true;
   return false;
-}
-
-// Whether a law answers in all components in which it would hold its joint.
-template <class S>
-bool resists(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate) {
-  const typename S::Vec engaged = law.engaged_stiffness();
-  const BasicResponse<S> now = respond(law, gap, rate);
-  for (int k = 0; k < S::kDof; ++k)
-    if (engaged[k] > 0 && !(now.stiffness(k, k) > 0)) return false;
-  return true;
 }
 
 }  // namespace
@@ -97,7 +87,7 @@ VecsOf<S> held_components(const BasicSystem<S>& system) {
 }
 
 template <class S>
-BasicInverseDynamics<S>::BasicInverseDynamics(const BasicSystem<S>& system) : system_(system), projector_(system), wanted_(system.joints.size()) {
+BasicInverseDynamics<S>::BasicInverseDynamics(const BasicSystem<S>& system) : system_(system), projector_(system), linearized_(system.joints.size(), false), wanted_(system.joints.size()) {
   VecsOf<S> held(system.joints.size(), S::Vec::Ones());
   bool any_drags = false;
   for (int j = 0; j < system.n_joints(); ++j) {
@@ -108,6 +98,12 @@ BasicInverseDynamics<S>::BasicInverseDynamics(const BasicSystem<S>& system) : sy
     any_drags = any_drags || drag;
   }
   if (any_drags) moved_ = held;
+}
+
+template <class S>
+void BasicInverseDynamics<S>::find_kinematics(const BasicState<S>& state) {
+  system_.motions(state.q, state.v, m_);
+  system_.joint_kinematics(state.t, m_, r_);
 }
 
 template <class S>
@@ -186,9 +182,8 @@ bool BasicInverseDynamics<S>::find(BasicState<S>& state) {
 
 template <class S>
 bool BasicInverseDynamics<S>::find_accelerations(BasicState<S>& state) {
-  system_.motions(state.q, state.v, m_);
-  system_.joint_kinematics(state.t, m_, r_);
-  take_curved_gaps_of_bodies(state);
+  find_kinematics(state);
+  take_linearized_gaps_of_bodies(state);
   const VecsOf<S>* moved = moved_.empty() ? nullptr : &moved_;
   const double mu = kHeldAbove * slowest_joint(system_, r_, moved);
   if (!std::isfinite(mu) || !(mu > 0)) return false;
@@ -212,8 +207,7 @@ bool BasicInverseDynamics<S>::find_accelerations(BasicState<S>& state) {
 // theory/assembly Eq. (5.1).
 template <class S>
 BasicEffectiveMasses<S> BasicInverseDynamics<S>::effective_masses(const BasicState<S>& state) {
-  system_.motions(state.q, state.v, m_);
-  system_.joint_kinematics(state.t, m_, r_);
+  find_kinematics(state);
   const double mu = kHeldAbove * slowest_joint(system_, r_);
   if (!std::isfinite(mu) || !(mu > 0) || !projector_.prepare(r_, mu, state.gap, state.gap_rate)) return {};
   const VecsOf<S> no_load(system_.bodies.size(), S::Vec::Zero());
@@ -249,8 +243,9 @@ bool BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
     typename S::Vec rate = state.gap_rate[j];
     for (int k = 0; k < S::kDof; ++k)
       if (system_.joints[j].free_mask[k] != 0 && !r_.empty()) rate[k] = r_[j].rate[k];
-    if (is_by_tangent(static_cast<std::size_t>(j)) && steps_by_tangent(j, r_[j].gap, rate)) step_to_force(system_.joints[j].law, state.force[j], rate, moved_.empty() ? typename S::Vec(S::Vec::Ones()) : moved_[j], state.gap[j]);
-    else carried = gap_at_force(system_.joints[j].law, state.force[j], rate, state.gap[j]) && carried;
+    const BasicLaw<S>& law = system_.joints[j].law;
+    if (linearized_[j] && resists(law, respond(law, r_[j].gap, rate))) newton_step_to_force(law, state.force[j], rate, moved_.empty() ? typename S::Vec(S::Vec::Ones()) : moved_[j], state.gap[j]);
+    else carried = gap_at_force(law, state.force[j], rate, state.gap[j]) && carried;
   }
   return carried;
 }
@@ -269,8 +264,7 @@ std::vector<int> BasicInverseDynamics<S>::apart(const BasicState<S>& state) cons
 // Eq. (3.4). Joints that are apart stay as far apart as they are: the bodies beside them give way together.
 template <class S>
 void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
-  system_.motions(state.q, state.v, m_);
-  system_.joint_kinematics(state.t, m_, r_);
+  find_kinematics(state);
   const std::vector<int> apart_now = apart(state);
   const std::optional<BasicSystem<S>> firm = with_springs(system_, apart_now);
   std::optional<BasicGapProjector<S>> holding;
@@ -282,17 +276,13 @@ void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
   VecsOf<S> gap = state.gap;
   for (const int j : apart_now) gap[j] = r_[j].gap;
   for (int pass = 0; pass < kClosing; ++pass) {
-    if (pass > 0) {
-      system_.motions(state.q, state.v, m_);
-      system_.joint_kinematics(state.t, m_, r_);
-    }
+    if (pass > 0) find_kinematics(state);
     for (int j = 0; j < system_.n_joints(); ++j) wanted_[j] = gap[j] - r_[j].gap;
     moves_.assign(state.v.size(), S::Vec::Zero());
     projector.close(wanted_, moves_);
     for (std::size_t i = 0; i < moves_.size(); ++i) S::move(state.q[i], moves_[i]);
   }
-  system_.motions(state.q, state.v, m_);
-  system_.joint_kinematics(state.t, m_, r_);
+  find_kinematics(state);
   VecsOf<S> dv(state.v.size(), S::Vec::Zero()), rate = state.gap_rate;
   for (const int j : apart_now) rate[j] = r_[j].rate;
   for (int pass = 0; pass < kClosing; ++pass) {
@@ -303,20 +293,18 @@ void BasicInverseDynamics<S>::move_onto_gaps(BasicState<S>& state) {
 }
 
 template <class S>
-void BasicInverseDynamics<S>::stay_inside_borders(const BasicState<S>& before, BasicState<S>& state) {
-  if (std::find(by_tangent_.begin(), by_tangent_.end(), true) == by_tangent_.end()) return;
+void BasicInverseDynamics<S>::limit_step_at_borders(const BasicState<S>& before, BasicState<S>& state) {
+  if (!any_linearized()) return;
+  find_kinematics(before);
   VecsOf<S> gap_before(r_.size());
-  system_.motions(before.q, before.v, m_);
-  system_.joint_kinematics(before.t, m_, r_);
   for (std::size_t j = 0; j < r_.size(); ++j) gap_before[j] = r_[j].gap;
   const auto crosses = [&](int j) {
     const BasicLaw<S>& law = system_.joints[j].law;
-    const typename S::Vec& rate = state.gap_rate[j];
-    return steps_by_tangent(j, gap_before[j], rate) && steps_by_tangent(j, r_[j].gap, rate) && !on_same_sides(law, gap_before[j], r_[j].gap, rate);
+    const typename S::Vec &from = gap_before[j], &to = r_[j].gap, &rate = state.gap_rate[j];
+    return linearized_[j] && resists(law, respond(law, from, rate)) && resists(law, respond(law, to, rate)) && !on_same_sides(law, from, to, rate);
   };
   for (int halvings = 0;; ++halvings) {
-    system_.motions(state.q, state.v, m_);
-    system_.joint_kinematics(state.t, m_, r_);
+    find_kinematics(state);
     bool any = false;
     for (int j = 0; j < system_.n_joints(); ++j) any = any || crosses(j);
     if (!any || halvings == kMostHalvings) return;
@@ -328,62 +316,64 @@ template <class S>
 bool BasicInverseDynamics<S>::take_forces_of_bodies(BasicState<S>& state) {
   double misfit = 0;
   for (int j = 0; j < system_.n_joints(); ++j) {
-    if (!is_curved(j)) continue;
+    if (!is_nonlinear(j)) continue;
     const BasicLaw<S>& law = system_.joints[j].law;
-    const typename S::Vec& rate = state.gap_rate[j];
-    const typename S::Vec apart = steps_by_tangent(j, r_[j].gap, rate) ? typename S::Vec(respond(law, r_[j].gap, rate).force - state.force[j])
-                                                            : typename S::Vec(respond(law, state.gap[j], rate).stiffness * (r_[j].gap - state.gap[j]));
-    misfit = std::max(misfit, apart.norm());
+    const BasicResponse<S> now = respond(law, r_[j].gap, state.gap_rate[j]);
+    const bool at_bodies = linearized_[j] && resists(law, now);
+    misfit = std::max(misfit, at_bodies ? (now.force - state.force[j]).norm() : (respond(law, state.gap[j], state.gap_rate[j]).stiffness * (r_[j].gap - state.gap[j])).norm());
   }
   if (misfit <= kFits * largest_force(state.force)) return false;
   for (int j = 0; j < system_.n_joints(); ++j) state.force[j] = respond(system_.joints[j].law, r_[j].gap, state.gap_rate[j]).force;
   return true;
 }
 
-// A law that is a function of its gap and rate, and not a linear one.
+// A function of its gap and rate, and not a linear one.
 template <class S>
-bool BasicInverseDynamics<S>::is_curved(int j) const {
+bool BasicInverseDynamics<S>::is_nonlinear(int j) const {
   const BasicLaw<S>& law = system_.joints[j].law;
   return !law.ideal_limit() && law.n_states() == 0 && !law.starts_free();
 }
 
 template <class S>
-void BasicInverseDynamics<S>::step_by_tangents() {
-  by_tangent_.assign(system_.joints.size(), false);
-  for (int j = 0; j < system_.n_joints(); ++j) by_tangent_[j] = is_curved(j);
+bool BasicInverseDynamics<S>::any_linearized() const {
+  return std::find(linearized_.begin(), linearized_.end(), true) != linearized_.end();
+}
+
+template <class S>
+void BasicInverseDynamics<S>::linearize_nonlinear_laws() {
+  for (int j = 0; j < system_.n_joints(); ++j) linearized_[j] = is_nonlinear(j);
 }
 
 // A joint is redundant with others where a force of its own is left of those that move nothing.
 template <class S>
-void BasicInverseDynamics<S>::step_by_tangents_where_redundant(const BasicState<S>& state) {
-  const auto joints = static_cast<int>(system_.joints.size());
-  step_by_tangents();
-  if (std::find(by_tangent_.begin(), by_tangent_.end(), true) == by_tangent_.end()) return;
-  system_.motions(state.q, state.v, m_);
-  system_.joint_kinematics(state.t, m_, r_);
+void BasicInverseDynamics<S>::linearize_redundant_laws(const BasicState<S>& state) {
+  linearize_nonlinear_laws();
+  if (!any_linearized()) return;
+  find_kinematics(state);
   const double mu = kHeldAbove * slowest_joint(system_, r_);
   const VecsOf<S> held = held_components(system_), none(system_.bodies.size(), S::Vec::Zero());
-  if (!std::isfinite(mu) || !(mu > 0) || !projector_.prepare(r_, mu, state.gap, state.gap_rate, &held)) return by_tangent_.clear();
-  VecsOf<S> force(joints);
-  for (int j = 0; j < joints; ++j)
+  if (!std::isfinite(mu) || !(mu > 0) || !projector_.prepare(r_, mu, state.gap, state.gap_rate, &held)) return linearized_.assign(linearized_.size(), false);
+  VecsOf<S> force(linearized_.size());
+  for (int j = 0; j < system_.n_joints(); ++j)
     for (int k = 0; k < S::kDof; ++k) force[j][k] = held[j][k] * std::cos(1.0 + S::kDof * j + k);  // of no direction in particular
   const double given = largest_force(force);
   for (int pass = 0; pass < kClosing; ++pass) projector_.improve_forces(none, none, force);
-  for (int j = 0; j < joints; ++j) by_tangent_[j] = steps_by_tangent(j, r_[j].gap, state.gap_rate[j]) && force[j].norm() > kRedundant * given;
-}
-
-// Where a law does not answer at all, as in its play, its tangent leads nowhere.
-template <class S>
-bool BasicInverseDynamics<S>::steps_by_tangent(int j, const typename S::Vec& gap, const typename S::Vec& rate) const {
-  return is_by_tangent(static_cast<std::size_t>(j)) && resists(system_.joints[j].law, gap, rate);
-}
-
-template <class S>
-void BasicInverseDynamics<S>::take_curved_gaps_of_bodies(BasicState<S>& state) const {
   for (int j = 0; j < system_.n_joints(); ++j) {
-    if (!steps_by_tangent(j, r_[j].gap, state.gap_rate[j])) continue;
+    const BasicLaw<S>& law = system_.joints[j].law;
+    linearized_[j] = linearized_[j] && force[j].norm() > kRedundant * given && resists(law, respond(law, r_[j].gap, state.gap_rate[j]));
+  }
+}
+
+// Where a law does not resist, as in its play, its tangent leads nowhere.
+template <class S>
+void BasicInverseDynamics<S>::take_linearized_gaps_of_bodies(BasicState<S>& state) const {
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    if (!linearized_[j]) continue;
+    const BasicLaw<S>& law = system_.joints[j].law;
+    const BasicResponse<S> now = respond(law, r_[j].gap, state.gap_rate[j]);
+    if (!resists(law, now)) continue;
     state.gap[j] = r_[j].gap;
-    state.force[j] = respond(system_.joints[j].law, r_[j].gap, state.gap_rate[j]).force;
+    state.force[j] = now.force;
   }
 }
 

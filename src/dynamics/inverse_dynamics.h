@@ -55,23 +55,24 @@ class BasicInverseDynamics {
   bool find_gaps(BasicState<S>& state) const;
   /// Moves q and v so that the joints have the gaps and rates of the state. Call after `find` near that state.
   void move_onto_gaps(BasicState<S>& state);
-  /// From now on the gaps and forces of laws that are not linear are improved by tangents, from those that the bodies have: all that the laws are asked
-  /// for lies near where the bodies are. theory/assembly Eq. (3.7).
-  void step_by_tangents();
-  /// The same in joints that others make redundant alone: found joint by joint, their gaps would not fit together.
-  void step_by_tangents_where_redundant(const BasicState<S>& state);
-  bool is_by_tangent(std::size_t j) const { return !by_tangent_.empty() && by_tangent_[j]; }
-  /// After `move_onto_gaps`: halves the way from `before` while a law that is improved by tangents, and resists at both ends of the way, comes to the other
-  /// side of a border of its own: a blade would snap there, and its law leads to no place where it holds its load.
-  void stay_inside_borders(const BasicState<S>& before, BasicState<S>& state);
+  /// From now on gaps and forces of laws that are not linear are improved by one step with the tangent, from those that the bodies have: what the laws are
+  /// asked for lies near where the bodies are. theory/assembly Eq. (3.7).
+  void linearize_nonlinear_laws();
+  /// The same in those joints alone that others make redundant: found joint by joint, their gaps would not fit together.
+  void linearize_redundant_laws(const BasicState<S>& state);
+  bool is_linearized(std::size_t j) const { return linearized_[j]; }
+  /// After `move_onto_gaps`: halves the way from `before` while a linearized law that resists at both ends of the way comes to the other side of a border of
+  /// its own: a blade would snap there, and its law leads to no place where it holds its load.
+  void limit_step_at_borders(const BasicState<S>& before, BasicState<S>& state);
   /// After `move_onto_gaps`: where gaps do not fit together, the forces become those of the gaps that the bodies have. Whether they did not fit.
   bool take_forces_of_bodies(BasicState<S>& state);
   BasicEffectiveMasses<S> effective_masses(const BasicState<S>& state);
 
  private:
-  bool is_curved(int j) const;
-  bool steps_by_tangent(int j, const typename S::Vec& gap, const typename S::Vec& rate) const;
-  void take_curved_gaps_of_bodies(BasicState<S>& state) const;
+  void find_kinematics(const BasicState<S>& state);
+  bool is_nonlinear(int j) const;
+  bool any_linearized() const;
+  void take_linearized_gaps_of_bodies(BasicState<S>& state) const;
   std::vector<int> apart(const BasicState<S>& state) const;
   typename S::Vec from_bodies(int j, const VecsOf<S>& x) const;
   double largest_held(const VecsOf<S>& gap) const;
@@ -83,7 +84,7 @@ class BasicInverseDynamics {
   std::vector<typename S::Motion> m_;
   std::vector<BasicJointKinematics<S>> r_;
   std::vector<int> rubbing_;      // joints with friction
-  std::vector<bool> by_tangent_;  // joints whose gaps are found by tangents; empty where there is none
+  std::vector<bool> linearized_;  // joints whose gaps are found by one step with the tangent
   VecsOf<S> Q_, wanted_, by_law_, moved_, moves_;
 };
 using InverseDynamics = BasicInverseDynamics<Planar>;

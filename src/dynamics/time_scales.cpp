@@ -20,7 +20,7 @@ bool any(const std::vector<Vec>& x) {
 
 // Directions of a point that are equally stiff are treated alike: the slowest decides.
 template <class Vec>
-void slow_down_equals(const Vec& engaged, std::span<OwnRates> rates) {
+void share_slowest_rate(const Vec& engaged, std::span<OwnRates> rates) {
   for (std::size_t i = 0; i < rates.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       OwnRates &a = rates[i], &b = rates[k];
@@ -59,7 +59,7 @@ BasicTimeScales<S> measure_time_scales(const BasicSystem<S>& system, const Basic
       const double k = response.stiffness(i, i), m = masses.closed[j][i];
       if (k > 0 && m > 0) both[i] = own_rates(m, response.damping(i, i), k);
     }
-    slow_down_equals(system.joints[j].law.engaged_stiffness(), std::span(both).template first<S::kDim>());
+    share_slowest_rate(system.joints[j].law.engaged_stiffness(), std::span(both).template first<S::kDim>());
     for (int i = 0; i < S::kDof; ++i) {
       const OwnRates& rates = both[i];
       time_scales.slow_rate[j][i] = rates.slow;

@@ -148,9 +148,7 @@ bool follow_load(const BasicLaw<S>& law, const typename S::Vec& force, const typ
   constexpr double kFirst = 1e-6, kLater = 1e-3;
   if (law.n_states() > 0 || law.starts_free()) return false;
   const BasicResponse<S> start = respond(law, gap, rate);
-  const typename S::Vec engaged = law.engaged_stiffness();
-  for (int k = 0; k < S::kDof; ++k)
-    if (engaged[k] > 0 && !(start.stiffness(k, k) > 0)) return false;
+  if (!resists(law, start)) return false;
   GapPath<S> path(0, gap);
   double done = 0;
   for (double part = 1; done < 1;) {
@@ -204,7 +202,7 @@ bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const ty
 }
 
 template <class S>
-void step_to_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const typename S::Vec& moved, typename S::Vec& gap) {
+void newton_step_to_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const typename S::Vec& moved, typename S::Vec& gap) {
   const BasicResponse<S> now = respond(law, gap, rate);
   typename S::Vec missing = now.force - force;
   const typename S::Vec step = newton_step<S>(now, law.engaged_stiffness(), missing, moved);
@@ -215,7 +213,7 @@ template bool gap_at_force(const BasicLaw<Planar>& law, const Planar::Vec& force
 PINTLE_IN_SPACE(template bool gap_at_force(const BasicLaw<Spatial>& law, const Spatial::Vec& force, const Spatial::Vec& rate, Spatial::Vec& gap);)
 template bool on_same_sides(const BasicLaw<Planar>& law, const Planar::Vec& a, const Planar::Vec& b, const Planar::Vec& rate);
 PINTLE_IN_SPACE(template bool on_same_sides(const BasicLaw<Spatial>& law, const Spatial::Vec& a, const Spatial::Vec& b, const Spatial::Vec& rate);)
-template void step_to_force(const BasicLaw<Planar>& law, const Planar::Vec& force, const Planar::Vec& rate, const Planar::Vec& moved, Planar::Vec& gap);
-PINTLE_IN_SPACE(template void step_to_force(const BasicLaw<Spatial>& law, const Spatial::Vec& force, const Spatial::Vec& rate, const Spatial::Vec& moved, Spatial::Vec& gap);)
+template void newton_step_to_force(const BasicLaw<Planar>& law, const Planar::Vec& force, const Planar::Vec& rate, const Planar::Vec& moved, Planar::Vec& gap);
+PINTLE_IN_SPACE(template void newton_step_to_force(const BasicLaw<Spatial>& law, const Spatial::Vec& force, const Spatial::Vec& rate, const Spatial::Vec& moved, Spatial::Vec& gap);)
 
 }  // namespace pintle

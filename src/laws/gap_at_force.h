@@ -12,7 +12,7 @@ bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const ty
 
 /// One step of Newton's method to it, with the law's tangent at the given gap, in the components that are 1 in `moved`.
 template <class S>
-void step_to_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const typename S::Vec& moved, typename S::Vec& gap);
+void newton_step_to_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const typename S::Vec& moved, typename S::Vec& gap);
 
 /// Whether both gaps are on the same sides of all borders of the law.
 template <class S>

@@ -158,4 +158,13 @@ BasicResponse<S> respond(const BasicLaw<S>& law, const typename S::Vec& gap, con
   return law.holding(gap, rate);
 }
 
+/// Whether a law that responds like this resists in all components in which it would hold its joint.
+template <class S>
+bool resists(const BasicLaw<S>& law, const BasicResponse<S>& now) {
+  const typename S::Vec engaged = law.engaged_stiffness();
+  for (int k = 0; k < S::kDof; ++k)
+    if (engaged[k] > 0 && !(now.stiffness(k, k) > 0)) return false;
+  return true;
+}
+
 }  // namespace pintle

@@ -37,7 +37,7 @@ class BasicSlowManifold {
     for (auto* c : {&gap_, &rate_, &accel_})
       for (auto& x : *c) x.assign(system.joints.size(), S::Vec::Zero());
     share_.assign(system.joints.size(), S::Vec::Ones());
-    forces_.step_by_tangents();
+    forces_.linearize_nonlinear_laws();
     for (std::size_t j = 0; j < system.joints.size(); ++j)
       if (is_apart(j)) put_at_start(j);
   }
@@ -54,7 +54,7 @@ class BasicSlowManifold {
     released_ = true;
     if (time_scales_.any_resolved()) forces_.leave_to_laws(time_scales_.resolved);
     for (std::size_t j = 0; j < system_.joints.size(); ++j) {
-      if (forces_.is_by_tangent(j)) put_at_start(j);
+      if (forces_.is_linearized(j)) put_at_start(j);
       else if (!is_apart(j))
         for (auto& gap : gap_) gap[j] = soft(j).cwiseProduct(start_.gap[j]);
     }

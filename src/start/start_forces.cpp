@@ -51,7 +51,7 @@ void plain_start(const BasicSystem<S>& system, BasicState<S>& state) {
   }
   rest_laws(system, state);
   system.accelerations(state.t, state.q, state.v, state.a, state.law_state.data());
-  for (int j = 0; j < system.n_joints(); ++j) state.force[j] = system.joints[j].law.force(law_point(system, j, state));
+  find_joint_forces(system, state);
   find_gap_accelerations(system, r, state);
 }
 
@@ -88,7 +88,7 @@ void balance_start(const BasicSystem<S>& system, BasicState<S>& state) {
     }
   }
   rest_laws(system, state);
-  for (int j = 0; j < system.n_joints(); ++j) state.force[j] = system.joints[j].law.force(law_point(system, j, state));
+  find_joint_forces(system, state);
   find_accelerations(system, m, r, state);
 }
 
@@ -104,7 +104,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
   for (auto& x : state.gap_accel) x.setZero();
   tauten(system, state);
   BasicInverseDynamics<S> forces(system);
-  forces.step_by_tangents_where_redundant(state);
+  forces.linearize_redundant_laws(state);
   const std::optional<BasicSystem<S>> firm = with_springs_for_play(system, state);
   bool fits = true;
   for (int pass = 0; pass < (fits ? kPreloadPasses : kRedundantPasses); ++pass) {
@@ -126,7 +126,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
       break;
     }
     forces.move_onto_gaps(state);
-    if (pass < kCarefulPasses) forces.stay_inside_borders(before, state);
+    if (pass < kCarefulPasses) forces.limit_step_at_borders(before, state);
     fits = !forces.take_forces_of_bodies(state);
   }
   balance_start(system, state);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/inverse_dynamics.h"
+#include "kinematics/position_search.h"
 #include "laws/law_part.h"
 #include "start/start_forces.h"
 #include "system/system.h"
@@ -34,13 +35,6 @@ struct LockLaw {
   }
   Planar::Vec engaged_stiffness() const { return k * Planar::Vec::Unit(component); }
 };
-
-std::vector<JointKinematics> kinematics_of(const System& system, const State& state, std::vector<S::Motion>& m) {
-  std::vector<JointKinematics> r;
-  system.motions(state.q, state.v, m);
-  system.joint_kinematics(state.t, m, r);
-  return r;
-}
 
 // As stiff as the joint is where it rubs.
 double lock_stiffness(const JointData& joint, int component, double arm) {
@@ -72,7 +66,8 @@ System with_locks(const System& system, const std::vector<int>& joints, const st
 
 void hold_by_friction(const System& system, const BasicSettledStart<Planar>& unloaded, double duration, double known_span, BasicSettledStart<Planar>& start) {
   std::vector<S::Motion> m;
-  const std::vector<JointKinematics> r = kinematics_of(system, unloaded.state, m);
+  std::vector<JointKinematics> r;
+  kinematics_at(system, unloaded.state.t, unloaded.state.q, unloaded.state.v, m, r);
   std::vector<int> held;
   for (int j = 0; j < system.n_joints(); ++j) {
     const int k = system.joints[j].law.sticking_component();
@@ -95,9 +90,9 @@ void hold_by_friction(const System& system, const BasicSettledStart<Planar>& unl
       continue;
     }
     find_law_rates(system, state);
-    for (int j = 0; j < system.n_joints(); ++j) state.force[j] = system.joints[j].law.force(law_point(system, j, state));
-    const std::vector<JointKinematics> now = kinematics_of(system, state, m);
-    find_accelerations(system, m, now, state);
+    find_joint_forces(system, state);
+    kinematics_at(system, state.t, state.q, state.v, m, r);
+    find_accelerations(system, m, r, state);
     trial.state = std::move(state);
     start = std::move(trial);
     return;

@@ -14,6 +14,11 @@ void find_gap_accelerations(const BasicSystem<S>& system, const std::vector<Basi
 }
 
 template <class S>
+void find_joint_forces(const BasicSystem<S>& system, BasicState<S>& state) {
+  for (int j = 0; j < system.n_joints(); ++j) state.force[j] = system.joints[j].law.force(law_point(system, j, state));
+}
+
+template <class S>
 void find_law_rates(const BasicSystem<S>& system, BasicState<S>& state) {
   if (system.n_law_states() == 0) return;
   for (int j = 0; j < system.n_joints(); ++j)
@@ -85,6 +90,8 @@ template double largest_force(const VecsOf<Planar>&);
 PINTLE_IN_SPACE(template double largest_force(const VecsOf<Spatial>&);)
 template void find_gap_accelerations(const BasicSystem<Planar>& system, const std::vector<BasicJointKinematics<Planar>>& r, BasicState<Planar>& state);
 template double energy_of_joints(const BasicSystem<Planar>& system, const BasicState<Planar>& state);
+template void find_joint_forces(const BasicSystem<Planar>& system, BasicState<Planar>& state);
+PINTLE_IN_SPACE(template void find_joint_forces(const BasicSystem<Spatial>& system, BasicState<Spatial>& state);)
 template void find_law_rates(const BasicSystem<Planar>& system, BasicState<Planar>& state);
 template void rest_laws(const BasicSystem<Planar>& system, BasicState<Planar>& state);
 template void find_accelerations(const BasicSystem<Planar>& system, const std::vector<Planar::Motion>& m, const std::vector<BasicJointKinematics<Planar>>& r, BasicState<Planar>& state);

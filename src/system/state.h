@@ -26,6 +26,9 @@ template <class S>
 BasicLawPoint<S> law_point(const BasicSystem<S>& system, int j, const BasicState<S>& state) {
   return {state.t, state.gap[j], state.gap_rate[j], state.law_state.data() + system.joints[j].first_state};
 }
+/// The forces that the laws of all joints give in `state`.
+template <class S>
+void find_joint_forces(const BasicSystem<S>& system, BasicState<S>& state);
 /// The rates of the laws' own states that go with `state`.
 template <class S>
 void find_law_rates(const BasicSystem<S>& system, BasicState<S>& state);

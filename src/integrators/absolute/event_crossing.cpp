@@ -102,7 +102,7 @@ bool BasicRadauStepper<S>::cross_borders() {
 template <class S>
 void BasicRadauStepper<S>::balance_end() {
   system_.joint_kinematics(end_.t, end_m_, end_r_);
-  for (int j = 0; j < system_.n_joints(); ++j) end_.force[j] = system_.joints[j].law.force(law_point(system_, j, end_));
+  find_joint_forces(system_, end_);
   find_law_rates(system_, end_);
   find_accelerations(system_, end_m_, end_r_, end_);
   find_power();

@@ -81,7 +81,7 @@ const BasicState<S>& BasicDenseOutput<S>::at(double t, const BasicState<S>& begi
   out_.supplied = cubic_hermite(s, h, begin.supplied, begin.supply_power, end.supplied, end.supply_power);
   for (std::size_t z = 0; z < out_.law_state.size(); ++z)
     out_.law_state[z] = cubic_hermite(s, h, begin.law_state[z], begin.law_rate[z], end.law_state[z], end.law_rate[z]);
-  for (int j = 0; j < system_.n_joints(); ++j) out_.force[j] = system_.joints[j].law.force(law_point(system_, j, out_));
+  find_joint_forces(system_, out_);
   find_law_rates(system_, out_);
   return out_;
 }

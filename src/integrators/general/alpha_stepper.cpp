@@ -271,7 +271,7 @@ void AlphaStepper::interpolate_forces(double s) {
     between_.law_state[z] = r * begin_.law_state[z] + s * end_.law_state[z];
     between_.law_rate[z] = r * begin_.law_rate[z] + s * end_.law_rate[z];
   }
-  for (int j = 0; j < system_.n_joints(); ++j) between_.force[j] = system_.joints[j].law.force(law_point(system_, j, between_));
+  find_joint_forces(system_, between_);
   between_.loss_power = r * begin_.loss_power + s * end_.loss_power;
   between_.supply_power = r * begin_.supply_power + s * end_.supply_power;
 }
