@@ -67,6 +67,13 @@ bool is_in_play(const BasicLaw<S>& law, const typename S::Vec& gap, const typena
 }
 
 template <class S>
+bool is_apart(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate) {
+  if (law.ideal_limit() || !law.starts_free()) return false;
+  const BasicResponse<S> now = respond(law, gap, rate);
+  return is_in_play(law, gap, rate) || (now.stiffness.isZero(0) && now.damping.isZero(0));
+}
+
+template <class S>
 std::optional<BasicSystem<S>> with_springs(const BasicSystem<S>& system, const std::vector<int>& joints) {
   if (joints.empty()) return std::nullopt;
   BasicSystem<S> firm = system;
@@ -250,13 +257,13 @@ bool BasicInverseDynamics<S>::find_gaps(BasicState<S>& state) const {
   return carried;
 }
 
-// The joints that start free and do not touch where the bodies are.
+// The joints that start free and do not touch where the bodies are; an edge has no spring that would hold it at a distance.
 template <class S>
 std::vector<int> BasicInverseDynamics<S>::apart(const BasicState<S>& state) const {
   std::vector<int> out;
   for (int j = 0; j < system_.n_joints(); ++j) {
     const BasicLaw<S>& law = system_.joints[j].law;
-    if (!law.ideal_limit() && law.starts_free() && is_in_play(law, r_[j].gap, r_[j].rate) && is_in_play(law, state.gap[j], state.gap_rate[j])) out.push_back(j);
+    if (!law.engaged_stiffness().isZero(0) && is_apart(law, r_[j].gap, r_[j].rate) && is_apart(law, state.gap[j], state.gap_rate[j])) out.push_back(j);
   }
   return out;
 }
@@ -381,6 +388,8 @@ template Planar::Vec own_mobility(const BasicSystem<Planar>& system, const Basic
 PINTLE_IN_SPACE(template Spatial::Vec own_mobility(const BasicSystem<Spatial>& system, const BasicPlacement<Spatial>& at, const BasicJointKinematics<Spatial>& r);)
 template bool is_in_play<Planar>(const BasicLaw<Planar>& law, const Planar::Vec& gap, const Planar::Vec& rate);
 PINTLE_IN_SPACE(template bool is_in_play<Spatial>(const BasicLaw<Spatial>& law, const Spatial::Vec& gap, const Spatial::Vec& rate);)
+template bool is_apart<Planar>(const BasicLaw<Planar>& law, const Planar::Vec& gap, const Planar::Vec& rate);
+PINTLE_IN_SPACE(template bool is_apart<Spatial>(const BasicLaw<Spatial>& law, const Spatial::Vec& gap, const Spatial::Vec& rate);)
 template std::optional<BasicSystem<Planar>> with_springs(const BasicSystem<Planar>& system, const std::vector<int>& joints);
 PINTLE_IN_SPACE(template std::optional<BasicSystem<Spatial>> with_springs(const BasicSystem<Spatial>& system, const std::vector<int>& joints);)
 

@@ -32,6 +32,10 @@ typename S::Vec own_mobility(const BasicSystem<S>& system, const BasicPlacement<
 template <class S>
 bool is_in_play(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate);
 
+/// Whether a joint that a start leaves where it is does not answer there: a rope that is slack, a roller above its floor.
+template <class S>
+bool is_apart(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate);
+
 /// The same system with springs in place of the laws of these joints; none where there are none.
 template <class S>
 std::optional<BasicSystem<S>> with_springs(const BasicSystem<S>& system, const std::vector<int>& joints);

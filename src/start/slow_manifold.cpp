@@ -39,7 +39,7 @@ class BasicSlowManifold {
     share_.assign(system.joints.size(), S::Vec::Ones());
     forces_.linearize_nonlinear_laws();
     for (std::size_t j = 0; j < system.joints.size(); ++j)
-      if (is_apart(j)) put_at_start(j);
+      if (starts_apart(j)) put_at_start(j);
   }
 
   // All joints go with the motion, each as far as `share` says.
@@ -55,7 +55,7 @@ class BasicSlowManifold {
     if (time_scales_.any_resolved()) forces_.leave_to_laws(time_scales_.resolved);
     for (std::size_t j = 0; j < system_.joints.size(); ++j) {
       if (forces_.is_linearized(j)) put_at_start(j);
-      else if (!is_apart(j))
+      else if (!starts_apart(j))
         for (auto& gap : gap_) gap[j] = soft(j).cwiseProduct(start_.gap[j]);
     }
     differentiate();
@@ -130,13 +130,7 @@ class BasicSlowManifold {
   const VecsOf<S>& rate() const { return rate_[0]; }
 
  private:
-  // A rope that is slack, a roller above its floor: it stays as it is.
-  bool is_apart(std::size_t j) const {
-    const BasicLaw<S>& law = system_.joints[j].law;
-    if (law.ideal_limit() || !law.starts_free()) return false;
-    const BasicResponse<S> now = respond(law, start_.gap[j], start_.gap_rate[j]);
-    return now.stiffness.isZero(0) && now.damping.isZero(0);
-  }
+  bool starts_apart(std::size_t j) const { return is_apart(system_.joints[j].law, start_.gap[j], start_.gap_rate[j]); }
   void put_at_start(std::size_t j) {
     for (auto& gap : gap_) gap[j] = start_.gap[j];
   }

@@ -28,7 +28,7 @@ void tauten(const BasicSystem<S>& system, BasicState<S>& state) {
   const double rounding = kLastBits * largest_coordinate(state.q);
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicLaw<S>& law = system.joints[j].law;
-    if (law.ideal_limit() || !law.starts_free() || !is_in_play(law, state.gap[j], state.gap_rate[j])) continue;
+    if (!is_apart(law, state.gap[j], state.gap_rate[j])) continue;
     const typename S::Vec engaged = law.engaged_stiffness();
     for (int k = 0; k < S::kDof; ++k)
       for (const double way : {rounding, -rounding}) {
