@@ -283,7 +283,15 @@ stiffness = 1e8
 damping = 1e3
 {})toml", duration, floor), "floor.toml");
   };
-  const std::string floor = "[joint.floor]\ntype = \"slot\"\nbetween = [\"ground.floor\", \"rod.tip\"]\nlaw = \"contact\"\ncontact_exponent = 1\ncontact_stiffness = 1e9\npin_radius = 4e-3\nrestitution = 0.4\n";
+  const std::string floor = R"toml([joint.floor]
+type = "slot"
+between = ["ground.floor", "rod.tip"]
+law = "contact"
+contact_exponent = 1
+contact_stiffness = 1e9
+pin_radius = 4e-3
+restitution = 0.4
+)toml";
   for (const double duration : {1e-5, 0.02}) {
     const Trajectory with = simulate(pendulum(duration, floor)), without = simulate(pendulum(duration, ""));
     EXPECT_TRUE(with.notes.empty()) << with.notes.front();

@@ -181,6 +181,15 @@ TEST(Cylinders, SealsRubMoreUnderPressure) {
     const Trajectory held = completed(ram(seals + fmt::format("cap_pressure = \"{:.3f} Pa + {:.3f} Pa*smoothstep(0 s, 0.1 s, t)\"\nfriction = \"coulomb\"", balance, share * breakaway)));
     EXPECT_EQ(at_end(held, "joint.ram.stuck"), share < 1 ? 1 : 0) << share;
   }
+  // Pressed from the start, it holds or slips from the start; seals rub against what would move it, not against what the pressures push.
+  for (const double cap : {2e5, 3.3e5, 20e5}) {
+    const Trajectory pressed = completed(ram(seals + fmt::format("cap_pressure = \"{} Pa\"\nfriction = \"coulomb\"", cap), "0.05 s"));
+    const double push = cap * kCap - 5e5 * kRod, most = 0.15 * (2000 + 15e-4 * (5e5 + cap)), friction = std::abs(push) < most ? push : std::copysign(0.1 / 0.15 * most, push);
+    for (std::size_t i = 0; i < pressed.n_rows(); ++i) {
+      EXPECT_EQ(value(pressed, i, "joint.ram.stuck"), std::abs(push) < most ? 1 : 0) << cap << " " << i;
+      EXPECT_NEAR(value(pressed, i, "joint.ram.friction"), -friction, 1e-5 * std::abs(push)) << cap << " " << i;
+    }
+  }
 }
 
 // A valve that opens at once is a jump that a step ends on.

@@ -59,7 +59,8 @@ on = "table.middle"
 force = [{1}, 0]
 )toml", rest, push, mass, thickness, other_width), "stage.toml");
 }
-constexpr double kBladeEI = 207e9 * 0.03 * 1.25e-10 / 12, kL = 0.1;
+constexpr double bending_stiffness(double width, double thickness) { return 207e9 * width * thickness * thickness * thickness / 12; }
+constexpr double kBladeEI = bending_stiffness(0.03, 5e-4), kL = 0.1;
 // Across, of one blade guided in angle under this tension: theory/flexures section 2.
 double guided_stiffness(double tension, double EI = kBladeEI) {
   const double k = std::sqrt(tension * kL * kL / EI);
@@ -97,8 +98,7 @@ TEST(SlowFlexures, StartUnlikeBladesTogether) {
     EXPECT_NEAR(value(run, 0, "joint.left.on_table.fx[world]") + value(run, 0, "joint.right.on_table.fx[world]"), -push, 1e-6 * push) << push;
     for (std::size_t i = 0; i < run.n_rows(); ++i) EXPECT_NEAR(value(run, i, "body.table.x"), x, 1e-6 * x) << push << ' ' << i;
     if (push > 1) continue;
-    const auto EI = [thickness](double w) { return 207e9 * w * thickness * thickness * thickness / 12; };
-    EXPECT_NEAR(x * (guided_stiffness(left, EI(0.03)) + guided_stiffness(right, EI(width))), push, 2e-3 * push);
+    EXPECT_NEAR(x * (guided_stiffness(left, bending_stiffness(0.03, thickness)) + guided_stiffness(right, bending_stiffness(width, thickness))), push, 2e-3 * push);
   }
 }
 
@@ -127,7 +127,7 @@ class Elastica {
 TEST(SlowFlexures, StartFarBentUnderAWeight) {
   const Elastica elastica(0.9);
   const Elastica::Point end = elastica.at(1);
-  const double L = 0.3, EI = 207e9 * 0.02 * 1e-9 / 12, mass = elastica.alpha * elastica.alpha * EI / (L * L) / kStandardGravity;
+  const double L = 0.3, EI = bending_stiffness(0.02, 1e-3), mass = elastica.alpha * elastica.alpha * EI / (L * L) / kStandardGravity;
   const Trajectory run = completed(parse_model(fmt::format(R"toml(
 format = 1
 name = "Weight on a blade"
@@ -207,7 +207,7 @@ void expect_elastica(const Trajectory& run, std::size_t row, int n, double lengt
 
 // Cut into 3 or 6, a blade is the one that it was, where a force that grows slowly leaves it. One integration: its end is an equilibrium, whatever the way there.
 TEST(SlowFlexures, BladesInARowAreTheElasticaThatTheyAreCutFrom) {
-  const double L = 0.3, EI = 207e9 * 0.02 * 1e-9 / 12;
+  const double L = 0.3, EI = bending_stiffness(0.02, 1e-3);
   for (const auto& [n, end] : {std::pair{3, 0.9}, {6, 1.3}}) {
     const Elastica elastica(end);
     const double pull = elastica.alpha * elastica.alpha * EI / (L * L);
@@ -220,7 +220,7 @@ TEST(SlowFlexures, BladesInARowAreTheElasticaThatTheyAreCutFrom) {
 
 // Under a load that bends them by a quarter of a right angle, they start there.
 TEST(SlowFlexures, BladesInARowStartBent) {
-  const double L = 0.3, EI = 207e9 * 0.02 * 1e-9 / 12;
+  const double L = 0.3, EI = bending_stiffness(0.02, 1e-3);
   const Elastica elastica(0.4);
   const double pull = elastica.alpha * elastica.alpha * EI / (L * L);
   for (const int n : {3, 6}) {

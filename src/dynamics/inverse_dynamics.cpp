@@ -177,12 +177,16 @@ template <class S>
 bool BasicInverseDynamics<S>::find(BasicState<S>& state) {
   // Friction goes with the reactions: they are found again with the friction of the ones before.
   for (int round = 0; round < (rubbing_.empty() ? 1 : kFrictionRounds); ++round) {
+    if (!rubbing_.empty()) last_force_ = state.force;
     if (!find_accelerations(state)) return false;
     for (int pass = 0; pass < kClosing; ++pass) {
       const double change = projector_.improve_forces(Q_, state.a, state.force);
       if (change <= kClosed * largest_force(state.force)) break;
     }
-    if (!rubbing_.empty()) find_gaps(state);
+    if (rubbing_.empty()) break;
+    find_gaps(state);
+    for (std::size_t j = 0; j < last_force_.size(); ++j) last_force_[j] -= state.force[j];
+    if (largest_force(last_force_) <= kClosed * largest_force(state.force)) break;
   }
   return true;
 }

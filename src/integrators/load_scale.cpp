@@ -11,7 +11,24 @@ void grow_load_scale(const BasicSystem<S>& system, const std::vector<typename S:
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicPlacement<S>& at = system.joints[j].at;
     typename S::Vec on_ground;
-    system.kinematics(j, state.t, m).map.push_magnitudes(state.force[j].data(), at.a != kGround ? load[at.a] : on_ground, at.b != kGround ? load[at.b] : on_ground);
+    const BasicJointKinematics<S> r = system.kinematics(j, state.t, m);
+    const auto push = [&](const typename S::Vec& force) { r.map.push_magnitudes(force.data(), at.a != kGround ? load[at.a] : on_ground, at.b != kGround ? load[at.b] : on_ground); };
+    // What the joint holds, and what else acts in it, count one by one: friction makes the force of a pin pass a light link's mass centre at a distance
+    // at which nothing is left of its moment. So do friction and what it holds, such as the pressure in a cylinder.
+    const BasicLaw<S>& law = system.joints[j].law;
+    if (!law.rubs()) {
+      push(state.force[j]);
+      continue;
+    }
+    const typename S::Vec& free = system.joints[j].free_mask;
+    typename S::Vec rest = free.cwiseProduct(state.force[j]);
+    push(state.force[j] - rest);
+    if (law.n_states() > 0 && law.parts().size() > 1) {
+      const typename S::Vec of_states = free.cwiseProduct(law.force_of_states(law_point(system, j, state)));
+      push(of_states);
+      rest -= of_states;
+    }
+    push(rest);
   }
   for (std::size_t i = 0; i < load.size(); ++i) raise_scale(system.bodies[i], load[i], scale.body[i]);
 }

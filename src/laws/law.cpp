@@ -165,20 +165,27 @@ void BasicLaw<S>::rest(const BasicLawPoint<S>& at, double* state) const {
 }
 
 template <class S>
-int BasicLaw<S>::sticking_component() const {
-  for (const auto& part : parts_)
-    if (part->sticking_component() >= 0) return part->sticking_component();
-  return -1;
+std::optional<Stiction> BasicLaw<S>::stiction(const double* state) const {
+  for (const auto& part : parts_) {
+    if (const auto held = part->stiction(state)) return held;
+    state += part->n_states();
+  }
+  return {};
 }
 
 template <class S>
-bool BasicLaw<S>::stick(const BasicLawPoint<S>& at, double force, double* state) const {
+bool BasicLaw<S>::set_stuck(const BasicLawPoint<S>& at, double force, double* state) const {
   bool sticks = false;
   visit_parts({at.t, at.gap, at.rate, state}, [&](const Part& part, const LawInput<double, S::kDof>& in) {
-    if (part.sticking_component() >= 0) sticks = part.stick(in, force, state);
+    sticks = part.set_stuck(in, force, state) || sticks;
     state += part.n_states();
   });
   return sticks;
+}
+
+template <class S>
+void BasicLaw<S>::start_slipping(double force) {
+  for (const auto& part : parts_) part->start_slipping(force);
 }
 
 template <class S>

@@ -98,10 +98,12 @@ class BasicLaw {
 
   /// The states of a joint that has long been at this gap and moves at this rate.
   void rest(const Point& at, double* state) const;
-  /// The free component in which a part can hold the joint at rest: LawPart::sticking_component; -1: none.
-  int sticking_component() const;
-  /// Sets the states of that part, among those of `at`, so that it carries `force` in that component at rest; false where it slips.
-  bool stick(const Point& at, double force, double* state) const;
+  /// What a part holds in this state: LawPart::stiction.
+  std::optional<Stiction> stiction(const double* state) const;
+  /// Sets the states of the part that can, among those of `at`, so that it sticks and carries `force`; false where it would slip.
+  bool set_stuck(const Point& at, double force, double* state) const;
+  /// Where that part slips, it starts to slip: LawPart::start_slipping.
+  void start_slipping(double force);
   /// What keeps the joint together, with its states at rest: force, static stiffness, damping.
   BasicResponse<S> holding(const Vec& gap, const Vec& rate) const;
   /// Whether anything acts beside what holds, such as friction or a stop in a free direction.

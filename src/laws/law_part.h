@@ -30,6 +30,12 @@ struct StopBreach {
   double depth = 0;    // how far the coordinate is beyond it
 };
 
+/// What holds a free coordinate of a joint that friction keeps at rest.
+struct Stiction {
+  int component = 0;     // of the relative pose
+  double stiffness = 0;  // [N/m] or [N*m/rad]
+};
+
 template <class S>
 class BasicLawPart {
  public:
@@ -65,10 +71,12 @@ class BasicLawPart {
   virtual bool stops() const = 0;
   /// Whether it is dry friction of what the joint leaves free.
   virtual bool rubs() const = 0;
-  /// The free component in which it can hold its joint at rest, as dry friction that sticks does; -1: none.
-  virtual int sticking_component() const = 0;
-  /// Sets its states so that, at rest, it carries `force` in that component; false where it slips.
-  virtual bool stick(const Input<double>& in, double force, double* state) const = 0;
+  /// What it holds in this state, as dry friction that sticks does; none: nothing.
+  virtual std::optional<Stiction> stiction(const double* state) const = 0;
+  /// Sets its states so that it sticks and carries `force`; false where it would slip.
+  virtual bool set_stuck(const Input<double>& in, double force, double* state) const = 0;
+  /// From now on its rest() at no speed is a slip that begins under `force`, which it could not carry, in place of a stuck joint.
+  virtual void start_slipping(double force) = 0;
   /// Whether its force is a function of that of the parts before it and of nothing else: where the joint is ideal, it has this force too.
   virtual bool depends_on_reaction_alone() const = 0;
   /// Whether power comes in through it from outside, as through the pressure in a cylinder; and that power, a function of time, gap and rate [W].
@@ -95,7 +103,7 @@ using LawPart = BasicLawPart<Planar>;
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
 /// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), border_directions() (one +1, -1 or 0
 /// each, or border_direction(i)) cross() and border_name(), kHolds = false, kStops = true, kRubs = false (of what neither holds nor stops), kOnReactionAlone = true, kStartsFree = true, supply(in),
-/// columns() with observe(), engage(), lever(), penetration(), breach(), sticking_component() with stick().
+/// columns() with observe(), engage(), lever(), penetration(), breach(), stiction() with set_stuck() and start_slipping().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
  public:
@@ -151,13 +159,16 @@ class LawPartOf final : public BasicLawPart<S> {
     if constexpr (requires { P::kRubs; }) return P::kRubs;
     else return !holds() && !stops();
   }
-  int sticking_component() const override {
-    if constexpr (requires { law_.sticking_component(); }) return law_.sticking_component();
-    else return -1;
+  std::optional<Stiction> stiction(const double* state) const override {
+    if constexpr (requires { law_.stiction(state); }) return law_.stiction(state);
+    else return {};
   }
-  bool stick(const Input<double>& in, double force, double* state) const override {
-    if constexpr (requires { law_.stick(in, force, state); }) return law_.stick(in, force, state);
+  bool set_stuck(const Input<double>& in, double force, double* state) const override {
+    if constexpr (requires { law_.set_stuck(in, force, state); }) return law_.set_stuck(in, force, state);
     else return false;
+  }
+  void start_slipping(double force) override {
+    if constexpr (requires { law_.start_slipping(force); }) law_.start_slipping(force);
   }
   bool depends_on_reaction_alone() const override {
     if constexpr (requires { P::kOnReactionAlone; }) return P::kOnReactionAlone;

@@ -101,7 +101,7 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
     }
   }
   if (plan.energy && out.ended == Ended::kAtEnd) alarmed(plan.energy->see_end(stepper.state()), *plan.energy, out);
-  recorder.finish(stepper.state());
+  recorder.finish(stepper);
   out.t = stepper.state().t;
   out.counters = stepper.counters();
   out.scale = stepper.load_scale();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "start/ideal_rows.h"
@@ -29,12 +30,13 @@ Assembly ideal_start(Model model) {
 
 Assembly start_of_free_bodies(const Model& model, System system, double known_span) {
   Assembly assembly = assemble_unloaded(model, std::move(system));
-  const BasicSettledStart<Planar> unloaded = assembly;
   const bool loaded = model.simulate.start == Start::kAssembled;
+  std::optional<BasicSettledStart<Planar>> unloaded;
+  if (std::any_of(assembly.system.joints.begin(), assembly.system.joints.end(), [](const JointData& joint) { return joint.law.has_friction(); })) unloaded = assembly;
   start_forces(assembly.system, loaded, assembly.state);
   if (!loaded || assembly.system.joints.empty()) return assembly;
   settle_joints(assembly.system, model.simulate.duration, known_span, assembly);
-  hold_by_friction(assembly.system, unloaded, model.simulate.duration, known_span, assembly);
+  if (unloaded) hold_by_friction(assembly.system, *unloaded, model.simulate.duration, known_span, assembly);
   return assembly;
 }
 

@@ -57,8 +57,8 @@ void plain_start(const BasicSystem<S>& system, BasicState<S>& state) {
 
 // Whether a body has moved by more than the mechanism is large.
 template <class S>
-bool moves_too_far(const BasicState<S>& from, const BasicState<S>& to) {
-  const double size = largest_coordinate(from.q);
+bool moves_too_far(const BasicSystem<S>& system, const BasicState<S>& from, const BasicState<S>& to) {
+  const double size = std::max(largest_coordinate(from.q), system.largest_radius_of_gyration());
   for (std::size_t i = 0; i < from.q.size(); ++i)
     if (!(S::difference(from.q[i], to.q[i]).template head<S::kDim>().norm() <= size)) return true;
   return false;
@@ -121,7 +121,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
         if (!system.joints[j].law.ideal_limit()) state.force[j] = respond(system.joints[j].law, state.gap[j], state.gap_rate[j]).force;
     // Where joints have given way, redundant ones may hold what was free: what the projection then takes for held is not, and the passes diverge.
     if (pass > (firm ? 1 : 0) && largest_force(state.force) > kMostGrowth * largest_force(before.force)) {
-      if (moves_too_far(unloaded, before)) return void(state = unloaded);
+      if (moves_too_far(system, unloaded, before)) return void(state = unloaded);
       state = before;
       break;
     }

@@ -16,17 +16,12 @@ namespace {
 
 using S = Planar;
 
-constexpr double kAtRest = 1e-6;     // slip speed of a joint that is at rest [m/s or rad/s]
-constexpr double kIdle = 1e-6;       // of the friction that a joint can have: one that needs no more to stay at rest needs none
-constexpr double kUsualJoint = 1e8;  // what holds a joint whose law has no stiffness of its own [N/m]
-
 // Holds one component where it is.
 struct LockLaw {
   static constexpr std::string_view kWord = "lock";
   int component = 0;
   double k = 1, at = 0;  // [N/m or N*m/rad]; the gap that it holds
 
-  static LockLaw typical() { return {}; }
   template <class T>
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
     const T off = in.gap[component] - T(at);
@@ -36,66 +31,91 @@ struct LockLaw {
   Planar::Vec engaged_stiffness() const { return k * Planar::Vec::Unit(component); }
 };
 
-// As stiff as the joint is where it rubs.
-double lock_stiffness(const JointData& joint, int component, double arm) {
-  const S::Vec engaged = joint.law.engaged_stiffness();
-  const double k = std::max(engaged[0], engaged[1]);
-  return (k > 0 ? k : kUsualJoint) * (component == 2 ? arm * arm : 1);
-}
+// A joint that friction holds, and what holds it instead.
+struct LockedJoint {
+  int joint;
+  LockLaw lock;
+  double force = 0;  // of the lock on the second body [N] or [N*m]
+};
 
-// Whether a joint that is at rest needs friction to stay there: more than next to nothing of what it can have.
-bool would_move(const System& system, int j, int component, const JointKinematics& r, State state) {
-  const double mobility = own_mobility(system, system.joints[j].at, r)[component];
-  if (!(mobility > 0)) return false;
-  return !system.joints[j].law.stick(law_point(system, j, state), state.gap_accel[j][component] / (kIdle * mobility), state.law_state.data() + system.joints[j].first_state);
-}
-
-System with_locks(const System& system, const std::vector<int>& joints, const std::vector<JointKinematics>& r) {
-  System locked = system;
-  for (const int j : joints) {
-    JointData& joint = locked.joints[j];
-    const int component = joint.law.sticking_component();
-    joint.law.add(std::make_unique<LawPartOf<LockLaw>>(LockLaw{component, lock_stiffness(joint, component, system.largest_radius_of_gyration()), r[j].gap[component]}));
-    joint.free_mask[component] = 0;
-    joint.held[component] = true;
+// Joints that stick, and would begin to move if friction did not hold them.
+std::vector<LockedJoint> joints_to_hold(const System& system, const std::vector<JointKinematics>& r, const State& state) {
+  const double nothing = kFits * largest_force(state.force);
+  std::vector<LockedJoint> out;
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const JointData& joint = system.joints[j];
+    const auto held = joint.law.stiction(state.law_state.data() + joint.first_state);
+    if (!held) continue;
+    const double mobility = own_mobility(system, joint.at, r[j])[held->component];
+    if (std::abs(state.gap_accel[j][held->component]) > nothing * mobility) out.push_back({.joint = j, .lock = {held->component, held->stiffness, r[j].gap[held->component]}});
   }
+  return out;
+}
+
+// The locks are joints of their own, after the others: what else acts in the component that they hold, as pressure in a cylinder does, is a load on them.
+System with_locks(const System& system, const std::vector<LockedJoint>& held) {
+  System locked = system;
+  for (const LockedJoint& one : held) {
+    const JointData& joint = system.joints[one.joint];
+    JointData added;
+    added.name = joint.name;
+    added.type = joint.type;
+    added.at = joint.at;
+    added.displacement = joint.displacement;
+    added.law = BasicLaw<S>(one.lock);
+    added.free_mask = S::Vec::Ones() - S::Vec::Unit(one.lock.component);
+    added.held[one.lock.component] = true;
+    locked.joints.push_back(std::move(added));
+  }
+  locked.finish();
   return locked;
+}
+
+// The locks' forces, from the gaps behind those of the system's own joints; these alone remain.
+void take_off_locks(int n_joints, std::vector<LockedJoint>& held, BasicSettledStart<S>& start) {
+  State& state = start.state;
+  const S::Vec* gap = state.gap.data() + n_joints;
+  for (LockedJoint& one : held) one.force = -one.lock.k * ((*gap++)[one.lock.component] - one.lock.at);
+  for (VecsOf<S>* of_joints : {&state.gap, &state.gap_rate, &state.gap_accel, &state.force, &start.effective_mass})
+    if (!of_joints->empty()) of_joints->resize(static_cast<std::size_t>(n_joints));
 }
 
 }  // namespace
 
-void hold_by_friction(const System& system, const BasicSettledStart<Planar>& unloaded, double duration, double known_span, BasicSettledStart<Planar>& start) {
+void hold_by_friction(System& system, const BasicSettledStart<Planar>& unloaded, double duration, double known_span, BasicSettledStart<Planar>& start) {
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
   kinematics_at(system, unloaded.state.t, unloaded.state.q, unloaded.state.v, m, r);
-  std::vector<int> held;
-  for (int j = 0; j < system.n_joints(); ++j) {
-    const int k = system.joints[j].law.sticking_component();
-    if (k >= 0 && std::abs(r[j].rate[k]) < kAtRest && would_move(system, j, k, r[j], start.state)) held.push_back(j);
-  }
-  while (!held.empty()) {
-    const System locked = with_locks(system, held, r);
+  std::vector<LockedJoint> held = joints_to_hold(system, r, start.state), slipping;
+  for (bool again = !held.empty(); again;) {
+    const System locked = with_locks(system, held);
     BasicSettledStart<Planar> trial = unloaded;
     start_forces(locked, true, trial.state);
     settle_joints(locked, duration, known_span, trial);
-    State state = trial.state;
+    take_off_locks(system.n_joints(), held, trial);
+    State& state = trial.state;
     rest_laws(system, state);
-    const auto slips = [&](int j) {
-      const BasicLaw<S>& law = system.joints[j].law;
-      return !law.stick(law_point(system, j, state), trial.state.force[j][law.sticking_component()], state.law_state.data() + system.joints[j].first_state);
+    const auto slips = [&](const LockedJoint& one) {
+      JointData& joint = system.joints[one.joint];
+      if (joint.law.set_stuck(law_point(system, one.joint, state), one.force, state.law_state.data() + joint.first_state)) return false;
+      joint.law.start_slipping(one.force);
+      slipping.push_back(one);
+      return true;
     };
-    const auto slipping = std::remove_if(held.begin(), held.end(), slips);
-    if (slipping != held.end()) {
-      held.erase(slipping, held.end());
-      continue;
-    }
+    again = std::erase_if(held, slips) > 0;
+    if (again) continue;
     find_law_rates(system, state);
     find_joint_forces(system, state);
     kinematics_at(system, state.t, state.q, state.v, m, r);
     find_accelerations(system, m, r, state);
-    trial.state = std::move(state);
-    start = std::move(trial);
-    return;
+    // A lock that fights a motor does not know which way its joint goes. Each is turned once.
+    const auto goes_with_its_lock = [&](const LockedJoint& one) {
+      if (state.gap_accel[one.joint][one.lock.component] * one.force <= 0) return false;
+      system.joints[one.joint].law.start_slipping(-one.force);
+      return true;
+    };
+    again = std::erase_if(slipping, goes_with_its_lock) > 0;
+    if (!again) start = std::move(trial);
   }
 }
 

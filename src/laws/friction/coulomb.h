@@ -13,6 +13,7 @@ namespace pintle {
 struct CoulombLaw : Friction {
   static constexpr std::string_view kWord = "coulomb";
   double stiffness = 1e8, damping = 3e3;  // of what holds while it sticks [N/m], [N*s/m]
+  int starts_to_slip = 0;                 // the way in which it slips from the start; 0: at rest it sticks
 
   static CoulombLaw typical() { return {}; }
 
@@ -26,9 +27,14 @@ struct CoulombLaw : Friction {
     out.energy = f.energy;
     out.loss = f.loss;
   }
-  void rest(const LawInput<double>& in, double* state) const { StickSlip::rest(slip(in), state); }
-  int sticking_component() const { return component_of_pin_or_slide(); }
-  bool stick(const LawInput<double>& in, double force, double* state) const { return surfaces().stick(-force / radius, load(in), state); }
+  void rest(const LawInput<double>& in, double* state) const { StickSlip::rest(slip(in), starts_to_slip, state); }
+  /// Of pins and slides: bodies that roll on each other are not held by what sticks between them.
+  std::optional<Stiction> stiction(const double* state) const {
+    if (normal > 0 || !StickSlip::sticks(state)) return {};
+    return Stiction{free, radius * radius * stiffness};
+  }
+  bool set_stuck(const LawInput<double>& in, double force, double* state) const { return surfaces().set_stuck(-force / radius, load(in), state); }
+  void start_slipping(double force) { starts_to_slip = force < 0 ? 1 : -1; }
 
   int n_borders() const { return StickSlip::kBorders; }
   void borders(const LawInput<double>& in, double* value) const { surfaces().borders(slip(in), load(in), in.state, value); }

@@ -58,8 +58,6 @@ struct Friction {
   }
 
   double lever() const { return free == 2 ? radius : 0; }
-  /// Of pins and slides: bodies that roll on each other are not held by what sticks between them.
-  int component_of_pin_or_slide() const { return normal > 0 ? -1 : free; }
   std::span<const LawColumn> columns() const {
     static const std::array<LawColumn, 2> pin{{{"friction", "N*m", "moment of friction on the second body"}, {"friction_power", "W", "power that friction turns into heat"}}};
     static const std::array<LawColumn, 2> slide{{{"friction", "N", "force of friction on the second body, along what slides"}, {"friction_power", "W", "power that friction turns into heat"}}};

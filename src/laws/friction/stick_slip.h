@@ -43,13 +43,13 @@ struct StickSlip {
     return f;
   }
   static bool sticks(const double* state) { return state[1] == 0; }
-  /// Slipping, or stuck with nothing on the spring. Slow speeds of a start have no meaning.
-  static void rest(double v, double* state) {
+  /// Slipping, or at rest in the mode given, stuck with nothing on the spring. Slow speeds of a start have no meaning.
+  static void rest(double v, int mode_at_rest, double* state) {
     state[0] = 0;
-    state[1] = std::abs(v) < kStill ? 0 : v > 0 ? 1 : -1;
+    state[1] = std::abs(v) < kStill ? mode_at_rest : v > 0 ? 1 : -1;
   }
-  /// Stuck under a friction; false where the surfaces cannot carry it.
-  bool stick(double friction, double N, double* state) const {
+  /// Stuck under a friction; false where they cannot carry it.
+  bool set_stuck(double friction, double N, double* state) const {
     if (!(std::abs(friction) < stuck * N)) return false;
     state[0] = friction / stiffness;
     state[1] = 0;

@@ -20,14 +20,14 @@ double distance(const typename S::Coordinates& a, const typename S::Coordinates&
 
 double relative(double error, double peak, double least) { return error / std::max({peak, least, 1e-300}); }
 
-// What the joints of a mechanism are measured by.
+// What the joints of a mechanism are measured by. Where they all carry nothing, as in free fall, by what acts on the bodies.
 template <class S>
 struct Measures {
   double force, couple;  // the largest of the mechanism [N], [N*m]
   const BasicSystem<S>& system;
 
-  Measures(const BasicSystem<S>& of, const std::vector<double>& peak, const std::vector<double>& peak_couple)
-      : force(largest_of(peak)), couple(std::max(largest_of(peak_couple), force * of.largest_radius_of_gyration())), system(of) {}
+  Measures(const BasicSystem<S>& of, const PassDifference& c)
+      : force(largest_of(c.peak) > c.rounding ? largest_of(c.peak) : c.largest_load / kNegligible), couple(std::max(largest_of(c.peak_couple), force * of.largest_radius_of_gyration())), system(of) {}
 
   double of_joint(std::size_t j, double force_error, double peak, double couple_error, double peak_couple) const {
     const double least = system.joints[j].servo >= 0 ? kNegligibleOfMotor : kNegligible;
@@ -42,7 +42,9 @@ struct Measures {
 template <class S>
 class Growing {
  public:
-  Growing(std::size_t joints, double share) : all_(1 / share) {
+  Growing(std::size_t joints, double share, const BasicForceTable<S>& fine) : all_(1 / share) {
+    c_.largest_load = fine.largest_load;
+    c_.rounding = fine.rounding;
     for (auto* x : {&c_.force, &c_.couple, &c_.peak, &c_.peak_couple}) x->assign(joints, 0.0);
   }
   void add_row(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, std::size_t i) {
@@ -73,7 +75,7 @@ double largest_of(const std::vector<double>& x) { return x.empty() ? 0 : *std::m
 
 template <class S>
 PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until, double share) {
-  Growing<S> growing(system.joints.size(), share);
+  Growing<S> growing(system.joints.size(), share, fine);
   for (std::size_t i = 0; i < common_rows(coarse, fine) && fine.t[i] <= until; ++i) growing.add_row(coarse, fine, i);
   return growing.so_far();
 }
@@ -97,7 +99,7 @@ void include_peak_differences(const BasicLoadRecorder<S>& coarse, const BasicLoa
 
 template <class S>
 std::vector<double> relative_differences(const BasicSystem<S>& system, const PassDifference& c) {
-  const Measures<S> measures(system, c.peak, c.peak_couple);
+  const Measures<S> measures(system, c);
   std::vector<double> out(c.force.size());
   for (std::size_t j = 0; j < out.size(); ++j) out[j] = measures.of_joint(j, c.force[j], c.peak[j], c.couple[j], c.peak_couple[j]);
   return out;
@@ -132,7 +134,7 @@ template <class S>
 DifferenceCurve force_difference_curve(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
   const std::size_t joints = system.joints.size();
   const PassDifference whole = difference_of_passes(system, coarse, fine, fine.t.back(), 1.0);
-  const Measures<S> measures(system, whole.peak, whole.peak_couple);
+  const Measures<S> measures(system, whole);
   DifferenceCurve curve;
   for (std::size_t i = 0; i < common_rows(coarse, fine); ++i) {
     if (coarse.t[i] != fine.t[i]) continue;
@@ -151,11 +153,11 @@ template <class S>
 std::vector<double> force_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double tolerance) {
   const std::size_t joints = system.joints.size();
   std::vector<double> horizon(joints, 0.0);
-  Growing<S> growing(joints, share);
+  Growing<S> growing(joints, share, fine);
   for (std::size_t i = 0; i < common_rows(coarse, fine); ++i) {
     growing.add_row(coarse, fine, i);
     const PassDifference& c = growing.so_far();
-    const Measures<S> measures(system, c.peak, c.peak_couple);
+    const Measures<S> measures(system, c);
     for (std::size_t j = 0; j < joints; ++j)
       if (share * measures.of_joint(j, c.force[j], c.peak[j], c.couple[j], c.peak_couple[j]) <= tolerance) horizon[j] = fine.t[i];
   }
@@ -172,7 +174,7 @@ double share_of_finer(double fall) { return std::min(1.0, kOfEqual * std::pow(fa
 
 template <class S>
 void state_errors(const BasicSystem<S>& system, const PassDifference& difference, double share, const BasicLeastError<S>& least, std::vector<LoadSummary>& joints) {
-  const Measures<S> measures(system, difference.peak, difference.peak_couple);
+  const Measures<S> measures(system, difference);
   for (std::size_t j = 0, row = 0; j < system.joints.size(); ++j) {
     if (system.joints[j].servo >= 0) continue;
     const double peak = difference.peak[j], peak_couple = difference.peak_couple[j];

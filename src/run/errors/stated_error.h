@@ -15,6 +15,7 @@ namespace pintle {
 /// Largest difference of each joint's force (and couple) between two passes, and the peaks of the finer one.
 struct PassDifference {
   std::vector<double> force, couple, peak, peak_couple;
+  double largest_load = 0, rounding = 0;  // of the finer one: ForceTable [N]
 };
 
 /// Over the rows up to time `until` [s]. `share` of it is the error of the finer pass: rows where its steps are no shorter than the coarser

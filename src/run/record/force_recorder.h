@@ -34,7 +34,7 @@ class BasicForceRecorder {
   /// A step has been made.
   void see_step(BasicStepper<S>& stepper);
   /// The end of the run, and its last row.
-  void finish(const BasicState<S>& state);
+  void finish(const BasicStepper<S>& stepper);
   const std::vector<DrivePeak<S>>& drive_peaks() const { return drive_peaks_.all(); }
   /// Of the last row.
   const std::vector<typename S::Motion>& last_motions() const { return m_; }

@@ -15,6 +15,8 @@ struct BasicForceTable {
   PositionsOf<S> place;   // row-major: per time, per body; where it is kept
   VecsOf<S> velocity;     // the same
   VecsOf<S> world;        // row-major: per time, per joint: force [N] and couple [N*m] on the second body, as `joint_load` gives them
+  double largest_load = 0;   // on a body, over all steps: LoadScale; 0 of methods that have none [N]
+  double rounding = 0;       // of the places, times the largest stiffness: forces below it are nothing else [N]
 };
 using ForceTable = BasicForceTable<Planar>;
 
