@@ -36,7 +36,7 @@ Assembly start_of_free_bodies(const Model& model, System system, double known_sp
   start_forces(assembly.system, loaded, assembly.state);
   if (!loaded || assembly.system.joints.empty()) return assembly;
   settle_joints(assembly.system, model.simulate.duration, known_span, assembly);
-  if (unloaded) hold_by_friction(assembly.system, *unloaded, model.simulate.duration, known_span, assembly);
+  if (unloaded) assembly.system = hold_by_friction(std::move(assembly.system), *unloaded, model.simulate.duration, known_span, assembly);
   return assembly;
 }
 

@@ -82,7 +82,7 @@ void take_off_locks(int n_joints, std::vector<LockedJoint>& held, BasicSettledSt
 
 }  // namespace
 
-void hold_by_friction(System& system, const BasicSettledStart<Planar>& unloaded, double duration, double known_span, BasicSettledStart<Planar>& start) {
+System hold_by_friction(System system, const BasicSettledStart<Planar>& unloaded, double duration, double known_span, BasicSettledStart<Planar>& start) {
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
   kinematics_at(system, unloaded.state.t, unloaded.state.q, unloaded.state.v, m, r);
@@ -117,6 +117,7 @@ void hold_by_friction(System& system, const BasicSettledStart<Planar>& unloaded,
     again = std::erase_if(slipping, goes_with_its_lock) > 0;
     if (!again) start = std::move(trial);
   }
+  return system;
 }
 
 }  // namespace pintle
