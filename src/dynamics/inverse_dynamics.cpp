@@ -176,7 +176,8 @@ double BasicInverseDynamics<S>::largest_held(const VecsOf<S>& gap) const {
 template <class S>
 bool BasicInverseDynamics<S>::find(BasicState<S>& state) {
   // Friction goes with the reactions: they are found again with the friction of the ones before.
-  for (int round = 0; round < (rubbing_.empty() ? 1 : kFrictionRounds); ++round) {
+  double last_change = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kMostFrictionRounds; ++round) {
     if (!rubbing_.empty()) last_force_ = state.force;
     if (!find_accelerations(state)) return false;
     for (int pass = 0; pass < kClosing; ++pass) {
@@ -186,7 +187,9 @@ bool BasicInverseDynamics<S>::find(BasicState<S>& state) {
     if (rubbing_.empty()) break;
     find_gaps(state);
     for (std::size_t j = 0; j < last_force_.size(); ++j) last_force_[j] -= state.force[j];
-    if (largest_force(last_force_) <= kClosed * largest_force(state.force)) break;
+    const double change = largest_force(last_force_);
+    if (change <= kClosed * largest_force(state.force) || (round + 1 >= kFrictionRounds && !(change < last_change))) break;
+    last_change = change;
   }
   return true;
 }

@@ -12,7 +12,8 @@ namespace pintle {
 /// The frequency above which modes are held, over the slowest of the joints by themselves: chains of joints and lever ratios
 /// make modes a hundred times slower than that.
 inline constexpr double kHeldAbove = 5e-4;
-inline constexpr int kFrictionRounds = 16;  // of friction and reactions, at most: each gains the coefficient of friction times a lever ratio
+inline constexpr int kFrictionRounds = 4;       // of friction and reactions, at least: each gains the coefficient of friction times a lever ratio
+inline constexpr int kMostFrictionRounds = 16;  // as long as each changes less than the one before; with oil films it may not
 inline constexpr double kFits = 1e-9;      // of the largest force, or speed: gaps, or rates, that differ by no more fit together
 
 /// What a force on a component of a gap has to accelerate, per joint and component [kg or kg*m^2]. Empty when no joint has
