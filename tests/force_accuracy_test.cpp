@@ -2,6 +2,7 @@
 // estimate of the right size.
 #include <gtest/gtest.h>
 
+#include "base/constants.h"
 #include "integrators/absolute/radau_stepper.h"
 #include "tests/reference_tables.h"
 
@@ -114,6 +115,37 @@ TEST(ForceAccuracyOfTheCompressor, AStepWithoutAValueIsRefused) {
 TEST(ForceAccuracyOfTheCompressor, RunsToTheEndAtARoughTolerance) {
   const Trajectory run = simulate(reference::mechanism("slider_crank", {"simulate.tolerance=1e-3"}));
   EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+}
+
+// Forces that are nothing but rounding are not measured by themselves.
+TEST(ForceAccuracyOfNothing, BodiesOnACommonPinFallFreely) {
+  const char* falling = R"toml(
+format = 1
+[simulate]
+duration = "1 s"
+[body.a]
+mass = 1
+inertia = 0.1
+position = [0.3, 0.1]
+angle = 0.3
+markers.p = [0.5, 0.1]
+[body.b]
+mass = 2
+inertia = 0.2
+angle = 1
+markers.p = [-0.5, 0.2]
+[joint.p]
+type = "revolute"
+between = ["a.p", "b.p"]
+)toml";
+  for (const double tolerance : {1e-3, 1e-5, 1e-6}) {
+    Model model = parse_model(falling, "falling.toml");
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = simulate(model);
+    EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+    EXPECT_LT(run.joints[0].peak, 1e-9 * kStandardGravity);
+    EXPECT_NEAR(reference::at_end(run, "body.a.vy"), -kStandardGravity, 1e-9);
+  }
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ constexpr double kLoosestOfMotion = 1e-3;  // the same where the tolerance is of
 constexpr double kLeastTolerance = 1e-13;  // of any pass: below it all is rounding
 constexpr double kPromised = 0.7;          // of the tolerance: with a smaller stated error the true one keeps to it, which may be a third larger
 constexpr double kAlike = 1.25;            // steps of the finer pass over those of the coarser: with fewer the two say little
-constexpr double kSurest = 0.1;            // of the tolerance of the steps: no error of the motion is stated as smaller
+constexpr double kSurest = 0.05;           // of the tolerance of the steps: no error is stated as smaller
 constexpr double kRepeated = 0.1;          // tolerance of a pass that is to show whether what two have shown is so, over that of the finer
 constexpr double kShorter = 0.5;           // longest step of a pass whose tolerance would not shorten its steps, over the mean one before
 constexpr double kNearRounding = 1e-8;     // tolerance below which stiff joints may feel rounding, and steps multiply
@@ -247,12 +247,9 @@ class Passes {
     return std::clamp(nominal->tolerance * settings_.tolerance / nominal->wanted, kLeastTolerance, second);
   }
 
-  // Friction that turns round makes joints ring, within the tolerance of the steps and in all passes alike: their difference does not
-  // show it. Over a joint's peak force.
-  double least_error() const {
-    const bool rubs = std::any_of(system_.joints.begin(), system_.joints.end(), [](const BasicJointData<S>& joint) { return joint.law.has_friction(); });
-    return rubs && !out_.of_motion ? kPromised * fine_tolerance_ : 0;
-  }
+  // Over a joint's peak force. Errors that all passes have alike, such as what joints ring behind friction that turns round, are within the tolerance
+  // of the steps, and the passes' difference does not show them.
+  double least_error() const { return out_.of_motion ? 0 : kSurest * fine_tolerance_; }
 
   void finish() {
     fine_->fill(out_);
