@@ -6,7 +6,8 @@
 namespace pintle {
 
 /// Where friction that sticks can hold joints which would begin to move without it, makes `start` again with these joints held, and loads their friction with
-/// what that takes; those whose friction cannot hold them start to slip, and their laws in the system that is returned know it. `unloaded`: that from which `start` was made, of a run of this duration; `known_span` as settle_joints has it.
+/// what that takes. Those whose friction cannot hold them start to slip; their laws in the system that is returned know it. `unloaded`: that from which `start`
+/// was made, of a run of this duration; `known_span` as settle_joints has it.
 System hold_by_friction(System system, const BasicSettledStart<Planar>& unloaded, double duration, double known_span, BasicSettledStart<Planar>& start);
 
 }  // namespace pintle
