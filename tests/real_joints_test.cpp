@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 
+#include "base/constants.h"
 #include "bench/joint_errors.h"
 #include "tests/reference_tables.h"
 
@@ -32,6 +33,66 @@ INSTANTIATE_TEST_SUITE_P(Collection, RealJointsSlow,
                          testing::Values("worn_linkage", "scotch_yoke_play", "loose_piston", "cam_follower", "wheel_over_bump", "jaw_coupling", "stick_slip", "conveyor_belt", "bar_clamp", "bollard", "lubricated_crank", "loose_ball_bearing", "door_stops",
                                          "air_cylinder", "excavator_boom", "selector_switch", "parallel_spring_stage", "cross_spring_pendulum"),
                          [](const testing::TestParamInfo<const char*>& one) { return std::string(one.param); });
+
+// A scissor jack whose nut rubs so much that its load does not drive it, with friction in its pins as well: all of it rests from the start.
+TEST(SelfLockingJack, RestsFromTheStart) {
+  const Model jack = parse_model(R"toml(
+format = 1
+[simulate]
+duration = "0.5 s"
+[defaults.joint]
+friction = "coulomb"
+friction_coefficient = 0.15
+pin_radius = "8 mm"
+[ground.markers]
+o = [0, 0]
+[body.low]
+mass = 1
+inertia = 0.01
+angle = "40 deg"
+position = [0.15, 0.126]
+markers.a = [-0.2, 0]
+markers.b = [0.2, 0]
+markers.c = [0, 0]
+[body.high]
+mass = 1
+inertia = 0.01
+angle = "-40 deg"
+position = [0.15, 0.126]
+markers.b = [0.2, 0]
+markers.c = [0, 0]
+[body.nut]
+mass = 0.5
+inertia = 0.001
+angle = 0
+markers.p = [0, 0]
+[joint.foot]
+type = "revolute"
+between = ["ground.o", "low.a"]
+[joint.cross]
+type = "revolute"
+between = ["low.c", "high.c"]
+[joint.pin]
+type = "revolute"
+between = ["nut.p", "high.b"]
+[joint.way]
+type = "prismatic"
+between = ["ground.o", "nut.p"]
+friction_coefficient = 1.4
+[force.load]
+on = "low.b"
+force = [0, -100]
+)toml", "jack.toml");
+  const Trajectory run = reference::completed(jack);
+  EXPECT_EQ(run.counters.events, 0u);
+  EXPECT_LT(run.counters.steps, 100u);
+  const double weight = 2.5 * kStandardGravity + 100, pushes = reference::value(run, 0, "joint.way.on_nut.fx[world]");
+  EXPECT_LT(pushes, -0.5 * weight);
+  for (std::size_t i = 0; i < run.n_rows(); ++i) {
+    EXPECT_NEAR(reference::value(run, i, "joint.way.on_nut.fy[world]") + reference::value(run, i, "joint.foot.on_low.fy[world]"), weight, 1e-6 * weight) << i;
+    EXPECT_NEAR(reference::value(run, i, "joint.way.on_nut.fx[world]"), pushes, 1e-6 * weight) << i;
+  }
+}
 
 }  // namespace
 }  // namespace pintle

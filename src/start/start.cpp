@@ -35,8 +35,9 @@ Assembly start_of_free_bodies(const Model& model, System system, double known_sp
   if (std::any_of(assembly.system.joints.begin(), assembly.system.joints.end(), [](const JointData& joint) { return joint.law.has_friction(); })) unloaded = assembly;
   start_forces(assembly.system, loaded, assembly.state);
   if (!loaded || assembly.system.joints.empty()) return assembly;
-  settle_joints(assembly.system, model.simulate.duration, known_span, assembly);
-  if (unloaded) assembly.system = hold_by_friction(std::move(assembly.system), *unloaded, model.simulate.duration, known_span, assembly);
+  const double duration = model.simulate.duration;
+  if (unloaded) assembly.system = settle_with_stiction(std::move(assembly.system), *unloaded, duration, known_span, assembly);
+  else settle_joints(assembly.system, duration, known_span, assembly);
   return assembly;
 }
 

@@ -35,6 +35,7 @@ struct LockLaw {
 struct LockedJoint {
   int joint;
   LockLaw lock;
+  double at_rest;    // an acceleration that is nothing but rounding [m/s^2] or [rad/s^2]
   double force = 0;  // of the lock on the second body [N] or [N*m]
 };
 
@@ -46,8 +47,8 @@ std::vector<LockedJoint> joints_to_hold(const System& system, const std::vector<
     const JointData& joint = system.joints[j];
     const auto held = joint.law.stiction(state.law_state.data() + joint.first_state);
     if (!held) continue;
-    const double mobility = own_mobility(system, joint.at, r[j])[held->component];
-    if (std::abs(state.gap_accel[j][held->component]) > nothing * mobility) out.push_back({.joint = j, .lock = {held->component, held->stiffness, r[j].gap[held->component]}});
+    const double at_rest = nothing * own_mobility(system, joint.at, r[j])[held->component];
+    if (std::abs(state.gap_accel[j][held->component]) > at_rest) out.push_back({.joint = j, .lock = {held->component, held->stiffness, r[j].gap[held->component]}, .at_rest = at_rest});
   }
   return out;
 }
@@ -82,11 +83,12 @@ void take_off_locks(int n_joints, std::vector<LockedJoint>& held, BasicSettledSt
 
 }  // namespace
 
-System hold_by_friction(System system, const BasicSettledStart<Planar>& unloaded, double duration, double known_span, BasicSettledStart<Planar>& start) {
+System settle_with_stiction(System system, const BasicSettledStart<Planar>& unloaded, double duration, double known_span, BasicSettledStart<Planar>& start) {
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
   kinematics_at(system, unloaded.state.t, unloaded.state.q, unloaded.state.v, m, r);
   std::vector<LockedJoint> held = joints_to_hold(system, r, start.state), slipping;
+  if (held.empty()) settle_joints(system, duration, known_span, start);
   for (bool again = !held.empty(); again;) {
     const System locked = with_locks(system, held);
     BasicSettledStart<Planar> trial = unloaded;
@@ -110,7 +112,8 @@ System hold_by_friction(System system, const BasicSettledStart<Planar>& unloaded
     find_accelerations(system, m, r, state);
     // A lock that fights a motor does not know which way its joint goes. Each is turned once.
     const auto goes_with_its_lock = [&](const LockedJoint& one) {
-      if (state.gap_accel[one.joint][one.lock.component] * one.force <= 0) return false;
+      const double accel = state.gap_accel[one.joint][one.lock.component];
+      if (std::abs(accel) <= one.at_rest || accel * one.force <= 0) return false;
       system.joints[one.joint].law.start_slipping(-one.force);
       return true;
     };
