@@ -197,7 +197,7 @@ bool BasicInverseDynamics<S>::find(BasicState<S>& state) {
 template <class S>
 bool BasicInverseDynamics<S>::find_accelerations(BasicState<S>& state) {
   find_kinematics(state);
-  take_linearized_gaps_of_bodies(state);
+  set_linearized_gaps_from_bodies(state);
   const VecsOf<S>* moved = moved_.empty() ? nullptr : &moved_;
   const double mu = kHeldAbove * slowest_joint(system_, r_, moved);
   if (!std::isfinite(mu) || !(mu > 0)) return false;
@@ -327,7 +327,7 @@ void BasicInverseDynamics<S>::limit_step_at_borders(const BasicState<S>& before,
 }
 
 template <class S>
-bool BasicInverseDynamics<S>::take_forces_of_bodies(BasicState<S>& state) {
+bool BasicInverseDynamics<S>::set_forces_from_bodies(BasicState<S>& state) {
   double misfit = 0;
   for (int j = 0; j < system_.n_joints(); ++j) {
     if (!is_nonlinear(j)) continue;
@@ -380,7 +380,7 @@ void BasicInverseDynamics<S>::linearize_redundant_laws(const BasicState<S>& stat
 
 // Where a law does not resist, as in its play, its tangent leads nowhere.
 template <class S>
-void BasicInverseDynamics<S>::take_linearized_gaps_of_bodies(BasicState<S>& state) const {
+void BasicInverseDynamics<S>::set_linearized_gaps_from_bodies(BasicState<S>& state) const {
   for (int j = 0; j < system_.n_joints(); ++j) {
     if (!linearized_[j]) continue;
     const BasicLaw<S>& law = system_.joints[j].law;

@@ -12,9 +12,12 @@ namespace pintle {
 /// The frequency above which modes are held, over the slowest of the joints by themselves: chains of joints and lever ratios
 /// make modes a hundred times slower than that.
 inline constexpr double kHeldAbove = 5e-4;
-inline constexpr int kFrictionRounds = 4;       // of friction and reactions, at least: each gains the coefficient of friction times a lever ratio
-inline constexpr int kMostFrictionRounds = 16;  // as long as each changes less than the one before; with oil films it may not
-inline constexpr double kFits = 1e-9;      // of the largest force, or speed: gaps, or rates, that differ by no more fit together
+/// Rounds of friction and reactions at a start, at least: each gains the coefficient of friction times a lever ratio. With half of them the test
+/// FrictionCircles takes more steps than it may.
+inline constexpr int kFrictionRounds = 4;
+/// As long as each changes less than the one before, which oil films may not. With half of them a chain of rubbing pins takes more steps, with double the same.
+inline constexpr int kMostFrictionRounds = 16;
+inline constexpr double kFits = 1e-9;  // of the largest force, or speed: gaps, or rates, that differ by no more fit together
 
 /// What a force on a component of a gap has to accelerate, per joint and component [kg or kg*m^2]. Empty when no joint has
 /// a stiffness.
@@ -70,14 +73,14 @@ class BasicInverseDynamics {
   /// its own: a blade would snap there, and its law leads to no place where it holds its load.
   void limit_step_at_borders(const BasicState<S>& before, BasicState<S>& state);
   /// After `move_onto_gaps`: where gaps do not fit together, the forces become those of the gaps that the bodies have. Whether they did not fit.
-  bool take_forces_of_bodies(BasicState<S>& state);
+  bool set_forces_from_bodies(BasicState<S>& state);
   BasicEffectiveMasses<S> effective_masses(const BasicState<S>& state);
 
  private:
   void find_kinematics(const BasicState<S>& state);
   bool is_nonlinear(int j) const;
   bool any_linearized() const;
-  void take_linearized_gaps_of_bodies(BasicState<S>& state) const;
+  void set_linearized_gaps_from_bodies(BasicState<S>& state) const;
   std::vector<int> apart(const BasicState<S>& state) const;
   typename S::Vec from_bodies(int j, const VecsOf<S>& x) const;
   double largest_held(const VecsOf<S>& gap) const;

@@ -127,7 +127,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
     }
     forces.move_onto_gaps(state);
     if (pass < kCarefulPasses) forces.limit_step_at_borders(before, state);
-    fits = !forces.take_forces_of_bodies(state);
+    fits = !forces.set_forces_from_bodies(state);
   }
   balance_start(system, state);
   if (!is_finite(state)) state = unloaded;  // next to a singular position joints would give way more than the mechanism is large

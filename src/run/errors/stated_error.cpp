@@ -27,13 +27,19 @@ struct Measures {
   const BasicSystem<S>& system;
 
   Measures(const BasicSystem<S>& of, const PassDifference& c)
-      : force(largest_of(c.peak) > c.rounding ? largest_of(c.peak) : c.largest_load / kNegligible), couple(std::max(largest_of(c.peak_couple), force * of.largest_radius_of_gyration())), system(of) {}
+      : force(largest_force(c)), couple(std::max(largest_of(c.peak_couple), force * of.largest_radius_of_gyration())), system(of) {}
 
   double of_joint(std::size_t j, double force_error, double peak, double couple_error, double peak_couple) const {
     const double least = system.joints[j].servo >= 0 ? kNegligibleOfMotor : kNegligible;
     const double of_force = relative(force_error, peak, least * force);
     const bool of_couple = system.joints[j].law.lever() == 0 || system.joints[j].law.has_stops();
     return of_couple ? std::max(of_force, relative(couple_error, peak_couple, least * couple)) : of_force;
+  }
+
+ private:
+  static double largest_force(const PassDifference& c) {
+    const double largest = largest_of(c.peak);
+    return largest > c.rounding ? largest : c.largest_load / kNegligible;
   }
 };
 
