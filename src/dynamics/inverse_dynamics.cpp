@@ -177,7 +177,7 @@ template <class S>
 bool BasicInverseDynamics<S>::find(BasicState<S>& state) {
   // Friction goes with the reactions: they are found again with the friction of the ones before.
   double last_change = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < kMostFrictionRounds; ++round) {
+  for (int round = 1;; ++round) {
     if (!rubbing_.empty()) last_force_ = state.force;
     if (!find_accelerations(state)) return false;
     for (int pass = 0; pass < kClosing; ++pass) {
@@ -188,7 +188,7 @@ bool BasicInverseDynamics<S>::find(BasicState<S>& state) {
     find_gaps(state);
     for (std::size_t j = 0; j < last_force_.size(); ++j) last_force_[j] -= state.force[j];
     const double change = largest_force(last_force_);
-    if (change <= kClosed * largest_force(state.force) || (round + 1 >= kFrictionRounds && !(change < last_change))) break;
+    if (change <= kClosed * largest_force(state.force) || (round >= kFrictionRounds && !(change < kFrictionContracts * last_change))) break;
     last_change = change;
   }
   return true;

@@ -39,7 +39,7 @@ class BasicSlowManifold {
     share_.assign(system.joints.size(), S::Vec::Ones());
     forces_.linearize_nonlinear_laws();
     for (std::size_t j = 0; j < system.joints.size(); ++j)
-      if (starts_apart(j)) put_at_start(j);
+      if (system.joints[j].law.starts_free()) put_at_start(j);
   }
 
   // All joints go with the motion, each as far as `share` says.
