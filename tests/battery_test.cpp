@@ -32,6 +32,11 @@ TEST(RandomMechanisms, AreAFunctionOfSeedAndNumberAndNothingIsWrongWithThem) {
 }
 
 // Dice are the same on every machine: 2^53 equally likely numbers of a counter.
+// The crank of this one ends 0.02 m from where the rocker would turn: no dyad joins them.
+TEST(RandomMechanisms, BeginAgainWhereTheNumbersLeaveNoPlace) {
+  EXPECT_NE(random_mechanism(2, 48, {"clearance"}).text, "");
+}
+
 TEST(RandomMechanisms, DrawTheirNumbersInOrder) {
   Dice dice(7, 3);
   for (int i = 0; i < 5; ++i) EXPECT_EQ(dice.uniform(0, 1), uniform_number(7, 3, static_cast<std::uint64_t>(i)));

@@ -16,12 +16,13 @@ Point random_point(Dice& dice, Point from, double least, double most) { return r
 // Whether two bars that meet in `at` are well out of line.
 bool bent(Point a, Point at, Point b) { return std::abs(std::sin(direction(at, a) - direction(at, b))) > 0.2; }
 
-// Where the dyad B-C-D has its pin C.
+// Where the dyad B-C-D has its pin C. Where B and D nearly coincide, there is no such place.
 Point dyad_pin(Dice& dice, Point B, Point D) {
-  for (;;) {
+  for (int i = 0; i < 1000; ++i) {
     const Point C = random_point(dice, B, 0.1, 0.5);
     if (bent(B, C, D) && distance(C, D) > 0.08 && distance(C, D) < 0.6) return C;
   }
+  throw NoSuchLinkage("no dyad between points that nearly coincide");
 }
 
 // Two bars that join `first` in B to `second` in D.

@@ -1,10 +1,17 @@
 // Linkages without loads, and what goes onto them: springs and dampers in the joints, loads, motors.
 #pragma once
 
+#include <stdexcept>
+
 #include "bench/battery/dice.h"
 #include "bench/battery/mechanism_text.h"
 
 namespace pintle::bench {
+
+/// The numbers drawn so far leave no place for a linkage: it is begun again with the next ones.
+struct NoSuchLinkage : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 MechanismText open_chain(Dice& dice, int most_bars = 4);
 MechanismText four_bar(Dice& dice);
