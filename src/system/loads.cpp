@@ -58,7 +58,7 @@ PlanarWrench wrench(const BasicAppliedData<Planar>& load, double t, const Planar
   const Planar::Point f(value_at(load.fx, t), value_at(load.fy, t));
   return {load.body_axes ? body.turned(f) : f, value_at(load.torque, t)};
 }
-SpatialWrench wrench(const BasicAppliedData<Spatial>& load, double t, const Spatial::Motion& body) {
+[[maybe_unused]] SpatialWrench wrench(const BasicAppliedData<Spatial>& load, double t, const Spatial::Motion& body) {
   Spatial::Point f, couple;
   for (int k = 0; k < 3; ++k) {
     f[k] = value_at(load.force[k], t);
@@ -70,7 +70,7 @@ SpatialWrench wrench(const BasicAppliedData<Spatial>& load, double t, const Spat
 double power_on(const Planar::Motion& body, const PlanarWrench& w, const Planar::Point& arm) {
   return w.force.dot(body.v + body.w * Planar::perp(arm)) + w.couple * body.w;
 }
-double power_on(const Spatial::Motion& body, const SpatialWrench& w, const Spatial::Point& arm) {
+[[maybe_unused]] double power_on(const Spatial::Motion& body, const SpatialWrench& w, const Spatial::Point& arm) {
   return w.force.dot(body.v + body.w.cross(arm)) + w.couple.dot(body.w);
 }
 
@@ -86,7 +86,7 @@ Planar::Mat turning_tangent(const AppliedData& force, const PlanarWrench& w, con
   return dq;
 }
 // theory/space Eq. (4.3).
-Spatial::Mat turning_tangent(const BasicAppliedData<Spatial>& force, const SpatialWrench& w, const Spatial::Motion& body) {
+[[maybe_unused]] Spatial::Mat turning_tangent(const BasicAppliedData<Spatial>& force, const SpatialWrench& w, const Spatial::Motion& body) {
   Spatial::Mat dq = Spatial::Mat::Zero();
   const Eigen::Vector3d f = body.R.transpose() * w.force, couple = body.R.transpose() * w.couple;
   for (int c = 0; c < 3; ++c) {

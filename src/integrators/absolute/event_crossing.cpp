@@ -6,7 +6,7 @@ namespace {
 
 // Taylor's series to the second order.
 Planar::Coordinates along(const Planar::Coordinates& q, double d, const Planar::Vec& v, double half, const Planar::Vec& a) { return q + d * v + half * a; }
-Spatial::Coordinates along(const Spatial::Coordinates& q, double d, const Spatial::Vec& v, double half, const Spatial::Vec& a) {
+[[maybe_unused]] Spatial::Coordinates along(const Spatial::Coordinates& q, double d, const Spatial::Vec& v, double half, const Spatial::Vec& a) {
   return Spatial::moved(q, d * v + half * a);
 }
 
