@@ -116,6 +116,10 @@ TEST(Stops, AnElasticStopIsHalfAPeriodOfItsSpring) {
   EXPECT_LT(drift(bounced), 1e-5 * 0.25);
   ASSERT_EQ(bounced.events.size(), 1u);
   EXPECT_EQ(bounced.events[0].events[0].what, "touch of the upper stop");
+  const std::vector<Column>& columns = bounced.events[0].columns;
+  const auto approach = static_cast<std::size_t>(std::find_if(columns.begin(), columns.end(), [](const Column& c) { return c.name == "stop_approach_speed"; }) - columns.begin());
+  EXPECT_NEAR(bounced.events[0].events[0].values.at(approach), 0.5, 1e-6);
+  EXPECT_EQ(columns[approach].unit, "m/s");
   EXPECT_EQ(bounced.events[0].events[1].what, "let-go of the upper stop");
   EXPECT_EQ(bounced.events[0].events[2].what, "touch of the lower stop");
 }

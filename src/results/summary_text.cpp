@@ -162,25 +162,34 @@ std::string motor_section(const Trajectory& trajectory, const Style& style) {
   return section("Motors", table, style) + rest_line(motors.size());
 }
 
+constexpr std::string_view kApproach = "approach_speed";
+
+// The column with the approach speed of such an event; as many as there are where it has none. A joint with stops and a contact has one of each.
+std::size_t approach_column(const JointEvents& joint, std::string_view event) {
+  const bool of_stop = event.ends_with(" stop");
+  const auto fits = [of_stop](const Column& column) { return std::string_view(column.name).ends_with(kApproach) && (column.name != kApproach) == of_stop; };
+  return static_cast<std::size_t>(std::find_if(joint.columns.begin(), joint.columns.end(), fits) - joint.columns.begin());
+}
+
 // By joint and by what happened, in the order of the first time; of what has an approach speed the largest.
 std::string event_section(const Trajectory& trajectory, const Style& style) {
   TextTable table;
   for (const char* head : {"joint", "event"}) table.add_column(head, Align::kLeft);
   table.add_column("count", Align::kNumber);
   for (const char* head : {"first", "last"}) table.add_column(head, Align::kNumber, "s");
-  table.add_column("fastest approach", Align::kNumber, "m/s");
+  table.add_column("fastest approach", Align::kNumber);
+  table.add_column("unit", Align::kLeft);
   table.add_column("most heat", Align::kNumber, "J");
   for (const JointEvents& joint : trajectory.events) {
     std::vector<std::string> kinds;
     for (const JointEvent& event : joint.events)
       if (std::find(kinds.begin(), kinds.end(), event.what) == kinds.end()) kinds.push_back(event.what);
-    const auto place = [&](const char* name) {
-      return static_cast<std::size_t>(std::find_if(joint.columns.begin(), joint.columns.end(), [&](const Column& column) { return column.name == name; }) - joint.columns.begin());
-    };
-    const std::size_t approach = place("approach_speed"), heat = place("heat");
+    const std::size_t heat = static_cast<std::size_t>(
+        std::find_if(joint.columns.begin(), joint.columns.end(), [](const Column& column) { return column.name == "heat"; }) - joint.columns.begin());
     for (const std::string& kind : kinds) {
       std::size_t count = 0;
       double first = 0, last = 0, fastest = 0, hottest = 0;
+      const std::size_t approach = approach_column(joint, kind);
       for (const JointEvent& event : joint.events) {
         if (event.what != kind) continue;
         if (count++ == 0) first = event.t;
@@ -188,7 +197,7 @@ std::string event_section(const Trajectory& trajectory, const Style& style) {
         if (approach < event.values.size()) fastest = std::max(fastest, event.values[approach]);
         if (heat < event.values.size()) hottest = std::max(hottest, event.values[heat]);
       }
-      table.add_row({joint.joint, kind, fmt::format("{}", count), engineering(first), engineering(last), fastest > 0 ? engineering(fastest) : "", hottest > 0 ? engineering(hottest) : ""});
+      table.add_row({joint.joint, kind, fmt::format("{}", count), engineering(first), engineering(last), fastest > 0 ? engineering(fastest) : "", fastest > 0 ? joint.columns[approach].unit : "", hottest > 0 ? engineering(hottest) : ""});
     }
   }
   return section("Events in joints (most heat: since the joint's event before; events.csv has all)", table, style);

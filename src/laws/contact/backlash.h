@@ -39,9 +39,10 @@ struct BacklashLaw : StopContact {
   Planar::Vec engaged_stiffness() const { return {contact.stiffness_at(0.1 * upper), 0, 0}; }
   double penetration(const Planar::Vec& gap) const { return std::abs(gap[0]) - upper; }
   std::span<const LawColumn> columns() const {
-    static const std::array<LawColumn, 3> all{{{"tooth_force", "N", "force between the flanks, along the pitch circles"},
+    static const std::array<LawColumn, 4> all{{{"tooth_force", "N", "force between the flanks, along the pitch circles"},
                                                {"flank", "", "1 while the front flank carries, -1 while the rear one does, 0 while the gears are apart"},
-                                               {"play_left", "m", "play that is left to the nearer flank; negative: how far the flanks are pressed together"}}};
+                                               {"play_left", "m", "play that is left to the nearer flank; negative: how far the flanks are pressed together"},
+                                               {"approach_speed", "m/s", "speed at which the flanks met; 0 while apart"}}};
     return all;
   }
   void observe(const LawInput<double>& in, const Planar::Vec&, double* value) const {
@@ -51,6 +52,7 @@ struct BacklashLaw : StopContact {
     value[0] = std::abs(out.force[0]);
     value[1] = out.force[0] == 0 ? 0 : out.force[0] < 0 ? 1 : -1;
     value[2] = upper - std::abs(in.gap[0]);
+    value[3] = approach_speed(in);
   }
 };
 

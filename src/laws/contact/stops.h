@@ -69,10 +69,12 @@ struct StopContact {
     return {};
   }
   std::span<const LawColumn> columns() const {
-    static const std::array<LawColumn, 2> turn{{{"stop_moment", "N*m", "moment of the stops on the second body"},
-                                                {"stop_depth", "rad", "how far the angle is beyond a stop; negative: to the nearer one"}}};
-    static const std::array<LawColumn, 2> slide{{{"stop_force", "N", "force of the stops on the second body, along the slide or the stroke"},
-                                                 {"stop_depth", "m", "how far the slide or the stroke is beyond a stop; negative: to the nearer one"}}};
+    static const std::array<LawColumn, 3> turn{{{"stop_moment", "N*m", "moment of the stops on the second body"},
+                                                {"stop_depth", "rad", "how far the angle is beyond a stop; negative: to the nearer one"},
+                                                {"stop_approach_speed", "rad/s", "rate at which the stop was touched; 0 while apart"}}};
+    static const std::array<LawColumn, 3> slide{{{"stop_force", "N", "force of the stops on the second body, along the slide or the stroke"},
+                                                 {"stop_depth", "m", "how far the slide or the stroke is beyond a stop; negative: to the nearer one"},
+                                                 {"stop_approach_speed", "m/s", "speed at which the stop was touched; 0 while apart"}}};
     return free == 2 ? turn : slide;
   }
   void observe(const LawInput<double>& in, const Planar::Vec&, double* value) const {
@@ -83,10 +85,14 @@ struct StopContact {
     value[1] = -kNowhere;
     for (int side = 0; side < kSides; ++side)
       if (stands(side)) value[1] = std::max(value[1], find(in, side).depth);
+    value[2] = approach_speed(in);
   }
 
  protected:
   static constexpr int kSides = 2, kUpper = 1, kBorders = 3;
+
+  /// Of the stop that is touched: at most one is.
+  static double approach_speed(const LawInput<double>& in) { return std::max(in.state[0], in.state[1]); }
 
   static constexpr double sign(int side) { return side == kUpper ? 1 : -1; }
   // "touch of the upper stop".
