@@ -187,7 +187,7 @@ void state_errors(const BasicSystem<S>& system, const PassDifference& difference
     const double force = std::max(share * difference.force[j], std::min(least.ringing.force(j), least.tolerance * peak));
     const double couple = std::max(share * difference.couple[j], std::min(least.ringing.couple(j), least.tolerance * peak_couple));
     LoadSummary& joint = joints[row++];
-    joint.error_estimate = std::max(force, least.of_peak * peak);
+    joint.error_estimate = std::max({force, least.of_peak * peak, peak > difference.rounding ? 0 : peak});  // what rounding alone makes is not known at all
     joint.moment_error_estimate = couple;
     joint.relative_error_estimate = std::max(measures.of_joint(j, force, peak, couple, peak_couple), least.of_peak);
   }
