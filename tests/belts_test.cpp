@@ -196,6 +196,18 @@ damping = 500
   EXPECT_GT(slack.joints[0].peak, 2 * weight);
 }
 
+// At rest, with everything in one line: the forces are those of the weights along it, and none rings. What a millisecond of swinging bends them by is 2.5 mN.
+TEST(Ropes, ATautOneSwingsFromTheStartWithoutRinging) {
+  const Trajectory run = completed(mechanism("rope_pendulum"));
+  EXPECT_TRUE(run.notes.empty()) << run.notes.front();
+  const double along = kStandardGravity * std::cos(kPi * 25 / 180);
+  const auto force = [&run](std::size_t row, const std::string& end) { return std::hypot(value(run, row, end + ".fx[world]"), value(run, row, end + ".fy[world]")); };
+  for (const auto& [end, mass] : {std::pair<std::string, double>{"joint.rod.on_load", 50}, {"joint.rope.on_hook", 70}}) {
+    EXPECT_NEAR(force(0, end), mass * along, 0.2) << end;  // less what accelerates the stretch: m T''/k, 0.07 N
+    for (std::size_t row = 1; row < 50; ++row) EXPECT_LT(std::abs(force(row - 1, end) - 2 * force(row, end) + force(row + 1, end)), 5e-3) << end << " " << row;
+  }
+}
+
 // A turn winds 19 mm less onto one disc than off the other: 2.2 mm of stretch is pretension, and not 17 mm of slack.
 Model alike_discs(double stretch) {
   return parse_model(fmt::format(R"toml(
