@@ -21,8 +21,15 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+// A unit that depends on other keys, such as N/m^contact_exponent, stands in brackets in the meaning.
+std::string plain_example(const KeySpec& spec) {
+  const std::size_t open = spec.meaning.find('['), close = spec.meaning.find(']');
+  if (open == std::string::npos || close == std::string::npos || close < open) return "a plain number such as 0.5";
+  return "a plain number, without its unit " + spec.meaning.substr(open + 1, close - open - 1);
+}
+
 std::string example_of(const KeySpec& spec) {
-  if (spec.unit.empty()) return "a plain number such as 0.5";
+  if (spec.unit.empty()) return plain_example(spec);
   if (spec.unit == "any") return "a number or a string such as \"25 mm\"";
   return "a number in SI, or a string such as \"1 " + spec.unit + "\"";
 }
