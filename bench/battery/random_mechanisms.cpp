@@ -66,10 +66,12 @@ RandomMechanism random_mechanism(std::uint64_t seed, int number, const std::vect
   if (kind == all.end()) throw std::invalid_argument("no kind of mechanism is called " + word);
   Dice dice(seed, n);
   const std::string name = fmt::format("{}-{}-{}", word, seed, number);
-  for (;;) try {
+  for (;;) {
+    try {
       return {name, &*kind, kind->make(dice).text(name)};
     } catch (const NoSuchLinkage&) {  // the dice go on to another one
     }
+  }
 }
 
 }  // namespace pintle::bench

@@ -162,15 +162,6 @@ std::string motor_section(const Trajectory& trajectory, const Style& style) {
   return section("Motors", table, style) + rest_line(motors.size());
 }
 
-constexpr std::string_view kApproach = "approach_speed";
-
-// The column with the approach speed of such an event; as many as there are where it has none. A joint with stops and a contact has one of each.
-std::size_t approach_column(const JointEvents& joint, std::string_view event) {
-  const bool of_stop = event.ends_with(" stop");
-  const auto fits = [of_stop](const Column& column) { return std::string_view(column.name).ends_with(kApproach) && (column.name != kApproach) == of_stop; };
-  return static_cast<std::size_t>(std::find_if(joint.columns.begin(), joint.columns.end(), fits) - joint.columns.begin());
-}
-
 // By joint and by what happened, in the order of the first time; of what has an approach speed the largest.
 std::string event_section(const Trajectory& trajectory, const Style& style) {
   TextTable table;
@@ -184,12 +175,14 @@ std::string event_section(const Trajectory& trajectory, const Style& style) {
     std::vector<std::string> kinds;
     for (const JointEvent& event : joint.events)
       if (std::find(kinds.begin(), kinds.end(), event.what) == kinds.end()) kinds.push_back(event.what);
-    const std::size_t heat = static_cast<std::size_t>(
-        std::find_if(joint.columns.begin(), joint.columns.end(), [](const Column& column) { return column.name == "heat"; }) - joint.columns.begin());
+    const auto place = [&](std::string_view name) {
+      return static_cast<std::size_t>(std::find_if(joint.columns.begin(), joint.columns.end(), [&](const Column& column) { return column.name == name; }) - joint.columns.begin());
+    };
+    const std::size_t heat = place("heat");
     for (const std::string& kind : kinds) {
       std::size_t count = 0;
       double first = 0, last = 0, fastest = 0, hottest = 0;
-      const std::size_t approach = approach_column(joint, kind);
+      const std::size_t approach = place(kind.ends_with(" stop") ? "stop_approach_speed" : "approach_speed");  // a joint with stops and a contact has both
       for (const JointEvent& event : joint.events) {
         if (event.what != kind) continue;
         if (count++ == 0) first = event.t;

@@ -39,7 +39,7 @@ class BasicSlowManifold {
     share_.assign(system.joints.size(), S::Vec::Ones());
     forces_.linearize_nonlinear_laws();
     for (std::size_t j = 0; j < system.joints.size(); ++j)
-      if (system.joints[j].law.starts_free()) put_at_start(j);
+      if (begins_at_start(j)) put_at_start(j);
   }
 
   // All joints go with the motion, each as far as `share` says.
@@ -55,7 +55,7 @@ class BasicSlowManifold {
     if (time_scales_.any_resolved()) forces_.leave_to_laws(time_scales_.resolved);
     for (std::size_t j = 0; j < system_.joints.size(); ++j) {
       if (forces_.is_linearized(j)) put_at_start(j);
-      else if (!starts_apart(j))
+      else if (!begins_at_start(j))
         for (auto& gap : gap_) gap[j] = soft(j).cwiseProduct(start_.gap[j]);
     }
     differentiate();
@@ -130,7 +130,8 @@ class BasicSlowManifold {
   const VecsOf<S>& rate() const { return rate_[0]; }
 
  private:
-  bool starts_apart(std::size_t j) const { return is_apart(system_.joints[j].law, start_.gap[j], start_.gap_rate[j]); }
+  // With a closed gap such a joint would not resist, and its force would find no gap.
+  bool begins_at_start(std::size_t j) const { return system_.joints[j].law.starts_free(); }
   void put_at_start(std::size_t j) {
     for (auto& gap : gap_) gap[j] = start_.gap[j];
   }
