@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Changes one sign, comparison, condition or constant at a time, and lists what no test notices.
 
-Every room of src/ gets a sample of its lines, drawn from a seed. A mutant is built in a copy of the tree (build/mutants) and has to survive the room's own
-tests first, then the whole suite. Results are kept in build/mutants/results.json after each mutant, so that a run that is stopped goes on where it was.
-What is equivalent to the original, and why, stands in tools/equivalent_mutants.txt.
+Every room of src/ gets a sample of its lines, drawn from a seed, without those of headers that most of the library would be compiled again for. A mutant is
+built in a copy of the tree (build/mutants) and has to survive the suites of its room first, then all. The rooms take turns and results are kept in
+build/mutants/results.json after each mutant, so that a run may be stopped at any time: it goes on where it was. What is equivalent to the original, and why,
+stands in tools/equivalent_mutants.txt.
 
     tools/mutants.py --rooms laws,joints --sample 6     # a few minutes a mutant; all rooms take a night
     tools/mutants.py --write docs/mutants.md            # the table of what has been run
@@ -26,6 +27,7 @@ WORK = ROOT / "build" / "mutants"
 TREE, BUILD, RESULTS = WORK / "tree", WORK / "build", WORK / "results.json"
 EQUIVALENT = ROOT / "tools" / "equivalent_mutants.txt"
 
+MOST_COMPILED = 12
 ROOM_ONLY = "not by the room's tests"
 
 NUMBER = r"(?<![\w.])(?:\d+\.?\d*(?:e[+-]?\d+)?|\.\d+)(?![\w.])"
@@ -130,82 +132,99 @@ def configure(tree, build, *options):
 
 
 class Suites:
-    """Builds and runs the tests of one room and all tests."""
+    """Builds the program with all tests, and runs the suites of one room or all."""
 
-    def __init__(self, jobs, skip_all):
-        self.jobs, self.skip_all, self.usual = jobs, skip_all, {}
+    def __init__(self, jobs, room_tests_only):
+        self.jobs, self.room_tests_only = jobs, room_tests_only
 
-    def build(self, target):
-        return run(["ninja", "-C", str(BUILD), f"-j{self.jobs}", target], 3600) == 0
+    def build(self):
+        return run(["ninja", "-C", str(BUILD), f"-j{self.jobs}", "pintle_tests", "bin/pintle"], 7200) == 0
 
-    def has_tests(self, room):
-        return any((TREE / "src" / room).rglob("*_test.cpp"))
+    def is_quick_to_build(self, file):
+        """Whether no more than MOST_COMPILED sources are compiled again when the file has changed."""
+        before = (TREE / file).stat()
+        os.utime(TREE / file)
+        planned = subprocess.run(["ninja", "-C", str(BUILD), "-n", "pintle_tests", "bin/pintle"], capture_output=True, text=True, check=True).stdout
+        os.utime(TREE / file, ns=(before.st_atime_ns, before.st_mtime_ns))
+        return planned.count("Building CXX object") <= MOST_COMPILED
 
-    def measure(self, room):
-        """Before anything is changed: the room's tests pass, and take so long."""
-        if not self.has_tests(room):
-            return
-        start = time.time()
-        if not self.build(f"pintle_{room}_tests"):
-            sys.exit(f"the tests of {room} do not compile before anything is changed: ninja -C {BUILD} pintle_{room}_tests")
-        if run([self.program(room)], 1800, cwd=TREE) != 0:
-            sys.exit(f"the tests of {room} fail before anything is changed: {self.program(room)}")
-        self.usual[room] = time.time() - start
+    def run_room(self, room):
+        """Whether the suites pass whose tests stand in the room; None where it has none."""
+        tests = (TREE / "src" / room).rglob("*_test.cpp")
+        suites = sorted({suite for path in tests for suite in re.findall(r"^TEST(?:_F|_P)?\((\w+),", path.read_text(), re.M)})
+        if not suites:
+            return None
+        command = [str(BUILD / "pintle_tests"), "--gtest_fail_fast", "--gtest_filter=" + ":".join(f"{s}.*:*/{s}.*" for s in suites)]
+        return run(command, 1800, cwd=TREE) == 0
 
-    def program(self, room):
-        found = [p for p in BUILD.rglob(f"pintle_{room}_tests") if p.is_file()]
-        return str(found[0]) if found else str(BUILD / "bin" / f"pintle_{room}_tests")
+    def run_all(self):
+        return run(["ctest", "--test-dir", str(BUILD), f"-j{self.jobs}", "--timeout", "600", "--stop-on-failure", "-E", "^(Live)$"], 7200) == 0
 
     def verdict(self, room):
-        if self.has_tests(room):
-            if not self.build(f"pintle_{room}_tests"):
-                return "does not compile"
-            if run([self.program(room)], 60 + 5 * self.usual[room], cwd=TREE) != 0:
-                return "the room's tests"
-        if self.skip_all:
-            return ROOM_ONLY
-        if not self.build("all"):
+        if not self.build():
             return "does not compile"
-        code = run(["ctest", "--test-dir", str(BUILD), f"-j{self.jobs}", "--timeout", "600", "--stop-on-failure"], 7200)
-        return "nobody" if code == 0 else "all tests"
+        if self.run_room(room) is False:
+            return "the room's tests"
+        if self.room_tests_only:
+            return ROOM_ONLY
+        return "nobody" if self.run_all() else "all tests"
 
 
 def load_results():
     return json.loads(RESULTS.read_text()) if RESULTS.exists() else []
 
 
+def take_turns(rooms, options, suites, done):
+    """(room, site) in the order in which they are tried: one of each room, then the next of each. What is done already is counted and left out."""
+    left = {}
+    for room in rooms:
+        left[room] = sites_of(TREE, room)
+        random.Random(f"{options.seed} {room}").shuffle(left[room])
+    quick, counted = {}, collections.Counter()
+    while any(left.values()):
+        for room in rooms:
+            while left[room]:
+                site = left[room].pop(0)
+                known = done.get((site[0], site[3], site[4]))
+                if known is None and site[0] not in quick:
+                    quick[site[0]] = suites.is_quick_to_build(site[0])
+                if known is None and not quick[site[0]]:
+                    continue
+                if known is None:
+                    yield room, site
+                    known = done[site[0], site[3], site[4]]
+                if known != "does not compile":
+                    counted[room] += 1
+                    break
+            if counted[room] >= options.sample:
+                left[room] = []
+
+
 def test_rooms(options):
     WORK.mkdir(parents=True, exist_ok=True)
-    copy_tree(TREE)
-    configure(TREE, BUILD)
+    if not options.built:
+        copy_tree(TREE)
+        configure(TREE, BUILD, "-DPINTLE_UNITY=ON")
     suites, results = Suites(options.jobs, options.room_tests_only), load_results()
     if not options.room_tests_only:  # what only the room's tests have seen goes on to all tests
         results = [r for r in results if r["noticed_by"] != ROOM_ONLY]
     done = {(r["file"], r["line"], r["changed"]): r["noticed_by"] for r in results}
-    for room in options.rooms or rooms_of(TREE):
-        suites.measure(room)
-        sites = sites_of(TREE, room)
-        random.Random(f"{options.seed} {room}").shuffle(sites)
-        counted = 0
-        for file, number, kind, line, changed in sites:
-            if counted >= options.sample:
-                break
-            if (file, line, changed) in done:
-                counted += done[file, line, changed] != "does not compile"
-                continue
-            path = TREE / file
-            original = path.read_text()
-            lines = original.split("\n")
-            lines[number - 1] = changed
-            path.write_text("\n".join(lines))
-            try:
-                noticed = suites.verdict(room)
-            finally:
-                path.write_text(original)
-            counted += noticed != "does not compile"
-            results.append({"room": room, "file": file, "number": number, "kind": kind, "line": line, "changed": changed, "noticed_by": noticed})
-            RESULTS.write_text(json.dumps(results, indent=1))
-            say(f"{room:12} {noticed:24} {file}:{number}: {changed.strip()}")
+    if not suites.build():
+        sys.exit(f"the tests do not compile before anything is changed: ninja -C {BUILD} pintle_tests bin/pintle")
+    for room, (file, number, kind, line, changed) in take_turns(options.rooms or rooms_of(TREE), options, suites, done):
+        path = TREE / file
+        original = path.read_text()
+        lines = original.split("\n")
+        lines[number - 1] = changed
+        path.write_text("\n".join(lines))
+        try:
+            noticed = suites.verdict(room)
+        finally:
+            path.write_text(original)
+        done[file, line, changed] = noticed
+        results.append({"room": room, "file": file, "number": number, "kind": kind, "line": line, "changed": changed, "noticed_by": noticed})
+        RESULTS.write_text(json.dumps(results, indent=1))
+        say(f"{room:12} {noticed:24} {file}:{number}: {changed.strip()}")
 
 
 def equivalents():
@@ -258,6 +277,7 @@ def main():
     options.add_argument("--seed", default="1")
     options.add_argument("--jobs", type=int, default=os.cpu_count())
     options.add_argument("--room-tests-only", action="store_true", help="quickly: what the room's own tests do not notice is left at that")
+    options.add_argument("--built", action="store_true", help="build/mutants holds the tree and its build already")
     options.add_argument("--write", type=Path, help="only write the page of the results")
     options = options.parse_args()
     if options.write is None:

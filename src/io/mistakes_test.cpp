@@ -33,6 +33,9 @@ std::vector<Complaint> complaints_about(const std::string& text, const std::vect
 
 const std::vector<Mistake> kMistakes{
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"@soft\"\nbetween", "joint.O2.stops", "none of hard, cushioned"},
+    {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"@hunt-crossley\"\nbetween", "joint.O2.stops", "none of hard, cushioned", "stop_model = \"hunt-crossley\""},
+    {"type = \"revolute\"\nbetween", "type = \"revolute\"\nlaw = \"@coulomb\"\nbetween", "joint.O2.law", "none of", "friction = \"coulomb\""},
+    {"type = \"revolute\"\nbetween", "type = \"revolute\"\n@restitution = 0.5\nbetween", "joint.O2.restitution", "belongs to law", "or stop_restitution if the stops are meant"},
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\n@upper_stop = 1\nbetween", "joint.O2.upper_stop", "belongs to stops = \"hard\" or stops = \"cushioned\""},
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"@hard\"\nstop_stiffness = 1\nbetween", "joint.O2.stops", "neither lower_stop nor upper_stop"},
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"hard\"\nstop_stiffness = 1\nlower_stop = \"@90 deg\"\nupper_stop = 1\nbetween", "joint.O2.lower_stop", "is not below upper_stop"},
@@ -190,12 +193,18 @@ TEST(Mistakes, TheFullModelHasNone) {
 TEST(Mistakes, AllAreCollectedInTheOrderOfTheFile) {
   const auto complaints =
       complaints_about("format = 1\n[body.a]\nmass = -1\ninertia = 0\n[joint.j]\ntyp = 1\n[parameters]\nm = 1\n");
-  ASSERT_EQ(complaints.size(), 6U);
+  ASSERT_EQ(complaints.size(), 5U);
   for (std::size_t i = 1; i < complaints.size(); ++i) EXPECT_LE(complaints[i - 1].place.line, complaints[i].place.line);
 }
 
 TEST(Mistakes, AModelNeedsABody) {
   EXPECT_EQ(complaints_about("format = 1\n").at(0).path, "body");
+}
+
+TEST(Mistakes, AMisspeltKeyIsNotMissingToo) {
+  const std::vector<Complaint> found = complaints_about("format = 1\n[body.rod]\nmas = \"2 kg\"\ninertia = 0.1\n");
+  ASSERT_EQ(found.size(), 1);
+  EXPECT_EQ(found[0].path, "body.rod.mas");
 }
 
 TEST(Mistakes, AFaultyParameterIsBlamedOnce) {

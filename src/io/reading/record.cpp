@@ -95,11 +95,12 @@ Record RecordReader::read(const TableSpec& spec, const Node& table_node, Spot ke
   record.path = path;
   if (!is_table(table_node, path)) return record;
   const Table& table = *table_node.table();
-  check_keys(spec, table, record, kind);
+  const std::set<std::string> meant = check_keys(spec, table, record, kind);
+  table_ = &spec;
   for (const KeySpec& key : spec.keys) {
     const std::string key_path = path.empty() ? key.key : path + "." + key.key;
     const Node* node = table.find(key.key);
-    if (node == nullptr && key.required) {
+    if (node == nullptr && key.required && !meant.contains(key.key)) {
       complaints_.add(key_spot, key_path, "no " + key.key, "this key is required: " + key.meaning, example_line(key));
     }
     const bool is_default = node == nullptr;
@@ -113,17 +114,19 @@ Record RecordReader::read(const TableSpec& spec, const Node& table_node, Spot ke
   return record;
 }
 
-void RecordReader::check_keys(const TableSpec& spec, const Table& table, const Record& record,
-                              const std::string& kind) {
+std::set<std::string> RecordReader::check_keys(const TableSpec& spec, const Table& table, const Record& record,
+                                               const std::string& kind) {
+  std::set<std::string> meant;
   for (const Entry& entry : table.entries()) {
     const bool known = spec.find(entry.key) != nullptr ||
                        std::find(spec.children.begin(), spec.children.end(), entry.key) != spec.children.end();
-    if (!known) complain_of_key(spec, entry, record, kind);
+    if (!known) meant.insert(complain_of_key(spec, entry, record, kind));
   }
+  return meant;
 }
 
-void RecordReader::complain_of_key(const TableSpec& spec, const Entry& entry, const Record& record,
-                                   const std::string& kind) {
+std::string RecordReader::complain_of_key(const TableSpec& spec, const Entry& entry, const Record& record,
+                                          const std::string& kind) {
   const std::string path = record.path.empty() ? entry.key : record.path + "." + entry.key;
   const std::vector<std::string> owners = Schema::model().kinds_with(spec.path, entry.key);
   if (!owners.empty() && !kind.empty()) {
@@ -131,17 +134,20 @@ void RecordReader::complain_of_key(const TableSpec& spec, const Entry& entry, co
     for (const std::string& owner : owners) list += (list.empty() ? "" : ", ") + owner;
     complaints_.add(entry.key_spot, path, entry.key, "this key is for " + list + " only, and this is " + kind,
                     "delete it");
-    return;
+    return "";
   }
   if (const std::string laws = spec.law_keys ? laws_with(entry.key) : std::string(); !laws.empty()) {
-    complaints_.add(entry.key_spot, path, entry.key, "this key belongs to " + laws, "state one of them, or delete the key");
-    return;
+    const std::string of_stops = "stop_" + entry.key;
+    complaints_.add(entry.key_spot, path, entry.key, "this key belongs to " + laws,
+                    !laws_with(of_stops).empty() ? "state one of them, or " + of_stops + " if the stops are meant" : "state one of them, or delete the key");
+    return "";
   }
   std::vector<std::string> candidates = spec.children;
   for (const KeySpec& key : spec.keys) candidates.push_back(key.key);
+  const std::string near = complaints_.nearest(entry.key, candidates);
   complaints_.add(entry.key_spot, path, "unknown key " + in_quotes(entry.key),
-                  record.path.empty() ? "models have no such key" : "there is no such key here",
-                  complaints_.did_you_mean(entry.key, candidates));
+                  record.path.empty() ? "models have no such key" : "there is no such key here", advice(near, candidates));
+  return near;
 }
 
 }  // namespace pintle

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -68,8 +69,9 @@ class RecordReader {
   Complaints& complaints() { return complaints_; }
 
  private:
-  void check_keys(const TableSpec& spec, const Table& table, const Record& record, const std::string& kind);
-  void complain_of_key(const TableSpec& spec, const Entry& entry, const Record& record, const std::string& kind);
+  /// Complains about keys that the table cannot have; the keys that they are likely slips for.
+  std::set<std::string> check_keys(const TableSpec& spec, const Table& table, const Record& record, const std::string& kind);
+  std::string complain_of_key(const TableSpec& spec, const Entry& entry, const Record& record, const std::string& kind);
   std::optional<Value> read_value(const Node& node, const KeySpec& spec, const std::string& path);
   bool read_words(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
   bool read_word(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
@@ -87,7 +89,11 @@ class RecordReader {
   void complain(const ParseProblem& problem, const Node& node, const std::string& path);
   void set_variables(const KeySpec& spec, std::string_view text);
 
+  /// Another key of the table that is being read, to which the word belongs; "" if there is none.
+  std::string key_with_word(const KeySpec& spec, const std::string& word) const;
+
   Complaints& complaints_;
+  const TableSpec* table_ = nullptr;  ///< the table that is being read
 };
 
 }  // namespace pintle

@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "io/reading/record.h"
 #include "io/text.h"
+#include "laws/catalog.h"
 
 namespace pintle {
 namespace {
@@ -198,6 +199,17 @@ bool RecordReader::read_truth(const Node& node, const KeySpec& spec, const std::
   return true;
 }
 
+std::string RecordReader::key_with_word(const KeySpec& spec, const std::string& word) const {
+  const auto has_word = [&word](const auto& key) { return std::find(key.words.begin(), key.words.end(), word) != key.words.end(); };
+  for (const KeySpec& key : table_->keys)
+    if (key.key != spec.key && has_word(key)) return key.key;
+  for (const LawInfo& law : law_catalog())
+    if (table_->law_keys && key_of(law.role) == spec.key)
+      for (const KeyInfo& key : law.keys)
+        if (has_word(key)) return std::string(key.key);
+  return "";
+}
+
 bool RecordReader::read_word(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
   const std::string* word = node.string();
   if (word == nullptr) {
@@ -211,8 +223,10 @@ bool RecordReader::read_word(const Node& node, const KeySpec& spec, const std::s
       return true;
     }
   if (!spec.words.empty() && std::find(spec.words.begin(), spec.words.end(), *word) == spec.words.end()) {
+    const std::string near = complaints_.nearest(*word, spec.words);
+    const std::string other = near.empty() ? key_with_word(spec, *word) : "";
     complaints_.add(node.spot, path, in_quotes(*word), "it is none of " + joined(spec.words),
-                    complaints_.did_you_mean(*word, spec.words));
+                    other.empty() ? advice(near, spec.words) : other + " = " + in_quotes(*word));
     return false;
   }
   value.words.push_back(*word);
