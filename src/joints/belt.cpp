@@ -44,4 +44,9 @@ std::optional<Belt> belt_of(const JointDisplacement& displacement) {
   return Belt{function->parameters[0], function->parameters[1], function->parameters[2], function->parameters[3]};
 }
 
+bool has_lost_a_turn(const JointDisplacement& displacement, double before, double after) {
+  const std::optional<Belt> belt = belt_of(displacement);
+  return belt && before < 0 && after - before > 0.5 * belt->wound_per_turn();
+}
+
 }  // namespace pintle

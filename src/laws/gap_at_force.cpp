@@ -38,15 +38,52 @@ void gap_of_springs(const BasicLaw<S>& law, const typename S::Vec& force, const 
   }
 }
 
-// Where the law does not resist at all (in its play, or at the beginning of a force that rises with a power of the gap), farther out against
-// the force, until there is as much of it.
+// Newton's step with the whole tangent, over the components that may move and answer to their gaps; `missing` has 0 in the others.
+template <class S>
+typename S::Vec newton_step(const BasicResponse<S>& now, const typename S::Vec& engaged, typename S::Vec& missing, const typename S::Vec& moved = S::Vec::Ones()) {
+  typename S::Mat K = now.stiffness;
+  for (int k = 0; k < S::kDof; ++k) {
+    if (moved[k] != 0 && ((engaged[k] > 0 && !now.stiffness.row(k).isZero(0)) || now.stiffness(k, k) > 0)) continue;
+    K.row(k).setZero();
+    K.col(k).setZero();
+    K(k, k) = 1;
+    missing[k] = 0;
+  }
+  return K.partialPivLu().solve(missing);
+}
+
+// What is missing of the force at this gap, in the components in which `missing` is not 0.
+template <class S>
+double miss_at(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const typename S::Vec& missing, const typename S::Vec& gap) {
+  const typename S::Vec miss = respond(law, gap, rate).force - force;
+  double sum = 0;
+  for (int k = 0; k < S::kDof; ++k)
+    if (missing[k] != 0) sum += miss[k] * miss[k];
+  return std::sqrt(sum);
+}
+
+// Whether a force that rises with a power of the gap is so near to its beginning that Newton's step leads far beyond.
+template <class S>
+bool overshoots(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const BasicResponse<S>& now, const typename S::Vec& engaged, const typename S::Vec& gap) {
+  // Of the stiffness where the law acts: below it the law is at its beginning. Times as much missing as before: less is for the halvings of steps.
+  constexpr double kBeginning = 0.01, kFar = 100;
+  bool begins = false;
+  for (int k = 0; k < S::kDof; ++k) begins = begins || (engaged[k] > 0 && now.stiffness(k, k) < kBeginning * engaged[k]);
+  if (!begins) return false;
+  typename S::Vec missing = now.force - force;
+  const typename S::Vec step = newton_step<S>(now, engaged, missing);
+  return !(miss_at<S>(law, force, rate, missing, gap + step) <= kFar * missing.norm());
+}
+
+// Where the law does not resist at all (in its play, or at the beginning of a force that rises with a power of the gap), or hardly, farther out
+// against the force, until there is as much of it.
 template <class S>
 void begin_where_it_resists(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
   if (law.starts_free()) return;
   const typename S::Vec engaged = law.engaged_stiffness();
   const BasicResponse<S> now = respond(law, gap, rate);
   typename S::Vec out = S::Vec::Zero(), wanted = S::Vec::Zero();
-  bool weak = false;
+  bool weak = overshoots(law, force, rate, now, engaged, gap);
   for (int k = 0; k < S::kDof; ++k) {
     if (!(engaged[k] > 0)) continue;
     wanted[k] = force[k];
@@ -63,20 +100,6 @@ void begin_where_it_resists(const BasicLaw<S>& law, const typename S::Vec& force
     gap = trial;
     return;
   }
-}
-
-// Newton's step with the whole tangent, over the components that may move and answer to their gaps; `missing` has 0 in the others.
-template <class S>
-typename S::Vec newton_step(const BasicResponse<S>& now, const typename S::Vec& engaged, typename S::Vec& missing, const typename S::Vec& moved = S::Vec::Ones()) {
-  typename S::Mat K = now.stiffness;
-  for (int k = 0; k < S::kDof; ++k) {
-    if (moved[k] != 0 && ((engaged[k] > 0 && !now.stiffness.row(k).isZero(0)) || now.stiffness(k, k) > 0)) continue;
-    K.row(k).setZero();
-    K.col(k).setZero();
-    K(k, k) = 1;
-    missing[k] = 0;
-  }
-  return K.partialPivLu().solve(missing);
 }
 
 // A gap as the law's stiffness lets lengths and angles be compared.
@@ -186,15 +209,8 @@ bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const ty
     bool moved = false;
     for (int k = 0; k < S::kDof; ++k) moved = moved || std::abs(step[k]) > 1e-15 * std::abs(gap[k]);
     if (!moved) return true;
-    const auto misses = [&](const typename S::Vec& there) {
-      const typename S::Vec miss = respond(law, there, rate).force - force;
-      double sum = 0;
-      for (int k = 0; k < S::kDof; ++k)
-        if (missing[k] != 0) sum += miss[k] * miss[k];
-      return sum;
-    };
     int halvings = 0;
-    for (; halvings < kHalvings && !(misses(gap + step) <= missing.squaredNorm()); ++halvings) step *= 0.5;
+    for (; halvings < kHalvings && !(miss_at<S>(law, force, rate, missing, gap + step) <= missing.norm()); ++halvings) step *= 0.5;
     if (halvings == kHalvings) return law.starts_free() || missing.norm() <= kCarried * force.norm();  // no step leads nearer
     gap += step;
   }
@@ -205,7 +221,9 @@ template <class S>
 void newton_step_to_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, const typename S::Vec& moved, typename S::Vec& gap) {
   const BasicResponse<S> now = respond(law, gap, rate);
   typename S::Vec missing = now.force - force;
-  const typename S::Vec step = newton_step<S>(now, law.engaged_stiffness(), missing, moved);
+  const typename S::Vec engaged = law.engaged_stiffness();
+  if (overshoots(law, force, rate, now, engaged, gap)) return void(gap_at_force(law, force, rate, gap));
+  const typename S::Vec step = newton_step<S>(now, engaged, missing, moved);
   if (step.allFinite()) gap += step;
 }
 

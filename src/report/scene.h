@@ -29,7 +29,7 @@ struct MovingPoint {
 };
 
 /// What a shape stands for; paints.h says how each looks.
-enum class Paint { kEarth, kHatch, kGuide, kLink, kGear, kPitch, kHole, kBlock, kWeld, kPin, kMass, kMassLight, kSpring, kRod, kRope, kBarrel, kBlade, kMotor, kStop };
+enum class Paint { kEarth, kHatch, kGuide, kLink, kGear, kPitch, kHole, kBlock, kWeld, kPin, kBall, kOil, kRubber, kMass, kMassLight, kSpring, kRod, kRope, kBarrel, kBlade, kMotor, kStop };
 
 enum class Form {
   kBar,     ///< paths drawn with a round pen as wide as `size`, outlined as one; closed paths are filled

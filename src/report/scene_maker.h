@@ -98,6 +98,9 @@ class SceneMaker {
   Track slide_range(const Anchor& guide, const Anchor& block) const;
   bool first_at(const Vec2& at, std::vector<Vec2>& known) const;  ///< nothing there yet: remembered
 
+  // scene_bearings.cpp
+  void add_bearing(const Joint& joint, const Anchor& bush);
+
   // scene_flexures.cpp
   bool add_flexure(const Joint& joint, const Anchor& first, const Anchor& second);  ///< false: its law is no flexure's
   void add_blade(const std::string& name, const Anchor& first, const Anchor& second, double length);

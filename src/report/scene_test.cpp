@@ -32,6 +32,20 @@ TEST(Scene, FourBarHasThreeLinksFourPinsTwoSupports) {
   EXPECT_EQ(scene.n_unseen, 0u);
 }
 
+// Rolling bearings in O and B, a film of oil in A: the ring is the first body's, around the pin of the second one.
+TEST(Scene, BearingsAreDrawnAroundTheirPins) {
+  const auto [model, run] = run_of_mechanism("lubricated_crank");
+  const Scene scene = make_scene(model, run.trajectory);
+  EXPECT_EQ(count_shapes(scene, Paint::kOil), 1u);
+  EXPECT_EQ(count_shapes(scene, Paint::kRubber), 0u);
+  ASSERT_EQ(count_shapes(scene, Paint::kBall), 2u);
+  EXPECT_EQ(count_shapes(scene, Paint::kPin), 3u + 2u);
+  const auto balls = std::find_if(scene.shapes.begin(), scene.shapes.end(), [](const Shape& shape) { return shape.paint == Paint::kBall; });
+  const auto oil = std::find_if(scene.shapes.begin(), scene.shapes.end(), [](const Shape& shape) { return shape.paint == Paint::kOil; });
+  EXPECT_EQ(balls->paths.size(), 10u);
+  for (const std::vector<Vec2>& ball : balls->paths) EXPECT_LT(length(ball.front()) + balls->size, oil->size);  // O is at the origin
+}
+
 // The drawing closes: the end of each link is where its neighbour's is, in every row, to what the joints give way.
 TEST(Scene, LinksMeetInTheirJoints) {
   const auto [model, run] = run_of_mechanism("four_bar");

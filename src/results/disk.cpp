@@ -184,7 +184,7 @@ NewFolder::~NewFolder() {
   if (!published_) fs::remove_all(path_, ignored);
 }
 
-void NewFolder::publish() {
+void NewFolder::publish(const std::vector<std::string>& outdated) {
   sync_folder(path_, calls_);
   if (!fs::exists(target_)) {
     if (std::rename(path_.c_str(), target_.c_str()) != 0) throw file_error(target_, "create", errno);
@@ -193,6 +193,7 @@ void NewFolder::publish() {
     if (!exchange(path_, target_)) exchange_in_steps(path_, target_);
     published_ = true;  // from here on path_ holds the old content
     std::error_code ignored;
+    for (const std::string& name : outdated) fs::remove(path_ / name, ignored);
     if (!move_strangers(path_, target_))
       throw FileError(fmt::format("{}: other files of the old folder could not be moved back; they are in {}.",
                                   target_.string(), path_.string()));

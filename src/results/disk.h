@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "pintle/results.h"
 
@@ -53,8 +54,8 @@ class NewFolder {
   ~NewFolder();
 
   const std::filesystem::path& path() const { return path_; }  ///< the temporary one, to write files into
-  /// Takes the target's place; entries of the old target that the new folder does not have are moved over.
-  void publish();
+  /// Takes the target's place; entries of the old target that the new folder does not have are moved over, but for those that are `outdated`.
+  void publish(const std::vector<std::string>& outdated = {});
 
  private:
   std::filesystem::path target_, path_;

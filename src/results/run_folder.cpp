@@ -12,6 +12,8 @@ namespace pintle {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char *kTomlCopy = "model-as-run.toml", *kJsonCopy = "model-as-run.json";
+
 bool holds_a_run(const fs::path& folder) {
   try {
     return is_summary(read_file(folder / kSummaryFile));
@@ -79,7 +81,8 @@ void write_run(const Trajectory& trajectory, const RunStamp& stamp, const fs::pa
     model.close();
   }
   for (const ModelFile& file : stamp.model_files) write_model_file(fresh.path() / file.name, file.text, calls);
-  fresh.publish();
+  // What only the earlier run had, this one must not seem to have.
+  fresh.publish(holds_a_run(folder) ? std::vector<std::string>{kEventsFile, kTomlCopy, kJsonCopy} : std::vector<std::string>{});
 }
 
 void write_run(const Trajectory& trajectory, const RunStamp& stamp, const fs::path& folder, Overwrite overwrite) {
@@ -87,7 +90,7 @@ void write_run(const Trajectory& trajectory, const RunStamp& stamp, const fs::pa
 }
 
 std::string model_file_of(const RunStamp& stamp) {
-  return stamp.model_path.ends_with(".json") ? "model-as-run.json" : "model-as-run.toml";
+  return stamp.model_path.ends_with(".json") ? kJsonCopy : kTomlCopy;
 }
 
 std::string read_model_text(const fs::path& folder, const RunStamp& stamp) {

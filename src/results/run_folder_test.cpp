@@ -139,6 +139,16 @@ TEST(RunFolder, ReplacesAnEarlierRunAndLeavesOtherFilesAlone) {
   EXPECT_EQ(sample::n_entries(scratch.path()), 1U);
 }
 
+TEST(RunFolder, EventsOfAnEarlierRunDoNotStayWithOneThatHasNone) {
+  const sample::ScratchFolder scratch;
+  write_run(sample::trajectory(5), sample::stamp(), scratch / "run");
+  write_file(scratch / "run/events.csv", "t,joint,event\n");
+  write_file(scratch / "run/model-as-run.json", "{}");
+  write_run(sample::trajectory(5), sample::stamp(), scratch / "run");
+  EXPECT_FALSE(fs::exists(scratch / "run/events.csv"));
+  EXPECT_FALSE(fs::exists(scratch / "run/model-as-run.json"));
+}
+
 TEST(RunFolder, RefusesAStrangersFolderUnlessToldSo) {
   const sample::ScratchFolder scratch;
   fs::create_directories(scratch / "thesis");

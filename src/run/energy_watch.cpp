@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "joints/belt.h"
 
 namespace pintle {
 namespace {
@@ -35,6 +38,8 @@ template <class S>
 BasicEnergyWatch<S>::BasicEnergyWatch(const BasicSystem<S>& system, double duration, double tolerance, bool exact_work)
     : system_(system), duration_(duration), tolerance_(std::max(tolerance, kLeastTolerance)), exact_work_(exact_work) {
   for (const BasicJointData<S>& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : joint.driven >= 0 ? "the length of joint" : joint.law.feeds() ? "the pressure in joint" : joint.law.depends_on_reaction_alone() ? "the teeth of joint" : "negative damping of joint", &joint.name});
+  for (int j = 0; j < system.n_joints(); ++j)
+    if (has_lost_a_turn(system.joints[j].displacement, -1, std::numeric_limits<double>::infinity())) belts_.push_back({j, 0});
   for (const BasicLoadData<S>& load : system.loads) feeders_.push_back({load.applied ? "force" : load.kind == LoadKind::kEffort ? "motor" : "negative damping of spring", &load.name});
   for (const BasicAppliedData<S>& force : system.applied) feeders_.push_back({"force", &force.name});
 }
@@ -74,6 +79,13 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicSta
   kinetic_ = kinetic;
   kinetic_peak_ = std::max(kinetic_peak_, kinetic);
   if (reached_ > 0) add_works(state, h);
+  for (auto& [j, gap] : belts_) {
+    if (tightened_ < 0 && has_lost_a_turn(system_.joints[j].displacement, gap, state.gap[j][0])) {
+      tightened_ = j;
+      tightened_at_ = state.t;
+    }
+    gap = state.gap[j][0];
+  }
   if (++since_judged_ >= kJudgedEvery)
     if (const Alarm alarm = judge_account(state); alarm != Alarm::kNone) return alarm;
   return judge_growth(state);
@@ -115,6 +127,11 @@ void BasicEnergyWatch<S>::say_open(const BasicState<S>& state, double missing, d
   const bool ideal = std::any_of(system_.joints.begin(), system_.joints.end(), [](const BasicJointData<S>& joint) { return joint.ideal; });
   const bool loaded = !system_.loads.empty() || !system_.applied.empty();
   const bool sudden = std::abs(missing - missing_) > 0.5 * within;
+  if (tightened_ >= 0) {
+    message_ = fmt::format("joint {} was slack by nearly what a whole turn winds, and is taken for taut at t = {:.6g} s: more than 0.9 of a turn of slack is not followed. Stop the drive before, or give the disc a larger radius",
+                           system_.joints[tightened_].name, tightened_at_);
+    return;
+  }
   const char* cause = sudden && !loaded && ideal ? "likely a singular position of ideal joints: start elsewhere, or give its joints stiffness"
                       : sudden && loaded ? "likely a load or motor that changes within a step there, or has a pole: set a max_step that sees it"
                       : ideal ? "likely ideal joints near a singular position: give them stiffness"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "system/state.h"
@@ -60,6 +61,9 @@ class BasicEnergyWatch {
   double decade_[kDecades] = {};         // when they were [s]
   std::vector<typename S::Motion> m_;
   std::vector<Feeder> feeders_;          // joints, loads, applied forces
+  std::vector<std::pair<int, double>> belts_;  // joints that wind, and their gaps [m]
+  int tightened_ = -1;                   // of those, the first that was slack by a turn and is taken for taut
+  double tightened_at_ = 0;              // [s]
   std::string message_;
 };
 using EnergyWatch = BasicEnergyWatch<Planar>;

@@ -147,12 +147,25 @@ System assemble_positions(const Model& model, System system, Vecs& q, std::vecto
   return fix_assembled_values(model, std::move(system), q, notes);
 }
 
+// A body that came to lie far from where the file states it was meant otherwise, or its markers were.
+void note_turned_bodies(const Model& model, const Vecs& guess, const Vecs& q, std::vector<std::string>& notes) {
+  constexpr double kFar = std::numbers::pi / 4;  // a drawing's angles are read off more closely
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    if (!model.bodies[i].angle) continue;
+    const double turned = std::remainder(q[i][2] - guess[i][2], 2 * std::numbers::pi);
+    if (std::abs(turned) > kFar)
+      notes.push_back(fmt::format("body {}: assembly turned it by {:.3g} deg from its stated angle; if that was not meant, look at the angles of its markers", model.bodies[i].name,
+                                  turned * 180 / std::numbers::pi));
+  }
+}
+
 Assembly put_bodies(const Model& model, System system) {
   Assembly out;
   State& state = out.state;
   state.q = guess_positions(model, system);
   const Vecs guess = state.q;
   out.system = assemble_positions(model, std::move(system), state.q, out.notes);
+  note_turned_bodies(model, guess, state.q, out.notes);
   for (std::size_t i = 0; i < guess.size(); ++i)
     if (model.bodies[i].position) out.largest_move = std::max(out.largest_move, (state.q[i] - guess[i]).head<2>().norm());
   state.v = stated_velocities(model);

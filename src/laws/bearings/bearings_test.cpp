@@ -8,6 +8,7 @@
 #include "base/constants.h"
 #include "laws/catalog.h"
 #include "laws/bearings/journal_film.h"
+#include "laws/gap_at_force.h"
 
 namespace pintle {
 namespace {
@@ -271,6 +272,21 @@ TEST(Table, FollowsItsPointsAndTheirEndSlopes) {
   const Law rod = made("table", {{"displacement", {-1e-3, 1e-3}}, {"force", {-50, 10}}, {"damping", {3}}}, "prismatic");
   EXPECT_NEAR(force(rod, {7, 2e-3, 0}, {1, 2, 0})[1], -(10 + 30) - 6, 1e-12);  // straight on, and the damper
   EXPECT_NEAR(rod.energy({0, Vec(0, 1e-3, 0), Vec::Zero(), nullptr}), -20 * 1e-3 + 0.5 * 3e4 * 1e-6, 1e-15);
+}
+
+// At its centre a bearing of balls has next to no stiffness, from which Newton's method would leap by metres.
+TEST(RollingBearing, TheGapAtAForceIsFoundFromNearTheCentre) {
+  const Law law = made("rolling-bearing", {{"balls", {9}}, {"ball_diameter", {0.007}}});
+  const Vec load(3, 19.6, 0);
+  for (const double off : {0.0, 1e-24, 7.7e-21, 1e-15, 1e-12, 1e-9}) {
+    Vec gap(0, -off, 0);
+    EXPECT_TRUE(gap_at_force(law, load, Vec(Vec::Zero()), gap)) << off;
+    EXPECT_LT(gap.norm(), 1e-5) << off;
+    EXPECT_LT((force(law, gap) - load).norm(), 1e-9 * load.norm()) << off;
+    Vec once(0, -off, 0);
+    newton_step_to_force(law, load, Vec(Vec::Zero()), Vec(Vec::Ones()), once);
+    EXPECT_LT(once.norm(), 1e-4) << off;
+  }
 }
 
 TEST(Bearings, SayWhatIsWrongAndWhatToTry) {

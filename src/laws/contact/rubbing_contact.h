@@ -46,7 +46,7 @@ struct RubbingContact {
   /// Surfaces that start in contact have not approached: the floor stands for their speed.
   void rest(const ContactMotion<double>& at, double* state) const {
     state[0] = at.depth > 0 ? contact.least_approach : 0;
-    if (grip) StickSlip::rest(at.slip, 0, state + 1);
+    if (grip) grip->rest(at.slip, 0, state + 1);
   }
 
   int n_borders() const { return grip ? ContactForce::kBorders + StickSlip::kBorders : ContactForce::kBorders; }
@@ -64,7 +64,7 @@ struct RubbingContact {
   void cross(int border, const ContactMotion<double>& at, double* state) const {
     if (border >= ContactForce::kBorders) return grip->cross(border - ContactForce::kBorders, at.slip, pressing(point_forces<double>(contact, at, state[0]).normal), state + 1);
     contact.cross(border, at.rate, state[0]);
-    if (grip && border == ContactForce::kTouch) StickSlip::rest(at.slip, 0, state + 1);
+    if (grip && border == ContactForce::kTouch) grip->rest(at.slip, 0, state + 1);
   }
   /// What Archard's law multiplies: surfaces that stick move by their springs only.
   double wear_power(double normal, double slip, const double* state) const { return sticks(state) ? 0 : std::max(0.0, normal) * std::abs(slip); }

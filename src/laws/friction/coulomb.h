@@ -27,7 +27,7 @@ struct CoulombLaw : Friction {
     out.energy = f.energy;
     out.loss = f.loss;
   }
-  void rest(const LawInput<double>& in, double* state) const { StickSlip::rest(slip(in), starts_to_slip, state); }
+  void rest(const LawInput<double>& in, double* state) const { surfaces().rest(slip(in), starts_to_slip, state); }
   /// Of pins and slides: bodies that roll on each other are not held by what sticks between them.
   std::optional<Stiction> stiction(const double* state) const {
     if (normal > 0 || !StickSlip::sticks(state)) return {};

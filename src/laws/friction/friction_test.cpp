@@ -97,6 +97,22 @@ TEST(CoulombLaw, SticksBreaksAndSticksAgain) {
   EXPECT_NEAR(lost, 0.5 * 1e5 * (151e-6 * 151e-6 - state[0] * state[0]), 1e-12);  // the spring's, which broke and sticks again
 }
 
+// A start has slow slips that mean nothing: the damper of what sticks would push, on surfaces on which nothing presses, by more than they carry.
+TEST(Coulomb, BeginsWithoutFrictionWhereNothingPresses) {
+  CoulombLaw law;
+  law.free = 0;
+  law.radius = 1;
+  Law joint(LinearLaw{{0, 1e6, 0}, {0, 0, 0}});
+  joint.add(std::make_unique<LawPartOf<CoulombLaw>>(law));
+  double state[2], border[StickSlip::kBorders];
+  const Vec gap = Vec::Zero(), slow(1e-8, 0, 0);
+  joint.rest({0, gap, slow, state}, state);
+  EXPECT_TRUE(StickSlip::sticks(state));
+  EXPECT_NEAR(joint.force({0, gap, slow, state})[0], 0, 1e-18);
+  joint.borders({0, gap, slow, state}, border);
+  EXPECT_GT(border[0], 0);
+}
+
 // 100 N across a guide of 50 mm: a moment below 2.5 N m leaves both edges on one side, 10 N m press them with 200 N each.
 TEST(Friction, MomentPressesTheEdgesOfAGuide) {
   StribeckLaw law;

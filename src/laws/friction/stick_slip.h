@@ -43,10 +43,11 @@ struct StickSlip {
     return f;
   }
   static bool sticks(const double* state) { return state[1] == 0; }
-  /// Slipping, or at rest in the mode given, stuck with nothing on the spring. Slow speeds of a start have no meaning.
-  static void rest(double v, int mode_at_rest, double* state) {
-    state[0] = 0;
+  /// Slipping, or at rest in the mode given. Slow speeds of a start have no meaning: what sticks begins without friction, which surfaces on which nothing
+  /// presses could not carry.
+  void rest(double v, int mode_at_rest, double* state) const {
     state[1] = std::abs(v) < kStill ? mode_at_rest : v > 0 ? 1 : -1;
+    state[0] = state[1] == 0 ? -damping * v / stiffness : 0;
   }
   /// Stuck under a friction; false where they cannot carry it.
   bool set_stuck(double friction, double N, double* state) const {

@@ -8,6 +8,7 @@
 namespace pintle {
 namespace {
 
+constexpr double kPeakOfRounding = 10;       // times the rounding of one force: its peak over a run of many
 constexpr double kNegligibleOfMotor = 1e-3;  // a motor is measured at least by this part of it
 constexpr double kOfEqual = 3;               // share of the difference that is the finer pass's error, where the finer pass is as coarse
 
@@ -187,7 +188,7 @@ void state_errors(const BasicSystem<S>& system, const PassDifference& difference
     const double force = std::max(share * difference.force[j], std::min(least.ringing.force(j), least.tolerance * peak));
     const double couple = std::max(share * difference.couple[j], std::min(least.ringing.couple(j), least.tolerance * peak_couple));
     LoadSummary& joint = joints[row++];
-    joint.error_estimate = std::max({force, least.of_peak * peak, peak > difference.rounding ? 0 : peak});  // what rounding alone makes is not known at all
+    joint.error_estimate = std::max({force, least.of_peak * peak, peak > kPeakOfRounding * difference.rounding ? 0 : peak});  // what rounding alone makes is not known at all
     joint.moment_error_estimate = couple;
     joint.relative_error_estimate = std::max(measures.of_joint(j, force, peak, couple, peak_couple), least.of_peak);
   }

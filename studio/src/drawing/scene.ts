@@ -6,7 +6,7 @@ import type { Thing } from "../model/operations";
 import type { Camera } from "./camera";
 import { type BodyLook, type Looks, guideEnds } from "./looks";
 import { ForceArrows, drawLoads } from "./loads";
-import { BAR, PIN, beltRun, bend, centreMark, circle, coil, cylinder, dashpot, groundGuide, polyline, rackTeeth, rectangle, slot, support, teeth, zigzag } from "./symbols";
+import { BAR, BEARING, PIN, bearingRing, beltRun, bend, centreMark, circle, coil, cylinder, dashpot, groundGuide, polyline, rackTeeth, rectangle, slot, support, teeth, zigzag } from "./symbols";
 import { group, make, path, put } from "./svg";
 
 /** One instant: where bodies are, and what joints carry (fx, fy, moment on the second body, in the order of the model). */
@@ -220,6 +220,13 @@ export class Scene {
     if (joint.type === "prismatic") {
       if (model.body.get(end.body)?.markers.length !== 1) this.drawBlock(joint, end, at, marker?.axis ?? 0);
       return;
+    }
+    const ring = joint.type === "revolute" ? bearingRing(joint.law) : null;
+    if (ring) {
+      const bush = group(`bearing ${ring.look}`, this.layers.pins);
+      path(circle(0, 0, BEARING), "ring", bush);
+      if (ring.balls) path(ring.balls, "balls", bush);
+      this.follow(bush, joint.first.body, markerOf(model, joint.first)?.at ?? [0, 0]);
     }
     const pin = path(joint.type === "fixed" ? "M-5 -5L5 5M5 -5L-5 5" : circle(0, 0, PIN), `pin ${joint.type}`, this.layers.pins);
     this.register("joint", joint.name, pin);

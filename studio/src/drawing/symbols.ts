@@ -18,6 +18,20 @@ export function circle(x: number, y: number, r: number): string {
   return `M${f(x - r)} ${f(y)}a${f(r)} ${f(r)} 0 1 0 ${f(2 * r)} 0a${f(r)} ${f(r)} 0 1 0 ${f(-2 * r)} 0`;
 }
 
+export const BEARING = 8.5;
+
+/** What is around the pin of a joint with this law: balls, oil, rubber, or room. None around a plain spring and damper. */
+export function bearingRing(law: string): { look: "rolling" | "oil" | "rubber" | "gap"; balls?: string } | null {
+  if (law === "journal-bearing") return { look: "oil" };
+  if (law === "clearance") return { look: "gap" };
+  if (law === "rubber-bushing" || law === "bushing" || law === "maxwell") return { look: "rubber" };
+  if (law !== "rolling-bearing") return null;
+  const count = 10;
+  const centres = (BEARING + PIN) / 2;
+  const around = Array.from({ length: count }, (_, i) => (2 * Math.PI * i) / count);
+  return { look: "rolling", balls: around.map((angle) => circle(centres * Math.cos(angle), centres * Math.sin(angle), 1.3)).join("") };
+}
+
 /** A support: triangle from the pin, a line, hatching below it. */
 export function support(): { body: string; hatch: string } {
   const h = 17;

@@ -1,0 +1,75 @@
+// Starts that users have met: where positions, speeds and preloads of a run's first instant come from, in whole runs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "pintle/simulate.h"
+#include "tests/reference_tables.h"
+
+namespace pintle {
+namespace {
+
+using reference::at_end;
+using reference::completed;
+using reference::value;
+
+Model model_called(const std::string& name) { return read_model(std::string(PINTLE_SOURCE_DIR) + "/tests/models/" + name + ".toml"); }
+
+// The spring presses the follower onto the base circle with 40 N and its weight; the cam's bearing carries both and the cam.
+TEST(Starts, ABearingOfBallsWithoutPlayDoesNotThrowAFollowerOffItsCam) {
+  const Model model = model_called("cam_on_ball_bearing");
+  const Trajectory run = completed(model);
+  EXPECT_NEAR(value(run, 0, "body.fol.y"), 0.09, 1e-5);
+  EXPECT_NEAR(value(run, 0, "spring.sp.force"), -40, 1e-2);
+  EXPECT_LT(run.joints[0].peak, 200);
+}
+
+// What presses the guide at first is rounding: it does not stick beyond what the load lets it carry.
+TEST(Starts, AGuideThatNothingPressesDoesNotJam) {
+  Model model = model_called("cam_on_ball_bearing");
+  model.joints[0].law = {};
+  const Trajectory run = completed(model);
+  for (std::size_t i = 0; i < run.n_rows(); ++i) {
+    const double across = std::abs(value(run, i, "joint.guide.on_fol.f2[joint]")), couple = std::abs(value(run, i, "joint.guide.on_fol.m[world]"));
+    EXPECT_LE(std::abs(value(run, i, "joint.guide.friction")), 0.1 * std::max(across, 2 * couple / 0.04) + 1e-5) << i;
+  }
+}
+
+// A ball bearing has no stiffness at its centre, and starts at the deflection that carries its load nevertheless.
+TEST(Starts, BearingsOfBallsStartWithTheForcesOfLinearPins) {
+  const Model balls = model_called("four_bar_of_ball_bearings");
+  Model pins = balls;
+  for (Joint& joint : pins.joints) joint.law = {};
+  const Trajectory run = completed(balls), other = completed(pins);
+  for (const char* column : {"joint.O.on_c.fx[world]", "joint.O.on_c.fy[world]", "joint.P.on_ground.fx[world]"}) EXPECT_NEAR(value(run, 0, column), value(other, 0, column), 2) << column;
+  EXPECT_NEAR(run.joints[0].peak, other.joints[0].peak, 2e-3 * other.joints[0].peak);
+}
+
+// Sweeps that have not converged are no start: the mechanism begins at rest, with the pressure times the area in its cylinder.
+TEST(Starts, AMechanismAtRestStaysAtRestWhereNoSlowMotionIsFound) {
+  const Trajectory run = completed(model_called("scissor_lift_at_rest"));
+  EXPECT_LT(run.energy.kinetic_start, 1e-6);
+  EXPECT_NEAR(run.joints.back().peak, 7e6 * kPi / 4 * 0.063 * 0.063, 1);
+}
+
+TEST(Starts, ABodyThatAssemblyTurnsFarIsNoted) {
+  Model model = reference::mechanism("slider_crank");
+  for (Marker& marker : model.bodies[2].markers)
+    if (marker.name == "skirt") marker.axis = 0;
+  model.simulate.duration = 0.01;
+  const Trajectory run = simulate(model);
+  EXPECT_TRUE(std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("body piston: assembly turned it by 90 deg") != std::string::npos; }));
+}
+
+// Slack by more than 0.9 of what a turn of the drum winds cannot be told from taut: the run says so, and is not "completed".
+TEST(Starts, ARopeThatIsSlackByATurnEndsTheRun) {
+  const Trajectory run = simulate(model_called("rope_slack_by_a_turn"));
+  EXPECT_EQ(run.outcome, Outcome::kEnergyOpen);
+  EXPECT_NE(run.message.find("joint rope was slack by nearly what a whole turn winds"), std::string::npos) << run.message;
+  EXPECT_NEAR(at_end(run, "t"), 0.1944, 1e-2);
+}
+
+}  // namespace
+}  // namespace pintle
