@@ -155,7 +155,9 @@ struct Motor {
   double damping = 1e3;    ///< servo [N*m*s/rad] or [N*s/m]
 };
 
-enum class Start { kAssembled, kUnloaded, kRaw };
+/// What a run starts from. kAssembled: positions, velocities and preloads that fit. kSettled: those at which the assembled mechanism is at rest under the
+/// loads of t = 0. kUnloaded: no preloads. kRaw: as stated.
+enum class Start { kAssembled, kSettled, kUnloaded, kRaw };
 
 /// The equations of motion. kNewtonian: every joint is a force law. kRelative: joints marked `ideal` are obeyed by
 /// relative coordinates over a spanning tree, every other joint is a force law. kIdeal: every joint with a linear law is a

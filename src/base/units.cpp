@@ -20,6 +20,7 @@ constexpr Dimension kPower{{2, 1, -3, 0}, false};
 constexpr Dimension kPressure{{-1, 1, -2, 0}, false};
 constexpr double kPound = 0.45359237;  // international avoirdupois pound, exact [kg]
 constexpr double kInch = 0.0254;       // exact [m]
+constexpr double kPoundForce = kPound * kStandardGravity;  // [N]
 
 constexpr std::array kUnits{
     UnitEntry{"m", {1, kLength}},
@@ -36,6 +37,7 @@ constexpr std::array kUnits{
     UnitEntry{"mg", {1e-6, kMass}},
     UnitEntry{"t", {1e3, kMass}},
     UnitEntry{"lb", {kPound, kMass}},
+    UnitEntry{"slug", {kPoundForce / (12 * kInch), kMass}},
     UnitEntry{"s", {1, kTime}},
     UnitEntry{"ms", {1e-3, kTime}},
     UnitEntry{"us", {1e-6, kTime}},
@@ -46,6 +48,7 @@ constexpr std::array kUnits{
     UnitEntry{"kN", {1e3, kForce}},
     UnitEntry{"MN", {1e6, kForce}},
     UnitEntry{"mN", {1e-3, kForce}},
+    UnitEntry{"lbf", {kPoundForce, kForce}},
     UnitEntry{"J", {1, kTorque}},
     UnitEntry{"kJ", {1e3, kTorque}},
     UnitEntry{"W", {1, kPower}},
@@ -55,6 +58,7 @@ constexpr std::array kUnits{
     UnitEntry{"MPa", {1e6, kPressure}},
     UnitEntry{"GPa", {1e9, kPressure}},
     UnitEntry{"bar", {1e5, kPressure}},
+    UnitEntry{"psi", {kPoundForce / (kInch * kInch), kPressure}},
     UnitEntry{"Hz", {1, kPerTime}},
     UnitEntry{"kHz", {1e3, kPerTime}},
     UnitEntry{"rad", {1, kAngle}},

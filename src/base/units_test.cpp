@@ -26,6 +26,8 @@ TEST(Units, KnownValues) {
       {"\xC2\xB5m", 1e-6, kLength},
       {"g", 0.001, kMass},
       {"lb", 0.45359237, kMass},
+      {"slug", 14.59390293720636, kMass},
+      {"lbf", 4.4482216152605, kForce},
       {"t", 1000, kMass},
       {"min", 60, kTime},
       {"h", 3600, kTime},

@@ -173,7 +173,7 @@ void check_expressions(const System& system, const std::vector<CheckState>& stat
     for (const LoadData& load : system.loads) {
       if (load.kind != LoadKind::kEffort) continue;
       const auto values = signal_values(system, load, state);
-      const CheckPlace place{"motor", load.name, state.number};
+      const CheckPlace place{load.applied ? "force" : "motor", load.name, state.number};
       expression_slopes(load.law, values, place, slopes);
       finite.vanishes(std::isfinite(load.law.value(values)) ? 0 : 1, 1, place);
     }

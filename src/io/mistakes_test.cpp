@@ -53,6 +53,7 @@ const std::vector<Mistake> kMistakes{
     {"[joint.B]", "[joint.O2.bearing]\n@pin_diametre = 1\n\n[joint.B]", "joint.O2.bearing.pin_diametre", "no such key", "pin_diameter"},
     {"angular_stiffness = \"5e5 N*m/rad\"", "@bearing = { type = \"ball\" }", "joint.B.bearing", "a prismatic joint has no pin", "revolute"},
     {"stiffness = [\"1e6 N/m\", \"2e6 N/m\"]", "bearing = @3", "joint.A.bearing", "a table is expected"},
+    {"method = \"radau\"\nstart = \"unloaded\"", "start = \"@settled\"\nequations = \"ideal\"", "simulate.start", "with these equations no mechanism"},
     {"format = 1\n", "@name2 = 1\nformat = 1\n", "name2", "no such key", "did you mean \"name\"?"},
     {"format = 1\n", "format = @2\n", "format", "newer than the program"},
     {"format = 1\n", "format = @0\n", "format", "at least 1"},
@@ -205,6 +206,13 @@ TEST(Mistakes, AMisspeltKeyIsNotMissingToo) {
   const std::vector<Complaint> found = complaints_about("format = 1\n[body.rod]\nmas = \"2 kg\"\ninertia = 0.1\n");
   ASSERT_EQ(found.size(), 1);
   EXPECT_EQ(found[0].path, "body.rod.mas");
+}
+
+TEST(Mistakes, ASettledStartIsAtRest) {
+  const std::vector<Complaint> found = complaints_about("format = 1\n[simulate]\nduration = 1\nstart = \"settled\"\n[body.a]\nmass = 1\ninertia = 1\nspin = 2\n[body.b]\nmass = 1\ninertia = 1\nspin = 0\nvelocity = [0, 1]\n");
+  ASSERT_EQ(found.size(), 2);
+  EXPECT_EQ(found[0].path, "body.a.spin");
+  EXPECT_EQ(found[1].path, "body.b.velocity");
 }
 
 TEST(Mistakes, AFaultyParameterIsBlamedOnce) {

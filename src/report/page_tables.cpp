@@ -290,7 +290,7 @@ std::string energy_table(const EnergyAccount& energy) {
   for (const double x : {energy.kinetic_end, energy.potential_end, energy.dissipated, energy.supplied}) table.number(x);
   table.end_row();
   std::string note = fmt::format("kinetic + potential + dissipated − supplied drifts by {} J", estimate(energy.drift));
-  if (energy.kinetic_peak > 0) note += fmt::format(", {} of the peak kinetic energy", estimate(energy.drift / energy.kinetic_peak));
+  if (is_moving(energy)) note += fmt::format(", {} of the peak kinetic energy", estimate(energy.drift / energy.kinetic_peak));
   return table.html() + "<p class=\"note\">" + note + ". Nothing in the method enforces this balance: it is an independent check.</p>\n";
 }
 
@@ -308,6 +308,7 @@ std::string assumption_list(const Model& model, const Trajectory& trajectory) {
   }
   switch (settings.start) {
     case Start::kAssembled: item("The start is assembled: positions, velocities and the preload of every joint are computed."); break;
+    case Start::kSettled: item("The start is settled: the mechanism is at rest, in equilibrium under the loads of t = 0."); break;
     case Start::kUnloaded: item("The start has no joint preload."); break;
     case Start::kRaw: item("The start is used as stated, without preload; the resulting shock is part of the result."); break;
   }

@@ -7,14 +7,19 @@ namespace pintle {
 namespace {
 
 constexpr double kNoHeat = 1e-6;      // of the energy that moves
+constexpr double kRounding = 1e-12;   // of the energy that is stored
 constexpr double kLittleHeat = 1e-3;  // of all that is lost
 
+double stored(const EnergyAccount& energy) { return std::max(std::abs(energy.potential_start), std::abs(energy.potential_end)); }
+
 }  // namespace
+
+bool is_moving(const EnergyAccount& energy) { return energy.kinetic_peak > kRounding * stored(energy); }
 
 std::vector<const LoadSummary*> joints_with_heat(const Trajectory& run) {
   std::vector<const LoadSummary*> out;
   const EnergyAccount& energy = run.energy;
-  if (!(energy.dissipated > kNoHeat * std::max(energy.kinetic_peak, std::abs(energy.supplied)))) return out;
+  if (!(energy.dissipated > std::max(kNoHeat * std::max(energy.kinetic_peak, std::abs(energy.supplied)), kRounding * stored(energy)))) return out;
   for (const LoadSummary& joint : run.joints)
     if (joint.heat > kLittleHeat * energy.dissipated) out.push_back(&joint);
   return out;

@@ -10,4 +10,7 @@ namespace pintle {
 /// In their order; none where the run loses next to nothing of the energy that moves.
 std::vector<const LoadSummary*> joints_with_heat(const Trajectory& run);
 
+/// Whether anything moves by more than the rounding of the energy that is stored: what a ratio to the kinetic energy needs.
+bool is_moving(const EnergyAccount& energy);
+
 }  // namespace pintle

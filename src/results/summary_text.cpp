@@ -218,7 +218,7 @@ std::string energy_section(const EnergyAccount& energy, const Style& style) {
                  engineering(energy.dissipated), engineering(energy.supplied)});
   std::string text = section("Energy account", table, style);
   text += fmt::format("  kinetic + potential + dissipated - supplied drifts by {} J", exponent(energy.drift));
-  if (energy.kinetic_peak > 0)
+  if (is_moving(energy))
     text += fmt::format(" ({} of the peak kinetic energy)", exponent(energy.drift / energy.kinetic_peak));
   return text + "\n";
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -70,34 +71,68 @@ void assemble_velocities(const Model& model, const System& system, const Vecs& q
   v = x;
 }
 
-void demand_closed(const System& system, const Vecs& q, const std::vector<bool>& open, std::vector<std::string>& notes) {
+// What a joint lacks to being closed [m], [rad]; 0 in components that it does not hold.
+std::array<double, 2> misfit(const JointData& joint, const JointKinematics& r) {
+  const S::Vec stiff = joint.law.engaged_stiffness();
+  S::Vec gap = gap_to_close(joint, r);
+  for (int k = 0; k < 3; ++k)
+    if (stiff[k] == 0) gap[k] = 0;
+  return {gap.head<2>().norm(), std::abs(gap[2])};
+}
+
+std::vector<std::array<double, 2>> misfits(const System& system, const Vecs& q) {
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
   kinematics_at(system, 0, q, Vecs(q.size(), S::Vec::Zero()), m, r);
+  std::vector<std::array<double, 2>> out;
+  for (std::size_t j = 0; j < r.size(); ++j) out.push_back(misfit(system.joints[j], r[j]));
+  return out;
+}
+
+bool is_broken(const std::array<double, 2>& misfit, double size) { return misfit[0] > 2e-3 * size || misfit[1] > 0.02; }
+
+std::string length_or_angle(const std::array<double, 2>& misfit, double size) {
+  return misfit[0] > 2e-3 * size ? fmt::format("{:.4g} m", misfit[0]) : fmt::format("{:.4g} rad", misfit[1]);
+}
+
+// A loop that does not close has its misfit in all of its joints. Those without which all others close are that loop.
+std::string loop_that_lacks(const Model& model, const System& system, const Vecs& q, const std::vector<bool>& open, const std::vector<std::size_t>& broken) {
+  const double size = mechanism_size(system, q);
+  std::string names, lacks;
+  for (const std::size_t j : broken) {
+    Vecs trial = q;
+    std::vector<bool> opened = open;
+    opened[j] = true;
+    PositionSearch(model, system, opened).run(trial);
+    const auto left = misfits(system, trial);
+    bool closed = true;
+    for (std::size_t i = 0; i < left.size(); ++i) closed = closed && (opened[i] || !is_broken(left[i], size));
+    if (!closed) continue;
+    if (lacks.empty()) lacks = length_or_angle(left[j], size);
+    names += (names.empty() ? "" : ", ") + system.joints[j].name;
+  }
+  return names.empty() ? "" : fmt::format("\n  loop: {}; with any one of them open all others close, and it lacks about {}", names, lacks);
+}
+
+void demand_closed(const Model& model, const System& system, const Vecs& q, const std::vector<bool>& open, std::vector<std::string>& notes) {
+  const auto left = misfits(system, q);
   const double size = mechanism_size(system, q);
   constexpr int kMostListed = 20;
-  int n_broken = 0;
-  std::string broken;
-  for (std::size_t j = 0; j < r.size(); ++j) {
+  constexpr std::size_t kMostTried = 12;  // joints that are opened in turn, at most
+  std::vector<std::size_t> broken;
+  for (std::size_t j = 0; j < left.size(); ++j) {
     if (open[j]) continue;
-    const JointData& joint = system.joints[j];
-    const S::Vec stiff = joint.law.engaged_stiffness();
-    S::Vec gap = gap_to_close(joint, r[j]);
-    for (int k = 0; k < 3; ++k)
-      if (stiff[k] == 0) gap[k] = 0;
-    const double length = gap.head<2>().norm(), angle = std::abs(gap[2]);
-    if (length > 2e-3 * size || angle > 0.02) {
-      if (++n_broken > kMostListed) continue;
-      broken += fmt::format("\n  joint {} ({}) stays open by {}", joint.name, joint.type,
-                            length > 2e-3 * size ? fmt::format("{:.4g} m", length) : fmt::format("{:.4g} rad", angle));
-    } else if (length > 1e-9 * size || angle > 1e-9) {
-      notes.push_back(fmt::format("joint {}: misfit of {:.3g} m, {:.3g} rad after assembly; it preloads the joint", joint.name, length, angle));
-    }
+    if (is_broken(left[j], size)) broken.push_back(j);
+    else if (left[j][0] > 1e-9 * size || left[j][1] > 1e-9)
+      notes.push_back(fmt::format("joint {}: misfit of {:.3g} m, {:.3g} rad after assembly; it preloads the joint", system.joints[j].name, left[j][0], left[j][1]));
   }
-  if (n_broken > kMostListed) broken += fmt::format("\n  and {} more", n_broken - kMostListed);
-  if (!broken.empty())
-    throw AssemblyError("the mechanism cannot be assembled from the stated positions:" + broken + "\n  loop: " + loop_through(system, broken) +
-                        "\n  Try lengths that close the loop, or angles nearer to the intended position.");
+  if (broken.empty()) return;
+  std::string list;
+  for (std::size_t i = 0; i < broken.size() && i < kMostListed; ++i) list += fmt::format("\n  joint {} ({}) stays open by {}", system.joints[broken[i]].name, system.joints[broken[i]].type, length_or_angle(left[broken[i]], size));
+  if (broken.size() > kMostListed) list += fmt::format("\n  and {} more", broken.size() - kMostListed);
+  std::string lacking = broken.size() <= kMostTried ? loop_that_lacks(model, system, q, open, broken) : "";
+  if (lacking.empty()) lacking = "\n  loop: " + loop_through(system, list);
+  throw AssemblyError("the mechanism cannot be assembled from the stated positions:" + list + lacking + "\n  Try lengths that close the loop, or angles nearer to the intended position.");
 }
 
 // A coordinate far beyond a stop is a start that was not meant. Angles count turns.
@@ -119,7 +154,7 @@ void demand_reach(const JointData& joint, const Belt& belt, const S::Vec& z) {
 }
 
 // Bodies that a contact finds deep inside each other are on the wrong side of it: the forces would be those of no machine.
-void demand_apart(const System& system, const Vecs& q) {
+void demand_apart(const Model& model, const System& system, const Vecs& q) {
   constexpr double kDeep = 1e-2;  // of the mechanism's size: bodies that are deeper in each other are on the wrong side of a contact
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
@@ -131,8 +166,8 @@ void demand_apart(const System& system, const Vecs& q) {
     if (const auto breach = joint.law.breach(r[j].gap)) demand_within_stops(joint, r[j].gap[breach->component], *breach, kDeep * (breach->component == 2 ? 1 : size));
     if (const auto belt = belt_of(joint.displacement)) demand_reach(joint, *belt, system.pose(joint.at, m).z);
     const double depth = joint.law.penetration(r[j].gap);
-    if (depth > kDeep * size)
-      throw AssemblyError(fmt::format("joint {}: its bodies start {:.4g} m inside each other.\n  Try the other side of the edge (the first marker's axis turned by 180 deg: it presses along +y), or a start position apart from it.",
+    if (depth > kDeep * size && model.simulate.start != Start::kSettled)  // where they settle first they push each other apart
+      throw AssemblyError(fmt::format("joint {}: its bodies start {:.4g} m inside each other.\n  Try the other side of the edge (the first marker's axis turned by 180 deg: it presses along +y), a start position apart from it, or start = \"settled\", which lets them push each other apart.",
                                       joint.name, depth));
   }
 }
@@ -143,7 +178,7 @@ System assemble_positions(const Model& model, System system, Vecs& q, std::vecto
   for (int j = 0; j < system.n_joints(); ++j) open[j] = is_open(model, system, j);
   system = unwind(std::move(system), q);
   if (model.simulate.start != Start::kRaw || !all_positions_stated(model)) PositionSearch(model, system, open).run(q);
-  if (model.simulate.start != Start::kRaw) demand_closed(system, q, open, notes);
+  if (model.simulate.start != Start::kRaw) demand_closed(model, system, q, open, notes);
   return fix_assembled_values(model, std::move(system), q, notes);
 }
 
@@ -179,7 +214,7 @@ Assembly assemble_bodies(const Model& model, const System* like) { return put_bo
 
 Assembly assemble_unloaded(const Model& model, System system) {
   Assembly out = put_bodies(model, std::move(system));
-  demand_apart(out.system, out.state.q);
+  demand_apart(model, out.system, out.state.q);
   return out;
 }
 

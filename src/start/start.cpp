@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "start/equilibrium.h"
 #include "start/ideal_rows.h"
 #include "start/settle_joints.h"
 #include "start/start_forces.h"
@@ -66,6 +67,7 @@ Assembly start_of_run(const Model& model, double known_span) {
       if (model.simulate.equations == Equations::kRelativeAugmented && joint.law.depends_on_reaction_alone()) assembly.notes.push_back("joint " + joint.name + ": its teeth push nothing apart in these equations, whatever its radial_force says");
     return assembly;
   }
+  if (model.simulate.start == Start::kSettled) return start_in_equilibrium(model);
   System system = build_system(model);
   if (model.simulate.equations != Equations::kRelative) return start_of_free_bodies(model, std::move(system), known_span);
   const JointTree tree(system);

@@ -70,7 +70,7 @@ Json motor(const Motor& m) {
           {"law", m.law.text()},      {"stiffness", m.stiffness}, {"damping", m.damping}};
 }
 
-const char* word(Start start) { return start == Start::kRaw ? "raw" : start == Start::kUnloaded ? "unloaded" : "assembled"; }
+const char* word(Start start) { return start == Start::kRaw ? "raw" : start == Start::kUnloaded ? "unloaded" : start == Start::kSettled ? "settled" : "assembled"; }
 
 }  // namespace
 

@@ -29,6 +29,16 @@ bool Expression::is_constant() const {
   return variables_.empty();
 }
 
+Expression Expression::with_fixed(std::string_view variable, double si) const {
+  Expression fixed = *this;
+  if (!program_) return fixed;
+  Program program = *program_;
+  for (Instruction& step : program.code)
+    if (step.op == Op::kVariable && variables_[step.index] == variable) step = {Op::kConstant, 0, si};
+  fixed.program_ = std::make_shared<const Program>(std::move(program));
+  return fixed;
+}
+
 double Expression::value(std::span<const double> values) const {
   if (!program_) return 0;
   assert(values.size() >= variables_.size());

@@ -39,6 +39,14 @@ void read_hold(ModelReading& reading, const Record& record, Body& body) {
   }
 }
 
+// A start that has settled is at rest.
+void check_at_rest(ModelReading& reading, const Record& record, const Body& body) {
+  if (reading.model.simulate.start != Start::kSettled) return;
+  const bool moves = body.velocity && (*body.velocity != Vec2{0, 0}), turns = body.spin && *body.spin != 0;
+  for (const char* key : {moves ? "velocity" : "", turns ? "spin" : ""})
+    if (*key != '\0') reading.complaints.add(record.spot(key), record.path + "." + key, key, "simulate.start is \"settled\", so that the run begins at rest", std::string("delete ") + key + ", or start = \"assembled\"");
+}
+
 void read_body(ModelReading& reading, const Entry& entry) {
   const std::string path = "body." + entry.key;
   check_name(reading, entry, path);
@@ -56,6 +64,7 @@ void read_body(ModelReading& reading, const Entry& entry) {
   body.velocity = record.maybe_pair("velocity");
   body.spin = record.maybe_number("spin");
   read_hold(reading, record, body);
+  check_at_rest(reading, record, body);
   body.markers = read_markers(reading, entry, path, reading.markers_of[entry.key]);
   reading.model.bodies.push_back(std::move(body));
 }

@@ -67,6 +67,12 @@ void check_tolerance_of(ModelReading& reading, const Record& record) {
     reading.complaints.add(record.spot("tolerance_of"), "simulate.tolerance_of", in_quotes("motion"), "method " + in_quotes(simulate.method) + " has no tolerance of the motion", "method = \"radau\"");
 }
 
+// Only joints that yield come to rest by themselves.
+void check_start(ModelReading& reading, const Record& record) {
+  if (reading.model.simulate.start != Start::kSettled || reading.model.simulate.equations == Equations::kNewtonian) return;
+  reading.complaints.add(record.spot("start"), "simulate.start", "\"settled\"", "with these equations no mechanism is let come to rest", "equations = \"newtonian\", or start = \"assembled\"");
+}
+
 void read_simulate(ModelReading& reading) {
   const Entry* entry = reading.root.find_entry("simulate");
   if (entry == nullptr) return;
@@ -86,7 +92,8 @@ void read_simulate(ModelReading& reading) {
   check_tolerance_of(reading, record);
   check_penalty(reading, record);
   const std::string start = record.word("start");
-  simulate.start = start == "raw" ? Start::kRaw : start == "unloaded" ? Start::kUnloaded : Start::kAssembled;
+  simulate.start = start == "raw" ? Start::kRaw : start == "unloaded" ? Start::kUnloaded : start == "settled" ? Start::kSettled : Start::kAssembled;
+  check_start(reading, record);
   if (const Value* names = record.find("record")) simulate.record = names->words;
   check_times(reading, record);
 }

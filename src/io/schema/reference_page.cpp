@@ -30,6 +30,18 @@ error. Parameter names may be used anywhere; "expression of" in a table lists fu
 - functions: `sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign min max pow step(x) smoothstep(a, b, x) if(condition, then, else)`
 - tables: `NAME(x)` of a [`[table.NAME]`](#tablename)
 - constants: `pi`, `e`
+- variables: those that the table names. Where these are [coordinates](#coordinates): `t` and what moves
+
+### Coordinates
+
+Forces and efforts of motors may depend on where things are and how they move:
+
+- of a joint `J` with one free coordinate: `J.angle` or `J.slide`, `J.rate`; of one with two, as a slot: `J.slide`, `J.slide_rate`, `J.angle`, `J.angle_rate`
+- of a body `B`, in the world's axes: `B.x`, `B.y`, `B.angle`, `B.vx`, `B.vy`, `B.spin`
+- of its marker `M`: `B.M.x` and so on
+- in a motor: `angle` or `slide`, and `rate`, of its own joint
+
+A distance is `sqrt((A.x - B.x)^2 + (A.y - B.y)^2)`. What is written with these is differentiated exactly.
 )";
 
 constexpr const char* kMarkers =
@@ -65,6 +77,12 @@ std::string list_of(const std::vector<std::string>& words, std::string_view betw
   return text;
 }
 
+std::string variables_of(const KeySpec& spec) {
+  std::string text;
+  for (const std::string& variable : spec.variables) text += (text.empty() ? "" : ", ") + (variable == "joints" ? "[coordinates](#coordinates)" : code(variable));
+  return text;
+}
+
 std::string type_text(const KeySpec& spec) {
   switch (spec.type) {
     case ValueType::kInteger:
@@ -78,9 +96,9 @@ std::string type_text(const KeySpec& spec) {
     case ValueType::kQuantities:
       return spec.count == 0 ? "list of numbers" : fmt::format("list of {} numbers", spec.count);
     case ValueType::kExpression:
-      return "expression of " + list_of(spec.variables, ", ");
+      return "expression of " + variables_of(spec);
     case ValueType::kExpressions:
-      return fmt::format("list of {} expressions of {}", spec.count, list_of(spec.variables, ", "));
+      return fmt::format("list of {} expressions of {}", spec.count, variables_of(spec));
     case ValueType::kTruth:
       return "`true` or `false`";
     case ValueType::kMarker:
@@ -96,7 +114,7 @@ std::string type_text(const KeySpec& spec) {
     case ValueType::kColumn:
       return "text or integer";
     default:
-      if (!spec.variables.empty()) return "number, or expression of " + list_of(spec.variables, ", ");
+      if (!spec.variables.empty()) return "number, or expression of " + variables_of(spec);
       return spec.per_component ? "number, or a list with one per linear gap component" : "number";
   }
 }

@@ -17,6 +17,8 @@ const ENERGY: Dimension = [2, 1, -2, 0];
 const POWER: Dimension = [2, 1, -3, 0];
 const PRESSURE: Dimension = [-1, 1, -2, 0];
 const INCH = 0.0254;
+const POUND = 0.45359237;
+const POUND_FORCE = 9.80665 * POUND;
 const TURN = 2 * Math.PI;
 
 export const UNITS: Readonly<Record<string, Unit>> = {
@@ -33,7 +35,8 @@ export const UNITS: Readonly<Record<string, Unit>> = {
   g: { factor: 1e-3, dimension: M },
   mg: { factor: 1e-6, dimension: M },
   t: { factor: 1e3, dimension: M },
-  lb: { factor: 0.45359237, dimension: M },
+  lb: { factor: POUND, dimension: M },
+  slug: { factor: POUND_FORCE / (12 * INCH), dimension: M },
   s: { factor: 1, dimension: T },
   ms: { factor: 1e-3, dimension: T },
   us: { factor: 1e-6, dimension: T },
@@ -43,6 +46,7 @@ export const UNITS: Readonly<Record<string, Unit>> = {
   N: { factor: 1, dimension: FORCE },
   kN: { factor: 1e3, dimension: FORCE },
   MN: { factor: 1e6, dimension: FORCE },
+  lbf: { factor: POUND_FORCE, dimension: FORCE },
   mN: { factor: 1e-3, dimension: FORCE },
   J: { factor: 1, dimension: ENERGY },
   kJ: { factor: 1e3, dimension: ENERGY },
@@ -53,6 +57,7 @@ export const UNITS: Readonly<Record<string, Unit>> = {
   MPa: { factor: 1e6, dimension: PRESSURE },
   GPa: { factor: 1e9, dimension: PRESSURE },
   bar: { factor: 1e5, dimension: PRESSURE },
+  psi: { factor: POUND_FORCE / INCH ** 2, dimension: PRESSURE },
   Hz: { factor: 1, dimension: [0, 0, -1, 0] },
   kHz: { factor: 1e3, dimension: [0, 0, -1, 0] },
   rad: { factor: 1, dimension: ANGLE },
@@ -75,7 +80,7 @@ export const CHOICES: Readonly<Record<string, readonly string[]>> = {
   "N*m*s/rad": ["N*m*s/rad"],
   "rad/s": ["rpm", "rad/s", "deg/s"],
   "m/s": ["m/s", "mm/s"],
-  N: ["N", "kN", "mN"],
+  N: ["N", "kN", "mN", "lbf"],
   "N*m": ["N*m", "kN*m"],
   s: ["s", "ms", "min"],
   "m/s^2": ["m/s^2"],

@@ -1,0 +1,185 @@
+#include "start/equilibrium.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "integrators/absolute/radau_stepper.h"
+#include "integrators/thresholds.h"
+#include "laws/linear.h"
+#include "pintle/simulate.h"
+#include "start/start_forces.h"
+#include "system/build.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+constexpr double kTolerance = 1e-5;        // of the creep's steps: where it ends does not depend on the way
+constexpr double kAtRest = 1e-11;          // of the largest force: the drag that is left where a body counts as resting, where rounding leaves less
+constexpr double kFirstStep = 1e-3;        // over the time of the creep
+constexpr double kLongest = 1e6;           // times that of the creep: what moves then still, comes to no rest
+constexpr double kFar = 1e3;               // sizes of the mechanism: what is farther away falls for ever
+constexpr std::uint64_t kMostCreepSteps = 50000;  // of the creep
+constexpr double kHolds = 10;              // times the stiffest joint: what holds a coordinate
+constexpr double kUnbalanced = 1e-6;       // of the largest force: what a start in equilibrium leaves unbalanced
+
+// The model as it is at t = 0 and stays: motors hold where they are.
+Model standing_still(Model model) {
+  const auto fix = [](Expression& e) { e = e.with_fixed("t", 0); };
+  for (Joint& joint : model.joints)
+    for (auto& [key, function] : joint.functions) fix(function);
+  for (AppliedForce& force : model.forces) {
+    for (Expression& e : force.force) fix(e);
+    fix(force.torque);
+  }
+  for (Motor& motor : model.motors) {
+    if (motor.kind == MotorKind::kSpeed) motor.law = Expression::constant(0);
+    else fix(motor.law);
+  }
+  for (Body& body : model.bodies) {
+    body.velocity.reset();
+    body.spin.reset();
+  }
+  return model;
+}
+
+// A law between the ground and a body, in the world's axes.
+JointData tied_to_ground(const std::string& name, int body, const State& state, const LinearLaw& law) {
+  JointData joint;
+  joint.name = name;
+  joint.type = "fixed";
+  joint.at.b = body;
+  joint.at.F = S::Frame::at(state.q[body].head<2>(), state.q[body][2]);
+  joint.law = BasicLaw<S>(law);
+  for (int k = 0; k < S::kDof; ++k) {
+    joint.held[k] = law.k[k] > 0;
+    joint.free_mask[k] = joint.held[k] ? 0 : 1;
+  }
+  return joint;
+}
+
+double stiffest_joint(const System& system) {
+  double k = 0;
+  for (const JointData& joint : system.joints) k = std::max(k, joint.law.engaged_stiffness().head<2>().maxCoeff());
+  return k > 0 ? k : 1e8;
+}
+
+// The system in a fluid that takes `rate` times its momentum from each body per second.
+System in_fluid(const Model& model, const System& system, const State& state, double rate) {
+  System out = system;
+  const double hold = kHolds * stiffest_joint(system);
+  for (int i = 0; i < system.n_bodies(); ++i) {
+    const S::Vec& mass = system.bodies[i].mass;
+    LinearLaw law;
+    law.c = rate * mass;
+    for (int k = 0; k < S::kDof; ++k)
+      if (model.bodies[i].hold[k]) law.k[k] = k < 2 ? hold : hold * mass[2] / mass[0];
+    out.joints.push_back(tied_to_ground(model.bodies[i].name, i, state, law));
+  }
+  out.finish();
+  return out;
+}
+
+double largest_load(const System& system, const State& state) {
+  double largest = largest_force(state.force);
+  for (const BodyData& body : system.bodies) largest = std::max(largest, body.gravity.head<2>().norm());
+  return largest;
+}
+
+// What the fluid still takes, as a force: a couple counts over the body's radius of gyration.
+double largest_drag(const System& system, const State& state, double rate, int& body) {
+  double largest = 0;
+  for (int i = 0; i < system.n_bodies(); ++i) {
+    const S::Vec p = rate * system.bodies[i].mass.cwiseProduct(state.v[i]);
+    const double drag = std::hypot(p[0], p[1], p[2] / system.bodies[i].radius_of_gyration());
+    if (drag <= largest) continue;
+    largest = drag;
+    body = i;
+  }
+  return largest;
+}
+
+// 1 over the time in which the loads move the mechanism by its size.
+double rate_of_motion(const System& system, const State& state) {
+  double fastest = 0;
+  for (int i = 0; i < system.n_bodies(); ++i) {
+    fastest = std::max(fastest, state.a[i].head<2>().norm());
+    fastest = std::max(fastest, std::abs(state.a[i][2]) * system.bodies[i].radius_of_gyration());
+  }
+  const double size = std::max(largest_coordinate(state.q), system.largest_radius_of_gyration());
+  return fastest > 0 ? std::sqrt(fastest / size) : 1;
+}
+
+// Where the creep through the fluid ends.
+State creep_to_rest(const System& system, const State& from, double rate) {
+  BasicRadauStepper<S> stepper(system, kTolerance);
+  const double size = std::max(largest_coordinate(from.q), system.largest_radius_of_gyration());
+  const double rounding = kLastBits * stiffest_joint(system) * size;  // of the joints' forces
+  stepper.start(from, kFirstStep / rate);
+  double t = 0;
+  int body = 0;
+  const auto name = [&] { return system.joints[system.n_joints() - system.n_bodies() + body].name; };
+  for (;;) {
+    if (!stepper.step(kLongest / rate)) throw AssemblyError("start = \"settled\": the mechanism comes to no rest: " + stepper.failure());
+    const State& now = stepper.state();
+    t = now.t;
+    const double drag = largest_drag(system, now, rate, body);
+    if (drag <= std::max(kAtRest * largest_load(system, now), rounding)) return now;
+    double moved = 0;
+    for (int i = 0; i < system.n_bodies(); ++i) moved = std::max(moved, (now.q[i] - from.q[i]).head<2>().norm());
+    if (moved > kFar * size || t * rate > 0.99 * kLongest)
+      throw AssemblyError(fmt::format("start = \"settled\": body {} comes to no rest: nothing stops it, or a load drives it on and on.\n  Try hold in its table, something that it can rest on, or start = \"assembled\".", name()));
+    if (stepper.counters().steps > kMostCreepSteps)
+      throw AssemblyError(fmt::format("start = \"settled\": body {} still moves after {} steps.\n  Try positions nearer to the equilibrium, or start = \"assembled\".", name(), kMostCreepSteps));
+  }
+}
+
+}  // namespace
+
+Assembly start_in_equilibrium(const Model& model) {
+  const Model still = standing_still(model);
+  Assembly start = assemble_unloaded(still, build_system(still));
+  start_forces(start.system, false, start.state);
+  const double rate = 2 * rate_of_motion(start.system, start.state);
+  const System fluid = in_fluid(still, start.system, start.state, rate);
+  State from = start.state;
+  start_forces(fluid, false, from);
+  const State at_rest = creep_to_rest(fluid, from, rate);
+  const Vecs assembled = start.state.q;
+  Assembly out = assemble_unloaded(model, build_system(model));
+  State& state = out.state;
+  state.q = at_rest.q;
+  for (S::Vec& v : state.v) v.setZero();
+  start_forces(out.system, false, state);
+  const std::size_t joints = out.system.joints.size();
+  std::copy_n(at_rest.gap.begin(), joints, state.gap.begin());
+  state.law_state = at_rest.law_state;
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  out.system.motions(state.q, state.v, m);
+  out.system.joint_kinematics(state.t, m, r);
+  for (std::size_t j = 0; j < joints; ++j) state.gap_rate[j] = r[j].rate;
+  find_law_rates(out.system, state);
+  find_joint_forces(out.system, state);
+  find_accelerations(out.system, m, r, state);
+  double unbalanced = 0, moved = 0;
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < state.a.size(); ++i) {
+    const double force = out.system.bodies[i].mass[0] * state.a[i].head<2>().norm();
+    if (force > unbalanced) most = i;
+    unbalanced = std::max(unbalanced, force);
+    moved = std::max(moved, (state.q[i] - assembled[i]).head<2>().norm());
+  }
+  out.notes.push_back(fmt::format("settled: the mechanism came to rest {:.3g} m from where it was assembled", moved));
+  if (unbalanced > kUnbalanced * largest_load(out.system, state))
+    out.notes.push_back(fmt::format("settled: what is held, or what depends on rates of loads, is not in equilibrium: {:.3g} N accelerate body {} from the start", unbalanced, model.bodies[most].name));
+  return out;
+}
+
+}  // namespace pintle

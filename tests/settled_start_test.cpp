@@ -1,0 +1,167 @@
+// start = "settled": mechanisms that begin in static equilibrium, with contacts, clearances, friction and motors; what has none is named.
+#include <gtest/gtest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "pintle/simulate.h"
+#include "tests/reference_tables.h"
+
+namespace pintle {
+namespace {
+
+using reference::completed;
+using reference::value;
+
+// A lever of 4 kg on a pin, whose tip of 10 mm lies on a table: each carries half of its weight.
+std::string lever(const std::string& of_pin, const std::string& start) {
+  return fmt::format(R"toml(
+format = 1
+[simulate]
+duration = "0.2 s"
+start = "{}"
+[ground.markers]
+O = [0, 0]
+table = ["0.5 m", "-10 mm"]
+[body.lever]
+mass = "4 kg"
+inertia = "0.08 kg*m^2"
+position = ["0.25 m", 0]
+angle = 0
+markers.O = ["-0.25 m", 0]
+markers.tip = ["0.25 m", 0]
+[joint.O]
+type = "revolute"
+between = ["ground.O", "lever.O"]
+{}
+[joint.rest]
+type = "slot"
+between = ["ground.table", "lever.tip"]
+law = "contact"
+pin_radius = "10 mm"
+)toml",
+                     start, of_pin);
+}
+
+Trajectory run_of(const std::string& text) { return completed(parse_model(text, "settled.toml")); }
+
+TEST(SettledStart, ALeverOnItsRestCarriesHalfItsWeightInEachSupportAllTheTime) {
+  const double half = 2 * kStandardGravity;
+  EXPECT_GT(run_of(lever("", "assembled")).joints[1].peak, 1.5 * half);
+  const Trajectory run = run_of(lever("", "settled"));
+  for (const LoadSummary& joint : run.joints) {
+    EXPECT_NEAR(joint.peak, half, 1e-5 * half) << joint.name;
+    EXPECT_NEAR(joint.rms, half, 1e-5 * half) << joint.name;
+  }
+  EXPECT_LT(run.energy.kinetic_peak, 1e-12);
+}
+
+TEST(SettledStart, APinRestsAtTheBottomOfItsClearance) {
+  const double half = 2 * kStandardGravity;
+  const Trajectory run = run_of(lever("law = \"clearance\"\nclearance = \"50 um\"\npin_radius = \"10 mm\"\ncontact_stiffness = 1e9\nrestitution = 0.7", "settled"));
+  EXPECT_NEAR(run.joints[0].peak, half, 1e-4 * half);
+  EXPECT_NEAR(value(run, 0, "body.lever.y"), -0.5 * (50e-6 + std::pow(half / 1e9, 2.0 / 3.0)), 1e-6);
+  EXPECT_LT(run.energy.kinetic_peak, 1e-10);
+}
+
+// A block on a slope of 10 degrees, which friction holds up to 19.
+TEST(SettledStart, WhatFrictionHoldsStays) {
+  const Trajectory run = run_of(R"toml(
+format = 1
+[simulate]
+duration = "0.5 s"
+start = "settled"
+[ground.markers]
+rail = [0, 0, "-10 deg"]
+[body.block]
+mass = "3 kg"
+inertia = "0.01 kg*m^2"
+position = [0, 0]
+angle = "-10 deg"
+markers.c = [0, 0]
+[joint.rail]
+type = "prismatic"
+between = ["ground.rail", "block.c"]
+friction = "coulomb"
+friction_coefficient = 0.3
+)toml");
+  EXPECT_NEAR(value(run, 0, "joint.rail.friction"), -3 * kStandardGravity * std::sin(kPi / 18), 1e-5);
+  EXPECT_EQ(value(run, 0, "joint.rail.stuck"), 1);
+  EXPECT_NEAR(value(run, 0, "body.block.x"), 0, 1e-6);
+  EXPECT_LT(run.energy.kinetic_peak, 1e-12);
+}
+
+TEST(SettledStart, APendulumHangsUnlessItIsHeld) {
+  Model model = reference::mechanism("pendulum");
+  for (Body& body : model.bodies) {
+    body.velocity.reset();
+    body.spin.reset();
+    body.hold = {};
+  }
+  model.simulate.start = Start::kSettled;
+  const Trajectory hanging = completed(model);
+  EXPECT_LT(hanging.energy.kinetic_peak, 1e-9);
+  model.bodies[0].hold[2] = true;
+  const Trajectory held = completed(model);
+  EXPECT_NEAR(value(held, 0, "body." + model.bodies[0].name + ".angle"), *model.bodies[0].angle, 1e-5);
+  EXPECT_GT(held.energy.kinetic_peak, 1e-2);
+  EXPECT_TRUE(std::any_of(held.notes.begin(), held.notes.end(), [](const std::string& note) { return note.find("is not in equilibrium") != std::string::npos; }));
+}
+
+// The load of t = 0 counts, not that of later.
+TEST(SettledStart, LoadsStandStill) {
+  const Trajectory run = run_of(R"toml(
+format = 1
+gravity = [0, 0]
+[simulate]
+duration = "1 s"
+start = "settled"
+[ground.markers]
+wall = [0, 0]
+[body.block]
+mass = "2 kg"
+inertia = "0.01 kg*m^2"
+position = ["0.5 m", 0]
+angle = 0
+markers.c = [0, 0]
+[joint.rail]
+type = "prismatic"
+between = ["ground.wall", "block.c"]
+[spring.s]
+between = ["ground.wall", "block.c"]
+stiffness = "200 N/m"
+free_length = "0.4 m"
+[force.push]
+on = "block.c"
+force = ["10 N*cos(3 rad/s*t)", 0]
+)toml");
+  EXPECT_NEAR(value(run, 0, "body.block.x"), 0.45, 1e-9);
+  EXPECT_NEAR(value(run, 0, "spring.s.force"), 10, 1e-6);
+  EXPECT_GT(run.energy.kinetic_peak, 1e-3);
+}
+
+TEST(SettledStart, WhatNothingHoldsIsNamed) {
+  const Model model = parse_model(R"toml(
+format = 1
+[simulate]
+duration = "1 s"
+start = "settled"
+[body.stone]
+mass = "2 kg"
+inertia = "0.01 kg*m^2"
+position = [0, 0]
+angle = 0
+)toml",
+                                  "settled.toml");
+  try {
+    simulate(model);
+    ADD_FAILURE() << "a falling stone has settled";
+  } catch (const AssemblyError& error) {
+    EXPECT_NE(std::string(error.what()).find("body stone comes to no rest"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace pintle
