@@ -228,7 +228,9 @@ class Passes {
     }
     const double shrink = 0.5 * std::pow(wanted / error_, 1 / kErrorPower);
     const double least = last_.counters.steps > kLong ? std::min(kRepeated * tolerance, kNearRounding) : 0;
-    return at(std::max(least, tolerance * std::clamp(shrink, 1e-3, kRepeated)));
+    const double next = std::max(least, tolerance * std::clamp(shrink, 1e-3, kRepeated));
+    if (next < kTight) choice_.stages = 5;
+    return at(next);
   }
 
   // The tolerance with which errors, growing as they do, would be small enough at the end: the difference is the coarser pass's error.

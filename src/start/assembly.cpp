@@ -95,11 +95,13 @@ std::string length_or_angle(const std::array<double, 2>& misfit, double size) {
   return misfit[0] > 2e-3 * size ? fmt::format("{:.4g} m", misfit[0]) : fmt::format("{:.4g} rad", misfit[1]);
 }
 
-// A loop that does not close has its misfit in all of its joints. Those without which all others close are that loop.
-std::string loop_that_lacks(const Model& model, const System& system, const Vecs& q, const std::vector<bool>& open, const std::vector<std::size_t>& broken) {
+// A loop that does not close leaves its misfit where joints are soft, and that may be in another loop. Those joints without any of which all others
+// close are that loop.
+std::string loop_that_lacks(const Model& model, const System& system, const Vecs& q, const std::vector<bool>& open) {
   const double size = mechanism_size(system, q);
   std::string names, lacks;
-  for (const std::size_t j : broken) {
+  for (std::size_t j = 0; j < open.size(); ++j) {
+    if (open[j]) continue;
     Vecs trial = q;
     std::vector<bool> opened = open;
     opened[j] = true;
@@ -118,7 +120,7 @@ void demand_closed(const Model& model, const System& system, const Vecs& q, cons
   const auto left = misfits(system, q);
   const double size = mechanism_size(system, q);
   constexpr int kMostListed = 20;
-  constexpr std::size_t kMostTried = 12;  // joints that are opened in turn, at most
+  constexpr std::size_t kMostTried = 40;  // joints that are opened in turn, at most
   std::vector<std::size_t> broken;
   for (std::size_t j = 0; j < left.size(); ++j) {
     if (open[j]) continue;
@@ -130,7 +132,7 @@ void demand_closed(const Model& model, const System& system, const Vecs& q, cons
   std::string list;
   for (std::size_t i = 0; i < broken.size() && i < kMostListed; ++i) list += fmt::format("\n  joint {} ({}) stays open by {}", system.joints[broken[i]].name, system.joints[broken[i]].type, length_or_angle(left[broken[i]], size));
   if (broken.size() > kMostListed) list += fmt::format("\n  and {} more", broken.size() - kMostListed);
-  std::string lacking = broken.size() <= kMostTried ? loop_that_lacks(model, system, q, open, broken) : "";
+  std::string lacking = left.size() <= kMostTried ? loop_that_lacks(model, system, q, open) : "";
   if (lacking.empty()) lacking = "\n  loop: " + loop_through(system, list);
   throw AssemblyError("the mechanism cannot be assembled from the stated positions:" + list + lacking + "\n  Try lengths that close the loop, or angles nearer to the intended position.");
 }
