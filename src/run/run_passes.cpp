@@ -227,9 +227,10 @@ class Passes {
       return at(next);
     }
     const double shrink = 0.5 * std::pow(wanted / error_, 1 / kErrorPower);
-    const double least = last_.counters.steps > kLong ? std::min(kRepeated * tolerance, kNearRounding) : 0;
+    const bool is_long = last_.counters.steps > kLong;
+    const double least = is_long ? std::min(kRepeated * tolerance, kNearRounding) : 0;
     const double next = std::max(least, tolerance * std::clamp(shrink, 1e-3, kRepeated));
-    if (next < kTight) choice_.stages = 5;
+    if (is_long && next < kTight) choice_.stages = 5;
     return at(next);
   }
 
