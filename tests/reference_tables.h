@@ -66,6 +66,9 @@ inline Model mechanism(const std::string& name, const std::vector<std::string>& 
   return read_model(std::string(PINTLE_SOURCE_DIR) + "/mechanisms/" + name + ".toml", overrides);
 }
 
+/// A model that stands in tests/models because it broke a promise once.
+inline Model test_model(const std::string& name) { return read_model(std::string(PINTLE_SOURCE_DIR) + "/tests/models/" + name + ".toml"); }
+
 /// That of section 8 of the paper with friction in all pins.
 inline Model rubbing_four_bar() {
   Model model = mechanism("four_bar");

@@ -3,6 +3,7 @@
 
 #include "pintle/read_model.h"
 #include "pintle/simulate.h"
+#include "tests/reference_tables.h"
 
 namespace pintle {
 namespace {
@@ -17,7 +18,7 @@ Model rotor(const std::string& drive, const std::string& duration, const std::st
 }
 
 TEST(Runaway, AControllerOfTheWrongSignIsNamed) {
-  const Trajectory run = simulate(read_model(std::string(PINTLE_SOURCE_DIR) + "/tests/models/cart_and_pole_wrong_sign.toml"));
+  const Trajectory run = simulate(reference::test_model("cart_and_pole_wrong_sign"));
   ASSERT_EQ(run.outcome, Outcome::kRunaway) << run.message;
   EXPECT_NE(run.message.find("motor controller feeds it"), std::string::npos) << run.message;
   EXPECT_NE(run.message.find("at t = 0.40"), std::string::npos) << run.message;  // when it left what can be stored

@@ -13,13 +13,12 @@ namespace {
 
 using reference::at_end;
 using reference::completed;
+using reference::test_model;
 using reference::value;
-
-Model model_called(const std::string& name) { return read_model(std::string(PINTLE_SOURCE_DIR) + "/tests/models/" + name + ".toml"); }
 
 // The spring presses the follower onto the base circle with 40 N and its weight; the cam's bearing carries both and the cam.
 TEST(Starts, ABearingOfBallsWithoutPlayDoesNotThrowAFollowerOffItsCam) {
-  const Model model = model_called("cam_on_ball_bearing");
+  const Model model = test_model("cam_on_ball_bearing");
   const Trajectory run = completed(model);
   EXPECT_NEAR(value(run, 0, "body.fol.y"), 0.09, 1e-5);
   EXPECT_NEAR(value(run, 0, "spring.sp.force"), -40, 1e-2);
@@ -28,7 +27,7 @@ TEST(Starts, ABearingOfBallsWithoutPlayDoesNotThrowAFollowerOffItsCam) {
 
 // What presses the guide at first is rounding: it does not stick beyond what the load lets it carry.
 TEST(Starts, AGuideThatNothingPressesDoesNotJam) {
-  Model model = model_called("cam_on_ball_bearing");
+  Model model = test_model("cam_on_ball_bearing");
   model.joints[0].law = {};
   const Trajectory run = completed(model);
   for (std::size_t i = 0; i < run.n_rows(); ++i) {
@@ -39,7 +38,7 @@ TEST(Starts, AGuideThatNothingPressesDoesNotJam) {
 
 // A ball bearing has no stiffness at its centre, and starts at the deflection that carries its load nevertheless.
 TEST(Starts, BearingsOfBallsStartWithTheForcesOfLinearPins) {
-  const Model balls = model_called("four_bar_of_ball_bearings");
+  const Model balls = test_model("four_bar_of_ball_bearings");
   Model pins = balls;
   for (Joint& joint : pins.joints) joint.law = {};
   const Trajectory run = completed(balls), other = completed(pins);
@@ -49,7 +48,7 @@ TEST(Starts, BearingsOfBallsStartWithTheForcesOfLinearPins) {
 
 // Sweeps that have not converged are no start: the mechanism begins at rest, with the pressure times the area in its cylinder.
 TEST(Starts, AMechanismAtRestStaysAtRestWhereNoSlowMotionIsFound) {
-  const Trajectory run = completed(model_called("scissor_lift_at_rest"));
+  const Trajectory run = completed(test_model("scissor_lift_at_rest"));
   EXPECT_LT(run.energy.kinetic_start, 1e-6);
   EXPECT_NEAR(run.joints.back().peak, 7e6 * kPi / 4 * 0.063 * 0.063, 1);
 }
@@ -65,7 +64,7 @@ TEST(Starts, ABodyThatAssemblyTurnsFarIsNoted) {
 
 // Slack by more than 0.9 of what a turn of the drum winds cannot be told from taut: the run says so, and is not "completed".
 TEST(Starts, ARopeThatIsSlackByATurnEndsTheRun) {
-  const Trajectory run = simulate(model_called("rope_slack_by_a_turn"));
+  const Trajectory run = simulate(test_model("rope_slack_by_a_turn"));
   EXPECT_EQ(run.outcome, Outcome::kEnergyOpen);
   EXPECT_NE(run.message.find("joint rope was slack by nearly what a whole turn winds"), std::string::npos) << run.message;
   EXPECT_NEAR(at_end(run, "t"), 0.1944, 1e-2);

@@ -15,13 +15,13 @@ namespace pintle {
 namespace {
 
 Model collected_taut(const std::string& name, double tolerance) {
-  Model model = read_model(std::string(PINTLE_SOURCE_DIR) + "/mechanisms/" + name + ".toml");
+  Model model = reference::mechanism(name);
   model.simulate.tolerance = tolerance;
   return model;
 }
 
 Model taut_model(const std::string& name, double duration, double tolerance = 1e-5) {
-  Model model = read_model(std::string(PINTLE_SOURCE_DIR) + "/tests/models/" + name + ".toml");
+  Model model = reference::test_model(name);
   model.simulate.duration = duration;
   model.simulate.tolerance = tolerance;
   return model;

@@ -235,9 +235,8 @@ def take_turns(rooms, options, suites, done):
 
 def test_rooms(options):
     WORK.mkdir(parents=True, exist_ok=True)
-    if not options.built:
-        copy_tree(TREE)
-        configure(TREE, BUILD, "-DPINTLE_UNITY=ON")
+    copy_tree(TREE)
+    configure(TREE, BUILD, "-DPINTLE_UNITY=ON")
     suites, results = Suites(options.jobs, options.room_tests_only), load_results()
     if not options.room_tests_only:  # what only the room's tests have seen goes on to all tests
         results = [r for r in results if r["noticed_by"] != ROOM_ONLY]
@@ -311,7 +310,6 @@ def main():
     options.add_argument("--seed", default="1")
     options.add_argument("--jobs", type=int, default=os.cpu_count())
     options.add_argument("--room-tests-only", action="store_true", help="quickly: what the room's own tests do not notice is left at that")
-    options.add_argument("--built", action="store_true", help="build/mutants holds the tree and its build already")
     options.add_argument("--write", type=Path, help="only write the page of the results")
     options = options.parse_args()
     if options.write is None:

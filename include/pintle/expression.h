@@ -35,8 +35,8 @@ class Expression {
   const std::string& text() const { return text_; }                          ///< as the user wrote it
   const std::vector<std::string>& variables() const { return variables_; }   ///< e.g. {"t", "angle", "rate", "A.slide"}
   bool is_constant() const;
-  /// A copy in which this variable has the value `si`, whatever is given for it.
-  Expression with_fixed(std::string_view variable, double si) const;
+  /// A copy in which this variable is replaced by the constant `si`. It keeps its place among variables(), and what is given for it is not read.
+  Expression substitute(std::string_view variable, double si) const;
 
   /// Value at `values` (one per variable, SI).
   double value(std::span<const double> values) const;

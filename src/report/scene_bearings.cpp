@@ -21,7 +21,7 @@ Ring ring_of(std::string_view law) {
 }  // namespace
 
 /// What is around the pin of a revolute joint whose law is no plain spring and damper.
-void SceneMaker::add_bearing(const Joint& joint, const Anchor& bush) {
+void SceneMaker::add_bearing_ring(const Joint& joint, const Anchor& bush) {
   constexpr double kOuter = 0.95, kCentres = 0.73, kBall = 0.15;  // [units]; the pin has 0.5
   constexpr int kBalls = 10;
   const double u = scene_.unit;

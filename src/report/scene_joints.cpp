@@ -116,7 +116,7 @@ void SceneMaker::add_joint(const Joint& joint) {
   if (joint.type == "revolute") {
     if (first->body == kWorld) add_ground_pin(first->point, second->body);
     else if (second->body == kWorld) add_ground_pin(second->point, first->body);
-    add_bearing(joint, *first);
+    add_bearing_ring(joint, *first);
     put(kPins, {Form::kCircle, Paint::kPin, second->body == kWorld ? first->body : second->body,
                 {{second->body == kWorld ? first->point : second->point}}, 0.5 * u});
   } else if (joint.type == "slot") {

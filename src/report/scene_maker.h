@@ -99,7 +99,7 @@ class SceneMaker {
   bool first_at(const Vec2& at, std::vector<Vec2>& known) const;  ///< nothing there yet: remembered
 
   // scene_bearings.cpp
-  void add_bearing(const Joint& joint, const Anchor& bush);
+  void add_bearing_ring(const Joint& joint, const Anchor& bush);
 
   // scene_flexures.cpp
   bool add_flexure(const Joint& joint, const Anchor& first, const Anchor& second);  ///< false: its law is no flexure's

@@ -10,6 +10,7 @@
 
 #include "integrators/absolute/radau_stepper.h"
 #include "integrators/thresholds.h"
+#include "kinematics/position_search.h"
 #include "laws/linear.h"
 #include "pintle/simulate.h"
 #include "start/start_forces.h"
@@ -20,18 +21,16 @@ namespace {
 
 using S = Planar;
 
-constexpr double kTolerance = 1e-5;        // of the creep's steps: where it ends does not depend on the way
-constexpr double kAtRest = 1e-11;          // of the largest force: the drag that is left where a body counts as resting, where rounding leaves less
-constexpr double kFirstStep = 1e-3;        // over the time of the creep
-constexpr double kLongest = 1e6;           // times that of the creep: what moves then still, comes to no rest
-constexpr double kFar = 1e3;               // sizes of the mechanism: what is farther away falls for ever
+constexpr double kTolerance = 1e-5;               // of the creep's steps: where it ends does not depend on the way
+constexpr double kAtRest = 1e-11;                 // of the largest force: the drag that is left where a body counts as resting, where rounding leaves less
+constexpr double kFirstStep = 1e-3;               // over the time of the creep
+constexpr double kLongest = 1e6;                  // times that of the creep: what moves then still, comes to no rest
 constexpr std::uint64_t kMostCreepSteps = 50000;  // of the creep
-constexpr double kHolds = 10;              // times the stiffest joint: what holds a coordinate
-constexpr double kUnbalanced = 1e-6;       // of the largest force: what a start in equilibrium leaves unbalanced
+constexpr double kUnbalanced = 1e-6;              // of the largest force: what a start in equilibrium leaves unbalanced
 
 // The model as it is at t = 0 and stays: motors hold where they are.
 Model standing_still(Model model) {
-  const auto fix = [](Expression& e) { e = e.with_fixed("t", 0); };
+  const auto fix = [](Expression& e) { e = e.substitute("t", 0); };
   for (Joint& joint : model.joints)
     for (auto& [key, function] : joint.functions) fix(function);
   for (AppliedForce& force : model.forces) {
@@ -64,16 +63,10 @@ JointData tied_to_ground(const std::string& name, int body, const State& state, 
   return joint;
 }
 
-double stiffest_joint(const System& system) {
-  double k = 0;
-  for (const JointData& joint : system.joints) k = std::max(k, joint.law.engaged_stiffness().head<2>().maxCoeff());
-  return k > 0 ? k : 1e8;
-}
-
-// The system in a fluid that takes `rate` times its momentum from each body per second.
+// The system in a fluid that takes `rate` times its momentum from each body per second. What is held is held like the stiffest joint.
 System in_fluid(const Model& model, const System& system, const State& state, double rate) {
   System out = system;
-  const double hold = kHolds * stiffest_joint(system);
+  const double stiffest = largest_stiffness(system), hold = stiffest > 0 ? stiffest : 1e8;
   for (int i = 0; i < system.n_bodies(); ++i) {
     const S::Vec& mass = system.bodies[i].mass;
     LinearLaw law;
@@ -112,28 +105,22 @@ double rate_of_motion(const System& system, const State& state) {
     fastest = std::max(fastest, state.a[i].head<2>().norm());
     fastest = std::max(fastest, std::abs(state.a[i][2]) * system.bodies[i].radius_of_gyration());
   }
-  const double size = std::max(largest_coordinate(state.q), system.largest_radius_of_gyration());
-  return fastest > 0 ? std::sqrt(fastest / size) : 1;
+  return fastest > 0 ? std::sqrt(fastest / mechanism_size(system, state.q)) : 1;
 }
 
 // Where the creep through the fluid ends.
 State creep_to_rest(const System& system, const State& from, double rate) {
   BasicRadauStepper<S> stepper(system, kTolerance);
-  const double size = std::max(largest_coordinate(from.q), system.largest_radius_of_gyration());
-  const double rounding = kLastBits * stiffest_joint(system) * size;  // of the joints' forces
+  const double rounding = kLastBits * largest_stiffness(system) * mechanism_size(system, from.q);  // of the joints' forces
   stepper.start(from, kFirstStep / rate);
-  double t = 0;
   int body = 0;
   const auto name = [&] { return system.joints[system.n_joints() - system.n_bodies() + body].name; };
   for (;;) {
     if (!stepper.step(kLongest / rate)) throw AssemblyError("start = \"settled\": the mechanism comes to no rest: " + stepper.failure());
     const State& now = stepper.state();
-    t = now.t;
     const double drag = largest_drag(system, now, rate, body);
     if (drag <= std::max(kAtRest * largest_load(system, now), rounding)) return now;
-    double moved = 0;
-    for (int i = 0; i < system.n_bodies(); ++i) moved = std::max(moved, (now.q[i] - from.q[i]).head<2>().norm());
-    if (moved > kFar * size || t * rate > 0.99 * kLongest)
+    if (now.t * rate > 0.99 * kLongest)
       throw AssemblyError(fmt::format("start = \"settled\": body {} comes to no rest: nothing stops it, or a load drives it on and on.\n  Try hold in its table, something that it can rest on, or start = \"assembled\".", name()));
     if (stepper.counters().steps > kMostCreepSteps)
       throw AssemblyError(fmt::format("start = \"settled\": body {} still moves after {} steps.\n  Try positions nearer to the equilibrium, or start = \"assembled\".", name(), kMostCreepSteps));
@@ -162,8 +149,7 @@ Assembly start_in_equilibrium(const Model& model) {
   state.law_state = at_rest.law_state;
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
-  out.system.motions(state.q, state.v, m);
-  out.system.joint_kinematics(state.t, m, r);
+  kinematics_at(out.system, state.t, state.q, state.v, m, r);
   for (std::size_t j = 0; j < joints; ++j) state.gap_rate[j] = r[j].rate;
   find_law_rates(out.system, state);
   find_joint_forces(out.system, state);

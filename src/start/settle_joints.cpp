@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kMostHaste = 1e-3, kMostLever = 30;  // change of a body's speed that is the joints' giving way: over the largest speed, at most; or over the largest rate of a gap, at most
 constexpr double kExact = 1e-6;                       // relative change of the gaps below which nothing is left to settle
-constexpr double kUnsettledGrowth = 1.1;              // growth of the largest force, by soft joints whose sweeps have not converged: what is beyond is no start
+constexpr double kUnsettledGrowth = 1.1;              // growth of the largest force, by soft joints whose sweeps have not converged: what is beyond is no start. With the 2 of kMostGrowth a lift at rest starts with 1.3 times its load (test Starts)
 constexpr double kEntirely = 0.99;                    // of its slow motion: with this share a soft joint counts as going with the motion
 constexpr const char* kNotSettled =
     "no transient-free start was found (a force jumps at the start, or a long chain has modes slower than its motion): joint forces may ring from the start. All passes start alike, so the stated "

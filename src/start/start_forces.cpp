@@ -22,27 +22,19 @@ std::optional<BasicSystem<S>> with_springs_for_play(const BasicSystem<S>& system
   return with_springs(system, open);
 }
 
-// What starts free but stands at the border of its law to rounding, as a rope that is taut without load or a body that lies on another one, is taken for
-// taut or pressed: it may carry. A force that begins with a power of the gap is met where its stiffness is the usual one.
+// What starts free but stands at the border of its law to rounding, as a rope that is taut without load, is taken for taut: it may carry.
 template <class S>
 void tauten(const BasicSystem<S>& system, BasicState<S>& state) {
-  constexpr double kFarther = 10, kMostWays = 12;  // from one gap that is tried to the next; powers of ten beyond rounding, at most
   const double rounding = kLastBits * largest_coordinate(state.q);
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicLaw<S>& law = system.joints[j].law;
     if (!is_apart(law, state.gap[j], state.gap_rate[j])) continue;
-    const typename S::Vec engaged = law.engaged_stiffness(), at = state.gap[j];
-    const bool touches = std::abs(law.penetration(at)) <= rounding;
+    const typename S::Vec engaged = law.engaged_stiffness();
     for (int k = 0; k < S::kDof; ++k)
-      for (const double side : {1.0, -1.0}) {
-        double way = rounding;
-        for (int i = 0; i < (touches ? kMostWays : 1); ++i, way *= kFarther) {
-          typename S::Vec gap = at;
-          gap[k] += side * way;
-          if (!(engaged[k] > 0 && respond(law, gap, state.gap_rate[j]).stiffness(k, k) >= engaged[k])) continue;
-          state.gap[j] = gap;
-          break;
-        }
+      for (const double way : {rounding, -rounding}) {
+        typename S::Vec gap = state.gap[j];
+        gap[k] += way;
+        if (engaged[k] > 0 && respond(law, gap, state.gap_rate[j]).stiffness(k, k) >= engaged[k]) state.gap[j] = gap;
       }
   }
 }

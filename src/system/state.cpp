@@ -69,6 +69,13 @@ double largest_coordinate(const PositionsOf<Spatial>& x) {
   return largest;
 }
 
+template <class S>
+double largest_stiffness(const BasicSystem<S>& system) {
+  double stiffest = 0;
+  for (const BasicJointData<S>& joint : system.joints) stiffest = std::max(stiffest, joint.law.engaged_stiffness().template head<S::kDim>().maxCoeff());
+  return stiffest;
+}
+
 template <class Vec>
 double largest_force(const std::vector<Vec>& force) {
   double largest = 0;
@@ -86,6 +93,8 @@ bool is_finite(const BasicState<S>& state) {
 
 template double largest_coordinate(const VecsOf<Planar>&);
 PINTLE_IN_SPACE(template double largest_coordinate(const VecsOf<Spatial>&);)
+template double largest_stiffness(const BasicSystem<Planar>& system);
+PINTLE_IN_SPACE(template double largest_stiffness(const BasicSystem<Spatial>& system);)
 template double largest_force(const VecsOf<Planar>&);
 PINTLE_IN_SPACE(template double largest_force(const VecsOf<Spatial>&);)
 template void find_gap_accelerations(const BasicSystem<Planar>& system, const std::vector<BasicJointKinematics<Planar>>& r, BasicState<Planar>& state);

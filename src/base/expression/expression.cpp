@@ -29,7 +29,7 @@ bool Expression::is_constant() const {
   return variables_.empty();
 }
 
-Expression Expression::with_fixed(std::string_view variable, double si) const {
+Expression Expression::substitute(std::string_view variable, double si) const {
   Expression fixed = *this;
   if (!program_) return fixed;
   Program program = *program_;

@@ -237,7 +237,7 @@ TEST(Expression, AVariableMayBeFixed) {
   const auto parsed = parse_expression("3*t*angle + angle*t", crank_scope());
   ASSERT_TRUE(std::holds_alternative<ParsedExpression>(parsed));
   const Expression& moving = std::get<ParsedExpression>(parsed).expression;
-  const Expression fixed = moving.with_fixed("t", 2);
+  const Expression fixed = moving.substitute("t", 2);
   const std::vector<double> at{5, 7};
   std::vector<double> slope(2);
   EXPECT_EQ(fixed.value(at), 56);
@@ -245,7 +245,7 @@ TEST(Expression, AVariableMayBeFixed) {
   EXPECT_EQ(slope[0], 0);
   EXPECT_EQ(slope[1], 8);
   EXPECT_EQ(moving.value(at), 140);
-  EXPECT_EQ(fixed.with_fixed("rate", 1).value(at), 56);
+  EXPECT_EQ(fixed.substitute("rate", 1).value(at), 56);
 }
 
 }  // namespace

@@ -42,9 +42,11 @@ void read_hold(ModelReading& reading, const Record& record, Body& body) {
 // A start that has settled is at rest.
 void check_at_rest(ModelReading& reading, const Record& record, const Body& body) {
   if (reading.model.simulate.start != Start::kSettled) return;
-  const bool moves = body.velocity && (*body.velocity != Vec2{0, 0}), turns = body.spin && *body.spin != 0;
-  for (const char* key : {moves ? "velocity" : "", turns ? "spin" : ""})
-    if (*key != '\0') reading.complaints.add(record.spot(key), record.path + "." + key, key, "simulate.start is \"settled\", so that the run begins at rest", std::string("delete ") + key + ", or start = \"assembled\"");
+  const auto complain = [&](const std::string& key) {
+    reading.complaints.add(record.spot(key), record.path + "." + key, key, "simulate.start is \"settled\", so that the run begins at rest", "delete " + key + ", or start = \"assembled\"");
+  };
+  if (body.velocity && *body.velocity != Vec2{0, 0}) complain("velocity");
+  if (body.spin && *body.spin != 0) complain("spin");
 }
 
 void read_body(ModelReading& reading, const Entry& entry) {

@@ -90,7 +90,7 @@ class RecordReader {
   void set_variables(const KeySpec& spec, std::string_view text);
 
   /// Another key of the table that is being read, to which the word belongs; "" if there is none.
-  std::string key_with_word(const KeySpec& spec, const std::string& word) const;
+  std::string other_key_that_allows(const KeySpec& spec, const std::string& word) const;
 
   Complaints& complaints_;
   const TableSpec* table_ = nullptr;  ///< the table that is being read

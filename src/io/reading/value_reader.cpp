@@ -199,7 +199,7 @@ bool RecordReader::read_truth(const Node& node, const KeySpec& spec, const std::
   return true;
 }
 
-std::string RecordReader::key_with_word(const KeySpec& spec, const std::string& word) const {
+std::string RecordReader::other_key_that_allows(const KeySpec& spec, const std::string& word) const {
   const auto has_word = [&word](const auto& key) { return std::find(key.words.begin(), key.words.end(), word) != key.words.end(); };
   for (const KeySpec& key : table_->keys)
     if (key.key != spec.key && has_word(key)) return key.key;
@@ -224,7 +224,7 @@ bool RecordReader::read_word(const Node& node, const KeySpec& spec, const std::s
     }
   if (!spec.words.empty() && std::find(spec.words.begin(), spec.words.end(), *word) == spec.words.end()) {
     const std::string near = complaints_.nearest(*word, spec.words);
-    const std::string other = near.empty() ? key_with_word(spec, *word) : "";
+    const std::string other = near.empty() ? other_key_that_allows(spec, *word) : "";
     complaints_.add(node.spot, path, in_quotes(*word), "it is none of " + joined(spec.words),
                     other.empty() ? advice(near, spec.words) : other + " = " + in_quotes(*word));
     return false;

@@ -8,7 +8,7 @@
 namespace pintle {
 namespace {
 
-constexpr double kPeakOfRounding = 10;       // times the rounding of one force: its peak over a run of many
+constexpr double kPeakOfRounding = 10;       // times the rounding of one force: its peak over a run of many. With 1 the rail of snap_through_truss states a hundredth of what it carries
 constexpr double kNegligibleOfMotor = 1e-3;  // a motor is measured at least by this part of it
 constexpr double kOfEqual = 3;               // share of the difference that is the finer pass's error, where the finer pass is as coarse
 

@@ -35,9 +35,7 @@ template <class S>
 void BasicForceRecorder<S>::finish(const BasicStepper<S>& stepper) {
   const BasicState<S>& state = stepper.state();
   for (const typename S::Vec& load : stepper.load_scale().body) forces_.largest_load = std::max(forces_.largest_load, load[0]);
-  double stiffest = 0;
-  for (const BasicJointData<S>& joint : system_.joints) stiffest = std::max(stiffest, joint.law.engaged_stiffness().template head<S::kDim>().maxCoeff());
-  forces_.rounding = kLastBits * stiffest * std::max(largest_coordinate(state.q), system_.largest_radius_of_gyration());
+  forces_.rounding = kLastBits * largest_stiffness(system_) * std::max(largest_coordinate(state.q), system_.largest_radius_of_gyration());
   if (state.t > forces_.t.back()) add(state);
   if (what_ == Recorded::kForces) return;
   for (int j = 0; j < system_.n_joints(); ++j) heat_.push_back(loads_->heat(j, state));
