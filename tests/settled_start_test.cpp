@@ -110,6 +110,33 @@ TEST(SettledStart, APendulumHangsUnlessItIsHeld) {
   EXPECT_TRUE(std::any_of(held.notes.begin(), held.notes.end(), [](const std::string& note) { return note.find("is not in equilibrium") != std::string::npos; }));
 }
 
+// A crank under `hold` whose servo carries 5 kg at 0.4 m: a spring beside the servo would leave its share when the run begins.
+TEST(SettledStart, AServoCarriesWhatItMoves) {
+  const Trajectory run = run_of(R"toml(
+format = 1
+[simulate]
+duration = "0.2 s"
+start = "settled"
+[ground.markers]
+O = [0, 0]
+[body.arm]
+mass = "5 kg"
+inertia = "0.05 kg*m^2"
+position = ["0.4 m", 0]
+angle = 0
+hold = ["angle"]
+markers.O = ["-0.4 m", 0]
+[joint.O]
+type = "revolute"
+between = ["ground.O", "arm.O"]
+[motor.drive]
+joint = "O"
+position = 0
+)toml");
+  EXPECT_NEAR(run.joints[0].peak, 5 * kStandardGravity, 1e-5 * 5 * kStandardGravity);
+  EXPECT_LT(run.energy.kinetic_peak, 1e-12);
+}
+
 // The load of t = 0 counts, not that of later.
 TEST(SettledStart, LoadsStandStill) {
   const Trajectory run = run_of(R"toml(

@@ -63,6 +63,11 @@ JointData tied_to_ground(const std::string& name, int body, const State& state, 
   return joint;
 }
 
+// Whether a servo moves the body: it holds it then, and would not carry what a spring beside it carries.
+bool has_servo(const System& system, int body) {
+  return std::any_of(system.joints.begin(), system.joints.end(), [body](const JointData& joint) { return joint.servo >= 0 && (joint.at.a == body || joint.at.b == body); });
+}
+
 // The system in a fluid that takes `rate` times its momentum from each body per second. What is held is held like the stiffest joint.
 System in_fluid(const Model& model, const System& system, const State& state, double rate) {
   System out = system;
@@ -72,7 +77,7 @@ System in_fluid(const Model& model, const System& system, const State& state, do
     LinearLaw law;
     law.c = rate * mass;
     for (int k = 0; k < S::kDof; ++k)
-      if (model.bodies[i].hold[k]) law.k[k] = k < 2 ? hold : hold * mass[2] / mass[0];
+      if (model.bodies[i].hold[k] && !has_servo(system, i)) law.k[k] = k < 2 ? hold : hold * mass[2] / mass[0];
     out.joints.push_back(tied_to_ground(model.bodies[i].name, i, state, law));
   }
   out.finish();
@@ -157,7 +162,8 @@ Assembly start_in_equilibrium(const Model& model) {
   double unbalanced = 0, moved = 0;
   std::size_t most = 0;
   for (std::size_t i = 0; i < state.a.size(); ++i) {
-    const double force = out.system.bodies[i].mass[0] * state.a[i].head<2>().norm();
+    const BodyData& body = out.system.bodies[i];
+    const double force = std::hypot(body.mass[0] * state.a[i].head<2>().norm(), body.mass[2] * state.a[i][2] / body.radius_of_gyration());
     if (force > unbalanced) most = i;
     unbalanced = std::max(unbalanced, force);
     moved = std::max(moved, (state.q[i] - assembled[i]).head<2>().norm());
