@@ -208,7 +208,10 @@ std::string to_words(const Dimension& dimension) {
 
 std::optional<std::string> check_dimension(const Dimension& found, const Dimension& wanted) {
   if (fits(found, wanted)) return std::nullopt;
-  return to_words(wanted) + " is expected here, not " + to_words(found);
+  std::string problem = to_words(wanted) + " is expected here, not " + to_words(found);
+  const std::optional<Dimension> inverse = quotient(kPureNumber, found);
+  if (inverse && fits(*inverse, wanted)) problem += "; a unit belongs to the number before it, so that parentheses are needed in (3*4/12) " + to_unit_text(wanted);
+  return problem;
 }
 
 }  // namespace pintle

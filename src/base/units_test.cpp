@@ -116,6 +116,9 @@ TEST(Units, WhatFits) {
   EXPECT_FALSE(fits(kStiffness, kAngularStiffness));
   EXPECT_EQ(check_dimension(kAngle, kPureNumber), std::nullopt);
   EXPECT_EQ(check_dimension(kAngle, kLength), "a length [m] is expected here, not an angle [rad]");
+  // 3*4/12 kg*m^2 is 12/(12 kg*m^2)
+  EXPECT_EQ(check_dimension(*power(kInertia, -1), kInertia),
+            "a moment of inertia [kg*m^2] is expected here, not a quantity in [1/kg/m^2]; a unit belongs to the number before it, so that parentheses are needed in (3*4/12) kg*m^2");
 }
 
 TEST(Units, ExponentsDoNotOverflow) {

@@ -14,6 +14,8 @@ const demanded = process.env.PINTLE_ANSWERS !== undefined;
 const kSame = 1e-12;
 /** Of the forces at the start: its slow motion is looked for over a time that follows from a few rough steps, whose number the last bits can change. */
 const kStart = 5e-5;
+/** Of the stated errors: they are estimates (docs/theory/time.md, section 6), which docs/battery.md holds to a third of the true error. */
+const kPromised = 3;
 
 // Those whose whole run is a matter of a second.
 const runs = [...texts.keys()].filter((name) => !/andrews|n_four_bar_40|n_four_bar_10|n_four_bar_2|five_bar/.test(name));
@@ -95,7 +97,7 @@ describe.skipIf(!ready)("the same numbers", { timeout: 120_000 }, () => {
 
   // A run chooses its steps by what it computes, so a last bit (of a sine: two libraries) can become another step. What holds is what
   // a run promises: its forces, within the errors that it states.
-  it("gives the same forces within the stated errors", () => {
+  it("gives the same forces within what the stated errors promise", () => {
     const both = pairs<RunAnswer>(runs.map((name) => ({ call: "run", arguments: { text: texts.get(name) ?? "" } })));
     both.forEach(([a, b], i) => {
       expect(b.outcome, runs[i]).toBe(a.outcome);
@@ -105,7 +107,7 @@ describe.skipIf(!ready)("the same numbers", { timeout: 120_000 }, () => {
       a.joints.forEach((joint, j) => {
         const other = b.joints[j];
         if (!other) throw new Error("a joint is missing");
-        const allowed = joint.error_estimate + other.error_estimate + kSame * largest + (joint.peak_time === 0 ? kStart * joint.peak : 0);
+        const allowed = kPromised * (joint.error_estimate + other.error_estimate) + kSame * largest + (joint.peak_time === 0 ? kStart * joint.peak : 0);
         expect(Math.abs(joint.peak - other.peak), `${runs[i]} ${joint.name}`).toBeLessThanOrEqual(allowed);
       });
     });

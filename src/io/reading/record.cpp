@@ -39,6 +39,19 @@ std::string laws_with(std::string_view key) {
   return list;
 }
 
+// Where a key stands that is stated in the wrong table, or "" where it has no home or more than a few.
+std::string home_of(std::string_view key) {
+  constexpr std::size_t kFew = 3;
+  const std::vector<std::string> paths = Schema::model().tables_with(key);
+  if (paths.empty() || paths.size() > kFew) return {};
+  std::string list;
+  for (std::string path : paths) {
+    if (const std::size_t star = path.find('*'); star != std::string::npos) path.replace(star, 1, "NAME");
+    list += (list.empty() ? "" : " or ") + (path.empty() ? std::string("at the top of the file, above every table") : "in [" + path + "]");
+  }
+  return "state it " + list + ", or ";
+}
+
 }  // namespace
 
 const Value* Record::find(std::string_view key) const {
@@ -144,9 +157,10 @@ std::string RecordReader::complain_of_key(const TableSpec& spec, const Entry& en
   }
   std::vector<std::string> candidates = spec.children;
   for (const KeySpec& key : spec.keys) candidates.push_back(key.key);
-  const std::string near = complaints_.nearest(entry.key, candidates);
+  const std::string home = home_of(entry.key);
+  const std::string near = home.empty() ? complaints_.nearest(entry.key, candidates) : std::string();
   complaints_.add(entry.key_spot, path, "unknown key " + in_quotes(entry.key),
-                  record.path.empty() ? "models have no such key" : "there is no such key here", advice(near, candidates));
+                  record.path.empty() ? "models have no such key" : "there is no such key here", home + advice(near, candidates));
   return near;
 }
 

@@ -255,4 +255,11 @@ std::vector<std::string> Schema::kinds_with(std::string_view path, std::string_v
   return kinds;
 }
 
+std::vector<std::string> Schema::tables_with(std::string_view key) const {
+  std::vector<std::string> paths;
+  for (const TableSpec& table : tables_)
+    if (table.find(key) != nullptr && std::find(paths.begin(), paths.end(), table.path) == paths.end()) paths.push_back(table.path);
+  return paths;
+}
+
 }  // namespace pintle

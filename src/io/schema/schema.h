@@ -87,6 +87,9 @@ class Schema {
   /// The kinds of things at `path` that alone have `key`, in words: "gear joints".
   std::vector<std::string> kinds_with(std::string_view path, std::string_view key) const;
 
+  /// The paths of the tables that have `key`, whatever the kind: "" is the model itself, above every table.
+  std::vector<std::string> tables_with(std::string_view key) const;
+
  private:
   explicit Schema(const Document& document);
   std::vector<TableSpec> tables_;
