@@ -166,6 +166,14 @@ TEST(TautMechanisms, TheRunSaysThatTheMechanismHasComeToItsLimit) {
   EXPECT_FALSE(noted(simulate(back), "limit"));
 }
 
+// The drive pushes hardest at the other limit, which the mechanism passes when its joints have long given way.
+TEST(TautMechanisms, TheLimitIsTheFirstThatItCameTo) {
+  const Trajectory run = simulate(reference::test_model("double_rocker_driven"));
+  EXPECT_TRUE(noted(run, "came to its limit at t = 0.01572 s: the angle of joint O2 can go no further than 75.5225 deg")) << run.notes.front();
+  EXPECT_TRUE(noted(run, "at t = 0.93")) << run.notes.front();
+  EXPECT_FALSE(noted(run, "given way by")) << "of another limit: " << run.notes.front();
+}
+
 // Ideal joints cannot give way: the run ends there, and says why.
 TEST(TautMechanisms, IdealJointsStopAtTheLimit) {
   Model model = collected_taut("locked_four_bar", 1e-5);

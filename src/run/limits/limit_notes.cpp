@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
+#include <utility>
 
+#include "base/constants.h"
 #include "integrators/methods.h"
 #include "run/limits/drive_limit.h"
 
@@ -15,6 +16,8 @@ namespace {
 
 constexpr int kHalvings = 40;                                  // of the step in which a limit is reached
 constexpr double kFinestReplay = 1e-6, kLoosestReplay = 1e-4;  // tolerance of the steps that find the instant, at least; at most
+constexpr double kLooks = 2000;                                // of a run that is made again, for a limit, at most
+constexpr double kSameLimit = 1e-6;                            // between two values of a coordinate that are one [rad or m]
 constexpr double kFirstStep = 1e-4, kLittle = 0.01;            // of the duration: the first of these steps; of the duration: how soon after a run that has stopped its drive would be at a limit
 
 // What has been found about a drive.
@@ -24,30 +27,52 @@ struct Finding {
   double t;              // when the mechanism came there, at first when it was seen to have been [s]
   bool pushed;           // the run went on
   bool alone;            // no other drive is at a limit
+  bool first = true;     // the limit is that at which the effort was largest
 };
+
+// By how much a coordinate is past another value of it; angles may have gone round in between.
+double past(const DriveLimit& limit, double value, bool angle) {
+  const double beyond = limit.ahead * (value - limit.value);
+  return angle ? std::remainder(beyond, kTurn) : beyond;
+}
 
 // Integrates again up to the instant at which the limit is reached first, which is found in the dense output of the step that takes it there.
 class Arrival {
  public:
   Arrival(const System& system, const State& start, const SimulateSettings& settings, const Trajectory& run) : system_(system), start_(start), settings_(settings), run_(run) {}
 
-  // With several drives no coordinate has a limit of its own: then it is the first instant at which they ask for what cannot be.
+  // The limit that the mechanism comes to first need not be that at which its drive then pushed hardest. With several drives no coordinate has a
+  // limit of its own: then it is the first instant at which they ask for what cannot be.
   void refine(Finding& finding) const {
     const int drive = finding.peak.joint;
     const JointData& joint = system_.joints[static_cast<std::size_t>(drive)];
-    const double t = first([&](const State& state) {
-      if (finding.alone) return finding.limit.ahead * (drive_value(joint, state.gap[static_cast<std::size_t>(drive)][joint.driven], state.t) - finding.limit.value) >= 0;
-      const auto limit = find_drive_limit(system_, state.q, state.t, drive);
-      if (limit) finding.limit = *limit;
+    std::optional<DriveLimit> limit;
+    const auto look = [&](const State& state) {
+      limit = find_drive_limit(system_, state.q, state.t, drive);
       return limit.has_value();
-    }, finding.t);
-    if (t >= 0) finding.t = t;
+    };
+    double looked = -1, looked_before = -1;
+    const auto look_now_and_then = [&](const State& state) {
+      if (looked >= 0 && state.t < looked + settings_.duration / kLooks) return false;
+      looked_before = std::exchange(looked, state.t);
+      return look(state);
+    };
+    const auto past_limit = [&](const State& state) {
+      return state.t >= looked_before && limit->ahead * (drive_value(joint, state.gap[static_cast<std::size_t>(drive)][joint.driven], state.t) - limit->value) >= 0;
+    };
+    double t = finding.alone ? first(look_now_and_then, finding.t, 0) : first(look, finding.t, kHalvings);
+    if (!limit) return;
+    if (finding.alone) t = first(past_limit, finding.t, kHalvings);
+    if (t < 0) return;
+    finding.t = t;
+    finding.first = std::abs(past(finding.limit, limit->value, joint.driven == 2)) < kSameLimit;
+    finding.limit = *limit;
   }
 
  private:
-  // Negative: not before t_end.
+  // The end of the first step in which that is so, or after halvings of it the instant; negative: not before t_end.
   template <class Reached>
-  double first(Reached reached, double t_end) const {
+  double first(Reached reached, double t_end, int halvings) const {
     MethodChoice choice;
     choice.equations = settings_.equations;
     choice.method = run_.method;
@@ -60,7 +85,7 @@ class Arrival {
       if (!stepper->step(t_end)) return -1;
       if (!reached(stepper->state())) continue;
       double low = stepper->previous().t, high = stepper->state().t;
-      for (int k = 0; k < kHalvings; ++k) {
+      for (int k = 0; k < halvings; ++k) {
         const double middle = 0.5 * (low + high);
         (reached(stepper->interpolate(middle)) ? high : low) = middle;
       }
@@ -96,15 +121,15 @@ std::string note(const System& system, const Finding& finding) {
   const JointData& drive = system.joints[static_cast<std::size_t>(peak.joint)];
   const bool angle = drive.driven == 2, servo = drive.servo >= 0;
   const std::string what = servo ? fmt::format("the {} of joint {}", angle ? "angle" : "slide", driven_joint(system, drive).name) : fmt::format("the length of joint {}", drive.name);
-  const double beyond = limit.ahead * (drive_value(drive, peak.lag, peak.t) - limit.value);
-  const double unit = angle ? 180 / std::numbers::pi : 1000;
+  const double beyond = past(limit, drive_value(drive, peak.lag, peak.t), angle);
+  const double unit = angle ? 360 / kTurn : 1000;
   const char* unit_name = angle ? "deg" : "mm";
   std::string text = fmt::format("the mechanism came to its limit at t = {:.4g} s: {} can go no further than {:.6g} {}{}{}", finding.t, what, limit.value * unit, unit_name,
                                  finding.alone ? "" : " while the other motors are where they were then", in_line(system, limit));
   if (!finding.pushed) return text + fmt::format("; {} {} asks for more", servo ? "motor" : "what drives joint", drive.name);
   text += fmt::format(". {} {} went on pushing: with {:.5g} {} at t = {:.4g} s, {:.3g} {} behind", servo ? "Motor" : "What drives joint", drive.name, peak.effort,
                       angle ? "N*m" : "N", peak.t, std::abs(peak.lag) * unit, unit_name);
-  if (finding.alone && beyond > 0) text += fmt::format(", the joints having given way by {:.3g} {}", beyond * unit, unit_name);
+  if (finding.alone && finding.first && beyond > 0) text += fmt::format(", the joints having given way by {:.3g} {}", beyond * unit, unit_name);
   return text;
 }
 
