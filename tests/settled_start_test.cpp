@@ -190,5 +190,42 @@ angle = 0
   }
 }
 
+// A lever whose spring is as short as it can be in line with its pin: it leaves that position when it is touched, for one of two where the spring
+// is unstretched, acos(3/4) to either side. Nothing acts there.
+TEST(SettledStart, AnEquilibriumThatIsNotStableIsLeft) {
+  for (const char* angle : {"0", "1 deg"}) {
+    const Trajectory run = run_of(fmt::format(R"toml(
+format = 1
+gravity = [0, 0]
+[simulate]
+duration = "2 s"
+start = "settled"
+[ground.markers]
+O = [0, 0]
+S = ["0.3 m", 0]
+[body.lever]
+mass = "1 kg"
+inertia = "0.005 kg*m^2"
+angle = "{}"
+markers.O = ["-0.1 m", 0]
+markers.S = ["0.1 m", 0]
+[joint.O]
+type = "revolute"
+between = ["ground.O", "lever.O"]
+[spring.S]
+between = ["ground.S", "lever.S"]
+stiffness = "1000 N/m"
+damping = "5 N*s/m"
+free_length = "0.2 m"
+)toml",
+                                              angle));
+    EXPECT_NEAR(std::abs(value(run, 0, "body.lever.angle")), std::acos(0.75), 1e-6) << angle;
+    EXPECT_LT(run.joints[0].peak, 1e-7) << angle;
+    EXPECT_LT(run.counters.steps, 1000u) << "of rounding: " << angle;
+    const bool left = std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("is not stable") != std::string::npos; });
+    EXPECT_EQ(left, *angle == '0');
+  }
+}
+
 }  // namespace
 }  // namespace pintle

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/constants.h"
 #include "integrators/absolute/radau_stepper.h"
 #include "integrators/thresholds.h"
 #include "kinematics/position_search.h"
@@ -27,6 +28,7 @@ constexpr double kFirstStep = 1e-3;               // over the time of the creep
 constexpr double kLongest = 1e6;                  // times that of the creep: what moves then still, comes to no rest
 constexpr std::uint64_t kMostCreepSteps = 50000;  // of the creep
 constexpr double kUnbalanced = 1e-6;              // of the largest force: what a start in equilibrium leaves unbalanced
+constexpr double kNudge = 1e-6, kLeaves = 1e-3;   // of the mechanism's size: how far it is moved from where it rests, and from where on it has left: the equilibrium was not stable
 
 // The model as it is at t = 0 and stays: motors hold where they are.
 Model standing_still(Model model) {
@@ -113,10 +115,13 @@ double rate_of_motion(const System& system, const State& state) {
   return fastest > 0 ? std::sqrt(fastest / mechanism_size(system, state.q)) : 1;
 }
 
+// Of the joints' forces.
+double rounding_of(const System& system, const State& state) { return kLastBits * largest_stiffness(system) * mechanism_size(system, state.q); }
+
 // Where the creep through the fluid ends.
 State creep_to_rest(const System& system, const State& from, double rate) {
   BasicRadauStepper<S> stepper(system, kTolerance);
-  const double rounding = kLastBits * largest_stiffness(system) * mechanism_size(system, from.q);  // of the joints' forces
+  const double rounding = rounding_of(system, from);
   stepper.start(from, kFirstStep / rate);
   int body = 0;
   const auto name = [&] { return system.joints[system.n_joints() - system.n_bodies() + body].name; };
@@ -132,6 +137,37 @@ State creep_to_rest(const System& system, const State& from, double rate) {
   }
 }
 
+struct Move {
+  double way = 0, turn = 0;  // of the bodies, at most [m], [rad]
+};
+Move largest_move(const Vecs& from, const Vecs& to) {
+  Move move;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const S::Vec d = to[i] - from[i];
+    move.way = std::max(move.way, d.head<2>().norm());
+    move.turn = std::max(move.turn, std::abs(d[2]));
+  }
+  return move;
+}
+
+std::string in_words(const Move& move) { return fmt::format("{:.3g} m and {:.3g} deg", move.way, move.turn * 360 / kTurn); }
+
+// An equilibrium that the mechanism leaves when it is touched is none in which it is found: then where it comes to rest instead.
+State stable_rest(const System& fluid, const State& at_rest, double rate, std::vector<std::string>& notes) {
+  const double size = mechanism_size(fluid, at_rest.q);
+  State nudged = at_rest;
+  for (std::size_t i = 0; i < nudged.q.size(); ++i) {
+    const double sign = i % 2 == 0 ? 1 : -1;
+    nudged.q[i] += kNudge * S::Vec(sign * size, -0.7 * sign * size, 0.8);
+  }
+  start_forces(fluid, false, nudged);
+  State again = creep_to_rest(fluid, nudged, rate);
+  const Move move = largest_move(at_rest.q, again.q);
+  if (move.way < kLeaves * size && move.turn < kLeaves) return at_rest;
+  notes.push_back("settled: the first equilibrium is not stable: touched, the mechanism leaves it and comes to rest " + in_words(move) + " away, where it starts");
+  return again;
+}
+
 }  // namespace
 
 Assembly start_in_equilibrium(const Model& model) {
@@ -142,7 +178,8 @@ Assembly start_in_equilibrium(const Model& model) {
   const System fluid = in_fluid(still, start.system, start.state, rate);
   State from = start.state;
   start_forces(fluid, false, from);
-  const State at_rest = creep_to_rest(fluid, from, rate);
+  std::vector<std::string> notes;
+  const State at_rest = stable_rest(fluid, creep_to_rest(fluid, from, rate), rate, notes);
   const Vecs assembled = start.state.q;
   Assembly out = assemble_unloaded(model, build_system(model));
   State& state = out.state;
@@ -159,17 +196,17 @@ Assembly start_in_equilibrium(const Model& model) {
   find_law_rates(out.system, state);
   find_joint_forces(out.system, state);
   find_accelerations(out.system, m, r, state);
-  double unbalanced = 0, moved = 0;
+  double unbalanced = 0;
   std::size_t most = 0;
   for (std::size_t i = 0; i < state.a.size(); ++i) {
     const BodyData& body = out.system.bodies[i];
     const double force = std::hypot(body.mass[0] * state.a[i].head<2>().norm(), body.mass[2] * state.a[i][2] / body.radius_of_gyration());
     if (force > unbalanced) most = i;
     unbalanced = std::max(unbalanced, force);
-    moved = std::max(moved, (state.q[i] - assembled[i]).head<2>().norm());
   }
-  out.notes.push_back(fmt::format("settled: the mechanism came to rest {:.3g} m from where it was assembled", moved));
-  if (unbalanced > kUnbalanced * largest_load(out.system, state))
+  out.notes.push_back("settled: the mechanism came to rest " + in_words(largest_move(assembled, state.q)) + " from where it was assembled");
+  out.notes.insert(out.notes.end(), notes.begin(), notes.end());
+  if (unbalanced > std::max(kUnbalanced * largest_load(out.system, state), rounding_of(out.system, state)))
     out.notes.push_back(fmt::format("settled: what is held, or what depends on rates of loads, is not in equilibrium: {:.3g} N accelerate body {} from the start", unbalanced, model.bodies[most].name));
   return out;
 }
