@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "integrators/thresholds.h"
+#include "start/start.h"
 
 namespace pintle {
 namespace {
@@ -64,12 +65,12 @@ Difference measure(const Comparison& c, const Quantity& quantity, const std::vec
   return d;
 }
 
-// Relative to the peak; what is next to nothing, to a part of the largest of its unit.
+// Relative to the peak; what is next to nothing, to a part of the largest of its unit; where the second run has nothing of it at all, to the difference.
 void relate(std::vector<Difference>& list) {
   std::map<std::string, double> largest;
   for (const Difference& d : list) largest[d.unit] = std::max(largest[d.unit], d.peak);
   for (Difference& d : list) {
-    const double base = std::max({d.peak, kNegligible * largest[d.unit], 1e-300});
+    const double base = largest[d.unit] > 0 ? std::max(d.peak, kNegligible * largest[d.unit]) : std::max(d.largest, 1e-300);
     d.relative = d.largest / base;
     d.relative_rms = d.rms / base;
     d.digits = agreeing_digits(d.relative);
@@ -152,6 +153,16 @@ VariantLoad variant_load(const LoadSummary& load, const LoadSummary* base) {
   return out;
 }
 
+// Ideal joints know no equilibrium under loads: they start assembled where the compliant mechanism rests.
+void start_where_it_settles(const Model& model, Model& other) {
+  const Assembly rest = start_of_run(model);
+  other.simulate.start = Start::kAssembled;
+  for (std::size_t i = 0; i < other.bodies.size(); ++i) {
+    other.bodies[i].position = Vec2{rest.state.q[i][0], rest.state.q[i][1]};
+    other.bodies[i].angle = rest.state.q[i][2];
+  }
+}
+
 }  // namespace
 
 Variants compare(std::vector<NamedRun> runs) {
@@ -194,6 +205,7 @@ Comparison compare(const Model& model, Equations against, const Observer& observ
   compliant.simulate.equations = Equations::kNewtonian;
   other.simulate.equations = against;
   other.simulate.method = "auto";
+  if (model.simulate.start == Start::kSettled) start_where_it_settles(model, other);
   Trajectory first = simulate(compliant, observer);
   if (first.outcome == Outcome::kInterrupted) return compare(model, first, first, against);
   Trajectory second = simulate(other, observer);

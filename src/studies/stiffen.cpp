@@ -62,6 +62,7 @@ class Procedure {
   Stiffening go() {
     check_names();
     measure_mechanism();
+    if (nothing_to_raise()) return std::move(out_);
     ask_ideal_joints();
     raise();
     if (out_.found) relax();
@@ -113,6 +114,13 @@ class Procedure {
       j.angular_stiffness = has_angle(joint) ? stated(joint, "angular_stiffness", 1e6) : 0;
       j.angular_damping = has_angle(joint) ? stated(joint, "angular_damping", 30) : 0;
     }
+  }
+
+  // Where no joint has a stiffness that may be raised, no comparison would say anything.
+  bool nothing_to_raise() {
+    if (std::any_of(out_.joints.begin(), out_.joints.end(), [](const StiffenJoint& joint) { return !joint.kept; })) return false;
+    out_.reason = "no joint has a stiffness to raise: all have laws of their own, or are softer than the starting stiffness; try --law joint.NAME=linear for those that are to be rigid";
+    return true;
   }
 
   // What ideal joints say of the motion: where it passes singular positions forces need not have a limit.

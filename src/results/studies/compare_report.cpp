@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "pintle/results.h"
@@ -63,12 +64,22 @@ bool any(const std::vector<Difference>& list, Cause cause) {
   return std::any_of(list.begin(), list.end(), [cause](const Difference& d) { return d.cause == cause; });
 }
 
+// What start_of_run says of laws that equations with ideal joints leave out.
+std::vector<std::string> notes_of_lost_laws(const Trajectory& run) {
+  std::vector<std::string> lost;
+  std::copy_if(run.notes.begin(), run.notes.end(), std::back_inserter(lost), [](const std::string& note) { return note.find("not in these equations") != std::string::npos; });
+  return lost;
+}
+
 // What the causes mean, and who gives way.
 std::string explanation(const Comparison& c) {
   std::string text;
   if (any(c.forces, Cause::kNumerical)) text += "  numerical: within the error estimates of both runs; a smaller tolerance would reduce it\n";
   if (any(c.forces, Cause::kPhysical) || any(c.couples, Cause::kPhysical)) {
-    text += "  physical: larger than the error estimates; it comes from joint compliance and goes as 1 / stiffness\n";
+    const auto lost = notes_of_lost_laws(c.second);
+    text += lost.empty() ? "  physical: larger than the error estimates; it comes from joint compliance and goes as 1 / stiffness\n"
+                         : "  physical: larger than the error estimates; it comes from joint compliance, and from what the second run lacks:\n";
+    for (const std::string& note : lost) text += "    " + note + "\n";
     if (c.against == Equations::kPenalty) text += "    the penalties' own error is in it too, and goes as 1 / penalty\n";
     if (!c.softness.empty() && c.softness.front().share > 0)
       text += fmt::format("    {} stores {:.0f} % of the joints' elastic energy{}\n", c.softness.front().joint, 100 * c.softness.front().share,
