@@ -196,6 +196,7 @@ class Passes {
     difference_ = difference_of_passes(system_, coarse, fine, fine.t.back(), share_);
     // Other methods step over kinks, between which their curves are only near.
     if (choice_.method == "radau" && coarse.t.back() == fine.t.back()) include_peak_differences(coarse_->loads(), fine_->loads(), difference_);
+    include_peaks(fine_->loads(), difference_);  // which the rows may miss
   }
 
   // Whether another pass is made, and with which tolerance.
@@ -209,14 +210,18 @@ class Passes {
       if (out_.of_motion) choice_.stages = 5;  // long steps are alike at any tolerance: another order tells
       return at(kRepeated * tolerance);
     }
-    if (error_ <= kPromised * wanted) {
+    const double enough = tolerance < kFinest ? 1 : kPromised;  // of the tolerance, where finer passes find rounding
+    if (error_ <= enough * wanted) {
       // Alike again, and it is not the tolerance that limits the steps: that the passes agree says little.
       if (!alike_ || out_.of_motion || longest_ > 0 || last_one || choice_.method != "radau") return false;
       longest_ = kShorter * settings_.duration / static_cast<double>(last_.counters.steps);
       return at(tolerance);
     }
     const bool same = growth_.saturated && same_growth(last_growth_, growth_);
-    if (same) chaos_ = growth_;
+    if (same) {
+      chaos_ = growth_;
+      chaos_.rate_error = std::max(growth_.rate_error, std::abs(growth_.rate - last_growth_.rate));
+    }
     if (last_one) return false;
     if (growth_.exponential && growth_.saturated) {
       const double hoped = tolerance_by_growth(growth_.rate - kOptimism * growth_.rate_error, 1);
@@ -264,10 +269,7 @@ class Passes {
     judge(worst_joint);
     const bool chaotic = out_.outcome == Outcome::kHorizon;
     for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
-    if (!difference_.force.empty() && !chaotic) {
-      include_peaks(fine_->loads(), difference_);
-      state_errors<S>(system_, difference_, share_, {least_error(), fine_ringing_, fine_tolerance_}, out_.joints);
-    }
+    if (!difference_.force.empty() && !chaotic) state_errors<S>(system_, difference_, share_, {least_error(), fine_ringing_, fine_tolerance_}, out_.joints);
     if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, chaos_, out_);
   }
 

@@ -1,7 +1,10 @@
 #include "integrators/absolute/radau_stepper.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
+
+#include "integrators/thresholds.h"
 
 namespace pintle {
 
@@ -68,6 +71,17 @@ void BasicRadauStepper<S>::start(const BasicState<S>& state, double h) {
   this->reset_event_detection();
   grow_load_scale(system_, end_m_, last.Q, end_, scale_);
   if (unloaded()) foresee_loads(h);
+  raise_above_rounding();
+}
+
+// Loads that are no more than what rounding makes of the stiffest joint's force are none, and no step resolves a part of them.
+template <class S>
+void BasicRadauStepper<S>::raise_above_rounding() {
+  double largest = 0;
+  for (const typename S::Vec& load : scale_.body) largest = std::max(largest, load[0]);
+  const double rounding = kLastBits * largest_stiffness(system_) * largest_coordinate(end_.q);
+  if (largest > rounding) return;
+  for (std::size_t i = 0; i < scale_.body.size(); ++i) raise_scale(system_.bodies[i], typename S::Vec(S::Vec::Unit(0) * (rounding / tolerance_)), scale_.body[i]);
 }
 
 template <class S>

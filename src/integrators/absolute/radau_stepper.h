@@ -63,6 +63,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   double contraction() const { return solver_->contraction(); }
   bool unloaded() const;
   void foresee_loads(double h);
+  void raise_above_rounding();
 
   // error_estimate.cpp: the error of a step and its end
   bool error_estimate(double h, double& error);

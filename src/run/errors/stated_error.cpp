@@ -24,20 +24,27 @@ double relative(double error, double peak, double least) { return error / std::m
 // What the joints of a mechanism are measured by. Where they all carry nothing, as in free fall, by what acts on the bodies.
 template <class S>
 struct Measures {
-  double force, couple;  // the largest of the mechanism [N], [N*m]
+  double force, couple;               // the largest of the mechanism [N], [N*m]
+  double rounding, rounding_couple;  // what rounding makes of the forces and couples of a run [N], [N*m]
   const BasicSystem<S>& system;
 
   Measures(const BasicSystem<S>& of, const PassDifference& c)
-      : force(largest_force(c)), couple(std::max(largest_of(c.peak_couple), force * of.largest_radius_of_gyration())), system(of) {}
+      : force(largest_force(c)), couple(std::max(largest_of(c.peak_couple), force * of.largest_radius_of_gyration())),
+        rounding(kPeakOfRounding * c.rounding), rounding_couple(kPeakOfRounding * c.rounding_couple), system(of) {}
 
   double of_joint(std::size_t j, double force_error, double peak, double couple_error, double peak_couple) const {
     const double least = system.joints[j].servo >= 0 ? kNegligibleOfMotor : kNegligible;
-    const double of_force = relative(force_error, peak, least * force);
+    const double of_force = is_rounding(force_error, peak, rounding, force) ? 0 : relative(force_error, peak, least * force);
     const bool of_couple = system.joints[j].law.lever() == 0 || system.joints[j].law.has_stops();
-    return of_couple ? std::max(of_force, relative(couple_error, peak_couple, least * couple)) : of_force;
+    if (!of_couple || is_rounding(couple_error, peak_couple, rounding_couple, couple)) return of_force;
+    return std::max(of_force, relative(couple_error, peak_couple, least * couple));
   }
 
  private:
+  // Where joints carry more, or nothing carries anything, what rounding alone makes of a joint is no force whose error a finer pass could lessen.
+  static bool is_rounding(double error, double peak, double rounding, double largest) {
+    return std::max(error, peak) <= rounding && (largest > rounding || largest <= rounding / kPeakOfRounding);
+  }
   static double largest_force(const PassDifference& c) {
     const double largest = largest_of(c.peak);
     return largest > c.rounding ? largest : c.largest_load / kNegligible;
@@ -52,6 +59,7 @@ class Growing {
   Growing(std::size_t joints, double share, const BasicForceTable<S>& fine) : all_(1 / share) {
     c_.largest_load = fine.largest_load;
     c_.rounding = fine.rounding;
+    c_.rounding_couple = fine.rounding_couple;
     for (auto* x : {&c_.force, &c_.couple, &c_.peak, &c_.peak_couple}) x->assign(joints, 0.0);
   }
   void add_row(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, std::size_t i) {

@@ -16,6 +16,7 @@ namespace pintle {
 struct PassDifference {
   std::vector<double> force, couple, peak, peak_couple;
   double largest_load = 0, rounding = 0;  // of the finer one: ForceTable [N]
+  double rounding_couple = 0;             // [N*m]
 };
 
 /// Over the rows up to time `until` [s]. `share` of it is the error of the finer pass: rows where its steps are no shorter than the coarser

@@ -7,6 +7,27 @@
 
 namespace pintle {
 
+namespace {
+
+// Of the stiffest joint against turns [N*m/rad].
+template <class S>
+double largest_angular_stiffness(const BasicSystem<S>& system) {
+  double stiffest = 0;
+  for (const BasicJointData<S>& joint : system.joints) stiffest = std::max(stiffest, joint.law.engaged_stiffness().template tail<S::kDof - S::kDim>().maxCoeff());
+  return stiffest;
+}
+
+// Angles in the plane count turns; at least 1 rad.
+template <class S>
+double largest_angle(const PositionsOf<S>& q) {
+  double largest = 1;
+  if constexpr (S::kDof - S::kDim == 1)
+    for (const auto& body : q) largest = std::max(largest, std::abs(body[S::kDim]));
+  return largest;
+}
+
+}  // namespace
+
 template <class S>
 BasicForceRecorder<S>::BasicForceRecorder(const BasicSystem<S>& system, const SimulateSettings& settings, Recorded what)
     : system_(system), what_(what), keeps_places_(what == Recorded::kStates || settings.tolerance_of == ToleranceOf::kMotion),
@@ -36,6 +57,7 @@ void BasicForceRecorder<S>::finish(const BasicStepper<S>& stepper) {
   const BasicState<S>& state = stepper.state();
   for (const typename S::Vec& load : stepper.load_scale().body) forces_.largest_load = std::max(forces_.largest_load, load[0]);
   forces_.rounding = kLastBits * largest_stiffness(system_) * std::max(largest_coordinate(state.q), system_.largest_radius_of_gyration());
+  forces_.rounding_couple = kLastBits * largest_angular_stiffness(system_) * largest_angle<S>(state.q);
   if (state.t > forces_.t.back()) add(state);
   if (what_ == Recorded::kForces) return;
   for (int j = 0; j < system_.n_joints(); ++j) heat_.push_back(loads_->heat(j, state));

@@ -17,6 +17,7 @@ struct BasicForceTable {
   VecsOf<S> world;        // row-major: per time, per joint: force [N] and couple [N*m] on the second body, as `joint_load` gives them
   double largest_load = 0;   // on a body, over all steps: LoadScale; 0 of methods that have none [N]
   double rounding = 0;       // of the places, times the largest stiffness: forces below it are nothing else [N]
+  double rounding_couple = 0;  // the same of angles and couples [N*m]
 };
 using ForceTable = BasicForceTable<Planar>;
 
