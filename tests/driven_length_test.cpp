@@ -147,6 +147,14 @@ TEST(DrivenLength, ARopeLetDownFasterThanItsLoadFallsIsSlack) {
   EXPECT_LT(most_of(run, "joint.rope.drive_power"), 1e-2 * kLoad * kWeightPerMass);
 }
 
+// A rope cannot be wound up beyond its end: a negative length would push.
+TEST(DrivenLength, ARunEndsWhereNoLengthIsLeft) {
+  const Trajectory run = simulate(winch("5 m - 20 m/s*t", "0.3 s"));
+  EXPECT_EQ(run.outcome, Outcome::kEnergyOpen);
+  EXPECT_NE(run.message.find("the length of joint rope has come to nothing by t = 0.25"), std::string::npos) << run.message;
+  EXPECT_LT(run.t_end, 0.26);
+}
+
 TEST(DrivenLength, AWrongLengthIsRefused) {
   EXPECT_THROW(winch("1 m*t", "1 s"), InputError);
   EXPECT_THROW(winch("5 m - 2 m*t", "1 s"), InputError);  // metre times second

@@ -64,6 +64,17 @@ TEST(CheckDifferences, SlopesWhoseSlopeJumpsAreLeftOut) {
   EXPECT_FALSE(wrong.item().passed());
 }
 
+// Hertz' contact at the touch, and a ball bearing that is not loaded: the slope begins as a root.
+TEST(CheckDifferences, SlopesThatBeginAsARootAreLeftOut) {
+  const auto hertz = [](double s) { return one(s > 0 ? 1e4 * std::pow(s, 1.5) : 0.0); };
+  Comparisons right("hertz", 1e-6), wrong("hertz", 1e-6);
+  right.slope(one(0), hertz, 1e-3, 300, kHere);
+  EXPECT_EQ(right.item().at_kinks, 1);
+  EXPECT_EQ(right.item().comparisons, 0);
+  wrong.slope(one(30), hertz, 1e-3, 300, kHere);
+  EXPECT_FALSE(wrong.item().passed());
+}
+
 TEST(CheckDifferences, ANumberThatIsNoneDoesNotPass) {
   Comparisons tally("nan", 1e-6);
   tally.slope(

@@ -40,6 +40,8 @@ BasicEnergyWatch<S>::BasicEnergyWatch(const BasicSystem<S>& system, double durat
   for (const BasicJointData<S>& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : joint.driven >= 0 ? "the length of joint" : joint.law.feeds() ? "the pressure in joint" : joint.law.depends_on_reaction_alone() ? "the teeth of joint" : "negative damping of joint", &joint.name});
   for (int j = 0; j < system.n_joints(); ++j)
     if (has_lost_a_turn(system.joints[j].displacement, -1, std::numeric_limits<double>::infinity())) belts_.push_back({j, 0});
+  for (int j = 0; j < system.n_joints(); ++j)
+    if (system.joints[j].driven >= 0 && system.joints[j].servo < 0) lengths_.push_back(j);
   for (const BasicLoadData<S>& load : system.loads) feeders_.push_back({load.applied ? "force" : load.kind == LoadKind::kEffort ? "motor" : "negative damping of spring", &load.name});
   for (const BasicAppliedData<S>& force : system.applied) feeders_.push_back({"force", &force.name});
 }
@@ -86,6 +88,11 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicSta
     }
     gap = state.gap[j][0];
   }
+  for (const int j : lengths_)
+    if (const BasicJointData<S>& joint = system_.joints[j]; !(target_of(joint, state.t)[0] > 0)) {
+      message_ = fmt::format("the length of joint {} has come to nothing by t = {:.6g} s: what it pulls is at its other end. End the run before, or let the length stop above 0", joint.name, state.t);
+      return Alarm::kOpen;
+    }
   if (++since_judged_ >= kJudgedEvery)
     if (const Alarm alarm = judge_account(state); alarm != Alarm::kNone) return alarm;
   return judge_growth(state);

@@ -62,6 +62,7 @@ class BasicEnergyWatch {
   std::vector<typename S::Motion> m_;
   std::vector<Feeder> feeders_;          // joints, loads, applied forces
   std::vector<std::pair<int, double>> belts_;  // joints that wind, and their gaps [m]
+  std::vector<int> lengths_;                   // joints whose length is driven
   int tightened_ = -1;                   // of those, the first that was slack by a turn and is taken for taut
   double tightened_at_ = 0;              // [s]
   std::string message_;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "dynamics/inverse_dynamics.h"
 #include "joints/belt.h"
 #include "kinematics/guess.h"
 #include "kinematics/position_search.h"
@@ -116,6 +117,31 @@ std::string loop_that_lacks(const Model& model, const System& system, const Vecs
   return names.empty() ? "" : fmt::format("\n  loop: {}; with any one of them open all others close, and it lacks about {}", names, lacks);
 }
 
+// What keeps the search from closing the joints other than lengths: coordinates that are held, motors that ask for another position, pins that it puts
+// in the middle of their play.
+std::string what_to_try(Model model, const System& system, const Vecs& q, const std::vector<bool>& open, const std::vector<std::size_t>& broken) {
+  const double size = mechanism_size(system, q);
+  std::string held, loose;
+  for (Body& body : model.bodies)
+    for (int k = 0; k < S::kDof; ++k)
+      if (std::exchange(body.hold[k], false)) held += (held.empty() ? "" : ", ") + body.name + "." + std::array{"x", "y", "angle"}[k];
+  if (!held.empty()) {
+    Vecs trial = q;
+    PositionSearch(model, system, open).run(trial);
+    const auto left = misfits(system, trial);
+    bool closed = true;
+    for (std::size_t j = 0; j < left.size(); ++j) closed = closed && (open[j] || !is_broken(left[j], size));
+    if (closed) {
+      const bool driven = std::all_of(broken.begin(), broken.end(), [&](std::size_t j) { return system.joints[j].servo >= 0; });
+      return "Without what is held (" + held + ") everything closes: try " + (driven ? "a motor that starts where its joint is held, or without hold." : "fewer of these in hold.");
+    }
+  }
+  for (const JointData& joint : system.joints)
+    if (!joint.law.ideal_limit() && joint.law.engaged_stiffness().head<2>().minCoeff() > 0 && is_in_play<S>(joint.law, S::Vec::Zero(), S::Vec::Zero())) loose += (loose.empty() ? "" : ", ") + joint.name;
+  if (!loose.empty()) return "Assembly puts pins in the middle of their play (" + loose + "): if the stated positions are meant within it, try start = \"raw\", which takes them as they are.";
+  return "Try lengths that close the loop, or angles nearer to the intended position.";
+}
+
 void demand_closed(const Model& model, const System& system, const Vecs& q, const std::vector<bool>& open, std::vector<std::string>& notes) {
   const auto left = misfits(system, q);
   const double size = mechanism_size(system, q);
@@ -126,15 +152,22 @@ void demand_closed(const Model& model, const System& system, const Vecs& q, cons
     if (open[j]) continue;
     if (is_broken(left[j], size)) broken.push_back(j);
     else if (left[j][0] > 1e-9 * size || left[j][1] > 1e-9)
-      notes.push_back(fmt::format("joint {}: misfit of {:.3g} m, {:.3g} rad after assembly; it preloads the joint", system.joints[j].name, left[j][0], left[j][1]));
+      notes.push_back(fmt::format("{} {}: misfit of {:.3g} m, {:.3g} rad after assembly; it preloads the {}", system.joints[j].servo < 0 ? "joint" : "motor", system.joints[j].name, left[j][0],
+                                  left[j][1], system.joints[j].servo < 0 ? "joint" : "motor"));
   }
   if (broken.empty()) return;
   std::string list;
-  for (std::size_t i = 0; i < broken.size() && i < kMostListed; ++i) list += fmt::format("\n  joint {} ({}) stays open by {}", system.joints[broken[i]].name, system.joints[broken[i]].type, length_or_angle(left[broken[i]], size));
+  for (std::size_t i = 0; i < broken.size() && i < kMostListed; ++i) {
+    const JointData& joint = system.joints[broken[i]];
+    list += joint.servo >= 0 ? fmt::format("\n  motor {} asks for a position that its joint is {} away from", joint.name, length_or_angle(left[broken[i]], size))
+                             : fmt::format("\n  joint {} ({}) stays open by {}", joint.name, joint.type, length_or_angle(left[broken[i]], size));
+  }
   if (broken.size() > kMostListed) list += fmt::format("\n  and {} more", broken.size() - kMostListed);
+  if (const bool only_motors = std::all_of(broken.begin(), broken.end(), [&](std::size_t j) { return system.joints[j].servo >= 0; }); only_motors)
+    throw AssemblyError("the mechanism cannot be assembled from the stated positions:" + list + "\n  " + what_to_try(model, system, q, open, broken));
   std::string lacking = left.size() <= kMostTried ? loop_that_lacks(model, system, q, open) : "";
   if (lacking.empty()) lacking = "\n  loop: " + loop_through(system, list);
-  throw AssemblyError("the mechanism cannot be assembled from the stated positions:" + list + lacking + "\n  Try lengths that close the loop, or angles nearer to the intended position.");
+  throw AssemblyError("the mechanism cannot be assembled from the stated positions:" + list + lacking + "\n  " + what_to_try(model, system, q, open, broken));
 }
 
 // A coordinate far beyond a stop is a start that was not meant. Angles count turns.

@@ -32,7 +32,7 @@ void read_hold(ModelReading& reading, const Record& record, Body& body) {
     const bool is_angle = word == "angle";
     body.hold[is_angle ? 2 : word == "y" ? 1 : 0] = true;
     const std::string needed = is_angle ? "angle" : "position";
-    if (record.states(needed)) continue;
+    if (record.states(needed) || record.refused.contains(needed)) continue;
     reading.complaints.add((*hold->node->array())[i].spot, record.path + ".hold", in_quotes(word),
                            "a held value must be stated, and there is no " + needed,
                            needed + (is_angle ? " = \"30 deg\"" : " = [0, 0]"));

@@ -21,6 +21,20 @@ std::vector<std::string> keys_of(const std::map<std::string, std::set<std::strin
   return keys;
 }
 
+// One of the model's markers, of the body that is called like that if there is one.
+std::string example_marker(const ModelReading& reading, const std::string& body) {
+  const auto named = reading.markers_of.find(body);
+  if (named != reading.markers_of.end()) {
+    if (named->second.empty()) return "body." + body + ".markers.A = [0, 0], and \"" + body + ".A\" here";
+    std::string list;
+    for (const std::string& marker : named->second) list += (list.empty() ? "" : " or ") + in_quotes(body + "." + marker);
+    return list;
+  }
+  for (const auto& [owner, markers] : reading.markers_of)
+    if (!markers.empty()) return in_quotes(owner + "." + *markers.begin());
+  return "\"ground.A\"";
+}
+
 }  // namespace
 
 const TableSpec& ModelReading::spec(const std::string& path, const std::string& when, const std::string& law, const std::string& friction, const std::string& stops,
@@ -48,7 +62,7 @@ MarkerRef read_marker_ref(ModelReading& reading, const Node& node, const std::st
   const std::string& text = *node.string();
   const std::size_t dot = text.find('.');
   if (dot == std::string::npos || text.find('.', dot + 1) != std::string::npos) {
-    reading.complaints.add(node.spot, path, in_quotes(text), "a marker is named as body.marker", "\"ground.A\"");
+    reading.complaints.add(node.spot, path, in_quotes(text), "a marker is named as body.marker", example_marker(reading, text));
     return {};
   }
   const MarkerRef ref{text.substr(0, dot), text.substr(dot + 1)};

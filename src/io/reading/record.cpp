@@ -122,6 +122,8 @@ Record RecordReader::read(const TableSpec& spec, const Node& table_node, Spot ke
     if (std::optional<Value> value = read_value(*node, key, key_path)) {
       value->node = is_default ? nullptr : node;
       record.values.emplace(key.key, std::move(*value));
+    } else {
+      record.refused.insert(key.key);
     }
   }
   return record;

@@ -41,6 +41,7 @@ class Record {
   Spot table_spot;
   std::string path;
   std::map<std::string, Value, std::less<>> values;
+  std::set<std::string> refused;  ///< keys that the file has, with values that were complained about
 };
 
 /// Reads and checks values, complaining about each that is wrong.

@@ -80,6 +80,12 @@ bool mentions(const Node& node, const std::vector<std::string>& variables) {
   return false;
 }
 
+// A rotational speed of so many hertz: turns per second to whoever writes it, 1/s to the units, in which a radian is 1.
+bool is_speed_in_hertz(const Node& node, const KeySpec& spec) {
+  const std::string* text = node.string();
+  return text != nullptr && spec.dimension == kAngularSpeed && text->ends_with("Hz") && mentions(node, {"Hz", "kHz"}) && !mentions(node, {"pi"});
+}
+
 }  // namespace
 
 void RecordReader::complain(const ParseProblem& problem, const Node& node, const std::string& path) {
@@ -138,6 +144,10 @@ std::optional<double> RecordReader::read_number(const Node& node, const KeySpec&
 }
 
 std::optional<Value> RecordReader::read_value(const Node& node, const KeySpec& spec, const std::string& path) {
+  if (is_speed_in_hertz(node, spec)) {
+    complaints_.add(node.spot, path, describe(node), "a rotational speed is expected here; a frequency is not turns per second, but 1/s", "\"120 rpm\", \"2 rev/s\" or \"4*pi rad/s\"");
+    return std::nullopt;
+  }
   Value value;
   bool good = false;
   switch (spec.type) {
@@ -236,10 +246,10 @@ bool RecordReader::read_word(const Node& node, const KeySpec& spec, const std::s
 bool RecordReader::read_words(const Node& node, const KeySpec& spec, const std::string& path, Value& value) {
   const Array* list = node.array();
   if (list == nullptr || (spec.count != 0 && list->size() != spec.count)) {
-    const std::string wanted = spec.count == 0 ? "a list" : "a list of " + std::to_string(spec.count);
-    complaints_.add(
-        node.spot, path, describe(node), wanted + " strings is expected here",
-        spec.type == ValueType::kMarkerNames ? "[\"ground.A\", \"crank.A\"]" : "[\"" + (spec.words.empty() ? "text" : joined(spec.words)) + "\"]");
+    const std::string wanted = spec.count == 0 ? "a list of" : "a list of " + std::to_string(spec.count);
+    const std::string* alone = node.string();
+    const std::string one = alone != nullptr && std::find(spec.words.begin(), spec.words.end(), *alone) != spec.words.end() ? *alone : spec.words.empty() ? "text" : spec.words.front();
+    complaints_.add(node.spot, path, describe(node), wanted + " strings is expected here", spec.type == ValueType::kMarkerNames ? "[\"ground.A\", \"crank.A\"]" : "[" + in_quotes(one) + "]");
     return false;
   }
   bool good = true;

@@ -109,7 +109,7 @@ class Guard {
         return "key = value, or [header]";
     }
     if (open_.empty()) return "a new line, or quotes around the whole value";
-    return in_list() ? "close the list with ]" : "close the table with } on the same line";
+    return in_list() ? "a comma before the next entry, or close the list with ]" : "close the table with } on the same line";
   }
 
   bool in_list() const { return !open_.empty() && open_.back().bracket == '['; }

@@ -132,6 +132,8 @@ Complaint syntax_complaint(const Document& document, const toml::parse_error& er
     return document.complaint(spot_of_second(document, spot, words), "", "a second definition of the same key or table",
                               "a name may be defined only once", "rename it, or delete one of the two");
   }
+  if (words.find("expected ']'") != std::string_view::npos && document.sources[0].line(spot.line).starts_with('['))
+    return document.complaint(spot, "", "a name with something else in it", "a table's name stands in [ ] and has no blanks", "letters, digits, _ and - alone, such as [joint.pin_A]");
   const auto advice = std::find_if(kSyntaxAdvice.begin(), kSyntaxAdvice.end(), [&](const SyntaxAdvice& candidate) {
     return words.find(candidate.part) != std::string_view::npos;
   });
