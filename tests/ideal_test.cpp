@@ -188,5 +188,19 @@ TEST(Ideal, OtherMethodsAreRefusedWhereTheyStand) {
   EXPECT_THROW(reference::mechanism("four_bar", {"simulate.equations=\"ideal\"", "simulate.method=\"radau\""}), InputError);
 }
 
+// A contact damps by the speed at which it was touched, which these equations do not keep: no result instead of a wrong one.
+TEST(Ideal, LawsThatRememberAreRefused) {
+  Model model = reference::mechanism("hopper");
+  for (const Equations equations : {Equations::kIdeal, Equations::kPenalty}) {
+    model.simulate.equations = equations;
+    try {
+      simulate(model);
+      ADD_FAILURE() << "not refused";
+    } catch (const AssemblyError& error) {
+      EXPECT_NE(std::string(error.what()).find("joint ground: equations with ideal joints do not follow what its law remembers"), std::string::npos) << error.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pintle

@@ -53,6 +53,25 @@ TEST(Starts, AMechanismAtRestStaysAtRestWhereNoSlowMotionIsFound) {
   EXPECT_NEAR(run.joints.back().peak, 7e6 * kPi / 4 * 0.063 * 0.063, 1);
 }
 
+// Bristles do not bend in the short motion in which the slow start is looked for: the guide's couple goes with the radius of the pin that rubs.
+TEST(Starts, BristlesOfAPinAtRestDoNotMoveTheSoftGuideBesideIt) {
+  Model model = test_model("strut_with_rubbing_pin");
+  model.simulate.duration = 0.002;
+  Joint& pivot = model.joints[1];
+  ASSERT_EQ(pivot.name, "pivot");
+  double before = 0;
+  for (const double radius : {0.003, 0.005, 0.008, 0.010, 0.015}) {
+    pivot.friction.values["pin_radius"] = {radius};
+    const Trajectory run = completed(model);
+    const double couple = value(run, 0, "joint.guide.on_fuselage.m[world]");
+    EXPECT_NEAR(std::abs(couple), 130, 30) << radius;
+    if (before != 0) {
+      EXPECT_NEAR(couple, before, 25) << radius;
+    }
+    before = couple;
+  }
+}
+
 TEST(Starts, ABodyThatAssemblyTurnsFarIsNoted) {
   Model model = reference::mechanism("slider_crank");
   for (Marker& marker : model.bodies[2].markers)

@@ -139,6 +139,14 @@ void BasicInverseDynamics<S>::push_by_laws(BasicState<S>& state) {
   }
 }
 
+template <class S>
+void BasicInverseDynamics<S>::keep_states_of(const BasicState<S>& start) {
+  if (rubbing_.empty()) return;
+  find_kinematics(start);
+  rest_rate_.clear();
+  for (const BasicJointKinematics<S>& r : r_) rest_rate_.push_back(r.rate);
+}
+
 // Friction pushes as a load does, at the reactions that the gaps of the state carry. theory/assembly Eq. (3.5).
 template <class S>
 void BasicInverseDynamics<S>::push_by_friction(BasicState<S>& state) {
@@ -151,7 +159,10 @@ void BasicInverseDynamics<S>::push_by_friction(BasicState<S>& state) {
         rate[k] = r_[j].rate[k];
       }
     double states[kMostLawStates];
-    joint.law.rest({state.t, gap, rate, states}, states);
+    typename S::Vec at_rest = rate;
+    for (int k = 0; !rest_rate_.empty() && k < S::kDof; ++k)
+      if (!joint.held[k]) at_rest[k] = rest_rate_[j][k];
+    joint.law.rest({state.t, gap, at_rest, states}, states);
     const typename S::Vec force = joint.law.force({state.t, gap, rate, states});
     for (int k = 0; k < S::kDof; ++k)
       if (!joint.held[k]) {

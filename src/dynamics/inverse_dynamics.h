@@ -58,6 +58,8 @@ class BasicInverseDynamics {
   /// Accelerations and joint forces at state.q, state.v for which the gaps accelerate as state.gap_accel says; what no
   /// motion can close stays as state.force has it. False when there is no stiff joint or the equations are singular.
   bool find(BasicState<S>& state);
+  /// From now on what rubs keeps the states that its joint has at rest with the rates of this start: over a short motion from standstill bristles do not bend.
+  void keep_states_of(const BasicState<S>& start);
   /// The accelerations alone.
   bool find_accelerations(BasicState<S>& state);
   /// The gaps at which the laws give state.force at state.gap_rate. False when one has been found not to carry its force.
@@ -94,6 +96,7 @@ class BasicInverseDynamics {
   std::vector<BasicJointKinematics<S>> r_;
   std::vector<int> rubbing_;      // joints with friction
   std::vector<bool> linearized_;  // joints whose gaps are found by one step with the tangent
+  VecsOf<S> rest_rate_;           // with which the states of friction are at rest, where they are kept
   VecsOf<S> Q_, wanted_, by_law_, moved_, moves_, last_force_;
 };
 using InverseDynamics = BasicInverseDynamics<Planar>;

@@ -196,7 +196,6 @@ class Passes {
     difference_ = difference_of_passes(system_, coarse, fine, fine.t.back(), share_);
     // Other methods step over kinks, between which their curves are only near.
     if (choice_.method == "radau" && coarse.t.back() == fine.t.back()) include_peak_differences(coarse_->loads(), fine_->loads(), difference_);
-    include_peaks(fine_->loads(), difference_);  // which the rows may miss
   }
 
   // Whether another pass is made, and with which tolerance.
@@ -264,6 +263,7 @@ class Passes {
     fill_events();
     out_.t_end = last_.t;
     out_.notes.insert(out_.notes.end(), last_.remarks.begin(), last_.remarks.end());
+    measure_by_peaks();
     const auto worst = std::max_element(relative_difference_.begin(), relative_difference_.end());
     const BasicJointData<S>* worst_joint = worst == relative_difference_.end() ? nullptr : &system_.joints[static_cast<std::size_t>(worst - relative_difference_.begin())];
     judge(worst_joint);
@@ -271,6 +271,15 @@ class Passes {
     for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
     if (!difference_.force.empty() && !chaotic) state_errors<S>(system_, difference_, share_, {least_error(), fine_ringing_, fine_tolerance_}, out_.joints);
     if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, chaos_, out_);
+  }
+
+  // Passes are made until errors are small beside the forces in the rows: an impact between rows shows its error there little. What is stated in the
+  // end, and judged, is over the joints' peaks.
+  void measure_by_peaks() {
+    if (difference_.force.empty()) return;
+    include_peaks(fine_->loads(), difference_);
+    relative_difference_ = relative_differences(system_, difference_);
+    if (!out_.of_motion) error_ = share_ * largest_of(relative_difference_);
   }
 
   // With what each joint has lost since its event before.

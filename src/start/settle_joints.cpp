@@ -17,6 +17,7 @@ namespace {
 constexpr double kMostHaste = 1e-3, kMostLever = 30;  // change of a body's speed that is the joints' giving way: over the largest speed, at most; or over the largest rate of a gap, at most
 constexpr double kExact = 1e-6;                       // relative change of the gaps below which nothing is left to settle
 constexpr double kUnsettledGrowth = 1.1;              // growth of the largest force, by soft joints whose sweeps have not converged: what is beyond is no start. With the 2 of kMostGrowth a lift at rest starts with 1.3 times its load (test Starts)
+constexpr double kSmallCouple = 0.05;                 // of the largest force at the largest radius of gyration: couples below it are not asked whether they grow
 constexpr double kEntirely = 0.99;                    // of its slow motion: with this share a soft joint counts as going with the motion
 constexpr const char* kNotSettled =
     "no transient-free start was found (a force jumps at the start, or a long chain has modes slower than its motion): joint forces may ring from the start. All passes start alike, so the stated "
@@ -48,10 +49,18 @@ bool is_runaway(const BasicSystem<S>& system, const BasicState<S>& attempt, cons
   return system.largest_speed(change) > std::max(kMostHaste * system.largest_speed(given.v), kMostLever * largest_gap_rate(system, attempt));
 }
 
-// Whether sweeps that have not converged came near. Forces far above those of the given state are no attempt at all, nor is what diverged.
 template <class S>
-bool is_near(const BasicState<S>& attempt, const BasicState<S>& given, double most_growth = kMostGrowth) {
-  return is_finite(attempt) && largest_force(attempt.force) <= most_growth * largest_force(given.force);
+double largest_couple(const BasicState<S>& state) {
+  double largest = 0;
+  for (const typename S::Vec& f : state.force) largest = std::max(largest, f.template tail<S::kDof - S::kDim>().norm());
+  return largest;
+}
+
+// Whether sweeps that have not converged came near. Forces or couples far above those of the given state are no attempt at all, nor is what diverged.
+template <class S>
+bool is_near(const BasicSystem<S>& system, const BasicState<S>& attempt, const BasicState<S>& given, double most_growth = kMostGrowth) {
+  const double force = largest_force(given.force), couple = std::max(largest_couple(given), kSmallCouple * force * system.largest_radius_of_gyration());
+  return is_finite(attempt) && largest_force(attempt.force) <= most_growth * force && largest_couple(attempt) <= most_growth * couple;
 }
 
 // Fast joints ride their slow motion; where that is not found the state stays, or with `keep_best` is the best attempt. Over which
@@ -63,7 +72,7 @@ double settle_fast_joints(const BasicSystem<S>& system, const BasicTimeScales<S>
     BasicState<S> attempt = state;
     const double change = move_onto_slow_manifold(system, time_scales, span, attempt);
     if (is_runaway(system, attempt, given)) continue;
-    if (change < kSettled || (keep_best && is_near(attempt, given))) state = std::move(attempt);
+    if (change < kSettled || (keep_best && is_near(system, attempt, given))) state = std::move(attempt);
     if (change < kSettled) return span;
   }
   return 0;
@@ -90,7 +99,7 @@ template <class S>
 void settle_soft_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, double span, BasicSettledStart<S>& start) {
   BasicState<S> attempt = start.state;
   const BasicSoftStart<S> soft = place_soft_joints(system, time_scales, 2 * span, attempt);
-  if (soft.change < kSettled || is_near(attempt, start.state, kUnsettledGrowth)) start.state = std::move(attempt);
+  if (soft.change < kSettled || is_near(system, attempt, start.state, kUnsettledGrowth)) start.state = std::move(attempt);
   const bool along = note_resolved_joints(system, time_scales, soft, start.notes);
   if (soft.placed && along && soft.change < kExact) return;
   if (settle_fast_joints(system, time_scales, span, false, start.state) > 0) return;

@@ -38,6 +38,7 @@ class BasicSlowManifold {
       for (auto& x : *c) x.assign(system.joints.size(), S::Vec::Zero());
     share_.assign(system.joints.size(), S::Vec::Ones());
     forces_.linearize_nonlinear_laws();
+    forces_.keep_states_of(start);
     for (std::size_t j = 0; j < system.joints.size(); ++j)
       if (begins_at_start(j)) put_at_start(j);
   }

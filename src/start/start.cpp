@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "pintle/simulate.h"
 #include "start/equilibrium.h"
 #include "start/ideal_rows.h"
 #include "start/settle_joints.h"
@@ -18,6 +19,13 @@
 namespace pintle {
 namespace {
 
+// What joints that stay compliant beside ideal ones remember, as contacts do of their touch, these equations do not follow.
+void demand_no_states(const System& system) {
+  for (const JointData& joint : system.joints)
+    if (!joint.ideal && !joint.law.feeds() && joint.law.n_states() > 0)
+      throw AssemblyError(fmt::format("joint {}: equations with ideal joints do not follow what its law remembers, such as a touch and its speed: its forces would be wrong.\n  Try equations = \"newtonian\", or \"relative\", which keeps the joints of a tree ideal.", joint.name));
+}
+
 // Ideal joints carry no preload: the loops are closed as they are.
 Assembly ideal_start(Model model) {
   if (model.simulate.start == Start::kAssembled) model.simulate.start = Start::kUnloaded;
@@ -26,6 +34,7 @@ Assembly ideal_start(Model model) {
   assembly.system = std::move(rows.system);
   assembly.notes.insert(assembly.notes.end(), rows.notes.begin(), rows.notes.end());
   assembly.not_unique = std::move(rows.not_unique);
+  demand_no_states(assembly.system);
   return assembly;
 }
 

@@ -19,6 +19,7 @@
 #include "mobility/mobility.h"
 #include "pintle/compare.h"
 #include "pintle/complaint.h"
+#include "pintle/simulate.h"
 #include "start/start.h"
 
 namespace pintle {
@@ -128,7 +129,13 @@ class Procedure {
     Model ideal = model_;
     ideal.simulate.equations = Equations::kIdeal;
     ideal.simulate.tolerance = std::max(ideal.simulate.tolerance, 1e-6);
-    for (const std::string& note : simulate(ideal, observer_).notes) {
+    Trajectory run;
+    try {
+      run = simulate(ideal, observer_);
+    } catch (const AssemblyError&) {
+      return;  // some joint has no ideal limit
+    }
+    for (const std::string& note : run.notes) {
       if (!note.starts_with("ideal joints:")) continue;
       ideal_notes_.push_back(note);
       singular_ = singular_ || note.find("singular") != std::string::npos;
