@@ -62,27 +62,24 @@ TEST(ClearanceRegimes, AFastCrankMakesThePinRepeatItsOrbit) {
 }
 
 // At 600 rpm it flies and strikes without end: neighbouring orbits part by a factor of e in about a third of a turn. Rates that are found over half a second scatter:
-// runs that differ by rounding alone gave 27 to 44 per second, which the stated error must cover. The table has the present ones.
+// runs that differ by rounding alone give 26 to 44 per second, which the stated error has to cover.
 TEST(ClearanceRegimesSlow, ASlowCrankMakesItChaotic) {
-  struct Row {
-    double clearance, rate, error;
-  };
-  for (const auto& [clearance, rate, error] : {Row{1e-4, 27, 12}, {2e-4, 44, 9}}) {
+  constexpr double kMiddle = 36;  // [1/s]
+  for (const double clearance : {1e-4, 2e-4}) {
     const Trajectory run = simulate(worn(clearance, "lankarani-nikravesh", 600, 20));
     ASSERT_EQ(run.outcome, Outcome::kHorizon) << clearance << ": " << run.message;
-    EXPECT_NEAR(run.growth.rate, rate, 0.5) << clearance;
-    EXPECT_NEAR(run.growth.rate_error, error, 0.5) << clearance;
-    EXPECT_NEAR(run.growth.rate, 36, run.growth.rate_error) << clearance;
+    EXPECT_NEAR(run.growth.rate, kMiddle, 14) << clearance;
+    EXPECT_NEAR(run.growth.rate, kMiddle, 1.5 * run.growth.rate_error) << clearance;
+    EXPECT_LT(run.growth.rate_error, 0.5 * run.growth.rate) << clearance;
   }
 }
 
-// The other law's impacts lose more, and its orbits part more slowly: 19 +- 4 per second. Two single integrations with restitutions that differ by 1e-11 part as
+// With the other law, too: 19 to 37 per second in runs that differ by rounding alone. Two single integrations with restitutions that differ by 1e-11 part as
 // fast within the scatter of such rates over half a second.
-TEST(ClearanceRegimesSlow, FloresLawPartsOrbitsMoreSlowly) {
+TEST(ClearanceRegimesSlow, FloresLawPartsOrbitsAsWell) {
   const Trajectory run = simulate(worn(1e-4, "flores", 600, 20));
   ASSERT_EQ(run.outcome, Outcome::kHorizon) << run.message;
-  EXPECT_NEAR(run.growth.rate, 19, 0.5);
-  EXPECT_NEAR(run.growth.rate_error, 4, 0.5);
+  EXPECT_NEAR(run.growth.rate, 28, 14);
   Model model = worn(1e-4, "flores", 600, 6);
   Trajectory orbit, neighbour;
   reference::integrate_once(model, 1e-6, 3, nullptr, &orbit);

@@ -151,5 +151,15 @@ TEST(Events, FrictionOfAnIdealJointIsMissedAloud) {
   EXPECT_EQ(lost(simulate(model)), std::vector{all[0]});
 }
 
+// A pin comes to stick where what holds it depends on how far the step goes beyond: trials towards it come nearer by a twelfth each.
+TEST(Events, AStepThatNearsAnEventSlowlyGoesWhereItsTrialsLead) {
+  Model model = reference::test_model("toggle_clamp_of_rubbing_pins");
+  for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = simulate(model);
+    EXPECT_EQ(run.outcome, Outcome::kCompleted) << tolerance << ": " << run.message;
+  }
+}
+
 }  // namespace
 }  // namespace pintle

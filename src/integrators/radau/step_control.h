@@ -51,6 +51,7 @@ class StepControl {
   static constexpr int kMaxRetries = 80;          // trials of one step, at most
   static constexpr double kShortest = 1e-11;      // of the run: the shortest step that is refused for its error
   static constexpr double kEventAtStart = 1e-5;   // of the usual step: an event this close to its start is crossed
+  static constexpr int kSlow = 10;                // trials towards an event, after which they are taken for a sequence that comes nearer by a constant ratio: most come there in three
   static constexpr int kMostCrossed = 24;         // events that are crossed at the start of one step, at most
   static constexpr double kShrink = 0.5;          // of the step, after Newton's iteration failed; the most that its contraction shortens the next one
   static constexpr double kContraction = 0.2;     // of Newton's iteration, that steps are chosen for
@@ -68,6 +69,22 @@ class StepControl {
   static constexpr double kSame = 0.95, kSameAbove = 1.1;  // ratio of two steps from which on the step is kept, and with it the factorised Jacobians; up to which it is
 
   static constexpr double kLeastError = 0.01;  // over the tolerance: a smaller one says nothing about its growth
+
+  // Where the place of an event depends on how far the step goes beyond it, trials come nearer by a constant ratio: after a few the next one goes where
+  // they lead.
+  class Approach {
+   public:
+    double further(double h, double share, bool solved) {
+      const double beyond = (1 - share) * h, ratio = beyond / beyond_before_;
+      trials_ = solved ? trials_ + 1 : 0;
+      beyond_before_ = beyond;
+      return trials_ > kSlow && ratio > 0 && ratio < 1 ? std::min(beyond * ratio / (1 - ratio), 0.5 * share * h) : 0;
+    }
+
+   private:
+    double beyond_before_ = 0;  // by how much the trial before went beyond its event
+    int trials_ = 0;            // in a row that were solved, and did
+  };
 
   double last_error_ = 0;  // over the tolerance
   double rounding_ = 0;    // of accelerations, over the tolerance: no step resolves it
@@ -93,6 +110,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
   bool renewed = false;                      // the start, for this trial
   int crossed = 0;                           // events at its start
   SwitchingEvent ahead;                      // the last that was located
+  Approach approach;                         // to an event
   for (int retry = 0; retry < kMaxRetries; ++retry) {
     const double left = t_end - method.t(), last_bits = kLastBits * std::max(std::abs(method.t()), std::abs(t_end));
     if (crossed > 0 && left <= last_bits) return true;  // the last event was at the end
@@ -133,7 +151,8 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     if (event.after < 1) {
       up_to_event = true;
       const bool at_end = solved && left - event.before * h <= last_bits;  // then there is nothing behind it
-      h = at_end ? std::min(event.before * h, left) - last_bits / 8 : h * (event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort));  // so that the last stage is not on it
+      // So that the last stage is not on it.
+      h = at_end ? std::min(event.before * h, left) - last_bits / 8 : h * (event.before * (solved ? 1 - 0.1 * kEventAtStart : kShort)) - approach.further(h, event.before, solved);
       if (solved) ++counters.rejected;
       continue;
     }

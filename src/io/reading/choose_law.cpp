@@ -77,11 +77,12 @@ class LawChange {
     Node word = read_override_value(pieces_.front().value, source_, spot(word_at_byte).column);
     word_ = word.string() == nullptr ? "" : *word.string();
     law_ = find_law(word_);
-    const LawRole role = law_ != nullptr ? law_->role : LawRole::kHolds;
+    const bool no_friction = word_ == "none";
+    const LawRole role = law_ != nullptr ? law_->role : no_friction ? LawRole::kFriction : LawRole::kHolds;
     const std::string key(key_of(role));
     former_ = chosen_word(*joint, key);
     if (former_.empty() && role == LawRole::kHolds) former_ = "linear";
-    if (law_ != nullptr) leave_out_former_keys(*joint, role);
+    if (law_ != nullptr || no_friction) leave_out_former_keys(*joint, role);
     put(*joint, key, spot(pieces_.front().at), std::move(word));
     for (std::size_t i = 1; i < pieces_.size(); ++i) state(*joint, pieces_[i]);
     if (law_ != nullptr) note(*joint, role);

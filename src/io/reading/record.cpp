@@ -52,6 +52,16 @@ std::string home_of(std::string_view key) {
   return "state it " + list + ", or ";
 }
 
+// Whether a key belongs to a law that is stated to be none: friction = "none" switches off with one key, and the others wait for it to come back.
+bool is_switched_off(const Table& table, std::string_view key) {
+  for (const LawInfo& law : law_catalog()) {
+    const Node* chosen = table.find(key_of(law.role));
+    const bool none = chosen != nullptr && chosen->string() != nullptr && *chosen->string() == "none";
+    if (none && std::any_of(law.keys.begin(), law.keys.end(), [key](const KeyInfo& info) { return info.key == key; })) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 const Value* Record::find(std::string_view key) const {
@@ -135,7 +145,7 @@ std::set<std::string> RecordReader::check_keys(const TableSpec& spec, const Tabl
   for (const Entry& entry : table.entries()) {
     const bool known = spec.find(entry.key) != nullptr ||
                        std::find(spec.children.begin(), spec.children.end(), entry.key) != spec.children.end();
-    if (!known) meant.insert(complain_of_key(spec, entry, record, kind));
+    if (!known && !(spec.law_keys && is_switched_off(table, entry.key))) meant.insert(complain_of_key(spec, entry, record, kind));
   }
   return meant;
 }
