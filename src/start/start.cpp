@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
+#include "base/constants.h"
+#include "kinematics/position_search.h"
 #include "pintle/simulate.h"
 #include "start/equilibrium.h"
 #include "start/ideal_rows.h"
@@ -38,9 +41,27 @@ Assembly ideal_start(Model model) {
   return assembly;
 }
 
+// Loads that bend the joints far at the start are often others than were meant: a damper that a chosen velocity drives, a joint softer than thought.
+void note_far_deflection(const System& system, const Vecs& assembled, const State& state, std::vector<std::string>& notes) {
+  constexpr double kFarTurn = 0.05, kFarWay = 0.05;  // [rad]; of the mechanism's size
+  const double size = std::max(mechanism_size(system, assembled), system.largest_radius_of_gyration());
+  double far = 1;
+  std::string note;
+  for (std::size_t i = 0; i < assembled.size(); ++i) {
+    const Planar::Vec d = state.q[i] - assembled[i];
+    const double turn = std::abs(d[2]), way = d.head<2>().norm(), share = std::max(turn / kFarTurn, way / (kFarWay * size));
+    if (share <= far) continue;
+    far = share;
+    note = fmt::format("the loads of t = 0 deflect the joints so far that body {} starts {:.3g} m and {:.3g} deg from where it was assembled; if that was not meant, look at the loads and velocities of the start, or try start = \"unloaded\"",
+                       system.bodies[i].name, way, turn * 360 / kTurn);
+  }
+  if (!note.empty()) notes.push_back(std::move(note));
+}
+
 Assembly start_of_free_bodies(const Model& model, System system, double known_span) {
   Assembly assembly = assemble_unloaded(model, std::move(system));
   const bool loaded = model.simulate.start == Start::kAssembled;
+  const Vecs assembled = assembly.state.q;
   std::optional<BasicSettledStart<Planar>> unloaded;
   if (std::any_of(assembly.system.joints.begin(), assembly.system.joints.end(), [](const JointData& joint) { return joint.law.has_friction(); })) unloaded = assembly;
   start_forces(assembly.system, loaded, assembly.state);
@@ -48,6 +69,7 @@ Assembly start_of_free_bodies(const Model& model, System system, double known_sp
   const double duration = model.simulate.duration;
   if (unloaded) assembly.system = settle_with_stiction(std::move(assembly.system), *unloaded, duration, known_span, assembly);
   else settle_joints(assembly.system, duration, known_span, assembly);
+  note_far_deflection(assembly.system, assembled, assembly.state, assembly.notes);
   return assembly;
 }
 
