@@ -92,6 +92,13 @@ std::vector<std::array<double, 2>> misfits(const System& system, const Vecs& q) 
 
 bool is_broken(const std::array<double, 2>& misfit, double size) { return misfit[0] > 2e-3 * size || misfit[1] > 0.02; }
 
+// Whether all joints but the open ones are closed, as far as these misfits say.
+bool all_closed(const std::vector<std::array<double, 2>>& left, const std::vector<bool>& open, double size) {
+  for (std::size_t j = 0; j < left.size(); ++j)
+    if (!open[j] && is_broken(left[j], size)) return false;
+  return true;
+}
+
 std::string length_or_angle(const std::array<double, 2>& misfit, double size) {
   return misfit[0] > 2e-3 * size ? fmt::format("{:.4g} m", misfit[0]) : fmt::format("{:.4g} rad", misfit[1]);
 }
@@ -108,9 +115,7 @@ std::string loop_that_lacks(const Model& model, const System& system, const Vecs
     opened[j] = true;
     PositionSearch(model, system, opened).run(trial);
     const auto left = misfits(system, trial);
-    bool closed = true;
-    for (std::size_t i = 0; i < left.size(); ++i) closed = closed && (opened[i] || !is_broken(left[i], size));
-    if (!closed) continue;
+    if (!all_closed(left, opened, size)) continue;
     if (lacks.empty()) lacks = length_or_angle(left[j], size);
     names += (names.empty() ? "" : ", ") + system.joints[j].name;
   }
@@ -119,8 +124,7 @@ std::string loop_that_lacks(const Model& model, const System& system, const Vecs
 
 // What keeps the search from closing the joints other than lengths: coordinates that are held, motors that ask for another position, pins that it puts
 // in the middle of their play.
-std::string what_to_try(Model model, const System& system, const Vecs& q, const std::vector<bool>& open, const std::vector<std::size_t>& broken) {
-  const double size = mechanism_size(system, q);
+std::string what_to_try(Model model, const System& system, const Vecs& q, const std::vector<bool>& open, bool only_motors) {
   std::string held, loose;
   for (Body& body : model.bodies)
     for (int k = 0; k < S::kDof; ++k)
@@ -128,13 +132,8 @@ std::string what_to_try(Model model, const System& system, const Vecs& q, const 
   if (!held.empty()) {
     Vecs trial = q;
     PositionSearch(model, system, open).run(trial);
-    const auto left = misfits(system, trial);
-    bool closed = true;
-    for (std::size_t j = 0; j < left.size(); ++j) closed = closed && (open[j] || !is_broken(left[j], size));
-    if (closed) {
-      const bool driven = std::all_of(broken.begin(), broken.end(), [&](std::size_t j) { return system.joints[j].servo >= 0; });
-      return "Without what is held (" + held + ") everything closes: try " + (driven ? "a motor that starts where its joint is held, or without hold." : "fewer of these in hold.");
-    }
+    if (all_closed(misfits(system, trial), open, mechanism_size(system, q)))
+      return "Without what is held (" + held + ") everything closes: try " + (only_motors ? "a motor that starts where its joint is held, or without hold." : "fewer of these in hold.");
   }
   for (const JointData& joint : system.joints)
     if (!joint.law.ideal_limit() && joint.law.engaged_stiffness().head<2>().minCoeff() > 0 && is_in_play<S>(joint.law, S::Vec::Zero(), S::Vec::Zero())) loose += (loose.empty() ? "" : ", ") + joint.name;
@@ -163,11 +162,13 @@ void demand_closed(const Model& model, const System& system, const Vecs& q, cons
                              : fmt::format("\n  joint {} ({}) stays open by {}", joint.name, joint.type, length_or_angle(left[broken[i]], size));
   }
   if (broken.size() > kMostListed) list += fmt::format("\n  and {} more", broken.size() - kMostListed);
-  if (const bool only_motors = std::all_of(broken.begin(), broken.end(), [&](std::size_t j) { return system.joints[j].servo >= 0; }); only_motors)
-    throw AssemblyError("the mechanism cannot be assembled from the stated positions:" + list + "\n  " + what_to_try(model, system, q, open, broken));
-  std::string lacking = left.size() <= kMostTried ? loop_that_lacks(model, system, q, open) : "";
-  if (lacking.empty()) lacking = "\n  loop: " + loop_through(system, list);
-  throw AssemblyError("the mechanism cannot be assembled from the stated positions:" + list + lacking + "\n  " + what_to_try(model, system, q, open, broken));
+  const bool only_motors = std::all_of(broken.begin(), broken.end(), [&](std::size_t j) { return system.joints[j].servo >= 0; });
+  std::string lacking;
+  if (!only_motors) {
+    lacking = left.size() <= kMostTried ? loop_that_lacks(model, system, q, open) : "";
+    if (lacking.empty()) lacking = "\n  loop: " + loop_through(system, list);
+  }
+  throw AssemblyError("the mechanism cannot be assembled from the stated positions:" + list + lacking + "\n  " + what_to_try(model, system, q, open, only_motors));
 }
 
 // A coordinate far beyond a stop is a start that was not meant. Angles count turns.

@@ -49,18 +49,11 @@ bool is_runaway(const BasicSystem<S>& system, const BasicState<S>& attempt, cons
   return system.largest_speed(change) > std::max(kMostHaste * system.largest_speed(given.v), kMostLever * largest_gap_rate(system, attempt));
 }
 
-template <class S>
-double largest_couple(const BasicState<S>& state) {
-  double largest = 0;
-  for (const typename S::Vec& f : state.force) largest = std::max(largest, f.template tail<S::kDof - S::kDim>().norm());
-  return largest;
-}
-
 // Whether sweeps that have not converged came near. Forces or couples far above those of the given state are no attempt at all, nor is what diverged.
 template <class S>
 bool is_near(const BasicSystem<S>& system, const BasicState<S>& attempt, const BasicState<S>& given, double most_growth = kMostGrowth) {
-  const double force = largest_force(given.force), couple = std::max(largest_couple(given), kSmallCouple * force * system.largest_radius_of_gyration());
-  return is_finite(attempt) && largest_force(attempt.force) <= most_growth * force && largest_couple(attempt) <= most_growth * couple;
+  const double force = largest_force(given.force), couple = std::max(largest_couple<S>(given.force), kSmallCouple * force * system.largest_radius_of_gyration());
+  return is_finite(attempt) && largest_force(attempt.force) <= most_growth * force && largest_couple<S>(attempt.force) <= most_growth * couple;
 }
 
 // Fast joints ride their slow motion; where that is not found the state stays, or with `keep_best` is the best attempt. Over which

@@ -261,10 +261,7 @@ template <class S>
 VecsOf<S> shares(const BasicTimeScales<S>& time_scales, const BasicSlowManifold<S>& motion, const BasicSystem<S>& system) {
   const VecsOf<S> &force = motion.force(0), &gap = motion.gap(0), &rate = motion.rate();
   VecsOf<S> share(force.size());
-  const double largest = largest_force(force);
-  double largest_couple = 0;
-  for (const typename S::Vec& f : force) largest_couple = std::max(largest_couple, f.template tail<S::kDof - S::kDim>().norm());
-  largest_couple = std::max(largest_couple, largest * system.largest_radius_of_gyration());
+  const double largest = largest_force(force), couple = std::max(largest_couple<S>(force), largest * system.largest_radius_of_gyration());
   for (std::size_t j = 0; j < share.size(); ++j) {
     const typename S::Mat K = respond(system.joints[j].law, gap[j], S::Vec::Zero()).stiffness;
     const typename S::Vec change = K * rate[j];
@@ -277,7 +274,7 @@ VecsOf<S> shares(const BasicTimeScales<S>& time_scales, const BasicSlowManifold<
       share[j][i] = 1;
       if (soft[i] == 0) continue;
       share[j][i] = i < S::kDim ? share_of(force[j].template head<S::kDim>().norm(), largest, change.template head<S::kDim>().norm(), own[i])
-                          : share_of(force[j].template tail<S::kDof - S::kDim>().norm(), largest_couple, change.template tail<S::kDof - S::kDim>().norm(), own[i]);
+                          : share_of(force[j].template tail<S::kDof - S::kDim>().norm(), couple, change.template tail<S::kDof - S::kDim>().norm(), own[i]);
     }
   }
   return share;

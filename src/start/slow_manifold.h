@@ -2,6 +2,7 @@
 // fixed-point iteration on polynomials. theory/assembly Eqs. (4.1)-(4.4), and section 5 for soft joints.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include "dynamics/time_scales.h"
@@ -32,6 +33,14 @@ double natural_step(const System& system, const State& start, double duration) {
 /// polynomial follows its forces. No stiffness enters, so that it says the same whatever the joints are. 0 when there is none.
 template <class S>
 double span_of_motion(const BasicSystem<S>& system, const BasicState<S>& state, double longest);
+
+/// The largest couple of any joint, beside largest_force [N*m].
+template <class S>
+double largest_couple(const VecsOf<S>& force) {
+  double largest = 0;
+  for (const typename S::Vec& f : force) largest = std::max(largest, f.template tail<S::kDof - S::kDim>().norm());
+  return largest;
+}
 
 template <class S>
 struct BasicSoftStart {
