@@ -112,11 +112,11 @@ double rate_of_motion(const System& system, const State& state) {
     fastest = std::max(fastest, state.a[i].head<2>().norm());
     fastest = std::max(fastest, std::abs(state.a[i][2]) * system.bodies[i].radius_of_gyration());
   }
-  return fastest > 0 ? std::sqrt(fastest / mechanism_size(system, state.q)) : 1;
+  return fastest > 0 ? std::sqrt(fastest / characteristic_length(system, state.q)) : 1;
 }
 
 // Of the joints' forces.
-double rounding_of(const System& system, const State& state) { return kLastBits * largest_stiffness(system) * mechanism_size(system, state.q); }
+double rounding_of(const System& system, const State& state) { return kLastBits * largest_stiffness(system) * characteristic_length(system, state.q); }
 
 // Where the creep through the fluid ends.
 State creep_to_rest(const System& system, const State& from, double rate) {
@@ -154,7 +154,7 @@ std::string in_words(const Move& move) { return fmt::format("{:.3g} m and {:.3g}
 
 // An equilibrium that the mechanism leaves when it is touched is none in which it is found: then where it comes to rest instead.
 State stable_rest(const System& fluid, const State& at_rest, double rate, std::vector<std::string>& notes) {
-  const double size = mechanism_size(fluid, at_rest.q);
+  const double size = characteristic_length(fluid, at_rest.q);
   State nudged = at_rest;
   for (std::size_t i = 0; i < nudged.q.size(); ++i) {
     const double sign = i % 2 == 0 ? 1 : -1;

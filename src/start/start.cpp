@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/constants.h"
-#include "kinematics/position_search.h"
 #include "pintle/simulate.h"
 #include "start/equilibrium.h"
 #include "start/ideal_rows.h"
@@ -44,7 +43,7 @@ Assembly ideal_start(Model model) {
 // Loads that bend the joints far at the start are often others than were meant: a damper that a chosen velocity drives, a joint softer than thought.
 void note_far_deflection(const System& system, const Vecs& assembled, const State& state, std::vector<std::string>& notes) {
   constexpr double kFarTurn = 0.05, kFarWay = 0.05;  // [rad]; of the mechanism's size
-  const double size = std::max(mechanism_size(system, assembled), system.largest_radius_of_gyration());
+  const double size = characteristic_length(system, assembled);
   double far = 1;
   std::string note;
   for (std::size_t i = 0; i < assembled.size(); ++i) {

@@ -7,6 +7,7 @@
 
 #include "dynamics/inverse_dynamics.h"
 #include "integrators/thresholds.h"
+#include "kinematics/position_search.h"
 
 namespace pintle {
 namespace {
@@ -132,6 +133,8 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
   balance_start(system, state);
   if (!is_finite(state) || moves_too_far(system, unloaded, state)) state = unloaded;  // next to a singular position joints would give way more than the mechanism is large
 }
+
+double characteristic_length(const System& system, const Vecs& q) { return std::max(mechanism_size(system, q), system.largest_radius_of_gyration()); }
 
 template void balance_start(const BasicSystem<Planar>& system, BasicState<Planar>& state);
 template void start_forces(const BasicSystem<Planar>& system, bool preload, BasicState<Planar>& state);
