@@ -80,5 +80,19 @@ TEST(HeldGasForce, TheAccountCloses) {
   EXPECT_LT(std::abs(run.energy.drift), 1e-5 * run.energy.kinetic_peak);
 }
 
+// A ramp that grew with 1/tolerance for the rounding of velocities would let a shaper's ram creep where it is held: the smaller
+// the tolerance, the further.
+TEST(HeldGasForce, AHeldRamStaysWhereItIsAtATightTolerance) {
+  const auto peaks = [](double tolerance) {
+    Model model = reference::test_model("shaper_on_stiff_joints");
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = simulate(model);
+    EXPECT_EQ(run.outcome, Outcome::kCompleted) << tolerance << ": " << run.message;
+    return run.joints;
+  };
+  const auto loose = peaks(1e-4), tight = peaks(1e-6);
+  for (std::size_t j = 0; j < loose.size(); ++j) EXPECT_NEAR(tight[j].peak, loose[j].peak, 1e-4 * loose[j].peak) << loose[j].name;
+}
+
 }  // namespace
 }  // namespace pintle

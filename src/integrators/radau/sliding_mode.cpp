@@ -8,6 +8,7 @@ namespace pintle {
 namespace {
 
 constexpr double kRounding = 4;  // of velocities, over the tolerance: the least width of a ramp
+constexpr double kFinest = 1e-9;  // tolerance that a ramp still resolves: a width that went on growing with 1/tolerance would let what is held creep
 
 }  // namespace
 
@@ -37,7 +38,7 @@ RampSize ramp_size(const BasicSystem<S>& system, const SlidingMode& jump, const 
   double fastest = largest_coordinate(state.v);
   if (system.loads[jump.load].component >= S::kDim)
     for (const auto& v : state.v) fastest = std::max(fastest, v.template tail<S::kDof - S::kDim>().cwiseAbs().maxCoeff());
-  return {tolerance * usual_step, kRounding * std::numeric_limits<double>::epsilon() * fastest / tolerance};
+  return {tolerance * usual_step, kRounding * std::numeric_limits<double>::epsilon() * fastest / std::max(tolerance, kFinest)};
 }
 
 template bool leave_sliding(const BasicSystem<Planar>& system, double t, const std::vector<Planar::Motion>& m, std::vector<SlidingMode>& sliding);
