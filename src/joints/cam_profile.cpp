@@ -16,6 +16,8 @@ Planar::Point direction(double angle) { return {std::cos(angle), std::sin(angle)
 
 }  // namespace
 
+CamProfile::CamProfile(const Cam& cam) : cam_(cam), hollow_(least_hollow_radius([this](double angle) { return pitch(angle); }, 0, kTurn)) {}
+
 std::array<double, 3> CamProfile::radius(double angle) const {
   const std::array<double, 1> at{angle - kTurn * std::floor(angle / kTurn)};
   const std::array<double, 3> lift = cam_.lift.is_constant() ? std::array{cam_.lift.value({}), 0.0, 0.0} : cam_.lift.second_order(at, 0);
@@ -28,10 +30,16 @@ CurvePoint CamProfile::pitch(double angle) const {
   return {r * u, d * u + r * v, (dd - r) * u + 2 * d * v};
 }
 
+// No point is nearer than the one found that is seen from the axis under a larger angle from c than all that is as near.
 double CamProfile::foot(const Planar::Point& c) const {
   const auto curve = [this](double angle) { return pitch(angle); };
-  const std::optional<double> found = nearest_point(curve, c, std::atan2(c[1], c[0]));
-  return found ? *found : nearest_of_many(curve, c, 0, kTurn);
+  const double below = std::atan2(c[1], c[0]);
+  const std::optional<double> found = nearest_point(curve, c, below);
+  if (!found) return nearest_of_many(curve, c, below - kTurn / 2, below + kTurn / 2);
+  const double way = (c - pitch(*found).p).norm();
+  if (way < kSurelyNearest * hollow_) return *found;
+  const double sight = way < c.norm() ? std::asin(way / c.norm()) : kTurn / 2;
+  return nearest_of_many(curve, c, below - sight, below + sight);
 }
 
 std::array<GapFunction, 2> CamGap::gap_and_slip(const Planar::Vec& z) const {

@@ -16,7 +16,7 @@ struct CamContactPlace {
 /// Polar angles are measured on the cam, from the x axis of its marker, counter-clockwise.
 class CamProfile {
  public:
-  explicit CamProfile(const Cam& cam) : cam_(cam) {}
+  explicit CamProfile(const Cam& cam);
 
   bool flat() const { return cam_.flat; }
   /// With first and second derivative by the angle [m]. Of a roller or pin: the polar radius of the pitch curve, on which its centre goes
@@ -38,6 +38,7 @@ class CamProfile {
 
   friend struct CamGap;
   Cam cam_;
+  double hollow_;  // the least radius of curvature of the pitch curve's hollow parts [m]
 };
 
 }  // namespace pintle

@@ -55,11 +55,11 @@ TEST(CamGap, IsTheDistanceFromTheNearestPoint) {
   ASSERT_EQ(profile.fault(), "");
   const CamGap gap{&profile};
   sample::Random random(4);
-  for (int i = 0; i < 40; ++i) {
-    const double angle = random.uniform(-4, 4), out = random.uniform(-0.005, 0.01), r = profile.radius(angle)[0] + out;
+  for (int i = 0; i < 80; ++i) {
+    const double angle = random.uniform(-4, 4), out = i < 40 ? random.uniform(-0.005, 0.01) : random.uniform(0.01, 0.1), r = profile.radius(angle)[0] + out;
     double least = 1;
-    for (int k = 0; k < 20000; ++k) {
-      const double at = angle - 0.3 + 0.6 * k / 20000, p = profile.radius(at)[0];
+    for (int k = 0; k < 50000; ++k) {
+      const double at = angle - 0.8 + 1.6 * k / 50000, p = profile.radius(at)[0];
       least = std::min(least, std::hypot(r * std::cos(angle) - p * std::cos(at), r * std::sin(angle) - p * std::sin(at)));
     }
     EXPECT_NEAR(std::abs(gap.gap_and_slip({r * std::cos(angle), r * std::sin(angle), 0})[0].gap), least, 1e-8) << angle << " " << out;

@@ -1,6 +1,7 @@
 // What is on the outer side of a plane curve: its distance, the nearest point, and how it slips along. theory/cams sections 2 and 4.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -55,6 +56,18 @@ double nearest_of_many(const Curve& curve, const Planar::Point& c, double low, d
     ((c - at.p).dot(at.d) > 0 ? before : behind) = middle;
   }
   return 0.5 * (before + behind);
+}
+
+constexpr double kSurelyNearest = 0.9;  // of the least hollow radius, which is found at some points only: a point nearer than this is the nearest
+
+/// The least radius of curvature of a curve's hollow parts between two parameters [m]: what is nearer to the curve has one nearest point,
+/// which Newton's method finds; further away there may be another one that is nearer. Infinite where nothing is hollow.
+template <class Curve>
+double least_hollow_radius(const Curve& curve, double low, double high) {
+  constexpr int kPoints = 720;
+  double most = 0;
+  for (int i = 0; i <= kPoints; ++i) most = std::max(most, -curve(low + (high - low) * i / kPoints).curvature());
+  return 1 / most;
 }
 
 /// Where the slope of a function of one variable jumps by more than `least` between two places, with the slopes on either side; none: nowhere.

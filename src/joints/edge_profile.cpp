@@ -16,11 +16,14 @@ CurvePoint EdgeProfile::at(double x) const {
   return {{x, h}, {-1, -slope}, {0, bend}};
 }
 
-// No point can be nearer than by the way down that is not within this way along the line.
+EdgeProfile::EdgeProfile(const Edge& edge) : edge_(edge), hollow_(least_hollow_radius([this](double u) { return at(-u); }, -edge.to, -edge.from)) {}
+
+// No point can be nearer than one that is known, or than the one straight below, that is not within this way along the line.
 double EdgeProfile::nearest(const Planar::Point& c) const {
   const auto curve = [this](double u) { return at(-u); };
-  if (const auto found = nearest_point(curve, c, -c[0])) return -*found;
-  const double way = (c - at(c[0]).p).norm();
+  const auto found = nearest_point(curve, c, -c[0]);
+  const double way = (c - at(found ? -*found : c[0]).p).norm();
+  if (found && way < kSurelyNearest * hollow_) return -*found;
   return -nearest_of_many(curve, c, -c[0] - way, -c[0] + way);
 }
 

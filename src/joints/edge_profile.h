@@ -11,7 +11,7 @@ namespace pintle {
 /// x is measured along the x axis of the first marker.
 class EdgeProfile {
  public:
-  explicit EdgeProfile(const Edge& edge) : edge_(edge) {}
+  explicit EdgeProfile(const Edge& edge);
 
   double roller_radius() const { return edge_.roller_radius; }
   double from() const { return edge_.from; }
@@ -25,6 +25,7 @@ class EdgeProfile {
 
  private:
   Edge edge_;
+  double hollow_;  // the least radius of curvature of hollow parts from from() to to() [m]
 };
 
 }  // namespace pintle
