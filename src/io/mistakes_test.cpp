@@ -222,6 +222,12 @@ TEST(Mistakes, AFaultyParameterIsBlamedOnce) {
   EXPECT_EQ(complaints[0].path, "parameters.a");
 }
 
+TEST(Mistakes, AParameterIsSetByItsPath) {
+  const auto found = complaints_about("format = 1\n[parameters]\nreach = 1\n[body.c]\nmass = 1\ninertia = 1\n", {"reach=2"});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].suggestion, "parameters.reach");
+}
+
 TEST(Mistakes, OverridesHaveTheirOwnPlaces) {
   const auto at = [](const std::string& override) {
     const auto complaints = complaints_about(kFullModel, {"simulate.duration=1", override});

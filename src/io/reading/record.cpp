@@ -52,6 +52,12 @@ std::string home_of(std::string_view key) {
   return "state it " + list + ", or ";
 }
 
+// Whether the model has a parameter of this name, which is set as parameters.NAME.
+bool is_parameter(const Table& model, std::string_view key) {
+  const Node* parameters = model.find("parameters");
+  return parameters != nullptr && parameters->table() != nullptr && parameters->table()->find(key) != nullptr;
+}
+
 // Whether a key belongs to a law that is stated to be none: friction = "none" switches off with one key, and the others wait for it to come back.
 bool is_switched_off(const Table& table, std::string_view key) {
   for (const LawInfo& law : law_catalog()) {
@@ -145,12 +151,12 @@ std::set<std::string> RecordReader::check_keys(const TableSpec& spec, const Tabl
   for (const Entry& entry : table.entries()) {
     const bool known = spec.find(entry.key) != nullptr ||
                        std::find(spec.children.begin(), spec.children.end(), entry.key) != spec.children.end();
-    if (!known && !(spec.law_keys && is_switched_off(table, entry.key))) meant.insert(complain_of_key(spec, entry, record, kind));
+    if (!known && !(spec.law_keys && is_switched_off(table, entry.key))) meant.insert(complain_of_key(spec, table, entry, record, kind));
   }
   return meant;
 }
 
-std::string RecordReader::complain_of_key(const TableSpec& spec, const Entry& entry, const Record& record,
+std::string RecordReader::complain_of_key(const TableSpec& spec, const Table& table, const Entry& entry, const Record& record,
                                           const std::string& kind) {
   const std::string path = record.path.empty() ? entry.key : record.path + "." + entry.key;
   const std::vector<std::string> owners = Schema::model().kinds_with(spec.path, entry.key);
@@ -165,6 +171,10 @@ std::string RecordReader::complain_of_key(const TableSpec& spec, const Entry& en
     const std::string of_stops = "stop_" + entry.key;
     complaints_.add(entry.key_spot, path, entry.key, "this key belongs to " + laws,
                     !laws_with(of_stops).empty() ? "state one of them, or " + of_stops + " if the stops are meant" : "state one of them, or delete the key");
+    return "";
+  }
+  if (record.path.empty() && is_parameter(table, entry.key)) {
+    complaints_.add(entry.key_spot, path, "unknown key " + in_quotes(entry.key), "models have no such key, but this model has a parameter of that name", "parameters." + entry.key);
     return "";
   }
   std::vector<std::string> candidates = spec.children;

@@ -72,7 +72,7 @@ class RecordReader {
  private:
   /// Complains about keys that the table cannot have; the keys that they are likely slips for.
   std::set<std::string> check_keys(const TableSpec& spec, const Table& table, const Record& record, const std::string& kind);
-  std::string complain_of_key(const TableSpec& spec, const Entry& entry, const Record& record, const std::string& kind);
+  std::string complain_of_key(const TableSpec& spec, const Table& table, const Entry& entry, const Record& record, const std::string& kind);
   std::optional<Value> read_value(const Node& node, const KeySpec& spec, const std::string& path);
   bool read_words(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
   bool read_word(const Node& node, const KeySpec& spec, const std::string& path, Value& value);
