@@ -19,5 +19,26 @@ TEST(TightTolerance, IsMetInStepsOfTheMotion) {
   }
 }
 
+// Springs and gravity of a thousand newtons cancel to their rounding, and the guide carries nothing: there is nothing to resolve.
+TEST(TightTolerance, NothingMovesInFewSteps) {
+  Model model = reference::test_model("two_masses_at_rest");
+  for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = simulate(model);
+    EXPECT_EQ(run.outcome, Outcome::kCompleted) << tolerance << ": " << run.message;
+    EXPECT_LT(run.counters.steps + run.counters.rejected, 500u) << tolerance;
+  }
+}
+
+// The rounding of an angle of a hundred radians is a couple beside that of a servo that only keeps a small rotor turning.
+TEST(TightTolerance, TakesStepsOfTheMotionWhereAServoIsStiffForItsInertia) {
+  Model model = reference::test_model("whirling_rotor");
+  const double peak = simulate(model).joints.front().peak;
+  model.simulate.tolerance = 1e-7;
+  const Trajectory run = simulate(model);
+  EXPECT_LT(run.counters.steps + run.counters.rejected, 50000u);
+  EXPECT_NEAR(run.joints.front().peak, peak, 1e-5 * peak);
+}
+
 }  // namespace
 }  // namespace pintle

@@ -71,6 +71,7 @@ void BasicRadauStepper<S>::finish_step(double h) {
   nodes_.law_rate[0] = begin_.law_rate;
   end_.t = begin_.t + h;
   end_point_->finish(stage_[n_ - 1], h, end_, end_m_, scale_);
+  raise_above_rounding_of_servos();
   add_work(h);
   for (int s = 0; s < n_; ++s) {
     nodes_.a[s + 1].swap(stage_[s].a);

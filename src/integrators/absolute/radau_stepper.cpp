@@ -77,11 +77,37 @@ void BasicRadauStepper<S>::start(const BasicState<S>& state, double h) {
 // Loads that are no more than what rounding makes of the stiffest joint's force are none, and no step resolves a part of them.
 template <class S>
 void BasicRadauStepper<S>::raise_above_rounding() {
+  const double far = largest_coordinate(end_.q);
   double largest = 0;
   for (const typename S::Vec& load : scale_.body) largest = std::max(largest, load[0]);
-  const double rounding = kLastBits * largest_stiffness(system_) * largest_coordinate(end_.q);
-  if (largest > rounding) return;
-  for (std::size_t i = 0; i < scale_.body.size(); ++i) raise_scale(system_.bodies[i], typename S::Vec(S::Vec::Unit(0) * (rounding / tolerance_)), scale_.body[i]);
+  const double rounding = kLastBits * largest_stiffness(system_) * far;
+  if (largest <= rounding)
+    for (std::size_t i = 0; i < scale_.body.size(); ++i) raise_above_rounding(static_cast<int>(i), S::Vec::Unit(0) * rounding);
+  raise_above_rounding_of_servos();
+  if (!system_.has_loads()) return;
+  VecsOf<S> of_springs(system_.bodies.size(), S::Vec::Zero());
+  system_.external_tangents(end_.t, end_m_, [&](int i, int, const typename S::Mat& dq, const typename S::Mat&) { of_springs[static_cast<std::size_t>(i)] += kLastBits * far * dq.cwiseAbs().rowwise().sum(); }, end_.sliding);
+  for (std::size_t i = 0; i < of_springs.size(); ++i) raise_above_rounding(static_cast<int>(i), of_springs[i]);
+}
+
+// Of a coordinate that grows as the motor turns.
+template <class S>
+void BasicRadauStepper<S>::raise_above_rounding_of_servos() {
+  for (const int j : powered_) {
+    const BasicJointData<S>& joint = system_.joints[j];
+    if (joint.servo < 0) continue;
+    const double rounding = kLastBits * joint.law.engaged_stiffness()[joint.servo] * std::abs(target_of(joint, end_.t)[0]);
+    typename S::Vec load = S::Vec::Zero();
+    if (joint.servo < S::kDim) load.template head<S::kDim>().setConstant(rounding);
+    else load.template tail<S::kDof - S::kDim>().setConstant(rounding);
+    for (const int body : {joint.at.a, joint.at.b})
+      if (body != kGround) raise_above_rounding(body, load);
+  }
+}
+
+template <class S>
+void BasicRadauStepper<S>::raise_above_rounding(int body, const typename S::Vec& rounding) {
+  raise_scale(system_.bodies[body], typename S::Vec(rounding / tolerance_), scale_.body[body]);
 }
 
 template <class S>
