@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "laws/contact/contact.h"
+#include "pintle/check.h"
 #include "system/build.h"
 #include "tests/contact_runs.h"
 #include "tests/reference_tables.h"
@@ -383,6 +384,35 @@ contact_exponent = 1
     EXPECT_LT(run.counters.steps, 10000) << tolerance;
   }
 }
+
+std::string foot(const std::string& name) {
+  return fmt::format("[joint.{0}]\ntype = \"slot\"\nbetween = [\"ground.t\", \"part.{0}\"]\nlaw = \"contact\"\npin_radius = 0\ncontact_stiffness = 1e6\ncontact_exponent = 1\nfriction_coefficient = 0.2\n", name);
+}
+
+// A block on two feet, which it presses into a table by so much, at rest on it or not yet.
+Model block_on_table(const std::string& height, const std::string& start) {
+  return parse_model(fmt::format(R"toml(
+format = 1
+[simulate]
+duration = "0.2 s"
+start = "{}"
+[ground.markers]
+t = [0, 0]
+[body.part]
+mass = "0.2 kg"
+inertia = "1e-4 kg*m^2"
+position = [0, "{}"]
+angle = 0
+markers.f1 = ["-10 mm", "-20 mm"]
+markers.f2 = ["10 mm", "-20 mm"]
+{}{})toml", start, height, foot("f1"), foot("f2")), "block.toml");
+}
+
+// Friction on a ramp that begins at rest is linear there.
+TEST(Contact, TheSlopeOfFrictionAtRestIsThatOfItsRamp) { EXPECT_TRUE(check_model(block_on_table("19.999 mm", "assembled")).jacobians.passed()); }
+
+// Where bodies are to settle first, they may be stated inside each other: they are checked at rest.
+TEST(Contact, IsCheckedWhereBodiesSettle) { EXPECT_TRUE(check_model(block_on_table("10 mm", "settled")).jacobians.passed()); }
 
 }  // namespace
 }  // namespace pintle

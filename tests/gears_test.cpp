@@ -243,5 +243,18 @@ TEST(Gears, RefuseAPressureAngleOfMoreThan45Degrees) {
   }
 }
 
+TEST(Gears, ANoteSaysWhenTheyDoNotTouch) {
+  const auto notes = [](const std::vector<std::string>& changes) {
+    Model model = reference::mechanism("gear_train", changes);
+    model.simulate.duration = 1e-4;
+    std::string all;
+    for (const std::string& note : simulate(model).notes) all += note + '\n';
+    return all;
+  };
+  EXPECT_EQ(notes({}).find("pitch circles"), std::string::npos);
+  EXPECT_NE(notes({"joint.mesh.radii=[\"15 mm\", \"r2\"]"}).find("joint mesh: its pitch circles do not touch, they are apart by 0.005 m"), std::string::npos);
+  EXPECT_NE(notes({"joint.mesh.radii=[\"25 mm\", \"r2\"]"}).find("they overlap by 0.005 m"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pintle

@@ -72,7 +72,8 @@ CheckBattery energy_battery(const System& system, const State& assembled, const 
 CheckReport check_model(const Model& model) {
   CheckReport report;
   count(model, report);
-  const Assembly unstrained = assembled(model, Start::kUnloaded), loaded = assembled(model, Start::kAssembled);
+  const bool settles = model.simulate.start == Start::kSettled;  // bodies may start inside each other, and only their rest has a meaning
+  const Assembly unstrained = assembled(model, settles ? Start::kSettled : Start::kUnloaded), loaded = settles ? unstrained : assembled(model, Start::kAssembled);
   report.notes = model.notes;
   report.notes.insert(report.notes.end(), loaded.notes.begin(), loaded.notes.end());
   weigh(model, loaded.state.q, report);

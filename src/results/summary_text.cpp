@@ -122,12 +122,13 @@ std::string horizon_section(const Trajectory& trajectory, const Style& style) {
 std::string moment_section(const Trajectory& trajectory, const Style& style) {
   TextTable table;
   for (const char* head : {"joint", "on", "by"}) table.add_column(head, Align::kLeft);
-  for (const char* head : {"peak", "RMS", "mean"}) table.add_column(head, Align::kNumber, "N*m");
+  for (const char* head : {"peak", "RMS", "mean", "error est."}) table.add_column(head, Align::kNumber, "N*m");
+  const bool estimated = has_force_estimates(trajectory);
   std::vector<const LoadSummary*> joints = pointers(trajectory.joints);
   std::erase_if(joints, [](const LoadSummary* load) { return !load->has_moment; });
   for (const LoadSummary* load : shown(joints, [](const LoadSummary& one) { return one.peak_moment; }))
     table.add_row({load->name, load->second_body, load->first_body, engineering(load->peak_moment),
-                   engineering(load->rms_moment), engineering(load->mean_moment)});
+                   engineering(load->rms_moment), engineering(load->mean_moment), estimated ? exponent(load->moment_error_estimate) : "-"});
   return section("Joint couples about the second marker (magnitude)", table, style) + rest_line(joints.size());
 }
 

@@ -14,11 +14,11 @@ namespace {
 
 using S = Planar;
 
-// Couples are told where the joint holds an angle, meshes, or something acts on the angle that it leaves free: friction, stops, a detent. About the axis of a cam that is
-// its torque.
+// Couples are told where the joint holds an angle, meshes, rubs at a radius, or something acts on the angle that it leaves free: friction, stops, a detent. About the axis of
+// a cam that is its torque.
 bool tells_couple(const JointData& joint) {
   const bool mesh = std::holds_alternative<Mesh>(joint.displacement) || std::holds_alternative<RackMesh>(joint.displacement) || belt_of(joint.displacement);
-  return transmits_couple(joint) || mesh || joint.cam || joint.edge || (joint.free_mask[2] > 0 && (joint.law.rubs() || joint.law.has_stops()));
+  return has_couple(joint) || mesh || joint.cam || joint.edge || (joint.free_mask[2] > 0 && (joint.law.rubs() || joint.law.has_stops()));
 }
 
 // A coordinate of the relative pose is free to slide; what a gap that is a function leaves free is the law's to tell.

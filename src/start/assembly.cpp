@@ -220,13 +220,34 @@ System assemble_positions(const Model& model, System system, Vecs& q, std::vecto
 
 // A body that came to lie far from where the file states it was meant otherwise, or its markers were.
 void note_turned_bodies(const Model& model, const Vecs& guess, const Vecs& q, std::vector<std::string>& notes) {
-  constexpr double kFar = std::numbers::pi / 4;  // a drawing's angles are read off more closely
+  constexpr double kFar = std::numbers::pi / 6;  // a drawing's angles are read off more closely
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     if (!model.bodies[i].angle) continue;
     const double turned = std::remainder(q[i][2] - guess[i][2], 2 * std::numbers::pi);
     if (std::abs(turned) > kFar)
       notes.push_back(fmt::format("body {}: assembly turned it by {:.3g} deg from its stated angle; if that was not meant, look at the angles of its markers", model.bodies[i].name,
                                   turned * 180 / std::numbers::pi));
+  }
+}
+
+// Teeth that are away from each other would still carry their load.
+void note_teeth_apart(const System& system, const Vecs& q, std::vector<std::string>& notes) {
+  constexpr double kApart = 0.02;  // of the smaller pitch radius: modified teeth may be cut for as much
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  kinematics_at(system, 0, q, Vecs(q.size(), S::Vec::Zero()), m, r);
+  for (const JointData& joint : system.joints) {
+    double opening = 0, radius = 0;
+    if (const auto* mesh = std::get_if<Mesh>(&joint.displacement)) {
+      opening = mesh->opening(system.pose(joint.at, m).z).gap;
+      radius = std::min(std::abs(mesh->radius_first), std::abs(mesh->radius_second));
+    } else if (const auto* rack = std::get_if<RackMesh>(&joint.displacement)) {
+      opening = rack->opening(system.pose(joint.at, m).z).gap;
+      radius = rack->radius;
+    }
+    if (std::abs(opening) > kApart * radius)
+      notes.push_back(fmt::format("joint {}: its pitch circles do not touch, they {} by {:.4g} m; the teeth carry their load all the same. If that was not meant, look at the radii and where the centres are", joint.name,
+                                  opening > 0 ? "are apart" : "overlap", std::abs(opening)));
   }
 }
 
@@ -237,6 +258,7 @@ Assembly put_bodies(const Model& model, System system) {
   const Vecs guess = state.q;
   out.system = assemble_positions(model, std::move(system), state.q, out.notes);
   note_turned_bodies(model, guess, state.q, out.notes);
+  note_teeth_apart(out.system, state.q, out.notes);
   for (std::size_t i = 0; i < guess.size(); ++i)
     if (model.bodies[i].position) out.largest_move = std::max(out.largest_move, (state.q[i] - guess[i]).head<2>().norm());
   state.v = stated_velocities(model);

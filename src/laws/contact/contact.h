@@ -103,9 +103,9 @@ struct RampedFriction {
   T force(const T& normal, const T& slip) const {
     using namespace law_math;
     if (coefficient == 0) return T(0.0);
-    const T size = abs(slip), ramp = (1 / (end - start)) * (size - T(start));
-    const T share = where_positive(ramp, where_positive(ramp - T(1.0), T(1.0), ramp), T(0.0));
-    return where_positive(slip, -coefficient * (normal * share), coefficient * (normal * share));
+    const T size = abs(slip), beyond = where_positive(slip, slip - T(start), slip + T(start));
+    const T ramp = (1 / (end - start)) * where_positive(T(start) - size, T(0.0), beyond);  // its slope at rest is that of the ramp if v_0 = 0
+    return -coefficient * (normal * where_positive(size - T(end), where_positive(slip, T(1.0), T(-1.0)), ramp));
   }
 };
 
