@@ -58,5 +58,16 @@ TEST(EnergyAccount, APoleInsideTheRunIsNotSteppedOver) {
   EXPECT_NE(run.message.find("has a pole"), std::string::npos) << run.message;
 }
 
+// The loads of a pass whose account did not close are no measure for the errors of the next one.
+TEST(EnergyAccount, IsClosedByAFinerPass) {
+  Model model = reference::test_model("door_with_check_strap");
+  for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = simulate(model);
+    EXPECT_EQ(run.outcome, Outcome::kCompleted) << tolerance << ": " << run.message;
+    EXPECT_LT(std::abs(run.energy.drift), 1e-5) << tolerance;  // of 30 J
+  }
+}
+
 }  // namespace
 }  // namespace pintle
