@@ -25,7 +25,7 @@ namespace {
 void demand_no_states(const System& system) {
   for (const JointData& joint : system.joints)
     if (!joint.ideal && !joint.law.feeds() && joint.law.n_states() > 0)
-      throw AssemblyError(fmt::format("joint {}: equations with ideal joints do not follow what its law remembers, such as a touch and its speed: its forces would be wrong.\n  Try equations = \"newtonian\", or \"relative\", which keeps the joints of a tree ideal.", joint.name));
+      throw AssemblyError(fmt::format("joint {}: equations with ideal joints do not follow what its law remembers, such as a touch and its speed: its forces would be wrong.\n  Try equations = \"newtonian\", or \"relative\" (in compare: --against relative), which keeps the joints of a tree ideal.", joint.name));
 }
 
 // Ideal joints carry no preload: the loops are closed as they are.
