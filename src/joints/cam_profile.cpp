@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <optional>
 
 #include "base/constants.h"
 
@@ -30,16 +29,10 @@ CurvePoint CamProfile::pitch(double angle) const {
   return {r * u, d * u + r * v, (dd - r) * u + 2 * d * v};
 }
 
-// No point is nearer than the one found that is seen from the axis under a larger angle from c than all that is as near.
+// What is no further from c than `way` is seen from the axis within this angle of it.
 double CamProfile::foot(const Planar::Point& c) const {
-  const auto curve = [this](double angle) { return pitch(angle); };
-  const double below = std::atan2(c[1], c[0]);
-  const std::optional<double> found = nearest_point(curve, c, below);
-  if (!found) return nearest_of_many(curve, c, below - kTurn / 2, below + kTurn / 2);
-  const double way = (c - pitch(*found).p).norm();
-  if (way < kSurelyNearest * hollow_) return *found;
-  const double sight = way < c.norm() ? std::asin(way / c.norm()) : kTurn / 2;
-  return nearest_of_many(curve, c, below - sight, below + sight);
+  const auto sight = [&c](double way) { return way < c.norm() ? std::asin(way / c.norm()) : kTurn / 2; };
+  return nearest_of_all([this](double angle) { return pitch(angle); }, c, std::atan2(c[1], c[0]), hollow_, sight);
 }
 
 std::array<GapFunction, 2> CamGap::gap_and_slip(const Planar::Vec& z) const {

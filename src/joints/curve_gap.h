@@ -58,8 +58,6 @@ double nearest_of_many(const Curve& curve, const Planar::Point& c, double low, d
   return 0.5 * (before + behind);
 }
 
-constexpr double kSurelyNearest = 0.9;  // of the least hollow radius, which is found at some points only: a point nearer than this is the nearest
-
 /// The least radius of curvature of a curve's hollow parts between two parameters [m]: what is nearer to the curve has one nearest point,
 /// which Newton's method finds; further away there may be another one that is nearer. Infinite where nothing is hollow.
 template <class Curve>
@@ -68,6 +66,18 @@ double least_hollow_radius(const Curve& curve, double low, double high) {
   double most = 0;
   for (int i = 0; i <= kPoints; ++i) most = std::max(most, -curve(low + (high - low) * i / kPoints).curvature());
   return 1 / most;
+}
+
+/// The parameter of the point that is nearest to c, Eq. (2.1): by Newton's method from that of the point `below` c, and where another point may be
+/// nearer, or Newton's method fails, from the nearest of many. `hollow` is the least_hollow_radius; reach(way) is how far from `below` a point may be
+/// whose distance from c is no more than `way`.
+template <class Curve, class Reach>
+double nearest_of_all(const Curve& curve, const Planar::Point& c, double below, double hollow, const Reach& reach) {
+  constexpr double kSurely = 0.9;  // of the least hollow radius, which is that at some points only
+  const std::optional<double> found = nearest_point(curve, c, below);
+  const double way = (c - curve(found.value_or(below)).p).norm();
+  if (found && way < kSurely * hollow) return *found;
+  return nearest_of_many(curve, c, below - reach(way), below + reach(way));
 }
 
 /// Where the slope of a function of one variable jumps by more than `least` between two places, with the slopes on either side; none: nowhere.

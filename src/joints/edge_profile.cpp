@@ -18,13 +18,9 @@ CurvePoint EdgeProfile::at(double x) const {
 
 EdgeProfile::EdgeProfile(const Edge& edge) : edge_(edge), hollow_(least_hollow_radius([this](double u) { return at(-u); }, -edge.to, -edge.from)) {}
 
-// No point can be nearer than one that is known, or than the one straight below, that is not within this way along the line.
+// What is no further from c than `way` is within this way along the line.
 double EdgeProfile::nearest(const Planar::Point& c) const {
-  const auto curve = [this](double u) { return at(-u); };
-  const auto found = nearest_point(curve, c, -c[0]);
-  const double way = (c - at(found ? -*found : c[0]).p).norm();
-  if (found && way < kSurelyNearest * hollow_) return -*found;
-  return -nearest_of_many(curve, c, -c[0] - way, -c[0] + way);
+  return -nearest_of_all([this](double u) { return at(-u); }, c, -c[0], hollow_, [](double way) { return way; });
 }
 
 std::array<GapFunction, 2> EdgeGap::gap_and_slip(const Planar::Vec& z) const {
