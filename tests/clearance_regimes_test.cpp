@@ -131,5 +131,34 @@ TEST(ClearanceRegimesSlow, ChaoticForcesArePromisedUpToTheHorizonAndStatisticsBe
   }
 }
 
+// Forces of impacts part at once and say nothing of how errors grow; places do. A horizon is that of the finest passes: after too coarse ones, which part no later than
+// coarser ones, it would be a tenth of it.
+TEST(ClearanceRegimesSlow, PinsThatBounceArePromisedAsLongAsFinePassesAgree) {
+  struct Case {
+    const char* model;
+    double earliest;  // horizon [s]
+    double checked;   // duration of the finer run [s]
+  };
+  for (const Case& c : {Case{"two_bouncing_pins", 0.1, 0.12}, {"rattling_ball_bearing", 0.02, 0.024}}) {
+    const Trajectory run = simulate(reference::test_model(c.model));
+    ASSERT_EQ(run.outcome, Outcome::kHorizon) << c.model << ": " << run.message;
+    ASSERT_GT(run.growth.horizon, c.earliest) << c.model;
+    Model first = reference::test_model(c.model);
+    first.simulate.duration = c.checked;
+    first.simulate.tolerance = 1e-5;
+    const Trajectory fine = reference::completed(first);
+    for (const LoadSummary& joint : run.joints) {
+      const std::string column = joint.name + ".on_" + joint.second_body;
+      double error = 0, peak = 0;
+      for (std::size_t row = 0; row < fine.n_rows() && run.at(row, 0) <= joint.horizon; ++row) {
+        const double x = reference::value(fine, row, "joint." + column + ".fx[world]"), y = reference::value(fine, row, "joint." + column + ".fy[world]");
+        error = std::max(error, reference::force_error(run, row, column, x, y));
+        peak = std::max(peak, std::hypot(x, y));
+      }
+      EXPECT_LE(error, run.tolerance * peak) << c.model << ", " << joint.name;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pintle

@@ -32,7 +32,7 @@ bool is_servo(const JointData& joint) { return joint.servo >= 0; }
 }  // namespace
 
 Recorder::Recorder(const Model& model, const System& system, Recorded what)
-    : ForceRecorder(system, model.simulate, what), model_(model), recording_(choose_recording(model, system)) {
+    : ForceRecorder(system, what), model_(model), recording_(choose_recording(model, system)) {
   find_drives();
 }
 

@@ -31,6 +31,7 @@ constexpr double kNearRounding = 1e-8;     // tolerance below which stiff joints
 constexpr std::uint64_t kLong = 10000;     // after a pass of so many steps the next one goes there by a tenth at a time
 constexpr double kFinest = 1e-11;          // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
 constexpr double kOptimism = 2;            // standard errors by which a rate may be smaller before no tolerance is said to help
+constexpr double kPartOfRun = 0.02;        // that meets the tolerance, at least, for its end to be told
 constexpr int kMostOpen = 2;               // passes made finer because the energy account did not close
 
 template <class S>
@@ -174,10 +175,25 @@ class Passes {
     const double apart = out_.of_motion ? out_.motion_error : largest_of(relative_difference_);
     last_growth_ = growth_;
     growth_ = {};
-    if (apart > kPromised * settings_.tolerance)
-      growth_ = fit_growth(out_.of_motion ? motion_difference_curve(system_, coarse, fine) : force_difference_curve(system_, coarse, fine));
-    if (growth_.exponential && growth_.saturated) take_all(coarse, fine);
+    if (apart > kPromised * settings_.tolerance) growth_ = growth_of(coarse, fine);
+    if (growth_.exponential && growth_.saturated && !of_places_) take_all(coarse, fine);
     error_ = share_ * (out_.of_motion ? out_.motion_error : largest_of(relative_difference_));
+  }
+
+  // In impacts forces differ by all there is as soon as these are apart by their own length, and between them by little: there it is the places whose
+  // differences grow steadily, and the line is shifted to where forces have reached the tolerance. theory/time section 6.1.
+  ErrorGrowth growth_of(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
+    const DifferenceCurve places = motion_difference_curve(system_, coarse, fine);
+    if (out_.of_motion) return fit_growth(places);
+    const DifferenceCurve forces = force_difference_curve(system_, coarse, fine);
+    const ErrorGrowth of_forces = fit_growth(forces);
+    of_places_ = false;
+    if (of_forces.exponential) return of_forces;
+    ErrorGrowth of_places = fit_growth_to_largest(places);
+    of_places_ = of_places.exponential && of_places.saturated;
+    if (!of_places_) return of_forces;
+    of_places.level = settings_.tolerance * std::exp(of_places.rate * (of_places.until - curve_horizon(forces, settings_.tolerance)));
+    return of_places;
   }
 
   // To which part errors have fallen since the pass before: as its tolerance, or less where its steps have shrunk by less than that asks for.
@@ -229,16 +245,22 @@ class Passes {
       const double hoped = tolerance_by_growth(growth_.rate - kOptimism * growth_.rate_error, 1);
       const bool hopeless = hoped < kLeastTolerance || tolerance < kFinest;
       if (same && hopeless) return false;
+      if (of_places_) return at(finer_by_error(tolerance));
       const double next = std::min(kRepeated * tolerance, hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kErrorPower)));
       if (next < kTight) choice_.stages = 5;
       return at(next);
     }
-    const double shrink = 0.5 * std::pow(wanted / error_, 1 / kErrorPower);
+    return at(finer_by_error(tolerance));
+  }
+
+  // The tolerance of the pass after one of `tolerance`, with which the error that the last two show would be small enough.
+  double finer_by_error(double tolerance) {
+    const double shrink = 0.5 * std::pow(settings_.tolerance / error_, 1 / kErrorPower);
     const bool is_long = last_.counters.steps > kLong;
     const double least = is_long ? std::min(kRepeated * tolerance, kNearRounding) : 0;
     const double next = std::max(least, tolerance * std::clamp(shrink, 1e-3, kRepeated));
     if (is_long && next < kTight) choice_.stages = 5;
-    return at(next);
+    return next;
   }
 
   // The tolerance with which errors, growing as they do, would be small enough at the end: the difference is the coarser pass's error.
@@ -273,7 +295,7 @@ class Passes {
     const bool chaotic = out_.outcome == Outcome::kHorizon;
     for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
     if (!difference_.force.empty() && !chaotic) state_errors<S>(system_, difference_, share_, {least_error(), fine_ringing_, fine_tolerance_}, out_.joints);
-    if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, chaos_, out_);
+    if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, chaos_, fine_tolerance_, out_);
   }
 
   // Passes are made until errors are small beside the forces in the rows: an impact between rows shows its error there little. What is stated in the
@@ -307,6 +329,14 @@ class Passes {
     }
   }
 
+  // Up to when a run would have met the tolerance, where that is any part of it.
+  std::string until_missed() const {
+    if (out_.of_motion || !coarse_) return "";
+    const std::vector<double> horizons = force_horizons(system_, coarse_->forces(), fine_->forces(), share_, settings_.tolerance);
+    const double horizon = *std::min_element(horizons.begin(), horizons.end());
+    return horizon > kPartOfRun * last_.t && horizon < last_.t ? fmt::format("; up to t = {:.4g} s all are within it", horizon) : "";
+  }
+
   // How it ended; a pass that broke off leaves the results of the one before it.
   // `worst` has the largest error; none where there is no estimate.
   void judge(const BasicJointData<S>* worst) {
@@ -326,7 +356,7 @@ class Passes {
     if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)
       out_.message = fmt::format("the largest {} is estimated at {:.2g} of {}; the tolerance is {:.2g}",
                                  out_.of_motion ? "position error" : fmt::format("force error, at {} {},", worst->servo < 0 ? "joint" : "motor", worst->name), error_,
-                                 out_.of_motion ? "the longest path of any body" : "the peak force", settings_.tolerance);
+                                 out_.of_motion ? "the longest path of any body" : "the peak force", settings_.tolerance) + until_missed();
     if (unbounded && out_.outcome == Outcome::kToleranceNotMet) out_.message = fmt::format("the reactions of ideal joints have no bound at the singular position near t = {:.6g} s, whatever the tolerance: give these joints stiffness", last_.unbounded_reactions);
     if (out_.outcome == Outcome::kRunaway) out_.message = last_.message;
     if (!message.empty() && out_.outcome != Outcome::kCompleted) out_.message += (out_.message.empty() ? "" : "; ") + message;
@@ -348,6 +378,7 @@ class Passes {
   bool alike_ = false;             // their steps
   int stages_before_ = 0;          // of the coarser one
   ErrorGrowth growth_, last_growth_;  // and of the pair before
+  bool of_places_ = false;         // growth_, as that of forces is not exponential
   ErrorGrowth chaos_;              // where two pairs have shown the same exponential growth
   bool doubted_ = false;           // a pass has been made because two were alike
   double longest_ = 0;             // step of passes from now on, because tolerances have not shortened them [s]

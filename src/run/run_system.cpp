@@ -42,7 +42,7 @@ BasicSystemRun<S> run_system(const BasicSystem<S>& system, const BasicState<S>& 
   check(system, start);
   const Stopwatch clock;
   BasicSystemRun<S> out;
-  const auto recorder = run_passes<S>(system, start, settings, {[&] { return std::make_unique<BasicForceRecorder<S>>(system, settings, Recorded::kStates); }, {}, observer, clock}, out.result);
+  const auto recorder = run_passes<S>(system, start, settings, {[&] { return std::make_unique<BasicForceRecorder<S>>(system, Recorded::kStates); }, {}, observer, clock}, out.result);
   out.rows = recorder->take_forces();
   out.result.wall_seconds = clock.seconds();
   return out;

@@ -8,12 +8,14 @@ namespace pintle {
 namespace {
 
 constexpr double kSaturated = 0.03;                // of the peak: differences above it no longer grow as small ones do
+constexpr double kOfLargest = 0.1;                 // of the largest difference: the same where it is that one that tells what they can become
 constexpr double kFitted = 1e-6;                   // of that: the smallest difference that is fitted
 constexpr int kMostBlocks = 32, kLeastBlocks = 8;  // of rows, whose largest difference is fitted; with fewer nothing is fitted
 constexpr double kLeastGain = 4.6;                 // of the logarithm over the fit: a factor of a hundred
 constexpr double kLeastBend = -0.28;               // second over first Legendre coefficient: 0 of an exponential, -0.56 of any power of time
 constexpr double kMostPower = 4;                   // of time: errors of phases grow with its first or second, forces' with little more
 constexpr double kSure = 5;                        // standard errors that a rate is above zero
+constexpr double kSureOfPlaces = 3;                // the same of places, which errors climb in stairs where pins graze their bush
 constexpr double kSurePair = 3;                    // standard errors that two rates may be apart
 constexpr double kSameRate = 0.3;                  // of the rate, that two rates may be apart besides
 
@@ -102,13 +104,16 @@ double ErrorGrowth::extrapolated(double t, double with_rate) const {
   return level * std::exp(std::min(kMost, with_rate * (t - until)));
 }
 
-ErrorGrowth fit_growth(const DifferenceCurve& curve) {
+namespace {
+
+// To differences of `most`, with a rate that is above zero by `sure` standard errors.
+ErrorGrowth fit_growth_to(double most, double sure, const DifferenceCurve& curve) {
   ErrorGrowth growth;
   std::size_t last = 0, first = 0;
-  while (last < curve.e.size() && curve.e[last] < kSaturated) ++last;
+  while (last < curve.e.size() && curve.e[last] < most) ++last;
   growth.saturated = last < curve.e.size();
   for (std::size_t i = 0; i < last; ++i)
-    if (curve.e[i] <= kFitted * kSaturated) first = i + 1;
+    if (curve.e[i] <= kFitted * most) first = i + 1;
   if (first >= last) return growth;
   const Blocks b = blocks_of(curve, first, last);
   if (b.n < kLeastBlocks) return growth;
@@ -121,12 +126,18 @@ ErrorGrowth fit_growth(const DifferenceCurve& curve) {
   growth.until = b.t[b.n - 1];
   growth.level = std::exp(line.mean_y + line.slope * (growth.until - line.mean_x));
   const double gain = line.slope * (b.t[b.n - 1] - b.t[0]);
-  growth.exponential = gain > kLeastGain && line.slope > kSure * line.error && (line.squares < power.squares || power.slope > kMostPower) && bend(b) > kLeastBend;
+  growth.exponential = gain > kLeastGain && line.slope > sure * line.error && (line.squares < power.squares || power.slope > kMostPower) && bend(b) > kLeastBend;
   return growth;
 }
 
+}  // namespace
+
+ErrorGrowth fit_growth(const DifferenceCurve& curve) { return fit_growth_to(kSaturated, kSure, curve); }
+
+ErrorGrowth fit_growth_to_largest(const DifferenceCurve& curve) { return fit_growth_to(kOfLargest * largest_of(curve.e), kSureOfPlaces, curve); }
+
 bool same_growth(const ErrorGrowth& first, const ErrorGrowth& second) {
-  return first.exponential && second.exponential &&
+  return first.exponential && second.exponential && second.until > first.until &&
          std::abs(first.rate - second.rate) < kSurePair * std::hypot(first.rate_error, second.rate_error) + kSameRate * std::min(first.rate, second.rate);
 }
 

@@ -18,8 +18,12 @@ struct ErrorGrowth {
   double extrapolated(double t, double with_rate) const;
 };
 
+/// Of differences of forces, or of places, over what they can become: those above a few hundredths no longer grow as small ones do.
 /// theory/time Eqs. (6.5)-(6.7).
 ErrorGrowth fit_growth(const DifferenceCurve& curve);
+/// Of differences of places that stay small beside the longest way, as those of a pin in a bush: what they become is the largest of them. The line's
+/// level is meaningless. theory/time Eqs. (6.5)-(6.7).
+ErrorGrowth fit_growth_to_largest(const DifferenceCurve& curve);
 
 /// Whether two fits, of pairs of passes with different tolerances, show the same growth: a smaller tolerance then shifts the curve along
 /// the time by a fixed amount. Of a power of time it would stretch it. theory/time Eq. (6.8).

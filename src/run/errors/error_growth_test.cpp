@@ -46,6 +46,7 @@ TEST(ErrorGrowth, PowersOfTimeAreNotExponential) {
       for (const double ripple : {0.0, 0.9}) {
         const auto e = [&](double t) { return level * std::pow(t / 5, power) * (1 + ripple * std::sin(40 * t)) + 1e-12; };
         EXPECT_FALSE(fit_growth(curve_of(e)).exponential) << power << " " << level << " " << ripple;
+        EXPECT_FALSE(fit_growth_to_largest(curve_of(e)).exponential) << power << " " << level << " " << ripple;
       }
 }
 
@@ -67,6 +68,16 @@ TEST(ErrorGrowth, ASmallerToleranceShiftsAnExponentialAndStretchesAPower) {
   ErrorGrowth first = exponential(1e-5), slower = first;
   slower.rate = first.rate / std::sqrt(10);  // what a fit to the square of time becomes with a tenth of the tolerance
   EXPECT_FALSE(same_growth(first, slower));
+  EXPECT_FALSE(same_growth(exponential(1e-6), exponential(1e-5)));  // it saturates earlier, and says nothing of smaller tolerances
+}
+
+TEST(ErrorGrowth, PlacesThatClearancesKeepTogetherSaturateAtTheirLargestDifference) {
+  const DifferenceCurve kept = curve_of([](double t) { return std::min(1e-3, 1e-9 * std::exp(2 * t)); });
+  EXPECT_FALSE(fit_growth(kept).saturated);
+  const ErrorGrowth growth = fit_growth_to_largest(kept);
+  EXPECT_TRUE(growth.exponential);
+  EXPECT_NEAR(growth.rate, 2, 0.02);
+  EXPECT_NEAR(growth.until, 0.5 * std::log(1e-4 / 1e-9), 0.5);
 }
 
 }  // namespace

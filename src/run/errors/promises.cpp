@@ -35,7 +35,7 @@ Statistics after(const BasicForceTable<S>& forces, std::size_t joints, std::size
 }  // namespace
 
 template <class S>
-void promise_until_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double within, const ErrorGrowth& growth, Trajectory& out) {
+void promise_until_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double within, const ErrorGrowth& growth, double finest, Trajectory& out) {
   const std::size_t joints = system.joints.size();
   std::vector<double> horizons = force_horizons(system, coarse, fine, share, within);
   if (out.of_motion) horizons.assign(joints, curve_horizon(motion_difference_curve(system, coarse, fine), within));
@@ -61,12 +61,12 @@ void promise_until_horizons(const BasicSystem<S>& system, const BasicForceTable<
   }
   if (earliest != nullptr) out.growth.horizon = earliest->horizon;
   out.message = fmt::format(
-      "joint forces are promised up to t = {:.4g} s{}: the motion is chaotic, errors grow e-fold every {:.2g} s ({:.3g} +- {:.1g} per second), and no tolerance is enough for all of it; "
+      "joint forces are promised up to t = {:.4g} s{}: the motion is chaotic, errors grow e-fold every {:.2g} s ({:.3g} +- {:.1g} per second), and integrations with tolerances down to {:.1g} part before its end; "
       "peaks, means and RMS after that are statistics",
-      out.growth.horizon, earliest != nullptr ? " (joint " + earliest->name + ")" : "", 1 / growth.rate, growth.rate, growth.rate_error);
+      out.growth.horizon, earliest != nullptr ? " (joint " + earliest->name + ")" : "", 1 / growth.rate, growth.rate, growth.rate_error, finest);
 }
 
-template void promise_until_horizons(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double share, double within, const ErrorGrowth& growth, Trajectory& out);
-PINTLE_IN_SPACE(template void promise_until_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double within, const ErrorGrowth& growth, Trajectory& out);)
+template void promise_until_horizons(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double share, double within, const ErrorGrowth& growth, double finest, Trajectory& out);
+PINTLE_IN_SPACE(template void promise_until_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double within, const ErrorGrowth& growth, double finest, Trajectory& out);)
 
 }  // namespace pintle

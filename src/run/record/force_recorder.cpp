@@ -29,8 +29,8 @@ double largest_angle(const PositionsOf<S>& q) {
 }  // namespace
 
 template <class S>
-BasicForceRecorder<S>::BasicForceRecorder(const BasicSystem<S>& system, const SimulateSettings& settings, Recorded what)
-    : system_(system), what_(what), keeps_places_(what == Recorded::kStates || settings.tolerance_of == ToleranceOf::kMotion),
+BasicForceRecorder<S>::BasicForceRecorder(const BasicSystem<S>& system, Recorded what)
+    : system_(system), what_(what),
       stuck_joints_(system), lost_equilibria_(system), drive_peaks_(system) {}
 
 template <class S>
@@ -68,7 +68,7 @@ void BasicForceRecorder<S>::add(const BasicState<S>& state) {
   system_.motions(state.q, state.v, m_);
   forces_.t.push_back(state.t);
   forces_.step.push_back(step_);
-  if (keeps_places_) forces_.place.insert(forces_.place.end(), state.q.begin(), state.q.end());
+  forces_.place.insert(forces_.place.end(), state.q.begin(), state.q.end());
   if (what_ == Recorded::kStates) forces_.velocity.insert(forces_.velocity.end(), state.v.begin(), state.v.end());
   for (int j = 0; j < system_.n_joints(); ++j) forces_.world.push_back(joint_load(system_, j, m_, state.force[j]));
   if (what_ != Recorded::kForces) add_energies(state);

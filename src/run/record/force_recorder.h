@@ -18,13 +18,13 @@ namespace pintle {
 enum class Recorded {
   kColumns,  ///< everything that a table shows of every row
   kForces,   ///< the joint forces only: summaries of the joints, no columns, springs, motors, energies
-  kStates,   ///< joint forces and energies, and the places and velocities of the bodies
+  kStates,   ///< joint forces and energies, and the velocities of the bodies
 };
 
 template <class S>
 class BasicForceRecorder {
  public:
-  BasicForceRecorder(const BasicSystem<S>& system, const SimulateSettings& settings, Recorded what);
+  BasicForceRecorder(const BasicSystem<S>& system, Recorded what);
   virtual ~BasicForceRecorder() = default;
 
   /// The start of a run, and its first row. In every step loads are sampled `n_samples` times.
@@ -66,7 +66,6 @@ class BasicForceRecorder {
   void add_energies(const BasicState<S>& state);
   void fill_account(EnergyAccount& account) const;
 
-  bool keeps_places_;
   double step_ = 0;  // the last [s]
   std::optional<BasicLoadRecorder<S>> loads_;  // from the start
   std::vector<double> heat_, heat_at_crossings_;  // of each joint over the run, and as above [J]

@@ -12,8 +12,8 @@ template <class S>
 struct BasicForceTable {
   std::vector<double> t;     // [s]
   std::vector<double> step;  // of the integration, that the time lies in or ends; 0 at the start [s]
-  PositionsOf<S> place;   // row-major: per time, per body; where it is kept
-  VecsOf<S> velocity;     // the same
+  PositionsOf<S> place;   // row-major: per time, per body
+  VecsOf<S> velocity;     // the same; where it is kept
   VecsOf<S> world;        // row-major: per time, per joint: force [N] and couple [N*m] on the second body, as `joint_load` gives them
   double largest_load = 0;   // on a body, over all steps: LoadScale; 0 of methods that have none [N]
   double rounding = 0;       // of the places, times the largest stiffness: forces below it are nothing else [N]
