@@ -27,6 +27,10 @@ Difference compare(const Trajectory& run, const Trajectory& reference, const Loa
     d.peak_couple = std::max(d.peak_couple, std::abs(reference.at(i, m)));
     d.couple = std::max(d.couple, std::abs(run.at(i, m) - reference.at(i, m)));
   }
+  if (same != reference.joints.end() && until >= reference.at(reference.n_rows() - 1, 0)) {  // peaks may be between the rows, as those of impacts
+    d.peak = std::max(d.peak, same->peak);
+    d.peak_couple = std::max(d.peak_couple, m < 0 ? 0 : same->peak_moment);
+  }
   return d;
 }
 

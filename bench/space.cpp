@@ -89,7 +89,7 @@ class CompetitorIn final : public Competitor {
     plan_.scale = &scale_;
   }
   BasicIntegration<S> integrate_once() const {
-    BasicForceRecorder<S> recorder(system_, settings_, Recorded::kStates);
+    BasicForceRecorder<S> recorder(system_, Recorded::kStates);
     BasicIntegration<S> done = integrate(system_, start_, plan_, recorder);
     if (done.ended != Ended::kAtEnd) throw std::runtime_error(name_ + ": " + done.message);
     return done;

@@ -176,7 +176,7 @@ class Passes {
     last_growth_ = growth_;
     growth_ = {};
     if (apart > kPromised * settings_.tolerance) growth_ = growth_of(coarse, fine);
-    if (growth_.exponential && growth_.saturated && !of_places_) take_all(coarse, fine);
+    if (growth_.exponential && growth_.saturated) take_all(coarse, fine);
     error_ = share_ * (out_.of_motion ? out_.motion_error : largest_of(relative_difference_));
   }
 
