@@ -254,6 +254,18 @@ TEST(Contact, BodiesThatStartInsideEachOtherAreRefused) {
     ADD_FAILURE() << "it ran";
   } catch (const AssemblyError& error) {
     EXPECT_NE(std::string(error.what()).find("joint edge: its bodies start 0.49 m inside each other"), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).find("assembly"), std::string::npos) << error.what();
+  }
+}
+
+// Where assembly has moved them there, the complaint says so.
+TEST(Contact, BodiesThatAssemblyPutsInsideEachOtherAreRefusedWithWhatItDid) {
+  try {
+    simulate(reference::test_model("walker_in_the_floor"));
+    ADD_FAILURE() << "it ran";
+  } catch (const AssemblyError& error) {
+    EXPECT_NE(std::string(error.what()).find("inside each other"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("body trunk: assembly turned it by"), std::string::npos) << error.what();
   }
 }
 

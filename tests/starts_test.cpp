@@ -1,8 +1,10 @@
 // Starts that users have met: where positions, speeds and preloads of a run's first instant come from, in whole runs.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "pintle/simulate.h"
@@ -72,13 +74,54 @@ TEST(Starts, BristlesOfAPinAtRestDoNotMoveTheSoftGuideBesideIt) {
   }
 }
 
+std::string notes_of(Model model) {
+  model.simulate.duration = 1e-3;
+  std::string all;
+  for (const std::string& note : simulate(model).notes) all += note + '\n';
+  return all;
+}
+
+Marker& marker_of(Model& model, const std::string& body, const std::string& name) {
+  for (Body& b : model.bodies)
+    for (Marker& marker : b.markers)
+      if (b.name == body && marker.name == name) return marker;
+  throw std::logic_error("no marker " + body + "." + name);
+}
+
 TEST(Starts, ABodyThatAssemblyTurnsFarIsNoted) {
   Model model = reference::mechanism("slider_crank");
-  for (Marker& marker : model.bodies[2].markers)
-    if (marker.name == "skirt") marker.axis = 0;
-  model.simulate.duration = 0.01;
-  const Trajectory run = simulate(model);
-  EXPECT_TRUE(std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("body piston: assembly turned it by 90 deg") != std::string::npos; }));
+  marker_of(model, "piston", "skirt").axis = 0;
+  EXPECT_NE(notes_of(model).find("body piston: assembly turned it by 90 deg"), std::string::npos);
+}
+
+// A rod whose end is given in millimetres, as metres.
+TEST(Starts, ABodyThatAssemblyMovesFarIsNoted) {
+  Model model = reference::mechanism("slider_crank");
+  EXPECT_EQ(notes_of(model).find("assembly moved"), std::string::npos);
+  marker_of(model, "rod", "B").position[0] *= 1000;
+  const std::string notes = notes_of(model);
+  EXPECT_NE(notes.find("body piston: assembly moved it by"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("is a unit missing?"), std::string::npos) << notes;
+}
+
+// A motor decides how fast its crank starts; whoever states another speed is told.
+TEST(Starts, AVelocityThatIsReplacedIsNoted) {
+  Model model = test_model("two_bouncing_pins");
+  EXPECT_EQ(notes_of(model).find("not with the stated"), std::string::npos);
+  Body& crank = model.bodies[0];
+  ASSERT_TRUE(crank.spin.has_value());
+  const double right = *crank.spin;
+  crank.spin = -2 * right;
+  const std::string notes = notes_of(model);
+  EXPECT_NE(notes.find(fmt::format("body crank: it starts with a spin of {:.4g} rad/s, not with the stated {:.4g} rad/s", right, -2 * right)), std::string::npos) << notes;
+  crank.spin.reset();
+  model.bodies[0].velocity = Vec2{0, 3};
+  EXPECT_NE(notes_of(model).find("not with the stated (0, 3) m/s"), std::string::npos);
+}
+
+TEST(Starts, PulleysThatOverlapAreNoted) {
+  EXPECT_EQ(notes_of(reference::mechanism("belt_drive")).find("overlap"), std::string::npos);
+  EXPECT_NE(notes_of(reference::mechanism("belt_drive", {"parameters.apart=\"150 mm\""})).find("joint upper: its discs overlap by 0.05 m"), std::string::npos);
 }
 
 // Slack by more than 0.9 of what a turn of the drum winds cannot be told from taut: the run says so, and is not "completed".

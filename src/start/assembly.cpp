@@ -1,6 +1,7 @@
 #include "start/assembly.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,7 @@
 #include "kinematics/guess.h"
 #include "kinematics/position_search.h"
 #include "pintle/simulate.h"
+#include "start/assembly_notes.h"
 #include "start/start_forces.h"
 #include "system/build.h"
 
@@ -190,7 +192,7 @@ void demand_reach(const JointData& joint, const Belt& belt, const S::Vec& z) {
 }
 
 // Bodies that a contact finds deep inside each other are on the wrong side of it: the forces would be those of no machine.
-void demand_apart(const Model& model, const System& system, const Vecs& q) {
+void demand_apart(const Model& model, const System& system, const Vecs& q, const std::vector<std::string>& notes) {
   constexpr double kDeep = 1e-2;  // of the mechanism's size: bodies that are deeper in each other are on the wrong side of a contact
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
@@ -203,8 +205,8 @@ void demand_apart(const Model& model, const System& system, const Vecs& q) {
     if (const auto belt = belt_of(joint.displacement)) demand_reach(joint, *belt, system.pose(joint.at, m).z);
     const double depth = joint.law.penetration(r[j].gap);
     if (depth > kDeep * size && model.simulate.start != Start::kSettled)  // where they settle first they push each other apart
-      throw AssemblyError(fmt::format("joint {}: its bodies start {:.4g} m inside each other.\n  Try the other side of the edge (the first marker's axis turned by 180 deg: it presses along +y), a start position apart from it, or start = \"settled\", which lets them push each other apart.",
-                                      joint.name, depth));
+      throw AssemblyError(fmt::format("joint {}: its bodies start {:.4g} m inside each other.\n  Try the other side of the edge (the first marker's axis turned by 180 deg: it presses along +y), a start position apart from it, or start = \"settled\", which lets them push each other apart.{}",
+                                      joint.name, depth, notes.empty() ? "" : fmt::format("\n  {}", fmt::join(notes, "\n  "))));
   }
 }
 
@@ -218,51 +220,20 @@ System assemble_positions(const Model& model, System system, Vecs& q, std::vecto
   return fix_assembled_values(model, std::move(system), q, notes);
 }
 
-// A body that came to lie far from where the file states it was meant otherwise, or its markers were.
-void note_turned_bodies(const Model& model, const Vecs& guess, const Vecs& q, std::vector<std::string>& notes) {
-  constexpr double kFar = std::numbers::pi / 6;  // a drawing's angles are read off more closely
-  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-    if (!model.bodies[i].angle) continue;
-    const double turned = std::remainder(q[i][2] - guess[i][2], 2 * std::numbers::pi);
-    if (std::abs(turned) > kFar)
-      notes.push_back(fmt::format("body {}: assembly turned it by {:.3g} deg from its stated angle; if that was not meant, look at the angles of its markers", model.bodies[i].name,
-                                  turned * 180 / std::numbers::pi));
-  }
-}
-
-// Teeth that are away from each other would still carry their load.
-void note_teeth_apart(const System& system, const Vecs& q, std::vector<std::string>& notes) {
-  constexpr double kApart = 0.02;  // of the smaller pitch radius: modified teeth may be cut for as much
-  std::vector<S::Motion> m;
-  std::vector<JointKinematics> r;
-  kinematics_at(system, 0, q, Vecs(q.size(), S::Vec::Zero()), m, r);
-  for (const JointData& joint : system.joints) {
-    double opening = 0, radius = 0;
-    if (const auto* mesh = std::get_if<Mesh>(&joint.displacement)) {
-      opening = mesh->opening(system.pose(joint.at, m).z).gap;
-      radius = std::min(std::abs(mesh->radius_first), std::abs(mesh->radius_second));
-    } else if (const auto* rack = std::get_if<RackMesh>(&joint.displacement)) {
-      opening = rack->opening(system.pose(joint.at, m).z).gap;
-      radius = rack->radius;
-    }
-    if (std::abs(opening) > kApart * radius)
-      notes.push_back(fmt::format("joint {}: its pitch circles do not touch, they {} by {:.4g} m; the teeth carry their load all the same. If that was not meant, look at the radii and where the centres are", joint.name,
-                                  opening > 0 ? "are apart" : "overlap", std::abs(opening)));
-  }
-}
-
 Assembly put_bodies(const Model& model, System system) {
   Assembly out;
   State& state = out.state;
   state.q = guess_positions(model, system);
   const Vecs guess = state.q;
   out.system = assemble_positions(model, std::move(system), state.q, out.notes);
-  note_turned_bodies(model, guess, state.q, out.notes);
-  note_teeth_apart(out.system, state.q, out.notes);
+  note_moved_bodies(model, guess, state.q, out.notes);
+  note_discs_apart(out.system, state.q, out.notes);
   for (std::size_t i = 0; i < guess.size(); ++i)
     if (model.bodies[i].position) out.largest_move = std::max(out.largest_move, (state.q[i] - guess[i]).head<2>().norm());
   state.v = stated_velocities(model);
+  const Vecs stated = state.v;
   if (model.simulate.start != Start::kRaw) assemble_velocities(model, out.system, state.q, state.v);
+  note_changed_velocities(model, stated, state.v, out.notes);
   return out;
 }
 
@@ -272,7 +243,7 @@ Assembly assemble_bodies(const Model& model, const System* like) { return put_bo
 
 Assembly assemble_unloaded(const Model& model, System system) {
   Assembly out = put_bodies(model, std::move(system));
-  demand_apart(model, out.system, out.state.q);
+  demand_apart(model, out.system, out.state.q, out.notes);
   return out;
 }
 

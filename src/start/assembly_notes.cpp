@@ -1,0 +1,93 @@
+#include "start/assembly_notes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dynamics/inverse_dynamics.h"
+#include "joints/belt.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+constexpr double kFarTurned = std::numbers::pi / 6;  // a drawing's angles are read off more closely [rad]
+constexpr double kFarMoved = 1;                      // of the size of what is stated: a unit that is missing makes a thousand
+constexpr double kOtherVelocity = 0.02;              // of the larger of stated and assembled velocity: rounded figures are nearer
+constexpr double kTeethApart = 0.02;                 // of the smaller pitch radius: modified teeth may be cut for as much
+
+// From the body's centre to its markers and from the mechanism's middle to the stated centres, the largest [m].
+double stated_size(const Model& model, const Vecs& guess, const Body& body) {
+  double size = 0;
+  for (const Marker& marker : body.markers) size = std::max(size, std::hypot(marker.position[0], marker.position[1]));
+  for (std::size_t i = 0; i < guess.size(); ++i)
+    if (model.bodies[i].position)
+      for (std::size_t k = 0; k < i; ++k)
+        if (model.bodies[k].position) size = std::max(size, (guess[i] - guess[k]).head<2>().norm());
+  return size;
+}
+
+void note_teeth_apart(const JointData& joint, const S::Vec& z, std::vector<std::string>& notes) {
+  double opening = 0, radius = 0;
+  if (const auto* mesh = std::get_if<Mesh>(&joint.displacement)) {
+    opening = mesh->opening(z).gap;
+    radius = std::min(std::abs(mesh->radius_first), std::abs(mesh->radius_second));
+  } else if (const auto* rack = std::get_if<RackMesh>(&joint.displacement)) {
+    opening = rack->opening(z).gap;
+    radius = rack->radius;
+  }
+  if (std::abs(opening) > kTeethApart * radius)
+    notes.push_back(fmt::format("joint {}: its pitch circles do not touch, they {} by {:.4g} m; the teeth carry their load all the same. If that was not meant, look at the radii and where the centres are", joint.name,
+                                opening > 0 ? "are apart" : "overlap", std::abs(opening)));
+}
+
+void note_overlap(const JointData& joint, const S::Vec& z, std::vector<std::string>& notes) {
+  const auto belt = belt_of(joint.displacement);
+  if (!belt) return;
+  const double overlap = std::abs(belt->radius_first) + std::abs(belt->radius_second) - std::hypot(z[0], z[1]);
+  if (overlap > 0)
+    notes.push_back(fmt::format("joint {}: its discs overlap by {:.4g} m; the belt pulls all the same. If that was not meant, look at the radii and where the centres are", joint.name, overlap));
+}
+
+}  // namespace
+
+void note_moved_bodies(const Model& model, const Vecs& guess, const Vecs& q, std::vector<std::string>& notes) {
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const Body& body = model.bodies[i];
+    const double turned = std::remainder(q[i][2] - guess[i][2], 2 * std::numbers::pi);
+    if (body.angle && std::abs(turned) > kFarTurned)
+      notes.push_back(fmt::format("body {}: assembly turned it by {:.3g} deg from its stated angle; if that was not meant, look at the angles of its markers", body.name, turned * 180 / std::numbers::pi));
+    const double moved = (q[i] - guess[i]).head<2>().norm();
+    const double size = stated_size(model, guess, body);
+    if (body.position && size > 0 && moved > kFarMoved * size)
+      notes.push_back(fmt::format("body {}: assembly moved it by {:.3g} m from its stated position, further than the stated positions are apart; if that was not meant, look at its markers and those that it is joined to: is a unit missing?", body.name, moved));
+  }
+}
+
+void note_changed_velocities(const Model& model, const Vecs& stated, const Vecs& v, std::vector<std::string>& notes) {
+  const auto differ = [](double change, double before, double after) { return change > kOtherVelocity * std::max(before, after); };
+  for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+    const Body& body = model.bodies[i];
+    if (body.spin && *body.spin != 0 && differ(std::abs(v[i][2] - stated[i][2]), std::abs(stated[i][2]), std::abs(v[i][2])))
+      notes.push_back(fmt::format("body {}: it starts with a spin of {:.4g} rad/s, not with the stated {:.4g} rad/s: joints or motors ask for it", body.name, v[i][2], stated[i][2]));
+    const auto before = stated[i].head<2>(), after = v[i].head<2>();
+    if (body.velocity && before.norm() > 0 && differ((after - before).norm(), before.norm(), after.norm()))
+      notes.push_back(fmt::format("body {}: it starts with a velocity of ({:.4g}, {:.4g}) m/s, not with the stated ({:.4g}, {:.4g}) m/s: joints or motors ask for it", body.name, after[0], after[1], before[0], before[1]));
+  }
+}
+
+void note_discs_apart(const System& system, const Vecs& q, std::vector<std::string>& notes) {
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  kinematics_at(system, 0, q, Vecs(q.size(), S::Vec::Zero()), m, r);
+  for (const JointData& joint : system.joints) {
+    const S::Vec z = system.pose(joint.at, m).z;
+    note_teeth_apart(joint, z, notes);
+    note_overlap(joint, z, notes);
+  }
+}
+
+}  // namespace pintle
