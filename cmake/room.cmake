@@ -42,8 +42,8 @@ function(pintle_precompile name quick)
   endif()
 endfunction()
 
-# With PINTLE_UNITY six sources of the target are compiled as one, so that what they share is read and instantiated once. Names in their
-# unnamed namespaces must differ for that. PINTLE_APART has what compiles long by itself, what is slower in company (sampled_curve), catalogs
+# With PINTLE_UNITY so many sources of the target as PINTLE_UNITY_SOURCES are compiled as one, so that what they share is read and instantiated
+# once. Names in their unnamed namespaces must differ for that. PINTLE_APART has what compiles long by itself, what is slower in company (sampled_curve), catalogs
 # and profiles that call the same things alike, classes that are instantiated in several sources or have members of unnamed namespaces, and
 # tests in space, whose short names are those of the tests in the plane.
 set(PINTLE_APART "(stage_solver_[a-z]*|end_point_projection|dense_forces|batch_[0-9]*|[a-z_]*catalog|tree_augmented|leaf_spring|system|radau_stepper|edge_profile|sampled_curve|sundials_code|limit_notes|blade_basis|(space|spatial)[a-z_]*_test)\\.cpp$")
@@ -51,7 +51,7 @@ function(pintle_unite target)
   if(NOT PINTLE_UNITY)
     return()
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${PINTLE_UNITY_SOURCES})
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources INCLUDE REGEX "${PINTLE_APART}")
   set_source_files_properties(${sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -19,7 +19,7 @@ bool on_same_sides(const BasicLaw<S>& law, const typename S::Vec& a, const typen
 
 namespace {
 
-constexpr int kSpringSteps = 20, kNewton = 40, kHalvings = 12, kDoublings = 80;  // passes over the components' own springs; Newton iterations for a gap, at most; halvings of one step, at most; doublings of the way out of a play, at most
+constexpr int kSpringSteps = 20, kGapNewton = 40, kHalvings = 12, kDoublings = 80;  // passes over the components' own springs; Newton iterations for a gap, at most; halvings of one step, at most; doublings of the way out of a play, at most
 constexpr double kCarried = 1e-6;                                                // of a force: what may be missing where no step leads nearer to it
 
 // Component by component.
@@ -117,7 +117,7 @@ bool settle_at(const BasicLaw<S>& law, const typename S::Vec& from, const typena
   constexpr double kRounding = 1e-9;  // of the gap: a step that is shorter is rounding
   const typename S::Vec engaged = law.engaged_stiffness();
   double last = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kNewton; ++i) {
+  for (int i = 0; i < kGapNewton; ++i) {
     const BasicResponse<S> now = respond(law, gap, rate);
     typename S::Vec missing = now.force - force;
     const typename S::Vec step = newton_step<S>(now, engaged, missing);
@@ -202,7 +202,7 @@ bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const ty
   if (follow_load(law, force, rate, gap)) return true;
   begin_where_it_resists(law, force, rate, gap);
   const typename S::Vec engaged = law.engaged_stiffness();
-  for (int i = 0; i < kNewton; ++i) {
+  for (int i = 0; i < kGapNewton; ++i) {
     const BasicResponse<S> now = respond(law, gap, rate);
     typename S::Vec missing = now.force - force;
     typename S::Vec step = newton_step<S>(now, engaged, missing);

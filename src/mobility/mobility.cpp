@@ -14,7 +14,7 @@ namespace {
 
 using S = Planar;
 
-constexpr int kDenseFreedoms = 450;      // singular values up to here, sparse factors beyond
+constexpr int kDenseFreedoms = 450;      // orthogonal factors up to here, sparse ones beyond
 constexpr int kNearbyFreedoms = 300;     // nearby positions are tried up to here
 constexpr int kSparseFreedoms = 200000;  // no rank beyond
 constexpr double kNearby = 0.05;         // how far off, of the arm's length [-]
@@ -67,7 +67,7 @@ class MobilityCount {
     CheckMobility& counts = out_.counts;
     counts.method = "sparse factors";
     counts.remark =
-        fmt::format("more than {} degrees of freedom: no singular values, nearby positions not examined", kDenseFreedoms);
+        fmt::format("more than {} degrees of freedom: no orthogonal factors, nearby positions not examined", kDenseFreedoms);
     const SparseRank rank = sparse_rank(joints_, system_, length_, counts.rank_tolerance);
     counts.rank = counts.mobility_driven = rank.rank;
     if (rank.rank < 0) {
@@ -83,7 +83,7 @@ class MobilityCount {
 
   void dense() {
     CheckMobility& counts = out_.counts;
-    counts.method = "singular values";
+    counts.method = "pivoted QR";
     const DenseRank here(joints_, system_, length_, counts.rank_tolerance);
     counts.rank = here.rank();
     counts.smallest_kept = here.smallest_kept();

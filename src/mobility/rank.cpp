@@ -1,7 +1,6 @@
 #include "mobility/rank.h"
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -51,21 +50,19 @@ DenseRank::DenseRank(const std::vector<ConstraintRow>& rows, const System& syste
     for_each_entry(rows[i], system, length, [&](int column, double value) { G(i, column) += value; });
     gaps_[i] = rows[i].gap / scaled_norm(rows[i], system.joints[rows[i].joint].at, length);
   }
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(G, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  values_ = svd.singularValues();
-  while (rank_ < values_.size() && values_[rank_] > tolerance * values_[0]) ++rank_;
-  left_ = svd.matrixU().leftCols(rank_);
-  right_ = svd.matrixV().leftCols(rank_);
-  jacobian_ = std::move(G);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> by_rows(G.transpose());  // G' P = Q R: the most independent rows come first
+  pivots_ = by_rows.matrixQR().diagonal().cwiseAbs();
+  while (rank_ < pivots_.size() && pivots_[rank_] > tolerance * pivots_[0]) ++rank_;
+  order_ = by_rows.colsPermutation().indices();
+  right_ = by_rows.householderQ() * Eigen::MatrixXd::Identity(n_columns, rank_);
+  Eigen::MatrixXd R = by_rows.matrixQR().topRows(rank_).triangularView<Eigen::Upper>();
+  R = R * by_rows.colsPermutation().transpose();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> across(R.transpose());  // G = left triangle right'
+  left_ = across.householderQ() * Eigen::MatrixXd::Identity(n_rows_, rank_);
+  triangle_ = across.matrixQR().topRows(rank_);
 }
 
-std::vector<int> DenseRank::independent_rows() const {
-  std::vector<int> rows;
-  if (rank_ == 0) return rows;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(jacobian_.transpose());
-  for (int i = 0; i < rank_; ++i) rows.push_back(static_cast<int>(factors.colsPermutation().indices()[i]));
-  return rows;
-}
+std::vector<int> DenseRank::independent_rows() const { return {order_.data(), order_.data() + rank_}; }
 
 Eigen::MatrixXd DenseRank::dependencies() const {
   return Eigen::MatrixXd::Identity(n_rows_, n_rows_) - left_ * left_.transpose();
@@ -76,7 +73,7 @@ Eigen::VectorXd DenseRank::free_part(const Eigen::VectorXd& motion) const {
 }
 
 Eigen::VectorXd DenseRank::closing_motion() const {
-  return -right_ * (left_.transpose() * gaps_).cwiseQuotient(values_.head(rank_));
+  return -right_ * triangle_.triangularView<Eigen::Upper>().solve(left_.transpose() * gaps_);
 }
 
 SparseRank sparse_rank(const std::vector<ConstraintRow>& rows, const System& system, double length, double tolerance) {

@@ -1,7 +1,7 @@
 // The rank of the constraint Jacobian, what its rows say twice, and which way the mechanism can still go.
 //
 // Columns are scaled so that an angle counts as the path of a typical arm (angle times `length`), rows to unit norm. A
-// singular value below `tolerance` times the largest counts as zero.
+// pivot below `tolerance` times the largest counts as zero.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,14 +11,15 @@
 
 namespace pintle {
 
-/// By singular values: exact about shares and directions, cubic in the size.
+/// By orthogonal factors, G = left triangle right' with the pivots of a QR decomposition whose columns are pivoted: exact about shares and directions,
+/// cubic in the size. Pivots are next to the singular values.
 class DenseRank {
  public:
   DenseRank(const std::vector<ConstraintRow>& rows, const System& system, double length, double tolerance);
 
   int rank() const { return rank_; }
-  double smallest_kept() const { return rank_ > 0 ? values_[rank_ - 1] / values_[0] : 0; }
-  double largest_dropped() const { return rank_ < values_.size() && values_[0] > 0 ? values_[rank_] / values_[0] : 0; }
+  double smallest_kept() const { return rank_ > 0 ? pivots_[rank_ - 1] / pivots_[0] : 0; }
+  double largest_dropped() const { return rank_ < pivots_.size() && pivots_[0] > 0 ? pivots_[rank_] / pivots_[0] : 0; }
   /// Projector onto the rows' dependencies (left null space); its diagonal adds up to the number of redundant rows.
   Eigen::MatrixXd dependencies() const;
   /// As many independent rows as the rank, the most independent ones first.
@@ -29,9 +30,9 @@ class DenseRank {
   Eigen::VectorXd closing_motion() const;
 
  private:
-  Eigen::MatrixXd jacobian_;      // scaled
-  Eigen::MatrixXd left_, right_;  // singular vectors that count
-  Eigen::VectorXd values_, gaps_;
+  Eigen::MatrixXd left_, triangle_, right_;  // of the part that counts
+  Eigen::VectorXd pivots_, gaps_;
+  Eigen::VectorXi order_;                    // of the rows, the most independent ones first
   int n_rows_ = 0, rank_ = 0;
 };
 

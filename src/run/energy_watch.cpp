@@ -14,7 +14,7 @@ namespace {
 constexpr int kJudgedEvery = 8;           // steps between two looks at the account
 constexpr double kExplained = 30;         // times tolerance and turnover: what errors of the forces explain. Eq. (8.2)
 constexpr double kPerExchange = 0.01;     // part of the energy that goes to and fro: errors add up in long runs
-constexpr double kLeastTolerance = 1e-7;  // below it rounding makes the account, and it is judged by this
+constexpr double kLeastJudged = 1e-7;  // below it rounding makes the account, and it is judged by this
 constexpr double kRounding = 1e-11;       // of the largest entry: what rounding may leave open
 constexpr double kGiven = 0.01;           // of the turnover: heat below zero that nothing explains
 constexpr int kRunaway = 10;              // powers of ten above what can be stored. Eq. (8.4)
@@ -36,7 +36,7 @@ double size_of(const BasicSystem<S>& system) {
 
 template <class S>
 BasicEnergyWatch<S>::BasicEnergyWatch(const BasicSystem<S>& system, double duration, double tolerance, bool exact_work)
-    : system_(system), duration_(duration), tolerance_(std::max(tolerance, kLeastTolerance)), exact_work_(exact_work) {
+    : system_(system), duration_(duration), tolerance_(std::max(tolerance, kLeastJudged)), exact_work_(exact_work) {
   for (const BasicJointData<S>& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : joint.driven >= 0 ? "the length of joint" : joint.law.feeds() ? "the pressure in joint" : joint.law.depends_on_reaction_alone() ? "the teeth of joint" : "negative damping of joint", &joint.name});
   for (int j = 0; j < system.n_joints(); ++j)
     if (has_lost_a_turn(system.joints[j].displacement, -1, std::numeric_limits<double>::infinity())) belts_.push_back({j, 0});

@@ -188,7 +188,7 @@ class Passes {
     const DifferenceCurve forces = force_difference_curve(system_, coarse, fine);
     const ErrorGrowth of_forces = fit_growth(forces);
     of_places_ = false;
-    if (of_forces.exponential) return of_forces;
+    if (of_forces.exponential || !of_forces.saturated) return of_forces;
     ErrorGrowth of_places = fit_growth_to_largest(places);
     of_places_ = of_places.exponential && of_places.saturated;
     if (!of_places_) return of_forces;

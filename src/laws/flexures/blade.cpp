@@ -16,7 +16,7 @@ using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kUnknown
 using Field = Eigen::Array<double, Eigen::Dynamic, 1, 0, kPoints, 1>;  // one number per point of the quadrature
 using Vec3 = Eigen::Vector3d;
 
-constexpr int kNewton = 30;                    // most iterations for the shape of a blade
+constexpr int kBladeNewton = 30;                    // most iterations for the shape of a blade
 constexpr double kSettled = 1e-10;             // relative step after which the error is its square
 constexpr double kRounding = 1e-6;             // relative step below which one that does not shrink is rounding
 constexpr double kTail = 1e-8;                 // share of the last coefficients; energy and forces are wrong by its square
@@ -119,7 +119,7 @@ bool Blade::is_stable(const Work& work) const { return work.turns.minCoeff() > -
 // Newton's method at one level.
 bool Blade::refine(const Vec3& displacement, BladeShape& shape, Work& work) const {
   double last = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < kNewton; ++iteration) {
+  for (int iteration = 0; iteration < kBladeNewton; ++iteration) {
     assemble(shape, displacement, work);
     work.lu.compute(work.H);
     Column step = work.lu.solve(-work.residual);

@@ -66,7 +66,7 @@ std::string mobility_section(const CheckMobility& m, const Look& look) {
         look.warn, look.plain, m.rank, m.rank_nearby, m.freedoms - m.rank);
   if (m.smallest_kept > 0 && m.smallest_kept < 1e-4)
     text +=
-        fmt::format("  close to one more degree of freedom: the smallest singular value counted is {:.1e} of the largest\n",
+        fmt::format("  close to one more degree of freedom: the smallest pivot counted is {:.1e} of the largest\n",
                     m.smallest_kept);
   if (!m.remark.empty()) text += fmt::format("  {}\n", m.remark);
   return text;

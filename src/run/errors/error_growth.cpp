@@ -134,7 +134,12 @@ ErrorGrowth fit_growth_to(double most, double sure, const DifferenceCurve& curve
 
 ErrorGrowth fit_growth(const DifferenceCurve& curve) { return fit_growth_to(kSaturated, kSure, curve); }
 
-ErrorGrowth fit_growth_to_largest(const DifferenceCurve& curve) { return fit_growth_to(kOfLargest * largest_of(curve.e), kSureOfPlaces, curve); }
+ErrorGrowth fit_growth_to_largest(const DifferenceCurve& curve) {
+  ErrorGrowth growth = fit_growth_to(kOfLargest * largest_of(curve.e), kSureOfPlaces, curve);
+  // Any curve has a largest value; one that goes on growing would have passed it by far.
+  growth.saturated = growth.saturated && growth.rate * (curve.t.back() - growth.until) > 2 * std::log(1 / kOfLargest);
+  return growth;
+}
 
 bool same_growth(const ErrorGrowth& first, const ErrorGrowth& second) {
   return first.exponential && second.exponential && second.until > first.until &&

@@ -78,6 +78,8 @@ TEST(ErrorGrowth, PlacesThatClearancesKeepTogetherSaturateAtTheirLargestDifferen
   EXPECT_TRUE(growth.exponential);
   EXPECT_NEAR(growth.rate, 2, 0.02);
   EXPECT_NEAR(growth.until, 0.5 * std::log(1e-4 / 1e-9), 0.5);
+  EXPECT_TRUE(growth.saturated);
+  EXPECT_FALSE(fit_growth_to_largest(curve_of([](double t) { return 1e-12 * std::exp(2 * t); })).saturated);  // still growing at the end
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using S = Planar;
 
 constexpr double kYielding = 1e-4;                                                         // of the stiffest joint: what is softer is not asked to stay closed
 constexpr double kHeld = 1e-9;                                                             // weight of the bodies' places beside that of the gaps: squares of smaller singular values are zero
-constexpr double kMisfits = 30, kLoosest = 1e-2;                                           // singular values that count as zero, over the misfit of the joints; the same, at most
+constexpr double kMisfits = 30, kLoosestRank = 1e-2;                                           // singular values that count as zero, over the misfit of the joints; the same, at most
 constexpr double kStride = 0.02;                                                           // of the typical arm: a stride along the motion
 constexpr double kNoticed = 1e-6;                                                          // of a radian, or of the arm: a drive that asks for less beyond a limit is at it
 constexpr double kNothing = 1e-7;                                                          // what a projection leaves of a direction, below which it is rounding
@@ -48,7 +48,7 @@ class RigidMotion {
       const S::Vec gap = wanted_[j] - gap_to_close(system_.joints[j], r_[j]);
       misfit = std::max(misfit, std::sqrt(gap.dot(weight_[j].cwiseProduct(gap))));
     }
-    const double tolerance = std::min(kMisfits * misfit / length_, kLoosest);
+    const double tolerance = std::min(kMisfits * misfit / length_, kLoosestRank);
     hold(std::max(kHeld, tolerance * tolerance));
   }
 
