@@ -89,6 +89,17 @@ TEST(PenaltyRuns, PendulumHasTheReactionsOfTheClosedForm) {
 }
 
 // The parallelogram's bars carry their coupler together; how they share it the constraints do not say.
+// By how much constraints are violated is told of penalties, which alone violate them.
+TEST(PenaltyRuns, TellHowFarConstraintsAreViolated) {
+  const auto notes = [](const char* equations, const char* method) {
+    std::string all;
+    for (const std::string& note : simulate(reference::mechanism("four_bar", by({equations, method}, {"simulate.duration=0.05", "simulate.tolerance=1e-2"}))).notes) all += note + '\n';
+    return all;
+  };
+  EXPECT_NE(notes("penalty", "dopri5").find("penalties: the constraints of ideal joints are violated by at most"), std::string::npos) << notes("penalty", "dopri5");
+  EXPECT_EQ(notes("ideal", "dopri5").find("violated"), std::string::npos);
+}
+
 TEST(PenaltyRuns, RedundantJointsHaveFiniteForces) {
   const auto run_of = [](std::vector<std::string> settings) {
     settings.insert(settings.end(), {"simulate.duration=0.1", "parameters.error=0"});

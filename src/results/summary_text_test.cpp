@@ -83,6 +83,23 @@ TEST(SummaryText, ListsTheJointsThatTurnWorkIntoHeat) {
   EXPECT_EQ(summary_text(trajectory, {}).find("Heat in joints"), std::string::npos);
 }
 
+// Of a joint that has stops and play: each kind of event has its own approach speed, and heat is that of its own events.
+TEST(SummaryText, ListsEventsWithTheirFastestApproachAndMostHeat) {
+  Trajectory run = sample::trajectory();
+  run.events = {{"O2",
+                 {{"penetration", "m", ""}, {"approach_speed", "m/s", ""}, {"stop_approach_speed", "rad/s", ""}, {"heat", "J", ""}},
+                 {{0.125, "touch", {7e-5, 0.25, 3, 0}}, {0.25, "let-go", {7e-5, 0, 3, 0.0625}}, {0.375, "touch", {7e-5, 0.5, 3, 0}}, {0.5, "touches upper stop", {7e-5, 8, 2.75, 0.03125}}, {0.625, "let-go", {7e-5, 0, 3, 0.75}}}}};
+  const std::string text = summary_text(run, {});
+  const auto line_of = [&text](const std::string& kind) {
+    const std::size_t at = text.find("  O2      " + kind);
+    return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
+  };
+  const std::string touch = line_of("touch "), let_go = line_of("let-go"), stop = line_of("touches upper stop");
+  for (const char* expected : {" 2 ", "0.125", "0.375", "0.5", "m/s"}) EXPECT_NE(touch.find(expected), std::string::npos) << expected << "\n" << text;
+  for (const char* expected : {" 2 ", "0.25", "0.625", "0.75"}) EXPECT_NE(let_go.find(expected), std::string::npos) << expected << "\n" << text;
+  for (const char* expected : {" 1 ", "2.75", "rad/s", "0.03125"}) EXPECT_NE(stop.find(expected), std::string::npos) << expected << "\n" << text;
+}
+
 TEST(SummaryText, EmptyTrajectoryIsNoAccident) {
   EXPECT_NE(summary_text({}, {}).find("completed"), std::string::npos);
 }

@@ -183,13 +183,12 @@ class Passes {
   // In impacts forces differ by all there is as soon as these are apart by their own length, and between them by little: there it is the places whose
   // differences grow steadily, and the line is shifted to where forces have reached the tolerance. theory/time section 6.1.
   ErrorGrowth growth_of(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
-    const DifferenceCurve places = motion_difference_curve(system_, coarse, fine);
-    if (out_.of_motion) return fit_growth(places);
+    if (out_.of_motion) return fit_growth(motion_difference_curve(system_, coarse, fine));
     const DifferenceCurve forces = force_difference_curve(system_, coarse, fine);
     const ErrorGrowth of_forces = fit_growth(forces);
     of_places_ = false;
     if (of_forces.exponential || !of_forces.saturated) return of_forces;
-    ErrorGrowth of_places = fit_growth_to_largest(places);
+    ErrorGrowth of_places = fit_growth_to_largest(motion_difference_curve(system_, coarse, fine));
     of_places_ = of_places.exponential && of_places.saturated;
     if (!of_places_) return of_forces;
     of_places.level = settings_.tolerance * std::exp(of_places.rate * (of_places.until - curve_horizon(forces, settings_.tolerance)));

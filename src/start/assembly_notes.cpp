@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "dynamics/inverse_dynamics.h"
@@ -19,15 +20,22 @@ constexpr double kFarMoved = 1;                      // of the size of what is s
 constexpr double kOtherVelocity = 0.02;              // of the larger of stated and assembled velocity: rounded figures are nearer
 constexpr double kTeethApart = 0.02;                 // of the smaller pitch radius: modified teeth may be cut for as much
 
-// From the body's centre to its markers and from the mechanism's middle to the stated centres, the largest [m].
-double stated_size(const Model& model, const Vecs& guess, const Body& body) {
-  double size = 0;
-  for (const Marker& marker : body.markers) size = std::max(size, std::hypot(marker.position[0], marker.position[1]));
-  for (std::size_t i = 0; i < guess.size(); ++i)
-    if (model.bodies[i].position)
-      for (std::size_t k = 0; k < i; ++k)
-        if (model.bodies[k].position) size = std::max(size, (guess[i] - guess[k]).head<2>().norm());
-  return size;
+// The diagonal of the box around all stated centres [m].
+double extent_of_centres(const Model& model, const Vecs& guess) {
+  Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (std::size_t i = 0; i < guess.size(); ++i) {
+    if (!model.bodies[i].position) continue;
+    low = low.min(guess[i].head<2>().array());
+    high = high.max(guess[i].head<2>().array());
+  }
+  return low[0] <= high[0] ? (high - low).matrix().norm() : 0;
+}
+
+// From the body's centre to its furthest marker [m].
+double reach(const Body& body) {
+  double most = 0;
+  for (const Marker& marker : body.markers) most = std::max(most, std::hypot(marker.position[0], marker.position[1]));
+  return most;
 }
 
 void note_teeth_apart(const JointData& joint, const S::Vec& z, std::vector<std::string>& notes) {
@@ -55,13 +63,14 @@ void note_overlap(const JointData& joint, const S::Vec& z, std::vector<std::stri
 }  // namespace
 
 void note_moved_bodies(const Model& model, const Vecs& guess, const Vecs& q, std::vector<std::string>& notes) {
+  const double extent = extent_of_centres(model, guess);
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const Body& body = model.bodies[i];
     const double turned = std::remainder(q[i][2] - guess[i][2], 2 * std::numbers::pi);
     if (body.angle && std::abs(turned) > kFarTurned)
       notes.push_back(fmt::format("body {}: assembly turned it by {:.3g} deg from its stated angle; if that was not meant, look at the angles of its markers", body.name, turned * 180 / std::numbers::pi));
     const double moved = (q[i] - guess[i]).head<2>().norm();
-    const double size = stated_size(model, guess, body);
+    const double size = std::max(extent, reach(body));
     if (body.position && size > 0 && moved > kFarMoved * size)
       notes.push_back(fmt::format("body {}: assembly moved it by {:.3g} m from its stated position, further than the stated positions are apart; if that was not meant, look at its markers and those that it is joined to: is a unit missing?", body.name, moved));
   }
