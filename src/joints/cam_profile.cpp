@@ -32,7 +32,7 @@ CurvePoint CamProfile::pitch(double angle) const {
 // What is no further from c than `way` is seen from the axis within this angle of it.
 double CamProfile::foot(const Planar::Point& c) const {
   const auto sight = [&c](double way) { return way < c.norm() ? std::asin(way / c.norm()) : kTurn / 2; };
-  return nearest_of_all([this](double angle) { return pitch(angle); }, c, std::atan2(c[1], c[0]), hollow_, sight);
+  return nearest_parameter([this](double angle) { return pitch(angle); }, c, std::atan2(c[1], c[0]), hollow_, sight);
 }
 
 std::array<GapFunction, 2> CamGap::gap_and_slip(const Planar::Vec& z) const {

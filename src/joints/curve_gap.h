@@ -28,7 +28,7 @@ std::array<GapFunction, 2> gap_and_slip_over(const CurvePoint& nearest, const Pl
 
 /// Newton's method for (c - P) P' = 0, Eq. (2.1), from a parameter near the nearest point; none where it does not lead to one.
 template <class Curve>
-std::optional<double> nearest_point(const Curve& curve, const Planar::Point& c, double parameter) {
+std::optional<double> nearest_by_newton(const Curve& curve, const Planar::Point& c, double parameter) {
   constexpr int kMost = 20, kMany = 8;
   for (int i = 0; i < kMost; ++i) {
     const CurvePoint at = curve(parameter);
@@ -43,7 +43,7 @@ std::optional<double> nearest_point(const Curve& curve, const Planar::Point& c, 
 
 /// The same from the nearest of many points between two parameters, by halves between its neighbours.
 template <class Curve>
-double nearest_of_many(const Curve& curve, const Planar::Point& c, double low, double high) {
+double nearest_by_sampling(const Curve& curve, const Planar::Point& c, double low, double high) {
   constexpr int kPoints = 360, kHalves = 60;
   const double apart = (high - low) / kPoints;
   int best = 0;
@@ -69,15 +69,15 @@ double least_hollow_radius(const Curve& curve, double low, double high) {
 }
 
 /// The parameter of the point that is nearest to c, Eq. (2.1): by Newton's method from that of the point `below` c, and where another point may be
-/// nearer, or Newton's method fails, from the nearest of many. `hollow` is the least_hollow_radius; reach(way) is how far from `below` a point may be
-/// whose distance from c is no more than `way`.
-template <class Curve, class Reach>
-double nearest_of_all(const Curve& curve, const Planar::Point& c, double below, double hollow, const Reach& reach) {
+/// nearer, or Newton's method fails, from the nearest of many. `hollow` is the least_hollow_radius; half_range(distance) is how far from `below` a point's
+/// parameter may be if it is no further from c than that.
+template <class Curve, class HalfRange>
+double nearest_parameter(const Curve& curve, const Planar::Point& c, double below, double hollow, const HalfRange& half_range) {
   constexpr double kSurely = 0.9;  // of the least hollow radius, which is that at some points only
-  const std::optional<double> found = nearest_point(curve, c, below);
-  const double way = (c - curve(found.value_or(below)).p).norm();
-  if (found && way < kSurely * hollow) return *found;
-  return nearest_of_many(curve, c, below - reach(way), below + reach(way));
+  const std::optional<double> found = nearest_by_newton(curve, c, below);
+  const double distance = (c - curve(found ? *found : below).p).norm();
+  if (found && distance < kSurely * hollow) return *found;
+  return nearest_by_sampling(curve, c, below - half_range(distance), below + half_range(distance));
 }
 
 /// Where the slope of a function of one variable jumps by more than `least` between two places, with the slopes on either side; none: nowhere.

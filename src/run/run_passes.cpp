@@ -31,7 +31,6 @@ constexpr double kNearRounding = 1e-8;     // tolerance below which stiff joints
 constexpr std::uint64_t kLong = 10000;     // after a pass of so many steps the next one goes there by a tenth at a time
 constexpr double kFinest = 1e-11;          // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
 constexpr double kOptimism = 2;            // standard errors by which a rate may be smaller before no tolerance is said to help
-constexpr double kPartOfRun = 0.02;        // that meets the tolerance, at least, for its end to be told
 constexpr int kMostOpen = 2;               // passes made finer because the energy account did not close
 
 template <class S>
@@ -182,15 +181,13 @@ class Passes {
 
   // In impacts forces differ by all there is as soon as these are apart by their own length, and between them by little: there it is the places whose
   // differences grow steadily, and the line is shifted to where forces have reached the tolerance. theory/time section 6.1.
-  ErrorGrowth growth_of(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) {
+  ErrorGrowth growth_of(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) const {
     if (out_.of_motion) return fit_growth(motion_difference_curve(system_, coarse, fine));
     const DifferenceCurve forces = force_difference_curve(system_, coarse, fine);
     const ErrorGrowth of_forces = fit_growth(forces);
-    of_places_ = false;
     if (of_forces.exponential || !of_forces.saturated) return of_forces;
     ErrorGrowth of_places = fit_growth_to_largest(motion_difference_curve(system_, coarse, fine));
-    of_places_ = of_places.exponential && of_places.saturated;
-    if (!of_places_) return of_forces;
+    if (!of_places.exponential || !of_places.saturated) return of_forces;
     of_places.level = settings_.tolerance * std::exp(of_places.rate * (of_places.until - curve_horizon(forces, settings_.tolerance)));
     return of_places;
   }
@@ -244,7 +241,7 @@ class Passes {
       const double hoped = tolerance_by_growth(growth_.rate - kOptimism * growth_.rate_error, 1);
       const bool hopeless = hoped < kLeastTolerance || tolerance < kFinest;
       if (same && hopeless) return false;
-      if (of_places_) return at(finer_by_error(tolerance));
+      if (growth_.to_largest) return at(finer_by_error(tolerance));
       const double next = std::min(kRepeated * tolerance, hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kErrorPower)));
       if (next < kTight) choice_.stages = 5;
       return at(next);
@@ -328,12 +325,12 @@ class Passes {
     }
   }
 
-  // Up to when a run would have met the tolerance, where that is any part of it.
+  // Up to when a run would have met the tolerance.
   std::string until_missed() const {
     if (out_.of_motion || !coarse_) return "";
     const std::vector<double> horizons = force_horizons(system_, coarse_->forces(), fine_->forces(), share_, settings_.tolerance);
     const double horizon = *std::min_element(horizons.begin(), horizons.end());
-    return horizon > kPartOfRun * last_.t && horizon < last_.t ? fmt::format("; up to t = {:.4g} s all are within it", horizon) : "";
+    return horizon > 0 && horizon < last_.t ? fmt::format("; up to t = {:.4g} s all are within it", horizon) : "";
   }
 
   // How it ended; a pass that broke off leaves the results of the one before it.
@@ -377,7 +374,6 @@ class Passes {
   bool alike_ = false;             // their steps
   int stages_before_ = 0;          // of the coarser one
   ErrorGrowth growth_, last_growth_;  // and of the pair before
-  bool of_places_ = false;         // growth_, as that of forces is not exponential
   ErrorGrowth chaos_;              // where two pairs have shown the same exponential growth
   bool doubted_ = false;           // a pass has been made because two were alike
   double longest_ = 0;             // step of passes from now on, because tolerances have not shortened them [s]

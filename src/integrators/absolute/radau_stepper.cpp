@@ -82,12 +82,12 @@ void BasicRadauStepper<S>::raise_above_rounding() {
   for (const typename S::Vec& load : scale_.body) largest = std::max(largest, load[0]);
   const double rounding = kLastBits * largest_stiffness(system_) * far;
   if (largest <= rounding)
-    for (std::size_t i = 0; i < scale_.body.size(); ++i) raise_scale_above(static_cast<int>(i), S::Vec::Unit(0) * rounding);
+    for (std::size_t i = 0; i < scale_.body.size(); ++i) raise_load_scale_above_rounding(static_cast<int>(i), S::Vec::Unit(0) * rounding);
   raise_above_rounding_of_servos();
   if (!system_.has_loads()) return;
   VecsOf<S> of_springs(system_.bodies.size(), S::Vec::Zero());
   system_.external_tangents(end_.t, end_m_, [&](int i, int, const typename S::Mat& dq, const typename S::Mat&) { of_springs[static_cast<std::size_t>(i)] += kLastBits * far * dq.cwiseAbs().rowwise().sum(); }, end_.sliding);
-  for (std::size_t i = 0; i < of_springs.size(); ++i) raise_scale_above(static_cast<int>(i), of_springs[i]);
+  for (std::size_t i = 0; i < of_springs.size(); ++i) raise_load_scale_above_rounding(static_cast<int>(i), of_springs[i]);
 }
 
 // Of a coordinate that grows as the motor turns.
@@ -101,12 +101,12 @@ void BasicRadauStepper<S>::raise_above_rounding_of_servos() {
     if (joint.servo < S::kDim) load.template head<S::kDim>().setConstant(rounding);
     else load.template tail<S::kDof - S::kDim>().setConstant(rounding);
     for (const int body : {joint.at.a, joint.at.b})
-      if (body != kGround) raise_scale_above(body, load);
+      if (body != kGround) raise_load_scale_above_rounding(body, load);
   }
 }
 
 template <class S>
-void BasicRadauStepper<S>::raise_scale_above(int body, const typename S::Vec& rounding) {
+void BasicRadauStepper<S>::raise_load_scale_above_rounding(int body, const typename S::Vec& rounding) {
   raise_scale(system_.bodies[body], typename S::Vec(rounding / tolerance_), scale_.body[body]);
 }
 

@@ -65,7 +65,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   void foresee_loads(double h);
   void raise_above_rounding();
   void raise_above_rounding_of_servos();
-  void raise_scale_above(int body, const typename S::Vec& rounding);
+  void raise_load_scale_above_rounding(int body, const typename S::Vec& rounding);
 
   // error_estimate.cpp: the error of a step and its end
   bool error_estimate(double h, double& error);

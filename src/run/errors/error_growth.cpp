@@ -8,14 +8,14 @@ namespace pintle {
 namespace {
 
 constexpr double kSaturated = 0.03;                // of the peak: differences above it no longer grow as small ones do
-constexpr double kOfLargest = 0.1;                 // of the largest difference: the same where it is that one that tells what they can become
+constexpr double kOfLargest = 0.1;                 // of the largest difference: the same where it is that one that tells what they can become. Halved or doubled, tests/models/two_bouncing_pins.toml misses its tolerance at 1e-3 without a horizon
 constexpr double kFitted = 1e-6;                   // of that: the smallest difference that is fitted
 constexpr int kMostBlocks = 32, kLeastBlocks = 8;  // of rows, whose largest difference is fitted; with fewer nothing is fitted
 constexpr double kLeastGain = 4.6;                 // of the logarithm over the fit: a factor of a hundred
 constexpr double kLeastBend = -0.28;               // second over first Legendre coefficient: 0 of an exponential, -0.56 of any power of time
 constexpr double kMostPower = 4;                   // of time: errors of phases grow with its first or second, forces' with little more
 constexpr double kSure = 5;                        // standard errors that a rate is above zero
-constexpr double kSureOfPlaces = 3;                // the same of places, which errors climb in stairs where pins graze their bush
+constexpr double kSureOfPlaces = 3;                // the same of places, which errors climb in stairs where pins graze their bush. Doubled, that model has a horizon at no tolerance; halved, nothing changes
 constexpr double kSurePair = 3;                    // standard errors that two rates may be apart
 constexpr double kSameRate = 0.3;                  // of the rate, that two rates may be apart besides
 
@@ -136,6 +136,7 @@ ErrorGrowth fit_growth(const DifferenceCurve& curve) { return fit_growth_to(kSat
 
 ErrorGrowth fit_growth_to_largest(const DifferenceCurve& curve) {
   ErrorGrowth growth = fit_growth_to(kOfLargest * largest_of(curve.e), kSureOfPlaces, curve);
+  growth.to_largest = true;
   // Any curve has a largest value; one that goes on growing would have passed it by far.
   growth.saturated = growth.saturated && growth.rate * (curve.t.back() - growth.until) > 2 * std::log(1 / kOfLargest);
   return growth;

@@ -13,6 +13,7 @@ struct ErrorGrowth {
   double rate_error = 0;     ///< its standard error [1/s]
   double until = 0;          ///< end of the fitted part [s]
   double level = 0;          ///< of the fitted line there [-]
+  bool to_largest = false;   ///< fitted to the largest difference: it tells whether motion is chaotic, and no tolerance
 
   /// What the difference would be at time t [s] if it went on growing at `with_rate` [1/s].
   double extrapolated(double t, double with_rate) const;
