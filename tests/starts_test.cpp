@@ -119,6 +119,13 @@ TEST(Starts, AVelocityThatIsReplacedIsNoted) {
   EXPECT_NE(notes_of(model).find("not with the stated (0, 3) m/s"), std::string::npos);
 }
 
+// A beam that hangs free in its bush at the start falls onto it, and the largest force of the run may be that of this impact.
+TEST(Starts, PinsThatStartInTheMiddleOfTheirPlayAreNoted) {
+  const std::string notes = notes_of(reference::test_model("pump_jack_with_loose_saddle"));
+  EXPECT_NE(notes.find("Pins start in the middle of their play (saddle) and strike their bushes first"), std::string::npos) << notes;
+  EXPECT_EQ(notes_of(reference::mechanism("four_bar")).find("Pins start in the middle"), std::string::npos);
+}
+
 TEST(Starts, PulleysThatOverlapAreNoted) {
   EXPECT_EQ(notes_of(reference::mechanism("belt_drive")).find("overlap"), std::string::npos);
   EXPECT_NE(notes_of(reference::mechanism("belt_drive", {"parameters.apart=\"150 mm\""})).find("joint upper: its discs overlap by 0.05 m"), std::string::npos);

@@ -127,7 +127,7 @@ std::string loop_that_lacks(const Model& model, const System& system, const Vecs
 // What keeps the search from closing the joints other than lengths: coordinates that are held, motors that ask for another position, pins that it puts
 // in the middle of their play.
 std::string what_to_try(Model model, const System& system, const Vecs& q, const std::vector<bool>& open, bool only_motors) {
-  std::string held, loose;
+  std::string held;
   for (Body& body : model.bodies)
     for (int k = 0; k < S::kDof; ++k)
       if (std::exchange(body.hold[k], false)) held += (held.empty() ? "" : ", ") + body.name + "." + std::array{"x", "y", "angle"}[k];
@@ -137,9 +137,7 @@ std::string what_to_try(Model model, const System& system, const Vecs& q, const 
     if (all_closed(misfits(system, trial), open, mechanism_size(system, q)))
       return "Without what is held (" + held + ") everything closes: try " + (only_motors ? "a motor that starts where its joint is held, or without hold." : "fewer of these in hold.");
   }
-  for (const JointData& joint : system.joints)
-    if (!joint.law.ideal_limit() && joint.law.engaged_stiffness().head<2>().minCoeff() > 0 && is_in_play<S>(joint.law, S::Vec::Zero(), S::Vec::Zero())) loose += (loose.empty() ? "" : ", ") + joint.name;
-  if (!loose.empty()) return "Assembly puts pins in the middle of their play (" + loose + "): if the stated positions are meant within it, try start = \"raw\", which takes them as they are.";
+  if (const std::string loose = joints_in_play(system); !loose.empty()) return "Assembly puts pins in the middle of their play (" + loose + "): if the stated positions are meant within it, try start = \"raw\", which takes them as they are.";
   return "Try lengths that close the loop, or angles nearer to the intended position.";
 }
 
@@ -231,9 +229,8 @@ Assembly put_bodies(const Model& model, System system) {
   for (std::size_t i = 0; i < guess.size(); ++i)
     if (model.bodies[i].position) out.largest_move = std::max(out.largest_move, (state.q[i] - guess[i]).head<2>().norm());
   state.v = stated_velocities(model);
-  const Vecs stated = state.v;
   if (model.simulate.start != Start::kRaw) assemble_velocities(model, out.system, state.q, state.v);
-  note_changed_velocities(model, stated, state.v, out.notes);
+  note_changed_velocities(model, state.v, out.notes);
   return out;
 }
 
