@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/constants.h"
 #include "pintle/simulate.h"
 #include "tests/reference_tables.h"
 
@@ -122,8 +123,8 @@ TEST(Starts, AVelocityThatIsReplacedIsNoted) {
 // A beam that hangs free in its bush at the start falls onto it, and the largest force of the run may be that of this impact.
 TEST(Starts, PinsThatStartInTheMiddleOfTheirPlayAreNoted) {
   const std::string notes = notes_of(reference::test_model("pump_jack_with_loose_saddle"));
-  EXPECT_NE(notes.find("Pins start in the middle of their play (saddle) and strike their bushes first"), std::string::npos) << notes;
-  EXPECT_EQ(notes_of(reference::mechanism("four_bar")).find("Pins start in the middle"), std::string::npos);
+  EXPECT_NE(notes.find("joints start in the middle of their play (saddle) and strike its sides first"), std::string::npos) << notes;
+  EXPECT_EQ(notes_of(reference::mechanism("four_bar")).find("start in the middle"), std::string::npos);
 }
 
 TEST(Starts, PulleysThatOverlapAreNoted) {

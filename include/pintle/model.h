@@ -155,9 +155,10 @@ struct Motor {
   double damping = 1e3;    ///< servo [N*m*s/rad] or [N*s/m]
 };
 
-/// What a run starts from. kAssembled: positions, velocities and preloads that fit. kSettled: those at which the assembled mechanism is at rest under the
+/// What a run starts from. kAssembled: positions, velocities and preloads that fit. kSeated: the same, with joints that have play on the side to which
+/// their load presses them, not in the middle. kSettled: those at which the assembled mechanism is at rest under the
 /// loads of t = 0. kUnloaded: no preloads. kRaw: as stated.
-enum class Start { kAssembled, kSettled, kUnloaded, kRaw };
+enum class Start { kAssembled, kSeated, kSettled, kUnloaded, kRaw };
 
 /// The equations of motion. kNewtonian: every joint is a force law. kRelative: joints marked `ideal` are obeyed by
 /// relative coordinates over a spanning tree, every other joint is a force law. kIdeal: every joint with a linear law is a

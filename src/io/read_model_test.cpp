@@ -310,6 +310,16 @@ TEST(ReadModel, ALawIsChosenWithItsKeys) {
   EXPECT_EQ(back.notes.back(), "joint A: law linear instead of maxwell; with the joint's own stiffness, damping; without branch_ratio, branch_time, which it does not have");
 }
 
+// One key makes a worn pin ideal and worn again: those of the law that is not stated wait.
+TEST(ReadModel, KeysOfAnotherLawWaitWhereALawIsStated) {
+  const Model model = parse_model(kFullModel, "full.toml", {"joint.A.law=\"linear\"", "joint.A.clearance=\"0.1 mm\"", "joint.A.restitution=0.9"});
+  EXPECT_EQ(model.joints[1].law.values.count("clearance"), 0U);
+  EXPECT_EQ(model.notes.at(0), "joint A: clearance, restitution are keys of other laws than the stated, and without effect");
+  EXPECT_EQ(parse_model(kFullModel, "full.toml", {"joint.A.law=\"linear\"", "joint.A.clearance=\"0.1 mm\""}).notes.at(0), "joint A: clearance is a key of other laws than the stated, and without effect");
+  EXPECT_THROW(parse_model(kFullModel, "full.toml", {"joint.O2.clearance=\"0.1 mm\""}), InputError);
+  EXPECT_THROW(parse_model(kFullModel, "full.toml", {"joint.A.law=\"linear\"", "joint.A.notch_width=0.01"}), InputError);
+}
+
 // A word of a friction law chooses the friction; the law that holds the joint stays with its keys.
 TEST(ReadModel, FrictionIsChosenLikeALaw) {
   const Model model = parse_model(kFullModel, "full.toml", {"--law joint.A=lugre,pin_radius=12 mm"});

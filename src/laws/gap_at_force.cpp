@@ -83,24 +83,9 @@ void begin_where_it_resists(const BasicLaw<S>& law, const typename S::Vec& force
   if (law.starts_free()) return;
   const typename S::Vec engaged = law.engaged_stiffness();
   const BasicResponse<S> now = respond(law, gap, rate);
-  typename S::Vec out = S::Vec::Zero(), wanted = S::Vec::Zero();
   bool weak = overshoots(law, force, rate, now, engaged, gap);
-  for (int k = 0; k < S::kDof; ++k) {
-    if (!(engaged[k] > 0)) continue;
-    wanted[k] = force[k];
-    out[k] = -force[k] / engaged[k];
-    weak = weak || (force[k] != 0 && now.stiffness.row(k).isZero(0));
-  }
-  for (int i = 0; weak && i < kDoublings; ++i, out *= 2) {
-    typename S::Vec trial = gap;
-    for (int k = 0; k < S::kDof; ++k)
-      if (engaged[k] > 0) trial[k] = out[k];
-    const BasicResponse<S> there = respond(law, trial, rate);
-    if (!there.force.allFinite()) return;
-    if (there.force.dot(wanted) < wanted.squaredNorm()) continue;
-    gap = trial;
-    return;
-  }
+  for (int k = 0; k < S::kDof; ++k) weak = weak || (engaged[k] > 0 && force[k] != 0 && now.stiffness.row(k).isZero(0));
+  if (weak) go_out_against(law, force, rate, gap);
 }
 
 // A gap as the law's stiffness lets lengths and angles be compared.
@@ -192,6 +177,28 @@ bool follow_load(const BasicLaw<S>& law, const typename S::Vec& force, const typ
 
 }  // namespace
 
+template <class S>
+bool go_out_against(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
+  const typename S::Vec engaged = law.engaged_stiffness();
+  typename S::Vec out = S::Vec::Zero(), wanted = S::Vec::Zero();
+  for (int k = 0; k < S::kDof; ++k) {
+    if (!(engaged[k] > 0)) continue;
+    wanted[k] = force[k];
+    out[k] = -force[k] / engaged[k];
+  }
+  for (int i = 0; i < kDoublings; ++i, out *= 2) {
+    typename S::Vec trial = gap;
+    for (int k = 0; k < S::kDof; ++k)
+      if (engaged[k] > 0) trial[k] = out[k];
+    const BasicResponse<S> there = respond(law, trial, rate);
+    if (!there.force.allFinite()) return false;
+    if (there.force.dot(wanted) < wanted.squaredNorm()) continue;
+    gap = trial;
+    return true;
+  }
+  return false;
+}
+
 // Newton on the law's own tangent; nothing in free components.
 template <class S>
 bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
@@ -234,5 +241,8 @@ template bool on_same_sides(const BasicLaw<Planar>& law, const Planar::Vec& a, c
 PINTLE_IN_SPACE(template bool on_same_sides(const BasicLaw<Spatial>& law, const Spatial::Vec& a, const Spatial::Vec& b, const Spatial::Vec& rate);)
 template void newton_step_to_force(const BasicLaw<Planar>& law, const Planar::Vec& force, const Planar::Vec& rate, const Planar::Vec& moved, Planar::Vec& gap);
 PINTLE_IN_SPACE(template void newton_step_to_force(const BasicLaw<Spatial>& law, const Spatial::Vec& force, const Spatial::Vec& rate, const Spatial::Vec& moved, Spatial::Vec& gap);)
+
+template bool go_out_against(const BasicLaw<Planar>& law, const Planar::Vec& force, const Planar::Vec& rate, Planar::Vec& gap);
+PINTLE_IN_SPACE(template bool go_out_against(const BasicLaw<Spatial>& law, const Spatial::Vec& force, const Spatial::Vec& rate, Spatial::Vec& gap);)
 
 }  // namespace pintle

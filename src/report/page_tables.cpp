@@ -308,6 +308,7 @@ std::string assumption_list(const Model& model, const Trajectory& trajectory) {
   }
   switch (settings.start) {
     case Start::kAssembled: item("The start is assembled: positions, velocities and the preload of every joint are computed."); break;
+    case Start::kSeated: item("The start is assembled, and joints with play are seated where their load presses them: positions, velocities and the preload of every joint are computed."); break;
     case Start::kSettled: item("The start is settled: the mechanism is at rest, in equilibrium under the loads of t = 0."); break;
     case Start::kUnloaded: item("The start has no joint preload."); break;
     case Start::kRaw: item("The start is used as stated, without preload; the resulting shock is part of the result."); break;

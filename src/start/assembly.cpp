@@ -15,6 +15,7 @@
 #include "kinematics/position_search.h"
 #include "pintle/simulate.h"
 #include "start/assembly_notes.h"
+#include "start/seat.h"
 #include "start/start_forces.h"
 #include "system/build.h"
 
@@ -137,7 +138,7 @@ std::string what_to_try(Model model, const System& system, const Vecs& q, const 
     if (all_closed(misfits(system, trial), open, mechanism_size(system, q)))
       return "Without what is held (" + held + ") everything closes: try " + (only_motors ? "a motor that starts where its joint is held, or without hold." : "fewer of these in hold.");
   }
-  if (const std::string loose = joints_in_play(system); !loose.empty()) return "Assembly puts pins in the middle of their play (" + loose + "): if the stated positions are meant within it, try start = \"raw\", which takes them as they are.";
+  if (const std::string loose = names_of_joints_in_play(system); !loose.empty()) return "Assembly puts joints in the middle of their play (" + loose + "): if the stated positions are meant within it, try start = \"raw\", which takes them as they are.";
   return "Try lengths that close the loop, or angles nearer to the intended position.";
 }
 

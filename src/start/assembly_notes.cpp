@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "joints/belt.h"
+#include "kinematics/position_search.h"
 
 namespace pintle {
 namespace {

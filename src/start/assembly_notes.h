@@ -20,14 +20,4 @@ void note_changed_velocities(const Model& model, const Vecs& v, std::vector<std:
 /// Teeth that are away from each other, and pulleys that overlap, would still carry their load.
 void note_discs_apart(const System& system, const Vecs& q, std::vector<std::string>& notes);
 
-/// The joints whose pins stand free in the middle of their play, where assembly puts them; "" where there are none.
-template <class S>
-std::string joints_in_play(const BasicSystem<S>& system) {
-  std::string names;
-  for (const BasicJointData<S>& joint : system.joints)
-    if (!joint.law.ideal_limit() && joint.law.engaged_stiffness().template head<S::kDim>().minCoeff() > 0 && is_in_play<S>(joint.law, S::Vec::Zero(), S::Vec::Zero()))
-      names += (names.empty() ? "" : ", ") + joint.name;
-  return names;
-}
-
 }  // namespace pintle

@@ -8,7 +8,6 @@
 
 #include "dynamics/time_scales.h"
 #include "integrators/absolute/radau_stepper.h"
-#include "start/assembly_notes.h"
 #include "start/slow_manifold.h"
 #include "start/start_forces.h"
 
@@ -21,13 +20,7 @@ constexpr double kUnsettledGrowth = 1.1;              // growth of the largest f
 constexpr double kSmallCouple = 0.05;                 // of the largest force at the largest radius of gyration: couples below it are not asked whether they grow
 constexpr double kEntirely = 0.99;                    // of its slow motion: with this share a soft joint counts as going with the motion
 
-template <class S>
-std::string not_settled(const BasicSystem<S>& system) {
-  const std::string loose = joints_in_play(system);
-  return "no transient-free start was found (a force jumps at the start, or a long chain has modes slower than its motion): joint forces may ring from the start. All passes start alike, so the stated "
-         "errors do not include this" +
-         (loose.empty() ? "" : ". Pins start in the middle of their play (" + loose + ") and strike their bushes first: the largest forces may be those of the start");
-}
+constexpr const char* kNotSettled = "no transient-free start was found (a force jumps at the start, or a long chain has modes slower than its motion): joint forces may ring from the start. All passes start alike, so the stated errors do not include this";
 
 // Half a step that a rough integration takes. Rounded to a part of the duration, so that it does not change with every slight change of the
 // model: where a joint is as slow as the motion, what is called its slow motion depends on the span.
@@ -71,8 +64,8 @@ double settle_fast_joints(const BasicSystem<S>& system, const BasicTimeScales<S>
     BasicState<S> attempt = state;
     const double change = move_onto_slow_manifold(system, time_scales, span, attempt);
     if (is_runaway(system, attempt, given)) continue;
-    if (change < kSettled || (keep_best && is_near(system, attempt, given))) state = std::move(attempt);
-    if (change < kSettled) return span;
+    if (change < kSettledSweep || (keep_best && is_near(system, attempt, given))) state = std::move(attempt);
+    if (change < kSettledSweep) return span;
   }
   return 0;
 }
@@ -98,11 +91,11 @@ template <class S>
 void settle_soft_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, double span, BasicSettledStart<S>& start) {
   BasicState<S> attempt = start.state;
   const BasicSoftStart<S> soft = place_soft_joints(system, time_scales, 2 * span, attempt);
-  if (soft.change < kSettled || is_near(system, attempt, start.state, kUnsettledGrowth)) start.state = std::move(attempt);
+  if (soft.change < kSettledSweep || is_near(system, attempt, start.state, kUnsettledGrowth)) start.state = std::move(attempt);
   const bool along = note_resolved_joints(system, time_scales, soft, start.notes);
   if (soft.placed && along && soft.change < kExact) return;
   if (settle_fast_joints(system, time_scales, span, false, start.state) > 0) return;
-  if (!soft.placed || soft.change >= kSettled) start.notes.push_back(not_settled(system));
+  if (!soft.placed || soft.change >= kSettledSweep) start.notes.push_back(kNotSettled);
 }
 
 }  // namespace
@@ -117,7 +110,7 @@ void settle_joints(const BasicSystem<S>& system, double duration, double known_s
   start.effective_mass = time_scales.effective_mass;
   if (span > 0 && time_scales.any_soft()) return settle_soft_joints(system, time_scales, span, start);
   start.settled_over = settle_fast_joints(system, all_fast(system), smooth_span(system, state, duration), true, state);
-  if (start.settled_over == 0) start.notes.push_back(not_settled(system));
+  if (start.settled_over == 0) start.notes.push_back(kNotSettled);
 }
 
 template void settle_joints(const BasicSystem<Planar>& system, double duration, double known_span, BasicSettledStart<Planar>& start);

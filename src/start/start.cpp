@@ -11,6 +11,7 @@
 #include "pintle/simulate.h"
 #include "start/equilibrium.h"
 #include "start/ideal_rows.h"
+#include "start/seat.h"
 #include "start/settle_joints.h"
 #include "start/start_forces.h"
 #include "start/stiction.h"
@@ -59,8 +60,13 @@ void note_far_deflection(const System& system, const Vecs& assembled, const Stat
 
 Assembly start_of_free_bodies(const Model& model, System system, double known_span) {
   Assembly assembly = assemble_unloaded(model, std::move(system));
-  const bool loaded = model.simulate.start == Start::kAssembled;
+  const bool seated = model.simulate.start == Start::kSeated, loaded = seated || model.simulate.start == Start::kAssembled;
   const Vecs assembled = assembly.state.q;
+  if (const std::string loose = names_of_joints_in_play(assembly.system); !loose.empty() && loaded && !seated)
+    assembly.notes.push_back("joints start in the middle of their play (" + loose + ") and strike its sides first: the largest forces may be those of the start; start = \"seated\" begins where the load presses them");
+  if (seated)
+    if (const std::string free = seat_joints(assembly.system, assembly.state); !free.empty())
+      assembly.notes.push_back("joints that carry no load at the start stay in the middle of their play: " + free);
   std::optional<BasicSettledStart<Planar>> unloaded;
   if (std::any_of(assembly.system.joints.begin(), assembly.system.joints.end(), [](const JointData& joint) { return joint.law.has_friction(); })) unloaded = assembly;
   start_forces(assembly.system, loaded, assembly.state);

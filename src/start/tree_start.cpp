@@ -52,7 +52,7 @@ void take_over(const JointTree& tree, const System& system, const SimulateSettin
   if (!preload) return;
   double span = 0.5 * natural_step<TreeRadau>(system, state, settings.duration);
   for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25)
-    if (move_tree_onto_slow_manifold(system, tree, span, start) < kSettled) break;
+    if (move_tree_onto_slow_manifold(system, tree, span, start) < kSettledSweep) break;
   write(forces, start, state);
 }
 

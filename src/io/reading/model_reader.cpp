@@ -21,6 +21,7 @@ Model model_of(const Document& document, const FileText& files) {
 }  // namespace
 
 void read_all(ModelReading& reading) {
+  reading.model.notes = reading.complaints.document().notes;
   read_parameters(reading);
   read_tables(reading);
   read_settings(reading);
@@ -29,7 +30,6 @@ void read_all(ModelReading& reading) {
   read_loads(reading);
   read_motors(reading);
   check_record(reading);
-  reading.model.notes = reading.complaints.document().notes;
 }
 
 Model parse_model(std::string_view text, std::string_view file_name, const std::vector<std::string>& overrides, const FileText& files) {

@@ -1,6 +1,7 @@
 // [defaults.joint] and [joint].
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -295,6 +296,7 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   TableSpec spec = joint_spec(reading, entry.value, type, law, friction_word, stops == nullptr ? "" : stops_word, detent == nullptr ? "" : detent_word);
   do_without(*law, defaults, spec);
   const Record record = reading.records.read(spec, entry.value, entry.key_spot, path, kind);
+  if (!record.waiting.empty()) reading.model.notes.push_back(fmt::format("joint {}: {} {} of other laws than the stated, and without effect", entry.key, fmt::join(record.waiting, ", "), record.waiting.size() == 1 ? "is a key" : "are keys"));
   Joint joint;
   joint.name = entry.key;
   joint.type = type->word;

@@ -69,7 +69,9 @@ void check_tolerance_of(ModelReading& reading, const Record& record) {
 
 // Only joints that yield come to rest by themselves.
 void check_start(ModelReading& reading, const Record& record) {
-  if (reading.model.simulate.start != Start::kSettled || reading.model.simulate.equations == Equations::kNewtonian) return;
+  const Start start = reading.model.simulate.start;
+  if (reading.model.simulate.equations == Equations::kNewtonian || (start != Start::kSettled && start != Start::kSeated)) return;
+  if (start == Start::kSeated) return reading.complaints.add(record.spot("start"), "simulate.start", "\"seated\"", "with these equations play is not taken up", "equations = \"newtonian\", or start = \"assembled\"");
   reading.complaints.add(record.spot("start"), "simulate.start", "\"settled\"", "with these equations no mechanism is let come to rest", "equations = \"newtonian\", or start = \"assembled\"");
 }
 
@@ -92,7 +94,7 @@ void read_simulate(ModelReading& reading) {
   check_tolerance_of(reading, record);
   check_penalty(reading, record);
   const std::string start = record.word("start");
-  simulate.start = start == "raw" ? Start::kRaw : start == "unloaded" ? Start::kUnloaded : start == "settled" ? Start::kSettled : Start::kAssembled;
+  simulate.start = start == "raw" ? Start::kRaw : start == "unloaded" ? Start::kUnloaded : start == "settled" ? Start::kSettled : start == "seated" ? Start::kSeated : Start::kAssembled;
   check_start(reading, record);
   if (const Value* names = record.find("record")) simulate.record = names->words;
   check_times(reading, record);

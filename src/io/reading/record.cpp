@@ -68,6 +68,16 @@ bool is_switched_off(const Table& table, std::string_view key) {
   return false;
 }
 
+// Whether a key belongs to a law in whose place another one is stated: law = "linear" is written over law = "clearance" to see the pin ideal, and the
+// clearance waits for it to come back.
+bool waits_for_its_law(const Table& table, std::string_view key) {
+  return std::any_of(law_catalog().begin(), law_catalog().end(), [&](const LawInfo& law) {
+    const Node* chosen = table.find(key_of(law.role));
+    const bool another = chosen != nullptr && chosen->string() != nullptr && find_law(*chosen->string()) != nullptr;
+    return another && std::any_of(law.keys.begin(), law.keys.end(), [key](const KeyInfo& info) { return info.key == key; });
+  });
+}
+
 }  // namespace
 
 const Value* Record::find(std::string_view key) const {
@@ -145,13 +155,15 @@ Record RecordReader::read(const TableSpec& spec, const Node& table_node, Spot ke
   return record;
 }
 
-std::set<std::string> RecordReader::check_keys(const TableSpec& spec, const Table& table, const Record& record,
+std::set<std::string> RecordReader::check_keys(const TableSpec& spec, const Table& table, Record& record,
                                                const std::string& kind) {
   std::set<std::string> meant;
   for (const Entry& entry : table.entries()) {
     const bool known = spec.find(entry.key) != nullptr ||
                        std::find(spec.children.begin(), spec.children.end(), entry.key) != spec.children.end();
-    if (!known && !(spec.law_keys && is_switched_off(table, entry.key))) meant.insert(complain_of_key(spec, table, entry, record, kind));
+    if (known || (spec.law_keys && is_switched_off(table, entry.key))) continue;
+    if (spec.law_keys && waits_for_its_law(table, entry.key)) record.waiting.push_back(entry.key);
+    else meant.insert(complain_of_key(spec, table, entry, record, kind));
   }
   return meant;
 }

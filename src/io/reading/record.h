@@ -42,6 +42,7 @@ class Record {
   std::string path;
   std::map<std::string, Value, std::less<>> values;
   std::set<std::string> refused;  ///< keys that the file has, with values that were complained about
+  std::vector<std::string> waiting;  ///< keys of another law than the one that is stated
 };
 
 /// Reads and checks values, complaining about each that is wrong.
@@ -71,7 +72,7 @@ class RecordReader {
 
  private:
   /// Complains about keys that the table cannot have; the keys that they are likely slips for.
-  std::set<std::string> check_keys(const TableSpec& spec, const Table& table, const Record& record, const std::string& kind);
+  std::set<std::string> check_keys(const TableSpec& spec, const Table& table, Record& record, const std::string& kind);
   std::string complain_of_key(const TableSpec& spec, const Table& table, const Entry& entry, const Record& record, const std::string& kind);
   std::optional<Value> read_value(const Node& node, const KeySpec& spec, const std::string& path);
   bool read_words(const Node& node, const KeySpec& spec, const std::string& path, Value& value);

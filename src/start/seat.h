@@ -1,0 +1,22 @@
+// Joints with play at the start: in the middle of it, where assembly puts them, or seated against the side that their load presses them to.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "system/state.h"
+
+namespace pintle {
+
+/// The joints that assembly leaves free in the middle of a play with two sides: pins in their bushes, slides in their ways, teeth between teeth. A rope
+/// or a floor has one side.
+std::vector<int> joints_in_play(const System& system);
+
+/// Their names, with commas between; "" where there are none.
+std::string names_of_joints_in_play(const System& system);
+
+/// Moves the bodies so that every joint of joints_in_play touches where the motion of the mechanism without play presses it, as deep as its law gives that
+/// force. `state`: q and v of the assembled mechanism. Joints that carry nothing stay in the middle; their names are returned. theory/assembly section 8.
+std::string seat_joints(const System& system, State& state);
+
+}  // namespace pintle

@@ -1,0 +1,106 @@
+// start = "seated": joints with play begin where their load presses them, and carry what the motion needs from the first row on.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/constants.h"
+#include "pintle/simulate.h"
+#include "tests/reference_tables.h"
+
+namespace pintle {
+namespace {
+
+using reference::completed;
+using reference::mechanism;
+using reference::value;
+
+const std::string kSeated = "simulate.start=\"seated\"";
+
+bool notes_have(const Trajectory& run, const std::string& words) {
+  return std::any_of(run.notes.begin(), run.notes.end(), [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+// A rod of 2 kg and 1 m on a pin with a tenth of a millimetre of play, let go 30 deg from hanging, or at rest below it.
+std::string rod(const std::string& angle, const std::string& gravity = "[0, -9.81]") {
+  return fmt::format(R"toml(
+format = 1
+gravity = {}
+[simulate]
+duration = "0.2 s"
+start = "seated"
+[ground.markers]
+O = [0, 0]
+[body.rod]
+mass = "2 kg"
+inertia = "0.17 kg*m^2"
+angle = "{}"
+hold = ["angle"]
+markers.O = ["-0.5 m", 0]
+[joint.O]
+type = "revolute"
+between = ["ground.O", "rod.O"]
+law = "clearance"
+clearance = "0.1 mm"
+contact_model = "linear"
+contact_stiffness = 1e7
+)toml", gravity, angle);
+}
+
+// At the lowest point of the bush, as deep as the weight presses it, and there it stays.
+TEST(SeatedStart, ARodAtRestHangsInItsBush) {
+  const Trajectory run = completed(parse_model(rod("-90 deg"), "rod.toml"));
+  EXPECT_NEAR(value(run, 0, "body.rod.y"), -0.5 - 1e-4 - 2 * 9.81 / 1e7, 1e-11);
+  for (std::size_t i = 0; i < run.n_rows(); ++i) EXPECT_NEAR(value(run, i, "joint.O.on_rod.fy[world]"), 2 * 9.81, 1e-6 * 2 * 9.81) << i;
+}
+
+// Let go, the rod turns about its pin: along itself that carries m g cos(30 deg), across it m g sin(30 deg) less the mass times the acceleration of its
+// middle. theory of the compound pendulum, the pin's way about its bush left out: a ten-thousandth of the length.
+TEST(SeatedStart, ARodThatIsLetGoBeginsWithThePinForceOfAPendulum) {
+  const Trajectory run = completed(parse_model(rod("-60 deg"), "rod.toml"));
+  const double weight = 2 * 9.81, along = weight * std::cos(kTurn / 12), across = weight * std::sin(kTurn / 12) * (1 - 2 * 0.25 / (0.17 + 2 * 0.25));
+  const double fx = value(run, 0, "joint.O.on_rod.fx[world]"), fy = value(run, 0, "joint.O.on_rod.fy[world]");
+  EXPECT_NEAR(std::hypot(fx, fy), std::hypot(along, across), 1e-3 * weight);
+  EXPECT_LT(run.joints[0].peak, 1.1 * weight * (1 + 3 * (1 - std::cos(kTurn / 12))));  // and the pin does not strike
+}
+
+// The first row has the forces that the same mechanism shows with ideal pins, and no impact makes larger ones than its motion.
+TEST(SeatedStart, AFourBarWithALoosePinBeginsWithTheForcesOfTheTightOne) {
+  const Trajectory loose = completed(mechanism("four_bar_clearance", {kSeated}));
+  const Trajectory tight = completed(mechanism("four_bar_clearance", {"--law joint.B=linear"}));
+  for (const char* column : {"joint.B.on_follower.fx[world]", "joint.B.on_follower.fy[world]", "joint.A.on_crank.fx[world]", "joint.O4.on_ground.fy[world]"})
+    EXPECT_NEAR(value(loose, 0, column), value(tight, 0, column), 0.02 * tight.joints[2].peak) << column;
+  EXPECT_TRUE(loose.events.empty());  // the pin stays on its bush
+  EXPECT_LT(loose.joints[2].peak, 1.1 * tight.joints[2].peak);
+}
+
+TEST(SeatedStart, WhereThePinIsInTheMiddleInsteadItsFirstImpactIsTheLargestForce) {
+  const Trajectory centred = completed(mechanism("four_bar_clearance", {"simulate.start=\"assembled\""}));
+  EXPECT_TRUE(notes_have(centred, "joints start in the middle of their play (B)"));
+  EXPECT_GT(centred.joints[2].peak, 3 * completed(mechanism("four_bar_clearance", {kSeated})).joints[2].peak);
+}
+
+// A slide with play on both sides of its way, and several loose pins at once.
+TEST(SeatedStart, PlayOfSlidesAndOfSeveralPinsIsTakenUp) {
+  const Trajectory slide = completed(mechanism("loose_piston", {kSeated}));
+  EXPECT_FALSE(notes_have(slide, "middle of their play"));
+  const Trajectory pins = completed(mechanism("worn_linkage", {kSeated})), centred = completed(mechanism("worn_linkage", {"simulate.start=\"assembled\""}));
+  for (std::size_t j = 0; j < pins.joints.size(); ++j) EXPECT_LT(pins.joints[j].peak, 0.5 * centred.joints[j].peak) << pins.joints[j].name;
+}
+
+TEST(SeatedStart, AJointThatCarriesNothingStaysInTheMiddle) {
+  const Trajectory run = completed(parse_model(rod("0 deg", "[0, 0]"), "rod.toml"));
+  EXPECT_TRUE(notes_have(run, "joints that carry no load at the start stay in the middle of their play: O"));
+  EXPECT_EQ(run.joints[0].peak, 0);
+}
+
+// Without play it is the assembled start, to the last bit.
+TEST(SeatedStart, AMechanismWithoutPlayIsAssembled) {
+  const Trajectory seated = completed(mechanism("four_bar", {kSeated})), assembled = completed(mechanism("four_bar"));
+  EXPECT_EQ(value(seated, 10, "joint.A.on_crank.fx[world]"), value(assembled, 10, "joint.A.on_crank.fx[world]"));
+}
+
+}  // namespace
+}  // namespace pintle
