@@ -18,6 +18,8 @@ namespace pintle {
 namespace {
 
 constexpr int kMaxPasses = 6;              // of a run, at most
+constexpr int kMaxShortPasses = 10;        // the same while all of them have made few steps
+constexpr std::uint64_t kFewSteps = 50000; // so many, or half a second
 constexpr double kLoosest = 1e-4;          // of the second pass: above it steps are bounded by other things, and two passes are alike
 constexpr double kLoosestIdeal = 1e-8;     // the same for ideal joints, which are a reference, and cheap
 constexpr double kLoosestOfMotion = 1e-3;  // the same where the tolerance is of the motion; no pass is looser, and no energy account
@@ -173,7 +175,7 @@ class Passes {
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
     relative_difference_ = relative_differences(system_, difference_);
     const double apart = out_.of_motion ? out_.motion_error : largest_of(relative_difference_);
-    last_growth_ = growth_;
+    if (growth_.exponential && growth_.saturated) last_growth_ = growth_;
     growth_ = {};
     if (apart > kPromised * settings_.tolerance) growth_ = growth_of(coarse, fine);
     if (growth_.exponential && growth_.saturated) take_all(coarse, fine);
@@ -218,7 +220,8 @@ class Passes {
   bool go_finer(double& tolerance) {
     const double wanted = settings_.tolerance;
     const auto at = [&tolerance](double next) { return tolerance = std::max(kLeastTolerance, next), true; };
-    const bool last_one = out_.counters.passes >= kMaxPasses || tolerance <= kLeastTolerance;
+    const int most = out_.counters.steps < kFewSteps ? kMaxShortPasses : kMaxPasses;
+    const bool last_one = static_cast<int>(out_.counters.passes) >= most || tolerance <= kLeastTolerance;
     if (last_.ended == Ended::kRunaway || (last_.unbounded_reactions >= 0 && !out_.of_motion)) return false;
     if (((alike_ && !doubted_) || ran_away_) && !last_one) {
       doubted_ = true;
@@ -374,7 +377,7 @@ class Passes {
   double share_ = 1, error_ = 0;
   bool alike_ = false;             // their steps
   int stages_before_ = 0;          // of the coarser one
-  ErrorGrowth growth_, last_growth_;  // and of the pair before
+  ErrorGrowth growth_, last_growth_;  // and of the pair before that showed chaos: one between may be too short or too jagged to tell
   ErrorGrowth chaos_;              // where two pairs have shown the same exponential growth
   bool doubted_ = false;           // a pass has been made because two were alike
   double longest_ = 0;             // step of passes from now on, because tolerances have not shortened them [s]
