@@ -127,6 +127,13 @@ TEST(Starts, PinsThatStartInTheMiddleOfTheirPlayAreNoted) {
   EXPECT_EQ(notes_of(reference::mechanism("four_bar")).find("start in the middle"), std::string::npos);
 }
 
+TEST(Starts, MissingUnitsAreNoted) {
+  EXPECT_EQ(notes_of(reference::mechanism("slider_crank_clearance")).find("without a unit"), std::string::npos);
+  EXPECT_NE(notes_of(reference::mechanism("slider_crank_clearance", {"joint.B.pin_radius=9.5"})).find("joint B: its pin_radius of 9.5 m is larger than the whole mechanism (0.17 m): without a unit lengths are metres"), std::string::npos);
+  EXPECT_NE(notes_of(reference::mechanism("four_bar", {"body.coupler.angle=40"})).find("body coupler: its angle of 40 rad is 6.37 turns: without a unit angles are radians"), std::string::npos);
+  EXPECT_EQ(notes_of(reference::mechanism("door_stops")).find("without a unit"), std::string::npos);  // its stops are angles
+}
+
 TEST(Starts, PulleysThatOverlapAreNoted) {
   EXPECT_EQ(notes_of(reference::mechanism("belt_drive")).find("overlap"), std::string::npos);
   EXPECT_NE(notes_of(reference::mechanism("belt_drive", {"parameters.apart=\"150 mm\""})).find("joint upper: its discs overlap by 0.05 m"), std::string::npos);

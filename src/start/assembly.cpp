@@ -227,6 +227,7 @@ Assembly put_bodies(const Model& model, System system) {
   out.system = assemble_positions(model, std::move(system), state.q, out.notes);
   note_moved_bodies(model, guess, state.q, out.notes);
   note_discs_apart(out.system, state.q, out.notes);
+  note_missing_units(model, characteristic_length(out.system, state.q), out.notes);
   for (std::size_t i = 0; i < guess.size(); ++i)
     if (model.bodies[i].position) out.largest_move = std::max(out.largest_move, (state.q[i] - guess[i]).head<2>().norm());
   state.v = stated_velocities(model);

@@ -9,6 +9,7 @@
 
 #include "joints/belt.h"
 #include "kinematics/position_search.h"
+#include "laws/catalog.h"
 
 namespace pintle {
 namespace {
@@ -17,6 +18,8 @@ using S = Planar;
 
 constexpr double kFarTurned = std::numbers::pi / 6;  // a drawing's angles are read off more closely [rad]
 constexpr double kOtherVelocity = 0.02;              // of the larger of stated and assembled velocity, so that rounded figures are no other ones: from 1e-4 to 0.04 the same of 150 models are told
+constexpr double kManyTurns = 4 * std::numbers::pi;  // angles of the start above it are hardly meant: 15 degrees without their unit are as much [rad]
+constexpr double kMuchLarger = 3;                    // lengths of a law over the mechanism: a thousand where a unit is missing, and a mechanism of one body has hardly a size
 constexpr double kTeethApart = 0.02;                 // of the smaller pitch radius: modified teeth may be cut for as much
 
 // The diagonal of the box around all stated centres [m].
@@ -49,6 +52,22 @@ void note_teeth_apart(const JointData& joint, const S::Vec& z, std::vector<std::
   if (std::abs(opening) > kTeethApart * radius)
     notes.push_back(fmt::format("joint {}: its pitch circles do not touch, they {} by {:.4g} m; the teeth carry their load all the same. If that was not meant, look at the radii and where the centres are", joint.name,
                                 opening > 0 ? "are apart" : "overlap", std::abs(opening)));
+}
+
+// Lengths of a law that are larger than the mechanism, as of a pin whose unit is missing.
+void note_large_lengths(const std::string& joint, const LawChoice& choice, double size, std::vector<std::string>& notes) {
+  const LawInfo* law = find_law(choice.word);
+  if (law == nullptr) return;
+  for (const KeyInfo& key : law->keys) {
+    const auto stated = choice.values.find(std::string(key.key));
+    if (key.unit != "m" || !key.angular_unit.empty() || stated == choice.values.end()) continue;
+    for (const double length : stated->second)
+      if (std::abs(length) > kMuchLarger * size) notes.push_back(fmt::format("joint {}: its {} of {:.4g} m is larger than the whole mechanism ({:.4g} m): without a unit lengths are metres", joint, key.key, length, size));
+  }
+}
+
+void note_many_turns(const std::string& what, double angle, std::vector<std::string>& notes) {
+  if (std::abs(angle) > kManyTurns) notes.push_back(fmt::format("{} of {:.4g} rad is {:.3g} turns: without a unit angles are radians", what, angle, angle / (2 * std::numbers::pi)));
 }
 
 void note_overlap(const JointData& joint, const S::Vec& z, std::vector<std::string>& notes) {
@@ -98,6 +117,15 @@ void note_discs_apart(const System& system, const Vecs& q, std::vector<std::stri
     note_teeth_apart(joint, z, notes);
     note_overlap(joint, z, notes);
   }
+}
+
+void note_missing_units(const Model& model, double size, std::vector<std::string>& notes) {
+  for (const Body& body : model.bodies) {
+    if (body.angle) note_many_turns("body " + body.name + ": its angle", *body.angle, notes);
+    for (const Marker& marker : body.markers) note_many_turns("body " + body.name + ": the axis angle of its marker " + marker.name, marker.axis, notes);
+  }
+  for (const Joint& joint : model.joints)
+    for (const LawChoice* law : {&joint.law, &joint.friction, &joint.stops, &joint.detent}) note_large_lengths(joint.name, *law, size, notes);
 }
 
 }  // namespace pintle

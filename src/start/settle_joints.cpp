@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "dynamics/time_scales.h"
 #include "integrators/absolute/radau_stepper.h"
+#include "linalg/chebyshev_nodes.h"
 #include "start/slow_manifold.h"
 #include "start/start_forces.h"
 
@@ -17,6 +19,9 @@ namespace {
 constexpr double kMostHaste = 1e-3, kMostLever = 30;  // change of a body's speed that is the joints' giving way: over the largest speed, at most; or over the largest rate of a gap, at most
 constexpr double kExact = 1e-6;                       // relative change of the gaps below which nothing is left to settle
 constexpr double kUnsettledGrowth = 1.1;              // growth of the largest force, by soft joints whose sweeps have not converged: what is beyond is no start. With the 2 of kMostGrowth a lift at rest starts with 1.3 times its load (test Starts)
+constexpr double kMostKick = 0.1;                     // of a joint's force: what may ring because the rates of gaps are not known better than the gaps, which the last sweep has changed
+constexpr double kMostOfStored = 0.01;                // of the energy that joints store: the kinetic energy that fast ones give bodies, at most. 1e-4 is the most of the collection, 0.1 and more have starts that rounding makes
+constexpr double kBalanced = 1e-6;                      // of the largest joint force: what accelerates a body less leaves it at rest
 constexpr double kSmallCouple = 0.05;                 // of the largest force at the largest radius of gyration: couples below it are not asked whether they grow
 constexpr double kEntirely = 0.99;                    // of its slow motion: with this share a soft joint counts as going with the motion
 
@@ -55,15 +60,61 @@ bool is_near(const BasicSystem<S>& system, const BasicState<S>& attempt, const B
   return is_finite(attempt) && largest_force(attempt.force) <= most_growth * force && largest_couple<S>(attempt.force) <= most_growth * couple;
 }
 
+template <class S>
+double twice_kinetic_energy(const BasicSystem<S>& system, const VecsOf<S>& v) {
+  double twice = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) twice += v[i].dot(system.bodies[i].mass.cwiseProduct(v[i]));
+  return twice;
+}
+
+// Twice the energy of springs with these gaps and forces.
+template <class S>
+double twice_stored(const BasicState<S>& state) {
+  double twice = 0;
+  for (std::size_t j = 0; j < state.gap.size(); ++j) twice += std::abs(state.force[j].dot(state.gap[j]));
+  return twice;
+}
+
+// Gaps that go with the motion, at rates below those of their own vibration, give bodies less kinetic energy than the joints store.
+template <class S>
+bool is_moderate(const BasicSystem<S>& system, const BasicState<S>& attempt, const BasicState<S>& given, double share) {
+  VecsOf<S> change = attempt.v;
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] -= given.v[i];
+  return twice_kinetic_energy(system, change) <= share * twice_stored(attempt) + kFits * twice_kinetic_energy(system, given.v);
+}
+
+// The slowest rate of the gaps that count as fast [1/s].
+template <class S>
+double slowest_fast_rate(const BasicTimeScales<S>& time_scales) {
+  double slowest = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < time_scales.slow_rate.size(); ++j)
+    for (int k = 0; k < S::kDim; ++k)
+      if (time_scales.slow_rate[j][k] > 0 && time_scales.overdamped[j][k] == 0 && time_scales.resolved[j][k] == 0) slowest = std::min(slowest, time_scales.slow_rate[j][k]);
+  return slowest;
+}
+
+// At rest, and so it stays: there is no motion to go with. Nor is there where joints carry nothing.
+template <class S>
+bool is_at_rest(const BasicSystem<S>& system, const BasicState<S>& state) {
+  const double force = largest_force(state.force);
+  if (force == 0) return true;
+  if (twice_kinetic_energy(system, state.v) > kFits * twice_stored(state)) return false;
+  for (std::size_t i = 0; i < state.a.size(); ++i)
+    if (!(system.bodies[i].mass.cwiseProduct(state.a[i]).template head<S::kDim>().norm() <= kBalanced * force)) return false;
+  return true;
+}
+
 // Fast joints ride their slow motion; where that is not found the state stays, or with `keep_best` is the best attempt. Over which
 // time it was found; 0: it was not.
 template <class S>
-double settle_fast_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, double span, bool keep_best, BasicState<S>& state) {
+double settle_fast_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, double slowest, double span, bool keep_best, BasicState<S>& state) {
   const BasicState<S> given = state;
   for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25) {
     BasicState<S> attempt = state;
-    const double change = move_onto_slow_manifold(system, time_scales, span, attempt);
-    if (is_runaway(system, attempt, given)) continue;
+    const double moved = move_onto_slow_manifold(system, time_scales, span, attempt);
+    // Differentiated over a span that is too short, what the last sweep has moved gaps by is a rate above their own.
+    const double change = std::max(moved, moved * ChebyshevNodes().D.cwiseAbs().maxCoeff() / (span * slowest) * (kSettledSweep / kMostKick));
+    if (is_runaway(system, attempt, given) || !is_moderate(system, attempt, given, kMostOfStored)) continue;
     if (change < kSettledSweep || (keep_best && is_near(system, attempt, given))) state = std::move(attempt);
     if (change < kSettledSweep) return span;
   }
@@ -91,11 +142,12 @@ template <class S>
 void settle_soft_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, double span, BasicSettledStart<S>& start) {
   BasicState<S> attempt = start.state;
   const BasicSoftStart<S> soft = place_soft_joints(system, time_scales, 2 * span, attempt);
-  if (soft.change < kSettledSweep || is_near(system, attempt, start.state, kUnsettledGrowth)) start.state = std::move(attempt);
+  const bool moderate = is_moderate(system, attempt, start.state, 1.0);
+  if (moderate && (soft.change < kSettledSweep || is_near(system, attempt, start.state, kUnsettledGrowth))) start.state = std::move(attempt);
   const bool along = note_resolved_joints(system, time_scales, soft, start.notes);
-  if (soft.placed && along && soft.change < kExact) return;
-  if (settle_fast_joints(system, time_scales, span, false, start.state) > 0) return;
-  if (!soft.placed || soft.change >= kSettledSweep) start.notes.push_back(kNotSettled);
+  if (soft.placed && moderate && along && soft.change < kExact) return;
+  if (settle_fast_joints(system, time_scales, slowest_fast_rate(time_scales), span, false, start.state) > 0) return;
+  if (!soft.placed || !moderate || soft.change >= kSettledSweep) start.notes.push_back(kNotSettled);
 }
 
 }  // namespace
@@ -109,8 +161,8 @@ void settle_joints(const BasicSystem<S>& system, double duration, double known_s
   const BasicTimeScales<S> time_scales = measure_time_scales(system, state, span);
   start.effective_mass = time_scales.effective_mass;
   if (span > 0 && time_scales.any_soft()) return settle_soft_joints(system, time_scales, span, start);
-  start.settled_over = settle_fast_joints(system, all_fast(system), smooth_span(system, state, duration), true, state);
-  if (start.settled_over == 0) start.notes.push_back(kNotSettled);
+  start.settled_over = settle_fast_joints(system, all_fast(system), slowest_fast_rate(time_scales), smooth_span(system, state, duration), true, state);
+  if (start.settled_over == 0 && !is_at_rest(system, state)) start.notes.push_back(kNotSettled);
 }
 
 template void settle_joints(const BasicSystem<Planar>& system, double duration, double known_span, BasicSettledStart<Planar>& start);
