@@ -426,5 +426,21 @@ TEST(Contact, TheSlopeOfFrictionAtRestIsThatOfItsRamp) { EXPECT_TRUE(check_model
 // Where bodies are to settle first, they may be stated inside each other: they are checked at rest.
 TEST(Contact, IsCheckedWhereBodiesSettle) { EXPECT_TRUE(check_model(block_on_table("10 mm", "settled")).jacobians.passed()); }
 
+// A touch of 0.1 ms after a flight of half a second: its end lies within what was too little of the flight to be stepped through.
+TEST(LinearContact, TouchesMuchShorterThanTheFlightKeepTheirEnergy) {
+  for (const double stiffness : {1e7, 1e8, 1e9, 1e10})
+    for (const double tolerance : {1e-3, 1e-5}) {
+      Model model = reference::test_model("ball_on_stiff_linear_contact");
+      model.simulate.tolerance = tolerance;
+      auto& law = model.joints[0].law.values;
+      law["contact_stiffness"] = {stiffness};
+      law["contact_damping"] = {0.0};
+      const Trajectory run = reference::completed(model);
+      const double energy = run.energy.kinetic_end + run.energy.potential_end, before = run.energy.kinetic_start + run.energy.potential_start;
+      EXPECT_NEAR(energy, before, 1e-4 * before) << stiffness << " " << tolerance;
+      EXPECT_LT(std::abs(run.energy.dissipated), 1e-4 * before) << stiffness << " " << tolerance;
+    }
+}
+
 }  // namespace
 }  // namespace pintle

@@ -67,7 +67,7 @@ inline Model mechanism(const std::string& name, const std::vector<std::string>& 
 }
 
 /// A model that stands in tests/models because it broke a promise once.
-inline Model test_model(const std::string& name) { return read_model(std::string(PINTLE_SOURCE_DIR) + "/tests/models/" + name + ".toml"); }
+inline Model test_model(const std::string& name, const std::vector<std::string>& overrides = {}) { return read_model(std::string(PINTLE_SOURCE_DIR) + "/tests/models/" + name + ".toml", overrides); }
 
 /// That of section 8 of the paper with friction in all pins.
 inline Model rubbing_four_bar() {

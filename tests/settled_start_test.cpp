@@ -227,5 +227,12 @@ free_length = "0.2 m"
   }
 }
 
+// Creeping it rubs with its kinetic friction, which does not hold it; where it was assembled its static friction does.
+TEST(SettledStart, ABlockThatOnlyStictionHoldsStartsWhereItIs) {
+  const Trajectory run = completed(reference::test_model("block_held_by_stiction"));
+  EXPECT_NEAR(value(run, run.n_rows() - 1, "body.b.x"), value(run, 0, "body.b.x"), 1e-9);
+  EXPECT_NEAR(std::abs(value(run, 0, "joint.j.friction")), 2 * 9.80665 * std::sin(20 * std::acos(-1) / 180), 1e-6);
+}
+
 }  // namespace
 }  // namespace pintle

@@ -127,6 +127,25 @@ TEST(Starts, PinsThatStartInTheMiddleOfTheirPlayAreNoted) {
   EXPECT_EQ(notes_of(reference::mechanism("four_bar")).find("start in the middle"), std::string::npos);
 }
 
+// Differentiated over nanoseconds, rounding of the gaps becomes a speed: the velocities of a start are those of assembly, whatever the duration of the run.
+TEST(Starts, VelocitiesAreThoseOfAssemblyWhateverTheDuration) {
+  for (const char* duration : {"0.05", "0.2", "1"}) {
+    const std::vector<std::string> run{std::string("simulate.duration=") + duration, std::string("simulate.output_step=") + duration, "simulate.start=\"assembled\"", "simulate.tolerance=0.01"};
+    const auto spin = [&](const Model& model, const char* column) { return value(simulate(model), 0, column); };
+    EXPECT_NEAR(spin(reference::mechanism("worn_linkage", run), "body.coupler.spin"), -8.627, 1e-3) << duration;
+    EXPECT_NEAR(spin(test_model("toggle_press_with_loose_pins", run), "body.con.spin"), 1.2422, 1e-3) << duration;
+    std::vector<std::string> rubbing = run;
+    rubbing.insert(rubbing.end(), {"defaults.joint.friction=\"coulomb\"", "defaults.joint.pin_radius=5e-3"});
+    EXPECT_NEAR(spin(test_model("scissor_jack", rubbing), "body.car.vy"), 0, 1e-9) << duration;
+  }
+}
+
+// What hangs still cannot ring, nor what joints do not touch.
+TEST(Starts, NoTransientIsNotedWhereNothingMoves) {
+  EXPECT_EQ(notes_of(test_model("scissor_jack")).find("no transient-free start"), std::string::npos);
+  EXPECT_EQ(notes_of(test_model("ball_on_stiff_linear_contact", {"simulate.duration=0.1"})).find("no transient-free start"), std::string::npos);
+}
+
 TEST(Starts, MissingUnitsAreNoted) {
   EXPECT_EQ(notes_of(reference::mechanism("slider_crank_clearance")).find("without a unit"), std::string::npos);
   EXPECT_NE(notes_of(reference::mechanism("slider_crank_clearance", {"joint.B.pin_radius=9.5"})).find("joint B: its pin_radius of 9.5 m is larger than the whole mechanism (0.17 m): without a unit lengths are metres"), std::string::npos);

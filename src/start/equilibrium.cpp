@@ -126,7 +126,7 @@ State creep_to_rest(const System& system, const State& from, double rate) {
   int body = 0;
   const auto name = [&] { return system.joints[system.n_joints() - system.n_bodies() + body].name; };
   for (;;) {
-    if (!stepper.step(kLongest / rate)) throw AssemblyError("start = \"settled\": the mechanism comes to no rest: " + stepper.failure());
+    if (!stepper.step(kLongest / rate)) throw AssemblyError("start = \"settled\": no rest was found: " + stepper.failure() + "\n  Try positions nearer to the equilibrium, or start = \"seated\" or \"assembled\".");
     const State& now = stepper.state();
     const double drag = largest_drag(system, now, rate, body);
     if (drag <= std::max(kAtRest * largest_load(system, now), rounding)) return now;

@@ -1,6 +1,11 @@
 #include "start/seat.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "dynamics/inverse_dynamics.h"
+#include "kinematics/position_search.h"
 #include "laws/gap_at_force.h"
 #include "start/start_forces.h"
 
@@ -27,15 +32,54 @@ bool stands_in_play(const JointData& joint) {
   return false;
 }
 
-// The same mechanism without its plays: springs as stiff as the laws where these act.
-System without_play(const System& system, const std::vector<int>& joints) {
+// From the middle to where the law begins to resist, in the component where that is nearest [m] or [rad].
+double play_of(const JointData& joint, int& component) {
+  constexpr double kTouch = 1e-6;  // of the stiffness where the law acts, times 1 m: the force that tells it
+  const S::Vec engaged = joint.law.engaged_stiffness();
+  double play = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < S::kDof; ++k) {
+    S::Vec gap = S::Vec::Zero();
+    if (joint.free_mask[k] != 0 || !(engaged[k] > 0) || !go_out_against<S>(joint.law, kTouch * engaged[k] * S::Vec::Unit(k), S::Vec::Zero(), gap) || std::abs(gap[k]) >= play) continue;
+    play = std::abs(gap[k]);
+    component = k;
+  }
+  return play;
+}
+
+// The same mechanism without its plays: springs as stiff as the laws where these act, or no stiffer than to give way by the play under `load` [N].
+System without_play(const System& system, const std::vector<int>& joints, double load) {
   System firm = system;
   for (const int j : joints) {
+    const JointData& joint = system.joints[j];
     LinearLaw spring;
-    spring.k = system.joints[j].law.engaged_stiffness().cwiseProduct(S::Vec::Ones() - system.joints[j].free_mask);
+    spring.k = joint.law.engaged_stiffness().cwiseProduct(S::Vec::Ones() - joint.free_mask);
+    int k = 0;
+    if (const double play = play_of(joint, k); load * play > 0 && std::isfinite(play)) spring.k *= std::min(1.0, load / (play * spring.k[k]));
     firm.joints[j].law = BasicLaw<S>(spring);
   }
   return firm;
+}
+
+// Whether loops close only because play gives way.
+bool has_misfit(const System& system, const State& state, const std::vector<int>& joints) {
+  constexpr double kMisfit = 1e-3;  // of the play: less is what pins hardly feel
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  kinematics_at(system, state.t, state.q, state.v, m, r);
+  return std::any_of(joints.begin(), joints.end(), [&](int j) {
+    int k = 0;
+    const double play = play_of(system.joints[j], k);
+    return r[j].gap.cwiseProduct(S::Vec::Ones() - system.joints[j].free_mask).norm() > kMisfit * play;
+  });
+}
+
+// Of the mechanism that assembly leaves, where loads move loose bodies as they like [N].
+double largest_load_on_bodies(const System& system, const State& state) {
+  State free = state;
+  start_forces(system, false, free);
+  double largest = largest_force(free.force);
+  for (std::size_t i = 0; i < free.a.size(); ++i) largest = std::max(largest, system.bodies[i].mass[0] * free.a[i].head<2>().norm());
+  return largest;
 }
 
 std::string names_of(const System& system, const std::vector<int>& joints) {
@@ -58,9 +102,17 @@ std::string names_of_joints_in_play(const System& system) { return names_of(syst
 std::string seat_joints(const System& system, State& state) {
   const std::vector<int> loose = joints_in_play(system);
   if (loose.empty()) return "";
-  const System firm = without_play(system, loose);
+  // Springs without play would carry a misfit as a preload; as soft as the play is wide, they share it out as the pins do that go to their sides.
+  const bool misfit = has_misfit(system, state, loose);
   State carried = state;
+  System firm = without_play(system, loose, misfit ? largest_load_on_bodies(system, state) : 0);
   start_forces(firm, true, carried);
+  if (misfit) {
+    const double load = largest_force(carried.force);
+    carried = state;
+    firm = without_play(system, loose, load);
+    start_forces(firm, true, carried);
+  }
   std::vector<int> unloaded;
   const double nothing = kFits * largest_force(carried.force);
   for (const int j : loose) {
@@ -74,6 +126,11 @@ std::string seat_joints(const System& system, State& state) {
   state.q = carried.q;
   state.v = carried.v;
   return names_of(system, unloaded);
+}
+
+void note_seated(Assembly& assembly) {
+  if (const std::string free = seat_joints(assembly.system, assembly.state); !free.empty())
+    assembly.notes.push_back("joints that carry no load at the start stay in the middle of their play: " + free);
 }
 
 }  // namespace pintle

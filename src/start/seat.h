@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "system/state.h"
+#include "start/assembly.h"
 
 namespace pintle {
 
@@ -14,6 +14,9 @@ std::vector<int> joints_in_play(const System& system);
 
 /// Their names, with commas between; "" where there are none.
 std::string names_of_joints_in_play(const System& system);
+
+/// `seat_joints` of what has been assembled, with a note.
+void note_seated(Assembly& assembly);
 
 /// Moves the bodies so that every joint of joints_in_play touches where the motion of the mechanism without play presses it, as deep as its law gives that
 /// force. `state`: q and v of the assembled mechanism. Joints that carry nothing stay in the middle; their names are returned. theory/assembly section 8.

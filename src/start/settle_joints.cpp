@@ -19,8 +19,8 @@ namespace {
 constexpr double kMostHaste = 1e-3, kMostLever = 30;  // change of a body's speed that is the joints' giving way: over the largest speed, at most; or over the largest rate of a gap, at most
 constexpr double kExact = 1e-6;                       // relative change of the gaps below which nothing is left to settle
 constexpr double kUnsettledGrowth = 1.1;              // growth of the largest force, by soft joints whose sweeps have not converged: what is beyond is no start. With the 2 of kMostGrowth a lift at rest starts with 1.3 times its load (test Starts)
-constexpr double kMostKick = 0.1;                     // of a joint's force: what may ring because the rates of gaps are not known better than the gaps, which the last sweep has changed
-constexpr double kMostOfStored = 0.01;                // of the energy that joints store: the kinetic energy that fast ones give bodies, at most. 1e-4 is the most of the collection, 0.1 and more have starts that rounding makes
+constexpr double kMostKick = 0.25;                    // of a joint's force: what may ring because the rates of gaps are not known better than the gaps, which the last sweep has changed
+constexpr double kMostOfStored = 0.2;                 // of the energy that joints store: the kinetic energy that fast ones give bodies, at most. 0.1 is the most of the collection (a toggle under load), 0.3 and more have starts that rounding makes
 constexpr double kBalanced = 1e-6;                      // of the largest joint force: what accelerates a body less leaves it at rest
 constexpr double kSmallCouple = 0.05;                 // of the largest force at the largest radius of gyration: couples below it are not asked whether they grow
 constexpr double kEntirely = 0.99;                    // of its slow motion: with this share a soft joint counts as going with the motion
@@ -93,17 +93,6 @@ double slowest_fast_rate(const BasicTimeScales<S>& time_scales) {
   return slowest;
 }
 
-// At rest, and so it stays: there is no motion to go with. Nor is there where joints carry nothing.
-template <class S>
-bool is_at_rest(const BasicSystem<S>& system, const BasicState<S>& state) {
-  const double force = largest_force(state.force);
-  if (force == 0) return true;
-  if (twice_kinetic_energy(system, state.v) > kFits * twice_stored(state)) return false;
-  for (std::size_t i = 0; i < state.a.size(); ++i)
-    if (!(system.bodies[i].mass.cwiseProduct(state.a[i]).template head<S::kDim>().norm() <= kBalanced * force)) return false;
-  return true;
-}
-
 // Fast joints ride their slow motion; where that is not found the state stays, or with `keep_best` is the best attempt. Over which
 // time it was found; 0: it was not.
 template <class S>
@@ -153,6 +142,15 @@ void settle_soft_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& 
 }  // namespace
 
 template <class S>
+bool is_at_rest(const BasicSystem<S>& system, const BasicState<S>& state) {
+  const double force = largest_force(state.force);
+  if (twice_kinetic_energy(system, state.v) > kFits * twice_stored(state)) return false;
+  for (std::size_t i = 0; i < state.a.size(); ++i)
+    if (!(system.bodies[i].mass.cwiseProduct(state.a[i]).template head<S::kDim>().norm() <= kBalanced * force)) return false;
+  return true;
+}
+
+template <class S>
 void settle_joints(const BasicSystem<S>& system, double duration, double known_span, BasicSettledStart<S>& start) {
   if (!(duration > 0)) return;
   BasicState<S>& state = start.state;
@@ -162,10 +160,13 @@ void settle_joints(const BasicSystem<S>& system, double duration, double known_s
   start.effective_mass = time_scales.effective_mass;
   if (span > 0 && time_scales.any_soft()) return settle_soft_joints(system, time_scales, span, start);
   start.settled_over = settle_fast_joints(system, all_fast(system), slowest_fast_rate(time_scales), smooth_span(system, state, duration), true, state);
-  if (start.settled_over == 0 && !is_at_rest(system, state)) start.notes.push_back(kNotSettled);
+  if (start.settled_over == 0 && largest_force(state.force) > 0 && !is_at_rest(system, state)) start.notes.push_back(kNotSettled);
 }
 
 template void settle_joints(const BasicSystem<Planar>& system, double duration, double known_span, BasicSettledStart<Planar>& start);
 PINTLE_IN_SPACE(template void settle_joints(const BasicSystem<Spatial>& system, double duration, double known_span, BasicSettledStart<Spatial>& start);)
+
+template bool is_at_rest(const BasicSystem<Planar>& system, const BasicState<Planar>& state);
+PINTLE_IN_SPACE(template bool is_at_rest(const BasicSystem<Spatial>& system, const BasicState<Spatial>& state);)
 
 }  // namespace pintle

@@ -24,4 +24,8 @@ struct BasicSettledStart {
 template <class S>
 void settle_joints(const BasicSystem<S>& system, double duration, double known_span, BasicSettledStart<S>& start);
 
+/// Whether bodies stand still, and joints carry what acts on them.
+template <class S>
+bool is_at_rest(const BasicSystem<S>& system, const BasicState<S>& state);
+
 }  // namespace pintle

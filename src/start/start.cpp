@@ -64,9 +64,7 @@ Assembly start_of_free_bodies(const Model& model, System system, double known_sp
   const Vecs assembled = assembly.state.q;
   if (const std::string loose = names_of_joints_in_play(assembly.system); !loose.empty() && loaded && !seated)
     assembly.notes.push_back("joints start in the middle of their play (" + loose + ") and strike its sides first: the largest forces may be those of the start; start = \"seated\" begins where the load presses them");
-  if (seated)
-    if (const std::string free = seat_joints(assembly.system, assembly.state); !free.empty())
-      assembly.notes.push_back("joints that carry no load at the start stay in the middle of their play: " + free);
+  if (seated) note_seated(assembly);
   std::optional<BasicSettledStart<Planar>> unloaded;
   if (std::any_of(assembly.system.joints.begin(), assembly.system.joints.end(), [](const JointData& joint) { return joint.law.has_friction(); })) unloaded = assembly;
   start_forces(assembly.system, loaded, assembly.state);
@@ -76,6 +74,20 @@ Assembly start_of_free_bodies(const Model& model, System system, double known_sp
   else settle_joints(assembly.system, duration, known_span, assembly);
   note_far_deflection(assembly.system, assembled, assembly.state, assembly.notes);
   return assembly;
+}
+
+// Where the creep finds no rest, as that of a block that only static friction holds on its ramp, the assembled mechanism may be at rest itself.
+Assembly settled_start(const Model& model) {
+  try {
+    return start_in_equilibrium(model);
+  } catch (const AssemblyError&) {
+    Model seated = model;
+    seated.simulate.start = Start::kSeated;
+    Assembly assembly = start_of_free_bodies(seated, build_system(seated), 0);
+    if (!is_at_rest(assembly.system, assembly.state)) throw;
+    assembly.notes.push_back("settled: the mechanism is at rest where it was assembled, and starts there");
+    return assembly;
+  }
 }
 
 // Equations that keep a gap at zero do not ask the joint's law, and so do not know of its friction, its detent and its stops either.
@@ -103,7 +115,7 @@ Assembly start_of_run(const Model& model, double known_span) {
       if (model.simulate.equations == Equations::kRelativeAugmented && joint.law.depends_on_reaction_alone()) assembly.notes.push_back("joint " + joint.name + ": its teeth push nothing apart in these equations, whatever its radial_force says");
     return assembly;
   }
-  if (model.simulate.start == Start::kSettled) return start_in_equilibrium(model);
+  if (model.simulate.start == Start::kSettled) return settled_start(model);
   System system = build_system(model);
   if (model.simulate.equations != Equations::kRelative) return start_of_free_bodies(model, std::move(system), known_span);
   const JointTree tree(system);

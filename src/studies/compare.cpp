@@ -205,7 +205,7 @@ Comparison compare(const Model& model, Equations against, const Observer& observ
   compliant.simulate.equations = Equations::kNewtonian;
   other.simulate.equations = against;
   other.simulate.method = "auto";
-  if (model.simulate.start == Start::kSeated) other.simulate.start = Start::kAssembled;  // without play
+  if (model.simulate.start == Start::kSeated && has_constraints(against)) other.simulate.start = Start::kAssembled;  // without play
   if (model.simulate.start == Start::kSettled) start_where_it_settles(model, other);
   Trajectory first = simulate(compliant, observer);
   if (first.outcome == Outcome::kInterrupted) return compare(model, first, first, against);

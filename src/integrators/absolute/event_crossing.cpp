@@ -1,5 +1,9 @@
 // Where free bodies and their joints are inside a step, ahead of it and beyond its end: what its events ask for. theory/time section 7.
+#include <cmath>
+
 #include "integrators/absolute/radau_stepper.h"
+#include "integrators/load_scale.h"
+#include "integrators/radau/step_events.h"
 
 namespace pintle {
 namespace {
@@ -46,17 +50,35 @@ void BasicRadauStepper<S>::find_switching(double x, double h, double* value) {
 }
 
 template <class S>
+void BasicRadauStepper<S>::extrapolate_gaps(double d) {
+  const double half = 0.5 * d * d;
+  for (std::size_t j = 0; j < end_.gap.size(); ++j) {
+    inside_gap_[j] = begin_.gap[j] + d * begin_.gap_rate[j] + half * begin_.gap_accel[j];
+    inside_rate_[j] = begin_.gap_rate[j] + d * begin_.gap_accel[j];
+  }
+  for (std::size_t z = 0; z < inside_law_state_.size(); ++z) inside_law_state_[z] = begin_.law_state[z] + d * begin_.law_rate[z];
+}
+
+template <class S>
+bool BasicRadauStepper<S>::forces_hold(double d) {
+  extrapolate_gaps(kBefore * d);
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const BasicJointData<S>& joint = system_.joints[j];
+    const typename S::Vec load = load_on(joint.at, scale_), force = joint.law.force({begin_.t + kBefore * d, inside_gap_[j], inside_rate_[j], inside_law_state_.data() + joint.first_state});
+    for (int k = 0; k < S::kDof; ++k)
+      if (!(std::abs(force[k] - begin_.force[j][k]) <= kHeldForce * load[k])) return false;
+  }
+  return true;
+}
+
+template <class S>
 void BasicRadauStepper<S>::extrapolate_switching_functions(double d, double* value) {
   const double half = 0.5 * d * d;
   for (std::size_t b = 0; b < end_.q.size(); ++b) {
     inside_q_[b] = along(begin_.q[b], d, begin_.v[b], half, begin_.a[b]);
     inside_v_[b] = begin_.v[b] + d * begin_.a[b];
   }
-  for (std::size_t j = 0; j < end_.gap.size(); ++j) {
-    inside_gap_[j] = begin_.gap[j] + d * begin_.gap_rate[j] + half * begin_.gap_accel[j];
-    inside_rate_[j] = begin_.gap_rate[j] + d * begin_.gap_accel[j];
-  }
-  for (std::size_t z = 0; z < inside_law_state_.size(); ++z) inside_law_state_[z] = begin_.law_state[z] + d * begin_.law_rate[z];
+  extrapolate_gaps(d);
   system_.motions(inside_q_, inside_v_, inside_m_);
   system_.find_switching(begin_.t + d, inside_m_, inside_gap_, inside_rate_, inside_law_state_, begin_.sliding, value);
 }
@@ -66,12 +88,27 @@ void BasicRadauStepper<S>::find_switching_at_end(double* value) const {
   system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, value);
 }
 
+// What joints lose more than at the end, a time d later: a contact whose force has vanished loses what it still stores.
+template <class S>
+double BasicRadauStepper<S>::change_of_loss(double d) const {
+  if (end_.loss_power == 0) return 0;
+  double change = 0;
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    const BasicJointData<S>& joint = system_.joints[j];
+    if (joint.servo >= 0) continue;
+    const BasicLawPoint<S> now = law_point(system_, j, end_);
+    const typename S::Vec gap = now.gap + d * now.rate + 0.5 * d * d * end_.gap_accel[j], rate = now.rate + d * end_.gap_accel[j];
+    change += joint.law.loss({now.t + d, gap, rate, now.state}) - joint.law.loss(now);
+  }
+  return change;
+}
+
 template <class S>
 void BasicRadauStepper<S>::extrapolate_end_state(double d) {
   const double half = 0.5 * d * d;
-  end_.t += d;
   end_.supplied += d * end_.supply_power;
-  end_.dissipated += d * end_.loss_power;
+  end_.dissipated += d * (end_.loss_power + 0.5 * change_of_loss(kBefore * d));
+  end_.t += d;
   for (std::size_t b = 0; b < end_.q.size(); ++b) {
     end_.q[b] = along(end_.q[b], d, end_.v[b], half, end_.a[b]);
     end_.v[b] += d * end_.a[b];
@@ -110,14 +147,20 @@ void BasicRadauStepper<S>::balance_end() {
 
 template void BasicRadauStepper<Planar>::find_switching(double x, double h, double* value);
 template void BasicRadauStepper<Planar>::extrapolate_switching_functions(double d, double* value);
+template void BasicRadauStepper<Planar>::extrapolate_gaps(double d);
+template bool BasicRadauStepper<Planar>::forces_hold(double d);
 template void BasicRadauStepper<Planar>::find_switching_at_end(double* value) const;
+template double BasicRadauStepper<Planar>::change_of_loss(double d) const;
 template void BasicRadauStepper<Planar>::extrapolate_end_state(double d);
 template const std::vector<Planar::Motion>& BasicRadauStepper<Planar>::motions_after(double d);
 template bool BasicRadauStepper<Planar>::cross_borders();
 template void BasicRadauStepper<Planar>::balance_end();
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::find_switching(double x, double h, double* value);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::extrapolate_switching_functions(double d, double* value);)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::extrapolate_gaps(double d);)
+PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::forces_hold(double d);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::find_switching_at_end(double* value) const;)
+PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::change_of_loss(double d) const;)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::extrapolate_end_state(double d);)
 PINTLE_IN_SPACE(template const std::vector<Spatial::Motion>& BasicRadauStepper<Spatial>::motions_after(double d);)
 PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::cross_borders();)

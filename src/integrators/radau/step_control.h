@@ -43,14 +43,14 @@ class StepControl {
 
   /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
   /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved),
-  /// cross_event(distance, event), balance_end(), error_estimate(h, error) and finish_step(h).
+  /// forces_hold(distance), cross_event(distance, event), balance_end(), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
 
  private:
   static constexpr int kMaxRetries = 80;          // trials of one step, at most
   static constexpr double kShortest = 1e-11;      // of the run: the shortest step that is refused for its error
-  static constexpr double kEventAtStart = 1e-8;   // of the usual step: an event this close to its start is crossed by Taylor's series. A touch may be ten thousand times as short as the flight before: with 1e-5 elastic ones gain energy
+  static constexpr double kEventAtStart = 1e-5;   // of the usual step: an event this close to its start is crossed, if forces hold until then
   static constexpr int kSlow = 10;                // trials towards an event, after which they are taken for a sequence that comes nearer by a constant ratio: most come there in three
   static constexpr int kMostCrossed = 24;         // events that are crossed at the start of one step, at most
   static constexpr double kShrink = 0.5;          // of the step, after Newton's iteration failed; the most that its contraction shortens the next one
@@ -138,7 +138,8 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       ahead = event;
       ahead.t = method.t() + event.before * h;
     }
-    if (event.before < 1 && event.before * h < 2 * kEventAtStart * usual) {
+    // A touch may be ten thousand times as short as the flight before it: its end is crossed only if forces stay what they are until then.
+    if (event.before < 1 && event.before * h < 2 * kEventAtStart * usual && method.forces_hold(event.before * h)) {
       ++counters.events;
       event_ = ahead;
       method.cross_event(event.before * h, event);

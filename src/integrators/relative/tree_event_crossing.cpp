@@ -1,4 +1,8 @@
 // Where a tree and its gaps are inside a step, ahead of it and beyond its end: what its events ask for. theory/time section 7.
+#include <cmath>
+
+#include "integrators/load_scale.h"
+#include "integrators/radau/step_events.h"
 #include "integrators/relative/tree_radau.h"
 
 namespace pintle {
@@ -41,10 +45,33 @@ void TreeRadau::extrapolate_switching_functions(double d, double* value) {
   inside_at_.find_switching(at, value);
 }
 
+bool TreeRadau::forces_hold(double d) {
+  const double near = kBefore * d;
+  inside_at_.place(begin_.t + near, begin_.y + near * begin_.u + 0.5 * near * near * begin_.w, begin_.u + near * begin_.w);
+  TreeState at = begin_;
+  at.t += near;
+  move_carried(near, at);
+  Eigen::VectorXd force;
+  inside_at_.forces(at, force, at.law_rate);
+  for (std::size_t l = 0; l < tree_->laws().size(); ++l) {
+    const Planar::Vec load = load_on(system_.joints[tree_->laws()[l]].at, scale_);
+    for (int k = 0; k < 3; ++k)
+      if (const Eigen::Index i = 3 * static_cast<Eigen::Index>(l) + k; !(std::abs(force[i] - begin_.force[i]) <= kHeldForce * load[k])) return false;
+  }
+  return true;
+}
+
 void TreeRadau::extrapolate_end_state(double d) {
+  const double near = kBefore * d;
+  TreeState later = end_;
+  later.t += near;
+  move_carried(near, later);
+  inside_at_.place(later.t, end_.y + near * end_.u + 0.5 * near * near * end_.w, end_.u + near * end_.w);
+  inside_at_.forces(later, later.force, later.law_rate);
+  const auto [supplied, lost] = inside_at_.power(later);
   end_.t += d;
-  end_state_.supplied += d * end_state_.supply_power;
-  end_state_.dissipated += d * end_state_.loss_power;
+  end_state_.supplied += 0.5 * d * (end_state_.supply_power + supplied);
+  end_state_.dissipated += 0.5 * d * (end_state_.loss_power + lost);
   end_.y += d * end_.u + 0.5 * d * d * end_.w;
   end_.u += d * end_.w;
   move_carried(d, end_);

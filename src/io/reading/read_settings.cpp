@@ -70,8 +70,10 @@ void check_tolerance_of(ModelReading& reading, const Record& record) {
 // Only joints that yield come to rest by themselves.
 void check_start(ModelReading& reading, const Record& record) {
   const Start start = reading.model.simulate.start;
-  if (reading.model.simulate.equations == Equations::kNewtonian || (start != Start::kSettled && start != Start::kSeated)) return;
-  if (start == Start::kSeated) return reading.complaints.add(record.spot("start"), "simulate.start", "\"seated\"", "with these equations play is not taken up", "equations = \"newtonian\", or start = \"assembled\"");
+  const Equations equations = reading.model.simulate.equations;
+  if (equations == Equations::kNewtonian || (start != Start::kSettled && start != Start::kSeated)) return;
+  if (start == Start::kSeated && equations == Equations::kRelative) return;
+  if (start == Start::kSeated) return reading.complaints.add(record.spot("start"), "simulate.start", "\"seated\"", "with these equations play is not taken up", "equations = \"newtonian\" or \"relative\", or start = \"assembled\"");
   reading.complaints.add(record.spot("start"), "simulate.start", "\"settled\"", "with these equations no mechanism is let come to rest", "equations = \"newtonian\", or start = \"assembled\"");
 }
 

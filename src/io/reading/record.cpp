@@ -11,7 +11,7 @@ namespace {
 // How a required key might be stated.
 std::string example_line(const KeySpec& key) {
   const std::string start = key.key + " = ";
-  const std::string number = key.unit.empty() || key.unit == "any" ? "1" : "\"1 " + key.unit + "\"";
+  const std::string number = key.unit.empty() || key.unit == "any" ? "1" : key.unit == "m" ? "\"10 mm\"" : "\"1 " + key.unit + "\"";
   switch (key.type) {
     case ValueType::kWord:
       return start + in_quotes(key.words.empty() ? "word" : key.words.front());
