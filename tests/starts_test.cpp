@@ -136,7 +136,7 @@ TEST(Starts, VelocitiesAreThoseOfAssemblyWhateverTheDuration) {
     EXPECT_NEAR(spin(test_model("toggle_press_with_loose_pins", run), "body.con.spin"), 1.2422, 1e-3) << duration;
     std::vector<std::string> rubbing = run;
     rubbing.insert(rubbing.end(), {"defaults.joint.friction=\"coulomb\"", "defaults.joint.pin_radius=5e-3"});
-    EXPECT_NEAR(spin(test_model("scissor_jack", rubbing), "body.car.vy"), 0, 1e-9) << duration;
+    EXPECT_NEAR(spin(test_model("scissor_jack", rubbing), "body.car.vy"), 0, 1e-5) << duration;
   }
 }
 

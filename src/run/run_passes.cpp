@@ -26,7 +26,6 @@ constexpr double kLoosestOfMotion = 1e-3;  // the same where the tolerance is of
 constexpr double kLeastTolerance = 1e-13;  // of any pass: below it all is rounding
 constexpr double kPromised = 0.7;          // of the tolerance: with a smaller stated error the true one keeps to it, which may be a third larger
 constexpr double kPromisedByFew = 0.5;     // the same of order 9, whose steps are few and long: two passes say less. With 0.7, 5 more of 817 runs of the battery are over the tolerance
-constexpr double kLeastPower = 0.3;        // of the tolerance, with which errors fall where two pairs of passes show that they fall more slowly than by kErrorPower
 constexpr double kAlike = 1.25;            // steps of the finer pass over those of the coarser: with fewer the two say little
 constexpr double kSurest = 0.05;           // of the tolerance of the steps: no error is stated as smaller
 constexpr double kRepeated = 0.1;          // tolerance of a pass that is to show whether what two have shown is so, over that of the finer
@@ -168,21 +167,14 @@ class Passes {
   // The last two passes, of which the coarser had the tolerance `before` and made so many steps.
   void compare(double before, double steps_before) {
     const BasicForceTable<S> &coarse = coarse_->forces(), &fine = fine_->forces();
-    const double coarser = std::exchange(coarse_tolerance_, before);
+    coarse_tolerance_ = before;
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
-    const bool comparable = !alike_ && !out_.of_motion, same_order = choice_.stages == stages_before_;
-    const double fall = fall_of_errors(before, steps_before);
-    share_ = comparable ? share_of_finer(fall, kErrorPower) : 1.0;
+    share_ = alike_ || out_.of_motion ? 1.0 : share_of_finer(fall_of_errors(before, steps_before));
     stages_before_ = choice_.stages;
     find_difference(coarse, fine);
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
     relative_difference_ = relative_differences(system_, difference_);
-    const double apart = out_.of_motion ? out_.motion_error : largest_of(relative_difference_), apart_before = std::exchange(apart_, comparable ? apart : 0);
-    if (comparable && same_order && apart_before > 0 && apart > 0 && coarser > before) {
-      share_ = share_of_finer(fall, std::clamp(std::log(apart_before / apart) / std::log(coarser / before), kLeastPower, kErrorPower));
-      find_difference(coarse, fine);
-      relative_difference_ = relative_differences(system_, difference_);
-    }
+    const double apart = out_.of_motion ? out_.motion_error : largest_of(relative_difference_);
     if (growth_.exponential && growth_.saturated) last_growth_ = growth_;
     growth_ = {};
     if (apart > kPromised * settings_.tolerance) growth_ = growth_of(coarse, fine);
@@ -382,7 +374,7 @@ class Passes {
   // Of the last two passes.
   PassDifference difference_;
   std::vector<double> relative_difference_;  // of each joint
-  double share_ = 1, error_ = 0, apart_ = 0;
+  double share_ = 1, error_ = 0;
   bool alike_ = false;             // their steps
   int stages_before_ = 0;          // of the coarser one
   ErrorGrowth growth_, last_growth_;  // and of the pair before that showed chaos: one between may be too short or too jagged to tell

@@ -135,7 +135,10 @@ void settle_soft_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& 
   if (moderate && (soft.change < kSettledSweep || is_near(system, attempt, start.state, kUnsettledGrowth))) start.state = std::move(attempt);
   const bool along = note_resolved_joints(system, time_scales, soft, start.notes);
   if (soft.placed && moderate && along && soft.change < kExact) return;
-  if (settle_fast_joints(system, time_scales, slowest_fast_rate(time_scales), span, false, start.state) > 0) return;
+  const double slowest = slowest_fast_rate(time_scales);
+  const bool all_soft = !std::isfinite(slowest);  // then no fast joint is left that would ring
+  if (all_soft && soft.placed && moderate && soft.change < kSettledSweep) return;
+  if (settle_fast_joints(system, time_scales, slowest, span, false, start.state) > 0) return;
   if (!soft.placed || !moderate || soft.change >= kSettledSweep) start.notes.push_back(kNotSettled);
 }
 
@@ -160,7 +163,9 @@ void settle_joints(const BasicSystem<S>& system, double duration, double known_s
   start.effective_mass = time_scales.effective_mass;
   if (span > 0 && time_scales.any_soft()) return settle_soft_joints(system, time_scales, span, start);
   start.settled_over = settle_fast_joints(system, all_fast(system), slowest_fast_rate(time_scales), smooth_span(system, state, duration), true, state);
-  if (start.settled_over == 0 && largest_force(state.force) > 0 && !is_at_rest(system, state)) start.notes.push_back(kNotSettled);
+  const bool may_change = !system.applied.empty() || std::any_of(system.joints.begin(), system.joints.end(), [](const BasicJointData<S>& joint) { return joint.driven >= 0; });
+  const bool still = !may_change && (largest_force(state.force) == 0 || is_at_rest(system, state));
+  if (start.settled_over == 0 && !still) start.notes.push_back(kNotSettled);
 }
 
 template void settle_joints(const BasicSystem<Planar>& system, double duration, double known_span, BasicSettledStart<Planar>& start);

@@ -185,7 +185,7 @@ double curve_horizon(const DifferenceCurve& curve, double tolerance) {
   return horizon;
 }
 
-double share_of_finer(double fall, double power) { return std::min(1.0, kOfEqual * std::pow(fall, power)); }
+double share_of_finer(double fall) { return std::min(1.0, kOfEqual * std::pow(fall, kErrorPower)); }
 
 template <class S>
 void state_errors(const BasicSystem<S>& system, const PassDifference& difference, double share, const BasicLeastError<S>& least, std::vector<LoadSummary>& joints) {

@@ -47,7 +47,7 @@ double motion_difference(const BasicSystem<S>& system, const BasicForceTable<S>&
 inline constexpr double kErrorPower = 0.8;
 /// The error of the finer of two passes over their difference, where tolerances or steps let errors fall to this part: all of it where they are alike.
 /// theory/time Eq. (6.2).
-double share_of_finer(double fall, double power);
+double share_of_finer(double fall);
 
 /// What a joint's error is at least.
 template <class S>
