@@ -139,7 +139,7 @@ TEST(ClearanceRegimesSlow, PinsThatBounceArePromisedAsLongAsFinePassesAgree) {
     double earliest;  // horizon [s]
     double checked;   // duration of the finer run [s]
   };
-  for (const Case& c : {Case{"two_bouncing_pins", 0.1, 0.12}, {"rattling_ball_bearing", 0.02, 0.024}}) {
+  for (const Case& c : {Case{"two_bouncing_pins", 0.1, 0.12}, {"rattling_ball_bearing", 0.01, 0.024}}) {
     const Trajectory run = simulate(reference::test_model(c.model));
     ASSERT_EQ(run.outcome, Outcome::kHorizon) << c.model << ": " << run.message;
     ASSERT_GT(run.growth.horizon, c.earliest) << c.model;
