@@ -123,7 +123,7 @@ TEST(Starts, AVelocityThatIsReplacedIsNoted) {
 // A beam that hangs free in its bush at the start falls onto it, and the largest force of the run may be that of this impact.
 TEST(Starts, PinsThatStartInTheMiddleOfTheirPlayAreNoted) {
   const std::string notes = notes_of(reference::test_model("pump_jack_with_loose_saddle"));
-  EXPECT_NE(notes.find("joints start in the middle of their play (saddle) and strike its sides first"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("joints start in the middle of their play (saddle) and strike the sides of it first"), std::string::npos) << notes;
   EXPECT_EQ(notes_of(reference::mechanism("four_bar")).find("start in the middle"), std::string::npos);
 }
 
@@ -149,6 +149,7 @@ TEST(Starts, NoTransientIsNotedWhereNothingMoves) {
 TEST(Starts, MissingUnitsAreNoted) {
   EXPECT_EQ(notes_of(reference::mechanism("slider_crank_clearance")).find("without a unit"), std::string::npos);
   EXPECT_NE(notes_of(reference::mechanism("slider_crank_clearance", {"joint.B.pin_radius=9.5"})).find("joint B: its pin_radius of 9.5 m is larger than the whole mechanism (0.17 m): without a unit lengths are metres"), std::string::npos);
+  EXPECT_NE(notes_of(reference::mechanism("slider_crank_clearance", {"joint.B.clearance=0.05"})).find("joint B: its clearance of 0.05 m is larger than the radius of its pin (0.0095 m)"), std::string::npos);
   EXPECT_NE(notes_of(reference::mechanism("four_bar", {"body.coupler.angle=40"})).find("body coupler: its angle of 40 rad is 6.37 turns: without a unit angles are radians"), std::string::npos);
   EXPECT_EQ(notes_of(reference::mechanism("door_stops")).find("without a unit"), std::string::npos);  // its stops are angles
 }

@@ -66,6 +66,12 @@ void note_large_lengths(const std::string& joint, const LawChoice& choice, doubl
   }
 }
 
+void note_wide_clearance(const std::string& joint, const LawChoice& law, std::vector<std::string>& notes) {
+  const auto clearance = law.values.find("clearance"), radius = law.values.find("pin_radius");
+  if (clearance == law.values.end() || radius == law.values.end() || clearance->second.empty() || radius->second.empty() || !(clearance->second[0] > radius->second[0])) return;
+  notes.push_back(fmt::format("joint {}: its clearance of {:.4g} m is larger than the radius of its pin ({:.4g} m): without a unit lengths are metres", joint, clearance->second[0], radius->second[0]));
+}
+
 void note_many_turns(const std::string& what, double angle, std::vector<std::string>& notes) {
   if (std::abs(angle) > kManyTurns) notes.push_back(fmt::format("{} of {:.4g} rad is {:.3g} turns: without a unit angles are radians", what, angle, angle / (2 * std::numbers::pi)));
 }
@@ -124,6 +130,7 @@ void note_missing_units(const Model& model, double size, std::vector<std::string
     if (body.angle) note_many_turns("body " + body.name + ": its angle", *body.angle, notes);
     for (const Marker& marker : body.markers) note_many_turns("body " + body.name + ": the axis angle of its marker " + marker.name, marker.axis, notes);
   }
+  for (const Joint& joint : model.joints) note_wide_clearance(joint.name, joint.law, notes);
   for (const Joint& joint : model.joints)
     for (const LawChoice* law : {&joint.law, &joint.friction, &joint.stops, &joint.detent}) note_large_lengths(joint.name, *law, size, notes);
 }

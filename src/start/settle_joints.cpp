@@ -21,7 +21,7 @@ constexpr double kExact = 1e-6;                       // relative change of the 
 constexpr double kUnsettledGrowth = 1.1;              // growth of the largest force, by soft joints whose sweeps have not converged: what is beyond is no start. With the 2 of kMostGrowth a lift at rest starts with 1.3 times its load (test Starts)
 constexpr double kMostKick = 0.25;                    // of a joint's force: what may ring because the rates of gaps are not known better than the gaps, which the last sweep has changed
 constexpr double kMostOfStored = 0.2;                 // of the energy that joints store: the kinetic energy that fast ones give bodies, at most. 0.1 is the most of the collection (a toggle under load), 0.3 and more have starts that rounding makes
-constexpr double kBalanced = 1e-6;                      // of the largest joint force: what accelerates a body less leaves it at rest
+constexpr double kBalanced = 1e-6;                    // of the largest joint force: what accelerates a body less leaves it at rest
 constexpr double kSmallCouple = 0.05;                 // of the largest force at the largest radius of gyration: couples below it are not asked whether they grow
 constexpr double kEntirely = 0.99;                    // of its slow motion: with this share a soft joint counts as going with the motion
 
@@ -148,8 +148,11 @@ template <class S>
 bool is_at_rest(const BasicSystem<S>& system, const BasicState<S>& state) {
   const double force = largest_force(state.force);
   if (twice_kinetic_energy(system, state.v) > kFits * twice_stored(state)) return false;
-  for (std::size_t i = 0; i < state.a.size(); ++i)
-    if (!(system.bodies[i].mass.cwiseProduct(state.a[i]).template head<S::kDim>().norm() <= kBalanced * force)) return false;
+  for (std::size_t i = 0; i < state.a.size(); ++i) {
+    const typename S::Vec unbalanced = system.bodies[i].mass.cwiseProduct(state.a[i]);
+    const double couple = unbalanced.template tail<S::kDof - S::kDim>().norm() / system.bodies[i].radius_of_gyration();
+    if (!(unbalanced.template head<S::kDim>().norm() + couple <= kBalanced * force)) return false;
+  }
   return true;
 }
 

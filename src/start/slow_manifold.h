@@ -14,7 +14,7 @@ namespace pintle {
 inline constexpr int kSweeps = 5;            // over the joints, at most
 inline constexpr double kConverged = 1e-10;  // relative change of the gaps below which sweeps end
 inline constexpr double kDiverged = std::numeric_limits<double>::infinity();
-inline constexpr double kSettledSweep = 0.1;      // relative change of the gaps in the last sweep that is taken for convergence
+inline constexpr double kSettledSweep = 0.1;  // relative change of the gaps in the last sweep that is taken for convergence
 inline constexpr int kSpans = 4;             // times over which the slow motion is looked for, each a quarter of the one before
 
 /// A step that a rough integration by `Method` takes, once it is under way: the gaps are smooth over about that time. 0: it takes none.

@@ -63,7 +63,7 @@ Assembly start_of_free_bodies(const Model& model, System system, double known_sp
   const bool seated = model.simulate.start == Start::kSeated, loaded = seated || model.simulate.start == Start::kAssembled;
   const Vecs assembled = assembly.state.q;
   if (const std::string loose = names_of_joints_in_play(assembly.system); !loose.empty() && loaded && !seated)
-    assembly.notes.push_back("joints start in the middle of their play (" + loose + ") and strike its sides first: the largest forces may be those of the start; start = \"seated\" begins where the load presses them");
+    assembly.notes.push_back("joints start in the middle of their play (" + loose + ") and strike the sides of it first: the largest forces may be those of the start; start = \"seated\" begins where the load presses them");
   if (seated) note_seated(assembly);
   std::optional<BasicSettledStart<Planar>> unloaded;
   if (std::any_of(assembly.system.joints.begin(), assembly.system.joints.end(), [](const JointData& joint) { return joint.law.has_friction(); })) unloaded = assembly;
