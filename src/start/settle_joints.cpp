@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "dynamics/inverse_dynamics.h"
 #include "dynamics/time_scales.h"
 #include "integrators/absolute/radau_stepper.h"
 #include "linalg/chebyshev_nodes.h"
