@@ -6,6 +6,7 @@
 #include "integrators/relative/tree_radau.h"
 #include "start/seat.h"
 #include "start/slow_manifold.h"
+#include "start/start_forces.h"
 #include "start/tree_preload.h"
 
 namespace pintle {
