@@ -20,7 +20,7 @@ namespace {
 constexpr double kMostHaste = 1e-3, kMostLever = 30;  // change of a body's speed that is the joints' giving way: over the largest speed, at most; or over the largest rate of a gap, at most
 constexpr double kExact = 1e-6;                       // relative change of the gaps below which nothing is left to settle
 constexpr double kUnsettledGrowth = 1.1;              // growth of the largest force, by soft joints whose sweeps have not converged: what is beyond is no start. With the 2 of kMostGrowth a lift at rest starts with 1.3 times its load (test Starts)
-constexpr double kMostKick = 0.25;                    // of a joint's force: what may ring because the rates of gaps are not known better than the gaps, which the last sweep has changed
+constexpr double kMostKick = 0.5;                     // of a joint's force: what may ring because the rates of gaps are not known better than the gaps, which the last sweep has changed
 constexpr double kMostOfStored = 0.2;                 // of the energy that joints store: the kinetic energy that fast ones give bodies, at most. 0.1 is the most of the collection (a toggle under load), 0.3 and more have starts that rounding makes
 constexpr double kBalanced = 1e-6;                    // of the largest joint force: what accelerates a body less leaves it at rest
 constexpr double kSmallCouple = 0.05;                 // of the largest force at the largest radius of gyration: couples below it are not asked whether they grow
