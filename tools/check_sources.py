@@ -24,6 +24,7 @@ FOLDERS_OF = {
     "laws": "friction contact bearings flexures".split(),
     "results": "plots studies".split(),
     "run": "record errors limits".split(),
+    "start": ["relative"],
     "sweeps": "storage".split(),
 }
 MAX_IN_FOLDER = 25

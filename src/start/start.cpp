@@ -15,7 +15,7 @@
 #include "start/settle_joints.h"
 #include "start/start_forces.h"
 #include "start/stiction.h"
-#include "start/tree_start.h"
+#include "start/relative/tree_start.h"
 #include "system/build.h"
 #include "system/tree.h"
 

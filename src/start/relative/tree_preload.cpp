@@ -1,4 +1,4 @@
-#include "start/tree_preload.h"
+#include "start/relative/tree_preload.h"
 
 #include <algorithm>
 #include <array>

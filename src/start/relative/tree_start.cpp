@@ -1,4 +1,4 @@
-#include "start/tree_start.h"
+#include "start/relative/tree_start.h"
 
 #include <algorithm>
 #include <utility>
@@ -7,7 +7,7 @@
 #include "start/seat.h"
 #include "start/slow_manifold.h"
 #include "start/start_forces.h"
-#include "start/tree_preload.h"
+#include "start/relative/tree_preload.h"
 
 namespace pintle {
 namespace {
