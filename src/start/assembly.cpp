@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <set>
 #include <utility>
 
 #include "dynamics/inverse_dynamics.h"
@@ -148,13 +147,11 @@ void demand_closed(const Model& model, const System& system, const Vecs& q, cons
   const double size = mechanism_size(system, q);
   constexpr int kMostListed = 20;
   constexpr std::size_t kMostTried = 40;  // joints that are opened in turn, at most
-  const std::vector<int> in_play = joints_in_play(system);
-  const std::set<int> loose(in_play.begin(), in_play.end());
   std::vector<std::size_t> broken;
   for (std::size_t j = 0; j < left.size(); ++j) {
     if (open[j]) continue;
     if (is_broken(left[j], size)) broken.push_back(j);
-    else if ((left[j][0] > 1e-9 * size || left[j][1] > 1e-9) && !loose.contains(static_cast<int>(j)))  // play takes up what is left
+    else if ((left[j][0] > 1e-9 * size || left[j][1] > 1e-9) && !has_play(system.joints[j]))  // play takes up what is left
       notes.push_back(fmt::format("{} {}: misfit of {:.3g} m, {:.3g} rad after assembly; it preloads the {}", system.joints[j].servo < 0 ? "joint" : "motor", system.joints[j].name, left[j][0],
                                   left[j][1], system.joints[j].servo < 0 ? "joint" : "motor"));
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "dynamics/inverse_dynamics.h"
 #include "kinematics/position_search.h"
@@ -14,33 +15,23 @@ namespace {
 
 using S = Planar;
 
-// 1 N or 1 N*m on a component, or as much the other way, finds a side of the play.
-bool has_two_sides(const BasicLaw<S>& law, int component) {
-  for (const double way : {1.0, -1.0}) {
-    S::Vec gap = S::Vec::Zero();
-    if (!go_out_against<S>(law, way * S::Vec::Unit(component), S::Vec::Zero(), gap)) return false;
-  }
-  return true;
+// How far a component goes out from the middle, in doublings, until the law pushes back with as much; none where it never does.
+std::optional<double> way_to_side(const BasicLaw<S>& law, int component, double force) {
+  S::Vec gap = S::Vec::Zero();
+  if (!go_out_against<S>(law, force * S::Vec::Unit(component), S::Vec::Zero(), gap)) return std::nullopt;
+  return std::abs(gap[component]);
 }
 
-bool stands_in_play(const JointData& joint) {
-  if (joint.law.ideal_limit() || joint.law.feeds()) return false;
-  const S::Vec engaged = joint.law.engaged_stiffness();
-  const BasicResponse<S> middle = respond<S>(joint.law, S::Vec::Zero(), S::Vec::Zero());
-  for (int k = 0; k < S::kDof; ++k)
-    if (joint.free_mask[k] == 0 && engaged[k] > 0 && !(middle.stiffness(k, k) > 0) && !(middle.damping(k, k) > 0) && has_two_sides(joint.law, k)) return true;
-  return false;
-}
+bool holds(const JointData& joint, int component) { return joint.free_mask[component] == 0 && joint.law.engaged_stiffness()[component] > 0; }
 
-// From the middle to where the law begins to resist, in the component where that is nearest [m] or [rad].
+// From the middle to the side, in the component where that is nearest [m] or [rad].
 double play_of(const JointData& joint, int& component) {
-  constexpr double kTouch = 1e-6;  // of the stiffness where the law acts, times 1 m: the force that tells it
-  const S::Vec engaged = joint.law.engaged_stiffness();
+  constexpr double kTouch = 1e-6;  // of the stiffness where the law acts, times 1 m: the force that tells it. With 1 N the beam of test SeatedStart stays in its play
   double play = std::numeric_limits<double>::infinity();
   for (int k = 0; k < S::kDof; ++k) {
-    S::Vec gap = S::Vec::Zero();
-    if (joint.free_mask[k] != 0 || !(engaged[k] > 0) || !go_out_against<S>(joint.law, kTouch * engaged[k] * S::Vec::Unit(k), S::Vec::Zero(), gap) || std::abs(gap[k]) >= play) continue;
-    play = std::abs(gap[k]);
+    const std::optional<double> way = holds(joint, k) ? way_to_side(joint.law, k, kTouch * joint.law.engaged_stiffness()[k]) : std::nullopt;
+    if (!way || *way >= play) continue;
+    play = *way;
     component = k;
   }
   return play;
@@ -90,10 +81,18 @@ std::string names_of(const System& system, const std::vector<int>& joints) {
 
 }  // namespace
 
+bool has_play(const JointData& joint) {
+  if (joint.law.ideal_limit() || joint.law.feeds()) return false;
+  const BasicResponse<S> middle = respond<S>(joint.law, S::Vec::Zero(), S::Vec::Zero());
+  for (int k = 0; k < S::kDof; ++k)
+    if (holds(joint, k) && !(middle.stiffness(k, k) > 0) && !(middle.damping(k, k) > 0) && way_to_side(joint.law, k, 1) && way_to_side(joint.law, k, -1)) return true;
+  return false;
+}
+
 std::vector<int> joints_in_play(const System& system) {
   std::vector<int> out;
   for (int j = 0; j < system.n_joints(); ++j)
-    if (stands_in_play(system.joints[j])) out.push_back(j);
+    if (has_play(system.joints[j])) out.push_back(j);
   return out;
 }
 

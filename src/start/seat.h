@@ -8,8 +8,11 @@
 
 namespace pintle {
 
-/// The joints that assembly leaves free in the middle of a play with two sides: pins in their bushes, slides in their ways, teeth between teeth. A rope
-/// or a floor has one side.
+/// Whether assembly leaves the joint free in the middle of a play with two sides: a pin in its bush, a slide in its way, teeth between teeth. A rope or a
+/// floor has one side.
+bool has_play(const JointData& joint);
+
+/// Those that have.
 std::vector<int> joints_in_play(const System& system);
 
 /// Their names, with commas between; "" where there are none.

@@ -60,11 +60,11 @@ void note_far_deflection(const System& system, const Vecs& assembled, const Stat
 
 Assembly start_of_free_bodies(const Model& model, System system, double known_span) {
   Assembly assembly = assemble_unloaded(model, std::move(system));
-  const bool seated = model.simulate.start == Start::kSeated, loaded = seated || model.simulate.start == Start::kAssembled;
+  const bool loaded = is_preloaded(model.simulate.start);
   const Vecs assembled = assembly.state.q;
-  if (const std::string loose = names_of_joints_in_play(assembly.system); !loose.empty() && loaded && !seated)
+  if (const std::string loose = model.simulate.start == Start::kAssembled ? names_of_joints_in_play(assembly.system) : ""; !loose.empty())
     assembly.notes.push_back("joints start in the middle of their play (" + loose + ") and strike the sides of it first: the largest forces may be those of the start; start = \"seated\" begins where the load presses them");
-  if (seated) note_seated(assembly);
+  if (model.simulate.start == Start::kSeated) note_seated(assembly);
   std::optional<BasicSettledStart<Planar>> unloaded;
   if (std::any_of(assembly.system.joints.begin(), assembly.system.joints.end(), [](const JointData& joint) { return joint.law.has_friction(); })) unloaded = assembly;
   start_forces(assembly.system, loaded, assembly.state);

@@ -2,6 +2,7 @@
 // carry them, so that a run starts on the slow manifold and excites no ringing. theory/assembly section 3.
 #pragma once
 
+#include "pintle/model.h"
 #include "system/state.h"
 
 namespace pintle {
@@ -11,6 +12,9 @@ inline constexpr int kPreloadPasses = 6;     // of forces and gaps in turns, at 
 inline constexpr int kRedundantPasses = 30;  // where gaps do not fit together yet
 inline constexpr int kCarefulPasses = 15;    // of these that cross no border of a law, at first
 inline constexpr double kMostGrowth = 2;  // of the largest joint force, by an attempt at a start that has not converged
+
+/// Whether joints start with the deflections that carry what the motion needs.
+inline bool is_preloaded(Start start) { return start == Start::kAssembled || start == Start::kSeated; }
 
 /// Accelerations that the joint forces really give at the state's gaps, and the gap accelerations that go with them.
 template <class S>

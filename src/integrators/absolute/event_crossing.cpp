@@ -60,13 +60,13 @@ void BasicRadauStepper<S>::extrapolate_gaps(double d) {
 }
 
 template <class S>
-bool BasicRadauStepper<S>::forces_hold(double d) {
-  extrapolate_gaps(kBefore * d);
+bool BasicRadauStepper<S>::forces_stay_constant(double d) {
+  extrapolate_gaps(kShareBeforeEvent * d);
   for (int j = 0; j < system_.n_joints(); ++j) {
     const BasicJointData<S>& joint = system_.joints[j];
-    const typename S::Vec load = load_on(joint.at, scale_), force = joint.law.force({begin_.t + kBefore * d, inside_gap_[j], inside_rate_[j], inside_law_state_.data() + joint.first_state});
+    const typename S::Vec load = load_on(joint.at, scale_), force = joint.law.force({begin_.t + kShareBeforeEvent * d, inside_gap_[j], inside_rate_[j], inside_law_state_.data() + joint.first_state});
     for (int k = 0; k < S::kDof; ++k)
-      if (!(std::abs(force[k] - begin_.force[j][k]) <= kHeldForce * load[k])) return false;
+      if (!(std::abs(force[k] - begin_.force[j][k]) <= kMostForceChange * load[k])) return false;
   }
   return true;
 }
@@ -90,7 +90,7 @@ void BasicRadauStepper<S>::find_switching_at_end(double* value) const {
 
 // What joints lose more than at the end, a time d later: a contact whose force has vanished loses what it still stores.
 template <class S>
-double BasicRadauStepper<S>::change_of_loss(double d) const {
+double BasicRadauStepper<S>::change_in_loss_power(double d) const {
   if (end_.loss_power == 0) return 0;
   double change = 0;
   for (int j = 0; j < system_.n_joints(); ++j) {
@@ -107,7 +107,7 @@ template <class S>
 void BasicRadauStepper<S>::extrapolate_end_state(double d) {
   const double half = 0.5 * d * d;
   end_.supplied += d * end_.supply_power;
-  end_.dissipated += d * (end_.loss_power + 0.5 * change_of_loss(kBefore * d));
+  end_.dissipated += d * (end_.loss_power + 0.5 * change_in_loss_power(kShareBeforeEvent * d));
   end_.t += d;
   for (std::size_t b = 0; b < end_.q.size(); ++b) {
     end_.q[b] = along(end_.q[b], d, end_.v[b], half, end_.a[b]);
@@ -148,9 +148,9 @@ void BasicRadauStepper<S>::balance_end() {
 template void BasicRadauStepper<Planar>::find_switching(double x, double h, double* value);
 template void BasicRadauStepper<Planar>::extrapolate_switching_functions(double d, double* value);
 template void BasicRadauStepper<Planar>::extrapolate_gaps(double d);
-template bool BasicRadauStepper<Planar>::forces_hold(double d);
+template bool BasicRadauStepper<Planar>::forces_stay_constant(double d);
 template void BasicRadauStepper<Planar>::find_switching_at_end(double* value) const;
-template double BasicRadauStepper<Planar>::change_of_loss(double d) const;
+template double BasicRadauStepper<Planar>::change_in_loss_power(double d) const;
 template void BasicRadauStepper<Planar>::extrapolate_end_state(double d);
 template const std::vector<Planar::Motion>& BasicRadauStepper<Planar>::motions_after(double d);
 template bool BasicRadauStepper<Planar>::cross_borders();
@@ -158,9 +158,9 @@ template void BasicRadauStepper<Planar>::balance_end();
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::find_switching(double x, double h, double* value);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::extrapolate_switching_functions(double d, double* value);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::extrapolate_gaps(double d);)
-PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::forces_hold(double d);)
+PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::forces_stay_constant(double d);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::find_switching_at_end(double* value) const;)
-PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::change_of_loss(double d) const;)
+PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::change_in_loss_power(double d) const;)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::extrapolate_end_state(double d);)
 PINTLE_IN_SPACE(template const std::vector<Spatial::Motion>& BasicRadauStepper<Spatial>::motions_after(double d);)
 PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::cross_borders();)

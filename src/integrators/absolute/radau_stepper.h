@@ -91,8 +91,8 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   void find_switching(double x, double h, double* value);
   void extrapolate_switching_functions(double d, double* value);
   void extrapolate_gaps(double d);
-  double change_of_loss(double d) const;
-  bool forces_hold(double d);
+  double change_in_loss_power(double d) const;
+  bool forces_stay_constant(double d);
   void find_switching_at_end(double* value) const;
   void extrapolate_end_state(double d);
   const std::vector<typename S::Motion>& motions_after(double d);

@@ -20,7 +20,7 @@ class Flickering {
     event.after = 1e-9;
     return event;
   }
-  bool forces_hold(double) { return true; }
+  bool forces_stay_constant(double) { return true; }
   void cross_event(double, const SwitchingEvent&) { ++crossings; }
   void balance_end() {}
   bool error_estimate(double, double&) { return false; }
@@ -59,7 +59,7 @@ class EventNearTheEnd {
     event.after = event.before + 1e-15;
     return event;
   }
-  bool forces_hold(double) { return true; }
+  bool forces_stay_constant(double) { return true; }
   void cross_event(double distance, const SwitchingEvent&) {
     t_ += distance;
     ++crossings;

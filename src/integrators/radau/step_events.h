@@ -14,13 +14,13 @@ namespace pintle {
 
 /// Of the loads: by how much joint forces may change on the way to an event that is crossed with the accelerations at its beginning. Without it
 /// an elastic touch that is a ten-thousandth of the flight before it gains a tenth of its energy.
-constexpr double kHeldForce = 1e-3;
+constexpr double kMostForceChange = 1e-3;
 /// Of the way to an event: where forces are looked at, since they may jump there.
-constexpr double kBefore = 0.999;
+constexpr double kShareBeforeEvent = 0.999;
 
 /// `Method` derives from it and answers
 ///   find_switching(x, h, value)                 the switching functions at share x of the step, on the curve through its stages
-///   forces_hold(d)                              whether joint forces change by next to nothing until then, so that Taylor's series leads there
+///   forces_stay_constant(d)                     whether joint forces change by next to nothing until then, so that Taylor's series leads there
 ///   extrapolate_switching_functions(d, value)   a time d ahead of the start, by Taylor's series: all there is to go by where the stages are not solved
 ///   find_switching_at_end(value)
 ///   end_time(), end_motions(), end_state(), sliding()

@@ -63,7 +63,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   std::vector<SlidingMode>& sliding() { return sliding_; }
   void find_switching(double x, double h, double* value);
   void extrapolate_switching_functions(double d, double* value);
-  bool forces_hold(double d);
+  bool forces_stay_constant(double d);
   void find_switching_at_end(double* value) { end_at_.find_switching(end_, value); }
   void extrapolate_end_state(double d);
   const std::vector<Planar::Motion>& motions_after(double d);

@@ -50,10 +50,6 @@ std::vector<Piece> pieces_of(const std::string& text) {
   return pieces;
 }
 
-bool has_key(const LawInfo* law, std::string_view key) {
-  return law != nullptr && std::any_of(law->keys.begin(), law->keys.end(), [key](const KeyInfo& info) { return info.key == key; });
-}
-
 std::string chosen_word(const Table& table, std::string_view key) {
   const Node* node = table.find(key);
   return node == nullptr || node->string() == nullptr ? std::string() : *node->string();

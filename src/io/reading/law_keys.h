@@ -5,12 +5,18 @@
 
 #include "base/key_info.h"
 #include "joints/catalog.h"
+#include "laws/catalog.h"
 
 namespace pintle {
 
 /// Keys "angular_..." are of a forbidden angle, which not every joint has.
 inline bool has_effect(const KeyInfo& key, const JointTypeInfo& type) {
   return !key.key.starts_with("angular_") || std::any_of(type.gap.begin(), type.gap.end(), [](const ComponentInfo& component) { return component.angular; });
+}
+
+/// Whether a law, if there is one, has this key.
+inline bool has_key(const LawInfo* law, std::string_view key) {
+  return law != nullptr && std::any_of(law->keys.begin(), law->keys.end(), [key](const KeyInfo& info) { return info.key == key; });
 }
 
 }  // namespace pintle

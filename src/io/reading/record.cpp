@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "io/reading/law_keys.h"
 #include "io/text.h"
 #include "laws/catalog.h"
 
@@ -34,7 +35,7 @@ std::string example_line(const KeySpec& key) {
 std::string laws_with(std::string_view key) {
   std::string list;
   for (const LawInfo& law : law_catalog())
-    if (std::any_of(law.keys.begin(), law.keys.end(), [key](const KeyInfo& info) { return info.key == key; }))
+    if (has_key(&law, key))
       list += (list.empty() ? "" : " or ") + std::string(key_of(law.role)) + " = " + in_quotes(std::string(law.word));
   return list;
 }
@@ -58,24 +59,17 @@ bool is_parameter(const Table& model, std::string_view key) {
   return parameters != nullptr && parameters->table() != nullptr && parameters->table()->find(key) != nullptr;
 }
 
-// Whether a key belongs to a law that is stated to be none: friction = "none" switches off with one key, and the others wait for it to come back.
-bool is_switched_off(const Table& table, std::string_view key) {
+// What is stated in place of a law with this key: "none", which switches it off with one word, or another law of its role, as law = "linear" is written
+// over law = "clearance" to see the pin ideal. The keys wait for their law to come back. "" where neither is.
+std::string stated_instead(const Table& table, std::string_view key) {
+  std::string instead;
   for (const LawInfo& law : law_catalog()) {
     const Node* chosen = table.find(key_of(law.role));
-    const bool none = chosen != nullptr && chosen->string() != nullptr && *chosen->string() == "none";
-    if (none && std::any_of(law.keys.begin(), law.keys.end(), [key](const KeyInfo& info) { return info.key == key; })) return true;
+    if (!has_key(&law, key) || chosen == nullptr || chosen->string() == nullptr) continue;
+    if (*chosen->string() == "none") return "none";
+    if (find_law(*chosen->string()) != nullptr) instead = *chosen->string();
   }
-  return false;
-}
-
-// Whether a key belongs to a law in whose place another one is stated: law = "linear" is written over law = "clearance" to see the pin ideal, and the
-// clearance waits for it to come back.
-bool waits_for_its_law(const Table& table, std::string_view key) {
-  return std::any_of(law_catalog().begin(), law_catalog().end(), [&](const LawInfo& law) {
-    const Node* chosen = table.find(key_of(law.role));
-    const bool another = chosen != nullptr && chosen->string() != nullptr && find_law(*chosen->string()) != nullptr;
-    return another && std::any_of(law.keys.begin(), law.keys.end(), [key](const KeyInfo& info) { return info.key == key; });
-  });
+  return instead;
 }
 
 }  // namespace
@@ -161,8 +155,9 @@ std::set<std::string> RecordReader::check_keys(const TableSpec& spec, const Tabl
   for (const Entry& entry : table.entries()) {
     const bool known = spec.find(entry.key) != nullptr ||
                        std::find(spec.children.begin(), spec.children.end(), entry.key) != spec.children.end();
-    if (known || (spec.law_keys && is_switched_off(table, entry.key))) continue;
-    if (spec.law_keys && Schema::model().kinds_with(spec.path, entry.key).empty() && waits_for_its_law(table, entry.key)) record.waiting.push_back(entry.key);
+    const std::string instead = known || !spec.law_keys ? "" : stated_instead(table, entry.key);
+    if (known || instead == "none") continue;
+    if (!instead.empty() && Schema::model().kinds_with(spec.path, entry.key).empty()) record.waiting.push_back(entry.key);
     else meant.insert(complain_of_key(spec, table, entry, record, kind));
   }
   return meant;

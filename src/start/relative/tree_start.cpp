@@ -48,7 +48,7 @@ void take_over(const JointTree& tree, const System& system, const SimulateSettin
   TreeState start;
   TreeInverseDynamics forces(system, tree);
   read_coordinates(tree, state, start);
-  const bool preload = (settings.start == Start::kAssembled || settings.start == Start::kSeated) && !tree.laws().empty();
+  const bool preload = is_preloaded(settings.start) && !tree.laws().empty();
   start_tree_forces(forces, preload, start);
   write(forces, start, state);
   if (!preload) return;
@@ -63,7 +63,7 @@ void take_over(const JointTree& tree, const System& system, const SimulateSettin
 Assembly start_over_tree(const Model& model, const System& system) {
   Assembly assembly = assemble_unloaded(model, stiffened(system, JointTree(system)));
   if (model.simulate.start == Start::kSeated) note_seated(assembly);
-  start_forces(assembly.system, model.simulate.start == Start::kAssembled || model.simulate.start == Start::kSeated, assembly.state);
+  start_forces(assembly.system, is_preloaded(model.simulate.start), assembly.state);
   assembly.system = with_laws_of(std::move(assembly.system), system);
   take_over(JointTree(assembly.system), assembly.system, model.simulate, assembly.state);
   return assembly;
