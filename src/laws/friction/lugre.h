@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "laws/friction/friction.h"
 
@@ -32,11 +33,22 @@ struct LuGreLaw : Friction {
     out.state_rate[0] = v - bristle_stiffness * divide(abs(v), coefficient(v)) * z;                               // (3.12)
     rub(load(in) * (bristle_stiffness * z + bristle_damping * out.state_rate[0] + viscous * v), v, out);          // (3.13)
   }
-  /// Slipping bristles are bent all the way; those of a joint at rest carry nothing. Below the Stribeck speed it is a share of both:
+  /// Slipping bristles are bent all the way; those of a joint at rest carry nothing until set_stuck. Below the Stribeck speed it is a share of both:
   /// a start has speeds of no meaning that are not quite zero.
   void rest(const LawInput<double>& in, double* state) const {
     const double v = slip(in);
     state[0] = v / std::max(std::abs(v), stribeck) * coefficient(v) / bristle_stiffness;
+  }
+  /// Of pins and slides that are at rest, as in CoulombLaw. Bristles that cannot hold their joint stay as rest() has them.
+  std::optional<Stiction> stiction(const double* state) const {
+    if (normal > 0 || bristle_stiffness * std::abs(state[0]) >= kStill * stuck) return {};
+    return Stiction{free, radius * radius * kFirm};
+  }
+  bool set_stuck(const LawInput<double>& in, double force, double* state) const {
+    const double friction = -force / radius, N = load(in);
+    if (!(std::abs(friction) < stuck * N)) return false;
+    state[0] = friction / (bristle_stiffness * N);
+    return true;
   }
 
   std::span<const LawColumn> columns() const { return columns_with_mode(); }
@@ -48,6 +60,8 @@ struct LuGreLaw : Friction {
 
  private:
   static constexpr double kBent = 0.999;  // of the deflection of steady slip: bristles that are bent so far slip
+  static constexpr double kStill = 1e-3;  // of the Stribeck speed: a slip that counts as none
+  static constexpr double kFirm = 1e8;    // of what finds the load of a joint at rest [N/m]; the bristles are given that load, not its stretch
 
   template <class T>
   T coefficient(const T& v) const { return stribeck_coefficient(v, stribeck); }
