@@ -1,5 +1,6 @@
 // Ideal joints with multipliers, against closed forms and one-coordinate solutions; what is said of redundant constraints and of
 // singular positions.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -172,6 +173,46 @@ TEST(Ideal, GoesOverJumpsOfAForce) {
   EXPECT_NEAR(value(back, back.n_rows() - 1, "body.block.vx"), -0.5, 1e-6);
   const Trajectory off = push("if(rate > 0, 2, 1)", "0");  // jumps at the start
   EXPECT_NEAR(value(off, off.n_rows() - 1, "body.block.x"), 1, 1e-6);
+}
+
+// What balances a load that no motion shows has its peak and mean, whatever the steps of the motion are: an arm that a motor holds, by its pin.
+TEST(Ideal, PeaksFollowLoadsWithinAStep) {
+  struct Case {
+    const char* load;
+    double peak, rms;
+  };
+  const double bell = 0.01 * std::sqrt(std::acos(-1.0) / 2);  // of exp(-2 x^2)
+  for (const Case& at : {Case{"1 N*sin(20 rad/s*t)", 1, std::sqrt(0.5 - std::sin(40.0) / 80)}, Case{"1 N*if(t < 0.5 s, (t/(0.5 s))^2, 0)", 1, std::sqrt(0.1)},
+                         Case{"100 N*exp(-((t - 0.37 s)/(0.01 s))^2)", 100, 100 * std::sqrt(bell)}})
+    for (const char* equations : {"ideal", "penalty", "augmented_lagrangian", "relative", "relative_augmented_lagrangian"}) {
+      const Trajectory run = completed(parse_model(fmt::format(R"toml(
+format = 1
+gravity = [0, 0]
+[simulate]
+duration = "1 s"
+equations = "{}"
+[ground.markers]
+O = [0, 0]
+[body.a]
+mass = 1
+inertia = 0.1
+angle = 0
+markers.O = ["-0.2 m", 0]
+markers.T = ["0.2 m", 0]
+[joint.O]
+type = "revolute"
+between = ["ground.O", "a.O"]
+ideal = true
+[motor.m]
+joint = "O"
+speed = 0
+[force.F]
+on = "a.T"
+force = [0, "{}"]
+)toml", equations, at.load), "held.toml"));
+      EXPECT_NEAR(run.joints[0].peak, at.peak, 1e-4 * at.peak) << at.load << ", " << equations;
+      EXPECT_NEAR(run.joints[0].rms, at.rms, 1e-3 * at.rms) << at.load << ", " << equations;
+    }
 }
 
 // The compressor starts at rest, where the gas force jumps; its valves are kinks.

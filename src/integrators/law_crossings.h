@@ -17,7 +17,7 @@ struct LawCrossing {
 };
 
 /// Appends what lies between the values of the switching functions `before` and `after`, of which the latter are those of `state`; forces and the laws'
-/// states there are already the new ones. Beyond kMostCrossings nothing is kept.
+/// states there are already the new ones. Borders of one name that are crossed together are one event. Beyond kMostCrossings nothing is kept.
 template <class S>
 void record_crossings(const BasicSystem<S>& system, const BasicState<S>& state, const double* before, const double* after, std::vector<LawCrossing>& crossings) {
   constexpr std::size_t kMostCrossings = 100000;  // crossings of borders that are kept for events.csv
@@ -25,6 +25,11 @@ void record_crossings(const BasicSystem<S>& system, const BasicState<S>& state, 
     const SwitchingFunction& function = system.switching_functions()[f];
     if (!function.is_crossing(before[f], after[f]) || crossings.size() >= kMostCrossings) continue;
     const BasicLaw<S>& law = system.joints[static_cast<std::size_t>(function.index)].law;
+    const auto name = [&](int border, bool rising) { return law.parts()[static_cast<std::size_t>(function.part)]->border_name(border, rising); };
+    if (!crossings.empty()) {
+      const LawCrossing& last = crossings.back();
+      if (last.t == state.t && last.joint == function.index && last.part == function.part && name(last.border, last.rising) == name(function.border, after[f] > 0)) continue;
+    }
     LawCrossing& crossing = (crossings.push_back({state.t, function.index, function.part, function.border, after[f] > 0, {}}), crossings.back());
     law.observe(law_point(system, function.index, state), state.force[static_cast<std::size_t>(function.index)], crossing.seen);
   }

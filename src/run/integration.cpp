@@ -37,11 +37,12 @@ class Standstill {
   int steps_ = 0;
 };
 
-// Samples of the loads in a step. Steps may hold much of a period of the motion, and the dense output of radau has as many samples of the forces; other methods
-// on free bodies resolve the vibrations of the joints, and those of the alpha family make short steps.
-int load_samples(const MethodChoice& choice) {
-  const bool long_steps = choice.method == "radau" || (choice.method == "dopri5" && choice.equations != Equations::kNewtonian);
-  return long_steps ? CurveGrid::kMost : 3;
+// Steps may hold much of a period of the motion, and the dense output of radau has as many samples of the forces; other methods on free bodies resolve the vibrations
+// of the joints. Forces that balance the loads of their instant, as those of ideal joints do, change as fast as these, which no error of the motion need show.
+LoadSampling load_sampling(const MethodChoice& choice, double tolerance, double output_step) {
+  constexpr double kFinest = 1e-8, kRows = 8;  // resolution; rows in a part of a step
+  if (choice.equations != Equations::kNewtonian) return {CurveGrid::kMost, std::max(tolerance, kFinest), kRows * output_step};
+  return {choice.method == "radau" ? CurveGrid::kMost : 3};
 }
 
 // Whether the energy ends the integration.
@@ -64,7 +65,7 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
   stepper.set_max_step(plan.max_step);
   if (plan.scale) stepper.set_load_scale(*plan.scale);
   stepper.start(start, plan.first_step);
-  recorder.start(stepper.state(), load_samples(plan.choice));
+  recorder.start(stepper.state(), load_sampling(plan.choice, plan.tolerance, plan.output_step));
   if (plan.energy) plan.energy->start(stepper.state());
   std::size_t row = 1;
   const double end = plan.duration, almost = end * (1 - 1e-12);

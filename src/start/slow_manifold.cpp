@@ -18,6 +18,7 @@ namespace {
 constexpr int kNodes = ChebyshevNodes::kN;
 constexpr int kOrders = 6;               // sweeps in which soft joints go with the motion
 constexpr double kSmallForce = 0.05;     // of the largest: the change of a force is measured by this at least
+constexpr double kMostMismatch = 0.05;   // of the largest force: what a law may lack of the force that its gap was to carry. Sweeps that converge leave 5e-4 in the collection; an oil film asked beyond its clearance lacks 30 and more
 constexpr int kHalvings = 30;            // of the stretch that the forces' curves may need, at most
 constexpr double kResolved = 1e-4;       // of the forces: what the last coefficients of a resolved curve may be
 constexpr int kLeap = 4;                 // halvings at once, of a stretch that is far from resolved
@@ -108,6 +109,16 @@ class BasicSlowManifold {
   void take_carrying(BasicState<S>& state) const {
     put(0, state);
     state.gap_rate = carried_rate_;
+  }
+
+  // How far the forces that the laws give a start are from those that the sweeps have found for it, over the largest of these. What the sweeps leave free, as the
+  // stroke of a cylinder that is fed, they give no force.
+  double mismatch(const BasicState<S>& state) const {
+    double most = 0;
+    for (std::size_t j = 0; j < state.force.size(); ++j)
+      for (int k = 0; k < S::kDim; ++k)
+        if (force_[0][j][k] != 0) most = std::max(most, std::abs(state.force[j][k] - force_[0][j][k]));
+    return most / std::max(largest_force(force_[0]), 1e-300);
   }
 
   // Share of the forces' curves that the last two of their Chebyshev coefficients make up.
@@ -316,7 +327,7 @@ BasicSoftStart<S> place_soft_joints(const BasicSystem<S>& system, const BasicTim
     motion.take_carrying(next);
     BasicInverseDynamics<S>(system).move_onto_gaps(next);
     balance_start(system, next);
-    if (!is_finite(next)) break;
+    if (!is_finite(next) || motion.mismatch(next) > kMostMismatch) break;
     best = std::move(next);
     out.change = change;
   }
@@ -340,7 +351,7 @@ double move_onto_slow_manifold(const BasicSystem<S>& system, const BasicTimeScal
       motion.write_start(next);
       BasicInverseDynamics<S>(system).move_onto_gaps(next);
       balance_start(system, next);
-      if (!is_finite(next)) break;
+      if (!is_finite(next) || motion.mismatch(next) > kMostMismatch) break;
       best = std::move(next);
     }
     last = change;

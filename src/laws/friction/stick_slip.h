@@ -66,11 +66,13 @@ struct StickSlip {
   }
   static constexpr std::array<int, kBorders> kDirections{-1, -1, -1};
   static constexpr std::string_view border_name(int border) { return border == 0 ? "slips" : "sticks"; }
+  /// Both ends of a slip may lie in one interval of time; the second one finds surfaces that stick.
   void cross(int border, double v, double N, double* state) const {
     if (border == 0) {
       state[1] = held(v, state) > 0 ? 1 : -1;
       return;
     }
+    if (sticks(state)) return;
     state[0] = (state[1] * kinetic * N + viscous * N * v - damping * v) / stiffness;  // (3.20)
     state[1] = 0;
   }

@@ -34,8 +34,8 @@ BasicForceRecorder<S>::BasicForceRecorder(const BasicSystem<S>& system, Recorded
       stuck_joints_(system), lost_equilibria_(system), drive_peaks_(system) {}
 
 template <class S>
-void BasicForceRecorder<S>::start(const BasicState<S>& state, int n_samples) {
-  loads_.emplace(system_, n_samples, what_ != Recorded::kForces, what_ == Recorded::kColumns ? signals() : nullptr);
+void BasicForceRecorder<S>::start(const BasicState<S>& state, const LoadSampling& sampling) {
+  loads_.emplace(system_, sampling, what_ != Recorded::kForces, what_ == Recorded::kColumns ? signals() : nullptr);
   loads_->start(state);
   add(state);
 }

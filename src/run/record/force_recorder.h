@@ -27,8 +27,8 @@ class BasicForceRecorder {
   BasicForceRecorder(const BasicSystem<S>& system, Recorded what);
   virtual ~BasicForceRecorder() = default;
 
-  /// The start of a run, and its first row. In every step loads are sampled `n_samples` times.
-  void start(const BasicState<S>& state, int n_samples);
+  /// The start of a run, and its first row.
+  void start(const BasicState<S>& state, const LoadSampling& sampling);
   /// Adds a row. Called in the order of time.
   virtual void add(const BasicState<S>& state);
   /// A step has been made.

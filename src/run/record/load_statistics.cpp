@@ -1,14 +1,23 @@
 #include "run/record/load_statistics.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "run/record/force_table.h"
 
 namespace pintle {
+namespace {
+
+constexpr double kMostParts = 1000;   // of a step, none longer than LoadSampling::longest
+constexpr int kMostHalvings = 10;     // of one of these; a jump of the loads is never resolved
+constexpr int kPartsAtKink = 32;      // of a step in which what wears has a kink: a swinging pin has the wear of its last sector to 2e-3 then, and to 0.1 without
+constexpr double kSmallLoad = 1e-6;   // of the largest load: loads are measured by this at least
+
+}  // namespace
 
 template <class S>
-BasicLoadRecorder<S>::BasicLoadRecorder(const BasicSystem<S>& system, int n_samples, bool with_heat, const Signals* signals)
-    : system_(system), grid_(n_samples), with_heat_(with_heat), signals_(signals), n_signals_(signals == nullptr ? 0 : signals->n_signals()), wear_(system) {
+BasicLoadRecorder<S>::BasicLoadRecorder(const BasicSystem<S>& system, const LoadSampling& sampling, bool with_heat, const Signals* signals)
+    : system_(system), grid_(sampling.n), sampling_(sampling), with_heat_(with_heat), signals_(signals), n_signals_(signals == nullptr ? 0 : signals->n_signals()), wear_(system) {
   const std::size_t joints = system.joints.size();
   stride_ = static_cast<int>(joints) * (S::kDof + 1) + n_signals_;
   samples_.resize(static_cast<std::size_t>(grid_.n() * stride_));
@@ -59,36 +68,110 @@ void BasicLoadRecorder<S>::sample(int i, const BasicState<S>& state) {
   if (signals_ != nullptr) signals_->put_signals(state, m_, out);
 }
 
-// Wear of a sample that stands for so much time, unless it is 0.
-template <class S>
-void BasicLoadRecorder<S>::sample(int i, const BasicState<S>& state, double wear_time) {
-  sample(i, state);
-  if (wear_time > 0) wear_.add(state, wear_time * grid_.integral()[static_cast<std::size_t>(i)]);
-}
-
 template <class S>
 void BasicLoadRecorder<S>::add_step(BasicStepper<S>& stepper) {
-  const double t0 = stepper.previous().t, h = stepper.state().t - t0;
-  const int last = grid_.n() - 1;
-  const bool wears = with_heat_ && !wear_.empty();
-  const int parts = wears ? wear_.parts(stepper.previous(), stepper.state()) : 0;
-  const double wear_time = wears && parts == 0 ? h : 0;
-  sample(0, stepper.previous(), wear_time);
-  for (int i = 1; i < last; ++i) sample(i, stepper.interpolate(t0 + grid_.instant(i) * h), wear_time);
-  sample(last, stepper.state(), wear_time);
-  for (int i = 0; i < parts; ++i) wear_.add(stepper.interpolate(t0 + (i + 0.5) / parts * h), h / parts);
+  const double t0 = stepper.previous().t, t1 = stepper.state().t;
   if (end_ == begin_)  // what stands for a run without a step
     for (auto* all : {&force_, &couple_, &signal_})
       for (CurveSums& sums : *all) sums.integral = sums.square = 0;
-  end_ = stepper.state().t;
+  end_ = t1;
+  if (sampling_.resolution <= 0) return add_resolved(stepper, t0, t1, 0);
+  const double parts = std::clamp(std::ceil((t1 - t0) / sampling_.longest), 1.0, kMostParts);
+  double from = t0;
+  for (double i = 1; i <= parts; ++i) {
+    const double to = i < parts ? t0 + i / parts * (t1 - t0) : t1;
+    add_resolved(stepper, from, to, kMostHalvings);
+    from = to;
+  }
+}
+
+template <class S>
+void BasicLoadRecorder<S>::add_resolved(BasicStepper<S>& stepper, double t0, double t1, int halvings) {
+  take_samples(stepper, t0, t1);
+  const bool resolved = sampling_.resolution <= 0 || is_resolved();
+  if (halvings > 0 && !resolved) {
+    const double middle = t0 + 0.5 * (t1 - t0);
+    add_resolved(stepper, t0, middle, halvings - 1);
+    return add_resolved(stepper, middle, t1, halvings - 1);
+  }
+  add_samples(t0, t1 - t0, resolved);
+  if (with_heat_ && !wear_.empty()) add_wear(stepper, t0, t1);
+}
+
+template <class S>
+void BasicLoadRecorder<S>::take_samples(BasicStepper<S>& stepper, double t0, double t1) {
+  const bool wears = with_heat_ && !wear_.empty();
+  for (int i = 0; i < grid_.n(); ++i) {
+    const BasicState<S>& state = stepper.interpolate(i + 1 < grid_.n() ? t0 + grid_.instant(i) * (t1 - t0) : t1);
+    sample(i, state);
+    if (wears) wear_.sample(i, state);
+  }
+}
+
+// Whether more samples would hardly change the curves of the joints' loads.
+template <class S>
+bool BasicLoadRecorder<S>::is_resolved() const {
+  double largest[2] = {0, 0};  // force, couple
+  const auto seen = [&](const CurveSums& sums, int joint, int first, int n) {
+    double size = sums.peak;
+    for (int i = 0; i < grid_.n(); ++i)
+      for (int c = first; c < first + n; ++c) size = std::max(size, std::abs(samples_[static_cast<std::size_t>(i * stride_ + joint * S::kDof + c)]));
+    return size;
+  };
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    largest[0] = std::max(largest[0], seen(force_[static_cast<std::size_t>(j)], j, 0, kForce));
+    largest[1] = std::max(largest[1], seen(couple_[static_cast<std::size_t>(j)], j, kForce, kCouple));
+  }
+  largest[1] = std::max(largest[1], largest[0] * system_.largest_radius_of_gyration());
+  for (int j = 0; j < system_.n_joints(); ++j)
+    for (const bool couple : {false, true}) {
+      if (couple && !has_couple_[static_cast<std::size_t>(j)]) continue;
+      const int first = couple ? kForce : 0, n = couple ? kCouple : kForce;
+      const double size = std::max(seen((couple ? couple_ : force_)[static_cast<std::size_t>(j)], j, first, n), kSmallLoad * largest[couple ? 1 : 0]);
+      for (int c = first; c < first + n; ++c)
+        if (grid_.tail(samples_.data() + j * S::kDof + c, stride_) > sampling_.resolution * size) return false;
+    }
+  return true;
+}
+
+// A curve through the two sides of a jump swings beyond both: there the samples alone count for the peak.
+template <class S>
+template <int n, Sums kind>
+void BasicLoadRecorder<S>::add_load(const double* samples, double t0, double h, bool resolved, CurveSums& sums) const {
+  const CurveSums before = sums;
+  add_curve<n, kind>(grid_, samples, stride_, t0, h, sums);
+  if (resolved) return;
+  sums.peak = before.peak;
+  sums.peak_time = before.peak_time;
+  for (int i = 0; i < grid_.n(); ++i) {
+    double square = 0;
+    for (int c = 0; c < n; ++c) square += samples[i * stride_ + c] * samples[i * stride_ + c];
+    if (!(square > sums.peak * sums.peak)) continue;
+    sums.peak = kind == Sums::kWithSign ? samples[i * stride_] : std::sqrt(square);
+    sums.peak_time = t0 + grid_.instant(i) * h;
+  }
+}
+
+template <class S>
+void BasicLoadRecorder<S>::add_samples(double t0, double h, bool resolved) {
   const double* at = samples_.data();
   for (std::size_t j = 0; j < force_.size(); ++j, at += S::kDof) {
-    add_curve<kForce>(grid_, at, stride_, t0, h, force_[j]);
-    if (has_couple_[j]) add_curve<kCouple>(grid_, at + kForce, stride_, t0, h, couple_[j]);
+    add_load<kForce>(at, t0, h, resolved, force_[j]);
+    if (has_couple_[j]) add_load<kCouple>(at + kForce, t0, h, resolved, couple_[j]);
   }
   for (std::size_t j = 0; j < work_.size(); ++j, ++at)
-    for (int i = 0; i <= last; ++i) work_[j] += h * grid_.integral()[static_cast<std::size_t>(i)] * at[static_cast<std::ptrdiff_t>(i) * stride_];
-  for (CurveSums& sums : signal_) add_curve<1, Sums::kWithSign>(grid_, at++, stride_, t0, h, sums);
+    for (int i = 0; i < grid_.n(); ++i) work_[j] += h * grid_.integral()[static_cast<std::size_t>(i)] * at[static_cast<std::ptrdiff_t>(i) * stride_];
+  for (CurveSums& sums : signal_) add_load<1, Sums::kWithSign>(at++, t0, h, resolved, sums);
+}
+
+// What turns far, or turns round, is divided more finely than the samples.
+template <class S>
+void BasicLoadRecorder<S>::add_wear(BasicStepper<S>& stepper, double t0, double t1) {
+  const double share = (t1 - t0) / (stepper.state().t - stepper.previous().t);
+  const int parts = std::max(static_cast<int>(std::ceil(share * wear_.parts(stepper.previous(), stepper.state()))), wear_.is_smooth(grid_) ? 0 : kPartsAtKink);
+  if (parts == 0) return wear_.add_curve(grid_, t1 - t0);
+  for (int i = 0; i <= parts; ++i) wear_.sample(i, stepper.interpolate(i < parts ? t0 + (t1 - t0) * i / parts : t1));
+  wear_.add_trapezoids(parts, t1 - t0);
 }
 
 template <class S>

@@ -2,6 +2,7 @@
 // they do not depend on the output rows. theory/time section 5.1.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "integrators/stepper.h"
@@ -15,6 +16,13 @@ struct LoadStatistics {
   double peak = 0, peak_time = 0, mean = 0, rms = 0;  // of the size; of a scalar peak and mean with their signs; [s]
 };
 
+/// At how many instants loads are sampled, CurveGrid, and how finely.
+struct LoadSampling {
+  int n = 3;                                                   // instants of a step or of a part of it
+  double resolution = 0;                                       // of the peak: what curves through the samples may leave out. Steps in which they leave more are halved; 0: none is
+  double longest = std::numeric_limits<double>::infinity();    // part of such a step [s]
+};
+
 template <class S>
 class BasicLoadRecorder {
  public:
@@ -26,8 +34,8 @@ class BasicLoadRecorder {
     virtual void put_signals(const BasicState<S>& state, const std::vector<typename S::Motion>& m, double* out) const = 0;
   };
 
-  /// n_samples in a step: CurveGrid. `with_heat`: also what joints lose, and what wears. `signals`, if any, must outlive the recorder.
-  BasicLoadRecorder(const BasicSystem<S>& system, int n_samples, bool with_heat, const Signals* signals);
+  /// `with_heat`: also what joints lose, and what wears. `signals`, if any, must outlive the recorder.
+  BasicLoadRecorder(const BasicSystem<S>& system, const LoadSampling& sampling, bool with_heat, const Signals* signals);
 
   void start(const BasicState<S>& state);
   void add_step(BasicStepper<S>& stepper);
@@ -45,11 +53,18 @@ class BasicLoadRecorder {
   double stored(int joint, const BasicState<S>& state) const;
   double power_on_gap(int j, const BasicState<S>& state) const;
   void sample(int i, const BasicState<S>& state);
-  void sample(int i, const BasicState<S>& state, double wear_time);
+  void add_resolved(BasicStepper<S>& stepper, double t0, double t1, int halvings);
+  void take_samples(BasicStepper<S>& stepper, double t0, double t1);
+  bool is_resolved() const;
+  void add_samples(double t0, double h, bool resolved);
+  template <int n, Sums kind = Sums::kOfSize>
+  void add_load(const double* samples, double t0, double h, bool resolved, CurveSums& sums) const;
+  void add_wear(BasicStepper<S>& stepper, double t0, double t1);
   LoadStatistics over_run(const CurveSums& sums) const;
 
   const BasicSystem<S>& system_;
   CurveGrid grid_;
+  LoadSampling sampling_;
   bool with_heat_;
   const Signals* signals_;
   int n_signals_, stride_;

@@ -63,11 +63,32 @@ CurveGrid::CurveGrid(int n) : n_(n) {
   }
   // Gauss's rule with four points is exact for polynomials of degree 7.
   constexpr std::array<double, 2> kGauss{0.33998104358485626, 0.86113631159405258}, kWeight{0.65214515486254614, 0.34785484513745386};
-  for (std::size_t g = 0; g < kGauss.size(); ++g)
-    for (const double side : {-1.0, 1.0}) {
-      const Weights w = weights(0.5 * (1 + side * kGauss[g]));
-      for (std::size_t i = 0; i < w.size(); ++i) integral_[i] += 0.5 * kWeight[g] * w[i];
+  const auto add_integral = [&](double from, double to, Weights& integral) {
+    for (std::size_t g = 0; g < kGauss.size(); ++g)
+      for (const double side : {-1.0, 1.0}) {
+        const Weights w = weights(from + 0.5 * (to - from) * (1 + side * kGauss[g]));
+        for (std::size_t i = 0; i < w.size(); ++i) integral[i] += 0.5 * (to - from) * kWeight[g] * w[i];
+      }
+  };
+  add_integral(0, 1, integral_);
+  for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(n); ++i) add_integral(x_[i], x_[i + 1], after_[i]);
+  for (std::size_t back = 0; back < last_coefficients_.size(); ++back) {
+    const int degree = n - 1 - static_cast<int>(back);
+    for (int i = 0; i < n; ++i) {
+      const double half_at_ends = (i == 0 || i == n - 1 ? 0.5 : 1) * (degree == n - 1 ? 0.5 : 1);
+      last_coefficients_[back][static_cast<std::size_t>(i)] = 2.0 / (n - 1) * half_at_ends * std::cos(std::numbers::pi * degree * (1 - static_cast<double>(i) / (n - 1)));
     }
+  }
+}
+
+double CurveGrid::tail(const double* samples, int stride) const {
+  double sum = 0;
+  for (const Weights& weight : last_coefficients_) {
+    double coefficient = 0;
+    for (int i = 0; i < n_; ++i) coefficient += weight[static_cast<std::size_t>(i)] * samples[i * stride];
+    sum += std::abs(coefficient);
+  }
+  return sum;
 }
 
 CurveGrid::Weights CurveGrid::weights(double x) const {

@@ -30,12 +30,18 @@ class CurveGrid {
   const AtPoints& of_sample(int sample) const { return of_sample_[static_cast<std::size_t>(sample)]; }
   /// Of the integral of the polynomial over the step, in units of the step.
   const Weights& integral() const { return integral_; }
+  /// The same from one sample to the next.
+  const Weights& integral_after(int sample) const { return after_[static_cast<std::size_t>(sample)]; }
+  /// How large the last two Chebyshev coefficients of the polynomial through `samples[i * stride]` are together: what more samples might still change.
+  double tail(const double* samples, int stride) const;
   /// Weights of the samples at any share of the step.
   Weights weights(double x) const;
 
  private:
   int n_;
   Weights x_{}, barycentric_{}, integral_{};
+  std::array<Weights, kMost> after_{};
+  std::array<Weights, 2> last_coefficients_{};
   std::array<Weights, kPoints> at_point_{};
   std::array<AtPoints, kMost> of_sample_{};
 };

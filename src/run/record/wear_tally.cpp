@@ -1,6 +1,7 @@
 #include "run/record/wear_tally.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/constants.h"
@@ -8,9 +9,16 @@
 namespace pintle {
 namespace {
 
-std::size_t sector_of(double angle, int n) {
-  const double turns = angle / kTurn, share = turns - std::floor(turns);
-  return std::min(static_cast<std::size_t>(n * share), static_cast<std::size_t>(n - 1));
+// Work that is done while a contact goes from one angle to another, the shorter way, over the sectors that it goes through.
+void spread(double from, double to, double work, std::vector<double>& sectors) {
+  const auto n = static_cast<double>(sectors.size());
+  const double begin = from * n / kTurn, way = std::remainder(to - from, kTurn) * n / kTurn, end = begin + way;
+  const double low = std::min(begin, end), high = std::max(begin, end);
+  for (double sector = std::floor(low); sector <= high; ++sector) {
+    const double share = high > low ? (std::min(high, sector + 1) - std::max(low, sector)) / (high - low) : 1;
+    const double turns = std::floor(sector / n);
+    sectors[static_cast<std::size_t>(sector - n * turns)] += share * work;
+  }
 }
 
 }  // namespace
@@ -23,7 +31,7 @@ BasicWearTally<S>::BasicWearTally(const BasicSystem<S>& system) : system_(system
     const auto place = [&columns](std::string_view name) { return std::find_if(columns.begin(), columns.end(), [name](const LawColumn& column) { return column.name == name; }) - columns.begin(); };
     const auto n = static_cast<std::ptrdiff_t>(columns.size()), power = place("wear_power"), angle = place("contact_angle");
     if (power == n || angle == n || joint.free_mask[S::kTurn] == 0 || !(joint.law.engaged_stiffness()[0] > 0)) continue;
-    worn_.push_back({j, static_cast<std::size_t>(power), static_cast<std::size_t>(angle), {joint.name, std::vector<double>(kSectors), std::vector<double>(kSectors)}});
+    worn_.push_back({j, static_cast<std::size_t>(power), static_cast<std::size_t>(angle), {joint.name, std::vector<double>(kSectors), std::vector<double>(kSectors)}, std::vector<Sample>(CurveGrid::kMost)});
   }
 }
 
@@ -48,14 +56,48 @@ int BasicWearTally<S>::parts(const BasicState<S>& begin, const BasicState<S>& en
 }
 
 template <class S>
-void BasicWearTally<S>::add(const BasicState<S>& state, double seconds) {
+void BasicWearTally<S>::sample(int i, const BasicState<S>& state) {
   for (Worn& worn : worn_) {
     const std::vector<double>& observed = observe(worn, state);
-    const double work = seconds * observed[worn.power], angle = observed[worn.angle];
-    if (!(work > 0)) continue;
-    worn.wear.bush[sector_of(angle, kSectors)] += work;
-    worn.wear.pin[sector_of(angle - state.gap[static_cast<std::size_t>(worn.joint)][S::kTurn], kSectors)] += work;
+    if (worn.samples.size() <= static_cast<std::size_t>(i)) worn.samples.resize(static_cast<std::size_t>(i) + 1);
+    worn.samples[static_cast<std::size_t>(i)] = {observed[worn.power], observed[worn.angle], observed[worn.angle] - state.gap[static_cast<std::size_t>(worn.joint)][S::kTurn]};
   }
+}
+
+template <class S>
+bool BasicWearTally<S>::is_smooth(const CurveGrid& grid) const {
+  constexpr double kSmooth = 0.01;  // of the largest power
+  for (const Worn& worn : worn_) {
+    std::array<double, CurveGrid::kMost> power{};
+    for (int i = 0; i < grid.n(); ++i) power[static_cast<std::size_t>(i)] = worn.samples[static_cast<std::size_t>(i)].power;
+    if (grid.tail(power.data(), 1) > kSmooth * *std::max_element(power.begin(), power.end())) return false;
+  }
+  return true;
+}
+
+template <class S>
+void BasicWearTally<S>::add(Worn& worn, int after, double work) {
+  if (!(work > 0)) return;
+  const Sample &from = worn.samples[static_cast<std::size_t>(after)], &to = worn.samples[static_cast<std::size_t>(after) + 1];
+  spread(from.on_bush, to.on_bush, work, worn.wear.bush);
+  spread(from.on_pin, to.on_pin, work, worn.wear.pin);
+}
+
+template <class S>
+void BasicWearTally<S>::add_curve(const CurveGrid& grid, double h) {
+  for (Worn& worn : worn_)
+    for (int i = 0; i + 1 < grid.n(); ++i) {
+      const CurveGrid::Weights& weight = grid.integral_after(i);
+      double work = 0;
+      for (int k = 0; k < grid.n(); ++k) work += h * weight[static_cast<std::size_t>(k)] * worn.samples[static_cast<std::size_t>(k)].power;
+      add(worn, i, work);
+    }
+}
+
+template <class S>
+void BasicWearTally<S>::add_trapezoids(int n, double h) {
+  for (Worn& worn : worn_)
+    for (int i = 0; i < n; ++i) add(worn, i, 0.5 * h / n * (worn.samples[static_cast<std::size_t>(i)].power + worn.samples[static_cast<std::size_t>(i) + 1].power));
 }
 
 template <class S>

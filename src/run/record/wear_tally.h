@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pintle/trajectory.h"
+#include "run/record/sampled_curve.h"
 #include "system/state.h"
 
 namespace pintle {
@@ -19,17 +20,30 @@ class BasicWearTally {
   bool empty() const { return worn_.empty(); }
   /// Into how many equal parts a step must be divided so that in each pins and contacts turn by a small part of a sector; 0: they hardly turn.
   int parts(const BasicState<S>& begin, const BasicState<S>& end) const;
-  /// A state that stands for so many seconds.
-  void add(const BasicState<S>& state, double seconds);
+  /// Sample i of a step.
+  void sample(int i, const BasicState<S>& state);
+  /// Whether the curves through the samples of `grid` have no kink, as where a slip turns round.
+  bool is_smooth(const CurveGrid& grid) const;
+  /// Adds a step of h seconds by the curves through the samples of `grid`.
+  void add_curve(const CurveGrid& grid, double h);
+  /// Adds a step of h seconds by trapezoids between n + 1 samples an even distance apart.
+  void add_trapezoids(int n, double h);
   std::vector<JointWear> result() const;
 
  private:
+  struct Sample {
+    double power = 0;                // [W]
+    double on_bush = 0, on_pin = 0;  // angles of the contact [rad]
+  };
   struct Worn {
     int joint;
     std::size_t power, angle;  // columns of its law
     JointWear wear;
+    std::vector<Sample> samples;
   };
 
+  // Work between a sample and the next one [J].
+  static void add(Worn& worn, int after, double work);
   const std::vector<double>& observe(const Worn& worn, const BasicState<S>& state) const;
 
   const BasicSystem<S>& system_;
