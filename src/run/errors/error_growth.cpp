@@ -143,7 +143,9 @@ ErrorGrowth fit_growth_to_largest(const DifferenceCurve& curve) {
 }
 
 bool same_growth(const ErrorGrowth& first, const ErrorGrowth& second) {
-  return first.exponential && second.exponential && second.until > first.until &&
+  // Places and forces part by so much at different times: there is no telling which lasted longer.
+  const bool later = second.until > first.until || first.to_largest != second.to_largest;
+  return first.exponential && second.exponential && later &&
          std::abs(first.rate - second.rate) < kSurePair * std::hypot(first.rate_error, second.rate_error) + kSameRate * std::min(first.rate, second.rate);
 }
 
