@@ -175,6 +175,57 @@ TEST(Ideal, GoesOverJumpsOfAForce) {
   EXPECT_NEAR(value(off, off.n_rows() - 1, "body.block.x"), 1, 1e-6);
 }
 
+// An arm on a motor.
+Model driven_arm(const std::string& motor, const std::string& equations, const std::string& spin = "0") {
+  return parse_model(fmt::format(R"toml(
+format = 1
+[simulate]
+duration = "1 s"
+equations = "{}"
+[ground.markers]
+O = [0, 0]
+[body.a]
+mass = 1
+inertia = 0.1
+angle = 0
+spin = "{}"
+markers.O = ["-0.2 m", 0]
+[joint.O]
+type = "revolute"
+between = ["ground.O", "a.O"]
+[motor.m]
+joint = "O"
+{}
+)toml", equations, spin, motor), "driven_arm.toml");
+}
+
+// An acceleration may jump, at the start as well: 24 rad/s^2 at 0.2 m and the weight.
+TEST(Ideal, MotorsStartWithAnAcceleration) {
+  for (const char* from : {"0 s", "0.1 s"}) {
+    const Trajectory run = completed(driven_arm(fmt::format("position = \"smoothstep({}, {} + 0.5 s, t)\"", from, from), "ideal"));
+    EXPECT_NEAR(run.joints[0].peak, 0.2 * 24 + 9.80665, 1e-6) << from;
+    EXPECT_LT(run.energy.drift, 1e-7);
+  }
+}
+
+// A speed may not: ideal joints would need an infinite force. Servos take it, and their bodies follow.
+TEST(Ideal, AMotorWhoseSpeedJumpsIsNamed) {
+  for (const char* motor : {"position = \"if(t < 0.5 s, 1 rad/s*t, 0.5 rad)\"", "speed = \"if(t < 0.5 s, 1 rad/s, 0 rad/s)\""}) {
+    const Trajectory failed = simulate(driven_arm(motor, "ideal", "1"));
+    EXPECT_EQ(failed.outcome, Outcome::kFailed) << motor;
+    EXPECT_NEAR(failed.t_end, 0.5, 1e-9);
+    EXPECT_NE(failed.message.find("motor m is to change its speed by -1 rad/s at once at t = 0.5 s"), std::string::npos) << failed.message;
+    for (const char* equations : {"newtonian", "relative"}) {
+      const Trajectory run = completed(driven_arm(motor, equations, "1"));
+      EXPECT_NEAR(value(run, run.n_rows() - 1, "body.a.angle"), 0.5, 1e-4) << motor << equations;
+      EXPECT_NEAR(value(run, run.n_rows() - 1, "body.a.spin"), 0, 1e-5) << motor << equations;
+      EXPECT_LT(run.energy.drift, 1e-5) << motor << equations;
+    }
+  }
+  const Trajectory step = completed(driven_arm("position = \"if(t < 0.5 s, 0, 0.1)\"", "newtonian"));
+  EXPECT_NEAR(value(step, step.n_rows() - 1, "body.a.angle"), 0.1, 1e-4);
+}
+
 // What balances a load that no motion shows has its peak and mean, whatever the steps of the motion are: an arm that a motor holds, by its pin.
 TEST(Ideal, PeaksFollowLoadsWithinAStep) {
   struct Case {

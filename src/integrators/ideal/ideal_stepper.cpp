@@ -10,6 +10,7 @@
 #include "integrators/dormand_prince.h"
 #include "integrators/thresholds.h"
 #include "linalg/lagrange_weights.h"
+#include "system/target_jumps.h"
 
 namespace pintle {
 namespace {
@@ -105,6 +106,15 @@ bool IdealStepper::step(double t_end) {
     // Over the jump; or up to where nothing but rounding is left of the way to it.
     const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && jump_ahead;
     const bool shortest = h < 2 * clear_h_ && std::isfinite(e);  // that steps over the singular position
+    if (e <= 1 || crossing || shortest) {  // up to where what drives a joint jumps, and no farther
+      const double jump = first_target_jump(begin_.t + h);
+      if (jump <= begin_.t + 16 * rounding) return false;
+      if (jump < begin_.t + h) {
+        failure_.clear();
+        wanted = jump - begin_.t;
+        continue;
+      }
+    }
     if ((e <= 1 || crossing || shortest) && finish(left - h < 1e-14 * t_end ? t_end : begin_.t + h, h)) {
       h_ = crossing ? kCrossing * smooth_h_ : h * factor;
       if (closed_) h_ = std::min(h_, kLongest * usual_h_);
@@ -118,7 +128,7 @@ bool IdealStepper::step(double t_end) {
   }
 }
 
-// The embedded error of a jump does not fall with the step; what it does to velocities does.
+// The embedded error of a jump does not fall with the step; what it does to velocities does. A step may begin at one, as that of t = 0 does where a motor starts.
 bool IdealStepper::crosses_jump() const {
   if (!system_.has_branches()) return false;
   const auto side = [this](const State& state) {
@@ -128,7 +138,23 @@ bool IdealStepper::crosses_jump() const {
     system_.find_switching(state.t, m, state.gap, state.gap_rate, state.law_state, state.sliding, value.data());
     return value;
   };
-  return !same_sides(side(begin_), side(stage_));
+  const std::vector<double> from = side(begin_), to = side(stage_);
+  return !same_sides(from, to) || std::any_of(from.begin(), from.end(), [](double x) { return x == 0; });
+}
+
+// Joints that do not give way cannot follow a target that jumps. The time of the first up to t_end [s], infinity: there is none; and a failure, if it is met.
+double IdealStepper::first_target_jump(double t_end) {
+  double first = std::numeric_limits<double>::infinity();
+  for_each_target_jump_within(system_, begin_.t, t_end, [&](int j, double t, double position, double rate) {
+    if (t >= first) return;
+    first = t;
+    const JointData& joint = system_.joints[static_cast<std::size_t>(j)];
+    const bool turns = joint.driven == S::kTurn;
+    failure_ = fmt::format("{} {} is to {} at t = {:.9g} s, which would take an infinite force with ideal joints; let it change over a time (smoothstep), or take equations = \"newtonian\", whose joints and motors give way",
+                           joint.servo >= 0 ? "motor" : "joint", joint.name,
+                           position != 0 ? fmt::format("jump by {:.4g} {}", position, turns ? "rad" : "m") : fmt::format("change its speed by {:.4g} {} at once", rate, turns ? "rad/s" : "m/s"), t);
+  });
+  return first;
 }
 
 // Puts the stage onto the branch of the motion: where the branch's tangent at the start of the step says as much as the stage. The nearest

@@ -1,4 +1,5 @@
 // Where a tree and its gaps are inside a step, ahead of it and beyond its end: what its events ask for. theory/time section 7.
+#include <algorithm>
 #include <cmath>
 
 #include "integrators/load_scale.h"
@@ -81,6 +82,16 @@ void TreeRadau::extrapolate_end_state(double d) {
 const std::vector<Planar::Motion>& TreeRadau::motions_after(double d) {
   inside_at_.place_only(end_.t + d, end_.y + d * end_.u, end_.u + d * end_.w);
   return inside_at_.pose().m;
+}
+
+// A joint whose motion is a coordinate of the tree follows its target, and carries no gap.
+void TreeRadau::move_gap(int joint, double d, double rate) {
+  const std::vector<int>& laws = tree_->laws();
+  const auto at = std::find(laws.begin(), laws.end(), joint);
+  if (at == laws.end()) return;
+  const Eigen::Index i = 3 * (at - laws.begin()) + system_.joints[static_cast<std::size_t>(joint)].driven;
+  end_.gap[i] += d;
+  end_.rate[i] += rate;
 }
 
 void TreeRadau::balance_end() {
