@@ -143,8 +143,9 @@ void BasicEnergyWatch<S>::say_open(const BasicState<S>& state, double missing, d
                       : sudden && loaded ? "likely a load or motor that changes within a step there, or has a pole: set a max_step that sees it"
                       : ideal ? "likely ideal joints near a singular position: give them stiffness"
                               : "likely numbers too far apart in size, or steps too long for what happens in them: check masses, stiffness and loads, or set a max_step";
-  message_ = fmt::format("the energy account does not close: {:.3g} J {} by t = {:.6g} s, where errors within the tolerance explain {:.2g} J; {}", std::abs(missing),
-                         missing > 0 ? "have appeared" : "are gone", state.t, within, cause);
+  const auto motors = std::count_if(system_.joints.begin(), system_.joints.end(), [](const BasicJointData<S>& joint) { return joint.servo >= 0; });
+  message_ = fmt::format("the energy account does not close: there are {:.3g} J too {} at t = {:.6g} s, where errors within the tolerance explain {:.2g} J; {}{}", std::abs(missing),
+                         missing > 0 ? "many" : "few", state.t, within, cause, motors > 1 ? ". Or motors that contradict each other: pintle check counts what they leave free" : "");
 }
 
 // Eq. (8.4). Only energy that was fed counts: what falls, or what springs give, the mechanism had.

@@ -34,7 +34,7 @@ TEST(EnergyWatch, WorkThatIsInNoEnergyIsNoticedAtOnce) {
     EXPECT_EQ(after_steps(watch, p.state, 100), Alarm::kNone);
     p.state.dissipated += missing;
     EXPECT_EQ(after_steps(watch, p.state, 8), Alarm::kOpen);
-    EXPECT_NE(watch.message().find(missing > 0 ? "0.1 J have appeared" : "0.1 J are gone"), std::string::npos) << watch.message();
+    EXPECT_NE(watch.message().find(missing > 0 ? "0.1 J too many" : "0.1 J too few"), std::string::npos) << watch.message();
   }
 }
 

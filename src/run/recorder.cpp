@@ -25,7 +25,8 @@ bool tells_couple(const JointData& joint) {
 bool slides(const JointData& joint) { return joint.free_mask[0] > 0 && std::holds_alternative<Selection>(joint.displacement); }
 // Pins whose place in their bush is of interest: those that are not held by springs.
 bool has_orbit(const JointData& joint) { return joint.type == "revolute" && !joint.law.ideal_limit(); }
-bool is_stroke(const JointData& joint) { return joint.free_mask[0] > 0 && !slides(joint); }
+// Rods, ropes and what has a length or a stroke.
+bool pushes_its_ends(const JointData& joint) { return std::holds_alternative<Distance>(joint.displacement) || (joint.free_mask[0] > 0 && !slides(joint)); }
 
 bool is_servo(const JointData& joint) { return joint.servo >= 0; }
 
@@ -126,7 +127,7 @@ std::vector<Column> Recorder::columns() const {
       column(p + "tension", "N", "tension of belt " + joint.name);
       column(p + "run", "m", "length of its free run");
     }
-    if (is_stroke(joint)) column(p + "force", "N", "with which joint " + joint.name + " pushes its ends apart");
+    if (pushes_its_ends(joint)) column(p + "force", "N", "with which joint " + joint.name + " pushes its ends apart; negative: it is in tension");
     for (LawColumn& law : joint.law.columns()) column(p + law.name, law.unit.c_str(), std::move(law.meaning));
   }
   for (const LoadData& load : system_.loads) {
@@ -200,7 +201,7 @@ void Recorder::put_row(const State& state) {
       put(-state.force[j][0]);
       put(belt->run(system_.pose(system_.joints[j].at, m_).z));
     }
-    if (is_stroke(system_.joints[j])) put(state.force[j][0]);
+    if (pushes_its_ends(system_.joints[j])) put(state.force[j][0]);
     system_.joints[j].law.observe(law_point(system_, j, state), state.force[j], values_);
   }
   for (const int spring : springs_) put(effort_of_spring(system_.loads[spring], state.t, m_));

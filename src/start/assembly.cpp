@@ -152,8 +152,9 @@ void demand_closed(const Model& model, const System& system, const Vecs& q, cons
     if (open[j]) continue;
     if (is_broken(left[j], size)) broken.push_back(j);
     else if ((left[j][0] > 1e-9 * size || left[j][1] > 1e-9) && !has_play(system.joints[j]))  // play takes up what is left
-      notes.push_back(fmt::format("{} {}: misfit of {:.3g} m, {:.3g} rad after assembly; it preloads the {}", system.joints[j].servo < 0 ? "joint" : "motor", system.joints[j].name, left[j][0],
-                                  left[j][1], system.joints[j].servo < 0 ? "joint" : "motor"));
+      notes.push_back(fmt::format("{} {}: misfit of {:.3g} m, {:.3g} rad after assembly; {}", system.joints[j].servo < 0 ? "joint" : "motor", system.joints[j].name, left[j][0], left[j][1],
+                                  system.joints[j].servo < 0 ? "it preloads the joint"
+                                                             : "what the motor asks for at t = 0 differs by that from where its joint is held, or from where its loop closes. The start lets bodies give way until all forces are in balance, so that a held angle starts near the one that the motor asks for"));
   }
   if (broken.empty()) return;
   std::string list;
@@ -228,6 +229,7 @@ Assembly put_bodies(const Model& model, System system) {
   note_moved_bodies(model, guess, state.q, out.notes);
   note_discs_apart(out.system, state.q, out.notes);
   note_missing_units(model, characteristic_length(out.system, state.q), out.notes);
+  note_unconnected_bodies(out.system, out.notes);
   for (std::size_t i = 0; i < guess.size(); ++i)
     if (model.bodies[i].position) out.largest_move = std::max(out.largest_move, (state.q[i] - guess[i]).head<2>().norm());
   state.v = stated_velocities(model);

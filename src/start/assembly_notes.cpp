@@ -54,7 +54,7 @@ void note_teeth_apart(const JointData& joint, const S::Vec& z, std::vector<std::
                                 opening > 0 ? "are apart" : "overlap", std::abs(opening)));
 }
 
-// Lengths of a law that are larger than the mechanism, as of a pin whose unit is missing.
+// Lengths of a law that are larger than the mechanism, as of a pin whose unit is missing. Those that nobody has stated are the defaults.
 void note_large_lengths(const std::string& joint, const LawChoice& choice, double size, std::vector<std::string>& notes) {
   const LawInfo* law = find_law(choice.word);
   if (law == nullptr) return;
@@ -62,7 +62,7 @@ void note_large_lengths(const std::string& joint, const LawChoice& choice, doubl
     const auto stated = choice.values.find(std::string(key.key));
     if (key.unit != "m" || !key.angular_unit.empty() || stated == choice.values.end()) continue;
     for (const double length : stated->second)
-      if (std::abs(length) > kMuchLarger * size) notes.push_back(fmt::format("joint {}: its {} of {:.4g} m is larger than the whole mechanism ({:.4g} m): without a unit lengths are metres", joint, key.key, length, size));
+      if (std::abs(length) > kMuchLarger * size && length != key.fallback) notes.push_back(fmt::format("joint {}: its {} of {:.4g} m is larger than the whole mechanism ({:.4g} m): without a unit lengths are metres", joint, key.key, length, size));
   }
 }
 
@@ -123,6 +123,19 @@ void note_discs_apart(const System& system, const Vecs& q, std::vector<std::stri
     note_teeth_apart(joint, z, notes);
     note_overlap(joint, z, notes);
   }
+}
+
+void note_unconnected_bodies(const System& system, std::vector<std::string>& notes) {
+  std::vector<bool> connected(system.bodies.size());
+  const auto see = [&](int body) {
+    if (body != kGround) connected[static_cast<std::size_t>(body)] = true;
+  };
+  const auto see_both = [&](const Placement& at) { see(at.a), see(at.b); };
+  for (const JointData& joint : system.joints) see_both(joint.at);
+  for (const LoadData& load : system.loads) see_both(load.at);
+  for (const auto& force : system.applied) see(force.body);
+  for (std::size_t b = 0; b < connected.size() && connected.size() > 1; ++b)
+    if (!connected[b]) notes.push_back(fmt::format("body {} has no joint, spring or force: it moves by itself", system.bodies[b].name));
 }
 
 void note_missing_units(const Model& model, double size, std::vector<std::string>& notes) {

@@ -20,6 +20,9 @@ void note_changed_velocities(const Model& model, const Vecs& v, std::vector<std:
 /// Teeth that are away from each other, and pulleys that overlap, would still carry their load.
 void note_discs_apart(const System& system, const Vecs& q, std::vector<std::string>& notes);
 
+/// Bodies that nothing holds, moves or touches.
+void note_unconnected_bodies(const System& system, std::vector<std::string>& notes);
+
 /// Lengths of laws above the mechanism's size [m], and angles of many turns, as values in mm or degrees are whose unit was left out.
 void note_missing_units(const Model& model, double size, std::vector<std::string>& notes);
 

@@ -76,17 +76,26 @@ Assembly start_of_free_bodies(const Model& model, System system, double known_sp
   return assembly;
 }
 
+// The mechanism as it is assembled, if it is at rest so.
+std::optional<Assembly> start_at_rest(Model model) {
+  model.simulate.start = Start::kSeated;
+  try {
+    Assembly assembly = start_of_free_bodies(model, build_system(model), 0);
+    if (is_at_rest(assembly.system, assembly.state)) return assembly;
+  } catch (const AssemblyError&) {  // what has not settled is told
+  }
+  return std::nullopt;
+}
+
 // Where the creep finds no rest, as that of a block that only static friction holds on its ramp, the assembled mechanism may be at rest itself.
 Assembly settled_start(const Model& model) {
   try {
     return start_in_equilibrium(model);
   } catch (const AssemblyError&) {
-    Model seated = model;
-    seated.simulate.start = Start::kSeated;
-    Assembly assembly = start_of_free_bodies(seated, build_system(seated), 0);
-    if (!is_at_rest(assembly.system, assembly.state)) throw;
-    assembly.notes.push_back("settled: the mechanism is at rest where it was assembled, and starts there");
-    return assembly;
+    std::optional<Assembly> at_rest = start_at_rest(model);
+    if (!at_rest) throw;
+    at_rest->notes.push_back("settled: the mechanism is at rest where it was assembled, and starts there");
+    return std::move(*at_rest);
   }
 }
 

@@ -33,7 +33,7 @@ void for_each_target_jump(const BasicSystem<S>& system, double t0, double t1, Se
 /// The same for a step from t0 to t1, with the time [s] of the first jump of each joint: see(joint, t, position, rate); the last time that is still before it.
 template <class S, class See>
 void for_each_target_jump_within(const BasicSystem<S>& system, double t0, double t1, See see) {
-  constexpr int kHalvings = 60;
+  constexpr int kHalvings = 60;     // of the step, until two neighbouring numbers are left on either side of the jump
   constexpr double kNextTo = 1e-9;  // of the step, from a jump to where the values on its sides are taken
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicJointData<S>& joint = system.joints[j];
