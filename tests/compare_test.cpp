@@ -37,6 +37,21 @@ TEST(Compare, DifferenceWithinTheErrorsIsNumerical) {
   for (const Difference& force : compare(model, Equations::kIdeal).forces) EXPECT_EQ(force.cause, Cause::kNumerical) << force.name;
 }
 
+// Couples have errors of their own [N*m]; a body that stands still is compared with those that move.
+TEST(Compare, CouplesAreJudgedByTheirOwnErrors) {
+  const Model model = reference::mechanism("slider_crank", {"simulate.tolerance=1e-6", "simulate.duration=0.1"});
+  const Comparison c = compare(model, Equations::kIdeal);
+  ASSERT_FALSE(c.couples.empty());
+  for (const Difference& couple : c.couples) {
+    double stated = 0;
+    for (const Trajectory* run : {&c.first, &c.second})
+      for (const LoadSummary& joint : run->joints)
+        if (joint.name == couple.name) stated += joint.moment_error_estimate;
+    EXPECT_EQ(couple.error_estimate, stated) << couple.name;
+  }
+  for (const Difference& coordinate : c.coordinates) EXPECT_GE(coordinate.digits, 2) << coordinate.name;
+}
+
 TEST(Compare, NamesTheSoftJoint) {
   const Comparison c = compare(reference::mechanism("four_bar", {"joint.B.stiffness=1e6"}), Equations::kIdeal);
   EXPECT_EQ(c.softness.front().joint, "B");

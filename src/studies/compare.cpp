@@ -65,26 +65,27 @@ Difference measure(const Comparison& c, const Quantity& quantity, const std::vec
   return d;
 }
 
-// Relative to the peak; what is next to nothing, to a part of the largest of its unit; where the second run has nothing of it at all, to the difference.
-void relate(std::vector<Difference>& list) {
+// Relative to the peak; what is next to nothing, to `part` of the largest of its unit; where the second run has nothing of it at all, to the difference.
+void relate(std::vector<Difference>& list, double part) {
   std::map<std::string, double> largest;
   for (const Difference& d : list) largest[d.unit] = std::max(largest[d.unit], d.peak);
   for (Difference& d : list) {
-    const double base = largest[d.unit] > 0 ? std::max(d.peak, kNegligible * largest[d.unit]) : std::max(d.largest, 1e-300);
+    const double base = largest[d.unit] > 0 ? d.peak > kNegligible * largest[d.unit] ? d.peak : part * largest[d.unit] : std::max(d.largest, 1e-300);
     d.relative = d.largest / base;
     d.relative_rms = d.rms / base;
     d.digits = agreeing_digits(d.relative);
   }
 }
 
-Cause cause_of(double difference, const LoadSummary& a, const LoadSummary& b) {
+Cause cause_of(double difference, double error_estimate, const LoadSummary& a, const LoadSummary& b) {
   if (!a.unique || !b.unique) return Cause::kNotUnique;
-  return difference <= kBeyond * (a.error_estimate + b.error_estimate) ? Cause::kNumerical : Cause::kPhysical;
+  return difference <= kBeyond * error_estimate ? Cause::kNumerical : Cause::kPhysical;
 }
 
-void judge(const LoadSummary& a, const LoadSummary& b, Difference& d) {
-  d.error_estimate = a.error_estimate + b.error_estimate;
-  d.cause = cause_of(d.largest, a, b);
+// `error`: of a force or of a couple.
+void judge(const LoadSummary& a, const LoadSummary& b, double LoadSummary::*error, Difference& d) {
+  d.error_estimate = a.*error + b.*error;
+  d.cause = cause_of(d.largest, d.error_estimate, a, b);
 }
 
 void add_joints(Comparison& c, const std::vector<std::pair<std::size_t, std::size_t>>& rows) {
@@ -95,16 +96,16 @@ void add_joints(Comparison& c, const std::vector<std::pair<std::size_t, std::siz
     if (add_column(c, path + "fx[world]", force) && add_column(c, path + "fy[world]", force)) {
       c.forces.push_back(measure(c, force, rows));
       c.forces.back().peak = std::max(c.forces.back().peak, b.peak);
-      judge(a, b, c.forces.back());
+      judge(a, b, &LoadSummary::error_estimate, c.forces.back());
     }
     if (a.has_moment && add_column(c, path + "m[world]", couple)) {
       c.couples.push_back(measure(c, couple, rows));
       c.couples.back().peak = std::max(c.couples.back().peak, b.peak_moment);
-      judge(a, b, c.couples.back());
+      judge(a, b, &LoadSummary::moment_error_estimate, c.couples.back());
     }
   }
-  relate(c.forces);
-  relate(c.couples);
+  relate(c.forces, kNegligible);
+  relate(c.couples, kNegligible);
 }
 
 void add_coordinates(Comparison& c, const std::vector<std::pair<std::size_t, std::size_t>>& rows) {
@@ -118,7 +119,7 @@ void add_coordinates(Comparison& c, const std::vector<std::pair<std::size_t, std
     Quantity quantity{column.name, "", {}};
     if (is_coordinate(column.name) && add_column(c, column.name, quantity)) c.coordinates.push_back(measure(c, quantity, rows));
   }
-  relate(c.coordinates);
+  relate(c.coordinates, 1);  // what stands still is compared with what moves
 }
 
 // The least stiffness of a linear law's components [N/m], or of its angle [N*m/rad].
@@ -149,7 +150,7 @@ VariantLoad variant_load(const LoadSummary& load, const LoadSummary* base) {
   out.peak_change = change(load.peak, from.peak);
   out.mean_change = change(load.mean, from.mean);
   out.rms_change = change(load.rms, from.rms);
-  if (base != nullptr) out.cause = cause_of(std::abs(load.peak - base->peak), load, *base);
+  if (base != nullptr) out.cause = cause_of(std::abs(load.peak - base->peak), load.error_estimate + base->error_estimate, load, *base);
   return out;
 }
 
