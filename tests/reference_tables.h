@@ -101,24 +101,59 @@ inline Trajectory completed(const Model& model) {
 inline double drift(const Trajectory& run) { return run.energy.drift / (run.energy.kinetic_peak + run.energy.dissipated + std::abs(run.energy.supplied)); }
 
 /// A mass of 1 kg on a slide, pulled by a spring of 2 N/m whose far end moves at 0.1 m/s; it sticks and slips by the friction that `friction` says.
-inline std::string pulled_mass(double gravity, const std::string& friction) {
-  return "format = 1\ngravity = [0, " + std::to_string(-gravity) + "]" + R"toml(
+inline std::string pulled_mass(double gravity, const std::string& friction, double mass = 1, double stiffness = 2, double speed = 0.1) {
+  const auto number = [](double x) { return std::to_string(x); };
+  return "format = 1\ngravity = [0, " + number(-gravity) + "]" + R"toml(
 [simulate]
 duration = "25 s"
 output_step = "0.5 s"
 [ground.markers]
 o = [0, 0]
 [body.mass]
-mass = 1
 inertia = 0.01
 markers.c = [0, 0]
+mass = )toml" + number(mass) + R"toml(
 [motor.pull]
 joint = "slide"
-force = "2 N/m*(0.1 m/s*t - slide)"
+force = ")toml" + number(stiffness) + " N/m*(" + number(speed) + R"toml( m/s*t - slide)"
 [joint.slide]
 type = "prismatic"
 between = ["ground.o", "mass.c"]
 )toml" + friction;
+}
+
+/// A shaft of 1 kg that a load of 400 N presses down into a bush, 0.1 mm larger in radius than its pin of 12 mm; `motor` turns it.
+inline Model shaft_in_bush(double friction, double spin, const std::string& motor, double duration) {
+  return parse_model(R"toml(
+format = 1
+gravity = [0, 0]
+[simulate]
+start = "seated"
+duration = )toml" + std::to_string(duration) + R"toml(
+[ground.markers]
+b = [0, 0]
+[body.shaft]
+mass = 1
+inertia = 1e-3
+position = [0, 0]
+angle = 0
+hold = ["angle"]
+markers.c = [0, 0]
+spin = )toml" + std::to_string(spin) + R"toml(
+[force.P]
+on = "shaft.c"
+force = [0, -400]
+[motor.m]
+joint = "J"
+)toml" + motor + R"toml(
+[joint.J]
+type = "revolute"
+between = ["ground.b", "shaft.c"]
+law = "clearance"
+clearance = "0.1 mm"
+pin_radius = "12 mm"
+restitution = 0.3
+friction_coefficient = )toml" + std::to_string(friction), "shaft.toml");
 }
 
 /// The row of time t.

@@ -134,37 +134,7 @@ TEST(SeatedStart, AMechanismWithoutPlayIsAssembled) {
 // A shaft that turns in a dry bush stands where load and friction meet, atan(mu) up the bush, whatever the duration of the run.
 TEST(SeatedStart, AShaftClimbsItsBushForAnyDuration) {
   for (const double duration : {0.02, 0.1, 0.5, 2.0}) {
-    const Trajectory run = completed(parse_model(fmt::format(R"toml(
-format = 1
-gravity = [0, 0]
-[simulate]
-duration = {}
-start = "seated"
-[ground.markers]
-b = [0, 0]
-[body.shaft]
-mass = 1
-inertia = 1e-3
-position = [0, 0]
-angle = 0
-spin = 30
-hold = ["angle"]
-markers.c = [0, 0]
-[joint.J]
-type = "revolute"
-between = ["ground.b", "shaft.c"]
-law = "clearance"
-clearance = "0.1 mm"
-pin_radius = "12 mm"
-friction_coefficient = 0.25
-restitution = 0.3
-[motor.m]
-joint = "J"
-speed = 30
-[force.P]
-on = "shaft.c"
-force = [0, -400]
-)toml", duration), "shaft.toml"));
+    const Trajectory run = completed(reference::shaft_in_bush(0.25, 30, "speed = 30", duration));
     EXPECT_NEAR(value(run, 0, "joint.J.on_shaft.fy[world]"), 400, 0.01) << duration;
     EXPECT_NEAR(value(run, 0, "joint.J.on_shaft.m[world]"), -400 / std::sqrt(1 + 0.25 * 0.25) * 0.25 * 0.012, 1e-4) << duration;
     EXPECT_NEAR(run.joints[0].peak, 400, 0.05) << duration;

@@ -12,34 +12,12 @@ namespace {
 
 using reference::completed;
 
-// A slider of 2 kg on the floor that a spring of k pulls along, whose far end moves at a speed.
+// A mass of 2 kg that a spring of k pulls along the floor, whose far end moves at a speed; of 10 m/s^2.
 Model pulled_slider(double k, double speed, double kinetic, double stuck, double duration) {
-  return parse_model(fmt::format(R"toml(
-format = 1
-gravity = [0, -10]
-[simulate]
-duration = {}
-output_step = 0.01
-[ground.markers]
-a = [0, 0]
-[body.m]
-mass = 2
-inertia = 2e-3
-position = [0, 0]
-angle = 0
-velocity = [0, 0]
-hold = ["x"]
-markers.c = [0, 0]
-[joint.g]
-type = "prismatic"
-between = ["ground.a", "m.c"]
-friction = "coulomb"
-friction_coefficient = {}
-static_friction = {}
-[motor.pull]
-joint = "g"
-force = "{} N/m*({} m/s*t - slide)"
-)toml", duration, kinetic, stuck, k, speed), "pulled_slider.toml");
+  Model model = parse_model(reference::pulled_mass(10, fmt::format("friction = \"coulomb\"\nfriction_coefficient = {}\nstatic_friction = {}\n", kinetic, stuck), 2, k, speed), "pulled_slider.toml");
+  model.simulate.duration = duration;
+  model.simulate.output_step = 0.01;
+  return model;
 }
 
 // Round numbers, where the speed comes to nothing just as a row or a step ends.

@@ -104,37 +104,7 @@ TEST(Wear, OfAPinWithoutClearanceIsNotTold) {
 
 // A loaded pin that a servo swings by 0.8 rad and back without friction: every sector that it passes twice carries 2 F R times its width, the last one its part of that.
 TEST(Wear, SectorsOfASwingCarryTheirPartOfTheWay) {
-  Model model = parse_model(R"toml(
-format = 1
-gravity = [0, 0]
-[simulate]
-duration = "1 s"
-start = "seated"
-[ground.markers]
-b = [0, 0]
-[body.shaft]
-mass = "1 kg"
-inertia = "1e-3 kg*m^2"
-position = [0, 0]
-angle = 0
-spin = 0
-hold = ["angle"]
-markers.c = [0, 0]
-[joint.J]
-type = "revolute"
-between = ["ground.b", "shaft.c"]
-law = "clearance"
-clearance = "0.1 mm"
-pin_radius = "12 mm"
-friction_coefficient = 0
-restitution = 0.3
-[motor.m]
-joint = "J"
-position = "0.4*(1-cos(2*pi*t/1 s))"
-[force.P]
-on = "shaft.c"
-force = [0, "-400 N"]
-)toml", "swing.toml");
+  Model model = reference::shaft_in_bush(0, 0, "position = \"0.4*(1-cos(2*pi*t/1 s))\"", 1);
   const double width = 2 * std::numbers::pi / 72, whole = 2 * 400 * 0.012 * width, last = 2 * 400 * 0.012 * (0.8 - 9 * width);
   for (const double tolerance : {1e-3, 1e-5}) {
     model.simulate.tolerance = tolerance;

@@ -40,8 +40,8 @@ class Standstill {
 // Steps may hold much of a period of the motion, and the dense output of radau has as many samples of the forces; other methods on free bodies resolve the vibrations
 // of the joints. Forces that balance the loads of their instant, as those of ideal joints do, change as fast as these, which no error of the motion need show.
 LoadSampling load_sampling(const MethodChoice& choice, double tolerance, double output_step) {
-  constexpr double kFinest = 1e-8, kRows = 8;  // resolution; rows in a part of a step
-  if (choice.equations != Equations::kNewtonian) return {CurveGrid::kMost, std::max(tolerance, kFinest), kRows * output_step};
+  constexpr double kFinest = 1e-8;  // resolution
+  if (choice.equations != Equations::kNewtonian) return {CurveGrid::kMost, std::max(tolerance, kFinest), (CurveGrid::kMost - 1) * output_step};  // as many samples as rows
   return {choice.method == "radau" ? CurveGrid::kMost : 3};
 }
 

@@ -128,8 +128,7 @@ class BasicSlowManifold {
       for (const int end : {kNodes - 1, kNodes - 2}) {
         typename S::Vec sum = S::Vec::Zero();
         for (int n = 0; n < kNodes; ++n) {
-          const double w = n == 0 || n == kNodes - 1 ? 0.5 : 1;
-          sum += w * std::cos(std::numbers::pi * n * end / (kNodes - 1)) * force_[n][j];
+          sum += chebyshev_weight(kNodes, end, n) * force_[n][j];
           size = std::max(size, force_[n][j].template head<S::kDim>().norm());
         }
         tail = std::max(tail, 2.0 / (kNodes - 1) * sum.template head<S::kDim>().norm());

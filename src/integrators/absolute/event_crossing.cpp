@@ -137,7 +137,7 @@ bool BasicRadauStepper<S>::cross_borders() {
 }
 
 template <class S>
-void BasicRadauStepper<S>::move_gap(int joint, double d, double rate) {
+void BasicRadauStepper<S>::shift_gap(int joint, double d, double rate) {
   const int component = system_.joints[joint].driven;
   end_.gap[joint][component] += d;
   end_.gap_rate[joint][component] += rate;
@@ -161,7 +161,7 @@ template double BasicRadauStepper<Planar>::change_in_loss_power(double d) const;
 template void BasicRadauStepper<Planar>::extrapolate_end_state(double d);
 template const std::vector<Planar::Motion>& BasicRadauStepper<Planar>::motions_after(double d);
 template bool BasicRadauStepper<Planar>::cross_borders();
-template void BasicRadauStepper<Planar>::move_gap(int joint, double d, double rate);
+template void BasicRadauStepper<Planar>::shift_gap(int joint, double d, double rate);
 template void BasicRadauStepper<Planar>::balance_end();
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::find_switching(double x, double h, double* value);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::extrapolate_switching_functions(double d, double* value);)
@@ -172,7 +172,7 @@ PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::change_in_loss_power
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::extrapolate_end_state(double d);)
 PINTLE_IN_SPACE(template const std::vector<Spatial::Motion>& BasicRadauStepper<Spatial>::motions_after(double d);)
 PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::cross_borders();)
-PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::move_gap(int joint, double d, double rate);)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::shift_gap(int joint, double d, double rate);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::balance_end();)
 
 }  // namespace pintle

@@ -97,7 +97,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   void extrapolate_end_state(double d);
   const std::vector<typename S::Motion>& motions_after(double d);
   bool cross_borders();
-  void move_gap(int joint, double d, double rate);
+  void shift_gap(int joint, double d, double rate);
   void balance_end();
 
   const BasicSystem<S>& system_;

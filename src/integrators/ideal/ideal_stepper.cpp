@@ -34,6 +34,14 @@ constexpr double kUnbounded = 1e-3;      // of the largest reaction where the la
 constexpr int kMostReported = 5;
 constexpr std::size_t kAccurate = 5;     // states kept whose forces have most of their digits: forces at singular positions are drawn through them
 
+// Joints that do not give way cannot follow a target that jumps.
+std::string jump_text(const TargetJump& jump, const JointData& joint) {
+  const bool turns = joint.driven == S::kTurn;
+  const std::string change = jump.position != 0 ? fmt::format("jump by {:.4g} {}", jump.position, turns ? "rad" : "m") : fmt::format("change its speed by {:.4g} {} at once", jump.rate, turns ? "rad/s" : "m/s");
+  return fmt::format("{} {} is to {} at t = {:.9g} s, which would take an infinite force with ideal joints; let it change over a time (smoothstep), or take equations = \"newtonian\", whose joints and motors give way",
+                     joint.servo >= 0 ? "motor" : "joint", joint.name, change, jump.t);
+}
+
 }  // namespace
 
 IdealStepper::IdealStepper(const System& system, double tolerance, Equations equations, const PenaltySettings& penalty)
@@ -88,12 +96,12 @@ double IdealStepper::step_around_singular_position(double h) {
 bool IdealStepper::step(double t_end) {
   if (!failure_.empty()) return false;
   begin_ = end_;
-  double wanted = max_step_ > 0 ? std::min(h_, max_step_) : h_;
+  double wanted = max_step_ > 0 ? std::min(h_, max_step_) : h_, stop = t_end;
   bool at_once = true, jump_ahead = false;
   const double rounding = std::numeric_limits<double>::epsilon() * std::abs(t_end);
   const double crossing_h = std::max(std::max(kCrossing * tolerance_, kLeastCrossing) * smooth_h_, 1e3 * rounding);
   while (true) {
-    const double left = t_end - begin_.t, h = std::min(step_around_singular_position(wanted), left);
+    const double left = stop - begin_.t, h = std::min(step_around_singular_position(wanted), left);
     if (h <= 16 * rounding) {
       failure_ = fmt::format("ideal joints: the step size became too small at t = {:.9g} s{}", begin_.t,
                              is_too_near(least_independence_) ? ", near a position where the constraints are not independent" : "");
@@ -106,16 +114,17 @@ bool IdealStepper::step(double t_end) {
     // Over the jump; or up to where nothing but rounding is left of the way to it.
     const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && jump_ahead;
     const bool shortest = h < 2 * clear_h_ && std::isfinite(e);  // that steps over the singular position
-    if (e <= 1 || crossing || shortest) {  // up to where what drives a joint jumps, and no farther
-      const double jump = first_target_jump(begin_.t + h);
-      if (jump <= begin_.t + 16 * rounding) return false;
-      if (jump < begin_.t + h) {
-        failure_.clear();
-        wanted = jump - begin_.t;
-        continue;
+    const bool good = e <= 1 || crossing || shortest;
+    const double end = left - h < 1e-14 * t_end ? stop : begin_.t + h;
+    if (const auto jump = good ? first_target_jump(system_, begin_.t, end) : std::nullopt) {  // up to there, and no farther
+      if (jump->t <= begin_.t + 16 * rounding) {
+        failure_ = jump_text(*jump, system_.joints[static_cast<std::size_t>(jump->joint)]);
+        return false;
       }
+      stop = jump->t;
+      continue;
     }
-    if ((e <= 1 || crossing || shortest) && finish(left - h < 1e-14 * t_end ? t_end : begin_.t + h, h)) {
+    if (good && finish(end, h)) {
       h_ = crossing ? kCrossing * smooth_h_ : h * factor;
       if (closed_) h_ = std::min(h_, kLongest * usual_h_);
       else if (!crossing) usual_h_ = h;
@@ -140,21 +149,6 @@ bool IdealStepper::crosses_jump() const {
   };
   const std::vector<double> from = side(begin_), to = side(stage_);
   return !same_sides(from, to) || std::any_of(from.begin(), from.end(), [](double x) { return x == 0; });
-}
-
-// Joints that do not give way cannot follow a target that jumps. The time of the first up to t_end [s], infinity: there is none; and a failure, if it is met.
-double IdealStepper::first_target_jump(double t_end) {
-  double first = std::numeric_limits<double>::infinity();
-  for_each_target_jump_within(system_, begin_.t, t_end, [&](int j, double t, double position, double rate) {
-    if (t >= first) return;
-    first = t;
-    const JointData& joint = system_.joints[static_cast<std::size_t>(j)];
-    const bool turns = joint.driven == S::kTurn;
-    failure_ = fmt::format("{} {} is to {} at t = {:.9g} s, which would take an infinite force with ideal joints; let it change over a time (smoothstep), or take equations = \"newtonian\", whose joints and motors give way",
-                           joint.servo >= 0 ? "motor" : "joint", joint.name,
-                           position != 0 ? fmt::format("jump by {:.4g} {}", position, turns ? "rad" : "m") : fmt::format("change its speed by {:.4g} {} at once", rate, turns ? "rad/s" : "m/s"), t);
-  });
-  return first;
 }
 
 // Puts the stage onto the branch of the motion: where the branch's tangent at the start of the step says as much as the stage. The nearest

@@ -47,7 +47,6 @@ class IdealStepper final : public Stepper {
   bool finish(double t, double h);
   double error(double h);
   bool crosses_jump() const;
-  double first_target_jump(double t_end);
   void grow_scale();
   void look_for_singular_position();
   void report_singular_position(double t);

@@ -28,7 +28,7 @@ constexpr double kShareBeforeEvent = 0.999;
 ///   extrapolate_end_state(d)                    the end, its work included, by Taylor's series
 ///   motions_after(d)                            those a moment after the end
 ///   cross_borders()                             System::cross_borders between the values of `search_`
-///   move_gap(joint, d, rate)                    the carried gap of a driven joint at the end, and its rate, by so much
+///   shift_gap(joint, d, rate)                   the carried gap of a driven joint at the end, and its rate, by so much
 ///   balance_end()                               what laws and loads really give at the end: forces, accelerations, powers
 template <class Method, class S>
 class StepEvents {
@@ -82,7 +82,8 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
     method().find_switching_at_end(value);
   });
   // A body cannot follow a target that jumps: its gap does.
-  for_each_target_jump(events_of_, before + distance - beyond, method().end_time(), [this](int joint, double position, double rate) { method().move_gap(joint, -position, -rate); });
+  for (int j = 0; j < events_of_.n_joints(); ++j)
+    if (const auto jump = target_jump(events_of_, j, before + distance - beyond, method().end_time())) method().shift_gap(j, -jump->position, -jump->rate);
   const bool crossed = method().cross_borders();
   leave_sliding(events_of_, method().end_time(), method().end_motions(), method().sliding());
   method().balance_end();

@@ -85,7 +85,7 @@ const std::vector<Planar::Motion>& TreeRadau::motions_after(double d) {
 }
 
 // A joint whose motion is a coordinate of the tree follows its target, and carries no gap.
-void TreeRadau::move_gap(int joint, double d, double rate) {
+void TreeRadau::shift_gap(int joint, double d, double rate) {
   const std::vector<int>& laws = tree_->laws();
   const auto at = std::find(laws.begin(), laws.end(), joint);
   if (at == laws.end()) return;

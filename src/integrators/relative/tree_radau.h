@@ -68,7 +68,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   void extrapolate_end_state(double d);
   const std::vector<Planar::Motion>& motions_after(double d);
   bool cross_borders() { return end_at_.cross_borders(search_.start(), search_.end(), end_, end_state_.dissipated); }
-  void move_gap(int joint, double d, double rate);
+  void shift_gap(int joint, double d, double rate);
   void balance_end();
 
   const System& system_;

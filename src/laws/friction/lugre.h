@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "laws/friction/friction.h"
+#include "laws/friction/stick_slip.h"
 
 namespace pintle {
 
@@ -42,7 +43,7 @@ struct LuGreLaw : Friction {
   /// Of pins and slides that are at rest, as in CoulombLaw. Bristles that cannot hold their joint stay as rest() has them.
   std::optional<Stiction> stiction(const double* state) const {
     if (normal > 0 || bristle_stiffness * std::abs(state[0]) >= kStill * stuck) return {};
-    return Stiction{free, radius * radius * kFirm};
+    return Stiction{free, radius * radius * StickSlip{}.stiffness};  // it finds the load; the bristles are given that, not its stretch
   }
   bool set_stuck(const LawInput<double>& in, double force, double* state) const {
     const double friction = -force / radius, N = load(in);
@@ -61,7 +62,6 @@ struct LuGreLaw : Friction {
  private:
   static constexpr double kBent = 0.999;  // of the deflection of steady slip: bristles that are bent so far slip
   static constexpr double kStill = 1e-3;  // of the Stribeck speed: a slip that counts as none
-  static constexpr double kFirm = 1e8;    // of what finds the load of a joint at rest [N/m]; the bristles are given that load, not its stretch
 
   template <class T>
   T coefficient(const T& v) const { return stribeck_coefficient(v, stribeck); }

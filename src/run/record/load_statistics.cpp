@@ -8,9 +8,7 @@
 namespace pintle {
 namespace {
 
-constexpr double kMostParts = 1000;   // of a step, none longer than LoadSampling::longest
 constexpr int kMostHalvings = 10;     // of one of these; a jump of the loads is never resolved
-constexpr int kPartsAtKink = 32;      // of a step in which what wears has a kink: a swinging pin has the wear of its last sector to 2e-3 then, and to 0.1 without
 constexpr double kSmallLoad = 1e-6;   // of the largest load: loads are measured by this at least
 
 }  // namespace
@@ -76,7 +74,7 @@ void BasicLoadRecorder<S>::add_step(BasicStepper<S>& stepper) {
       for (CurveSums& sums : *all) sums.integral = sums.square = 0;
   end_ = t1;
   if (sampling_.resolution <= 0) return add_resolved(stepper, t0, t1, 0);
-  const double parts = std::clamp(std::ceil((t1 - t0) / sampling_.longest), 1.0, kMostParts);
+  const double parts = std::max(std::ceil((t1 - t0) / sampling_.longest_part), 1.0);
   double from = t0;
   for (double i = 1; i <= parts; ++i) {
     const double to = i < parts ? t0 + i / parts * (t1 - t0) : t1;
@@ -129,7 +127,7 @@ bool BasicLoadRecorder<S>::is_resolved() const {
       const int first = couple ? kForce : 0, n = couple ? kCouple : kForce;
       const double size = std::max(seen((couple ? couple_ : force_)[static_cast<std::size_t>(j)], j, first, n), kSmallLoad * largest[couple ? 1 : 0]);
       for (int c = first; c < first + n; ++c)
-        if (grid_.tail(samples_.data() + j * S::kDof + c, stride_) > sampling_.resolution * size) return false;
+        if (grid_.chebyshev_tail(samples_.data() + j * S::kDof + c, stride_) > sampling_.resolution * size) return false;
     }
   return true;
 }
@@ -167,8 +165,7 @@ void BasicLoadRecorder<S>::add_samples(double t0, double h, bool resolved) {
 // What turns far, or turns round, is divided more finely than the samples.
 template <class S>
 void BasicLoadRecorder<S>::add_wear(BasicStepper<S>& stepper, double t0, double t1) {
-  const double share = (t1 - t0) / (stepper.state().t - stepper.previous().t);
-  const int parts = std::max(static_cast<int>(std::ceil(share * wear_.parts(stepper.previous(), stepper.state()))), wear_.is_smooth(grid_) ? 0 : kPartsAtKink);
+  const int parts = wear_.finer_parts(grid_);
   if (parts == 0) return wear_.add_curve(grid_, t1 - t0);
   for (int i = 0; i <= parts; ++i) wear_.sample(i, stepper.interpolate(i < parts ? t0 + (t1 - t0) * i / parts : t1));
   wear_.add_trapezoids(parts, t1 - t0);

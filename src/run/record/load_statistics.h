@@ -18,9 +18,9 @@ struct LoadStatistics {
 
 /// At how many instants loads are sampled, CurveGrid, and how finely.
 struct LoadSampling {
-  int n = 3;                                                   // instants of a step or of a part of it
-  double resolution = 0;                                       // of the peak: what curves through the samples may leave out. Steps in which they leave more are halved; 0: none is
-  double longest = std::numeric_limits<double>::infinity();    // part of such a step [s]
+  int n = 3;              // instants of a step or of a part of it
+  double resolution = 0;  // of the peak: what curves through the samples may leave out. Steps in which they leave more are halved; 0: none is
+  double longest_part = std::numeric_limits<double>::infinity();  // of such a step, to begin with [s]
 };
 
 template <class S>

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "linalg/chebyshev_nodes.h"
+
 namespace pintle {
 namespace {
 
@@ -72,16 +74,13 @@ CurveGrid::CurveGrid(int n) : n_(n) {
   };
   add_integral(0, 1, integral_);
   for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(n); ++i) add_integral(x_[i], x_[i + 1], after_[i]);
-  for (std::size_t back = 0; back < last_coefficients_.size(); ++back) {
-    const int degree = n - 1 - static_cast<int>(back);
-    for (int i = 0; i < n; ++i) {
-      const double half_at_ends = (i == 0 || i == n - 1 ? 0.5 : 1) * (degree == n - 1 ? 0.5 : 1);
-      last_coefficients_[back][static_cast<std::size_t>(i)] = 2.0 / (n - 1) * half_at_ends * std::cos(std::numbers::pi * degree * (1 - static_cast<double>(i) / (n - 1)));
-    }
+  for (std::size_t below = 0; below < last_coefficients_.size(); ++below) {
+    const int degree = n - 1 - static_cast<int>(below);
+    for (int i = 0; i < n; ++i) last_coefficients_[below][static_cast<std::size_t>(i)] = (degree == n - 1 ? 1.0 : 2.0) / (n - 1) * chebyshev_weight(n, degree, i);
   }
 }
 
-double CurveGrid::tail(const double* samples, int stride) const {
+double CurveGrid::chebyshev_tail(const double* samples, int stride) const {
   double sum = 0;
   for (const Weights& weight : last_coefficients_) {
     double coefficient = 0;

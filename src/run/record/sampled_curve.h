@@ -33,7 +33,7 @@ class CurveGrid {
   /// The same from one sample to the next.
   const Weights& integral_after(int sample) const { return after_[static_cast<std::size_t>(sample)]; }
   /// How large the last two Chebyshev coefficients of the polynomial through `samples[i * stride]` are together: what more samples might still change.
-  double tail(const double* samples, int stride) const;
+  double chebyshev_tail(const double* samples, int stride) const;
   /// Weights of the samples at any share of the step.
   Weights weights(double x) const;
 

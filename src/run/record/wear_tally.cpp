@@ -44,18 +44,6 @@ const std::vector<double>& BasicWearTally<S>::observe(const Worn& worn, const Ba
 }
 
 template <class S>
-int BasicWearTally<S>::parts(const BasicState<S>& begin, const BasicState<S>& end) const {
-  constexpr int kPerSector = 4;
-  double most = 0;  // [sectors]
-  for (const Worn& worn : worn_) {
-    const auto j = static_cast<std::size_t>(worn.joint);
-    const double pin = end.gap[j][S::kTurn] - begin.gap[j][S::kTurn], first = observe(worn, begin)[worn.angle], contact = std::remainder(observe(worn, end)[worn.angle] - first, kTurn);
-    most = std::max({most, std::abs(pin) * kSectors / kTurn, std::abs(contact) * kSectors / kTurn});
-  }
-  return most > 1 ? kPerSector * static_cast<int>(std::ceil(most)) : 0;
-}
-
-template <class S>
 void BasicWearTally<S>::sample(int i, const BasicState<S>& state) {
   for (Worn& worn : worn_) {
     const std::vector<double>& observed = observe(worn, state);
@@ -65,14 +53,21 @@ void BasicWearTally<S>::sample(int i, const BasicState<S>& state) {
 }
 
 template <class S>
-bool BasicWearTally<S>::is_smooth(const CurveGrid& grid) const {
-  constexpr double kSmooth = 0.01;  // of the largest power
+int BasicWearTally<S>::finer_parts(const CurveGrid& grid) const {
+  constexpr int kPerSector = 4;
+  constexpr double kSmooth = 0.01;  // of the largest power: what the last coefficients of a curve without a kink may be
+  constexpr int kAtKink = 32;       // parts: a swinging pin has the wear of its last sector to 2e-3 then, and to 0.1 without
+  int parts = 0;
   for (const Worn& worn : worn_) {
+    const Sample &first = worn.samples.front(), &last = worn.samples[static_cast<std::size_t>(grid.n() - 1)];
+    const double contact = std::remainder(last.on_bush - first.on_bush, kTurn), pin = (last.on_bush - last.on_pin) - (first.on_bush - first.on_pin);
+    const double sectors = std::max(std::abs(pin), std::abs(contact)) * kSectors / kTurn;
+    if (sectors > 1) parts = std::max(parts, kPerSector * static_cast<int>(std::ceil(sectors)));
     std::array<double, CurveGrid::kMost> power{};
     for (int i = 0; i < grid.n(); ++i) power[static_cast<std::size_t>(i)] = worn.samples[static_cast<std::size_t>(i)].power;
-    if (grid.tail(power.data(), 1) > kSmooth * *std::max_element(power.begin(), power.end())) return false;
+    if (grid.chebyshev_tail(power.data(), 1) > kSmooth * *std::max_element(power.begin(), power.end())) parts = std::max(parts, kAtKink);
   }
-  return true;
+  return parts;
 }
 
 template <class S>

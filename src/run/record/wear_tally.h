@@ -18,12 +18,11 @@ class BasicWearTally {
   explicit BasicWearTally(const BasicSystem<S>& system);
 
   bool empty() const { return worn_.empty(); }
-  /// Into how many equal parts a step must be divided so that in each pins and contacts turn by a small part of a sector; 0: they hardly turn.
-  int parts(const BasicState<S>& begin, const BasicState<S>& end) const;
   /// Sample i of a step.
   void sample(int i, const BasicState<S>& state);
-  /// Whether the curves through the samples of `grid` have no kink, as where a slip turns round.
-  bool is_smooth(const CurveGrid& grid) const;
+  /// Into how many equal parts the step must be divided whose samples on `grid` are here, so that pins and contacts turn by a small part of a sector in each, and
+  /// a kink, as where a slip turns round, is seen; 0: these samples will do.
+  int finer_parts(const CurveGrid& grid) const;
   /// Adds a step of h seconds by the curves through the samples of `grid`.
   void add_curve(const CurveGrid& grid, double h);
   /// Adds a step of h seconds by trapezoids between n + 1 samples an even distance apart.
