@@ -1,5 +1,7 @@
 #include "base/unit_scanner.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 
@@ -17,7 +19,8 @@ struct Exponent {
 
 class UnitScanner {
  public:
-  UnitScanner(std::string_view text, const IsTaken& is_taken) : text_(text), is_taken_(is_taken) {}
+  UnitScanner(std::string_view text, const IsName& is_variable, const IsName& is_parameter)
+      : text_(text), is_variable_(is_variable), is_parameter_(is_parameter) {}
 
   // A product of factors from `at`; `end` is behind the last factor that is a unit.
   UnitScan scan_product(std::size_t at, int depth) const {
@@ -26,9 +29,14 @@ class UnitScanner {
       const std::size_t at_operator = skip_blanks(text_, result.end);
       const std::optional<OperatorAt> found = operator_at(text_, at_operator);
       if (!found || (found->symbol != '*' && found->symbol != '/')) break;
-      const UnitScan next = scan_factor(skip_blanks(text_, at_operator + found->length), depth);
+      const std::size_t at_factor = skip_blanks(text_, at_operator + found->length);
+      const UnitScan next = scan_factor(at_factor, depth);
       if (!next.problem.empty()) return next;
       if (!next.found) break;
+      if (const std::string_view symbol = symbol_at(text_, at_factor); is_parameter_(symbol)) {
+        fail(result, at_factor, fmt::format("{} is a parameter, and behind a unit it could be the unit {} as well", symbol, symbol));
+        break;
+      }
       join(result, next, found->symbol, at_operator);
     }
     return result;
@@ -46,7 +54,7 @@ class UnitScanner {
     const std::string_view symbol = symbol_at(text_, at);
     const std::optional<Unit> unit = find_unit(symbol);
     const std::size_t end = at + symbol.size();
-    if (!unit || is_taken_(symbol) || is_call_or_member(end)) return result;
+    if (!unit || is_variable_(symbol) || is_call_or_member(end)) return result;
     result.found = true;
     result.unit = *unit;
     result.end = end;
@@ -124,13 +132,14 @@ class UnitScanner {
   }
 
   std::string_view text_;
-  const IsTaken& is_taken_;
+  const IsName& is_variable_;
+  const IsName& is_parameter_;
 };
 
 }  // namespace
 
-UnitScan scan_unit(std::string_view text, std::size_t at, const IsTaken& is_taken) {
-  return UnitScanner(text, is_taken).scan_product(at, 0);
+UnitScan scan_unit(std::string_view text, std::size_t at, const IsName& is_variable, const IsName& is_parameter) {
+  return UnitScanner(text, is_variable, is_parameter).scan_product(at, 0);
 }
 
 }  // namespace pintle

@@ -10,8 +10,8 @@
 
 namespace pintle {
 
-/// Says of a word whether it is a name of the expression's own (a variable), which then is no unit.
-using IsTaken = std::function<bool(std::string_view)>;
+/// Is this word a name of the expression's own?
+using IsName = std::function<bool(std::string_view)>;
 
 /// What stands at an offset: a unit up to `end`; no unit (`found` false, no `problem`); or a unit with a fault.
 struct UnitScan {
@@ -23,7 +23,8 @@ struct UnitScan {
 };
 
 /// Reads symbol (('*' | '/') symbol)* with whole exponents, as far as units go: in "10 N*sin(2*t)" it stops before the
-/// '*', and so it does in "3 m/2". A parenthesis counts if nothing but units is in it.
-UnitScan scan_unit(std::string_view text, std::size_t at, const IsTaken& is_taken);
+/// '*', and so it does in "3 m/2". A parenthesis counts if nothing but units is in it. A variable is never a unit. A parameter may
+/// have the symbol of a unit: right behind a number the symbol is the unit, further on, as in "2 mm/h", it could be either, which is a fault.
+UnitScan scan_unit(std::string_view text, std::size_t at, const IsName& is_variable, const IsName& is_parameter);
 
 }  // namespace pintle

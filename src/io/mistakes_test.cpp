@@ -64,8 +64,9 @@ const std::vector<Mistake> kMistakes{
     {"space = \"planar\"", "space = \"@plana\"", "space", "none of planar, spatial", "did you mean \"planar\"?"},
     {"gravity = [0, \"-1.5 m/s^2\"]", "gravity = @9.81", "gravity", "a list of 2 numbers"},
     {"gravity = [0, \"-1.5 m/s^2\"]", "gravity = [0, \"@-1.5 m/s\"]", "gravity", "an acceleration [m/s^2] is expected"},
-    {"[parameters]\n", "[parameters]\n@kN = 3\n", "parameters.kN", "name of a unit"},
-    {"[parameters]\n", "[parameters]\n@sin = 3\n", "parameters.sin", "name of a unit, a function"},
+    {"[parameters]\n", "[parameters]\nh = 3\nv = \"2 mm/@h\"\n", "parameters.v", "could be the unit h as well"},
+    {"[parameters]\n", "[parameters]\n@t = 3\n", "parameters.t", "time"},
+    {"[parameters]\n", "[parameters]\n@sin = 3\n", "parameters.sin", "name of a function"},
     {"[parameters]\n", "[parameters]\n@pi = 3\n", "parameters.pi", "constant"},
     {"[parameters]\n", "[parameters]\n@a-b = 3\n", "parameters.a-b", "a letter, then letters, digits"},
     {"half = \"crank/2\"\ncrank = \"1 m\"", "half = \"@crank/2\"\ncrank = \"2*half\"", "parameters.half",
@@ -193,7 +194,7 @@ TEST(Mistakes, TheFullModelHasNone) {
 
 TEST(Mistakes, AllAreCollectedInTheOrderOfTheFile) {
   const auto complaints =
-      complaints_about("format = 1\n[body.a]\nmass = -1\ninertia = 0\n[joint.j]\ntyp = 1\n[parameters]\nm = 1\n");
+      complaints_about("format = 1\n[body.a]\nmass = -1\ninertia = 0\n[joint.j]\ntyp = 1\n[parameters]\npi = 1\n");
   ASSERT_EQ(complaints.size(), 5U);
   for (std::size_t i = 1; i < complaints.size(); ++i) EXPECT_LE(complaints[i - 1].place.line, complaints[i].place.line);
 }

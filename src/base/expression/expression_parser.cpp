@@ -219,13 +219,20 @@ class ExpressionParser {
   Operand with_unit(const Operand& operand) {
     skip();
     if (symbol_at(text_, at_).empty()) return operand;
-    const UnitScan scan =
-        scan_unit(text_, at_, [this](std::string_view word) { return find_variable(word) != nullptr; });
-    if (!scan.problem.empty()) throw ParseProblem{scan.problem_offset, "", scan.problem, "units as in \"1 N*m*s/rad\""};
+    const UnitScan scan = scan_unit(
+        text_, at_, [this](std::string_view word) { return find_variable(word) != nullptr; }, [this](std::string_view word) { return is_parameter(word); });
+    if (!scan.problem.empty()) {
+      const std::string_view symbol = symbol_at(text_, scan.problem_offset);
+      throw faulty_unit(scan, is_parameter(symbol) ? symbol : std::string_view());
+    }
     if (!scan.found) return operand;
     const std::size_t at = std::exchange(at_, scan.end);
     const Operand unit = constant({scan.unit.factor, scan.unit.dimension}, false, at);
     return emit(Op::kMultiply, checked(product_of(operand, unit), at), at);
+  }
+
+  bool is_parameter(std::string_view word) const {
+    return std::find(scope_.constant_names.begin(), scope_.constant_names.end(), word) != scope_.constant_names.end();
   }
 
   // A word right behind a number is a unit or a mistake.
@@ -417,7 +424,7 @@ std::variant<Quantity, ParseProblem> parse_quantity(std::string_view text, const
 }
 
 bool is_reserved_name(std::string_view word) {
-  return find_function(word) || is_unit_symbol(word) || built_in_constant(word);
+  return find_function(word) || built_in_constant(word) || word == "t";
 }
 
 bool is_identifier(std::string_view word) {

@@ -1,7 +1,8 @@
 // From text to expression: "2*crank + 5 mm", "5 N*m - 0.1*rate".
 //
 // A unit belongs to the number, the pi or the closing parenthesis before it and binds tighter than any operator, so
-// that "1/2 m" is 1/(2 m). It goes on as long as units follow * or /: "3 N*s/m". A variable is never a unit.
+// that "1/2 m" is 1/(2 m). It goes on as long as units follow * or /: "3 N*s/m". A variable is never a unit; of a
+// constant with the symbol of a unit, "2 h" is two hours and "2*h" twice the constant, and "2 mm/h" is refused.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +29,7 @@ struct ParseScope {
   /// A constant by name. A NaN stands for a constant that has been complained about already: what is made of it is NaN
   /// of any dimension, without further problems.
   std::function<std::optional<Quantity>(std::string_view)> constant;
-  std::vector<std::string> constant_names;  // for did-you-mean only
+  std::vector<std::string> constant_names;  // all of them, whether their values are known yet or not
   /// Variables; a name is letters, digits and _, or has one dot and then - too before it: "hip-pin.angle". A dotted
   /// name wins over what its parts could mean.
   std::vector<std::pair<std::string, Dimension>> variables;
@@ -59,7 +60,7 @@ std::variant<ParsedExpression, ParseProblem> parse_expression(std::string_view t
 /// The same without variables: a constant.
 std::variant<Quantity, ParseProblem> parse_quantity(std::string_view text, const ParseScope& scope = {});
 
-/// Words that cannot name a parameter: functions, unit symbols, pi and e.
+/// Words that cannot name a parameter or a table: functions, pi, e and the time t.
 bool is_reserved_name(std::string_view word);
 /// Could this be written as a name in an expression: a letter or _, then letters, digits, _?
 bool is_identifier(std::string_view word);

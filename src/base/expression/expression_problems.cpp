@@ -147,6 +147,12 @@ ParseProblem unknown_name(std::string_view word, std::size_t at, const ParseScop
           guess ? "did you mean " + in_quotes(*guess) + "?" : known_names(scope)};
 }
 
+ParseProblem faulty_unit(const UnitScan& scan, std::string_view parameter) {
+  if (parameter.empty()) return {scan.problem_offset, "", scan.problem, "units as in \"1 N*m*s/rad\""};
+  return {scan.problem_offset, in_quotes(parameter), scan.problem,
+          "(number and unit) in parentheses where the parameter is meant; another name for the parameter where the unit is meant"};
+}
+
 ParseProblem unknown_unit(std::string_view word, std::size_t at) {
   ParseProblem problem{at, in_quotes(word), "there is no unit with this symbol", ""};
   const auto alias = std::find_if(kAliases.begin(), kAliases.end(), [&](const Alias& a) { return a.word == word; });

@@ -6,6 +6,7 @@
 
 #include "base/expression/expression_dimensions.h"
 #include "base/expression/expression_parser.h"
+#include "base/unit_scanner.h"
 
 namespace pintle {
 
@@ -20,6 +21,8 @@ ParseProblem unknown_name(std::string_view word, std::size_t at, const ParseScop
 
 /// The word at `at` stands where a unit should be and is none.
 ParseProblem unknown_unit(std::string_view word, std::size_t at);
+/// `parameter`: the symbol that could be a parameter as well, or nothing.
+ParseProblem faulty_unit(const UnitScan& scan, std::string_view parameter);
 
 /// The table that is called by this word, or null.
 const ParseScope::Table* find_table(std::string_view word, const ParseScope& scope);

@@ -222,9 +222,23 @@ TEST(ExpressionValue, QuantitiesAndBrokenConstants) {
   }
 }
 
+TEST(ExpressionNames, AConstantMayHaveTheSymbolOfAUnit) {
+  const ParseScope scope{[](std::string_view name) -> std::optional<Quantity> { return name == "h" ? std::optional(Quantity{0.5, kLength}) : std::nullopt; }, {"h"}, {}};
+  const auto value = [&](const char* text) { return std::get<Quantity>(parse_quantity(text, scope)).si; };
+  EXPECT_DOUBLE_EQ(value("2 h"), 7200);
+  EXPECT_DOUBLE_EQ(value("2*h"), 1);
+  EXPECT_DOUBLE_EQ(value("(3 kg)*h^2/12"), 0.0625);
+  EXPECT_DOUBLE_EQ(value("h/2 + 1 m"), 1.25);
+  for (const char* text : {"2 mm/h", "3 kg * h^2", "1 N/(m*h)"}) {
+    const auto refused = parse_quantity(text, scope);
+    ASSERT_TRUE(std::holds_alternative<ParseProblem>(refused)) << text;
+    EXPECT_EQ(text[std::get<ParseProblem>(refused).offset], 'h') << text;
+  }
+}
+
 TEST(ExpressionNames, ReservedAndPossible) {
-  for (const char* word : {"sin", "if", "m", "kg", "pi", "e", "min"}) EXPECT_TRUE(is_reserved_name(word)) << word;
-  for (const char* word : {"crank", "m1", "M", "gravity", ""}) EXPECT_FALSE(is_reserved_name(word)) << word;
+  for (const char* word : {"sin", "if", "pi", "e", "min", "t"}) EXPECT_TRUE(is_reserved_name(word)) << word;
+  for (const char* word : {"crank", "m1", "M", "m", "kg", "gravity", ""}) EXPECT_FALSE(is_reserved_name(word)) << word;
   for (const char* word : {"a", "_a1", "Abc"}) EXPECT_TRUE(is_identifier(word)) << word;
   for (const char* word : {"", "1a", "a-b", "a.b", "\xC2\xB0"}) EXPECT_FALSE(is_identifier(word)) << word;
   for (const FunctionInfo& info : function_catalog()) {

@@ -102,18 +102,6 @@ void read_simulate(ModelReading& reading) {
   check_times(reading, record);
 }
 
-// The parameters that a text mentions, as words that are not parts of numbers.
-std::vector<std::string_view> words_in(std::string_view text) {
-  std::vector<std::string_view> words;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::string_view number = number_at(text, at);
-    const std::string_view word = number.empty() ? word_at(text, at) : std::string_view();
-    if (!word.empty()) words.push_back(word);
-    at += std::max<std::size_t>({1, number.size(), word.size()});
-  }
-  return words;
-}
-
 // Evaluates parameters in the order of their dependence, without recursion: chains may be long.
 class ParameterReader {
  public:
@@ -150,16 +138,18 @@ class ParameterReader {
     users_.resize(entries().size());
     waits_for_.resize(entries().size());
     uses_.resize(entries().size());
-    for (std::size_t i = 0; i < entries().size(); ++i) {
-      const std::string* text = entries()[i].value.string();
-      if (text == nullptr || text->size() > kLongestExpression) continue;
-      for (const std::string_view word : words_in(*text)) {
-        const auto it = index_.find(word);
-        if (it == index_.end() || is_reserved_name(word)) continue;
-        users_[it->second].push_back(i);
-        uses_[i].push_back(it->second);
-        ++waits_for_[i];
+    std::size_t reader = 0;
+    ParseScope scope = reading_.records.scope;
+    scope.constant = [&](std::string_view word) -> std::optional<Quantity> {
+      if (const auto it = index_.find(word); it != index_.end()) {
+        users_[it->second].push_back(reader);
+        uses_[reader].push_back(it->second);
+        ++waits_for_[reader];
       }
+      return Quantity{kFaulty, {}};
+    };
+    for (; reader < entries().size(); ++reader) {
+      if (const std::string* text = entries()[reader].value.string()) static_cast<void>(parse_quantity(*text, scope));  // its faults are told when it is evaluated
     }
   }
 
@@ -169,7 +159,7 @@ class ParameterReader {
     Quantity value{kFaulty, {}};
     if (is_reserved_name(entry.key)) {
       reading_.complaints.add(entry.key_spot, path, in_quotes(entry.key),
-                              "this is the name of a unit, a function or a constant", entry.key + "_value");
+                              "this is the name of a function, of a constant or of time", entry.key + "_value");
     } else if (!is_identifier(entry.key)) {
       reading_.complaints.add(entry.key_spot, path, in_quotes(entry.key),
                               "a parameter's name is a letter, then letters, digits and _", "no other character in it");

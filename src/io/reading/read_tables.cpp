@@ -61,7 +61,7 @@ class TableReader {
     const bool variable = std::find(kVariables.begin(), kVariables.end(), name) != kVariables.end();
     const auto& parameters = reading_.records.scope.constant_names;
     if (!is_identifier(name)) complain("", entry_.key_spot, in_quotes(name), "a table is called by its name, which is a letter, then letters, digits and _", "no other character in it");
-    else if (is_reserved_name(name) || variable) complain("", entry_.key_spot, in_quotes(name), "this is the name of a unit, a function, a constant or a variable", name + "_table");
+    else if (is_reserved_name(name) || variable) complain("", entry_.key_spot, in_quotes(name), "this is the name of a function, a constant or a variable", name + "_table");
     else if (std::find(parameters.begin(), parameters.end(), name) != parameters.end()) complain("", entry_.key_spot, in_quotes(name), "a parameter has this name", name + "_table");
   }
 

@@ -118,7 +118,7 @@ struct TableMistake {
 
 const std::vector<TableMistake> kTableMistakes{
     {"[table.@a-b]\nx = [0, 1]\ny = [0, 1]\n", "table.a-b", "letters, digits and _"},
-    {"[table.@sin]\nx = [0, 1]\ny = [0, 1]\n", "table.sin", "name of a unit, a function"},
+    {"[table.@sin]\nx = [0, 1]\ny = [0, 1]\n", "table.sin", "name of a function"},
     {"[table.@rate]\nx = [0, 1]\ny = [0, 1]\n", "table.rate", "a variable", "rate_table"},
     {"[parameters]\np = 1\n[table.@p]\nx = [0, 1]\ny = [0, 1]\n", "table.p", "a parameter has this name"},
     {"[table.@f]\nx = [0, 1]\n", "table.f.y", "x and y, or a file"},
