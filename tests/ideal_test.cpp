@@ -176,11 +176,11 @@ TEST(Ideal, GoesOverJumpsOfAForce) {
 }
 
 // An arm on a motor; `more` keys of its joint come last.
-Model driven_arm(const std::string& motor, const std::string& equations, const std::string& spin = "0", const std::string& more = "") {
+Model driven_arm(const std::string& motor, const std::string& equations, const std::string& spin = "0", const std::string& more = "", const std::string& duration = "1 s") {
   return parse_model(fmt::format(R"toml(
 format = 1
 [simulate]
-duration = "1 s"
+duration = "{}"
 equations = "{}"
 [ground.markers]
 O = [0, 0]
@@ -198,7 +198,7 @@ joint = "O"
 type = "revolute"
 between = ["ground.O", "a.O"]
 {}
-)toml", equations, spin, motor, more), "driven_arm.toml");
+)toml", duration, equations, spin, motor, more), "driven_arm.toml");
 }
 
 // An acceleration may jump, at the start as well: 24 rad/s^2 at 0.2 m and the weight.
@@ -226,6 +226,19 @@ TEST(Ideal, AMotorWhoseSpeedJumpsIsNamed) {
   }
   const Trajectory step = completed(driven_arm("position = \"if(t < 0.5 s, 0, 0.1)\"", "newtonian"));
   EXPECT_NEAR(value(step, step.n_rows() - 1, "body.a.angle"), 0.1, 1e-4);
+}
+
+// At a kink of its command a motor has the speed that comes: at the start it is the assembled one, later, on a double number of time, the one after it.
+TEST(Ideal, AMotorThatStartsOnAKinkHasTheSpeedBehindIt) {
+  for (const char* motor : {"position = \"abs(sin(4*t))\"", "position = \"abs(sin(-4*t))\""}) {
+    for (const char* equations : {"ideal", "newtonian", "relative"}) {
+      const Trajectory run = completed(driven_arm(motor, equations, "4", "", "0.5 s"));
+      EXPECT_NEAR(run.joints[0].peak, std::hypot(0.2 * 16, 9.80665), 0.6) << motor << equations;
+      EXPECT_EQ(run.notes.size(), equations == std::string_view("relative") ? 1 : 0) << motor << equations;
+    }
+  }
+  const Trajectory failed = simulate(driven_arm("position = \"abs(1 rad - 2 rad/s*t)\"", "ideal", "-2"));
+  EXPECT_NE(failed.message.find("motor m is to change its speed by 4 rad/s at once at t = 0.5 s"), std::string::npos) << failed.message;
 }
 
 // What balances a load that no motion shows has its peak and mean, whatever the steps of the motion are: an arm that a motor holds, by its pin.

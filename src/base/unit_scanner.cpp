@@ -19,8 +19,8 @@ struct Exponent {
 
 class UnitScanner {
  public:
-  UnitScanner(std::string_view text, const IsName& is_variable, const IsName& is_parameter)
-      : text_(text), is_variable_(is_variable), is_parameter_(is_parameter) {}
+  UnitScanner(std::string_view text, const IsName& is_variable, const IsAmbiguous& is_ambiguous)
+      : text_(text), is_variable_(is_variable), is_ambiguous_(is_ambiguous) {}
 
   // A product of factors from `at`; `end` is behind the last factor that is a unit.
   UnitScan scan_product(std::size_t at, int depth) const {
@@ -33,7 +33,7 @@ class UnitScanner {
       const UnitScan next = scan_factor(at_factor, depth);
       if (!next.problem.empty()) return next;
       if (!next.found) break;
-      if (const std::string_view symbol = symbol_at(text_, at_factor); is_parameter_(symbol)) {
+      if (const std::string_view symbol = symbol_at(text_, at_factor); !symbol.empty() && is_ambiguous_(symbol, *find_unit(symbol))) {
         fail(result, at_factor, fmt::format("{} is a parameter, and behind a unit it could be the unit {} as well", symbol, symbol));
         break;
       }
@@ -133,13 +133,13 @@ class UnitScanner {
 
   std::string_view text_;
   const IsName& is_variable_;
-  const IsName& is_parameter_;
+  const IsAmbiguous& is_ambiguous_;
 };
 
 }  // namespace
 
-UnitScan scan_unit(std::string_view text, std::size_t at, const IsName& is_variable, const IsName& is_parameter) {
-  return UnitScanner(text, is_variable, is_parameter).scan_product(at, 0);
+UnitScan scan_unit(std::string_view text, std::size_t at, const IsName& is_variable, const IsAmbiguous& is_ambiguous) {
+  return UnitScanner(text, is_variable, is_ambiguous).scan_product(at, 0);
 }
 
 }  // namespace pintle

@@ -161,10 +161,10 @@ std::span<const std::string_view> unit_symbols() {
 }
 
 std::optional<Unit> parse_unit(std::string_view text) {
-  const IsName is_no_name = [](std::string_view) { return false; };
+  const auto none = [](std::string_view, const Unit& = {}) { return false; };
   if (text.empty() || text == "1") return Unit{1, kPureNumber};
   const bool is_inverse = text.starts_with("1/");
-  const UnitScan scan = scan_unit(text, is_inverse ? 2 : 0, is_no_name, is_no_name);
+  const UnitScan scan = scan_unit(text, is_inverse ? 2 : 0, none, none);
   if (!scan.found || scan.end != text.size()) return std::nullopt;
   if (!is_inverse) return scan.unit;
   const std::optional<Dimension> dimension = quotient(kPureNumber, scan.unit.dimension);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "system/state.h"
 
@@ -16,6 +17,11 @@ using LoadScale = BasicLoadScale<Planar>;
 
 /// At least this much per mass, where nothing acts [m/s^2].
 inline constexpr double kLeastLoad = 1e-9;
+/// Of a body's force scale at its radius of gyration: the least scale of its moments, and of its moments over that radius: the least of its forces.
+inline constexpr double kCoupleAtArm = 1e-3;
+
+/// Below this load [N] the rounding of coordinates of a size [m], as force of a joint of a stiffness [N/m], would be an error above the tolerance.
+inline double load_above_rounding(double stiffness, double size, double tolerance) { return 30 * std::numeric_limits<double>::epsilon() * size * stiffness / tolerance; }
 
 /// The larger of the scales of both bodies of a joint, component by component.
 template <class S>
@@ -35,14 +41,24 @@ typename S::Vec load_on(const BasicJointData<S>& joint, const BasicLoadScale<S>&
   return load;
 }
 
+/// The largest of forces over the loads: of accelerations of all bodies, one after the other. Infinite where one is no finite number.
+template <class S>
+double over_loads(const BasicSystem<S>& system, const Eigen::VectorXd& accelerations, const BasicLoadScale<S>& scale) {
+  if (!accelerations.allFinite()) return std::numeric_limits<double>::infinity();
+  double size = 0;
+  for (int i = 0; i < system.n_bodies(); ++i)
+    size = std::max(size, accelerations.template segment<S::kDof>(S::kDof * i).cwiseProduct(system.bodies[i].mass).cwiseQuotient(scale.body[i]).cwiseAbs().maxCoeff());
+  return size;
+}
+
 /// Raises a body's scale to the sum of the magnitudes of what acts on it.
 template <class S>
 void raise_scale(const BasicBodyData<S>& body, const typename S::Vec& load, typename S::Vec& scale) {
   const double radius = body.radius_of_gyration();
   const double force = std::max({scale[0], load.template head<S::kDim>().maxCoeff(), kLeastLoad * body.mass[0]});
   const double moment = std::max(scale[S::kDim], load.template tail<S::kDof - S::kDim>().maxCoeff());
-  scale.template head<S::kDim>().setConstant(std::max(force, 1e-3 * moment / radius));
-  scale.template tail<S::kDof - S::kDim>().setConstant(std::max(moment, 1e-3 * scale[0] * radius));
+  scale.template head<S::kDim>().setConstant(std::max(force, kCoupleAtArm * moment / radius));
+  scale.template tail<S::kDof - S::kDim>().setConstant(std::max(moment, kCoupleAtArm * scale[0] * radius));
 }
 
 /// Raises `scale` to what acts on each body of `state`: m are the motions there, Q the external forces.

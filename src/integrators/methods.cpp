@@ -86,11 +86,20 @@ AlphaWeights alpha_weights(std::string_view method) {
                                          : AlphaWeights::trapezoidal();
 }
 
-}  // namespace
-
 std::string usual_method(Equations equations) {
   if (is_augmented(equations)) return "ode23t";
   return has_constraints(equations) ? "dopri5" : "radau";
+}
+
+}  // namespace
+
+MethodChoice choice_of(const SimulateSettings& settings) {
+  MethodChoice choice;
+  choice.equations = settings.equations;
+  choice.method = settings.method == "auto" ? usual_method(settings.equations) : settings.method;
+  choice.tolerance_of = settings.tolerance_of;
+  choice.penalty = settings.penalty;
+  return choice;
 }
 
 std::string why_not(const MethodChoice& choice) {

@@ -124,15 +124,6 @@ Lanes<N> divide(const Lanes<N>& a, const Lanes<N>& b) { return {a.v / b.v}; }
 template <int N>
 Lanes<N> where_positive(const Lanes<N>& a, const Lanes<N>& x, const Lanes<N>& y) { return where_larger(a, Lanes<N>::all(0), x, y); }
 
-/// x^n of x >= 0 with n >= 1; at zero the slope is that of the right side.
-template <class T>
-T pow(const T& x, double n) {
-  return through(x, [n](double v) { return std::pow(v, n); }, [n](double v) { return n * std::pow(v, n - 1); });
-}
-template <class T>
-T sin(const T& x) { return through(x, [](double v) { return std::sin(v); }, [](double v) { return std::cos(v); }); }
-template <class T>
-T cos(const T& x) { return through(x, [](double v) { return std::cos(v); }, [](double v) { return -std::sin(v); }); }
 inline double atan2(double y, double x) { return std::atan2(y, x); }
 template <int M>
 Dual<M> atan2(const Dual<M>& y, const Dual<M>& x) {

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "integrators/methods.h"
+#include "run/passes.h"
 
 namespace pintle {
 
@@ -68,7 +69,7 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
   recorder.start(stepper.state(), load_sampling(plan.choice, plan.tolerance, plan.output_step));
   if (plan.energy) plan.energy->start(stepper.state());
   std::size_t row = 1;
-  const double end = plan.duration, almost = end * (1 - 1e-12);
+  const double end = plan.duration, almost = end * kAlmostAll;
   Standstill standstill(end);
   while (stepper.state().t < almost) {
     if (!stepper.step(end)) {
@@ -78,7 +79,7 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
     }
     const BasicState<S>& now = stepper.state();
     recorder.see_step(stepper);
-    if (plan.ringing && stepper.nodes() != nullptr) plan.ringing->see_step(*stepper.nodes(), now.t - stepper.previous().t);
+    if (plan.ringing && stepper.nodes() != nullptr && now.t > stepper.previous().t) plan.ringing->see_step(*stepper.nodes(), now.t - stepper.previous().t);
     for (double t = static_cast<double>(row) * plan.output_step; t <= now.t && t < almost;
          t = static_cast<double>(++row) * plan.output_step)
       recorder.add(stepper.interpolate(t));

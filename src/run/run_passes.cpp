@@ -44,11 +44,8 @@ class Passes {
 
   std::unique_ptr<BasicForceRecorder<S>> go() {
     out_.tolerance = settings_.tolerance;
-    choice_.equations = settings_.equations;
-    choice_.method = settings_.method == "auto" ? usual_method(choice_.equations) : settings_.method;
+    choice_ = choice_of(settings_);
     out_.method = choice_.method;
-    choice_.tolerance_of = settings_.tolerance_of;
-    choice_.penalty = settings_.penalty;
     out_.of_motion = choice_.tolerance_of == ToleranceOf::kMotion;
     make_passes();
     return std::move(fine_);
@@ -62,7 +59,7 @@ class Passes {
     p.max_step = longest_ > 0 && !(settings_.max_step > 0 && settings_.max_step < longest_) ? longest_ : settings_.max_step;
     p.tolerance = tolerance;
     p.choice = choice_;
-    p.first_step = 1e-4 * p.duration;
+    p.first_step = kFirstStep * p.duration;
     if (!last_.scale.body.empty()) p.scale = &last_.scale;
     p.keep_going = [this](double t) { return report(t); };
     return p;
@@ -88,7 +85,6 @@ class Passes {
     ringing.start_again();
     if (context_.shape.checked) p.ringing = &ringing;  // otherwise no error is stated
     BasicIntegration<S> done = integrate(system_, start_, p, *recorder);
-    turnover_ = done.ended == Ended::kAtEnd ? energy.turnover() : 0;
     count(done.counters);
     const bool complete = done.ended == Ended::kAtEnd || done.ended == Ended::kRunaway;
     interrupted_ = complete ? std::pair{Ended::kAtEnd, std::string()} : std::pair{done.ended, done.message};
@@ -98,6 +94,7 @@ class Passes {
     fine_ = std::move(recorder);
     fine_ringing_ = std::move(ringing);
     fine_tolerance_ = tolerance;
+    turnover_ = done.ended == Ended::kAtEnd ? energy.turnover() : 0;
     last_ = std::move(done);
     return complete;
   }
@@ -156,8 +153,11 @@ class Passes {
     const Counters& pilot = last_.counters;
     if (complete && choice_.method == "radau" && choice_.stages == 3 && static_cast<double>(pilot.newton_iterations) < kEasy * static_cast<double>(pilot.steps)) {
       choice_.stages = 5;
-      fine_.reset();
       complete = run_closed_pass(of_pilot);
+      if (!complete && interrupted_.first != Ended::kStopped) {  // the pass of three stages stands, and others like it follow
+        choice_.stages = 3;
+        complete = true;
+      }
     }
     stages_before_ = choice_.stages;
     tolerance = std::min(tolerance, of_pilot / kPilot);

@@ -22,6 +22,7 @@ constexpr double kExact = 1e-6;                       // relative change of the 
 constexpr double kUnsettledGrowth = 1.1;              // growth of the largest force, by soft joints whose sweeps have not converged: what is beyond is no start. With the 2 of kMostGrowth a lift at rest starts with 1.3 times its load (test Starts)
 constexpr double kMostKick = 0.5;                     // of a joint's force: what may ring because the rates of gaps are not known better than the gaps, which the last sweep has changed
 constexpr double kMostOfStored = 0.2;                 // of the energy that joints store: the kinetic energy that fast ones give bodies, at most. 0.1 is the most of the collection (a toggle under load), 0.3 and more have starts that rounding makes
+constexpr double kMostChange = 0.1;                   // of the largest force: what fast joints on their slow motion change any force by. 0.007 is the most of the collection
 constexpr double kBalanced = 1e-6;                    // of the largest joint force: what accelerates a body less leaves it at rest
 constexpr double kSmallCouple = 0.05;                 // of the largest force at the largest radius of gyration: couples below it are not asked whether they grow
 constexpr double kEntirely = 0.99;                    // of its slow motion: with this share a soft joint counts as going with the motion
@@ -94,6 +95,14 @@ double slowest_fast_rate(const BasicTimeScales<S>& time_scales) {
   return slowest;
 }
 
+// Sweeps may converge to another motion than the one that the given forces begin: where they turn back a joint that rubs, for instance.
+template <class S>
+bool keeps_forces(const BasicState<S>& attempt, const BasicState<S>& given) {
+  double most = 0;
+  for (std::size_t j = 0; j < given.force.size(); ++j) most = std::max(most, (attempt.force[j] - given.force[j]).template head<S::kDim>().norm());
+  return most <= kMostChange * largest_force(given.force);
+}
+
 // Fast joints ride their slow motion; where that is not found the state stays, or with `keep_best` is the best attempt. Over which
 // time it was found; 0: it was not.
 template <class S>
@@ -105,6 +114,7 @@ double settle_fast_joints(const BasicSystem<S>& system, const BasicTimeScales<S>
     // Differentiated over a span that is too short, what the last sweep has moved gaps by is a rate above their own.
     const double change = std::max(moved, moved * ChebyshevNodes().D.cwiseAbs().maxCoeff() / (span * slowest) * (kSettledSweep / kMostKick));
     if (is_runaway(system, attempt, given) || !is_moderate(system, attempt, given, kMostOfStored)) continue;
+    if (change < kSettledSweep && !keeps_forces(attempt, given)) continue;
     if (change < kSettledSweep || (keep_best && is_near(system, attempt, given))) state = std::move(attempt);
     if (change < kSettledSweep) return span;
   }
@@ -127,7 +137,7 @@ bool note_resolved_joints(const BasicSystem<S>& system, const BasicTimeScales<S>
   return none;
 }
 
-// theory/start section 5: soft joints first, then the others around them.
+// theory/assembly section 5: soft joints first, then the others around them.
 template <class S>
 void settle_soft_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, double span, BasicSettledStart<S>& start) {
   BasicState<S> attempt = start.state;
@@ -167,10 +177,16 @@ void settle_joints(const BasicSystem<S>& system, double duration, double known_s
   start.effective_mass = time_scales.effective_mass;
   if (span > 0 && time_scales.any_soft()) return settle_soft_joints(system, time_scales, span, start);
   start.settled_over = settle_fast_joints(system, all_fast(system), slowest_fast_rate(time_scales), smooth_span(system, state, duration), true, state);
-  const bool may_change = !system.applied.empty() || std::any_of(system.joints.begin(), system.joints.end(), [](const BasicJointData<S>& joint) { return joint.driven >= 0; });
-  const bool still = !may_change && (largest_force(state.force) == 0 || is_at_rest(system, state));
-  if (start.settled_over == 0 && !still) start.notes.push_back(kNotSettled);
+  if (start.settled_over == 0) note_not_settled(system, state, start.notes);
 }
+
+template <class S>
+void note_not_settled(const BasicSystem<S>& system, const BasicState<S>& state, std::vector<std::string>& notes) {
+  const bool may_change = !system.applied.empty() || std::any_of(system.joints.begin(), system.joints.end(), [](const BasicJointData<S>& joint) { return joint.driven >= 0; });
+  if (may_change || (largest_force(state.force) > 0 && !is_at_rest(system, state))) notes.push_back(kNotSettled);
+}
+
+template void note_not_settled(const BasicSystem<Planar>& system, const BasicState<Planar>& state, std::vector<std::string>& notes);
 
 template void settle_joints(const BasicSystem<Planar>& system, double duration, double known_span, BasicSettledStart<Planar>& start);
 PINTLE_IN_SPACE(template void settle_joints(const BasicSystem<Spatial>& system, double duration, double known_span, BasicSettledStart<Spatial>& start);)

@@ -24,6 +24,10 @@ struct BasicSettledStart {
 template <class S>
 void settle_joints(const BasicSystem<S>& system, double duration, double known_span, BasicSettledStart<S>& start);
 
+/// Notes that the joints may ring from the start, unless they carry nothing or everything is at rest under loads that stay.
+template <class S>
+void note_not_settled(const BasicSystem<S>& system, const BasicState<S>& state, std::vector<std::string>& notes);
+
 /// Whether bodies stand still, and joints carry what acts on them.
 template <class S>
 bool is_at_rest(const BasicSystem<S>& system, const BasicState<S>& state);

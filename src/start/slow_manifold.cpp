@@ -95,7 +95,7 @@ class BasicSlowManifold {
   }
 
   // The start that the sweeps have found. Where an overdamped joint starts is given: its rate carries the force.
-  void write_start(BasicState<S>& state) const {
+  bool write_start(BasicState<S>& state) {
     put(0, state);
     for (std::size_t j = 0; released_ && j < state.gap.size(); ++j)
       for (int i = 0; i < S::kDof; ++i) {
@@ -103,6 +103,9 @@ class BasicSlowManifold {
         const BasicResponse<S> now = respond(system_.joints[j].law, state.gap[j], state.gap_rate[j]);
         if (now.damping(i, i) > 0) state.gap_rate[j][i] += (now.force[i] - force_[0][j][i]) / now.damping(i, i);
       }
+    BasicInverseDynamics<S>(system_).move_onto_gaps(state);
+    balance_start(system_, state);
+    return is_finite(state) && mismatch(state) <= kMostMismatch;
   }
 
   // The gaps at the start and the rates with which they carry its forces.
@@ -339,25 +342,7 @@ template <class S>
 double move_onto_slow_manifold(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, double span, BasicState<S>& state) {
   BasicSlowManifold<S> motion(system, span, state, time_scales);
   motion.release();
-  double last = kDiverged;
-  std::optional<BasicState<S>> best;
-  for (int sweep = 0; sweep < kSweeps && last > kConverged; ++sweep) {
-    const double change = motion.sweep();
-    if (change == 0) return 0;  // nothing to carry
-    if (sweep > 0 && !(change < 0.5 * last)) break;
-    if (sweep > 0) {
-      BasicState<S> next = state;
-      motion.write_start(next);
-      BasicInverseDynamics<S>(system).move_onto_gaps(next);
-      balance_start(system, next);
-      if (!is_finite(next) || motion.mismatch(next) > kMostMismatch) break;
-      best = std::move(next);
-    }
-    last = change;
-  }
-  if (!best) return kDiverged;
-  state = std::move(*best);
-  return last;
+  return sweep_onto(motion, state);
 }
 
 template double span_of_motion(const BasicSystem<Planar>& system, const BasicState<Planar>& state, double longest);

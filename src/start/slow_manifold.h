@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "dynamics/time_scales.h"
 #include "system/state.h"
@@ -16,6 +18,28 @@ inline constexpr double kConverged = 1e-10;  // relative change of the gaps belo
 inline constexpr double kDiverged = std::numeric_limits<double>::infinity();
 inline constexpr double kSettledSweep = 0.1;  // relative change of the gaps in the last sweep that is taken for convergence
 inline constexpr int kSpans = 4;             // times over which the slow motion is looked for, each a quarter of the one before
+
+/// Sweeps over the joints of `motion` while their change keeps falling, by half each time. motion.write_start puts a state where the gaps of a sweep
+/// are; false: that is no start. The state becomes the last one written, after the second sweep or later. Returns the relative change of
+/// the gaps in that sweep: 0 where the joints carry nothing, kDiverged where there was none, and the state is as it was.
+template <class Motion, class State>
+double sweep_onto(Motion& motion, State& state) {
+  double last = kDiverged;
+  std::optional<State> best;
+  for (int sweep = 0; sweep < kSweeps && last > kConverged; ++sweep) {
+    const double change = motion.sweep();
+    if (change == 0) return 0;
+    if (sweep > 0) {
+      State next = state;
+      if (!(change < 0.5 * last) || !motion.write_start(next)) break;
+      best = std::move(next);
+    }
+    last = change;
+  }
+  if (!best) return kDiverged;
+  state = std::move(*best);
+  return last;
+}
 
 /// A step that a rough integration by `Method` takes, once it is under way: the gaps are smooth over about that time. 0: it takes none.
 template <class Method, class System, class State>

@@ -16,6 +16,8 @@ namespace {
 
 using S = Planar;
 
+constexpr double kNoSlipYet = 1e-6;  // a rate of a joint that has yet to move, at most, without turning its friction [m/s] or [rad/s]
+
 // Holds one component where it is.
 struct LockLaw {
   static constexpr std::string_view kWord = "lock";
@@ -72,6 +74,13 @@ System with_locks(const System& system, const std::vector<LockedJoint>& held) {
   return locked;
 }
 
+// Whether it slips the way that it has been told, though it has no speed yet. Bristles find their way themselves.
+bool knows_its_way(const JointData& joint, double t, const S::Vec& gap) {
+  std::vector<double> at_rest(static_cast<std::size_t>(joint.law.n_states()));
+  joint.law.rest({t, gap, S::Vec::Zero(), at_rest.data()}, at_rest.data());
+  return !joint.law.stiction(at_rest.data());
+}
+
 // The locks' forces, from the gaps behind those of the system's own joints; these alone remain.
 void take_off_locks(int n_joints, std::vector<LockedJoint>& held, BasicSettledStart<S>& start) {
   State& state = start.state;
@@ -93,6 +102,14 @@ System settle_with_stiction(System system, const BasicSettledStart<Planar>& unlo
     const System locked = with_locks(system, held);
     BasicSettledStart<Planar> trial = unloaded;
     start_forces(locked, true, trial.state);
+    // A lock that fights a motor does not know which way its joint goes. Each is turned once.
+    const auto goes_with_its_lock = [&](const LockedJoint& one) {
+      const double accel = trial.state.gap_accel[one.joint][one.lock.component];
+      if (std::abs(accel) <= one.at_rest || accel * one.force <= 0) return false;
+      system.joints[one.joint].law.start_slipping(-one.force);
+      return true;
+    };
+    if (std::erase_if(slipping, goes_with_its_lock) > 0) continue;
     settle_joints(locked, duration, known_span, trial);
     take_off_locks(system.n_joints(), held, trial);
     State& state = trial.state;
@@ -106,19 +123,23 @@ System settle_with_stiction(System system, const BasicSettledStart<Planar>& unlo
     };
     again = std::erase_if(held, slips) > 0;
     if (again) continue;
+    kinematics_at(system, state.t, state.q, state.v, m, r);
+    const auto turned_back = [&](const LockedJoint& one) {
+      return one.force * r[one.joint].rate[one.lock.component] > kNoSlipYet * std::abs(one.force) && knows_its_way(system.joints[one.joint], state.t, r[one.joint].gap);
+    };
+    if (std::any_of(slipping.begin(), slipping.end(), turned_back)) {
+      // What gives way, as a rope under a motor that slackens, would turn back a joint that has yet to move, and its friction: it gives way later.
+      state = unloaded.state;
+      start_forces(with_locks(system, held), true, state);
+      take_off_locks(system.n_joints(), held, trial);
+      trial.settled_over = 0;
+      note_not_settled(system, state, trial.notes);
+      kinematics_at(system, state.t, state.q, state.v, m, r);
+    }
     find_law_rates(system, state);
     find_joint_forces(system, state);
-    kinematics_at(system, state.t, state.q, state.v, m, r);
     find_accelerations(system, m, r, state);
-    // A lock that fights a motor does not know which way its joint goes. Each is turned once.
-    const auto goes_with_its_lock = [&](const LockedJoint& one) {
-      const double accel = state.gap_accel[one.joint][one.lock.component];
-      if (std::abs(accel) <= one.at_rest || accel * one.force <= 0) return false;
-      system.joints[one.joint].law.start_slipping(-one.force);
-      return true;
-    };
-    again = std::erase_if(slipping, goes_with_its_lock) > 0;
-    if (!again) start = std::move(trial);
+    start = std::move(trial);
   }
   return system;
 }

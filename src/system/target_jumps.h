@@ -1,13 +1,13 @@
 // Where what drives a component jumps, or its rate does: a motor that is switched to another speed, a position on straight lines.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "system/switching_function.h"
 #include "system/system.h"
 
 namespace pintle {
@@ -48,9 +48,9 @@ std::optional<TargetJump> first_target_jump(const BasicSystem<S>& system, double
       const std::array<double, 1> time{t};
       joint.target.find_switching(std::span(time).first(joint.target.variables().size()), to.data(), nullptr);
     };
-    const auto is_beyond = [&](double t) {
+    const auto is_beyond = [&](double t) {  // on the kink itself expressions have the derivatives behind it
       find_values(t, value);
-      return !same_sides(begin, value);
+      return !std::equal(begin.begin(), begin.end(), value.begin(), [](double a, double b) { return (a > 0) == (b > 0) && (a == 0 || b != 0); });
     };
     find_values(t0, begin);
     if (!is_beyond(t1)) continue;

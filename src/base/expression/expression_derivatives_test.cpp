@@ -78,20 +78,23 @@ TEST(ExpressionDerivative, NegativeArguments) {
   expect_exact("asin(x) + acos(y)", {-0.5, -0.2});
 }
 
-TEST(ExpressionDerivative, AtKinksItIsFixed) {
+TEST(ExpressionDerivative, AtKinksItIsThatBehindThem) {
   struct Kink {
     const char* text;
     double x;
     double slope;
   };
   const Kink kinks[] = {
-      {"abs(x)", 0, 0},
+      {"abs(x)", 0, 1},
+      {"abs(-x)", 0, 1},
+      {"abs(x^2)", 0, 0},
       {"sign(x)", 0, 0},
       {"step(x)", 0, 0},
       {"min(x, 2*x)", 0, 1},
       {"max(2*x, x)", 0, 2},
-      {"min(x, 1)", 1, 1},
-      {"max(1, x)", 1, 0},
+      {"min(x, 1)", 1, 0},
+      {"max(1, x)", 1, 1},
+      {"max(0, (x - 1)^2)", 1, 0},
       {"smoothstep(0, 1, x)", 0, 0},
       {"smoothstep(0, 1, x)", 1, 0},
       {"if(x < 1, x, 5*x)", 1, 5},

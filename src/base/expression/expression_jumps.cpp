@@ -9,12 +9,9 @@ namespace {
 
 bool jumps(Op op) { return op == Op::kSign || op == Op::kStep || (op >= Op::kLess && op <= Op::kGreaterEqual); }
 
-double less(double a, double b) { return a - b; }
-Jet less(const Jet& a, const Jet& b) { return {a.value - b.value, a.first - b.first, a.second - b.second}; }
-
 template <class T>
 T margin_of(std::span<const T> operands) {
-  return operands.size() > 1 ? less(operands[0], operands[1]) : operands[0];
+  return operands.size() > 1 ? apply(Op::kSubtract, operands[0], operands[1]) : operands[0];
 }
 
 // What operation `op` gives on the low side of its jump (0) or on the high one (1).

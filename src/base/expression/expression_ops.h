@@ -1,7 +1,7 @@
 // The operations of expression programs, and their values. Derivatives: jet.h.
 //
-// At kinks: abs and sign have slope 0 at 0; min and max follow their first argument where both are equal; step is 1 at
-// 0; smoothstep is flat at both ends; a comparison, step and sign have slope 0 everywhere. NaN goes through everything.
+// At kinks: abs, min and max have the derivatives behind the kink, where the variable is larger; step is 1 at 0; smoothstep is flat at
+// both ends; a comparison, step and sign have slope 0 everywhere. NaN goes through everything.
 #pragma once
 
 #include <span>

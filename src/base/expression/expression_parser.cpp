@@ -220,7 +220,7 @@ class ExpressionParser {
     skip();
     if (symbol_at(text_, at_).empty()) return operand;
     const UnitScan scan = scan_unit(
-        text_, at_, [this](std::string_view word) { return find_variable(word) != nullptr; }, [this](std::string_view word) { return is_parameter(word); });
+        text_, at_, [this](std::string_view word) { return find_variable(word) != nullptr; }, [this](std::string_view word, const Unit& unit) { return could_be_meant(word, unit); });
     if (!scan.problem.empty()) {
       const std::string_view symbol = symbol_at(text_, scan.problem_offset);
       throw faulty_unit(scan, is_parameter(symbol) ? symbol : std::string_view());
@@ -233,6 +233,14 @@ class ExpressionParser {
 
   bool is_parameter(std::string_view word) const {
     return std::find(scope_.constant_names.begin(), scope_.constant_names.end(), word) != scope_.constant_names.end();
+  }
+
+  // Of a word that is the unit of its factor behind another one: N*m is no force times a mass m, but kg*h^2 may be a mass times a height.
+  bool could_be_meant(std::string_view word, const Unit& unit) const {
+    if (!is_parameter(word)) return false;
+    const std::optional<Quantity> parameter = scope_.constant ? scope_.constant(word) : std::nullopt;
+    if (!parameter) return true;
+    return !std::isnan(parameter->si) && (unit.factor != 1 || fits(parameter->dimension, unit.dimension));
   }
 
   // A word right behind a number is a unit or a mistake.

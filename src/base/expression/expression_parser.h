@@ -2,7 +2,8 @@
 //
 // A unit belongs to the number, the pi or the closing parenthesis before it and binds tighter than any operator, so
 // that "1/2 m" is 1/(2 m). It goes on as long as units follow * or /: "3 N*s/m". A variable is never a unit; of a
-// constant with the symbol of a unit, "2 h" is two hours and "2*h" twice the constant, and "2 mm/h" is refused.
+// constant with the symbol of a unit, "2 h" is two hours and "2*h" twice the constant; "2 mm/h" is refused, but
+// not "N*m" where m is a mass.
 #pragma once
 
 #include <cstddef>

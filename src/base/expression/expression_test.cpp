@@ -223,12 +223,23 @@ TEST(ExpressionValue, QuantitiesAndBrokenConstants) {
 }
 
 TEST(ExpressionNames, AConstantMayHaveTheSymbolOfAUnit) {
-  const ParseScope scope{[](std::string_view name) -> std::optional<Quantity> { return name == "h" ? std::optional(Quantity{0.5, kLength}) : std::nullopt; }, {"h"}, {}};
+  const ParseScope scope{[](std::string_view name) -> std::optional<Quantity> {
+                           if (name == "h") return Quantity{0.5, kLength};
+                           if (name == "m") return Quantity{3, kMass};
+                           if (name == "s") return Quantity{2, kBareNumber};
+                           return {};
+                         },
+                         {"h", "m", "s"},
+                         {}};
   const auto value = [&](const char* text) { return std::get<Quantity>(parse_quantity(text, scope)).si; };
   EXPECT_DOUBLE_EQ(value("2 h"), 7200);
   EXPECT_DOUBLE_EQ(value("2*h"), 1);
   EXPECT_DOUBLE_EQ(value("(3 kg)*h^2/12"), 0.0625);
   EXPECT_DOUBLE_EQ(value("h/2 + 1 m"), 1.25);
+  EXPECT_DOUBLE_EQ(value("4 kg*m^2"), 4);  // no mass times a mass
+  EXPECT_DOUBLE_EQ(value("(4 kg)*m"), 12);
+  EXPECT_DOUBLE_EQ(value("2*s"), 4);
+  EXPECT_TRUE(std::holds_alternative<ParseProblem>(parse_quantity("9.81 m/s^2", scope)));  // a number may be meant
   for (const char* text : {"2 mm/h", "3 kg * h^2", "1 N/(m*h)"}) {
     const auto refused = parse_quantity(text, scope);
     ASSERT_TRUE(std::holds_alternative<ParseProblem>(refused)) << text;

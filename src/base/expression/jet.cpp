@@ -16,6 +16,12 @@ struct Slopes2 {
   double a, b, aa, ab, bb;
 };
 
+// The sign that a quantity has just behind the point where it stands.
+double sign_behind(const Jet& a) {
+  if (a.value != 0) return apply(Op::kSign, a.value);
+  return apply(Op::kSign, a.first != 0 ? a.first : a.second);
+}
+
 // factor * derivative, zero where the derivative is.
 double times(double factor, double derivative) {
   return derivative == 0 ? 0 : factor * derivative;
@@ -60,8 +66,6 @@ Slopes1 slopes_of(Op op, double x, double f) {
       return {1 / x, -1 / (x * x)};
     case Op::kSqrt:
       return {0.5 / f, -0.25 / (f * x)};
-    case Op::kAbs:
-      return {apply(Op::kSign, x), 0};
     case Op::kSign:
     case Op::kStep:
       return {0, 0};
@@ -125,16 +129,16 @@ Jet apply(const TableFunction& table, const Jet& a) {
 
 Jet apply(Op op, const Jet& a) {
   const double value = apply(op, a.value);
-  return chain(value, slopes_of(op, a.value, value), a);
+  return chain(value, op == Op::kAbs ? Slopes1{sign_behind(a), 0} : slopes_of(op, a.value, value), a);
 }
 
 Jet apply(Op op, const Jet& a, const Jet& b) {
   const double value = apply(op, a.value, b.value);
   switch (op) {
     case Op::kMin:
-      return b.value < a.value || std::isnan(b.value) ? b : a;
+      return std::isnan(b.value) || sign_behind(apply(Op::kSubtract, b, a)) < 0 ? b : a;
     case Op::kMax:
-      return b.value > a.value || std::isnan(b.value) ? b : a;
+      return std::isnan(b.value) || sign_behind(apply(Op::kSubtract, b, a)) > 0 ? b : a;
     case Op::kLess:
     case Op::kGreater:
     case Op::kLessEqual:

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "integrators/dense/cubic_hermite.h"
+#include "integrators/force_evaluator.h"
 
 namespace pintle {
 namespace {
@@ -40,12 +41,7 @@ void interpolate(const Hermite& H, double h, const Vecs& x0, const Vecs& v0, con
 
 template <class S>
 BasicDenseOutput<S>::BasicDenseOutput(const BasicSystem<S>& system)
-    : system_(system) {
-  out_.q.assign(system.bodies.size(), S::at_origin());
-  out_.v = out_.a = VecsOf<S>(system.bodies.size(), S::Vec::Zero());
-  out_.gap = out_.gap_rate = out_.gap_accel = out_.force = VecsOf<S>(system.joints.size(), S::Vec::Zero());
-  out_.law_state.resize(system.n_law_states());
-  out_.law_rate.resize(system.n_law_states());
+    : system_(system), out_(zero_state(system)) {
   for (int j = 0; j < system.n_joints(); ++j)
     if (has_slip(system.joints[j].displacement)) slipping_.push_back(static_cast<std::size_t>(j));
 }

@@ -41,13 +41,13 @@ void Dopri5::start(const State& state, double h) {
 void Dopri5::find_rounding() {
   const double size = largest_coordinate(end_.q);
   rounding_.assign(system_.bodies.size(), 0.0);
-  for (std::size_t i = 0; i < rounding_.size(); ++i) rounding_[i] = 1e-9 * system_.bodies[i].mass[0];
+  for (std::size_t i = 0; i < rounding_.size(); ++i) rounding_[i] = kLeastLoad * system_.bodies[i].mass[0];
   for (int j = 0; j < system_.n_joints(); ++j) {
     const JointData& joint = system_.joints[j];
     LawTangents law;
     joint.law.linearize(law_point(system_, j, end_), law);
     const double k = law.stiffness.diagonal().head<2>().maxCoeff();
-    const double least = 30 * std::numeric_limits<double>::epsilon() * size * k / tolerance_;
+    const double least = load_above_rounding(k, size, tolerance_);
     for (const int body : {joint.at.a, joint.at.b})
       if (body != kGround) rounding_[body] = std::max(rounding_[body], least);
   }
@@ -128,22 +128,14 @@ double Dopri5::error(double h) {
   double worst = 0;
   for (int j = 0; j < system_.n_joints(); ++j) {
     const JointData& joint = system_.joints[j];
-    S::Vec de = S::Vec::Zero(), dr = S::Vec::Zero();
-    double load = 0, couple = 0;
-    for (const auto& [body, G] : {std::pair{joint.at.a, r_[j].GA()}, std::pair{joint.at.b, r_[j].GB()}}) {
-      if (body == kGround) continue;
-      de += G * dq_[body];
-      dr += G * dv_[body];
-      load = std::max(load, scale_.body[body][0]);
-      couple = std::max(couple, scale_.body[body][2]);
-    }
+    const S::Vec de = gap_change(joint.at, r_[j], dq_), dr = gap_change(joint.at, r_[j], dv_), load = load_on(joint.at, scale_);
     LawTangents law;
     joint.law.linearize({begin_.t + h, r_[j].gap, r_[j].rate, z_.data() + joint.first_state}, law);
     S::Vec df = law.stiffness * de + law.damping * dr;
     for (int z = 0; z < law.n; ++z)
       for (int s = 0; s < 7; ++s)
         for (int k = 0; k < 3; ++k) df[k] -= law.force_by_state[k][z] * kE[s] * h * kz_[s][joint.first_state + z];
-    worst = std::max({worst, df.head<2>().norm() / load, std::abs(df[2]) / couple});
+    worst = std::max({worst, df.head<2>().norm() / load[0], std::abs(df[2]) / load[2]});
     if (!std::isfinite(df.sum())) return std::numeric_limits<double>::infinity();
   }
   for (int i = 0; i < system_.n_bodies(); ++i) {
@@ -161,7 +153,7 @@ void Dopri5::grow_scale() {
     double force = std::max({scale_.body[i][0], load[0], load[1], rounding_[i]});
     for (int j = 0; j < system_.n_joints(); ++j)
       if (system_.joints[j].at.a == i || system_.joints[j].at.b == i) force = std::max(force, end_.force[j].head<2>().norm());
-    double moment = std::max({scale_.body[i][2], load[2], 1e-3 * force * radius});
+    double moment = std::max({scale_.body[i][2], load[2], kCoupleAtArm * force * radius});
     for (int j = 0; j < system_.n_joints(); ++j)
       if (system_.joints[j].at.a == i || system_.joints[j].at.b == i) moment = std::max(moment, std::abs(end_.force[j][2]));
     scale_.body[i] << force, force, moment;

@@ -115,8 +115,7 @@ class TailSize {
   PINTLE_LANES double last() const { return std::isfinite(sum_[0]) ? size_[0] : std::numeric_limits<double>::infinity(); }
   PINTLE_LANES double value() const {
     if (!std::isfinite(sum_[0] + sum_[1] + sum_[2])) return std::numeric_limits<double>::infinity();
-    if (!(size_[0] > 0)) return 0;
-    return size_[0] * fall_off(size_[0], size_[1], size_[2]);
+    return tail_size(size_[0], size_[1], size_[2]);
   }
 
  private:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pintle {
 
@@ -19,6 +20,12 @@ constexpr double kPlaceError = 10;
 /// What the next coefficients of a series will be like: its last ones fall off by this ratio, at most 1.
 inline double fall_off(double last, double before, double before_that) {
   return std::min(1.0, std::max(last / before, std::sqrt(last / before_that)));
+}
+
+/// The size of the last of three coefficients, with what the next one will be like. Infinite where one of them is no finite number.
+inline double tail_size(double last, double before, double before_that) {
+  if (!std::isfinite(last + before + before_that)) return std::numeric_limits<double>::infinity();
+  return last > 0 ? last * fall_off(last, before, before_that) : 0;
 }
 
 }  // namespace pintle

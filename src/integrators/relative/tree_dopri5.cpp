@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using S = Planar;
 
-// x, its first and second derivative at share s of a step, on the quintic through all three at both ends.
+// x and its first derivative at share s of a step, on the quintic through all three at both ends.
 void quintic(double s, double h, const std::array<const VectorXd*, 3>& begin, const std::array<const VectorXd*, 3>& end, VectorXd& x, VectorXd& v) {
   const double s2 = s * s, s3 = s2 * s, s4 = s3 * s;
   const VectorXd d = *end[0] - *begin[0] - h * *begin[1] - 0.5 * h * h * *begin[2];
@@ -78,7 +78,7 @@ void TreeDopri5::find_rounding() {
     LawTangents law;
     at_.linearize(static_cast<int>(l), end_, law);
     const double k = law.stiffness.diagonal().head<2>().maxCoeff();
-    const double least = 30 * std::numeric_limits<double>::epsilon() * size * k / tolerance_;
+    const double least = load_above_rounding(k, size, tolerance_);
     for (const int body : {at.a, at.b})
       if (body != kGround) rounding_[body] = rounding_[body].cwiseMax(S::Vec(least, least, 0));
   }
@@ -162,8 +162,7 @@ double TreeDopri5::error(double h) {
   for (std::size_t l = 0; l < tree_->laws().size(); ++l) {
     const Placement& at = system_.joints[tree_->laws()[l]].at;
     const Index i = 3 * static_cast<Index>(l);
-    const S::Vec& first = scale_.body[at.a == kGround ? at.b : at.a];
-    const S::Vec largest = first.cwiseMax(scale_.body[at.b == kGround ? at.a : at.b]);
+    const S::Vec largest = load_on(at, scale_);
     LawTangents law;
     at_.linearize(static_cast<int>(l), stage_, law);
     S::Vec df = law.stiffness * gap.segment<3>(i) + law.damping * rate.segment<3>(i);
@@ -172,11 +171,7 @@ double TreeDopri5::error(double h) {
         for (int k = 0; k < 3; ++k) df[k] -= law.force_by_state[k][z] * kE[s] * h * kz_[s][system_.joints[tree_->laws()[l]].first_state + z];
     worst = std::max({worst, df.head<2>().norm() / largest[0], std::abs(df[2]) / largest[2]});
   }
-  for (int i = 0; i < system_.n_bodies(); ++i) {
-    const S::Vec d = system_.bodies[i].mass.cwiseProduct(of_bodies.segment<3>(3 * i)).cwiseAbs().cwiseQuotient(scale_.body[i]) / h;
-    worst = std::max(worst, d.maxCoeff());
-  }
-  return worst;
+  return std::max(worst, over_loads(system_, of_bodies, scale_) / h);
 }
 
 // Quintic curves through both ends, of coordinates and of gaps; every vibration is resolved, so that the laws at these gaps

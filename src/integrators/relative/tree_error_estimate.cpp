@@ -41,15 +41,6 @@ VectorXd TreeRadau::find_taut(double own) const {
   return taut.maxCoeff() > 0 ? taut : VectorXd();
 }
 
-// Accelerations of all bodies as forces over the load scale: the largest.
-double TreeRadau::over_scale(const VectorXd& of_bodies) const {
-  if (!of_bodies.allFinite()) return std::numeric_limits<double>::infinity();
-  double size = 0;
-  for (int i = 0; i < system_.n_bodies(); ++i)
-    size = std::max(size, of_bodies.segment<3>(3 * i).cwiseProduct(system_.bodies[i].mass).cwiseQuotient(scale_.body[i]).cwiseAbs().maxCoeff());
-  return size;
-}
-
 double TreeRadau::body_tail() const {
   std::array<double, RadauTable::kMaxNodes> size{};
   VectorXd coefficient(3 * system_.n_bodies());
@@ -59,11 +50,9 @@ double TreeRadau::body_tail() const {
       for (int s = 0; s < n_; ++s) a += table_.to_legendre(k, s + 1) * stages_.instant(s).a()[i];
       coefficient.segment<3>(3 * i) = a;
     }
-    size[k] = over_scale(coefficient);
-    if (!std::isfinite(size[k])) return size[k];
+    size[k] = over_loads(system_, coefficient, scale_);
   }
-  if (!(size[n_] > 0)) return 0;
-  return size[n_] * fall_off(size[n_], size[n_ - 1], size[n_ - 2]);
+  return tail_size(size[n_], size[n_ - 1], size[n_ - 2]);
 }
 
 double TreeRadau::gap_tail() {
@@ -73,10 +62,7 @@ double TreeRadau::gap_tail() {
   for (int back = 0; back < 3; ++back)  // without the start of the step, whose error is the last step's
     for (int s = 0; s < n_; ++s) tail.col(back) += table_.stages_to_legendre(n_ - 1 - back, s) * stages_.states()[s].accel;
   const MatrixXd move = stages_.instant(n_ - 1).J() * projector_.close(tail);
-  const double last = over_scale(move.col(0)), before = over_scale(move.col(1)), before_that = over_scale(move.col(2));
-  if (!std::isfinite(last + before + before_that)) return std::numeric_limits<double>::infinity();
-  if (!(last > 0)) return 0;
-  return kGapError * last * fall_off(last, before, before_that);
+  return kGapError * tail_size(over_loads(system_, move.col(0), scale_), over_loads(system_, move.col(1), scale_), over_loads(system_, move.col(2), scale_));
 }
 
 // theory/time Eq. (3.18).
@@ -106,7 +92,7 @@ double TreeRadau::state_tail(double h) const {
     for (int back = 0; back < 3; ++back)
       size[back] = std::max(size[back], force.col(back).segment<3>(3 * static_cast<Index>(l)).cwiseQuotient(load).cwiseAbs().maxCoeff());
   }
-  return size[0] > 0 ? size[0] * fall_off(size[0], size[1], size[2]) : 0;
+  return tail_size(size[0], size[1], size[2]);
 }
 
 // theory/tree section 6.

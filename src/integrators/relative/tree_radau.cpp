@@ -16,7 +16,8 @@ TreeRadau::TreeRadau(const System& system, double tolerance, int stages)
     : StepEvents(system), system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance),
       tree_(std::make_unique<JointTree>(system)), stages_(system, *tree_, table_, tolerance), end_at_(system, *tree_), inside_at_(end_at_) {
   scale_.body.assign(system.bodies.size(), S::Vec::Zero());
-  for (TreeInstant* at : {&end_at_, &inside_at_}) at->set_sliding(sliding_);
+  end_at_.set_sliding(sliding_);
+  inside_at_.set_sliding(begin_state_.sliding);  // what the end of a step has left, its inside has not
   stages_.set_sliding(sliding_);
   const int n = tree_->n(), m = end_at_.n_gaps();
   nodes_ = {Eigen::MatrixXd::Zero(n, n_ + 1), Eigen::MatrixXd::Zero(m, n_ + 1), Eigen::MatrixXd::Zero(m, n_ + 1), Eigen::MatrixXd::Zero(2, n_ + 1),

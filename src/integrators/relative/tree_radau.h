@@ -46,7 +46,6 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   double body_tail() const;
   double gap_tail();
   double state_tail(double h) const;
-  double over_scale(const Eigen::VectorXd& of_bodies) const;
   void finish_step(double h);
   void move_onto_gaps();
   void take_gaps();

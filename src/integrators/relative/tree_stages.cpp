@@ -227,10 +227,7 @@ double TreeStages::correct(const LoadScale& scale) {
       state_[s].law_rate[z] += table_.T_real[s] * real_states[z];
       for (int p = 0; p < table_.pairs; ++p) state_[s].law_rate[z] += 2 * (table_.T_complex[p][s] * pair_states[p][z]).real();
     }
-    const VectorXd a = at_[n_ / 2].J() * w;
-    if (!a.allFinite()) return std::numeric_limits<double>::infinity();
-    for (int i = 0; i < system_.n_bodies(); ++i)
-      worst = std::max(worst, a.segment<3>(3 * i).cwiseProduct(system_.bodies[i].mass).cwiseQuotient(scale.body[i]).cwiseAbs().maxCoeff());
+    worst = std::max(worst, over_loads(system_, at_[n_ / 2].J() * w, scale));
   }
   return worst;
 }

@@ -39,7 +39,7 @@ constexpr KeyInfo kRampEnd{.key = "friction_full_speed", .unit = "m/s", .fallbac
 
 constexpr KeyInfo kStiction{.key = "static_friction", .unit = "", .minimum_exclusive = true, .otherwise = "no stiction: friction on a ramp", .meaning = "coefficient at which slip begins, not below friction_coefficient: with it surfaces stick that do not slip"};
 constexpr KeyInfo kStickStiffness{.key = "stick_stiffness", .unit = "N/m", .fallback = 1e8, .minimum_exclusive = true, .meaning = "of surfaces that stick, along each other"};
-constexpr KeyInfo kStickDamping{.key = "stick_damping", .unit = "N*s/m", .fallback = 3e3, .meaning = "the same per speed"};
+constexpr KeyInfo kStickDamping{.key = "stick_damping", .unit = "N*s/m", .fallback = 1e5, .meaning = "the same per speed"};
 
 constexpr KeyInfo kGuideLength{.key = "guide_length", .unit = "m", .fallback = 0.05, .minimum_exclusive = true, .meaning = "of a slider: between its two ends, which touch the guide"};
 

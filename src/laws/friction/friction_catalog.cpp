@@ -36,7 +36,7 @@ constexpr std::array<KeyInfo, 11> kLuGreKeys{{
 constexpr std::array<KeyInfo, 10> kCoulombKeys{{
     kKinetic, kStatic, kPinRadius, kTeeth, kGuide,
     {.key = "stick_stiffness", .unit = "N/m", .fallback = 1e8, .minimum_exclusive = true, .meaning = "friction before slip, per displacement where it rubs"},
-    {.key = "stick_damping", .unit = "N*s/m", .fallback = 3e3, .meaning = "the same per speed"},
+    {.key = "stick_damping", .unit = "N*s/m", .fallback = 1e5, .meaning = "the same per speed"},
     kViscous, kPreload, kSealArea,
 }};
 

@@ -28,7 +28,7 @@ struct StickSlip {
   static constexpr int kStates = 2, kBorders = 3;
   double kinetic = 0.1, stuck = 0.15;     // mu_k, mu_s [-]
   double viscous = 0;                     // mu_v [s/m]
-  double stiffness = 1e8, damping = 3e3;  // k_t [N/m], c_t [N*s/m]
+  double stiffness = 1e8, damping = 1e5;  // k_t [N/m], c_t [N*s/m]
 
   /// What the spring has stored is lost where they slip again, and given where they stick.
   template <class T>

@@ -10,6 +10,7 @@
 #include "base/constants.h"
 #include "integrators/methods.h"
 #include "run/limits/drive_limit.h"
+#include "run/passes.h"
 
 namespace pintle {
 namespace {
@@ -18,7 +19,7 @@ constexpr int kHalvings = 40;                                  // of the step in
 constexpr double kFinestReplay = 1e-6, kLoosestReplay = 1e-4;  // tolerance of the steps that find the instant, at least; at most
 constexpr double kLooks = 2000;                                // of a run that is made again, for a limit, at most
 constexpr double kSameLimit = 1e-6;                            // between two values of a coordinate that are one [rad or m]
-constexpr double kFirstStep = 1e-4, kLittle = 0.01;            // of the duration: the first of these steps; of the duration: how soon after a run that has stopped its drive would be at a limit
+constexpr double kLittle = 0.01;                               // of the duration: how soon after a run that has stopped its drive would be at a limit
 
 // What has been found about a drive.
 struct Finding {
@@ -73,15 +74,11 @@ class Arrival {
   // The end of the first step in which that is so, or after halvings of it the instant; negative: not before t_end.
   template <class Reached>
   double first(Reached reached, double t_end, int halvings) const {
-    MethodChoice choice;
-    choice.equations = settings_.equations;
-    choice.method = run_.method;
-    choice.tolerance_of = settings_.tolerance_of;
-    const auto stepper = make_stepper(system_, choice, std::clamp(settings_.tolerance, kFinestReplay, kLoosestReplay));
+    const auto stepper = make_stepper(system_, choice_of(settings_), std::clamp(settings_.tolerance, kFinestReplay, kLoosestReplay));
     stepper->set_max_step(settings_.max_step);
     stepper->start(start_, kFirstStep * settings_.duration);
     if (reached(stepper->state())) return stepper->state().t;
-    for (std::uint64_t i = 0; i < run_.counters.steps && stepper->state().t < t_end * (1 - 1e-12); ++i) {
+    for (std::uint64_t i = 0; i < run_.counters.steps && stepper->state().t < t_end * kAlmostAll; ++i) {
       if (!stepper->step(t_end)) return -1;
       if (!reached(stepper->state())) continue;
       double low = stepper->previous().t, high = stepper->state().t;

@@ -43,10 +43,12 @@ void BasicForceRecorder<S>::start(const BasicState<S>& state, const LoadSampling
 template <class S>
 void BasicForceRecorder<S>::see_step(BasicStepper<S>& stepper) {
   step_ = stepper.state().t - stepper.previous().t;
+  // Borders are crossed before a step, whose own heat comes after them.
+  for (std::size_t i = heat_at_crossings_.size(); what_ != Recorded::kForces && i < stepper.crossings().size(); ++i)
+    heat_at_crossings_.push_back(loads_->heat(stepper.crossings()[i].joint, stepper.previous()));
   loads_->add_step(stepper);
   if (what_ == Recorded::kForces) return;
   const BasicState<S>& state = stepper.state();
-  for (std::size_t i = heat_at_crossings_.size(); i < stepper.crossings().size(); ++i) heat_at_crossings_.push_back(loads_->heat(stepper.crossings()[i].joint, state));
   stuck_joints_.see(state);
   lost_equilibria_.see(state);
   drive_peaks_.see(state);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "dynamics/inverse_dynamics.h"
 #include "integrators/thresholds.h"
@@ -240,21 +239,7 @@ class TreeSlowManifold {
 
 double move_tree_onto_slow_manifold(const System& system, const JointTree& tree, double span, TreeState& state) {
   TreeSlowManifold motion(system, tree, span, state);
-  double last = kDiverged;
-  std::optional<TreeState> best;
-  for (int sweep = 0; sweep < kSweeps && last > kConverged; ++sweep) {
-    const double change = motion.sweep();
-    if (sweep > 0 && !(change < 0.5 * last)) break;
-    if (sweep > 0) {
-      TreeState next = state;
-      if (!motion.write_start(next)) break;
-      best = std::move(next);
-    }
-    last = change;
-  }
-  if (!best) return kDiverged;
-  state = std::move(*best);
-  return last;
+  return sweep_onto(motion, state);
 }
 
 }  // namespace pintle

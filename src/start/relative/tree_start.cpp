@@ -5,6 +5,7 @@
 
 #include "integrators/relative/tree_radau.h"
 #include "start/seat.h"
+#include "start/settle_joints.h"
 #include "start/slow_manifold.h"
 #include "start/start_forces.h"
 #include "start/relative/tree_preload.h"
@@ -44,7 +45,19 @@ void write(TreeInverseDynamics& forces, const TreeState& from, State& to) {
   forces.instant().write(from, from.w, to);
 }
 
-void take_over(const JointTree& tree, const System& system, const SimulateSettings& settings, State& state) {
+// As free bodies do: the start of sweeps that have not converged is none, and joints may ring.
+bool put_onto_slow_manifold(const JointTree& tree, const System& system, double span, TreeState& start) {
+  for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25) {
+    TreeState attempt = start;
+    if (!(move_tree_onto_slow_manifold(system, tree, span, attempt) < kSettledSweep)) continue;
+    start = std::move(attempt);
+    return true;
+  }
+  return false;
+}
+
+void take_over(const JointTree& tree, const System& system, const SimulateSettings& settings, Assembly& assembly) {
+  State& state = assembly.state;
   TreeState start;
   TreeInverseDynamics forces(system, tree);
   read_coordinates(tree, state, start);
@@ -52,10 +65,8 @@ void take_over(const JointTree& tree, const System& system, const SimulateSettin
   start_tree_forces(forces, preload, start);
   write(forces, start, state);
   if (!preload) return;
-  double span = 0.5 * natural_step<TreeRadau>(system, state, settings.duration);
-  for (int i = 0; i < kSpans && span > 0; ++i, span *= 0.25)
-    if (move_tree_onto_slow_manifold(system, tree, span, start) < kSettledSweep) break;
-  write(forces, start, state);
+  if (put_onto_slow_manifold(tree, system, 0.5 * natural_step<TreeRadau>(system, state, settings.duration), start)) write(forces, start, state);
+  else note_not_settled(system, state, assembly.notes);
 }
 
 }  // namespace
@@ -65,7 +76,7 @@ Assembly start_over_tree(const Model& model, const System& system) {
   if (model.simulate.start == Start::kSeated) note_seated(assembly);
   start_forces(assembly.system, is_preloaded(model.simulate.start), assembly.state);
   assembly.system = with_laws_of(std::move(assembly.system), system);
-  take_over(JointTree(assembly.system), assembly.system, model.simulate, assembly.state);
+  take_over(JointTree(assembly.system), assembly.system, model.simulate, assembly);
   return assembly;
 }
 
