@@ -14,7 +14,7 @@ namespace {
 constexpr int kJudgedEvery = 8;           // steps between two looks at the account
 constexpr double kExplained = 30;         // times tolerance and turnover: what errors of the forces explain. Eq. (8.2)
 constexpr double kPerExchange = 0.01;     // part of the energy that goes to and fro: errors add up in long runs
-constexpr double kLeastJudged = 1e-7;  // below it rounding makes the account, and it is judged by this
+constexpr double kLeastJudged = 1e-7;  // tolerance below which rounding makes the account: it is judged by this one
 constexpr double kRounding = 1e-11;       // of the largest entry: what rounding may leave open
 constexpr double kGiven = 0.01;           // of the turnover: heat below zero that nothing explains
 constexpr int kRunaway = 10;              // powers of ten above what can be stored. Eq. (8.4)

@@ -44,7 +44,7 @@ class BasicEnergyWatch {
   void say_open(const BasicState<S>& state, double missing, double within);
   void say_runaway(const BasicState<S>& state, double energy);
 
-  static constexpr int kDecades = 64;
+  static constexpr int kDecades = 64;  // powers of ten above the storable energy whose instants are kept
   const BasicSystem<S>& system_;
   double duration_, tolerance_;
   bool exact_work_;

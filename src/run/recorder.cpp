@@ -21,6 +21,11 @@ bool tells_couple(const JointData& joint) {
   return has_couple(joint) || mesh || joint.cam || joint.edge || (joint.free_mask[2] > 0 && (joint.law.rubs() || joint.law.has_stops()));
 }
 
+// Equations that keep its gap at zero do not ask a joint's law, whose columns would tell nothing but what follows from its reaction.
+bool asks_law(const Model& model, const JointData& joint) {
+  return !joint.ideal || !has_constraints(model.simulate.equations) || joint.law.feeds() || joint.law.depends_on_reaction_alone();
+}
+
 // A coordinate of the relative pose is free to slide; what a gap that is a function leaves free is the law's to tell.
 bool slides(const JointData& joint) { return joint.free_mask[0] > 0 && std::holds_alternative<Selection>(joint.displacement); }
 // Pins whose place in their bush is of interest: those that are not held by springs.
@@ -128,7 +133,8 @@ std::vector<Column> Recorder::columns() const {
       column(p + "run", "m", "length of its free run");
     }
     if (pushes_its_ends(joint)) column(p + "force", "N", "with which joint " + joint.name + " pushes its ends apart; negative: it is in tension");
-    for (LawColumn& law : joint.law.columns()) column(p + law.name, law.unit.c_str(), std::move(law.meaning));
+    if (asks_law(model_, joint))
+      for (LawColumn& law : joint.law.columns()) column(p + law.name, law.unit.c_str(), std::move(law.meaning));
   }
   for (const LoadData& load : system_.loads) {
     if (load.kind == LoadKind::kEffort) continue;
@@ -202,7 +208,7 @@ void Recorder::put_row(const State& state) {
       put(belt->run(system_.pose(system_.joints[j].at, m_).z));
     }
     if (pushes_its_ends(system_.joints[j])) put(state.force[j][0]);
-    system_.joints[j].law.observe(law_point(system_, j, state), state.force[j], values_);
+    if (asks_law(model_, system_.joints[j])) system_.joints[j].law.observe(law_point(system_, j, state), state.force[j], values_);
   }
   for (const int spring : springs_) put(effort_of_spring(system_.loads[spring], state.t, m_));
   for (const Drive& drive : drives_) {

@@ -145,7 +145,7 @@ std::string what_to_try(Model model, const System& system, const Vecs& q, const 
 void demand_closed(const Model& model, const System& system, const Vecs& q, const std::vector<bool>& open, std::vector<std::string>& notes) {
   const auto left = misfits(system, q);
   const double size = mechanism_size(system, q);
-  constexpr int kMostListed = 20;
+  constexpr int kMostListed = 20;         // joints that the message names
   constexpr std::size_t kMostTried = 40;  // joints that are opened in turn, at most
   std::vector<std::size_t> broken;
   for (std::size_t j = 0; j < left.size(); ++j) {

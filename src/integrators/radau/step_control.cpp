@@ -37,7 +37,7 @@ std::string StepControl::last_event(const BasicSystem<S>& system, double since) 
 template <class S>
 std::string no_step_message(const BasicSystem<S>& system, double t, double h, std::vector<std::pair<double, int>> residuals, const std::string& event) {
   if (const std::string broken = broken_function(system, t); !broken.empty()) return fmt::format("at t = {:.9g} s: {} is not finite there; try if(..., ..., 0) where its expression is not defined", t, broken);
-  constexpr std::size_t kNamed = 3;
+  constexpr std::size_t kNamed = 3;  // joints with the largest residuals
   const auto rank = [](double x) { return std::isfinite(x) ? x : std::numeric_limits<double>::infinity(); };
   std::stable_sort(residuals.begin(), residuals.end(), [&](const auto& a, const auto& b) { return rank(a.first) > rank(b.first); });
   std::string text = fmt::format("the step size became too small at t = {:.9g} s, step {:.3g} s", t, h);

@@ -24,7 +24,7 @@ class StepControl {
   bool have_history = false;             // the last step's curve goes on into the next one
 
   // Events, in parts of the usual step.
-  static constexpr double kCrossing = 1e-9;  // of the usual step: the least that is gone to cross an event
+  static constexpr double kCrossing = 1e-9;  // of the usual step: how far is gone to begin with to cross an event, at most
   static constexpr double kLate = 1e-4;      // the same, per tolerance of the steps: all passes are late alike, which none of them sees. Break-away of a stuck slider at 1e-7: 2e-9 s late without it
   static constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
   static constexpr double kMoment = 1e-6;    // of the usual step: how far is looked to see where accelerations lead

@@ -84,7 +84,7 @@ const std::vector<Planar::Motion>& TreeRadau::motions_after(double d) {
   return inside_at_.pose().m;
 }
 
-// A joint whose motion is a coordinate of the tree follows its target, and carries no gap.
+// Driven joints are servos or distances, none of which a coordinate of the tree replaces.
 void TreeRadau::shift_gap(int joint, double d, double rate) {
   const std::vector<int>& laws = tree_->laws();
   const auto at = std::find(laws.begin(), laws.end(), joint);

@@ -39,14 +39,20 @@ const LawInfo* law_of_role(std::string_view word, LawRole role) {
   return law != nullptr && law->role == role ? law : nullptr;
 }
 
-// Friction of the joint's own words, or else that of the defaults where the joint can have it.
-const LawInfo* friction_of(const Node& joint, const JointTypeInfo* type, const LawInfo* law, const Record& defaults) {
-  if (joint.table() != nullptr && joint.table()->find("friction") != nullptr) return law_of_role(word_ahead(joint, "friction"), LawRole::kFriction);
+// That of the defaults, where the joint can have it.
+const LawInfo* default_friction(const JointTypeInfo* type, const LawInfo* law, const Record& defaults) {
   if (type == nullptr || law == nullptr || !defaults.states("friction")) return nullptr;
   const LawInfo* friction = law_of_role(defaults.word("friction"), LawRole::kFriction);
+  return friction != nullptr && suits(*friction, type->word) && !law->rubs ? friction : nullptr;
+}
+
+// In the joint's own words, or else that of the defaults, unless it is ideal.
+const LawInfo* friction_of(const Node& joint, const JointTypeInfo* type, const LawInfo* law, const Record& defaults) {
+  if (joint.table() != nullptr && joint.table()->find("friction") != nullptr) return law_of_role(word_ahead(joint, "friction"), LawRole::kFriction);
+  const LawInfo* friction = default_friction(type, law, defaults);
   const Node* ideal = joint.table() == nullptr ? nullptr : joint.table()->find("ideal");
   const bool rigid = ideal != nullptr && ideal->truth() != nullptr && *ideal->truth();
-  return friction != nullptr && suits(*friction, type->word) && !law->rubs && !rigid ? friction : nullptr;
+  return rigid ? nullptr : friction;
 }
 
 TableSpec& joint_spec(ModelReading& reading, const Node& joint, const JointTypeInfo* type, const LawInfo* law, const std::string& friction, const std::string& stops,
@@ -288,7 +294,9 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   const std::string detent_word = word_ahead(entry.value, "detent");
   const LawInfo* detent = law_of_role(detent_word, LawRole::kDetent);
   reading.type_of_joint[entry.key] = type == nullptr ? "" : std::string(type->word);
-  if (type == nullptr || law == nullptr) {
+  // Which keys go with a friction that there is not, nobody knows.
+  const std::string rubs = word_ahead(entry.value, "friction");
+  if (type == nullptr || law == nullptr || (friction == nullptr && !rubs.empty() && rubs != "none")) {
     read_faulty_joint(reading, entry, path);
     return;
   }
@@ -314,6 +322,8 @@ void read_joint(ModelReading& reading, const Entry& entry, const Record& default
   if (friction != nullptr && joint.ideal)
     reading.complaints.add(record.spot("friction"), path + ".friction", '"' + friction_word + '"', "an ideal joint does not give way, so that nothing says what presses its surfaces together",
                            "ideal = false, or no friction");
+  if (joint.ideal && !record.states("friction") && default_friction(type, law, defaults) != nullptr)
+    reading.model.notes.push_back("joint " + entry.key + ": it is ideal, and the friction of [defaults.joint] does not act in it");
   if (friction != nullptr && law->rubs)
     reading.complaints.add(record.spot("friction"), path + ".friction", '"' + friction_word + '"', "a joint with law \"" + std::string(law->word) + "\" has friction of its own, where the bodies touch",
                            "friction_coefficient, and no friction");

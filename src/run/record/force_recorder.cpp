@@ -31,7 +31,7 @@ double largest_angle(const PositionsOf<S>& q) {
 template <class S>
 BasicForceRecorder<S>::BasicForceRecorder(const BasicSystem<S>& system, Recorded what)
     : system_(system), what_(what),
-      stuck_joints_(system), lost_equilibria_(system), drive_peaks_(system) {}
+      stuck_joints_(system), lost_equilibria_(system), wound_belts_(system), drive_peaks_(system) {}
 
 template <class S>
 void BasicForceRecorder<S>::start(const BasicState<S>& state, const LoadSampling& sampling) {
@@ -51,6 +51,7 @@ void BasicForceRecorder<S>::see_step(BasicStepper<S>& stepper) {
   const BasicState<S>& state = stepper.state();
   stuck_joints_.see(state);
   lost_equilibria_.see(state);
+  wound_belts_.see(state);
   drive_peaks_.see(state);
 }
 
@@ -82,6 +83,7 @@ void BasicForceRecorder<S>::add_energies(const BasicState<S>& state) {
   energies_.push_back({system_.kinetic(state.v), loads.potential + energy_of_joints(system_, state), state.dissipated, state.supplied});
   stuck_joints_.see(state);
   lost_equilibria_.see(state);
+  wound_belts_.see(state);
 }
 
 template <class S>
@@ -94,6 +96,7 @@ template <class S>
 void BasicForceRecorder<S>::fill(Trajectory& out) {
   for (std::string& note : stuck_joints_.notes()) out.notes.push_back(std::move(note));
   for (std::string& note : lost_equilibria_.notes()) out.notes.push_back(std::move(note));
+  for (std::string& note : wound_belts_.notes()) out.notes.push_back(std::move(note));
   out.joints.clear();
   for (int j = 0; j < system_.n_joints(); ++j) {
     const BasicJointData<S>& joint = system_.joints[j];

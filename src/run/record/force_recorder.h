@@ -12,6 +12,7 @@
 #include "run/record/load_statistics.h"
 #include "run/record/lost_equilibria.h"
 #include "run/record/stuck_joints.h"
+#include "run/record/wound_belts.h"
 
 namespace pintle {
 
@@ -71,6 +72,7 @@ class BasicForceRecorder {
   std::vector<double> heat_, heat_at_crossings_;  // of each joint over the run, and as above [J]
   BasicStuckJoints<S> stuck_joints_;
   BasicLostEquilibria<S> lost_equilibria_;
+  BasicWoundBelts<S> wound_belts_;
   BasicDrivePeaks<S> drive_peaks_;
 };
 using ForceRecorder = BasicForceRecorder<Planar>;

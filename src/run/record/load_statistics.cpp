@@ -8,7 +8,7 @@
 namespace pintle {
 namespace {
 
-constexpr int kMostHalvings = 10;     // of one of these; a jump of the loads is never resolved
+constexpr int kMostHalvings = 10;     // of a part of a step; a jump of the loads is never resolved
 constexpr double kSmallLoad = 1e-6;   // of the largest load: loads are measured by this at least
 
 }  // namespace

@@ -54,7 +54,7 @@ void BasicWearTally<S>::sample(int i, const BasicState<S>& state) {
 
 template <class S>
 int BasicWearTally<S>::finer_parts(const CurveGrid& grid) const {
-  constexpr int kPerSector = 4;
+  constexpr int kPerSector = 4;     // samples of a pin that turns evenly, in each sector that it passes
   constexpr double kSmooth = 0.01;  // of the largest power: what the last coefficients of a curve without a kink may be
   constexpr int kAtKink = 32;       // parts: a swinging pin has the wear of its last sector to 2e-3 then, and to 0.1 without
   int parts = 0;

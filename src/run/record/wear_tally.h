@@ -12,7 +12,7 @@ namespace pintle {
 template <class S>
 class BasicWearTally {
  public:
-  static constexpr int kSectors = 72;
+  static constexpr int kSectors = 72;  // of a bush, 5 degrees each: a polar diagram's resolution
 
   /// Of the joints whose law tells `wear_power` and `contact_angle`.
   explicit BasicWearTally(const BasicSystem<S>& system);
