@@ -37,8 +37,9 @@ struct LockLaw {
 struct LockedJoint {
   int joint;
   LockLaw lock;
-  double at_rest;    // an acceleration that is nothing but rounding [m/s^2] or [rad/s^2]
-  double force = 0;  // of the lock on the second body [N] or [N*m]
+  double at_rest;       // an acceleration that is nothing but rounding [m/s^2] or [rad/s^2]
+  double force = 0;     // of the lock on the second body, and of its friction where it slips [N] or [N*m]
+  bool turned = false;  // slips the other way than its lock had it
 };
 
 // Joints that stick, and would begin to move if friction did not hold them.
@@ -103,13 +104,15 @@ System settle_with_stiction(System system, const BasicSettledStart<Planar>& unlo
     BasicSettledStart<Planar> trial = unloaded;
     start_forces(locked, true, trial.state);
     // A lock that fights a motor does not know which way its joint goes. Each is turned once.
-    const auto goes_with_its_lock = [&](const LockedJoint& one) {
+    bool turned = false;
+    for (LockedJoint& one : slipping) {
       const double accel = trial.state.gap_accel[one.joint][one.lock.component];
-      if (std::abs(accel) <= one.at_rest || accel * one.force <= 0) return false;
-      system.joints[one.joint].law.start_slipping(-one.force);
-      return true;
-    };
-    if (std::erase_if(slipping, goes_with_its_lock) > 0) continue;
+      if (one.turned || std::abs(accel) <= one.at_rest || accel * one.force <= 0) continue;
+      one.force = -one.force;
+      one.turned = turned = true;
+      system.joints[one.joint].law.start_slipping(one.force);
+    }
+    if (turned) continue;
     settle_joints(locked, duration, known_span, trial);
     take_off_locks(system.n_joints(), held, trial);
     State& state = trial.state;
