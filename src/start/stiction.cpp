@@ -7,6 +7,7 @@
 
 #include "dynamics/inverse_dynamics.h"
 #include "kinematics/position_search.h"
+#include "laws/friction/stick_slip.h"
 #include "laws/law_part.h"
 #include "start/start_forces.h"
 #include "system/system.h"
@@ -15,8 +16,6 @@ namespace pintle {
 namespace {
 
 using S = Planar;
-
-constexpr double kNoSlipYet = 1e-6;  // a rate of a joint that has yet to move, at most, without turning its friction [m/s] or [rad/s]
 
 // Holds one component where it is.
 struct LockLaw {
@@ -113,9 +112,21 @@ System settle_with_stiction(System system, const BasicSettledStart<Planar>& unlo
       system.joints[one.joint].law.start_slipping(one.force);
     }
     if (turned) continue;
+    const State given = trial.state;
     settle_joints(locked, duration, known_span, trial);
-    take_off_locks(system.n_joints(), held, trial);
     State& state = trial.state;
+    kinematics_at(system, state.t, state.q, state.v, m, r);
+    const auto turned_back = [&](const LockedJoint& one) {
+      return one.force * r[one.joint].rate[one.lock.component] > StickSlip::kStill * std::abs(one.force) && knows_its_way(system.joints[one.joint], state.t, r[one.joint].gap);
+    };
+    if (std::any_of(slipping.begin(), slipping.end(), turned_back)) {
+      // What gives way, as a rope under a motor that slackens, would turn back a joint that has yet to move, and its friction: it gives way later.
+      state = given;
+      trial.notes = unloaded.notes;
+      trial.settled_over = 0;
+      note_not_settled(system, state, trial.notes);
+    }
+    take_off_locks(system.n_joints(), held, trial);
     rest_laws(system, state);
     const auto slips = [&](const LockedJoint& one) {
       JointData& joint = system.joints[one.joint];
@@ -127,18 +138,6 @@ System settle_with_stiction(System system, const BasicSettledStart<Planar>& unlo
     again = std::erase_if(held, slips) > 0;
     if (again) continue;
     kinematics_at(system, state.t, state.q, state.v, m, r);
-    const auto turned_back = [&](const LockedJoint& one) {
-      return one.force * r[one.joint].rate[one.lock.component] > kNoSlipYet * std::abs(one.force) && knows_its_way(system.joints[one.joint], state.t, r[one.joint].gap);
-    };
-    if (std::any_of(slipping.begin(), slipping.end(), turned_back)) {
-      // What gives way, as a rope under a motor that slackens, would turn back a joint that has yet to move, and its friction: it gives way later.
-      state = unloaded.state;
-      start_forces(with_locks(system, held), true, state);
-      take_off_locks(system.n_joints(), held, trial);
-      trial.settled_over = 0;
-      note_not_settled(system, state, trial.notes);
-      kinematics_at(system, state.t, state.q, state.v, m, r);
-    }
     find_law_rates(system, state);
     find_joint_forces(system, state);
     find_accelerations(system, m, r, state);

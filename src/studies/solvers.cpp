@@ -46,7 +46,7 @@ constexpr std::array<ConstraintMethod, 7> kConstraintMethods{{{"multipliers", Eq
                                                               {"relative_augmented_lagrangian", Equations::kRelativeAugmented, "ode23t"},
                                                               {"relative_augmented_lagrangian_hht", Equations::kRelativeAugmented, "hht"}}};
 
-MethodChoice choice_of(const Model& model, const std::string& word, double tolerance) {
+MethodChoice method_choice(const Model& model, const std::string& word, double tolerance) {
   MethodChoice choice{Equations::kNewtonian, word, tolerance < kTight ? 5 : 3};
   for (const ConstraintMethod& way : kConstraintMethods)
     if (has_constraints(model.simulate.equations) && word == way.word) choice = {way.equations, way.method};
@@ -120,7 +120,7 @@ class Study {
   }
 
   void try_method(const std::string& method) {
-    if (const std::string reason = why_not(choice_of(model_, method, 1)); !reason.empty()) {
+    if (const std::string reason = why_not(method_choice(model_, method, 1)); !reason.empty()) {
       out_.notes.push_back(reason);
       return;
     }
@@ -136,7 +136,7 @@ class Study {
     p.max_step = model_.simulate.max_step;
     p.tolerance = tolerance;
     p.first_step = 1e-4 * p.duration;
-    p.choice = choice_of(model_, method, tolerance);
+    p.choice = method_choice(model_, method, tolerance);
     return p;
   }
 

@@ -26,6 +26,7 @@ struct StickSlipForce {
 
 struct StickSlip {
   static constexpr int kStates = 2, kBorders = 3;
+  static constexpr double kStill = 1e-6;  // a slip that counts as none [m/s]
   double kinetic = 0.1, stuck = 0.15;     // mu_k, mu_s [-]
   double viscous = 0;                     // mu_v [s/m]
   double stiffness = 1e8, damping = 1e5;  // k_t [N/m], c_t [N*s/m]
@@ -78,7 +79,6 @@ struct StickSlip {
   }
 
  private:
-  static constexpr double kStill = 1e-6;      // a slip that counts as none [m/s]
   static constexpr double kCrossed = 1e-12;   // a speed that is not the rounding of zero [m/s]
   static constexpr double kUnloaded = 1e-12;  // a friction that breaks surfaces on which nothing presses [N]
 

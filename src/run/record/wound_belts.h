@@ -43,7 +43,7 @@ class BasicWoundBelts {
   }
 
  private:
-  static constexpr double kEnd = 0.05;  // of the larger radius: the free run of a belt whose end has come to its disc
+  static constexpr double kEnd = 0.05;  // of the larger radius: the free run of a belt whose end has come to its disc, up to 1.2e-3 radii beside the line of the run
   struct Wound {
     int joint;
     Belt belt;
