@@ -54,9 +54,8 @@ void BasicWearTally<S>::sample(int i, const BasicState<S>& state) {
 
 template <class S>
 int BasicWearTally<S>::finer_parts(const CurveGrid& grid) const {
-  constexpr int kPerSector = 4;     // samples of a pin that turns evenly, in each sector that it passes
-  constexpr double kSmooth = 0.01;  // of the largest power: what the last coefficients of a curve without a kink may be
-  constexpr int kAtKink = 32;       // parts: a swinging pin has the wear of its last sector to 2e-3 then, and to 0.1 without
+  constexpr int kPerSector = 4;  // samples in each sector that a pin passes: the sectors of a swing (test Wear) have their wear to 2.5e-4 then, to 1e-3 with 2
+  constexpr int kAtKink = 32;    // parts of a curve with a kink: the last sector of that swing has its wear to 1.1e-3 then, to 1.1e-2 with 16, to 0.09 with none
   int parts = 0;
   for (const Worn& worn : worn_) {
     const Sample &first = worn.samples.front(), &last = worn.samples[static_cast<std::size_t>(grid.n() - 1)];
@@ -65,7 +64,7 @@ int BasicWearTally<S>::finer_parts(const CurveGrid& grid) const {
     if (sectors > 1) parts = std::max(parts, kPerSector * static_cast<int>(std::ceil(sectors)));
     std::array<double, CurveGrid::kMost> power{};
     for (int i = 0; i < grid.n(); ++i) power[static_cast<std::size_t>(i)] = worn.samples[static_cast<std::size_t>(i)].power;
-    if (grid.chebyshev_tail(power.data(), 1) > kSmooth * *std::max_element(power.begin(), power.end())) parts = std::max(parts, kAtKink);
+    if (2 * kAtKink * grid.chebyshev_tail(power.data(), 1) > *std::max_element(power.begin(), power.end())) parts = std::max(parts, kAtKink);
   }
   return parts;
 }
