@@ -112,8 +112,8 @@ class LaneStageSolver : public BasicStageSolver<S> {
   double tolerance_;
   Steps steps_;
   NewtonContraction contraction_;
-  static constexpr double kGood = 0.15, kSlow = 0.4;  // contraction below which Jacobians serve the next step; above which old ones do not serve this one
-  static constexpr int kMostWithOld = 4;              // iterations with Jacobians of an earlier step, at most
+  static constexpr double kSlow = 0.4;       // contraction above which Jacobians of an earlier step do not serve this one
+  static constexpr int kMostWithOld = 4;     // iterations with them, at most
   double factorized_for_ = 0;                 // the step; 0: none
   bool loads_;                                // there is more than weight
   static constexpr std::size_t kTile = 16;    // bodies that fit into the nearest cache, with their joints

@@ -78,7 +78,7 @@ bool LaneStageSolver<S, N>::solve_stages(const BasicState<S>& begin, double h, c
   find_targets(begin.t, h);
   contraction_.start();
   // An old factorisation does not know the new side of a jump: without a step before there is none that serves.
-  bool fresh = !before || h != factorized_for_ || contraction_.rate() > kGood, wanted = fresh;  // a factorisation
+  bool fresh = !before || h != factorized_for_ || contraction_.rate() > NewtonContraction::kGood, wanted = fresh;  // a factorisation
   const Curve* unplaced = &curve;  // the stages are
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
     const bool eliminated = assemble_and_eliminate(begin, h, std::exchange(unplaced, nullptr), scale, wanted);
@@ -99,6 +99,7 @@ bool LaneStageSolver<S, N>::solve_stages(const BasicState<S>& begin, double h, c
       return true;
     }
     const bool hopeless = verdict == NewtonContraction::Verdict::kHopeless;
+    wanted = fresh && !hopeless && !general_.empty() && contraction_.outdated();
     if (hopeless && fresh) return false;
     if (hopeless || (!fresh && iteration > 0 && (contraction_.rate() > kSlow || iteration > kMostWithOld))) {
       fresh = wanted = true;

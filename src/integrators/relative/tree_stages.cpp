@@ -32,10 +32,11 @@ bool TreeStages::solve(const TreeState& begin, double h, const TreeNodes* before
   place(begin, h);
   find_forces(scale);
   contraction_.start();
+  const bool curved = std::any_of(tree_.laws().begin(), tree_.laws().end(), [this](int j) { return !system_.joints[j].law.as_linear(); });
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
     find_residuals();
     counters.evaluations += n_;
-    if (iteration == 0) {
+    if (iteration == 0 || (curved && contraction_.outdated())) {
       linearize();
       counters.factorizations += 1 + n_ / 2;
       if (!factorize(h)) return false;
