@@ -8,6 +8,7 @@
 #include "integrators/radau/stage_lanes.h"
 #include "integrators/absolute/stage_solver.h"
 #include "integrators/radau/newton_convergence.h"
+#include "integrators/radau/predictor.h"
 #include "linalg/block_lu.h"
 
 namespace pintle {
@@ -95,6 +96,7 @@ class LaneStageSolver : public BasicStageSolver<S> {
   void add_joint(const Joint& joint, const X* weight, const typename S::Vec& force);
   static void add_block(Block<X, S::kDof>& block, const typename S::Mat& K, const typename S::Mat& C, const X& mu, double sign);
   double back_substitute(const BasicState<S>& begin);
+  double misfit(const BasicStepNodes<S>& before, const RadauTable::Vec& weights) const;
   void linearize_at(double t, const BasicLaw<S>& law, const L* gap, const L* rate, const General& general, int stage, BasicLawTangents<S>& tangents) const;
   bool miss_states(const Joint& joint, const General& general) const;
   void solve_states(double t, const BasicLaw<S>& law, const L* gap, const L* rate, General& general);
@@ -112,6 +114,7 @@ class LaneStageSolver : public BasicStageSolver<S> {
   double tolerance_;
   Steps steps_;
   NewtonContraction contraction_;
+  Predictor predictor_;
   static constexpr double kSlow = 0.4;       // contraction above which Jacobians of an earlier step do not serve this one
   static constexpr int kMostWithOld = 4;     // iterations with them, at most
   double factorized_for_ = 0;                 // the step; 0: none

@@ -15,10 +15,10 @@ struct LaneStageSolver<S, N>::Curve {
   const BasicStepNodes<S>* nodes;
   std::array<L, RadauTable::kMaxNodes> weight;
 
-  Curve(const RadauTable& table, Steps steps, double h, const BasicStepNodes<S>* before, double last_h) : nodes(before) {
+  Curve(const RadauTable& table, Steps steps, const Predictor& predictor, double h, const BasicStepNodes<S>* before, double last_h) : nodes(before) {
     for (int s = 0; s < N && before; ++s) {
       const double ratio = h / last_h;
-      const RadauTable::Vec w = steps == Steps::kLong ? table.continuation(table.c[s], ratio) : table.weights(1 + table.c[s] * ratio);
+      const RadauTable::Vec w = steps == Steps::kLong ? table.continuation(table.c[s], ratio) : predictor.weights(table, table.c[s], ratio);
       for (int k = 0; k <= N; ++k) weight[k].set(s, w[k]);
     }
   }
@@ -36,6 +36,19 @@ struct LaneStageSolver<S, N>::Curve {
     return x;
   }
 };
+
+// By how much a guess with such weights of the last step's nodes would have missed the accelerations at the end, over the loads.
+template <class S, int N>
+double LaneStageSolver<S, N>::misfit(const BasicStepNodes<S>& before, const RadauTable::Vec& weights) const {
+  double worst = 0;
+  for (std::size_t b = 0; b < n_bodies(); ++b)
+    for (int k = 0; k < S::kDof; ++k) {
+      double guess = 0;
+      for (int n = 0; n <= N; ++n) guess += weights[n] * before.a[n][bodies_[b].index][k];
+      worst = std::max(worst, bodies_[b].over_scale[k] * std::abs(guess - bodies_[b].a[k][N - 1]));
+    }
+  return worst;
+}
 
 // What a large mechanism will want soon, past body b and past joint j: the solver's own first, then what the system has of it. All such
 // functions are inlined by force: the compiler takes one that does nothing else for one that does nothing.

@@ -74,12 +74,13 @@ template <class S, int N>
 bool LaneStageSolver<S, N>::solve_stages(const BasicState<S>& begin, double h, const BasicStepNodes<S>* before, double last_h, const BasicLoadScale<S>& scale,
                                  Counters& counters) {
   step_.scale(matrices_, h);
-  const Curve curve(table_, steps_, h, before, last_h);
+  const Curve curve(table_, steps_, predictor_, h, before, last_h);
   find_targets(begin.t, h);
   contraction_.start();
   // An old factorisation does not know the new side of a jump: without a step before there is none that serves.
   bool fresh = !before || h != factorized_for_ || contraction_.rate() > NewtonContraction::kGood, wanted = fresh;  // a factorisation
   const Curve* unplaced = &curve;  // the stages are
+  double first = -1;               // correction, in tolerances
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
     const bool eliminated = assemble_and_eliminate(begin, h, std::exchange(unplaced, nullptr), scale, wanted);
     counters.evaluations += N;
@@ -89,6 +90,7 @@ bool LaneStageSolver<S, N>::solve_stages(const BasicState<S>& begin, double h, c
       return false;
     }
     const double correction = back_substitute(begin);
+    if (first < 0) first = correction / tolerance_;
     if (wanted) factorized_for_ = h;
     wanted = false;
     ++counters.newton_iterations;
@@ -96,6 +98,7 @@ bool LaneStageSolver<S, N>::solve_stages(const BasicState<S>& begin, double h, c
     if (verdict == NewtonContraction::Verdict::kDone) {
       if (!begin.sliding.empty()) find_balanced_loads();
       else if (loads_ && correction > NewtonContraction::kShare * tolerance_) find_loads(begin, h);  // they are those before the last correction
+      if (before && !general_.empty()) predictor_.compare(table_, h / last_h, first, [&](const RadauTable::Vec& weights) { return misfit(*before, weights); });
       return true;
     }
     const bool hopeless = verdict == NewtonContraction::Verdict::kHopeless;

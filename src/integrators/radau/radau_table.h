@@ -32,6 +32,8 @@ struct RadauTable {
 
   /// Lagrange weights of the nodes at x.
   Vec weights(double x) const;
+  /// The same of the last `count` of them alone; zero for those before.
+  Vec weights_of_last(int count, double x) const;
 
   /// Weights of the stages, c_1 .. c_n, in the first and the second integral from 0 to x of the curve through them.
   struct StageIntegrals {
@@ -48,7 +50,6 @@ struct RadauTable {
 
  private:
   explicit RadauTable(int stages);
-  Vec weights_of_last(int count, double x) const;
   void diagonalize();
 };
 

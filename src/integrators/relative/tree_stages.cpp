@@ -32,6 +32,7 @@ bool TreeStages::solve(const TreeState& begin, double h, const TreeNodes* before
   place(begin, h);
   find_forces(scale);
   contraction_.start();
+  double first = 0;  // correction, in tolerances
   const bool curved = std::any_of(tree_.laws().begin(), tree_.laws().end(), [this](int j) { return !system_.joints[j].law.as_linear(); });
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
     find_residuals();
@@ -44,8 +45,14 @@ bool TreeStages::solve(const TreeState& begin, double h, const TreeNodes* before
     const double of_bodies = correct(scale);
     place(begin, h);
     ++counters.newton_iterations;
-    const auto verdict = contraction_.judge(iteration, std::max(of_bodies, find_forces(scale)), tolerance_);
-    if (verdict != NewtonContraction::Verdict::kGoOn) return verdict == NewtonContraction::Verdict::kDone;
+    const double correction = std::max(of_bodies, find_forces(scale));
+    if (iteration == 0) first = correction / tolerance_;
+    const auto verdict = contraction_.judge(iteration, correction, tolerance_);
+    if (verdict == NewtonContraction::Verdict::kHopeless) return false;
+    if (verdict == NewtonContraction::Verdict::kGoOn) continue;
+    if (before && curved)
+      predictor_.compare(table_, h / last_h, first, [&](const RadauTable::Vec& weights) { return over_loads(system_, at_[n_ / 2].J() * (before->w * weights - state_.back().w), scale); });
+    return true;
   }
   return false;
 }
@@ -61,7 +68,7 @@ void TreeStages::predict(const TreeState& begin, double h, const TreeNodes* befo
     state.accel = begin.accel;
     state.law_rate = begin.law_rate;
     if (!before) continue;
-    const RadauTable::Vec weight = table_.weights(1 + table_.c[s] * h / last_h);
+    const RadauTable::Vec weight = predictor_.weights(table_, table_.c[s], h / last_h);
     state.w.noalias() = before->w * weight;
     state.accel.noalias() = before->accel * weight;
     if (!state.law_rate.empty()) VectorXd::Map(state.law_rate.data(), system_.n_law_states()) = before->law_rate * weight;

@@ -7,6 +7,7 @@
 
 #include "integrators/absolute/stage_solver.h"
 #include "integrators/radau/newton_convergence.h"
+#include "integrators/radau/predictor.h"
 #include "integrators/radau/radau_table.h"
 #include "integrators/relative/tree_instant.h"
 
@@ -71,6 +72,7 @@ class TreeStages {
   const int n_;
   double tolerance_;
   NewtonContraction contraction_;
+  Predictor predictor_;
   std::vector<TreeState> state_;
   std::vector<TreeInstant> at_;
   std::vector<Eigen::VectorXd> missing_, missing_gap_, missing_state_;
