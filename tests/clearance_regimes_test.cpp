@@ -74,12 +74,13 @@ TEST(ClearanceRegimesSlow, ASlowCrankMakesItChaotic) {
   }
 }
 
-// With the other law, too: 19 to 37 per second in runs that differ by rounding alone. Two single integrations with restitutions that differ by 1e-11 part as
+// With the other law, too: 19 to 43 per second in runs that differ by next to nothing. Two single integrations with restitutions that differ by 1e-11 part as
 // fast within the scatter of such rates over half a second.
 TEST(ClearanceRegimesSlow, FloresLawPartsOrbitsAsWell) {
   const Trajectory run = simulate(worn(1e-4, "flores", 600, 20));
   ASSERT_EQ(run.outcome, Outcome::kHorizon) << run.message;
-  EXPECT_NEAR(run.growth.rate, 28, 14);
+  EXPECT_NEAR(run.growth.rate, 28, 1.5 * run.growth.rate_error);
+  EXPECT_LT(run.growth.rate_error, 0.5 * run.growth.rate);
   Model model = worn(1e-4, "flores", 600, 6);
   Trajectory orbit, neighbour;
   reference::integrate_once(model, 1e-6, 3, nullptr, &orbit);
@@ -114,7 +115,7 @@ TEST(ClearanceRegimesSlow, ChaoticForcesArePromisedUpToTheHorizonAndStatisticsBe
     const LoadSummary &joint = run.joints[j], &again = other.joints[j];
     const std::string column = joint.name + ".on_" + joint.second_body;
     double error = 0, peak = 0;
-    EXPECT_GT(joint.horizon, 0.15) << joint.name;
+    EXPECT_GT(joint.horizon, 0.05) << joint.name;  // 0.085 to 0.2 s of runs that differ by next to nothing
     ASSERT_LT(joint.horizon, 0.25) << joint.name;
     for (std::size_t row = 0; run.at(row, 0) <= joint.horizon; ++row) {
       const double x = reference::value(fine, row, "joint." + column + ".fx[world]"), y = reference::value(fine, row, "joint." + column + ".fy[world]");

@@ -158,8 +158,8 @@ TEST(Starts, NoTransientIsNotedWhereNothingMoves) {
 }
 
 TEST(Starts, MissingUnitsAreNoted) {
-  EXPECT_EQ(notes_of(reference::mechanism("slider_crank_clearance")).find("without a unit"), std::string::npos);
-  EXPECT_NE(notes_of(reference::mechanism("slider_crank_clearance", {"joint.B.pin_radius=9.5"})).find("joint B: its pin_radius of 9.5 m is larger than the whole mechanism (0.17 m): without a unit lengths are metres"), std::string::npos);
+  EXPECT_EQ(notes_of(reference::mechanism("slider_crank_clearance")).find("check its unit"), std::string::npos);
+  EXPECT_NE(notes_of(reference::mechanism("slider_crank_clearance", {"joint.B.pin_radius=9.5"})).find("joint B: its pin_radius of 9.5 m is larger than the whole mechanism (0.17 m): check its unit; a number alone is in metres"), std::string::npos);
   EXPECT_NE(notes_of(reference::mechanism("slider_crank_clearance", {"joint.B.clearance=0.05"})).find("joint B: its clearance of 0.05 m is larger than the radius of its pin (0.0095 m)"), std::string::npos);
   EXPECT_NE(notes_of(reference::mechanism("four_bar", {"body.coupler.angle=40"})).find("body coupler: its angle of 40 rad is 6.37 turns: without a unit angles are radians"), std::string::npos);
   EXPECT_EQ(notes_of(reference::mechanism("door_stops")).find("without a unit"), std::string::npos);  // its stops are angles

@@ -238,7 +238,7 @@ class Passes {
     const bool same = growth_.saturated && same_growth(last_growth_, growth_);
     if (same) {
       chaos_ = growth_;
-      chaos_.rate_error = std::max(growth_.rate_error, std::abs(growth_.rate - last_growth_.rate));
+      chaos_.rate_error = std::max(growth_.rate_error, growth_.rate_scatter);
     }
     if (last_one) return false;
     if (growth_.exponential && growth_.saturated) {

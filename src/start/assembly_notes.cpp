@@ -62,14 +62,14 @@ void note_large_lengths(const std::string& joint, const LawChoice& choice, doubl
     const auto stated = choice.values.find(std::string(key.key));
     if (key.unit != "m" || !key.angular_unit.empty() || stated == choice.values.end()) continue;
     for (const double length : stated->second)
-      if (std::abs(length) > kMuchLarger * size && length != key.fallback) notes.push_back(fmt::format("joint {}: its {} of {:.4g} m is larger than the whole mechanism ({:.4g} m): without a unit lengths are metres", joint, key.key, length, size));
+      if (std::abs(length) > kMuchLarger * size && length != key.fallback) notes.push_back(fmt::format("joint {}: its {} of {:.4g} m is larger than the whole mechanism ({:.4g} m): check its unit; a number alone is in metres", joint, key.key, length, size));
   }
 }
 
 void note_wide_clearance(const std::string& joint, const LawChoice& law, std::vector<std::string>& notes) {
   const auto clearance = law.values.find("clearance"), radius = law.values.find("pin_radius");
   if (clearance == law.values.end() || radius == law.values.end() || clearance->second.empty() || radius->second.empty() || !(clearance->second[0] > radius->second[0])) return;
-  notes.push_back(fmt::format("joint {}: its clearance of {:.4g} m is larger than the radius of its pin ({:.4g} m): without a unit lengths are metres", joint, clearance->second[0], radius->second[0]));
+  notes.push_back(fmt::format("joint {}: its clearance of {:.4g} m is larger than the radius of its pin ({:.4g} m): check its unit; a number alone is in metres", joint, clearance->second[0], radius->second[0]));
 }
 
 void note_many_turns(const std::string& what, double angle, std::vector<std::string>& notes) {

@@ -144,9 +144,10 @@ void find_softness(const Model& model, Comparison& c) {
 
 VariantLoad variant_load(const LoadSummary& load, const LoadSummary* base) {
   VariantLoad out{true, load};
-  const auto change = [](double x, double from) { return from > 0 ? (x - from) / from : std::numeric_limits<double>::quiet_NaN(); };
   const LoadSummary none;
   const LoadSummary& from = base == nullptr ? none : *base;
+  // What is no larger than its own error is no measure for another.
+  const auto change = [&from](double x, double of) { return of > from.error_estimate ? (x - of) / of : std::numeric_limits<double>::quiet_NaN(); };
   out.peak_change = change(load.peak, from.peak);
   out.mean_change = change(load.mean, from.mean);
   out.rms_change = change(load.rms, from.rms);

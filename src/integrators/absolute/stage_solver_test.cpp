@@ -132,7 +132,12 @@ std::vector<Stage> solve_and_check(const Start& at, int stages, double h, const 
   const std::string where = name + ", " + std::to_string(stages) + " stages, step " + std::to_string(h);
   EXPECT_TRUE(solver->solve(at.begin, h, before, last_h, at.scale, counters)) << where;
   EXPECT_EQ(counters.evaluations, stages * counters.newton_iterations) << where;
-  EXPECT_EQ(counters.factorizations, 1u + stages / 2) << where;
+  // Curved laws are linearised again where their tangents have changed, at most in each iteration.
+  const std::uint64_t once = 1 + stages / 2, times = counters.factorizations / once;
+  const bool curved = std::any_of(at.system.joints.begin(), at.system.joints.end(), [](const JointData& joint) { return !joint.law.as_linear(); });
+  EXPECT_EQ(counters.factorizations, times * once) << where;
+  EXPECT_GE(times, 1u) << where;
+  EXPECT_LE(times, curved ? counters.newton_iterations : 1u) << where;
   StageTails tails = sample::room_for_tails(at.system);
   solver->write(at.begin, found, tails);
   const Misfits left = misfits(at, table, h, found);

@@ -70,6 +70,19 @@ Line fit_line(int n, const std::array<double, kMostBlocks>& x, const std::array<
   return line;
 }
 
+// By how much the rate over another stretch as long would differ, where growth comes in steps of any size: all that is behind a step is higher by it,
+// which residuals about a line show little of. The variance of a sum of such steps, with neighbours weighed as by Newey and West. Eq. (6.8a).
+double scatter_of_steps(const Blocks& b) {
+  constexpr int kNeighbours = 3;
+  const int n = b.n - 1;
+  const double mean = (b.y[n] - b.y[0]) / n;
+  double sum = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = std::max(0, i - kNeighbours); j <= std::min(n - 1, i + kNeighbours); ++j)
+      sum += (1 - std::abs(i - j) / (kNeighbours + 1.0)) * (b.y[i + 1] - b.y[i] - mean) * (b.y[j + 1] - b.y[j] - mean);
+  return std::sqrt(std::max(0.0, sum) * n / (n - 1)) / (b.t[n] - b.t[0]);
+}
+
 // Second over first coefficient of a series of Legendre polynomials over the fitted part. Eq. (6.7).
 double bend(const Blocks& b) {
   const double middle = 0.5 * (b.t[0] + b.t[b.n - 1]), half = 0.5 * (b.t[b.n - 1] - b.t[0]);
@@ -123,6 +136,7 @@ ErrorGrowth fit_growth_to(double most, double sure, const DifferenceCurve& curve
   const Line power = fit_line(b.n, log_t, b.y);
   growth.rate = line.slope;
   growth.rate_error = line.error;
+  growth.rate_scatter = scatter_of_steps(b);
   growth.until = b.t[b.n - 1];
   growth.level = std::exp(line.mean_y + line.slope * (growth.until - line.mean_x));
   const double gain = line.slope * (b.t[b.n - 1] - b.t[0]);

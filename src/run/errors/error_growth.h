@@ -10,7 +10,8 @@ struct ErrorGrowth {
   bool exponential = false;  ///< the curve is long enough, straight in its logarithm, and not a power of time
   bool saturated = false;    ///< the difference became as large as it can
   double rate = 0;           ///< [1/s]
-  double rate_error = 0;     ///< its standard error [1/s]
+  double rate_error = 0;     ///< the standard error of the line's slope [1/s]
+  double rate_scatter = 0;   ///< by how much it would differ over another stretch as long: one standard deviation [1/s]
   double until = 0;          ///< end of the fitted part [s]
   double level = 0;          ///< of the fitted line there [-]
   bool to_largest = false;   ///< fitted to the largest difference: it tells whether motion is chaotic, and no tolerance

@@ -32,6 +32,37 @@ TEST(ErrorGrowth, AnExponentialIsFoundWithItsRateWithinItsError) {
   EXPECT_GE(within, 40);  // 95 % of normal errors
 }
 
+// As of pins that strike their bushes: each step multiplies what there is. The line's error would say twice as often that the rate is known when it is not.
+TEST(ErrorGrowth, TheScatterIsThatOfStretchesWhoseErrorsGrowInSteps) {
+  std::mt19937 random(2);
+  std::exponential_distribution<double> waits(2.5), gains(1);
+  int found = 0, within = 0, within_error = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    double next = waits(random), gain = 0;
+    const ErrorGrowth growth = fit_growth(curve_of([&](double t) {
+      for (; next < t; next += waits(random)) gain += gains(random);
+      return 1e-7 * std::exp(gain);
+    }));
+    if (!(growth.rate > 0)) continue;
+    ++found;
+    within += std::abs(growth.rate - 2.5) < 2 * growth.rate_scatter;
+    within_error += std::abs(growth.rate - 2.5) < 2 * growth.rate_error;
+  }
+  EXPECT_GT(found, 350);
+  EXPECT_GT(within, 80 * found / 100);
+  EXPECT_LT(within_error, 70 * found / 100);
+}
+
+// Increments that cancel count little: taken one by one they would make it a third of the rate.
+TEST(ErrorGrowth, NoiseAboutALineAddsLittleToTheScatter) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0, 1);
+  for (int trial = 0; trial < 50; ++trial) {
+    const ErrorGrowth growth = fit_growth(curve_of([&](double t) { return 1e-7 * std::exp(2.5 * t + 0.5 * normal(random)); }));
+    EXPECT_LT(growth.rate_scatter, 0.2 * growth.rate);
+  }
+}
+
 TEST(ErrorGrowth, ExtrapolatesTheFittedLine) {
   const ErrorGrowth growth = fit_growth(curve_of([](double t) { return 1e-6 * std::exp(0.9 * t); }));
   ASSERT_TRUE(growth.exponential);
