@@ -115,6 +115,7 @@ class LaneStageSolver : public BasicStageSolver<S> {
   Steps steps_;
   NewtonContraction contraction_;
   Predictor predictor_;
+  bool curved_ = false;                       // a law is
   static constexpr double kSlow = 0.4;       // contraction above which Jacobians of an earlier step do not serve this one
   static constexpr int kMostWithOld = 4;     // iterations with them, at most
   double factorized_for_ = 0;                 // the step; 0: none

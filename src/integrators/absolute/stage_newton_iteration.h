@@ -48,6 +48,7 @@ LaneStageSolver<S, N>::LaneStageSolver(const BasicSystem<S>& system, const Radau
       }
     } else {
       joint.general = static_cast<int>(general_.size());
+      curved_ = curved_ || is_curved(data.law);
       General& general = general_.emplace_back();
       const int states = data.law.n_states();
       general.impedance.reserve(states);
@@ -98,11 +99,11 @@ bool LaneStageSolver<S, N>::solve_stages(const BasicState<S>& begin, double h, c
     if (verdict == NewtonContraction::Verdict::kDone) {
       if (!begin.sliding.empty()) find_balanced_loads();
       else if (loads_ && correction > NewtonContraction::kShare * tolerance_) find_loads(begin, h);  // they are those before the last correction
-      if (before && !general_.empty()) predictor_.compare(table_, h / last_h, first, [&](const RadauTable::Vec& weights) { return misfit(*before, weights); });
+      if (before && curved_) predictor_.compare(table_, h / last_h, first, [&](const RadauTable::Vec& weights) { return misfit(*before, weights); });
       return true;
     }
     const bool hopeless = verdict == NewtonContraction::Verdict::kHopeless;
-    wanted = fresh && !hopeless && !general_.empty() && contraction_.outdated();
+    wanted = fresh && !hopeless && curved_ && contraction_.outdated();
     if (hopeless && fresh) return false;
     if (hopeless || (!fresh && iteration > 0 && (contraction_.rate() > kSlow || iteration > kMostWithOld))) {
       fresh = wanted = true;

@@ -33,7 +33,7 @@ bool TreeStages::solve(const TreeState& begin, double h, const TreeNodes* before
   find_forces(scale);
   contraction_.start();
   double first = 0;  // correction, in tolerances
-  const bool curved = std::any_of(tree_.laws().begin(), tree_.laws().end(), [this](int j) { return !system_.joints[j].law.as_linear(); });
+  const bool curved = std::any_of(tree_.laws().begin(), tree_.laws().end(), [this](int j) { return is_curved(system_.joints[j].law); });
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
     find_residuals();
     counters.evaluations += n_;

@@ -73,7 +73,7 @@ Line fit_line(int n, const std::array<double, kMostBlocks>& x, const std::array<
 // By how much the rate over another stretch as long would differ, where growth comes in steps of any size: all that is behind a step is higher by it,
 // which residuals about a line show little of. The variance of a sum of such steps, with neighbours weighed as by Newey and West. Eq. (6.8a).
 double scatter_of_steps(const Blocks& b) {
-  constexpr int kNeighbours = 3;
+  constexpr int kNeighbours = 3;  // on either side, whose increments count as alike: with none noise about a line would make half the rate
   const int n = b.n - 1;
   const double mean = (b.y[n] - b.y[0]) / n;
   double sum = 0;
