@@ -24,8 +24,9 @@ TEST(Chaos, ADoublePendulumIsPromisedUpToItsHorizonAtTheCostOfAnOrdinaryRun) {
   EXPECT_LT(run.counters.steps, 10000u);  // measured: 5157
   EXPECT_GT(run.growth.rate, 0.5);
   EXPECT_LT(run.growth.rate, 2.5);
-  EXPECT_GT(run.growth.rate_error, 0);
-  EXPECT_LT(run.growth.rate_error, 0.3 * run.growth.rate);
+  // Starts from 84 to 98 degrees find rates of 1.33 that scatter by 0.28 per second: that is covered, and not many times over.
+  EXPECT_GT(run.growth.rate_error, 0.28);
+  EXPECT_LT(run.growth.rate_error, 3 * 0.28);
   for (const LoadSummary& joint : run.joints) {
     EXPECT_GT(joint.horizon, 1) << joint.name;
     EXPECT_LT(joint.horizon, 15) << joint.name;
