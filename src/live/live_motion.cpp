@@ -96,14 +96,22 @@ class LiveMotion::Motion {
   const System& system() const { return pulled_ ? *pulled_ : own(); }
 
   // No step: the state stays, and another one is tried from it when asked again. A kink of a force just at the end of the frame
-  // can be in the way: then the frame ends a little later.
+  // can be in the way: then the frame ends a little later. A blade that is bent until it snaps has nothing that leads on at its speed: it goes on from rest.
   bool step(double end) {
     if (try_step(end)) return true;
+    restart(kFirstStep);
+    if (try_step(state_.t + kStretch * (end - state_.t))) return true;
+    come_to_rest();
     restart(kFirstStep);
     if (try_step(state_.t + kStretch * (end - state_.t))) return true;
     changed_ = true;
     last_step_ = kFirstStep;
     return false;
+  }
+
+  void come_to_rest() {
+    for (Vecs* x : {&state_.v, &state_.gap_rate})
+      for (S::Vec& rate : *x) rate.setZero();
   }
 
   bool try_step(double end) {
