@@ -19,7 +19,7 @@ std::size_t largest_slip(std::size_t length) {
   return std::max<std::size_t>(1, length / 3);
 }
 
-// Ten times the distance without regard to case, plus one for a difference in case; a beginning counts as one slip.
+// Ten times the distance without regard to case, plus one for a difference in case; a beginning, or the last of several words, counts as one slip.
 std::optional<std::size_t> cost(std::string_view word, std::string_view candidate) {
   if (candidate.empty() || candidate.size() > kLongest) return std::nullopt;
   const std::string a = lower_case(word);
@@ -28,8 +28,9 @@ std::optional<std::size_t> cost(std::string_view word, std::string_view candidat
   const bool is_slip =
       distance <= largest_slip(std::max(a.size(), b.size())) && distance < std::min(a.size(), b.size());
   const bool is_beginning = a.size() >= 3 && b.starts_with(a);
-  if (distance != 0 && !is_slip && !is_beginning) return std::nullopt;
-  if (!is_slip && is_beginning) distance = std::min(distance, largest_slip(b.size()));
+  const bool is_part = is_beginning || (a.size() >= 3 && b.ends_with("_" + a));
+  if (distance != 0 && !is_slip && !is_part) return std::nullopt;
+  if (!is_slip && is_part) distance = std::min(distance, largest_slip(b.size()));
   return 10 * distance + (word.front() == candidate.front() ? 0 : 1);
 }
 

@@ -15,7 +15,7 @@ namespace pintle {
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The closest of `words`, if it is close enough to be a slip of the pen: about one edit in three letters, or `word`
-/// begins it. Case hardly counts. The first of equals wins.
+/// begins it or is the last of its words (`length` of `free_length`). Case hardly counts. The first of equals wins.
 std::optional<std::string> did_you_mean(std::string_view word, std::span<const std::string_view> words);
 
 /// The same for any range of strings.

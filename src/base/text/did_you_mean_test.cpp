@@ -29,6 +29,12 @@ TEST(DidYouMean, FindsTheSlip) {
   EXPECT_EQ(did_you_mean("stiff", keys), "stiffness");
 }
 
+TEST(DidYouMean, FindsTheLastOfSeveralWords) {
+  const std::vector<std::string> keys{"stiffness", "damping", "free_length", "preload"};
+  EXPECT_EQ(did_you_mean("length", keys), "free_length");
+  EXPECT_EQ(did_you_mean("ngth", keys), std::nullopt);
+}
+
 TEST(DidYouMean, StaysSilentWhenNothingIsClose) {
   const std::vector<std::string> keys{"stiffness", "damping", "x"};
   EXPECT_EQ(did_you_mean("colour", keys), std::nullopt);
