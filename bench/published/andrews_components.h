@@ -52,7 +52,7 @@ inline End end_of(const Model& model, double tolerance) {
   const Assembly assembly = start_of_run(model);
   const System& system = assembly.system;
   const State& start = assembly.state;
-  MethodChoice choice = stated_method(model.simulate);
+  MethodChoice choice = resolve_method(model.simulate);
   choice.stages = 5;
   const auto stepper = make_stepper(system, choice, tolerance);
   const double end = model.simulate.duration;

@@ -60,7 +60,7 @@ class Expression {
   int n_switches() const;
   /// A number for each of them that changes its sign there: positive on one side, negative or 0 on the other, and proportional
   /// to the distance of its arguments. On a ramp: positive where its share is outside 0 .. 1.
-  void find_switching(std::span<const double> values, double* value, const Ramp* ramp = nullptr) const;
+  void evaluate_switching_functions(std::span<const double> values, double* value, const Ramp* ramp = nullptr) const;
   /// Value, first and second derivative with respect to variable `index`, the others held (exact).
   std::array<double, 3> second_order(std::span<const double> values, std::size_t index) const;
 

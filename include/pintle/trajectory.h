@@ -95,7 +95,7 @@ enum class Outcome {
 
 /// How errors grow along a chaotic motion.
 struct Growth {
-  double rate = 0, rate_error = 0;  ///< and its standard error [1/s]; 0: not found to be chaotic
+  double rate = 0, rate_error = 0;  ///< and by how much another stretch of the motion may differ [1/s]; 0: not found to be chaotic
   double horizon = 0;               ///< the earliest of the joints [s]
 };
 

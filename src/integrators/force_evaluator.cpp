@@ -32,7 +32,7 @@ void BasicForceEvaluator<S>::find_gaps(BasicState<S>& state) {
 template <class S>
 void BasicForceEvaluator<S>::find_roots(BasicState<S>& state, double* value) {
   find_gaps(state);
-  system_.find_switching(state.t, m_, state.gap, state.gap_rate, state.law_state, state.sliding, value);
+  system_.evaluate_switching_functions(state.t, m_, state.gap, state.gap_rate, state.law_state, state.sliding, value);
 }
 
 template <class S>

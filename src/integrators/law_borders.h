@@ -61,7 +61,7 @@ class LawBorders {
   }
   void find(const State& at, std::vector<double>& value) {
     system_.motions(at.q, at.v, m_);
-    system_.find_switching(at.t, m_, at.gap, at.gap_rate, at.law_state, at.sliding, value.data());
+    system_.evaluate_switching_functions(at.t, m_, at.gap, at.gap_rate, at.law_state, at.sliding, value.data());
   }
 
   const System& system_;

@@ -93,7 +93,7 @@ std::string usual_method(Equations equations) {
 
 }  // namespace
 
-MethodChoice stated_method(const SimulateSettings& settings) {
+MethodChoice resolve_method(const SimulateSettings& settings) {
   MethodChoice choice;
   choice.equations = settings.equations;
   choice.method = settings.method == "auto" ? usual_method(settings.equations) : settings.method;

@@ -18,7 +18,7 @@ struct MethodChoice {
 };
 
 /// What the settings of a model ask for; "auto" is replaced by the method that it stands for.
-MethodChoice stated_method(const SimulateSettings& settings);
+MethodChoice resolve_method(const SimulateSettings& settings);
 
 /// Why there is no such method, for the user: not with these equations, or not in this build. Empty: there is.
 std::string why_not(const MethodChoice& choice);

@@ -21,7 +21,7 @@ std::optional<Corner> corner_between(const Expression& f, double low, double hig
   const auto n = static_cast<std::size_t>(f.n_switches());
   const auto signs = [&](double at) {
     std::vector<double> value(n);
-    f.find_switching(std::array{at}, value.data());
+    f.evaluate_switching_functions(std::array{at}, value.data());
     return value;
   };
   const std::vector<double> at_low = signs(low), at_high = signs(high);

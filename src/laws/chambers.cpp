@@ -29,10 +29,10 @@ law_math::Slopes<3, 1> ChamberPressure::slopes(const double (&x)[3]) const {
   return out;
 }
 
-void ChamberPressure::find_switching(const LawInput<double>& in, double* value) const {
+void ChamberPressure::evaluate_switching_functions(const LawInput<double>& in, double* value) const {
   if (n_switches() == 0) return;
   const std::array<double, 3> at = values({in.t, in.gap[0], in.rate[0]});
-  expression_.find_switching(std::span(at).first(reads_.size()), value);
+  expression_.evaluate_switching_functions(std::span(at).first(reads_.size()), value);
 }
 
 Chambers::Chambers(double bore, double rod_diameter, double ambient, ChamberPressure cap, ChamberPressure rod)

@@ -32,7 +32,7 @@ class ChamberPressure {
     return p[0];
   }
   int n_switches() const { return expression_.n_switches(); }
-  void find_switching(const LawInput<double>& in, double* value) const;
+  void evaluate_switching_functions(const LawInput<double>& in, double* value) const;
 
  private:
   law_math::Slopes<3, 1> slopes(const double (&x)[3]) const;

@@ -32,8 +32,8 @@ struct PressureLaw {
 
   int n_borders() const { return chambers->cap().n_switches() + chambers->rod().n_switches(); }
   void borders(const LawInput<double>& in, double* value) const {
-    chambers->cap().find_switching(in, value);
-    chambers->rod().find_switching(in, value + chambers->cap().n_switches());
+    chambers->cap().evaluate_switching_functions(in, value);
+    chambers->rod().evaluate_switching_functions(in, value + chambers->cap().n_switches());
   }
   std::string border_name(int border, bool) const { return border < chambers->cap().n_switches() ? "kink or jump of cap_pressure" : "kink or jump of rod_pressure"; }
 

@@ -98,15 +98,17 @@ class LiveMotion::Motion {
   // No step: the state stays, and another one is tried from it when asked again. A kink of a force just at the end of the frame
   // can be in the way: then the frame ends a little later. A blade that is bent until it snaps has nothing that leads on at its speed: it goes on from rest.
   bool step(double end) {
-    if (try_step(end)) return true;
-    restart(kFirstStep);
-    if (try_step(state_.t + kStretch * (end - state_.t))) return true;
+    if (try_step(end) || try_anew(end)) return true;
     come_to_rest();
-    restart(kFirstStep);
-    if (try_step(state_.t + kStretch * (end - state_.t))) return true;
+    if (try_anew(end)) return true;
     changed_ = true;
     last_step_ = kFirstStep;
     return false;
+  }
+
+  bool try_anew(double end) {
+    restart(kFirstStep);
+    return try_step(state_.t + kStretch * (end - state_.t));
   }
 
   void come_to_rest() {

@@ -44,7 +44,7 @@ class Passes {
 
   std::unique_ptr<BasicForceRecorder<S>> go() {
     out_.tolerance = settings_.tolerance;
-    choice_ = stated_method(settings_);
+    choice_ = resolve_method(settings_);
     out_.method = choice_.method;
     out_.of_motion = choice_.tolerance_of == ToleranceOf::kMotion;
     make_passes();

@@ -180,11 +180,11 @@ double BasicSystem<S>::power_of(const BasicAppliedData<S>& force, double t, cons
 }
 
 template <class S>
-void BasicSystem<S>::find_switching(double t, const std::vector<typename S::Motion>& m, const VecsOf<S>& gap, const VecsOf<S>& rate, const std::vector<double>& law_state, SlidingModes sliding,
+void BasicSystem<S>::evaluate_switching_functions(double t, const std::vector<typename S::Motion>& m, const VecsOf<S>& gap, const VecsOf<S>& rate, const std::vector<double>& law_state, SlidingModes sliding,
                             double* value) const {
   const auto find = [&value](const Expression& e, std::span<const double> at, const Expression::Ramp* ramp) {
     const int n = e.n_switches();
-    if (n > 0) e.find_switching(at, value, ramp);
+    if (n > 0) e.evaluate_switching_functions(at, value, ramp);
     value += n;
   };
   const std::array<double, 1> time{t};
@@ -287,7 +287,7 @@ template ExternalWork BasicSystem<Planar>::external_work(double t, const Positio
 template bool BasicSystem<Planar>::cross_borders(double t, const VecsOf<Planar>& gap, const VecsOf<Planar>& rate, const double* before, const double* after, std::vector<double>& law_state, double& lost) const;
 template ExternalWork BasicSystem<Planar>::work_of(const BasicLoadData<Planar>& load, double t, const std::vector<Planar::Motion>& m, SlidingModes sliding) const;
 template double BasicSystem<Planar>::power_of(const BasicAppliedData<Planar>& force, double t, const std::vector<Planar::Motion>& m) const;
-template void BasicSystem<Planar>::find_switching(double t, const std::vector<Planar::Motion>& m, const VecsOf<Planar>& gap, const VecsOf<Planar>& rate, const std::vector<double>& law_state, SlidingModes sliding, double* value) const;
+template void BasicSystem<Planar>::evaluate_switching_functions(double t, const std::vector<Planar::Motion>& m, const VecsOf<Planar>& gap, const VecsOf<Planar>& rate, const std::vector<double>& law_state, SlidingModes sliding, double* value) const;
 template std::optional<SlidingMode> BasicSystem<Planar>::jump_between(double t0, const std::vector<Planar::Motion>& m0, double t1, const std::vector<Planar::Motion>& m1) const;
 template double BasicSystem<Planar>::margin(const SlidingMode& jump, double t, const std::vector<Planar::Motion>& m) const;
 template void BasicSystem<Planar>::load_tangents(const BasicLoadData<Planar>& load, double t, const std::vector<Planar::Motion>& m, SlidingModes sliding, std::vector<Tangent>& out) const;
@@ -300,7 +300,7 @@ PINTLE_IN_SPACE(template ExternalWork BasicSystem<Spatial>::external_work(double
 PINTLE_IN_SPACE(template bool BasicSystem<Spatial>::cross_borders(double t, const VecsOf<Spatial>& gap, const VecsOf<Spatial>& rate, const double* before, const double* after, std::vector<double>& law_state, double& lost) const;)
 PINTLE_IN_SPACE(template ExternalWork BasicSystem<Spatial>::work_of(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;)
 PINTLE_IN_SPACE(template double BasicSystem<Spatial>::power_of(const BasicAppliedData<Spatial>& force, double t, const std::vector<Spatial::Motion>& m) const;)
-PINTLE_IN_SPACE(template void BasicSystem<Spatial>::find_switching(double t, const std::vector<Spatial::Motion>& m, const VecsOf<Spatial>& gap, const VecsOf<Spatial>& rate, const std::vector<double>& law_state, SlidingModes sliding, double* value) const;)
+PINTLE_IN_SPACE(template void BasicSystem<Spatial>::evaluate_switching_functions(double t, const std::vector<Spatial::Motion>& m, const VecsOf<Spatial>& gap, const VecsOf<Spatial>& rate, const std::vector<double>& law_state, SlidingModes sliding, double* value) const;)
 PINTLE_IN_SPACE(template std::optional<SlidingMode> BasicSystem<Spatial>::jump_between(double t0, const std::vector<Spatial::Motion>& m0, double t1, const std::vector<Spatial::Motion>& m1) const;)
 PINTLE_IN_SPACE(template double BasicSystem<Spatial>::margin(const SlidingMode& jump, double t, const std::vector<Spatial::Motion>& m) const;)
 PINTLE_IN_SPACE(template void BasicSystem<Spatial>::load_tangents(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding, std::vector<Tangent>& out) const;)

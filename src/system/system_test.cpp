@@ -279,7 +279,7 @@ TEST(System, SaysOnWhichSideOfItsKinksItIs) {
       rate.push_back(r.rate);
     }
     std::vector<double> value(system.switching_functions().size());
-    system.find_switching(t, m, gap, rate, {}, {}, value.data());
+    system.evaluate_switching_functions(t, m, gap, rate, {}, {}, value.data());
     return value;
   };
   EXPECT_TRUE(same_sides(sides(0, 0.1), sides(0.9, 0.19)));

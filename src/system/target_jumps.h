@@ -44,15 +44,15 @@ std::optional<TargetJump> first_target_jump(const BasicSystem<S>& system, double
     const BasicJointData<S>& joint = system.joints[static_cast<std::size_t>(j)];
     if (joint.driven < 0 || joint.target.n_switches() == 0) continue;
     std::vector<double> begin(static_cast<std::size_t>(joint.target.n_switches())), value(begin.size());
-    const auto find_switching = [&joint](double t, std::vector<double>& to) {
+    const auto evaluate_switching_functions = [&joint](double t, std::vector<double>& to) {
       const std::array<double, 1> time{t};
-      joint.target.find_switching(std::span(time).first(joint.target.variables().size()), to.data(), nullptr);
+      joint.target.evaluate_switching_functions(std::span(time).first(joint.target.variables().size()), to.data(), nullptr);
     };
     const auto is_beyond = [&](double t) {  // on the kink itself expressions have the derivatives behind it
-      find_switching(t, value);
+      evaluate_switching_functions(t, value);
       return !std::equal(begin.begin(), begin.end(), value.begin(), [](double a, double b) { return (a > 0) == (b > 0) && (a == 0 || b != 0); });
     };
-    find_switching(t0, begin);
+    evaluate_switching_functions(t0, begin);
     if (!is_beyond(t1)) continue;
     double low = t0, high = t1;
     for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high)) (is_beyond(middle) ? high : low) = middle;

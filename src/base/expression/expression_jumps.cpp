@@ -57,13 +57,13 @@ double Expression::gradient(std::span<const double> values, std::span<double> gr
   return result;
 }
 
-void Expression::find_switching(std::span<const double> values, double* value, const Ramp* ramp) const {
+void Expression::evaluate_switching_functions(std::span<const double> values, double* value, const Ramp* ramp) const {
   if (!program_) return;
   run_at(*program_, values, [&](std::size_t i, std::span<const double> x, double& result) {
     const Instruction& step = program_->code[i];
     const Op op = step.op;
     if (op == Op::kTable && program_->tables[step.index]->has_kinks()) value[0] = program_->tables[step.index]->switching(x[0]);
-    else pintle::find_switching(op, x, value);
+    else pintle::evaluate_switching_functions(op, x, value);
     if (ramp && i == ramp->jump) {
       const double share = ramp->share_at(margin_of(x));
       value[0] = std::max(-share, share - 1);

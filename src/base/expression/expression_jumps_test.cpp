@@ -56,7 +56,7 @@ TEST(ExpressionJumps, SwitchingFunctionsTellWhereARampEnds) {
   ASSERT_EQ(e.n_switches(), 2);
   const auto outside = [&](double x) {
     std::array<double, 2> value;
-    e.find_switching(in_order(e, x, 2), value.data(), &ramp);
+    e.evaluate_switching_functions(in_order(e, x, 2), value.data(), &ramp);
     return value[0];
   };
   EXPECT_NEAR(outside(0.6), -0.1, 1e-15);
@@ -72,7 +72,7 @@ TEST(ExpressionJumps, SwitchingFunctionsAreSignedDistances) {
   const auto at = [&scope](const char* text, double x) {
     const Expression e = std::get<ParsedExpression>(parse_expression(text, scope)).expression;
     std::vector<double> value(e.n_switches());
-    e.find_switching(std::array{x}, value.data());
+    e.evaluate_switching_functions(std::array{x}, value.data());
     return value;
   };
   for (const double x : {-1.0, 0.0, 2.5}) {

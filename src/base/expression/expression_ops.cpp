@@ -63,7 +63,7 @@ const FunctionInfo* find_function(std::string_view name) {
   return it == all.end() ? nullptr : &*it;
 }
 
-void find_switching(Op op, std::span<const double> x, double* value) {
+void evaluate_switching_functions(Op op, std::span<const double> x, double* value) {
   switch (op) {
     case Op::kAbs:
     case Op::kSign:

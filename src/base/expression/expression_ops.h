@@ -89,7 +89,7 @@ constexpr int n_switches(Op op) {
   return op == Op::kAbs || op == Op::kSign || op == Op::kStep || (op >= Op::kMin && op <= Op::kGreaterEqual) ? 1 : 0;  // `if` follows its condition
 }
 /// A number for each of them that is positive on one side only: not at the kink itself where that belongs to the other side.
-void find_switching(Op op, std::span<const double> operands, double* value);
+void evaluate_switching_functions(Op op, std::span<const double> operands, double* value);
 
 inline double apply(const TableFunction& table, double a) { return table.value(a); }
 double apply(Op op, double a);

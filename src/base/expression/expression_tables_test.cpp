@@ -82,7 +82,7 @@ TEST(ExpressionTables, SwitchAtTheirKinks) {
   ASSERT_EQ(e.n_switches(), 3);  // bare is held at its ends, where its slope jumps
   const auto at = [&](double x) {
     std::array<double, 3> value;
-    e.find_switching(std::array{x}, value.data());
+    e.evaluate_switching_functions(std::array{x}, value.data());
     return value;
   };
   for (const double kink : {0.5, 1.0, 2.0, std::numbers::pi, std::numbers::pi + 0.5}) {

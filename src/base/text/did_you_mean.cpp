@@ -27,8 +27,7 @@ std::optional<std::size_t> cost(std::string_view word, std::string_view candidat
   std::size_t distance = edit_distance(a, b);
   const bool is_slip =
       distance <= largest_slip(std::max(a.size(), b.size())) && distance < std::min(a.size(), b.size());
-  const bool is_beginning = a.size() >= 3 && b.starts_with(a);
-  const bool is_part = is_beginning || (a.size() >= 3 && b.ends_with("_" + a));
+  const bool is_part = a.size() >= 3 && (b.starts_with(a) || b.ends_with("_" + a));
   if (distance != 0 && !is_slip && !is_part) return std::nullopt;
   if (!is_slip && is_part) distance = std::min(distance, largest_slip(b.size()));
   return 10 * distance + (word.front() == candidate.front() ? 0 : 1);

@@ -17,7 +17,7 @@ Planar::Coordinates along(const Planar::Coordinates& q, double d, const Planar::
 }  // namespace
 
 template <class S>
-void BasicRadauStepper<S>::find_switching(double x, double h, double* value) {
+void BasicRadauStepper<S>::evaluate_switching_functions(double x, double h, double* value) {
   const auto [v, q] = table_.stage_integrals(x);
   for (std::size_t b = 0; b < inside_q_.size(); ++b) {
     if constexpr (S::kCurved) {
@@ -46,7 +46,7 @@ void BasicRadauStepper<S>::find_switching(double x, double h, double* value) {
     for (int i = 0; i < n_; ++i) inside_law_state_[z] += h * v[i] * stage_[i].law_rate[z];
   }
   system_.motions(inside_q_, inside_v_, inside_m_);
-  system_.find_switching(begin_.t + x * h, inside_m_, inside_gap_, inside_rate_, inside_law_state_, begin_.sliding, value);
+  system_.evaluate_switching_functions(begin_.t + x * h, inside_m_, inside_gap_, inside_rate_, inside_law_state_, begin_.sliding, value);
 }
 
 template <class S>
@@ -80,12 +80,12 @@ void BasicRadauStepper<S>::extrapolate_switching_functions(double d, double* val
   }
   extrapolate_gaps(d);
   system_.motions(inside_q_, inside_v_, inside_m_);
-  system_.find_switching(begin_.t + d, inside_m_, inside_gap_, inside_rate_, inside_law_state_, begin_.sliding, value);
+  system_.evaluate_switching_functions(begin_.t + d, inside_m_, inside_gap_, inside_rate_, inside_law_state_, begin_.sliding, value);
 }
 
 template <class S>
-void BasicRadauStepper<S>::find_switching_at_end(double* value) const {
-  system_.find_switching(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, value);
+void BasicRadauStepper<S>::evaluate_switching_functions_at_end(double* value) const {
+  system_.evaluate_switching_functions(end_.t, end_m_, end_.gap, end_.gap_rate, end_.law_state, end_.sliding, value);
 }
 
 // What joints lose more than at the end, a time d later: a contact whose force has vanished loses what it still stores.
@@ -152,22 +152,22 @@ void BasicRadauStepper<S>::balance_end() {
   find_power();
 }
 
-template void BasicRadauStepper<Planar>::find_switching(double x, double h, double* value);
+template void BasicRadauStepper<Planar>::evaluate_switching_functions(double x, double h, double* value);
 template void BasicRadauStepper<Planar>::extrapolate_switching_functions(double d, double* value);
 template void BasicRadauStepper<Planar>::extrapolate_gaps(double d);
 template bool BasicRadauStepper<Planar>::forces_stay_constant(double d);
-template void BasicRadauStepper<Planar>::find_switching_at_end(double* value) const;
+template void BasicRadauStepper<Planar>::evaluate_switching_functions_at_end(double* value) const;
 template double BasicRadauStepper<Planar>::change_in_loss_power(double d) const;
 template void BasicRadauStepper<Planar>::extrapolate_end_state(double d);
 template const std::vector<Planar::Motion>& BasicRadauStepper<Planar>::motions_after(double d);
 template bool BasicRadauStepper<Planar>::cross_borders();
 template void BasicRadauStepper<Planar>::shift_gap(int joint, double d, double rate);
 template void BasicRadauStepper<Planar>::balance_end();
-PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::find_switching(double x, double h, double* value);)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::evaluate_switching_functions(double x, double h, double* value);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::extrapolate_switching_functions(double d, double* value);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::extrapolate_gaps(double d);)
 PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::forces_stay_constant(double d);)
-PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::find_switching_at_end(double* value) const;)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::evaluate_switching_functions_at_end(double* value) const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::change_in_loss_power(double d) const;)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::extrapolate_end_state(double d);)
 PINTLE_IN_SPACE(template const std::vector<Spatial::Motion>& BasicRadauStepper<Spatial>::motions_after(double d);)

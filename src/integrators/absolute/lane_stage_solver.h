@@ -96,7 +96,7 @@ class LaneStageSolver : public BasicStageSolver<S> {
   void add_joint(const Joint& joint, const X* weight, const typename S::Vec& force);
   static void add_block(Block<X, S::kDof>& block, const typename S::Mat& K, const typename S::Mat& C, const X& mu, double sign);
   double back_substitute(const BasicState<S>& begin);
-  double misfit(const BasicStepNodes<S>& before, const RadauTable::Vec& weights) const;
+  double extrapolation_error(const BasicStepNodes<S>& before, const RadauTable::Vec& weights) const;
   void linearize_at(double t, const BasicLaw<S>& law, const L* gap, const L* rate, const General& general, int stage, BasicLawTangents<S>& tangents) const;
   bool miss_states(const Joint& joint, const General& general) const;
   void solve_states(double t, const BasicLaw<S>& law, const L* gap, const L* rate, General& general);
@@ -112,12 +112,11 @@ class LaneStageSolver : public BasicStageSolver<S> {
   const StageMatrices<N> matrices_;
   StepMatrices<N> step_;
   double tolerance_;
-  Steps steps_;
   NewtonContraction contraction_;
   Predictor predictor_;
-  bool curved_ = false;                       // a law is
+  bool relinearizes_ = false;                // a law that is linearised again is there
   static constexpr double kSlow = 0.4;       // contraction above which Jacobians of an earlier step do not serve this one
-  static constexpr int kMostWithOld = 4;     // iterations with them, at most
+  static constexpr int kMostWithOld = 4;     // iterations with them, at most. As strict as with new ones, 0.15 and no such end, costs as much, but what they then leave lets the momentum of a rub and bristles at 1e-5 miss their stated errors
   double factorized_for_ = 0;                 // the step; 0: none
   bool loads_;                                // there is more than weight
   static constexpr std::size_t kTile = 16;    // bodies that fit into the nearest cache, with their joints

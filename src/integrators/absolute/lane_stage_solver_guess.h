@@ -15,10 +15,10 @@ struct LaneStageSolver<S, N>::Curve {
   const BasicStepNodes<S>* nodes;
   std::array<L, RadauTable::kMaxNodes> weight;
 
-  Curve(const RadauTable& table, Steps steps, const Predictor& predictor, double h, const BasicStepNodes<S>* before, double last_h) : nodes(before) {
+  Curve(const RadauTable& table, const Predictor& predictor, double h, const BasicStepNodes<S>* before, double last_h) : nodes(before) {
     for (int s = 0; s < N && before; ++s) {
       const double ratio = h / last_h;
-      const RadauTable::Vec w = steps == Steps::kLong ? table.continuation(table.c[s], ratio) : predictor.weights(table, table.c[s], ratio);
+      const RadauTable::Vec w = predictor.weights(table, table.c[s], ratio);
       for (int k = 0; k <= N; ++k) weight[k].set(s, w[k]);
     }
   }
@@ -37,9 +37,9 @@ struct LaneStageSolver<S, N>::Curve {
   }
 };
 
-// By how much a guess with such weights of the last step's nodes would have missed the accelerations at the end, over the loads.
+// By how much accelerations that are extrapolated with such weights of the last step's nodes would have missed those at the end, over the loads.
 template <class S, int N>
-double LaneStageSolver<S, N>::misfit(const BasicStepNodes<S>& before, const RadauTable::Vec& weights) const {
+double LaneStageSolver<S, N>::extrapolation_error(const BasicStepNodes<S>& before, const RadauTable::Vec& weights) const {
   double worst = 0;
   for (std::size_t b = 0; b < n_bodies(); ++b)
     for (int k = 0; k < S::kDof; ++k) {

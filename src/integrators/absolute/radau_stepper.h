@@ -88,12 +88,12 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   const std::vector<typename S::Motion>& end_motions() const { return end_m_; }
   const BasicState<S>& end_state() const { return end_; }
   std::vector<SlidingMode>& sliding() { return end_.sliding; }
-  void find_switching(double x, double h, double* value);
+  void evaluate_switching_functions(double x, double h, double* value);
   void extrapolate_switching_functions(double d, double* value);
   void extrapolate_gaps(double d);
   double change_in_loss_power(double d) const;
   bool forces_stay_constant(double d);
-  void find_switching_at_end(double* value) const;
+  void evaluate_switching_functions_at_end(double* value) const;
   void extrapolate_end_state(double d);
   const std::vector<typename S::Motion>& motions_after(double d);
   bool cross_borders();

@@ -20,7 +20,7 @@ namespace pintle {
 
 template <class S, int N>
 LaneStageSolver<S, N>::LaneStageSolver(const BasicSystem<S>& system, const RadauTable& table, double tolerance, Steps steps)
-    : system_(system), table_(table), matrices_(table), tolerance_(tolerance), steps_(steps), loads_(system.has_loads()), large_(system.bodies.size() > kLargeMechanism),
+    : system_(system), table_(table), matrices_(table), tolerance_(tolerance), predictor_(steps), loads_(system.has_loads()), large_(system.bodies.size() > kLargeMechanism),
       pattern_(system.pattern().in_order()), bodies_(system.bodies.size() + 1), joints_(system.joints.size()), Q_(system.bodies.size()), loads_on_(loads_ ? system.bodies.size() + 1 : 0),
       motions_(system.bodies.size()), lu_(pattern_, loads_ ? Symmetry::kNone : symmetry_of_joints(system)), rhs_(system.bodies.size() + 1) {
   bodies_.back().stand_still();  // the ground; what falls on it is not looked at
@@ -48,7 +48,7 @@ LaneStageSolver<S, N>::LaneStageSolver(const BasicSystem<S>& system, const Radau
       }
     } else {
       joint.general = static_cast<int>(general_.size());
-      curved_ = curved_ || is_curved(data.law);
+      relinearizes_ = relinearizes_ || is_relinearized(data.law);
       General& general = general_.emplace_back();
       const int states = data.law.n_states();
       general.impedance.reserve(states);
@@ -75,7 +75,7 @@ template <class S, int N>
 bool LaneStageSolver<S, N>::solve_stages(const BasicState<S>& begin, double h, const BasicStepNodes<S>* before, double last_h, const BasicLoadScale<S>& scale,
                                  Counters& counters) {
   step_.scale(matrices_, h);
-  const Curve curve(table_, steps_, predictor_, h, before, last_h);
+  const Curve curve(table_, predictor_, h, before, last_h);
   find_targets(begin.t, h);
   contraction_.start();
   // An old factorisation does not know the new side of a jump: without a step before there is none that serves.
@@ -93,20 +93,19 @@ bool LaneStageSolver<S, N>::solve_stages(const BasicState<S>& begin, double h, c
     const double correction = back_substitute(begin);
     if (first < 0) first = correction / tolerance_;
     if (wanted) factorized_for_ = h;
-    wanted = false;
     ++counters.newton_iterations;
     const auto verdict = contraction_.judge(iteration, correction, tolerance_);
     if (verdict == NewtonContraction::Verdict::kDone) {
       if (!begin.sliding.empty()) find_balanced_loads();
       else if (loads_ && correction > NewtonContraction::kShare * tolerance_) find_loads(begin, h);  // they are those before the last correction
-      if (before && curved_) predictor_.compare(table_, h / last_h, first, [&](const RadauTable::Vec& weights) { return misfit(*before, weights); });
+      if (before && relinearizes_) predictor_.choose_degree(table_, h / last_h, first, [&](const RadauTable::Vec& weights) { return extrapolation_error(*before, weights); });
       return true;
     }
     const bool hopeless = verdict == NewtonContraction::Verdict::kHopeless;
-    wanted = fresh && !hopeless && curved_ && contraction_.outdated();
     if (hopeless && fresh) return false;
-    if (hopeless || (!fresh && iteration > 0 && (contraction_.rate() > kSlow || iteration > kMostWithOld))) {
-      fresh = wanted = true;
+    wanted = hopeless || (fresh ? relinearizes_ && contraction_.wants_new_jacobians() : iteration > 0 && (contraction_.rate() > kSlow || iteration > kMostWithOld));
+    if (wanted && !fresh) {
+      fresh = true;
       contraction_.start();
       iteration = -1;
     }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "integrators/load_scale.h"
+#include "integrators/radau/predictor.h"
 #include "integrators/radau/radau_table.h"
 #include "integrators/radau/step_nodes.h"
 #include "pintle/trajectory.h"
@@ -61,9 +62,6 @@ class BasicStageSolver {
   /// theory/time Eq. (3.8) with the real mu. A mode of frequency w yields by mu^2 / (mu^2 + w^2).
   virtual void filter_accelerations(std::vector<RowOf4<S>>& forces) const = 0;
 };
-
-/// Whether steps are as long as Newton's method allows, and grow as fast: what the first guess is made from.
-enum class Steps { kAccurate, kLong };
 
 /// The solver with the stages of `table`.
 template <class S>

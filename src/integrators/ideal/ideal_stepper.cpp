@@ -144,7 +144,7 @@ bool IdealStepper::crosses_jump() const {
     std::vector<S::Motion> m;
     system_.motions(state.q, state.v, m);
     std::vector<double> value(system_.switching_functions().size());
-    system_.find_switching(state.t, m, state.gap, state.gap_rate, state.law_state, state.sliding, value.data());
+    system_.evaluate_switching_functions(state.t, m, state.gap, state.gap_rate, state.law_state, state.sliding, value.data());
     return value;
   };
   const std::vector<double> from = side(begin_), to = side(stage_);

@@ -108,12 +108,6 @@ RadauTable::StageIntegrals RadauTable::stage_integrals(double x) const {
   return weights;
 }
 
-RadauTable::Vec RadauTable::continuation(double share, double ratio) const {
-  constexpr double kParabola = 1.3, kLine = 1.8;  // step over the last one, above which stages are guessed by a parabola, which takes the fewest iterations in steps that grow; above which by a line
-  const double size = std::abs(ratio);
-  return weights_of_last(size > kLine ? 2 : size > kParabola ? 3 : n + 1, 1 + share * ratio);
-}
-
 const RadauTable& RadauTable::of(int stages) {
   static const RadauTable three(3), five(5);
   return stages == 5 ? five : three;

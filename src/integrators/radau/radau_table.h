@@ -41,10 +41,6 @@ struct RadauTable {
   };
   StageIntegrals stage_integrals(double x) const;
 
-  /// Weights of the nodes for the first guess at a share of the next step, which is `ratio` times as long: the curve goes on. Into a
-  /// longer step goes one of lower degree through the last nodes, because that of the full degree swings away there.
-  Vec continuation(double share, double ratio) const;
-
   /// The table with 3 or 5 stages.
   static const RadauTable& of(int stages);
 

@@ -1,5 +1,5 @@
-// The method's tables against the conditions that define them: quadrature order, stage order, spectrum, stability; for three
-// and for five stages.
+// The method's tables against the conditions that define them: quadrature order, stage order, spectrum, stability; and the first guess of a step that is
+// extrapolated with them; for three and for five stages.
 #include "integrators/radau/radau_table.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +8,8 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <utility>
+
+#include "integrators/radau/predictor.h"
 
 namespace pintle {
 namespace {
@@ -144,17 +146,6 @@ TEST_P(RadauTables, CurvesThroughTheNodesAreExactForPolynomials) {
   }
 }
 
-// Into a step that is not much longer the whole curve, then a parabola, then a line.
-TEST_P(RadauTables, ContinuesCurvesOfTheDegreeThatFitsTheRatio) {
-  for (const auto& [ratio, degree] : {std::pair{0.4, n_}, std::pair{1.2, n_}, std::pair{1.5, 2}, std::pair{-1.5, 2}, std::pair{3.0, 1}})
-    for (int k = 0; k <= n_; ++k) {
-      const RadauTable::Vec monomial = table_.nodes.array().pow(k).matrix();
-      const double off = std::abs(table_.continuation(0.7, ratio).dot(monomial) - std::pow(1 + 0.7 * ratio, k));
-      if (k <= degree) EXPECT_LT(off, 1e-10) << ratio << " " << k;
-      else EXPECT_GT(off, 1e-3) << ratio << " " << k;
-    }
-}
-
 Complex stability(const RadauTable& table, Complex z) {
   const Eigen::MatrixXcd A = Eigen::MatrixXd(table.A).cast<Complex>();
   const Eigen::VectorXcd k = (Eigen::MatrixXcd::Identity(table.n, table.n) - z * A).inverse() * Eigen::VectorXcd::Ones(table.n);
@@ -178,6 +169,51 @@ TEST_P(RadauTables, FollowsTheExponentialToItsOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stages, RadauTables, testing::Values(3, 5), [](const auto& stages) { return std::to_string(stages.param); });
+
+constexpr double kNear = 5, kFarOff = 100;  // first corrections [tolerances]
+
+class Predictors : public testing::TestWithParam<int> {
+ protected:
+  const RadauTable& table_ = RadauTable::of(GetParam());
+  const int n_ = table_.n;
+
+  // By how much x^k through the nodes is missed at a share of a step that is `ratio` times as long.
+  double miss(const Predictor& predictor, int k, double share, double ratio) const {
+    const RadauTable::Vec monomial = table_.nodes.array().pow(k).matrix();
+    return std::abs(predictor.weights(table_, share, ratio).dot(monomial) - std::pow(1 + share * ratio, k));
+  }
+  void expect_degree(const Predictor& predictor, double ratio, int degree) const {
+    for (int k = 0; k <= n_; ++k) {
+      if (k <= degree) EXPECT_LT(miss(predictor, k, 0.7, ratio), 1e-10) << ratio << " " << k;
+      else EXPECT_GT(miss(predictor, k, 0.7, ratio), 1e-3) << ratio << " " << k;
+    }
+  }
+};
+
+// Into a step that is not much longer the whole curve, then a parabola, then a line.
+TEST_P(Predictors, ContinueCurvesOfTheDegreeThatFitsTheRatio) {
+  for (const auto& [ratio, degree] : {std::pair{0.4, n_}, std::pair{1.2, n_}, std::pair{1.5, 2}, std::pair{-1.5, 2}, std::pair{3.0, 1}})
+    expect_degree(Predictor(Steps::kLong), ratio, degree);
+  for (const double ratio : {0.4, 1.5, 3.0}) expect_degree(Predictor(Steps::kAccurate), ratio, n_);
+}
+
+// Noise of the last bits at the start of a curve at rest is carried far by the full degree; a curve of high degree is missed by a parabola.
+TEST_P(Predictors, TakeTheDegreeThatWouldHaveServedTheLastStep) {
+  Predictor predictor(Steps::kAccurate);
+  const auto at_rest = [](const RadauTable::Vec& weights) { return std::abs(weights[0]) * 1e-6; };
+  const auto curved = [this](const RadauTable::Vec& weights) { return std::abs(weights.dot(table_.nodes.array().pow(n_).matrix()) - std::pow(2, n_)); };
+  predictor.choose_degree(table_, 1, kNear, at_rest);
+  expect_degree(predictor, 1, n_);
+  predictor.choose_degree(table_, 1, kFarOff, at_rest);
+  expect_degree(predictor, 1, 2);
+  predictor.choose_degree(table_, 1, kFarOff, curved);
+  expect_degree(predictor, 1, n_);
+  Predictor of_long_steps(Steps::kLong);
+  of_long_steps.choose_degree(table_, 1, kFarOff, at_rest);
+  expect_degree(of_long_steps, 1, n_);
+}
+
+INSTANTIATE_TEST_SUITE_P(Stages, Predictors, testing::Values(3, 5), [](const auto& stages) { return std::to_string(stages.param); });
 
 }  // namespace
 }  // namespace pintle

@@ -20,10 +20,10 @@ constexpr double kMostForceChange = 1e-3;
 constexpr double kShareBeforeEvent = 0.999;
 
 /// `Method` derives from it and answers
-///   find_switching(x, h, value)                 the switching functions at share x of the step, on the curve through its stages
+///   evaluate_switching_functions(x, h, value)                 the switching functions at share x of the step, on the curve through its stages
 ///   forces_stay_constant(d)                     whether joint forces change by next to nothing until then, so that Taylor's series leads there
 ///   extrapolate_switching_functions(d, value)   a time d ahead of the start, by Taylor's series: all there is to go by where the stages are not solved
-///   find_switching_at_end(value)
+///   evaluate_switching_functions_at_end(value)
 ///   end_time(), end_motions(), end_state(), sliding()
 ///   extrapolate_end_state(d)                    the end, its work included, by Taylor's series
 ///   motions_after(d)                            those a moment after the end
@@ -49,7 +49,7 @@ class StepEvents {
 
  private:
   Method& method() { return static_cast<Method&>(*this); }
-  void restart_search() { method().find_switching_at_end(search_.start()); }
+  void restart_search() { method().evaluate_switching_functions_at_end(search_.start()); }
   double margin_rate(const SlidingMode& jump);
   void record() { record_crossings(events_of_, method().end_state(), search_.start(), search_.end(), crossings_); }
 
@@ -68,7 +68,7 @@ template <class Method, class S>
 SwitchingEvent StepEvents<Method, S>::locate_event(double h, bool solved) {
   if (!events_of_.has_branches()) return {};
   return search_.first(RadauTable::of(method().n_), [&](double x, double* value) {
-    solved ? method().find_switching(x, h, value) : method().extrapolate_switching_functions(x * h, value);
+    solved ? method().evaluate_switching_functions(x, h, value) : method().extrapolate_switching_functions(x * h, value);
   });
 }
 
@@ -79,7 +79,7 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
   const double beyond = std::max(std::min(StepControl::kCrossing, StepControl::kLate * method().tolerance_) * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(before));
   search_.step_over(event, distance, beyond, [this](double d, double* value) {
     method().extrapolate_end_state(d);
-    method().find_switching_at_end(value);
+    method().evaluate_switching_functions_at_end(value);
   });
   // A body cannot follow a target that jumps: its gap does.
   for (int j = 0; j < events_of_.n_joints(); ++j)
@@ -108,7 +108,7 @@ double StepEvents<Method, S>::margin_rate(const SlidingMode& jump) {
 template <class Method, class S>
 void StepEvents<Method, S>::update_switching() {
   if (!events_of_.has_branches()) return;
-  method().find_switching_at_end(search_.end());
+  method().evaluate_switching_functions_at_end(search_.end());
   const bool crossed = method().cross_borders();
   if (!leave_sliding(events_of_, method().end_time(), method().end_motions(), method().sliding()) && !crossed) {
     search_.restart();

@@ -18,7 +18,7 @@ void move_carried(double d, TreeState& at) {
 
 }  // namespace
 
-void TreeRadau::find_switching(double x, double h, double* value) {
+void TreeRadau::evaluate_switching_functions(double x, double h, double* value) {
   TreeState at;
   at.u = begin_.u;
   at.law_state = begin_.law_state;
@@ -35,7 +35,7 @@ void TreeRadau::find_switching(double x, double h, double* value) {
     for (std::size_t z = 0; z < at.law_state.size(); ++z) at.law_state[z] += h * first[i] * stage.law_rate[z];
   }
   inside_at_.place_only(begin_.t + x * h, at.y, at.u);
-  inside_at_.find_switching(at, value);
+  inside_at_.evaluate_switching_functions(at, value);
 }
 
 void TreeRadau::extrapolate_switching_functions(double d, double* value) {
@@ -43,7 +43,7 @@ void TreeRadau::extrapolate_switching_functions(double d, double* value) {
   inside_at_.place_only(begin_.t + d, begin_.y + d * begin_.u + half * begin_.w, begin_.u + d * begin_.w);
   TreeState at = begin_;
   move_carried(d, at);
-  inside_at_.find_switching(at, value);
+  inside_at_.evaluate_switching_functions(at, value);
 }
 
 bool TreeRadau::forces_stay_constant(double d) {

@@ -168,9 +168,9 @@ std::array<double, 2> TreeInstant::power(const TreeState& at) const {
 }
 
 // Joints that coordinates obey have linear laws as a rule; a law with kinks among them is asked at a gap of zero.
-void TreeInstant::find_switching(const TreeState& at, double* value) {
+void TreeInstant::evaluate_switching_functions(const TreeState& at, double* value) {
   spread_gaps(at);
-  system_.find_switching(t_, pose_.m, gap_, rate_, at.law_state, sliding(), value);
+  system_.evaluate_switching_functions(t_, pose_.m, gap_, rate_, at.law_state, sliding(), value);
 }
 
 bool TreeInstant::cross_borders(const double* before, const double* after, TreeState& at, double& lost) {

@@ -76,7 +76,7 @@ class TreeInstant {
   /// Supplied and lost power [W].
   std::array<double, 2> power(const TreeState& at) const;
   /// The system's switching functions at the carried gaps.
-  void find_switching(const TreeState& at, double* value);
+  void evaluate_switching_functions(const TreeState& at, double* value);
   /// System::cross_borders at the carried gaps.
   bool cross_borders(const double* before, const double* after, TreeState& at, double& lost);
 

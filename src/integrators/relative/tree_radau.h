@@ -60,10 +60,10 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   const std::vector<Planar::Motion>& end_motions() const { return end_at_.pose().m; }
   const State& end_state() const { return end_state_; }
   std::vector<SlidingMode>& sliding() { return sliding_; }
-  void find_switching(double x, double h, double* value);
+  void evaluate_switching_functions(double x, double h, double* value);
   void extrapolate_switching_functions(double d, double* value);
   bool forces_stay_constant(double d);
-  void find_switching_at_end(double* value) { end_at_.find_switching(end_, value); }
+  void evaluate_switching_functions_at_end(double* value) { end_at_.evaluate_switching_functions(end_, value); }
   void extrapolate_end_state(double d);
   const std::vector<Planar::Motion>& motions_after(double d);
   bool cross_borders() { return end_at_.cross_borders(search_.start(), search_.end(), end_, end_state_.dissipated); }

@@ -15,7 +15,8 @@ using S = Planar;
 }  // namespace
 
 TreeStages::TreeStages(const System& system, const JointTree& tree, const RadauTable& table, double tolerance)
-    : system_(system), tree_(tree), table_(table), n_(table.n), tolerance_(tolerance), state_(table.n),
+    : system_(system), tree_(tree), table_(table), n_(table.n), tolerance_(tolerance), predictor_(Steps::kAccurate),
+      relinearizes_(std::any_of(tree.laws().begin(), tree.laws().end(), [&system](int j) { return is_relinearized(system.joints[j].law); })), state_(table.n),
       at_(table.n, TreeInstant(system, tree)), missing_(table.n), missing_gap_(table.n),
       missing_state_(table.n, VectorXd::Zero(system.n_law_states())), law_(tree.laws().size()) {
   const auto make_room = [&](auto& mode) {
@@ -33,11 +34,10 @@ bool TreeStages::solve(const TreeState& begin, double h, const TreeNodes* before
   find_forces(scale);
   contraction_.start();
   double first = 0;  // correction, in tolerances
-  const bool curved = std::any_of(tree_.laws().begin(), tree_.laws().end(), [this](int j) { return is_curved(system_.joints[j].law); });
   for (int iteration = 0; iteration < NewtonContraction::kMaxIterations; ++iteration) {
     find_residuals();
     counters.evaluations += n_;
-    if (iteration == 0 || (curved && contraction_.outdated())) {
+    if (iteration == 0 || (relinearizes_ && contraction_.wants_new_jacobians())) {
       linearize();
       counters.factorizations += 1 + n_ / 2;
       if (!factorize(h)) return false;
@@ -50,8 +50,8 @@ bool TreeStages::solve(const TreeState& begin, double h, const TreeNodes* before
     const auto verdict = contraction_.judge(iteration, correction, tolerance_);
     if (verdict == NewtonContraction::Verdict::kHopeless) return false;
     if (verdict == NewtonContraction::Verdict::kGoOn) continue;
-    if (before && curved)
-      predictor_.compare(table_, h / last_h, first, [&](const RadauTable::Vec& weights) { return over_loads(system_, at_[n_ / 2].J() * (before->w * weights - state_.back().w), scale); });
+    if (before && relinearizes_)
+      predictor_.choose_degree(table_, h / last_h, first, [&](const RadauTable::Vec& weights) { return over_loads(system_, at_[n_ / 2].J() * (before->w * weights - state_.back().w), scale); });
     return true;
   }
   return false;

@@ -73,6 +73,7 @@ class TreeStages {
   double tolerance_;
   NewtonContraction contraction_;
   Predictor predictor_;
+  bool relinearizes_;  // a law that is linearised again is there
   std::vector<TreeState> state_;
   std::vector<TreeInstant> at_;
   std::vector<Eigen::VectorXd> missing_, missing_gap_, missing_state_;

@@ -74,7 +74,7 @@ class Arrival {
   // The end of the first step in which that is so, or after halvings of it the instant; negative: not before t_end.
   template <class Reached>
   double first(Reached reached, double t_end, int halvings) const {
-    const auto stepper = make_stepper(system_, stated_method(settings_), std::clamp(settings_.tolerance, kFinestReplay, kLoosestReplay));
+    const auto stepper = make_stepper(system_, resolve_method(settings_), std::clamp(settings_.tolerance, kFinestReplay, kLoosestReplay));
     stepper->set_max_step(settings_.max_step);
     stepper->start(start_, kFirstStep * settings_.duration);
     if (reached(stepper->state())) return stepper->state().t;
