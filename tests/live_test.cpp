@@ -124,6 +124,20 @@ TEST(Live, SurvivesEveryMechanismBeingPulledAbout) {
   }
 }
 
+// Beyond half a second the force is no number: no step leads on, not from rest either.
+TEST(Live, StaysAsItWasWhereNoStepCanBeMade) {
+  LiveMotion live(read_model(PINTLE_SOURCE_DIR "/tests/models/block_with_a_force_that_ends.toml"));
+  while (live.advance(0.01)) ASSERT_LT(live.time(), 0.6);
+  const double t = live.time(), speed = live.velocities()[0][0];
+  const LiveMotion::Energies before = live.energies();
+  EXPECT_GT(speed, 0.1);
+  EXPECT_FALSE(live.failure().empty());
+  EXPECT_FALSE(live.advance(0.01));
+  EXPECT_EQ(live.time(), t);
+  EXPECT_EQ(live.velocities()[0][0], speed);
+  EXPECT_EQ(live.energies().dissipated, before.dissipated);
+}
+
 TEST(Live, TakesFewStepsForAFrame) {
   LiveMotion live(live_mechanism("six_bar"));
   for (int i = 0; i < 60; ++i) ASSERT_TRUE(live.advance(1.0 / 60));

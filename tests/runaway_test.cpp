@@ -1,5 +1,10 @@
 // Motions that are fed without end, machines that only look so, and energy accounts that do not close. theory/time section 8.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "pintle/read_model.h"
 #include "pintle/simulate.h"
@@ -56,6 +61,42 @@ TEST(EnergyAccount, APoleInsideTheRunIsNotSteppedOver) {
   const Trajectory run = simulate(rotor("1/(t - 0.1)", "1 s"));
   EXPECT_EQ(run.outcome, Outcome::kEnergyOpen) << run.message;
   EXPECT_NE(run.message.find("has a pole"), std::string::npos) << run.message;
+}
+
+// The force of such a servo is a parabola, which one step follows from end to end; its power is of the fifth degree.
+TEST(EnergyAccount, ClosesWhereARotorIsBroughtToItsSpeedInOneStep) {
+  for (const std::string equations : {"newtonian", "relative"})
+    for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6})
+      for (const double inertia : {1e-4, 1e-2})
+        for (const double speed : {50.0, 314.0}) {
+          Model model = reference::test_model("rotor_on_a_servo", {fmt::format("body.rotor.inertia={}", inertia), fmt::format("parameters.speed={} rad/s", speed), "simulate.equations=" + equations});
+          model.simulate.tolerance = tolerance;
+          const Trajectory run = simulate(model);
+          const double kinetic = 0.5 * inertia * speed * speed;
+          EXPECT_EQ(run.outcome, Outcome::kCompleted) << equations << " " << tolerance << " " << inertia << " " << speed << ": " << run.message;
+          EXPECT_NEAR(run.energy.supplied, kinetic, 20 * std::max(tolerance, 1e-7) * kinetic) << equations << " " << tolerance << " " << inertia << " " << speed;
+        }
+}
+
+// What a rope that is let go had stored goes to whoever changes its length; so does what one takes that is cut to a shorter one.
+TEST(EnergyAccount, ClosesWhereALengthJumps) {
+  const Trajectory run = simulate(reference::test_model("weight_let_go"));
+  ASSERT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+  const double weight = 10 * kStandardGravity, stored = weight * weight / (2 * 1e4);
+  EXPECT_NEAR(run.energy.supplied, -stored, 1e-4 * stored);
+  EXPECT_LT(std::abs(run.energy.drift), 1e-5 * stored);
+}
+
+// Behind 0.5 s the force is no number.
+TEST(NoNumbers, NoMethodStepsIntoThem) {
+  for (const char* method : {"radau", "dopri5", "hht"}) {
+    Model model = reference::test_model("block_with_a_force_that_ends");
+    model.simulate.method = method;
+    const Trajectory run = simulate(model);
+    EXPECT_EQ(run.outcome, Outcome::kFailed) << method << ": " << run.message;
+    EXPECT_LE(run.t_end, 0.5001) << method;
+    for (std::size_t i = 0; i < run.n_rows(); ++i) EXPECT_TRUE(std::isfinite(reference::value(run, i, "body.block.x"))) << method << " " << i;
+  }
 }
 
 // The loads of a pass whose account did not close are no measure for the errors of the next one.

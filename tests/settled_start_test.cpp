@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -46,6 +47,58 @@ pin_radius = "10 mm"
 }
 
 Trajectory run_of(const std::string& text) { return completed(parse_model(text, "settled.toml")); }
+
+// Loads that are small against the springs that carry them: the fluid of the first try is so thin that the body swings.
+TEST(SettledStart, SpringsStretchByWhatLoadsAsk) {
+  const auto loaded = [](double torsion, double torque, double stiffness, double force) {
+    return run_of(fmt::format(R"toml(
+format = 1
+gravity = [0, 0]
+[simulate]
+duration = "10 ms"
+start = "settled"
+[ground.markers]
+O = [0, 0]
+wall = ["-1 m", 0]
+[body.arm]
+mass = "2 kg"
+inertia = "0.02 kg*m^2"
+markers.c = [0, 0]
+[body.slide]
+mass = "1 kg"
+inertia = "0.01 kg*m^2"
+markers.c = [0, 0]
+[joint.pin]
+type = "revolute"
+between = ["ground.O", "arm.c"]
+[joint.guide]
+type = "prismatic"
+between = ["ground.O", "slide.c"]
+[torsion_spring.k]
+between = ["ground.O", "arm.c"]
+stiffness = {}
+free_angle = 0
+[spring.s]
+between = ["ground.wall", "slide.c"]
+stiffness = {}
+free_length = "1 m"
+[force.turn]
+on = "arm.c"
+torque = {}
+[force.push]
+on = "slide.c"
+force = [{}, 0]
+)toml",
+                              torsion, stiffness, torque, force));
+  };
+  for (const auto& [torsion, torque, stiffness, force] : {std::array{0.43, 1e-4, 1e3, 0.01}, std::array{50.0, 1e-4, 1e5, 1e-3}, std::array{1e-3, 1e-6, 1.0, 0.1}}) {
+    const Trajectory run = loaded(torsion, torque, stiffness, force);
+    for (const std::size_t row : {std::size_t{0}, run.n_rows() - 1}) {
+      EXPECT_NEAR(value(run, row, "body.arm.angle"), torque / torsion, 1e-6 * torque / torsion) << torsion;
+      EXPECT_NEAR(value(run, row, "body.slide.x"), force / stiffness, 1e-6 * force / stiffness) << stiffness;
+    }
+  }
+}
 
 TEST(SettledStart, ALeverOnItsRestCarriesHalfItsWeightInEachSupportAllTheTime) {
   const double half = 2 * kStandardGravity;
@@ -119,6 +172,7 @@ duration = "0.2 s"
 start = "settled"
 [ground.markers]
 O = [0, 0]
+wall = ["-1 m", 0]
 [body.arm]
 mass = "5 kg"
 inertia = "0.05 kg*m^2"

@@ -111,6 +111,28 @@ double speed_at(double t) {
   return t < change ? low * (1 - std::exp(-0.07 * t / J)) : high + (100 - high) * std::exp(-0.21 * (t - change) / J);
 }
 
+// The curvature of a monotone table jumps at its points: steps end at few points that are far apart, and go over many that are close together.
+TEST(Tables, StepsEndWhereTheCurvatureJumpsByMuch) {
+  for (const double tolerance : {1e-4, 1e-5, 1e-6}) {
+    Model model = reference::test_model("force_by_four_points");
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = simulate(model);
+    EXPECT_EQ(run.outcome, Outcome::kCompleted) << tolerance << ": " << run.message;
+    EXPECT_LT(run.counters.steps, 120u) << tolerance;
+    for (std::size_t i = 0; i < run.n_rows(); ++i) {
+      const double t = run.at(i, 0) - 1, s = t - 1;
+      if (t < 1 || t > 2) continue;  // not between the turning points
+      EXPECT_NEAR(reference::value(run, i, "joint.pin.on_block.fx[world]"), -(10 + 3 - 2 * s * s * (3 - 2 * s)), 15 * tolerance) << t;
+    }
+  }
+  std::vector<double> x, y;
+  for (int i = 0; i <= 400; ++i) {
+    x.push_back(i / 40.0);
+    y.push_back(std::sin(3 * x.back()));
+  }
+  EXPECT_FALSE(TableFunction(x, y, TableInterpolation::kMonotone, TableOutside::kExtend).has_kinks());
+}
+
 TEST(Tables, AMotorRunsUpAlongItsCurve) {
   struct Case {
     Equations equations;

@@ -2,8 +2,11 @@
 
 #include <httplib.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -77,13 +80,24 @@ void WebServer::serve(studio::RequestRouter& router, const std::function<bool()>
   // A server that does not run yet cannot be stopped.
   std::atomic<bool> ended = false;
   std::thread watch([&] {
-    while (goes_on()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    while (goes_on() && !ended) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     while (!server.is_running() && !ended) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     server.stop();
   });
-  server.listen_after_bind();
-  ended = true;
-  watch.join();
+  const auto end = [&] {
+    ended = true;
+    watch.join();
+  };
+  bool listened = false;
+  try {
+    listened = server.listen_after_bind();
+  } catch (...) {
+    end();
+    throw;
+  }
+  const bool asked_to = !goes_on();
+  end();
+  if (!listened && !asked_to) throw FileError(fmt::format("pintle studio cannot listen at port {} any more", port_));
 }
 
 }  // namespace pintle::cli

@@ -37,13 +37,15 @@ class LiveMotion {
 
   /// What pulls from now on; nothing: released.
   void pull(const std::optional<Pull>& pull);
-  /// Advances by dt [s], or as far as `budget` seconds of wall time reach (0: no limit). False when no step could be made:
-  /// the mechanism stays where it was, `failure` says why, and the next call tries again.
+  /// Advances by dt [s], or as far as `budget` seconds of wall time reach (0: no limit). Where no step leads on at the speed that the bodies have, as of a
+  /// blade that is bent until it snaps, they go on from rest, and their kinetic energy counts as dissipated. False when no step could be made from rest
+  /// either: the state stays as it was, `failure` says why, and the next call tries again.
   bool advance(double dt, double budget = 0);
   const std::string& failure() const;
 
   double time() const;
   std::vector<PlanarPose> poses() const;
+  /// Their rates [m/s, m/s, rad/s].
   std::vector<PlanarPose> velocities() const;
   /// Of the model's joints in their order.
   std::vector<JointForce> joint_forces() const;

@@ -83,7 +83,7 @@ struct Cam {
   double roller_radius = 0;  ///< of the follower; 0: a pin [m]
   bool flat = false;         ///< the follower is a flat face
   friend bool operator==(const Cam& a, const Cam& b) {
-    return a.base_radius == b.base_radius && a.roller_radius == b.roller_radius && a.flat == b.flat && same_profile(a.lift, b.lift, 0, 6);
+    return a.base_radius == b.base_radius && a.roller_radius == b.roller_radius && a.flat == b.flat && same_profile(a.lift, b.lift, 0, 6.283185307179586);
   }
 };
 

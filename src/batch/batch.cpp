@@ -9,22 +9,25 @@
 #include "integrators/absolute/radau_stepper.h"
 #include "integrators/thresholds.h"
 #include "pintle/simulate.h"
+#include "run/passes.h"
 #include "start/start.h"
 #include "system/build.h"
 
 namespace pintle {
 namespace {
 
-// Peaks are better than what steps leave unresolved. Steps of the base are tried with so much more than the tolerance, then tighter,
-// until its peaks are within this share of it; and a variant's steps may leave so much more unresolved than the base's.
-constexpr double kLoosest = 1000, kTighten = 3.1622776601683795, kShare = 0.1, kWorse = 4;
+// Peaks are better than what steps leave unresolved: steps of the base are tried with far more than the tolerance, then tighter.
+constexpr double kLoosest = 1000;                 // of the tolerance: the steps that are tried first
+constexpr double kTighten = 3.1622776601683795;  // from one try to the next
+constexpr double kShare = 0.1;                    // of the tolerance: by which the base's peaks may miss those of its own run
+constexpr double kWorse = 4;                      // what a variant's steps may leave unresolved, over the same of the base's
 constexpr double kOfNewton = 0.2;  // tolerance of iterations over that of steps
 constexpr int kMostIterations = 10;  // in a step of the base: with more, shorter steps are cheaper, and a variant may not converge
 constexpr double kMostSlack = 16, kLeastSlack = 1.2;  // of the base's joints, before one of them would count as soft
 constexpr double kUnsettled = 0.01;  // of the tolerance: what another sweep would change at the start
 constexpr double kWellSettled = 0.2;  // of that, for the base
 constexpr int kFewestSweeps = 2, kMostSweeps = 4;
-constexpr std::size_t kMostSteps = 100'000;
+constexpr std::size_t kMostSteps = 100'000;  // of the base: with more, a run of its own is no dearer
 
 bool is_for_batches(const Model& model) {
   const SimulateSettings& s = model.simulate;
@@ -37,9 +40,9 @@ bool find_steps(const State& start, BatchPlan& plan) {
   RadauStepper stepper(plan.base, plan.tolerance);
   stepper.set_max_step(plan.max_step);
   stepper.set_load_scale(plan.scale);
-  stepper.start(start, 1e-4 * plan.duration);
+  stepper.start(start, kFirstStep * plan.duration);
   plan.steps.clear();
-  while (stepper.state().t < plan.duration * (1 - 1e-12)) {
+  while (stepper.state().t < plan.duration * kAlmostAll) {
     if (plan.steps.size() > kMostSteps || !stepper.step(plan.duration)) return false;
     plan.steps.push_back((stepper.state().t - stepper.previous().t) / plan.duration);
   }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "base/text/did_you_mean.h"
+#include "run/passes.h"
 #include "run/recorder.h"
 #include "system/build.h"
 
@@ -50,7 +51,7 @@ void copy_series(const Trajectory& run, const std::vector<int>& columns, std::si
 
 // How many rows a run records.
 std::size_t output_rows(double duration, double step) {
-  const double almost = duration * (1 - 1e-12);
+  const double almost = duration * kAlmostAll;
   std::size_t row = static_cast<std::size_t>(almost / step);  // at least the last row before the end, or its neighbour
   while (row > 0 && static_cast<double>(row) * step >= almost) --row;
   while (static_cast<double>(row + 1) * step < almost) ++row;

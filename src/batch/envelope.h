@@ -56,7 +56,6 @@ class EnvelopeEngine {
   const std::vector<std::string>& joints() const { return joints_; }
   double output_step() const { return output_step_; }  // [s]
   std::size_t n_times() const { return n_times_; }
-  std::size_t n_series() const { return request_.series.size(); }
   const std::vector<std::string>& series_units() const { return units_; }
 
  private:

@@ -2,6 +2,9 @@
 // Appl. Math. 6 (1980) 19-26.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 namespace pintle::dormand_prince {
 
 constexpr int kStages = 7;
@@ -15,5 +18,14 @@ constexpr double kA[kStages][6] = {{},
 constexpr double kC[kStages] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
 /// The weights of the fifth order less those of the fourth.
 constexpr double kE[kStages] = {71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+
+/// The size of the next step over this one's, where this one's embedded error was so many tolerances: the error falls with the fifth power of the step.
+inline double step_ratio(double error) {
+  constexpr double kSafety = 0.9;                  // of the step that the error would allow. Hairer, Norsett, Wanner I, II.4
+  constexpr double kLeast = 0.2, kMost = 5;        // ratio
+  constexpr double kWithoutError = 0.1;            // ratio where the error is no finite number
+  constexpr double kExact = 1e-10;                 // error below which the step grows by no more
+  return std::isfinite(error) ? std::clamp(kSafety * std::pow(std::max(error, kExact), -0.2), kLeast, kMost) : kWithoutError;
+}
 
 }  // namespace pintle::dormand_prince

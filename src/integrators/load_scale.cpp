@@ -1,12 +1,10 @@
 #include "integrators/load_scale.h"
 
-#include <cmath>
-
 namespace pintle {
 
 template <class S>
-void grow_load_scale(const BasicSystem<S>& system, const std::vector<typename S::Motion>& m, const VecsOf<S>& Q, const BasicState<S>& state, BasicLoadScale<S>& scale) {
-  VecsOf<S> load(system.bodies.size());
+void grow_load_scale(const BasicSystem<S>& system, const std::vector<typename S::Motion>& m, const VecsOf<S>& Q, const BasicState<S>& state, BasicLoadScale<S>& scale, VecsOf<S>& load) {
+  load.resize(system.bodies.size());
   for (std::size_t i = 0; i < load.size(); ++i) load[i] = Q[i].cwiseAbs() + system.bodies[i].mass.cwiseProduct(state.a[i]).cwiseAbs();
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicPlacement<S>& at = system.joints[j].at;
@@ -33,7 +31,24 @@ void grow_load_scale(const BasicSystem<S>& system, const std::vector<typename S:
   for (std::size_t i = 0; i < load.size(); ++i) raise_scale(system.bodies[i], load[i], scale.body[i]);
 }
 
-template void grow_load_scale(const BasicSystem<Planar>& system, const std::vector<Planar::Motion>& m, const VecsOf<Planar>& Q, const BasicState<Planar>& state, BasicLoadScale<Planar>& scale);
-PINTLE_IN_SPACE(template void grow_load_scale(const BasicSystem<Spatial>& system, const std::vector<Spatial::Motion>& m, const VecsOf<Spatial>& Q, const BasicState<Spatial>& state, BasicLoadScale<Spatial>& scale);)
+template <class S>
+std::vector<double> loads_above_rounding(const BasicSystem<S>& system, const std::vector<int>& joints, const BasicState<S>& state, double tolerance) {
+  const double size = largest_coordinate(state.q);
+  std::vector<double> loads(system.bodies.size(), 0.0);
+  for (const int j : joints) {
+    const BasicJointData<S>& joint = system.joints[j];
+    BasicLawTangents<S> law;
+    joint.law.linearize(law_point(system, j, state), law);
+    const double least = load_above_rounding(law.stiffness.diagonal().template head<S::kDim>().maxCoeff(), size, tolerance);
+    for (const int body : {joint.at.a, joint.at.b})
+      if (body != kGround) loads[body] = std::max(loads[body], least);
+  }
+  return loads;
+}
+
+template std::vector<double> loads_above_rounding(const BasicSystem<Planar>& system, const std::vector<int>& joints, const BasicState<Planar>& state, double tolerance);
+PINTLE_IN_SPACE(template std::vector<double> loads_above_rounding(const BasicSystem<Spatial>& system, const std::vector<int>& joints, const BasicState<Spatial>& state, double tolerance);)
+template void grow_load_scale(const BasicSystem<Planar>& system, const std::vector<Planar::Motion>& m, const VecsOf<Planar>& Q, const BasicState<Planar>& state, BasicLoadScale<Planar>& scale, VecsOf<Planar>& load);
+PINTLE_IN_SPACE(template void grow_load_scale(const BasicSystem<Spatial>& system, const std::vector<Spatial::Motion>& m, const VecsOf<Spatial>& Q, const BasicState<Spatial>& state, BasicLoadScale<Spatial>& scale, VecsOf<Spatial>& load);)
 
 }  // namespace pintle

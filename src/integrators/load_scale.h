@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "system/state.h"
 
@@ -21,7 +22,10 @@ inline constexpr double kLeastLoad = 1e-9;
 inline constexpr double kCoupleAtArm = 1e-3;
 
 /// Below this load [N] the rounding of coordinates of a size [m], as force of a joint of a stiffness [N/m], would be an error above the tolerance.
-inline double load_above_rounding(double stiffness, double size, double tolerance) { return 30 * std::numeric_limits<double>::epsilon() * size * stiffness / tolerance; }
+inline double load_above_rounding(double stiffness, double size, double tolerance) {
+  constexpr double kRoundings = 30;  // of a coordinate, in a gap
+  return kRoundings * std::numeric_limits<double>::epsilon() * size * stiffness / tolerance;
+}
 
 /// The larger of the scales of both bodies of a joint, component by component.
 template <class S>
@@ -41,7 +45,17 @@ typename S::Vec load_on(const BasicJointData<S>& joint, const BasicLoadScale<S>&
   return load;
 }
 
-/// The largest of forces over the loads: of accelerations of all bodies, one after the other. Infinite where one is no finite number.
+/// The largest of forces over the loads: of accelerations of all bodies. Infinite where one is no finite number.
+template <class S>
+double over_loads(const BasicSystem<S>& system, const VecsOf<S>& accelerations, const BasicLoadScale<S>& scale) {
+  double size = 0;
+  for (int i = 0; i < system.n_bodies(); ++i) {
+    if (!accelerations[i].allFinite()) return std::numeric_limits<double>::infinity();
+    size = std::max(size, accelerations[i].cwiseProduct(system.bodies[i].mass).cwiseQuotient(scale.body[i]).cwiseAbs().maxCoeff());
+  }
+  return size;
+}
+/// The same of accelerations that stand one after the other.
 template <class S>
 double over_loads(const BasicSystem<S>& system, const Eigen::VectorXd& accelerations, const BasicLoadScale<S>& scale) {
   if (!accelerations.allFinite()) return std::numeric_limits<double>::infinity();
@@ -61,8 +75,23 @@ void raise_scale(const BasicBodyData<S>& body, const typename S::Vec& load, type
   scale.template tail<S::kDof - S::kDim>().setConstant(std::max(moment, kCoupleAtArm * scale[0] * radius));
 }
 
-/// Raises `scale` to what acts on each body of `state`: m are the motions there, Q the external forces.
+/// Raises `scale` to what acts on each body of `state`: m are the motions there, Q the external forces. `load` is room that is reused.
 template <class S>
-void grow_load_scale(const BasicSystem<S>& system, const std::vector<typename S::Motion>& m, const VecsOf<S>& Q, const BasicState<S>& state, BasicLoadScale<S>& scale);
+void grow_load_scale(const BasicSystem<S>& system, const std::vector<typename S::Motion>& m, const VecsOf<S>& Q, const BasicState<S>& state, BasicLoadScale<S>& scale, VecsOf<S>& load);
+template <class S>
+void grow_load_scale(const BasicSystem<S>& system, const std::vector<typename S::Motion>& m, const VecsOf<S>& Q, const BasicState<S>& state, BasicLoadScale<S>& scale) {
+  VecsOf<S> load;
+  grow_load_scale(system, m, Q, state, scale, load);
+}
+
+/// Of each body: the load below which the rounding of positions, as force of these joints where `state` is, would be an error above the tolerance [N].
+template <class S>
+std::vector<double> loads_above_rounding(const BasicSystem<S>& system, const std::vector<int>& joints, const BasicState<S>& state, double tolerance);
+
+/// Raises the forces of the scale to such loads.
+template <class S>
+void raise_above(const std::vector<double>& loads, BasicLoadScale<S>& scale) {
+  for (std::size_t i = 0; i < loads.size(); ++i) scale.body[i].template head<S::kDim>() = scale.body[i].template head<S::kDim>().cwiseMax(loads[i]);
+}
 
 }  // namespace pintle

@@ -1,12 +1,16 @@
 // Thresholds that several methods, and what judges them, have in common.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 namespace pintle {
 
 /// What rounding may make of a number that is computed from others, over the largest of these.
 inline constexpr double kLastBits = 16 * std::numeric_limits<double>::epsilon();
+
+/// Where a step of h from `begin` ends: at t_end where only rounding is between them.
+inline double end_of_step(double begin, double h, double t_end) { return t_end - begin - h < kLastBits * std::abs(t_end) ? t_end : begin + h; }
 
 /// A joint is measured at least by this part of the mechanism's largest force. theory/time Eq. (6.1).
 inline constexpr double kNegligible = 1e-4;

@@ -30,9 +30,10 @@ LawOutput<double, S::kDof> answer(const BasicLaw<S>& law, const BasicLawPoint<S>
 
 template <class S>
 void BasicLaw<S>::add(std::unique_ptr<BasicLawPart<S>> part) {
-  n_states_ += part->n_states();
-  if (n_states_ > kMostLawStates) throw std::invalid_argument(fmt::format("the laws of a joint may have {} states together", kMostLawStates));
+  const int states = n_states_ + part->n_states();
+  if (states > kMostLawStates) throw std::invalid_argument(fmt::format("the laws of a joint may have {} states together", kMostLawStates));
   parts_.push_back(std::move(part));
+  n_states_ = states;
 }
 
 template <class S>
@@ -212,11 +213,15 @@ template <class S>
 typename S::Vec BasicLaw<S>::force_on_reaction(const Vec& reaction) const {
   LawInput<double, S::kDof> in{};
   std::copy_n(reaction.data(), S::kDof, in.before);
-  LawOutput<double, S::kDof> out;
-  out.clear();
-  for (const auto& part : parts_)
-    if (part->depends_on_reaction_alone()) part->evaluate(in, out);
-  return Eigen::Map<const typename S::Vec>(out.force);
+  Vec force = Vec::Zero();
+  for (const auto& part : parts_) {
+    if (!part->depends_on_reaction_alone()) continue;
+    LawOutput<double, S::kDof> out;
+    out.clear();
+    part->evaluate(in, out);
+    force += Eigen::Map<const Vec>(out.force);
+  }
+  return force;
 }
 
 template <class S>

@@ -102,7 +102,7 @@ class BasicLaw {
   std::optional<Stiction> stiction(const double* state) const;
   /// Sets the states of the part that can, among those of `at`, so that it sticks and carries `force`; false where it would slip.
   bool set_stuck(const Point& at, double force, double* state) const;
-  /// Where that part slips, it starts to slip: LawPart::start_slipping.
+  /// The part that could stick starts in slip: LawPart::start_slipping.
   void start_slipping(double force);
   /// What keeps the joint together, with its states at rest: force, static stiffness, damping.
   BasicResponse<S> holding(const Vec& gap, const Vec& rate) const;

@@ -53,7 +53,7 @@ class BasicLawPart {
 #undef PINTLE_EVALUATE
 
   virtual int n_states() const = 0;
-  /// The states that a joint has which has long been where it is: state_rate = 0.
+  /// The steady states at this gap and rate: state_rate = 0.
   virtual void rest(const Input<double>& in, double* state) const = 0;
   /// Signed functions that change their sign where the law changes its formula; integrators end a step there.
   virtual int n_borders() const = 0;

@@ -416,6 +416,14 @@ TEST(Stops, ByHand) {
 }
 
 // A piston of 100 mm on a rod of 60 mm: areas of 25 pi and 16 pi cm^2.
+// Straight and tilted: the deeper of the two ends counts.
+TEST(GuideContact, OverlapsByHand) {
+  const GuideContactLaw law = GuideContactLaw::typical();
+  EXPECT_DOUBLE_EQ(law.penetration({0, 0, 0}), -law.clearance);
+  EXPECT_NEAR(law.penetration({0, -law.clearance - 1e-3, 0}), 1e-3, 1e-15);
+  EXPECT_NEAR(law.penetration({0, 1e-4, 0.1}), 1e-4 + 0.5 * law.length * std::sin(0.1) - law.clearance, 1e-15);
+}
+
 TEST(PressureLaw, ByHand) {
   const PressureLaw law{std::make_shared<const Chambers>(0.1, 0.06, 1e5, ChamberPressure(Expression::constant(2.1e6)), ChamberPressure(Expression::constant(0.6e6)))};
   const double pi = std::numbers::pi, push = 25e-4 * pi * 2e6 - 16e-4 * pi * 0.5e6;

@@ -48,7 +48,6 @@ class BlockLu {
   bool has(BlockPattern::Slot s) const { return s.upper || !symmetric_; }
   /// An off-diagonal block by its slot; transposed order of rows gives the other triangle.
   Block<T, N>& off_diagonal(BlockPattern::Slot s) { return s.upper ? upper_[s.index] : lower_[s.index]; }
-  Block<T, N>& diagonal_at(int position) { return diagonal_[position]; }
   Block<T, N>& upper_at(int index) { return upper_[index]; }
   Block<T, N>& lower_at(int index) { return lower_[index]; }
 

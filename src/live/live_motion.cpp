@@ -96,11 +96,16 @@ class LiveMotion::Motion {
   const System& system() const { return pulled_ ? *pulled_ : own(); }
 
   // No step: the state stays, and another one is tried from it when asked again. A kink of a force just at the end of the frame
-  // can be in the way: then the frame ends a little later. A blade that is bent until it snaps has nothing that leads on at its speed: it goes on from rest.
+  // can be in the way: then the frame ends a little later. A blade that is bent until it snaps has nothing that leads on at its speed: it goes on from rest,
+  // and the kinetic energy that it had counts as lost.
   bool step(double end) {
-    if (try_step(end) || try_anew(end)) return true;
+    if (try_step(end)) return true;
+    const State before = state_;
+    if (try_anew(end)) return true;
+    state_.dissipated += system().kinetic(state_.v);
     come_to_rest();
     if (try_anew(end)) return true;
+    state_ = before;
     changed_ = true;
     last_step_ = kFirstStep;
     return false;

@@ -44,7 +44,6 @@ class SceneMaker {
   enum Layer { kBack, kWheels, kPlates, kBars, kHoles, kBlocks, kPins, kMarks, kLayers };
 
   // scene.cpp
-  void find_tracks();
   void measure();
   void add_points();
   void add_labels();

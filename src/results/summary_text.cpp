@@ -85,16 +85,19 @@ std::string joint_section(const Trajectory& trajectory, const Style& style) {
   table.add_column("", Align::kLeft);
   const LoadSummary* worst = nullptr;
   std::size_t n_marked = 0;
+  bool later = false;
   const bool estimated = has_force_estimates(trajectory);
   const auto joints = pointers(trajectory.joints);
   for (const LoadSummary* one : shown(joints, [](const LoadSummary& load) { return load.peak; })) {
     const LoadSummary& load = *one;
-    const bool marked = misses_tolerance(load, trajectory);
+    const bool marked = misses_tolerance(load, trajectory), beyond = trajectory.outcome == Outcome::kHorizon && load.peak_time > load.horizon;
+    later = later || beyond;
     table.add_row({load.name, load.type, load.second_body, load.first_body, engineering(load.peak),
                    engineering(load.peak_time), engineering(load.rms), estimated ? exponent(load.error_estimate) : "-",
-                   estimated ? exponent(load.relative_error_estimate) : "-", (marked ? style.warn + "<" + style.plain : "") + (load.unique ? "" : " not unique")});
+                   estimated ? exponent(load.relative_error_estimate) : "-", (marked ? style.warn + "<" + style.plain : "") + (beyond ? style.warn + "~" + style.plain : "") + (load.unique ? "" : " not unique")});
   }
   std::string text = section("Joint forces (magnitude)", table, style) + rest_line(joints.size());
+  if (later) text += fmt::format("  {}~{} the peak comes after the time up to which the force is promised; the error is that of the rows before\n", style.warn, style.plain);
   for (const LoadSummary* load : joints) {
     if (!misses_tolerance(*load, trajectory)) continue;
     ++n_marked;

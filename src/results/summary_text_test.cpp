@@ -58,6 +58,16 @@ TEST(SummaryText, MarksJointsBeyondTheTolerance) {
 }
 
 // A run that was stopped before its second integration knows no errors: they are not zero.
+// Of a chaotic motion: what is not promised is marked.
+TEST(SummaryText, MarksPeaksBehindTheHorizon) {
+  Trajectory run = sample::trajectory();
+  run.outcome = Outcome::kHorizon;
+  for (LoadSummary& joint : run.joints) joint.horizon = joint.peak_time;
+  EXPECT_EQ(summary_text(run, sample::stamp()).find('~'), std::string::npos);
+  run.joints.front().horizon *= 0.5;
+  EXPECT_NE(summary_text(run, sample::stamp()).find("~ the peak comes after"), std::string::npos);
+}
+
 TEST(SummaryText, ErrorsThatWereNotEstimatedAreNoZeros) {
   Trajectory trajectory = sample::trajectory();
   trajectory.outcome = Outcome::kInterrupted;

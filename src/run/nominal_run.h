@@ -23,11 +23,11 @@ struct BasicRunShape {
   Recorded recorded = Recorded::kColumns;
   bool checked = true;  ///< integrated until the error estimates meet the tolerance; otherwise once, and nothing is estimated
   const BasicNominalRun<S>* nominal = nullptr;  ///< for a run that is not checked
-  BasicNominalRun<S>* measured = nullptr;      ///< filled by one that is, but for the span
+  BasicNominalRun<S>* measured = nullptr;      ///< filled by a checked run, all but the span
 };
 using RunShape = BasicRunShape<Planar>;
 
-/// `simulate`, bit for bit, as far as it goes.
+/// The same numbers as `simulate`, as far as they are recorded.
 Trajectory simulate_reduced(const Model& model, const RunShape& shape, const Observer& observer = {});
 
 }  // namespace pintle

@@ -279,8 +279,8 @@ class Passes {
     return std::clamp(nominal->tolerance * settings_.tolerance / nominal->wanted, kLeastTolerance, second);
   }
 
-  // Over a joint's peak force. Errors that all passes have alike, such as what joints ring behind friction that turns round, are within the tolerance
-  // of the steps, and the passes' difference does not show them.
+  // Over a joint's peak force. All passes share some errors, such as those of the vibration behind friction that turns round: the difference of passes does not
+  // show them, but they are within the tolerance of the steps.
   double least_error() const { return out_.of_motion ? 0 : kSurest * fine_tolerance_; }
 
   void finish() {
@@ -294,8 +294,9 @@ class Passes {
     judge(worst_joint);
     const bool chaotic = out_.outcome == Outcome::kHorizon;
     for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
-    if (!difference_.force.empty() && !chaotic) state_errors<S>(system_, difference_, share_, {least_error(), fine_ringing_, fine_tolerance_}, out_.joints);
-    if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, chaos_, fine_tolerance_, out_);
+    const BasicLeastError<S> least{least_error(), fine_ringing_, fine_tolerance_};
+    if (!difference_.force.empty() && !chaotic) state_errors(system_, difference_, share_, least, out_.joints);
+    if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, least, chaos_, out_);
   }
 
   // Passes are made until errors are small beside the forces in the rows: an impact between rows shows its error there little. What is stated in the

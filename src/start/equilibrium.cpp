@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "kinematics/position_search.h"
 #include "laws/linear.h"
 #include "pintle/simulate.h"
+#include "start/slow_manifold.h"
 #include "start/start_forces.h"
 #include "system/build.h"
 
@@ -23,9 +25,11 @@ namespace {
 using S = Planar;
 
 constexpr double kTolerance = 1e-5;               // of the creep's steps: where it ends does not depend on the way
-constexpr double kAtRest = 1e-11;                 // of the largest force: the drag that is left where a body counts as resting, where rounding leaves less
+constexpr double kAtRest = 1e-11;                 // of the largest force: what is left unbalanced where a body counts as resting, where rounding leaves less
+constexpr int kSwings = 100;                      // steps in which what is unbalanced does not fall by half: the mechanism swings, or has come as near as rounding lets it
+constexpr double kThicker = 4;                    // rate of the next fluid over that of one in which the mechanism swings
 constexpr double kFirstStep = 1e-3;               // over the time of the creep
-constexpr double kLongest = 1e6;                  // times that of the creep: what moves then still, comes to no rest
+constexpr double kLongest = 1e6;                  // times that of the creep: a mechanism that still moves then has no position of rest
 constexpr std::uint64_t kMostCreepSteps = 50000;  // of the creep
 constexpr double kUnbalanced = 1e-6;              // of the largest force: what a start in equilibrium leaves unbalanced
 constexpr double kNudge = 1e-6, kLeaves = 1e-3;   // of the mechanism's size: how far it is moved from where it rests, and from where on it has left: the equilibrium was not stable
@@ -86,20 +90,22 @@ System in_fluid(const Model& model, const System& system, const State& state, do
   return out;
 }
 
+// A couple counts over the largest radius of gyration.
 double largest_load(const System& system, const State& state) {
-  double largest = largest_force(state.force);
+  double largest = std::max(largest_force(state.force), largest_couple<S>(state.force) / system.largest_radius_of_gyration());
   for (const BodyData& body : system.bodies) largest = std::max(largest, body.gravity.head<2>().norm());
   return largest;
 }
 
-// What the fluid still takes, as a force: a couple counts over the body's radius of gyration.
-double largest_drag(const System& system, const State& state, double rate, int& body) {
+// What drives the bodies against the fluid and against their inertia, as a force: a couple counts over the body's radius of gyration. Where a body swings,
+// one of the two vanishes at every turn.
+double largest_unrest(const System& system, const State& state, double rate, int& body) {
   double largest = 0;
   for (int i = 0; i < system.n_bodies(); ++i) {
-    const S::Vec p = rate * system.bodies[i].mass.cwiseProduct(state.v[i]);
-    const double drag = std::hypot(p[0], p[1], p[2] / system.bodies[i].radius_of_gyration());
-    if (drag <= largest) continue;
-    largest = drag;
+    const S::Vec p = system.bodies[i].mass.cwiseProduct(rate * state.v[i].cwiseAbs() + state.a[i].cwiseAbs());
+    const double unrest = std::hypot(p[0], p[1], p[2] / system.bodies[i].radius_of_gyration());
+    if (unrest <= largest) continue;
+    largest = unrest;
     body = i;
   }
   return largest;
@@ -118,24 +124,57 @@ double rate_of_motion(const System& system, const State& state) {
 // Of the joints' forces.
 double rounding_of(const System& system, const State& state) { return kLastBits * largest_stiffness(system) * characteristic_length(system, state.q); }
 
-// Where the creep through the fluid ends.
-State creep_to_rest(const System& system, const State& from, double rate) {
-  BasicRadauStepper<S> stepper(system, kTolerance);
-  const double rounding = rounding_of(system, from);
-  stepper.start(from, kFirstStep / rate);
-  int body = 0;
-  const auto name = [&] { return system.joints[system.n_joints() - system.n_bodies() + body].name; };
-  for (;;) {
-    if (!stepper.step(kLongest / rate)) throw AssemblyError("start = \"settled\": no rest was found: " + stepper.failure() + "\n  Try positions nearer to the equilibrium, or start = \"seated\" or \"assembled\".");
-    const State& now = stepper.state();
-    const double drag = largest_drag(system, now, rate, body);
-    if (drag <= std::max(kAtRest * largest_load(system, now), rounding)) return now;
-    if (now.t * rate > 0.99 * kLongest)
-      throw AssemblyError(fmt::format("start = \"settled\": body {} comes to no rest: nothing stops it, or a load drives it on and on.\n  Try hold in its table, something that it can rest on, or start = \"assembled\".", name()));
-    if (stepper.counters().steps > kMostCreepSteps)
-      throw AssemblyError(fmt::format("start = \"settled\": body {} still moves after {} steps.\n  Try positions nearer to the equilibrium, or start = \"assembled\".", name(), kMostCreepSteps));
+// The way of a mechanism through a fluid to where it rests. The first fluid lets loads move it by its size in about one time constant; springs that are
+// stiff against these loads make it swing there, with steps that cannot grow. Then the fluid becomes thicker: creeping takes long, but few steps.
+class Creep {
+ public:
+  Creep(const Model& model, const System& system, const State& assembled)
+      : model_(model), system_(system), assembled_(assembled), first_rate_(2 * rate_of_motion(system, assembled)), rate_(first_rate_), fluid_(in_fluid(model, system, assembled, rate_)) {}
+
+  const System& fluid() const { return fluid_; }
+
+  /// Where it ends.
+  State go(State from) {
+    for (std::uint64_t steps = 0; !creep(from, steps);) {
+      if (steps > kMostCreepSteps)
+        throw AssemblyError(fmt::format("start = \"settled\": body {} still moves after {} steps.\n  Try positions nearer to the equilibrium, or start = \"assembled\".", name(), kMostCreepSteps));
+      rate_ *= kThicker;
+      fluid_ = in_fluid(model_, system_, assembled_, rate_);
+      start_forces(fluid_, false, from);
+    }
+    return from;
   }
-}
+
+ private:
+  // As far as steps make what is unbalanced smaller. False where the mechanism swings.
+  bool creep(State& state, std::uint64_t& steps) {
+    BasicRadauStepper<S> stepper(fluid_, kTolerance);
+    stepper.start(state, kFirstStep / rate_);
+    const double begin = state.t, longest = kLongest * rate_ / (first_rate_ * first_rate_), rounding = rounding_of(system_, assembled_);
+    double least = std::numeric_limits<double>::infinity();
+    for (int since = 0; since < kSwings; ++since, ++steps) {
+      if (!stepper.step(begin + longest)) throw AssemblyError("start = \"settled\": no rest was found: " + stepper.failure() + "\n  Try positions nearer to the equilibrium, or start = \"seated\" or \"assembled\".");
+      state = stepper.state();
+      const double unrest = largest_unrest(fluid_, state, rate_, body_);
+      if (unrest <= kAtRest * largest_load(fluid_, state)) return true;
+      if (state.t - begin > 0.99 * longest)
+        throw AssemblyError(fmt::format("start = \"settled\": body {} comes to no rest: nothing stops it, or a load drives it on and on.\n  Try hold in its table, something that it can rest on, or start = \"assembled\".", name()));
+      if (unrest > 0.5 * least) continue;
+      least = unrest;
+      since = 0;
+    }
+    return least <= rounding;
+  }
+  const std::string& name() const { return model_.bodies[static_cast<std::size_t>(body_)].name; }
+
+  const Model& model_;
+  const System& system_;
+  const State& assembled_;
+  const double first_rate_;
+  double rate_;
+  System fluid_;
+  int body_ = 0;
+};
 
 struct Move {
   double way = 0, turn = 0;  // of the bodies, at most [m], [rad]
@@ -152,16 +191,16 @@ Move largest_move(const Vecs& from, const Vecs& to) {
 
 std::string in_words(const Move& move) { return fmt::format("{:.3g} m and {:.3g} deg", move.way, move.turn * 360 / kTurn); }
 
-// An equilibrium that the mechanism leaves when it is touched is none in which it is found: then where it comes to rest instead.
-State stable_rest(const System& fluid, const State& at_rest, double rate, std::vector<std::string>& notes) {
-  const double size = characteristic_length(fluid, at_rest.q);
+// The given equilibrium if it is stable; otherwise the position of rest that the mechanism reaches from it when it is disturbed.
+State stable_rest(Creep& creep, const State& at_rest, std::vector<std::string>& notes) {
+  const double size = characteristic_length(creep.fluid(), at_rest.q);
   State nudged = at_rest;
   for (std::size_t i = 0; i < nudged.q.size(); ++i) {
     const double sign = i % 2 == 0 ? 1 : -1;
     nudged.q[i] += kNudge * S::Vec(sign * size, -0.7 * sign * size, 0.8);
   }
-  start_forces(fluid, false, nudged);
-  State again = creep_to_rest(fluid, nudged, rate);
+  start_forces(creep.fluid(), false, nudged);
+  State again = creep.go(nudged);
   const Move move = largest_move(at_rest.q, again.q);
   if (move.way < kLeaves * size && move.turn < kLeaves) return at_rest;
   notes.push_back("settled: the first equilibrium is not stable: touched, the mechanism leaves it and comes to rest " + in_words(move) + " away, where it starts");
@@ -174,12 +213,11 @@ Assembly start_in_equilibrium(const Model& model) {
   const Model still = standing_still(model);
   Assembly start = assemble_unloaded(still, build_system(still));
   start_forces(start.system, false, start.state);
-  const double rate = 2 * rate_of_motion(start.system, start.state);
-  const System fluid = in_fluid(still, start.system, start.state, rate);
+  Creep creep(still, start.system, start.state);
   State from = start.state;
-  start_forces(fluid, false, from);
+  start_forces(creep.fluid(), false, from);
   std::vector<std::string> notes;
-  const State at_rest = stable_rest(fluid, creep_to_rest(fluid, from, rate), rate, notes);
+  const State at_rest = stable_rest(creep, creep.go(from), notes);
   const Vecs assembled = start.state.q;
   Assembly out = assemble_unloaded(model, build_system(model));
   State& state = out.state;

@@ -62,13 +62,6 @@ bool is_near(const BasicSystem<S>& system, const BasicState<S>& attempt, const B
   return is_finite(attempt) && largest_force(attempt.force) <= most_growth * force && largest_couple<S>(attempt.force) <= most_growth * couple;
 }
 
-template <class S>
-double twice_kinetic_energy(const BasicSystem<S>& system, const VecsOf<S>& v) {
-  double twice = 0;
-  for (std::size_t i = 0; i < v.size(); ++i) twice += v[i].dot(system.bodies[i].mass.cwiseProduct(v[i]));
-  return twice;
-}
-
 // Twice the energy of springs with these gaps and forces.
 template <class S>
 double twice_stored(const BasicState<S>& state) {
@@ -82,7 +75,7 @@ template <class S>
 bool is_moderate(const BasicSystem<S>& system, const BasicState<S>& attempt, const BasicState<S>& given, double share) {
   VecsOf<S> change = attempt.v;
   for (std::size_t i = 0; i < change.size(); ++i) change[i] -= given.v[i];
-  return twice_kinetic_energy(system, change) <= share * twice_stored(attempt) + kFits * twice_kinetic_energy(system, given.v);
+  return 2 * system.kinetic(change) <= share * twice_stored(attempt) + kFits * 2 * system.kinetic(given.v);
 }
 
 // The slowest rate of the gaps that count as fast [1/s].
@@ -158,7 +151,7 @@ void settle_soft_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& 
 template <class S>
 bool is_at_rest(const BasicSystem<S>& system, const BasicState<S>& state) {
   const double force = largest_force(state.force);
-  if (twice_kinetic_energy(system, state.v) > kFits * twice_stored(state)) return false;
+  if (2 * system.kinetic(state.v) > kFits * twice_stored(state)) return false;
   for (std::size_t i = 0; i < state.a.size(); ++i) {
     const typename S::Vec unbalanced = system.bodies[i].mass.cwiseProduct(state.a[i]);
     const double couple = unbalanced.template tail<S::kDof - S::kDim>().norm() / system.bodies[i].radius_of_gyration();

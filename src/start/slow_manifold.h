@@ -28,7 +28,7 @@ double sweep_onto(Motion& motion, State& state) {
   std::optional<State> best;
   for (int sweep = 0; sweep < kSweeps && last > kConverged; ++sweep) {
     const double change = motion.sweep();
-    if (change == 0) return 0;
+    if (change == 0 && sweep == 0) return 0;
     if (sweep > 0) {
       State next = state;
       if (!(change < 0.5 * last) || !motion.write_start(next)) break;

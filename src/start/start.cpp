@@ -82,7 +82,7 @@ std::optional<Assembly> start_at_rest(Model model) {
   try {
     Assembly assembly = start_of_free_bodies(model, build_system(model), 0);
     if (is_at_rest(assembly.system, assembly.state)) return assembly;
-  } catch (const AssemblyError&) {  // what has not settled is told
+  } catch (const AssemblyError&) {  // the caller reports why the run's own start failed
   }
   return std::nullopt;
 }

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <complex>
 
 #include "integrators/start_states_for_tests.h"
 #include "pintle/simulate.h"
+#include "start/slow_manifold.h"
 
 namespace pintle {
 namespace {
@@ -38,6 +40,22 @@ Model pushed_mass(double k, double c, double w) {
 State started(Model model) {
   if (model.simulate.duration == 0) model.simulate.duration = 1;
   return start_of_run(model).state;
+}
+
+// A sweep that finds the very gaps of the one before has converged, and the state that belongs to them counts.
+TEST(Start, SweepsThatRepeatTheirGapsHaveConverged) {
+  struct Sweeps {
+    std::array<double, 3> change;
+    int done = 0;
+    double sweep() { return change[static_cast<std::size_t>(done++)]; }
+    bool write_start(int& state) const { return state = done, true; }
+  };
+  Sweeps at_once{{0, 0, 0}}, in_three{{1, 0.1, 0}};
+  int state = 0;
+  EXPECT_EQ(sweep_onto(at_once, state), 0);
+  EXPECT_EQ(state, 0);
+  EXPECT_EQ(sweep_onto(in_three, state), 0);
+  EXPECT_EQ(state, 3);
 }
 
 // The motion without free vibration: x = F0/k + Im F1 / (k - m w^2 + i c w) at t = 0.

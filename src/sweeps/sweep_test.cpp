@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <stdexcept>
+#include <thread>
 
 #include "pintle/complaint.h"
 #include "pintle/read_model.h"
@@ -14,6 +17,7 @@
 #include "sweeps/storage/sweep_file.h"
 #include "sweeps/sweep_models_for_tests.h"
 #include "sweeps/sweep_report.h"
+#include "sweeps/worker_pool.h"
 
 namespace pintle {
 namespace {
@@ -53,6 +57,19 @@ TEST_F(SlowSweep, HoldsWhatSingleRunsGive) {
     EXPECT_EQ(table.error[i], run.joints[0].error_estimate);
     EXPECT_EQ(table.steps[i], run.counters.steps);
   }
+}
+
+// What a thread has finished before it throws is taken first.
+TEST_F(SlowSweep, AFaultInAThreadLosesNoFinishedChunk) {
+  const SweepJob job(draws(100));
+  int given = 0;
+  WorkerPool pool(job, 1, [&given]() -> std::optional<std::uint64_t> {
+    if (given++ > 0) throw std::runtime_error("no more");
+    return 0;
+  });
+  while (!pool.idle() && given < 2) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(pool.take(10).size(), 1u);
+  EXPECT_THROW(pool.take(10), std::runtime_error);
 }
 
 TEST_F(SlowSweep, IsTheSameOnAnyNumberOfThreads) {

@@ -9,10 +9,17 @@ namespace pintle {
 int usable_threads(int wanted) { return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 WorkerPool::WorkerPool(const SweepJob& job, int threads, std::function<std::optional<std::uint64_t>()> next) : next_(std::move(next)), working_(threads) {
-  for (int i = 0; i < threads; ++i) threads_.emplace_back([this, computer = job.computer()]() mutable { work(std::move(computer)); });
+  try {
+    for (int i = 0; i < threads; ++i) threads_.emplace_back([this, computer = job.computer()]() mutable { work(std::move(computer)); });
+  } catch (...) {  // the destructor does not run
+    end();
+    throw;
+  }
 }
 
-WorkerPool::~WorkerPool() {
+WorkerPool::~WorkerPool() { end(); }
+
+void WorkerPool::end() {
   stop();
   for (std::thread& thread : threads_) thread.join();
 }
@@ -42,7 +49,7 @@ std::vector<FinishedChunk> WorkerPool::take(double seconds) {
   std::unique_lock lock(mutex_);
   const auto wake = [this] { return !finished_.empty() || working_ == 0 || error_; };
   something_.wait_for(lock, std::chrono::duration<double>(seconds), wake);
-  if (error_) std::rethrow_exception(error_);
+  if (finished_.empty() && error_) std::rethrow_exception(error_);
   return std::exchange(finished_, {});
 }
 

@@ -25,13 +25,13 @@ int usable_threads(int wanted);
 
 class WorkerPool {
  public:
-  /// Every thread calls `next` until it gives nothing.
+  /// Every thread calls `next` until it gives nothing. Throws what starting a thread or preparing its computer throws.
   WorkerPool(const SweepJob& job, int threads, std::function<std::optional<std::uint64_t>()> next);
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
   ~WorkerPool();
 
-  /// What is finished since the last call; waits for it at most so long. Rethrows what a thread threw.
+  /// What is finished since the last call; waits for it at most so long [s]. Rethrows what a thread threw, after everything that is finished has been taken.
   std::vector<FinishedChunk> take(double seconds);
   /// No thread computes any more, and everything has been taken.
   bool idle();
@@ -40,6 +40,7 @@ class WorkerPool {
 
  private:
   void work(ChunkComputer computer);
+  void end();
 
   std::function<std::optional<std::uint64_t>()> next_;
   std::atomic<bool> stopped_{false};

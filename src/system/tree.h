@@ -40,7 +40,6 @@ class JointTree {
 
   int n() const { return n_; }  ///< coordinates
   /// The joint that ties a body to its parent, -1: none, its coordinates are its own.
-  int joint_of(int body) const { return link_[body].joint; }
   /// The joints that stay force laws, servos among them, by index.
   const std::vector<int>& laws() const { return laws_; }
   bool in_tree(int joint) const { return in_tree_[joint]; }

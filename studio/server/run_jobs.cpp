@@ -9,6 +9,7 @@ namespace pintle::studio {
 namespace {
 
 constexpr int kMostUnderWay = 2;
+constexpr int kMostRunning = 4;  // with those that have been told to stop and have not yet, as in their assembly
 constexpr std::size_t kMostKept = 4;
 constexpr double kAbandoned = 10;   // [s] without a question: another run may have the place
 constexpr double kForgotten = 180;  // [s] without a question: it ends; browsers let pages in the background ask once a minute
@@ -23,14 +24,17 @@ RunJobs::~RunJobs() {
 
 int RunJobs::start(std::string arguments) {
   const std::lock_guard lock(changing_);
-  int under_way = 0;
-  for (const auto& [id, job] : jobs_) under_way += job->done || job->stop ? 0 : 1;
+  int under_way = 0, running = 0;  // not told to stop; not ended
+  for (const auto& [id, job] : jobs_) {
+    under_way += job->done || job->stop ? 0 : 1;
+    running += job->done ? 0 : 1;
+  }
   for (const auto& [id, job] : jobs_)
     if (under_way >= kMostUnderWay && !job->done && !job->stop && job->unasked() > kAbandoned) {
       job->stop = true;
       --under_way;
     }
-  if (under_way >= kMostUnderWay) throw Refusal(429, "Other runs are still in progress.", "Wait for them, or cancel one.");
+  if (under_way >= kMostUnderWay || running >= kMostRunning) throw Refusal(429, "Other runs are still in progress.", "Wait for them, or cancel one.");
   forget_old();
   auto job = std::make_unique<Job>();
   job->thread = std::thread([job_now = job.get(), text = std::move(arguments)] {

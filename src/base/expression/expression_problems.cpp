@@ -56,11 +56,21 @@ std::optional<std::string> split_unit(std::string_view word) {
   return std::nullopt;
 }
 
-ParseProblem missing_operator(std::size_t at, std::string_view what, bool is_unit) {
-  std::string suggestion("*");
-  suggestion.append(what);
-  if (is_unit) suggestion.append(" or /").append(what);
-  return {at, in_quotes(what), "an operator is missing before it", suggestion};
+// What ends before `at` is a number or a unit of one.
+bool follows_number(std::string_view text, std::size_t at, const ParseScope& scope) {
+  while (at > 0 && text[at - 1] == ' ') --at;
+  std::size_t begin = at;
+  while (begin > 0 && (is_word_part(text[begin - 1]) || text[begin - 1] == '.')) --begin;
+  const std::string_view word = text.substr(begin, at - begin);
+  return !word.empty() && (is_digit(word.front()) || (is_unit_symbol(word) && !is_known_name(word, scope)));
+}
+
+ParseProblem missing_operator(std::size_t at, std::string_view what) { return {at, in_quotes(what), "an operator is missing before it", "*" + std::string(what)}; }
+
+ParseProblem missing_operator_of_unit(std::string_view text, std::size_t at, std::string_view unit, const ParseScope& scope) {
+  const std::string name(unit);
+  const std::string suggestion = follows_number(text, at, scope) ? "*" + name + " or /" + name : "*1 " + name;
+  return {at, in_quotes(unit), "an operator is missing before it", suggestion};
 }
 
 ParseProblem unexpected_comma(std::string_view text, std::size_t at) {
@@ -107,10 +117,10 @@ ParseProblem unexpected_after_operand(std::string_view text, std::size_t at, con
   if (c == ')') return {at, "a closing parenthesis", "no parenthesis is open here", "delete it, or open one with ("};
   if (c == ',') return unexpected_comma(text, at);
   if (c == '=') return {at, in_quotes("="), "an expression cannot be an equation", "compare with <= or >="};
-  if (c == '(' || is_digit(c)) return missing_operator(at, c == '(' ? character : number_at(text, at), false);
+  if (c == '(' || is_digit(c)) return missing_operator(at, c == '(' ? character : number_at(text, at));
   const std::string_view symbol = symbol_at(text, at);
-  if (is_known_name(symbol, scope)) return missing_operator(at, symbol, false);
-  if (is_unit_symbol(symbol)) return missing_operator(at, symbol, true);
+  if (is_known_name(symbol, scope)) return missing_operator(at, symbol);
+  if (is_unit_symbol(symbol)) return missing_operator_of_unit(text, at, symbol, scope);
   if (!symbol.empty() && is_word_start(c)) return unknown_name(symbol, at, scope);
   return {at, in_quotes(character), "this is not allowed in an expression", "+ - * / ^ ( ) < > <= >="};
 }

@@ -73,6 +73,7 @@ TEST(ExpressionProblem, NamesAndUnits) {
       {"5 kNm", 2, "\"kNm\"", "no unit", "kN*m"},
       {"2 sec", 2, "\"sec\"", "no unit", "s"},
       {"5 N m", 4, "\"m\"", "operator is missing", "*m or /m"},
+      {"2*t N", 4, "\"N\"", "operator is missing", "*1 N"},
       {"2 crank", 2, "\"crank\"", "operator is missing", "*crank"},
       {"2 t", 2, "\"t\"", "operator is missing", "*t"},
       {"crank 2", 6, "\"2\"", "operator is missing", "*2"},

@@ -41,14 +41,28 @@ double TableFunction::secant(std::size_t piece) const {
   return (y[piece + 1] - y[piece]) / (x[piece + 1] - x[piece]);
 }
 
+// Whether the curvature jumps there by so much that a step over it misses a part of the table's range: |jump| h^2/8, with the shorter piece.
+bool TableFunction::bends_at(std::size_t left, std::size_t right) const {
+  constexpr double kBend = 1e-2;  // of the range. With four points a run to 1e-5 takes 64 steps where they end there, and 1387 where they do not; with 400 on five waves of a sine 1417 and 827: 0.4 and 1.4e-3 of the range
+  const auto [least, most] = std::minmax_element(curve_.y().begin(), curve_.y().end());
+  const auto width = [this](std::size_t piece) { return curve_.x()[piece + 1] - curve_.x()[piece]; };
+  const auto slope = [this](std::size_t point) { return curve_.slope(curve_.x()[point]); };
+  const double before = (2 * slope(left) + 4 * slope(left + 1) - 6 * secant(left)) / width(left);
+  const double behind = (6 * secant(right) - 4 * slope(right) - 2 * slope(right + 1)) / width(right);
+  const double h = std::min(width(left), width(right));
+  return std::abs(behind - before) * h * h / 8 > kBend * (*most - *least);
+}
+
 void TableFunction::find_kinks() {
   const std::vector<double>& x = curve_.x();
   const std::size_t last = x.size() - 1;
   const bool linear = interpolation_ == TableInterpolation::kLinear, held = !period_ && outside_ == TableOutside::kHold;
   const double first_slope = linear ? secant(0) : curve_.slope(x.front()), last_slope = linear ? secant(last - 1) : curve_.slope(x.back());
-  if (held ? first_slope != 0 : linear && period_ && first_slope != last_slope) kinks_.push_back(x.front());
-  for (std::size_t i = 1; linear && i < last; ++i)
-    if (secant(i - 1) != secant(i)) kinks_.push_back(x[i]);
+  const bool monotone = interpolation_ == TableInterpolation::kMonotone;
+  const bool seam = period_ && (linear ? first_slope != last_slope : monotone && bends_at(last - 1, 0));
+  if (held ? first_slope != 0 : seam) kinks_.push_back(x.front());
+  for (std::size_t i = 1; i < last; ++i)
+    if (linear ? secant(i - 1) != secant(i) : monotone && bends_at(i - 1, i)) kinks_.push_back(x[i]);
   if (held && last_slope != 0) kinks_.push_back(x.back());
 }
 

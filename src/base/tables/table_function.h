@@ -27,7 +27,7 @@ class TableFunction {
   double value(double x) const;
   Values at(double x) const;
 
-  /// Whether there are places at which the slope jumps. theory/tables section 3
+  /// Whether there are places at which the slope jumps, or the curvature by much. theory/tables section 3
   bool has_kinks() const { return !kinks_.empty(); }
   /// A number that changes its sign at each of them, with a slope of 1 or -1 there.
   double switching(double x) const;
@@ -37,6 +37,7 @@ class TableFunction {
   bool is_held(double x) const;
   double secant(std::size_t piece) const;
   void find_kinks();
+  bool bends_at(std::size_t left, std::size_t right) const;  // between these pieces
 
   TableInterpolation interpolation_;
   TableOutside outside_;

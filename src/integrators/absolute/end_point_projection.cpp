@@ -19,7 +19,7 @@ constexpr int kTautPasses = 2;  // besides the first: they leave the cube of wha
 
 constexpr double kMostOfRates = 1e-9;  // of the largest velocity: what may be left of rates in the shortest steps
 
-// As carried, but as the geometry has it where that is another one.
+// The carried value; where the geometry's differs by more than rounding, the geometry's.
 PINTLE_LANES Lanes<4> carried_or(const Lanes<4>& carried, const Lanes<4>& geometry, double rounding) {
   return where_larger(sizes(geometry - carried), Lanes<4>::all(rounding), geometry, carried);
 }
@@ -99,16 +99,16 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     end.law_state = last.law_state;
     end.law_rate = last.law_rate;
     find_motions(end, m);
-    if (!(assemble_velocity_error(last, end, m) < rounding)) {  // one pass has left more
+    if (!(assemble_rates_and_measure_gaps(last, end, m) < rounding)) {  // one pass has left more
       assemble_position_error(last, end, m);
       answer(rhs_);
       for (std::size_t b = 0; b < n_bodies(); ++b) S::move(end.q[b], Eigen::Map<const typename S::Vec>(rhs_[b].a.data()));
       find_motions(end, m);
-      assemble_velocity_error(last, end, m);
+      assemble_rates_and_measure_gaps(last, end, m);
     }
     move_velocities(end, m);
     if (!(assemble_force_balance(last, end, m, rounding, rounding_of_rate) < rounding_of_rate)) {
-      assemble_velocity_error(last, end, m);
+      assemble_rates_and_measure_gaps(last, end, m);
       move_velocities(end, m);
       assemble_force_balance(last, end, m, rounding, rounding_of_rate);
     }
@@ -129,7 +129,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     load_motions(m);
   }
 
-  // In curved spaces the geometry knows turns but for whole ones: those are the carried gap's. So is how far surfaces have slipped.
+  // In curved spaces the poses give angles up to whole turns: their number is taken from the carried gap. So is the slip of surfaces.
   Kinematics read(const BasicJointPack<S>& joints, double t, const std::vector<typename S::Motion>& m, typename S::template GapMap<L>& map,
                   const BasicStage<S>& carried) const {
     Kinematics r;
@@ -219,7 +219,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     }
   }
 
-  // What the matrix has answered too little where it holds bodies: x answers it again, a few times. Eq. (4.8).
+  // Where the matrix holds bodies its solution is too small: a few passes add what is left. Eq. (4.8).
   template <class Row>
   void answer_rest(std::vector<Row>& x, std::vector<Row>& rest) {
     rest = x;
@@ -257,8 +257,8 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     }
   }
 
-  // What is left of the gaps is returned.
-  double assemble_velocity_error(const BasicStage<S>& last, const BasicState<S>& end, const std::vector<typename S::Motion>& m) {
+  // What the gaps' rates ask of the velocities. Returns what is left of the gaps.
+  double assemble_rates_and_measure_gaps(const BasicStage<S>& last, const BasicState<S>& end, const std::vector<typename S::Motion>& m) {
     clear(rhs_);
     L left = L::all(0);
     for (const BasicJointPack<S>& joints : joints_) {

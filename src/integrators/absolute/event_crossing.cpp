@@ -138,9 +138,11 @@ bool BasicRadauStepper<S>::cross_borders() {
 
 template <class S>
 void BasicRadauStepper<S>::shift_gap(int joint, double d, double rate) {
-  const int component = system_.joints[joint].driven;
-  end_.gap[joint][component] += d;
-  end_.gap_rate[joint][component] += rate;
+  const BasicJointData<S>& driven = system_.joints[joint];
+  const double before = driven.law.energy(law_point(system_, joint, end_));
+  end_.gap[joint][driven.driven] += d;
+  end_.gap_rate[joint][driven.driven] += rate;
+  if (driven.servo < 0) end_.supplied += driven.law.energy(law_point(system_, joint, end_)) - before;
 }
 
 template <class S>

@@ -185,7 +185,7 @@ bool AlphaStepper::step(double t_end) {
     const bool forced = constraints_ && forced_.must_take(e, h);
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
     if (e <= 1 || forced) {
-      const bool found = set_end_state(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
+      const bool found = set_end_state(end_of_step(begin_.t, h, t_end), h);
       if (!found) h *= 0.25;
       if (!found || crosses_border(h)) {
         ++counters_.rejected;

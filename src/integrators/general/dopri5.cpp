@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "integrators/dormand_prince.h"
 #include "integrators/thresholds.h"
@@ -33,24 +34,10 @@ void Dopri5::start(const State& state, double h) {
   h_ = h;
   complete(end_);
   borders_.start(end_);
-  find_rounding();
+  std::vector<int> all(system_.joints.size());
+  std::iota(all.begin(), all.end(), 0);
+  rounding_ = loads_above_rounding(system_, all, end_, tolerance_);
   grow_scale();
-}
-
-// The load below which the rounding of positions, as joint force, would be seen as an error.
-void Dopri5::find_rounding() {
-  const double size = largest_coordinate(end_.q);
-  rounding_.assign(system_.bodies.size(), 0.0);
-  for (std::size_t i = 0; i < rounding_.size(); ++i) rounding_[i] = kLeastLoad * system_.bodies[i].mass[0];
-  for (int j = 0; j < system_.n_joints(); ++j) {
-    const JointData& joint = system_.joints[j];
-    LawTangents law;
-    joint.law.linearize(law_point(system_, j, end_), law);
-    const double k = law.stiffness.diagonal().head<2>().maxCoeff();
-    const double least = load_above_rounding(k, size, tolerance_);
-    for (const int body : {joint.at.a, joint.at.b})
-      if (body != kGround) rounding_[body] = std::max(rounding_[body], least);
-  }
 }
 
 bool Dopri5::step(double t_end) {
@@ -86,9 +73,9 @@ bool Dopri5::step(double t_end) {
       ++counters_.evaluations;
     }
     const double e = error(h) / tolerance_;
-    const double factor = std::isfinite(e) ? std::clamp(0.9 * std::pow(std::max(e, 1e-10), -0.2), 0.2, 5.0) : 0.1;
+    const double factor = step_ratio(e);
     if (e <= 1) {
-      end_.t = t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h;
+      end_.t = end_of_step(begin_.t, h, t_end);
       end_.q = q_;
       end_.v = v_;
       end_.law_state = z_;
@@ -138,26 +125,14 @@ double Dopri5::error(double h) {
     worst = std::max({worst, df.head<2>().norm() / load[0], std::abs(df[2]) / load[2]});
     if (!std::isfinite(df.sum())) return std::numeric_limits<double>::infinity();
   }
-  for (int i = 0; i < system_.n_bodies(); ++i) {
-    const S::Vec d = system_.bodies[i].mass.cwiseProduct(dv_[i]).cwiseAbs().cwiseQuotient(scale_.body[i]) / h;
-    worst = std::max(worst, d.maxCoeff());
-  }
-  return worst;
+  return std::max(worst, over_loads(system_, dv_, scale_) / h);
 }
 
 void Dopri5::grow_scale() {
-  for (int i = 0; i < system_.n_bodies(); ++i) {
-    const S::Vec& mass = system_.bodies[i].mass;
-    const double radius = system_.bodies[i].radius_of_gyration();
-    const S::Vec load = mass.cwiseProduct(end_.a[i]).cwiseAbs() + system_.bodies[i].gravity.cwiseAbs();
-    double force = std::max({scale_.body[i][0], load[0], load[1], rounding_[i]});
-    for (int j = 0; j < system_.n_joints(); ++j)
-      if (system_.joints[j].at.a == i || system_.joints[j].at.b == i) force = std::max(force, end_.force[j].head<2>().norm());
-    double moment = std::max({scale_.body[i][2], load[2], kCoupleAtArm * force * radius});
-    for (int j = 0; j < system_.n_joints(); ++j)
-      if (system_.joints[j].at.a == i || system_.joints[j].at.b == i) moment = std::max(moment, std::abs(end_.force[j][2]));
-    scale_.body[i] << force, force, moment;
-  }
+  system_.motions(end_.q, end_.v, m_);
+  system_.external(end_.t, m_, loads_);
+  grow_load_scale(system_, m_, loads_, end_, scale_, load_);
+  raise_above(rounding_, scale_);
 }
 
 }  // namespace pintle

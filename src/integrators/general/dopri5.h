@@ -31,7 +31,6 @@ class Dopri5 {
 
  private:
   double error(double h);
-  void find_rounding();
   void grow_scale();
 
   const System& system_;
@@ -41,12 +40,12 @@ class Dopri5 {
   State begin_, end_;
   std::array<Vecs, 7> kq_, kv_;
   std::array<std::vector<double>, 7> kz_;  // rates of the laws' states
-  Vecs q_, v_, dq_, dv_;
+  Vecs q_, v_, dq_, dv_, loads_, load_;
   std::vector<double> z_;
   std::vector<Planar::Motion> m_;
   std::vector<JointKinematics> r_;
   LoadScale scale_;
-  std::vector<double> rounding_;  // per body [N]
+  std::vector<double> rounding_;  // loads_above_rounding
   Counters counters_;
   std::string failure_;
 };

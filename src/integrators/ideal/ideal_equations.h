@@ -67,7 +67,6 @@ class IdealEquations {
   double penalty(std::size_t row) const { return penalty_.factor * resisting_mass(row); }
   /// Looks at the gaps of what ideal joints keep, at the position last asked about. The largest so far: of lengths [m] and of angles [rad].
   void measure_violation();
-  const std::array<double, 2>& violation() const { return violation_; }
   /// As a remark on a method.
   std::string violation_text(const std::string& method) const;
 

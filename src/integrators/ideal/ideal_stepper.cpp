@@ -68,7 +68,7 @@ void IdealStepper::start(const State& state, double h) {
   grow_scale();
 }
 
-// But not at one, as at the start.
+// Near one, but not at it, as a run may be at its start.
 bool IdealStepper::is_near_singular_position() const {
   return independence_ < kSuspicious * most_independent_ && independence_ > 0.5 * kTooNear * most_independent_;
 }
@@ -108,14 +108,14 @@ bool IdealStepper::step(double t_end) {
       return false;
     }
     const double e = take_stages(h) ? error(h) / tolerance_ : std::numeric_limits<double>::infinity();
-    const double factor = std::isfinite(e) ? std::clamp(0.9 * std::pow(std::max(e, 1e-10), -0.2), 0.2, 5.0) : 0.1;
+    const double factor = step_ratio(e);
     const bool jumps = e > 1 && h < kNearJump * smooth_h_ && std::isfinite(e) && crosses_jump();
     jump_ahead = jump_ahead || jumps;
     // Over the jump; or up to where nothing but rounding is left of the way to it.
     const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && jump_ahead;
     const bool shortest = h < 2 * clear_h_ && std::isfinite(e);  // that steps over the singular position
     const bool good = e <= 1 || crossing || shortest;
-    const double end = left - h < 1e-14 * t_end ? stop : begin_.t + h;
+    const double end = end_of_step(begin_.t, h, stop);
     if (const auto jump = good ? first_target_jump(system_, begin_.t, end) : std::nullopt) {  // up to there, and no farther
       if (jump->t <= begin_.t + 16 * rounding) {
         failure_ = jump_text(*jump, system_.joints[static_cast<std::size_t>(jump->joint)]);

@@ -233,7 +233,7 @@ bool TreeAugmented::step(double t_end) {
     const double factor = std::isfinite(e) ? std::clamp(0.9 / std::cbrt(std::max(e, 1e-12)), 0.2, 5.0) : 0.1;
     const bool forced = forced_.must_take(e, h);
     if (solved && (e <= 1 || forced)) {
-      finish(t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h, h);
+      finish(end_of_step(begin_.t, h, t_end), h);
       if (!forced) forced_.record_step(h);
       h_ = forced ? forced_.record_forced_step(begin_.t, h) : h * std::min(factor, most);
       return failure_.empty();

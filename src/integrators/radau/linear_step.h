@@ -18,7 +18,7 @@ struct Gap {
 };
 
 /// The largest eigenvalue of the step by its size. `across` is the geometric stiffness [1/s^2], of either sign; `held`: Eqs. (4.7), (4.8).
-/// What the equations at the stages leave is all that they are: Eqs. (3.5), (4.2).
+/// The stage equations are solved exactly: Eqs. (3.5), (4.2).
 inline double spectral_radius(const RadauTable& table, double across, const std::vector<Gap>& gaps, bool held) {
   using Eigen::MatrixXd;
   using Eigen::VectorXd;

@@ -96,6 +96,13 @@ RadauTable::Vec RadauTable::weights_of_last(int count, double x) const {
 
 RadauTable::Vec RadauTable::weights(double x) const { return weights_of_last(n + 1, x); }
 
+double RadauTable::integral_of_product(const Vec& first, const Vec& second) const {
+  const Vec of_first = to_legendre * first, of_second = to_legendre * second;
+  double sum = 0;
+  for (int k = 0; k <= n; ++k) sum += of_first[k] * of_second[k] / (2 * k + 1);
+  return sum;
+}
+
 RadauTable::StageIntegrals RadauTable::stage_integrals(double x) const {
   StageIntegrals weights{Vec::Zero(n), Vec::Zero(n)};
   for (int i = 0; i < n; ++i) {

@@ -35,6 +35,9 @@ struct RadauTable {
   /// The same of the last `count` of them alone; zero for those before.
   Vec weights_of_last(int count, double x) const;
 
+  /// Over [0, 1], of the product of two curves through values at the nodes; exact to degree 2n, where quadrature at the stages is exact to 2n - 2.
+  double integral_of_product(const Vec& first, const Vec& second) const;
+
   /// Weights of the stages, c_1 .. c_n, in the first and the second integral from 0 to x of the curve through them.
   struct StageIntegrals {
     Vec first, second;

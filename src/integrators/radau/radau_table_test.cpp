@@ -170,6 +170,15 @@ TEST_P(RadauTables, FollowsTheExponentialToItsOrder) {
 
 INSTANTIATE_TEST_SUITE_P(Stages, RadauTables, testing::Values(3, 5), [](const auto& stages) { return std::to_string(stages.param); });
 
+// To degree 2n where the stages' quadrature ends with 2n - 2.
+TEST_P(RadauTables, IntegrateProductsOfCurvesExactly) {
+  for (int k = 0; k <= n_; ++k)
+    for (int l = 0; l <= n_; ++l) {
+      const RadauTable::Vec first = table_.nodes.array().pow(k).matrix(), second = table_.nodes.array().pow(l).matrix();
+      EXPECT_NEAR(table_.integral_of_product(first, second), 1.0 / (k + l + 1), 1e-14) << k << " " << l;
+    }
+}
+
 constexpr double kNear = 5, kFarOff = 100;  // first corrections [tolerances]
 
 class Predictors : public testing::TestWithParam<int> {

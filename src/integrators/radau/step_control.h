@@ -25,7 +25,7 @@ class StepControl {
 
   // Events, in parts of the usual step.
   static constexpr double kCrossing = 1e-9;  // of the usual step: how far is gone to begin with to cross an event, at most
-  static constexpr double kLate = 1e-4;      // the same, per tolerance of the steps: all passes are late alike, which none of them sees. Break-away of a stuck slider at 1e-7: 2e-9 s late without it
+  static constexpr double kLate = 1e-4;      // the same, per tolerance of the steps: all passes cross an event equally late, and their difference does not show it. Break-away of a stuck slider at 1e-7: 2e-9 s late without it
   static constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
   static constexpr double kMoment = 1e-6;    // of the usual step: how far is looked to see where accelerations lead
 
@@ -124,7 +124,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       refused = true;
       have_history = have_history && retry == 0;
     }
-    // Twice unsolved: for a jump on the way? Functions that flicker about zero in the last bits are left alone after a while.
+    // A step that was not solved twice may have a jump inside. Functions that flicker about zero in the last bits are left alone after a while.
     const bool flickering = crossed >= kMostCrossed;
     SwitchingEvent event = (solved || retry > 0) && !flickering ? method.locate_event(h, solved) : SwitchingEvent{};
     if (const double near = kEventAtStart * usual; event.before * h < near && !flickering) {  // the far end may lie beyond other events: Taylor's series is better here

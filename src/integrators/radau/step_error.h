@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "integrators/radau/radau_table.h"
+
 namespace pintle {
 
 /// mu of the projection over the step's own frequency: every mode that a step does not resolve to the full is moved onto its gap.
@@ -26,6 +28,20 @@ inline double fall_off(double last, double before, double before_that) {
 inline double tail_size(double last, double before, double before_that) {
   if (!std::isfinite(last + before + before_that)) return std::numeric_limits<double>::infinity();
   return last > 0 ? last * fall_off(last, before, before_that) : 0;
+}
+
+/// What the quadrature at the stages misses of the work of a servo whose effort and speed are these at the nodes: both may be polynomials that one long step
+/// follows exactly, and their product one of a higher degree [J]. theory/time Eq. (3.22).
+template <class Effort, class Speed>
+double work_beyond_quadrature(const RadauTable& table, double h, Effort&& effort_at, Speed&& speed_at) {
+  RadauTable::Vec effort(table.n + 1), speed(table.n + 1);
+  double by_quadrature = 0;
+  for (int node = 0; node <= table.n; ++node) {
+    effort[node] = effort_at(node);
+    speed[node] = speed_at(node);
+    if (node > 0) by_quadrature += table.b[node - 1] * effort[node] * speed[node];
+  }
+  return h * (table.integral_of_product(effort, speed) - by_quadrature);
 }
 
 }  // namespace pintle

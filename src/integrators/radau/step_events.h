@@ -28,7 +28,7 @@ constexpr double kShareBeforeEvent = 0.999;
 ///   extrapolate_end_state(d)                    the end, its work included, by Taylor's series
 ///   motions_after(d)                            those a moment after the end
 ///   cross_borders()                             System::cross_borders between the values of `search_`
-///   shift_gap(joint, d, rate)                   the carried gap of a driven joint at the end, and its rate, by so much
+///   shift_gap(joint, d, rate)                   the carried gap of a driven joint at the end, and its rate, by so much; what the law then stores more is supplied
 ///   balance_end()                               what laws and loads really give at the end: forces, accelerations, powers
 template <class Method, class S>
 class StepEvents {

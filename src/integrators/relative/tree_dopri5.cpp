@@ -65,28 +65,13 @@ void TreeDopri5::start(const State& state, double h) {
   complete(end_);
   write(end_, end_state_);
   borders_.start(end_state_);
-  find_rounding();
+  rounding_ = loads_above_rounding(system_, tree_->laws(), end_state_, tolerance_);
   raise_scale();
-}
-
-// The load below which the rounding of positions, as joint force, would be seen as an error.
-void TreeDopri5::find_rounding() {
-  const double size = largest_coordinate(at_.pose().q);
-  rounding_.assign(system_.bodies.size(), S::Vec::Zero());
-  for (std::size_t l = 0; l < tree_->laws().size(); ++l) {
-    const Placement& at = system_.joints[tree_->laws()[l]].at;
-    LawTangents law;
-    at_.linearize(static_cast<int>(l), end_, law);
-    const double k = law.stiffness.diagonal().head<2>().maxCoeff();
-    const double least = load_above_rounding(k, size, tolerance_);
-    for (const int body : {at.a, at.b})
-      if (body != kGround) rounding_[body] = rounding_[body].cwiseMax(S::Vec(least, least, 0));
-  }
 }
 
 void TreeDopri5::raise_scale() {
   grow_load_scale(system_, at_.pose().m, at_.Q(), end_state_, scale_);
-  for (std::size_t i = 0; i < rounding_.size(); ++i) scale_.body[i] = scale_.body[i].cwiseMax(rounding_[i]);
+  raise_above(rounding_, scale_);
 }
 
 bool TreeDopri5::step(double t_end) {
@@ -121,10 +106,10 @@ bool TreeDopri5::step(double t_end) {
       ++counters_.evaluations;
     }
     const double e = error(h) / tolerance_;
-    const double factor = std::isfinite(e) ? std::clamp(0.9 * std::pow(std::max(e, 1e-10), -0.2), 0.2, 5.0) : 0.1;
+    const double factor = step_ratio(e);
     if (e <= 1) {
       end_ = stage_;
-      end_.t = t_end - begin_.t - h < 1e-14 * t_end ? t_end : begin_.t + h;
+      end_.t = end_of_step(begin_.t, h, t_end);
       write(end_, end_state_);
       if (borders_.shorten(end_state_, h)) {
         ++counters_.rejected;
@@ -190,7 +175,7 @@ const State& TreeDopri5::interpolate(double t) {
   quintic(s, h, {&begin_.gap, &begin_.rate, &begin_.accel}, {&end_.gap, &end_.rate, &end_.accel}, now.gap, now.rate);
   for (std::size_t l = 0; l < tree_->laws().size(); ++l) {
     if (!has_slip(system_.joints[tree_->laws()[l]].displacement)) continue;
-    const Eigen::Index i = 3 * static_cast<Eigen::Index>(l) + kSlip;  // how far surfaces have slipped no state need know
+    const Eigen::Index i = 3 * static_cast<Eigen::Index>(l) + kSlip;  // the slip of surfaces is no state: only its rate counts
     now.rate[i] = cubic_hermite(s, h, begin_.rate[i], begin_.accel[i], end_.rate[i], end_.accel[i]);
   }
   at_.forces(now, now.force, now.law_rate);

@@ -31,7 +31,6 @@ class TreeDopri5 final : public Stepper {
  private:
   void complete(TreeState& state);  // gaps, forces and accelerations at t, y, u
   void write(TreeState& at, State& state);
-  void find_rounding();
   double error(double h);
   void raise_scale();
 
@@ -47,7 +46,7 @@ class TreeDopri5 final : public Stepper {
   std::array<Eigen::VectorXd, 7> ky_, ku_;
   std::array<std::vector<double>, 7> kz_;  // rates of the laws' states
   LoadScale scale_;
-  Vecs rounding_;  // per body [N, N, N*m]
+  std::vector<double> rounding_;  // loads_above_rounding
   Counters counters_;
   std::string failure_;
 };

@@ -89,9 +89,13 @@ void TreeRadau::shift_gap(int joint, double d, double rate) {
   const std::vector<int>& laws = tree_->laws();
   const auto at = std::find(laws.begin(), laws.end(), joint);
   if (at == laws.end()) return;
-  const Eigen::Index i = 3 * (at - laws.begin()) + system_.joints[static_cast<std::size_t>(joint)].driven;
-  end_.gap[i] += d;
-  end_.rate[i] += rate;
+  const JointData& driven = system_.joints[static_cast<std::size_t>(joint)];
+  const Eigen::Index first = 3 * (at - laws.begin());
+  const auto stored = [&] { return driven.law.energy({end_.t, end_.gap.segment<3>(first), end_.rate.segment<3>(first), end_.law_state.data() + driven.first_state}); };
+  const double before = stored();
+  end_.gap[first + driven.driven] += d;
+  end_.rate[first + driven.driven] += rate;
+  if (driven.servo < 0) end_state_.supplied += stored() - before;
 }
 
 void TreeRadau::balance_end() {

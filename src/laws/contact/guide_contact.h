@@ -6,6 +6,7 @@
 // Each end has a contact of its own, with its own states; force and friction push at that point.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -67,6 +68,11 @@ struct GuideContactLaw : RubbingContact {
   Planar::Vec engaged_stiffness() const {
     const double k = contact.stiffness_at(0.1 * clearance);
     return {0, 2 * k, 0.5 * k * length * length};
+  }
+  double penetration(const Planar::Vec& gap) const {
+    LawInput<double> in{};
+    std::copy_n(gap.data(), 3, in.gap);
+    return std::max(find(in, 0).depth, find(in, 1).depth);
   }
   std::span<const LawColumn> columns() const {
     static const std::array<LawColumn, 7> all{{{"contact_force_front", "N", "normal force at the end ahead, along the guide's axis"},

@@ -71,7 +71,7 @@ struct RubbingContact {
   bool sticks(const double* state) const { return grip && state[0] > 0 && StickSlip::sticks(state + 1); }
 
  private:
-  // What the formula makes the bodies attract each other with holds nothing.
+  // An attractive normal force causes no friction.
   template <class T>
   static T pressing(const T& normal) { return law_math::where_positive(normal, normal, T(0.0)); }
 };

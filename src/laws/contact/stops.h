@@ -44,7 +44,11 @@ struct StopContact {
   }
 
   int n_borders() const { return kBorders * kSides; }
-  static constexpr std::array<int, 6> kDirections{1, -1, 0, 1, -1, 0};
+  static constexpr auto kDirections = [] {
+    std::array<int, 2 * ContactForce::kBorders> of_both{};
+    for (std::size_t i = 0; i < of_both.size(); ++i) of_both[i] = ContactForce::kDirections[i % ContactForce::kBorders];
+    return of_both;
+  }();
   std::span<const int> border_directions() const { return kDirections; }
   void borders(const LawInput<double>& in, double* value) const {
     for (int side = 0; side < kSides; ++side, value += kBorders) {
@@ -89,7 +93,7 @@ struct StopContact {
   }
 
  protected:
-  static constexpr int kSides = 2, kUpper = 1, kBorders = 3;
+  static constexpr int kSides = 2, kUpper = 1, kBorders = ContactForce::kBorders;
 
   /// Of the stop that is touched: at most one is.
   static double approach_speed(const LawInput<double>& in) { return std::max(in.state[0], in.state[1]); }

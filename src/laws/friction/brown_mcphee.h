@@ -21,7 +21,7 @@ struct BrownMcPheeLaw : Friction {
   void evaluate(const LawInput<T>& in, LawOutput<T>& out) const {
     using namespace law_math;
     const T v = slip(in), s = (1 / transition) * v, width = 0.25 * (s * s) + T(0.75);
-    rub(load(in) * (kinetic * tanh(4.0 * s) + (stuck - kinetic) * divide(s, width * width) + viscous * v), v, out);  // (3.17)
+    rub(load(in) * (kinetic * tanh(4.0 * s) + (static_coefficient - kinetic) * divide(s, width * width) + viscous * v), v, out);  // (3.17)
   }
 };
 

@@ -49,7 +49,7 @@ struct CoulombLaw : Friction {
   }
 
  private:
-  StickSlip surfaces() const { return {kinetic, stuck, viscous, stiffness, damping}; }
+  StickSlip surfaces() const { return {kinetic, static_coefficient, viscous, stiffness, damping}; }
 };
 
 }  // namespace pintle

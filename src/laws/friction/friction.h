@@ -29,7 +29,7 @@ struct Friction {
   double normal = 0;                 // load per force across the one gap of surfaces and teeth; 0: other joints [-]
   double guide = 0;                  // length L of a slide's guide [m]; 0: its moment does not press
   double preload = 0;                // N_0 [N]
-  double kinetic = 0.1, stuck = 0.15;  // coefficients [-]
+  double kinetic = 0.1, static_coefficient = 0.15;  // coefficients [-]
   double viscous = 0;                // friction per slip speed and load [s/m]
   double seal_area = 0;              // A_s, on which pressure presses the seals of a cylinder [m^2]
   std::shared_ptr<const Chambers> chambers{};  // of that cylinder
@@ -70,7 +70,7 @@ struct Friction {
   }
 
  protected:
-  /// Those and whether the joint sticks.
+  /// The columns of `columns`, and whether the joint sticks.
   std::span<const LawColumn> columns_with_mode() const {
     static const auto with_mode = [](const Friction& friction) {
       const auto all = friction.columns();
@@ -83,7 +83,7 @@ struct Friction {
   template <class T>
   T stribeck_coefficient(const T& v, double stribeck) const {
     const T relative = (1 / stribeck) * v;
-    return T(kinetic) + (stuck - kinetic) * law_math::exp(-(relative * relative));
+    return T(kinetic) + (static_coefficient - kinetic) * law_math::exp(-(relative * relative));
   }
 };
 

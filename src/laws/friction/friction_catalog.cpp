@@ -90,7 +90,7 @@ void set_friction(const LawSetting& at, Friction& friction) {
   friction.guide = pin ? 0 : at.number("guide_length");
   friction.preload = at.number("friction_preload");
   friction.kinetic = at.number("friction_coefficient");
-  friction.stuck = static_friction(at);
+  friction.static_coefficient = static_friction(at);
   friction.viscous = at.number("viscous_friction");
   friction.seal_area = at.number("seal_area");
   friction.chambers = at.chambers;

@@ -34,20 +34,20 @@ struct LuGreLaw : Friction {
     out.state_rate[0] = v - bristle_stiffness * divide(abs(v), coefficient(v)) * z;                               // (3.12)
     rub(load(in) * (bristle_stiffness * z + bristle_damping * out.state_rate[0] + viscous * v), v, out);          // (3.13)
   }
-  /// Slipping bristles are bent all the way; those of a joint at rest carry nothing until set_stuck. Below the Stribeck speed it is a share of both:
-  /// a start has speeds of no meaning that are not quite zero.
+  /// The deflection of steady slip, below the Stribeck speed in proportion to the speed: at a start, speeds are not quite zero where they should be. Bristles of a
+  /// joint at rest carry nothing until set_stuck.
   void rest(const LawInput<double>& in, double* state) const {
     const double v = slip(in);
     state[0] = v / std::max(std::abs(v), stribeck) * coefficient(v) / bristle_stiffness;
   }
   /// Of pins and slides that are at rest, as in CoulombLaw. Bristles that cannot hold their joint stay as rest() has them.
   std::optional<Stiction> stiction(const double* state) const {
-    if (normal > 0 || bristle_stiffness * std::abs(state[0]) >= kStill * stuck) return {};
+    if (normal > 0 || bristle_stiffness * std::abs(state[0]) >= kStill * static_coefficient) return {};
     return Stiction{free, radius * radius * StickSlip{}.stiffness};  // it finds the load; the bristles are given that, not its stretch
   }
   bool set_stuck(const LawInput<double>& in, double force, double* state) const {
     const double friction = -force / radius, N = load(in);
-    if (!(std::abs(friction) < stuck * N)) return false;
+    if (!(std::abs(friction) < static_coefficient * N)) return false;
     state[0] = friction / (bristle_stiffness * N);
     return true;
   }
@@ -61,7 +61,7 @@ struct LuGreLaw : Friction {
 
  private:
   static constexpr double kBent = 0.999;  // of the deflection of steady slip: bristles that are bent so far slip
-  static constexpr double kStill = 1e-3;  // of the Stribeck speed: a slip that counts as none
+  static constexpr double kStill = 1e-3;  // of the largest deflection: bristles that are bent no farther are those of a joint at rest
 
   template <class T>
   T coefficient(const T& v) const { return stribeck_coefficient(v, stribeck); }

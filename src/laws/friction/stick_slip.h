@@ -27,7 +27,7 @@ struct StickSlipForce {
 struct StickSlip {
   static constexpr int kStates = 2, kBorders = 3;
   static constexpr double kStill = 1e-6;  // a slip that counts as none [m/s]
-  double kinetic = 0.1, stuck = 0.15;     // mu_k, mu_s [-]
+  double kinetic = 0.1, static_coefficient = 0.15;     // mu_k, mu_s [-]
   double viscous = 0;                     // mu_v [s/m]
   double stiffness = 1e8, damping = 1e5;  // k_t [N/m], c_t [N*s/m]
 
@@ -52,7 +52,7 @@ struct StickSlip {
   }
   /// Stuck under a friction; false where they cannot carry it.
   bool set_stuck(double friction, double N, double* state) const {
-    if (!(std::abs(friction) < stuck * N)) return false;
+    if (!(std::abs(friction) < static_coefficient * N)) return false;
     state[0] = friction / stiffness;
     state[1] = 0;
     return true;
@@ -61,7 +61,7 @@ struct StickSlip {
   /// What still holds; how far slip is from its end; how far from a slip the wrong way, which a break under a falling load may begin with.
   void borders(double v, double N, const double* state, double* value) const {
     const double mode = state[1], forward = mode * v;
-    value[0] = mode == 0 ? stuck * N - std::abs(held(v, state)) + kUnloaded : 1;
+    value[0] = mode == 0 ? static_coefficient * N - std::abs(held(v, state)) + kUnloaded : 1;
     value[1] = mode == 0 ? 1 : forward + kCrossed;
     value[2] = mode == 0 ? 1 : forward + kStill;
   }

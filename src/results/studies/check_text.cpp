@@ -152,7 +152,7 @@ std::string mode_section(const CheckFrequencies& f, const Look& look) {
     }
   }
   std::string text =
-      fmt::format("\n{}Vibration modes{} (as assembled, with the joint that stores most of the energy)\n{}",
+      fmt::format("\n{}Vibration modes{} (of the joints alone, as assembled, without springs; with the joint that stores most of the energy)\n{}",
                   look.bold, look.plain, table.text(look.bold, look.plain));
   if (!f.remark.empty()) text += fmt::format("  {}\n", f.remark);
   if (f.explicit_step > 0)

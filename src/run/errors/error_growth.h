@@ -14,7 +14,7 @@ struct ErrorGrowth {
   double rate_scatter = 0;   ///< by how much it would differ over another stretch as long: one standard deviation [1/s]
   double until = 0;          ///< end of the fitted part [s]
   double level = 0;          ///< of the fitted line there [-]
-  bool to_largest = false;   ///< fitted to the largest difference: it tells whether motion is chaotic, and no tolerance
+  bool to_largest = false;   ///< fitted to the largest difference: it tells whether the motion is chaotic, but not which tolerance would do
 
   /// What the difference would be at time t [s] if it went on growing at `with_rate` [1/s].
   double extrapolated(double t, double with_rate) const;

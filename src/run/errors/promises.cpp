@@ -35,21 +35,18 @@ Statistics after(const BasicForceTable<S>& forces, std::size_t joints, std::size
 }  // namespace
 
 template <class S>
-void promise_until_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double within, const ErrorGrowth& growth, double finest, Trajectory& out) {
+void promise_until_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double within, const BasicLeastError<S>& least, const ErrorGrowth& growth, Trajectory& out) {
   const std::size_t joints = system.joints.size();
   std::vector<double> horizons = force_horizons(system, coarse, fine, share, within);
   if (out.of_motion) horizons.assign(joints, curve_horizon(motion_difference_curve(system, coarse, fine), within));
   out.growth = {growth.rate, growth.rate_error, out.t_end};
+  state_errors_until(system, coarse, fine, horizons, share, least, out.joints);
   const LoadSummary* earliest = nullptr;
   std::size_t row = 0;
   for (std::size_t j = 0; j < joints; ++j) {
     if (system.joints[j].servo >= 0) continue;
     LoadSummary& joint = out.joints[row++];
     joint.horizon = horizons[j];
-    const PassDifference until = difference_of_passes(system, coarse, fine, joint.horizon, share);
-    joint.error_estimate = share * until.force[j];
-    joint.moment_error_estimate = share * until.couple[j];
-    joint.relative_error_estimate = share * relative_differences(system, until)[j];
     const Statistics now = after(fine, joints, j, joint.horizon), other = after(coarse, joints, j, joint.horizon);
     joint.peak_after = now.peak;
     joint.rms_after = now.rms;
@@ -63,10 +60,10 @@ void promise_until_horizons(const BasicSystem<S>& system, const BasicForceTable<
   out.message = fmt::format(
       "joint forces are promised up to t = {:.4g} s{}: the motion is chaotic, errors grow e-fold every {:.2g} s ({:.3g} +- {:.1g} per second), and integrations with tolerances down to {:.1g} part before its end; "
       "peaks, means and RMS after that are statistics",
-      out.growth.horizon, earliest != nullptr ? " (joint " + earliest->name + ")" : "", 1 / growth.rate, growth.rate, growth.rate_error, finest);
+      out.growth.horizon, earliest != nullptr ? " (joint " + earliest->name + ")" : "", 1 / growth.rate, growth.rate, growth.rate_error, least.tolerance);
 }
 
-template void promise_until_horizons(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double share, double within, const ErrorGrowth& growth, double finest, Trajectory& out);
-PINTLE_IN_SPACE(template void promise_until_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double within, const ErrorGrowth& growth, double finest, Trajectory& out);)
+template void promise_until_horizons(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double share, double within, const BasicLeastError<Planar>& least, const ErrorGrowth& growth, Trajectory& out);
+PINTLE_IN_SPACE(template void promise_until_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double within, const BasicLeastError<Spatial>& least, const ErrorGrowth& growth, Trajectory& out);)
 
 }  // namespace pintle

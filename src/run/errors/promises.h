@@ -8,9 +8,9 @@
 namespace pintle {
 
 /// Fills in horizons, errors up to them, statistics after them, growth and message. `out` has its summaries; `share` is that of Eq. (6.2),
-/// `within` what it times the difference may be [-], `finest` the smallest tolerance
-/// that a pass had [-].
+/// `within` what it times the difference may be [-], `least` what errors are at least, with the smallest
+/// tolerance that a pass had.
 template <class S>
-void promise_until_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double within, const ErrorGrowth& growth, double finest, Trajectory& out);
+void promise_until_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double within, const BasicLeastError<S>& least, const ErrorGrowth& growth, Trajectory& out);
 
 }  // namespace pintle

@@ -82,6 +82,16 @@ class Growing {
 };
 
 template <class S>
+void state_error(const Measures<S>& measures, const PassDifference& difference, double share, const BasicLeastError<S>& least, std::size_t j, LoadSummary& joint) {
+  const double peak = difference.peak[j], peak_couple = difference.peak_couple[j];
+  const double force = std::max(share * difference.force[j], std::min(least.ringing.force(j), least.tolerance * peak));
+  const double couple = std::max(share * difference.couple[j], std::min(least.ringing.couple(j), least.tolerance * peak_couple));
+  joint.error_estimate = std::max({force, least.of_peak * peak, peak > kPeakOfRounding * difference.rounding ? 0 : peak});  // what rounding alone makes is not known at all
+  joint.moment_error_estimate = couple;
+  joint.relative_error_estimate = std::max(measures.of_joint(j, force, peak, couple, peak_couple), least.of_peak);
+}
+
+template <class S>
 std::size_t common_rows(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) { return std::min(coarse.t.size(), fine.t.size()); }
 
 }  // namespace
@@ -190,15 +200,22 @@ double share_of_finer(double fall) { return std::min(1.0, kOfEqual * std::pow(fa
 template <class S>
 void state_errors(const BasicSystem<S>& system, const PassDifference& difference, double share, const BasicLeastError<S>& least, std::vector<LoadSummary>& joints) {
   const Measures<S> measures(system, difference);
-  for (std::size_t j = 0, row = 0; j < system.joints.size(); ++j) {
-    if (system.joints[j].servo >= 0) continue;
-    const double peak = difference.peak[j], peak_couple = difference.peak_couple[j];
-    const double force = std::max(share * difference.force[j], std::min(least.ringing.force(j), least.tolerance * peak));
-    const double couple = std::max(share * difference.couple[j], std::min(least.ringing.couple(j), least.tolerance * peak_couple));
-    LoadSummary& joint = joints[row++];
-    joint.error_estimate = std::max({force, least.of_peak * peak, peak > kPeakOfRounding * difference.rounding ? 0 : peak});  // what rounding alone makes is not known at all
-    joint.moment_error_estimate = couple;
-    joint.relative_error_estimate = std::max(measures.of_joint(j, force, peak, couple, peak_couple), least.of_peak);
+  for (std::size_t j = 0, row = 0; j < system.joints.size(); ++j)
+    if (system.joints[j].servo < 0) state_error(measures, difference, share, least, j, joints[row++]);
+}
+
+template <class S>
+void state_errors_until(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, const std::vector<double>& until, double share, const BasicLeastError<S>& least,
+                        std::vector<LoadSummary>& joints) {
+  std::vector<std::pair<std::size_t, std::size_t>> order;  // joint, its row of the summary
+  for (std::size_t j = 0; j < system.joints.size(); ++j)
+    if (system.joints[j].servo < 0) order.emplace_back(j, order.size());
+  std::sort(order.begin(), order.end(), [&](const auto& a, const auto& b) { return until[a.first] < until[b.first]; });
+  Growing<S> growing(system.joints.size(), share, fine);
+  std::size_t i = 0;
+  for (const auto& [j, row] : order) {
+    for (; i < common_rows(coarse, fine) && fine.t[i] <= until[j]; ++i) growing.add_row(coarse, fine, i);
+    state_error(Measures<S>(system, growing.so_far()), growing.so_far(), share, least, j, joints[row]);
   }
 }
 
@@ -219,6 +236,8 @@ PINTLE_IN_SPACE(template DifferenceCurve force_difference_curve(const BasicSyste
 PINTLE_IN_SPACE(template DifferenceCurve motion_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);)
 PINTLE_IN_SPACE(template std::vector<double> force_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double tolerance);)
 template void state_errors(const BasicSystem<Planar>& system, const PassDifference& difference, double share, const BasicLeastError<Planar>& least, std::vector<LoadSummary>& joints);
+template void state_errors_until(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, const std::vector<double>& until, double share, const BasicLeastError<Planar>& least, std::vector<LoadSummary>& joints);
+PINTLE_IN_SPACE(template void state_errors_until(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, const std::vector<double>& until, double share, const BasicLeastError<Spatial>& least, std::vector<LoadSummary>& joints);)
 PINTLE_IN_SPACE(template void state_errors(const BasicSystem<Spatial>& system, const PassDifference& difference, double share, const BasicLeastError<Spatial>& least, std::vector<LoadSummary>& joints);)
 
 }  // namespace pintle

@@ -61,6 +61,11 @@ struct BasicLeastError {
 template <class S>
 void state_errors(const BasicSystem<S>& system, const PassDifference& difference, double share, const BasicLeastError<S>& least, std::vector<LoadSummary>& joints);
 
+/// The same of the rows up to a time of each joint [s], where the motion cannot be promised beyond.
+template <class S>
+void state_errors_until(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, const std::vector<double>& until, double share, const BasicLeastError<S>& least,
+                        std::vector<LoadSummary>& joints);
+
 /// A relative difference [-] as a function of time [s].
 struct DifferenceCurve {
   std::vector<double> t, e;
