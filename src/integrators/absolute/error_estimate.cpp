@@ -141,7 +141,7 @@ double BasicRadauStepper<S>::work_beyond_quadrature_of(int j, double h) const {
   const BasicJointData<S>& joint = system_.joints[j];
   const auto target_rate = [&](int node) { return target_of(joint, begin_.t + h * table_.nodes[node])[1]; };
   return work_beyond_quadrature(
-      table_, h, [&](int node) { return (node == 0 ? begin_.force : stage_[node - 1].force)[j][joint.servo]; },
+      table_, h, [&](int node) { return stage_[node - 1].force[j][joint.servo]; },
       [&](int node) { return (node == 0 ? begin_.gap_rate : stage_[node - 1].gap_rate)[j][joint.servo] + target_rate(node); });
 }
 

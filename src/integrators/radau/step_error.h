@@ -30,17 +30,20 @@ inline double tail_size(double last, double before, double before_that) {
   return last > 0 ? last * fall_off(last, before, before_that) : 0;
 }
 
-/// What the quadrature at the stages misses of the work of a servo whose effort and speed are these at the nodes: both may be polynomials that one long step
+/// What the quadrature at the stages misses of the work of a servo whose effort at the stages and speed at the nodes are these: both may be polynomials that one long step
 /// follows exactly, and their product one of a higher degree [J]. theory/time Eq. (3.22).
 template <class Effort, class Speed>
 double work_beyond_quadrature(const RadauTable& table, double h, Effort&& effort_at, Speed&& speed_at) {
   RadauTable::Vec effort(table.n + 1), speed(table.n + 1);
   double by_quadrature = 0;
-  for (int node = 0; node <= table.n; ++node) {
+  effort[0] = 0;
+  speed[0] = speed_at(0);
+  for (int node = 1; node <= table.n; ++node) {
     effort[node] = effort_at(node);
     speed[node] = speed_at(node);
-    if (node > 0) by_quadrature += table.b[node - 1] * effort[node] * speed[node];
+    by_quadrature += table.b[node - 1] * effort[node] * speed[node];
   }
+  effort[0] = table.weights_of_last(table.n, 0).dot(effort);  // where a step begins behind a jump, or damps what rings, the force there is not on the curve of the stages
   return h * (table.integral_of_product(effort, speed) - by_quadrature);
 }
 
