@@ -91,7 +91,7 @@ force = [{}, 0]
 )toml",
                               torsion, stiffness, torque, force));
   };
-  for (const auto& [torsion, torque, stiffness, force] : {std::array{0.43, 1e-4, 1e3, 0.01}, std::array{50.0, 1e-2, 1e5, 1.0}}) {
+  for (const auto& [torsion, torque, stiffness, force] : {std::array{0.43, 1e-4, 1e3, 0.01}, std::array{50.0, 1e-2, 1e5, 1.0}, std::array{1e-3, 1e-6, 1.0, 0.1}}) {
     const Trajectory run = loaded(torsion, torque, stiffness, force);
     for (const std::size_t row : {std::size_t{0}, run.n_rows() - 1}) {
       EXPECT_NEAR(value(run, row, "body.arm.angle"), torque / torsion, 1e-6 * torque / torsion) << torsion;

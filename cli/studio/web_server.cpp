@@ -1,8 +1,7 @@
 #include "cli/studio/web_server.h"
 
-#include <httplib.h>
-
 #include <fmt/format.h>
+#include <httplib.h>
 
 #include <algorithm>
 #include <atomic>

@@ -24,8 +24,7 @@ inline double step_ratio(double error) {
   constexpr double kSafety = 0.9;                  // of the step that the error would allow. Hairer, Norsett, Wanner I, II.4
   constexpr double kLeast = 0.2, kMost = 5;        // ratio
   constexpr double kWithoutError = 0.1;            // ratio where the error is no finite number
-  constexpr double kExact = 1e-10;                 // error below which the step grows by no more
-  return std::isfinite(error) ? std::clamp(kSafety * std::pow(std::max(error, kExact), -0.2), kLeast, kMost) : kWithoutError;
+  return std::isfinite(error) ? std::clamp(kSafety * std::pow(error, -0.2), kLeast, kMost) : kWithoutError;
 }
 
 }  // namespace pintle::dormand_prince

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -62,13 +63,14 @@ TEST_F(SlowSweep, HoldsWhatSingleRunsGive) {
 // What a thread has finished before it throws is taken first.
 TEST_F(SlowSweep, AFaultInAThreadLosesNoFinishedChunk) {
   const SweepJob job(draws(100));
-  int given = 0;
+  std::atomic<int> given = 0;
   WorkerPool pool(job, 1, [&given]() -> std::optional<std::uint64_t> {
     if (given++ > 0) throw std::runtime_error("no more");
     return 0;
   });
   while (!pool.idle() && given < 2) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_EQ(pool.take(10).size(), 1u);
+  EXPECT_FALSE(pool.idle());
   EXPECT_THROW(pool.take(10), std::runtime_error);
 }
 

@@ -55,7 +55,7 @@ std::vector<FinishedChunk> WorkerPool::take(double seconds) {
 
 bool WorkerPool::idle() {
   const std::lock_guard lock(mutex_);
-  return working_ == 0 && finished_.empty();
+  return working_ == 0 && finished_.empty() && !error_;
 }
 
 }  // namespace pintle

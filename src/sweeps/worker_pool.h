@@ -33,7 +33,7 @@ class WorkerPool {
 
   /// What is finished since the last call; waits for it at most so long [s]. Rethrows what a thread threw, after everything that is finished has been taken.
   std::vector<FinishedChunk> take(double seconds);
-  /// No thread computes any more, and everything has been taken.
+  /// No thread computes any more, and everything has been taken, nothing thrown among it.
   bool idle();
   /// Batches under way are given up.
   void stop() { stopped_ = true; }

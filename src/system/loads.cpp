@@ -181,7 +181,7 @@ double BasicSystem<S>::power_of(const BasicAppliedData<S>& force, double t, cons
 
 template <class S>
 void BasicSystem<S>::evaluate_switching_functions(double t, const std::vector<typename S::Motion>& m, const VecsOf<S>& gap, const VecsOf<S>& rate, const std::vector<double>& law_state, SlidingModes sliding,
-                            double* value) const {
+                                                  double* value) const {
   const auto find = [&value](const Expression& e, std::span<const double> at, const Expression::Ramp* ramp) {
     const int n = e.n_switches();
     if (n > 0) e.evaluate_switching_functions(at, value, ramp);

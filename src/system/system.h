@@ -228,7 +228,7 @@ class BasicSystem {
   bool has_branches() const { return !switching_.empty(); }
   /// The value of each. Gaps and rates are the joints'.
   void evaluate_switching_functions(double t, const std::vector<typename S::Motion>& m, const VecsOf<S>& gap, const VecsOf<S>& rate, const std::vector<double>& law_state,
-                      SlidingModes sliding, double* value) const;
+                                    SlidingModes sliding, double* value) const;
   /// Where the values of the switching functions were `before` and are `after`, the laws whose borders that crosses set their states: LawPart::cross.
   /// Whether there are any; stored energy that is gone with it is added to `lost` [J].
   bool cross_borders(double t, const VecsOf<S>& gap, const VecsOf<S>& rate, const double* before, const double* after, std::vector<double>& law_state, double& lost) const;

@@ -39,7 +39,6 @@ class JointTree {
   explicit JointTree(const System& system);
 
   int n() const { return n_; }  ///< coordinates
-  /// The joint that ties a body to its parent, -1: none, its coordinates are its own.
   /// The joints that stay force laws, servos among them, by index.
   const std::vector<int>& laws() const { return laws_; }
   bool in_tree(int joint) const { return in_tree_[joint]; }

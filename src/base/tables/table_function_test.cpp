@@ -152,8 +152,9 @@ TEST(TableFunction, SwitchesAtItsKinks) {
   const std::vector<double> x{0, 1, 1.5, 3}, y{0, 2, 3, 1};
   expect_sign_changes({x, y, kLinear, kHold}, {0, 1.5, 3}, -0.9995, 5);  // at 1 it goes straight on
   expect_sign_changes({x, y, kLinear, kExtend}, {1.5}, -0.9995, 5);
-  expect_sign_changes({x, y, kMonotone, kHold}, {0, 1.5, 3}, -0.9995, 5);  // the curvature jumps at all inner points, at 1 by little
-  expect_sign_changes({x, y, kMonotone, kExtend}, {1.5}, -0.9995, 5);
+  expect_sign_changes({x, y, kMonotone, kHold}, {0, 1, 1.5, 3}, -0.9995, 5);
+  expect_sign_changes({x, y, kMonotone, kExtend}, {1, 1.5}, -0.9995, 5);
+  expect_sign_changes({{0, 1, 2, 3, 4}, {0, 1, 2.02, 3.02, 0}, kMonotone, kExtend}, {2, 3}, -0.9995, 5);  // the curvature jumps at all inner points, at 1 by little
   EXPECT_FALSE(TableFunction({0, 1, 2}, {3, 3, 3}, kLinear).has_kinks());
 }
 

@@ -64,19 +64,6 @@ double BasicRadauStepper<S>::motion_tail() {
   return size.value();
 }
 
-template <class S>
-typename BasicRadauStepper<S>::Power BasicRadauStepper<S>::power_at_stage(int s, double h) const {
-  const BasicStage<S>& stage = stage_[s];
-  const double t = begin_.t + h * table_.c[s];
-  Power power = power_of_loads(t, stage.q, stage.m);
-  power[1] += stage.loss;
-  for (const int j : powered_) {
-    const BasicJointData<S>& joint = system_.joints[j];
-    add_power(joint, stage.m, {t, stage.gap[j], stage.gap_rate[j], stage.law_state.data() + joint.first_state}, stage.force[j], power);
-  }
-  return power;
-}
-
 // theory/time Eqs. (4.1)-(4.3).
 template <class S>
 void BasicRadauStepper<S>::finish_step(double h) {
@@ -123,7 +110,17 @@ void BasicRadauStepper<S>::find_increments(double h) {
 template <class S>
 void BasicRadauStepper<S>::add_work(double h) {
   nodes_.power[0] = {begin_.supply_power, begin_.loss_power};
-  for (int s = 0; s < n_; ++s) nodes_.power[s + 1] = power_at_stage(s, h);
+  for (int s = 0; s < n_; ++s) {
+    const BasicStage<S>& stage = stage_[s];
+    Power& power = nodes_.power[s + 1];
+    power = power_of_loads(begin_.t + h * table_.c[s], stage.q, stage.m);
+    power[1] += stage.loss;
+    for (const int j : powered_) {
+      const BasicJointData<S>& joint = system_.joints[j];
+      const BasicLawPoint<S> at{begin_.t + h * table_.c[s], stage.gap[j], stage.gap_rate[j], stage.law_state.data() + joint.first_state};
+      add_power(joint, stage.m, at, stage.force[j], power);
+    }
+  }
   end_.supplied = begin_.supplied;
   end_.dissipated = begin_.dissipated;
   for (int s = 0; s < n_; ++s) {
@@ -131,13 +128,13 @@ void BasicRadauStepper<S>::add_work(double h) {
     end_.dissipated += h * table_.b[s] * nodes_.power[s + 1][1];
   }
   for (const int j : powered_)
-    if (system_.joints[j].servo >= 0) end_.supplied += work_beyond_quadrature_of(j, h);
+    if (system_.joints[j].servo >= 0) end_.supplied += servo_work_beyond_quadrature(j, h);
   end_.supply_power = nodes_.power[n_][0];
   end_.loss_power = nodes_.power[n_][1];
 }
 
 template <class S>
-double BasicRadauStepper<S>::work_beyond_quadrature_of(int j, double h) const {
+double BasicRadauStepper<S>::servo_work_beyond_quadrature(int j, double h) const {
   const BasicJointData<S>& joint = system_.joints[j];
   const auto target_rate = [&](int node) { return target_of(joint, begin_.t + h * table_.nodes[node])[1]; };
   return work_beyond_quadrature(
@@ -170,8 +167,7 @@ void BasicRadauStepper<S>::find_power() {
 template bool BasicRadauStepper<Planar>::error_estimate(double h, double& error);
 template double BasicRadauStepper<Planar>::change_of_loads(double h);
 template double BasicRadauStepper<Planar>::friction_tail() const;
-template double BasicRadauStepper<Planar>::work_beyond_quadrature_of(int j, double h) const;
-template BasicRadauStepper<Planar>::Power BasicRadauStepper<Planar>::power_at_stage(int s, double h) const;
+template double BasicRadauStepper<Planar>::servo_work_beyond_quadrature(int j, double h) const;
 template double BasicRadauStepper<Planar>::motion_tail();
 template void BasicRadauStepper<Planar>::finish_step(double h);
 template void BasicRadauStepper<Planar>::find_increments(double h);
@@ -182,8 +178,7 @@ template void BasicRadauStepper<Planar>::find_power();
 PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::error_estimate(double h, double& error);)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::change_of_loads(double h);)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::friction_tail() const;)
-PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::work_beyond_quadrature_of(int j, double h) const;)
-PINTLE_IN_SPACE(template BasicRadauStepper<Spatial>::Power BasicRadauStepper<Spatial>::power_at_stage(int s, double h) const;)
+PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::servo_work_beyond_quadrature(int j, double h) const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::motion_tail();)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::finish_step(double h);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::find_increments(double h);)

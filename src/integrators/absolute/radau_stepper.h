@@ -71,13 +71,12 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   bool error_estimate(double h, double& error);
   double change_of_loads(double h);           // where the bodies are moved onto their gaps
   double friction_tail() const;               // of forces in free directions that no mass shows
-  using Power = std::array<double, 2>;        // supplied, lost [W]
   double motion_tail();                       // as accelerations that the bodies can yield to
   void finish_step(double h);                 // fills end_ and nodes_
   void find_increments(double h);             // of the nodes, in curved spaces
+  using Power = std::array<double, 2>;        // supplied, lost [W]
   void add_work(double h);
-  Power power_at_stage(int s, double h) const;
-  double work_beyond_quadrature_of(int j, double h) const;
+  double servo_work_beyond_quadrature(int j, double h) const;
   Power power_of_loads(double t, const PositionsOf<S>& q, const std::vector<typename S::Motion>& m) const;
   void add_power(const BasicJointData<S>& joint, const std::vector<typename S::Motion>& m, const BasicLawPoint<S>& at, const typename S::Vec& force, Power& power) const;
   void find_power();

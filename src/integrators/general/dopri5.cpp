@@ -130,8 +130,8 @@ double Dopri5::error(double h) {
 
 void Dopri5::grow_scale() {
   system_.motions(end_.q, end_.v, m_);
-  system_.external(end_.t, m_, loads_);
-  grow_load_scale(system_, m_, loads_, end_, scale_, load_);
+  system_.external(end_.t, m_, external_);
+  grow_load_scale(system_, m_, external_, end_, scale_, magnitudes_);
   raise_above(rounding_, scale_);
 }
 

@@ -40,7 +40,7 @@ class Dopri5 {
   State begin_, end_;
   std::array<Vecs, 7> kq_, kv_;
   std::array<std::vector<double>, 7> kz_;  // rates of the laws' states
-  Vecs q_, v_, dq_, dv_, loads_, load_;
+  Vecs q_, v_, dq_, dv_, external_, magnitudes_;
   std::vector<double> z_;
   std::vector<Planar::Motion> m_;
   std::vector<JointKinematics> r_;

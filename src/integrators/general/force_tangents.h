@@ -30,7 +30,7 @@ class ForceTangents {
   };
   const std::vector<StateTangents>& states() const { return states_; }
 
-  /// Blocks of the pattern, fill of its elimination included, and where block (row, column) stands among them.
+  /// Where block (row, column) stands among those of the pattern, fill of its elimination included.
   int place(int row, int column) const;
   const Mat& by_position(int place) const { return by_q_[place]; }
   const Mat& by_velocity(int place) const { return by_v_[place]; }

@@ -177,9 +177,9 @@ void TreeRadau::add_work(double h) {
     const JointData& joint = system_.joints[tree_->laws()[l]];
     if (joint.servo < 0) continue;
     const Index i = 3 * static_cast<Index>(l) + joint.servo;
-    const auto at = [&](int node) -> const TreeState& { return node == 0 ? begin_ : stages_.states()[node - 1]; };
     end_state_.supplied += work_beyond_quadrature(
-        table_, h, [&](int node) { return at(node).force[i]; }, [&](int node) { return at(node).rate[i] + target_of(joint, begin_.t + h * table_.nodes[node])[1]; });
+        table_, h, [&](int node) { return stages_.states()[node - 1].force[i]; },
+        [&](int node) { return (node == 0 ? begin_ : stages_.states()[node - 1]).rate[i] + target_of(joint, begin_.t + h * table_.nodes[node])[1]; });
   }
   end_state_.supply_power = nodes_.power(0, n_);
   end_state_.loss_power = nodes_.power(1, n_);
