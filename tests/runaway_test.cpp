@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/constants.h"
 #include "pintle/read_model.h"
 #include "pintle/simulate.h"
 #include "tests/reference_tables.h"

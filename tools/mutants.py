@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Changes one sign, comparison, condition or constant at a time, and lists what no test notices.
 
-Every room of src/ gets a sample of its lines, drawn from a seed, without those of headers that most of the library would be compiled again for. A mutant is
-built in a copy of the tree (build/mutants) and has to survive the suites of its room first, then all. The rooms take turns and results are kept in
-build/mutants/results.json after each mutant, so that a run may be stopped at any time: it goes on where it was. What is equivalent to the original, and why,
-stands in tools/equivalent_mutants.txt.
+Every room of src/ gets a sample of its lines, drawn from a seed. All changes are built at once into a copy of the tree (build/mutants), where a number in the
+environment switches one of them on: tools/mutation/switch.h. Every test is then run once to see which changes it comes by, and each change is tried with the
+tests that do, those of its room first, then the quickest, until one fails. Results are kept in build/mutants/results.json after each change, so that a run may
+be stopped at any time: it goes on where it was. What is equivalent to the original, and why, stands in tools/equivalent_mutants.txt.
 
-    tools/mutants.py --rooms laws,joints --sample 6     # a few minutes a mutant; all rooms take a night
+    tools/mutants.py --sample 12                        # about two hours, half of them for what all rooms' share: the build, and the tests' time
+    tools/mutants.py --rooms laws,joints --sample 40
+    tools/mutants.py --again                            # only what nobody has noticed so far, with tests that are new
     tools/mutants.py --write docs/mutants.md            # the table of what has been run
 """
 import argparse
@@ -14,40 +16,28 @@ import collections
 import concurrent.futures
 import json
 import os
-import random
 import re
 import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from pathlib import Path
 
+from mutation.sites import draw, sources_of
+
 ROOT = Path(__file__).resolve().parent.parent
 WORK = ROOT / "build" / "mutants"
-TREE, BUILD, RESULTS = WORK / "tree", WORK / "build", WORK / "results.json"
+TREE, BUILD, RESULTS, DROPPED, REACHED = WORK / "tree", WORK / "build", WORK / "results.json", WORK / "dropped.json", WORK / "reached.json"
 EQUIVALENT = ROOT / "tools" / "equivalent_mutants.txt"
 
-MOST_COMPILED = 12
+SPARE = 1.5  # sites that are built in for each that is asked for: some do not compile
 TIMED_SUITE = "Live"  # real time: it fails where the machine is busy
-ROOM_ONLY = "not by the room's tests"
-
-NUMBER = r"(?<![\w.])(?:\d+\.?\d*(?:e[+-]?\d+)?|\.\d+)(?![\w.])"
-# What is looked for, and what each of its finds is replaced by.
-CHANGES = [
-    ("sign", r" \+ ", lambda m: " - "),
-    ("sign", r" - ", lambda m: " + "),
-    ("sign", r" \+= ", lambda m: " -= "),
-    ("sign", r" -= ", lambda m: " += "),
-    ("comparison", r" (<=?|>=?) (?!\w+>)", lambda m: " " + {"<": ">=", "<=": ">", ">": "<=", ">=": "<"}[m.group(1)] + " "),
-    ("comparison", r" (==|!=) ", lambda m: " " + {"==": "!=", "!=": "=="}[m.group(1)] + " "),
-    ("condition", r" (&&|\|\|) ", lambda m: " " + {"&&": "||", "||": "&&"}[m.group(1)] + " "),
-    ("condition", r"\bif \((?!constexpr)", lambda m: "if (!("),
-    ("constant", NUMBER, lambda m: "1" if float(m.group(0)) == 0 else f"(2 * {m.group(0)})"),
-]
-# Declarations, where a number is a size or a comparison a template's bracket; loops, which then hang or read beyond an end, as everybody notices.
-NO_SITE = re.compile(r"^\s*(for \(|//|/\*|\*|#|template|using|namespace|case |static_assert|struct|class|enum|friend|\"|EXPECT|ASSERT)|operator|\[\]|std::array<|Matrix<|Lanes<|\.reserve\(|\.resize\(")
+BATCHES = [1, 4, 16, 64, 256]  # s: tests are started in one go that take so long together
+LONGER = 4  # a change may make a test take so many times its time before it counts as noticed
+UNREACHED, NOBODY, OWN, ALL = "no test comes by", "nobody", "the room's tests", "all tests"
 
 
 def say(text):
@@ -58,50 +48,10 @@ def rooms_of(tree):
     return sorted(p.name for p in (tree / "src").iterdir() if p.is_dir())
 
 
-def sources_of(tree, room):
-    files = [p for p in (tree / "src" / room).rglob("*") if p.suffix in (".h", ".cpp") and not re.search(r"_test\.cpp$|_for_tests\.", p.name)]
-    return sorted(files)
-
-
-def without_words(line):
-    """The line with its strings and its comment blanked out, of the same length."""
-    line = re.sub(r'"(\\.|[^"\\])*"', lambda m: '"' + "_" * (len(m.group(0)) - 2) + '"', line)
-    return re.sub(r"//.*$", lambda m: " " * len(m.group(0)), line)
-
-
-def closing(text, start):
-    depth = 0
-    for i in range(start, len(text)):
-        depth += {"(": 1, ")": -1}.get(text[i], 0)
-        if depth == 0:
-            return i
-    return -1
-
-
-def sites_of(tree, room):
-    """(file, line number, kind, line, changed line) of everything that may be changed in a room."""
-    sites = []
-    for path in sources_of(tree, room):
-        for number, line in enumerate(path.read_text().splitlines(), 1):
-            bare = without_words(line)
-            if NO_SITE.search(bare):
-                continue
-            for kind, pattern, change in CHANGES:
-                for m in re.finditer(pattern, bare):
-                    new = change(m)
-                    changed = line[: m.start()] + new + line[m.end() :]
-                    if new == "if (!(":
-                        end = closing(bare, m.end() - 1)
-                        if end < 0 or " = " in bare[m.end() : end]:
-                            continue
-                        changed = line[: m.start()] + "if (!(" + line[m.end() : end] + "))" + line[end + 1 :]
-                    sites.append((str(path.relative_to(tree)), number, kind, line, changed))
-    return sites
-
-
 def run(command, seconds, **more):
     """The exit code, and None where the time was up: then the command is ended with all that it has started."""
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True, **more)
+    more = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, **more}
+    process = subprocess.Popen(command, start_new_session=True, **more)
     try:
         return process.wait(timeout=seconds)
     except subprocess.TimeoutExpired:
@@ -134,130 +84,164 @@ def configure(tree, build, *options):
     subprocess.run(["cmake", "-G", "Ninja", "-S", str(tree), "-B", str(build), *cached, *options], check=True, stdout=subprocess.DEVNULL)
 
 
-class Suites:
-    """Builds the program with all tests, and runs the suites of one room or all."""
+def load(path, otherwise):
+    return json.loads(path.read_text()) if path.exists() else otherwise
 
-    def __init__(self, jobs, room_tests_only):
-        self.jobs, self.room_tests_only = jobs, room_tests_only
-        self.program, self.suites = str(BUILD / "pintle_tests"), []
 
-    def build(self):
-        return run(["ninja", "-C", str(BUILD), f"-j{self.jobs}", "pintle_tests", "bin/pintle"], 7200) == 0
+def build_in(sites):
+    """The working tree with all these changes in it, their numbers those in the list, from 1; None is left out."""
+    by_file = collections.defaultdict(dict)
+    for number, site in enumerate(sites, 1):
+        if site is None:
+            continue
+        by_file[site.file][site.number] = site.built_in.format(number)
 
-    def is_quick_to_build(self, file):
-        """Whether no more than MOST_COMPILED sources are compiled again when the file has changed."""
-        before = (TREE / file).stat()
-        os.utime(TREE / file)
-        planned = subprocess.run(["ninja", "-C", str(BUILD), "-n", "pintle_tests", "bin/pintle"], capture_output=True, text=True, check=True).stdout
-        os.utime(TREE / file, ns=(before.st_atime_ns, before.st_mtime_ns))
-        return planned.count("Building CXX object") <= MOST_COMPILED
+    def changed(name, content):
+        if name not in by_file:
+            return content
+        lines = content.decode().split("\n")
+        for number, line in by_file[name].items():
+            lines[number - 1] = line
+        switch = f'#include "{TREE / "tools" / "mutation" / "switch.h"}"\n#line 1 "{TREE / name}"\n'
+        return (switch + "\n".join(lines)).encode()
 
-    def run_room(self, room):
-        """Whether the suites pass whose tests stand in the room; None where it has none."""
-        tests = (TREE / "src" / room).rglob("*_test.cpp")
-        suites = sorted({suite for path in tests for suite in re.findall(r"^TEST(?:_F|_P)?\((\w+),", path.read_text(), re.M)})
-        if not suites:
-            return None
-        command = [self.program, "--gtest_fail_fast", "--gtest_filter=" + ":".join(f"{s}.*:*/{s}.*" for s in suites)]
-        return run(command, 1800, cwd=TREE) == 0
+    copy_tree(TREE, changed)
 
-    def measure(self):
-        """Runs every suite before anything is changed, and sorts them by the time that they take."""
-        listed = subprocess.run([self.program, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout
-        suites = sorted(set(re.findall(r"^([\w/]+)\.", listed, re.M)) - {TIMED_SUITE})
-        taken = {}
 
-        def time_suite(suite):
-            start = time.monotonic()
-            if not self.passes(suite):
-                sys.exit(f"{suite} fails before anything is changed: {self.program} --gtest_filter={suite}.*")
-            taken[suite] = time.monotonic() - start
+def build(sites, jobs):
+    """Builds what compiles of the sites, in turns: those that the compiler's messages name are left out, None in the list, so that the others keep their numbers."""
+    sites = list(sites)
+    dropped = {tuple(key) for key in load(DROPPED, [])}
+    while True:
+        sites = [site if site and site.key not in dropped else None for site in sites]
+        build_in(sites)
+        configure(TREE, BUILD, "-DPINTLE_UNITY=ON", "-DCMAKE_CXX_FLAGS=-w -Wno-narrowing")  # constants have become variables
+        log = WORK / "build.log"
+        with log.open("w") as out:
+            if run(["ninja", "-C", str(BUILD), "-k0", f"-j{jobs}"], 3 * 3600, stdout=out, stderr=subprocess.STDOUT) == 0:
+                return sites
+        named = set(re.findall(re.escape(str(TREE)) + r"/([\w./]+):(\d+)", log.read_text()))
+        bad = [site for site in sites if site and (site.file, str(site.number)) in named]
+        if not bad:
+            sys.exit(f"the tests do not compile, and no change is the cause: {log}")
+        say(f"{len(bad)} changes do not compile and are left out")
+        dropped |= {site.key for site in bad}
+        DROPPED.write_text(json.dumps(sorted(dropped)))
+
+
+class Tests:
+    """The tests, with the changes that each of them comes by and the time that it takes."""
+
+    def __init__(self, jobs):
+        self.jobs, self.program = jobs, str(BUILD / "pintle_tests")
+        self.reached, self.seconds = {}, {}
+
+    def run(self, names, mutant, seconds, reached=None):
+        """Whether they pass."""
+        with tempfile.TemporaryDirectory(prefix="pintle-mutants-") as folder:
+            flags = Path(folder) / "flags"
+            flags.write_text("--gtest_fail_fast\n--gtest_filter=" + ":".join(names) + "\n")
+            more = {"PINTLE_MUTANT": str(mutant), "TMPDIR": folder}
+            if reached:
+                more["PINTLE_MUTANTS_REACHED"] = reached
+            return run([self.program, f"--gtest_flagfile={flags}"], seconds, cwd=folder, env={**os.environ, **more}) == 0
+
+    def measure(self, known):
+        """Runs every test once without a change. What is known of tests of an unchanged program is taken over."""
+        names, suite = [], ""
+        for line in subprocess.run([self.program, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout.splitlines():
+            if line.startswith("  "):
+                names.append(suite + line.split("#")[0].strip())
+            elif re.match(r"[\w/]+\.", line):
+                suite = line.split("#")[0].strip()
+        names = [name for name in names if not name.startswith(TIMED_SUITE + ".") and "DISABLED_" not in name]
+        broken = []
+
+        def measure_one(name):
+            if name in known:
+                self.reached[name], self.seconds[name] = set(known[name][0]), known[name][1]
+                return
+            with tempfile.TemporaryDirectory(prefix="pintle-mutants-") as folder:
+                path, start = Path(folder) / "reached", time.monotonic()
+                if not self.run([name], 0, 600, str(path)):
+                    broken.append(name)
+                    return
+                self.seconds[name] = time.monotonic() - start
+                self.reached[name] = {int(word) for word in path.read_text().split()} if path.exists() else set()
 
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-            list(pool.map(time_suite, suites))
-        self.suites = sorted(suites, key=taken.get)
-        say(f"{len(suites)} suites pass, in {sum(taken.values()):.0f} s")
+            list(pool.map(measure_one, names))
+        say(f"{len(self.seconds)} tests pass, in {sum(self.seconds.values()):.0f} s" + (f"; left out, as they fail without a change: {', '.join(broken)}" if broken else ""))
+        REACHED.write_text(json.dumps({name: (sorted(self.reached[name]), self.seconds[name]) for name in self.seconds}))
 
-    def passes(self, suite):
-        return run([self.program, "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter={suite}.*"], 600, cwd=BUILD) == 0
+    def noticed(self, names, mutant, stopped):
+        """Whether one of the tests fails; the quickest are run first, many at a time."""
+        left = sorted(names, key=self.seconds.get)
+        for most in BATCHES:
+            batch = []
+            while left and (not batch or sum(map(self.seconds.get, batch)) + self.seconds[left[0]] <= most):
+                batch.append(left.pop(0))
+            if batch and not stopped.is_set() and not self.run(batch, mutant, 10 + LONGER * sum(map(self.seconds.get, batch))):
+                return True
+        return False if not left else self.noticed(left, mutant, stopped)
 
-    def run_all(self):
-        """Whether all suites pass; the quickest ones first, none after one that fails."""
-        failed = threading.Event()
-
-        def run_unless_failed(suite):
-            if not failed.is_set() and not self.passes(suite):
-                failed.set()
-
-        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-            list(pool.map(run_unless_failed, self.suites))
-        return not failed.is_set()
-
-    def verdict(self, room):
-        if not self.build():
-            return "does not compile"
-        if self.run_room(room) is False:
-            return "the room's tests"
-        if self.room_tests_only:
-            return ROOM_ONLY
-        return "nobody" if self.run_all() else "all tests"
-
-
-def load_results():
-    return json.loads(RESULTS.read_text()) if RESULTS.exists() else []
+    def verdict(self, mutant, own_suites, most_seconds, stopped):
+        """(who notices it, tests that come by, tests that were run)"""
+        come_by = sorted((name for name in self.reached if mutant in self.reached[name]), key=self.seconds.get)
+        own = [name for name in come_by if name.split(".")[0].split("/")[-1] in own_suites or name.split("/")[0] in own_suites]
+        others, taken = [], 0
+        for name in come_by:
+            taken += self.seconds[name]
+            if name not in own and taken <= most_seconds:
+                others.append(name)
+        if not come_by:
+            return UNREACHED, 0, 0
+        if self.noticed(own, mutant, stopped):
+            return OWN, len(come_by), len(own)
+        return (ALL if self.noticed(others, mutant, stopped) else NOBODY), len(come_by), len(own) + len(others)
 
 
-def take_turns(rooms, options, suites, done):
-    """(room, site) in the order in which they are tried: one of each room, then the next of each. What is done already is counted and left out."""
-    left = {}
-    for room in rooms:
-        left[room] = sites_of(TREE, room)
-        random.Random(f"{options.seed} {room}").shuffle(left[room])
-    quick, counted = {}, collections.Counter()
-    while any(left.values()):
-        for room in rooms:
-            while left[room]:
-                site = left[room].pop(0)
-                known = done.get((site[0], site[3], site[4]))
-                if known is None and site[0] not in quick:
-                    quick[site[0]] = suites.is_quick_to_build(site[0])
-                if known is None and not quick[site[0]]:
-                    continue
-                if known is None:
-                    yield room, site
-                    known = done[site[0], site[3], site[4]]
-                if known != "does not compile":
-                    counted[room] += 1
-                    break
-            if counted[room] >= options.sample:
-                left[room] = []
+def suites_of(room):
+    """The suites of tests that stand in the room."""
+    return {suite for path in (TREE / "src" / room).rglob("*_test.cpp") for suite in re.findall(r"^TEST(?:_F|_P)?\((\w+),", path.read_text(), re.M)}
 
 
 def test_rooms(options):
     WORK.mkdir(parents=True, exist_ok=True)
-    copy_tree(TREE)
-    configure(TREE, BUILD, "-DPINTLE_UNITY=ON")
-    suites, results = Suites(options.jobs, options.room_tests_only), load_results()
-    if not options.room_tests_only:  # what only the room's tests have seen goes on to all tests
-        results = [r for r in results if r["noticed_by"] != ROOM_ONLY]
-    done = {(r["file"], r["line"], r["changed"]): r["noticed_by"] for r in results}
-    if not suites.build():
-        sys.exit(f"the tests do not compile before anything is changed: ninja -C {BUILD} pintle_tests bin/pintle")
-    suites.measure()
-    for room, (file, number, kind, line, changed) in take_turns(options.rooms or rooms_of(TREE), options, suites, done):
-        path = TREE / file
-        original = path.read_text()
-        lines = original.split("\n")
-        lines[number - 1] = changed
-        path.write_text("\n".join(lines))
+    rooms = options.rooms or rooms_of(ROOT)
+    results = {(r["file"], r["line"], r["changed"]): r for r in load(RESULTS, [])}
+    drawn = [site for room in rooms for site in draw(ROOT, room, options.seed, round(SPARE * options.sample))]
+    drawn = build(drawn, options.jobs)
+    numbers, counted = {}, collections.Counter()
+    for number, site in enumerate(drawn, 1):
+        if site and counted[site.room] < options.sample:
+            counted[site.room] += 1
+            numbers[site] = number
+    tests = Tests(options.jobs)
+    print(f"{len(numbers)} changes in {len(counted)} rooms are built in")
+    tests.measure(load(REACHED, {}) if options.keep_measured else {})
+    unseen = (NOBODY, UNREACHED)
+    todo = [site for site in numbers if site.key not in results or (options.again and results[site.key]["noticed_by"] in unseen)]
+    todo.sort(key=lambda site: [s for s in numbers if s.room == site.room].index(site))  # one of each room, then the next of each
+    lock, stopped = threading.Lock(), threading.Event()
+
+    def try_one(site):
+        if stopped.is_set():
+            return
+        noticed, come_by, tried = tests.verdict(numbers[site], suites_of(site.room), options.most_seconds, stopped)
+        with lock:
+            if stopped.is_set():
+                return
+            results[site.key] = {"room": site.room, "file": site.file, "number": site.number, "kind": site.kind, "line": site.line, "changed": site.changed,
+                                 "noticed_by": noticed, "tests": come_by, "run": tried}
+            RESULTS.write_text(json.dumps(list(results.values()), indent=1))
+            say(f"{site.room:12} {noticed:18} {site.file}:{site.number}: {site.changed.strip()}")
+
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         try:
-            noticed = suites.verdict(room)
-        finally:
-            path.write_text(original)
-        done[file, line, changed] = noticed
-        results.append({"room": room, "file": file, "number": number, "kind": kind, "line": line, "changed": changed, "noticed_by": noticed})
-        RESULTS.write_text(json.dumps(results, indent=1))
-        say(f"{room:12} {noticed:24} {file}:{number}: {changed.strip()}")
+            list(pool.map(try_one, todo))
+        except KeyboardInterrupt:
+            stopped.set()
 
 
 def equivalents():
@@ -266,7 +250,7 @@ def equivalents():
     if EQUIVALENT.exists():
         for entry in EQUIVALENT.read_text().splitlines():
             if entry and not entry.startswith("#"):
-                file, changed, why = (part.strip() for part in entry.split(" | ", 2))
+                file, changed, why = (part.strip() for part in entry.split(" @@ ", 2))
                 known[file, changed] = why
     return known
 
@@ -274,47 +258,50 @@ def equivalents():
 def page(results):
     known = equivalents()
     there = {(str(path.relative_to(ROOT)), line) for room in rooms_of(ROOT) for path in sources_of(ROOT, room) for line in path.read_text().splitlines()}
-    results = [r for r in results if (r["file"], r["line"]) in there]
     rooms = collections.defaultdict(collections.Counter)
     survivors = []
     for r in results:
-        if r["noticed_by"] in ("does not compile", ROOM_ONLY):
+        if (r["file"], r["line"]) not in there:
             continue
+        unseen = r["noticed_by"] in (NOBODY, UNREACHED)
         why = known.get((r["file"], r["changed"].strip()))
-        kind = "equivalent" if r["noticed_by"] == "nobody" and why else r["noticed_by"]
-        rooms[r["room"]][kind] += 1
-        if r["noticed_by"] == "nobody":
+        rooms[r["room"]]["equivalent" if unseen and why else r["noticed_by"]] += 1
+        if unseen:
             survivors.append((r, why))
     out = ["# Tests that notice", "",
-           "`make mutants` changes one sign, comparison, condition or constant of the sources at a time, in a sample of lines drawn from a seed, and runs the tests of the room, then all tests. A change that nobody notices",
-           "is either given a test or explained as equivalent. The table is of what has been run so far; one room, or a larger sample, is `make mutants ROOMS=laws SAMPLE=20`.", "",
+           "`make mutants` changes one sign, comparison, condition or constant of the sources at a time, in a sample of lines drawn from a seed, and runs the tests that come by the changed line: those of its room, then all",
+           "others, the quickest first, as far as two minutes of them go. A change that nobody notices is either given a test or explained as equivalent. The table is of what has been run so far; one room, or a larger",
+           "sample, is `make mutants ROOMS=laws SAMPLE=40`.", "",
            "| room | changed | noticed by its tests | by all tests | equivalent | unnoticed | noticed |", "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"]
     total = collections.Counter()
     for room in sorted(rooms) + ["all"]:
         c = rooms[room] if room != "all" else total
-        own, whole, same, nobody = c["the room's tests"], c["all tests"], c["equivalent"], c["nobody"]
+        own, whole, same, nobody = c[OWN], c[ALL], c["equivalent"], c[NOBODY] + c[UNREACHED]
         real = own + whole + nobody
         out.append(f"| {room} | {real + same} | {own} | {whole} | {same} | {nobody} | {100 * (own + whole) // max(1, real)} % |")
         if room != "all":
             total.update(c)
     out += ["", "## Nobody noticed", ""]
-    for r, why in survivors:
-        out += [f"- `{r['file']}`: `{r['line'].strip()}` as `{r['changed'].strip()}`" + (f". Equivalent: {why}" if why else "")]
+    for r, why in sorted(survivors, key=lambda s: (s[0]["file"], s[0]["number"])):
+        more = f". Equivalent: {why}" if why else f"; of {r['tests']} tests that come by, {r['run']} were run" if r["tests"] > r["run"] else "" if r["tests"] else "; no test comes by"
+        out += [f"- `{r['file']}`: `{r['line'].strip()}` as `{r['changed'].strip()}`{more}"]
     return "\n".join(out) + "\n"
 
 
 def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--rooms", type=lambda words: [w for w in words.split(",") if w], default=[], help="rooms of src/, with commas between (default: all)")
-    options.add_argument("--sample", type=int, default=8, help="mutants of a room that compile")
+    options.add_argument("--sample", type=int, default=12, help="changes of a room that compile")
     options.add_argument("--seed", default="1")
     options.add_argument("--jobs", type=int, default=os.cpu_count())
-    options.add_argument("--room-tests-only", action="store_true", help="quickly: what the room's own tests do not notice is left at that")
+    options.add_argument("--most-seconds", type=float, default=120, help="of tests that are run to notice a change, beside those of its room")
+    options.add_argument("--again", action="store_true", help="try again what nobody has noticed so far")
+    options.add_argument("--keep-measured", action="store_true", help="take over which changes the tests come by: only where no source has changed since they were measured")
     options.add_argument("--write", type=Path, help="only write the page of the results")
     options = options.parse_args()
     if options.write is None:
         test_rooms(options)
-    text = page(load_results())
+    text = page(load(RESULTS, []))
     if options.write:
         options.write.write_text(text)
     else:

@@ -11,9 +11,10 @@
 
 namespace pintle {
 
-enum class SampleStatus : std::uint8_t { kCompleted, kToleranceNotMet, kFailed, kNotAssembled, kModelError };
+/// Those from kHorizon on are the outcomes of a run that have the same names. Written to files by number.
+enum class SampleStatus : std::uint8_t { kCompleted, kToleranceNotMet, kFailed, kNotAssembled, kModelError, kHorizon, kRunaway, kEnergyOpen };
 
-/// "completed", "tolerance_not_met", "failed", "not_assembled" or "model_error".
+/// "completed", "tolerance_not_met", "failed", "not_assembled", "model_error", "horizon", "runaway" or "energy_open".
 std::string to_text(SampleStatus status);
 
 /// What to compute. Two requests that are equal give files that are equal to the last bit, on any number of threads and machines.

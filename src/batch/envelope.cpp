@@ -24,6 +24,12 @@ SampleStatus status_of(Outcome outcome) {
       return SampleStatus::kCompleted;
     case Outcome::kToleranceNotMet:
       return SampleStatus::kToleranceNotMet;
+    case Outcome::kHorizon:
+      return SampleStatus::kHorizon;
+    case Outcome::kRunaway:
+      return SampleStatus::kRunaway;
+    case Outcome::kEnergyOpen:
+      return SampleStatus::kEnergyOpen;
     default:
       return SampleStatus::kFailed;
   }
@@ -35,11 +41,13 @@ SampleResult result_of(const Trajectory& run, bool checked) {
   out.message = run.message;
   out.steps = run.counters.steps;
   out.passes = run.counters.passes;
-  // Without a second integration there is no estimate, also where a checked run broke off before it.
+  // Without a second integration there is no estimate, also where a checked run broke off before it; nor is there for what a chaotic motion does after its horizon.
   const bool estimated = checked && run.counters.passes > 1;
   out.joints.reserve(run.joints.size());
-  for (const LoadSummary& joint : run.joints)
-    out.joints.push_back({joint.peak, joint.peak_time, joint.peak_moment, estimated ? joint.error_estimate : kNotEstimated});
+  for (const LoadSummary& joint : run.joints) {
+    const bool promised = estimated && !(run.outcome == Outcome::kHorizon && joint.peak_time > joint.horizon);
+    out.joints.push_back({joint.peak, joint.peak_time, joint.peak_moment, promised ? joint.error_estimate : kNotEstimated});
+  }
   return out;
 }
 

@@ -19,11 +19,18 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Align = TextTable::Align;
 
-constexpr std::array kStatuses{SampleStatus::kCompleted, SampleStatus::kToleranceNotMet, SampleStatus::kFailed, SampleStatus::kNotAssembled, SampleStatus::kModelError};
+constexpr std::array kStatuses{SampleStatus::kCompleted, SampleStatus::kToleranceNotMet, SampleStatus::kFailed, SampleStatus::kNotAssembled, SampleStatus::kModelError,
+                               SampleStatus::kHorizon, SampleStatus::kRunaway, SampleStatus::kEnergyOpen};
 constexpr std::size_t kMostJoints = 40, kMostMessages = 5;
 
 std::size_t count_of(const SweepTable& table, SampleStatus status) {
   return static_cast<std::size_t>(std::count(table.status.begin(), table.status.end(), static_cast<std::uint8_t>(status)));
+}
+
+// Whether its peaks are those of the whole run: of a chaotic motion they are one draw of what it may do.
+bool has_peaks(std::uint8_t status) {
+  constexpr std::array kWhole{SampleStatus::kCompleted, SampleStatus::kToleranceNotMet, SampleStatus::kHorizon};
+  return std::find(kWhole.begin(), kWhole.end(), static_cast<SampleStatus>(status)) != kWhole.end();
 }
 
 // The smallest value that at least this share of the sorted ones does not exceed.
@@ -39,7 +46,7 @@ PeakStatistics statistics_of(const SweepTable& table, std::size_t joint) {
   const std::size_t n = table.joints.size();
   for (std::size_t i = 0; i < table.n_samples(); ++i) {
     const double peak = table.force[i * n + joint], error = table.error[i * n + joint] / peak;
-    if (table.status[i] > static_cast<std::uint8_t>(SampleStatus::kToleranceNotMet) || !std::isfinite(peak)) continue;
+    if (!has_peaks(table.status[i]) || !std::isfinite(peak)) continue;
     peaks.push_back(peak);
     if (!(peak >= out.least)) out.least_sample = i, out.least = std::isnan(out.least) ? peak : std::min(out.least, peak);
     if (!(peak <= out.most)) out.most_sample = i, out.most = peak;

@@ -1,6 +1,7 @@
 // Whole sweeps: the file is that of single runs, and the same to the last bit on any number of threads and after any stop.
 #include "pintle/sweep.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -13,8 +14,6 @@
 #include "pintle/read_model.h"
 #include "pintle/simulate.h"
 #include "results/sample_run_for_tests.h"
-#include <fmt/format.h>
-
 #include "sweeps/storage/sweep_file.h"
 #include "sweeps/sweep_models_for_tests.h"
 #include "sweeps/sweep_report.h"
@@ -140,6 +139,23 @@ TEST_F(SlowSweep, SamplesThatFailAreResults) {
   EXPECT_TRUE(sample::contains(text, "cannot be assembled from the stated positions: joint pin (revolute) stays open by 0.2 m")) << text;
 }
 
+// Chaos is no failure: the peaks are there, without an error where nobody knows it.
+TEST_F(SlowSweep, AChaoticSampleKeepsItsPeaks) {
+  SweepRequest r;
+  r.model_name = "double_pendulum.toml";
+  r.model_text = read_file(std::string(PINTLE_SOURCE_DIR) + "/mechanisms/double_pendulum.toml");
+  r.vary = {"simulate.duration=1,30 s"};
+  EXPECT_EQ(sweep(r, to("a.h5")).progress.troubled, 1u);
+  const SweepTable table = read_sweep(folder_ / "a.h5");
+  EXPECT_EQ(static_cast<SampleStatus>(table.status[0]), SampleStatus::kCompleted);
+  EXPECT_EQ(static_cast<SampleStatus>(table.status[1]), SampleStatus::kHorizon);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_GT(table.force[k], 19.62) << k;
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_LT(table.error[k], 1) << k;
+  EXPECT_TRUE(std::isnan(table.error[2]) && std::isnan(table.error[3]));
+  EXPECT_EQ(peak_statistics(table)[0].most_sample, 1u);
+  EXPECT_TRUE(sample::contains(sweep_text(table, false), "1 of 2 samples did not complete: 1 horizon")) << sweep_text(table, false);
+}
+
 SweepTable table_of(std::size_t n) {
   SweepTable table;
   table.paths = {"joint.pin.stiffness"};
@@ -167,6 +183,17 @@ TEST(SweepReport, StatisticsAreThoseOfTheSamples) {
   EXPECT_EQ(s.least_sample, 0u);
   EXPECT_EQ(table.force[s.most_sample], 100);
   EXPECT_DOUBLE_EQ(s.worst_error, 1e-3);
+}
+
+// Peaks of a chaotic motion are one draw of what it may do; those of a run that broke off are not the sample's.
+TEST(SweepReport, ChaoticSamplesCountAndBrokenOnesDoNot) {
+  SweepTable table = table_of(3);
+  for (const auto& [status, most] : {std::pair{SampleStatus::kHorizon, 3}, {SampleStatus::kToleranceNotMet, 3}, {SampleStatus::kRunaway, 2}, {SampleStatus::kEnergyOpen, 2}, {SampleStatus::kFailed, 2}}) {
+    table.status[1] = static_cast<std::uint8_t>(status);
+    table.force = {1, 3, 2};
+    EXPECT_EQ(peak_statistics(table)[0].most, most) << to_text(status);
+    EXPECT_TRUE(sample::contains(sweep_json(table, "a.h5"), fmt::format("\"{}\": 1", to_text(status))));
+  }
 }
 
 TEST(SweepReport, PlotsOneOrTwoVaryingValues) {

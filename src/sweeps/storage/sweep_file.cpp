@@ -15,7 +15,7 @@
 namespace pintle {
 
 std::string to_text(SampleStatus status) {
-  constexpr const char* kTexts[] = {"completed", "tolerance_not_met", "failed", "not_assembled", "model_error"};
+  constexpr const char* kTexts[] = {"completed", "tolerance_not_met", "failed", "not_assembled", "model_error", "horizon", "runaway", "energy_open"};
   return kTexts[static_cast<int>(status)];
 }
 
