@@ -8,7 +8,7 @@
 
 namespace pintle {
 
-/// Of which revolute joints: those whose model states a bearing, or all, as if the others stated an empty one.
+/// Of which revolute joints: those whose model states a bearing or an oil film, whose law knows its size, or all, as if the others stated an empty bearing.
 enum class BearingsOf { kStated, kEveryPin };
 
 /// In the order of the model. Only the bearings are read from `model`, whose other values were those of the run. theory/bearing_life

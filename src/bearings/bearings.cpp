@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <unordered_map>
 
 #include "base/constants.h"
@@ -30,6 +31,12 @@ class NamedParts {
   const LoadSummary* load(const std::string& joint) const {
     const auto found = loads_.find(joint);
     return found == loads_.end() ? nullptr : found->second;
+  }
+
+  /// -1: not recorded.
+  int column(const std::string& name) const {
+    const auto found = columns_.find(name);
+    return found == columns_.end() ? -1 : static_cast<int>(found->second);
   }
 
   Duty duty(const LoadSummary& load) const {
@@ -106,6 +113,41 @@ void add_pressure(const Bearing& bearing, const Duty& duty, BearingSummary& out)
   out.peak_pv = radius / area * duty.peak_power();
 }
 
+// What the law of a joint says of a size, in SI units.
+std::optional<double> size_of(const Joint& joint, const std::string& key) {
+  const auto found = joint.law.values.find(key);
+  return found == joint.law.values.end() || found->second.empty() ? std::nullopt : std::optional(found->second.front());
+}
+
+// What its table says, and of the sizes that it leaves out what an oil film's law knows.
+Bearing bearing_of(const Joint& joint) {
+  Bearing out = joint.bearing.value_or(Bearing{});
+  const auto radius = size_of(joint, "journal_radius");
+  if (radius && !out.pin_diameter) out.pin_diameter = 2 * *radius;
+  if (!out.pin_length) out.pin_length = size_of(joint, "bearing_length");
+  return out;
+}
+
+// Where an oil film is thinnest, of the rows, and how long it is thinner than its surfaces are rough.
+void add_film(const Joint& joint, const Trajectory& run, const NamedParts& parts, BearingSummary& out) {
+  const std::string path = "joint." + joint.name + ".";
+  const int thickness = parts.column(path + "film_thickness"), eccentricity = parts.column(path + "eccentricity");
+  const auto roughness = size_of(joint, "roughness");
+  if (thickness < 0 || eccentricity < 0 || !roughness || run.n_rows() == 0) return;
+  std::size_t thinnest = 0, touching = 0;
+  const auto film = [&](std::size_t row) { return run.at(row, static_cast<std::size_t>(thickness)); };
+  for (std::size_t i = 0; i < run.n_rows(); ++i) {
+    if (film(i) < film(thinnest)) thinnest = i;
+    touching += film(i) < *roughness ? 1 : 0;
+  }
+  const double t = run.at(thinnest, 0), least = film(thinnest);
+  if (touching == 0)
+    out.remarks.push_back(fmt::format("its oil film is thinnest at t = {:.5g} s: {:.3g} um, at an eccentricity of {:.3g}", t, 1e6 * least, run.at(thinnest, static_cast<std::size_t>(eccentricity))));
+  else
+    out.remarks.push_back(fmt::format("its oil film is too thin: rough surfaces touch in {:.3g} % of the rows, most at t = {:.5g} s, where smooth ones would {} {:.3g} um (roughness {:.3g} um)",
+                                      100 * static_cast<double>(touching) / static_cast<double>(run.n_rows()), t, least < 0 ? "press into each other by" : "leave", 1e6 * std::abs(least), 1e6 * *roughness));
+}
+
 // Equation (5.2).
 void add_wear(const Bearing& bearing, const Trajectory& run, BearingSummary& out) {
   if (!bearing.wear_coefficient || !bearing.pin_diameter || !bearing.pin_length) return;
@@ -134,7 +176,8 @@ std::vector<std::string> missing_sizes(const Bearing& bearing) {
   return wants;
 }
 
-BearingSummary summary_of(const Bearing& bearing, const LoadSummary& load, const Trajectory& run, const NamedParts& parts) {
+BearingSummary summary_of(const Joint& joint, const LoadSummary& load, const Trajectory& run, const NamedParts& parts) {
+  const Bearing bearing = bearing_of(joint);
   BearingSummary out;
   out.joint = load.name;
   out.mean_force = load.mean;
@@ -147,6 +190,7 @@ BearingSummary summary_of(const Bearing& bearing, const LoadSummary& load, const
   add_life(bearing, duty, out);
   add_static_safety(bearing, out);
   add_pressure(bearing, duty, out);
+  add_film(joint, run, parts, out);
   add_wear(bearing, run, out);
   out.wants = missing_sizes(bearing);
   return out;
@@ -157,13 +201,13 @@ BearingSummary summary_of(const Bearing& bearing, const LoadSummary& load, const
 double life_exponent(const Bearing& bearing) { return bearing.type == "ball" ? 3 : bearing.type == "roller" ? 10.0 / 3 : kNone; }
 
 std::vector<BearingSummary> bearing_summaries(const Model& model, const Trajectory& run, BearingsOf which) {
-  const auto wanted = [which](const Joint& joint) { return joint.bearing || (which == BearingsOf::kEveryPin && joint.type == "revolute"); };
+  const auto wanted = [which](const Joint& joint) { return joint.bearing || size_of(joint, "journal_radius") || (which == BearingsOf::kEveryPin && joint.type == "revolute"); };
   std::vector<BearingSummary> out;
   if (std::none_of(model.joints.begin(), model.joints.end(), wanted)) return out;
   const NamedParts parts(run);
   for (const Joint& joint : model.joints) {
     const LoadSummary* load = wanted(joint) ? parts.load(joint.name) : nullptr;
-    if (load != nullptr) out.push_back(summary_of(joint.bearing.value_or(Bearing{}), *load, run, parts));
+    if (load != nullptr) out.push_back(summary_of(joint, *load, run, parts));
   }
   return out;
 }

@@ -55,6 +55,44 @@ PinRun steady_run(const Bearing& bearing, double force, double rate, double time
   return pin;
 }
 
+// A film of 40 um over a journal of 24 mm x 14 mm, whose pin comes as near to the bush as `thinnest` in one of its eleven rows.
+BearingSummary in_oil(double thinnest, bool recorded = true) {
+  PinRun pin = steady_run({}, 1000, 100);
+  Joint& joint = pin.model.joints.front();
+  joint.bearing.reset();
+  joint.law = {"journal-bearing", {{"journal_radius", {0.012}}, {"bearing_length", {0.014}}, {"roughness", {1e-6}}}};
+  if (!recorded) return pin.summary();
+  const std::size_t before = pin.run.columns.size();
+  pin.run.columns.push_back({"joint.B.film_thickness", "m", ""});
+  pin.run.columns.push_back({"joint.B.eccentricity", "-", ""});
+  std::vector<double> values;
+  for (std::size_t row = 0; row < 11; ++row) {
+    values.insert(values.end(), pin.run.values.begin() + static_cast<std::ptrdiff_t>(row * before), pin.run.values.begin() + static_cast<std::ptrdiff_t>((row + 1) * before));
+    const double film = row == 3 ? thinnest : 20e-6;
+    values.push_back(film);
+    values.push_back(1 - film / 40e-6);
+  }
+  pin.run.values = values;
+  return pin.summary();
+}
+
+TEST(Bearings, AnOilFilmIsMeasuredByItsLaw) {
+  const BearingSummary one = in_oil(5e-6);
+  EXPECT_NEAR(one.mean_pressure, 1000 / (0.024 * 0.014), 1e-6);
+  EXPECT_NEAR(one.peak_sliding, 1.2, 1e-12);
+  ASSERT_EQ(one.remarks.size(), 1u);
+  EXPECT_EQ(one.remarks[0], "its oil film is thinnest at t = 0.3 s: 5 um, at an eccentricity of 0.875");
+  EXPECT_TRUE(in_oil(5e-6, false).remarks.empty());
+}
+
+TEST(Bearings, AFilmThatIsTooThinIsSaid) {
+  for (const auto& [film, words] : {std::pair{0.5e-6, "leave 0.5 um"}, {-2e-6, "press into each other by 2 um"}}) {
+    const BearingSummary one = in_oil(film);
+    ASSERT_EQ(one.remarks.size(), 1u);
+    EXPECT_EQ(one.remarks[0], std::string("its oil film is too thin: rough surfaces touch in 9.09 % of the rows, most at t = 0.3 s, where smooth ones would ") + words + " (roughness 1 um)");
+  }
+}
+
 TEST(Bearings, SteadyLoadAndSpeed) {
   const BearingSummary one = steady_run(ball(10000), 1000, 100).summary();
   EXPECT_NEAR(one.path, 100, 1e-10);
