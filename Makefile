@@ -33,7 +33,7 @@ help:
 	@echo "make studio-test  the studio's tests in Node; the WebAssembly kernel gives the native one's numbers"
 	@echo "make studio-browser-test  the built studio in chromium: drawing, every template, broken models, axe, sizes"
 	@echo "make web-check  compile the library with emscripten"
-	@echo "make mutants    changes lines of the sources and lists what no test notices: three hours; ROOMS=laws SAMPLE=4: one"
+	@echo "make mutants    changes lines of the sources and lists what no test notices: an hour; ROOMS=laws SAMPLE=40: one room"
 	@echo "make constants  what becomes of runs when each constant of the numerics is halved and doubled: an hour; docs/theory/constants.md"
 	@echo "make format     clang-format every source"
 	@echo "make clean      remove build/ and out/"

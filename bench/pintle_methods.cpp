@@ -8,7 +8,7 @@
 #include "bench/stopwatch.h"
 #include "pintle/read_model.h"
 #include "pintle/simulate.h"
-#include "run/passes.h"
+#include "run/pass_constants.h"
 #include "start/start.h"
 
 namespace pintle::bench {

@@ -10,7 +10,7 @@
 #include "bench/result_table.h"
 #include "bench/stopwatch.h"
 #include "run/integration.h"
-#include "run/passes.h"
+#include "run/pass_constants.h"
 #include "run/run_system.h"
 #include "tests/spatial_models.h"
 

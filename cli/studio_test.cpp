@@ -46,6 +46,7 @@ class StudioServer : public testing::Test {
     child_ = fork();
     ASSERT_GE(child_, 0);
     if (child_ == 0) {
+      signal(SIGINT, SIG_DFL);  // a shell that starts the tests in the background ignores it for all
       if (chdir(folder_.c_str()) != 0 || freopen(said.c_str(), "w", stdout) == nullptr) _exit(1);
       execl(kProgram.c_str(), "pintle", "studio", "a.toml", "--no-browser", "--port", "0", "--pages", ".pages", static_cast<char*>(nullptr));
       _exit(1);

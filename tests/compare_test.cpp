@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
+#include "pintle/simulate.h"
 #include "pintle/stiffen.h"
+#include "results/studies/compare_report.h"
 #include "tests/reference_tables.h"
 
 namespace pintle {
@@ -23,6 +28,7 @@ TEST(Compare, DifferenceOfStiffJointsIsPhysicalAndGoesAsTheCompliance) {
   reference::set_joints(stiffer, 1e9, 1e4);
   const Comparison ten = compare(stiffer, Equations::kIdeal);
   ASSERT_EQ(one.forces.size(), 4u);
+  EXPECT_NE(compare_text(one, "").find("it comes from joint compliance and goes as 1 / stiffness"), std::string::npos);
   for (std::size_t j = 0; j < 4; ++j) {
     EXPECT_EQ(one.forces[j].cause, Cause::kPhysical) << one.forces[j].name;
     EXPECT_NEAR(one.forces[j].largest / ten.forces[j].largest, 10, 0.5) << one.forces[j].name;
@@ -34,7 +40,11 @@ TEST(Compare, DifferenceOfStiffJointsIsPhysicalAndGoesAsTheCompliance) {
 TEST(Compare, DifferenceWithinTheErrorsIsNumerical) {
   Model model = reference::mechanism("four_bar", {"simulate.tolerance=1e-4"});
   reference::set_joints(model, 1e12, 3e5);
-  for (const Difference& force : compare(model, Equations::kIdeal).forces) EXPECT_EQ(force.cause, Cause::kNumerical) << force.name;
+  const Comparison c = compare(model, Equations::kIdeal);
+  for (const Difference& force : c.forces) EXPECT_EQ(force.cause, Cause::kNumerical) << force.name;
+  const std::string text = compare_text(c, "");
+  EXPECT_NE(text.find("numerical: within the error estimates"), std::string::npos);
+  EXPECT_EQ(text.find("it comes from joint compliance"), std::string::npos);
 }
 
 // Couples have errors of their own [N*m]; a body that stands still is compared with those that move.
@@ -50,6 +60,17 @@ TEST(Compare, CouplesAreJudgedByTheirOwnErrors) {
     EXPECT_EQ(couple.error_estimate, stated) << couple.name;
   }
   for (const Difference& coordinate : c.coordinates) EXPECT_GE(coordinate.digits, 2) << coordinate.name;
+}
+
+// Rows that only one of the runs has are left out, whichever it is.
+TEST(Compare, RunsAreComparedWhereBothHaveRows) {
+  const auto run = [](const char* step) { return simulate(reference::mechanism("four_bar", {"simulate.duration=0.12 s", std::string("simulate.output_step=") + step})); };
+  const Model model = reference::mechanism("four_bar");
+  for (const auto& [first, second] : {std::pair{"20 ms", "30 ms"}, {"30 ms", "20 ms"}, {"20 ms", "20 ms"}})
+    for (const Difference& force : compare(model, run(first), run(second), Equations::kNewtonian).forces) {
+      EXPECT_LT(force.largest, 1e-3 * force.peak) << first << " " << second;
+      EXPECT_GT(force.peak, 0);
+    }
 }
 
 TEST(Compare, NamesTheSoftJoint) {
@@ -100,6 +121,7 @@ TEST(Stiffen, FindsTheFourBarsStiffnessAndItsLimit) {
     EXPECT_LT(of_run, 0.5e-4 * peak) << limit.name;
     EXPECT_LE(std::abs(limit.limit - peak), limit.error) << limit.name;
     EXPECT_LT(limit.error, 1e-6 * peak) << limit.name;
+    EXPECT_GE(limit.error, s.steps.back().error_estimate * limit.peak) << limit.name;
   }
   // With what is recommended joint by joint the digits agree with ideal joints.
   const Comparison c = compare(stiffened(model, s.joints), Equations::kIdeal);

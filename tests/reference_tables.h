@@ -14,7 +14,7 @@
 #include "pintle/read_model.h"
 #include "pintle/simulate.h"
 #include "run/integration.h"
-#include "run/passes.h"
+#include "run/pass_constants.h"
 #include "run/recorder.h"
 #include "start/start.h"
 

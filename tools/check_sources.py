@@ -41,8 +41,8 @@ PUBLIC_HEADERS = {
     "solvers.h": "studies",
     "sweep.h": "batch",
 }
-OUTER = {"cli", "studio", "tests", "bench", "examples"}
-FOLDERS = ["include", "src", "cli", "studio/kernel", "studio/server", "studio/src", "studio/tests", "tests", "bench", "examples", "tools", "cmake"]
+OUTER = {"cli", "studio", "tests", "bench", "paper", "examples"}
+FOLDERS = ["include", "src", "cli", "studio/kernel", "studio/server", "studio/src", "studio/tests", "tests", "bench", "paper", "examples", "tools", "cmake"]
 SUFFIXES = {".h", ".cpp", ".py", ".sh", ".cmake", ".ts", ".tsx"}
 MAX_FILE, MAX_FUNCTION = 500, 100
 VAGUE = {"manager", "handler", "util", "utils", "helper", "helpers", "misc", "data2", "tmp"}

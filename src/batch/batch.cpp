@@ -9,7 +9,7 @@
 #include "integrators/absolute/radau_stepper.h"
 #include "integrators/thresholds.h"
 #include "pintle/simulate.h"
-#include "run/passes.h"
+#include "run/pass_constants.h"
 #include "start/start.h"
 #include "system/build.h"
 

@@ -69,6 +69,7 @@ void expect_near(const BatchResult& result, const BatchPlan& plan, Model model) 
     const LoadSummary& joint = truth.joints[row++];
     EXPECT_NEAR(result.joints[j].force, joint.peak, kBatchTolerance * joint.peak) << joint.name;
     EXPECT_NEAR(result.joints[j].time, joint.peak_time, 0.005 * model.simulate.duration) << joint.name;
+    EXPECT_NEAR(result.joints[j].couple, joint.peak_moment, kBatchTolerance * std::max(joint.peak_moment, 1e-3 * joint.peak)) << joint.name;
   }
 }
 

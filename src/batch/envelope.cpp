@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "base/text/did_you_mean.h"
-#include "run/passes.h"
+#include "run/pass_constants.h"
 #include "run/recorder.h"
 #include "system/build.h"
 

@@ -34,6 +34,7 @@ TEST(Envelope, OfACheckedVariantIsTheRunBitForBit) {
     for (std::size_t j = 0; j < run.joints.size(); ++j) {
       EXPECT_EQ(results[0].joints[j].force, run.joints[j].peak);
       EXPECT_EQ(results[0].joints[j].time, run.joints[j].peak_time);
+      EXPECT_EQ(results[0].joints[j].moment, run.joints[j].peak_moment);
       EXPECT_EQ(results[0].joints[j].error, run.joints[j].error_estimate);
     }
     if (!series) continue;

@@ -6,6 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "base/constants.h"
 #include "bearings/duty.h"
@@ -75,6 +79,20 @@ BearingSummary in_oil(double thinnest, bool recorded = true) {
   pin.run.values = values;
   return pin.summary();
 }
+
+// Only where the motion is chaotic, and only of a force that is not promised to the end.
+TEST(Bearings, ChaosIsSaid) {
+  for (const auto& [outcome, horizon, said] : {std::tuple{Outcome::kHorizon, 0.4, true}, {Outcome::kHorizon, 1.0, false}, {Outcome::kCompleted, 0.4, false}}) {
+    PinRun pin = steady_run(ball(10000), 1000, 100);
+    pin.run.outcome = outcome;
+    pin.run.t_end = 1;
+    pin.run.joints.front().horizon = horizon;
+    const std::vector<std::string> remarks = pin.summary().remarks;
+    EXPECT_EQ(std::any_of(remarks.begin(), remarks.end(), [](const std::string& text) { return text.find("chaotic") != std::string::npos; }), said) << horizon;
+  }
+}
+
+TEST(Bearings, SmallForcesHaveASafetyToo) { EXPECT_NEAR(steady_run(ball(10000, 50), 0.5, 100).summary().static_safety, 100, 1e-9); }
 
 TEST(Bearings, AnOilFilmIsMeasuredByItsLaw) {
   const BearingSummary one = in_oil(5e-6);

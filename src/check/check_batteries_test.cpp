@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <variant>
 
+#include "base/expression/expression_parser.h"
+#include "base/units.h"
 #include "check/check_differences.h"
 #include "check/check_links.h"
 #include "check/check_samples_for_tests.h"
@@ -157,6 +161,31 @@ TEST(CheckBatteries, RopeAtItsKink) {
   model.bodies.push_back(checked::bar("arm", 20, 3, {0, 0}, 0, {{"O", {0, 0}, 0}}));
   model.joints.push_back(checked::joint("pin", "revolute", {"ground", "O"}, {"arm", "O"}, 1e10, 1e5));
   EXPECT_EQ(failures(check_model(model)), "");
+}
+
+// What a motor follows is compared with its differences, twice in each state: a rate and an acceleration. A constant speed has none.
+TEST(CheckBatteries, FunctionsThatMotorsFollow) {
+  const auto compared = [](const Model& model) -> std::int64_t {
+    const CheckReport report = check_model(model);
+    EXPECT_EQ(failures(report), "");
+    for (const CheckItem& item : report.jacobians.items)
+      if (item.what == "derivatives of expressions") return item.comparisons;
+    return 0;
+  };
+  Model model = checked::five_bar_parallelogram(0);
+  EXPECT_EQ(compared(model), 0);
+  model.motors[0].kind = MotorKind::kPosition;
+  ParseScope scope;
+  scope.variables = {{"t", kBareNumber}};
+  model.motors[0].law = std::get<ParsedExpression>(parse_expression("1.1 + 0.2*sin(3*t)", scope)).expression;
+  EXPECT_EQ(compared(model), 8);
+}
+
+// The floor is there where nothing else gives a scale.
+TEST(CheckDifferences, OneSlopeIsItsOwnScale) {
+  Comparisons tally("line", 1e-6);
+  tally.slopes(Eigen::MatrixXd::Constant(1, 1, 1e3), [](int, double s) { return one(1e3 * (1 + 1e-8) * s); }, Eigen::VectorXd::Constant(1, 1e-3), 1e-6, kHere);
+  EXPECT_TRUE(tally.item().passed());
 }
 
 }  // namespace

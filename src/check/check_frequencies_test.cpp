@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "check/check_samples_for_tests.h"
 
@@ -28,6 +29,16 @@ TEST(CheckFrequencies, BarOnAPin) {
   EXPECT_NEAR(f.modes[1].frequency, fast, 1e-6 * fast);
   EXPECT_EQ(f.modes[1].component, "x");
   EXPECT_NEAR(f.explicit_step, dormand_prince_step(fast, 4 * c / (2 * fast)), 1e-6 * f.explicit_step);
+}
+
+// A bar on a pin to the ground, with another on its end: the same turned over, each joint naming its bodies the other way round.
+TEST(CheckFrequencies, DependOnNoOrderOfBodies) {
+  Model model = checked::four_bar(1, 4, 4, 6, 60 * kDegree);
+  const CheckFrequencies f = check_model(model).frequencies;
+  for (Joint& joint : model.joints) std::swap(joint.first, joint.second);
+  const CheckFrequencies turned = check_model(model).frequencies;
+  ASSERT_EQ(f.modes.size(), turned.modes.size());
+  for (std::size_t i = 0; i < f.modes.size(); ++i) EXPECT_NEAR(f.modes[i].frequency, turned.modes[i].frequency, 1e-9 * f.modes[i].frequency);
 }
 
 // Known to be 3.3066 on the negative real axis, and about 1 on the imaginary one.

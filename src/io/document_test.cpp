@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "io/hash.h"
 #include "results/disk.h"
 
 namespace pintle {
@@ -125,12 +124,6 @@ TEST(Document, EndlessNestingIsRefused) {
   EXPECT_NE(first_complaint("a = " + std::string(100000, '['), "x.toml"), "none");
   EXPECT_EQ(first_complaint("{\"a\": " + std::string(100000, '['), "x.json").substr(0, 5), "1:71 ");
   EXPECT_NE(first_complaint("a = " + std::string(100, '[') + std::string(100, ']'), "x.toml"), "none");
-}
-
-TEST(Document, HashIsFnv1a) {
-  EXPECT_EQ(input_hash(""), "cbf29ce484222325");
-  EXPECT_EQ(input_hash("a"), "af63dc4c8601ec8c");
-  EXPECT_EQ(input_hash("foobar"), "85944171f73967e8");
 }
 
 }  // namespace

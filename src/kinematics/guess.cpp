@@ -10,11 +10,10 @@ namespace {
 
 using S = Planar;
 
-bool joins_points(const JointData& joint) {
-  return joint.type == "revolute" || joint.type == "fixed" || joint.type == "slot" || joint.type == "prismatic";
-}
+// Bodies are put where their markers lie on each other, also where these may slide.
+bool joins_markers(const JointData& joint) { return joint.servo < 0 && std::holds_alternative<Selection>(joint.displacement); }
 
-bool joins_angles(const JointData& joint) { return joint.type == "fixed" || joint.type == "prismatic"; }
+bool joins_angles(const JointData& joint) { return joins_markers(joint) && joint.held[2]; }
 
 // Puts body `b` onto the joint's other half, as far from it as the joint is at rest; `other` is placed already.
 void put(const JointData& joint, int b, const Model& model, const std::vector<S::Motion>& m, Vecs& q) {
@@ -77,7 +76,7 @@ Vecs guess_positions(const Model& model, const System& system) {
         const JointData& joint = system.joints[j];
         const int a = joint.at.a == kGround ? n : joint.at.a, b = joint.at.b == kGround ? n : joint.at.b;
         const int next = a == at ? b : a;
-        if (placed[next] || !joins_points(joint)) continue;
+        if (placed[next] || !joins_markers(joint)) continue;
         put(joint, next, model, m, q);
         m[next] = S::Motion::of(q[next], S::Vec::Zero());
         placed[next] = true;

@@ -477,6 +477,9 @@ TEST(BushingLaw, RefusesWhatFeedsEnergy) {
   const LawInfo& info = *find_law("bushing");
   const std::map<std::string, std::vector<double>> values{{"stiffness", {100}}, {"angular_stiffness", {1}}, {"stiffness_xa", {11}}};
   EXPECT_EQ(info.fault(setting_of(info, values)).key, "stiffness_xa");
+  // Two terms are too large: the one that is more so is named.
+  const std::map<std::string, std::vector<double>> two{{"stiffness", {100}}, {"angular_stiffness", {1}}, {"stiffness_xy", {101}}, {"stiffness_ya", {30}}};
+  EXPECT_EQ(info.fault(setting_of(info, two)).key, "stiffness_ya");
   const std::map<std::string, std::vector<double>> just{{"stiffness", {100}}, {"angular_stiffness", {1}}, {"stiffness_xa", {10}}};
   EXPECT_EQ(info.fault(setting_of(info, just)).key, "");
 }

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "integrators/methods.h"
-#include "run/passes.h"
+#include "run/pass_constants.h"
 
 namespace pintle {
 

@@ -11,7 +11,7 @@
 #include "run/errors/stated_error.h"
 #include "run/errors/promises.h"
 #include "run/integration.h"
-#include "run/passes.h"
+#include "run/pass_constants.h"
 #include "run/recording.h"
 
 namespace pintle {

@@ -16,7 +16,7 @@
 #include "pintle/simulate.h"
 #include "start/assembly_notes.h"
 #include "start/seat.h"
-#include "start/start_forces.h"
+#include "start/preload.h"
 #include "system/build.h"
 
 namespace pintle {

@@ -16,7 +16,7 @@
 #include "laws/linear.h"
 #include "pintle/simulate.h"
 #include "start/slow_manifold.h"
-#include "start/start_forces.h"
+#include "start/preload.h"
 #include "system/build.h"
 
 namespace pintle {

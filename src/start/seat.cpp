@@ -8,7 +8,7 @@
 #include "dynamics/inverse_dynamics.h"
 #include "kinematics/position_search.h"
 #include "laws/gap_at_force.h"
-#include "start/start_forces.h"
+#include "start/preload.h"
 
 namespace pintle {
 namespace {

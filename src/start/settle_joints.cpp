@@ -12,7 +12,7 @@
 #include "integrators/absolute/radau_stepper.h"
 #include "linalg/chebyshev_nodes.h"
 #include "start/slow_manifold.h"
-#include "start/start_forces.h"
+#include "start/preload.h"
 
 namespace pintle {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "dynamics/inverse_dynamics.h"
 #include "linalg/chebyshev_nodes.h"
-#include "start/start_forces.h"
+#include "start/preload.h"
 
 namespace pintle {
 namespace {

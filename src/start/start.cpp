@@ -13,11 +13,11 @@
 #include "start/ideal_rows.h"
 #include "start/seat.h"
 #include "start/settle_joints.h"
-#include "start/start_forces.h"
+#include "start/preload.h"
 #include "start/stiction.h"
 #include "start/relative/tree_start.h"
 #include "system/build.h"
-#include "system/tree.h"
+#include "system/joint_tree.h"
 
 namespace pintle {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "start/assembly.h"
 #include "start/settle_joints.h"
-#include "start/start_forces.h"
+#include "start/preload.h"
 
 namespace pintle {
 

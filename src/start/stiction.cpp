@@ -9,7 +9,7 @@
 #include "kinematics/position_search.h"
 #include "laws/friction/stick_slip.h"
 #include "laws/law_part.h"
-#include "start/start_forces.h"
+#include "start/preload.h"
 #include "system/system.h"
 
 namespace pintle {

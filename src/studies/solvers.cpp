@@ -15,7 +15,7 @@
 #include "integrators/methods.h"
 #include "pintle/simulate.h"
 #include "run/integration.h"
-#include "run/passes.h"
+#include "run/pass_constants.h"
 #include "run/recorder.h"
 #include "run/recording.h"
 #include "start/start.h"

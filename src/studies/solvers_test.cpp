@@ -102,6 +102,7 @@ TEST(CompareSolvers, TimeIsLimited) {
   const SolverStudy study = compare_solvers(model, options);
   ASSERT_EQ(study.runs.size(), 1U);
   EXPECT_EQ(study.runs[0].end, SolverEnd::kOutOfTime);
+  EXPECT_EQ(study.runs[0].message, "more than 0.0001 s");
   EXPECT_TRUE(std::isnan(study.runs[0].force_error));
   EXPECT_LT(study.runs[0].t_end, 0.2);
   EXPECT_TRUE(std::isnan(study.orders[0].order));

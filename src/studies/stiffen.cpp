@@ -40,7 +40,10 @@ double stated(const Joint& joint, const char* key, double otherwise) {
   return it == joint.law.values.end() || it->second.empty() ? otherwise : *std::min_element(it->second.begin(), it->second.end());
 }
 
-bool has_angle(const Joint& joint) { return joint.type == "prismatic" || joint.type == "fixed"; }
+bool holds_angle(const std::string& type) {
+  const JointTypeInfo* info = find_joint_type(type);
+  return info && std::any_of(info->gap.begin(), info->gap.end(), [](const ComponentInfo& component) { return component.angular; });
+}
 
 const std::vector<Difference>& chosen_list(const Comparison& c, const StiffenRequest& request) {
   return request.motion_only ? c.coordinates : c.forces;
@@ -107,13 +110,13 @@ class Procedure {
       const bool fixed_law = !find_law(joint.law.word)->stiffens || find_joint_type(joint.type)->one_sided;
       if (fixed_law) as_it_is_.insert(joint.name);
       j.kept = fixed_law || j.stated < request().first ||
-               (has_angle(joint) && stated(joint, "angular_stiffness", 1e6) < request().first * length_ * length_);
+               (holds_angle(joint.type) && stated(joint, "angular_stiffness", 1e6) < request().first * length_ * length_);
       set(j, request().first);
       if (!j.kept) continue;
       j.stiffness = j.stated;
       j.damping = stated(joint, "damping", 3e3);
-      j.angular_stiffness = has_angle(joint) ? stated(joint, "angular_stiffness", 1e6) : 0;
-      j.angular_damping = has_angle(joint) ? stated(joint, "angular_damping", 30) : 0;
+      j.angular_stiffness = holds_angle(joint.type) ? stated(joint, "angular_stiffness", 1e6) : 0;
+      j.angular_damping = holds_angle(joint.type) ? stated(joint, "angular_damping", 30) : 0;
     }
   }
 
@@ -154,7 +157,7 @@ class Procedure {
     const double area = length_ * length_;
     joint.stiffness = stiffness;
     joint.damping = damping_of(stiffness, request().damping, joint.name);
-    joint.angular_stiffness = joint.type == "prismatic" || joint.type == "fixed" ? stiffness * area : 0;
+    joint.angular_stiffness = holds_angle(joint.type) ? stiffness * area : 0;
     joint.angular_damping = joint.angular_stiffness > 0 ? damping_of(stiffness * area, request().damping * area, joint.name + ".angle") : 0;
   }
 

@@ -209,5 +209,10 @@ TEST(SweepReport, PlotsOneOrTwoVaryingValues) {
   EXPECT_EQ(sweep_plot(table)->panels[0].curves.size(), 3u);
 }
 
+TEST(SweepReport, ManyPowersOfTenHaveALogarithmicAxis) {
+  EXPECT_FALSE(sweep_plot(table_of(19))->panels[0].log_x);
+  EXPECT_TRUE(sweep_plot(table_of(25))->panels[0].log_x);
+}
+
 }  // namespace
 }  // namespace pintle

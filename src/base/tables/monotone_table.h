@@ -1,4 +1,4 @@
-// A function of one variable through given points, by cubic pieces that rise and fall only where the points do (base/cubic_curve.h). The
+// A function of one variable through given points, by cubic pieces that rise and fall only where the points do (base/tables/cubic_curve.h). The
 // function and its slope are continuous, the curvature jumps at the points. Beyond the ends it is straight.
 #pragma once
 

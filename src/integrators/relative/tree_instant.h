@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "system/state.h"
-#include "system/tree.h"
+#include "system/joint_tree.h"
 
 namespace pintle {
 

@@ -26,6 +26,23 @@ PlotRequest request_for(std::vector<std::string> joints, std::vector<std::string
   return request;
 }
 
+// A line at zero is drawn where there are values on both of its sides.
+TEST(SvgPlot, ZeroIsDrawnBetweenSigns) {
+  const auto drawn = [](double low, double high, bool log) {
+    Plot plot;
+    plot.panels.push_back({"force", "N", {}});
+    plot.panels[0].log_y = log;
+    plot.panels[0].curves.push_back({"a", "", {}});
+    plot.panels[0].curves[0].x = {0, 1};
+    plot.panels[0].curves[0].y = {low, high};
+    return svg_holds(to_svg(plot), "stroke=\"#999\"");
+  };
+  EXPECT_TRUE(drawn(-1, 2, false));
+  EXPECT_FALSE(drawn(1, 2, false));
+  EXPECT_FALSE(drawn(1, 2, true));
+  EXPECT_FALSE(drawn(-2, -1, false));
+}
+
 TEST(PlotTicks, StepsAreRoundAndCoverTheData) {
   for (const double size : {1e-9, 0.37, 1.0, 63.0, 4.4e7})
     for (const double offset : {-3.0, -0.5, 0.0, 0.01, 100.0}) {

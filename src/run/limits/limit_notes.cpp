@@ -10,7 +10,7 @@
 #include "base/constants.h"
 #include "integrators/methods.h"
 #include "run/limits/drive_limit.h"
-#include "run/passes.h"
+#include "run/pass_constants.h"
 
 namespace pintle {
 namespace {

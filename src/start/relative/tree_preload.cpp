@@ -10,7 +10,7 @@
 #include "laws/gap_at_force.h"
 #include "linalg/chebyshev_nodes.h"
 #include "start/slow_manifold.h"
-#include "start/start_forces.h"
+#include "start/preload.h"
 
 namespace pintle {
 namespace {

@@ -7,7 +7,7 @@
 #include "start/seat.h"
 #include "start/settle_joints.h"
 #include "start/slow_manifold.h"
-#include "start/start_forces.h"
+#include "start/preload.h"
 #include "start/relative/tree_preload.h"
 
 namespace pintle {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "bench/paper/page.h"
+#include "paper/page.h"
 
 namespace pintle::paper {
 

@@ -1,4 +1,4 @@
-#include "bench/paper/four_bar_runs.h"
+#include "paper/four_bar_runs.h"
 
 #include <fmt/format.h>
 

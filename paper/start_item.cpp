@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/paper/four_bar_runs.h"
-#include "bench/paper/items.h"
+#include "paper/four_bar_runs.h"
+#include "paper/items.h"
 
 namespace pintle::paper {
 namespace {

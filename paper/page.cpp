@@ -1,4 +1,4 @@
-#include "bench/paper/page.h"
+#include "paper/page.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

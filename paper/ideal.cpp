@@ -1,4 +1,4 @@
-#include "bench/paper/ideal.h"
+#include "paper/ideal.h"
 
 #include <cmath>
 #include <vector>

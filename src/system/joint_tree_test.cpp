@@ -1,5 +1,5 @@
 // The recursions over a joint tree against what they stand for: differences along a path, J'MJ, the balance of every body.
-#include "system/tree.h"
+#include "system/joint_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "start/start_forces.h"
+#include "start/preload.h"
 
 #include <algorithm>
 #include <cmath>

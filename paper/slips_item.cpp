@@ -6,9 +6,9 @@
 #include <functional>
 #include <numbers>
 
-#include "bench/paper/ideal.h"
-#include "bench/paper/items.h"
-#include "bench/paper/runs.h"
+#include "paper/ideal.h"
+#include "paper/items.h"
+#include "paper/runs.h"
 #include "pintle/simulate.h"
 
 namespace pintle::paper {

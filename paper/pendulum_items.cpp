@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/paper/ideal.h"
-#include "bench/paper/items.h"
-#include "bench/paper/runs.h"
+#include "paper/ideal.h"
+#include "paper/items.h"
+#include "paper/runs.h"
 #include "integrators/methods.h"
 #include "start/start.h"
 

@@ -3,8 +3,8 @@
 
 #include <stdexcept>
 
-#include "bench/paper/four_bar_runs.h"
-#include "bench/paper/items.h"
+#include "paper/four_bar_runs.h"
+#include "paper/items.h"
 
 namespace pintle::paper {
 

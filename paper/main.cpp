@@ -8,7 +8,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "bench/paper/items.h"
+#include "paper/items.h"
 
 namespace pintle::paper {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/paper/items.h"
-#include "bench/paper/runs.h"
+#include "paper/items.h"
+#include "paper/runs.h"
 
 namespace pintle::paper {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "bench/paper/ideal.h"
-#include "bench/paper/runs.h"
+#include "paper/ideal.h"
+#include "paper/runs.h"
 
 namespace pintle::paper {
 

@@ -1,4 +1,4 @@
-#include "bench/paper/runs.h"
+#include "paper/runs.h"
 
 #include <fmt/format.h>
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "bench/paper/ideal.h"
-#include "bench/paper/items.h"
-#include "bench/paper/runs.h"
+#include "paper/ideal.h"
+#include "paper/items.h"
+#include "paper/runs.h"
 
 namespace pintle::paper {
 namespace {

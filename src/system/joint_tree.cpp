@@ -1,4 +1,4 @@
-#include "system/tree.h"
+#include "system/joint_tree.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace {
 using S = Planar;
 
 bool carries_coordinates(const JointData& joint) {
-  return joint.servo < 0 && (joint.type == "revolute" || joint.type == "prismatic" || joint.type == "fixed" || joint.type == "slot");
+  return joint.servo < 0 && std::holds_alternative<Selection>(joint.displacement);
 }
 
 double offset(const JointData& joint, int component) { return std::get<Selection>(joint.displacement).offset[component]; }

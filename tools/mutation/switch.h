@@ -1,0 +1,66 @@
+// Built into a copy of the sources by tools/mutants.py: each of its changes has a number, and the program behaves as changed where PINTLE_MUTANT names that
+// number. The numbers of the changes that a program has come by are appended to the file PINTLE_MUTANTS_REACHED, one in a line, when it ends.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace pintle_mutants {
+
+inline constexpr int kMost = 1 << 15;
+
+struct Switch {
+  int active = std::getenv("PINTLE_MUTANT") ? std::atoi(std::getenv("PINTLE_MUTANT")) : 0;
+  bool reached[kMost];  // before the constructor is called, too: functions may be called while other files are initialized
+
+  Switch() {}
+  ~Switch() {
+    const char* path = std::getenv("PINTLE_MUTANTS_REACHED");
+    std::FILE* file = path ? std::fopen(path, "a") : nullptr;
+    if (!file) return;
+    for (int i = 0; i < kMost; ++i)
+      if (reached[i]) std::fprintf(file, "%d\n", i);
+    std::fclose(file);
+  }
+};
+inline Switch the_switch;
+
+inline bool on(int mutant) {
+  the_switch.reached[mutant] = true;
+  return the_switch.active == mutant;
+}
+
+inline int sign(int mutant) { return on(mutant) ? -1 : 1; }
+
+template <class T>
+T number(int mutant, T value) {
+  return !on(mutant) ? value : value == T(0) ? T(1) : T(2 * value);
+}
+
+// `a < b` is built in as `a < Less{number} < b`, which binds like the original.
+#define PINTLE_COMPARISON(Name, op, opposite)                                       \
+  struct Name {                                                                     \
+    int mutant;                                                                     \
+  };                                                                                \
+  template <class A>                                                                \
+  struct Name##With {                                                               \
+    const A& a;                                                                     \
+    int mutant;                                                                     \
+  };                                                                                \
+  template <class A>                                                                \
+  Name##With<A> operator op(const A& a, Name change) {                              \
+    return {a, change.mutant};                                                      \
+  }                                                                                 \
+  template <class A, class B>                                                       \
+  auto operator op(Name##With<A> left, const B& b) {                                \
+    return on(left.mutant) ? left.a opposite b : left.a op b;                       \
+  }
+PINTLE_COMPARISON(Less, <, >=)
+PINTLE_COMPARISON(LessEqual, <=, >)
+PINTLE_COMPARISON(Greater, >, <=)
+PINTLE_COMPARISON(GreaterEqual, >=, <)
+PINTLE_COMPARISON(Equal, ==, !=)
+PINTLE_COMPARISON(NotEqual, !=, ==)
+#undef PINTLE_COMPARISON
+
+}  // namespace pintle_mutants
