@@ -214,7 +214,7 @@ def test_rooms(options):
     WORK.mkdir(parents=True, exist_ok=True)
     rooms = options.rooms or rooms_of(ROOT)
     results = {(r["file"], r["line"], r["changed"]): r for r in load(RESULTS, [])}
-    drawn = [site for room in rooms for site in draw(ROOT, room, options.seed, round(SPARE * options.sample))]
+    drawn = [site for room in rooms for site in draw(ROOT, room, options.seed, round(SPARE * options.sample), results)]
     drawn = build(drawn, options.jobs)
     numbers, counted = {}, collections.Counter()
     for number, site in enumerate(drawn, 1):

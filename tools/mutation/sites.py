@@ -1,5 +1,5 @@
 """What may be changed in a source, and how a change is built in so that a number in the environment switches it on."""
-import random
+import hashlib
 import re
 from dataclasses import dataclass
 
@@ -150,12 +150,11 @@ def sites_of(tree, room):
     return sites
 
 
-def draw(tree, room, seed, wanted):
-    """So many sites of a room, no two of them on one line."""
-    sites = sites_of(tree, room)
-    random.Random(f"{seed} {room}").shuffle(sites)
+def draw(tree, room, seed, wanted, known):
+    """So many sites of a room, no two of them on one line: first those whose keys are known, then others, in an order that changes elsewhere do not change."""
+    order = {site: hashlib.sha256("\n".join((seed, *site.key)).encode()).hexdigest() for site in sites_of(tree, room)}
     drawn, lines = [], set()
-    for site in sites:
+    for site in sorted(order, key=lambda site: (site.key not in known, order[site])):
         if len(drawn) < wanted and (site.file, site.number) not in lines:
             lines.add((site.file, site.number))
             drawn.append(site)
