@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/methods.h"
 #include "paper/ideal.h"
 #include "paper/items.h"
 #include "paper/runs.h"
-#include "integrators/methods.h"
 #include "start/start.h"
 
 namespace pintle::paper {

@@ -281,6 +281,18 @@ free_length = "0.2 m"
   }
 }
 
+// The tensions of the ropes by hand: the moments of both weights about the foot, and the load's weight.
+TEST(SettledStart, ACraneHangsInItsRopes) {
+  const Trajectory run = completed(reference::test_model("luffing_crane", {"simulate.duration=0.5 s"}));
+  constexpr double kGravity = 9.81;  // the file's
+  const double load = 1500 * kGravity;
+  EXPECT_NEAR(-value(run, 0, "joint.hoist.force"), load, 1e-6 * load);
+  const double angle = value(run, 0, "body.boom.angle"), tip_x = 6 * std::cos(angle), tip_y = 6 * std::sin(angle), rope = std::hypot(tip_x, tip_y - 4);
+  const double arm = 4 * tip_x / rope;  // of the luffing rope about the foot
+  EXPECT_NEAR(-value(run, 0, "joint.luff.force"), (load * tip_x + 800 * kGravity * 0.5 * tip_x) / arm, 0.005 * load);
+  for (const LoadSummary& joint : run.joints) EXPECT_LT(joint.peak, 1.001 * joint.rms) << joint.name;
+}
+
 // Creeping it rubs with its kinetic friction, which does not hold it; where it was assembled its static friction does.
 TEST(SettledStart, ABlockThatOnlyStictionHoldsStartsWhereItIs) {
   const Trajectory run = completed(reference::test_model("block_held_by_stiction"));

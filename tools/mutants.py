@@ -91,18 +91,20 @@ def load(path, otherwise):
 
 def build_in(sites):
     """The working tree with all these changes in it, their numbers those in the list, from 1; None is left out."""
-    by_file = collections.defaultdict(dict)
+    by_file = collections.defaultdict(list)
     for number, site in enumerate(sites, 1):
         if site is None:
             continue
-        by_file[site.file][site.number] = site.built_in.format(number)
+        by_file[site.file].append((site, site.built_in.format(number)))
 
     def changed(name, content):
         if name not in by_file:
             return content
         lines = content.decode().split("\n")
-        for number, line in by_file[name].items():
-            lines[number - 1] = line
+        for site, line in by_file[name]:
+            if lines[site.number - 1] != site.line:
+                sys.exit(f"{name} has changed since its changes were drawn: start again")
+            lines[site.number - 1] = line
         switch = f'#include "{TREE / "tools" / "mutation" / "switch.h"}"\n#line 1 "{TREE / name}"\n'
         return (switch + "\n".join(lines)).encode()
 

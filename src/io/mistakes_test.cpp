@@ -35,6 +35,7 @@ const std::vector<Mistake> kMistakes{
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"@soft\"\nbetween", "joint.O2.stops", "none of hard, cushioned"},
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"@hunt-crossley\"\nbetween", "joint.O2.stops", "none of hard, cushioned", "stop_model = \"hunt-crossley\""},
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\nlaw = \"@coulomb\"\nbetween", "joint.O2.law", "none of", "friction = \"coulomb\""},
+    {"type = \"revolute\"\nbetween", "type = \"revolute\"\n@preload = 5\nbetween", "joint.O2.preload", "belongs to law", "or friction_preload if friction is meant"},
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\n@restitution = 0.5\nbetween", "joint.O2.restitution", "belongs to law", "or stop_restitution if the stops are meant"},
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\n@upper_stop = 1\nbetween", "joint.O2.upper_stop", "belongs to stops = \"hard\" or stops = \"cushioned\""},
     {"type = \"revolute\"\nbetween", "type = \"revolute\"\nstops = \"@hard\"\nstop_stiffness = 1\nbetween", "joint.O2.stops", "neither lower_stop nor upper_stop"},

@@ -8,8 +8,8 @@
 
 #include "run/energy_watch.h"
 #include "run/errors/error_growth.h"
-#include "run/errors/stated_error.h"
 #include "run/errors/promises.h"
+#include "run/errors/stated_error.h"
 #include "run/integration.h"
 #include "run/pass_constants.h"
 #include "run/recording.h"

@@ -15,8 +15,8 @@
 #include "kinematics/position_search.h"
 #include "pintle/simulate.h"
 #include "start/assembly_notes.h"
-#include "start/seat.h"
 #include "start/preload.h"
+#include "start/seat.h"
 #include "system/build.h"
 
 namespace pintle {

@@ -15,8 +15,8 @@
 #include "kinematics/position_search.h"
 #include "laws/linear.h"
 #include "pintle/simulate.h"
-#include "start/slow_manifold.h"
 #include "start/preload.h"
+#include "start/slow_manifold.h"
 #include "system/build.h"
 
 namespace pintle {
@@ -30,6 +30,7 @@ constexpr int kSwings = 100;                      // steps in which what is unba
 constexpr double kThicker = 4;                    // rate of the next fluid over that of one in which the mechanism swings
 constexpr double kFirstStep = 1e-3;               // over the time of the creep
 constexpr double kLongest = 1e6;                  // times that of the creep: a mechanism that still moves then has no position of rest
+constexpr double kForeseen = 1e3;                 // times that of the creep, or of the way so far: the end that a step is told, whose rounding decides which steps and events are too short
 constexpr std::uint64_t kMostCreepSteps = 50000;  // of the creep
 constexpr double kUnbalanced = 1e-6;              // of the largest force: what a start in equilibrium leaves unbalanced
 constexpr double kNudge = 1e-6, kLeaves = 1e-3;   // of the mechanism's size: how far it is moved from where it rests, and from where on it has left: the equilibrium was not stable
@@ -156,8 +157,9 @@ class Creep {
   // had left behind: where only that is left, the state with the least.
   bool creep(State& state, std::uint64_t& steps) {
     BasicRadauStepper<S> stepper(fluid_, kTolerance);
+    state.t = 0;
     stepper.start(state, kFirstStep / rate_);
-    const double begin = state.t, longest = kLongest * rate_ / (first_rate_ * first_rate_), rounding = rounding_of(system_, assembled_);
+    const double longest = kLongest * rate_ / (first_rate_ * first_rate_), rounding = rounding_of(system_, assembled_);
     double least = std::numeric_limits<double>::infinity(), halved = least;
     State calmest;
     const auto rests = [&] {
@@ -166,7 +168,8 @@ class Creep {
       return true;
     };
     for (int since = 0; since < kSwings; ++since, ++steps) {
-      if (!stepper.step(begin + longest)) throw AssemblyError("start = \"settled\": no rest was found: " + stepper.failure() + "\n  Try positions nearer to the equilibrium, or start = \"seated\" or \"assembled\".");
+      const double foreseen = std::min(longest, kForeseen * std::max(state.t, 1 / rate_));
+      if (!stepper.step(foreseen)) throw AssemblyError("start = \"settled\": no rest was found: " + stepper.failure() + "\n  Try positions nearer to the equilibrium, or start = \"seated\" or \"assembled\".");
       state = stepper.state();
       const double unrest = largest_unrest(fluid_, state, rate_, body_);
       if (unrest <= kAtRest * largest_load(fluid_, state)) return true;
@@ -174,7 +177,7 @@ class Creep {
         least = unrest;
         calmest = state;
       }
-      if (state.t - begin > 0.99 * longest) {
+      if (state.t > 0.99 * longest) {
         if (rests()) return true;
         throw AssemblyError(fmt::format("start = \"settled\": body {} comes to no rest: nothing stops it, or a load drives it on and on.\n  Try hold in its table, something that it can rest on, or start = \"assembled\".", name()));
       }

@@ -11,8 +11,8 @@
 #include "dynamics/time_scales.h"
 #include "integrators/absolute/radau_stepper.h"
 #include "linalg/chebyshev_nodes.h"
-#include "start/slow_manifold.h"
 #include "start/preload.h"
+#include "start/slow_manifold.h"
 
 namespace pintle {
 namespace {

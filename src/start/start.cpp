@@ -11,11 +11,11 @@
 #include "pintle/simulate.h"
 #include "start/equilibrium.h"
 #include "start/ideal_rows.h"
+#include "start/preload.h"
+#include "start/relative/tree_start.h"
 #include "start/seat.h"
 #include "start/settle_joints.h"
-#include "start/preload.h"
 #include "start/stiction.h"
-#include "start/relative/tree_start.h"
 #include "system/build.h"
 #include "system/joint_tree.h"
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "start/assembly.h"
-#include "start/settle_joints.h"
 #include "start/preload.h"
+#include "start/settle_joints.h"
 
 namespace pintle {
 

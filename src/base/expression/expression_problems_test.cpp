@@ -73,6 +73,8 @@ TEST(ExpressionProblem, NamesAndUnits) {
       {"5 kNm", 2, "\"kNm\"", "no unit", "kN*m"},
       {"2 sec", 2, "\"sec\"", "no unit", "s"},
       {"5 N m", 4, "\"m\"", "operator is missing", "*m or /m"},
+      {"smoothstep(t, 1, 5)", 17, "a constant", "what varies comes last", "smoothstep(from, to, t)"},
+      {"smoothstep(0, t, 5)", 17, "a constant", "what varies comes last", "smoothstep(from, to, t)"},
       {"2*t N", 4, "\"N\"", "operator is missing", "*1 N"},
       {"2 crank", 2, "\"crank\"", "operator is missing", "*crank"},
       {"2 t", 2, "\"t\"", "operator is missing", "*t"},

@@ -14,6 +14,10 @@
 
 namespace pintle {
 
+// Independences of the constraints, of the largest that was met.
+inline constexpr double kSuspicious = 0.5;  // above it no singular position is looked for
+inline constexpr double kFewDigits = 3e-2;  // below it forces lose too many digits, in proportion to its fourth power
+
 class IdealStepper final : public Stepper {
  public:
   /// `equations`: kIdeal or kPenalty.

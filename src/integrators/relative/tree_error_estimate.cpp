@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "integrators/dense/curve_weights.h"
-#include "integrators/radau/joint_pull.h"
 #include "integrators/load_scale.h"
+#include "integrators/radau/joint_pull.h"
 #include "integrators/radau/step_error.h"
 #include "integrators/relative/tree_radau.h"
 #include "integrators/thresholds.h"

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "system/state.h"
 #include "system/joint_tree.h"
+#include "system/state.h"
 
 namespace pintle {
 

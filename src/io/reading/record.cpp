@@ -1,6 +1,9 @@
 #include "io/reading/record.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <utility>
 
 #include "io/reading/law_keys.h"
 #include "io/text.h"
@@ -175,9 +178,10 @@ std::string RecordReader::complain_of_key(const TableSpec& spec, const Table& ta
     return "";
   }
   if (const std::string laws = spec.law_keys ? laws_with(entry.key) : std::string(); !laws.empty()) {
-    const std::string of_stops = "stop_" + entry.key;
-    complaints_.add(entry.key_spot, path, entry.key, "this key belongs to " + laws,
-                    !laws_with(of_stops).empty() ? "state one of them, or " + of_stops + " if the stops are meant" : "state one of them, or delete the key");
+    std::string remedy = "state one of them, or delete the key";
+    for (const auto& [prefix, meant] : {std::pair{"stop_", "the stops are"}, {"friction_", "friction is"}})
+      if (const std::string other = prefix + entry.key; !laws_with(other).empty()) remedy = fmt::format("state one of them, or {} if {} meant", other, meant);
+    complaints_.add(entry.key_spot, path, entry.key, "this key belongs to " + laws, remedy);
     return "";
   }
   if (record.path.empty() && is_parameter(table, entry.key)) {

@@ -27,7 +27,7 @@ A unit binds to the number before it. A bare number is in SI units and radians. 
 error. Parameter names may be used anywhere; "expression of" in a table lists further variables.
 
 - operators: `+ - * / ^`, unary `-`, comparisons `< > <= >=` (1 or 0), parentheses
-- functions: `sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign min max pow step(x) smoothstep(a, b, x) if(condition, then, else)`
+- functions: `sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign min max pow step(x) smoothstep(a, b, x) if(condition, then, else)`; `smoothstep` rises from 0 where x is a to 1 where it is b
 - tables: `NAME(x)` of a [`[table.NAME]`](#tablename)
 - constants: `pi`, `e`
 - variables: those that the table names. Where these are [coordinates](#coordinates): `t` and what moves

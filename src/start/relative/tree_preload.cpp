@@ -9,8 +9,8 @@
 #include "integrators/thresholds.h"
 #include "laws/gap_at_force.h"
 #include "linalg/chebyshev_nodes.h"
-#include "start/slow_manifold.h"
 #include "start/preload.h"
+#include "start/slow_manifold.h"
 
 namespace pintle {
 namespace {

@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "integrators/relative/tree_radau.h"
+#include "start/preload.h"
+#include "start/relative/tree_preload.h"
 #include "start/seat.h"
 #include "start/settle_joints.h"
 #include "start/slow_manifold.h"
-#include "start/preload.h"
-#include "start/relative/tree_preload.h"
 
 namespace pintle {
 namespace {
