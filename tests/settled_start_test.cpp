@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/constants.h"
 #include "pintle/simulate.h"
 #include "tests/reference_tables.h"
 
