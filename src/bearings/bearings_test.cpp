@@ -92,6 +92,14 @@ TEST(Bearings, ChaosIsSaid) {
   }
 }
 
+// Less than a turn in one direction is no swing; what the bearing's table leaves out is not made up.
+TEST(Bearings, AShortTurnWithoutARating) {
+  const BearingSummary one = steady_run({.type = "ball"}, 1000, 3).summary();
+  EXPECT_TRUE(one.remarks.empty());
+  EXPECT_NEAR(one.equivalent_load, 1000, 1e-9);
+  EXPECT_TRUE(std::isnan(one.life) && std::isnan(one.life_hours) && std::isnan(one.static_safety));
+}
+
 TEST(Bearings, SmallForcesHaveASafetyToo) { EXPECT_NEAR(steady_run(ball(10000, 50), 0.5, 100).summary().static_safety, 100, 1e-9); }
 
 TEST(Bearings, AnOilFilmIsMeasuredByItsLaw) {
