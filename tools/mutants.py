@@ -31,7 +31,7 @@ from mutation.sites import draw, sources_of
 
 ROOT = Path(__file__).resolve().parent.parent
 WORK = ROOT / "build" / "mutants"
-TREE, BUILD, RESULTS, DROPPED, REACHED = WORK / "tree", WORK / "build", WORK / "results.json", WORK / "dropped.json", WORK / "reached.json"
+TREE, BUILD, RESULTS, DROPPED = WORK / "tree", WORK / "build", WORK / "results.json", WORK / "dropped.json"
 EQUIVALENT = ROOT / "tools" / "equivalent_mutants.txt"
 
 SPARE = 1.5  # sites that are built in for each that is asked for: some do not compile
@@ -149,8 +149,8 @@ class Tests:
                 more["PINTLE_MUTANTS_REACHED"] = reached
             return run([self.program, f"--gtest_flagfile={flags}"], seconds, cwd=folder, env={**os.environ, **more}) == 0
 
-    def measure(self, known):
-        """Runs every test once without a change. What is known of tests of an unchanged program is taken over."""
+    def measure(self):
+        """Runs every test once without a change."""
         names, suite = [], ""
         for line in subprocess.run([self.program, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout.splitlines():
             if line.startswith("  "):
@@ -161,9 +161,6 @@ class Tests:
         broken, done = [], itertools.count(1)
 
         def measure_one(name):
-            if name in known:
-                self.reached[name], self.seconds[name] = set(known[name][0]), known[name][1]
-                return
             with tempfile.TemporaryDirectory(prefix="pintle-mutants-") as folder:
                 path, start = Path(folder) / "reached", time.monotonic()
                 if not self.run([name], 0, 600, str(path)):
@@ -177,7 +174,6 @@ class Tests:
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
             list(pool.map(measure_one, names))
         say(f"{len(self.seconds)} tests pass, in {sum(self.seconds.values()):.0f} s" + (f"; left out, as they fail without a change: {', '.join(broken)}" if broken else ""))
-        REACHED.write_text(json.dumps({name: (sorted(self.reached[name]), self.seconds[name]) for name in self.seconds}))
 
     def noticed(self, names, mutant, stopped):
         """Whether one of the tests fails; the quickest are run first, many at a time."""
@@ -225,7 +221,7 @@ def test_rooms(options):
             numbers[site] = number
     tests = Tests(options.jobs)
     say(f"{len(numbers)} changes in {len(counted)} rooms are built in")
-    tests.measure(load(REACHED, {}) if options.keep_measured else {})
+    tests.measure()
     unseen = (NOBODY, UNREACHED)
     todo = [site for site in numbers if site.key not in results or (options.again and results[site.key]["noticed_by"] in unseen)]
     todo.sort(key=lambda site: [s for s in numbers if s.room == site.room].index(site))  # one of each room, then the next of each
@@ -302,7 +298,6 @@ def main():
     options.add_argument("--jobs", type=int, default=os.cpu_count())
     options.add_argument("--most-seconds", type=float, default=120, help="of tests that are run to notice a change, beside those of its room")
     options.add_argument("--again", action="store_true", help="try again what nobody has noticed so far")
-    options.add_argument("--keep-measured", action="store_true", help="take over which changes the tests come by: only where no source has changed since they were measured")
     options.add_argument("--write", type=Path, help="only write the page of the results")
     options = options.parse_args()
     if options.write is None:

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <unordered_map>
 
 #include "base/constants.h"
 #include "bearings/duty.h"
 #include "bearings/worn_sector.h"
+#include "laws/least_stated.h"
 
 namespace pintle {
 namespace {
@@ -31,12 +31,6 @@ class NamedParts {
   const LoadSummary* load(const std::string& joint) const {
     const auto found = loads_.find(joint);
     return found == loads_.end() ? nullptr : found->second;
-  }
-
-  /// -1: not recorded.
-  int column(const std::string& name) const {
-    const auto found = columns_.find(name);
-    return found == columns_.end() ? -1 : static_cast<int>(found->second);
   }
 
   Duty duty(const LoadSummary& load) const {
@@ -113,27 +107,22 @@ void add_pressure(const Bearing& bearing, const Duty& duty, BearingSummary& out)
   out.peak_pv = radius / area * duty.peak_power();
 }
 
-// What the law of a joint says of a size, in SI units.
-std::optional<double> size_of(const Joint& joint, const std::string& key) {
-  const auto found = joint.law.values.find(key);
-  return found == joint.law.values.end() || found->second.empty() ? std::nullopt : std::optional(found->second.front());
-}
-
 // What its table says, and of the sizes that it leaves out what an oil film's law knows.
 Bearing bearing_of(const Joint& joint) {
   Bearing out = joint.bearing.value_or(Bearing{});
-  const auto radius = size_of(joint, "journal_radius");
+  const auto radius = least_stated(joint.law, "journal_radius");
   if (radius && !out.pin_diameter) out.pin_diameter = 2 * *radius;
-  if (!out.pin_length) out.pin_length = size_of(joint, "bearing_length");
+  if (!out.pin_length) out.pin_length = least_stated(joint.law, "bearing_length");
   return out;
 }
 
 // Where an oil film is thinnest, of the rows, and how long it is thinner than its surfaces are rough.
-void add_film(const Joint& joint, const Trajectory& run, const NamedParts& parts, BearingSummary& out) {
+void add_film(const Joint& joint, const Trajectory& run, BearingSummary& out) {
+  const auto roughness = least_stated(joint.law, "roughness");
+  if (!roughness || run.n_rows() == 0) return;
   const std::string path = "joint." + joint.name + ".";
-  const int thickness = parts.column(path + "film_thickness"), eccentricity = parts.column(path + "eccentricity");
-  const auto roughness = size_of(joint, "roughness");
-  if (thickness < 0 || eccentricity < 0 || !roughness || run.n_rows() == 0) return;
+  const int thickness = run.column(path + "film_thickness"), eccentricity = run.column(path + "eccentricity");
+  if (thickness < 0 || eccentricity < 0) return;
   std::size_t thinnest = 0, touching = 0;
   const auto film = [&](std::size_t row) { return run.at(row, static_cast<std::size_t>(thickness)); };
   for (std::size_t i = 0; i < run.n_rows(); ++i) {
@@ -190,7 +179,7 @@ BearingSummary summary_of(const Joint& joint, const LoadSummary& load, const Tra
   add_life(bearing, duty, out);
   add_static_safety(bearing, out);
   add_pressure(bearing, duty, out);
-  add_film(joint, run, parts, out);
+  add_film(joint, run, out);
   add_wear(bearing, run, out);
   out.wants = missing_sizes(bearing);
   return out;
@@ -201,7 +190,7 @@ BearingSummary summary_of(const Joint& joint, const LoadSummary& load, const Tra
 double life_exponent(const Bearing& bearing) { return bearing.type == "ball" ? 3 : bearing.type == "roller" ? 10.0 / 3 : kNone; }
 
 std::vector<BearingSummary> bearing_summaries(const Model& model, const Trajectory& run, BearingsOf which) {
-  const auto wanted = [which](const Joint& joint) { return joint.bearing || size_of(joint, "journal_radius") || (which == BearingsOf::kEveryPin && joint.type == "revolute"); };
+  const auto wanted = [which](const Joint& joint) { return joint.bearing || least_stated(joint.law, "journal_radius") || (which == BearingsOf::kEveryPin && joint.type == "revolute"); };
   std::vector<BearingSummary> out;
   if (std::none_of(model.joints.begin(), model.joints.end(), wanted)) return out;
   const NamedParts parts(run);

@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <deque>
 
+#include "system/pose_joint.h"
+
 namespace pintle {
 namespace {
 
 using S = Planar;
 
-// Bodies are put where their markers lie on each other, also where these may slide.
-bool joins_markers(const JointData& joint) { return joint.servo < 0 && std::holds_alternative<Selection>(joint.displacement); }
-
-bool joins_angles(const JointData& joint) { return joins_markers(joint) && joint.held[2]; }
+bool joins_angles(const JointData& joint) { return is_pose_joint(joint) && joint.held[2]; }
 
 // Puts body `b` onto the joint's other half, as far from it as the joint is at rest; `other` is placed already.
 void put(const JointData& joint, int b, const Model& model, const std::vector<S::Motion>& m, Vecs& q) {
@@ -76,7 +75,7 @@ Vecs guess_positions(const Model& model, const System& system) {
         const JointData& joint = system.joints[j];
         const int a = joint.at.a == kGround ? n : joint.at.a, b = joint.at.b == kGround ? n : joint.at.b;
         const int next = a == at ? b : a;
-        if (placed[next] || !joins_markers(joint)) continue;
+        if (placed[next] || !is_pose_joint(joint)) continue;
         put(joint, next, model, m, q);
         m[next] = S::Motion::of(q[next], S::Vec::Zero());
         placed[next] = true;

@@ -8,6 +8,7 @@
 #include "joints/belt.h"
 #include "joints/cam_profile.h"
 #include "joints/edge_profile.h"
+#include "system/pose_joint.h"
 
 namespace pintle {
 namespace {
@@ -29,9 +30,7 @@ bool asks_law(const Model& model, const JointData& joint) {
 // A coordinate of the relative pose is free to slide; what a gap that is a function leaves free is the law's to tell.
 bool slides(const JointData& joint) { return joint.free_mask[0] > 0 && std::holds_alternative<Selection>(joint.displacement); }
 // Pins whose place in their bush is of interest: those that are not held by springs.
-bool has_orbit(const JointData& joint) {
-  return std::holds_alternative<Selection>(joint.displacement) && joint.held[0] && joint.held[1] && !joint.held[2] && !joint.law.ideal_limit();
-}
+bool has_orbit(const JointData& joint) { return is_pose_joint(joint) && joint.held[0] && joint.held[1] && !joint.held[2] && !joint.law.ideal_limit(); }
 // Rods, ropes and what has a length or a stroke.
 bool pushes_its_ends(const JointData& joint) { return std::holds_alternative<Distance>(joint.displacement) || (joint.free_mask[0] > 0 && !slides(joint)); }
 

@@ -30,7 +30,6 @@ constexpr int kSwings = 100;                      // steps in which what is unba
 constexpr double kThicker = 4;                    // rate of the next fluid over that of one in which the mechanism swings
 constexpr double kFirstStep = 1e-3;               // over the time of the creep
 constexpr double kLongest = 1e6;                  // times that of the creep: a mechanism that still moves then has no position of rest
-constexpr double kForeseen = 1e3;                 // times that of the creep, or of the way so far: the end that a step is told, whose rounding decides which steps and events are too short
 constexpr std::uint64_t kMostCreepSteps = 50000;  // of the creep
 constexpr double kUnbalanced = 1e-6;              // of the largest force: what a start in equilibrium leaves unbalanced
 constexpr double kNudge = 1e-6, kLeaves = 1e-3;   // of the mechanism's size: how far it is moved from where it rests, and from where on it has left: the equilibrium was not stable
@@ -168,8 +167,7 @@ class Creep {
       return true;
     };
     for (int since = 0; since < kSwings; ++since, ++steps) {
-      const double foreseen = std::min(longest, kForeseen * std::max(state.t, 1 / rate_));
-      if (!stepper.step(foreseen)) throw AssemblyError("start = \"settled\": no rest was found: " + stepper.failure() + "\n  Try positions nearer to the equilibrium, or start = \"seated\" or \"assembled\".");
+      if (!stepper.step(longest)) throw AssemblyError("start = \"settled\": no rest was found: " + stepper.failure() + "\n  Try positions nearer to the equilibrium, or start = \"seated\" or \"assembled\".");
       state = stepper.state();
       const double unrest = largest_unrest(fluid_, state, rate_, body_);
       if (unrest <= kAtRest * largest_load(fluid_, state)) return true;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "integrators/thresholds.h"
+#include "laws/least_stated.h"
 #include "start/start.h"
 
 namespace pintle {
@@ -122,19 +123,13 @@ void add_coordinates(Comparison& c, const std::vector<std::pair<std::size_t, std
   relate(c.coordinates, 1);  // what stands still is compared with what moves
 }
 
-// The least stiffness of a linear law's components [N/m], or of its angle [N*m/rad].
-double least(const LawChoice& law, const char* key, double otherwise) {
-  const auto it = law.values.find(key);
-  return it == law.values.end() || it->second.empty() ? otherwise : *std::min_element(it->second.begin(), it->second.end());
-}
-
 void find_softness(const Model& model, Comparison& c) {
   double all = 0;
   for (const Joint& joint : model.joints) {
     const auto load = std::find_if(c.first.joints.begin(), c.first.joints.end(), [&](const LoadSummary& l) { return l.name == joint.name; });
     if (load == c.first.joints.end() || joint.law.word != "linear") continue;
-    double energy = load->peak * load->peak / (2 * least(joint.law, "stiffness", 1e8));
-    if (load->has_moment) energy += load->peak_moment * load->peak_moment / (2 * least(joint.law, "angular_stiffness", 1e6));
+    double energy = load->peak * load->peak / (2 * least_stated(joint.law, "stiffness").value_or(1e8));
+    if (load->has_moment) energy += load->peak_moment * load->peak_moment / (2 * least_stated(joint.law, "angular_stiffness").value_or(1e6));
     all += energy;
     c.softness.push_back({joint.name, energy});
   }

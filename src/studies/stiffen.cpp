@@ -15,6 +15,7 @@
 #include "check/check_frequencies.h"
 #include "joints/catalog.h"
 #include "laws/catalog.h"
+#include "laws/least_stated.h"
 #include "mobility/constraint_rows.h"
 #include "mobility/mobility.h"
 #include "pintle/compare.h"
@@ -34,11 +35,6 @@ constexpr double kStiffEnough = 1e9;      // to see what a soft joint does, wher
 constexpr double kNoLongerFalls = 0.5;            // of the change per step: no longer falling
 
 double wanted_agreement(const StiffenRequest& request) { return 0.5 * std::pow(10.0, -request.digits); }
-
-double stated(const Joint& joint, const char* key, double otherwise) {
-  const auto it = joint.law.values.find(key);
-  return it == joint.law.values.end() || it->second.empty() ? otherwise : *std::min_element(it->second.begin(), it->second.end());
-}
 
 bool holds_angle(const std::string& type) {
   const JointTypeInfo* info = find_joint_type(type);
@@ -106,17 +102,17 @@ class Procedure {
       StiffenJoint& j = out_.joints.emplace_back();
       j.name = joint.name;
       j.type = joint.type;
-      j.stated = stated(joint, "stiffness", 1e8);
+      j.stated = least_stated(joint.law, "stiffness").value_or(1e8);
       const bool fixed_law = !find_law(joint.law.word)->stiffens || find_joint_type(joint.type)->one_sided;
       if (fixed_law) as_it_is_.insert(joint.name);
       j.kept = fixed_law || j.stated < request().first ||
-               (holds_angle(joint.type) && stated(joint, "angular_stiffness", 1e6) < request().first * length_ * length_);
+               (holds_angle(joint.type) && least_stated(joint.law, "angular_stiffness").value_or(1e6) < request().first * length_ * length_);
       set(j, request().first);
       if (!j.kept) continue;
       j.stiffness = j.stated;
-      j.damping = stated(joint, "damping", 3e3);
-      j.angular_stiffness = holds_angle(joint.type) ? stated(joint, "angular_stiffness", 1e6) : 0;
-      j.angular_damping = holds_angle(joint.type) ? stated(joint, "angular_damping", 30) : 0;
+      j.damping = least_stated(joint.law, "damping").value_or(3e3);
+      j.angular_stiffness = holds_angle(joint.type) ? least_stated(joint.law, "angular_stiffness").value_or(1e6) : 0;
+      j.angular_damping = holds_angle(joint.type) ? least_stated(joint.law, "angular_damping").value_or(30) : 0;
     }
   }
 

@@ -7,15 +7,12 @@
 #include <cmath>
 
 #include "base/text/article.h"
+#include "system/pose_joint.h"
 
 namespace pintle {
 namespace {
 
 using S = Planar;
-
-bool carries_coordinates(const JointData& joint) {
-  return joint.servo < 0 && std::holds_alternative<Selection>(joint.displacement);
-}
 
 double offset(const JointData& joint, int component) { return std::get<Selection>(joint.displacement).offset[component]; }
 
@@ -37,7 +34,7 @@ JointTree::JointTree(const System& system)
   const auto at = [&](int body) -> std::vector<int>& { return body == kGround ? ideal_at.back() : ideal_at[body]; };
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& joint = system.joints[j];
-    if (!joint.ideal || !carries_coordinates(joint)) continue;
+    if (!joint.ideal || !is_pose_joint(joint)) continue;
     at(joint.at.a).push_back(j);
     at(joint.at.b).push_back(j);
   }
@@ -82,7 +79,7 @@ void JointTree::open_the_rest() {
   for (int j = 0; j < system_.n_joints(); ++j) {
     const JointData& joint = system_.joints[j];
     if (!joint.ideal || in_tree_[j]) continue;
-    if (carries_coordinates(joint))
+    if (is_pose_joint(joint))
       opened_.push_back(fmt::format("joint {} is opened: it closes a loop with the ideal {}; its force law acts", joint.name, loop_of(j)));
     else
       opened_.push_back(fmt::format("joint {} is opened: {} has no free coordinates of its own; its force law acts", joint.name, with_article(joint.type)));

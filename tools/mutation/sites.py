@@ -113,14 +113,14 @@ def built_in(line, bare, kind, m):
         if stop < 0 or " = " in bare[end:stop] or ";" in bare[end:stop]:
             return None
         condition = line[end + 2 : stop]
-        return head + f"if (!({condition}))" + line[stop + 1 :], escaped(head) + f"if ({M}on({{0}}) != static_cast<bool>({escaped(condition)}))" + escaped(line[stop + 1 :])
+        return head + f"if (!({condition}))" + line[stop + 1 :], escaped(head) + f"if ({M}is_active({{0}}) != static_cast<bool>({escaped(condition)}))" + escaped(line[stop + 1 :])
     # ties as the operator itself does: && before ||
     looser = [" || ", " ? ", " : ", " = ", ", ", ";", "return ", " {"] + ([" && "] if op == "&&" else [])
     first, last = operand_begin(bare, m.start(), looser), operand_end(bare, m.end(), looser)
     if first < 0 or last < 0:
         return None
     left, right = escaped(line[first : m.start()]), escaped(line[m.end() : last])
-    return changed, f"{escaped(line[:first])}({M}on({{0}}) ? ({left} {OPPOSITE[op]} {right}) : ({left} {op} {right})){escaped(line[last:])}"
+    return changed, f"{escaped(line[:first])}({M}is_active({{0}}) ? ({left} {OPPOSITE[op]} {right}) : ({left} {op} {right})){escaped(line[last:])}"
 
 
 def not_constant(text):

@@ -25,16 +25,16 @@ struct Switch {
 };
 inline Switch the_switch;
 
-inline bool on(int mutant) {
+inline bool is_active(int mutant) {
   the_switch.reached[mutant] = true;
   return the_switch.active == mutant;
 }
 
-inline int sign(int mutant) { return on(mutant) ? -1 : 1; }
+inline int sign(int mutant) { return is_active(mutant) ? -1 : 1; }
 
 template <class T>
 T number(int mutant, T value) {
-  return !on(mutant) ? value : value == T(0) ? T(1) : T(2 * value);
+  return !is_active(mutant) ? value : value == T(0) ? T(1) : T(2 * value);
 }
 
 // `a < b` is built in as `a < Less{number} < b`, which binds like the original.
@@ -53,7 +53,7 @@ T number(int mutant, T value) {
   }                                                                                 \
   template <class A, class B>                                                       \
   auto operator op(Name##With<A> left, const B& b) {                                \
-    return on(left.mutant) ? left.a opposite b : left.a op b;                       \
+    return is_active(left.mutant) ? left.a opposite b : left.a op b;                       \
   }
 PINTLE_COMPARISON(Less, <, >=)
 PINTLE_COMPARISON(LessEqual, <=, >)

@@ -392,7 +392,7 @@ class ExpressionParser {
         const Operand ends = checked(alike(a[0], a[1], "and"), a[1].offset);
         checked(alike(ends, a[2], "and"), a[2].offset);
         if (!a[2].varies && (a[0].varies || a[1].varies))
-          checked({number, {"a constant", "smoothstep(a, b, x) rises from 0 where x is a to 1 where it is b: what varies comes last", "smoothstep(from, to, t)"}}, a[2].offset);
+          throw ParseProblem{a[2].offset, "a constant", "smoothstep(a, b, x) rises from 0 where x is a to 1 where it is b: what varies comes last", "smoothstep(from, to, t)"};
         return number;
       }
       case FunctionRule::kPower:

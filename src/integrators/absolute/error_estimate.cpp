@@ -128,16 +128,16 @@ void BasicRadauStepper<S>::add_work(double h) {
     end_.dissipated += h * table_.b[s] * nodes_.power[s + 1][1];
   }
   for (const int j : powered_)
-    if (system_.joints[j].servo >= 0) end_.supplied += servo_work_beyond_quadrature(j, h);
+    if (system_.joints[j].servo >= 0) end_.supplied += servo_work_missed_by_quadrature(j, h);
   end_.supply_power = nodes_.power[n_][0];
   end_.loss_power = nodes_.power[n_][1];
 }
 
 template <class S>
-double BasicRadauStepper<S>::servo_work_beyond_quadrature(int j, double h) const {
+double BasicRadauStepper<S>::servo_work_missed_by_quadrature(int j, double h) const {
   const BasicJointData<S>& joint = system_.joints[j];
   const auto target_rate = [&](int node) { return target_of(joint, begin_.t + h * table_.nodes[node])[1]; };
-  return work_beyond_quadrature(
+  return work_missed_by_quadrature(
       table_, h, [&](int node) { return stage_[node - 1].force[j][joint.servo]; },
       [&](int node) { return (node == 0 ? begin_.gap_rate : stage_[node - 1].gap_rate)[j][joint.servo] + target_rate(node); });
 }
@@ -167,7 +167,7 @@ void BasicRadauStepper<S>::find_power() {
 template bool BasicRadauStepper<Planar>::error_estimate(double h, double& error);
 template double BasicRadauStepper<Planar>::change_of_loads(double h);
 template double BasicRadauStepper<Planar>::friction_tail() const;
-template double BasicRadauStepper<Planar>::servo_work_beyond_quadrature(int j, double h) const;
+template double BasicRadauStepper<Planar>::servo_work_missed_by_quadrature(int j, double h) const;
 template double BasicRadauStepper<Planar>::motion_tail();
 template void BasicRadauStepper<Planar>::finish_step(double h);
 template void BasicRadauStepper<Planar>::find_increments(double h);
@@ -178,7 +178,7 @@ template void BasicRadauStepper<Planar>::find_power();
 PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::error_estimate(double h, double& error);)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::change_of_loads(double h);)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::friction_tail() const;)
-PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::servo_work_beyond_quadrature(int j, double h) const;)
+PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::servo_work_missed_by_quadrature(int j, double h) const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::motion_tail();)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::finish_step(double h);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::find_increments(double h);)

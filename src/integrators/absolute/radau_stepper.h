@@ -76,7 +76,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   void find_increments(double h);             // of the nodes, in curved spaces
   using Power = std::array<double, 2>;        // supplied, lost [W]
   void add_work(double h);
-  double servo_work_beyond_quadrature(int j, double h) const;
+  double servo_work_missed_by_quadrature(int j, double h) const;
   Power power_of_loads(double t, const PositionsOf<S>& q, const std::vector<typename S::Motion>& m) const;
   void add_power(const BasicJointData<S>& joint, const std::vector<typename S::Motion>& m, const BasicLawPoint<S>& at, const typename S::Vec& force, Power& power) const;
   void find_power();

@@ -14,10 +14,6 @@
 
 namespace pintle {
 
-// Independences of the constraints, of the largest that was met.
-inline constexpr double kSuspicious = 0.5;  // above it no singular position is looked for
-inline constexpr double kFewDigits = 3e-2;  // below it forces lose too many digits, in proportion to its fourth power
-
 class IdealStepper final : public Stepper {
  public:
   /// `equations`: kIdeal or kPenalty.
@@ -37,6 +33,10 @@ class IdealStepper final : public Stepper {
   double unbounded_reactions() const override { return unbounded_at_; }
 
  private:
+  // Independences of the constraints, of the largest that was met.
+  static constexpr double kSuspicious = 0.5;  // above it no singular position is looked for
+  static constexpr double kFewDigits = 3e-2;  // below it forces lose too many digits, in proportion to its fourth power
+
   bool take_stages(double h);
   bool evaluate_stages(double h);
   bool find_tangent();

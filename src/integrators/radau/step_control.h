@@ -117,7 +117,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     if (crossed > 0 && left <= last_bits) return true;  // the last event was at the end
     if (h > left || (!up_to_event && left - h < 1e-3 * h)) h = left;
     else if (!up_to_event && left < 1.7 * h) h = 0.5 * left;
-    if (h <= last_bits) break;
+    if (h <= kLastBits * std::abs(method.t())) break;  // however far away the end is
     const bool solved = method.attempt(h);
     if (!solved) {
       ++counters.newton_failures;

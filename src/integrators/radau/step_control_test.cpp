@@ -43,9 +43,10 @@ TEST(StepControl, GivesUpAStepWhoseStartFlickersAndThatNoNewtonSolves) {
 }
 
 // A function changes its sign just before the end of the run; steps have no errors.
-class EventNearTheEnd {
+class OneEvent {
  public:
-  static constexpr double kEvent = 1 - 5e-4;
+  OneEvent(double begin, double event) : t_(begin), at_(event) {}
+
   int crossings = 0, attempts = 0;
   double t() const { return t_; }
   void begin_at_end() {}
@@ -53,9 +54,9 @@ class EventNearTheEnd {
   double contraction() const { return 0; }
   SwitchingEvent locate_event(double h, bool) const {
     SwitchingEvent event;
-    if (crossings > 0 || t_ + h < kEvent) return event;
+    if (crossings > 0 || t_ + h < at_) return event;
     event.function = 0;
-    event.before = (kEvent - t_) / h;
+    event.before = (at_ - t_) / h;
     event.after = event.before + 1e-15;
     return event;
   }
@@ -69,22 +70,37 @@ class EventNearTheEnd {
   void finish_step(double h) { t_ += h; }
 
  private:
-  double t_ = 0;
+  double t_, at_;
 };
 
 TEST(StepControl, StopsAtAnEventJustBeforeTheEndOfTheRun) {
-  EventNearTheEnd method;
+  constexpr double kEvent = 1 - 5e-4;
+  OneEvent method(0, kEvent);
   StepControl control;
   control.start(1.0);
   Counters counters;
   ASSERT_TRUE(control.advance(method, 1.0, 1e-5, 4, counters));
   EXPECT_EQ(method.crossings, 0);
-  EXPECT_LT(method.t(), EventNearTheEnd::kEvent);
-  EXPECT_GT(method.t(), EventNearTheEnd::kEvent - 1e-5);
+  EXPECT_LT(method.t(), kEvent);
+  EXPECT_GT(method.t(), kEvent - 1e-5);
   ASSERT_TRUE(control.advance(method, 1.0, 1e-5, 4, counters));
   EXPECT_EQ(method.crossings, 1);
   EXPECT_EQ(method.t(), 1.0);
   EXPECT_LT(method.attempts, 8);
+}
+
+// A step to it is shorter than the last bits of the end, and longer than those of the time.
+TEST(StepControl, ReachesAnEventSoonHoweverFarTheEndIs) {
+  constexpr double kBegin = 0.0118, kEvent = kBegin + 4e-9, kFarEnd = 2e6;
+  OneEvent method(kBegin, kEvent);
+  StepControl control;
+  control.start(1e-4);
+  Counters counters;
+  ASSERT_TRUE(control.advance(method, kFarEnd, 1e-5, 4, counters));
+  EXPECT_EQ(method.crossings, 0);
+  ASSERT_TRUE(control.advance(method, kFarEnd, 1e-5, 4, counters));
+  EXPECT_EQ(method.crossings, 1);
+  EXPECT_GT(method.t(), kEvent);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ inline double tail_size(double last, double before, double before_that) {
 /// What the quadrature at the stages misses of the work of a servo whose effort at the stages and speed at the nodes are these: both may be polynomials that one long step
 /// follows exactly, and their product one of a higher degree [J]. theory/time Eq. (3.22).
 template <class Effort, class Speed>
-double work_beyond_quadrature(const RadauTable& table, double h, Effort&& effort_at, Speed&& speed_at) {
+double work_missed_by_quadrature(const RadauTable& table, double h, Effort&& effort_at, Speed&& speed_at) {
   RadauTable::Vec effort(table.n + 1), speed(table.n + 1);
   double by_quadrature = 0;
   effort[0] = 0;

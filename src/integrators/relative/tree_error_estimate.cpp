@@ -177,7 +177,7 @@ void TreeRadau::add_work(double h) {
     const JointData& joint = system_.joints[tree_->laws()[l]];
     if (joint.servo < 0) continue;
     const Index i = 3 * static_cast<Index>(l) + joint.servo;
-    end_state_.supplied += work_beyond_quadrature(
+    end_state_.supplied += work_missed_by_quadrature(
         table_, h, [&](int node) { return stages_.states()[node - 1].force[i]; },
         [&](int node) { return (node == 0 ? begin_ : stages_.states()[node - 1]).rate[i] + target_of(joint, begin_.t + h * table_.nodes[node])[1]; });
   }
