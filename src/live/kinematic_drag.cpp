@@ -100,6 +100,10 @@ class KinematicDrag::Linkage {
 
   S::Point point_now(const Hold& hold) const { return in_world(q_[hold.body], hold.point); }
 
+  bool is_alone(int body) const {
+    return std::none_of(own_.joints.begin(), own_.joints.end(), [body](const JointData& joint) { return joint.at.a == body || joint.at.b == body; });
+  }
+
   // Towards the target in moves short enough that the linkage does not turn over, as long as they bring the point nearer.
   void follow(const Hold& hold) {
     if (hold.body < 0 || hold.body >= own_.n_bodies()) return;
@@ -108,6 +112,10 @@ class KinematicDrag::Linkage {
     at.M = S::Frame::at({hold.point[0], hold.point[1]}, 0);
     system_ = with_joints(own_, {hold_});
     const S::Point target(hold.target[0], hold.target[1]);
+    if (is_alone(hold.body)) {
+      q_[hold.body].head<2>() += target - point_now(hold);
+      return;
+    }
     const double size = mechanism_size(system_, q_);
     double left = (target - point_now(hold)).norm();
     for (int i = 0; i < kMostMoves && left > kReached * size; ++i) {

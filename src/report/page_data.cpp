@@ -178,7 +178,7 @@ class PageData {
   Json end_of(const Anchor& at) const { return {{"body", at.body}, {"point", point(at.point)}, {"axis", at.axis}}; }
   Json spot(const MovingPoint& at) const {
     Json json = anchor(at.at);
-    if (at.share != 0) json.update({{"toward", anchor(at.toward)}, {"share", at.share}});
+    if (!at.is_anchor()) json.update({{"toward", anchor(at.toward)}, {"share", at.share}, {"off", point(at.off)}});
     return json;
   }
   Json named(const std::vector<NamedPoint>& points) const {

@@ -37,9 +37,9 @@ struct Instant {
   }
   Vec2 place(const MovingPoint& spot) const {
     const Vec2 a = place(spot.at);
-    if (spot.share == 0) return a;
-    const Vec2 b = place(spot.toward);
-    return {a[0] + spot.share * (b[0] - a[0]), a[1] + spot.share * (b[1] - a[1])};
+    if (spot.is_anchor()) return a;
+    const Vec2 b = place(spot.toward), off = spot.toward.body == kWorld ? spot.off : poses[static_cast<std::size_t>(spot.toward.body)].turned(spot.off);
+    return {a[0] + spot.share * (b[0] - a[0]) + off[0], a[1] + spot.share * (b[1] - a[1]) + off[1]};
   }
 };
 

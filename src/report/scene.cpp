@@ -7,6 +7,7 @@
 
 #include "joints/belt.h"
 #include "joints/catalog.h"
+#include "report/outline.h"
 #include "report/scene_maker.h"
 
 namespace pintle {
@@ -177,10 +178,11 @@ void SceneMaker::add_connectors() {
   }
 }
 
-// A mesh acts where the pitch circles touch, everything else at the second marker.
+// A mesh acts where the pitch circles touch, a rack where its pitch line touches the pinion's, everything else at the second marker.
 std::optional<MovingPoint> SceneMaker::spot_of(const Joint& joint) const {
   const auto first = find(joint.first), second = find(joint.second);
   if (!second) return first ? std::optional(MovingPoint{*first}) : std::nullopt;
+  if (first && joint.type == "rack") return MovingPoint{*first, *second, 0, joint.geometry.at("radius") * away_from_pinion(*first, *second)};
   if (joint.type != "gear" || !first) return MovingPoint{*second};
   const double a = joint.geometry.at("radius_first"), b = joint.geometry.at("radius_second");
   const bool internal = joint.geometry.contains("internal") && joint.geometry.at("internal") > 0;
@@ -189,8 +191,9 @@ std::optional<MovingPoint> SceneMaker::spot_of(const Joint& joint) const {
 }
 
 Vec2 SceneMaker::place(const MovingPoint& spot, std::size_t row) const {
-  const Vec2 a = pose(spot.at.body, row).world(spot.at.point), b = pose(spot.toward.body, row).world(spot.toward.point);
-  return {a[0] + spot.share * (b[0] - a[0]), a[1] + spot.share * (b[1] - a[1])};
+  const Pose other = pose(spot.toward.body, row);
+  const Vec2 a = pose(spot.at.body, row).world(spot.at.point), b = other.world(spot.toward.point);
+  return a + spot.share * (b - a) + other.turned(spot.off);
 }
 
 // Joints in one place share a label.

@@ -21,11 +21,13 @@ struct Anchor {
   double axis = 0;   ///< [rad]
 };
 
-/// A place that moves: an anchor, or on the line from it to another one, at a share of the way.
+/// A place that moves: an anchor; or on the line from it to another one, at a share of the way; or off it in the axes of the other one's body.
 struct MovingPoint {
   Anchor at;
   Anchor toward{};
   double share = 0;
+  Vec2 off{0, 0};  ///< [m]
+  bool is_anchor() const { return share == 0 && off[0] == 0 && off[1] == 0; }
 };
 
 /// What a shape stands for; paints.h says how each looks.

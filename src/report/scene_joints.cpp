@@ -94,16 +94,20 @@ void SceneMaker::show(int body, const Vec2& centre, double radius) {
   for (const std::size_t row : sample_rows(100)) scene_.box.cover(pose(body, row).world(centre), radius + scene_.unit);
 }
 
+/// From the pinion to its rack, of length 1, in the rack's axes.
+Vec2 SceneMaker::away_from_pinion(const Anchor& pinion, const Anchor& rack) const {
+  const Vec2 centre = pose(rack.body, 0).local(pose(pinion.body, 0).world(pinion.point)), side = normal(direction(rack.axis));
+  return dot(centre - rack.point, side) > 0 ? -1.0 * side : side;
+}
+
 void SceneMaker::sketch_rack(const Joint& joint, const Anchor& first, const Anchor& second) {
   Track track = slide_range(second, first);
   const double radius = joint.geometry.contains("radius") ? joint.geometry.at("radius") : 0;
   const Vec2 along = direction(second.axis), room = (0.8 * radius + 2 * scene_.unit) * along;
-  const Vec2 pinion = pose(second.body, 0).local(pose(first.body, 0).world(first.point));
   track.from = track.from - room;
   track.to = track.to + room;
   track.kind = Track::kRack;
-  track.other_side = normal(along);
-  if (dot(pinion - second.point, track.other_side) > 0) track.other_side = -1.0 * track.other_side;
+  track.other_side = away_from_pinion(first, second);
   (second.body == kWorld ? ground_ : sketches_[static_cast<std::size_t>(second.body)]).tracks.push_back(track);
   show(second.body, track);
   if (first.body != kWorld) sketches_[static_cast<std::size_t>(first.body)].wheels.push_back({first.point, radius, false});
@@ -254,6 +258,8 @@ void SceneMaker::add_ground_slots() {
     frame.paths.push_back({track.from, track.to});
     opening.paths.push_back({track.from, track.to});
   }
+  // Rings first: other wheels are inside them.
+  std::stable_partition(ground_.wheels.begin(), ground_.wheels.end(), [](const Wheel& wheel) { return wheel.ring; });
   for (const Wheel& wheel : ground_.wheels) {
     put(kBack, {Form::kCircle, Paint::kEarth, kWorld, {{wheel.centre}}, wheel.radius + (wheel.ring ? 1.6 : 0.3) * u});
     if (wheel.ring) put(kBack, {Form::kCircle, Paint::kHole, kWorld, {{wheel.centre}}, wheel.radius - 0.3 * u});

@@ -38,6 +38,50 @@ TEST(EnergyWatch, WorkThatIsInNoEnergyIsNoticedAtOnce) {
   }
 }
 
+// What makes an account fail to close is told by what the mechanism has, and by whether the energy went at once.
+TEST(EnergyWatch, ALikelyCauseIsNamed) {
+  struct Case {
+    bool ideal, loaded, sudden;
+    const char* cause;
+  };
+  for (const Case& c : {Case{true, false, true, "likely a singular position of ideal joints"}, {true, false, false, "likely ideal joints near a singular position"}, {true, true, true, "likely a load or motor that changes"},
+                        {false, true, true, "likely a load or motor that changes"}, {false, false, true, "likely numbers too far apart in size"}, {false, false, false, "likely numbers too far apart in size"},
+                        {false, true, false, "likely numbers too far apart in size"}, {true, true, false, "likely ideal joints near a singular position"}}) {
+    Model model = sample::pendulum(1e8, 1000);
+    if (c.loaded) {
+      AppliedForce load;
+      load.on = {"rod", "O"};
+      load.torque = sample::expression("0");
+      model.forces = {load};
+    }
+    const Assembly start = start_of_run(model);
+    const System system = c.ideal ? sample::with_ideal(start.system, {"pin"}) : start.system;
+    State state = start.state;
+    EnergyWatch watch(system, 2, 1e-5, true);
+    watch.start(state);
+    Alarm alarm = Alarm::kNone;
+    for (int i = 0; i < 100000 && alarm == Alarm::kNone; ++i) {
+      state.dissipated += c.sudden ? 1 : 2e-6;
+      alarm = after_steps(watch, state, 1);
+    }
+    EXPECT_EQ(alarm, Alarm::kOpen);
+    EXPECT_NE(watch.message().find(c.cause), std::string::npos) << c.ideal << c.loaded << c.sudden << watch.message();
+    EXPECT_EQ(watch.message().find("motors that contradict"), std::string::npos);
+  }
+}
+
+TEST(EnergyWatch, TwoMotorsMayContradictEachOther) {
+  Model model = sample::pendulum(1e8, 1000);
+  model.motors = {sample::motor("one", "pin", MotorKind::kSpeed, sample::expression("1")), sample::motor("two", "pin", MotorKind::kSpeed, sample::expression("2"))};
+  const Assembly start = start_of_run(model);
+  EnergyWatch watch(start.system, 2, 1e-5, true);
+  watch.start(start.state);
+  State state = start.state;
+  state.dissipated += 1e3;
+  EXPECT_EQ(after_steps(watch, state, 1000), Alarm::kOpen);
+  EXPECT_NE(watch.message().find("motors that contradict each other"), std::string::npos) << watch.message();
+}
+
 TEST(EnergyWatch, TheEndIsJudgedToo) {
   Pendulum p;
   EnergyWatch watch(p.system, 2, 1e-5, true);

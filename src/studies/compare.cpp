@@ -128,8 +128,8 @@ void find_softness(const Model& model, Comparison& c) {
   for (const Joint& joint : model.joints) {
     const auto load = std::find_if(c.first.joints.begin(), c.first.joints.end(), [&](const LoadSummary& l) { return l.name == joint.name; });
     if (load == c.first.joints.end() || joint.law.word != "linear") continue;
-    double energy = load->peak * load->peak / (2 * least_stated(joint.law, "stiffness").value_or(1e8));
-    if (load->has_moment) energy += load->peak_moment * load->peak_moment / (2 * least_stated(joint.law, "angular_stiffness").value_or(1e6));
+    double energy = load->peak * load->peak / (2 * least_value(joint.law, "stiffness"));
+    if (load->has_moment) energy += load->peak_moment * load->peak_moment / (2 * least_value(joint.law, "angular_stiffness"));
     all += energy;
     c.softness.push_back({joint.name, energy});
   }

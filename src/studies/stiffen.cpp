@@ -102,17 +102,17 @@ class Procedure {
       StiffenJoint& j = out_.joints.emplace_back();
       j.name = joint.name;
       j.type = joint.type;
-      j.stated = least_stated(joint.law, "stiffness").value_or(1e8);
+      j.stated = least_value(joint.law, "stiffness");
       const bool fixed_law = !find_law(joint.law.word)->stiffens || find_joint_type(joint.type)->one_sided;
       if (fixed_law) as_it_is_.insert(joint.name);
       j.kept = fixed_law || j.stated < request().first ||
-               (holds_angle(joint.type) && least_stated(joint.law, "angular_stiffness").value_or(1e6) < request().first * length_ * length_);
+               (holds_angle(joint.type) && least_value(joint.law, "angular_stiffness") < request().first * length_ * length_);
       set(j, request().first);
       if (!j.kept) continue;
       j.stiffness = j.stated;
-      j.damping = least_stated(joint.law, "damping").value_or(3e3);
-      j.angular_stiffness = holds_angle(joint.type) ? least_stated(joint.law, "angular_stiffness").value_or(1e6) : 0;
-      j.angular_damping = holds_angle(joint.type) ? least_stated(joint.law, "angular_damping").value_or(30) : 0;
+      j.damping = least_value(joint.law, "damping");
+      j.angular_stiffness = holds_angle(joint.type) ? least_value(joint.law, "angular_stiffness") : 0;
+      j.angular_damping = holds_angle(joint.type) ? least_value(joint.law, "angular_damping") : 0;
     }
   }
 

@@ -40,6 +40,14 @@ TEST(SweepPlan, RangesKeepTheirEndsAndUnits) {
   EXPECT_EQ(plan_of(request({"parameters.length=length/2, length"})).values(0)[0], 0.5);
 }
 
+// Numbers of simulate, of the defaults of joints, parameters, and of things with names.
+TEST(SweepPlan, PathsLeadToNumbers) {
+  EXPECT_EQ(plan_of(request({"defaults.joint.stiffness=1e6,2e6"})).values(1)[0], 2e6);
+  EXPECT_EQ(plan_of(request({"simulate.tolerance=1e-4,1e-5"})).values(0)[0], 1e-4);
+  for (const char* wrong : {"defaults.joint=1,2", "defaults.pin.stiffness=1,2", "simulate=1,2", "parameters.length.long=1,2", "joint.pin=1,2", "variation.a.b=1,2"})
+    EXPECT_TRUE(contains(complaint_about(request({wrong})), "this is not the path of a number")) << wrong << complaint_about(request({wrong}));
+}
+
 TEST(SweepPlan, TheLastVaryRunsFastest) {
   const SweepPlan plan = plan_of(request({"body.bob.mass=1,2", "joint.pin.damping=10,20,30"}));
   ASSERT_EQ(plan.size(), 6u);

@@ -206,7 +206,29 @@ TEST(SweepReport, PlotsOneOrTwoVaryingValues) {
   for (std::size_t i = 0; i < 60; ++i) both.insert(both.end(), {table.values[i], static_cast<double>(i % 3)});
   table.values = both;
   ASSERT_TRUE(sweep_plot(table));
-  EXPECT_EQ(sweep_plot(table)->panels[0].curves.size(), 3u);
+  const Panel panel = sweep_plot(table)->panels[0];
+  ASSERT_EQ(panel.curves.size(), 3u);
+  // Each curve has the samples of its own mass, in the order of the stiffness.
+  for (std::size_t mass = 0; mass < 3; ++mass) {
+    ASSERT_EQ(panel.curves[mass].x.size(), 20u);
+    for (std::size_t k = 0; k < 20; ++k) {
+      EXPECT_EQ(panel.curves[mass].x[k], 1e6 * static_cast<double>(3 * k + mass + 1));
+      EXPECT_EQ(panel.curves[mass].y[k], table.force[3 * k + mass]);
+    }
+  }
+}
+
+// Of a message only its first line is shown; where that ends with a colon, the next one too.
+TEST(SweepReport, MessagesAreShortened) {
+  SweepTable table = table_of(3);
+  table.status = {3, 3, 3};
+  table.troubled = {0, 1, 2};
+  table.messages = {"it broke off\nwhere it was", "the positions do not close:\n  joint A is open by 3 mm\n  joint B too", ":"};
+  const std::string text = sweep_text(table, false);
+  EXPECT_TRUE(sample::contains(text, "it broke off\n")) << text;
+  EXPECT_FALSE(sample::contains(text, "where it was"));
+  EXPECT_TRUE(sample::contains(text, "the positions do not close: joint A is open by 3 mm\n")) << text;
+  EXPECT_FALSE(sample::contains(text, "joint B too"));
 }
 
 TEST(SweepReport, ManyPowersOfTenHaveALogarithmicAxis) {

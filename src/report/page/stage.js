@@ -114,9 +114,11 @@ class Stage {
   placeOf(at, poses) {
     const p = poses ? poses[at.body + 1] : this.pose(at.body);
     const [x, y] = at.point, place = [p.x + p.c * x - p.s * y, p.y + p.s * x + p.c * y];
-    if (!at.share) return place;
-    const other = this.placeOf(at.toward, poses); // on the line to another point
-    return place.map((a, k) => a + at.share * (other[k] - a));
+    if (!at.toward) return place;
+    const other = this.placeOf(at.toward, poses); // on the line to another point, or off it in the axes of that one's body
+    const q = poses ? poses[at.toward.body + 1] : this.pose(at.toward.body), [u, v] = at.off;
+    const off = [q.c * u - q.s * v, q.s * u + q.c * v];
+    return place.map((a, k) => a + at.share * (other[k] - a) + off[k]);
   }
 
   shade(entry, body) {
@@ -241,7 +243,7 @@ class Stage {
 
   /** Points that are followed: "" none, "joints", or the name of one. */
   tracedPoints() {
-    if (this.traced === "joints") return run.scene.labels.filter((point) => point.at.body >= 0 && !point.at.share);
+    if (this.traced === "joints") return run.scene.labels.filter((point) => point.at.body >= 0 && !point.at.toward);
     return run.scene.points.filter((point) => point.name === this.traced);
   }
 

@@ -140,6 +140,27 @@ TEST(DriveLimit, OtherDrivesStayWhereTheyAre) {
   EXPECT_NEAR((to - Q).norm(), 0.5, 1e-8);
 }
 
+// A crank of 30 mm on a rod of 20 mm: it comes as far as the rod can follow, square to the guide. The guide holds the slider's angle, a hundredth of
+// a hundredth of its stiffness in units of length.
+TEST(DriveLimit, AGuideHoldsItsSlider) {
+  const double angle = 20 * kDegree, crank = 0.03, rod = 0.02;
+  const Planar::Point O(0, 0), A(crank * std::cos(angle), crank * std::sin(angle)), B(A.x() + std::sqrt(rod * rod - A.y() * A.y()), 0);
+  Linkage slider({{"O", O}, {"guide", O}}, {{"crank", "O", "A", O, A}, {"rod", "A", "B", A, B}});
+  slider.model.bodies.push_back(sample::body("slider", 0.3, 1e-5, {{"B", {0, 0}, 0}, {"S", {0, 5e-3}, 0}}));
+  slider.model.ground[1].position = {0, 5e-3};
+  sample::put_at(slider.model.bodies.back(), B.x(), 0, 0);
+  slider.q.emplace_back(B.x(), 0, 0);
+  slider.pin("O", "ground", "crank");
+  slider.pin("A", "crank", "rod");
+  slider.pin("B", "rod", "slider");
+  slider.model.joints.push_back(sample::joint("guide", "prismatic", {"ground", "guide"}, {"slider", "S"}, 1e8, 3000));
+  slider.model.joints.back().law.values["angular_stiffness"] = {3e3};
+  slider.drive("O", "60*pi/180");
+  const auto found = slider.limit();
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->value, std::asin(rod / crank), 1e-6);
+}
+
 // A triangle of bars moves nowhere: that is no limit of its motor.
 TEST(DriveLimit, AStructureHasNone) {
   const Planar::Point O(0, 0), C(0.3, 0), B = meeting(O, 0.25, C, 0.25);
