@@ -100,6 +100,12 @@ TEST(Bearings, AShortTurnWithoutARating) {
   EXPECT_TRUE(std::isnan(one.life) && std::isnan(one.life_hours) && std::isnan(one.static_safety));
 }
 
+TEST(Bearings, OneRowIsNoPath) {
+  const BearingSummary one = PinRun(ball(10000)).add(0, 100, 0, 1, 5).summary();
+  EXPECT_EQ(one.path, 0);
+  EXPECT_EQ(one.mean_speed, 0);
+}
+
 TEST(Bearings, SmallForcesHaveASafetyToo) { EXPECT_NEAR(steady_run(ball(10000, 50), 0.5, 100).summary().static_safety, 100, 1e-9); }
 
 TEST(Bearings, AnOilFilmIsMeasuredByItsLaw) {

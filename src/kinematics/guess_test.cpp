@@ -134,6 +134,15 @@ TEST(PositionSearch, LengthsAreThoseOfTheStart) {
   Vecs q{Planar::Vec(0.9, 0, 0)};
   PositionSearch(model, system, {false}).run(q);
   EXPECT_NEAR(q[0][0], 1, 1e-12);
+  // Between two rods, nearly in line: the first moves go too far and are taken back.
+  model.ground.push_back({"P", {1.5, 0}, 0});
+  model.joints.push_back(joint("other", "rod", {"ground", "P"}, {"ball", "C"}, 1e8, 0));
+  model.joints.back().functions.emplace("length", sample::expression("1 + 3*t"));
+  const System two = build_system(model);
+  q = {Planar::Vec(0.75, 1e-3, 0)};
+  PositionSearch(model, two, {false, false}).run(q);
+  EXPECT_NEAR(q[0][0], 0.75, 1e-10);
+  EXPECT_NEAR(q[0][1], std::sqrt(1 - 0.75 * 0.75), 1e-10);
 }
 
 // Coordinates that were stated give way a thousand times less.

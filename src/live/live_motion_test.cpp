@@ -72,6 +72,17 @@ TEST(LivePull, HoldsAPointOfTheBody) {
   EXPECT_NEAR(e.kinetic + e.potential + e.dissipated - e.supplied, 0.5 * 2 * 0.25, 1e-3);
 }
 
+// A rod on its pin is as heavy at its tip as a third of it: it follows with the same 9 rad/s.
+TEST(LivePull, FeelsTheMassThatTheJointsLeave) {
+  LiveMotion live(sample::pendulum(1e8, 1e4, 0));
+  live.pull(Pull{0, {0.5, 0}, {1, 0.01}, 0});
+  for (int i = 1; i <= 25; ++i) {
+    ASSERT_TRUE(live.advance(0.02)) << live.failure();
+    const PlanarPose at = live.poses()[0];
+    EXPECT_NEAR(at[1] + 0.5 * std::sin(at[2]), followed(0, 0, 0, 0.01, 9, 0.7, 0.02, 0.02 * i), 1e-5) << i;
+  }
+}
+
 // What is soft is pulled softly: a thousandth of the stiffest joint at most.
 TEST(LivePull, IsNoStifferThanTheJointsAllow) {
   Model model = free_block();
@@ -98,6 +109,21 @@ TEST(LiveMotionBudget, OneStepIsMadeWhateverTheBudget) {
   EXPECT_TRUE(live.advance(0));
   EXPECT_TRUE(live.advance(-1));
   EXPECT_EQ(live.time(), now);
+}
+
+// What a motor's servo lags behind is no energy of the joints: it has supplied it.
+TEST(LiveMotionEnergies, LeaveTheServoOut) {
+  Model model = free_block();
+  model.ground = {{"O", {0, 0}, 0}};
+  model.bodies[0].markers = {{"C", {0, 0}, 0}};
+  model.bodies[0].velocity = Vec2{0, 0};
+  model.joints = {joint("rail", "prismatic", {"ground", "O"}, {"block", "C"}, 1e6, 1e3)};
+  model.motors = {sample::motor("push", "rail", MotorKind::kPosition, sample::expression("0.1*t^2"))};
+  LiveMotion live(model);
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(live.advance(0.02)) << live.failure();
+  const LiveMotion::Energies e = live.energies();
+  EXPECT_GT(e.kinetic, 1e-3);
+  EXPECT_LT(std::abs(e.potential), 1e-9);
 }
 
 TEST(LiveMotionModel, NeedsABody) { EXPECT_THROW(LiveMotion(Model{}), std::invalid_argument); }

@@ -40,6 +40,12 @@ TEST(SweepPlan, RangesKeepTheirEndsAndUnits) {
   EXPECT_EQ(plan_of(request({"parameters.length=length/2, length"})).values(0)[0], 0.5);
 }
 
+TEST(SweepPlan, ALogarithmicRangeWantsOneSign) {
+  const std::string text = complaint_about(request({"body.bob.angle=-1..2:log:4"}));
+  EXPECT_TRUE(contains(text, "both ends of a logarithmic range must have the same sign")) << text;
+  EXPECT_TRUE(contains(text, "try: body.bob.angle=-1..2:lin:4\n")) << text;
+}
+
 // Numbers of simulate, of the defaults of joints, parameters, and of things with names.
 TEST(SweepPlan, PathsLeadToNumbers) {
   EXPECT_EQ(plan_of(request({"defaults.joint.stiffness=1e6,2e6"})).values(1)[0], 2e6);

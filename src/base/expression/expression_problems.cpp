@@ -141,6 +141,8 @@ ParseProblem unknown_name(std::string_view word, std::size_t at, const ParseScop
   if (word == "t" && scope.variables.empty())
     return {at, in_quotes(word), "this is a constant: time may stand in forces, torques, and in the torque, force, speed or position of a motor",
             "a number; 1 t for a tonne"};
+  if (word == "t" && scope.variables.size() == 1)
+    return {at, in_quotes(word), "this is a function of " + scope.variables.front().first + ", in which time does not stand", scope.variables.front().first + "; 1 t for a tonne"};
   if (find_table(word, scope)) return {at, in_quotes(word), "a table is called as a function", std::string(word) + "(x)"};
   if (is_unit_symbol(word)) return {at, in_quotes(word), "a unit needs a number in front of it", "1 " + std::string(word)};
   std::vector<std::string_view> names(scope.constant_names.begin(), scope.constant_names.end());

@@ -88,6 +88,16 @@ TEST(ExpressionProblem, NamesAndUnits) {
   for (const Fault& fault : faults) expect_problem(fault);
 }
 
+// An edge's height is one of x: t would be the tonne there.
+TEST(ExpressionProblem, TimeWhereOnlySomethingElseStands) {
+  ParseScope scope;
+  scope.variables = {{"x", kLength}};
+  const auto parsed = parse_expression("2*smoothstep(0, 1, t)", scope);
+  ASSERT_TRUE(std::holds_alternative<ParseProblem>(parsed));
+  EXPECT_EQ(std::get<ParseProblem>(parsed).because, "this is a function of x, in which time does not stand");
+  EXPECT_EQ(std::get<ParseProblem>(parsed).suggestion, "x; 1 t for a tonne");
+}
+
 TEST(ExpressionProblem, Grammar) {
   const Fault faults[] = {
       {"", 0, "an empty text", "expected", ""},

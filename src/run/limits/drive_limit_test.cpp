@@ -146,8 +146,7 @@ TEST(DriveLimit, AGuideHoldsItsSlider) {
   const double angle = 20 * kDegree, crank = 0.03, rod = 0.02;
   const Planar::Point O(0, 0), A(crank * std::cos(angle), crank * std::sin(angle)), B(A.x() + std::sqrt(rod * rod - A.y() * A.y()), 0);
   Linkage slider({{"O", O}, {"guide", O}}, {{"crank", "O", "A", O, A}, {"rod", "A", "B", A, B}});
-  slider.model.bodies.push_back(sample::body("slider", 0.3, 1e-5, {{"B", {0, 0}, 0}, {"S", {0, 5e-3}, 0}}));
-  slider.model.ground[1].position = {0, 5e-3};
+  slider.model.bodies.push_back(sample::body("slider", 0.3, 1e-5, {{"B", {0, 0}, 0}, {"S", {5e-3, 0}, 0}}));
   sample::put_at(slider.model.bodies.back(), B.x(), 0, 0);
   slider.q.emplace_back(B.x(), 0, 0);
   slider.pin("O", "ground", "crank");
