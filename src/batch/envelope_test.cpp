@@ -94,7 +94,7 @@ TEST(Envelope, StopsWhenTold) {
 
 TEST(Envelope, CountsTheRowsOfARun) {
   for (const double duration : {1.0, 0.3, 2.0 / 3})
-    for (const double step : {0.0, 0.1, 0.07, 0.3}) {
+    for (const double step : {0.0, 0.1, 0.07, 0.3, duration, (1 - 1e-12) * duration}) {
       Model model = sample::pendulum(2e8, 3500);
       model.simulate.duration = duration;
       model.simulate.output_step = step;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -104,6 +105,17 @@ TEST(Bearings, OneRowIsNoPath) {
   const BearingSummary one = PinRun(ball(10000)).add(0, 100, 0, 1, 5).summary();
   EXPECT_EQ(one.path, 0);
   EXPECT_EQ(one.mean_speed, 0);
+}
+
+// Four sectors of a pin of 20 mm x 10 mm; the second has rubbed most, by 0.4 N*m.
+TEST(Bearings, ALittleWearHasItsDepth) {
+  Bearing bearing = plain(0.02, 0.01);
+  bearing.wear_coefficient = 1e-15;
+  PinRun pin = steady_run(bearing, 1000, 3);
+  pin.run.wear = {{"B", {0.1, 0.4, 0, 0}, {}}};
+  EXPECT_NEAR(pin.summary().bush_depth, 1e-15 * 0.4 / (0.01 * 0.5 * std::numbers::pi * 0.01), 1e-18);
+  pin.run.wear.front().bush = {0, 0, 0, 0};
+  EXPECT_TRUE(std::isnan(pin.summary().bush_depth));
 }
 
 TEST(Bearings, SmallForcesHaveASafetyToo) { EXPECT_NEAR(steady_run(ball(10000, 50), 0.5, 100).summary().static_safety, 100, 1e-9); }
