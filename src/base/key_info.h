@@ -1,6 +1,7 @@
 // One key of the model file that a law or a joint type brings along: the reader, the schema and the manual page read it.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string_view>
 
@@ -23,5 +24,11 @@ struct KeyInfo {
   std::string_view otherwise{};    // what its absence means, where that is no number
   std::string_view meaning;        // one line
 };
+
+/// The one called `key`, or nullptr.
+inline const KeyInfo* find_key(std::span<const KeyInfo> keys, std::string_view key) {
+  const auto found = std::find_if(keys.begin(), keys.end(), [key](const KeyInfo& info) { return info.key == key; });
+  return found == keys.end() ? nullptr : &*found;
+}
 
 }  // namespace pintle

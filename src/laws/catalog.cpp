@@ -185,9 +185,8 @@ void LawSetting::take(const std::map<std::string, double>& geometry) {
 double LawSetting::number(std::string_view key, std::size_t place) const {
   const std::vector<double> stated = list(key);
   if (!stated.empty()) return stated[std::min(place, stated.size() - 1)];
-  for (const KeyInfo& info : keys)
-    if (info.key == key) return info.fallback;
-  return 0;
+  const KeyInfo* info = find_key(keys, key);
+  return info ? info->fallback : 0;
 }
 
 std::vector<double> LawSetting::list(std::string_view key) const {

@@ -20,10 +20,9 @@ inline std::optional<double> least_stated(const LawChoice& law, const std::strin
 /// The same; where nothing is stated, what the law's catalog entry takes. 0 of a key that the law does not have.
 inline double least_value(const LawChoice& law, const std::string& key) {
   if (const auto stated = least_stated(law, key)) return *stated;
-  if (const LawInfo* info = find_law(law.word))
-    for (const KeyInfo& known : info->keys)
-      if (known.key == key) return known.fallback;
-  return 0;
+  const LawInfo* known = find_law(law.word);
+  const KeyInfo* info = known ? find_key(known->keys, key) : nullptr;
+  return info ? info->fallback : 0;
 }
 
 }  // namespace pintle

@@ -51,7 +51,7 @@ Instant instant_at(const Scene& scene, const Trajectory& trajectory, double t) {
   for (const ForceArrow& arrow : scene.arrows)
     instant.forces.push_back({between(trajectory, low, share, arrow.fx), between(trajectory, low, share, arrow.fy)});
   for (const LoadArrow& load : scene.loads)
-    instant.loads.push_back(force_of(load, instant.t, load.at.body == kWorld ? Pose{} : instant.poses[static_cast<std::size_t>(load.at.body)]));
+    instant.loads.push_back(force_of(load, instant.t, instant.pose(load.at.body)));
   return instant;
 }
 

@@ -18,6 +18,12 @@ struct Pose {
   Vec2 turned(Vec2 d) const { return {c * d[0] - s * d[1], s * d[0] + c * d[1]}; }
 };
 
+/// Where a spot is, its bodies being there.
+inline Vec2 place_of(const MovingPoint& spot, const Pose& at, const Pose& toward) {
+  const Vec2 a = at.world(spot.at.point), b = toward.world(spot.toward.point), off = toward.turned(spot.off);
+  return {a[0] + spot.share * (b[0] - a[0]) + off[0], a[1] + spot.share * (b[1] - a[1]) + off[1]};
+}
+
 Pose pose_of(const BodyTrack& track, const Trajectory& trajectory, std::size_t row);
 
 /// Everything that moves, at one instant.
@@ -27,20 +33,12 @@ struct Instant {
   std::vector<Vec2> forces;  ///< per arrow of the scene [N]
   std::vector<Vec2> loads;   ///< per load of the scene, world axes [N]
 
-  Vec2 place(const Anchor& anchor) const {
-    return anchor.body == kWorld ? anchor.point : poses[static_cast<std::size_t>(anchor.body)].world(anchor.point);
-  }
+  /// Of the world's axes for kWorld.
+  Pose pose(int body) const { return body == kWorld ? Pose{} : poses[static_cast<std::size_t>(body)]; }
+  Vec2 place(const Anchor& anchor) const { return pose(anchor.body).world(anchor.point); }
   /// The direction of its axis in the world, of length 1.
-  Vec2 along(const Anchor& anchor) const {
-    const Vec2 axis{std::cos(anchor.axis), std::sin(anchor.axis)};
-    return anchor.body == kWorld ? axis : poses[static_cast<std::size_t>(anchor.body)].turned(axis);
-  }
-  Vec2 place(const MovingPoint& spot) const {
-    const Vec2 a = place(spot.at);
-    if (spot.is_anchor()) return a;
-    const Vec2 b = place(spot.toward), off = spot.toward.body == kWorld ? spot.off : poses[static_cast<std::size_t>(spot.toward.body)].turned(spot.off);
-    return {a[0] + spot.share * (b[0] - a[0]) + off[0], a[1] + spot.share * (b[1] - a[1]) + off[1]};
-  }
+  Vec2 along(const Anchor& anchor) const { return pose(anchor.body).turned({std::cos(anchor.axis), std::sin(anchor.axis)}); }
+  Vec2 place(const MovingPoint& spot) const { return place_of(spot, pose(spot.at.body), pose(spot.toward.body)); }
 };
 
 /// In world axes [N], on a body that is at `pose` at time t.

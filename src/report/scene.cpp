@@ -182,7 +182,7 @@ void SceneMaker::add_connectors() {
 std::optional<MovingPoint> SceneMaker::spot_of(const Joint& joint) const {
   const auto first = find(joint.first), second = find(joint.second);
   if (!second) return first ? std::optional(MovingPoint{*first}) : std::nullopt;
-  if (first && joint.type == "rack") return MovingPoint{*first, *second, 0, joint.geometry.at("radius") * away_from_pinion(*first, *second)};
+  if (first && joint.type == "rack") return MovingPoint{*first, *second, 0, joint.geometry.at("radius") * towards_rack(*first, *second)};
   if (joint.type != "gear" || !first) return MovingPoint{*second};
   const double a = joint.geometry.at("radius_first"), b = joint.geometry.at("radius_second");
   const bool internal = joint.geometry.contains("internal") && joint.geometry.at("internal") > 0;
@@ -191,9 +191,7 @@ std::optional<MovingPoint> SceneMaker::spot_of(const Joint& joint) const {
 }
 
 Vec2 SceneMaker::place(const MovingPoint& spot, std::size_t row) const {
-  const Pose other = pose(spot.toward.body, row);
-  const Vec2 a = pose(spot.at.body, row).world(spot.at.point), b = other.world(spot.toward.point);
-  return a + spot.share * (b - a) + other.turned(spot.off);
+  return place_of(spot, pose(spot.at.body, row), pose(spot.toward.body, row));
 }
 
 // Joints in one place share a label.

@@ -95,7 +95,7 @@ void SceneMaker::show(int body, const Vec2& centre, double radius) {
 }
 
 /// From the pinion to its rack, of length 1, in the rack's axes.
-Vec2 SceneMaker::away_from_pinion(const Anchor& pinion, const Anchor& rack) const {
+Vec2 SceneMaker::towards_rack(const Anchor& pinion, const Anchor& rack) const {
   const Vec2 centre = pose(rack.body, 0).local(pose(pinion.body, 0).world(pinion.point)), side = normal(direction(rack.axis));
   return dot(centre - rack.point, side) > 0 ? -1.0 * side : side;
 }
@@ -107,7 +107,7 @@ void SceneMaker::sketch_rack(const Joint& joint, const Anchor& first, const Anch
   track.from = track.from - room;
   track.to = track.to + room;
   track.kind = Track::kRack;
-  track.other_side = away_from_pinion(first, second);
+  track.other_side = towards_rack(first, second);
   (second.body == kWorld ? ground_ : sketches_[static_cast<std::size_t>(second.body)]).tracks.push_back(track);
   show(second.body, track);
   if (first.body != kWorld) sketches_[static_cast<std::size_t>(first.body)].wheels.push_back({first.point, radius, false});

@@ -55,7 +55,7 @@ class SceneMaker {
   Pose pose(int body, std::size_t row) const;
   std::optional<MovingPoint> spot_of(const Joint& joint) const;  ///< where its force acts
   Vec2 place(const MovingPoint& spot, std::size_t row) const;
-  Vec2 away_from_pinion(const Anchor& pinion, const Anchor& rack) const;
+  Vec2 towards_rack(const Anchor& pinion, const Anchor& rack) const;
   void put(Layer layer, Shape shape) { layers_[layer].push_back(std::move(shape)); }
   std::size_t drawable_rows() const;
   std::vector<std::size_t> sample_rows(std::size_t most) const;

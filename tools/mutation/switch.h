@@ -53,7 +53,7 @@ T number(int mutant, T value) {
   }                                                                                 \
   template <class A, class B>                                                       \
   auto operator op(Name##With<A> left, const B& b) {                                \
-    return is_active(left.mutant) ? left.a opposite b : left.a op b;                       \
+    return is_active(left.mutant) ? left.a opposite b : left.a op b;                \
   }
 PINTLE_COMPARISON(Less, <, >=)
 PINTLE_COMPARISON(LessEqual, <=, >)

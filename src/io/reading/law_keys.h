@@ -16,7 +16,7 @@ inline bool has_effect(const KeyInfo& key, const JointTypeInfo& type) {
 
 /// Whether a law, if there is one, has this key.
 inline bool has_key(const LawInfo* law, std::string_view key) {
-  return law != nullptr && std::any_of(law->keys.begin(), law->keys.end(), [key](const KeyInfo& info) { return info.key == key; });
+  return law != nullptr && find_key(law->keys, key) != nullptr;
 }
 
 }  // namespace pintle

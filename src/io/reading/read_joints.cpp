@@ -218,7 +218,7 @@ bool take_points(ModelReading& reading, const KeyInfo& key, const LawInfo& law, 
   const std::array<const std::vector<double>*, 2> points{&table.x, &table.y};
   const std::array<const Dimension*, 2> dimensions{&table.in_scope.argument, &table.in_scope.result};
   for (std::size_t i = 0; i < 2; ++i) {
-    const auto info = std::find_if(law.keys.begin(), law.keys.end(), [&](const KeyInfo& one) { return one.key == key.points[i]; });
+    const KeyInfo* info = find_key(law.keys, key.points[i]);
     if (auto problem = check_dimension(*dimensions[i], parse_unit(info->unit)->dimension)) return complain(fmt::format("its {}: {}", i == 0 ? "x" : "y", *problem), "a table of another kind");
     choice.values[std::string(info->key)] = *points[i];
   }

@@ -247,10 +247,8 @@ std::vector<std::string> Schema::kinds_with(std::string_view path, std::string_v
     if (table.path != path) continue;
     if (!table.when.empty() && table.find(key) != nullptr) kinds.push_back(table.called);
     if (!table.joint_type_keys) continue;
-    for (const JointTypeInfo& type : joint_type_catalog()) {
-      const auto has = [&](const KeyInfo& info) { return info.key == key; };
-      if (std::any_of(type.keys.begin(), type.keys.end(), has)) kinds.push_back(std::string(type.word) + " joints");
-    }
+    for (const JointTypeInfo& type : joint_type_catalog())
+      if (find_key(type.keys, key)) kinds.push_back(std::string(type.word) + " joints");
   }
   return kinds;
 }

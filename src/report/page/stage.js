@@ -1,5 +1,9 @@
 // The mechanism on its canvas. Shapes are paths in body axes, drawn through the pose of their body.
 
+/** A direction, and a point, of a body's axes in the world. */
+const turned = (pose, [x, y]) => [pose.c * x - pose.s * y, pose.s * x + pose.c * y];
+const world = (pose, point) => turned(pose, point).map((d, k) => d + (k === 0 ? pose.x : pose.y));
+
 class Stage {
   constructor(canvas, clock) {
     this.canvas = canvas;
@@ -112,12 +116,11 @@ class Stage {
   }
 
   placeOf(at, poses) {
-    const p = poses ? poses[at.body + 1] : this.pose(at.body);
-    const [x, y] = at.point, place = [p.x + p.c * x - p.s * y, p.y + p.s * x + p.c * y];
+    const poseOf = (body) => (poses ? poses[body + 1] : this.pose(body));
+    const place = world(poseOf(at.body), at.point);
     if (!at.toward) return place;
     const other = this.placeOf(at.toward, poses); // on the line to another point, or off it in the axes of that one's body
-    const q = poses ? poses[at.toward.body + 1] : this.pose(at.toward.body), [u, v] = at.off;
-    const off = [q.c * u - q.s * v, q.s * u + q.c * v];
+    const off = turned(poseOf(at.toward.body), at.off);
     return place.map((a, k) => a + at.share * (other[k] - a) + off[k]);
   }
 
@@ -237,8 +240,7 @@ class Stage {
   }
 
   directionOf(at, poses) {
-    const p = poses[at.body + 1], c = Math.cos(at.axis), s = Math.sin(at.axis);
-    return [p.c * c - p.s * s, p.s * c + p.c * s];
+    return turned(poses[at.body + 1], [Math.cos(at.axis), Math.sin(at.axis)]);
   }
 
   /** Points that are followed: "" none, "joints", or the name of one. */
@@ -255,8 +257,7 @@ class Stage {
       if (!this.traces.has(point)) {
         const path = new Path2D();
         for (let row = 0; row < run.rows; ++row) {
-          const p = this.pose(point.at.body, { row, share: 0 }), [x, y] = point.at.point;
-          path.lineTo(p.x + p.c * x - p.s * y, p.y + p.s * x + p.c * y);
+          path.lineTo(...world(this.pose(point.at.body, { row, share: 0 }), point.at.point));
         }
         this.traces.set(point, path);
       }
