@@ -57,7 +57,9 @@ void SceneMaker::add_tracks(int body, const BodySketch& sketch) {
 void SceneMaker::add_link(int body, const BodySketch& sketch) {
   const double u = scene_.unit;
   const std::vector<Vec2> hull = convex_hull(sketch.points, 0.6 * u);
-  const bool covered = !sketch.wheels.empty() || !sketch.blocks.empty() || !sketch.cams.empty() || !sketch.rollers.empty() || !sketch.faces.empty();
+  // A wheel is all of its body where the centre of mass is in it: a lid with a pinion at its hinge has its length beside.
+  const bool wheeled = std::any_of(sketch.wheels.begin(), sketch.wheels.end(), [](const Wheel& wheel) { return length(wheel.centre) <= wheel.radius; });
+  const bool covered = wheeled || !sketch.blocks.empty() || !sketch.cams.empty() || !sketch.rollers.empty() || !sketch.faces.empty();
   if (hull.size() > 2) {
     put(kPlates, {Form::kBar, Paint::kLink, body, {hull}, kLinkWidth * u, true});
   } else if (hull.size() == 2) {

@@ -106,6 +106,46 @@ TEST(Scene, RodOnAPinHasItsLength) {
   EXPECT_NEAR(length(bar->paths[0][1] - bar->paths[0][0]), 2 * length(pin), 0.01 * length(pin));
 }
 
+// A lid of 0.6 m whose pinion, 60 mm, is at its hinge.
+TEST(Scene, AWheelIsNotAllOfABodyThatReachesFarther) {
+  const auto [model, run] = drawn::run_of(R"(
+format = 1
+name = "Lid"
+[simulate]
+duration = "10 ms"
+[ground.markers]
+hinge = [0, 0]
+way = [0, "0.06 m"]
+[body.lid]
+mass = "6 kg"
+inertia = "0.18 kg*m^2"
+position = ["0.3 m", 0]
+angle = 0
+markers.hinge = ["-0.3 m", 0]
+[body.rack]
+mass = "0.3 kg"
+inertia = "0.001 kg*m^2"
+position = [0, "0.06 m"]
+angle = 0
+markers.way = [0, 0]
+[joint.hinge]
+type = "revolute"
+between = ["ground.hinge", "lid.hinge"]
+[joint.way]
+type = "prismatic"
+between = ["ground.way", "rack.way"]
+[joint.mesh]
+type = "rack"
+between = ["lid.hinge", "rack.way"]
+radius = "60 mm"
+)");
+  const Scene scene = make_scene(model, run.trajectory);
+  const auto bar = std::find_if(scene.shapes.begin(), scene.shapes.end(), [](const Shape& shape) { return shape.form == Form::kBar && shape.body == 0; });
+  ASSERT_NE(bar, scene.shapes.end());
+  EXPECT_NEAR(length(bar->paths[0][1] - bar->paths[0][0]), 0.6, 1e-12);
+  EXPECT_EQ(count_shapes(scene, Paint::kPitch), 1u);
+}
+
 TEST(Scene, GuidesAreAsLongAsTheSlide) {
   const auto [model, run] = run_of_mechanism("inverted_slider_crank");
   const Trajectory& trajectory = run.trajectory;
