@@ -44,8 +44,7 @@ struct MotorSummary {
   double peak_power = 0, mean_power = 0, work = 0;
 };
 
-/// What a pin went through in a run, and what that makes of its bearing; the run counts as a load cycle that repeats. From the rows, and
-/// integrals over them are of the error stated. A value that cannot be had, because a size is not stated or the pin does not turn, is not a
+/// What a pin went through in a run, and what that makes of its bearing; the run counts as a load cycle that repeats. A value that cannot be had, because a size is not stated or the pin does not turn, is not a
 /// number, and `wants` or `remarks` say why. theory/bearing_life
 struct BearingSummary {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -118,6 +117,15 @@ struct JointWear {
   std::vector<double> bush, pin;  ///< [N*m]
 };
 
+/// What a pin has turned in its bush and under which force, by curves inside the steps. theory/bearing_life section 1
+struct PinDuty {
+  std::string joint;
+  double path = 0, swing = 0;       ///< angle, back and forth added up; from its least to its largest [rad]
+  double peak_rate = 0;             ///< of the angle, without its sign [rad/s]
+  double load = 0, load_3 = 0, load_10_3 = 0;  ///< integrals of |F|^p over the path, p = 1, 3, 10/3 [N^p*rad]
+  double peak_power = 0;            ///< of |F| times the rate [N*rad/s]
+};
+
 struct Trajectory {
   std::vector<Column> columns;    ///< the first is the time
   std::vector<double> values;     ///< row-major, n_rows x columns.size()
@@ -132,6 +140,7 @@ struct Trajectory {
   EnergyAccount energy;
   std::vector<JointEvents> events;  ///< of joints that have any
   std::vector<JointWear> wear;      ///< of pins with clearance
+  std::vector<PinDuty> duty;        ///< of joints that turn freely; empty of runs of version 0.3.0 and before
   Counters counters;
   std::string method;        ///< the one used
   double tolerance = 0;      ///< asked for

@@ -8,7 +8,6 @@
 #include <unordered_map>
 
 #include "base/constants.h"
-#include "bearings/duty.h"
 #include "bearings/worn_sector.h"
 #include "laws/least_stated.h"
 
@@ -20,69 +19,54 @@ constexpr double kMillion = 1e6, kHour = 3600;  // [s]
 constexpr double kTurnedBack = 1.001;           // path over swing: a pin that only goes on has 1
 constexpr double kMostShareOfRating = 0.5;      // ISO 281: of C, for its formula to hold
 
-/// Columns and loads of a run by name: a large mechanism has very many.
+/// What a run tells of its joints, by name: a large mechanism has very many.
 class NamedParts {
  public:
-  explicit NamedParts(const Trajectory& run) : run_(run) {
-    for (std::size_t i = 0; i < run.columns.size(); ++i) columns_.emplace(run.columns[i].name, i);
+  explicit NamedParts(const Trajectory& run) {
     for (const LoadSummary& load : run.joints) loads_.emplace(load.name, &load);
+    for (const PinDuty& duty : run.duty) duties_.emplace(duty.joint, &duty);
   }
 
-  const LoadSummary* load(const std::string& joint) const {
-    const auto found = loads_.find(joint);
-    return found == loads_.end() ? nullptr : found->second;
-  }
-
-  Duty duty(const LoadSummary& load) const {
-    const std::string path = "joint." + load.name + ".", on = path + "on_" + load.second_body + ".";
-    const auto angle = columns_.find(path + "angle"), rate = columns_.find(path + "angle_rate"), fx = columns_.find(on + "fx[world]"), fy = columns_.find(on + "fy[world]");
-    std::vector<DutyRow> rows;
-    for (const auto& column : {angle, rate, fx, fy})
-      if (column == columns_.end()) return Duty({});
-    for (std::size_t i = 0; i < run_.n_rows(); ++i)
-      rows.push_back({run_.at(i, 0), run_.at(i, angle->second), run_.at(i, rate->second), {run_.at(i, fx->second), run_.at(i, fy->second)}});
-    return Duty(std::move(rows));
-  }
+  /// Null where there is none.
+  const LoadSummary* load(const std::string& joint) const { return find(loads_, joint); }
+  const PinDuty* duty(const std::string& joint) const { return find(duties_, joint); }
 
  private:
-  const Trajectory& run_;
-  std::unordered_map<std::string, std::size_t> columns_;
+  template <class T>
+  static const T* find(const std::unordered_map<std::string, const T*>& map, const std::string& name) {
+    const auto found = map.find(name);
+    return found == map.end() ? nullptr : found->second;
+  }
+
   std::unordered_map<std::string, const LoadSummary*> loads_;
+  std::unordered_map<std::string, const PinDuty*> duties_;
 };
 
-void add_duty(const Duty& duty, BearingSummary& out) {
-  if (duty.n_rows() == 0) {
-    out.path = out.swing = out.mean_speed = out.peak_speed = kNone;
-    out.remarks.push_back("its columns were not recorded: add \"joint." + out.joint + "\" to simulate.record");
-    return;
-  }
-  out.path = duty.path();
-  out.swing = duty.swing();
-  out.mean_speed = duty.span() > 0 ? out.path / duty.span() : 0;  // Eq. (1.4)
-  out.peak_speed = duty.peak_rate();
+void add_duty(const PinDuty& duty, double time, BearingSummary& out) {
+  out.path = duty.path;
+  out.swing = duty.swing;
+  out.mean_speed = time > 0 ? out.path / time : 0;  // Eq. (1.4)
+  out.peak_speed = duty.peak_rate;
   if (out.path > kTurnedBack * out.swing && out.swing < kTurn)
     out.remarks.push_back(fmt::format("it swings back and forth by {:.4g} deg: its path counts as turns", out.swing * 360 / kTurn));
 }
 
 // ISO 281. Equations (2.1) to (2.4).
-void add_life(const Bearing& bearing, const Duty& duty, BearingSummary& out) {
+void add_life(const Bearing& bearing, const PinDuty& duty, BearingSummary& out) {
   const double exponent = life_exponent(bearing);
-  if (std::isnan(exponent) || duty.n_rows() == 0) return;
+  if (std::isnan(exponent)) return;
   if (!(out.path > 0)) {
     out.remarks.push_back("it does not turn: there is no life by rolling, and the static safety counts");
     return;
   }
-  out.equivalent_load = duty.equivalent_load(exponent);
-  const bool estimated = duty.n_rows() > 2;
-  const Duty thinned = estimated ? duty.thinned() : duty;
-  const double coarse_path = thinned.path();
-  out.equivalent_load_error = estimated && coarse_path > 0 ? out.force_error + std::abs(thinned.equivalent_load(exponent) - out.equivalent_load) : kNone;
+  out.equivalent_load = std::pow((exponent == 3 ? duty.load_3 : duty.load_10_3) / out.path, 1 / exponent);
+  out.equivalent_load_error = out.force_error;
   if (bearing.fatigue_load_limit) out.fatigue_ratio = *bearing.fatigue_load_limit / out.equivalent_load;
   if (!bearing.dynamic_load_rating || !(out.equivalent_load > 0)) return;
   const double rating = *bearing.dynamic_load_rating;
   out.life = std::pow(rating / out.equivalent_load, exponent);
   out.life_hours = out.life * kMillion * kTurn / (out.mean_speed * kHour);
-  out.life_error = exponent * out.equivalent_load_error / out.equivalent_load + std::abs(coarse_path - out.path) / out.path;
+  out.life_error = exponent * out.equivalent_load_error / out.equivalent_load;
   if (out.equivalent_load > kMostShareOfRating * rating)
     out.remarks.push_back(fmt::format("P is {:.3g} of C: ISO 281's life does not hold above {:g}", out.equivalent_load / rating, kMostShareOfRating));
 }
@@ -95,16 +79,16 @@ void add_static_safety(const Bearing& bearing, BearingSummary& out) {
 }
 
 // Equations (3.1) to (3.3).
-void add_pressure(const Bearing& bearing, const Duty& duty, BearingSummary& out) {
+void add_pressure(const Bearing& bearing, const PinDuty* duty, double time, BearingSummary& out) {
   if (!bearing.pin_diameter || !bearing.pin_length) return;
   const double radius = 0.5 * *bearing.pin_diameter, area = *bearing.pin_diameter * *bearing.pin_length;
   out.mean_pressure = out.mean_force / area;
   out.peak_pressure = out.peak_force / area;
-  if (duty.n_rows() == 0) return;
+  if (duty == nullptr) return;
   out.mean_sliding = radius * out.mean_speed;
   out.peak_sliding = radius * out.peak_speed;
-  out.mean_pv = duty.span() > 0 ? radius / area * duty.load_integral(1) / duty.span() : 0;
-  out.peak_pv = radius / area * duty.peak_power();
+  out.mean_pv = time > 0 ? radius / area * duty->load / time : 0;
+  out.peak_pv = radius / area * duty->peak_power;
 }
 
 // What its table says, and of the sizes that it leaves out what an oil film's law knows.
@@ -174,11 +158,16 @@ BearingSummary summary_of(const Joint& joint, const LoadSummary& load, const Tra
   out.force_error = load.error_estimate;
   if (run.outcome == Outcome::kHorizon && load.horizon < run.t_end)
     out.remarks.push_back(fmt::format("the motion is chaotic: the stated error is of the force up to t = {:.5g} s", load.horizon));
-  const Duty duty = parts.duty(load);
-  add_duty(duty, out);
-  add_life(bearing, duty, out);
+  const PinDuty* duty = parts.duty(load.name);
+  if (duty != nullptr) {
+    add_duty(*duty, run.t_end, out);
+    add_life(bearing, *duty, out);
+  } else {
+    out.path = out.swing = out.mean_speed = out.peak_speed = kNone;
+    out.remarks.push_back("this run does not tell how far it turns under which load: run it again");
+  }
   add_static_safety(bearing, out);
-  add_pressure(bearing, duty, out);
+  add_pressure(bearing, duty, run.t_end, out);
   add_film(joint, run, out);
   add_wear(bearing, run, out);
   out.wants = missing_sizes(bearing);

@@ -120,6 +120,21 @@ void for_each_entry(Wear& wear, const Visit& visit) requires requires {
   visit("pin", wear.pin);
 }
 
+template <class Duty, class Visit>
+void for_each_entry(Duty& duty, const Visit& visit) requires requires {
+  duty.load_10_3;
+}
+{
+  visit("joint", duty.joint);
+  visit("path", duty.path);
+  visit("swing", duty.swing);
+  visit("peak_rate", duty.peak_rate);
+  visit("load", duty.load);
+  visit("load_3", duty.load_3);
+  visit("load_10_3", duty.load_10_3);
+  visit("peak_power", duty.peak_power);
+}
+
 template <class Energy, class Visit>
 void for_each_entry(Energy& energy, const Visit& visit) requires requires {
   energy.dissipated;
@@ -266,6 +281,7 @@ Summary summary_from(const Json& json) {
   from_json(json.at("motors"), trajectory.motors);
   if (json.contains("bearings")) from_json(json.at("bearings"), trajectory.bearings);  // not in runs of version 0.2
   if (json.contains("wear")) from_json(json.at("wear"), trajectory.wear);
+  if (json.contains("duty")) from_json(json.at("duty"), trajectory.duty);
   from_json(json.at("energy"), trajectory.energy);
   from_json(json.at("counters"), trajectory.counters);
   from_json(json.at("columns"), trajectory.columns);
@@ -300,6 +316,7 @@ std::string summary_json(const Trajectory& trajectory, const RunStamp& stamp) {
   json["motors"] = to_json(trajectory.motors);
   json["bearings"] = to_json(trajectory.bearings);
   if (!trajectory.wear.empty()) json["wear"] = to_json(trajectory.wear);
+  if (!trajectory.duty.empty()) json["duty"] = to_json(trajectory.duty);
   json["energy"] = to_json(trajectory.energy);
   json["counters"] = to_json(trajectory.counters);
   json["rows"] = trajectory.n_rows();

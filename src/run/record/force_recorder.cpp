@@ -120,7 +120,10 @@ void BasicForceRecorder<S>::fill(Trajectory& out) {
     if (!heat_.empty()) s.heat = heat_[j];
     out.joints.push_back(s);
   }
-  if (what_ != Recorded::kForces) out.wear = loads_->wear().result();
+  if (what_ != Recorded::kForces) {
+    out.wear = loads_->wear().result();
+    out.duty = loads_->duty().result();
+  }
   if (!energies_.empty()) fill_account(out.energy);
 }
 

@@ -14,7 +14,7 @@ constexpr int kMostHalvings = 10;  // of a part of a step; a jump of the loads i
 
 template <class S>
 BasicLoadRecorder<S>::BasicLoadRecorder(const BasicSystem<S>& system, const LoadSampling& sampling, bool with_heat, const Signals* signals)
-    : system_(system), grid_(sampling.n), sampling_(sampling), with_heat_(with_heat), signals_(signals), n_signals_(signals == nullptr ? 0 : signals->n_signals()), wear_(system) {
+    : system_(system), grid_(sampling.n), sampling_(sampling), with_heat_(with_heat), signals_(signals), n_signals_(signals == nullptr ? 0 : signals->n_signals()), wear_(system), duty_(system) {
   const std::size_t joints = system.joints.size();
   stride_ = static_cast<int>(joints) * (S::kDof + 1) + n_signals_;
   samples_.resize(static_cast<std::size_t>(grid_.n() * stride_));
@@ -102,6 +102,7 @@ void BasicLoadRecorder<S>::take_samples(BasicStepper<S>& stepper, double t0, dou
     const BasicState<S>& state = stepper.interpolate(i + 1 < grid_.n() ? t0 + grid_.instant(i) * (t1 - t0) : t1);
     sample(i, state);
     if (wears) wear_.sample(i, state);
+    if (with_heat_) duty_.sample(i, state);
   }
 }
 
@@ -159,6 +160,7 @@ void BasicLoadRecorder<S>::add_samples(double t0, double h, bool resolved) {
   for (std::size_t j = 0; j < work_.size(); ++j, ++at)
     for (int i = 0; i < grid_.n(); ++i) work_[j] += h * grid_.integral()[static_cast<std::size_t>(i)] * at[static_cast<std::ptrdiff_t>(i) * stride_];
   for (CurveSums& sums : signal_) add_load<1, Sums::kWithSign>(at++, t0, h, resolved, sums);
+  if (with_heat_) duty_.add_curve(grid_, samples_.data(), stride_, h);
 }
 
 // What turns far, or turns round, is divided more finely than the samples.

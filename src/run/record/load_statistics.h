@@ -1,4 +1,4 @@
-// Peaks, means and root mean squares of all loads over a run, and the heat of every joint: from curves through samples inside every step, so that
+// Peaks, means and root mean squares of all loads over a run, the heat of every joint and the duty of every pin: from curves through samples inside every step, so that
 // they do not depend on the output rows. theory/time section 5.1.
 #pragma once
 
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "integrators/stepper.h"
+#include "run/record/duty_tally.h"
 #include "run/record/sampled_curve.h"
 #include "run/record/wear_tally.h"
 
@@ -34,7 +35,7 @@ class BasicLoadRecorder {
     virtual void put_signals(const BasicState<S>& state, const std::vector<typename S::Motion>& m, double* out) const = 0;
   };
 
-  /// `with_heat`: also what joints lose, and what wears. `signals`, if any, must outlive the recorder.
+  /// `with_heat`: also what joints lose, what wears, and what pins go through. `signals`, if any, must outlive the recorder.
   BasicLoadRecorder(const BasicSystem<S>& system, const LoadSampling& sampling, bool with_heat, const Signals* signals);
 
   void start(const BasicState<S>& state);
@@ -47,6 +48,7 @@ class BasicLoadRecorder {
   /// What the law of a joint has turned into heat from the start up to `state`, the end of the last step [J]. theory/time Eq. (5.4)
   double heat(int joint, const BasicState<S>& state) const;
   const BasicWearTally<S>& wear() const { return wear_; }
+  const BasicDutyTally<S>& duty() const { return duty_; }
 
  private:
   static constexpr int kForce = S::kDim, kCouple = S::kDof - S::kDim;
@@ -75,6 +77,7 @@ class BasicLoadRecorder {
   std::vector<double> work_, stored_;  // of each joint's force on its gap since the start, less what feeds it; stored at the start [J]
   double begin_ = 0, end_ = 0;
   BasicWearTally<S> wear_;
+  BasicDutyTally<S> duty_;
 };
 using LoadRecorder = BasicLoadRecorder<Planar>;
 

@@ -117,6 +117,43 @@ TEST(LoadStatistics, AreThoseOfVeryManyRows) {
   }
 }
 
+// Path, cubed load over it, swing and speed of each pin, through the rows alone.
+TEST(LoadStatistics, DutyIsThatOfVeryManyRows) {
+  Model model = sample::four_bar(1e8, 3000);
+  model.simulate.duration = 0.6;
+  const auto with = [&](double output_step) {
+    model.simulate.output_step = output_step;
+    return simulate(model);
+  };
+  const Trajectory run = with(6e-6), few = with(0.2);
+  ASSERT_EQ(run.duty.size(), run.joints.size());
+  ASSERT_EQ(few.duty.size(), run.joints.size());
+  for (std::size_t j = 0; j < run.duty.size(); ++j) {
+    const PinDuty& pin = run.duty[j];
+    const std::string of = "joint." + pin.joint + ".", on = of + "on_" + run.joints[j].second_body;
+    std::vector<std::size_t> place;
+    for (const std::string& name : {of + "angle", of + "angle_rate", on + ".fx[world]", on + ".fy[world]"}) place.push_back(static_cast<std::size_t>(run.column(name)));
+    double least = 1e9, most = -1e9, fastest = 0, path = 0, cubes = 0;
+    for (std::size_t row = 0; row < run.n_rows(); ++row) {
+      const double angle = run.at(row, place[0]), load = std::hypot(run.at(row, place[2]), run.at(row, place[3]));
+      least = std::min(least, angle);
+      most = std::max(most, angle);
+      fastest = std::max(fastest, std::abs(run.at(row, place[1])));
+      if (row == 0) continue;
+      const double before = std::hypot(run.at(row - 1, place[2]), run.at(row - 1, place[3])), way = std::abs(angle - run.at(row - 1, place[0]));
+      path += way;
+      cubes += 0.5 * (std::pow(before, 3) + std::pow(load, 3)) * way;
+    }
+    EXPECT_NEAR(pin.path, path, 1e-6 * path) << pin.joint;
+    EXPECT_NEAR(pin.swing, most - least, 1e-6 * pin.swing) << pin.joint;
+    EXPECT_NEAR(pin.peak_rate, fastest, 1e-6 * fastest) << pin.joint;
+    EXPECT_NEAR(pin.load_3, cubes, 1e-6 * cubes) << pin.joint;
+    EXPECT_NEAR(few.duty[j].load_3, pin.load_3, 1e-9 * pin.load_3) << pin.joint;
+    EXPECT_NEAR(few.duty[j].load_10_3, pin.load_10_3, 1e-9 * pin.load_10_3) << pin.joint;
+    EXPECT_NEAR(few.duty[j].peak_power, pin.peak_power, 1e-9 * pin.peak_power) << pin.joint;
+  }
+}
+
 // What all joints lose is what the run loses: nothing else here does.
 TEST(LoadStatistics, HeatAddsUpToWhatIsLost) {
   Model model = sample::four_bar(1e6, 300);

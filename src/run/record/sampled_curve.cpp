@@ -24,16 +24,6 @@ double square_at(const CurveGrid& grid, double x, const double* samples, int str
   return square;
 }
 
-// One component at all points.
-void along_grid(const CurveGrid& grid, const double* samples, int stride, CurveGrid::AtPoints& value) {
-  value.fill(0);
-  for (int i = 0; i < grid.n(); ++i) {
-    const CurveGrid::AtPoints& weight = grid.of_sample(i);
-    const double sample = samples[i * stride];
-    for (std::size_t p = 0; p < value.size(); ++p) value[p] += weight[p] * sample;
-  }
-}
-
 // Simpson's rule. theory/time Eq. (5.2)
 constexpr CurveGrid::AtPoints kSimpson = [] {
   constexpr double third = 1.0 / (3 * CurveGrid::kIntervals);
@@ -103,6 +93,22 @@ CurveGrid::Weights CurveGrid::weights(double x) const {
   }
   for (double& w : out) w /= sum;
   return out;
+}
+
+void along_grid(const CurveGrid& grid, const double* samples, int stride, CurveGrid::AtPoints& value) {
+  value.fill(0);
+  for (int i = 0; i < grid.n(); ++i) {
+    const CurveGrid::AtPoints& weight = grid.of_sample(i);
+    const double sample = samples[i * stride];
+    for (std::size_t p = 0; p < value.size(); ++p) value[p] += weight[p] * sample;
+  }
+}
+
+double largest_on_grid(const CurveGrid::AtPoints& value) {
+  const auto largest = static_cast<std::size_t>(std::max_element(value.begin(), value.end()) - value.begin());
+  const std::size_t middle = std::clamp<std::size_t>(largest, 1, CurveGrid::kIntervals - 1);
+  const Parabola parabola{value[middle - 1], value[middle], value[middle + 1]};
+  return std::max(value[largest], parabola.value(parabola.top()));
 }
 
 template <int n, Sums kind>

@@ -46,6 +46,11 @@ class CurveGrid {
   std::array<AtPoints, kMost> of_sample_{};
 };
 
+/// The polynomial through `samples[i * stride]` at all points.
+void along_grid(const CurveGrid& grid, const double* samples, int stride, CurveGrid::AtPoints& value);
+/// The largest of the values, or of the parabola through it and its neighbours.
+double largest_on_grid(const CurveGrid::AtPoints& value);
+
 enum class Sums { kOfSize, kWithSign };
 /// Adds a step of h seconds from t0 to `sums` of the size of a vector of n components, whose samples are `samples[i * stride + c]`; or of a scalar with
 /// its sign.

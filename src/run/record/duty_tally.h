@@ -1,0 +1,53 @@
+// What pins turn in their bushes and under which load: integrals over the path of each, by curves inside every step. theory/bearing_life section 1.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "pintle/trajectory.h"
+#include "run/record/sampled_curve.h"
+#include "system/state.h"
+
+namespace pintle {
+
+/// Over the steps so far. Eq. (1.1) to (1.3)
+struct DutySums {
+  double path = 0;                                              // [rad]
+  double load = 0, load_3 = 0, load_10_3 = 0;                   // of |F|^p over the path, p = 1, 3, 10/3 [N^p*rad]
+  double least = std::numeric_limits<double>::infinity(), most = -least;  // angle [rad]
+  double peak_rate = 0, peak_power = 0;                         // of |rate|, of |F| |rate| [rad/s], [N*rad/s]
+};
+
+/// Samples of a pin's angle in its bush and of its rate, as many as a grid has.
+struct TurnSamples {
+  CurveGrid::Weights angle{}, rate{};  // [rad], [rad/s]
+};
+
+/// Adds a step of h seconds in which the force, a vector of n components, has the samples `force[i * stride + c]`.
+template <int n>
+void add_duty(const CurveGrid& grid, const double* force, int stride, const TurnSamples& turn, double h, DutySums& sums);
+
+template <class S>
+class BasicDutyTally {
+ public:
+  /// Of the joints that turn freely and carry a force: pins.
+  explicit BasicDutyTally(const BasicSystem<S>& system);
+
+  /// Sample i of a step.
+  void sample(int i, const BasicState<S>& state);
+  /// Adds a step of h seconds by the curves through the samples of `grid`. `loads[i * stride + joint * S::kDof]` are those of the forces.
+  void add_curve(const CurveGrid& grid, const double* loads, int stride, double h);
+  std::vector<PinDuty> result() const;
+
+ private:
+  struct Pin {
+    int joint;
+    DutySums sums;
+    TurnSamples samples;
+  };
+
+  const BasicSystem<S>& system_;
+  std::vector<Pin> pins_;
+};
+
+}  // namespace pintle
