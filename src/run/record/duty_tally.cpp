@@ -9,7 +9,6 @@ namespace {
 
 /// Integral of the size of the parabola through three values an even distance apart, in units of that distance. It is cut where it changes its sign.
 double integral_of_size(double before, double here, double after) {
-  if ((before >= 0 && here >= 0 && after >= 0) || (before <= 0 && here <= 0 && after <= 0)) return std::abs(before + 4 * here + after) / 3;
   const double slope = 0.5 * (after - before), bend = 0.5 * (before - 2 * here + after);  // here + slope x + bend x^2
   const double q = -0.5 * (slope + std::copysign(std::sqrt(std::max(slope * slope - 4 * bend * here, 0.0)), slope));
   const auto inside = [](double numerator, double denominator) {
@@ -24,11 +23,14 @@ double integral_of_size(double before, double here, double after) {
   return sum;
 }
 
-// Simpson's rule over pairs of intervals. Eq. (1.1)
-double integral_of_size(const CurveGrid::AtPoints& f) {
+// Of the size of f, which changes its sign or does not: Simpson's rule over pairs of intervals, of which every `every`th point is an end. Eq. (1.1)
+double integral_of_size(const CurveGrid::AtPoints& f, bool changes_sign, std::size_t every = 1) {
   double sum = 0;
-  for (std::size_t p = 1; p + 1 < f.size(); p += 2) sum += integral_of_size(f[p - 1], f[p], f[p + 1]);
-  return sum / CurveGrid::kIntervals;
+  if (changes_sign)
+    for (std::size_t p = every; p + every < f.size(); p += 2 * every) sum += integral_of_size(f[p - every], f[p], f[p + every]);
+  else
+    for (std::size_t p = every; p + every < f.size(); p += 2 * every) sum += (f[p - every] + 4 * f[p] + f[p + every]) / 3;
+  return std::abs(sum) * static_cast<double>(every) / CurveGrid::kIntervals;
 }
 
 CurveGrid::AtPoints product(const CurveGrid::AtPoints& a, const CurveGrid::AtPoints& b) {
@@ -37,45 +39,57 @@ CurveGrid::AtPoints product(const CurveGrid::AtPoints& a, const CurveGrid::AtPoi
   return out;
 }
 
-CurveGrid::AtPoints size_of(CurveGrid::AtPoints f) {
-  for (double& x : f) x = std::abs(x);
-  return f;
+// A pin that turns one way has its least and largest angle at the ends of the step.
+void add_swing(const CurveGrid& grid, const CurveGrid::Weights& samples, bool turns_round, DutySums& sums) {
+  const auto see = [&sums](double angle) {
+    sums.most = std::max(sums.most, angle);
+    sums.least = std::min(sums.least, angle);
+  };
+  see(samples[0]);
+  see(samples[static_cast<std::size_t>(grid.n()) - 1]);
+  if (!turns_round) return;
+  CurveGrid::AtPoints angle;
+  along_grid(grid, samples.data(), 1, angle);
+  see(largest_on_grid(angle));
+  for (double& x : angle) x = -x;
+  see(-largest_on_grid(angle));
+}
+
+// To the size of f. The parabola through its largest point and two others, none of them negative, rises above that point by an eighth of it at most.
+void raise_peak(CurveGrid::AtPoints f, double& peak) {
+  double largest = 0;
+  for (double& x : f) largest = std::max(largest, x = std::abs(x));
+  if (1.125 * largest > peak) peak = std::max(peak, largest_on_grid(f));
 }
 
 }  // namespace
 
-template <int n>
-void add_duty(const CurveGrid& grid, const double* force, int stride, const TurnSamples& turn, double h, DutySums& sums) {
-  CurveGrid::AtPoints angle, rate, component, load{};
-  along_grid(grid, turn.angle.data(), 1, angle);
+void add_duty(const CurveGrid& grid, const CurveGrid::AtPoints& squares, const TurnSamples& turn, double h, DutySums& sums) {
+  CurveGrid::AtPoints rate, load;
   along_grid(grid, turn.rate.data(), 1, rate);
-  for (int c = 0; c < n; ++c) {
-    along_grid(grid, force + c, stride, component);
-    for (std::size_t p = 0; p < load.size(); ++p) load[p] += component[p] * component[p];
-  }
-  for (double& x : load) x = std::sqrt(x);
-  sums.most = std::max(sums.most, largest_on_grid(angle));
-  for (double& x : angle) x = -x;
-  sums.least = std::min(sums.least, -largest_on_grid(angle));
-  sums.peak_rate = std::max(sums.peak_rate, largest_on_grid(size_of(rate)));
-  sums.path += h * integral_of_size(rate);
+  const auto [slowest, fastest] = std::minmax_element(rate.begin(), rate.end());
+  const bool turns_round = *slowest < 0 && *fastest > 0;
+  for (std::size_t p = 0; p < load.size(); ++p) load[p] = std::sqrt(squares[p]);
+  add_swing(grid, turn.angle, turns_round, sums);
+  raise_peak(rate, sums.peak_rate);
+  sums.path += h * integral_of_size(rate, turns_round);
   CurveGrid::AtPoints over_path = product(load, rate);
-  sums.peak_power = std::max(sums.peak_power, largest_on_grid(size_of(over_path)));
-  sums.load += h * integral_of_size(over_path);
-  over_path = product(product(over_path, load), load);
-  sums.load_3 += h * integral_of_size(over_path);
-  for (double& x : load) x = std::cbrt(x);
-  sums.load_10_3 += h * integral_of_size(product(over_path, load));
+  raise_peak(over_path, sums.peak_power);
+  sums.load += h * integral_of_size(over_path, turns_round);
+  over_path = product(over_path, squares);
+  sums.load_3 += h * integral_of_size(over_path, turns_round);
+  constexpr std::size_t kEvery = 2;  // points for which a cube root is taken: with 1, it is most of what this function takes
+  for (std::size_t p = 0; p < load.size(); p += kEvery) over_path[p] *= std::cbrt(load[p]);
+  sums.load_10_3 += h * integral_of_size(over_path, turns_round, kEvery);
 }
 
-template void add_duty<2>(const CurveGrid& grid, const double* force, int stride, const TurnSamples& turn, double h, DutySums& sums);
-PINTLE_IN_SPACE(template void add_duty<3>(const CurveGrid& grid, const double* force, int stride, const TurnSamples& turn, double h, DutySums& sums);)
-
 template <class S>
-BasicDutyTally<S>::BasicDutyTally(const BasicSystem<S>& system) : system_(system) {
+BasicDutyTally<S>::BasicDutyTally(const BasicSystem<S>& system) : system_(system), pin_of_(system.joints.size(), -1) {
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicJointData<S>& joint = system.joints[static_cast<std::size_t>(j)];
-    if (joint.servo < 0 && joint.free_mask[S::kTurn] != 0 && joint.free_mask.template head<S::kDim>().isZero()) pins_.push_back({j, {}, {}});
+    if (joint.servo >= 0 || joint.free_mask[S::kTurn] == 0 || !joint.free_mask.template head<S::kDim>().isZero()) continue;
+    pin_of_[static_cast<std::size_t>(j)] = static_cast<int>(pins_.size());
+    pins_.push_back({j, {}, {}});
   }
 }
 
@@ -89,8 +103,11 @@ void BasicDutyTally<S>::sample(int i, const BasicState<S>& state) {
 }
 
 template <class S>
-void BasicDutyTally<S>::add_curve(const CurveGrid& grid, const double* loads, int stride, double h) {
-  for (Pin& pin : pins_) add_duty<S::kDim>(grid, loads + static_cast<std::ptrdiff_t>(pin.joint) * S::kDof, stride, pin.samples, h, pin.sums);
+void BasicDutyTally<S>::add_curve(int joint, const CurveGrid& grid, const CurveGrid::AtPoints& squares, double h) {
+  const int at = pin_of_[static_cast<std::size_t>(joint)];
+  if (at < 0) return;
+  Pin& pin = pins_[static_cast<std::size_t>(at)];
+  add_duty(grid, squares, pin.samples, h, pin.sums);
 }
 
 template <class S>

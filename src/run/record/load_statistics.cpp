@@ -135,10 +135,10 @@ bool BasicLoadRecorder<S>::is_resolved() const {
 // A curve through the two sides of a jump swings beyond both: there the samples alone count for the peak.
 template <class S>
 template <int n, Sums kind>
-void BasicLoadRecorder<S>::add_load(const double* samples, double t0, double h, bool resolved, CurveSums& sums) const {
+CurveGrid::AtPoints BasicLoadRecorder<S>::add_load(const double* samples, double t0, double h, bool resolved, CurveSums& sums) const {
   const CurveSums before = sums;
-  add_curve<n, kind>(grid_, samples, stride_, t0, h, sums);
-  if (resolved) return;
+  const CurveGrid::AtPoints squares = add_curve<n, kind>(grid_, samples, stride_, t0, h, sums);
+  if (resolved) return squares;
   sums.peak = before.peak;
   sums.peak_time = before.peak_time;
   for (int i = 0; i < grid_.n(); ++i) {
@@ -148,19 +148,20 @@ void BasicLoadRecorder<S>::add_load(const double* samples, double t0, double h, 
     sums.peak = kind == Sums::kWithSign ? samples[i * stride_] : std::sqrt(square);
     sums.peak_time = t0 + grid_.instant(i) * h;
   }
+  return squares;
 }
 
 template <class S>
 void BasicLoadRecorder<S>::add_samples(double t0, double h, bool resolved) {
   const double* at = samples_.data();
   for (std::size_t j = 0; j < force_.size(); ++j, at += S::kDof) {
-    add_load<kForce>(at, t0, h, resolved, force_[j]);
+    const CurveGrid::AtPoints squares = add_load<kForce>(at, t0, h, resolved, force_[j]);
+    if (with_heat_) duty_.add_curve(static_cast<int>(j), grid_, squares, h);
     if (has_couple_[j]) add_load<kCouple>(at + kForce, t0, h, resolved, couple_[j]);
   }
   for (std::size_t j = 0; j < work_.size(); ++j, ++at)
     for (int i = 0; i < grid_.n(); ++i) work_[j] += h * grid_.integral()[static_cast<std::size_t>(i)] * at[static_cast<std::ptrdiff_t>(i) * stride_];
   for (CurveSums& sums : signal_) add_load<1, Sums::kWithSign>(at++, t0, h, resolved, sums);
-  if (with_heat_) duty_.add_curve(grid_, samples_.data(), stride_, h);
 }
 
 // What turns far, or turns round, is divided more finely than the samples.

@@ -60,7 +60,7 @@ class BasicLoadRecorder {
   bool is_resolved() const;
   void add_samples(double t0, double h, bool resolved);
   template <int n, Sums kind = Sums::kOfSize>
-  void add_load(const double* samples, double t0, double h, bool resolved, CurveSums& sums) const;
+  CurveGrid::AtPoints add_load(const double* samples, double t0, double h, bool resolved, CurveSums& sums) const;
   void add_wear(BasicStepper<S>& stepper, double t0, double t1);
   LoadStatistics over_run(const CurveSums& sums) const;
 

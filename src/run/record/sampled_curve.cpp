@@ -95,15 +95,6 @@ CurveGrid::Weights CurveGrid::weights(double x) const {
   return out;
 }
 
-void along_grid(const CurveGrid& grid, const double* samples, int stride, CurveGrid::AtPoints& value) {
-  value.fill(0);
-  for (int i = 0; i < grid.n(); ++i) {
-    const CurveGrid::AtPoints& weight = grid.of_sample(i);
-    const double sample = samples[i * stride];
-    for (std::size_t p = 0; p < value.size(); ++p) value[p] += weight[p] * sample;
-  }
-}
-
 double largest_on_grid(const CurveGrid::AtPoints& value) {
   const auto largest = static_cast<std::size_t>(std::max_element(value.begin(), value.end()) - value.begin());
   const std::size_t middle = std::clamp<std::size_t>(largest, 1, CurveGrid::kIntervals - 1);
@@ -112,7 +103,7 @@ double largest_on_grid(const CurveGrid::AtPoints& value) {
 }
 
 template <int n, Sums kind>
-void add_curve(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums) {
+CurveGrid::AtPoints add_curve(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums) {
   static_assert(n == 1 || kind == Sums::kOfSize);
   CurveGrid::AtPoints square{}, component;
   for (int c = 0; c < n; ++c) {
@@ -132,7 +123,7 @@ void add_curve(const CurveGrid& grid, const double* samples, int stride, double 
   const std::size_t middle = std::clamp<std::size_t>(largest, 1, CurveGrid::kIntervals - 1);
   Parabola parabola{square[middle - 1], square[middle], square[middle + 1]};
   double best = square[largest];
-  if (!(std::max(best, parabola.value(parabola.top())) > kNear * beaten)) return;
+  if (!(std::max(best, parabola.value(parabola.top())) > kNear * beaten)) return square;
   double d = 1.0 / CurveGrid::kIntervals, from = static_cast<double>(middle) * d, x = static_cast<double>(largest) * d;
   std::array<double, n> value;
   const auto at = [&](double share) { return square_at<n>(grid, share, samples, stride, value); };
@@ -148,15 +139,16 @@ void add_curve(const CurveGrid& grid, const double* samples, int stride, double 
       x = top;
     }
   }
-  if (!(best > beaten)) return;
+  if (!(best > beaten)) return square;
   at(x);
   sums.peak = kind == Sums::kWithSign ? value[0] : std::sqrt(best);
   sums.peak_time = t0 + x * h;
+  return square;
 }
 
-template void add_curve<1, Sums::kWithSign>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
-template void add_curve<1>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
-template void add_curve<2>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
-template void add_curve<3>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
+template CurveGrid::AtPoints add_curve<1, Sums::kWithSign>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
+template CurveGrid::AtPoints add_curve<1>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
+template CurveGrid::AtPoints add_curve<2>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
+template CurveGrid::AtPoints add_curve<3>(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
 
 }  // namespace pintle

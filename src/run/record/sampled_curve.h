@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace pintle {
 
@@ -47,14 +48,21 @@ class CurveGrid {
 };
 
 /// The polynomial through `samples[i * stride]` at all points.
-void along_grid(const CurveGrid& grid, const double* samples, int stride, CurveGrid::AtPoints& value);
+inline void along_grid(const CurveGrid& grid, const double* samples, int stride, CurveGrid::AtPoints& value) {
+  value.fill(0);
+  for (int i = 0; i < grid.n(); ++i) {
+    const CurveGrid::AtPoints& weight = grid.of_sample(i);
+    const double sample = samples[i * stride];
+    for (std::size_t p = 0; p < value.size(); ++p) value[p] += weight[p] * sample;
+  }
+}
 /// The largest of the values, or of the parabola through it and its neighbours.
 double largest_on_grid(const CurveGrid::AtPoints& value);
 
 enum class Sums { kOfSize, kWithSign };
 /// Adds a step of h seconds from t0 to `sums` of the size of a vector of n components, whose samples are `samples[i * stride + c]`; or of a scalar with
-/// its sign.
+/// its sign. Returns the square of the size at all points.
 template <int n, Sums kind = Sums::kOfSize>
-void add_curve(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
+CurveGrid::AtPoints add_curve(const CurveGrid& grid, const double* samples, int stride, double t0, double h, CurveSums& sums);
 
 }  // namespace pintle
