@@ -1,4 +1,5 @@
 // Joint displacements: Jacobians, rates, convective terms, rate gradients and geometric stiffness against differences.
+#include <algorithm>
 #include <cmath>
 
 #include "check/check_batteries.h"
@@ -59,12 +60,13 @@ class DisplacementSlopes {
 
   void look_at_rates(DisturbedLink& bodies, const CheckLink& link, const JointKinematics& here, const Mat36& G, const LinkSteps& steps,
                      const CheckPlace& place) {
+    constexpr double kLeastHurry = 100;  // [1/s]: what stands still may be driven by functions of time, which change within 10 ms
     constexpr double kAcross = 1e-3;  // of the bodies' speeds: what the rate of a gap is compared with where they move across it
     const Vec6 v = bodies.velocities();
     const double spin = std::max(std::abs(v[2]), std::abs(v[5]));
     const double approach = here.rate.cwiseAbs().maxCoeff() + v.head<2>().norm() + v.segment<2>(3).norm();
     const double hurry = std::max(spin / steps.angle, approach / steps.length);  // steps per second
-    const double dt = hurry > 0 ? 1 / hurry : 1e-3;
+    const double dt = 1 / std::max(hurry, kLeastHurry);
     // A gap across which the bodies move, such as of a spring on a ball that goes round its foot, changes by what rounding leaves of the motion.
     const double size = (G.cwiseAbs() * v.cwiseAbs()).maxCoeff() + here.rate.cwiseAbs().maxCoeff() + kAcross * approach;
     S::Vec of_gap = here.rate;
