@@ -125,18 +125,53 @@ std::string loop_that_lacks(const Model& model, const System& system, const Vecs
   return names.empty() ? "" : fmt::format("\n  loop: {}; with any one of them open all others close, and it lacks about {}", names, lacks);
 }
 
+std::vector<std::string> let_go(Model& model) {
+  std::vector<std::string> held;
+  for (Body& body : model.bodies)
+    for (int k = 0; k < S::kDof; ++k)
+      if (std::exchange(body.hold[k], false)) held.push_back(body.name + "." + std::array{"x", "y", "angle"}[k]);
+  return held;
+}
+
+// Held coordinates that are a little off, as a rounded angle is, leave joints open by as little. They move to where all joints close.
+void close_beside_holds(Model model, const System& system, const std::vector<bool>& open, Vecs& q, std::vector<std::string>& notes) {
+  constexpr double kClosed = 1e-9;  // of the mechanism's size, or rad
+  const double size = mechanism_size(system, q);
+  const auto closed = [&](const std::array<double, 2>& misfit) { return misfit[0] <= kClosed * size && misfit[1] <= kClosed; };
+  const auto left = misfits(system, q);
+  bool any = false;
+  for (std::size_t j = 0; j < left.size(); ++j) {
+    if (open[j]) continue;
+    if (is_broken(left[j], size)) return;
+    any = any || (!closed(left[j]) && system.joints[j].servo < 0 && !has_play(system.joints[j]));
+  }
+  const Model stated = model;
+  if (!any || let_go(model).empty()) return;
+  Vecs trial = q;
+  PositionSearch(model, system, open).run(trial);
+  const auto after = misfits(system, trial);
+  for (std::size_t j = 0; j < after.size(); ++j)
+    if (!open[j] && !closed(after[j])) return;
+  std::string moved;
+  for (std::size_t i = 0; i < stated.bodies.size(); ++i)
+    for (int k = 0; k < S::kDof; ++k)
+      if (stated.bodies[i].hold[k] && trial[i][k] != q[i][k]) {
+        const bool turns = k == 2;
+        const double unit = turns ? std::numbers::pi / 180 : 1;
+        moved += fmt::format("{}{}.{} starts at {:.6g} {}, not at {:.6g}", moved.empty() ? "" : ", ", stated.bodies[i].name, std::array{"x", "y", "angle"}[k], trial[i][k] / unit, turns ? "deg" : "m", q[i][k] / unit);
+      }
+  notes.push_back("what is held leaves loops open by a little, and gives way: " + moved);
+  q = std::move(trial);
+}
+
 // What keeps the search from closing the joints other than lengths: coordinates that are held, motors that ask for another position, pins that it puts
 // in the middle of their play.
 std::string what_to_try(Model model, const System& system, const Vecs& q, const std::vector<bool>& open, bool only_motors) {
-  std::string held;
-  for (Body& body : model.bodies)
-    for (int k = 0; k < S::kDof; ++k)
-      if (std::exchange(body.hold[k], false)) held += (held.empty() ? "" : ", ") + body.name + "." + std::array{"x", "y", "angle"}[k];
-  if (!held.empty()) {
+  if (const std::vector<std::string> held = let_go(model); !held.empty()) {
     Vecs trial = q;
     PositionSearch(model, system, open).run(trial);
     if (all_closed(misfits(system, trial), open, mechanism_size(system, q)))
-      return "Without what is held (" + held + ") everything closes: try " + (only_motors ? "a motor that starts where its joint is held, or without hold." : "fewer of these in hold.");
+      return fmt::format("Without what is held ({}) everything closes: try ", fmt::join(held, ", ")) + (only_motors ? "a motor that starts where its joint is held, or without hold." : "fewer of these in hold.");
   }
   if (const std::string loose = names_of_joints_in_play(system); !loose.empty()) return "Assembly puts joints in the middle of their play (" + loose + "): if the stated positions are meant within it, try start = \"raw\", which takes them as they are.";
   return "Try lengths that close the loop, or angles nearer to the intended position.";
@@ -216,7 +251,10 @@ System assemble_positions(const Model& model, System system, Vecs& q, std::vecto
   for (int j = 0; j < system.n_joints(); ++j) open[j] = is_open(model, system, j);
   system = unwind(std::move(system), q);
   if (model.simulate.start != Start::kRaw || !all_positions_stated(model)) PositionSearch(model, system, open).run(q);
-  if (model.simulate.start != Start::kRaw) demand_closed(model, system, q, open, notes);
+  if (model.simulate.start != Start::kRaw) {
+    close_beside_holds(model, system, open, q, notes);
+    demand_closed(model, system, q, open, notes);
+  }
   return fix_assembled_values(model, std::move(system), q, notes);
 }
 
