@@ -55,7 +55,9 @@ std::string range_example(double number, const KeySpec& spec) {
   const bool needs_positive = spec.minimum && *spec.minimum == 0 && number <= 0;
   const std::string unit = spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit;
   if (needs_positive && number < 0 && !unit.empty()) return "reverse the sign: \"" + short_number(-number) + unit + "\"";
-  if (needs_positive) return unit.empty() ? spec.maximum && *spec.maximum <= 1 ? "0.01" : "1" : "a small positive value, such as \"1e-3" + unit + "\"";
+  const double* usual = spec.fallback ? spec.fallback->real() : nullptr;
+  const bool below_one = (spec.maximum && *spec.maximum <= 1) || (usual != nullptr && *usual < 1);
+  if (needs_positive) return unit.empty() ? below_one ? "0.01" : "1" : "a small positive value, such as \"1e-3" + unit + "\"";
   if (spec.minimum && spec.maximum) return short_number(*spec.minimum) + " to " + short_number(*spec.maximum);
   return spec.minimum ? short_number(*spec.minimum) + " or more" : example_of(spec);
 }
