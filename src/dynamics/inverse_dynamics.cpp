@@ -35,7 +35,8 @@ double slowest_joint(const BasicSystem<S>& system, const std::vector<BasicJointK
   double slowest = std::numeric_limits<double>::infinity();
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicJointData<S>& joint = system.joints[j];
-    const typename S::Vec k = joint.law.engaged_stiffness();
+    typename S::Vec k = joint.law.engaged_stiffness();
+    if (k.isZero(0) && !joint.law.ideal_limit()) k = respond(joint.law, r[j].gap, typename S::Vec(S::Vec::Zero())).stiffness.diagonal();  // an edge that is touched
     const typename S::Vec mobility = own_mobility(system, joint.at, r[j]);
     for (int c = 0; c < S::kDof; ++c) {
       if (!(k[c] > 0) || (moved && (*moved)[j][c] == 0)) continue;

@@ -1,0 +1,107 @@
+#include "start/touching.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "dynamics/inverse_dynamics.h"
+#include "kinematics/position_search.h"
+#include "laws/bushing.h"
+#include "start/preload.h"
+
+namespace pintle {
+namespace {
+
+using S = Planar;
+
+constexpr double kUsualDepth = 1e-6;  // at which the law tells its stiffness [m]
+
+// A joint whose surfaces touch, and how it is pressed: `sign` times component `k` of its gap is the depth.
+struct Touch {
+  int joint, k;
+  double sign, stiffness;  // [N/m], at kUsualDepth
+  S::Vec gap;              // where they touch
+};
+
+S::Vec gap_at(const Touch& touch, double depth) {
+  S::Vec gap = touch.gap;
+  gap[touch.k] += touch.sign * depth;
+  return gap;
+}
+
+double pressing(const Touch& touch, const S::Vec& force) { return -touch.sign * force[touch.k]; }
+
+std::optional<Touch> find_touch(const System& system, int j, const JointKinematics& r, double within, double at_rest) {
+  const BasicLaw<S>& law = system.joints[j].law;
+  if (law.ideal_limit() || law.feeds() || !law.starts_free()) return std::nullopt;
+  const double depth = law.penetration(r.gap);
+  if (!(std::abs(depth) <= within)) return std::nullopt;
+  for (int k = 0; k < S::kDim; ++k)
+    for (const double sign : {1.0, -1.0}) {
+      Touch touch{j, k, sign, 0, r.gap};
+      const S::Vec gap = gap_at(touch, kUsualDepth);
+      if (!(law.penetration(gap) - depth > 0.5 * kUsualDepth)) continue;
+      touch.stiffness = respond(law, gap, S::Vec(S::Vec::Zero())).stiffness(k, k);
+      if (touch.stiffness > 0 && std::abs(r.rate[k]) <= at_rest) return touch;
+    }
+  return std::nullopt;
+}
+
+std::vector<Touch> find_touches(const System& system, const State& state) {
+  constexpr double kTouching = 1e-9;  // of the mechanism's size: surfaces so near were to touch
+  const double within = kTouching * characteristic_length(system, state.q), at_rest = kFits * system.largest_speed(state.v);
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  kinematics_at(system, state.t, state.q, state.v, m, r);
+  std::vector<Touch> touches;
+  for (int j = 0; j < system.n_joints(); ++j)
+    if (const std::optional<Touch> touch = find_touch(system, j, r[j], within, at_rest)) touches.push_back(*touch);
+  return touches;
+}
+
+// Springs in place of the contacts, which push and pull about where they touch.
+System with_springs(const System& system, const std::vector<Touch>& touches) {
+  System firm = system;
+  for (const Touch& touch : touches) {
+    BushingLaw spring;
+    spring.K(touch.k, touch.k) = touch.stiffness;
+    spring.offset = touch.gap;
+    firm.joints[touch.joint].law = BasicLaw<S>(spring);
+  }
+  return firm;
+}
+
+// By bisection, which no power of the depth disturbs.
+double depth_at(const BasicLaw<S>& law, const Touch& touch, double force) {
+  const auto missing = [&](double depth) { return force - pressing(touch, respond(law, gap_at(touch, depth), S::Vec(S::Vec::Zero())).force); };
+  double low = 0, high = kUsualDepth;
+  for (int i = 0; i < 60 && missing(high) > 0; ++i) high *= 2;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (missing(middle) > 0 ? low : high) = middle;
+  }
+  return high;
+}
+
+}  // namespace
+
+void press_touching_surfaces(const System& system, State& state) {
+  std::vector<Touch> touches = find_touches(system, state);
+  while (!touches.empty()) {
+    const System firm = with_springs(system, touches);
+    State carried = state;
+    start_forces(firm, true, carried);
+    const double nothing = kFits * largest_force(carried.force);
+    const auto pulls = [&](const Touch& touch) { return !(pressing(touch, carried.force[touch.joint]) > nothing); };
+    if (std::erase_if(touches, pulls) > 0) continue;
+    for (const Touch& touch : touches)
+      carried.gap[touch.joint][touch.k] = gap_at(touch, depth_at(system.joints[touch.joint].law, touch, pressing(touch, carried.force[touch.joint])))[touch.k];
+    BasicInverseDynamics<S>(firm).move_onto_gaps(carried);
+    state.q = carried.q;
+    state.v = carried.v;
+    return;
+  }
+}
+
+}  // namespace pintle
