@@ -28,7 +28,7 @@ class DisplacementSlopes {
     Mat36 G;
     G << here.GA(), here.GB();
     look_at_gap(bodies, link, G, step, place);
-    look_at_rates(bodies, link, here, G, steps, place);
+    look_at_rates(bodies, link, state, here, G, steps, place);
     look_at_rate_gradient(bodies, link, state, pose, here, G, step, place);
     look_at_geometric(bodies, link, pose, step, place);
   }
@@ -58,8 +58,9 @@ class DisplacementSlopes {
         used(bodies, of_gap), [&](int c, double s) { return bodies.kinematics(s * Vec6::Unit(c)).gap; }, step, 0, place);
   }
 
-  void look_at_rates(DisturbedLink& bodies, const CheckLink& link, const JointKinematics& here, const Mat36& G, const LinkSteps& steps,
+  void look_at_rates(DisturbedLink& bodies, const CheckLink& link, const CheckState& state, const JointKinematics& here, const Mat36& G, const LinkSteps& steps,
                      const CheckPlace& place) {
+    constexpr double kRounding = 1e-9;  // of lengths and angles, with room: differences cannot see less
     constexpr double kLeastHurry = 100;  // [1/s]: what stands still may be driven by functions of time, which change within 10 ms
     constexpr double kAcross = 1e-3;  // of the bodies' speeds: what the rate of a gap is compared with where they move across it
     const Vec6 v = bodies.velocities();
@@ -68,14 +69,14 @@ class DisplacementSlopes {
     const double hurry = std::max(spin / steps.angle, approach / steps.length);  // steps per second
     const double dt = 1 / std::max(hurry, kLeastHurry);
     // A gap across which the bodies move, such as of a spring on a ball that goes round its foot, changes by what rounding leaves of the motion.
-    const double size = (G.cwiseAbs() * v.cwiseAbs()).maxCoeff() + here.rate.cwiseAbs().maxCoeff() + kAcross * approach;
+    const double size = (G.cwiseAbs() * v.cwiseAbs()).maxCoeff() + here.rate.cwiseAbs().maxCoeff() + kAcross * approach + kRounding * std::max(state.length, 1.0) / dt;
     S::Vec of_gap = here.rate;
     leave_out_slip(link, of_gap);
     rate_.slope(
         of_gap, [&](double s) -> Eigen::VectorXd { return bodies.kinematics(Vec6::Zero(), s).gap; }, dt, size, place);
     bias_.slope(
         here.bias, [&](double s) -> Eigen::VectorXd { return bodies.kinematics(Vec6::Zero(), s).rate; }, dt,
-        size* std::max(spin, hurry * 1e-3), place);
+        size * std::max(spin, 1e-3 / dt), place);
   }
 
   void look_at_rate_gradient(DisturbedLink& bodies, const CheckLink& link, const CheckState& state,

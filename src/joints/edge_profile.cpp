@@ -32,6 +32,15 @@ std::array<GapFunction, 2> EdgeGap::gap_and_slip(const Planar::Vec& z) const {
   return g;
 }
 
+std::optional<double> EdgeProfile::undefined_at() const {
+  constexpr int kPoints = 1000;
+  const double length = edge_.to - edge_.from;
+  for (int i = 1; i <= kPoints; ++i)
+    for (const double x : {edge_.to + length * i / kPoints, edge_.from - length * i / kPoints})
+      if (const CurvePoint there = at(x); !there.p.allFinite() || !there.d.allFinite()) return x;
+  return std::nullopt;
+}
+
 std::string EdgeProfile::fault() const {
   constexpr int kPoints = 720;
   const double apart = (edge_.to - edge_.from) / kPoints;

@@ -1,6 +1,7 @@
 // A curved edge, a height over a straight line, and the gap between it and a pin, roller or wheel above it. theory/cams section 4.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "joints/curve_gap.h"
@@ -20,6 +21,8 @@ class EdgeProfile {
   CurvePoint at(double x) const;
   /// x of the point that is nearest to c. Eq. (2.1)
   double nearest(const Planar::Point& c) const;
+  /// The x nearest to its stretch from from() to to() at which the height or its slope is not a number, as far outside as the stretch is long; none if all are numbers.
+  std::optional<double> undefined_at() const;
   /// Why no roller can run along it; "" if one can.
   std::string fault() const;
 

@@ -338,6 +338,12 @@ class Passes {
     return horizon > 0 && horizon < last_.t ? fmt::format("; up to t = {:.4g} s all are within it", horizon) : "";
   }
 
+  // Whether its couple, not its force, has the joint's largest error.
+  bool is_of_couple(const BasicJointData<S>& joint) const {
+    const auto found = std::find_if(out_.joints.begin(), out_.joints.end(), [&](const LoadSummary& one) { return one.name == joint.name; });
+    return found != out_.joints.end() && found->has_moment && found->error_estimate < 0.5 * found->relative_error_estimate * found->peak;
+  }
+
   // How it ended; a pass that broke off leaves the results of the one before it.
   // `worst` has the largest error; none where there is no estimate.
   void judge(const BasicJointData<S>* worst) {
@@ -356,8 +362,8 @@ class Passes {
       out_.notes.push_back(fmt::format("a finer integration did not reach the end{}; the results are those of the previous one", message.empty() ? "" : " (" + message + ")"));
     if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)
       out_.message = fmt::format("the largest {} is estimated at {:.2g} of {}; the tolerance is {:.2g}",
-                                 out_.of_motion ? "position error" : fmt::format("force error, at {} {},", worst->servo < 0 ? "joint" : "motor", worst->name), error_,
-                                 out_.of_motion ? "the longest path of any body" : "the peak force", settings_.tolerance) + until_missed();
+                                 out_.of_motion ? "position error" : fmt::format("{} error, at {} {},", is_of_couple(*worst) ? "couple" : "force", worst->servo < 0 ? "joint" : "motor", worst->name), error_,
+                                 out_.of_motion ? "the longest path of any body" : is_of_couple(*worst) ? "the peak couple, or of 1e-4 of what the mechanism's forces could make" : "the peak force", settings_.tolerance) + until_missed();
     if (unbounded && out_.outcome == Outcome::kToleranceNotMet) out_.message = fmt::format("the reactions of ideal joints have no bound at the singular position near t = {:.6g} s, whatever the tolerance: give these joints stiffness", last_.unbounded_reactions);
     if (out_.outcome == Outcome::kRunaway) out_.message = last_.message;
     if (!message.empty() && out_.outcome != Outcome::kCompleted) out_.message += (out_.message.empty() ? "" : "; ") + message;

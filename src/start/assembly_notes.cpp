@@ -72,8 +72,14 @@ void note_wide_clearance(const std::string& joint, const LawChoice& law, std::ve
   notes.push_back(fmt::format("joint {}: its clearance of {:.4g} m is larger than the radius of its pin ({:.4g} m): check its unit; a number alone is in metres", joint, clearance->second[0], radius->second[0]));
 }
 
-void note_many_turns(const std::string& what, double angle, std::vector<std::string>& notes) {
-  if (std::abs(angle) > kManyTurns) notes.push_back(fmt::format("{} of {:.4g} rad is {:.3g} turns: without a unit angles are radians", what, angle, angle / (2 * std::numbers::pi)));
+void note_many_turns(const std::string& what, double angle, std::vector<std::string>& notes, double many = kManyTurns) {
+  if (std::abs(angle) > many) notes.push_back(fmt::format("{} of {:.4g} rad is {:.3g} turns: without a unit angles are radians", what, angle, angle / (2 * std::numbers::pi)));
+}
+
+// The axis of a marker has no turns to count.
+void note_turned_axes(const std::string& of, const std::vector<Marker>& markers, std::vector<std::string>& notes) {
+  constexpr double kTurnAndMore = 1.01 * 2 * std::numbers::pi;  // [rad]
+  for (const Marker& marker : markers) note_many_turns(of + ": the axis angle of its marker " + marker.name, marker.axis, notes, kTurnAndMore);
 }
 
 void note_overlap(const JointData& joint, const S::Vec& z, std::vector<std::string>& notes) {
@@ -141,8 +147,13 @@ void note_unconnected_bodies(const System& system, std::vector<std::string>& not
 void note_missing_units(const Model& model, double size, std::vector<std::string>& notes) {
   for (const Body& body : model.bodies) {
     if (body.angle) note_many_turns("body " + body.name + ": its angle", *body.angle, notes);
-    for (const Marker& marker : body.markers) note_many_turns("body " + body.name + ": the axis angle of its marker " + marker.name, marker.axis, notes);
+    note_turned_axes("body " + body.name, body.markers, notes);
   }
+  note_turned_axes("ground", model.ground, notes);
+  for (const Joint& joint : model.joints)
+    for (const char* key : {"lower_stop", "upper_stop"})
+      if (const auto stop = joint.stops.values.find(key); joint.type == "revolute" && stop != joint.stops.values.end())
+        for (const double angle : stop->second) note_many_turns("joint " + joint.name + ": its " + key, angle, notes);
   for (const Joint& joint : model.joints) note_wide_clearance(joint.name, joint.law, notes);
   for (const Joint& joint : model.joints)
     for (const LawChoice* law : {&joint.law, &joint.friction, &joint.stops, &joint.detent}) note_large_lengths(joint.name, *law, size, notes);

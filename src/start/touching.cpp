@@ -17,6 +17,8 @@ using S = Planar;
 
 constexpr double kUsualDepth = 1e-6;  // at which the law tells its stiffness [m]
 
+constexpr double kAjar = 1e-12;       // of the mechanism's size: so far apart are surfaces that would pull, beyond the rounding of their places
+
 // A joint whose surfaces touch, and how it is pressed: `sign` times component `k` of its gap is the depth.
 struct Touch {
   int joint, k;
@@ -87,7 +89,9 @@ double depth_at(const BasicLaw<S>& law, const Touch& touch, double force) {
 }  // namespace
 
 void press_touching_surfaces(const System& system, State& state) {
-  std::vector<Touch> touches = find_touches(system, state);
+  const std::vector<Touch> all = find_touches(system, state);
+  std::vector<Touch> touches = all;
+  const double ajar = kAjar * characteristic_length(system, state.q);
   while (!touches.empty()) {
     const System firm = with_springs(system, touches);
     State carried = state;
@@ -95,9 +99,10 @@ void press_touching_surfaces(const System& system, State& state) {
     const double nothing = kFits * largest_force(carried.force);
     const auto pulls = [&](const Touch& touch) { return !(pressing(touch, carried.force[touch.joint]) > nothing); };
     if (std::erase_if(touches, pulls) > 0) continue;
+    for (const Touch& touch : all) carried.gap[touch.joint] = gap_at(touch, -ajar);  // what would pull
     for (const Touch& touch : touches)
       carried.gap[touch.joint][touch.k] = gap_at(touch, depth_at(system.joints[touch.joint].law, touch, pressing(touch, carried.force[touch.joint])))[touch.k];
-    BasicInverseDynamics<S>(firm).move_onto_gaps(carried);
+    BasicInverseDynamics<S>(with_springs(system, all)).move_onto_gaps(carried);
     state.q = carried.q;
     state.v = carried.v;
     return;

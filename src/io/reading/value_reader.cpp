@@ -235,7 +235,8 @@ bool RecordReader::read_word(const Node& node, const KeySpec& spec, const std::s
       return true;
     }
   if (!spec.words.empty() && std::find(spec.words.begin(), spec.words.end(), *word) == spec.words.end()) {
-    const std::string near = complaints_.nearest(*word, spec.words);
+    const auto meant = std::find_if(spec.meant.begin(), spec.meant.end(), [word](const auto& entry) { return entry.first == *word; });
+    const std::string near = meant != spec.meant.end() ? meant->second : complaints_.nearest(*word, spec.words);
     const std::string other = near.empty() ? other_key_that_allows(spec, *word) : "";
     complaints_.add(node.spot, path, in_quotes(*word), "it is none of " + joined(spec.words),
                     other.empty() ? advice(near, spec.words) : other + " = " + in_quotes(*word));

@@ -110,8 +110,9 @@ KeySpec read_key(const std::string& key, const Table& table) {
   spec.required = table.find("required") != nullptr;
   spec.count = static_cast<std::size_t>(number_of(table, "count").value_or(0));
   spec.words = words_of(table, "words");
-  if (const Node* synonyms = table.find("synonyms"))
-    for (const Entry& entry : synonyms->table()->entries()) spec.synonyms.emplace_back(entry.key, *entry.value.string());
+  for (const auto& [name, words] : {std::pair("synonyms", &spec.synonyms), std::pair("meant", &spec.meant)})
+    if (const Node* pairs = table.find(name))
+      for (const Entry& entry : pairs->table()->entries()) words->emplace_back(entry.key, *entry.value.string());
   spec.variables = words_of(table, "of");
   return spec;
 }

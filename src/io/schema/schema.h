@@ -51,6 +51,7 @@ struct KeySpec {
   std::size_t count = 0;               ///< entries of a list; 0: any number
   std::vector<std::string> words;      ///< allowed words; empty: any
   std::vector<std::pair<std::string, std::string>> synonyms;  ///< words that are accepted too, and the allowed ones they stand for
+  std::vector<std::pair<std::string, std::string>> meant;     ///< words that are not accepted, and the allowed ones that are suggested for them
   std::vector<std::string> variables;  ///< of expressions
 };
 

@@ -30,6 +30,7 @@ class BasicStuckJoints {
   void see(const BasicState<S>& state) {
     if (!begin_) begin_ = state.t;
     end_ = state.t;
+    largest_ = std::max(largest_, largest_force(state.force));
     for (Joint& joint : held_) {
       values_.clear();
       system_.joints[joint.index].law.observe(law_point(system_, joint.index, state), state.force[joint.index], values_);
@@ -46,16 +47,16 @@ class BasicStuckJoints {
     std::vector<std::string> notes;
     for (const Joint& joint : held_) {
       const double lever = system_.joints[joint.index].law.lever();
-      if (!joint.since || end_ - *joint.since < kLong * (end_ - *begin_) || !(joint.friction > kCarries * joint.force * (lever > 0 ? lever : 1))) continue;
+      if (!joint.since || end_ - *joint.since < kLong * (end_ - *begin_) || !(joint.friction > kCarries * std::max(joint.force, kCarries * largest_) * (lever > 0 ? lever : 1))) continue;
       const std::string& name = system_.joints[joint.index].name;
-      if (*joint.since == *begin_) notes.push_back(fmt::format("joint {} is jammed: it would move without its friction, which held it for the whole run and carried up to {:.4g} {}", name, joint.friction, joint.unit));
+      if (*joint.since == *begin_) notes.push_back(fmt::format("joint {} never slips: its friction holds it for the whole run, and carries up to {:.4g} {}; if it was to move, it is jammed", name, joint.friction, joint.unit));
       else notes.push_back(fmt::format("joint {} sticks from t = {:.5g} s to the end: its friction has carried up to {:.4g} {} since then", name, *joint.since, joint.friction, joint.unit));
     }
     return notes;
   }
 
  private:
-  static constexpr double kCarries = 1e-6;  // of the joint's force: less is rounding
+  static constexpr double kCarries = 1e-6;  // of the joint's force, or of as small a part of the largest: less is rounding
   static constexpr double kLong = 0.5;      // of the run, that a joint has to stick for a note
   struct Joint {
     int index;
@@ -68,7 +69,7 @@ class BasicStuckJoints {
   const BasicSystem<S>& system_;
   std::vector<Joint> held_;
   std::optional<double> begin_;  // what has been seen [s]
-  double end_ = 0;
+  double end_ = 0, largest_ = 0;  // of all joint forces [N]
   std::vector<double> values_;  // reused so that steps do not allocate
 };
 

@@ -7,9 +7,9 @@
 #include "start/preload.h"
 #include "start/relative/tree_preload.h"
 #include "start/seat.h"
-#include "start/touching.h"
 #include "start/settle_joints.h"
 #include "start/slow_manifold.h"
+#include "start/touching.h"
 
 namespace pintle {
 namespace {

@@ -1,0 +1,194 @@
+// Bodies that are put onto what carries them press on it from the first row on. theory/assembly section 3.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/constants.h"
+#include "pintle/read_model.h"
+#include "pintle/simulate.h"
+#include "tests/reference_tables.h"
+
+namespace pintle {
+namespace {
+
+using reference::value;
+
+// Starts of contacts may ring; these do not, and no note says so.
+Trajectory quiet_touching_run(const std::string& text) {
+  Trajectory run = simulate(parse_model("format = 1\n" + text, "touching"));
+  EXPECT_EQ(run.outcome, Outcome::kCompleted) << run.message;
+  for (const std::string& note : run.notes) EXPECT_EQ(note.find("transient-free"), std::string::npos) << note;
+  return run;
+}
+
+const std::string kDiscOnIncline = R"toml(
+[simulate]
+duration = "0.5 s"
+[ground.markers]
+plane = [0, 0, "-30 deg"]
+[body.disc]
+mass = 3
+inertia = 0.06
+position = ["0.2 m*sin(30 deg)", "0.2 m*cos(30 deg)"]
+markers.c = [0, 0]
+[joint.road]
+type = "slot"
+between = ["ground.plane", "disc.c"]
+law = "contact"
+pin_radius = 0.2
+contact_stiffness = 1e8
+)toml";
+
+TEST(StartsTouching, ADiscOnAnInclinePressesByItsWeightAllTheTime) {
+  const double exact = 3 * kStandardGravity * std::cos(kPi / 6);
+  for (const char* exponent : {"contact_exponent = 1", "contact_exponent = 1.5"}) {
+    const LoadSummary road = quiet_touching_run(kDiscOnIncline + exponent).joints.at(0);
+    EXPECT_NEAR(road.peak, exact, 1e-6 * exact) << exponent;
+    EXPECT_NEAR(road.rms, exact, 1e-6 * exact) << exponent;
+  }
+}
+
+TEST(StartsTouching, ADiscThatSlidesOntoALaneRubsFromTheStart) {
+  const Trajectory run = quiet_touching_run(R"toml(
+[simulate]
+duration = "1 s"
+[ground.markers]
+lane = [0, 0]
+[body.disc]
+mass = 7
+inertia = "7 kg*(0.11 m)^2/2"
+position = [0, 0.11]
+velocity = [8, 0]
+markers.c = [0, 0]
+[joint.lane]
+type = "slot"
+between = ["ground.lane", "disc.c"]
+law = "contact"
+pin_radius = 0.11
+friction_coefficient = 0.12
+)toml");
+  const double exact = 7 * kStandardGravity * std::sqrt(1 + 0.12 * 0.12);
+  EXPECT_NEAR(run.joints.at(0).peak, exact, 1e-5 * exact);
+}
+
+// N = m (g + v^2 / (R - r)) at the bottom of a half pipe, without friction.
+TEST(StartsTouching, ABallAtTheBottomOfAPipeIsCarriedRoundTheBend) {
+  const Trajectory run = quiet_touching_run(R"toml(
+[simulate]
+duration = "0.3 s"
+[ground.markers]
+o = [0, 0]
+[body.ball]
+mass = 2
+inertia = 1e-3
+position = [0, -0.9]
+velocity = [1.5, 0]
+markers.c = [0, 0]
+[joint.pipe]
+type = "edge"
+between = ["ground.o", "ball.c"]
+height = "-sqrt((1 m)^2 - x^2)"
+from = -0.7
+to = 0.7
+roller_radius = 0.1
+law = "contact"
+contact_stiffness = 1e8
+contact_exponent = 1
+)toml");
+  const double exact = 2 * (kStandardGravity + 1.5 * 1.5 / 0.9);
+  EXPECT_NEAR(run.joints.at(0).peak, exact, 1e-5 * exact);
+}
+
+const std::string kRodOnWall = R"toml(
+[simulate]
+duration = "0.3 s"
+[ground.markers]
+floor = [0, 0]
+wall = [0, 0, "-90 deg"]
+[body.rod]
+mass = 4
+inertia = "4 kg*(2 m)^2/12"
+position = ["1 m*cos(60 deg)", "1 m*sin(60 deg)"]
+angle = "-60 deg"
+markers.foot = [1, 0]
+markers.head = [-1, 0]
+[joint.floor]
+type = "slot"
+between = ["ground.floor", "rod.foot"]
+law = "contact"
+pin_radius = 0
+contact_stiffness = 1e8
+contact_exponent = 1
+[joint.wall]
+type = "slot"
+between = ["ground.wall", "rod.head"]
+law = "contact"
+pin_radius = 0
+contact_stiffness = 1e8
+contact_exponent = 1
+)toml";
+
+// Wall: 3/4 m g sin cos; floor: m g (1 - 3/4 cos^2).
+TEST(StartsTouching, ARodBetweenWallAndFloorFallsWithTheReactionsOfItsBeginning) {
+  const Trajectory run = quiet_touching_run(kRodOnWall);
+  const double weight = 4 * kStandardGravity, s = std::sin(kPi / 3), c = std::cos(kPi / 3);
+  EXPECT_NEAR(value(run, 0, "joint.wall.contact_force"), 0.75 * weight * s * c, 1e-4 * weight);
+  EXPECT_NEAR(value(run, 0, "joint.floor.contact_force"), weight * (1 - 0.75 * c * c), 1e-4 * weight);
+  EXPECT_LE(run.joints.at(1).peak, 0.75 * weight * s * c * (1 + 1e-3));
+}
+
+// The centre of a plank is outside of its two supports: the far one would have to hold it down. About the near one, N = m g k^2 / (k^2 + d^2).
+TEST(StartsTouching, ASupportThatWouldHavePulledDoesNot) {
+  const std::string supports = R"toml(
+[simulate]
+duration = "0.05 s"
+[ground.markers]
+far = [-0.6, 0]
+near = [-0.2, 0]
+[body.plank]
+mass = 5
+inertia = 0.9
+position = [0, 0]
+markers.far = [-0.6, 0, "180 deg"]
+markers.near = [-0.2, 0, "180 deg"]
+)toml";
+  std::string joints;
+  for (const char* name : {"far", "near"})
+    joints += std::string("[joint.") + name + "]\ntype = \"slot\"\nbetween = [\"plank." + name + "\", \"ground." + name + "\"]\nlaw = \"contact\"\npin_radius = 0\ncontact_stiffness = 1e8\ncontact_exponent = 1\n";
+  const Trajectory run = quiet_touching_run(supports + joints);
+  const double exact = 5 * kStandardGravity * 0.18 / (0.18 + 0.04);
+  EXPECT_EQ(run.joints.at(0).peak, 0);
+  EXPECT_NEAR(value(run, 0, "joint.near.contact_force"), exact, 1e-4 * exact);
+  EXPECT_LE(run.joints.at(1).peak, exact * (1 + 1e-2));
+}
+
+// What touches as it comes is an impact.
+TEST(StartsTouching, ABallThatFallsOntoTheFloorAsTheRunBeginsBounces) {
+  const Trajectory run = simulate(parse_model(R"toml(format = 1
+[simulate]
+duration = "0.1 s"
+[ground.markers]
+floor = [0, 0]
+[body.ball]
+mass = 1
+inertia = 1e-3
+position = [0, 0.05]
+velocity = [0, -1]
+markers.c = [0, 0]
+[joint.floor]
+type = "slot"
+between = ["ground.floor", "ball.c"]
+law = "contact"
+pin_radius = 0.05
+restitution = 0.5
+)toml", "bounce"));
+  EXPECT_EQ(run.outcome, Outcome::kCompleted);
+  double fastest = 0;
+  for (std::size_t row = 0; row < run.n_rows(); ++row) fastest = std::max(fastest, value(run, row, "body.ball.vy"));
+  EXPECT_NEAR(fastest, 0.5, 0.02);
+}
+
+}  // namespace
+}  // namespace pintle
