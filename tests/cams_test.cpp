@@ -140,5 +140,17 @@ TEST(Cams, ACycloidalRiseHasItsAccelerations) {
   EXPECT_NEAR(most, kTurn * rise / (up * up) * w * w, 0.1);
 }
 
+// Whatever the force is behind the touch at which a step ends.
+TEST(Cams, RowsOfAnOpenContactShowNoForce) {
+  const Trajectory run = reference::completed(reference::test_model("lift_off_cam"));
+  int open = 0;
+  for (std::size_t row = 0; row < run.n_rows(); ++row) {
+    if (!(reference::value(run, row, "joint.cam.penetration") < 0)) continue;
+    ++open;
+    EXPECT_EQ(std::hypot(reference::value(run, row, "joint.cam.on_lever.fx[world]"), reference::value(run, row, "joint.cam.on_lever.fy[world]")), 0) << run.at(row, 0);
+  }
+  EXPECT_GT(open, 100);
+}
+
 }  // namespace
 }  // namespace pintle

@@ -1,6 +1,5 @@
 #include "integrators/dense/dense_forces.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "integrators/absolute/pose_blocks.h"
@@ -39,7 +38,7 @@ class LaneForces : public BasicDenseForces<S> {
     else if (loads_) find_loads(begin);
     balance(mu);
     sampled.front() = begin.force;
-    sampled.back() = end.force;
+    sampled.back() = nodes.force[nodes.table->n];  // before an event at the end is crossed
     write(sampled);
   }
 
@@ -186,14 +185,6 @@ class LaneForces : public BasicDenseForces<S> {
       impedance_.reserve(tangents_.n);
       impedance_.find(tangents_, mu);
       for (int k = 0; k < S::kDof * S::kDof; ++k) joint.weight[k].set(s, impedance_.weight[k]);
-      leave_open(s, joint);
-    }
-  }
-  // Where the law gives nothing and resists nothing, as an open contact, the stages' forces are not interpolated: the last of them may be beyond a touch at which the step ends.
-  void leave_open(int s, Joint& joint) const {
-    for (int k = 0; k < S::kDof; ++k) {
-      const double* row = impedance_.weight + k * S::kDof;
-      if (tangents_.force[k] == 0 && std::all_of(row, row + S::kDof, [](double w) { return w == 0; })) joint.force[k].set(s, 0);
     }
   }
   static void weigh(const Joint& joint, const L* gap, L* f) { pintle::weigh<S::kDof>(joint.linear != nullptr, joint.weight, gap, f); }
