@@ -68,6 +68,17 @@ TEST(CheckDifferences, SlopesWhoseSlopeJumpsAreLeftOut) {
   EXPECT_FALSE(wrong.item().passed());
 }
 
+// The differences fall towards the slope, and come to the rounding of the curve just above what is allowed.
+TEST(CheckDifferences, SlopesWhoseDifferencesEndInRoundingAreLeftOut) {
+  const auto start = [](double s) { return one(1e4 + (s > 0 ? 50 * s * s : 0)); };
+  Comparisons right("cam", 1e-6), wrong("cam", 1e-6);
+  right.slope(one(0), start, 1e-3, 10, kHere);
+  EXPECT_EQ(right.item().at_kinks, 1);
+  EXPECT_EQ(right.item().comparisons, 0);
+  wrong.slope(one(3e-4), start, 1e-3, 10, kHere);
+  EXPECT_FALSE(wrong.item().passed());
+}
+
 // Hertz' contact at the touch, and a ball bearing that is not loaded: the slope begins as a root.
 TEST(CheckDifferences, SlopesThatBeginAsARootAreLeftOut) {
   const auto hertz = [](double s) { return one(s > 0 ? 1e4 * std::pow(s, 1.5) : 0.0); };
@@ -178,6 +189,9 @@ TEST(CheckBatteries, FunctionsThatMotorsFollow) {
   ParseScope scope;
   scope.variables = {{"t", kBareNumber}};
   model.motors[0].law = std::get<ParsedExpression>(parse_expression("1.1 + 0.2*sin(3*t)", scope)).expression;
+  EXPECT_EQ(compared(model), 8);
+  // At rest but for rounding, as a table at the seam of its period, and about to move.
+  model.motors[0].law = std::get<ParsedExpression>(parse_expression("1.1 + 12*t^2*cos(8*t) + 1e-17*t", scope)).expression;
   EXPECT_EQ(compared(model), 8);
 }
 

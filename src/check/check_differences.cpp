@@ -39,21 +39,24 @@ void Comparisons::slope(const Eigen::VectorXd& slope, const Curve& curve, double
   constexpr double kKink = 1e-2;  // one-sided slopes that differ so much at the shortest step, of the scale
   constexpr double kSteady = 0.1; // a kink bends the slope by as much at every step: a smooth curve by less at shorter ones, rounding by more
   constexpr double kFalls = 0.4;  // of the error at steps ten times as long: 0.1 where the slope is right and jumps itself, 0.32 where it begins as a root (Hertz at the touch), 1 where it is wrong
+  constexpr double kAlmost = 10;  // times the tolerance; a slope that is wrong by as much is seen all the same, unless rounding hides it at the next shorter steps
   double best = INFINITY, bend = 0, bend_before = 0, error = INFINITY;
-  bool falls = false;
+  bool falls = false, fell_to_best = false;
   for (int shrink = 0; shrink <= kShrinks; ++shrink, step /= 10) {
     const Difference d = difference(curve, step);
     const double size = std::max({scale, largest(slope), largest(d.central)});
     const double error_before = error;
     error = largest(slope - d.central);
-    falls = error < kFalls * error_before;  // at the shortest steps: long ones meet other kinks
+    falls = shrink > 0 && error < kFalls * error_before;  // at the shortest steps: long ones meet other kinks
     const double mismatch = relative(error, size);
+    if (mismatch < best) fell_to_best = falls;
     best = std::isnan(mismatch) ? mismatch : std::min(best, mismatch);
     if (best <= item_.tolerance || std::isnan(best)) return count(best, place);
     bend_before = bend;
     bend = d.bend / size;
   }
-  if (falls || bend > kKink || (std::abs(bend - bend_before) < kSteady * bend && best <= bend)) {
+  // What falls to the rounding of the curve, and almost to what is allowed, would have fallen further.
+  if (falls || (fell_to_best && best < kAlmost * item_.tolerance) || bend > kKink || (std::abs(bend - bend_before) < kSteady * bend && best <= bend)) {
     ++item_.at_kinks;
     return;
   }

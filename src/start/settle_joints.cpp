@@ -123,9 +123,9 @@ bool note_resolved_joints(const BasicSystem<S>& system, const BasicTimeScales<S>
     const double share = soft.share[j].minCoeff(&slowest);
     if (share > kEntirely) continue;
     none = false;
-    notes.push_back(fmt::format("{} {}: with a rate of {:.3g} 1/s it relaxes more slowly than its load varies; it starts at the deflection that carries the load, "
-                                "with {:.0f} % of the quasi-static rate, and its transient is part of the solution",
-                                system.joints[j].servo < 0 ? "joint" : "motor", system.joints[j].name, time_scales.slow_rate[j][slowest], 100 * share));
+    notes.push_back(fmt::format("{} {}: its damping lets it follow its load within {:.3g} s only, and at the start the load changes sooner; it begins at the deflection that carries the load, "
+                                "and what it does then is motion, not an error of the start",
+                                system.joints[j].servo < 0 ? "joint" : "motor", system.joints[j].name, 1 / time_scales.slow_rate[j][slowest]));
   }
   return none;
 }
