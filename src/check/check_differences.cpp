@@ -49,7 +49,7 @@ void Comparisons::slope(const Eigen::VectorXd& slope, const Curve& curve, double
     error = largest(slope - d.central);
     falls = shrink > 0 && error < kFalls * error_before;  // at the shortest steps: long ones meet other kinks
     const double mismatch = relative(error, size);
-    if (mismatch < best) fell_to_best = falls;
+    if (mismatch < 0.5 * best) fell_to_best = falls;
     best = std::isnan(mismatch) ? mismatch : std::min(best, mismatch);
     if (best <= item_.tolerance || std::isnan(best)) return count(best, place);
     bend_before = bend;
