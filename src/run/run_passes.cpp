@@ -31,6 +31,7 @@ constexpr double kSurest = 0.05;           // of the tolerance of the steps: no 
 constexpr double kRepeated = 0.1;          // tolerance of a pass that is to show whether what two have shown is so, over that of the finer; of the next where errors or an open account ask for another, at least
 constexpr double kShorter = 0.5;           // longest step of a pass whose tolerance would not shorten its steps, over the mean one before
 constexpr double kNearRounding = 1e-8;     // tolerance below which stiff joints may feel rounding, and steps multiply
+constexpr double kNoGain = 0.5;            // of the error that the passes before have shown: below kNearRounding, one that has not fallen so far is made of rounding
 constexpr std::uint64_t kLong = 10000;     // after a pass of so many steps the next one goes there by a tenth at a time
 constexpr double kFinest = 1e-11;          // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
 constexpr double kOptimism = 2;            // standard errors by which a rate may be smaller before no tolerance is said to help
@@ -179,7 +180,7 @@ class Passes {
     growth_ = {};
     if (apart > kPromised * settings_.tolerance) growth_ = growth_of(coarse, fine);
     if (growth_.exponential && growth_.saturated) take_all(coarse, fine);
-    error_ = share_ * (out_.of_motion ? out_.motion_error : largest_of(relative_difference_));
+    error_before_ = std::exchange(error_, share_ * (out_.of_motion ? out_.motion_error : largest_of(relative_difference_)));
   }
 
   // In impacts forces differ by all there is as soon as these are apart by their own length, and between them by little: there it is the places whose
@@ -250,7 +251,8 @@ class Passes {
       if (next < kTight) choice_.stages = 5;
       return at(next);
     }
-    return at(finer_by_error(tolerance));
+    at_rounding_ = tolerance < kNearRounding && error_before_ > 0 && error_ > kNoGain * error_before_;
+    return !at_rounding_ && at(finer_by_error(tolerance));
   }
 
   // The tolerance of the pass after one of `tolerance`, with which the error that the last two show would be small enough.
@@ -340,8 +342,8 @@ class Passes {
 
   // Whether its couple, not its force, has the joint's largest error.
   bool is_of_couple(const BasicJointData<S>& joint) const {
-    const auto found = std::find_if(out_.joints.begin(), out_.joints.end(), [&](const LoadSummary& one) { return one.name == joint.name; });
-    return found != out_.joints.end() && found->has_moment && found->error_estimate < 0.5 * found->relative_error_estimate * found->peak;
+    const auto j = static_cast<std::size_t>(&joint - system_.joints.data());
+    return share_ * difference_.force[j] < 0.5 * error_ * difference_.peak[j];
   }
 
   // How it ended; a pass that broke off leaves the results of the one before it.
@@ -363,7 +365,7 @@ class Passes {
     if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)
       out_.message = fmt::format("the largest {} is estimated at {:.2g} of {}; the tolerance is {:.2g}",
                                  out_.of_motion ? "position error" : fmt::format("{} error, at {} {},", is_of_couple(*worst) ? "couple" : "force", worst->servo < 0 ? "joint" : "motor", worst->name), error_,
-                                 out_.of_motion ? "the longest path of any body" : is_of_couple(*worst) ? "the peak couple, or of 1e-4 of what the mechanism's forces could make" : "the peak force", settings_.tolerance) + until_missed();
+                                 out_.of_motion ? "the longest path of any body" : is_of_couple(*worst) ? "the peak couple, or of 1e-4 of what the mechanism's forces could make" : "the peak force", settings_.tolerance) + (at_rounding_ ? "; finer passes meet the rounding of the numbers" : "") + until_missed();
     if (unbounded && out_.outcome == Outcome::kToleranceNotMet) out_.message = fmt::format("the reactions of ideal joints have no bound at the singular position near t = {:.6g} s, whatever the tolerance: give these joints stiffness", last_.unbounded_reactions);
     if (out_.outcome == Outcome::kRunaway) out_.message = last_.message;
     if (!message.empty() && out_.outcome != Outcome::kCompleted) out_.message += (out_.message.empty() ? "" : "; ") + message;
@@ -381,7 +383,8 @@ class Passes {
   // Of the last two passes.
   PassDifference difference_;
   std::vector<double> relative_difference_;  // of each joint
-  double share_ = 1, error_ = 0;
+  double share_ = 1, error_ = 0, error_before_ = 0;  // of the last two comparisons
+  bool at_rounding_ = false;                          // the last one has not gained on the one before
   bool alike_ = false;             // their steps
   int stages_before_ = 0;          // of the coarser one
   ErrorGrowth growth_, last_growth_;  // and of the pair before that showed chaos: one between may be too short or too jagged to tell
