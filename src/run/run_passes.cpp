@@ -31,7 +31,7 @@ constexpr double kSurest = 0.05;           // of the tolerance of the steps: no 
 constexpr double kRepeated = 0.1;          // tolerance of a pass that is to show whether what two have shown is so, over that of the finer; of the next where errors or an open account ask for another, at least
 constexpr double kShorter = 0.5;           // longest step of a pass whose tolerance would not shorten its steps, over the mean one before
 constexpr double kNearRounding = 1e-8;     // tolerance below which stiff joints may feel rounding, and steps multiply
-constexpr double kNoGain = 0.5;            // of the error that the passes before have shown: below kNearRounding, one that has not fallen so far is made of rounding
+constexpr double kNoGain = 0.5;            // of the error that the passes before have shown: one that has not fallen so far below kNearRounding may be made of rounding
 constexpr std::uint64_t kLong = 10000;     // after a pass of so many steps the next one goes there by a tenth at a time
 constexpr double kFinest = 1e-11;          // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
 constexpr double kOptimism = 2;            // standard errors by which a rate may be smaller before no tolerance is said to help
@@ -251,8 +251,14 @@ class Passes {
       if (next < kTight) choice_.stages = 5;
       return at(next);
     }
-    at_rounding_ = tolerance < kNearRounding && error_before_ > 0 && error_ > kNoGain * error_before_;
+    at_rounding_ = meets_rounding(tolerance);
     return !at_rounding_ && at(finer_by_error(tolerance));
+  }
+
+  // A long pass that has refused half as many steps as it has made for their errors, and gained little on the one before.
+  bool meets_rounding(double tolerance) const {
+    const Counters& last = last_.counters;
+    return tolerance < kNearRounding && last.steps > kLong && 2 * last.rejected > last.steps && error_before_ > 0 && error_ > kNoGain * error_before_;
   }
 
   // The tolerance of the pass after one of `tolerance`, with which the error that the last two show would be small enough.
