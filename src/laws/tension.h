@@ -4,7 +4,7 @@
 //   V = 1/2 k max(0, e)^2                             Eq. (3.5)
 //
 // A rope never pushes: while it is stretched but closing so fast that the damper would push, the force is 0 and
-// the loss is what is left of the elastic power, -k e e' >= 0. The formula changes at e = 0 and where the force vanishes.
+// the loss is what is left of the elastic power, -k e e' >= 0. The formula changes at e = 0, also from there, and where the force vanishes.
 #pragma once
 
 #include <algorithm>
@@ -32,9 +32,13 @@ struct TensionLaw {
     out.energy = 0.5 * k * (e * e);                                                      // (3.5)
     out.loss = where_positive(e, where_positive(pull, c * (rate * rate), -k * (e * rate)), none);
   }
-  int n_borders() const { return 1; }
-  /// Positive where it pulls.
-  void borders(const LawInput<double>& in, double* value) const { value[0] = std::min(in.gap[0], in.gap[0] + c / k * in.rate[0]); }
+  int n_borders() const { return c > 0 ? 2 : 1; }
+  /// Positive where it pulls, and where it is stretched and does not pull: there it loses power until it is slack.
+  void borders(const LawInput<double>& in, double* value) const {
+    const double pull = in.gap[0] + c / k * in.rate[0];
+    value[0] = std::min(in.gap[0], pull);
+    if (c > 0) value[1] = std::min(in.gap[0], -pull);
+  }
   Planar::Vec engaged_stiffness() const { return {k, 0, 0}; }
   void engage(Planar::Vec& gap) const { gap[0] = std::max(gap[0], 0.0); }
 };

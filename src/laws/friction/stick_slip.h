@@ -3,9 +3,13 @@
 //
 //   sticking:  F = k_t z + c_t v,   z' = v     until |F| > mu_s N                         theory/joints Eq. (3.18)
 //   slipping:  F = s mu_k N + mu_v N v         until s v < 0, s = +1 or -1                Eq. (3.19)
+//   rebounding: F = s mu_k N + mu_v N v, z' = v   until s F_sticking < mu_k N, or s v > 0      Eq. (3.21)
 //
-// v is the slip, N what presses, F acts against the slip. The states are the stretch z of the spring [m] and the mode s, 0 while they stick, which
-// changes at borders only. z is integrated: as a difference of places of the size of a metre its rounding, times k_t, is a noise in the force that steps
+// A friction that breaks because N falls may break while the spring drives the bodies back, s v < 0: the surfaces slip by what the spring loses more than the
+// bodies go back, and hold again when it has come down to the friction.
+//
+// v is the slip, N what presses, F acts against the slip. The states are the stretch z of the spring [m] and the mode s, 0 while they stick and 2 s while they
+// rebound, which changes at borders only. z is integrated: as a difference of places of the size of a metre its rounding, times k_t, is a noise in the force that steps
 // are refused for. Slip goes the way of the friction that broke; sticking begins where friction is continuous,
 //   z = (F - c_t v) / k_t.                                                                Eq. (3.20)
 #pragma once
@@ -35,12 +39,13 @@ struct StickSlip {
   template <class T>
   StickSlipForce<T> force(const T& v, const T& N, const T* state) const {
     using namespace law_math;
-    const T mode = state[1], sticks = T(0.5) - abs(mode), none(0.0), slips = mode * (kinetic * N) + viscous * (N * v);
+    const T size = abs(state[1]), sticks = T(0.5) - size, rebounds = size - T(1.5), none(0.0);
+    const T slips = where_positive(state[1], T(1.0), T(-1.0)) * (kinetic * N) + viscous * (N * v), stored = (0.5 * stiffness) * (state[0] * state[0]);
     StickSlipForce<T> f;
-    f.stretch_rate = where_positive(sticks, v, none);                                                     // (3.18)
+    f.stretch_rate = where_positive(sticks, v, where_positive(rebounds, v, none));                        // (3.18), (3.21)
     f.friction = where_positive(sticks, held(v, state), slips);                                           // (3.19)
-    f.energy = where_positive(sticks, (0.5 * stiffness) * (state[0] * state[0]), none);
-    f.loss = where_positive(sticks, damping * (v * v), slips * v);
+    f.energy = where_positive(sticks, stored, where_positive(rebounds, stored, none));
+    f.loss = where_positive(sticks, damping * (v * v), where_positive(rebounds, (slips - stiffness * state[0]) * v, slips * v));
     return f;
   }
   static bool sticks(const double* state) { return state[1] == 0; }
@@ -58,27 +63,38 @@ struct StickSlip {
     return true;
   }
 
-  /// What still holds; how far slip is from its end; how far from a slip the wrong way, which a break under a falling load may begin with.
+  /// What still holds; how far slip is from its end, or the spring of surfaces that rebound from the friction; how far these are from a slip forward.
   void borders(double v, double N, const double* state, double* value) const {
-    const double mode = state[1], forward = mode * v;
-    value[0] = mode == 0 ? static_coefficient * N - std::abs(held(v, state)) + kUnloaded : 1;
-    value[1] = mode == 0 ? 1 : forward + kCrossed;
-    value[2] = mode == 0 ? 1 : forward + kStill;
+    const double way = direction(state), forward = way * v;
+    value[0] = value[1] = value[2] = 1;
+    if (sticks(state)) value[0] = static_coefficient * N - std::abs(held(v, state)) + kUnloaded;
+    else if (!rebounds(state)) value[1] = forward + kCrossed;
+    else {
+      value[1] = way * held(v, state) - kinetic * N;
+      value[2] = kCrossed - forward;
+    }
   }
   static constexpr std::array<int, kBorders> kDirections{-1, -1, -1};
-  static constexpr std::string_view border_name(int border) { return border == 0 ? "slips" : "sticks"; }
+  static constexpr std::string_view border_name(int border) { return border == 1 ? "sticks" : "slips"; }
   /// Both ends of a slip may lie in one interval of time; the second one finds surfaces that stick.
   void cross(int border, double v, double N, double* state) const {
     if (border == 0) {
-      state[1] = held(v, state) > 0 ? 1 : -1;
+      const double way = held(v, state) > 0 ? 1 : -1;
+      state[1] = way * v < -kCrossed ? 2 * way : way;
       return;
     }
     if (sticks(state)) return;
-    state[0] = (state[1] * kinetic * N + viscous * N * v - damping * v) / stiffness;  // (3.20)
+    if (border == 2) {
+      state[1] = direction(state);
+      return;
+    }
+    if (!rebounds(state)) state[0] = (state[1] * kinetic * N + viscous * N * v - damping * v) / stiffness;  // (3.20)
     state[1] = 0;
   }
 
  private:
+  static bool rebounds(const double* state) { return std::abs(state[1]) > 1.5; }
+  static double direction(const double* state) { return state[1] > 0 ? 1 : -1; }
   static constexpr double kCrossed = 1e-12;   // a speed that is not the rounding of zero [m/s]
   static constexpr double kUnloaded = 1e-12;  // a friction that breaks surfaces on which nothing presses [N]
 
