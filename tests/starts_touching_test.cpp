@@ -160,6 +160,7 @@ markers.near = [-0.2, 0, "180 deg"]
   const Trajectory run = quiet_touching_run(supports + joints);
   const double exact = 5 * kStandardGravity * 0.18 / (0.18 + 0.04);
   EXPECT_EQ(run.joints.at(0).peak, 0);
+  EXPECT_TRUE(std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.starts_with("surfaces that touch at the start without pressing on each other: far;"); }));
   EXPECT_NEAR(value(run, 0, "joint.near.contact_force"), exact, 1e-4 * exact);
   EXPECT_LE(run.joints.at(1).peak, exact * (1 + 1e-2));
 }

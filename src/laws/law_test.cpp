@@ -376,11 +376,15 @@ TEST(TensionLaw, HasItsBorderWhereStated) {
   for (const double rate : {-1.0, 0.0, 1.0}) {
     const double vanishes = std::max(0.0, -law.c * rate / law.k);  // gap at which the pull begins
     const Vec below(vanishes - 1e-9, 0, 0), above(vanishes + 1e-9, 0, 0), v(rate, 0, 0);
-    double slack = 1, taut = 0;
-    rope.borders({0, below, v, nullptr}, &slack);
-    rope.borders({0, above, v, nullptr}, &taut);
-    EXPECT_LT(slack, 0);
-    EXPECT_GT(taut, 0);
+    ASSERT_EQ(rope.n_borders(), 2);
+    double slack[2], taut[2];
+    rope.borders({0, below, v, nullptr}, slack);
+    rope.borders({0, above, v, nullptr}, taut);
+    EXPECT_LT(slack[0], 0);
+    EXPECT_GT(taut[0], 0);
+    EXPECT_LT(taut[1], 0);
+    EXPECT_EQ(slack[1] > 0, rate < 0);  // stretched without a pull, it loses power
+    EXPECT_EQ(rope.loss({0, below, v, nullptr}) > 0, slack[1] > 0);
     EXPECT_EQ(respond(rope, below, v).stiffness(0, 0), 0);
     EXPECT_EQ(respond(rope, above, v).stiffness(0, 0), law.k);
   }

@@ -24,7 +24,17 @@ namespace {
 
 using S = Planar;
 
-// Velocities that leave every gap as it is (servos: that follow their targets), nearest to the stated ones in the mass
+// Whether what starts free, as a slack rope, is further than rounding from where it would act.
+bool stands_apart(const JointData& joint, const S::Vec& gap, double size) {
+  constexpr double kBeside = 1e-9;  // of the mechanism's size
+  const S::Vec still = S::Vec::Zero();
+  for (int k = 0; k < S::kDof; ++k)
+    for (const double way : {kBeside, -kBeside})
+      if (!is_apart(joint.law, S::Vec(gap + way * size * S::Vec::Unit(k)), still)) return false;
+  return true;
+}
+
+// Velocities that leave every gap of what is not apart as it is (servos: that follow their targets), nearest to the stated ones in the mass
 // norm; what is not stated follows. Multiplier iteration, theory/assembly Eqs. (2.1)-(2.3).
 void assemble_velocities(const Model& model, const System& system, const Vecs& q, Vecs& v) {
   std::vector<S::Motion> m;
@@ -32,6 +42,7 @@ void assemble_velocities(const Model& model, const System& system, const Vecs& q
   const Vecs still(q.size(), S::Vec::Zero());
   kinematics_at(system, 0, q, still, m, r);
   Vecs joint_weight(r.size(), S::Vec::Zero()), body_weight(q.size());
+  const double size_of_mechanism = mechanism_size(system, q);
   for (std::size_t i = 0; i < q.size(); ++i) {
     const Body& body = model.bodies[i];
     const double move = body.velocity ? 1 : 1e-3, turn = body.spin ? 1 : 1e-3;
@@ -40,8 +51,9 @@ void assemble_velocities(const Model& model, const System& system, const Vecs& q
   for (std::size_t j = 0; j < r.size(); ++j) {
     const JointData& joint = system.joints[j];
     const S::Vec stiff = joint.law.engaged_stiffness();
+    const bool apart = stands_apart(joint, r[j].gap, size_of_mechanism);
     for (int k = 0; k < 3; ++k) {
-      if (!(stiff[k] > 0)) continue;
+      if (!(stiff[k] > 0) || apart) continue;
       double mobility = 0;
       if (joint.at.a != kGround) mobility += r[j].GA().row(k).cwiseAbs2().dot(system.bodies[joint.at.a].mass.cwiseInverse());
       if (joint.at.b != kGround) mobility += r[j].GB().row(k).cwiseAbs2().dot(system.bodies[joint.at.b].mass.cwiseInverse());

@@ -79,6 +79,56 @@ std::string names_of(const System& system, const std::vector<int>& joints) {
   return names;
 }
 
+// Where the bodies go when joints with play are taken to the sides that their loads press them to; and which joints stay in the middle, because
+// they carry nothing or, where not `left_unloaded`, because others hold them there: then the others carry what they would have.
+struct Seating {
+  Vecs q, v;
+  std::vector<int> left;
+  bool left_unloaded = true;
+};
+
+Seating seat(const System& system, const std::vector<int>& loose, const State& state) {
+  // Springs without play would carry a misfit as a preload; as soft as the play is wide, they share it out as the pins do that go to their sides.
+  const bool misfit = has_misfit(system, state, loose);
+  State carried = state;
+  System firm = without_play(system, loose, misfit ? largest_load_on_bodies(system, state) : 0);
+  start_forces(firm, true, carried);
+  if (misfit) {
+    const double load = largest_force(carried.force);
+    carried = state;
+    firm = without_play(system, loose, load);
+    start_forces(firm, true, carried);
+  }
+  Seating out;
+  const double nothing = kFits * largest_force(carried.force);
+  for (const int j : loose) {
+    S::Vec gap = S::Vec::Zero();
+    const bool presses = carried.force[j].norm() > nothing && go_out_against<S>(system.joints[j].law, carried.force[j], S::Vec::Zero(), gap);
+    if (presses) gap_at_force<S>(system.joints[j].law, carried.force[j], S::Vec::Zero(), gap);
+    else out.left.push_back(j);
+    carried.gap[j] = gap;
+  }
+  BasicInverseDynamics<S>(firm).move_onto_gaps(carried);
+  out.q = carried.q;
+  out.v = carried.v;
+  if (misfit) return out;
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  kinematics_at(system, carried.t, carried.q, carried.v, m, r);
+  std::vector<int> held;
+  for (const int j : loose) {
+    constexpr double kReached = 0.1;  // of the play, that a joint may miss its side by
+    int k = 0;
+    const double play = play_of(system.joints[j], k);
+    if ((r[j].gap - carried.gap[j]).cwiseProduct(S::Vec::Ones() - system.joints[j].free_mask).norm() > kReached * play) held.push_back(j);
+  }
+  if (!held.empty()) {
+    out.left = held;
+    out.left_unloaded = false;
+  }
+  return out;
+}
+
 }  // namespace
 
 bool has_play(const JointData& joint) {
@@ -99,31 +149,21 @@ std::vector<int> joints_in_play(const System& system) {
 std::string names_of_joints_in_play(const System& system) { return names_of(system, joints_in_play(system)); }
 
 std::string seat_joints(const System& system, State& state) {
-  const std::vector<int> loose = joints_in_play(system);
-  if (loose.empty()) return "";
-  // Springs without play would carry a misfit as a preload; as soft as the play is wide, they share it out as the pins do that go to their sides.
-  const bool misfit = has_misfit(system, state, loose);
-  State carried = state;
-  System firm = without_play(system, loose, misfit ? largest_load_on_bodies(system, state) : 0);
-  start_forces(firm, true, carried);
-  if (misfit) {
-    const double load = largest_force(carried.force);
-    carried = state;
-    firm = without_play(system, loose, load);
-    start_forces(firm, true, carried);
-  }
   std::vector<int> unloaded;
-  const double nothing = kFits * largest_force(carried.force);
-  for (const int j : loose) {
-    S::Vec gap = S::Vec::Zero();
-    const bool presses = carried.force[j].norm() > nothing && go_out_against<S>(system.joints[j].law, carried.force[j], S::Vec::Zero(), gap);
-    if (presses) gap_at_force<S>(system.joints[j].law, carried.force[j], S::Vec::Zero(), gap);
-    else unloaded.push_back(j);
-    carried.gap[j] = gap;
+  for (std::vector<int> loose = joints_in_play(system); !loose.empty();) {
+    System firm = system;
+    for (const int j : unloaded) firm.joints[j].law = BasicLaw<S>(LinearLaw{});
+    const Seating made = seat(firm, loose, state);
+    const auto is_left = [&](int j) { return std::find(made.left.begin(), made.left.end(), j) != made.left.end(); };
+    if (made.left.empty() || made.left_unloaded) {
+      state.q = made.q;
+      state.v = made.v;
+    }
+    unloaded.insert(unloaded.end(), made.left.begin(), made.left.end());
+    std::erase_if(loose, is_left);
+    if (made.left.empty() || made.left_unloaded) break;
   }
-  BasicInverseDynamics<S>(firm).move_onto_gaps(carried);
-  state.q = carried.q;
-  state.v = carried.v;
+  std::sort(unloaded.begin(), unloaded.end());
   return names_of(system, unloaded);
 }
 

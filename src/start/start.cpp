@@ -66,7 +66,7 @@ Assembly start_of_free_bodies(const Model& model, System system, double known_sp
   if (const std::string loose = model.simulate.start == Start::kAssembled ? names_of_joints_in_play(assembly.system) : ""; !loose.empty())
     assembly.notes.push_back("joints start in the middle of their play (" + loose + ") and strike the sides of it first: the largest forces may be those of the start; start = \"seated\" begins where the load presses them");
   if (model.simulate.start == Start::kSeated) note_seated(assembly);
-  if (loaded) press_touching_surfaces(assembly.system, assembly.state);
+  if (loaded) press_touching_surfaces(assembly);
   std::optional<BasicSettledStart<Planar>> unloaded;
   if (std::any_of(assembly.system.joints.begin(), assembly.system.joints.end(), [](const JointData& joint) { return joint.law.has_friction(); })) unloaded = assembly;
   start_forces(assembly.system, loaded, assembly.state);

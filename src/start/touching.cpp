@@ -86,9 +86,17 @@ double depth_at(const BasicLaw<S>& law, const Touch& touch, double force) {
   return high;
 }
 
+// Of those of `all` that are not among `pressed`, in the order of the model.
+std::string names_of_others(const System& system, const std::vector<Touch>& all, const std::vector<Touch>& pressed) {
+  std::string names;
+  for (const Touch& touch : all)
+    if (std::none_of(pressed.begin(), pressed.end(), [&touch](const Touch& one) { return one.joint == touch.joint; })) names += (names.empty() ? "" : ", ") + system.joints[touch.joint].name;
+  return names;
+}
+
 }  // namespace
 
-void press_touching_surfaces(const System& system, State& state) {
+std::string press_touching_surfaces(const System& system, State& state) {
   const std::vector<Touch> all = find_touches(system, state);
   std::vector<Touch> touches = all;
   const double ajar = kAjar * characteristic_length(system, state.q);
@@ -105,8 +113,14 @@ void press_touching_surfaces(const System& system, State& state) {
     BasicInverseDynamics<S>(with_springs(system, all)).move_onto_gaps(carried);
     state.q = carried.q;
     state.v = carried.v;
-    return;
+    break;
   }
+  return names_of_others(system, all, touches);
+}
+
+void press_touching_surfaces(Assembly& assembly) {
+  if (const std::string idle = press_touching_surfaces(assembly.system, assembly.state); !idle.empty())
+    assembly.notes.push_back("surfaces that touch at the start without pressing on each other: " + idle + "; if one was to press, it may be the other side of its edge (the first marker's axis turned by 180 deg: it presses along +y)");
 }
 
 }  // namespace pintle

@@ -97,6 +97,46 @@ TEST(CoulombLaw, SticksBreaksAndSticksAgain) {
   EXPECT_NEAR(lost, 0.5 * 1e5 * (151e-6 * 151e-6 - state[0] * state[0]), 1e-12);  // the spring's, which broke and sticks again
 }
 
+// Loaded to 12 N by its spring, on its way back at 2 mm/s as what presses it falls to 60 N, which hold 9 N and rub with 6 N: it goes on being pushed back, by the kinetic friction,
+// and holds again when the spring has come down to that.
+TEST(StickSlip, AFrictionThatBreaksOnTheWayBackRebounds) {
+  const StickSlip surfaces{0.1, 0.15, 0, 1e5, 0};
+  double state[StickSlip::kStates] = {120e-6, 0}, border[StickSlip::kBorders];
+  const double back = -2e-3, N = 60;
+  surfaces.borders(back, N, state, border);
+  EXPECT_LT(border[0], 0);
+  surfaces.cross(0, back, N, state);
+  const StickSlipForce<double> f = surfaces.force(back, N, state);
+  EXPECT_NEAR(f.friction, 6, 1e-12);
+  EXPECT_EQ(f.stretch_rate, back);
+  EXPECT_NEAR(f.energy, 0.5 * 1e5 * 120e-6 * 120e-6, 1e-15);
+  EXPECT_NEAR(f.loss, 2e-3 * (12 - 6), 1e-12);  // the spring gives 24 mW, of which 12 drive the bodies
+  surfaces.borders(back, N, state, border);
+  EXPECT_NEAR(border[1], 6, 1e-9);
+  EXPECT_GT(border[2], 0);
+  state[0] = 59.9e-6;
+  surfaces.borders(back, N, state, border);
+  EXPECT_LT(border[1], 0);
+  surfaces.cross(1, back, N, state);
+  EXPECT_TRUE(StickSlip::sticks(state));
+  EXPECT_EQ(state[0], 59.9e-6);
+}
+
+// It may turn forward before that, and slips as any other.
+TEST(StickSlip, WhatReboundsMayTurnForward) {
+  const StickSlip surfaces{0.1, 0.15, 0, 1e5, 0};
+  double state[StickSlip::kStates] = {-120e-6, 0}, border[StickSlip::kBorders];
+  surfaces.cross(0, 1e-3, 60, state);
+  EXPECT_NEAR(surfaces.force(1e-3, 60.0, state).friction, -6, 1e-12);
+  surfaces.borders(-1e-9, 60, state, border);
+  EXPECT_LT(border[2], 0);
+  surfaces.cross(2, -1e-9, 60, state);
+  const StickSlipForce<double> f = surfaces.force(-0.1, 60.0, state);
+  EXPECT_NEAR(f.friction, -6, 1e-12);
+  EXPECT_EQ(f.stretch_rate, 0);
+  EXPECT_NEAR(f.loss, 0.6, 1e-12);
+}
+
 // A start has slow slips that mean nothing: the damper of what sticks would push, on surfaces on which nothing presses, by more than they carry.
 TEST(Coulomb, BeginsWithoutFrictionWhereNothingPresses) {
   CoulombLaw law;

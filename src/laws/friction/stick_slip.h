@@ -3,7 +3,7 @@
 //
 //   sticking:  F = k_t z + c_t v,   z' = v     until |F| > mu_s N                         theory/joints Eq. (3.18)
 //   slipping:  F = s mu_k N + mu_v N v         until s v < 0, s = +1 or -1                Eq. (3.19)
-//   rebounding: F = s mu_k N + mu_v N v, z' = v   until s F_sticking < mu_k N, or s v > 0      Eq. (3.21)
+//   rebounding: F = s mu_k N + mu_v N v, z' = v   until s F_sticking < mu_k N, or s v > 0      Eq. (3.23)
 //
 // A friction that breaks because N falls may break while the spring drives the bodies back, s v < 0: the surfaces slip by what the spring loses more than the
 // bodies go back, and hold again when it has come down to the friction.
@@ -42,7 +42,7 @@ struct StickSlip {
     const T size = abs(state[1]), sticks = T(0.5) - size, rebounds = size - T(1.5), none(0.0);
     const T slips = where_positive(state[1], T(1.0), T(-1.0)) * (kinetic * N) + viscous * (N * v), stored = (0.5 * stiffness) * (state[0] * state[0]);
     StickSlipForce<T> f;
-    f.stretch_rate = where_positive(sticks, v, where_positive(rebounds, v, none));                        // (3.18), (3.21)
+    f.stretch_rate = where_positive(sticks, v, where_positive(rebounds, v, none));                        // (3.18), (3.23)
     f.friction = where_positive(sticks, held(v, state), slips);                                           // (3.19)
     f.energy = where_positive(sticks, stored, where_positive(rebounds, stored, none));
     f.loss = where_positive(sticks, damping * (v * v), where_positive(rebounds, (slips - stiffness * state[0]) * v, slips * v));

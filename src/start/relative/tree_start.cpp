@@ -75,7 +75,7 @@ void take_over(const JointTree& tree, const System& system, const SimulateSettin
 Assembly start_over_tree(const Model& model, const System& system) {
   Assembly assembly = assemble_unloaded(model, stiffened(system, JointTree(system)));
   if (model.simulate.start == Start::kSeated) note_seated(assembly);
-  if (is_preloaded(model.simulate.start)) press_touching_surfaces(assembly.system, assembly.state);
+  if (is_preloaded(model.simulate.start)) press_touching_surfaces(assembly);
   start_forces(assembly.system, is_preloaded(model.simulate.start), assembly.state);
   assembly.system = with_laws_of(std::move(assembly.system), system);
   take_over(JointTree(assembly.system), assembly.system, model.simulate, assembly);

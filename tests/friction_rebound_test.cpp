@@ -1,0 +1,30 @@
+// Surfaces that stick on a spring and break loose because what presses them falls: the spring may be on its way back. theory/joints Eq. (3.23)
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pintle/simulate.h"
+#include "tests/reference_tables.h"
+
+namespace pintle {
+namespace {
+
+// Friction that drives would let the account run open, and what moves.
+void expect_closed_account(const Trajectory& run) { EXPECT_LT(run.energy.drift, 1e-6 * run.energy.kinetic_peak); }
+
+// It swings on the spring that holds it, with 5 N*s/m.
+TEST(FrictionRebound, ASlideThatIsUnloadedOnItsWayBackIsHeldAgain) {
+  const Trajectory run = reference::completed(reference::test_model("slide_unloaded_while_stuck"));
+  expect_closed_account(run);
+  EXPECT_LT(std::abs(reference::value(run, run.n_rows() - 1, "joint.g.slide_rate")), 0.02);
+  EXPECT_EQ(reference::value(run, run.n_rows() - 1, "joint.g.stuck"), 1);
+}
+
+TEST(FrictionRebound, ACartThatSettlesOnItsTyresIsNotDriven) {
+  const Trajectory run = reference::completed(reference::test_model("cart_put_on_the_road"));
+  expect_closed_account(run);
+  for (std::size_t row = 0; row < run.n_rows(); ++row) ASSERT_LT(std::abs(reference::value(run, row, "joint.rr.slip")), 0.3) << run.at(row, 0);
+}
+
+}  // namespace
+}  // namespace pintle
