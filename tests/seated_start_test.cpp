@@ -141,5 +141,12 @@ TEST(SeatedStart, AShaftClimbsItsBushForAnyDuration) {
   }
 }
 
+// The pin of the second of three parallel cranks cannot come to its side along the cranks: it would strain the others by thousands of newtons.
+TEST(SeatedStart, APinThatOtherCranksHoldInTheMiddleIsLeftOpen) {
+  const Trajectory run = completed(reference::test_model("coupling_rod_on_three_cranks", {"simulate.duration=0.01"}));
+  EXPECT_LT(run.joints[2].peak, 100) << run.joints[2].name;
+  EXPECT_TRUE(notes_have(run, "stay in the middle of their play: B"));
+}
+
 }  // namespace
 }  // namespace pintle

@@ -191,5 +191,12 @@ restitution = 0.5
   EXPECT_NEAR(fastest, 0.5, 0.02);
 }
 
+// Assembly takes no velocity from what only a slack rope joins.
+TEST(StartsTouching, ASlackRopeLeavesItsBallTheVelocityThatIsStated) {
+  const Trajectory run = reference::completed(reference::test_model("rope_that_snaps", {"simulate.duration=0.01"}));
+  EXPECT_NEAR(value(run, 0, "body.ball.vx"), 1, 1e-12);
+  EXPECT_NEAR(value(run, 0, "body.ball.vy"), 2, 1e-12);
+}
+
 }  // namespace
 }  // namespace pintle

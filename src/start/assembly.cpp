@@ -51,7 +51,7 @@ void assemble_velocities(const Model& model, const System& system, const Vecs& q
   for (std::size_t j = 0; j < r.size(); ++j) {
     const JointData& joint = system.joints[j];
     const S::Vec stiff = joint.law.engaged_stiffness();
-    const bool apart = stands_apart(joint, r[j].gap, size_of_mechanism);
+    const bool apart = !has_play(joint) && stands_apart(joint, r[j].gap, size_of_mechanism);
     for (int k = 0; k < 3; ++k) {
       if (!(stiff[k] > 0) || apart) continue;
       double mobility = 0;

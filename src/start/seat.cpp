@@ -117,10 +117,10 @@ Seating seat(const System& system, const std::vector<int>& loose, const State& s
   kinematics_at(system, carried.t, carried.q, carried.v, m, r);
   std::vector<int> held;
   for (const int j : loose) {
-    constexpr double kReached = 0.1;  // of the play, that a joint may miss its side by
-    int k = 0;
-    const double play = play_of(system.joints[j], k);
-    if ((r[j].gap - carried.gap[j]).cwiseProduct(S::Vec::Ones() - system.joints[j].free_mask).norm() > kReached * play) held.push_back(j);
+    constexpr double kCarried = 0.5;  // of its force, that a joint gives at least where it has come to
+    const S::Vec& force = carried.force[j];
+    const bool asked = std::find(out.left.begin(), out.left.end(), j) == out.left.end();
+    if (asked && !(respond(system.joints[j].law, r[j].gap, S::Vec(S::Vec::Zero())).force.dot(force) > kCarried * force.squaredNorm())) held.push_back(j);
   }
   if (!held.empty()) {
     out.left = held;
