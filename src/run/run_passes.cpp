@@ -236,7 +236,7 @@ class Passes {
       longest_ = kShorter * settings_.duration / static_cast<double>(last_.counters.steps);
       return at(tolerance);
     }
-    const bool same = growth_.saturated && same_growth(last_growth_, growth_);
+    const bool same = growth_.saturated && kOptimism * growth_.rate_scatter < growth_.rate && same_growth(last_growth_, growth_);
     if (same) {
       chaos_ = growth_;
       chaos_.rate_error = std::max(growth_.rate_error, growth_.rate_scatter);
