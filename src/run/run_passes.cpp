@@ -34,6 +34,7 @@ constexpr double kNearRounding = 1e-8;     // tolerance below which stiff joints
 constexpr double kNoGain = 0.5;            // of the error that the passes before have shown: one that has not fallen so far below kNearRounding may be made of rounding
 constexpr std::uint64_t kLong = 10000;     // after a pass of so many steps the next one goes there by a tenth at a time
 constexpr double kFinest = 1e-11;          // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
+constexpr double kMostScatter = 0.65;      // of a rate of growth, for chaos to be claimed: that of the double pendulum has 0.56, of a cam whose roller rattles, and whose finer passes agree to the end, 0.75
 constexpr double kOptimism = 2;            // standard errors by which a rate may be smaller before no tolerance is said to help
 constexpr int kMostOpen = 2;               // passes made finer because the energy account did not close
 
@@ -236,7 +237,7 @@ class Passes {
       longest_ = kShorter * settings_.duration / static_cast<double>(last_.counters.steps);
       return at(tolerance);
     }
-    const bool same = growth_.saturated && kOptimism * growth_.rate_scatter < growth_.rate && same_growth(last_growth_, growth_);
+    const bool same = growth_.saturated && growth_.rate_scatter < kMostScatter * growth_.rate && same_growth(last_growth_, growth_);
     if (same) {
       chaos_ = growth_;
       chaos_.rate_error = std::max(growth_.rate_error, growth_.rate_scatter);
