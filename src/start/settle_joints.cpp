@@ -114,20 +114,34 @@ double settle_fast_joints(const BasicSystem<S>& system, const BasicTimeScales<S>
   return 0;
 }
 
+// In one note: they may be many.
+template <class S>
+void note_slow_joints(const BasicSystem<S>& system, const std::vector<std::size_t>& slow, double longest, std::vector<std::string>& notes) {
+  constexpr std::size_t kNamed = 6;  // of them, at most
+  std::string names;
+  for (std::size_t i = 0; i < std::min(slow.size(), kNamed); ++i) {
+    const BasicJointData<S>& joint = system.joints[slow[i]];
+    names += fmt::format("{}{} {}", i == 0 ? "" : ", ", joint.servo < 0 ? "joint" : "motor", joint.name);
+  }
+  if (slow.size() > kNamed) names += fmt::format(" and {} more", slow.size() - kNamed);
+  notes.push_back(fmt::format("{}: damping lets {} follow {} load within {:.3g} s only, and at the start the load changes sooner; {} at the deflection that carries the load, and what comes then is motion, not an error of the start",
+                              names, slow.size() == 1 ? "it" : "them", slow.size() == 1 ? "its" : "their", longest, slow.size() == 1 ? "it begins" : "they begin"));
+}
+
 // Says which joints start on a motion of their own. True when there are none.
 template <class S>
 bool note_resolved_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& time_scales, const BasicSoftStart<S>& soft, std::vector<std::string>& notes) {
-  bool none = true;
+  std::vector<std::size_t> slow;
+  double longest = 0;  // of the times in which they follow [s]
   for (std::size_t j = 0; j < soft.share.size(); ++j) {
     Eigen::Index slowest = 0;
     const double share = soft.share[j].minCoeff(&slowest);
     if (share > kEntirely) continue;
-    none = false;
-    notes.push_back(fmt::format("{} {}: its damping lets it follow its load within {:.3g} s only, and at the start the load changes sooner; it begins at the deflection that carries the load, "
-                                "and what it does then is motion, not an error of the start",
-                                system.joints[j].servo < 0 ? "joint" : "motor", system.joints[j].name, 1 / time_scales.slow_rate[j][slowest]));
+    slow.push_back(j);
+    longest = std::max(longest, 1 / time_scales.slow_rate[j][slowest]);
   }
-  return none;
+  if (!slow.empty()) note_slow_joints(system, slow, longest, notes);
+  return slow.empty();
 }
 
 // theory/assembly section 5: soft joints first, then the others around them.
