@@ -1,4 +1,5 @@
 // Bodies that are put onto what carries them press on it from the first row on. theory/assembly section 3.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,6 +15,11 @@ namespace pintle {
 namespace {
 
 using reference::value;
+
+// The second marker above the x axis of the first one, at least by the radius; a spring of 1e8 N/m with a power of the depth.
+std::string contact(const std::string& name, const std::string& first, const std::string& second, double radius, double exponent = 1) {
+  return fmt::format("[joint.{}]\ntype = \"slot\"\nbetween = [\"{}\", \"{}\"]\nlaw = \"contact\"\npin_radius = {}\ncontact_stiffness = 1e8\ncontact_exponent = {}\n", name, first, second, radius, exponent);
+}
 
 // Starts of contacts may ring; these do not, and no note says so.
 Trajectory quiet_touching_run(const std::string& text) {
@@ -33,18 +39,12 @@ mass = 3
 inertia = 0.06
 position = ["0.2 m*sin(30 deg)", "0.2 m*cos(30 deg)"]
 markers.c = [0, 0]
-[joint.road]
-type = "slot"
-between = ["ground.plane", "disc.c"]
-law = "contact"
-pin_radius = 0.2
-contact_stiffness = 1e8
 )toml";
 
 TEST(StartsTouching, ADiscOnAnInclinePressesByItsWeightAllTheTime) {
   const double exact = 3 * kStandardGravity * std::cos(kPi / 6);
-  for (const char* exponent : {"contact_exponent = 1", "contact_exponent = 1.5"}) {
-    const LoadSummary road = quiet_touching_run(kDiscOnIncline + exponent).joints.at(0);
+  for (const double exponent : {1.0, 1.5}) {
+    const LoadSummary road = quiet_touching_run(kDiscOnIncline + contact("road", "ground.plane", "disc.c", 0.2, exponent)).joints.at(0);
     EXPECT_NEAR(road.peak, exact, 1e-6 * exact) << exponent;
     EXPECT_NEAR(road.rms, exact, 1e-6 * exact) << exponent;
   }
@@ -62,13 +62,7 @@ inertia = "7 kg*(0.11 m)^2/2"
 position = [0, 0.11]
 velocity = [8, 0]
 markers.c = [0, 0]
-[joint.lane]
-type = "slot"
-between = ["ground.lane", "disc.c"]
-law = "contact"
-pin_radius = 0.11
-friction_coefficient = 0.12
-)toml");
+)toml" + contact("lane", "ground.lane", "disc.c", 0.11, 1.5) + "friction_coefficient = 0.12\n");
   const double exact = 7 * kStandardGravity * std::sqrt(1 + 0.12 * 0.12);
   EXPECT_NEAR(run.joints.at(0).peak, exact, 1e-5 * exact);
 }
@@ -114,21 +108,7 @@ position = ["1 m*cos(60 deg)", "1 m*sin(60 deg)"]
 angle = "-60 deg"
 markers.foot = [1, 0]
 markers.head = [-1, 0]
-[joint.floor]
-type = "slot"
-between = ["ground.floor", "rod.foot"]
-law = "contact"
-pin_radius = 0
-contact_stiffness = 1e8
-contact_exponent = 1
-[joint.wall]
-type = "slot"
-between = ["ground.wall", "rod.head"]
-law = "contact"
-pin_radius = 0
-contact_stiffness = 1e8
-contact_exponent = 1
-)toml";
+)toml" + contact("floor", "ground.floor", "rod.foot", 0) + contact("wall", "ground.wall", "rod.head", 0);
 
 // Wall: 3/4 m g sin cos; floor: m g (1 - 3/4 cos^2).
 TEST(StartsTouching, ARodBetweenWallAndFloorFallsWithTheReactionsOfItsBeginning) {
@@ -154,10 +134,7 @@ position = [0, 0]
 markers.far = [-0.6, 0, "180 deg"]
 markers.near = [-0.2, 0, "180 deg"]
 )toml";
-  std::string joints;
-  for (const char* name : {"far", "near"})
-    joints += std::string("[joint.") + name + "]\ntype = \"slot\"\nbetween = [\"plank." + name + "\", \"ground." + name + "\"]\nlaw = \"contact\"\npin_radius = 0\ncontact_stiffness = 1e8\ncontact_exponent = 1\n";
-  const Trajectory run = quiet_touching_run(supports + joints);
+  const Trajectory run = quiet_touching_run(supports + contact("far", "plank.far", "ground.far", 0) + contact("near", "plank.near", "ground.near", 0));
   const double exact = 5 * kStandardGravity * 0.18 / (0.18 + 0.04);
   EXPECT_EQ(run.joints.at(0).peak, 0);
   EXPECT_TRUE(std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.starts_with("surfaces that touch at the start without pressing on each other: far;"); }));
@@ -178,13 +155,7 @@ inertia = 1e-3
 position = [0, 0.05]
 velocity = [0, -1]
 markers.c = [0, 0]
-[joint.floor]
-type = "slot"
-between = ["ground.floor", "ball.c"]
-law = "contact"
-pin_radius = 0.05
-restitution = 0.5
-)toml", "bounce"));
+)toml" + contact("floor", "ground.floor", "ball.c", 0.05, 1.5) + "restitution = 0.5\n", "bounce"));
   EXPECT_EQ(run.outcome, Outcome::kCompleted);
   double fastest = 0;
   for (std::size_t row = 0; row < run.n_rows(); ++row) fastest = std::max(fastest, value(run, row, "body.ball.vy"));

@@ -7,6 +7,7 @@
 namespace pintle {
 namespace {
 
+constexpr int kPoints = 720;       // of the stretch, that are looked at
 constexpr double kSmooth = 1e-3;  // change of slope that rounded numbers may make [-]
 
 }  // namespace
@@ -33,7 +34,6 @@ std::array<GapFunction, 2> EdgeGap::gap_and_slip(const Planar::Vec& z) const {
 }
 
 std::optional<double> EdgeProfile::undefined_at() const {
-  constexpr int kPoints = 1000;
   const double length = edge_.to - edge_.from;
   for (int i = 1; i <= kPoints; ++i)
     for (const double x : {edge_.to + length * i / kPoints, edge_.from - length * i / kPoints})
@@ -42,7 +42,6 @@ std::optional<double> EdgeProfile::undefined_at() const {
 }
 
 std::string EdgeProfile::fault() const {
-  constexpr int kPoints = 720;
   const double apart = (edge_.to - edge_.from) / kPoints;
   for (int i = 0; i <= kPoints; ++i) {
     const double x = edge_.from + apart * i;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "integrators/thresholds.h"
 #include "run/energy_watch.h"
 #include "run/errors/error_growth.h"
 #include "run/errors/promises.h"
@@ -353,6 +354,17 @@ class Passes {
     return share_ * difference_.force[j] < 0.5 * error_ * difference_.peak[j];
   }
 
+  std::string missed_message(const BasicJointData<S>& worst) const {
+    std::string what = "position error", of = "the longest path of any body";
+    if (!out_.of_motion) {
+      const bool couple = is_of_couple(worst);
+      what = fmt::format("{} error, at {} {},", couple ? "couple" : "force", worst.servo < 0 ? "joint" : "motor", worst.name);
+      of = couple ? fmt::format("the peak couple, or of {:g} of what the mechanism's forces could make", kNegligible) : "the peak force";
+    }
+    return fmt::format("the largest {} is estimated at {:.2g} of {}; the tolerance is {:.2g}{}{}", what, error_, of, settings_.tolerance,
+                       at_rounding_ ? "; finer passes meet the rounding of the numbers" : "", until_missed());
+  }
+
   // How it ended; a pass that broke off leaves the results of the one before it.
   // `worst` has the largest error; none where there is no estimate.
   void judge(const BasicJointData<S>* worst) {
@@ -369,10 +381,7 @@ class Passes {
     if (no_estimate && context_.shape.checked && !system_.joints.empty()) out_.notes.push_back("stopped before a second integration: the joint forces have no error estimate");
     if (whole && ended != Ended::kAtEnd)
       out_.notes.push_back(fmt::format("a finer integration did not reach the end{}; the results are those of the previous one", message.empty() ? "" : " (" + message + ")"));
-    if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate)
-      out_.message = fmt::format("the largest {} is estimated at {:.2g} of {}; the tolerance is {:.2g}",
-                                 out_.of_motion ? "position error" : fmt::format("{} error, at {} {},", is_of_couple(*worst) ? "couple" : "force", worst->servo < 0 ? "joint" : "motor", worst->name), error_,
-                                 out_.of_motion ? "the longest path of any body" : is_of_couple(*worst) ? "the peak couple, or of 1e-4 of what the mechanism's forces could make" : "the peak force", settings_.tolerance) + (at_rounding_ ? "; finer passes meet the rounding of the numbers" : "") + until_missed();
+    if (out_.outcome == Outcome::kToleranceNotMet && !no_estimate) out_.message = missed_message(*worst);
     if (unbounded && out_.outcome == Outcome::kToleranceNotMet) out_.message = fmt::format("the reactions of ideal joints have no bound at the singular position near t = {:.6g} s, whatever the tolerance: give these joints stiffness", last_.unbounded_reactions);
     if (out_.outcome == Outcome::kRunaway) out_.message = last_.message;
     if (!message.empty() && out_.outcome != Outcome::kCompleted) out_.message += (out_.message.empty() ? "" : "; ") + message;

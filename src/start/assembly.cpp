@@ -26,11 +26,10 @@ using S = Planar;
 
 // Whether what starts free, as a slack rope, is further than rounding from where it would act.
 bool stands_apart(const JointData& joint, const S::Vec& gap, double size) {
-  constexpr double kBeside = 1e-9;  // of the mechanism's size
   const S::Vec still = S::Vec::Zero();
   for (int k = 0; k < S::kDof; ++k)
-    for (const double way : {kBeside, -kBeside})
-      if (!is_apart(joint.law, S::Vec(gap + way * size * S::Vec::Unit(k)), still)) return false;
+    for (const double way : {kAsStated * size, -kAsStated * size})
+      if (!is_apart(joint.law, S::Vec(gap + way * S::Vec::Unit(k)), still)) return false;
   return true;
 }
 
@@ -137,72 +136,78 @@ std::string loop_that_lacks(const Model& model, const System& system, const Vecs
   return names.empty() ? "" : fmt::format("\n  loop: {}; with any one of them open all others close, and it lacks about {}", names, lacks);
 }
 
-std::vector<std::string> let_go(Model& model) {
-  std::vector<std::string> held;
-  for (Body& body : model.bodies)
+struct HeldCoordinate {
+  std::size_t body;
+  int k;
+};
+
+std::string name_of(const Model& model, const HeldCoordinate& held) { return model.bodies[held.body].name + "." + std::array{"x", "y", "angle"}[held.k]; }
+
+// Takes all bodies out of `hold`; which coordinates were in it.
+std::vector<HeldCoordinate> let_go(Model& model) {
+  std::vector<HeldCoordinate> held;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
     for (int k = 0; k < S::kDof; ++k)
-      if (std::exchange(body.hold[k], false)) held.push_back(body.name + "." + std::array{"x", "y", "angle"}[k]);
+      if (std::exchange(model.bodies[i].hold[k], false)) held.push_back({i, k});
   return held;
 }
 
-// Held coordinates that are a little off, as a rounded angle is, leave joints open by as little. They move to where all joints close.
-void close_beside_holds(Model model, const System& system, const std::vector<bool>& open, Vecs& q, std::vector<std::string>& notes) {
-  constexpr double kClosed = 1e-9;  // of the mechanism's size, or rad
-  const double size = mechanism_size(system, q);
-  const auto closed = [&](const std::array<double, 2>& misfit) { return misfit[0] <= kClosed * size && misfit[1] <= kClosed; };
-  const auto left = misfits(system, q);
-  bool any = false;
-  for (std::size_t j = 0; j < left.size(); ++j) {
-    if (open[j]) continue;
-    if (is_broken(left[j], size)) return;
-    any = any || (!closed(left[j]) && system.joints[j].servo < 0 && !has_play(system.joints[j]));
-  }
-  const Model stated = model;
-  if (!any || let_go(model).empty()) return;
+bool is_closed(const std::array<double, 2>& misfit, double size) { return misfit[0] <= kAsStated * size && misfit[1] <= kAsStated; }
+
+// Held coordinates that are a little off, as a rounded angle is, leave joints open by as little. They move to where all joints close; false if that is nowhere.
+bool close_beside_holds(Model model, const System& system, const std::vector<bool>& open, Vecs& q, std::vector<std::string>& notes) {
+  const std::vector<HeldCoordinate> all = let_go(model);
+  if (all.empty()) return false;
   Vecs trial = q;
   PositionSearch(model, system, open).run(trial);
   const auto after = misfits(system, trial);
+  const double size = mechanism_size(system, q);
   for (std::size_t j = 0; j < after.size(); ++j)
-    if (!open[j] && !closed(after[j])) return;
+    if (!open[j] && !is_closed(after[j], size)) return false;
   std::string moved;
-  for (std::size_t i = 0; i < stated.bodies.size(); ++i)
-    for (int k = 0; k < S::kDof; ++k)
-      if (stated.bodies[i].hold[k] && trial[i][k] != q[i][k]) {
-        const bool turns = k == 2;
-        const double unit = turns ? std::numbers::pi / 180 : 1;
-        moved += fmt::format("{}{}.{} starts at {:.6g} {}, not at {:.6g}", moved.empty() ? "" : ", ", stated.bodies[i].name, std::array{"x", "y", "angle"}[k], trial[i][k] / unit, turns ? "deg" : "m", q[i][k] / unit);
-      }
+  for (const HeldCoordinate& held : all) {
+    const double from = q[held.body][held.k], to = trial[held.body][held.k], unit = held.k == 2 ? std::numbers::pi / 180 : 1;
+    if (to != from) moved += fmt::format("{}{} starts at {:.6g} {}, not at {:.6g}", moved.empty() ? "" : ", ", name_of(model, held), to / unit, held.k == 2 ? "deg" : "m", from / unit);
+  }
   notes.push_back("what is held leaves loops open by a little, and gives way: " + moved);
   q = std::move(trial);
+  return true;
 }
 
 // What keeps the search from closing the joints other than lengths: coordinates that are held, motors that ask for another position, pins that it puts
 // in the middle of their play.
 std::string what_to_try(Model model, const System& system, const Vecs& q, const std::vector<bool>& open, bool only_motors) {
-  if (const std::vector<std::string> held = let_go(model); !held.empty()) {
+  if (const std::vector<HeldCoordinate> held = let_go(model); !held.empty()) {
     Vecs trial = q;
     PositionSearch(model, system, open).run(trial);
-    if (all_closed(misfits(system, trial), open, mechanism_size(system, q)))
-      return fmt::format("Without what is held ({}) everything closes: try ", fmt::join(held, ", ")) + (only_motors ? "a motor that starts where its joint is held, or without hold." : "fewer of these in hold.");
+    if (all_closed(misfits(system, trial), open, mechanism_size(system, q))) {
+      std::string names;
+      for (const HeldCoordinate& one : held) names += (names.empty() ? "" : ", ") + name_of(model, one);
+      return "Without what is held (" + names + ") everything closes: try " + (only_motors ? "a motor that starts where its joint is held, or without hold." : "fewer of these in hold.");
+    }
   }
   if (const std::string loose = names_of_joints_in_play(system); !loose.empty()) return "Assembly puts joints in the middle of their play (" + loose + "): if the stated positions are meant within it, try start = \"raw\", which takes them as they are.";
   return "Try lengths that close the loop, or angles nearer to the intended position.";
 }
 
-void demand_closed(const Model& model, const System& system, const Vecs& q, const std::vector<bool>& open, std::vector<std::string>& notes) {
+// Or what is held gives way by a little, if that closes them.
+void demand_closed(const Model& model, const System& system, Vecs& q, const std::vector<bool>& open, std::vector<std::string>& notes) {
   const auto left = misfits(system, q);
   const double size = mechanism_size(system, q);
   constexpr int kMostListed = 20;         // joints that the message names
   constexpr std::size_t kMostTried = 40;  // joints that are opened in turn, at most
-  std::vector<std::size_t> broken;
+  std::vector<std::size_t> broken, misfitting;
   for (std::size_t j = 0; j < left.size(); ++j) {
     if (open[j]) continue;
     if (is_broken(left[j], size)) broken.push_back(j);
-    else if ((left[j][0] > 1e-9 * size || left[j][1] > 1e-9) && !has_play(system.joints[j]))  // play takes up what is left
-      notes.push_back(fmt::format("{} {}: misfit of {:.3g} m, {:.3g} rad after assembly; {}", system.joints[j].servo < 0 ? "joint" : "motor", system.joints[j].name, left[j][0], left[j][1],
-                                  system.joints[j].servo < 0 ? "it preloads the joint"
-                                                             : "what the motor asks for at t = 0 differs by that from where its joint is held, or from where its loop closes. The start lets bodies give way until all forces are in balance, so that a held angle starts near the one that the motor asks for"));
+    else if (!is_closed(left[j], size) && !has_play(system.joints[j])) misfitting.push_back(j);  // play takes up what is left
   }
+  const bool of_joints = std::any_of(misfitting.begin(), misfitting.end(), [&](std::size_t j) { return system.joints[j].servo < 0; });
+  if (broken.empty() && of_joints && close_beside_holds(model, system, open, q, notes)) return;
+  for (const std::size_t j : misfitting)
+    notes.push_back(fmt::format("{} {}: misfit of {:.3g} m, {:.3g} rad after assembly; {}", system.joints[j].servo < 0 ? "joint" : "motor", system.joints[j].name, left[j][0], left[j][1],
+                                system.joints[j].servo < 0 ? "it preloads the joint"
+                                                           : "what the motor asks for at t = 0 differs by that from where its joint is held, or from where its loop closes. The start lets bodies give way until all forces are in balance, so that a held angle starts near the one that the motor asks for"));
   if (broken.empty()) return;
   std::string list;
   for (std::size_t i = 0; i < broken.size() && i < kMostListed; ++i) {
@@ -263,10 +268,7 @@ System assemble_positions(const Model& model, System system, Vecs& q, std::vecto
   for (int j = 0; j < system.n_joints(); ++j) open[j] = is_open(model, system, j);
   system = unwind(std::move(system), q);
   if (model.simulate.start != Start::kRaw || !all_positions_stated(model)) PositionSearch(model, system, open).run(q);
-  if (model.simulate.start != Start::kRaw) {
-    close_beside_holds(model, system, open, q, notes);
-    demand_closed(model, system, q, open, notes);
-  }
+  if (model.simulate.start != Start::kRaw) demand_closed(model, system, q, open, notes);
   return fix_assembled_values(model, std::move(system), q, notes);
 }
 

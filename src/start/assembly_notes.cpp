@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/constants.h"
 #include "joints/belt.h"
 #include "kinematics/position_search.h"
 #include "laws/catalog.h"
@@ -78,8 +79,7 @@ void note_many_turns(const std::string& what, double angle, std::vector<std::str
 
 // The axis of a marker has no turns to count.
 void note_turned_axes(const std::string& of, const std::vector<Marker>& markers, std::vector<std::string>& notes) {
-  constexpr double kTurnAndMore = 1.01 * 2 * std::numbers::pi;  // [rad]
-  for (const Marker& marker : markers) note_many_turns(of + ": the axis angle of its marker " + marker.name, marker.axis, notes, kTurnAndMore);
+  for (const Marker& marker : markers) note_many_turns(of + ": the axis angle of its marker " + marker.name, marker.axis, notes, kTurn);
 }
 
 void note_overlap(const JointData& joint, const S::Vec& z, std::vector<std::string>& notes) {

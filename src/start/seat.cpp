@@ -73,18 +73,11 @@ double largest_load_on_bodies(const System& system, const State& state) {
   return largest;
 }
 
-std::string names_of(const System& system, const std::vector<int>& joints) {
-  std::string names;
-  for (const int j : joints) names += (names.empty() ? "" : ", ") + system.joints[j].name;
-  return names;
-}
-
-// Where the bodies go when joints with play are taken to the sides that their loads press them to; and which joints stay in the middle, because
-// they carry nothing or, where not `left_unloaded`, because others hold them there: then the others carry what they would have.
+// Where the bodies go when joints with play are taken to the sides that their loads press them to; which of these carry nothing, and stay in the middle; and which
+// others hold away from their side.
 struct Seating {
   Vecs q, v;
-  std::vector<int> left;
-  bool left_unloaded = true;
+  std::vector<int> unloaded, out_of_reach;
 };
 
 Seating seat(const System& system, const std::vector<int>& loose, const State& state) {
@@ -105,7 +98,7 @@ Seating seat(const System& system, const std::vector<int>& loose, const State& s
     S::Vec gap = S::Vec::Zero();
     const bool presses = carried.force[j].norm() > nothing && go_out_against<S>(system.joints[j].law, carried.force[j], S::Vec::Zero(), gap);
     if (presses) gap_at_force<S>(system.joints[j].law, carried.force[j], S::Vec::Zero(), gap);
-    else out.left.push_back(j);
+    else out.unloaded.push_back(j);
     carried.gap[j] = gap;
   }
   BasicInverseDynamics<S>(firm).move_onto_gaps(carried);
@@ -115,16 +108,9 @@ Seating seat(const System& system, const std::vector<int>& loose, const State& s
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
   kinematics_at(system, carried.t, carried.q, carried.v, m, r);
-  std::vector<int> held;
   for (const int j : loose) {
-    constexpr double kCarried = 0.5;  // of its force, that a joint gives at least where it has come to
-    const S::Vec& force = carried.force[j];
-    const bool asked = std::find(out.left.begin(), out.left.end(), j) == out.left.end();
-    if (asked && !(respond(system.joints[j].law, r[j].gap, S::Vec(S::Vec::Zero())).force.dot(force) > kCarried * force.squaredNorm())) held.push_back(j);
-  }
-  if (!held.empty()) {
-    out.left = held;
-    out.left_unloaded = false;
+    const bool asked = std::find(out.unloaded.begin(), out.unloaded.end(), j) == out.unloaded.end();
+    if (asked && !(respond(system.joints[j].law, r[j].gap, S::Vec(S::Vec::Zero())).force.dot(carried.force[j]) > 0)) out.out_of_reach.push_back(j);
   }
   return out;
 }
@@ -146,25 +132,31 @@ std::vector<int> joints_in_play(const System& system) {
   return out;
 }
 
-std::string names_of_joints_in_play(const System& system) { return names_of(system, joints_in_play(system)); }
+std::string names_of_joints(const System& system, const std::vector<int>& joints) {
+  std::string names;
+  for (const int j : joints) names += (names.empty() ? "" : ", ") + system.joints[j].name;
+  return names;
+}
+
+std::string names_of_joints_in_play(const System& system) { return names_of_joints(system, joints_in_play(system)); }
 
 std::string seat_joints(const System& system, State& state) {
-  std::vector<int> unloaded;
-  for (std::vector<int> loose = joints_in_play(system); !loose.empty();) {
-    System firm = system;
-    for (const int j : unloaded) firm.joints[j].law = BasicLaw<S>(LinearLaw{});
-    const Seating made = seat(firm, loose, state);
-    const auto is_left = [&](int j) { return std::find(made.left.begin(), made.left.end(), j) != made.left.end(); };
-    if (made.left.empty() || made.left_unloaded) {
+  std::vector<int> loose = joints_in_play(system), left;  // in the middle
+  while (!loose.empty()) {
+    System without = system;
+    for (const int j : left) without.joints[j].law = BasicLaw<S>(LinearLaw{});
+    const Seating made = seat(without, loose, state);
+    if (made.out_of_reach.empty()) {
       state.q = made.q;
       state.v = made.v;
+      left.insert(left.end(), made.unloaded.begin(), made.unloaded.end());
+      break;
     }
-    unloaded.insert(unloaded.end(), made.left.begin(), made.left.end());
-    std::erase_if(loose, is_left);
-    if (made.left.empty() || made.left_unloaded) break;
+    left.insert(left.end(), made.out_of_reach.begin(), made.out_of_reach.end());
+    std::erase_if(loose, [&](int j) { return std::find(left.begin(), left.end(), j) != left.end(); });
   }
-  std::sort(unloaded.begin(), unloaded.end());
-  return names_of(system, unloaded);
+  std::sort(left.begin(), left.end());
+  return names_of_joints(system, left);
 }
 
 void note_seated(Assembly& assembly) {

@@ -15,6 +15,9 @@ bool has_play(const JointData& joint);
 /// Those that have.
 std::vector<int> joints_in_play(const System& system);
 
+/// With commas between; "" of none.
+std::string names_of_joints(const System& system, const std::vector<int>& joints);
+
 /// Their names, with commas between; "" where there are none.
 std::string names_of_joints_in_play(const System& system);
 

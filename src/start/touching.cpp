@@ -8,21 +8,19 @@
 #include "dynamics/inverse_dynamics.h"
 #include "kinematics/position_search.h"
 #include "laws/bushing.h"
+#include "laws/contact/gap_contact.h"
 #include "start/preload.h"
+#include "start/seat.h"
 
 namespace pintle {
 namespace {
 
 using S = Planar;
 
-constexpr double kUsualDepth = 1e-6;  // at which the law tells its stiffness [m]
-
-constexpr double kAjar = 1e-12;       // of the mechanism's size: so far apart are surfaces that would pull, beyond the rounding of their places
-
 // A joint whose surfaces touch, and how it is pressed: `sign` times component `k` of its gap is the depth.
 struct Touch {
   int joint, k;
-  double sign, stiffness;  // [N/m], at kUsualDepth
+  double sign, stiffness;  // [N/m], at GapContactLaw::kUsualDepth
   S::Vec gap;              // where they touch
 };
 
@@ -42,8 +40,8 @@ std::optional<Touch> find_touch(const System& system, int j, const JointKinemati
   for (int k = 0; k < S::kDim; ++k)
     for (const double sign : {1.0, -1.0}) {
       Touch touch{j, k, sign, 0, r.gap};
-      const S::Vec gap = gap_at(touch, kUsualDepth);
-      if (!(law.penetration(gap) - depth > 0.5 * kUsualDepth)) continue;
+      const S::Vec gap = gap_at(touch, GapContactLaw::kUsualDepth);
+      if (!(law.penetration(gap) - depth > 0.5 * GapContactLaw::kUsualDepth)) continue;
       touch.stiffness = respond(law, gap, S::Vec(S::Vec::Zero())).stiffness(k, k);
       if (touch.stiffness > 0 && std::abs(r.rate[k]) <= at_rest) return touch;
     }
@@ -51,8 +49,7 @@ std::optional<Touch> find_touch(const System& system, int j, const JointKinemati
 }
 
 std::vector<Touch> find_touches(const System& system, const State& state) {
-  constexpr double kTouching = 1e-9;  // of the mechanism's size: surfaces so near were to touch
-  const double within = kTouching * characteristic_length(system, state.q), at_rest = kFits * system.largest_speed(state.v);
+  const double within = kAsStated * characteristic_length(system, state.q), at_rest = kFits * system.largest_speed(state.v);
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
   kinematics_at(system, state.t, state.q, state.v, m, r);
@@ -77,7 +74,7 @@ System with_springs(const System& system, const std::vector<Touch>& touches) {
 // By bisection, which no power of the depth disturbs.
 double depth_at(const BasicLaw<S>& law, const Touch& touch, double force) {
   const auto missing = [&](double depth) { return force - pressing(touch, respond(law, gap_at(touch, depth), S::Vec(S::Vec::Zero())).force); };
-  double low = 0, high = kUsualDepth;
+  double low = 0, high = GapContactLaw::kUsualDepth;
   for (int i = 0; i < 60 && missing(high) > 0; ++i) high *= 2;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
@@ -86,12 +83,12 @@ double depth_at(const BasicLaw<S>& law, const Touch& touch, double force) {
   return high;
 }
 
-// Of those of `all` that are not among `pressed`, in the order of the model.
-std::string names_of_others(const System& system, const std::vector<Touch>& all, const std::vector<Touch>& pressed) {
-  std::string names;
+// Of those of `all` that are not among `pressed`.
+std::vector<int> others(const std::vector<Touch>& all, const std::vector<Touch>& pressed) {
+  std::vector<int> joints;
   for (const Touch& touch : all)
-    if (std::none_of(pressed.begin(), pressed.end(), [&touch](const Touch& one) { return one.joint == touch.joint; })) names += (names.empty() ? "" : ", ") + system.joints[touch.joint].name;
-  return names;
+    if (std::none_of(pressed.begin(), pressed.end(), [&touch](const Touch& one) { return one.joint == touch.joint; })) joints.push_back(touch.joint);
+  return joints;
 }
 
 }  // namespace
@@ -99,7 +96,6 @@ std::string names_of_others(const System& system, const std::vector<Touch>& all,
 std::string press_touching_surfaces(const System& system, State& state) {
   const std::vector<Touch> all = find_touches(system, state);
   std::vector<Touch> touches = all;
-  const double ajar = kAjar * characteristic_length(system, state.q);
   while (!touches.empty()) {
     const System firm = with_springs(system, touches);
     State carried = state;
@@ -107,7 +103,7 @@ std::string press_touching_surfaces(const System& system, State& state) {
     const double nothing = kFits * largest_force(carried.force);
     const auto pulls = [&](const Touch& touch) { return !(pressing(touch, carried.force[touch.joint]) > nothing); };
     if (std::erase_if(touches, pulls) > 0) continue;
-    for (const Touch& touch : all) carried.gap[touch.joint] = gap_at(touch, -ajar);  // what would pull
+    for (const Touch& touch : all) carried.gap[touch.joint] = gap_at(touch, -kAsStated * characteristic_length(system, state.q));  // what would pull is ajar
     for (const Touch& touch : touches)
       carried.gap[touch.joint][touch.k] = gap_at(touch, depth_at(system.joints[touch.joint].law, touch, pressing(touch, carried.force[touch.joint])))[touch.k];
     BasicInverseDynamics<S>(with_springs(system, all)).move_onto_gaps(carried);
@@ -115,7 +111,7 @@ std::string press_touching_surfaces(const System& system, State& state) {
     state.v = carried.v;
     break;
   }
-  return names_of_others(system, all, touches);
+  return names_of_joints(system, others(all, touches));
 }
 
 void press_touching_surfaces(Assembly& assembly) {

@@ -15,6 +15,7 @@ namespace pintle {
 
 struct GapContactLaw : RubbingContact {
   static constexpr std::string_view kWord = "contact of a gap";
+  static constexpr double kUsualDepth = 1e-6;  // where the stiffness stands for the contact's, in guesses and in checks [m]
 
   static GapContactLaw typical() {
     GapContactLaw law;
@@ -61,7 +62,6 @@ struct GapContactLaw : RubbingContact {
 
  private:
   static constexpr int kSlipping = 1;          // component of the slip
-  static constexpr double kUsualDepth = 1e-6;  // where the stiffness stands for the contact's, in guesses and in checks [m]
   template <class T>
   static ContactMotion<T> motion(const LawInput<T>& in) {
     return {T(0.0) - in.gap[0], T(0.0) - in.rate[0], in.rate[kSlipping]};
