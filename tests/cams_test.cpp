@@ -152,5 +152,34 @@ TEST(Cams, RowsOfAnOpenContactShowNoForce) {
   EXPECT_GT(open, 100);
 }
 
+// A particle that leaves a dome flies on to where its height is the root of a negative number.
+TEST(Cams, AnEdgeThatHasNoHeightBesideItsStretchIsNamed) {
+  const Trajectory run = simulate(parse_model(R"toml(format = 1
+[simulate]
+duration = "1 s"
+[ground.markers]
+o = [0, 0]
+[body.p]
+mass = 1
+inertia = 1e-3
+position = [0, 1]
+velocity = [0.5, 0]
+markers.c = [0, 0]
+[joint.dome]
+type = "edge"
+between = ["ground.o", "p.c"]
+height = "sqrt((1 m)^2 - x^2)"
+from = -0.9
+to = 0.9
+law = "contact"
+contact_stiffness = 1e8
+contact_exponent = 1
+restitution = 0.2
+)toml", "dome"));
+  EXPECT_EQ(run.outcome, Outcome::kFailed);
+  EXPECT_NE(run.message.find("joint dome (residual"), std::string::npos) << run.message;
+  EXPECT_NE(run.message.find("the height of whose edge is not a number at x = 1"), std::string::npos) << run.message;
+}
+
 }  // namespace
 }  // namespace pintle

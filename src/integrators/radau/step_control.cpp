@@ -29,12 +29,12 @@ std::string broken_function(const BasicSystem<S>& system, double t) {
   return {};
 }
 
-// That the edge of a joint whose residual is not a number has no height beside its stretch.
+// That the joint's edge has no height beside its stretch, where what runs on it may be; empty: it has.
 template <class S>
 std::string undefined_edge(const BasicJointData<S>& joint) {
   const std::optional<double> x = joint.edge ? joint.edge->undefined_at() : std::nullopt;
   if (!x) return {};
-  return fmt::format("; joint {}: the height of its edge is not a number at x = {:.4g} m, and what runs on it has come there; try if(..., ..., ...) to continue it beyond its stretch", joint.name, *x);
+  return fmt::format(", the height of whose edge is not a number at x = {:.4g} m: if what runs on it has come there, try if(..., ..., ...) to continue it beyond its stretch", *x);
 }
 
 }  // namespace
@@ -54,10 +54,10 @@ std::string no_step_message(const BasicSystem<S>& system, double t, double h, st
   std::stable_sort(residuals.begin(), residuals.end(), [&](const auto& a, const auto& b) { return rank(a.first) > rank(b.first); });
   std::string text = fmt::format("the step size became too small at t = {:.9g} s, step {:.3g} s", t, h);
   if (!event.empty()) text += "; " + event;
-  if (!residuals.empty() && !std::isfinite(residuals.front().first))
-    if (const std::string edge = undefined_edge(system.joints[residuals.front().second]); !edge.empty()) return text + edge;
-  for (std::size_t i = 0; i < std::min(kNamed, residuals.size()); ++i)
-    text += fmt::format("; joint {} (residual {:.3g} m/s^2)", system.joints[residuals[i].second].name, residuals[i].first);
+  for (std::size_t i = 0; i < std::min(kNamed, residuals.size()); ++i) {
+    const BasicJointData<S>& joint = system.joints[residuals[i].second];
+    text += fmt::format("; joint {} (residual {:.3g} m/s^2){}", joint.name, residuals[i].first, undefined_edge(joint));
+  }
   return text;
 }
 
