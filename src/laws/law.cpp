@@ -293,6 +293,19 @@ typename S::Vec BasicLaw<S>::engaged_stiffness() const {
 }
 
 template <class S>
+typename S::Vec BasicLaw<S>::stiffness_of_what_is_apart(const Point& at) const {
+  typename S::Vec k = S::Vec::Zero();
+  visit_parts(at, [&k](const Part& part, const LawInput<double, S::kDof>& in) {
+    if (part.n_borders() == 0) return;
+    LawOutput<double, S::kDof> one;
+    one.clear();
+    part.evaluate(in, one);
+    if (std::all_of(std::begin(one.force), std::end(one.force), [](double f) { return f == 0; })) k += part.meeting_stiffness();
+  });
+  return k;
+}
+
+template <class S>
 double BasicLaw<S>::lever() const {
   double lever = 0;
   for (const auto& part : parts_) lever = std::max(lever, part->lever());

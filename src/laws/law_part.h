@@ -86,6 +86,8 @@ class BasicLawPart {
   virtual bool starts_free() const = 0;
   /// Stiffness in each component where the law acts; a rope that is slack is looked at as if it were taut.
   virtual Vec engaged_stiffness() const = 0;
+  /// Stiffness in each component that bodies which are apart meet with; where it is that of what holds, engaged_stiffness.
+  virtual Vec meeting_stiffness() const = 0;
   /// What the joint's own force is multiplied by to measure couples that the law makes of it [m]: the radius of a pin that rubs.
   virtual double lever() const = 0;
   /// Moves a gap into the range in which the law acts.
@@ -188,6 +190,10 @@ class LawPartOf final : public BasicLawPart<S> {
   Vec engaged_stiffness() const override {
     if constexpr (requires { law_.engaged_stiffness(); }) return law_.engaged_stiffness();
     else return Vec::Zero();
+  }
+  Vec meeting_stiffness() const override {
+    if constexpr (requires { law_.meeting_stiffness(); }) return law_.meeting_stiffness();
+    else return engaged_stiffness();
   }
   double lever() const override {
     if constexpr (requires { law_.lever(); }) return law_.lever();

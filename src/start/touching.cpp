@@ -20,7 +20,7 @@ using S = Planar;
 // A joint whose surfaces touch, and how it is pressed: `sign` times component `k` of its gap is the depth.
 struct Touch {
   int joint, k;
-  double sign, stiffness;  // [N/m], at GapContactLaw::kUsualDepth
+  double sign, stiffness;  // [N/m], at ContactForce::kUsualDepth
   S::Vec gap;              // where they touch
 };
 
@@ -40,8 +40,8 @@ std::optional<Touch> find_touch(const System& system, int j, const JointKinemati
   for (int k = 0; k < S::kDim; ++k)
     for (const double sign : {1.0, -1.0}) {
       Touch touch{j, k, sign, 0, r.gap};
-      const S::Vec gap = gap_at(touch, GapContactLaw::kUsualDepth);
-      if (!(law.penetration(gap) - depth > 0.5 * GapContactLaw::kUsualDepth)) continue;
+      const S::Vec gap = gap_at(touch, ContactForce::kUsualDepth);
+      if (!(law.penetration(gap) - depth > 0.5 * ContactForce::kUsualDepth)) continue;
       touch.stiffness = respond(law, gap, S::Vec(S::Vec::Zero())).stiffness(k, k);
       if (touch.stiffness > 0 && std::abs(r.rate[k]) <= at_rest) return touch;
     }
@@ -74,7 +74,7 @@ System with_springs(const System& system, const std::vector<Touch>& touches) {
 // By bisection, which no power of the depth disturbs.
 double depth_at(const BasicLaw<S>& law, const Touch& touch, double force) {
   const auto missing = [&](double depth) { return force - pressing(touch, respond(law, gap_at(touch, depth), S::Vec(S::Vec::Zero())).force); };
-  double low = 0, high = GapContactLaw::kUsualDepth;
+  double low = 0, high = ContactForce::kUsualDepth;
   for (int i = 0; i < 60 && missing(high) > 0; ++i) high *= 2;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);

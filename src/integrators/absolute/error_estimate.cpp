@@ -14,7 +14,7 @@ template <class S>
 bool BasicRadauStepper<S>::error_estimate(double h, double& error) {
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!end_point_->prepare(begin_.t + h, mu, stage_[n_ - 1], tails_)) return false;
-  error = of_motion_ ? motion_tail() : std::max({end_point_->error(tails_, scale_), change_of_loads(h), friction_tail()});
+  error = of_motion_ ? motion_tail() : std::max({end_point_->error(tails_, scale_), change_of_loads(h), friction_tail(), error_of_open_contacts(h)});
   return std::isfinite(error);
 }
 
@@ -33,6 +33,14 @@ double BasicRadauStepper<S>::change_of_loads(double h) {
     largest = std::max(largest, load_change_[b].cwiseAbs().cwiseQuotient(scale_.body[b]).maxCoeff());
   }
   return kPlaceError * largest;
+}
+
+// theory/time Eq. (3.23).
+template <class S>
+double BasicRadauStepper<S>::error_of_open_contacts(double h) const {
+  if (open_contacts_.empty()) return 0;
+  const BasicStage<S>& last = stage_[n_ - 1];
+  return open_contacts_.error(begin_.t + h, last.m, [&last](int j) -> const auto& { return last.gap[j]; }, [&last](int j) -> const auto& { return last.gap_rate[j]; }, last.law_state.data(), scale_);
 }
 
 // What joints rub with may act on next to no mass. theory/time Eq. (3.21).
@@ -166,6 +174,7 @@ void BasicRadauStepper<S>::find_power() {
 
 template bool BasicRadauStepper<Planar>::error_estimate(double h, double& error);
 template double BasicRadauStepper<Planar>::change_of_loads(double h);
+template double BasicRadauStepper<Planar>::error_of_open_contacts(double h) const;
 template double BasicRadauStepper<Planar>::friction_tail() const;
 template double BasicRadauStepper<Planar>::servo_work_missed_by_quadrature(int j, double h) const;
 template double BasicRadauStepper<Planar>::motion_tail();
@@ -177,6 +186,7 @@ template void BasicRadauStepper<Planar>::add_power(const BasicJointData<Planar>&
 template void BasicRadauStepper<Planar>::find_power();
 PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::error_estimate(double h, double& error);)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::change_of_loads(double h);)
+PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::error_of_open_contacts(double h) const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::friction_tail() const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::servo_work_missed_by_quadrature(int j, double h) const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::motion_tail();)

@@ -17,8 +17,9 @@
 #include <vector>
 
 #include "integrators/absolute/end_point_projection.h"
-#include "integrators/radau/motion_scale.h"
 #include "integrators/absolute/stage_solver.h"
+#include "integrators/radau/motion_scale.h"
+#include "integrators/radau/open_contacts.h"
 #include "integrators/radau/step_events.h"
 #include "pintle/model.h"
 
@@ -70,6 +71,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   // error_estimate.cpp: the error of a step and its end
   bool error_estimate(double h, double& error);
   double change_of_loads(double h);           // where the bodies are moved onto their gaps
+  double error_of_open_contacts(double h) const;
   double friction_tail() const;               // of forces in free directions that no mass shows
   double motion_tail();                       // as accelerations that the bodies can yield to
   void finish_step(double h);                 // fills end_ and nodes_
@@ -114,6 +116,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   std::unique_ptr<BasicEndPointProjection<S>> end_point_;
   BasicStageTails<S> tails_;
   VecsOf<S> load_change_;
+  BasicOpenContacts<S> open_contacts_;
   std::vector<std::pair<int, typename S::Vec>> rubbing_;  // joints without bristles, and 1 where they rub
   std::vector<int> powered_;                  // joints whose power no stage has summed up
   PositionsOf<S> inside_q_;

@@ -89,6 +89,7 @@ struct ContactForce {
     if (border == kLetGo) approach = 0;
   }
   /// The stiffness at a depth, for what only asks how stiff a joint is [N/m].
+  static constexpr double kUsualDepth = 1e-6;  // where the stiffness stands for the contact's, in guesses, checks and errors [m]
   double stiffness_at(double depth) const { return stiffness * exponent * std::pow(depth, exponent - 1); }
 };
 

@@ -15,7 +15,6 @@ namespace pintle {
 
 struct GapContactLaw : RubbingContact {
   static constexpr std::string_view kWord = "contact of a gap";
-  static constexpr double kUsualDepth = 1e-6;  // where the stiffness stands for the contact's, in guesses and in checks [m]
 
   static GapContactLaw typical() {
     GapContactLaw law;
@@ -38,7 +37,8 @@ struct GapContactLaw : RubbingContact {
   void cross(int border, const LawInput<double>& in, double* state) const { RubbingContact::cross(border, motion(in), state); }
 
   /// At the depth that a follower usually has: assembly puts it onto the cam.
-  Planar::Vec engaged_stiffness() const { return {contact.stiffness_at(kUsualDepth), 0, 0}; }
+  Planar::Vec engaged_stiffness() const { return meeting_stiffness(); }
+  Planar::Vec meeting_stiffness() const { return {contact.stiffness_at(ContactForce::kUsualDepth), 0, 0}; }
   double penetration(const Planar::Vec& gap) const { return -gap[0]; }
   std::span<const LawColumn> columns() const {
     static const std::array<LawColumn, 6> all{{{"contact_force", "N", "normal force of the contact"},

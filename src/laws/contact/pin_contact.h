@@ -45,8 +45,10 @@ struct PinContact : RubbingContact {
   double lever() const { return rubs() ? radius : 0; }
   /// What stands apart from an edge stays apart when a mechanism is assembled; a pin with clearance is put into the middle.
   Planar::Vec engaged_stiffness() const {
-    if (shape == Shape::kEdge) return Planar::Vec::Zero();
-    const double k = contact.stiffness_at(0.1 * clearance);
+    return shape == Shape::kEdge ? Planar::Vec::Zero() : meeting_stiffness();
+  }
+  Planar::Vec meeting_stiffness() const {
+    const double k = contact.stiffness_at(shape == Shape::kEdge ? ContactForce::kUsualDepth : 0.1 * clearance);
     return {shape == Shape::kBush ? k : 0, k, 0};
   }
   double penetration(const Planar::Vec& gap) const {
