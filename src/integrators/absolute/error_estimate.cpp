@@ -6,6 +6,7 @@
 #include "integrators/absolute/radau_stepper.h"
 #include "integrators/radau/stage_lanes.h"
 #include "integrators/radau/step_error.h"
+#include "integrators/thresholds.h"
 
 namespace pintle {
 
@@ -40,7 +41,8 @@ template <class S>
 double BasicRadauStepper<S>::error_of_open_contacts(double h) const {
   if (open_contacts_.empty()) return 0;
   const BasicStage<S>& last = stage_[n_ - 1];
-  return open_contacts_.error(begin_.t + h, last.m, [&last](int j) -> const auto& { return last.gap[j]; }, [&last](int j) -> const auto& { return last.gap_rate[j]; }, last.law_state.data(), scale_);
+  return open_contacts_.error(begin_.t + h, last.m, [&last](int j) -> const auto& { return last.gap[j]; }, [&last](int j) -> const auto& { return last.gap_rate[j]; }, last.law_state.data(),
+                              kLastBits * largest_coordinate(last.q), scale_);
 }
 
 // What joints rub with may act on next to no mass. theory/time Eq. (3.21).

@@ -13,11 +13,12 @@ BasicOpenContacts<S>::BasicOpenContacts(const BasicSystem<S>& system) : system_(
 }
 
 template <class S>
-double BasicOpenContacts<S>::error_of(int j, const std::vector<typename S::Motion>& m, const BasicLawPoint<S>& at, const BasicLoadScale<S>& scale) const {
+double BasicOpenContacts<S>::error_of(int j, const std::vector<typename S::Motion>& m, const BasicLawPoint<S>& at, double rounding, const BasicLoadScale<S>& scale) const {
   const BasicJointData<S>& joint = system_.joints[j];
   const typename S::Vec stiffness = joint.law.stiffness_of_what_is_apart(at);
   if (stiffness.isZero(0)) return 0;
-  return stiffness.cwiseProduct(system_.kinematics(j, at.t, m).gap - at.gap).cwiseQuotient(load_on(joint.at, scale)).cwiseAbs().maxCoeff();
+  const typename S::Vec missed = ((system_.kinematics(j, at.t, m).gap - at.gap).cwiseAbs().array() - rounding).cwiseMax(0);
+  return stiffness.cwiseProduct(missed).cwiseQuotient(load_on(joint.at, scale)).maxCoeff();
 }
 
 template class BasicOpenContacts<Planar>;
