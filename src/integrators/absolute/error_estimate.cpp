@@ -41,8 +41,9 @@ template <class S>
 double BasicRadauStepper<S>::error_of_open_contacts(double h) const {
   if (open_contacts_.empty()) return 0;
   const BasicStage<S>& last = stage_[n_ - 1];
-  return open_contacts_.error(begin_.t + h, last.m, [&last](int j) -> const auto& { return last.gap[j]; }, [&last](int j) -> const auto& { return last.gap_rate[j]; }, last.law_state.data(),
-                              kLastBits * largest_coordinate(last.q), scale_);
+  const double t = begin_.t + h;
+  return open_contacts_.error([&](int j) { return BasicLawPoint<S>{t, last.gap[j], last.gap_rate[j], last.law_state.data() + system_.joints[j].first_state}; },
+                              [&](int j) { return system_.kinematics(j, t, last.m).gap; }, kLastBits * largest_coordinate(last.q), scale_);
 }
 
 // What joints rub with may act on next to no mass. theory/time Eq. (3.21).

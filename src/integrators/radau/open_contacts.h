@@ -15,18 +15,24 @@ class BasicOpenContacts {
   explicit BasicOpenContacts(const BasicSystem<S>& system);
 
   bool empty() const { return joints_.empty(); }
-  /// What the difference between the gaps that a step has integrated and those of its bodies' poses at its end, less their `rounding`, would be as a force once the bodies
-  /// have met, over the load scale: the largest of the joints that are apart there. m: the bodies' motions at the end; gap_of(j), rate_of(j): of joint j there. theory/time Eq. (3.23).
-  template <class Gap, class Rate>
-  double error(double t, const std::vector<typename S::Motion>& m, const Gap& gap_of, const Rate& rate_of, const double* law_state, double rounding, const BasicLoadScale<S>& scale) const {
+  /// What the difference between the gap that a step has integrated and that of its bodies' poses at its end, less their `rounding`, would be as a force once
+  /// the bodies have met, over the load scale: the largest of the joints that are apart there. carried(j): joint j as integrated; gap_of_poses(j).
+  /// theory/time Eq. (3.23).
+  template <class Carried, class GapOfPoses>
+  double error(const Carried& carried, const GapOfPoses& gap_of_poses, double rounding, const BasicLoadScale<S>& scale) const {
     double largest = 0;
-    for (const int j : joints_) largest = std::max(largest, error_of(j, m, {t, gap_of(j), rate_of(j), law_state + system_.joints[j].first_state}, rounding, scale));
+    for (const int j : joints_) {
+      const BasicJointData<S>& joint = system_.joints[j];
+      const BasicLawPoint<S> at = carried(j);
+      const typename S::Vec stiffness = joint.law.stiffness_of_what_is_apart(at);
+      if (stiffness.isZero(0)) continue;
+      const typename S::Vec missed = ((gap_of_poses(j) - at.gap).cwiseAbs().array() - rounding).cwiseMax(0);
+      largest = std::max(largest, stiffness.cwiseProduct(missed).cwiseQuotient(load_on(joint.at, scale)).maxCoeff());
+    }
     return largest;
   }
 
  private:
-  double error_of(int j, const std::vector<typename S::Motion>& m, const BasicLawPoint<S>& at, double rounding, const BasicLoadScale<S>& scale) const;
-
   const BasicSystem<S>& system_;
   std::vector<int> joints_;
 };

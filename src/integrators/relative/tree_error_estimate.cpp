@@ -27,7 +27,7 @@ bool TreeRadau::error_estimate(double h, double& error) {
   const TreeState& last = stages_.states()[n_ - 1];
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!projector_.prepare(stages_.instant(n_ - 1), mu, last, TreeProjector::Laws::kWhole, find_taut(mu / kProjectionShare))) return false;
-  error = std::max({body_tail(), gap_tail(), state_tail(std::abs(h))});
+  error = std::max({body_tail(), gap_tail(), state_tail(std::abs(h)), error_of_open_contacts()});
   return std::isfinite(error);
 }
 
@@ -93,6 +93,17 @@ double TreeRadau::state_tail(double h) const {
       size[back] = std::max(size[back], force.col(back).segment<3>(3 * static_cast<Index>(l)).cwiseQuotient(load).cwiseAbs().maxCoeff());
   }
   return tail_size(size[0], size[1], size[2]);
+}
+
+// theory/time Eq. (3.23).
+double TreeRadau::error_of_open_contacts() const {
+  if (open_contacts_.empty()) return 0;
+  const TreeState& last = stages_.states()[n_ - 1];
+  const TreeInstant& instant = stages_.instant(n_ - 1);
+  const auto first_gap = [this](int j) { return 3 * (std::find(tree_->laws().begin(), tree_->laws().end(), j) - tree_->laws().begin()); };
+  return open_contacts_.error(
+      [&](int j) { return LawPoint{instant.t(), last.gap.segment<3>(first_gap(j)), last.rate.segment<3>(first_gap(j)), last.law_state.data() + system_.joints[j].first_state}; },
+      [&](int j) { return instant.kinematics(static_cast<int>(first_gap(j) / 3)).gap; }, kLastBits * largest_coordinate(instant.pose().q), scale_);
 }
 
 // theory/tree section 6.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "integrators/radau/open_contacts.h"
 #include "integrators/radau/step_events.h"
 #include "integrators/relative/tree_projector.h"
 #include "integrators/relative/tree_stages.h"
@@ -46,6 +47,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   double body_tail() const;
   double gap_tail();
   double state_tail(double h) const;
+  double error_of_open_contacts() const;
   void finish_step(double h);
   void move_onto_gaps();
   void take_gaps();
@@ -79,6 +81,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   TreeStages stages_;
   TreeProjector projector_;
   TreeInstant end_at_, inside_at_;
+  OpenContacts open_contacts_;
   TreeState begin_, end_;
   State begin_state_, end_state_, inside_state_;
   TreeNodes nodes_;
