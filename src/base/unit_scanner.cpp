@@ -81,7 +81,7 @@ class UnitScanner {
     const std::optional<Exponent> exponent = exponent_at(base.end);
     const std::size_t at = skip_blanks(text_, base.end);
     if (!exponent) {
-      fail(base, at, "the exponent of a unit is a whole number from -20 to 20");
+      fail(base, at, "the exponent of a unit is a whole number from -20 to 20; a quantity with another one, as the stiffness of a contact in N/m^1.5, is given as a plain number in SI units");
       return base;
     }
     const std::optional<Dimension> dimension = power(base.unit.dimension, exponent->value);

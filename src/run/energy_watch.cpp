@@ -135,7 +135,7 @@ void BasicEnergyWatch<S>::say_open(const BasicState<S>& state, double missing, d
   const bool loaded = !system_.loads.empty() || !system_.applied.empty();
   const bool sudden = std::abs(missing - missing_) > 0.5 * within;
   if (tightened_ >= 0) {
-    message_ = fmt::format("joint {} was slack by nearly what a whole turn winds, and is taken for taut at t = {:.6g} s: more than 0.9 of a turn of slack is not followed. Stop the drive before, or give the disc a larger radius",
+    message_ = fmt::format("joint {} was slack by nearly what a whole turn winds, and is taken for taut at t = {:.6g} s: more than 0.9 of a turn of slack is not followed. Look whether it leaves its disc on the side that was meant (first_side, second_side); otherwise stop the drive before, or give the disc a larger radius",
                            system_.joints[tightened_].name, tightened_at_);
     return;
   }

@@ -257,7 +257,7 @@ void demand_apart(const Model& model, const System& system, const Vecs& q, const
     if (const auto belt = belt_of(joint.displacement)) demand_reach(joint, *belt, system.pose(joint.at, m).z);
     const double depth = joint.law.penetration(r[j].gap);
     if (depth > kDeep * size && model.simulate.start != Start::kSettled)  // where they settle first they push each other apart
-      throw AssemblyError(fmt::format("joint {}: its bodies start {:.4g} m inside each other.\n  Try the other side of the edge (the first marker's axis turned by 180 deg: it presses along +y), a start position apart from it, or start = \"settled\", which lets them push each other apart.{}",
+      throw AssemblyError(fmt::format("joint {}: its bodies start {:.4g} m inside each other.\n  Try the other side of the edge (the first marker's axis turned by 180 deg: it presses along +y), its two markers in the other order (the first one carries the edge), a start position apart from it, or start = \"settled\", which lets them push each other apart.{}",
                                       joint.name, depth, notes.empty() ? "" : fmt::format("\n  {}", fmt::join(notes, "\n  "))));
   }
 }

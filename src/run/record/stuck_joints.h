@@ -36,18 +36,19 @@ class BasicStuckJoints {
       system_.joints[joint.index].law.observe(law_point(system_, joint.index, state), state.force[joint.index], values_);
       const bool stuck = values_[joint.at_stuck] > 0;
       if (stuck && !joint.since) joint = {joint.index, joint.at_friction, joint.at_stuck, joint.unit, state.t};
+      if (!system_.joints[joint.index].law.breach(state.gap[joint.index])) joint.by_stop = false;
       if (!stuck) joint.since.reset();
       if (!stuck) continue;
       joint.friction = std::max(joint.friction, std::abs(values_[joint.at_friction]));
       joint.force = std::max(joint.force, state.force[joint.index].cwiseProduct(typename S::Vec(S::Vec::Ones() - system_.joints[joint.index].free_mask)).norm());
     }
   }
-  /// One for each joint that does not slip any more although its friction has something to carry.
+  /// One for each joint that does not slip any more although its friction has something to carry, and no stop holds it.
   std::vector<std::string> notes() const {
     std::vector<std::string> notes;
     for (const Joint& joint : held_) {
       const double lever = system_.joints[joint.index].law.lever();
-      if (!joint.since || end_ - *joint.since < kLong * (end_ - *begin_) || !(joint.friction > kCarries * std::max(joint.force, kCarries * largest_) * (lever > 0 ? lever : 1))) continue;
+      if (!joint.since || joint.by_stop || end_ - *joint.since < kLong * (end_ - *begin_) || !(joint.friction > kCarries * std::max(joint.force, kCarries * largest_) * (lever > 0 ? lever : 1))) continue;
       const std::string& name = system_.joints[joint.index].name;
       if (*joint.since == *begin_) notes.push_back(fmt::format("joint {} never slips: its friction holds it for the whole run, and carries up to {:.4g} {}; if it was to move, it is jammed", name, joint.friction, joint.unit));
       else notes.push_back(fmt::format("joint {} sticks from t = {:.5g} s to the end: its friction has carried up to {:.4g} {} since then", name, *joint.since, joint.friction, joint.unit));
@@ -64,6 +65,7 @@ class BasicStuckJoints {
     std::string unit;
     std::optional<double> since{};  // it sticks [s]
     double friction = 0, force = 0;  // the largest; of what is held
+    bool by_stop = true;             // it has leant on a stop since then
   };
 
   const BasicSystem<S>& system_;
