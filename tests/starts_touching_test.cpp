@@ -169,5 +169,13 @@ TEST(StartsTouching, ASlackRopeLeavesItsBallTheVelocityThatIsStated) {
   EXPECT_NEAR(value(run, 0, "body.ball.vy"), 2, 1e-12);
 }
 
+// The latch's contact creeps under its load more slowly than anything else moves, and the motion on which it was thought to start had seven times the load.
+TEST(StartsTouching, ALatchWhoseToeSticksCarriesTheTorqueAndNoMore) {
+  const Trajectory run = reference::completed(reference::test_model("latch_that_sticks"));
+  const double exact = 20 * kPi / 2 / 0.1;  // the torque of the spring at the arm of the toe
+  EXPECT_NEAR(value(run, 0, "joint.catch.contact_force"), exact, 1e-3 * exact);
+  for (const LoadSummary& joint : run.joints) EXPECT_LE(joint.peak, exact * (1 + 2e-3)) << joint.name;
+}
+
 }  // namespace
 }  // namespace pintle
