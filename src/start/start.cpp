@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -59,6 +60,21 @@ void note_far_deflection(const System& system, const Vecs& assembled, const Stat
   if (!note.empty()) notes.push_back(std::move(note));
 }
 
+// The deflections of joints and actuators are hardly ever meant to move what is held while the mechanism is assembled.
+void note_held_that_moved(const Model& model, const System& system, const Vecs& assembled, const State& state, std::vector<std::string>& notes) {
+  constexpr double kTurned = 0.02, kMoved = 0.02;  // [rad]; of the mechanism's size
+  const double size = characteristic_length(system, assembled);
+  std::string moved;
+  for (std::size_t i = 0; i < assembled.size(); ++i)
+    for (int k = 0; k < Planar::kDof; ++k) {
+      const double from = assembled[i][k], to = state.q[i][k], unit = k == Planar::kTurn ? kTurn / 360 : 1;
+      if (!model.bodies[i].hold[static_cast<std::size_t>(k)] || !(std::abs(to - from) > (k == Planar::kTurn ? kTurned : kMoved * size))) continue;
+      moved += fmt::format("{}{}.{} starts at {:.5g} {}, not at {:.5g}", moved.empty() ? "" : ", ", model.bodies[i].name, std::array{"x", "y", "angle"}[static_cast<std::size_t>(k)], to / unit, k == Planar::kTurn ? "deg" : "m", from / unit);
+    }
+  if (!moved.empty())
+    notes.push_back("the joints give way to the loads of t = 0, and what is held while they are assembled goes with them: " + moved + "; start = \"settled\" leaves it where it is and says what is not in equilibrium there");
+}
+
 Assembly start_of_free_bodies(const Model& model, System system, double known_span) {
   Assembly assembly = assemble_unloaded(model, std::move(system));
   const bool loaded = is_preloaded(model.simulate.start);
@@ -75,6 +91,7 @@ Assembly start_of_free_bodies(const Model& model, System system, double known_sp
   if (unloaded) assembly.system = settle_with_stiction(std::move(assembly.system), *unloaded, duration, known_span, assembly);
   else settle_joints(assembly.system, duration, known_span, assembly);
   note_far_deflection(assembly.system, assembled, assembly.state, assembly.notes);
+  note_held_that_moved(model, assembly.system, assembled, assembly.state, assembly.notes);
   return assembly;
 }
 
