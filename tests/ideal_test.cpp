@@ -11,6 +11,7 @@
 namespace pintle {
 namespace {
 
+using reference::completed;
 using reference::value;
 
 constexpr double kNineDigits = 1e-9;

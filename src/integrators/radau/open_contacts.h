@@ -27,7 +27,9 @@ class BasicOpenContacts {
       const typename S::Vec stiffness = joint.law.stiffness_of_what_is_apart(at);
       if (stiffness.isZero(0)) continue;
       const typename S::Vec missed = ((gap_of_poses(j) - at.gap).cwiseAbs().array() - rounding).cwiseMax(0);
-      largest = std::max(largest, stiffness.cwiseProduct(missed).cwiseQuotient(load_on(joint.at, scale)).maxCoeff());
+      typename S::Vec load = load_on(joint.at, scale);
+      load.template head<S::kDim>().setConstant(load.template head<S::kDim>().maxCoeff());  // gaps have other axes than loads
+      largest = std::max(largest, stiffness.cwiseProduct(missed).cwiseQuotient(load).maxCoeff());
     }
     return largest;
   }
