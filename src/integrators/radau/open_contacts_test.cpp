@@ -23,9 +23,9 @@ System pendulum_on_a_rope() {
 double error_of(const System& system, double gap, double further, double rounding) {
   LoadScale scale;
   scale.body.assign(system.bodies.size(), Planar::Vec::Constant(kLoad));
-  const Planar::Vec carried(gap, 0, 0);
+  const Planar::Vec carried(gap, 0, 0), still = Planar::Vec::Zero();
   const std::vector<double> states(static_cast<std::size_t>(system.n_law_states()));
-  return OpenContacts(system).error([&](int) { return LawPoint{0, carried, Planar::Vec::Zero(), states.data()}; }, [&](int) { return Planar::Vec(carried + further * Planar::Vec::UnitX()); },
+  return OpenContacts(system).error([&](int) { return LawPoint{0, carried, still, states.data()}; }, [&](int) { return Planar::Vec(carried + further * Planar::Vec::UnitX()); },
                                     rounding, scale);
 }
 

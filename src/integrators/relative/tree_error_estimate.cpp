@@ -101,9 +101,13 @@ double TreeRadau::error_of_open_contacts() const {
   const TreeState& last = stages_.states()[n_ - 1];
   const TreeInstant& instant = stages_.instant(n_ - 1);
   const auto first_gap = [this](int j) { return 3 * (std::find(tree_->laws().begin(), tree_->laws().end(), j) - tree_->laws().begin()); };
-  return open_contacts_.error(
-      [&](int j) { return LawPoint{instant.t(), last.gap.segment<3>(first_gap(j)), last.rate.segment<3>(first_gap(j)), last.law_state.data() + system_.joints[j].first_state}; },
-      [&](int j) { return instant.kinematics(static_cast<int>(first_gap(j) / 3)).gap; }, kLastBits * largest_coordinate(instant.pose().q), scale_);
+  S::Vec gap, rate;  // a law's point refers to them
+  const auto carried = [&](int j) {
+    gap = last.gap.segment<3>(first_gap(j));
+    rate = last.rate.segment<3>(first_gap(j));
+    return LawPoint{instant.t(), gap, rate, last.law_state.data() + system_.joints[j].first_state};
+  };
+  return open_contacts_.error(carried, [&](int j) { return instant.kinematics(static_cast<int>(first_gap(j) / 3)).gap; }, kLastBits * largest_coordinate(instant.pose().q), scale_);
 }
 
 // theory/tree section 6.
