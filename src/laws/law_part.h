@@ -105,7 +105,7 @@ using LawPart = BasicLawPart<Planar>;
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
 /// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), border_directions() (one +1, -1 or 0
 /// each, or border_direction(i)) cross() and border_name(), kHolds = false, kStops = true, kRubs = false (of what neither holds nor stops), kOnReactionAlone = true, kStartsFree = true, supply(in),
-/// columns() with observe(), engage(), lever(), penetration(), breach(), stiction() with set_stuck() and start_slipping().
+/// columns() with observe(), engaged_stiffness(), meeting_stiffness(), engage(), lever(), penetration(), breach(), stiction() with set_stuck() and start_slipping().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
  public:

@@ -18,8 +18,8 @@
 
 #include "integrators/absolute/end_point_projection.h"
 #include "integrators/absolute/stage_solver.h"
+#include "integrators/open_contacts.h"
 #include "integrators/radau/motion_scale.h"
-#include "integrators/radau/open_contacts.h"
 #include "integrators/radau/step_events.h"
 #include "pintle/model.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "integrators/radau/open_contacts.h"
+#include "integrators/open_contacts.h"
 #include "integrators/radau/step_events.h"
 #include "integrators/relative/tree_projector.h"
 #include "integrators/relative/tree_stages.h"

@@ -1,4 +1,4 @@
-#include "integrators/radau/open_contacts.h"
+#include "integrators/open_contacts.h"
 
 #include <gtest/gtest.h>
 
