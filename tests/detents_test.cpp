@@ -103,11 +103,5 @@ TEST(Detents, OneOfAnotherJointIsLocated) {
   }
 }
 
-// Hundreds of notches pass whose curves limit the steps before each border.
-TEST(Detents, ARowOfThemRefusesFewerStepsThanItTakes) {
-  const Trajectory run = reference::completed(reference::test_model("seat_over_detents"));
-  EXPECT_LT(run.counters.rejected, run.counters.steps);
-}
-
 }  // namespace
 }  // namespace pintle

@@ -65,9 +65,6 @@ class StepControl {
   // Of the way to an event: a step that ends so soon, for its error, is a usual one. Of the block in LinearContact half of it refuses 2400 steps and double of it
   // 630, where this refuses 1100; not a step changes in the worn pins and wheels of the collection. With all of the way, pins that stick take twice the steps.
   static constexpr double kOnTheWay = 0.01;
-  // Of the way to an event: a step that goes further has been ended by it, and not by its error; the next one is no shorter than the first after an event. Where others count as
-  // such too, tests/models/seat_over_detents.toml refuses 89,000 steps instead of 7,500; half of the way and nine tenths of it are as good.
-  static constexpr double kThere = 0.75;
   static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;  // of the step for which the error would be the tolerance; the least ratio of two steps; the largest; the largest after the first step
 
   static constexpr double kSame = 0.95, kSameAbove = 1.1;  // ratio of two steps from which on the step is kept, and with it the factorised Jacobians; up to which it is
@@ -97,11 +94,10 @@ class StepControl {
   // The step that Newton's iteration will like, over one in which its errors shrank by `contraction`; 0: not known.
   static double of_contraction(double contraction) { return contraction > 0 ? std::max(kShrink, std::sqrt(kContraction / contraction)) : kMost; }
 
-  // of_way: of the way to an event; 0: none is ahead.
-  void accept(double h, double factor, double of_way) {
+  void accept(double h, double factor, bool up_to_event) {
     next = factor > kSame && factor < kSameAbove ? h : h * factor;
-    if (of_way > kThere) next = std::max(next, kAfterEvent * usual);  // a better guess than this stump
-    else if (of_way < kOnTheWay) usual = next;
+    if (up_to_event) next = std::max(next, kAfterEvent * usual);  // a better guess than this stump
+    else usual = next;
   }
 };
 
@@ -195,9 +191,10 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     last_error_ = std::max(error, kLeastError);
     if (refused) factor = std::min(factor, 1.0);
     if (counters.steps > 0) factor = std::min(factor, of_contraction(method.contraction()));
-    accept(h, factor, up_to_event ? h / (ahead.t - method.t()) : 0);
+    if (up_to_event && h < kOnTheWay * (ahead.t - method.t())) up_to_event = false;
     method.finish_step(h);
     ++counters.steps;
+    accept(h, factor, up_to_event);
     return true;
   }
   next = h;

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 namespace pintle {
 namespace {
 
@@ -103,31 +101,6 @@ TEST(StepControl, ReachesAnEventSoonHoweverFarTheEndIs) {
   ASSERT_TRUE(control.advance(method, kFarEnd, 1e-5, 4, counters));
   EXPECT_EQ(method.crossings, 1);
   EXPECT_GT(method.t(), kEvent);
-}
-
-// Its steps have an error of the tolerance at a thirtieth of the way to the event, and may be much longer behind it.
-class ShortSteps : public OneEvent {
- public:
-  using OneEvent::OneEvent;
-  int steps = 0;
-  bool error_estimate(double h, double& error) {
-    error = 1e-5 * std::pow(h / 1e-3, 4);
-    return true;
-  }
-  void finish_step(double h) {
-    ++steps;
-    OneEvent::finish_step(h);
-  }
-};
-
-TEST(StepControl, TakesStepsThatTheirErrorLimitsForWhatTheyAreBeforeAnEvent) {
-  ShortSteps method(0, 0.03);
-  StepControl control;
-  control.start(0.1);
-  Counters counters;
-  while (method.crossings == 0) ASSERT_TRUE(control.advance(method, 1.0, 1e-5, 4, counters));
-  EXPECT_GE(method.steps, 30);
-  EXPECT_LT(method.attempts, 2 * method.steps + 10);  // one that ends at the event, and one that ends by its error
 }
 
 }  // namespace
