@@ -92,6 +92,14 @@ TEST(ContactFlights, ABallTouchesTheToothThatItsParabolaMeets) {
   }
 }
 
+// Hundreds of touches: the same whatever the tolerance, as far as it says.
+TEST(ContactFlights, APawlStrikesTheTeethOverWhichItFlies) {
+  const auto run_at = [](const char* tolerance) { return reference::completed(reference::test_model("pawl_over_a_rack", {std::string("simulate.tolerance=") + tolerance})); };
+  const Trajectory coarse = run_at("1e-4"), fine = run_at("1e-6");
+  for (std::size_t j = 0; j < fine.joints.size(); ++j) EXPECT_NEAR(coarse.joints[j].peak, fine.joints[j].peak, 1e-4 * fine.joints[j].peak) << fine.joints[j].name;
+  EXPECT_LT(fine.joints.back().peak, 2000);
+}
+
 // A motor jumps, and before a microsecond is over the lever has left its stop: on the way the stop's force falls from all that it was to nothing.
 TEST(ContactFlights, ALeverLeavesItsStopAtTheSameInstantWhateverTheTolerance) {
   std::vector<double> left, struck;

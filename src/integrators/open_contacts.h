@@ -16,17 +16,17 @@ class BasicOpenContacts {
 
   bool empty() const { return joints_.empty(); }
   /// What the difference between the gap that a step has integrated and that of its bodies' poses at its end, less their `rounding`, would be as a force once
-  /// the bodies have met, over the load scale: the largest of the joints that are apart there. carried(j): joint j as integrated; gap_of_poses(j).
+  /// the bodies have met, over the load scale: the largest of the joints that are apart there. carried(j): joint j as integrated; gap_from_geometry(j).
   /// theory/time Eq. (3.23).
-  template <class Carried, class GapOfPoses>
-  double error(const Carried& carried, const GapOfPoses& gap_of_poses, double rounding, const BasicLoadScale<S>& scale) const {
+  template <class Carried, class GapFromGeometry>
+  double error(const Carried& carried, const GapFromGeometry& gap_from_geometry, double rounding, const BasicLoadScale<S>& scale) const {
     double largest = 0;
     for (const int j : joints_) {
       const BasicJointData<S>& joint = system_.joints[j];
       const BasicLawPoint<S> at = carried(j);
-      const typename S::Vec stiffness = joint.law.stiffness_of_what_is_apart(at);
+      const typename S::Vec stiffness = joint.law.open_contact_stiffness(at);
       if (stiffness.isZero(0)) continue;
-      const typename S::Vec missed = ((gap_of_poses(j) - at.gap).cwiseAbs().array() - rounding).cwiseMax(0);
+      const typename S::Vec missed = ((gap_from_geometry(j) - at.gap).cwiseAbs().array() - rounding).cwiseMax(0);
       typename S::Vec load = load_on(joint.at, scale);
       load.template head<S::kDim>().setConstant(load.template head<S::kDim>().maxCoeff());  // gaps have other axes than loads
       largest = std::max(largest, stiffness.cwiseProduct(missed).cwiseQuotient(load).maxCoeff());

@@ -20,7 +20,7 @@ CamProfile::CamProfile(const Cam& cam) : cam_(cam), hollow_(least_hollow_radius(
 
 std::array<double, 3> CamProfile::radius(double angle) const {
   const std::array<double, 3> lift = cam_.lift.is_constant() ? std::array{cam_.lift.value({}), 0.0, 0.0} : cam_.lift.second_order(in_turn(angle), 0);
-  return {without_lift() + lift[0], lift[1], lift[2]};  // (1.1), (1.2)
+  return {zero_lift_radius() + lift[0], lift[1], lift[2]};  // (1.1), (1.2)
 }
 
 CurvePoint CamProfile::pitch(double angle) const {
@@ -32,8 +32,8 @@ CurvePoint CamProfile::pitch(double angle) const {
 // What is no further from c than `way` is seen from the axis within this angle of it.
 double CamProfile::foot(const Planar::Point& c) const {
   const auto sight = [&c](double way) { return way < c.norm() ? std::asin(way / c.norm()) : kTurn / 2; };
-  const auto place = [this](double angle) { return Planar::Point((without_lift() + cam_.lift.value(in_turn(angle))) * direction(angle)); };
-  return nearest_parameter([this](double angle) { return pitch(angle); }, place, c, std::atan2(c[1], c[0]), hollow_, sight);
+  const auto point = [this](double angle) { return Planar::Point((zero_lift_radius() + cam_.lift.value(in_turn(angle))) * direction(angle)); };
+  return nearest_parameter([this](double angle) { return pitch(angle); }, point, c, std::atan2(c[1], c[0]), hollow_, sight);
 }
 
 std::array<GapFunction, 2> CamGap::gap_and_slip(const Planar::Vec& z) const {

@@ -34,7 +34,7 @@ class CamProfile {
   std::string fault() const;
 
  private:
-  double without_lift() const { return cam_.base_radius + (cam_.flat ? 0 : cam_.roller_radius); }
+  double zero_lift_radius() const { return cam_.base_radius + (cam_.flat ? 0 : cam_.roller_radius); }
   CurvePoint pitch(double angle) const;
 
   friend struct CamGap;

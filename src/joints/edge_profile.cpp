@@ -21,8 +21,8 @@ EdgeProfile::EdgeProfile(const Edge& edge) : edge_(edge), hollow_(least_hollow_r
 
 // What is no further from c than `way` is within this way along the line.
 double EdgeProfile::nearest(const Planar::Point& c) const {
-  const auto place = [this](double u) { return Planar::Point(-u, edge_.height.value(std::array{-u})); };
-  return -nearest_parameter([this](double u) { return at(-u); }, place, c, -c[0], hollow_, [](double way) { return way; });
+  const auto point = [this](double u) { return Planar::Point(-u, edge_.height.value(std::array{-u})); };
+  return -nearest_parameter([this](double u) { return at(-u); }, point, c, -c[0], hollow_, [](double way) { return way; });
 }
 
 std::array<GapFunction, 2> EdgeGap::gap_and_slip(const Planar::Vec& z) const {

@@ -26,6 +26,14 @@ LawOutput<double, S::kDof> answer(const BasicLaw<S>& law, const BasicLawPoint<S>
   return out;
 }
 
+template <class S>
+typename S::Vec force_of(const BasicLawPart<S>& part, const LawInput<double, S::kDof>& in) {
+  LawOutput<double, S::kDof> out;
+  out.clear();
+  part.evaluate(in, out);
+  return Eigen::Map<const typename S::Vec>(out.force);
+}
+
 }  // namespace
 
 template <class S>
@@ -130,10 +138,7 @@ typename S::Vec BasicLaw<S>::force_of_states(const BasicLawPoint<S>& at) const {
   typename S::Vec force = S::Vec::Zero();
   visit_parts(at, [&force](const Part& part, const LawInput<double, S::kDof>& in) {
     if (part.n_states() == 0) return;
-    LawOutput<double, S::kDof> one;
-    one.clear();
-    part.evaluate(in, one);
-    for (int k = 0; k < S::kDof; ++k) force[k] += one.force[k];
+    force += force_of<S>(part, in);
   });
   return force;
 }
@@ -293,14 +298,11 @@ typename S::Vec BasicLaw<S>::engaged_stiffness() const {
 }
 
 template <class S>
-typename S::Vec BasicLaw<S>::stiffness_of_what_is_apart(const Point& at) const {
+typename S::Vec BasicLaw<S>::open_contact_stiffness(const Point& at) const {
   typename S::Vec k = S::Vec::Zero();
   visit_parts(at, [&k](const Part& part, const LawInput<double, S::kDof>& in) {
     if (part.n_borders() == 0) return;
-    LawOutput<double, S::kDof> one;
-    one.clear();
-    part.evaluate(in, one);
-    if (std::all_of(std::begin(one.force), std::end(one.force), [](double f) { return f == 0; })) k += part.meeting_stiffness();
+    if (force_of<S>(part, in).isZero(0)) k += part.closed_stiffness();
   });
   return k;
 }
@@ -331,10 +333,7 @@ void BasicLaw<S>::observe(const BasicLawPoint<S>& at, const typename S::Vec& for
   // The given force is better than what the laws make of the gap, but it is that of all parts.
   typename S::Vec beside = S::Vec::Zero();  // those that do not hold, together
   const auto own_force = [](const Part& part, const LawInput<double, S::kDof>& in) -> typename S::Vec {
-    LawOutput<double, S::kDof> one;
-    one.clear();
-    if (!part.holds()) part.evaluate(in, one);
-    return Eigen::Map<const typename S::Vec>(one.force);
+    return part.holds() ? S::Vec::Zero().eval() : force_of<S>(part, in);
   };
   const auto n_beside = std::count_if(parts_.begin(), parts_.end(), [](const auto& part) { return !part->holds(); });
   if (n_beside > 1) visit_parts(at, [&](const Part& part, const LawInput<double, S::kDof>& in) { beside += own_force(part, in); });

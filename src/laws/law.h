@@ -127,8 +127,8 @@ class BasicLaw {
   bool starts_free() const;
   /// Stiffness of what holds, one-sided laws as if they acted.
   Vec engaged_stiffness() const;
-  /// LawPart::meeting_stiffness of those parts that have borders and no force here, as of a contact whose bodies are apart.
-  Vec stiffness_of_what_is_apart(const Point& at) const;
+  /// LawPart::closed_stiffness of those parts that are open here: they have borders and no force.
+  Vec open_contact_stiffness(const Point& at) const;
   /// The largest lever of its parts [m]; 0: it makes no couple of its own force.
   double lever() const;
   /// The deepest of its parts': LawPart::penetration.

@@ -86,8 +86,8 @@ class BasicLawPart {
   virtual bool starts_free() const = 0;
   /// Stiffness in each component where the law acts; a rope that is slack is looked at as if it were taut.
   virtual Vec engaged_stiffness() const = 0;
-  /// Stiffness in each component that bodies which are apart meet with; where it is that of what holds, engaged_stiffness.
-  virtual Vec meeting_stiffness() const = 0;
+  /// Stiffness in each component once a gap that may be open has closed; unless the law says otherwise, engaged_stiffness.
+  virtual Vec closed_stiffness() const = 0;
   /// What the joint's own force is multiplied by to measure couples that the law makes of it [m]: the radius of a pin that rubs.
   virtual double lever() const = 0;
   /// Moves a gap into the range in which the law acts.
@@ -105,7 +105,7 @@ using LawPart = BasicLawPart<Planar>;
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
 /// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), border_directions() (one +1, -1 or 0
 /// each, or border_direction(i)) cross() and border_name(), kHolds = false, kStops = true, kRubs = false (of what neither holds nor stops), kOnReactionAlone = true, kStartsFree = true, supply(in),
-/// columns() with observe(), engaged_stiffness(), meeting_stiffness(), engage(), lever(), penetration(), breach(), stiction() with set_stuck() and start_slipping().
+/// columns() with observe(), engaged_stiffness(), closed_stiffness(), engage(), lever(), penetration(), breach(), stiction() with set_stuck() and start_slipping().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
  public:
@@ -191,8 +191,8 @@ class LawPartOf final : public BasicLawPart<S> {
     if constexpr (requires { law_.engaged_stiffness(); }) return law_.engaged_stiffness();
     else return Vec::Zero();
   }
-  Vec meeting_stiffness() const override {
-    if constexpr (requires { law_.meeting_stiffness(); }) return law_.meeting_stiffness();
+  Vec closed_stiffness() const override {
+    if constexpr (requires { law_.closed_stiffness(); }) return law_.closed_stiffness();
     else return engaged_stiffness();
   }
   double lever() const override {

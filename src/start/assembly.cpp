@@ -136,40 +136,28 @@ std::string loop_that_lacks(const Model& model, const System& system, const Vecs
   return names.empty() ? "" : fmt::format("\n  loop: {}; with any one of them open all others close, and it lacks about {}", names, lacks);
 }
 
-struct HeldCoordinate {
-  std::size_t body;
-  int k;
-};
-
-std::string name_of(const Model& model, const HeldCoordinate& held) { return model.bodies[held.body].name + "." + std::array{"x", "y", "angle"}[held.k]; }
-
-// Takes all bodies out of `hold`; which coordinates were in it.
-std::vector<HeldCoordinate> let_go(Model& model) {
-  std::vector<HeldCoordinate> held;
-  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+// Takes all bodies out of `hold`; the names of the coordinates that were in it.
+std::vector<std::string> let_go(Model& model) {
+  std::vector<std::string> held;
+  for (Body& body : model.bodies)
     for (int k = 0; k < S::kDof; ++k)
-      if (std::exchange(model.bodies[i].hold[k], false)) held.push_back({i, k});
+      if (std::exchange(body.hold[k], false)) held.push_back(body.name + "." + kCoordinates[k]);
   return held;
 }
 
 bool is_closed(const std::array<double, 2>& misfit, double size) { return misfit[0] <= kAsStated * size && misfit[1] <= kAsStated; }
 
 // Held coordinates that are a little off, as a rounded angle is, leave joints open by as little. They move to where all joints close; false if that is nowhere.
-bool close_beside_holds(Model model, const System& system, const std::vector<bool>& open, Vecs& q, std::vector<std::string>& notes) {
-  const std::vector<HeldCoordinate> all = let_go(model);
-  if (all.empty()) return false;
+bool close_beside_holds(const Model& model, const System& system, const std::vector<bool>& open, Vecs& q, std::vector<std::string>& notes) {
+  Model free = model;
+  if (let_go(free).empty()) return false;
   Vecs trial = q;
-  PositionSearch(model, system, open).run(trial);
+  PositionSearch(free, system, open).run(trial);
   const auto after = misfits(system, trial);
   const double size = mechanism_size(system, q);
   for (std::size_t j = 0; j < after.size(); ++j)
     if (!open[j] && !is_closed(after[j], size)) return false;
-  std::string moved;
-  for (const HeldCoordinate& held : all) {
-    const double from = q[held.body][held.k], to = trial[held.body][held.k], unit = held.k == 2 ? std::numbers::pi / 180 : 1;
-    if (to != from) moved += fmt::format("{}{} starts at {:.6g} {}, not at {:.6g}", moved.empty() ? "" : ", ", name_of(model, held), to / unit, held.k == 2 ? "deg" : "m", from / unit);
-  }
-  notes.push_back("what is held leaves loops open by a little, and gives way: " + moved);
+  notes.push_back("what is held leaves loops open by a little, and gives way: " + held_that_moved(model, q, trial, 0, 0));
   q = std::move(trial);
   return true;
 }
@@ -177,13 +165,11 @@ bool close_beside_holds(Model model, const System& system, const std::vector<boo
 // What keeps the search from closing the joints other than lengths: coordinates that are held, motors that ask for another position, pins that it puts
 // in the middle of their play.
 std::string what_to_try(Model model, const System& system, const Vecs& q, const std::vector<bool>& open, bool only_motors) {
-  if (const std::vector<HeldCoordinate> held = let_go(model); !held.empty()) {
+  if (const std::vector<std::string> held = let_go(model); !held.empty()) {
     Vecs trial = q;
     PositionSearch(model, system, open).run(trial);
     if (all_closed(misfits(system, trial), open, mechanism_size(system, q))) {
-      std::string names;
-      for (const HeldCoordinate& one : held) names += (names.empty() ? "" : ", ") + name_of(model, one);
-      return "Without what is held (" + names + ") everything closes: try " + (only_motors ? "a motor that starts where its joint is held, or without hold." : "fewer of these in hold.");
+      return fmt::format("Without what is held ({}) everything closes: try {}", fmt::join(held, ", "), only_motors ? "a motor that starts where its joint is held, or without hold." : "fewer of these in hold.");
     }
   }
   if (const std::string loose = names_of_joints_in_play(system); !loose.empty()) return "Assembly puts joints in the middle of their play (" + loose + "): if the stated positions are meant within it, try start = \"raw\", which takes them as they are.";

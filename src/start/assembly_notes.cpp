@@ -159,4 +159,16 @@ void note_missing_units(const Model& model, double size, std::vector<std::string
     for (const LawChoice* law : {&joint.law, &joint.friction, &joint.stops, &joint.detent}) note_large_lengths(joint.name, *law, size, notes);
 }
 
+std::string held_that_moved(const Model& model, const Vecs& from, const Vecs& to, double turn, double way) {
+  std::string moved;
+  for (std::size_t i = 0; i < model.bodies.size(); ++i)
+    for (int k = 0; k < S::kDof; ++k) {
+      const bool turns = k == S::kTurn;
+      if (!model.bodies[i].hold[k] || !(std::abs(to[i][k] - from[i][k]) > (turns ? turn : way))) continue;
+      const double unit = turns ? kTurn / 360 : 1;
+      moved += fmt::format("{}{}.{} starts at {:.6g} {}, not at {:.6g}", moved.empty() ? "" : ", ", model.bodies[i].name, kCoordinates[k], to[i][k] / unit, turns ? "deg" : "m", from[i][k] / unit);
+    }
+  return moved;
+}
+
 }  // namespace pintle

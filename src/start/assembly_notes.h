@@ -1,6 +1,7 @@
 // What assembly has made of stated positions and velocities, where a user would not expect it.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,11 @@ namespace pintle {
 /// Bodies that came to lie far from where the file states them: these were meant otherwise, or their markers, or a unit is missing. `guess` has the stated
 /// positions.
 void note_moved_bodies(const Model& model, const Vecs& guess, const Vecs& q, std::vector<std::string>& notes);
+
+inline constexpr std::array kCoordinates{"x", "y", "angle"};
+
+/// Which coordinates in `hold` have gone from where they were by more than `turn` [rad] or `way` [m], from where to where; "" if none has.
+std::string held_that_moved(const Model& model, const Vecs& from, const Vecs& to, double turn, double way);
 
 /// Stated velocities that joints or motors have replaced by those of v.
 void note_changed_velocities(const Model& model, const Vecs& v, std::vector<std::string>& notes);

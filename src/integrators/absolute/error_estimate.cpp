@@ -15,7 +15,7 @@ template <class S>
 bool BasicRadauStepper<S>::error_estimate(double h, double& error) {
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!end_point_->prepare(begin_.t + h, mu, stage_[n_ - 1], tails_)) return false;
-  error = of_motion_ ? motion_tail() : std::max({end_point_->error(tails_, scale_), change_of_loads(h), friction_tail(), error_of_open_contacts(h)});
+  error = of_motion_ ? motion_tail() : std::max({end_point_->error(tails_, scale_), change_of_loads(h), friction_tail(), open_contact_error(h)});
   return std::isfinite(error);
 }
 
@@ -38,7 +38,7 @@ double BasicRadauStepper<S>::change_of_loads(double h) {
 
 // theory/time Eq. (3.23).
 template <class S>
-double BasicRadauStepper<S>::error_of_open_contacts(double h) const {
+double BasicRadauStepper<S>::open_contact_error(double h) const {
   if (open_contacts_.empty()) return 0;
   const BasicStage<S>& last = stage_[n_ - 1];
   const double t = begin_.t + h;
@@ -177,7 +177,7 @@ void BasicRadauStepper<S>::find_power() {
 
 template bool BasicRadauStepper<Planar>::error_estimate(double h, double& error);
 template double BasicRadauStepper<Planar>::change_of_loads(double h);
-template double BasicRadauStepper<Planar>::error_of_open_contacts(double h) const;
+template double BasicRadauStepper<Planar>::open_contact_error(double h) const;
 template double BasicRadauStepper<Planar>::friction_tail() const;
 template double BasicRadauStepper<Planar>::servo_work_missed_by_quadrature(int j, double h) const;
 template double BasicRadauStepper<Planar>::motion_tail();
@@ -189,7 +189,7 @@ template void BasicRadauStepper<Planar>::add_power(const BasicJointData<Planar>&
 template void BasicRadauStepper<Planar>::find_power();
 PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::error_estimate(double h, double& error);)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::change_of_loads(double h);)
-PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::error_of_open_contacts(double h) const;)
+PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::open_contact_error(double h) const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::friction_tail() const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::servo_work_missed_by_quadrature(int j, double h) const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::motion_tail();)

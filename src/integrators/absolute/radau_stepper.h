@@ -71,7 +71,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   // error_estimate.cpp: the error of a step and its end
   bool error_estimate(double h, double& error);
   double change_of_loads(double h);           // where the bodies are moved onto their gaps
-  double error_of_open_contacts(double h) const;
+  double open_contact_error(double h) const;
   double friction_tail() const;               // of forces in free directions that no mass shows
   double motion_tail();                       // as accelerations that the bodies can yield to
   void finish_step(double h);                 // fills end_ and nodes_

@@ -27,7 +27,7 @@ bool TreeRadau::error_estimate(double h, double& error) {
   const TreeState& last = stages_.states()[n_ - 1];
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!projector_.prepare(stages_.instant(n_ - 1), mu, last, TreeProjector::Laws::kWhole, find_taut(mu / kProjectionShare))) return false;
-  error = std::max({body_tail(), gap_tail(), state_tail(std::abs(h)), error_of_open_contacts()});
+  error = std::max({body_tail(), gap_tail(), state_tail(std::abs(h)), open_contact_error()});
   return std::isfinite(error);
 }
 
@@ -96,7 +96,7 @@ double TreeRadau::state_tail(double h) const {
 }
 
 // theory/time Eq. (3.23).
-double TreeRadau::error_of_open_contacts() const {
+double TreeRadau::open_contact_error() const {
   if (open_contacts_.empty()) return 0;
   const TreeState& last = stages_.states()[n_ - 1];
   const TreeInstant& instant = stages_.instant(n_ - 1);

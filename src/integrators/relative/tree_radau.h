@@ -47,7 +47,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   double body_tail() const;
   double gap_tail();
   double state_tail(double h) const;
-  double error_of_open_contacts() const;
+  double open_contact_error() const;
   void finish_step(double h);
   void move_onto_gaps();
   void take_gaps();

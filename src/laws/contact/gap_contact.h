@@ -37,8 +37,8 @@ struct GapContactLaw : RubbingContact {
   void cross(int border, const LawInput<double>& in, double* state) const { RubbingContact::cross(border, motion(in), state); }
 
   /// At the depth that a follower usually has: assembly puts it onto the cam.
-  Planar::Vec engaged_stiffness() const { return meeting_stiffness(); }
-  Planar::Vec meeting_stiffness() const { return {contact.stiffness_at(ContactForce::kUsualDepth), 0, 0}; }
+  Planar::Vec engaged_stiffness() const { return closed_stiffness(); }
+  Planar::Vec closed_stiffness() const { return {contact.stiffness_at(ContactForce::kUsualDepth), 0, 0}; }
   double penetration(const Planar::Vec& gap) const { return -gap[0]; }
   std::span<const LawColumn> columns() const {
     static const std::array<LawColumn, 6> all{{{"contact_force", "N", "normal force of the contact"},

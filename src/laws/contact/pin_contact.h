@@ -45,9 +45,9 @@ struct PinContact : RubbingContact {
   double lever() const { return rubs() ? radius : 0; }
   /// What stands apart from an edge stays apart when a mechanism is assembled; a pin with clearance is put into the middle.
   Planar::Vec engaged_stiffness() const {
-    return shape == Shape::kEdge ? Planar::Vec::Zero() : meeting_stiffness();
+    return shape == Shape::kEdge ? Planar::Vec::Zero() : closed_stiffness();
   }
-  Planar::Vec meeting_stiffness() const {
+  Planar::Vec closed_stiffness() const {
     const double k = contact.stiffness_at(shape == Shape::kEdge ? ContactForce::kUsualDepth : 0.1 * clearance);
     return {shape == Shape::kBush ? k : 0, k, 0};
   }

@@ -65,7 +65,7 @@ struct StopContact {
     contact.cross(border % kBorders, find(in, side).rate, state[side]);
   }
 
-  Planar::Vec meeting_stiffness() const { return contact.stiffness_at(ContactForce::kUsualDepth) * Planar::Vec::Unit(free); }
+  Planar::Vec closed_stiffness() const { return contact.stiffness_at(ContactForce::kUsualDepth) * Planar::Vec::Unit(free); }
   std::optional<StopBreach> breach(const Planar::Vec& gap) const {
     for (int side = 0; side < kSides; ++side) {
       const double depth = sign(side) * (gap[free] - limit(side));
