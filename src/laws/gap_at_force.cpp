@@ -99,7 +99,7 @@ double size_of_gap(const typename S::Vec& gap, const typename S::Vec& engaged) {
 // Newton's method at one load: plain steps, each at most half of the one before. The gap must stay on the side of the law's borders where `from` is.
 template <class S>
 bool settle_at(const BasicLaw<S>& law, const typename S::Vec& from, const typename S::Vec& force, const typename S::Vec& rate, typename S::Vec& gap) {
-  constexpr double kRounding = 1e-9;  // of the gap: a step that is shorter is rounding
+  constexpr double kLeastStep = 1e-9;  // of the gap: a step that is shorter is rounding
   const typename S::Vec engaged = law.engaged_stiffness();
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kGapNewton; ++i) {
@@ -108,7 +108,7 @@ bool settle_at(const BasicLaw<S>& law, const typename S::Vec& from, const typena
     const typename S::Vec step = newton_step<S>(now, engaged, missing);
     if (!step.allFinite()) return false;
     const double moved = size_of_gap<S>(step, engaged), size = size_of_gap<S>(gap + step, engaged);
-    const bool rounding = moved <= kRounding * size;
+    const bool rounding = moved <= kLeastStep * size;
     if (!(moved <= 0.5 * last)) return rounding && on_same_sides(law, from, gap, rate);
     gap += step;
     if (moved <= 1e-15 * size) return on_same_sides(law, from, gap, rate);
