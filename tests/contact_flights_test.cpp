@@ -92,7 +92,7 @@ TEST(ContactFlights, ABallTouchesTheToothThatItsParabolaMeets) {
   }
 }
 
-// Hundreds of touches: the same whatever the tolerance, as far as it says.
+// Two dozen touches: the same whatever the tolerance, as far as it says.
 TEST(ContactFlights, APawlStrikesTheTeethOverWhichItFlies) {
   const auto run_at = [](const char* tolerance) { return reference::completed(reference::test_model("pawl_over_a_rack", {std::string("simulate.tolerance=") + tolerance})); };
   const Trajectory coarse = run_at("1e-4"), fine = run_at("1e-6");
