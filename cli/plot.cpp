@@ -20,6 +20,7 @@ namespace {
 
 constexpr const char* kPlotFooter =
     "Examples:\n"
+    "  pintle plot four_bar-run\n"
     "  pintle plot four_bar-run --joint O4\n"
     "  pintle plot four_bar-run --joint O2 --joint O4 --components magnitude --out forces.svg\n"
     "  pintle plot four_bar-run --column body.rocker.angle --column body.rocker.spin --x joint.O2.angle\n"
@@ -30,6 +31,7 @@ constexpr const char* kPlotFooter =
     "  pintle plot worn-run --wear B\n"
     "  pintle plot worn-run --x joint.B.contact_angle --column joint.B.penetration --every 0.012 --from 1.2\n"
     "\n"
+    "Without --joint and --column: the magnitude of the force in every joint, or in the seven most loaded.\n"
     "Columns with different units are drawn in stacked panels. The first row of series.csv lists all columns.\n";
 
 struct PlotOptions {

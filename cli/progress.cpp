@@ -12,6 +12,8 @@
 namespace pintle::cli {
 namespace {
 
+constexpr double kLongRun = 2;  // [s] after which the notes on the model are shown, and not only with its results
+
 using Json = nlohmann::ordered_json;
 
 double fraction(const Progress& progress) {
@@ -44,7 +46,14 @@ void ProgressReport::show(const Progress& progress) {
   if (style_ == ProgressStyle::kNone) return;
   const double now = speed(progress);
   if (style_ == ProgressStyle::kJson) return print_error(progress_json(progress, now) + "\n");
+  if (progress.wall_seconds > kLongRun) show_notes();
   line_.show(progress_line(progress, now));
+}
+
+void ProgressReport::show_notes() {
+  if (!notes_.empty()) line_.clear();
+  for (const std::string& note : notes_) print_error("note: " + note + "\n");
+  notes_.clear();
 }
 
 Observer ProgressReport::observer() {

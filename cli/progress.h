@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "cli/console.h"
 #include "pintle/simulate.h"
@@ -17,7 +19,8 @@ ProgressStyle progress_style(bool quiet, std::string_view asked = "auto");
 
 class ProgressReport {
  public:
-  explicit ProgressReport(ProgressStyle style) : style_(style) {}
+  /// The notes on the model are shown above the line while a run takes long: what they warn of may be why.
+  explicit ProgressReport(ProgressStyle style, std::vector<std::string> notes = {}) : style_(style), notes_(std::move(notes)) {}
 
   void show(const Progress& progress);
   /// Shows how far a run has come, and stops it once the user has interrupted it. The report is to outlive it.
@@ -31,7 +34,10 @@ class ProgressReport {
   /// Model seconds per second in this pass; 0 while unknown.
   double speed(const Progress& progress);
 
+  void show_notes();
+
   ProgressStyle style_;
+  std::vector<std::string> notes_;  // that are still to be shown
   Progress pass_start_{0, 0, 0, 0};
   StatusLine line_;
 };

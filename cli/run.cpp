@@ -86,7 +86,7 @@ ExitCode run(const RunOptions& options) {
                        all_overrides(options), text, files};
 
   catch_interrupts();
-  ProgressReport report(progress_style(options.quiet, options.progress));
+  ProgressReport report(progress_style(options.quiet, options.progress), model.notes);
   const Trajectory trajectory = with_file_name(options.model, [&, &ready = model] { return simulate(ready, report.observer()); });
   report.clear();
   write_run(trajectory, stamp, folder, overwrite);

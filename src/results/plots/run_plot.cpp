@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <initializer_list>
 #include <string_view>
 
@@ -46,6 +47,26 @@ std::string body_on(const LoadSummary& joint, const PlotRequest& request) {
                                      request.on, joint.name, joint.first_body, joint.second_body));
 }
 
+constexpr std::size_t kMostJoints = 7;  // that are plotted unasked: a colour for each
+
+/// Of those whose forces are in rows; in the order of the model.
+std::vector<std::string> most_loaded_joints(const Trajectory& trajectory) {
+  std::vector<const LoadSummary*> joints;
+  std::vector<double> peaks;
+  for (const LoadSummary& joint : trajectory.joints) {
+    const std::string column = fmt::format("joint.{}.on_{}.fx[world]", joint.name, joint.second_body);
+    if (std::none_of(trajectory.columns.begin(), trajectory.columns.end(), [&](const Column& c) { return c.name == column; })) continue;
+    joints.push_back(&joint);
+    peaks.push_back(joint.peak);
+  }
+  std::sort(peaks.begin(), peaks.end(), std::greater<>());
+  const double least = peaks.size() > kMostJoints ? peaks[kMostJoints - 1] : 0;
+  std::vector<std::string> names;
+  for (const LoadSummary* joint : joints)
+    if (joint->peak >= least && names.size() < kMostJoints) names.push_back(joint->name);
+  return names;
+}
+
 constexpr double kNearRow = 1e-6;  // of a period: a row so near to a time of the section is at it
 constexpr int kRowsOfPeriod = 100; // that are proposed
 
@@ -58,8 +79,7 @@ class PlotMaker {
     add_x();
     for (const std::string& joint : request_.joints) add_joint(find_joint(run_.trajectory, joint));
     for (const std::string& column : request_.columns) add_column(column);
-    if (plot_.panels.empty())
-      throw PlotRequestError("found nothing to plot.\n    Choose joints with --joint or columns with --column.");
+    if (plot_.panels.empty()) throw PlotRequestError("found nothing to plot.\n    Choose columns with --column.");
     plot_.title = request_.title.empty() ? made_title() : request_.title;
     plot_.subtitle = subtitle();
     if (plot_.title.empty()) std::swap(plot_.title, plot_.subtitle);
@@ -129,11 +149,21 @@ class PlotMaker {
       curve.y =
           component.column.empty() ? magnitude(column("fx[world]"), column("fy[world]")) : column(component.column);
       curve.band = moment ? joint.moment_error_estimate : joint.error_estimate;
-      if (component.column.empty() && plot_.x_quantity == "Time" && !is_section())
-        curve.mark = Mark{joint.peak_time, joint.peak, fmt::format("peak {:.5g} N at {:.5g} s", joint.peak, joint.peak_time)};
+      if (component.column.empty() && plot_.x_quantity == "Time" && !is_section()) mark_peak(curve, joint);
       panel_for(moment ? "N*m" : "N", moment ? "Couple" + on : "Force" + on + axes())
           .curves.push_back(std::move(curve));
     }
+  }
+
+  /// The line goes to the peak, which is seldom in a row.
+  void mark_peak(Curve& curve, const LoadSummary& joint) const {
+    curve.mark = Mark{joint.peak_time, joint.peak, fmt::format("peak {:.5g} N at {:.5g} s", joint.peak, joint.peak_time)};
+    const auto after = std::upper_bound(plot_.x.begin(), plot_.x.end(), joint.peak_time);
+    if (after == plot_.x.begin() || after == plot_.x.end() || *(after - 1) == joint.peak_time) return;
+    const auto place = after - plot_.x.begin();
+    curve.x = plot_.x;
+    curve.x.insert(curve.x.begin() + place, joint.peak_time);
+    curve.y.insert(curve.y.begin() + place, joint.peak);
   }
 
   /// Which axes the force components are along, if it is one kind of axes.
@@ -184,7 +214,11 @@ class PlotMaker {
 }  // namespace
 
 Plot make_plot(const RunRecord& run, const PlotRequest& request) {
-  return PlotMaker(run, request).make();
+  if (!request.joints.empty() || !request.columns.empty()) return PlotMaker(run, request).make();
+  PlotRequest all = request;
+  all.joints = most_loaded_joints(run.trajectory);
+  if (all.joints.size() > 1) all.components = {"magnitude"};
+  return PlotMaker(run, all).make();
 }
 
 Plot overlay(const std::vector<NamedPlot>& plots) {
@@ -207,7 +241,7 @@ Plot overlay(const std::vector<NamedPlot>& plots) {
       for (std::size_t i = 0; i < from.curves.size(); ++i) {
         Curve curve = from.curves[i];
         curve.label = fmt::format("{}: {}{}", plots[run].name, curve.label, from.quantity == panel->quantity ? "" : " (" + from.quantity + ")");
-        curve.x = plot.x;
+        if (curve.x.empty()) curve.x = plot.x;
         curve.style = static_cast<int>(i) % kSolid + kSolid * static_cast<int>(run);
         panel->curves.push_back(std::move(curve));
       }

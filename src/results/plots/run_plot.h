@@ -23,7 +23,8 @@ struct PlotRequest {
   std::string title;                 ///< empty: made from the request
 };
 
-/// Curves of one unit share a panel. Throws PlotRequestError.
+/// Curves of one unit share a panel. Of a request without joints and columns: the force magnitudes of all joints, or of the most loaded ones.
+/// Throws PlotRequestError.
 Plot make_plot(const RunRecord& run, const PlotRequest& request);
 
 struct NamedPlot {

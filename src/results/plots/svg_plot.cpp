@@ -250,7 +250,7 @@ void Picture::draw_dots(const Frame& frame, const std::vector<Point>& points, st
 }
 
 std::vector<Point> Picture::points_of(const Frame& frame, const Curve& curve, double shift) const {
-  const std::vector<double>&x = frame.own_x() ? curve.x : plot_.x, &y = curve.y;
+  const std::vector<double>&x = frame.own_x() || !curve.x.empty() ? curve.x : plot_.x, &y = curve.y;
   std::vector<Point> points;
   for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
     points.push_back({frame.px(x[i] / frame.x_scale.factor), frame.py((y[i] + shift) / frame.y_scale.factor)});

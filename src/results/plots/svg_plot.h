@@ -19,7 +19,7 @@ struct Curve {
   std::vector<double> y;  ///< one per x; a NaN interrupts the line
   bool dots = false;      ///< a dot at every point instead of a line ...
   bool joined = false;    ///< ... and the line too
-  std::vector<double> x{};  ///< in a panel with an x axis of its own
+  std::vector<double> x{};  ///< of its own; in a panel whose x axis is the plot's it may be empty: the plot's x
   double band = 0;          ///< half the width of a band around the line, an error [unit]
   int style = -1;           ///< which colour (the first seven solid, then the same dashed), and named even when alone; -1: by its place
   std::optional<Mark> mark{};

@@ -191,6 +191,52 @@ TEST(RunPlot, ForcesOfOneJointNameBodyAndAxes) {
   EXPECT_EQ(plot.panels[0].curves[2].y[7], std::hypot(run.trajectory.at(7, 3), run.trajectory.at(7, 4)));
 }
 
+TEST(RunPlot, WithoutARequestTheRecordedJointsAreDrawn) {
+  const RunRecord run{sample::stamp(), sample::trajectory()};
+  ASSERT_EQ(run.trajectory.joints.size(), 2U);  // the slide is in no column
+  const Plot plot = make_plot(run, {});
+  EXPECT_EQ(plot.title, "Joint O4: force on rocker");
+  EXPECT_EQ(plot.panels.at(0).curves.size(), 3U);
+}
+
+TEST(RunPlot, OfManyJointsTheMostLoadedAreDrawn) {
+  RunRecord run{sample::stamp(), sample::trajectory(2)};
+  Trajectory& trajectory = run.trajectory;
+  trajectory.columns = {{"t", "s", "time"}};
+  trajectory.values = {0};
+  LoadSummary joint = trajectory.joints.front();
+  trajectory.joints.clear();
+  for (const char* name : {"A", "B", "C", "D", "E", "F", "G", "H", "not_recorded"}) {
+    joint.name = name;
+    joint.peak = joint.name == "C" ? 1 : 2;  // the least loaded of nine
+    trajectory.joints.push_back(joint);
+    if (joint.name == "not_recorded") break;
+    for (const char* component : {"fx[world]", "fy[world]"}) {
+      trajectory.columns.push_back({"joint." + joint.name + ".on_" + joint.second_body + "." + component, "N", "force"});
+      trajectory.values.push_back(1);
+    }
+  }
+  std::string drawn;
+  const Plot plot = make_plot(run, {});
+  for (const Curve& curve : plot.panels.at(0).curves) drawn += curve.label.front();
+  EXPECT_EQ(drawn, "ABDEFGH");
+}
+
+TEST(RunPlot, LinesGoToPeaksBetweenRows) {
+  RunRecord run{sample::stamp(), sample::trajectory()};
+  LoadSummary& joint = run.trajectory.joints.front();
+  const double first = run.trajectory.at(3, 0), second = run.trajectory.at(4, 0);
+  joint.peak = 1e6;
+  joint.peak_time = first + (second - first) / 3;
+  PlotRequest request = request_for({joint.name}, {});
+  request.components = {"magnitude"};
+  const Curve curve = make_plot(run, request).panels.at(0).curves.at(0);
+  ASSERT_EQ(curve.x.size(), run.trajectory.n_rows() + 1);
+  EXPECT_EQ(curve.x[4], joint.peak_time);
+  EXPECT_EQ(curve.y[4], 1e6);
+  EXPECT_EQ(curve.x[5], second);
+}
+
 TEST(RunPlot, CouplesHaveTheErrorOfCouples) {
   RunRecord run{sample::stamp(), sample::trajectory(2)};
   Trajectory& trajectory = run.trajectory;
