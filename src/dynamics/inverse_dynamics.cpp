@@ -12,14 +12,6 @@
 
 namespace pintle {
 
-template <class S>
-typename S::Vec own_mobility(const BasicSystem<S>& system, const BasicPlacement<S>& at, const BasicJointKinematics<S>& r) {
-  typename S::Vec mobility = S::Vec::Zero();
-  if (at.a != kGround) mobility += r.GA().cwiseAbs2() * system.bodies[at.a].mass.cwiseInverse();
-  if (at.b != kGround) mobility += r.GB().cwiseAbs2() * system.bodies[at.b].mass.cwiseInverse();
-  return mobility;
-}
-
 namespace {
 
 constexpr int kClosing = 4;          // passes of a projection onto closed gaps, at most
@@ -37,7 +29,7 @@ double slowest_joint(const BasicSystem<S>& system, const std::vector<BasicJointK
     const BasicJointData<S>& joint = system.joints[j];
     typename S::Vec k = joint.law.engaged_stiffness();
     if (k.isZero(0) && !joint.law.ideal_limit()) k = respond(joint.law, r[j].gap, typename S::Vec(S::Vec::Zero())).stiffness.diagonal();  // an edge that is touched
-    const typename S::Vec mobility = own_mobility(system, joint.at, r[j]);
+    const typename S::Vec mobility = system.own_mobility(joint.at, r[j]);
     for (int c = 0; c < S::kDof; ++c) {
       if (!(k[c] > 0) || (moved && (*moved)[j][c] == 0)) continue;
       if (mobility[c] > 0) slowest = std::min(slowest, std::sqrt(k[c] * mobility[c]));
@@ -241,7 +233,7 @@ BasicEffectiveMasses<S> BasicInverseDynamics<S>::effective_masses(const BasicSta
   BasicEffectiveMasses<S> masses{none, none};
   VecsOf<S> a, force;
   for (int j = 0; j < system_.n_joints(); ++j) {
-    const typename S::Vec mobility = own_mobility(system_, system_.joints[j].at, r_[j]);
+    const typename S::Vec mobility = system_.own_mobility(system_.joints[j].at, r_[j]);
     for (int c = 0; c < S::kDof; ++c) {
       masses.closed[j][c] = masses.alone[j][c] = mobility[c] > 0 ? 1 / mobility[c] : 0;
       if (system_.n_joints() > kMostJoints) continue;
@@ -403,8 +395,6 @@ void BasicInverseDynamics<S>::set_linearized_gaps_from_bodies(BasicState<S>& sta
   }
 }
 
-template Planar::Vec own_mobility(const BasicSystem<Planar>& system, const BasicPlacement<Planar>& at, const BasicJointKinematics<Planar>& r);
-PINTLE_IN_SPACE(template Spatial::Vec own_mobility(const BasicSystem<Spatial>& system, const BasicPlacement<Spatial>& at, const BasicJointKinematics<Spatial>& r);)
 template bool is_in_play<Planar>(const BasicLaw<Planar>& law, const Planar::Vec& gap, const Planar::Vec& rate);
 PINTLE_IN_SPACE(template bool is_in_play<Spatial>(const BasicLaw<Spatial>& law, const Spatial::Vec& gap, const Spatial::Vec& rate);)
 template bool is_apart<Planar>(const BasicLaw<Planar>& law, const Planar::Vec& gap, const Planar::Vec& rate);

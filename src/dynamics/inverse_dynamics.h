@@ -29,10 +29,6 @@ struct BasicEffectiveMasses {
 };
 using EffectiveMasses = BasicEffectiveMasses<Planar>;
 
-/// What a force of a joint does to its own two bodies: the acceleration of the gap per unit of force, component by component.
-template <class S>
-typename S::Vec own_mobility(const BasicSystem<S>& system, const BasicPlacement<S>& at, const BasicJointKinematics<S>& r);
-
 /// Whether a law does not answer at all in some component in which it would hold its joint, as in its play.
 template <class S>
 bool is_in_play(const BasicLaw<S>& law, const typename S::Vec& gap, const typename S::Vec& rate);

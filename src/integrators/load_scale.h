@@ -33,6 +33,14 @@ typename S::Vec load_on(const BasicPlacement<S>& at, const BasicLoadScale<S>& sc
   return scale.body[at.a == kGround ? at.b : at.a].cwiseMax(scale.body[at.b == kGround ? at.a : at.b]);
 }
 
+/// The same in the axes of a gap, which are others than those of the loads.
+template <class S>
+typename S::Vec load_across(const BasicPlacement<S>& at, const BasicLoadScale<S>& scale) {
+  typename S::Vec load = load_on(at, scale);
+  load.template head<S::kDim>().setConstant(load.template head<S::kDim>().maxCoeff());
+  return load;
+}
+
 /// What the force of a joint with states is measured by: the loads on its bodies, and for a couple that its law makes of its force
 /// the smaller of these loads at the lever: no more than that can press.
 template <class S>

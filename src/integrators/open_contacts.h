@@ -27,9 +27,7 @@ class BasicOpenContacts {
       const typename S::Vec stiffness = joint.law.open_contact_stiffness(at);
       if (stiffness.isZero(0)) continue;
       const typename S::Vec missed = ((gap_from_geometry(j) - at.gap).cwiseAbs().array() - rounding).cwiseMax(0);
-      typename S::Vec load = load_on(joint.at, scale);
-      load.template head<S::kDim>().setConstant(load.template head<S::kDim>().maxCoeff());  // gaps have other axes than loads
-      largest = std::max(largest, stiffness.cwiseProduct(missed).cwiseQuotient(load).maxCoeff());
+      largest = std::max(largest, stiffness.cwiseProduct(missed).cwiseQuotient(load_across(joint.at, scale)).maxCoeff());
     }
     return largest;
   }

@@ -79,7 +79,7 @@ void balance_start(const BasicSystem<S>& system, BasicState<S>& state) {
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicJointData<S>& joint = system.joints[j];
     const BasicResponse<S> response = respond(joint.law, state.gap[j], state.gap_rate[j]);
-    const typename S::Vec mobility = own_mobility(system, joint.at, r[j]);
+    const typename S::Vec mobility = system.own_mobility(joint.at, r[j]);
     for (int k = 0; k < S::kDof; ++k) {
       const double stiffness = response.stiffness(k, k), misfit = std::abs(r[j].gap[k] - state.gap[j][k]);
       const double misfit_of_rate = std::abs(r[j].rate[k] - state.gap_rate[j][k]);

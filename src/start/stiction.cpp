@@ -49,7 +49,7 @@ std::vector<LockedJoint> joints_to_hold(const System& system, const std::vector<
     const JointData& joint = system.joints[j];
     const auto held = joint.law.stiction(state.law_state.data() + joint.first_state);
     if (!held) continue;
-    const double at_rest = nothing * own_mobility(system, joint.at, r[j])[held->component];
+    const double at_rest = nothing * system.own_mobility(joint.at, r[j])[held->component];
     if (std::abs(state.gap_accel[j][held->component]) > at_rest) out.push_back({.joint = j, .lock = {held->component, held->stiffness, r[j].gap[held->component]}, .at_rest = at_rest});
   }
   return out;

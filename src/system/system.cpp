@@ -99,6 +99,14 @@ BasicJointKinematics<S> BasicSystem<S>::kinematics(int j, double t, const std::v
   return r;
 }
 
+template <class S>
+typename BasicSystem<S>::Vec BasicSystem<S>::own_mobility(const BasicPlacement<S>& at, const BasicJointKinematics<S>& r) const {
+  Vec mobility = Vec::Zero();
+  if (at.a != kGround) mobility += r.GA().cwiseAbs2() * bodies[at.a].mass.cwiseInverse();
+  if (at.b != kGround) mobility += r.GB().cwiseAbs2() * bodies[at.b].mass.cwiseInverse();
+  return mobility;
+}
+
 // theory/joints Eqs. (4.5), (4.6).
 template <class S>
 double BasicSystem<S>::drive_power(const BasicJointData<S>& joint, double t, const std::vector<typename S::Motion>& m, const Vec& force) const {

@@ -212,6 +212,8 @@ class BasicSystem {
   /// Gap, rate, Jacobians and convective term of joint j at time t (the target of a driven component taken off).
   BasicJointKinematics<S> kinematics(int j, double t, const std::vector<typename S::Motion>& m) const;
   void joint_kinematics(double t, const std::vector<typename S::Motion>& m, std::vector<BasicJointKinematics<S>>& out) const;
+  /// What a force of a joint does to its own two bodies: the acceleration of its gap per unit of force, component by component [1/kg], [1/(kg*m^2)].
+  Vec own_mobility(const BasicPlacement<S>& at, const BasicJointKinematics<S>& r) const;
   /// Power that the drive of a joint delivers at this force, 0 where there is none [W]: a servo's in its coordinate, what changes the length of a rod or rope, the fluid in a cylinder.
   double drive_power(const BasicJointData<S>& joint, double t, const std::vector<typename S::Motion>& m, const Vec& force) const;
   /// Gravity, springs, applied forces and effort motors: the generalised force on every body. Motors in `sliding` stand at a jump.

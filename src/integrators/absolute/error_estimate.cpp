@@ -7,6 +7,7 @@
 #include "integrators/radau/stage_lanes.h"
 #include "integrators/radau/step_error.h"
 #include "integrators/thresholds.h"
+#include "integrators/unresolved_ringing.h"
 
 namespace pintle {
 
@@ -15,7 +16,7 @@ template <class S>
 bool BasicRadauStepper<S>::error_estimate(double h, double& error) {
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!end_point_->prepare(begin_.t + h, mu, stage_[n_ - 1], tails_)) return false;
-  error = of_motion_ ? motion_tail() : std::max({end_point_->error(tails_, scale_), change_of_loads(h), friction_tail(), open_contact_error(h)});
+  error = of_motion_ ? motion_tail() : std::max({end_point_->error(tails_, scale_), change_of_loads(h), friction_tail(), open_contact_error(h), ringing_behind_event(h)});
   return std::isfinite(error);
 }
 
@@ -44,6 +45,22 @@ double BasicRadauStepper<S>::open_contact_error(double h) const {
   const double t = begin_.t + h;
   return open_contacts_.error([&](int j) { return BasicLawPoint<S>{t, last.gap[j], last.gap_rate[j], last.law_state.data() + system_.joints[j].first_state}; },
                               [&](int j) { return system_.kinematics(j, t, last.m).gap; }, kLastBits * largest_coordinate(last.q), scale_);
+}
+
+// theory/time Eq. (3.24). In a smooth motion there is next to none.
+template <class S>
+double BasicRadauStepper<S>::ringing_behind_event(double h) const {
+  if (control_.have_history) return 0;
+  const BasicStage<S>& last = stage_[n_ - 1];
+  const double t = begin_.t + h;
+  double largest = 0;
+  for (int j = 0; j < system_.n_joints(); ++j) {
+    typename S::Vec missed = begin_.gap_rate[j];
+    for (int s = 0; s < n_; ++s) missed -= table_.stages_to_powers(0, s) * stage_[s].gap_rate[j];
+    const BasicLawPoint<S> at{t, last.gap[j], last.gap_rate[j], last.law_state.data() + system_.joints[j].first_state};
+    largest = std::max(largest, unresolved_ringing(system_, j, at, system_.kinematics(j, t, last.m), missed, scale_));
+  }
+  return largest;
 }
 
 // What joints rub with may act on next to no mass. theory/time Eq. (3.21).
@@ -178,6 +195,7 @@ void BasicRadauStepper<S>::find_power() {
 template bool BasicRadauStepper<Planar>::error_estimate(double h, double& error);
 template double BasicRadauStepper<Planar>::change_of_loads(double h);
 template double BasicRadauStepper<Planar>::open_contact_error(double h) const;
+template double BasicRadauStepper<Planar>::ringing_behind_event(double h) const;
 template double BasicRadauStepper<Planar>::friction_tail() const;
 template double BasicRadauStepper<Planar>::servo_work_missed_by_quadrature(int j, double h) const;
 template double BasicRadauStepper<Planar>::motion_tail();
@@ -190,6 +208,7 @@ template void BasicRadauStepper<Planar>::find_power();
 PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::error_estimate(double h, double& error);)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::change_of_loads(double h);)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::open_contact_error(double h) const;)
+PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::ringing_behind_event(double h) const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::friction_tail() const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::servo_work_missed_by_quadrature(int j, double h) const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::motion_tail();)

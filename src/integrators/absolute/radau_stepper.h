@@ -72,6 +72,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   bool error_estimate(double h, double& error);
   double change_of_loads(double h);           // where the bodies are moved onto their gaps
   double open_contact_error(double h) const;
+  double ringing_behind_event(double h) const;
   double friction_tail() const;               // of forces in free directions that no mass shows
   double motion_tail();                       // as accelerations that the bodies can yield to
   void finish_step(double h);                 // fills end_ and nodes_

@@ -9,6 +9,7 @@
 #include "integrators/radau/step_error.h"
 #include "integrators/relative/tree_radau.h"
 #include "integrators/thresholds.h"
+#include "integrators/unresolved_ringing.h"
 
 namespace pintle {
 namespace {
@@ -27,7 +28,7 @@ bool TreeRadau::error_estimate(double h, double& error) {
   const TreeState& last = stages_.states()[n_ - 1];
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!projector_.prepare(stages_.instant(n_ - 1), mu, last, TreeProjector::Laws::kWhole, find_taut(mu / kProjectionShare))) return false;
-  error = std::max({body_tail(), gap_tail(), state_tail(std::abs(h)), open_contact_error()});
+  error = std::max({body_tail(), gap_tail(), state_tail(std::abs(h)), open_contact_error(), ringing_behind_event()});
   return std::isfinite(error);
 }
 
@@ -108,6 +109,23 @@ double TreeRadau::open_contact_error() const {
     return LawPoint{instant.t(), gap, rate, last.law_state.data() + system_.joints[j].first_state};
   };
   return open_contacts_.error(carried, [&](int j) { return instant.kinematics(static_cast<int>(first_gap(j) / 3)).gap; }, kLastBits * largest_coordinate(instant.pose().q), scale_);
+}
+
+// theory/time Eq. (3.24), of the joints that are no coordinates.
+double TreeRadau::ringing_behind_event() const {
+  if (control_.have_history) return 0;
+  const TreeState& last = stages_.states()[n_ - 1];
+  const TreeInstant& instant = stages_.instant(n_ - 1);
+  double largest = 0;
+  for (Index l = 0; l < std::ssize(tree_->laws()); ++l) {
+    const int j = tree_->laws()[l];
+    S::Vec missed = begin_.rate.segment<3>(3 * l);
+    for (int s = 0; s < n_; ++s) missed -= table_.stages_to_powers(0, s) * stages_.states()[s].rate.segment<3>(3 * l);
+    const S::Vec gap = last.gap.segment<3>(3 * l), rate = last.rate.segment<3>(3 * l);
+    const LawPoint at{instant.t(), gap, rate, last.law_state.data() + system_.joints[j].first_state};
+    largest = std::max(largest, unresolved_ringing(system_, j, at, instant.kinematics(static_cast<int>(l)), missed, scale_));
+  }
+  return largest;
 }
 
 // theory/tree section 6.

@@ -48,6 +48,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   double gap_tail();
   double state_tail(double h) const;
   double open_contact_error() const;
+  double ringing_behind_event() const;
   void finish_step(double h);
   void move_onto_gaps();
   void take_gaps();

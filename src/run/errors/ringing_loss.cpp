@@ -5,6 +5,7 @@
 
 #include "dynamics/inverse_dynamics.h"
 #include "dynamics/time_scales.h"
+#include "integrators/unresolved_ringing.h"
 #include "laws/law.h"
 #include "run/record/force_table.h"
 
@@ -25,7 +26,7 @@ void BasicRingingLoss<S>::start_again() {
 
 template <class S>
 void BasicRingingLoss<S>::find_masses() {
-  mass_ = decay_ = VecsOf<S>(lost_.size(), S::Vec::Zero());
+  mass_ = damping_ = stiffness_ = decay_ = VecsOf<S>(lost_.size(), S::Vec::Zero());
   const VecsOf<S> closed = known_mass_ == nullptr || known_mass_->empty() ? BasicInverseDynamics<S>(*system_).effective_masses(*start_).closed : *known_mass_;
   for (std::size_t j = 0; j < closed.size(); ++j) {
     const BasicResponse<S> response = respond(system_->joints[j].law, start_->gap[j], start_->gap_rate[j]);
@@ -33,7 +34,9 @@ void BasicRingingLoss<S>::find_masses() {
       const double m = closed[j][k];
       if (!(response.stiffness(k, k) > 0) || !(m > 0)) continue;
       mass_[j][k] = m;
-      decay_[j][k] = own_rates(m, response.damping(k, k), response.stiffness(k, k)).decay;
+      damping_[j][k] = response.damping(k, k);
+      stiffness_[j][k] = response.stiffness(k, k);
+      decay_[j][k] = own_rates(m, damping_[j][k], stiffness_[j][k]).decay;
     }
   }
 }
@@ -47,15 +50,16 @@ void BasicRingingLoss<S>::see_step(const BasicStepNodes<S>& nodes, double h) {
   for (std::size_t j = 0; j < lost_.size(); ++j)
     for (int k = 0; k < S::kDof; ++k) {
       if (mass_[j][k] == 0) continue;
-      double missed = nodes.gap_accel[0][j][k], amplitude = std::abs(missed);
+      double missed = nodes.gap_accel[0][j][k], amplitude = std::abs(missed), last = 0;
       for (int s = 0; s < table.n; ++s) {
         const double x = nodes.gap_accel[s + 1][j][k];
         missed -= table.stages_to_powers(0, s) * x;
+        last += table.stages_to_legendre(table.n - 1, s) * x;
         amplitude = std::max(amplitude, std::abs(x));
       }
-      missed = std::min(std::abs(missed), amplitude);
       if (!(amplitude > 0)) continue;
-      lost_[j][k] = std::exp(-decay_[j][k] * h) * (lost_[j][k] + mass_[j][k] * missed * missed / amplitude);
+      const double share = std::min(std::abs(missed) / amplitude, 1.0), missed_rate = h * last / (2 * table.n - 1);
+      lost_[j][k] = std::exp(-decay_[j][k] * h) * (lost_[j][k] + share * share * std::max(mass_[j][k] * amplitude, ringing_force(mass_[j][k], damping_[j][k], stiffness_[j][k], missed_rate)));
     }
   for (std::size_t j = 0; j < lost_.size(); ++j) {
     force_[j] = std::max(force_[j], linear_magnitude<S>(lost_[j]));

@@ -29,7 +29,7 @@ class BasicRingingLoss {
   const BasicSystem<S>* system_;
   const BasicState<S>* start_;
   const VecsOf<S>* known_mass_;
-  VecsOf<S> mass_, decay_;  // what a component's force accelerates; the rate at which the joint damps its own vibration [1/s]; empty before the first step
+  VecsOf<S> mass_, damping_, stiffness_, decay_;  // what a component's force accelerates; its law at the start; the rate at which the joint damps its own vibration [1/s]; empty before the first step
   VecsOf<S> lost_;          // [N], [N*m]
   std::vector<double> force_, couple_;
 };

@@ -1,0 +1,29 @@
+#include "integrators/unresolved_ringing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pintle {
+
+double ringing_force(double m, double c, double k, double rate) { return k * std::abs(rate) / (std::sqrt(k / m) + std::max(c, 0.0) / m); }
+
+template <class S>
+double unresolved_ringing(const BasicSystem<S>& system, int j, const BasicLawPoint<S>& at, const BasicJointKinematics<S>& r, const typename S::Vec& missed,
+                          const BasicLoadScale<S>& scale) {
+  const BasicJointData<S>& joint = system.joints[j];
+  if (joint.ideal) return 0;
+  BasicLawTangents<S> tangents;
+  joint.law.linearize(at, tangents);
+  const typename S::Vec mobility = system.own_mobility(joint.at, r), load = load_across(joint.at, scale);
+  double largest = 0;
+  for (int c = 0; c < S::kDof; ++c) {
+    const double k = tangents.stiffness(c, c);
+    if (k > 0 && mobility[c] > 0) largest = std::max(largest, ringing_force(1 / mobility[c], tangents.damping(c, c), k, missed[c]) / load[c]);
+  }
+  return largest;
+}
+
+template double unresolved_ringing<Planar>(const BasicSystem<Planar>& system, int j, const BasicLawPoint<Planar>& at, const BasicJointKinematics<Planar>& r, const Planar::Vec& missed, const BasicLoadScale<Planar>& scale);
+PINTLE_IN_SPACE(template double unresolved_ringing<Spatial>(const BasicSystem<Spatial>& system, int j, const BasicLawPoint<Spatial>& at, const BasicJointKinematics<Spatial>& r, const Spatial::Vec& missed, const BasicLoadScale<Spatial>& scale);)
+
+}  // namespace pintle

@@ -1,0 +1,19 @@
+// What a step behind an event does not resolve of the vibrations that begin there. theory/time section 3.4.
+#pragma once
+
+#include "integrators/load_scale.h"
+#include "system/system.h"
+
+namespace pintle {
+
+/// The largest force by which a joint of stiffness k, damping c and effective mass m departs from the one that its load asks for, after its gap has begun with the
+/// right force and a rate that is off by this much [N or N*m]: of an undamped joint that of a vibration, sqrt(k m) times the rate. theory/time Eq. (3.24).
+double ringing_force(double m, double c, double k, double rate);
+
+/// The same of joint j over the load scale, with the effective mass of its own two bodies. at, r: of the last stage; missed: what the curve through the gap's rates
+/// at the stages, continued to the start of the step, misses the rate there by.
+template <class S>
+double unresolved_ringing(const BasicSystem<S>& system, int j, const BasicLawPoint<S>& at, const BasicJointKinematics<S>& r, const typename S::Vec& missed,
+                          const BasicLoadScale<S>& scale);
+
+}  // namespace pintle
