@@ -16,7 +16,9 @@ std::array<double, 1> in_turn(double angle) { return {angle - kTurn * std::floor
 
 }  // namespace
 
-CamProfile::CamProfile(const Cam& cam) : cam_(cam), hollow_(least_hollow_radius([this](double angle) { return pitch(angle); }, 0, kTurn)) {}
+CamProfile::CamProfile(const Cam& cam) : cam_(cam), hollow_(least_hollow_radius([this](double angle) { return pitch(angle); }, 0, kTurn)), bends_(find_bends([this](double angle) { return radius(angle)[2]; }, 0, kTurn)) {
+  bends_.period = kTurn;
+}
 
 std::array<double, 3> CamProfile::radius(double angle) const {
   const std::array<double, 3> lift = cam_.lift.is_constant() ? std::array{cam_.lift.value({}), 0.0, 0.0} : cam_.lift.second_order(in_turn(angle), 0);

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "base/bends.h"
 #include "joints/curve_gap.h"
 #include "pintle/model.h"
 
@@ -22,6 +23,8 @@ class CamProfile {
   /// With first and second derivative by the angle [m]. Of a roller or pin: the polar radius of the pitch curve, on which its centre goes
   /// round the cam, Eq. (1.1). Of a flat face: its distance from the cam's axis when the angle is that of its normal, Eq. (1.2).
   std::array<double, 3> radius(double angle) const;
+  /// Of the radius over the angle, with the period of a turn.
+  const Bends& bends() const { return bends_; }
   /// The polar angle of the point of the pitch curve that is nearest to c, Eq. (2.1).
   double foot(const Planar::Point& c) const;
   /// A point of the cam's surface, Eqs. (1.3), (1.4); the angle is that of radius().
@@ -40,6 +43,7 @@ class CamProfile {
   friend struct CamGap;
   Cam cam_;
   double hollow_;  // the least radius of curvature of the pitch curve's hollow parts [m]
+  Bends bends_;
 };
 
 }  // namespace pintle

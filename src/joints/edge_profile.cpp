@@ -17,7 +17,7 @@ CurvePoint EdgeProfile::at(double x) const {
   return {{x, h}, {-1, -slope}, {0, bend}};
 }
 
-EdgeProfile::EdgeProfile(const Edge& edge) : edge_(edge), hollow_(least_hollow_radius([this](double u) { return at(-u); }, -edge.to, -edge.from)) {}
+EdgeProfile::EdgeProfile(const Edge& edge) : edge_(edge), hollow_(least_hollow_radius([this](double u) { return at(-u); }, -edge.to, -edge.from)), bends_(find_bends([this](double x) { return at(x).dd[1]; }, edge.from, edge.to)) {}
 
 // What is no further from c than `way` is within this way along the line.
 double EdgeProfile::nearest(const Planar::Point& c) const {

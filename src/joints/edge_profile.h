@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "base/bends.h"
 #include "joints/curve_gap.h"
 #include "pintle/model.h"
 
@@ -17,6 +18,8 @@ class EdgeProfile {
   double roller_radius() const { return edge_.roller_radius; }
   double from() const { return edge_.from; }
   double to() const { return edge_.to; }
+  /// Along x.
+  const Bends& bends() const { return bends_; }
   /// The point at x, with derivatives by -x: what is above it is on the outer side.
   CurvePoint at(double x) const;
   /// x of the point that is nearest to c. Eq. (2.1)
@@ -29,6 +32,7 @@ class EdgeProfile {
  private:
   Edge edge_;
   double hollow_;  // the least radius of curvature of hollow parts from from() to to() [m]
+  Bends bends_;
 };
 
 }  // namespace pintle

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/bends.h"
 #include "laws/law_numbers.h"
 #include "space/space.h"
 
@@ -88,6 +89,8 @@ class BasicLawPart {
   virtual Vec engaged_stiffness() const = 0;
   /// Stiffness in each component once a gap that may be open has closed; unless the law says otherwise, engaged_stiffness.
   virtual Vec closed_stiffness() const = 0;
+  /// Where the force bends over the component that is returned with it, and how narrow it is there: steps do not fly past it. None: it is smooth.
+  virtual std::pair<int, Bends> bends() const = 0;
   /// What the joint's own force is multiplied by to measure couples that the law makes of it [m]: the radius of a pin that rubs.
   virtual double lever() const = 0;
   /// Moves a gap into the range in which the law acts.
@@ -105,7 +108,7 @@ using LawPart = BasicLawPart<Planar>;
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
 /// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), border_directions() (one +1, -1 or 0
 /// each, or border_direction(i)) cross() and border_name(), kHolds = false, kStops = true, kRubs = false (of what neither holds nor stops), kOnReactionAlone = true, kStartsFree = true, supply(in),
-/// columns() with observe(), engaged_stiffness(), closed_stiffness(), engage(), lever(), penetration(), breach(), stiction() with set_stuck() and start_slipping().
+/// columns() with observe(), engaged_stiffness(), closed_stiffness(), bends(), engage(), lever(), penetration(), breach(), stiction() with set_stuck() and start_slipping().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
  public:
@@ -194,6 +197,10 @@ class LawPartOf final : public BasicLawPart<S> {
   Vec closed_stiffness() const override {
     if constexpr (requires { law_.closed_stiffness(); }) return law_.closed_stiffness();
     else return engaged_stiffness();
+  }
+  std::pair<int, Bends> bends() const override {
+    if constexpr (requires { law_.bends(); }) return {law_.free, law_.bends()};
+    else return {};
   }
   double lever() const override {
     if constexpr (requires { law_.lever(); }) return law_.lever();

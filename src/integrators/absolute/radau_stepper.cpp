@@ -12,7 +12,7 @@ template <class S>
 BasicRadauStepper<S>::BasicRadauStepper(const BasicSystem<S>& system, double tolerance, int stages, ToleranceOf tolerance_of)
     : Events(system), system_(system), table_(RadauTable::of(stages)), n_(table_.n), tolerance_(tolerance), of_motion_(tolerance_of == ToleranceOf::kMotion),
       solver_(make_stage_solver(system, table_, tolerance, of_motion_ ? Steps::kLong : Steps::kAccurate)), stage_(table_.n), end_point_(make_end_point_projection(system)),
-      tails_{std::vector<RowOf4<S>>(system.bodies.size()), std::vector<RowOf4<S>>(system.joints.size()), std::vector<RowOf4<S>>(system.n_law_states() > 0 ? system.joints.size() : 0)}, open_contacts_(system), end_m_(system.bodies.size()) {
+      tails_{std::vector<RowOf4<S>>(system.bodies.size()), std::vector<RowOf4<S>>(system.joints.size()), std::vector<RowOf4<S>>(system.n_law_states() > 0 ? system.joints.size() : 0)}, open_contacts_(system), bends_(system), end_m_(system.bodies.size()) {
   const std::size_t n = system.bodies.size(), m = system.joints.size();
   const VecsOf<S> bodies(n, S::Vec::Zero()), joints(m, S::Vec::Zero());
   const std::vector<double> states(system.n_law_states());

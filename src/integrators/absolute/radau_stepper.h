@@ -18,6 +18,7 @@
 
 #include "integrators/absolute/end_point_projection.h"
 #include "integrators/absolute/stage_solver.h"
+#include "integrators/bend_watch.h"
 #include "integrators/open_contacts.h"
 #include "integrators/radau/motion_scale.h"
 #include "integrators/radau/step_events.h"
@@ -73,6 +74,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   double change_of_loads(double h);           // where the bodies are moved onto their gaps
   double open_contact_error(double h) const;
   double ringing_behind_event(double h) const;
+  double share_of_step() const { return bends_.share_of_step(end_m_, stage_[n_ - 1].m); }
   double friction_tail() const;               // of forces in free directions that no mass shows
   double motion_tail();                       // as accelerations that the bodies can yield to
   void finish_step(double h);                 // fills end_ and nodes_
@@ -118,6 +120,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   BasicStageTails<S> tails_;
   VecsOf<S> load_change_;
   BasicOpenContacts<S> open_contacts_;
+  BasicBendWatch<S> bends_;
   std::vector<std::pair<int, typename S::Vec>> rubbing_;  // joints without bristles, and 1 where they rub
   std::vector<int> powered_;                  // joints whose power no stage has summed up
   PositionsOf<S> inside_q_;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "integrators/bend_watch.h"
 #include "integrators/open_contacts.h"
 #include "integrators/radau/step_events.h"
 #include "integrators/relative/tree_projector.h"
@@ -49,6 +50,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   double state_tail(double h) const;
   double open_contact_error() const;
   double ringing_behind_event() const;
+  double share_of_step() const { return bends_.share_of_step(end_at_.pose().m, stages_.instant(n_ - 1).pose().m); }
   void finish_step(double h);
   void move_onto_gaps();
   void take_gaps();
@@ -83,6 +85,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   TreeProjector projector_;
   TreeInstant end_at_, inside_at_;
   OpenContacts open_contacts_;
+  BendWatch bends_;
   TreeState begin_, end_;
   State begin_state_, end_state_, inside_state_;
   TreeNodes nodes_;

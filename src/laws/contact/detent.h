@@ -69,6 +69,12 @@ struct DetentLaw {
     return rising ? "ball out of a notch" : "ball over the edge of a notch";
   }
 
+  /// Both sides and the middle of every notch.
+  Bends bends() const {
+    const double side = 0.5 * profile.width / radius;
+    return {{place - side, place, place + side}, profile.pitch / radius};
+  }
+
   std::span<const LawColumn> columns() const {
     static constexpr const char* kLift = "how far the notches have lifted the ball";
     static const std::array<LawColumn, 2> turn{{{"detent", "N*m", "moment of the detent on the second body"}, {"detent_lift", "m", kLift}}};

@@ -1,0 +1,42 @@
+#include "base/bends.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace pintle {
+namespace {
+
+TEST(Bends, TheSecondOneEndsTheWay) {
+  const Bends bends{{1, 2, 5}};
+  EXPECT_EQ(bends.share_to_second(0, 4), 0.5);
+  EXPECT_EQ(bends.share_to_second(0, 1.9), 1);
+  EXPECT_EQ(bends.share_to_second(1, 9), 0.5);  // a bend that it starts at is behind it
+  EXPECT_EQ(bends.share_to_second(2, 9), 1);
+  EXPECT_EQ(bends.share_to_second(6, 0), 4.0 / 6);
+  EXPECT_EQ(bends.share_to_second(5, 0), 4.0 / 5);
+  EXPECT_EQ(bends.share_to_second(1, 0), 1);
+  EXPECT_EQ(bends.share_to_second(3, 3), 1);
+  EXPECT_EQ(Bends{}.share_to_second(0, 9), 1);
+}
+
+TEST(Bends, GoOnWithTheirPeriod) {
+  const Bends bends{{-1, 0, 1}, 10};
+  EXPECT_EQ(bends.share_to_second(2, 22), 8.0 / 20);     // 9, 10
+  EXPECT_EQ(bends.share_to_second(30, 50), 9.0 / 20);    // 31, 39
+  EXPECT_EQ(bends.share_to_second(-2, -22), 8.0 / 20);   // -9, -10
+  EXPECT_EQ(bends.share_to_second(-30, -50), 9.0 / 20);  // -31, -39
+  EXPECT_EQ(bends.share_to_second(1, 5), 1);
+}
+
+TEST(Bends, OfABumpAreOnEitherSideOfIt) {
+  const auto curvature = [](double x) { return std::exp(-x * x) * (4 * x * x - 2); };
+  const Bends bends = find_bends(curvature, -5, 5);
+  ASSERT_EQ(bends.places.size(), 4U);  // straight, hollow, convex, hollow, straight
+  EXPECT_NEAR(bends.places[1], -std::numbers::sqrt2 / 2, 10.0 / 720);
+  EXPECT_NEAR(bends.places[2], std::numbers::sqrt2 / 2, 10.0 / 720);
+  EXPECT_TRUE(find_bends([](double) { return 0.0; }, 0, 1).empty());
+}
+
+}  // namespace
+}  // namespace pintle
