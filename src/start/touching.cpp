@@ -96,21 +96,21 @@ std::vector<int> others(const std::vector<Touch>& all, const std::vector<Touch>&
 std::string press_touching_surfaces(const System& system, State& state) {
   const std::vector<Touch> all = find_touches(system, state);
   std::vector<Touch> touches = all;
+  State carried = state;
   while (!touches.empty()) {
-    const System firm = with_springs(system, touches);
-    State carried = state;
-    start_forces(firm, true, carried);
+    carried = state;
+    start_forces(with_springs(system, touches), true, carried);
     const double nothing = kFits * largest_force(carried.force);
     const auto pulls = [&](const Touch& touch) { return !(pressing(touch, carried.force[touch.joint]) > nothing); };
-    if (std::erase_if(touches, pulls) > 0) continue;
-    for (const Touch& touch : all) carried.gap[touch.joint] = gap_at(touch, -kAsStated * characteristic_length(system, state.q));  // what would pull is ajar
-    for (const Touch& touch : touches)
-      carried.gap[touch.joint][touch.k] = gap_at(touch, depth_at(system.joints[touch.joint].law, touch, pressing(touch, carried.force[touch.joint])))[touch.k];
-    BasicInverseDynamics<S>(with_springs(system, all)).move_onto_gaps(carried);
-    state.q = carried.q;
-    state.v = carried.v;
-    break;
+    if (std::erase_if(touches, pulls) == 0) break;
   }
+  if (touches.empty()) carried = state;
+  for (const Touch& touch : all) carried.gap[touch.joint] = gap_at(touch, -kAsStated * characteristic_length(system, state.q));  // what would pull is ajar
+  for (const Touch& touch : touches)
+    carried.gap[touch.joint][touch.k] = gap_at(touch, depth_at(system.joints[touch.joint].law, touch, pressing(touch, carried.force[touch.joint])))[touch.k];
+  if (!all.empty()) BasicInverseDynamics<S>(with_springs(system, all)).move_onto_gaps(carried);
+  state.q = carried.q;
+  state.v = carried.v;
   return names_of_joints(system, others(all, touches));
 }
 

@@ -47,7 +47,7 @@ template <class S>
 double energy_of_joints(const BasicSystem<S>& system, const BasicState<S>& state) {
   double stored = 0;
   for (int j = 0; j < system.n_joints(); ++j)
-    if (system.joints[j].servo < 0) stored += system.joints[j].law.energy(law_point(system, j, state));
+    if (system.joints[j].servo < 0 && !system.joints[j].ideal) stored += system.joints[j].law.energy(law_point(system, j, state));
   return stored;
 }
 

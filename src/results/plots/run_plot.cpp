@@ -218,6 +218,8 @@ Plot make_plot(const RunRecord& run, const PlotRequest& request) {
   PlotRequest all = request;
   all.joints = most_loaded_joints(run.trajectory);
   if (all.joints.size() > 1) all.components = {"magnitude"};
+  const auto has_couples_alone = [&run](const std::string& name) { return find_joint(run.trajectory, name).peak == 0 && find_joint(run.trajectory, name).peak_moment > 0; };
+  if (!all.joints.empty() && std::all_of(all.joints.begin(), all.joints.end(), has_couples_alone)) all.components = {"moment"};
   return PlotMaker(run, all).make();
 }
 

@@ -17,7 +17,7 @@ bool transmits_couple(const BasicJointData<S>& joint) {
   const typename S::Vec stiffness = joint.law.engaged_stiffness();
   for (int k = S::kDim; k < S::kDof; ++k)
     if (joint.held[k] && stiffness[k] > 0) return true;
-  return (joint.law.has_stops() || (joint.law.rubs() && joint.law.lever() == 0)) && joint.free_mask.template head<S::kDim>().isZero();  // stops, a detent
+  return joint.law.acts_without_reaction() && joint.free_mask.template head<S::kDim>().isZero();  // stops, a detent
 }
 
 template <class S>

@@ -20,6 +20,7 @@ class BasicStuckJoints {
   /// Those with a law that says whether they stick: by columns called `friction` and `stuck`.
   explicit BasicStuckJoints(const BasicSystem<S>& system) : system_(system) {
     for (int j = 0; j < system.n_joints(); ++j) {
+      if (system.joints[j].ideal) continue;
       const std::vector<LawColumn> columns = system.joints[j].law.columns();
       const auto find = [&columns](const char* name) { return std::find_if(columns.begin(), columns.end(), [name](const LawColumn& c) { return c.name == name; }); };
       if (find("stuck") == columns.end() || find("friction") == columns.end()) continue;
