@@ -40,23 +40,45 @@ struct Bends {
   }
 };
 
-/// Of a curve between two parameters, by its curvature at many points: to within 1/720 of the way between them. What bends less than a ten-thousandth of the most is
+/// Between two parameters, by the curvature at equidistant ones, the first of which is `low`. What bends less than a ten-thousandth of the most, or than `rounding`, is
 /// straight.
+inline Bends bends_of(const std::vector<double>& curvature, double low, double apart, double rounding = 0) {
+  constexpr double kStraight = 1e-4;
+  double straight = 0;
+  for (const double x : curvature) straight = std::max(straight, std::abs(x));
+  straight = std::max(kStraight * straight, rounding);
+  const auto way = [&](std::size_t i) { return !(std::abs(curvature[i]) > straight) ? 0 : curvature[i] > 0 ? 1 : -1; };
+  Bends bends;
+  for (std::size_t i = 1; i < curvature.size(); ++i) {
+    if (way(i) == way(i - 1) || (way(i) == 0 && i + 1 < curvature.size() && way(i + 1) == -way(i - 1))) continue;  // a zero between two signs is at one bend
+    bends.places.push_back(low + apart * (static_cast<double>(i) - 0.5));
+  }
+  return bends;
+}
+
+/// Of a curve of which the curvature is known, to within 1/720 of the way.
 template <class Curvature>
 Bends find_bends(const Curvature& curvature, double low, double high) {
   constexpr int kPoints = 720;
-  constexpr double kStraight = 1e-4;
+  const double apart = (high - low) / kPoints;
   std::vector<double> values;
-  double most = 0;
-  for (int i = 0; i <= kPoints; ++i) {
-    values.push_back(curvature(low + (high - low) * i / kPoints));
-    most = std::max(most, std::abs(values.back()));
+  for (int i = 0; i <= kPoints; ++i) values.push_back(curvature(low + apart * i));
+  return bends_of(values, low, apart);
+}
+
+/// Of the graph of a function, by the second differences of its values at the ends of so many parts of the way. What is narrower may be missed.
+template <class Function>
+Bends find_bends_of_graph(const Function& f, double low, double high, int parts) {
+  constexpr double kRounding = 1e-14;  // of the largest value
+  const double apart = (high - low) / parts;
+  std::vector<double> values, curvature;
+  double largest = 0;
+  for (int i = 0; i <= parts; ++i) {
+    values.push_back(f(low + apart * i));
+    largest = std::max(largest, std::abs(values.back()));
+    if (i > 1) curvature.push_back(values[i] - 2 * values[i - 1] + values[i - 2]);
   }
-  const auto way = [&](double value) { return std::abs(value) <= kStraight * most ? 0 : value > 0 ? 1 : -1; };
-  Bends bends;
-  for (int i = 1; i <= kPoints; ++i)
-    if (way(values[i]) != way(values[i - 1])) bends.places.push_back(low + (high - low) * (i - 0.5) / kPoints);
-  return bends;
+  return bends_of(curvature, low + apart, apart, kRounding * largest);
 }
 
 }  // namespace pintle

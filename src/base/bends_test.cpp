@@ -38,5 +38,14 @@ TEST(Bends, OfABumpAreOnEitherSideOfIt) {
   EXPECT_TRUE(find_bends([](double) { return 0.0; }, 0, 1).empty());
 }
 
+TEST(Bends, OfAGraphAreThoseOfItsSecondDifferences) {
+  const auto pulse = [](double t) { return 200 * std::exp(-std::pow((t - 3) / 0.005, 2)); };
+  const Bends bends = find_bends_of_graph(pulse, 0, 6, 2000);
+  ASSERT_GE(bends.places.size(), 2U);
+  for (const double place : bends.places) EXPECT_NEAR(place, 3, 0.02);
+  EXPECT_TRUE(find_bends_of_graph([](double t) { return 1e6 + 7 * t; }, 0, 6, 2000).empty());
+  EXPECT_EQ(find_bends_of_graph([](double t) { return std::sin(t); }, 0.5, 3 * std::numbers::pi + 0.5, 2000).places.size(), 3U);
+}
+
 }  // namespace
 }  // namespace pintle

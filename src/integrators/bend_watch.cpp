@@ -1,6 +1,7 @@
 #include "integrators/bend_watch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <variant>
 
@@ -9,12 +10,22 @@
 #include "laws/law.h"
 
 namespace pintle {
+namespace {
+
+constexpr int kParts = 2000;    // of the run, at whose ends loads and motors are looked at: as dear as a few steps
+constexpr int kFewParts = 4;  // of a step: the stages see as much
+
+}  // namespace
 
 template <class S>
 BasicBendWatch<S>::BasicBendWatch(const BasicSystem<S>& system) : system_(system) {
   const auto add = [this](int joint, int component, const Bends& bends) {
     if (!bends.empty()) ways_.push_back({joint, component, bends});
   };
+  for (std::size_t l = 0; l < system.loads.size(); ++l) {
+    const std::vector<BasicSignal<S>>& signals = system.loads[l].signals;
+    if (std::any_of(signals.begin(), signals.end(), [](const auto& signal) { return !signal.is_time; })) placed_.push_back(static_cast<int>(l));
+  }
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicJointData<S>& joint = system.joints[j];
     if (joint.ideal) continue;
@@ -49,8 +60,41 @@ double BasicBendWatch<S>::end_of(const Way& way, double from, const std::vector<
 }
 
 template <class S>
-double BasicBendWatch<S>::share_of_step(const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const {
+void BasicBendWatch<S>::find_bends_in_time(double from, double to) {
+  if (!(to > from)) return;
+  apart_ = (to - from) / kParts;
+  const auto add = [&](const Expression& f) {
+    if (f.is_constant() || f.variables().size() != 1) return;
+    if (Bends bends = find_bends_of_graph([&f](double t) { return f.value(std::array{t}); }, from, to, kParts); !bends.empty()) in_time_.push_back(std::move(bends));
+  };
+  for (const auto& force : system_.applied)
+    for (const Expression* f : force.functions()) add(*f);
+  for (const BasicLoadData<S>& load : system_.loads)
+    if (load.signals.size() == 1 && load.signals.front().is_time) add(load.law);
+  for (const BasicJointData<S>& joint : system_.joints)
+    if (joint.driven >= 0) add(joint.target);
+}
+
+// Over the straight way from what it reads at the start to that at the end.
+template <class S>
+double BasicBendWatch<S>::share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const {
+  const double parts = std::floor(h / apart_);
+  if (!(parts > kFewParts)) return 1;
+  const std::array<double, kMaxSignals> from = system_.signal_values(load, t, start), to = system_.signal_values(load, t + h, end);
+  std::array<double, kMaxSignals> at{};
+  const auto effort = [&](double x) {
+    for (std::size_t s = 0; s < load.signals.size(); ++s) at[s] = from[s] + x * (to[s] - from[s]);
+    return load.law.value({at.data(), load.signals.size()});
+  };
+  return find_bends_of_graph(effort, 0, 1, static_cast<int>(std::min<double>(parts, kParts))).share_to_second(0, 1);
+}
+
+template <class S>
+double BasicBendWatch<S>::share_of_step(double t, double h, double t_end, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) {
+  if (apart_ == 0) find_bends_in_time(t, t_end);
   double share = 1;
+  for (const Bends& bends : in_time_) share = std::min(share, bends.share_to_second(t, t + h));
+  for (const int l : placed_) share = std::min(share, share_of_effort(system_.loads[l], t, h, start, end));
   for (const Way& way : ways_) {
     const double from = place(way, start);
     share = std::min(share, way.bends.share_to_second(from, end_of(way, from, start, end)));

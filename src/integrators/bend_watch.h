@@ -1,4 +1,5 @@
-// Steps look at what they pass: a notch, a bump of an edge or the lift of a cam may be shorter than the way between two stages. theory/time section 3.4.
+// Steps look at what they pass: a notch, a bump of an edge or the lift of a cam may be shorter than the way between two stages, and a blow
+// shorter than the time. theory/time section 3.4.
 #pragma once
 
 #include <vector>
@@ -13,8 +14,9 @@ class BasicBendWatch {
  public:
   explicit BasicBendWatch(const BasicSystem<S>& system);
 
-  /// The share of a step that leads to the second bend on the way of a joint, with the motions at its start and its end; 1: no joint passes two.
-  double share_of_step(const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const;
+  /// The share of a step of h from t that leads to the second bend on the way of a joint, with the motions at its start and its end, or of what a load or a motor does in
+  /// the time up to `t_end`, or over the places that it reads; 1: none passes two. What is shorter than a thousandth of the run may be missed.
+  double share_of_step(double t, double h, double t_end, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end);
 
  private:
   struct Way {
@@ -25,7 +27,13 @@ class BasicBendWatch {
   double end_of(const Way& way, double from, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const;
 
   const BasicSystem<S>& system_;
+  void find_bends_in_time(double from, double to);
+  double share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const;
+
   std::vector<Way> ways_;
+  std::vector<Bends> in_time_;  // found when they are first asked for
+  std::vector<int> placed_;     // loads that are efforts which read places or speeds
+  double apart_ = 0;            // instants at which they are looked at [s]; 0: not known yet
 };
 using BendWatch = BasicBendWatch<Planar>;
 

@@ -31,17 +31,6 @@ double value_of(const BasicSystem<S>& system, const BasicSignal<S>& signal, doub
   return signal.rate ? pose.rate[signal.component] : pose.z[signal.component];
 }
 
-// Values of the signals an effort expression reads.
-template <class S>
-std::array<double, kMaxSignals> signal_values(const BasicSystem<S>& system, const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m) {
-  std::array<double, kMaxSignals> values{};
-  const std::size_t n = std::min<std::size_t>(load.signals.size(), kMaxSignals);
-  for (std::size_t s = 0; s < n; ++s) {
-    values[s] = value_of(system, load.signals[s], t, m);
-  }
-  return values;
-}
-
 // An applied force in world axes, at time t.
 struct PlanarWrench {
   Planar::Point force;
@@ -114,7 +103,7 @@ typename BasicSystem<S>::LoadState BasicSystem<S>::load_state(const BasicLoadDat
   state.kinematics = read(state.displacement, state.pose);
   state.slot = slot_of(load);
   if (load.kind == LoadKind::kEffort) {
-    const auto values = signal_values(*this, load, t, m);
+    const auto values = signal_values(load, t, m);
     const std::size_t n = load.signals.size();
     const auto at = std::span(values).first(n);
     const auto slopes = std::span(state.df_dsignal).first(n);
@@ -126,6 +115,14 @@ typename BasicSystem<S>::LoadState BasicSystem<S>::load_state(const BasicLoadDat
     state.df_drate = -load.c;
   }
   return state;
+}
+
+template <class S>
+std::array<double, kMaxSignals> BasicSystem<S>::signal_values(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m) const {
+  std::array<double, kMaxSignals> values{};
+  const std::size_t n = std::min<std::size_t>(load.signals.size(), kMaxSignals);
+  for (std::size_t s = 0; s < n; ++s) values[s] = value_of(*this, load.signals[s], t, m);
+  return values;
 }
 
 template <class S>
@@ -197,7 +194,7 @@ void BasicSystem<S>::evaluate_switching_functions(double t, const std::vector<ty
   }
   for (const BasicLoadData<S>& load : loads) {
     if (load.kind != LoadKind::kEffort || load.law.n_switches() == 0) continue;
-    const auto values = signal_values(*this, load, t, m);
+    const auto values = signal_values(load, t, m);
     find(load.law, std::span(values).first(load.signals.size()), ramp_of(load, sliding));
   }
   for (const BasicAppliedData<S>& force : applied)
@@ -222,7 +219,7 @@ template <class S>
 std::optional<SlidingMode> BasicSystem<S>::jump_between(double t0, const std::vector<typename S::Motion>& m0, double t1, const std::vector<typename S::Motion>& m1) const {
   for (const BasicLoadData<S>& load : loads) {
     if (load.kind != LoadKind::kEffort || load.law.n_switches() == 0) continue;
-    const auto from = signal_values(*this, load, t0, m0), to = signal_values(*this, load, t1, m1);
+    const auto from = signal_values(load, t0, m0), to = signal_values(load, t1, m1);
     const std::size_t n = load.signals.size();
     if (const auto jump = load.law.jump_between(std::span(from).first(n), std::span(to).first(n)))
       return SlidingMode{static_cast<int>(&load - loads.data()), {*jump}};
@@ -233,7 +230,7 @@ std::optional<SlidingMode> BasicSystem<S>::jump_between(double t0, const std::ve
 template <class S>
 double BasicSystem<S>::margin(const SlidingMode& jump, double t, const std::vector<typename S::Motion>& m) const {
   const BasicLoadData<S>& load = loads[jump.load];
-  const auto values = signal_values(*this, load, t, m);
+  const auto values = signal_values(load, t, m);
   return load.law.margin(jump.ramp.jump, std::span(values).first(load.signals.size()));
 }
 
@@ -281,6 +278,7 @@ void BasicSystem<S>::applied_tangents(const BasicAppliedData<S>& force, double t
 
 template const Expression::Ramp* BasicSystem<Planar>::ramp_of(const BasicLoadData<Planar>& load, SlidingModes sliding) const;
 template BasicSystem<Planar>::LoadState BasicSystem<Planar>::load_state(const BasicLoadData<Planar>& load, double t, const std::vector<Planar::Motion>& m, SlidingModes sliding) const;
+template std::array<double, kMaxSignals> BasicSystem<Planar>::signal_values(const BasicLoadData<Planar>& load, double t, const std::vector<Planar::Motion>& m) const;
 template double BasicSystem<Planar>::load_effort(const BasicLoadData<Planar>& load, double t, const std::vector<Planar::Motion>& m, SlidingModes sliding) const;
 template void BasicSystem<Planar>::external(double t, const std::vector<Planar::Motion>& m, VecsOf<Planar>& Q, SlidingModes sliding) const;
 template ExternalWork BasicSystem<Planar>::external_work(double t, const PositionsOf<Planar>& q, const std::vector<Planar::Motion>& m, SlidingModes sliding) const;
@@ -294,6 +292,7 @@ template void BasicSystem<Planar>::load_tangents(const BasicLoadData<Planar>& lo
 template void BasicSystem<Planar>::applied_tangents(const BasicAppliedData<Planar>& force, double t, const std::vector<Planar::Motion>& m, std::vector<Tangent>& out) const;
 PINTLE_IN_SPACE(template const Expression::Ramp* BasicSystem<Spatial>::ramp_of(const BasicLoadData<Spatial>& load, SlidingModes sliding) const;)
 PINTLE_IN_SPACE(template BasicSystem<Spatial>::LoadState BasicSystem<Spatial>::load_state(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;)
+PINTLE_IN_SPACE(template std::array<double, kMaxSignals> BasicSystem<Spatial>::signal_values(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m) const;)
 PINTLE_IN_SPACE(template double BasicSystem<Spatial>::load_effort(const BasicLoadData<Spatial>& load, double t, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;)
 PINTLE_IN_SPACE(template void BasicSystem<Spatial>::external(double t, const std::vector<Spatial::Motion>& m, VecsOf<Spatial>& Q, SlidingModes sliding) const;)
 PINTLE_IN_SPACE(template ExternalWork BasicSystem<Spatial>::external_work(double t, const PositionsOf<Spatial>& q, const std::vector<Spatial::Motion>& m, SlidingModes sliding) const;)

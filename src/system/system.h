@@ -222,6 +222,8 @@ class BasicSystem {
   /// The part of one load in it, and the power of one applied force [W].
   ExternalWork work_of(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;
   double power_of(const BasicAppliedData<S>& force, double t, const std::vector<typename S::Motion>& m) const;
+  /// What the expression of an effort reads, in the order of its signals.
+  std::array<double, kMaxSignals> signal_values(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m) const;
   /// Force (spring: tension; motor: effort) of a load.
   double load_effort(const BasicLoadData<S>& load, double t, const std::vector<typename S::Motion>& m, SlidingModes sliding = {}) const;
 

@@ -74,7 +74,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   double change_of_loads(double h);           // where the bodies are moved onto their gaps
   double open_contact_error(double h) const;
   double ringing_behind_event(double h) const;
-  double share_of_step() const { return bends_.share_of_step(end_m_, stage_[n_ - 1].m); }
+  double share_of_step(double h, double t_end) { return bends_.share_of_step(begin_.t, h, t_end, end_m_, stage_[n_ - 1].m); }
   double friction_tail() const;               // of forces in free directions that no mass shows
   double motion_tail();                       // as accelerations that the bodies can yield to
   void finish_step(double h);                 // fills end_ and nodes_

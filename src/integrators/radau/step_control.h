@@ -125,7 +125,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       refused = true;
       have_history = have_history && retry == 0;
     }
-    if (const double seen = solved ? method.share_of_step() : 1; seen < kBarely) {
+    if (const double seen = solved ? method.share_of_step(h, t_end) : 1; seen < kBarely) {
       ++counters.rejected;
       h *= seen;
       up_to_event = false;
