@@ -18,25 +18,26 @@ struct Bends {
   double share_to_second(double from, double to) const {
     if (empty() || !(std::abs(to - from) > 0)) return 1;
     const bool forward = to > from;
-    double at = from;
-    for (int i = 0; i < 2; ++i) at = forward ? next(at) : -next_below(-at);
-    const double share = (at - from) / (to - from);
+    const double first = next(from, forward), share = (next(first, forward) - from) / (to - from);
     return share < 1 ? share : 1;
   }
 
  private:
-  double next(double from) const {
-    const double turns = period > 0 ? std::floor((from - places.front()) / period) * period : 0;
-    const auto above = std::upper_bound(places.begin(), places.end(), from - turns);
-    if (above != places.end()) return *above + turns;
-    return period > 0 ? places.front() + turns + period : std::numeric_limits<double>::infinity();
-  }
-  // Of the mirrored curve.
-  double next_below(double from) const {
-    const double turns = period > 0 ? std::ceil((-from - places.back()) / period) * period : 0;
-    const auto above = std::lower_bound(places.begin(), places.end(), -from - turns);
-    if (above != places.begin()) return -(*(above - 1) + turns);
-    return period > 0 ? -(places.back() + turns - period) : std::numeric_limits<double>::infinity();
+  // Beyond `from` by more than rounding.
+  double next(double from, bool forward) const {
+    constexpr double kRounding = 1e-12;
+    if (std::isinf(from)) return from;
+    const double beyond = (forward ? 1 : -1) * kRounding * std::max(std::abs(from), places.back() - places.front());
+    const double turns = period > 0 ? std::floor((from - places.front()) / period) : 0;
+    for (int i = 0; i < (period > 0 ? 3 : 1); ++i) {
+      const double shift = (turns + (forward ? i - 1 : 1 - i)) * period, wanted = from + beyond - shift;
+      if (forward) {
+        if (const auto above = std::upper_bound(places.begin(), places.end(), wanted); above != places.end()) return *above + shift;
+      } else {
+        if (const auto above = std::lower_bound(places.begin(), places.end(), wanted); above != places.begin()) return *(above - 1) + shift;
+      }
+    }
+    return forward ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
   }
 };
 

@@ -29,6 +29,21 @@ TEST(Bends, GoOnWithTheirPeriod) {
   EXPECT_EQ(bends.share_to_second(1, 5), 1);
 }
 
+// Wherever rounding puts the places of a turn.
+TEST(Bends, AlwaysLeaveAWay) {
+  const Bends bends{{-0.04, 0, 0.04}, std::numbers::pi / 4};
+  for (int turn = -50; turn <= 50; ++turn)
+    for (const double place : bends.places)
+      for (const double last_bits : {-1e-15, 0.0, 1e-15}) {
+        const double from = (place + turn * bends.period) * (1 + last_bits);
+        for (const double way : {-3.0, 3.0}) {
+          const double share = bends.share_to_second(from, from + way);
+          EXPECT_GT(std::abs(share * way), 0.0399) << from;
+          EXPECT_LT(std::abs(share * way), 0.8) << from;
+        }
+      }
+}
+
 TEST(Bends, OfABumpAreOnEitherSideOfIt) {
   const auto curvature = [](double x) { return std::exp(-x * x) * (4 * x * x - 2); };
   const Bends bends = find_bends(curvature, -5, 5);
