@@ -17,6 +17,8 @@ namespace {
 
 using S = Planar;
 
+constexpr double kAjar = 4;  // times the largest deflection of a joint: several may add up
+
 // A joint whose surfaces touch, and how it is pressed: `sign` times component `k` of its gap is the depth.
 struct Touch {
   int joint, k;
@@ -83,6 +85,17 @@ double depth_at(const BasicLaw<S>& law, const Touch& touch, double force) {
   return high;
 }
 
+// Of the joints' lengths under the forces that they carry [m].
+double largest_deflection(const System& system, const State& state) {
+  double largest = 0;
+  for (int j = 0; j < system.n_joints(); ++j) {
+    const S::Vec stiffness = system.joints[j].law.engaged_stiffness();
+    for (int k = 0; k < S::kDim; ++k)
+      if (system.joints[j].held[k] && stiffness[k] > 0) largest = std::max(largest, std::abs(state.force[j][k]) / stiffness[k]);
+  }
+  return largest;
+}
+
 // Of those of `all` that are not among `pressed`.
 std::vector<int> others(const std::vector<Touch>& all, const std::vector<Touch>& pressed) {
   std::vector<int> joints;
@@ -97,15 +110,18 @@ std::string press_touching_surfaces(const System& system, State& state) {
   const std::vector<Touch> all = find_touches(system, state);
   std::vector<Touch> touches = all;
   State carried = state;
+  double ajar = kAsStated * characteristic_length(system, state.q);  // of what would pull; further than the loads deflect joints
   while (!touches.empty()) {
     carried = state;
-    start_forces(with_springs(system, touches), true, carried);
+    const System firm = with_springs(system, touches);
+    start_forces(firm, true, carried);
+    ajar = std::max(ajar, kAjar * largest_deflection(firm, carried));
     const double nothing = kFits * largest_force(carried.force);
     const auto pulls = [&](const Touch& touch) { return !(pressing(touch, carried.force[touch.joint]) > nothing); };
     if (std::erase_if(touches, pulls) == 0) break;
   }
   if (touches.empty()) carried = state;
-  for (const Touch& touch : all) carried.gap[touch.joint] = gap_at(touch, -kAsStated * characteristic_length(system, state.q));  // what would pull is ajar
+  for (const Touch& touch : all) carried.gap[touch.joint] = gap_at(touch, -ajar);
   for (const Touch& touch : touches)
     carried.gap[touch.joint][touch.k] = gap_at(touch, depth_at(system.joints[touch.joint].law, touch, pressing(touch, carried.force[touch.joint])))[touch.k];
   if (!all.empty()) BasicInverseDynamics<S>(with_springs(system, all)).move_onto_gaps(carried);
