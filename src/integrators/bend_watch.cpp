@@ -13,7 +13,7 @@ namespace pintle {
 namespace {
 
 constexpr int kParts = 2000;    // of the run, at whose ends loads and motors are looked at: as dear as a few steps
-constexpr int kFewParts = 4;  // of a step: the stages see as much
+constexpr int kFewParts = 8;  // of a step, at least: more than it has stages
 
 }  // namespace
 
@@ -78,8 +78,8 @@ void BasicBendWatch<S>::find_bends_in_time(double from, double to) {
 // Over the straight way from what it reads at the start to that at the end.
 template <class S>
 double BasicBendWatch<S>::share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const {
-  const double parts = std::floor(h / apart_);
-  if (!(parts > kFewParts)) return 1;
+  if (!(h > apart_)) return 1;
+  const double parts = std::max<double>(h / apart_, kFewParts);
   const std::array<double, kMaxSignals> from = system_.signal_values(load, t, start), to = system_.signal_values(load, t + h, end);
   std::array<double, kMaxSignals> at{};
   const auto effort = [&](double x) {
