@@ -25,7 +25,8 @@ void SceneMaker::sketch_joints() {
   for (const Joint& joint : model_.joints) {
     const auto first = find(joint.first), second = find(joint.second);
     if (!first || !second) continue;
-    if (joint.type == "prismatic" || joint.type == "slot") sketch_slider(joint, *first, *second);
+    if (joint.type == "slot" && joint.law.word == "contact") sketch_straight_edge(joint, *first, *second);
+    else if (joint.type == "prismatic" || joint.type == "slot") sketch_slider(joint, *first, *second);
     if (joint.type == "rack") sketch_rack(joint, *first, *second);
     if (joint.type == "belt") sketch_discs(joint, *first, *second);
     if (joint.cam) sketch_cam(joint, *first, *second);
@@ -224,6 +225,18 @@ void SceneMaker::sketch_cam(const Joint& joint, const Anchor& first, const Ancho
   const Vec2 along = (1.1 * reach + scene_.unit) * direction(second.axis);  // the contact goes as far along the face as the lift changes
   sketch_of(second.body).faces.push_back({second.point - along, second.point + along});
   show(second.body, second.point, length(along));
+}
+
+// As long as what rests on it or flies over it comes.
+void SceneMaker::sketch_straight_edge(const Joint& joint, const Anchor& first, const Anchor& second) {
+  const auto stated = joint.law.values.find("pin_radius");
+  const double radius = stated != joint.law.values.end() && !stated->second.empty() ? stated->second.front() : 0;
+  const Track reach = slide_range(first, second);
+  const Vec2 along = direction(first.axis), room = (radius + 2 * scene_.unit) * along, below = -0.5 * kThick * scene_.unit * normal(along);
+  sketch_of(first.body).faces.push_back({reach.from - room + below, reach.to + room + below});
+  show(first.body, {reach.from - room, reach.to + room});
+  sketch_of(second.body).rollers.push_back({second.point, radius});
+  show(second.body, second.point, radius);
 }
 
 // Its upper side is the edge.

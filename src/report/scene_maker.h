@@ -78,6 +78,7 @@ class SceneMaker {
   void sketch_rack(const Joint& joint, const Anchor& first, const Anchor& second);
   void sketch_discs(const Joint& joint, const Anchor& first, const Anchor& second);
   void sketch_cam(const Joint& joint, const Anchor& first, const Anchor& second);
+  void sketch_straight_edge(const Joint& joint, const Anchor& first, const Anchor& second);
   void sketch_edge(const Joint& joint, const Anchor& first, const Anchor& second);
   static constexpr double kThick = 0.5;  ///< of faces and edges [units]
   BodySketch& sketch_of(int body) { return body == kWorld ? ground_ : sketches_[static_cast<std::size_t>(body)]; }
