@@ -23,6 +23,7 @@ class Flickering {
   bool forces_stay_constant(double) { return true; }
   void cross_event(double, const SwitchingEvent&) { ++crossings; }
   void balance_end() {}
+  double share_of_step(double, double) { return 1; }
   bool error_estimate(double, double&) { return false; }
   void finish_step(double) {}
 
@@ -66,6 +67,7 @@ class OneEvent {
     ++crossings;
   }
   void balance_end() {}
+  double share_of_step(double, double) { return 1; }
   bool error_estimate(double, double& error) { return error = 0, true; }
   void finish_step(double h) { t_ += h; }
 
