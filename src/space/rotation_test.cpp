@@ -9,11 +9,11 @@
 namespace pintle {
 namespace {
 
-using Point = Eigen::Vector3d;
+using SpacePoint = Eigen::Vector3d;
 using sample::Random;
 using sample::slope_at_zero;
 
-Eigen::Matrix3d matrix_of(const Point& turn) {
+Eigen::Matrix3d matrix_of(const SpacePoint& turn) {
   const auto v = components(turn);
   const auto R = rotation::matrix(v, rotation::functions(rotation::square_of(v)));
   Eigen::Matrix3d m;
@@ -22,9 +22,9 @@ Eigen::Matrix3d matrix_of(const Point& turn) {
 }
 
 // A rotation vector of this angle in any direction.
-Point turn_by(double angle, Random& random) {
-  Point axis;
-  do axis = random.vector<Point>(-1, 1);
+SpacePoint turn_by(double angle, Random& random) {
+  SpacePoint axis;
+  do axis = random.vector<SpacePoint>(-1, 1);
   while (axis.norm() < 0.1);
   return angle * axis.normalized();
 }
@@ -59,9 +59,9 @@ TEST(Rotation, SeriesBeginAsTheirLimits) {
 
 TEST(Rotation, MatricesAreRotationsAboutTheVectorByItsLength) {
   Random random(1);
-  EXPECT_EQ(matrix_of(Point::Zero()), Eigen::Matrix3d::Identity());
+  EXPECT_EQ(matrix_of(SpacePoint::Zero()), Eigen::Matrix3d::Identity());
   for (const double angle : {1e-160, 1e-9, 1e-3, 0.7, 0.9999, 1.0001, 2.0, 3.14, 4.5, 6.2, 12.0}) {
-    const Point turn = turn_by(angle, random);
+    const SpacePoint turn = turn_by(angle, random);
     const Eigen::Matrix3d R = matrix_of(turn);
     EXPECT_LT((R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), 3e-15) << angle;
     EXPECT_NEAR(R.determinant(), 1, 3e-15);
@@ -72,9 +72,9 @@ TEST(Rotation, MatricesAreRotationsAboutTheVectorByItsLength) {
 
 TEST(Rotation, QuaternionsAndVectorsAreInversesUpToHalfATurn) {
   Random random(2);
-  EXPECT_EQ(rotation::vector_of(Eigen::Quaterniond::Identity()), Point::Zero());
+  EXPECT_EQ(rotation::vector_of(Eigen::Quaterniond::Identity()), SpacePoint::Zero());
   for (const double angle : {1e-100, 1e-12, 1e-4, 0.5, 1.0, 2.0, 3.0, std::numbers::pi - 1e-9}) {
-    const Point turn = turn_by(angle, random);
+    const SpacePoint turn = turn_by(angle, random);
     const Eigen::Quaterniond r = rotation::quaternion(turn);
     EXPECT_NEAR(r.norm(), 1, 3e-16);
     EXPECT_LT((rotation::vector_of(r) - turn).norm(), 2e-15 * angle) << angle;
@@ -82,7 +82,7 @@ TEST(Rotation, QuaternionsAndVectorsAreInversesUpToHalfATurn) {
     EXPECT_LT((rotation::vector_of(Eigen::Quaterniond(-r.coeffs())) - turn).norm(), 2e-15 * angle) << angle;
   }
   // Beyond half a turn the shorter way round.
-  const Point far = turn_by(4, random);
+  const SpacePoint far = turn_by(4, random);
   EXPECT_LT((rotation::vector_of(rotation::quaternion(far)) - far * (1 - 2 * std::numbers::pi / 4)).norm(), 4e-15);
 }
 
@@ -90,11 +90,11 @@ TEST(Rotation, QuaternionsAndVectorsAreInversesUpToHalfATurn) {
 TEST(Rotation, RateIsTheSlopeOfTheRotationVector) {
   Random random(3);
   for (const double angle : {0.0, 1e-3, 0.6, 0.999, 1.001, 2.0, 3.0}) {
-    const Point turn = turn_by(angle, random), w = random.vector<Point>(-2, 2);
+    const SpacePoint turn = turn_by(angle, random), w = random.vector<SpacePoint>(-2, 2);
     const Eigen::Quaterniond now = rotation::quaternion(turn);
-    const Point slope = slope_at_zero(1e-3, [&](double t) { return Point(rotation::vector_of(now * rotation::quaternion(t * w))); });
+    const SpacePoint slope = slope_at_zero(1e-3, [&](double t) { return SpacePoint(rotation::vector_of(now * rotation::quaternion(t * w))); });
     const auto v = components(turn);
-    const Point rate = vector_of(rotation::rate(v, components(w), rotation::functions(rotation::square_of(v)).inverse));
+    const SpacePoint rate = vector_of(rotation::rate(v, components(w), rotation::functions(rotation::square_of(v)).inverse));
     EXPECT_LT((rate - slope).norm(), 1e-10 * w.norm()) << angle;
   }
 }
@@ -110,9 +110,9 @@ TEST(Rotation, AboutOneAxisRatesAreAngularVelocities) {
 // Lanes on both sides of the border between series and closed forms.
 TEST(Rotation, LanesAreThePlainNumbers) {
   Random random(4);
-  const Point turns[] = {turn_by(1e-5, random), turn_by(0.9, random), turn_by(1.1, random), turn_by(2.5, random), turn_by(4.4, random)};
+  const SpacePoint turns[] = {turn_by(1e-5, random), turn_by(0.9, random), turn_by(1.1, random), turn_by(2.5, random), turn_by(4.4, random)};
   Vector3<Lanes<5>> turn, w;
-  const Point spin(0.3, -2, 1.5);
+  const SpacePoint spin(0.3, -2, 1.5);
   for (int i = 0; i < 5; ++i) {
     turn.x.set(i, turns[i].x());
     turn.y.set(i, turns[i].y());
