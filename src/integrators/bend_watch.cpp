@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <variant>
 
+#include "base/constants.h"
 #include "joints/cam_profile.h"
 #include "joints/edge_profile.h"
 #include "laws/law.h"
@@ -14,6 +16,27 @@ namespace {
 
 constexpr int kParts = 2000;    // of the run, at whose ends loads and motors are looked at: as dear as a few steps
 constexpr int kFewParts = 8;  // of a step, at least: more than it has stages
+constexpr int kSamples = 7;   // of a step's forces: five and its ends
+
+// What the polynomial through the values of f at kSamples Gauss-Chebyshev points of [0, 1] misses half-way between them.
+template <class F>
+double missed_between(const F& f) {
+  static const auto at = [](double k) { return 0.5 * (1 - std::cos(k * kTurn / (2 * kSamples))); };
+  std::array<double, kSamples> value;
+  for (int k = 0; k < kSamples; ++k) value[k] = f(at(k + 0.5));
+  double largest = 0;
+  for (int between = 1; between < kSamples; ++between) {
+    double sum = 0, weights = 0;
+    for (int k = 0; k < kSamples; ++k) {
+      const double weight = (k % 2 == 0 ? 1 : -1) * std::sin((k + 0.5) * kTurn / (2 * kSamples)) / (at(between) - at(k + 0.5));
+      sum += weight * value[k];
+      weights += weight;
+    }
+    const double missed = std::abs(f(at(between)) - sum / weights);
+    if (!(missed <= largest)) largest = std::isfinite(missed) ? missed : std::numeric_limits<double>::infinity();
+  }
+  return largest;
+}
 
 }  // namespace
 
@@ -24,6 +47,7 @@ BasicBendWatch<S>::BasicBendWatch(const BasicSystem<S>& system) : system_(system
   };
   for (std::size_t l = 0; l < system.loads.size(); ++l) {
     const std::vector<BasicSignal<S>>& signals = system.loads[l].signals;
+    if (!signals.empty() && !system.loads[l].law.is_constant()) timed_.push_back(static_cast<int>(l));
     if (std::any_of(signals.begin(), signals.end(), [](const auto& signal) { return !signal.is_time; })) placed_.push_back(static_cast<int>(l));
   }
   for (int j = 0; j < system.n_joints(); ++j) {
@@ -81,12 +105,7 @@ double BasicBendWatch<S>::share_of_effort(const BasicLoadData<S>& load, double t
   if (!(h > apart_)) return 1;
   const double parts = std::max<double>(h / apart_, kFewParts);
   const std::array<double, kMaxSignals> from = system_.signal_values(load, t, start), to = system_.signal_values(load, t + h, end);
-  std::array<double, kMaxSignals> at{};
-  const auto effort = [&](double x) {
-    for (std::size_t s = 0; s < load.signals.size(); ++s) at[s] = from[s] + x * (to[s] - from[s]);
-    return load.law.value({at.data(), load.signals.size()});
-  };
-  return find_bends_of_graph(effort, 0, 1, static_cast<int>(std::min<double>(parts, kParts))).share_to_second(0, 1);
+  return find_bends_of_graph([&](double x) { return effort_on_way(load, from, to, x); }, 0, 1, static_cast<int>(std::min<double>(parts, kParts))).share_to_second(0, 1);
 }
 
 template <class S>
@@ -100,6 +119,31 @@ double BasicBendWatch<S>::share_of_step(double t, double h, double t_end, const 
     share = std::min(share, way.bends.share_to_second(from, end_of(way, from, start, end)));
   }
   return share;
+}
+
+template <class S>
+double BasicBendWatch<S>::effort_on_way(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to, double x) const {
+  std::array<double, kMaxSignals> at{};
+  for (std::size_t s = 0; s < load.signals.size(); ++s) at[s] = from[s] + x * (to[s] - from[s]);
+  return load.law.value({at.data(), load.signals.size()});
+}
+
+template <class S>
+double BasicBendWatch<S>::missed_between_samples(double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end,
+                                                 const BasicLoadScale<S>& scale, SlidingModes sliding) const {
+  double largest = 0;
+  for (const auto& force : system_.applied)
+    for (int c = 0; const Expression* f : force.functions()) {
+      const double load = scale.body[force.body][c++];
+      if (!f->is_constant() && f->variables().size() == 1) largest = std::max(largest, missed_between([&](double x) { return f->value(std::array{t + x * h}); }) / load);
+    }
+  for (const int l : timed_) {
+    if (std::any_of(sliding.begin(), sliding.end(), [l](const SlidingMode& mode) { return mode.load == l; })) continue;
+    const BasicLoadData<S>& load = system_.loads[l];
+    const std::array<double, kMaxSignals> from = system_.signal_values(load, t, start), to = system_.signal_values(load, t + h, end);
+    largest = std::max(largest, missed_between([&](double x) { return effort_on_way(load, from, to, x); }) / load_across(load.at, scale)[load.component]);
+  }
+  return largest;
 }
 
 template class BasicBendWatch<Planar>;

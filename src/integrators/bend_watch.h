@@ -2,9 +2,11 @@
 // shorter than the time. theory/time section 3.4.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "base/bends.h"
+#include "integrators/load_scale.h"
 #include "system/system.h"
 
 namespace pintle {
@@ -17,12 +19,17 @@ class BasicBendWatch {
   /// The share of a step of h from t that leads to the second bend on the way of a joint, with the motions at its start and its end, or of what a load or a motor does in
   /// the time up to `t_end`, or over the places that it reads; 1: none passes two. What is shorter than a thousandth of the run may be missed.
   double share_of_step(double t, double h, double t_end, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end);
+  /// What the curve through as many instants as forces are sampled at in a step misses of its loads between them, over the load scale: of loads that are functions of time,
+  /// and of efforts over the straight way from what they read at the start to what they read at the end. Motors in `sliding` stand at a jump. theory/time Eq. (3.25).
+  double missed_between_samples(double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end, const BasicLoadScale<S>& scale,
+                                SlidingModes sliding) const;
 
  private:
   struct Way {
     int joint, component;  // component: of the gap; -1: along the profile of the joint's edge or cam
     Bends bends;
   };
+  double effort_on_way(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to, double x) const;
   double place(const Way& way, const std::vector<typename S::Motion>& m) const;
   double end_of(const Way& way, double from, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const;
 
@@ -32,7 +39,8 @@ class BasicBendWatch {
 
   std::vector<Way> ways_;
   std::vector<Bends> in_time_;  // found when they are first asked for
-  std::vector<int> placed_;     // loads that are efforts which read places or speeds
+  std::vector<int> placed_;     // loads that are efforts which read places or speeds ...
+  std::vector<int> timed_;      // ... and those that read anything
   double apart_ = 0;            // instants at which they are looked at [s]; 0: not known yet
 };
 using BendWatch = BasicBendWatch<Planar>;

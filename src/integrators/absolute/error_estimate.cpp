@@ -16,7 +16,8 @@ template <class S>
 bool BasicRadauStepper<S>::error_estimate(double h, double& error) {
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!end_point_->prepare(begin_.t + h, mu, stage_[n_ - 1], tails_)) return false;
-  error = of_motion_ ? motion_tail() : std::max({end_point_->error(tails_, scale_), change_of_loads(h), friction_tail(), open_contact_error(h), ringing_behind_event(h)});
+  error = of_motion_ ? motion_tail() : std::max({end_point_->error(tails_, scale_), change_of_loads(h), friction_tail(), open_contact_error(h), ringing_behind_event(h),
+                                                     bends_.missed_between_samples(begin_.t, h, end_m_, stage_[n_ - 1].m, scale_, end_.sliding)});
   return std::isfinite(error);
 }
 
@@ -55,10 +56,10 @@ double BasicRadauStepper<S>::ringing_behind_event(double h) const {
   const double t = begin_.t + h;
   double largest = 0;
   for (int j = 0; j < system_.n_joints(); ++j) {
-    typename S::Vec missed = begin_.gap_rate[j];
-    for (int s = 0; s < n_; ++s) missed -= table_.stages_to_powers(0, s) * stage_[s].gap_rate[j];
+    typename S::Vec last_coefficient = S::Vec::Zero();
+    for (int s = 0; s < n_; ++s) last_coefficient += table_.stages_to_legendre(n_ - 1, s) * stage_[s].gap_accel[j];
     const BasicLawPoint<S> at{t, last.gap[j], last.gap_rate[j], last.law_state.data() + system_.joints[j].first_state};
-    largest = std::max(largest, unresolved_ringing(system_, j, at, system_.kinematics(j, t, last.m), missed, scale_));
+    largest = std::max(largest, unresolved_ringing(system_, j, at, system_.kinematics(j, t, last.m), h / (2 * n_ - 1) * last_coefficient, scale_));
   }
   return largest;
 }

@@ -28,7 +28,7 @@ bool TreeRadau::error_estimate(double h, double& error) {
   const TreeState& last = stages_.states()[n_ - 1];
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!projector_.prepare(stages_.instant(n_ - 1), mu, last, TreeProjector::Laws::kWhole, find_taut(mu / kProjectionShare))) return false;
-  error = std::max({body_tail(), gap_tail(), state_tail(std::abs(h)), open_contact_error(), ringing_behind_event()});
+  error = std::max({body_tail(), gap_tail(), state_tail(std::abs(h)), open_contact_error(), ringing_behind_event(h), bends_.missed_between_samples(begin_.t, h, end_at_.pose().m, stages_.instant(n_ - 1).pose().m, scale_, sliding_)});
   return std::isfinite(error);
 }
 
@@ -112,18 +112,18 @@ double TreeRadau::open_contact_error() const {
 }
 
 // theory/time Eq. (3.24), of the joints that are no coordinates.
-double TreeRadau::ringing_behind_event() const {
+double TreeRadau::ringing_behind_event(double h) const {
   if (control_.have_history) return 0;
   const TreeState& last = stages_.states()[n_ - 1];
   const TreeInstant& instant = stages_.instant(n_ - 1);
   double largest = 0;
   for (Index l = 0; l < std::ssize(tree_->laws()); ++l) {
     const int j = tree_->laws()[l];
-    S::Vec missed = begin_.rate.segment<3>(3 * l);
-    for (int s = 0; s < n_; ++s) missed -= table_.stages_to_powers(0, s) * stages_.states()[s].rate.segment<3>(3 * l);
+    S::Vec last_coefficient = S::Vec::Zero();
+    for (int s = 0; s < n_; ++s) last_coefficient += table_.stages_to_legendre(n_ - 1, s) * stages_.states()[s].accel.segment<3>(3 * l);
     const S::Vec gap = last.gap.segment<3>(3 * l), rate = last.rate.segment<3>(3 * l);
     const LawPoint at{instant.t(), gap, rate, last.law_state.data() + system_.joints[j].first_state};
-    largest = std::max(largest, unresolved_ringing(system_, j, at, instant.kinematics(static_cast<int>(l)), missed, scale_));
+    largest = std::max(largest, unresolved_ringing(system_, j, at, instant.kinematics(static_cast<int>(l)), h / (2 * n_ - 1) * last_coefficient, scale_));
   }
   return largest;
 }

@@ -49,7 +49,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   double gap_tail();
   double state_tail(double h) const;
   double open_contact_error() const;
-  double ringing_behind_event() const;
+  double ringing_behind_event(double h) const;
   double share_of_step(double h, double t_end) { return bends_.share_of_step(begin_.t, h, t_end, end_at_.pose().m, stages_.instant(n_ - 1).pose().m); }
   void finish_step(double h);
   void move_onto_gaps();
