@@ -199,7 +199,7 @@ TEST(ShortFeatures, ABlowMovesWhatHasHungStill) {
     model.simulate.duration = 3.02;
     const Trajectory run = reference::completed(model);
     const double spin = 200 * 5e-3 * std::sqrt(kTurn / 2) / (2.0 / 3);
-    EXPECT_NEAR(reference::at_end(run, "body.rod.spin"), spin, 3e-3 * spin) << tolerance;  // it has turned by 3 degrees
+    EXPECT_NEAR(reference::at_end(run, "body.rod.spin"), spin, 4e-3 * spin) << tolerance;  // it has turned by 3 degrees
   }
 }
 

@@ -71,15 +71,15 @@ Bends find_bends(const Curvature& curvature, double low, double high) {
 template <class Function>
 Bends find_bends_of_graph(const Function& f, double low, double high, int parts) {
   constexpr double kRounding = 1e-14;  // of the largest value
+  constexpr double kSmooth = 1e-5;     // of the range of values: what bends so little from one part to the next is as long as hundreds of them
   const double apart = (high - low) / parts;
   std::vector<double> values, curvature;
-  double largest = 0;
   for (int i = 0; i <= parts; ++i) {
     values.push_back(f(low + apart * i));
-    largest = std::max(largest, std::abs(values.back()));
     if (i > 1) curvature.push_back(values[i] - 2 * values[i - 1] + values[i - 2]);
   }
-  return bends_of(curvature, low + apart, apart, kRounding * largest);
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return bends_of(curvature, low + apart, apart, std::max(kRounding * std::max(std::abs(*least), std::abs(*most)), kSmooth * (*most - *least)));
 }
 
 }  // namespace pintle

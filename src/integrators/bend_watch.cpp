@@ -16,23 +16,24 @@ namespace {
 
 constexpr int kParts = 2000;    // of the run, at whose ends loads and motors are looked at: as dear as a few steps
 constexpr int kFewParts = 8;  // of a step, at least: more than it has stages
-constexpr int kSamples = 7;   // of a step's forces: five and its ends
+constexpr int kIntervals = 6;  // between the samples of a step's forces, five and its ends
 
-// What the polynomial through the values of f at kSamples Gauss-Chebyshev points of [0, 1] misses half-way between them.
+// What the polynomial through the values of f at the samples in [0, 1], the extrema of a Chebyshev polynomial, misses between them.
 template <class F>
 double missed_between(const F& f) {
-  static const auto at = [](double k) { return 0.5 * (1 - std::cos(k * kTurn / (2 * kSamples))); };
-  std::array<double, kSamples> value;
-  for (int k = 0; k < kSamples; ++k) value[k] = f(at(k + 0.5));
+  const auto at = [](double k) { return 0.5 * (1 - std::cos(k * kTurn / (2 * kIntervals))); };
+  std::array<double, kIntervals + 1> value;
+  for (int k = 0; k <= kIntervals; ++k) value[k] = f(at(k));
   double largest = 0;
-  for (int between = 1; between < kSamples; ++between) {
+  for (int interval = 0; interval < kIntervals; ++interval) {
+    const double between = at(interval + 0.5);
     double sum = 0, weights = 0;
-    for (int k = 0; k < kSamples; ++k) {
-      const double weight = (k % 2 == 0 ? 1 : -1) * std::sin((k + 0.5) * kTurn / (2 * kSamples)) / (at(between) - at(k + 0.5));
+    for (int k = 0; k <= kIntervals; ++k) {  // barycentric
+      const double weight = (k % 2 == 0 ? 1 : -1) * (k % kIntervals == 0 ? 0.5 : 1) / (between - at(k));
       sum += weight * value[k];
       weights += weight;
     }
-    const double missed = std::abs(f(at(between)) - sum / weights);
+    const double missed = std::abs(f(between) - sum / weights);
     if (!(missed <= largest)) largest = std::isfinite(missed) ? missed : std::numeric_limits<double>::infinity();
   }
   return largest;
