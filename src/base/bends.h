@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -41,45 +42,60 @@ struct Bends {
   }
 };
 
-/// Between two parameters, by the curvature at equidistant ones, the first of which is `low`. What bends less than a ten-thousandth of the most, or than `rounding`, is
-/// straight.
-inline Bends bends_of(const std::vector<double>& curvature, double low, double apart, double rounding = 0) {
-  constexpr double kStraight = 1e-4;
-  double straight = 0;
-  for (const double x : curvature) straight = std::max(straight, std::abs(x));
-  straight = std::max(kStraight * straight, rounding);
-  const auto way = [&](std::size_t i) { return !(std::abs(curvature[i]) > straight) ? 0 : curvature[i] > 0 ? 1 : -1; };
-  Bends bends;
-  for (std::size_t i = 1; i < curvature.size(); ++i) {
-    if (way(i) == way(i - 1) || (way(i) == 0 && i + 1 < curvature.size() && way(i + 1) == -way(i - 1))) continue;  // a zero between two signs is at one bend
-    bends.places.push_back(low + apart * (static_cast<double>(i) - 0.5));
-  }
-  return bends;
+/// Calls visit(i) where the curvatures i - 1 and i have other signs; those up to `straight` have none, and a single one of these between two signs is at one bend.
+template <class Curvature, class Visit>
+void visit_bends(const Curvature& curvature, std::size_t n, double straight, Visit&& visit) {
+  const auto way = [&](std::size_t i) { return !(std::abs(curvature(i)) > straight) ? 0 : curvature(i) > 0 ? 1 : -1; };
+  for (std::size_t i = 1; i < n; ++i)
+    if (way(i) != way(i - 1) && !(way(i) == 0 && i + 1 < n && way(i + 1) == -way(i - 1))) visit(i);
 }
 
-/// Of a curve of which the curvature is known, to within 1/720 of the way.
+/// Of a curve of which the curvature is known, to within 1/720 of the way. What bends less than a ten-thousandth of the most is straight.
 template <class Curvature>
 Bends find_bends(const Curvature& curvature, double low, double high) {
   constexpr int kPoints = 720;
+  constexpr double kStraight = 1e-4;
   const double apart = (high - low) / kPoints;
   std::vector<double> values;
-  for (int i = 0; i <= kPoints; ++i) values.push_back(curvature(low + apart * i));
-  return bends_of(values, low, apart);
+  double most = 0;
+  for (int i = 0; i <= kPoints; ++i) {
+    values.push_back(curvature(low + apart * i));
+    most = std::max(most, std::abs(values.back()));
+  }
+  Bends bends;
+  visit_bends([&](std::size_t i) { return values[i]; }, values.size(), kStraight * most, [&](std::size_t i) { bends.places.push_back(low + apart * (static_cast<double>(i) - 0.5)); });
+  return bends;
 }
 
-/// Of the graph of a function, by the second differences of its values at the ends of so many parts of the way. What is narrower may be missed.
-template <class Function>
-Bends find_bends_of_graph(const Function& f, double low, double high, int parts) {
-  constexpr double kRounding = 1e-14;  // of the largest value
-  constexpr double kSmooth = 1e-5;     // of the range of values: what bends so little from one part to the next is as long as hundreds of them
-  const double apart = (high - low) / parts;
-  std::vector<double> values, curvature;
-  for (int i = 0; i <= parts; ++i) {
-    values.push_back(f(low + apart * i));
-    if (i > 1) curvature.push_back(values[i] - 2 * values[i - 1] + values[i - 2]);
+/// The graph of a function, by its values at the ends of equal parts of a way; what is narrower than a part may be missed.
+class GraphSamples {
+ public:
+  /// Takes room for so many parts: no more is allocated then.
+  explicit GraphSamples(int most_parts) { values_.reserve(static_cast<std::size_t>(most_parts) + 1); }
+
+  template <class Function>
+  void take(const Function& f, double low, double high, int parts) {
+    values_.clear();
+    for (int i = 0; i <= parts; ++i) values_.push_back(f(low + (high - low) * i / parts));
   }
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return bends_of(curvature, low + apart, apart, std::max(kRounding * std::max(std::abs(*least), std::abs(*most)), kSmooth * (*most - *least)));
-}
+  /// Calls visit(part) at the bends, by second differences: part is where it is, counted from the start of the way.
+  template <class Visit>
+  void visit_bends_in_parts(Visit&& visit) const {
+    constexpr double kRounding = 1e-14;  // of the largest value
+    constexpr double kStraight = 1e-4;   // of the largest second difference
+    constexpr double kSmooth = 1e-5;     // of the range of values: what bends so little from one part to the next is as long as hundreds of them
+    if (values_.size() < 3) return;
+    const auto curvature = [this](std::size_t i) { return values_[i + 2] - 2 * values_[i + 1] + values_[i]; };
+    const std::size_t n = values_.size() - 2;
+    double most = 0;
+    for (std::size_t i = 0; i < n; ++i) most = std::max(most, std::abs(curvature(i)));
+    const auto [least, largest] = std::minmax_element(values_.begin(), values_.end());
+    const double straight = std::max({kStraight * most, kRounding * std::max(std::abs(*least), std::abs(*largest)), kSmooth * (*largest - *least)});
+    visit_bends(curvature, n, straight, [&](std::size_t i) { visit(static_cast<double>(i) + 0.5); });
+  }
+
+ private:
+  std::vector<double> values_;
+};
 
 }  // namespace pintle

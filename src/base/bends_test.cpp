@@ -54,12 +54,22 @@ TEST(Bends, OfABumpAreOnEitherSideOfIt) {
 }
 
 TEST(Bends, OfAGraphAreThoseOfItsSecondDifferences) {
+  GraphSamples samples(2000);
+  const auto bends_of = [&samples](const auto& f, double low, double high, int parts) {
+    std::vector<double> places;
+    samples.take(f, low, high, parts);
+    samples.visit_bends_in_parts([&](double part) { places.push_back(low + part * (high - low) / parts); });
+    return places;
+  };
   const auto pulse = [](double t) { return 200 * std::exp(-std::pow((t - 3) / 0.005, 2)); };
-  const Bends bends = find_bends_of_graph(pulse, 0, 6, 2000);
-  ASSERT_GE(bends.places.size(), 2U);
-  for (const double place : bends.places) EXPECT_NEAR(place, 3, 0.02);
-  EXPECT_TRUE(find_bends_of_graph([](double t) { return 1e6 + 7 * t; }, 0, 6, 2000).empty());
-  EXPECT_EQ(find_bends_of_graph([](double t) { return std::sin(t); }, 0.5, 3 * std::numbers::pi + 0.5, 200).places.size(), 3U);
+  const std::vector<double> places = bends_of(pulse, 0, 6, 2000);
+  ASSERT_GE(places.size(), 2U);
+  for (const double place : places) EXPECT_NEAR(place, 3, 0.02);
+  EXPECT_TRUE(bends_of([](double t) { return 1e6 + 7 * t; }, 0, 6, 2000).empty());
+  EXPECT_TRUE(bends_of([](double t) { return 1e7 * (t - 0.3); }, 0.3, 0.3 + 1e-9, 2000).empty());  // rounding has no bends
+  const std::vector<double> of_sine = bends_of([](double t) { return std::sin(t); }, 0.5, 3.5 * std::numbers::pi, 200);
+  ASSERT_EQ(of_sine.size(), 3U);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(of_sine[i], (i + 1) * std::numbers::pi, 0.06);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ double missed_between(const F& f) {
 }  // namespace
 
 template <class S>
-BasicBendWatch<S>::BasicBendWatch(const BasicSystem<S>& system) : system_(system) {
+BasicBendWatch<S>::BasicBendWatch(const BasicSystem<S>& system) : system_(system), samples_(kParts) {
   const auto add = [this](int joint, int component, const Bends& bends) {
     if (!bends.empty()) ways_.push_back({joint, component, bends});
   };
@@ -90,7 +90,10 @@ void BasicBendWatch<S>::find_bends_in_time(double from, double to) {
   apart_ = (to - from) / kParts;
   const auto add = [&](const Expression& f) {
     if (f.is_constant() || f.variables().size() != 1) return;
-    if (Bends bends = find_bends_of_graph([&f](double t) { return f.value(std::array{t}); }, from, to, kParts); !bends.empty()) in_time_.push_back(std::move(bends));
+    Bends bends;
+    samples_.take([&f](double t) { return f.value(std::array{t}); }, from, to, kParts);
+    samples_.visit_bends_in_parts([&](double part) { bends.places.push_back(from + part * apart_); });
+    if (!bends.empty()) in_time_.push_back(std::move(bends));
   };
   for (const auto& force : system_.applied)
     for (const Expression* f : force.functions()) add(*f);
@@ -100,13 +103,25 @@ void BasicBendWatch<S>::find_bends_in_time(double from, double to) {
     if (joint.driven >= 0) add(joint.target);
 }
 
+// A step ends where its motors jump, or slides along it.
+template <class S>
+bool jumps(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to) {
+  return load.law.jump_between({from.data(), load.signals.size()}, {to.data(), load.signals.size()}).has_value();
+}
+
 // Over the straight way from what it reads at the start to that at the end.
 template <class S>
-double BasicBendWatch<S>::share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const {
+double BasicBendWatch<S>::share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) {
   if (!(h > apart_)) return 1;
   const double parts = std::max<double>(h / apart_, kFewParts);
   const std::array<double, kMaxSignals> from = system_.signal_values(load, t, start), to = system_.signal_values(load, t + h, end);
-  return find_bends_of_graph([&](double x) { return effort_on_way(load, from, to, x); }, 0, 1, static_cast<int>(std::min<double>(parts, kParts))).share_to_second(0, 1);
+  if (jumps(load, from, to)) return 1;
+  const int n = static_cast<int>(std::min<double>(parts, kParts));
+  samples_.take([&](double x) { return effort_on_way(load, from, to, x); }, 0, 1, n);
+  int passed = 0;
+  double share = 1;
+  samples_.visit_bends_in_parts([&](double part) { share = ++passed == 2 ? part / n : share; });
+  return share;
 }
 
 template <class S>
@@ -131,7 +146,7 @@ double BasicBendWatch<S>::effort_on_way(const BasicLoadData<S>& load, const std:
 
 template <class S>
 double BasicBendWatch<S>::missed_between_samples(double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end,
-                                                 const BasicLoadScale<S>& scale, SlidingModes sliding) const {
+                                                 const BasicLoadScale<S>& scale) const {
   double largest = 0;
   for (const auto& force : system_.applied)
     for (int c = 0; const Expression* f : force.functions()) {
@@ -139,10 +154,9 @@ double BasicBendWatch<S>::missed_between_samples(double t, double h, const std::
       if (!f->is_constant() && f->variables().size() == 1) largest = std::max(largest, missed_between([&](double x) { return f->value(std::array{t + x * h}); }) / load);
     }
   for (const int l : timed_) {
-    if (std::any_of(sliding.begin(), sliding.end(), [l](const SlidingMode& mode) { return mode.load == l; })) continue;
     const BasicLoadData<S>& load = system_.loads[l];
     const std::array<double, kMaxSignals> from = system_.signal_values(load, t, start), to = system_.signal_values(load, t + h, end);
-    largest = std::max(largest, missed_between([&](double x) { return effort_on_way(load, from, to, x); }) / load_across(load.at, scale)[load.component]);
+    if (!jumps(load, from, to)) largest = std::max(largest, missed_between([&](double x) { return effort_on_way(load, from, to, x); }) / load_across(load.at, scale)[load.component]);
   }
   return largest;
 }

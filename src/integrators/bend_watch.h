@@ -20,9 +20,8 @@ class BasicBendWatch {
   /// the time up to `t_end`, or over the places that it reads; 1: none passes two. What is shorter than a thousandth of the run may be missed.
   double share_of_step(double t, double h, double t_end, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end);
   /// What the curve through as many instants as forces are sampled at in a step misses of its loads between them, over the load scale: of loads that are functions of time,
-  /// and of efforts over the straight way from what they read at the start to what they read at the end. Motors in `sliding` stand at a jump. theory/time Eq. (3.25).
-  double missed_between_samples(double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end, const BasicLoadScale<S>& scale,
-                                SlidingModes sliding) const;
+  /// and of efforts over the straight way from what they read at the start to what they read at the end. theory/time Eq. (3.25).
+  double missed_between_samples(double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end, const BasicLoadScale<S>& scale) const;
 
  private:
   struct Way {
@@ -35,12 +34,13 @@ class BasicBendWatch {
 
   const BasicSystem<S>& system_;
   void find_bends_in_time(double from, double to);
-  double share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const;
+  double share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end);
 
   std::vector<Way> ways_;
   std::vector<Bends> in_time_;  // found when they are first asked for
   std::vector<int> placed_;     // loads that are efforts which read places or speeds ...
   std::vector<int> timed_;      // ... and those that read anything
+  GraphSamples samples_;
   double apart_ = 0;            // instants at which they are looked at [s]; 0: not known yet
 };
 using BendWatch = BasicBendWatch<Planar>;

@@ -17,7 +17,7 @@ bool BasicRadauStepper<S>::error_estimate(double h, double& error) {
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!end_point_->prepare(begin_.t + h, mu, stage_[n_ - 1], tails_)) return false;
   error = of_motion_ ? motion_tail() : std::max({end_point_->error(tails_, scale_), change_of_loads(h), friction_tail(), open_contact_error(h), ringing_behind_event(h),
-                                                     bends_.missed_between_samples(begin_.t, h, end_m_, stage_[n_ - 1].m, scale_, end_.sliding)});
+                                                     bends_.missed_between_samples(begin_.t, h, end_m_, stage_[n_ - 1].m, scale_)});
   return std::isfinite(error);
 }
 
