@@ -51,7 +51,7 @@ double BasicRadauStepper<S>::open_contact_error(double h) const {
 // theory/time Eq. (3.24). In a smooth motion there is next to none.
 template <class S>
 double BasicRadauStepper<S>::ringing_behind_event(double h) const {
-  if (control_.have_history) return 0;
+  if (!control_.behind_event) return 0;
   const BasicStage<S>& last = stage_[n_ - 1];
   const double t = begin_.t + h;
   double largest = 0;
@@ -116,6 +116,7 @@ void BasicRadauStepper<S>::finish_step(double h) {
   nodes_.force[n_] = end_.force;
   if (S::kCurved) find_increments(h);
   control_.have_history = true;
+  control_.behind_event = false;
   this->update_switching();
   control_.last = h;
 }

@@ -97,6 +97,7 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
   }
   restart_search();
   control_.have_history = false;
+  control_.behind_event = true;
 }
 
 // How fast the argument of a jump changes at the end, by what it is a moment later.
@@ -117,6 +118,7 @@ void StepEvents<Method, S>::update_switching() {
   }
   method().balance_end();
   control_.have_history = false;
+  control_.behind_event = true;
   if (crossed) record();
   restart_search();
 }

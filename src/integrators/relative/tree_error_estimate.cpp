@@ -113,7 +113,7 @@ double TreeRadau::open_contact_error() const {
 
 // theory/time Eq. (3.24), of the joints that are no coordinates.
 double TreeRadau::ringing_behind_event(double h) const {
-  if (control_.have_history) return 0;
+  if (!control_.behind_event) return 0;
   const TreeState& last = stages_.states()[n_ - 1];
   const TreeInstant& instant = stages_.instant(n_ - 1);
   double largest = 0;
@@ -157,6 +157,7 @@ void TreeRadau::finish_step(double h) {
   nodes_.force.col(n_) = end_.force;
   control_.last = h;
   control_.have_history = true;
+  control_.behind_event = false;
   finish_end(w);
   update_switching();
 }
