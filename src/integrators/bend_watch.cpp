@@ -109,13 +109,22 @@ bool jumps(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& 
   return load.law.jump_between({from.data(), load.signals.size()}, {to.data(), load.signals.size()}).has_value();
 }
 
+// What it reads changes so little that rounding is a good part of how its effort bends.
+template <class S>
+bool stays(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to) {
+  constexpr double kLittle = 1e-9;
+  for (std::size_t s = 0; s < load.signals.size(); ++s)
+    if (!load.signals[s].is_time && std::abs(to[s] - from[s]) > kLittle * std::max(std::abs(from[s]), std::abs(to[s]))) return false;
+  return true;
+}
+
 // Over the straight way from what it reads at the start to that at the end.
 template <class S>
 double BasicBendWatch<S>::share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) {
   if (!(h > apart_)) return 1;
   const double parts = std::max<double>(h / apart_, kFewParts);
   const std::array<double, kMaxSignals> from = system_.signal_values(load, t, start), to = system_.signal_values(load, t + h, end);
-  if (jumps(load, from, to)) return 1;
+  if (stays(load, from, to) || jumps(load, from, to)) return 1;
   const int n = static_cast<int>(std::min<double>(parts, kParts));
   samples_.take([&](double x) { return effort_on_way(load, from, to, x); }, 0, 1, n);
   int passed = 0;

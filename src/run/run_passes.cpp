@@ -269,7 +269,7 @@ class Passes {
     const bool is_long = last_.counters.steps > kLong;
     const double least = is_long ? std::min(kRepeated * tolerance, kNearRounding) : 0;
     const double next = std::max(least, tolerance * std::clamp(shrink, 1e-3, kRepeated));
-    if (is_long && next < kTight) choice_.stages = 5;
+    if (next < kTight) choice_.stages = 5;
     return next;
   }
 

@@ -34,7 +34,7 @@ class StepControl {
     next = usual = h;
     have_history = false;
     behind_event = true;
-    rounding_ = 0;
+    rounding_ = floor_h_ = floor_error_ = 0;
     event_ = {};
   }
 
@@ -92,7 +92,18 @@ class StepControl {
 
   double last_error_ = 0;  // over the tolerance
   double rounding_ = 0;    // of accelerations, over the tolerance: no step resolves it
+  double floor_h_ = 0, floor_error_ = 0;  // a step, and the error that shorter ones have not halved
   SwitchingEvent event_;
+
+  // Whether half of a step has more than half of its error.
+  bool is_floor(double h, double error) {
+    const bool is = h < 0.5 * floor_h_ && error > 0.5 * floor_error_;
+    if (h >= floor_h_ || error < 0.5 * floor_error_) {
+      floor_h_ = h;
+      floor_error_ = error;
+    }
+    return is;
+  }
 
   // The step that Newton's iteration will like, over one in which its errors shrank by `contraction`; 0: not known.
   static double of_contraction(double contraction) { return contraction > 0 ? std::max(kShrink, std::sqrt(kContraction / contraction)) : kMost; }
@@ -177,6 +188,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     if (renewed && error < kSteady * error_before && error_before * tolerance < kMostRounding) rounding_ = std::max(rounding_, error_before);
     renewed = false;
     const double measured = error;
+    if (measured * tolerance < kMostRounding && is_floor(h, measured)) rounding_ = std::max(rounding_, measured);
     error = std::max(error - kAboveRounding * rounding_, 0.0);
     double factor = std::clamp(kSafety * std::pow(std::max(error, 1e-14), -1.0 / order), kLeast, counters.steps == 0 ? kMostAtFirst : kMost);
     // A force that jumps cannot be resolved by any step: one that is this short passes over the jump.
