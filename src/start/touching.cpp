@@ -36,7 +36,7 @@ double pressing(const Touch& touch, const S::Vec& force) { return -touch.sign * 
 
 std::optional<Touch> find_touch(const System& system, int j, const JointKinematics& r, double within, double at_rest) {
   const BasicLaw<S>& law = system.joints[j].law;
-  if (law.ideal_limit() || law.feeds() || !law.starts_free()) return std::nullopt;
+  if (law.ideal_limit() || law.feeds()) return std::nullopt;
   const double depth = law.penetration(r.gap);
   if (!(std::abs(depth) <= within)) return std::nullopt;
   for (int k = 0; k < S::kDim; ++k)
@@ -120,11 +120,15 @@ std::string press_touching_surfaces(const System& system, State& state) {
     const auto pulls = [&](const Touch& touch) { return !(pressing(touch, carried.force[touch.joint]) > nothing); };
     if (std::erase_if(touches, pulls) == 0) break;
   }
-  if (touches.empty()) carried = state;
+  if (all.empty()) return "";
+  if (touches.empty()) {
+    carried = state;
+    start_forces(system, false, carried);
+  }
   for (const Touch& touch : all) carried.gap[touch.joint] = gap_at(touch, -ajar);
   for (const Touch& touch : touches)
     carried.gap[touch.joint][touch.k] = gap_at(touch, depth_at(system.joints[touch.joint].law, touch, pressing(touch, carried.force[touch.joint])))[touch.k];
-  if (!all.empty()) BasicInverseDynamics<S>(with_springs(system, all)).move_onto_gaps(carried);
+  BasicInverseDynamics<S>(with_springs(system, all)).move_onto_gaps(carried);
   state.q = carried.q;
   state.v = carried.v;
   return names_of_joints(system, others(all, touches));
