@@ -49,7 +49,7 @@ function(pintle_add_tests)
   endif()
   if(NOT PINTLE_WHOLE_RUN_TESTS)
     foreach(long IN ITEMS
-        "tests/(battery|reference_|relative|published|compare|soft_start|starts|settled_start|stick_slip|held_gas|force_accuracy|motion_accuracy|live|ideal|contact|friction|bearings|state_forces|stops|driven_length|backlash|cams|cylinders|detents|flexures|tables|taut_mechanisms|singular_positions|large_models|space_test|tight_tolerance|belts|gears|penalty|wear|rubber|real_joints|surface_friction|teeth_friction|short_features)[a-z_]*"
+        "tests/(battery|reference_|relative|published|compare|soft_start|starts|settled_start|stick_slip|held_gas|force_accuracy|motion_accuracy|live|ideal|contact|friction|bearings|state_forces|stops|driven_length|backlash|cams|cylinders|detents|flexures|tables|taut_mechanisms|singular_positions|large_models|space_test|tight_tolerance|belts|gears|penalty|wear|rubber|real_joints|surface_friction|teeth_friction|short_features|starts_without_load)[a-z_]*"
         "integrators/([a-z]+/)?(allocation|alpha_stepper|dense_output|dopri5|event_crossing|methods|penalty|radau_[a-z]*|stage_solver)_test"
         "(run/simulate|start/assembly|start/start)_test" "system/system_test"
         "(laws/flexures/(leaf_spring|pivots)|integrators/relative/tree_methods|linalg/block_pattern|batch/envelope|report/scene|check/check_[a-z_]*)_test"
