@@ -103,7 +103,7 @@ free_length = 2
 )toml",
                                   "belt.toml");
   const Trajectory run = reference::completed(model);
-  EXPECT_NEAR(reference::value(run, 0, "motor.drive.force"), 0, 0.05);
+  EXPECT_NEAR(reference::value(run, 0, "motor.drive.effort"), 0, 0.05);
   const double friction = 0.3 * 2 * kStandardGravity, loose = friction / (200 * 0.1);
   EXPECT_NEAR(run.motors[0].peak_effort, friction, 0.03 * friction);
   ASSERT_FALSE(run.events.empty());
