@@ -18,22 +18,22 @@ constexpr int kParts = 2000;    // of the run, at whose ends loads and motors ar
 constexpr int kFewParts = 8;  // of a step, at least: more than it has stages
 constexpr int kIntervals = 6;  // between the samples of a step's forces, five and its ends
 
-// What the polynomial through the values of f at the samples in [0, 1], the extrema of a Chebyshev polynomial, misses between them.
-template <class F>
-double missed_between(const F& f) {
+// What the polynomial through the values of f at the samples in [0, 1], the extrema of a Chebyshev polynomial, misses between them: the largest `size` of it.
+template <class F, class Size>
+double missed_between(const F& f, const Size& size) {
+  using Value = decltype(f(0.0));
   const auto at = [](double k) { return 0.5 * (1 - std::cos(k * kTurn / (2 * kIntervals))); };
-  std::array<double, kIntervals + 1> value;
+  std::array<Value, kIntervals + 1> value;
   for (int k = 0; k <= kIntervals; ++k) value[k] = f(at(k));
   double largest = 0;
   for (int interval = 0; interval < kIntervals; ++interval) {
     const double between = at(interval + 0.5);
-    double sum = 0, weights = 0;
-    for (int k = 0; k <= kIntervals; ++k) {  // barycentric
-      const double weight = (k % 2 == 0 ? 1 : -1) * (k % kIntervals == 0 ? 0.5 : 1) / (between - at(k));
-      sum += weight * value[k];
-      weights += weight;
-    }
-    const double missed = std::abs(f(between) - sum / weights);
+    std::array<double, kIntervals + 1> weight;  // barycentric
+    double weights = 0;
+    for (int k = 0; k <= kIntervals; ++k) weights += weight[k] = (k % 2 == 0 ? 1 : -1) * (k % kIntervals == 0 ? 0.5 : 1) / (between - at(k));
+    Value error = f(between);
+    for (int k = 0; k <= kIntervals; ++k) error -= (weight[k] / weights) * value[k];
+    const double missed = size(error);
     if (!(missed <= largest)) largest = std::isfinite(missed) ? missed : std::numeric_limits<double>::infinity();
   }
   return largest;
@@ -54,6 +54,7 @@ BasicBendWatch<S>::BasicBendWatch(const BasicSystem<S>& system) : system_(system
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicJointData<S>& joint = system.joints[j];
     if (joint.ideal) continue;
+    if (joint.law.has_friction() && joint.law.n_states() == 0) rubbing_.push_back(j);
     for (const auto& part : joint.law.parts()) {
       const auto [component, bends] = part->bends();
       add(j, component, bends);
@@ -153,6 +154,22 @@ double BasicBendWatch<S>::effort_on_way(const BasicLoadData<S>& load, const std:
   return load.law.value({at.data(), load.signals.size()});
 }
 
+// Where surfaces turn round, within a small part of the way between their speeds at the start and at the end.
+template <class S>
+double BasicBendWatch<S>::missed_friction(int j, double t, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end, const BasicLoadScale<S>& scale) const {
+  const BasicJointData<S>& joint = system_.joints[j];
+  const BasicJointKinematics<S> from = system_.kinematics(j, t, start), to = system_.kinematics(j, t, end);
+  bool turns = false;
+  for (int c = 0; c < S::kDof; ++c) turns = turns || (!joint.held[c] && from.rate[c] * to.rate[c] < 0);
+  if (!turns) return 0;
+  const typename S::Vec load = load_across(joint.at, scale);
+  const auto force = [&](double x) {
+    const typename S::Vec rate = from.rate + x * (to.rate - from.rate);
+    return typename S::Vec(joint.law.force({t, to.gap, rate, nullptr}));
+  };
+  return missed_between(force, [&load](const typename S::Vec& x) { return x.cwiseAbs().cwiseQuotient(load).maxCoeff(); });
+}
+
 template <class S>
 double BasicBendWatch<S>::missed_between_samples(double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end,
                                                  const BasicLoadScale<S>& scale) const {
@@ -160,13 +177,15 @@ double BasicBendWatch<S>::missed_between_samples(double t, double h, const std::
   for (const auto& force : system_.applied)
     for (int c = 0; const Expression* f : force.functions()) {
       const double load = scale.body[force.body][c++];
-      if (!f->is_constant() && f->variables().size() == 1) largest = std::max(largest, missed_between([&](double x) { return f->value(std::array{t + x * h}); }) / load);
+      if (!f->is_constant() && f->variables().size() == 1) largest = std::max(largest, missed_between([&](double x) { return f->value(std::array{t + x * h}); }, [load](double x) { return std::abs(x) / load; }));
     }
   for (const int l : timed_) {
     const BasicLoadData<S>& load = system_.loads[l];
     const std::array<double, kMaxSignals> from = system_.signal_values(load, t, start), to = system_.signal_values(load, t + h, end);
-    if (!jumps(load, from, to)) largest = std::max(largest, missed_between([&](double x) { return effort_on_way(load, from, to, x); }) / load_across(load.at, scale)[load.component]);
+    const double at_most = load_across(load.at, scale)[load.component];
+    if (!jumps(load, from, to)) largest = std::max(largest, missed_between([&](double x) { return effort_on_way(load, from, to, x); }, [at_most](double x) { return std::abs(x) / at_most; }));
   }
+  for (const int j : rubbing_) largest = std::max(largest, missed_friction(j, t + h, start, end, scale));
   return largest;
 }
 

@@ -20,7 +20,7 @@ class BasicBendWatch {
   /// the time up to `t_end`, or over the places that it reads; 1: none passes two. What is shorter than a thousandth of the run may be missed.
   double share_of_step(double t, double h, double t_end, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end);
   /// What the curve through as many instants as forces are sampled at in a step misses of its loads between them, over the load scale: of loads that are functions of time,
-  /// and of efforts over the straight way from what they read at the start to what they read at the end. theory/time Eq. (3.25).
+  /// of efforts over the straight way from what they read at the start to what they read at the end, and of friction over that of its speed. theory/time Eq. (3.25).
   double missed_between_samples(double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end, const BasicLoadScale<S>& scale) const;
 
  private:
@@ -29,6 +29,7 @@ class BasicBendWatch {
     Bends bends;
   };
   double effort_on_way(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to, double x) const;
+  double missed_friction(int j, double t, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end, const BasicLoadScale<S>& scale) const;
   double place(const Way& way, const std::vector<typename S::Motion>& m) const;
   double end_of(const Way& way, double from, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const;
 
@@ -40,6 +41,7 @@ class BasicBendWatch {
   std::vector<Bends> in_time_;  // found when they are first asked for
   std::vector<int> placed_;     // loads that are efforts which read places or speeds ...
   std::vector<int> timed_;      // ... and those that read anything
+  std::vector<int> rubbing_;    // joints whose friction is a function of speed
   GraphSamples samples_;
   double apart_ = 0;            // instants at which they are looked at [s]; 0: not known yet
 };
