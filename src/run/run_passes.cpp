@@ -182,7 +182,8 @@ class Passes {
     growth_ = {};
     if (apart > kPromised * settings_.tolerance) growth_ = growth_of(coarse, fine);
     if (growth_.exponential && growth_.saturated) take_all(coarse, fine);
-    error_before_ = std::exchange(error_, share_ * (out_.of_motion ? out_.motion_error : largest_of(relative_difference_)));
+    const double of_passes = share_ * (out_.of_motion ? out_.motion_error : largest_of(relative_difference_));
+    error_before_ = std::exchange(error_, out_.of_motion ? of_passes : std::max(of_passes, largest_ringing_loss(system_, difference_, fine_ringing_, fine_tolerance_)));
   }
 
   // In impacts forces differ by all there is as soon as these are apart by their own length, and between them by little: there it is the places whose

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kPeakOfRounding = 10;       // times the rounding of one force: its peak over a run of many. With 1 the rail of snap_through_truss states a hundredth of what it carries
 constexpr double kNegligibleOfMotor = 1e-3;  // a motor is measured at least by this part of it
+constexpr double kMostRinging = 3;           // times the tolerance of the steps: as much as they may have damped of vibrations unnoticed. What they lose of resolved ones in thousands of steps shows in the difference of the passes
 constexpr double kOfEqual = 3;               // share of the difference that is the finer pass's error, where the finer pass is as coarse
 
 // Of centres, and of points at `radius` from them across the axis of their turn. theory/time Eq. (6.4).
@@ -35,7 +36,7 @@ struct Measures {
   double of_joint(std::size_t j, double force_error, double peak, double couple_error, double peak_couple) const {
     const double least = system.joints[j].servo >= 0 ? kNegligibleOfMotor : kNegligible;
     const double of_force = is_rounding(force_error, peak, rounding, force) ? 0 : relative(force_error, peak, least * force);
-    const bool of_couple = system.joints[j].law.lever() == 0 || system.joints[j].law.has_stops();
+    const bool of_couple = system.joints[j].law.lever() == 0 || system.joints[j].law.acts_without_reaction();
     if (!of_couple || is_rounding(couple_error, peak_couple, rounding_couple, couple)) return of_force;
     return std::max(of_force, relative(couple_error, peak_couple, least * couple));
   }
@@ -84,8 +85,8 @@ class Growing {
 template <class S>
 void state_error(const Measures<S>& measures, const PassDifference& difference, double share, const BasicLeastError<S>& least, std::size_t j, LoadSummary& joint) {
   const double peak = difference.peak[j], peak_couple = difference.peak_couple[j];
-  const double force = std::max(share * difference.force[j], std::min(least.ringing.force(j), least.tolerance * peak));
-  const double couple = std::max(share * difference.couple[j], std::min(least.ringing.couple(j), least.tolerance * peak_couple));
+  const double force = std::max(share * difference.force[j], std::min(least.ringing.force(j), kMostRinging * least.tolerance * peak));
+  const double couple = std::max(share * difference.couple[j], std::min(least.ringing.couple(j), kMostRinging * least.tolerance * peak_couple));
   joint.error_estimate = std::max({force, least.of_peak * peak, peak > kPeakOfRounding * difference.rounding ? 0 : peak});  // what rounding alone makes is not known at all
   joint.moment_error_estimate = couple;
   joint.relative_error_estimate = std::max(measures.of_joint(j, force, peak, couple, peak_couple), least.of_peak);
@@ -95,6 +96,17 @@ template <class S>
 std::size_t common_rows(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) { return std::min(coarse.t.size(), fine.t.size()); }
 
 }  // namespace
+
+template <class S>
+double largest_ringing_loss(const BasicSystem<S>& system, const PassDifference& difference, const BasicRingingLoss<S>& ringing, double tolerance) {
+  const Measures<S> measures(system, difference);
+  double largest = 0;
+  for (std::size_t j = 0; j < system.joints.size(); ++j) {
+    const double peak = difference.peak[j], couple = difference.peak_couple[j];
+    largest = std::max(largest, measures.of_joint(j, std::min(ringing.force(j), kMostRinging * tolerance * peak), peak, std::min(ringing.couple(j), kMostRinging * tolerance * couple), couple));
+  }
+  return largest;
+}
 
 double largest_of(const std::vector<double>& x) { return x.empty() ? 0 : *std::max_element(x.begin(), x.end()); }
 
@@ -228,12 +240,14 @@ template std::vector<double> relative_differences(const BasicSystem<Planar>& sys
 template double motion_difference(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template DifferenceCurve force_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template DifferenceCurve motion_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
+template double largest_ringing_loss(const BasicSystem<Planar>& system, const PassDifference& difference, const BasicRingingLoss<Planar>& ringing, double tolerance);
 template std::vector<double> force_horizons(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double share, double tolerance);
 PINTLE_IN_SPACE(template PassDifference difference_of_passes(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double until, double share);)
 PINTLE_IN_SPACE(template std::vector<double> relative_differences(const BasicSystem<Spatial>& system, const PassDifference& c);)
 PINTLE_IN_SPACE(template double motion_difference(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);)
 PINTLE_IN_SPACE(template DifferenceCurve force_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);)
 PINTLE_IN_SPACE(template DifferenceCurve motion_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);)
+PINTLE_IN_SPACE(template double largest_ringing_loss(const BasicSystem<Spatial>& system, const PassDifference& difference, const BasicRingingLoss<Spatial>& ringing, double tolerance);)
 PINTLE_IN_SPACE(template std::vector<double> force_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double tolerance);)
 template void state_errors(const BasicSystem<Planar>& system, const PassDifference& difference, double share, const BasicLeastError<Planar>& least, std::vector<LoadSummary>& joints);
 template void state_errors_until(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, const std::vector<double>& until, double share, const BasicLeastError<Planar>& least, std::vector<LoadSummary>& joints);
