@@ -23,7 +23,7 @@ constexpr double kUnsettledGrowth = 1.1;              // growth of the largest f
 constexpr double kMostKick = 0.5;                     // of a joint's force: what may ring because the rates of gaps are not known better than the gaps, which the last sweep has changed
 constexpr double kMostOfStored = 0.2;                 // of the energy that joints store: the kinetic energy that fast ones give bodies, at most. 0.1 is the most of the collection (a toggle under load), 0.3 and more have starts that rounding makes
 constexpr double kMostChange = 0.1;                   // of a force: what joints on their slow motion change any force by. 0.007 is the most of fast ones of the collection, 0.9 a hoist that was turned back; 0.09 of soft ones, 7 a latch whose toe was to stick (tests/models/hoist_against_friction.toml)
-constexpr double kSmallForce = 0.03;                  // of the largest force: no force is smaller as what its change is measured by. A motor that has nothing to do was given 50 N beside a weight of 510 N with 1; the collection starts alike with 0.01
+constexpr double kLeastMeasure = 0.03;                  // of the largest force: no force is smaller as what its change is measured by. A motor that has nothing to do was given 50 N beside a weight of 510 N with 1; the collection starts alike with 0.01
 constexpr double kBalanced = 1e-6;                    // of the largest joint force: what accelerates a body less leaves it at rest
 constexpr double kSmallCouple = 0.05;                 // of the largest force at the largest radius of gyration: couples below it are not asked whether they grow
 constexpr double kEntirely = 0.99;                    // of its slow motion: with this share a soft joint counts as going with the motion
@@ -92,7 +92,7 @@ double slowest_fast_rate(const BasicTimeScales<S>& time_scales) {
 // Sweeps may converge to another motion than the one that the given forces begin: where they turn back a joint that rubs, for instance.
 template <class S>
 bool keeps_forces(const BasicState<S>& attempt, const BasicState<S>& given) {
-  const double least = kSmallForce * largest_force(given.force);
+  const double least = kLeastMeasure * largest_force(given.force);
   for (std::size_t j = 0; j < given.force.size(); ++j) {
     const double change = (attempt.force[j] - given.force[j]).template head<S::kDim>().norm();
     if (!(change <= kMostChange * std::max(given.force[j].template head<S::kDim>().norm(), least))) return false;
