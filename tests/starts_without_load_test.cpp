@@ -110,5 +110,38 @@ free_length = 2
   EXPECT_NEAR(run.events[0].events.back().t, loose, 1e-3 * loose);
 }
 
+// Nothing acts at the start, so that there is no force to measure errors by.
+TEST(StartsWithoutLoad, AMotorThatIsSwitchedOnSlowlyTurnsIdealJoints) {
+  Model model = parse_model(R"toml(
+format = 1
+gravity = [0, 0]
+[simulate]
+duration = "1.2 s"
+equations = "ideal"
+[ground.markers]
+axis = [0, 0]
+[body.table]
+mass = "10 kg"
+inertia = "0.2 kg*m^2"
+position = [0, 0]
+angle = 0
+spin = 0
+markers.axis = [0, 0]
+[joint.axis]
+type = "revolute"
+between = ["ground.axis", "table.axis"]
+[motor.indexer]
+joint = "axis"
+torque = "26 N*m*(1 - exp(-t/(10 ms)))"
+)toml",
+                            "table.toml");
+  for (const Equations equations : {Equations::kIdeal, Equations::kPenalty}) {
+    model.simulate.equations = equations;
+    const Trajectory run = reference::completed(model);
+    const double spin = 26 / 0.2 * (1.2 - 0.01);
+    EXPECT_NEAR(reference::at_end(run, "body.table.spin"), spin, 1e-5 * spin);
+  }
+}
+
 }  // namespace
 }  // namespace pintle

@@ -53,6 +53,22 @@ void IdealStepper::start(const State& state, double h) {
   accurate_.clear();
   keep_accurate();
   grow_scale();
+  foresee_loads(h);
+}
+
+// Where next to nothing acts yet, as from a motor that is switched on slowly, no force is large enough to measure errors by: the loads are those that come within a
+// hundred first steps.
+void IdealStepper::foresee_loads(double h) {
+  constexpr double kSoon = 100;
+  std::vector<S::Motion> m;
+  system_.motions(end_.q, end_.v, m);
+  Vecs Q(system_.bodies.size(), S::Vec::Zero());
+  for (const double ahead : {h, kSoon * h}) {
+    for (S::Vec& load : Q) load.setZero();
+    system_.external(end_.t + ahead, m, Q);
+    for (std::size_t i = 0; i < Q.size(); ++i)
+      if (Q[i].allFinite()) scale_.body[i] = scale_.body[i].cwiseMax(S::Vec(Q[i].head<2>().norm(), Q[i].head<2>().norm(), std::abs(Q[i][2])));
+  }
 }
 
 bool IdealStepper::step(double t_end) {

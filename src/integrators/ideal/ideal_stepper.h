@@ -52,6 +52,7 @@ class IdealStepper final : public Stepper {
   double error(double h);
   bool crosses_jump() const;
   void grow_scale();
+  void foresee_loads(double h);
   void look_for_singular_position();
   void report_singular_position(double t);
 
