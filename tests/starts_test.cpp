@@ -178,5 +178,12 @@ TEST(Starts, ARopeThatIsSlackByATurnEndsTheRun) {
   EXPECT_NEAR(at_end(run, "t"), 0.1944, 1e-2);
 }
 
+TEST(Starts, MotorsThatContradictEachOtherAreNamed) {
+  Model model = test_model("two_motors_on_a_four_bar", {"simulate.duration=0.01"});
+  EXPECT_NE(notes_of(model).find("motors n, m drive a mechanism with one degree of freedom"), std::string::npos) << notes_of(model);
+  model.motors.pop_back();
+  EXPECT_EQ(notes_of(model).find("drive a mechanism"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace pintle

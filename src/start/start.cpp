@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "mobility/mobility.h"
 #include "pintle/simulate.h"
 #include "start/assembly_notes.h"
 #include "start/equilibrium.h"
@@ -124,9 +125,23 @@ void note_lost_laws(const System& system, const IsIdeal& is_ideal, std::vector<s
   }
 }
 
-}  // namespace
+// Several motors by speed or position on fewer degrees of freedom: what they disagree in deflects joints.
+void note_conflicting_motors(const System& system, const Vecs& q, std::vector<std::string>& notes) {
+  constexpr std::size_t kMostBodies = 200;  // of larger mechanisms the rank takes long
+  std::string names;
+  int servos = 0;
+  for (const JointData& joint : system.joints) {
+    if (joint.servo < 0) continue;
+    names += (servos++ > 0 ? ", " : "") + joint.name;
+  }
+  if (servos < 2 || system.bodies.size() > kMostBodies) return;
+  const CheckMobility counts = check_mobility(system, q).counts;
+  if (counts.rank < 0 || counts.freedoms - counts.rank - counts.mobility_driven >= servos) return;
+  notes.push_back(fmt::format("motors {} drive a mechanism with {} of freedom: what they disagree in deflects the joints, and the largest forces may be those of that; a torque in place of all speeds and positions but {} leaves the others free",
+                              names, counts.mobility == 1 ? "one degree" : fmt::format("{} degrees", counts.mobility), counts.mobility == 1 ? "one" : std::to_string(counts.mobility)));
+}
 
-Assembly start_of_run(const Model& model, double known_span) {
+Assembly start_as_asked(const Model& model, double known_span) {
   if (has_constraints(model.simulate.equations)) {
     Assembly assembly = ideal_start(model);
     const System& system = assembly.system;
@@ -142,6 +157,14 @@ Assembly start_of_run(const Model& model, double known_span) {
   Assembly assembly = tree.all_free() ? start_of_free_bodies(model, system, known_span) : start_over_tree(model, system);
   for (std::string& line : tree.notes()) assembly.notes.push_back(std::move(line));
   note_lost_laws(system, [&tree](int j) { return tree.in_tree(j); }, assembly.notes);
+  return assembly;
+}
+
+}  // namespace
+
+Assembly start_of_run(const Model& model, double known_span) {
+  Assembly assembly = start_as_asked(model, known_span);
+  if (known_span == 0) note_conflicting_motors(assembly.system, assembly.state.q, assembly.notes);
   return assembly;
 }
 
