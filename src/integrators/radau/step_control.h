@@ -108,6 +108,23 @@ class StepControl {
   // The step that Newton's iteration will like, over one in which its errors shrank by `contraction`; 0: not known.
   static double of_contraction(double contraction) { return contraction > 0 ? std::max(kShrink, std::sqrt(kContraction / contraction)) : kMost; }
 
+  // An error that grows goes on growing: K. Gustafsson's predictive controller.
+  double foresee_growth(double factor, double h, double error, int order) const {
+    if (!have_history || !(last > 0) || h < last || !(last_error_ > 0) || !(error > 0)) return factor;
+    return std::clamp(factor * (h / last) * std::pow(last_error_ / error, 1.0 / order), kLeast, factor);
+  }
+
+  // The far end of a step may lie beyond other events than one that is next to its start: Taylor's series is better there.
+  template <class Method>
+  void look_closer(Method& method, double h, SwitchingEvent& event) const {
+    const double within = 2 * kEventAtStart * usual;
+    const SwitchingEvent closer = method.locate_event(within, false);
+    if (!(closer.after < 1)) return;
+    event = closer;
+    event.before *= within / h;
+    event.after *= within / h;
+  }
+
   void accept(double h, double factor, bool up_to_event) {
     next = factor > kSame && factor < kSameAbove ? h : h * factor;
     if (up_to_event) next = std::max(next, kAfterEvent * usual);  // a better guess than this stump
@@ -147,14 +164,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     // A step that was not solved twice may have a jump inside. Functions that flicker about zero in the last bits are left alone after a while.
     const bool flickering = crossed >= kMostCrossed;
     SwitchingEvent event = (solved || retry > 0) && !flickering ? method.locate_event(h, solved) : SwitchingEvent{};
-    if (const double near = kEventAtStart * usual; event.before * h < near && !flickering) {  // the far end may lie beyond other events: Taylor's series is better here
-      const SwitchingEvent closer = method.locate_event(2 * near, false);
-      if (closer.after < 1) {
-        event = closer;
-        event.before *= 2 * near / h;
-        event.after *= 2 * near / h;
-      }
-    }
+    if (event.before * h < kEventAtStart * usual && !flickering) look_closer(method, h, event);
     if (event.after < 1) {
       ahead = event;
       ahead.t = method.t() + event.before * h;
@@ -207,8 +217,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       }
       continue;
     }
-    if (have_history && last > 0 && h >= last && last_error_ > 0 && error > 0)  // an error that grows goes on growing: K. Gustafsson's predictive controller
-      factor = std::clamp(factor * (h / last) * std::pow(last_error_ / error, 1.0 / order), kLeast, factor);
+    factor = foresee_growth(factor, h, error, order);
     last_error_ = std::max(error, kLeastError);
     if (refused) factor = std::min(factor, 1.0);
     if (counters.steps > 0) factor = std::min(factor, of_contraction(method.contraction()));
