@@ -113,7 +113,7 @@ bool jumps(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& 
 // What it reads changes so little that rounding is a good part of how its effort bends.
 template <class S>
 bool stays(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to) {
-  constexpr double kLittle = 1e-9;
+  constexpr double kLittle = 1e-9;  // of what it reads
   for (std::size_t s = 0; s < load.signals.size(); ++s)
     if (!load.signals[s].is_time && std::abs(to[s] - from[s]) > kLittle * std::max(std::abs(from[s]), std::abs(to[s]))) return false;
   return true;

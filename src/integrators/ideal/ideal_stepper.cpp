@@ -59,7 +59,7 @@ void IdealStepper::start(const State& state, double h) {
 // Where next to nothing acts yet, as from a motor that is switched on slowly, no force is large enough to measure errors by: the loads are those that come within a
 // hundred first steps.
 void IdealStepper::foresee_loads(double h) {
-  constexpr double kSoon = 100;
+  constexpr double kSoon = 100;  // first steps, a hundredth of a run
   std::vector<S::Motion> m;
   system_.motions(end_.q, end_.v, m);
   Vecs Q(system_.bodies.size(), S::Vec::Zero());
