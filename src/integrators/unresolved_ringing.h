@@ -10,10 +10,11 @@ namespace pintle {
 /// right force and a rate that is off by this much [N or N*m]: of an undamped joint that of a vibration, sqrt(k m) times the rate. theory/time Eq. (3.24).
 double ringing_force(double m, double c, double k, double rate);
 
-/// The same of joint j over the load scale, with the effective mass of its own two bodies. at, r: of the last stage; missed: what the curve through the gap's rates
-/// at the stages, continued to the start of the step, misses the rate there by.
+/// The same of joint j over the load scale, with the effective mass of its own two bodies. at, r: of the last stage of a step of h with n stages; last: the last Legendre
+/// coefficient of the gap's accelerations at its stages, which tells what the curve through their rates misses the rate at the start by. Only of components so fast that
+/// Eq. (3.13) tells less; of others that would be rounding over a short step.
 template <class S>
-double unresolved_ringing(const BasicSystem<S>& system, int j, const BasicLawPoint<S>& at, const BasicJointKinematics<S>& r, const typename S::Vec& missed,
+double unresolved_ringing(const BasicSystem<S>& system, int j, const BasicLawPoint<S>& at, const BasicJointKinematics<S>& r, const typename S::Vec& last, double h, int n,
                           const BasicLoadScale<S>& scale);
 
 }  // namespace pintle

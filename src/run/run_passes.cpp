@@ -33,6 +33,7 @@ constexpr double kRepeated = 0.1;          // tolerance of a pass that is to sho
 constexpr double kShorter = 0.5;           // longest step of a pass whose tolerance would not shorten its steps, over the mean one before
 constexpr double kNearRounding = 1e-8;     // tolerance below which stiff joints may feel rounding, and steps multiply
 constexpr double kNoGain = 0.5;            // of the error that the passes before have shown: one that has not fallen so far below kNearRounding may be made of rounding
+constexpr std::uint64_t kCheap = 300;      // steps of a pass after which finer ones of order 5 cost little; of order 9 they would be as few again, and differ by the coarser one's error
 constexpr std::uint64_t kLong = 10000;     // after a pass of so many steps the next one goes there by a tenth at a time
 constexpr double kFinest = 1e-11;          // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
 constexpr double kMostScatter = 0.65;      // of a rate of growth, for chaos to be claimed: that of the double pendulum has 0.56, of a cam whose roller rattles, and whose finer passes agree to the end, 0.75
@@ -251,7 +252,7 @@ class Passes {
       if (same && hopeless) return false;
       if (growth_.to_largest) return at(finer_by_error(tolerance));
       const double next = std::min(kRepeated * tolerance, hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kErrorPower)));
-      if (next < kTight) choice_.stages = 5;
+      if (next < kTight && last_.counters.steps > kCheap) choice_.stages = 5;
       return at(next);
     }
     at_rounding_ = meets_rounding(tolerance);
@@ -270,7 +271,7 @@ class Passes {
     const bool is_long = last_.counters.steps > kLong;
     const double least = is_long ? std::min(kRepeated * tolerance, kNearRounding) : 0;
     const double next = std::max(least, tolerance * std::clamp(shrink, 1e-3, kRepeated));
-    if (next < kTight) choice_.stages = 5;
+    if (next < kTight && last_.counters.steps > kCheap) choice_.stages = 5;
     return next;
   }
 

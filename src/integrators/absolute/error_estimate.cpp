@@ -59,7 +59,7 @@ double BasicRadauStepper<S>::ringing_behind_event(double h) const {
     typename S::Vec last_coefficient = S::Vec::Zero();
     for (int s = 0; s < n_; ++s) last_coefficient += table_.stages_to_legendre(n_ - 1, s) * stage_[s].gap_accel[j];
     const BasicLawPoint<S> at{t, last.gap[j], last.gap_rate[j], last.law_state.data() + system_.joints[j].first_state};
-    largest = std::max(largest, unresolved_ringing(system_, j, at, system_.kinematics(j, t, last.m), h / (2 * n_ - 1) * last_coefficient, scale_));
+    largest = std::max(largest, unresolved_ringing(system_, j, at, system_.kinematics(j, t, last.m), last_coefficient, h, n_, scale_));
   }
   return largest;
 }

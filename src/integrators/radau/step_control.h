@@ -22,7 +22,7 @@ class StepControl {
   double next = 0, last = 0, usual = 0;  // steps: the next; the last; what it was before an event [s]
   double longest = 0;                    // [s]; 0: no limit
   bool have_history = false;             // the last step's curve goes on into the next one
-  bool behind_event = true;              // nothing goes on into the next step: it is the first one, or comes after an event
+  bool behind_event = false;             // the next step comes after an event
 
   // Events, in parts of the usual step.
   static constexpr double kCrossing = 1e-9;  // of the usual step: how far is gone to begin with to cross an event, at most
@@ -33,7 +33,7 @@ class StepControl {
   void start(double h) {
     next = usual = h;
     have_history = false;
-    behind_event = true;
+    behind_event = false;
     rounding_ = floor_h_ = floor_error_ = 0;
     event_ = {};
   }

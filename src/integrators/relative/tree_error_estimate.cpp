@@ -123,7 +123,7 @@ double TreeRadau::ringing_behind_event(double h) const {
     for (int s = 0; s < n_; ++s) last_coefficient += table_.stages_to_legendre(n_ - 1, s) * stages_.states()[s].accel.segment<3>(3 * l);
     const S::Vec gap = last.gap.segment<3>(3 * l), rate = last.rate.segment<3>(3 * l);
     const LawPoint at{instant.t(), gap, rate, last.law_state.data() + system_.joints[j].first_state};
-    largest = std::max(largest, unresolved_ringing(system_, j, at, instant.kinematics(static_cast<int>(l)), h / (2 * n_ - 1) * last_coefficient, scale_));
+    largest = std::max(largest, unresolved_ringing(system_, j, at, instant.kinematics(static_cast<int>(l)), last_coefficient, h, n_, scale_));
   }
   return largest;
 }
