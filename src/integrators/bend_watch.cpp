@@ -70,8 +70,8 @@ double BasicBendWatch<S>::place(const Way& way, const std::vector<typename S::Mo
   const BasicJointData<S>& joint = system_.joints[way.joint];
   const typename S::RelativePose pose = system_.pose(joint.at, m);
   if (way.component >= 0) return read(joint.displacement, pose).gap[way.component];
-  if constexpr (!S::kCurved)
-    if (const auto* cam = std::get_if<CamGap>(&joint.displacement)) return cam->profile->place(pose.z).angle;
+  if constexpr (!S::kCurved)  // seen from the cam's axis: the nearest point of a cam may jump while its follower hardly moves
+    if (const auto* cam = std::get_if<CamGap>(&joint.displacement)) return cam->profile->flat() ? pose.z[2] + kTurn / 4 : std::atan2(pose.z[1], pose.z[0]);
   return pose.z[0];
 }
 
