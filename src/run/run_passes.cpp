@@ -252,7 +252,7 @@ class Passes {
       if (same && hopeless) return false;
       if (growth_.to_largest) return at(finer_by_error(tolerance));
       const double next = std::min(kRepeated * tolerance, hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kErrorPower)));
-      if (next < kTight && last_.counters.steps > kCheap) choice_.stages = 5;
+      if (next < kTight && (last_.counters.steps > kCheap || last_.counters.events > 0)) choice_.stages = 5;  // between events steps are short, and longer with order 9
       return at(next);
     }
     at_rounding_ = meets_rounding(tolerance);
@@ -271,7 +271,7 @@ class Passes {
     const bool is_long = last_.counters.steps > kLong;
     const double least = is_long ? std::min(kRepeated * tolerance, kNearRounding) : 0;
     const double next = std::max(least, tolerance * std::clamp(shrink, 1e-3, kRepeated));
-    if (next < kTight && last_.counters.steps > kCheap) choice_.stages = 5;
+    if (next < kTight && (last_.counters.steps > kCheap || last_.counters.events > 0)) choice_.stages = 5;  // between events steps are short, and longer with order 9
     return next;
   }
 

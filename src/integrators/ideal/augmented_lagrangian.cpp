@@ -3,8 +3,11 @@
 #include "integrators/force_evaluator.h"
 
 namespace pintle {
+namespace {
 
 using S = Planar;
+
+}  // namespace
 
 AugmentedLagrangian::AugmentedLagrangian(const System& system, double factor)
     : system_(system), factor_(factor), equations_(system, Equations::kAugmentedLagrangian), multipliers_(system.joints.size(), S::Vec::Zero()), stiffness_(multipliers_),
