@@ -220,7 +220,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     factor = foresee_growth(factor, h, error, order);
     last_error_ = std::max(error, kLeastError);
     if (refused) factor = std::min(factor, 1.0);
-    if (counters.steps > 0) factor = std::min(factor, of_contraction(method.contraction()));
+    if (counters.steps > 0 && error > 0) factor = std::min(factor, of_contraction(method.contraction()));  // of a step without an error beyond rounding it says nothing
     if (up_to_event && h < kOnTheWay * (ahead.t - method.t())) up_to_event = false;
     method.finish_step(h);
     ++counters.steps;
