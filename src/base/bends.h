@@ -15,12 +15,19 @@ struct Bends {
   double period = 0;  // 0: none
 
   bool empty() const { return places.empty(); }
-  /// The share of the way between two places that leads to the second bend on it; 1 if there are fewer. With the start at a bend this is none.
+  /// The share of the way between two places that leads to the second bend on it; 1 if there are fewer, or where the way ends little behind the second one. With the
+  /// start at a bend this is none.
   double share_to_second(double from, double to) const {
     if (empty() || !(std::abs(to - from) > 0)) return 1;
     const bool forward = to > from;
-    const double first = next(from, forward), share = (next(first, forward) - from) / (to - from);
-    return share < 1 ? share : 1;
+    const double second = next(next(from, forward), forward);
+    const auto share_to = [&](double place) { return (place - from) / (to - from); };
+    return share_of_way(share_to(second), share_to(next(second, forward)));
+  }
+  /// The same from the shares that lead to the second and the third bend.
+  static double share_of_way(double second, double third) {
+    constexpr double kBarely = 0.9;  // a way that was to end at the second bend may go so much further
+    return second < kBarely || third < 1 ? second : 1;
   }
 
  private:

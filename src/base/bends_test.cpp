@@ -11,6 +11,9 @@ TEST(Bends, TheSecondOneEndsTheWay) {
   const Bends bends{{1, 2, 5}};
   EXPECT_EQ(bends.share_to_second(0, 4), 0.5);
   EXPECT_EQ(bends.share_to_second(0, 1.9), 1);
+  EXPECT_EQ(bends.share_to_second(0, 2.2), 1);  // a little further than to the second
+  EXPECT_EQ(bends.share_to_second(0, 5.1), 2 / 5.1);
+  EXPECT_EQ((Bends{{4.7, 4.8, 4.9}}.share_to_second(0, 5)), 4.8 / 5);  // all of it at the end of a long way
   EXPECT_EQ(bends.share_to_second(1, 9), 0.5);  // a bend that it starts at is behind it
   EXPECT_EQ(bends.share_to_second(2, 9), 1);
   EXPECT_EQ(bends.share_to_second(6, 0), 4.0 / 6);

@@ -129,9 +129,12 @@ double BasicBendWatch<S>::share_of_effort(const BasicLoadData<S>& load, double t
   const int n = static_cast<int>(std::min<double>(parts, kParts));
   samples_.take([&](double x) { return effort_on_way(load, from, to, x); }, 0, 1, n);
   int passed = 0;
-  double share = 1;
-  samples_.visit_bends_in_parts([&](double part) { share = ++passed == 2 ? part / n : share; });
-  return share;
+  double second = 1, third = 1;
+  samples_.visit_bends_in_parts([&](double part) {
+    if (++passed == 2) second = part / n;
+    if (passed == 3) third = part / n;
+  });
+  return Bends::share_of_way(second, third);
 }
 
 template <class S>

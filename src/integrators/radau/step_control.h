@@ -67,7 +67,6 @@ class StepControl {
   // Of the way to an event: a step that ends so soon, for its error, is a usual one. Of the block in LinearContact half of it refuses 2400 steps and double of it
   // 630, where this refuses 1100; not a step changes in the worn pins and wheels of the collection. With all of the way, pins that stick take twice the steps.
   static constexpr double kOnTheWay = 0.01;
-  static constexpr double kBarely = 0.9;          // of a step: where the second bend that it passes comes later it has seen it
   static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;  // of the step for which the error would be the tolerance; the least ratio of two steps; the largest; the largest after the first step
 
   static constexpr double kSame = 0.95, kSameAbove = 1.1;  // ratio of two steps from which on the step is kept, and with it the factorised Jacobians; up to which it is
@@ -155,7 +154,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       refused = true;
       have_history = have_history && retry == 0;
     }
-    if (const double seen = solved ? method.share_of_step(h, t_end) : 1; seen < kBarely) {
+    if (const double seen = solved ? method.share_of_step(h, t_end) : 1; seen < 1) {
       ++counters.rejected;
       h *= seen;
       up_to_event = false;
