@@ -1,6 +1,8 @@
 // The tightest tolerances: what is at rounding costs no endless steps, and the forces are what was asked for.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+
 #include "tests/reference_tables.h"
 
 namespace pintle {
@@ -38,6 +40,32 @@ TEST(TightTolerance, TakesStepsOfTheMotionWhereAServoIsStiffForItsInertia) {
   const Trajectory run = simulate(model);
   EXPECT_LT(run.counters.steps + run.counters.rejected, 50000u);
   EXPECT_NEAR(run.joints.front().peak, peak, 1e-5 * peak);
+}
+
+// A blow is a thousand times as large as what the slope carries before it. Passes for a tolerance of that come near rounding, which no step resolves: steps that tried to were
+// millions.
+TEST(TightTolerance, SmallForcesBesideLargeOnesCostNoEndlessSteps) {
+  Model model = reference::test_model("ball_to_a_wall");
+  for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6}) {
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = reference::completed(model);
+    EXPECT_LT(run.counters.steps + run.counters.rejected, 6000u) << tolerance;
+  }
+}
+
+// Between events steps are short: the finer passes of a loose tolerance use order 9, as those of a tight one do.
+TEST(TightTolerance, ALooseOneCostsNoMoreThanATightOne) {
+  Model model = reference::test_model("bag_jaws");
+  std::uint64_t before = 0;
+  for (const double tolerance : {1e-6, 1e-5, 1e-4}) {
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = reference::completed(model);
+    const std::uint64_t steps = run.counters.steps + run.counters.rejected;
+    if (before > 0) {
+      EXPECT_LT(steps, before + before / 4) << tolerance;
+    }
+    before = steps;
+  }
 }
 
 }  // namespace
