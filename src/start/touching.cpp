@@ -17,7 +17,8 @@ namespace {
 
 using S = Planar;
 
-constexpr double kAjar = 4;  // times the largest deflection of a joint: several may add up
+constexpr double kAjar = 4;         // times the largest deflection of a joint: several may add up
+constexpr double kMostAjar = 1e-4;  // of the mechanism: what soft joints let go further is no start of what was assembled
 
 // A joint whose surfaces touch, and how it is pressed: `sign` times component `k` of its gap is the depth.
 struct Touch {
@@ -110,12 +111,13 @@ std::string press_touching_surfaces(const System& system, State& state) {
   const std::vector<Touch> all = find_touches(system, state);
   std::vector<Touch> touches = all;
   State carried = state;
-  double ajar = kAsStated * characteristic_length(system, state.q);  // of what would pull; further than the loads deflect joints
+  const double length = characteristic_length(system, state.q);
+  double ajar = kAsStated * length;  // of what would pull; further than the loads deflect stiff joints
   while (!touches.empty()) {
     carried = state;
     const System firm = with_springs(system, touches);
     start_forces(firm, true, carried);
-    ajar = std::max(ajar, kAjar * largest_deflection(firm, carried));
+    ajar = std::max(ajar, std::min(kAjar * largest_deflection(firm, carried), kMostAjar * length));
     const double nothing = kFits * largest_force(carried.force);
     const auto pulls = [&](const Touch& touch) { return !(pressing(touch, carried.force[touch.joint]) > nothing); };
     if (std::erase_if(touches, pulls) == 0) break;
