@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "integrators/load_scale.h"
+#include "integrators/thresholds.h"
 
 namespace pintle {
 
@@ -15,19 +16,24 @@ class BasicOpenContacts {
   explicit BasicOpenContacts(const BasicSystem<S>& system);
 
   bool empty() const { return joints_.empty(); }
-  /// What the difference between the gap that a step has integrated and that of its bodies' poses at its end, less their `rounding`, would be as a force once
-  /// the bodies have met, over the load scale: the largest of the joints that are apart there. carried(j): joint j as integrated; gap_from_geometry(j).
-  /// theory/time Eq. (3.23).
-  template <class Carried, class GapFromGeometry>
-  double error(const Carried& carried, const GapFromGeometry& gap_from_geometry, double rounding, const BasicLoadScale<S>& scale) const {
+  /// What is not known of the gaps at the end of a step of h, less the rounding of positions up to `far`, as a force once the bodies have met, over the load
+  /// scale: the largest of the joints that are apart there. carried(j): joint j as the step has integrated it; kinematics(j): by the bodies' poses;
+  /// last_coefficient(b): the last Legendre coefficient of body b's acceleration. theory/time Eq. (3.23).
+  template <class Carried, class Kinematics, class LastCoefficient>
+  double error(double h, const Carried& carried, const Kinematics& kinematics, const LastCoefficient& last_coefficient, double far, const BasicLoadScale<S>& scale) const {
+    constexpr double kOfBend = 0.1;  // of the way that the last coefficient makes over a step: what a spring on the bodies, with half a period in it, does not resolve. With 0 a shift fork is late at its stop by 38 times the tolerance
     double largest = 0;
     for (const int j : joints_) {
       const BasicJointData<S>& joint = system_.joints[j];
       const BasicLawPoint<S> at = carried(j);
       const typename S::Vec stiffness = joint.law.open_contact_stiffness(at);
       if (stiffness.isZero(0)) continue;
-      const typename S::Vec missed = ((gap_from_geometry(j) - at.gap).cwiseAbs().array() - rounding).cwiseMax(0);
-      largest = std::max(largest, stiffness.cwiseProduct(missed).cwiseQuotient(load_across(joint.at, scale)).maxCoeff());
+      const BasicJointKinematics<S> r = kinematics(j);
+      typename S::Vec bend = S::Vec::Zero();
+      if (joint.at.a != kGround) bend += r.GA() * last_coefficient(joint.at.a);
+      if (joint.at.b != kGround) bend += r.GB() * last_coefficient(joint.at.b);
+      const typename S::Vec missed = ((r.gap - at.gap).cwiseAbs().cwiseMax(kOfBend * h * h * bend.cwiseAbs()).array() - kLastBits * far).cwiseMax(0);
+      largest = std::max(largest, stiffness.cwiseProduct(missed).cwiseQuotient(load_in_gap_axes(joint.at, scale)).maxCoeff());
     }
     return largest;
   }

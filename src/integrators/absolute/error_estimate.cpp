@@ -44,8 +44,14 @@ double BasicRadauStepper<S>::open_contact_error(double h) const {
   if (open_contacts_.empty()) return 0;
   const BasicStage<S>& last = stage_[n_ - 1];
   const double t = begin_.t + h;
-  return open_contacts_.error([&](int j) { return BasicLawPoint<S>{t, last.gap[j], last.gap_rate[j], last.law_state.data() + system_.joints[j].first_state}; },
-                              [&](int j) { return system_.kinematics(j, t, last.m).gap; }, kLastBits * largest_coordinate(last.q), scale_);
+  return open_contacts_.error(h, [&](int j) { return BasicLawPoint<S>{t, last.gap[j], last.gap_rate[j], last.law_state.data() + system_.joints[j].first_state}; },
+                              [&](int j) { return system_.kinematics(j, t, last.m); },
+                              [&](int b) {
+                                typename S::Vec last_coefficient;
+                                for (int c = 0; c < S::kDof; ++c) last_coefficient[c] = tails_.bodies[b][c][0];
+                                return last_coefficient;
+                              },
+                              largest_coordinate(last.q), scale_);
 }
 
 // theory/time Eq. (3.24). In a smooth motion there is next to none.
@@ -115,10 +121,8 @@ void BasicRadauStepper<S>::finish_step(double h) {
   }
   nodes_.force[n_] = end_.force;
   if (S::kCurved) find_increments(h);
-  control_.have_history = true;
-  control_.behind_event = false;
+  control_.step_made(h);
   this->update_switching();
-  control_.last = h;
 }
 
 // What the integrals of the increments' rates miss the end by: the projection. theory/space Eq. (2.3).

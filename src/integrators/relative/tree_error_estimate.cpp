@@ -28,7 +28,7 @@ bool TreeRadau::error_estimate(double h, double& error) {
   const TreeState& last = stages_.states()[n_ - 1];
   const double mu = kProjectionShare * table_.real_eigenvalue / std::abs(h);
   if (!projector_.prepare(stages_.instant(n_ - 1), mu, last, TreeProjector::Laws::kWhole, find_taut(mu / kProjectionShare))) return false;
-  error = std::max({body_tail(), gap_tail(), state_tail(std::abs(h)), open_contact_error(), ringing_behind_event(h), bends_.missed_between_samples(begin_.t, h, end_at_.pose().m, stages_.instant(n_ - 1).pose().m, scale_)});
+  error = std::max({body_tail(), gap_tail(), state_tail(std::abs(h)), open_contact_error(h), ringing_behind_event(h), bends_.missed_between_samples(begin_.t, h, end_at_.pose().m, stages_.instant(n_ - 1).pose().m, scale_)});
   return std::isfinite(error);
 }
 
@@ -42,15 +42,17 @@ VectorXd TreeRadau::find_taut(double own) const {
   return taut.maxCoeff() > 0 ? taut : VectorXd();
 }
 
+S::Vec TreeRadau::body_coefficient(int k, int body) const {
+  S::Vec a = table_.to_legendre(k, 0) * begin_state_.a[body];
+  for (int s = 0; s < n_; ++s) a += table_.to_legendre(k, s + 1) * stages_.instant(s).a()[body];
+  return a;
+}
+
 double TreeRadau::body_tail() const {
   std::array<double, RadauTable::kMaxNodes> size{};
   VectorXd coefficient(3 * system_.n_bodies());
   for (int k = n_ - 2; k <= n_; ++k) {
-    for (int i = 0; i < system_.n_bodies(); ++i) {
-      S::Vec a = table_.to_legendre(k, 0) * begin_state_.a[i];
-      for (int s = 0; s < n_; ++s) a += table_.to_legendre(k, s + 1) * stages_.instant(s).a()[i];
-      coefficient.segment<3>(3 * i) = a;
-    }
+    for (int i = 0; i < system_.n_bodies(); ++i) coefficient.segment<3>(3 * i) = body_coefficient(k, i);
     size[k] = over_loads(system_, coefficient, scale_);
   }
   return tail_size(size[n_], size[n_ - 1], size[n_ - 2]);
@@ -97,7 +99,7 @@ double TreeRadau::state_tail(double h) const {
 }
 
 // theory/time Eq. (3.23).
-double TreeRadau::open_contact_error() const {
+double TreeRadau::open_contact_error(double h) const {
   if (open_contacts_.empty()) return 0;
   const TreeState& last = stages_.states()[n_ - 1];
   const TreeInstant& instant = stages_.instant(n_ - 1);
@@ -108,7 +110,8 @@ double TreeRadau::open_contact_error() const {
     rate = last.rate.segment<3>(first_gap(j));
     return LawPoint{instant.t(), gap, rate, last.law_state.data() + system_.joints[j].first_state};
   };
-  return open_contacts_.error(carried, [&](int j) { return instant.kinematics(static_cast<int>(first_gap(j) / 3)).gap; }, kLastBits * largest_coordinate(instant.pose().q), scale_);
+  return open_contacts_.error(h, carried, [&](int j) { return instant.kinematics(static_cast<int>(first_gap(j) / 3)); }, [this](int b) { return body_coefficient(n_, b); },
+                              largest_coordinate(instant.pose().q), scale_);
 }
 
 // theory/time Eq. (3.24), of the joints that are no coordinates.
@@ -155,9 +158,7 @@ void TreeRadau::finish_step(double h) {
   VectorXd w;
   projector_.balance(end_at_, last.accel, true, end_.force, w);
   nodes_.force.col(n_) = end_.force;
-  control_.last = h;
-  control_.have_history = true;
-  control_.behind_event = false;
+  control_.step_made(h);
   finish_end(w);
   update_switching();
 }

@@ -32,6 +32,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   const std::string& failure() const override { return failure_; }
   const std::vector<LawCrossing>& crossings() const override { return crossings_; }
   std::string last_event(double since) const override { return control_.last_event(system_, since); }
+  bool watches_bends() const override { return true; }
 
   const JointTree& tree() const { return *tree_; }
 
@@ -45,10 +46,12 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   // tree_error_estimate.cpp: the error of a step, its end and its inside
   bool error_estimate(double h, double& error);
   Eigen::VectorXd find_taut(double own) const;
+  /// Legendre coefficient k of a body's acceleration over the step.
+  Planar::Vec body_coefficient(int k, int body) const;
   double body_tail() const;
   double gap_tail();
   double state_tail(double h) const;
-  double open_contact_error() const;
+  double open_contact_error(double h) const;
   double ringing_behind_event(double h) const;
   double share_of_step(double h, double t_end) { return bends_.share_of_step(begin_.t, h, t_end, end_at_.pose().m, stages_.instant(n_ - 1).pose().m); }
   void finish_step(double h);
