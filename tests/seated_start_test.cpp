@@ -90,6 +90,28 @@ TEST(SeatedStart, PlayOfSlidesAndOfSeveralPinsIsTakenUp) {
   for (std::size_t j = 0; j < pins.joints.size(); ++j) EXPECT_LT(pins.joints[j].peak, 0.5 * centred.joints[j].peak) << pins.joints[j].name;
 }
 
+// What a rubbing pin asks of a worn guide is a moment: one end lies on each wall. It was sought on one wall, and the bar began 1.2 mm away from its guide, with 83 kN.
+TEST(SeatedStart, AWornGuideTiltsUnderTheMomentOfAPinThatRubs) {
+  for (const char* friction : {"lugre", "coulomb"}) {
+    const Trajectory loose = completed(reference::test_model("needle_bar", {std::string("joint.B.friction=") + friction}));
+    const Trajectory tight = completed(reference::test_model("needle_bar", {std::string("joint.B.friction=") + friction, "--law joint.guide=linear"}));
+    for (const char* column : {"joint.B.on_bar.fx[world]", "joint.B.on_bar.fy[world]"}) EXPECT_NEAR(value(loose, 0, column), value(tight, 0, column), 0.02 * tight.joints[2].peak) << column;
+    EXPECT_LT(loose.energy.potential_start, 0);
+    EXPECT_LT(loose.joints[2].peak, 2 * tight.joints[2].peak) << friction;
+  }
+}
+
+// Joints that follow their loads slowly begin with the forces that carry these, although no motion without a transient is found.
+TEST(SeatedStart, WornPinsThatRubBeginWithTheForcesOfTightOnes) {
+  const std::vector<std::string> brief{"simulate.duration=0.01"};
+  const Trajectory loose = completed(reference::test_model("loom_slay", brief));
+  const Trajectory tight = completed(reference::test_model("loom_slay", {"simulate.duration=0.01", "--law joint.A=linear", "--law joint.B=linear", "--law joint.P=linear"}));
+  for (std::size_t j = 0; j < loose.joints.size(); ++j) {
+    const std::string column = "joint." + loose.joints[j].name + ".on_" + loose.joints[j].second_body;
+    for (const char* axis : {".fx[world]", ".fy[world]"}) EXPECT_NEAR(value(loose, 0, column + axis), value(tight, 0, column + axis), 0.05 * tight.joints[3].peak) << column << axis;
+  }
+}
+
 TEST(SeatedStart, AJointThatCarriesNothingStaysInTheMiddle) {
   const Trajectory run = completed(parse_model(rod("0 deg", "[0, 0]"), "rod.toml"));
   EXPECT_TRUE(notes_have(run, "joints that carry no load at the start stay in the middle of their play: O"));

@@ -183,8 +183,8 @@ void LawSetting::take(const std::map<std::string, double>& geometry) {
 }
 
 double LawSetting::number(std::string_view key, std::size_t place) const {
-  const std::vector<double> stated = list(key);
-  if (!stated.empty()) return stated[std::min(place, stated.size() - 1)];
+  const std::vector<double> values_of_key = list(key);
+  if (!values_of_key.empty()) return values_of_key[std::min(place, values_of_key.size() - 1)];
   const KeyInfo* info = find_key(keys, key);
   return info ? info->fallback : 0;
 }

@@ -2,6 +2,7 @@
 // known by one call of register_law; those that come with the program are in catalog.cpp.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
@@ -35,11 +36,13 @@ struct LawSetting {
   std::shared_ptr<const Chambers> chambers{};  // of a cylinder, where the law is made
   const std::map<std::string, std::vector<double>>* values = nullptr;
   std::span<const KeyInfo> keys;
+  std::vector<std::string_view> stated{};  // by the joint itself, where a model is read
 
   /// Takes from a joint's geometry what laws ask of it, where it is there: ends from the stroke, the pressure angle.
   void take(const std::map<std::string, double>& geometry);
   /// A value as stated, or the key's default; of a list the entry for this place, or its last one.
   double number(std::string_view key, std::size_t place = 0) const;
+  bool states(std::string_view key) const { return std::find(stated.begin(), stated.end(), key) != stated.end(); }
   /// A list as stated; empty where there is none.
   std::vector<double> list(std::string_view key) const;
   /// `linear` of the held lengths, in their order, and `angular` of the angle where that is held.

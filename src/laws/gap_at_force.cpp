@@ -206,6 +206,11 @@ bool gap_at_force(const BasicLaw<S>& law, const typename S::Vec& force, const ty
     gap_of_springs(law, force, rate, gap);
     return true;
   }
+  if (const auto known = law.gap_under(force); known && rate.isZero(0)) {
+    for (int k = 0; k < S::kDof; ++k)
+      if (law.engaged_stiffness()[k] > 0) gap[k] = (*known)[k];
+    return true;
+  }
   if (follow_load(law, force, rate, gap)) return true;
   begin_where_it_resists(law, force, rate, gap);
   const typename S::Vec engaged = law.engaged_stiffness();

@@ -281,6 +281,11 @@ BasicResponse<S> BasicLaw<S>::holding_of_parts(const typename S::Vec& gap, const
   rest({0, gap, still, state}, state);
   BasicLawTangents<S> tangents;
   linearize({0, gap, rate, state}, tangents);
+  // What does not change where nothing moves, as friction inside rubber, stays as it is.
+  for (int z = 0; z < n_states_; ++z) {
+    const auto is_zero = [](double x) { return x == 0; };
+    if (std::all_of(tangents.by_state[z], tangents.by_state[z] + n_states_, is_zero) && std::all_of(tangents.by_gap[z], tangents.by_gap[z] + S::kDof, is_zero)) tangents.by_state[z][z] = -1;
+  }
   LawImpedance<double, S> statics;
   statics.reserve(n_states_);
   statics.find(tangents, 0);
@@ -300,6 +305,17 @@ typename S::Vec BasicLaw<S>::engaged_stiffness() const {
   for (const auto& part : parts_)
     if (part->holds()) k += part->engaged_stiffness();
   return k;
+}
+
+template <class S>
+std::optional<typename S::Vec> BasicLaw<S>::gap_under(const Vec& force) const {
+  const Part* holder = nullptr;
+  for (const auto& part : parts_) {
+    if (!part->holds()) continue;
+    if (holder != nullptr) return std::nullopt;
+    holder = part.get();
+  }
+  return holder != nullptr && linear_.k.isZero(0) ? holder->gap_under(force) : std::nullopt;
 }
 
 template <class S>

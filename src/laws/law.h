@@ -129,6 +129,8 @@ class BasicLaw {
   bool starts_free() const;
   /// Stiffness of what holds, one-sided laws as if they acted.
   Vec engaged_stiffness() const;
+  /// LawPart::gap_under, where one part alone holds the joint.
+  std::optional<Vec> gap_under(const Vec& force) const;
   /// LawPart::closed_stiffness of those parts that are open here: they have borders and no force.
   Vec open_contact_stiffness(const Point& at) const;
   /// The largest lever of its parts [m]; 0: it makes no couple of its own force.

@@ -89,6 +89,8 @@ class BasicLawPart {
   virtual Vec engaged_stiffness() const = 0;
   /// Stiffness in each component once a gap that may be open has closed; unless the law says otherwise, engaged_stiffness.
   virtual Vec closed_stiffness() const = 0;
+  /// The gap at which it carries `force` at rest, of laws that know it; none: it has to be searched for. What it does not hold is 0.
+  virtual std::optional<Vec> gap_under(const Vec& force) const = 0;
   /// Where the force bends over the component that is returned with it, and how narrow it is there: steps do not fly past it. None: it is smooth.
   virtual std::pair<int, Bends> bends() const = 0;
   /// What the joint's own force is multiplied by to measure couples that the law makes of it [m]: the radius of a pin that rubs.
@@ -108,7 +110,7 @@ using LawPart = BasicLawPart<Planar>;
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
 /// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), border_directions() (one +1, -1 or 0
 /// each, or border_direction(i)) cross() and border_name(), kHolds = false, kStops = true, kRubs = false (of what neither holds nor stops), kOnReactionAlone = true, kStartsFree = true, supply(in),
-/// columns() with observe(), engaged_stiffness(), closed_stiffness(), bends(), engage(), lever(), penetration(), breach(), stiction() with set_stuck() and start_slipping().
+/// columns() with observe(), engaged_stiffness(), closed_stiffness(), gap_under(), bends(), engage(), lever(), penetration(), breach(), stiction() with set_stuck() and start_slipping().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
  public:
@@ -193,6 +195,10 @@ class LawPartOf final : public BasicLawPart<S> {
   Vec engaged_stiffness() const override {
     if constexpr (requires { law_.engaged_stiffness(); }) return law_.engaged_stiffness();
     else return Vec::Zero();
+  }
+  std::optional<Vec> gap_under(const Vec& force) const override {
+    if constexpr (requires { law_.gap_under(force); }) return law_.gap_under(force);
+    else return std::nullopt;
   }
   Vec closed_stiffness() const override {
     if constexpr (requires { law_.closed_stiffness(); }) return law_.closed_stiffness();

@@ -154,7 +154,7 @@ void settle_soft_joints(const BasicSystem<S>& system, const BasicTimeScales<S>& 
   BasicState<S> attempt = start.state;
   const BasicSoftStart<S> soft = place_soft_joints(system, time_scales, 2 * span, attempt);
   const bool converged = soft.change < kSettledSweep;
-  const bool fits = is_moderate(system, attempt, start.state, 1.0) && (!converged || largest_force(start.state.force) == 0 || keeps_forces(attempt, start.state));
+  const bool fits = is_moderate(system, attempt, start.state, 1.0) && (largest_force(start.state.force) == 0 || keeps_forces(attempt, start.state));
   if (fits && (converged || is_near(system, attempt, start.state, kUnsettledGrowth))) start.state = std::move(attempt);
   const bool along = note_resolved_joints(system, time_scales, soft, start.notes);
   if (soft.placed && fits && along && soft.change < kExact) return;

@@ -64,8 +64,11 @@ void note_far_deflection(const System& system, const Vecs& assembled, const Stat
 // The deflections of joints and actuators are hardly ever meant to move what is held while the mechanism is assembled.
 void note_held_that_moved(const Model& model, const System& system, const Vecs& assembled, const State& state, std::vector<std::string>& notes) {
   constexpr double kFar = 0.02;  // [rad], and of the mechanism's size. With half of it the belt drive of the collection, whose belt stretches by 0.7 deg, has the note
-  if (const std::string moved = held_that_moved(model, assembled, state.q, kFar, kFar * characteristic_length(system, assembled)); !moved.empty())
-    notes.push_back("the joints give way to the loads of t = 0, and what is held while they are assembled goes with them: " + moved + "; start = \"settled\" leaves it where it is and says what is not in equilibrium there");
+  const std::string moved = held_that_moved(model, assembled, state.q, kFar, kFar * characteristic_length(system, assembled));
+  if (moved.empty()) return;
+  const bool at_rest = std::none_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.velocity.value_or(Vec2{}) != Vec2{} || body.spin.value_or(0) != 0; });
+  notes.push_back("the joints give way to the loads of t = 0, and what is held while they are assembled goes with them: " + moved +
+                  (at_rest ? "; start = \"settled\" leaves it where it is and says what is not in equilibrium there" : "; start = \"unloaded\" leaves it where it is"));
 }
 
 Assembly start_of_free_bodies(const Model& model, System system, double known_span) {

@@ -17,7 +17,6 @@ namespace {
 
 using S = Planar;
 
-constexpr double kAjar = 4;         // times the largest deflection of a joint: several may add up
 constexpr double kMostAjar = 1e-4;  // of the mechanism: what soft joints let go further is no start of what was assembled
 
 // A joint whose surfaces touch, and how it is pressed: `sign` times component `k` of its gap is the depth.
@@ -86,15 +85,15 @@ double depth_at(const BasicLaw<S>& law, const Touch& touch, double force) {
   return high;
 }
 
-// Of the joints' lengths under the forces that they carry [m].
-double largest_deflection(const System& system, const State& state) {
-  double largest = 0;
+// Of all joints, along their lengths, under the forces that they carry [m]: about as far as bodies are moved by them at the most.
+double sum_of_deflections(const System& system, const State& state) {
+  double sum = 0;
   for (int j = 0; j < system.n_joints(); ++j) {
     const S::Vec stiffness = system.joints[j].law.engaged_stiffness();
     for (int k = 0; k < S::kDim; ++k)
-      if (system.joints[j].held[k] && stiffness[k] > 0) largest = std::max(largest, std::abs(state.force[j][k]) / stiffness[k]);
+      if (system.joints[j].held[k] && stiffness[k] > 0) sum += std::abs(state.force[j][k]) / stiffness[k];
   }
-  return largest;
+  return sum;
 }
 
 // Of those of `all` that are not among `pressed`.
@@ -107,7 +106,7 @@ std::vector<int> others(const std::vector<Touch>& all, const std::vector<Touch>&
 
 }  // namespace
 
-std::string press_touching_surfaces(const System& system, State& state) {
+std::vector<int> press_touching_surfaces(const System& system, State& state) {
   const std::vector<Touch> all = find_touches(system, state);
   std::vector<Touch> touches = all;
   State carried = state;
@@ -117,12 +116,12 @@ std::string press_touching_surfaces(const System& system, State& state) {
     carried = state;
     const System firm = with_springs(system, touches);
     start_forces(firm, true, carried);
-    ajar = std::max(ajar, std::min(kAjar * largest_deflection(firm, carried), kMostAjar * length));
+    ajar = std::max(ajar, std::min(sum_of_deflections(firm, carried), kMostAjar * length));
     const double nothing = kFits * largest_force(carried.force);
     const auto pulls = [&](const Touch& touch) { return !(pressing(touch, carried.force[touch.joint]) > nothing); };
     if (std::erase_if(touches, pulls) == 0) break;
   }
-  if (all.empty()) return "";
+  if (all.empty()) return {};
   if (touches.empty()) {
     carried = state;
     start_forces(system, false, carried);
@@ -133,12 +132,17 @@ std::string press_touching_surfaces(const System& system, State& state) {
   BasicInverseDynamics<S>(with_springs(system, all)).move_onto_gaps(carried);
   state.q = carried.q;
   state.v = carried.v;
-  return names_of_joints(system, others(all, touches));
+  return others(all, touches);
 }
 
 void press_touching_surfaces(Assembly& assembly) {
-  if (const std::string idle = press_touching_surfaces(assembly.system, assembly.state); !idle.empty())
-    assembly.notes.push_back("surfaces that touch at the start without pressing on each other: " + idle + "; if one was to press, it may be the other side of its edge (the first marker's axis turned by 180 deg: it presses along +y)");
+  const System& system = assembly.system;
+  const std::vector<int> idle = press_touching_surfaces(system, assembly.state);
+  if (idle.empty()) return;
+  std::string note = "surfaces that touch at the start without pressing on each other: " + names_of_joints(system, idle);
+  if (std::any_of(idle.begin(), idle.end(), [&system](int j) { return system.joints[static_cast<std::size_t>(j)].type != "cam"; }))
+    note += "; if one was to press, it may be the other side of its edge (the first marker's axis turned by 180 deg: it presses along +y)";
+  assembly.notes.push_back(std::move(note));
 }
 
 }  // namespace pintle

@@ -55,6 +55,8 @@ struct ContactForce {
     const T share = (1 / cushion) * depth, x = law_math::where_positive(share - T(1.0), T(1.0), share);
     return viscous * (x * x * (T(3.0) - 2.0 * x));                                                              // (1.4)
   }
+  /// d where N presses at rest.
+  double depth_at(double pressing) const { return std::pow(pressing / stiffness, 1 / exponent); }
   /// N for d > 0.
   template <class T>
   T force(const T& depth, const T& rate, const T& approach) const {

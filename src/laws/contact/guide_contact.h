@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -69,36 +70,62 @@ struct GuideContactLaw : RubbingContact {
     const double k = contact.stiffness_at(0.1 * clearance);
     return {0, 2 * k, 0.5 * k * length * length};
   }
+  /// Each end on the side to which its share of the load presses it; one without a share lies on the other's side.
+  std::optional<Planar::Vec> gap_under(const Planar::Vec& force) const {
+    const std::array<double, kEnds> share{0.5 * force[1] + force[2] / length, 0.5 * force[1] - force[2] / length};
+    const double least = kNoShare * std::max(std::abs(share[0]), std::abs(share[1]));
+    std::array<double, kEnds> across{};
+    for (int i = 0; i < kEnds; ++i) {
+      const double decides = std::abs(share[i]) > least ? share[i] : share[1 - i];
+      across[i] = decides == 0 ? 0 : std::copysign(clearance + contact.depth_at(std::abs(share[i])), -decides);
+    }
+    return Planar::Vec(0, 0.5 * (across[0] + across[1]), std::asin(std::clamp((across[0] - across[1]) / length, -1.0, 1.0)));
+  }
   double penetration(const Planar::Vec& gap) const {
     LawInput<double> in{};
     std::copy_n(gap.data(), 3, in.gap);
     return std::max(find(in, 0).depth, find(in, 1).depth);
   }
   std::span<const LawColumn> columns() const {
-    static const std::array<LawColumn, 7> all{{{"contact_force_front", "N", "normal force at the end ahead, along the guide's axis"},
-                                               {"contact_force_rear", "N", "normal force at the other end"},
-                                               {"penetration_front", "m", "depth by which the end ahead overlaps a wall; negative while apart"},
-                                               {"penetration_rear", "m", "the same of the other end"},
-                                               {"wear_power", "W", "normal forces times speeds of slip"},
-                                               {"stuck_front", "", "1 while the end ahead sticks, 0 while it slips or is apart"},
-                                               {"stuck_rear", "", "the same of the other end"}}};
-    return std::span(all).first(grip ? 7 : 5);
+    static const std::array<LawColumn, 11> all{{{"contact_force_front", "N", "normal force at the end ahead, along the guide's axis"},
+                                                {"contact_force_rear", "N", "normal force at the other end"},
+                                                {"penetration_front", "m", "depth by which the end ahead overlaps a wall; negative while apart"},
+                                                {"penetration_rear", "m", "the same of the other end"},
+                                                {"approach_speed_front", "m/s", "speed at which the contact of the end ahead began; 0 while apart"},
+                                                {"approach_speed_rear", "m/s", "the same of the other end"},
+                                                {"wear_power", "W", "normal forces times speeds of slip"},
+                                                {"stuck_front", "", "1 while the end ahead sticks, 0 while it slips or is apart"},
+                                                {"stuck_rear", "", "the same of the other end"},
+                                                {"friction", "N", "force of friction at both ends"},
+                                                {"stuck", "", "1 while one end sticks or both, and none slips"}}};
+    return std::span(all).first(grip ? 11 : 7);
   }
   void observe(const LawInput<double>& in, const Planar::Vec&, double* value) const {
-    value[4] = 0;
+    double wear = 0, along = 0;
+    int stuck = 0, touching = 0;
     for (int i = 0; i < kEnds; ++i) {
       const End<double> end = find(in, i);
-      value[i] = forces(end, in.state + first_state(i)).normal;
-      value[2 + i] = end.depth;
       const double* end_state = in.state + first_state(i);
-      value[4] += wear_power(value[i], end.slip, end_state);
-      if (grip) value[5 + i] = sticks(end_state) ? 1 : 0;
+      const PointForces<double> f = forces(end, end_state);
+      value[i] = f.normal;
+      value[2 + i] = end.depth;
+      value[4 + i] = end_state[0];
+      wear += wear_power(f.normal, end.slip, end_state);
+      along += f.friction;
+      if (end_state[0] > 0) ++touching;
+      if (sticks(end_state)) ++stuck;
+      if (grip) value[7 + i] = sticks(end_state) ? 1 : 0;
     }
+    value[6] = wear;
+    if (!grip) return;
+    value[9] = along;
+    value[10] = stuck > 0 && stuck == touching ? 1 : 0;
   }
 
  private:
   int first_state(int end) const { return end * RubbingContact::n_states(); }
   static constexpr int kEnds = 2;
+  static constexpr double kNoShare = 1e-9;  // of the other end's: rounding
   template <class T>
   struct End : ContactMotion<T> {
     T side, arm_x, arm_y;
