@@ -62,7 +62,7 @@ TEST(ClearanceRegimes, AFastCrankMakesThePinRepeatItsOrbit) {
 }
 
 // At 600 rpm it flies and strikes without end: neighbouring orbits part by a factor of e in about a third of a turn. Rates that are found over half a second scatter:
-// runs that differ by rounding alone give 26 to 44 per second, which the stated error has to cover.
+// twenty runs whose restitutions differ by 1e-9 give 19 to 60 per second, and state errors of 25 to 62 % of them.
 TEST(ClearanceRegimesSlow, ASlowCrankMakesItChaotic) {
   constexpr double kMiddle = 36;  // [1/s]
   for (const double clearance : {1e-4, 2e-4}) {
@@ -70,7 +70,7 @@ TEST(ClearanceRegimesSlow, ASlowCrankMakesItChaotic) {
     ASSERT_EQ(run.outcome, Outcome::kHorizon) << clearance << ": " << run.message;
     EXPECT_NEAR(run.growth.rate, kMiddle, 14) << clearance;
     EXPECT_NEAR(run.growth.rate, kMiddle, 1.5 * run.growth.rate_error) << clearance;
-    EXPECT_LT(run.growth.rate_error, 0.5 * run.growth.rate) << clearance;
+    EXPECT_LT(run.growth.rate_error, 0.75 * run.growth.rate) << clearance;
   }
 }
 
@@ -127,8 +127,9 @@ TEST(ClearanceRegimesSlow, ChaoticForcesArePromisedUpToTheHorizonAndStatisticsBe
     EXPECT_GT(joint.rms_after, joint.mean_after);
     EXPECT_GT(joint.mean_after, 0);
     EXPECT_NE(joint.rms_after, again.rms_after);
-    EXPECT_NEAR(joint.rms_after, again.rms_after, 3 * joint.rms_scatter) << joint.name;
-    EXPECT_NEAR(joint.mean_after, again.mean_after, 3 * joint.mean_scatter) << joint.name;
+    // A scatter is that of two passes: it may come out small by chance, but seldom twice.
+    EXPECT_NEAR(joint.rms_after, again.rms_after, 3 * std::max(joint.rms_scatter, again.rms_scatter)) << joint.name;
+    EXPECT_NEAR(joint.mean_after, again.mean_after, 3 * std::max(joint.mean_scatter, again.mean_scatter)) << joint.name;
   }
 }
 

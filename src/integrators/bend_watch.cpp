@@ -10,42 +10,100 @@
 #include "joints/cam_profile.h"
 #include "joints/edge_profile.h"
 #include "laws/law.h"
+#include "linalg/chebyshev_nodes.h"
 
 namespace pintle {
 namespace {
 
-constexpr int kParts = 2000;    // of the run, at whose ends loads and motors are looked at: as dear as a few steps
+constexpr int kParts = 2000;  // of the run, at whose ends loads and motors are looked at: as dear as a few steps
 constexpr int kFewParts = 8;  // of a step, at least: more than it has stages
-constexpr int kIntervals = 6;  // between the samples of a step's forces, five and its ends
 
-// What the polynomial through the values of f at the samples in [0, 1], the extrema of a Chebyshev polynomial, misses between them: the largest `size` of it.
+// Half-way, in angle, between the samples of a step's forces (ForceSamples), and what these weigh there.
+struct BetweenSamples {
+  static constexpr int kN = ChebyshevNodes::kN - 1;  // one between every two
+  ChebyshevNodes nodes;
+  std::array<double, kN> x;
+  std::array<Eigen::Matrix<double, ChebyshevNodes::kN, 1>, kN> weight;
+
+  BetweenSamples() {
+    for (int i = 0; i < kN; ++i) {
+      x[i] = 0.5 * (1 - std::cos(0.5 * kTurn * (i + 0.5) / kN));
+      weight[i] = nodes.weights(x[i]);
+    }
+  }
+};
+
+// What the polynomial through the values of f at the samples misses between them: the largest `size` of it.
 template <class F, class Size>
 double missed_between(const F& f, const Size& size) {
-  using Value = decltype(f(0.0));
-  const auto at = [](double k) { return 0.5 * (1 - std::cos(k * kTurn / (2 * kIntervals))); };
-  std::array<Value, kIntervals + 1> value;
-  for (int k = 0; k <= kIntervals; ++k) value[k] = f(at(k));
+  static const BetweenSamples between;
+  std::array<decltype(f(0.0)), ChebyshevNodes::kN> value;
+  for (int k = 0; k < ChebyshevNodes::kN; ++k) value[k] = f(between.nodes.x[k]);
   double largest = 0;
-  for (int interval = 0; interval < kIntervals; ++interval) {
-    const double between = at(interval + 0.5);
-    std::array<double, kIntervals + 1> weight;  // barycentric
-    double weights = 0;
-    for (int k = 0; k <= kIntervals; ++k) weights += weight[k] = (k % 2 == 0 ? 1 : -1) * (k % kIntervals == 0 ? 0.5 : 1) / (between - at(k));
-    Value error = f(between);
-    for (int k = 0; k <= kIntervals; ++k) error -= (weight[k] / weights) * value[k];
+  for (int i = 0; i < BetweenSamples::kN; ++i) {
+    auto error = f(between.x[i]);
+    for (int k = 0; k < ChebyshevNodes::kN; ++k) error -= between.weight[i][k] * value[k];
     const double missed = size(error);
     if (!(missed <= largest)) largest = std::isfinite(missed) ? missed : std::numeric_limits<double>::infinity();
   }
   return largest;
 }
 
+// A step ends where its motors jump, or slides along it.
+template <class S>
+bool jumps(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to) {
+  return load.law.jump_between({from.data(), load.signals.size()}, {to.data(), load.signals.size()}).has_value();
+}
+
+// What it reads changes so little that rounding is a good part of how its effort bends.
+template <class S>
+bool stays(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to) {
+  constexpr double kLittle = 1e-9;  // of what it reads. With 0 a block that sticks takes 9 times the steps
+  for (std::size_t s = 0; s < load.signals.size(); ++s)
+    if (!load.signals[s].is_time && std::abs(to[s] - from[s]) > kLittle * std::max(std::abs(from[s]), std::abs(to[s]))) return false;
+  return true;
+}
+
+// Over the straight way from what it reads at the start to that at the end.
+template <class S>
+double effort_on_way(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to, double x) {
+  std::array<double, kMaxSignals> at{};
+  for (std::size_t s = 0; s < load.signals.size(); ++s) at[s] = from[s] + x * (to[s] - from[s]);
+  return load.law.value({at.data(), load.signals.size()});
+}
+
 }  // namespace
+
+template <class S>
+std::vector<Bends> bends_in_time(const BasicSystem<S>& system, double from, double to) {
+  std::vector<Bends> all;
+  SampledGraph samples(kParts);
+  const auto add = [&](const Expression& f) {
+    if (f.is_constant()) return;
+    Bends bends;
+    samples.take([&f](double t) { return f.value(std::array{t}); }, from, to, kParts);
+    samples.for_each_bend([&](double part) { bends.places.push_back(from + part * (to - from) / kParts); });
+    if (!bends.empty()) all.push_back(std::move(bends));
+  };
+  for (const auto& force : system.applied)
+    for (const Expression* f : force.functions()) add(*f);
+  for (const BasicLoadData<S>& load : system.loads)
+    if (load.signals.size() == 1 && load.signals.front().is_time) add(load.law);
+  for (const BasicJointData<S>& joint : system.joints)
+    if (joint.driven >= 0) add(joint.target);
+  return all;
+}
 
 template <class S>
 BasicBendWatch<S>::BasicBendWatch(const BasicSystem<S>& system) : system_(system), samples_(kParts) {
   const auto add = [this](int joint, int component, const Bends& bends) {
     if (!bends.empty()) ways_.push_back({joint, component, bends});
   };
+  for (const auto& force : system.applied)
+    for (int c = 0; const Expression* f : force.functions()) {
+      if (!f->is_constant()) applied_.push_back({f, force.body, c});
+      ++c;
+    }
   for (std::size_t l = 0; l < system.loads.size(); ++l) {
     const std::vector<BasicSignal<S>>& signals = system.loads[l].signals;
     if (!signals.empty() && !system.loads[l].law.is_constant()) timed_.push_back(static_cast<int>(l));
@@ -77,7 +135,7 @@ double BasicBendWatch<S>::place(const Way& way, const std::vector<typename S::Mo
 
 // The place on a cam is known up to whole turns, and turns with the follower.
 template <class S>
-double BasicBendWatch<S>::end_of(const Way& way, double from, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const {
+double BasicBendWatch<S>::place_at_end(const Way& way, double from, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const {
   const double to = place(way, end);
   if (way.component >= 0 || way.bends.period == 0) return to;
   const BasicPlacement<S>& at = system_.joints[way.joint].at;
@@ -85,41 +143,6 @@ double BasicBendWatch<S>::end_of(const Way& way, double from, const std::vector<
   return from + turned + std::remainder(to - from - turned, way.bends.period);
 }
 
-template <class S>
-void BasicBendWatch<S>::find_bends_in_time(double from, double to) {
-  if (!(to > from)) return;
-  apart_ = (to - from) / kParts;
-  const auto add = [&](const Expression& f) {
-    if (f.is_constant() || f.variables().size() != 1) return;
-    Bends bends;
-    samples_.take([&f](double t) { return f.value(std::array{t}); }, from, to, kParts);
-    samples_.visit_bends_in_parts([&](double part) { bends.places.push_back(from + part * apart_); });
-    if (!bends.empty()) in_time_.push_back(std::move(bends));
-  };
-  for (const auto& force : system_.applied)
-    for (const Expression* f : force.functions()) add(*f);
-  for (const BasicLoadData<S>& load : system_.loads)
-    if (load.signals.size() == 1 && load.signals.front().is_time) add(load.law);
-  for (const BasicJointData<S>& joint : system_.joints)
-    if (joint.driven >= 0) add(joint.target);
-}
-
-// A step ends where its motors jump, or slides along it.
-template <class S>
-bool jumps(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to) {
-  return load.law.jump_between({from.data(), load.signals.size()}, {to.data(), load.signals.size()}).has_value();
-}
-
-// What it reads changes so little that rounding is a good part of how its effort bends.
-template <class S>
-bool stays(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to) {
-  constexpr double kLittle = 1e-9;  // of what it reads
-  for (std::size_t s = 0; s < load.signals.size(); ++s)
-    if (!load.signals[s].is_time && std::abs(to[s] - from[s]) > kLittle * std::max(std::abs(from[s]), std::abs(to[s]))) return false;
-  return true;
-}
-
-// Over the straight way from what it reads at the start to that at the end.
 template <class S>
 double BasicBendWatch<S>::share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) {
   if (!(h > apart_)) return 1;
@@ -130,7 +153,7 @@ double BasicBendWatch<S>::share_of_effort(const BasicLoadData<S>& load, double t
   samples_.take([&](double x) { return effort_on_way(load, from, to, x); }, 0, 1, n);
   int passed = 0;
   double second = 1, third = 1;
-  samples_.visit_bends_in_parts([&](double part) {
+  samples_.for_each_bend([&](double part) {
     if (++passed == 2) second = part / n;
     if (passed == 3) third = part / n;
   });
@@ -139,22 +162,18 @@ double BasicBendWatch<S>::share_of_effort(const BasicLoadData<S>& load, double t
 
 template <class S>
 double BasicBendWatch<S>::share_of_step(double t, double h, double t_end, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) {
-  if (apart_ == 0) find_bends_in_time(t, t_end);
+  if (apart_ == 0 && t_end > t) {
+    apart_ = (t_end - t) / kParts;
+    in_time_ = bends_in_time(system_, t, t_end);
+  }
   double share = 1;
-  for (const Bends& bends : in_time_) share = std::min(share, bends.share_to_second(t, t + h));
+  for (const Bends& bends : in_time_) share = std::min(share, bends.share_to_second_bend(t, t + h));
   for (const int l : placed_) share = std::min(share, share_of_effort(system_.loads[l], t, h, start, end));
   for (const Way& way : ways_) {
     const double from = place(way, start);
-    share = std::min(share, way.bends.share_to_second(from, end_of(way, from, start, end)));
+    share = std::min(share, way.bends.share_to_second_bend(from, place_at_end(way, from, start, end)));
   }
   return share;
-}
-
-template <class S>
-double BasicBendWatch<S>::effort_on_way(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to, double x) const {
-  std::array<double, kMaxSignals> at{};
-  for (std::size_t s = 0; s < load.signals.size(); ++s) at[s] = from[s] + x * (to[s] - from[s]);
-  return load.law.value({at.data(), load.signals.size()});
 }
 
 // Where surfaces turn round, within a small part of the way between their speeds at the start and at the end.
@@ -165,7 +184,7 @@ double BasicBendWatch<S>::missed_friction(int j, double t, const std::vector<typ
   bool turns = false;
   for (int c = 0; c < S::kDof; ++c) turns = turns || (!joint.held[c] && from.rate[c] * to.rate[c] < 0);
   if (!turns) return 0;
-  const typename S::Vec load = load_across(joint.at, scale);
+  const typename S::Vec load = load_in_gap_axes(joint.at, scale);
   const auto force = [&](double x) {
     const typename S::Vec rate = from.rate + x * (to.rate - from.rate);
     return typename S::Vec(joint.law.force({t, to.gap, rate, nullptr}));
@@ -177,22 +196,21 @@ template <class S>
 double BasicBendWatch<S>::missed_between_samples(double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end,
                                                  const BasicLoadScale<S>& scale) const {
   double largest = 0;
-  for (const auto& force : system_.applied)
-    for (int c = 0; const Expression* f : force.functions()) {
-      const double load = scale.body[force.body][c++];
-      if (!f->is_constant() && f->variables().size() == 1) largest = std::max(largest, missed_between([&](double x) { return f->value(std::array{t + x * h}); }, [load](double x) { return std::abs(x) / load; }));
-    }
+  const auto over = [](double load) { return [load](double x) { return std::abs(x) / load; }; };
+  for (const Applied& force : applied_)
+    largest = std::max(largest, missed_between([&](double x) { return force.f->value(std::array{t + x * h}); }, over(scale.body[force.body][force.component])));
   for (const int l : timed_) {
     const BasicLoadData<S>& load = system_.loads[l];
     const std::array<double, kMaxSignals> from = system_.signal_values(load, t, start), to = system_.signal_values(load, t + h, end);
-    const double at_most = load_across(load.at, scale)[load.component];
-    if (!jumps(load, from, to)) largest = std::max(largest, missed_between([&](double x) { return effort_on_way(load, from, to, x); }, [at_most](double x) { return std::abs(x) / at_most; }));
+    if (!jumps(load, from, to)) largest = std::max(largest, missed_between([&](double x) { return effort_on_way(load, from, to, x); }, over(load_in_gap_axes(load.at, scale)[load.component])));
   }
   for (const int j : rubbing_) largest = std::max(largest, missed_friction(j, t + h, start, end, scale));
   return largest;
 }
 
+template std::vector<Bends> bends_in_time(const System& system, double from, double to);
 template class BasicBendWatch<Planar>;
+PINTLE_IN_SPACE(template std::vector<Bends> bends_in_time(const BasicSystem<Spatial>& system, double from, double to);)
 PINTLE_IN_SPACE(template class BasicBendWatch<Spatial>;)
 
 }  // namespace pintle

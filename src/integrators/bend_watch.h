@@ -11,6 +11,10 @@
 
 namespace pintle {
 
+/// The bends of all loads, motors and driven lengths that are functions of time alone, each at 2000 intervals of the time between two instants [s].
+template <class S>
+std::vector<Bends> bends_in_time(const BasicSystem<S>& system, double from, double to);
+
 template <class S>
 class BasicBendWatch {
  public:
@@ -28,21 +32,25 @@ class BasicBendWatch {
     int joint, component;  // component: of the gap; -1: along the profile of the joint's edge or cam
     Bends bends;
   };
-  double effort_on_way(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to, double x) const;
+  /// A component of a force that varies.
+  struct Applied {
+    const Expression* f;  // of time
+    int body, component;
+  };
   double missed_friction(int j, double t, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end, const BasicLoadScale<S>& scale) const;
   double place(const Way& way, const std::vector<typename S::Motion>& m) const;
-  double end_of(const Way& way, double from, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const;
+  double place_at_end(const Way& way, double from, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const;
 
-  const BasicSystem<S>& system_;
-  void find_bends_in_time(double from, double to);
   double share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end);
 
+  const BasicSystem<S>& system_;
   std::vector<Way> ways_;
   std::vector<Bends> in_time_;  // found when they are first asked for
+  std::vector<Applied> applied_;
   std::vector<int> placed_;     // loads that are efforts which read places or speeds ...
   std::vector<int> timed_;      // ... and those that read anything
   std::vector<int> rubbing_;    // joints whose friction is a function of speed
-  GraphSamples samples_;
+  SampledGraph samples_;
   double apart_ = 0;            // instants at which they are looked at [s]; 0: not known yet
 };
 using BendWatch = BasicBendWatch<Planar>;

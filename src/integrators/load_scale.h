@@ -35,7 +35,7 @@ typename S::Vec load_on(const BasicPlacement<S>& at, const BasicLoadScale<S>& sc
 
 /// The same in the axes of a gap, which are others than those of the loads.
 template <class S>
-typename S::Vec load_across(const BasicPlacement<S>& at, const BasicLoadScale<S>& scale) {
+typename S::Vec load_in_gap_axes(const BasicPlacement<S>& at, const BasicLoadScale<S>& scale) {
   typename S::Vec load = load_on(at, scale);
   load.template head<S::kDim>().setConstant(load.template head<S::kDim>().maxCoeff());
   return load;

@@ -6,6 +6,7 @@
 #include <array>
 #include <stdexcept>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "integrators/absolute/radau_stepper.h"
@@ -49,6 +50,7 @@ class BodyStepper final : public BasicStepper<S> {
     if constexpr (requires { method_.nodes(); }) return &method_.nodes();
     else return nullptr;
   }
+  bool watches_bends() const override { return std::is_same_v<Method, BasicRadauStepper<S>>; }
   const Counters& counters() const override { return method_.counters(); }
   const std::string& failure() const override { return method_.failure(); }
   const std::vector<LawCrossing>& crossings() const override { return method_.crossings(); }

@@ -44,6 +44,8 @@ class BasicStepper {
     static const std::vector<LawCrossing> none;
     return none;
   }
+  /// Whether it ends its steps so that it passes nothing that is shorter (BendWatch).
+  virtual bool watches_bends() const { return false; }
   /// What the method noticed on its way, for the user.
   virtual std::vector<std::string> remarks() const { return {}; }
   /// When reactions have been met first that have no bound, as those of ideal joints at singular positions may [s]; negative: never.

@@ -16,7 +16,7 @@ double unresolved_ringing(const BasicSystem<S>& system, int j, const BasicLawPoi
   if (joint.ideal) return 0;
   BasicLawTangents<S> tangents;
   joint.law.linearize(at, tangents);
-  const typename S::Vec mobility = system.own_mobility(joint.at, r), load = load_across(joint.at, scale);
+  const typename S::Vec mobility = system.own_mobility(joint.at, r), load = load_in_gap_axes(joint.at, scale);
   const double of_rate = h / (2 * n - 1), slowest = kGapError / of_rate;
   double largest = 0;
   for (int c = 0; c < S::kDof; ++c) {

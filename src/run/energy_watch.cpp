@@ -40,8 +40,11 @@ BasicEnergyWatch<S>::BasicEnergyWatch(const BasicSystem<S>& system, double durat
   for (const BasicJointData<S>& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : joint.driven >= 0 ? "the length of joint" : joint.law.feeds() ? "the pressure in joint" : joint.law.depends_on_reaction_alone() ? "the teeth of joint" : "negative damping of joint", &joint.name});
   for (int j = 0; j < system.n_joints(); ++j)
     if (has_lost_a_turn(system.joints[j].displacement, -1, std::numeric_limits<double>::infinity())) belts_.push_back({j, 0});
-  for (int j = 0; j < system.n_joints(); ++j)
-    if (system.joints[j].driven >= 0 && system.joints[j].servo < 0) lengths_.push_back(j);
+  for (int j = 0; j < system.n_joints(); ++j) {
+    if (system.joints[j].driven < 0) continue;
+    drives_.push_back(j);
+    if (system.joints[j].servo < 0) lengths_.push_back(j);
+  }
   for (const BasicLoadData<S>& load : system.loads) feeders_.push_back({load.applied ? "force" : load.kind == LoadKind::kEffort ? "motor" : "negative damping of spring", &load.name});
   for (const BasicAppliedData<S>& force : system.applied) feeders_.push_back({"force", &force.name});
 }
@@ -67,15 +70,26 @@ void BasicEnergyWatch<S>::start(const BasicState<S>& state) {
     storable_ += body.gravity.template head<S::kDim>().norm() * size + body.mass[0] * size * size / (duration_ * duration_);
   }
   storable_ += std::abs(elastic);
-  supply_ = state.supply_power;
-  loss_ = state.loss_power;
+  flow_ = flow(state);
+}
+
+// What one motor gives and another takes is not seen in their sum.
+template <class S>
+double BasicEnergyWatch<S>::flow(const BasicState<S>& state) {
+  if (drives_.size() + system_.loads.size() + system_.applied.size() < 2) return std::abs(state.supply_power) + std::abs(state.loss_power);
+  system_.motions(state.q, state.v, m_);
+  double sum = std::abs(state.loss_power);
+  for (const int j : drives_) sum += std::abs(system_.drive_power(system_.joints[j], state.t, m_, state.force[j]));
+  for (const BasicLoadData<S>& load : system_.loads) sum += std::abs(system_.work_of(load, state.t, m_, state.sliding).supplied);
+  for (const BasicAppliedData<S>& force : system_.applied) sum += std::abs(system_.power_of(force, state.t, m_));
+  return sum;
 }
 
 template <class S>
 typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicState<S>& state, double h) {
-  throughput_ += 0.5 * h * (std::abs(supply_) + std::abs(state.supply_power) + std::abs(loss_) + std::abs(state.loss_power));
-  supply_ = state.supply_power;
-  loss_ = state.loss_power;
+  const double flow_now = flow(state);
+  throughput_ += 0.5 * h * (flow_ + flow_now);
+  flow_ = flow_now;
   const double kinetic = system_.kinetic(state.v);
   exchanged_ += std::abs(kinetic - kinetic_);
   kinetic_ = kinetic;

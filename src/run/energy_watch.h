@@ -41,6 +41,7 @@ class BasicEnergyWatch {
   Alarm judge_growth(const BasicState<S>& state);
   void add_works(const BasicState<S>& state, double h);
   double potential(const BasicState<S>& state);
+  double flow(const BasicState<S>& state);
   void say_open(const BasicState<S>& state, double missing, double within);
   void say_runaway(const BasicState<S>& state, double energy);
 
@@ -53,8 +54,8 @@ class BasicEnergyWatch {
   double kinetic_peak_ = 0, swing_ = 0;  // largest kinetic energy, largest change of the potential one [J]
   double kinetic_ = 0, exchanged_ = 0;   // at the last step; the sum of its changes by their size [J]
   double expected_ = 0;                  // turnover [J]
-  double throughput_ = 0;                // of supply and loss together, by their size [J]
-  double supply_ = 0, loss_ = 0;         // powers at the last step [W]
+  double throughput_ = 0;                // of all that supplies and all losses, by their size [J]
+  double flow_ = 0;                      // its rate at the last step [W]
   double missing_ = 0;                   // of the account when last judged [J]
   int since_judged_ = 0;
   int reached_ = 0;                      // powers of ten of `storable_`
@@ -62,7 +63,8 @@ class BasicEnergyWatch {
   std::vector<typename S::Motion> m_;
   std::vector<Feeder> feeders_;          // joints, loads, applied forces
   std::vector<std::pair<int, double>> belts_;  // joints that wind, and their gaps [m]
-  std::vector<int> lengths_;                   // joints whose length is driven
+  std::vector<int> drives_;                    // joints that are driven
+  std::vector<int> lengths_;                   // of those, the ones by their length
   int tightened_ = -1;                   // of those, the first that was slack by a turn and is taken for taut
   double tightened_at_ = 0;              // [s]
   std::string message_;

@@ -114,6 +114,24 @@ TEST(EnergyWatch, WhatErrorsWithinTheToleranceExplainIsNoAlarm) {
   EXPECT_EQ(unheard.see_end(p.state), Alarm::kNone);
 }
 
+// A drive that lifts a weight gives what the weight takes: the sum of both is next to nothing, and the errors of each are as large as what it turns over.
+TEST(EnergyWatch, WhatOneForceGivesAndAnotherTakesIsTurnedOver) {
+  Model model = sample::pendulum(1e8, 1000);
+  for (const char* torque : {"5e5", "-5e5"}) {
+    AppliedForce load;
+    load.on = {"rod", "O"};
+    load.torque = sample::expression(torque);
+    model.forces.push_back(load);
+  }
+  const Assembly start = start_of_run(model);
+  State state = start.state;
+  for (auto& v : state.v) v[2] = 2;
+  EnergyWatch watch(start.system, 2, 1e-6, true);
+  watch.start(state);
+  watch.see_step(state, 1e-3);
+  EXPECT_NEAR(watch.turnover(), 2e3, 30);
+}
+
 // Errors of a motion that begins quietly are measured by the loads of what comes later, once these are known.
 TEST(EnergyWatch, AQuietBeginningIsJudgedByWhatAnEarlierPassHasTurnedOver) {
   Pendulum p;

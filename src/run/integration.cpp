@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <vector>
 
+#include "integrators/bend_watch.h"
 #include "integrators/methods.h"
 #include "run/pass_constants.h"
 
@@ -46,6 +48,15 @@ LoadSampling load_sampling(const MethodChoice& choice, double tolerance, double 
   return {choice.method == "radau" ? CurveGrid::kMost : 3};
 }
 
+// Where steps end that could pass a blow, or a jump of what drives them.
+template <class S>
+std::vector<double> stops_at_bends(const BasicSystem<S>& system, double from, double to) {
+  std::vector<double> stops;
+  for (const Bends& bends : bends_in_time(system, from, to)) stops.insert(stops.end(), bends.places.begin(), bends.places.end());
+  std::sort(stops.begin(), stops.end());
+  return stops;
+}
+
 // Whether the energy ends the integration.
 template <class S>
 bool alarmed(typename BasicEnergyWatch<S>::Alarm alarm, const BasicEnergyWatch<S>& energy, BasicIntegration<S>& out) {
@@ -71,8 +82,11 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
   std::size_t row = 1;
   const double end = plan.duration, almost = end * kAlmostAll;
   Standstill standstill(end);
+  const std::vector<double> stops = stepper.watches_bends() ? std::vector<double>{} : stops_at_bends(system, stepper.state().t, end);
+  std::size_t stop = 0;
   while (stepper.state().t < almost) {
-    if (!stepper.step(end)) {
+    while (stop < stops.size() && stops[stop] <= stepper.state().t + (end - almost)) ++stop;
+    if (!stepper.step(stop < stops.size() ? stops[stop] : end)) {
       out.ended = Ended::kFailed;
       out.message = stepper.failure();
       break;

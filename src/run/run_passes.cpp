@@ -252,11 +252,16 @@ class Passes {
       if (same && hopeless) return false;
       if (growth_.to_largest) return at(finer_by_error(tolerance));
       const double next = std::min(kRepeated * tolerance, hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kErrorPower)));
-      if (next < kTight && (last_.counters.steps > kCheap || last_.counters.events > 0)) choice_.stages = 5;  // between events steps are short, and longer with order 9
+      choose_order(next);
       return at(next);
     }
     at_rounding_ = meets_rounding(tolerance);
     return !at_rounding_ && at(finer_by_error(tolerance));
+  }
+
+  // Of a pass with this tolerance. Between events steps are short, and longer with order 9.
+  void choose_order(double tolerance) {
+    if (tolerance < kTight && (last_.counters.steps > kCheap || last_.counters.events > 0)) choice_.stages = 5;
   }
 
   // A long pass that has refused half as many steps as it has made for their errors, and gained little on the one before.
@@ -268,10 +273,10 @@ class Passes {
   // The tolerance of the pass after one of `tolerance`, with which the error that the last two show would be small enough.
   double finer_by_error(double tolerance) {
     const double shrink = 0.5 * std::pow(settings_.tolerance / error_, 1 / kErrorPower);
-    const bool is_long = last_.counters.steps > kLong;
-    const double least = is_long ? std::min(kRepeated * tolerance, kNearRounding) : 0;
+    const bool by_tenths = last_.counters.steps > kLong || tolerance < kNearRounding;
+    const double least = by_tenths ? std::min(kRepeated * tolerance, kNearRounding) : 0;
     const double next = std::max(least, tolerance * std::clamp(shrink, 1e-3, kRepeated));
-    if (next < kTight && (last_.counters.steps > kCheap || last_.counters.events > 0)) choice_.stages = 5;  // between events steps are short, and longer with order 9
+    choose_order(next);
     return next;
   }
 

@@ -32,7 +32,7 @@ std::string jump_text(const TargetJump& jump, const JointData& joint) {
 }  // namespace
 
 IdealStepper::IdealStepper(const System& system, double tolerance, Equations equations, const PenaltySettings& penalty)
-    : system_(system), projects_(equations == Equations::kIdeal), tolerance_(tolerance), equations_(system, equations, penalty), dense_(system) {
+    : system_(system), projects_(equations == Equations::kIdeal), tolerance_(tolerance), equations_(system, equations, penalty), bends_(system), dense_(system) {
   for (auto* k : {&kq_, &kv_})
     for (auto& x : *k) x.resize(system.bodies.size());
   scale_.body.assign(system.bodies.size(), S::Vec::Zero());
@@ -56,24 +56,21 @@ void IdealStepper::start(const State& state, double h) {
   foresee_loads(h);
 }
 
-// Where next to nothing acts yet, as from a motor that is switched on slowly, no force is large enough to measure errors by: the loads are those that come within a
-// hundred first steps.
+// Where next to nothing acts yet, as from a motor that is switched on slowly, no force is large enough to measure errors by: the loads are those that come in
+// the first step.
 void IdealStepper::foresee_loads(double h) {
-  constexpr double kSoon = 100;  // first steps, a hundredth of a run
   std::vector<S::Motion> m;
   system_.motions(end_.q, end_.v, m);
   Vecs Q(system_.bodies.size(), S::Vec::Zero());
-  for (const double ahead : {h, kSoon * h}) {
-    for (S::Vec& load : Q) load.setZero();
-    system_.external(end_.t + ahead, m, Q);
-    for (std::size_t i = 0; i < Q.size(); ++i)
-      if (Q[i].allFinite()) scale_.body[i] = scale_.body[i].cwiseMax(S::Vec(Q[i].head<2>().norm(), Q[i].head<2>().norm(), std::abs(Q[i][2])));
-  }
+  system_.external(end_.t + h, m, Q);
+  for (std::size_t i = 0; i < Q.size(); ++i)
+    if (Q[i].allFinite()) raise_scale(system_.bodies[i], S::Vec(Q[i].cwiseAbs()), scale_.body[i]);
 }
 
 bool IdealStepper::step(double t_end) {
   if (!failure_.empty()) return false;
   begin_ = end_;
+  system_.motions(begin_.q, begin_.v, begin_m_);
   double wanted = max_step_ > 0 ? std::min(h_, max_step_) : h_, stop = t_end;
   bool at_once = true, jump_ahead = false;
   const double rounding = std::numeric_limits<double>::epsilon() * std::abs(t_end);
@@ -93,6 +90,11 @@ bool IdealStepper::step(double t_end) {
     const bool crossing = e > 1 && h < crossing_h && std::isfinite(e) && jump_ahead;
     const bool shortest = h < 2 * clear_h_ && std::isfinite(e);  // that steps over the singular position
     const bool good = e <= 1 || crossing || shortest;
+    if (const double seen = good ? share_of_step(h, t_end) : 1; seen < 1) {
+      ++counters_.rejected;
+      wanted = h * seen;
+      continue;
+    }
     const double end = end_of_step(begin_.t, h, stop);
     if (const auto jump = good ? first_target_jump(system_, begin_.t, end) : std::nullopt) {  // up to there, and no farther
       if (jump->t <= begin_.t + 16 * rounding) {
@@ -113,6 +115,12 @@ bool IdealStepper::step(double t_end) {
     at_once = false;
     wanted = h * std::min(factor, 0.5);
   }
+}
+
+// Over the straight way from the start of the step to its last stage.
+double IdealStepper::share_of_step(double h, double t_end) {
+  system_.motions(stage_.q, stage_.v, stage_m_);
+  return bends_.share_of_step(begin_.t, h, t_end, begin_m_, stage_m_);
 }
 
 // The embedded error of a jump does not fall with the step; what it does to velocities does. A step may begin at one, as that of t = 0 does where a motor starts.

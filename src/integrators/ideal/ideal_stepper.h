@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "integrators/bend_watch.h"
 #include "integrators/dense/dense_output.h"
 #include "integrators/ideal/ideal_equations.h"
 #include "integrators/stepper.h"
@@ -30,6 +31,7 @@ class IdealStepper final : public Stepper {
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
   std::vector<std::string> remarks() const override;
+  bool watches_bends() const override { return true; }
   double unbounded_reactions() const override { return unbounded_at_; }
 
  private:
@@ -50,6 +52,7 @@ class IdealStepper final : public Stepper {
   bool onto_constraints(State& state);
   bool finish(double t, double h);
   double error(double h);
+  double share_of_step(double h, double t_end);
   bool crosses_jump() const;
   void grow_scale();
   void foresee_loads(double h);
@@ -62,6 +65,8 @@ class IdealStepper final : public Stepper {
   double smooth_h_ = 0;                                     // the last that was taken at once, or the first that was proposed
   IdealEquations equations_;
   std::unique_ptr<IdealEquations> at_begin_;                // made when a singular position is near
+  BendWatch bends_;
+  std::vector<Planar::Motion> begin_m_, stage_m_;  // at the start of the step; at its end
   DenseOutput dense_;
   State begin_, end_, inside_, stage_;
   struct AccurateState {        // not beside a singular position

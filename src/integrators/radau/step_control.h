@@ -38,6 +38,18 @@ class StepControl {
     event_ = {};
   }
 
+  /// An event has been crossed: what was before it says nothing of what comes.
+  void event_crossed() {
+    have_history = false;
+    behind_event = true;
+  }
+  /// A step of h has been made.
+  void step_made(double h) {
+    have_history = true;
+    behind_event = false;
+    last = h;
+  }
+
   /// The last event that was crossed, or that no step could be made to.
   const SwitchingEvent& event() const { return event_; }
   /// The last event, if it came after `since`: whose, in which direction, when. Otherwise empty.
@@ -115,7 +127,7 @@ class StepControl {
 
   // The far end of a step may lie beyond other events than one that is next to its start: Taylor's series is better there.
   template <class Method>
-  void look_closer(Method& method, double h, SwitchingEvent& event) const {
+  void locate_near_start(Method& method, double h, SwitchingEvent& event) const {
     const double within = 2 * kEventAtStart * usual;
     const SwitchingEvent closer = method.locate_event(within, false);
     if (!(closer.after < 1)) return;
@@ -163,7 +175,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     // A step that was not solved twice may have a jump inside. Functions that flicker about zero in the last bits are left alone after a while.
     const bool flickering = crossed >= kMostCrossed;
     SwitchingEvent event = (solved || retry > 0) && !flickering ? method.locate_event(h, solved) : SwitchingEvent{};
-    if (event.before * h < kEventAtStart * usual && !flickering) look_closer(method, h, event);
+    if (event.before * h < kEventAtStart * usual && !flickering) locate_near_start(method, h, event);
     if (event.after < 1) {
       ahead = event;
       ahead.t = method.t() + event.before * h;

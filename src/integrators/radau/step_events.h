@@ -96,8 +96,7 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
     enter_sliding(*jump, margin, size, method().sliding(), [this] { method().balance_end(); }, [&] { return margin_rate(*jump); });
   }
   restart_search();
-  control_.have_history = false;
-  control_.behind_event = true;
+  control_.event_crossed();
 }
 
 // How fast the argument of a jump changes at the end, by what it is a moment later.
@@ -117,8 +116,7 @@ void StepEvents<Method, S>::update_switching() {
     return;
   }
   method().balance_end();
-  control_.have_history = false;
-  control_.behind_event = true;
+  control_.event_crossed();
   if (crossed) record();
   restart_search();
 }

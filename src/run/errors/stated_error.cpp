@@ -1,6 +1,7 @@
 #include "run/errors/stated_error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "integrators/thresholds.h"
@@ -82,11 +83,17 @@ class Growing {
   PassDifference c_;
 };
 
+// What the steps have damped of a joint's vibrations: its force and its couple.
+template <class S>
+std::array<double, 2> damped(const BasicRingingLoss<S>& ringing, double tolerance, const PassDifference& difference, std::size_t j) {
+  return {std::min(ringing.force(j), kMostRinging * tolerance * difference.peak[j]), std::min(ringing.couple(j), kMostRinging * tolerance * difference.peak_couple[j])};
+}
+
 template <class S>
 void state_error(const Measures<S>& measures, const PassDifference& difference, double share, const BasicLeastError<S>& least, std::size_t j, LoadSummary& joint) {
   const double peak = difference.peak[j], peak_couple = difference.peak_couple[j];
-  const double force = std::max(share * difference.force[j], std::min(least.ringing.force(j), kMostRinging * least.tolerance * peak));
-  const double couple = std::max(share * difference.couple[j], std::min(least.ringing.couple(j), kMostRinging * least.tolerance * peak_couple));
+  const auto [damped_force, damped_couple] = damped(least.ringing, least.tolerance, difference, j);
+  const double force = std::max(share * difference.force[j], damped_force), couple = std::max(share * difference.couple[j], damped_couple);
   joint.error_estimate = std::max({force, least.of_peak * peak, peak > kPeakOfRounding * difference.rounding ? 0 : peak});  // what rounding alone makes is not known at all
   joint.moment_error_estimate = couple;
   joint.relative_error_estimate = std::max(measures.of_joint(j, force, peak, couple, peak_couple), least.of_peak);
@@ -102,8 +109,8 @@ double largest_ringing_loss(const BasicSystem<S>& system, const PassDifference& 
   const Measures<S> measures(system, difference);
   double largest = 0;
   for (std::size_t j = 0; j < system.joints.size(); ++j) {
-    const double peak = difference.peak[j], couple = difference.peak_couple[j];
-    largest = std::max(largest, measures.of_joint(j, std::min(ringing.force(j), kMostRinging * tolerance * peak), peak, std::min(ringing.couple(j), kMostRinging * tolerance * couple), couple));
+    const auto [force, couple] = damped(ringing, tolerance, difference, j);
+    largest = std::max(largest, measures.of_joint(j, force, difference.peak[j], couple, difference.peak_couple[j]));
   }
   return largest;
 }

@@ -57,7 +57,7 @@ class BasicLoadRecorder {
   void sample(int i, const BasicState<S>& state);
   void add_resolved(BasicStepper<S>& stepper, double t0, double t1, int halvings);
   void take_samples(BasicStepper<S>& stepper, double t0, double t1);
-  bool is_resolved() const;
+  bool is_resolved(const BasicLoadScale<S>& scale) const;
   void add_samples(double t0, double h, bool resolved);
   template <int n, Sums kind = Sums::kOfSize>
   CurveGrid::AtPoints add_load(const double* samples, double t0, double h, bool resolved, CurveSums& sums) const;
