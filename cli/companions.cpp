@@ -47,9 +47,11 @@ void become_companion(int argc, char** argv) {
 void add_companions(CLI::App& app, int& exit_code) {
   for (const Companion& companion : kCompanions) {
     CLI::App* verb = app.add_subcommand(companion.verb, companion.about);
+    const std::string missing = fmt::format("pintle {} needs the program {}, which is neither next to pintle nor on the path.\n    try: {}\n", companion.verb, companion.program, companion.advice);
     verb->prefix_command();
-    verb->callback([&exit_code, &companion] {
-      print_error(fmt::format("pintle {} needs the program {}, which is neither next to pintle nor on the path.\n    try: {}\n", companion.verb, companion.program, companion.advice));
+    verb->footer(missing);  // of its help, too
+    verb->callback([&exit_code, missing] {
+      print_error(missing);
       exit_code = kFileError;
     });
   }

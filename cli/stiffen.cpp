@@ -61,7 +61,7 @@ ExitCode stiffen_model(StiffenOptions& options) {
   const Stiffening found = with_file_name(options.model, [&, &start = model] { return stiffen(start, options.request, report.observer()); });
   report.clear();
   const std::string title = model.name.empty() ? options.model : model.name;
-  const std::string plot = options.plot.empty() ? std::filesystem::path(options.model).stem().string() + "-stiffen.svg" : options.plot;
+  const std::string plot = found.steps.empty() ? "none" : options.plot.empty() ? std::filesystem::path(options.model).stem().string() + "-stiffen.svg" : options.plot;
   if (plot != "none") write_file(plot, to_svg(stiffen_plot(found, title)));
   if (options.json) print_out(stiffen_json(found, model.name, options.model));
   else if (!options.quiet) print_out(stiffen_text(found, title, wants_colour(STDOUT_FILENO)) + (plot == "none" ? "" : "\nPlot: " + plot + "\n"));

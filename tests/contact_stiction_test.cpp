@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -160,6 +161,14 @@ static_friction = 0.3
     EXPECT_EQ(at_end(slid, end), 0);
   }
   EXPECT_NEAR(at_end(held, "joint.guide.slide_rate"), 0, 1e-9);
+  EXPECT_NEAR(at_end(held, "joint.guide.friction"), -kStandardGravity * std::sin(6 * std::numbers::pi / 180), 1e-3);
+  EXPECT_EQ(at_end(held, "joint.guide.stuck"), 1);
+  EXPECT_EQ(at_end(slid, "joint.guide.stuck"), 0);
+  const auto jammed = [](const Trajectory& of) {
+    return std::any_of(of.notes.begin(), of.notes.end(), [](const std::string& note) { return note.find("joint guide") != std::string::npos && note.find("friction") != std::string::npos; });
+  };
+  EXPECT_TRUE(jammed(held));
+  EXPECT_FALSE(jammed(slid));
   const double angle = 20 * std::numbers::pi / 180, accel = kStandardGravity * (std::sin(angle) - 0.2 * std::cos(angle));
   EXPECT_NEAR(at_end(slid, "joint.guide.slide_rate"), 0.3 * accel, 0.02 * accel);
 }

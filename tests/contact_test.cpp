@@ -229,9 +229,9 @@ force = [0, {}]
     EXPECT_NEAR(last("joint.guide.contact_force_rear"), std::abs(load * (0.5 - arm / length)), 1e-2 * load);
     ASSERT_EQ(run.events.size(), 1u);
     EXPECT_EQ(run.events[0].joint, "guide");
-    ASSERT_EQ(run.events[0].columns.size(), 6u);  // the law's and the heat
+    ASSERT_EQ(run.events[0].columns.size(), 8u);  // the law's and the heat
     EXPECT_EQ(run.events[0].columns.back().name, "heat");
-    EXPECT_EQ(run.events[0].events.front().values.size(), 6u);
+    EXPECT_EQ(run.events[0].events.front().values.size(), 8u);
   }
 }
 

@@ -17,22 +17,22 @@ struct Bends {
   bool empty() const { return places.empty(); }
   /// The share of the way between two places that leads to the second bend on it; 1 if there are fewer, or where the way ends little behind the second one. With the
   /// start at a bend this is none.
-  double share_to_second(double from, double to) const {
+  double share_to_second_bend(double from, double to) const {
     if (empty() || !(std::abs(to - from) > 0)) return 1;
     const bool forward = to > from;
-    const double second = next(next(from, forward), forward);
-    const auto share_to = [&](double place) { return (place - from) / (to - from); };
-    return share_of_way(share_to(second), share_to(next(second, forward)));
+    const double second = next_bend(next_bend(from, forward), forward);
+    const auto share_at = [&](double place) { return (place - from) / (to - from); };
+    return share_of_way(share_at(second), share_at(next_bend(second, forward)));
   }
   /// The same from the shares that lead to the second and the third bend.
   static double share_of_way(double second, double third) {
-    constexpr double kBarely = 0.9;  // a way that was to end at the second bend may go so much further
+    constexpr double kBarely = 0.99;  // a way that was to end at the second bend may go so much further. With 0.5 a bump is missed, with 1 steps end where rounding puts a bend
     return second < kBarely || third < 1 ? second : 1;
   }
 
  private:
   // Beyond `from` by more than rounding.
-  double next(double from, bool forward) const {
+  double next_bend(double from, bool forward) const {
     constexpr double kRounding = 1e-12;
     if (std::isinf(from)) return from;
     const double beyond = (forward ? 1 : -1) * kRounding * std::max(std::abs(from), places.back() - places.front());
@@ -49,56 +49,52 @@ struct Bends {
   }
 };
 
-/// Calls visit(i) where the curvatures i - 1 and i have other signs; those up to `straight` have none, and a single one of these between two signs is at one bend.
-template <class Curvature, class Visit>
-void visit_bends(const Curvature& curvature, std::size_t n, double straight, Visit&& visit) {
+/// Calls use(i) where the curvatures i - 1 and i of n have other signs. Those up to `least`, or to a ten-thousandth of the largest, have none, and a single one of these between
+/// two signs is at one bend.
+template <class Curvature, class Use>
+void for_each_bend(const Curvature& curvature, std::size_t n, double least, Use&& use) {
+  constexpr double kStraight = 1e-4;  // of the largest. With 0 bumps are missed
+  double straight = 0;
+  for (std::size_t i = 0; i < n; ++i) straight = std::max(straight, std::abs(curvature(i)));
+  straight = std::max(kStraight * straight, least);
   const auto way = [&](std::size_t i) { return !(std::abs(curvature(i)) > straight) ? 0 : curvature(i) > 0 ? 1 : -1; };
   for (std::size_t i = 1; i < n; ++i)
-    if (way(i) != way(i - 1) && !(way(i) == 0 && i + 1 < n && way(i + 1) == -way(i - 1))) visit(i);
+    if (way(i) != way(i - 1) && !(way(i) == 0 && i + 1 < n && way(i + 1) == -way(i - 1))) use(i);
 }
 
-/// Of a curve of which the curvature is known, to within 1/720 of the way. What bends less than a ten-thousandth of the most is straight.
+/// Of a curve of which the curvature is known, to within 1/720 of the way.
 template <class Curvature>
 Bends find_bends(const Curvature& curvature, double low, double high) {
   constexpr int kPoints = 720;
-  constexpr double kStraight = 1e-4;
   const double apart = (high - low) / kPoints;
   std::vector<double> values;
-  double most = 0;
-  for (int i = 0; i <= kPoints; ++i) {
-    values.push_back(curvature(low + apart * i));
-    most = std::max(most, std::abs(values.back()));
-  }
+  for (int i = 0; i <= kPoints; ++i) values.push_back(curvature(low + apart * i));
   Bends bends;
-  visit_bends([&](std::size_t i) { return values[i]; }, values.size(), kStraight * most, [&](std::size_t i) { bends.places.push_back(low + apart * (static_cast<double>(i) - 0.5)); });
+  for_each_bend([&](std::size_t i) { return values[i]; }, values.size(), 0, [&](std::size_t i) { bends.places.push_back(low + apart * (static_cast<double>(i) - 0.5)); });
   return bends;
 }
 
 /// The graph of a function, by its values at the ends of equal parts of a way; what is narrower than a part may be missed.
-class GraphSamples {
+class SampledGraph {
  public:
   /// Takes room for so many parts: no more is allocated then.
-  explicit GraphSamples(int most_parts) { values_.reserve(static_cast<std::size_t>(most_parts) + 1); }
+  explicit SampledGraph(int most_parts) { values_.reserve(static_cast<std::size_t>(most_parts) + 1); }
 
   template <class Function>
   void take(const Function& f, double low, double high, int parts) {
     values_.clear();
     for (int i = 0; i <= parts; ++i) values_.push_back(f(low + (high - low) * i / parts));
   }
-  /// Calls visit(part) at the bends, by second differences: part is where it is, counted from the start of the way.
-  template <class Visit>
-  void visit_bends_in_parts(Visit&& visit) const {
-    constexpr double kRounding = 1e-14;  // of the largest value
-    constexpr double kStraight = 1e-4;   // of the largest second difference
-    constexpr double kSmooth = 1e-5;     // of the range of values: what bends so little from one part to the next is as long as hundreds of them
+  /// Calls use(part) at the bends, by second differences: part is where it is, counted from the start of the way.
+  template <class Use>
+  void for_each_bend(Use&& use) const {
+    constexpr double kRounding = 1e-14;  // of the largest value: a sum that ought to be constant has no bends
+    constexpr double kSmooth = 1e-5;     // of the range of values: what bends so little from one part to the next is as long as hundreds of them. With 0 a toggle press takes 12 times the steps
     if (values_.size() < 3) return;
     const auto curvature = [this](std::size_t i) { return values_[i + 2] - 2 * values_[i + 1] + values_[i]; };
-    const std::size_t n = values_.size() - 2;
-    double most = 0;
-    for (std::size_t i = 0; i < n; ++i) most = std::max(most, std::abs(curvature(i)));
     const auto [least, largest] = std::minmax_element(values_.begin(), values_.end());
-    const double straight = std::max({kStraight * most, kRounding * std::max(std::abs(*least), std::abs(*largest)), kSmooth * (*largest - *least)});
-    visit_bends(curvature, n, straight, [&](std::size_t i) { visit(static_cast<double>(i) + 0.5); });
+    const double smooth = std::max(kRounding * std::max(std::abs(*least), std::abs(*largest)), kSmooth * (*largest - *least));
+    pintle::for_each_bend(curvature, values_.size() - 2, smooth, [&](std::size_t i) { use(static_cast<double>(i) + 0.5); });
   }
 
  private:

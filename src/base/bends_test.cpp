@@ -9,27 +9,27 @@ namespace {
 
 TEST(Bends, TheSecondOneEndsTheWay) {
   const Bends bends{{1, 2, 5}};
-  EXPECT_EQ(bends.share_to_second(0, 4), 0.5);
-  EXPECT_EQ(bends.share_to_second(0, 1.9), 1);
-  EXPECT_EQ(bends.share_to_second(0, 2.2), 1);  // a little further than to the second
-  EXPECT_EQ(bends.share_to_second(0, 5.1), 2 / 5.1);
-  EXPECT_EQ((Bends{{4.7, 4.8, 4.9}}.share_to_second(0, 5)), 4.8 / 5);  // all of it at the end of a long way
-  EXPECT_EQ(bends.share_to_second(1, 9), 0.5);  // a bend that it starts at is behind it
-  EXPECT_EQ(bends.share_to_second(2, 9), 1);
-  EXPECT_EQ(bends.share_to_second(6, 0), 4.0 / 6);
-  EXPECT_EQ(bends.share_to_second(5, 0), 4.0 / 5);
-  EXPECT_EQ(bends.share_to_second(1, 0), 1);
-  EXPECT_EQ(bends.share_to_second(3, 3), 1);
-  EXPECT_EQ(Bends{}.share_to_second(0, 9), 1);
+  EXPECT_EQ(bends.share_to_second_bend(0, 4), 0.5);
+  EXPECT_EQ(bends.share_to_second_bend(0, 1.9), 1);
+  EXPECT_EQ(bends.share_to_second_bend(0, 2.01), 1);  // a little further than to the second
+  EXPECT_EQ(bends.share_to_second_bend(0, 5.1), 2 / 5.1);
+  EXPECT_EQ((Bends{{4.7, 4.8, 4.9}}.share_to_second_bend(0, 5)), 4.8 / 5);  // all of it at the end of a long way
+  EXPECT_EQ(bends.share_to_second_bend(1, 9), 0.5);  // a bend that it starts at is behind it
+  EXPECT_EQ(bends.share_to_second_bend(2, 9), 1);
+  EXPECT_EQ(bends.share_to_second_bend(6, 0), 4.0 / 6);
+  EXPECT_EQ(bends.share_to_second_bend(5, 0), 4.0 / 5);
+  EXPECT_EQ(bends.share_to_second_bend(1, 0), 1);
+  EXPECT_EQ(bends.share_to_second_bend(3, 3), 1);
+  EXPECT_EQ(Bends{}.share_to_second_bend(0, 9), 1);
 }
 
 TEST(Bends, GoOnWithTheirPeriod) {
   const Bends bends{{-1, 0, 1}, 10};
-  EXPECT_EQ(bends.share_to_second(2, 22), 8.0 / 20);     // 9, 10
-  EXPECT_EQ(bends.share_to_second(30, 50), 9.0 / 20);    // 31, 39
-  EXPECT_EQ(bends.share_to_second(-2, -22), 8.0 / 20);   // -9, -10
-  EXPECT_EQ(bends.share_to_second(-30, -50), 9.0 / 20);  // -31, -39
-  EXPECT_EQ(bends.share_to_second(1, 5), 1);
+  EXPECT_EQ(bends.share_to_second_bend(2, 22), 8.0 / 20);     // 9, 10
+  EXPECT_EQ(bends.share_to_second_bend(30, 50), 9.0 / 20);    // 31, 39
+  EXPECT_EQ(bends.share_to_second_bend(-2, -22), 8.0 / 20);   // -9, -10
+  EXPECT_EQ(bends.share_to_second_bend(-30, -50), 9.0 / 20);  // -31, -39
+  EXPECT_EQ(bends.share_to_second_bend(1, 5), 1);
 }
 
 // Wherever rounding puts the places of a turn.
@@ -40,7 +40,7 @@ TEST(Bends, AlwaysLeaveAWay) {
       for (const double last_bits : {-1e-15, 0.0, 1e-15}) {
         const double from = (place + turn * bends.period) * (1 + last_bits);
         for (const double way : {-3.0, 3.0}) {
-          const double share = bends.share_to_second(from, from + way);
+          const double share = bends.share_to_second_bend(from, from + way);
           EXPECT_GT(std::abs(share * way), 0.0399) << from;
           EXPECT_LT(std::abs(share * way), 0.8) << from;
         }
@@ -57,11 +57,11 @@ TEST(Bends, OfABumpAreOnEitherSideOfIt) {
 }
 
 TEST(Bends, OfAGraphAreThoseOfItsSecondDifferences) {
-  GraphSamples samples(2000);
+  SampledGraph samples(2000);
   const auto bends_of = [&samples](const auto& f, double low, double high, int parts) {
     std::vector<double> places;
     samples.take(f, low, high, parts);
-    samples.visit_bends_in_parts([&](double part) { places.push_back(low + part * (high - low) / parts); });
+    samples.for_each_bend([&](double part) { places.push_back(low + part * (high - low) / parts); });
     return places;
   };
   const auto pulse = [](double t) { return 200 * std::exp(-std::pow((t - 3) / 0.005, 2)); };
@@ -70,6 +70,7 @@ TEST(Bends, OfAGraphAreThoseOfItsSecondDifferences) {
   for (const double place : places) EXPECT_NEAR(place, 3, 0.02);
   EXPECT_TRUE(bends_of([](double t) { return 1e6 + 7 * t; }, 0, 6, 2000).empty());
   EXPECT_TRUE(bends_of([](double t) { return 1e7 * (t - 0.3); }, 0.3, 0.3 + 1e-9, 2000).empty());  // rounding has no bends
+  EXPECT_TRUE(bends_of([](double t) { return 100 * (std::sin(t) * std::sin(t) + std::cos(t) * std::cos(t)); }, 0, 6, 2000).empty());
   const std::vector<double> of_sine = bends_of([](double t) { return std::sin(t); }, 0.5, 3.5 * std::numbers::pi, 200);
   ASSERT_EQ(of_sine.size(), 3U);
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(of_sine[i], (i + 1) * std::numbers::pi, 0.06);

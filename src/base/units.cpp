@@ -21,6 +21,7 @@ constexpr Dimension kPressure{{-1, 1, -2, 0}, false};
 constexpr double kPound = 0.45359237;  // international avoirdupois pound, exact [kg]
 constexpr double kInch = 0.0254;       // exact [m]
 constexpr double kPoundForce = kPound * kStandardGravity;  // [N]
+constexpr double kFoot = 12 * kInch;                       // [m]
 
 constexpr std::array kUnits{
     UnitEntry{"m", {1, kLength}},
@@ -31,13 +32,14 @@ constexpr std::array kUnits{
     UnitEntry{"um", {1e-6, kLength}},
     UnitEntry{"\xC2\xB5m", {1e-6, kLength}},
     UnitEntry{"in", {kInch, kLength}},
-    UnitEntry{"ft", {12 * kInch, kLength}},
+    UnitEntry{"ft", {kFoot, kLength}},
     UnitEntry{"kg", {1, kMass}},
     UnitEntry{"g", {1e-3, kMass}},
     UnitEntry{"mg", {1e-6, kMass}},
     UnitEntry{"t", {1e3, kMass}},
     UnitEntry{"lb", {kPound, kMass}},
-    UnitEntry{"slug", {kPoundForce / (12 * kInch), kMass}},
+    UnitEntry{"oz", {kPound / 16, kMass}},
+    UnitEntry{"slug", {kPoundForce / kFoot, kMass}},
     UnitEntry{"s", {1, kTime}},
     UnitEntry{"ms", {1e-3, kTime}},
     UnitEntry{"us", {1e-6, kTime}},
@@ -49,16 +51,20 @@ constexpr std::array kUnits{
     UnitEntry{"MN", {1e6, kForce}},
     UnitEntry{"mN", {1e-3, kForce}},
     UnitEntry{"lbf", {kPoundForce, kForce}},
+    UnitEntry{"ozf", {kPoundForce / 16, kForce}},
+    UnitEntry{"kip", {1e3 * kPoundForce, kForce}},
     UnitEntry{"J", {1, kTorque}},
     UnitEntry{"kJ", {1e3, kTorque}},
     UnitEntry{"W", {1, kPower}},
     UnitEntry{"kW", {1e3, kPower}},
+    UnitEntry{"hp", {550 * kFoot * kPoundForce, kPower}},
     UnitEntry{"Pa", {1, kPressure}},
     UnitEntry{"kPa", {1e3, kPressure}},
     UnitEntry{"MPa", {1e6, kPressure}},
     UnitEntry{"GPa", {1e9, kPressure}},
     UnitEntry{"bar", {1e5, kPressure}},
     UnitEntry{"psi", {kPoundForce / (kInch * kInch), kPressure}},
+    UnitEntry{"ksi", {1e3 * kPoundForce / (kInch * kInch), kPressure}},
     UnitEntry{"Hz", {1, kPerTime}},
     UnitEntry{"kHz", {1e3, kPerTime}},
     UnitEntry{"rad", {1, kAngle}},
@@ -67,6 +73,7 @@ constexpr std::array kUnits{
     UnitEntry{"\xC2\xB0", {kTurn / 360, kAngle}},
     UnitEntry{"rev", {kTurn, kAngle}},
     UnitEntry{"rpm", {kTurn / 60, kAngularSpeed}},
+    UnitEntry{"mph", {5280 * kFoot / 3600, kLinearSpeed}},
 };
 
 constexpr auto kSymbols = [] {
@@ -210,6 +217,12 @@ std::string to_words(const Dimension& dimension) {
 std::optional<std::string> check_dimension(const Dimension& found, const Dimension& wanted) {
   if (fits(found, wanted)) return std::nullopt;
   std::string problem = to_words(wanted) + " is expected here, not " + to_words(found);
+  const auto weighs = [](const Dimension& mass, const Dimension& force) {
+    const std::optional<Dimension> weight = product(mass, kAcceleration);
+    return weight && fits(*weight, force);
+  };
+  if (weighs(found, wanted)) problem += "; g, kg, oz and lb are masses: the forces are N, ozf and lbf";
+  if (weighs(wanted, found)) problem += "; N, ozf and lbf are forces: the masses are g, kg, oz and lb";
   const std::optional<Dimension> inverse = quotient(kPureNumber, found);
   if (inverse && fits(*inverse, wanted)) problem += "; a unit belongs to the number before it, so that parentheses are needed in (3*4/12) " + to_unit_text(wanted);
   return problem;

@@ -27,6 +27,12 @@ TEST(Units, KnownValues) {
       {"g", 0.001, kMass},
       {"lb", 0.45359237, kMass},
       {"slug", 14.59390293720636, kMass},
+      {"oz", 0.028349523125, kMass},
+      {"ozf", 0.27801385095378, kForce},
+      {"kip", 4448.2216152605, kForce},
+      {"ksi", 6894757.293168361, {{-1, 1, -2, 0}, false}},
+      {"hp", 745.6998715822702, {{2, 1, -3, 0}, false}},
+      {"mph", 0.44704, kLinearSpeed},
       {"lbf", 4.4482216152605, kForce},
       {"t", 1000, kMass},
       {"min", 60, kTime},
@@ -116,6 +122,10 @@ TEST(Units, WhatFits) {
   EXPECT_FALSE(fits(kStiffness, kAngularStiffness));
   EXPECT_EQ(check_dimension(kAngle, kPureNumber), std::nullopt);
   EXPECT_EQ(check_dimension(kAngle, kLength), "a length [m] is expected here, not an angle [rad]");
+  EXPECT_EQ(check_dimension(kMass, kForce), "a force [N] is expected here, not a mass [kg]; g, kg, oz and lb are masses: the forces are N, ozf and lbf");
+  EXPECT_EQ(check_dimension(parse_unit("ft*lb")->dimension, kTorque),
+            "a torque or an energy [N*m] is expected here, not a quantity in [kg*m]; g, kg, oz and lb are masses: the forces are N, ozf and lbf");
+  EXPECT_EQ(check_dimension(kForce, kMass), "a mass [kg] is expected here, not a force [N]; N, ozf and lbf are forces: the masses are g, kg, oz and lb");
   // 3*4/12 kg*m^2 is 12/(12 kg*m^2)
   EXPECT_EQ(check_dimension(*power(kInertia, -1), kInertia),
             "a moment of inertia [kg*m^2] is expected here, not a quantity in [1/kg/m^2]; a unit belongs to the number before it, so that parentheses are needed in (3*4/12) kg*m^2");

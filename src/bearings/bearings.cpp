@@ -94,9 +94,13 @@ void add_pressure(const Bearing& bearing, const PinDuty* duty, double time, Bear
 // What its table says, and of the sizes that it leaves out what an oil film's law knows.
 Bearing bearing_of(const Joint& joint) {
   Bearing out = joint.bearing.value_or(Bearing{});
-  const auto radius = least_stated(joint.law, "journal_radius");
+  const auto size = [&joint](const char* key) {  // a film that is linear needs none
+    const auto stated = least_stated(joint.law, key);
+    return stated && *stated > 0 ? stated : std::nullopt;
+  };
+  const auto radius = size("journal_radius");
   if (radius && !out.pin_diameter) out.pin_diameter = 2 * *radius;
-  if (!out.pin_length) out.pin_length = least_stated(joint.law, "bearing_length");
+  if (!out.pin_length) out.pin_length = size("bearing_length");
   return out;
 }
 

@@ -1,5 +1,6 @@
 #include "mobility/constraint_rows.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "joints/catalog.h"
@@ -40,11 +41,15 @@ double arm_length(const System& system, const std::vector<JointKinematics>& join
   double sum = 0;
   int count = 0;
   for (int j = 0; j < system.n_joints(); ++j) {
-    const Placement& at = system.joints[j].at;
+    const JointData& joint = system.joints[j];
+    const Placement& at = joint.at;
+    double deflection = 0;  // arms are seen from the other marker: of a rotor on its pin they are how far that gives way
+    for (int k = 0; k < 2; ++k)
+      if (joint.held[k]) deflection = std::max(deflection, std::abs(joint_kinematics[j].gap[k]));
     for (int k = 0; k < 2; ++k)
       for (const auto& [body, G] : {std::pair{at.a, joint_kinematics[j].GA()}, std::pair{at.b, joint_kinematics[j].GB()}}) {
         const double arm = G(k, 2);
-        if (body == kGround || std::abs(arm) < 1e-12) continue;
+        if (body == kGround || std::abs(arm) < std::max(1e-12, 2 * deflection)) continue;
         sum += arm * arm;
         ++count;
       }

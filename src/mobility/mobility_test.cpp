@@ -107,6 +107,19 @@ TEST(Mobility, EveryCrankBeyondTheSecondIsRedundant) {
   }
 }
 
+// What a pin gives way under the weight of a rotor is no arm.
+TEST(Mobility, DeflectionsAreNoLengthOfTheMechanism) {
+  Model model;
+  model.ground = {{"O", {0, 0}, 0}};
+  model.bodies = {body("rotor", 2, 0.01, {{"C", {0, 0}, 0}})};
+  put_at(model.bodies[0], 0, -2e-7, 0);
+  model.joints = {joint("O", "revolute", {"ground", "O"}, {"rotor", "C"}, 1e8, 0)};
+  EXPECT_EQ(counted(model).length, 1);
+  model.bodies[0].markers[0].position = {0.03, 0};
+  put_at(model.bodies[0], -0.03, -2e-7, 0);
+  EXPECT_NEAR(counted(model).length, 0.03, 1e-6);
+}
+
 // All bars on one line: the rank is one less there than anywhere near.
 TEST(Mobility, AFlatParallelogramIsSingular) {
   const Model model = parallel_cranks(2, 0);

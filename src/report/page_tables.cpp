@@ -315,7 +315,7 @@ std::string assumption_list(const Model& model, const Trajectory& trajectory) {
   }
   item(fmt::format("Gravity is {:g}, {:g} m/s² along x and y.", model.gravity[0], model.gravity[1]));
   item(fmt::format("Tolerance: {} of {}, at every output time.", printed_number(fmt::format("{:g}", trajectory.tolerance)), trajectory.of_motion ? "the longest path of any body" : "each joint's peak force"));
-  item("Peaks are those at the output times; a shock between two of them is visible only with a shorter output step.");
+  item("Peaks are those of the whole motion, found between the output times too; plots show the output times, and mark the peaks.");
   for (const std::string& note : trajectory.notes) item(escaped_markup(note));
   return html + "</ul>\n";
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "report/outline.h"
 #include "report/scene_maker.h"
@@ -28,7 +29,7 @@ void SceneMaker::add_body(int body) {
   add_mass_mark(body);
 }
 
-// A body that guides another: its track, and an arm from each of its other points to the nearest place on it.
+// A body that guides another: its tracks, joined to each other, and an arm from each of its other points to the nearest place on them.
 void SceneMaker::add_tracks(int body, const BodySketch& sketch) {
   const double u = scene_.unit;
   const bool slotted = std::any_of(sketch.tracks.begin(), sketch.tracks.end(), [](const Track& t) { return t.kind == Track::kSlot; });
@@ -41,14 +42,23 @@ void SceneMaker::add_tracks(int body, const BodySketch& sketch) {
     if (track.kind == Track::kSlot)
       put(kHoles, {Form::kBar, Paint::kHole, body, {{track.from, track.to}}, kSlotWidth * u});
   }
-  for (const Vec2& p : sketch.points) {
-    Vec2 nearest = p;
-    double best = -1;
-    for (const Track& track : sketch.tracks) {
-      const Vec2 q = nearest_on(track.from, track.to, p);
-      if (best < 0 || length(p - q) < best) best = length(p - q), nearest = q;
-    }
-    if (best > 0.2 * u) bar.paths.push_back({p, nearest});
+  // From the nearest of these places to the nearest of the first so many tracks.
+  const auto join = [&](const std::vector<Vec2>& places, std::size_t tracks) {
+    std::vector<Vec2> arm;
+    for (const Vec2& p : places)
+      for (const Track& track : std::span(sketch.tracks).first(tracks)) {
+        const Vec2 q = nearest_on(track.from, track.to, p);
+        if (arm.empty() || length(p - q) < length(arm[0] - arm[1])) arm = {p, q};
+      }
+    if (!arm.empty() && length(arm[0] - arm[1]) > 0.2 * u) bar.paths.push_back(std::move(arm));
+  };
+  for (const Vec2& p : sketch.points) join({p}, sketch.tracks.size());
+  for (std::size_t i = 1; i < sketch.tracks.size(); ++i) {
+    const Track& track = sketch.tracks[i];
+    std::vector<Vec2> places{track.from, track.to};
+    for (const Track& before : std::span(sketch.tracks).first(i))
+      for (const Vec2& end : {before.from, before.to}) places.push_back(nearest_on(track.from, track.to, end));
+    join(places, i);
   }
   if (!rods.paths.empty()) put(kBars, std::move(rods));
   if (!bar.paths.empty()) put(kBars, std::move(bar));

@@ -227,12 +227,15 @@ void SceneMaker::sketch_cam(const Joint& joint, const Anchor& first, const Ancho
   show(second.body, second.point, length(along));
 }
 
-// As long as what rests on it or flies over it comes.
+// From its marker, where it belongs to its body, as far as what rests on it or flies over it comes.
 void SceneMaker::sketch_straight_edge(const Joint& joint, const Anchor& first, const Anchor& second) {
   const auto stated = joint.law.values.find("pin_radius");
   const double radius = stated != joint.law.values.end() && !stated->second.empty() ? stated->second.front() : 0;
-  const Track reach = slide_range(first, second);
-  const Vec2 along = direction(first.axis), room = (radius + 2 * scene_.unit) * along, below = -0.5 * kThick * scene_.unit * normal(along);
+  const Vec2 along = direction(first.axis);
+  Track reach = slide_range(first, second);
+  if (dot(reach.from - first.point, along) > 0) reach.from = first.point;
+  if (dot(reach.to - first.point, along) < 0) reach.to = first.point;
+  const Vec2 room = (radius + 2 * scene_.unit) * along, below = -0.5 * kThick * scene_.unit * normal(along);
   sketch_of(first.body).faces.push_back({reach.from - room + below, reach.to + room + below});
   show(first.body, {reach.from - room, reach.to + room});
   sketch_of(second.body).rollers.push_back({second.point, radius});

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "report/drawn_run_for_tests.h"
 #include "report/outline.h"
@@ -144,6 +146,63 @@ radius = "60 mm"
   ASSERT_NE(bar, scene.shapes.end());
   EXPECT_NEAR(length(bar->paths[0][1] - bar->paths[0][0]), 0.6, 1e-12);
   EXPECT_EQ(count_shapes(scene, Paint::kPitch), 1u);
+}
+
+// The lever of a shaper: a slot for the crank and one for the ram, in line. It was drawn in two pieces.
+TEST(Scene, ABodyWithTwoSlotsIsOnePiece) {
+  const auto [model, run] = drawn::run_of(R"(
+format = 1
+name = "Shaper"
+[simulate]
+duration = "0.2 s"
+[ground.markers]
+O = [0, 0]
+P = [0, "-0.3 m"]
+way = [0, "0.3 m"]
+[body.crank]
+mass = "1 kg"
+inertia = "0.01 kg*m^2"
+position = [0, 0]
+angle = 0
+hold = ["angle"]
+spin = "30 rpm"
+markers.O = [0, 0]
+markers.A = ["0.1 m", 0]
+[body.lever]
+mass = "3 kg"
+inertia = "0.1 kg*m^2"
+angle = "90 deg"
+markers.P = ["-0.3 m", 0]
+markers.slot = [0, 0]
+markers.end = ["0.3 m", 0]
+[body.ram]
+mass = "5 kg"
+inertia = "0.1 kg*m^2"
+angle = 0
+markers.c = [0, 0]
+[joint]
+O = { type = "revolute", between = ["ground.O", "crank.O"] }
+P = { type = "revolute", between = ["ground.P", "lever.P"] }
+A = { type = "slot", between = ["lever.slot", "crank.A"] }
+E = { type = "slot", between = ["lever.end", "ram.c"] }
+way = { type = "prismatic", between = ["ground.way", "ram.c"] }
+[motor.drive]
+joint = "O"
+speed = "30 rpm"
+)");
+  const Scene scene = make_scene(model, run.trajectory);
+  const auto bar = std::find_if(scene.shapes.begin(), scene.shapes.end(), [](const Shape& shape) { return shape.form == Form::kBar && shape.paint == Paint::kLink && shape.body == 1; });
+  ASSERT_NE(bar, scene.shapes.end());
+  std::vector<std::array<double, 2>> along;  // of the lever's axis, from and to
+  for (const std::vector<Vec2>& path : bar->paths) along.push_back({std::min(path.front()[0], path.back()[0]), std::max(path.front()[0], path.back()[0])});
+  std::sort(along.begin(), along.end());
+  double reached = along.front()[1];
+  for (const auto& [from, to] : along) {
+    EXPECT_LE(from, reached + 1e-6);
+    reached = std::max(reached, to);
+  }
+  EXPECT_LT(along.front()[0], -0.299);
+  EXPECT_GT(reached, 0.299);
 }
 
 TEST(Scene, GuidesAreAsLongAsTheSlide) {

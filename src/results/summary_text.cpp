@@ -183,10 +183,16 @@ std::string event_section(const Trajectory& trajectory, const Style& style) {
       return static_cast<std::size_t>(std::find_if(joint.columns.begin(), joint.columns.end(), [&](const Column& column) { return column.name == name; }) - joint.columns.begin());
     };
     const std::size_t heat = place("heat");
+    const auto approach_of = [&](const std::string& kind) {  // a joint with stops and a contact has two of these, a guide one for each end
+      if (kind.find("touch") == std::string::npos) return joint.columns.size();  // surfaces that slip have approached long before
+      if (kind.ends_with(" stop")) return place("stop_approach_speed");
+      const std::size_t of_end = place("approach_speed_" + kind.substr(0, kind.find(' ')));
+      return of_end < joint.columns.size() ? of_end : place("approach_speed");
+    };
     for (const std::string& kind : kinds) {
       std::size_t count = 0;
       double first = 0, last = 0, fastest = 0, hottest = 0;
-      const std::size_t approach = place(kind.ends_with(" stop") ? "stop_approach_speed" : "approach_speed");  // a joint with stops and a contact has both
+      const std::size_t approach = approach_of(kind);
       for (const JointEvent& event : joint.events) {
         if (event.what != kind) continue;
         if (count++ == 0) first = event.t;

@@ -110,6 +110,17 @@ TEST(SummaryText, ListsEventsWithTheirFastestApproachAndMostHeat) {
   for (const char* expected : {" 1 ", "2.75", "rad/s", "0.03125"}) EXPECT_NE(stop.find(expected), std::string::npos) << expected << "\n" << text;
 }
 
+TEST(SummaryText, EachEndOfAGuideHasItsOwnApproach) {
+  Trajectory run = sample::trajectory();
+  run.events = {{"G", {{"approach_speed_front", "m/s", ""}, {"approach_speed_rear", "m/s", ""}, {"heat", "J", ""}},
+                 {{0.125, "front touch", {0.25, 0.75, 0}}, {0.25, "rear touch", {0.25, 0.5, 0}}, {0.5, "rear let-go", {0.25, 0, 0}}}}};
+  const std::string text = summary_text(run, {});
+  const auto line_of = [&text](const std::string& kind) { return text.substr(text.find(kind), text.find('\n', text.find(kind)) - text.find(kind)); };
+  EXPECT_NE(line_of("front touch").find("0.25000   m/s"), std::string::npos) << text;
+  EXPECT_NE(line_of("rear touch").find("0.50000   m/s"), std::string::npos) << text;
+  EXPECT_EQ(line_of("rear let-go").find("m/s"), std::string::npos) << text;
+}
+
 TEST(SummaryText, EmptyTrajectoryIsNoAccident) {
   EXPECT_NE(summary_text({}, {}).find("completed"), std::string::npos);
 }

@@ -69,6 +69,7 @@ class Procedure {
     else if (out_.steps.size() < 2) out_.reason += out_.reason.empty() ? "fewer than two stiffnesses could be run" : "";
     else if (out_.reason.empty()) explain();
     if (out_.steps.size() > 1 && out_.reason != kInterrupted) weigh_kept();
+    note_servos();
     return std::move(out_);
   }
 
@@ -114,6 +115,14 @@ class Procedure {
       j.angular_stiffness = holds_angle(joint.type) ? least_value(joint.law, "angular_stiffness") : 0;
       j.angular_damping = holds_angle(joint.type) ? least_value(joint.law, "angular_damping") : 0;
     }
+  }
+
+  // The limit is that of a mechanism whose motors still give way.
+  void note_servos() {
+    std::string names;
+    for (const Motor& motor : model_.motors)
+      if (motor.kind != MotorKind::kEffort) names += (names.empty() ? "" : ", ") + motor.name;
+    if (!names.empty()) out_.notes.push_back("servos are not stiffened (" + names + "): how far they give way is in the limit. With ideal joints they would follow exactly");
   }
 
   // Where no joint has a stiffness that may be raised, no comparison would say anything.
@@ -192,10 +201,18 @@ class Procedure {
     }
   }
 
+  // Whether something that still changes does so by nearly as much as in the step before. A peak that goes to zero changes by as large a part of itself in every step.
+  bool changes_as_before(std::size_t i) const {
+    const StiffenStep &now = out_.steps[i], &before = out_.steps[i - 1];
+    for (std::size_t q = 0; q < now.changes.size(); ++q)
+      if (now.changes[q] > wanted_agreement(request()) && now.changes[q] * now.peaks[q] > kNoLongerFalls * before.changes[q] * before.peaks[q]) return true;
+    return false;
+  }
+
   // Two steps in a row that changed nearly as much as the one before each; one where the motion is known to be singular.
   bool no_longer_falls() const {
     const std::size_t n = out_.steps.size();
-    const auto still = [this](std::size_t i) { return out_.steps[i].change > kNoLongerFalls * out_.steps[i - 1].change; };
+    const auto still = [this](std::size_t i) { return changes_as_before(i); };
     return singular_ ? n > 2 && still(n - 1) : n > 3 && still(n - 1) && still(n - 2);
   }
 
@@ -342,7 +359,7 @@ class Procedure {
     if (last.change < before.change / 5)
       out_.reason += fmt::format("; the change falls as 1/stiffness: {:.0e} N/m is within {:.1g} of the limit, and the extrapolated limit below is closer", last.stiffness, last.change / (kTenfold - 1));
     else if (singular_) out_.reason += "; the mechanism passes singular positions, where forces depend on the joints' compliance";
-    else if (last.change > kNoLongerFalls * before.change) out_.reason += "; the change no longer falls: check for vibration, impact or slack, or ask for fewer digits";
+    else if (changes_as_before(out_.steps.size() - 1)) out_.reason += "; the change no longer falls: check for vibration, impact or slack, or ask for fewer digits";
   }
 
   Model model_;

@@ -190,6 +190,8 @@ void check_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& 
   setting.take(joint.geometry);
   setting.values = &choice.values;
   setting.keys = law.keys;
+  for (const KeyInfo& key : law.keys)
+    if (record.states(key.key)) setting.stated.push_back(key.key);
   if (law.fault == nullptr || !complete) return;
   LawFault fault = law.fault(setting);
   if (fault.key.empty()) return;

@@ -17,6 +17,7 @@ const ENERGY: Dimension = [2, 1, -2, 0];
 const POWER: Dimension = [2, 1, -3, 0];
 const PRESSURE: Dimension = [-1, 1, -2, 0];
 const INCH = 0.0254;
+const FOOT = 12 * INCH;
 const POUND = 0.45359237;
 const POUND_FORCE = 9.80665 * POUND;
 const TURN = 2 * Math.PI;
@@ -30,13 +31,14 @@ export const UNITS: Readonly<Record<string, Unit>> = {
   um: { factor: 1e-6, dimension: L },
   µm: { factor: 1e-6, dimension: L },
   in: { factor: INCH, dimension: L },
-  ft: { factor: 12 * INCH, dimension: L },
+  ft: { factor: FOOT, dimension: L },
   kg: { factor: 1, dimension: M },
   g: { factor: 1e-3, dimension: M },
   mg: { factor: 1e-6, dimension: M },
   t: { factor: 1e3, dimension: M },
   lb: { factor: POUND, dimension: M },
-  slug: { factor: POUND_FORCE / (12 * INCH), dimension: M },
+  oz: { factor: POUND / 16, dimension: M },
+  slug: { factor: POUND_FORCE / FOOT, dimension: M },
   s: { factor: 1, dimension: T },
   ms: { factor: 1e-3, dimension: T },
   us: { factor: 1e-6, dimension: T },
@@ -47,17 +49,21 @@ export const UNITS: Readonly<Record<string, Unit>> = {
   kN: { factor: 1e3, dimension: FORCE },
   MN: { factor: 1e6, dimension: FORCE },
   lbf: { factor: POUND_FORCE, dimension: FORCE },
+  ozf: { factor: POUND_FORCE / 16, dimension: FORCE },
+  kip: { factor: 1e3 * POUND_FORCE, dimension: FORCE },
   mN: { factor: 1e-3, dimension: FORCE },
   J: { factor: 1, dimension: ENERGY },
   kJ: { factor: 1e3, dimension: ENERGY },
   W: { factor: 1, dimension: POWER },
   kW: { factor: 1e3, dimension: POWER },
+  hp: { factor: 550 * FOOT * POUND_FORCE, dimension: POWER },
   Pa: { factor: 1, dimension: PRESSURE },
   kPa: { factor: 1e3, dimension: PRESSURE },
   MPa: { factor: 1e6, dimension: PRESSURE },
   GPa: { factor: 1e9, dimension: PRESSURE },
   bar: { factor: 1e5, dimension: PRESSURE },
   psi: { factor: POUND_FORCE / INCH ** 2, dimension: PRESSURE },
+  ksi: { factor: (1e3 * POUND_FORCE) / INCH ** 2, dimension: PRESSURE },
   Hz: { factor: 1, dimension: [0, 0, -1, 0] },
   kHz: { factor: 1e3, dimension: [0, 0, -1, 0] },
   rad: { factor: 1, dimension: ANGLE },
@@ -66,6 +72,7 @@ export const UNITS: Readonly<Record<string, Unit>> = {
   "°": { factor: TURN / 360, dimension: ANGLE },
   rev: { factor: TURN, dimension: ANGLE },
   rpm: { factor: TURN / 60, dimension: [0, 0, -1, 1] },
+  mph: { factor: (5280 * FOOT) / 3600, dimension: [1, 0, -1, 0] },
 };
 
 /** What people like to choose from in a field of this SI unit; the first is used for what the studio writes. */
