@@ -190,7 +190,7 @@ std::string heat_table(const Trajectory& trajectory) {
   for (const LoadSummary* joint : joints) {
     table.begin_row();
     table.name(escaped_markup(joint->name));
-    for (const double x : {joint->heat, joint->heat / trajectory.t_end, joint->heat / trajectory.energy.dissipated}) table.number(x);
+    for (const double x : {joint->heat, joint->heat / trajectory.t_end, joint->heat / heat_of_all(trajectory)}) table.number(x);
     table.end_row();
   }
   return "<h3>Heat in joints</h3>\n" + table.html();

@@ -16,12 +16,19 @@ double stored(const EnergyAccount& energy) { return std::max(std::abs(energy.pot
 
 bool is_moving(const EnergyAccount& energy) { return energy.kinetic_peak > kRounding * stored(energy); }
 
+double heat_of_all(const Trajectory& run) {
+  double sum = 0;
+  for (const LoadSummary& joint : run.joints) sum += std::abs(joint.heat);
+  return std::max(run.energy.dissipated, sum);
+}
+
 std::vector<const LoadSummary*> joints_with_heat(const Trajectory& run) {
   std::vector<const LoadSummary*> out;
   const EnergyAccount& energy = run.energy;
-  if (!(energy.dissipated > std::max(kNoHeat * std::max(energy.kinetic_peak, std::abs(energy.supplied)), kRounding * stored(energy)))) return out;
+  const double all = heat_of_all(run);
+  if (!(all > std::max(kNoHeat * std::max(energy.kinetic_peak, std::abs(energy.supplied)), kRounding * stored(energy)))) return out;
   for (const LoadSummary& joint : run.joints)
-    if (joint.heat > kLittleHeat * energy.dissipated) out.push_back(&joint);
+    if (std::abs(joint.heat) > kLittleHeat * all) out.push_back(&joint);
   return out;
 }
 

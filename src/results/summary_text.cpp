@@ -213,8 +213,8 @@ std::string heat_section(const Trajectory& trajectory, const Style& style) {
   table.add_column("mean power", Align::kNumber, "W");
   table.add_column("of all", Align::kNumber, "-");
   const auto joints = joints_with_heat(trajectory);
-  for (const LoadSummary* load : shown(joints, [](const LoadSummary& one) { return one.heat; }))
-    table.add_row({load->name, engineering(load->heat), engineering(load->heat / trajectory.t_end), engineering(load->heat / trajectory.energy.dissipated)});
+  for (const LoadSummary* load : shown(joints, [](const LoadSummary& one) { return std::abs(one.heat); }))
+    table.add_row({load->name, engineering(load->heat), engineering(load->heat / trajectory.t_end), engineering(load->heat / heat_of_all(trajectory))});
   return section("Heat in joints", table, style) + rest_line(joints.size());
 }
 

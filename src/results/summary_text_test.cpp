@@ -89,6 +89,14 @@ TEST(SummaryText, ListsTheJointsThatTurnWorkIntoHeat) {
   ASSERT_NE(at, std::string::npos) << text;
   EXPECT_NE(text.find("slide     1.5000           3.0000      0.75000", at), std::string::npos) << text.substr(at);
   EXPECT_EQ(text.substr(at, text.find("\n\n", at) - at).find("O4"), std::string::npos) << text.substr(at);
+  // What one joint has taken from its stick spring, another turns into heat: both are listed, as parts of what they are together.
+  trajectory.joints[0].heat = -2.5;
+  trajectory.energy.dissipated = -1;
+  const std::string both = summary_text(trajectory, {});
+  const std::size_t there = both.find("Heat in joints");
+  ASSERT_NE(there, std::string::npos);
+  EXPECT_NE(both.find("slide     1.5000           3.0000      0.37500", there), std::string::npos) << both.substr(there);
+  EXPECT_NE(both.find("O4       -2.5000          -5.0000     -0.62500", there), std::string::npos) << both.substr(there);
   trajectory.energy.kinetic_peak = 1e7;
   EXPECT_EQ(summary_text(trajectory, {}).find("Heat in joints"), std::string::npos);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/thresholds.h"
 #include "run/record/force_table.h"
 
 namespace pintle {
@@ -128,7 +129,7 @@ bool BasicLoadRecorder<S>::is_resolved(const BasicLoadScale<S>& scale) const {
       const int first = couple ? kForce : 0, n = couple ? kCouple : kForce;
       const double size = std::max(seen((couple ? couple_ : force_)[static_cast<std::size_t>(j)], j, first, n), sampling_.resolution * largest[couple ? 1 : 0]);  // small loads by the largest
       for (int c = first; c < first + n; ++c)
-        if (grid_.chebyshev_tail(samples_.data() + j * S::kDof + c, stride_) > sampling_.resolution * size) return false;
+        if (grid_.chebyshev_tail(samples_.data() + j * S::kDof + c, stride_) > std::max(sampling_.resolution * size, kLastBits * largest[couple ? 1 : 0])) return false;
     }
   return true;
 }
