@@ -35,12 +35,12 @@ void demand_no_states(const System& system) {
 // Ideal joints carry no preload: the loops are closed as they are.
 Assembly ideal_start(Model model) {
   if (model.simulate.start == Start::kAssembled) model.simulate.start = Start::kUnloaded;
+  demand_no_states(make_ideal(build_system(model)));  // no position would help
   Assembly assembly = assemble(model);
   IdealRows rows = choose_ideal_rows(make_ideal(std::move(assembly.system)), assembly.state.q);
   assembly.system = std::move(rows.system);
   assembly.notes.insert(assembly.notes.end(), rows.notes.begin(), rows.notes.end());
   assembly.not_unique = std::move(rows.not_unique);
-  demand_no_states(assembly.system);
   return assembly;
 }
 
