@@ -7,7 +7,9 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <utility>
 
+#include "laws/law_tangents.h"
 #include "mobility/constraint_rows.h"
 
 namespace pintle {
@@ -133,6 +135,39 @@ CheckMode fastest_mode(const MassScaledRows& rows) {
   return rows.mode(x.normalized());
 }
 
+// Laws with states of their own, as those of rubber, are stiffer and damp less the faster they vibrate: each component has the spring K and the damper C that are its
+// Z(mu) = K + mu C at the mu with which it vibrates alone, mu^2 m + Z(mu) = 0.
+void take_at_their_frequencies(const System& system, const std::vector<JointKinematics>& joint_kinematics, std::vector<ConstraintRow>& rows) {
+  constexpr int kPasses = 20;          // of a stiffness and its frequency, at most: three or four are enough
+  constexpr double kAgreement = 1e-6;  // of two frequencies, at which they end
+  const MassScaledRows scaled(system, rows);
+  const S::Vec still = S::Vec::Zero();
+  for (int i = 0; i < scaled.n_rows(); ++i) {
+    ConstraintRow& row = rows[static_cast<std::size_t>(i)];
+    const Law& law = system.joints[row.joint].law;
+    if (row.servo || law.n_states() == 0) continue;
+    std::vector<double> state(static_cast<std::size_t>(law.n_states()));
+    const S::Vec& gap = joint_kinematics[row.joint].gap;
+    law.rest({0, gap, still, state.data()}, state.data());
+    LawTangents tangents;
+    law.linearize({0, gap, still, state.data()}, tangents);
+    LawImpedance<std::complex<double>> impedance;
+    impedance.reserve(law.n_states());
+    const double mobility = scaled.mobility(i);
+    std::complex<double> mu(0, std::sqrt(row.stiffness * mobility));
+    for (int pass = 0; pass < kPasses && mu.imag() > 0; ++pass) {
+      impedance.find(tangents, mu);
+      const std::complex<double> Z = impedance.weight[S::kDof * row.component + row.component];
+      const double damping = Z.imag() / mu.imag(), stiffness = Z.real() - mu.real() * damping, decay = 0.5 * damping * mobility, square = stiffness * mobility - decay * decay;
+      if (!(stiffness > 0) || !(square > 0)) break;  // it creeps
+      row.stiffness = stiffness;
+      row.damping = damping;
+      const std::complex<double> before = std::exchange(mu, {-decay, std::sqrt(square)});
+      if (std::abs(mu - before) < kAgreement * std::abs(mu)) break;
+    }
+  }
+}
+
 }  // namespace
 
 double dormand_prince_step(double frequency, double damping_ratio) {
@@ -157,7 +192,8 @@ double dormand_prince_step(double frequency, double damping_ratio) {
 CheckFrequencies check_frequencies(const System& system, const State& assembled, int n_free) {
   CheckFrequencies out;
   const auto joint_kinematics = kinematics_at_rest(system, assembled.q);
-  const auto constraints = constraint_rows(system, joint_kinematics, 1e-9 * arm_length(system, joint_kinematics));
+  auto constraints = constraint_rows(system, joint_kinematics, 1e-9 * arm_length(system, joint_kinematics));
+  take_at_their_frequencies(system, joint_kinematics, constraints);
   const MassScaledRows rows(system, constraints);
   out.components = local_components(system, rows);
   if (out.components.empty()) return out;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <utility>
 
 #include "check/check_samples_for_tests.h"
@@ -39,6 +40,23 @@ TEST(CheckFrequencies, DependOnNoOrderOfBodies) {
   const CheckFrequencies turned = check_model(model).frequencies;
   ASSERT_EQ(f.modes.size(), turned.modes.size());
   for (std::size_t i = 0; i < f.modes.size(); ++i) EXPECT_NEAR(f.modes[i].frequency, turned.modes[i].frequency, 1e-9 * f.modes[i].frequency);
+}
+
+// A mass on rubber: mu^2 m + k (1 + sum r mu tau/(1 + mu tau)) = 0 at the frequency and the damping ratio that are stated.
+TEST(CheckFrequencies, RubberVibratesByItsBranches) {
+  Model model = checked::pendulum();
+  model.joints[0].type = "fixed";
+  model.joints[0].law = {.word = "maxwell", .values = {{"stiffness", {4e5}}, {"angular_stiffness", {4e4}}, {"damping", {0}}, {"angular_damping", {0}}, {"branch_ratio", {0.5, 1}}, {"branch_time", {5e-3, 5e-2}}}};
+  const CheckFrequencies f = check_model(model).frequencies;
+  ASSERT_EQ(f.components.size(), 3u);
+  for (const CheckComponent& c : f.components) {
+    if (c.component == "angle") continue;
+    const std::complex<double> mu = c.frequency * std::complex<double>(-c.damping_ratio, std::sqrt(1 - c.damping_ratio * c.damping_ratio));
+    const auto branch = [&mu](double ratio, double time) { return ratio * mu * time / (1.0 + mu * time); };
+    const std::complex<double> left = mu * mu * c.effective_mass + 4e5 * (1.0 + branch(0.5, 5e-3) + branch(1, 5e-2));
+    EXPECT_LT(std::abs(left), 1e-5 * 4e5) << c.component;
+    EXPECT_GT(c.damping_ratio, 0.01) << c.component;
+  }
 }
 
 // Known to be 3.3066 on the negative real axis, and about 1 on the imaginary one.
