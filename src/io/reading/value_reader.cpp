@@ -23,14 +23,16 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 // A unit that depends on other keys, such as N/m^contact_exponent, stands in brackets in the meaning.
-std::string plain_example(const KeySpec& spec) {
+std::string plain_example(const KeySpec& spec, double si) {
   const std::size_t open = spec.meaning.find('['), close = spec.meaning.find(']');
   if (open == std::string::npos || close == std::string::npos || close < open) return "a plain number such as 0.5";
-  return "a plain number, without its unit " + spec.meaning.substr(open + 1, close - open - 1);
+  const std::string number = si != 0 ? fmt::format("{:.6g}, ", si) : "";
+  return number + "a plain number in SI, without its unit " + spec.meaning.substr(open + 1, close - open - 1);
 }
 
-std::string example_of(const KeySpec& spec) {
-  if (spec.unit.empty()) return plain_example(spec);
+// si: what has been found, with a unit that does not belong here.
+std::string example_of(const KeySpec& spec, double si = 0) {
+  if (spec.unit.empty()) return plain_example(spec, si);
   if (spec.unit == "any") return "a number or a string such as \"25 mm\"";
   return "a number in SI, or a string such as \"1 " + spec.unit + "\"";
 }
@@ -138,7 +140,7 @@ std::optional<double> RecordReader::read_number(const Node& node, const KeySpec&
   const std::optional<Quantity> quantity = read_quantity(node, path);
   if (!quantity) return std::nullopt;
   if (std::optional<std::string> problem = wrong_dimension(quantity->dimension, spec)) {
-    complaints_.add(node.spot, path, describe(node), std::move(*problem), example_of(spec));
+    complaints_.add(node.spot, path, describe(node), std::move(*problem), example_of(spec, quantity->si));
     return std::nullopt;
   }
   if (!in_range(quantity->si, node, spec, path)) return std::nullopt;
