@@ -17,6 +17,8 @@ namespace {
 
 constexpr int kParts = 2000;  // of the run, at whose ends loads and motors are looked at: as dear as a few steps
 constexpr int kFewParts = 8;  // of a step, at least: more than it has stages
+constexpr double kFarTurn = 0.3;  // [rad]: bodies that turn farther in a step do not go on straight ways
+constexpr double kPerTurn = 720;  // parts of their turn, at which it is looked at what reads their places
 
 // Half-way, in angle, between the samples of a step's forces (ForceSamples), and what these weigh there.
 struct BetweenSamples {
@@ -64,12 +66,12 @@ bool stays(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& 
   return true;
 }
 
-// Over the straight way from what it reads at the start to that at the end.
-template <class S>
-double effort_on_way(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to, double x) {
-  std::array<double, kMaxSignals> at{};
-  for (std::size_t s = 0; s < load.signals.size(); ++s) at[s] = from[s] + x * (to[s] - from[s]);
-  return load.law.value({at.data(), load.signals.size()});
+// Cubic, by the coordinates and speeds at both ends of a step of h.
+Planar::Motion between(const Planar::Motion& start, const Planar::Motion& end, double h, double x) {
+  const auto coordinates = [](const Planar::Motion& m) { return Planar::Vec(m.p.x(), m.p.y(), m.angle); };
+  const auto speeds = [](const Planar::Motion& m) { return Planar::Vec(m.v.x(), m.v.y(), m.w); };
+  const Planar::Vec q0 = coordinates(start), v0 = speeds(start), v1 = speeds(end), mean = (coordinates(end) - q0) / h, bend = v0 + v1 - 2 * mean;
+  return Planar::Motion::of(q0 + x * h * (v0 + x * (3 * mean - 2 * v0 - v1 + x * bend)), v0 + x * (6 * mean - 4 * v0 - 2 * v1 + 3 * x * bend));
 }
 
 }  // namespace
@@ -144,13 +146,53 @@ double BasicBendWatch<S>::place_at_end(const Way& way, double from, const std::v
 }
 
 template <class S>
+double BasicBendWatch<S>::turn_of(const BasicLoadData<S>& load, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const {
+  double largest = 0;
+  if constexpr (!S::kCurved)
+    for (const BasicSignal<S>& signal : load.signals) {
+      if (signal.is_time || signal.component >= S::kDim) continue;  // angles go on straight ways
+      for (const int b : {signal.at.a, signal.at.b})
+        if (b != kGround) largest = std::max(largest, std::abs(end[b].angle - start[b].angle));
+    }
+  return largest;
+}
+
+template <class S>
+std::array<double, kMaxSignals> BasicBendWatch<S>::read_on_way(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start,
+                                                               const std::vector<typename S::Motion>& end, double x) {
+  if constexpr (!S::kCurved)
+    if (turn_of(load, start, end) > kFarTurn) {
+      on_way_.resize(start.size());
+      for (const BasicSignal<S>& signal : load.signals)
+        for (const int b : {signal.at.a, signal.at.b})
+          if (!signal.is_time && b != kGround) on_way_[b] = between(start[b], end[b], h, x);
+      return system_.signal_values(load, t + x * h, on_way_);
+    }
+  std::array<double, kMaxSignals> at = system_.signal_values(load, t, start);
+  const std::array<double, kMaxSignals> to = system_.signal_values(load, t + h, end);
+  for (std::size_t s = 0; s < load.signals.size(); ++s) at[s] += x * (to[s] - at[s]);
+  return at;
+}
+
+template <class S>
 double BasicBendWatch<S>::share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) {
   if (!(h > apart_)) return 1;
-  const double parts = std::max<double>(h / apart_, kFewParts);
+  const double turns = turn_of(load, start, end) / kTurn;
+  const bool far = turns * kTurn > kFarTurn;
   const std::array<double, kMaxSignals> from = system_.signal_values(load, t, start), to = system_.signal_values(load, t + h, end);
-  if (stays(load, from, to) || jumps(load, from, to)) return 1;
-  const int n = static_cast<int>(std::min<double>(parts, kParts));
-  samples_.take([&](double x) { return effort_on_way(load, from, to, x); }, 0, 1, n);
+  if ((!far && stays(load, from, to)) || jumps(load, from, to)) return 1;
+  if (far && turns * kPerTurn > kParts) return kParts / (turns * kPerTurn);  // no farther than can be looked at
+  const int n = static_cast<int>(std::min<double>(std::max({h / apart_, static_cast<double>(kFewParts), far ? turns * kPerTurn : 0}), kParts));
+  const std::size_t signals = load.signals.size();
+  if (far) {
+    samples_.take([&](double x) { return load.law.value({read_on_way(load, t, h, start, end, x).data(), signals}); }, 0, 1, n);
+  } else {
+    std::array<double, kMaxSignals> at{};
+    samples_.take([&](double x) {
+      for (std::size_t s = 0; s < signals; ++s) at[s] = from[s] + x * (to[s] - from[s]);
+      return load.law.value({at.data(), signals});
+    }, 0, 1, n);
+  }
   int passed = 0;
   double second = 1, third = 1;
   samples_.for_each_bend([&](double part) {
@@ -194,7 +236,7 @@ double BasicBendWatch<S>::missed_friction(int j, double t, const std::vector<typ
 
 template <class S>
 double BasicBendWatch<S>::missed_between_samples(double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end,
-                                                 const BasicLoadScale<S>& scale) const {
+                                                 const BasicLoadScale<S>& scale) {
   double largest = 0;
   const auto over = [](double load) { return [load](double x) { return std::abs(x) / load; }; };
   for (const Applied& force : applied_)
@@ -202,7 +244,7 @@ double BasicBendWatch<S>::missed_between_samples(double t, double h, const std::
   for (const int l : timed_) {
     const BasicLoadData<S>& load = system_.loads[l];
     const std::array<double, kMaxSignals> from = system_.signal_values(load, t, start), to = system_.signal_values(load, t + h, end);
-    if (!jumps(load, from, to)) largest = std::max(largest, missed_between([&](double x) { return effort_on_way(load, from, to, x); }, over(load_in_gap_axes(load.at, scale)[load.component])));
+    if (!jumps(load, from, to)) largest = std::max(largest, missed_between([&](double x) { return load.law.value({read_on_way(load, t, h, start, end, x).data(), load.signals.size()}); }, over(load_in_gap_axes(load.at, scale)[load.component])));
   }
   for (const int j : rubbing_) largest = std::max(largest, missed_friction(j, t + h, start, end, scale));
   return largest;

@@ -25,7 +25,7 @@ class BasicBendWatch {
   double share_of_step(double t, double h, double t_end, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end);
   /// What the curve through as many instants as forces are sampled at in a step misses of its loads between them, over the load scale: of loads that are functions of time,
   /// of efforts over the straight way from what they read at the start to what they read at the end, and of friction over that of its speed. theory/time Eq. (3.25).
-  double missed_between_samples(double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end, const BasicLoadScale<S>& scale) const;
+  double missed_between_samples(double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end, const BasicLoadScale<S>& scale);
 
  private:
   struct Way {
@@ -41,6 +41,10 @@ class BasicBendWatch {
   double place(const Way& way, const std::vector<typename S::Motion>& m) const;
   double place_at_end(const Way& way, double from, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const;
 
+  /// How far the bodies turn of which a load reads places, at most [rad].
+  double turn_of(const BasicLoadData<S>& load, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const;
+  /// What a load reads at the part x of a step: over the straight way from its start to its end, or, where bodies turn far, over cubic ways of their coordinates.
+  std::array<double, kMaxSignals> read_on_way(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end, double x);
   double share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end);
 
   const BasicSystem<S>& system_;
@@ -50,6 +54,7 @@ class BasicBendWatch {
   std::vector<int> placed_;     // loads that are efforts which read places or speeds ...
   std::vector<int> timed_;      // ... and those that read anything
   std::vector<int> rubbing_;    // joints whose friction is a function of speed
+  std::vector<typename S::Motion> on_way_;
   SampledGraph samples_;
   double apart_ = 0;            // instants at which they are looked at [s]; 0: not known yet
 };
