@@ -57,6 +57,15 @@ std::vector<double> stops_at_bends(const BasicSystem<S>& system, double from, do
   return stops;
 }
 
+// The longest step of methods that do not look at what they pass, where a load reads places: a blow there need not be longer [s].
+template <class S>
+double longest_step(const BasicSystem<S>& system, double duration, double wanted) {
+  constexpr double kLooks = 500;  // of a run
+  const auto reads_places = [](const BasicLoadData<S>& load) { return std::any_of(load.signals.begin(), load.signals.end(), [](const BasicSignal<S>& signal) { return !signal.is_time; }); };
+  if (std::none_of(system.loads.begin(), system.loads.end(), reads_places)) return wanted;
+  return wanted > 0 ? std::min(wanted, duration / kLooks) : duration / kLooks;
+}
+
 // Whether the energy ends the integration.
 template <class S>
 bool alarmed(typename BasicEnergyWatch<S>::Alarm alarm, const BasicEnergyWatch<S>& energy, BasicIntegration<S>& out) {
@@ -74,7 +83,7 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
   const std::unique_ptr<BasicStepper<S>> method = make_stepper(system, plan.choice, plan.tolerance);
   BasicStepper<S>& stepper = *method;
   BasicIntegration<S> out;
-  stepper.set_max_step(plan.max_step);
+  stepper.set_max_step(stepper.watches_bends() ? plan.max_step : longest_step(system, plan.duration, plan.max_step));
   if (plan.scale) stepper.set_load_scale(*plan.scale);
   stepper.start(start, plan.first_step);
   recorder.start(stepper.state(), load_sampling(plan.choice, plan.tolerance, plan.output_step));

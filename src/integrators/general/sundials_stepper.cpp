@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
+#include "integrators/dense/dense_output.h"
 #include "integrators/general/sundials_code.h"
 #include "integrators/general/usual_tolerance.h"
 #include "integrators/law_borders.h"
@@ -22,7 +24,7 @@ class SundialsStepper final : public Stepper {
  public:
   SundialsStepper(const System& system, std::string name, const SundialsChoice& choice, double tolerance)
       : name_(std::move(name)), choice_(choice), tolerance_(tolerance), equations_(system, FirstOrderOde::Energies::kAppended),
-        states_(system), borders_(system), begin_(zero_state(system)), end_(begin_), between_(begin_) {}
+        states_(system), borders_(system), begin_(zero_state(system)), end_(begin_), between_(begin_), before_crossing_(begin_), dense_(system) {}
 
   void set_max_step(double h) override { max_step_ = h; }
   void set_load_scale(const LoadScale&) override {}
@@ -49,10 +51,13 @@ class SundialsStepper final : public Stepper {
     }
     equations_.unflatten(code_->t(), code_->y(), end_);
     states_.complete(end_);
+    before_crossing_ = end_;
+    restarted_ = false;
     if (borders_.cross(end_) || (code_->at_root() && cross_just_behind())) {
       std::vector<double> y(equations_.size());
       equations_.flatten(end_, y.data());
       code_->restart(end_.t, y);
+      restarted_ = true;
       states_.complete(end_);
       borders_.record(end_);
     }
@@ -65,6 +70,7 @@ class SundialsStepper final : public Stepper {
   const State& interpolate(double t) override {
     if (t == end_.t) return end_;
     if (t == begin_.t) return begin_;
+    if (restarted_) return dense_.at(std::min(t, before_crossing_.t), begin_, before_crossing_);  // the code has forgotten the step
     const double* y = code_->interpolate(t);
     if (!y) return end_;
     equations_.unflatten(t, y, between_);
@@ -96,6 +102,9 @@ class SundialsStepper final : public Stepper {
   LawBorders borders_;
   std::optional<SundialsCode> code_;
   State begin_, end_, between_;
+  State before_crossing_;  // the end of the last step, before laws have set their states
+  bool restarted_ = false;  // from there
+  DenseOutput dense_;
   LoadScale no_scale_;
   Counters counters_;
   std::string failure_;
