@@ -295,6 +295,24 @@ TEST(SettledStart, ACraneHangsInItsRopes) {
   for (const LoadSummary& joint : run.joints) EXPECT_LT(joint.peak, 1.001 * joint.rms) << joint.name;
 }
 
+// A brake holds what has been held while the drum came to rest; its springs had been bent by the way there, and were as likely to push the load on.
+TEST(SettledStart, StictionTakesOverWhatWasHeld) {
+  for (const char* friction : {"coulomb", "lugre"})
+    for (const double torque : {100.0, 1000.0, -3000.0}) {
+      const Trajectory run = completed(reference::test_model("braked_drum", {"force.load.torque=" + std::to_string(torque), "joint.axle.friction=" + std::string(friction)}));
+      EXPECT_NEAR(value(run, 0, "joint.axle.friction"), -torque, 1e-3 * std::abs(torque)) << friction << ", " << torque;
+      EXPECT_NEAR(value(run, run.n_rows() - 1, "joint.axle.friction"), -torque, 1e-3 * std::abs(torque)) << friction << ", " << torque;
+      EXPECT_NEAR(reference::at_end(run, "body.drum.angle"), value(run, 0, "body.drum.angle"), 1e-5) << friction << ", " << torque;
+    }
+}
+
+// Where nothing moves, the rounding of a speed is on either side of a kink in every step: 111,000 steps were refused.
+TEST(SettledStart, ARamThatRestsTakesFewSteps) {
+  const Trajectory run = completed(reference::test_model("ram_on_its_stop"));
+  EXPECT_LT(run.counters.steps + run.counters.rejected, 2000u);
+  EXPECT_LT(run.counters.events, 100u);
+}
+
 // Creeping it rubs with its kinetic friction, which does not hold it; where it was assembled its static friction does.
 TEST(SettledStart, ABlockThatOnlyStictionHoldsStartsWhereItIs) {
   const Trajectory run = completed(reference::test_model("block_held_by_stiction"));

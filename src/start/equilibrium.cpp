@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "pintle/simulate.h"
 #include "start/preload.h"
 #include "start/slow_manifold.h"
+#include "start/stiction.h"
 #include "system/build.h"
 
 namespace pintle {
@@ -227,6 +229,37 @@ State stable_rest(Creep& creep, const State& at_rest, std::vector<std::string>& 
   return again;
 }
 
+struct Unbalanced {
+  double size;  // [N]
+  std::size_t body;
+};
+// The largest force that accelerates a body, where it is more than rounding.
+std::optional<Unbalanced> unbalanced(const Assembly& start) {
+  const System& system = start.system;
+  const State& state = start.state;
+  Unbalanced largest{0, 0};
+  for (std::size_t i = 0; i < state.a.size(); ++i) {
+    const BodyData& body = system.bodies[i];
+    const double force = std::hypot(body.mass[0] * state.a[i].head<2>().norm(), body.mass[2] * state.a[i][2] / body.radius_of_gyration());
+    if (force > largest.size) largest = {force, i};
+  }
+  if (!(largest.size > std::max(kUnbalanced * largest_load(system, state), rounding_of(system, state)))) return std::nullopt;
+  return largest;
+}
+
+bool holds_bodies(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.hold[0] || body.hold[1] || body.hold[2]; });
+}
+
+// What is held while the mechanism comes to rest is let go when the run begins. Where surfaces stick they carry then what the hold has carried, as far as they can; what
+// their springs have been bent by on the way says nothing of it.
+void hold_by_friction(Assembly& start) {
+  if (std::none_of(start.system.joints.begin(), start.system.joints.end(), [](const JointData& joint) { return joint.law.has_friction(); })) return;
+  start_forces(start.system, false, start.state);
+  const BasicSettledStart<S> unloaded = start;
+  start.system = settle_with_stiction(std::move(start.system), unloaded, 0, 0, start);
+}
+
 }  // namespace
 
 Assembly start_in_equilibrium(const Model& model) {
@@ -254,18 +287,11 @@ Assembly start_in_equilibrium(const Model& model) {
   find_law_rates(out.system, state);
   find_joint_forces(out.system, state);
   find_accelerations(out.system, m, r, state);
-  double unbalanced = 0;
-  std::size_t most = 0;
-  for (std::size_t i = 0; i < state.a.size(); ++i) {
-    const BodyData& body = out.system.bodies[i];
-    const double force = std::hypot(body.mass[0] * state.a[i].head<2>().norm(), body.mass[2] * state.a[i][2] / body.radius_of_gyration());
-    if (force > unbalanced) most = i;
-    unbalanced = std::max(unbalanced, force);
-  }
+  if (unbalanced(out) && holds_bodies(model)) hold_by_friction(out);
   out.notes.push_back("settled: the mechanism came to rest " + in_words(largest_move(assembled, state.q)) + " from where it was assembled");
   out.notes.insert(out.notes.end(), notes.begin(), notes.end());
-  if (unbalanced > std::max(kUnbalanced * largest_load(out.system, state), rounding_of(out.system, state)))
-    out.notes.push_back(fmt::format("settled: what is held, or what depends on rates of loads, is not in equilibrium: {:.3g} N accelerate body {} from the start", unbalanced, model.bodies[most].name));
+  if (const auto force = unbalanced(out))
+    out.notes.push_back(fmt::format("settled: what is held, or what depends on rates of loads, is not in equilibrium: {:.3g} N accelerate body {} from the start", force->size, model.bodies[force->body].name));
   return out;
 }
 
