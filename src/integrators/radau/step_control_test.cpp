@@ -13,6 +13,7 @@ class Flickering {
   void begin_at_end() {}
   bool attempt(double) { return ++attempts, false; }
   double contraction() const { return 0; }
+  bool sets_states(const SwitchingEvent&) const { return false; }
   SwitchingEvent locate_event(double, bool) const {
     SwitchingEvent event;
     event.function = 0;
@@ -53,6 +54,7 @@ class OneEvent {
   void begin_at_end() {}
   bool attempt(double) { return ++attempts, true; }
   double contraction() const { return 0; }
+  bool sets_states(const SwitchingEvent&) const { return false; }
   SwitchingEvent locate_event(double h, bool) const {
     SwitchingEvent event;
     if (crossings > 0 || t_ + h < at_) return event;

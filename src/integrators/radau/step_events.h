@@ -39,6 +39,8 @@ class StepEvents {
 
   void reset_event_detection();
   SwitchingEvent locate_event(double h, bool solved);
+  /// Whether a law sets its states there.
+  bool sets_states(const SwitchingEvent& event) const { return events_of_.switching_functions()[static_cast<std::size_t>(event.function)].law_has_states; }
   /// Over the event `distance` after the end, with forces and accelerations renewed there. A jump that comes back at once is held.
   void cross_event(double distance, const SwitchingEvent& event);
   /// At the end of a step: a ramp that the last bits have left is let go, a border that they have crossed is crossed.
