@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "integrators/thresholds.h"
+#include "joints/catalog.h"
 #include "laws/least_stated.h"
 #include "start/start.h"
 
@@ -127,7 +128,7 @@ void find_softness(const Model& model, Comparison& c) {
   double all = 0;
   for (const Joint& joint : model.joints) {
     const auto load = std::find_if(c.first.joints.begin(), c.first.joints.end(), [&](const LoadSummary& l) { return l.name == joint.name; });
-    if (load == c.first.joints.end() || joint.law.word != "linear") continue;
+    if (load == c.first.joints.end() || joint.law.word != "linear" || find_joint_type(joint.type)->gap.empty()) continue;
     double energy = load->peak * load->peak / (2 * least_value(joint.law, "stiffness"));
     if (load->has_moment) energy += load->peak_moment * load->peak_moment / (2 * least_value(joint.law, "angular_stiffness"));
     all += energy;
