@@ -255,9 +255,12 @@ bool holds_bodies(const Model& model) {
 // their springs have been bent by on the way says nothing of it.
 void hold_by_friction(Assembly& start) {
   if (std::none_of(start.system.joints.begin(), start.system.joints.end(), [](const JointData& joint) { return joint.law.has_friction(); })) return;
+  const Assembly given = start;
   start_forces(start.system, false, start.state);
   const BasicSettledStart<S> unloaded = start;
   start.system = settle_with_stiction(std::move(start.system), unloaded, 0, 0, start);
+  const auto now = unbalanced(start);
+  if (now && !(now->size < unbalanced(given)->size)) start = given;
 }
 
 }  // namespace
