@@ -61,7 +61,7 @@ class StepControl {
   std::string last_event(const BasicSystem<S>& system, double since) const;
 
   /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
-  /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event),
+  /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event), rests(h),
   /// forces_stay_constant(distance), cross_event(distance, event), balance_end(), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
@@ -124,11 +124,11 @@ class StepControl {
   bool repeats(const SwitchingEvent& event, const Counters& counters) const {
     return event.function == same_function_ && same_ >= kMostSame && counters.steps - steps_at_event_ <= kStepsBetween;
   }
-  // A kink that the step's error does not show need not be met. What a law's states remember does.
+  // Where nothing moves, a kink that the step's error does not show need not be met. What a law's states remember does.
   template <class Method>
   static bool matters(Method& method, const SwitchingEvent& event, double h, double tolerance) {
     double error = 0;
-    return method.sets_states(event) || !method.error_estimate(h, error) || !(error <= kUnseen * tolerance);
+    return method.sets_states(event) || !method.rests(h) || !method.error_estimate(h, error) || !(error <= kUnseen * tolerance);
   }
 
   // Whether half of a step has more than half of its error.

@@ -14,6 +14,7 @@ class Flickering {
   bool attempt(double) { return ++attempts, false; }
   double contraction() const { return 0; }
   bool sets_states(const SwitchingEvent&) const { return false; }
+  bool rests(double) const { return false; }
   SwitchingEvent locate_event(double, bool) const {
     SwitchingEvent event;
     event.function = 0;
@@ -55,6 +56,7 @@ class OneEvent {
   bool attempt(double) { return ++attempts, true; }
   double contraction() const { return 0; }
   bool sets_states(const SwitchingEvent&) const { return false; }
+  bool rests(double) const { return false; }
   SwitchingEvent locate_event(double h, bool) const {
     SwitchingEvent event;
     if (crossings > 0 || t_ + h < at_) return event;

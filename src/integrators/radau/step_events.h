@@ -41,6 +41,8 @@ class StepEvents {
   SwitchingEvent locate_event(double h, bool solved);
   /// Whether a law sets its states there.
   bool sets_states(const SwitchingEvent& event) const { return events_of_.switching_functions()[static_cast<std::size_t>(event.function)].law_has_states; }
+  /// Whether no body goes farther in a step of h than the rounding of its place leaves open.
+  bool rests(double h);
   /// Over the event `distance` after the end, with forces and accelerations renewed there. A jump that comes back at once is held.
   void cross_event(double distance, const SwitchingEvent& event);
   /// At the end of a step: a ramp that the last bits have left is let go, a border that they have crossed is crossed.
@@ -73,6 +75,13 @@ SwitchingEvent StepEvents<Method, S>::locate_event(double h, bool solved) {
   return search_.first(RadauTable::of(method().n_), [&](double x, double* value) {
     solved ? method().evaluate_switching_functions(x, h, value) : method().extrapolate_switching_functions(x * h, value);
   });
+}
+
+template <class Method, class S>
+bool StepEvents<Method, S>::rests(double h) {
+  constexpr double kStill = 1e-12;  // [m], [rad]: a thousand times the rounding of places within a few metres
+  const BasicState<S>& now = method().end_state();
+  return std::all_of(now.v.begin(), now.v.end(), [h](const typename S::Vec& v) { return v.cwiseAbs().maxCoeff() * h < kStill; });
 }
 
 template <class Method, class S>
