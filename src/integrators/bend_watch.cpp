@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "base/constants.h"
+#include "integrators/dense/cubic_hermite.h"
 #include "joints/cam_profile.h"
 #include "joints/edge_profile.h"
 #include "laws/law.h"
@@ -17,8 +18,6 @@ namespace {
 
 constexpr int kParts = 2000;  // of the run, at whose ends loads and motors are looked at: as dear as a few steps
 constexpr int kFewParts = 8;  // of a step, at least: more than it has stages
-constexpr double kFarTurn = 0.3;  // [rad]: bodies that turn farther in a step do not go on straight ways
-constexpr double kPerTurn = 720;  // parts of their turn, at which it is looked at what reads their places
 
 // Half-way, in angle, between the samples of a step's forces (ForceSamples), and what these weigh there.
 struct BetweenSamples {
@@ -51,27 +50,12 @@ double missed_between(const F& f, const Size& size) {
   return largest;
 }
 
-// A step ends where its motors jump, or slides along it.
-template <class S>
-bool jumps(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to) {
-  return load.law.jump_between({from.data(), load.signals.size()}, {to.data(), load.signals.size()}).has_value();
-}
-
-// What it reads changes so little that rounding is a good part of how its effort bends.
-template <class S>
-bool stays(const BasicLoadData<S>& load, const std::array<double, kMaxSignals>& from, const std::array<double, kMaxSignals>& to) {
-  constexpr double kLittle = 1e-9;  // of what it reads. With 0 a block that sticks takes 9 times the steps
-  for (std::size_t s = 0; s < load.signals.size(); ++s)
-    if (!load.signals[s].is_time && std::abs(to[s] - from[s]) > kLittle * std::max(std::abs(from[s]), std::abs(to[s]))) return false;
-  return true;
-}
-
-// Cubic, by the coordinates and speeds at both ends of a step of h.
+// By the coordinates and speeds at both ends of a step of h.
 Planar::Motion between(const Planar::Motion& start, const Planar::Motion& end, double h, double x) {
   const auto coordinates = [](const Planar::Motion& m) { return Planar::Vec(m.p.x(), m.p.y(), m.angle); };
   const auto speeds = [](const Planar::Motion& m) { return Planar::Vec(m.v.x(), m.v.y(), m.w); };
-  const Planar::Vec q0 = coordinates(start), v0 = speeds(start), v1 = speeds(end), mean = (coordinates(end) - q0) / h, bend = v0 + v1 - 2 * mean;
-  return Planar::Motion::of(q0 + x * h * (v0 + x * (3 * mean - 2 * v0 - v1 + x * bend)), v0 + x * (6 * mean - 4 * v0 - 2 * v1 + 3 * x * bend));
+  const Planar::Vec q0 = coordinates(start), v0 = speeds(start), q1 = coordinates(end), v1 = speeds(end);
+  return Planar::Motion::of(cubic_hermite(x, h, q0, v0, q1, v1), cubic_hermite_slope(x, h, q0, v0, q1, v1));
 }
 
 }  // namespace
@@ -97,7 +81,7 @@ std::vector<Bends> bends_in_time(const BasicSystem<S>& system, double from, doub
 }
 
 template <class S>
-BasicBendWatch<S>::BasicBendWatch(const BasicSystem<S>& system) : system_(system), samples_(kParts) {
+BasicBendWatch<S>::BasicBendWatch(const BasicSystem<S>& system) : system_(system), on_way_(system.bodies.size()), samples_(kParts) {
   const auto add = [this](int joint, int component, const Bends& bends) {
     if (!bends.empty()) ways_.push_back({joint, component, bends});
   };
@@ -146,53 +130,66 @@ double BasicBendWatch<S>::place_at_end(const Way& way, double from, const std::v
 }
 
 template <class S>
-double BasicBendWatch<S>::turn_of(const BasicLoadData<S>& load, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const {
-  double largest = 0;
+typename BasicBendWatch<S>::ReadInStep BasicBendWatch<S>::read_in_step(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start,
+                                                                       const std::vector<typename S::Motion>& end) const {
+  ReadInStep read{load, t, h, start, end, system_.signal_values(load, t, start), system_.signal_values(load, t + h, end), 0};
   if constexpr (!S::kCurved)
     for (const BasicSignal<S>& signal : load.signals) {
       if (signal.is_time || signal.component >= S::kDim) continue;  // angles go on straight ways
       for (const int b : {signal.at.a, signal.at.b})
-        if (b != kGround) largest = std::max(largest, std::abs(end[b].angle - start[b].angle));
+        if (b != kGround) read.turn = std::max(read.turn, std::abs(end[b].angle - start[b].angle));
     }
-  return largest;
+  return read;
 }
 
 template <class S>
-std::array<double, kMaxSignals> BasicBendWatch<S>::read_on_way(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start,
-                                                               const std::vector<typename S::Motion>& end, double x) {
+bool BasicBendWatch<S>::ReadInStep::is_straight() const {
+  constexpr double kFarTurn = 0.3;  // [rad]
+  return turn <= kFarTurn;
+}
+
+// A step ends where its motors jump, or slides along it.
+template <class S>
+bool BasicBendWatch<S>::ReadInStep::jumps() const {
+  return load.law.jump_between({from.data(), load.signals.size()}, {to.data(), load.signals.size()}).has_value();
+}
+
+// What it reads changes so little that rounding is a good part of how its effort bends.
+template <class S>
+bool BasicBendWatch<S>::ReadInStep::stays() const {
+  constexpr double kLittle = 1e-9;  // of what it reads. With 0 a block that sticks takes 9 times the steps
+  if (!is_straight()) return false;
+  for (std::size_t s = 0; s < load.signals.size(); ++s)
+    if (!load.signals[s].is_time && std::abs(to[s] - from[s]) > kLittle * std::max(std::abs(from[s]), std::abs(to[s]))) return false;
+  return true;
+}
+
+template <class S>
+double BasicBendWatch<S>::effort_at(const ReadInStep& read, double x) {
+  const std::vector<BasicSignal<S>>& signals = read.load.signals;
+  std::array<double, kMaxSignals> at = read.from;
   if constexpr (!S::kCurved)
-    if (turn_of(load, start, end) > kFarTurn) {
-      on_way_.resize(start.size());
-      for (const BasicSignal<S>& signal : load.signals)
+    if (!read.is_straight()) {
+      for (const BasicSignal<S>& signal : signals)
         for (const int b : {signal.at.a, signal.at.b})
-          if (!signal.is_time && b != kGround) on_way_[b] = between(start[b], end[b], h, x);
-      return system_.signal_values(load, t + x * h, on_way_);
+          if (!signal.is_time && b != kGround) on_way_[b] = between(read.start[b], read.end[b], read.h, x);
+      at = system_.signal_values(read.load, read.t + x * read.h, on_way_);
+      return read.load.law.value({at.data(), signals.size()});
     }
-  std::array<double, kMaxSignals> at = system_.signal_values(load, t, start);
-  const std::array<double, kMaxSignals> to = system_.signal_values(load, t + h, end);
-  for (std::size_t s = 0; s < load.signals.size(); ++s) at[s] += x * (to[s] - at[s]);
-  return at;
+  for (std::size_t s = 0; s < signals.size(); ++s) at[s] += x * (read.to[s] - read.from[s]);
+  return read.load.law.value({at.data(), signals.size()});
 }
 
 template <class S>
 double BasicBendWatch<S>::share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) {
+  constexpr double kPerTurn = 720;  // parts of a turn, at which it is looked at what reads places
   if (!(h > apart_)) return 1;
-  const double turns = turn_of(load, start, end) / kTurn;
-  const bool far = turns * kTurn > kFarTurn;
-  const std::array<double, kMaxSignals> from = system_.signal_values(load, t, start), to = system_.signal_values(load, t + h, end);
-  if ((!far && stays(load, from, to)) || jumps(load, from, to)) return 1;
-  if (far && turns * kPerTurn > kParts) return kParts / (turns * kPerTurn);  // no farther than can be looked at
-  const int n = static_cast<int>(std::min<double>(std::max({h / apart_, static_cast<double>(kFewParts), far ? turns * kPerTurn : 0}), kParts));
-  const std::size_t signals = load.signals.size();
-  if (far) {
-    samples_.take([&](double x) { return load.law.value({read_on_way(load, t, h, start, end, x).data(), signals}); }, 0, 1, n);
-  } else {
-    std::array<double, kMaxSignals> at{};
-    samples_.take([&](double x) {
-      for (std::size_t s = 0; s < signals; ++s) at[s] = from[s] + x * (to[s] - from[s]);
-      return load.law.value({at.data(), signals});
-    }, 0, 1, n);
-  }
+  const ReadInStep read = read_in_step(load, t, h, start, end);
+  if (read.stays() || read.jumps()) return 1;
+  const double of_turn = read.is_straight() ? 0 : kPerTurn * read.turn / kTurn;
+  if (of_turn > kParts) return kParts / of_turn;  // no farther than can be looked at
+  const int n = static_cast<int>(std::min<double>(std::max({h / apart_, static_cast<double>(kFewParts), of_turn}), kParts));
+  samples_.take([&](double x) { return effort_at(read, x); }, 0, 1, n);
   int passed = 0;
   double second = 1, third = 1;
   samples_.for_each_bend([&](double part) {
@@ -243,8 +240,8 @@ double BasicBendWatch<S>::missed_between_samples(double t, double h, const std::
     largest = std::max(largest, missed_between([&](double x) { return force.f->value(std::array{t + x * h}); }, over(scale.body[force.body][force.component])));
   for (const int l : timed_) {
     const BasicLoadData<S>& load = system_.loads[l];
-    const std::array<double, kMaxSignals> from = system_.signal_values(load, t, start), to = system_.signal_values(load, t + h, end);
-    if (!jumps(load, from, to)) largest = std::max(largest, missed_between([&](double x) { return load.law.value({read_on_way(load, t, h, start, end, x).data(), load.signals.size()}); }, over(load_in_gap_axes(load.at, scale)[load.component])));
+    const ReadInStep read = read_in_step(load, t, h, start, end);
+    if (!read.jumps()) largest = std::max(largest, missed_between([&](double x) { return effort_at(read, x); }, over(load_in_gap_axes(load.at, scale)[load.component])));
   }
   for (const int j : rubbing_) largest = std::max(largest, missed_friction(j, t + h, start, end, scale));
   return largest;

@@ -41,10 +41,21 @@ class BasicBendWatch {
   double place(const Way& way, const std::vector<typename S::Motion>& m) const;
   double place_at_end(const Way& way, double from, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const;
 
-  /// How far the bodies turn of which a load reads places, at most [rad].
-  double turn_of(const BasicLoadData<S>& load, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const;
-  /// What a load reads at the part x of a step: over the straight way from its start to its end, or, where bodies turn far, over cubic ways of their coordinates.
-  std::array<double, kMaxSignals> read_on_way(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end, double x);
+  /// What a load reads in a step of h from t.
+  struct ReadInStep {
+    const BasicLoadData<S>& load;
+    double t, h;
+    const std::vector<typename S::Motion>&start, &end;
+    std::array<double, kMaxSignals> from, to;  // what it reads there
+    double turn;                               // how far the bodies turn whose places it reads, at most [rad]
+
+    bool is_straight() const;
+    bool jumps() const;
+    bool stays() const;
+  };
+  ReadInStep read_in_step(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) const;
+  /// The effort at the part x of the step: over the straight way from what is read at its start to that at its end, or, where bodies turn far, over cubic ways of their coordinates.
+  double effort_at(const ReadInStep& read, double x);
   double share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end);
 
   const BasicSystem<S>& system_;
