@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include <string>
@@ -35,6 +36,9 @@ class StepControl {
     have_history = false;
     behind_event = false;
     rounding_ = floor_h_ = floor_error_ = 0;
+    same_ = 0;
+    same_function_ = -1;
+    steps_at_event_ = 0;
     event_ = {};
   }
 
@@ -68,7 +72,9 @@ class StepControl {
   static constexpr double kEventAtStart = 1e-5;   // of the usual step: an event this close to its start is crossed, if forces hold until then
   static constexpr int kSlow = 10;                // trials towards an event, after which they are taken for a sequence that comes nearer by a constant ratio: most come there in three
   static constexpr int kMostCrossed = 24;         // events that are crossed at the start of one step, at most
-  static constexpr double kUnseen = 0.01;         // of the tolerance: the error of a step over a kink that need not be met
+  static constexpr std::uint64_t kStepsBetween = 10;  // of two events of one function, at most, that count as in a row. With 2 a ram that rests on its stop meets 4000 of them in 10 s, with 10 a few
+  static constexpr int kMostSame = 8;                 // in a row, after which the next ones are met only if they matter
+  static constexpr double kUnseen = 0.01;             // of the tolerance: the error of a step over a kink that does not
   static constexpr double kShrink = 0.5;          // of the step, after Newton's iteration failed; the most that its contraction shortens the next one
   static constexpr double kContraction = 0.2;     // of Newton's iteration, that steps are chosen for
   static constexpr double kSteady = 0.9;          // of the error of the trial before: a shorter step has not made it smaller
@@ -104,13 +110,23 @@ class StepControl {
 
   double last_error_ = 0;  // over the tolerance
   double rounding_ = 0;    // of accelerations, over the tolerance: no step resolves it
+  int same_ = 0, same_function_ = -1;     // events in a row of one function
+  std::uint64_t steps_at_event_ = 0;      // made before the last of them
   double floor_h_ = 0, floor_error_ = 0;  // a step, and the error that shorter ones have not halved
   SwitchingEvent event_;
 
-  // Where nothing moves, the rounding of a speed is on either side of a kink in every step: one that the step's error does not show is passed over. What a law's states
-  // remember does not depend on it.
+  // Events of one function with few steps between them: where nothing moves, the rounding of a speed is on either side of a kink.
+  void count_same(const SwitchingEvent& event, const Counters& counters) {
+    same_ = event.function == same_function_ && counters.steps - steps_at_event_ <= kStepsBetween ? same_ + 1 : 1;
+    same_function_ = event.function;
+    steps_at_event_ = counters.steps;
+  }
+  bool repeats(const SwitchingEvent& event, const Counters& counters) const {
+    return event.function == same_function_ && same_ >= kMostSame && counters.steps - steps_at_event_ <= kStepsBetween;
+  }
+  // Where nothing moves, a kink that the step's error does not show need not be met. What a law's states remember does.
   template <class Method>
-  static bool has_to_be_met(Method& method, const SwitchingEvent& event, double h, double tolerance) {
+  static bool matters(Method& method, const SwitchingEvent& event, double h, double tolerance) {
     double error = 0;
     return method.sets_states(event) || !method.rests(h) || !method.error_estimate(h, error) || !(error <= kUnseen * tolerance);
   }
@@ -185,7 +201,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     const bool flickering = crossed >= kMostCrossed;
     SwitchingEvent event = (solved || retry > 0) && !flickering ? method.locate_event(h, solved) : SwitchingEvent{};
     if (event.before * h < kEventAtStart * usual && !flickering) locate_near_start(method, h, event);
-    if (solved && event.after < 1 && !has_to_be_met(method, event, h, tolerance)) event = SwitchingEvent{};
+    if (solved && event.after < 1 && repeats(event, counters) && !matters(method, event, h, tolerance)) event = SwitchingEvent{};
     if (event.after < 1) {
       ahead = event;
       ahead.t = method.t() + event.before * h;
@@ -194,6 +210,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     if (event.before < 1 && event.before * h < 2 * kEventAtStart * usual && method.forces_stay_constant(event.before * h)) {
       ++counters.events;
       event_ = ahead;
+      count_same(event, counters);
       method.cross_event(event.before * h, event);
       ++crossed;
       retry = -1;  // it has moved on
