@@ -144,7 +144,7 @@ typename BasicBendWatch<S>::ReadInStep BasicBendWatch<S>::read_in_step(const Bas
 
 template <class S>
 bool BasicBendWatch<S>::ReadInStep::is_straight() const {
-  constexpr double kFarTurn = 0.3;  // [rad]
+  constexpr double kFarTurn = 0.3;  // [rad]. With 3 a rotor that turns in a field ends with exit code 7; 0.15 and 0.6 are as good
   return turn <= kFarTurn;
 }
 
@@ -182,7 +182,7 @@ double BasicBendWatch<S>::effort_at(const ReadInStep& read, double x) {
 
 template <class S>
 double BasicBendWatch<S>::share_of_effort(const BasicLoadData<S>& load, double t, double h, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end) {
-  constexpr double kPerTurn = 720;  // parts of a turn, at which it is looked at what reads places
+  constexpr double kPerTurn = 720;  // parts of a turn, at which it is looked at what reads places. With 8 three of 18 rotors in narrow fields end with exit code 7; 360 and 1440 are as good
   if (!(h > apart_)) return 1;
   const ReadInStep read = read_in_step(load, t, h, start, end);
   if (read.stays() || read.jumps()) return 1;

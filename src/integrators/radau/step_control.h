@@ -74,7 +74,6 @@ class StepControl {
   static constexpr int kMostCrossed = 24;         // events that are crossed at the start of one step, at most
   static constexpr std::uint64_t kStepsBetween = 10;  // of two events of one function, at most, that count as in a row. With 2 a ram that rests on its stop meets 4000 of them in 10 s, with 10 a few
   static constexpr int kMostSame = 8;                 // in a row, after which the next ones are met only if they matter
-  static constexpr double kUnseen = 0.01;             // of the tolerance: the error of a step over a kink that does not
   static constexpr double kShrink = 0.5;          // of the step, after Newton's iteration failed; the most that its contraction shortens the next one
   static constexpr double kContraction = 0.2;     // of Newton's iteration, that steps are chosen for
   static constexpr double kSteady = 0.9;          // of the error of the trial before: a shorter step has not made it smaller
@@ -128,7 +127,7 @@ class StepControl {
   template <class Method>
   static bool matters(Method& method, const SwitchingEvent& event, double h, double tolerance) {
     double error = 0;
-    return method.sets_states(event) || !method.rests(h) || !method.error_estimate(h, error) || !(error <= kUnseen * tolerance);
+    return method.sets_states(event) || !method.rests(h) || !method.error_estimate(h, error) || !(error <= tolerance);
   }
 
   // Whether half of a step has more than half of its error.
