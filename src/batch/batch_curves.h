@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "base/cubic_hermite.h"
 #include "batch/batch_projector.h"
 #include "integrators/dense/force_samples.h"
 #include "integrators/radau/radau_table.h"
@@ -60,7 +61,7 @@ class BatchCurves {
       const auto &value = samples_.value[i], &once = samples_.once[i], &twice = samples_.twice[i], &whole = samples_.once[kSamples + 1],
                  &whole_twice = samples_.twice[kSamples + 1];
       const auto combined = [](const ForceSamples::AtNodes& w, const VariantLanes* a) { return w[0] * a[0] + w[1] * a[1] + w[2] * a[2] + w[3] * a[3]; };
-      const double hermite = x * x * (3 - 2 * x);
+      const double hermite = cubic_blend(x);
       const auto along = [&](std::size_t count, const std::array<VariantVecs, N + 1>& of, const VariantVecs& x0, const VariantVecs& v0, const VariantVecs& x1,
                              const VariantVecs& v1, VariantVecs* position, VariantVecs& rate, VariantVecs* accel) {
         for (std::size_t b = 0; b < count; ++b)

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "base/constants.h"
-#include "integrators/dense/cubic_hermite.h"
+#include "base/cubic_hermite.h"
 #include "joints/cam_profile.h"
 #include "joints/edge_profile.h"
 #include "laws/law.h"

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/cubic_hermite.h"
+
 namespace pintle {
 
 double length(const Vec2& a) { return std::hypot(a[0], a[1]); }
@@ -62,8 +64,7 @@ std::vector<Vec2> cubic_curve(const Vec2& a, const Vec2& along_a, const Vec2& b,
   constexpr int kPieces = 16;
   std::vector<Vec2> points;
   for (int i = 0; i <= kPieces; ++i) {
-    const double s = static_cast<double>(i) / kPieces, left = 1 - s, square = s * s * (3 - 2 * s);
-    points.push_back((1 - square) * a + square * b + s * left * left * along_a + -s * s * left * along_b);
+    points.push_back(cubic_hermite(static_cast<double>(i) / kPieces, 1, a, along_a, b, along_b));
   }
   return points;
 }

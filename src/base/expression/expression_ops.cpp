@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/cubic_hermite.h"
+
 namespace pintle {
 namespace {
 
@@ -42,8 +44,7 @@ double sign(double a) {
 double smoothstep(double a, double b, double x) {
   if (std::isnan(a) || std::isnan(b) || std::isnan(x)) return kNan;
   if (a == b) return x >= a ? 1 : 0;
-  const double s = std::clamp((x - a) / (b - a), 0.0, 1.0);
-  return s * s * (3 - 2 * s);
+  return cubic_blend(std::clamp((x - a) / (b - a), 0.0, 1.0));
 }
 
 double truth(bool holds, double a, double b) {

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "base/cubic_hermite.h"
 #include "integrators/dense/force_samples.h"
 
 namespace pintle {
@@ -14,7 +15,7 @@ struct CurveWeights {
   double end_mismatch_weight;                      // of what the second integral misses the far end by; the first takes x of it
 
   /// At the share x of a step of h seconds.
-  CurveWeights(double x, double h) : end_mismatch_weight(x * x * (3 - 2 * x)) {
+  CurveWeights(double x, double h) : end_mismatch_weight(cubic_blend(x)) {
     double power = 1;
     for (int k = 0; k < kMost; ++k, power *= x) {
       value[k] = power;

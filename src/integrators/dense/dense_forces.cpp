@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/cubic_hermite.h"
 #include "integrators/absolute/pose_blocks.h"
 #include "integrators/radau/stage_lanes.h"
 #include "simd/processor_registers.h"
@@ -67,7 +68,7 @@ class LaneForces : public BasicDenseForces<S> {
     for (int s = 0; s < kN; ++s) {
       const double at = samples.x[s + 1];
       x.set(s, at);
-      hermite.set(s, at * at * (3 - 2 * at));
+      hermite.set(s, cubic_blend(at));
       t_.set(s, begin.t + at * h);
       for (int node = 0; node < n; ++node) {
         value[node].set(s, samples.value[s + 1][node]);

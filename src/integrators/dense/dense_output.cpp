@@ -3,7 +3,7 @@
 #include <array>
 #include <type_traits>
 
-#include "integrators/dense/cubic_hermite.h"
+#include "base/cubic_hermite.h"
 #include "integrators/force_evaluator.h"
 
 namespace pintle {
@@ -56,7 +56,7 @@ const BasicState<S>& BasicDenseOutput<S>::at(double t, const BasicState<S>& begi
     const double r = 1 - s;
     for (std::size_t i = 0; i < out_.q.size(); ++i) {
       const typename S::Vec dq = S::difference(end.q[i], begin.q[i]), rate = S::rate_of_increment(dq, end.v[i]);
-      out_.q[i] = S::moved(begin.q[i], s * s * (3 - 2 * s) * dq + h * s * r * (r * begin.v[i] - s * rate));
+      out_.q[i] = S::moved(begin.q[i], cubic_blend(s) * dq + h * s * r * (r * begin.v[i] - s * rate));
       out_.v[i] = cubic_hermite(s, h, begin.v[i], begin.a[i], end.v[i], end.a[i]);
       out_.a[i] = cubic_hermite_slope(s, h, begin.v[i], begin.a[i], end.v[i], end.a[i]);
     }

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "integrators/dense/cubic_hermite.h"
+#include "base/cubic_hermite.h"
 #include "integrators/thresholds.h"
 
 namespace pintle {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "integrators/dense/cubic_hermite.h"
+#include "base/cubic_hermite.h"
 #include "integrators/ideal/ideal_equations.h"
 #include "integrators/thresholds.h"
 

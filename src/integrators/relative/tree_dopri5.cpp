@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "integrators/dense/cubic_hermite.h"
+#include "base/cubic_hermite.h"
 #include "integrators/dormand_prince.h"
 #include "integrators/load_scale.h"
 #include "integrators/thresholds.h"

@@ -3,11 +3,16 @@
 
 namespace pintle {
 
+/// The cubic from 0 at s = 0 to 1 at s = 1 with no slope at either. N: a number or lanes of them.
+template <class N>
+N cubic_blend(const N& s) {
+  return s * s * (3 - 2 * s);
+}
 /// At the share s of a step of h; x and its derivative d at the begin and at the end. X: a number or a vector.
 template <class X>
 X cubic_hermite(double s, double h, const X& x0, const X& d0, const X& x1, const X& d1) {
   const double r = 1 - s;
-  return x0 + s * s * (3 - 2 * s) * (x1 - x0) + h * s * r * (r * d0 - s * d1);
+  return x0 + cubic_blend(s) * (x1 - x0) + h * s * r * (r * d0 - s * d1);
 }
 /// Its derivative by time.
 template <class X>
