@@ -225,7 +225,7 @@ class PageData {
                             {"to", end_of(connector.to)}, {"line", std::move(line)}, {"length", connector.length}});
       if (connector.radii[0] != 0 || connector.radii[1] != 0) connectors.back()["radii"] = connector.radii;
       if (connector.paint != Paint::kBarrel) continue;
-      connectors.back()["barrel"] = Connector::kBarrelOfLength * connector.length;
+      connectors.back()["barrel"] = connector.length;
       connectors.back()["half_width"] = Connector::kHalfBarrel * scene_.unit;
     }
     for (const ForceArrow& arrow : scene_.arrows)

@@ -25,6 +25,9 @@ double span(const std::vector<Vec2>& points) {
   return largest;
 }
 
+// The piston stays inside at either end of the stroke, as far as one stage can.
+double barrel_length(double closed_length, double stroke) { return std::clamp((closed_length + stroke) / 2, 0.93 * closed_length, closed_length); }
+
 }  // namespace
 
 void Box::cover(const Vec2& p, double around) {
@@ -169,7 +172,7 @@ void SceneMaker::add_connectors() {
     connect(joint.name, joint.first, joint.second, belt ? Paint::kRope : Paint::kBarrel);
     for (std::size_t i = before; i < scene_.connectors.size(); ++i) {
       if (belt) scene_.connectors[i].radii = {belt->radius_first, belt->radius_second};
-      else scene_.connectors[i].length = joint.geometry.at("closed_length");
+      else scene_.connectors[i].length = barrel_length(joint.geometry.at("closed_length"), joint.geometry.at("stroke"));
     }
   }
   for (const Spring& spring : model_.springs) {

@@ -55,9 +55,9 @@ struct Connector {
   Paint paint = Paint::kSpring;
   Anchor from, to;
   int teeth = 0;      ///< of a spring's zigzag
-  double length = 0;  ///< of a blade; between the ends of a cylinder with its rod in [m]
+  double length = 0;  ///< of a blade; of a cylinder's barrel, and of its rod from the piston to its end [m]
   std::array<double, 2> radii{0, 0};  ///< of the discs of a belt, positive where it is on their left [m]
-  static constexpr double kBarrelOfLength = 0.93, kHalfBarrel = 1.1;  ///< of a cylinder: barrel and rod over that length; half the barrel's width in units
+  static constexpr double kHalfBarrel = 1.1;  ///< half the width of a cylinder's barrel, in units
 };
 
 struct NamedPoint {

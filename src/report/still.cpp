@@ -102,10 +102,11 @@ class Drawing {
     }
   }
 
-  // The barrel from its point on, and the rod with its piston, as long as the barrel, from the other one back.
+  // The barrel from its point on, and the rod with its piston, as long as the barrel, from the other one back; of several stages the last one.
   void draw_cylinder(const Connector& connector) {
     const Vec2 a = instant_.place(connector.from), b = instant_.place(connector.to), along = unit(b - a);
-    const Vec2 across = Connector::kHalfBarrel * scene_.unit * normal(along), barrel = Connector::kBarrelOfLength * connector.length * along, piston = b - barrel;
+    const Vec2 across = Connector::kHalfBarrel * scene_.unit * normal(along), barrel = connector.length * along;
+    const Vec2 piston = b - std::max(connector.length, length(b - a) - connector.length) * along;
     const PaintStyle& style = style_of(connector.paint);
     put("<path d=\"{}\" {} fill=\"{}\"/>\n", path_text({px(a - across), px(a + barrel - across), px(a + barrel + across), px(a + across)}, true), pen(style, kWorld), style.fill[options_.dark]);
     put("<path d=\"{}{}\" {}/>\n", path_text({px(piston), px(b)}, false), path_text({px(piston - across), px(piston + across)}, false), pen(style_of(Paint::kRod), kWorld));

@@ -214,8 +214,9 @@ class Stage {
     return [[a[0] + r * x, a[1] + r * y], [b[0] + s * x, b[1] + s * y]];
   }
 
-  /** The barrel from its point on, and the rod with its piston, as long as the barrel, from the other one back. */
+  /** The barrel from its point on, and the rod with its piston, as long as the barrel, from the other one back; of several stages the last one. */
   drawCylinder(g, a, [x, y], b, { barrel, half_width: w }, style) {
+    const l = Math.hypot(b[0] - a[0], b[1] - a[1]), rod = Math.max(barrel, l - barrel);
     const corner = (from, along, across) => [from[0] + along * x - across * w * y, from[1] + along * y + across * w * x];
     for (const [along, across] of [[0, -1], [barrel, -1], [barrel, 1], [0, 1]]) g.lineTo(...corner(a, along, across));
     g.closePath();
@@ -224,10 +225,10 @@ class Stage {
     g.stroke();
     g.lineWidth *= run.paints.styles.rod.width / style.width;
     g.beginPath();
-    g.moveTo(...corner(b, -barrel, 0));
+    g.moveTo(...corner(b, -rod, 0));
     g.lineTo(...b);
-    g.moveTo(...corner(b, -barrel, -1));
-    g.lineTo(...corner(b, -barrel, 1));
+    g.moveTo(...corner(b, -rod, -1));
+    g.lineTo(...corner(b, -rod, 1));
     g.stroke();
   }
 

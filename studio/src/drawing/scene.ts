@@ -209,7 +209,7 @@ export class Scene {
 
   private drawJoint(model: Model, joint: Joint): void {
     if (joint.type === "rod" || joint.type === "rope" || joint.type === "belt") return this.drawTie(model, joint);
-    if (joint.closedLength !== null) return this.drawCylinder(model, joint, joint.closedLength * this.scale);
+    if (joint.barrel !== null) return this.drawCylinder(model, joint, joint.barrel * this.scale);
     if (joint.type === "gear" || joint.type === "rack" || joint.type === "cam") return;
     for (const blade of joint.blades) this.drawBlade(model, joint, blade);
     const end = joint.type === "prismatic" || joint.type === "slot" ? guideEnds(joint).runner : joint.second;
@@ -258,7 +258,7 @@ export class Scene {
     for (const end of [a, b]) this.follow(path(circle(0, 0, PIN - 1), "pin", this.layers.pins), end.body, end.at, 0, false);
   }
 
-  private drawCylinder(model: Model, joint: Joint, closed: number): void {
+  private drawCylinder(model: Model, joint: Joint, barrelLength: number): void {
     const one = group("cylinder", this.layers.links);
     const barrel = path("", "barrel", one);
     const rod = path("", "tie rod", one);
@@ -268,7 +268,7 @@ export class Scene {
     this.onFrame((frame) => {
       const [x, y] = this.at(frame, a.body, a.at);
       const [u, v] = this.at(frame, b.body, b.at);
-      const shape = cylinder(distance([x, y], [u, v]), closed);
+      const shape = cylinder(distance([x, y], [u, v]), barrelLength);
       barrel.setAttribute("d", shape.barrel);
       rod.setAttribute("d", shape.rod);
       put(one, x, y, -Math.atan2(v - y, u - x));

@@ -77,11 +77,10 @@ export function dashpot(length: number): string {
   return `M0 0H${f(mid - cup)}M${f(mid - cup)} -7V7M${f(mid - cup)} -7H${f(mid + cup)}M${f(mid - cup)} 7H${f(mid + cup)}M${f(mid)} -5V5M${f(mid)} 0H${f(length)}`;
 }
 
-/** A cylinder along x: the barrel from its point on, and the rod with its piston, as long as the barrel, back from its own end. */
-export function cylinder(length: number, closed: number): { barrel: string; rod: string } {
-  const long = 0.93 * closed;
-  const piston = length - long;
-  return { barrel: `M0 -9H${f(long)}V9H0Z`, rod: `M${f(piston)} 0H${f(length)}M${f(piston)} -9V9` };
+/** A cylinder along x: the barrel from its point on, and the rod with its piston, as long as the barrel, back from its own end; of several stages the last one. */
+export function cylinder(length: number, barrelLength: number): { barrel: string; rod: string } {
+  const piston = Math.min(length - barrelLength, barrelLength);
+  return { barrel: `M0 -9H${f(barrelLength)}V9H0Z`, rod: `M${f(piston)} 0H${f(length)}M${f(piston)} -9V9` };
 }
 
 /** Both ends of a belt between discs about two points; a radius is positive where the belt, seen from the first, is turned +90 degrees from the middle. */

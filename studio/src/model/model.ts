@@ -47,7 +47,7 @@ export interface Joint {
   discs: [number, number];
   internal: boolean;
   /** Between the ends of a cylinder with its rod in; null for other types. */
-  closedLength: number | null;
+  barrel: number | null;
   /** The blades of a flexure; none for other laws. */
   blades: Blade[];
   profile: Profile | null;
@@ -248,10 +248,15 @@ function readJoint(name: string, table: TableNode, number: Reading, parameters: 
     radius: number(table.entries.get("radius")),
     discs: textOf(table.entries.get("type")) === "belt" ? readDiscs(table, number) : [0, 0],
     internal: textOf(table.entries.get("mesh")) === "internal",
-    closedLength: textOf(table.entries.get("type")) === "cylinder" ? (number(table.entries.get("closed_length")) ?? 0) : null,
+    barrel: textOf(table.entries.get("type")) === "cylinder" ? barrelLength(number(table.entries.get("closed_length")) ?? 0, number(table.entries.get("stroke")) ?? 0) : null,
     blades: readBlades(table, number),
     profile: readProfile(table, number, parameters),
   };
+}
+
+// The piston stays inside at either end of the stroke, as far as one stage can.
+function barrelLength(closedLength: number, stroke: number): number {
+  return Math.min(Math.max((closedLength + stroke) / 2, 0.93 * closedLength), closedLength);
 }
 
 // Of a belt: positive where it is on the left of the disc.
