@@ -8,11 +8,10 @@ namespace pintle {
 
 template <int M>
 struct Dual {
-  double v = 0;
-  double d[M] = {};
+  double v, d[M];
 
-  Dual() = default;
-  explicit Dual(double value) : v(value) {}
+  Dual() = default;  // not set, as a plain number is
+  explicit Dual(double value) : v(value), d{} {}
   /// The variable number `i` at `value`.
   static Dual variable(double value, int i) {
     Dual x(value);
@@ -33,14 +32,21 @@ struct Dual {
 
   /// f(a) with the slope df there.
   static Dual scaled(double f, double df, const Dual& a) {
-    Dual r(f);
+    Dual r;
+    r.v = f;
     for (int i = 0; i < M; ++i) r.d[i] = df * a.d[i];
     return r;
+  }
+  /// Adds what a function of a adds: its value f and its slope df there.
+  void add(double f, double df, const Dual& a) {
+    v += f;
+    for (int i = 0; i < M; ++i) d[i] += df * a.d[i];
   }
 
  private:
   static Dual combined(double value, double by_a, const Dual& a, double by_b, const Dual& b) {
-    Dual r(value);
+    Dual r;
+    r.v = value;
     for (int i = 0; i < M; ++i) r.d[i] = by_a * a.d[i] + by_b * b.d[i];
     return r;
   }

@@ -65,17 +65,17 @@ class BasicLaw {
   /// Over any number type of PINTLE_LAW_NUMBERS. Fills `out` whole; in.before need not be set.
   template <class T>
   void evaluate(LawInput<T, S::kDof> in, LawOutput<T, S::kDof>& out) const {
-    out.clear();
+    out.clear(n_states_);
     linear_.evaluate(in, out);
     for (int first = 0; const auto& part : parts_) {
       std::copy(std::begin(out.force), std::end(out.force), in.before);
       LawOutput<T, S::kDof> one;
-      one.clear();
+      one.clear(part->n_states());
       part->evaluate(in, one);
-      for (int k = 0; k < S::kDof; ++k) out.force[k] += one.force[k];
+      for (int k = 0; k < S::kDof; ++k) law_math::add(1, one.force[k], out.force[k]);
       for (int z = 0; z < part->n_states(); ++z) out.state_rate[first + z] = one.state_rate[z];
-      out.energy += one.energy;
-      out.loss += one.loss;
+      law_math::add(1, one.energy, out.energy);
+      law_math::add(1, one.loss, out.loss);
       in.state += part->n_states();
       first += part->n_states();
     }

@@ -19,6 +19,16 @@ Lanes<N> each(const Lanes<N>& x, F f) {
   return r;
 }
 
+/// Adds a x, or a x^2, to a sum.
+template <class T>
+void add(double a, const T& x, T& sum) { sum += a * x; }
+template <int M>
+void add(double a, const Dual<M>& x, Dual<M>& sum) { sum.add(a * x.v, a, x); }
+template <class T>
+void add_square(double a, const T& x, T& sum) { sum += a * (x * x); }
+template <int M>
+void add_square(double a, const Dual<M>& x, Dual<M>& sum) { sum.add(a * (x.v * x.v), 2 * a * x.v, x); }
+
 /// f(x), where `slope` is the derivative of f.
 template <class F, class D>
 double through(double x, F f, D) { return f(x); }

@@ -27,9 +27,10 @@ struct LawOutput {
   T state_rate[kMostLawStates];  // of the law's own states
   T energy, loss;                // stored [J]; power that is lost [W]
 
-  void clear() {
+  /// Nothing acts; the rates of the first `states` states are zero.
+  void clear(int states = kMostLawStates) {
     for (T& f : force) f = T(0.0);
-    for (T& z : state_rate) z = T(0.0);
+    for (int z = 0; z < states; ++z) state_rate[z] = T(0.0);
     energy = loss = T(0.0);
   }
 };

@@ -8,6 +8,7 @@
 
 #include <string_view>
 
+#include "laws/law_math.h"
 #include "laws/law_numbers.h"
 #include "laws/response.h"
 
@@ -46,9 +47,10 @@ struct BasicLinearLaw {
   template <class T>
   void evaluate(const LawInput<T, S::kDof>& in, LawOutput<T, S::kDof>& out) const {
     for (int i = 0; i < S::kDof; ++i) {
-      out.force[i] -= k[i] * in.gap[i] + c[i] * in.rate[i];
-      out.energy += 0.5 * k[i] * (in.gap[i] * in.gap[i]);
-      out.loss += c[i] * (in.rate[i] * in.rate[i]);
+      law_math::add(-k[i], in.gap[i], out.force[i]);
+      law_math::add(-c[i], in.rate[i], out.force[i]);
+      law_math::add_square(0.5 * k[i], in.gap[i], out.energy);
+      law_math::add_square(c[i], in.rate[i], out.loss);
     }
   }
   Vec engaged_stiffness() const { return k; }
