@@ -85,7 +85,7 @@ class StepControl {
   // Of the way to an event: a step that ends so soon, for its error, is a usual one. Of the block in LinearContact half of it refuses 2400 steps and double of it
   // 630, where this refuses 1100; not a step changes in the worn pins and wheels of the collection. With all of the way, pins that stick take twice the steps.
   static constexpr double kOnTheWay = 0.01;
-  static constexpr double kSafety = 0.85, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;  // of the step for which the error would be the tolerance; the least ratio of two steps; the largest; the largest after the first step
+  static constexpr double kSafety = 0.9, kLeast = 0.15, kMost = 4, kMostAtFirst = 100;  // of the step for which the error would be the tolerance; the least ratio of two steps; the largest; the largest after the first step
 
   static constexpr double kSame = 0.95, kSameAbove = 1.1;  // ratio of two steps from which on the step is kept, and with it the factorised Jacobians; up to which it is
 
@@ -171,7 +171,7 @@ template <class Method>
 bool StepControl::advance(Method& method, double t_end, double tolerance, int order, Counters& counters) {
   method.begin_at_end();
   double h = longest > 0 ? std::min(next, longest) : next;
-  bool up_to_event = false, refused = false;  // by Newton's iteration, or for its error: the next step is no longer
+  bool up_to_event = false, refused = false;  // by Newton's iteration
   double error_before = 0;                   // of the trial before, over the tolerance
   int steady = 0;                            // trials in a row that were shorter, and no better
   bool renewed = false;                      // the start, for this trial
@@ -243,7 +243,6 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     if (jump) factor = kMost;
     if (error > 1 && !jump) {
       ++counters.rejected;
-      refused = true;
       steady = measured > kSteady * error_before ? steady + 1 : 0;
       error_before = measured;
       renewed = steady == kMostSteady;

@@ -6,15 +6,22 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
+
+#include "laws/flexures/blade_basis.h"
 
 namespace pintle {
 namespace {
 
-constexpr int kUnknowns = BladeBasis::kMost + 2, kPoints = BladeBasis::kMostPoints;
-using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kUnknowns, 1>;
-using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kUnknowns, kUnknowns>;
-using Field = Eigen::Array<double, Eigen::Dynamic, 1, 0, kPoints, 1>;  // one number per point of the quadrature
 using Vec3 = Eigen::Vector3d;
+
+// Slope angle of the blade, end forces.
+struct BladeShape {
+  int level = 0;                          // of BladeBasis
+  double theta = 0;                       // slope at the far end [rad]
+  double c[BladeBasis::kMost] = {};       // of the functions of the basis
+  double n[2] = {};                       // force on the far end, along and across the unloaded blade
+};
 
 constexpr int kBladeNewton = 30;                    // most iterations for the shape of a blade
 constexpr double kSettled = 1e-10;             // relative step after which the error is its square
@@ -25,151 +32,291 @@ constexpr int kFinest = 512;                   // parts into which the path is h
 constexpr double kMostTension = 1e5;           // in units of EI/L^2: beyond, functions of the basis do not follow the bend at the clamps
 constexpr double kSurelyStable = std::numbers::pi * std::numbers::pi;
 
-// Of a symmetric matrix: as many as there are negative pivots (Sylvester's law of inertia).
-int negative_eigenvalues(Square H) {
-  int negative = 0;
-  for (Eigen::Index k = 0; k < H.rows(); ++k) {
-    const double pivot = H(k, k) != 0 ? H(k, k) : std::numeric_limits<double>::min();
-    negative += pivot < 0;
-    const Eigen::Index left = H.rows() - k - 1;
-    const Column below = H.col(k).tail(left);
-    for (Eigen::Index j = 0; j < left; ++j) H.col(k + 1 + j).tail(left) -= (below[j] / pivot) * below;
+// With N functions of the basis.
+template <int N>
+class BentBlade {
+  static constexpr int kPoints = N + BladeBasis::kMorePoints, kUnknowns = N + 2;
+  using Column = Eigen::Matrix<double, kUnknowns, 1>;
+  using Square = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+  using Field = Eigen::Array<double, kPoints, 1>;  // one number per point of the quadrature
+  using Functions = Eigen::Matrix<double, kPoints, N>;
+
+ public:
+  BentBlade(const BladeBasis& basis, double axial, double shear)
+      : axial_(axial), shear_(shear), s_(basis.s.data()), w_(basis.w.data()), angle_(basis.angle.data()), curvature_(basis.curvature.data()) {}
+
+  // Newton's method.
+  bool refine(const Vec3& displacement, BladeShape& shape) {
+    double last = std::numeric_limits<double>::infinity();
+    for (int iteration = 0; iteration < kBladeNewton; ++iteration) {
+      assemble(shape, displacement);
+      lu_.compute(H_);
+      const Column step = lu_.solve(-residual_);
+      if (!step.allFinite()) return false;
+      const double turned = step.template head<N>().norm(), pushed = step.template tail<2>().norm();
+      coefficients(shape) += step.template head<N>();
+      for (int k = 0; k < 2; ++k) shape.n[k] += step[N + k];
+      const double angles = coefficients(shape).norm() + std::abs(shape.theta), forces = std::hypot(shape.n[0], shape.n[1]) + angles;
+      const double relative = std::max(angles > 0 ? turned / angles : 0, forces > 0 ? pushed / forces : 0);
+      if (relative <= kSettled || (relative < kRounding && relative > 0.5 * last)) {
+        assemble(shape, displacement);
+        return is_stable();
+      }
+      last = relative;
+    }
+    return false;
   }
-  return negative;
-}
 
-}  // namespace
+  // Whether so many functions follow the shape and changes of it, to within `share`: of exp(k s), whose k is the root of the force along the blade, the
+  // coefficients fall as exp(-n^2/k).
+  bool follows_changes() const { return N * N >= -std::log(kTail) * std::sqrt(turns_.abs().maxCoeff()); }
+  bool follows_shape(const BladeShape& shape, double share) const {
+    double size = std::abs(shape.theta);
+    for (int i = 0; i < N; ++i) size = std::max(size, std::abs(shape.c[i]) / std::sqrt(2 * i + 3));
+    return std::max(std::abs(shape.c[N - 1]), std::abs(shape.c[N - 2])) / std::sqrt(2 * N + 1) <= share * size;
+  }
 
-struct Blade::Work {
-  const BladeBasis* basis = nullptr;
-  Field slope, cosine, sine, versine;  // 1 - cosine in `versine`
-  Field N, Q;                          // force along and across the blade
-  Field bends, turns;                  // derivative of the integrand of Eq. (2.3) by the slope, and the second one
-  Square H;                            // of the unknowns (c, n)
-  Column residual, by_theta;           // and their column for theta
-  double moment = 0, moment_by_theta = 0;
-  Eigen::PartialPivLU<Square> lu;
-  Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kUnknowns, 3> follows;  // of the unknowns by the displacement
+  // What follows is at the equilibrium that has been found.
+  BladeAnswer answer(const BladeShape& shape, const Vec3& rate, bool with_slopes) {
+    lu_.compute(H_);
+    BladeAnswer out;
+    out.force << shape.n[0], shape.n[1], moment_;
+    out.energy = 0.5 * (shape.theta * shape.theta + bending(coefficients(shape), coefficients(shape))) + 0.5 * (w_ * (axial_ * N_.square() + shear_ * Q_.square())).sum();
+    Eigen::Matrix<double, kUnknowns, 3> right = Eigen::Matrix<double, kUnknowns, 3>::Zero();
+    right(N, 0) = right(N + 1, 1) = -1;
+    right.col(2) = -by_theta_;
+    follows_ = lu_.solve(right);  // (2.7)
+    for (int k = 0; k < 3; ++k) {
+      out.stiffness(0, k) = follows_(N, k);
+      out.stiffness(1, k) = follows_(N + 1, k);
+      out.stiffness(2, k) = by_theta_.dot(follows_.col(k)) + (k == 2 ? moment_by_theta_ : 0);
+    }
+    find_losses(rate, with_slopes, out);
+    return out;
+  }
+
+  double largest(const BladeShape& shape, const Vec3& displacement, double by_bending, double by_pull) const {
+    const Field curvature = shape.theta + (curvature_ * coefficients(shape)).array();
+    const double inside = (by_bending * curvature.abs() + by_pull * N_.abs()).maxCoeff();
+    // At the ends from the balance of moments, which the forces fulfil better than the series does.
+    const double far = moment_, near = far + (1 + displacement[0]) * shape.n[1] - displacement[1] * shape.n[0];
+    const double pull = shape.n[0] * std::cos(shape.theta) + shape.n[1] * std::sin(shape.theta);
+    return std::max({inside, by_bending * std::abs(far) + by_pull * std::abs(pull), by_bending * std::abs(near) + by_pull * std::abs(shape.n[0])});
+  }
+
+ private:
+  template <class Shape>
+  static auto coefficients(Shape& shape) {
+    using Numbers = std::conditional_t<std::is_const_v<Shape>, const Eigen::Matrix<double, N, 1>, Eigen::Matrix<double, N, 1>>;
+    return Eigen::Map<Numbers>(shape.c);
+  }
+
+  // The integral of P_(i+1) squared over s.
+  static double own(int i) { return 1.0 / (2 * i + 3); }
+  template <class A, class B>
+  static double bending(const A& a, const B& b) {
+    double sum = 0;
+    for (int i = 0; i < N; ++i) sum += own(i) * a[i] * b[i];
+    return sum;
+  }
+
+  // The integrals of `field` with each function.
+  auto against_functions(const Field& field) const -> Eigen::Matrix<double, N, 1> { return angle_.transpose().lazyProduct(field.matrix()); }
+
+  // Slope along the blade and forces in its axes: Eqs. (2.2), (2.4).
+  void follow_slope(const BladeShape& shape) {
+    slope_ = shape.theta * s_ + angle_.lazyProduct(coefficients(shape)).array();
+    for (int q = 0; q < kPoints; ++q) {
+      const double half_sine = std::sin(0.5 * slope_[q]), half_cosine = std::cos(0.5 * slope_[q]);
+      sine_[q] = 2 * half_sine * half_cosine;
+      versine_[q] = 2 * half_sine * half_sine;
+    }
+    cosine_ = 1 - versine_;
+    N_ = shape.n[0] * cosine_ + shape.n[1] * sine_;
+    Q_ = shape.n[1] * cosine_ - shape.n[0] * sine_;
+    const double difference = axial_ - shear_;
+    bends_ = -Q_ - difference * N_ * Q_;
+    turns_ = N_ + difference * (N_.square() - Q_.square());
+  }
+
+  // First and second derivatives of Eq. (2.3): Eqs. (2.5), (2.6).
+  void assemble(const BladeShape& shape, const Vec3& displacement) {
+    follow_slope(shape);
+    const double difference = axial_ - shear_;
+    const Field turned = w_ * turns_, along = w_ * (sine_ + difference * (N_ * sine_ - Q_ * cosine_)),
+                across = -w_ * (cosine_ + difference * (Q_ * sine_ + N_ * cosine_)), bends = w_ * bends_;
+    const Functions weighted = turned.matrix().asDiagonal() * angle_;
+    if constexpr (N <= kSmall) H_.template topLeftCorner<N, N>() = angle_.transpose().lazyProduct(weighted);
+    else H_.template topLeftCorner<N, N>().noalias() = angle_.transpose() * weighted;
+    H_.template block<N, 1>(0, N) = against_functions(along);
+    H_.template block<N, 1>(0, N + 1) = against_functions(across);
+    H_.template bottomLeftCorner<2, N>() = H_.template topRightCorner<N, 2>().transpose();
+    residual_.template head<N>() = against_functions(bends);
+    for (int i = 0; i < N; ++i) {
+      H_(i, i) += own(i);
+      residual_[i] += own(i) * shape.c[i];
+    }
+    by_theta_.template head<N>() = against_functions(turned * s_);
+    const auto &c = cosine_, &s = sine_;
+    H_(N, N) = -(w_ * (axial_ * c.square() + shear_ * s.square())).sum();
+    H_(N + 1, N + 1) = -(w_ * (axial_ * s.square() + shear_ * c.square())).sum();
+    H_(N, N + 1) = H_(N + 1, N) = -difference * (w_ * c * s).sum();
+    residual_[N] = displacement[0] + (w_ * (versine_ - axial_ * N_ * c + shear_ * Q_ * s)).sum();
+    residual_[N + 1] = displacement[1] - (w_ * (s + axial_ * N_ * s + shear_ * Q_ * c)).sum();
+    by_theta_[N] = (along * s_).sum();
+    by_theta_[N + 1] = (across * s_).sum();
+    moment_ = shape.theta + (bends * s_).sum();
+    moment_by_theta_ = 1 + (turned * s_.square()).sum();
+  }
+
+  // Whether the second variation is positive for all changes that leave the ends where they are. It is where no part of the blade carries
+  // more than the compression under which a blade buckles that is held against turning alone; else the signs of the eigenvalues say it: two are
+  // negative for the two forces, and none else.
+  bool is_stable() const { return turns_.minCoeff() > -kSurelyStable || negative_eigenvalues(H_) == 2; }
+
+  // Of a symmetric matrix: as many as there are negative pivots (Sylvester's law of inertia).
+  static int negative_eigenvalues(Square H) {
+    int negative = 0;
+    for (Eigen::Index k = 0; k < kUnknowns; ++k) {
+      const double pivot = H(k, k) != 0 ? H(k, k) : std::numeric_limits<double>::min();
+      negative += pivot < 0;
+      const Eigen::Index left = kUnknowns - k - 1;
+      const auto below = H.col(k).tail(left).eval();
+      for (Eigen::Index j = 0; j < left; ++j) H.col(k + 1 + j).tail(left) -= (below[j] / pivot) * below;
+    }
+    return negative;
+  }
+
+  Field slope_of(const Column& unknowns) const { return angle_.lazyProduct(unknowns.template head<N>()).array(); }
+
+  // Eqs. (2.11), (2.12).
+  void find_losses(const Vec3& rate, bool with_slopes, BladeAnswer& out) const {
+    const auto &c = cosine_, &s = sine_;
+    std::array<Field, 3> slope, along, across, pull, push;  // by each displacement: of the slope, of Eq. (2.11)'s brackets, and of N and Q at a held slope
+    for (int k = 0; k < 3; ++k) {
+      const Column u = follows_.col(k);
+      slope[k] = slope_of(u);
+      if (k == 2) slope[k] += s_;
+      pull[k] = u[N] * c + u[N + 1] * s;
+      push[k] = u[N + 1] * c - u[N] * s;
+      along[k] = pull[k] + Q_ * slope[k];
+      across[k] = push[k] - N_ * slope[k];
+    }
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l <= k; ++l)
+        out.losses(k, l) = out.losses(l, k) =
+            (l == 2) + bending(follows_.col(k), follows_.col(l)) + (w_ * (axial_ * along[k] * along[l] + shear_ * across[k] * across[l])).sum();
+    if (!with_slopes || rate.isZero(0)) return;
+    const double difference = axial_ - shear_;
+    const Field third = Q_ * (1 + 4 * difference * N_);
+    const auto by_force = [&](int a) -> Field { return pull[a] + 2 * difference * (N_ * pull[a] - Q_ * push[a]); };
+    for (int k = 0; k < 3; ++k)
+      for (int m = 0; m <= k; ++m) {
+        // The unknowns' second derivatives by displacements k and m: Eq. (2.12).
+        const Field both = slope[k] * slope[m];
+        const Field turned = w_ * (third * both + by_force(k) * slope[m] + by_force(m) * slope[k] - difference * (pull[k] * push[m] + push[k] * pull[m]));
+        const Field in_line = w_ * (both * (1 + 2 * difference * N_) - difference * (push[k] * slope[m] + push[m] * slope[k]));
+        const Field beside = w_ * (-2 * difference * Q_ * both - difference * (pull[k] * slope[m] + pull[m] * slope[k]));
+        Column right;
+        right.template head<N>() = -against_functions(turned);
+        right[N] = -(in_line * c - beside * s).sum();
+        right[N + 1] = -(in_line * s + beside * c).sum();
+        const Column second = lu_.solve(right);
+        const Field bent = slope_of(second), pulled = second[N] * c + second[N + 1] * s, pushed = second[N + 1] * c - second[N] * s;
+        add_turn(k, m, rate, second, pulled + push[k] * slope[m] + across[m] * slope[k] + Q_ * bent, pushed - pull[k] * slope[m] - along[m] * slope[k] - N_ * bent, along, across, out);
+        if (m != k)
+          add_turn(m, k, rate, second, pulled + push[m] * slope[k] + across[k] * slope[m] + Q_ * bent, pushed - pull[m] * slope[k] - along[k] * slope[m] - N_ * bent, along, across, out);
+      }
+  }
+
+  // What a change m of the change k of the unknowns adds to the derivatives of the losses.
+  void add_turn(int k, int m, const Vec3& rate, const Column& second, const Field& more_along, const Field& more_across, const std::array<Field, 3>& along,
+                const std::array<Field, 3>& across, BladeAnswer& out) const {
+    for (int l = 0; l < 3; ++l) {
+      const double change = bending(second, follows_.col(l)) + (w_ * (axial_ * more_along * along[l] + shear_ * more_across * across[l])).sum();
+      out.losses_turn(k, m) += change * rate[l];
+      out.losses_turn(l, m) += change * rate[k];
+    }
+  }
+
+  static constexpr int kSmall = 16;  // functions, up to which products of tables are written out
+
+  double axial_, shear_;
+  Eigen::Map<const Field> s_, w_;
+  Eigen::Map<const Functions> angle_, curvature_;
+  Field slope_, cosine_, sine_, versine_;  // 1 - cosine in `versine_`
+  Field N_, Q_;                            // force along and across the blade
+  Field bends_, turns_;                    // derivative of the integrand of Eq. (2.3) by the slope, and the second one
+  Square H_;                               // of the unknowns (c, n)
+  Column residual_, by_theta_;             // and their column for theta
+  double moment_ = 0, moment_by_theta_ = 0;
+  Eigen::PartialPivLU<Square> lu_;
+  Eigen::Matrix<double, kUnknowns, 3> follows_;  // of the unknowns by the displacement
 };
 
-Blade::Blade(double axial_compliance, double shear_compliance) : axial_(axial_compliance), shear_(shear_compliance) { BladeBasis::at(0); }
-
-// Slope along the blade and forces in its axes: Eqs. (2.2), (2.4).
-void Blade::follow_slope(const BladeShape& shape, Work& work) const {
-  const BladeBasis& basis = BladeBasis::at(shape.level);
-  work.basis = &basis;
-  work.slope = shape.theta * basis.s.array();
-  for (int i = 0; i < basis.n; ++i) work.slope += shape.c[i] * basis.angle.col(i).array();
-  work.cosine.resize(basis.n_points);
-  work.sine.resize(basis.n_points);
-  work.versine.resize(basis.n_points);
-  for (int q = 0; q < basis.n_points; ++q) {
-    const double half_sine = std::sin(0.5 * work.slope[q]), half_cosine = std::cos(0.5 * work.slope[q]);
-    work.sine[q] = 2 * half_sine * half_cosine;
-    work.versine[q] = 2 * half_sine * half_sine;
-    work.cosine[q] = 1 - work.versine[q];
-  }
-  work.N = shape.n[0] * work.cosine + shape.n[1] * work.sine;
-  work.Q = shape.n[1] * work.cosine - shape.n[0] * work.sine;
-  const double difference = axial_ - shear_;
-  work.bends = -work.Q - difference * work.N * work.Q;
-  work.turns = work.N + difference * (work.N.square() - work.Q.square());
-}
-
-// First and second derivatives of Eq. (2.3): Eqs. (2.5), (2.6).
-void Blade::assemble(const BladeShape& shape, const Vec3& displacement, Work& work) const {
-  follow_slope(shape, work);
-  const BladeBasis& basis = *work.basis;
-  const int n = basis.n;
-  const auto w = basis.w.array();
-  const double difference = axial_ - shear_;
-  const Field weighted = w * work.turns, along = w * (work.sine + difference * (work.N * work.sine - work.Q * work.cosine)),
-              across = -w * (work.cosine + difference * (work.Q * work.sine + work.N * work.cosine)), bends = w * work.bends;
-  work.H.resize(n + 2, n + 2);
-  work.residual.resize(n + 2);
-  work.by_theta.resize(n + 2);
-  for (int i = 0; i < n; ++i) {
-    const auto angle = basis.angle.col(i).array();
-    const Field turned = weighted * angle;
-    for (int j = 0; j <= i; ++j) work.H(i, j) = work.H(j, i) = (turned * basis.angle.col(j).array()).sum();
-    const double own = 1.0 / (2 * i + 3);  // the integral of the square of P_(i+1) over s
-    work.H(i, i) += own;
-    work.H(i, n) = work.H(n, i) = (along * angle).sum();
-    work.H(i, n + 1) = work.H(n + 1, i) = (across * angle).sum();
-    work.residual[i] = own * shape.c[i] + (bends * angle).sum();
-    work.by_theta[i] = (turned * basis.s.array()).sum();
-  }
-  const auto &c = work.cosine, &s = work.sine;
-  work.H(n, n) = -(w * (axial_ * c.square() + shear_ * s.square())).sum();
-  work.H(n + 1, n + 1) = -(w * (axial_ * s.square() + shear_ * c.square())).sum();
-  work.H(n, n + 1) = work.H(n + 1, n) = -difference * (w * c * s).sum();
-  work.residual[n] = displacement[0] + (w * (work.versine - axial_ * work.N * c + shear_ * work.Q * s)).sum();
-  work.residual[n + 1] = displacement[1] - (w * (s + axial_ * work.N * s + shear_ * work.Q * c)).sum();
-  work.by_theta[n] = (along * basis.s.array()).sum();
-  work.by_theta[n + 1] = (across * basis.s.array()).sum();
-  work.moment = shape.theta + (bends * basis.s.array()).sum();
-  work.moment_by_theta = 1 + (weighted * basis.s.array().square()).sum();
-}
-
-// Whether the second variation is positive for all changes that leave the ends where they are. It is where no part of the blade carries
-// more than the compression under which a blade buckles that is held against turning alone; else the signs of the eigenvalues say it: two are
-// negative for the two forces, and none else.
-bool Blade::is_stable(const Work& work) const { return work.turns.minCoeff() > -kSurelyStable || negative_eigenvalues(work.H) == 2; }
-
-// Newton's method at one level.
-bool Blade::refine(const Vec3& displacement, BladeShape& shape, Work& work) const {
-  double last = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < kBladeNewton; ++iteration) {
-    assemble(shape, displacement, work);
-    work.lu.compute(work.H);
-    Column step = work.lu.solve(-work.residual);
-    if (!step.allFinite()) return false;
-    const int n = work.basis->n;
-    const double turned = step.head(n).norm(), pushed = step.tail(2).norm();
-    for (int i = 0; i < n; ++i) shape.c[i] += step[i];
-    for (int k = 0; k < 2; ++k) shape.n[k] += step[n + k];
-    const double angles = Eigen::Map<const Eigen::VectorXd>(shape.c, n).norm() + std::abs(shape.theta), forces = std::hypot(shape.n[0], shape.n[1]) + angles;
-    const double relative = std::max(angles > 0 ? turned / angles : 0, forces > 0 ? pushed / forces : 0);
-    if (relative <= kSettled || (relative < kRounding && relative > 0.5 * last)) {
-      assemble(shape, displacement, work);
-      return is_stable(work);
+// use(blade) with as many functions as `level` has.
+template <class Use>
+auto with_functions(int level, double axial, double shear, const Use& use) {
+  const BladeBasis& basis = BladeBasis::at(level);
+  constexpr int n = BladeBasis::kFewest;
+  switch (level) {
+    case 0: {
+      BentBlade<n> blade(basis, axial, shear);
+      return use(blade);
     }
-    last = relative;
-  }
-  return false;
-}
-
-// With as many functions as the shape takes, and changes of it: of exp(k s), whose k is the root of the force along the blade, the coefficients fall as
-// exp(-n^2/k).
-bool Blade::solve(const Vec3& displacement, BladeShape& shape, Work& work) const {
-  for (;;) {
-    if (!refine(displacement, shape, work)) return false;
-    const int n = work.basis->n;
-    const bool follows_changes = n * n >= -std::log(kTail) * std::sqrt(work.turns.abs().maxCoeff());
-    double size = std::abs(shape.theta);
-    for (int i = 0; i < n; ++i) size = std::max(size, std::abs(shape.c[i]) / std::sqrt(2 * i + 3));
-    const double tail = std::max(std::abs(shape.c[n - 1]), std::abs(shape.c[n - 2])) / std::sqrt(2 * n + 1);
-    if (follows_changes && tail <= kTail * size) return true;
-    if (shape.level + 1 == BladeBasis::kLevels) return tail <= kRoughTail * size;
-    ++shape.level;
+    case 1: {
+      BentBlade<2 * n> blade(basis, axial, shear);
+      return use(blade);
+    }
+    case 2: {
+      BentBlade<4 * n> blade(basis, axial, shear);
+      return use(blade);
+    }
+    default: {
+      BentBlade<BladeBasis::kMost> blade(basis, axial, shear);
+      return use(blade);
+    }
   }
 }
 
-// Eq. (2.9): along a path from the straight blade, in one step where that is found.
-bool Blade::find(const Vec3& displacement, BladeShape& shape) const {
-  if (!displacement.allFinite() || std::hypot(1 + displacement[0], displacement[1]) - 1 > axial_ * kMostTension) return false;
+// Calls use(blade) with as many functions as the shape and changes of it take, at the equilibrium next to `shape`.
+template <class Use>
+bool solve(const Vec3& displacement, double axial, double shear, BladeShape& shape, const Use& use) {
+  enum class Found { kNothing, kMoreWanted, kRight };
+  for (;; ++shape.level) {
+    const bool last = shape.level + 1 == BladeBasis::kLevels;
+    const Found found = with_functions(shape.level, axial, shear, [&](auto& blade) {
+      if (!blade.refine(displacement, shape)) return Found::kNothing;
+      const bool right = blade.follows_changes() && blade.follows_shape(shape, kTail);
+      if (!right && !last) return Found::kMoreWanted;
+      if (!right && !blade.follows_shape(shape, kRoughTail)) return Found::kNothing;
+      use(blade);
+      return Found::kRight;
+    });
+    if (found != Found::kMoreWanted) return found == Found::kRight;
+  }
+}
+
+// The same at the equilibrium that is connected with the straight blade, along a path from there, in one step where that is found: Eq. (2.9).
+template <class Use>
+bool find(const Vec3& displacement, double axial, double shear, const Use& use) {
+  if (!displacement.allFinite() || std::hypot(1 + displacement[0], displacement[1]) - 1 > axial * kMostTension) return false;
   const auto place = [&displacement](double share) { return Vec3(share * share * displacement[0], share * displacement[1], share * displacement[2]); };
-  shape = {};
-  Work work;
+  BladeShape shape;
   double done = 0, part = 1;
   while (done < 1) {
     const double next = done + part > 1 - 1e-9 ? 1 : done + part, more = next - done;
+    const Vec3 to = place(next);
     BladeShape trial = shape;
     const double bent = 3 * displacement[2] - 6 * displacement[1];  // small deflections
-    trial.theta = next * displacement[2];
+    trial.theta = to[2];
     trial.c[0] += more * bent;
     trial.n[1] -= 2 * more * bent;
-    if (solve(place(next), trial, work)) {
+    if (done == 0) {
+      const double b = trial.c[0], shortening = to[2] * to[2] / 6 - to[2] * b / 12 + b * b / 60, pull = (to[0] + shortening) / axial;
+      if (pull > -kSurelyStable) trial.n[0] = pull;
+    }
+    if (solve(to, axial, shear, trial, [&](auto& blade) { if (next == 1) use(blade, trial); })) {
       shape = trial;
       done = next;
     } else {
@@ -180,97 +327,24 @@ bool Blade::find(const Vec3& displacement, BladeShape& shape) const {
   return true;
 }
 
-BladeAnswer Blade::answer(const BladeShape& shape, const Vec3& displacement, const Vec3& rate, bool with_slopes) const {
-  Work work;
-  assemble(shape, displacement, work);
-  work.lu.compute(work.H);
-  const BladeBasis& basis = *work.basis;
-  const int n = basis.n;
-  BladeAnswer out;
-  out.force << shape.n[0], shape.n[1], work.moment;
-  double bending = shape.theta * shape.theta;
-  for (int i = 0; i < n; ++i) bending += shape.c[i] * shape.c[i] / (2 * i + 3);
-  out.energy = 0.5 * bending + 0.5 * (basis.w.array() * (axial_ * work.N.square() + shear_ * work.Q.square())).sum();
-  work.follows.setZero(n + 2, 3);
-  work.follows(n, 0) = work.follows(n + 1, 1) = -1;
-  work.follows.col(2) = -work.by_theta;
-  work.follows = work.lu.solve(work.follows).eval();  // (2.7)
-  for (int k = 0; k < 3; ++k) {
-    out.stiffness(0, k) = work.follows(n, k);
-    out.stiffness(1, k) = work.follows(n + 1, k);
-    out.stiffness(2, k) = work.by_theta.dot(work.follows.col(k)) + (k == 2 ? work.moment_by_theta : 0);
-  }
-  find_losses(rate, with_slopes, work, out);
+}  // namespace
+
+Blade::Blade(double axial_compliance, double shear_compliance) : axial_(axial_compliance), shear_(shear_compliance) { BladeBasis::at(0); }
+
+bool Blade::has_equilibrium(const Vec3& displacement) const {
+  return find(displacement, axial_, shear_, [](const auto&, const BladeShape&) {});
+}
+
+std::optional<BladeAnswer> Blade::answer(const Vec3& displacement, const Vec3& rate, bool with_slopes) const {
+  std::optional<BladeAnswer> out;
+  find(displacement, axial_, shear_, [&](auto& blade, const BladeShape& shape) { out = blade.answer(shape, rate, with_slopes); });
   return out;
 }
 
-// Eqs. (2.11), (2.12).
-void Blade::find_losses(const Vec3& rate, bool with_slopes, const Work& work, BladeAnswer& out) const {
-  const BladeBasis& basis = *work.basis;
-  const int n = basis.n;
-  const auto w = basis.w.array();
-  const auto &c = work.cosine, &s = work.sine, &N = work.N, &Q = work.Q;
-  std::array<Field, 3> slope, along, across, pull, push;  // by each displacement: of the slope, of Eq. (2.11)'s brackets, and of N and Q at a held slope
-  const auto slope_of = [&basis, n](const auto& unknowns) {
-    Field sum = Field::Zero(basis.n_points);
-    for (int i = 0; i < n; ++i) sum += unknowns[i] * basis.angle.col(i).array();
-    return sum;
-  };
-  for (int k = 0; k < 3; ++k) {
-    const auto u = work.follows.col(k);
-    slope[k] = slope_of(u);
-    if (k == 2) slope[k] += basis.s.array();
-    pull[k] = u[n] * c + u[n + 1] * s;
-    push[k] = u[n + 1] * c - u[n] * s;
-    along[k] = pull[k] + Q * slope[k];
-    across[k] = push[k] - N * slope[k];
-  }
-  const auto bending = [n](const auto& a, const auto& b) {
-    double sum = 0;
-    for (int i = 0; i < n; ++i) sum += a[i] * b[i] / (2 * i + 3);
-    return sum;
-  };
-  for (int k = 0; k < 3; ++k)
-    for (int l = 0; l < 3; ++l)
-      out.losses(k, l) = (k == 2 && l == 2) + bending(work.follows.col(k), work.follows.col(l)) + (w * (axial_ * along[k] * along[l] + shear_ * across[k] * across[l])).sum();
-  if (!with_slopes || rate.isZero(0)) return;
-  const double difference = axial_ - shear_;
-  const Field third = Q * (1 + 4 * difference * N);
-  for (int k = 0; k < 3; ++k)
-    for (int m = 0; m < 3; ++m) {
-      // The unknowns' second derivatives by displacements k and m: Eq. (2.12).
-      const auto by_force = [&](int a) -> Field { return pull[a] + 2 * difference * (N * pull[a] - Q * push[a]); };
-      const Field both = slope[k] * slope[m];
-      const Field turned = w * (third * both + by_force(k) * slope[m] + by_force(m) * slope[k] - difference * (pull[k] * push[m] + push[k] * pull[m]));
-      const Field in_line = w * (both * (1 + 2 * difference * N) - difference * (push[k] * slope[m] + push[m] * slope[k]));
-      const Field beside = w * (-2 * difference * Q * both - difference * (pull[k] * slope[m] + pull[m] * slope[k]));
-      Column right(n + 2);
-      for (int i = 0; i < n; ++i) right[i] = -(turned * basis.angle.col(i).array()).sum();
-      right[n] = -(in_line * c - beside * s).sum();
-      right[n + 1] = -(in_line * s + beside * c).sum();
-      const Column second = work.lu.solve(right);
-      const Field bent = slope_of(second);
-      const Field more_along = second[n] * c + second[n + 1] * s + push[k] * slope[m] + across[m] * slope[k] + Q * bent;
-      const Field more_across = second[n + 1] * c - second[n] * s - pull[k] * slope[m] - along[m] * slope[k] - N * bent;
-      for (int l = 0; l < 3; ++l) {
-        const double change = bending(second, work.follows.col(l)) + (w * (axial_ * more_along * along[l] + shear_ * more_across * across[l])).sum();
-        out.losses_turn(k, m) += change * rate[l];
-        out.losses_turn(l, m) += change * rate[k];
-      }
-    }
-}
-
-double Blade::largest(const BladeShape& shape, const Vec3& displacement, double bending, double axial) const {
-  Work work;
-  assemble(shape, displacement, work);
-  const BladeBasis& basis = *work.basis;
-  Field curvature = Field::Constant(basis.n_points, shape.theta);
-  for (int i = 0; i < basis.n; ++i) curvature += shape.c[i] * basis.curvature.col(i).array();
-  const double inside = (bending * curvature.abs() + axial * work.N.abs()).maxCoeff();
-  // At the ends from the balance of moments, which the forces fulfil better than the series does.
-  const double far = work.moment, near = far + (1 + displacement[0]) * shape.n[1] - displacement[1] * shape.n[0];
-  const double pull = shape.n[0] * std::cos(shape.theta) + shape.n[1] * std::sin(shape.theta);
-  return std::max({inside, bending * std::abs(far) + axial * std::abs(pull), bending * std::abs(near) + axial * std::abs(shape.n[0])});
+std::optional<double> Blade::largest(const Vec3& displacement, double bending, double axial) const {
+  std::optional<double> out;
+  find(displacement, axial_, shear_, [&](const auto& blade, const BladeShape& shape) { out = blade.largest(shape, displacement, bending, axial); });
+  return out;
 }
 
 }  // namespace pintle

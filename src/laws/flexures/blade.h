@@ -4,18 +4,9 @@
 #pragma once
 
 #include <Eigen/Core>
-
-#include "laws/flexures/blade_basis.h"
+#include <optional>
 
 namespace pintle {
-
-/// Slope angle of the blade, end forces.
-struct BladeShape {
-  int level = 0;                          // of BladeBasis
-  double theta = 0;                       // slope at the far end [rad]
-  double c[BladeBasis::kMost] = {};       // of the functions of the basis
-  double n[2] = {};                       // force on the far end, along and across the unloaded blade
-};
 
 /// What the blade answers to a displacement of its far end (x, y, angle) from the unloaded place, and to its rate.
 struct BladeAnswer {
@@ -32,22 +23,13 @@ class Blade {
   /// EI/(EA L^2) and EI/(GA L^2); the latter 0 for a blade without shear.
   Blade(double axial_compliance, double shear_compliance);
 
-  /// The equilibrium that is connected with the straight blade; false where none is found: Eq. (2.9).
-  bool find(const Eigen::Vector3d& displacement, BladeShape& shape) const;
-  /// At an equilibrium. `with_slopes`: losses_turn too.
-  BladeAnswer answer(const BladeShape& shape, const Eigen::Vector3d& displacement, const Eigen::Vector3d& rate, bool with_slopes) const;
-  /// The largest of |curvature| by `bending` plus |axial force| by `axial` along the blade.
-  double largest(const BladeShape& shape, const Eigen::Vector3d& displacement, double bending, double axial) const;
+  /// In the equilibrium that is connected with the straight blade, Eq. (2.9); nothing where none is found. `with_slopes`: losses_turn too.
+  std::optional<BladeAnswer> answer(const Eigen::Vector3d& displacement, const Eigen::Vector3d& rate, bool with_slopes) const;
+  /// There, the largest of |curvature| by `bending` plus |axial force| by `axial` along the blade.
+  std::optional<double> largest(const Eigen::Vector3d& displacement, double bending, double axial) const;
+  bool has_equilibrium(const Eigen::Vector3d& displacement) const;
 
  private:
-  struct Work;
-  void follow_slope(const BladeShape& shape, Work& work) const;
-  void assemble(const BladeShape& shape, const Eigen::Vector3d& displacement, Work& work) const;
-  bool is_stable(const Work& work) const;
-  bool refine(const Eigen::Vector3d& displacement, BladeShape& shape, Work& work) const;
-  bool solve(const Eigen::Vector3d& displacement, BladeShape& shape, Work& work) const;
-  void find_losses(const Eigen::Vector3d& rate, bool with_slopes, const Work& work, BladeAnswer& out) const;
-
   double axial_, shear_;
 };
 

@@ -32,7 +32,7 @@ GaussLegendre::GaussLegendre(int n) : x(n), w(n) {
   }
 }
 
-BladeBasis::BladeBasis(int functions) : n(functions), n_points(functions + 8), s(n_points), w(n_points), angle(n_points, n), curvature(n_points, n) {
+BladeBasis::BladeBasis(int functions) : n(functions), n_points(functions + kMorePoints), s(n_points), w(n_points), angle(n_points, n), curvature(n_points, n) {
   const GaussLegendre gauss(n_points);
   s = 0.5 * (gauss.x.array() + 1);
   w = 0.5 * gauss.w;

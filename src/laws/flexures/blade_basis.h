@@ -20,7 +20,7 @@ struct BladeBasis {
   explicit BladeBasis(int functions);
 
   static constexpr int kFewest = 8, kMost = 64, kLevels = 4;  // each level has twice the functions of the one before
-  static constexpr int kMostPoints = kMost + 8;
+  static constexpr int kMorePoints = 8;  // of the quadrature than functions
   static const BladeBasis& at(int level);
 };
 

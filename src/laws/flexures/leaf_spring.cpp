@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace pintle {
 namespace {
@@ -19,15 +20,15 @@ double BladeSize::bending_stiffness() const { return modulus * width * thickness
 LeafSpringLaw::LeafSpringLaw(const BladeSize& size) : size_(size), blade_(blade_of(size)) {
   const double EI = size.bending_stiffness(), L = size.length;
   units_ << EI / (L * L), EI / (L * L), EI / L;
-  const Planar::Mat K = blade_.answer({}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), false).stiffness;
+  const Planar::Mat K = blade_.answer(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), false)->stiffness;
   straight_ = units_.asDiagonal() * K * Planar::Vec(1 / L, 1 / L, 1).asDiagonal();  // (2.13)
 }
 
 law_math::Slopes<6, 5> LeafSpringLaw::respond(const double* at, bool with_slopes) const {
   const Eigen::Vector3d gap(at[0], at[1], at[2]), rate(at[3], at[4], at[5]), displacement = without_dimension(at), velocity = without_dimension(at + 3);
-  BladeShape shape;
-  if (!blade_.find(displacement, shape)) return respond_straight(gap, rate);
-  const BladeAnswer blade = blade_.answer(shape, displacement, velocity, with_slopes);
+  const std::optional<BladeAnswer> found = blade_.answer(displacement, velocity, with_slopes);
+  if (!found) return respond_straight(gap, rate);
+  const BladeAnswer& blade = *found;
   const double energy = size_.bending_stiffness() / size_.length, time = size_.damping_time;
   const Eigen::Vector3d lost = time * (blade.losses * velocity), force = -units_.cwiseProduct(blade.force + lost);  // (2.8), (2.10)
   const Eigen::Vector3d lengths(1 / size_.length, 1 / size_.length, 1);
@@ -67,8 +68,7 @@ law_math::Slopes<6, 5> LeafSpringLaw::respond_straight(const Eigen::Vector3d& ga
 }
 
 void LeafSpringLaw::borders(const LawInput<double>& in, double* value) const {
-  BladeShape shape;
-  value[0] = blade_.find(without_dimension(in.gap), shape) ? 1 : -1;
+  value[0] = blade_.has_equilibrium(without_dimension(in.gap)) ? 1 : -1;
 }
 
 std::span<const LawColumn> LeafSpringLaw::columns() const {
@@ -85,11 +85,10 @@ void LeafSpringLaw::observe(const LawInput<double>& in, const Planar::Vec&, doub
 
 // Eq. (2.14).
 LeafSpringLaw::Stress LeafSpringLaw::stress(const double* gap) const {
-  const Eigen::Vector3d displacement = without_dimension(gap);
-  BladeShape shape;
   const double ratio = size_.thickness / size_.length;
-  if (!blade_.find(displacement, shape)) return {std::numeric_limits<double>::quiet_NaN(), false};
-  return {size_.modulus * blade_.largest(shape, displacement, 0.5 * ratio, ratio * ratio / 12), true};
+  const std::optional<double> strain = blade_.largest(without_dimension(gap), 0.5 * ratio, ratio * ratio / 12);
+  if (!strain) return {std::numeric_limits<double>::quiet_NaN(), false};
+  return {size_.modulus * *strain, true};
 }
 
 }  // namespace pintle
