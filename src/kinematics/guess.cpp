@@ -14,18 +14,26 @@ using S = Planar;
 
 bool joins_angles(const JointData& joint) { return is_pose_joint(joint) && joint.held[2]; }
 
+// The gap of a joint that is put together.
+S::Vec rest_gap(const JointData& joint) {
+  S::Vec misfit = S::Vec::Zero();
+  joint.law.keep_misfit(misfit);
+  return -misfit;
+}
+
 // Puts body `b` onto the joint's other half, as far from it as the joint is at rest; `other` is placed already.
 void put(const JointData& joint, int b, const Model& model, const std::vector<S::Motion>& m, Vecs& q) {
   const bool is_second = joint.at.b == b;
   const int other = is_second ? joint.at.a : joint.at.b;
   const S::Frame &mine = is_second ? joint.at.M : joint.at.F, &theirs = is_second ? joint.at.F : joint.at.M;
   const S::Motion still{}, &o = other == kGround ? still : m[other];
-  if (!model.bodies[b].angle) q[b][2] = joins_angles(joint) ? o.angle + theirs.angle - mine.angle : 0;
+  const S::Vec rest = rest_gap(joint);
+  if (!model.bodies[b].angle) q[b][2] = joins_angles(joint) ? o.angle + theirs.angle - mine.angle + (is_second ? rest[2] : -rest[2]) : 0;
   if (model.bodies[b].position) return;
   const S::Motion me = S::Motion::of({0, 0, q[b][2]}, S::Vec::Zero());
   S::Point p = o.p + o.turned(theirs.p) - me.turned(mine.p);
   if (const auto* pose = std::get_if<Selection>(&joint.displacement)) {
-    const S::Point apart = S::Motion::of({0, 0, is_second ? o.angle + theirs.angle : q[b][2] + mine.angle}, S::Vec::Zero()).turned(pose->offset.head<2>());
+    const S::Point apart = S::Motion::of({0, 0, is_second ? o.angle + theirs.angle : q[b][2] + mine.angle}, S::Vec::Zero()).turned(pose->offset.head<2>() + rest.head<2>());
     p += is_second ? apart : S::Point(-apart);
   }
   q[b][0] = p.x();

@@ -84,7 +84,7 @@ void kinematics_at(const System& system, double t, const Vecs& q, const Vecs& v,
 
 S::Vec gap_to_close(const JointData& joint, const JointKinematics& r) {
   S::Vec gap = r.gap;
-  joint.law.engage(gap);
+  joint.law.keep_misfit(gap);
   return gap;
 }
 

@@ -46,6 +46,7 @@ struct BushingLaw {
     }
   }
   Planar::Vec engaged_stiffness() const { return K.diagonal(); }
+  void keep_misfit(Planar::Vec& gap) const { gap -= offset; }
 };
 
 }  // namespace pintle

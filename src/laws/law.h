@@ -137,9 +137,9 @@ class BasicLaw {
   double lever() const;
   /// The deepest of its parts': LawPart::penetration.
   double penetration(const Vec& gap) const;
-  /// Moves a gap into the range in which the law holds.
-  void engage(Vec& gap) const {
-    for (const auto& part : parts_) part->engage(gap);
+  /// LawPart::keep_misfit.
+  void keep_misfit(Vec& gap) const {
+    for (const auto& part : parts_) part->keep_misfit(gap);
   }
 
   /// Columns of all parts, and their values, appended, where the joint has this force.
