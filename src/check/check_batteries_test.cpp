@@ -118,6 +118,18 @@ TEST(CheckStates, AreNearTheAssembledOne) {
     }
 }
 
+// A mass on a cord that comes off a drum of 0.3 m where only 20 mm of it are free: 0.7 mm nearer, and there would be no tangent.
+TEST(CheckStates, KeepTheEndOfARopeOutsideItsDrum) {
+  Model model;
+  model.ground = {{"O", {0, 0}, 0}};
+  model.bodies = {checked::bar("mass", 0.2, 1e-5, {0.3, -0.02}, 0, {{"c", {0, 0}, 0}})};
+  model.bodies[0].velocity = Vec2{0.2, 0};
+  Joint cord = checked::joint("cord", "belt", {"ground", "O"}, {"mass", "c"});
+  cord.geometry = {{"first_radius", 0.3}};
+  model.joints = {cord};
+  EXPECT_EQ(failures(check_model(model)), "");
+}
+
 // A body held by one joint of each type, far from symmetric.
 class EveryType : public testing::TestWithParam<std::string> {};
 

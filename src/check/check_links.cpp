@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "joints/belt.h"
 #include "mobility/constraint_rows.h"
@@ -26,14 +28,28 @@ std::string_view kind_of(const LoadData& load) {
   return "load";
 }
 
+// By how much the end of a belt or rope that is nearest to the other disc is outside it [m]; infinite: there are no discs.
+double nearest_to_disc(const System& system, const CheckState& state) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const JointData& joint : system.joints) {
+    const std::optional<Belt> belt = belt_of(joint.displacement);
+    if (!belt || belt->w() == 0) continue;
+    nearest = std::min(nearest, std::max(0.0, system.pose(joint.at, state.m).z.head<2>().norm() - std::abs(belt->w())));
+  }
+  return nearest;
+}
+
+// Near enough for both ends of every belt to stay outside its discs, where it has a way between them.
 CheckState disturbed(const CheckState& from, const System& system, double duration, int number) {
-  constexpr double kShift = 0.02;  // of the length; [rad]
+  constexpr double kShift = 0.02;        // of the length; [rad]
+  constexpr double kTowardsDiscs = 0.1;  // of the way from the end of a belt to a disc: the most that a body is moved
+  const double of_length = std::min(kShift, kTowardsDiscs * nearest_to_disc(system, from) / from.length);
   CheckState state = from;
   Noise noise(77u + static_cast<unsigned>(number));
   state.number = number;
   state.t = duration * (0.5 + 0.5 * noise());
   for (int i = 0; i < system.n_bodies(); ++i) {
-    state.q[i] += noise.vec().cwiseProduct(S::Vec(kShift * state.length, kShift * state.length, kShift));
+    state.q[i] += noise.vec().cwiseProduct(S::Vec(of_length * state.length, of_length * state.length, of_length));
     state.v[i] += state.speed * noise.vec().cwiseProduct(S::Vec(1, 1, 1 / state.length));
   }
   system.motions(state.q, state.v, state.m);
@@ -76,10 +92,10 @@ std::vector<CheckState> check_states(const Model& model, const System& system, c
 
 LinkSteps link_steps(const CheckLink& link, const RelativePose& pose, double arm) {
   constexpr double kShort = 1e-3;
-  const bool direction_counts =
-      std::holds_alternative<Distance>(link.displacement) || std::holds_alternative<Mesh>(link.displacement) || belt_of(link.displacement);
+  const std::optional<Belt> belt = belt_of(link.displacement);
+  const bool direction_counts = std::holds_alternative<Distance>(link.displacement) || std::holds_alternative<Mesh>(link.displacement) || belt;
   const double reach = std::max({pose.arm_a.norm(), pose.arm_b.norm(), 1e-12});
-  const double length = direction_counts ? pose.z.head<2>().norm() : arm;
+  const double length = !direction_counts ? arm : belt ? belt->run(pose.z) : pose.z.head<2>().norm();
   return {kShort * length, kShort * (direction_counts ? std::min(1.0, length / reach) : 1.0)};
 }
 

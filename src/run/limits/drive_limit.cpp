@@ -137,7 +137,7 @@ class RigidMotion {
         const bool other = joint.driven == k && static_cast<int>(j) != drive_;
         const bool firm = joint.ideal ? joint.held[k] && !joint.redundant[k] : stiffness[j][k] / unit(k) > kYielding * stiffest;
         if (joint.driven == k ? other : firm) weight_[j][k] = unit(k);
-        if (other) wanted_[j][k] = r_[j].gap[k];
+        if (other) wanted_[j][k] = gap_to_close(joint, r_[j])[k];
       }
     }
   }
