@@ -40,6 +40,27 @@ void put(const JointData& joint, int b, const Model& model, const std::vector<S:
   q[b][1] = p.y();
 }
 
+// The joints of each body; last those of the ground.
+std::vector<std::vector<int>> joints_of_bodies(const System& system) {
+  std::vector<std::vector<int>> joints(static_cast<std::size_t>(system.n_bodies()) + 1);
+  for (int j = 0; j < system.n_joints(); ++j)
+    for (const int b : {system.joints[j].at.a, system.joints[j].at.b}) joints[static_cast<std::size_t>(b == kGround ? system.n_bodies() : b)].push_back(j);
+  return joints;
+}
+
+// What of the velocity of the joint's body `b` is not stated, from the motion of the other one.
+void follow(const JointData& joint, int b, const Body& stated, const std::vector<S::Motion>& m, S::Vec& v) {
+  if (stated.velocity) return;
+  const bool is_second = joint.at.b == b;
+  const int other = is_second ? joint.at.a : joint.at.b;
+  const S::Motion still{}, &o = other == kGround ? still : m[static_cast<std::size_t>(other)], &me = m[static_cast<std::size_t>(b)];
+  const auto moved_by = [](double spin, const S::Point& r) { return S::Point(-spin * r.y(), spin * r.x()); };
+  const S::Point arm = me.turned((is_second ? joint.at.M : joint.at.F).p), at = me.p + arm;
+  const double spin = stated.spin.value_or(o.w);
+  const S::Point move = o.v + moved_by(o.w, at - o.p) - moved_by(spin, arm);
+  v = {move.x(), move.y(), spin};
+}
+
 }  // namespace
 
 bool all_positions_stated(const Model& model) {
@@ -62,9 +83,7 @@ Vecs guess_positions(const Model& model, const System& system) {
     const Vec2 p = body.position.value_or(Vec2{0, 0});
     q.emplace_back(p[0], p[1], body.angle.value_or(0));
   }
-  std::vector<std::vector<int>> joints_of(n + 1);
-  for (int j = 0; j < system.n_joints(); ++j)
-    for (const int b : {system.joints[j].at.a, system.joints[j].at.b}) joints_of[b == kGround ? n : b].push_back(j);
+  const std::vector<std::vector<int>> joints_of = joints_of_bodies(system);
   std::vector<bool> placed(n + 1, false);
   std::deque<int> queue{n};
   placed[n] = true;
@@ -99,6 +118,38 @@ Vecs guess_positions(const Model& model, const System& system) {
       spread();
     }
   return q;
+}
+
+Vecs guess_velocities(const Model& model, const System& system, const Vecs& q) {
+  const int n = system.n_bodies();
+  Vecs v = stated_velocities(model);
+  std::vector<S::Motion> m;
+  system.motions(q, v, m);
+  const std::vector<std::vector<int>> joints_of = joints_of_bodies(system);
+  std::vector<bool> known(static_cast<std::size_t>(n) + 1, false);
+  const auto spread = [&](int from) {
+    known[static_cast<std::size_t>(from)] = true;
+    std::deque<int> queue{from};
+    while (!queue.empty()) {
+      const int at = queue.front();
+      queue.pop_front();
+      for (const int j : joints_of[static_cast<std::size_t>(at)]) {
+        const JointData& joint = system.joints[j];
+        const int a = joint.at.a == kGround ? n : joint.at.a, b = joint.at.b == kGround ? n : joint.at.b, next = a == at ? b : a;
+        if (known[static_cast<std::size_t>(next)] || !is_pose_joint(joint)) continue;
+        follow(joint, next, model.bodies[static_cast<std::size_t>(next)], m, v[static_cast<std::size_t>(next)]);
+        m[static_cast<std::size_t>(next)].set_velocity(v[static_cast<std::size_t>(next)]);
+        known[static_cast<std::size_t>(next)] = true;
+        queue.push_back(next);
+      }
+    }
+  };
+  spread(n);
+  for (int i = 0; i < n; ++i) {  // what does not hang on the ground
+    const Body& body = model.bodies[static_cast<std::size_t>(i)];
+    if (!known[static_cast<std::size_t>(i)] && (body.velocity || body.spin)) spread(i);
+  }
+  return v;
 }
 
 std::string loop_through(const System& system, const std::string& text) {

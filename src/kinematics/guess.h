@@ -14,6 +14,10 @@ Vecs guess_positions(const Model& model, const System& system);
 /// Velocities: stated ones, others zero.
 Vecs stated_velocities(const Model& model);
 
+/// Velocities: stated ones; a body of which nothing is stated moves with the one that it hangs on, as if their joint were locked, and where only the
+/// spin is stated, the joint moves with that one.
+Vecs guess_velocities(const Model& model, const System& system, const Vecs& q);
+
 bool all_positions_stated(const Model& model);
 
 /// Names of the joints along a closed loop that holds one of the joints named in `text`.

@@ -83,6 +83,23 @@ TEST(Guess, VelocitiesAreStatedOrZero) {
   EXPECT_EQ(v[1], Planar::Vec(0, 0, 3));
 }
 
+// A carriage that moves, an arm on it of which nothing is stated, and a hand of which the spin is.
+TEST(Guess, WhatIsNotStatedMovesWithWhatItHangsOn) {
+  Model model;
+  model.bodies = {rod("carriage"), rod("arm"), rod("hand")};
+  model.bodies[0].velocity = Vec2{40, 0};
+  model.bodies[0].spin = 2;
+  model.bodies[2].spin = 0;
+  put_at(model.bodies[0], 0, 0, 0);
+  put_at(model.bodies[1], 1, 0, 0);
+  put_at(model.bodies[2], 2, 0, 0);
+  model.joints = {joint("shoulder", "revolute", {"carriage", "R"}, {"arm", "L"}, 1e8, 0), joint("wrist", "revolute", {"arm", "R"}, {"hand", "L"}, 1e8, 0)};
+  const System system = build_system(model);
+  const Vecs v = guess_velocities(model, system, guess_positions(model, system));
+  EXPECT_TRUE(v[1].isApprox(Planar::Vec(40, 2, 2), 1e-12)) << v[1].transpose();
+  EXPECT_TRUE(v[2].isApprox(Planar::Vec(40, 3, 0), 1e-12)) << v[2].transpose();
+}
+
 TEST(LoopThrough, NamesTheJointsAlongIt) {
   Model model = sample::four_bar(1e8, 0);
   // A dyad beside the loop, and a motor on a pin of it: neither belongs to it.

@@ -270,8 +270,9 @@ Assembly put_bodies(const Model& model, System system) {
   note_unconnected_bodies(out.system, out.notes);
   for (std::size_t i = 0; i < guess.size(); ++i)
     if (model.bodies[i].position) out.largest_move = std::max(out.largest_move, (state.q[i] - guess[i]).head<2>().norm());
-  state.v = stated_velocities(model);
-  if (model.simulate.start != Start::kRaw) assemble_velocities(model, out.system, state.q, state.v);
+  const bool raw = model.simulate.start == Start::kRaw;
+  state.v = raw ? stated_velocities(model) : guess_velocities(model, out.system, state.q);
+  if (!raw) assemble_velocities(model, out.system, state.q, state.v);
   note_changed_velocities(model, state.v, out.notes);
   return out;
 }
