@@ -54,6 +54,8 @@ class BasicLoadRecorder {
   static constexpr int kForce = S::kDim, kCouple = S::kDof - S::kDim;
   double stored(int joint, const BasicState<S>& state) const;
   double power_on_gap(int j, const BasicState<S>& state) const;
+  void see_lengths(const BasicState<S>& end);
+  void add_jumps_of_lengths(const BasicState<S>& begin);
   void sample(int i, const BasicState<S>& state);
   void add_resolved(BasicStepper<S>& stepper, double t0, double t1, int halvings);
   void take_samples(BasicStepper<S>& stepper, double t0, double t1);
@@ -75,6 +77,12 @@ class BasicLoadRecorder {
   std::vector<CurveSums> force_, couple_, signal_;
   std::vector<bool> has_couple_;
   std::vector<double> work_, stored_;  // of each joint's force on its gap since the start, less what feeds it; stored at the start [J]
+  /// A joint with a length that is a function of time, as the last step left it.
+  struct DrivenLength {
+    int joint = 0;
+    double gap = 0, rate = 0, stored = 0;
+  };
+  std::vector<DrivenLength> lengths_;
   double begin_ = 0, end_ = 0;
   BasicWearTally<S> wear_;
   BasicDutyTally<S> duty_;
