@@ -18,6 +18,7 @@ constexpr double kLeastJudged = 1e-7;  // tolerance below which rounding makes t
 constexpr double kRounding = 1e-11;       // of the largest entry: what rounding may leave open
 constexpr double kGiven = 0.01;           // of the turnover: heat below zero that nothing explains
 constexpr int kRunaway = 10;              // powers of ten above what can be stored. Eq. (8.4)
+constexpr double kFarFed = 1000;          // times what is stored: work that is named where a run comes to no good end
 constexpr int kCompared = 4;              // powers of ten: the time of the last ones is compared with that of those before
 constexpr double kSteady = 1.5;           // ratio of these times: 1 of an exponential, 100 of constant torque, 3.2 of t^8
 
@@ -197,12 +198,25 @@ void BasicEnergyWatch<S>::add_works(const BasicState<S>& state, double h) {
 }
 
 template <class S>
-void BasicEnergyWatch<S>::say_runaway(const BasicState<S>& state, double energy) {
+const typename BasicEnergyWatch<S>::Feeder* BasicEnergyWatch<S>::largest_feeder() const {
   const auto most = std::max_element(feeders_.begin(), feeders_.end(), [](const Feeder& a, const Feeder& b) { return a.work < b.work; });
+  return most != feeders_.end() && most->work > 0 ? &*most : nullptr;
+}
+
+template <class S>
+std::string BasicEnergyWatch<S>::far_fed() const {
+  const Feeder* most = largest_feeder();
+  if (most == nullptr || !(most->work > kFarFed * storable_)) return {};
+  return fmt::format("{} {} has fed {:.3g} J, {:.2g} times what the mechanism stores by itself: check the signs of what it depends on", most->kind, *most->name, most->work,
+                     most->work / storable_);
+}
+
+template <class S>
+void BasicEnergyWatch<S>::say_runaway(const BasicState<S>& state, double energy) {
   const double span = decade_[reached_ - 1] - decade_[reached_ - 1 - 2 * kCompared];
   message_ = fmt::format("the motion runs away: at t = {:.4g} s it had been fed {:.3g} J, more than the mechanism stores by itself, and {:.3g} J at t = {:.4g} s, ten times more every {:.2g} s",
                          decade_[0], storable_, energy, state.t, span / (2 * kCompared));
-  if (most != feeders_.end() && most->work > 0) message_ += fmt::format("; {} {} feeds it: check the signs of what it depends on", most->kind, *most->name);
+  if (const Feeder* most = largest_feeder()) message_ += fmt::format("; {} {} feeds it: check the signs of what it depends on", most->kind, *most->name);
 }
 
 template class BasicEnergyWatch<Planar>;

@@ -28,6 +28,8 @@ class BasicEnergyWatch {
   Alarm see_step(const BasicState<S>& state, double h);
   /// The end of the motion: the account is judged once more.
   Alarm see_end(const BasicState<S>& state);
+  /// What has fed the motion far more than the mechanism stores by itself, in words; empty: nothing has.
+  std::string far_fed() const;
   /// What the last alarm was about.
   const std::string& message() const { return message_; }
 
@@ -44,6 +46,7 @@ class BasicEnergyWatch {
   double flow(const BasicState<S>& state);
   void say_open(const BasicState<S>& state, double missing, double within);
   void say_runaway(const BasicState<S>& state, double energy);
+  const Feeder* largest_feeder() const;
 
   static constexpr int kDecades = 64;  // powers of ten above the storable energy whose instants are kept
   const BasicSystem<S>& system_;
