@@ -88,6 +88,7 @@ LawFault rolling_fault(const LawSetting& at) {
     if (number > 0 && at.number(size) == 0) return {count, fmt::format("force against deflection follows from the number and the size of the {}", count), fmt::format("{} beside it, such as \"10 mm\"", size)};
     if (number == 0 && at.number(size) > 0) return {size, fmt::format("the bearing has no {}", count), fmt::format("{} = 8, or another number of them", count)};
   }
+  if (balls + rollers > 0 && at.states("stiffness")) return {"stiffness", fmt::format("that of the {} follows from their number and size", balls > 0 ? "balls" : "rollers"), fmt::format("delete it, or delete {0} and their size and state a stiffness alone", balls > 0 ? "balls" : "rollers")};
   if (at.number("contact_angle") >= 0.5 * std::numbers::pi - 1e-9) return {"contact_angle", "such a bearing carries no radial load", "an angle below 90 deg, of angular-contact bearings 15 to 40 deg"};
   if (at.number("preload") > 0 && at.number("play") > 0) return {"preload", "a bearing with play is not preloaded", "delete play or preload"};
   const bool sum = at.number("elements") == 1;
