@@ -177,5 +177,14 @@ TEST(StartsTouching, ALatchWhoseToeSticksCarriesTheTorqueAndNoMore) {
   for (const LoadSummary& joint : run.joints) EXPECT_LE(joint.peak, exact * (1 + 2e-3)) << joint.name;
 }
 
+// Contacts that are hardly touched are so soft that the person would sink between them: they are taken with the stiffness that they have under the load.
+TEST(StartsTouching, APersonStandsOnHeelAndToe) {
+  const Trajectory run = reference::completed(reference::test_model("standing_person"));
+  const double weight = 70 * 9.80665, of_foot = 1.2 * 9.80665, toe = (weight * 0.05 + of_foot * 0.1) / 0.23;
+  EXPECT_NEAR(value(run, 0, "joint.toe.contact_force"), toe, 2e-2 * toe);  // the foot tips by 0.6 deg where its heel sinks in
+  EXPECT_NEAR(value(run, 0, "joint.heel.contact_force"), weight + of_foot - toe, 1e-2 * weight);
+  for (const LoadSummary& joint : run.joints) EXPECT_LE(joint.peak, joint.rms * (1 + 1e-3)) << joint.name;
+}
+
 }  // namespace
 }  // namespace pintle

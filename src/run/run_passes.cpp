@@ -417,7 +417,6 @@ class Passes {
   bool doubted_ = false;           // a pass has been made because two were alike
   double longest_ = 0;             // step of passes from now on, because tolerances have not shortened them [s]
   bool ran_away_ = false;          // the coarser one
-  std::string far_fed_;
   std::string far_fed_;            // BasicEnergyWatch::far_fed of the last pass
   double turnover_ = 0;            // energy that the last pass has turned over, if its account closed [J]
   int open_ = 0;                   // passes repeated because the energy account did not close

@@ -22,7 +22,7 @@ constexpr double kMostAjar = 1e-4;  // of the mechanism: what soft joints let go
 // A joint whose surfaces touch, and how it is pressed: `sign` times component `k` of its gap is the depth.
 struct Touch {
   int joint, k;
-  double sign, stiffness;  // [N/m], at ContactForce::kUsualDepth
+  double sign, stiffness;  // [N/m], under the loads of the start
   S::Vec gap;              // where they touch
 };
 
@@ -34,7 +34,29 @@ S::Vec gap_at(const Touch& touch, double depth) {
 
 double pressing(const Touch& touch, const S::Vec& force) { return -touch.sign * force[touch.k]; }
 
-std::optional<Touch> find_touch(const System& system, int j, const JointKinematics& r, double within, double at_rest) {
+// By bisection, which no power of the depth disturbs.
+double depth_at(const BasicLaw<S>& law, const Touch& touch, double force) {
+  const auto missing = [&](double depth) { return force - pressing(touch, respond(law, gap_at(touch, depth), S::Vec(S::Vec::Zero())).force); };
+  double low = 0, high = ContactForce::kUsualDepth;
+  for (int i = 0; i < 60 && missing(high) > 0; ++i) high *= 2;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (missing(middle) > 0 ? low : high) = middle;
+  }
+  return high;
+}
+
+// Of all bodies, as they would move if surfaces that touch did not push [N].
+double sum_of_loads(const System& system, const State& state) {
+  State free = state;
+  start_forces(system, false, free);
+  double sum = 0;
+  for (std::size_t i = 0; i < free.a.size(); ++i) sum += system.bodies[i].mass[0] * free.a[i].head<2>().norm();
+  return sum;
+}
+
+// A contact that is hardly touched is soft: it counts with the stiffness that it has under `load`.
+std::optional<Touch> find_touch(const System& system, int j, const JointKinematics& r, double within, double at_rest, double load) {
   const BasicLaw<S>& law = system.joints[j].law;
   if (law.ideal_limit() || law.feeds()) return std::nullopt;
   const double depth = law.penetration(r.gap);
@@ -44,7 +66,8 @@ std::optional<Touch> find_touch(const System& system, int j, const JointKinemati
       Touch touch{j, k, sign, 0, r.gap};
       const S::Vec gap = gap_at(touch, ContactForce::kUsualDepth);
       if (!(law.penetration(gap) - depth > 0.5 * ContactForce::kUsualDepth)) continue;
-      touch.stiffness = respond(law, gap, S::Vec(S::Vec::Zero())).stiffness(k, k);
+      const double pressed = load > 0 ? std::max(depth_at(law, touch, load), ContactForce::kUsualDepth) : ContactForce::kUsualDepth;
+      touch.stiffness = respond(law, gap_at(touch, pressed), S::Vec(S::Vec::Zero())).stiffness(k, k);
       if (touch.stiffness > 0 && std::abs(r.rate[k]) <= at_rest) return touch;
     }
   return std::nullopt;
@@ -55,9 +78,10 @@ std::vector<Touch> find_touches(const System& system, const State& state) {
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
   kinematics_at(system, state.t, state.q, state.v, m, r);
+  const double load = sum_of_loads(system, state);
   std::vector<Touch> touches;
   for (int j = 0; j < system.n_joints(); ++j)
-    if (const std::optional<Touch> touch = find_touch(system, j, r[j], within, at_rest)) touches.push_back(*touch);
+    if (const std::optional<Touch> touch = find_touch(system, j, r[j], within, at_rest, load)) touches.push_back(*touch);
   return touches;
 }
 
@@ -71,18 +95,6 @@ System with_springs(const System& system, const std::vector<Touch>& touches) {
     firm.joints[touch.joint].law = BasicLaw<S>(spring);
   }
   return firm;
-}
-
-// By bisection, which no power of the depth disturbs.
-double depth_at(const BasicLaw<S>& law, const Touch& touch, double force) {
-  const auto missing = [&](double depth) { return force - pressing(touch, respond(law, gap_at(touch, depth), S::Vec(S::Vec::Zero())).force); };
-  double low = 0, high = ContactForce::kUsualDepth;
-  for (int i = 0; i < 60 && missing(high) > 0; ++i) high *= 2;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (missing(middle) > 0 ? low : high) = middle;
-  }
-  return high;
 }
 
 // Of all joints, along their lengths, under the forces that they carry [m]: about as far as bodies are moved by them at the most.
