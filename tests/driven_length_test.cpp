@@ -163,5 +163,29 @@ TEST(DrivenLength, AWrongLengthIsRefused) {
   EXPECT_EQ(model.joints[0].geometry.at("length"), 5);
 }
 
+// A rope with a load of 10 kg is 10 mm shorter all at once: what the winch puts into its stretch beyond what lifts the load ends as heat in the rope.
+TEST(DrivenLength, AJumpOfItHeatsTheRopeByHalfOfItsStretch) {
+  const Trajectory run = reference::completed(parse_model(R"(format = 1
+[simulate]
+duration = "1 s"
+[ground.markers]
+a = [0, 0]
+[body.load]
+mass = "10 kg"
+inertia = "0.1 kg*m^2"
+position = [0, "-1 m"]
+angle = 0
+markers.a = [0, 0]
+[joint.line]
+type = "rope"
+between = ["ground.a", "load.a"]
+length = "if(t < 0.5 s, 1 m, 0.99 m)"
+stiffness = "1e5 N/m"
+damping = "500 N*s/m"
+)", "winch.toml"));
+  EXPECT_NEAR(run.joints.at(0).heat, 0.5 * 1e5 * 0.01 * 0.01, 1e-4);
+  EXPECT_NEAR(run.joints.at(0).heat, run.energy.dissipated, 1e-4);
+}
+
 }  // namespace
 }  // namespace pintle
