@@ -54,6 +54,24 @@ void IdealStepper::start(const State& state, double h) {
   keep_accurate();
   grow_scale();
   foresee_loads(h);
+  raise_above_rounding();
+}
+
+// No step resolves a part of what rounding makes of the forces of the joints that keep their laws, as of a belt that is taut without load.
+void IdealStepper::raise_above_rounding() {
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  system_.motions(end_.q, end_.v, m);
+  system_.joint_kinematics(end_.t, m, r);
+  Vecs rounding(system_.bodies.size(), S::Vec::Zero());
+  for (std::size_t j = 0; j < r.size(); ++j) {
+    const JointData& joint = system_.joints[j];
+    if (joint.ideal || joint.law.feeds()) continue;
+    const S::Vec force = kLastBits * largest_coordinate(end_.q) * joint.law.engaged_stiffness();
+    if (joint.at.a != kGround) rounding[joint.at.a] += r[j].GA().cwiseAbs().transpose() * force;
+    if (joint.at.b != kGround) rounding[joint.at.b] += r[j].GB().cwiseAbs().transpose() * force;
+  }
+  for (std::size_t i = 0; i < rounding.size(); ++i) raise_scale(system_.bodies[i], S::Vec(rounding[i] / tolerance_), scale_.body[i]);
 }
 
 // Where next to nothing acts yet, as from a motor that is switched on slowly, no force is large enough to measure errors by: the loads are those that come in

@@ -56,6 +56,7 @@ class IdealStepper final : public Stepper {
   bool crosses_jump() const;
   void grow_scale();
   void foresee_loads(double h);
+  void raise_above_rounding();
   void look_for_singular_position();
   void report_singular_position(double t);
 
