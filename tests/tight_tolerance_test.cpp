@@ -68,5 +68,15 @@ TEST(TightTolerance, ALooseOneCostsNoMoreThanATightOne) {
   }
 }
 
+// Places are rounded: an event that begins from rest is gone over as far as they show it, or it is met again and again, and then lost.
+TEST(TightTolerance, AStrutIsDroppedFromItsStop) {
+  for (const double tolerance : {1e-4, 1e-5, 1e-6, 1e-7}) {
+    Model model = reference::test_model("oleo_from_its_stop");
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = reference::completed(model);
+    EXPECT_LT(run.counters.steps + run.counters.rejected, 2000u) << tolerance;
+  }
+}
+
 }  // namespace
 }  // namespace pintle

@@ -61,7 +61,7 @@ class StepControl {
   std::string last_event(const BasicSystem<S>& system, double since) const;
 
   /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
-  /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event), rests(h),
+  /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event), rests(h), moves_by_rounding(h),
   /// forces_stay_constant(distance), cross_event(distance, event), balance_end(), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
@@ -206,7 +206,8 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       ahead.t = method.t() + event.before * h;
     }
     // A touch may be ten thousand times as short as the flight before it: its end is crossed only if forces stay what they are until then.
-    if (event.before < 1 && event.before * h < 2 * kEventAtStart * usual && method.forces_stay_constant(event.before * h)) {
+    const bool at_start = event.before < 1 && (event.before * h < 2 * kEventAtStart * usual || method.moves_by_rounding(event.before * h));
+    if (at_start && method.forces_stay_constant(event.before * h)) {
       ++counters.events;
       event_ = ahead;
       count_same(event, counters);
