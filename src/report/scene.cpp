@@ -56,7 +56,6 @@ Scene SceneMaker::make() {
   add_points();
   measure();
   sketch_joints();
-  for (const Wheel& wheel : ground_.wheels) scene_.box.cover(wheel.centre, wheel.radius + 2 * scene_.unit);
   for (std::size_t i = 0; i < model_.bodies.size(); ++i)
     if (scene_.bodies[i].recorded()) add_body(static_cast<int>(i));
   for (const Joint& joint : model_.joints) {

@@ -50,6 +50,7 @@ void SceneMaker::sketch_discs(const Joint& joint, const Anchor& first, const Anc
     std::vector<Wheel>& wheels = sketch_of(at.body).wheels;
     const auto same = [&](const Wheel& wheel) { return wheel.radius == radius->second && wheel.centre == at.point; };
     if (std::none_of(wheels.begin(), wheels.end(), same)) wheels.push_back({at.point, radius->second, false});
+    if (at.body == kWorld) scene_.box.cover(at.point, radius->second + 2 * scene_.unit);
   };
   add(first, "first_radius");
   add(second, "second_radius");
