@@ -8,6 +8,7 @@
 #include <string>
 
 #include "pintle/complaint.h"
+#include "pintle/read_model.h"
 #include "tests/reference_tables.h"
 
 namespace pintle {
@@ -165,7 +166,7 @@ TEST(DrivenLength, AWrongLengthIsRefused) {
 
 // A rope with a load of 10 kg is 10 mm shorter all at once: what the winch puts into its stretch beyond what lifts the load ends as heat in the rope.
 TEST(DrivenLength, AJumpOfItHeatsTheRopeByHalfOfItsStretch) {
-  const Trajectory run = reference::completed(parse_model(R"(format = 1
+  const Trajectory run = reference::completed(parse_model(R"toml(format = 1
 [simulate]
 duration = "1 s"
 [ground.markers]
@@ -182,7 +183,7 @@ between = ["ground.a", "load.a"]
 length = "if(t < 0.5 s, 1 m, 0.99 m)"
 stiffness = "1e5 N/m"
 damping = "500 N*s/m"
-)", "winch.toml"));
+)toml", "winch.toml"));
   EXPECT_NEAR(run.joints.at(0).heat, 0.5 * 1e5 * 0.01 * 0.01, 1e-4);
   EXPECT_NEAR(run.joints.at(0).heat, run.energy.dissipated, 1e-4);
 }
