@@ -36,7 +36,7 @@ class StepControl {
     have_history = false;
     behind_event = false;
     rounding_ = floor_h_ = floor_error_ = 0;
-    same_ = 0;
+    same_ = stopped_short_ = 0;
     same_function_ = -1;
     steps_at_event_ = 0;
     event_ = {};
@@ -62,7 +62,7 @@ class StepControl {
 
   /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
   /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event), rests(h), moves_by_rounding(h),
-  /// forces_stay_constant(distance), cross_event(distance, event), balance_end(), error_estimate(h, error) and finish_step(h).
+  /// forces_stay_constant(distance), cross_event(distance, event, again), balance_end(), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
 
@@ -71,6 +71,8 @@ class StepControl {
   static constexpr double kShortest = 1e-11;      // of the run: the shortest step that is refused for its error
   static constexpr double kEventAtStart = 1e-5;   // of the usual step: an event this close to its start is crossed, if forces hold until then
   static constexpr int kSlow = 10;                // trials towards an event, after which they are taken for a sequence that comes nearer by a constant ratio: most come there in three
+  static constexpr int kFewCrossed = 1;           // events that are crossed at the start of one step, after which the next ones are gone over as far as rounded places show. With 2 a strut that starts on its stop loses its touch
+  static constexpr int kFewShort = 3;             // steps in a row that end before an event and do not come to it: places are rounded, and no shorter step comes nearer
   static constexpr int kMostCrossed = 24;         // events that are crossed at the start of one step, at most
   static constexpr std::uint64_t kStepsBetween = 10;  // of two events of one function, at most, that count as in a row. With 2 a ram that rests on its stop meets 4000 of them in 10 s, with 10 a few
   static constexpr int kMostSame = 8;                 // in a row, after which the next ones are met only if they matter
@@ -109,6 +111,7 @@ class StepControl {
 
   double last_error_ = 0;  // over the tolerance
   double rounding_ = 0;    // of accelerations, over the tolerance: no step resolves it
+  int stopped_short_ = 0;                 // steps in a row that ended before an event, without one that was crossed
   int same_ = 0, same_function_ = -1;     // events in a row of one function
   std::uint64_t steps_at_event_ = 0;      // made before the last of them
   double floor_h_ = 0, floor_error_ = 0;  // a step, and the error that shorter ones have not halved
@@ -206,13 +209,14 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       ahead.t = method.t() + event.before * h;
     }
     // A touch may be ten thousand times as short as the flight before it: its end is crossed only if forces stay what they are until then.
-    const bool at_start = event.before < 1 && (event.before * h < 2 * kEventAtStart * usual || method.moves_by_rounding(event.before * h));
+    const bool at_start = event.before < 1 && (event.before * h < 2 * kEventAtStart * usual || (stopped_short_ >= kFewShort && method.moves_by_rounding(event.before * h)));
     if (at_start && method.forces_stay_constant(event.before * h)) {
       ++counters.events;
       event_ = ahead;
       count_same(event, counters);
-      method.cross_event(event.before * h, event);
+      method.cross_event(event.before * h, event, crossed >= kFewCrossed);
       ++crossed;
+      stopped_short_ = 0;
       retry = -1;  // it has moved on
       method.begin_at_end();
       h = std::max(h, kAfterEvent * usual);
@@ -263,6 +267,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     method.finish_step(h);
     ++counters.steps;
     accept(h, factor, up_to_event);
+    stopped_short_ = up_to_event ? stopped_short_ + 1 : 0;
     return true;
   }
   next = h;

@@ -46,8 +46,9 @@ class StepEvents {
   bool rests(double h);
   /// Whether what bodies move by within h is lost in the rounding of their places: no shorter step comes nearer to what happens then.
   bool moves_by_rounding(double h);
-  /// Over the event `distance` after the end, with forces and accelerations renewed there. A jump that comes back at once is held.
-  void cross_event(double distance, const SwitchingEvent& event);
+  /// Over the event `distance` after the end, with forces and accelerations renewed there. A jump that comes back at once is held. `again`: such
+  /// events have been met here more than once, and places must show on which side of this one they are.
+  void cross_event(double distance, const SwitchingEvent& event, bool again);
   /// At the end of a step: a ramp that the last bits have left is let go, a border that they have crossed is crossed.
   void update_switching();
 
@@ -120,11 +121,11 @@ double StepEvents<Method, S>::time_to_move(double distance) {
 }
 
 template <class Method, class S>
-void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& event) {
+void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& event, bool again) {
   const double before = method().end_time();
   motions_before_ = method().end_motions();
-  const double beyond = std::max({std::min(StepControl::kCrossing, StepControl::kLate * method().tolerance_) * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(before),
-                                  std::min(time_to_move(kSeen * rounding_of_places()), kMostSeen * control_.usual)});
+  const double seen = again ? std::min(time_to_move(kSeen * rounding_of_places()), kMostSeen * control_.usual) : 0;
+  const double beyond = std::max({std::min(StepControl::kCrossing, StepControl::kLate * method().tolerance_) * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(before), seen});
   search_.step_over(event, distance, beyond, [this](double d, double* value) {
     method().extrapolate_end_state(d);
     method().evaluate_switching_functions_at_end(value);
