@@ -243,13 +243,11 @@ double SceneMaker::largest_load() const {
   return largest;
 }
 
-// A shock of a moment must not shrink the arrows of the whole run: the scale follows the RMS where the peak is far above it. What is
-// smaller than its own error sets no scale.
+// A shock of a moment must not shrink the arrows of the whole run: the scale follows the RMS where the peak is far above it.
 void SceneMaker::scale_arrows() {
   constexpr double kPeakOfRms = 3;
   double peak = 0, rms = 0;
   for (const LoadSummary& joint : trajectory_.joints) {
-    if (joint.peak <= joint.error_estimate) continue;
     if (std::isfinite(joint.peak)) peak = std::max(peak, joint.peak);
     if (std::isfinite(joint.rms)) rms = std::max(rms, joint.rms);
   }
