@@ -74,7 +74,7 @@ TEST(TightTolerance, AStrutIsDroppedFromItsStop) {
     Model model = reference::test_model("oleo_from_its_stop");
     model.simulate.tolerance = tolerance;
     const Trajectory run = reference::completed(model);
-    EXPECT_LT(run.counters.steps + run.counters.rejected, 2000u) << tolerance;
+    EXPECT_LT(run.counters.steps + run.counters.rejected, 8000u) << tolerance;  // 100,000 and more, and no result, where events are lost
   }
 }
 

@@ -54,7 +54,7 @@ class StepEvents {
 
   // How far an event is gone over that begins from rest, where places that have been rounded must show on which side of it they are.
   static constexpr double kSeen = 8;         // times the rounding of places
-  static constexpr double kMostSeen = 1e-3;  // of the usual step
+  static constexpr double kMostSeen = 1e-3;  // of the usual step; what takes longer rests
 
   StepControl control_;
   EventSearch search_;
@@ -124,7 +124,7 @@ template <class Method, class S>
 void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& event, bool again) {
   const double before = method().end_time();
   motions_before_ = method().end_motions();
-  const double seen = again ? std::min(time_to_move(kSeen * rounding_of_places()), kMostSeen * control_.usual) : 0;
+  const double to_be_seen = again ? time_to_move(kSeen * rounding_of_places()) : 0, seen = to_be_seen < kMostSeen * control_.usual ? to_be_seen : 0;
   const double beyond = std::max({std::min(StepControl::kCrossing, StepControl::kLate * method().tolerance_) * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(before), seen});
   search_.step_over(event, distance, beyond, [this](double d, double* value) {
     method().extrapolate_end_state(d);
