@@ -62,7 +62,7 @@ class StepControl {
 
   /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
   /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event), rests(h), moves_by_rounding(h),
-  /// forces_stay_constant(distance), cross_event(distance, event, again), balance_end(), error_estimate(h, error) and finish_step(h).
+  /// forces_stay_constant(distance), cross_event(distance, event), balance_end(), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
 
@@ -71,7 +71,6 @@ class StepControl {
   static constexpr double kShortest = 1e-11;      // of the run: the shortest step that is refused for its error
   static constexpr double kEventAtStart = 1e-5;   // of the usual step: an event this close to its start is crossed, if forces hold until then
   static constexpr int kSlow = 10;                // trials towards an event, after which they are taken for a sequence that comes nearer by a constant ratio: most come there in three
-  static constexpr int kFewCrossed = 1;           // events that are crossed at the start of one step, after which the next ones are gone over as far as rounded places show. With 2 a strut that starts on its stop loses its touch
   static constexpr int kFewShort = 3;             // steps in a row that end before an event and do not come to it: places are rounded, and no shorter step comes nearer
   static constexpr int kMostCrossed = 24;         // events that are crossed at the start of one step, at most
   static constexpr std::uint64_t kStepsBetween = 10;  // of two events of one function, at most, that count as in a row. With 2 a ram that rests on its stop meets 4000 of them in 10 s, with 10 a few
@@ -214,7 +213,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       ++counters.events;
       event_ = ahead;
       count_same(event, counters);
-      method.cross_event(event.before * h, event, crossed >= kFewCrossed);
+      method.cross_event(event.before * h, event);
       ++crossed;
       stopped_short_ = 0;
       retry = -1;  // it has moved on

@@ -24,7 +24,7 @@ class Flickering {
     return event;
   }
   bool forces_stay_constant(double) { return true; }
-  void cross_event(double, const SwitchingEvent&, bool) { ++crossings; }
+  void cross_event(double, const SwitchingEvent&) { ++crossings; }
   void balance_end() {}
   double share_of_step(double, double) { return 1; }
   bool error_estimate(double, double&) { return false; }
@@ -68,7 +68,7 @@ class OneEvent {
     return event;
   }
   bool forces_stay_constant(double) { return true; }
-  void cross_event(double distance, const SwitchingEvent&, bool) {
+  void cross_event(double distance, const SwitchingEvent&) {
     t_ += distance;
     ++crossings;
   }

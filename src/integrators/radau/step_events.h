@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -46,15 +45,10 @@ class StepEvents {
   bool rests(double h);
   /// Whether what bodies move by within h is lost in the rounding of their places: no shorter step comes nearer to what happens then.
   bool moves_by_rounding(double h);
-  /// Over the event `distance` after the end, with forces and accelerations renewed there. A jump that comes back at once is held. `again`: such
-  /// events have been met here more than once, and places must show on which side of this one they are.
-  void cross_event(double distance, const SwitchingEvent& event, bool again);
+  /// Over the event `distance` after the end, with forces and accelerations renewed there. A jump that comes back at once is held.
+  void cross_event(double distance, const SwitchingEvent& event);
   /// At the end of a step: a ramp that the last bits have left is let go, a border that they have crossed is crossed.
   void update_switching();
-
-  // How far an event is gone over that begins from rest, where places that have been rounded must show on which side of it they are.
-  static constexpr double kSeen = 8;         // times the rounding of places
-  static constexpr double kMostSeen = 1e-3;  // of the usual step; what takes longer rests
 
   StepControl control_;
   EventSearch search_;
@@ -64,8 +58,6 @@ class StepEvents {
   Method& method() { return static_cast<Method&>(*this); }
   void restart_search() { method().evaluate_switching_functions_at_end(search_.start()); }
   double margin_rate(const SlidingMode& jump);
-  double rounding_of_places();
-  double time_to_move(double distance);
   void record() { record_crossings(events_of_, method().end_state(), search_.start(), search_.end(), crossings_); }
 
   const BasicSystem<S>& events_of_;
@@ -97,35 +89,17 @@ bool StepEvents<Method, S>::rests(double h) {
 template <class Method, class S>
 bool StepEvents<Method, S>::moves_by_rounding(double h) {
   const BasicState<S>& now = method().end_state();
+  const double rounding = std::numeric_limits<double>::epsilon() * largest_coordinate(now.q);
   for (std::size_t i = 0; i < now.v.size(); ++i)
-    if (!((now.v[i].cwiseAbs() + 0.5 * h * now.a[i].cwiseAbs()).maxCoeff() * h < rounding_of_places())) return false;
+    if (!((now.v[i].cwiseAbs() + 0.5 * h * now.a[i].cwiseAbs()).maxCoeff() * h < rounding)) return false;
   return true;
 }
 
 template <class Method, class S>
-double StepEvents<Method, S>::rounding_of_places() {
-  return std::numeric_limits<double>::epsilon() * largest_coordinate(method().end_state().q);
-}
-
-// Of the body that does so first.
-template <class Method, class S>
-double StepEvents<Method, S>::time_to_move(double distance) {
-  const BasicState<S>& now = method().end_state();
-  double soonest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < now.v.size(); ++i)
-    for (int k = 0; k < S::kDof; ++k) {
-      const double v = std::abs(now.v[i][k]), a = std::abs(now.a[i][k]);
-      if (v > 0 || a > 0) soonest = std::min(soonest, 2 * distance / (v + std::sqrt(v * v + 2 * a * distance)));
-    }
-  return soonest;
-}
-
-template <class Method, class S>
-void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& event, bool again) {
+void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& event) {
   const double before = method().end_time();
   motions_before_ = method().end_motions();
-  const double to_be_seen = again ? time_to_move(kSeen * rounding_of_places()) : 0, seen = to_be_seen < kMostSeen * control_.usual ? to_be_seen : 0;
-  const double beyond = std::max({std::min(StepControl::kCrossing, StepControl::kLate * method().tolerance_) * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(before), seen});
+  const double beyond = std::max(std::min(StepControl::kCrossing, StepControl::kLate * method().tolerance_) * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(before));
   search_.step_over(event, distance, beyond, [this](double d, double* value) {
     method().extrapolate_end_state(d);
     method().evaluate_switching_functions_at_end(value);
