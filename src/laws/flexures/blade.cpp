@@ -32,18 +32,23 @@ constexpr int kFinest = 512;                   // parts into which the path is h
 constexpr double kMostTension = 1e5;           // in units of EI/L^2: beyond, functions of the basis do not follow the bend at the clamps
 constexpr double kSurelyStable = std::numbers::pi * std::numbers::pi;
 
-// With N functions of the basis.
+// With N functions of the basis, or, where N is Eigen::Dynamic, with as many as it has.
 template <int N>
 class BentBlade {
-  static constexpr int kPoints = N + BladeBasis::kMorePoints, kUnknowns = N + 2;
-  using Column = Eigen::Matrix<double, kUnknowns, 1>;
-  using Square = Eigen::Matrix<double, kUnknowns, kUnknowns>;
-  using Field = Eigen::Array<double, kPoints, 1>;  // one number per point of the quadrature
-  using Functions = Eigen::Matrix<double, kPoints, N>;
+  static constexpr bool kKnown = N != Eigen::Dynamic;
+  static constexpr int kPoints = kKnown ? N + BladeBasis::kMorePoints : N, kMostPoints = (kKnown ? N : BladeBasis::kMost) + BladeBasis::kMorePoints;
+  static constexpr int kUnknowns = kKnown ? N + 2 : N, kMostUnknowns = (kKnown ? N : BladeBasis::kMost) + 2;
+  using Column = Eigen::Matrix<double, kUnknowns, 1, 0, kMostUnknowns, 1>;
+  using Columns3 = Eigen::Matrix<double, kUnknowns, 3, 0, kMostUnknowns, 3>;
+  using Square = Eigen::Matrix<double, kUnknowns, kUnknowns, 0, kMostUnknowns, kMostUnknowns>;
+  using Coefficients = Eigen::Matrix<double, N, 1, 0, kMostUnknowns - 2, 1>;
+  using Field = Eigen::Array<double, kPoints, 1, 0, kMostPoints, 1>;  // one number per point of the quadrature
+  using Functions = Eigen::Matrix<double, kPoints, N, 0, kMostPoints, kMostUnknowns - 2>;
 
  public:
   BentBlade(const BladeBasis& basis, double axial, double shear)
-      : axial_(axial), shear_(shear), s_(basis.s.data()), w_(basis.w.data()), angle_(basis.angle.data()), curvature_(basis.curvature.data()) {}
+      : axial_(axial), shear_(shear), n_(basis.n), s_(basis.s.data(), basis.n_points), w_(basis.w.data(), basis.n_points), angle_(basis.angle.data(), basis.n_points, n_),
+        curvature_(basis.curvature.data(), basis.n_points, n_), sine_(basis.n_points), versine_(basis.n_points), H_(n_ + 2, n_ + 2), residual_(n_ + 2), by_theta_(n_ + 2) {}
 
   // Newton's method.
   bool refine(const Vec3& displacement, BladeShape& shape) {
@@ -53,9 +58,9 @@ class BentBlade {
       lu_.compute(H_);
       const Column step = lu_.solve(-residual_);
       if (!step.allFinite()) return false;
-      const double turned = step.template head<N>().norm(), pushed = step.template tail<2>().norm();
-      coefficients(shape) += step.template head<N>();
-      for (int k = 0; k < 2; ++k) shape.n[k] += step[N + k];
+      const double turned = step.head(n()).norm(), pushed = step.template tail<2>().norm();
+      coefficients(shape) += step.head(n());
+      for (int k = 0; k < 2; ++k) shape.n[k] += step[n_ + k];
       const double angles = coefficients(shape).norm() + std::abs(shape.theta), forces = std::hypot(shape.n[0], shape.n[1]) + angles;
       const double relative = std::max(angles > 0 ? turned / angles : 0, forces > 0 ? pushed / forces : 0);
       if (relative <= kSettled || (relative < kRounding && relative > 0.5 * last)) {
@@ -69,11 +74,11 @@ class BentBlade {
 
   // Whether so many functions follow the shape and changes of it, to within `share`: of exp(k s), whose k is the root of the force along the blade, the
   // coefficients fall as exp(-n^2/k).
-  bool follows_changes() const { return N * N >= -std::log(kTail) * std::sqrt(turns_.abs().maxCoeff()); }
+  bool follows_changes() const { return n_ * n_ >= -std::log(kTail) * std::sqrt(turns_.abs().maxCoeff()); }
   bool follows_shape(const BladeShape& shape, double share) const {
     double size = std::abs(shape.theta);
-    for (int i = 0; i < N; ++i) size = std::max(size, std::abs(shape.c[i]) / std::sqrt(2 * i + 3));
-    return std::max(std::abs(shape.c[N - 1]), std::abs(shape.c[N - 2])) / std::sqrt(2 * N + 1) <= share * size;
+    for (int i = 0; i < n(); ++i) size = std::max(size, std::abs(shape.c[i]) / std::sqrt(2 * i + 3));
+    return std::max(std::abs(shape.c[n_ - 1]), std::abs(shape.c[n_ - 2])) / std::sqrt(2 * n_ + 1) <= share * size;
   }
 
   // What follows is at the equilibrium that has been found.
@@ -82,13 +87,13 @@ class BentBlade {
     BladeAnswer out;
     out.force << shape.n[0], shape.n[1], moment_;
     out.energy = 0.5 * (shape.theta * shape.theta + bending(coefficients(shape), coefficients(shape))) + 0.5 * (w_ * (axial_ * N_.square() + shear_ * Q_.square())).sum();
-    Eigen::Matrix<double, kUnknowns, 3> right = Eigen::Matrix<double, kUnknowns, 3>::Zero();
-    right(N, 0) = right(N + 1, 1) = -1;
+    Columns3 right = Columns3::Zero(n_ + 2, 3);
+    right(n_, 0) = right(n_ + 1, 1) = -1;
     right.col(2) = -by_theta_;
     follows_ = lu_.solve(right);  // (2.7)
     for (int k = 0; k < 3; ++k) {
-      out.stiffness(0, k) = follows_(N, k);
-      out.stiffness(1, k) = follows_(N + 1, k);
+      out.stiffness(0, k) = follows_(n_, k);
+      out.stiffness(1, k) = follows_(n_ + 1, k);
       out.stiffness(2, k) = by_theta_.dot(follows_.col(k)) + (k == 2 ? moment_by_theta_ : 0);
     }
     find_losses(rate, with_slopes, out);
@@ -105,28 +110,28 @@ class BentBlade {
   }
 
  private:
+  auto n() const { return Eigen::fix<N>(n_); }
   template <class Shape>
-  static auto coefficients(Shape& shape) {
-    using Numbers = std::conditional_t<std::is_const_v<Shape>, const Eigen::Matrix<double, N, 1>, Eigen::Matrix<double, N, 1>>;
-    return Eigen::Map<Numbers>(shape.c);
+  auto coefficients(Shape& shape) const {
+    return Eigen::Map<std::conditional_t<std::is_const_v<Shape>, const Coefficients, Coefficients>>(shape.c, n_);
   }
 
   // The integral of P_(i+1) squared over s.
   static double own(int i) { return 1.0 / (2 * i + 3); }
   template <class A, class B>
-  static double bending(const A& a, const B& b) {
+  double bending(const A& a, const B& b) const {
     double sum = 0;
-    for (int i = 0; i < N; ++i) sum += own(i) * a[i] * b[i];
+    for (int i = 0; i < n(); ++i) sum += own(i) * a[i] * b[i];
     return sum;
   }
 
   // The integrals of `field` with each function.
-  auto against_functions(const Field& field) const -> Eigen::Matrix<double, N, 1> { return angle_.transpose().lazyProduct(field.matrix()); }
+  Coefficients against_functions(const Field& field) const { return angle_.transpose().lazyProduct(field.matrix()); }
 
   // Slope along the blade and forces in its axes: Eqs. (2.2), (2.4).
   void follow_slope(const BladeShape& shape) {
     slope_ = shape.theta * s_ + angle_.lazyProduct(coefficients(shape)).array();
-    for (int q = 0; q < kPoints; ++q) {
+    for (int q = 0; q < n() + BladeBasis::kMorePoints; ++q) {
       const double half_sine = std::sin(0.5 * slope_[q]), half_cosine = std::cos(0.5 * slope_[q]);
       sine_[q] = 2 * half_sine * half_cosine;
       versine_[q] = 2 * half_sine * half_sine;
@@ -146,25 +151,25 @@ class BentBlade {
     const Field turned = w_ * turns_, along = w_ * (sine_ + difference * (N_ * sine_ - Q_ * cosine_)),
                 across = -w_ * (cosine_ + difference * (Q_ * sine_ + N_ * cosine_)), bends = w_ * bends_;
     const Functions weighted = turned.matrix().asDiagonal() * angle_;
-    if constexpr (N <= kSmall) H_.template topLeftCorner<N, N>() = angle_.transpose().lazyProduct(weighted);
-    else H_.template topLeftCorner<N, N>().noalias() = angle_.transpose() * weighted;
-    H_.template block<N, 1>(0, N) = against_functions(along);
-    H_.template block<N, 1>(0, N + 1) = against_functions(across);
-    H_.template bottomLeftCorner<2, N>() = H_.template topRightCorner<N, 2>().transpose();
-    residual_.template head<N>() = against_functions(bends);
-    for (int i = 0; i < N; ++i) {
+    if constexpr (kKnown) H_.topLeftCorner(n(), n()) = angle_.transpose().lazyProduct(weighted);
+    else H_.topLeftCorner(n(), n()).noalias() = angle_.transpose() * weighted;
+    H_.col(n_).head(n()) = against_functions(along);
+    H_.col(n_ + 1).head(n()) = against_functions(across);
+    H_.bottomLeftCorner(Eigen::fix<2>, n()) = H_.topRightCorner(n(), Eigen::fix<2>).transpose();
+    residual_.head(n()) = against_functions(bends);
+    for (int i = 0; i < n(); ++i) {
       H_(i, i) += own(i);
       residual_[i] += own(i) * shape.c[i];
     }
-    by_theta_.template head<N>() = against_functions(turned * s_);
+    by_theta_.head(n()) = against_functions(turned * s_);
     const auto &c = cosine_, &s = sine_;
-    H_(N, N) = -(w_ * (axial_ * c.square() + shear_ * s.square())).sum();
-    H_(N + 1, N + 1) = -(w_ * (axial_ * s.square() + shear_ * c.square())).sum();
-    H_(N, N + 1) = H_(N + 1, N) = -difference * (w_ * c * s).sum();
-    residual_[N] = displacement[0] + (w_ * (versine_ - axial_ * N_ * c + shear_ * Q_ * s)).sum();
-    residual_[N + 1] = displacement[1] - (w_ * (s + axial_ * N_ * s + shear_ * Q_ * c)).sum();
-    by_theta_[N] = (along * s_).sum();
-    by_theta_[N + 1] = (across * s_).sum();
+    H_(n_, n_) = -(w_ * (axial_ * c.square() + shear_ * s.square())).sum();
+    H_(n_ + 1, n_ + 1) = -(w_ * (axial_ * s.square() + shear_ * c.square())).sum();
+    H_(n_, n_ + 1) = H_(n_ + 1, n_) = -difference * (w_ * c * s).sum();
+    residual_[n_] = displacement[0] + (w_ * (versine_ - axial_ * N_ * c + shear_ * Q_ * s)).sum();
+    residual_[n_ + 1] = displacement[1] - (w_ * (s + axial_ * N_ * s + shear_ * Q_ * c)).sum();
+    by_theta_[n_] = (along * s_).sum();
+    by_theta_[n_ + 1] = (across * s_).sum();
     moment_ = shape.theta + (bends * s_).sum();
     moment_by_theta_ = 1 + (turned * s_.square()).sum();
   }
@@ -177,17 +182,17 @@ class BentBlade {
   // Of a symmetric matrix: as many as there are negative pivots (Sylvester's law of inertia).
   static int negative_eigenvalues(Square H) {
     int negative = 0;
-    for (Eigen::Index k = 0; k < kUnknowns; ++k) {
+    for (Eigen::Index k = 0; k < H.rows(); ++k) {
       const double pivot = H(k, k) != 0 ? H(k, k) : std::numeric_limits<double>::min();
       negative += pivot < 0;
-      const Eigen::Index left = kUnknowns - k - 1;
+      const Eigen::Index left = H.rows() - k - 1;
       const auto below = H.col(k).tail(left).eval();
       for (Eigen::Index j = 0; j < left; ++j) H.col(k + 1 + j).tail(left) -= (below[j] / pivot) * below;
     }
     return negative;
   }
 
-  Field slope_of(const Column& unknowns) const { return angle_.lazyProduct(unknowns.template head<N>()).array(); }
+  Field slope_of(const Column& unknowns) const { return angle_.lazyProduct(unknowns.head(n())).array(); }
 
   // Eqs. (2.11), (2.12).
   void find_losses(const Vec3& rate, bool with_slopes, BladeAnswer& out) const {
@@ -197,8 +202,8 @@ class BentBlade {
       const Column u = follows_.col(k);
       slope[k] = slope_of(u);
       if (k == 2) slope[k] += s_;
-      pull[k] = u[N] * c + u[N + 1] * s;
-      push[k] = u[N + 1] * c - u[N] * s;
+      pull[k] = u[n_] * c + u[n_ + 1] * s;
+      push[k] = u[n_ + 1] * c - u[n_] * s;
       along[k] = pull[k] + Q_ * slope[k];
       across[k] = push[k] - N_ * slope[k];
     }
@@ -217,12 +222,12 @@ class BentBlade {
         const Field turned = w_ * (third * both + by_force(k) * slope[m] + by_force(m) * slope[k] - difference * (pull[k] * push[m] + push[k] * pull[m]));
         const Field in_line = w_ * (both * (1 + 2 * difference * N_) - difference * (push[k] * slope[m] + push[m] * slope[k]));
         const Field beside = w_ * (-2 * difference * Q_ * both - difference * (pull[k] * slope[m] + pull[m] * slope[k]));
-        Column right;
-        right.template head<N>() = -against_functions(turned);
-        right[N] = -(in_line * c - beside * s).sum();
-        right[N + 1] = -(in_line * s + beside * c).sum();
+        Column right(n_ + 2);
+        right.head(n()) = -against_functions(turned);
+        right[n_] = -(in_line * c - beside * s).sum();
+        right[n_ + 1] = -(in_line * s + beside * c).sum();
         const Column second = lu_.solve(right);
-        const Field bent = slope_of(second), pulled = second[N] * c + second[N + 1] * s, pushed = second[N + 1] * c - second[N] * s;
+        const Field bent = slope_of(second), pulled = second[n_] * c + second[n_ + 1] * s, pushed = second[n_ + 1] * c - second[n_] * s;
         add_turn(k, m, rate, second, pulled + push[k] * slope[m] + across[m] * slope[k] + Q_ * bent, pushed - pull[k] * slope[m] - along[m] * slope[k] - N_ * bent, along, across, out);
         if (m != k)
           add_turn(m, k, rate, second, pulled + push[m] * slope[k] + across[k] * slope[m] + Q_ * bent, pushed - pull[m] * slope[k] - along[k] * slope[m] - N_ * bent, along, across, out);
@@ -239,9 +244,8 @@ class BentBlade {
     }
   }
 
-  static constexpr int kSmall = 16;  // functions, up to which products of tables are written out
-
   double axial_, shear_;
+  int n_;  // N, where that is known
   Eigen::Map<const Field> s_, w_;
   Eigen::Map<const Functions> angle_, curvature_;
   Field slope_, cosine_, sine_, versine_;  // 1 - cosine in `versine_`
@@ -251,32 +255,18 @@ class BentBlade {
   Column residual_, by_theta_;             // and their column for theta
   double moment_ = 0, moment_by_theta_ = 0;
   Eigen::PartialPivLU<Square> lu_;
-  Eigen::Matrix<double, kUnknowns, 3> follows_;  // of the unknowns by the displacement
+  Columns3 follows_;  // of the unknowns by the displacement
 };
 
-// use(blade) with as many functions as `level` has.
+// use(blade) with as many functions as `level` has: most blades have the fewest, and what these take is compiled for them.
 template <class Use>
 auto with_functions(int level, double axial, double shear, const Use& use) {
-  const BladeBasis& basis = BladeBasis::at(level);
-  constexpr int n = BladeBasis::kFewest;
-  switch (level) {
-    case 0: {
-      BentBlade<n> blade(basis, axial, shear);
-      return use(blade);
-    }
-    case 1: {
-      BentBlade<2 * n> blade(basis, axial, shear);
-      return use(blade);
-    }
-    case 2: {
-      BentBlade<4 * n> blade(basis, axial, shear);
-      return use(blade);
-    }
-    default: {
-      BentBlade<BladeBasis::kMost> blade(basis, axial, shear);
-      return use(blade);
-    }
+  if (level == 0) {
+    BentBlade<BladeBasis::kFewest> blade(BladeBasis::at(level), axial, shear);
+    return use(blade);
   }
+  BentBlade<Eigen::Dynamic> blade(BladeBasis::at(level), axial, shear);
+  return use(blade);
 }
 
 // Calls use(blade) with as many functions as the shape and changes of it take, at the equilibrium next to `shape`.
