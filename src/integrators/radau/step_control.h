@@ -132,6 +132,14 @@ class StepControl {
     return method.sets_states(event) || !method.rests(h) || !method.error_estimate(h, error) || !(error <= tolerance);
   }
 
+  // Whether an event so far after the start of a step is crossed there. A touch may be ten thousand times as short as the flight before it: its end is only if
+  // forces stay what they are until then.
+  template <class Method>
+  bool is_at_start(Method& method, double after) const {
+    const bool near = after < 2 * kEventAtStart * usual || (stopped_short_ >= kFewShort && method.moves_by_rounding(after));
+    return near && method.forces_stay_constant(after);
+  }
+
   // Whether half of a step has more than half of its error.
   bool is_floor(double h, double error) {
     const bool is = h < 0.5 * floor_h_ && error > 0.5 * floor_error_;
@@ -164,6 +172,7 @@ class StepControl {
 
   void accept(double h, double factor, bool up_to_event) {
     next = factor > kSame && factor < kSameAbove ? h : h * factor;
+    stopped_short_ = up_to_event ? stopped_short_ + 1 : 0;
     if (up_to_event) next = std::max(next, kAfterEvent * usual);  // a better guess than this stump
     else usual = next;
   }
@@ -207,9 +216,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       ahead = event;
       ahead.t = method.t() + event.before * h;
     }
-    // A touch may be ten thousand times as short as the flight before it: its end is crossed only if forces stay what they are until then.
-    const bool at_start = event.before < 1 && (event.before * h < 2 * kEventAtStart * usual || (stopped_short_ >= kFewShort && method.moves_by_rounding(event.before * h)));
-    if (at_start && method.forces_stay_constant(event.before * h)) {
+    if (event.before < 1 && is_at_start(method, event.before * h)) {
       ++counters.events;
       event_ = ahead;
       count_same(event, counters);
@@ -266,7 +273,6 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     method.finish_step(h);
     ++counters.steps;
     accept(h, factor, up_to_event);
-    stopped_short_ = up_to_event ? stopped_short_ + 1 : 0;
     return true;
   }
   next = h;
