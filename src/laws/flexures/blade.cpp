@@ -36,14 +36,16 @@ constexpr double kSurelyStable = std::numbers::pi * std::numbers::pi;
 template <int N>
 class BentBlade {
   static constexpr bool kKnown = N != Eigen::Dynamic;
-  static constexpr int kPoints = kKnown ? N + BladeBasis::kMorePoints : N, kMostPoints = (kKnown ? N : BladeBasis::kMost) + BladeBasis::kMorePoints;
-  static constexpr int kUnknowns = kKnown ? N + 2 : N, kMostUnknowns = (kKnown ? N : BladeBasis::kMost) + 2;
+  static constexpr int kPoints = kKnown ? N + BladeBasis::kMorePoints : N, kUnknowns = kKnown ? N + 2 : N;
+  static constexpr int kMostFunctions = kKnown ? N : BladeBasis::kMost;                // for which there is room
+  static constexpr int kMostPoints = kMostFunctions + BladeBasis::kMorePoints;         // the same
+  static constexpr int kMostUnknowns = kMostFunctions + 2;                             // the same
   using Column = Eigen::Matrix<double, kUnknowns, 1, 0, kMostUnknowns, 1>;
   using Columns3 = Eigen::Matrix<double, kUnknowns, 3, 0, kMostUnknowns, 3>;
   using Square = Eigen::Matrix<double, kUnknowns, kUnknowns, 0, kMostUnknowns, kMostUnknowns>;
-  using Coefficients = Eigen::Matrix<double, N, 1, 0, kMostUnknowns - 2, 1>;
+  using Coefficients = Eigen::Matrix<double, N, 1, 0, kMostFunctions, 1>;
   using Field = Eigen::Array<double, kPoints, 1, 0, kMostPoints, 1>;  // one number per point of the quadrature
-  using Functions = Eigen::Matrix<double, kPoints, N, 0, kMostPoints, kMostUnknowns - 2>;
+  using Functions = Eigen::Matrix<double, kPoints, N, 0, kMostPoints, kMostFunctions>;
 
  public:
   BentBlade(const BladeBasis& basis, double axial, double shear)
