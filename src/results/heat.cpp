@@ -7,7 +7,8 @@ namespace pintle {
 namespace {
 
 constexpr double kNoHeat = 1e-6;      // of the energy that moves
-constexpr double kRounding = 1e-12;   // of the energy that is stored
+constexpr double kRounding = 1e-12;   // of the energy that is stored: less is no motion
+constexpr double kRoundedHeat = 1e-10;  // of it: less is what rounding leaves in the account
 constexpr double kLittleHeat = 1e-3;  // of all that is lost
 
 double stored(const EnergyAccount& energy) { return std::max(std::abs(energy.potential_start), std::abs(energy.potential_end)); }
@@ -26,7 +27,7 @@ std::vector<const LoadSummary*> joints_with_heat(const Trajectory& run) {
   std::vector<const LoadSummary*> out;
   const EnergyAccount& energy = run.energy;
   const double all = heat_of_all(run);
-  if (!(all > std::max(kNoHeat * std::max(energy.kinetic_peak, std::abs(energy.supplied)), kRounding * stored(energy)))) return out;
+  if (!(all > std::max(kNoHeat * std::max(energy.kinetic_peak, std::abs(energy.supplied)), kRoundedHeat * stored(energy)))) return out;
   for (const LoadSummary& joint : run.joints)
     if (std::abs(joint.heat) > kLittleHeat * all) out.push_back(&joint);
   return out;
