@@ -304,7 +304,7 @@ bool find(const Vec3& displacement, double axial, double shear, const Use& use) 
     trial.theta = to[2];
     trial.c[0] += more * bent;
     trial.n[1] -= 2 * more * bent;
-    if (done == 0) {
+    if (done == 0) {  // the ends come nearer by half of the integral of the slope's square
       const double b = trial.c[0], shortening = to[2] * to[2] / 6 - to[2] * b / 12 + b * b / 60, pull = (to[0] + shortening) / axial;
       if (pull > -kSurelyStable) trial.n[0] = pull;
     }
