@@ -260,15 +260,16 @@ class BentBlade {
   Columns3 follows_;  // of the unknowns by the displacement
 };
 
-// use(blade) with as many functions as `level` has: most blades have the fewest, and what these take is compiled for them.
+// use(blade) with as many functions as `level` has: most blades have 8 or 16, and what these take is compiled for them.
 template <class Use>
 auto with_functions(int level, double axial, double shear, const Use& use) {
-  if (level == 0) {
-    BentBlade<BladeBasis::kFewest> blade(BladeBasis::at(level), axial, shear);
+  const auto with = [&]<int N>(std::integral_constant<int, N>) {
+    BentBlade<N> blade(BladeBasis::at(level), axial, shear);
     return use(blade);
-  }
-  BentBlade<Eigen::Dynamic> blade(BladeBasis::at(level), axial, shear);
-  return use(blade);
+  };
+  if (level == 0) return with(std::integral_constant<int, BladeBasis::kFewest>());
+  if (level == 1) return with(std::integral_constant<int, 2 * BladeBasis::kFewest>());
+  return with(std::integral_constant<int, Eigen::Dynamic>());
 }
 
 // Calls use(blade) with as many functions as the shape and changes of it take, at the equilibrium next to `shape`.
