@@ -19,7 +19,10 @@ struct Dual {
     return x;
   }
 
-  Dual& operator+=(const Dual& b) { return *this = *this + b; }
+  Dual& operator+=(const Dual& b) {
+    add(b.v, 1, b);
+    return *this;
+  }
   Dual& operator-=(const Dual& b) { return *this = *this - b; }
   Dual& operator*=(const Dual& b) { return *this = *this * b; }
   friend Dual operator+(const Dual& a, const Dual& b) { return combined(a.v + b.v, 1, a, 1, b); }

@@ -15,11 +15,7 @@ using S = Planar;
 bool joins_angles(const JointData& joint) { return is_pose_joint(joint) && joint.held[2]; }
 
 // The gap of a joint that is put together.
-S::Vec rest_gap(const JointData& joint) {
-  S::Vec misfit = S::Vec::Zero();
-  joint.law.keep_misfit(misfit);
-  return -misfit;
-}
+S::Vec rest_gap(const JointData& joint) { return -joint.law.misfit(S::Vec::Zero()); }
 
 // Puts body `b` onto the joint's other half, as far from it as the joint is at rest; `other` is placed already.
 void put(const JointData& joint, int b, const Model& model, const std::vector<S::Motion>& m, Vecs& q) {
@@ -42,18 +38,53 @@ void put(const JointData& joint, int b, const Model& model, const std::vector<S:
 
 // The joints of each body; last those of the ground.
 std::vector<std::vector<int>> joints_of_bodies(const System& system) {
-  std::vector<std::vector<int>> joints(static_cast<std::size_t>(system.n_bodies()) + 1);
+  std::vector<std::vector<int>> joints(system.n_bodies() + 1);
   for (int j = 0; j < system.n_joints(); ++j)
-    for (const int b : {system.joints[j].at.a, system.joints[j].at.b}) joints[static_cast<std::size_t>(b == kGround ? system.n_bodies() : b)].push_back(j);
+    for (const int b : {system.joints[j].at.a, system.joints[j].at.b}) joints[b == kGround ? system.n_bodies() : b].push_back(j);
   return joints;
 }
+
+// From body to body along the joints that hold a pose, breadth first.
+class PoseWalk {
+ public:
+  explicit PoseWalk(const System& system) : system_(system), joints_of_(joints_of_bodies(system)), reached_(joints_of_.size(), false) {}
+
+  bool reached(int body) const { return reached_[body]; }
+  void begin_at_ground() { begin_at(system_.n_bodies()); }
+  void begin_at(int body) {
+    reached_[body] = true;
+    queue_.push_back(body);
+  }
+  // visit(joint, body) for every body that is reached.
+  template <class Visit>
+  void go_on(const Visit& visit) {
+    const auto node = [this](int body) { return body == kGround ? system_.n_bodies() : body; };
+    while (!queue_.empty()) {
+      const int at = queue_.front();
+      queue_.pop_front();
+      for (const int j : joints_of_[at]) {
+        const JointData& joint = system_.joints[j];
+        const int a = node(joint.at.a), next = a == at ? node(joint.at.b) : a;
+        if (reached_[next] || !is_pose_joint(joint)) continue;
+        visit(joint, next);
+        begin_at(next);
+      }
+    }
+  }
+
+ private:
+  const System& system_;
+  std::vector<std::vector<int>> joints_of_;
+  std::vector<bool> reached_;
+  std::deque<int> queue_;
+};
 
 // What of the velocity of the joint's body `b` is not stated, from the motion of the other one.
 void follow(const JointData& joint, int b, const Body& stated, const std::vector<S::Motion>& m, S::Vec& v) {
   if (stated.velocity) return;
   const bool is_second = joint.at.b == b;
   const int other = is_second ? joint.at.a : joint.at.b;
-  const S::Motion still{}, &o = other == kGround ? still : m[static_cast<std::size_t>(other)], &me = m[static_cast<std::size_t>(b)];
+  const S::Motion still{}, &o = other == kGround ? still : m[other], &me = m[b];
   const auto moved_by = [](double spin, const S::Point& r) { return S::Point(-spin * r.y(), spin * r.x()); };
   const S::Point arm = me.turned((is_second ? joint.at.M : joint.at.F).p), at = me.p + arm;
   const double spin = stated.spin.value_or(o.w);
@@ -83,71 +114,40 @@ Vecs guess_positions(const Model& model, const System& system) {
     const Vec2 p = body.position.value_or(Vec2{0, 0});
     q.emplace_back(p[0], p[1], body.angle.value_or(0));
   }
-  const std::vector<std::vector<int>> joints_of = joints_of_bodies(system);
-  std::vector<bool> placed(n + 1, false);
-  std::deque<int> queue{n};
-  placed[n] = true;
+  PoseWalk walk(system);
+  walk.begin_at_ground();
   for (int i = 0; i < n; ++i)
-    if (model.bodies[i].position && model.bodies[i].angle) {
-      placed[i] = true;
-      queue.push_back(i);
-    }
+    if (model.bodies[i].position && model.bodies[i].angle) walk.begin_at(i);
   std::vector<S::Motion> m;
   system.motions(q, Vecs(q.size(), S::Vec::Zero()), m);
-  const auto spread = [&] {
-    while (!queue.empty()) {
-      const int at = queue.front();
-      queue.pop_front();
-      for (const int j : joints_of[at]) {
-        const JointData& joint = system.joints[j];
-        const int a = joint.at.a == kGround ? n : joint.at.a, b = joint.at.b == kGround ? n : joint.at.b;
-        const int next = a == at ? b : a;
-        if (placed[next] || !is_pose_joint(joint)) continue;
-        put(joint, next, model, m, q);
-        m[next] = S::Motion::of(q[next], S::Vec::Zero());
-        placed[next] = true;
-        queue.push_back(next);
-      }
-    }
+  const auto place = [&](const JointData& joint, int body) {
+    put(joint, body, model, m, q);
+    m[body] = S::Motion::of(q[body], S::Vec::Zero());
   };
-  spread();
-  for (int i = 0; i < n; ++i)
-    if (!placed[i]) {
-      placed[i] = true;
-      queue.push_back(i);
-      spread();
-    }
+  walk.go_on(place);
+  for (int i = 0; i < n; ++i) {
+    if (walk.reached(i)) continue;
+    walk.begin_at(i);
+    walk.go_on(place);
+  }
   return q;
 }
 
 Vecs guess_velocities(const Model& model, const System& system, const Vecs& q) {
-  const int n = system.n_bodies();
   Vecs v = stated_velocities(model);
   std::vector<S::Motion> m;
   system.motions(q, v, m);
-  const std::vector<std::vector<int>> joints_of = joints_of_bodies(system);
-  std::vector<bool> known(static_cast<std::size_t>(n) + 1, false);
-  const auto spread = [&](int from) {
-    known[static_cast<std::size_t>(from)] = true;
-    std::deque<int> queue{from};
-    while (!queue.empty()) {
-      const int at = queue.front();
-      queue.pop_front();
-      for (const int j : joints_of[static_cast<std::size_t>(at)]) {
-        const JointData& joint = system.joints[j];
-        const int a = joint.at.a == kGround ? n : joint.at.a, b = joint.at.b == kGround ? n : joint.at.b, next = a == at ? b : a;
-        if (known[static_cast<std::size_t>(next)] || !is_pose_joint(joint)) continue;
-        follow(joint, next, model.bodies[static_cast<std::size_t>(next)], m, v[static_cast<std::size_t>(next)]);
-        m[static_cast<std::size_t>(next)].set_velocity(v[static_cast<std::size_t>(next)]);
-        known[static_cast<std::size_t>(next)] = true;
-        queue.push_back(next);
-      }
-    }
+  const auto move = [&](const JointData& joint, int body) {
+    follow(joint, body, model.bodies[body], m, v[body]);
+    m[body].set_velocity(v[body]);
   };
-  spread(n);
-  for (int i = 0; i < n; ++i) {  // what does not hang on the ground
-    const Body& body = model.bodies[static_cast<std::size_t>(i)];
-    if (!known[static_cast<std::size_t>(i)] && (body.velocity || body.spin)) spread(i);
+  PoseWalk walk(system);
+  walk.begin_at_ground();
+  walk.go_on(move);
+  for (int i = 0; i < system.n_bodies(); ++i) {  // what does not hang on the ground
+    if (walk.reached(i) || !(model.bodies[i].velocity || model.bodies[i].spin)) continue;
+    walk.begin_at(i);
+    walk.go_on(move);
   }
   return v;
 }
@@ -159,10 +159,7 @@ std::string loop_through(const System& system, const std::string& text) {
     if (text.find(fmt::format("joint {} ", system.joints[j].name)) != std::string::npos) start = j;
   if (start < 0) return "-";
   const auto node = [n](int body) { return body == kGround ? n : body; };
-  std::vector<std::vector<int>> joints_of(n + 1);
-  for (int j = 0; j < system.n_joints(); ++j)
-    if (system.joints[j].servo < 0)  // a servo acts along its joint, it closes nothing
-      for (const int b : {system.joints[j].at.a, system.joints[j].at.b}) joints_of[node(b)].push_back(j);
+  const std::vector<std::vector<int>> joints_of = joints_of_bodies(system);
   std::vector<int> by(n + 1, -1);  // joint by which a body was reached
   std::deque<int> queue{node(system.joints[start].at.a)};
   by[queue.front()] = start;
@@ -171,7 +168,7 @@ std::string loop_through(const System& system, const std::string& text) {
     const int at = queue.front();
     queue.pop_front();
     for (const int j : joints_of[at]) {
-      if (j == start) continue;
+      if (j == start || system.joints[j].servo >= 0) continue;  // a servo acts along its joint, it closes nothing
       const int a = node(system.joints[j].at.a), b = node(system.joints[j].at.b);
       if (by[a == at ? b : a] >= 0) continue;
       by[a == at ? b : a] = j;

@@ -82,11 +82,7 @@ void kinematics_at(const System& system, double t, const Vecs& q, const Vecs& v,
   system.joint_kinematics(t, m, r);
 }
 
-S::Vec gap_to_close(const JointData& joint, const JointKinematics& r) {
-  S::Vec gap = r.gap;
-  joint.law.keep_misfit(gap);
-  return gap;
-}
+S::Vec gap_to_close(const JointData& joint, const JointKinematics& r) { return joint.law.misfit(r.gap); }
 
 double mechanism_size(const System& system, const Vecs& q) {
   double size = 1e-6;

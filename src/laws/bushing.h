@@ -46,7 +46,7 @@ struct BushingLaw {
     }
   }
   Planar::Vec engaged_stiffness() const { return K.diagonal(); }
-  void keep_misfit(Planar::Vec& gap) const { gap -= offset; }
+  Planar::Vec misfit(const Planar::Vec& gap) const { return gap - offset; }
 };
 
 }  // namespace pintle

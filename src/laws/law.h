@@ -72,10 +72,10 @@ class BasicLaw {
       LawOutput<T, S::kDof> one;
       one.clear(part->n_states());
       part->evaluate(in, one);
-      for (int k = 0; k < S::kDof; ++k) law_math::add(1, one.force[k], out.force[k]);
+      for (int k = 0; k < S::kDof; ++k) out.force[k] += one.force[k];
       for (int z = 0; z < part->n_states(); ++z) out.state_rate[first + z] = one.state_rate[z];
-      law_math::add(1, one.energy, out.energy);
-      law_math::add(1, one.loss, out.loss);
+      out.energy += one.energy;
+      out.loss += one.loss;
       in.state += part->n_states();
       first += part->n_states();
     }
@@ -137,9 +137,10 @@ class BasicLaw {
   double lever() const;
   /// The deepest of its parts': LawPart::penetration.
   double penetration(const Vec& gap) const;
-  /// LawPart::keep_misfit.
-  void keep_misfit(Vec& gap) const {
-    for (const auto& part : parts_) part->keep_misfit(gap);
+  /// LawPart::misfit.
+  Vec misfit(Vec gap) const {
+    for (const auto& part : parts_) gap = part->misfit(gap);
+    return gap;
   }
 
   /// Columns of all parts, and their values, appended, where the joint has this force.

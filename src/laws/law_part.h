@@ -95,8 +95,8 @@ class BasicLawPart {
   virtual std::pair<int, Bends> bends() const = 0;
   /// What the joint's own force is multiplied by to measure couples that the law makes of it [m]: the radius of a pin that rubs.
   virtual double lever() const = 0;
-  /// Leaves of a gap what is to be closed where bodies are put together: of a slack rope nothing, of a bushing how far it is from its rest position.
-  virtual void keep_misfit(Vec& gap) const = 0;
+  /// What is to be closed of a gap where bodies are put together: of a slack rope nothing, of a bushing how far it is from its rest position.
+  virtual Vec misfit(const Vec& gap) const = 0;
   /// Depth by which the bodies overlap at this gap [m], negative while apart; of laws without contact minus infinity.
   virtual double penetration(const Vec& gap) const = 0;
   /// The stop that this gap is beyond; none: it is between them.
@@ -110,7 +110,7 @@ using LawPart = BasicLawPart<Planar>;
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
 /// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), border_directions() (one +1, -1 or 0
 /// each, or border_direction(i)) cross() and border_name(), kHolds = false, kStops = true, kRubs = false (of what neither holds nor stops), kOnReactionAlone = true, kStartsFree = true, supply(in),
-/// columns() with observe(), engaged_stiffness(), closed_stiffness(), gap_under(), bends(), keep_misfit(), lever(), penetration(), breach(), stiction() with set_stuck() and start_slipping().
+/// columns() with observe(), engaged_stiffness(), closed_stiffness(), gap_under(), bends(), misfit(), lever(), penetration(), breach(), stiction() with set_stuck() and start_slipping().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
  public:
@@ -212,8 +212,9 @@ class LawPartOf final : public BasicLawPart<S> {
     if constexpr (requires { law_.lever(); }) return law_.lever();
     else return 0;
   }
-  void keep_misfit(Vec& gap) const override {
-    if constexpr (requires { law_.keep_misfit(gap); }) law_.keep_misfit(gap);
+  Vec misfit(const Vec& gap) const override {
+    if constexpr (requires { law_.misfit(gap); }) return law_.misfit(gap);
+    else return gap;
   }
   double penetration(const Vec& gap) const override {
     if constexpr (requires { law_.penetration(gap); }) return law_.penetration(gap);

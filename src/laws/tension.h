@@ -40,7 +40,7 @@ struct TensionLaw {
     if (c > 0) value[1] = std::min(in.gap[0], -pull);
   }
   Planar::Vec engaged_stiffness() const { return {k, 0, 0}; }
-  void keep_misfit(Planar::Vec& gap) const { gap[0] = std::max(gap[0], 0.0); }
+  Planar::Vec misfit(const Planar::Vec& gap) const { return {std::max(gap[0], 0.0), gap[1], gap[2]}; }
 };
 
 }  // namespace pintle

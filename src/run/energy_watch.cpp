@@ -204,7 +204,7 @@ const typename BasicEnergyWatch<S>::Feeder* BasicEnergyWatch<S>::largest_feeder(
 }
 
 template <class S>
-std::string BasicEnergyWatch<S>::far_fed() const {
+std::string BasicEnergyWatch<S>::note_on_feeder() const {
   const Feeder* most = largest_feeder();
   if (most == nullptr || !(most->work > kFarFed * storable_)) return {};
   return fmt::format("{} {} has fed {:.3g} J, {:.2g} times what the mechanism stores by itself: check the signs of what it depends on", most->kind, *most->name, most->work,

@@ -29,7 +29,7 @@ class BasicEnergyWatch {
   /// The end of the motion: the account is judged once more.
   Alarm see_end(const BasicState<S>& state);
   /// What has fed the motion far more than the mechanism stores by itself, in words; empty: nothing has.
-  std::string far_fed() const;
+  std::string note_on_feeder() const;
   /// What the last alarm was about.
   const std::string& message() const { return message_; }
 

@@ -98,7 +98,7 @@ class Passes {
     fine_ = std::move(recorder);
     fine_ringing_ = std::move(ringing);
     fine_tolerance_ = tolerance;
-    far_fed_ = energy.far_fed();
+    feeder_note_ = energy.note_on_feeder();
     turnover_ = done.ended == Ended::kAtEnd ? energy.turnover() : 0;
     last_ = std::move(done);
     return complete;
@@ -310,7 +310,7 @@ class Passes {
     const auto worst = std::max_element(relative_difference_.begin(), relative_difference_.end());
     const BasicJointData<S>* worst_joint = worst == relative_difference_.end() ? nullptr : &system_.joints[static_cast<std::size_t>(worst - relative_difference_.begin())];
     judge(worst_joint);
-    if (!far_fed_.empty() && out_.outcome != Outcome::kCompleted && out_.outcome != Outcome::kRunaway) out_.notes.push_back(far_fed_);
+    if (!feeder_note_.empty() && out_.outcome != Outcome::kCompleted && out_.outcome != Outcome::kRunaway) out_.notes.push_back(feeder_note_);
     const bool chaotic = out_.outcome == Outcome::kHorizon;
     for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
     const BasicLeastError<S> least{least_error(), fine_ringing_, fine_tolerance_};
@@ -417,7 +417,7 @@ class Passes {
   bool doubted_ = false;           // a pass has been made because two were alike
   double longest_ = 0;             // step of passes from now on, because tolerances have not shortened them [s]
   bool ran_away_ = false;          // the coarser one
-  std::string far_fed_;            // BasicEnergyWatch::far_fed of the last pass
+  std::string feeder_note_;        // BasicEnergyWatch::note_on_feeder of the last pass
   double turnover_ = 0;            // energy that the last pass has turned over, if its account closed [J]
   int open_ = 0;                   // passes repeated because the energy account did not close
   BasicIntegration<S> last_;

@@ -61,7 +61,7 @@ class StepControl {
   std::string last_event(const BasicSystem<S>& system, double since) const;
 
   /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
-  /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event), rests(h), moves_by_rounding(h),
+  /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event), rests(h), motion_is_rounding(h),
   /// forces_stay_constant(distance), cross_event(distance, event), balance_end(), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
@@ -135,8 +135,8 @@ class StepControl {
   // Whether an event so far after the start of a step is crossed there. A touch may be ten thousand times as short as the flight before it: its end is only if
   // forces stay what they are until then.
   template <class Method>
-  bool is_at_start(Method& method, double after) const {
-    const bool near = after < 2 * kEventAtStart * usual || (stopped_short_ >= kFewShort && method.moves_by_rounding(after));
+  bool is_crossed_at_start(Method& method, double after) const {
+    const bool near = after < 2 * kEventAtStart * usual || (stopped_short_ >= kFewShort && method.motion_is_rounding(after));
     return near && method.forces_stay_constant(after);
   }
 
@@ -216,7 +216,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       ahead = event;
       ahead.t = method.t() + event.before * h;
     }
-    if (event.before < 1 && is_at_start(method, event.before * h)) {
+    if (event.before < 1 && is_crossed_at_start(method, event.before * h)) {
       ++counters.events;
       event_ = ahead;
       count_same(event, counters);

@@ -45,7 +45,7 @@ void BasicLoadRecorder<S>::start(const BasicState<S>& state) {
     if (with_heat_ && system_.joints[j].servo < 0) stored_[j] = stored(static_cast<int>(j), state);
     if (with_heat_ && system_.joints[j].servo < 0 && system_.joints[j].driven >= 0) lengths_.push_back({static_cast<int>(j)});
   }
-  see_lengths(state);
+  remember_lengths(state);
   for (std::size_t i = 0; i < signal_.size(); ++i) first(signal_[i], samples_[static_cast<std::size_t>(stride_ - n_signals_) + i]);
 }
 
@@ -69,7 +69,7 @@ void BasicLoadRecorder<S>::sample(int i, const BasicState<S>& state) {
 }
 
 template <class S>
-void BasicLoadRecorder<S>::see_lengths(const BasicState<S>& end) {
+void BasicLoadRecorder<S>::remember_lengths(const BasicState<S>& end) {
   for (DrivenLength& length : lengths_) {
     const std::size_t j = static_cast<std::size_t>(length.joint);
     const int k = system_.joints[j].driven;
@@ -79,7 +79,7 @@ void BasicLoadRecorder<S>::see_lengths(const BasicState<S>& end) {
 
 // Where a length jumps between two steps, its drive works on what the joint stores, and no step shows it.
 template <class S>
-void BasicLoadRecorder<S>::add_jumps_of_lengths(const BasicState<S>& begin) {
+void BasicLoadRecorder<S>::add_work_of_length_jumps(const BasicState<S>& begin) {
   for (const DrivenLength& length : lengths_) {
     const std::size_t j = static_cast<std::size_t>(length.joint);
     const int k = system_.joints[j].driven;
@@ -91,8 +91,8 @@ void BasicLoadRecorder<S>::add_jumps_of_lengths(const BasicState<S>& begin) {
 template <class S>
 void BasicLoadRecorder<S>::add_step(BasicStepper<S>& stepper) {
   const double t0 = stepper.previous().t, t1 = stepper.state().t;
-  add_jumps_of_lengths(stepper.previous());
-  see_lengths(stepper.state());
+  add_work_of_length_jumps(stepper.previous());
+  remember_lengths(stepper.state());
   if (end_ == begin_)  // what stands for a run without a step
     for (auto* all : {&force_, &couple_, &signal_})
       for (CurveSums& sums : *all) sums.integral = sums.square = 0;

@@ -54,8 +54,8 @@ class BasicLoadRecorder {
   static constexpr int kForce = S::kDim, kCouple = S::kDof - S::kDim;
   double stored(int joint, const BasicState<S>& state) const;
   double power_on_gap(int j, const BasicState<S>& state) const;
-  void see_lengths(const BasicState<S>& end);
-  void add_jumps_of_lengths(const BasicState<S>& begin);
+  void remember_lengths(const BasicState<S>& end);
+  void add_work_of_length_jumps(const BasicState<S>& begin);
   void sample(int i, const BasicState<S>& state);
   void add_resolved(BasicStepper<S>& stepper, double t0, double t1, int halvings);
   void take_samples(BasicStepper<S>& stepper, double t0, double t1);
