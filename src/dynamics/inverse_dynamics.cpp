@@ -18,7 +18,6 @@ constexpr int kClosing = 4;          // passes of a projection onto closed gaps,
 constexpr double kClosed = 1e-11;    // of what the first pass found: the next one finds nothing
 constexpr double kRedundant = 1e-3;  // of forces on all joints: what is left of it at a joint that others make redundant
 constexpr int kMostHalvings = 6;     // of the way to another place, on which a law does not come across a border, at most
-constexpr int kMostJoints = 300;     // whose masses with closed joints are asked for: the cost grows with the square
 
 // The slowest frequency that a joint's stiffness gives to the two bodies it connects, over all joints (of components with
 // `moved`, when given).
@@ -222,32 +221,41 @@ bool BasicInverseDynamics<S>::find_accelerations(BasicState<S>& state) {
   return true;
 }
 
+template <class S>
+bool BasicInverseDynamics<S>::hold_all_at(const BasicState<S>& state) {
+  find_kinematics(state);
+  const double mu = kHeldAbove * slowest_joint(system_, r_);
+  no_load_.assign(system_.bodies.size(), S::Vec::Zero());
+  return std::isfinite(mu) && mu > 0 && projector_.prepare(r_, mu, state.gap, state.gap_rate);
+}
+
+template <class S>
+const VecsOf<S>& BasicInverseDynamics<S>::forces_that_accelerate(int j, int c) {
+  accelerated_ = no_load_;
+  accelerating_.assign(system_.joints.size(), S::Vec::Zero());
+  for (int pass = 0; pass < kClosing; ++pass) {
+    for (int i = 0; i < system_.n_joints(); ++i) wanted_[i] = -from_bodies(i, accelerated_);
+    wanted_[j][c] += 1;
+    if (largest_held(wanted_) <= kClosed) break;
+    projector_.close(wanted_, accelerated_);
+  }
+  for (int pass = 0; pass < kClosing; ++pass)
+    if (projector_.improve_forces(no_load_, accelerated_, accelerating_) <= kClosed * largest_force(accelerating_)) break;
+  return accelerating_;
+}
+
 // theory/assembly Eq. (5.1).
 template <class S>
 BasicEffectiveMasses<S> BasicInverseDynamics<S>::effective_masses(const BasicState<S>& state) {
-  find_kinematics(state);
-  const double mu = kHeldAbove * slowest_joint(system_, r_);
-  if (!std::isfinite(mu) || !(mu > 0) || !projector_.prepare(r_, mu, state.gap, state.gap_rate)) return {};
-  const VecsOf<S> no_load(system_.bodies.size(), S::Vec::Zero());
+  if (!hold_all_at(state)) return {};
   const VecsOf<S> none(system_.joints.size(), S::Vec::Zero());
   BasicEffectiveMasses<S> masses{none, none};
-  VecsOf<S> a, force;
   for (int j = 0; j < system_.n_joints(); ++j) {
     const typename S::Vec mobility = system_.own_mobility(system_.joints[j].at, r_[j]);
     for (int c = 0; c < S::kDof; ++c) {
       masses.closed[j][c] = masses.alone[j][c] = mobility[c] > 0 ? 1 / mobility[c] : 0;
       if (system_.n_joints() > kMostJoints) continue;
-      a = no_load;
-      force.assign(system_.joints.size(), S::Vec::Zero());
-      for (int pass = 0; pass < kClosing; ++pass) {
-        for (int i = 0; i < system_.n_joints(); ++i) wanted_[i] = -from_bodies(i, a);
-        wanted_[j][c] += 1;
-        if (largest_held(wanted_) <= kClosed) break;
-        projector_.close(wanted_, a);
-      }
-      for (int pass = 0; pass < kClosing; ++pass)
-        if (projector_.improve_forces(no_load, a, force) <= kClosed * largest_force(force)) break;
-      masses.closed[j][c] = std::max(masses.closed[j][c], force[j][c]);  // where no motion can change it alone, the force is 0
+      masses.closed[j][c] = std::max(masses.closed[j][c], forces_that_accelerate(j, c)[j][c]);  // where no motion can change it alone, the force is 0
     }
   }
   return masses;

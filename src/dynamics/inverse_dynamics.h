@@ -18,6 +18,7 @@ inline constexpr int kFrictionRounds = 4;
 /// And on while each changes by less than this of the one before, which oil films may not: a rope round a post gains a quarter in each. With half of it
 /// the error stated for mechanisms/bollard.toml is 1e-5 of the peak instead of 5e-8; doubled, rounds that lead nowhere would not end.
 inline constexpr double kFrictionContracts = 0.9;
+inline constexpr int kMostJoints = 300;  // for which what one gap's acceleration takes of all joints is asked: the cost grows with the square
 inline constexpr double kFits = 1e-9;  // of the largest force, or speed: gaps, or rates, that differ by no more fit together
 
 /// What a force on a component of a gap has to accelerate, per joint and component [kg or kg*m^2]. Empty when no joint has
@@ -74,6 +75,10 @@ class BasicInverseDynamics {
   /// After `move_onto_gaps`: where gaps do not fit together, the forces become those of the gaps that the bodies have. Whether they did not fit.
   bool set_forces_from_bodies(BasicState<S>& state);
   BasicEffectiveMasses<S> effective_masses(const BasicState<S>& state);
+  /// At this state from now on, for `forces_that_accelerate`. False when no joint is stiff or the equations are singular.
+  bool hold_all_at(const BasicState<S>& state);
+  /// The joint forces that make component c of the gap of joint j accelerate by 1, and no other gap.
+  const VecsOf<S>& forces_that_accelerate(int j, int c);
 
  private:
   void find_kinematics(const BasicState<S>& state);
@@ -93,7 +98,7 @@ class BasicInverseDynamics {
   std::vector<int> rubbing_;      // joints with friction
   std::vector<bool> linearized_;  // joints whose gaps are found by one step with the tangent
   VecsOf<S> rest_rate_;           // with which the states of friction are at rest, where they are kept
-  VecsOf<S> Q_, wanted_, by_law_, moved_, moves_, last_force_;
+  VecsOf<S> Q_, wanted_, by_law_, moved_, moves_, last_force_, no_load_, accelerated_, accelerating_;
 };
 using InverseDynamics = BasicInverseDynamics<Planar>;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "dynamics/inverse_dynamics.h"
 #include "dynamics/time_scales.h"
@@ -20,8 +21,7 @@ BasicRingingLoss<S>::BasicRingingLoss(const BasicSystem<S>& system, const BasicS
 template <class S>
 void BasicRingingLoss<S>::start_again() {
   lost_.assign(system_->joints.size(), S::Vec::Zero());
-  force_.assign(lost_.size(), 0.0);
-  couple_ = force_;
+  most_lost_ = lost_;
 }
 
 template <class S>
@@ -61,10 +61,25 @@ void BasicRingingLoss<S>::see_step(const BasicStepNodes<S>& nodes, double h) {
       const double share = std::min(std::abs(missed) / amplitude, 1.0), missed_rate = h * last / (2 * table.n - 1);
       lost_[j][k] = std::exp(-decay_[j][k] * h) * (lost_[j][k] + share * share * std::max(mass_[j][k] * amplitude, ringing_force(mass_[j][k], damping_[j][k], stiffness_[j][k], missed_rate)));
     }
-  for (std::size_t j = 0; j < lost_.size(); ++j) {
-    force_[j] = std::max(force_[j], linear_magnitude<S>(lost_[j]));
-    couple_[j] = std::max(couple_[j], angular_magnitude<S>(lost_[j]));
-  }
+  for (std::size_t j = 0; j < lost_.size(); ++j) most_lost_[j] = most_lost_[j].cwiseMax(lost_[j]);
+}
+
+// Vibrations have no phase in common: their squares are added.
+template <class S>
+void BasicRingingLoss<S>::spread(double least_force, double least_couple) {
+  if (mass_.empty() || system_->n_joints() > kMostJoints) return;
+  std::optional<BasicInverseDynamics<S>> dynamics;
+  VecsOf<S> squares(lost_.size(), S::Vec::Zero());
+  for (std::size_t j = 0; j < lost_.size(); ++j)
+    for (int k = 0; k < S::kDof; ++k) {
+      if (!(most_lost_[j][k] > (k < S::kDim ? least_force : least_couple))) continue;
+      if (!dynamics && !dynamics.emplace(*system_).hold_all_at(*start_)) return;
+      const double acceleration = most_lost_[j][k] / mass_[j][k];
+      const VecsOf<S>& force = dynamics->forces_that_accelerate(static_cast<int>(j), k);
+      for (std::size_t i = 0; i < lost_.size(); ++i)
+        if (i != j) squares[i] += (acceleration * force[i]).cwiseAbs2();
+    }
+  for (std::size_t j = 0; j < lost_.size(); ++j) most_lost_[j] = (most_lost_[j].cwiseAbs2() + squares[j]).cwiseSqrt();
 }
 
 template class BasicRingingLoss<Planar>;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "integrators/radau/step_nodes.h"
+#include "run/record/force_table.h"
 #include "system/state.h"
 
 namespace pintle {
@@ -19,9 +20,11 @@ class BasicRingingLoss {
 
   /// A step of h seconds has been made.
   void see_step(const BasicStepNodes<S>& nodes, double h);
+  /// Joints carry what other joints' vibrations accelerate: adds to each what it lacks with those that have lost more than this force [N] or couple [N*m] of their own, as forces are at the start.
+  void spread(double least_force, double least_couple);
   /// The largest force by which joint j lacks ringing so far [N], and the largest couple [N*m].
-  double force(std::size_t j) const { return force_[j]; }
-  double couple(std::size_t j) const { return couple_[j]; }
+  double force(std::size_t j) const { return linear_magnitude<S>(most_lost_[j]); }
+  double couple(std::size_t j) const { return angular_magnitude<S>(most_lost_[j]); }
 
  private:
   void find_masses();
@@ -30,8 +33,7 @@ class BasicRingingLoss {
   const BasicState<S>* start_;
   const VecsOf<S>* known_mass_;
   VecsOf<S> mass_, damping_, stiffness_, decay_;  // what a component's force accelerates; its law at the start; the rate at which the joint damps its own vibration [1/s]; empty before the first step
-  VecsOf<S> lost_;          // [N], [N*m]
-  std::vector<double> force_, couple_;
+  VecsOf<S> lost_, most_lost_;  // at the last step, and so far [N], [N*m]
 };
 
 }  // namespace pintle

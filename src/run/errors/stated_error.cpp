@@ -12,6 +12,7 @@ namespace {
 constexpr double kPeakOfRounding = 10;       // times the rounding of one force: its peak over a run of many. With 1 the rail of snap_through_truss states a hundredth of what it carries
 constexpr double kNegligibleOfMotor = 1e-3;  // a motor is measured at least by this part of it
 constexpr double kMostRinging = 3;           // times the tolerance of the steps: as much as they may have damped of vibrations unnoticed. What they lose of resolved ones in thousands of steps shows in the difference of the passes
+constexpr double kSpread = 0.1;              // times the tolerance of the steps and what the least loaded joint is measured by: from there on what one joint has lost of its vibrations is looked for in the others
 constexpr double kOfEqual = 3;               // share of the difference that is the finer pass's error, where the finer pass is as coarse
 
 // Of centres, and of points at `radius` from them across the axis of their turn. theory/time Eq. (6.4).
@@ -42,7 +43,11 @@ struct Measures {
     return std::max(of_force, relative(couple_error, peak_couple, least * couple));
   }
 
+  double smallest_force(const PassDifference& c) const { return std::max(smallest_of(c.peak), kNegligible * force); }
+  double smallest_couple(const PassDifference& c) const { return std::max(smallest_of(c.peak_couple), kNegligible * couple); }
+
  private:
+  static double smallest_of(const std::vector<double>& x) { return x.empty() ? 0 : *std::min_element(x.begin(), x.end()); }
   // Where joints carry more, or nothing carries anything, what rounding alone makes of a joint is no force whose error a finer pass could lessen.
   static bool is_rounding(double error, double peak, double rounding, double largest) {
     return std::max(error, peak) <= rounding && (largest > rounding || largest <= rounding / kPeakOfRounding);
@@ -105,8 +110,9 @@ std::size_t common_rows(const BasicForceTable<S>& coarse, const BasicForceTable<
 }  // namespace
 
 template <class S>
-double largest_ringing_loss(const BasicSystem<S>& system, const PassDifference& difference, const BasicRingingLoss<S>& ringing, double tolerance) {
+double largest_ringing_loss(const BasicSystem<S>& system, const PassDifference& difference, BasicRingingLoss<S>& ringing, double tolerance) {
   const Measures<S> measures(system, difference);
+  ringing.spread(kSpread * tolerance * measures.smallest_force(difference), kSpread * tolerance * measures.smallest_couple(difference));
   double largest = 0;
   for (std::size_t j = 0; j < system.joints.size(); ++j) {
     const auto [force, couple] = damped(ringing, tolerance, difference, j);
@@ -247,14 +253,14 @@ template std::vector<double> relative_differences(const BasicSystem<Planar>& sys
 template double motion_difference(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template DifferenceCurve force_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template DifferenceCurve motion_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
-template double largest_ringing_loss(const BasicSystem<Planar>& system, const PassDifference& difference, const BasicRingingLoss<Planar>& ringing, double tolerance);
+template double largest_ringing_loss(const BasicSystem<Planar>& system, const PassDifference& difference, BasicRingingLoss<Planar>& ringing, double tolerance);
 template std::vector<double> force_horizons(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double share, double tolerance);
 PINTLE_IN_SPACE(template PassDifference difference_of_passes(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double until, double share);)
 PINTLE_IN_SPACE(template std::vector<double> relative_differences(const BasicSystem<Spatial>& system, const PassDifference& c);)
 PINTLE_IN_SPACE(template double motion_difference(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);)
 PINTLE_IN_SPACE(template DifferenceCurve force_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);)
 PINTLE_IN_SPACE(template DifferenceCurve motion_difference_curve(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine);)
-PINTLE_IN_SPACE(template double largest_ringing_loss(const BasicSystem<Spatial>& system, const PassDifference& difference, const BasicRingingLoss<Spatial>& ringing, double tolerance);)
+PINTLE_IN_SPACE(template double largest_ringing_loss(const BasicSystem<Spatial>& system, const PassDifference& difference, BasicRingingLoss<Spatial>& ringing, double tolerance);)
 PINTLE_IN_SPACE(template std::vector<double> force_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double tolerance);)
 template void state_errors(const BasicSystem<Planar>& system, const PassDifference& difference, double share, const BasicLeastError<Planar>& least, std::vector<LoadSummary>& joints);
 template void state_errors_until(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, const std::vector<double>& until, double share, const BasicLeastError<Planar>& least, std::vector<LoadSummary>& joints);
