@@ -254,7 +254,7 @@ BasicEffectiveMasses<S> BasicInverseDynamics<S>::effective_masses(const BasicSta
     const typename S::Vec mobility = system_.own_mobility(system_.joints[j].at, r_[j]);
     for (int c = 0; c < S::kDof; ++c) {
       masses.closed[j][c] = masses.alone[j][c] = mobility[c] > 0 ? 1 / mobility[c] : 0;
-      if (system_.n_joints() > kMostJoints) continue;
+      if (system_.n_joints() > kMostJointsWithMasses) continue;
       masses.closed[j][c] = std::max(masses.closed[j][c], forces_that_accelerate(j, c)[j][c]);  // where no motion can change it alone, the force is 0
     }
   }

@@ -67,7 +67,7 @@ void BasicRingingLoss<S>::see_step(const BasicStepNodes<S>& nodes, double h) {
 // Vibrations have no phase in common: their squares are added.
 template <class S>
 void BasicRingingLoss<S>::spread(double least_force, double least_couple) {
-  if (mass_.empty() || system_->n_joints() > kMostJoints) return;
+  if (mass_.empty() || system_->n_joints() > kMostJointsWithMasses) return;
   std::optional<BasicInverseDynamics<S>> dynamics;
   VecsOf<S> squares(lost_.size(), S::Vec::Zero());
   for (std::size_t j = 0; j < lost_.size(); ++j)
