@@ -99,7 +99,7 @@ template <class Method, class S>
 void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& event) {
   const double before = method().end_time();
   motions_before_ = method().end_motions();
-  const double beyond = std::max(std::min(StepControl::kCrossing, StepControl::kLate * method().tolerance_) * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(before));
+  const double beyond = std::max(StepControl::kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(before));
   search_.step_over(event, distance, beyond, [this](double d, double* value) {
     method().extrapolate_end_state(d);
     method().evaluate_switching_functions_at_end(value);
