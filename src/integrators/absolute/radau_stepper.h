@@ -105,6 +105,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   bool cross_borders();
   void shift_gap(int joint, double d, double rate);
   void balance_end();
+  void make_up(double late);
 
   const BasicSystem<S>& system_;
   const RadauTable& table_;

@@ -60,7 +60,7 @@ class EventSearch {
   static constexpr int kMostSamples = 2 * RadauTable::kMaxStages + 1;
   static constexpr int kLevels = 3;       // how often an interval is split at an extremum
   static constexpr int kTrials = 3;       // ends of what is left of a step that are tried: both, and what is between them
-  static constexpr int kMoves = 9;        // over an event, at most, to come behind it
+  static constexpr int kMoves = 5;        // over an event, at most, to come behind it
   static constexpr double kFarther = 10;  // the most by which a move is longer than the one before
 
   struct Sample {

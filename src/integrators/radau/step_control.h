@@ -26,7 +26,8 @@ class StepControl {
   bool behind_event = false;             // the next step comes after an event
 
   // Events, in parts of the usual step.
-  static constexpr double kCrossing = 1e-13;  // of the usual step: how far is gone to begin with to cross an event. All passes cross it equally late, and their difference does not show it: a ball misses what a damper gives it meanwhile; with 1e-9 its next contacts are 5e-4 of their force wrong
+  static constexpr double kCrossing = 1e-9;  // of the usual step: how far is gone to begin with to cross an event, at most
+  static constexpr double kLate = 1e-4;      // the same, per tolerance of the steps: all passes cross an event equally late, and their difference does not show it. Break-away of a stuck slider at 1e-7: 2e-9 s late without it
   static constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
   static constexpr double kMoment = 1e-6;    // of the usual step: how far is looked to see where accelerations lead
 

@@ -31,6 +31,7 @@ constexpr double kShareBeforeEvent = 0.999;
 ///   cross_borders()                             System::cross_borders between the values of `search_`
 ///   shift_gap(joint, d, rate)                   the carried gap of a driven joint at the end, and its rate, by so much; what the law then stores more is supplied
 ///   balance_end()                               what laws and loads really give at the end: forces, accelerations, powers
+///   make_up(late)                               for an event that was a time `late` before the end: what pulls behind it, and has not since the start, has pulled for so long
 template <class Method, class S>
 class StepEvents {
  protected:
@@ -99,7 +100,7 @@ template <class Method, class S>
 void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& event) {
   const double before = method().end_time();
   motions_before_ = method().end_motions();
-  const double beyond = std::max(StepControl::kCrossing * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(before));
+  const double beyond = std::max(std::min(StepControl::kCrossing, StepControl::kLate * method().tolerance_) * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(before));
   search_.step_over(event, distance, beyond, [this](double d, double* value) {
     method().extrapolate_end_state(d);
     method().evaluate_switching_functions_at_end(value);
@@ -112,6 +113,7 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
   method().balance_end();
   if (crossed) record();
   const double now = method().end_time();
+  if (const double late = now - (before + distance); late > 0) method().make_up(late);
   if (const auto jump = chattering_.crossed(events_of_, before, motions_before_, now, method().end_motions(), StepControl::kAtOnce * control_.usual)) {
     const double margin = events_of_.margin(*jump, now, method().end_motions());
     const RampSize size = ramp_size(events_of_, *jump, method().end_state(), control_.usual, method().tolerance_);

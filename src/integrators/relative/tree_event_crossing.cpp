@@ -110,4 +110,12 @@ void TreeRadau::balance_end() {
   finish_end(end_.w);
 }
 
+void TreeRadau::make_up(double late) {
+  end_.u += late * (end_.w - begin_.w);
+  end_.rate += late * (end_.accel - begin_.accel);
+  end_state_.supplied += late * (end_state_.supply_power - begin_state_.supply_power);
+  end_state_.dissipated += late * (end_state_.loss_power - begin_state_.loss_power);
+  balance_end();
+}
+
 }  // namespace pintle

@@ -77,6 +77,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   bool cross_borders() { return end_at_.cross_borders(search_.start(), search_.end(), end_, end_state_.dissipated); }
   void shift_gap(int joint, double d, double rate);
   void balance_end();
+  void make_up(double late);
 
   const System& system_;
   const RadauTable& table_;
