@@ -131,10 +131,10 @@ PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicFor
 }
 
 template <class S>
-void include_peaks(const BasicLoadRecorder<S>& fine, PassDifference& c) {
+void include_peaks(const BasicLoadRecorder<S>& fine, double part, PassDifference& c) {
   for (std::size_t j = 0; j < c.force.size(); ++j) {
-    c.peak[j] = std::max(c.peak[j], fine.force(static_cast<int>(j)).peak);
-    c.peak_couple[j] = std::max(c.peak_couple[j], fine.couple(static_cast<int>(j)).peak);
+    c.peak[j] = std::max(c.peak[j], part * fine.force(static_cast<int>(j)).peak);
+    c.peak_couple[j] = std::max(c.peak_couple[j], part * fine.couple(static_cast<int>(j)).peak);
   }
 }
 
@@ -245,10 +245,10 @@ void state_errors_until(const BasicSystem<S>& system, const BasicForceTable<S>& 
 }
 
 template PassDifference difference_of_passes(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double until, double share);
-template void include_peaks(const BasicLoadRecorder<Planar>& fine, PassDifference& c);
+template void include_peaks(const BasicLoadRecorder<Planar>& fine, double part, PassDifference& c);
 template void include_peak_differences(const BasicLoadRecorder<Planar>& coarse, const BasicLoadRecorder<Planar>& fine, PassDifference& c);
 PINTLE_IN_SPACE(template void include_peak_differences(const BasicLoadRecorder<Spatial>& coarse, const BasicLoadRecorder<Spatial>& fine, PassDifference& c);)
-PINTLE_IN_SPACE(template void include_peaks(const BasicLoadRecorder<Spatial>& fine, PassDifference& c);)
+PINTLE_IN_SPACE(template void include_peaks(const BasicLoadRecorder<Spatial>& fine, double part, PassDifference& c);)
 template std::vector<double> relative_differences(const BasicSystem<Planar>& system, const PassDifference& c);
 template double motion_difference(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);
 template DifferenceCurve force_difference_curve(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine);

@@ -24,9 +24,9 @@ struct PassDifference {
 template <class S>
 PassDifference difference_of_passes(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double until, double share);
 
-/// Adds what the rows do not show: the peaks between them.
+/// Adds what the rows do not show: this part of the peaks between them.
 template <class S>
-void include_peaks(const BasicLoadRecorder<S>& fine, PassDifference& c);
+void include_peaks(const BasicLoadRecorder<S>& fine, double part, PassDifference& c);
 
 /// Adds by how much the passes' peaks differ, wherever they are: between the rows, too, they have to agree. theory/time Eq. (6.2).
 template <class S>
