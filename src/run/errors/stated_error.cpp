@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPeakOfRounding = 10;       // times the rounding of one force: its peak over a run of many. With 1 the rail of snap_through_truss states a hundredth of what it carries
 constexpr double kNegligibleOfMotor = 1e-3;  // a motor is measured at least by this part of it
-constexpr double kMostRinging = 3;           // times the tolerance of the steps and the mechanism's largest force: as much as they may have damped of vibrations unnoticed. What they lose of resolved ones in thousands of steps shows in the difference of the passes
+constexpr double kMostRinging = 3;           // times the tolerance of the steps and the mean of a joint's peak and the largest: as much as they may have damped of vibrations unnoticed. What they lose of resolved ones in thousands of steps shows in the difference of the passes
 constexpr double kSpread = 0.1;              // times the tolerance of the steps and what the least loaded joint is measured by: from there on what one joint has lost of its vibrations is looked for in the others
 constexpr double kOfEqual = 3;               // share of the difference that is the finer pass's error, where the finer pass is as coarse
 
@@ -88,16 +88,18 @@ class Growing {
   PassDifference c_;
 };
 
-// What the steps have damped of a joint's vibrations: its force and its couple.
+// What the steps have damped of a joint's vibrations: its force and its couple. Steps are judged by the largest loads, and a lightly loaded joint may carry what
+// another's vibrations accelerate: what it may lack unnoticed is between the two.
 template <class S>
-std::array<double, 2> damped(const Measures<S>& measures, const BasicRingingLoss<S>& ringing, double tolerance, std::size_t j) {
-  return {std::min(ringing.force(j), kMostRinging * tolerance * measures.force), std::min(ringing.couple(j), kMostRinging * tolerance * measures.couple)};
+std::array<double, 2> damped(const Measures<S>& measures, const BasicRingingLoss<S>& ringing, double tolerance, const PassDifference& difference, std::size_t j) {
+  const auto most = [tolerance](double peak, double largest) { return kMostRinging * tolerance * std::sqrt(peak * std::max(peak, largest)); };
+  return {std::min(ringing.force(j), most(difference.peak[j], measures.force)), std::min(ringing.couple(j), most(difference.peak_couple[j], measures.couple))};
 }
 
 template <class S>
 void state_error(const Measures<S>& measures, const PassDifference& difference, double share, const BasicLeastError<S>& least, std::size_t j, LoadSummary& joint) {
   const double peak = difference.peak[j], peak_couple = difference.peak_couple[j];
-  const auto [damped_force, damped_couple] = damped(measures, least.ringing, least.tolerance, j);
+  const auto [damped_force, damped_couple] = damped(measures, least.ringing, least.tolerance, difference, j);
   const double force = std::max(share * difference.force[j], damped_force), couple = std::max(share * difference.couple[j], damped_couple);
   joint.error_estimate = std::max({force, least.of_peak * peak, peak > kPeakOfRounding * difference.rounding ? 0 : peak});  // what rounding alone makes is not known at all
   joint.moment_error_estimate = couple;
@@ -115,7 +117,7 @@ double largest_ringing_loss(const BasicSystem<S>& system, const PassDifference& 
   ringing.spread(kSpread * tolerance * measures.smallest_force(difference), kSpread * tolerance * measures.smallest_couple(difference));
   double largest = 0;
   for (std::size_t j = 0; j < system.joints.size(); ++j) {
-    const auto [force, couple] = damped(measures, ringing, tolerance, j);
+    const auto [force, couple] = damped(measures, ringing, tolerance, difference, j);
     largest = std::max(largest, measures.of_joint(j, force, difference.peak[j], couple, difference.peak_couple[j]));
   }
   return largest;
