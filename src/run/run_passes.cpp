@@ -27,7 +27,6 @@ constexpr double kLoosestOfMotion = 1e-3;  // the same where the tolerance is of
 constexpr double kLeastTolerance = 1e-13;  // of any pass: below it all is rounding
 constexpr double kOfUnseenPeaks = 1e-3;  // of a peak between rows: what errors are small beside before that. A ball that strikes a wall between two rows would ask for 1e-12 of its blow with less, which no tolerance gives
 constexpr double kPromised = 0.7;          // of the tolerance: with a smaller stated error the true one keeps to it, which may be a third larger
-constexpr double kOfUnseenPeaks = 1e-3;  // of a peak between rows: what errors are small beside before that. A ball that strikes a wall between two rows would ask for 1e-12 of its blow with less, which no tolerance gives
 constexpr double kPromisedByFew = 0.5;     // the same of order 9, whose steps are few and long: two passes say less. With 0.7, 5 more of 817 runs of the battery are over the tolerance
 constexpr double kAlike = 1.25;            // steps of the finer pass over those of the coarser: with fewer the two say little
 constexpr double kSurest = 0.05;           // of the tolerance of the steps: no error is stated as smaller
