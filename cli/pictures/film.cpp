@@ -24,6 +24,7 @@
 #include "results/disk.h"
 #include "results/force_quality.h"
 #include "results/plots/plot_ticks.h"
+#include "results/plots/run_columns.h"
 
 namespace pintle::cli {
 namespace {
@@ -90,6 +91,9 @@ class FilmMaker {
     if (const double slack = 1e-9 * (end - begin); !(t >= begin - slack && t <= end + slack))
       throw Usage(fmt::format("found --still \"{}\": the run goes from {:.6g} s to {:.6g} s.", options_.still, begin, end));
     const std::string svg = frame(t, true);
+    const LoadSummary* largest = largest_joint(trajectory_);
+    if (const std::string more = largest && options_.still == "peak" ? peak_between_rows(trajectory_, *largest) : ""; !more.empty() && !options_.quiet)
+      fmt::print(stderr, "{}, and the picture is drawn from them: run it again with a smaller output_step to see all of it\n", more);
     write_file(file, file.extension() == ".png" ? png_of(svg, options_.dots_per_inch) : svg);
   }
 

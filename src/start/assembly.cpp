@@ -248,13 +248,59 @@ void demand_apart(const Model& model, const System& system, const Vecs& q, const
   }
 }
 
+// The joints that bodies only touch in, beside those that are open: they may stand apart.
+std::vector<bool> with_contacts(const System& system, std::vector<bool> open) {
+  for (std::size_t j = 0; j < open.size(); ++j)
+    if (std::isfinite(system.joints[j].law.penetration(S::Vec::Zero())) && !has_play(system.joints[j])) open[j] = true;
+  return open;
+}
+
+// Contacts that nothing brings together stand apart: an escape wheel touches one of its pallets at a time. False where bodies would be inside each other, or
+// something else stays open.
+bool leave_contacts_apart(const Model& model, const System& system, const Vecs& guess, std::vector<bool>& open, Vecs& q, std::vector<std::string>& notes) {
+  const std::vector<bool> opened = with_contacts(system, open);
+  if (opened == open) return false;
+  Vecs trial = guess;
+  PositionSearch(model, system, opened).run(trial);
+  const double size = mechanism_size(system, trial);
+  if (!all_closed(misfits(system, trial), opened, size)) return false;
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  kinematics_at(system, 0, trial, Vecs(q.size(), S::Vec::Zero()), m, r);
+  std::vector<std::string> apart;
+  for (std::size_t j = 0; j < open.size(); ++j) {
+    if (open[j] || !opened[j]) continue;
+    const double depth = system.joints[j].law.penetration(r[j].gap);
+    if (depth > kAsStated * size) return false;
+    apart.push_back(fmt::format("joint {}: it starts {:.4g} m apart: nothing that may move brings it together", system.joints[j].name, -depth));
+  }
+  notes.insert(notes.end(), apart.begin(), apart.end());
+  open = opened;
+  q = std::move(trial);
+  return true;
+}
+
+// With everything held that is stated.
+Model held_as_stated(Model model) {
+  for (Body& body : model.bodies) {
+    if (body.position) body.hold[0] = body.hold[1] = true;
+    if (body.angle) body.hold[2] = true;
+  }
+  return model;
+}
+
 // `system` complete, and the positions q closed, from a guess.
 System assemble_positions(const Model& model, System system, Vecs& q, std::vector<std::string>& notes) {
   std::vector<bool> open(system.joints.size());
   for (int j = 0; j < system.n_joints(); ++j) open[j] = is_open(model, system, j);
   system = unwind(std::move(system), q);
-  if (model.simulate.start != Start::kRaw || !all_positions_stated(model)) PositionSearch(model, system, open).run(q);
-  if (model.simulate.start != Start::kRaw) demand_closed(model, system, q, open, notes);
+  if (model.simulate.start == Start::kRaw) {
+    if (!all_positions_stated(model)) PositionSearch(held_as_stated(model), system, with_contacts(system, open)).run(q);
+  } else {
+    const Vecs guess = q;
+    PositionSearch(model, system, open).run(q);
+    if (all_closed(misfits(system, q), open, mechanism_size(system, q)) || !leave_contacts_apart(model, system, guess, open, q, notes)) demand_closed(model, system, q, open, notes);
+  }
   return fix_assembled_values(model, std::move(system), q, notes);
 }
 
@@ -273,7 +319,7 @@ Assembly put_bodies(const Model& model, System system) {
   const bool raw = model.simulate.start == Start::kRaw;
   state.v = raw ? stated_velocities(model) : guess_velocities(model, out.system, state.q);
   if (!raw) assemble_velocities(model, out.system, state.q, state.v);
-  note_changed_velocities(model, state.v, out.notes);
+  note_changed_velocities(model, out.system, state.v, out.notes);
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include "joints/belt.h"
 #include "kinematics/position_search.h"
 #include "laws/catalog.h"
+#include "start/seat.h"
 
 namespace pintle {
 namespace {
@@ -106,19 +107,21 @@ void note_moved_bodies(const Model& model, const Vecs& guess, const Vecs& q, std
   }
 }
 
-void note_changed_velocities(const Model& model, const Vecs& v, std::vector<std::string>& notes) {
+void note_changed_velocities(const Model& model, const System& system, const Vecs& v, std::vector<std::string>& notes) {
+  const std::string loose = names_of_joints_in_play(system);
+  const std::string why = loose.empty() ? "joints or motors ask for it" : fmt::format("joints or motors ask for it, and those with play ({}) start with their parts at rest in each other; start = \"raw\" keeps what is stated", loose);
   const auto differ = [](double change, double before, double after) { return change > kOtherVelocity * std::max(before, after); };
   constexpr double kNothing = 1e-9;  // of what was stated: rounding, written as 0
   const auto plain = [](double x, double stated) { return std::abs(x) < kNothing * std::abs(stated) ? 0 : x; };
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const Body& body = model.bodies[i];
     if (body.spin && *body.spin != 0 && differ(std::abs(v[i][2] - *body.spin), std::abs(*body.spin), std::abs(v[i][2])))
-      notes.push_back(fmt::format("body {}: it starts with a spin of {:.4g} rad/s, not with the stated {:.4g} rad/s: joints or motors ask for it", body.name, plain(v[i][2], *body.spin), *body.spin));
+      notes.push_back(fmt::format("body {}: it starts with a spin of {:.4g} rad/s, not with the stated {:.4g} rad/s: {}", body.name, plain(v[i][2], *body.spin), *body.spin, why));
     if (!body.velocity) continue;
     const auto [x, y] = *body.velocity;
     const double stated = std::hypot(x, y);
     if (stated > 0 && differ(std::hypot(v[i][0] - x, v[i][1] - y), stated, std::hypot(v[i][0], v[i][1])))
-      notes.push_back(fmt::format("body {}: it starts with a velocity of ({:.4g}, {:.4g}) m/s, not with the stated ({:.4g}, {:.4g}) m/s: joints or motors ask for it", body.name, plain(v[i][0], stated), plain(v[i][1], stated), x, y));
+      notes.push_back(fmt::format("body {}: it starts with a velocity of ({:.4g}, {:.4g}) m/s, not with the stated ({:.4g}, {:.4g}) m/s: {}", body.name, plain(v[i][0], stated), plain(v[i][1], stated), x, y, why));
   }
 }
 

@@ -21,7 +21,7 @@ inline constexpr std::array kCoordinates{"x", "y", "angle"};
 std::string held_that_moved(const Model& model, const Vecs& from, const Vecs& to, double turn, double way);
 
 /// Stated velocities that joints or motors have replaced by those of v.
-void note_changed_velocities(const Model& model, const Vecs& v, std::vector<std::string>& notes);
+void note_changed_velocities(const Model& model, const System& system, const Vecs& v, std::vector<std::string>& notes);
 
 /// Teeth that are away from each other, and pulleys that overlap, would still carry their load.
 void note_discs_apart(const System& system, const Vecs& q, std::vector<std::string>& notes);

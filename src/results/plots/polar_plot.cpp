@@ -20,17 +20,16 @@ constexpr double kMargin = 18, kAround = 26, kHead = 40, kRow = 19, kSample = 22
 constexpr int kRings = 4, kSpokes = 12;
 constexpr double kCircle = 2 * std::numbers::pi;
 
-/// The row of the longest vector; the first of several.
+/// The row of the longest vector; of an arc about the centre its middle, and otherwise the first of several.
 std::size_t longest(const PolarCurve& curve) {
+  constexpr double kArc = 1e-12;  // of the length: rounding of points on one arc
+  const auto length = [&curve](std::size_t i) { return std::hypot(curve.x[i], curve.y[i]); };
   std::size_t best = 0;
-  double most = -1;
-  for (std::size_t i = 0; i < curve.x.size(); ++i) {
-    const double length = std::hypot(curve.x[i], curve.y[i]);
-    if (!(length > most)) continue;
-    most = length;
-    best = i;
-  }
-  return best;
+  for (std::size_t i = 1; i < curve.x.size(); ++i)
+    if (length(i) > (1 + kArc) * length(best)) best = i;
+  std::size_t end = best;
+  while (end + 1 < curve.x.size() && std::abs(length(end + 1) - length(best)) <= kArc * length(best)) ++end;
+  return best + (end - best) / 2;
 }
 
 double largest(const PolarPlot& plot) {

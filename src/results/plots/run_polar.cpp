@@ -64,7 +64,7 @@ const JointWear& find_wear(const Trajectory& run, const LoadSummary& joint) {
 
 // Sectors as arcs about the centre.
 PolarCurve around(const std::string& label, const std::vector<double>& sectors) {
-  constexpr int kPerSector = 5;
+  constexpr int kPerSector = 6;  // even: one is in the middle
   PolarCurve curve{label, {}, {}};
   const double width = 2 * std::numbers::pi / static_cast<double>(sectors.size());
   for (std::size_t i = 0; i <= sectors.size(); ++i)
@@ -129,6 +129,7 @@ PolarPlot make_polar_plot(const std::vector<PolarRun>& runs, const std::string& 
   plot.subtitle = leading.stamp.model_name.empty() ? leading.stamp.model_path : leading.stamp.model_name;
   if (runs.size() == 1 && pin.relative_error_estimate > 0)
     plot.subtitle += fmt::format("{}estimated error {} of the peak", plot.subtitle.empty() ? "" : " – ", printed_number(exponent(pin.relative_error_estimate)));
+  if (const std::string more = peak_between_rows(leading.trajectory, pin); !more.empty()) plot.subtitle += (plot.subtitle.empty() ? "" : " – ") + more;
   plot.unit = "N";
   plot.panels = {{"Force on " + pin.second_body, "world axes", {}},
                  {"Force on " + pin.first_body, "axes of its marker on " + pin.first_body, {}},
