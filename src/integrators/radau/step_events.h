@@ -32,6 +32,7 @@ constexpr double kShareBeforeEvent = 0.999;
 ///   shift_gap(joint, d, rate)                   the carried gap of a driven joint at the end, and its rate, by so much; what the law then stores more is supplied
 ///   balance_end()                               what laws and loads really give at the end: forces, accelerations, powers
 ///   make_up(late)                               for an event that was a time `late` before the end: what pulls behind it, and has not since the start, has pulled for so long
+///   take_back()                                 the end is again what it was before `make_up`
 template <class Method, class S>
 class StepEvents {
  protected:
@@ -56,6 +57,7 @@ class StepEvents {
   std::vector<LawCrossing> crossings_;
 
  private:
+  void make_up(double late, int function);
   Method& method() { return static_cast<Method&>(*this); }
   void restart_search() { method().evaluate_switching_functions_at_end(search_.start()); }
   double margin_rate(const SlidingMode& jump);
@@ -113,7 +115,7 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
   method().balance_end();
   if (crossed) record();
   const double now = method().end_time();
-  if (const double late = now - (before + distance); late > 0) method().make_up(late);
+  if (const double late = now - (before + distance); late > 0) make_up(late, event.function);
   if (const auto jump = chattering_.crossed(events_of_, before, motions_before_, now, method().end_motions(), StepControl::kAtOnce * control_.usual)) {
     const double margin = events_of_.margin(*jump, now, method().end_motions());
     const RampSize size = ramp_size(events_of_, *jump, method().end_state(), control_.usual, method().tolerance_);
@@ -121,6 +123,18 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
   }
   restart_search();
   control_.event_crossed();
+}
+
+// Unless that leads back before the event, as where a jump is crossed again and again.
+template <class Method, class S>
+void StepEvents<Method, S>::make_up(double late, int function) {
+  const auto is_positive = [&] {
+    method().evaluate_switching_functions_at_end(search_.end());
+    return search_.end()[function] > 0;
+  };
+  const bool behind = is_positive();
+  method().make_up(late);
+  if (is_positive() != behind) method().take_back();
 }
 
 // How fast the argument of a jump changes at the end, by what it is a moment later.

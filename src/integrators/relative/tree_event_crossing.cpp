@@ -111,10 +111,20 @@ void TreeRadau::balance_end() {
 }
 
 void TreeRadau::make_up(double late) {
+  before_make_up_ = end_;
+  supplied_before_ = end_state_.supplied;
+  dissipated_before_ = end_state_.dissipated;
   end_.u += late * (end_.w - begin_.w);
   end_.rate += late * (end_.accel - begin_.accel);
   end_state_.supplied += late * (end_state_.supply_power - begin_state_.supply_power);
   end_state_.dissipated += late * (end_state_.loss_power - begin_state_.loss_power);
+  balance_end();
+}
+
+void TreeRadau::take_back() {
+  end_ = before_make_up_;
+  end_state_.supplied = supplied_before_;
+  end_state_.dissipated = dissipated_before_;
   balance_end();
 }
 

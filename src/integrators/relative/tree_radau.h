@@ -78,6 +78,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   void shift_gap(int joint, double d, double rate);
   void balance_end();
   void make_up(double late);
+  void take_back();
 
   const System& system_;
   const RadauTable& table_;
@@ -90,8 +91,9 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   TreeInstant end_at_, inside_at_;
   OpenContacts open_contacts_;
   BendWatch bends_;
-  TreeState begin_, end_;
+  TreeState begin_, end_, before_make_up_;
   State begin_state_, end_state_, inside_state_;
+  double supplied_before_ = 0, dissipated_before_ = 0;  // of before_make_up_ [J]
   TreeNodes nodes_;
   // The last step as powers of its share, with what the integrals miss the far end by; found when first asked for.
   struct Curves {
