@@ -30,10 +30,15 @@ class LawBorders {
   /// Whether this step has been made shorter: its length says nothing about the next one's.
   bool has_shortened() const { return n_shortened_ > 0; }
   /// Lets the laws set their states where the step that ends at `end` has crossed their borders; what they store less then is dissipated. Whether
-  /// any has: forces are to be found anew, what was remembered of the step's curve does not go on, and `record` must follow.
-  bool cross(State& end) {
+  /// any has, and `end_of_curve` then is the end before that: forces are to be found anew, what was remembered of the step's curve does not go on, and `record` must follow.
+  bool cross(State& end, State& end_of_curve) {
     if (before_.empty()) return false;
     find(end, behind_);
+    for (std::size_t f = 0; f < behind_.size(); ++f)
+      if (system_.switching_functions()[f].is_crossing(before_[f], behind_[f])) {
+        end_of_curve = end;
+        break;
+      }
     const bool crossed = system_.cross_borders(end.t, end.gap, end.gap_rate, before_.data(), behind_.data(), end.law_state, end.dissipated);
     if (!crossed) before_.swap(behind_);
     return crossed;

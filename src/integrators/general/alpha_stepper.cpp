@@ -232,7 +232,8 @@ void AlphaStepper::finish(double h) {
   now_.a = a_;
   now_.law = end_.a;
   now_.h = h;
-  if (!constraints_ && borders_.cross(end_)) {  // goes on as from a start
+  crossed_ = !constraints_ && borders_.cross(end_, end_of_curve_);
+  if (crossed_) {  // goes on as from a start
     force_evaluator_.complete(end_);
     borders_.record(end_);
     now_.a = now_.law = end_.a;
@@ -245,12 +246,13 @@ void AlphaStepper::finish(double h) {
 const State& AlphaStepper::interpolate(double t) {
   if (t == end_.t) return end_;
   if (t == begin_.t) return begin_;
-  const double h = end_.t - begin_.t, s = (t - begin_.t) / h, r = 1 - s;
+  const State& end = end_of_curve();
+  const double h = end.t - begin_.t, s = (t - begin_.t) / h, r = 1 - s;
   between_.t = t;
   for (std::size_t i = 0; i < q_.size(); ++i) {
-    between_.q[i] = cubic_hermite(s, h, begin_.q[i], begin_.v[i], end_.q[i], end_.v[i]);
-    between_.v[i] = cubic_hermite(s, h, begin_.v[i], begin_.a[i], end_.v[i], end_.a[i]);
-    between_.a[i] = r * begin_.a[i] + s * end_.a[i];
+    between_.q[i] = cubic_hermite(s, h, begin_.q[i], begin_.v[i], end.q[i], end.v[i]);
+    between_.v[i] = cubic_hermite(s, h, begin_.v[i], begin_.a[i], end.v[i], end.a[i]);
+    between_.a[i] = r * begin_.a[i] + s * end.a[i];
   }
   if (constraints_) constraints_->complete(between_);
   else interpolate_forces(s);
@@ -261,19 +263,20 @@ const State& AlphaStepper::interpolate(double t) {
 
 // Gaps on straight lines, and the laws' forces there.
 void AlphaStepper::interpolate_forces(double s) {
+  const State& end = end_of_curve();
   const double r = 1 - s;
   for (int j = 0; j < system_.n_joints(); ++j) {
-    between_.gap[j] = r * begin_.gap[j] + s * end_.gap[j];
-    between_.gap_rate[j] = r * begin_.gap_rate[j] + s * end_.gap_rate[j];
-    between_.gap_accel[j] = r * begin_.gap_accel[j] + s * end_.gap_accel[j];
+    between_.gap[j] = r * begin_.gap[j] + s * end.gap[j];
+    between_.gap_rate[j] = r * begin_.gap_rate[j] + s * end.gap_rate[j];
+    between_.gap_accel[j] = r * begin_.gap_accel[j] + s * end.gap_accel[j];
   }
   for (std::size_t z = 0; z < between_.law_state.size(); ++z) {
-    between_.law_state[z] = r * begin_.law_state[z] + s * end_.law_state[z];
-    between_.law_rate[z] = r * begin_.law_rate[z] + s * end_.law_rate[z];
+    between_.law_state[z] = r * begin_.law_state[z] + s * end.law_state[z];
+    between_.law_rate[z] = r * begin_.law_rate[z] + s * end.law_rate[z];
   }
   find_joint_forces(system_, between_);
-  between_.loss_power = r * begin_.loss_power + s * end_.loss_power;
-  between_.supply_power = r * begin_.supply_power + s * end_.supply_power;
+  between_.loss_power = r * begin_.loss_power + s * end.loss_power;
+  between_.supply_power = r * begin_.supply_power + s * end.supply_power;
 }
 
 }  // namespace pintle

@@ -31,6 +31,7 @@ Dopri5::Dopri5(const System& system, double tolerance)
 
 void Dopri5::start(const State& state, double h) {
   begin_ = end_ = state;
+  crossed_ = false;
   h_ = h;
   complete(end_);
   borders_.start(end_);
@@ -86,7 +87,8 @@ bool Dopri5::step(double t_end) {
       }
       end_.dissipated = begin_.dissipated + 0.5 * h * (begin_.loss_power + end_.loss_power);
       end_.supplied = begin_.supplied + 0.5 * h * (begin_.supply_power + end_.supply_power);
-      if (borders_.cross(end_)) {
+      crossed_ = borders_.cross(end_, end_of_curve_);
+      if (crossed_) {
         complete(end_);
         borders_.record(end_);
       }

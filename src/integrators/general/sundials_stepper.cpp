@@ -51,9 +51,8 @@ class SundialsStepper final : public Stepper {
     }
     equations_.unflatten(code_->t(), code_->y(), end_);
     states_.complete(end_);
-    before_crossing_ = end_;
     restarted_ = false;
-    if (borders_.cross(end_) || (code_->at_root() && cross_just_behind())) {
+    if (borders_.cross(end_, before_crossing_) || (code_->at_root() && cross_just_behind())) {
       std::vector<double> y(equations_.size());
       equations_.flatten(end_, y.data());
       code_->restart(end_.t, y);
@@ -77,6 +76,7 @@ class SundialsStepper final : public Stepper {
     states_.complete(between_);
     return between_;
   }
+  const State& end_of_curve() const override { return restarted_ ? before_crossing_ : end_; }
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
   const std::vector<LawCrossing>& crossings() const override { return borders_.crossings(); }
@@ -89,7 +89,7 @@ class SundialsStepper final : public Stepper {
     between_ = end_;
     equations_.unflatten(end_.t + kBehind * (end_.t - begin_.t), y, end_);
     states_.complete(end_);
-    if (borders_.cross(end_)) return true;
+    if (borders_.cross(end_, before_crossing_)) return true;
     end_ = between_;
     return false;
   }

@@ -62,6 +62,7 @@ void TreeDopri5::start(const State& state, double h) {
   h_ = h;
   read_coordinates(*tree_, state, end_);
   end_.law_state = state.law_state;
+  crossed_ = false;
   complete(end_);
   write(end_, end_state_);
   borders_.start(end_state_);
@@ -117,7 +118,9 @@ bool TreeDopri5::step(double t_end) {
       }
       end_state_.dissipated = begin_state_.dissipated + 0.5 * h * (begin_state_.loss_power + end_state_.loss_power);
       end_state_.supplied = begin_state_.supplied + 0.5 * h * (begin_state_.supply_power + end_state_.supply_power);
-      if (borders_.cross(end_state_)) {
+      crossed_ = borders_.cross(end_state_, end_of_curve_state_);
+      if (crossed_) {
+        end_of_curve_ = end_;
         end_.law_state = end_state_.law_state;
         complete(end_);
         write(end_, end_state_);
@@ -164,27 +167,29 @@ double TreeDopri5::error(double h) {
 const State& TreeDopri5::interpolate(double t) {
   if (t == end_.t) return end_state_;
   if (t == begin_.t) return begin_state_;
-  const double h = end_.t - begin_.t, s = (t - begin_.t) / h;
+  const TreeState& end = crossed_ ? end_of_curve_ : end_;
+  const State& end_state = end_of_curve();
+  const double h = end.t - begin_.t, s = (t - begin_.t) / h;
   TreeState now;
   now.t = t;
-  quintic(s, h, {&begin_.y, &begin_.u, &begin_.w}, {&end_.y, &end_.u, &end_.w}, now.y, now.u);
+  quintic(s, h, {&begin_.y, &begin_.u, &begin_.w}, {&end.y, &end.u, &end.w}, now.y, now.u);
   now.law_state = begin_.law_state;
   for (std::size_t z = 0; z < now.law_state.size(); ++z)
-    now.law_state[z] = cubic_hermite(s, h, begin_.law_state[z], begin_.law_rate[z], end_.law_state[z], end_.law_rate[z]);
+    now.law_state[z] = cubic_hermite(s, h, begin_.law_state[z], begin_.law_rate[z], end.law_state[z], end.law_rate[z]);
   complete(now);
-  quintic(s, h, {&begin_.gap, &begin_.rate, &begin_.accel}, {&end_.gap, &end_.rate, &end_.accel}, now.gap, now.rate);
+  quintic(s, h, {&begin_.gap, &begin_.rate, &begin_.accel}, {&end.gap, &end.rate, &end.accel}, now.gap, now.rate);
   for (std::size_t l = 0; l < tree_->laws().size(); ++l) {
     if (!has_slip(system_.joints[tree_->laws()[l]].displacement)) continue;
     const Eigen::Index i = 3 * static_cast<Eigen::Index>(l) + kSlip;  // the slip of surfaces is no state: only its rate counts
-    now.rate[i] = cubic_hermite(s, h, begin_.rate[i], begin_.accel[i], end_.rate[i], end_.accel[i]);
+    now.rate[i] = cubic_hermite(s, h, begin_.rate[i], begin_.accel[i], end.rate[i], end.accel[i]);
   }
   at_.forces(now, now.force, now.law_rate);
   at_.accelerate(VectorXd::Zero(tree_->n()));
   at_.imbalance(now.force, now.w);
   now.w = mass_.solve(-now.w);
   write(now, inside_state_);
-  inside_state_.dissipated = cubic_hermite(s, h, begin_state_.dissipated, begin_state_.loss_power, end_state_.dissipated, end_state_.loss_power);
-  inside_state_.supplied = cubic_hermite(s, h, begin_state_.supplied, begin_state_.supply_power, end_state_.supplied, end_state_.supply_power);
+  inside_state_.dissipated = cubic_hermite(s, h, begin_state_.dissipated, begin_state_.loss_power, end_state.dissipated, end_state.loss_power);
+  inside_state_.supplied = cubic_hermite(s, h, begin_state_.supplied, begin_state_.supply_power, end_state.supplied, end_state.supply_power);
   return inside_state_;
 }
 
