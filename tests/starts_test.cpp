@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -129,6 +130,22 @@ TEST(Starts, AVelocityThatIsReplacedIsNoted) {
   crank.spin.reset();
   model.bodies[0].velocity = Vec2{0, 3};
   EXPECT_NE(notes_of(model).find("not with the stated (0, 3) m/s"), std::string::npos);
+}
+
+// A lever 18 mm above its cam is not assembled, and falls onto it after a raw start, which moves nothing that is stated.
+TEST(Starts, AContactThatNothingBringsTogetherStartsApartWhereItIsRaw) {
+  Model model = test_model("lever_above_a_cam");
+  try {
+    simulate(model);
+    FAIL() << "assembled";
+  } catch (const std::exception& error) {
+    EXPECT_NE(std::string(error.what()).find("meant to start apart (cam), everything else closes: try start = \"raw\""), std::string::npos) << error.what();
+  }
+  model.simulate.start = Start::kRaw;
+  const Trajectory run = completed(model);
+  for (const char* column : {"body.cam.x", "body.cam.y", "body.cam.angle", "joint.cam.contact_force"}) EXPECT_EQ(value(run, 0, column), 0) << column;
+  EXPECT_NEAR(value(run, 0, "body.lever.angle"), 165 * std::numbers::pi / 180, 1e-12);
+  for (const LoadSummary& joint : run.joints) EXPECT_LT(joint.peak, 600) << joint.name;
 }
 
 // A beam that hangs free in its bush at the start falls onto it, and the largest force of the run may be that of this impact.

@@ -104,5 +104,16 @@ TEST(StickSlip, FrictionResistsTheMotorThatStarts) {
   }
 }
 
+// A block of 2 kg that is pushed to and fro on a dry guide sticks and slips; nothing holds it with more than static friction, whatever the method.
+TEST(StickSlip, NoMethodTellsMoreThanStaticFriction) {
+  constexpr double kWeight = 2 * kStandardGravity, kStuck = 0.4;
+  for (const char* method : {"radau", "dopri5", "ode45", "ode15s", "ode113", "hht"}) {
+    Model model = reference::test_model("block_pushed_to_and_fro");
+    model.simulate.method = method;
+    const Trajectory run = simulate(model);
+    EXPECT_NEAR(run.joints.front().peak, std::hypot(kWeight, kStuck * kWeight), 1e-3 * kWeight) << method;
+  }
+}
+
 }  // namespace
 }  // namespace pintle

@@ -162,9 +162,38 @@ bool close_beside_holds(const Model& model, const System& system, const std::vec
   return true;
 }
 
+// The joints that bodies only touch in, beside those that are open: they may stand apart.
+std::vector<bool> with_contacts(const System& system, std::vector<bool> open) {
+  for (std::size_t j = 0; j < open.size(); ++j)
+    if (std::isfinite(system.joints[j].law.penetration(S::Vec::Zero())) && !has_play(system.joints[j])) open[j] = true;
+  return open;
+}
+
+// The contacts without which everything else closes, with the bodies not inside each other: an escape wheel touches one of its pallets at a time.
+std::string contacts_that_may_stand_apart(const Model& model, const System& system, const Vecs& q, const std::vector<bool>& open) {
+  const std::vector<bool> opened = with_contacts(system, open);
+  if (opened == open) return "";
+  Vecs trial = q;
+  PositionSearch(model, system, opened).run(trial);
+  const double size = mechanism_size(system, trial);
+  if (!all_closed(misfits(system, trial), opened, size)) return "";
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  kinematics_at(system, 0, trial, Vecs(q.size(), S::Vec::Zero()), m, r);
+  std::vector<std::string> names;
+  for (std::size_t j = 0; j < open.size(); ++j) {
+    if (open[j] == opened[j]) continue;
+    if (system.joints[j].law.penetration(r[j].gap) > kAsStated * size) return "";
+    names.push_back(system.joints[j].name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 // What keeps the search from closing the joints other than lengths: coordinates that are held, motors that ask for another position, pins that it puts
 // in the middle of their play.
 std::string what_to_try(Model model, const System& system, const Vecs& q, const std::vector<bool>& open, bool only_motors) {
+  if (const std::string apart = contacts_that_may_stand_apart(model, system, q, open); !apart.empty())
+    return fmt::format("If its bodies are meant to start apart ({}), everything else closes: try start = \"raw\", which closes no contact.", apart);
   if (const std::vector<std::string> held = let_go(model); !held.empty()) {
     Vecs trial = q;
     PositionSearch(model, system, open).run(trial);
@@ -248,38 +277,6 @@ void demand_apart(const Model& model, const System& system, const Vecs& q, const
   }
 }
 
-// The joints that bodies only touch in, beside those that are open: they may stand apart.
-std::vector<bool> with_contacts(const System& system, std::vector<bool> open) {
-  for (std::size_t j = 0; j < open.size(); ++j)
-    if (std::isfinite(system.joints[j].law.penetration(S::Vec::Zero())) && !has_play(system.joints[j])) open[j] = true;
-  return open;
-}
-
-// Contacts that nothing brings together stand apart: an escape wheel touches one of its pallets at a time. False where bodies would be inside each other, or
-// something else stays open.
-bool leave_contacts_apart(const Model& model, const System& system, const Vecs& guess, std::vector<bool>& open, Vecs& q, std::vector<std::string>& notes) {
-  const std::vector<bool> opened = with_contacts(system, open);
-  if (opened == open) return false;
-  Vecs trial = guess;
-  PositionSearch(model, system, opened).run(trial);
-  const double size = mechanism_size(system, trial);
-  if (!all_closed(misfits(system, trial), opened, size)) return false;
-  std::vector<S::Motion> m;
-  std::vector<JointKinematics> r;
-  kinematics_at(system, 0, trial, Vecs(q.size(), S::Vec::Zero()), m, r);
-  std::vector<std::string> apart;
-  for (std::size_t j = 0; j < open.size(); ++j) {
-    if (open[j] || !opened[j]) continue;
-    const double depth = system.joints[j].law.penetration(r[j].gap);
-    if (depth > kAsStated * size) return false;
-    apart.push_back(fmt::format("joint {}: it starts {:.4g} m apart: nothing that may move brings it together", system.joints[j].name, -depth));
-  }
-  notes.insert(notes.end(), apart.begin(), apart.end());
-  open = opened;
-  q = std::move(trial);
-  return true;
-}
-
 // With everything held that is stated.
 Model held_as_stated(Model model) {
   for (Body& body : model.bodies) {
@@ -297,9 +294,8 @@ System assemble_positions(const Model& model, System system, Vecs& q, std::vecto
   if (model.simulate.start == Start::kRaw) {
     if (!all_positions_stated(model)) PositionSearch(held_as_stated(model), system, with_contacts(system, open)).run(q);
   } else {
-    const Vecs guess = q;
     PositionSearch(model, system, open).run(q);
-    if (all_closed(misfits(system, q), open, mechanism_size(system, q)) || !leave_contacts_apart(model, system, guess, open, q, notes)) demand_closed(model, system, q, open, notes);
+    demand_closed(model, system, q, open, notes);
   }
   return fix_assembled_values(model, std::move(system), q, notes);
 }

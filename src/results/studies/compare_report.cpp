@@ -49,8 +49,10 @@ std::string table_text(const std::vector<Difference>& list, const char* head, bo
     table.add_column("difference is", Align::kLeft);
   }
   for (const Difference& d : list) {
+    constexpr double kNoPeak = 1e6;  // over the peak: a difference so large is of something that both runs have by rounding only
+    const auto of_peak = [](double relative) { return relative < kNoPeak ? exponent(relative) : "-"; };
     std::vector<std::string> row{d.name,           engineering(d.peak),          exponent(d.largest), d.unit, engineering(d.largest_time),
-                                 exponent(d.relative), exponent(d.relative_rms), fmt::format("{}", d.digits)};
+                                 of_peak(d.relative), of_peak(d.relative_rms), fmt::format("{}", d.digits)};
     if (judged) {
       row.push_back(exponent(d.error_estimate));
       row.push_back(word(d.cause));
