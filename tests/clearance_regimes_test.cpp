@@ -66,7 +66,7 @@ TEST(ClearanceRegimes, AFastCrankMakesThePinRepeatItsOrbit) {
 TEST(ClearanceRegimesSlow, ASlowCrankMakesItChaotic) {
   constexpr double kMiddle = 36;  // [1/s]
   for (const double clearance : {1e-4, 2e-4}) {
-    std::vector<ErrorGrowth> growths;
+    std::vector<Growth> growths;
     for (const double restitution : {0.0, 1e-9, -1e-9}) {
       Model model = worn(clearance, "lankarani-nikravesh", 600, 20);
       restitution_of_b(model) += restitution;
@@ -74,12 +74,12 @@ TEST(ClearanceRegimesSlow, ASlowCrankMakesItChaotic) {
       ASSERT_EQ(run.outcome, Outcome::kHorizon) << clearance << ": " << run.message;
       growths.push_back(run.growth);
     }
-    std::sort(growths.begin(), growths.end(), [](const ErrorGrowth& a, const ErrorGrowth& b) { return a.rate < b.rate; });
+    std::sort(growths.begin(), growths.end(), [](const Growth& a, const Growth& b) { return a.rate < b.rate; });
     std::string all;
-    for (const ErrorGrowth& growth : growths) all += fmt::format(" {:.3g} +- {:.3g}", growth.rate, growth.rate_error);
+    for (const Growth& growth : growths) all += fmt::format(" {:.3g} +- {:.3g}", growth.rate, growth.rate_error);
     EXPECT_NEAR(growths[1].rate, kMiddle, 14) << clearance << all;
     EXPECT_NEAR(growths[1].rate, kMiddle, 1.5 * growths[1].rate_error) << clearance << all;
-    for (const ErrorGrowth& growth : growths) EXPECT_LT(growth.rate_error, 0.75 * growth.rate) << clearance << all;
+    for (const Growth& growth : growths) EXPECT_LT(growth.rate_error, 0.75 * growth.rate) << clearance << all;
   }
 }
 
