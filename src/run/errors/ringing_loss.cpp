@@ -22,6 +22,7 @@ template <class S>
 void BasicRingingLoss<S>::start_again() {
   lost_.assign(system_->joints.size(), S::Vec::Zero());
   most_lost_ = lost_;
+  n_steps_ = 0;
 }
 
 template <class S>
@@ -46,6 +47,7 @@ void BasicRingingLoss<S>::find_masses() {
 template <class S>
 void BasicRingingLoss<S>::see_step(const BasicStepNodes<S>& nodes, double h) {
   if (mass_.empty()) find_masses();
+  ++n_steps_;
   const RadauTable& table = *nodes.table;
   for (std::size_t j = 0; j < lost_.size(); ++j)
     for (int k = 0; k < S::kDof; ++k) {

@@ -20,6 +20,7 @@ class BasicRingingLoss {
 
   /// A step of h seconds has been made.
   void see_step(const BasicStepNodes<S>& nodes, double h);
+  int n_steps() const { return n_steps_; }
   /// Joints carry what other joints' vibrations accelerate: adds to each what it lacks with those that have lost more than this force [N] or couple [N*m] of their own, as forces are at the start.
   void spread(double least_force, double least_couple);
   /// The largest force by which joint j lacks ringing so far [N], and the largest couple [N*m].
@@ -33,6 +34,7 @@ class BasicRingingLoss {
   const BasicState<S>* start_;
   const VecsOf<S>* known_mass_;
   VecsOf<S> mass_, damping_, stiffness_, decay_;  // what a component's force accelerates; its law at the start; the rate at which the joint damps its own vibration [1/s]; empty before the first step
+  int n_steps_ = 0;
   VecsOf<S> lost_, most_lost_;  // at the last step, and so far [N], [N*m]
 };
 

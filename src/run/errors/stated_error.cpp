@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kPeakOfRounding = 10;       // times the rounding of one force: its peak over a run of many. With 1 the rail of snap_through_truss states a hundredth of what it carries
 constexpr double kNegligibleOfMotor = 1e-3;  // a motor is measured at least by this part of it
+constexpr double kManySteps = 1000;          // from which on what steps have damped may be as much more: a pass of 35,000 steps that has damped a vibration bit by bit agrees with one of 48 that has not seen it
 constexpr double kMostRinging = 3;           // times the tolerance of the steps and the mean of a joint's peak and the largest: as much as they may have damped of vibrations unnoticed. What they lose of resolved ones in thousands of steps shows in the difference of the passes
 constexpr double kSpread = 0.1;              // times the tolerance of the steps and what the least loaded joint is measured by: from there on what one joint has lost of its vibrations is looked for in the others
 constexpr double kOfEqual = 3;               // share of the difference that is the finer pass's error, where the finer pass is as coarse
@@ -92,7 +93,7 @@ class Growing {
 // another's vibrations accelerate: what it may lack unnoticed is between the two.
 template <class S>
 std::array<double, 2> damped(const Measures<S>& measures, const BasicRingingLoss<S>& ringing, double tolerance, const PassDifference& difference, std::size_t j) {
-  const auto most = [tolerance](double peak, double largest) { return kMostRinging * tolerance * std::sqrt(peak * std::max(peak, largest)); };
+  const auto most = [tolerance, many = std::max(ringing.n_steps() / kManySteps, 1.0)](double peak, double largest) { return kMostRinging * tolerance * many * std::sqrt(peak * std::max(peak, largest)); };
   return {std::min(ringing.force(j), most(difference.peak[j], measures.force)), std::min(ringing.couple(j), most(difference.peak_couple[j], measures.couple))};
 }
 
