@@ -25,6 +25,7 @@ constexpr double kLoosest = 1e-4;          // of the second pass: above it steps
 constexpr double kLoosestIdeal = 1e-8;     // the same for ideal joints, which are a reference, and cheap
 constexpr double kLoosestOfMotion = 1e-3;  // the same where the tolerance is of the motion; no pass is looser, and no energy account
 constexpr double kLeastTolerance = 1e-13;  // of any pass: below it all is rounding
+constexpr double kLatePart = 0.25;         // of a run, at its end: where passes agree there, they have not separated as chaotic motions do
 constexpr double kOfUnseenPeaks = 1e-3;  // of a peak between rows: what errors are small beside before that. A ball that strikes a wall between two rows would ask for 1e-12 of its blow with less, which no tolerance gives
 constexpr double kPromised = 0.7;          // of the tolerance: with a smaller stated error the true one keeps to it, which may be a third larger
 constexpr double kPromisedByFew = 0.5;     // the same of order 9, whose steps are few and long: two passes say less. With 0.7, 5 more of 817 runs of the battery are over the tolerance
@@ -194,12 +195,21 @@ class Passes {
   ErrorGrowth growth_of(const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine) const {
     if (out_.of_motion) return fit_growth(motion_difference_curve(system_, coarse, fine));
     const DifferenceCurve forces = force_difference_curve(system_, coarse, fine);
+    if (comes_together_again(forces)) return {};
     const ErrorGrowth of_forces = fit_growth(forces);
     if (of_forces.exponential || !of_forces.saturated) return of_forces;
     ErrorGrowth of_places = fit_growth_to_largest(motion_difference_curve(system_, coarse, fine));
     if (!of_places.exponential || !of_places.saturated) return of_forces;
     of_places.level = settings_.tolerance * std::exp(of_places.rate * (of_places.until - curve_horizon(forces, settings_.tolerance)));
     return of_places;
+  }
+
+  // What separates for good is not within the tolerance to the end of the run: a striking train that comes to rest is.
+  bool comes_together_again(const DifferenceCurve& forces) const {
+    const double from = forces.t.empty() ? 0 : forces.t.back() - kLatePart * (forces.t.back() - forces.t.front());
+    for (std::size_t i = 0; i < forces.t.size(); ++i)
+      if (forces.t[i] >= from && forces.e[i] > kPromised * settings_.tolerance) return false;
+    return true;
   }
 
   // To which part errors have fallen since the pass before: as its tolerance, or less where its steps have shrunk by less than that asks for.
