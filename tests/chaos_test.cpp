@@ -110,5 +110,12 @@ TEST(Chaos, TheSummaryStatesHorizonsAndGrowth) {
   EXPECT_NE(text.find("promised to [s]"), std::string::npos);
 }
 
+// A hammer that strikes and comes to rest: two passes that part at the first blows and agree again behind them have not separated for good.
+TEST(ChaosSlow, IsNotWhereMotionComesToRest) {
+  Model model = reference::test_model("striking_train");
+  const Trajectory run = reference::completed(model);
+  EXPECT_EQ(run.growth.rate, 0);
+}
+
 }  // namespace
 }  // namespace pintle
