@@ -18,7 +18,7 @@ inline constexpr int kFrictionRounds = 4;
 /// And on while each changes by less than this of the one before, which oil films may not: a rope round a post gains a quarter in each. With half of it
 /// the error stated for mechanisms/bollard.toml is 1e-5 of the peak instead of 5e-8; doubled, rounds that lead nowhere would not end.
 inline constexpr double kFrictionContracts = 0.9;
-inline constexpr int kMostJointsWithMasses = 300;  // in mechanisms of so many at most what one gap's acceleration takes of all joints is asked: the cost grows with the square
+inline constexpr int kMostJointsWithMasses = 300;  // up to which the forces that one gap's acceleration takes in all joints are asked for: the cost grows with the square
 inline constexpr double kFits = 1e-9;  // of the largest force, or speed: gaps, or rates, that differ by no more fit together
 
 /// What a force on a component of a gap has to accelerate, per joint and component [kg or kg*m^2]. Empty when no joint has
