@@ -222,7 +222,7 @@ bool BasicInverseDynamics<S>::find_accelerations(BasicState<S>& state) {
 }
 
 template <class S>
-bool BasicInverseDynamics<S>::hold_all_at(const BasicState<S>& state) {
+bool BasicInverseDynamics<S>::prepare_unit_gap_accelerations(const BasicState<S>& state) {
   find_kinematics(state);
   const double mu = kHeldAbove * slowest_joint(system_, r_);
   no_load_.assign(system_.bodies.size(), S::Vec::Zero());
@@ -230,7 +230,7 @@ bool BasicInverseDynamics<S>::hold_all_at(const BasicState<S>& state) {
 }
 
 template <class S>
-const VecsOf<S>& BasicInverseDynamics<S>::forces_that_accelerate(int j, int c) {
+const VecsOf<S>& BasicInverseDynamics<S>::forces_of_unit_gap_acceleration(int j, int c) {
   accelerated_ = no_load_;
   accelerating_.assign(system_.joints.size(), S::Vec::Zero());
   for (int pass = 0; pass < kClosing; ++pass) {
@@ -247,7 +247,7 @@ const VecsOf<S>& BasicInverseDynamics<S>::forces_that_accelerate(int j, int c) {
 // theory/assembly Eq. (5.1).
 template <class S>
 BasicEffectiveMasses<S> BasicInverseDynamics<S>::effective_masses(const BasicState<S>& state) {
-  if (!hold_all_at(state)) return {};
+  if (!prepare_unit_gap_accelerations(state)) return {};
   const VecsOf<S> none(system_.joints.size(), S::Vec::Zero());
   BasicEffectiveMasses<S> masses{none, none};
   for (int j = 0; j < system_.n_joints(); ++j) {
@@ -255,7 +255,7 @@ BasicEffectiveMasses<S> BasicInverseDynamics<S>::effective_masses(const BasicSta
     for (int c = 0; c < S::kDof; ++c) {
       masses.closed[j][c] = masses.alone[j][c] = mobility[c] > 0 ? 1 / mobility[c] : 0;
       if (system_.n_joints() > kMostJointsWithMasses) continue;
-      masses.closed[j][c] = std::max(masses.closed[j][c], forces_that_accelerate(j, c)[j][c]);  // where no motion can change it alone, the force is 0
+      masses.closed[j][c] = std::max(masses.closed[j][c], forces_of_unit_gap_acceleration(j, c)[j][c]);  // where no motion can change it alone, the force is 0
     }
   }
   return masses;

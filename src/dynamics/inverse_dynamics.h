@@ -75,10 +75,10 @@ class BasicInverseDynamics {
   /// After `move_onto_gaps`: where gaps do not fit together, the forces become those of the gaps that the bodies have. Whether they did not fit.
   bool set_forces_from_bodies(BasicState<S>& state);
   BasicEffectiveMasses<S> effective_masses(const BasicState<S>& state);
-  /// At this state from now on, for `forces_that_accelerate`. False when no joint is stiff or the equations are singular.
-  bool hold_all_at(const BasicState<S>& state);
+  /// At this state from now on, for `forces_of_unit_gap_acceleration`. False when no joint is stiff or the equations are singular.
+  bool prepare_unit_gap_accelerations(const BasicState<S>& state);
   /// The joint forces that make component c of the gap of joint j accelerate by 1, and no other gap.
-  const VecsOf<S>& forces_that_accelerate(int j, int c);
+  const VecsOf<S>& forces_of_unit_gap_acceleration(int j, int c);
 
  private:
   void find_kinematics(const BasicState<S>& state);

@@ -15,6 +15,7 @@ class LawBorders {
 
   /// The run begins here.
   void start(const State& state) {
+    crossed_ = false;
     if (!before_.empty()) find(state, before_);
   }
   void begin_step() { n_shortened_ = 0; }
@@ -30,19 +31,22 @@ class LawBorders {
   /// Whether this step has been made shorter: its length says nothing about the next one's.
   bool has_shortened() const { return n_shortened_ > 0; }
   /// Lets the laws set their states where the step that ends at `end` has crossed their borders; what they store less then is dissipated. Whether
-  /// any has, and `end_of_curve` then is the end before that: forces are to be found anew, what was remembered of the step's curve does not go on, and `record` must follow.
-  bool cross(State& end, State& end_of_curve) {
+  /// any has: forces are to be found anew, what was remembered of the step's curve does not go on, and `record` must follow.
+  bool cross(State& end) {
     if (before_.empty()) return false;
     find(end, behind_);
     for (std::size_t f = 0; f < behind_.size(); ++f)
       if (system_.switching_functions()[f].is_crossing(before_[f], behind_[f])) {
-        end_of_curve = end;
+        before_event_ = end;
         break;
       }
-    const bool crossed = system_.cross_borders(end.t, end.gap, end.gap_rate, before_.data(), behind_.data(), end.law_state, end.dissipated);
-    if (!crossed) before_.swap(behind_);
-    return crossed;
+    crossed_ = system_.cross_borders(end.t, end.gap, end.gap_rate, before_.data(), behind_.data(), end.law_state, end.dissipated);
+    if (!crossed_) before_.swap(behind_);
+    return crossed_;
   }
+  /// `end`, or what it was before the laws set their states there: where the curve of the step ends.
+  const State& before_event(const State& end) const { return crossed_ ? before_event_ : end; }
+  bool crossed() const { return crossed_; }
   /// Keeps what has been crossed, with the forces that the end has then.
   void record(const State& end) {
     record_crossings(system_, end, before_.data(), behind_.data(), crossings_);
@@ -73,6 +77,8 @@ class LawBorders {
   std::vector<double> before_, behind_;  // values at the step's start and at its end
   std::vector<Planar::Motion> m_;
   std::vector<LawCrossing> crossings_;
+  State before_event_;  // the end of the last step, where laws have set their states there
+  bool crossed_ = false;
   int n_shortened_ = 0;
   double longest_ = 0;  // first trial of a step [s]
 };

@@ -29,7 +29,7 @@ const BasicState<S>& interpolate_with(BasicDenseOutput<S>& dense, const BasicRad
   return dense.at(t, method.previous(), method.state(), method.nodes());
 }
 const State& interpolate_with(DenseOutput& dense, const Dopri5& method, double t) {
-  return t == method.state().t ? method.state() : dense.at(t, method.previous(), method.end_of_curve());
+  return t == method.state().t ? method.state() : dense.at(t, method.previous(), method.state_before_event());
 }
 
 // A method on the equations of free bodies, with dense output.
@@ -46,8 +46,8 @@ class BodyStepper final : public BasicStepper<S> {
   const BasicState<S>& state() const override { return method_.state(); }
   const BasicState<S>& previous() const override { return method_.previous(); }
   const BasicState<S>& interpolate(double t) override { return interpolate_with(dense_, method_, t); }
-  const BasicState<S>& end_of_curve() const override {
-    if constexpr (requires { method_.end_of_curve(); }) return method_.end_of_curve();
+  const BasicState<S>& state_before_event() const override {
+    if constexpr (requires { method_.state_before_event(); }) return method_.state_before_event();
     else return method_.state();
   }
   const BasicStepNodes<S>* nodes() const override {

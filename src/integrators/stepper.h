@@ -34,7 +34,7 @@ class BasicStepper {
   /// The state at a time inside the last step.
   virtual const BasicState<S>& interpolate(double t) = 0;
   /// The end of the last step before laws have set their states there, which `state` comes after.
-  virtual const BasicState<S>& end_of_curve() const { return state(); }
+  virtual const BasicState<S>& state_before_event() const { return state(); }
   /// The inside of the last step, of methods that keep it; otherwise null.
   virtual const BasicStepNodes<S>* nodes() const { return nullptr; }
   virtual const Counters& counters() const = 0;

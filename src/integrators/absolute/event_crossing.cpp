@@ -156,8 +156,8 @@ void BasicRadauStepper<S>::balance_end() {
 
 // Otherwise all passes miss the same impulse. A ball that strikes a damper 1e-10 s late is as much late again for the next contact as its speed is wrong: 2e-7 s, and a force that is 5e-4 wrong.
 template <class S>
-void BasicRadauStepper<S>::make_up(double late) {
-  before_make_up_ = end_;
+void BasicRadauStepper<S>::compensate_late_crossing(double late) {
+  before_compensation_ = end_;
   for (std::size_t b = 0; b < end_.v.size(); ++b) end_.v[b] += late * (end_.a[b] - begin_.a[b]);
   for (std::size_t j = 0; j < end_.gap_rate.size(); ++j) end_.gap_rate[j] += late * (end_.gap_accel[j] - begin_.gap_accel[j]);
   end_.supplied += late * (end_.supply_power - begin_.supply_power);
@@ -167,8 +167,8 @@ void BasicRadauStepper<S>::make_up(double late) {
 }
 
 template <class S>
-void BasicRadauStepper<S>::take_back() {
-  end_ = before_make_up_;
+void BasicRadauStepper<S>::undo_compensation() {
+  end_ = before_compensation_;
   system_.motions(end_.q, end_.v, end_m_);
   balance_end();
 }
@@ -184,8 +184,8 @@ template const std::vector<Planar::Motion>& BasicRadauStepper<Planar>::motions_a
 template bool BasicRadauStepper<Planar>::cross_borders();
 template void BasicRadauStepper<Planar>::shift_gap(int joint, double d, double rate);
 template void BasicRadauStepper<Planar>::balance_end();
-template void BasicRadauStepper<Planar>::make_up(double late);
-template void BasicRadauStepper<Planar>::take_back();
+template void BasicRadauStepper<Planar>::compensate_late_crossing(double late);
+template void BasicRadauStepper<Planar>::undo_compensation();
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::evaluate_switching_functions(double x, double h, double* value);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::extrapolate_switching_functions(double d, double* value);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::extrapolate_gaps(double d);)
@@ -197,7 +197,7 @@ PINTLE_IN_SPACE(template const std::vector<Spatial::Motion>& BasicRadauStepper<S
 PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::cross_borders();)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::shift_gap(int joint, double d, double rate);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::balance_end();)
-PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::make_up(double late);)
-PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::take_back();)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::compensate_late_crossing(double late);)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::undo_compensation();)
 
 }  // namespace pintle

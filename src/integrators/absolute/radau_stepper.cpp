@@ -69,7 +69,7 @@ void BasicRadauStepper<S>::start(const BasicState<S>& state, double h) {
   system_.external(end_.t, end_m_, last.Q, end_.sliding);
   find_power();
   this->reset_event_detection();
-  before_make_up_ = end_;
+  before_compensation_ = end_;
   grow_load_scale(system_, end_m_, last.Q, end_, scale_);
   if (unloaded()) foresee_loads(h);
   raise_above_rounding();

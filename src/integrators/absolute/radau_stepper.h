@@ -105,8 +105,8 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   bool cross_borders();
   void shift_gap(int joint, double d, double rate);
   void balance_end();
-  void make_up(double late);
-  void take_back();
+  void compensate_late_crossing(double late);
+  void undo_compensation();
 
   const BasicSystem<S>& system_;
   const RadauTable& table_;
@@ -114,7 +114,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   double tolerance_;
   const bool of_motion_;                      // the tolerance is
   BasicMotionScale<S> motion_scale_;
-  BasicState<S> begin_, end_, before_make_up_;
+  BasicState<S> begin_, end_, before_compensation_;
   std::unique_ptr<BasicStageSolver<S>> solver_;
   std::vector<BasicStage<S>> stage_;
   BasicStepNodes<S> nodes_;

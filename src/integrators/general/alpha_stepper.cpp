@@ -232,8 +232,7 @@ void AlphaStepper::finish(double h) {
   now_.a = a_;
   now_.law = end_.a;
   now_.h = h;
-  crossed_ = !constraints_ && borders_.cross(end_, end_of_curve_);
-  if (crossed_) {  // goes on as from a start
+  if (!constraints_ && borders_.cross(end_)) {  // goes on as from a start
     force_evaluator_.complete(end_);
     borders_.record(end_);
     now_.a = now_.law = end_.a;
@@ -246,7 +245,7 @@ void AlphaStepper::finish(double h) {
 const State& AlphaStepper::interpolate(double t) {
   if (t == end_.t) return end_;
   if (t == begin_.t) return begin_;
-  const State& end = end_of_curve();
+  const State& end = state_before_event();
   const double h = end.t - begin_.t, s = (t - begin_.t) / h, r = 1 - s;
   between_.t = t;
   for (std::size_t i = 0; i < q_.size(); ++i) {
@@ -263,7 +262,7 @@ const State& AlphaStepper::interpolate(double t) {
 
 // Gaps on straight lines, and the laws' forces there.
 void AlphaStepper::interpolate_forces(double s) {
-  const State& end = end_of_curve();
+  const State& end = state_before_event();
   const double r = 1 - s;
   for (int j = 0; j < system_.n_joints(); ++j) {
     between_.gap[j] = r * begin_.gap[j] + s * end.gap[j];

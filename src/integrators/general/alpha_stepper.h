@@ -28,7 +28,7 @@ class AlphaStepper final : public Stepper {
   const State& state() const override { return end_; }
   const State& previous() const override { return begin_; }
   const State& interpolate(double t) override;
-  const State& end_of_curve() const override { return crossed_ ? end_of_curve_ : end_; }
+  const State& state_before_event() const override { return borders_.before_event(end_); }
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
   const std::vector<LawCrossing>& crossings() const override { return borders_.crossings(); }
@@ -63,8 +63,7 @@ class AlphaStepper final : public Stepper {
   LawBorders borders_;
   ForceTangents tangents_;
   BlockLu<double, Planar::kDof> lu_;
-  State begin_, end_, end_of_curve_, between_;
-  bool crossed_ = false;                // at the end of the last step laws have set their states
+  State begin_, end_, between_;
   Knot before_, now_;                   // begins of the step before and of this one
   Vecs a_before_, a_now_;               // their accelerations with the lag of this step
   Vecs q_, v_, a_, F_begin_, F_;        // the end that is sought

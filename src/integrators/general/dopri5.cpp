@@ -31,7 +31,6 @@ Dopri5::Dopri5(const System& system, double tolerance)
 
 void Dopri5::start(const State& state, double h) {
   begin_ = end_ = state;
-  crossed_ = false;
   h_ = h;
   complete(end_);
   borders_.start(end_);
@@ -87,8 +86,7 @@ bool Dopri5::step(double t_end) {
       }
       end_.dissipated = begin_.dissipated + 0.5 * h * (begin_.loss_power + end_.loss_power);
       end_.supplied = begin_.supplied + 0.5 * h * (begin_.supply_power + end_.supply_power);
-      crossed_ = borders_.cross(end_, end_of_curve_);
-      if (crossed_) {
+      if (borders_.cross(end_)) {
         complete(end_);
         borders_.record(end_);
       }

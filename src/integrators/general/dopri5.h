@@ -22,7 +22,7 @@ class Dopri5 {
   bool step(double t_end);
   const State& state() const { return end_; }
   const State& previous() const { return begin_; }
-  const State& end_of_curve() const { return crossed_ ? end_of_curve_ : end_; }
+  const State& state_before_event() const { return borders_.before_event(end_); }
   const Counters& counters() const { return counters_; }
   const std::string& failure() const { return failure_; }
   const std::vector<LawCrossing>& crossings() const { return borders_.crossings(); }
@@ -38,8 +38,7 @@ class Dopri5 {
   ForceEvaluator force_evaluator_;
   LawBorders borders_;
   double tolerance_, max_step_ = 0, h_ = 0;
-  State begin_, end_, end_of_curve_;
-  bool crossed_ = false;  // at the end of the last step laws have set their states
+  State begin_, end_;
   std::array<Vecs, 7> kq_, kv_;
   std::array<std::vector<double>, 7> kz_;  // rates of the laws' states
   Vecs q_, v_, dq_, dv_, external_, magnitudes_;

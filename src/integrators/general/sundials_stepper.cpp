@@ -24,7 +24,7 @@ class SundialsStepper final : public Stepper {
  public:
   SundialsStepper(const System& system, std::string name, const SundialsChoice& choice, double tolerance)
       : name_(std::move(name)), choice_(choice), tolerance_(tolerance), equations_(system, FirstOrderOde::Energies::kAppended),
-        states_(system), borders_(system), begin_(zero_state(system)), end_(begin_), between_(begin_), before_crossing_(begin_), dense_(system) {}
+        states_(system), borders_(system), begin_(zero_state(system)), end_(begin_), between_(begin_), dense_(system) {}
 
   void set_max_step(double h) override { max_step_ = h; }
   void set_load_scale(const LoadScale&) override {}
@@ -51,12 +51,10 @@ class SundialsStepper final : public Stepper {
     }
     equations_.unflatten(code_->t(), code_->y(), end_);
     states_.complete(end_);
-    restarted_ = false;
-    if (borders_.cross(end_, before_crossing_) || (code_->at_root() && cross_just_behind())) {
+    if (borders_.cross(end_) || (code_->at_root() && cross_just_behind())) {
       std::vector<double> y(equations_.size());
       equations_.flatten(end_, y.data());
       code_->restart(end_.t, y);
-      restarted_ = true;
       states_.complete(end_);
       borders_.record(end_);
     }
@@ -69,14 +67,14 @@ class SundialsStepper final : public Stepper {
   const State& interpolate(double t) override {
     if (t == end_.t) return end_;
     if (t == begin_.t) return begin_;
-    if (restarted_) return dense_.at(std::min(t, before_crossing_.t), begin_, before_crossing_);  // the code has forgotten the step
+    if (borders_.crossed()) return dense_.at(std::min(t, state_before_event().t), begin_, state_before_event());  // the code has forgotten the step
     const double* y = code_->interpolate(t);
     if (!y) return end_;
     equations_.unflatten(t, y, between_);
     states_.complete(between_);
     return between_;
   }
-  const State& end_of_curve() const override { return restarted_ ? before_crossing_ : end_; }
+  const State& state_before_event() const override { return borders_.before_event(end_); }
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
   const std::vector<LawCrossing>& crossings() const override { return borders_.crossings(); }
@@ -89,7 +87,7 @@ class SundialsStepper final : public Stepper {
     between_ = end_;
     equations_.unflatten(end_.t + kBehind * (end_.t - begin_.t), y, end_);
     states_.complete(end_);
-    if (borders_.cross(end_, before_crossing_)) return true;
+    if (borders_.cross(end_)) return true;
     end_ = between_;
     return false;
   }
@@ -102,8 +100,6 @@ class SundialsStepper final : public Stepper {
   LawBorders borders_;
   std::optional<SundialsCode> code_;
   State begin_, end_, between_;
-  State before_crossing_;  // the end of the last step, before laws have set their states
-  bool restarted_ = false;  // from there
   DenseOutput dense_;
   LoadScale no_scale_;
   Counters counters_;

@@ -31,8 +31,8 @@ constexpr double kShareBeforeEvent = 0.999;
 ///   cross_borders()                             System::cross_borders between the values of `search_`
 ///   shift_gap(joint, d, rate)                   the carried gap of a driven joint at the end, and its rate, by so much; what the law then stores more is supplied
 ///   balance_end()                               what laws and loads really give at the end: forces, accelerations, powers
-///   make_up(late)                               for an event that was a time `late` before the end: what pulls behind it, and has not since the start, has pulled for so long
-///   take_back()                                 the end is again what it was before `make_up`
+///   compensate_late_crossing(late)              for an event that was a time `late` before the end: what pulls behind it, and has not since the start, has pulled for so long
+///   undo_compensation()                         the end is again what it was before `compensate_late_crossing`
 template <class Method, class S>
 class StepEvents {
  protected:
@@ -57,7 +57,7 @@ class StepEvents {
   std::vector<LawCrossing> crossings_;
 
  private:
-  void make_up(double late, int function);
+  void compensate_late_crossing(double late, int function);
   Method& method() { return static_cast<Method&>(*this); }
   void restart_search() { method().evaluate_switching_functions_at_end(search_.start()); }
   double margin_rate(const SlidingMode& jump);
@@ -115,7 +115,7 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
   method().balance_end();
   if (crossed) record();
   const double now = method().end_time();
-  if (const double late = now - (before + distance); late > 0) make_up(late, event.function);
+  if (const double late = now - (before + distance); late > 0) compensate_late_crossing(late, event.function);
   if (const auto jump = chattering_.crossed(events_of_, before, motions_before_, now, method().end_motions(), StepControl::kAtOnce * control_.usual)) {
     const double margin = events_of_.margin(*jump, now, method().end_motions());
     const RampSize size = ramp_size(events_of_, *jump, method().end_state(), control_.usual, method().tolerance_);
@@ -127,14 +127,14 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
 
 // Unless that leads back before the event, as where a jump is crossed again and again.
 template <class Method, class S>
-void StepEvents<Method, S>::make_up(double late, int function) {
+void StepEvents<Method, S>::compensate_late_crossing(double late, int function) {
   const auto is_positive = [&] {
     method().evaluate_switching_functions_at_end(search_.end());
     return search_.end()[function] > 0;
   };
   const bool behind = is_positive();
-  method().make_up(late);
-  if (is_positive() != behind) method().take_back();
+  method().compensate_late_crossing(late);
+  if (is_positive() != behind) method().undo_compensation();
 }
 
 // How fast the argument of a jump changes at the end, by what it is a moment later.

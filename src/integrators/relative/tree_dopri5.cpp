@@ -62,7 +62,6 @@ void TreeDopri5::start(const State& state, double h) {
   h_ = h;
   read_coordinates(*tree_, state, end_);
   end_.law_state = state.law_state;
-  crossed_ = false;
   complete(end_);
   write(end_, end_state_);
   borders_.start(end_state_);
@@ -118,9 +117,8 @@ bool TreeDopri5::step(double t_end) {
       }
       end_state_.dissipated = begin_state_.dissipated + 0.5 * h * (begin_state_.loss_power + end_state_.loss_power);
       end_state_.supplied = begin_state_.supplied + 0.5 * h * (begin_state_.supply_power + end_state_.supply_power);
-      crossed_ = borders_.cross(end_state_, end_of_curve_state_);
-      if (crossed_) {
-        end_of_curve_ = end_;
+      if (borders_.cross(end_state_)) {
+        before_event_ = end_;
         end_.law_state = end_state_.law_state;
         complete(end_);
         write(end_, end_state_);
@@ -167,8 +165,8 @@ double TreeDopri5::error(double h) {
 const State& TreeDopri5::interpolate(double t) {
   if (t == end_.t) return end_state_;
   if (t == begin_.t) return begin_state_;
-  const TreeState& end = crossed_ ? end_of_curve_ : end_;
-  const State& end_state = end_of_curve();
+  const TreeState& end = borders_.crossed() ? before_event_ : end_;
+  const State& end_state = state_before_event();
   const double h = end.t - begin_.t, s = (t - begin_.t) / h;
   TreeState now;
   now.t = t;

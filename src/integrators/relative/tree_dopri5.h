@@ -24,7 +24,7 @@ class TreeDopri5 final : public Stepper {
   const State& state() const override { return end_state_; }
   const State& previous() const override { return begin_state_; }
   const State& interpolate(double t) override;
-  const State& end_of_curve() const override { return crossed_ ? end_of_curve_state_ : end_state_; }
+  const State& state_before_event() const override { return borders_.before_event(end_state_); }
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
   const std::vector<LawCrossing>& crossings() const override { return borders_.crossings(); }
@@ -42,9 +42,8 @@ class TreeDopri5 final : public Stepper {
   TreeInstant at_;
   Eigen::MatrixXd mass_matrix_;
   Eigen::LLT<Eigen::MatrixXd> mass_;
-  TreeState begin_, end_, end_of_curve_, stage_;
-  State begin_state_, end_state_, end_of_curve_state_, inside_state_;
-  bool crossed_ = false;  // at the end of the last step laws have set their states
+  TreeState begin_, end_, before_event_, stage_;  // before_event_: the end, where laws have set their states there
+  State begin_state_, end_state_, inside_state_;
   std::array<Eigen::VectorXd, 7> ky_, ku_;
   std::array<std::vector<double>, 7> kz_;  // rates of the laws' states
   LoadScale scale_;

@@ -110,8 +110,8 @@ void TreeRadau::balance_end() {
   finish_end(end_.w);
 }
 
-void TreeRadau::make_up(double late) {
-  before_make_up_ = end_;
+void TreeRadau::compensate_late_crossing(double late) {
+  before_compensation_ = end_;
   supplied_before_ = end_state_.supplied;
   dissipated_before_ = end_state_.dissipated;
   end_.u += late * (end_.w - begin_.w);
@@ -121,8 +121,8 @@ void TreeRadau::make_up(double late) {
   balance_end();
 }
 
-void TreeRadau::take_back() {
-  end_ = before_make_up_;
+void TreeRadau::undo_compensation() {
+  end_ = before_compensation_;
   end_state_.supplied = supplied_before_;
   end_state_.dissipated = dissipated_before_;
   balance_end();

@@ -43,7 +43,7 @@ void TreeRadau::start(const State& state, double h) {
   end_state_.loss_power = lost;
   finish_end(end_.w);
   reset_event_detection();
-  before_make_up_ = end_;
+  before_compensation_ = end_;
 }
 
 bool TreeRadau::step(double t_end) {

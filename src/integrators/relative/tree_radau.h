@@ -77,8 +77,8 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   bool cross_borders() { return end_at_.cross_borders(search_.start(), search_.end(), end_, end_state_.dissipated); }
   void shift_gap(int joint, double d, double rate);
   void balance_end();
-  void make_up(double late);
-  void take_back();
+  void compensate_late_crossing(double late);
+  void undo_compensation();
 
   const System& system_;
   const RadauTable& table_;
@@ -91,9 +91,9 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   TreeInstant end_at_, inside_at_;
   OpenContacts open_contacts_;
   BendWatch bends_;
-  TreeState begin_, end_, before_make_up_;
+  TreeState begin_, end_, before_compensation_;
   State begin_state_, end_state_, inside_state_;
-  double supplied_before_ = 0, dissipated_before_ = 0;  // of before_make_up_ [J]
+  double supplied_before_ = 0, dissipated_before_ = 0;  // of before_compensation_ [J]
   TreeNodes nodes_;
   // The last step as powers of its share, with what the integrals miss the far end by; found when first asked for.
   struct Curves {

@@ -43,7 +43,7 @@ const LoadSummary& find_joint(const Trajectory& trajectory, const std::string& n
 }
 
 std::string peak_between_rows(const Trajectory& trajectory, const LoadSummary& joint) {
-  constexpr double kSeen = 0.99;  // of the peak: what a picture shows of it to the eye
+  constexpr double kSeen = 0.99;  // of the peak: an arrow of 200 pixels lacks two
   const std::string on = "joint." + joint.name + ".on_" + joint.second_body + ".";
   const int x = trajectory.column(on + "fx[world]"), y = trajectory.column(on + "fy[world]"), z = trajectory.column(on + "fz[world]");
   if (x < 0 || y < 0) return "";

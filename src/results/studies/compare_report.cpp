@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -49,8 +50,7 @@ std::string table_text(const std::vector<Difference>& list, const char* head, bo
     table.add_column("difference is", Align::kLeft);
   }
   for (const Difference& d : list) {
-    constexpr double kNoPeak = 1e6;  // over the peak: a difference so large is of something that both runs have by rounding only
-    const auto of_peak = [](double relative) { return relative < kNoPeak ? exponent(relative) : "-"; };
+    const auto of_peak = [](double relative) { return relative * std::numeric_limits<double>::epsilon() < 1 ? exponent(relative) : "-"; };  // otherwise the peak is rounding
     std::vector<std::string> row{d.name,           engineering(d.peak),          exponent(d.largest), d.unit, engineering(d.largest_time),
                                  of_peak(d.relative), of_peak(d.relative_rms), fmt::format("{}", d.digits)};
     if (judged) {

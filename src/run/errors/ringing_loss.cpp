@@ -68,16 +68,16 @@ void BasicRingingLoss<S>::see_step(const BasicStepNodes<S>& nodes, double h) {
 
 // Vibrations have no phase in common: their squares are added.
 template <class S>
-void BasicRingingLoss<S>::spread(double least_force, double least_couple) {
+void BasicRingingLoss<S>::add_transmitted(double least_force, double least_couple) {
   if (mass_.empty() || system_->n_joints() > kMostJointsWithMasses) return;
   std::optional<BasicInverseDynamics<S>> dynamics;
   VecsOf<S> squares(lost_.size(), S::Vec::Zero());
   for (std::size_t j = 0; j < lost_.size(); ++j)
     for (int k = 0; k < S::kDof; ++k) {
       if (!(most_lost_[j][k] > (k < S::kDim ? least_force : least_couple))) continue;
-      if (!dynamics && !dynamics.emplace(*system_).hold_all_at(*start_)) return;
+      if (!dynamics && !dynamics.emplace(*system_).prepare_unit_gap_accelerations(*start_)) return;
       const double acceleration = most_lost_[j][k] / mass_[j][k];
-      const VecsOf<S>& force = dynamics->forces_that_accelerate(static_cast<int>(j), k);
+      const VecsOf<S>& force = dynamics->forces_of_unit_gap_acceleration(static_cast<int>(j), k);
       for (std::size_t i = 0; i < lost_.size(); ++i)
         if (i != j) squares[i] += (acceleration * force[i]).cwiseAbs2();
     }

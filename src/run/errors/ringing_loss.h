@@ -22,7 +22,7 @@ class BasicRingingLoss {
   void see_step(const BasicStepNodes<S>& nodes, double h);
   int n_steps() const { return n_steps_; }
   /// Joints carry what other joints' vibrations accelerate: adds to each what it lacks with those that have lost more than this force [N] or couple [N*m] of their own, as forces are at the start.
-  void spread(double least_force, double least_couple);
+  void add_transmitted(double least_force, double least_couple);
   /// The largest force by which joint j lacks ringing so far [N], and the largest couple [N*m].
   double force(std::size_t j) const { return linear_magnitude<S>(most_lost_[j]); }
   double couple(std::size_t j) const { return angular_magnitude<S>(most_lost_[j]); }

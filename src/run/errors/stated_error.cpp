@@ -13,7 +13,6 @@ constexpr double kPeakOfRounding = 10;       // times the rounding of one force:
 constexpr double kNegligibleOfMotor = 1e-3;  // a motor is measured at least by this part of it
 constexpr double kManySteps = 1000;          // from which on what steps have damped may be as much more: a pass of 35,000 steps that has damped a vibration bit by bit agrees with one of 48 that has not seen it
 constexpr double kMostRinging = 3;           // times the tolerance of the steps and the mean of a joint's peak and the largest: as much as they may have damped of vibrations unnoticed. What they lose of resolved ones in thousands of steps shows in the difference of the passes
-constexpr double kSpread = 0.1;              // times the tolerance of the steps and what the least loaded joint is measured by: from there on what one joint has lost of its vibrations is looked for in the others
 constexpr double kOfEqual = 3;               // share of the difference that is the finer pass's error, where the finer pass is as coarse
 
 // Of centres, and of points at `radius` from them across the axis of their turn. theory/time Eq. (6.4).
@@ -115,7 +114,7 @@ std::size_t common_rows(const BasicForceTable<S>& coarse, const BasicForceTable<
 template <class S>
 double largest_ringing_loss(const BasicSystem<S>& system, const PassDifference& difference, BasicRingingLoss<S>& ringing, double tolerance) {
   const Measures<S> measures(system, difference);
-  ringing.spread(kSpread * tolerance * measures.smallest_force(difference), kSpread * tolerance * measures.smallest_couple(difference));
+  ringing.add_transmitted(tolerance * measures.smallest_force(difference), tolerance * measures.smallest_couple(difference));
   double largest = 0;
   for (std::size_t j = 0; j < system.joints.size(); ++j) {
     const auto [force, couple] = damped(measures, ringing, tolerance, difference, j);

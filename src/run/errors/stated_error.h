@@ -38,8 +38,8 @@ void include_peak_differences(const BasicLoadRecorder<S>& coarse, const BasicLoa
 template <class S>
 std::vector<double> relative_differences(const BasicSystem<S>& system, const PassDifference& c);
 
-/// What the steps of a pass have damped of vibrations, as one of these: no more of it than a few times the tolerance of the steps goes unnoticed. Spreads it
-/// among the joints first: once for each pass.
+/// What the steps of a pass have damped of vibrations, as one of these: no more of it than a few times the tolerance of the steps goes unnoticed. Adds what they
+/// transmit to other joints first: once for each pass.
 template <class S>
 double largest_ringing_loss(const BasicSystem<S>& system, const PassDifference& difference, BasicRingingLoss<S>& ringing, double tolerance);
 
