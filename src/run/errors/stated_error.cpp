@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPeakOfRounding = 10;       // times the rounding of one force: its peak over a run of many. With 1 the rail of snap_through_truss states a hundredth of what it carries
 constexpr double kNegligibleOfMotor = 1e-3;  // a motor is measured at least by this part of it
-constexpr double kManySteps = 1000;          // from which on what steps have damped may be as much more: a pass of 35,000 steps that has damped a vibration bit by bit agrees with one of 48 that has not seen it
+constexpr double kManySteps = 1000;          // from which on what steps have damped may be as much more: a pass of 35,000 steps that has damped a vibration bit by bit agrees with one of 48 that has not seen it. With double of it gears-1-77 of the battery takes twice the steps, with half as many
 constexpr double kMostRinging = 3;           // times the tolerance of the steps and the mean of a joint's peak and the largest: as much as they may have damped of vibrations unnoticed. What they lose of resolved ones in thousands of steps shows in the difference of the passes
 constexpr double kOfEqual = 3;               // share of the difference that is the finer pass's error, where the finer pass is as coarse
 
