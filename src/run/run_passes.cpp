@@ -33,6 +33,7 @@ constexpr double kSurest = 0.05;           // of the tolerance of the steps: no 
 constexpr double kRepeated = 0.1;          // tolerance of a pass that is to show whether what two have shown is so, over that of the finer; of the next where errors or an open account ask for another, at least
 constexpr double kShorter = 0.5;           // longest step of a pass whose tolerance would not shorten its steps, over the mean one before
 constexpr double kNearRounding = 1e-8;     // tolerance below which stiff joints may feel rounding, and steps multiply
+constexpr double kNarrowed = 1e-9;         // tolerance down to which passes are made finer because of what ramps of held jumps lag behind: below it they make ten times the steps for half the lag
 constexpr double kNoGain = 0.5;            // of the error that the passes before have shown: one that has not fallen so far below kNearRounding may be made of rounding
 constexpr std::uint64_t kCheap = 500;      // steps of a pass after which finer ones of order 5 cost little; of order 9 they would be as few again, and differ by the coarser one's error
 constexpr std::uint64_t kLong = 10000;     // after a pass of so many steps the next one goes there by a tenth at a time
@@ -175,7 +176,7 @@ class Passes {
     const BasicForceTable<S> &coarse = coarse_->forces(), &fine = fine_->forces();
     coarse_tolerance_ = before;
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
-    share_ = alike_ || out_.of_motion ? 1.0 : share_of_finer(fall_of_errors(before, steps_before));
+    share_ = alike_ || out_.of_motion || last_.held_load >= 0 ? 1.0 : share_of_finer(fall_of_errors(before, steps_before));
     stages_before_ = choice_.stages;
     find_difference(coarse, fine);
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
@@ -268,7 +269,7 @@ class Passes {
       choose_order(next);
       return at(next);
     }
-    at_rounding_ = meets_rounding(tolerance);
+    at_rounding_ = meets_rounding(tolerance) || (last_.held_load >= 0 && tolerance <= kNarrowed);
     return !at_rounding_ && at(finer_by_error(tolerance));
   }
 
@@ -375,6 +376,12 @@ class Passes {
     return share_ * difference_.force[j] < 0.5 * error_ * difference_.peak[j];
   }
 
+  std::string why_not_finer() const {
+    if (last_.held_load < 0) return "; finer passes meet the rounding of the numbers";
+    const BasicLoadData<S>& held = system_.loads[static_cast<std::size_t>(last_.held_load)];
+    return fmt::format("; {} {} switches without rest where its expression jumps, it is held there, and what it lags behind finer passes make hardly smaller", held.applied ? "force" : "motor", held.name);
+  }
+
   std::string missed_message(const BasicJointData<S>& worst) const {
     std::string what = "position error", of = "the longest path of any body";
     if (!out_.of_motion) {
@@ -383,7 +390,7 @@ class Passes {
       of = couple ? fmt::format("the peak couple, or of {:g} of what the mechanism's forces could make", kNegligible) : "the peak force";
     }
     return fmt::format("the largest {} is estimated at {:.2g} of {}; the tolerance is {:.2g}{}{}", what, error_, of, settings_.tolerance,
-                       at_rounding_ ? "; finer passes meet the rounding of the numbers" : "", until_missed());
+                       at_rounding_ ? why_not_finer() : "", until_missed());
   }
 
   // How it ended; a pass that broke off leaves the results of the one before it.

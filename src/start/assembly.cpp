@@ -50,7 +50,7 @@ void assemble_velocities(const Model& model, const System& system, const Vecs& q
   for (std::size_t j = 0; j < r.size(); ++j) {
     const JointData& joint = system.joints[j];
     const S::Vec stiff = joint.law.engaged_stiffness();
-    const bool apart = !has_play(joint) && stands_apart(joint, r[j].gap, size_of_mechanism);
+    const bool apart = is_open_contact(joint.law, r[j].gap, size_of_mechanism) || (!has_play(joint) && stands_apart(joint, r[j].gap, size_of_mechanism));
     for (int k = 0; k < 3; ++k) {
       if (!(stiff[k] > 0) || apart) continue;
       double mobility = 0;
@@ -163,30 +163,70 @@ bool close_beside_holds(const Model& model, const System& system, const std::vec
 }
 
 // The joints that bodies only touch in, beside those that are open: they may stand apart.
-std::vector<bool> with_contacts(const System& system, std::vector<bool> open) {
+std::vector<std::size_t> contacts_of(const System& system, const std::vector<bool>& open) {
+  std::vector<std::size_t> out;
   for (std::size_t j = 0; j < open.size(); ++j)
-    if (std::isfinite(system.joints[j].law.penetration(S::Vec::Zero())) && !has_play(system.joints[j])) open[j] = true;
+    if (!open[j] && std::isfinite(system.joints[j].law.penetration(S::Vec::Zero())) && !has_play(system.joints[j])) out.push_back(j);
+  return out;
+}
+
+std::vector<bool> with_opened(std::vector<bool> open, const std::vector<std::size_t>& contacts) {
+  for (const std::size_t j : contacts) open[j] = true;
   return open;
 }
 
-// The contacts without which everything else closes, with the bodies not inside each other: an escape wheel touches one of its pallets at a time.
-std::string contacts_that_may_stand_apart(const Model& model, const System& system, const Vecs& q, const std::vector<bool>& open) {
-  const std::vector<bool> opened = with_contacts(system, open);
-  if (opened == open) return "";
+std::vector<JointKinematics> kinematics_at_rest(const System& system, const Vecs& q) {
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  kinematics_at(system, 0, q, Vecs(q.size(), S::Vec::Zero()), m, r);
+  return r;
+}
+
+// Whether no joint is beyond a stop.
+bool all_within_stops(const System& system, const Vecs& q) {
+  const std::vector<JointKinematics> r = kinematics_at_rest(system, q);
+  const double size = mechanism_size(system, q);
+  for (std::size_t j = 0; j < r.size(); ++j)
+    if (const auto breach = system.joints[j].law.breach(r[j].gap); breach && breach->depth > kAsStated * (breach->component == 2 ? 1 : size)) return false;
+  return true;
+}
+
+// Whether without these contacts everything else closes, with the bodies not inside each other; then q is where it does.
+bool closes_without(const Model& model, const System& system, const std::vector<bool>& open, const std::vector<std::size_t>& contacts, Vecs& q) {
+  const std::vector<bool> opened = with_opened(open, contacts);
   Vecs trial = q;
   PositionSearch(model, system, opened).run(trial);
   const double size = mechanism_size(system, trial);
-  if (!all_closed(misfits(system, trial), opened, size)) return "";
-  std::vector<S::Motion> m;
-  std::vector<JointKinematics> r;
-  kinematics_at(system, 0, trial, Vecs(q.size(), S::Vec::Zero()), m, r);
-  std::vector<std::string> names;
-  for (std::size_t j = 0; j < open.size(); ++j) {
-    if (open[j] == opened[j]) continue;
-    if (system.joints[j].law.penetration(r[j].gap) > kAsStated * size) return "";
-    names.push_back(system.joints[j].name);
+  if (!all_closed(misfits(system, trial), opened, size)) return false;
+  const std::vector<JointKinematics> r = kinematics_at_rest(system, trial);
+  for (const std::size_t j : contacts)
+    if (system.joints[j].law.penetration(r[j].gap) > kAsStated * size) return false;
+  q = std::move(trial);
+  return true;
+}
+
+// The contacts without which everything else closes: an escape wheel touches one of its pallets at a time.
+std::string contacts_that_may_stand_apart(const Model& model, const System& system, Vecs q, const std::vector<bool>& open) {
+  const std::vector<std::size_t> contacts = contacts_of(system, open);
+  return contacts.empty() || !closes_without(model, system, open, contacts, q) ? "" : names_of_joints(system, {contacts.begin(), contacts.end()});
+}
+
+// A contact that closes only with a joint beyond its stop, as that of a valve with lash does, starts apart: one of them, or all, and where the bodies are
+// stated to be.
+void leave_contacts_apart(const Model& model, const System& system, const Vecs& stated, std::vector<bool>& open, Vecs& q, std::vector<std::string>& notes) {
+  if (all_within_stops(system, q)) return;
+  const std::vector<std::size_t> contacts = contacts_of(system, open);
+  std::vector<std::vector<std::size_t>> choices;
+  for (const std::size_t j : contacts) choices.push_back({j});
+  if (contacts.size() > 1) choices.push_back(contacts);
+  for (const std::vector<std::size_t>& choice : choices) {
+    Vecs trial = stated;
+    if (!closes_without(model, system, open, choice, trial) || !all_within_stops(system, trial)) continue;
+    notes.push_back(fmt::format("bodies that touch in {} start apart: closed, a joint would be beyond its stop", names_of_joints(system, {choice.begin(), choice.end()})));
+    open = with_opened(std::move(open), choice);
+    q = std::move(trial);
+    return;
   }
-  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 // What keeps the search from closing the joints other than lengths: coordinates that are held, motors that ask for another position, pins that it puts
@@ -292,9 +332,11 @@ System assemble_positions(const Model& model, System system, Vecs& q, std::vecto
   for (int j = 0; j < system.n_joints(); ++j) open[j] = is_open(model, system, j);
   system = unwind(std::move(system), q);
   if (model.simulate.start == Start::kRaw) {
-    if (!all_positions_stated(model)) PositionSearch(held_as_stated(model), system, with_contacts(system, open)).run(q);
+    if (!all_positions_stated(model)) PositionSearch(held_as_stated(model), system, with_opened(open, contacts_of(system, open))).run(q);
   } else {
+    const Vecs stated = q;
     PositionSearch(model, system, open).run(q);
+    leave_contacts_apart(model, system, stated, open, q, notes);
     demand_closed(model, system, q, open, notes);
   }
   return fix_assembled_values(model, std::move(system), q, notes);

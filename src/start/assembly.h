@@ -10,9 +10,6 @@
 
 namespace pintle {
 
-/// Of the mechanism's size, and in rad: what is off by less is where it was stated to be.
-inline constexpr double kAsStated = 1e-9;
-
 /// A mechanism that has been put together: its system, complete, and the state that it starts from.
 struct Assembly : BasicSettledStart<Planar> {
   System system;

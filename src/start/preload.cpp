@@ -12,13 +12,14 @@
 namespace pintle {
 namespace {
 
-// In place of laws that do not answer where the joints stand; what starts free is left alone.
+// In place of laws that do not answer where the joints stand; what starts free, or touches nothing, is left alone.
 template <class S>
 std::optional<BasicSystem<S>> with_springs_for_play(const BasicSystem<S>& system, const BasicState<S>& state) {
+  const double size = largest_coordinate(state.q);
   std::vector<int> open;
   for (int j = 0; j < system.n_joints(); ++j) {
     const BasicLaw<S>& law = system.joints[j].law;
-    if (!law.ideal_limit() && !law.starts_free() && is_in_play(law, state.gap[j], state.gap_rate[j])) open.push_back(j);
+    if (!law.ideal_limit() && !law.starts_free() && !is_open_contact(law, state.gap[j], size) && is_in_play(law, state.gap[j], state.gap_rate[j])) open.push_back(j);
   }
   return with_springs(system, open);
 }

@@ -7,6 +7,9 @@
 
 namespace pintle {
 
+/// Of the mechanism's size, and in rad: what is off by less is where it was stated to be.
+inline constexpr double kAsStated = 1e-9;
+
 // Of free bodies, and over a tree.
 inline constexpr int kPreloadPasses = 6;     // of forces and gaps in turns, at most
 inline constexpr int kRedundantPasses = 30;  // where gaps do not fit together yet
@@ -15,6 +18,12 @@ inline constexpr double kMostGrowth = 2;  // of the largest joint force, by an a
 
 /// Whether joints start with the deflections that carry what the motion needs.
 inline bool is_preloaded(Start start) { return start == Start::kAssembled || start == Start::kSeated; }
+
+/// Whether bodies that only touch in this joint stand apart, by more than the rounding of a mechanism of this size [m].
+template <class S>
+bool is_open_contact(const BasicLaw<S>& law, const typename S::Vec& gap, double size) {
+  return law.penetration(S::Vec::Zero()) == 0 && law.penetration(gap) < -kAsStated * size;
+}
 
 /// Accelerations that the joint forces really give at the state's gaps, and the gap accelerations that go with them.
 template <class S>

@@ -125,6 +125,26 @@ void BasicRadauStepper<S>::finish_step(double h) {
   this->update_switching();
 }
 
+template <class S>
+void BasicRadauStepper<S>::coast(double h) {
+  for (int node = 0; node <= n_; ++node) {
+    const double d = h * table_.nodes[node];
+    nodes_.a[node] = begin_.a;
+    nodes_.gap_accel[node] = begin_.gap_accel;
+    nodes_.force[node] = begin_.force;
+    nodes_.law_rate[node] = begin_.law_rate;
+    for (std::size_t z = 0; z < begin_.law_state.size(); ++z) nodes_.law_state[node][z] = begin_.law_state[z] + d * begin_.law_rate[z];
+    nodes_.power[node] = {begin_.supply_power, begin_.loss_power};
+    if (S::kCurved)
+      for (std::size_t b = 0; b < begin_.v.size(); ++b) nodes_.increment_rate[node][b] = begin_.v[b] + d * begin_.a[b];
+  }
+  extrapolate_end_state(h);
+  balance_end();
+  if (S::kCurved) find_increments(h);
+  control_.step_made(h);
+  this->update_switching();
+}
+
 // What the integrals of the increments' rates miss the end by: the projection. theory/space Eq. (2.3).
 template <class S>
 void BasicRadauStepper<S>::find_increments(double h) {
@@ -206,6 +226,7 @@ template double BasicRadauStepper<Planar>::friction_tail() const;
 template double BasicRadauStepper<Planar>::servo_work_missed_by_quadrature(int j, double h) const;
 template double BasicRadauStepper<Planar>::motion_tail();
 template void BasicRadauStepper<Planar>::finish_step(double h);
+template void BasicRadauStepper<Planar>::coast(double h);
 template void BasicRadauStepper<Planar>::find_increments(double h);
 template void BasicRadauStepper<Planar>::add_work(double h);
 template BasicRadauStepper<Planar>::Power BasicRadauStepper<Planar>::power_of_loads(double t, const PositionsOf<Planar>& q, const std::vector<Planar::Motion>& m) const;
@@ -219,6 +240,7 @@ PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::friction_tail() cons
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::servo_work_missed_by_quadrature(int j, double h) const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::motion_tail();)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::finish_step(double h);)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::coast(double h);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::find_increments(double h);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::add_work(double h);)
 PINTLE_IN_SPACE(template BasicRadauStepper<Spatial>::Power BasicRadauStepper<Spatial>::power_of_loads(double t, const PositionsOf<Spatial>& q, const std::vector<Spatial::Motion>& m) const;)

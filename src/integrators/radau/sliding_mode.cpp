@@ -11,6 +11,7 @@ constexpr double kRounding = 4;  // of velocities, over the tolerance: the least
 // Tolerance that a ramp still resolves: a width that went on growing with 1/tolerance would let what is held creep. With 1e-8 the shaper of
 // held_gas_force_test.cpp takes four times the steps at a tolerance of 1e-5, with 1e-7 25 times; with none it loses 13 % of its peak at 1e-6.
 constexpr double kFinest = 1e-9;
+constexpr double kNarrower = 0.25;  // power of the tolerance, below that, by which ramps get narrower: passes whose ramps are as wide share what these lag behind
 
 }  // namespace
 
@@ -40,7 +41,8 @@ RampSize ramp_size(const BasicSystem<S>& system, const SlidingMode& jump, const 
   double fastest = largest_coordinate(state.v);
   if (system.loads[jump.load].component >= S::kDim)
     for (const auto& v : state.v) fastest = std::max(fastest, v.template tail<S::kDof - S::kDim>().cwiseAbs().maxCoeff());
-  return {tolerance * usual_step, kRounding * std::numeric_limits<double>::epsilon() * fastest / std::max(tolerance, kFinest)};
+  const double resolved = tolerance > kFinest ? tolerance : kFinest * std::pow(kFinest / tolerance, kNarrower);
+  return {tolerance * usual_step, kRounding * std::numeric_limits<double>::epsilon() * fastest / resolved};
 }
 
 template bool leave_sliding(const BasicSystem<Planar>& system, double t, const std::vector<Planar::Motion>& m, std::vector<SlidingMode>& sliding);

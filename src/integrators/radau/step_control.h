@@ -62,7 +62,7 @@ class StepControl {
 
   /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
   /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event), rests(h), motion_is_rounding(h),
-  /// forces_stay_constant(distance), cross_event(distance, event), balance_end(), error_estimate(h, error) and finish_step(h).
+  /// forces_stay_constant(distance), cross_event(distance, event), coast(distance), balance_end(), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
 
@@ -132,12 +132,17 @@ class StepControl {
     return method.sets_states(event) || !method.rests(h) || !method.error_estimate(h, error) || !(error <= tolerance);
   }
 
+  bool is_next_to_start(double after) const { return after < 2 * kEventAtStart * usual; }
   // Whether an event so far after the start of a step is crossed there. A touch may be ten thousand times as short as the flight before it: its end is only if
   // forces stay what they are until then.
   template <class Method>
   bool is_crossed_at_start(Method& method, double after) const {
-    const bool near = after < 2 * kEventAtStart * usual || (stopped_short_ >= kFewShort && method.motion_is_rounding(after));
-    return near && method.forces_stay_constant(after);
+    return is_next_to_start(after) && method.forces_stay_constant(after);
+  }
+  // Whether Taylor's series leads to an event so far after the start of a step, where steps have not come to it.
+  template <class Method>
+  bool is_coasted_to(Method& method, double after) const {
+    return !is_next_to_start(after) && stopped_short_ >= kFewShort && method.motion_is_rounding(after) && method.forces_stay_constant(after);
   }
 
   // Whether half of a step has more than half of its error.
@@ -159,15 +164,16 @@ class StepControl {
     return std::clamp(factor * (h / last) * std::pow(last_error_ / error, 1.0 / order), kLeast, factor);
   }
 
-  // The far end of a step may lie beyond other events than one that is next to its start: Taylor's series is better there.
+  // The far end of a step may lie beyond other events than one that is next to its start, and its curve need not be what a body at rest does: Taylor's series is
+  // better there. False where it does not lead to one within that time.
   template <class Method>
-  void locate_near_start(Method& method, double h, SwitchingEvent& event) const {
-    const double within = 2 * kEventAtStart * usual;
+  static bool locate_by_taylor(Method& method, double within, double h, SwitchingEvent& event) {
     const SwitchingEvent closer = method.locate_event(within, false);
-    if (!(closer.after < 1)) return;
+    if (!(closer.after < 1)) return false;
     event = closer;
     event.before *= within / h;
     event.after *= within / h;
+    return true;
   }
 
   void accept(double h, double factor, bool up_to_event) {
@@ -210,11 +216,16 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     // A step that was not solved twice may have a jump inside. Functions that flicker about zero in the last bits are left alone after a while.
     const bool flickering = crossed >= kMostCrossed;
     SwitchingEvent event = (solved || retry > 0) && !flickering ? method.locate_event(h, solved) : SwitchingEvent{};
-    if (event.before * h < kEventAtStart * usual && !flickering) locate_near_start(method, h, event);
+    if (event.before * h < kEventAtStart * usual && !flickering) locate_by_taylor(method, 2 * kEventAtStart * usual, h, event);
     if (solved && event.after < 1 && repeats(event, counters) && !matters(method, event, h, tolerance)) event = SwitchingEvent{};
     if (event.after < 1) {
       ahead = event;
       ahead.t = method.t() + event.before * h;
+    }
+    if (event.before < 1 && is_coasted_to(method, event.before * h) && locate_by_taylor(method, 2 * event.before * h, h, event)) {
+      method.coast(event.before * h);
+      ++counters.steps;
+      return true;
     }
     if (event.before < 1 && is_crossed_at_start(method, event.before * h)) {
       ++counters.events;

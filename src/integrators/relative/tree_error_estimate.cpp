@@ -163,6 +163,23 @@ void TreeRadau::finish_step(double h) {
   update_switching();
 }
 
+void TreeRadau::coast(double h) {
+  for (int node = 0; node <= n_; ++node) {
+    nodes_.w.col(node) = begin_.w;
+    nodes_.accel.col(node) = begin_.accel;
+    nodes_.force.col(node) = begin_.force;
+    nodes_.power.col(node) << begin_state_.supply_power, begin_state_.loss_power;
+    for (std::size_t z = 0; z < begin_.law_state.size(); ++z) {
+      nodes_.law_state(static_cast<Index>(z), node) = begin_.law_state[z] + h * table_.nodes[node] * begin_.law_rate[z];
+      nodes_.law_rate(static_cast<Index>(z), node) = begin_.law_rate[z];
+    }
+  }
+  extrapolate_end_state(h);
+  balance_end();
+  control_.step_made(h);
+  update_switching();
+}
+
 // Coordinates and rates, each in one pass, and a second where the first has left more than rounding. Eq. (6.2).
 void TreeRadau::move_onto_gaps() {
   const double rounding = kLastBits * largest_coordinate(stages_.instant(n_ - 1).pose().q);

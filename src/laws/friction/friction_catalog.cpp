@@ -75,7 +75,7 @@ LawFault friction_fault(const LawSetting& at) {
   if (at.joint_type == kCylinder && at.number("guide_length") > 0) return {"guide_length", "the guide of a cylinder's rod carries no load: the force acts along it", "delete it"};
   if ((has_surfaces(at) || has_teeth(at)) && at.number("guide_length") > 0) return {"guide_length", "surfaces that touch in a point have no guide", "delete it"};
   if (has_teeth(at) && !(at.number("sliding_distance") > 0)) return {"sliding_distance", "teeth slide on each other at some distance from the pitch point, which is not stated", "about 1.2 modules: sliding_distance = \"2.4 mm\" of a module of 2 mm"};
-  if (!has_teeth(at) && at.number("sliding_distance") > 0) return {"sliding_distance", "only gears and racks have teeth", "delete it"};
+  if (!has_teeth(at) && at.states("sliding_distance")) return {"sliding_distance", "only gears and racks have teeth", "delete it"};
   if (is_pin(at) && !(at.number("pin_radius") > 0)) return {"pin_radius", "a pin rubs at its radius, which is not stated", "pin_radius = \"10 mm\", or what it is"};
   if (at.free[2] && at.number("guide_length") > 0) return {"guide_length", "a joint that turns transmits no moment that could press the edges of a guide", "delete it"};
   return {};
