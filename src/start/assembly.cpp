@@ -13,6 +13,7 @@
 #include "joints/belt.h"
 #include "kinematics/guess.h"
 #include "kinematics/position_search.h"
+#include "mobility/constraint_rows.h"
 #include "pintle/simulate.h"
 #include "start/assembly_notes.h"
 #include "start/preload.h"
@@ -96,9 +97,7 @@ std::array<double, 2> misfit(const JointData& joint, const JointKinematics& r) {
 }
 
 std::vector<std::array<double, 2>> misfits(const System& system, const Vecs& q) {
-  std::vector<S::Motion> m;
-  std::vector<JointKinematics> r;
-  kinematics_at(system, 0, q, Vecs(q.size(), S::Vec::Zero()), m, r);
+  const std::vector<JointKinematics> r = kinematics_at_rest(system, q);
   std::vector<std::array<double, 2>> out;
   for (std::size_t j = 0; j < r.size(); ++j) out.push_back(misfit(system.joints[j], r[j]));
   return out;
@@ -173,13 +172,6 @@ std::vector<std::size_t> contacts_of(const System& system, const std::vector<boo
 std::vector<bool> with_opened(std::vector<bool> open, const std::vector<std::size_t>& contacts) {
   for (const std::size_t j : contacts) open[j] = true;
   return open;
-}
-
-std::vector<JointKinematics> kinematics_at_rest(const System& system, const Vecs& q) {
-  std::vector<S::Motion> m;
-  std::vector<JointKinematics> r;
-  kinematics_at(system, 0, q, Vecs(q.size(), S::Vec::Zero()), m, r);
-  return r;
 }
 
 // Whether no joint is beyond a stop.

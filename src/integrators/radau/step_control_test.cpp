@@ -25,6 +25,7 @@ class Flickering {
   }
   bool forces_stay_constant(double) { return true; }
   void cross_event(double, const SwitchingEvent&) { ++crossings; }
+  void coast(double) {}
   void balance_end() {}
   double share_of_step(double, double) { return 1; }
   bool error_estimate(double, double&) { return false; }
@@ -72,6 +73,7 @@ class OneEvent {
     t_ += distance;
     ++crossings;
   }
+  void coast(double) {}
   void balance_end() {}
   double share_of_step(double, double) { return 1; }
   bool error_estimate(double, double& error) { return error = 0, true; }
@@ -109,6 +111,61 @@ TEST(StepControl, ReachesAnEventSoonHoweverFarTheEndIs) {
   ASSERT_TRUE(control.advance(method, kFarEnd, 1e-5, 4, counters));
   EXPECT_EQ(method.crossings, 1);
   EXPECT_GT(method.t(), kEvent);
+}
+
+// A body at rest whose places are rounded: a step's curve always leads to an event a little ahead of it, Taylor's series to the true one.
+class Resting {
+ public:
+  explicit Resting(double event) : at_(event) {}
+
+  int coasts = 0, crossings = 0;
+  double crossed_at = 0;
+  double t() const { return t_; }
+  void begin_at_end() {}
+  bool attempt(double) { return true; }
+  double contraction() const { return 0; }
+  bool sets_states(const SwitchingEvent&) const { return false; }
+  bool rests(double) const { return false; }
+  bool motion_is_rounding(double) const { return true; }
+  SwitchingEvent locate_event(double h, bool solved) const {
+    SwitchingEvent event;
+    const double ahead = solved ? 0.5 * (1 + t_ - at_) : at_ - t_;
+    if (crossings > 0 || ahead > h) return event;
+    event.function = 0;
+    event.before = ahead / h;
+    event.after = event.before + 1e-15;
+    return event;
+  }
+  bool forces_stay_constant(double) { return true; }
+  void cross_event(double distance, const SwitchingEvent&) {
+    t_ += distance;
+    crossed_at = t_;
+    ++crossings;
+  }
+  void coast(double h) {
+    t_ += h;
+    ++coasts;
+  }
+  void balance_end() {}
+  double share_of_step(double, double) { return 1; }
+  bool error_estimate(double, double& error) { return error = 0, true; }
+  void finish_step(double h) { t_ += h; }
+
+ private:
+  double t_ = 0, at_;
+};
+
+// A friction stay at rest, whose cord goes taut: rows on the way were those of the taut cord.
+TEST(StepControl, CoastsToAnEventByAStepOfItsOwnAndWhereTaylorsSeriesLeads) {
+  constexpr double kEvent = 0.9;
+  Resting method(kEvent);
+  StepControl control;
+  control.start(1e-2);
+  Counters counters;
+  while (method.t() < 1.0) ASSERT_TRUE(control.advance(method, 1.0, 1e-5, 4, counters));
+  EXPECT_EQ(method.coasts, 1);
+  EXPECT_EQ(method.crossings, 1);
+  EXPECT_NEAR(method.crossed_at, kEvent, 1e-12);
 }
 
 }  // namespace
