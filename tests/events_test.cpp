@@ -161,5 +161,27 @@ TEST(Events, AStepThatNearsAnEventSlowlyGoesWhereItsTrialsLead) {
   }
 }
 
+// Nothing moves until a cord goes taut. Steps that end before it had left the time to it out: rows there were those of the taut cord, a thousand times the peak, and no mean had it.
+TEST(Events, WhatRestsUntilAnEventIsAtRestInTheRowsBeforeIt) {
+  constexpr double kTaut = 2.11811496879912;  // by the cord's length, 0.6 m - 0.1 m/s t
+  Model model = reference::test_model("friction_stay_with_cord");
+  for (const Equations equations : {Equations::kNewtonian, Equations::kRelative}) {
+    model.simulate.equations = equations;
+    std::vector<double> rms;
+    for (const double tolerance : {1e-3, 1e-4, 5e-6, 1e-6}) {
+      model.simulate.tolerance = tolerance;
+      model.simulate.output_step = 5e-4;
+      const Trajectory run = simulate(model);
+      ASSERT_EQ(run.outcome, Outcome::kCompleted) << tolerance << ": " << run.message;
+      EXPECT_LT(run.counters.steps, 12000u) << tolerance;
+      const auto force = static_cast<std::size_t>(run.column("joint.cord.force"));
+      for (std::size_t row = 0; row < run.n_rows() && run.at(row, 0) < kTaut; ++row) EXPECT_EQ(run.at(row, force), 0) << run.at(row, 0);
+      rms.push_back(run.joints.at(0).rms);
+      EXPECT_NEAR(rms.back(), rms.front(), 1e-4 * rms.front()) << tolerance;
+      EXPECT_LT(run.energy.drift, 1e-5 * run.energy.kinetic_peak);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pintle

@@ -111,5 +111,19 @@ TEST(EnergyAccount, IsClosedByAFinerPass) {
   }
 }
 
+// The damper of its pin burns what the controller feeds: nothing runs away, and nothing is a machine any more.
+TEST(TornJoints, AreNotedWithWhatFeedsThem) {
+  const auto notes_of = [](const Trajectory& run) {
+    std::string all;
+    for (const std::string& note : run.notes) all += note + "\n";
+    return all;
+  };
+  const std::string notes = notes_of(simulate(reference::test_model("arm_with_wrong_sign")));
+  EXPECT_NE(notes.find("joint J is torn open by 0.3 m, 122 % of the mechanism's size, at t = 2 s"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("motor m has fed 2.11e+09 J"), std::string::npos) << notes;
+  EXPECT_EQ(notes_of(simulate(reference::mechanism("four_bar"))).find("torn"), std::string::npos);
+  EXPECT_EQ(notes_of(simulate(reference::mechanism("crane_bushing"))).find("torn"), std::string::npos);  // soft by design
+}
+
 }  // namespace
 }  // namespace pintle

@@ -127,6 +127,8 @@ TEST(Starts, AVelocityThatIsReplacedIsNoted) {
   crank.spin = -2 * right;
   const std::string notes = notes_of(model);
   EXPECT_NE(notes.find(fmt::format("body crank: it starts with a spin of {:.4g} rad/s, not with the stated {:.4g} rad/s", right, -2 * right)), std::string::npos) << notes;
+  crank.spin = 0;
+  EXPECT_NE(notes_of(model).find("body crank: stated at rest, but moving at the start: joints or motors ask for it"), std::string::npos);
   crank.spin.reset();
   model.bodies[0].velocity = Vec2{0, 3};
   EXPECT_NE(notes_of(model).find("not with the stated (0, 3) m/s"), std::string::npos);
@@ -146,6 +148,20 @@ TEST(Starts, AContactThatNothingBringsTogetherStartsApartWhereItIsRaw) {
   for (const char* column : {"body.cam.x", "body.cam.y", "body.cam.angle", "joint.cam.contact_force"}) EXPECT_EQ(value(run, 0, column), 0) << column;
   EXPECT_NEAR(value(run, 0, "body.lever.angle"), 165 * std::numbers::pi / 180, 1e-12);
   for (const LoadSummary& joint : run.joints) EXPECT_LT(joint.peak, 600) << joint.name;
+}
+
+// Closed, the contact with the cam would push the valve through its seat.
+TEST(Starts, AContactThatAStopKeepsOpenStartsApart) {
+  for (const Start start : {Start::kAssembled, Start::kSeated, Start::kUnloaded, Start::kRaw}) {
+    Model model = test_model("valve_with_lash");
+    model.simulate.start = start;
+    const Trajectory run = completed(model);
+    EXPECT_NEAR(value(run, 0, "joint.guide.slide"), 0, 1e-9);
+    EXPECT_EQ(value(run, 0, "joint.cam.contact_force"), 0);
+    EXPECT_NEAR(run.joints.at(1).peak, 2350, 2) << run.joints.at(1).name;  // where it closes, at 34.5 ms
+    const bool noted = std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("bodies that touch in cam start apart") != std::string::npos; });
+    EXPECT_EQ(noted, start != Start::kRaw);
+  }
 }
 
 // A beam that hangs free in its bush at the start falls onto it, and the largest force of the run may be that of this impact.

@@ -12,6 +12,7 @@
 #include "run/errors/promises.h"
 #include "run/errors/stated_error.h"
 #include "run/integration.h"
+#include "run/limits/torn_joints.h"
 #include "run/pass_constants.h"
 #include "run/recording.h"
 
@@ -33,7 +34,7 @@ constexpr double kSurest = 0.05;           // of the tolerance of the steps: no 
 constexpr double kRepeated = 0.1;          // tolerance of a pass that is to show whether what two have shown is so, over that of the finer; of the next where errors or an open account ask for another, at least
 constexpr double kShorter = 0.5;           // longest step of a pass whose tolerance would not shorten its steps, over the mean one before
 constexpr double kNearRounding = 1e-8;     // tolerance below which stiff joints may feel rounding, and steps multiply
-constexpr double kNarrowed = 1e-9;         // tolerance down to which passes are made finer because of what ramps of held jumps lag behind: below it they make ten times the steps for half the lag
+constexpr double kNarrowed = 3e-10;        // tolerance down to which another pass is made finer because of what ramps of held jumps lag behind: below it passes make ten times the steps for half the lag
 constexpr double kNoGain = 0.5;            // of the error that the passes before have shown: one that has not fallen so far below kNearRounding may be made of rounding
 constexpr std::uint64_t kCheap = 500;      // steps of a pass after which finer ones of order 5 cost little; of order 9 they would be as few again, and differ by the coarser one's error
 constexpr std::uint64_t kLong = 10000;     // after a pass of so many steps the next one goes there by a tenth at a time
@@ -323,7 +324,9 @@ class Passes {
     const auto worst = std::max_element(relative_difference_.begin(), relative_difference_.end());
     const BasicJointData<S>* worst_joint = worst == relative_difference_.end() ? nullptr : &system_.joints[static_cast<std::size_t>(worst - relative_difference_.begin())];
     judge(worst_joint);
-    if (!feeder_note_.empty() && out_.outcome != Outcome::kCompleted && out_.outcome != Outcome::kRunaway) out_.notes.push_back(feeder_note_);
+    const std::string torn = note_on_torn_joint(system_, start_, out_.joints);
+    if (!torn.empty()) out_.notes.insert(out_.notes.begin(), torn);
+    if (!feeder_note_.empty() && (out_.outcome != Outcome::kCompleted || !torn.empty()) && out_.outcome != Outcome::kRunaway) out_.notes.push_back(feeder_note_);
     const bool chaotic = out_.outcome == Outcome::kHorizon;
     for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
     const BasicLeastError<S> least{least_error(), fine_ringing_, fine_tolerance_};

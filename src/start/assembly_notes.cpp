@@ -1,6 +1,7 @@
 #include "start/assembly_notes.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -113,8 +114,15 @@ void note_changed_velocities(const Model& model, const System& system, const Vec
   const auto differ = [](double change, double before, double after) { return change > kOtherVelocity * std::max(before, after); };
   constexpr double kNothing = 1e-9;  // of what was stated: rounding, written as 0
   const auto plain = [](double x, double stated) { return std::abs(x) < kNothing * std::abs(stated) ? 0 : x; };
+  double fastest = 0, most_turned = 0;
+  for (const S::Vec& velocity : v) {
+    fastest = std::max(fastest, velocity.head<2>().norm());
+    most_turned = std::max(most_turned, std::abs(velocity[2]));
+  }
+  std::vector<std::string> not_at_rest;  // though that is stated
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const Body& body = model.bodies[i];
+    if ((body.spin == 0.0 && std::abs(v[i][2]) > kOtherVelocity * most_turned) || (body.velocity == Vec2{} && v[i].head<2>().norm() > kOtherVelocity * fastest)) not_at_rest.push_back(body.name);
     if (body.spin && *body.spin != 0 && differ(std::abs(v[i][2] - *body.spin), std::abs(*body.spin), std::abs(v[i][2])))
       notes.push_back(fmt::format("body {}: it starts with a spin of {:.4g} rad/s, not with the stated {:.4g} rad/s: {}", body.name, plain(v[i][2], *body.spin), *body.spin, why));
     if (!body.velocity) continue;
@@ -123,6 +131,8 @@ void note_changed_velocities(const Model& model, const System& system, const Vec
     if (stated > 0 && differ(std::hypot(v[i][0] - x, v[i][1] - y), stated, std::hypot(v[i][0], v[i][1])))
       notes.push_back(fmt::format("body {}: it starts with a velocity of ({:.4g}, {:.4g}) m/s, not with the stated ({:.4g}, {:.4g}) m/s: {}", body.name, plain(v[i][0], stated), plain(v[i][1], stated), x, y, why));
   }
+  if (!not_at_rest.empty())
+    notes.push_back(fmt::format("{} {}: stated at rest, but moving at the start: {}", not_at_rest.size() == 1 ? "body" : "bodies", fmt::join(not_at_rest, ", "), why));
 }
 
 void note_discs_apart(const System& system, const Vecs& q, std::vector<std::string>& notes) {

@@ -1,0 +1,52 @@
+#include "run/limits/torn_joints.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "base/constants.h"
+
+namespace pintle {
+namespace {
+
+constexpr double kTorn = 0.02;       // of the mechanism's size: a joint that gives way by more is no joint any longer. No stiff one of the collection gives way by a twentieth of that
+constexpr double kStiff = 1000;      // weights of the whole mechanism, that a joint would take to give way so far: softer ones are meant to
+
+// The least stiffness against displacements that a joint holds [N/m]; infinite: it holds none, or ideally.
+template <class S>
+double least_stiffness(const BasicJointData<S>& joint) {
+  double least = std::numeric_limits<double>::infinity();
+  if (joint.servo >= 0 || joint.ideal) return least;
+  const typename S::Vec stiffness = joint.law.engaged_stiffness();
+  for (int k = 0; k < S::kDim; ++k)
+    if (stiffness[k] > 0) least = std::min(least, stiffness[k]);
+  return least;
+}
+
+}  // namespace
+
+template <class S>
+std::string note_on_torn_joint(const BasicSystem<S>& system, const BasicState<S>& start, const std::vector<LoadSummary>& joints) {
+  const double size = std::max(largest_coordinate(start.q), system.largest_radius_of_gyration());
+  double weight = 0, farthest = kTorn * size;
+  for (const auto& body : system.bodies) weight += kStandardGravity * body.mass[0];
+  const LoadSummary* torn = nullptr;
+  for (std::size_t j = 0, row = 0; j < system.joints.size() && row < joints.size(); ++j) {
+    if (system.joints[j].servo >= 0) continue;
+    const LoadSummary& joint = joints[row++];
+    const double stiffness = least_stiffness(system.joints[j]);
+    if (!(stiffness * kTorn * size > kStiff * weight) || !(joint.peak / stiffness > farthest)) continue;
+    farthest = joint.peak / stiffness;
+    torn = &joint;
+  }
+  if (torn == nullptr) return "";
+  return fmt::format("joint {} is torn open by {:.2g} m, {:.0f} % of the mechanism's size, at t = {:.4g} s (its peak of {:.4g} N over its stiffness): no machine goes on so. Check the signs and units of what drives it, "
+                     "and whether it can move as it is asked to",
+                     torn->name, farthest, 100 * farthest / size, torn->peak_time, torn->peak);
+}
+
+template std::string note_on_torn_joint(const BasicSystem<Planar>& system, const BasicState<Planar>& start, const std::vector<LoadSummary>& joints);
+PINTLE_IN_SPACE(template std::string note_on_torn_joint(const BasicSystem<Spatial>& system, const BasicState<Spatial>& start, const std::vector<LoadSummary>& joints);)
+
+}  // namespace pintle
