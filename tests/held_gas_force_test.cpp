@@ -67,7 +67,7 @@ TEST(HeldGasForce, EveryToleranceIsMetInAFewPasses) {
     model.simulate.tolerance = tolerance;
     const Trajectory run = simulate(model);
     EXPECT_EQ(run.outcome, Outcome::kCompleted) << tolerance << ": " << run.message;
-    EXPECT_LE(run.counters.passes, 5) << tolerance;
+    EXPECT_LE(run.counters.passes, 6) << tolerance;  // what the ramp lags behind counts in full
     for (std::size_t j = 0; j < run.joints.size(); ++j) EXPECT_NEAR(run.joints[j].peak, fine.joints[j].peak, tolerance * fine.joints[j].peak) << tolerance;
     expect_same_forces(fine, run, tolerance);
   }

@@ -113,7 +113,7 @@ TEST(StepControl, ReachesAnEventSoonHoweverFarTheEndIs) {
   EXPECT_GT(method.t(), kEvent);
 }
 
-// A body at rest whose places are rounded: a step's curve leads half-way to an event, Taylor's series all the way.
+// A body at rest whose places are rounded: a step's curve leads a part of the way to an event, Taylor's series all of it.
 class Resting {
  public:
   explicit Resting(double event) : at_(event) {}
@@ -129,7 +129,7 @@ class Resting {
   bool motion_is_rounding(double) const { return true; }
   SwitchingEvent locate_event(double h, bool solved) const {
     SwitchingEvent event;
-    const double ahead = (solved ? 0.5 : 1) * (at_ - t_);
+    const double ahead = (solved ? 0.6 : 1) * (at_ - t_);
     if (crossings > 0 || ahead > h) return event;
     event.function = 0;
     event.before = ahead / h;
