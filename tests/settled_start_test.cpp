@@ -1,6 +1,6 @@
 // start = "settled": mechanisms that begin in static equilibrium, with contacts, clearances, friction and motors; what has none is named.
-#include <gtest/gtest.h>
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
@@ -318,6 +318,20 @@ TEST(SettledStart, ABlockThatOnlyStictionHoldsStartsWhereItIs) {
   const Trajectory run = completed(reference::test_model("block_held_by_stiction"));
   EXPECT_NEAR(value(run, run.n_rows() - 1, "body.b.x"), value(run, 0, "body.b.x"), 1e-9);
   EXPECT_NEAR(std::abs(value(run, 0, "joint.j.friction")), 2 * 9.80665 * std::sin(20 * std::acos(-1) / 180), 1e-6);
+}
+
+// Without friction on the way the pins fall to where they rest, and there they rest with friction, too.
+TEST(SettledStart, LoosePinsThatStickRestWhereTheyWouldWithoutFriction) {
+  for (const char* angle : {"75 deg", "105 deg", "125 deg"}) {
+    const Model model = reference::test_model("sofa_back_on_loose_pins", {fmt::format("body.rear.angle=\"{}\"", angle), "simulate.duration=\"20 ms\""});
+    const Trajectory run = completed(model);
+    const bool noted = std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("it starts where it rests without") != std::string::npos; });
+    EXPECT_TRUE(noted) << angle;
+    for (const LoadSummary& joint : run.joints) EXPECT_LT(joint.relative_error_estimate, model.simulate.tolerance) << joint.name;
+    double carried = 0;  // by the pins, from the first instant on
+    for (const char* column : {"joint.A.on_rear.fy[world]", "joint.D.on_front.fy[world]"}) carried += value(run, 0, column);
+    EXPECT_GT(std::abs(carried), 1) << angle;
+  }
 }
 
 }  // namespace

@@ -30,7 +30,11 @@ Trajectory simulate_reduced(const Model& model, const RunShape& shape, const Obs
   for (LoadSummary& joint : out.joints) joint.unique = !not_unique.contains(joint.name);
   if (shape.recorded == Recorded::kColumns) {
     out.bearings = bearing_summaries(model, out);
-    const std::vector<std::string> limits = limit_notes(start.system, start.state, model.simulate, out, *recorder);
+    std::vector<std::string> limits = limit_notes(start.system, start.state, model.simulate, out, *recorder);
+    if (!limits.empty() && (out.outcome == Outcome::kEnergyOpen || out.outcome == Outcome::kFailed)) {  // what the end looked like says less than why it came
+      out.message = limits.front() + ". Behind that: " + out.message;
+      limits.erase(limits.begin());
+    }
     out.notes.insert(out.notes.begin(), limits.begin(), limits.end());
   }
   out.wall_seconds = clock.seconds();

@@ -56,6 +56,16 @@ Model standing_still(Model model) {
   return model;
 }
 
+// The model with nothing that rubs.
+Model without_friction(Model model) {
+  for (Joint& joint : model.joints) {
+    joint.friction = LawChoice{"", {}};
+    joint.law.values.erase("static_friction");
+    if (const auto own = joint.law.values.find("friction_coefficient"); own != joint.law.values.end()) own->second = {0};
+  }
+  return model;
+}
+
 // A law between the ground and a body, in the world's axes.
 JointData tied_to_ground(const std::string& name, int body, const State& state, const LinearLaw& law) {
   JointData joint;
@@ -265,8 +275,8 @@ void hold_by_friction(Assembly& start) {
 
 }  // namespace
 
-Assembly start_in_equilibrium(const Model& model) {
-  const Model still = standing_still(model);
+Assembly start_in_equilibrium(const Model& model, bool smooth) {
+  const Model still = standing_still(smooth ? without_friction(model) : model);
   Assembly start = assemble_unloaded(still, build_system(still));
   start_forces(start.system, false, start.state);
   Creep creep(still, start.system, start.state);
@@ -282,7 +292,7 @@ Assembly start_in_equilibrium(const Model& model) {
   start_forces(out.system, false, state);
   const std::size_t joints = out.system.joints.size();
   std::copy_n(at_rest.gap.begin(), joints, state.gap.begin());
-  state.law_state = at_rest.law_state;
+  if (!smooth) state.law_state = at_rest.law_state;
   std::vector<S::Motion> m;
   std::vector<JointKinematics> r;
   kinematics_at(out.system, state.t, state.q, state.v, m, r);

@@ -102,15 +102,28 @@ std::optional<Assembly> start_at_rest(Model model) {
   return std::nullopt;
 }
 
+// Where the mechanism rests if nothing rubs on the way there: it rests there with friction, too.
+std::optional<Assembly> smooth_rest(const Model& model) {
+  try {
+    Assembly assembly = start_in_equilibrium(model, true);
+    assembly.notes.push_back("settled: no way to rest was found with friction; it starts where it rests without");
+    return assembly;
+  } catch (const AssemblyError&) {  // the caller reports why the run's own start failed
+    return std::nullopt;
+  }
+}
+
 // Where the creep finds no rest, as that of a block that only static friction holds on its ramp, the assembled mechanism may be at rest itself.
 Assembly settled_start(const Model& model) {
   try {
     return start_in_equilibrium(model);
   } catch (const AssemblyError&) {
-    std::optional<Assembly> at_rest = start_at_rest(model);
-    if (!at_rest) throw;
-    at_rest->notes.push_back("settled: the mechanism is at rest where it was assembled, and starts there");
-    return std::move(*at_rest);
+    if (std::optional<Assembly> at_rest = start_at_rest(model)) {
+      at_rest->notes.push_back("settled: the mechanism is at rest where it was assembled, and starts there");
+      return std::move(*at_rest);
+    }
+    if (std::optional<Assembly> at_rest = smooth_rest(model)) return std::move(*at_rest);
+    throw;
   }
 }
 
