@@ -11,6 +11,7 @@
 #include <numeric>
 #include <set>
 
+#include "integrators/thresholds.h"
 #include "results/text_table.h"
 
 namespace pintle {
@@ -39,13 +40,21 @@ double at_share(const std::vector<double>& sorted, double share) {
   return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
 }
 
+// Of a sample, over its joints.
+double largest_peak(const SweepTable& table, std::size_t sample) {
+  const std::size_t n = table.joints.size();
+  double largest = 0;
+  for (std::size_t j = 0; j < n; ++j) largest = std::fmax(largest, table.force[sample * n + j]);  // fmax passes over what is not known
+  return largest;
+}
+
 PeakStatistics statistics_of(const SweepTable& table, std::size_t joint) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   PeakStatistics out{table.joints[joint], kNone, kNone, kNone, kNone, 0, 0, kNone};
   std::vector<double> peaks;
   const std::size_t n = table.joints.size();
   for (std::size_t i = 0; i < table.n_samples(); ++i) {
-    const double peak = table.force[i * n + joint], error = table.error[i * n + joint] / peak;
+    const double peak = table.force[i * n + joint], error = table.error[i * n + joint] / std::max(peak, kNegligible * largest_peak(table, i));
     if (!has_peaks(table.status[i]) || !std::isfinite(peak)) continue;
     peaks.push_back(peak);
     if (!(peak >= out.least)) out.least_sample = i, out.least = std::isnan(out.least) ? peak : std::min(out.least, peak);

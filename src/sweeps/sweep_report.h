@@ -15,7 +15,7 @@ struct PeakStatistics {
   std::string joint;
   double least = 0, median = 0, high = 0, most = 0;  ///< high: 95 % of the samples have less [N]
   std::size_t least_sample = 0, most_sample = 0;
-  double worst_error = 0;  ///< largest estimate over the joint's own peak [-]; NaN where none was made
+  double worst_error = 0;  ///< largest estimate over the joint's peak, or over 1e-4 of the sample's largest where that is more [-]; NaN where none was made
 };
 std::vector<PeakStatistics> peak_statistics(const SweepTable& table);
 

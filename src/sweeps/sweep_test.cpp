@@ -185,6 +185,16 @@ TEST(SweepReport, StatisticsAreThoseOfTheSamples) {
   EXPECT_DOUBLE_EQ(s.worst_error, 1e-3);
 }
 
+// What carries nothing is measured as in a run: by a part of what others carry.
+TEST(SweepReport, AnErrorOfAJointThatCarriesNothingIsMeasuredByTheOthers) {
+  SweepTable table = table_of(2);
+  table.joints = {"pin", "lift"};
+  table.force = {100, 2.6e-15, 50, 2.6e-15};
+  table.error = {1e-3, 8.6e-14, 1e-3, 8.6e-14};
+  EXPECT_DOUBLE_EQ(peak_statistics(table)[0].worst_error, 2e-5);
+  EXPECT_DOUBLE_EQ(peak_statistics(table)[1].worst_error, 8.6e-14 / (1e-4 * 50));
+}
+
 // Peaks of a chaotic motion are one draw of what it may do; those of a run that broke off are not the sample's.
 TEST(SweepReport, ChaoticSamplesCountAndBrokenOnesDoNot) {
   SweepTable table = table_of(3);
