@@ -218,7 +218,8 @@ class Passes {
     if (longest_ > 0) return std::pow(kShorter, choice_.stages);
     const double of_tolerance = fine_tolerance_ / before;
     if (choice_.method != "radau" || choice_.stages != stages_before_) return of_tolerance;
-    return std::max(of_tolerance, std::pow(steps_before / static_cast<double>(last_.counters.steps), choice_.stages + 1));
+    const double least = feels_rounding(fine_tolerance_) ? kRepeated : 0;  // of its steps' errors rounding is a part that no tolerance makes smaller
+    return std::max({least, of_tolerance, std::pow(steps_before / static_cast<double>(last_.counters.steps), choice_.stages + 1)});
   }
 
   // A difference that has stopped growing does not tell the finer one's part.
@@ -279,11 +280,10 @@ class Passes {
     if (tolerance < kTight && (last_.counters.steps > kCheap || last_.counters.events > 0)) choice_.stages = 5;
   }
 
-  // A long pass that has refused half as many steps as it has made for their errors, and gained little on the one before.
-  bool meets_rounding(double tolerance) const {
-    const Counters& last = last_.counters;
-    return tolerance < kNearRounding && last.steps > kLong && 2 * last.rejected > last.steps && error_before_ > 0 && error_ > kNoGain * error_before_;
-  }
+  // A long pass that has refused half as many steps as it has made for their errors.
+  bool feels_rounding(double tolerance) const { return tolerance < kNearRounding && last_.counters.steps > kLong && 2 * last_.counters.rejected > last_.counters.steps; }
+  // And that has gained little on the one before.
+  bool meets_rounding(double tolerance) const { return feels_rounding(tolerance) && error_before_ > 0 && error_ > kNoGain * error_before_; }
 
   // The tolerance of the pass after one of `tolerance`, with which the error that the last two show would be small enough.
   double finer_by_error(double tolerance) {
