@@ -176,6 +176,32 @@ class StepControl {
     return true;
   }
 
+  // The first event within a step of h. A step that was not solved twice may have a jump inside.
+  template <class Method>
+  SwitchingEvent next_event(Method& method, double h, bool solved, double tolerance, const Counters& counters) const {
+    SwitchingEvent event = method.locate_event(h, solved);
+    if (event.before * h < kEventAtStart * usual) locate_by_taylor(method, 2 * kEventAtStart * usual, h, event);
+    const bool left_alone = solved && event.after < 1 && repeats(event, counters) && !matters(method, event, h, tolerance);
+    return left_alone ? SwitchingEvent{} : event;
+  }
+
+  template <class Method>
+  void cross(Method& method, double distance, const SwitchingEvent& event, Counters& counters) {
+    ++counters.events;
+    count_same(event, counters);
+    method.cross_event(distance, event);
+    stopped_short_ = 0;
+    method.begin_at_end();
+  }
+
+  // A step up to an event within h that steps have not come to, by Taylor's series; false where that does not lead there.
+  template <class Method>
+  bool coasts(Method& method, double h, SwitchingEvent event) const {
+    if (!is_coasted_to(method, event.before * h) || !locate_by_taylor(method, 2 * event.before * h, h, event)) return false;
+    method.coast(event.before * h);
+    return true;
+  }
+
   void accept(double h, double factor, bool up_to_event) {
     next = factor > kSame && factor < kSameAbove ? h : h * factor;
     stopped_short_ = up_to_event ? stopped_short_ + 1 : 0;
@@ -213,29 +239,18 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       up_to_event = false;
       continue;
     }
-    // A step that was not solved twice may have a jump inside. Functions that flicker about zero in the last bits are left alone after a while.
-    const bool flickering = crossed >= kMostCrossed;
-    SwitchingEvent event = (solved || retry > 0) && !flickering ? method.locate_event(h, solved) : SwitchingEvent{};
-    if (event.before * h < kEventAtStart * usual && !flickering) locate_by_taylor(method, 2 * kEventAtStart * usual, h, event);
-    if (solved && event.after < 1 && repeats(event, counters) && !matters(method, event, h, tolerance)) event = SwitchingEvent{};
+    // Functions that flicker about zero in the last bits are left alone after a while.
+    const SwitchingEvent event = (solved || retry > 0) && crossed < kMostCrossed ? next_event(method, h, solved, tolerance, counters) : SwitchingEvent{};
     if (event.after < 1) {
       ahead = event;
       ahead.t = method.t() + event.before * h;
     }
-    if (event.before < 1 && is_coasted_to(method, event.before * h) && locate_by_taylor(method, 2 * event.before * h, h, event)) {
-      method.coast(event.before * h);
-      ++counters.steps;
-      return true;
-    }
+    if (event.before < 1 && coasts(method, h, event)) return ++counters.steps, true;
     if (event.before < 1 && is_crossed_at_start(method, event.before * h)) {
-      ++counters.events;
       event_ = ahead;
-      count_same(event, counters);
-      method.cross_event(event.before * h, event);
+      cross(method, event.before * h, event, counters);
       ++crossed;
-      stopped_short_ = 0;
       retry = -1;  // it has moved on
-      method.begin_at_end();
       h = std::max(h, kAfterEvent * usual);
       continue;
     }
