@@ -32,4 +32,7 @@ MechanismText cylinders(Dice& dice);
 MechanismText detents(Dice& dice);
 MechanismText controlled(Dice& dice);    // motors and forces that read the motion
 
+MechanismText waiting(Dice& dice);       // at rest until something happens
+MechanismText relays(Dice& dice);        // bang-bang controllers
+
 }  // namespace pintle::bench

@@ -67,6 +67,7 @@ JointText& MechanismText::joint(const std::string& name) { return named(joints, 
 
 std::string MechanismText::text(const std::string& title) const {
   std::string out = fmt::format("format = 1\nname = {}\ngravity = [{}, {}]\n\n[simulate]\nduration = {}\n", in_quotes(title), number_text(gravity.x), number_text(gravity.y), number_text(duration));
+  if (!start.empty()) out += fmt::format("start = {}\n", in_quotes(start));
   out += "\n[ground.markers]\n";
   for (const auto& [name, value] : ground_) out += fmt::format("{} = {}\n", name, value);
   for (const BodyText& b : bodies) {

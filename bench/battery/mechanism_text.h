@@ -67,6 +67,7 @@ class MechanismText {
   std::vector<JointText> joints;
   Point gravity{0, -9.81};
   double duration = 1;  // [s]
+  std::string start;    // simulate.start; empty: the usual one
   double weight = 0;    // largest moment that gravity could have: the scale of loads [N*m]
 
   std::string text(const std::string& title) const;

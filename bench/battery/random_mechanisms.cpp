@@ -54,7 +54,9 @@ const std::vector<MechanismKind>& mechanism_kinds() {
       {"belts", "belt drives and drums", belts},
       {"cylinders", "booms on cylinders", cylinders, true},
       {"detents", "knobs with notches", detents, true},
-      {"controlled", "motors and forces that read the motion", controlled}};
+      {"controlled", "motors and forces that read the motion", controlled},
+      {"waiting", "at rest until a cord is taut or a force has grown", waiting, true},
+      {"relays", "bang-bang controllers", relays, true}};
   return kinds;
 }
 
