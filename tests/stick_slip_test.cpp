@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "base/constants.h"
@@ -113,6 +114,52 @@ TEST(StickSlip, NoMethodTellsMoreThanStaticFriction) {
     const Trajectory run = simulate(model);
     EXPECT_NEAR(run.joints.front().peak, std::hypot(kWeight, kStuck * kWeight), 1e-3 * kWeight) << method;
   }
+}
+
+// A sled that comes to rest without turning round slips on, at next to no speed. What an event crossed late is compensated by may turn it past zero: friction went on driving it.
+TEST(StickSlip, FrictionTurnsWithASledThatALoadTurns) {
+  // 60 x" = 800 - 1000 (x + 0.2 - 1 + 1) - 100 x' - 100 sign(x'), from where 100 N of friction have left it
+  constexpr double kMass = 60, kStiffness = 1000, kDamping = 100, kFriction = 100, kPull = 800, kJump = 0.5, kAt = 1.44;
+  const double decay = kDamping / (2 * kMass), omega = std::sqrt(kStiffness / kMass - decay * decay);
+  for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6}) {
+    Model model = reference::test_model("sled_turned_by_a_force");
+    model.simulate.tolerance = tolerance;
+    model.simulate.output_step = 0.005;
+    const Trajectory run = completed(model);
+    const auto row_at = [&run](double t) {
+      std::size_t row = 0;
+      while (run.at(row, 0) < t - 1e-9) ++row;
+      return row;
+    };
+    // Before it turns back, on a decaying swing about where the pull less friction is carried.
+    const double before = reference::value(run, row_at(kJump) - 1, "body.sled.x"), unloaded = 0.8 - 1, middle = unloaded + (kPull - kFriction) / kStiffness, swing = before - middle;
+    const double turns = kJump + std::numbers::pi / omega;
+    ASSERT_GT(turns, 1.2);
+    const double since = 1.2 - kJump, exact = middle + std::exp(-decay * since) * swing * (std::cos(omega * since) + decay / omega * std::sin(omega * since));
+    EXPECT_NEAR(reference::value(run, row_at(1.2), "body.sled.x"), exact, 1e-4) << tolerance;
+    EXPECT_NEAR(reference::value(run, row_at(kAt), "body.sled.x"), 0.7920, 2e-4) << tolerance;
+    for (std::size_t row = 1; row < run.n_rows(); ++row)
+      EXPECT_GE(reference::value(run, row, "energy.dissipated"), reference::value(run, row - 1, "energy.dissipated") - 1e-9) << run.at(row, 0) << " " << tolerance;
+  }
+}
+
+// The lock that finds the load of what sticks gave way by 2 rad, and the friction had the sign that the spring would have there.
+TEST(StickSlip, WhatSticksSoftlyDoesNotStartAgainstItsFriction) {
+  constexpr double kWeight = 2 * kStandardGravity, kArm = 0.6, kInertia = 0.8 + 2 * kArm * kArm, kSpring = 500, kRadius = 0.05, kKinetic = 0.2;
+  double force = 0;
+  for (int i = 0; i < 50; ++i) force = std::abs(kWeight + 2 * kArm * (kSpring - kWeight * kArm - kKinetic * kRadius * force) / kInertia);
+  for (const char* stiffness : {"2e4", "1e5", "1e8"}) {
+    const Trajectory run = completed(reference::test_model("lever_thrown_by_a_spring", {std::string("joint.pivot.stick_stiffness=") + stiffness}));
+    EXPECT_NEAR(run.joints.at(0).peak, force, 1e-4 * force) << stiffness;
+    EXPECT_GT(run.energy.dissipated, 0) << stiffness;
+  }
+}
+
+// It slips when the pull reaches the static friction, whatever the scale.
+TEST(StickSlip, HasNoScaleOfItsOwn) {
+  const Trajectory run = completed(reference::test_model("cube_of_ten_micrometres"));
+  ASSERT_FALSE(run.events.empty());
+  EXPECT_NEAR(run.events.at(0).events.at(0).t, 0.3 * 2.33e-12 * kStandardGravity / 1e-11, 1e-6);
 }
 
 }  // namespace

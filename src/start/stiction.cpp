@@ -43,14 +43,17 @@ struct LockedJoint {
 
 // Joints that stick, and would begin to move if friction did not hold them.
 std::vector<LockedJoint> joints_to_hold(const System& system, const std::vector<JointKinematics>& r, const State& state) {
-  const double nothing = kFits * largest_force(state.force);
+  const double nothing = kFits * largest_force(state.force), stiffest = largest_stiffness(system), size = characteristic_length(system, state.q);
   std::vector<LockedJoint> out;
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& joint = system.joints[j];
     const auto held = joint.law.stiction(state.law_state.data() + joint.first_state);
     if (!held) continue;
     const double at_rest = nothing * system.own_mobility(joint.at, r[j])[held->component];
-    if (std::abs(state.gap_accel[j][held->component]) > at_rest) out.push_back({.joint = j, .lock = {held->component, held->stiffness, r[j].gap[held->component]}, .at_rest = at_rest});
+    if (!(std::abs(state.gap_accel[j][held->component]) > at_rest)) continue;
+    // What holds it while its load is found must not give way to that: surfaces that stick softly would.
+    const double firm = std::max(held->stiffness, stiffest * (held->component == 2 ? size * size : 1));
+    out.push_back({.joint = j, .lock = {held->component, firm, r[j].gap[held->component]}, .at_rest = at_rest});
   }
   return out;
 }

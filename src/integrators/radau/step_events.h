@@ -116,6 +116,7 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
   leave_sliding(events_of_, method().end_time(), method().end_motions(), method().sliding());
   method().balance_end();
   if (crossed) record();
+  restart_search();
   const double now = method().end_time();
   if (const double late = now - (before + distance); late > 0) compensate_late_crossing(late, event.function);
   if (const auto jump = chattering_.crossed(events_of_, before, motions_before_, now, method().end_motions(), StepControl::kAtOnce * control_.usual)) {
@@ -124,7 +125,7 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
     const bool held = enter_sliding(*jump, margin, size, method().sliding(), [this] { method().balance_end(); }, [&] { return margin_rate(*jump); });
     if (held && held_load_ < 0) held_load_ = jump->load;
   }
-  restart_search();
+  update_switching();  // what has been compensated may have crossed a border: of what slips at 1e-12 m/s, a load that jumps against it turns the way
   control_.event_crossed();
 }
 
