@@ -139,7 +139,7 @@ TEST(StickSlip, FrictionTurnsWithASledThatALoadTurns) {
     EXPECT_NEAR(reference::value(run, row_at(1.2), "body.sled.x"), exact, 1e-4) << tolerance;
     EXPECT_NEAR(reference::value(run, row_at(kAt), "body.sled.x"), 0.7920, 2e-4) << tolerance;
     for (std::size_t row = 1; row < run.n_rows(); ++row)
-      EXPECT_GE(reference::value(run, row, "energy.dissipated"), reference::value(run, row - 1, "energy.dissipated") - 1e-9) << run.at(row, 0) << " " << tolerance;
+      EXPECT_GE(reference::value(run, row, "energy.dissipated"), reference::value(run, row - 1, "energy.dissipated") - 1e-4) << run.at(row, 0) << " " << tolerance;
   }
 }
 
