@@ -40,6 +40,8 @@ TEST(Units, KnownValues) {
       {"us", 1e-6, kTime},
       {"MN", 1e6, kForce},
       {"mN", 1e-3, kForce},
+      {"\xC2\xB5N", 1e-6, kForce},
+      {"ug", 1e-9, kMass},
       {"kJ", 1000, kTorque},
       {"deg", kPi / 180, kAngle},
       {"\xC2\xB0", kPi / 180, kAngle},

@@ -39,6 +39,17 @@ class MassScaledRows {
   void add(int i, double factor, Eigen::VectorXd& y) const {
     for_each(i, [&](int column, double value) { y[column] += factor * value; });
   }
+  // Calls use(j, stiffness, damping) for the row itself and for the others of its joint, by which it is coupled to them.
+  template <class Use>
+  void for_each_coupled(int i, Use&& use) const {
+    const ConstraintRow& row = rows_[i];
+    use(i, row.stiffness, row.damping);
+    for (int j = std::max(0, i - S::kDof); j < std::min(n_rows(), i + S::kDof); ++j) {
+      const ConstraintRow& other = rows_[j];
+      if (j == i || other.joint != row.joint) continue;
+      use(j, 0.5 * (row.stiffness_by[other.component] + other.stiffness_by[row.component]), 0.5 * (row.damping_by[other.component] + other.damping_by[row.component]));
+    }
+  }
   double mobility(int i) const {  // g' g = G M^-1 G' [1/kg]
     double sum = 0;
     for_each(i, [&](int, double value) { sum += value * value; });
@@ -47,8 +58,7 @@ class MassScaledRows {
   Eigen::MatrixXd stiffness() const {
     Eigen::MatrixXd K = Eigen::MatrixXd::Zero(size(), size());
     for (int i = 0; i < n_rows(); ++i)
-      for_each(i,
-               [&](int a, double x) { for_each(i, [&](int b, double y) { K(a, b) += rows_[i].stiffness * x * y; }); });
+      for_each_coupled(i, [&](int j, double stiffness, double) { for_each(i, [&](int a, double x) { for_each(j, [&](int b, double y) { K(a, b) += stiffness * x * y; }); }); });
     return K;
   }
   // The mode of shape x, of unit length.
@@ -56,9 +66,14 @@ class MassScaledRows {
     double stiffness = 0, damping = 0, most = -1;
     int dominant = 0;
     for (int i = 0; i < n_rows(); ++i) {
-      const double g = dot(i, x), energy = rows_[i].stiffness * g * g;
+      const double g = dot(i, x);
+      double energy = 0;
+      for_each_coupled(i, [&](int j, double k, double c) {
+        const double other = dot(j, x);
+        energy += k * g * other;
+        damping += c * g * other;
+      });
       stiffness += energy;
-      damping += rows_[i].damping * g * g;
       if (energy > most) {
         most = energy;
         dominant = i;
@@ -129,7 +144,7 @@ CheckMode fastest_mode(const MassScaledRows& rows) {
     if (iteration > 20 && std::abs(size - last) < 1e-7 * size) break;
     last = size;
     Eigen::VectorXd next = Eigen::VectorXd::Zero(rows.size());
-    for (int i = 0; i < rows.n_rows(); ++i) rows.add(i, rows.row(i).stiffness * rows.dot(i, x), next);
+    for (int i = 0; i < rows.n_rows(); ++i) rows.for_each_coupled(i, [&](int j, double stiffness, double) { rows.add(i, stiffness * rows.dot(j, x), next); });
     x = next;
   }
   return rows.mode(x.normalized());

@@ -27,11 +27,12 @@ std::vector<ConstraintRow> constraint_rows(const System& system, const std::vect
   for (int j = 0; j < system.n_joints(); ++j) {
     const JointData& joint = system.joints[j];
     const JointKinematics& r = joint_kinematics[j];
-    const Response law = respond(joint.law, r.gap + S::Vec::Constant(reach), S::Vec::Zero());
+    Response law = respond(joint.law, r.gap, S::Vec::Zero());
+    if (!(law.stiffness.diagonal().maxCoeff() > 0)) law = respond(joint.law, r.gap + S::Vec::Constant(reach), S::Vec::Zero());
     for (int k = 0; k < S::kDof; ++k) {
       if (!(law.stiffness(k, k) > 0)) continue;
       rows.push_back(
-          {j, k, joint.servo >= 0, r.GA().row(k), r.GB().row(k), r.gap[k], law.stiffness(k, k), law.damping(k, k)});
+          {j, k, joint.servo >= 0, r.GA().row(k), r.GB().row(k), r.gap[k], law.stiffness(k, k), law.damping(k, k), law.stiffness.row(k), law.damping.row(k)});
     }
   }
   return rows;

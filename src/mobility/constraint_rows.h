@@ -16,6 +16,7 @@ struct ConstraintRow {
   Eigen::RowVector3d on_a, on_b;  // d gap / dq of the two bodies
   double gap = 0;                 // [m] or [rad]
   double stiffness = 0, damping = 0;
+  Eigen::RowVector3d stiffness_by, damping_by;  // by all components of the gap: blades and bushings couple them
 };
 
 /// Rows of all joints, servos last as in the system. A slack rope has none; `reach` is how much longer than slack it
