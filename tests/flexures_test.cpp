@@ -310,8 +310,9 @@ TEST(Flexures, AMassOnABladeVibratesAsOnACantilever) {
   ASSERT_EQ(f.modes.size(), 3u);
   EXPECT_NEAR(f.modes[0].frequency, omega, 1e-3 * omega);
   ASSERT_EQ(f.components.size(), 3u);
-  for (const CheckComponent& c : f.components)
-    if (c.component == "y") EXPECT_NEAR(c.stiffness, 12 * EI / std::pow(kLength, 3), 1e-9);
+  const auto across = std::find_if(f.components.begin(), f.components.end(), [](const CheckComponent& c) { return c.component == "y"; });
+  ASSERT_NE(across, f.components.end());
+  EXPECT_NEAR(across->stiffness, 12 * EI / std::pow(kLength, 3), 1e-9);
 }
 
 }  // namespace
