@@ -61,12 +61,13 @@ void BasicRadauStepper<S>::extrapolate_gaps(double d) {
 
 template <class S>
 bool BasicRadauStepper<S>::forces_stay_constant(double d) {
+  const double most = most_force_change(tolerance_);
   extrapolate_gaps(kShareBeforeEvent * d);
   for (int j = 0; j < system_.n_joints(); ++j) {
     const BasicJointData<S>& joint = system_.joints[j];
     const typename S::Vec load = load_on(joint.at, scale_), force = joint.law.force({begin_.t + kShareBeforeEvent * d, inside_gap_[j], inside_rate_[j], inside_law_state_.data() + joint.first_state});
     for (int k = 0; k < S::kDof; ++k)
-      if (!(std::abs(force[k] - begin_.force[j][k]) <= kMostForceChange * load[k])) return false;
+      if (!(std::abs(force[k] - begin_.force[j][k]) <= most * load[k])) return false;
   }
   return true;
 }

@@ -13,10 +13,13 @@
 
 namespace pintle {
 
-/// Of the loads: by how much joint forces may change on the way to an event that is crossed with the accelerations at its beginning. Without it
-/// an elastic touch that is a ten-thousandth of the flight before it gains a tenth of its energy. With 1e-4 a lever that leaves its stop behind a
-/// jump of its motor does so at a time that wanders by more than its tolerance of 1e-8 allows; with 1e-5 and 1e-6 it does not, and steps are no more.
+/// Of the loads: by how much joint forces may change on the way to an event that is crossed with the accelerations at its beginning, and by no more than the tolerance of the
+/// steps: what breaks away is loaded most just before it does, and no step sees the load that it gains on this way. Without it an elastic touch that is a ten-thousandth of the
+/// flight before it gains a tenth of its energy. With 1e-4 a lever that leaves its stop behind a jump of its motor does so at a time that wanders by more than its tolerance of 1e-8
+/// allows; with 1e-5 and 1e-6 it does not, and steps are no more.
 constexpr double kMostForceChange = 1e-5;
+constexpr double kLeastForceChange = 1e-9;  // however small the tolerance is: rounding changes forces, too
+inline double most_force_change(double tolerance) { return std::clamp(tolerance, kLeastForceChange, kMostForceChange); }
 /// Of the way to an event: where forces are looked at, since they may jump there.
 constexpr double kShareBeforeEvent = 0.999;
 

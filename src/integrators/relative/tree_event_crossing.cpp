@@ -47,6 +47,7 @@ void TreeRadau::extrapolate_switching_functions(double d, double* value) {
 }
 
 bool TreeRadau::forces_stay_constant(double d) {
+  const double most = most_force_change(tolerance_);
   const double near = kShareBeforeEvent * d;
   inside_at_.place(begin_.t + near, begin_.y + near * begin_.u + 0.5 * near * near * begin_.w, begin_.u + near * begin_.w);
   TreeState at = begin_;
@@ -57,7 +58,7 @@ bool TreeRadau::forces_stay_constant(double d) {
   for (std::size_t l = 0; l < tree_->laws().size(); ++l) {
     const Planar::Vec load = load_on(system_.joints[tree_->laws()[l]].at, scale_);
     for (int k = 0; k < 3; ++k)
-      if (const Eigen::Index i = 3 * static_cast<Eigen::Index>(l) + k; !(std::abs(force[i] - begin_.force[i]) <= kMostForceChange * load[k])) return false;
+      if (const Eigen::Index i = 3 * static_cast<Eigen::Index>(l) + k; !(std::abs(force[i] - begin_.force[i]) <= most * load[k])) return false;
   }
   return true;
 }
