@@ -137,12 +137,21 @@ ParseProblem no_operand(std::string_view text, std::size_t at) {
           is_double_star ? "^ for a power" : "a number, or delete what needs one"};
 }
 
+// Of a joint or motor: "rope.tension".
+bool asks_for_a_force(std::string_view word) {
+  constexpr std::array<std::string_view, 7> kForces{"force", "tension", "friction", "torque", "moment", "fx", "fy"};
+  const std::size_t dot = word.rfind('.');
+  return dot != std::string_view::npos && std::find(kForces.begin(), kForces.end(), word.substr(dot + 1)) != kForces.end();
+}
+
 ParseProblem unknown_name(std::string_view word, std::size_t at, const ParseScope& scope) {
   if (word == "t" && scope.variables.empty())
     return {at, in_quotes(word), "this is a constant: time may stand in forces, torques, and in the torque, force, speed or position of a motor",
             "a number; 1 t for a tonne"};
   if (word == "t" && scope.variables.size() == 1)
     return {at, in_quotes(word), "this is a function of " + scope.variables.front().first + ", in which time does not stand", scope.variables.front().first + "; 1 t for a tonne"};
+  if (asks_for_a_force(word))
+    return {at, in_quotes(word), "forces cannot be read, as they depend on what reads them", "what they come from: of a rope its stiffness times what its points are farther apart than it is long"};
   if (find_table(word, scope)) return {at, in_quotes(word), "a table is called as a function", std::string(word) + "(x)"};
   if (is_unit_symbol(word)) return {at, in_quotes(word), "a unit needs a number in front of it", "1 " + std::string(word)};
   std::vector<std::string_view> names(scope.constant_names.begin(), scope.constant_names.end());

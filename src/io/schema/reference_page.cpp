@@ -41,7 +41,7 @@ Forces and efforts of motors may depend on where things are and how they move:
 - of its marker `M`: `B.M.x` and so on
 - in a motor: `angle` or `slide`, and `rate`, of its own joint
 
-A distance is `sqrt((A.x - B.x)^2 + (A.y - B.y)^2)`. What is written with these is differentiated exactly.
+A distance is `sqrt((A.x - B.x)^2 + (A.y - B.y)^2)`. What is written with these is differentiated exactly. Forces of joints cannot be read, as they depend on what reads them; what they come from can, as the stretch of a rope.
 )";
 
 constexpr const char* kMarkers =
