@@ -62,25 +62,20 @@ TEST(ClearanceRegimes, AFastCrankMakesThePinRepeatItsOrbit) {
 }
 
 // At 600 rpm it flies and strikes without end: neighbouring orbits part by a factor of e in about a third of a turn. Rates that are found over half a second scatter:
-// twenty runs whose restitutions differ by 1e-9 give 19 to 60 per second, and state errors of 25 to 62 % of them.
+// eleven runs at each clearance whose restitutions differ by 1e-9 give 26 to 59 per second at 0.1 mm and 13 to 47 at 0.2 mm, 30 in the middle, and state errors of 27 to 60 % of them.
 TEST(ClearanceRegimesSlow, ASlowCrankMakesItChaotic) {
-  constexpr double kMiddle = 36;  // [1/s]
-  for (const double clearance : {1e-4, 2e-4}) {
-    std::vector<Growth> growths;
+  constexpr double kMiddle = 30, kLeast = 10, kMost = 70, kErrors = 2.5;  // [1/s]; of those that are stated, at most
+  for (const double clearance : {1e-4, 2e-4})
     for (const double restitution : {0.0, 1e-9, -1e-9}) {
       Model model = worn(clearance, "lankarani-nikravesh", 600, 20);
       restitution_of_b(model) += restitution;
       const Trajectory run = simulate(model);
       ASSERT_EQ(run.outcome, Outcome::kHorizon) << clearance << ": " << run.message;
-      growths.push_back(run.growth);
+      EXPECT_GT(run.growth.rate, kLeast) << clearance;
+      EXPECT_LT(run.growth.rate, kMost) << clearance;
+      EXPECT_NEAR(run.growth.rate, kMiddle, kErrors * run.growth.rate_error) << clearance;
+      EXPECT_LT(run.growth.rate_error, 0.75 * run.growth.rate) << clearance;
     }
-    std::sort(growths.begin(), growths.end(), [](const Growth& a, const Growth& b) { return a.rate < b.rate; });
-    std::string all;
-    for (const Growth& growth : growths) all += fmt::format(" {:.3g} +- {:.3g}", growth.rate, growth.rate_error);
-    EXPECT_NEAR(growths[1].rate, kMiddle, 14) << clearance << all;
-    EXPECT_NEAR(growths[1].rate, kMiddle, 1.5 * growths[1].rate_error) << clearance << all;
-    for (const Growth& growth : growths) EXPECT_LT(growth.rate_error, 0.75 * growth.rate) << clearance << all;
-  }
 }
 
 // With the other law, too: 19 to 43 per second in runs that differ by next to nothing. Two single integrations with restitutions that differ by 1e-11 part as
