@@ -54,8 +54,8 @@ class BodyStepper final : public BasicStepper<S> {
     if constexpr (requires { method_.nodes(); }) return &method_.nodes();
     else return nullptr;
   }
-  int held_load() const override {
-    if constexpr (requires { method_.held_load(); }) return method_.held_load();
+  int sliding_load() const override {
+    if constexpr (requires { method_.sliding_load(); }) return method_.sliding_load();
     else return -1;
   }
   bool watches_bends() const override { return std::is_same_v<Method, BasicRadauStepper<S>>; }

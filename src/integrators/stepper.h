@@ -50,8 +50,8 @@ class BasicStepper {
   virtual bool watches_bends() const { return false; }
   /// What the method noticed on its way, for the user.
   virtual std::vector<std::string> remarks() const { return {}; }
-  /// The load that has been held first at a jump of its expression; negative: none has been. What its ramp lags behind need not shrink with the tolerance.
-  virtual int held_load() const { return -1; }
+  /// The first load in a sliding mode, held where its expression jumps; negative: none has been. What its ramp lags behind need not shrink with the tolerance.
+  virtual int sliding_load() const { return -1; }
   /// When reactions have been met first that have no bound, as those of ideal joints at singular positions may [s]; negative: never.
   virtual double unbounded_reactions() const { return -1; }
 };

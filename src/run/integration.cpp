@@ -132,7 +132,7 @@ BasicIntegration<S> integrate(const BasicSystem<S>& system, const BasicState<S>&
   out.scale = stepper.load_scale();
   out.crossings = stepper.crossings();
   out.remarks = stepper.remarks();
-  out.held_load = stepper.held_load();
+  out.sliding_load = stepper.sliding_load();
   out.unbounded_reactions = stepper.unbounded_reactions();
   return out;
 }

@@ -38,7 +38,7 @@ struct BasicIntegration {
   BasicLoadScale<S> scale;
   std::vector<LawCrossing> crossings;  // of the borders of laws
   std::vector<std::string> remarks;  // what the method noticed
-  int held_load = -1;                // Stepper::held_load
+  int sliding_load = -1;                // Stepper::sliding_load
   double unbounded_reactions = -1;   // Stepper::unbounded_reactions
 };
 using Integration = BasicIntegration<Planar>;

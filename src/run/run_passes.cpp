@@ -177,7 +177,7 @@ class Passes {
     const BasicForceTable<S> &coarse = coarse_->forces(), &fine = fine_->forces();
     coarse_tolerance_ = before;
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
-    share_ = alike_ || out_.of_motion || last_.held_load >= 0 ? 1.0 : share_of_finer(fall_of_errors(before, steps_before));
+    share_ = alike_ || out_.of_motion || last_.sliding_load >= 0 ? 1.0 : share_of_finer(fall_of_errors(before, steps_before));
     stages_before_ = choice_.stages;
     find_difference(coarse, fine);
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
@@ -271,7 +271,7 @@ class Passes {
       choose_order(next);
       return at(next);
     }
-    at_rounding_ = meets_rounding(tolerance) || (last_.held_load >= 0 && tolerance <= kNarrowed);
+    at_rounding_ = meets_rounding(tolerance) || (last_.sliding_load >= 0 && tolerance <= kNarrowed);
     return !at_rounding_ && at(finer_by_error(tolerance));
   }
 
@@ -380,8 +380,8 @@ class Passes {
   }
 
   std::string why_not_finer() const {
-    if (last_.held_load < 0) return "; finer passes meet the rounding of the numbers";
-    const BasicLoadData<S>& held = system_.loads[static_cast<std::size_t>(last_.held_load)];
+    if (last_.sliding_load < 0) return "; finer passes meet the rounding of the numbers";
+    const BasicLoadData<S>& held = system_.loads[static_cast<std::size_t>(last_.sliding_load)];
     return fmt::format("; {} {} switches without rest where its expression jumps, it is held there, and what it lags behind finer passes make hardly smaller", held.applied ? "force" : "motor", held.name);
   }
 

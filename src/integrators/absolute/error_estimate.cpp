@@ -126,7 +126,7 @@ void BasicRadauStepper<S>::finish_step(double h) {
 }
 
 template <class S>
-void BasicRadauStepper<S>::coast(double h) {
+void BasicRadauStepper<S>::taylor_step(double h) {
   for (int node = 0; node <= n_; ++node) {
     const double d = h * table_.nodes[node];
     nodes_.a[node] = begin_.a;
@@ -226,7 +226,7 @@ template double BasicRadauStepper<Planar>::friction_tail() const;
 template double BasicRadauStepper<Planar>::servo_work_missed_by_quadrature(int j, double h) const;
 template double BasicRadauStepper<Planar>::motion_tail();
 template void BasicRadauStepper<Planar>::finish_step(double h);
-template void BasicRadauStepper<Planar>::coast(double h);
+template void BasicRadauStepper<Planar>::taylor_step(double h);
 template void BasicRadauStepper<Planar>::find_increments(double h);
 template void BasicRadauStepper<Planar>::add_work(double h);
 template BasicRadauStepper<Planar>::Power BasicRadauStepper<Planar>::power_of_loads(double t, const PositionsOf<Planar>& q, const std::vector<Planar::Motion>& m) const;
@@ -240,7 +240,7 @@ PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::friction_tail() cons
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::servo_work_missed_by_quadrature(int j, double h) const;)
 PINTLE_IN_SPACE(template double BasicRadauStepper<Spatial>::motion_tail();)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::finish_step(double h);)
-PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::coast(double h);)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::taylor_step(double h);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::find_increments(double h);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::add_work(double h);)
 PINTLE_IN_SPACE(template BasicRadauStepper<Spatial>::Power BasicRadauStepper<Spatial>::power_of_loads(double t, const PositionsOf<Spatial>& q, const std::vector<Spatial::Motion>& m) const;)

@@ -52,7 +52,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   const Counters& counters() const { return counters_; }
   const std::string& failure() const { return failure_; }
   const std::vector<LawCrossing>& crossings() const { return crossings_; }
-  int held_load() const { return held_load_; }
+  int sliding_load() const { return sliding_load_; }
   const SwitchingEvent& event() const { return control_.event(); }
   /// The last event, if it came after `since`; otherwise empty.
   std::string last_event(double since) const { return control_.last_event(system_, since); }
@@ -79,7 +79,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   double friction_tail() const;               // of forces in free directions that no mass shows
   double motion_tail();                       // as accelerations that the bodies can yield to
   void finish_step(double h);                 // fills end_ and nodes_
-  void coast(double h);                       // the same where nothing changes but by Taylor's series
+  void taylor_step(double h);                       // the same where nothing changes but by Taylor's series
   void find_increments(double h);             // of the nodes, in curved spaces
   using Power = std::array<double, 2>;        // supplied, lost [W]
   void add_work(double h);
@@ -91,7 +91,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   // event_crossing.cpp: what StepEvents asks for
   using Events = StepEvents<BasicRadauStepper<S>, S>;
   friend Events;
-  using Events::control_, Events::search_, Events::crossings_, Events::held_load_;
+  using Events::control_, Events::search_, Events::crossings_, Events::sliding_load_;
   double end_time() const { return end_.t; }
   const std::vector<typename S::Motion>& end_motions() const { return end_m_; }
   const BasicState<S>& end_state() const { return end_; }

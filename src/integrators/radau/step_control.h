@@ -62,7 +62,7 @@ class StepControl {
 
   /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
   /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event), rests(h), motion_is_rounding(h),
-  /// forces_stay_constant(distance), cross_event(distance, event), coast(distance), balance_end(), error_estimate(h, error) and finish_step(h).
+  /// forces_stay_constant(distance), cross_event(distance, event), taylor_step(distance), balance_end(), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
 
@@ -132,17 +132,12 @@ class StepControl {
     return method.sets_states(event) || !method.rests(h) || !method.error_estimate(h, error) || !(error <= tolerance);
   }
 
-  bool is_next_to_start(double after) const { return after < 2 * kEventAtStart * usual; }
+  bool is_at_start(double after) const { return after < 2 * kEventAtStart * usual; }
   // Whether an event so far after the start of a step is crossed there. A touch may be ten thousand times as short as the flight before it: its end is only if
   // forces stay what they are until then.
   template <class Method>
   bool is_crossed_at_start(Method& method, double after) const {
-    return is_next_to_start(after) && method.forces_stay_constant(after);
-  }
-  // Whether Taylor's series leads to an event so far after the start of a step, where steps have not come to it.
-  template <class Method>
-  bool is_coasted_to(Method& method, double after) const {
-    return !is_next_to_start(after) && stopped_short_ >= kFewShort && method.motion_is_rounding(after) && method.forces_stay_constant(after);
+    return is_at_start(after) && method.forces_stay_constant(after);
   }
 
   // Whether half of a step has more than half of its error.
@@ -167,7 +162,7 @@ class StepControl {
   // The far end of a step may lie beyond other events than one that is next to its start, and its curve need not be what a body at rest does: Taylor's series is
   // better there. False where it does not lead to one within that time.
   template <class Method>
-  static bool locate_by_taylor(Method& method, double within, double h, SwitchingEvent& event) {
+  static bool locate_on_taylor_series(Method& method, double within, double h, SwitchingEvent& event) {
     const SwitchingEvent closer = method.locate_event(within, false);
     if (!(closer.after < 1)) return false;
     event = closer;
@@ -178,15 +173,15 @@ class StepControl {
 
   // The first event within a step of h. A step that was not solved twice may have a jump inside.
   template <class Method>
-  SwitchingEvent next_event(Method& method, double h, bool solved, double tolerance, const Counters& counters) const {
+  SwitchingEvent first_event(Method& method, double h, bool solved, double tolerance, const Counters& counters) const {
     SwitchingEvent event = method.locate_event(h, solved);
-    if (event.before * h < kEventAtStart * usual) locate_by_taylor(method, 2 * kEventAtStart * usual, h, event);
+    if (event.before * h < kEventAtStart * usual) locate_on_taylor_series(method, 2 * kEventAtStart * usual, h, event);
     const bool left_alone = solved && event.after < 1 && repeats(event, counters) && !matters(method, event, h, tolerance);
     return left_alone ? SwitchingEvent{} : event;
   }
 
   template <class Method>
-  void cross(Method& method, double distance, const SwitchingEvent& event, Counters& counters) {
+  void cross_at_start(Method& method, double distance, const SwitchingEvent& event, Counters& counters) {
     ++counters.events;
     count_same(event, counters);
     method.cross_event(distance, event);
@@ -194,11 +189,13 @@ class StepControl {
     method.begin_at_end();
   }
 
-  // A step up to an event within h that steps have not come to, by Taylor's series; false where that does not lead there.
+  // Steps may end before an event over and over where places are rounded. A step of its own leads up to it then, by Taylor's series; false where that has no event.
   template <class Method>
-  bool coasts(Method& method, double h, SwitchingEvent event) const {
-    if (!is_coasted_to(method, event.before * h) || !locate_by_taylor(method, 2 * event.before * h, h, event)) return false;
-    method.coast(event.before * h);
+  bool make_taylor_step(Method& method, double h, SwitchingEvent event) const {
+    const double ahead = event.before * h;
+    if (is_at_start(ahead) || stopped_short_ < kFewShort || !method.motion_is_rounding(ahead) || !method.forces_stay_constant(ahead)) return false;
+    if (!locate_on_taylor_series(method, 2 * ahead, h, event)) return false;
+    method.taylor_step(event.before * h);
     return true;
   }
 
@@ -240,15 +237,15 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       continue;
     }
     // Functions that flicker about zero in the last bits are left alone after a while.
-    const SwitchingEvent event = (solved || retry > 0) && crossed < kMostCrossed ? next_event(method, h, solved, tolerance, counters) : SwitchingEvent{};
+    const SwitchingEvent event = (solved || retry > 0) && crossed < kMostCrossed ? first_event(method, h, solved, tolerance, counters) : SwitchingEvent{};
     if (event.after < 1) {
       ahead = event;
       ahead.t = method.t() + event.before * h;
     }
-    if (event.before < 1 && coasts(method, h, event)) return ++counters.steps, true;
+    if (event.before < 1 && make_taylor_step(method, h, event)) return ++counters.steps, true;
     if (event.before < 1 && is_crossed_at_start(method, event.before * h)) {
       event_ = ahead;
-      cross(method, event.before * h, event, counters);
+      cross_at_start(method, event.before * h, event, counters);
       ++crossed;
       retry = -1;  // it has moved on
       h = std::max(h, kAfterEvent * usual);

@@ -25,7 +25,7 @@ class Flickering {
   }
   bool forces_stay_constant(double) { return true; }
   void cross_event(double, const SwitchingEvent&) { ++crossings; }
-  void coast(double) {}
+  void taylor_step(double) {}
   void balance_end() {}
   double share_of_step(double, double) { return 1; }
   bool error_estimate(double, double&) { return false; }
@@ -73,7 +73,7 @@ class OneEvent {
     t_ += distance;
     ++crossings;
   }
-  void coast(double) {}
+  void taylor_step(double) {}
   void balance_end() {}
   double share_of_step(double, double) { return 1; }
   bool error_estimate(double, double& error) { return error = 0, true; }
@@ -118,7 +118,7 @@ class Resting {
  public:
   explicit Resting(double event) : at_(event) {}
 
-  int coasts = 0, crossings = 0;
+  int taylor_steps = 0, crossings = 0;
   double crossed_at = 0;
   double t() const { return t_; }
   void begin_at_end() {}
@@ -142,9 +142,9 @@ class Resting {
     crossed_at = t_;
     ++crossings;
   }
-  void coast(double h) {
+  void taylor_step(double h) {
     t_ += h;
-    ++coasts;
+    ++taylor_steps;
   }
   void balance_end() {}
   double share_of_step(double, double) { return 1; }
@@ -156,14 +156,14 @@ class Resting {
 };
 
 // A friction stay at rest, whose cord goes taut: rows on the way were those of the taut cord.
-TEST(StepControl, CoastsToAnEventByAStepOfItsOwnAndWhereTaylorsSeriesLeads) {
+TEST(StepControl, LeadsUpToAnEventByAStepOfItsOwn) {
   constexpr double kEvent = 0.9;
   Resting method(kEvent);
   StepControl control;
   control.start(1.0);
   Counters counters;
   while (method.t() < 1.0) ASSERT_TRUE(control.advance(method, 1.0, 1e-5, 4, counters));
-  EXPECT_EQ(method.coasts, 1);
+  EXPECT_EQ(method.taylor_steps, 1);
   EXPECT_EQ(method.crossings, 1);
   EXPECT_NEAR(method.crossed_at, kEvent, 1e-12);
 }

@@ -33,7 +33,7 @@ constexpr double kShareBeforeEvent = 0.999;
 ///   motions_after(d)                            those a moment after the end
 ///   cross_borders()                             System::cross_borders between the values of `search_`
 ///   shift_gap(joint, d, rate)                   the carried gap of a driven joint at the end, and its rate, by so much; what the law then stores more is supplied
-///   coast(d)                                    a step of d by Taylor's series, on which forces stay what they are
+///   taylor_step(d)                                    a step of d by Taylor's series, on which forces stay what they are
 ///   balance_end()                               what laws and loads really give at the end: forces, accelerations, powers
 ///   compensate_late_crossing(late)              for an event that was a time `late` before the end: what pulls behind it, and has not since the start, has pulled for so long
 ///   undo_compensation()                         the end is again what it was before `compensate_late_crossing`
@@ -59,7 +59,7 @@ class StepEvents {
   StepControl control_;
   EventSearch search_;
   std::vector<LawCrossing> crossings_;
-  int held_load_ = -1;  // the first that was held at a jump
+  int sliding_load_ = -1;  // the first that was held at a jump
 
  private:
   void compensate_late_crossing(double late, int function);
@@ -126,7 +126,7 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
     const double margin = events_of_.margin(*jump, now, method().end_motions());
     const RampSize size = ramp_size(events_of_, *jump, method().end_state(), control_.usual, method().tolerance_);
     const bool held = enter_sliding(*jump, margin, size, method().sliding(), [this] { method().balance_end(); }, [&] { return margin_rate(*jump); });
-    if (held && held_load_ < 0) held_load_ = jump->load;
+    if (held && sliding_load_ < 0) sliding_load_ = jump->load;
   }
   update_switching();  // what has been compensated may have crossed a border: of what slips at 1e-12 m/s, a load that jumps against it turns the way
   control_.event_crossed();

@@ -163,7 +163,7 @@ void TreeRadau::finish_step(double h) {
   update_switching();
 }
 
-void TreeRadau::coast(double h) {
+void TreeRadau::taylor_step(double h) {
   for (int node = 0; node <= n_; ++node) {
     nodes_.w.col(node) = begin_.w;
     nodes_.accel.col(node) = begin_.accel;

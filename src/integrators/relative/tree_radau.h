@@ -31,7 +31,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
   const std::vector<LawCrossing>& crossings() const override { return crossings_; }
-  int held_load() const override { return held_load_; }
+  int sliding_load() const override { return sliding_load_; }
   std::string last_event(double since) const override { return control_.last_event(system_, since); }
   bool watches_bends() const override { return true; }
 
@@ -56,7 +56,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   double ringing_behind_event(double h) const;
   double share_of_step(double h, double t_end) { return bends_.share_of_step(begin_.t, h, t_end, end_at_.pose().m, stages_.instant(n_ - 1).pose().m); }
   void finish_step(double h);
-  void coast(double h);
+  void taylor_step(double h);
   void move_onto_gaps();
   void take_gaps();
   void add_work(double h);
