@@ -67,7 +67,7 @@ struct StickSlip {
   void borders(double v, double N, const double* state, double* value) const {
     const double way = direction(state), forward = way * v;
     value[0] = value[1] = value[2] = 1;
-    if (sticks(state)) value[0] = static_coefficient * N - std::abs(held(v, state)) + kLastStretch * stiffness + kLastSpeed * damping;
+    if (sticks(state)) value[0] = static_coefficient * N - std::abs(held(v, state));
     else if (!rebounds(state)) value[1] = forward + kCrossed;
     else {
       value[1] = way * held(v, state) - kinetic * N;
@@ -96,8 +96,6 @@ struct StickSlip {
   static bool rebounds(const double* state) { return std::abs(state[1]) > 1.5; }
   static double direction(const double* state) { return state[1] > 0 ? 1 : -1; }
   static constexpr double kCrossed = 1e-12;   // a speed that is not the rounding of zero [m/s]
-  // What the rounding of a stretch and a speed of zero makes of a friction breaks no surfaces on which nothing presses [m], [m/s].
-  static constexpr double kLastStretch = 1e-20, kLastSpeed = 1e-17;
 
   template <class T>
   T held(const T& v, const T* state) const { return stiffness * state[0] + damping * v; }  // (3.18)

@@ -10,8 +10,9 @@
 namespace pintle {
 namespace {
 
-constexpr double kTorn = 0.02;       // of the mechanism's size: a joint that gives way by more is no joint any longer. No stiff one of the collection gives way by a twentieth of that
-constexpr double kStiff = 1000;      // weights of the whole mechanism, that a joint would take to give way so far: softer ones are meant to
+// Of the mechanism's size: a joint that gives way by more is no joint any longer, if it gives way to the weight of the whole mechanism by less than this part of that; softer
+// ones are meant to. No stiff joint of the collection gives way by a twentieth of it; with double of it a rod that is shorter than its crank by a tenth is not told.
+constexpr double kTorn = 0.02;
 
 // The least stiffness against displacements that a joint holds [N/m]; infinite: it holds none, or ideally.
 template <class S>
@@ -36,7 +37,7 @@ std::string note_on_torn_joint(const BasicSystem<S>& system, const BasicState<S>
     if (system.joints[j].servo >= 0) continue;
     const LoadSummary& joint = joints[row++];
     const double stiffness = least_stiffness(system.joints[j]);
-    if (!(stiffness * kTorn * size > kStiff * weight) || !(joint.peak / stiffness > farthest)) continue;
+    if (!(weight / stiffness < kTorn * kTorn * size) || !(joint.peak / stiffness > farthest)) continue;
     farthest = joint.peak / stiffness;
     torn = &joint;
   }
