@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "laws/law_math.h"
@@ -67,7 +68,7 @@ struct StickSlip {
   void borders(double v, double N, const double* state, double* value) const {
     const double way = direction(state), forward = way * v;
     value[0] = value[1] = value[2] = 1;
-    if (sticks(state)) value[0] = static_coefficient * N - std::abs(held(v, state));
+    if (sticks(state)) value[0] = static_coefficient * N - std::abs(held(v, state)) + std::numeric_limits<double>::min();  // above zero where nothing presses and nothing pulls
     else if (!rebounds(state)) value[1] = forward + kCrossed;
     else {
       value[1] = way * held(v, state) - kinetic * N;
