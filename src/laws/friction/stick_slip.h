@@ -68,7 +68,7 @@ struct StickSlip {
   void borders(double v, double N, const double* state, double* value) const {
     const double way = direction(state), forward = way * v;
     value[0] = value[1] = value[2] = 1;
-    if (sticks(state)) value[0] = static_coefficient * N - std::abs(held(v, state)) + std::numeric_limits<double>::min();  // above zero where nothing presses and nothing pulls
+    if (sticks(state)) value[0] = static_coefficient * N - std::abs(held(v, state)) + rounding_at_rest();
     else if (!rebounds(state)) value[1] = forward + kCrossed;
     else {
       value[1] = way * held(v, state) - kinetic * N;
@@ -94,6 +94,8 @@ struct StickSlip {
   }
 
  private:
+  // Of a friction that rest() has made zero [N]: surfaces on which nothing presses stick until something pulls.
+  double rounding_at_rest() const { return std::numeric_limits<double>::min() + 4 * std::numeric_limits<double>::epsilon() * kStill * damping; }
   static bool rebounds(const double* state) { return std::abs(state[1]) > 1.5; }
   static double direction(const double* state) { return state[1] > 0 ? 1 : -1; }
   static constexpr double kCrossed = 1e-12;   // a speed that is not the rounding of zero [m/s]
