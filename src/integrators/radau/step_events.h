@@ -18,7 +18,8 @@ namespace pintle {
 /// flight before it gains a tenth of its energy. With 1e-4 a lever that leaves its stop behind a jump of its motor does so at a time that wanders by more than its tolerance of 1e-8
 /// allows; with 1e-5 and 1e-6 it does not, and steps are no more.
 constexpr double kMostForceChange = 1e-5;
-inline double most_force_change(double tolerance) { return std::min(tolerance, kMostForceChange); }
+constexpr double kLeastForceChange = 1e-9;  // however small the tolerance is. With double of it the runners of tests/models/runners_on_a_track.toml miss a tolerance of 1e-8; smaller ones gain nothing
+inline double most_force_change(double tolerance) { return std::clamp(tolerance, kLeastForceChange, kMostForceChange); }
 /// Of the way to an event: where forces are looked at, since they may jump there.
 constexpr double kShareBeforeEvent = 0.999;
 
