@@ -96,6 +96,10 @@ void grow_load_scale(const BasicSystem<S>& system, const std::vector<typename S:
 template <class S>
 std::vector<double> loads_above_rounding(const BasicSystem<S>& system, const std::vector<int>& joints, const BasicState<S>& state, double tolerance);
 
+/// What the rounding of positions may make of the forces of joints, over the loads on their bodies: no step resolves less of them.
+template <class S>
+double rounding_over_loads(const BasicSystem<S>& system, const PositionsOf<S>& q, const BasicLoadScale<S>& scale);
+
 /// Raises the forces of the scale to such loads.
 template <class S>
 void raise_above(const std::vector<double>& loads, BasicLoadScale<S>& scale) {

@@ -70,6 +70,14 @@ double largest_coordinate(const PositionsOf<Spatial>& x) {
 }
 
 template <class S>
+double largest_angle(const PositionsOf<S>& q) {
+  double largest = 1;
+  if constexpr (S::kDof - S::kDim == 1)
+    for (const auto& body : q) largest = std::max(largest, std::abs(body[S::kDim]));
+  return largest;
+}
+
+template <class S>
 double largest_stiffness(const BasicSystem<S>& system) {
   double stiffest = 0;
   for (const BasicJointData<S>& joint : system.joints) stiffest = std::max(stiffest, joint.law.engaged_stiffness().template head<S::kDim>().maxCoeff());
@@ -93,6 +101,8 @@ bool is_finite(const BasicState<S>& state) {
 
 template double largest_coordinate(const VecsOf<Planar>&);
 PINTLE_IN_SPACE(template double largest_coordinate(const VecsOf<Spatial>&);)
+template double largest_angle<Planar>(const PositionsOf<Planar>& q);
+PINTLE_IN_SPACE(template double largest_angle<Spatial>(const PositionsOf<Spatial>& q);)
 template double largest_stiffness(const BasicSystem<Planar>& system);
 PINTLE_IN_SPACE(template double largest_stiffness(const BasicSystem<Spatial>& system);)
 template double largest_force(const VecsOf<Planar>&);

@@ -50,6 +50,9 @@ double energy_of_joints(const BasicSystem<S>& system, const BasicState<S>& state
 /// The largest coordinate of any body, at least 1e-3: what the rounding of positions, or of velocities, goes with [m or m/s].
 template <class Vec>
 double largest_coordinate(const std::vector<Vec>& x);
+/// The largest angle of any body, which in the plane counts turns; at least 1 rad.
+template <class S>
+double largest_angle(const PositionsOf<S>& q);
 /// The stiffness of the stiffest joint against displacements, one-sided laws as if they acted [N/m]; 0 where there is none.
 template <class S>
 double largest_stiffness(const BasicSystem<S>& system);

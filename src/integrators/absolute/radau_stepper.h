@@ -64,6 +64,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   void begin_at_end() { begin_ = end_; }
   bool attempt(double h);                     // solves the stages from begin_
   double contraction() const { return solver_->contraction(); }
+  double rounding_of_forces() const { return rounding_over_loads(system_, end_.q, scale_); }
   bool unloaded() const;
   void foresee_loads(double h);
   void raise_above_rounding();

@@ -43,6 +43,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   void begin_at_end();
   bool attempt(double h);
   double contraction() const { return stages_.contraction(); }
+  double rounding_of_forces() const { return rounding_over_loads(system_, end_state_.q, scale_); }
 
   // tree_error_estimate.cpp: the error of a step, its end and its inside
   bool error_estimate(double h, double& error);

@@ -1,7 +1,7 @@
 // Two surfaces at one point: the normal force of their contact, and friction along it, on a ramp or with stiction.
 //
-// States: the approach speed while they touch, 0 while they are apart; with stiction also those of StickSlip, which begin anew at every touch. Touch and
-// let-go are borders, and with stiction stick and slip. theory/contact sections 1 and 3.
+// States: the approach speed while they touch, 0 while they are apart; with stiction also those of StickSlip, which begin anew at every touch, and where a
+// force that had vanished returns. Touch and let-go are borders, and with stiction stick and slip. theory/contact sections 1 and 3.
 #pragma once
 
 #include <algorithm>
@@ -64,7 +64,7 @@ struct RubbingContact {
   void cross(int border, const ContactMotion<double>& at, double* state) const {
     if (border >= ContactForce::kBorders) return grip->cross(border - ContactForce::kBorders, at.slip, pressing(point_forces<double>(contact, at, state[0]).normal), state + 1);
     contact.cross(border, at.rate, state[0]);
-    if (grip && border == ContactForce::kTouch) grip->rest(at.slip, 0, state + 1);
+    if (grip && border != ContactForce::kLetGo) grip->rest(at.slip, 0, state + 1);
   }
   /// What Archard's law multiplies: surfaces that stick move by their springs only.
   double wear_power(double normal, double slip, const double* state) const { return sticks(state) ? 0 : std::max(0.0, normal) * std::abs(slip); }

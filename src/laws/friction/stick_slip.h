@@ -69,7 +69,7 @@ struct StickSlip {
     const double way = direction(state), forward = way * v;
     value[0] = value[1] = value[2] = 1;
     if (sticks(state)) value[0] = static_coefficient * N - std::abs(held(v, state)) + rounding_at_rest();
-    else if (!rebounds(state)) value[1] = forward + kCrossed;
+    else if (!rebounds(state)) value[1] = N > 0 ? forward + kCrossed : 1;  // where nothing presses nothing would hold them
     else {
       value[1] = way * held(v, state) - kinetic * N;
       value[2] = kCrossed - forward;

@@ -19,15 +19,6 @@ double largest_angular_stiffness(const BasicSystem<S>& system) {
   return stiffest;
 }
 
-// Angles in the plane count turns; at least 1 rad.
-template <class S>
-double largest_angle(const PositionsOf<S>& q) {
-  double largest = 1;
-  if constexpr (S::kDof - S::kDim == 1)
-    for (const auto& body : q) largest = std::max(largest, std::abs(body[S::kDim]));
-  return largest;
-}
-
 }  // namespace
 
 template <class S>
