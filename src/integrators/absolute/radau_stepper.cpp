@@ -75,15 +75,13 @@ void BasicRadauStepper<S>::start(const BasicState<S>& state, double h) {
   raise_above_rounding();
 }
 
-// Loads that are no more than what rounding makes of the stiffest joint's force are none, and no step resolves a part of them.
+// Loads on a body that are no more than what rounding makes of the stiffest joint's force are none, and no step resolves a part of them.
 template <class S>
 void BasicRadauStepper<S>::raise_above_rounding() {
   const double far = largest_coordinate(end_.q);
-  double largest = 0;
-  for (const typename S::Vec& load : scale_.body) largest = std::max(largest, load[0]);
   const double rounding = kLastBits * largest_stiffness(system_) * far;
-  if (largest <= rounding)
-    for (std::size_t i = 0; i < scale_.body.size(); ++i) raise_load_scale_above_rounding(static_cast<int>(i), S::Vec::Unit(0) * rounding);
+  for (std::size_t i = 0; i < scale_.body.size(); ++i)
+    if (scale_.body[i][0] <= rounding) raise_load_scale_above_rounding(static_cast<int>(i), S::Vec::Unit(0) * rounding);
   raise_above_rounding_of_servos();
   if (!system_.has_loads()) return;
   VecsOf<S> of_springs(system_.bodies.size(), S::Vec::Zero());
