@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -57,12 +58,14 @@ void plain_start(const BasicSystem<S>& system, BasicState<S>& state) {
   find_gap_accelerations(system, r, state);
 }
 
-// Whether a body has moved by more than the mechanism is large.
+// Whether a body has moved by more than the mechanism is large, or turned by more than half a turn.
 template <class S>
 bool moves_too_far(const BasicSystem<S>& system, const BasicState<S>& from, const BasicState<S>& to) {
   const double size = std::max(largest_coordinate(from.q), system.largest_radius_of_gyration());
-  for (std::size_t i = 0; i < from.q.size(); ++i)
-    if (!(S::difference(from.q[i], to.q[i]).template head<S::kDim>().norm() <= size)) return true;
+  for (std::size_t i = 0; i < from.q.size(); ++i) {
+    const typename S::Vec way = S::difference(from.q[i], to.q[i]);
+    if (!(way.template head<S::kDim>().norm() <= size && way.template tail<S::kDof - S::kDim>().norm() <= std::numbers::pi)) return true;
+  }
   return false;
 }
 
@@ -132,7 +135,7 @@ void start_forces(const BasicSystem<S>& system, bool preload, BasicState<S>& sta
     fits = !forces.set_forces_from_bodies(state);
   }
   balance_start(system, state);
-  if (!is_finite(state) || moves_too_far(system, unloaded, state)) state = unloaded;  // next to a singular position joints would give way more than the mechanism is large
+  if (!is_finite(state) || moves_too_far(system, unloaded, state)) state = unloaded;  // next to a singular position joints would give way more than the mechanism is large, and a soft thread turns its drum many times
 }
 
 double characteristic_length(const System& system, const Vecs& q) { return std::max(mechanism_size(system, q), system.largest_radius_of_gyration()); }
