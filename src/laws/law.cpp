@@ -200,6 +200,11 @@ bool BasicLaw<S>::rubs() const {
 }
 
 template <class S>
+bool BasicLaw<S>::rubs_where_it_holds() const {
+  return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return part->rubs_where_it_holds(); });
+}
+
+template <class S>
 bool BasicLaw<S>::acts_without_reaction() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const auto& part) { return !part->holds() && part->lever() == 0; });
 }

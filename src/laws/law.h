@@ -108,6 +108,8 @@ class BasicLaw {
   BasicResponse<S> holding(const Vec& gap, const Vec& rate) const;
   /// Whether anything acts beside what holds, such as friction or a stop in a free direction.
   bool rubs() const;
+  /// Whether a part rubs in what the joint leaves free with what it holds, as surfaces that touch.
+  bool rubs_where_it_holds() const;
   /// Whether one of these does so whatever the joint carries, as stops and detents do, and friction does not.
   bool acts_without_reaction() const;
   /// Whether a part is the stops of what the joint leaves free; whether one is its dry friction.

@@ -72,6 +72,8 @@ class BasicLawPart {
   virtual bool stops() const = 0;
   /// Whether it is dry friction of what the joint leaves free.
   virtual bool rubs() const = 0;
+  /// Whether what it holds rubs in what it leaves free, as surfaces that touch.
+  virtual bool rubs_where_it_holds() const = 0;
   /// What it holds in this state, as dry friction that sticks does; none: nothing.
   virtual std::optional<Stiction> stiction(const double* state) const = 0;
   /// Sets its states so that it sticks and carries `force`; false where it would slip.
@@ -165,6 +167,10 @@ class LawPartOf final : public BasicLawPart<S> {
   bool rubs() const override {
     if constexpr (requires { P::kRubs; }) return P::kRubs;
     else return !holds() && !stops();
+  }
+  bool rubs_where_it_holds() const override {
+    if constexpr (requires { law_.rubs(); }) return law_.rubs();
+    else return false;
   }
   std::optional<Stiction> stiction(const double* state) const override {
     if constexpr (requires { law_.stiction(state); }) return law_.stiction(state);
