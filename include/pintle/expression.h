@@ -61,6 +61,9 @@ class Expression {
   /// A number for each of them that changes its sign there: positive on one side, negative or 0 on the other, and proportional
   /// to the distance of its arguments. On a ramp: positive where its share is outside 0 .. 1.
   void evaluate_switching_functions(std::span<const double> values, double* value, const Ramp* ramp = nullptr) const;
+  /// Where the switching function k changes its sign between two places, ascending, if it is that of a table, the expression has one variable, and the argument of the
+  /// table goes straight with it; none otherwise, and where there are more than `most`.
+  std::optional<std::vector<double>> kinks_of_table(std::size_t k, double low, double high, std::size_t most) const;
   /// Value, first and second derivative with respect to variable `index`, the others held (exact).
   std::array<double, 3> second_order(std::span<const double> values, std::size_t index) const;
 

@@ -62,12 +62,13 @@ void for_each_bend(const Curvature& curvature, std::size_t n, double least, Use&
     if (way(i) != way(i - 1) && !(way(i) == 0 && i + 1 < n && way(i + 1) == -way(i - 1))) use(i);
 }
 
-/// Of a curve of which the curvature is known, to within such a part of the way.
+/// Of a curve of which the curvature is known, to within 1/720 of the way.
 template <class Curvature>
-Bends find_bends(const Curvature& curvature, double low, double high, int parts = 720) {
-  const double apart = (high - low) / parts;
+Bends find_bends(const Curvature& curvature, double low, double high) {
+  constexpr int kPoints = 720;
+  const double apart = (high - low) / kPoints;
   std::vector<double> values;
-  for (int i = 0; i <= parts; ++i) values.push_back(curvature(low + apart * i));
+  for (int i = 0; i <= kPoints; ++i) values.push_back(curvature(low + apart * i));
   Bends bends;
   for_each_bend([&](std::size_t i) { return values[i]; }, values.size(), 0, [&](std::size_t i) { bends.places.push_back(low + apart * (static_cast<double>(i) - 0.5)); });
   return bends;

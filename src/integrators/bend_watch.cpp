@@ -8,6 +8,8 @@
 
 #include "base/constants.h"
 #include "base/cubic_hermite.h"
+#include "base/expression/switching_places.h"
+#include "integrators/thresholds.h"
 #include "joints/cam_profile.h"
 #include "joints/edge_profile.h"
 #include "laws/law.h"
@@ -58,25 +60,54 @@ Planar::Motion between(const Planar::Motion& start, const Planar::Motion& end, d
   return Planar::Motion::of(cubic_hermite(x, h, q0, v0, q1, v1), cubic_hermite_slope(x, h, q0, v0, q1, v1));
 }
 
+// What varies of the loads, motors and driven lengths that are functions of time alone.
+template <class S>
+std::vector<const Expression*> functions_of_time(const BasicSystem<S>& system) {
+  std::vector<const Expression*> all;
+  for (const auto& force : system.applied)
+    for (const Expression* f : force.functions()) all.push_back(f);
+  for (const BasicLoadData<S>& load : system.loads)
+    if (load.signals.size() == 1 && load.signals.front().is_time) all.push_back(&load.law);
+  for (const BasicJointData<S>& joint : system.joints)
+    if (joint.driven >= 0) all.push_back(&joint.target);
+  std::erase_if(all, [](const Expression* f) { return f->is_constant(); });
+  return all;
+}
+
+// The share of a step that leads to between the first two kinks in it, so that the first is met; 1: there are no two.
+double share_to_one_kink(const std::vector<double>& kinks, double t, double h) {
+  const double rounding = kLastBits * std::abs(t + h);
+  const auto first = std::upper_bound(kinks.begin(), kinks.end(), t + rounding);
+  if (kinks.end() - first < 2 || !(first[1] < t + h - rounding)) return 1;
+  return (0.5 * (first[0] + first[1]) - t) / h;
+}
+
 }  // namespace
 
 template <class S>
 std::vector<Bends> bends_in_time(const BasicSystem<S>& system, double from, double to) {
   std::vector<Bends> all;
   SampledGraph samples(kParts);
-  const auto add = [&](const Expression& f) {
-    if (f.is_constant()) return;
+  for (const Expression* f : functions_of_time(system)) {
     Bends bends;
-    samples.take([&f](double t) { return f.value(std::array{t}); }, from, to, kParts);
+    samples.take([f](double t) { return f->value(std::array{t}); }, from, to, kParts);
     samples.for_each_bend([&](double part) { bends.places.push_back(from + part * (to - from) / kParts); });
     if (!bends.empty()) all.push_back(std::move(bends));
-  };
-  for (const auto& force : system.applied)
-    for (const Expression* f : force.functions()) add(*f);
-  for (const BasicLoadData<S>& load : system.loads)
-    if (load.signals.size() == 1 && load.signals.front().is_time) add(load.law);
-  for (const BasicJointData<S>& joint : system.joints)
-    if (joint.driven >= 0) add(joint.target);
+  }
+  return all;
+}
+
+template <class S>
+std::vector<double> kinks_in_time(const BasicSystem<S>& system, double from, double to) {
+  constexpr std::size_t kMost = 1000000;  // of one table: more of them, as of a motor's turns in a long run, would fill the memory
+  std::vector<double> all;
+  for (const Expression* f : functions_of_time(system)) {
+    const std::vector<double> places = switching_places(*f, from, to, kParts, kMost);
+    all.insert(all.end(), places.begin(), places.end());
+  }
+  std::sort(all.begin(), all.end());
+  const double rounding = kLastBits * std::max(std::abs(from), std::abs(to));
+  all.erase(std::unique(all.begin(), all.end(), [rounding](double a, double b) { return b - a <= rounding; }), all.end());
   return all;
 }
 
@@ -204,8 +235,9 @@ double BasicBendWatch<S>::share_of_step(double t, double h, double t_end, const 
   if (apart_ == 0 && t_end > t) {
     apart_ = (t_end - t) / kParts;
     in_time_ = bends_in_time(system_, t, t_end);
+    kinks_ = kinks_in_time(system_, t, t_end);
   }
-  double share = 1;
+  double share = share_to_one_kink(kinks_, t, h);
   for (const Bends& bends : in_time_) share = std::min(share, bends.share_to_second_bend(t, t + h));
   for (const int l : placed_) share = std::min(share, share_of_effort(system_.loads[l], t, h, start, end));
   for (const Way& way : ways_) {
@@ -248,8 +280,10 @@ double BasicBendWatch<S>::missed_between_samples(double t, double h, const std::
 }
 
 template std::vector<Bends> bends_in_time(const System& system, double from, double to);
+template std::vector<double> kinks_in_time(const System& system, double from, double to);
 template class BasicBendWatch<Planar>;
 PINTLE_IN_SPACE(template std::vector<Bends> bends_in_time(const BasicSystem<Spatial>& system, double from, double to);)
+PINTLE_IN_SPACE(template std::vector<double> kinks_in_time(const BasicSystem<Spatial>& system, double from, double to);)
 PINTLE_IN_SPACE(template class BasicBendWatch<Spatial>;)
 
 }  // namespace pintle

@@ -15,13 +15,18 @@ namespace pintle {
 template <class S>
 std::vector<Bends> bends_in_time(const BasicSystem<S>& system, double from, double to);
 
+/// The kinks and jumps of these functions, ascending, each apart from the next by more than rounding [s].
+template <class S>
+std::vector<double> kinks_in_time(const BasicSystem<S>& system, double from, double to);
+
 template <class S>
 class BasicBendWatch {
  public:
   explicit BasicBendWatch(const BasicSystem<S>& system);
 
   /// The share of a step of h from t that leads to the second bend on the way of a joint, with the motions at its start and its end, or of what a load or a motor does in
-  /// the time up to `t_end`, or over the places that it reads; 1: none passes two. What is shorter than a thousandth of the run may be missed.
+  /// the time up to `t_end`, or over the places that it reads; or to between two kinks in time; 1: none passes two. What is shorter than a thousandth of the run and has no
+  /// kinks may be missed.
   double share_of_step(double t, double h, double t_end, const std::vector<typename S::Motion>& start, const std::vector<typename S::Motion>& end);
   /// What the curve through as many instants as forces are sampled at in a step misses of its loads between them, over the load scale: of loads that are functions of time,
   /// of efforts over the straight way from what they read at the start to what they read at the end, and of friction over that of its speed. theory/time Eq. (3.25).
@@ -61,6 +66,7 @@ class BasicBendWatch {
   const BasicSystem<S>& system_;
   std::vector<Way> ways_;
   std::vector<Bends> in_time_;  // found when they are first asked for
+  std::vector<double> kinks_;   // in time, too
   std::vector<Applied> applied_;
   std::vector<int> placed_;     // loads that are efforts which read places or speeds ...
   std::vector<int> timed_;      // ... and those that read anything

@@ -1,5 +1,7 @@
 #include "joints/curve_gap.h"
 
+#include "base/expression/switching_places.h"
+
 #include <vector>
 
 namespace pintle {
@@ -17,23 +19,15 @@ std::array<GapFunction, 2> gap_and_slip_over(const CurvePoint& nearest, const Pl
 }
 
 std::optional<Corner> corner_between(const Expression& f, double low, double high, double least) {
-  constexpr int kHalves = 50;
   const auto n = static_cast<std::size_t>(f.n_switches());
-  const auto signs = [&](double at) {
-    std::vector<double> value(n);
-    f.evaluate_switching_functions(std::array{at}, value.data());
-    return value;
-  };
-  const std::vector<double> at_low = signs(low), at_high = signs(high);
+  std::vector<double> at_low(n), at_high(n);
+  f.evaluate_switching_functions(std::array{low}, at_low.data());
+  f.evaluate_switching_functions(std::array{high}, at_high.data());
   for (std::size_t k = 0; k < n; ++k) {
     if ((at_low[k] > 0) == (at_high[k] > 0)) continue;
-    double a = low, b = high;
-    for (int i = 0; i < kHalves; ++i) {
-      const double middle = 0.5 * (a + b);
-      ((signs(middle)[k] > 0) == (at_low[k] > 0) ? a : b) = middle;
-    }
+    const auto [before, behind] = around_switch(f, k, low, high);
     const auto slope = [&](double at) { return f.second_order(std::array{at}, 0)[1]; };
-    if (const Corner corner{a, slope(a), slope(b)}; std::abs(corner.slope_behind - corner.slope_before) > least) return corner;
+    if (const Corner corner{before, slope(before), slope(behind)}; std::abs(corner.slope_behind - corner.slope_before) > least) return corner;
   }
   return {};
 }

@@ -66,12 +66,13 @@ double nearest_by_sampling(const Curve& curve, const Point& point, const Planar:
   return 0.5 * (before + behind);
 }
 
-/// The least radius of curvature of a curve's hollow parts between two parameters [m], looked at the ends of so many parts: what is nearer to the curve has one nearest point,
+/// The least radius of curvature of a curve's hollow parts between two parameters [m]: what is nearer to the curve has one nearest point,
 /// which Newton's method finds; further away there may be another one that is nearer. Infinite where nothing is hollow.
 template <class Curve>
-double least_hollow_radius(const Curve& curve, double low, double high, int parts = 720) {
+double least_hollow_radius(const Curve& curve, double low, double high) {
+  constexpr int kPoints = 720;
   double most = 0;
-  for (int i = 0; i <= parts; ++i) most = std::max(most, -curve(low + (high - low) * i / parts).curvature());
+  for (int i = 0; i <= kPoints; ++i) most = std::max(most, -curve(low + (high - low) * i / kPoints).curvature());
   return 1 / most;
 }
 

@@ -2,13 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "base/expression/switching_places.h"
 
 namespace pintle {
 namespace {
 
-constexpr int kPoints = 4000;      // parts of the stretch, at whose ends it is looked at. With 720 a wheel passes a dip of 1/500 of the stretch unseen
+constexpr int kPoints = 720;       // of a way, that are looked at
 constexpr double kSmooth = 1e-3;  // change of slope that rounded numbers may make [-]
+
+// Where an edge is looked at, ascending: at the ends of equal parts, and within each piece between kinks of its height, which may be shorter.
+std::vector<double> places_looked_at(const Edge& edge) {
+  constexpr int kParts = 2000, kOfPiece = 16;
+  constexpr std::size_t kMostPieces = 200;  // of more, as of a measured road, the ends of parts tell enough
+  std::vector<double> places, kinks = switching_places(edge.height, edge.from, edge.to, kPoints, kMostPieces);
+  for (int i = 0; i <= kParts; ++i) places.push_back(edge.from + (edge.to - edge.from) * i / kParts);
+  for (std::size_t k = 1; k < kinks.size() && kinks.size() <= kMostPieces; ++k)
+    for (int i = 0; i < kOfPiece; ++i) places.push_back(kinks[k - 1] + (kinks[k] - kinks[k - 1]) * (i + 0.5) / kOfPiece);
+  std::sort(places.begin(), places.end());
+  return places;
+}
 
 }  // namespace
 
@@ -17,7 +33,18 @@ CurvePoint EdgeProfile::at(double x) const {
   return {{x, h}, {-1, -slope}, {0, bend}};
 }
 
-EdgeProfile::EdgeProfile(const Edge& edge) : edge_(edge), hollow_(least_hollow_radius([this](double u) { return at(-u); }, -edge.to, -edge.from, kPoints)), bends_(find_bends([this](double x) { return at(x).dd[1]; }, edge.from, edge.to, kPoints)) {}
+EdgeProfile::EdgeProfile(const Edge& edge) : edge_(edge) {
+  const std::vector<double> places = places_looked_at(edge);
+  std::vector<double> bend;
+  double most_hollow = 0;
+  for (const double x : places) {
+    const CurvePoint point = at(x);
+    bend.push_back(point.dd[1]);
+    most_hollow = std::max(most_hollow, -point.curvature());
+  }
+  hollow_ = 1 / most_hollow;
+  for_each_bend([&](std::size_t i) { return bend[i]; }, bend.size(), 0, [&](std::size_t i) { bends_.places.push_back(0.5 * (places[i - 1] + places[i])); });
+}
 
 // What is no further from c than `way` is within this way along the line.
 double EdgeProfile::nearest(const Planar::Point& c) const {
@@ -51,9 +78,11 @@ std::string EdgeProfile::fault() const {
     if (i > 0 && !edge_.height.is_constant())
       if (const auto corner = corner_between(edge_.height, x - apart, x, kSmooth))
         return fmt::format("the edge has a corner at {:.4g} m: its slope jumps from {:.4g} to {:.4g}", corner->at, corner->slope_before, corner->slope_behind);
-    if (const double curvature = here.curvature(); curvature * edge_.roller_radius < -1)
-      return fmt::format("at {:.4g} m the edge is more hollow (radius of curvature {:.4g} m) than the roller is round: it would touch in two places", x, -1 / curvature);
   }
+  if (!(hollow_ < edge_.roller_radius)) return {};
+  for (const double x : places_looked_at(edge_))
+    if (const double curvature = at(x).curvature(); curvature * edge_.roller_radius < -1)
+      return fmt::format("at {:.4g} m the edge is more hollow (radius of curvature {:.4g} m) than the roller is round: it would touch in two places", x, -1 / curvature);
   return {};
 }
 

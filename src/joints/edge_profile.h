@@ -31,7 +31,7 @@ class EdgeProfile {
 
  private:
   Edge edge_;
-  double hollow_;  // the least radius of curvature of hollow parts from from() to to() [m]
+  double hollow_ = 0;  // the least radius of curvature of hollow parts from from() to to() [m]
   Bends bends_;
 };
 

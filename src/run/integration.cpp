@@ -48,10 +48,10 @@ LoadSampling load_sampling(const MethodChoice& choice, double tolerance, double 
   return {choice.method == "radau" ? CurveGrid::kMost : 3};
 }
 
-// Where steps end that could pass a blow, or a jump of what drives them.
+// Where steps end that could pass a blow, or a kink or a jump of what drives them.
 template <class S>
 std::vector<double> stops_at_bends(const BasicSystem<S>& system, double from, double to) {
-  std::vector<double> stops;
+  std::vector<double> stops = kinks_in_time(system, from, to);
   for (const Bends& bends : bends_in_time(system, from, to)) stops.insert(stops.end(), bends.places.begin(), bends.places.end());
   std::sort(stops.begin(), stops.end());
   return stops;

@@ -1,6 +1,10 @@
 // Expressions with one of their jumps held on a ramp.
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cmath>
+#include <optional>
+#include <vector>
 
 #include "base/expression/expression_run.h"
 
@@ -20,7 +24,36 @@ double on_side(Op op, int side) {
   return arity(op) == 1 ? apply(op, margin) : apply(op, margin, 0.0);
 }
 
+// The argument of the table at instruction `call`.
+double argument_at(const Expression::Program& program, std::size_t call, double x) {
+  double argument = 0;
+  run_at(program, std::array{x}, [&](std::size_t i, std::span<const double> operands, double&) {
+    if (i == call) argument = operands[0];
+  });
+  return argument;
+}
+
 }  // namespace
+
+std::optional<std::vector<double>> Expression::kinks_of_table(std::size_t k, double low, double high, std::size_t most) const {
+  if (!program_ || variables_.size() != 1) return {};
+  constexpr double kStraight = 1e-12;  // of the arguments: rounding
+  std::size_t call = 0;
+  for (std::size_t before = 0; call < program_->code.size(); before += static_cast<std::size_t>(program_->n_switches(program_->code[call++])))
+    if (before == k && program_->n_switches(program_->code[call]) > 0) break;
+  if (call == program_->code.size() || program_->code[call].op != Op::kTable) return {};
+  const double at_low = argument_at(*program_, call, low), at_high = argument_at(*program_, call, high), slope = (at_high - at_low) / (high - low);
+  for (const double part : {0.3, 0.7}) {
+    const double off = argument_at(*program_, call, low + part * (high - low)) - (at_low + part * (at_high - at_low));
+    if (!(std::abs(off) <= kStraight * std::max(std::abs(at_low), std::abs(at_high)))) return {};
+  }
+  if (slope == 0) return std::vector<double>{};
+  auto places = program_->tables[program_->code[call].index]->kinks_between(std::min(at_low, at_high), std::max(at_low, at_high), most);
+  if (!places) return {};
+  for (double& place : *places) place = low + (place - at_low) / slope;
+  if (slope < 0) std::reverse(places->begin(), places->end());
+  return places;
+}
 
 double Expression::margin(std::size_t jump, std::span<const double> values) const {
   double margin = 0;

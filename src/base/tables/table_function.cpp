@@ -110,4 +110,16 @@ double TableFunction::switching(double x) const {
   return odd ? -distance : distance;
 }
 
+std::optional<std::vector<double>> TableFunction::kinks_between(double low, double high, std::size_t most) const {
+  std::vector<double> all;
+  if (kinks_.empty()) return all;
+  const double first = period_ ? std::floor((low - kinks_.front()) / *period_) : 0, last = period_ ? std::floor((high - kinks_.front()) / *period_) : 0;
+  if ((last - first + 1) * static_cast<double>(kinks_.size()) > static_cast<double>(most) + 2 * static_cast<double>(kinks_.size())) return {};
+  for (double turn = first; turn <= last; ++turn)
+    for (const double kink : kinks_)
+      if (const double at = period_ ? kink + turn * *period_ : kink; at > low && at < high) all.push_back(at);
+  if (all.size() > most) return {};
+  return all;
+}
+
 }  // namespace pintle

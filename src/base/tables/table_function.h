@@ -29,6 +29,8 @@ class TableFunction {
 
   /// Whether there are places at which the slope jumps, or the curvature by much. theory/tables section 3
   bool has_kinks() const { return !kinks_.empty(); }
+  /// Those between two places, ascending; none where there are more than `most`.
+  std::optional<std::vector<double>> kinks_between(double low, double high, std::size_t most) const;
   /// A number that changes its sign at each of them, with a slope of 1 or -1 there.
   double switching(double x) const;
 
