@@ -331,7 +331,7 @@ class Passes {
     for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
     const BasicLeastError<S> least{least_error(), fine_ringing_, fine_tolerance_};
     if (!difference_.force.empty() && !chaotic) state_errors(system_, difference_, share_, least, out_.joints);
-    if (chaotic) promise_until_horizons(system_, coarse_->forces(), fine_->forces(), share_, kPromised * settings_.tolerance, least, chaos_, out_);
+    if (chaotic) promise_until_horizons(system_, *coarse_, *fine_, share_, kPromised * settings_.tolerance, least, chaos_, out_);
   }
 
   // Passes are made until errors are small beside the forces in the rows, and a small part of the peaks between them: an impact between rows shows its error there little. What is stated in the
@@ -343,7 +343,7 @@ class Passes {
     if (!out_.of_motion) error_ = share_ * largest_of(relative_difference_);
   }
 
-  // With what each joint has lost since its event before.
+  // With what each joint has lost since its event before. Where surfaces stick, their spring is given what friction has stored, which is lost again when they slip.
   void fill_events() {
     std::vector<JointEvents> of_joint(system_.joints.size());
     const std::vector<double>& heat = fine_->heat_at_crossings();
@@ -353,14 +353,17 @@ class Passes {
       const LawCrossing& crossing = last_.crossings[i];
       const auto j = static_cast<std::size_t>(crossing.joint);
       JointEvent event{crossing.t, system_.joints[j].law.parts()[static_cast<std::size_t>(crossing.part)]->border_name(crossing.border, crossing.rising), crossing.seen};
-      if (with_heat) event.values.push_back(heat[i] - std::exchange(lost[j], heat[i]));
+      if (with_heat) {
+        event.values.push_back(std::max(0.0, heat[i] - lost[j]));
+        lost[j] = std::max(lost[j], heat[i]);
+      }
       of_joint[j].events.push_back(std::move(event));
     }
     for (std::size_t j = 0; j < of_joint.size(); ++j) {
       if (of_joint[j].events.empty()) continue;
       of_joint[j].joint = system_.joints[j].name;
       for (const LawColumn& column : system_.joints[j].law.columns()) of_joint[j].columns.push_back({column.name, column.unit, column.meaning});
-      if (with_heat) of_joint[j].columns.push_back({"heat", "J", "what the joint has turned into heat since its event before"});
+      if (with_heat) of_joint[j].columns.push_back({"heat", "J", "what the joint has turned into heat since its event before; of surfaces that stick, what their springs do not give back"});
       out_.events.push_back(std::move(of_joint[j]));
     }
   }

@@ -227,6 +227,15 @@ bool take_points(ModelReading& reading, const KeyInfo& key, const LawInfo& law, 
   return true;
 }
 
+// [defaults.joint] takes what some law allows.
+void check_default(ModelReading& reading, const KeyInfo& key, const JointTypeInfo& type, const LawInfo& law, const std::string& joint, const Record& defaults, const Value& value) {
+  if (!key.words.empty() || !key.points.empty()) return;
+  for (const double number : value.numbers)
+    if (const std::string problem = range_problem(number, spec_of(key, &type)); !problem.empty())
+      reading.complaints.add(defaults.spot(key.key), "defaults.joint." + std::string(key.key), fmt::format("{:.6g}", number), fmt::format("for the law {} of {} {}", law.word, joint, problem),
+                             fmt::format("a value that all joints can have, or {} in {}", key.key, joint));
+}
+
 // `stated_joint` is the joint's table: a key in it that has no value was complained about.
 void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& law, const Record& record, const Node& stated_joint,
               const Record& defaults, const Joint& joint, LawChoice& choice) {
@@ -242,6 +251,7 @@ void read_law(ModelReading& reading, const JointTypeInfo& type, const LawInfo& l
                              "delete it");
     }
     const Value* value = stated || !defaults.states(key.key) ? record.find(key.key) : defaults.find(key.key);
+    if (value != nullptr && !stated && defaults.states(key.key)) check_default(reading, key, type, law, record.path, defaults, *value);
     if (!key.points.empty()) {
       if (value != nullptr && !take_points(reading, key, law, record, *value, choice)) complete = false;
     } else if (value != nullptr) choice.values[std::string(key.key)] = numbers_of(key, *value);

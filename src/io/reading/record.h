@@ -98,4 +98,7 @@ class RecordReader {
   const TableSpec* table_ = nullptr;  ///< the table that is being read
 };
 
+/// Why a key cannot have this number; "" if it can.
+std::string range_problem(double number, const KeySpec& spec);
+
 }  // namespace pintle

@@ -41,18 +41,6 @@ std::string short_number(double number) {
   return fmt::format("{}", number);
 }
 
-std::string range_problem(double number, const KeySpec& spec) {
-  const std::string unit = spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit;
-  const bool feeds = spec.key.find("damping") != std::string::npos || spec.key.find("stiffness") != std::string::npos;
-  if (feeds && number < 0 && spec.minimum) return "a negative " + spec.key + " feeds energy into the mechanism";
-  if (spec.minimum && spec.minimum_exclusive && number <= *spec.minimum) {
-    return "this must be greater than " + short_number(*spec.minimum) + unit;
-  }
-  if (spec.minimum && number < *spec.minimum) return "this must be at least " + short_number(*spec.minimum) + unit;
-  if (spec.maximum && number > *spec.maximum) return "this must be at most " + short_number(*spec.maximum) + unit;
-  return {};
-}
-
 std::string range_example(double number, const KeySpec& spec) {
   const bool needs_positive = spec.minimum && *spec.minimum == 0 && number <= 0;
   const std::string unit = spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit;
@@ -91,6 +79,18 @@ bool is_speed_in_hertz(const Node& node, const KeySpec& spec) {
 }
 
 }  // namespace
+
+std::string range_problem(double number, const KeySpec& spec) {
+  const std::string unit = spec.unit.empty() || spec.unit == "any" ? "" : " " + spec.unit;
+  const bool feeds = spec.key.find("damping") != std::string::npos || spec.key.find("stiffness") != std::string::npos;
+  if (feeds && number < 0 && spec.minimum) return "a negative " + spec.key + " feeds energy into the mechanism";
+  if (spec.minimum && spec.minimum_exclusive && number <= *spec.minimum) {
+    return "this must be greater than " + short_number(*spec.minimum) + unit;
+  }
+  if (spec.minimum && number < *spec.minimum) return "this must be at least " + short_number(*spec.minimum) + unit;
+  if (spec.maximum && number > *spec.maximum) return "this must be at most " + short_number(*spec.maximum) + unit;
+  return {};
+}
 
 void RecordReader::complain(const ParseProblem& problem, const Node& node, const std::string& path) {
   const Spot spot = complaints_.document().inside(node, problem.offset);

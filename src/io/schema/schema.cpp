@@ -135,12 +135,27 @@ TableSpec read_table(const Table& table) {
   return spec;
 }
 
+// Laws may allow different ranges of one key; each law's own is asked where it takes the value.
+void widen(KeySpec& key, const KeySpec& other) {
+  if (!key.minimum) return;
+  if (!other.minimum || *other.minimum < *key.minimum) {
+    key.minimum = other.minimum;
+    key.minimum_exclusive = other.minimum_exclusive;
+  } else if (*other.minimum == *key.minimum) {
+    key.minimum_exclusive = key.minimum_exclusive && other.minimum_exclusive;
+  }
+}
+
 void add_law_keys(TableSpec& table, const JointTypeInfo* type, const std::array<std::string_view, 4>& words) {
   const bool all = words.front().empty();
   for (const LawInfo& info : law_catalog()) {
     if (!all && std::find(words.begin(), words.end(), info.word) == words.end()) continue;
     for (const KeyInfo& key : info.keys) {
-      if (table.find(key.key) != nullptr) continue;
+      const auto known = std::find_if(table.keys.begin(), table.keys.end(), [&key](const KeySpec& spec) { return spec.key == key.key; });
+      if (known != table.keys.end()) {
+        if (all) widen(*known, spec_of(key, type));
+        continue;
+      }
       table.keys.push_back(spec_of(key, type));
       if (all) table.keys.back().required = false;  // of one law only
     }

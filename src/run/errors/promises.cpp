@@ -4,18 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pintle {
 namespace {
 
-struct Statistics {
-  double peak = 0, rms = 0, mean = 0;
-};
-
 // Of a joint's force in the rows after `from` [s]; trapezoidal in time.
 template <class S>
-Statistics after(const BasicForceTable<S>& forces, std::size_t joints, std::size_t j, double from) {
-  Statistics out;
+LoadStatistics of_rows(const BasicForceTable<S>& forces, std::size_t joints, std::size_t j, double from) {
+  LoadStatistics out;
   double span = 0;
   for (std::size_t i = 1; i < forces.t.size(); ++i) {
     if (forces.t[i] <= from) continue;
@@ -32,22 +29,33 @@ Statistics after(const BasicForceTable<S>& forces, std::size_t joints, std::size
   return out;
 }
 
+// What rows miss of a blow between them, those before and behind a horizon miss alike; the peak of the run is known.
+template <class S>
+LoadStatistics after(const BasicForceRecorder<S>& pass, std::size_t joints, std::size_t j, double from) {
+  LoadStatistics out = of_rows(pass.forces(), joints, j, from);
+  const LoadStatistics rows = of_rows(pass.forces(), joints, j, -std::numeric_limits<double>::infinity()), run = pass.loads().force(static_cast<int>(j));
+  if (run.peak_time > from) out.peak = std::max(out.peak, run.peak);
+  if (rows.mean > 0) out.mean *= run.mean / rows.mean;
+  if (rows.rms > 0) out.rms *= run.rms / rows.rms;
+  return out;
+}
+
 }  // namespace
 
 template <class S>
-void promise_until_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double within, const BasicLeastError<S>& least, const ErrorGrowth& growth, Trajectory& out) {
+void promise_until_horizons(const BasicSystem<S>& system, const BasicForceRecorder<S>& coarse, const BasicForceRecorder<S>& fine, double share, double within, const BasicLeastError<S>& least, const ErrorGrowth& growth, Trajectory& out) {
   const std::size_t joints = system.joints.size();
-  std::vector<double> horizons = force_horizons(system, coarse, fine, share, within);
-  if (out.of_motion) horizons.assign(joints, curve_horizon(motion_difference_curve(system, coarse, fine), within));
+  std::vector<double> horizons = force_horizons(system, coarse.forces(), fine.forces(), share, within);
+  if (out.of_motion) horizons.assign(joints, curve_horizon(motion_difference_curve(system, coarse.forces(), fine.forces()), within));
   out.growth = {growth.rate, growth.rate_error, out.t_end};
-  state_errors_until(system, coarse, fine, horizons, share, least, out.joints);
+  state_errors_until(system, coarse.forces(), fine.forces(), horizons, share, least, out.joints);
   const LoadSummary* earliest = nullptr;
   std::size_t row = 0;
   for (std::size_t j = 0; j < joints; ++j) {
     if (system.joints[j].servo >= 0) continue;
     LoadSummary& joint = out.joints[row++];
     joint.horizon = horizons[j];
-    const Statistics now = after(fine, joints, j, joint.horizon), other = after(coarse, joints, j, joint.horizon);
+    const LoadStatistics now = after(fine, joints, j, joint.horizon), other = after(coarse, joints, j, joint.horizon);
     joint.peak_after = now.peak;
     joint.rms_after = now.rms;
     joint.mean_after = now.mean;
@@ -63,7 +71,7 @@ void promise_until_horizons(const BasicSystem<S>& system, const BasicForceTable<
       out.growth.horizon, earliest != nullptr ? " (joint " + earliest->name + ")" : "", 1 / growth.rate, growth.rate, growth.rate_error, least.tolerance);
 }
 
-template void promise_until_horizons(const BasicSystem<Planar>& system, const BasicForceTable<Planar>& coarse, const BasicForceTable<Planar>& fine, double share, double within, const BasicLeastError<Planar>& least, const ErrorGrowth& growth, Trajectory& out);
-PINTLE_IN_SPACE(template void promise_until_horizons(const BasicSystem<Spatial>& system, const BasicForceTable<Spatial>& coarse, const BasicForceTable<Spatial>& fine, double share, double within, const BasicLeastError<Spatial>& least, const ErrorGrowth& growth, Trajectory& out);)
+template void promise_until_horizons(const BasicSystem<Planar>& system, const BasicForceRecorder<Planar>& coarse, const BasicForceRecorder<Planar>& fine, double share, double within, const BasicLeastError<Planar>& least, const ErrorGrowth& growth, Trajectory& out);
+PINTLE_IN_SPACE(template void promise_until_horizons(const BasicSystem<Spatial>& system, const BasicForceRecorder<Spatial>& coarse, const BasicForceRecorder<Spatial>& fine, double share, double within, const BasicLeastError<Spatial>& least, const ErrorGrowth& growth, Trajectory& out);)
 
 }  // namespace pintle

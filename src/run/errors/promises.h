@@ -4,6 +4,7 @@
 #include "pintle/trajectory.h"
 #include "run/errors/error_growth.h"
 #include "run/errors/stated_error.h"
+#include "run/record/force_recorder.h"
 
 namespace pintle {
 
@@ -11,6 +12,6 @@ namespace pintle {
 /// `within` what it times the difference may be [-], `least` what errors are at least, with the smallest
 /// tolerance that a pass had.
 template <class S>
-void promise_until_horizons(const BasicSystem<S>& system, const BasicForceTable<S>& coarse, const BasicForceTable<S>& fine, double share, double within, const BasicLeastError<S>& least, const ErrorGrowth& growth, Trajectory& out);
+void promise_until_horizons(const BasicSystem<S>& system, const BasicForceRecorder<S>& coarse, const BasicForceRecorder<S>& fine, double share, double within, const BasicLeastError<S>& least, const ErrorGrowth& growth, Trajectory& out);
 
 }  // namespace pintle
