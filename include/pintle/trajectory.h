@@ -32,7 +32,7 @@ struct LoadSummary {
   double moment_error_estimate = 0;    ///< largest error of the couple [N*m]
   double relative_error_estimate = 0;  ///< the larger of the two, each over the joint's peak, or over 1e-4 of the mechanism's largest where that is more [-]; without the couple of a pin that rubs
   double horizon = 0;                  ///< last time up to which the force is promised [s]; the error estimates are of the rows up to it
-  double peak_after = 0, rms_after = 0, mean_after = 0;  ///< where the motion goes on beyond the horizon: statistics of its rest, of the rows [N]
+  double peak_after = 0, rms_after = 0, mean_after = 0;  ///< where the motion goes on beyond the horizon: statistics of its rest [N]
   double peak_scatter = 0, rms_scatter = 0, mean_scatter = 0;  ///< and how far two motions that agree up to the horizon differ in them [N]
   bool unique = true;                  ///< false: redundant ideal constraints leave its force undetermined; one of many is given
 };

@@ -52,7 +52,7 @@ void add_duty(const PinDuty& duty, double time, BearingSummary& out) {
 }
 
 // ISO 281. Equations (2.1) to (2.4).
-void add_life(const Bearing& bearing, const PinDuty& duty, BearingSummary& out) {
+void add_life(const Bearing& bearing, const PinDuty& duty, double relative_scatter, BearingSummary& out) {
   const double exponent = life_exponent(bearing);
   if (std::isnan(exponent)) return;
   if (!(out.path > 0)) {
@@ -60,7 +60,7 @@ void add_life(const Bearing& bearing, const PinDuty& duty, BearingSummary& out) 
     return;
   }
   out.equivalent_load = std::pow((exponent == 3 ? duty.load_3 : duty.load_10_3) / out.path, 1 / exponent);
-  out.equivalent_load_error = out.force_error;
+  out.equivalent_load_error = std::max(out.force_error, relative_scatter * out.equivalent_load);
   if (bearing.fatigue_load_limit) out.fatigue_ratio = *bearing.fatigue_load_limit / out.equivalent_load;
   if (!bearing.dynamic_load_rating || !(out.equivalent_load > 0)) return;
   const double rating = *bearing.dynamic_load_rating;
@@ -153,6 +153,13 @@ std::vector<std::string> missing_sizes(const Bearing& bearing) {
   return wants;
 }
 
+// How far the forces of a chaotic motion may be others behind its horizon, over what they are; 0: they are promised to the end.
+double relative_scatter(const LoadSummary& load, const Trajectory& run) {
+  if (run.outcome != Outcome::kHorizon || !(load.horizon < run.t_end)) return 0;
+  const auto relative = [](double scatter, double of) { return of > 0 ? scatter / of : 0; };
+  return std::max(relative(load.rms_scatter, load.rms_after), relative(load.mean_scatter, load.mean_after));
+}
+
 BearingSummary summary_of(const Joint& joint, const LoadSummary& load, const Trajectory& run, const NamedParts& parts) {
   const Bearing bearing = bearing_of(joint);
   BearingSummary out;
@@ -160,12 +167,13 @@ BearingSummary summary_of(const Joint& joint, const LoadSummary& load, const Tra
   out.mean_force = load.mean;
   out.peak_force = load.peak;
   out.force_error = load.error_estimate;
-  if (run.outcome == Outcome::kHorizon && load.horizon < run.t_end)
-    out.remarks.push_back(fmt::format("the motion is chaotic: the stated error is of the force up to t = {:.5g} s", load.horizon));
+  const double scatter = relative_scatter(load, run);
+  if (scatter > 0)
+    out.remarks.push_back(fmt::format("the motion is chaotic: forces are promised up to t = {:.5g} s, and the errors of P and of the life are how far two motions differ that agree so long", load.horizon));
   const PinDuty* duty = parts.duty(load.name);
   if (duty != nullptr) {
     add_duty(*duty, run.t_end, out);
-    add_life(bearing, *duty, out);
+    add_life(bearing, *duty, scatter, out);
   } else {
     out.path = out.swing = out.mean_speed = out.peak_speed = kNone;
     out.remarks.push_back("this run does not tell how far it turns under which load: run it again");
