@@ -272,5 +272,12 @@ TEST(Belts, BetweenDiscsOfNearlyEqualRadiiCarryTheirPretension) {
   EXPECT_THROW(alike_discs(9e-3), InputError);
 }
 
+// A stretch of more than a tenth of a turn was taken for slack without a word.
+TEST(Belts, AStretchThatIsTakenForSlackEndsTheRun) {
+  const Trajectory run = simulate(reference::test_model("yarn_on_a_sprung_bobbin"));
+  EXPECT_EQ(run.outcome, Outcome::kEnergyOpen);
+  EXPECT_NE(run.message.find("joint yarn was stretched by 0.01"), std::string::npos) << run.message;
+}
+
 }  // namespace
 }  // namespace pintle

@@ -178,5 +178,19 @@ TEST(ContactStiction, RefusesAStaticCoefficientBelowTheKineticOne) {
   EXPECT_THROW(on_slope(0.1, 0.05, "static_friction = 0.3"), InputError);  // what slips would not rub
 }
 
+// Surfaces that overlap with nothing that presses them, because their damping holds them back, do not rub whichever way they slip.
+TEST(ContactStiction, NothingSticksWhereNothingPresses) {
+  const Trajectory run = completed(reference::test_model("foot_on_a_shaking_plate"));
+  int unpressed = 0;
+  for (std::size_t row = 0; row < run.n_rows(); ++row) {
+    const double normal = value(run, row, "joint.floor.contact_force"), friction = std::abs(value(run, row, "joint.floor.on_f.f1[joint]"));
+    EXPECT_LE(friction, 0.6 * normal + 1e-9) << "row " << row;
+    unpressed += normal == 0 && value(run, row, "joint.floor.penetration") > 0 ? 1 : 0;
+    if (normal == 0) EXPECT_EQ(value(run, row, "joint.floor.stuck"), 0) << "row " << row;
+  }
+  EXPECT_GT(unpressed, 50);
+  for (const JointEvent& event : run.events.at(0).events) EXPECT_GE(event.values.back(), 0) << event.what << ' ' << event.t;  // heat
+}
+
 }  // namespace
 }  // namespace pintle

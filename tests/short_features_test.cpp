@@ -312,5 +312,58 @@ force = ["50 N + 2000 N/s*max(t - 0.1 s, 0 s)", 0]
     }
 }
 
+// Its points are known, however short they lie beside each other: a shock in a record of 20 s, and as many pulses as a periodic table has.
+TEST(ShortFeatures, PointsOfATableOfTime) {
+  const auto beam = [](const std::string& table, const std::string& more) {
+    return parse_model(R"toml(
+format = 1
+[table.shock]
+)toml" + table + R"toml(
+[ground.markers]
+p = [0, 0]
+[body.beam]
+mass = "100 kg"
+inertia = "20 kg*m^2"
+position = ["0.5 m", 0]
+angle = 0
+hold = ["angle"]
+markers.p = ["-0.5 m", 0]
+markers.e = ["0.5 m", 0]
+[joint.pin]
+type = "revolute"
+between = ["ground.p", "beam.p"]
+[torsion_spring.s]
+between = ["ground.p", "beam.p"]
+stiffness = "2e5 N*m/rad"
+damping = "500 N*m*s/rad"
+[force.f]
+on = "beam.e"
+force = [0, "shock(t)"]
+[simulate]
+)toml" + more,
+                       "shock.toml");
+  };
+  const std::string record = "x = [0, 9.1315, 9.134, 9.1365, 20]\nx_unit = \"s\"\ny = [0, 0, 80, 0, 0]\ny_unit = \"kN\"";
+  Model once = beam(record, "duration = \"20 s\"");
+  const double alone = reference::completed(once).joints.at(0).peak;
+  once.simulate.max_step = 1e-3;
+  EXPECT_NEAR(alone, reference::completed(once).joints.at(0).peak, 2e-5 * alone);
+  EXPECT_GT(alone, 16000);
+  const std::string pulses = "x = [0, 0.0299, 0.03, 0.0301, 0.04]\nx_unit = \"s\"\ny = [0, 0, 8, 0, 0]\ny_unit = \"kN\"\nperiod = \"0.04 s\"";
+  Model often = beam(pulses, "duration = \"4 s\"");
+  const Trajectory run = reference::completed(often);
+  often.simulate.duration = 1;
+  EXPECT_NEAR(run.joints.at(0).peak, reference::completed(often).joints.at(0).peak, 2e-5 * run.joints.at(0).peak);
+  EXPECT_GT(run.joints.at(0).peak, 2000);
+}
+
+// The ends of a smoothstep are known in the same way: a dip of 120 mm in 61.5 m of rail.
+TEST(ShortFeatures, PiecesOfAnEdge) {
+  Model model = reference::test_model("wheel_over_a_dip");
+  EXPECT_NEAR(reference::completed(model).joints.at(2).peak, 578006, 6);
+  model.simulate.duration = 2.3;
+  EXPECT_NEAR(reference::completed(model).joints.at(2).peak, 578006, 6);
+}
+
 }  // namespace
 }  // namespace pintle

@@ -218,5 +218,22 @@ TEST(Starts, MotorsThatContradictEachOtherAreNamed) {
   EXPECT_EQ(notes_of(model).find("drive a mechanism"), std::string::npos);
 }
 
+// A soft thread that is to carry the inertia of its lever from the first instant on would turn this lever twice.
+TEST(Starts, APreloadTurnsNoBodyManyTimes) {
+  const Trajectory run = completed(test_model("check_spring_lever"));
+  EXPECT_NEAR(value(run, 0, "body.lever.angle"), 0, 1e-3);
+  EXPECT_NEAR(run.joints.at(2).peak, 3.4713, 0.03) << run.joints.at(2).name;  // of ideal joints
+}
+
+// The reaction of a rod that slides on its tip is that of the friction of its slip: m g/(1 + 3 cos^2 + 3 mu sin cos).
+TEST(Starts, ATipThatSlidesRubsFromTheStartOn) {
+  for (const double friction : {0.0, 0.2, 0.5}) {
+    const Trajectory run = completed(test_model("rod_that_slides_on_its_tip", {"joint.floor.friction_coefficient=" + std::to_string(friction)}));
+    const double s = std::sin(kTurn / 6), c = std::cos(kTurn / 6), expected = kStandardGravity / (1 + 3 * c * c + 3 * friction * s * c);
+    EXPECT_NEAR(value(run, 0, "joint.floor.contact_force"), expected, 2e-3 * expected) << friction;
+    EXPECT_LT(run.joints.at(0).peak, 1.05 * expected * std::hypot(1, friction)) << friction;
+  }
+}
+
 }  // namespace
 }  // namespace pintle

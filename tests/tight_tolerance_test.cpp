@@ -78,5 +78,27 @@ TEST(TightTolerance, AStrutPressesOnItsStopInFewSteps) {
   }
 }
 
+// The guide of a mass at its own centre carries a couple of a millionth of a newton metre, below what the rounding of a hundred radians makes of its stiffness.
+TEST(TightTolerance, CouplesOfRoundingTakeNoSteps) {
+  Model model = reference::test_model("mass_in_a_turning_guide");
+  for (const double tolerance : {1e-5, 1e-6, 1e-7}) {
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = reference::completed(model);
+    EXPECT_LT(run.counters.steps + run.counters.rejected, 15000u) << tolerance;
+    EXPECT_NEAR(run.joints.at(1).peak, 40.3529, 1e-3) << tolerance;  // 2 m w A W of the mass on its spring
+  }
+}
+
+// A shoe that is pressed onto its drum by a force that grows from nothing. Steady, its friction brakes the drum with 34.286 N m.
+TEST(TightTolerance, ABodyWithoutLoadIsNotMeasuredByIts) {
+  Model model = reference::test_model("shoe_on_a_drum");
+  for (const double tolerance : {1e-3, 1e-5}) {
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = reference::completed(model);
+    EXPECT_LT(run.counters.steps + run.counters.rejected, 40000u) << tolerance;
+    EXPECT_NEAR(reference::value(run, 400, "body.drum.spin") - reference::value(run, 300, "body.drum.spin"), -0.1 * 34.286 / 0.4, 0.01) << tolerance;
+  }
+}
+
 }  // namespace
 }  // namespace pintle

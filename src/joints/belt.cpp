@@ -49,4 +49,9 @@ bool has_lost_a_turn(const JointDisplacement& displacement, double before, doubl
   return belt && before < 0 && after - before > 0.5 * belt->wound_per_turn();
 }
 
+bool has_gained_a_turn(const JointDisplacement& displacement, double before, double after) {
+  const std::optional<Belt> belt = belt_of(displacement);
+  return belt && before > 0.5 * belt->most_stretch() && before - after > 0.5 * belt->wound_per_turn();
+}
+
 }  // namespace pintle

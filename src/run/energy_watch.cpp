@@ -101,6 +101,11 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicSta
       tightened_ = j;
       tightened_at_ = state.t;
     }
+    if (has_gained_a_turn(system_.joints[j].displacement, gap, state.gap[j][0])) {
+      message_ = fmt::format("joint {} was stretched by {:.4g} m, as far as a stretch is told from slack, and is taken for slack at t = {:.6g} s. State its `stretch` as assembled, of which three times are followed up to half of what a turn winds; or give it more stiffness, or its disc a larger radius",
+                             system_.joints[j].name, gap, state.t);
+      return Alarm::kOpen;
+    }
     gap = state.gap[j][0];
   }
   for (const int j : lengths_)

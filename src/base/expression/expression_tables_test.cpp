@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/expression/expression_parser.h"
+#include "base/expression/switching_places.h"
 #include "base/units.h"
 
 namespace pintle {
@@ -95,6 +96,23 @@ TEST(ExpressionTables, SwitchAtTheirKinks) {
   EXPECT_LT(at(2)[2], 0);
   EXPECT_GT(at(3.1)[2], 0);
   EXPECT_EQ(expression_with_tables("curve(100 rad/s)*x").n_switches(), 0);  // a constant
+}
+
+void expect_places(const std::vector<double>& places, const std::vector<double>& expected) {
+  ASSERT_EQ(places.size(), expected.size());
+  for (std::size_t i = 0; i < places.size(); ++i) EXPECT_NEAR(places[i], expected[i], 1e-12);
+}
+
+// However few parts are looked at; the parabola's sides of `step` lie in different parts, and those of a table of it are looked for alike.
+TEST(ExpressionTables, SwitchingPlacesAreFound) {
+  const Expression straight = expression_with_tables("abs(x - 0.2) + pressure(2*x)/(1 Pa) + bare(x)");
+  expect_places(switching_places(straight, 0.1, 4, 1, 100), {0.2, 0.5, 1, 2, 3, std::numbers::pi, std::numbers::pi + 0.5});
+  expect_places(switching_places(expression_with_tables("pressure(1 - 2*x)/(1 Pa)"), -1, 0.2, 1, 100), {-0.5, 0});
+  expect_places(switching_places(straight, 0.1, 4, 1000, 2), {0.2, 0.5, 1, 2, 3, std::numbers::pi, std::numbers::pi + 0.5});
+  expect_places(switching_places(expression_with_tables("step(x*x - 0.25)"), -1, 1, 8, 100), {-0.5, 0.5});
+  expect_places(switching_places(expression_with_tables("bare(x*x)"), 0.5, 2, 100, 100), {1, std::sqrt(3.0)});
+  EXPECT_TRUE(switching_places(expression_with_tables("sin(x)"), 0, 10, 100, 100).empty());
+  EXPECT_TRUE(switching_places(expression_with_tables("bare(0.2)*x"), 0, 10, 100, 100).empty());
 }
 
 TEST(ExpressionTables, HaveUnits) {
