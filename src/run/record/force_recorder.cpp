@@ -24,7 +24,7 @@ double largest_angular_stiffness(const BasicSystem<S>& system) {
 template <class S>
 BasicForceRecorder<S>::BasicForceRecorder(const BasicSystem<S>& system, Recorded what)
     : system_(system), what_(what),
-      stuck_joints_(system), lost_equilibria_(system), wound_belts_(system), drive_peaks_(system) {}
+      stuck_joints_(system), lost_equilibria_(system), creeping_contacts_(system), wound_belts_(system), drive_peaks_(system) {}
 
 template <class S>
 void BasicForceRecorder<S>::start(const BasicState<S>& state, const LoadSampling& sampling) {
@@ -56,6 +56,7 @@ void BasicForceRecorder<S>::finish(const BasicStepper<S>& stepper) {
   forces_.rounding_couple = kLastBits * largest_angular_stiffness(system_) * largest_angle<S>(state.q);
   if (state.t > forces_.t.back()) add(state);
   if (what_ == Recorded::kForces) return;
+  creeping_contacts_.see_end(state, forces_.t.front());
   for (int j = 0; j < system_.n_joints(); ++j) heat_.push_back(loads_->heat(j, state));
 }
 
@@ -89,6 +90,7 @@ template <class S>
 void BasicForceRecorder<S>::fill(Trajectory& out) {
   for (std::string& note : stuck_joints_.notes()) out.notes.push_back(std::move(note));
   for (std::string& note : lost_equilibria_.notes()) out.notes.push_back(std::move(note));
+  for (std::string& note : creeping_contacts_.notes()) out.notes.push_back(std::move(note));
   for (std::string& note : wound_belts_.notes()) out.notes.push_back(std::move(note));
   out.joints.clear();
   for (int j = 0; j < system_.n_joints(); ++j) {

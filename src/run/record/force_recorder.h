@@ -10,6 +10,7 @@
 #include "run/record/drive_peaks.h"
 #include "run/record/force_table.h"
 #include "run/record/load_statistics.h"
+#include "run/record/creeping_contacts.h"
 #include "run/record/lost_equilibria.h"
 #include "run/record/stuck_joints.h"
 #include "run/record/wound_belts.h"
@@ -72,6 +73,7 @@ class BasicForceRecorder {
   std::vector<double> heat_, heat_at_crossings_;  // of each joint over the run, and as above [J]
   BasicStuckJoints<S> stuck_joints_;
   BasicLostEquilibria<S> lost_equilibria_;
+  BasicCreepingContacts<S> creeping_contacts_;
   BasicWoundBelts<S> wound_belts_;
   BasicDrivePeaks<S> drive_peaks_;
 };
