@@ -90,8 +90,8 @@ BasicInverseDynamics<S>::BasicInverseDynamics(const BasicSystem<S>& system) : sy
   VecsOf<S> held(system.joints.size(), S::Vec::Ones());
   bool any_drags = false;
   for (int j = 0; j < system.n_joints(); ++j) {
-    const bool drag = drags(system.joints[j]);
-    if (drag || system.joints[j].law.rubs() || system.joints[j].law.rubs_where_it_holds()) rubbing_.push_back(j);
+    const bool drag = drags(system.joints[j]) || system.joints[j].law.rubs_where_it_holds();
+    if (drag || system.joints[j].law.rubs()) rubbing_.push_back(j);
     for (int k = 0; drag && k < S::kDof; ++k)
       if (system.joints[j].free_mask[k] != 0) held[j][k] = 0;
     any_drags = any_drags || drag;
