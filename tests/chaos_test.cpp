@@ -117,5 +117,16 @@ TEST(ChaosSlow, IsNotWhereMotionComesToRest) {
   EXPECT_EQ(run.growth.rate, 0);
 }
 
+// The errors of three balls in a row grow from touch to touch, but fall with the tolerance by more than a chaotic motion's.
+TEST(Chaos, IsNotClaimedWhileErrorsFall) {
+  Model model = reference::test_model("newtons_cradle");
+  for (const double tolerance : {1e-4, 3e-5, 1e-5}) {
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = simulate(model);
+    EXPECT_EQ(run.outcome, Outcome::kCompleted) << tolerance << ": " << run.message;
+    EXPECT_NEAR(run.joints.at(1).peak, 3.98303, 1e-4) << tolerance;
+  }
+}
+
 }  // namespace
 }  // namespace pintle

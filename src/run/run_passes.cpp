@@ -41,6 +41,7 @@ constexpr std::uint64_t kLong = 10000;     // after a pass of so many steps the 
 constexpr double kFinest = 1e-11;          // tolerance down to which passes are made because errors grow exponentially; one more is compared with it
 constexpr double kMostScatter = 0.65;      // of a rate of growth, for chaos to be claimed: that of the double pendulum has 0.56, of a cam whose roller rattles, and whose finer passes agree to the end, 0.75
 constexpr double kOptimism = 2;            // standard errors by which a rate may be smaller before no tolerance is said to help
+constexpr double kFalls = 0.1;             // of the error of passes that have grown apart alike: those whose errors fall so far converge yet. With 0 three balls of a cradle, whose error falls from 9 to 0.4 of the peak with a tenth of the tolerance, are taken for chaotic
 constexpr int kMostOpen = 2;               // passes made finer because the energy account did not close
 
 template <class S>
@@ -183,7 +184,10 @@ class Passes {
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
     relative_difference_ = relative_differences(system_, difference_);
     const double apart = out_.of_motion ? out_.motion_error : largest_of(relative_difference_);
-    if (growth_.exponential && growth_.saturated) last_growth_ = growth_;
+    if (growth_.exponential && growth_.saturated) {
+      last_growth_ = growth_;
+      error_at_last_growth_ = error_;
+    }
     growth_ = {};
     if (apart > kPromised * settings_.tolerance) growth_ = growth_of(coarse, fine);
     if (growth_.exponential && growth_.saturated) take_all(coarse, fine);
@@ -265,7 +269,8 @@ class Passes {
     if (growth_.exponential && growth_.saturated) {
       const double hoped = tolerance_by_growth(growth_.rate - kOptimism * growth_.rate_error, 1);
       const bool hopeless = hoped < kLeastTolerance || tolerance < kFinest;
-      if (same && hopeless) return false;
+      const bool falls = error_ < kFalls * error_at_last_growth_;  // errors of a chaotic motion are as large as they can be, whatever the tolerance
+      if (same && hopeless && !falls) return false;
       if (growth_.to_largest) return at(finer_by_error(tolerance));
       const double next = std::min(kRepeated * tolerance, hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kErrorPower)));
       choose_order(next);
@@ -438,6 +443,7 @@ class Passes {
   bool alike_ = false;             // their steps
   int stages_before_ = 0;          // of the coarser one
   ErrorGrowth growth_, last_growth_;  // and of the pair before that showed chaos: one between may be too short or too jagged to tell
+  double error_at_last_growth_ = 0;  // error_ of those passes
   ErrorGrowth chaos_;              // where two pairs have shown the same exponential growth
   bool doubted_ = false;           // a pass has been made because two were alike
   double longest_ = 0;             // step of passes from now on, because tolerances have not shortened them [s]

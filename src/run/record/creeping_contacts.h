@@ -37,12 +37,18 @@ class BasicCreepingContacts {
     }
   }
   std::vector<std::string> notes() const {
-    std::vector<std::string> notes;
-    for (const Creeping& one : creeping_)
-      notes.push_back(fmt::format("joint {}: at the end {:.2g} of its force is damping, which lets the contact follow its load within {:.2g} s only: what others share with it has not come to it yet. "
-                                  "A contact that is loaded slowly is damped as by an impact at least_approach_speed; a larger one, or a restitution nearer to 1, lets it follow sooner",
-                                  system_.joints[static_cast<std::size_t>(one.joint)].name, one.share, one.within));
-    return notes;
+    if (creeping_.empty()) return {};
+    std::string names;
+    double share = 0, within = 0;
+    for (const Creeping& one : creeping_) {
+      const std::string& name = system_.joints[static_cast<std::size_t>(one.joint)].name;
+      if (names.size() < name.size() || names.substr(names.size() - name.size()) != name) names += (names.empty() ? "" : ", ") + name;
+      share = std::max(share, one.share);
+      within = std::max(within, one.within);
+    }
+    return {fmt::format("contacts that have not come to rest under their load at the end ({}): up to {:.2g} of their force is damping, which lets them follow it within {:.2g} s only, and what others share with them is on its way. "
+                        "A contact that is loaded slowly is damped as by an impact at least_approach_speed; with a larger one, or a restitution nearer to 1, it follows sooner",
+                        names, share, within)};
   }
 
  private:
