@@ -79,9 +79,10 @@ void BasicRadauStepper<S>::start(const BasicState<S>& state, double h) {
 template <class S>
 void BasicRadauStepper<S>::raise_above_rounding() {
   const double far = largest_coordinate(end_.q);
-  const double rounding = kLastBits * largest_stiffness(system_) * far;
+  typename S::Vec rounding = S::Vec::Constant(kLastBits * largest_stiffness(system_) * far);
+  rounding.template tail<S::kDof - S::kDim>() *= far;  // at the mechanism's arms
   for (std::size_t i = 0; i < scale_.body.size(); ++i)
-    if (scale_.body[i][0] <= rounding) raise_load_scale_above_rounding(static_cast<int>(i), S::Vec::Unit(0) * rounding);
+    if (scale_.body[i][0] <= rounding[0]) raise_load_scale_above_rounding(static_cast<int>(i), rounding);
   raise_above_rounding_of_servos();
   if (!system_.has_loads()) return;
   VecsOf<S> of_springs(system_.bodies.size(), S::Vec::Zero());
