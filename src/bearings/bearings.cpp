@@ -153,9 +153,8 @@ std::vector<std::string> missing_sizes(const Bearing& bearing) {
   return wants;
 }
 
-// How far the forces of a chaotic motion may be others behind its horizon, over what they are; 0: they are promised to the end.
-double relative_scatter(const LoadSummary& load, const Trajectory& run) {
-  if (run.outcome != Outcome::kHorizon || !(load.horizon < run.t_end)) return 0;
+// How far the forces of a chaotic motion may be others behind its horizon, over what they are.
+double relative_scatter(const LoadSummary& load) {
   const auto relative = [](double scatter, double of) { return of > 0 ? scatter / of : 0; };
   return std::max(relative(load.rms_scatter, load.rms_after), relative(load.mean_scatter, load.mean_after));
 }
@@ -167,13 +166,13 @@ BearingSummary summary_of(const Joint& joint, const LoadSummary& load, const Tra
   out.mean_force = load.mean;
   out.peak_force = load.peak;
   out.force_error = load.error_estimate;
-  const double scatter = relative_scatter(load, run);
-  if (scatter > 0)
+  const bool chaotic = run.outcome == Outcome::kHorizon && load.horizon < run.t_end;
+  if (chaotic)
     out.remarks.push_back(fmt::format("the motion is chaotic: forces are promised up to t = {:.5g} s, and the errors of P and of the life are how far two motions differ that agree so long", load.horizon));
   const PinDuty* duty = parts.duty(load.name);
   if (duty != nullptr) {
     add_duty(*duty, run.t_end, out);
-    add_life(bearing, *duty, scatter, out);
+    add_life(bearing, *duty, chaotic ? relative_scatter(load) : 0, out);
   } else {
     out.path = out.swing = out.mean_speed = out.peak_speed = kNone;
     out.remarks.push_back("this run does not tell how far it turns under which load: run it again");

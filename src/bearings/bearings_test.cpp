@@ -63,8 +63,19 @@ TEST(Bearings, ChaosIsSaid) {
     PinRun pin(ball(10000), 1000, 100);
     pin.run.outcome = outcome;
     pin.run.t_end = 1;
-    pin.run.joints.front().horizon = horizon;
-    const std::vector<std::string> remarks = pin.summary().remarks;
+    LoadSummary& load = pin.run.joints.front();
+    load.horizon = horizon;
+    load.rms_after = load.mean_after = 100;
+    load.rms_scatter = 20;
+    load.mean_scatter = 10;
+    const BearingSummary summary = pin.summary();
+    const std::vector<std::string>& remarks = summary.remarks;
+    if (said) {
+      EXPECT_NEAR(summary.equivalent_load_error, 0.2 * summary.equivalent_load, 1e-9 * summary.equivalent_load);
+      EXPECT_NEAR(summary.life_error, 0.6, 1e-9);
+    } else {
+      EXPECT_LT(summary.equivalent_load_error, 0.1 * summary.equivalent_load);
+    }
     EXPECT_EQ(std::any_of(remarks.begin(), remarks.end(), [](const std::string& text) { return text.find("chaotic") != std::string::npos; }), said) << horizon;
   }
 }

@@ -1,6 +1,8 @@
 #include "base/expression/switching_places.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 namespace pintle {
@@ -44,7 +46,8 @@ std::vector<double> switching_places(const Expression& f, double low, double hig
     from = to;
   }
   std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end()), places.end());
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(low), std::abs(high));
+  places.erase(std::unique(places.begin(), places.end(), [rounding](double a, double b) { return b - a <= rounding; }), places.end());
   return places;
 }
 
