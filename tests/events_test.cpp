@@ -183,5 +183,17 @@ TEST(Events, WhatRestsUntilAnEventIsAtRestInTheRowsBeforeIt) {
   }
 }
 
+// With v^2 = 4 g l at its lowest point a string goes slack at cos a = -2/3, after ln(tan(pi/4 + a/4)) sqrt(l/g), and is taut again after a flight of 4/3 sqrt(10 l/(3 g)).
+TEST(Events, RopesTellWhenTheyAreSlackAndTaut) {
+  const Trajectory run = reference::completed(reference::test_model("string_pendulum_goes_slack"));
+  const std::vector<JointEvent>& events = run.events.at(0).events;
+  ASSERT_GE(events.size(), 2U);
+  const double slack = std::sqrt(0.1) * std::log(std::tan(kTurn / 8 + std::acos(-2.0 / 3) / 4));
+  EXPECT_EQ(events[0].what, "slack");
+  EXPECT_NEAR(events[0].t, slack, 1e-4);
+  EXPECT_EQ(events[1].what, "taut");
+  EXPECT_NEAR(events[1].t, slack + 4.0 / 3 * std::sqrt(1.0 / 3), 1e-4);
+}
+
 }  // namespace
 }  // namespace pintle

@@ -1,4 +1,4 @@
-// What laws have gone through: every border of a law with states that a run has crossed, and what the law reported just behind it.
+// What laws have gone through: every border of a law with states, or of one that tells its borders, that a run has crossed, and what the law reported just behind it.
 #pragma once
 
 #include <vector>
@@ -23,9 +23,10 @@ void record_crossings(const BasicSystem<S>& system, const BasicState<S>& state, 
   constexpr std::size_t kMostCrossings = 100000;  // crossings of borders that are kept for events.csv
   for (std::size_t f = 0; f < system.switching_functions().size(); ++f) {
     const SwitchingFunction& function = system.switching_functions()[f];
-    if (!function.is_crossing(before[f], after[f]) || crossings.size() >= kMostCrossings) continue;
+    if (!function.is_told || !function.is_event(before[f], after[f]) || crossings.size() >= kMostCrossings) continue;
     const BasicLaw<S>& law = system.joints[static_cast<std::size_t>(function.index)].law;
     const auto name = [&](int border, bool rising) { return law.parts()[static_cast<std::size_t>(function.part)]->border_name(border, rising); };
+    if (name(function.border, after[f] > 0).empty()) continue;
     if (!crossings.empty()) {
       const LawCrossing& last = crossings.back();
       if (last.t == state.t && last.joint == function.index && last.part == function.part && name(last.border, last.rising) == name(function.border, after[f] > 0)) continue;

@@ -18,7 +18,7 @@ namespace pintle {
 
 struct TensionLaw {
   static constexpr std::string_view kWord = "tension";
-  static constexpr bool kStartsFree = true;
+  static constexpr bool kStartsFree = true, kTellsBorders = true;
   double k = 0;  // > 0 [N/m]
   double c = 0;  // >= 0 [N*s/m]
 
@@ -39,6 +39,7 @@ struct TensionLaw {
     value[0] = std::min(in.gap[0], pull);
     if (c > 0) value[1] = std::min(in.gap[0], -pull);
   }
+  static constexpr std::string_view border_name(int border, bool rising) { return border > 0 ? "" : rising ? "taut" : "slack"; }
   Planar::Vec engaged_stiffness() const { return {k, 0, 0}; }
   Planar::Vec misfit(const Planar::Vec& gap) const { return {std::max(gap[0], 0.0), gap[1], gap[2]}; }
 };
