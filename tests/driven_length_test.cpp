@@ -188,5 +188,39 @@ damping = "500 N*s/m"
   EXPECT_NEAR(run.joints.at(0).heat, run.energy.dissipated, 1e-4);
 }
 
+// Thread and rod begin with the tension that their stretch says, and a spring balances them.
+TEST(DrivenLength, ATieBeginsStretched) {
+  for (const char* type : {"rope", "rod"}) {
+    const Trajectory run = reference::completed(parse_model(std::string(R"toml(
+format = 1
+gravity = [0, 0]
+[simulate]
+duration = "0.1 s"
+[ground.markers]
+o = [0, 0]
+anchor = ["160 mm", 0]
+[body.shuttle]
+mass = "50 g"
+inertia = "1e-5 kg*m^2"
+position = ["80 mm", 0]
+angle = 0
+markers.c = [0, 0]
+[joint.rail]
+type = "prismatic"
+between = ["ground.o", "shuttle.c"]
+[spring.s]
+between = ["ground.anchor", "shuttle.c"]
+stiffness = "100 N/m"
+preload = "8 N"
+[joint.tie]
+between = ["ground.o", "shuttle.c"]
+stiffness = "800 N/m"
+stretch = "10 mm"
+type = ")toml") + type + "\"\n", "tie.toml"));
+    EXPECT_NEAR(run.joints.at(1).peak, 8, 1e-6) << type;
+    EXPECT_NEAR(reference::at_end(run, "body.shuttle.x"), 0.08, 1e-9) << type;
+  }
+}
+
 }  // namespace
 }  // namespace pintle

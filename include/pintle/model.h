@@ -102,7 +102,7 @@ struct Joint {
   std::string name;
   std::string type;  ///< revolute, prismatic, fixed, slot, rod, rope, belt, cylinder, gear, rack, cam, edge
   MarkerRef first, second;
-  std::map<std::string, double> geometry;  ///< rod, rope: length [m] (absent: as assembled); cylinder: closed_length, stroke, bore, rod_diameter [m], its pressures [Pa]; gear: radius_first, radius_second [m], internal (0 or 1); rack: radius [m]
+  std::map<std::string, double> geometry;  ///< rod, rope: length [m] (absent: as assembled, less stretch [m]); cylinder: closed_length, stroke, bore, rod_diameter [m], its pressures [Pa]; gear: radius_first, radius_second [m], internal (0 or 1); rack: radius [m]
   LawChoice law;
   LawChoice friction{"", {}};  ///< of what the joint leaves free; no word: none
   LawChoice stops{"", {}};     ///< of its angle or slide; no word: none

@@ -27,10 +27,12 @@ constexpr std::array<ComponentInfo, 1> kSlide{{{.name = "slide"}}};
 constexpr std::array<ComponentInfo, 1> kStroke{{{.name = "stroke"}}};
 constexpr std::array<ComponentInfo, 2> kSlideAngle{{{.name = "slide"}, kTurn}};
 
-constexpr std::array<KeyInfo, 1> kLength{{
-    {.key = "length", .unit = "m", .minimum_exclusive = true, .of_time = true, .meaning = "distance between the points; as a function of t it is driven: a winch, an actuator"},
-}};
 constexpr double kAny = -std::numeric_limits<double>::infinity();  // a smallest value that allows all
+constexpr KeyInfo kStretch{.key = "stretch", .unit = "m", .minimum = kAny, .otherwise = "0: without load", .meaning = "how much longer than unloaded it is when assembled: its tension over its stiffness; negative: slack, or a rod that is compressed"};
+constexpr std::array<KeyInfo, 2> kTie{{
+    {.key = "length", .unit = "m", .minimum_exclusive = true, .of_time = true, .meaning = "distance between the points without load; as a function of t it is driven: a winch, an actuator"},
+    kStretch,
+}};
 constexpr std::array<std::string_view, 2> kOfStroke{"stroke", "stroke_rate"};
 constexpr std::array<KeyInfo, 7> kCylinder{{
     {.key = "bore", .unit = "m", .minimum_exclusive = true, .required = true, .meaning = "diameter of the piston"},
@@ -47,7 +49,7 @@ constexpr std::array<KeyInfo, 5> kBelt{{
     {.key = "second_radius", .unit = "m", .otherwise = "0: the belt ends in the marker", .meaning = "of the disc about the second marker"},
     {.key = "first_side", .unit = "", .words = kSides, .otherwise = "left", .meaning = "where the belt leaves the first disc, seen from there towards the second"},
     {.key = "second_side", .unit = "", .words = kSides, .otherwise = "that of the first disc", .meaning = "where it reaches the second disc, seen in the same way; the other side: crossed"},
-    {.key = "stretch", .unit = "m", .minimum = kAny, .otherwise = "0: taut without load", .meaning = "how much longer than unloaded the run is when assembled: its tension over its stiffness; negative: slack"},
+    kStretch,
 }};
 constexpr KeyInfo kPressureAngle{.key = "pressure_angle", .unit = "rad", .otherwise = "0: no radial force", .meaning = "of the teeth, 20 deg mostly: with it they also push both apart"};
 constexpr std::array<KeyInfo, 1> kGear{{kPressureAngle}};
@@ -89,6 +91,10 @@ JointDisplacement make_belt(const Geometry& g) {
   const auto signed_radius = [&g](const char* key, double side) { return value(g, key, 0) * (side > 0 ? -1 : 1); };
   return function_of({signed_radius("first_radius", first), signed_radius("second_radius", second), 0, value(g, "stretch", 0)});
 }
+GeometryFault tie_fault(const Geometry& g) {
+  if (!g.contains("length") || !g.contains("stretch")) return {};
+  return {"stretch", "the length is stated already, and where the points are when assembled says how far it is stretched", "delete one of both: without length it is the distance as assembled, less the stretch"};
+}
 GeometryFault belt_fault(const Geometry& g) {
   if (const Belt belt = *belt_of(make_belt(g)); belt.wound_per_turn() > 0 && belt.stretch > 0.9 * belt.most_stretch())
     return {"stretch", fmt::format("{:.4g} m is much of the {:.4g} m that a turn winds off the one disc and not onto the other: a taut belt cannot be told from a slack one", belt.stretch, belt.wound_per_turn()),
@@ -110,8 +116,8 @@ std::vector<JointTypeInfo>& types() {
       {.word = "prismatic", .meaning = "a slider: keeps two axes collinear, the slide along them is free", .gap = kAcrossAngle, .free = kSlide, .keys = {}, .make = make_pose},
       {.word = "fixed", .meaning = "a weld with compliance: fixes point and angle", .gap = kXYAngle, .free = {}, .keys = {}, .make = make_pose},
       {.word = "slot", .meaning = "a pin (second) in a straight slot (first marker's axis)", .gap = kAcross, .free = kSlideAngle, .keys = {}, .make = make_pose},
-      {.word = "rod", .meaning = "a massless rod: keeps two points at a distance", .gap = kAlong, .free = {}, .keys = kLength, .make = make_distance},
-      {.word = "rope", .meaning = "a rope: limits the distance of two points to its length", .gap = kAlong, .free = {}, .keys = kLength, .one_sided = true, .make = make_distance},
+      {.word = "rod", .meaning = "a massless rod: keeps two points at a distance", .gap = kAlong, .free = {}, .keys = kTie, .make = make_distance, .fault = tie_fault},
+      {.word = "rope", .meaning = "a rope: limits the distance of two points to its length", .gap = kAlong, .free = {}, .keys = kTie, .one_sided = true, .make = make_distance, .fault = tie_fault},
       {.word = "belt", .meaning = "a free run of a belt, or a rope on a drum: it winds onto discs about its markers without slip, and pulls only", .gap = kAlong, .free = {}, .keys = kBelt, .one_sided = true, .make = make_belt,
        .fault = belt_fault},
       {.word = "cylinder", .meaning = "a hydraulic or pneumatic cylinder, pinned at two points: pressure times area pushes or pulls along the line between them", .gap = {}, .free = kStroke, .keys = kCylinder, .has_ends = true, .make = make_stroke,

@@ -307,14 +307,19 @@ const Joint* model_joint(const Model& model, std::size_t j) { return j < model.j
 // A rod or rope whose length is what it is when assembled; that of a cylinder is stated.
 bool is_measured(const Joint& joint) { return !joint.functions.contains("length") && !joint.geometry.contains("length") && joint.type != "cylinder"; }
 
+// As assembled [m].
+double stretch_of(const Joint& joint) {
+  const auto stretch = joint.geometry.find("stretch");
+  return stretch == joint.geometry.end() ? 0 : stretch->second;
+}
+
 void settle_joint(const Joint& joint, const RelativePose& pose, JointDisplacement& displacement, std::vector<std::string>& notes) {
   if (auto* distance = std::get_if<Distance>(&displacement); distance && is_measured(joint)) {
-    distance->length = std::hypot(pose.z[0], pose.z[1]);
-    notes.push_back(fmt::format("joint {}: length {:.9g} m, as assembled", joint.name, distance->length));
+    distance->length = std::hypot(pose.z[0], pose.z[1]) - stretch_of(joint);
+    notes.push_back(fmt::format("joint {}: length {:.9g} m, as assembled{}", joint.name, distance->length, stretch_of(joint) == 0 ? "" : ", less its stretch"));
   }
   if (auto belt = belt_of(displacement)) {
-    const auto stretch = joint.geometry.find("stretch");
-    belt->length += (*belt)(pose.z).gap - (stretch == joint.geometry.end() ? 0 : stretch->second);
+    belt->length += (*belt)(pose.z).gap - stretch_of(joint);
     displacement = function_of(*belt);
   }
   if (auto* mesh = std::get_if<Mesh>(&displacement)) mesh->phase -= (*mesh)(pose.z).gap;

@@ -155,7 +155,9 @@ void check_geometry(ModelReading& reading, const JointTypeInfo& type, const Reco
     reading.complaints.add(record.spot("stops"), record.path, "no stops", "the " + std::string(type.free.front().name) + " ends somewhere", "stops = \"hard\" or \"cushioned\", with stop_stiffness");
   const bool complete = std::all_of(type.keys.begin(), type.keys.end(), [&](const KeyInfo& key) { return !key.required || joint.geometry.contains(std::string(key.key)); });
   if (type.fault == nullptr || !complete) return;
-  const GeometryFault fault = type.fault(joint.geometry);
+  Geometry stated = joint.geometry;
+  for (const auto& [key, function] : joint.functions) stated.emplace(key, 0);
+  const GeometryFault fault = type.fault(stated);
   if (fault.key.empty()) return;
   complain_of(fault, record, reading);
 }
