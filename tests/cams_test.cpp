@@ -181,5 +181,13 @@ restitution = 0.2
   EXPECT_NE(run.message.find("the height of whose edge is not a number at x = 1"), std::string::npos) << run.message;
 }
 
+TEST(Edges, ARollerThatLeavesItsEdgeIsNoted) {
+  for (const auto& [to, noted] : {std::pair{"2 m", true}, {"3 m", false}}) {
+    const Trajectory run = reference::completed(reference::mechanism("wheel_over_bump", {std::string("joint.road.to=\"") + to + "\""}));
+    const bool is = std::any_of(run.notes.begin(), run.notes.end(), [](const std::string& note) { return note.find("joint road: from t = ") == 0 && note.find("runs beyond its edge (to = 2 m)") != std::string::npos; });
+    EXPECT_EQ(is, noted) << to;
+  }
+}
+
 }  // namespace
 }  // namespace pintle

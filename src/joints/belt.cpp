@@ -46,12 +46,13 @@ std::optional<Belt> belt_of(const JointDisplacement& displacement) {
 
 bool has_lost_a_turn(const JointDisplacement& displacement, double before, double after) {
   const std::optional<Belt> belt = belt_of(displacement);
-  return belt && before < 0 && after - before > 0.5 * belt->wound_per_turn();
+  return belt && belt->wound_per_turn() > 0 && before < 0 && after - before > 0.5 * belt->wound_per_turn();
 }
 
-bool has_gained_a_turn(const JointDisplacement& displacement, double before, double after) {
+bool is_stretched_most(const JointDisplacement& displacement, double gap) {
+  constexpr double kNearly = 0.97;  // positions are moved onto gaps: beyond, by a whole turn
   const std::optional<Belt> belt = belt_of(displacement);
-  return belt && before > 0.5 * belt->most_stretch() && before - after > 0.5 * belt->wound_per_turn();
+  return belt && belt->wound_per_turn() > 0 && gap > kNearly * belt->most_stretch();
 }
 
 }  // namespace pintle

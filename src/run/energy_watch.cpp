@@ -101,12 +101,12 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicSta
       tightened_ = j;
       tightened_at_ = state.t;
     }
-    if (has_gained_a_turn(system_.joints[j].displacement, gap, state.gap[j][0])) {
-      message_ = fmt::format("joint {} was stretched by {:.4g} m, as far as a stretch is told from slack, and is taken for slack at t = {:.6g} s. State its `stretch` as assembled, of which three times are followed up to half of what a turn winds; or give it more stiffness, or its disc a larger radius",
+    gap = state.gap[j][0];
+    if (is_stretched_most(system_.joints[j].displacement, gap)) {
+      message_ = fmt::format("joint {} is stretched by {:.4g} m at t = {:.6g} s, as far as a stretch is told from slack. State its `stretch` as assembled, of which three times are followed up to half of what a turn winds; or give it more stiffness, or its disc a larger radius",
                              system_.joints[j].name, gap, state.t);
       return Alarm::kOpen;
     }
-    gap = state.gap[j][0];
   }
   for (const int j : lengths_)
     if (const BasicJointData<S>& joint = system_.joints[j]; !(target_of(joint, state.t)[0] > 0)) {

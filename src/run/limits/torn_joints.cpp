@@ -14,15 +14,11 @@ namespace {
 // ones are meant to. No stiff joint of the collection gives way by a twentieth of it; with double of it a rod that is shorter than its crank by a tenth is not told.
 constexpr double kTorn = 0.02;
 
-// The least stiffness against displacements that a joint holds [N/m]; infinite: it holds none, or ideally.
+// The largest stiffness against displacements that a joint holds, as a blade is pulled along [N/m]; infinite: it holds none, or ideally.
 template <class S>
-double least_stiffness(const BasicJointData<S>& joint) {
-  double least = std::numeric_limits<double>::infinity();
-  if (joint.servo >= 0 || joint.ideal) return least;
-  const typename S::Vec stiffness = joint.law.engaged_stiffness();
-  for (int k = 0; k < S::kDim; ++k)
-    if (stiffness[k] > 0) least = std::min(least, stiffness[k]);
-  return least;
+double largest_stiffness(const BasicJointData<S>& joint) {
+  const double largest = joint.servo >= 0 || joint.ideal ? 0 : joint.law.engaged_stiffness().template head<S::kDim>().maxCoeff();
+  return largest > 0 ? largest : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -36,7 +32,7 @@ std::string note_on_torn_joint(const BasicSystem<S>& system, const BasicState<S>
   for (std::size_t j = 0, row = 0; j < system.joints.size() && row < joints.size(); ++j) {
     if (system.joints[j].servo >= 0) continue;
     const LoadSummary& joint = joints[row++];
-    const double stiffness = least_stiffness(system.joints[j]);
+    const double stiffness = largest_stiffness(system.joints[j]);
     if (!(weight / stiffness < kTorn * kTorn * size) || !(joint.peak / stiffness > farthest)) continue;
     farthest = joint.peak / stiffness;
     torn = &joint;

@@ -24,7 +24,7 @@ double largest_angular_stiffness(const BasicSystem<S>& system) {
 template <class S>
 BasicForceRecorder<S>::BasicForceRecorder(const BasicSystem<S>& system, Recorded what)
     : system_(system), what_(what),
-      stuck_joints_(system), lost_equilibria_(system), creeping_contacts_(system), wound_belts_(system), drive_peaks_(system) {}
+      stuck_joints_(system), lost_equilibria_(system), creeping_contacts_(system), wound_belts_(system), left_edges_(system), drive_peaks_(system) {}
 
 template <class S>
 void BasicForceRecorder<S>::start(const BasicState<S>& state, const LoadSampling& sampling) {
@@ -45,6 +45,7 @@ void BasicForceRecorder<S>::see_step(BasicStepper<S>& stepper) {
   stuck_joints_.see(state);
   lost_equilibria_.see(state);
   wound_belts_.see(state);
+  left_edges_.see(state);
   drive_peaks_.see(state);
 }
 
@@ -78,6 +79,7 @@ void BasicForceRecorder<S>::add_energies(const BasicState<S>& state) {
   stuck_joints_.see(state);
   lost_equilibria_.see(state);
   wound_belts_.see(state);
+  left_edges_.see(state);
 }
 
 template <class S>
@@ -91,6 +93,7 @@ void BasicForceRecorder<S>::fill(Trajectory& out) {
   for (std::string& note : stuck_joints_.notes()) out.notes.push_back(std::move(note));
   for (std::string& note : lost_equilibria_.notes()) out.notes.push_back(std::move(note));
   for (std::string& note : creeping_contacts_.notes()) out.notes.push_back(std::move(note));
+  for (const std::string& note : left_edges_.notes()) out.notes.push_back(note);
   for (std::string& note : wound_belts_.notes()) out.notes.push_back(std::move(note));
   out.joints.clear();
   for (int j = 0; j < system_.n_joints(); ++j) {

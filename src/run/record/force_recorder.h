@@ -11,6 +11,7 @@
 #include "run/record/force_table.h"
 #include "run/record/load_statistics.h"
 #include "run/record/creeping_contacts.h"
+#include "run/record/left_edges.h"
 #include "run/record/lost_equilibria.h"
 #include "run/record/stuck_joints.h"
 #include "run/record/wound_belts.h"
@@ -75,6 +76,7 @@ class BasicForceRecorder {
   BasicLostEquilibria<S> lost_equilibria_;
   BasicCreepingContacts<S> creeping_contacts_;
   BasicWoundBelts<S> wound_belts_;
+  BasicLeftEdges<S> left_edges_;
   BasicDrivePeaks<S> drive_peaks_;
 };
 using ForceRecorder = BasicForceRecorder<Planar>;

@@ -1,0 +1,50 @@
+// Rollers that a run has taken beyond the stretch of their edge that was looked at for corners and hollows.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "joints/edge_profile.h"
+#include "system/state.h"
+
+namespace pintle {
+
+template <class S>
+class BasicLeftEdges {
+ public:
+  explicit BasicLeftEdges(const BasicSystem<S>& system) : system_(system) {
+    if constexpr (S::kDim == 2)
+      for (int j = 0; j < system.n_joints(); ++j)
+        if (std::holds_alternative<EdgeGap>(system.joints[static_cast<std::size_t>(j)].displacement)) inside_.push_back(j);
+  }
+  /// The end of a step, or an output row inside a step before it. A roller above its edge touches nothing there.
+  void see(const BasicState<S>& state) {
+    if constexpr (S::kDim == 2) {
+      if (inside_.empty()) return;
+      system_.motions(state.q, state.v, m_);
+      std::erase_if(inside_, [&](int j) {
+        const BasicJointData<S>& joint = system_.joints[static_cast<std::size_t>(j)];
+        if (!(joint.law.penetration(state.gap[static_cast<std::size_t>(j)]) > 0)) return false;
+        const EdgeProfile& edge = *std::get<EdgeGap>(joint.displacement).profile;
+        const typename S::Vec z = system_.pose(joint.at, m_).z;
+        const double x = edge.nearest({z[0], z[1]});
+        if (x >= edge.from() && x <= edge.to()) return false;
+        notes_.push_back(fmt::format("joint {}: from t = {:.4g} s on it runs beyond its edge ({} = {:.4g} m), where nobody has looked for corners, and for hollows that the roller does not fit into: let from and to go as far as it runs",
+                                     joint.name, state.t, x < edge.from() ? "from" : "to", x < edge.from() ? edge.from() : edge.to()));
+        return true;
+      });
+    }
+  }
+  const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  const BasicSystem<S>& system_;
+  std::vector<int> inside_;  // joints that have not left theirs
+  std::vector<std::string> notes_;
+  std::vector<typename S::Motion> m_;
+};
+
+}  // namespace pintle
