@@ -357,6 +357,17 @@ force = [0, "shock(t)"]
   EXPECT_GT(run.joints.at(0).peak, 1400);
 }
 
+// A triangle of 20 us and 10 N s, whose flanks are as short as what is crossed at the start of a usual step.
+TEST(ShortFeatures, ASpikeOfAMillionthOfARecord) {
+  Model model = reference::test_model("spike_in_a_force_record");
+  for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = reference::completed(model);
+    EXPECT_NEAR(reference::at_end(run, "body.m.vx"), 1.199999, 2e-6) << tolerance;
+    EXPECT_NEAR(run.joints.at(0).peak_moment, 1000, 1) << tolerance;
+  }
+}
+
 // The ends of a smoothstep are known in the same way: a dip of 120 mm in 61.5 m of rail.
 TEST(ShortFeatures, PiecesOfAnEdge) {
   Model model = reference::test_model("wheel_over_a_dip");

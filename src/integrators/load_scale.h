@@ -100,6 +100,20 @@ std::vector<double> loads_above_rounding(const BasicSystem<S>& system, const std
 template <class S>
 double rounding_over_loads(const BasicSystem<S>& system, const PositionsOf<S>& q, const BasicLoadScale<S>& scale);
 
+/// Whether what the loads do at the motions m changes within a time d by no more than `most` of the scale. `now` and `then` are room that is reused.
+template <class S>
+bool loads_stay_constant(const BasicSystem<S>& system, double t, double d, const std::vector<typename S::Motion>& m, SlidingModes sliding, double most, const BasicLoadScale<S>& scale, VecsOf<S>& now,
+                         VecsOf<S>& then) {
+  if (!system.has_loads()) return true;
+  now.assign(system.bodies.size(), S::Vec::Zero());
+  then.assign(system.bodies.size(), S::Vec::Zero());
+  system.external(t, m, now, sliding);
+  system.external(t + d, m, then, sliding);
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (!((then[i] - now[i]).cwiseAbs().cwiseQuotient(scale.body[i]).maxCoeff() <= most)) return false;
+  return true;
+}
+
 /// Raises the forces of the scale to such loads.
 template <class S>
 void raise_above(const std::vector<double>& loads, BasicLoadScale<S>& scale) {

@@ -69,7 +69,7 @@ bool BasicRadauStepper<S>::forces_stay_constant(double d) {
     for (int k = 0; k < S::kDof; ++k)
       if (!(std::abs(force[k] - begin_.force[j][k]) <= most * load[k])) return false;
   }
-  return true;
+  return loads_stay_constant(system_, begin_.t, kShareBeforeEvent * d, end_m_, begin_.sliding, most, scale_, load_change_, loads_then_);
 }
 
 template <class S>
