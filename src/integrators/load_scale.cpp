@@ -49,21 +49,25 @@ std::vector<double> loads_above_rounding(const BasicSystem<S>& system, const std
 }
 
 template <class S>
-double rounding_over_loads(const BasicSystem<S>& system, const PositionsOf<S>& q, const BasicLoadScale<S>& scale) {
-  typename S::Vec size;
-  size.template head<S::kDim>().setConstant(largest_coordinate(q));
-  size.template tail<S::kDof - S::kDim>().setConstant(largest_angle<S>(q));
-  double largest = 0;
-  for (const BasicJointData<S>& joint : system.joints)
-    for (const int body : {joint.at.a, joint.at.b})
-      if (body != kGround) largest = std::max(largest, joint.law.engaged_stiffness().cwiseProduct(size).cwiseQuotient(scale.body[body]).maxCoeff());
-  return kLastBits * largest;
+VecsOf<S> rounding_of_joints(const BasicSystem<S>& system, const PositionsOf<S>& q) {
+  const double far = largest_coordinate(q), turned = largest_angle<S>(q);
+  VecsOf<S> rounding(system.bodies.size(), S::Vec::Zero());
+  for (const BasicJointData<S>& joint : system.joints) {
+    const typename S::Vec stiffness = joint.law.engaged_stiffness();
+    const double force = far * stiffness.template head<S::kDim>().maxCoeff(), moment = turned * stiffness.template tail<S::kDof - S::kDim>().maxCoeff() + far * force;
+    for (const int body : {joint.at.a, joint.at.b}) {
+      if (body == kGround) continue;
+      rounding[body].template head<S::kDim>().array() += kLastBits * force;
+      rounding[body].template tail<S::kDof - S::kDim>().array() += kLastBits * moment;
+    }
+  }
+  return rounding;
 }
 
 template std::vector<double> loads_above_rounding(const BasicSystem<Planar>& system, const std::vector<int>& joints, const BasicState<Planar>& state, double tolerance);
 PINTLE_IN_SPACE(template std::vector<double> loads_above_rounding(const BasicSystem<Spatial>& system, const std::vector<int>& joints, const BasicState<Spatial>& state, double tolerance);)
-template double rounding_over_loads(const BasicSystem<Planar>& system, const PositionsOf<Planar>& q, const BasicLoadScale<Planar>& scale);
-PINTLE_IN_SPACE(template double rounding_over_loads(const BasicSystem<Spatial>& system, const PositionsOf<Spatial>& q, const BasicLoadScale<Spatial>& scale);)
+template VecsOf<Planar> rounding_of_joints(const BasicSystem<Planar>& system, const PositionsOf<Planar>& q);
+PINTLE_IN_SPACE(template VecsOf<Spatial> rounding_of_joints(const BasicSystem<Spatial>& system, const PositionsOf<Spatial>& q);)
 template void grow_load_scale(const BasicSystem<Planar>& system, const std::vector<Planar::Motion>& m, const VecsOf<Planar>& Q, const BasicState<Planar>& state, BasicLoadScale<Planar>& scale, VecsOf<Planar>& load);
 PINTLE_IN_SPACE(template void grow_load_scale(const BasicSystem<Spatial>& system, const std::vector<Spatial::Motion>& m, const VecsOf<Spatial>& Q, const BasicState<Spatial>& state, BasicLoadScale<Spatial>& scale, VecsOf<Spatial>& load);)
 

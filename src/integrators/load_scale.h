@@ -96,9 +96,9 @@ void grow_load_scale(const BasicSystem<S>& system, const std::vector<typename S:
 template <class S>
 std::vector<double> loads_above_rounding(const BasicSystem<S>& system, const std::vector<int>& joints, const BasicState<S>& state, double tolerance);
 
-/// What the rounding of positions may make of the forces of joints, over the loads on their bodies: no step resolves less of them.
+/// What the rounding of positions and angles may make of the forces of joints, and of their moments at the mechanism's arms, on each body [N, N*m].
 template <class S>
-double rounding_over_loads(const BasicSystem<S>& system, const PositionsOf<S>& q, const BasicLoadScale<S>& scale);
+VecsOf<S> rounding_of_joints(const BasicSystem<S>& system, const PositionsOf<S>& q);
 
 /// Whether what the loads do at the motions m changes within a time d by no more than `most` of the scale. `now` and `then` are room that is reused.
 template <class S>

@@ -64,7 +64,6 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   void begin_at_end() { begin_ = end_; }
   bool attempt(double h);                     // solves the stages from begin_
   double contraction() const { return solver_->contraction(); }
-  double rounding_of_forces() const { return rounding_over_loads(system_, end_.q, scale_); }
   bool unloaded() const;
   void foresee_loads(double h);
   void raise_above_rounding();
@@ -108,6 +107,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   bool cross_borders();
   void shift_gap(int joint, double d, double rate);
   void balance_end();
+  void renew_end();
   void compensate_late_crossing(double late);
   void undo_compensation();
 

@@ -62,7 +62,7 @@ class StepControl {
 
   /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
   /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event), rests(h), motion_is_rounding(h),
-  /// forces_stay_constant(distance), cross_event(distance, event), taylor_step(distance), balance_end(), rounding_of_forces(), error_estimate(h, error) and finish_step(h).
+  /// forces_stay_constant(distance), cross_event(distance, event), taylor_step(distance), renew_end(), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
 
@@ -79,7 +79,7 @@ class StepControl {
   static constexpr double kContraction = 0.2;     // of Newton's iteration, that steps are chosen for
   static constexpr double kSteady = 0.9;          // of the error of the trial before: a shorter step has not made it smaller
   static constexpr int kMostSteady = 3;           // such trials, after which the error counts as that of the accelerations that the step starts with
-  static constexpr double kMostRounding = 1e-11;  // of the loads, a hundredth of the least tolerance: what may pass for rounding, where that of positions is not more
+  static constexpr double kMostRounding = 1e-11;  // of the loads, a hundredth of the least tolerance: what may pass for rounding
   static constexpr double kAboveRounding = 2;     // times the rounding that has been met is taken off the error: that of one step is not that of the next
   static constexpr double kShort = 0.9;           // of the way to an event that is only guessed at: so far the step goes
   static constexpr double kAfterEvent = 0.3;      // of the usual step: the first step after an event, where nothing is known of it
@@ -266,7 +266,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       continue;
     }
     error /= tolerance;
-    if (renewed && error < kSteady * error_before && error_before * tolerance < std::max(kMostRounding, method.rounding_of_forces())) rounding_ = std::max(rounding_, error_before);
+    if (renewed && error < kSteady * error_before && error_before * tolerance < kMostRounding) rounding_ = std::max(rounding_, error_before);
     renewed = false;
     const double measured = error;
     if (measured * tolerance < kMostRounding && is_floor(h, measured)) rounding_ = std::max(rounding_, measured);
@@ -281,7 +281,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       error_before = measured;
       renewed = steady == kMostSteady;
       if (renewed) {
-        method.balance_end();
+        method.renew_end();
         method.begin_at_end();
       } else {
         h *= std::min(factor, 0.7);

@@ -43,7 +43,6 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   void begin_at_end();
   bool attempt(double h);
   double contraction() const { return stages_.contraction(); }
-  double rounding_of_forces() const { return rounding_over_loads(system_, end_state_.q, scale_); }
 
   // tree_error_estimate.cpp: the error of a step, its end and its inside
   bool error_estimate(double h, double& error);
@@ -80,6 +79,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   bool cross_borders() { return end_at_.cross_borders(search_.start(), search_.end(), end_, end_state_.dissipated); }
   void shift_gap(int joint, double d, double rate);
   void balance_end();
+  void renew_end() { balance_end(); }
   void compensate_late_crossing(double late);
   void undo_compensation();
 
