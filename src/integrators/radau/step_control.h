@@ -36,6 +36,7 @@ class StepControl {
     have_history = false;
     behind_event = false;
     rounding_ = floor_h_ = floor_error_ = 0;
+    at_floor_ = 0;
     same_ = stopped_short_ = 0;
     same_function_ = -1;
     steps_at_event_ = 0;
@@ -81,6 +82,8 @@ class StepControl {
   static constexpr int kMostSteady = 3;           // such trials, after which the error counts as that of the accelerations that the step starts with
   static constexpr double kMostRounding = 1e-11;  // of the loads, a hundredth of the least tolerance: what may pass for rounding
   static constexpr double kAboveRounding = 2;     // times the rounding that has been met is taken off the error: that of one step is not that of the next
+  static constexpr double kFloor = 0.1, kVeryShort = 1e-6;  // over the tolerance; of the run: equal steps that are shorter, with errors above, may have met a floor
+  static constexpr int kMostAtFloor = 20;         // such steps in a row, after which one is tried that is twice as long
   static constexpr double kShort = 0.9;           // of the way to an event that is only guessed at: so far the step goes
   static constexpr double kAfterEvent = 0.3;      // of the usual step: the first step after an event, where nothing is known of it
   // Of the way to an event: a step that ends so soon, for its error, is a usual one. Of the block in LinearContact half of it refuses 2400 steps and double of it
@@ -109,6 +112,7 @@ class StepControl {
   };
 
   double last_error_ = 0;  // over the tolerance
+  int at_floor_ = 0;       // steps in a row
   double rounding_ = 0;    // of accelerations, over the tolerance: no step resolves it
   int stopped_short_ = 0;                 // steps in a row that ended before an event, without one that was crossed
   int same_ = 0, same_function_ = -1;     // events in a row of one function
@@ -152,6 +156,14 @@ class StepControl {
 
   // The step that Newton's iteration will like, over one in which its errors shrank by `contraction`; 0: not known.
   static double of_contraction(double contraction) { return contraction > 0 ? std::max(kShrink, std::sqrt(kContraction / contraction)) : kMost; }
+
+  // An error of rounding just below the tolerance keeps steps as short as they happen to be.
+  void leave_floor(double h, double error, double t_end) {
+    at_floor_ = next == h && error > kFloor && h < kVeryShort * std::abs(t_end) ? at_floor_ + 1 : 0;
+    if (at_floor_ < kMostAtFloor) return;
+    next *= 2;
+    at_floor_ = 0;
+  }
 
   // An error that grows goes on growing: K. Gustafsson's predictive controller.
   double foresee_growth(double factor, double h, double error, int order) const {
@@ -296,6 +308,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     method.finish_step(h);
     ++counters.steps;
     accept(h, factor, up_to_event);
+    leave_floor(h, error, t_end);
     return true;
   }
   next = h;
