@@ -159,11 +159,12 @@ void BasicRadauStepper<S>::balance_end() {
 template <class S>
 void BasicRadauStepper<S>::renew_end() {
   constexpr double kAbove = 2;  // times the rounding that has been met: that of one step is not that of the next
-  const VecsOf<S> before = end_.a, rounding = rounding_of_joints(system_, end_.q);
+  before_renewal_ = end_.a;
+  find_rounding_of_joints(system_, end_.q, rounding_);
   balance_end();
-  for (std::size_t b = 0; b < before.size(); ++b)
+  for (std::size_t b = 0; b < rounding_.size(); ++b)
     for (int k = 0; k < S::kDof; ++k)
-      if (const double change = system_.bodies[b].mass[k] * std::abs(end_.a[b][k] - before[b][k]); change <= rounding[b][k]) scale_.body[b][k] = std::max(scale_.body[b][k], kAbove * change / tolerance_);
+      if (const double change = system_.bodies[b].mass[k] * std::abs(end_.a[b][k] - before_renewal_[b][k]); change <= rounding_[b][k]) scale_.body[b][k] = std::max(scale_.body[b][k], kAbove * change / tolerance_);
 }
 
 // Otherwise all passes miss the same impulse. A ball that strikes a damper 1e-10 s late is as much late again for the next contact as its speed is wrong: 2e-7 s, and a force that is 5e-4 wrong.

@@ -119,7 +119,7 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
   const bool crossed = method().cross_borders();
   leave_sliding(events_of_, method().end_time(), method().end_motions(), method().sliding());
   method().balance_end();
-  if (crossed) record();
+  record();
   restart_search();
   const double now = method().end_time();
   if (const double late = now - (before + distance); late > 0) compensate_late_crossing(late, event.function);

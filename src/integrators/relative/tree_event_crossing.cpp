@@ -60,8 +60,7 @@ bool TreeRadau::forces_stay_constant(double d) {
     for (int k = 0; k < 3; ++k)
       if (const Eigen::Index i = 3 * static_cast<Eigen::Index>(l) + k; !(std::abs(force[i] - begin_.force[i]) <= most * load[k])) return false;
   }
-  Vecs now, then;
-  return loads_stay_constant(system_, begin_.t, near, end_at_.pose().m, sliding_, most, scale_, now, then);
+  return loads_stay_constant(system_, begin_.t, near, end_at_.pose().m, sliding_, most, scale_, loads_now_, loads_then_);
 }
 
 void TreeRadau::extrapolate_end_state(double d) {

@@ -106,6 +106,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   };
   Curves curves_;
   LoadScale scale_;
+  Vecs loads_now_, loads_then_;
   Counters counters_;
   std::string failure_;
 };
