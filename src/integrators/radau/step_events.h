@@ -116,7 +116,7 @@ void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& e
   // A body cannot follow a target that jumps: its gap does.
   for (int j = 0; j < events_of_.n_joints(); ++j)
     if (const auto jump = target_jump(events_of_, j, std::max(before, before + distance - beyond), method().end_time())) method().shift_gap(j, -jump->position, -jump->rate);
-  const bool crossed = method().cross_borders();
+  method().cross_borders();
   leave_sliding(events_of_, method().end_time(), method().end_motions(), method().sliding());
   method().balance_end();
   record();
