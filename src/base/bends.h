@@ -62,16 +62,23 @@ void for_each_bend(const Curvature& curvature, std::size_t n, double least, Use&
     if (way(i) != way(i - 1) && !(way(i) == 0 && i + 1 < n && way(i + 1) == -way(i - 1))) use(i);
 }
 
-/// Of a curve of which the curvature is known, to within 1/720 of the way.
+/// Of a curve of which the curvature is known at places along it, ascending: a bend lies between two of them.
+inline Bends bends_between(const std::vector<double>& places, const std::vector<double>& curvature) {
+  Bends bends;
+  for_each_bend([&](std::size_t i) { return curvature[i]; }, places.size(), 0, [&](std::size_t i) { bends.places.push_back(0.5 * (places[i - 1] + places[i])); });
+  return bends;
+}
+
+/// The same at the ends of 720 equal parts.
 template <class Curvature>
 Bends find_bends(const Curvature& curvature, double low, double high) {
-  constexpr int kPoints = 720;
-  const double apart = (high - low) / kPoints;
-  std::vector<double> values;
-  for (int i = 0; i <= kPoints; ++i) values.push_back(curvature(low + apart * i));
-  Bends bends;
-  for_each_bend([&](std::size_t i) { return values[i]; }, values.size(), 0, [&](std::size_t i) { bends.places.push_back(low + apart * (static_cast<double>(i) - 0.5)); });
-  return bends;
+  constexpr int kParts = 720;
+  std::vector<double> places, values;
+  for (int i = 0; i <= kParts; ++i) {
+    places.push_back(low + (high - low) * i / kParts);
+    values.push_back(curvature(places.back()));
+  }
+  return bends_between(places, values);
 }
 
 /// The graph of a function, by its values at the ends of equal parts of a way; what is narrower than a part may be missed.

@@ -8,7 +8,7 @@
 
 #include "base/constants.h"
 #include "base/cubic_hermite.h"
-#include "base/expression/switching_places.h"
+#include "base/expression/switching_points.h"
 #include "integrators/thresholds.h"
 #include "joints/cam_profile.h"
 #include "joints/edge_profile.h"
@@ -102,7 +102,7 @@ std::vector<double> kinks_in_time(const BasicSystem<S>& system, double from, dou
   constexpr std::size_t kMost = 1000000;  // of one table: more of them, as of a motor's turns in a long run, would fill the memory
   std::vector<double> all;
   for (const Expression* f : functions_of_time(system)) {
-    const std::vector<double> places = switching_places(*f, from, to, kParts, kMost);
+    const std::vector<double> places = switching_points(*f, from, to, kParts, kMost);
     all.insert(all.end(), places.begin(), places.end());
   }
   std::sort(all.begin(), all.end());

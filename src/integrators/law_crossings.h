@@ -23,7 +23,7 @@ void record_crossings(const BasicSystem<S>& system, const BasicState<S>& state, 
   constexpr std::size_t kMostCrossings = 100000;  // crossings of borders that are kept for events.csv
   for (std::size_t f = 0; f < system.switching_functions().size(); ++f) {
     const SwitchingFunction& function = system.switching_functions()[f];
-    if (!function.is_told || !function.is_event(before[f], after[f]) || crossings.size() >= kMostCrossings) continue;
+    if (!function.is_reported || !function.is_event(before[f], after[f]) || crossings.size() >= kMostCrossings) continue;
     const BasicLaw<S>& law = system.joints[static_cast<std::size_t>(function.index)].law;
     const auto name = [&](int border, bool rising) { return law.parts()[static_cast<std::size_t>(function.part)]->border_name(border, rising); };
     if (name(function.border, after[f] > 0).empty()) continue;

@@ -49,7 +49,7 @@ std::vector<double> loads_above_rounding(const BasicSystem<S>& system, const std
 }
 
 template <class S>
-void find_rounding_of_joints(const BasicSystem<S>& system, const PositionsOf<S>& q, VecsOf<S>& rounding) {
+void find_rounding_of_joint_forces(const BasicSystem<S>& system, const PositionsOf<S>& q, VecsOf<S>& rounding) {
   const double far = largest_coordinate(q), turned = largest_angle<S>(q);
   rounding.assign(system.bodies.size(), S::Vec::Zero());
   for (const BasicJointData<S>& joint : system.joints) {
@@ -65,8 +65,8 @@ void find_rounding_of_joints(const BasicSystem<S>& system, const PositionsOf<S>&
 
 template std::vector<double> loads_above_rounding(const BasicSystem<Planar>& system, const std::vector<int>& joints, const BasicState<Planar>& state, double tolerance);
 PINTLE_IN_SPACE(template std::vector<double> loads_above_rounding(const BasicSystem<Spatial>& system, const std::vector<int>& joints, const BasicState<Spatial>& state, double tolerance);)
-template void find_rounding_of_joints(const BasicSystem<Planar>& system, const PositionsOf<Planar>& q, VecsOf<Planar>& rounding);
-PINTLE_IN_SPACE(template void find_rounding_of_joints(const BasicSystem<Spatial>& system, const PositionsOf<Spatial>& q, VecsOf<Spatial>& rounding);)
+template void find_rounding_of_joint_forces(const BasicSystem<Planar>& system, const PositionsOf<Planar>& q, VecsOf<Planar>& rounding);
+PINTLE_IN_SPACE(template void find_rounding_of_joint_forces(const BasicSystem<Spatial>& system, const PositionsOf<Spatial>& q, VecsOf<Spatial>& rounding);)
 template void grow_load_scale(const BasicSystem<Planar>& system, const std::vector<Planar::Motion>& m, const VecsOf<Planar>& Q, const BasicState<Planar>& state, BasicLoadScale<Planar>& scale, VecsOf<Planar>& load);
 PINTLE_IN_SPACE(template void grow_load_scale(const BasicSystem<Spatial>& system, const std::vector<Spatial::Motion>& m, const VecsOf<Spatial>& Q, const BasicState<Spatial>& state, BasicLoadScale<Spatial>& scale, VecsOf<Spatial>& load);)
 

@@ -98,7 +98,7 @@ std::vector<double> loads_above_rounding(const BasicSystem<S>& system, const std
 
 /// What the rounding of positions and angles may make of the forces of joints, and of their moments at the mechanism's arms, on each body [N, N*m].
 template <class S>
-void find_rounding_of_joints(const BasicSystem<S>& system, const PositionsOf<S>& q, VecsOf<S>& rounding);
+void find_rounding_of_joint_forces(const BasicSystem<S>& system, const PositionsOf<S>& q, VecsOf<S>& rounding);
 
 /// Whether what the loads do at the motions m changes within a time d by no more than `most` of the scale. `now` and `then` are room that is reused.
 template <class S>

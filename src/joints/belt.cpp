@@ -49,7 +49,7 @@ bool has_lost_a_turn(const JointDisplacement& displacement, double before, doubl
   return belt && belt->wound_per_turn() > 0 && before < 0 && after - before > 0.5 * belt->wound_per_turn();
 }
 
-bool is_stretched_most(const JointDisplacement& displacement, double gap) {
+bool is_at_stretch_limit(const JointDisplacement& displacement, double gap) {
   constexpr double kNearly = 0.97;  // positions are moved onto gaps: beyond, by a whole turn
   const std::optional<Belt> belt = belt_of(displacement);
   return belt && belt->wound_per_turn() > 0 && gap > kNearly * belt->most_stretch();

@@ -1,6 +1,6 @@
 #include "joints/curve_gap.h"
 
-#include "base/expression/switching_places.h"
+#include "base/expression/switching_points.h"
 
 #include <vector>
 
@@ -25,7 +25,7 @@ std::optional<Corner> corner_between(const Expression& f, double low, double hig
   f.evaluate_switching_functions(std::array{high}, at_high.data());
   for (std::size_t k = 0; k < n; ++k) {
     if ((at_low[k] > 0) == (at_high[k] > 0)) continue;
-    const auto [before, behind] = around_switch(f, k, low, high);
+    const auto [before, behind] = bracket_switch(f, k, low, high);
     const auto slope = [&](double at) { return f.second_order(std::array{at}, 0)[1]; };
     if (const Corner corner{before, slope(before), slope(behind)}; std::abs(corner.slope_behind - corner.slope_before) > least) return corner;
   }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/expression/switching_places.h"
+#include "base/expression/switching_points.h"
 
 namespace pintle {
 namespace {
@@ -18,7 +18,7 @@ constexpr double kSmooth = 1e-3;  // change of slope that rounded numbers may ma
 std::vector<double> places_looked_at(const Edge& edge) {
   constexpr int kParts = 2000, kOfPiece = 16;
   constexpr std::size_t kMostPieces = 200;  // of more, as of a measured road, the ends of parts tell enough
-  std::vector<double> places, kinks = switching_places(edge.height, edge.from, edge.to, kPoints, kMostPieces);
+  std::vector<double> places, kinks = switching_points(edge.height, edge.from, edge.to, kPoints, kMostPieces);
   for (int i = 0; i <= kParts; ++i) places.push_back(edge.from + (edge.to - edge.from) * i / kParts);
   for (std::size_t k = 1; k < kinks.size() && kinks.size() <= kMostPieces; ++k)
     for (int i = 0; i < kOfPiece; ++i) places.push_back(kinks[k - 1] + (kinks[k] - kinks[k - 1]) * (i + 0.5) / kOfPiece);
@@ -43,7 +43,7 @@ EdgeProfile::EdgeProfile(const Edge& edge) : edge_(edge) {
     most_hollow = std::max(most_hollow, -point.curvature());
   }
   hollow_ = 1 / most_hollow;
-  for_each_bend([&](std::size_t i) { return bend[i]; }, bend.size(), 0, [&](std::size_t i) { bends_.places.push_back(0.5 * (places[i - 1] + places[i])); });
+  bends_ = bends_between(places, bend);
 }
 
 // What is no further from c than `way` is within this way along the line.

@@ -65,7 +65,7 @@ class BasicLawPart {
   /// "": no event that a user would know.
   virtual std::string border_name(int i, bool rising) const = 0;
   /// Whether a law without states has borders that are events, too.
-  virtual bool tells_borders() const = 0;
+  virtual bool reports_crossings() const = 0;
   /// Border i has just been crossed in that direction: sets those of its states that stay as they are in between, a mode or what held when two
   /// bodies touched. `in` is the instant after it.
   virtual void cross(int i, const Input<double>& in, double* state) const = 0;
@@ -114,7 +114,7 @@ using LawPart = BasicLawPart<Planar>;
 
 /// A law from a plain struct P. It has `kWord`, `typical()` (parameters for tests), and a template member evaluate(in, out) that fills
 /// out, which is all zero; where they apply also n_states() with rest(), n_borders() with borders(), border_directions() (one +1, -1 or 0
-/// each, or border_direction(i)) cross() and border_name(), kHolds = false, kStops = true, kRubs = false (of what neither holds nor stops), kOnReactionAlone = true, kStartsFree = true, kTellsBorders = true, supply(in),
+/// each, or border_direction(i)) cross() and border_name(), kHolds = false, kStops = true, kRubs = false (of what neither holds nor stops), kOnReactionAlone = true, kStartsFree = true, kReportsCrossings = true, supply(in),
 /// columns() with observe(), engaged_stiffness(), closed_stiffness(), gap_under(), bends(), misfit(), lever(), penetration(), breach(), stiction() with set_stuck() and start_slipping().
 template <class P, class S = Planar>
 class LawPartOf final : public BasicLawPart<S> {
@@ -156,8 +156,8 @@ class LawPartOf final : public BasicLawPart<S> {
     if constexpr (requires { law_.border_name(i, rising); }) return std::string(law_.border_name(i, rising));
     else return "border " + std::to_string(i + 1) + (rising ? " rises" : " falls");
   }
-  bool tells_borders() const override {
-    if constexpr (requires { P::kTellsBorders; }) return P::kTellsBorders;
+  bool reports_crossings() const override {
+    if constexpr (requires { P::kReportsCrossings; }) return P::kReportsCrossings;
     else return false;
   }
   void cross(int i, const Input<double>& in, double* state) const override {

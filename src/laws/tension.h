@@ -18,7 +18,7 @@ namespace pintle {
 
 struct TensionLaw {
   static constexpr std::string_view kWord = "tension";
-  static constexpr bool kStartsFree = true, kTellsBorders = true;
+  static constexpr bool kStartsFree = true, kReportsCrossings = true;
   double k = 0;  // > 0 [N/m]
   double c = 0;  // >= 0 [N*s/m]
 

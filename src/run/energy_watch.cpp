@@ -102,7 +102,7 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicSta
       tightened_at_ = state.t;
     }
     gap = state.gap[j][0];
-    if (tightened_ != j && is_stretched_most(system_.joints[j].displacement, gap)) {
+    if (tightened_ != j && is_at_stretch_limit(system_.joints[j].displacement, gap)) {
       message_ = fmt::format("joint {} is stretched by {:.4g} m at t = {:.6g} s, as far as a stretch is told from slack. State its `stretch` as assembled, of which three times are followed up to half of what a turn winds; or give it more stiffness, or its disc a larger radius",
                              system_.joints[j].name, gap, state.t);
       return Alarm::kOpen;

@@ -15,7 +15,7 @@ struct SwitchingFunction {
   int border = 0;     // of that part, or kink of the expression, counted from 0
   int direction = 0;  // +1: an event only where it turns positive; -1: only where it does not stay so; 0: both
   bool law_has_states = false;  // which crossing it may set
-  bool is_told = false;         // a crossing is among the events of the joint
+  bool is_reported = false;         // a crossing is among the events of the joint
 
   /// Whether going from one value to the other is an event.
   bool is_event(double from, double to) const { return (from > 0) != (to > 0) && (direction == 0 || (direction > 0) == (to > 0)); }

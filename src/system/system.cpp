@@ -57,7 +57,7 @@ void BasicSystem<S>::list_switching() {
   for (int j = 0; j < n_joints(); ++j) {
     for (int p = 0; const auto& part : joints[j].law.parts()) {
       for (int border = 0; border < part->n_borders(); ++border)
-        switching_.push_back({SwitchingFunction::Owner::kLaw, j, p, border, part->border_direction(border), part->n_states() > 0, part->n_states() > 0 || part->tells_borders()});
+        switching_.push_back({SwitchingFunction::Owner::kLaw, j, p, border, part->border_direction(border), part->n_states() > 0, part->n_states() > 0 || part->reports_crossings()});
       ++p;
     }
     if (joints[j].driven >= 0) list(SwitchingFunction::Owner::kDrive, j, 0, joints[j].target);

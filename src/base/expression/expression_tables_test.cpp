@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/expression/expression_parser.h"
-#include "base/expression/switching_places.h"
+#include "base/expression/switching_points.h"
 #include "base/units.h"
 
 namespace pintle {
@@ -104,15 +104,15 @@ void expect_places(const std::vector<double>& places, const std::vector<double>&
 }
 
 // However few parts are looked at; the parabola's sides of `step` lie in different parts, and those of a table of it are looked for alike.
-TEST(ExpressionTables, SwitchingPlacesAreFound) {
+TEST(ExpressionTables, SwitchingPointsAreFound) {
   const Expression straight = expression_with_tables("abs(x - 0.2) + pressure(2*x)/(1 Pa) + bare(x)");
-  expect_places(switching_places(straight, 0.1, 4, 1, 100), {0.2, 0.5, 1, 2, 3, std::numbers::pi, std::numbers::pi + 0.5});
-  expect_places(switching_places(expression_with_tables("pressure(1 - 2*x)/(1 Pa)"), -1, 0.2, 1, 100), {-0.5, 0});
-  expect_places(switching_places(straight, 0.1, 4, 1000, 2), {0.2, 0.5, 1, 2, 3, std::numbers::pi, std::numbers::pi + 0.5});
-  expect_places(switching_places(expression_with_tables("step(x*x - 0.25)"), -1, 1, 8, 100), {-0.5, 0.5});
-  expect_places(switching_places(expression_with_tables("bare(x*x)"), 0.5, 2, 100, 100), {1, std::sqrt(3.0)});
-  EXPECT_TRUE(switching_places(expression_with_tables("sin(x)"), 0, 10, 100, 100).empty());
-  EXPECT_TRUE(switching_places(expression_with_tables("bare(0.2)*x"), 0, 10, 100, 100).empty());
+  expect_places(switching_points(straight, 0.1, 4, 1, 100), {0.2, 0.5, 1, 2, 3, std::numbers::pi, std::numbers::pi + 0.5});
+  expect_places(switching_points(expression_with_tables("pressure(1 - 2*x)/(1 Pa)"), -1, 0.2, 1, 100), {-0.5, 0});
+  expect_places(switching_points(straight, 0.1, 4, 1000, 2), {0.2, 0.5, 1, 2, 3, std::numbers::pi, std::numbers::pi + 0.5});
+  expect_places(switching_points(expression_with_tables("step(x*x - 0.25)"), -1, 1, 8, 100), {-0.5, 0.5});
+  expect_places(switching_points(expression_with_tables("bare(x*x)"), 0.5, 2, 100, 100), {1, std::sqrt(3.0)});
+  EXPECT_TRUE(switching_points(expression_with_tables("sin(x)"), 0, 10, 100, 100).empty());
+  EXPECT_TRUE(switching_points(expression_with_tables("bare(0.2)*x"), 0, 10, 100, 100).empty());
 }
 
 TEST(ExpressionTables, HaveUnits) {

@@ -157,14 +157,15 @@ void BasicRadauStepper<S>::balance_end() {
 
 // theory/time section 3.4, error floor.
 template <class S>
-void BasicRadauStepper<S>::renew_end() {
-  constexpr double kAbove = 2;  // times the rounding that has been met: that of one step is not that of the next
-  before_renewal_ = end_.a;
-  find_rounding_of_joints(system_, end_.q, rounding_);
+void BasicRadauStepper<S>::rebalance_end() {
+  before_rebalancing_ = end_.a;
+  find_rounding_of_joint_forces(system_, end_.q, rounding_);
   balance_end();
-  for (std::size_t b = 0; b < rounding_.size(); ++b)
-    for (int k = 0; k < S::kDof; ++k)
-      if (const double change = system_.bodies[b].mass[k] * std::abs(end_.a[b][k] - before_renewal_[b][k]); change <= rounding_[b][k]) scale_.body[b][k] = std::max(scale_.body[b][k], kAbove * change / tolerance_);
+  for (int b = 0; b < system_.n_bodies(); ++b) {
+    const typename S::Vec change = system_.bodies[b].mass.cwiseProduct((end_.a[b] - before_rebalancing_[b]).cwiseAbs());
+    const typename S::Vec of_rounding = (change.array() <= rounding_[b].array()).select(change.array(), 0.0).matrix();
+    raise_load_scale_above_rounding(b, StepControl::kAboveRounding * of_rounding);
+  }
 }
 
 // Otherwise all passes miss the same impulse. A ball that strikes a damper 1e-10 s late is as much late again for the next contact as its speed is wrong: 2e-7 s, and a force that is 5e-4 wrong.
@@ -197,7 +198,7 @@ template const std::vector<Planar::Motion>& BasicRadauStepper<Planar>::motions_a
 template bool BasicRadauStepper<Planar>::cross_borders();
 template void BasicRadauStepper<Planar>::shift_gap(int joint, double d, double rate);
 template void BasicRadauStepper<Planar>::balance_end();
-template void BasicRadauStepper<Planar>::renew_end();
+template void BasicRadauStepper<Planar>::rebalance_end();
 template void BasicRadauStepper<Planar>::compensate_late_crossing(double late);
 template void BasicRadauStepper<Planar>::undo_compensation();
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::evaluate_switching_functions(double x, double h, double* value);)
@@ -211,7 +212,7 @@ PINTLE_IN_SPACE(template const std::vector<Spatial::Motion>& BasicRadauStepper<S
 PINTLE_IN_SPACE(template bool BasicRadauStepper<Spatial>::cross_borders();)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::shift_gap(int joint, double d, double rate);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::balance_end();)
-PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::renew_end();)
+PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::rebalance_end();)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::compensate_late_crossing(double late);)
 PINTLE_IN_SPACE(template void BasicRadauStepper<Spatial>::undo_compensation();)
 

@@ -62,7 +62,7 @@ bool BasicRadauStepper<S>::attempt(double h) {
 template <class S>
 void BasicRadauStepper<S>::start(const BasicState<S>& state, double h) {
   begin_ = end_ = state;
-  load_change_ = loads_then_ = before_renewal_ = rounding_ = VecsOf<S>(system_.bodies.size(), S::Vec::Zero());
+  load_change_ = loads_then_ = before_rebalancing_ = rounding_ = VecsOf<S>(system_.bodies.size(), S::Vec::Zero());
   control_.start(h);
   system_.motions(end_.q, end_.v, end_m_);
   BasicStage<S>& last = stage_[n_ - 1];

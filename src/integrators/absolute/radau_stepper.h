@@ -107,7 +107,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   bool cross_borders();
   void shift_gap(int joint, double d, double rate);
   void balance_end();
-  void renew_end();
+  void rebalance_end();
   void compensate_late_crossing(double late);
   void undo_compensation();
 
@@ -123,7 +123,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   BasicStepNodes<S> nodes_;
   std::unique_ptr<BasicEndPointProjection<S>> end_point_;
   BasicStageTails<S> tails_;
-  VecsOf<S> load_change_, loads_then_, before_renewal_, rounding_;  // room that is reused
+  VecsOf<S> load_change_, loads_then_, before_rebalancing_, rounding_;  // room that is reused
   BasicOpenContacts<S> open_contacts_;
   BasicBendWatch<S> bends_;
   std::vector<std::pair<int, typename S::Vec>> rubbing_;  // joints without bristles, and 1 where they rub

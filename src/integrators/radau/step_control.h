@@ -28,6 +28,7 @@ class StepControl {
   // Events, in parts of the usual step.
   static constexpr double kCrossing = 1e-9;  // of the usual step: how far is gone to begin with to cross an event, at most
   static constexpr double kLate = 1e-4;      // the same, per tolerance of the steps: all passes cross an event equally late, and their difference does not show it. Break-away of a stuck slider at 1e-7: 2e-9 s late without it
+  static constexpr double kAboveRounding = 2;     // times the rounding that has been met is taken off the error: that of one step is not that of the next
   static constexpr double kAtOnce = 1e-2;    // of the usual step: a jump that is crossed again within it may be held
   static constexpr double kMoment = 1e-6;    // of the usual step: how far is looked to see where accelerations lead
 
@@ -63,7 +64,7 @@ class StepControl {
 
   /// One accepted step of `method`, not beyond t_end; its error estimate falls as h^order. False when no step could be made:
   /// `next` is then the last one tried. The method has t(), begin_at_end(), attempt(h), contraction(), locate_event(h, solved), sets_states(event), rests(h), motion_is_rounding(h),
-  /// forces_stay_constant(distance), cross_event(distance, event), taylor_step(distance), renew_end(), error_estimate(h, error) and finish_step(h).
+  /// forces_stay_constant(distance), cross_event(distance, event), taylor_step(distance), rebalance_end(), error_estimate(h, error) and finish_step(h).
   template <class Method>
   bool advance(Method& method, double t_end, double tolerance, int order, Counters& counters);
 
@@ -81,7 +82,6 @@ class StepControl {
   static constexpr double kSteady = 0.9;          // of the error of the trial before: a shorter step has not made it smaller
   static constexpr int kMostSteady = 3;           // such trials, after which the error counts as that of the accelerations that the step starts with
   static constexpr double kMostRounding = 1e-11;  // of the loads, a hundredth of the least tolerance: what may pass for rounding
-  static constexpr double kAboveRounding = 2;     // times the rounding that has been met is taken off the error: that of one step is not that of the next
   static constexpr double kFloor = 0.1, kVeryShort = 1e-6;  // over the tolerance; of the run: equal steps that are shorter, with errors above, may have met a floor
   static constexpr int kMostAtFloor = 20;         // such steps in a row, after which one is tried that is twice as long
   static constexpr double kShort = 0.9;           // of the way to an event that is only guessed at: so far the step goes
@@ -293,7 +293,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
       error_before = measured;
       renewed = steady == kMostSteady;
       if (renewed) {
-        method.renew_end();
+        method.rebalance_end();
         method.begin_at_end();
       } else {
         h *= std::min(factor, 0.7);

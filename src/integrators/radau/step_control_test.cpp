@@ -26,7 +26,7 @@ class Flickering {
   bool forces_stay_constant(double) { return true; }
   void cross_event(double, const SwitchingEvent&) { ++crossings; }
   void taylor_step(double) {}
-  void renew_end() {}
+  void rebalance_end() {}
   void balance_end() {}
   double share_of_step(double, double) { return 1; }
   bool error_estimate(double, double&) { return false; }
@@ -75,7 +75,7 @@ class OneEvent {
     ++crossings;
   }
   void taylor_step(double) {}
-  void renew_end() {}
+  void rebalance_end() {}
   void balance_end() {}
   double share_of_step(double, double) { return 1; }
   bool error_estimate(double, double& error) { return error = 0, true; }
@@ -148,7 +148,7 @@ class Resting {
     t_ += h;
     ++taylor_steps;
   }
-  void renew_end() {}
+  void rebalance_end() {}
   void balance_end() {}
   double share_of_step(double, double) { return 1; }
   bool error_estimate(double, double& error) { return error = 0, true; }

@@ -35,7 +35,7 @@ constexpr double kShareBeforeEvent = 0.999;
 ///   shift_gap(joint, d, rate)                   the carried gap of a driven joint at the end, and its rate, by so much; what the law then stores more is supplied
 ///   taylor_step(d)                                    a step of d by Taylor's series, on which forces stay what they are
 ///   balance_end()                               what laws and loads really give at the end: forces, accelerations, powers
-///   renew_end()                                 balance_end(); where accelerations change by what rounding makes of joint forces alone, no less is measured from now on
+///   rebalance_end()                                 balance_end(); where accelerations change by what rounding makes of joint forces alone, no less is measured from now on
 ///   compensate_late_crossing(late)              for an event that was a time `late` before the end: what pulls behind it, and has not since the start, has pulled for so long
 ///   undo_compensation()                         the end is again what it was before `compensate_late_crossing`
 template <class Method, class S>

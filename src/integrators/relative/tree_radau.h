@@ -79,7 +79,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   bool cross_borders() { return end_at_.cross_borders(search_.start(), search_.end(), end_, end_state_.dissipated); }
   void shift_gap(int joint, double d, double rate);
   void balance_end();
-  void renew_end() { balance_end(); }
+  void rebalance_end() { balance_end(); }
   void compensate_late_crossing(double late);
   void undo_compensation();
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "integrators/thresholds.h"
+#include "run/limits/creeping_contacts.h"
 
 namespace pintle {
 
@@ -24,7 +25,7 @@ double largest_angular_stiffness(const BasicSystem<S>& system) {
 template <class S>
 BasicForceRecorder<S>::BasicForceRecorder(const BasicSystem<S>& system, Recorded what)
     : system_(system), what_(what),
-      stuck_joints_(system), lost_equilibria_(system), creeping_contacts_(system), wound_belts_(system), left_edges_(system), drive_peaks_(system) {}
+      stuck_joints_(system), lost_equilibria_(system), wound_belts_(system), edge_overruns_(system), drive_peaks_(system) {}
 
 template <class S>
 void BasicForceRecorder<S>::start(const BasicState<S>& state, const LoadSampling& sampling) {
@@ -45,7 +46,7 @@ void BasicForceRecorder<S>::see_step(BasicStepper<S>& stepper) {
   stuck_joints_.see(state);
   lost_equilibria_.see(state);
   wound_belts_.see(state);
-  left_edges_.see(state);
+  edge_overruns_.see(state);
   drive_peaks_.see(state);
 }
 
@@ -57,7 +58,7 @@ void BasicForceRecorder<S>::finish(const BasicStepper<S>& stepper) {
   forces_.rounding_couple = kLastBits * largest_angular_stiffness(system_) * largest_angle<S>(state.q);
   if (state.t > forces_.t.back()) add(state);
   if (what_ == Recorded::kForces) return;
-  creeping_contacts_.see_end(state, forces_.t.front());
+  note_on_creeping_ = note_on_creeping_contacts(system_, state, state.t - forces_.t.front());
   for (int j = 0; j < system_.n_joints(); ++j) heat_.push_back(loads_->heat(j, state));
 }
 
@@ -79,7 +80,7 @@ void BasicForceRecorder<S>::add_energies(const BasicState<S>& state) {
   stuck_joints_.see(state);
   lost_equilibria_.see(state);
   wound_belts_.see(state);
-  left_edges_.see(state);
+  edge_overruns_.see(state);
 }
 
 template <class S>
@@ -92,8 +93,8 @@ template <class S>
 void BasicForceRecorder<S>::fill(Trajectory& out) {
   for (std::string& note : stuck_joints_.notes()) out.notes.push_back(std::move(note));
   for (std::string& note : lost_equilibria_.notes()) out.notes.push_back(std::move(note));
-  for (std::string& note : creeping_contacts_.notes()) out.notes.push_back(std::move(note));
-  for (const std::string& note : left_edges_.notes()) out.notes.push_back(note);
+  if (!note_on_creeping_.empty()) out.notes.push_back(note_on_creeping_);
+  for (const std::string& note : edge_overruns_.notes()) out.notes.push_back(note);
   for (std::string& note : wound_belts_.notes()) out.notes.push_back(std::move(note));
   out.joints.clear();
   for (int j = 0; j < system_.n_joints(); ++j) {

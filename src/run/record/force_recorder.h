@@ -10,8 +10,7 @@
 #include "run/record/drive_peaks.h"
 #include "run/record/force_table.h"
 #include "run/record/load_statistics.h"
-#include "run/record/creeping_contacts.h"
-#include "run/record/left_edges.h"
+#include "run/record/edge_overruns.h"
 #include "run/record/lost_equilibria.h"
 #include "run/record/stuck_joints.h"
 #include "run/record/wound_belts.h"
@@ -74,9 +73,9 @@ class BasicForceRecorder {
   std::vector<double> heat_, heat_at_crossings_;  // of each joint over the run, and as above [J]
   BasicStuckJoints<S> stuck_joints_;
   BasicLostEquilibria<S> lost_equilibria_;
-  BasicCreepingContacts<S> creeping_contacts_;
+  std::string note_on_creeping_;
   BasicWoundBelts<S> wound_belts_;
-  BasicLeftEdges<S> left_edges_;
+  BasicEdgeOverruns<S> edge_overruns_;
   BasicDrivePeaks<S> drive_peaks_;
 };
 using ForceRecorder = BasicForceRecorder<Planar>;

@@ -1,4 +1,4 @@
-#include "base/expression/switching_places.h"
+#include "base/expression/switching_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ void take_signs(const Expression& f, double at, std::vector<double>& value) { f.
 
 }  // namespace
 
-std::pair<double, double> around_switch(const Expression& f, std::size_t k, double low, double high) {
+std::pair<double, double> bracket_switch(const Expression& f, std::size_t k, double low, double high) {
   constexpr int kHalves = 50;
   std::vector<double> value(static_cast<std::size_t>(f.n_switches()));
   const auto side = [&](double at) { return take_signs(f, at, value), value[k] > 0; };
@@ -24,7 +24,7 @@ std::pair<double, double> around_switch(const Expression& f, std::size_t k, doub
   return {low, high};
 }
 
-std::vector<double> switching_places(const Expression& f, double low, double high, int parts, std::size_t most) {
+std::vector<double> switching_points(const Expression& f, double low, double high, int parts, std::size_t most) {
   const auto n = static_cast<std::size_t>(f.n_switches());
   std::vector<double> places;
   if (n == 0) return places;
@@ -41,7 +41,7 @@ std::vector<double> switching_places(const Expression& f, double low, double hig
     const double to = low + (high - low) * i / parts;
     take_signs(f, to, behind);
     for (std::size_t k = 0; k < n; ++k)
-      if (!known[k] && (before[k] > 0) != (behind[k] > 0)) places.push_back(around_switch(f, k, from, to).second);
+      if (!known[k] && (before[k] > 0) != (behind[k] > 0)) places.push_back(bracket_switch(f, k, from, to).second);
     before.swap(behind);
     from = to;
   }

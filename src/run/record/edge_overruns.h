@@ -13,9 +13,9 @@
 namespace pintle {
 
 template <class S>
-class BasicLeftEdges {
+class BasicEdgeOverruns {
  public:
-  explicit BasicLeftEdges(const BasicSystem<S>& system) : system_(system) {
+  explicit BasicEdgeOverruns(const BasicSystem<S>& system) : system_(system) {
     if constexpr (S::kDim == 2)
       for (int j = 0; j < system.n_joints(); ++j)
         if (std::holds_alternative<EdgeGap>(system.joints[static_cast<std::size_t>(j)].displacement)) inside_.push_back(j);
@@ -30,6 +30,7 @@ class BasicLeftEdges {
         if (!(joint.law.penetration(state.gap[static_cast<std::size_t>(j)]) > 0)) return false;
         const EdgeProfile& edge = *std::get<EdgeGap>(joint.displacement).profile;
         const typename S::Vec z = system_.pose(joint.at, m_).z;
+        if (z[0] - edge.roller_radius() >= edge.from() && z[0] + edge.roller_radius() <= edge.to()) return false;  // it touches no farther away
         const double x = edge.nearest({z[0], z[1]});
         if (x >= edge.from() && x <= edge.to()) return false;
         notes_.push_back(fmt::format("joint {}: from t = {:.4g} s on it runs beyond its edge ({} = {:.4g} m), where nobody has looked for corners, and for hollows that the roller does not fit into: let from and to go as far as it runs",
