@@ -82,7 +82,7 @@ class StepControl {
   static constexpr double kSteady = 0.9;          // of the error of the trial before: a shorter step has not made it smaller
   static constexpr int kMostSteady = 3;           // such trials, after which the error counts as that of the accelerations that the step starts with
   static constexpr double kMostRounding = 1e-11;  // of the loads, a hundredth of the least tolerance: what may pass for rounding
-  static constexpr double kFloor = 0.1, kVeryShort = 1e-6;  // over the tolerance; of the run: equal steps that are shorter, with errors above, may have met a floor
+  static constexpr double kVeryShort = 1e-6;      // of the run: steps that are shorter and do not grow may have met a floor
   static constexpr int kMostAtFloor = 20;         // such steps in a row, after which one is tried that is twice as long
   static constexpr double kShort = 0.9;           // of the way to an event that is only guessed at: so far the step goes
   static constexpr double kAfterEvent = 0.3;      // of the usual step: the first step after an event, where nothing is known of it
@@ -158,8 +158,8 @@ class StepControl {
   static double of_contraction(double contraction) { return contraction > 0 ? std::max(kShrink, std::sqrt(kContraction / contraction)) : kMost; }
 
   // An error of rounding just below the tolerance keeps steps as short as they happen to be.
-  void leave_floor(double h, double error, double t_end) {
-    at_floor_ = next == h && error > kFloor && h < kVeryShort * std::abs(t_end) ? at_floor_ + 1 : 0;
+  void leave_floor(double h, double t_end) {
+    at_floor_ = next < kSameAbove * h && h < kVeryShort * std::abs(t_end) ? at_floor_ + 1 : 0;
     if (at_floor_ < kMostAtFloor) return;
     next *= 2;
     at_floor_ = 0;
@@ -308,7 +308,7 @@ bool StepControl::advance(Method& method, double t_end, double tolerance, int or
     method.finish_step(h);
     ++counters.steps;
     accept(h, factor, up_to_event);
-    leave_floor(h, error, t_end);
+    leave_floor(h, t_end);
     return true;
   }
   next = h;
