@@ -73,6 +73,16 @@ TEST(Chaos, WhatASmallerToleranceMeetsALargerOneMeets) {
   }
 }
 
+// Its pairs of passes grow apart at 0.9 to 1.2 per second, at different rates, and no pair after them at one rate.
+TEST(Chaos, PassesThatGrowApartAtDifferentRatesAreThoseOfChaos) {
+  const std::string file = std::string(PINTLE_SOURCE_DIR) + "/mechanisms/double_pendulum.toml";
+  const std::vector<std::string> changes{"parameters.mass=1.11015 kg", "defaults.joint.stiffness=8.32328e7 N/m", "defaults.joint.damping=11047 N*s/m", "simulate.tolerance=1e-2"};
+  const Trajectory run = simulate(read_model(file, changes));
+  EXPECT_EQ(run.outcome, Outcome::kHorizon) << run.message;
+  EXPECT_NEAR(run.growth.rate, 1.2, 0.3);  // errors of the double pendulum grow at 1.25 +- 0.6 per second
+  EXPECT_GT(run.growth.horizon, 10);
+}
+
 TEST(Chaos, RegularMotionsAreNotChaotic) {
   for (const char* name : {"pendulum", "four_bar", "slider_crank", "n_four_bar_1", "five_bar_parallelogram", "six_bar", "andrews", "quick_return"})
     for (const double tolerance : {1e-3, 1e-5}) {

@@ -190,7 +190,11 @@ class Passes {
     }
     growth_ = {};
     if (apart > kPromised * settings_.tolerance) growth_ = growth_of(coarse, fine);
-    if (growth_.exponential && growth_.saturated) take_all(coarse, fine);
+    if (growth_.exponential && growth_.saturated) {
+      take_all(coarse, fine);
+      ++growths_;
+      if (growths_ == 1 || growth_.rate_scatter * steadiest_.rate < steadiest_.rate_scatter * growth_.rate) steadiest_ = growth_;
+    }
     const double of_passes = share_ * (out_.of_motion ? out_.motion_error : largest_of(relative_difference_));
     error_before_ = std::exchange(error_, out_.of_motion ? of_passes : std::max(of_passes, largest_ringing_loss(system_, difference_, fine_ringing_, fine_tolerance_)));
   }
@@ -260,24 +264,35 @@ class Passes {
       longest_ = kShorter * settings_.duration / static_cast<double>(last_.counters.steps);
       return at(tolerance);
     }
-    const bool same = growth_.saturated && growth_.rate_scatter < kMostScatter * growth_.rate && same_growth(last_growth_, growth_);
-    if (same) {
-      chaos_ = growth_;
-      chaos_.rate_error = std::max(growth_.rate_error, growth_.rate_scatter);
-    }
-    if (last_one) return false;
+    const bool same = growth_.saturated && is_steady(growth_) && same_growth(last_growth_, growth_);
+    if (same) claim_chaos(growth_);
+    if (last_one) return end_far_apart();
     if (growth_.exponential && growth_.saturated) {
       const double hoped = tolerance_by_growth(growth_.rate - kOptimism * growth_.rate_error, 1);
       const bool hopeless = hoped < kLeastTolerance || tolerance < kFinest;
-      const bool falls = error_ < kFalls * error_at_last_growth_;  // errors of a chaotic motion are as large as they can be, whatever the tolerance
-      if (same && hopeless && !falls) return false;
+      if (same && hopeless && !errors_fall()) return false;
       if (growth_.to_largest) return at(finer_by_error(tolerance));
       const double next = std::min(kRepeated * tolerance, hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kErrorPower)));
       choose_order(next);
       return at(next);
     }
     at_rounding_ = meets_rounding(tolerance) || (last_.sliding_load >= 0 && tolerance <= kNarrowed);
-    return !at_rounding_ && at(finer_by_error(tolerance));
+    return at_rounding_ ? end_far_apart() : at(finer_by_error(tolerance));
+  }
+
+  static bool is_steady(const ErrorGrowth& growth) { return growth.rate_scatter < kMostScatter * growth.rate; }
+  // Errors of a chaotic motion are as large as they can be, whatever the tolerance.
+  bool errors_fall() const { return error_ < kFalls * error_at_last_growth_; }
+
+  void claim_chaos(const ErrorGrowth& growth) {
+    chaos_ = growth;
+    chaos_.rate_error = std::max(growth.rate_error, growth.rate_scatter);
+  }
+
+  // No finer pass is made. Where pairs of passes have grown apart at rates that are not quite the same, and no pass since has come nearer, that is chaos too. False.
+  bool end_far_apart() {
+    if (!chaos_.exponential && growths_ > 1 && is_steady(steadiest_) && !errors_fall()) claim_chaos(steadiest_);
+    return false;
   }
 
   // Of a pass with this tolerance. Between events steps are short, and longer with order 9.
@@ -444,6 +459,8 @@ class Passes {
   int stages_before_ = 0;          // of the coarser one
   ErrorGrowth growth_, last_growth_;  // and of the pair before that showed chaos: one between may be too short or too jagged to tell
   double error_at_last_growth_ = 0;  // error_ of those passes
+  int growths_ = 0;                // pairs of passes that have shown chaos
+  ErrorGrowth steadiest_;          // of them, that of the least scatter for its rate
   ErrorGrowth chaos_;              // where two pairs have shown the same exponential growth
   bool doubted_ = false;           // a pass has been made because two were alike
   double longest_ = 0;             // step of passes from now on, because tolerances have not shortened them [s]
