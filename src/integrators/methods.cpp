@@ -26,7 +26,7 @@ namespace {
 
 template <class S>
 const BasicState<S>& interpolate_with(BasicDenseOutput<S>& dense, const BasicRadauStepper<S>& method, double t) {
-  return dense.at(t, method.previous(), method.state(), method.nodes());
+  return t == method.state().t ? method.state() : dense.at(t, method.previous(), method.state_before_event(), method.nodes());
 }
 const State& interpolate_with(DenseOutput& dense, const Dopri5& method, double t) {
   return t == method.state().t ? method.state() : dense.at(t, method.previous(), method.state_before_event());

@@ -46,6 +46,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
 
   const BasicState<S>& state() const { return end_; }
   const BasicState<S>& previous() const { return begin_; }
+  const BasicState<S>& state_before_event() const { return this->end_before_borders(); }
   /// The inside of the last step, for dense output.
   const BasicStepNodes<S>& nodes() const { return nodes_; }
   double next_step() const { return control_.next; }

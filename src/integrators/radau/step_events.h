@@ -57,6 +57,9 @@ class StepEvents {
   /// At the end of a step: a ramp that the last bits have left is let go, a border that they have crossed is crossed.
   void update_switching();
 
+  /// The end of the last step before the borders that its last bits have crossed, where forces may jump.
+  const BasicState<S>& end_before_borders() const { return border_crossed_ ? before_borders_ : static_cast<const Method&>(*this).end_state(); }
+
   StepControl control_;
   EventSearch search_;
   std::vector<LawCrossing> crossings_;
@@ -66,18 +69,24 @@ class StepEvents {
   void compensate_late_crossing(double late, int function);
   Method& method() { return static_cast<Method&>(*this); }
   void restart_search() { method().evaluate_switching_functions_at_end(search_.start()); }
+  bool is_border_between();
   double margin_rate(const SlidingMode& jump);
   void record() { record_crossings(events_of_, method().end_state(), search_.start(), search_.end(), crossings_); }
 
   const BasicSystem<S>& events_of_;
   BasicChatteringDetector<S> chattering_;
   std::vector<typename S::Motion> motions_before_;
+  BasicState<S> before_borders_;
+  bool border_crossed_ = false;
 };
 
 template <class Method, class S>
 void StepEvents<Method, S>::reset_event_detection() {
   chattering_.forget();
-  if (events_of_.has_branches()) restart_search();
+  border_crossed_ = false;
+  if (!events_of_.has_branches()) return;
+  before_borders_ = method().end_state();
+  restart_search();
 }
 
 template <class Method, class S>
@@ -152,10 +161,21 @@ double StepEvents<Method, S>::margin_rate(const SlidingMode& jump) {
   return (events_of_.margin(jump, t + d, method().motions_after(d)) - events_of_.margin(jump, t, method().end_motions())) / d;
 }
 
+// Between the values of `search_`.
+template <class Method, class S>
+bool StepEvents<Method, S>::is_border_between() {
+  const auto& functions = events_of_.switching_functions();
+  for (std::size_t f = 0; f < functions.size(); ++f)
+    if (functions[f].is_crossing(search_.start()[f], search_.end()[f])) return true;
+  return false;
+}
+
 template <class Method, class S>
 void StepEvents<Method, S>::update_switching() {
   if (!events_of_.has_branches()) return;
   method().evaluate_switching_functions_at_end(search_.end());
+  border_crossed_ = is_border_between();
+  if (border_crossed_) before_borders_ = method().end_state();
   const bool crossed = method().cross_borders();
   if (!leave_sliding(events_of_, method().end_time(), method().end_motions(), method().sliding()) && !crossed) {
     search_.restart();

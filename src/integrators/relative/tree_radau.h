@@ -28,6 +28,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   const State& state() const override { return end_state_; }
   const State& previous() const override { return begin_state_; }
   const State& interpolate(double t) override;
+  const State& state_before_event() const override { return end_before_borders(); }
   const Counters& counters() const override { return counters_; }
   const std::string& failure() const override { return failure_; }
   const std::vector<LawCrossing>& crossings() const override { return crossings_; }

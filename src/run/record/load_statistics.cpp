@@ -14,7 +14,7 @@ constexpr int kMostHalvings = 10;  // of a part of a step; a jump of the loads i
 // At the end of a step what it came to: what laws set their states to there is the next one's.
 template <class S>
 const BasicState<S>& on_curve(BasicStepper<S>& stepper, double t) {
-  return stepper.nodes() == nullptr && t == stepper.state().t ? stepper.state_before_event() : stepper.interpolate(t);
+  return t == stepper.state().t ? stepper.state_before_event() : stepper.interpolate(t);
 }
 
 }  // namespace
