@@ -2,6 +2,7 @@
 // variants of a mechanism joint by joint.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ enum class Cause {
   kNumerical,  ///< within the runs' own error estimates
   kPhysical,   ///< beyond them: what the joints' compliance does
   kNotUnique,  ///< redundant ideal constraints leave the force undetermined
+  kChaotic,    ///< a peak comes after the time up to which the force is promised
+  kNoEstimate, ///< a run stopped before its second integration: its errors are not known
 };
 
 /// How far two runs are apart in one quantity, over all output times both have.
@@ -25,7 +28,7 @@ struct Difference {
   double largest = 0, rms = 0;           ///< of the difference; a joint force's is that of the vectors
   double largest_time = 0;               ///< [s]
   double relative = 0, relative_rms = 0; ///< over the peak, or over a ten-thousandth of the largest peak of the same unit [-]
-  double error_estimate = 0;             ///< both runs' own, added; 0 for coordinates
+  double error_estimate = 0;             ///< both runs' own, added; 0 for coordinates; not a number where a run has none
   int digits = 0;                        ///< significant figures in which both agree, 15 at most
   Cause cause = Cause::kNone;
 };
@@ -39,6 +42,7 @@ struct Softness {
 struct Comparison {
   Trajectory first, second;
   Equations against = Equations::kIdeal;
+  double until = std::numeric_limits<double>::infinity();  ///< what comes later is not compared: the motion of one of them is chaotic [s]
   std::vector<Difference> forces, couples, coordinates;
   std::vector<Softness> softness;  ///< softest first; joints with a linear law
 };

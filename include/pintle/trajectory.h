@@ -28,7 +28,7 @@ struct LoadSummary {
   bool has_moment = false;
   double peak_moment = 0, rms_moment = 0, mean_moment = 0;
   double heat = 0;                     ///< what the joint has turned into heat [J]; of springs 0
-  double error_estimate = 0;           ///< largest error of the force over the run [N]; 0 also where a run stopped before its second integration
+  double error_estimate = 0;           ///< largest error of the force over the run [N]; not a number where a run stopped before its second integration, as the other two
   double moment_error_estimate = 0;    ///< largest error of the couple [N*m]
   double relative_error_estimate = 0;  ///< the larger of the two, each over the joint's peak, or over 1e-4 of the mechanism's largest where that is more [-]; without the couple of a pin that rubs
   double horizon = 0;                  ///< last time up to which the force is promised [s]; the error estimates are of the rows up to it

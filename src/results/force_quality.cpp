@@ -6,7 +6,7 @@ namespace pintle {
 
 bool has_force_estimates(const Trajectory& run) {
   return run.outcome == Outcome::kCompleted ||
-         std::any_of(run.joints.begin(), run.joints.end(), [](const LoadSummary& joint) { return joint.relative_error_estimate != 0; });
+         std::any_of(run.joints.begin(), run.joints.end(), [](const LoadSummary& joint) { return joint.relative_error_estimate > 0; });
 }
 
 const LoadSummary* largest_joint(const Trajectory& run) {

@@ -5,7 +5,7 @@
 
 namespace pintle {
 
-/// Whether a second integration has said how good the joint forces are. A run that stopped before has zeros for estimates.
+/// Whether a second integration has said how good the joint forces are. A run that stopped before has no numbers for estimates.
 bool has_force_estimates(const Trajectory& run);
 
 /// The joint with the largest peak force; nullptr: the run has no joints.

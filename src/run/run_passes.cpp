@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "integrators/thresholds.h"
@@ -42,6 +43,8 @@ constexpr double kFinest = 1e-11;          // tolerance down to which passes are
 constexpr double kMostScatter = 0.65;      // of a rate of growth, for chaos to be claimed: that of the double pendulum has 0.56, of a cam whose roller rattles, and whose finer passes agree to the end, 0.75
 constexpr double kOptimism = 2;            // standard errors by which a rate may be smaller before no tolerance is said to help
 constexpr double kFalls = 0.1;             // of the error of passes that have grown apart alike: those whose errors fall so far converge yet. With 0 three balls of a cradle, whose error falls from 9 to 0.4 of the peak with a tenth of the tolerance, are taken for chaotic
+constexpr double kFarBelow = 1e-18;        // tolerance that growing errors would ask for, below which nobody tries whether tolerances that can be had are enough
+constexpr double kShift = 0.2;             // of the time in which errors grow by the ratio of two tolerances: by so much later, at least, the tighter passes part. A pendulum that falls from its upper position parts at 0.04 of it later, as errors grow while it falls only
 constexpr int kMostOpen = 2;               // passes made finer because the energy account did not close
 
 template <class S>
@@ -176,9 +179,9 @@ class Passes {
   // The last two passes, of which the coarser had the tolerance `before` and made so many steps.
   void compare(double before, double steps_before) {
     const BasicForceTable<S> &coarse = coarse_->forces(), &fine = fine_->forces();
-    coarse_tolerance_ = before;
+    coarse_before_ = std::exchange(coarse_tolerance_, before);
     alike_ = choice_.stages == stages_before_ && static_cast<double>(last_.counters.steps) < kAlike * steps_before;
-    share_ = alike_ || out_.of_motion || last_.sliding_load >= 0 ? 1.0 : share_of_finer(fall_of_errors(before, steps_before));
+    share_ = share_while_small_ = alike_ || out_.of_motion || last_.sliding_load >= 0 ? 1.0 : share_of_finer(fall_of_errors(before, steps_before));
     stages_before_ = choice_.stages;
     find_difference(coarse, fine);
     out_.motion_error = out_.of_motion ? std::max(motion_difference(system_, coarse, fine), kSurest * fine_tolerance_) : 0;
@@ -187,6 +190,7 @@ class Passes {
     if (growth_.exponential && growth_.saturated) {
       last_growth_ = growth_;
       error_at_last_growth_ = error_;
+      coarse_at_last_growth_ = coarse_before_;
     }
     growth_ = {};
     if (apart > kPromised * settings_.tolerance) growth_ = growth_of(coarse, fine);
@@ -195,6 +199,7 @@ class Passes {
       ++growths_;
       if (growths_ == 1 || growth_.rate_scatter * steadiest_.rate < steadiest_.rate_scatter * growth_.rate) steadiest_ = growth_;
     }
+    stalled_ = error_before_ > 0 && error_ > kNoGain * error_before_;
     const double of_passes = share_ * (out_.of_motion ? out_.motion_error : largest_of(relative_difference_));
     error_before_ = std::exchange(error_, out_.of_motion ? of_passes : std::max(of_passes, largest_ringing_loss(system_, difference_, fine_ringing_, fine_tolerance_)));
   }
@@ -260,6 +265,7 @@ class Passes {
     const double enough = tolerance < kFinest ? 1 : choice_.stages > 3 ? kPromisedByFew : kPromised;  // of the tolerance, where finer passes find rounding
     if (error_ <= enough * wanted) {
       // Alike again, and it is not the tolerance that limits the steps: that the passes agree says little.
+      if (stalled_ && !confirmed_ && !last_one) return confirmed_ = true, at(kRepeated * tolerance);  // passes that no tolerance brought nearer may agree by chance
       if (!alike_ || out_.of_motion || longest_ > 0 || last_one || choice_.method != "radau") return false;
       longest_ = kShorter * settings_.duration / static_cast<double>(last_.counters.steps);
       return at(tolerance);
@@ -270,9 +276,10 @@ class Passes {
     if (growth_.exponential && growth_.saturated) {
       const double hoped = tolerance_by_growth(growth_.rate - kOptimism * growth_.rate_error, 1);
       const bool hopeless = hoped < kLeastTolerance || tolerance < kFinest;
-      if (same && hopeless && !errors_fall()) return false;
+      if (same && hopeless && !errors_fall() && (is_sure() || coarse_tolerance_ <= kFinest || last_.counters.steps > kLong)) return false;
       if (growth_.to_largest) return at(finer_by_error(tolerance));
-      const double next = std::min(kRepeated * tolerance, hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kErrorPower)));
+      const double by_growth = same && hopeless ? kFinest : hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kErrorPower));
+      const double next = std::min(kRepeated * tolerance, by_growth);
       choose_order(next);
       return at(next);
     }
@@ -283,6 +290,12 @@ class Passes {
   static bool is_steady(const ErrorGrowth& growth) { return growth.rate_scatter < kMostScatter * growth.rate; }
   // Errors of a chaotic motion are as large as they can be, whatever the tolerance.
   bool errors_fall() const { return error_ < kFalls * error_at_last_growth_; }
+
+  // Of a motion that shows the same growth twice, without a look at what the tightest tolerances make of it: errors may grow for a while only.
+  bool is_sure() const {
+    const double shift = (growth_.until - last_growth_.until) * growth_.rate / std::log(coarse_at_last_growth_ / coarse_tolerance_);
+    return growth_.to_largest == last_growth_.to_largest && tolerance_by_growth(growth_.rate, 1) < kFarBelow && shift > kShift;
+  }
 
   void claim_chaos(const ErrorGrowth& growth) {
     chaos_ = growth;
@@ -351,7 +364,13 @@ class Passes {
     for (LoadSummary& joint : out_.joints) joint.horizon = last_.t;
     const BasicLeastError<S> least{least_error(), fine_ringing_, fine_tolerance_};
     if (!difference_.force.empty() && !chaotic) state_errors(system_, difference_, share_, least, out_.joints);
-    if (chaotic) promise_until_horizons(system_, *coarse_, *fine_, share_, kPromised * settings_.tolerance, least, chaos_, out_);
+    if (difference_.force.empty() && context_.shape.checked) leave_errors_open();
+    if (chaotic) promise_until_horizons(system_, *coarse_, *fine_, share_while_small_, kPromised * settings_.tolerance, least, chaos_, out_);
+  }
+
+  // No second pass has told them.
+  void leave_errors_open() {
+    for (LoadSummary& joint : out_.joints) joint.error_estimate = joint.moment_error_estimate = joint.relative_error_estimate = std::numeric_limits<double>::quiet_NaN();
   }
 
   // Passes are made until errors are small beside the forces in the rows, and a small part of the peaks between them: an impact between rows shows its error there little. What is stated in the
@@ -449,16 +468,19 @@ class Passes {
   BasicRingingLoss<S> fine_ringing_;
   MethodChoice choice_;
   std::unique_ptr<BasicForceRecorder<S>> coarse_, fine_;
-  double fine_tolerance_ = 0, coarse_tolerance_ = 0;
+  double fine_tolerance_ = 0, coarse_tolerance_ = 0, coarse_before_ = 0;  // of the last two passes; of the coarser one in the comparison before
   // Of the last two passes.
   PassDifference difference_;
   std::vector<double> relative_difference_;  // of each joint
+  double share_while_small_ = 1;                      // share_ of differences that are still far from all that they can become
   double share_ = 1, error_ = 0, error_before_ = 0;  // of the last two comparisons
+  bool stalled_ = false;                              // the errors of the two comparisons before: the later one was no smaller
+  bool confirmed_ = false;                            // a pass has been made because of that
   bool at_rounding_ = false;                          // the last one has not gained on the one before
   bool alike_ = false;             // their steps
   int stages_before_ = 0;          // of the coarser one
   ErrorGrowth growth_, last_growth_;  // and of the pair before that showed chaos: one between may be too short or too jagged to tell
-  double error_at_last_growth_ = 0;  // error_ of those passes
+  double error_at_last_growth_ = 0, coarse_at_last_growth_ = 0;  // error_ and coarse_tolerance_ of those passes
   int growths_ = 0;                // pairs of passes that have shown chaos
   ErrorGrowth steadiest_;          // of them, that of the least scatter for its rate
   ErrorGrowth chaos_;              // where two pairs have shown the same exponential growth

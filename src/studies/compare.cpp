@@ -33,11 +33,15 @@ bool add_column(const Comparison& c, const std::string& name, Quantity& quantity
   return true;
 }
 
-// Rows of both runs at the same time.
-std::vector<std::pair<std::size_t, std::size_t>> common_rows(const Trajectory& a, const Trajectory& b) {
+// Up to which forces are promised [s].
+double horizon_of(const Trajectory& run) { return run.outcome == Outcome::kHorizon ? run.growth.horizon : std::numeric_limits<double>::infinity(); }
+
+// Rows of both runs at the same time, not after `until`.
+std::vector<std::pair<std::size_t, std::size_t>> common_rows(const Trajectory& a, const Trajectory& b, double until) {
   std::vector<std::pair<std::size_t, std::size_t>> rows;
   for (std::size_t i = 0, j = 0; i < a.n_rows() && j < b.n_rows();) {
     const double ta = a.at(i, 0), tb = b.at(j, 0), close = 1e-12 * std::max(std::abs(ta), std::abs(tb));
+    if (ta > until) break;
     if (std::abs(ta - tb) <= close) rows.emplace_back(i++, j++);
     else if (ta < tb) ++i;
     else ++j;
@@ -81,6 +85,7 @@ void relate(std::vector<Difference>& list, double part) {
 
 Cause cause_of(double difference, double error_estimate, const LoadSummary& a, const LoadSummary& b) {
   if (!a.unique || !b.unique) return Cause::kNotUnique;
+  if (std::isnan(error_estimate)) return Cause::kNoEstimate;
   return difference <= kBeyond * error_estimate ? Cause::kNumerical : Cause::kPhysical;
 }
 
@@ -97,12 +102,12 @@ void add_joints(Comparison& c, const std::vector<std::pair<std::size_t, std::siz
     Quantity force{a.name, "", {}}, couple{a.name, "", {}};
     if (add_column(c, path + "fx[world]", force) && add_column(c, path + "fy[world]", force)) {
       c.forces.push_back(measure(c, force, rows));
-      c.forces.back().peak = std::max(c.forces.back().peak, b.peak);
+      if (std::isinf(c.until)) c.forces.back().peak = std::max(c.forces.back().peak, b.peak);
       judge(a, b, &LoadSummary::error_estimate, c.forces.back());
     }
     if (a.has_moment && add_column(c, path + "m[world]", couple)) {
       c.couples.push_back(measure(c, couple, rows));
-      c.couples.back().peak = std::max(c.couples.back().peak, b.peak_moment);
+      if (std::isinf(c.until)) c.couples.back().peak = std::max(c.couples.back().peak, b.peak_moment);
       judge(a, b, &LoadSummary::moment_error_estimate, c.couples.back());
     }
   }
@@ -147,7 +152,8 @@ VariantLoad variant_load(const LoadSummary& load, const LoadSummary* base) {
   out.peak_change = change(load.peak, from.peak);
   out.mean_change = change(load.mean, from.mean);
   out.rms_change = change(load.rms, from.rms);
-  if (base != nullptr) out.cause = cause_of(std::abs(load.peak - base->peak), load.error_estimate + base->error_estimate, load, *base);
+  const auto is_late = [](const LoadSummary& one) { return one.peak_time > one.horizon; };
+  if (base != nullptr) out.cause = is_late(load) || is_late(*base) ? Cause::kChaotic : cause_of(std::abs(load.peak - base->peak), load.error_estimate + base->error_estimate, load, *base);
   return out;
 }
 
@@ -190,7 +196,8 @@ Comparison compare(const Model& model, Trajectory first, Trajectory second, Equa
   c.first = std::move(first);
   c.second = std::move(second);
   c.against = against;
-  const auto rows = common_rows(c.first, c.second);
+  c.until = std::min(horizon_of(c.first), horizon_of(c.second));
+  const auto rows = common_rows(c.first, c.second, c.until);
   add_joints(c, rows);
   add_coordinates(c, rows);
   find_softness(model, c);

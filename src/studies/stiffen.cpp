@@ -175,7 +175,9 @@ class Procedure {
   bool run(const std::vector<StiffenJoint>& joints, double stiffness, Trajectory& out) {
     out = simulate(stiffened(model_, joints), observer_);
     if (out.outcome == Outcome::kInterrupted) out_.reason = kInterrupted;
-    if (out.outcome == Outcome::kFailed) out_.reason = fmt::format("the run with {:.0e} N/m failed: {}", stiffness, out.message);
+    const bool wrong = out.outcome == Outcome::kFailed || out.outcome == Outcome::kRunaway || out.outcome == Outcome::kEnergyOpen;
+    if (wrong) out_.reason = fmt::format("the run with {:.0e} N/m failed: {}", stiffness, out.message);
+    if (out.outcome == Outcome::kHorizon) out_.reason = fmt::format("with {:.0e} N/m {}; the peaks of two such runs cannot be compared: try a duration within that time", stiffness, out.message);
     return out_.reason.empty();
   }
 

@@ -31,6 +31,10 @@ std::string word(Cause cause) {
       return "physical";
     case Cause::kNotUnique:
       return "not unique";
+    case Cause::kChaotic:
+      return "chaotic";
+    case Cause::kNoEstimate:
+      return "unknown";
   }
   return "";
 }
@@ -54,7 +58,7 @@ std::string table_text(const std::vector<Difference>& list, const char* head, bo
     std::vector<std::string> row{d.name,           engineering(d.peak),          exponent(d.largest), d.unit, engineering(d.largest_time),
                                  of_peak(d.relative), of_peak(d.relative_rms), fmt::format("{}", d.digits)};
     if (judged) {
-      row.push_back(exponent(d.error_estimate));
+      row.push_back(std::isnan(d.error_estimate) ? "-" : exponent(d.error_estimate));
       row.push_back(word(d.cause));
     }
     table.add_row(std::move(row));
@@ -88,12 +92,17 @@ std::string explanation(const Comparison& c) {
                           c.softness.front().share > kMainShare ? ", most of it" : ", the largest share");
   }
   if (any(c.forces, Cause::kNotUnique)) text += "  not unique: ideal joints leave this load sharing undetermined\n";
+  if (any(c.forces, Cause::kNoEstimate)) text += "  unknown: a run stopped before a second integration, and has no error estimate\n";
+  if (std::isfinite(c.until)) text += fmt::format("  compared up to t = {:.5g} s, to which forces are promised: the motion is chaotic, and two runs of it have no peaks in common after that\n", c.until);
   return text;
 }
 
+// Whether it has reached its end, however good its forces are.
+bool is_whole(const Trajectory& run) { return run.outcome == Outcome::kCompleted || run.outcome == Outcome::kHorizon || run.outcome == Outcome::kToleranceNotMet; }
+
 std::string run_line(const Trajectory& run, const std::string& name) {
   return fmt::format("  {}: method {}, {} steps, {}{}{}\n", name, run.method, run.counters.steps,
-                     run.outcome == Outcome::kCompleted ? "completed" : fmt::format("stopped at t = {:.6g} s", run.t_end), run.message.empty() ? "" : ": ",
+                     is_whole(run) ? to_text(run.outcome) : fmt::format("stopped at t = {:.6g} s", run.t_end), run.message.empty() ? "" : ": ",
                      run.message);
 }
 
@@ -227,6 +236,8 @@ std::string variants_text(const Variants& v, bool colour) {
   };
   if (is(Cause::kNumerical)) text += "  numerical: the peaks differ by no more than the error estimates of both runs\n";
   if (is(Cause::kPhysical)) text += "  physical: the peaks differ by more than the error estimates\n";
+  if (is(Cause::kChaotic)) text += "  chaotic: a peak comes after the time up to which its force is promised, where only statistics of long runs can be compared\n";
+  if (is(Cause::kNoEstimate)) text += "  unknown: a run stopped before a second integration, and has no error estimate\n";
   for (const NamedRun& one : v.runs) {
     if (!one.run.message.empty()) text += fmt::format("\n{}: {}\n", one.name, one.run.message);
     if (!one.run.notes.empty()) text += "\nNotes on " + one.name + "\n";

@@ -7,7 +7,6 @@
 namespace pintle {
 namespace {
 
-constexpr double kSaturated = 0.03;                // of the peak: differences above it no longer grow as small ones do
 constexpr double kOfLargest = 0.1;                 // of the largest difference: the same where it is that one that tells what they can become. Halved or doubled, tests/models/two_bouncing_pins.toml misses its tolerance at 1e-3 without a horizon
 constexpr double kFitted = 1e-6;                   // of that: the smallest difference that is fitted
 constexpr int kMostBlocks = 32, kLeastBlocks = 8;  // of rows, whose largest difference is fitted; with fewer nothing is fitted

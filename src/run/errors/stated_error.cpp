@@ -210,8 +210,10 @@ std::vector<double> force_horizons(const BasicSystem<S>& system, const BasicForc
     growing.add_row(coarse, fine, i);
     const PassDifference& c = growing.so_far();
     const Measures<S> measures(system, c);
-    for (std::size_t j = 0; j < joints; ++j)
-      if (share * measures.of_joint(j, c.force[j], c.peak[j], c.couple[j], c.peak_couple[j]) <= tolerance) horizon[j] = fine.t[i];
+    for (std::size_t j = 0; j < joints; ++j) {
+      const double apart = measures.of_joint(j, c.force[j], c.peak[j], c.couple[j], c.peak_couple[j]);
+      if (share * apart <= tolerance && (share == 1 || apart <= kSaturated)) horizon[j] = fine.t[i];
+    }
   }
   return horizon;
 }

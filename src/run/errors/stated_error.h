@@ -50,6 +50,8 @@ double motion_difference(const BasicSystem<S>& system, const BasicForceTable<S>&
 
 /// How errors fall with the tolerance: as its power to this. theory/time Eq. (6.2).
 inline constexpr double kErrorPower = 0.8;
+/// Of the peak: differences above it no longer grow as small ones do, and do not tell what the finer pass's part is.
+inline constexpr double kSaturated = 0.03;
 /// The error of the finer of two passes over their difference, where tolerances or steps let errors fall to this part: all of it where they are alike.
 /// theory/time Eq. (6.2).
 double share_of_finer(double fall);
