@@ -110,6 +110,16 @@ struct JointEvents {
   std::vector<JointEvent> events;  ///< in the order of time
 };
 
+/// Events of one kind in one joint.
+struct EventKind {
+  std::string joint, what;
+  int count = 0;
+  double first = 0, last = 0;   ///< [s]
+  double fastest_approach = 0;  ///< of what touches, else 0
+  std::string approach_unit;    ///< "m/s", "rad/s"
+  double most_heat = 0;         ///< since the joint's event before [J]
+};
+
 /// Where a pin with clearance and its bush rub each other: what Archard's law multiplies, the integral of the normal force over the way of slip, by sectors
 /// of equal width that begin at the x axis of the first marker (bush) and of the second one (pin), counter-clockwise. theory/bearing_life section 5
 struct JointWear {
@@ -138,7 +148,8 @@ struct Trajectory {
   std::vector<MotorSummary> motors;
   std::vector<BearingSummary> bearings;  ///< of the joints whose model states a bearing
   EnergyAccount energy;
-  std::vector<JointEvents> events;  ///< of joints that have any
+  std::vector<JointEvents> events;  ///< of joints that have any; none of a run that was read back
+  std::vector<EventKind> event_kinds;  ///< of a run that was read back
   std::vector<JointWear> wear;      ///< of pins with clearance
   std::vector<PinDuty> duty;        ///< of joints that turn freely; empty of runs of version 0.3.0 and before
   Counters counters;

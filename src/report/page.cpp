@@ -124,7 +124,7 @@ std::string report_html(const Model& model, const RunRecord& run, const ReportOp
   html += header(model, run) + "<main>\n";
   html += motion(scene, run);
   if (rows) html += section("plots", "Plots", plots(trajectory, content));
-  html += section("forces-of-joints", "Peak joint forces", (trajectory.joints.empty() ? "<p>There are no joints.</p>\n" : force_table(trajectory)) + couple_table(trajectory) + heat_table(trajectory) + drive_tables(trajectory));
+  html += section("forces-of-joints", "Peak joint forces", (trajectory.joints.empty() ? "<p>There are no joints.</p>\n" : force_table(trajectory)) + horizon_table(trajectory) + couple_table(trajectory) + event_table(trajectory) + heat_table(trajectory) + drive_tables(trajectory));
   if (!trajectory.bearings.empty()) html += section("bearings", "Bearings", bearing_section(trajectory.bearings));
   if (const std::string orbits = orbit_section(run); !orbits.empty()) html += section("orbits", "Orbits of pins", orbits);
   if (const std::string wear = wear_section(run); !wear.empty()) html += section("wear", "Wear", wear);

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "results/bearing_text.h"
 #include "results/plots/run_polar.h"
+#include "results/event_kinds.h"
 #include "results/force_quality.h"
 #include "results/heat.h"
 #include "results/plots/markup.h"
@@ -128,12 +130,14 @@ std::string force_table(const Trajectory& trajectory) {
   table.head("of peak");
   const auto joints = shown_joints(trajectory);
   const bool estimated = has_force_estimates(trajectory);
-  bool any_missed = false, any_ambiguous = false;
+  bool any_missed = false, any_ambiguous = false, any_late = false;
   for (const LoadSummary* one : joints) {
     const LoadSummary& joint = *one;
     const bool missed = misses_tolerance(joint, trajectory);
     any_missed |= missed;
     any_ambiguous |= !joint.unique;
+    const bool late = peaks_behind_horizon(joint, trajectory);
+    any_late |= late;
     const std::string name = escaped_markup(joint.name);
     table.begin_row(fmt::format(" data-joint=\"{}\" data-t=\"{}\"{}", name, joint.peak_time, missed ? " class=\"missed\"" : ""));
     table.text(fmt::format("<input type=\"checkbox\" aria-label=\"Plot the force at {}\">", name));
@@ -146,7 +150,7 @@ std::string force_table(const Trajectory& trajectory) {
     table.number(joint.rms);
     table.number(joint.mean);
     table.number(joint.error_estimate, estimated ? estimate(joint.error_estimate) : "–");
-    table.number(joint.relative_error_estimate, (estimated ? estimate(joint.relative_error_estimate) : "–") + (missed ? " <strong title=\"misses the tolerance\">!</strong>" : ""));
+    table.number(joint.relative_error_estimate, (estimated ? estimate(joint.relative_error_estimate) : "–") + (missed ? " <strong title=\"misses the tolerance\">!</strong>" : "") + (late ? " <strong title=\"the peak comes after the horizon\">~</strong>" : ""));
     table.end_row();
   }
   std::string html = table.html();
@@ -154,9 +158,52 @@ std::string force_table(const Trajectory& trajectory) {
     html += fmt::format("<p class=\"note\">The largest {} of {} joints; summary.json has all.</p>\n", joints.size(), trajectory.joints.size());
   if (any_missed)
     html += fmt::format("<p class=\"note\"><strong>!</strong> the estimate exceeds the tolerance of {} of the peak</p>\n", printed_number(fmt::format("{:g}", trajectory.tolerance)));
+  if (any_late) html += "<p class=\"note\"><strong>~</strong> the peak comes after the time up to which the force is promised; the error is that of the rows before</p>\n";
   if (any_ambiguous)
     html += "<p class=\"note\">† redundant ideal constraints leave this force undetermined; one of many solutions is given</p>\n";
   return html;
+}
+
+std::string horizon_table(const Trajectory& trajectory) {
+  if (trajectory.outcome != Outcome::kHorizon) return "";
+  HtmlTable table(" class=\"sortable\"");
+  table.head("joint", "", false);
+  table.head("promised to", "s");
+  for (const char* head : {"peak after", "±", "RMS after", "±", "mean after", "±"}) table.head(head, "N");
+  for (const LoadSummary* joint : shown_joints(trajectory)) {
+    table.begin_row();
+    table.name(escaped_markup(joint->name));
+    table.number(joint->horizon);
+    for (const auto& [of_rest, scatter] : {std::pair{joint->peak_after, joint->peak_scatter}, {joint->rms_after, joint->rms_scatter}, {joint->mean_after, joint->mean_scatter}}) {
+      table.number(of_rest);
+      table.number(scatter, estimate(scatter));
+    }
+    table.end_row();
+  }
+  return "<h3>Horizons, and statistics of the forces after them</h3>\n" + table.html() + "<p class=\"note\">±: how far two motions that agree up to there differ</p>\n";
+}
+
+std::string event_table(const Trajectory& trajectory) {
+  const std::vector<EventKind> kinds = kinds_of_events(trajectory);
+  if (kinds.empty()) return "";
+  HtmlTable table(" class=\"sortable\"");
+  for (const char* head : {"joint", "event"}) table.head(head, "", false);
+  table.head("count");
+  for (const char* head : {"first", "last"}) table.head(head, "s");
+  table.head("fastest approach");
+  table.head("most heat", "J");
+  for (const EventKind& kind : kinds) {
+    table.begin_row();
+    table.name(escaped_markup(kind.joint));
+    table.text(escaped_markup(kind.what));
+    table.number(kind.count, fmt::format("{}", kind.count));
+    table.number(kind.first);
+    table.number(kind.last);
+    table.number(kind.fastest_approach, kind.fastest_approach > 0 ? value(kind.fastest_approach) + " " + printed_unit(kind.approach_unit) : "");
+    table.number(kind.most_heat, kind.most_heat > 0 ? estimate(kind.most_heat) : "");
+    table.end_row();
+  }
+  return "<h3>Events</h3>\n" + table.html() + "<p class=\"note\">Most heat: since the joint's event before. events.csv has every event.</p>\n";
 }
 
 std::string couple_table(const Trajectory& trajectory) {

@@ -18,6 +18,8 @@ Verdict verdict_on(const Trajectory& trajectory);
 
 std::string facts_line(const Model& model, const Trajectory& trajectory);  ///< "0.63 s · 3 bodies · ..."
 std::string force_table(const Trajectory& trajectory);
+std::string horizon_table(const Trajectory& trajectory);  ///< "" unless the motion is chaotic
+std::string event_table(const Trajectory& trajectory);    ///< "" without any
 std::string couple_table(const Trajectory& trajectory);   ///< "" without any
 std::string heat_table(const Trajectory& trajectory);     ///< "" where joints lose next to nothing
 std::string drive_tables(const Trajectory& trajectory);   ///< springs and motors

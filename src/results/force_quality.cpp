@@ -9,6 +9,8 @@ bool has_force_estimates(const Trajectory& run) {
          std::any_of(run.joints.begin(), run.joints.end(), [](const LoadSummary& joint) { return joint.relative_error_estimate > 0; });
 }
 
+bool peaks_behind_horizon(const LoadSummary& joint, const Trajectory& run) { return run.outcome == Outcome::kHorizon && joint.peak_time > joint.horizon; }
+
 const LoadSummary* largest_joint(const Trajectory& run) {
   const auto found = std::max_element(run.joints.begin(), run.joints.end(),
                                       [](const LoadSummary& a, const LoadSummary& b) { return a.peak < b.peak; });

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "results/bearing_text.h"
+#include "results/event_kinds.h"
 
 namespace pintle {
 namespace {
@@ -175,6 +176,21 @@ void for_each_entry(Counts& counts, const Visit& visit) requires requires {
   visit("events", counts.events);
 }
 
+template <class Kind, class Visit>
+void for_each_entry(Kind& kind, const Visit& visit) requires requires {
+  kind.fastest_approach;
+}
+{
+  visit("joint", kind.joint);
+  visit("event", kind.what);
+  visit("count", kind.count);
+  visit("first", kind.first);
+  visit("last", kind.last);
+  visit("fastest_approach", kind.fastest_approach);
+  visit("approach_unit", kind.approach_unit);
+  visit("most_heat", kind.most_heat);
+}
+
 template <class Named, class Visit>
 void for_each_entry(Named& column, const Visit& visit) requires requires {
   column.about;
@@ -280,6 +296,7 @@ Summary summary_from(const Json& json) {
   from_json(json.at("springs"), trajectory.springs);
   from_json(json.at("motors"), trajectory.motors);
   if (json.contains("bearings")) from_json(json.at("bearings"), trajectory.bearings);  // not in runs of version 0.2
+  if (json.contains("events")) from_json(json.at("events"), trajectory.event_kinds);
   if (json.contains("wear")) from_json(json.at("wear"), trajectory.wear);
   if (json.contains("duty")) from_json(json.at("duty"), trajectory.duty);
   from_json(json.at("energy"), trajectory.energy);
@@ -315,6 +332,7 @@ std::string summary_json(const Trajectory& trajectory, const RunStamp& stamp) {
   json["springs"] = to_json(trajectory.springs);
   json["motors"] = to_json(trajectory.motors);
   json["bearings"] = to_json(trajectory.bearings);
+  if (const auto kinds = kinds_of_events(trajectory); !kinds.empty()) json["events"] = to_json(kinds);
   if (!trajectory.wear.empty()) json["wear"] = to_json(trajectory.wear);
   if (!trajectory.duty.empty()) json["duty"] = to_json(trajectory.duty);
   json["energy"] = to_json(trajectory.energy);

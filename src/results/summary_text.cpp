@@ -8,6 +8,7 @@
 
 #include "pintle/results.h"
 #include "results/bearing_text.h"
+#include "results/event_kinds.h"
 #include "results/force_quality.h"
 #include "results/heat.h"
 #include "results/text_table.h"
@@ -90,7 +91,7 @@ std::string joint_section(const Trajectory& trajectory, const Style& style) {
   const auto joints = pointers(trajectory.joints);
   for (const LoadSummary* one : shown(joints, [](const LoadSummary& load) { return load.peak; })) {
     const LoadSummary& load = *one;
-    const bool marked = misses_tolerance(load, trajectory), beyond = trajectory.outcome == Outcome::kHorizon && load.peak_time > load.horizon;
+    const bool marked = misses_tolerance(load, trajectory), beyond = peaks_behind_horizon(load, trajectory);
     later = later || beyond;
     table.add_row({load.name, load.type, load.second_body, load.first_body, engineering(load.peak),
                    engineering(load.peak_time), engineering(load.rms), estimated ? exponent(load.error_estimate) : "-",
@@ -166,7 +167,6 @@ std::string motor_section(const Trajectory& trajectory, const Style& style) {
   return section("Motors", table, style) + rest_line(motors.size());
 }
 
-// By joint and by what happened, in the order of the first time; of what has an approach speed the largest.
 std::string event_section(const Trajectory& trajectory, const Style& style) {
   TextTable table;
   for (const char* head : {"joint", "event"}) table.add_column(head, Align::kLeft);
@@ -175,33 +175,10 @@ std::string event_section(const Trajectory& trajectory, const Style& style) {
   table.add_column("fastest approach", Align::kNumber);
   table.add_column("unit", Align::kLeft);
   table.add_column("most heat", Align::kNumber, "J");
-  for (const JointEvents& joint : trajectory.events) {
-    std::vector<std::string> kinds;
-    for (const JointEvent& event : joint.events)
-      if (std::find(kinds.begin(), kinds.end(), event.what) == kinds.end()) kinds.push_back(event.what);
-    const auto place = [&](std::string_view name) {
-      return static_cast<std::size_t>(std::find_if(joint.columns.begin(), joint.columns.end(), [&](const Column& column) { return column.name == name; }) - joint.columns.begin());
-    };
-    const std::size_t heat = place("heat");
-    const auto approach_of = [&](const std::string& kind) {  // a joint with stops and a contact has two of these, a guide one for each end
-      if (kind.find("touch") == std::string::npos) return joint.columns.size();  // surfaces that slip have approached long before
-      if (kind.ends_with(" stop")) return place("stop_approach_speed");
-      const std::size_t of_end = place("approach_speed_" + kind.substr(0, kind.find(' ')));
-      return of_end < joint.columns.size() ? of_end : place("approach_speed");
-    };
-    for (const std::string& kind : kinds) {
-      std::size_t count = 0;
-      double first = 0, last = 0, fastest = 0, hottest = 0;
-      const std::size_t approach = approach_of(kind);
-      for (const JointEvent& event : joint.events) {
-        if (event.what != kind) continue;
-        if (count++ == 0) first = event.t;
-        last = event.t;
-        if (approach < event.values.size()) fastest = std::max(fastest, event.values[approach]);
-        if (heat < event.values.size()) hottest = std::max(hottest, event.values[heat]);
-      }
-      table.add_row({joint.joint, kind, fmt::format("{}", count), engineering(first), engineering(last), fastest > 0 ? engineering(fastest) : "", fastest > 0 ? joint.columns[approach].unit : "", hottest > 0 ? engineering(hottest) : ""});
-    }
+  for (const EventKind& kind : kinds_of_events(trajectory)) {
+    const bool touches = kind.fastest_approach > 0;
+    table.add_row({kind.joint, kind.what, fmt::format("{}", kind.count), engineering(kind.first), engineering(kind.last), touches ? engineering(kind.fastest_approach) : "", touches ? kind.approach_unit : "",
+                   kind.most_heat > 0 ? exponent(kind.most_heat) : ""});
   }
   return section("Events in joints (most heat: since the joint's event before; events.csv has all)", table, style);
 }

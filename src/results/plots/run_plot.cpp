@@ -197,11 +197,16 @@ class PlotMaker {
   /// Which model, and for joint forces how far they can be trusted.
   std::string subtitle() const {
     std::string text = run_.stamp.model_name.empty() ? run_.stamp.model_path : run_.stamp.model_name;
-    double worst = 0;
-    for (const std::string& joint : request_.joints)
-      worst = std::max(worst, find_joint(run_.trajectory, joint).relative_error_estimate);
+    double worst = 0, horizon = run_.trajectory.t_end;
+    for (const std::string& name : request_.joints) {
+      const LoadSummary& joint = find_joint(run_.trajectory, name);
+      worst = std::max(worst, joint.relative_error_estimate);
+      horizon = std::min(horizon, joint.horizon);
+    }
+    const bool chaotic = run_.trajectory.outcome == Outcome::kHorizon && !request_.joints.empty();
     if (is_section()) text += fmt::format("{}every {:.6g} s from {:.6g} s: {} points", text.empty() ? "" : " – ", request_.every, request_.from, rows_.size());
     if (worst > 0) text += fmt::format("{}estimated error {} of the peak", text.empty() ? "" : " – ", printed_number(exponent(worst)));
+    if (chaotic) text += fmt::format("{}up to t = {:.4g} s, where the promise ends", text.empty() ? "" : worst > 0 ? " " : " – ", horizon);
     return text;
   }
 
