@@ -87,6 +87,22 @@ TEST(CommandLine, ConvertsThereAndBack) {
   EXPECT_EQ(sandbox.read("a.json"), sandbox.read("b.json"));
 }
 
+TEST(CommandLine, NoVerbReplacesAModelByAnotherFile) {
+  Sandbox sandbox;
+  const std::string model = "format = 1 # precious\nname = \"A\"\n";
+  for (const char* words : {"convert other.toml --to toml --out a.toml", "convert a.toml --to toml --out a.toml", "schema --out a.toml", "schema --reference --out a.toml"}) {
+    sandbox.write("other.toml", "format = 1\nname = \"B\"\n");
+    sandbox.write("a.toml", model);
+    const auto refused = sandbox.pintle(words);
+    EXPECT_EQ(refused.exit_code, 6) << words;
+    EXPECT_TRUE(holds(refused.err, "a.toml: this file exists")) << refused.err;
+    EXPECT_EQ(sandbox.read("a.toml"), model) << words;
+    EXPECT_EQ(sandbox.pintle(std::string(words) + " --force").exit_code, 0) << words;
+    EXPECT_NE(sandbox.read("a.toml"), model) << words;
+  }
+  for (int time = 0; time < 2; ++time) EXPECT_EQ(sandbox.pintle("schema --out pintle.schema.json").exit_code, 0) << time;
+}
+
 TEST(CommandLine, FormatsInPlaceAndChecks) {
   Sandbox sandbox;
   sandbox.write("a.toml", "format=1 # first\n\n\n\n   name =   \"A\"\n");

@@ -6,6 +6,7 @@
 
 #include "cli/console.h"
 #include "cli/exit_codes.h"
+#include "cli/run_sources.h"
 #include "cli/verbs.h"
 #include "io/document.h"
 #include "io/writers.h"
@@ -23,6 +24,7 @@ constexpr const char* kConvertFooter =
 
 struct ConvertOptions {
   std::string model, to, out;
+  bool force = false;
 };
 
 bool is_json(const std::filesystem::path& path) {
@@ -36,6 +38,7 @@ bool wants_json(const ConvertOptions& options) {
 }
 
 void convert(const ConvertOptions& options) {
+  if (!options.out.empty()) check_replaceable(options.out, {}, options.force);
   const Document document = parse_document(read_file(options.model, kMaxFileBytes + 1), options.model);
   const std::string text = wants_json(options) ? to_json(document) : to_toml(document);
   options.out.empty() ? print_out(text) : write_file(options.out, text);
@@ -51,6 +54,7 @@ void add_convert(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"toml", "json"}))
       ->type_name("toml|json");
   verb->add_option("-o,--out", options->out, "file to write (default: standard output)")->type_name("FILE");
+  verb->add_flag("--force", options->force, "replace a file that is there");
   verb->footer(kConvertFooter);
   verb->callback([options, &exit_code] {
     convert(*options);

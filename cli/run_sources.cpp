@@ -45,8 +45,8 @@ fs::path picture_file(const std::string& chosen, const std::string& run, const s
 void check_replaceable(const fs::path& path, std::string_view mark, bool force) {
   constexpr std::size_t kHead = 4096;
   if (force || !fs::is_regular_file(path)) return;
-  if (read_file(path, kHead).find(mark) != std::string::npos) return;
-  throw FileError(fmt::format("{}: this file exists and was not written by pintle.\n    Choose another place with --out, or replace it with --force.", path.string()));
+  if (!mark.empty() && read_file(path, kHead).find(mark) != std::string::npos) return;
+  throw FileError(fmt::format("{}: this file exists{}.\n    Choose another place with --out, or replace it with --force.", path.string(), mark.empty() ? "" : " and was not written by pintle"));
 }
 
 }  // namespace pintle::cli

@@ -24,7 +24,7 @@ std::string folder_name(const std::string& folder);
 /// "<run><ending>" in the current folder, unless the user chose a file.
 std::filesystem::path picture_file(const std::string& chosen, const std::string& run, const std::string& ending);
 
-/// Throws FileError if `path` exists and is not one of ours to replace.
+/// Throws FileError if `path` exists and is not one of ours to replace, which have `mark` near their beginning; no file is where it is empty.
 void check_replaceable(const std::filesystem::path& path, std::string_view mark, bool force);
 
 }  // namespace pintle::cli

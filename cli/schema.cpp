@@ -2,9 +2,11 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "cli/console.h"
 #include "cli/exit_codes.h"
+#include "cli/run_sources.h"
 #include "cli/verbs.h"
 #include "io/writers.h"
 #include "results/disk.h"
@@ -18,7 +20,7 @@ constexpr const char* kSchemaFooter =
     "  pintle schema --reference | less\n";
 
 struct SchemaOptions {
-  bool reference = false;
+  bool reference = false, force = false;
   std::string out;
 };
 
@@ -29,8 +31,11 @@ void add_schema(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<SchemaOptions>();
   verb->add_flag("--reference", options->reference, "the reference page, in Markdown");
   verb->add_option("-o,--out", options->out, "file to write (default: standard output)")->type_name("FILE");
+  verb->add_flag("--force", options->force, "replace a file that is not an earlier schema or page");
   verb->footer(kSchemaFooter);
   verb->callback([options, &exit_code] {
+    constexpr std::string_view kPage = "# Model file", kSchema = "\"title\": \"Pintle model file";
+    if (!options->out.empty()) check_replaceable(options->out, options->reference ? kPage : kSchema, options->force);
     const std::string text = options->reference ? reference_markdown() : json_schema();
     options->out.empty() ? print_out(text) : write_file(options->out, text);
     exit_code = kOk;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/units.h"
+#include "io/reading/law_keys.h"
 #include "io/text.h"
 #include "joints/catalog.h"
 
@@ -40,6 +41,15 @@ class KeySearch {
     if (parts_.size() != 3 || !is_section()) return complain("this is not the path of a number", "parameters.NAME, body.NAME.mass, joint.NAME.stiffness");
     const Table* thing = named_thing();
     return thing == nullptr ? std::nullopt : key_in(spec_of_thing(*thing));
+  }
+
+  // A law of the command line may have taken the place of the one that the file's variations are of.
+  bool is_of_another_law() const {
+    if (parts_.size() != 3 || parts_[0] != "joint") return false;
+    const Node* joints = reading_.root.find("joint");
+    const Node* joint = joints == nullptr || joints->table() == nullptr ? nullptr : joints->table()->find(parts_[1]);
+    if (joint == nullptr || joint->table() == nullptr) return false;
+    return spec_of_thing(*joint->table()).find(parts_[2]) == nullptr && std::any_of(law_catalog().begin(), law_catalog().end(), [this](const LawInfo& law) { return has_key(&law, parts_[2]); });
   }
 
  private:
@@ -106,13 +116,17 @@ class KeySearch {
 // One entry of [variation].
 class VariationReader {
  public:
-  VariationReader(ModelReading& reading, const Entry& entry)
-      : reading_(reading), entry_(entry), path_("variation." + quoted_exactly(entry.key)) {}
+  VariationReader(ModelReading& reading, const Entry& entry, bool to_be_drawn)
+      : reading_(reading), entry_(entry), to_be_drawn_(to_be_drawn), path_("variation." + quoted_exactly(entry.key)) {}
 
   std::optional<Variation> read() {
     const std::size_t before = reading_.complaints.size();
     record_ = reading_.records.read(reading_.spec("variation.*"), entry_.value, entry_.key_spot, path_);
     if (reading_.complaints.size() > before) return std::nullopt;
+    if (!to_be_drawn_ && KeySearch(reading_, entry_.key, entry_.key_spot).is_of_another_law()) {
+      reading_.model.notes.push_back(path_ + ": a key of another law than its joint has, and without effect");
+      return std::nullopt;
+    }
     const auto key = varied_key(reading_, entry_.key, entry_.key_spot);
     if (!key) return std::nullopt;
     key_ = *key;
@@ -174,6 +188,7 @@ class VariationReader {
 
   ModelReading& reading_;
   const Entry& entry_;
+  bool to_be_drawn_;
   std::string path_;
   Record record_;
   VariedKey key_;
@@ -188,10 +203,10 @@ bool VariedKey::allows(double x) const {
 
 std::optional<VariedKey> varied_key(ModelReading& reading, const std::string& path, Spot spot) { return KeySearch(reading, path, spot).find(); }
 
-std::vector<Variation> read_variations(ModelReading& reading) {
+std::vector<Variation> read_variations(ModelReading& reading, bool to_be_drawn) {
   std::vector<Variation> out;
   for (const Entry& entry : section(reading, "variation").entries())
-    if (auto variation = VariationReader(reading, entry).read()) out.push_back(std::move(*variation));
+    if (auto variation = VariationReader(reading, entry, to_be_drawn).read()) out.push_back(std::move(*variation));
   return out;
 }
 

@@ -33,7 +33,8 @@ struct VariedKey {
 /// What stands at `path`. Complains, at `spot`, where nothing does or it is not one number. Everything else must have been read.
 std::optional<VariedKey> varied_key(ModelReading& reading, const std::string& path, Spot spot);
 
-/// The table [variation]; complains about what is wrong with it. Everything else must have been read.
-std::vector<Variation> read_variations(ModelReading& reading);
+/// The table [variation]; complains about what is wrong with it. Everything else must have been read. Unless values are `to_be_drawn`, keys of another law than
+/// their joint has are passed over with a note.
+std::vector<Variation> read_variations(ModelReading& reading, bool to_be_drawn);
 
 }  // namespace pintle

@@ -158,7 +158,7 @@ SweepAxis read_axis(ModelReading& reading, const std::string& text, int source) 
 
 SweepPlan::SweepPlan(const SweepRequest& request, ModelReading& reading, int first_source) : zip_(request.zip), samples_(request.samples), seed_(request.seed) {
   for (std::size_t i = 0; i < request.vary.size(); ++i) axes_.push_back(read_axis(reading, request.vary[i], first_source + static_cast<int>(i)));
-  std::vector<Variation> variations = read_variations(reading);
+  std::vector<Variation> variations = read_variations(reading, samples_ > 0);
   if (samples_ > 0) variations_ = std::move(variations);
   const auto complain = [&](std::string path, std::string found, std::string because, std::string suggestion) {
     reading.complaints.add({0, 1, 1}, std::move(path), std::move(found), std::move(because), std::move(suggestion));

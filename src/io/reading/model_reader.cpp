@@ -13,7 +13,7 @@ namespace {
 Model model_of(const Document& document, const FileText& files) {
   ModelReading reading(document, files);
   read_all(reading);
-  read_variations(reading);
+  read_variations(reading, false);
   reading.complaints.throw_if_any();
   return std::move(reading.model);
 }

@@ -53,7 +53,11 @@ void demand(herr_t result, const std::string& doing) {
   if (result < 0) throw FileError("HDF5 refuses: " + doing);
 }
 
-void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void silence_hdf5() {
+  static const herr_t no_exit_handler = H5dont_atexit();  // it crashes where a file could not be written
+  demand(no_exit_handler, "to start");
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 void write_attribute(hid_t object, const char* name, const std::string& text) {
   const char* chars = text.c_str();

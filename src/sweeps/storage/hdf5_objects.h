@@ -32,7 +32,7 @@ class Hdf5 {
 
 /// Throws FileError if a call of HDF5 failed.
 void demand(herr_t result, const std::string& doing);
-/// From now on HDF5 prints nothing.
+/// From now on HDF5 prints nothing, and does nothing at the end of the program. To be called before anything else of HDF5.
 void silence_hdf5();
 
 /// Text and numbers beside an object.

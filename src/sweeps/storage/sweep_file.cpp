@@ -169,13 +169,16 @@ bool has_hdf5() { return true; }
 void write_sweep_file(const fs::path& file, const SweepOrigin& origin, const SweepPlan& plan, const Journal& journal) {
   silence_hdf5();
   const fs::path fresh = file.string() + ".new", folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  errno = 0;
   try {
     write_tables(fresh, origin, plan, journal);
     sync_path(fresh);
     if (std::rename(fresh.c_str(), file.c_str()) != 0) throw file_error(file, "replace", errno);
     sync_path(folder);
   } catch (...) {
+    const bool full = errno == ENOSPC || errno == EDQUOT;
     ::unlink(fresh.c_str());
+    if (full) throw file_error(file, "write", ENOSPC);
     throw;
   }
 }
