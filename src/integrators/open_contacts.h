@@ -28,7 +28,8 @@ class BasicOpenContacts {
       const BasicLawPoint<S> at = carried(j);
       const typename S::Vec stiffness = joint.law.open_contact_stiffness(at);
       if (stiffness.isZero(0)) continue;
-      const BasicJointKinematics<S> r = kinematics(j);
+      BasicJointKinematics<S> r = kinematics(j);
+      count_turns(joint.displacement, at.gap[0], r.gap);
       typename S::Vec bend = S::Vec::Zero();
       if (joint.at.a != kGround) bend += r.GA() * last_coefficient(joint.at.a);
       if (joint.at.b != kGround) bend += r.GB() * last_coefficient(joint.at.b);

@@ -36,7 +36,7 @@ GapFunction Belt::operator()(const Planar::Vec& z) const {
   return g;
 }
 
-FunctionGap function_of(const Belt& belt) { return {gap_at, {belt.radius_first, belt.radius_second, belt.length, belt.stretch}}; }
+FunctionGap function_of(const Belt& belt) { return {gap_at, {belt.radius_first, belt.radius_second, belt.length, belt.stretch}, belt.wound_per_turn()}; }
 
 std::optional<Belt> belt_of(const JointDisplacement& displacement) {
   const auto* function = std::get_if<FunctionGap>(&displacement);

@@ -144,6 +144,7 @@ struct RackMesh {
 struct FunctionGap {
   GapFunction (*at)(const Planar::Vec& z, const double* parameters) = nullptr;
   std::array<double, 4> parameters{};
+  double period = 0;  // the pose tells the gap up to multiples of this; 0: it tells the gap
 
   GapFunction operator()(const Planar::Vec& z) const { return at(z, parameters.data()); }
 };

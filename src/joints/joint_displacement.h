@@ -1,6 +1,7 @@
 // The displacement of a joint, its gap: what an ideal joint would forbid, with its rate, Jacobians and convective term.
 #pragma once
 
+#include <cmath>
 #include <type_traits>
 #include <variant>
 
@@ -71,6 +72,17 @@ int count_functions(const Displacement& displacement) {
       [](const auto& p) {
         if constexpr (requires { p.gap_functions(); }) return p.gap_functions();
         else return 1;
+      },
+      displacement);
+}
+
+/// Makes of a gap that the pose tells up to whole turns the one that is next to `carried`, what a method has followed step by step.
+template <class Displacement, class Gap>
+void count_turns(const Displacement& displacement, double carried, Gap&& gap) {
+  std::visit(
+      [&](const auto& p) {
+        if constexpr (requires { p.period; })
+          if (p.period > 0) gap[0] -= p.period * std::round((gap[0] - carried) / p.period);
       },
       displacement);
 }

@@ -36,11 +36,11 @@ double size_of(const BasicSystem<S>& system) {
 }  // namespace
 
 template <class S>
-BasicEnergyWatch<S>::BasicEnergyWatch(const BasicSystem<S>& system, double duration, double tolerance, bool exact_work)
+BasicEnergyWatch<S>::BasicEnergyWatch(const BasicSystem<S>& system, double duration, double tolerance, bool exact_work, bool counts_turns)
     : system_(system), duration_(duration), tolerance_(std::max(tolerance, kLeastJudged)), exact_work_(exact_work) {
   for (const BasicJointData<S>& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : joint.driven >= 0 ? "the length of joint" : joint.law.feeds() ? "the pressure in joint" : joint.law.depends_on_reaction_alone() ? "the teeth of joint" : "negative damping of joint", &joint.name});
   for (int j = 0; j < system.n_joints(); ++j)
-    if (has_lost_a_turn(system.joints[j].displacement, -1, std::numeric_limits<double>::infinity())) belts_.push_back({j, 0});
+    if (!counts_turns && has_lost_a_turn(system.joints[j].displacement, -1, std::numeric_limits<double>::infinity())) belts_.push_back({j, 0});
   for (int j = 0; j < system.n_joints(); ++j) {
     if (system.joints[j].driven < 0) continue;
     drives_.push_back(j);

@@ -15,8 +15,8 @@ class BasicEnergyWatch {
   enum class Alarm { kNone, kRunaway, kOpen };
 
   /// A motion of `duration` [s] whose forces are to be right to `tolerance` [-]. `exact_work`: the method integrates works as it does the
-  /// motion, so that the account is as accurate; otherwise it is not judged.
-  BasicEnergyWatch(const BasicSystem<S>& system, double duration, double tolerance, bool exact_work);
+  /// motion, so that the account is as accurate; otherwise it is not judged. `counts_turns`: it follows belts however far they are wound; otherwise they are watched.
+  BasicEnergyWatch(const BasicSystem<S>& system, double duration, double tolerance, bool exact_work, bool counts_turns);
 
   /// The energy that an earlier integration of the same motion has turned over, by whose loads this one measures its errors [J].
   void expect(double turnover) { expected_ = turnover; }

@@ -89,7 +89,7 @@ class Passes {
     BasicIntegrationPlan<S> p = plan(tolerance);
     // Explicit methods take works by the trapezoidal rule, others leave them out of their control.
     const bool exact_work = choice_.method == "radau" || choice_.equations == Equations::kIdeal;
-    BasicEnergyWatch<S> energy(system_, p.duration, std::max(tolerance, std::min(settings_.tolerance, kLoosestOfMotion)), exact_work);
+    BasicEnergyWatch<S> energy(system_, p.duration, std::max(tolerance, std::min(settings_.tolerance, kLoosestOfMotion)), exact_work, choice_.method == "radau" && !has_constraints(choice_.equations));
     if (p.scale) energy.expect(turnover_);
     p.energy = &energy;
     BasicRingingLoss<S> ringing = fine_ringing_;

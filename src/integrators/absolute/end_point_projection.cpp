@@ -129,7 +129,7 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
     load_motions(m);
   }
 
-  // In curved spaces the poses give angles up to whole turns: their number is taken from the carried gap. So is the slip of surfaces.
+  // In curved spaces the poses give angles up to whole turns: their number is taken from the carried gap. So are the turns of a belt, and the slip of surfaces.
   Kinematics read(const BasicJointPack<S>& joints, double t, const std::vector<typename S::Motion>& m, typename S::template GapMap<L>& map,
                   const BasicStage<S>& carried) const {
     Kinematics r;
@@ -145,7 +145,9 @@ class LaneEndPointProjection : public BasicEndPointProjection<S> {
       return r;
     }
     BasicJointKinematics<S> one = system_.kinematics(joints.first, t, m);
-    if (has_slip(system_.joints[joints.first].displacement)) one.gap[kSlip] = carried.gap[joints.first][kSlip];
+    const BasicDisplacement<S>& displacement = system_.joints[joints.first].displacement;
+    if (has_slip(displacement)) one.gap[kSlip] = carried.gap[joints.first][kSlip];
+    count_turns(displacement, carried.gap[joints.first][0], one.gap);
     for (int k = 0; k < S::kDof; ++k) {
       r.gap[k] = L::all(one.gap[k]);
       r.rate[k] = L::all(one.rate[k]);

@@ -51,7 +51,10 @@ void TreeInstant::gaps(VectorXd& out, const TreeState* carried) const {
   for (std::size_t l = 0; l < r_.size(); ++l) {
     const Eigen::Index i = 3 * static_cast<Eigen::Index>(l);
     out.segment<3>(i) = r_[l].gap;
-    if (carried && has_slip(system_.joints[tree_.laws()[l]].displacement)) out[i + kSlip] = carried->gap[i + kSlip];
+    if (!carried) continue;
+    const JointDisplacement& displacement = system_.joints[tree_.laws()[l]].displacement;
+    if (has_slip(displacement)) out[i + kSlip] = carried->gap[i + kSlip];
+    count_turns(displacement, carried->gap[i], out.segment<3>(i));
   }
 }
 

@@ -55,7 +55,7 @@ class TreeInstant {
   /// J' (M a - Q - G' f), at the accelerations given last: what is missing in the balance.
   void imbalance(const Eigen::VectorXd& f, Eigen::VectorXd& out);
 
-  /// The gaps of the geometry. How far surfaces have slipped it does not know: 0, or what is carried.
+  /// The gaps of the geometry. How far surfaces have slipped, and how often belts are wound, it does not know: 0, or what is carried.
   void gaps(Eigen::VectorXd& out, const TreeState* carried = nullptr) const;
   void rates(Eigen::VectorXd& out) const;
   /// Mass matrix, dv/du and A = G J.
