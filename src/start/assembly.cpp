@@ -237,6 +237,16 @@ std::string what_to_try(Model model, const System& system, const Vecs& q, const 
   return "Try lengths that close the loop, or angles nearer to the intended position.";
 }
 
+// Joints with play whose bodies do not touch where they have been put, as where what is held says how a sleeve is tilted on its pole.
+std::vector<bool> within_play(const System& system, const Vecs& q) {
+  std::vector<S::Motion> m;
+  std::vector<JointKinematics> r;
+  kinematics_at(system, 0, q, Vecs(q.size(), S::Vec::Zero()), m, r);
+  std::vector<bool> out(r.size());
+  for (std::size_t j = 0; j < r.size(); ++j) out[j] = has_play(system.joints[j]) && !(system.joints[j].law.penetration(r[j].gap) > 0);
+  return out;
+}
+
 // Or what is held gives way by a little, if that closes them.
 void demand_closed(const Model& model, const System& system, Vecs& q, const std::vector<bool>& open, std::vector<std::string>& notes) {
   const auto left = misfits(system, q);
@@ -244,8 +254,9 @@ void demand_closed(const Model& model, const System& system, Vecs& q, const std:
   constexpr int kMostListed = 20;         // joints that the message names
   constexpr std::size_t kMostTried = 40;  // joints that are opened in turn, at most
   std::vector<std::size_t> broken, misfitting;
+  const std::vector<bool> loose = within_play(system, q);
   for (std::size_t j = 0; j < left.size(); ++j) {
-    if (open[j]) continue;
+    if (open[j] || loose[j]) continue;
     if (is_broken(left[j], size)) broken.push_back(j);
     else if (!is_closed(left[j], size) && !has_play(system.joints[j])) misfitting.push_back(j);  // play takes up what is left
   }
