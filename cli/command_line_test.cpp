@@ -95,7 +95,7 @@ TEST(CommandLine, NoVerbReplacesAModelByAnotherFile) {
     sandbox.write("a.toml", model);
     const auto refused = sandbox.pintle(words);
     EXPECT_EQ(refused.exit_code, 6) << words;
-    EXPECT_TRUE(holds(refused.err, "a.toml: this file exists")) << refused.err;
+    EXPECT_TRUE(holds(refused.error, "a.toml: this file exists")) << refused.error;
     EXPECT_EQ(sandbox.read("a.toml"), model) << words;
     EXPECT_EQ(sandbox.pintle(std::string(words) + " --force").exit_code, 0) << words;
     EXPECT_NE(sandbox.read("a.toml"), model) << words;
