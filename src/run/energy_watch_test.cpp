@@ -29,7 +29,7 @@ Alarm after_steps(EnergyWatch& watch, const State& state, int steps) {
 TEST(EnergyWatch, WorkThatIsInNoEnergyIsNoticedAtOnce) {
   for (const double missing : {0.1, -0.1}) {
     Pendulum p;
-    EnergyWatch watch(p.system, 2, 1e-5, true);
+    EnergyWatch watch(p.system, 2, 1e-5, true, true);
     watch.start(p.state);
     EXPECT_EQ(after_steps(watch, p.state, 100), Alarm::kNone);
     p.state.dissipated += missing;
@@ -57,7 +57,7 @@ TEST(EnergyWatch, ALikelyCauseIsNamed) {
     const Assembly start = start_of_run(model);
     const System system = c.ideal ? sample::with_ideal(start.system, {"pin"}) : start.system;
     State state = start.state;
-    EnergyWatch watch(system, 2, 1e-5, true);
+    EnergyWatch watch(system, 2, 1e-5, true, true);
     watch.start(state);
     Alarm alarm = Alarm::kNone;
     for (int i = 0; i < 100000 && alarm == Alarm::kNone; ++i) {
@@ -74,7 +74,7 @@ TEST(EnergyWatch, TwoMotorsMayContradictEachOther) {
   Model model = sample::pendulum(1e8, 1000);
   model.motors = {sample::motor("one", "pin", MotorKind::kSpeed, sample::expression("1")), sample::motor("two", "pin", MotorKind::kSpeed, sample::expression("2"))};
   const Assembly start = start_of_run(model);
-  EnergyWatch watch(start.system, 2, 1e-5, true);
+  EnergyWatch watch(start.system, 2, 1e-5, true, true);
   watch.start(start.state);
   State state = start.state;
   state.dissipated += 1e3;
@@ -84,7 +84,7 @@ TEST(EnergyWatch, TwoMotorsMayContradictEachOther) {
 
 TEST(EnergyWatch, TheEndIsJudgedToo) {
   Pendulum p;
-  EnergyWatch watch(p.system, 2, 1e-5, true);
+  EnergyWatch watch(p.system, 2, 1e-5, true, true);
   watch.start(p.state);
   EXPECT_EQ(watch.see_end(p.state), Alarm::kNone);
   p.state.supplied += 0.1;
