@@ -95,7 +95,7 @@ TEST(EnergyWatch, TheEndIsJudgedToo) {
 TEST(EnergyWatch, HeatBelowZeroIsNoticedAtTheEnd) {
   for (const double given : {1e-3, 5.0}) {
     Pendulum p;
-    EnergyWatch watch(p.system, 2, 1e-5, true);
+    EnergyWatch watch(p.system, 2, 1e-5, true, true);
     watch.start(p.state);
     p.state.dissipated -= given;
     p.state.supplied -= given;
@@ -106,7 +106,7 @@ TEST(EnergyWatch, HeatBelowZeroIsNoticedAtTheEnd) {
 
 TEST(EnergyWatch, WhatErrorsWithinTheToleranceExplainIsNoAlarm) {
   Pendulum p;
-  EnergyWatch loose(p.system, 2, 1e-3, true), tight(p.system, 2, 1e-6, true), unheard(p.system, 2, 1e-6, false);
+  EnergyWatch loose(p.system, 2, 1e-3, true, true), tight(p.system, 2, 1e-6, true, true), unheard(p.system, 2, 1e-6, false, true);
   for (EnergyWatch* watch : {&loose, &tight, &unheard}) watch->start(p.state);
   p.state.supplied += 0.05;
   EXPECT_EQ(loose.see_end(p.state), Alarm::kNone);
@@ -126,7 +126,7 @@ TEST(EnergyWatch, WhatOneForceGivesAndAnotherTakesIsTurnedOver) {
   const Assembly start = start_of_run(model);
   State state = start.state;
   for (auto& v : state.v) v[2] = 2;
-  EnergyWatch watch(start.system, 2, 1e-6, true);
+  EnergyWatch watch(start.system, 2, 1e-6, true, true);
   watch.start(state);
   watch.see_step(state, 1e-3);
   EXPECT_NEAR(watch.turnover(), 2e3, 30);
@@ -135,7 +135,7 @@ TEST(EnergyWatch, WhatOneForceGivesAndAnotherTakesIsTurnedOver) {
 // Errors of a motion that begins quietly are measured by the loads of what comes later, once these are known.
 TEST(EnergyWatch, AQuietBeginningIsJudgedByWhatAnEarlierPassHasTurnedOver) {
   Pendulum p;
-  EnergyWatch whole(p.system, 2, 1e-6, true), again(p.system, 2, 1e-6, true);
+  EnergyWatch whole(p.system, 2, 1e-6, true, true), again(p.system, 2, 1e-6, true, true);
   whole.start(p.state);
   State later = p.state;
   later.supplied = later.dissipated = 1e4;
@@ -155,7 +155,7 @@ TEST(EnergyWatch, AQuietBeginningIsJudgedByWhatAnEarlierPassHasTurnedOver) {
 TEST(EnergyWatch, ExponentialFeedingIsARunawayAndAPowerOfTimeIsNot) {
   const auto alarm = [](const auto& fed) {
     Pendulum p;
-    EnergyWatch watch(p.system, 100, 1e-5, false);
+    EnergyWatch watch(p.system, 100, 1e-5, false, true);
     watch.start(p.state);
     for (int i = 1; i <= 10000; ++i) {
       p.state.t = 0.01 * i;
