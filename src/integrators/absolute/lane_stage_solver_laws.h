@@ -59,7 +59,8 @@ void LaneStageSolver<S, N>::place_general(const BasicState<S>& begin, Joint& joi
   std::copy_n(out.force, S::kDof, force);
 }
 
-// Whether what is missing in the states' equations is felt in the joint's force, by the tangents at hand.
+// Whether what is missing in the states' equations is felt in the joint's force, by the tangents at hand; or is as large as the states themselves. Bristles that
+// nothing presses push nobody, and would grow without a bound.
 template <class S, int N>
 bool LaneStageSolver<S, N>::miss_states(const Joint& joint, const General& general) const {
   const BasicLawTangents<S>& tangents = general.tangents;
@@ -68,6 +69,15 @@ bool LaneStageSolver<S, N>::miss_states(const Joint& joint, const General& gener
     for (int z = 0; z < tangents.n; ++z) worst = larger_size(worst, (joint.over_scale[k] * tangents.force_by_state[k][z] * step_.c[N - 1]) * general.residual[z]);
   for (int s = 0; s < N; ++s)
     if (worst[s] > NewtonContraction::kShare * tolerance_) return true;
+  constexpr double kOfItself = 0.3;  // of a state's size
+  for (std::size_t z = 0; z < general.state.size(); ++z) {
+    double size = 0, missing = 0;
+    for (int s = 0; s < N; ++s) {
+      size = std::max(size, std::abs(general.state[z][s]));
+      missing = std::max(missing, std::abs(step_.c[N - 1] * general.residual[z][s]));
+    }
+    if (missing > kOfItself * size) return true;
+  }
   return false;
 }
 
