@@ -44,6 +44,7 @@ constexpr double kMostScatter = 0.65;      // of a rate of growth, for chaos to 
 constexpr double kOptimism = 2;            // standard errors by which a rate may be smaller before no tolerance is said to help
 constexpr double kFalls = 0.1;             // of the error of passes that have grown apart alike: those whose errors fall so far converge yet. With 0 three balls of a cradle, whose error falls from 9 to 0.4 of the peak with a tenth of the tolerance, are taken for chaotic
 constexpr double kFarBelow = 1e-18;        // tolerance that growing errors would ask for, below which nobody tries whether tolerances that can be had are enough
+constexpr double kLeap = 1e-3;             // of the tolerance of a pass: the next one is no tighter, unless two pairs have shown the same exponential growth
 constexpr double kShift = 0.2;             // of the time in which errors grow by the ratio of two tolerances: by so much later, at least, the tighter passes part. A pendulum that falls from its upper position parts at 0.04 of it later, as errors grow while it falls only
 constexpr int kMostOpen = 2;               // passes made finer because the energy account did not close
 
@@ -278,7 +279,7 @@ class Passes {
       const bool hopeless = hoped < kLeastTolerance || tolerance < kFinest;
       if (same && hopeless && !errors_fall() && (is_sure() || coarse_tolerance_ <= kFinest || last_.counters.steps > kLong)) return false;
       if (growth_.to_largest) return at(finer_by_error(tolerance));
-      const double by_growth = same && hopeless ? kFinest : hopeless ? tolerance : std::max(kFinest, tolerance_by_growth(growth_.rate, kErrorPower));
+      const double by_growth = hopeless ? (same ? kFinest : tolerance) : std::max({kFinest, tolerance_by_growth(growth_.rate, kErrorPower), same ? 0 : kLeap * tolerance});
       const double next = std::min(kRepeated * tolerance, by_growth);
       choose_order(next);
       return at(next);
@@ -315,15 +316,15 @@ class Passes {
 
   // A long pass that has refused half as many steps as it has made for their errors.
   bool feels_rounding(double tolerance) const { return tolerance < kNearRounding && last_.counters.steps > kLong && 2 * last_.counters.rejected > last_.counters.steps; }
-  // And that has gained little on the one before.
-  bool meets_rounding(double tolerance) const { return feels_rounding(tolerance) && error_before_ > 0 && error_ > kNoGain * error_before_; }
+  // And that has gained little on the one before, which was near there too.
+  bool meets_rounding(double tolerance) const { return feels_rounding(tolerance) && coarse_tolerance_ < kNearRounding && error_before_ > 0 && error_ > kNoGain * error_before_; }
 
   // The tolerance of the pass after one of `tolerance`, with which the error that the last two show would be small enough.
   double finer_by_error(double tolerance) {
     const double shrink = 0.5 * std::pow(settings_.tolerance / error_, 1 / kErrorPower);
     const bool by_tenths = last_.counters.steps > kLong || tolerance < kNearRounding;
     const double least = by_tenths ? std::min(kRepeated * tolerance, kNearRounding) : 0;
-    const double next = std::max(least, tolerance * std::clamp(shrink, 1e-3, kRepeated));
+    const double next = std::max(least, tolerance * std::clamp(shrink, kLeap, kRepeated));
     choose_order(next);
     return next;
   }
