@@ -79,7 +79,7 @@ TEST(Chaos, PassesThatGrowApartAtDifferentRatesAreThoseOfChaos) {
   const std::vector<std::string> changes{"parameters.mass=1.11015 kg", "defaults.joint.stiffness=8.32328e7 N/m", "defaults.joint.damping=11047 N*s/m", "simulate.tolerance=1e-2"};
   const Trajectory run = simulate(read_model(file, changes));
   EXPECT_EQ(run.outcome, Outcome::kHorizon) << run.message;
-  EXPECT_NEAR(run.growth.rate, 1.2, 0.3);  // errors of the double pendulum grow at 1.25 +- 0.6 per second
+  EXPECT_NEAR(run.growth.rate, 1.3, 0.7);  // the range of those that other starts of the double pendulum show
   EXPECT_GT(run.growth.horizon, 10);
 }
 

@@ -44,15 +44,12 @@ std::optional<Belt> belt_of(const JointDisplacement& displacement) {
   return Belt{function->parameters[0], function->parameters[1], function->parameters[2], function->parameters[3]};
 }
 
-bool has_lost_a_turn(const JointDisplacement& displacement, double before, double after) {
+bool is_at_end_of_range(const JointDisplacement& displacement, double gap) {
+  constexpr double kNear = 0.03;  // of what is left on either side: there the gap jumps to the other one
   const std::optional<Belt> belt = belt_of(displacement);
-  return belt && belt->wound_per_turn() > 0 && before < 0 && after - before > 0.5 * belt->wound_per_turn();
-}
-
-bool is_at_stretch_limit(const JointDisplacement& displacement, double gap) {
-  constexpr double kNearly = 0.97;  // positions are moved onto gaps: beyond, by a whole turn
-  const std::optional<Belt> belt = belt_of(displacement);
-  return belt && belt->wound_per_turn() > 0 && gap > kNearly * belt->most_stretch();
+  if (!belt || belt->wound_per_turn() == 0) return false;
+  const double left = belt->most_stretch() - gap;
+  return left < kNear * belt->most_stretch() || left > (1 - kNear) * belt->wound_per_turn();
 }
 
 }  // namespace pintle

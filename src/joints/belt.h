@@ -34,14 +34,10 @@ FunctionGap function_of(const Belt& belt);
 /// The belt that a displacement is, or nullopt.
 std::optional<Belt> belt_of(const JointDisplacement& displacement);
 
-/// Whether a belt that was slack has tightened by most of what a turn of its discs winds: it is rather slack by more, and taken for taut.
-bool has_lost_a_turn(const JointDisplacement& displacement, double before, double after);
-/// Whether it is stretched nearly as far as a stretch is told from slack.
-bool is_at_stretch_limit(const JointDisplacement& displacement, double gap);
+/// Whether a belt is stretched or slack nearly as far as the one is told from the other where turns are not counted.
+bool is_at_end_of_range(const JointDisplacement& displacement, double gap);
 /// Joints of other kinds count turns, or have none.
 template <class Displacement>
-bool has_lost_a_turn(const Displacement&, double, double) { return false; }
-template <class Displacement>
-bool is_at_stretch_limit(const Displacement&, double) { return false; }
+bool is_at_end_of_range(const Displacement&, double) { return false; }
 
 }  // namespace pintle

@@ -200,7 +200,7 @@ std::string event_table(const Trajectory& trajectory) {
     table.number(kind.first);
     table.number(kind.last);
     table.number(kind.fastest_approach, kind.fastest_approach > 0 ? value(kind.fastest_approach) + " " + printed_unit(kind.approach_unit) : "");
-    table.number(kind.most_heat, kind.most_heat > 0 ? estimate(kind.most_heat) : "");
+    table.number(kind.most_heat, kind.most_heat > 0 ? value(kind.most_heat) : "");
     table.end_row();
   }
   return "<h3>Events</h3>\n" + table.html() + "<p class=\"note\">Most heat: since the joint's event before. events.csv has every event.</p>\n";

@@ -178,7 +178,7 @@ std::string event_section(const Trajectory& trajectory, const Style& style) {
   for (const EventKind& kind : kinds_of_events(trajectory)) {
     const bool touches = kind.fastest_approach > 0;
     table.add_row({kind.joint, kind.what, fmt::format("{}", kind.count), engineering(kind.first), engineering(kind.last), touches ? engineering(kind.fastest_approach) : "", touches ? kind.approach_unit : "",
-                   kind.most_heat > 0 ? exponent(kind.most_heat) : ""});
+                   kind.most_heat > 0 ? engineering(kind.most_heat) : ""});
   }
   return section("Events in joints (most heat: since the joint's event before; events.csv has all)", table, style);
 }

@@ -40,7 +40,7 @@ BasicEnergyWatch<S>::BasicEnergyWatch(const BasicSystem<S>& system, double durat
     : system_(system), duration_(duration), tolerance_(std::max(tolerance, kLeastJudged)), exact_work_(exact_work) {
   for (const BasicJointData<S>& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : joint.driven >= 0 ? "the length of joint" : joint.law.feeds() ? "the pressure in joint" : joint.law.depends_on_reaction_alone() ? "the teeth of joint" : "negative damping of joint", &joint.name});
   for (int j = 0; j < system.n_joints(); ++j)
-    if (!counts_turns && has_lost_a_turn(system.joints[j].displacement, -1, std::numeric_limits<double>::infinity())) belts_.push_back({j, 0});
+    if (!counts_turns && is_at_end_of_range(system.joints[j].displacement, std::numeric_limits<double>::infinity())) belts_.push_back(j);
   for (int j = 0; j < system.n_joints(); ++j) {
     if (system.joints[j].driven < 0) continue;
     drives_.push_back(j);
@@ -96,17 +96,12 @@ typename BasicEnergyWatch<S>::Alarm BasicEnergyWatch<S>::see_step(const BasicSta
   kinetic_ = kinetic;
   kinetic_peak_ = std::max(kinetic_peak_, kinetic);
   if (reached_ > 0) add_works(state, h);
-  for (auto& [j, gap] : belts_) {
-    if (tightened_ < 0 && has_lost_a_turn(system_.joints[j].displacement, gap, state.gap[j][0])) {
-      tightened_ = j;
-      tightened_at_ = state.t;
-    }
-    gap = state.gap[j][0];
-    if (tightened_ != j && is_at_stretch_limit(system_.joints[j].displacement, gap)) {
-      message_ = fmt::format("joint {} is stretched by {:.4g} m at t = {:.6g} s, as far as a stretch is told from slack. State its `stretch` as assembled, of which three times are followed up to half of what a turn winds; or give it more stiffness, or its disc a larger radius",
-                             system_.joints[j].name, gap, state.t);
-      return Alarm::kOpen;
-    }
+  for (const int j : belts_) {
+    const double gap = state.gap[j][0];
+    if (!is_at_end_of_range(system_.joints[j].displacement, gap)) continue;
+    message_ = fmt::format("joint {} is {} by {:.4g} m at t = {:.6g} s, as far as this method tells slack from stretch: it does not count the turns of discs. Use method radau, which does", system_.joints[j].name,
+                           gap > 0 ? "stretched" : "slack", std::abs(gap), state.t);
+    return Alarm::kOpen;
   }
   for (const int j : lengths_)
     if (const BasicJointData<S>& joint = system_.joints[j]; !(target_of(joint, state.t)[0] > 0)) {
@@ -154,11 +149,6 @@ void BasicEnergyWatch<S>::say_open(const BasicState<S>& state, double missing, d
   const bool ideal = std::any_of(system_.joints.begin(), system_.joints.end(), [](const BasicJointData<S>& joint) { return joint.ideal; });
   const bool loaded = !system_.loads.empty() || !system_.applied.empty();
   const bool sudden = std::abs(missing - missing_) > 0.5 * within;
-  if (tightened_ >= 0) {
-    message_ = fmt::format("joint {} was slack by nearly what a whole turn winds, and is taken for taut at t = {:.6g} s: more than 0.9 of a turn of slack is not followed. Look whether it leaves its disc on the side that was meant (first_side, second_side); otherwise stop the drive before, or give the disc a larger radius",
-                           system_.joints[tightened_].name, tightened_at_);
-    return;
-  }
   const char* cause = sudden && !loaded && ideal ? "likely a singular position of ideal joints: start elsewhere, or give its joints stiffness"
                       : sudden && loaded ? "likely a load or motor that changes within a step there, or has a pole: set a max_step that sees it"
                       : ideal ? "likely ideal joints near a singular position: give them stiffness"

@@ -65,11 +65,9 @@ class BasicEnergyWatch {
   double decade_[kDecades] = {};         // when they were [s]
   std::vector<typename S::Motion> m_;
   std::vector<Feeder> feeders_;          // joints, loads, applied forces
-  std::vector<std::pair<int, double>> belts_;  // joints that wind, and their gaps [m]
+  std::vector<int> belts_;                     // joints that wind, and whose turns are not counted
   std::vector<int> drives_;                    // joints that are driven
   std::vector<int> lengths_;                   // of those, the ones by their length
-  int tightened_ = -1;                   // of those, the first that was slack by a turn and is taken for taut
-  double tightened_at_ = 0;              // [s]
   std::string message_;
 };
 using EnergyWatch = BasicEnergyWatch<Planar>;

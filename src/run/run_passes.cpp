@@ -44,6 +44,7 @@ constexpr double kMostScatter = 0.65;      // of a rate of growth, for chaos to 
 constexpr double kOptimism = 2;            // standard errors by which a rate may be smaller before no tolerance is said to help
 constexpr double kFalls = 0.1;             // of the error of passes that have grown apart alike: those whose errors fall so far converge yet. With 0 three balls of a cradle, whose error falls from 9 to 0.4 of the peak with a tenth of the tolerance, are taken for chaotic
 constexpr double kFarBelow = 1e-18;        // tolerance that growing errors would ask for, below which nobody tries whether tolerances that can be had are enough
+constexpr double kSudden = 0.1;            // of the error that the ratio of two tolerances would make of the error before: passes that are better may agree by chance
 constexpr double kLeap = 1e-3;             // of the tolerance of a pass: the next one is no tighter, unless two pairs have shown the same exponential growth
 constexpr double kShift = 0.2;             // of the time in which errors grow by the ratio of two tolerances: by so much later, at least, the tighter passes part. A pendulum that falls from its upper position parts at 0.04 of it later, as errors grow while it falls only
 constexpr int kMostOpen = 2;               // passes made finer because the energy account did not close
@@ -266,7 +267,7 @@ class Passes {
     const double enough = tolerance < kFinest ? 1 : choice_.stages > 3 ? kPromisedByFew : kPromised;  // of the tolerance, where finer passes find rounding
     if (error_ <= enough * wanted) {
       // Alike again, and it is not the tolerance that limits the steps: that the passes agree says little.
-      if (stalled_ && !confirmed_ && !last_one) return confirmed_ = true, at(kRepeated * tolerance);  // passes that no tolerance brought nearer may agree by chance
+      if (agree_suddenly() && !confirmed_ && !last_one) return confirmed_ = true, at(kRepeated * tolerance);
       if (!alike_ || out_.of_motion || longest_ > 0 || last_one || choice_.method != "radau") return false;
       longest_ = kShorter * settings_.duration / static_cast<double>(last_.counters.steps);
       return at(tolerance);
@@ -287,6 +288,9 @@ class Passes {
     at_rounding_ = meets_rounding(tolerance) || (last_.sliding_load >= 0 && tolerance <= kNarrowed);
     return at_rounding_ ? end_far_apart() : at(finer_by_error(tolerance));
   }
+
+  // Far better than their tolerances say, after passes that no tolerance had brought nearer: it may be by chance.
+  bool agree_suddenly() const { return stalled_ && error_ < kSudden * error_before_ * fine_tolerance_ / coarse_tolerance_; }
 
   static bool is_steady(const ErrorGrowth& growth) { return growth.rate_scatter < kMostScatter * growth.rate; }
   // Errors of a chaotic motion are as large as they can be, whatever the tolerance.
