@@ -45,7 +45,7 @@ constexpr double kOptimism = 2;            // standard errors by which a rate ma
 constexpr double kFalls = 0.1;             // of the error of passes that have grown apart alike: those whose errors fall so far converge yet. With 0 three balls of a cradle, whose error falls from 9 to 0.4 of the peak with a tenth of the tolerance, are taken for chaotic
 constexpr double kFarBelow = 1e-18;        // tolerance that growing errors would ask for, below which nobody tries whether tolerances that can be had are enough
 constexpr double kSudden = 0.1;            // of the error that the ratio of two tolerances would make of the error before: passes that are better may agree by chance
-constexpr double kLeap = 1e-3;             // of the tolerance of a pass: the next one is no tighter, unless two pairs have shown the same exponential growth
+constexpr double kLeap = 1e-4;             // of the tolerance of a pass: the next one is no tighter, unless two pairs have shown the same exponential growth
 constexpr double kShift = 0.2;             // of the time in which errors grow by the ratio of two tolerances: by so much later, at least, the tighter passes part. A pendulum that falls from its upper position parts at 0.04 of it later, as errors grow while it falls only
 constexpr int kMostOpen = 2;               // passes made finer because the energy account did not close
 
@@ -290,7 +290,7 @@ class Passes {
   }
 
   // Far better than their tolerances say, after passes that no tolerance had brought nearer: it may be by chance.
-  bool agree_suddenly() const { return stalled_ && error_ < kSudden * error_before_ * fine_tolerance_ / coarse_tolerance_; }
+  bool agree_suddenly() const { return stalled_ && fine_tolerance_ > kNearRounding && error_ < kSudden * error_before_ * fine_tolerance_ / coarse_tolerance_; }
 
   static bool is_steady(const ErrorGrowth& growth) { return growth.rate_scatter < kMostScatter * growth.rate; }
   // Errors of a chaotic motion are as large as they can be, whatever the tolerance.
@@ -328,7 +328,7 @@ class Passes {
     const double shrink = 0.5 * std::pow(settings_.tolerance / error_, 1 / kErrorPower);
     const bool by_tenths = last_.counters.steps > kLong || tolerance < kNearRounding;
     const double least = by_tenths ? std::min(kRepeated * tolerance, kNearRounding) : 0;
-    const double next = std::max(least, tolerance * std::clamp(shrink, kLeap, kRepeated));
+    const double next = std::max(least, tolerance * std::clamp(shrink, 1e-3, kRepeated));
     choose_order(next);
     return next;
   }
