@@ -38,7 +38,7 @@ double size_of(const BasicSystem<S>& system) {
 template <class S>
 BasicEnergyWatch<S>::BasicEnergyWatch(const BasicSystem<S>& system, double duration, double tolerance, bool exact_work, bool counts_turns)
     : system_(system), duration_(duration), tolerance_(std::max(tolerance, kLeastJudged)), exact_work_(exact_work) {
-  for (const BasicJointData<S>& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : joint.driven >= 0 ? "the length of joint" : joint.law.feeds() ? "the pressure in joint" : joint.law.depends_on_reaction_alone() ? "the teeth of joint" : "negative damping of joint", &joint.name});
+  for (const BasicJointData<S>& joint : system.joints) feeders_.push_back({joint.servo >= 0 ? "motor" : joint.driven >= 0 ? "the length of joint" : joint.law.feeds() ? "the pressure in joint" : joint.law.depends_on_reaction_alone() ? "the teeth of joint" : "negative damping of joint", &joint.name, joint.servo < 0});
   for (int j = 0; j < system.n_joints(); ++j)
     if (!counts_turns && is_at_end_of_range(system.joints[j].displacement, std::numeric_limits<double>::infinity())) belts_.push_back(j);
   for (int j = 0; j < system.n_joints(); ++j) {
@@ -46,8 +46,11 @@ BasicEnergyWatch<S>::BasicEnergyWatch(const BasicSystem<S>& system, double durat
     drives_.push_back(j);
     if (system.joints[j].servo < 0) lengths_.push_back(j);
   }
-  for (const BasicLoadData<S>& load : system.loads) feeders_.push_back({load.applied ? "force" : load.kind == LoadKind::kEffort ? "motor" : "negative damping of spring", &load.name});
-  for (const BasicAppliedData<S>& force : system.applied) feeders_.push_back({"force", &force.name});
+  for (const BasicLoadData<S>& load : system.loads) {
+    const bool listens = load.kind != LoadKind::kEffort || std::any_of(load.signals.begin(), load.signals.end(), [](const BasicSignal<S>& signal) { return !signal.is_time; });
+    feeders_.push_back({load.applied ? "force" : load.kind == LoadKind::kEffort ? "motor" : "negative damping of spring", &load.name, listens});
+  }
+  for (const BasicAppliedData<S>& force : system.applied) feeders_.push_back({"force", &force.name, false});
 }
 
 template <class S>
@@ -201,7 +204,7 @@ const typename BasicEnergyWatch<S>::Feeder* BasicEnergyWatch<S>::largest_feeder(
 template <class S>
 std::string BasicEnergyWatch<S>::note_on_feeder() const {
   const Feeder* most = largest_feeder();
-  if (most == nullptr || !(most->work > kFarFed * storable_)) return {};
+  if (most == nullptr || !most->listens || !(most->work > kFarFed * storable_)) return {};
   return fmt::format("{} {} has fed {:.3g} J, {:.2g} times what the mechanism stores by itself: check the signs of what it depends on", most->kind, *most->name, most->work,
                      most->work / storable_);
 }

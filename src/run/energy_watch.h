@@ -37,6 +37,7 @@ class BasicEnergyWatch {
   struct Feeder {
     const char* kind;
     const std::string* name;
+    bool listens;     // to the motion, so that a sign may be wrong: not to the time alone
     double work = 0;  // [J]
   };
   Alarm judge_account(const BasicState<S>& state);
