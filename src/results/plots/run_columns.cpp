@@ -42,8 +42,7 @@ const LoadSummary& find_joint(const Trajectory& trajectory, const std::string& n
       fmt::format("found joint \"{}\": the run has no such joint.\n    {}", name, hint_of(name, names, "Its joints")));
 }
 
-std::string peak_between_rows(const Trajectory& trajectory, const LoadSummary& joint) {
-  constexpr double kSeen = 0.99;  // of the peak: an arrow of 200 pixels lacks two
+std::string peak_between_rows(const Trajectory& trajectory, const LoadSummary& joint, double seen) {
   const std::string on = "joint." + joint.name + ".on_" + joint.second_body + ".";
   const int x = trajectory.column(on + "fx[world]"), y = trajectory.column(on + "fy[world]"), z = trajectory.column(on + "fz[world]");
   if (x < 0 || y < 0) return "";
@@ -52,7 +51,7 @@ std::string peak_between_rows(const Trajectory& trajectory, const LoadSummary& j
     const auto at = [&](int column) { return column < 0 ? 0 : trajectory.at(i, static_cast<std::size_t>(column)); };
     largest = std::max(largest, std::hypot(at(x), at(y), at(z)));
   }
-  return largest < kSeen * joint.peak ? fmt::format("between the rows joint {} reaches {} N", joint.name, printed_number(fmt::format("{:.5g}", joint.peak))) : "";
+  return largest < seen * joint.peak ? fmt::format("between the rows joint {} reaches {} N", joint.name, printed_number(fmt::format("{:.5g}", joint.peak))) : "";
 }
 
 std::vector<double> magnitude(const std::vector<double>& x, const std::vector<double>& y) {

@@ -24,9 +24,11 @@ int find_column(const Trajectory& trajectory, const std::string& name);
 const LoadSummary& find_joint(const Trajectory& trajectory, const std::string& name);
 
 std::vector<double> values_of(const Trajectory& trajectory, int column);
-/// What a picture of the rows does not show of a joint's force: "between the rows joint O reaches 28077 N". Empty where a row comes within a hundredth of the peak, and where
+/// Of a peak: what an arrow of 200 pixels shows of it but for two.
+inline constexpr double kSeenByArrow = 0.99;
+/// What a picture of the rows does not show of a joint's force: "between the rows joint O reaches 28077 N". Empty where a row has `seen` of the peak, and where
 /// the run did not record the force.
-std::string peak_between_rows(const Trajectory& trajectory, const LoadSummary& joint);
+std::string peak_between_rows(const Trajectory& trajectory, const LoadSummary& joint, double seen = kSeenByArrow);
 
 /// sqrt(x^2 + y^2), row by row.
 std::vector<double> magnitude(const std::vector<double>& x, const std::vector<double>& y);

@@ -122,6 +122,7 @@ PolarPlot make_orbit_plot(const std::vector<PolarRun>& runs, const std::string& 
 }
 
 PolarPlot make_polar_plot(const std::vector<PolarRun>& runs, const std::string& joint) {
+  constexpr double kPrinted = 1 - 1e-4;  // of a peak: the picture states it with five digits
   const RunRecord& leading = *runs.front().run;
   const LoadSummary& pin = find_pin(leading.trajectory, joint);
   PolarPlot plot;
@@ -129,7 +130,7 @@ PolarPlot make_polar_plot(const std::vector<PolarRun>& runs, const std::string& 
   plot.subtitle = leading.stamp.model_name.empty() ? leading.stamp.model_path : leading.stamp.model_name;
   if (runs.size() == 1 && pin.relative_error_estimate > 0)
     plot.subtitle += fmt::format("{}estimated error {} of the peak", plot.subtitle.empty() ? "" : " – ", printed_number(exponent(pin.relative_error_estimate)));
-  if (const std::string more = peak_between_rows(leading.trajectory, pin); !more.empty()) plot.subtitle += (plot.subtitle.empty() ? "" : " – ") + more;
+  if (const std::string more = peak_between_rows(leading.trajectory, pin, kPrinted); !more.empty()) plot.subtitle += (plot.subtitle.empty() ? "" : " – ") + more;
   plot.unit = "N";
   plot.panels = {{"Force on " + pin.second_body, "world axes", {}},
                  {"Force on " + pin.first_body, "axes of its marker on " + pin.first_body, {}},
