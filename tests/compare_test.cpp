@@ -168,5 +168,30 @@ TEST(Stiffen, AnUnknownJointIsRefused) {
   EXPECT_THROW(stiffen(reference::mechanism("four_bar"), request), InputError);
 }
 
+// Beyond the horizon two runs of a chaotic motion have no peaks in common, and nothing physical follows from that.
+TEST(Compare, ChaoticMotionsAreComparedUpToTheirHorizon) {
+  const auto pendulum = [](double tolerance) {
+    Model model = reference::mechanism("double_pendulum", {"simulate.record=[\"all\"]"});
+    model.simulate.tolerance = tolerance;
+    return model;
+  };
+  const Trajectory first = simulate(pendulum(1e-5)), second = simulate(pendulum(2e-5));
+  ASSERT_EQ(first.outcome, Outcome::kHorizon);
+  const Comparison c = compare(pendulum(1e-5), first, second, Equations::kNewtonian);
+  EXPECT_EQ(c.until, std::min(first.growth.horizon, second.growth.horizon));
+  for (const Difference& force : c.forces) {
+    EXPECT_LE(force.largest_time, c.until);
+    EXPECT_EQ(force.cause, Cause::kNumerical) << force.name << " by " << force.largest << " N, stated " << force.error_estimate;
+  }
+  const Variants side_by_side = compare({{"one", first}, {"other", second}});
+  for (const VariantJoint& joint : side_by_side.joints) EXPECT_EQ(joint.loads[1].cause, Cause::kChaotic) << joint.joint;
+}
+
+// A motor of the wrong sign feeds every run of them the same way: their digits agree.
+TEST(Stiffen, RunawaysAndChaosHaveNoLimit) {
+  const Stiffening runaway = stiffen(reference::test_model("cart_and_pole_wrong_sign"), {});
+  EXPECT_FALSE(runaway.found) << runaway.reason;
+}
+
 }  // namespace
 }  // namespace pintle

@@ -240,5 +240,11 @@ TEST(Starts, ATipThatSlidesRubsFromTheStartOn) {
   }
 }
 
+// Its bodies do not touch there; the pole's sleeve is at the angle that is held.
+TEST(Starts, WhatIsHeldMaySayWhereAJointIsInItsPlay) {
+  EXPECT_NEAR(value(completed(test_model("sleeve_tilted_in_its_play")), 0, "body.s.angle"), 0.05, 1e-12);
+  EXPECT_THROW(simulate(test_model("sleeve_tilted_in_its_play", {"body.s.angle=0.15"})), AssemblyError);  // 1.5 mm at the ends, of 1 mm
+}
+
 }  // namespace
 }  // namespace pintle

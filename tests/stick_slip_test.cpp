@@ -175,5 +175,26 @@ TEST(StickSlip, WhatBreaksAwayWasLoadedWithAllThatHeldIt) {
     }
 }
 
+// Bristles that nothing presses push nobody, and grew without a bound: the run failed where the load came. Each half swing then costs 2 M / k of the angle.
+TEST(StickSlip, BristlesThatNothingHasPressedHoldAsOthersDo) {
+  constexpr double kSpring = 1000, kInertia = 0.01, kFriction = 0.1 * 100 * 0.01;
+  const double rate = std::sqrt(kSpring / kInertia), half_swings = (0.4 + 0.05) * rate / std::numbers::pi;  // of the full load; on the ramp of 0.1 s it is half as much on average
+  for (const double tolerance : {1e-3, 1e-5}) {
+    Model model = reference::test_model("wheel_on_unpressed_bristles");
+    model.simulate.tolerance = tolerance;
+    const Trajectory run = completed(model);
+    EXPECT_NEAR(std::hypot(reference::at_end(run, "body.wheel.angle"), reference::at_end(run, "body.wheel.spin") / rate), 300 / rate - half_swings * 2 * kFriction / kSpring, 1e-4) << tolerance;
+  }
+}
+
+// Where a surface begins to slip its friction jumps, by a step of 1e-14 s: a curve through that was 0.3 % above both sides.
+TEST(StickSlip, ThePeakOfAFrictionThatJumpsIsOnOneOfItsSides) {
+  for (const char* tolerance : {"1e-5", "1e-7"}) {
+    const Trajectory run = completed(reference::test_model("ball_to_a_wall", {"body.ball.mass=1.04034", "body.ball.inertia=0.000942975", std::string("simulate.tolerance=") + tolerance}));
+    const double normal = reference::value(run, 0, "joint.slope.contact_force");
+    EXPECT_NEAR(run.joints.at(0).peak, normal * std::hypot(1, 0.35), 1e-4 * normal) << tolerance;
+  }
+}
+
 }  // namespace
 }  // namespace pintle

@@ -151,6 +151,7 @@ TEST(SweepPlan, VariationsOfTheFileAreChecked) {
   says(pin("distribution = \"uniform\"\nfrom = 1\nto = 2\nmean = 1\n"), "does not use it");
   says(pin("distribution = \"triangular\"\nfrom = 1\nto = 2\nmode = 3\n"), "between from and to");
   says(pin("distribution = \"normal\"\nmean = -1e8\ndeviation = 1e6\n"), "almost none");
+  says("[variation.\"joint.pin.clearance\"]\ndistribution = \"uniform\"\nfrom = 1\nto = 2\n", "clearance");  // of a law that the joint has not: nothing could be drawn
   says("[variation.\"joint.pn.stiffness\"]\ndistribution = \"uniform\"\nfrom = 1\nto = 2\n", "pin");
 }
 
