@@ -7,15 +7,11 @@
 namespace pintle {
 namespace {
 
-// Of what a whole turn winds: what a belt may be stretched by at least, and at most; and over its stretch as assembled.
-constexpr double kLeastRange = 0.1, kMostRange = 0.5, kOverAssembled = 3;
-
 GapFunction gap_at(const Planar::Vec& z, const double* parameters) { return Belt{parameters[0], parameters[1], parameters[2], parameters[3]}(z); }
 
 }  // namespace
 
 double Belt::wound_per_turn() const { return 2 * std::numbers::pi * std::abs(w()); }
-double Belt::most_stretch() const { return std::clamp(kOverAssembled * stretch, kLeastRange * wound_per_turn(), kMostRange * wound_per_turn()); }
 
 double Belt::run(const Planar::Vec& z) const {
   const double distance = std::hypot(z[0], z[1]), apart = std::abs(w());
@@ -27,7 +23,7 @@ GapFunction Belt::operator()(const Planar::Vec& z) const {
   const double apart = std::abs(w()), t = run(z);
   const double a = std::atan2(z[1], z[0]) + (t > 0 || apart > 0 ? std::atan2(w(), t) : 0), c = std::cos(a), s = std::sin(a);  // (2.15)
   g.gap = t + w() * a - radius_second * z[2] - length;                                                                      // (2.16)
-  if (const double whole = wound_per_turn(); whole > 0) g.gap -= whole * std::ceil((g.gap - most_stretch()) / whole);
+  if (const double whole = wound_per_turn(); whole > 0) g.gap -= whole * std::round((g.gap - stretch) / whole);
   g.gradient << c, s, -radius_second;
   if (!(t > 0)) return g;
   g.hessian(0, 0) = s * s / t;
@@ -45,11 +41,9 @@ std::optional<Belt> belt_of(const JointDisplacement& displacement) {
 }
 
 bool is_at_end_of_range(const JointDisplacement& displacement, double gap) {
-  constexpr double kNear = 0.03;  // of what is left on either side: there the gap jumps to the other one
+  constexpr double kNear = 0.03;  // of what a turn winds, from where the gap jumps to its other end
   const std::optional<Belt> belt = belt_of(displacement);
-  if (!belt || belt->wound_per_turn() == 0) return false;
-  const double left = belt->most_stretch() - gap;
-  return left < kNear * belt->most_stretch() || left > (1 - kNear) * belt->wound_per_turn();
+  return belt && belt->wound_per_turn() > 0 && std::abs(gap - belt->stretch) > (0.5 - kNear) * belt->wound_per_turn();
 }
 
 }  // namespace pintle

@@ -19,11 +19,9 @@ struct Belt {
   double stretch = 0;                          // as assembled [m]
 
   double w() const { return radius_second - radius_first; }
-  /// What a whole turn of one disc about the other winds [m]. Angles are known up to full turns, so the gap is up to this: methods that carry gaps count it,
-  /// count_turns.
+  /// What a whole turn of one disc about the other winds [m]. Angles are known up to full turns, so the gap is up to this, next to the stretch as assembled: methods that
+  /// carry gaps count from there, count_turns.
   double wound_per_turn() const;
-  /// The largest gap without that: a belt gives way little and may be slack by much, and is taken to be slack beyond [m].
-  double most_stretch() const;
   /// t, 0 where there is no way between the discs [m].
   double run(const Planar::Vec& z) const;
   GapFunction operator()(const Planar::Vec& z) const;

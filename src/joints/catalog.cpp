@@ -96,9 +96,6 @@ GeometryFault tie_fault(const Geometry& g) {
   return {"stretch", "the length is stated already, and where the points are when assembled says how far it is stretched", "delete one of both: without length it is the distance as assembled, less the stretch"};
 }
 GeometryFault belt_fault(const Geometry& g) {
-  if (const Belt belt = *belt_of(make_belt(g)); belt.wound_per_turn() > 0 && belt.stretch > 0.9 * belt.most_stretch())
-    return {"stretch", fmt::format("{:.4g} m is much of the {:.4g} m that a turn winds off the one disc and not onto the other: a taut belt cannot be told from a slack one", belt.stretch, belt.wound_per_turn()),
-            "equal radii, or a stiffer belt with less stretch"};
   const double first = value(g, "first_radius", 0), second = value(g, "second_radius", 0);
   if (first == 0 && second == 0) return {"first_radius", "a belt winds onto one disc at least", "first_radius, or type = \"rope\" between two points"};
   if (second == 0 && g.contains("second_side")) return {"second_side", "the belt ends in the second marker, which has no sides", "second_radius, or delete it"};
