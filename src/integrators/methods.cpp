@@ -25,7 +25,8 @@ namespace pintle {
 namespace {
 
 template <class S>
-const BasicState<S>& interpolate_with(BasicDenseOutput<S>& dense, const BasicRadauStepper<S>& method, double t) {
+const BasicState<S>& interpolate_with(BasicDenseOutput<S>& dense, BasicRadauStepper<S>& method, double t) {
+  if (const BasicState<S>* before = method.in_crossing(t)) return *before;
   return t == method.state().t ? method.state() : dense.at(t, method.previous(), method.state_before_event(), method.nodes());
 }
 const State& interpolate_with(DenseOutput& dense, const Dopri5& method, double t) {

@@ -47,6 +47,8 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   const BasicState<S>& state() const { return end_; }
   const BasicState<S>& previous() const { return begin_; }
   const BasicState<S>& state_before_event() const { return this->end_before_borders(); }
+  /// StepEvents::in_crossing.
+  const BasicState<S>* in_crossing(double t) { return StepEvents<BasicRadauStepper<S>, S>::in_crossing(t); }
   /// The inside of the last step, for dense output.
   const BasicStepNodes<S>& nodes() const { return nodes_; }
   double next_step() const { return control_.next; }

@@ -60,6 +60,14 @@ class StepEvents {
   /// The end of the last step before the borders that its last bits have crossed, where forces may jump.
   const BasicState<S>& end_before_borders() const { return border_crossed_ ? before_borders_ : static_cast<const Method&>(*this).end_state(); }
 
+  /// The state that stands for times between the last event that was crossed at a step's start and the end of its crossing, where a row may be: what comes behind the
+  /// event is no curve that leads back there. Null: t [s] is not there.
+  const BasicState<S>* in_crossing(double t) {
+    if (!(t < method().t()) || !(t >= crossing_from_)) return nullptr;
+    before_crossing_.t = t;
+    return &before_crossing_;
+  }
+
   StepControl control_;
   EventSearch search_;
   std::vector<LawCrossing> crossings_;
@@ -76,7 +84,8 @@ class StepEvents {
   const BasicSystem<S>& events_of_;
   BasicChatteringDetector<S> chattering_;
   std::vector<typename S::Motion> motions_before_;
-  BasicState<S> before_borders_;
+  BasicState<S> before_borders_, before_crossing_;
+  double crossing_from_ = std::numeric_limits<double>::infinity();  // [s]
   bool border_crossed_ = false;
 };
 
@@ -84,8 +93,9 @@ template <class Method, class S>
 void StepEvents<Method, S>::reset_event_detection() {
   chattering_.forget();
   border_crossed_ = false;
+  crossing_from_ = std::numeric_limits<double>::infinity();
   if (!events_of_.has_branches()) return;
-  before_borders_ = method().end_state();
+  before_borders_ = before_crossing_ = method().end_state();
   restart_search();
 }
 
@@ -116,6 +126,8 @@ bool StepEvents<Method, S>::motion_is_rounding(double h) {
 template <class Method, class S>
 void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& event) {
   const double before = method().end_time();
+  before_crossing_ = method().end_state();
+  crossing_from_ = before;
   motions_before_ = method().end_motions();
   const double beyond = std::max(std::min(StepControl::kCrossing, StepControl::kLate * method().tolerance_) * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(before));
   search_.step_over(event, distance, beyond, [this](double d, double* value) {

@@ -287,6 +287,7 @@ void TreeRadau::follow(double x, TreeState& out) const {
 const State& TreeRadau::interpolate(double t) {
   if (t == end_.t) return end_state_;
   if (t == begin_.t) return begin_state_;
+  if (const State* before = in_crossing(t)) return *before;
   if (curves_.from != begin_.t || curves_.to != end_.t) find_curves();
   const double h = end_.t - begin_.t, x = (t - begin_.t) / h;
   TreeState now;
