@@ -20,6 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using S = Planar;
 
+double largest_size(const VectorXd& x) { return x.size() == 0 ? 0 : x.cwiseAbs().maxCoeff(); }
 
 const Law& law_of(const TreeInstant& at, std::size_t l) { return at.system().joints[at.tree().laws()[l]].law; }
 
@@ -112,15 +113,19 @@ void TreeInverseDynamics::move_onto_gaps(TreeState& state) {
   }
 }
 
+// As balance_start: what the bodies cannot take, as in redundant joints, is what their positions and velocities make it.
 void TreeInverseDynamics::balance(TreeState& state) {
   at_.place(state.t, state.y, state.u);
-  const double rounding = kLastBits * largest_coordinate(at_.pose().q);
+  const double rounding = kLastBits * largest_coordinate(at_.pose().q), same_rate = kFits * largest_size(state.u), same_force = kFits * largest_size(state.force);
   VectorXd now, now_rate;
   at_.gaps(now);
   at_.rates(now_rate);
   for (Index i = 0; i < now.size(); ++i) {
-    const bool held = law_of(at_, static_cast<std::size_t>(i / 3)).engaged_stiffness()[i % 3] > 0;
-    if (!held) state.rate[i] = now_rate[i];
+    const BasicLaw<S>& law = law_of(at_, static_cast<std::size_t>(i / 3));
+    const bool held = law.engaged_stiffness()[i % 3] > 0;
+    const Index first = i - i % 3;
+    const double misfit_of_rate = std::abs(now_rate[i] - state.rate[i]), damping = respond(law, S::Vec(state.gap.segment<3>(first)), S::Vec(state.rate.segment<3>(first))).damping(i % 3, i % 3);
+    if (!held || (misfit_of_rate > same_rate && damping * misfit_of_rate > same_force)) state.rate[i] = now_rate[i];
     if (!held || std::abs(now[i] - state.gap[i]) > rounding) state.gap[i] = now[i];
   }
   at_.rest(state);
