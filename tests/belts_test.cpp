@@ -279,13 +279,12 @@ TEST(Belts, StartStretchedByWhatTheyCarry) {
   EXPECT_NEAR(run.joints.at(1).peak, 2 / 49.9e-3, 0.05) << run.joints.at(1).name;
 }
 
-// A bobbin held by 1 N*m/rad, and a yarn of 100 N/m that is pulled by 60 mm, half of its circumference. Methods that carry no gaps take more than a tenth of a turn for slack, and say so.
+// A bobbin held by 1 N*m/rad, and a yarn of 100 N/m that is pulled by 60 mm, nearly half of its circumference.
 TEST(Belts, AreStretchedByAnyPartOfATurn) {
-  const Trajectory run = completed(reference::test_model("yarn_on_a_sprung_bobbin"));
-  EXPECT_NEAR(at_end(run, "joint.yarn.tension"), 100 * 0.06 / (1 + 100 * 0.02 * 0.02), 2e-3);
-  const Trajectory other = simulate(reference::test_model("yarn_on_a_sprung_bobbin", {"simulate.method=dopri5"}));
-  EXPECT_EQ(other.outcome, Outcome::kEnergyOpen);
-  EXPECT_NE(other.message.find("joint yarn is stretched by 0.012"), std::string::npos) << other.message;
+  for (const char* method : {"radau", "dopri5"}) {
+    const Trajectory run = completed(reference::test_model("yarn_on_a_sprung_bobbin", {std::string("simulate.method=") + method}));
+    EXPECT_NEAR(at_end(run, "joint.yarn.tension"), 100 * 0.06 / (1 + 100 * 0.02 * 0.02), 2e-3) << method;
+  }
 }
 
 // What a turn winds off the one disc and not onto the other says nothing about how far a belt may be stretched or slack.

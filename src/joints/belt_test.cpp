@@ -59,10 +59,10 @@ TEST(Belt, ADrumTakesInItsRadiusTimesItsAngle) {
     c.qA = {0, 0, turned};
     c.qB = {0.2, -40 + 0.2 * turned, -1.7};
     EXPECT_NEAR(gap(belt, c), 0, 1e-12) << turned;
-    c.qB[1] += 1;  // slack by a metre, which is less than the 1.13 m of nine tenths of a turn
-    EXPECT_NEAR(gap(belt, c), -1, 1e-12) << turned;
-    c.qB[1] -= 1.1;
-    EXPECT_NEAR(gap(belt, c), 0.1, 1e-12) << turned;
+    c.qB[1] += 0.6;  // slack by what is less than the 0.63 m of half a turn
+    EXPECT_NEAR(gap(belt, c), -0.6, 1e-12) << turned;
+    c.qB[1] -= 1.2;
+    EXPECT_NEAR(gap(belt, c), 0.6, 1e-12) << turned;
   }
 }
 

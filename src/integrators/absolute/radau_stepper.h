@@ -62,6 +62,7 @@ class BasicRadauStepper : StepEvents<BasicRadauStepper<S>, S> {
   const RadauTable& table() const { return table_; }
 
  private:
+  static constexpr bool kEveryJointIsALaw = true;  // whose force follows from its gap: for StepEvents
   friend class StepControl;  // which calls what follows, up to finish_step
   double t() const { return begin_.t; }
   void begin_at_end() { begin_ = end_; }

@@ -62,11 +62,7 @@ class StepEvents {
 
   /// The state that stands for times between the last event that was crossed at a step's start and the end of its crossing, where a row may be: what comes behind the
   /// event is no curve that leads back there. Null: t [s] is not there.
-  const BasicState<S>* in_crossing(double t) {
-    if (!(t < method().t()) || !(t >= crossing_from_)) return nullptr;
-    before_crossing_.t = t;
-    return &before_crossing_;
-  }
+  const BasicState<S>* in_crossing(double t);
 
   StepControl control_;
   EventSearch search_;
@@ -84,8 +80,8 @@ class StepEvents {
   const BasicSystem<S>& events_of_;
   BasicChatteringDetector<S> chattering_;
   std::vector<typename S::Motion> motions_before_;
-  BasicState<S> before_borders_, before_crossing_;
-  double crossing_from_ = std::numeric_limits<double>::infinity();  // [s]
+  BasicState<S> before_borders_, before_crossing_, in_crossing_;
+  bool has_crossed_ = false;
   bool border_crossed_ = false;
 };
 
@@ -93,10 +89,32 @@ template <class Method, class S>
 void StepEvents<Method, S>::reset_event_detection() {
   chattering_.forget();
   border_crossed_ = false;
-  crossing_from_ = std::numeric_limits<double>::infinity();
+  has_crossed_ = false;
   if (!events_of_.has_branches()) return;
-  before_borders_ = before_crossing_ = method().end_state();
+  before_borders_ = before_crossing_ = in_crossing_ = method().end_state();
   restart_search();
+}
+
+// As the motion was going on there.
+template <class Method, class S>
+const BasicState<S>* StepEvents<Method, S>::in_crossing(double t) {
+  if (!has_crossed_ || !(t < method().t()) || !(t >= before_crossing_.t)) return nullptr;
+  BasicState<S>& at = in_crossing_ = before_crossing_;
+  const double d = t - at.t;
+  at.t = t;
+  for (std::size_t b = 0; b < at.q.size(); ++b) {
+    S::move(at.q[b], d * at.v[b] + 0.5 * d * d * at.a[b]);
+    at.v[b] += d * at.a[b];
+  }
+  for (std::size_t j = 0; j < at.gap.size(); ++j) {
+    at.gap[j] += d * at.gap_rate[j] + 0.5 * d * d * at.gap_accel[j];
+    at.gap_rate[j] += d * at.gap_accel[j];
+  }
+  for (std::size_t z = 0; z < at.law_state.size(); ++z) at.law_state[z] += d * at.law_rate[z];
+  at.supplied += d * at.supply_power;
+  at.dissipated += d * at.loss_power;
+  if constexpr (Method::kEveryJointIsALaw) find_joint_forces(events_of_, at);
+  return &at;
 }
 
 template <class Method, class S>
@@ -127,7 +145,7 @@ template <class Method, class S>
 void StepEvents<Method, S>::cross_event(double distance, const SwitchingEvent& event) {
   const double before = method().end_time();
   before_crossing_ = method().end_state();
-  crossing_from_ = before;
+  has_crossed_ = true;
   motions_before_ = method().end_motions();
   const double beyond = std::max(std::min(StepControl::kCrossing, StepControl::kLate * method().tolerance_) * control_.usual, 4 * std::numeric_limits<double>::epsilon() * std::abs(before));
   search_.step_over(event, distance, beyond, [this](double d, double* value) {

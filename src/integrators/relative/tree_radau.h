@@ -39,6 +39,7 @@ class TreeRadau final : public Stepper, StepEvents<TreeRadau, Planar> {
   const JointTree& tree() const { return *tree_; }
 
  private:
+  static constexpr bool kEveryJointIsALaw = false;  // those of the tree have reactions
   friend class StepControl;  // which calls what follows, up to finish_step
   double t() const { return begin_.t; }
   void begin_at_end();
