@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "integrators/thresholds.h"
-#include "run/limits/creeping_contacts.h"
+#include "run/record/creeping_contacts.h"
 
 namespace pintle {
 

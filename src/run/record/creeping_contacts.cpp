@@ -1,4 +1,4 @@
-#include "run/limits/creeping_contacts.h"
+#include "run/record/creeping_contacts.h"
 
 #include <fmt/format.h>
 
