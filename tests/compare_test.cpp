@@ -189,7 +189,27 @@ TEST(Compare, ChaoticMotionsAreComparedUpToTheirHorizon) {
 
 // A motor of the wrong sign feeds every run of them the same way: their digits agree.
 TEST(Stiffen, RunawaysAndChaosHaveNoLimit) {
-  const Stiffening runaway = stiffen(reference::test_model("cart_and_pole_wrong_sign"), {});
+  const Stiffening runaway = stiffen(parse_model(R"toml(
+format = 1
+[simulate]
+duration = "5 s"
+[ground.markers]
+o = [0, 0]
+[body.rod]
+mass = 2
+inertia = 0.2
+angle = 0
+spin = 1
+markers.o = [0, 0]
+[joint.o]
+type = "revolute"
+between = ["ground.o", "rod.o"]
+[motor.m]
+joint = "o"
+torque = "50 N*m*s/rad*rate"
+)toml",
+                                                 "runaway.toml"),
+                                     {});
   EXPECT_FALSE(runaway.found) << runaway.reason;
 }
 
