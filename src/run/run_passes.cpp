@@ -283,9 +283,6 @@ class Passes {
     return growth_.to_largest == last_growth_.to_largest && tolerance_by_growth(growth_.rate, 1) < kFarBelow && shift > kShift;
   }
 
-  // What the tightest passes still differ by has to grow in the same way: where errors have fallen far and do not, they grew for a while only.
-  bool is_chaotic() const { return chaos_.exponential && (growth_.exponential || !errors_fall()); }
-
   void claim_chaos(const ErrorGrowth& growth) {
     chaos_ = growth;
     chaos_.rate_error = std::max(growth.rate_error, growth.rate_scatter);
@@ -438,7 +435,7 @@ class Passes {
     else if (last_.ended == Ended::kRunaway) out_.outcome = Outcome::kRunaway;
     else if (ended == Ended::kEnergyOpen) out_.outcome = Outcome::kEnergyOpen;
     else if (ended == Ended::kFailed && !whole) out_.outcome = Outcome::kFailed;
-    else if (missed && is_chaotic() && ended == Ended::kAtEnd) out_.outcome = Outcome::kHorizon;
+    else if (missed && chaos_.exponential && ended == Ended::kAtEnd) out_.outcome = Outcome::kHorizon;
     else if ((ended == Ended::kFailed && no_estimate) || missed) out_.outcome = Outcome::kToleranceNotMet;
     if (no_estimate && context_.shape.checked && !system_.joints.empty()) out_.notes.push_back("stopped before a second integration: the joint forces have no error estimate");
     if (whole && ended != Ended::kAtEnd)
