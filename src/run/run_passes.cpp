@@ -175,7 +175,7 @@ class Passes {
       ++growths_;
       if (growths_ == 1 || growth_.rate_scatter * steadiest_.rate < steadiest_.rate_scatter * growth_.rate) steadiest_ = growth_;
     }
-    stalled_ = error_before_ > 0 && error_ > kNoGain * error_before_;
+    stalled_ = error_before_ > 0 && error_ > error_before_;
     const double of_passes = share_ * (out_.of_motion ? out_.motion_error : largest_of(relative_difference_));
     error_before_ = std::exchange(error_, out_.of_motion ? of_passes : std::max(of_passes, largest_ringing_loss(system_, difference_, fine_ringing_, fine_tolerance_)));
   }
