@@ -35,11 +35,7 @@ class LawBorders {
   bool cross(State& end) {
     if (before_.empty()) return false;
     find(end, behind_);
-    for (std::size_t f = 0; f < behind_.size(); ++f)
-      if (system_.switching_functions()[f].is_crossing(before_[f], behind_[f])) {
-        before_event_ = end;
-        break;
-      }
+    if (is_border_between(system_, before_.data(), behind_.data())) before_event_ = end;
     crossed_ = system_.cross_borders(end.t, end.gap, end.gap_rate, before_.data(), behind_.data(), end.law_state, end.dissipated);
     if (!crossed_) before_.swap(behind_);
     return crossed_;

@@ -16,6 +16,15 @@ struct LawCrossing {
   std::vector<double> seen;  // the columns of all parts of the law there, BasicLaw::columns
 };
 
+/// Whether a border at which a law sets its states lies between the values of the switching functions `before` and `after`.
+template <class S>
+bool is_border_between(const BasicSystem<S>& system, const double* before, const double* after) {
+  const auto& functions = system.switching_functions();
+  for (std::size_t f = 0; f < functions.size(); ++f)
+    if (functions[f].is_crossing(before[f], after[f])) return true;
+  return false;
+}
+
 /// Appends what lies between the values of the switching functions `before` and `after`, of which the latter are those of `state`; forces and the laws'
 /// states there are already the new ones. Borders of one name that are crossed together are one event. Beyond kMostCrossings nothing is kept.
 template <class S>

@@ -22,6 +22,7 @@ constexpr std::array<Alias, 20> kAliases{{
     {"sec", "s"},      {"second", "s"},    {"seconds", "s"},   {"hour", "h"},      {"hr", "h"},
     {"meter", "m"},    {"metre", "m"},     {"meters", "m"},    {"metres", "m"},    {"inch", "in"},
     {"degree", "deg"}, {"degrees", "deg"}, {"radian", "rad"},  {"radians", "rad"}, {"lbs", "lb"},
+    {"kgs", "kg"},
     {"turn", "rev"},    {"turns", "rev"},
 }};
 

@@ -73,7 +73,6 @@ class StepEvents {
   void compensate_late_crossing(double late, int function);
   Method& method() { return static_cast<Method&>(*this); }
   void restart_search() { method().evaluate_switching_functions_at_end(search_.start()); }
-  bool is_border_between();
   double margin_rate(const SlidingMode& jump);
   void record() { record_crossings(events_of_, method().end_state(), search_.start(), search_.end(), crossings_); }
 
@@ -191,20 +190,11 @@ double StepEvents<Method, S>::margin_rate(const SlidingMode& jump) {
   return (events_of_.margin(jump, t + d, method().motions_after(d)) - events_of_.margin(jump, t, method().end_motions())) / d;
 }
 
-// Between the values of `search_`.
-template <class Method, class S>
-bool StepEvents<Method, S>::is_border_between() {
-  const auto& functions = events_of_.switching_functions();
-  for (std::size_t f = 0; f < functions.size(); ++f)
-    if (functions[f].is_crossing(search_.start()[f], search_.end()[f])) return true;
-  return false;
-}
-
 template <class Method, class S>
 void StepEvents<Method, S>::update_switching() {
   if (!events_of_.has_branches()) return;
   method().evaluate_switching_functions_at_end(search_.end());
-  border_crossed_ = is_border_between();
+  border_crossed_ = is_border_between(events_of_, search_.start(), search_.end());
   if (border_crossed_) before_borders_ = method().end_state();
   const bool crossed = method().cross_borders();
   if (!leave_sliding(events_of_, method().end_time(), method().end_motions(), method().sliding()) && !crossed) {
